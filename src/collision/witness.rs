@@ -1,0 +1,28 @@
+//! `Witness`, a pair of points that attains a distance.
+
+use crate::geometry::Point2;
+
+/// The number of an obstacle in its scene, in file order. [`Scene::obstacle_name`](super::Scene::obstacle_name) tells its
+/// name.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct ObstacleId(pub u32);
+
+impl ObstacleId {
+    /// Stands for "none known": the footprint was not finite, so nothing was asked.
+    pub const UNKNOWN: ObstacleId = ObstacleId(u32::MAX);
+}
+
+/// The nearest points of a footprint and the obstacles, and which part and obstacle they lie on.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Witness {
+    /// The point a* of the footprint, metres.
+    pub on_robot: Point2,
+    /// The point b* of the obstacle, metres; on contact the same point as `on_robot`.
+    pub on_obstacle: Point2,
+    /// The distance between them, metres; 0 on contact.
+    pub dist: f64,
+    /// The number of the footprint's part.
+    pub part: usize,
+    /// The obstacle.
+    pub obstacle: ObstacleId,
+}

@@ -1,0 +1,44 @@
+//! `Pose2` as a configuration: SE(2), whose chart is (x, y, theta) with theta on the circle.
+
+use smallvec::smallvec;
+
+use super::{ChartMismatch, Configuration, Coordinates};
+use crate::geometry::Pose2;
+use crate::num::wrap;
+
+impl Configuration for Pose2 {
+    fn is_finite(&self) -> bool {
+        Pose2::is_finite(self)
+    }
+
+    fn difference(&self, to: &Self) -> Result<Coordinates, ChartMismatch> {
+        Ok(smallvec![to.x - self.x, to.y - self.y, wrap(to.theta - self.theta)])
+    }
+
+    fn interpolate(&self, to: &Self, s: f64) -> Result<Self, ChartMismatch> {
+        if s >= 1.0 {
+            return Ok(*to);
+        }
+        let turn = wrap(to.theta - self.theta);
+        Ok(Pose2 {
+            x: self.x + s * (to.x - self.x),
+            y: self.y + s * (to.y - self.y),
+            theta: if s == 0.0 { self.theta } else { wrap(self.theta + s * turn) },
+        })
+    }
+
+    fn coordinates(&self) -> Coordinates {
+        smallvec![self.x, self.y, self.theta]
+    }
+
+    fn coordinate_names(&self) -> Vec<String> {
+        vec!["x".into(), "y".into(), "theta".into()]
+    }
+
+    fn from_coordinates(coordinates: &[f64]) -> Option<Self> {
+        match coordinates {
+            [x, y, theta] => Some(Pose2 { x: *x, y: *y, theta: *theta }),
+            _ => None,
+        }
+    }
+}

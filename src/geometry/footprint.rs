@@ -1,0 +1,90 @@
+//! `Footprint`, the set of workspace points a robot occupies at a configuration, R(q).
+
+use smallvec::SmallVec;
+
+use super::{Placed, Point2, Pose2, Segment, Shape};
+use crate::num;
+
+/// One rigid part of a footprint: a shape, the pose of its frame, and the shape placed there.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Part {
+    pose: Pose2,
+    shape: Shape,
+    placed: Placed,
+}
+
+impl Part {
+    /// The part with this shape in the frame `pose`.
+    pub fn new(pose: Pose2, shape: Shape) -> Self {
+        let placed = shape.place(&pose);
+        Part { pose, shape, placed }
+    }
+
+    /// The pose of the part's frame. A link's frame sits at its proximal end.
+    pub fn pose(&self) -> &Pose2 {
+        &self.pose
+    }
+
+    /// The shape in the part's frame.
+    pub fn shape(&self) -> &Shape {
+        &self.shape
+    }
+
+    /// The shape in the world.
+    pub fn placed(&self) -> &Placed {
+        &self.placed
+    }
+}
+
+/// A footprint R(q): a list of rigid parts. Up to three parts are stored without a heap allocation, which covers the
+/// lab's three robots.
+///
+/// A footprint with a number that is not finite is allowed and fails safe in every query: it is in contact.
+///
+/// ```
+/// use motion_lab::geometry::{Footprint, Point2};
+/// let rusty = Footprint::disc(Point2::new(2.0, 1.0), 0.11);
+/// assert_eq!(rusty.parts().len(), 1);
+/// ```
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Footprint {
+    parts: SmallVec<[Part; 3]>,
+}
+
+impl Footprint {
+    /// The footprint made of these parts, numbered from 0 in this order.
+    pub fn new(parts: impl IntoIterator<Item = Part>) -> Self {
+        Footprint { parts: parts.into_iter().collect() }
+    }
+
+    /// One disc: Rusty.
+    pub fn disc(center: Point2, radius: f64) -> Self {
+        Self::new([Part::new(Pose2 { x: center.x, y: center.y, theta: 0.0 }, Shape::Disc { radius })])
+    }
+
+    /// One capsule per segment, each with its frame at the segment's first end and its x axis along the segment. The
+    /// far end is placed by the frame's angle and the length, so it may differ from `b` in the last bits; robots that
+    /// know their angles build their parts from them.
+    pub fn capsules(segments: impl IntoIterator<Item = Segment>, radius: f64) -> Self {
+        Self::new(segments.into_iter().map(|s| {
+            let d = s.direction();
+            let pose = Pose2 { x: s.a.x, y: s.a.y, theta: num::atan2(d.y, d.x) };
+            Part::new(pose, Shape::Capsule { a: Point2::origin(), b: Point2::new(s.length(), 0.0), radius })
+        }))
+    }
+
+    /// One rectangle per item, given by its frame and its corners (least, greatest) in that frame.
+    pub fn rects(rects: impl IntoIterator<Item = (Pose2, Point2, Point2)>) -> Self {
+        Self::new(rects.into_iter().map(|(pose, min, max)| Part::new(pose, Shape::Rectangle { min, max })))
+    }
+
+    /// The parts, lowest number first.
+    pub fn parts(&self) -> &[Part] {
+        &self.parts
+    }
+
+    /// Whether every part is finite and well formed; only then do the queries look at the geometry.
+    pub fn is_valid(&self) -> bool {
+        self.parts.iter().all(|p| p.pose.is_finite() && p.placed.is_valid())
+    }
+}

@@ -1,0 +1,64 @@
+//! The convex hull of a few points, by exact predicates.
+
+use smallvec::SmallVec;
+
+use super::{Point2, orientation};
+
+/// The convex hull of `points`: its corners counter-clockwise from the lowest leftmost, duplicates and points on an edge
+/// left out. One point gives one, points on one line give the two outermost.
+///
+/// Every corner is one of the inputs, bit for bit, and every turn is decided exactly (Andrew's monotone chain, 1979), so the
+/// hull holds every input with no rounding at all.
+pub fn convex_hull(points: &[Point2]) -> SmallVec<[Point2; 8]> {
+    let mut sorted: SmallVec<[Point2; 16]> = SmallVec::from_slice(points);
+    sorted.sort_unstable_by(|a, b| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)));
+    sorted.dedup();
+    if sorted.len() <= 2 {
+        return SmallVec::from_slice(&sorted);
+    }
+    let mut hull: SmallVec<[Point2; 8]> = SmallVec::new();
+    let chain = |hull: &mut SmallVec<[Point2; 8]>, from: usize, p: Point2| {
+        while hull.len() >= from + 2 && orientation(hull[hull.len() - 2], hull[hull.len() - 1], p) <= 0.0 {
+            hull.pop();
+        }
+        hull.push(p);
+    };
+    for &p in &sorted {
+        chain(&mut hull, 0, p);
+    }
+    let lower = hull.len() - 1;
+    for &p in sorted.iter().rev().skip(1) {
+        chain(&mut hull, lower, p);
+    }
+    hull.pop(); // the start again
+    hull
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::random::{Seed, Stream};
+
+    #[test]
+    fn hull_of_lattice_points_is_convex_and_holds_them_all() {
+        let mut s = Stream::new(Seed(3), "hull");
+        for _ in 0..2000 {
+            let n = 1 + s.below(10) as usize;
+            let points: Vec<Point2> = (0..n).map(|_| Point2::new(s.below(5) as f64, s.below(5) as f64)).collect();
+            let hull = convex_hull(&points);
+            let m = hull.len();
+            assert!(m >= 1 && hull.iter().all(|h| points.contains(h)));
+            if m >= 3 {
+                for i in 0..m {
+                    let (a, b) = (hull[i], hull[(i + 1) % m]);
+                    assert!(orientation(a, b, hull[(i + 2) % m]) > 0.0, "a strict corner");
+                    assert!(points.iter().all(|&p| orientation(a, b, p) >= 0.0), "{points:?} {hull:?}");
+                }
+            } else if m == 2 {
+                assert!(points.iter().all(|&p| orientation(hull[0], hull[1], p) == 0.0));
+                let longest = (hull[1] - hull[0]).norm();
+                assert!(points.iter().all(|p| (p - hull[0]).norm() <= longest && (p - hull[1]).norm() <= longest));
+            }
+        }
+    }
+}

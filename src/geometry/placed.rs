@@ -1,0 +1,70 @@
+//! `Placed`, a shape in the world: what every exact query works on.
+
+use smallvec::SmallVec;
+
+use super::{Point2, convex_hull};
+use crate::num::greater;
+
+/// A placed shape: all points within `radius` of the convex core with these vertices, in world coordinates.
+///
+/// The rounded `f64` vertices *are* the shape: exactness of the queries is meant against them. One vertex is a disc's
+/// centre, two are a segment, three or more a simple polygon in counter-clockwise order.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Placed {
+    core: SmallVec<[Point2; 8]>,
+    radius: f64,
+}
+
+impl Placed {
+    /// The placed shape with this core and radius. An empty core stands for nothing that can be decided: every query
+    /// counts it as contact.
+    pub fn new(core: SmallVec<[Point2; 8]>, radius: f64) -> Self {
+        Placed { core, radius }
+    }
+
+    /// The core's vertices.
+    pub fn core(&self) -> &[Point2] {
+        &self.core
+    }
+
+    /// The radius around the core, metres.
+    pub fn radius(&self) -> f64 {
+        self.radius
+    }
+
+    /// Whether there is at least one vertex and every number is finite, the radius not negative.
+    pub fn is_valid(&self) -> bool {
+        !self.core.is_empty()
+            && self.radius >= 0.0
+            && self.radius.is_finite()
+            && self.core.iter().all(|p| p.x.is_finite() && p.y.is_finite())
+    }
+
+    /// The least and greatest corner of the axis-parallel box around the shape, radius included.
+    pub fn bounds(&self) -> (Point2, Point2) {
+        let (mut lo, mut hi) = (Point2::new(f64::INFINITY, f64::INFINITY), Point2::new(-f64::INFINITY, -f64::INFINITY));
+        for p in &self.core {
+            lo = Point2::new(crate::num::lesser(lo.x, p.x), crate::num::lesser(lo.y, p.y));
+            hi = Point2::new(greater(hi.x, p.x), greater(hi.y, p.y));
+        }
+        let r = self.radius;
+        (Point2::new(lo.x - r, lo.y - r), Point2::new(hi.x + r, hi.y + r))
+    }
+
+    /// The hull of this shape and `other`, with the greater of the two radii: all that a part whose vertices move in
+    /// straight lines from here to there can touch.
+    #[must_use]
+    pub fn hull_with(&self, other: &Placed) -> Placed {
+        let mut points: SmallVec<[Point2; 16]> = SmallVec::from_slice(&self.core);
+        points.extend_from_slice(&other.core);
+        Placed { core: convex_hull(&points), radius: greater(self.radius, other.radius) }
+    }
+}
+
+/// `max(1, the largest coordinate or radius in size)`: the number M that the tolerances of the collision queries are
+/// stated in ulps of.
+pub fn largest_coordinate<'a>(shapes: impl IntoIterator<Item = &'a Placed>) -> f64 {
+    shapes
+        .into_iter()
+        .fold(1.0, |m, s| s.core.iter().fold(greater(m, s.radius), |m, p| greater(greater(m, p.x.abs()), p.y.abs())))
+}

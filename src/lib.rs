@@ -1,0 +1,27 @@
+//! motion lab
+#![deny(missing_docs)]
+#![forbid(unsafe_code)]
+
+pub mod num;
+
+pub mod random;
+
+pub mod geometry;
+
+pub mod configuration;
+
+pub mod robots;
+
+pub mod worlds;
+
+pub mod collision;
+
+pub mod run;
+
+/// The names a planner or an experiment usually needs.
+pub mod prelude {
+    pub use crate::configuration::{Configuration, HitchCfg, R2, T2, Tn};
+    pub use crate::geometry::{Footprint, Part, Point2, Pose2, Segment, Shape, Vector2};
+    pub use crate::random::{Seed, Stream};
+    pub use crate::robots::{CarCmd, Drivable, HITCH, Hitch, Motion, RUSTY, Reach, Robot, Rusty, RustyCmd, RustyDisc};
+}

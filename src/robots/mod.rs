@@ -1,0 +1,90 @@
+//! Robots: what occupies which part of the plane at which configuration, and how far a motion moves it.
+
+mod chart_line;
+mod hitch;
+mod motion;
+mod reach;
+mod rusty;
+
+use smallvec::SmallVec;
+
+pub use chart_line::ChartLine;
+pub use hitch::{CarBody, CarCmd, HITCH, Hitch, HitchArc, TrailerBody};
+pub use motion::{Motion, Rates};
+pub use reach::{JointPoints, Reach, ReachError};
+pub use rusty::{EncoderCounts, RUSTY, Rusty, RustyArc, RustyCmd, RustyDisc, WheelSlip, WheelTurns};
+
+use crate::configuration::{ChartMismatch, Configuration};
+use crate::geometry::Footprint;
+
+/// The rates of a footprint's parts, in the parts' order.
+pub type PartRates = SmallVec<[Rates; 3]>;
+
+/// Why a configuration or a control is not one of this robot's.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
+pub enum ConfigurationError {
+    /// A coordinate that is NaN or infinite.
+    #[error("the configuration is not finite")]
+    NotFinite,
+    /// A control or a time step that is NaN or infinite.
+    #[error("the control or the time step is not finite")]
+    ControlNotFinite,
+    /// A trailer heading for a car without a hitch.
+    #[error("the configuration has a trailer heading, but the car has no hitch")]
+    TrailerWithoutHitch,
+    /// A car with a hitch, but no trailer heading.
+    #[error("the car has a hitch, but the configuration has no trailer heading")]
+    HitchWithoutTrailer,
+    /// The two ends of an edge lie in different spaces.
+    #[error(transparent)]
+    ChartMismatch(#[from] ChartMismatch),
+}
+
+/// A robot: its configuration space, its footprint R(q), and the bound on how far an edge moves each part.
+///
+/// This is all that a planner, a collision checker and the certified march need; [`Drivable`] adds controls.
+pub trait Robot: Clone + std::fmt::Debug + PartialEq + Send + Sync + 'static {
+    /// The type of its configurations.
+    type Configuration: Configuration;
+
+    /// Whether `q` is a configuration of this very robot.
+    ///
+    /// # Errors
+    /// [`ConfigurationError`]: not finite, or in the wrong space (a trailer heading without a hitch).
+    fn check(&self, q: &Self::Configuration) -> Result<(), ConfigurationError>;
+
+    /// The footprint R(q). The number and order of the parts do not depend on `q`.
+    ///
+    /// A configuration that [`check`](Self::check) refuses gives a footprint that fails safe.
+    fn footprint(&self, q: &Self::Configuration) -> Footprint;
+
+    /// For each part, bounds on the speed and acceleration of its core's points along the chart's straight line
+    /// from `a` to `b`, per unit of the line's parameter in `[0, 1]`.
+    ///
+    /// # Errors
+    /// [`ConfigurationError`] when either end is not a configuration of this robot.
+    fn edge_rates(&self, a: &Self::Configuration, b: &Self::Configuration) -> Result<PartRates, ConfigurationError>;
+
+    /// The motion along the straight line of the configuration chart from `a` to `b`, angles the short way round.
+    ///
+    /// # Errors
+    /// [`ConfigurationError`] when either end is not a configuration of this robot.
+    fn edge(&self, a: &Self::Configuration, b: &Self::Configuration) -> Result<ChartLine<Self>, ConfigurationError> {
+        ChartLine::try_new(self, a, b)
+    }
+}
+
+/// A robot with controls: a constant control over a time step drives it along a motion.
+pub trait Drivable: Robot {
+    /// The control held over a step.
+    type Control: Copy + Default + PartialEq + std::fmt::Debug + Send + Sync + 'static;
+    /// The motion of one step.
+    type Drive: Motion<Configuration = Self::Configuration>;
+
+    /// The motion from `q` under the constant control `u` for `dt` seconds.
+    ///
+    /// # Errors
+    /// [`ConfigurationError`] when `q` is not a configuration of this robot, or `u` or `dt` is not finite.
+    fn drive(&self, q: &Self::Configuration, u: &Self::Control, dt: f64) -> Result<Self::Drive, ConfigurationError>;
+}

@@ -1,0 +1,45 @@
+//! `Motion`, what the certified march, the simulator's holding and the planners' edges have in common.
+
+use crate::configuration::Configuration;
+use crate::geometry::Footprint;
+
+/// Bounds on how the points of one part's core move, per unit of the motion's parameter.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Rates {
+    /// No point of the core moves faster than this, metres.
+    pub speed: f64,
+    /// The second derivative of no point of the core is longer than this, metres.
+    pub acceleration: f64,
+}
+
+/// A continuous motion over the parameter `s` in `[0, 1]`: an edge of a roadmap, a tick of a drive.
+pub trait Motion {
+    /// The type of its configurations.
+    type Configuration: Configuration;
+
+    /// The configuration at `s`; at 0 and 1 the motion's ends, bit for bit.
+    fn at(&self, s: f64) -> Self::Configuration;
+
+    /// The footprint at `s`. Every `s` gives the same number of parts, in the same order.
+    fn footprint_at(&self, s: f64) -> Footprint;
+
+    /// Bounds that hold for part number `part` over the whole motion.
+    fn rates(&self, part: usize) -> Rates;
+
+    /// How far part number `part`, as a set, can move between `s0` and `s1`, metres.
+    ///
+    /// The radius does not count: turning a capsule's core on the spot moves the set by as much as the core.
+    fn bound(&self, part: usize, s0: f64, s1: f64) -> f64 {
+        self.rates(part).speed * (s1 - s0).abs()
+    }
+
+    /// How far a point of the core can stray from the straight chord between its places at `s0` and `s1`, metres.
+    ///
+    /// For a curve whose second derivative is at most A, linear interpolation over a span h errs by at most A h^2 / 8. So
+    /// all that the part touches between `s0` and `s1` lies within this distance of the convex hull of its two end
+    /// footprints: the bound near a grazed wall is of second order.
+    fn sagitta(&self, part: usize, s0: f64, s1: f64) -> f64 {
+        let h = s1 - s0;
+        0.125 * self.rates(part).acceleration * h * h
+    }
+}

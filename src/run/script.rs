@@ -1,0 +1,73 @@
+//! `Script`, the input of a run: what people and programs did, on change only.
+
+use serde::{Deserialize, Serialize};
+
+/// The version of the script format that this program writes and reads.
+pub const SCRIPT_VERSION: u32 = 1;
+
+/// The input script of a run, as RON. Unknown fields and other versions are refused.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Script {
+    /// The format's version, [`SCRIPT_VERSION`].
+    pub version: u32,
+    /// The events in order of their ticks; among those of one tick the order is that of the list.
+    pub events: Vec<Event>,
+}
+
+/// One input to one robot.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Event {
+    /// The tick before whose step the input applies, from 1.
+    pub tick: u64,
+    /// The name of the robot.
+    pub robot: String,
+    /// What is put in.
+    pub input: RobotInput,
+}
+
+/// A coordinate as captured: metres or radians in units of 2^-20, so that no pixel enters a run. `Quantized(1 << 20)` is 1.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+#[serde(transparent)]
+pub struct Quantized(pub i64);
+
+impl Quantized {
+    /// Units per metre or radian.
+    pub const UNITS: f64 = 1_048_576.0;
+
+    /// The nearest quantized value (ties to even); `None` unless finite and below 2^33 in size.
+    pub fn try_new(value: f64) -> Option<Self> {
+        let scaled = (value * Self::UNITS).round_ties_even();
+        (scaled.abs() < 9.1e15).then_some(Quantized(scaled as i64))
+    }
+
+    /// The value in metres or radians, exact.
+    pub fn value(self) -> f64 {
+        self.0 as f64 / Self::UNITS
+    }
+}
+
+/// An input to a robot. The first one takes the robot over from its tour; `Release` gives it back.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub enum RobotInput {
+    /// Hold these control channels: parts in 128 of the maximum, -128 to 128. Rusty: speed, turn rate. Hitch: speed,
+    /// steering angle. Reach has no drive channels and refuses it.
+    Drive(i16, i16),
+    /// Go to these chart coordinates by the end of the tick. Reach: its joint angles.
+    MoveTo(Vec<Quantized>),
+    /// Be put at these chart coordinates, unless the footprint there would overlap or touch anything.
+    Teleport(Vec<Quantized>),
+    /// Attach the trailer straight behind the car (psi = theta), unless it would overlap or touch anything, or detach it.
+    SetTrailer(bool),
+    /// Back to the tour.
+    Release,
+}
+
+impl Script {
+    /// The script without an event.
+    pub const fn empty() -> Self {
+        Script { version: SCRIPT_VERSION, events: Vec::new() }
+    }
+}

@@ -1,0 +1,78 @@
+//! `World`, a checked world: what is meant, as opposed to what is written in a file.
+
+use crate::geometry::{Point2, Pose2, Shape};
+
+/// An axis-parallel box: the part of the plane a world shows. It is not an obstacle.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Bounds {
+    /// The corner with the least coordinates, metres.
+    pub min: Point2,
+    /// The corner with the greatest coordinates, metres.
+    pub max: Point2,
+}
+
+/// Whether an obstacle is a thin wall or a solid thing; both collide alike.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ObstacleKind {
+    /// Segments.
+    Wall,
+    /// Discs, boxes, polygons.
+    Solid,
+}
+
+/// A named obstacle: one or more closed convex pieces in world coordinates.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Obstacle {
+    /// The unique name.
+    pub name: String,
+    /// Wall or solid.
+    pub kind: ObstacleKind,
+    /// The pieces, each with the pose of its frame: a polyline's segments, a concave polygon's convex pieces, a disc.
+    pub pieces: Vec<(Pose2, Shape)>,
+}
+
+/// A named place.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Place {
+    /// The unique name.
+    pub name: String,
+    /// Where it is, and which way it faces.
+    pub pose: Pose2,
+}
+
+/// A painted mark: drawn, never collided with.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Mark {
+    /// The unique name.
+    pub name: String,
+    /// The polyline's points.
+    pub points: Vec<Point2>,
+}
+
+/// A robot that lives in the world.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Resident {
+    /// The robot's unique name.
+    pub name: String,
+    /// Its kind: `rusty`, `reach`, `reach3`, `hitch`, or the name a program registered.
+    pub kind: String,
+    /// Where it starts: its configuration's chart coordinates. Hitch starts with a trailer when there are four.
+    pub start: Vec<f64>,
+}
+
+/// A checked world.
+#[derive(Clone, Debug, PartialEq)]
+pub struct World {
+    /// The world's name.
+    pub name: String,
+    /// The part of the plane it shows.
+    pub bounds: Bounds,
+    /// The obstacles in file order: walls first, then solids, as written.
+    pub obstacles: Vec<Obstacle>,
+    /// The places in file order.
+    pub places: Vec<Place>,
+    /// The painted marks in file order.
+    pub marks: Vec<Mark>,
+    /// The resident robots in file order.
+    pub robots: Vec<Resident>,
+}
