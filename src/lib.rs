@@ -16,6 +16,8 @@ pub mod worlds;
 
 pub mod collision;
 
+pub mod tour;
+
 pub mod run;
 
 /// The names a planner or an experiment usually needs.

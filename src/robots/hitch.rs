@@ -295,7 +295,7 @@ mod tests {
             let moved = HITCH.step(&q, &u, dt).unwrap().body.position() - q.body.position();
             let sideways = Pose2 { x: 0.0, y: 0.0, theta: -q.body.theta }.rotate(moved).y;
             // the lateral part of an arc is of second order in its length
-            assert!(sideways.abs() <= 0.51 * (u.v * dt).powi(2) * HITCH.curvature(HITCH.max_steer) + 1e-15);
+            assert!(sideways.abs() <= 0.51 * (u.v * dt) * (u.v * dt) * HITCH.curvature(HITCH.max_steer) + 1e-15);
         }
     }
 

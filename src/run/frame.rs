@@ -49,4 +49,15 @@ pub struct Frame {
     pub tick: u64,
     /// The robots' states by ascending id.
     pub robots: Vec<RobotState>,
+    /// What the robots' range sensors saw, by ascending robot id; a robot without a sensor has none.
+    pub scans: Vec<RobotScan>,
+}
+
+/// What one robot's range sensor saw at the end of a tick.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RobotScan {
+    /// The robot's id.
+    pub robot: u32,
+    /// The range of each ray, metres; infinity where nothing is in range.
+    pub ranges: Vec<f64>,
 }

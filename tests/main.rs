@@ -1,0 +1,2 @@
+//! The whole-system tests: one binary, a module per subject.
+#![allow(clippy::unwrap_used, clippy::expect_used, missing_docs)]
