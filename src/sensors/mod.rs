@@ -1,0 +1,5 @@
+//! Sensors: what a robot can find out about the world.
+
+mod range;
+
+pub use range::{RangeSensor, SensorError};
