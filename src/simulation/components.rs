@@ -101,19 +101,19 @@ pub type Extra = SmallVec<[f64; 4]>;
 pub struct RobotModel<R: SimulatedRobot>(pub R);
 
 /// Where a robot is.
-#[derive(Component, Clone, Copy, Debug, PartialEq)]
+#[derive(Component, Clone, Debug, PartialEq)]
 pub struct Configuration<R: SimulatedRobot>(pub R::Configuration);
 
 /// Where a robot was before the last tick's motion, for drawing between ticks.
-#[derive(Component, Clone, Copy, Debug, PartialEq)]
+#[derive(Component, Clone, Debug, PartialEq)]
 pub struct PreviousConfiguration<R: SimulatedRobot>(pub R::Configuration);
 
 /// The control of the tick, as it comes to the ground: after limits and slip.
-#[derive(Component, Clone, Copy, Debug, PartialEq)]
+#[derive(Component, Clone, Debug, PartialEq)]
 pub struct Control<R: SimulatedRobot>(pub R::Control);
 
 /// A robot's contacts.
-#[derive(Component, Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Component, Clone, Debug, PartialEq, Eq)]
 pub struct Contacts<R: SimulatedRobot> {
     /// Whether the last tick was in contact.
     pub in_contact: bool,
@@ -125,7 +125,7 @@ pub struct Contacts<R: SimulatedRobot> {
 }
 
 /// Who drives a robot, and what was put in.
-#[derive(Component, Clone, Copy, Debug, PartialEq)]
+#[derive(Component, Clone, Debug, PartialEq)]
 pub struct DriveMode<R: SimulatedRobot> {
     /// Whether a person drives, not the tour.
     pub manual: bool,
@@ -160,7 +160,7 @@ pub struct Slip(pub Stream);
 pub struct TickMotion<R: SimulatedRobot>(pub Option<R::Drive>);
 
 /// How much of the motion of the tick under way the surroundings allow, seen alone.
-#[derive(Component, Clone, Copy, Debug, PartialEq)]
+#[derive(Component, Clone, Debug, PartialEq)]
 pub struct Cut<R: SimulatedRobot> {
     /// The motion goes to this parameter.
     pub until: f64,
@@ -191,6 +191,14 @@ impl<R: SimulatedRobot> Cut<R> {
         Cut { until, contact, start_clearance, marker: std::marker::PhantomData }
     }
 }
+
+// derived, `Copy` would ask for a robot that is `Copy`
+impl<R: SimulatedRobot> Copy for Configuration<R> {}
+impl<R: SimulatedRobot> Copy for PreviousConfiguration<R> {}
+impl<R: SimulatedRobot> Copy for Control<R> {}
+impl<R: SimulatedRobot> Copy for Contacts<R> {}
+impl<R: SimulatedRobot> Copy for DriveMode<R> {}
+impl<R: SimulatedRobot> Copy for Cut<R> {}
 
 impl<R: SimulatedRobot> Default for Control<R> {
     fn default() -> Self {

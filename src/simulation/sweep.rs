@@ -12,6 +12,9 @@ pub trait Sweep: Send + Sync {
     /// The number of the footprint's parts.
     fn parts(&self) -> usize;
 
+    /// Whether nothing moves at all.
+    fn is_still(&self) -> bool;
+
     /// A convex shape that holds all that part number `part` covers between the fractions `from` and `to` of the cut motion.
     fn cover(&self, part: usize, from: f64, to: f64) -> Placed;
 }
@@ -28,6 +31,10 @@ pub struct CutMotion<M> {
 impl<M: Motion + Send + Sync> Sweep for CutMotion<M> {
     fn parts(&self) -> usize {
         self.motion.footprint_at(0.0).parts().len()
+    }
+
+    fn is_still(&self) -> bool {
+        self.until == 0.0 || (0..self.parts()).all(|k| self.motion.rates(k).speed == 0.0)
     }
 
     fn cover(&self, part: usize, from: f64, to: f64) -> Placed {
@@ -57,18 +64,17 @@ pub fn sweeps_meet(nothing: &Scene, a: &dyn Sweep, b: &dyn Sweep, margin: f64) -
 type Piece<'a> = (&'a dyn Sweep, usize, f64, f64);
 
 fn pieces_meet(nothing: &Scene, a: Piece, b: Piece, margin: f64, levels: u32) -> bool {
-    let cover = |(sweep, part, from, to): Piece| sweep.cover(part, from, to);
-    if distance(nothing, &cover(a), &cover(b)) > margin {
+    if distance(nothing, &a.0.cover(a.1, a.2, a.3), &b.0.cover(b.1, b.2, b.3)) > margin {
         return false;
     }
     if levels == 0 {
         return true;
     }
-    let halves = |(sweep, part, from, to): Piece| {
-        let middle = 0.5 * (from + to);
-        [(sweep, part, from, middle), (sweep, part, middle, to)]
-    };
-    // written out, because a piece's type carries the lifetime of its own sweep
     let ([a0, a1], [b0, b1]) = (halves(a), halves(b));
     [(a0, b0), (a0, b1), (a1, b0), (a1, b1)].into_iter().any(|(a, b)| pieces_meet(nothing, a, b, margin, levels - 1))
+}
+
+fn halves((sweep, part, from, to): Piece) -> [Piece; 2] {
+    let middle = 0.5 * (from + to);
+    [(sweep, part, from, middle), (sweep, part, middle, to)]
 }
