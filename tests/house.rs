@@ -131,9 +131,18 @@ fn colours_are_named_in_the_theme_only() {
     let mut in_theme = 0;
     for (file, _, lines) in library() {
         for (number, line) in lines.iter().enumerate() {
-            let names_one = ["from_rgb", "from_rgba", "from_gray", "from_hex", "Color32::WHITE", "Color32::BLACK", "Srgba::", "Color::srgb"]
-                .iter()
-                .any(|c| line.contains(c))
+            let names_one = [
+                "from_rgb",
+                "from_rgba",
+                "from_gray",
+                "from_hex",
+                "Color32::WHITE",
+                "Color32::BLACK",
+                "Srgba::",
+                "Color::srgb",
+            ]
+            .iter()
+            .any(|c| line.contains(c))
                 || quoted_hex(line);
             if file.starts_with("ui/theme") {
                 in_theme += usize::from(names_one || line.contains("0x"));
