@@ -142,7 +142,7 @@ mod tests {
         let (mut held_rusty, mut held_car) = (0, 0);
         for i in 0..400 {
             let mut q = Pose2::new(draws.uniform(-3.0, 5.0), draws.uniform(-4.0, 4.0), draws.uniform(-PI, PI));
-            let u = RustyCmd { v: draws.uniform(-0.6, 0.6), omega: draws.uniform(-2.5, 2.5) };
+            let u = RustyCmd { v: draws.uniform(-0.6, 0.6), omega: draws.uniform(-0.2, 0.2) };
             for _ in 0..300 {
                 let arc = RUSTY.drive(&q, &u, 0.05).unwrap();
                 let a = advance(&scene, &arc);

@@ -3,7 +3,7 @@
 use bevy::app::{RunFixedMainLoop, RunFixedMainLoopSystems};
 use bevy::prelude::*;
 
-use super::schedule::simulation_schedule;
+use super::schedule::{Phase, simulation_schedule};
 use super::starts::{Starts, Sweeps, gather_starts};
 use super::transport::re_rolled;
 use super::{
@@ -40,7 +40,7 @@ impl Plugin for SimulationPlugin {
                 SimulationSchedule,
                 (
                     (input::advance_tick, input::apply_inputs).chain().in_set(SimulationSystems::Input),
-                    gather_starts.in_set(SimulationSystems::Step),
+                    gather_starts.in_set(Phase::Gather),
                     sense::sense.in_set(SimulationSystems::Sense),
                     state::record.in_set(SimulationSystems::Record),
                 ),

@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use bevy::prelude::*;
 
-use super::schedule::{CollidePhase, KindSystems};
+use super::schedule::{KindSystems, Phase};
 use super::{
     RobotOps, SimulatedRobot, SimulationSchedule, SimulationSystems, SpawnError, SpawnRequest, drive, settle, spawn_robot,
 };
@@ -75,9 +75,9 @@ impl<R: SimulatedRobot> Plugin for RobotPlugin<R> {
             SimulationSchedule,
             (
                 drive::drive::<R>.in_set(KindSystems::Drive(number)).in_set(SimulationSystems::Drive),
-                drive::plan::<R>.in_set(KindSystems::Plan(number)).in_set(SimulationSystems::Step),
-                settle::cut::<R>.in_set(KindSystems::Cut(number)).in_set(CollidePhase::Cut),
-                settle::settle::<R>.in_set(KindSystems::Settle(number)).in_set(CollidePhase::Settle),
+                drive::plan::<R>.in_set(KindSystems::Plan(number)).in_set(Phase::Plan),
+                settle::cut::<R>.in_set(KindSystems::Cut(number)).in_set(Phase::Cut),
+                settle::settle::<R>.in_set(KindSystems::Settle(number)).in_set(Phase::Settle),
             ),
         );
     }

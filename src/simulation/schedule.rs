@@ -36,9 +36,12 @@ pub(super) enum KindSystems {
     Settle(usize),
 }
 
-/// Within [`SimulationSystems::Collide`]: every motion is cut before any robot advances.
+/// The finer order within [`SimulationSystems::Step`] and [`SimulationSystems::Collide`]: the footprints are gathered, every
+/// motion is planned, every motion is cut, and only then any robot advances.
 #[derive(SystemSet, Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub(super) enum CollidePhase {
+pub(super) enum Phase {
+    Gather,
+    Plan,
     Cut,
     Settle,
 }
@@ -59,6 +62,7 @@ pub(super) fn simulation_schedule() -> Schedule {
         )
             .chain(),
     );
-    schedule.configure_sets((CollidePhase::Cut, CollidePhase::Settle).chain().in_set(SimulationSystems::Collide));
+    schedule.configure_sets((Phase::Gather, Phase::Plan).chain().in_set(SimulationSystems::Step));
+    schedule.configure_sets((Phase::Cut, Phase::Settle).chain().in_set(SimulationSystems::Collide));
     schedule
 }

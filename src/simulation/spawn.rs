@@ -221,7 +221,7 @@ pub(super) fn start_run_in_order(
         match robot {
             Ok(entity) => spawned.push((id, entity)),
             Err(e) => {
-                worlds.iter().for_each(|&w| drop(world.despawn(w)));
+                worlds.iter().for_each(|&w| _ = world.despawn(w));
                 return Err(e);
             }
         }
@@ -229,7 +229,7 @@ pub(super) fn start_run_in_order(
     spawned.sort_unstable_by_key(|(id, _)| *id);
     let roster = Roster { worlds, robots: spawned.into_iter().map(|(_, e)| e).collect() };
     if let Some(old) = world.remove_resource::<Roster>() {
-        old.worlds.iter().for_each(|&w| drop(world.despawn(w)));
+        old.worlds.iter().for_each(|&w| _ = world.despawn(w));
     }
     world.insert_resource(roster);
     world.insert_resource(RunConfig(config));

@@ -3,6 +3,7 @@
 mod config;
 mod reversing;
 mod sinusoids;
+mod three_worlds;
 mod waypoints;
 
 pub use config::{BOOK_SEED, SensorConfig, TourConfig};
