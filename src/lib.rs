@@ -16,6 +16,8 @@ pub mod worlds;
 
 pub mod collision;
 
+pub mod sensors;
+
 pub mod tour;
 
 pub mod run;

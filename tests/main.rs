@@ -1,2 +1,6 @@
 //! The whole-system tests: one binary, a module per subject.
 #![allow(clippy::unwrap_used, clippy::expect_used, missing_docs)]
+
+mod allocation;
+mod house;
+mod planner;

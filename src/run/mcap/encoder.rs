@@ -7,7 +7,7 @@ use xxhash_rust::xxh3::Xxh3;
 
 use super::message::{DigestMessage, FrameMessage, InputMessage, SCHEMA, ScanMessage};
 use super::preamble::{Indexed, Preamble};
-use super::record::{MAGIC, opcode, put_map, put_record, put_str, put_u16, put_u32, put_u64};
+use super::record::{MAGIC, SEAL, opcode, put_map, put_record, put_str, put_u16, put_u32, put_u64};
 use super::{CHANNELS, LogError, TICK_NANOSECONDS, channel};
 use crate::run::{Digest, Frame};
 
@@ -119,7 +119,7 @@ impl Encoder {
         self.hash.update(&self.piece);
         let sealed = self.piece.len();
         let (offset, hash) = (self.length + sealed as u64, self.hash.digest128());
-        put_record(&mut self.piece, opcode::SEAL, |out| put_seal(out, tick, offset, hash));
+        put_record(&mut self.piece, SEAL, |out| put_seal(out, tick, offset, hash));
         self.hash.update(&self.piece[sealed..]);
         self.crc.update(&self.piece);
         self.length += self.piece.len() as u64;

@@ -6,7 +6,7 @@ use xxhash_rust::xxh3::xxh3_128;
 use super::encoder::{Encoder, put_seal};
 use super::message::{FrameMessage, ScanMessage};
 use super::preamble::Preamble;
-use super::record::{MAGIC, Record, message, opcode, record_at};
+use super::record::{MAGIC, Record, SEAL, message, opcode, record_at};
 use super::{DamageKind, DamagedLog, LogError, channel};
 use crate::run::{Frame, Log};
 
@@ -126,7 +126,7 @@ fn piece(file: &[u8], start: usize) -> Result<Vec<Record<'_>>, DamageKind> {
         at = record.end();
         records.push(record);
         match record.opcode {
-            opcode::SEAL => return Ok(records),
+            SEAL => return Ok(records),
             opcode::DATA_END => return Err(DamageKind::Changed),
             _ => {}
         }

@@ -2,26 +2,11 @@
 
 use std::collections::BTreeMap;
 
-/// The first and last eight bytes of an MCAP file.
-pub const MAGIC: &[u8; 8] = b"\x89MCAP0\r\n";
+pub use mcap::MAGIC;
+pub use mcap::records::op as opcode;
 
-/// What a record is, its first byte.
-pub mod opcode {
-    pub const HEADER: u8 = 0x01;
-    pub const FOOTER: u8 = 0x02;
-    pub const SCHEMA: u8 = 0x03;
-    pub const CHANNEL: u8 = 0x04;
-    pub const MESSAGE: u8 = 0x05;
-    pub const ATTACHMENT: u8 = 0x09;
-    pub const ATTACHMENT_INDEX: u8 = 0x0a;
-    pub const STATISTICS: u8 = 0x0b;
-    pub const METADATA: u8 = 0x0c;
-    pub const METADATA_INDEX: u8 = 0x0d;
-    pub const SUMMARY_OFFSET: u8 = 0x0e;
-    pub const DATA_END: u8 = 0x0f;
-    /// Ours, in the range kept for applications: other readers skip it.
-    pub const SEAL: u8 = 0x80;
-}
+/// The opcode of a seal, in the range kept for applications: other readers skip it.
+pub const SEAL: u8 = 0x80;
 
 /// Appends a record whose content `fill` appends.
 pub fn put_record(out: &mut Vec<u8>, opcode: u8, fill: impl FnOnce(&mut Vec<u8>)) {
@@ -182,14 +167,14 @@ mod tests {
     fn what_is_put_is_taken() {
         let mut out = Vec::new();
         let map = BTreeMap::from([("key".to_owned(), "value".to_owned()), ("other".to_owned(), String::new())]);
-        put_record(&mut out, opcode::SEAL, |out| {
+        put_record(&mut out, SEAL, |out| {
             put_u16(out, 7);
             put_u32(out, 8);
             put_str(out, "é");
             put_map(out, &map);
         });
         let record = record_at(&out, 0).unwrap();
-        assert_eq!((record.opcode, record.end()), (opcode::SEAL, out.len()));
+        assert_eq!((record.opcode, record.end()), (SEAL, out.len()));
         let mut cursor = Cursor(record.content);
         assert_eq!((cursor.u16(), cursor.u32(), cursor.str(), cursor.map()), (Some(7), Some(8), Some("é"), Some(map)));
         assert!(cursor.0.is_empty());

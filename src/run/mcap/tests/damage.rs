@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::run::mcap::encoder::put_seal;
-use crate::run::mcap::record::{opcode, record_at};
+use crate::run::mcap::record::{SEAL, opcode, record_at};
 
 /// Where each piece of the file ends: the part before the first tick, then each tick.
 fn seals(file: &[u8]) -> Vec<usize> {
@@ -10,7 +10,7 @@ fn seals(file: &[u8]) -> Vec<usize> {
     let mut at = 8;
     while let Some(record) = record_at(file, at).filter(|r| r.opcode != opcode::DATA_END) {
         at = record.end();
-        if record.opcode == opcode::SEAL {
+        if record.opcode == SEAL {
             ends.push(at);
         }
     }
@@ -106,7 +106,7 @@ fn forged(file: &[u8], change: impl Fn(&mut Vec<u8>)) -> Vec<u8> {
     let mut forged = file[..seal_at].to_vec();
     change(&mut forged);
     let (offset, hash) = (forged.len() as u64, xxhash_rust::xxh3::xxh3_128(&forged));
-    crate::run::mcap::record::put_record(&mut forged, opcode::SEAL, |out| put_seal(out, 0, offset, hash));
+    crate::run::mcap::record::put_record(&mut forged, SEAL, |out| put_seal(out, 0, offset, hash));
     forged.extend_from_slice(&file[seal_at + 41..]);
     forged
 }

@@ -52,7 +52,7 @@ fn the_same_run_gives_the_same_bytes_and_they_only_grow() {
     assert_eq!(whole, written(&log));
     for ticks in 0..=3 {
         let mut writer = LogWriter::new(Vec::new(), log.seed, &log.config, &log.script, &log.initial).unwrap();
-        log.frames[..ticks].iter().for_each(|frame| drop(writer.tick(frame).unwrap()));
+        log.frames[..ticks].iter().for_each(|frame| assert_eq!(writer.tick(frame).unwrap(), frame.digest()));
         let sealed = writer.sealed_bytes();
         let so_far = writer.into_inner();
         assert!(whole.starts_with(&so_far) && so_far.len() as u64 == sealed, "after {ticks} ticks");
@@ -89,7 +89,7 @@ fn what_is_no_run_is_not_written() {
         ("tick 2: the frame's robots", |l| l.frames[1].scans[0].robot = 2),
         ("tick 2, robot 1: target[1] is not a number", |l| l.frames[1].robots[1].target[1] = f64::NAN),
         ("tick 2: the digest", |l| l.digests[1].0 ^= 1),
-        ("tick 3: the digest", |l| drop(l.digests.pop())),
+        ("tick 3: the digest", |l| l.digests.truncate(2)),
         ("tick 4: the digest", |l| l.digests.push(l.digests[0])),
         ("the configuration: 0 worlds", |l| l.config.worlds.clear()),
         ("the script: events[2]: there is no robot \"Cat\"", |l| l.script.events[2].robot = "Cat".into()),

@@ -1,0 +1,162 @@
+//! `Checker`, a robot in a scene: the questions asked about configurations.
+
+use std::sync::Arc;
+
+use super::march::march;
+use super::{Certificate, Collision, EdgeVerdict, MarchOptions, Scene, Witness};
+use crate::geometry::{Footprint, Shape, Vector2};
+use crate::robots::{ConfigurationError, Hitch, Motion, Reach, Robot, RustyDisc};
+
+/// A robot in a scene. Cheap to clone: the scene is shared.
+///
+/// ```ignore
+/// use motion_lab::prelude::*;
+/// use motion_lab::collision::{ChainChecker, Scene};
+/// let c = ChainChecker::new(Scene::workbench(), Reach::<2>::workbench());
+/// let (a, b) = (T2::new(2.0, 0.0), T2::new(3.1, 0.0));
+/// assert!(c.is_free(&a) && c.is_free(&b));
+/// assert!(!c.edge_free(&a, &b)); // the post stands between two free configurations
+/// ```
+#[derive(Clone, Debug)]
+pub struct Checker<R> {
+    scene: Arc<Scene>,
+    robot: R,
+}
+
+/// The checker of an arm with N links.
+pub type ChainChecker<const N: usize> = Checker<Reach<N>>;
+
+/// The checker of a disc. For a disc, collision is a point query: it is free exactly when the distance D of its centre to
+/// the obstacles exceeds its radius r, its distance is D - r (0 when not free), and its witness is the centre moved by r
+/// toward the nearest obstacle point. It also answers the four questions itself, for footprints made of discs; any other
+/// footprint counts as contact.
+pub type DiscChecker = Checker<RustyDisc>;
+
+/// The checker of the car.
+pub type CarChecker = Checker<Hitch>;
+
+impl<R: Robot> Checker<R> {
+    /// The robot in the scene.
+    pub fn new(scene: impl Into<Arc<Scene>>, robot: R) -> Self {
+        Checker { scene: scene.into(), robot }
+    }
+
+    /// The scene.
+    pub fn scene(&self) -> &Scene {
+        &self.scene
+    }
+
+    /// The robot.
+    pub fn robot(&self) -> &R {
+        &self.robot
+    }
+
+    /// Whether the robot touches nothing at `q`. False for a configuration that is not this robot's.
+    pub fn is_free(&self, q: &R::Configuration) -> bool {
+        self.robot.check(q).is_ok() && !self.scene.intersects(&self.robot.footprint(q))
+    }
+
+    /// The clearance at `q`, metres: 0 in contact, and for a configuration that is not this robot's.
+    pub fn distance(&self, q: &R::Configuration) -> f64 {
+        if self.robot.check(q).is_err() { 0.0 } else { self.scene.distance(&self.robot.footprint(q)) }
+    }
+
+    /// The nearest points at `q`; `None` in an empty scene.
+    ///
+    /// # Errors
+    /// [`ConfigurationError`] when `q` is not a configuration of this robot.
+    pub fn witness(&self, q: &R::Configuration) -> Result<Option<Witness>, ConfigurationError> {
+        self.robot.check(q)?;
+        Ok(self.scene.witness(&self.robot.footprint(q)))
+    }
+
+    /// The verdict on the straight line of the configuration chart from `a` to `b`, angles the short way round.
+    ///
+    /// # Errors
+    /// [`ConfigurationError`] when either end is not a configuration of this robot.
+    pub fn edge(&self, a: &R::Configuration, b: &R::Configuration) -> Result<EdgeVerdict, ConfigurationError> {
+        Ok(self.motion(&self.robot.edge(a, b)?))
+    }
+
+    /// The last configuration along the edge that is proven free: `b` when the whole edge is, `None` when `a` is in contact.
+    ///
+    /// # Errors
+    /// [`ConfigurationError`] when either end is not a configuration of this robot.
+    pub fn last_free(
+        &self,
+        a: &R::Configuration,
+        b: &R::Configuration,
+    ) -> Result<Option<R::Configuration>, ConfigurationError> {
+        let edge = self.robot.edge(a, b)?;
+        Ok(match self.motion(&edge) {
+            EdgeVerdict::Free { .. } => Some(*b),
+            EdgeVerdict::Hit { free_until, contact_at, .. } if free_until < contact_at => Some(edge.at(free_until)),
+            EdgeVerdict::Hit { .. } => None,
+            EdgeVerdict::Unresolved { free_until, .. } => Some(edge.at(free_until)),
+        })
+    }
+
+    /// The clearance at `q` and the direction in the workspace, a unit vector from b* to a*, in which moving the nearest part
+    /// increases it: the gradient of the distance. No direction in contact or in an empty scene.
+    ///
+    /// # Errors
+    /// [`ConfigurationError`] when `q` is not a configuration of this robot.
+    pub fn clearance(&self, q: &R::Configuration) -> Result<(f64, Option<Vector2>), ConfigurationError> {
+        Ok(match self.witness(q)? {
+            None => (self.distance(q), None),
+            Some(w) if w.dist == 0.0 => (0.0, None),
+            Some(w) => {
+                let away = w.on_robot - w.on_obstacle;
+                let length = crate::num::hypot(away.x, away.y);
+                (w.dist, (length > 0.0).then(|| away / length))
+            }
+        })
+    }
+
+    /// Whether the edge is proven free: exactly when [`edge`](Self::edge) says `Free`.
+    pub fn edge_free(&self, a: &R::Configuration, b: &R::Configuration) -> bool {
+        self.edge(a, b).is_ok_and(|verdict| verdict.is_free())
+    }
+
+    /// As [`edge`](Self::edge), and fills `certificate` with the steps that prove it as far as it is free.
+    ///
+    /// # Errors
+    /// [`ConfigurationError`] when either end is not a configuration of this robot.
+    pub fn edge_certified(
+        &self,
+        a: &R::Configuration,
+        b: &R::Configuration,
+        certificate: &mut Certificate,
+    ) -> Result<EdgeVerdict, ConfigurationError> {
+        Ok(march(&*self.scene, &self.robot.edge(a, b)?, MarchOptions::default(), Some(certificate)))
+    }
+
+    /// The verdict on any motion of this robot: an edge, or the arc of a drive.
+    pub fn motion(&self, motion: &impl Motion<Configuration = R::Configuration>) -> EdgeVerdict {
+        march(&*self.scene, motion, MarchOptions::default(), None)
+    }
+}
+
+impl DiscChecker {
+    fn all_discs(footprint: &Footprint) -> bool {
+        footprint.parts().iter().all(|p| matches!(p.shape(), Shape::Disc { .. }))
+    }
+}
+
+impl Collision for DiscChecker {
+    fn intersects(&self, footprint: &Footprint) -> bool {
+        !Self::all_discs(footprint) || self.scene.intersects(footprint)
+    }
+
+    fn distance(&self, footprint: &Footprint) -> f64 {
+        if Self::all_discs(footprint) { self.scene.distance(footprint) } else { 0.0 }
+    }
+
+    fn witness(&self, footprint: &Footprint) -> Option<Witness> {
+        if Self::all_discs(footprint) { self.scene.witness(footprint) } else { None }
+    }
+
+    fn swept(&self, a: &Footprint, b: &Footprint) -> bool {
+        !Self::all_discs(a) || self.scene.swept(a, b)
+    }
+}

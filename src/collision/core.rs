@@ -1,0 +1,173 @@
+//! Exact contact and accurate distance between two convex cores (points, segments, polygons) without radii.
+
+use crate::geometry::{Point2, cross, orientation};
+use crate::num::sqrt;
+
+/// The boundary edges of a core: a point is one edge of length 0, a segment one edge, a polygon all its sides.
+pub(super) fn edges(core: &[Point2]) -> impl Iterator<Item = (Point2, Point2)> {
+    let n = core.len();
+    (0..if n <= 2 { 1 } else { n }).map(move |i| (core[i], core[(i + 1) % n]))
+}
+
+/// Whether `p` lies in the closed box with the opposite corners `a` and `b`.
+fn in_box(a: Point2, b: Point2, p: Point2) -> bool {
+    let between = |a: f64, b: f64, x: f64| if a <= b { a <= x && x <= b } else { b <= x && x <= a };
+    between(a.x, b.x, p.x) && between(a.y, b.y, p.y)
+}
+
+/// A common point of two closed segments, decided exactly; an end point itself where an end touches.
+pub(super) fn segments_contact(p: (Point2, Point2), q: (Point2, Point2)) -> Option<Point2> {
+    let (p0, p1) = (orientation(q.0, q.1, p.0), orientation(q.0, q.1, p.1));
+    if (p0 > 0.0 && p1 > 0.0) || (p0 < 0.0 && p1 < 0.0) {
+        return None;
+    }
+    let (q0, q1) = (orientation(p.0, p.1, q.0), orientation(p.0, p.1, q.1));
+    if (q0 > 0.0 && q1 > 0.0) || (q0 < 0.0 && q1 < 0.0) {
+        return None;
+    }
+    let ends = [(p0, q, p.0), (p1, q, p.1), (q0, p, q.0), (q1, p, q.1)];
+    for (side, (a, b), end) in ends {
+        if side == 0.0 && in_box(a, b, end) {
+            return Some(end);
+        }
+    }
+    if p0 != 0.0 && p1 != 0.0 && q0 != 0.0 && q1 != 0.0 {
+        // they cross properly: the sides have opposite signs, so the weight is in (0, 1)
+        let weight = p0 / (p0 - p1);
+        return Some(p.0 + (p.1 - p.0) * weight);
+    }
+    None
+}
+
+/// Whether `p` lies in the closed polygon, decided exactly (crossing number); the polygon need only be simple.
+pub(super) fn polygon_contains(polygon: &[Point2], p: Point2) -> bool {
+    if polygon.len() < 3 {
+        return false;
+    }
+    let mut inside = false;
+    for (a, b) in edges(polygon) {
+        if (a.y > p.y) != (b.y > p.y) {
+            let side = orientation(a, b, p);
+            if side == 0.0 {
+                return true;
+            }
+            if (side > 0.0) == (b.y > a.y) {
+                inside = !inside;
+            }
+        } else if orientation(a, b, p) == 0.0 && in_box(a, b, p) {
+            return true;
+        }
+    }
+    inside
+}
+
+/// A common point of two cores, or `None` when they are disjoint; exact.
+pub(super) fn cores_contact(a: &[Point2], b: &[Point2]) -> Option<Point2> {
+    for p in edges(a) {
+        for q in edges(b) {
+            if let Some(point) = segments_contact(p, q) {
+                return Some(point);
+            }
+        }
+    }
+    if polygon_contains(b, a[0]) {
+        Some(a[0])
+    } else if polygon_contains(a, b[0]) {
+        Some(b[0])
+    } else {
+        None
+    }
+}
+
+/// The distance from `p` to the segment and the nearest point of it.
+///
+/// The distance to the segment's line is a cross product with the displacement from the nearer end, so its rounding is a
+/// few ulps of that displacement; where it cancels, the adaptive predicate gives its value.
+pub(super) fn point_segment(p: Point2, (a, b): (Point2, Point2)) -> (f64, Point2) {
+    let (u, from_a, from_b) = (b - a, p - a, p - b);
+    let (along, rest) = (from_a.dot(&u), -from_b.dot(&u));
+    if along <= 0.0 {
+        return (sqrt(from_a.norm_squared()), a);
+    }
+    if rest <= 0.0 {
+        return (sqrt(from_b.norm_squared()), b);
+    }
+    let length_squared = u.norm_squared();
+    let (w, foot) = if along <= rest {
+        (from_a, a + u * (along / length_squared))
+    } else {
+        (from_b, b - u * (rest / length_squared))
+    };
+    let mut area = cross(u, w);
+    if area.abs() <= 16.0 * f64::EPSILON * (u.x.abs() + u.y.abs()) * (w.x.abs() + w.y.abs()) {
+        area = orientation(a, b, p);
+    }
+    (area.abs() / sqrt(length_squared), foot)
+}
+
+/// The distance between two disjoint cores and a pair of nearest points. It is attained at a vertex of one of them.
+pub(super) fn cores_distance(a: &[Point2], b: &[Point2]) -> (f64, Point2, Point2) {
+    let mut best = (f64::INFINITY, a[0], b[0]);
+    for &p in a {
+        for edge in edges(b) {
+            let (d, foot) = point_segment(p, edge);
+            if d < best.0 {
+                best = (d, p, foot);
+            }
+        }
+    }
+    if a.len() > 1 {
+        for &q in b {
+            for edge in edges(a) {
+                let (d, foot) = point_segment(q, edge);
+                if d < best.0 {
+                    best = (d, foot, q);
+                }
+            }
+        }
+    }
+    best
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn p(x: f64, y: f64) -> Point2 {
+        Point2::new(x, y)
+    }
+
+    #[test]
+    fn segments_meet_exactly_or_not_at_all() {
+        let base = (p(0.0, 0.0), p(3.0, 1.0));
+        assert_eq!(segments_contact(base, (p(3.0, 1.0), p(4.0, 9.0))), Some(p(3.0, 1.0)), "shared end");
+        assert_eq!(segments_contact(base, (p(6.0, 2.0), p(9.0, 3.0))), None, "collinear, apart");
+        assert!(segments_contact(base, (p(1.5, 0.5), p(9.0, 3.0))).is_some(), "collinear, overlapping");
+        assert!(segments_contact(base, (p(1.0, -5.0), p(1.0, 5.0))).is_some(), "proper crossing");
+        // parallel, one ulp apart
+        let shifted = |y: f64| f64::from_bits(y.to_bits() + 1);
+        assert_eq!(segments_contact((p(0.0, 1.0), p(3.0, 1.0)), (p(0.0, shifted(1.0)), p(3.0, shifted(1.0)))), None);
+        // degenerate: a point on the segment, a point beside it
+        assert_eq!(segments_contact((p(1.5, 0.5), p(1.5, 0.5)), base), Some(p(1.5, 0.5)));
+        assert_eq!(segments_contact((p(1.5, 0.6), p(1.5, 0.6)), base), None);
+        assert_eq!(segments_contact((p(6.0, 2.0), p(6.0, 2.0)), base), None, "on its line, beyond its end");
+    }
+
+    #[test]
+    fn containment_is_closed() {
+        let square = [p(0.0, 0.0), p(2.0, 0.0), p(2.0, 2.0), p(0.0, 2.0)];
+        for q in [p(1.0, 1.0), p(0.0, 0.0), p(2.0, 1.0), p(1.0, 2.0), p(1.0, 0.0)] {
+            assert!(polygon_contains(&square, q), "{q}");
+        }
+        for q in [p(-1.0, 0.0), p(3.0, 2.0), p(2.0, 2.0 + 1e-15), p(1.0, -1e-300)] {
+            assert!(!polygon_contains(&square, q), "{q}");
+        }
+    }
+
+    #[test]
+    fn a_short_far_segment_keeps_its_digits() {
+        // 1 mm long, 10 m away, seen from beside its middle: the exact distance is 10
+        let (d, _) = point_segment(p(0.0005, 0.0), (p(0.0, 10.0), p(0.001, 10.0)));
+        assert!((d - 10.0).abs() <= 4.0 * f64::EPSILON * 10.0, "{d}");
+    }
+}

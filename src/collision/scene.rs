@@ -1,0 +1,252 @@
+//! `Scene`, named obstacles under one bounding-volume tree. The only file that imports parry.
+
+use std::sync::Arc;
+
+use parry2d_f64::bounding_volume::Aabb;
+use parry2d_f64::math::Vector;
+use parry2d_f64::partitioning::{Bvh, BvhBuildStrategy, BvhNode, TraversalAction};
+
+use super::narrow::{Nearest, depth, nearest};
+use super::segments::SegmentSoup;
+use super::{Collision, ObstacleId, Witness, swept};
+use crate::geometry::{Footprint, Placed, Pose2, Segment, Shape};
+use crate::num::{greater, ulp};
+use crate::worlds::{Bounds, World};
+
+/// Named obstacles under one bounding-volume tree.
+///
+/// ```
+/// use motion_lab::prelude::*;
+/// use motion_lab::collision::{Collision, Scene};
+/// let wall = Scene::of_walls(&[Segment::new(Point2::new(3.0, 0.0), Point2::new(3.0, 3.0))]);
+/// let rusty = Footprint::disc(Point2::new(2.0, 1.0), 0.11);
+/// assert!((wall.distance(&rusty) - 0.89).abs() < 1e-12);
+/// ```
+#[derive(Clone)]
+pub struct Scene {
+    bounds: Bounds,
+    names: Vec<Arc<str>>,
+    /// All convex pieces in file order, and the obstacle that each belongs to.
+    pieces: Vec<Placed>,
+    owners: Vec<u32>,
+    soup: SegmentSoup,
+    tree: Bvh,
+}
+
+impl std::fmt::Debug for Scene {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("Scene").field("bounds", &self.bounds).field("obstacles", &self.names).finish_non_exhaustive()
+    }
+}
+
+impl Scene {
+    /// A scene without obstacles. The bounds are not an obstacle.
+    pub fn empty(bounds: Bounds) -> Self {
+        Self::of_pieces(bounds, Vec::new(), Vec::new(), Vec::new())
+    }
+
+    /// The scene with one more obstacle, given in world coordinates. Builds the tree anew; for many obstacles at once use
+    /// [`of_world`](Self::of_world).
+    ///
+    /// A shape that breaks its constructor's rules counts as contact with everything.
+    #[must_use]
+    pub fn with_obstacle(mut self, name: &str, shape: Shape) -> Self {
+        let owner = self.names.len() as u32;
+        self.names.push(name.into());
+        self.pieces.push(shape.place(&Pose2::IDENTITY));
+        self.owners.push(owner);
+        Self::of_pieces(self.bounds, self.names, self.pieces, self.owners)
+    }
+
+    /// A scene of walls, named `wall 0`, `wall 1`, ..; its bounds are the box around them.
+    pub fn of_walls(walls: &[Segment]) -> Self {
+        let pieces: Vec<Placed> =
+            walls.iter().map(|s| Shape::Segment { a: s.a, b: s.b }.place(&Pose2::IDENTITY)).collect();
+        let names = (0..walls.len()).map(|i| format!("wall {i}").into()).collect();
+        let bounds = pieces.iter().map(Placed::bounds).reduce(|a, b| (a.0.inf(&b.0), a.1.sup(&b.1)));
+        let bounds =
+            bounds.map_or(Bounds { min: [0.0; 2].into(), max: [0.0; 2].into() }, |(min, max)| Bounds { min, max });
+        Self::of_pieces(bounds, names, pieces, (0..walls.len() as u32).collect())
+    }
+
+    /// The obstacles of a world, in file order.
+    pub fn of_world(world: &World) -> Self {
+        let (mut names, mut pieces, mut owners) = (Vec::new(), Vec::new(), Vec::new());
+        for (owner, obstacle) in world.obstacles.iter().enumerate() {
+            names.push(obstacle.name.as_str().into());
+            for (pose, shape) in &obstacle.pieces {
+                pieces.push(shape.place(pose));
+                owners.push(owner as u32);
+            }
+        }
+        Self::of_pieces(world.bounds, names, pieces, owners)
+    }
+
+    fn of_pieces(bounds: Bounds, names: Vec<Arc<str>>, pieces: Vec<Placed>, owners: Vec<u32>) -> Self {
+        let boxes: Vec<Aabb> = pieces.iter().map(piece_box).collect();
+        let tree = Bvh::from_leaves(BvhBuildStrategy::Binned, &boxes);
+        let soup = SegmentSoup::of_pieces(&pieces, &owners);
+        Scene { bounds, names, pieces, owners, soup, tree }
+    }
+
+    /// The part of the plane the scene shows; not an obstacle.
+    pub fn bounds(&self) -> Bounds {
+        self.bounds
+    }
+
+    /// The number of obstacles.
+    pub fn obstacle_count(&self) -> usize {
+        self.names.len()
+    }
+
+    /// The name of an obstacle; `None` for an id that is not one of this scene's.
+    pub fn obstacle_name(&self, id: ObstacleId) -> Option<&str> {
+        self.names.get(id.0 as usize).map(|name| &**name)
+    }
+
+    /// The convex pieces of all obstacles in file order, each with its obstacle.
+    pub fn pieces(&self) -> impl Iterator<Item = (ObstacleId, &Placed)> {
+        self.owners.iter().map(|&owner| ObstacleId(owner)).zip(&self.pieces)
+    }
+
+    /// The obstacles' boundary as segments and discs, for rays.
+    pub(crate) fn soup(&self) -> &SegmentSoup {
+        &self.soup
+    }
+
+    /// A lower bound on how far the footprint must move to become free, metres: no displacement that moves every point by
+    /// less can free it. 0 when it is free; infinity for a footprint that is not finite.
+    pub fn depth(&self, footprint: &Footprint) -> f64 {
+        if !footprint.is_valid() {
+            return f64::INFINITY;
+        }
+        let mut bound = 0.0;
+        for part in footprint.parts() {
+            self.each_within(part.placed(), 0.0, |piece| {
+                bound = greater(depth(part.placed(), &self.pieces[piece]), bound);
+                false
+            });
+        }
+        bound
+    }
+
+    /// The least distance from `shape` to any piece; stops early at 0.
+    fn least_distance(&self, shape: &Placed) -> f64 {
+        let from = piece_box(shape);
+        let best = self.tree.find_best(
+            f64::INFINITY,
+            |node: &BvhNode, _| box_distance(&from, node),
+            |piece, _| Some(pair(shape, &self.pieces[piece as usize]).dist),
+        );
+        best.map_or(f64::INFINITY, |(_, dist)| dist)
+    }
+
+    /// Calls `visit` with each piece whose box is at most `range` from the shape's box, until it returns true.
+    fn each_within(&self, shape: &Placed, range: f64, mut visit: impl FnMut(usize) -> bool) {
+        let from = piece_box(shape);
+        self.tree.traverse(|node| {
+            if box_distance(&from, node) > range {
+                return TraversalAction::Prune;
+            }
+            match node.leaf_data() {
+                Some(piece) if visit(piece as usize) => TraversalAction::EarlyExit,
+                _ => TraversalAction::Continue,
+            }
+        });
+    }
+}
+
+/// The nearest points of a part and a piece; contact when the piece is not a valid shape.
+fn pair(part: &Placed, piece: &Placed) -> Nearest {
+    if piece.is_valid() {
+        nearest(part, piece)
+    } else {
+        let point = part.core()[0];
+        Nearest { dist: 0.0, on_a: point, on_b: point }
+    }
+}
+
+/// The box around a placed shape, a little larger, so that rounding prunes nothing. All of the plane for a shape that is
+/// not valid.
+fn piece_box(shape: &Placed) -> Aabb {
+    if !shape.is_valid() {
+        return Aabb::new(Vector::splat(-1e200), Vector::splat(1e200));
+    }
+    let (min, max) = shape.bounds();
+    let size = [min.x, min.y, max.x, max.y].iter().fold(1.0, |m, x| greater(m, x.abs()));
+    let slack = 64.0 * ulp(size);
+    Aabb::new(Vector::new(min.x - slack, min.y - slack), Vector::new(max.x + slack, max.y + slack))
+}
+
+/// A lower bound of the distance between what two boxes hold.
+fn box_distance(a: &Aabb, node: &BvhNode) -> f64 {
+    let (min, max) = (node.mins(), node.maxs());
+    let gap = |a0: f64, a1: f64, b0: f64, b1: f64| greater(greater(b0 - a1, a0 - b1), 0.0);
+    let dx = gap(a.mins.x, a.maxs.x, min.x, max.x);
+    let dy = gap(a.mins.y, a.maxs.y, min.y, max.y);
+    // rounded down by more than the arithmetic can have rounded up
+    crate::num::sqrt(dx * dx + dy * dy) * (1.0 - 1e-14)
+}
+
+impl Collision for Scene {
+    fn intersects(&self, footprint: &Footprint) -> bool {
+        if !footprint.is_valid() {
+            return true;
+        }
+        footprint.parts().iter().any(|part| {
+            let mut hit = false;
+            self.each_within(part.placed(), 0.0, |piece| {
+                hit = pair(part.placed(), &self.pieces[piece]).dist == 0.0;
+                hit
+            });
+            hit
+        })
+    }
+
+    fn distance(&self, footprint: &Footprint) -> f64 {
+        if !footprint.is_valid() {
+            return 0.0;
+        }
+        let mut least = f64::INFINITY;
+        for part in footprint.parts() {
+            least = crate::num::lesser(self.least_distance(part.placed()), least);
+            if least == 0.0 {
+                break;
+            }
+        }
+        least
+    }
+
+    fn witness(&self, footprint: &Footprint) -> Option<Witness> {
+        if !footprint.is_valid() {
+            return None;
+        }
+        let mut best: Option<Witness> = None;
+        for (part, shape) in footprint.parts().iter().map(|p| p.placed()).enumerate() {
+            let dist = self.least_distance(shape);
+            if dist == f64::INFINITY || best.is_some_and(|w| w.dist <= dist) {
+                continue;
+            }
+            // among the pieces at that distance, the first in file order
+            let mut first: Option<(usize, Nearest)> = None;
+            self.each_within(shape, dist, |piece| {
+                if first.is_none_or(|(p, _)| piece < p) {
+                    let found = pair(shape, &self.pieces[piece]);
+                    if found.dist == dist {
+                        first = Some((piece, found));
+                    }
+                }
+                false
+            });
+            best = first.map_or(best, |(piece, n)| {
+                let obstacle = ObstacleId(self.owners[piece]);
+                Some(Witness { on_robot: n.on_a, on_obstacle: n.on_b, dist, part, obstacle })
+            });
+        }
+        best
+    }
+
+    fn swept(&self, a: &Footprint, b: &Footprint) -> bool {
+        swept::hits(self, a, b)
+    }
+}

@@ -1,0 +1,67 @@
+//! `Surroundings`, a scene and other robots' footprints in it.
+
+use super::narrow::nearest;
+use super::{Collision, ObstacleId, Scene, Witness, swept};
+use crate::geometry::{Footprint, Placed};
+
+/// A scene together with further placed shapes: what one robot among several may not touch. Obstacle ids from the scene's
+/// [`obstacle_count`](Scene::obstacle_count) on number the further shapes.
+#[derive(Clone, Copy, Debug)]
+pub struct Surroundings<'a> {
+    /// The scene.
+    pub scene: &'a Scene,
+    /// The other robots' parts.
+    pub others: &'a [Placed],
+}
+
+impl Surroundings<'_> {
+    /// The nearest of the further shapes: the witness, the lowest part and then the first shape on ties.
+    fn nearest_other(&self, footprint: &Footprint) -> Option<Witness> {
+        let mut best: Option<Witness> = None;
+        for (part, shape) in footprint.parts().iter().enumerate() {
+            for (i, other) in self.others.iter().enumerate() {
+                let found = nearest(shape.placed(), other);
+                if best.is_none_or(|w| found.dist < w.dist) {
+                    let obstacle = ObstacleId((self.scene.obstacle_count() + i) as u32);
+                    let (on_robot, on_obstacle) = (found.on_a, found.on_b);
+                    best = Some(Witness { on_robot, on_obstacle, dist: found.dist, part, obstacle });
+                }
+            }
+        }
+        best
+    }
+
+    /// Whether everything asked about is a valid shape; otherwise it counts as contact.
+    fn decidable(&self, footprint: &Footprint) -> bool {
+        footprint.is_valid() && self.others.iter().all(Placed::is_valid)
+    }
+}
+
+impl Collision for Surroundings<'_> {
+    fn intersects(&self, footprint: &Footprint) -> bool {
+        self.distance(footprint) == 0.0
+    }
+
+    fn distance(&self, footprint: &Footprint) -> f64 {
+        if !self.decidable(footprint) {
+            return 0.0;
+        }
+        let other = self.nearest_other(footprint).map_or(f64::INFINITY, |w| w.dist);
+        crate::num::lesser(self.scene.distance(footprint), other)
+    }
+
+    fn witness(&self, footprint: &Footprint) -> Option<Witness> {
+        if !self.decidable(footprint) {
+            return None;
+        }
+        let (fixed, other) = (self.scene.witness(footprint), self.nearest_other(footprint));
+        match (fixed, other) {
+            (Some(f), Some(o)) => Some(if (o.dist, o.part) < (f.dist, f.part) { o } else { f }),
+            (f, o) => f.or(o),
+        }
+    }
+
+    fn swept(&self, a: &Footprint, b: &Footprint) -> bool {
+        swept::hits(self, a, b)
+    }
+}

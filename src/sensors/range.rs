@@ -1,0 +1,213 @@
+//! `RangeSensor`, exact ranges along evenly spread rays.
+
+use std::cmp::Ordering;
+use std::f64::consts::{FRAC_1_SQRT_2, FRAC_PI_2};
+
+use crate::collision::{Collision, Scene, SegmentSoup, Surroundings};
+use crate::geometry::{Footprint, Part, Placed, Point2, Pose2, Shape};
+use crate::num::{self, sqrt};
+
+/// A range sensor with `n_rays` rays evenly spread over the full circle and a greatest range in metres.
+///
+/// The scan is the saturated raw distance function rho_R sampled at `n_rays` bearings.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RangeSensor {
+    /// The number of rays.
+    pub n_rays: u32,
+    /// The greatest range R, metres: a hit at exactly R counts, farther reads infinity.
+    pub max_range: f64,
+}
+
+/// Why a sensor's numbers are refused.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum SensorError {
+    /// Not from 1 to 100,000 rays.
+    #[error("{0} rays: a sensor has from 1 to 100000")]
+    Rays(u32),
+    /// A range that is not finite, not positive or beyond 10 km.
+    #[error("range {0} m: it must be finite, from 0.001 to 10000 m")]
+    Range(f64),
+}
+
+impl RangeSensor {
+    /// A sensor with these numbers.
+    ///
+    /// # Errors
+    /// [`SensorError`] when either is out of range.
+    pub fn try_new(n_rays: u32, max_range: f64) -> Result<Self, SensorError> {
+        if !(1..=100_000).contains(&n_rays) {
+            return Err(SensorError::Rays(n_rays));
+        }
+        if !(1e-3..=1e4).contains(&max_range) {
+            return Err(SensorError::Range(max_range));
+        }
+        Ok(RangeSensor { n_rays, max_range })
+    }
+
+    /// The direction of ray `k` in the sensor's frame: bearing 2 pi k / n, with exact zeros and ones at the quarter turns and
+    /// equal components at the eighths.
+    pub fn direction(&self, k: u32) -> (f64, f64) {
+        let (n, k) = (u64::from(self.n_rays), 4 * u64::from(k));
+        let (quarters, rest) = (k / n, k % n);
+        // the first half of a quarter turn, mirrored in the diagonal for the second
+        let octant = |rest: u64| num::sin_cos(FRAC_PI_2 * (rest as f64 / n as f64));
+        let (s, c) = match (2 * rest).cmp(&n) {
+            _ if rest == 0 => (0.0, 1.0),
+            Ordering::Less => octant(rest),
+            Ordering::Equal => (FRAC_1_SQRT_2, FRAC_1_SQRT_2),
+            Ordering::Greater => {
+                let (s, c) = octant(n - rest);
+                (c, s)
+            }
+        };
+        match quarters % 4 {
+            0 => (c, s),
+            1 => (-s, c),
+            2 => (-c, -s),
+            _ => (s, -c),
+        }
+    }
+
+    /// The ranges from `position`, metres: ray k at world bearing 2 pi k / n.
+    ///
+    /// Infinity where nothing is within range, 0 everywhere when the position is inside an obstacle or touches one. Rays
+    /// are closed: one through a corner hits it.
+    pub fn scan(&self, scene: &Scene, position: Point2) -> Vec<f64> {
+        self.scan_from(scene, &[], &Pose2 { x: position.x, y: position.y, theta: 0.0 })
+    }
+
+    /// The ranges from a pose, with ray k at bearing 2 pi k / n from the pose's heading, against the scene and the other
+    /// robots' parts. A robot does not see itself: leave it out of `others`.
+    pub fn scan_from(&self, scene: &Scene, others: &[Placed], pose: &Pose2) -> Vec<f64> {
+        let n = self.n_rays as usize;
+        let inside = Footprint::new([Part::new(Pose2 { theta: 0.0, ..*pose }, Shape::Disc { radius: 0.0 })]);
+        if !pose.is_finite() || (Surroundings { scene, others }).intersects(&inside) {
+            return vec![0.0; n];
+        }
+        let (s, c) = if pose.theta == 0.0 { (0.0, 1.0) } else { num::sin_cos(pose.theta) };
+        let directions: Vec<(f64, f64)> = (0..self.n_rays)
+            .map(|k| {
+                let (x, y) = self.direction(k);
+                (c * x - s * y, s * x + c * y)
+            })
+            .collect();
+        let mut other_soup = SegmentSoup::default();
+        for part in others {
+            other_soup.push(part, 0);
+        }
+        // the greatest inverse range along each ray so far
+        let mut inverse = vec![0.0; n];
+        for soup in [scene.soup(), &other_soup] {
+            cast(soup, pose.position(), self.max_range, &directions, &mut inverse);
+        }
+        let least = 1.0 / self.max_range;
+        inverse.iter().map(|&i| if i >= least { 1.0 / i } else { f64::INFINITY }).collect()
+    }
+}
+
+/// Raises `inverse[k]` to the inverse range of every segment and disc that ray k hits.
+fn cast(soup: &SegmentSoup, origin: Point2, max_range: f64, directions: &[(f64, f64)], inverse: &mut [f64]) {
+    let raise = |slot: &mut f64, value: f64| {
+        if value > *slot {
+            *slot = value;
+        }
+    };
+    for i in 0..soup.ax.len() {
+        let (mut px, mut py) = (soup.ax[i] - origin.x, soup.ay[i] - origin.y);
+        let (mut qx, mut qy) = (soup.bx[i] - origin.x, soup.by[i] - origin.y);
+        let area = px * qy - py * qx;
+        if area == 0.0 {
+            // The origin lies on the segment's line, off the segment: only a ray along the line can hit, at the nearer end.
+            let (p2, q2) = (px * px + py * py, qx * qx + qy * qy);
+            let (ex, ey, e2) = if p2 <= q2 { (px, py, p2) } else { (qx, qy, q2) };
+            for ((dx, dy), slot) in directions.iter().zip(&mut *inverse) {
+                if ex * dy - ey * dx == 0.0 && ex * dx + ey * dy > 0.0 {
+                    raise(slot, 1.0 / sqrt(e2));
+                }
+            }
+            continue;
+        }
+        if area < 0.0 {
+            (px, py, qx, qy) = (qx, qy, px, py);
+        }
+        let area = area.abs();
+        // 1/t = (d x (q - p)) / (p x q), linear in d; a ray is in the closed wedge of p and q when p x d >= 0 and d x q >= 0
+        let (a, b) = ((qy - py) / area, (qx - px) / area);
+        for ((dx, dy), slot) in directions.iter().zip(&mut *inverse) {
+            if px * dy - py * dx >= 0.0 && dx * qy - dy * qx >= 0.0 {
+                raise(slot, dx * a - dy * b);
+            }
+        }
+    }
+    for i in 0..soup.cx.len() {
+        let (cx, cy, r) = (soup.cx[i] - origin.x, soup.cy[i] - origin.y, soup.radius[i]);
+        let outside = cx * cx + cy * cy - r * r; // positive: the origin is not inside
+        if outside <= 0.0 || sqrt(cx * cx + cy * cy) - r > max_range * (1.0 + 1e-9) {
+            continue;
+        }
+        for ((dx, dy), slot) in directions.iter().zip(&mut *inverse) {
+            let along = cx * dx + cy * dy;
+            let across = cx * dy - cy * dx;
+            let half = r * r - across * across;
+            if along > 0.0 && half >= 0.0 {
+                // the nearer root of t^2 - 2 t along + outside = 0, as 1/t = (along + sqrt(..)) / outside
+                raise(slot, (along + sqrt(half)) / outside);
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::Segment;
+
+    fn wall() -> Scene {
+        Scene::of_walls(&[Segment::new(Point2::new(3.0, 0.0), Point2::new(3.0, 3.0))])
+    }
+
+    #[test]
+    fn a_hit_at_exactly_the_range_counts_and_beyond_reads_infinity() {
+        let at = |range: f64| RangeSensor { n_rays: 4, max_range: range }.scan(&wall(), Point2::new(2.0, 1.0));
+        assert_eq!(at(1.0), [1.0, f64::INFINITY, f64::INFINITY, f64::INFINITY]);
+        assert_eq!(at(1.0 - 1e-15)[0], f64::INFINITY);
+    }
+
+    #[test]
+    fn rays_through_end_points_and_along_walls_hit() {
+        let sensor = RangeSensor { n_rays: 8, max_range: 9.0 };
+        let diagonal = sensor.scan(&wall(), Point2::new(4.0, 4.0)); // ray 5 points at (3, 3)
+        assert!((diagonal[5] - 2.0_f64.sqrt()).abs() < 1e-15);
+        let along = sensor.scan(&wall(), Point2::new(3.0, -1.0)); // ray 2 runs along the wall
+        assert_eq!(along[2], 1.0);
+        assert!(along.iter().enumerate().all(|(k, r)| k == 2 || r.is_infinite()));
+    }
+
+    #[test]
+    fn inside_an_obstacle_every_range_is_zero() {
+        let square = Shape::try_rectangle(Point2::new(0.0, 0.0), Point2::new(1.0, 1.0)).unwrap();
+        let scene = wall().with_obstacle("box", square);
+        let sensor = RangeSensor { n_rays: 7, max_range: 9.0 };
+        for p in [Point2::new(0.5, 0.5), Point2::new(1.0, 0.5), Point2::new(3.0, 1.0)] {
+            assert_eq!(sensor.scan(&scene, p), vec![0.0; 7]);
+        }
+        assert_eq!(sensor.scan(&scene, Point2::new(f64::NAN, 0.0)), vec![0.0; 7]);
+    }
+
+    #[test]
+    fn discs_are_hit_at_their_near_side_and_turn_with_the_body() {
+        let others = [Shape::Disc { radius: 0.5 }.place(&Pose2::new(0.0, 2.0, 0.0))];
+        let sensor = RangeSensor { n_rays: 4, max_range: 9.0 };
+        let empty = Scene::of_walls(&[]);
+        let ahead = sensor.scan_from(&empty, &others, &Pose2::new(0.0, 0.0, FRAC_PI_2));
+        assert!((ahead[0] - 1.5).abs() < 1e-15 && ahead[1..].iter().all(|r| r.is_infinite()), "{ahead:?}");
+    }
+
+    #[test]
+    fn a_sensor_needs_rays_and_a_range() {
+        assert!(RangeSensor::try_new(0, 1.0).is_err() && RangeSensor::try_new(100_001, 1.0).is_err());
+        assert!(RangeSensor::try_new(1, f64::NAN).is_err() && RangeSensor::try_new(1, 0.0).is_err());
+        assert!(RangeSensor::try_new(360, 4.0).is_ok());
+    }
+}
