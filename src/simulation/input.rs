@@ -51,12 +51,14 @@ impl PendingInput {
         self.script.events.retain(|e| e.tick <= tick);
     }
 
-    /// Captures a live input before the step of `tick`. Whatever was to come after is forgotten.
+    /// Captures a live input before the step of the event's tick, the next one. Whatever was to come after is forgotten.
     ///
     /// - A change is recorded, not a state: channels that are already held, or a target already set in this tick, are not.
     /// - Of several changes within one tick the last wins, and a drag keeps its last target.
     /// - But a press shorter than a tick counts for one: channels pressed and let go within the tick are let go in the next.
-    pub fn capture(&mut self, tick: u64, robot: &str, input: RobotInput) {
+    pub fn capture(&mut self, event: Event) {
+        let Event { tick, robot, input } = event;
+        let robot = robot.as_str();
         // one tick beyond, for releases put off
         self.truncate_after(tick + 1);
         let last = self.script.events.iter().rposition(|e| e.robot == robot);
@@ -137,7 +139,7 @@ mod tests {
     fn captured(inputs: &[(u64, RobotInput)]) -> Vec<(u64, RobotInput)> {
         let mut pending = PendingInput::default();
         for (tick, input) in inputs {
-            pending.capture(*tick, "r", input.clone());
+            pending.capture(Event { tick: *tick, robot: "r".into(), input: input.clone() });
         }
         pending.script().events.iter().map(|e| (e.tick, e.input.clone())).collect()
     }
