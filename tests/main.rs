@@ -4,3 +4,4 @@
 mod allocation;
 mod house;
 mod planner;
+mod simulation;
