@@ -4,10 +4,13 @@
 mod fixtures;
 mod oracle;
 
+mod allocation;
 mod failsafe;
+mod house;
 mod metamorphic;
 mod pairs;
 mod penetration;
+mod planner;
 mod polygons;
 mod sweeps;
 mod touches;

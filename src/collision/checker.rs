@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use super::march::march;
 use super::{Certificate, Collision, EdgeVerdict, MarchOptions, Scene, Witness};
-use crate::geometry::{Footprint, Shape};
+use crate::geometry::{Footprint, Shape, Vector2};
 use crate::robots::{ConfigurationError, Hitch, Motion, Reach, Robot, RustyDisc};
 
 /// A robot in a scene. Cheap to clone: the scene is shared.
@@ -76,6 +76,41 @@ impl<R: Robot> Checker<R> {
     /// [`ConfigurationError`] when either end is not a configuration of this robot.
     pub fn edge(&self, a: &R::Configuration, b: &R::Configuration) -> Result<EdgeVerdict, ConfigurationError> {
         Ok(self.motion(&self.robot.edge(a, b)?))
+    }
+
+    /// The last configuration along the edge that is proven free: `b` when the whole edge is, `None` when `a` is in contact.
+    ///
+    /// # Errors
+    /// [`ConfigurationError`] when either end is not a configuration of this robot.
+    pub fn last_free(
+        &self,
+        a: &R::Configuration,
+        b: &R::Configuration,
+    ) -> Result<Option<R::Configuration>, ConfigurationError> {
+        let edge = self.robot.edge(a, b)?;
+        Ok(match self.motion(&edge) {
+            EdgeVerdict::Free { .. } => Some(*b),
+            EdgeVerdict::Hit { free_until, contact_at, .. } if free_until < contact_at => Some(edge.at(free_until)),
+            EdgeVerdict::Hit { .. } => None,
+            EdgeVerdict::Unresolved { free_until, .. } => Some(edge.at(free_until)),
+        })
+    }
+
+    /// The clearance at `q` and the direction in the workspace, a unit vector from b* to a*, in which moving the nearest part
+    /// increases it: the gradient of the distance. No direction in contact or in an empty scene.
+    ///
+    /// # Errors
+    /// [`ConfigurationError`] when `q` is not a configuration of this robot.
+    pub fn clearance(&self, q: &R::Configuration) -> Result<(f64, Option<Vector2>), ConfigurationError> {
+        Ok(match self.witness(q)? {
+            None => (self.distance(q), None),
+            Some(w) if w.dist == 0.0 => (0.0, None),
+            Some(w) => {
+                let away = w.on_robot - w.on_obstacle;
+                let length = crate::num::hypot(away.x, away.y);
+                (w.dist, (length > 0.0).then(|| away / length))
+            }
+        })
     }
 
     /// Whether the edge is proven free: exactly when [`edge`](Self::edge) says `Free`.

@@ -1,12 +1,15 @@
 //! The collision checker: four questions about a footprint in a scene, and edges proven free.
 
+mod batch;
 mod certificate;
 mod checker;
 mod core;
+mod counted;
 mod dd;
 mod edge;
 mod march;
 mod narrow;
+mod problem;
 mod scene;
 mod segments;
 mod surroundings;
@@ -15,8 +18,10 @@ mod witness;
 
 pub use certificate::{Certificate, CertificateError, ProvenStep, verify_certificate};
 pub use checker::{CarChecker, ChainChecker, Checker, DiscChecker};
+pub use counted::{Counted, QueryCounts};
 pub use edge::{EdgeVerdict, MarchOptions, UnresolvedReason};
 pub use march::{BRACKET, march};
+pub use problem::{Problem, ProblemError};
 pub use scene::Scene;
 pub(crate) use segments::SegmentSoup;
 pub use surroundings::Surroundings;

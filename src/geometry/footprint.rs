@@ -2,7 +2,7 @@
 
 use smallvec::SmallVec;
 
-use super::{Placed, Point2, Pose2, Segment, Shape};
+use super::{Placed, Point2, Pose2, Segment, Shape, ShapeError};
 use crate::num;
 
 /// One rigid part of a footprint: a shape, the pose of its frame, and the shape placed there.
@@ -78,6 +78,40 @@ impl Footprint {
         Self::new(rects.into_iter().map(|(pose, min, max)| Part::new(pose, Shape::Rectangle { min, max })))
     }
 
+    /// As [`disc`](Self::disc), checked.
+    ///
+    /// # Errors
+    /// [`ShapeError`] when the centre is not finite or too far out, or the radius out of range.
+    pub fn try_disc(center: Point2, radius: f64) -> Result<Self, ShapeError> {
+        Shape::try_disc(radius)?;
+        Shape::check_point(center)?;
+        Ok(Self::disc(center, radius))
+    }
+
+    /// As [`capsules`](Self::capsules), checked.
+    ///
+    /// # Errors
+    /// [`ShapeError`] for the first segment that is too short, not finite or too far out, or for the radius.
+    pub fn try_capsules(segments: &[Segment], radius: f64) -> Result<Self, ShapeError> {
+        for s in segments {
+            Shape::try_capsule(s.a, s.b, radius)?;
+        }
+        Ok(Self::capsules(segments.iter().copied(), radius))
+    }
+
+    /// As [`rects`](Self::rects), checked.
+    ///
+    /// # Errors
+    /// [`ShapeError`] for the first rectangle that is too small, or a frame or corner that is not finite or too far out.
+    pub fn try_rects(rects: &[(Pose2, Point2, Point2)]) -> Result<Self, ShapeError> {
+        for (pose, min, max) in rects {
+            Shape::check_point(pose.position())?;
+            Shape::check_point(Point2::new(pose.theta, 0.0))?;
+            Shape::try_rectangle(*min, *max)?;
+        }
+        Ok(Self::rects(rects.iter().copied()))
+    }
+
     /// The parts, lowest number first.
     pub fn parts(&self) -> &[Part] {
         &self.parts
@@ -86,5 +120,23 @@ impl Footprint {
     /// Whether every part is finite and well formed; only then do the queries look at the geometry.
     pub fn is_valid(&self) -> bool {
         self.parts.iter().all(|p| p.pose.is_finite() && p.placed.is_valid())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn checked_constructors_refuse_and_unchecked_ones_fail_safe() {
+        let (o, nan) = (Point2::origin(), Point2::new(f64::NAN, 0.0));
+        assert!(Footprint::try_disc(nan, 0.1).is_err() && Footprint::try_disc(o, f64::INFINITY).is_err());
+        assert!(Footprint::try_disc(o, 0.1).is_ok_and(|f| f.is_valid()));
+        assert!(!Footprint::disc(nan, 0.1).is_valid() && !Footprint::disc(o, f64::NAN).is_valid());
+        assert!(Footprint::try_capsules(&[Segment::new(o, nan)], 0.1).is_err());
+        assert!(Footprint::try_capsules(&[Segment::new(o, o)], 0.1).is_err(), "shorter than the smallest feature");
+        let turned = Pose2 { x: 0.0, y: 0.0, theta: f64::NAN };
+        assert!(Footprint::try_rects(&[(turned, o, Point2::new(1.0, 1.0))]).is_err());
+        assert!(!Footprint::rects([(turned, o, Point2::new(1.0, 1.0))]).is_valid());
     }
 }

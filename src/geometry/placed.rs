@@ -32,12 +32,13 @@ impl Placed {
         self.radius
     }
 
-    /// Whether there is at least one vertex and every number is finite, the radius not negative.
+    /// Whether there is at least one vertex, the radius is not negative, and no number is NaN or beyond 1e60 in size,
+    /// where the fourth powers that the queries form would overflow.
     pub fn is_valid(&self) -> bool {
+        const LIMIT: f64 = 1e60;
         !self.core.is_empty()
-            && self.radius >= 0.0
-            && self.radius.is_finite()
-            && self.core.iter().all(|p| p.x.is_finite() && p.y.is_finite())
+            && (0.0..=LIMIT).contains(&self.radius)
+            && self.core.iter().all(|p| p.x.abs() <= LIMIT && p.y.abs() <= LIMIT)
     }
 
     /// The least and greatest corner of the axis-parallel box around the shape, radius included.

@@ -69,15 +69,6 @@ pub enum ShapeError {
     Polygon(#[from] PolygonError),
 }
 
-fn check_point(p: Point2) -> Result<Point2, ShapeError> {
-    // written so that NaN fails it
-    if p.x.abs() <= MAX_COORDINATE && p.y.abs() <= MAX_COORDINATE {
-        Ok(p)
-    } else {
-        Err(ShapeError::Coordinate(p.x, p.y))
-    }
-}
-
 fn check_radius(radius: f64) -> Result<f64, ShapeError> {
     if (MIN_FEATURE..=MAX_COORDINATE).contains(&radius) { Ok(radius) } else { Err(ShapeError::Radius(radius)) }
 }
@@ -87,6 +78,15 @@ fn check_length(length: f64) -> Result<(), ShapeError> {
 }
 
 impl Shape {
+    pub(super) fn check_point(p: Point2) -> Result<Point2, ShapeError> {
+        // written so that NaN fails it
+        if p.x.abs() <= MAX_COORDINATE && p.y.abs() <= MAX_COORDINATE {
+            Ok(p)
+        } else {
+            Err(ShapeError::Coordinate(p.x, p.y))
+        }
+    }
+
     /// A disc around the frame's origin.
     ///
     /// # Errors
@@ -100,7 +100,7 @@ impl Shape {
     /// # Errors
     /// [`ShapeError`] for a bad coordinate or a length below [`MIN_FEATURE`].
     pub fn try_segment(a: Point2, b: Point2) -> Result<Self, ShapeError> {
-        let (a, b) = (check_point(a)?, check_point(b)?);
+        let (a, b) = (Self::check_point(a)?, Self::check_point(b)?);
         check_length(num::hypot(b.x - a.x, b.y - a.y))?;
         Ok(Shape::Segment { a, b })
     }
@@ -120,7 +120,7 @@ impl Shape {
     /// # Errors
     /// [`ShapeError`] for a bad coordinate or a side shorter than [`MIN_FEATURE`].
     pub fn try_rectangle(corner: Point2, opposite: Point2) -> Result<Self, ShapeError> {
-        let (p, q) = (check_point(corner)?, check_point(opposite)?);
+        let (p, q) = (Self::check_point(corner)?, Self::check_point(opposite)?);
         let min = Point2::new(num::lesser(p.x, q.x), num::lesser(p.y, q.y));
         let max = Point2::new(greater(p.x, q.x), greater(p.y, q.y));
         check_length(max.x - min.x)?;

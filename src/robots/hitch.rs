@@ -2,10 +2,11 @@
 
 use smallvec::{SmallVec, smallvec};
 
-use super::{ConfigurationError, Drivable, Motion, PartRates, Rates, Robot};
+use super::{ConfigurationError, Drivable, Motion, PartRates, Rates, Robot, sample_angle};
 use crate::configuration::{Configuration, HitchCfg};
 use crate::geometry::{Footprint, Point2, Pose2, Tangent2};
 use crate::num::{self, rk4, wrap};
+use crate::random::Stream;
 
 /// How many Runge-Kutta steps turn the trailer within one tick.
 const TRAILER_SUBSTEPS: u32 = 4;
@@ -177,6 +178,12 @@ impl Robot for Hitch {
             _ => rects[0].0.x = f64::NAN,
         }
         Footprint::rects(rects)
+    }
+
+    fn sample(&self, min: Point2, max: Point2, stream: &mut Stream) -> HitchCfg {
+        let body =
+            Pose2 { x: stream.uniform(min.x, max.x), y: stream.uniform(min.y, max.y), theta: sample_angle(stream) };
+        HitchCfg { body, trailer: self.hitch_len.map(|_| sample_angle(stream)) }
     }
 
     /// Chassis: the translation plus the farthest chassis point from the rear axle times the turn. Trailer: the

@@ -15,7 +15,8 @@ pub use reach::{JointPoints, Reach, ReachError};
 pub use rusty::{EncoderCounts, RUSTY, Rusty, RustyArc, RustyCmd, RustyDisc, WheelSlip, WheelTurns};
 
 use crate::configuration::{ChartMismatch, Configuration};
-use crate::geometry::Footprint;
+use crate::geometry::{Footprint, Point2};
+use crate::random::Stream;
 
 /// The rates of a footprint's parts, in the parts' order.
 pub type PartRates = SmallVec<[Rates; 3]>;
@@ -66,6 +67,10 @@ pub trait Robot: Clone + std::fmt::Debug + PartialEq + Send + Sync + 'static {
     /// [`ConfigurationError`] when either end is not a configuration of this robot.
     fn edge_rates(&self, a: &Self::Configuration, b: &Self::Configuration) -> Result<PartRates, ConfigurationError>;
 
+    /// A configuration drawn uniformly: positions in the box from `min` to `max`, angles in `(-pi, pi]`. How many numbers are
+    /// drawn does not depend on their values.
+    fn sample(&self, min: Point2, max: Point2, stream: &mut Stream) -> Self::Configuration;
+
     /// The motion along the straight line of the configuration chart from `a` to `b`, angles the short way round.
     ///
     /// # Errors
@@ -87,4 +92,10 @@ pub trait Drivable: Robot {
     /// # Errors
     /// [`ConfigurationError`] when `q` is not a configuration of this robot, or `u` or `dt` is not finite.
     fn drive(&self, q: &Self::Configuration, u: &Self::Control, dt: f64) -> Result<Self::Drive, ConfigurationError>;
+}
+
+/// An angle drawn uniformly from `(-pi, pi]`.
+fn sample_angle(stream: &mut Stream) -> f64 {
+    use std::f64::consts::PI;
+    PI - 2.0 * PI * stream.unit()
 }

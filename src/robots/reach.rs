@@ -4,10 +4,11 @@ use std::f64::consts::PI;
 
 use smallvec::SmallVec;
 
-use super::{ConfigurationError, Drivable, PartRates, Rates, Robot};
+use super::{ConfigurationError, Drivable, PartRates, Rates, Robot, sample_angle};
 use crate::configuration::{Configuration, T2, Tn};
 use crate::geometry::{Footprint, Part, Point2, Pose2, Shape, ShapeError};
 use crate::num::{self, greater, wrap};
+use crate::random::Stream;
 
 /// The joint positions of an arm: base, joints, tip.
 pub type JointPoints = SmallVec<[Point2; 4]>;
@@ -173,6 +174,10 @@ impl<const N: usize> Robot for Reach<N> {
             let shape = Shape::Capsule { a: Point2::origin(), b: Point2::new(length, 0.0), radius: self.link_radius };
             Part::new(pose, shape)
         }))
+    }
+
+    fn sample(&self, _min: Point2, _max: Point2, stream: &mut Stream) -> Tn<N> {
+        Tn([0.0; N].map(|_: f64| sample_angle(stream)))
     }
 
     /// A point of link k is a sum of pieces of links 1 to k, each turning at its own constant absolute rate

@@ -4,10 +4,11 @@ use std::f64::consts::TAU;
 
 use smallvec::smallvec;
 
-use super::{ConfigurationError, Drivable, Motion, PartRates, Rates, Robot};
+use super::{ConfigurationError, Drivable, Motion, PartRates, Rates, Robot, sample_angle};
 use crate::configuration::{Configuration, R2};
 use crate::geometry::{Footprint, Point2, Pose2, Shape, ShapeError, Tangent2};
 use crate::num;
+use crate::random::Stream;
 
 /// Rusty as the simulator drives it: a disc with a heading, in SE(2), commanded by forward speed and turn rate.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -130,6 +131,10 @@ impl Robot for Rusty {
         Footprint::disc(q.position(), self.body_radius)
     }
 
+    fn sample(&self, min: Point2, max: Point2, stream: &mut Stream) -> Pose2 {
+        Pose2 { x: stream.uniform(min.x, max.x), y: stream.uniform(min.y, max.y), theta: sample_angle(stream) }
+    }
+
     /// A disc moves, as a set, exactly as its centre does: the length of the edge, in a straight line.
     fn edge_rates(&self, a: &Pose2, b: &Pose2) -> Result<PartRates, ConfigurationError> {
         Ok(smallvec![Rates { speed: num::hypot(b.x - a.x, b.y - a.y), acceleration: 0.0 }])
@@ -214,6 +219,10 @@ impl Robot for RustyDisc {
 
     fn footprint(&self, q: &R2) -> Footprint {
         Footprint::disc(Point2::new(q.0.x, q.0.y), self.radius)
+    }
+
+    fn sample(&self, min: Point2, max: Point2, stream: &mut Stream) -> R2 {
+        R2::new(stream.uniform(min.x, max.x), stream.uniform(min.y, max.y))
     }
 
     fn edge_rates(&self, a: &R2, b: &R2) -> Result<PartRates, ConfigurationError> {

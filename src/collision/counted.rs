@@ -1,0 +1,83 @@
+//! `Counted`, a checker that counts what it is asked.
+
+use std::sync::atomic::{AtomicU64, Ordering};
+
+use super::{Collision, Witness};
+use crate::geometry::Footprint;
+
+/// A [`Collision`] that passes every question on and counts it. Planners are compared by these counts.
+///
+/// ```
+/// use motion_lab::prelude::*;
+/// use motion_lab::collision::{Collision, Counted, Scene};
+/// let counted = Counted::new(Scene::of_walls(&[]));
+/// counted.distance(&Footprint::disc(Point2::new(0.0, 0.0), 0.11));
+/// assert_eq!(counted.counts().distance, 1);
+/// ```
+#[derive(Debug, Default)]
+pub struct Counted<C> {
+    inner: C,
+    intersects: AtomicU64,
+    distance: AtomicU64,
+    witness: AtomicU64,
+    swept: AtomicU64,
+}
+
+/// How often each question was asked.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct QueryCounts {
+    /// `intersects`.
+    pub intersects: u64,
+    /// `distance`.
+    pub distance: u64,
+    /// `witness`.
+    pub witness: u64,
+    /// `swept`; the questions it asks in turn are not counted.
+    pub swept: u64,
+}
+
+impl<C: Collision> Counted<C> {
+    /// Counts the questions put to `inner`.
+    pub fn new(inner: C) -> Self {
+        let zero = AtomicU64::default;
+        Counted { inner, intersects: zero(), distance: zero(), witness: zero(), swept: zero() }
+    }
+
+    /// The checker that answers.
+    pub fn inner(&self) -> &C {
+        &self.inner
+    }
+
+    /// The counts so far.
+    pub fn counts(&self) -> QueryCounts {
+        let read = |c: &AtomicU64| c.load(Ordering::Relaxed);
+        QueryCounts {
+            intersects: read(&self.intersects),
+            distance: read(&self.distance),
+            witness: read(&self.witness),
+            swept: read(&self.swept),
+        }
+    }
+}
+
+impl<C: Collision> Collision for Counted<C> {
+    fn intersects(&self, footprint: &Footprint) -> bool {
+        self.intersects.fetch_add(1, Ordering::Relaxed);
+        self.inner.intersects(footprint)
+    }
+
+    fn distance(&self, footprint: &Footprint) -> f64 {
+        self.distance.fetch_add(1, Ordering::Relaxed);
+        self.inner.distance(footprint)
+    }
+
+    fn witness(&self, footprint: &Footprint) -> Option<Witness> {
+        self.witness.fetch_add(1, Ordering::Relaxed);
+        self.inner.witness(footprint)
+    }
+
+    fn swept(&self, a: &Footprint, b: &Footprint) -> bool {
+        self.swept.fetch_add(1, Ordering::Relaxed);
+        self.inner.swept(a, b)
+    }
+}

@@ -1,0 +1,90 @@
+//! `Problem`, what a planner is given.
+
+use super::Checker;
+use crate::random::{Seed, Stream};
+use crate::robots::{ConfigurationError, Robot};
+
+/// A planning problem: a robot in a scene, from a start to a goal, with a seeded stream of samples.
+#[derive(Clone, Debug)]
+pub struct Problem<R: Robot> {
+    checker: Checker<R>,
+    start: R::Configuration,
+    goal: R::Configuration,
+    samples: Stream,
+}
+
+/// Why a problem is refused.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum ProblemError {
+    /// The start or the goal is not a configuration of the robot.
+    #[error("the {end}: {source}")]
+    Configuration {
+        /// `start` or `goal`.
+        end: &'static str,
+        /// What is wrong with it.
+        source: ConfigurationError,
+    },
+    /// The start or the goal overlaps or touches an obstacle.
+    #[error("the {end} would overlap {obstacle}")]
+    Overlap {
+        /// `start` or `goal`.
+        end: &'static str,
+        /// The name of the obstacle.
+        obstacle: String,
+    },
+}
+
+impl<R: Robot> Problem<R> {
+    /// The problem of leading the robot from `start` to `goal`; samples come from the stream `planner` of `seed`.
+    ///
+    /// # Errors
+    /// [`ProblemError`] when either end is not one of the robot's configurations or is not free.
+    pub fn try_new(
+        checker: Checker<R>,
+        start: R::Configuration,
+        goal: R::Configuration,
+        seed: Seed,
+    ) -> Result<Self, ProblemError> {
+        for (end, q) in [("start", &start), ("goal", &goal)] {
+            let witness = checker.witness(q).map_err(|source| ProblemError::Configuration { end, source })?;
+            if let Some(w) = witness.filter(|w| w.dist == 0.0) {
+                let obstacle = checker.scene().obstacle_name(w.obstacle).unwrap_or("an obstacle").to_owned();
+                return Err(ProblemError::Overlap { end, obstacle });
+            }
+        }
+        Ok(Problem { checker, start, goal, samples: Stream::new(seed, "planner") })
+    }
+
+    /// The robot in its scene.
+    pub fn checker(&self) -> &Checker<R> {
+        &self.checker
+    }
+
+    /// Where the robot is.
+    pub fn start(&self) -> R::Configuration {
+        self.start
+    }
+
+    /// Where it shall be.
+    pub fn goal(&self) -> R::Configuration {
+        self.goal
+    }
+
+    /// The next configuration of the stream, uniform over the scene's bounds and the circle; not necessarily free.
+    pub fn sample(&mut self) -> R::Configuration {
+        let bounds = self.checker.scene().bounds();
+        self.checker.robot().sample(bounds.min, bounds.max, &mut self.samples)
+    }
+
+    /// The next free configuration of the stream; `None` when `tries` samples are all in contact.
+    pub fn sample_free(&mut self, tries: u32) -> Option<R::Configuration> {
+        for _ in 0..tries {
+            let q = self.sample();
+            if self.checker.is_free(&q) {
+                return Some(q);
+            }
+        }
+        None
+    }
+}

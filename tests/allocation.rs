@@ -1,0 +1,47 @@
+//! The queries of the lab's robots touch no heap.
+
+use motion_lab::collision::{Certificate, Checker, Collision, Scene};
+use motion_lab::prelude::*;
+
+/// The heap allocations that `work` makes.
+fn allocations(work: impl FnOnce()) -> u64 {
+    allocation_counter::measure(work).count_total
+}
+
+fn check<R: Robot>(checker: &Checker<R>, a: R::Configuration, b: R::Configuration) {
+    let mut certificate = Certificate::new();
+    checker.edge_certified(&a, &b, &mut certificate).unwrap(); // lets the buffer grow once
+    let counted = allocations(|| {
+        let footprint = checker.robot().footprint(&a);
+        std::hint::black_box(checker.scene().intersects(&footprint));
+        std::hint::black_box(checker.scene().distance(&footprint));
+        std::hint::black_box(checker.scene().witness(&footprint));
+        std::hint::black_box(checker.scene().swept(&footprint, &checker.robot().footprint(&b)));
+        std::hint::black_box(checker.edge(&a, &b).unwrap());
+        std::hint::black_box(checker.edge_certified(&a, &b, &mut certificate).unwrap());
+    });
+    assert_eq!(counted, 0, "{a} to {b}");
+}
+
+#[test]
+fn footprints_queries_and_edges_of_the_three_robots_do_not_allocate() {
+    assert!(allocations(|| drop(std::hint::black_box(Box::new(1)))) > 0, "the counter counts");
+    let bounds = motion_lab::worlds::Bounds { min: Point2::new(-9.0, -9.0), max: Point2::new(9.0, 9.0) };
+    let corner = |x: f64, y: f64| Point2::new(x, y);
+    let mut scene = Scene::empty(bounds);
+    for k in 0..12 {
+        let x = f64::from(k) - 6.0;
+        scene = scene
+            .with_obstacle(&format!("box {k}"), Shape::try_rectangle(corner(x, 3.0), corner(x + 0.5, 3.5)).unwrap())
+            .with_obstacle(&format!("wall {k}"), Shape::try_segment(corner(x, -3.0), corner(x + 0.5, -2.0)).unwrap());
+    }
+    let scene = std::sync::Arc::new(scene);
+    check(&Checker::new(scene.clone(), RustyDisc::default()), R2::new(0.0, 0.0), R2::new(5.0, 6.0));
+    check(&Checker::new(scene.clone(), Reach::<2>::workbench()), T2::new(0.3, 0.2), T2::new(2.0, -1.0));
+    check(&Checker::new(scene.clone(), Reach::<3>::redundant()), Tn([0.3, 0.2, 0.1]), Tn([2.0, -1.0, 1.0]));
+    let pose = |x: f64, theta: f64| Pose2::new(x, 0.0, theta);
+    let car = |x: f64, theta: f64| HitchCfg { body: pose(x, theta), trailer: None };
+    check(&Checker::new(scene.clone(), HITCH), car(-4.0, 0.0), car(2.0, 0.7));
+    let towing = |x: f64, theta: f64| HitchCfg { body: pose(x, theta), trailer: Some(theta - 0.2) };
+    check(&Checker::new(scene, HITCH.with_trailer()), towing(-4.0, 0.0), towing(2.0, 0.7));
+}
