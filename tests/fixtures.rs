@@ -153,6 +153,21 @@ pub fn scene_of(bodies: &[Body]) -> Scene {
     })
 }
 
+/// The Apartment.
+pub fn apartment() -> Scene {
+    Scene::of_world(&World::apartment())
+}
+
+/// The Workbench.
+pub fn workbench() -> Scene {
+    Scene::of_world(&World::workbench())
+}
+
+/// The Lot.
+pub fn lot() -> Scene {
+    Scene::of_world(&World::lot())
+}
+
 /// The body as a placed shape.
 pub fn placed(body: &Body) -> Placed {
     body.1.place(&body.0)

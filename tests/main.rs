@@ -3,9 +3,13 @@
 
 mod fixtures;
 mod oracle;
+mod verdicts;
 
 mod allocation;
+mod chapter;
+mod edges;
 mod failsafe;
+mod faults;
 mod house;
 mod metamorphic;
 mod pairs;
