@@ -3,7 +3,9 @@
 use motion_lab::prelude::*;
 use motion_lab::recording::{Recorder, Run};
 use motion_lab::run::Frame;
+use motion_lab::tour::TourConfig;
 
+use super::crowd::arena;
 use super::{assert_same, tour, wild_script};
 
 fn numbers(frame: &Frame) -> impl Iterator<Item = f64> {
@@ -47,11 +49,24 @@ fn no_frame_holds_a_nan_or_a_negative_zero() {
         let log = Run::record(tour(300), (Seed(seed), wild_script(seed, 300))).unwrap();
         for frame in log.frames.iter().chain([&log.initial]) {
             for x in numbers(frame) {
-                assert!(!x.is_nan() && !(x == 0.0 && x.is_sign_negative()), "tick {} holds {x:?}", frame.tick);
+                let negative_zero = x == 0.0 && x.is_sign_negative();
+                assert!(!x.is_nan() && !negative_zero, "tick {} holds {x:?}", frame.tick);
             }
             assert!(frame.robots.iter().enumerate().all(|(i, r)| r.id as usize == i));
         }
     }
+}
+
+#[test]
+fn a_start_at_negative_zero_is_one_at_zero() {
+    let at = |x: f64| {
+        let robots: [(&str, &str, &[f64]); 2] = [("Rusty", "rusty", &[x, x, x]), ("Hitch", "hitch", &[x, x, 0.5, x])];
+        let worlds = vec![arena(20.0, &robots[..1]), arena(20.0, &robots[1..])];
+        Run::record(TourConfig { worlds, ticks: 3, sensor: None }, Seed(1)).unwrap()
+    };
+    let (minus, plus) = (at(-0.0), at(0.0));
+    assert_same(&minus.initial, &plus.initial);
+    assert_eq!(minus.digests, plus.digests);
 }
 
 #[test]
