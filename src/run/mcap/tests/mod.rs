@@ -5,7 +5,7 @@ mod peers;
 mod schema;
 
 use super::*;
-use crate::geometry::{Point2, Pose2, Segment, Shape};
+use crate::geometry::{Point2, Pose2, Shape};
 use crate::run::{Log, first_divergence, fixture};
 use crate::worlds::{Obstacle, ObstacleKind};
 
@@ -95,7 +95,7 @@ fn what_is_no_run_is_not_written() {
         ("tick 4: the digest", |l| l.digests.push(l.digests[0])),
         ("worlds/0.ron in the log: worlds/0.ron:", |l| l.config.worlds[0].robots[1].start.push(0.0)),
         ("worlds/0.ron in the log: the world is not one", |l| {
-            let wall = Shape::Segment(Segment::new(Point2::new(0.0, 0.0), Point2::new(1.0, 0.0)));
+            let wall = Shape::Segment { a: Point2::new(0.0, 0.0), b: Point2::new(1.0, 0.0) };
             let pieces = vec![(Pose2::new(0.0, 0.0, 0.5), wall)];
             l.config.worlds[0].obstacles.push(Obstacle { name: "turned".into(), kind: ObstacleKind::Wall, pieces });
         }),
