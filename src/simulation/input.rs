@@ -2,7 +2,7 @@
 
 use bevy::prelude::*;
 
-use super::{Roster, RobotName, RobotOps, Transport};
+use super::{RobotName, RobotOps, Roster, Transport};
 use crate::run::{Event, RobotInput, Script};
 
 /// An input to a robot, as a message from whoever drives: it applies before the next tick's step.
@@ -121,9 +121,12 @@ pub(super) fn apply_inputs(world: &mut World) {
     }
     world.resource_scope(|world, pending: Mut<PendingInput>| {
         for event in pending.due(tick) {
-            let robot = world.resource::<Roster>().robots().iter().copied().find(|&e| {
-                world.get::<RobotName>(e).is_some_and(|n| n.name == event.robot)
-            });
+            let robot = world
+                .resource::<Roster>()
+                .robots()
+                .iter()
+                .copied()
+                .find(|&e| world.get::<RobotName>(e).is_some_and(|n| n.name == event.robot));
             if let Some((robot, ops)) = robot.and_then(|e| Some((e, *world.get::<RobotOps>(e)?))) {
                 (ops.apply)(world, robot, &event.input);
             }
@@ -147,10 +150,10 @@ mod tests {
     #[test]
     fn only_changes_are_recorded_and_the_last_of_a_tick_wins() {
         use RobotInput::{Drive, Release};
-        assert_eq!(captured(&[(3, Drive(128, 0)), (4, Drive(128, 0)), (9, Drive(0, 0))]), [
-            (3, Drive(128, 0)),
-            (9, Drive(0, 0))
-        ]);
+        assert_eq!(
+            captured(&[(3, Drive(128, 0)), (4, Drive(128, 0)), (9, Drive(0, 0))]),
+            [(3, Drive(128, 0)), (9, Drive(0, 0))]
+        );
         assert_eq!(captured(&[(3, Drive(128, 0)), (3, Drive(128, 64))]), [(3, Drive(128, 64))]);
         assert_eq!(captured(&[(3, Drive(1, 0)), (4, Release), (5, Drive(1, 0))]).len(), 3);
         let to = |x| RobotInput::MoveTo(vec![Quantized(x), Quantized(0)]);
@@ -162,17 +165,15 @@ mod tests {
         use RobotInput::Drive;
         let zero = (1, Drive(0, 0));
         // the first zero takes over from the tour, the press and its release come within tick 3
-        assert_eq!(captured(&[zero.clone(), (3, Drive(128, 0)), (3, Drive(0, 0))]), [
-            zero.clone(),
-            (3, Drive(128, 0)),
-            (4, Drive(0, 0))
-        ]);
+        assert_eq!(
+            captured(&[zero.clone(), (3, Drive(128, 0)), (3, Drive(0, 0))]),
+            [zero.clone(), (3, Drive(128, 0)), (4, Drive(0, 0))]
+        );
         // and a second press after it waits for the next tick, where the last wins
-        assert_eq!(captured(&[zero.clone(), (3, Drive(128, 0)), (3, Drive(0, 0)), (3, Drive(0, 9))]), [
-            zero,
-            (3, Drive(128, 0)),
-            (4, Drive(0, 9))
-        ]);
+        assert_eq!(
+            captured(&[zero.clone(), (3, Drive(128, 0)), (3, Drive(0, 0)), (3, Drive(0, 9))]),
+            [zero, (3, Drive(128, 0)), (4, Drive(0, 9))]
+        );
         // so does a press that takes over from the tour: its release cannot come before one tick is driven
         assert_eq!(captured(&[(3, Drive(128, 0)), (3, Drive(0, 0))]), [(3, Drive(128, 0)), (4, Drive(0, 0))]);
     }

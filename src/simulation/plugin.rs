@@ -8,9 +8,8 @@ use super::starts::{Starts, Sweeps, gather_starts};
 use super::transport::re_rolled;
 use super::{
     Keyframes, LatestFrame, PendingInput, Playback, RestoreError, RobotCommand, RobotKinds, RobotName, RobotPlugin,
-    RunConfig,
-    SimulationSchedule, SimulationSystems, SpawnError, Transport, TransportCommand, input, restore, sense, start_run_in_order,
-    state,
+    RunConfig, SimulationSchedule, SimulationSystems, SpawnError, Transport, TransportCommand, input, restore, sense,
+    start_run_in_order, state,
 };
 use crate::random::Seed;
 use crate::robots::{HITCH, RUSTY, Reach};

@@ -58,7 +58,9 @@ type Settled<R> = (
 /// Advances every robot of a kind: along its cut motion, unless that meets the cut motion of a robot with a lower id in its
 /// world; then it stays where it started.
 pub(super) fn settle<R: SimulatedRobot>(starts: Res<Starts>, sweeps: Res<Sweeps>, mut robots: Query<Settled<R>>) {
-    for (&id, &ResidesIn(world), RobotModel(robot), TickMotion(motion), cut, mut q, mut contacts, mut mode) in &mut robots {
+    for (&id, &ResidesIn(world), RobotModel(robot), TickMotion(motion), cut, mut q, mut contacts, mut mode) in
+        &mut robots
+    {
         let (mut until, mut in_contact) = (cut.until, cut.contact);
         if let Some(motion) = motion {
             let own = CutMotion { motion: motion.clone(), until };
