@@ -8,6 +8,7 @@ mod verdicts;
 mod allocation;
 mod chapter;
 mod edges;
+mod extremes;
 mod failsafe;
 mod faults;
 mod house;
