@@ -1,7 +1,7 @@
 //! `Figure`, pictures side by side as a sheet of paper: what an SVG file shows.
 
 use super::{Anchor, Face, Fit, Line, Palette, Picture, Primitive, Role, ScaleBar, ScreenRect, resolve, svg};
-use crate::num::lesser;
+use crate::num::{greater, lesser};
 
 /// A figure: panels in rows of up to three, and a caption under them.
 #[derive(Clone, Debug, PartialEq)]
@@ -35,7 +35,7 @@ pub(super) enum Entry {
 
 /// Free room at the sheet's border and between its panels, pixels.
 const GAP: f64 = 20.0;
-/// Width of the sheet, pixels.
+/// The greatest width of the sheet, pixels.
 const WIDTH: f64 = 1280.0;
 /// The greatest height of a picture, pixels.
 const TALLEST: f64 = 560.0;
@@ -55,27 +55,29 @@ impl Figure {
     /// The figure as an SVG file, the same bytes for the same figure and palette. Metres are fitted to the panels, and line
     /// widths are in pixels.
     pub fn svg(&self, palette: &Palette) -> String {
-        let (entries, height) = self.lay_out();
-        svg::write(self, &entries, [WIDTH, height], palette)
+        let (entries, size) = self.lay_out();
+        svg::write(self, &entries, size, palette)
     }
 
-    /// All strokes and words in painting order, and the height of the sheet.
-    fn lay_out(&self) -> (Vec<Entry>, f64) {
+    /// All strokes and words in painting order, and the size of the sheet.
+    fn lay_out(&self) -> (Vec<Entry>, [f64; 2]) {
         let mut entries = Vec::new();
-        let mut top = GAP;
+        let (mut right, mut top) = (GAP, GAP);
         for row in self.panels.chunks(3) {
-            top = lay_out_row(row, top, &mut entries) + GAP;
+            let [row_right, row_bottom] = lay_out_row(row, top, &mut entries);
+            right = greater(right, row_right);
+            top = row_bottom + GAP;
         }
         for line in &self.caption {
             entries.push(Entry::Bare(text(GAP, top, line, Face::Sans, 13.0, Role::Text)));
             top += LEADING + 2.0;
         }
-        (entries, if self.caption.is_empty() { top } else { top + GAP - 4.0 })
+        (entries, [right + GAP, top])
     }
 }
 
-/// Lays a row out below `top`, all pictures of one height; returns the least height below it.
-fn lay_out_row(row: &[Panel], top: f64, entries: &mut Vec<Entry>) -> f64 {
+/// Lays a row out below `top`, all pictures of one height; returns how far it reaches to the right and down.
+fn lay_out_row(row: &[Panel], top: f64, entries: &mut Vec<Entry>) -> [f64; 2] {
     let aspect = |panel: &Panel| {
         let bounds = &panel.picture.bounds;
         // very long and very high worlds are shown on a sheet that is not
@@ -90,10 +92,10 @@ fn lay_out_row(row: &[Panel], top: f64, entries: &mut Vec<Entry>) -> f64 {
     for panel in row {
         let rect = ScreenRect { min: [left, top], size: [inner * aspect(panel) + 2.0 * MARGIN, height] };
         let below = lay_out_panel(panel, rect, entries);
-        bottom = crate::num::greater(bottom, below);
+        bottom = greater(bottom, below);
         left += rect.size[0] + GAP;
     }
-    bottom
+    [left - GAP, bottom]
 }
 
 fn lay_out_panel(panel: &Panel, rect: ScreenRect, entries: &mut Vec<Entry>) -> f64 {
@@ -112,11 +114,26 @@ fn lay_out_panel(panel: &Panel, rect: ScreenRect, entries: &mut Vec<Entry>) -> f
     if !panel.heading.is_empty() {
         entries.push(Entry::Bare(text(x, baseline, &panel.heading, Face::Sans, 14.0, Role::Text)));
     }
-    for line in &panel.readout {
+    let columns = (rect.size[0] / (11.0 * 0.61)) as usize;
+    for line in panel.readout.iter().flat_map(|line| wrapped(line, columns)) {
         baseline += LEADING;
-        entries.push(Entry::Bare(text(x, baseline, line, Face::Mono, 11.0, Role::Muted)));
+        entries.push(Entry::Bare(text(x, baseline, &line, Face::Mono, 11.0, Role::Muted)));
     }
     baseline + 4.0
+}
+
+/// A line broken at spaces where it is longer than `columns`, what follows a break set in by two.
+fn wrapped(line: &str, columns: usize) -> Vec<String> {
+    let mut lines = vec![String::new()];
+    for word in line.split_inclusive(' ') {
+        let used = lines.last().map_or(0, |l| l.chars().count());
+        let fits = used + word.trim_end().chars().count() <= columns;
+        match lines.last_mut() {
+            Some(last) if fits || last.trim().is_empty() => last.push_str(word),
+            _ => lines.push(format!("  {word}")),
+        }
+    }
+    lines
 }
 
 /// A scale bar that ends at `right`.
@@ -143,4 +160,17 @@ fn scale_bar(fit: &Fit, right: f64, baseline: f64) -> [Entry; 2] {
 /// Words on a baseline.
 fn text(left: f64, baseline: f64, text: &str, face: Face, size: f64, role: Role) -> Primitive {
     Primitive::Text { at: [left, baseline], anchor: Anchor::Right, text: text.into(), face, size, role, plate: false }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn long_readouts_break_at_spaces() {
+        assert_eq!(wrapped("Pose2 { x: 1 }", 40), ["Pose2 { x: 1 }"]);
+        let lines = wrapped("HitchCfg { body: Pose2 { x: 1 }, trailer: None }", 33);
+        assert_eq!(lines, ["HitchCfg { body: Pose2 { x: 1 }, ", "  trailer: None }"]);
+        assert_eq!(wrapped("unbreakable", 3), ["unbreakable"], "a word is never cut");
+    }
 }

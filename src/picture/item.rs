@@ -66,6 +66,17 @@ pub enum Drawing {
         /// Its least length on the screen.
         min_px: f64,
     },
+    /// A pointed nose on a disc: the triangle between its sides and a tip ahead, of at least `min_px` from the centre.
+    Nose {
+        /// The disc's centre.
+        center: Point2,
+        /// The disc's radius.
+        radius: f64,
+        /// Which way it points, radians.
+        heading: f64,
+        /// The least distance of the tip on the screen.
+        min_px: f64,
+    },
     /// A mark that keeps its size.
     Mark {
         /// Its centre.

@@ -136,6 +136,16 @@ pub fn resolve(item: &Item, fit: &Fit) -> Vec<Primitive> {
             let head = vec![point(length - barb, barb), tip, point(length - barb, -barb)];
             stroke(&mut out, *role, *line, vec![vec![from, tip], head]);
         }
+        Drawing::Nose { center, radius, heading, min_px } => {
+            let (s, c) = num::sin_cos(*heading);
+            let (center, r) = (px(center), radius * fit.px_per_metre());
+            let point = |ahead: f64, left: f64| [center[0] + c * ahead - s * left, center[1] - s * ahead - c * left];
+            // the tangents from the tip touch the disc where cos = r / tip
+            let tip = num::greater(2.2 * r, *min_px);
+            let (cos, sin) = (r / tip, num::sqrt(1.0 - r * r / (tip * tip)));
+            let corners = [point(tip, 0.0), point(r * cos, r * sin), point(r * cos, -r * sin)];
+            area(&mut out, *role, *fill, &corners);
+        }
         Drawing::Mark { at, glyph, radius_px } => mark(&mut out, *role, px(at), *glyph, *radius_px),
         Drawing::Label { at, text, anchor, face, size_px, plate } => out.push(Primitive::Text {
             at: px(at),
@@ -232,6 +242,20 @@ mod tests {
     }
 
     #[test]
+    fn a_nose_points_ahead_and_touches_its_disc() {
+        let heading = std::f64::consts::FRAC_PI_2;
+        let drawing = Drawing::Nose { center: Point2::new(5.0, 5.0), radius: 1.0, heading, min_px: 1.0 };
+        let item = Item::new("a", "a", Role::Robot, drawing).filled(Fill::Tint(1.0));
+        let [Primitive::Area { corners, .. }] = &resolve(&item, &fit())[..] else { panic!("one triangle") };
+        assert!((corners[0][0] - 50.0).abs() < 1e-9 && (corners[0][1] - 28.0).abs() < 1e-9, "up, 2.2 radii");
+        for c in &corners[1..] {
+            let (radial, along) = ([c[0] - 50.0, c[1] - 50.0], [c[0] - corners[0][0], c[1] - corners[0][1]]);
+            assert!((num::hypot(radial[0], radial[1]) - 10.0).abs() < 1e-9, "on the circle");
+            assert!((radial[0] * along[0] + radial[1] * along[1]).abs() < 1e-9, "as a tangent");
+        }
+    }
+
+    #[test]
     fn nothing_that_is_not_finite_reaches_a_medium() {
         let nan = Point2::new(f64::NAN, 1.0);
         let drawings = [
@@ -241,6 +265,7 @@ mod tests {
             Drawing::Capsule { a: nan, b: nan, radius: 1.0 },
             Drawing::Rays { from: nan, ends: vec![nan] },
             Drawing::Arrow { from: Point2::origin(), along: Vector2::zeros(), min_px: 1.0 },
+            Drawing::Nose { center: nan, radius: 1.0, heading: 0.0, min_px: 1.0 },
             Drawing::Mark { at: nan, glyph: Glyph::Cross, radius_px: 1.0 },
         ];
         for drawing in drawings {

@@ -40,7 +40,7 @@ fn part_item(id: String, name: &str, part: &Part, role: Role, opacity: f64) -> I
 }
 
 /// A robot: its footprint at 85 %, in the goal's red while it touches something, with the marks that tell which way it faces:
-/// an arrow on a disc, a chevron on a car's chassis, the joints of an arm.
+/// a nose on a disc, a chevron on a car's chassis, the joints of an arm.
 pub fn robot(drawing: &RobotDrawing<'_>) -> Vec<Item> {
     let role = if drawing.in_contact { Role::Goal } else { Role::Robot };
     let id = format!("robot/{}", drawing.name);
@@ -48,10 +48,9 @@ pub fn robot(drawing: &RobotDrawing<'_>) -> Vec<Item> {
     let parts = drawing.footprint.parts();
     let item = |part: &str, role, drawn| Item::new(format!("{id}/{part}"), drawing.name, role, drawn);
     if let ([part], Some(heading)) = (parts, drawing.heading) {
-        let from = part.pose().position();
-        let (s, c) = num::sin_cos(heading);
-        let along = Vector2::new(c, s) * (2.4 * part.placed().radius());
-        items.push(item("heading", role, Drawing::Arrow { from, along, min_px: 14.0 }).stroked(Line::solid(1.5)));
+        let (center, radius) = (part.pose().position(), part.placed().radius());
+        let nose = Drawing::Nose { center, radius, heading, min_px: 11.0 };
+        items.push(item("heading", role, nose).filled(Fill::Tint(0.85)));
     }
     if let Some((pose, Shape::Rectangle { min, max })) = parts.first().map(|p| (p.pose(), p.shape())) {
         let chevron = Drawing::Polyline(chevron(pose, *min, *max));

@@ -62,7 +62,7 @@ fn panel(tour: &TourPanel<'_>) -> Panel {
         [format!("{head}{}", r.readout), format!("{head}contacts: {}", r.contacts.len())]
     });
     let heading = match &tour.robots[..] {
-        [one] => format!("{} in the {}", one.name, tour.world.name),
+        [one] => format!("{} \u{b7} {}", one.name, tour.world.name),
         _ => tour.world.name.clone(),
     };
     Panel { heading, readout: readout.collect(), picture }
@@ -89,7 +89,7 @@ fn description(panels: &[TourPanel<'_>]) -> String {
                 n => format!("something {n} times"),
             };
             sentences.push(format!(
-                "{} moves in the {}, touches {times} and ends at {}.",
+                "In the world {1}, {0} touches {times} and ends at {2}.",
                 robot.name, panel.world.name, robot.readout
             ));
         }
@@ -123,7 +123,7 @@ mod tests {
             readout: "Pose2 { x: 3.000, y: 1.000, theta: 0.500 }".into(),
         };
         let figure = tour_figure(Seed(7), 1200, Digest(0xabc), &[TourPanel { world: &yard, robots: vec![robot] }]);
-        assert_eq!(figure.panels[0].heading, "Rusty in the Yard");
+        assert_eq!(figure.panels[0].heading, "Rusty \u{b7} Yard");
         assert_eq!(figure.panels[0].readout[1], "contacts: 1");
         assert!(figure.caption.join(" ").contains(&format!("{:032x}", 0xabc)));
         assert!(figure.description.contains("touches something once"));
