@@ -22,9 +22,16 @@ pub mod tour;
 
 pub mod run;
 
+pub mod simulation;
+
+pub mod recording;
+
 pub mod picture;
 
 pub mod ui;
+
+#[cfg(feature = "window")]
+pub mod app;
 
 /// The names a planner or an experiment usually needs.
 pub mod prelude {

@@ -1,6 +1,20 @@
 //! The whole-system tests: one binary, a module per subject.
 #![allow(clippy::unwrap_used, clippy::expect_used, missing_docs)]
 
+mod fixtures;
+mod oracle;
+mod verdicts;
+
 mod allocation;
+mod chapter;
+mod edges;
+mod failsafe;
+mod faults;
 mod house;
+mod metamorphic;
+mod pairs;
+mod penetration;
 mod planner;
+mod polygons;
+mod sweeps;
+mod touches;

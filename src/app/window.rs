@@ -87,7 +87,8 @@ mod tests {
 
     #[test]
     fn every_way_to_have_no_window_is_one_line_that_names_the_command() {
-        let said = |message: &'static str| first_line(catch_unwind(|| std::panic::panic_any(message)).unwrap_err().as_ref());
+        let said =
+            |message: &'static str| first_line(catch_unwind(|| std::panic::panic_any(message)).unwrap_err().as_ref());
         let adapter = WindowError::NotOpened(said("Unable to find a GPU!\nsee there"));
         for error in [WindowError::NoDisplay, adapter] {
             let line = error.to_string();

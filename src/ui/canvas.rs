@@ -1,6 +1,8 @@
 //! The canvas: paints a picture with egui's painter, in screen points.
 
-use bevy_egui::egui::{Align2, Color32, FontFamily, FontId, Painter, Pos2, Rect, Shape, Stroke, epaint::PathShape, pos2};
+use bevy_egui::egui::{
+    Align2, Color32, FontFamily, FontId, Painter, Pos2, Rect, Shape, Stroke, epaint::PathShape, pos2,
+};
 
 use super::Theme;
 use crate::picture::{Anchor, Dash, Face, Fit, Line, Picture, Primitive, Role, ScreenPoint, ScreenRect, resolve};

@@ -1,8 +1,8 @@
 //! The dashboard: the cockpits at once on a wide screen, one at a time on a narrow one.
 
 use bevy_egui::egui::{
-    Align, CentralPanel, Frame, Layout, Margin, Panel, Rect, RichText, ScrollArea, Sense, Stroke, StrokeKind, TextStyle, Ui,
-    UiBuilder, Vec2, WidgetInfo, WidgetType, pos2, vec2,
+    Align, CentralPanel, Frame, Layout, Margin, Panel, Rect, RichText, ScrollArea, Sense, Stroke, StrokeKind,
+    TextStyle, Ui, UiBuilder, Vec2, WidgetInfo, WidgetType, pos2, vec2,
 };
 
 use super::transport_bar::transport_bar;
@@ -35,7 +35,9 @@ pub fn dashboard(ui: &mut Ui, model: &Dashboard, state: &mut UiState, commands: 
 
 fn header(ui: &mut Ui) {
     ui.label(RichText::new("Dashboard").text_style(TextStyle::Heading));
-    ui.label(RichText::new("Where a robot is does not say how it is: three robots, three types of configuration.").weak());
+    ui.label(
+        RichText::new("Where a robot is does not say how it is: three robots, three types of configuration.").weak(),
+    );
 }
 
 fn one_pane(ui: &mut Ui, model: &Dashboard, state: &mut UiState) {

@@ -78,12 +78,8 @@ impl Screen {
     fn click(&mut self, model: &Dashboard, words: &str) -> Vec<Command> {
         let (_, rect) = self.texts().into_iter().find(|(text, _)| text == words).expect("a button with these words");
         let pos = rect.center();
-        let button = |pressed| Event::PointerButton {
-            pos,
-            button: PointerButton::Primary,
-            pressed,
-            modifiers: Modifiers::NONE,
-        };
+        let button =
+            |pressed| Event::PointerButton { pos, button: PointerButton::Primary, pressed, modifiers: Modifiers::NONE };
         let mut commands = self.frame(model, vec![Event::PointerMoved(pos), button(true)]);
         commands.extend(self.frame(model, vec![button(false)]));
         commands
@@ -139,13 +135,8 @@ fn a_wide_screen_shows_all_cockpits_and_a_narrow_one_the_chosen() {
 
 #[test]
 fn buttons_and_the_space_bar_send_what_they_say() {
-    let space = Event::Key {
-        key: Key::Space,
-        physical_key: None,
-        pressed: true,
-        repeat: false,
-        modifiers: Modifiers::NONE,
-    };
+    let space =
+        Event::Key { key: Key::Space, physical_key: None, pressed: true, repeat: false, modifiers: Modifiers::NONE };
     let sent = |command| [Command::Transport(command)];
     let (playing, paused) = (model(), Dashboard { playing: false, ..model() });
     let mut screen = Screen::new(WIDE, &playing);
