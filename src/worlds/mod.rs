@@ -1,5 +1,57 @@
 //! Worlds: lists of named geometry, never bitmaps.
+//!
+//! A world file ([`World::parse`]) is RON, in metres and radians:
+//!
+//! ```ron
+//! World(
+//!     version: 1,
+//!     name: "Yard",
+//!     bounds: (min: (0, 0), max: (8, 6)),       // what is shown; not an obstacle
+//!     walls: [                                   // thin polylines
+//!         (name: "the fence", points: [(0, 0), (8, 0), (8, 6), (0, 6)], closed: true),
+//!     ],
+//!     obstacles: [
+//!         (name: "the tree", shape: Disc(center: (2, 3), radius: 0.4)),
+//!         (name: "the shed", shape: Box(min: (5, 4), max: (7, 5.5))),
+//!         (name: "the pond", shape: Polygon([(4, 1), (6, 1), (5.5, 2), (6, 3), (4, 3)])),
+//!         (name: "the log", shape: Rounded(points: [(1, 1), (2, 1)], radius: 0.2)),
+//!         (name: "the table", shape: Union([Box(min: (1, 4), max: (3, 5)), Disc(center: (3, 4.5), radius: 0.5)])),
+//!     ],
+//!     places: [(name: "home", pose: (x: 3, y: 5.5, theta: 0))],
+//!     marks: [(name: "the path", points: [(0, 3), (4, 3.5)])],   // painted, never collided with
+//!     robots: [(name: "Rusty", kind: "rusty", start: [3, 5.5, 0])],
+//! )
+//! ```
+//!
+//! Every list may be left out. A name is unique in the whole world. A robot's `start` is its configuration's coordinates:
+//! `rusty` x, y, theta; `reach` th1, th2; `reach3` th1, th2, th3; `hitch` x, y, theta, and psi with a trailer. Other kinds
+//! begin with `x-` and belong to programs that register them.
 
+mod built_in;
+mod convex_pieces;
+mod description;
+mod distance_transform;
+mod error;
+mod grid;
+mod items;
 mod model;
+mod parse;
+mod print;
+mod rasterize;
+mod source;
 
+pub use convex_pieces::{MAX_CONCAVE_VERTICES, OutlineError, convex_pieces};
+pub use distance_transform::DistanceTransform;
+pub use error::{WorldError, WorldItem, WorldProblem};
+pub use grid::{Grid, GridError, MAX_CELLS};
 pub use model::{Bounds, Mark, Obstacle, ObstacleKind, Place, Resident, World};
+
+/// The version of the world format that is read and written.
+pub const WORLD_VERSION: u64 = 1;
+
+/// The greatest number of shapes in a world (a polyline counts one for each of its segments, a concave polygon one for each
+/// convex piece), and of items in each of its lists.
+pub const MAX_ITEMS: usize = 100_000;
+
+#[cfg(test)]
+mod tests;

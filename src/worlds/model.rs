@@ -1,6 +1,6 @@
 //! `World`, a checked world: what is meant, as opposed to what is written in a file.
 
-use crate::geometry::{Point2, Pose2, Shape};
+use crate::geometry::{Placed, Point2, Pose2, Shape};
 
 /// An axis-parallel box: the part of the plane a world shows. It is not an obstacle.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -75,4 +75,23 @@ pub struct World {
     pub marks: Vec<Mark>,
     /// The resident robots in file order.
     pub robots: Vec<Resident>,
+}
+
+impl Obstacle {
+    /// The pieces placed in the world, in order.
+    pub fn placed(&self) -> impl Iterator<Item = Placed> + '_ {
+        self.pieces.iter().map(|(pose, shape)| shape.place(pose))
+    }
+}
+
+impl World {
+    /// The place of this name.
+    pub fn place(&self, name: &str) -> Option<&Place> {
+        self.places.iter().find(|place| place.name == name)
+    }
+
+    /// The obstacle of this name.
+    pub fn obstacle(&self, name: &str) -> Option<&Obstacle> {
+        self.obstacles.iter().find(|obstacle| obstacle.name == name)
+    }
 }

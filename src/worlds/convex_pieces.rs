@@ -1,0 +1,265 @@
+//! A simple polygon cut into convex pieces, by exact predicates and without new vertices.
+
+use crate::geometry::{ConvexPolygon, Point2, PolygonError, orientation};
+
+/// The greatest number of vertices of a polygon that is not convex: cutting it up takes quadratic time and more.
+pub const MAX_CONCAVE_VERTICES: usize = 1000;
+
+/// Why a list of vertices is not the outline of a polygon.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum OutlineError {
+    /// Too few vertices, one out of range, an edge too short.
+    #[error(transparent)]
+    Polygon(PolygonError),
+    /// Two edges cross, or touch elsewhere than at their common vertex.
+    #[error("the edges after vertex {first} and vertex {second} cross or touch")]
+    Crossing {
+        /// The vertex before one edge.
+        first: usize,
+        /// The vertex before the other.
+        second: usize,
+    },
+    /// Concave, with more than [`MAX_CONCAVE_VERTICES`] vertices.
+    #[error("{0} vertices: a polygon that is not convex may have at most {MAX_CONCAVE_VERTICES}")]
+    TooManyVertices(usize),
+    /// Two vertices so close that no cut between them gives pieces of the smallest size.
+    #[error("a part is narrower than {} m", crate::geometry::MIN_FEATURE)]
+    TooNarrow,
+}
+
+/// Convex polygons that together make up the polygon with this outline: its vertices in either orientation, straight
+/// corners allowed. One that is strictly convex gives itself; the pieces of another overlap in their edges only.
+///
+/// Ears are clipped (every simple polygon has one: Meisters, 1975), then triangles merged across their common edges as long
+/// as the result is strictly convex (Hertel and Mehlhorn, 1983), which leaves at most four times the fewest pieces possible.
+///
+/// # Errors
+/// [`OutlineError`] names the vertices: an outline that crosses or touches itself, too few vertices, numbers out of range.
+pub fn convex_pieces(outline: &[Point2]) -> Result<Vec<ConvexPolygon>, OutlineError> {
+    match ConvexPolygon::try_new(outline) {
+        Ok(convex) => return Ok(vec![convex]),
+        Err(PolygonError::NotConvex(_) | PolygonError::SelfCrossing) => {}
+        Err(error) => return Err(OutlineError::Polygon(error)),
+    }
+    if outline.len() > MAX_CONCAVE_VERTICES {
+        return Err(OutlineError::TooManyVertices(outline.len()));
+    }
+    check_simple(outline)?;
+    let triangles = triangulate(outline);
+    let pieces = merge(outline, triangles);
+    let convex = |piece: &Vec<usize>| ConvexPolygon::try_new(&corners(outline, piece));
+    // strictly convex by construction, so that only a short edge is left to go wrong
+    pieces.iter().map(convex).collect::<Result<_, _>>().map_err(|_| OutlineError::TooNarrow)
+}
+
+fn corners(outline: &[Point2], piece: &[usize]) -> Vec<Point2> {
+    piece.iter().map(|&i| outline[i]).collect()
+}
+
+/// Whether the closed segments `a b` and `c d` have a point in common, exactly.
+fn segments_meet([a, b]: [Point2; 2], [c, d]: [Point2; 2]) -> bool {
+    let sign = |x: f64| if x == 0.0 { 0 } else { x.signum() as i32 };
+    let (c_side, d_side) = (sign(orientation(a, b, c)), sign(orientation(a, b, d)));
+    let (a_side, b_side) = (sign(orientation(c, d, a)), sign(orientation(c, d, b)));
+    let apart =
+        |p: f64, q: f64, r: f64, s: f64| (p < r && p < s && q < r && q < s) || (p > r && p > s && q > r && q > s);
+    // on one line each sign is 0, and the boxes decide
+    c_side * d_side <= 0 && a_side * b_side <= 0 && !apart(a.x, b.x, c.x, d.x) && !apart(a.y, b.y, c.y, d.y)
+}
+
+/// That no two edges meet but neighbours, and those in their common vertex only.
+fn check_simple(outline: &[Point2]) -> Result<(), OutlineError> {
+    let n = outline.len();
+    let edge = |i: usize| [outline[i], outline[(i + 1) % n]];
+    for first in 0..n {
+        for second in first + 1..n {
+            let ([a, b], [c, d]) = (edge(first), edge(second));
+            let neighbours = second == first + 1 || (first == 0 && second == n - 1);
+            let meet = if neighbours {
+                // the common vertex in the middle: a spike turns by half a circle there
+                let [p, q, r] = if second == first + 1 { [a, b, d] } else { [c, d, b] };
+                orientation(p, q, r) == 0.0 && (p - q).dot(&(r - q)) > 0.0
+            } else {
+                segments_meet([a, b], [c, d])
+            };
+            if meet {
+                return Err(OutlineError::Crossing { first, second });
+            }
+        }
+    }
+    Ok(())
+}
+
+/// The indices of a simple polygon's triangles, each counter-clockwise. None is flat.
+fn triangulate(outline: &[Point2]) -> Vec<Vec<usize>> {
+    let turn = |i: usize, j: usize, k: usize| orientation(outline[i], outline[j], outline[k]);
+    let mut ring: Vec<usize> = (0..outline.len()).collect();
+    if clockwise(outline) {
+        ring.reverse();
+    }
+    let mut triangles = Vec::new();
+    while ring.len() > 3 {
+        let m = ring.len();
+        let around = |at: usize| (ring[(at + m - 1) % m], ring[at], ring[(at + 1) % m]);
+        let is_ear = |&at: &usize| {
+            let (i, j, k) = around(at);
+            let inside = |&p: &usize| {
+                p != i && p != j && p != k && turn(i, j, p) >= 0.0 && turn(j, k, p) >= 0.0 && turn(k, i, p) >= 0.0
+            };
+            turn(i, j, k) > 0.0 && !ring.iter().any(inside)
+        };
+        // a simple polygon always has an ear; the loop would end without one rather than hang
+        let Some(ear) = (0..m).find(is_ear) else { break };
+        let (i, j, k) = around(ear);
+        triangles.push(vec![i, j, k]);
+        ring.remove(ear);
+    }
+    triangles.push(ring);
+    triangles
+}
+
+/// The turn at the lowest, leftmost corner tells the orientation; a straight corner there is passed over.
+fn clockwise(outline: &[Point2]) -> bool {
+    let n = outline.len();
+    let lowest = (0..n).reduce(|l, i| if (outline[i].y, outline[i].x) < (outline[l].y, outline[l].x) { i } else { l });
+    let lowest = lowest.unwrap_or(0);
+    // lexicographically extreme, hence a vertex of the hull and never straight in a simple polygon
+    orientation(outline[(lowest + n - 1) % n], outline[lowest], outline[(lowest + 1) % n]) < 0.0
+}
+
+/// Joins pieces across common edges while the result stays strictly convex.
+fn merge(outline: &[Point2], mut pieces: Vec<Vec<usize>>) -> Vec<Vec<usize>> {
+    let mut at = 0;
+    while at < pieces.len() {
+        let joined = (at + 1..pieces.len()).find_map(|other| {
+            let ring = join(&pieces[at], &pieces[other])?;
+            ConvexPolygon::try_new(&corners(outline, &ring)).is_ok().then_some((other, ring))
+        });
+        match joined {
+            Some((other, ring)) => {
+                pieces[at] = ring;
+                pieces.remove(other);
+            }
+            None => at += 1,
+        }
+    }
+    pieces
+}
+
+/// Two rings joined along an edge that they share in opposite directions.
+fn join(a: &[usize], b: &[usize]) -> Option<Vec<usize>> {
+    for i in 0..a.len() {
+        let (from, to) = (a[i], a[(i + 1) % a.len()]);
+        if let Some(j) = (0..b.len()).find(|&j| b[j] == to && b[(j + 1) % b.len()] == from) {
+            // all of `a` from `to` around to `from`, then `b`'s vertices between `from` and `to`
+            let mut ring: Vec<usize> = (1..=a.len()).map(|k| a[(i + k) % a.len()]).collect();
+            ring.extend((2..b.len()).map(|k| b[(j + k) % b.len()]));
+            return Some(ring);
+        }
+    }
+    None
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::num;
+    use crate::random::{Seed, Stream};
+
+    fn points(p: &[(f64, f64)]) -> Vec<Point2> {
+        p.iter().map(|&(x, y)| Point2::new(x, y)).collect()
+    }
+
+    fn doubled_area(p: &[Point2]) -> f64 {
+        (0..p.len()).map(|i| (p[i], p[(i + 1) % p.len()])).map(|(a, b)| a.x * b.y - a.y * b.x).sum()
+    }
+
+    /// Even-odd crossing number, an oracle that shares no code with the above. For points off the boundary.
+    fn inside(outline: &[Point2], p: Point2) -> bool {
+        let n = outline.len();
+        let crosses = |i: &usize| {
+            let (a, b) = (outline[*i], outline[(i + 1) % n]);
+            (a.y > p.y) != (b.y > p.y) && p.x < a.x + (p.y - a.y) / (b.y - a.y) * (b.x - a.x)
+        };
+        (0..n).filter(crosses).count() % 2 == 1
+    }
+
+    /// The pieces have the polygon's area and hold exactly its points.
+    fn check(outline: &[Point2], s: &mut Stream) -> usize {
+        let pieces = convex_pieces(outline).unwrap();
+        let area: f64 = pieces.iter().map(|p| doubled_area(p.vertices())).sum();
+        assert!((area - doubled_area(outline).abs()).abs() <= 1e-9 * area, "{outline:?}");
+        for _ in 0..100 {
+            let p = Point2::new(s.uniform(-6.0, 6.0), s.uniform(-6.0, 6.0));
+            let holding = pieces.iter().filter(|piece| inside(piece.vertices(), p)).count();
+            assert_eq!(holding, usize::from(inside(outline, p)), "{p:?} in {outline:?}");
+        }
+        pieces.len()
+    }
+
+    #[test]
+    fn concave_outlines_in_both_orientations_are_cut_into_few_pieces() {
+        let mut s = Stream::new(Seed(1), "concave");
+        let ell = [(0.0, 0.0), (2.0, 0.0), (2.0, 1.0), (1.0, 1.0), (1.0, 2.0), (0.0, 2.0)];
+        // two are the fewest for one reflex corner
+        assert_eq!(check(&points(&ell), &mut s), 2);
+        let mut clockwise = points(&ell);
+        clockwise.reverse();
+        assert_eq!(check(&clockwise, &mut s), 2);
+        // a square with a straight corner is not strictly convex, but a polygon
+        check(&points(&[(0.0, 0.0), (1.0, 0.0), (2.0, 0.0), (2.0, 2.0), (0.0, 2.0)]), &mut s);
+        check(&points(&[(0.0, 0.0), (4.0, 0.0), (2.0, 0.0001), (1.0, 3.0)]), &mut s);
+        let comb = [(0., 0.), (5., 0.), (5., 3.), (4., 3.), (4., 1.), (3., 1.), (3., 3.), (2., 3.), (2., 1.), (0., 1.)];
+        check(&points(&comb), &mut s);
+    }
+
+    #[test]
+    fn random_stars_are_cut_exactly() {
+        let mut s = Stream::new(Seed(2), "stars");
+        for _ in 0..200 {
+            let n = 4 + s.below(40) as usize;
+            // star-shaped about the origin, hence simple
+            let vertex = |k: usize, r: f64| {
+                let (sin, cos) = num::sin_cos(std::f64::consts::TAU * k as f64 / n as f64);
+                Point2::new(r * cos, r * sin)
+            };
+            let outline: Vec<Point2> = (0..n).map(|k| vertex(k, s.uniform(0.5, 6.0))).collect();
+            check(&outline, &mut s);
+        }
+    }
+
+    #[test]
+    fn random_lattice_outlines_are_cut_exactly_or_refused() {
+        // many collinear triples, coinciding vertices and crossings
+        let mut s = Stream::new(Seed(3), "lattice");
+        let mut cut = 0;
+        for _ in 0..20_000 {
+            let n = 4 + s.below(4) as usize;
+            let outline: Vec<Point2> = (0..n).map(|_| Point2::new(s.below(4) as f64, s.below(4) as f64)).collect();
+            if convex_pieces(&outline).is_ok() {
+                check(&outline, &mut s);
+                cut += 1;
+            }
+        }
+        assert!(cut > 1000, "{cut}");
+    }
+
+    #[test]
+    fn what_is_no_outline_is_refused_with_its_vertices() {
+        let refuse = |p: &[(f64, f64)]| convex_pieces(&points(p)).unwrap_err();
+        let bow_tie = [(0.0, 0.0), (1.0, 1.0), (1.0, 0.0), (0.0, 1.0)];
+        assert_eq!(refuse(&bow_tie), OutlineError::Crossing { first: 0, second: 2 });
+        // a spike, out and back on one line
+        let spike = [(0.0, 0.0), (3.0, 0.0), (2.0, 0.0), (2.0, 2.0)];
+        assert!(matches!(refuse(&spike), OutlineError::Crossing { first: 0, .. }));
+        // a corner that touches the far edge
+        let pinched = [(0.0, 0.0), (4.0, 0.0), (4.0, 2.0), (2.0, 0.0), (0.0, 2.0)];
+        assert!(matches!(refuse(&pinched), OutlineError::Crossing { first: 0, .. }));
+        assert_eq!(refuse(&[(0.0, 0.0), (1.0, 0.0)]), OutlineError::Polygon(PolygonError::TooFewVertices(2)));
+        let neck = [(0.0, 0.0), (2.0, 1.0), (4.0, 0.0), (4.0, 2.0), (2.0, 1.0005), (0.0, 2.0)];
+        assert_eq!(refuse(&neck), OutlineError::TooNarrow);
+        let many: Vec<(f64, f64)> = (0..1001).map(|k| (f64::from(k), f64::from(k % 2))).collect();
+        assert_eq!(refuse(&many), OutlineError::TooManyVertices(1001));
+    }
+}

@@ -1,0 +1,129 @@
+//! Why a world file is refused, and where in it.
+
+use std::fmt;
+
+use super::OutlineError;
+use crate::geometry::ShapeError;
+
+/// An item of a world file: `obstacles[1] "the post"`.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct WorldItem {
+    /// The list it stands in: `walls`, `obstacles`, `places`, `marks` or `robots`.
+    pub list: &'static str,
+    /// Its index in that list, from 0.
+    pub index: usize,
+    /// Its name; empty when it has none that can be read.
+    pub name: String,
+}
+
+impl fmt::Display for WorldItem {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}[{}]", self.list, self.index)?;
+        if self.name.is_empty() { Ok(()) } else { write!(f, " {:?}", self.name) }
+    }
+}
+
+/// A world file that is refused: where, which item, and why.
+///
+/// Prints as `lot.ron:17:9: obstacles[0] "the west pillar": length 0 m: the smallest feature is 0.001 m`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct WorldError {
+    /// The file, as the caller named it.
+    pub file: String,
+    /// The line, from 1: where the item begins, or where reading stopped.
+    pub line: usize,
+    /// The column in characters, from 1.
+    pub column: usize,
+    /// The item; `None` when the trouble lies outside the lists or the file is not RON.
+    pub item: Option<Box<WorldItem>>,
+    /// The reason.
+    pub problem: Box<WorldProblem>,
+}
+
+impl fmt::Display for WorldError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}:{}:{}: ", self.file, self.line, self.column)?;
+        if let Some(item) = &self.item {
+            write!(f, "{item}: ")?;
+        }
+        write!(f, "{}", self.problem)
+    }
+}
+
+impl std::error::Error for WorldError {
+    fn source(&self) -> Option<&(dyn std::error::Error + 'static)> {
+        std::error::Error::source(self.problem.as_ref())
+    }
+}
+
+/// Why a world file is refused.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum WorldProblem {
+    /// Not RON, or not of the expected form: an unknown or missing field, a text where a number belongs.
+    #[error("{0}")]
+    Syntax(String),
+    /// A version of the format that this program does not read.
+    #[error("version {0}: this program reads version {version}", version = super::WORLD_VERSION)]
+    Version(u64),
+    /// A name that is empty, longer than 200 bytes, padded with blanks, or has a control character.
+    #[error("name {0:?}: it must be 1 to 200 bytes without control characters and without blanks at its ends")]
+    Name(String),
+    /// A name that an earlier item has.
+    #[error("the name is taken by {item} in line {line}")]
+    NameTaken {
+        /// The earlier item.
+        item: WorldItem,
+        /// The line it begins in.
+        line: usize,
+    },
+    /// Too many items in a list, or shapes in all.
+    #[error("too many {what}: at most {most}", most = super::MAX_ITEMS)]
+    TooMany {
+        /// Of what.
+        what: &'static str,
+    },
+    /// A polyline with too few points.
+    #[error("{found} points: it needs at least {least}")]
+    TooFewPoints {
+        /// How many points it has.
+        found: usize,
+        /// How many it needs.
+        least: usize,
+    },
+    /// A piece of a polyline that is not a segment.
+    #[error("from points[{index}] on: {source}")]
+    Segment {
+        /// The index of the piece's first point, from 0.
+        index: usize,
+        /// What is wrong with it.
+        source: ShapeError,
+    },
+    /// A shape, position or bounds with bad numbers.
+    #[error(transparent)]
+    Shape(#[from] ShapeError),
+    /// A polygon whose outline is not one.
+    #[error("polygon: {0}")]
+    Outline(#[from] OutlineError),
+    /// A union without members.
+    #[error("a union of nothing")]
+    EmptyUnion,
+    /// A heading or start coordinate that is not finite.
+    #[error("{0} is not a finite number")]
+    NotFinite(&'static str),
+    /// A robot of a kind nobody knows.
+    #[error(
+        "kind {0:?}: it must be `rusty`, `reach`, `reach3`, `hitch`, or begin with `x-` when a program registers its own"
+    )]
+    Kind(String),
+    /// A start with the wrong number of coordinates.
+    #[error("{found} start coordinates: a {kind} starts with {expected}")]
+    Start {
+        /// The robot's kind.
+        kind: String,
+        /// What it needs.
+        expected: &'static str,
+        /// How many it has.
+        found: usize,
+    },
+}

@@ -1,0 +1,165 @@
+//! Every item of a world file checked and made what it means.
+
+use super::description::{BoundsText, ObstacleText, PlaceText, PolylineText, RobotText, ShapeText, Xy, point};
+use super::parse::check_name;
+use super::{Bounds, MAX_ITEMS, Mark, Obstacle, ObstacleKind, Place, Resident, WorldProblem, convex_pieces};
+use crate::geometry::{MAX_COORDINATE, Point2, Pose2, Shape, ShapeError, convex_hull};
+use crate::num;
+
+/// How many more shapes the world may have.
+pub(super) struct Budget {
+    left: usize,
+}
+
+impl Default for Budget {
+    fn default() -> Self {
+        Budget { left: MAX_ITEMS }
+    }
+}
+
+impl Budget {
+    fn spend(&mut self, shapes: usize) -> Result<(), WorldProblem> {
+        self.left = self.left.checked_sub(shapes).ok_or(WorldProblem::TooMany { what: "shapes" })?;
+        Ok(())
+    }
+}
+
+fn make_point(xy: Xy) -> Result<Point2, ShapeError> {
+    let p = point(xy);
+    // written so that NaN fails it
+    if p.x.abs() <= MAX_COORDINATE && p.y.abs() <= MAX_COORDINATE {
+        Ok(p)
+    } else {
+        Err(ShapeError::Coordinate(p.x, p.y))
+    }
+}
+
+pub(super) fn make_bounds(text: &BoundsText) -> Result<Bounds, WorldProblem> {
+    let (min, max) = (make_point(text.min)?, make_point(text.max)?);
+    make_box(min, max)?;
+    Ok(Bounds { min, max })
+}
+
+/// A box whose corners are given the right way round.
+fn make_box(min: Point2, max: Point2) -> Result<Shape, ShapeError> {
+    for side in [max.x - min.x, max.y - min.y] {
+        if side < 0.0 {
+            return Err(ShapeError::TooShort(side));
+        }
+    }
+    Shape::try_rectangle(min, max)
+}
+
+/// The points of a polyline, the first once more at the end when it is closed, and its segments.
+fn make_polyline(text: &PolylineText) -> Result<(Vec<Point2>, Vec<Shape>), WorldProblem> {
+    let least = if text.closed { 3 } else { 2 };
+    if text.points.len() < least {
+        return Err(WorldProblem::TooFewPoints { found: text.points.len(), least });
+    }
+    let mut points: Vec<Point2> = text.points.iter().map(|&xy| point(xy)).collect();
+    if text.closed {
+        points.push(points[0]);
+    }
+    let segment = |(index, ends): (usize, &[Point2])| {
+        Shape::try_segment(ends[0], ends[1]).map_err(|source| WorldProblem::Segment { index, source })
+    };
+    let segments = points.windows(2).enumerate().map(segment).collect::<Result<_, _>>()?;
+    Ok((points, segments))
+}
+
+pub(super) fn make_wall(text: &PolylineText, budget: &mut Budget) -> Result<Obstacle, WorldProblem> {
+    let (_, segments) = make_polyline(text)?;
+    budget.spend(segments.len())?;
+    let pieces = segments.into_iter().map(|s| (Pose2::IDENTITY, s)).collect();
+    Ok(Obstacle { name: text.name.clone(), kind: ObstacleKind::Wall, pieces })
+}
+
+pub(super) fn make_mark(text: &PolylineText) -> Result<Mark, WorldProblem> {
+    let (points, _) = make_polyline(text)?;
+    Ok(Mark { name: text.name.clone(), points })
+}
+
+pub(super) fn make_solid(text: &ObstacleText, budget: &mut Budget) -> Result<Obstacle, WorldProblem> {
+    let mut pieces = Vec::new();
+    make_pieces(&text.shape, &mut pieces, budget)?;
+    Ok(Obstacle { name: text.name.clone(), kind: ObstacleKind::Solid, pieces })
+}
+
+/// The recursion ends: ron reads no union nested deeper than its limit of 128.
+fn make_pieces(text: &ShapeText, out: &mut Vec<(Pose2, Shape)>, budget: &mut Budget) -> Result<(), WorldProblem> {
+    let before = out.len();
+    let at_origin = |shape| (Pose2::IDENTITY, shape);
+    match text {
+        ShapeText::Disc { center, radius } => {
+            let center = make_point(*center)?;
+            out.push((Pose2::new(center.x, center.y, 0.0), Shape::try_disc(*radius)?));
+        }
+        ShapeText::Box { min, max } => out.push(at_origin(make_box(make_point(*min)?, make_point(*max)?)?)),
+        ShapeText::Polygon(outline) => {
+            let pieces = convex_pieces(&outline.iter().map(|&xy| point(xy)).collect::<Vec<_>>())?;
+            out.extend(pieces.into_iter().map(|p| at_origin(Shape::Polygon(p))));
+        }
+        ShapeText::Rounded { points, radius } => {
+            let points: Vec<Point2> = points.iter().map(|&xy| make_point(xy)).collect::<Result<_, _>>()?;
+            out.push(at_origin(make_rounded(&points, *radius)?));
+        }
+        ShapeText::Union(members) => {
+            if members.is_empty() {
+                return Err(WorldProblem::EmptyUnion);
+            }
+            return members.iter().try_for_each(|member| make_pieces(member, out, budget));
+        }
+    }
+    budget.spend(out.len() - before)
+}
+
+fn make_rounded(points: &[Point2], radius: f64) -> Result<Shape, WorldProblem> {
+    let vertices = convex_hull(points);
+    let radius = match vertices.len() {
+        0 | 1 => return Err(WorldProblem::TooFewPoints { found: vertices.len(), least: 2 }),
+        2 => return Ok(Shape::try_capsule(vertices[0], vertices[1], radius)?),
+        _ if radius == 0.0 => 0.0,
+        _ => Shape::try_disc(radius)?.radius(),
+    };
+    for (i, a) in vertices.iter().enumerate() {
+        Shape::try_segment(*a, vertices[(i + 1) % vertices.len()])?;
+    }
+    Ok(Shape::Hull { vertices, radius })
+}
+
+pub(super) fn make_place(text: &PlaceText) -> Result<Place, WorldProblem> {
+    let p = make_point((text.pose.x, text.pose.y))?;
+    let theta = finite(text.pose.theta, "the heading")?;
+    Ok(Place { name: text.name.clone(), pose: Pose2::new(p.x, p.y, theta) })
+}
+
+fn finite(x: f64, what: &'static str) -> Result<f64, WorldProblem> {
+    if x.is_finite() { Ok(x + 0.0) } else { Err(WorldProblem::NotFinite(what)) }
+}
+
+pub(super) fn make_resident(text: &RobotText) -> Result<Resident, WorldProblem> {
+    let RobotText { name, kind, start } = text;
+    let (name, kind, mut start) = (name.clone(), kind.clone(), start.clone());
+    // how many of the coordinates are a position, and how many there may be
+    let (lengths, counts, expected) = match kind.as_str() {
+        "rusty" => (2, 3..=3, "three: x, y, theta"),
+        "reach" => (0, 2..=2, "two: th1, th2"),
+        "reach3" => (0, 3..=3, "three: th1, th2, th3"),
+        "hitch" => (2, 3..=4, "three: x, y, theta; or with a trailer four: x, y, theta, psi"),
+        own if own.len() > 2 && own.starts_with("x-") && check_name(own).is_ok() => (usize::MAX, 1..=64, "1 to 64"),
+        _ => return Err(WorldProblem::Kind(kind)),
+    };
+    if !counts.contains(&start.len()) {
+        return Err(WorldProblem::Start { kind, expected, found: start.len() });
+    }
+    for (i, x) in start.iter_mut().enumerate() {
+        *x = finite(*x, "a start coordinate")?;
+        if i >= lengths {
+            *x = num::wrap(*x);
+        }
+    }
+    if lengths == 2 {
+        make_point((start[0], start[1]))?;
+    }
+    Ok(Resident { name, kind, start })
+}

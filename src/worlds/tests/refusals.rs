@@ -1,0 +1,155 @@
+//! Every refusal names file, line, column, item and reason.
+
+use crate::worlds::World;
+
+/// The error of a file whose third line is this. (The first two hold the version, the name and the bounds.)
+fn refusal(line: &str) -> String {
+    let text = format!("World(version: 1, name: \"yard\",\n  bounds: (min: (0, 0), max: (4, 3)),\n{line}\n)");
+    World::parse("yard.ron", &text).unwrap_err().to_string()
+}
+
+/// The error of one obstacle of this shape.
+fn shape(shape: &str) -> String {
+    let error = refusal(&format!("obstacles: [(name: \"o\", shape: {shape})]"));
+    error.strip_prefix("yard.ron:3:13: obstacles[0] \"o\": ").unwrap_or(&error).to_owned()
+}
+
+fn polygon(points: &str) -> String {
+    shape(&format!("Polygon([{points}])"))
+}
+
+#[test]
+fn numbers_out_of_range() {
+    for bad in ["inf", "-inf", "NaN", "1e999", "10000.1", "-1e5"] {
+        assert!(shape(&format!("Disc(center: (0, {bad}), radius: 1)")).starts_with("point (0, "), "{bad}");
+        assert!(shape(&format!("Disc(center: (0, 0), radius: {bad})")).starts_with("radius "), "{bad}");
+        assert!(shape(&format!("Box(min: ({bad}, 0), max: (1, 1))")).starts_with("point ("), "{bad}");
+        assert!(polygon(&format!("(0, 0), (1, 0), ({bad}, 1)")).contains("vertex 2 is not finite"), "{bad}");
+        let wall = refusal(&format!("walls: [(name: \"w\", points: [(0, 0), (1, 1), (2, {bad})])]"));
+        assert!(wall.starts_with("yard.ron:3:9: walls[0] \"w\": from points[1] on: point (2, "), "{wall}");
+        let place = refusal(&format!("places: [(name: \"p\", pose: (x: 0, y: {bad}, theta: 0))]"));
+        assert!(place.starts_with("yard.ron:3:10: places[0] \"p\": point (0, "), "{place}");
+        let robot = refusal(&format!("robots: [(name: \"r\", kind: \"rusty\", start: [{bad}, 0, 0])]"));
+        assert!(robot.starts_with("yard.ron:3:10: robots[0] \"r\": "), "{robot}");
+    }
+    for bad in ["inf", "NaN", "1e999"] {
+        let place = refusal(&format!("places: [(name: \"p\", pose: (x: 0, y: 0, theta: {bad}))]"));
+        assert_eq!(place, "yard.ron:3:10: places[0] \"p\": the heading is not a finite number");
+        let robot = refusal(&format!("robots: [(name: \"r\", kind: \"x-own\", start: [0, {bad}])]"));
+        assert_eq!(robot, "yard.ron:3:10: robots[0] \"r\": a start coordinate is not a finite number");
+    }
+}
+
+#[test]
+fn features_too_small() {
+    assert!(shape("Disc(center: (0, 0), radius: 0.0009)").starts_with("radius 0.0009 m"));
+    assert!(shape("Disc(center: (0, 0), radius: -1)").starts_with("radius -1 m"));
+    assert!(shape("Box(min: (0, 0), max: (1, 0.0005))").starts_with("length 0.0005 m"));
+    assert!(shape("Box(min: (0, 0), max: (-1, 1))").starts_with("length -1 m"), "corners the wrong way round");
+    assert!(shape("Rounded(points: [(0, 0), (0, 0)], radius: 1)").starts_with("1 points: it needs at least 2"));
+    assert!(shape("Rounded(points: [(0, 0), (1, 0)], radius: 1e-4)").starts_with("radius 0.0001 m"));
+    assert!(shape("Rounded(points: [(0, 0), (1, 0), (0, 1)], radius: -1)").starts_with("radius -1 m"));
+    assert!(shape("Rounded(points: [(0, 0), (1, 0), (0, 0.0001)], radius: 1)").starts_with("length 0.0001 m"));
+    assert_eq!(shape("Union([])"), "a union of nothing");
+    let wall = |rest: &str| refusal(&format!("walls: [(name: \"w\", points: [{rest})]"));
+    assert!(wall("(0, 0), (1, 0), (1, 0)]").contains("walls[0] \"w\": from points[1] on: length 0 m"));
+    assert!(wall("(0, 0), (1, 0), (0, 0)], closed: true").contains("from points[2] on: length 0 m"));
+    assert!(wall("(0, 0)]").contains("1 points: it needs at least 2"));
+    assert!(wall("(0, 0), (1, 0)], closed: true").contains("2 points: it needs at least 3"));
+    let mark = refusal("marks: [(name: \"m\", points: [])]");
+    assert_eq!(mark, "yard.ron:3:9: marks[0] \"m\": 0 points: it needs at least 2");
+}
+
+#[test]
+fn polygons_that_are_none() {
+    assert_eq!(polygon("(0, 0), (1, 0)"), "polygon: a polygon needs at least 3 vertices, found 2");
+    let bow_tie = polygon("(0, 0), (1, 1), (1, 0), (0, 1)");
+    assert_eq!(bow_tie, "polygon: the edges after vertex 0 and vertex 2 cross or touch");
+    assert!(polygon("(0, 0), (1, 0), (1, 0), (0, 1)").contains("the edge after vertex 1 is shorter"));
+    assert!(polygon("(0, 0), (1, 0), (2, 0)").contains("cross or touch"), "flat");
+}
+
+#[test]
+fn forms_that_are_not_the_formats() {
+    let fence = "walls: [(name: \"fence\", points: [(0, 0), (1, 0)]),\n";
+    let unknown = refusal(&format!("{fence}   (name: \"gate\", points: [], colour: 3)]"));
+    assert!(unknown.starts_with("yard.ron:4:") && unknown.contains(": walls[1] \"gate\": "), "{unknown}");
+    assert!(unknown.contains("colour"), "{unknown}");
+    let nameless = refusal(&format!("{fence}   // no name\n   (points: [])]"));
+    assert!(nameless.starts_with("yard.ron:5:") && nameless.contains(": walls[1]: "), "{nameless}");
+    assert!(nameless.contains("`name`"), "{nameless}");
+    let text = refusal(&format!("{fence}\n\n   (\n     name: \"gate\",\n     points: \"all\")]"));
+    assert!(text.starts_with("yard.ron:8:") && text.contains(": walls[1] \"gate\": "), "{text}");
+    let list = refusal("gates: []");
+    assert!(list.starts_with("yard.ron:3:") && list.contains("gates"), "{list}");
+    let twice = refusal("walls: [], walls: []");
+    assert!(twice.starts_with("yard.ron:3:") && twice.contains("walls"), "{twice}");
+    assert!(shape("Ball(center: (0, 0), radius: 1)").contains("Ball"));
+    let open = refusal("walls: [");
+    assert!(open.starts_with("yard.ron:4:1: "), "{open}");
+}
+
+#[test]
+fn names_empty_or_taken() {
+    for bad in ["", " ", " x", "x\\n", "\\u{7}", &"x".repeat(201)] {
+        let error = refusal(&format!("places: [(name: \"{bad}\", pose: (x: 0, y: 0, theta: 0))]"));
+        assert!(error.contains(": it must be 1 to 200 bytes"), "{error}");
+    }
+    let place = "places: [(name: \"a\", pose: (x: 0, y: 0, theta: 0))],";
+    let wall = "walls: [(name: \"a\", points: [(0, 0), (1, 0)])],";
+    // whichever is written first, the lists' order decides who had it
+    let taken = "places[0] \"a\": the name is taken by walls[0] \"a\" in line";
+    assert_eq!(refusal(&format!("{wall}\n{place}")), format!("yard.ron:4:10: {taken} 3"));
+    assert_eq!(refusal(&format!("{place}\n{wall}")), format!("yard.ron:3:10: {taken} 4"));
+    for list in [
+        "marks: [(name: \"a\", points: [(0, 0), (1, 0)])]",
+        "robots: [(name: \"a\", kind: \"x-y\", start: [0])]",
+        "obstacles: [(name: \"a\", shape: Disc(center: (0, 0), radius: 1))]",
+    ] {
+        assert!(refusal(&format!("{place}{list}")).contains("the name is taken by "), "{list}");
+    }
+}
+
+#[test]
+fn robots_nobody_knows() {
+    let robot =
+        |kind: &str, start: &str| refusal(&format!("robots: [(name: \"r\", kind: \"{kind}\", start: [{start}])]"));
+    for kind in ["", "Rusty", "drone", "x-", "x", "x-\\n"] {
+        assert!(robot(kind, "0, 0, 0").contains("robots[0] \"r\": kind "), "{kind}");
+    }
+    assert!(robot("rusty", "0, 0").ends_with("2 start coordinates: a rusty starts with three: x, y, theta"));
+    for (kind, start) in [
+        ("reach", "0"),
+        ("reach", "0, 0, 0"),
+        ("reach3", "0, 0"),
+        ("hitch", "0, 0"),
+        ("hitch", "0, 0, 0, 0, 0"),
+        ("x-own", ""),
+    ] {
+        assert!(robot(kind, start).contains("start coordinates: "), "{kind}");
+    }
+}
+
+#[test]
+fn the_head_of_the_file() {
+    let parse = |text: &str| World::parse("w.ron", text).unwrap_err().to_string();
+    let bounds = "bounds: (min: (0, 0), max: (1, 1))";
+    assert_eq!(
+        parse(&format!("// new\nWorld(\n  version: 2, name: \"w\", sky: Blue, {bounds})")),
+        "w.ron:3:12: version 2: this program reads version 1"
+    );
+    assert!(parse(&format!("World(name: \"w\", {bounds})")).contains("`version`"));
+    assert!(parse(&format!("World(version: 1, name: \"\", {bounds})")).starts_with("w.ron:1:25: name \"\": "));
+    assert!(
+        parse("World(version: 1, name: \"w\",\n bounds: (min: (0, 0), max: (0, 1)))")
+            .starts_with("w.ron:2:10: length 0")
+    );
+    assert!(
+        parse("World(version: 1, name: \"w\",\n bounds: (min: (0, 0), max: (inf, 1)))")
+            .starts_with("w.ron:2:10: point")
+    );
+    assert!(parse("World(version: 1, name: \"w\")").contains("`bounds`"));
+    assert!(parse("").starts_with("w.ron:1:1: "));
+    assert!(parse("Lot(version: 1)").starts_with("w.ron:1:"));
+    assert!(parse(&format!("World(version: 1, name: \"w\", {bounds}) more")).starts_with("w.ron:1:"));
+}
