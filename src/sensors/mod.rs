@@ -1,5 +1,7 @@
 //! Sensors: what a robot can find out about the world.
 
+mod beam;
 mod range;
 
+pub use beam::{BeamError, BeamModel};
 pub use range::{RangeSensor, SensorError};
