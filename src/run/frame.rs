@@ -2,17 +2,8 @@
 
 use smallvec::SmallVec;
 
+use super::field::{Field, Value};
 use crate::configuration::Coordinates;
-
-/// A run's digest: xxh3-128 over the canonical encoding.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub struct Digest(pub u128);
-
-impl std::fmt::Display for Digest {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        write!(f, "{:032x}", self.0)
-    }
-}
 
 /// The state of one robot after a tick: all that is needed to go on from here.
 ///
@@ -60,4 +51,134 @@ pub struct RobotScan {
     pub robot: u32,
     /// The range of each ray, metres; infinity where nothing is in range.
     pub ranges: Vec<f64>,
+}
+
+impl Frame {
+    /// Calls `visit` for every value of the frame in canonical order: the robot it belongs to, its name, the value.
+    ///
+    /// This one list is the canonical encoding, the digest's input and what a divergence is found in. A list's length
+    /// comes before its items, so two frames' lists run alike up to their first difference.
+    pub(super) fn visit(&self, visit: &mut impl FnMut(Option<u32>, Field, Value)) {
+        // taken apart by name, so that a field added later can't be forgotten here
+        let Frame { tick, robots, scans } = self;
+        visit(None, Field::one("tick"), Value::Count(*tick));
+        visit(None, Field::one("robots.len"), Value::of_len(robots.len()));
+        for robot in robots {
+            robot.visit(visit);
+        }
+        visit(None, Field::one("scans.len"), Value::of_len(scans.len()));
+        for RobotScan { robot, ranges } in scans {
+            visit(Some(*robot), Field::one("scan.robot"), Value::Count(u64::from(*robot)));
+            visit_list(Some(*robot), "ranges.len", "ranges", ranges, visit);
+        }
+    }
+
+    /// Appends the canonical encoding to `out`: a sequence of 64-bit words, each little-endian.
+    ///
+    /// | words | what |
+    /// |---|---|
+    /// | 1 | the tick |
+    /// | 1 | the number of robots, then for each: |
+    /// | 1 | its id |
+    /// | 1 + n | the number of its configuration's coordinates, and these |
+    /// | 1 + n | the number of its extra values, and these |
+    /// | 2 | its two control channels, two's complement |
+    /// | 1 + n | the number of its target's coordinates, and these |
+    /// | 2 | manual, in contact: 0 or 1 |
+    /// | 3 | contact episodes, ticks of flash, refusals |
+    /// | 1 | the number of scans, then for each: |
+    /// | 1 | its robot's id |
+    /// | 1 + n | the number of its ranges, and these |
+    ///
+    /// An `f64` is its bits. No two frames that differ in a bit have one encoding, and none's is the beginning of another's.
+    pub fn encode(&self, out: &mut Vec<u8>) {
+        self.visit(&mut |_, _, value| out.extend_from_slice(&value.bits().to_le_bytes()));
+    }
+
+    /// The first NaN in canonical order: its robot and the field's name.
+    pub fn first_nan(&self) -> Option<(u32, String)> {
+        let mut found = None;
+        self.visit(&mut |robot, field, value| {
+            if let (None, Some(robot), Value::Float(x)) = (&found, robot, value)
+                && x.is_nan()
+            {
+                found = Some((robot, field.to_string()));
+            }
+        });
+        found
+    }
+}
+
+impl RobotState {
+    fn visit(&self, visit: &mut impl FnMut(Option<u32>, Field, Value)) {
+        let RobotState { id, configuration, extra, channels, target, manual, in_contact, contacts, flash, refusals } =
+            self;
+        let robot = Some(*id);
+        visit(robot, Field::one("id"), Value::Count(u64::from(*id)));
+        visit_list(robot, "configuration.len", "configuration", configuration, visit);
+        visit_list(robot, "extra.len", "extra", extra, visit);
+        for (i, channel) in channels.iter().enumerate() {
+            visit(robot, Field::item("channels", i), Value::Integer(i64::from(*channel)));
+        }
+        visit_list(robot, "target.len", "target", target, visit);
+        visit(robot, Field::one("manual"), Value::Flag(*manual));
+        visit(robot, Field::one("in_contact"), Value::Flag(*in_contact));
+        visit(robot, Field::one("contacts"), Value::Count(u64::from(*contacts)));
+        visit(robot, Field::one("flash"), Value::Count(u64::from(*flash)));
+        visit(robot, Field::one("refusals"), Value::Count(u64::from(*refusals)));
+    }
+}
+
+fn visit_list(
+    robot: Option<u32>,
+    len_name: &'static str,
+    name: &'static str,
+    list: &[f64],
+    visit: &mut impl FnMut(Option<u32>, Field, Value),
+) {
+    visit(robot, Field::one(len_name), Value::of_len(list.len()));
+    for (i, x) in list.iter().enumerate() {
+        visit(robot, Field::item(name, i), Value::Float(*x));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::fixture;
+    use super::*;
+
+    #[test]
+    fn the_encoding_is_the_documented_words() {
+        let state = RobotState {
+            id: 7,
+            configuration: [1.0, -0.0].into_iter().collect(),
+            extra: [f64::INFINITY].into_iter().collect(),
+            channels: [-128, 5],
+            target: Coordinates::new(),
+            manual: true,
+            in_contact: false,
+            contacts: 3,
+            flash: 4,
+            refusals: 6,
+        };
+        let frame = Frame { tick: 9, robots: vec![state], scans: vec![RobotScan { robot: 7, ranges: vec![2.5] }] };
+        let mut bytes = Vec::new();
+        frame.encode(&mut bytes);
+        let words: Vec<u64> = bytes.as_chunks::<8>().0.iter().map(|c| u64::from_le_bytes(*c)).collect();
+        let (one, minus_zero, infinity) = (0x3ff0_0000_0000_0000, 0x8000_0000_0000_0000, 0x7ff0_0000_0000_0000);
+        let expected = [9, 1, 7, 2, one, minus_zero, 1, infinity, 128_u64.wrapping_neg(), 5, 0, 1, 0, 3, 4, 6, 1, 7, 1];
+        assert_eq!(words[..19], expected);
+        assert_eq!(words[19..], [2.5_f64.to_bits()]);
+        assert_eq!(bytes.len(), 160, "whole words only");
+    }
+
+    #[test]
+    fn a_nan_is_found_wherever_it_hides() {
+        let mut frame = fixture::frame(3);
+        assert_eq!(frame.first_nan(), None);
+        frame.scans[0].ranges[1] = f64::NAN;
+        assert_eq!(frame.first_nan(), Some((0, "ranges[1]".into())));
+        frame.robots[1].extra.push(f64::NAN);
+        assert_eq!(frame.first_nan(), Some((1, "extra[0]".into())), "robots come before scans");
+    }
 }

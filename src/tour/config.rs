@@ -1,10 +1,23 @@
 //! `TourConfig`, what is run: the worlds with their resident robots, for how long, with which sensor.
 
+use std::collections::BTreeSet;
+
 use crate::random::Seed;
 use crate::worlds::World;
 
 /// The seed of every run printed in the book.
 pub const BOOK_SEED: Seed = Seed(2005);
+
+/// The greatest number of ticks in a run: nearly seven years at 20 Hz.
+pub const MAX_TICKS: u64 = 1 << 32;
+/// The greatest number of rays of a range sensor.
+pub const MAX_RAYS: u32 = 100_000;
+/// The greatest range of a range sensor, metres.
+pub const MAX_RANGE: f64 = 1e4;
+/// The greatest number of worlds in a run.
+pub const MAX_WORLDS: usize = 1000;
+/// The greatest number of robots in a run.
+pub const MAX_ROBOTS: usize = 100_000;
 
 /// A range sensor as a run configures it.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -24,4 +37,145 @@ pub struct TourConfig {
     pub ticks: u64,
     /// The range sensor of every Rusty; `None` for none.
     pub sensor: Option<SensorConfig>,
+}
+
+/// Why a configuration is refused.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum ConfigError {
+    /// Too long a run.
+    #[error("{0} ticks: at most {MAX_TICKS}")]
+    Ticks(u64),
+    /// A sensor without rays, or with too many.
+    #[error("{0} rays: there must be 1 to {MAX_RAYS}")]
+    Rays(u32),
+    /// A range that is not finite, not positive, or too large.
+    #[error("range {0} m: it must be above 0 and at most {MAX_RANGE} m")]
+    Range(f64),
+    /// No world, or too many.
+    #[error("{0} worlds: there must be 1 to {MAX_WORLDS}")]
+    Worlds(usize),
+    /// Too many robots.
+    #[error("{0} robots: at most {MAX_ROBOTS}")]
+    Robots(usize),
+    /// Two robots of one name, in one world or two.
+    #[error("two robots are named {robot:?}, the second in world {world:?}: a script could not tell them apart")]
+    RobotName {
+        /// The name.
+        robot: String,
+        /// The world of the second one.
+        world: String,
+    },
+    /// A start coordinate that is NaN or infinite.
+    #[error("robot {robot:?} in world {world:?}: start coordinate {value} is not a finite number")]
+    Start {
+        /// The robot.
+        robot: String,
+        /// Its world.
+        world: String,
+        /// The coordinate.
+        value: f64,
+    },
+}
+
+impl TourConfig {
+    /// The robots' names by ascending id.
+    pub fn robot_names(&self) -> impl Iterator<Item = &str> {
+        self.worlds.iter().flat_map(|w| &w.robots).map(|r| r.name.as_str())
+    }
+
+    /// Whether this can be run. The worlds themselves were checked when they were made.
+    ///
+    /// # Errors
+    /// [`ConfigError`], for the first thing out of range.
+    pub fn validate(&self) -> Result<(), ConfigError> {
+        if self.ticks > MAX_TICKS {
+            return Err(ConfigError::Ticks(self.ticks));
+        }
+        if let Some(SensorConfig { n_rays, max_range }) = self.sensor {
+            if !(1..=MAX_RAYS).contains(&n_rays) {
+                return Err(ConfigError::Rays(n_rays));
+            }
+            // written so that NaN fails
+            if !(max_range > 0.0 && max_range <= MAX_RANGE) {
+                return Err(ConfigError::Range(max_range));
+            }
+        }
+        if !(1..=MAX_WORLDS).contains(&self.worlds.len()) {
+            return Err(ConfigError::Worlds(self.worlds.len()));
+        }
+        let robots = self.robot_names().count();
+        if robots > MAX_ROBOTS {
+            return Err(ConfigError::Robots(robots));
+        }
+        let mut names = BTreeSet::new();
+        for (world, robot) in self.worlds.iter().flat_map(|w| w.robots.iter().map(move |r| (w, r))) {
+            let (world, name) = (world.name.clone(), robot.name.clone());
+            if !names.insert(&robot.name) {
+                return Err(ConfigError::RobotName { robot: name, world });
+            }
+            if let Some(&value) = robot.start.iter().find(|x| !x.is_finite()) {
+                return Err(ConfigError::Start { robot: name, world, value });
+            }
+        }
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::Point2;
+    use crate::worlds::{Bounds, Resident};
+
+    fn world(name: &str, robots: &[&str]) -> World {
+        let bounds = Bounds { min: Point2::new(0.0, 0.0), max: Point2::new(1.0, 1.0) };
+        let resident = |name: &&str| Resident { name: (*name).into(), kind: "rusty".into(), start: vec![0.5; 3] };
+        World {
+            name: name.into(),
+            bounds,
+            obstacles: vec![],
+            places: vec![],
+            marks: vec![],
+            robots: robots.iter().map(resident).collect(),
+        }
+    }
+
+    fn config() -> TourConfig {
+        let sensor = Some(SensorConfig { n_rays: MAX_RAYS, max_range: MAX_RANGE });
+        TourConfig { worlds: vec![world("one", &["a", "b"]), world("two", &["c"])], ticks: MAX_TICKS, sensor }
+    }
+
+    #[test]
+    fn the_limits_themselves_are_allowed() {
+        assert_eq!(config().validate(), Ok(()));
+        assert_eq!(config().robot_names().collect::<Vec<_>>(), ["a", "b", "c"], "by id");
+        let least = SensorConfig { n_rays: 1, max_range: f64::MIN_POSITIVE };
+        assert_eq!(TourConfig { sensor: Some(least), ticks: 0, ..config() }.validate(), Ok(()));
+        assert_eq!(TourConfig { sensor: None, worlds: vec![world("bare", &[])], ..config() }.validate(), Ok(()));
+    }
+
+    #[test]
+    fn what_lies_beyond_them_is_refused() {
+        type Change = fn(&mut TourConfig);
+        let changes: [(&str, Change); 11] = [
+            ("4294967297 ticks", |c| c.ticks += 1),
+            ("0 rays", |c| c.sensor = Some(SensorConfig { n_rays: 0, max_range: 1.0 })),
+            ("100001 rays", |c| c.sensor = Some(SensorConfig { n_rays: MAX_RAYS + 1, max_range: 1.0 })),
+            ("range NaN", |c| c.sensor = Some(SensorConfig { n_rays: 1, max_range: f64::NAN })),
+            ("range inf", |c| c.sensor = Some(SensorConfig { n_rays: 1, max_range: f64::INFINITY })),
+            ("range 0 m", |c| c.sensor = Some(SensorConfig { n_rays: 1, max_range: 0.0 })),
+            ("range 10000.00", |c| c.sensor = Some(SensorConfig { n_rays: 1, max_range: 10_000.000_000_000_002 })),
+            ("0 worlds", |c| c.worlds.clear()),
+            ("1001 worlds", |c| c.worlds = vec![world("w", &[]); 1001]),
+            ("two robots are named \"a\", the second in world \"two\"", |c| c.worlds[1].robots[0].name = "a".into()),
+            ("robot \"b\" in world \"one\": start coordinate NaN", |c| c.worlds[0].robots[1].start[2] = f64::NAN),
+        ];
+        for (reason, change) in changes {
+            let mut changed = config();
+            change(&mut changed);
+            let error = changed.validate().expect_err(reason).to_string();
+            assert!(error.starts_with(reason), "{error}");
+        }
+    }
 }

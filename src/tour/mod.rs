@@ -2,4 +2,6 @@
 
 mod config;
 
-pub use config::{BOOK_SEED, SensorConfig, TourConfig};
+pub use config::{
+    BOOK_SEED, ConfigError, MAX_RANGE, MAX_RAYS, MAX_ROBOTS, MAX_TICKS, MAX_WORLDS, SensorConfig, TourConfig,
+};

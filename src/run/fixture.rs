@@ -1,0 +1,71 @@
+//! A small run for tests: two robots, three ticks, numbers of every sort.
+
+use super::{DT, Event, Frame, Log, Quantized, RobotInput, RobotScan, RobotState, SCRIPT_VERSION, Script};
+use crate::configuration::Coordinates;
+use crate::geometry::Point2;
+use crate::random::Seed;
+use crate::tour::{SensorConfig, TourConfig};
+use crate::worlds::{Bounds, Resident, World};
+
+const SUBNORMAL: f64 = 4.9e-324;
+
+pub fn frame(tick: u64) -> Frame {
+    let time = tick as f64 * DT;
+    let car = RobotState {
+        id: 0,
+        configuration: Coordinates::from_slice(&[1.0 + time, -0.0, SUBNORMAL]),
+        extra: [-0.0, f64::MAX, -SUBNORMAL].into_iter().collect(),
+        channels: [-128, 128],
+        target: Coordinates::new(),
+        manual: true,
+        in_contact: tick == 2,
+        contacts: u32::from(tick >= 2),
+        flash: u32::MAX,
+        refusals: 0,
+    };
+    let arm = RobotState {
+        id: 1,
+        configuration: Coordinates::from_slice(&[0.1 * time, 0.0]),
+        extra: [].into_iter().collect(),
+        channels: [0, 0],
+        target: Coordinates::from_slice(&[f64::MIN_POSITIVE, -1.0 / 3.0]),
+        manual: false,
+        in_contact: false,
+        contacts: 0,
+        flash: 0,
+        refusals: 1,
+    };
+    let scan = RobotScan { robot: 0, ranges: vec![0.0, 1.0 + time, f64::INFINITY] };
+    Frame { tick, robots: vec![car, arm], scans: vec![scan] }
+}
+
+pub fn log() -> Log {
+    let resident = |name: &str, kind: &str, start: &[f64]| Resident {
+        name: name.into(),
+        kind: kind.into(),
+        start: start.to_vec(),
+    };
+    let world = World {
+        name: "Yard".into(),
+        bounds: Bounds { min: Point2::new(-1.0, -2.0), max: Point2::new(3.0, 4.0) },
+        obstacles: vec![],
+        places: vec![],
+        marks: vec![],
+        robots: vec![resident("Car", "rusty", &[1.0, 0.1, 0.2]), resident("Arm", "reach", &[0.0, 0.5])],
+    };
+    let event = |tick, robot: &str, input| Event { tick, robot: robot.into(), input };
+    let events = vec![
+        event(1, "Car", RobotInput::Drive(-128, 128)),
+        event(1, "Arm", RobotInput::MoveTo(vec![Quantized(1 << 20), Quantized(-1)])),
+        event(3, "Car", RobotInput::Release),
+    ];
+    let frames: Vec<Frame> = (1..=3).map(frame).collect();
+    Log {
+        seed: Seed(u64::MAX - 1),
+        config: TourConfig { worlds: vec![world], ticks: 3, sensor: Some(SensorConfig { n_rays: 3, max_range: 4.0 }) },
+        script: Script { version: SCRIPT_VERSION, events },
+        initial: frame(0),
+        digests: frames.iter().map(Frame::digest).collect(),
+        frames,
+    }
+}

@@ -1,0 +1,130 @@
+//! `LogError` and `DamagedLog`, what can be wrong with a log.
+
+use std::fmt;
+
+use super::ReadLog;
+use crate::run::ScriptError;
+use crate::tour::ConfigError;
+
+/// Why a log can't be written, or a file can't be read as one.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum LogError {
+    /// The output failed.
+    #[error("the log can't be written: {0}")]
+    Io(#[from] std::io::Error),
+    /// The configuration is out of range.
+    #[error("the configuration: {0}")]
+    Config(#[from] ConfigError),
+    /// The script is out of range, or names a robot that the run does not have.
+    #[error("the script: {0}")]
+    Script(#[from] ScriptError),
+    /// A frame out of order.
+    #[error("the frame of tick {found} came where that of tick {expected} belongs")]
+    Order {
+        /// The tick that is due.
+        expected: u64,
+        /// The frame's tick.
+        found: u64,
+    },
+    /// A frame after the last tick of the run.
+    #[error("tick {tick} lies beyond the run's {ticks} ticks")]
+    Beyond {
+        /// The frame's tick.
+        tick: u64,
+        /// The ticks configured.
+        ticks: u64,
+    },
+    /// A frame whose robots are not the run's, by ascending id.
+    #[error("tick {tick}: the frame's robots or scans are not those of the run's {robots} robots by ascending id")]
+    Robots {
+        /// The frame's tick.
+        tick: u64,
+        /// How many robots the run has.
+        robots: usize,
+    },
+    /// A NaN in a frame.
+    #[error("tick {tick}, robot {robot}: {field} is not a number")]
+    NotANumber {
+        /// The frame's tick.
+        tick: u64,
+        /// The robot's id.
+        robot: u32,
+        /// The name of the value.
+        field: String,
+    },
+    /// A digest that is not its frame's, or is missing.
+    #[error("tick {tick}: the digest is not that of the frame")]
+    Digest {
+        /// The tick.
+        tick: u64,
+    },
+    /// A log finished before its last tick.
+    #[error("{recorded} of {ticks} ticks are recorded")]
+    Incomplete {
+        /// The ticks recorded.
+        recorded: u64,
+        /// The ticks configured.
+        ticks: u64,
+    },
+    /// The file is something else.
+    #[error("this is not a run log: it does not begin as an MCAP file does")]
+    NotALog,
+    /// A log in a version of the format that this program does not read.
+    #[error("the log has format version {0:?}; this program reads version {version:?}", version = super::FORMAT_VERSION)]
+    Version(String),
+    /// The part before the first tick is as it was written, but something in it can't be used.
+    #[error("{item} in the log: {reason}")]
+    Content {
+        /// The attachment or metadata entry.
+        item: String,
+        /// The reason.
+        reason: String,
+    },
+    /// The part before the first tick is sealed, but not what this format prescribes.
+    #[error("the log was not written by motion-lab: from byte {offset} on it is not what its own content prescribes")]
+    Foreign {
+        /// The first byte that differs.
+        offset: u64,
+    },
+    /// The file was cut or changed after it was written. What is sealed is delivered.
+    #[error("{0}")]
+    Damaged(Box<DamagedLog>),
+}
+
+/// What is left of a file that was cut or changed.
+#[derive(Debug)]
+pub struct DamagedLog {
+    /// The sealed beginning, equal to the original's to the last bit; `None` when the part before the first tick is
+    /// damaged.
+    pub recovered: Option<ReadLog>,
+    /// The number of sealed ticks.
+    pub sealed_ticks: u64,
+    /// Where the sealed bytes end: a run cut short goes on from here.
+    pub first_unsealed_offset: u64,
+    /// What probably happened.
+    pub kind: DamageKind,
+}
+
+/// What probably happened to a damaged file: a best guess.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum DamageKind {
+    /// The end is missing: recording was stopped, or the file was copied in part.
+    Cut,
+    /// Bytes were changed, or added at the end.
+    Changed,
+}
+
+impl fmt::Display for DamagedLog {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let what = match self.kind {
+            DamageKind::Cut => "is cut off",
+            DamageKind::Changed => "has been changed",
+        };
+        write!(f, "the log {what} after byte {}: ", self.first_unsealed_offset)?;
+        match (&self.recovered, self.sealed_ticks) {
+            (None, _) => write!(f, "the part before the first tick is not whole, so nothing can be recovered"),
+            (Some(read), n) => write!(f, "{n} of {} ticks are whole", read.log.config.ticks),
+        }
+    }
+}

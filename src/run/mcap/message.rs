@@ -1,0 +1,178 @@
+//! The log's messages: protobuf, as `assets/schema/motion_lab.proto` describes them.
+//!
+//! A single float is `optional` and several are `repeated`: plain proto3 floats lose the sign of -0.0.
+
+use prost::{Message, Oneof};
+
+use super::super::{DT, Digest, Event, Frame, Quantized, RobotInput, RobotScan, RobotState};
+
+/// The compiled schema, a serialized `FileDescriptorSet`: what tells other programs how to read the messages.
+pub const SCHEMA: &[u8] = include_bytes!("../../../assets/schema/motion_lab.binpb");
+
+#[derive(Clone, PartialEq, Message)]
+pub struct FrameMessage {
+    #[prost(uint64, tag = "1")]
+    pub tick: u64,
+    #[prost(double, optional, tag = "2")]
+    pub time: Option<f64>,
+    #[prost(message, repeated, tag = "3")]
+    pub robots: Vec<RobotStateMessage>,
+}
+
+#[derive(Clone, PartialEq, Message)]
+pub struct RobotStateMessage {
+    #[prost(uint32, tag = "1")]
+    pub id: u32,
+    #[prost(double, repeated, tag = "2")]
+    pub configuration: Vec<f64>,
+    #[prost(double, repeated, tag = "3")]
+    pub extra: Vec<f64>,
+    #[prost(sint32, repeated, tag = "4")]
+    pub channels: Vec<i32>,
+    #[prost(double, repeated, tag = "5")]
+    pub target: Vec<f64>,
+    #[prost(bool, tag = "6")]
+    pub manual: bool,
+    #[prost(bool, tag = "7")]
+    pub in_contact: bool,
+    #[prost(uint32, tag = "8")]
+    pub contacts: u32,
+    #[prost(uint32, tag = "9")]
+    pub flash: u32,
+    #[prost(uint32, tag = "10")]
+    pub refusals: u32,
+}
+
+#[derive(Clone, PartialEq, Message)]
+pub struct ScanMessage {
+    #[prost(uint64, tag = "1")]
+    pub tick: u64,
+    #[prost(uint32, tag = "2")]
+    pub robot: u32,
+    #[prost(double, optional, tag = "3")]
+    pub max_range: Option<f64>,
+    #[prost(double, repeated, tag = "4")]
+    pub ranges: Vec<f64>,
+}
+
+#[derive(Clone, PartialEq, Message)]
+pub struct InputMessage {
+    #[prost(uint64, tag = "1")]
+    pub tick: u64,
+    #[prost(string, tag = "2")]
+    pub robot: String,
+    #[prost(oneof = "InputKind", tags = "3, 4, 5, 6, 7")]
+    pub input: Option<InputKind>,
+}
+
+#[derive(Clone, PartialEq, Oneof)]
+pub enum InputKind {
+    #[prost(message, tag = "3")]
+    Drive(DriveMessage),
+    #[prost(message, tag = "4")]
+    MoveTo(CoordinatesMessage),
+    #[prost(message, tag = "5")]
+    Teleport(CoordinatesMessage),
+    #[prost(bool, tag = "6")]
+    SetTrailer(bool),
+    #[prost(message, tag = "7")]
+    Release(ReleaseMessage),
+}
+
+#[derive(Clone, PartialEq, Message)]
+pub struct DriveMessage {
+    #[prost(sint32, tag = "1")]
+    pub first: i32,
+    #[prost(sint32, tag = "2")]
+    pub second: i32,
+}
+
+#[derive(Clone, PartialEq, Message)]
+pub struct CoordinatesMessage {
+    #[prost(double, repeated, tag = "1")]
+    pub values: Vec<f64>,
+}
+
+#[derive(Clone, PartialEq, Message)]
+pub struct ReleaseMessage {}
+
+#[derive(Clone, PartialEq, Message)]
+pub struct DigestMessage {
+    #[prost(uint64, tag = "1")]
+    pub tick: u64,
+    #[prost(string, tag = "2")]
+    pub xxh3_128: String,
+}
+
+impl FrameMessage {
+    pub fn of(frame: &Frame) -> Self {
+        let robot = |r: &RobotState| RobotStateMessage {
+            id: r.id,
+            configuration: r.configuration.to_vec(),
+            extra: r.extra.to_vec(),
+            channels: r.channels.map(i32::from).to_vec(),
+            target: r.target.to_vec(),
+            manual: r.manual,
+            in_contact: r.in_contact,
+            contacts: r.contacts,
+            flash: r.flash,
+            refusals: r.refusals,
+        };
+        // ticks stay below 2^53, so the product is rounded once
+        let time = Some(frame.tick as f64 * DT);
+        FrameMessage { tick: frame.tick, time, robots: frame.robots.iter().map(robot).collect() }
+    }
+
+    /// The frame, without its scans; `None` for control channels that are not two, or don't fit.
+    pub fn into_frame(self) -> Option<Frame> {
+        let robot = |r: RobotStateMessage| {
+            let [first, second] = r.channels[..] else { return None };
+            Some(RobotState {
+                id: r.id,
+                configuration: r.configuration.into(),
+                extra: r.extra.into(),
+                channels: [i16::try_from(first).ok()?, i16::try_from(second).ok()?],
+                target: r.target.into(),
+                manual: r.manual,
+                in_contact: r.in_contact,
+                contacts: r.contacts,
+                flash: r.flash,
+                refusals: r.refusals,
+            })
+        };
+        let robots = self.robots.into_iter().map(robot).collect::<Option<Vec<_>>>()?;
+        Some(Frame { tick: self.tick, robots, scans: Vec::new() })
+    }
+}
+
+impl ScanMessage {
+    pub fn of(tick: u64, max_range: Option<f64>, scan: &RobotScan) -> Self {
+        ScanMessage { tick, robot: scan.robot, max_range, ranges: scan.ranges.clone() }
+    }
+
+    pub fn into_scan(self) -> RobotScan {
+        RobotScan { robot: self.robot, ranges: self.ranges }
+    }
+}
+
+impl InputMessage {
+    pub fn of(event: &Event) -> Self {
+        let coordinates = |q: &[Quantized]| CoordinatesMessage { values: q.iter().map(|c| c.value()).collect() };
+        let input = match &event.input {
+            RobotInput::Drive(first, second) => {
+                InputKind::Drive(DriveMessage { first: i32::from(*first), second: i32::from(*second) })
+            }
+            RobotInput::MoveTo(q) => InputKind::MoveTo(coordinates(q)),
+            RobotInput::Teleport(q) => InputKind::Teleport(coordinates(q)),
+            RobotInput::SetTrailer(on) => InputKind::SetTrailer(*on),
+            RobotInput::Release => InputKind::Release(ReleaseMessage {}),
+        };
+        InputMessage { tick: event.tick, robot: event.robot.clone(), input: Some(input) }
+    }
+}
+
+impl DigestMessage {
+    pub fn of(tick: u64, digest: Digest) -> Self {
+        DigestMessage { tick, xxh3_128: digest.to_string() }
+    }
+}

@@ -1,0 +1,51 @@
+//! The log as a file: MCAP, unchunked and uncompressed, which Foxglove, Lichtblick, Rerun and PlotJuggler open.
+//!
+//! The file is a sequence of pieces, each ended by a *seal*: a record with opcode 0x80, which other readers skip, of the
+//! tick (64 bits), the offset of the seal itself (64 bits) and the xxh3-128 of every byte before it; little-endian.
+//!
+//! | piece | records |
+//! |---|---|
+//! | before the first tick | header; metadata `motion-lab`: format, program, seed, dt, ticks, generator and the content hash of each world; attachments `config.ron`, `worlds/0.ron` and so on, `script.ron`; schemas; channels; the messages of tick 0, the initial state; seal |
+//! | each tick | its messages on `/input`, `/frame`, `/scan`, `/digest`; seal |
+//! | the end | data end; summary: schemas, channels, statistics, indexes; footer; magic |
+//!
+//! A message's times are tick * 50 ms from zero. No clock is read, so the same run gives the same bytes.
+
+mod encoder;
+mod error;
+mod message;
+mod preamble;
+mod reader;
+mod record;
+#[cfg(test)]
+mod tests;
+mod writer;
+
+pub use error::{DamageKind, DamagedLog, LogError};
+pub use reader::ReadLog;
+pub use writer::LogWriter;
+
+/// The version of the log format that this program writes and reads.
+pub const FORMAT_VERSION: &str = "1";
+/// Where a run's random numbers come from: see [`Stream`](crate::random::Stream).
+pub const GENERATOR: &str = "chacha8, a stream per name, keyed by xxh3-128";
+/// A tick's length in nanoseconds: [`DT`](crate::run::DT).
+const TICK_NANOSECONDS: u64 = 50_000_000;
+const PROFILE: &str = "motion-lab";
+const MEDIA_TYPE: &str = "text/x-ron";
+
+/// The channels' topics and message types; their ids count from 1, and so do their schemas'.
+const CHANNELS: [(&str, &str); 4] = [
+    ("/input", "motion_lab.Input"),
+    ("/frame", "motion_lab.Frame"),
+    ("/scan", "motion_lab.Scan"),
+    ("/digest", "motion_lab.Digest"),
+];
+
+/// The channels' ids.
+mod channel {
+    pub const INPUT: u16 = 1;
+    pub const FRAME: u16 = 2;
+    pub const SCAN: u16 = 3;
+    pub const DIGEST: u16 = 4;
+}

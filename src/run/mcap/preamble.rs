@@ -1,0 +1,219 @@
+//! `Preamble`, what a log holds before its first tick: everything that determines the run.
+
+use std::collections::BTreeMap;
+
+use serde::Deserialize;
+
+use super::record::{self, Cursor, Record, opcode, put_map, put_record, put_str, put_u64};
+use super::{FORMAT_VERSION, GENERATOR, LogError};
+use crate::random::Seed;
+use crate::run::{DT, Frame, Script};
+use crate::tour::{SensorConfig, TourConfig};
+use crate::worlds::World;
+
+/// The name of the metadata record.
+const METADATA: &str = "motion-lab";
+const CONFIG: &str = "config.ron";
+const SCRIPT: &str = "script.ron";
+
+/// A run before its first tick, with the texts that stand for it in the file.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Preamble {
+    pub seed: Seed,
+    pub config: TourConfig,
+    pub script: Script,
+    pub initial: Frame,
+    /// The program that wrote the log.
+    pub program: String,
+    /// The worlds' files, in order: kept as they were read, so that another program version's way of writing one does no harm.
+    pub world_texts: Vec<String>,
+}
+
+/// Where a metadata record or an attachment lies, for the summary at the end.
+#[derive(Clone, Debug)]
+pub struct Indexed {
+    pub opcode: u8,
+    pub offset: u64,
+    pub length: u64,
+    pub data_size: u64,
+    pub name: String,
+}
+
+/// The configuration as the file has it. The worlds are named by their attachments.
+#[derive(Deserialize)]
+#[serde(rename = "Config", deny_unknown_fields)]
+struct ConfigText {
+    ticks: u64,
+    sensor: Option<SensorText>,
+    worlds: Vec<String>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct SensorText {
+    n_rays: u32,
+    max_range: f64,
+}
+
+fn world_file(index: usize) -> String {
+    format!("worlds/{index}.ron")
+}
+
+impl Preamble {
+    /// The preamble of a run that this program records.
+    pub fn new(seed: Seed, config: &TourConfig, script: &Script, initial: &Frame) -> Result<Self, LogError> {
+        let preamble = Preamble {
+            seed,
+            config: config.clone(),
+            script: script.clone(),
+            initial: initial.clone(),
+            program: concat!("motion-lab ", env!("CARGO_PKG_VERSION")).to_owned(),
+            world_texts: config.worlds.iter().map(World::to_ron).collect(),
+        };
+        preamble.check()?;
+        Ok(preamble)
+    }
+
+    fn check(&self) -> Result<(), LogError> {
+        self.config.validate()?;
+        self.script.check()?;
+        let names: Vec<&str> = self.config.robot_names().collect();
+        self.script.check_robots(&names)?;
+        self.check_frame(&self.initial, 0)
+    }
+
+    /// Whether `frame` can be this run's frame of tick `expected`.
+    pub fn check_frame(&self, frame: &Frame, expected: u64) -> Result<(), LogError> {
+        let (tick, ticks) = (frame.tick, self.config.ticks);
+        if tick != expected {
+            return Err(LogError::Order { expected, found: tick });
+        }
+        if tick > ticks {
+            return Err(LogError::Beyond { tick, ticks });
+        }
+        let robots = self.config.robot_names().count();
+        let ids_are_right = frame.robots.len() == robots && (0..).zip(&frame.robots).all(|(id, r)| r.id == id);
+        let scans_are_right = frame.scans.is_sorted_by(|a, b| a.robot < b.robot)
+            && frame.scans.last().is_none_or(|scan| (scan.robot as usize) < robots);
+        if !ids_are_right || !scans_are_right {
+            return Err(LogError::Robots { tick, robots });
+        }
+        match frame.first_nan() {
+            Some((robot, field)) => Err(LogError::NotANumber { tick, robot, field }),
+            None => Ok(()),
+        }
+    }
+
+    fn metadata(&self) -> BTreeMap<String, String> {
+        let entry = |key: &str, value: String| (key.to_owned(), value);
+        let hashes = self.config.worlds.iter().enumerate();
+        let hashes = hashes.map(|(i, world)| (world_file(i), format!("{:032x}", world.content_hash())));
+        [
+            entry("format", FORMAT_VERSION.to_owned()),
+            entry("program", self.program.clone()),
+            entry("seed", self.seed.to_string()),
+            entry("dt", format!("{DT:?}")),
+            entry("ticks", self.config.ticks.to_string()),
+            entry("generator", GENERATOR.to_owned()),
+        ]
+        .into_iter()
+        .chain(hashes)
+        .collect()
+    }
+
+    fn config_text(&self) -> String {
+        let TourConfig { worlds, ticks, sensor } = &self.config;
+        let sensor = match sensor {
+            Some(SensorConfig { n_rays, max_range }) => format!("Some((n_rays: {n_rays}, max_range: {max_range:?}))"),
+            None => "None".to_owned(),
+        };
+        let worlds: Vec<String> = (0..worlds.len()).map(world_file).collect();
+        format!("Config(\n    ticks: {ticks},\n    sensor: {sensor},\n    worlds: {worlds:?},\n)\n")
+    }
+
+    /// Appends the metadata record and the attachments to a file that is `out` so far.
+    pub fn put(&self, out: &mut Vec<u8>) -> Vec<Indexed> {
+        let mut index = Vec::new();
+        let offset = out.len() as u64;
+        put_record(out, opcode::METADATA, |out| {
+            put_str(out, METADATA);
+            put_map(out, &self.metadata());
+        });
+        let length = out.len() as u64 - offset;
+        index.push(Indexed { opcode: opcode::METADATA, offset, length, data_size: 0, name: METADATA.to_owned() });
+        let worlds = self.world_texts.iter().enumerate().map(|(i, text)| (world_file(i), text.clone()));
+        let files = [(CONFIG.to_owned(), self.config_text())].into_iter().chain(worlds);
+        for (name, text) in files.chain([(SCRIPT.to_owned(), self.script.to_ron())]) {
+            let offset = out.len() as u64;
+            put_record(out, opcode::ATTACHMENT, |out| {
+                let start = out.len();
+                put_u64(out, 0); // log time and
+                put_u64(out, 0); // creation time: no clock is read
+                put_str(out, &name);
+                put_str(out, super::MEDIA_TYPE);
+                put_u64(out, text.len() as u64);
+                out.extend_from_slice(text.as_bytes());
+                let crc = crc32fast::hash(&out[start..]);
+                record::put_u32(out, crc);
+            });
+            let length = out.len() as u64 - offset;
+            index.push(Indexed { opcode: opcode::ATTACHMENT, offset, length, data_size: text.len() as u64, name });
+        }
+        index
+    }
+
+    /// The preamble that sealed records hold. `initial` is the frame that their messages make.
+    pub fn read(records: &[Record<'_>], initial: Option<Frame>) -> Result<Self, LogError> {
+        let content = |item: &str, reason: &str| LogError::Content { item: item.to_owned(), reason: reason.to_owned() };
+        let mut files: BTreeMap<&str, &str> = BTreeMap::new();
+        let mut metadata = BTreeMap::new();
+        for record in records {
+            let mut cursor = Cursor(record.content);
+            match record.opcode {
+                opcode::METADATA if cursor.str() == Some(METADATA) => {
+                    metadata = cursor.map().ok_or_else(|| content(METADATA, "the metadata can't be read"))?;
+                }
+                opcode::ATTACHMENT => {
+                    let (name, data) = record::attachment(record.content)
+                        .and_then(|(name, data)| Some((name, std::str::from_utf8(data).ok()?)))
+                        .ok_or_else(|| content("an attachment", "it is not text"))?;
+                    files.insert(name, data);
+                }
+                _ => {}
+            }
+        }
+        let entry = |key: &str| metadata.get(key).ok_or_else(|| content(key, "the metadata lacks it"));
+        let version = entry("format")?;
+        if version != FORMAT_VERSION {
+            return Err(LogError::Version(version.clone()));
+        }
+        let file = |name: &str| files.get(name).copied().ok_or_else(|| content(name, "the attachment is missing"));
+        let config: ConfigText = ron::from_str(file(CONFIG)?).map_err(|e| content(CONFIG, &e.to_string()))?;
+        let mut worlds = Vec::new();
+        let mut world_texts = Vec::new();
+        for (i, name) in config.worlds.iter().enumerate() {
+            // the names say nothing beyond their number, so they can't make one text stand for many worlds
+            if *name != world_file(i) {
+                return Err(content(CONFIG, "the worlds are not numbered from 0"));
+            }
+            let text = file(name)?;
+            let world = World::parse(name, text).map_err(|e| content(name, &e.to_string()))?;
+            if *entry(name)? != format!("{:032x}", world.content_hash()) {
+                return Err(content(name, "the world is not the one whose content hash the metadata has"));
+            }
+            worlds.push(world);
+            world_texts.push(text.to_owned());
+        }
+        let sensor = config.sensor.map(|s| SensorConfig { n_rays: s.n_rays, max_range: s.max_range });
+        let preamble = Preamble {
+            seed: Seed(entry("seed")?.parse().map_err(|_| content("seed", "it is not a whole number below 2^64"))?),
+            config: TourConfig { worlds, ticks: config.ticks, sensor },
+            script: Script::parse(SCRIPT, file(SCRIPT)?)?,
+            initial: initial.ok_or_else(|| content("/frame", "there is no initial frame"))?,
+            program: entry("program")?.clone(),
+            world_texts,
+        };
+        preamble.check()?;
+        Ok(preamble)
+    }
+}

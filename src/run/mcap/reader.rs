@@ -1,0 +1,158 @@
+//! Reading a log, and telling whether it is whole.
+
+use prost::Message;
+use xxhash_rust::xxh3::xxh3_128;
+
+use super::encoder::{Encoder, put_seal};
+use super::message::{FrameMessage, ScanMessage};
+use super::preamble::Preamble;
+use super::record::{MAGIC, Record, SEAL, message, opcode, record_at};
+use super::{DamageKind, DamagedLog, LogError, channel};
+use crate::run::{Frame, Log};
+
+/// A log read from a file.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ReadLog {
+    /// The run, or its sealed beginning.
+    pub log: Log,
+    /// The program that wrote it, with its version.
+    pub program: String,
+    world_texts: Vec<String>,
+}
+
+impl ReadLog {
+    pub(super) fn preamble(&self) -> Preamble {
+        let Log { seed, config, script, initial, .. } = self.log.clone();
+        let (program, world_texts) = (self.program.clone(), self.world_texts.clone());
+        Preamble { seed, config, script, initial, program, world_texts }
+    }
+}
+
+impl Log {
+    /// Reads a log from the bytes of an MCAP file.
+    ///
+    /// A file is accepted only when it is, byte for byte, what its own content makes the writer write: the bytes of every
+    /// piece, its seal with the hash of everything before it, and the end with its summary and footer are made again and
+    /// compared. So a file that was cut, changed in any bit or appended to is never `Ok`.
+    ///
+    /// # Errors
+    /// [`LogError::Damaged`] with all that is sealed; [`LogError::NotALog`], [`LogError::Version`]; and when the part before
+    /// the first tick is sealed but makes no sense, [`LogError::Content`], [`LogError::Config`], [`LogError::Script`] or
+    /// [`LogError::Foreign`].
+    pub fn read_mcap(file: &[u8]) -> Result<ReadLog, LogError> {
+        if !file.starts_with(MAGIC) {
+            let cut = MAGIC.starts_with(file);
+            return Err(if cut { damaged(None, 0, DamageKind::Cut) } else { LogError::NotALog });
+        }
+        // The seal is checked before anything it covers is looked into: what is damaged is then never called wrong.
+        let records = piece(file, MAGIC.len()).map_err(|kind| damaged(None, 0, kind))?;
+        if !is_sealed(file, &records, 0) {
+            return Err(damaged(None, 0, DamageKind::Changed));
+        }
+        let preamble = Preamble::read(&records, frame_of(&records))?;
+        let mut read = ReadLog {
+            program: preamble.program.clone(),
+            world_texts: preamble.world_texts.clone(),
+            log: Log {
+                seed: preamble.seed,
+                config: preamble.config.clone(),
+                script: preamble.script.clone(),
+                initial: preamble.initial.clone(),
+                frames: Vec::new(),
+                digests: Vec::new(),
+            },
+        };
+        let mut encoder = Encoder::begin(preamble);
+        if !file.starts_with(encoder.piece()) {
+            let offset = file.iter().zip(encoder.piece()).take_while(|(a, b)| a == b).count();
+            return Err(LogError::Foreign { offset: offset as u64 });
+        }
+        let mut at = encoder.piece().len();
+        while encoder.ticks() < encoder.preamble().config.ticks {
+            match next_tick(file, at, &mut encoder) {
+                Ok((frame, digest)) => {
+                    read.log.frames.push(frame);
+                    read.log.digests.push(digest);
+                    at += encoder.piece().len();
+                }
+                Err(kind) => return Err(damaged(Some(read), at, kind)),
+            }
+        }
+        encoder.finish()?;
+        match compare(file, at, encoder.piece()) {
+            Ok(()) if file.len() == at + encoder.piece().len() => Ok(read),
+            Ok(()) => Err(damaged(Some(read), at, DamageKind::Changed)),
+            Err(kind) => Err(damaged(Some(read), at, kind)),
+        }
+    }
+}
+
+fn damaged(recovered: Option<ReadLog>, sealed_bytes: usize, kind: DamageKind) -> LogError {
+    let sealed_ticks = recovered.as_ref().map_or(0, |r| r.log.frames.len() as u64);
+    LogError::Damaged(Box::new(DamagedLog {
+        recovered,
+        sealed_ticks,
+        first_unsealed_offset: sealed_bytes as u64,
+        kind,
+    }))
+}
+
+/// The next tick's frame, if the bytes at `at` are exactly those that the frame in them makes.
+fn next_tick(file: &[u8], at: usize, encoder: &mut Encoder) -> Result<(Frame, crate::run::Digest), DamageKind> {
+    let frame = frame_of(&piece(file, at)?).ok_or(DamageKind::Changed)?;
+    let digest = encoder.tick(&frame).map_err(|_| DamageKind::Changed)?;
+    compare(file, at, encoder.piece())?;
+    Ok((frame, digest))
+}
+
+/// Whether the file goes on at `at` with `expected`.
+fn compare(file: &[u8], at: usize, expected: &[u8]) -> Result<(), DamageKind> {
+    let rest = file.get(at..).unwrap_or_default();
+    if rest.starts_with(expected) {
+        Ok(())
+    } else if expected.starts_with(rest) {
+        Err(DamageKind::Cut)
+    } else {
+        Err(DamageKind::Changed)
+    }
+}
+
+/// The records from `start` to the next seal, this one included.
+fn piece(file: &[u8], start: usize) -> Result<Vec<Record<'_>>, DamageKind> {
+    let mut records = Vec::new();
+    let mut at = start;
+    loop {
+        let record = record_at(file, at).ok_or(DamageKind::Cut)?;
+        at = record.end();
+        records.push(record);
+        match record.opcode {
+            SEAL => return Ok(records),
+            opcode::DATA_END => return Err(DamageKind::Changed),
+            _ => {}
+        }
+    }
+}
+
+/// Whether the last of `records` is the seal of everything before it.
+fn is_sealed(file: &[u8], records: &[Record<'_>], tick: u64) -> bool {
+    records.last().is_some_and(|seal| {
+        let mut expected = Vec::new();
+        put_seal(&mut expected, tick, seal.offset as u64, xxh3_128(&file[..seal.offset]));
+        seal.content == expected
+    })
+}
+
+/// The frame that a piece's messages make; `None` when there is none, or it can't be read.
+fn frame_of(records: &[Record<'_>]) -> Option<Frame> {
+    let mut frame = None;
+    let mut scans = Vec::new();
+    for record in records.iter().filter(|r| r.opcode == opcode::MESSAGE) {
+        let (channel, data) = message(record.content)?;
+        match channel {
+            channel::FRAME => frame = Some(FrameMessage::decode(data).ok()?.into_frame()?),
+            channel::SCAN => scans.push(ScanMessage::decode(data).ok()?.into_scan()),
+            _ => {} // inputs and digests follow from the rest
+        }
+    }
+    frame.map(|frame| Frame { scans, ..frame })
+}

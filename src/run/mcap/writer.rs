@@ -1,0 +1,114 @@
+//! `LogWriter`, a log written while the run goes on.
+
+use std::io::Write;
+
+use super::encoder::Encoder;
+use super::preamble::Preamble;
+use super::{LogError, ReadLog};
+use crate::random::Seed;
+use crate::run::{Digest, Frame, Log, Script};
+use crate::tour::TourConfig;
+
+/// Writes a log tick by tick. The output only grows, and after each tick all of it is sealed, so that a run that is
+/// killed leaves every finished tick readable.
+///
+/// Each piece is one `write_all`. After a failed write nothing more is written.
+pub struct LogWriter<W: Write> {
+    out: W,
+    encoder: Encoder,
+    failed: bool,
+}
+
+impl<W: Write> LogWriter<W> {
+    /// Starts a log: writes everything before the first tick.
+    ///
+    /// # Errors
+    /// [`LogError`] when the configuration, the script or the initial frame can't be a run's, or the output fails.
+    pub fn new(out: W, seed: Seed, config: &TourConfig, script: &Script, initial: &Frame) -> Result<Self, LogError> {
+        let encoder = Encoder::begin(Preamble::new(seed, config, script, initial)?);
+        let mut writer = LogWriter { out, encoder, failed: false };
+        writer.write_piece()?;
+        Ok(writer)
+    }
+
+    /// Goes on with a log that was cut short: `read` is what was recovered, and `out` goes on where its
+    /// [`sealed bytes`](super::DamagedLog::first_unsealed_offset) end. Writes nothing yet.
+    ///
+    /// # Errors
+    /// [`LogError`] when `read` was changed so that it is no run's beginning.
+    pub fn resume(out: W, read: &ReadLog) -> Result<Self, LogError> {
+        let mut encoder = Encoder::begin(read.preamble());
+        for frame in &read.log.frames {
+            encoder.tick(frame)?;
+        }
+        Ok(LogWriter { out, encoder, failed: false })
+    }
+
+    /// Writes the next tick with its seal, and gives the frame's digest.
+    ///
+    /// # Errors
+    /// [`LogError`] when the frame is not the next tick's, is not of this run's robots, or holds a NaN (nothing is written
+    /// then); or when the output fails.
+    pub fn tick(&mut self, frame: &Frame) -> Result<Digest, LogError> {
+        let digest = self.encoder.tick(frame)?;
+        self.write_piece()?;
+        Ok(digest)
+    }
+
+    /// Writes the end, flushes the output and gives it back.
+    ///
+    /// # Errors
+    /// [`LogError::Incomplete`] before the last tick of the configuration; or the output fails.
+    pub fn finish(mut self) -> Result<W, LogError> {
+        self.encoder.finish()?;
+        self.write_piece()?;
+        self.out.flush()?;
+        Ok(self.out)
+    }
+
+    /// Gives the output back without writing an end: a log that can be resumed.
+    pub fn into_inner(self) -> W {
+        self.out
+    }
+
+    /// How many ticks are written.
+    pub fn ticks(&self) -> u64 {
+        self.encoder.ticks()
+    }
+
+    /// How many bytes are written, all of them sealed.
+    pub fn sealed_bytes(&self) -> u64 {
+        self.encoder.length()
+    }
+
+    fn write_piece(&mut self) -> Result<(), LogError> {
+        if self.failed {
+            return Err(std::io::Error::other("an earlier write failed").into());
+        }
+        self.failed = true;
+        self.out.write_all(self.encoder.piece())?;
+        self.failed = false;
+        Ok(())
+    }
+}
+
+impl Log {
+    /// Writes the log as MCAP. The same log gives the same bytes.
+    ///
+    /// # Errors
+    /// [`LogError`] when this is not a whole run (frames missing, a digest that is not its frame's, a NaN), or the output fails.
+    pub fn write_mcap(&self, out: impl Write) -> Result<(), LogError> {
+        let mut writer = LogWriter::new(out, self.seed, &self.config, &self.script, &self.initial)?;
+        for (i, frame) in self.frames.iter().enumerate() {
+            let digest = writer.tick(frame)?;
+            if self.digests.get(i) != Some(&digest) {
+                return Err(LogError::Digest { tick: frame.tick });
+            }
+        }
+        if self.digests.len() > self.frames.len() {
+            return Err(LogError::Digest { tick: self.frames.len() as u64 + 1 });
+        }
+        writer.finish()?;
+        Ok(())
+    }
+}
