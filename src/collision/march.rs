@@ -2,7 +2,7 @@
 
 use super::{Certificate, Collision, EdgeVerdict, MarchOptions, ObstacleId, ProvenStep, UnresolvedReason};
 use crate::geometry::{Footprint, Part, Pose2, Shape, largest_coordinate};
-use crate::num::{greater, lesser, ulp};
+use crate::num::{greater, lesser, sqrt, ulp};
 use crate::robots::Motion;
 
 /// A hit is bracketed to this much motion, metres, where the footprint meets the obstacle head-on.
@@ -39,12 +39,21 @@ fn width<M: Motion>(motion: &M, parts: usize, s0: f64, s1: f64) -> f64 {
     (0..parts).fold(0.0, |w, k| greater(motion.bound(k, s0, s1), w))
 }
 
+/// The length of the next step to try: where the clearance, falling from `clearance` at `closing` metres per unit of s, still
+/// exceeds one and a half times the sagitta of the step.
+fn promising(clearance: f64, closing: f64, acceleration: f64) -> f64 {
+    let a = 1.5 * 0.125 * acceleration;
+    // the positive root of a h^2 + closing h = clearance, in the form that keeps its digits
+    2.0 * clearance / (closing + sqrt(closing * closing + 4.0 * a * clearance))
+}
+
 /// Whether a motion keeps its clearance above `options.margin`, by proof.
 ///
-/// The march goes from 0 to 1 in steps each proven by [`Motion::sagitta`] and one `distance` query per part, halving where a
-/// proof fails and growing where it succeeds. Near a grazed obstacle the sagitta is of second order in the step, so sliding
-/// along a wall stays cheap; a translation or a disc's straight line is proven in one step. Where the far end of a failed step is
-/// in contact, the hit is bracketed between the last proven point and that contact; a bracket of at most [`BRACKET`] of motion
+/// The march goes from 0 to 1 in steps each proven by [`Motion::sagitta`] and one `distance` query per part. It first tries the
+/// whole motion, which proves a free translation or disc line at once; then each step's length is guessed from the clearance and
+/// how fast it falls, and halved where the proof fails. Guesses cost only time: what is proven does not depend on them. Near
+/// a grazed obstacle the sagitta is of second order in the step, so sliding along a wall stays cheap. Where the far end of a failed
+/// step is in contact, the hit is bracketed between the last proven point and that contact; a bracket of at most [`BRACKET`] of motion
 /// ends the march.
 pub fn march<M: Motion>(
     collision: &dyn Collision,
@@ -56,40 +65,42 @@ pub fn march<M: Motion>(
         c.clear(options.margin);
     }
     let margin = options.margin;
-    let start = motion.footprint_at(0.0);
-    let parts = start.parts().len();
-    let in_contact = |footprint: &Footprint| collision.distance(footprint) <= margin;
+    let mut at_lo = motion.footprint_at(0.0);
+    let parts = at_lo.parts().len();
+    let above_margin = |footprint: &Footprint| collision.distance(footprint) - margin;
     let hit = |free_until: f64, contact_at: f64| {
         let (part, obstacle) = collision
             .witness(&motion.footprint_at(contact_at))
             .map_or((0, ObstacleId::UNKNOWN), |w| (w.part, w.obstacle));
         EdgeVerdict::Hit { free_until, contact_at, part, obstacle }
     };
-    if in_contact(&start) {
+    let mut gap = above_margin(&at_lo);
+    if gap <= 0.0 {
         return hit(0.0, 0.0);
     }
     let end = motion.footprint_at(1.0);
-    let size = largest_coordinate(start.parts().iter().chain(end.parts()).map(Part::placed));
-    let finest = 64.0 * ulp(size);
     // the first place known to be in contact; nothing beyond it matters
-    let mut contact = in_contact(&end).then_some(1.0);
-    let (mut lo, mut at_lo, mut h) = (0.0, start, 1.0);
-    let mut clearance = f64::INFINITY;
-    let mut steps = 0;
+    let mut contact = (above_margin(&end) <= 0.0).then_some(1.0);
+    let size = largest_coordinate(at_lo.parts().iter().chain(end.parts()).map(Part::placed));
+    let finest = 64.0 * ulp(size);
+    let speed = width(motion, parts, 0.0, 1.0);
+    let acceleration = (0..parts).fold(0.0, |a, k| greater(8.0 * motion.sagitta(k, 0.0, 1.0), a));
+    // a little less than the bracket, so that its two ends fit in it
+    let fine = 0.45 * BRACKET / speed;
+    let (mut lo, mut clearance, mut steps) = (0.0, f64::INFINITY, 0);
+    let mut h = if contact.is_some() { promising(gap, speed, acceleration) } else { 1.0 };
     loop {
-        let limit = contact.unwrap_or(1.0);
-        let hi = if lo + h < limit { lo + h } else { limit };
-        let reach = width(motion, parts, lo, limit);
         if steps == options.budget {
-            return EdgeVerdict::Unresolved { free_until: lo, gap: reach, reason: UnresolvedReason::Budget };
+            let gap = width(motion, parts, lo, contact.unwrap_or(1.0));
+            return EdgeVerdict::Unresolved { free_until: lo, gap, reason: UnresolvedReason::Budget };
         }
         steps += 1;
-        let at_hi = if hi == 1.0 { end.clone() } else { motion.footprint_at(hi) };
-        let proven = if contact == Some(hi) {
-            0.0 // its far end is in contact: there is nothing to prove
-        } else {
-            step_clearance(collision, motion, (lo, &at_lo), (hi, &at_hi))
+        let hi = match contact {
+            Some(c) if lo + h >= c => lo + 0.5 * (c - lo),
+            _ => lesser(lo + h, 1.0),
         };
+        let at_hi = if hi == 1.0 { end.clone() } else { motion.footprint_at(hi) };
+        let proven = step_clearance(collision, motion, (lo, &at_lo), (hi, &at_hi));
         if proven > margin {
             clearance = lesser(proven, clearance);
             if let Some(c) = certificate.as_deref_mut() {
@@ -98,26 +109,37 @@ pub fn march<M: Motion>(
             if hi == 1.0 {
                 return EdgeVerdict::Free { clearance };
             }
-            (lo, at_lo) = (hi, at_hi);
-            h = contact.map_or(2.0 * h, |c| 0.5 * (c - lo));
+            let gap_hi = above_margin(&at_hi);
+            let closing = greater((gap - gap_hi) / (hi - lo), 0.0);
+            (lo, at_lo, gap) = (hi, at_hi, gap_hi);
             if contact.is_some_and(|c| width(motion, parts, lo, c) <= BRACKET) {
-                return hit(lo, limit);
+                return hit(lo, contact.unwrap_or(1.0));
+            }
+            h = promising(gap, closing, acceleration);
+            if h < fine {
+                // about to touch: a contact just ahead ends the march, otherwise it creeps on
+                let ahead = lesser(lo + 2.0 * fine, 1.0);
+                if above_margin(&motion.footprint_at(ahead)) <= 0.0 {
+                    return hit(lo, ahead);
+                }
             }
             continue;
         }
-        if contact != Some(hi) && in_contact(&at_hi) {
+        if contact.is_none_or(|c| hi < c) && above_margin(&at_hi) <= 0.0 {
             contact = Some(hi);
-        }
-        let span = width(motion, parts, lo, hi);
-        if contact == Some(hi) && span <= BRACKET {
-            return hit(lo, hi);
+            if width(motion, parts, lo, hi) <= BRACKET {
+                return hit(lo, hi);
+            }
         }
         let middle = lo + 0.5 * (hi - lo);
-        if span <= finest || middle <= lo || middle >= hi {
+        if width(motion, parts, lo, hi) <= finest || middle <= lo || middle >= hi {
             // Nothing finer can be told apart here. A contact known farther on still makes it a hit, in a wider bracket.
             return match contact {
                 Some(c) => hit(lo, c),
-                None => EdgeVerdict::Unresolved { free_until: lo, gap: reach, reason: UnresolvedReason::Tolerance },
+                None => {
+                    let gap = width(motion, parts, lo, 1.0);
+                    EdgeVerdict::Unresolved { free_until: lo, gap, reason: UnresolvedReason::Tolerance }
+                }
             };
         }
         h = 0.5 * (hi - lo);
