@@ -204,6 +204,14 @@ mod tests {
     }
 
     #[test]
+    fn a_quotient_that_rounds_up_adds_no_column() {
+        // 1.1 / 0.1 is 11.000000000000002, but the line 11 lies at 1.1
+        let bounds = Bounds { min: Point2::new(0.0, 0.0), max: Point2::new(1.1, 0.7) };
+        let grid = Grid::empty(&bounds, 0.1).unwrap();
+        assert_eq!((grid.columns(), grid.rows()), (11, 7));
+    }
+
+    #[test]
     fn resolutions_out_of_range_are_refused() {
         let world = World::lot();
         for bad in [0.0, -1.0, f64::NAN, f64::INFINITY] {
