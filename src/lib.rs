@@ -22,6 +22,10 @@ pub mod tour;
 
 pub mod run;
 
+pub mod simulation;
+
+pub mod recording;
+
 /// The names a planner or an experiment usually needs.
 pub mod prelude {
     pub use crate::configuration::{Configuration, HitchCfg, R2, T2, Tn};

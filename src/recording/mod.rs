@@ -1,0 +1,19 @@
+//! Recording and replaying runs: the headless app, running the one schedule.
+//!
+//! ```
+//! use motion_lab::prelude::*;
+//! use motion_lab::recording::Run;
+//! use motion_lab::tour::{BOOK_SEED, TourConfig};
+//!
+//! let config = TourConfig { ticks: 20, ..TourConfig::default() };
+//! let log = Run::record(config, BOOK_SEED)?;
+//! assert_eq!(Run::replay(&log)?, log.frames); // every f64 to the last bit
+//! # Ok::<(), motion_lab::recording::RunError>(())
+//! ```
+
+mod recorder;
+mod run;
+
+pub use crate::simulation::RunInput;
+pub use recorder::{Recorder, RunError};
+pub use run::Run;

@@ -1,0 +1,113 @@
+//! `Recorder`, a run without a window, tick by tick.
+
+use bevy::app::App;
+use bevy::ecs::world::World;
+
+use crate::run::{Frame, Script};
+use crate::simulation::{
+    LatestFrame, PendingInput, RestoreError, RobotView, RunInput, SimulationPlugin, SpawnError, Transport, restore, seek,
+    start_run, step, view,
+};
+use crate::tour::TourConfig;
+
+/// Why a run cannot be recorded or replayed.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum RunError {
+    /// The run cannot start.
+    #[error(transparent)]
+    Spawn(#[from] SpawnError),
+    /// A frame does not fit the run.
+    #[error(transparent)]
+    Restore(#[from] RestoreError),
+}
+
+/// A run under way without a window: the same plugin and the same schedule as with one, run directly.
+///
+/// It holds nothing that is shared, so that many can run on many threads.
+pub struct Recorder {
+    world: World,
+    ticks: u64,
+}
+
+impl Recorder {
+    /// The run at tick 0.
+    ///
+    /// # Errors
+    /// [`RunError`] names what in the configuration or the script cannot be.
+    pub fn new(config: TourConfig, input: impl Into<RunInput>) -> Result<Self, RunError> {
+        Self::with_robots(config, input, |_| {})
+    }
+
+    /// The run at tick 0 in an app that `add` has added further kinds of robots to, by
+    /// [`RobotPlugin`](crate::simulation::RobotPlugin).
+    ///
+    /// # Errors
+    /// [`RunError`] names what in the configuration or the script cannot be.
+    pub fn with_robots(
+        config: TourConfig,
+        input: impl Into<RunInput>,
+        add: impl FnOnce(&mut App),
+    ) -> Result<Self, RunError> {
+        let mut app = App::new();
+        app.add_plugins(SimulationPlugin);
+        add(&mut app);
+        let mut world = std::mem::take(app.world_mut());
+        let ticks = config.ticks;
+        start_run(&mut world, config, input)?;
+        Ok(Recorder { world, ticks })
+    }
+
+    /// The frame of the last tick; at first that of tick 0.
+    pub fn frame(&self) -> &Frame {
+        &self.world.resource::<LatestFrame>().0
+    }
+
+    /// Whether the run is as long as its configuration says. It can go on.
+    pub fn is_complete(&self) -> bool {
+        self.frame().tick >= self.ticks
+    }
+
+    /// Runs one tick and gives its frame.
+    pub fn step(&mut self) -> &Frame {
+        step(&mut self.world);
+        self.frame()
+    }
+
+    /// Goes to a tick, back or ahead, and gives its frame.
+    ///
+    /// # Errors
+    /// [`RunError::Restore`], which cannot happen with the run's own keyframes.
+    pub fn seek(&mut self, tick: u64) -> Result<&Frame, RunError> {
+        seek(&mut self.world, tick)?;
+        Ok(self.frame())
+    }
+
+    /// Goes on from a frame of this run.
+    ///
+    /// # Errors
+    /// [`RunError::Restore`] when the frame is not one of this run.
+    pub fn restore(&mut self, frame: &Frame) -> Result<(), RunError> {
+        Ok(restore(&mut self.world, frame)?)
+    }
+
+    /// The robots as a view shows them.
+    pub fn view(&self) -> Vec<RobotView> {
+        view(&self.world)
+    }
+
+    /// Where the run stands.
+    pub fn transport(&self) -> &Transport {
+        self.world.resource::<Transport>()
+    }
+
+    /// The script so far.
+    pub fn script(&self) -> &Script {
+        self.world.resource::<PendingInput>().script()
+    }
+
+    /// The Bevy world that the run lives in.
+    pub fn world(&self) -> &World {
+        &self.world
+    }
+}

@@ -1,0 +1,59 @@
+//! `Run`, whole runs at once.
+
+use bevy::app::App;
+
+use super::{Recorder, RunError, RunInput};
+use crate::run::{Frame, Log};
+use crate::tour::TourConfig;
+
+/// Records and replays whole runs.
+#[derive(Clone, Copy, Debug)]
+pub struct Run;
+
+impl Run {
+    /// Runs `config` for its ticks from a seed, a script (at the book's seed), or a seed and a script, and gives the log.
+    ///
+    /// # Errors
+    /// [`RunError`] names what in the configuration or the script cannot be.
+    pub fn record(config: TourConfig, input: impl Into<RunInput>) -> Result<Log, RunError> {
+        Self::record_with_robots(config, input, |_| {})
+    }
+
+    /// [`record`](Self::record) with further kinds of robots.
+    ///
+    /// # Errors
+    /// [`RunError`] names what in the configuration or the script cannot be.
+    pub fn record_with_robots(
+        config: TourConfig,
+        input: impl Into<RunInput>,
+        add: impl FnOnce(&mut App),
+    ) -> Result<Log, RunError> {
+        let RunInput { seed, script } = input.into();
+        let mut recorder = Recorder::with_robots(config.clone(), (seed, script.clone()), add)?;
+        let initial = recorder.frame().clone();
+        let frames = Self::frames(&mut recorder, config.ticks);
+        let digests = frames.iter().map(Frame::digest).collect();
+        Ok(Log { seed, config, script, initial, frames, digests })
+    }
+
+    /// The frames of ticks 1 to the last, from the log's seed, configuration and script alone: its frames are not looked at.
+    ///
+    /// # Errors
+    /// [`RunError`] when the log's configuration or script cannot be run.
+    pub fn replay(log: &Log) -> Result<Vec<Frame>, RunError> {
+        Self::replay_with_robots(log, |_| {})
+    }
+
+    /// [`replay`](Self::replay) with further kinds of robots.
+    ///
+    /// # Errors
+    /// [`RunError`] when the log's configuration or script cannot be run.
+    pub fn replay_with_robots(log: &Log, add: impl FnOnce(&mut App)) -> Result<Vec<Frame>, RunError> {
+        let mut recorder = Recorder::with_robots(log.config.clone(), (log.seed, log.script.clone()), add)?;
+        Ok(Self::frames(&mut recorder, log.config.ticks))
+    }
+
+    fn frames(recorder: &mut Recorder, ticks: u64) -> Vec<Frame> {
+        (0..ticks).map(|_| recorder.step().clone()).collect()
+    }
+}

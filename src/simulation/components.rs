@@ -1,0 +1,237 @@
+//! The components of worlds, obstacles, robots and sensors.
+
+use std::sync::Arc;
+
+use bevy::prelude::*;
+use smallvec::SmallVec;
+
+use super::SimulatedRobot;
+use crate::collision::Scene;
+use crate::geometry::{Pose2, Shape};
+use crate::random::Stream;
+use crate::sensors::RangeSensor;
+use crate::worlds::World as WorldModel;
+
+/// A world of the run: the model it was made from. On the world's entity, with its [`WorldScene`].
+#[derive(Component, Clone, Debug)]
+#[component(immutable)]
+pub struct SimulatedWorld {
+    /// The world's number in the run's configuration.
+    pub index: u32,
+    /// The world.
+    pub model: Arc<WorldModel>,
+}
+
+/// The world's obstacles as a collision scene.
+#[derive(Component, Clone, Debug)]
+#[component(immutable)]
+pub struct WorldScene(pub Arc<Scene>);
+
+/// An obstacle, an entity of its world.
+#[derive(Component, Clone, Debug)]
+#[component(immutable)]
+pub struct ObstacleShape {
+    /// The obstacle's name.
+    pub name: String,
+    /// Its pieces, each with the pose of its frame.
+    pub pieces: Vec<(Pose2, Shape)>,
+}
+
+/// Relates an obstacle to its world.
+#[derive(Component, Clone, Copy, Debug, PartialEq, Eq)]
+#[relationship(relationship_target = Obstacles)]
+pub struct ObstacleOf(pub Entity);
+
+/// A world's obstacles; they go with it.
+#[derive(Component, Debug, Default)]
+#[relationship_target(relationship = ObstacleOf, linked_spawn)]
+pub struct Obstacles(Vec<Entity>);
+
+/// Relates a robot to the world it lives in.
+#[derive(Component, Clone, Copy, Debug, PartialEq, Eq)]
+#[relationship(relationship_target = Residents)]
+pub struct ResidesIn(pub Entity);
+
+/// A world's robots, in no particular order; they go with it.
+#[derive(Component, Debug, Default)]
+#[relationship_target(relationship = ResidesIn, linked_spawn)]
+pub struct Residents(Vec<Entity>);
+
+/// Relates a sensor to its robot.
+#[derive(Component, Clone, Copy, Debug, PartialEq, Eq)]
+#[relationship(relationship_target = Sensors)]
+pub struct MountedOn(pub Entity);
+
+/// A robot's sensors; they go with it.
+#[derive(Component, Debug, Default)]
+#[relationship_target(relationship = MountedOn, linked_spawn)]
+pub struct Sensors(Vec<Entity>);
+
+/// A range sensor's numbers.
+#[derive(Component, Clone, Copy, Debug, PartialEq)]
+#[component(immutable)]
+pub struct SensorModel(pub RangeSensor);
+
+/// What a range sensor saw at the end of the last tick, metres.
+#[derive(Component, Clone, Debug, Default, PartialEq)]
+pub struct Scan(pub Vec<f64>);
+
+/// A robot's id: its place in the run's list of robots. Wherever robots have an order, it is this one.
+#[derive(Component, Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[component(immutable)]
+pub struct RobotId(pub u32);
+
+/// A robot's unique name, and the kind it is of.
+#[derive(Component, Clone, Debug, PartialEq, Eq)]
+#[component(immutable)]
+pub struct RobotName {
+    /// The name.
+    pub name: String,
+    /// The kind, as worlds name it.
+    pub kind: String,
+}
+
+/// A robot's own state beside its configuration, in the order its kind documents.
+pub type Extra = SmallVec<[f64; 4]>;
+
+/// What a robot is: its dimensions and limits. The rest of a robot's components come with it.
+#[derive(Component, Clone, Debug, PartialEq)]
+#[component(immutable)]
+#[require(Control<R>, Contacts<R>, DriveMode<R>, OwnState<R>, TickMotion<R>, Cut<R>)]
+pub struct RobotModel<R: SimulatedRobot>(pub R);
+
+/// Where a robot is.
+#[derive(Component, Clone, Debug, PartialEq)]
+pub struct Configuration<R: SimulatedRobot>(pub R::Configuration);
+
+/// Where a robot was before the last tick's motion, for drawing between ticks.
+#[derive(Component, Clone, Debug, PartialEq)]
+pub struct PreviousConfiguration<R: SimulatedRobot>(pub R::Configuration);
+
+/// The control of the tick, as it comes to the ground: after limits and slip.
+#[derive(Component, Clone, Debug, PartialEq)]
+pub struct Control<R: SimulatedRobot>(pub R::Control);
+
+/// A robot's contacts.
+#[derive(Component, Clone, Debug, PartialEq, Eq)]
+pub struct Contacts<R: SimulatedRobot> {
+    /// Whether the last tick was in contact.
+    pub in_contact: bool,
+    /// Contact episodes since tick 0: ticks in contact after one that was not.
+    pub episodes: u32,
+    /// Ticks for which the flash still holds.
+    pub flash: u32,
+    marker: std::marker::PhantomData<fn() -> R>,
+}
+
+/// Who drives a robot, and what was put in.
+#[derive(Component, Clone, Debug, PartialEq)]
+pub struct DriveMode<R: SimulatedRobot> {
+    /// Whether a person drives, not the tour.
+    pub manual: bool,
+    /// The channels held, -128 to 128 of the maximum.
+    pub channels: [i16; 2],
+    /// Where a manual move is heading; `None` once it is there.
+    pub target: Option<R::Configuration>,
+    /// Inputs refused since tick 0.
+    pub refusals: u32,
+}
+
+/// A robot's own state beside its configuration.
+#[derive(Component, Clone, Debug, PartialEq)]
+pub struct OwnState<R: SimulatedRobot> {
+    /// The numbers, in the order the kind documents.
+    pub extra: Extra,
+    marker: std::marker::PhantomData<fn() -> R>,
+}
+
+/// The tour the seed gave a robot.
+#[derive(Component, Clone, Debug)]
+#[component(immutable)]
+pub struct Route<R: SimulatedRobot>(pub R::Tour);
+
+/// A robot's stream of actuation noise; tick t draws at index t.
+#[derive(Component, Clone, Debug)]
+#[component(immutable)]
+pub struct Slip(pub Stream);
+
+/// The motion of the tick under way; `None` when the control makes none.
+#[derive(Component, Debug)]
+pub struct TickMotion<R: SimulatedRobot>(pub Option<R::Drive>);
+
+/// How much of the motion of the tick under way the surroundings allow, seen alone.
+#[derive(Component, Clone, Debug, PartialEq)]
+pub struct Cut<R: SimulatedRobot> {
+    /// The motion goes to this parameter.
+    pub until: f64,
+    /// Whether it was blocked, or hit.
+    pub contact: bool,
+    /// The clearance at its start, metres.
+    pub start_clearance: f64,
+    marker: std::marker::PhantomData<fn() -> R>,
+}
+
+impl<R: SimulatedRobot> Contacts<R> {
+    /// These contacts.
+    pub fn new(in_contact: bool, episodes: u32, flash: u32) -> Self {
+        Contacts { in_contact, episodes, flash, marker: std::marker::PhantomData }
+    }
+}
+
+impl<R: SimulatedRobot> OwnState<R> {
+    /// This state.
+    pub fn new(extra: Extra) -> Self {
+        OwnState { extra, marker: std::marker::PhantomData }
+    }
+}
+
+impl<R: SimulatedRobot> Cut<R> {
+    /// This cut.
+    pub fn new(until: f64, contact: bool, start_clearance: f64) -> Self {
+        Cut { until, contact, start_clearance, marker: std::marker::PhantomData }
+    }
+}
+
+// derived, `Copy` would ask for a robot that is `Copy`
+impl<R: SimulatedRobot> Copy for Configuration<R> {}
+impl<R: SimulatedRobot> Copy for PreviousConfiguration<R> {}
+impl<R: SimulatedRobot> Copy for Control<R> {}
+impl<R: SimulatedRobot> Copy for Contacts<R> {}
+impl<R: SimulatedRobot> Copy for DriveMode<R> {}
+impl<R: SimulatedRobot> Copy for Cut<R> {}
+
+impl<R: SimulatedRobot> Default for Control<R> {
+    fn default() -> Self {
+        Control(R::Control::default())
+    }
+}
+
+impl<R: SimulatedRobot> Default for Contacts<R> {
+    fn default() -> Self {
+        Contacts::new(false, 0, 0)
+    }
+}
+
+impl<R: SimulatedRobot> Default for DriveMode<R> {
+    fn default() -> Self {
+        DriveMode { manual: false, channels: [0; 2], target: None, refusals: 0 }
+    }
+}
+
+impl<R: SimulatedRobot> Default for OwnState<R> {
+    fn default() -> Self {
+        OwnState::new(Extra::new())
+    }
+}
+
+impl<R: SimulatedRobot> Default for TickMotion<R> {
+    fn default() -> Self {
+        TickMotion(None)
+    }
+}
+
+impl<R: SimulatedRobot> Default for Cut<R> {
+    fn default() -> Self {
+        Cut::new(0.0, false, f64::INFINITY)
+    }
+}

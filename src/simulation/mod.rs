@@ -1,0 +1,47 @@
+//! The simulator: robots, worlds, obstacles and sensors as entities, and one schedule that is a tick.
+//!
+//! - [`SimulationPlugin`] puts it into a Bevy app; [`start_run`] starts a run; [`step`] and [`seek`] move it.
+//! - A robot is an entity with a [`RobotModel<R>`] and the components that come with it. [`RobotPlugin`] adds a kind.
+//! - The state after a tick is a [`Frame`](crate::run::Frame): [`snapshot`] takes it, [`restore`] puts it back.
+//! - A window reads [`view`], [`Transport`] and [`LatestFrame`], and sends [`TransportCommand`] and [`RobotCommand`].
+
+mod components;
+mod drive;
+mod hold;
+mod input;
+mod kinds;
+mod ops;
+mod plugin;
+mod robot_plugin;
+mod schedule;
+mod sense;
+mod settle;
+mod simulated_robot;
+mod spawn;
+mod starts;
+mod state;
+mod sweep;
+#[cfg(test)]
+mod tests;
+mod transport;
+mod view;
+
+pub use components::{
+    Configuration, Contacts, Control, Cut, DriveMode, Extra, MountedOn, ObstacleOf, ObstacleShape, Obstacles, OwnState,
+    PreviousConfiguration, ResidesIn, Residents, RobotId, RobotModel, RobotName, Route, Scan, SensorModel, Sensors,
+    SimulatedWorld, Slip, TickMotion, WorldScene,
+};
+pub use hold::{Advance, HOLD_CLEARANCE, LEAST_CLEARANCE, MARGIN, advance, margin_from};
+pub use input::{PendingInput, RobotCommand};
+pub use ops::RobotOps;
+pub use plugin::{SimulationPlugin, obey, seek, step};
+pub use robot_plugin::{RobotKinds, RobotPlugin};
+pub use schedule::{SimulationSchedule, SimulationSystems};
+pub use settle::FLASH_TICKS;
+pub use simulated_robot::SimulatedRobot;
+pub use spawn::{Roster, RunConfig, RunInput, SpawnError, start_run};
+pub use state::{Keyframes, LatestFrame, RestoreError, restore, snapshot};
+pub use transport::{Playback, Transport, TransportCommand};
+pub use view::{RobotView, view};
+
+use spawn::{SpawnRequest, spawn_robot, start_run_in_order};

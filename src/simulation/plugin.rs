@@ -1,0 +1,169 @@
+//! `SimulationPlugin`, the simulation in a Bevy app.
+
+use bevy::app::{RunFixedMainLoop, RunFixedMainLoopSystems};
+use bevy::prelude::*;
+
+use super::schedule::{Phase, simulation_schedule};
+use super::starts::{Starts, Sweeps, gather_starts};
+use super::transport::re_rolled;
+use super::{
+    Keyframes, LatestFrame, PendingInput, Playback, RestoreError, RobotCommand, RobotKinds, RobotPlugin, RunConfig,
+    SimulationSchedule, SimulationSystems, SpawnError, Transport, TransportCommand, input, restore, sense, start_run_in_order,
+    state,
+};
+use crate::random::Seed;
+use crate::robots::{HITCH, RUSTY, Reach};
+use crate::run::{DT, Script};
+
+/// The simulation: the same in a window, without one, and on the web.
+///
+/// It adds the [`SimulationSchedule`] with the systems of the lab's robots, and an exclusive system in `FixedUpdate`, at 20 Hz,
+/// that runs it while the [`Transport`] plays. Messages ([`TransportCommand`], [`RobotCommand`]) are taken before the fixed
+/// loop. A run begins with [`start_run`](super::start_run).
+#[derive(Clone, Copy, Debug, Default)]
+pub struct SimulationPlugin;
+
+impl Plugin for SimulationPlugin {
+    fn build(&self, app: &mut App) {
+        app.add_schedule(simulation_schedule())
+            .init_resource::<RobotKinds>()
+            .init_resource::<Starts>()
+            .init_resource::<Sweeps>()
+            .init_resource::<PendingInput>()
+            .init_resource::<Keyframes>()
+            .init_resource::<LatestFrame>()
+            .insert_resource(Transport::new(Seed(0)))
+            .insert_resource(Time::<Fixed>::from_seconds(DT))
+            .add_message::<TransportCommand>()
+            .add_message::<RobotCommand>()
+            .add_systems(
+                SimulationSchedule,
+                (
+                    (input::advance_tick, input::apply_inputs).chain().in_set(SimulationSystems::Input),
+                    gather_starts.in_set(Phase::Gather),
+                    sense::sense.in_set(SimulationSystems::Sense),
+                    state::record.in_set(SimulationSystems::Record),
+                ),
+            )
+            .add_systems(
+                RunFixedMainLoop,
+                (take_robot_commands, take_transport_commands)
+                    .chain()
+                    .in_set(RunFixedMainLoopSystems::BeforeFixedMainLoop),
+            )
+            .add_systems(FixedUpdate, run_while_playing);
+        app.add_plugins((
+            RobotPlugin::new("rusty", RUSTY),
+            RobotPlugin::new("reach", Reach::<2>::workbench()),
+            RobotPlugin::new("reach3", Reach::<3>::redundant()),
+            RobotPlugin::new("hitch", HITCH),
+        ));
+    }
+}
+
+/// Runs one tick.
+pub fn step(world: &mut World) {
+    world.run_schedule(SimulationSchedule);
+}
+
+/// Takes the run to `tick`: back by the last keyframe before it, then on by simulating.
+///
+/// # Errors
+/// [`RestoreError`] when the keyframe does not fit the run, which only a frame from elsewhere could cause.
+pub fn seek(world: &mut World, tick: u64) -> Result<(), RestoreError> {
+    let now = world.resource::<Transport>().tick;
+    let keyframe = world.resource::<Keyframes>().before(tick).cloned();
+    if let Some(frame) = keyframe.filter(|f| tick < now || f.tick > now) {
+        restore(world, &frame)?;
+    }
+    while world.resource::<Transport>().tick < tick {
+        step(world);
+    }
+    Ok(())
+}
+
+/// Forgets all input after the present tick.
+fn continue_from_here(world: &mut World) {
+    let tick = world.resource::<Transport>().tick;
+    world.resource_mut::<PendingInput>().truncate_after(tick);
+    world.resource_mut::<Keyframes>().truncate_after(tick);
+    world.resource_mut::<Transport>().frontier = tick;
+}
+
+/// A new run of the present configuration; playback and speed stay.
+fn restart(world: &mut World, seed: Seed) -> Result<(), SpawnError> {
+    let Some(RunConfig(config)) = world.get_resource::<RunConfig>().cloned() else { return Ok(()) };
+    let Transport { playback, speed, .. } = *world.resource::<Transport>();
+    let order: Vec<usize> = (0..config.worlds.iter().map(|w| w.robots.len()).sum()).collect();
+    start_run_in_order(world, config, (seed, Script::empty()).into(), &order)?;
+    let mut transport = world.resource_mut::<Transport>();
+    (transport.playback, transport.speed) = (playback, speed);
+    Ok(())
+}
+
+/// Does what a transport command says.
+///
+/// # Errors
+/// What [`seek`] or a new run refuses, as text; neither happens to a run that was started.
+pub fn obey(world: &mut World, command: TransportCommand) -> Result<(), String> {
+    let Transport { seed, tick, .. } = *world.resource::<Transport>();
+    let pause = |world: &mut World| world.resource_mut::<Transport>().playback = Playback::Paused;
+    let to = |world: &mut World, tick| seek(world, tick).map_err(|e| e.to_string());
+    let anew = |world: &mut World, seed| restart(world, seed).map_err(|e| e.to_string());
+    match command {
+        TransportCommand::Play => world.resource_mut::<Transport>().playback = Playback::Playing,
+        TransportCommand::Pause => pause(world),
+        TransportCommand::Step => {
+            pause(world);
+            step(world);
+        }
+        TransportCommand::StepBack => {
+            pause(world);
+            to(world, tick.saturating_sub(1))?;
+        }
+        TransportCommand::Seek(tick) => to(world, tick)?,
+        TransportCommand::ContinueFromHere => continue_from_here(world),
+        TransportCommand::Reset => anew(world, seed)?,
+        TransportCommand::ReRoll => anew(world, re_rolled(seed))?,
+        TransportCommand::SetSeed(seed) => anew(world, seed)?,
+        TransportCommand::SetSpeed(speed) => {
+            if (1.0 / 64.0..=64.0).contains(&speed) {
+                world.resource_mut::<Transport>().speed = speed;
+                if let Some(mut time) = world.get_resource_mut::<Time<Virtual>>() {
+                    time.set_relative_speed_f64(speed);
+                }
+            }
+        }
+    }
+    Ok(())
+}
+
+/// Stamps the inputs that came in with the next tick. Input at a tick before the frontier continues the run from there.
+fn take_robot_commands(world: &mut World) {
+    let commands: Vec<RobotCommand> = world.resource_mut::<Messages<RobotCommand>>().drain().collect();
+    if commands.is_empty() {
+        return;
+    }
+    let Transport { tick, frontier, .. } = *world.resource::<Transport>();
+    if tick < frontier {
+        continue_from_here(world);
+    }
+    let mut pending = world.resource_mut::<PendingInput>();
+    for RobotCommand { robot, input } in commands {
+        pending.capture(tick + 1, &robot, input);
+    }
+}
+
+fn take_transport_commands(world: &mut World) {
+    let commands: Vec<TransportCommand> = world.resource_mut::<Messages<TransportCommand>>().drain().collect();
+    for command in commands {
+        // a command that cannot be obeyed leaves the run where it was
+        let _ = obey(world, command);
+    }
+}
+
+fn run_while_playing(world: &mut World) {
+    if world.resource::<Transport>().playback == Playback::Playing {
+        step(world);
+    }
+}

@@ -1,0 +1,68 @@
+//! The one schedule that is the simulation.
+
+use bevy::ecs::schedule::{LogLevel, ScheduleBuildSettings, ScheduleLabel, SingleThreadedExecutor};
+use bevy::prelude::*;
+
+/// One tick of the simulation, whoever runs it: the fixed loop of a window, the recorder, a replay, the step button, a seek.
+///
+/// Single-threaded, and two systems that could run in either order are an error. Inside it there is no `Time`, no `Local`,
+/// no message, no spawning and no reliance on the order of entities.
+#[derive(ScheduleLabel, Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct SimulationSchedule;
+
+/// The parts of a tick, in this order.
+#[derive(SystemSet, Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum SimulationSystems {
+    /// The tick begins; the inputs stamped with it apply.
+    Input,
+    /// Each robot's tour or driver gives its control.
+    Drive,
+    /// The control gives the tick's motion, and the robots' footprints at its start are gathered.
+    Step,
+    /// The motions are cut where they would hit, contacts are counted, configurations advance.
+    Collide,
+    /// The range sensors scan.
+    Sense,
+    /// The frame is taken.
+    Record,
+}
+
+/// The generic systems of one phase run one kind of robot after the other, in the order of registration.
+#[derive(SystemSet, Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub(super) enum KindSystems {
+    Drive(usize),
+    Plan(usize),
+    Cut(usize),
+    Settle(usize),
+}
+
+/// The finer order within [`SimulationSystems::Step`] and [`SimulationSystems::Collide`]: the footprints are gathered, every
+/// motion is planned, every motion is cut, and only then any robot advances.
+#[derive(SystemSet, Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub(super) enum Phase {
+    Gather,
+    Plan,
+    Cut,
+    Settle,
+}
+
+/// The empty schedule with its sets in order.
+pub(super) fn simulation_schedule() -> Schedule {
+    let mut schedule = Schedule::new(SimulationSchedule);
+    schedule.set_executor(SingleThreadedExecutor::new());
+    schedule.set_build_settings(ScheduleBuildSettings { ambiguity_detection: LogLevel::Error, ..default() });
+    schedule.configure_sets(
+        (
+            SimulationSystems::Input,
+            SimulationSystems::Drive,
+            SimulationSystems::Step,
+            SimulationSystems::Collide,
+            SimulationSystems::Sense,
+            SimulationSystems::Record,
+        )
+            .chain(),
+    );
+    schedule.configure_sets((Phase::Gather, Phase::Plan).chain().in_set(SimulationSystems::Step));
+    schedule.configure_sets((Phase::Cut, Phase::Settle).chain().in_set(SimulationSystems::Collide));
+    schedule
+}

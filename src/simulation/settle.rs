@@ -1,0 +1,92 @@
+//! The systems that cut each motion, settle which robots advance, and count contacts.
+
+use bevy::prelude::*;
+
+use super::hold::{self, Advance, margin_from};
+use super::simulated_robot::canonical;
+use super::starts::{Starts, Sweeps};
+use super::sweep::{CutMotion, sweeps_meet};
+use super::{
+    Configuration, Contacts, Cut, DriveMode, ResidesIn, RobotId, RobotModel, SimulatedRobot, TickMotion, WorldScene,
+};
+use crate::collision::{Collision, MarchOptions, Surroundings, march};
+use crate::configuration::Configuration as _;
+use crate::robots::Motion;
+
+/// How many ticks a flash holds after contact: 0.3 s.
+pub const FLASH_TICKS: u32 = 6;
+
+/// How far the motion of a robot that nothing holds goes: all the way, in contact when it is not proven free.
+fn pass(surroundings: &dyn Collision, motion: &impl Motion) -> Advance {
+    let blocked = !march(surroundings, motion, MarchOptions::default(), None).is_free();
+    Advance { until: 1.0, blocked, start_clearance: surroundings.distance(&motion.footprint_at(0.0)) }
+}
+
+/// Cuts every motion of a kind at the walls and at all other robots' starting footprints.
+pub(super) fn cut<R: SimulatedRobot>(
+    starts: Res<Starts>,
+    mut sweeps: ResMut<Sweeps>,
+    scenes: Query<&WorldScene>,
+    mut robots: Query<(&RobotId, &ResidesIn, &TickMotion<R>, &mut Cut<R>)>,
+) {
+    for (&id, &ResidesIn(world), TickMotion(motion), mut cut) in &mut robots {
+        let (Some(motion), Ok(WorldScene(scene))) = (motion, scenes.get(world)) else {
+            *cut = Cut::new(0.0, false, f64::INFINITY);
+            continue;
+        };
+        let others = starts.others(world, id);
+        let surroundings = Surroundings { scene, others: &others };
+        let a = if R::HELD { hold::advance(&surroundings, motion) } else { pass(&surroundings, motion) };
+        *cut = Cut::new(a.until, a.blocked, a.start_clearance);
+        if !others.is_empty() {
+            sweeps.add(world, id, Box::new(CutMotion { motion: motion.clone(), until: a.until }));
+        }
+    }
+}
+
+/// What [`settle`] reads and writes of a robot.
+type Settled<R> = (
+    &'static RobotId,
+    &'static ResidesIn,
+    &'static RobotModel<R>,
+    &'static TickMotion<R>,
+    &'static Cut<R>,
+    &'static mut Configuration<R>,
+    &'static mut Contacts<R>,
+    &'static mut DriveMode<R>,
+);
+
+/// Advances every robot of a kind: along its cut motion, unless that meets the cut motion of a robot with a lower id in its
+/// world; then it stays where it started.
+pub(super) fn settle<R: SimulatedRobot>(starts: Res<Starts>, sweeps: Res<Sweeps>, mut robots: Query<Settled<R>>) {
+    for (&id, &ResidesIn(world), RobotModel(robot), TickMotion(motion), cut, mut q, mut contacts, mut mode) in &mut robots {
+        let (mut until, mut in_contact) = (cut.until, cut.contact);
+        if let Some(motion) = motion {
+            let own = CutMotion { motion: motion.clone(), until };
+            let met = until > 0.0
+                && sweeps.below(world, id).any(|(lower, sweep)| {
+                    // at one that stands still the motion is cut already
+                    if sweep.is_still() {
+                        return false;
+                    }
+                    let margin = margin_from(starts.distance(world, id, lower));
+                    sweeps_meet(sweeps.nothing(), &own, sweep, margin)
+                });
+            in_contact |= met;
+            if met && R::HELD {
+                until = 0.0;
+            }
+            let end = canonical(&motion.at(until));
+            if robot.fitted(&end).check(&end).is_ok() {
+                q.0 = end;
+            }
+        }
+        let episode = in_contact && !contacts.in_contact;
+        let flash = if in_contact { FLASH_TICKS } else { contacts.flash.saturating_sub(1) };
+        *contacts = Contacts::new(in_contact, contacts.episodes.saturating_add(episode.into()), flash);
+        let arrived = mode.target.is_some_and(|t| t.difference(&q.0).is_ok_and(|d| d.iter().all(|x| *x == 0.0)));
+        if arrived {
+            mode.target = None;
+        }
+    }
+}

@@ -1,0 +1,127 @@
+//! The state of the whole simulation as a `Frame`: taken, kept as keyframes, and put back.
+
+use std::collections::BTreeMap;
+
+use bevy::prelude::*;
+
+use super::{MountedOn, RobotId, RobotOps, Roster, Scan, Transport};
+use crate::run::{Frame, RobotScan};
+
+/// The frame of the last tick.
+#[derive(Resource, Clone, Debug, PartialEq)]
+pub struct LatestFrame(pub Frame);
+
+impl Default for LatestFrame {
+    fn default() -> Self {
+        LatestFrame(Frame { tick: 0, robots: Vec::new(), scans: Vec::new() })
+    }
+}
+
+/// Frames kept on the way, so that a seek need not begin at tick 0.
+#[derive(Resource, Clone, Debug, PartialEq)]
+pub struct Keyframes {
+    every: u64,
+    frames: BTreeMap<u64, Frame>,
+}
+
+impl Default for Keyframes {
+    fn default() -> Self {
+        Keyframes { every: 100, frames: BTreeMap::new() }
+    }
+}
+
+impl Keyframes {
+    /// No frames yet; one will be kept every `every` ticks, at least every tick.
+    pub fn every(every: u64) -> Self {
+        Keyframes { every: every.max(1), frames: BTreeMap::new() }
+    }
+
+    /// The last frame kept at or before `tick`.
+    pub fn before(&self, tick: u64) -> Option<&Frame> {
+        self.frames.range(..=tick).next_back().map(|(_, f)| f)
+    }
+
+    fn keep(&mut self, frame: &Frame) {
+        if frame.tick.is_multiple_of(self.every) {
+            self.frames.insert(frame.tick, frame.clone());
+        }
+    }
+
+    /// Forgets every frame after `tick`.
+    pub(super) fn truncate_after(&mut self, tick: u64) {
+        self.frames.split_off(&(tick + 1));
+    }
+}
+
+/// A frame that is not one of the run's.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum RestoreError {
+    /// The frame has other robots than the run.
+    #[error("the frame of tick {tick} has {found} robots, the run has {expected}")]
+    Robots {
+        /// The frame's tick.
+        tick: u64,
+        /// The robots in the frame.
+        found: usize,
+        /// The robots in the run.
+        expected: usize,
+    },
+    /// A robot's state does not fit the robot with its id.
+    #[error("the frame of tick {tick} has a state for robot {id} that does not fit it")]
+    Robot {
+        /// The frame's tick.
+        tick: u64,
+        /// The robot's id.
+        id: u32,
+    },
+}
+
+/// The state of the simulation now: the canonical form, the same for equal states.
+pub fn snapshot(world: &mut World) -> Frame {
+    let mut sensors = world.query::<(&MountedOn, &Scan)>();
+    let mut scans: Vec<RobotScan> = sensors
+        .iter(world)
+        .filter_map(|(&MountedOn(robot), Scan(ranges))| {
+            Some(RobotScan { robot: world.get::<RobotId>(robot)?.0, ranges: ranges.clone() })
+        })
+        .collect();
+    scans.sort_by_key(|s| s.robot);
+    let tick = world.get_resource::<Transport>().map_or(0, |t| t.tick);
+    let robots = world.get_resource::<Roster>().map_or(&[][..], Roster::robots);
+    let robots = robots.iter().filter_map(|&e| (world.get::<RobotOps>(e)?.encode)(world, e)).collect();
+    Frame { tick, robots, scans }
+}
+
+/// Takes the frame of the tick.
+pub(super) fn record(world: &mut World) {
+    let frame = snapshot(world);
+    world.resource_mut::<Keyframes>().keep(&frame);
+    world.resource_mut::<LatestFrame>().0 = frame;
+}
+
+/// Puts the simulation into the state of `frame`, overwriting components; nothing is spawned. What follows is what followed
+/// then, bit for bit. The scans are taken anew, which gives the frame's own.
+///
+/// # Errors
+/// [`RestoreError`] when the frame is not one of this run; robots before the one named are overwritten then.
+pub fn restore(world: &mut World, frame: &Frame) -> Result<(), RestoreError> {
+    let robots: Vec<Entity> = world.get_resource::<Roster>().map_or_else(Vec::new, |r| r.robots().to_vec());
+    let tick = frame.tick;
+    if robots.len() != frame.robots.len() {
+        return Err(RestoreError::Robots { tick, found: frame.robots.len(), expected: robots.len() });
+    }
+    for (&robot, state) in robots.iter().zip(&frame.robots) {
+        let refused = RestoreError::Robot { tick, id: state.id };
+        let (Some(id), Some(ops)) = (world.get::<RobotId>(robot), world.get::<RobotOps>(robot).copied()) else {
+            return Err(refused);
+        };
+        if id.0 != state.id || (ops.decode)(world, robot, state).is_none() {
+            return Err(refused);
+        }
+    }
+    world.resource_mut::<Transport>().tick = tick;
+    super::sense::sense(world);
+    record(world);
+    Ok(())
+}

@@ -1,0 +1,83 @@
+//! `Transport`, where a run stands, and the commands that move it.
+
+use bevy::prelude::*;
+
+use crate::random::{Seed, Stream};
+
+/// Whether ticks follow one another by themselves.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Playback {
+    /// The fixed loop runs the simulation.
+    Playing,
+    /// It does not.
+    #[default]
+    Paused,
+}
+
+/// Where the run stands.
+#[derive(Resource, Clone, Copy, Debug, PartialEq)]
+pub struct Transport {
+    /// The run's seed.
+    pub seed: Seed,
+    /// The last tick done; 0 at the start.
+    pub tick: u64,
+    /// Whether it plays.
+    pub playback: Playback,
+    /// Simulated seconds per second of the clock, above 0.
+    pub speed: f64,
+    /// The last tick that this run has reached, however far it was taken back since.
+    pub frontier: u64,
+}
+
+impl Transport {
+    /// The start of a run, paused, at normal speed.
+    pub fn new(seed: Seed) -> Self {
+        Transport { seed, tick: 0, playback: Playback::Paused, speed: 1.0, frontier: 0 }
+    }
+}
+
+/// A command of the transport. None of them is part of a run's script.
+#[derive(Message, Clone, Copy, Debug, PartialEq)]
+pub enum TransportCommand {
+    /// Let ticks follow one another.
+    Play,
+    /// Stop after the tick under way.
+    Pause,
+    /// One tick, and pause.
+    Step,
+    /// Back by one tick, and pause.
+    StepBack,
+    /// To any tick of this run, and on at the same playback. Beyond the frontier the run is simulated up to there.
+    Seek(u64),
+    /// Forget all input after the present tick: the run goes on from here.
+    ContinueFromHere,
+    /// A new run with the same seed and no input.
+    Reset,
+    /// A new run with a seed drawn from the present one.
+    ReRoll,
+    /// A new run with this seed.
+    SetSeed(Seed),
+    /// Simulated seconds per second of the clock; anything not finite, or out of [1/64, 64], is ignored.
+    SetSpeed(f64),
+}
+
+/// The seed that a re-roll goes to: up to six digits, so that it is easily typed back.
+pub fn re_rolled(seed: Seed) -> Seed {
+    let drawn = Stream::new(seed, "re-roll").below(999_999);
+    // leave the present seed out
+    Seed(if drawn >= seed.0 { drawn + 1 } else { drawn })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_re_roll_is_another_short_seed() {
+        for seed in (0..2000).chain([u64::MAX, 999_999]) {
+            let next = re_rolled(Seed(seed));
+            assert!(next != Seed(seed) && next.0 <= 999_999);
+            assert_eq!(next, re_rolled(Seed(seed)));
+        }
+    }
+}
