@@ -26,6 +26,10 @@ pub mod simulation;
 
 pub mod recording;
 
+pub mod picture;
+
+pub mod ui;
+
 /// The names a planner or an experiment usually needs.
 pub mod prelude {
     pub use crate::configuration::{Configuration, HitchCfg, R2, T2, Tn};
