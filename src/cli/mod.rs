@@ -1,10 +1,23 @@
 //! The command line: one command a file. Data goes to standard output, messages to standard error.
 
+mod bare;
 mod console;
 mod end;
+#[cfg(feature = "headless")]
+mod figure;
+mod info;
 mod input;
+mod interrupt;
 mod json_number;
+mod log_source;
+mod output;
 mod query;
+mod record;
+mod simulate;
+mod summary;
+#[cfg(feature = "headless")]
+mod tour;
+mod verify;
 mod world;
 mod world_source;
 
@@ -40,6 +53,9 @@ pub struct Cli {
 
 #[derive(Debug, Subcommand)]
 enum Command {
+    Record(Box<record::Record>),
+    Verify(verify::Verify),
+    Info(info::Info),
     Query(query::Query),
     World(world::WorldArgs),
 }
@@ -48,13 +64,12 @@ impl Cli {
     /// Runs the command.
     pub fn run(self, data: &mut Data) -> Result<Outcome, Failure> {
         match self.command {
+            Some(Command::Record(record)) => record.run(data),
+            Some(Command::Verify(verify)) => verify.run(data),
+            Some(Command::Info(info)) => info.run(data),
             Some(Command::Query(query)) => query.run(data),
             Some(Command::World(world)) => world.run(data),
-            None => bare(data),
+            None => bare::bare(data),
         }
     }
-}
-
-fn bare(_data: &mut Data) -> Result<Outcome, Failure> {
-    Ok(Outcome::Done)
 }
