@@ -30,6 +30,9 @@ pub mod picture;
 
 pub mod ui;
 
+#[cfg(target_family = "wasm")]
+pub mod web;
+
 /// The names a planner or an experiment usually needs.
 pub mod prelude {
     pub use crate::configuration::{Configuration, HitchCfg, R2, T2, Tn};

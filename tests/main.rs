@@ -1,7 +1,21 @@
 //! The whole-system tests: one binary, a module per subject.
 #![allow(clippy::unwrap_used, clippy::expect_used, missing_docs)]
 
+mod fixtures;
+mod oracle;
+mod verdicts;
+
 mod allocation;
+mod chapter;
 mod cli;
+mod edges;
+mod failsafe;
+mod faults;
 mod house;
+mod metamorphic;
+mod pairs;
+mod penetration;
 mod planner;
+mod polygons;
+mod sweeps;
+mod touches;

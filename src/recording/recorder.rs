@@ -5,8 +5,8 @@ use bevy::ecs::world::World;
 
 use crate::run::{Frame, Script};
 use crate::simulation::{
-    LatestFrame, PendingInput, RestoreError, RobotView, RunInput, SimulationPlugin, SpawnError, Transport, restore, seek,
-    start_run, step, view,
+    LatestFrame, PendingInput, RestoreError, RobotView, RunInput, SimulationPlugin, SpawnError, Transport, restore,
+    seek, start_run, step, view,
 };
 use crate::tour::TourConfig;
 

@@ -10,7 +10,6 @@ mod log;
 mod mcap;
 mod script;
 mod script_text;
-mod world_shim;
 
 pub use digest::{Digest, RunDigest};
 pub use divergence::{Divergence, first_divergence};

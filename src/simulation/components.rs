@@ -166,8 +166,6 @@ pub struct Cut<R: SimulatedRobot> {
     pub until: f64,
     /// Whether it was blocked, or hit.
     pub contact: bool,
-    /// The clearance at its start, metres.
-    pub start_clearance: f64,
     marker: std::marker::PhantomData<fn() -> R>,
 }
 
@@ -187,8 +185,8 @@ impl<R: SimulatedRobot> OwnState<R> {
 
 impl<R: SimulatedRobot> Cut<R> {
     /// This cut.
-    pub fn new(until: f64, contact: bool, start_clearance: f64) -> Self {
-        Cut { until, contact, start_clearance, marker: std::marker::PhantomData }
+    pub fn new(until: f64, contact: bool) -> Self {
+        Cut { until, contact, marker: std::marker::PhantomData }
     }
 }
 
@@ -232,6 +230,6 @@ impl<R: SimulatedRobot> Default for TickMotion<R> {
 
 impl<R: SimulatedRobot> Default for Cut<R> {
     fn default() -> Self {
-        Cut::new(0.0, false, f64::INFINITY)
+        Cut::new(0.0, false)
     }
 }

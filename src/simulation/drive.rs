@@ -43,7 +43,8 @@ type Driven<R> = (
 /// Gives every robot of a kind its control.
 pub(super) fn drive<R: SimulatedRobot>(transport: Res<Transport>, mut robots: Query<Driven<R>>) {
     let tick = transport.tick;
-    for (RobotModel(robot), Route(tour), Slip(slip), mode, Configuration(q), mut previous, mut own, mut control) in &mut robots
+    for (RobotModel(robot), Route(tour), Slip(slip), mode, Configuration(q), mut previous, mut own, mut control) in
+        &mut robots
     {
         previous.0 = *q;
         let mut extra = own.extra.clone();

@@ -114,7 +114,8 @@ mod tests {
     }
 
     fn room() -> Scene {
-        let corners = [(-4.0, -5.0), (6.0, -5.0), (6.0, 5.0), (-4.0, 5.0), (-4.0, -5.0)].map(|(x, y)| Point2::new(x, y));
+        let corners =
+            [(-4.0, -5.0), (6.0, -5.0), (6.0, 5.0), (-4.0, 5.0), (-4.0, -5.0)].map(|(x, y)| Point2::new(x, y));
         Scene::of_walls(&corners.windows(2).map(|w| Segment::new(w[0], w[1])).collect::<Vec<_>>())
     }
 

@@ -2,7 +2,7 @@
 
 use bevy::prelude::*;
 
-use super::{Roster, RobotName, RobotOps, Transport};
+use super::{RobotName, RobotOps, Roster, Transport};
 use crate::run::{Event, RobotInput, Script};
 
 /// An input to a robot, as a message from whoever drives: it applies before the next tick's step.
@@ -51,12 +51,14 @@ impl PendingInput {
         self.script.events.retain(|e| e.tick <= tick);
     }
 
-    /// Captures a live input before the step of `tick`. Whatever was to come after is forgotten.
+    /// Captures a live input before the step of the event's tick, the next one. Whatever was to come after is forgotten.
     ///
     /// - A change is recorded, not a state: channels that are already held, or a target already set in this tick, are not.
     /// - Of several changes within one tick the last wins, and a drag keeps its last target.
     /// - But a press shorter than a tick counts for one: channels pressed and let go within the tick are let go in the next.
-    pub fn capture(&mut self, tick: u64, robot: &str, input: RobotInput) {
+    pub fn capture(&mut self, event: Event) {
+        let Event { tick, robot, input } = event;
+        let robot = robot.as_str();
         // one tick beyond, for releases put off
         self.truncate_after(tick + 1);
         let last = self.script.events.iter().rposition(|e| e.robot == robot);
@@ -119,9 +121,12 @@ pub(super) fn apply_inputs(world: &mut World) {
     }
     world.resource_scope(|world, pending: Mut<PendingInput>| {
         for event in pending.due(tick) {
-            let robot = world.resource::<Roster>().robots().iter().copied().find(|&e| {
-                world.get::<RobotName>(e).is_some_and(|n| n.name == event.robot)
-            });
+            let robot = world
+                .resource::<Roster>()
+                .robots()
+                .iter()
+                .copied()
+                .find(|&e| world.get::<RobotName>(e).is_some_and(|n| n.name == event.robot));
             if let Some((robot, ops)) = robot.and_then(|e| Some((e, *world.get::<RobotOps>(e)?))) {
                 (ops.apply)(world, robot, &event.input);
             }
@@ -137,7 +142,7 @@ mod tests {
     fn captured(inputs: &[(u64, RobotInput)]) -> Vec<(u64, RobotInput)> {
         let mut pending = PendingInput::default();
         for (tick, input) in inputs {
-            pending.capture(*tick, "r", input.clone());
+            pending.capture(Event { tick: *tick, robot: "r".into(), input: input.clone() });
         }
         pending.script().events.iter().map(|e| (e.tick, e.input.clone())).collect()
     }
@@ -145,10 +150,10 @@ mod tests {
     #[test]
     fn only_changes_are_recorded_and_the_last_of_a_tick_wins() {
         use RobotInput::{Drive, Release};
-        assert_eq!(captured(&[(3, Drive(128, 0)), (4, Drive(128, 0)), (9, Drive(0, 0))]), [
-            (3, Drive(128, 0)),
-            (9, Drive(0, 0))
-        ]);
+        assert_eq!(
+            captured(&[(3, Drive(128, 0)), (4, Drive(128, 0)), (9, Drive(0, 0))]),
+            [(3, Drive(128, 0)), (9, Drive(0, 0))]
+        );
         assert_eq!(captured(&[(3, Drive(128, 0)), (3, Drive(128, 64))]), [(3, Drive(128, 64))]);
         assert_eq!(captured(&[(3, Drive(1, 0)), (4, Release), (5, Drive(1, 0))]).len(), 3);
         let to = |x| RobotInput::MoveTo(vec![Quantized(x), Quantized(0)]);
@@ -160,17 +165,15 @@ mod tests {
         use RobotInput::Drive;
         let zero = (1, Drive(0, 0));
         // the first zero takes over from the tour, the press and its release come within tick 3
-        assert_eq!(captured(&[zero.clone(), (3, Drive(128, 0)), (3, Drive(0, 0))]), [
-            zero.clone(),
-            (3, Drive(128, 0)),
-            (4, Drive(0, 0))
-        ]);
+        assert_eq!(
+            captured(&[zero.clone(), (3, Drive(128, 0)), (3, Drive(0, 0))]),
+            [zero.clone(), (3, Drive(128, 0)), (4, Drive(0, 0))]
+        );
         // and a second press after it waits for the next tick, where the last wins
-        assert_eq!(captured(&[zero.clone(), (3, Drive(128, 0)), (3, Drive(0, 0)), (3, Drive(0, 9))]), [
-            zero,
-            (3, Drive(128, 0)),
-            (4, Drive(0, 9))
-        ]);
+        assert_eq!(
+            captured(&[zero.clone(), (3, Drive(128, 0)), (3, Drive(0, 0)), (3, Drive(0, 9))]),
+            [zero, (3, Drive(128, 0)), (4, Drive(0, 9))]
+        );
         // so does a press that takes over from the tour: its release cannot come before one tick is driven
         assert_eq!(captured(&[(3, Drive(128, 0)), (3, Drive(0, 0))]), [(3, Drive(128, 0)), (4, Drive(0, 0))]);
     }

@@ -28,7 +28,7 @@ mod view;
 
 pub use components::{
     Configuration, Contacts, Control, Cut, DriveMode, Extra, MountedOn, ObstacleOf, ObstacleShape, Obstacles, OwnState,
-    PreviousConfiguration, ResidesIn, Residents, RobotId, RobotModel, RobotName, Route, Scan, SensorModel, Sensors,
+    PreviousConfiguration, Residents, ResidesIn, RobotId, RobotModel, RobotName, Route, Scan, SensorModel, Sensors,
     SimulatedWorld, Slip, TickMotion, WorldScene,
 };
 pub use hold::{Advance, HOLD_CLEARANCE, LEAST_CLEARANCE, MARGIN, advance, margin_from};

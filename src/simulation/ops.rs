@@ -5,8 +5,8 @@ use bevy::prelude::*;
 use super::simulated_robot::canonical;
 use super::starts::others_now;
 use super::{
-    Configuration, Contacts, DriveMode, Extra, OwnState, PreviousConfiguration, ResidesIn, RobotId, RobotModel, RobotName,
-    RobotView, Route, SimulatedRobot, SimulatedWorld, WorldScene,
+    Configuration, Contacts, DriveMode, Extra, OwnState, PreviousConfiguration, ResidesIn, RobotId, RobotModel,
+    RobotName, RobotView, Route, SimulatedRobot, SimulatedWorld, WorldScene,
 };
 use crate::collision::{Collision, Surroundings};
 use crate::configuration::{Configuration as _, Coordinates};

@@ -7,13 +7,13 @@ use super::schedule::{Phase, simulation_schedule};
 use super::starts::{Starts, Sweeps, gather_starts};
 use super::transport::re_rolled;
 use super::{
-    Keyframes, LatestFrame, PendingInput, Playback, RestoreError, RobotCommand, RobotKinds, RobotPlugin, RunConfig,
-    SimulationSchedule, SimulationSystems, SpawnError, Transport, TransportCommand, input, restore, sense, start_run_in_order,
-    state,
+    Keyframes, LatestFrame, PendingInput, Playback, RestoreError, RobotCommand, RobotKinds, RobotName, RobotPlugin,
+    RunConfig, SimulationSchedule, SimulationSystems, SpawnError, Transport, TransportCommand, input, restore, sense,
+    start_run_in_order, state,
 };
 use crate::random::Seed;
 use crate::robots::{HITCH, RUSTY, Reach};
-use crate::run::{DT, Script};
+use crate::run::{DT, Event, Script};
 
 /// The simulation: the same in a window, without one, and on the web.
 ///
@@ -138,7 +138,8 @@ pub fn obey(world: &mut World, command: TransportCommand) -> Result<(), String> 
     Ok(())
 }
 
-/// Stamps the inputs that came in with the next tick. Input at a tick before the frontier continues the run from there.
+/// Stamps the inputs that came in with the next tick. Input at a tick before the frontier continues the run from there. What
+/// no script could hold (an unknown robot, a channel out of range) is ignored.
 fn take_robot_commands(world: &mut World) {
     let commands: Vec<RobotCommand> = world.resource_mut::<Messages<RobotCommand>>().drain().collect();
     if commands.is_empty() {
@@ -148,9 +149,13 @@ fn take_robot_commands(world: &mut World) {
     if tick < frontier {
         continue_from_here(world);
     }
+    let names: Vec<String> = world.query::<&RobotName>().iter(world).map(|n| n.name.clone()).collect();
     let mut pending = world.resource_mut::<PendingInput>();
     for RobotCommand { robot, input } in commands {
-        pending.capture(tick + 1, &robot, input);
+        let event = Event { tick: tick + 1, robot, input };
+        if names.contains(&event.robot) && (Script { events: vec![event.clone()], ..Script::empty() }).check().is_ok() {
+            pending.capture(event);
+        }
     }
 }
 

@@ -7,7 +7,8 @@ use bevy::prelude::*;
 
 use super::schedule::{KindSystems, Phase};
 use super::{
-    RobotOps, SimulatedRobot, SimulationSchedule, SimulationSystems, SpawnError, SpawnRequest, drive, settle, spawn_robot,
+    RobotOps, SimulatedRobot, SimulationSchedule, SimulationSystems, SpawnError, SpawnRequest, drive, settle,
+    spawn_robot,
 };
 
 /// Makes robots of type `R` known to the simulation under the name of a kind, which worlds name in their residents. Add it

@@ -9,18 +9,12 @@ use super::sweep::{CutMotion, sweeps_meet};
 use super::{
     Configuration, Contacts, Cut, DriveMode, ResidesIn, RobotId, RobotModel, SimulatedRobot, TickMotion, WorldScene,
 };
-use crate::collision::{Collision, MarchOptions, Surroundings, march};
+use crate::collision::{MarchOptions, Surroundings, march};
 use crate::configuration::Configuration as _;
 use crate::robots::Motion;
 
 /// How many ticks a flash holds after contact: 0.3 s.
 pub const FLASH_TICKS: u32 = 6;
-
-/// How far the motion of a robot that nothing holds goes: all the way, in contact when it is not proven free.
-fn pass(surroundings: &dyn Collision, motion: &impl Motion) -> Advance {
-    let blocked = !march(surroundings, motion, MarchOptions::default(), None).is_free();
-    Advance { until: 1.0, blocked, start_clearance: surroundings.distance(&motion.footprint_at(0.0)) }
-}
 
 /// Cuts every motion of a kind at the walls and at all other robots' starting footprints.
 pub(super) fn cut<R: SimulatedRobot>(
@@ -31,15 +25,20 @@ pub(super) fn cut<R: SimulatedRobot>(
 ) {
     for (&id, &ResidesIn(world), TickMotion(motion), mut cut) in &mut robots {
         let (Some(motion), Ok(WorldScene(scene))) = (motion, scenes.get(world)) else {
-            *cut = Cut::new(0.0, false, f64::INFINITY);
+            *cut = Cut::new(0.0, false);
             continue;
         };
         let others = starts.others(world, id);
         let surroundings = Surroundings { scene, others: &others };
-        let a = if R::HELD { hold::advance(&surroundings, motion) } else { pass(&surroundings, motion) };
-        *cut = Cut::new(a.until, a.blocked, a.start_clearance);
+        *cut = if R::HELD {
+            let Advance { until, blocked, .. } = hold::advance(&surroundings, motion);
+            Cut::new(until, blocked)
+        } else {
+            // nothing holds it: all the way, in contact unless proven free
+            Cut::new(1.0, !march(&surroundings, motion, MarchOptions::default(), None).is_free())
+        };
         if !others.is_empty() {
-            sweeps.add(world, id, Box::new(CutMotion { motion: motion.clone(), until: a.until }));
+            sweeps.add(world, id, Box::new(CutMotion { motion: motion.clone(), until: cut.until }));
         }
     }
 }
@@ -59,7 +58,9 @@ type Settled<R> = (
 /// Advances every robot of a kind: along its cut motion, unless that meets the cut motion of a robot with a lower id in its
 /// world; then it stays where it started.
 pub(super) fn settle<R: SimulatedRobot>(starts: Res<Starts>, sweeps: Res<Sweeps>, mut robots: Query<Settled<R>>) {
-    for (&id, &ResidesIn(world), RobotModel(robot), TickMotion(motion), cut, mut q, mut contacts, mut mode) in &mut robots {
+    for (&id, &ResidesIn(world), RobotModel(robot), TickMotion(motion), cut, mut q, mut contacts, mut mode) in
+        &mut robots
+    {
         let (mut until, mut in_contact) = (cut.until, cut.contact);
         if let Some(motion) = motion {
             let own = CutMotion { motion: motion.clone(), until };
@@ -69,7 +70,7 @@ pub(super) fn settle<R: SimulatedRobot>(starts: Res<Starts>, sweeps: Res<Sweeps>
                     if sweep.is_still() {
                         return false;
                     }
-                    let margin = margin_from(starts.distance(world, id, lower));
+                    let margin = margin_from(starts.distance(sweeps.nothing(), world, id, lower));
                     sweeps_meet(sweeps.nothing(), &own, sweep, margin)
                 });
             in_contact |= met;

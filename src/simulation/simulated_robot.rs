@@ -23,7 +23,14 @@ pub trait SimulatedRobot: Drivable<Drive: Clone + Send + Sync + 'static> {
     fn tour(&self, seed: Seed, name: &str, world: &World, start: &Self::Configuration) -> Self::Tour;
 
     /// The control the tour gives for tick number `tick` (from 1), `dt` seconds long, at the configuration `q`.
-    fn touring(&self, tour: &Self::Tour, tick: u64, dt: f64, q: &Self::Configuration, extra: &mut Extra) -> Self::Control;
+    fn touring(
+        &self,
+        tour: &Self::Tour,
+        tick: u64,
+        dt: f64,
+        q: &Self::Configuration,
+        extra: &mut Extra,
+    ) -> Self::Control;
 
     /// Called when the tour gets the robot back at `q`, among these obstacles.
     fn resume(&self, _tour: &Self::Tour, _q: &Self::Configuration, _obstacles: &dyn Collision, _extra: &mut Extra) {}

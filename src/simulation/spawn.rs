@@ -13,9 +13,9 @@ use super::{
 use crate::collision::Scene;
 use crate::configuration::Configuration as _;
 use crate::random::{Seed, Stream};
-use crate::run::Script;
+use crate::run::{Script, ScriptError};
 use crate::sensors::{RangeSensor, SensorError};
-use crate::tour::{BOOK_SEED, TourConfig};
+use crate::tour::{BOOK_SEED, ConfigError, TourConfig};
 use crate::worlds::{Resident, World as WorldModel};
 
 /// What decides a run beside its configuration: a seed, a script, or both.
@@ -72,19 +72,12 @@ pub enum SpawnError {
         /// The coordinates.
         start: Vec<f64>,
     },
-    /// Two robots of one name, which scripts could not tell apart.
-    #[error("two robots are named {0:?}")]
-    DuplicateName(String),
-    /// A script for a robot that is not there.
-    #[error("event {event} of the script (tick {tick}): there is no robot {robot:?}")]
-    NoSuchRobot {
-        /// The event's number, from 1.
-        event: usize,
-        /// Its tick.
-        tick: u64,
-        /// The robot it names.
-        robot: String,
-    },
+    /// The configuration is out of range.
+    #[error(transparent)]
+    Config(#[from] ConfigError),
+    /// The script cannot be run with these robots.
+    #[error(transparent)]
+    Script(#[from] ScriptError),
     /// A range sensor out of range.
     #[error(transparent)]
     Sensor(#[from] SensorError),
@@ -190,16 +183,9 @@ pub(super) fn start_run_in_order(
 ) -> Result<(), SpawnError> {
     let residents: Vec<(usize, &Resident)> =
         config.worlds.iter().enumerate().flat_map(|(i, w)| w.robots.iter().map(move |r| (i, r))).collect();
-    for (i, (_, r)) in residents.iter().enumerate() {
-        if residents[..i].iter().any(|(_, earlier)| earlier.name == r.name) {
-            return Err(SpawnError::DuplicateName(r.name.clone()));
-        }
-    }
-    for (i, e) in input.script.events.iter().enumerate() {
-        if !residents.iter().any(|(_, r)| r.name == e.robot) {
-            return Err(SpawnError::NoSuchRobot { event: i + 1, tick: e.tick, robot: e.robot.clone() });
-        }
-    }
+    config.validate()?;
+    input.script.check()?;
+    input.script.check_robots(&config.robot_names().collect::<Vec<_>>())?;
     let sensor = config.sensor.map(|s| RangeSensor::try_new(s.n_rays, s.max_range)).transpose()?;
     let worlds: Vec<Entity> =
         config.worlds.iter().enumerate().map(|(i, model)| spawn_world(world, i as u32, model)).collect();

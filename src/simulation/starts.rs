@@ -33,14 +33,13 @@ impl Starts {
         others.flat_map(|(_, _, f)| f.parts().iter().map(|p| p.placed().clone())).collect()
     }
 
-    /// The distance between the footprints of two robots of one world, metres; 0 when either is unknown.
-    pub fn distance(&self, world: Entity, a: RobotId, b: RobotId) -> f64 {
+    /// The distance between the footprints of two robots of one world, metres; 0 when either is unknown. `nothing` is a scene
+    /// without obstacles.
+    pub fn distance(&self, nothing: &Scene, world: Entity, a: RobotId, b: RobotId) -> f64 {
         let find = |id| self.0.iter().find(|(w, i, _)| *w == world && *i == id).map(|(_, _, f)| f);
         let (Some(a), Some(b)) = (find(a), find(b)) else { return 0.0 };
         let others: Vec<Placed> = b.parts().iter().map(|p| p.placed().clone()).collect();
-        let origin = Point2::origin();
-        let nothing = Scene::empty(Bounds { min: origin, max: origin });
-        Surroundings { scene: &nothing, others: &others }.distance(a)
+        Surroundings { scene: nothing, others: &others }.distance(a)
     }
 }
 

@@ -1,6 +1,6 @@
 //! Sweeps: whether the sets that two motions cover come near one another.
 
-use crate::collision::{Collision, Surroundings, Scene};
+use crate::collision::{Collision, Scene, Surroundings};
 use crate::geometry::{Footprint, Part, Placed, Pose2, Shape};
 use crate::robots::Motion;
 
@@ -57,7 +57,8 @@ fn distance(scene: &Scene, a: &Placed, b: &Placed) -> f64 {
 ///
 /// The whole of one sweep is compared with the whole of the other, whatever the time at which each part is covered.
 pub fn sweeps_meet(nothing: &Scene, a: &dyn Sweep, b: &dyn Sweep, margin: f64) -> bool {
-    (0..a.parts()).any(|i| (0..b.parts()).any(|j| pieces_meet(nothing, (a, i, 0.0, 1.0), (b, j, 0.0, 1.0), margin, LEVELS)))
+    (0..a.parts())
+        .any(|i| (0..b.parts()).any(|j| pieces_meet(nothing, (a, i, 0.0, 1.0), (b, j, 0.0, 1.0), margin, LEVELS)))
 }
 
 /// One part of a sweep between two fractions of its motion.

@@ -14,7 +14,9 @@ fn explore() {
         for _ in 0..1200 {
             let f = r.step();
             let next = f.robots[0].extra[2];
-            if next < last { laps += 1; }
+            if next < last {
+                laps += 1;
+            }
             last = next;
         }
         println!("{seed} laps {laps} {:?}", t.elapsed());

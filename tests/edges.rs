@@ -1,0 +1,336 @@
+//! Edges of the three robots in the three worlds: the certified verdicts against dense sampling.
+
+use std::f64::consts::PI;
+use std::sync::Arc;
+
+use motion_lab::collision::{
+    Certificate, CertificateError, Checker, EdgeVerdict, MarchOptions, ProvenStep, Scene, verify_certificate,
+};
+use motion_lab::configuration::{Configuration, HitchCfg, R2, T2, Tn};
+use motion_lab::geometry::{Placed, Point2, Pose2, Shape};
+use motion_lab::num::{cos, sin};
+use motion_lab::random::{Seed, Stream};
+use motion_lab::robots::{
+    CarBody, CarCmd, Drivable, HITCH, Hitch, Motion, RUSTY, Reach, Robot, RustyCmd, RustyDisc, TrailerBody,
+};
+
+use crate::fixtures::{apartment, count_from_env, lot, scene_of, workbench};
+use crate::oracle::sweep;
+use crate::verdicts::{Sampled, Tally, check};
+
+/// Surveys `count` edges from free configurations (nine in ten) and any, some short and some long.
+fn survey<R: Robot>(
+    name: &str,
+    robot: R,
+    scene: &Arc<Scene>,
+    count: u64,
+    mut draw: impl FnMut(&mut Stream) -> R::Configuration,
+) -> Tally {
+    let mut s = Stream::new(Seed(81), name);
+    let checker = Checker::new(scene.clone(), robot);
+    let world = Sampled::new(scene);
+    let mut certificate = Certificate::new();
+    let (mut tally, mut with_margin) = (Tally::default(), Tally::default());
+    for i in 0..count {
+        let mut a = draw(&mut s);
+        for _ in 0..if i % 10 == 0 { 0 } else { 200 } {
+            if checker.is_free(&a) {
+                break;
+            }
+            a = draw(&mut s);
+        }
+        let far = draw(&mut s);
+        let b = a.interpolate(&far, [1.0, 0.3, 0.1, 0.02][i as usize % 4]).unwrap();
+        let motion = checker.robot().edge(&a, &b).unwrap();
+        let at = || format!("{:?} from {a:?} to {b:?}", checker.robot());
+        let verdict = check(&world, &motion, MarchOptions::default(), &mut certificate, &mut tally, at);
+        assert_eq!(checker.edge(&a, &b).unwrap(), verdict, "{}", at());
+        assert_eq!(checker.edge_certified(&a, &b, &mut certificate).unwrap(), verdict, "{}", at());
+        assert_eq!(checker.edge_free(&a, &b), verdict.is_free(), "{}", at());
+        if i % 5 == 0 {
+            let options = MarchOptions { margin: 0.02, ..MarchOptions::default() };
+            check(&world, &motion, options, &mut certificate, &mut with_margin, at);
+        }
+    }
+    tally.print(name);
+    tally
+}
+
+/// A random pose in the scene's bounds.
+fn pose(scene: &Scene, s: &mut Stream) -> Pose2 {
+    let b = scene.bounds();
+    Pose2::new(s.uniform(b.min.x, b.max.x), s.uniform(b.min.y, b.max.y), s.uniform(-PI, PI))
+}
+
+fn worlds() -> [(&'static str, Arc<Scene>); 3] {
+    [("the Apartment", Arc::new(apartment())), ("the Workbench", Arc::new(workbench())), ("the Lot", Arc::new(lot()))]
+}
+
+/// How many edges are surveyed in all; `MOTION_LAB_EDGES` changes it (the million of the acceptance run).
+fn edges() -> u64 {
+    count_from_env("MOTION_LAB_EDGES", 10_000)
+}
+
+/// Hitch at a quarter of its size.
+fn toy() -> Hitch {
+    let (body, trailer) = (HITCH.body, HITCH.trailer_body);
+    Hitch {
+        wheelbase: 0.25 * HITCH.wheelbase,
+        body: CarBody {
+            length: 0.25 * body.length,
+            width: 0.25 * body.width,
+            rear_overhang: 0.25 * body.rear_overhang,
+        },
+        trailer_body: TrailerBody {
+            front_overhang: 0.25 * trailer.front_overhang,
+            rear_overhang: 0.25 * trailer.rear_overhang,
+            width: 0.25 * trailer.width,
+        },
+        ..HITCH
+    }
+}
+
+fn angle(s: &mut Stream) -> f64 {
+    s.uniform(-PI, PI)
+}
+
+/// The verdicts of a robot's edges must be of every sort, and hardly any undecided.
+fn assert_telling(name: &str, tallies: &[Tally], count: u64) {
+    let sum = |f: fn(&Tally) -> u64| tallies.iter().map(f).sum::<u64>();
+    let (free, hits, unresolved) = (sum(|t| t.free), sum(|t| t.hits), sum(|t| t.unresolved));
+    println!("{name}: {unresolved} of {count} edges unresolved");
+    assert!(free > count / 10 && hits > count / 10, "one-sided: {free} free, {hits} hits of {count}");
+    assert!(sum(|t| t.transversal) > count / 20, "hardly a transversal hit");
+    assert!(unresolved <= count / 1000 + 1, "{unresolved} of {count} unresolved");
+}
+
+#[test]
+fn edges_of_rusty_agree_with_dense_sampling() {
+    let n = edges() / 9;
+    let tallies = worlds().map(|(world, scene)| {
+        let draw = |s: &mut Stream| R2(pose(&scene, s).position());
+        survey(&format!("Rusty in {world}"), RustyDisc::default(), &scene, n, draw)
+    });
+    assert_telling("Rusty", &tallies, 3 * n);
+}
+
+#[test]
+fn edges_of_reach_agree_with_dense_sampling() {
+    let n = edges() / 9;
+    let mut tallies = Vec::new();
+    for (world, scene) in worlds() {
+        let base = match world {
+            "the Apartment" => Point2::new(6.0, 4.0), // in the corridor
+            "the Lot" => Point2::new(4.7, 4.3),       // beside a pillar
+            _ => Point2::origin(),
+        };
+        let draw2 = |s: &mut Stream| T2::new(angle(s), angle(s));
+        let draw3 = |s: &mut Stream| Tn([angle(s), angle(s), angle(s)]);
+        let thin = Reach { base, ..Reach::<2>::choset() };
+        let thick = Reach { base, ..Reach::<2>::workbench() };
+        let three = Reach { base, ..Reach::<3>::redundant() };
+        tallies.push(survey(&format!("Reach without thickness in {world}"), thin, &scene, n / 3, draw2));
+        tallies.push(survey(&format!("Reach in {world}"), thick, &scene, n / 3, draw2));
+        tallies.push(survey(&format!("Reach<3> in {world}"), three, &scene, n / 3, draw3));
+    }
+    assert_telling("Reach", &tallies, 3 * n);
+}
+
+#[test]
+fn edges_of_hitch_agree_with_dense_sampling() {
+    let n = edges() / 9;
+    let mut tallies = Vec::new();
+    for (world, scene) in worlds() {
+        // a toy of a quarter of its size where the car does not fit
+        let car = if world == "the Lot" { HITCH } else { toy() };
+        let towing = Hitch { hitch_len: Some(0.8 * car.wheelbase), ..car };
+        let alone = |s: &mut Stream| HitchCfg { body: pose(&scene, s), trailer: None };
+        let with_trailer = |s: &mut Stream| HitchCfg { trailer: Some(angle(s)), ..alone(s) };
+        tallies.push(survey(&format!("Hitch in {world}"), car, &scene, n / 2, alone));
+        tallies.push(survey(&format!("Hitch with a trailer in {world}"), towing, &scene, n / 2, with_trailer));
+    }
+    assert_telling("Hitch", &tallies, 3 * n);
+}
+
+/// Table N: `edge_free` against sampling every 2 mm (2 mrad) of the chart, on 264 random edges over the three robots.
+#[test]
+fn edge_free_against_dense_sampling_at_2_mm_in_the_chart() {
+    fn compare<R: Robot>(
+        checker: &Checker<R>,
+        mut draw: impl FnMut(&mut Stream) -> R::Configuration,
+        seed: u64,
+    ) -> u32 {
+        let mut s = Stream::new(Seed(seed), "tests/chart");
+        let pieces: Vec<Placed> = checker.scene().pieces().map(|(_, p)| p.clone()).collect();
+        let mut free = 0;
+        for _ in 0..88 {
+            let mut a = draw(&mut s);
+            while !checker.is_free(&a) {
+                a = draw(&mut s);
+            }
+            let b = a.interpolate(&draw(&mut s), 0.3).unwrap();
+            let length = a.difference(&b).unwrap().iter().map(|d| d * d).sum::<f64>().sqrt();
+            let n = (length / 0.002).ceil();
+            let motion = checker.robot().edge(&a, &b).unwrap();
+            let sampled = (0..=n as u32).all(|i| {
+                let footprint = motion.footprint_at(f64::from(i) / n);
+                footprint.parts().iter().all(|part| sweep::nearest_of(part.placed(), &pieces, 1.0) > 0.0)
+            });
+            let verdict = checker.edge(&a, &b).unwrap();
+            // The sampling may miss what lies between two samples, so it may say free where the march says hit: then
+            // the verdict's own contact must be one.
+            if verdict.is_free() {
+                assert!(sampled, "{a} to {b} is said to be free");
+            } else if sampled {
+                let EdgeVerdict::Hit { contact_at, .. } = verdict else { panic!("{verdict:?}: {a} to {b}") };
+                let contact = motion.footprint_at(contact_at);
+                let gap = contact.parts().iter().fold(1.0, |m, p| sweep::nearest_of(p.placed(), &pieces, m));
+                assert!(gap < 1e-12, "{a} to {b} is said to hit");
+            }
+            free += u32::from(verdict.is_free());
+        }
+        free
+    }
+    let [(_, apartment), (_, workbench), (_, lot)] = worlds();
+    let rusty = Checker::new(apartment.clone(), RustyDisc::default());
+    let reach = Checker::new(workbench, Reach::<2>::workbench());
+    let hitch = Checker::new(lot.clone(), HITCH.with_trailer());
+    let free = [
+        compare(&rusty, |s| R2(pose(&apartment, s).position()), 82),
+        compare(&reach, |s| T2::new(angle(s), angle(s)), 83),
+        compare(&hitch, |s| HitchCfg { body: pose(&lot, s), trailer: Some(angle(s)) }, 84),
+    ];
+    assert!(free.iter().all(|n| (8..80).contains(n)), "one-sided: {free:?} of 88 free");
+}
+
+/// The arcs that a tick or a few seconds of driving make, with the trailer dragged along.
+#[test]
+fn arcs_of_rusty_and_hitch_agree_with_dense_sampling() {
+    let n = edges() / 20;
+    let mut s = Stream::new(Seed(85), "tests/arcs");
+    let [(_, apartment), (_, workbench), (_, lot)] = worlds();
+    let mut certificate = Certificate::new();
+    let mut tally = Tally::default();
+    let options = MarchOptions::default();
+    let towing = Hitch { hitch_len: Some(0.5), ..toy() };
+    for i in 0..n {
+        let dt = [0.05, 1.0, 4.0][i as usize % 3];
+        let (v, turn) = (s.uniform(-1.5, 1.5), s.uniform(-2.5, 2.5));
+        let q = pose(&apartment, &mut s);
+        let arc = RUSTY.drive(&q, &RustyCmd { v, omega: turn }, dt).unwrap();
+        check(&Sampled::new(&apartment), &arc, options, &mut certificate, &mut tally, || format!("{arc:?}"));
+        let (car, scene) = [(HITCH, &lot), (HITCH.with_trailer(), &lot), (towing, &workbench)][i as usize % 3];
+        let trailer = car.hitch_len.map(|_| angle(&mut s));
+        let q = HitchCfg { body: pose(scene, &mut s), trailer };
+        let arc = car.drive(&q, &CarCmd { v, phi: 0.3 * turn }, dt).unwrap();
+        check(&Sampled::new(scene), &arc, options, &mut certificate, &mut tally, || format!("{arc:?}"));
+    }
+    tally.print("Arcs");
+    assert_telling("Arcs", &[tally], 2 * n);
+}
+
+/// Edges drawn to graze: along walls and past posts at clearances from a millimetre to nothing at all.
+#[test]
+fn grazing_edges_are_decided_down_to_a_nanometre() {
+    let mut s = Stream::new(Seed(86), "tests/grazing");
+    let mut certificate = Certificate::new();
+    let mut tally = Tally::default();
+    for i in 0..400 {
+        let gap = [1e-3, 1e-5, 1.5e-6, 1e-7, 1e-9, 0.0, -1e-9, -1e-6][i % 8];
+        let (from, to) = (angle(&mut s), s.uniform(0.2, 2.0));
+        let what = || format!("case {i} at a gap of {gap}");
+        let options = MarchOptions::default();
+        let verdict = match i / 8 % 3 {
+            0 => {
+                // a disc along a wall that lies slanted
+                let wall = Pose2::new(s.uniform(-9.0, 9.0), s.uniform(-9.0, 9.0), from);
+                let scene = scene_of(&[(wall, segment(-6.0, 6.0))]);
+                let at = |x: f64| R2(wall.transform(Point2::new(x, 0.11 + gap)));
+                let motion = RustyDisc::default().edge(&at(-5.0), &at(5.0)).unwrap();
+                check(&Sampled::new(&scene), &motion, options, &mut certificate, &mut tally, what)
+            }
+            1 => {
+                // the tip of a stretched arm past a post
+                let arm = Reach::<2>::workbench();
+                let out = 2.0 + 0.03 + 0.25 + gap;
+                let scene = scene_of(&[(Pose2::new(out * cos(from), out * sin(from), 0.0), disc(0.25))]);
+                let motion = arm.edge(&T2::new(from - 0.5 * to, 0.0), &T2::new(from + 0.5 * to, 0.0)).unwrap();
+                check(&Sampled::new(&scene), &motion, options, &mut certificate, &mut tally, what)
+            }
+            _ => {
+                // a corner of the turning car past a wall: its farthest reach from the rear axle
+                let (x, y) = (HITCH.body.length - HITCH.body.rear_overhang, 0.5 * HITCH.body.width);
+                let reach = (x * x + y * y).sqrt() + gap;
+                let wall = Pose2::new(reach * cos(from), reach * sin(from), from + 0.5 * PI);
+                let scene = scene_of(&[(wall, segment(-3.0, 3.0))]);
+                let at = |theta: f64| HitchCfg { body: Pose2::new(0.0, 0.0, from + theta), trailer: None };
+                let motion = HITCH.edge(&at(-1.3), &at(-0.02)).unwrap();
+                check(&Sampled::new(&scene), &motion, options, &mut certificate, &mut tally, what)
+            }
+        };
+        // the bodies' places are rounded, so a gap of exactly 0 may fall to either side
+        if gap >= 1e-9 {
+            assert!(!matches!(verdict, EdgeVerdict::Hit { .. }), "{verdict:?} in {}", what());
+        }
+        if gap > 1e-6 {
+            assert!(verdict.is_free(), "{verdict:?} in {}", what());
+        }
+        if gap < 0.0 {
+            assert!(!verdict.is_free(), "{verdict:?} in {}", what());
+        }
+    }
+    tally.print("Grazing");
+}
+
+#[test]
+fn a_certificate_that_claims_too_much_or_leaves_a_gap_is_refused() {
+    let checker = Checker::new(workbench(), Reach::<2>::workbench());
+    let mut s = Stream::new(Seed(87), "tests/certificates");
+    let mut certificate = Certificate::new();
+    let mut tried = 0;
+    while tried < 200 {
+        let (a, b) = (T2::new(angle(&mut s), angle(&mut s)), T2::new(angle(&mut s), angle(&mut s)));
+        let verdict = checker.edge_certified(&a, &b, &mut certificate).unwrap();
+        if !verdict.is_free() || certificate.steps().len() < 3 {
+            continue;
+        }
+        tried += 1;
+        let motion = checker.robot().edge(&a, &b).unwrap();
+        let verify =
+            |steps: Vec<ProvenStep>| verify_certificate(checker.scene(), &motion, &Certificate::from_steps(0.0, steps));
+        let steps = certificate.steps().to_vec();
+        assert_eq!(verify(steps.clone()), Ok(1.0));
+        let k = 1 + s.below(steps.len() as u64 - 2) as usize;
+        let tampered = |change: fn(&mut ProvenStep)| {
+            let mut steps = steps.clone();
+            change(&mut steps[k]);
+            verify(steps)
+        };
+        assert!(
+            matches!(tampered(|p| p.clearance *= 1.001), Err(CertificateError::Unproven { step, .. }) if step == k)
+        );
+        assert!(matches!(tampered(|p| p.clearance = f64::NAN), Err(CertificateError::Unproven { .. })));
+        assert!(matches!(tampered(|p| p.from += 1e-9), Err(CertificateError::Broken(step)) if step == k));
+        assert!(matches!(tampered(|p| p.to = p.from), Err(CertificateError::Backward(step)) if step == k));
+        assert!(tampered(|p| p.to = 2.0).is_err() && tampered(|p| p.to = f64::NAN).is_err());
+        let mut missing = steps.clone();
+        missing.remove(k);
+        assert_eq!(verify(missing), Err(CertificateError::Broken(k)));
+        assert_eq!(verify(steps[..k].to_vec()), Ok(steps[k].from), "what is left proves only so far");
+    }
+    // and one step over an edge that hits proves nothing, whatever it claims
+    let (a, b) = (T2::new(2.0, 0.0), T2::new(3.1, 0.0));
+    let motion = checker.robot().edge(&a, &b).unwrap();
+    for clearance in [1.0, 1e-300, 0.0, -1.0] {
+        let lie = Certificate::from_steps(0.0, vec![ProvenStep { from: 0.0, to: 1.0, clearance }]);
+        assert!(verify_certificate(checker.scene(), &motion, &lie).is_err());
+    }
+}
+
+fn segment(from: f64, to: f64) -> Shape {
+    Shape::try_segment(Point2::new(from, 0.0), Point2::new(to, 0.0)).unwrap()
+}
+
+fn disc(radius: f64) -> Shape {
+    Shape::try_disc(radius).unwrap()
+}

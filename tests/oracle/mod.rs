@@ -1,0 +1,8 @@
+//! Two implementations of the collision questions that share no geometry code with the library: [`exact`], integer
+//! arithmetic without any rounding, and [`plain`], everyday `f64` by other methods than the library's.
+//!
+//! Both take placed shapes as they are, a list of core vertices and a radius, and nothing else from the library.
+
+pub mod exact;
+pub mod plain;
+pub mod sweep;
