@@ -17,5 +17,6 @@ mod pairs;
 mod penetration;
 mod planner;
 mod polygons;
+mod simulation;
 mod sweeps;
 mod touches;
