@@ -7,6 +7,7 @@ mod verdicts;
 
 mod allocation;
 mod chapter;
+mod cli;
 mod edges;
 mod extremes;
 mod failsafe;
