@@ -26,6 +26,13 @@ pub mod simulation;
 
 pub mod recording;
 
+pub mod picture;
+
+pub mod ui;
+
+#[cfg(feature = "window")]
+pub mod app;
+
 #[cfg(target_family = "wasm")]
 pub mod web;
 

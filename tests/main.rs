@@ -7,6 +7,7 @@ mod verdicts;
 
 mod allocation;
 mod chapter;
+mod cli;
 mod edges;
 mod extremes;
 mod failsafe;
@@ -17,5 +18,6 @@ mod pairs;
 mod penetration;
 mod planner;
 mod polygons;
+mod simulation;
 mod sweeps;
 mod touches;
