@@ -9,7 +9,7 @@ use crate::robots::{ConfigurationError, Hitch, Motion, Reach, Robot, RustyDisc};
 
 /// A robot in a scene. Cheap to clone: the scene is shared.
 ///
-/// ```ignore
+/// ```
 /// use motion_lab::prelude::*;
 /// use motion_lab::collision::{ChainChecker, Scene};
 /// let c = ChainChecker::new(Scene::workbench(), Reach::<2>::workbench());

@@ -82,6 +82,21 @@ impl Scene {
         Self::of_pieces(world.bounds, names, pieces, owners)
     }
 
+    /// The Apartment.
+    pub fn apartment() -> Self {
+        Self::of_world(&World::apartment())
+    }
+
+    /// The Workbench.
+    pub fn workbench() -> Self {
+        Self::of_world(&World::workbench())
+    }
+
+    /// The Lot.
+    pub fn lot() -> Self {
+        Self::of_world(&World::lot())
+    }
+
     fn of_pieces(bounds: Bounds, names: Vec<Arc<str>>, pieces: Vec<Placed>, owners: Vec<u32>) -> Self {
         let boxes: Vec<Aabb> = pieces.iter().map(piece_box).collect();
         let tree = Bvh::from_leaves(BvhBuildStrategy::Binned, &boxes);

@@ -11,9 +11,13 @@
 //! # Ok::<(), motion_lab::recording::RunError>(())
 //! ```
 
+mod final_lines;
+mod identity;
 mod recorder;
 mod run;
 
 pub use crate::simulation::RunInput;
+pub use final_lines::final_lines;
+pub use identity::identity_line;
 pub use recorder::{Recorder, RunError};
 pub use run::Run;

@@ -1,27 +1,64 @@
-//! Tests of the simulation as a whole.
+//! Tests that need what the module keeps to itself.
 
-use crate::random::Seed;
-use crate::recording::Recorder;
+use std::sync::Arc;
+
+use bevy::prelude::*;
+
+use super::{LatestFrame, SimulationPlugin, start_run_in_order, step};
+use crate::geometry::Point2;
+use crate::random::{Seed, Stream};
+use crate::run::{Event, Frame, RobotInput, Script};
 use crate::tour::TourConfig;
+use crate::worlds::{Bounds, Resident, World as WorldModel};
+
+/// Seven robots of three kinds, close together in an open world, all driven at once.
+fn crowd() -> (Arc<TourConfig>, Script) {
+    let resident = |name: &str, kind: &str, start: &[f64]| Resident {
+        name: name.into(),
+        kind: kind.into(),
+        start: start.to_vec(),
+    };
+    let robots = vec![
+        resident("a", "rusty", &[0.3, 0.3, 0.0]),
+        resident("arm", "reach", &[2.0, 0.5]),
+        resident("b", "rusty", &[0.6, 0.3, 3.0]),
+        resident("car", "hitch", &[4.0, 0.0, 3.1]),
+        resident("c", "rusty", &[0.45, 0.6, -1.5]),
+        resident("arm 2", "reach3", &[0.1, 0.2, 0.3]),
+        resident("d", "rusty", &[0.9, 0.6, -2.5]),
+    ];
+    let bounds = Bounds { min: Point2::new(-5.0, -5.0), max: Point2::new(5.0, 5.0) };
+    let mut draws = Stream::new(Seed(1), "crowd");
+    let mut events = Vec::new();
+    for tick in (1..120).step_by(10) {
+        for robot in ["a", "b", "c", "d", "car"] {
+            let input = RobotInput::Drive(draws.below(257) as i16 - 128, draws.below(129) as i16 - 64);
+            events.push(Event { tick, robot: robot.into(), input });
+        }
+    }
+    let world = WorldModel { name: "open".into(), bounds, obstacles: vec![], places: vec![], marks: vec![], robots };
+    (Arc::new(TourConfig { worlds: vec![world], ticks: 120, sensor: None }), Script { events, ..Script::empty() })
+}
+
+fn run(order: &[usize]) -> Vec<Frame> {
+    let (config, script) = crowd();
+    let mut app = App::new();
+    app.add_plugins(SimulationPlugin);
+    start_run_in_order(app.world_mut(), config, (Seed(3), script).into(), order).unwrap();
+    (0..120)
+        .map(|_| {
+            step(app.world_mut());
+            app.world().resource::<LatestFrame>().0.clone()
+        })
+        .collect()
+}
 
 #[test]
-fn explore() {
-    let n: u64 = std::env::var("N").map_or(1, |v| v.parse().unwrap());
-    for seed in (0..n).chain([2005]) {
-        let t = std::time::Instant::now();
-        let mut r = Recorder::new(TourConfig::default(), Seed(seed)).unwrap();
-        let (mut laps, mut last) = (0, 0.0);
-        for _ in 0..1200 {
-            let f = r.step();
-            let next = f.robots[0].extra[2];
-            if next < last {
-                laps += 1;
-            }
-            last = next;
-        }
-        println!("{seed} laps {laps} {:?}", t.elapsed());
-        for v in r.view() {
-            println!("   {} {} contacts {} {:?}", v.name, v.configuration, v.contacts, v.encoders);
-        }
+fn the_order_of_spawning_does_not_matter() {
+    let frames = run(&[0, 1, 2, 3, 4, 5, 6]);
+    let contacts: u32 = frames[119].robots.iter().map(|r| r.contacts).sum();
+    assert!(contacts > 10, "they meet one another: {contacts} times");
+    for order in [[6, 5, 4, 3, 2, 1, 0], [3, 0, 6, 2, 5, 1, 4]] {
+        assert_eq!(run(&order), frames);
     }
 }

@@ -1,0 +1,37 @@
+//! The last lines of a run: where each robot ended, and how often it was in contact.
+
+use crate::configuration::{Configuration, HitchCfg, R2, T2, Tn};
+use crate::geometry::Pose2;
+use crate::run::{Log, RobotState};
+
+/// One line per robot by ascending id, three decimals: `Reach  T2 { th1: 0.186, th2: 1.324 }  contacts: 9`.
+///
+/// Rusty prints its position, Hitch without a trailer its body's pose, every other robot its configuration as its type prints.
+pub fn final_lines(log: &Log) -> Vec<String> {
+    let residents = log.config.worlds.iter().flat_map(|w| &w.robots);
+    let last = log.frames.last().unwrap_or(&log.initial);
+    residents
+        .zip(&last.robots)
+        .map(|(resident, state)| {
+            format!("{}  {}  contacts: {}", resident.name, shown(&resident.kind, state), state.contacts)
+        })
+        .collect()
+}
+
+fn shown(kind: &str, state: &RobotState) -> String {
+    let q = &state.configuration[..];
+    let text = match kind {
+        "rusty" => Pose2::from_coordinates(q).map(|p| R2::new(p.x, p.y).to_string().replacen("R2", "Pose2", 1)),
+        "reach" => T2::from_coordinates(q).map(|q| q.to_string()),
+        "reach3" => Tn::<3>::from_coordinates(q).map(|q| q.to_string()),
+        "hitch" => HitchCfg::from_coordinates(q).map(|q| match q.trailer {
+            None => q.body.to_string(),
+            Some(_) => q.to_string(),
+        }),
+        _ => None,
+    };
+    text.unwrap_or_else(|| {
+        let numbers: Vec<String> = q.iter().map(|x| format!("{x:.3}")).collect();
+        format!("[{}]", numbers.join(", "))
+    })
+}

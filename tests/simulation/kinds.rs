@@ -1,0 +1,119 @@
+//! A kind of robot that the library does not know.
+
+use motion_lab::collision::{Collision, Scene};
+use motion_lab::prelude::*;
+use motion_lab::recording::{Recorder, Run, RunError};
+use motion_lab::robots::{ChartLine, ConfigurationError, PartRates, Rates};
+use motion_lab::run::RobotInput;
+use motion_lab::simulation::{Extra, RobotPlugin, SimulatedRobot};
+use motion_lab::tour::TourConfig;
+use motion_lab::worlds::World;
+
+use super::crowd::arena;
+use super::{event, quantized, script};
+
+/// A disc that slides about in any direction, at a speed with some noise, and counts its ticks.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Puck {
+    radius: f64,
+}
+
+impl Robot for Puck {
+    type Configuration = R2;
+
+    fn check(&self, q: &R2) -> Result<(), ConfigurationError> {
+        if q.is_finite() { Ok(()) } else { Err(ConfigurationError::NotFinite) }
+    }
+
+    fn footprint(&self, q: &R2) -> Footprint {
+        Footprint::disc(q.0, self.radius)
+    }
+
+    fn edge_rates(&self, a: &R2, b: &R2) -> Result<PartRates, ConfigurationError> {
+        Ok([Rates { speed: (b.0 - a.0).norm(), acceleration: 0.0 }].into_iter().collect())
+    }
+
+    fn sample(&self, min: Point2, max: Point2, draws: &mut Stream) -> R2 {
+        R2::new(draws.uniform(min.x, max.x), draws.uniform(min.y, max.y))
+    }
+}
+
+impl Drivable for Puck {
+    type Control = [f64; 2];
+    type Drive = ChartLine<Puck>;
+
+    fn drive(&self, q: &R2, u: &[f64; 2], dt: f64) -> Result<ChartLine<Puck>, ConfigurationError> {
+        self.edge(q, &R2::new(q.0.x + u[0] * dt, q.0.y + u[1] * dt))
+    }
+}
+
+impl SimulatedRobot for Puck {
+    type Tour = f64;
+
+    fn tour(&self, seed: Seed, name: &str, _world: &World, _start: &R2) -> f64 {
+        Stream::new(seed, &format!("{name}/tour")).uniform(-3.0, 3.0)
+    }
+
+    fn touring(&self, bearing: &f64, _tick: u64, _dt: f64, _q: &R2, _extra: &mut Extra) -> [f64; 2] {
+        let (s, c) = motion_lab::num::sin_cos(*bearing);
+        [c, s]
+    }
+
+    fn driven(&self, channels: [f64; 2]) -> Option<[f64; 2]> {
+        Some(channels)
+    }
+
+    /// A metre per second at most, so that a move takes more than a tick.
+    fn toward(&self, q: &R2, target: &R2) -> Option<[f64; 2]> {
+        let d = target.0 - q.0;
+        let scale = if d.norm() > 0.05 { 1.0 / d.norm() } else { 20.0 };
+        Some([d.x * scale, d.y * scale])
+    }
+
+    fn configuration_at(&self, _now: &R2, coordinates: &[f64]) -> Option<R2> {
+        R2::from_coordinates(coordinates)
+    }
+
+    fn initial_extra(&self) -> Extra {
+        Extra::from_slice(&[0.0])
+    }
+
+    fn actuate(&self, u: &[f64; 2], _dt: f64, draws: &mut Stream, extra: &mut Extra) -> [f64; 2] {
+        extra[0] += 1.0;
+        let noise = 1.0 + 0.01 * draws.unit();
+        [u[0] * noise, u[1] * noise]
+    }
+}
+
+fn config(ticks: u64) -> TourConfig {
+    let robots: [(&str, &str, &[f64]); 2] = [("puck", "puck", &[0.0, 0.0]), ("Rusty", "rusty", &[1.0, 1.0, 0.0])];
+    TourConfig { worlds: vec![arena(2.0, &robots)], ticks, sensor: None }
+}
+
+#[test]
+fn a_new_kind_runs_by_name_beside_the_lab_s_own() {
+    let add = |app: &mut bevy::app::App| {
+        app.add_plugins(RobotPlugin::new("puck", Puck { radius: 0.2 }));
+    };
+    let events = vec![
+        event(60, "puck", RobotInput::MoveTo(quantized(&[-1.0, 0.5]))),
+        event(150, "puck", RobotInput::Drive(128, 0)),
+    ];
+    let log = Run::record_with_robots(config(220), (Seed(8), script(events.clone())), add).unwrap();
+    assert_eq!(Run::replay_with_robots(&log, add).unwrap(), log.frames);
+    let puck = |k: usize| &log.frames[k - 1].robots[0];
+    let scene = Scene::of_world(&arena(2.0, &[]));
+    let clearance =
+        scene.distance(&Puck { radius: 0.2 }.footprint(&R2::from_coordinates(&puck(59).configuration).unwrap()));
+    assert!(puck(59).in_contact && (1e-5..=1e-4).contains(&clearance), "it tours into a wall and is held: {clearance}");
+    assert_eq!(puck(61).target.len(), 2);
+    assert_eq!(puck(220).extra[0], 220.0);
+    assert!(puck(149).configuration[0] < -0.99 && puck(220).configuration[0] > 1.0);
+    // its state is in the frames: restored in the middle, the run goes on
+    let mut run = Recorder::with_robots(config(220), (Seed(8), script(events)), add).unwrap();
+    run.restore(&log.frames[80]).unwrap();
+    assert_eq!(run.step(), &log.frames[81]);
+
+    let unknown = Run::record(config(1), Seed(8));
+    assert!(matches!(unknown, Err(RunError::Spawn(e)) if e.to_string().contains("no kind \"puck\"")));
+}

@@ -1,0 +1,114 @@
+//! The tours: what each robot does by itself.
+
+use motion_lab::prelude::*;
+use motion_lab::recording::{Recorder, Run, final_lines};
+use motion_lab::run::Frame;
+use motion_lab::tour::{BOOK_SEED, TourConfig};
+
+use super::tour;
+
+/// The seeds that the tours' promises are tested at: a few, or 0 to 999 with `MOTION_LAB_ALL_SEEDS` set.
+fn seeds() -> impl Iterator<Item = Seed> {
+    let count = if std::env::var_os("MOTION_LAB_ALL_SEEDS").is_some() { 1000 } else { 6 };
+    (0..count).map(Seed).chain([BOOK_SEED])
+}
+
+#[test]
+fn tour_replays_bitwise() {
+    let log = Run::record(TourConfig::default(), BOOK_SEED).unwrap();
+    let again = Run::record(TourConfig::default(), BOOK_SEED).unwrap();
+    assert_eq!(log.frames.len(), 1200);
+    assert_eq!((log.frames[0].tick, log.frames[1199].tick, log.initial.tick), (1, 1200, 0));
+    // the digests tell -0.0 from 0.0, which == does not
+    assert_eq!(log, again);
+    let replayed = Run::replay(&log).unwrap();
+    assert_eq!(replayed, log.frames);
+    assert!(replayed.iter().map(Frame::digest).eq(log.digests.iter().copied()));
+}
+
+/// The book's run, pinned as a regression: a change of these digits is a change of every printed run.
+#[test]
+fn tour_at_book_seed() {
+    let log = Run::record(TourConfig::default(), BOOK_SEED).unwrap();
+    assert_eq!(final_lines(&log), ["", "", ""]);
+}
+
+#[test]
+fn another_seed_changes_every_final_coordinate_and_the_first_restores_each() {
+    let last = |seed| Run::record(tour(1200), Seed(seed)).unwrap().frames.pop().unwrap();
+    let (a, b) = (last(2005), last(2006));
+    for (x, y) in a.robots.iter().zip(&b.robots) {
+        for (x, y) in x.configuration.iter().zip(&y.configuration) {
+            assert_ne!(x, y);
+        }
+    }
+    assert_eq!(a, last(2005));
+}
+
+#[test]
+fn the_tours_keep_their_promises() {
+    let mut hitch_hits = 0;
+    let (mut reach_hits, mut runs) = (0, 0);
+    for seed in seeds() {
+        let mut run = Recorder::new(tour(1200), seed).unwrap();
+        let (mut laps, mut waypoint) = (0, 0.0);
+        while !run.is_complete() {
+            let next = run.step().robots[0].extra[2];
+            laps += usize::from(next < waypoint);
+            waypoint = next;
+        }
+        let [rusty, reach, hitch] = &run.frame().robots[..] else { panic!("three robots") };
+        assert!(laps >= 1, "seed {seed}: Rusty completes a loop in the minute");
+        assert_eq!(rusty.contacts, 0, "seed {seed}: Rusty touches nothing");
+        runs += 1;
+        reach_hits += usize::from(reach.contacts > 0);
+        hitch_hits += usize::from(hitch.contacts > 0);
+        if seed == BOOK_SEED {
+            assert!(reach.contacts > 0 && hitch.contacts > 0, "at the book's seed both meet something");
+        }
+    }
+    assert_eq!(reach_hits, runs, "Reach meets obstacles whatever the seed");
+    assert!(2 * hitch_hits > runs, "Hitch meets curb or pillar more often than not");
+}
+
+#[test]
+fn slip_is_the_tour_s_only_chance_for_rusty_and_bounded() {
+    // two seeds: the wheels turn by nearly the same, the places differ
+    let at = |seed| Run::record(tour(40), Seed(seed)).unwrap().frames.pop().unwrap().robots.swap_remove(0);
+    let (a, b) = (at(1), at(2));
+    assert_ne!(a.configuration, b.configuration);
+    let apart = Vector2::new(a.configuration[0] - b.configuration[0], a.configuration[1] - b.configuration[1]).norm();
+    let rolled = 0.5 * (a.extra[0] + a.extra[1]) * RUSTY.wheel_radius;
+    assert!(apart < 4.0 * RUSTY.max_slip * rolled, "{apart} apart after {rolled}");
+}
+
+#[test]
+fn the_encoders_count_what_the_wheels_turned() {
+    let log = Run::record(tour(100), Seed(3)).unwrap();
+    for pair in log.frames.windows(2) {
+        for wheel in 0..2 {
+            let turned = (pair[1].robots[0].extra[wheel] - pair[0].robots[0].extra[wheel]).abs();
+            let most = (RUSTY.max_speed + 0.5 * RUSTY.track * RUSTY.max_turn_rate) * 0.05 / RUSTY.wheel_radius;
+            assert!(turned <= most * (1.0 + 1e-12));
+        }
+    }
+}
+
+#[test]
+fn runs_on_many_threads_are_the_run() {
+    let alone: Vec<_> = (0..8).map(|s| Run::record(tour(60), Seed(s)).unwrap().digests).collect();
+    for threads in [2, 8] {
+        let many: Vec<_> = std::thread::scope(|scope| {
+            let workers: Vec<_> = (0..threads)
+                .map(|k| {
+                    let mine = (0..8).filter(move |s| s % threads == k);
+                    scope.spawn(move || {
+                        mine.map(|s| (s, Run::record(tour(60), Seed(s)).unwrap().digests)).collect::<Vec<_>>()
+                    })
+                })
+                .collect();
+            workers.into_iter().flat_map(|w| w.join().unwrap()).collect()
+        });
+        assert!(many.len() == 8 && many.iter().all(|(s, digests)| *digests == alone[*s as usize]));
+    }
+}
