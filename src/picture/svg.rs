@@ -73,9 +73,7 @@ impl Out {
     fn stylesheet(&mut self, palette: &Palette) {
         self.text.push_str("<style>\n.l{fill:none;stroke-linejoin:round;stroke-linecap:round}\n");
         self.text.push_str(".sans{font-family:\"Noto Sans\",\"DejaVu Sans\",\"Helvetica Neue\",Arial,sans-serif}\n");
-        self.text.push_str(
-            ".mono{font-family:\"Noto Sans Mono\",\"DejaVu Sans Mono\",Menlo,Consolas,monospace;white-space:pre}\n",
-        );
+        self.text.push_str(".mono{font-family:\"Noto Sans Mono\",\"DejaVu Sans Mono\",Menlo,Consolas,monospace}\n");
         for role in Role::ALL {
             let (name, colour) = (role.name(), palette.colour(role));
             let _ = writeln!(self.text, ".{name}.f{{fill:{colour}}}.{name}.l{{stroke:{colour}}}");
@@ -159,7 +157,7 @@ impl Out {
         }
         let class = match face {
             Face::Sans => "sans",
-            Face::Mono => "mono",
+            Face::Mono => "mono\" xml:space=\"preserve",
         };
         let (x, y, size) = (number(at[0]), number(baseline), number(size));
         let (role, text) = (role.name(), escape(text));
