@@ -2,7 +2,7 @@
 
 use crate::configuration::{Configuration, HitchCfg, R2, T2, Tn};
 use crate::geometry::Pose2;
-use crate::run::{Log, RobotState};
+use crate::run::Log;
 
 /// One line per robot by ascending id, three decimals: `Reach  T2 { th1: 0.186, th2: 1.324 }  contacts: 9`.
 ///
@@ -13,13 +13,19 @@ pub fn final_lines(log: &Log) -> Vec<String> {
     residents
         .zip(&last.robots)
         .map(|(resident, state)| {
-            format!("{}  {}  contacts: {}", resident.name, shown(&resident.kind, state), state.contacts)
+            format!(
+                "{}  {}  contacts: {}",
+                resident.name,
+                printed_configuration(&resident.kind, &state.configuration),
+                state.contacts
+            )
         })
         .collect()
 }
 
-fn shown(kind: &str, state: &RobotState) -> String {
-    let q = &state.configuration[..];
+/// The configuration of a robot of this kind as a run's last lines show it.
+pub fn printed_configuration(kind: &str, coordinates: &[f64]) -> String {
+    let q = coordinates;
     let text = match kind {
         "rusty" => Pose2::from_coordinates(q).map(|p| R2::new(p.x, p.y).to_string().replacen("R2", "Pose2", 1)),
         "reach" => T2::from_coordinates(q).map(|q| q.to_string()),
