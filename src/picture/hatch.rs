@@ -19,10 +19,10 @@ fn range(polygon: &[ScreenPoint], f: impl Fn(&ScreenPoint) -> f64) -> (f64, f64)
 }
 
 /// The numbers k with `lo <= k * step <= hi`; none when there are too many or a bound is not finite.
-fn lattice(lo: f64, hi: f64, step: f64) -> std::ops::RangeInclusive<i64> {
+fn lattice(lo: f64, hi: f64, step: f64) -> std::ops::Range<i64> {
     let (first, last) = ((lo / step).ceil() as i64, (hi / step).floor() as i64);
     let fits = lo.is_finite() && hi.is_finite() && last.saturating_sub(first) <= MOST;
-    if fits { first..=last } else { 1..=0 }
+    if fits { first..last.saturating_add(1) } else { 0..0 }
 }
 
 /// The part of the line from `a` along `d` inside the convex polygon: the two parameters, if there is any.

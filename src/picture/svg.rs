@@ -280,13 +280,8 @@ mod tests {
         assert_eq!(svg.matches('#').count(), 2 * Role::ALL.len(), "no colour outside the stylesheet");
         // the diagonal of the square world runs from the lower left to the upper right
         let d = svg.split("stroke-dasharray").nth(1).and_then(|s| s.split("d=\"").nth(1)).unwrap();
-        let points: Vec<f64> = d
-            .split('"')
-            .next()
-            .unwrap()
-            .split(|c: char| c == 'M' || c == 'L' || c == ' ')
-            .filter_map(|n| n.parse().ok())
-            .collect();
+        let points: Vec<f64> =
+            d.split('"').next().unwrap().split(['M', 'L', ' ']).filter_map(|n| n.parse().ok()).collect();
         assert!(points[2] > points[0] && points[3] < points[1], "{points:?}");
     }
 

@@ -41,3 +41,26 @@ pub fn printed_configuration(kind: &str, coordinates: &[f64]) -> String {
         format!("[{}]", numbers.join(", "))
     })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn configurations_print_as_the_book_prints_them() {
+        for (kind, q, printed) in [
+            ("rusty", &[6.2124, 4.4656, 0.1][..], "Pose2 { x: 6.212, y: 4.466 }"),
+            ("reach", &[0.7856, 1.5714], "T2 { th1: 0.786, th2: 1.571 }"),
+            ("reach3", &[0.1, 0.2, 0.3], "Tn<3> { th1: 0.100, th2: 0.200, th3: 0.300 }"),
+            ("hitch", &[1.0, 2.0, 0.5], "Pose2 { x: 1.000, y: 2.000, theta: 0.500 }"),
+            (
+                "hitch",
+                &[1.0, 2.0, 0.5, 0.1],
+                "HitchCfg { body: Pose2 { x: 1.000, y: 2.000, theta: 0.500 }, trailer: Some(0.100) }",
+            ),
+            ("x-crane", &[1.0, 2.5], "[1.000, 2.500]"),
+        ] {
+            assert_eq!(printed_configuration(kind, q), printed);
+        }
+    }
+}

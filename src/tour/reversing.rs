@@ -31,7 +31,7 @@ impl Reversing {
         let ticks_per_leg = (LEG_SECONDS / dt).round() as u64;
         // the step of tick 1 begins at time 0
         let leg = (tick.saturating_sub(1) / ticks_per_leg.max(1)) as usize % LEGS;
-        let direction = if leg % 2 == 0 { -1.0 } else { 1.0 };
+        let direction = if leg.is_multiple_of(2) { -1.0 } else { 1.0 };
         CarCmd { v: direction * SPEED * car.max_speed, phi: self.steering[leg] }
     }
 }

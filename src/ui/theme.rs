@@ -1,4 +1,7 @@
-//! The theme: roles to colours on light and on dark paper. This is the only file that names a colour.
+//! The theme: roles to colours on light and on dark paper. A colour is named here and nowhere else.
+
+#[cfg(feature = "window")]
+mod style;
 
 use crate::picture::{Palette, Rgb};
 

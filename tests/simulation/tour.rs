@@ -70,7 +70,7 @@ fn slip_is_the_tour_s_only_chance_for_rusty_and_bounded() {
     let at = |seed| Run::record(tour(40), Seed(seed)).unwrap().frames.pop().unwrap().robots.swap_remove(0);
     let (a, b) = (at(1), at(2));
     assert_ne!(a.configuration, b.configuration);
-    let apart = (a.configuration[0] - b.configuration[0]).hypot(a.configuration[1] - b.configuration[1]);
+    let apart = num::hypot(a.configuration[0] - b.configuration[0], a.configuration[1] - b.configuration[1]);
     let rolled = 0.5 * (a.extra[0] + a.extra[1]) * RUSTY.wheel_radius;
     assert!(apart < 4.0 * RUSTY.max_slip * rolled, "{apart} apart after {rolled}");
 }
