@@ -46,7 +46,8 @@ fn check(body: &Body, obstacle: &Body) -> bool {
     let contact = check_distance(body, obstacle);
     let (part, piece) = (placed(body), placed(obstacle));
     let w = scene_of(std::slice::from_ref(obstacle)).witness(&footprint_of(std::slice::from_ref(body))).unwrap();
-    let tolerance = 16.0 * ulp(largest_coordinate([&part, &piece]));
+    // two coordinates, each rounded at the size of the whole, for a point and for the line that it lies on
+    let tolerance = 32.0 * ulp(largest_coordinate([&part, &piece]));
     let on_both = lies_on(w.on_robot, &part, tolerance) && lies_on(w.on_obstacle, &piece, tolerance);
     assert!(on_both, "{w:?}: {body:?} against {obstacle:?}");
     contact

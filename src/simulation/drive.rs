@@ -59,10 +59,11 @@ pub(super) fn drive<R: SimulatedRobot>(transport: Res<Transport>, mut robots: Qu
     }
 }
 
+/// What [`plan`] reads and writes of a robot.
+type Planned<R> = (&'static RobotModel<R>, &'static Configuration<R>, &'static Control<R>, &'static mut TickMotion<R>);
+
 /// Gives every robot of a kind the motion its control makes.
-pub(super) fn plan<R: SimulatedRobot>(
-    mut robots: Query<(&RobotModel<R>, &Configuration<R>, &Control<R>, &mut TickMotion<R>)>,
-) {
+pub(super) fn plan<R: SimulatedRobot>(mut robots: Query<Planned<R>>) {
     for (RobotModel(robot), Configuration(q), Control(u), mut motion) in &mut robots {
         motion.0 = robot.fitted(q).drive(q, u, DT).ok();
     }

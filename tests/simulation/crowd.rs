@@ -133,7 +133,9 @@ fn an_arm_is_never_held_and_holds_what_it_lies_on() {
         event(5, "Rusty", RobotInput::Drive(128, 0)),
         turn(10, 3.0),
     ];
-    let log = Run::record(config(arena(3.0, &robots), 20), (Seed(1), script(events))).unwrap();
+    let sensor = Some(SensorConfig { n_rays: 4, max_range: 9.0 });
+    let config = TourConfig { sensor, ..config(arena(3.0, &robots), 20) };
+    let log = Run::record(config, (Seed(1), script(events))).unwrap();
     let state = |tick: usize, robot: usize| &log.frames[tick - 1].robots[robot];
     assert_eq!(state(2, 0).configuration[0], 0.5);
     assert!(!state(2, 0).in_contact);
@@ -144,8 +146,26 @@ fn an_arm_is_never_held_and_holds_what_it_lies_on() {
     assert!(state(9, 1).in_contact);
     assert_eq!(state(9, 1).configuration, log.initial.robots[1].configuration, "pinned, though it drives");
     assert!(state(9, 1).extra[0] > state(5, 1).extra[0], "its wheels turn");
+    assert_eq!(log.frames[8].scans[0].ranges, [0.0; 4], "its sensor sits inside the arm");
+    assert!(log.frames[19].scans[0].ranges.iter().all(|r| *r > RUSTY.body_radius));
     assert!(!state(20, 0).in_contact && !state(20, 1).in_contact);
     assert!(state(20, 1).configuration[0] > 0.2, "and when the arm has left it drives on");
+}
+
+#[test]
+fn nobody_is_put_onto_anybody() {
+    let robots: [(&str, &str, &[f64]); 2] = [("a", "rusty", &[0.0, 0.0, 0.0]), ("b", "rusty", &[1.0, 0.0, 0.0])];
+    let to = |tick, robot, x: f64| event(tick, robot, RobotInput::Teleport(quantized(&[x, 0.0, 0.0])));
+    // two bodies of 0.11 m need 0.22; within a tick the order of the script counts
+    let events =
+        vec![to(1, "a", 0.79), to(2, "a", 0.7), to(3, "a", 0.75), to(4, "b", 1.5), to(4, "a", 1.0), to(5, "b", 1.0)];
+    let log = Run::record(config(arena(3.0, &robots), 5), (Seed(1), script(events))).unwrap();
+    let state = |tick: usize, robot: usize| &log.frames[tick - 1].robots[robot];
+    assert_eq!((state(1, 0).configuration[0], state(1, 0).refusals), (0.0, 1));
+    assert!((state(2, 0).configuration[0] - 0.7).abs() < 1e-6 && state(2, 0).refusals == 1);
+    assert_eq!(state(3, 0).refusals, 1);
+    assert_eq!((state(4, 0).configuration[0], state(4, 1).configuration[0]), (1.0, 1.5));
+    assert_eq!((state(5, 1).configuration[0], state(5, 1).refusals), (1.5, 1));
 }
 
 #[test]
