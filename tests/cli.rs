@@ -131,3 +131,38 @@ fn a_missing_or_wrong_input_is_3_and_names_the_file() {
         assert!(error.contains("nowhere.ron: ") && error.lines().count() >= 2, "{arguments:?}: {error}");
     }
 }
+
+/// Without a command the program does what its features make of it.
+#[cfg(feature = "headless")]
+#[test]
+fn the_tour_is_recorded_replayed_and_drawn() {
+    let folder = tempfile::tempdir().unwrap();
+    let told = run_in(folder.path(), &[]).done();
+    let lines: Vec<&str> = told.lines().collect();
+    for (line, start) in lines.iter().zip(["Rusty  Pose2 { x: ", "Reach  T2 { th1: ", "Hitch  Pose2 { x: ", "digest "])
+    {
+        assert!(line.starts_with(start), "{line}");
+    }
+    assert_eq!(lines[4..], ["1200 of 1200 ticks bit-identical"]);
+    let recorded = run(&["record"]).done();
+    assert_eq!(recorded.lines().collect::<Vec<_>>(), lines[..4], "the tour is what `record` records by itself");
+    let log = folder.path().join("runs/tour-2005.mcap");
+    assert!(run(&["verify", log.to_str().unwrap()]).done().contains(lines[3]));
+    let figure = std::fs::read_to_string(folder.path().join("runs/tour-2005.svg")).unwrap();
+    assert!(figure.starts_with("<svg") && figure.trim_end().ends_with("</svg>"));
+    assert!(figure.contains(lines[3].trim_start_matches("digest ")), "the figure tells the digest");
+}
+
+#[cfg(all(feature = "window", not(feature = "headless"), target_os = "linux"))]
+#[test]
+fn no_display_is_6_and_names_the_headless_command() {
+    let ended = ended(command(&[]).env_remove("DISPLAY").env_remove("WAYLAND_DISPLAY").output().unwrap());
+    let error = ended.failed(6);
+    assert!(error.lines().count() == 1 && error.contains("cargo run --features headless"), "{error}");
+}
+
+#[cfg(not(any(feature = "window", feature = "headless")))]
+#[test]
+fn without_features_it_prints_its_help() {
+    assert!(run(&[]).done().contains("Usage:"));
+}

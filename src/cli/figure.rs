@@ -3,12 +3,11 @@
 use motion_lab::geometry::{Point2, Shape};
 use motion_lab::picture::{RobotTour, TourPanel, tour_figure};
 use motion_lab::random::Seed;
+use motion_lab::recording::printed_configuration;
 use motion_lab::run::Digest;
 use motion_lab::simulation::RobotView;
 use motion_lab::tour::TourConfig;
 use motion_lab::ui::Theme;
-
-use super::summary::print_configuration;
 
 /// What a figure needs of a run so far.
 #[derive(Default)]
@@ -70,7 +69,7 @@ impl Watched {
         // only a disc does not show which way it faces
         let is_disc = robot.footprint.parts().iter().all(|p| matches!(p.shape(), Shape::Disc { .. }));
         self.tour.end_heading = robot.coordinates.get(2).copied().filter(|_| is_disc);
-        self.tour.readout = print_configuration(&robot.kind, &robot.coordinates);
+        self.tour.readout = printed_configuration(&robot.kind, &robot.coordinates);
         self.tour.end = robot.footprint;
     }
 }

@@ -10,7 +10,7 @@ use super::Failure;
 /// A run at tick 0.
 pub fn begin(seed: Seed, config: &TourConfig, script: &Script) -> Result<Recorder, Failure> {
     Recorder::new(config.clone(), (seed, script.clone()))
-        .map_err(|error| Failure::input(error, "Change the world file, the script or --robots."))
+        .map_err(|error| Failure::input(error, "Change the world file, the script or --robot."))
 }
 
 /// Runs a log again, from its seed, configuration and script alone, as far as it has frames, and shows `watch` the run at every

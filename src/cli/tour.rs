@@ -12,7 +12,7 @@ use super::output::write_file;
 use super::record::{Ended, Plan, Stop, write_run};
 use super::simulate::run_again;
 use super::summary::RunSummary;
-use super::{Data, Failure, Outcome, say};
+use super::{Data, Failure, Outcome, interrupt, say};
 
 /// Where the recording and its figure go.
 const FOLDER: &str = "runs";
@@ -24,7 +24,9 @@ pub fn tour(data: &mut Data) -> Result<Outcome, Failure> {
     fs::create_dir_all(folder).map_err(|error| Failure::output(folder, &error))?;
     let file = folder.join(format!("tour-{BOOK_SEED}.mcap"));
     let plan = Plan { seed: BOOK_SEED, config: TourConfig::default(), script: Script::empty() };
-    if let Ended::Stopped(_) = write_run(&plan, &[], Stop::default(), &file)? {
+    interrupt::listen()?;
+    if let Ended::Stopped(tick) = write_run(&plan, &[], Stop::default(), &file)? {
+        say(format!("stopped after tick {tick}; run it again"));
         return Ok(Outcome::Stopped);
     }
 
