@@ -1,4 +1,15 @@
-//! motion lab
+//! A deterministic 2D robot-motion laboratory: three robots, three worlds, one collision checker that answers four questions,
+//! one simulator.
+//!
+//! The modules stand in reading order: each uses only those above it. The pure core is everything down to [`run`]; Bevy begins
+//! at [`simulation`].
+//!
+//! - Ask about configurations: [`collision::Checker`], and the trait [`collision::Collision`] that planners take.
+//! - Run something: [`recording::Run`].
+//! - Draw something: [`picture`].
+//!
+//! Conventions: SI units, radians, `f64`; x right, y up, counter-clockwise positive; angles wrapped to `(-pi, pi]`. Touching counts
+//! as collision.
 #![deny(missing_docs)]
 #![forbid(unsafe_code)]
 
@@ -26,6 +37,13 @@ pub mod simulation;
 
 pub mod recording;
 
+pub mod picture;
+
+pub mod ui;
+
+#[cfg(feature = "window")]
+pub mod app;
+
 #[cfg(target_family = "wasm")]
 pub mod web;
 
@@ -36,3 +54,8 @@ pub mod prelude {
     pub use crate::random::{Seed, Stream};
     pub use crate::robots::{CarCmd, Drivable, HITCH, Hitch, Motion, RUSTY, Reach, Robot, Rusty, RustyCmd, RustyDisc};
 }
+
+/// The code in README runs as a test.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

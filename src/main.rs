@@ -1,2 +1,31 @@
-//! The lab as a program.
-fn main() {}
+//! The lab as a program: it reads the command line, runs one command, and turns its end into an exit code. Only here.
+
+mod cli;
+
+use std::process::ExitCode;
+
+use clap::Parser;
+
+use cli::{Cli, Data, Failure, Outcome, say};
+
+fn main() -> ExitCode {
+    let cli = Cli::parse();
+    let mut data = Data::stdout();
+    let ended = cli.run(&mut data).and_then(|outcome| data.finish().map(|()| outcome));
+    ExitCode::from(match ended {
+        Ok(Outcome::Done) => 0,
+        Ok(Outcome::BadInput) => 3,
+        Ok(Outcome::Differs) => 4,
+        Ok(Outcome::Recovered) => 5,
+        Ok(Outcome::Stopped) => 75,
+        Err(failure) => {
+            say(&failure);
+            match failure {
+                Failure::Internal(_) | Failure::Output { .. } => 1,
+                Failure::Usage { .. } => 2,
+                Failure::Input { .. } => 3,
+                Failure::NoDisplay(_) => 6,
+            }
+        }
+    })
+}

@@ -1,5 +1,5 @@
 //! The whole-system tests: one binary, a module per subject.
-#![allow(clippy::unwrap_used, clippy::expect_used, missing_docs)]
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::print_stdout, missing_docs)]
 
 mod fixtures;
 mod oracle;
@@ -7,7 +7,9 @@ mod verdicts;
 
 mod allocation;
 mod chapter;
+mod cli;
 mod edges;
+mod extremes;
 mod failsafe;
 mod faults;
 mod house;

@@ -28,9 +28,10 @@ fn clearly_free(bodies: &[Body], obstacles: &[Body]) -> bool {
 fn no_move_shorter_than_the_depth_frees_a_footprint() {
     let mut s = Stream::new(Seed(51), "tests/depth");
     let mut deep = 0;
-    for i in 0..count_from_env("MOTION_LAB_PAIRS", 100_000) / 10 {
-        let n = 1 + s.below(3);
-        let obstacles: Vec<Body> = (0..n).map(|k| random_body(&mut s, KINDS[(i + k) as usize % 5], 1.0)).collect();
+    let n = count_from_env("MOTION_LAB_PAIRS", 100_000) / 10;
+    for i in 0..n {
+        let obstacles: Vec<Body> =
+            (0..1 + s.below(3)).map(|k| random_body(&mut s, KINDS[(i + k) as usize % 5], 1.0)).collect();
         let bodies: Vec<Body> =
             (0..1 + i % 2).map(|k| random_body(&mut s, KINDS[(i / 5 + k) as usize % 5], 1.0)).collect();
         let (scene, footprint) = (scene_of(&obstacles), footprint_of(&bodies));
@@ -40,7 +41,7 @@ fn no_move_shorter_than_the_depth_frees_a_footprint() {
             continue;
         }
         assert!(depth >= 0.0 && depth.is_finite(), "{depth}");
-        deep += usize::from(depth > 1e-3);
+        deep += u64::from(depth > 1e-3);
         let length = 0.999 * depth;
         for k in 0..32 {
             let (sin, cos) = sin_cos(TAU * f64::from(k) / 32.0);
@@ -68,7 +69,7 @@ fn no_move_shorter_than_the_depth_frees_a_footprint() {
             }
         }
     }
-    assert!(deep > 1000, "only {deep} deep enough to say something");
+    assert!(deep > n / 10, "only {deep} deep enough to say something");
 }
 
 #[test]

@@ -37,7 +37,6 @@ impl<R: Robot> Checker<R> {
     }
 
     /// [`edge`](Self::edge) of every pair, in their order.
-    #[expect(clippy::type_complexity, reason = "a list of answers, each of which may be refused")]
     pub fn edges(
         &self,
         pairs: &[(R::Configuration, R::Configuration)],

@@ -15,6 +15,12 @@ fn in_box(a: Point2, b: Point2, p: Point2) -> bool {
     between(a.x, b.x, p.x) && between(a.y, b.y, p.y)
 }
 
+/// The point of the closed box with the opposite corners `a` and `b` that is nearest to `p`.
+fn into_box((a, b): (Point2, Point2), p: Point2) -> Point2 {
+    let clamp = |x: f64, a: f64, b: f64| if a <= b { x.clamp(a, b) } else { x.clamp(b, a) };
+    Point2::new(clamp(p.x, a.x, b.x), clamp(p.y, a.y, b.y))
+}
+
 /// A common point of two closed segments, decided exactly; an end point itself where an end touches.
 pub(super) fn segments_contact(p: (Point2, Point2), q: (Point2, Point2)) -> Option<Point2> {
     let (p0, p1) = (orientation(q.0, q.1, p.0), orientation(q.0, q.1, p.1));
@@ -32,9 +38,11 @@ pub(super) fn segments_contact(p: (Point2, Point2), q: (Point2, Point2)) -> Opti
         }
     }
     if p0 != 0.0 && p1 != 0.0 && q0 != 0.0 && q1 != 0.0 {
-        // they cross properly: the sides have opposite signs, so the weight is in (0, 1)
-        let weight = p0 / (p0 - p1);
-        return Some(p.0 + (p.1 - p.0) * weight);
+        // They cross properly: the sides have opposite signs, so the weight is in (0, 1). Measured along the shorter one, and
+        // kept in both boxes, the point stays near both even when they are all but collinear.
+        let along_p = (p.1 - p.0).norm_squared() <= (q.1 - q.0).norm_squared();
+        let ((a, b), weight) = if along_p { (p, p0 / (p0 - p1)) } else { (q, q0 / (q0 - q1)) };
+        return Some(into_box(q, into_box(p, a + (b - a) * weight)));
     }
     None
 }

@@ -25,7 +25,7 @@ pub enum EdgeVerdict {
     Unresolved {
         /// Everything before this `s` is proven free.
         free_until: f64,
-        /// How far the footprint can move over the piece that could not be decided, metres.
+        /// How far the footprint can still move after `free_until`, to the motion's end or the first contact known, metres.
         gap: f64,
         /// Why the march ended.
         reason: UnresolvedReason,

@@ -88,6 +88,8 @@ pub fn march<M: Motion>(
     // a little less than the bracket, so that its two ends fit in it
     let fine = 0.45 * BRACKET / speed;
     let (mut lo, mut clearance, mut steps) = (0.0, f64::INFINITY, 0);
+    // how much of the guessed step is tried: guesses that fail again and again are too bold for this motion
+    let mut trust = 1.0;
     let mut h = if contact.is_some() { promising(gap, speed, acceleration) } else { 1.0 };
     loop {
         if steps == options.budget {
@@ -115,7 +117,8 @@ pub fn march<M: Motion>(
             if contact.is_some_and(|c| width(motion, parts, lo, c) <= BRACKET) {
                 return hit(lo, contact.unwrap_or(1.0));
             }
-            h = promising(gap, closing, acceleration);
+            h = greater(trust * promising(gap, closing, acceleration), 16.0 * f64::EPSILON); // never too short to go forward
+            trust = lesser(1.5 * trust, 1.0);
             if h < fine {
                 // about to touch: a contact just ahead ends the march, otherwise it creeps on
                 let ahead = lesser(lo + 2.0 * fine, 1.0);
@@ -143,6 +146,7 @@ pub fn march<M: Motion>(
             };
         }
         h = 0.5 * (hi - lo);
+        trust *= 0.5;
     }
 }
 
@@ -226,6 +230,30 @@ mod tests {
             panic!("{verdict:?}")
         };
         assert!(free_until > 0.0 && free_until < 0.5 && gap > 0.0);
+    }
+
+    #[test]
+    fn a_hit_at_a_slant_of_half_a_degree_is_found_within_the_budget() {
+        let towing = HITCH.with_trailer();
+        let c = CarChecker::new(Scene::lot(), towing);
+        let at = |x: f64, y: f64, theta: f64, psi: f64| HitchCfg {
+            body: crate::geometry::Pose2::new(x, y, theta),
+            trailer: Some(psi),
+        };
+        let slanting = [
+            (
+                at(6.580537835706359, 5.000116440187204, -1.6981397455848564, 0.9941558724129376),
+                at(6.506459608064548, 5.194483995305569, -1.391834082737191, 0.9968055580521787),
+            ),
+            (
+                at(11.223791443309134, 4.3444481992722945, -0.5457796460445494, -2.9727288213857066),
+                at(11.367714664055748, 4.601794940650447, -0.34499188382565926, -2.8521097355088636),
+            ),
+        ];
+        for (a, b) in slanting {
+            let verdict = c.edge(&a, &b).unwrap();
+            assert!(matches!(verdict, EdgeVerdict::Hit { .. }), "{a}: {verdict:?}");
+        }
     }
 
     #[test]

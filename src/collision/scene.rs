@@ -50,10 +50,17 @@ impl Scene {
     ///
     /// A shape that breaks its constructor's rules counts as contact with everything.
     #[must_use]
-    pub fn with_obstacle(mut self, name: &str, shape: Shape) -> Self {
+    pub fn with_obstacle(self, name: &str, shape: Shape) -> Self {
+        self.with_obstacle_at(name, Pose2::IDENTITY, shape)
+    }
+
+    /// As [`with_obstacle`](Self::with_obstacle), with the shape given in the frame `pose`: a disc's centre is the frame's
+    /// origin.
+    #[must_use]
+    pub fn with_obstacle_at(mut self, name: &str, pose: Pose2, shape: Shape) -> Self {
         let owner = self.names.len() as u32;
         self.names.push(name.into());
-        self.pieces.push(shape.place(&Pose2::IDENTITY));
+        self.pieces.push(shape.place(&pose));
         self.owners.push(owner);
         Self::of_pieces(self.bounds, self.names, self.pieces, self.owners)
     }

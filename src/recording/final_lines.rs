@@ -2,7 +2,7 @@
 
 use crate::configuration::{Configuration, HitchCfg, R2, T2, Tn};
 use crate::geometry::Pose2;
-use crate::run::{Log, RobotState};
+use crate::run::Log;
 
 /// One line per robot by ascending id, three decimals: `Reach  T2 { th1: 0.186, th2: 1.324 }  contacts: 9`.
 ///
@@ -13,13 +13,19 @@ pub fn final_lines(log: &Log) -> Vec<String> {
     residents
         .zip(&last.robots)
         .map(|(resident, state)| {
-            format!("{}  {}  contacts: {}", resident.name, shown(&resident.kind, state), state.contacts)
+            format!(
+                "{}  {}  contacts: {}",
+                resident.name,
+                printed_configuration(&resident.kind, &state.configuration),
+                state.contacts
+            )
         })
         .collect()
 }
 
-fn shown(kind: &str, state: &RobotState) -> String {
-    let q = &state.configuration[..];
+/// The configuration of a robot of this kind as a run's last lines show it.
+pub fn printed_configuration(kind: &str, coordinates: &[f64]) -> String {
+    let q = coordinates;
     let text = match kind {
         "rusty" => Pose2::from_coordinates(q).map(|p| R2::new(p.x, p.y).to_string().replacen("R2", "Pose2", 1)),
         "reach" => T2::from_coordinates(q).map(|q| q.to_string()),
@@ -34,4 +40,27 @@ fn shown(kind: &str, state: &RobotState) -> String {
         let numbers: Vec<String> = q.iter().map(|x| format!("{x:.3}")).collect();
         format!("[{}]", numbers.join(", "))
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn configurations_print_as_the_book_prints_them() {
+        for (kind, q, printed) in [
+            ("rusty", &[6.2124, 4.4656, 0.1][..], "Pose2 { x: 6.212, y: 4.466 }"),
+            ("reach", &[0.7856, 1.5714], "T2 { th1: 0.786, th2: 1.571 }"),
+            ("reach3", &[0.1, 0.2, 0.3], "Tn<3> { th1: 0.100, th2: 0.200, th3: 0.300 }"),
+            ("hitch", &[1.0, 2.0, 0.5], "Pose2 { x: 1.000, y: 2.000, theta: 0.500 }"),
+            (
+                "hitch",
+                &[1.0, 2.0, 0.5, 0.1],
+                "HitchCfg { body: Pose2 { x: 1.000, y: 2.000, theta: 0.500 }, trailer: Some(0.100) }",
+            ),
+            ("x-crane", &[1.0, 2.5], "[1.000, 2.500]"),
+        ] {
+            assert_eq!(printed_configuration(kind, q), printed);
+        }
+    }
 }

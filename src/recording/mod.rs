@@ -17,7 +17,7 @@ mod recorder;
 mod run;
 
 pub use crate::simulation::RunInput;
-pub use final_lines::final_lines;
+pub use final_lines::{final_lines, printed_configuration};
 pub use identity::identity_line;
 pub use recorder::{Recorder, RunError};
 pub use run::Run;

@@ -129,14 +129,17 @@ impl Script {
         let syntax = |first_line: usize, event: Option<usize>, e: ron::error::SpannedError| {
             error(first_line + e.span.start.line - 1, event, ScriptProblem::Syntax(e.code.to_string()))
         };
-        // the version first: the rest of another version's file may look different
-        if let Ok(VersionText { version }) = ron::from_str(text)
-            && version != u64::from(SCRIPT_VERSION)
-        {
+        let read: Result<ScriptText, _> = ron::from_str(text);
+        // the version before all else: the rest of another version's file may look different
+        let version = match &read {
+            Ok(file) => file.version,
+            Err(_) => ron::from_str(text).map_or(u64::from(SCRIPT_VERSION), |VersionText { version }| version),
+        };
+        if version != u64::from(SCRIPT_VERSION) {
             return Err(error(line_of(text, text.find("version").unwrap_or(0)), None, ScriptProblem::Version(version)));
         }
-        let file: ScriptText = ron::from_str(text).map_err(|e| syntax(1, None, e))?;
-        let mut script = Script { version: u32::try_from(file.version).unwrap_or(SCRIPT_VERSION), events: Vec::new() };
+        let file = read.map_err(|e| syntax(1, None, e))?;
+        let mut script = Script::empty();
         if file.events.len() > MAX_EVENTS {
             return Err(error(1, None, ScriptProblem::TooMany(file.events.len())));
         }

@@ -205,10 +205,10 @@ mod tests {
 
     #[test]
     fn a_quotient_that_rounds_up_adds_no_column() {
-        // 1.1 / 0.1 is 11.000000000000002, but the line 11 lies at 1.1
-        let bounds = Bounds { min: Point2::new(0.0, 0.0), max: Point2::new(1.1, 0.7) };
-        let grid = Grid::empty(&bounds, 0.1).unwrap();
-        assert_eq!((grid.columns(), grid.rows()), (11, 7));
+        // 2.1 / 0.3 is 7.000000000000001, but line 7 lies at 2.1
+        let bounds = Bounds { min: Point2::new(0.0, 0.0), max: Point2::new(2.1, 4.2) };
+        let grid = Grid::empty(&bounds, 0.3).unwrap();
+        assert_eq!((grid.columns(), grid.rows()), (7, 14));
     }
 
     #[test]

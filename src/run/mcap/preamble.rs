@@ -55,6 +55,10 @@ struct SensorText {
     max_range: f64,
 }
 
+fn content(item: &str, reason: &str) -> LogError {
+    LogError::Content { item: item.to_owned(), reason: reason.to_owned() }
+}
+
 fn world_file(index: usize) -> String {
     format!("worlds/{index}.ron")
 }
@@ -71,6 +75,15 @@ impl Preamble {
             world_texts: config.worlds.iter().map(World::to_ron).collect(),
         };
         preamble.check()?;
+        // a world put together by hand may have what the file format can't say; a replay would then run in another one
+        for (i, (world, text)) in config.worlds.iter().zip(&preamble.world_texts).enumerate() {
+            let name = world_file(i);
+            match World::parse(&name, text) {
+                Ok(read) if read == *world => {}
+                Ok(_) => return Err(content(&name, "the world is not one that a world file can describe")),
+                Err(e) => return Err(content(&name, &e.to_string())),
+            }
+        }
         Ok(preamble)
     }
 
@@ -164,7 +177,6 @@ impl Preamble {
 
     /// The preamble that sealed records hold. `initial` is the frame that their messages make.
     pub fn read(records: &[Record<'_>], initial: Option<Frame>) -> Result<Self, LogError> {
-        let content = |item: &str, reason: &str| LogError::Content { item: item.to_owned(), reason: reason.to_owned() };
         let mut files: BTreeMap<&str, &str> = BTreeMap::new();
         let mut metadata = BTreeMap::new();
         for record in records {

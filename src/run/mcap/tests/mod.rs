@@ -5,7 +5,9 @@ mod peers;
 mod schema;
 
 use super::*;
+use crate::geometry::{Point2, Pose2, Shape};
 use crate::run::{Log, first_divergence, fixture};
+use crate::worlds::{Obstacle, ObstacleKind};
 
 fn written(log: &Log) -> Vec<u8> {
     let mut file = Vec::new();
@@ -79,7 +81,7 @@ fn a_run_cut_short_goes_on_where_its_seals_end() {
 #[test]
 fn what_is_no_run_is_not_written() {
     type Change = fn(&mut Log);
-    let changes: [(&str, Change); 13] = [
+    let changes: [(&str, Change); 15] = [
         ("the frame of tick 3 came where that of tick 2 belongs", |l| drop(l.frames.remove(1))),
         ("the frame of tick 1 came where that of tick 0 belongs", |l| l.initial.tick = 1),
         ("2 of 3 ticks are recorded", |l| drop((l.frames.pop(), l.digests.pop()))),
@@ -91,6 +93,12 @@ fn what_is_no_run_is_not_written() {
         ("tick 2: the digest", |l| l.digests[1].0 ^= 1),
         ("tick 3: the digest", |l| l.digests.truncate(2)),
         ("tick 4: the digest", |l| l.digests.push(l.digests[0])),
+        ("worlds/0.ron in the log: worlds/0.ron:", |l| l.config.worlds[0].robots[1].start.push(0.0)),
+        ("worlds/0.ron in the log: the world is not one", |l| {
+            let wall = Shape::Segment { a: Point2::new(0.0, 0.0), b: Point2::new(1.0, 0.0) };
+            let pieces = vec![(Pose2::new(0.0, 0.0, 0.5), wall)];
+            l.config.worlds[0].obstacles.push(Obstacle { name: "turned".into(), kind: ObstacleKind::Wall, pieces });
+        }),
         ("the configuration: 0 worlds", |l| l.config.worlds.clear()),
         ("the script: events[2]: there is no robot \"Cat\"", |l| l.script.events[2].robot = "Cat".into()),
     ];

@@ -47,7 +47,9 @@ fn another_reader_finds_summary_attachments_and_metadata_where_it_says() {
     let stats = summary.stats.unwrap();
     assert_eq!((stats.message_count, stats.message_start_time, stats.message_end_time), (15, 0, 150_000_000));
     assert_eq!((stats.attachment_count, stats.metadata_count, stats.chunk_count), (3, 1, 0));
-    assert_eq!(summary.channels.len(), 4);
+    assert_eq!((stats.schema_count, stats.channel_count), (4, 4));
+    assert_eq!(stats.channel_message_counts, [(1, 3), (2, 4), (3, 4), (4, 4)].into());
+    assert_eq!((summary.schemas.len(), summary.channels.len()), (4, 4));
     let mut texts = std::collections::BTreeMap::new();
     for index in &summary.attachment_indexes {
         let attachment = mcap::read::attachment(&file, index).unwrap(); // checks its checksum

@@ -1,0 +1,99 @@
+//! Opening the window, or saying in one line why there is none.
+
+use std::any::Any;
+use std::ffi::OsString;
+use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind, set_hook, take_hook};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+use bevy::prelude::*;
+
+/// Why there is no window. Each prints as one line that names the command that needs none.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
+pub enum WindowError {
+    /// No display is set.
+    #[error("no display: neither DISPLAY nor WAYLAND_DISPLAY is set; without one, run `cargo run --features headless`")]
+    NoDisplay,
+    /// The display or the graphics adapter did not answer.
+    #[error("no window could be opened ({0}); without one, run `cargo run --features headless`")]
+    NotOpened(String),
+    /// The window was closed by an error.
+    #[error("the window closed with code {0}")]
+    Closed(u8),
+}
+
+/// Opens the lab in a window and returns when it is closed.
+///
+/// # Errors
+/// [`WindowError::NoDisplay`] when the environment names no display, [`WindowError::NotOpened`] when the window system or the
+/// graphics adapter fails before the first frame. A panic after the first frame is a fault of the lab and goes on as one.
+pub fn run_window() -> Result<(), WindowError> {
+    check_display(|name| std::env::var_os(name))?;
+    let opened = Arc::new(AtomicBool::new(false));
+    // What fails on the way to the first frame is told in one line below. After it, a panic speaks as usual.
+    let speak = take_hook();
+    let quiet = Arc::clone(&opened);
+    set_hook(Box::new(move |info| {
+        if quiet.load(Ordering::Relaxed) {
+            speak(info);
+        }
+    }));
+    let first_frame = Arc::clone(&opened);
+    let outcome = catch_unwind(AssertUnwindSafe(move || {
+        let mut app = super::windowed_app();
+        app.add_systems(Last, move || first_frame.store(true, Ordering::Relaxed));
+        app.run()
+    }));
+    match outcome {
+        Ok(AppExit::Success) => Ok(()),
+        Ok(AppExit::Error(code)) => Err(WindowError::Closed(code.get())),
+        Err(panic) if opened.load(Ordering::Relaxed) => resume_unwind(panic),
+        Err(panic) => Err(WindowError::NotOpened(first_line(panic.as_ref()))),
+    }
+}
+
+/// On Linux a window needs one of two variables; elsewhere the system always has a display.
+fn check_display(variable: impl Fn(&str) -> Option<OsString>) -> Result<(), WindowError> {
+    let set = |name| variable(name).is_some_and(|value| !value.is_empty());
+    if cfg!(target_os = "linux") && !set("DISPLAY") && !set("WAYLAND_DISPLAY") {
+        return Err(WindowError::NoDisplay);
+    }
+    Ok(())
+}
+
+/// What a panic said, its first line.
+fn first_line(panic: &(dyn Any + Send)) -> String {
+    let said = panic.downcast_ref::<String>().map(String::as_str).or(panic.downcast_ref::<&str>().copied());
+    let line = said.and_then(|s| s.lines().next()).unwrap_or("unknown reason");
+    line.trim_end_matches(['.', '!']).to_owned()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    #[cfg(target_os = "linux")]
+    fn a_display_is_one_of_two_variables_that_says_something() {
+        let with = |set: &'static [(&str, &str)]| {
+            check_display(move |name| set.iter().find(|(n, _)| *n == name).map(|(_, v)| OsString::from(v)))
+        };
+        assert_eq!(with(&[]), Err(WindowError::NoDisplay));
+        assert_eq!(with(&[("DISPLAY", "")]), Err(WindowError::NoDisplay));
+        assert_eq!(with(&[("DISPLAY", ":0")]), Ok(()));
+        assert_eq!(with(&[("WAYLAND_DISPLAY", "wayland-0")]), Ok(()));
+    }
+
+    #[test]
+    fn every_way_to_have_no_window_is_one_line_that_names_the_command() {
+        let said =
+            |message: &'static str| first_line(catch_unwind(|| std::panic::panic_any(message)).unwrap_err().as_ref());
+        let adapter = WindowError::NotOpened(said("Unable to find a GPU!\nsee there"));
+        for error in [WindowError::NoDisplay, adapter] {
+            let line = error.to_string();
+            assert!(!line.contains('\n') && line.contains("cargo run --features headless"), "{line}");
+        }
+        assert_eq!(said("Unable to find a GPU!\nsee there"), "Unable to find a GPU");
+    }
+}

@@ -1,0 +1,89 @@
+//! How a command ends: an [`Outcome`] when it did its work, a [`Failure`] when it could not.
+
+use std::fmt::Display;
+use std::io;
+use std::path::Path;
+
+/// What came of a command that did its work. Each has its exit code.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Outcome {
+    /// All is well.
+    Done,
+    /// Some of several inputs were wrong; each has had its message, the others their answers.
+    BadInput,
+    /// A replay differs from its recording.
+    Differs,
+    /// A damaged or unfinished file was used as far as it is sealed.
+    Recovered,
+    /// Stopped early, and resumable.
+    Stopped,
+}
+
+/// Why a command could not do its work: what went wrong, where, and what to do next. Each kind has its exit code.
+#[derive(Debug, thiserror::Error)]
+pub enum Failure {
+    /// A fault of this program.
+    #[error("{0:#}\nThis is a fault of motion-lab itself: please report it with the command and its input.")]
+    Internal(anyhow::Error),
+    /// An output that can't be written.
+    #[error("{file}: {reason}\n{next}")]
+    Output {
+        /// The file, or what else was written to.
+        file: String,
+        /// What is wrong.
+        reason: String,
+        /// What to do next.
+        next: String,
+    },
+    /// A command line that clap accepts and that still makes no sense.
+    #[error("{reason}\n{next}")]
+    Usage {
+        /// What is wrong.
+        reason: String,
+        /// What to do next.
+        next: String,
+    },
+    /// An input that is missing or wrong.
+    #[error("{reason}\n{next}")]
+    Input {
+        /// What is wrong, and where: file, line or offset, item.
+        reason: String,
+        /// What to do next.
+        next: String,
+    },
+    /// No display for the window.
+    #[error("{0}")]
+    #[cfg_attr(not(feature = "window"), expect(dead_code, reason = "only the window needs a display"))]
+    NoDisplay(String),
+}
+
+impl Failure {
+    /// A fault of this program.
+    pub fn internal(error: impl Into<anyhow::Error>) -> Self {
+        Failure::Internal(error.into())
+    }
+
+    /// A wrong input: what is wrong where, and what to do next.
+    pub fn input(reason: impl Display, next: impl Display) -> Self {
+        Failure::Input { reason: reason.to_string(), next: next.to_string() }
+    }
+
+    /// A wrong command line: what is wrong, and what to do next.
+    pub fn usage(reason: impl Display, next: impl Display) -> Self {
+        Failure::Usage { reason: reason.to_string(), next: next.to_string() }
+    }
+
+    /// An output file that can't be written; whatever was there before still is.
+    pub fn output(file: &Path, error: &io::Error) -> Self {
+        let next = match error.kind() {
+            io::ErrorKind::NotFound => "Make its folder first, or name another.",
+            io::ErrorKind::PermissionDenied => "Name a file in a folder you may write to.",
+            _ => "Name another file.",
+        };
+        Failure::Output {
+            file: file.display().to_string(),
+            reason: format!("it can't be written: {error}"),
+            next: format!("An older file of that name is as it was. {next}"),
+        }
+    }
+}

@@ -1,0 +1,57 @@
+//! Reading input files: as much as is allowed and no more.
+
+use std::fs::File;
+use std::io::{self, ErrorKind, Read};
+use std::path::Path;
+
+use super::Failure;
+
+/// The greatest size of a world or script file, bytes.
+pub const MAX_TEXT: u64 = 64 << 20;
+
+/// The whole file as text.
+pub fn read_text(path: &Path) -> Result<String, Failure> {
+    let bytes = read_bytes(path, MAX_TEXT)?;
+    String::from_utf8(bytes).map_err(|error| {
+        let at = error.utf8_error().valid_up_to();
+        let line = error.as_bytes()[..at].iter().filter(|&&b| b == b'\n').count() + 1;
+        Failure::input(
+            format!("{}: not UTF-8: byte {at} (line {line}) begins no character", path.display()),
+            "Save it as UTF-8, or name the right file.",
+        )
+    })
+}
+
+/// The whole file, at most `limit` bytes.
+pub fn read_bytes(path: &Path, limit: u64) -> Result<Vec<u8>, Failure> {
+    let mut bytes = Vec::new();
+    let file = open(path)?;
+    file.take(limit + 1).read_to_end(&mut bytes).map_err(|error| unreadable(path, &error))?;
+    if bytes.len() as u64 > limit {
+        return Err(Failure::input(
+            format!("{}: too large: more than {limit} bytes", path.display()),
+            "Is it the right file? Larger ones are refused.",
+        ));
+    }
+    Ok(bytes)
+}
+
+/// The file, opened for reading; refused when it is a folder.
+pub fn open(path: &Path) -> Result<File, Failure> {
+    let file = File::open(path).map_err(|error| unreadable(path, &error))?;
+    match file.metadata() {
+        Ok(about) if about.is_dir() => Err(unreadable(path, &ErrorKind::IsADirectory.into())),
+        _ => Ok(file),
+    }
+}
+
+/// A file that can't be read.
+pub fn unreadable(path: &Path, error: &io::Error) -> Failure {
+    let (reason, next) = match error.kind() {
+        ErrorKind::NotFound => ("there is no such file".into(), "Check the path and the folder you are in."),
+        ErrorKind::IsADirectory => ("it is a folder, not a file".into(), "Name a file in it."),
+        ErrorKind::PermissionDenied => ("you may not read it".into(), "Change its permissions, or name another file."),
+        _ => (error.to_string(), "Name another file."),
+    };
+    Failure::input(format!("{}: {reason}", path.display()), next)
+}

@@ -1,0 +1,39 @@
+//! A log named on the command line.
+
+use std::path::Path;
+
+use motion_lab::run::{Log, LogError, ReadLog};
+
+use super::Failure;
+use super::input::read_bytes;
+
+/// The greatest size of a log file, bytes.
+pub const MAX_LOG: u64 = 4 << 30;
+
+/// A log from a file, or its sealed beginning.
+pub struct LogSource {
+    /// What was read.
+    pub read: ReadLog,
+    /// What is wrong with the file, when it is not whole.
+    pub damage: Option<String>,
+}
+
+/// Reads a log. Of a damaged or unfinished file the sealed beginning; an error when not even that can be used.
+pub fn read_log(path: &Path) -> Result<LogSource, Failure> {
+    let bytes = read_bytes(path, MAX_LOG)?;
+    let refused =
+        |error: &dyn std::fmt::Display, next| Err(Failure::input(format!("{}: {error}", path.display()), next));
+    match Log::read_mcap(&bytes) {
+        Ok(read) => Ok(LogSource { read, damage: None }),
+        Err(LogError::Damaged(damaged)) => {
+            let message = damaged.to_string();
+            match damaged.recovered {
+                Some(read) => Ok(LogSource { read, damage: Some(format!("{}: {message}", path.display())) }),
+                None => refused(&message, "Record the run again."),
+            }
+        }
+        Err(error @ LogError::NotALog) => refused(&error, "Name a file that `motion-lab record -o` wrote."),
+        Err(error @ LogError::Version(_)) => refused(&error, "Read it with the motion-lab that wrote it."),
+        Err(error) => refused(&error, "Record the run again."),
+    }
+}

@@ -1,0 +1,75 @@
+//! The command line: one command a file. Data goes to standard output, messages to standard error.
+
+mod bare;
+mod console;
+mod end;
+#[cfg(feature = "headless")]
+mod figure;
+mod info;
+mod input;
+mod interrupt;
+mod json_number;
+mod log_source;
+mod output;
+mod query;
+mod record;
+mod simulate;
+mod summary;
+#[cfg(feature = "headless")]
+mod tour;
+mod verify;
+mod world;
+mod world_source;
+
+pub use console::{Data, say};
+pub use end::{Failure, Outcome};
+
+use clap::{Parser, Subcommand};
+
+/// What `--help` says of the exit codes; the README says the same.
+const EXIT_CODES: &str = "\
+Exit codes:
+   0  done
+   1  internal error, or an output that could not be written
+   2  the command line is wrong
+   3  an input file is missing or wrong
+   4  the replay differs from the recording
+   5  the file is damaged or unfinished; its sealed beginning was used
+   6  there is no display for the window
+  75  stopped early; `record --resume` goes on
+
+Data goes to standard output, messages to standard error.";
+
+/// A deterministic laboratory of robot motion: three robots, three worlds, one collision checker, one simulator.
+///
+/// Without a command it opens the lab in a window; built with the feature `headless` it records the 60 s tour, replays it
+/// and compares every bit.
+#[derive(Debug, Parser)]
+#[command(version, after_help = EXIT_CODES, after_long_help = EXIT_CODES)]
+pub struct Cli {
+    #[command(subcommand)]
+    command: Option<Command>,
+}
+
+#[derive(Debug, Subcommand)]
+enum Command {
+    Record(Box<record::Record>),
+    Verify(verify::Verify),
+    Info(info::Info),
+    Query(query::Query),
+    World(world::WorldArgs),
+}
+
+impl Cli {
+    /// Runs the command.
+    pub fn run(self, data: &mut Data) -> Result<Outcome, Failure> {
+        match self.command {
+            Some(Command::Record(record)) => record.run(data),
+            Some(Command::Verify(verify)) => verify.run(data),
+            Some(Command::Info(info)) => info.run(data),
+            Some(Command::Query(query)) => query.run(data),
+            Some(Command::World(world)) => world.run(data),
+            None => bare::bare(data),
+        }
+    }
+}

@@ -1,0 +1,33 @@
+//! Runs under way, as the commands start them.
+
+use motion_lab::random::Seed;
+use motion_lab::recording::Recorder;
+use motion_lab::run::{Divergence, Log, Script, first_divergence};
+use motion_lab::tour::TourConfig;
+
+use super::Failure;
+
+/// A run at tick 0.
+pub fn begin(seed: Seed, config: &TourConfig, script: &Script) -> Result<Recorder, Failure> {
+    Recorder::new(config.clone(), (seed, script.clone()))
+        .map_err(|error| Failure::input(error, "Change the world file, the script or --robot."))
+}
+
+/// Runs a log again, from its seed, configuration and script alone, as far as it has frames, and shows `watch` the run at every
+/// tick from 0 on. Returns the first value that differs from the log's frames.
+pub fn run_again(log: &Log, mut watch: impl FnMut(&Recorder)) -> Result<Option<Divergence>, Failure> {
+    let mut run = begin(log.seed, &log.config, &log.script)?;
+    let mut expected = std::iter::once(&log.initial).chain(&log.frames);
+    let mut next = expected.next();
+    while let Some(frame) = next {
+        watch(&run);
+        if let Some(divergence) = first_divergence(std::slice::from_ref(frame), std::slice::from_ref(run.frame())) {
+            return Ok(Some(divergence));
+        }
+        next = expected.next();
+        if next.is_some() {
+            run.step();
+        }
+    }
+    Ok(None)
+}

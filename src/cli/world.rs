@@ -1,0 +1,111 @@
+//! `world`: check world files, list and print worlds.
+
+use std::path::PathBuf;
+
+use clap::{Args, Subcommand};
+use motion_lab::worlds::World;
+use serde::Serialize;
+
+use super::world_source::{find_world, read_world};
+use super::{Data, Failure, Outcome, say};
+
+/// Check world files; list and print worlds.
+#[derive(Debug, Args)]
+pub struct WorldArgs {
+    #[command(subcommand)]
+    command: WorldCommand,
+}
+
+#[derive(Debug, Subcommand)]
+enum WorldCommand {
+    /// Read world files and say what is in them, or what is wrong with them. Every file is read; one that is wrong makes the
+    /// exit code 3.
+    Check {
+        /// The world files.
+        #[arg(required = true, value_name = "FILE")]
+        files: Vec<PathBuf>,
+        /// One line of JSON for each file that is right.
+        #[arg(long)]
+        json: bool,
+    },
+    /// List the built-in worlds.
+    List {
+        /// One line of JSON for each.
+        #[arg(long)]
+        json: bool,
+    },
+    /// Print a world as a world file: a start for one of your own.
+    Show {
+        /// A built-in world's name, or the path of a world file.
+        #[arg(value_name = "NAME|FILE")]
+        world: String,
+    },
+}
+
+/// What is said of a world.
+#[derive(Serialize)]
+struct Summary<'a> {
+    /// The name or file it is asked for by.
+    source: &'a str,
+    name: &'a str,
+    content_hash: String,
+    obstacles: usize,
+    places: usize,
+    marks: usize,
+    robots: Vec<&'a str>,
+}
+
+impl WorldArgs {
+    /// Runs the command.
+    pub fn run(self, data: &mut Data) -> Result<Outcome, Failure> {
+        match self.command {
+            WorldCommand::Check { files, json } => check(&files, json, data),
+            WorldCommand::List { json } => {
+                for name in World::built_in_names() {
+                    summarise(name, &find_world(name)?, json, data)?;
+                }
+                Ok(Outcome::Done)
+            }
+            WorldCommand::Show { world } => {
+                data.text(&find_world(&world)?.to_ron())?;
+                Ok(Outcome::Done)
+            }
+        }
+    }
+}
+
+fn check(files: &[PathBuf], json: bool, data: &mut Data) -> Result<Outcome, Failure> {
+    let mut outcome = Outcome::Done;
+    for file in files {
+        match read_world(file) {
+            Ok(world) => summarise(&file.display().to_string(), &world, json, data)?,
+            Err(failure @ Failure::Input { .. }) => {
+                outcome = Outcome::BadInput;
+                data.flush()?; // in order with what was said of the files before
+                say(failure);
+            }
+            Err(failure) => return Err(failure),
+        }
+    }
+    Ok(outcome)
+}
+
+fn summarise(source: &str, world: &World, json: bool, data: &mut Data) -> Result<(), Failure> {
+    let summary = Summary {
+        source,
+        name: &world.name,
+        content_hash: format!("{:032x}", world.content_hash()),
+        obstacles: world.obstacles.len(),
+        places: world.places.len(),
+        marks: world.marks.len(),
+        robots: world.robots.iter().map(|r| r.name.as_str()).collect(),
+    };
+    if json {
+        return data.json(&summary);
+    }
+    let Summary { name, content_hash, obstacles, places, marks, .. } = &summary;
+    let robots = if summary.robots.is_empty() { "none".to_owned() } else { summary.robots.join(", ") };
+    data.line(format!(
+        "{source}: {name}, content {content_hash}, {obstacles} obstacles, {places} places, {marks} marks, robots: {robots}"
+    ))
+}

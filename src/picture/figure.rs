@@ -1,0 +1,176 @@
+//! `Figure`, pictures side by side as a sheet of paper: what an SVG file shows.
+
+use super::{Anchor, Face, Fit, Line, Palette, Picture, Primitive, Role, ScaleBar, ScreenRect, resolve, svg};
+use crate::num::{greater, lesser};
+
+/// A figure: panels in rows of up to three, and a caption under them.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Figure {
+    /// What it is, in a few words: the title for readers who do not see it.
+    pub title: String,
+    /// What is to be seen, in a sentence or two, for the same readers.
+    pub description: String,
+    /// The panels.
+    pub panels: Vec<Panel>,
+    /// The lines of the caption.
+    pub caption: Vec<String>,
+}
+
+/// One picture with what stands under it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Panel {
+    /// The picture.
+    pub picture: Picture,
+    /// Its heading; empty for none.
+    pub heading: String,
+    /// The lines of its readout, in the fixed-width face.
+    pub readout: Vec<String>,
+}
+
+/// Something laid out on a sheet: a group with its name, or a bare stroke or word of the sheet's own.
+pub(super) enum Entry {
+    Bare(Primitive),
+    Group { id: String, name: String, role: Role, primitives: Vec<Primitive> },
+}
+
+/// Free room at the sheet's border and between its panels, pixels.
+const GAP: f64 = 20.0;
+/// The greatest width of the sheet, pixels.
+const WIDTH: f64 = 1280.0;
+/// The greatest height of a picture, pixels.
+const TALLEST: f64 = 560.0;
+/// From line to line of a readout, pixels.
+const LEADING: f64 = 16.0;
+/// Free room inside a picture's frame, pixels.
+const MARGIN: f64 = 8.0;
+
+impl Figure {
+    /// The figure of one picture alone.
+    pub fn of(picture: Picture) -> Self {
+        let title = picture.name.clone();
+        let panels = vec![Panel { picture, heading: String::new(), readout: Vec::new() }];
+        Figure { title, description: String::new(), panels, caption: Vec::new() }
+    }
+
+    /// The figure as an SVG file, the same bytes for the same figure and palette. Metres are fitted to the panels, and line
+    /// widths are in pixels.
+    pub fn svg(&self, palette: &Palette) -> String {
+        let (entries, size) = self.lay_out();
+        svg::write(self, &entries, size, palette)
+    }
+
+    /// All strokes and words in painting order, and the size of the sheet.
+    fn lay_out(&self) -> (Vec<Entry>, [f64; 2]) {
+        let mut entries = Vec::new();
+        let (mut right, mut top) = (GAP, GAP);
+        for row in self.panels.chunks(3) {
+            let [row_right, row_bottom] = lay_out_row(row, top, &mut entries);
+            right = greater(right, row_right);
+            top = row_bottom + GAP;
+        }
+        for line in &self.caption {
+            entries.push(Entry::Bare(text(GAP, top, line, Face::Sans, 13.0, Role::Text)));
+            top += LEADING + 2.0;
+        }
+        (entries, [right + GAP, top])
+    }
+}
+
+/// Lays a row out below `top`, all pictures of one height; returns how far it reaches to the right and down.
+fn lay_out_row(row: &[Panel], top: f64, entries: &mut Vec<Entry>) -> [f64; 2] {
+    let aspect = |panel: &Panel| {
+        let bounds = &panel.picture.bounds;
+        // very long and very high worlds are shown on a sheet that is not
+        ((bounds.max.x - bounds.min.x) / (bounds.max.y - bounds.min.y)).clamp(0.5, 3.0)
+    };
+    let aspects: f64 = row.iter().map(aspect).sum();
+    let room = WIDTH - GAP * (row.len() as f64 + 1.0) - 2.0 * MARGIN * row.len() as f64;
+    let inner = lesser(room / aspects, TALLEST);
+    let height = inner + 2.0 * MARGIN;
+    let mut left = GAP;
+    let mut bottom = top + height;
+    for panel in row {
+        let rect = ScreenRect { min: [left, top], size: [inner * aspect(panel) + 2.0 * MARGIN, height] };
+        let below = lay_out_panel(panel, rect, entries);
+        bottom = greater(bottom, below);
+        left += rect.size[0] + GAP;
+    }
+    [left - GAP, bottom]
+}
+
+fn lay_out_panel(panel: &Panel, rect: ScreenRect, entries: &mut Vec<Entry>) -> f64 {
+    let fit = Fit::new(&panel.picture.bounds, rect, MARGIN);
+    for item in &panel.picture.items {
+        let primitives = resolve(item, &fit);
+        let id = format!("{}/{}", panel.picture.name, item.id);
+        entries.push(Entry::Group { id, name: item.name.clone(), role: item.role, primitives });
+    }
+    let [x, y] = rect.min;
+    let (right, bottom) = (x + rect.size[0], y + rect.size[1]);
+    let frame = vec![vec![[x, y], [right, y], [right, bottom], [x, bottom], [x, y]]];
+    entries.push(Entry::Bare(Primitive::Lines { lines: frame, role: Role::Hairline, line: Line::solid(1.0) }));
+    let mut baseline = bottom + LEADING + 2.0;
+    entries.extend(scale_bar(&fit, right, baseline));
+    if !panel.heading.is_empty() {
+        entries.push(Entry::Bare(text(x, baseline, &panel.heading, Face::Sans, 14.0, Role::Text)));
+    }
+    let columns = (rect.size[0] / (11.0 * 0.61)) as usize;
+    for line in panel.readout.iter().flat_map(|line| wrapped(line, columns)) {
+        baseline += LEADING;
+        entries.push(Entry::Bare(text(x, baseline, &line, Face::Mono, 11.0, Role::Muted)));
+    }
+    baseline + 4.0
+}
+
+/// A line broken at spaces where it is longer than `columns`, what follows a break set in by two.
+fn wrapped(line: &str, columns: usize) -> Vec<String> {
+    let mut lines = vec![String::new()];
+    for word in line.split_inclusive(' ') {
+        let used = lines.last().map_or(0, |l| l.chars().count());
+        let fits = used + word.trim_end().chars().count() <= columns;
+        match lines.last_mut() {
+            Some(last) if fits || last.trim().is_empty() => last.push_str(word),
+            _ => lines.push(format!("  {word}")),
+        }
+    }
+    lines
+}
+
+/// A scale bar that ends at `right`.
+fn scale_bar(fit: &Fit, right: f64, baseline: f64) -> [Entry; 2] {
+    let bar = ScaleBar::new(fit.px_per_metre(), 80.0);
+    let (left, y) = (right - bar.length_px, baseline - 4.0);
+    let lines = vec![
+        vec![[left, y], [right, y]],
+        vec![[left, y - 3.0], [left, y + 3.0]],
+        vec![[right, y - 3.0], [right, y + 3.0]],
+    ];
+    let label = Primitive::Text {
+        at: [left - 6.0, baseline],
+        anchor: Anchor::Left,
+        text: bar.label,
+        face: Face::Sans,
+        size: 11.0,
+        role: Role::Muted,
+        plate: false,
+    };
+    [Entry::Bare(Primitive::Lines { lines, role: Role::Muted, line: Line::solid(1.0) }), Entry::Bare(label)]
+}
+
+/// Words on a baseline.
+fn text(left: f64, baseline: f64, text: &str, face: Face, size: f64, role: Role) -> Primitive {
+    Primitive::Text { at: [left, baseline], anchor: Anchor::Right, text: text.into(), face, size, role, plate: false }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn long_readouts_break_at_spaces() {
+        assert_eq!(wrapped("Pose2 { x: 1 }", 40), ["Pose2 { x: 1 }"]);
+        let lines = wrapped("HitchCfg { body: Pose2 { x: 1 }, trailer: None }", 33);
+        assert_eq!(lines, ["HitchCfg { body: Pose2 { x: 1 }, ", "  trailer: None }"]);
+        assert_eq!(wrapped("unbreakable", 3), ["unbreakable"], "a word is never cut");
+    }
+}

@@ -1,0 +1,118 @@
+//! Hatches and dots: what fills a polygon, in pixels. Their lattice is fixed to the screen, so that the hatches of two pieces
+//! of one obstacle meet.
+
+use super::ScreenPoint;
+use crate::num::{greater, lesser};
+
+/// The gap between two lines of a hatch along the axes, pixels.
+const HATCH_STEP: f64 = 7.0;
+
+/// The gap between two dots, pixels.
+const DOT_STEP: f64 = 6.0;
+
+/// At most this many lines or rows are drawn in one polygon, however large it is on the screen.
+const MOST: i64 = 2000;
+
+/// The least and greatest value of `f` over the polygon.
+fn range(polygon: &[ScreenPoint], f: impl Fn(&ScreenPoint) -> f64) -> (f64, f64) {
+    polygon.iter().fold((f64::INFINITY, -f64::INFINITY), |(lo, hi), p| (lesser(lo, f(p)), greater(hi, f(p))))
+}
+
+/// The numbers k with `lo <= k * step <= hi`; none when there are too many or a bound is not finite.
+fn lattice(lo: f64, hi: f64, step: f64) -> std::ops::Range<i64> {
+    let (first, last) = ((lo / step).ceil() as i64, (hi / step).floor() as i64);
+    let fits = lo.is_finite() && hi.is_finite() && last.saturating_sub(first) <= MOST;
+    if fits { first..last.saturating_add(1) } else { 0..0 }
+}
+
+/// The part of the line from `a` along `d` inside the convex polygon: the two parameters, if there is any.
+///
+/// Cyrus and Beck's clipping (1978), for either orientation of the polygon.
+fn clip(polygon: &[ScreenPoint], a: ScreenPoint, d: ScreenPoint) -> Option<(f64, f64)> {
+    let n = polygon.len();
+    let area: f64 = (0..n)
+        .map(|i| {
+            let (p, q) = (polygon[i], polygon[(i + 1) % n]);
+            p[0] * q[1] - p[1] * q[0]
+        })
+        .sum();
+    let side = if area >= 0.0 { 1.0 } else { -1.0 };
+    let (mut from, mut to) = (-f64::INFINITY, f64::INFINITY);
+    for i in 0..n {
+        let (p, q) = (polygon[i], polygon[(i + 1) % n]);
+        let normal = [side * (p[1] - q[1]), side * (q[0] - p[0])]; // points inside
+        let inside = normal[0] * (a[0] - p[0]) + normal[1] * (a[1] - p[1]);
+        let rate = normal[0] * d[0] + normal[1] * d[1];
+        if rate > 0.0 {
+            from = greater(from, -inside / rate);
+        } else if rate < 0.0 {
+            to = lesser(to, -inside / rate);
+        } else if inside < 0.0 {
+            return None;
+        }
+    }
+    (from < to && from.is_finite() && to.is_finite()).then_some((from, to))
+}
+
+/// The hatch of a convex polygon: lines that rise to the right.
+pub(super) fn hatch(polygon: &[ScreenPoint]) -> Vec<Vec<ScreenPoint>> {
+    let (lo, hi) = range(polygon, |p| p[0] + p[1]);
+    lattice(lo, hi, HATCH_STEP)
+        .filter_map(|k| {
+            let a = [k as f64 * HATCH_STEP, 0.0];
+            let (from, to) = clip(polygon, a, [-1.0, 1.0])?;
+            Some(vec![[a[0] - from, from], [a[0] - to, to]])
+        })
+        .collect()
+}
+
+/// The centres of the dots in a convex polygon, every other row moved by half a step.
+pub(super) fn dots(polygon: &[ScreenPoint]) -> Vec<ScreenPoint> {
+    let (lo, hi) = range(polygon, |p| p[1]);
+    let mut out = Vec::new();
+    for row in lattice(lo, hi, DOT_STEP) {
+        let y = row as f64 * DOT_STEP;
+        let shift = if row % 2 == 0 { 0.0 } else { 0.5 * DOT_STEP };
+        if let Some((from, to)) = clip(polygon, [shift, y], [1.0, 0.0]) {
+            out.extend(lattice(from, to, DOT_STEP).map(|k| [k as f64 * DOT_STEP + shift, y]));
+        }
+    }
+    out
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const SQUARE: [ScreenPoint; 4] = [[0.0, 0.0], [21.0, 0.0], [21.0, 21.0], [0.0, 21.0]];
+
+    #[test]
+    fn hatch_lines_span_the_polygon_on_the_lattice_either_way_round() {
+        let mut turned = SQUARE;
+        turned.reverse();
+        for polygon in [SQUARE, turned] {
+            let lines = hatch(&polygon);
+            // x + y = 7, 14, .. 35; at 0 and 42 the line meets a corner only
+            assert_eq!(lines.len(), 5);
+            for line in lines {
+                let sum = line[0][0] + line[0][1];
+                assert_eq!(sum, line[1][0] + line[1][1]);
+                assert_eq!(sum % HATCH_STEP, 0.0);
+                for p in &line {
+                    assert!(p.iter().all(|v| (0.0..=21.0).contains(v)), "{line:?}");
+                    assert!(p.contains(&0.0) || p.contains(&21.0), "it ends on the boundary");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn dots_lie_inside_and_huge_or_broken_polygons_give_none() {
+        let inside = dots(&[[-1.0, -1.0], [20.0, -1.0], [20.0, 20.0], [-1.0, 20.0]]);
+        assert_eq!(inside.len(), 4 + 3 + 4 + 3, "rows at 0, 6, 12, 18 from 0 or 3");
+        let huge = SQUARE.map(|p| [p[0] * 1e9, p[1] * 1e9]);
+        assert!(hatch(&huge).is_empty() && dots(&huge).is_empty());
+        assert!(hatch(&[[f64::NAN; 2]; 3]).is_empty());
+        assert!(hatch(&[]).is_empty());
+    }
+}

@@ -1,0 +1,54 @@
+//! Pictures: drawings in metres and roles, drawn once and shown by every medium.
+//!
+//! A [`Picture`] says what is where and what it stands for; it knows neither pixels nor colours. A [`Fit`] places it on a
+//! sheet, [`resolve`] turns its items into lines and areas in pixels, still by [`Role`], and a medium gives the roles their
+//! colours: the SVG writer ([`Figure::svg`]) from a [`Palette`], the window from its theme. Both draw the same strokes.
+
+mod figure;
+mod fit;
+mod hatch;
+mod item;
+mod outline;
+mod resolve;
+mod robot;
+mod role;
+mod svg;
+mod tour;
+mod world;
+
+pub use figure::{Figure, Panel};
+pub use fit::{Fit, ScaleBar, ScreenPoint, ScreenRect};
+pub use item::{Anchor, Dash, Drawing, Face, Fill, Glyph, Item, Line};
+pub use outline::{chains, outline, polygon_of};
+pub use resolve::{Primitive, resolve};
+pub use robot::{RobotDrawing, footprint, robot, scan, trace};
+pub use role::{Palette, Rgb, Role};
+pub use tour::{RobotTour, TourPanel, tour_figure};
+pub use world::{places, world};
+
+use crate::worlds::Bounds;
+
+/// A drawing in metres: items in painting order, the first below all others.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Picture {
+    /// What it shows, in a few words.
+    pub name: String,
+    /// The part of the plane it shows, metres.
+    pub bounds: Bounds,
+    /// The items, lowest first. Their ids are unique.
+    pub items: Vec<Item>,
+}
+
+impl Picture {
+    /// The picture with nothing on it.
+    pub fn new(name: impl Into<String>, bounds: Bounds) -> Self {
+        Picture { name: name.into(), bounds, items: Vec::new() }
+    }
+
+    /// The picture with these items painted over what is there.
+    #[must_use]
+    pub fn with(mut self, items: impl IntoIterator<Item = Item>) -> Self {
+        self.items.extend(items);
+        self
+    }
+}

@@ -1,0 +1,280 @@
+//! From items in metres to lines and areas in pixels: what every medium draws, stroke for stroke.
+
+use super::hatch::{dots, hatch};
+use super::outline::polygon_of;
+use super::{Anchor, Drawing, Face, Fill, Fit, Glyph, Item, Line, Role, ScreenPoint};
+use crate::geometry::{Point2, Pose2, Shape};
+use crate::num;
+
+/// The opacity of the tint under a hatch, and under dots.
+const TINT: f64 = 0.12;
+
+/// The opacity of the lines of a hatch.
+const HATCH_OPACITY: f64 = 0.45;
+
+/// One stroke, area or word on the screen.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Primitive {
+    /// A filled convex polygon.
+    Area {
+        /// Its corners.
+        corners: Vec<ScreenPoint>,
+        /// What it stands for.
+        role: Role,
+        /// Its opacity.
+        opacity: f64,
+    },
+    /// Filled discs of one size.
+    Dots {
+        /// Their centres.
+        centers: Vec<ScreenPoint>,
+        /// Their radius.
+        radius: f64,
+        /// What they stand for.
+        role: Role,
+        /// Their opacity.
+        opacity: f64,
+    },
+    /// A circle's line.
+    Circle {
+        /// Its centre.
+        center: ScreenPoint,
+        /// Its radius.
+        radius: f64,
+        /// What it stands for.
+        role: Role,
+        /// Its line.
+        line: Line,
+    },
+    /// Lines of one kind. One that ends where it starts is closed.
+    Lines {
+        /// The points of each.
+        lines: Vec<Vec<ScreenPoint>>,
+        /// What they stand for.
+        role: Role,
+        /// Their kind.
+        line: Line,
+    },
+    /// Words.
+    Text {
+        /// The point they stand at, already moved off what they name.
+        at: ScreenPoint,
+        /// On which side of it.
+        anchor: Anchor,
+        /// The words.
+        text: String,
+        /// In which face.
+        face: Face,
+        /// Height of the face.
+        size: f64,
+        /// What they stand for.
+        role: Role,
+        /// Whether they stand on a plate of paper.
+        plate: bool,
+    },
+}
+
+/// The primitives of an item, lowest first. What is not finite is left out.
+pub fn resolve(item: &Item, fit: &Fit) -> Vec<Primitive> {
+    let mut out = Vec::new();
+    let px = |p: &Point2| fit.screen_from_world(*p);
+    let closed = |mut corners: Vec<ScreenPoint>| {
+        corners.extend(corners.first().copied());
+        corners
+    };
+    let Item { role, fill, line, .. } = item;
+    match &item.drawing {
+        Drawing::Polyline(points) => stroke(&mut out, *role, *line, vec![points.iter().map(px).collect()]),
+        Drawing::Polygon(points) => {
+            let corners: Vec<_> = points.iter().map(px).collect();
+            area(&mut out, *role, *fill, &corners);
+            stroke(&mut out, *role, *line, vec![closed(corners)]);
+        }
+        Drawing::Region { pieces, outline } => {
+            for piece in pieces {
+                area(&mut out, *role, *fill, &piece.iter().map(px).collect::<Vec<_>>());
+            }
+            stroke(&mut out, *role, *line, outline.iter().map(|l| l.iter().map(px).collect()).collect());
+        }
+        Drawing::Disc { center, radius } => {
+            let (center, radius) = (px(center), radius * fit.px_per_metre());
+            match fill {
+                Fill::None => {}
+                Fill::Tint(opacity) => {
+                    out.push(Primitive::Dots { centers: vec![center], radius, role: *role, opacity: *opacity });
+                }
+                _ => area(&mut out, *role, *fill, &circle(center, radius)),
+            }
+            out.extend(line.map(|line| Primitive::Circle { center, radius, role: *role, line }));
+        }
+        Drawing::Capsule { a, b, radius } => {
+            let placed = Shape::Capsule { a: *a, b: *b, radius: *radius }.place(&Pose2::IDENTITY);
+            let corners: Vec<_> = polygon_of(&placed).iter().map(px).collect();
+            area(&mut out, *role, *fill, &corners);
+            stroke(&mut out, *role, *line, vec![closed(corners)]);
+        }
+        Drawing::Rays { from, ends } => {
+            stroke(&mut out, *role, *line, ends.iter().map(|end| vec![px(from), px(end)]).collect());
+            if let Fill::Tint(opacity) = *fill {
+                out.push(Primitive::Dots {
+                    centers: ends.iter().map(px).collect(),
+                    radius: 1.25,
+                    role: *role,
+                    opacity,
+                });
+            }
+        }
+        Drawing::Arrow { from, along, min_px } => {
+            let from = px(from);
+            let length = num::hypot(along.x, along.y) * fit.px_per_metre();
+            let unit = [along.x * fit.px_per_metre() / length, -along.y * fit.px_per_metre() / length];
+            let length = num::greater(length, *min_px);
+            let point = |ahead: f64, left: f64| {
+                [from[0] + unit[0] * ahead + unit[1] * left, from[1] + unit[1] * ahead - unit[0] * left]
+            };
+            let (tip, barb) = (point(length, 0.0), 0.35 * num::lesser(length, 12.0));
+            let head = vec![point(length - barb, barb), tip, point(length - barb, -barb)];
+            stroke(&mut out, *role, *line, vec![vec![from, tip], head]);
+        }
+        Drawing::Nose { center, radius, heading, min_px } => {
+            let (s, c) = num::sin_cos(*heading);
+            let (center, r) = (px(center), radius * fit.px_per_metre());
+            let point = |ahead: f64, left: f64| [center[0] + c * ahead - s * left, center[1] - s * ahead - c * left];
+            // the tangents from the tip touch the disc where cos = r / tip
+            let tip = num::greater(2.2 * r, *min_px);
+            let (cos, sin) = (r / tip, num::sqrt(1.0 - r * r / (tip * tip)));
+            let corners = [point(tip, 0.0), point(r * cos, r * sin), point(r * cos, -r * sin)];
+            area(&mut out, *role, *fill, &corners);
+        }
+        Drawing::Mark { at, glyph, radius_px } => mark(&mut out, *role, px(at), *glyph, *radius_px),
+        Drawing::Label { at, text, anchor, face, size_px, plate } => out.push(Primitive::Text {
+            at: px(at),
+            anchor: *anchor,
+            text: text.clone(),
+            face: *face,
+            size: *size_px,
+            role: *role,
+            plate: *plate,
+        }),
+    }
+    out.retain(is_finite);
+    out
+}
+
+fn area(out: &mut Vec<Primitive>, role: Role, fill: Fill, corners: &[ScreenPoint]) {
+    let opacity = match fill {
+        Fill::None => return,
+        Fill::Tint(opacity) => opacity,
+        Fill::Hatch | Fill::Dots => TINT,
+    };
+    out.push(Primitive::Area { corners: corners.to_vec(), role, opacity });
+    match fill {
+        Fill::Hatch => stroke(out, role, Some(Line::solid(1.0).at_opacity(HATCH_OPACITY)), hatch(corners)),
+        Fill::Dots => out.push(Primitive::Dots { centers: dots(corners), radius: 0.9, role, opacity: 0.8 }),
+        _ => {}
+    }
+}
+
+fn stroke(out: &mut Vec<Primitive>, role: Role, line: Option<Line>, mut lines: Vec<Vec<ScreenPoint>>) {
+    lines.retain(|l| l.len() > 1);
+    if let Some(line) = line.filter(|_| !lines.is_empty()) {
+        out.push(Primitive::Lines { lines, role, line });
+    }
+}
+
+fn mark(out: &mut Vec<Primitive>, role: Role, at: ScreenPoint, glyph: Glyph, radius: f64) {
+    let dot = |role, radius| Primitive::Dots { centers: vec![at], radius, role, opacity: 1.0 };
+    let ring = |role, radius, width| Primitive::Circle { center: at, radius, role, line: Line::solid(width) };
+    match glyph {
+        Glyph::Dot => out.push(dot(role, radius)),
+        Glyph::Ring => out.extend([dot(Role::Paper, radius), ring(role, radius, 1.5)]),
+        Glyph::Cross => {
+            let point = |x: f64, y: f64| [at[0] + radius * x, at[1] + radius * y];
+            let lines = vec![vec![point(-1.0, -1.0), point(1.0, 1.0)], vec![point(-1.0, 1.0), point(1.0, -1.0)]];
+            // on a paper edge, so that it reads on top of a line of any colour
+            out.push(Primitive::Lines { lines: lines.clone(), role: Role::Paper, line: Line::solid(4.0) });
+            out.push(Primitive::Lines { lines, role, line: Line::solid(2.0) });
+        }
+        Glyph::Handle => out.extend([dot(role, radius), ring(Role::Paper, radius, 1.5)]),
+    }
+}
+
+fn circle(center: ScreenPoint, radius: f64) -> Vec<ScreenPoint> {
+    (0..64)
+        .map(|k| {
+            let (s, c) = num::sin_cos(f64::from(k) * std::f64::consts::PI / 32.0);
+            [center[0] + radius * c, center[1] + radius * s]
+        })
+        .collect()
+}
+
+fn is_finite(primitive: &Primitive) -> bool {
+    let point = |p: &ScreenPoint| p[0].is_finite() && p[1].is_finite();
+    match primitive {
+        Primitive::Area { corners, .. } => corners.iter().all(point),
+        Primitive::Dots { centers, radius, .. } => radius.is_finite() && centers.iter().all(point),
+        Primitive::Circle { center, radius, .. } => radius.is_finite() && point(center),
+        Primitive::Lines { lines, .. } => lines.iter().flatten().all(point),
+        Primitive::Text { at, .. } => point(at),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::Vector2;
+    use crate::picture::ScreenRect;
+    use crate::worlds::Bounds;
+
+    fn fit() -> Fit {
+        let bounds = Bounds { min: Point2::new(0.0, 0.0), max: Point2::new(10.0, 10.0) };
+        Fit::new(&bounds, ScreenRect { min: [0.0, 0.0], size: [100.0, 100.0] }, 0.0)
+    }
+
+    #[test]
+    fn arrows_point_where_they_should_and_stay_visible() {
+        let drawing = Drawing::Arrow { from: Point2::new(5.0, 5.0), along: Vector2::new(0.0, 0.1), min_px: 12.0 };
+        let item = Item::new("a", "a", Role::Robot, drawing).stroked(Line::solid(1.0));
+        let [Primitive::Lines { lines, .. }] = &resolve(&item, &fit())[..] else { panic!("one bundle of lines") };
+        assert_eq!(lines[0], [[50.0, 50.0], [50.0, 38.0]], "0.1 m would be one pixel; up in the world is up");
+        let (left, right) = (lines[1][0], lines[1][2]);
+        assert!(left[0] < 50.0 && right[0] > 50.0 && left[1] == right[1], "the barbs are mirror images");
+    }
+
+    #[test]
+    fn a_nose_points_ahead_and_touches_its_disc() {
+        let heading = std::f64::consts::FRAC_PI_2;
+        let drawing = Drawing::Nose { center: Point2::new(5.0, 5.0), radius: 1.0, heading, min_px: 1.0 };
+        let item = Item::new("a", "a", Role::Robot, drawing).filled(Fill::Tint(1.0));
+        let [Primitive::Area { corners, .. }] = &resolve(&item, &fit())[..] else { panic!("one triangle") };
+        assert!((corners[0][0] - 50.0).abs() < 1e-9 && (corners[0][1] - 28.0).abs() < 1e-9, "up, 2.2 radii");
+        for c in &corners[1..] {
+            let (radial, along) = ([c[0] - 50.0, c[1] - 50.0], [c[0] - corners[0][0], c[1] - corners[0][1]]);
+            assert!((num::hypot(radial[0], radial[1]) - 10.0).abs() < 1e-9, "on the circle");
+            assert!((radial[0] * along[0] + radial[1] * along[1]).abs() < 1e-9, "as a tangent");
+        }
+    }
+
+    #[test]
+    fn nothing_that_is_not_finite_reaches_a_medium() {
+        let nan = Point2::new(f64::NAN, 1.0);
+        let drawings = [
+            Drawing::Polyline(vec![nan, nan]),
+            Drawing::Polygon(vec![nan; 3]),
+            Drawing::Disc { center: nan, radius: 1.0 },
+            Drawing::Capsule { a: nan, b: nan, radius: 1.0 },
+            Drawing::Rays { from: nan, ends: vec![nan] },
+            Drawing::Arrow { from: Point2::origin(), along: Vector2::zeros(), min_px: 1.0 },
+            Drawing::Nose { center: nan, radius: 1.0, heading: 0.0, min_px: 1.0 },
+            Drawing::Mark { at: nan, glyph: Glyph::Cross, radius_px: 1.0 },
+        ];
+        for drawing in drawings {
+            for fill in [Fill::Tint(1.0), Fill::Hatch, Fill::Dots] {
+                let item = Item::new("a", "a", Role::Robot, drawing.clone()).filled(fill).stroked(Line::solid(1.0));
+                let shown = resolve(&item, &fit());
+                let bare = |p: &Primitive| matches!(p, Primitive::Dots { centers, .. } if centers.is_empty());
+                assert!(shown.iter().all(bare), "{drawing:?} {shown:?}");
+            }
+        }
+    }
+}

@@ -1,0 +1,145 @@
+//! Robots, their traces and what their sensors see, as items.
+
+use super::outline::polygon_of;
+use super::{Drawing, Fill, Glyph, Item, Line, Role};
+use crate::geometry::{Footprint, Part, Point2, Pose2, Shape, Vector2};
+use crate::num;
+
+/// A robot as it is to be drawn.
+#[derive(Clone, Debug)]
+pub struct RobotDrawing<'a> {
+    /// Its unique name.
+    pub name: &'a str,
+    /// Where it is.
+    pub footprint: &'a Footprint,
+    /// Which way it faces, radians, when its footprint does not tell (a disc).
+    pub heading: Option<f64>,
+    /// Whether it is shown as touching something.
+    pub in_contact: bool,
+}
+
+/// A footprint alone: its parts in one role, the fill at this opacity, the edge thin.
+pub fn footprint(id: &str, name: &str, footprint: &Footprint, role: Role, opacity: f64) -> Vec<Item> {
+    let parts = footprint.parts().iter().enumerate();
+    parts.map(|(i, part)| part_item(format!("{id}/{i}"), name, part, role, opacity)).collect()
+}
+
+fn part_item(id: String, name: &str, part: &Part, role: Role, opacity: f64) -> Item {
+    let placed = part.placed();
+    let edge = Line::solid(1.0);
+    let drawing = match placed.core() {
+        [center] => Drawing::Disc { center: *center, radius: placed.radius() },
+        [a, b] if placed.radius() == 0.0 => {
+            let line = Line::solid(3.0).at_opacity(num::greater(opacity, 0.5));
+            return Item::new(id, name, role, Drawing::segment(*a, *b)).stroked(line);
+        }
+        [a, b] => Drawing::Capsule { a: *a, b: *b, radius: placed.radius() },
+        _ => Drawing::Polygon(polygon_of(placed)),
+    };
+    Item::new(id, name, role, drawing).filled(Fill::Tint(opacity)).stroked(edge)
+}
+
+/// A robot: its footprint at 85 %, in the goal's red while it touches something, with the marks that tell which way it faces:
+/// a nose on a disc, a chevron on a car's chassis, the joints of an arm.
+pub fn robot(drawing: &RobotDrawing<'_>) -> Vec<Item> {
+    let role = if drawing.in_contact { Role::Goal } else { Role::Robot };
+    let id = format!("robot/{}", drawing.name);
+    let mut items = footprint(&id, drawing.name, drawing.footprint, role, 0.85);
+    let parts = drawing.footprint.parts();
+    let item = |part: &str, role, drawn| Item::new(format!("{id}/{part}"), drawing.name, role, drawn);
+    if let ([part], Some(heading)) = (parts, drawing.heading) {
+        let (center, radius) = (part.pose().position(), part.placed().radius());
+        let nose = Drawing::Nose { center, radius, heading, min_px: 11.0 };
+        items.push(item("heading", role, nose).filled(Fill::Tint(0.85)));
+    }
+    if let Some((pose, Shape::Rectangle { min, max })) = parts.first().map(|p| (p.pose(), p.shape())) {
+        let chevron = Drawing::Polyline(chevron(pose, *min, *max));
+        items.push(item("heading", Role::Paper, chevron).stroked(Line::solid(1.5)));
+        if parts.len() > 1 {
+            let mark = Drawing::Mark { at: pose.position(), glyph: Glyph::Ring, radius_px: 2.5 };
+            items.push(item("hitch", role, mark));
+        }
+    }
+    let links = parts.iter().filter(|p| p.placed().core().len() == 2);
+    for (i, link) in links.enumerate() {
+        let mark = Drawing::Mark { at: link.pose().position(), glyph: Glyph::Ring, radius_px: 3.5 };
+        items.push(item(&format!("joint {}", i + 1), role, mark));
+    }
+    if let Some([_, tip]) = parts.last().map(|p| p.placed().core()) {
+        items.push(item("tip", role, Drawing::Mark { at: *tip, glyph: Glyph::Dot, radius_px: 3.5 }));
+    }
+    items
+}
+
+/// A chevron near the front of a rectangle, pointing along its x axis.
+fn chevron(pose: &Pose2, min: Point2, max: Point2) -> Vec<Point2> {
+    let half = 0.28 * (max.y - min.y);
+    let middle = 0.5 * (max.y + min.y);
+    let tip = max.x - 0.12 * (max.x - min.x);
+    [(tip - half, middle + half), (tip, middle), (tip - half, middle - half)]
+        .map(|(x, y)| pose.transform(Point2::new(x, y)))
+        .to_vec()
+}
+
+/// The way a robot went.
+pub fn trace(id: &str, name: &str, points: &[Point2]) -> Item {
+    Item::new(id, name, Role::Path, Drawing::Polyline(points.to_vec())).stroked(Line::solid(1.5).at_opacity(0.9))
+}
+
+/// What a range sensor saw: ray k starts at `pose` with bearing 2 pi k / n from its heading; ranges in metres, infinite ones
+/// are left out. Rays at a quarter of the opacity, their ends as dots.
+pub fn scan(id: &str, name: &str, pose: &Pose2, ranges: &[f64]) -> Item {
+    let n = ranges.len() as f64;
+    let end = |(k, range): (usize, &f64)| {
+        let (s, c) = num::sin_cos(pose.theta + std::f64::consts::TAU * k as f64 / n);
+        range.is_finite().then(|| pose.position() + Vector2::new(c, s) * *range)
+    };
+    let ends = ranges.iter().enumerate().filter_map(end).collect();
+    Item::new(id, name, Role::Sensor, Drawing::Rays { from: pose.position(), ends })
+        .filled(Fill::Tint(0.9))
+        .stroked(Line::solid(0.75).at_opacity(0.25))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::configuration::{HitchCfg, T2};
+    use crate::robots::{HITCH, Reach, Robot};
+
+    fn ids(drawing: &RobotDrawing<'_>) -> Vec<String> {
+        robot(drawing).into_iter().map(|i| i.id).collect()
+    }
+
+    #[test]
+    fn each_robot_shows_which_way_it_faces() {
+        let rusty = Footprint::disc(Point2::new(1.0, 2.0), 0.11);
+        let towing = HITCH.with_trailer().footprint(&HitchCfg { body: Pose2::IDENTITY, trailer: Some(0.0) });
+        let arm = Reach::<2>::choset().footprint(&T2::new(0.3, 0.4));
+        let show = |name, footprint, heading| ids(&RobotDrawing { name, footprint, heading, in_contact: false });
+        assert_eq!(show("R", &rusty, Some(0.1)), ["robot/R/0", "robot/R/heading"]);
+        assert_eq!(show("H", &towing, None), ["robot/H/0", "robot/H/1", "robot/H/heading", "robot/H/hitch"]);
+        let joints = ["robot/A/0", "robot/A/1", "robot/A/joint 1", "robot/A/joint 2", "robot/A/tip"];
+        assert_eq!(show("A", &arm, None), joints);
+    }
+
+    #[test]
+    fn contact_borrows_the_goals_colour() {
+        let footprint = Footprint::disc(Point2::new(1.0, 2.0), 0.11);
+        for (in_contact, role) in [(false, Role::Robot), (true, Role::Goal)] {
+            let drawing = RobotDrawing { name: "R", footprint: &footprint, heading: Some(0.0), in_contact };
+            assert!(robot(&drawing).iter().all(|i| i.role == role));
+        }
+    }
+
+    #[test]
+    fn the_chevron_points_ahead_and_a_scan_leaves_out_what_it_did_not_hit() {
+        let tip =
+            chevron(&Pose2::new(0.0, 0.0, std::f64::consts::FRAC_PI_2), Point2::new(-1.0, -1.0), Point2::new(3.0, 1.0));
+        assert!(tip[1].y > tip[0].y && tip[1].y > tip[2].y && tip[1].x.abs() < 1e-12);
+        let item = scan("s", "s", &Pose2::new(1.0, 0.0, 0.0), &[2.0, f64::INFINITY, 1.0, 1.5]);
+        let Drawing::Rays { ends, .. } = item.drawing else { panic!("rays") };
+        assert_eq!(ends.len(), 3);
+        assert_eq!(ends[0], Point2::new(3.0, 0.0));
+        assert!((ends[1] - Point2::new(0.0, 0.0)).norm() < 1e-15, "ray 2 of 4 looks back");
+    }
+}

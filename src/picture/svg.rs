@@ -1,0 +1,292 @@
+//! The SVG writer: the same bytes for the same figure and palette, on every platform.
+
+use std::collections::BTreeSet;
+use std::fmt::Write;
+
+use super::figure::Entry;
+use super::{Anchor, Face, Figure, Line, Palette, Primitive, Role, ScreenPoint};
+
+/// Writes laid-out entries as a standalone SVG file of this size in pixels.
+///
+/// Every item is a group with its id, its role as class and its name as title. Colours stand in one stylesheet: in a group of
+/// role r, class `f` is filled with the role's colour and `l` stroked with it.
+pub(super) fn write(figure: &Figure, entries: &[Entry], size: [f64; 2], palette: &Palette) -> String {
+    let mut out = Out { text: String::new(), ids: BTreeSet::new() };
+    let (w, h) = (number(size[0]), number(size[1]));
+    let _ = write!(
+        out.text,
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {w} {h}\" width=\"{w}\" height=\"{h}\" role=\"img\" \
+         aria-labelledby=\"title desc\">\n<title id=\"title\">{}</title>\n<desc id=\"desc\">{}</desc>\n",
+        escape(&figure.title),
+        escape(&figure.description),
+    );
+    out.ids.extend(["title".to_owned(), "desc".to_owned()]);
+    out.stylesheet(palette);
+    let _ = writeln!(out.text, "<rect class=\"paper f\" width=\"{w}\" height=\"{h}\"/>");
+    for entry in entries {
+        match entry {
+            Entry::Bare(primitive) => out.primitive(primitive),
+            Entry::Group { id, name, role, primitives } => {
+                let id = out.unique(id);
+                let _ = writeln!(out.text, "<g id=\"{id}\" class=\"{}\"><title>{}</title>", role.name(), escape(name));
+                for primitive in primitives {
+                    out.primitive(primitive);
+                }
+                out.text.push_str("</g>\n");
+            }
+        }
+    }
+    out.text.push_str("</svg>\n");
+    out.text
+}
+
+/// A number with two decimals at most, never `-0`.
+fn number(value: f64) -> String {
+    let rounded = format!("{value:.2}");
+    let trimmed = rounded.trim_end_matches('0').trim_end_matches('.');
+    if trimmed == "-0" { "0".to_owned() } else { trimmed.to_owned() }
+}
+
+/// Text for XML: markup escaped, control characters, which XML does not know, left out.
+fn escape(text: &str) -> String {
+    let mut out = String::with_capacity(text.len());
+    for c in text.chars() {
+        match c {
+            '<' => out.push_str("&lt;"),
+            '>' => out.push_str("&gt;"),
+            '&' => out.push_str("&amp;"),
+            '"' => out.push_str("&quot;"),
+            '\u{fffe}' | '\u{ffff}' => {}
+            c if c.is_control() => out.push(' '),
+            c => out.push(c),
+        }
+    }
+    out
+}
+
+struct Out {
+    text: String,
+    ids: BTreeSet<String>,
+}
+
+impl Out {
+    fn stylesheet(&mut self, palette: &Palette) {
+        self.text.push_str("<style>\n.l{fill:none;stroke-linejoin:round;stroke-linecap:round}\n");
+        self.text.push_str(".sans{font-family:\"Noto Sans\",\"DejaVu Sans\",\"Helvetica Neue\",Arial,sans-serif}\n");
+        self.text.push_str(".mono{font-family:\"Noto Sans Mono\",\"DejaVu Sans Mono\",Menlo,Consolas,monospace}\n");
+        for role in Role::ALL {
+            let (name, colour) = (role.name(), palette.colour(role));
+            let _ = writeln!(self.text, ".{name}.f{{fill:{colour}}}.{name}.l{{stroke:{colour}}}");
+        }
+        self.text.push_str("</style>\n");
+    }
+
+    /// The id with what XML does not allow replaced by `-`, and numbered if it was there before.
+    fn unique(&mut self, id: &str) -> String {
+        let allowed = |c: char| if c.is_ascii_alphanumeric() || c == '.' || c == '_' { c } else { '-' };
+        let slug: String = id.chars().map(allowed).collect();
+        // an XML name starts with a letter
+        let slug = if slug.starts_with(|c: char| c.is_ascii_alphabetic()) { slug } else { format!("i{slug}") };
+        let mut candidate = slug.clone();
+        let mut count = 1;
+        while !self.ids.insert(candidate.clone()) {
+            count += 1;
+            candidate = format!("{slug}-{count}");
+        }
+        candidate
+    }
+
+    fn primitive(&mut self, primitive: &Primitive) {
+        match primitive {
+            Primitive::Area { corners, role, opacity } => {
+                let mut d = String::new();
+                subpath(&mut d, corners);
+                let alpha = alpha("fill", *opacity);
+                let _ = writeln!(self.text, "<path class=\"{} f\"{alpha} d=\"{d}Z\"/>", role.name());
+            }
+            Primitive::Dots { centers, radius, role, opacity } => {
+                let (name, r) = (role.name(), number(*radius));
+                let alpha = alpha("fill", *opacity);
+                for c in centers {
+                    let (x, y) = (number(c[0]), number(c[1]));
+                    let _ = writeln!(self.text, "<circle class=\"{name} f\"{alpha} cx=\"{x}\" cy=\"{y}\" r=\"{r}\"/>");
+                }
+            }
+            Primitive::Circle { center, radius, role, line } => {
+                let (x, y, r) = (number(center[0]), number(center[1]), number(*radius));
+                let (name, line) = (role.name(), stroke(line));
+                let _ = writeln!(self.text, "<circle class=\"{name} l\"{line} cx=\"{x}\" cy=\"{y}\" r=\"{r}\"/>");
+            }
+            Primitive::Lines { lines, role, line } => {
+                let mut d = String::new();
+                for points in lines {
+                    match points.split_last() {
+                        Some((last, rest)) if rest.len() > 2 && rest.first() == Some(last) => {
+                            subpath(&mut d, rest);
+                            d.push('Z');
+                        }
+                        _ => subpath(&mut d, points),
+                    }
+                }
+                let _ = writeln!(self.text, "<path class=\"{} l\"{} d=\"{d}\"/>", role.name(), stroke(line));
+            }
+            Primitive::Text { at, anchor, text, face, size, role, plate } => {
+                self.words(*at, *anchor, text, *face, *size, *role, *plate);
+            }
+        }
+    }
+
+    #[allow(clippy::too_many_arguments)] // the fields of one primitive
+    fn words(&mut self, at: ScreenPoint, anchor: Anchor, text: &str, face: Face, size: f64, role: Role, plate: bool) {
+        // no font is at hand to measure with, so a plate is as wide as its words usually are
+        let width = text.chars().count() as f64 * size * if face == Face::Mono { 0.61 } else { 0.55 };
+        let (align, left, baseline) = match anchor {
+            Anchor::Right => ("start", at[0], at[1]),
+            Anchor::Left => ("end", at[0] - width, at[1]),
+            Anchor::Center => ("middle", at[0] - 0.5 * width, at[1] + 0.35 * size),
+            Anchor::Above => ("middle", at[0] - 0.5 * width, at[1] - 6.0),
+            Anchor::Below => ("middle", at[0] - 0.5 * width, at[1] + 6.0 + 0.8 * size),
+        };
+        if plate {
+            let (x, y, w) = (number(left - 3.0), number(baseline - 0.95 * size), number(width + 6.0));
+            let h = number(1.3 * size);
+            let _ = writeln!(
+                self.text,
+                "<rect class=\"paper f\" fill-opacity=\"0.85\" x=\"{x}\" y=\"{y}\" width=\"{w}\" height=\"{h}\" rx=\"2\"/>"
+            );
+        }
+        let class = match face {
+            Face::Sans => "sans",
+            Face::Mono => "mono\" xml:space=\"preserve",
+        };
+        let (x, y, size) = (number(at[0]), number(baseline), number(size));
+        let (role, text) = (role.name(), escape(text));
+        let _ = writeln!(
+            self.text,
+            "<text class=\"{role} f {class}\" x=\"{x}\" y=\"{y}\" font-size=\"{size}\" text-anchor=\"{align}\">{text}</text>"
+        );
+    }
+}
+
+/// `M x y L x y ..`, points that round to the one before left out.
+fn subpath(d: &mut String, points: &[ScreenPoint]) {
+    let mut before = String::new();
+    for (i, p) in points.iter().enumerate() {
+        let here = format!("{} {}", number(p[0]), number(p[1]));
+        // the last of two points is kept even where it rounds to the first: a dot of a line
+        if here != before || (i == 1 && points.len() == 2) {
+            let _ = write!(d, "{}{here}", if i == 0 { 'M' } else { 'L' });
+        }
+        before = here;
+    }
+}
+
+fn alpha(what: &str, opacity: f64) -> String {
+    if opacity >= 1.0 { String::new() } else { format!(" {what}-opacity=\"{}\"", number(opacity)) }
+}
+
+fn stroke(line: &Line) -> String {
+    let mut out = format!(" stroke-width=\"{}\"{}", number(line.width_px), alpha("stroke", line.opacity));
+    if let Some((on, off)) = line.dash.pattern_px() {
+        let _ = write!(out, " stroke-dasharray=\"{} {}\" stroke-linecap=\"butt\"", number(on), number(off));
+    }
+    out
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::Point2;
+    use crate::picture::{Dash, Drawing, Fill, Item, Panel, Picture, Rgb};
+    use crate::worlds::Bounds;
+
+    fn figure() -> Figure {
+        let p = Point2::new;
+        let bounds = Bounds { min: p(0.0, 0.0), max: p(10.0, 10.0) };
+        let items = [
+            Item::new(
+                "a/<b>",
+                "a \"name\" & more",
+                Role::Obstacle,
+                Drawing::Polygon(vec![p(1.0, 1.0), p(9.0, 1.0), p(9.0, 9.0)]),
+            )
+            .filled(Fill::Hatch)
+            .stroked(Line::solid(1.5)),
+            Item::new("a/(b)", "again", Role::Path, Drawing::segment(p(0.0, 0.0), p(10.0, 10.0)))
+                .stroked(Line::solid(2.0).dashed(Dash::Dashed)),
+        ];
+        let picture = Picture::new("test", bounds).with(items);
+        let panel = Panel { picture, heading: "Head\u{7}ing".into(), readout: vec!["T2 { th1: 0.1 }".into()] };
+        Figure {
+            title: "T < U".into(),
+            description: "D".into(),
+            panels: vec![panel],
+            caption: vec!["seed 2005".into()],
+        }
+    }
+
+    fn palette() -> Palette {
+        let mut i = 0;
+        Palette::new(Role::ALL.map(|_| {
+            i += 1;
+            Rgb([i, 2 * i, 3 * i])
+        }))
+    }
+
+    /// A small reader of well-formed markup: panics when a tag is left open or closed twice, returns all ids.
+    fn ids_of_well_formed(xml: &str) -> Vec<String> {
+        let (mut open, mut ids) = (Vec::new(), Vec::new());
+        for tag in xml.split('<').skip(1) {
+            let (inside, after) = tag.split_once('>').expect("every tag ends");
+            assert!(!after.contains('>') || after.contains("&gt;"), "stray bracket in {after}");
+            if let Some(name) = inside.strip_prefix('/') {
+                assert_eq!(open.pop().as_deref(), Some(name));
+                continue;
+            }
+            assert_eq!(inside.matches('"').count() % 2, 0, "quotes are paired in {inside}");
+            ids.extend(inside.split_once(" id=\"").map(|(_, v)| v.split('"').next().unwrap().to_owned()));
+            if !inside.ends_with('/') {
+                open.push(inside.split(' ').next().unwrap().to_owned());
+            }
+        }
+        assert!(open.is_empty(), "left open: {open:?}");
+        ids
+    }
+
+    #[test]
+    fn an_svg_is_well_formed_with_unique_ids_and_no_control_characters() {
+        let svg = figure().svg(&palette());
+        let ids = ids_of_well_formed(&svg);
+        assert_eq!(ids, ["title", "desc", "test-a--b-", "test-a--b--2"]);
+        assert!(svg.contains("<title>a &quot;name&quot; &amp; more</title>") && svg.contains("T &lt; U"));
+        assert!(!svg.contains('\u{7}') && svg.contains("Head ing"));
+    }
+
+    #[test]
+    fn the_bytes_depend_on_figure_and_palette_alone() {
+        assert_eq!(figure().svg(&palette()), figure().svg(&palette()));
+        let mut moved = figure();
+        moved.panels[0].picture.items.pop();
+        assert_ne!(moved.svg(&palette()), figure().svg(&palette()));
+    }
+
+    #[test]
+    fn colours_come_from_the_palette_and_y_is_up() {
+        let svg = figure().svg(&palette());
+        let obstacle = palette().colour(Role::Obstacle);
+        assert!(svg.contains(&format!(".obstacle.l{{stroke:{obstacle}}}")));
+        assert_eq!(svg.matches('#').count(), 2 * Role::ALL.len(), "no colour outside the stylesheet");
+        // the diagonal of the square world runs from the lower left to the upper right
+        let d = svg.split("stroke-dasharray").nth(1).and_then(|s| s.split("d=\"").nth(1)).unwrap();
+        let points: Vec<f64> =
+            d.split('"').next().unwrap().split(['M', 'L', ' ']).filter_map(|n| n.parse().ok()).collect();
+        assert!(points[2] > points[0] && points[3] < points[1], "{points:?}");
+    }
+
+    #[test]
+    fn numbers_are_short_and_never_minus_zero() {
+        for (value, text) in [(1.0, "1"), (-0.001, "0"), (0.125, "0.12"), (100.0, "100"), (-2.5, "-2.5")] {
+            assert_eq!(number(value), text);
+        }
+    }
+}

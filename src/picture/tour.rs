@@ -1,0 +1,134 @@
+//! A run's tour as a figure: where each robot went, where it started and ended, where it touched something.
+
+use super::{Drawing, Figure, Glyph, Item, Panel, RobotDrawing, Role, footprint, robot, trace, world};
+use crate::geometry::{Footprint, Point2};
+use crate::random::Seed;
+use crate::run::Digest;
+use crate::worlds::World;
+
+/// One world of a run with its robots.
+#[derive(Clone, Debug)]
+pub struct TourPanel<'a> {
+    /// The world.
+    pub world: &'a World,
+    /// Its robots.
+    pub robots: Vec<RobotTour>,
+}
+
+/// What one robot did.
+#[derive(Clone, Debug)]
+pub struct RobotTour {
+    /// Its unique name.
+    pub name: String,
+    /// The points its reference (Rusty's centre, Reach's tip, Hitch's rear axle) went through, tick by tick, the start first.
+    pub trace: Vec<Point2>,
+    /// Where it started.
+    pub start: Footprint,
+    /// Where it ended.
+    pub end: Footprint,
+    /// Which way it faced at the end, radians, when its footprint does not tell (a disc).
+    pub end_heading: Option<f64>,
+    /// Where its reference was at the first tick of each contact.
+    pub contacts: Vec<Point2>,
+    /// Its final configuration as it prints.
+    pub readout: String,
+}
+
+/// The figure of a run: its worlds side by side.
+pub fn tour_figure(seed: Seed, ticks: u64, digest: Digest, panels: &[TourPanel<'_>]) -> Figure {
+    let seconds = crate::run::DT * ticks as f64;
+    Figure {
+        title: format!("A run of {seconds:.0} s at seed {}", seed.0),
+        description: description(panels),
+        panels: panels.iter().map(panel).collect(),
+        caption: vec![
+            format!("Seed {}, {ticks} ticks ({seconds:.2} s). Outlines: start. Crosses: contacts.", seed.0),
+            format!("Digest {digest}"),
+        ],
+    }
+}
+
+fn panel(tour: &TourPanel<'_>) -> Panel {
+    let mut picture = world(tour.world);
+    for robot in &tour.robots {
+        picture =
+            picture.with([trace(&format!("path/{}", robot.name), &format!("the way of {}", robot.name), &robot.trace)]);
+    }
+    for robot in &tour.robots {
+        picture = picture.with(stations(robot));
+    }
+    let readout = tour.robots.iter().flat_map(|r| {
+        let head = if tour.robots.len() == 1 { String::new() } else { format!("{}  ", r.name) };
+        [format!("{head}{}", r.readout), format!("{head}contacts: {}", r.contacts.len())]
+    });
+    let heading = match &tour.robots[..] {
+        [one] => format!("{} \u{b7} {}", one.name, tour.world.name),
+        _ => tour.world.name.clone(),
+    };
+    Panel { heading, readout: readout.collect(), picture }
+}
+
+fn stations(tour: &RobotTour) -> Vec<Item> {
+    let name = &tour.name;
+    let mut items = footprint(&format!("start/{name}"), &format!("the start of {name}"), &tour.start, Role::Robot, 0.0);
+    items.extend(robot(&RobotDrawing { name, footprint: &tour.end, heading: tour.end_heading, in_contact: false }));
+    items.extend(tour.contacts.iter().enumerate().map(|(i, &at)| {
+        let mark = Drawing::Mark { at, glyph: Glyph::Cross, radius_px: 3.5 };
+        Item::new(format!("contact/{name}/{}", i + 1), format!("contact {} of {name}", i + 1), Role::Goal, mark)
+    }));
+    items
+}
+
+fn description(panels: &[TourPanel<'_>]) -> String {
+    let mut sentences = Vec::new();
+    for panel in panels {
+        for robot in &panel.robots {
+            let times = match robot.contacts.len() {
+                0 => "nothing".to_owned(),
+                1 => "something once".to_owned(),
+                n => format!("something {n} times"),
+            };
+            sentences.push(format!(
+                "In the world {1}, {0} touches {times} and ends at {2}.",
+                robot.name, panel.world.name, robot.readout
+            ));
+        }
+    }
+    sentences.join(" ")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::worlds::Bounds;
+
+    #[test]
+    fn the_figure_tells_seed_digest_contacts_and_ends() {
+        let p = Point2::new;
+        let yard = World {
+            name: "Yard".into(),
+            bounds: Bounds { min: p(0.0, 0.0), max: p(4.0, 4.0) },
+            obstacles: vec![],
+            places: vec![],
+            marks: vec![],
+            robots: vec![],
+        };
+        let robot = RobotTour {
+            name: "Rusty".into(),
+            trace: vec![p(1.0, 1.0), p(2.0, 2.0), p(3.0, 1.0)],
+            start: Footprint::disc(p(1.0, 1.0), 0.11),
+            end: Footprint::disc(p(3.0, 1.0), 0.11),
+            end_heading: Some(0.5),
+            contacts: vec![p(2.0, 2.0)],
+            readout: "Pose2 { x: 3.000, y: 1.000, theta: 0.500 }".into(),
+        };
+        let figure = tour_figure(Seed(7), 1200, Digest(0xabc), &[TourPanel { world: &yard, robots: vec![robot] }]);
+        assert_eq!(figure.panels[0].heading, "Rusty \u{b7} Yard");
+        assert_eq!(figure.panels[0].readout[1], "contacts: 1");
+        assert!(figure.caption.join(" ").contains(&format!("{:032x}", 0xabc)));
+        assert!(figure.description.contains("touches something once"));
+        let crosses: Vec<&Item> = figure.panels[0].picture.items.iter().filter(|i| i.role == Role::Goal).collect();
+        assert_eq!(crosses.len(), 1, "red for the one contact and nothing else");
+        assert_eq!(crosses[0].id, "contact/Rusty/1");
+    }
+}

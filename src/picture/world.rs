@@ -1,0 +1,96 @@
+//! A world as a picture.
+
+use super::outline::{chains, outline, polygon_of};
+use super::{Anchor, Drawing, Face, Fill, Glyph, Item, Line, Picture, Role};
+use crate::geometry::{Point2, Vector2};
+use crate::num;
+use crate::worlds::{Obstacle, ObstacleKind, Place, World};
+
+/// The picture of a world: painted marks, then solid obstacles, then walls.
+pub fn world(world: &World) -> Picture {
+    let marks = world.marks.iter().map(|mark| {
+        Item::new(format!("mark/{}", mark.name), &mark.name, Role::Muted, Drawing::Polyline(mark.points.clone()))
+            .stroked(Line::solid(1.0).at_opacity(0.6))
+    });
+    let of_kind = |kind| world.obstacles.iter().filter(move |o| o.kind == kind).map(obstacle);
+    Picture::new(&world.name, world.bounds)
+        .with(marks)
+        .with(of_kind(ObstacleKind::Solid))
+        .with(of_kind(ObstacleKind::Wall))
+}
+
+fn obstacle(obstacle: &Obstacle) -> Item {
+    let placed: Vec<Vec<Point2>> = obstacle.pieces.iter().map(|(pose, shape)| polygon_of(&shape.place(pose))).collect();
+    let (lines, pieces): (Vec<_>, Vec<_>) = placed.into_iter().partition(|p| p.len() == 2);
+    let segments: Vec<(Point2, Point2)> = lines.iter().map(|l| (l[0], l[1])).collect();
+    let mut edges = chains(&segments);
+    edges.extend(outline(&pieces));
+    let width = match obstacle.kind {
+        ObstacleKind::Wall => 2.0,
+        ObstacleKind::Solid => 1.5,
+    };
+    let id = format!("obstacle/{}", obstacle.name);
+    Item::new(id, &obstacle.name, Role::Obstacle, Drawing::Region { pieces, outline: edges })
+        .filled(Fill::Hatch)
+        .stroked(Line::solid(width))
+}
+
+/// A world's named places: a dot, a short line the way it faces, and the name below it.
+pub fn places(places: &[Place]) -> Vec<Item> {
+    places.iter().flat_map(place).collect()
+}
+
+fn place(place: &Place) -> [Item; 3] {
+    let at = place.pose.position();
+    let (s, c) = num::sin_cos(place.pose.theta);
+    let item =
+        |part: &str, drawing| Item::new(format!("place/{}/{part}", place.name), &place.name, Role::Muted, drawing);
+    let text = place.name.clone();
+    [
+        item("way", Drawing::Arrow { from: at, along: Vector2::new(c, s) * 1e-3, min_px: 9.0 })
+            .stroked(Line::solid(1.0)),
+        item("dot", Drawing::Mark { at, glyph: Glyph::Dot, radius_px: 2.0 }),
+        item("name", Drawing::Label { at, text, anchor: Anchor::Below, face: Face::Sans, size_px: 11.0, plate: true }),
+    ]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::{Pose2, Shape};
+    use crate::worlds::{Bounds, Mark};
+
+    #[test]
+    fn everything_named_is_drawn_once_under_its_name() {
+        let p = Point2::new;
+        let wall = |a, b| (Pose2::IDENTITY, Shape::try_segment(a, b).unwrap());
+        let model = World {
+            name: "Yard".into(),
+            bounds: Bounds { min: p(0.0, 0.0), max: p(4.0, 4.0) },
+            obstacles: vec![
+                Obstacle {
+                    name: "the fence".into(),
+                    kind: ObstacleKind::Wall,
+                    pieces: vec![wall(p(0.0, 0.0), p(4.0, 0.0)), wall(p(4.0, 0.0), p(4.0, 4.0))],
+                },
+                Obstacle {
+                    name: "the box".into(),
+                    kind: ObstacleKind::Solid,
+                    pieces: vec![(Pose2::IDENTITY, Shape::try_rectangle(p(1.0, 1.0), p(2.0, 2.0)).unwrap())],
+                },
+            ],
+            places: vec![Place { name: "the gate".into(), pose: Pose2::IDENTITY }],
+            marks: vec![Mark { name: "the line".into(), points: vec![p(0.0, 3.0), p(4.0, 3.0)] }],
+            robots: vec![],
+        };
+        let picture = world(&model);
+        let names: Vec<&str> = picture.items.iter().map(|i| i.name.as_str()).collect();
+        assert_eq!(names, ["the line", "the box", "the fence"], "walls on top, marks below");
+        let Drawing::Region { pieces, outline } = &picture.items[2].drawing else { panic!("a region") };
+        assert!(pieces.is_empty());
+        assert_eq!(outline, &[vec![p(0.0, 0.0), p(4.0, 0.0), p(4.0, 4.0)]], "one line with a corner");
+        let Drawing::Region { pieces, .. } = &picture.items[1].drawing else { panic!("a region") };
+        assert_eq!(pieces[0].len(), 4);
+        assert!(places(&model.places).iter().all(|i| i.name == "the gate"));
+    }
+}

@@ -1,0 +1,93 @@
+//! The canvas: paints a picture with egui's painter, in screen points.
+
+use bevy_egui::egui::{
+    Align2, Color32, FontFamily, FontId, Painter, Pos2, Rect, Shape, Stroke, epaint::PathShape, pos2,
+};
+
+use super::Theme;
+use crate::picture::{Anchor, Dash, Face, Fit, Line, Picture, Primitive, Role, ScreenPoint, ScreenRect, resolve};
+
+/// Free room between a picture and its frame, points.
+pub const MARGIN: f32 = 8.0;
+
+/// How a picture lies in a rectangle of the screen.
+pub fn fit(picture: &Picture, rect: Rect) -> Fit {
+    let size = rect.size();
+    let rect = ScreenRect {
+        min: [f64::from(rect.min.x), f64::from(rect.min.y)],
+        size: [f64::from(size.x), f64::from(size.y)],
+    };
+    Fit::new(&picture.bounds, rect, f64::from(MARGIN))
+}
+
+/// Paints the picture's items, the first below all others.
+pub fn paint(painter: &Painter, picture: &Picture, fit: &Fit, theme: Theme) {
+    for item in &picture.items {
+        for primitive in resolve(item, fit) {
+            paint_primitive(painter, &primitive, theme);
+        }
+    }
+}
+
+fn pos(p: &ScreenPoint) -> Pos2 {
+    pos2(p[0] as f32, p[1] as f32)
+}
+
+fn paint_primitive(painter: &Painter, primitive: &Primitive, theme: Theme) {
+    match primitive {
+        Primitive::Area { corners, role, opacity } => {
+            let corners = corners.iter().map(pos).collect();
+            painter.add(Shape::convex_polygon(corners, theme.tint(*role, *opacity), Stroke::NONE));
+        }
+        Primitive::Dots { centers, radius, role, opacity } => {
+            let colour = theme.tint(*role, *opacity);
+            painter.extend(centers.iter().map(|c| Shape::circle_filled(pos(c), *radius as f32, colour)));
+        }
+        Primitive::Circle { center, radius, role, line } => {
+            painter.circle_stroke(pos(center), *radius as f32, stroke(*role, line, theme));
+        }
+        Primitive::Lines { lines, role, line } => {
+            for points in lines {
+                paint_line(painter, points, stroke(*role, line, theme), line.dash);
+            }
+        }
+        Primitive::Text { at, anchor, text, face, size, role, plate } => {
+            let family = match face {
+                Face::Sans => FontFamily::Proportional,
+                Face::Mono => FontFamily::Monospace,
+            };
+            let galley = painter.layout_no_wrap(text.clone(), FontId::new(*size as f32, family), theme.colour(*role));
+            let (align, offset) = match anchor {
+                Anchor::Center => (Align2::CENTER_CENTER, [0.0, 0.0]),
+                Anchor::Right => (Align2::LEFT_CENTER, [6.0, 0.0]),
+                Anchor::Left => (Align2::RIGHT_CENTER, [-6.0, 0.0]),
+                Anchor::Above => (Align2::CENTER_BOTTOM, [0.0, -6.0]),
+                Anchor::Below => (Align2::CENTER_TOP, [0.0, 6.0]),
+            };
+            let rect = align.anchor_size(pos(at) + offset.into(), galley.size());
+            if *plate {
+                painter.rect_filled(rect.expand2([3.0, 1.0].into()), 2.0, theme.tint(Role::Paper, 0.85));
+            }
+            painter.galley(rect.min, galley, Color32::PLACEHOLDER);
+        }
+    }
+}
+
+fn stroke(role: Role, line: &Line, theme: Theme) -> Stroke {
+    Stroke::new(line.width_px as f32, theme.tint(role, line.opacity))
+}
+
+fn paint_line(painter: &Painter, points: &[ScreenPoint], stroke: Stroke, dash: Dash) {
+    let mut path: Vec<Pos2> = points.iter().map(pos).collect();
+    if let Some((on, off)) = dash.pattern_px() {
+        painter.extend(Shape::dashed_line(&path, stroke, on as f32, off as f32));
+        return;
+    }
+    let closed = path.len() > 3 && path.first() == path.last();
+    if closed {
+        path.pop();
+        painter.add(PathShape::closed_line(path, stroke));
+    } else {
+        painter.line(path, stroke);
+    }
+}

@@ -1,0 +1,83 @@
+//! `Cockpit` and `Dashboard`: what the dashboard shows, as plain values.
+
+use std::sync::Arc;
+
+use crate::geometry::Footprint;
+use crate::picture::{Picture, RobotDrawing, robot};
+use crate::random::Seed;
+
+/// One robot in its cockpit.
+#[derive(Clone, Debug, PartialEq)]
+pub struct CockpitRobot {
+    /// Its unique name.
+    pub name: String,
+    /// Its configuration as its type prints.
+    pub readout: String,
+    /// Where it is drawn: between two ticks, a blend of both.
+    pub footprint: Footprint,
+    /// Which way it faces, radians, when its footprint does not tell (a disc).
+    pub heading: Option<f64>,
+    /// Whether its contact flash holds.
+    pub flash: bool,
+    /// Contact episodes since the start.
+    pub contacts: u32,
+    /// Whether a person drives it.
+    pub manual: bool,
+}
+
+/// One pane: a world with its robots.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Cockpit {
+    /// The world.
+    pub world: Arc<Picture>,
+    /// Its robots.
+    pub robots: Vec<CockpitRobot>,
+}
+
+/// The whole dashboard.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Dashboard {
+    /// The panes, left to right.
+    pub cockpits: Vec<Cockpit>,
+    /// The run's seed.
+    pub seed: Seed,
+    /// The last tick done.
+    pub tick: u64,
+    /// Whether it plays.
+    pub playing: bool,
+}
+
+impl Cockpit {
+    /// What stands over the readout: the robots and their world.
+    pub fn heading(&self) -> String {
+        let names: Vec<&str> = self.robots.iter().map(|r| r.name.as_str()).collect();
+        match names.len() {
+            0 => self.world.name.clone(),
+            1..=3 => format!("{} \u{b7} {}", names.join(", "), self.world.name),
+            n => format!("{n} robots \u{b7} {}", self.world.name),
+        }
+    }
+
+    /// The short name on a tab.
+    pub fn tab(&self) -> &str {
+        match &self.robots[..] {
+            [one] => &one.name,
+            _ => &self.world.name,
+        }
+    }
+
+    /// The robots as a picture over the world.
+    pub fn robots_picture(&self) -> Picture {
+        let items = self.robots.iter().flat_map(|r| {
+            robot(&RobotDrawing { name: &r.name, footprint: &r.footprint, heading: r.heading, in_contact: r.flash })
+        });
+        Picture::new(&self.world.name, self.world.bounds).with(items)
+    }
+
+    /// The pane in words.
+    pub fn described(&self) -> String {
+        let robots: Vec<String> =
+            self.robots.iter().map(|r| format!("{}: {}, contacts: {}", r.name, r.readout, r.contacts)).collect();
+        format!("{}. {}", self.world.name, robots.join("; "))
+    }
+}

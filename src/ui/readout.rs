@@ -1,0 +1,68 @@
+//! Readouts: configurations as their types, in figures that do not jump.
+
+/// The least number of characters a figure takes.
+const FIGURE: usize = 6;
+
+/// A printed configuration for the screen: every number with a true minus sign and padded on the left, so that the next
+/// letters stay where they are while it changes.
+///
+/// ```
+/// # use motion_lab::ui::readout;
+/// assert_eq!(readout("T2 { th1: 0.785, th2: -1.571 }"), "T2 { th1:  0.785, th2: \u{2212}1.571 }");
+/// ```
+pub fn readout(printed: &str) -> String {
+    let mut out = String::with_capacity(printed.len() + 8);
+    let mut rest = printed;
+    while let Some(start) = number_start(rest) {
+        out.push_str(&rest[..start]);
+        let tail = &rest[start..];
+        let end = tail.find(|c: char| !(c.is_ascii_digit() || c == '.' || c == '-')).unwrap_or(tail.len());
+        let number = tail[..end].replace('-', "\u{2212}");
+        out.extend(std::iter::repeat_n(' ', FIGURE.saturating_sub(number.chars().count())));
+        out.push_str(&number);
+        rest = &tail[end..];
+    }
+    out.push_str(rest);
+    out
+}
+
+/// Where the next decimal number starts: a digit or minus after a space or an opening bracket. Digits in names (`T2`) and
+/// in brackets' names (`Tn<3>`) are none.
+fn number_start(text: &str) -> Option<usize> {
+    let bytes = text.as_bytes();
+    (1..bytes.len()).find(|&i| (bytes[i].is_ascii_digit() || bytes[i] == b'-') && matches!(bytes[i - 1], b' ' | b'('))
+}
+
+/// A readout on two lines where it is long: broken before the trailer.
+pub fn readout_lines(readout: &str) -> Vec<String> {
+    match readout.split_once(" trailer:") {
+        Some((body, trailer)) => vec![body.to_owned(), format!("  trailer:{trailer}")],
+        None => vec![readout.to_owned()],
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::configuration::{HitchCfg, T2};
+    use crate::geometry::Pose2;
+
+    #[test]
+    fn figures_do_not_jump() {
+        let printed = |x, theta| readout(&Pose2::new(x, 1.0, theta).to_string());
+        let widths = [printed(0.5, 0.1), printed(11.9, -0.1), printed(9.999, -3.1)].map(|s| s.chars().count());
+        assert_eq!(widths[0], widths[1]);
+        assert_eq!(widths[1], widths[2]);
+        assert!(!printed(0.5, -0.1).contains('-'), "a true minus sign");
+        assert_eq!(readout(&T2::new(1.0, 2.0).to_string()), "T2 { th1:  1.000, th2:  2.000 }");
+        assert_eq!(readout("Tn<3> { th1: 0.100 }"), "Tn<3> { th1:  0.100 }");
+    }
+
+    #[test]
+    fn a_car_with_trailer_reads_on_two_lines() {
+        let q = HitchCfg { body: Pose2::new(1.0, 2.0, 0.5), trailer: Some(-0.1) };
+        let lines = readout_lines(&readout(&q.to_string()));
+        assert_eq!(lines[1], "  trailer: Some(\u{2212}0.100) }");
+        assert_eq!(lines[0], "HitchCfg { body: Pose2 { x:  1.000, y:  2.000, theta:  0.500 },");
+    }
+}
