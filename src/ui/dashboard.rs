@@ -64,9 +64,7 @@ fn all_panes(ui: &mut Ui, model: &Dashboard, theme: Theme) {
     let columns = count.min(3);
     let room = ui.available_rect_before_wrap();
     let width = (room.width() - GAP * (columns as f32 - 1.0)) / columns as f32;
-    let height = if count > columns { (width + text_height(ui)).min(room.height()) } else { room.height() };
-    // more than three worlds do not fit a screen: only then is there something to scroll
-    ScrollArea::vertical().show(ui, |ui| {
+    let rows = |ui: &mut Ui, height: f32| {
         for row in model.cockpits.chunks(columns) {
             let (rect, _) = ui.allocate_exact_size(vec2(room.width(), height), Sense::hover());
             for (i, cockpit) in row.iter().enumerate() {
@@ -74,7 +72,14 @@ fn all_panes(ui: &mut Ui, model: &Dashboard, theme: Theme) {
                 pane(ui, cockpit, Rect::from_min_size(pos2(left, rect.top()), vec2(width, height)), theme);
             }
         }
-    });
+    };
+    if count == columns {
+        rows(ui, room.height());
+    } else {
+        // more than three worlds do not fit a screen: only then is there something to scroll
+        let height = (width + text_height(ui)).min(room.height());
+        ScrollArea::vertical().show(ui, |ui| rows(ui, height));
+    }
 }
 
 /// The height of what stands under a pane's paper.
