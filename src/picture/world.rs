@@ -10,7 +10,7 @@ use crate::worlds::{Obstacle, ObstacleKind, Place, World};
 pub fn world(world: &World) -> Picture {
     let marks = world.marks.iter().map(|mark| {
         Item::new(format!("mark/{}", mark.name), &mark.name, Role::Muted, Drawing::Polyline(mark.points.clone()))
-            .stroked(Line::solid(1.0).at_opacity(0.6))
+            .stroked(Line::solid(1.0))
     });
     let of_kind = |kind| world.obstacles.iter().filter(move |o| o.kind == kind).map(obstacle);
     Picture::new(&world.name, world.bounds)

@@ -22,9 +22,51 @@ pub fn fit(picture: &Picture, rect: Rect) -> Fit {
 
 /// Paints the picture's items, the first below all others.
 pub fn paint(painter: &Painter, picture: &Picture, fit: &Fit, theme: Theme) {
-    for item in &picture.items {
-        for primitive in resolve(item, fit) {
-            paint_primitive(painter, &primitive, theme);
+    for primitive in picture.items.iter().flat_map(|item| resolve(item, fit)) {
+        paint_primitive(painter, &primitive, theme);
+    }
+}
+
+/// As [`paint`], for what stands still: level and upright edges are moved to the pixels, half a pixel at most, so that
+/// all are equally crisp.
+pub fn paint_still(painter: &Painter, picture: &Picture, fit: &Fit, theme: Theme) {
+    let scale = f64::from(painter.pixels_per_point());
+    for mut primitive in picture.items.iter().flat_map(|item| resolve(item, fit)) {
+        match &mut primitive {
+            Primitive::Area { corners, .. } => {
+                corners.extend(corners.first().copied());
+                snap(corners, scale, 0.0);
+                corners.pop();
+            }
+            Primitive::Lines { lines, line, .. } => {
+                // the middle of a line of an odd number of pixels is the middle of a pixel
+                let odd = ((line.width_px * scale).floor() % 2.0) * 0.5;
+                lines.iter_mut().for_each(|points| snap(points, scale, odd));
+            }
+            _ => {}
+        }
+        paint_primitive(painter, &primitive, theme);
+    }
+}
+
+/// Moves the level and upright pieces of a line to the lattice of `offset` pixels beside the whole ones.
+fn snap(points: &mut [ScreenPoint], scale: f64, offset: f64) {
+    for axis in [0, 1] {
+        let snapped = |v: f64| ((v * scale - offset).round() + offset) / scale;
+        let aligned: Vec<bool> = points.windows(2).map(|w| (w[0][axis] - w[1][axis]).abs() < 1e-6).collect();
+        for (i, point) in points.iter_mut().enumerate() {
+            let beside = [i.checked_sub(1), Some(i)];
+            if beside.into_iter().flatten().any(|edge| aligned.get(edge) == Some(&true)) {
+                point[axis] = snapped(point[axis]);
+            }
+        }
+        // the two ends of a closed line are one corner
+        if let [first, .., last] = points
+            && (first[axis] - last[axis]).abs() < 1.0
+            && (first[1 - axis] - last[1 - axis]).abs() < 1.0
+        {
+            let end = if aligned.first() == Some(&true) { first[axis] } else { last[axis] };
+            (first[axis], last[axis]) = (end, end);
         }
     }
 }
@@ -89,5 +131,24 @@ fn paint_line(painter: &Painter, points: &[ScreenPoint], stroke: Stroke, dash: D
         painter.add(PathShape::closed_line(path, stroke));
     } else {
         painter.line(path, stroke);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn level_and_upright_edges_go_to_the_pixels_and_slanted_ones_stay() {
+        let mut square = [[0.3, 0.4], [10.3, 0.4], [10.3, 10.4], [0.3, 10.4], [0.3, 0.4]];
+        snap(&mut square, 1.0, 0.0);
+        assert_eq!(square, [[0.0, 0.0], [10.0, 0.0], [10.0, 10.0], [0.0, 10.0], [0.0, 0.0]]);
+        let mut upright = [[7.9, 0.4], [7.9, 5.2]];
+        snap(&mut upright, 1.0, 0.5);
+        assert_eq!(upright, [[7.5, 0.4], [7.5, 5.2]], "its ends stay");
+        let slanted = [[0.3, 0.4], [5.2, 3.3], [9.1, 0.2]];
+        let mut same = slanted;
+        snap(&mut same, 2.0, 0.5);
+        assert_eq!(same, slanted);
     }
 }

@@ -35,9 +35,7 @@ pub fn dashboard(ui: &mut Ui, model: &Dashboard, state: &mut UiState, commands: 
 
 fn header(ui: &mut Ui) {
     ui.label(RichText::new("Dashboard").text_style(TextStyle::Heading));
-    ui.label(
-        RichText::new("Where a robot is does not say how it is: three robots, three types of configuration.").weak(),
-    );
+    ui.label(RichText::new("A position is not a configuration: three robots, three spaces, three types.").weak());
 }
 
 fn one_pane(ui: &mut Ui, model: &Dashboard, state: &mut UiState) {
@@ -97,13 +95,13 @@ fn pane(ui: &mut Ui, cockpit: &Cockpit, rect: Rect, theme: Theme) {
     response.widget_info(|| WidgetInfo::labeled(WidgetType::Image, true, cockpit.described()));
     let fit = canvas::fit(&cockpit.world, paper);
     let painter = ui.painter_at(paper.expand(1.0));
-    canvas::paint(&painter, &cockpit.world, &fit, theme);
+    canvas::paint_still(&painter, &cockpit.world, &fit, theme);
     canvas::paint(&painter, &cockpit.robots_picture(), &fit, theme);
     painter.rect_stroke(paper, 0.0, Stroke::new(1.0, theme.colour(Role::Hairline)), StrokeKind::Inside);
     let below = Rect::from_min_max(pos2(rect.left(), paper.bottom() + 8.0), rect.max);
     let mut ui = ui.new_child(UiBuilder::new().max_rect(below).layout(Layout::top_down(Align::Min)));
+    ui.spacing_mut().interact_size.y = 0.0; // no row of words is as high as a button
     ui.horizontal(|ui| {
-        ui.spacing_mut().interact_size.y = 0.0;
         ui.label(cockpit.heading());
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| scale_bar(ui, fit.px_per_metre(), theme));
     });
@@ -120,6 +118,7 @@ fn scale_bar(ui: &mut Ui, px_per_metre: f64, theme: Theme) {
     let bar = ScaleBar::new(px_per_metre, 80.0);
     let (rect, _) = ui.allocate_exact_size(Vec2::new(bar.length_px as f32, 7.0), Sense::hover());
     let stroke = Stroke::new(1.0, theme.colour(Role::Muted));
+    let rect = rect.translate(vec2(-0.5, 0.0));
     ui.painter().hline(rect.x_range(), rect.center().y, stroke);
     ui.painter().vline(rect.left(), rect.y_range(), stroke);
     ui.painter().vline(rect.right(), rect.y_range(), stroke);

@@ -33,10 +33,13 @@ fn number_start(text: &str) -> Option<usize> {
     (1..bytes.len()).find(|&i| (bytes[i].is_ascii_digit() || bytes[i] == b'-') && matches!(bytes[i - 1], b' ' | b'('))
 }
 
-/// A readout on two lines where it is long: broken before the trailer.
+/// A readout on lines of its own for each field where it is long: a car's body and trailer.
 pub fn readout_lines(readout: &str) -> Vec<String> {
-    match readout.split_once(" trailer:") {
-        Some((body, trailer)) => vec![body.to_owned(), format!("  trailer:{trailer}")],
+    let fields = readout.split_once(" body:").and_then(|(name, rest)| Some((name, rest.split_once(" trailer:")?)));
+    match fields {
+        Some((name, (body, trailer))) => {
+            vec![name.to_owned(), format!("  body:{body}"), format!("  trailer:{trailer}")]
+        }
         None => vec![readout.to_owned()],
     }
 }
@@ -59,10 +62,15 @@ mod tests {
     }
 
     #[test]
-    fn a_car_with_trailer_reads_on_two_lines() {
+    fn a_car_reads_field_by_field() {
         let q = HitchCfg { body: Pose2::new(1.0, 2.0, 0.5), trailer: Some(-0.1) };
         let lines = readout_lines(&readout(&q.to_string()));
-        assert_eq!(lines[1], "  trailer: Some(\u{2212}0.100) }");
-        assert_eq!(lines[0], "HitchCfg { body: Pose2 { x:  1.000, y:  2.000, theta:  0.500 },");
+        let expected = [
+            "HitchCfg {",
+            "  body: Pose2 { x:  1.000, y:  2.000, theta:  0.500 },",
+            "  trailer: Some(\u{2212}0.100) }",
+        ];
+        assert_eq!(lines, expected);
+        assert_eq!(readout_lines("T2 { th1: 0.1 }"), ["T2 { th1: 0.1 }"]);
     }
 }

@@ -4,7 +4,20 @@ use bevy_egui::egui::style::{Selection, WidgetVisuals, Widgets};
 use bevy_egui::egui::{Color32, CornerRadius, FontFamily, FontId, Shadow, Stroke, Style, TextStyle, Visuals};
 
 use super::Theme;
+use crate::num::{exp, greater, ln};
 use crate::picture::{Rgb, Role};
+
+/// The light of a stored sRGB byte, from 0 to 1.
+fn linear(byte: u8) -> f64 {
+    let c = f64::from(byte) / 255.0;
+    if c <= 0.04045 { c / 12.92 } else { exp(2.4 * ln((c + 0.055) / 1.055)) }
+}
+
+/// The sRGB byte that stores a light from 0 to 1; less is stored as 0.
+fn stored(light: f64) -> u8 {
+    let c = if light <= 0.0031308 { 12.92 * greater(light, 0.0) } else { 1.055 * exp(ln(light) / 2.4) - 0.055 };
+    (255.0 * c).round() as u8
+}
 
 impl Theme {
     /// The colour of a role on the screen.
@@ -13,9 +26,20 @@ impl Theme {
         Color32::from_rgb(r, g, b)
     }
 
-    /// The colour of a role at an opacity from 0 to 1.
+    /// The colour of a role at an opacity from 0 to 1, made so that on paper it comes out as in an SVG file.
+    ///
+    /// The window's surface blends in linear light, SVG between the stored bytes. So the wanted result on paper is worked out
+    /// first, and from it the premultiplied colour that blends to it, with the least alpha above `opacity` that can.
     pub fn tint(self, role: Role, opacity: f64) -> Color32 {
-        self.colour(role).gamma_multiply(opacity as f32)
+        if opacity >= 1.0 {
+            return self.colour(role);
+        }
+        let Rgb(paper) = self.palette().colour(Role::Paper);
+        let [r, g, b, _] = self.washed(role, opacity).to_array();
+        let (paper, wanted) = (paper.map(linear), [r, g, b].map(linear));
+        let alpha = (0..3).map(|i| 1.0 - wanted[i] / paper[i]).fold(opacity, greater);
+        let [r, g, b] = [0, 1, 2].map(|i| stored(wanted[i] - (1.0 - alpha) * paper[i]));
+        Color32::from_rgba_premultiplied(r, g, b, (255.0 * alpha).round() as u8)
     }
 
     /// The colour of a role laid over the paper at an opacity from 0 to 1: opaque.
@@ -93,6 +117,30 @@ impl Theme {
             popup_shadow: Shadow::NONE,
             panel_fill: paper,
             ..base
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_tint_blends_on_paper_to_what_svg_shows() {
+        for theme in [Theme::Light, Theme::Dark] {
+            let Rgb(paper) = theme.palette().colour(Role::Paper);
+            for role in [Role::Robot, Role::Obstacle, Role::Goal, Role::Sensor, Role::Paper] {
+                for opacity in [0.0, 0.12, 0.45, 0.85] {
+                    let [r, g, b, a] = theme.tint(role, opacity).to_array();
+                    let wanted = theme.washed(role, opacity).to_array();
+                    for (i, premultiplied) in [r, g, b].into_iter().enumerate() {
+                        let light = linear(premultiplied) + (1.0 - f64::from(a) / 255.0) * linear(paper[i]);
+                        let off = i32::from(stored(light)) - i32::from(wanted[i]);
+                        assert!(off.abs() <= 6, "{theme:?} {role:?} {opacity}: {off} in channel {i}");
+                    }
+                    assert!(f64::from(a) >= 254.0 * opacity);
+                }
+            }
         }
     }
 }
