@@ -154,7 +154,7 @@ fn buttons_and_the_space_bar_send_what_they_say() {
 #[test]
 fn a_seed_is_typed_in_and_what_is_none_is_put_back() {
     let press = |key| Event::Key { key, physical_key: None, pressed: true, repeat: false, modifiers: Modifiers::NONE };
-    let mut typed = |text: &str| {
+    let typed = |text: &str| {
         let mut screen = Screen::new(WIDE, &model());
         screen.click(&model(), "2005");
         let select_all =
