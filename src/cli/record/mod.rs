@@ -15,7 +15,9 @@ use super::{Data, Failure, Outcome, interrupt};
 use choice::RobotChoice;
 use seeds::SeedRange;
 
-pub use one::{Ended, Plan, Stop, write_run};
+#[cfg(feature = "headless")]
+pub use one::{Ended, write_run};
+pub use one::{Plan, Stop};
 
 /// Record a run, and print where its robots end, their contacts and its digest.
 ///
