@@ -2,6 +2,7 @@
 
 mod bare;
 mod console;
+mod diff;
 mod end;
 #[cfg(feature = "headless")]
 mod figure;
@@ -33,7 +34,7 @@ Exit codes:
    1  internal error, or an output that could not be written
    2  the command line is wrong
    3  an input file is missing or wrong
-   4  the replay differs from the recording
+   4  the replay differs from the recording, or one log from the other
    5  the file is damaged or unfinished; its sealed beginning was used
    6  there is no display for the window
   75  stopped early; `record --resume` goes on
@@ -55,6 +56,7 @@ pub struct Cli {
 enum Command {
     Record(Box<record::Record>),
     Verify(verify::Verify),
+    Diff(diff::Diff),
     Info(info::Info),
     Query(query::Query),
     World(world::WorldArgs),
@@ -66,6 +68,7 @@ impl Cli {
         match self.command {
             Some(Command::Record(record)) => record.run(data),
             Some(Command::Verify(verify)) => verify.run(data),
+            Some(Command::Diff(diff)) => diff.run(data),
             Some(Command::Info(info)) => info.run(data),
             Some(Command::Query(query)) => query.run(data),
             Some(Command::World(world)) => world.run(data),

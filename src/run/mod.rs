@@ -1,5 +1,6 @@
 //! Runs as data: the input script, the frames, their digests, where two runs differ, and the log as a file.
 
+mod difference;
 mod digest;
 mod divergence;
 mod field;
@@ -11,6 +12,7 @@ mod mcap;
 mod script;
 mod script_text;
 
+pub use difference::SetupDifference;
 pub use digest::{Digest, RunDigest};
 pub use divergence::{Divergence, first_divergence};
 pub use field::Value;
