@@ -2,6 +2,7 @@
 
 mod diff;
 mod driving;
+mod export;
 mod files;
 mod queries;
 mod record;

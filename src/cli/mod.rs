@@ -4,7 +4,7 @@ mod bare;
 mod console;
 mod diff;
 mod end;
-#[cfg(feature = "headless")]
+mod export;
 mod figure;
 mod info;
 mod input;
@@ -57,6 +57,7 @@ enum Command {
     Record(Box<record::Record>),
     Verify(verify::Verify),
     Diff(diff::Diff),
+    Export(export::Export),
     Info(info::Info),
     Query(query::Query),
     World(world::WorldArgs),
@@ -69,6 +70,7 @@ impl Cli {
             Some(Command::Record(record)) => record.run(data),
             Some(Command::Verify(verify)) => verify.run(data),
             Some(Command::Diff(diff)) => diff.run(data),
+            Some(Command::Export(export)) => export.run(data),
             Some(Command::Info(info)) => info.run(data),
             Some(Command::Query(query)) => query.run(data),
             Some(Command::World(world)) => world.run(data),
