@@ -271,7 +271,7 @@ mod tests {
             if let Some(name) = line.strip_prefix("message ") {
                 current = name.trim_end_matches(" {");
                 text.insert(current, Vec::new());
-            } else if line.split(' ').count() > 3 && line.ends_with(';') {
+            } else if line.contains(" = ") && line.split(' ').count() > 3 {
                 text.get_mut(current).unwrap().push(line);
             }
         }
