@@ -4,8 +4,11 @@ mod diff;
 mod driving;
 mod export;
 mod files;
+mod manual;
 mod queries;
 mod record;
+mod replay;
+mod scripts;
 mod verify;
 mod world;
 
