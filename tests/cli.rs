@@ -1,9 +1,14 @@
 //! The whole program: every command and every exit code, by running it.
 
+mod diff;
 mod driving;
+mod export;
 mod files;
+mod manual;
 mod queries;
 mod record;
+mod replay;
+mod scripts;
 mod verify;
 mod world;
 
