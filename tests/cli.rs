@@ -2,6 +2,7 @@
 
 mod driving;
 mod files;
+mod import;
 mod queries;
 mod record;
 mod verify;
