@@ -2,6 +2,7 @@
 
 mod driving;
 mod files;
+mod grade;
 mod import;
 mod queries;
 mod record;

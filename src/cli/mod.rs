@@ -5,6 +5,7 @@ mod console;
 mod end;
 #[cfg(feature = "headless")]
 mod figure;
+mod grade;
 mod info;
 mod input;
 mod interrupt;
@@ -33,7 +34,7 @@ Exit codes:
    1  internal error, or an output that could not be written
    2  the command line is wrong
    3  an input file is missing or wrong
-   4  the replay differs from the recording
+   4  the replay differs from the recording, or a graded submission does not pass
    5  the file is damaged or unfinished; its sealed beginning was used
    6  there is no display for the window
   75  stopped early; `record --resume` goes on
@@ -58,6 +59,7 @@ enum Command {
     Info(info::Info),
     Query(query::Query),
     World(world::WorldArgs),
+    Grade(grade::GradeArgs),
 }
 
 impl Cli {
@@ -69,6 +71,7 @@ impl Cli {
             Some(Command::Info(info)) => info.run(data),
             Some(Command::Query(query)) => query.run(data),
             Some(Command::World(world)) => world.run(data),
+            Some(Command::Grade(grade)) => grade.run(data),
             None => bare::bare(data),
         }
     }
