@@ -5,6 +5,8 @@ mod driving;
 mod export;
 mod files;
 mod manual;
+mod grade;
+mod import;
 mod queries;
 mod record;
 mod replay;

@@ -7,6 +7,7 @@ mod diff;
 mod end;
 mod export;
 mod figure;
+mod grade;
 mod info;
 mod input;
 mod interrupt;
@@ -37,7 +38,7 @@ Exit codes:
    1  internal error, or an output that could not be written
    2  the command line is wrong
    3  an input file is missing or wrong
-   4  the replay differs from the recording, or one log from the other
+   4  the replay differs from the recording or one log from the other, or a graded submission does not pass
    5  the file is damaged or unfinished; its sealed beginning was used
    6  there is no display for the window
   75  stopped early; `record --resume` goes on
@@ -68,6 +69,7 @@ enum Command {
     Script(script::ScriptArgs),
     Completions(completions::Completions),
     Man(completions::ManPages),
+    Grade(grade::GradeArgs),
 }
 
 impl Cli {
@@ -85,6 +87,7 @@ impl Cli {
             Some(Command::Script(script)) => script.run(data),
             Some(Command::Completions(completions)) => completions.run(data),
             Some(Command::Man(man)) => man.run(data),
+            Some(Command::Grade(grade)) => grade.run(data),
             None => bare::bare(data),
         }
     }
