@@ -47,7 +47,7 @@ impl Imported {
             first.make_ascii_uppercase();
         }
         let name = draft::free_name(&name, |name| self.world.has_name(name));
-        let text = description::RobotText { name, kind: kind.to_owned(), start: start.to_vec() };
+        let text = description::RobotText { name, kind: kind.to_owned(), start: start.to_vec(), sensor: None };
         self.world.robots.push(make_resident(&text)?);
         Ok(())
     }
