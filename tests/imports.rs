@@ -1,6 +1,7 @@
 //! Worlds from elsewhere: each kind by a small sample of which the walls are known beforehand.
 
 mod cells;
+mod drawing;
 
 use motion_lab::collision::{Collision, Scene};
 use motion_lab::geometry::{Footprint, Point2};

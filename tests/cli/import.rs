@@ -11,7 +11,7 @@ fn sample(name: &str) -> String {
 #[test]
 fn what_is_imported_passes_the_check_and_can_be_run() {
     let folder = tempfile::tempdir().unwrap();
-    for (file, start) in [("room.yaml", "0,0,0"), ("yard.map", "1.5,1.5,0")] {
+    for (file, start) in [("room.yaml", "0,0,0"), ("yard.map", "1.5,1.5,0"), ("hall.svg", "100,60,0")] {
         let told = run_in(
             folder.path(),
             &["world", "import", &sample(file), "--robot", "rusty", "--start", start, "-o", "world.ron"],
@@ -25,6 +25,29 @@ fn what_is_imported_passes_the_check_and_can_be_run() {
         // without -o the same text is printed
         let printed = run(&["world", "import", &sample(file), "--robot", "rusty", "--start", start]).done();
         assert_eq!(fs::read_to_string(folder.path().join("world.ron")).unwrap(), printed);
+    }
+}
+
+#[test]
+fn an_exported_map_is_imported_again_and_a_picture_is_one() {
+    let folder = tempfile::tempdir().unwrap();
+    let told = run_in(folder.path(), &["world", "export", "lot", "--resolution", "0.25", "-o", "lot.yaml"]);
+    assert!(told.err.contains("wrote lot.yaml and lot.pgm, 64 x 40 cells"), "{}", told.err);
+    told.done();
+    // 16 x 10 m in cells of 0.25 m
+    assert!(fs::read(folder.path().join("lot.pgm")).unwrap().starts_with(b"P5\n64 40\n255\n"));
+    run_in(folder.path(), &["world", "import", "lot.yaml", "-o", "again.ron"]).done();
+    run_in(folder.path(), &["world", "check", "again.ron"]).done();
+    run_in(folder.path(), &["world", "export", "again.ron", "--format", "svg", "-o", "picture"]).done();
+    let picture = fs::read_to_string(folder.path().join("picture")).unwrap();
+    assert!(picture.starts_with("<svg") && picture.contains("wall 1"), "{picture}");
+    for (arguments, reason) in [
+        (&["lot", "-o", "lot.png"][..], "--format"),
+        (&["lot", "-o", "lot.yaml", "--resolution", "0"], "resolution of 0 m"),
+        (&["lot", "-o", "lot.pgm", "--format", "ros"], "the image's name"),
+    ] {
+        let error = run_in(folder.path(), &[&["world", "export"], arguments].concat()).failed(2);
+        assert!(error.contains(reason), "{error}");
     }
 }
 

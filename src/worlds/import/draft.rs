@@ -20,17 +20,15 @@ pub(super) struct Draft {
 }
 
 impl Draft {
-    /// Adds a wall along these points, named after `stem`: `wall 1`.
-    pub fn wall(&mut self, stem: &str, points: Vec<Xy>, closed: bool) -> Result<(), WorldProblem> {
-        let name = self.numbered(stem);
+    /// Adds a wall along these points, under a name that was claimed.
+    pub fn wall(&mut self, name: String, points: Vec<Xy>, closed: bool) -> Result<(), WorldProblem> {
         let wall = make_wall(&PolylineText { name, points, closed }, &mut self.budget)?;
         self.walls.push(wall);
         Ok(())
     }
 
-    /// Adds a solid obstacle, named after `stem`: `box 1`.
-    pub fn solid(&mut self, stem: &str, shape: ShapeText) -> Result<(), WorldProblem> {
-        let name = self.numbered(stem);
+    /// Adds a solid obstacle, under a name that was claimed.
+    pub fn solid(&mut self, name: String, shape: ShapeText) -> Result<(), WorldProblem> {
         let solid = make_solid(&ObstacleText { name, shape }, &mut self.budget)?;
         self.solids.push(solid);
         Ok(())
@@ -56,8 +54,8 @@ impl Draft {
         name
     }
 
-    /// The next of the names `stem 1`, `stem 2` and so on.
-    fn numbered(&mut self, stem: &str) -> String {
+    /// Claims the next of the names `stem 1`, `stem 2` and so on.
+    pub fn numbered(&mut self, stem: &str) -> String {
         let count = self.counts.entry(stem.to_owned()).or_default();
         *count += 1;
         let name = format!("{stem} {count}");

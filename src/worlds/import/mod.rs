@@ -4,16 +4,20 @@
 //! |---|---|
 //! | a ROS map, [`RosMap`] | the borders of its occupied cells as closed walls, or the cells themselves as boxes |
 //! | a MovingAI map, [`movingai`] | the same |
+//! | an SVG drawing, [`svg`] | what is filled as solid obstacles, what is only stroked as walls |
 //!
 //! Nothing here opens a file: bytes go in, a [`CellMap`] or an [`Imported`] world comes out. The world is one that
 //! [`World::parse`] would give: its text reads back as the same world.
 
 mod cells;
+mod curves;
 mod draft;
 mod error;
 mod movingai;
 mod pgm;
 mod ros;
+mod svg;
+mod svg_check;
 mod trace;
 mod yaml;
 
@@ -24,6 +28,7 @@ pub use cells::{CellMap, CellStyle};
 pub use error::{ImportError, ImportProblem};
 pub use movingai::movingai;
 pub use ros::{RosMap, Unknown, is_ros_map};
+pub use svg::{SvgOptions, svg};
 
 use draft::Draft;
 
