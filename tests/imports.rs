@@ -2,6 +2,7 @@
 
 mod cells;
 mod drawing;
+mod irsim;
 
 use motion_lab::collision::{Collision, Scene};
 use motion_lab::geometry::{Footprint, Point2};

@@ -29,6 +29,17 @@ fn what_is_imported_passes_the_check_and_can_be_run() {
 }
 
 #[test]
+fn a_world_of_ir_sim_brings_its_robots() {
+    let folder = tempfile::tempdir().unwrap();
+    let told = run_in(folder.path(), &["world", "import", &sample("garden.yaml"), "-o", "garden.ron"]);
+    assert!(told.err.contains("motion-lab: robot.behavior is left out"), "{}", told.err);
+    told.done();
+    let checked = run_in(folder.path(), &["world", "check", "garden.ron"]).done();
+    assert!(checked.contains("garden, ") && checked.ends_with("robots: Rusty, Hitch\n"), "{checked}");
+    run_in(folder.path(), &["record", "--world", "garden.ron", "--ticks", "3"]).done();
+}
+
+#[test]
 fn an_exported_map_is_imported_again_and_a_picture_is_one() {
     let folder = tempfile::tempdir().unwrap();
     let told = run_in(folder.path(), &["world", "export", "lot", "--resolution", "0.25", "-o", "lot.yaml"]);
@@ -55,7 +66,7 @@ fn an_exported_map_is_imported_again_and_a_picture_is_one() {
 fn a_robot_in_a_wall_is_told_of() {
     let told = run(&["world", "import", &sample("room.yaml"), "--robot", "rusty", "--start", "-0.5,-1.4,0"]);
     assert!(told.err.contains("Rusty starts in contact with wall 4"), "{}", told.err);
-    assert!(told.err.contains("1 unknown cells are taken as occupied"), "{}", told.err);
+    assert!(told.err.contains("unknown cells, taken as occupied: 1"), "{}", told.err);
     assert!(told.done().contains("start: [-0.5, -1.4, 0.0]"));
 }
 

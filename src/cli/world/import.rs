@@ -9,7 +9,7 @@ use motion_lab::run::Script;
 use motion_lab::tour::TourConfig;
 use motion_lab::worlds::World;
 use motion_lab::worlds::import::{
-    CellStyle, ImportError, Imported, RosMap, SvgOptions, Unknown, is_ros_map, movingai, svg,
+    CellStyle, ImportError, Imported, RosMap, SvgOptions, Unknown, irsim, is_ros_map, movingai, svg,
 };
 
 use crate::cli::input::{MAX_TEXT, read_bytes, read_text};
@@ -21,7 +21,8 @@ use crate::cli::{Data, Failure, Outcome, say};
 ///
 /// A ROS map is given by its yaml file; its image must be a PGM. In a MovingAI map . G S are free, @ O T W occupied. Of either the
 /// borders of the occupied cells become closed walls, edges in line joined to one. In an SVG drawing what is filled becomes a solid
-/// obstacle and what is only stroked a wall, called by their ids.
+/// obstacle and what is only stroked a wall, called by their ids. Of an IR-SIM world the static obstacles are read, and its robots as
+/// Rusty (diff) and Hitch (acker).
 #[derive(Debug, Args)]
 pub struct Import {
     /// The map or drawing.
@@ -65,6 +66,8 @@ enum Kind {
     Ros,
     /// A map of the MovingAI benchmarks.
     Movingai,
+    /// A world of IR-SIM: its static obstacles, its robots diff and acker.
+    Irsim,
     /// An SVG drawing.
     Svg,
 }
@@ -120,6 +123,7 @@ impl Import {
             Kind::Movingai => movingai(&file, &text, self.metres_per_cell)
                 .and_then(|cells| cells.world(&file, &name, style))
                 .map_err(refused),
+            Kind::Irsim => irsim(&file, &text, &name).map_err(refused),
             Kind::Svg => {
                 let options = SvgOptions { metres_per_unit: self.metres_per_unit, tolerance: self.tolerance };
                 svg(&file, &text, &name, options).map_err(refused)
@@ -139,14 +143,14 @@ fn kind_of(file: &Path) -> Result<Kind, Failure> {
         "map" => Ok(Kind::Movingai),
         "svg" => Ok(Kind::Svg),
         "yaml" | "yml" if is_ros_map(&read_text(file)?) => Ok(Kind::Ros),
-        "yaml" | "yml" => Ok(Kind::Ros),
+        "yaml" | "yml" => Ok(Kind::Irsim),
         "pgm" => Err(Failure::usage(
             format!("{}: this is a ROS map's image", file.display()),
             "Name the yaml file beside it: that tells the size of a pixel and where the map lies.",
         )),
         _ => Err(Failure::usage(
             format!("{}: its name does not tell what it is", file.display()),
-            "Say it with --from: ros, movingai or svg.",
+            "Say it with --from: ros, movingai, irsim or svg.",
         )),
     }
 }
