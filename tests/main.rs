@@ -19,6 +19,7 @@ mod pairs;
 mod penetration;
 mod planner;
 mod polygons;
+mod sensor_noise;
 mod simulation;
 mod sweeps;
 mod touches;

@@ -40,11 +40,7 @@ pub fn frame(tick: u64) -> Frame {
 }
 
 pub fn log() -> Log {
-    let resident = |name: &str, kind: &str, start: &[f64]| Resident {
-        name: name.into(),
-        kind: kind.into(),
-        start: start.to_vec(),
-    };
+    let resident = |name: &str, kind: &str, start: &[f64]| Resident::new(name, kind, start);
     let world = World {
         name: "Yard".into(),
         bounds: Bounds { min: Point2::new(-1.0, -2.0), max: Point2::new(3.0, 4.0) },

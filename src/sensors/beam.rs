@@ -1,74 +1,16 @@
-//! `BeamModel`, the noise of a real range finder.
+//! Readings drawn from a [`BeamModel`], the noise of a real range finder.
 
 use super::RangeSensor;
-use crate::num::ln;
+use crate::num::{exp, ln};
 use crate::random::Stream;
-
-/// The standard beam model (Thrun, Burgard and Fox, *Probabilistic Robotics*, section 6.3): each reading is, independently,
-/// a short return from something unexpected, a miss, a maximum reading, or a hit with Gaussian noise.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct BeamModel {
-    /// Standard deviation of a hit's noise, metres.
-    pub hit_sigma: f64,
-    /// Probability of a short return.
-    pub short: f64,
-    /// Rate of the exponential distribution of short returns, per metre; cut off at the true range.
-    pub short_rate: f64,
-    /// Probability of a miss: the reading is infinity.
-    pub miss: f64,
-    /// Probability of a maximum reading: the reading is the greatest range exactly.
-    pub max: f64,
-}
-
-/// Why a beam model's numbers are refused.
-#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
-#[non_exhaustive]
-pub enum BeamError {
-    /// A number that is not finite, or negative.
-    #[error("{name} = {value}: it must be finite and not negative")]
-    Number {
-        /// Which one.
-        name: &'static str,
-        /// Its value.
-        value: f64,
-    },
-    /// A rate of exactly 0 with short returns possible.
-    #[error("short returns need a rate above 0 per metre")]
-    Rate,
-    /// The probabilities add up to more than 1.
-    #[error("the probabilities short + miss + max add up to {0}, more than 1")]
-    Sum(f64),
-}
+use crate::worlds::BeamModel;
 
 impl BeamModel {
-    /// No noise at all: readings are exact.
-    pub const EXACT: BeamModel = BeamModel { hit_sigma: 0.0, short: 0.0, short_rate: 1.0, miss: 0.0, max: 0.0 };
-
-    /// The model with these numbers.
-    ///
-    /// # Errors
-    /// [`BeamError`] for a number that is not finite or negative, or probabilities above 1 in all.
-    pub fn try_new(self) -> Result<Self, BeamError> {
-        let BeamModel { hit_sigma, short, short_rate, miss, max } = self;
-        let named =
-            [("hit_sigma", hit_sigma), ("short", short), ("short_rate", short_rate), ("miss", miss), ("max", max)];
-        for (name, value) in named {
-            if !(value.is_finite() && value >= 0.0) {
-                return Err(BeamError::Number { name, value });
-            }
-        }
-        if short > 0.0 && short_rate == 0.0 {
-            return Err(BeamError::Rate);
-        }
-        let sum = short + miss + max;
-        if sum > 1.0 { Err(BeamError::Sum(sum)) } else { Ok(self) }
-    }
-
     /// The noisy readings for the exact `ranges` of `sensor` at tick `tick`, drawn from `stream`.
     ///
     /// Every ray draws from its own place in the stream, so a reading depends on the seed, the stream's name, the tick and the
     /// ray only. Hits are kept in [0, R]; a ray whose exact range is infinite has no hit and no short return within it: it
-    /// reads infinity or R. A reading is never negative.
+    /// reads infinity, R or at random. A reading is never negative.
     pub fn apply(&self, sensor: &RangeSensor, ranges: &[f64], stream: &Stream, tick: u64) -> Vec<f64> {
         let rays = u64::from(sensor.n_rays);
         (0_u64..)
@@ -79,22 +21,30 @@ impl BeamModel {
 
     fn reading(&self, exact: f64, max_range: f64, mut draws: Stream) -> f64 {
         // every ray makes the same draws, whatever becomes of them
-        let (choice, u, noise) = (draws.unit(), draws.unit(), draws.normal());
-        if choice < self.miss {
+        let (mut choice, u, noise) = (draws.unit(), draws.unit(), draws.normal());
+        let mut falls_to = |probability: f64| {
+            let chosen = choice < probability;
+            choice -= probability;
+            chosen
+        };
+        if falls_to(self.z_miss) {
             return f64::INFINITY;
         }
-        if choice < self.miss + self.max {
+        if falls_to(self.z_max) {
             return max_range;
+        }
+        if falls_to(self.z_rand) {
+            return u * max_range;
         }
         if exact.is_infinite() {
             return exact;
         }
-        if choice < self.miss + self.max + self.short {
+        if falls_to(self.z_short) {
             // the inverse of the exponential distribution's function, cut off at the exact range
-            let mass = 1.0 - crate::num::exp(-self.short_rate * exact);
-            return -ln(1.0 - u * mass) / self.short_rate;
+            let mass = 1.0 - exp(-self.lambda_short * exact);
+            return -ln(1.0 - u * mass) / self.lambda_short + 0.0;
         }
-        (exact + self.hit_sigma * noise).clamp(0.0, max_range)
+        (exact + self.sigma_hit * noise).clamp(0.0, max_range)
     }
 }
 
@@ -117,7 +67,8 @@ mod tests {
 
     #[test]
     fn each_kind_of_reading_comes_as_often_as_its_probability() {
-        let model = BeamModel { hit_sigma: 0.05, short: 0.1, short_rate: 1.0, miss: 0.03, max: 0.02 };
+        let model =
+            BeamModel { sigma_hit: 0.05, z_short: 0.1, lambda_short: 1.0, z_miss: 0.03, z_max: 0.02, z_rand: 0.0 };
         let all = readings(model, 2.0);
         let share = |f: &dyn Fn(f64) -> bool| all.iter().filter(|r| f(**r)).count() as f64 / 50_000.0;
         // five standard deviations of a share p of 50,000 draws: 5 sqrt(p (1 - p) / 50,000)
@@ -133,7 +84,7 @@ mod tests {
 
     #[test]
     fn hits_are_normal_about_the_exact_range() {
-        let all = readings(BeamModel { hit_sigma: 0.1, ..BeamModel::EXACT }, 2.0);
+        let all = readings(BeamModel { sigma_hit: 0.1, ..BeamModel::EXACT }, 2.0);
         let mean = all.iter().sum::<f64>() / 50_000.0;
         let variance = all.iter().map(|r| (r - mean) * (r - mean)).sum::<f64>() / 50_000.0;
         assert!(
@@ -144,19 +95,11 @@ mod tests {
 
     #[test]
     fn nothing_in_range_stays_infinite_and_every_tick_draws_anew() {
-        let model = BeamModel { hit_sigma: 0.1, short: 0.5, ..BeamModel::EXACT };
+        let model = BeamModel { sigma_hit: 0.1, z_short: 0.5, ..BeamModel::EXACT };
         assert!(readings(model, f64::INFINITY).iter().all(|r| r.is_infinite()));
         let stream = Stream::new(Seed(1), "a");
         let at = |tick| model.apply(&RangeSensor { n_rays: 8, max_range: 4.0 }, &[1.0; 8], &stream, tick);
         assert_ne!(at(1), at(2));
         assert_eq!(at(1), at(1));
-    }
-
-    #[test]
-    fn numbers_that_make_no_distribution_are_refused() {
-        let refuse = |m: BeamModel| m.try_new().unwrap_err();
-        assert_eq!(refuse(BeamModel { short: 0.6, miss: 0.6, ..BeamModel::EXACT }), BeamError::Sum(1.2));
-        assert!(matches!(refuse(BeamModel { hit_sigma: f64::NAN, ..BeamModel::EXACT }), BeamError::Number { .. }));
-        assert_eq!(refuse(BeamModel { short: 0.1, short_rate: 0.0, ..BeamModel::EXACT }), BeamError::Rate);
     }
 }

@@ -3,5 +3,5 @@
 mod beam;
 mod range;
 
-pub use beam::{BeamError, BeamModel};
+pub use crate::worlds::{BeamError, BeamModel};
 pub use range::{RangeSensor, SensorError};

@@ -9,7 +9,7 @@ use super::SimulatedRobot;
 use crate::collision::Scene;
 use crate::geometry::{Pose2, Shape};
 use crate::random::Stream;
-use crate::sensors::RangeSensor;
+use crate::sensors::{BeamModel, RangeSensor};
 use crate::worlds::World as WorldModel;
 
 /// A world of the run: the model it was made from. On the world's entity, with its [`WorldScene`].
@@ -71,6 +71,16 @@ pub struct Sensors(Vec<Entity>);
 #[derive(Component, Clone, Copy, Debug, PartialEq)]
 #[component(immutable)]
 pub struct SensorModel(pub RangeSensor);
+
+/// The noise of a range sensor, and the sensor's own stream; ray k of tick t draws at index t n + k.
+#[derive(Component, Clone, Debug)]
+#[component(immutable)]
+pub struct SensorNoise {
+    /// The model.
+    pub model: BeamModel,
+    /// The stream.
+    pub stream: Stream,
+}
 
 /// What a range sensor saw at the end of the last tick, metres.
 #[derive(Component, Clone, Debug, Default, PartialEq)]

@@ -8,13 +8,13 @@ use super::simulated_robot::canonical;
 use super::{
     Configuration, Keyframes, LatestFrame, MountedOn, ObstacleOf, ObstacleShape, OwnState, PendingInput,
     PreviousConfiguration, ResidesIn, RobotId, RobotKinds, RobotModel, RobotName, RobotOps, Route, Scan, SensorModel,
-    SimulatedRobot, SimulatedWorld, Slip, Transport, WorldScene,
+    SensorNoise, SimulatedRobot, SimulatedWorld, Slip, Transport, WorldScene,
 };
 use crate::collision::Scene;
 use crate::configuration::Configuration as _;
 use crate::random::{Seed, Stream};
 use crate::run::{Script, ScriptError};
-use crate::sensors::{RangeSensor, SensorError};
+use crate::sensors::{BeamError, RangeSensor, SensorError};
 use crate::tour::{BOOK_SEED, ConfigError, TourConfig};
 use crate::worlds::{Resident, World as WorldModel};
 
@@ -78,6 +78,16 @@ pub enum SpawnError {
     /// The script cannot be run with these robots.
     #[error(transparent)]
     Script(#[from] ScriptError),
+    /// A sensor whose noise is no distribution, in a world put together by hand.
+    #[error("robot {robot:?} in world {world:?}: sensor: {source}")]
+    Noise {
+        /// The robot.
+        robot: String,
+        /// Its world.
+        world: String,
+        /// What is wrong.
+        source: BeamError,
+    },
     /// A range sensor out of range.
     #[error(transparent)]
     Sensor(#[from] SensorError),
@@ -134,6 +144,11 @@ pub(super) fn spawn_robot<R: SimulatedRobot>(
     // through the robot itself, which wraps the angles
     let q = canonical(&robot.configuration_at(&q, &resident.start).ok_or_else(refused)?);
     robot.fitted(&q).check(&q).map_err(|_| refused())?;
+    let noise = resident.sensor.map(|noise| noise.try_new()).transpose().map_err(|source| SpawnError::Noise {
+        robot: resident.name.clone(),
+        world: request.model.name.clone(),
+        source,
+    })?;
     let sensor = request.sensor.filter(|_| robot.sensor_pose(&q).is_some());
     let entity = world
         .spawn((
@@ -150,7 +165,11 @@ pub(super) fn spawn_robot<R: SimulatedRobot>(
         ))
         .id();
     if let Some(sensor) = sensor {
-        world.spawn((SensorModel(sensor), Scan::default(), MountedOn(entity)));
+        let mut spawned = world.spawn((SensorModel(sensor), Scan::default(), MountedOn(entity)));
+        if let Some(model) = noise {
+            let stream = Stream::new(request.seed, &format!("{}/beam", resident.name));
+            spawned.insert(SensorNoise { model, stream });
+        }
     }
     Ok(entity)
 }

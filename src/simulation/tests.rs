@@ -13,11 +13,7 @@ use crate::worlds::{Bounds, Resident, World as WorldModel};
 
 /// Seven robots of three kinds, close together in an open world, all driven at once.
 fn crowd() -> (Arc<TourConfig>, Script) {
-    let resident = |name: &str, kind: &str, start: &[f64]| Resident {
-        name: name.into(),
-        kind: kind.into(),
-        start: start.to_vec(),
-    };
+    let resident = |name: &str, kind: &str, start: &[f64]| Resident::new(name, kind, start);
     let robots = vec![
         resident("a", "rusty", &[0.3, 0.3, 0.0]),
         resident("arm", "reach", &[2.0, 0.5]),

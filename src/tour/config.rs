@@ -130,7 +130,7 @@ mod tests {
 
     fn world(name: &str, robots: &[&str]) -> World {
         let bounds = Bounds { min: Point2::new(0.0, 0.0), max: Point2::new(1.0, 1.0) };
-        let resident = |name: &&str| Resident { name: (*name).into(), kind: "rusty".into(), start: vec![0.5; 3] };
+        let resident = |name: &&str| Resident::new(*name, "rusty", [0.5; 3]);
         World {
             name: name.into(),
             bounds,

@@ -1,7 +1,8 @@
 //! A world file as written: RON, nothing checked but its form.
 
-use serde::Deserialize;
+use serde::{Deserialize, Deserializer};
 
+use super::BeamModel;
 use crate::geometry::{Point2, Pose2};
 
 /// A point as written: `(x, y)`.
@@ -86,6 +87,32 @@ pub(super) struct RobotText {
     pub name: String,
     pub kind: String,
     pub start: Vec<f64>,
+    #[serde(default, deserialize_with = "given")]
+    pub sensor: Option<SensorText>,
+}
+
+/// The noise of a range sensor.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub(super) struct SensorText {
+    pub sigma_hit: f64,
+    pub z_short: f64,
+    pub lambda_short: f64,
+    pub z_miss: f64,
+    pub z_max: f64,
+    pub z_rand: f64,
+}
+
+impl Default for SensorText {
+    fn default() -> Self {
+        let BeamModel { sigma_hit, z_short, lambda_short, z_miss, z_max, z_rand } = BeamModel::EXACT;
+        SensorText { sigma_hit, z_short, lambda_short, z_miss, z_max, z_rand }
+    }
+}
+
+/// A field that may be left out, and is written without `Some` when it is there.
+fn given<'de, D: Deserializer<'de>, T: Deserialize<'de>>(deserializer: D) -> Result<Option<T>, D::Error> {
+    T::deserialize(deserializer).map(Some)
 }
 
 /// An item with a name.

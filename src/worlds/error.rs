@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use super::OutlineError;
+use super::{BeamError, OutlineError};
 use crate::geometry::ShapeError;
 
 /// An item of a world file: `obstacles[1] "the post"`.
@@ -126,4 +126,10 @@ pub enum WorldProblem {
         /// How many it has.
         found: usize,
     },
+    /// A sensor for a robot of a kind that has none.
+    #[error("a {0} has no range sensor: leave out `sensor`")]
+    NoSensor(String),
+    /// A sensor whose noise is no distribution.
+    #[error("sensor: {0}")]
+    Beam(#[from] BeamError),
 }

@@ -1,8 +1,10 @@
 //! Every item of a world file checked and made what it means.
 
-use super::description::{BoundsText, ObstacleText, PlaceText, PolylineText, RobotText, ShapeText, Xy, point};
+use super::description::{
+    BoundsText, ObstacleText, PlaceText, PolylineText, RobotText, SensorText, ShapeText, Xy, point,
+};
 use super::parse::check_name;
-use super::{Bounds, MAX_ITEMS, Mark, Obstacle, ObstacleKind, Place, Resident, WorldProblem, convex_pieces};
+use super::{BeamModel, Bounds, MAX_ITEMS, Mark, Obstacle, ObstacleKind, Place, Resident, WorldProblem, convex_pieces};
 use crate::geometry::{MAX_COORDINATE, Point2, Pose2, Shape, ShapeError, convex_hull};
 use crate::num;
 
@@ -138,7 +140,7 @@ fn finite(x: f64, what: &'static str) -> Result<f64, WorldProblem> {
 }
 
 pub(super) fn make_resident(text: &RobotText) -> Result<Resident, WorldProblem> {
-    let RobotText { name, kind, start } = text;
+    let RobotText { name, kind, start, sensor } = text;
     let (name, kind, mut start) = (name.clone(), kind.clone(), start.clone());
     // how many of the coordinates are a position, and how many there may be
     let (lengths, counts, expected) = match kind.as_str() {
@@ -161,5 +163,15 @@ pub(super) fn make_resident(text: &RobotText) -> Result<Resident, WorldProblem> 
     if lengths == 2 {
         make_point((start[0], start[1]))?;
     }
-    Ok(Resident { name, kind, start })
+    let sensor = sensor.as_ref().map(|s| make_noise(&kind, s)).transpose()?;
+    Ok(Resident { name, kind, start, sensor })
+}
+
+/// The noise of the sensor of a robot of this kind, which must have one.
+fn make_noise(kind: &str, text: &SensorText) -> Result<BeamModel, WorldProblem> {
+    if ["reach", "reach3", "hitch"].contains(&kind) {
+        return Err(WorldProblem::NoSensor(kind.to_owned()));
+    }
+    let &SensorText { sigma_hit, z_short, lambda_short, z_miss, z_max, z_rand } = text;
+    Ok(BeamModel { sigma_hit, z_short, lambda_short, z_miss, z_max, z_rand }.try_new()?)
 }

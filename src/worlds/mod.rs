@@ -23,10 +23,18 @@
 //! )
 //! ```
 //!
+//! A robot with a range sensor may have a noisy one, by the [`BeamModel`]'s parameters, 0 where left out (`lambda_short` 1):
+//!
+//! ```ron
+//! (name: "Rusty", kind: "rusty", start: [3, 5.5, 0],
+//!     sensor: (sigma_hit: 0.02, z_short: 0.05, lambda_short: 1, z_miss: 0.01, z_max: 0.01, z_rand: 0.01)),
+//! ```
+//!
 //! Every list may be left out. A name is unique in the whole world. A robot's `start` is its configuration's coordinates:
 //! `rusty` x, y, theta; `reach` th1, th2; `reach3` th1, th2, th3; `hitch` x, y, theta, and psi with a trailer. Other kinds
 //! begin with `x-` and belong to programs that register them.
 
+mod beam;
 mod built_in;
 mod convex_pieces;
 mod description;
@@ -43,6 +51,7 @@ mod rasterize;
 mod ros_export;
 mod source;
 
+pub use beam::{BeamError, BeamModel};
 pub use convex_pieces::{MAX_CONCAVE_VERTICES, OutlineError, convex_pieces};
 pub use distance_transform::DistanceTransform;
 pub use error::{WorldError, WorldItem, WorldProblem};

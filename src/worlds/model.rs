@@ -1,5 +1,6 @@
 //! `World`, a checked world: what is meant, as opposed to what is written in a file.
 
+use super::BeamModel;
 use crate::geometry::{Placed, Point2, Pose2, Shape};
 
 /// An axis-parallel box: the part of the plane a world shows. It is not an obstacle.
@@ -58,6 +59,8 @@ pub struct Resident {
     pub kind: String,
     /// Where it starts: its configuration's chart coordinates. Hitch starts with a trailer when there are four.
     pub start: Vec<f64>,
+    /// The noise of its range sensor; `None` for an exact one, or none.
+    pub sensor: Option<BeamModel>,
 }
 
 /// A checked world.
@@ -75,6 +78,13 @@ pub struct World {
     pub marks: Vec<Mark>,
     /// The resident robots in file order.
     pub robots: Vec<Resident>,
+}
+
+impl Resident {
+    /// The robot of this name and kind at this start, its sensor exact.
+    pub fn new(name: impl Into<String>, kind: impl Into<String>, start: impl Into<Vec<f64>>) -> Self {
+        Resident { name: name.into(), kind: kind.into(), start: start.into(), sensor: None }
+    }
 }
 
 impl Obstacle {

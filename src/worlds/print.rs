@@ -4,7 +4,7 @@ use std::fmt::{self, Write};
 
 use xxhash_rust::xxh3::xxh3_128;
 
-use super::{Obstacle, ObstacleKind, WORLD_VERSION, World};
+use super::{BeamModel, Obstacle, ObstacleKind, WORLD_VERSION, World};
 use crate::geometry::{Point2, Pose2, Shape};
 
 impl World {
@@ -43,10 +43,10 @@ impl World {
             format!("name: {}, pose: (x: {x:?}, y: {y:?}, theta: {theta:?})", Quoted(&p.name))
         });
         let marks = self.marks.iter().map(|m| format!("name: {}, points: {}", Quoted(&m.name), Points(&m.points)));
-        let robots = self
-            .robots
-            .iter()
-            .map(|r| format!("name: {}, kind: {}, start: {:?}", Quoted(&r.name), Quoted(&r.kind), r.start));
+        let robots = self.robots.iter().map(|r| {
+            let head = format!("name: {}, kind: {}, start: {:?}", Quoted(&r.name), Quoted(&r.kind), r.start);
+            r.sensor.map_or(head.clone(), |noise| format!("{head}, sensor: {}", noise_text(&noise)))
+        });
         write_list(out, "walls", walls)?;
         write_list(out, "obstacles", solids)?;
         write_list(out, "places", places)?;
@@ -54,6 +54,11 @@ impl World {
         write_list(out, "robots", robots)?;
         out.write_str(")\n")
     }
+}
+
+fn noise_text(noise: &BeamModel) -> String {
+    let fields: Vec<String> = noise.named().iter().map(|(name, value)| format!("{name}: {value:?}")).collect();
+    format!("({})", fields.join(", "))
 }
 
 fn write_list(out: &mut String, list: &str, items: impl IntoIterator<Item = String>) -> fmt::Result {

@@ -25,10 +25,7 @@ pub(crate) fn arena(half: f64, robots: &[(&str, &str, &[f64])]) -> World {
         obstacles: vec![wall],
         places: vec![],
         marks: vec![],
-        robots: robots
-            .iter()
-            .map(|(name, kind, start)| Resident { name: (*name).into(), kind: (*kind).into(), start: start.to_vec() })
-            .collect(),
+        robots: robots.iter().map(|(name, kind, start)| Resident::new(*name, *kind, *start)).collect(),
     }
 }
 

@@ -45,7 +45,7 @@ pub fn choose(worlds: &mut [World], choices: &[RobotChoice]) -> Result<(), Failu
         let keep = |r: &Resident| {
             let choice = choices.iter().find(|c| c.name == r.name)?;
             Some(match choice.stand_in.clone() {
-                Some((kind, start)) => Resident { name: r.name.clone(), kind, start },
+                Some((kind, start)) => Resident::new(r.name.clone(), kind, start),
                 None => r.clone(),
             })
         };

@@ -59,7 +59,7 @@ impl Draft {
     pub fn robot(&mut self, kind: &str, start: Vec<f64>) -> Result<(), WorldProblem> {
         check_room("robots", self.robots.len())?;
         let name = self.claim(&capitalised(kind));
-        self.robots.push(make_resident(&RobotText { name, kind: kind.to_owned(), start })?);
+        self.robots.push(make_resident(&RobotText { name, kind: kind.to_owned(), start, sensor: None })?);
         Ok(())
     }
 

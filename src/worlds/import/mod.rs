@@ -58,7 +58,7 @@ impl Imported {
             count += 1;
             name = format!("{plain} {count}");
         }
-        let text = description::RobotText { name, kind: kind.to_owned(), start: start.to_vec() };
+        let text = description::RobotText { name, kind: kind.to_owned(), start: start.to_vec(), sensor: None };
         self.world.robots.push(make_resident(&text)?);
         Ok(())
     }

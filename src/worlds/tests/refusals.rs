@@ -131,6 +131,27 @@ fn robots_nobody_knows() {
 }
 
 #[test]
+fn sensors_that_are_none() {
+    let robot = |kind: &str, start: &str, sensor: &str| {
+        refusal(&format!("robots: [\n  (name: \"r\", kind: \"{kind}\", start: [{start}], sensor: ({sensor}))]"))
+    };
+    let rusty = |sensor: &str| robot("rusty", "0, 0, 0", sensor);
+    let at = "yard.ron:4:3: robots[0] \"r\": ";
+    assert_eq!(rusty("sigma_hit: NaN"), format!("{at}sensor: sigma_hit = NaN: it must be finite and not negative"));
+    for (name, value) in [("sigma_hit", "1e999"), ("z_short", "-0.1"), ("lambda_short", "-1"), ("z_rand", "inf")] {
+        assert!(rusty(&format!("{name}: {value}")).starts_with(&format!("{at}sensor: {name} = ")), "{name}");
+    }
+    let sum = rusty("z_short: 0.5, z_miss: 0.25, z_max: 0.25, z_rand: 0.25");
+    assert!(sum.starts_with(&format!("{at}sensor: z_short + z_miss + z_max + z_rand = 1.25: ")), "{sum}");
+    assert!(rusty("z_short: 0.1, lambda_short: 0").contains("lambda_short = 0: short returns need a rate"));
+    let unknown = rusty("sigma: 0.1");
+    assert!(unknown.starts_with("yard.ron:4:") && unknown.contains(": robots[0] \"r\": "), "{unknown}");
+    for (kind, start) in [("reach", "0, 0"), ("reach3", "0, 0, 0"), ("hitch", "0, 0, 0")] {
+        assert_eq!(robot(kind, start, ""), format!("{at}a {kind} has no range sensor: leave out `sensor`"));
+    }
+}
+
+#[test]
 fn the_head_of_the_file() {
     let parse = |text: &str| World::parse("w.ron", text).unwrap_err().to_string();
     let bounds = "bounds: (min: (0, 0), max: (1, 1))";

@@ -2,7 +2,7 @@
 
 use crate::geometry::{Point2, Pose2, Shape};
 use crate::random::{Seed, Stream};
-use crate::worlds::{MAX_ITEMS, ObstacleKind, World};
+use crate::worlds::{BeamModel, MAX_ITEMS, ObstacleKind, World};
 
 const FILES: [&str; 3] = [
     include_str!("../../../worlds/apartment.ron"),
@@ -32,6 +32,8 @@ World(
     robots: [
         (name: "Rusty", kind: "rusty", start: [3, 5.5, -3.141592653589793]), (name: "a", kind: "hitch", start: [1, 2, 3, 4]),
         (name: "b", kind: "reach3", start: [1, 2, 3]), (name: "c", kind: "x-drone", start: [10000000000, 9]),
+        (name: "d", kind: "rusty", start: [1, 1, 0], sensor: (sigma_hit: 0.02, z_miss: 1e-3, z_max: -0.0)),
+        (name: "e", kind: "x-own", start: [1], sensor: ()),
     ],
 )
 "#;
@@ -72,6 +74,9 @@ fn the_yard_is_read_as_meant() {
     assert_eq!(world.marks[0].points.len(), 4);
     assert_eq!(world.place("home").unwrap().pose.theta, 7.0 - std::f64::consts::TAU);
     assert_eq!(world.robots[0].start[2], std::f64::consts::PI, "angles lie in (-pi, pi]");
+    let noise = BeamModel { sigma_hit: 0.02, z_miss: 1e-3, ..BeamModel::EXACT };
+    let sensors: Vec<_> = world.robots.iter().map(|r| r.sensor).collect();
+    assert_eq!(sensors, [None, None, None, None, Some(noise), Some(BeamModel::EXACT)], "left out, 0 (or a rate of 1)");
     assert_eq!(world.robots[3].start, [1e10, 9.0], "what a program's own robot means is its own business");
 }
 
