@@ -9,6 +9,8 @@ mod allocation;
 mod chapter;
 mod cli;
 mod edges;
+mod examples;
+mod exercises;
 mod extremes;
 mod failsafe;
 mod faults;
