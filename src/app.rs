@@ -1,5 +1,6 @@
 //! The lab in a window: the simulation's plugin, a camera, and egui painting what is in front.
 
+mod rest;
 mod window;
 
 use std::sync::Arc;
@@ -31,12 +32,15 @@ pub fn windowed_app() -> App {
         prevent_default_event_handling: false,
         ..default()
     };
-    let log = LogPlugin { level: Level::ERROR, ..default() };
+    // the graphics layers tell at length what `run_window` says in one line
+    let filter = "wgpu_hal=off,wgpu_core=off,naga=off".into();
+    let log = LogPlugin { level: Level::ERROR, filter, ..default() };
     let mut app = App::new();
     app.add_plugins((
         DefaultPlugins.set(WindowPlugin { primary_window: Some(window), ..default() }).set(log),
         EguiPlugin::default(),
         SimulationPlugin,
+        rest::RestPlugin,
     ))
     .insert_resource(EguiGlobalSettings { auto_create_primary_context: false, ..default() })
     .init_resource::<Interface>()

@@ -23,6 +23,24 @@ fn check<R: Robot>(checker: &Checker<R>, a: R::Configuration, b: R::Configuratio
     assert_eq!(counted, 0, "{a} to {b}");
 }
 
+/// Random edges: moving rectangles have hulls of up to eight corners, and the march takes every turn it can.
+#[test]
+fn no_random_edge_of_the_three_robots_allocates() {
+    fn random<R: Robot>(checker: &Checker<R>) {
+        let mut draws = Stream::new(Seed(17), "allocation");
+        let bounds = checker.scene().bounds();
+        let mut draw = || checker.robot().sample(bounds.min, bounds.max, &mut draws);
+        for _ in 0..300 {
+            check(checker, draw(), draw());
+        }
+    }
+    random(&Checker::new(Scene::apartment(), RustyDisc::default()));
+    random(&Checker::new(Scene::workbench(), Reach::<2>::workbench()));
+    random(&Checker::new(Scene::workbench(), Reach::<3>::redundant()));
+    random(&Checker::new(Scene::lot(), HITCH));
+    random(&Checker::new(Scene::lot(), HITCH.with_trailer()));
+}
+
 #[test]
 fn footprints_queries_and_edges_of_the_three_robots_do_not_allocate() {
     assert!(allocations(|| drop(std::hint::black_box(Box::new(1)))) > 0, "the counter counts");

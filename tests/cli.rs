@@ -1,9 +1,16 @@
 //! The whole program: every command and every exit code, by running it.
 
+mod diff;
 mod driving;
+mod export;
 mod files;
+mod grade;
+mod import;
+mod manual;
 mod queries;
 mod record;
+mod replay;
+mod scripts;
 mod verify;
 mod world;
 
@@ -96,6 +103,8 @@ fn a_wrong_command_line_is_2() {
         &["query", "distance", "--robot", "reach", "1,2", "3,4"],
         &["query", "edge", "--robot", "reach", "1,2"],
         &["query", "edge", "--robot", "hitch", "5,5,0", "5,5,0,0"],
+        &["query", "swept", "--robot", "reach", "1,2", "1,2,3"],
+        &["query", "swept", "--robot", "hitch", "5,5,0", "5,5,0,0"],
         &["query", "scan", "1,2", "--rays", "0"],
         &["query", "scan", "1,2", "--range", "nan"],
         &["record", "--ticks", "-1"],

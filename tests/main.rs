@@ -15,6 +15,7 @@ mod extremes;
 mod failsafe;
 mod faults;
 mod house;
+mod imports;
 mod metamorphic;
 mod pairs;
 mod penetration;

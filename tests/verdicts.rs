@@ -94,7 +94,7 @@ fn measured_speed<M: Motion>(motion: &M) -> f64 {
     1.1 * speed
 }
 
-/// Asks for the verdict on a motion and checks everything that it claims.
+/// Marches along a motion and checks everything that the verdict claims.
 pub fn check(
     world: &Sampled<'_>,
     motion: &impl Motion,
@@ -104,7 +104,19 @@ pub fn check(
     at: impl Fn() -> String,
 ) -> EdgeVerdict {
     let verdict = march(world.scene, motion, options, Some(certificate));
-    let margin = options.margin;
+    check_claims(world, motion, options.margin, (verdict, certificate), tally, at);
+    verdict
+}
+
+/// Checks everything that a verdict on a motion, and its certificate, claim.
+pub fn check_claims(
+    world: &Sampled<'_>,
+    motion: &impl Motion,
+    margin: f64,
+    (verdict, certificate): (EdgeVerdict, &Certificate),
+    tally: &mut Tally,
+    at: impl Fn() -> String,
+) {
     let proven = verify_certificate(world.scene, motion, certificate).unwrap_or_else(|e| panic!("{e}: {}", at()));
     assert_eq!(proven, certificate.proven_until(), "{}", at());
     assert!(certificate.steps().len() <= 4096, "{} steps: {}", certificate.steps().len(), at());
@@ -133,7 +145,7 @@ pub fn check(
             assert!(gap <= margin + rounding, "part {part} is {gap} away: {}", at());
             if contact_at == 0.0 {
                 tally.from_contact += 1;
-                return verdict;
+                return;
             }
             assert!(free_until < contact_at && kept_until(free_until), "not free until {free_until}: {}", at());
             let width = (0..contact.parts().len())
@@ -153,7 +165,6 @@ pub fn check(
             assert!(kept_until(free_until), "not free until {free_until}: {}", at());
         }
     }
-    verdict
 }
 
 /// Whether the motion comes at the obstacle and goes on into it: clear of it a little before, and deep in a little after.

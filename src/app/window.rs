@@ -49,7 +49,7 @@ pub fn run_window() -> Result<(), WindowError> {
         Ok(AppExit::Success) => Ok(()),
         Ok(AppExit::Error(code)) => Err(WindowError::Closed(code.get())),
         Err(panic) if opened.load(Ordering::Relaxed) => resume_unwind(panic),
-        Err(panic) => Err(WindowError::NotOpened(first_line(panic.as_ref()))),
+        Err(panic) => Err(WindowError::NotOpened(first_sentence(panic.as_ref()))),
     }
 }
 
@@ -62,11 +62,12 @@ fn check_display(variable: impl Fn(&str) -> Option<OsString>) -> Result<(), Wind
     Ok(())
 }
 
-/// What a panic said, its first line.
-fn first_line(panic: &(dyn Any + Send)) -> String {
+/// What a panic said, its first sentence.
+fn first_sentence(panic: &(dyn Any + Send)) -> String {
     let said = panic.downcast_ref::<String>().map(String::as_str).or(panic.downcast_ref::<&str>().copied());
     let line = said.and_then(|s| s.lines().next()).unwrap_or("unknown reason");
-    line.trim_end_matches(['.', '!']).to_owned()
+    let sentence = line.split_once("! ").or(line.split_once(". ")).map_or(line, |(first, _)| first);
+    sentence.trim_end_matches(['.', '!']).to_owned()
 }
 
 #[cfg(test)]
@@ -87,13 +88,14 @@ mod tests {
 
     #[test]
     fn every_way_to_have_no_window_is_one_line_that_names_the_command() {
-        let said =
-            |message: &'static str| first_line(catch_unwind(|| std::panic::panic_any(message)).unwrap_err().as_ref());
-        let adapter = WindowError::NotOpened(said("Unable to find a GPU!\nsee there"));
+        let said = |message: &'static str| {
+            first_sentence(catch_unwind(|| std::panic::panic_any(message)).unwrap_err().as_ref())
+        };
+        let adapter = WindowError::NotOpened(said("Unable to find a GPU! Make sure.\nSee there"));
         for error in [WindowError::NoDisplay, adapter] {
             let line = error.to_string();
             assert!(!line.contains('\n') && line.contains("cargo run --features headless"), "{line}");
         }
-        assert_eq!(said("Unable to find a GPU!\nsee there"), "Unable to find a GPU");
+        assert_eq!(said("Unable to find a GPU! Make sure.\nSee there"), "Unable to find a GPU");
     }
 }

@@ -13,6 +13,8 @@ pub enum Outcome {
     BadInput,
     /// A replay differs from its recording.
     Differs,
+    /// A submission does not do what its assignment asks for.
+    NotPassed,
     /// A damaged or unfinished file was used as far as it is sealed.
     Recovered,
     /// Stopped early, and resumable.

@@ -33,6 +33,7 @@ pub fn read_log(path: &Path) -> Result<LogSource, Failure> {
             }
         }
         Err(error @ LogError::NotALog) => refused(&error, "Name a file that `motion-lab record -o` wrote."),
+        Err(error @ LogError::Export) => refused(&error, "Name the log that it was exported from."),
         Err(error @ LogError::Version(_)) => refused(&error, "Read it with the motion-lab that wrote it."),
         Err(error) => refused(&error, "Record the run again."),
     }

@@ -1,10 +1,13 @@
 //! The command line: one command a file. Data goes to standard output, messages to standard error.
 
 mod bare;
+mod completions;
 mod console;
+mod diff;
 mod end;
-#[cfg(feature = "headless")]
+mod export;
 mod figure;
+mod grade;
 mod info;
 mod input;
 mod interrupt;
@@ -13,6 +16,8 @@ mod log_source;
 mod output;
 mod query;
 mod record;
+mod replay;
+mod script;
 mod simulate;
 mod summary;
 #[cfg(feature = "headless")]
@@ -33,7 +38,7 @@ Exit codes:
    1  internal error, or an output that could not be written
    2  the command line is wrong
    3  an input file is missing or wrong
-   4  the replay differs from the recording
+   4  the replay differs from the recording or one log from the other, or a graded submission does not pass
    5  the file is damaged or unfinished; its sealed beginning was used
    6  there is no display for the window
   75  stopped early; `record --resume` goes on
@@ -55,9 +60,16 @@ pub struct Cli {
 enum Command {
     Record(Box<record::Record>),
     Verify(verify::Verify),
+    Replay(replay::Replay),
+    Diff(diff::Diff),
+    Export(export::Export),
     Info(info::Info),
     Query(query::Query),
     World(world::WorldArgs),
+    Script(script::ScriptArgs),
+    Completions(completions::Completions),
+    Man(completions::ManPages),
+    Grade(grade::GradeArgs),
 }
 
 impl Cli {
@@ -66,9 +78,16 @@ impl Cli {
         match self.command {
             Some(Command::Record(record)) => record.run(data),
             Some(Command::Verify(verify)) => verify.run(data),
+            Some(Command::Replay(replay)) => replay.run(data),
+            Some(Command::Diff(diff)) => diff.run(data),
+            Some(Command::Export(export)) => export.run(data),
             Some(Command::Info(info)) => info.run(data),
             Some(Command::Query(query)) => query.run(data),
             Some(Command::World(world)) => world.run(data),
+            Some(Command::Script(script)) => script.run(data),
+            Some(Command::Completions(completions)) => completions.run(data),
+            Some(Command::Man(man)) => man.run(data),
+            Some(Command::Grade(grade)) => grade.run(data),
             None => bare::bare(data),
         }
     }

@@ -66,7 +66,6 @@ impl Write for PendingFile {
 }
 
 /// Writes a whole file.
-#[cfg(feature = "headless")]
 pub fn write_file(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
     let mut file = PendingFile::create(path)?;
     file.write_all(bytes).map_err(|error| Failure::output(path, &error))?;

@@ -1,8 +1,10 @@
 //! Runs under way, as the commands start them.
 
+use std::path::Path;
+
 use motion_lab::random::Seed;
 use motion_lab::recording::Recorder;
-use motion_lab::run::{Divergence, Log, Script, first_divergence};
+use motion_lab::run::{Divergence, Frame, Log, Script, first_divergence};
 use motion_lab::tour::TourConfig;
 
 use super::Failure;
@@ -30,4 +32,21 @@ pub fn run_again(log: &Log, mut watch: impl FnMut(&Recorder)) -> Result<Option<D
         }
     }
     Ok(None)
+}
+
+/// Shows `watch` the run of the log in `file` in the state of each of its frames, from tick 0 on, without simulating: what the frames say.
+pub fn show(
+    file: &Path,
+    log: &Log,
+    mut watch: impl FnMut(&Recorder, &Frame) -> Result<(), Failure>,
+) -> Result<(), Failure> {
+    let mut run = begin(log.seed, &log.config, &log.script)?;
+    for frame in std::iter::once(&log.initial).chain(&log.frames) {
+        run.restore(frame).map_err(|error| {
+            let reason = format!("{}: {error}", file.display());
+            Failure::input(reason, "The log holds what no run gives; `motion-lab verify` says where it differs.")
+        })?;
+        watch(&run, frame)?;
+    }
+    Ok(())
 }

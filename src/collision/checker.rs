@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use super::march::march;
+use super::closed::verdict;
 use super::{Certificate, Collision, EdgeVerdict, MarchOptions, Scene, Witness};
 use crate::geometry::{Footprint, Shape, Vector2};
 use crate::robots::{ConfigurationError, Hitch, Motion, Reach, Robot, RustyDisc};
@@ -128,12 +128,12 @@ impl<R: Robot> Checker<R> {
         b: &R::Configuration,
         certificate: &mut Certificate,
     ) -> Result<EdgeVerdict, ConfigurationError> {
-        Ok(march(&*self.scene, &self.robot.edge(a, b)?, MarchOptions::default(), Some(certificate)))
+        Ok(verdict(&self.scene, &self.robot.edge(a, b)?, MarchOptions::default(), Some(certificate)))
     }
 
     /// The verdict on any motion of this robot: an edge, or the arc of a drive.
     pub fn motion(&self, motion: &impl Motion<Configuration = R::Configuration>) -> EdgeVerdict {
-        march(&*self.scene, motion, MarchOptions::default(), None)
+        verdict(&self.scene, motion, MarchOptions::default(), None)
     }
 }
 

@@ -3,10 +3,12 @@
 mod batch;
 mod certificate;
 mod checker;
+mod closed;
 mod core;
 mod counted;
 mod dd;
 mod edge;
+mod impact;
 mod march;
 mod narrow;
 mod problem;

@@ -2,15 +2,18 @@
 
 use std::sync::Arc;
 
-use parry2d_f64::bounding_volume::Aabb;
+use parry2d_f64::bounding_volume::{Aabb, BoundingVolume};
 use parry2d_f64::math::Vector;
 use parry2d_f64::partitioning::{Bvh, BvhBuildStrategy, BvhNode, TraversalAction};
 
+use super::closed::verdict;
+use super::impact::{arc_distance, arc_meets, translation_meets};
 use super::narrow::{Nearest, depth, nearest};
 use super::segments::SegmentSoup;
-use super::{Collision, ObstacleId, Witness, swept};
-use crate::geometry::{Footprint, Placed, Pose2, Segment, Shape};
-use crate::num::{greater, ulp};
+use super::swept::{self, SWEEP};
+use super::{Collision, ObstacleId, Witness};
+use crate::geometry::{CircularArc, Footprint, Placed, Pose2, Segment, Shape};
+use crate::num::{greater, lesser, ulp};
 use crate::worlds::{Bounds, World};
 
 /// Named obstacles under one bounding-volume tree.
@@ -163,11 +166,59 @@ impl Scene {
         best.map_or(f64::INFINITY, |(_, dist)| dist)
     }
 
+    /// When a footprint that goes from `start` to `end` without turning first touches a piece, as a part of its way; rounded.
+    pub(super) fn translation_meets(&self, start: &Footprint, end: &Footprint) -> Option<f64> {
+        let mut first: Option<f64> = None;
+        for (a, b) in start.parts().iter().zip(end.parts()) {
+            let (a, b) = (a.placed(), b.placed());
+            let v = b.core()[0] - a.core()[0];
+            self.each_near(&piece_box(a).merged(&piece_box(b)), 0.0, |piece| {
+                if let Some(s) = translation_meets(a, v, &self.pieces[piece]) {
+                    first = Some(first.map_or(s, |f| lesser(s, f)));
+                }
+                false
+            });
+        }
+        first
+    }
+
+    /// When a disc of this radius whose centre runs along the arc first touches a piece; rounded.
+    pub(super) fn arc_meets(&self, arc: &CircularArc, radius: f64) -> Option<f64> {
+        let mut first: Option<f64> = None;
+        self.each_near(&arc_box(arc, radius), 0.0, |piece| {
+            let piece = &self.pieces[piece];
+            if let Some(s) = arc_meets(arc, piece.core(), radius + piece.radius()) {
+                first = Some(first.map_or(s, |f| lesser(s, f)));
+            }
+            false
+        });
+        first
+    }
+
+    /// The least clearance of a disc of this radius whose centre runs along the arc as far as `until`, metres; rounded. It is
+    /// not positive in contact, and infinity in an empty scene.
+    pub(super) fn arc_clearance(&self, arc: &CircularArc, until: f64, radius: f64) -> f64 {
+        let from = arc_box(arc, 0.0);
+        let best = self.tree.find_best(
+            f64::INFINITY,
+            |node: &BvhNode, _| box_distance(&from, node) - radius,
+            |piece, _| {
+                let piece = &self.pieces[piece as usize];
+                Some(arc_distance(arc, until, piece.core()) - piece.radius() - radius)
+            },
+        );
+        best.map_or(f64::INFINITY, |(_, clearance)| clearance)
+    }
+
     /// Calls `visit` with each piece whose box is at most `range` from the shape's box, until it returns true.
-    fn each_within(&self, shape: &Placed, range: f64, mut visit: impl FnMut(usize) -> bool) {
-        let from = piece_box(shape);
+    fn each_within(&self, shape: &Placed, range: f64, visit: impl FnMut(usize) -> bool) {
+        self.each_near(&piece_box(shape), range, visit);
+    }
+
+    /// Calls `visit` with each piece whose box is at most `range` from this box, until it returns true.
+    fn each_near(&self, from: &Aabb, range: f64, mut visit: impl FnMut(usize) -> bool) {
         self.tree.traverse(|node| {
-            if box_distance(&from, node) > range {
+            if box_distance(from, node) > range {
                 return TraversalAction::Prune;
             }
             match node.leaf_data() {
@@ -198,6 +249,13 @@ fn piece_box(shape: &Placed) -> Aabb {
     let size = [min.x, min.y, max.x, max.y].iter().fold(1.0, |m, x| greater(m, x.abs()));
     let slack = 64.0 * ulp(size);
     Aabb::new(Vector::new(min.x - slack, min.y - slack), Vector::new(max.x + slack, max.y + slack))
+}
+
+/// A box around what a disc of this radius touches along the arc: every point of it is at most half its length from one end.
+fn arc_box(arc: &CircularArc, radius: f64) -> Aabb {
+    let grown = radius + lesser(0.5 * arc.length(), 2.0 * arc.radius);
+    let ends = [arc.at(0.0), arc.at(1.0)].map(|p| Placed::new(smallvec::smallvec![p], grown));
+    piece_box(&ends[0]).merged(&piece_box(&ends[1]))
 }
 
 /// A lower bound of the distance between what two boxes hold.
@@ -269,6 +327,6 @@ impl Collision for Scene {
     }
 
     fn swept(&self, a: &Footprint, b: &Footprint) -> bool {
-        swept::hits(self, a, b)
+        swept::hits(self, a, b, |motion| verdict(self, motion, SWEEP, None))
     }
 }

@@ -1,7 +1,9 @@
 //! `Surroundings`, a scene and other robots' footprints in it.
 
+use super::march::march;
 use super::narrow::nearest;
-use super::{Collision, ObstacleId, Scene, Witness, swept};
+use super::swept::{self, SWEEP};
+use super::{Collision, ObstacleId, Scene, Witness};
 use crate::geometry::{Footprint, Placed};
 
 /// A scene together with further placed shapes: what one robot among several may not touch. Obstacle ids from the scene's
@@ -62,6 +64,6 @@ impl Collision for Surroundings<'_> {
     }
 
     fn swept(&self, a: &Footprint, b: &Footprint) -> bool {
-        swept::hits(self, a, b)
+        swept::hits(self, a, b, |motion| march(self, motion, SWEEP, None))
     }
 }

@@ -2,8 +2,7 @@
 
 use smallvec::SmallVec;
 
-use super::march::march;
-use super::{Collision, MarchOptions};
+use super::{Collision, EdgeVerdict, MarchOptions};
 use crate::configuration::R2;
 use crate::geometry::{Footprint, Part, Pose2};
 use crate::num::{hypot, wrap};
@@ -11,10 +10,10 @@ use crate::robots::{Motion, Rates};
 
 /// The number of proof attempts after which a sweep counts as a hit. Enough to resolve a clearance of 1e-6 m along a metre
 /// of travel and a full half turn of a part ten metres long.
-const BUDGET: u32 = 1 << 18;
+pub(super) const SWEEP: MarchOptions = MarchOptions { margin: 0.0, budget: 1 << 18 };
 
 /// The rigid motion of every part from its pose in one footprint to its pose in another.
-struct PartsMotion<'a> {
+pub(super) struct PartsMotion<'a> {
     from: &'a Footprint,
     to: &'a Footprint,
     turns: SmallVec<[f64; 3]>,
@@ -49,8 +48,13 @@ impl Motion for PartsMotion<'_> {
     }
 }
 
-/// Whether the sweep from `a` to `b` hits, or cannot be proven free.
-pub(super) fn hits(collision: &dyn Collision, a: &Footprint, b: &Footprint) -> bool {
+/// Whether the sweep from `a` to `b` hits, or `judge` cannot prove it free.
+pub(super) fn hits(
+    collision: &dyn Collision,
+    a: &Footprint,
+    b: &Footprint,
+    judge: impl FnOnce(&PartsMotion<'_>) -> EdgeVerdict,
+) -> bool {
     let same_parts =
         a.parts().len() == b.parts().len() && a.parts().iter().zip(b.parts()).all(|(p, q)| p.shape() == q.shape());
     if !same_parts || !a.is_valid() || !b.is_valid() {
@@ -68,5 +72,5 @@ pub(super) fn hits(collision: &dyn Collision, a: &Footprint, b: &Footprint) -> b
     });
     let rates = rates.collect();
     let motion = PartsMotion { from: a, to: b, turns, rates };
-    !march(collision, &motion, MarchOptions { margin: 0.0, budget: BUDGET }, None).is_free()
+    !judge(&motion).is_free()
 }

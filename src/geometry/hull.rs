@@ -16,8 +16,9 @@ pub fn convex_hull(points: &[Point2]) -> SmallVec<[Point2; 8]> {
     if sorted.len() <= 2 {
         return SmallVec::from_slice(&sorted);
     }
-    let mut hull: SmallVec<[Point2; 8]> = SmallVec::new();
-    let chain = |hull: &mut SmallVec<[Point2; 8]>, from: usize, p: Point2| {
+    // with room for the start twice: the hull of two rectangles may have eight corners, and must not touch the heap
+    let mut hull: SmallVec<[Point2; 16]> = SmallVec::new();
+    let chain = |hull: &mut SmallVec<[Point2; 16]>, from: usize, p: Point2| {
         while hull.len() >= from + 2 && orientation(hull[hull.len() - 2], hull[hull.len() - 1], p) <= 0.0 {
             hull.pop();
         }
@@ -31,7 +32,7 @@ pub fn convex_hull(points: &[Point2]) -> SmallVec<[Point2; 8]> {
         chain(&mut hull, lower, p);
     }
     hull.pop(); // the start again
-    hull
+    SmallVec::from_slice(&hull)
 }
 
 #[cfg(test)]

@@ -1,5 +1,6 @@
 //! Points, poses, shapes and footprints: plain values in metres and radians, x right, y up, counter-clockwise positive.
 
+mod arc;
 mod footprint;
 mod hull;
 mod placed;
@@ -8,6 +9,7 @@ mod pose;
 mod segment;
 mod shape;
 
+pub use arc::CircularArc;
 pub use footprint::{Footprint, Part};
 pub use hull::convex_hull;
 pub use placed::{Placed, largest_coordinate};

@@ -1,4 +1,4 @@
-//! Recording and replaying runs: the headless app, running the one schedule.
+//! Recording, replaying and grading runs: the headless app, running the one schedule.
 //!
 //! ```
 //! use motion_lab::prelude::*;
@@ -12,12 +12,17 @@
 //! ```
 
 mod final_lines;
+mod grade;
 mod identity;
 mod recorder;
 mod run;
 
 pub use crate::simulation::RunInput;
 pub use final_lines::{final_lines, printed_configuration};
+pub use grade::{
+    Assignment, AssignmentError, AssignmentFile, AssignmentProblem, Attempt, Goal, Grade, Limits, MAX_SEEDS, Refusal,
+    Submission, Verdict,
+};
 pub use identity::identity_line;
 pub use recorder::{Recorder, RunError};
 pub use run::Run;

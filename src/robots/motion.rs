@@ -1,7 +1,7 @@
 //! `Motion`, what the certified march, the simulator's holding and the planners' edges have in common.
 
 use crate::configuration::Configuration;
-use crate::geometry::Footprint;
+use crate::geometry::{CircularArc, Footprint};
 
 /// Bounds on how the points of one part's core move, per unit of the motion's parameter.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -25,6 +25,12 @@ pub trait Motion {
 
     /// Bounds that hold for part number `part` over the whole motion.
     fn rates(&self, part: usize) -> Rates;
+
+    /// The arc that the centre of the footprint's only part follows, and the part's radius, where the part is a disc and the
+    /// motion such an arc. For these the checker has closed forms.
+    fn disc_arc(&self) -> Option<(CircularArc, f64)> {
+        None
+    }
 
     /// How far part number `part`, as a set, can move between `s0` and `s1`, metres.
     ///

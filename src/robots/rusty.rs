@@ -1,12 +1,12 @@
 //! Rusty, a disc-shaped rover with two driven wheels.
 
-use std::f64::consts::TAU;
+use std::f64::consts::{FRAC_PI_2, TAU};
 
 use smallvec::smallvec;
 
 use super::{ConfigurationError, Drivable, Motion, PartRates, Rates, Robot, sample_angle};
 use crate::configuration::{Configuration, R2};
-use crate::geometry::{Footprint, Point2, Pose2, Shape, ShapeError, Tangent2};
+use crate::geometry::{CircularArc, Footprint, Point2, Pose2, Shape, ShapeError, Tangent2};
 use crate::num;
 use crate::random::Stream;
 
@@ -167,6 +167,17 @@ impl Motion for RustyArc {
     fn rates(&self, _part: usize) -> Rates {
         // uniform motion on a circle: speed |ds|, centripetal acceleration |ds dtheta|
         Rates { speed: self.ahead.abs(), acceleration: (self.ahead * self.turn).abs() }
+    }
+
+    fn disc_arc(&self) -> Option<(CircularArc, f64)> {
+        let to_centre = self.ahead / self.turn; // to the left when positive
+        if !(to_centre.is_finite() && to_centre != 0.0) {
+            return None;
+        }
+        let centre = self.start.transform(Point2::new(0.0, to_centre));
+        let side = if to_centre > 0.0 { -FRAC_PI_2 } else { FRAC_PI_2 };
+        let start = num::wrap(self.start.theta + side);
+        Some((CircularArc { centre, radius: to_centre.abs(), start, turn: self.turn }, self.robot.body_radius))
     }
 }
 

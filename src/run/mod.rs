@@ -1,5 +1,6 @@
 //! Runs as data: the input script, the frames, their digests, where two runs differ, and the log as a file.
 
+mod difference;
 mod digest;
 mod divergence;
 mod field;
@@ -11,11 +12,12 @@ mod mcap;
 mod script;
 mod script_text;
 
+pub use difference::SetupDifference;
 pub use digest::{Digest, RunDigest};
 pub use divergence::{Divergence, first_divergence};
 pub use field::Value;
 pub use frame::{Frame, RobotScan, RobotState};
 pub use log::{DT, Log};
-pub use mcap::{DamageKind, DamagedLog, FORMAT_VERSION, GENERATOR, LogError, LogWriter, ReadLog};
+pub use mcap::{DamageKind, DamagedLog, EXPORT_PROFILE, FORMAT_VERSION, GENERATOR, LogError, LogWriter, ReadLog};
 pub use script::{Event, Quantized, RobotInput, SCRIPT_VERSION, Script};
 pub use script_text::{MAX_CHANNEL, MAX_COORDINATES, MAX_EVENTS, ScriptError, ScriptProblem};

@@ -87,6 +87,19 @@ impl Grid {
         Ok(Grid { origin: min, resolution, columns, rows, occupied: vec![false; cells as usize] })
     }
 
+    /// The grid with these cells, row after row from the lowest; `None` when they are not as many as columns and rows tell.
+    #[cfg(not(target_family = "wasm"))]
+    pub(super) fn of_cells(
+        origin: Point2,
+        resolution: f64,
+        columns: u32,
+        rows: u32,
+        occupied: Vec<bool>,
+    ) -> Option<Grid> {
+        let fits = columns > 0 && rows > 0 && occupied.len() as u64 == u64::from(columns) * u64::from(rows);
+        fits.then_some(Grid { origin, resolution, columns, rows, occupied })
+    }
+
     /// The number of columns, at least 1.
     pub fn columns(&self) -> u32 {
         self.columns
@@ -116,7 +129,7 @@ impl Grid {
 
     /// The least and the greatest corner of a cell, in world coordinates.
     pub fn square(&self, column: u32, row: u32) -> (Point2, Point2) {
-        (self.lines(column, row), self.lines(column.saturating_add(1), row.saturating_add(1)))
+        (self.corner(column, row), self.corner(column.saturating_add(1), row.saturating_add(1)))
     }
 
     /// The middle of a cell, in world coordinates.
@@ -132,7 +145,8 @@ impl Grid {
         Some((column, row))
     }
 
-    fn lines(&self, column: u32, row: u32) -> Point2 {
+    /// Where the grid lines `column` and `row` cross.
+    pub(super) fn corner(&self, column: u32, row: u32) -> Point2 {
         Point2::new(line(self.origin.x, self.resolution, column), line(self.origin.y, self.resolution, row))
     }
 

@@ -41,11 +41,14 @@ mod description;
 mod distance_transform;
 mod error;
 mod grid;
+#[cfg(not(target_family = "wasm"))]
+pub mod import;
 mod items;
 mod model;
 mod parse;
 mod print;
 mod rasterize;
+mod ros_export;
 mod source;
 
 pub use beam::{BeamError, BeamModel};
@@ -54,6 +57,7 @@ pub use distance_transform::DistanceTransform;
 pub use error::{WorldError, WorldItem, WorldProblem};
 pub use grid::{Grid, GridError, MAX_CELLS};
 pub use model::{Bounds, Mark, Obstacle, ObstacleKind, Place, Resident, World};
+pub use ros_export::RosFiles;
 
 /// The version of the world format that is read and written.
 pub const WORLD_VERSION: u64 = 1;

@@ -8,7 +8,7 @@ use super::source::{Part, Source};
 use super::{MAX_ITEMS, World, WorldError, WorldItem, WorldProblem};
 
 /// A name's greatest length, bytes.
-const MAX_NAME: usize = 200;
+pub(super) const MAX_NAME: usize = 200;
 
 impl World {
     /// The world that `text`, a world file, describes. `source_name` is what errors call the file.

@@ -22,11 +22,15 @@ fn an_output_that_cannot_be_is_1_and_leaves_nothing() {
 
 #[cfg(unix)]
 #[test]
-fn a_device_is_not_replaced_by_a_file() {
+fn a_device_or_a_pipe_is_not_replaced_by_a_file() {
     use std::os::unix::fs::FileTypeExt;
-    let error = run(&["record", "--ticks", "5", "-o", "/dev/null"]).failed(1);
-    assert!(error.contains("/dev/null"), "{error}");
-    assert!(fs::metadata("/dev/null").unwrap().file_type().is_char_device());
+    // a pipe of our own: a fault here must not cost the machine its /dev/null
+    let folder = tempfile::tempdir().unwrap();
+    let pipe = folder.path().join("pipe");
+    assert!(Command::new("mkfifo").arg(&pipe).status().unwrap().success());
+    let error = run(&["record", "--ticks", "5", "-o", pipe.to_str().unwrap()]).failed(1);
+    assert!(error.contains("pipe: it can't be written") && error.contains("not a file"), "{error}");
+    assert!(fs::metadata(&pipe).unwrap().file_type().is_fifo());
 }
 
 /// The limit on file sizes makes a write fail in the middle, as a full disk does.

@@ -70,6 +70,9 @@ pub enum LogError {
     /// The file is something else.
     #[error("this is not a run log: it does not begin as an MCAP file does")]
     NotALog,
+    /// The file was made from a log for viewers.
+    #[error("this is an export for viewers, not the run log itself")]
+    Export,
     /// A log in a version of the format that this program does not read.
     #[error("the log has format version {0:?}; this program reads version {version:?}", version = super::FORMAT_VERSION)]
     Version(String),

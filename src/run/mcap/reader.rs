@@ -6,8 +6,8 @@ use xxhash_rust::xxh3::xxh3_128;
 use super::encoder::{Encoder, put_seal};
 use super::message::{FrameMessage, ScanMessage};
 use super::preamble::Preamble;
-use super::record::{MAGIC, Record, SEAL, message, opcode, record_at};
-use super::{DamageKind, DamagedLog, LogError, channel};
+use super::record::{Cursor, MAGIC, Record, SEAL, message, opcode, record_at};
+use super::{DamageKind, DamagedLog, EXPORT_PROFILE, LogError, channel};
 use crate::run::{Frame, Log};
 
 /// A log read from a file.
@@ -36,13 +36,16 @@ impl Log {
     /// compared. So a file that was cut, changed in any bit or appended to is never `Ok`.
     ///
     /// # Errors
-    /// [`LogError::Damaged`] with all that is sealed; [`LogError::NotALog`], [`LogError::Version`]; and when the part before
+    /// [`LogError::Damaged`] with all that is sealed; [`LogError::NotALog`], [`LogError::Export`], [`LogError::Version`]; and when the part before
     /// the first tick is sealed but makes no sense, [`LogError::Content`], [`LogError::Config`], [`LogError::Script`] or
     /// [`LogError::Foreign`].
     pub fn read_mcap(file: &[u8]) -> Result<ReadLog, LogError> {
         if !file.starts_with(MAGIC) {
             let cut = MAGIC.starts_with(file);
             return Err(if cut { damaged(None, 0, DamageKind::Cut) } else { LogError::NotALog });
+        }
+        if is_export(file) {
+            return Err(LogError::Export);
         }
         // The seal is checked before anything it covers is looked into: what is damaged is then never called wrong.
         let records = piece(file, MAGIC.len()).map_err(|kind| damaged(None, 0, kind))?;
@@ -85,6 +88,12 @@ impl Log {
             Err(kind) => Err(damaged(Some(read), at, kind)),
         }
     }
+}
+
+/// Whether the header says that the file was made for viewers.
+fn is_export(file: &[u8]) -> bool {
+    record_at(file, MAGIC.len())
+        .is_some_and(|r| r.opcode == opcode::HEADER && Cursor(r.content).str() == Some(EXPORT_PROFILE))
 }
 
 fn damaged(recovered: Option<ReadLog>, sealed_bytes: usize, kind: DamageKind) -> LogError {

@@ -1,4 +1,6 @@
-//! `world`: check world files, list and print worlds.
+//! `world`: check world files, list and print worlds, read them from other formats.
+
+mod import;
 
 use std::path::PathBuf;
 
@@ -6,10 +8,11 @@ use clap::{Args, Subcommand};
 use motion_lab::worlds::World;
 use serde::Serialize;
 
-use super::world_source::{find_world, read_world};
-use super::{Data, Failure, Outcome, say};
+use crate::cli::world_source::{find_world, read_world};
+use crate::cli::{Data, Failure, Outcome, say};
+use import::Import;
 
-/// Check world files; list and print worlds.
+/// Check world files; list and print worlds; read them from other formats.
 #[derive(Debug, Args)]
 pub struct WorldArgs {
     #[command(subcommand)]
@@ -40,6 +43,7 @@ enum WorldCommand {
         #[arg(value_name = "NAME|FILE")]
         world: String,
     },
+    Import(Box<Import>),
 }
 
 /// What is said of a world.
@@ -70,6 +74,7 @@ impl WorldArgs {
                 data.text(&find_world(&world)?.to_ron())?;
                 Ok(Outcome::Done)
             }
+            WorldCommand::Import(import) => import.run(data),
         }
     }
 }

@@ -1,0 +1,114 @@
+//! A row of comma-separated values for each tick and robot.
+
+use std::fmt::Write;
+
+use motion_lab::run::{DT, Frame, Log, RobotState};
+
+use super::frames;
+use super::sink::Sink;
+use crate::cli::Failure;
+
+/// How many columns each list gets: as many as it has items at the most.
+#[derive(Default)]
+struct Widths {
+    configuration: usize,
+    extra: usize,
+    target: usize,
+    ranges: usize,
+}
+
+/// Writes the names of the columns, then a row for each tick from 0 on and each robot by id. A cell without a value is empty.
+pub fn write(log: &Log, ranges: bool, sink: &mut Sink) -> Result<(), Failure> {
+    let mut widths = Widths::default();
+    for frame in frames(log) {
+        for robot in &frame.robots {
+            widths.configuration = widths.configuration.max(robot.configuration.len());
+            widths.extra = widths.extra.max(robot.extra.len());
+            widths.target = widths.target.max(robot.target.len());
+        }
+        for scan in frame.scans.iter().filter(|_| ranges) {
+            widths.ranges = widths.ranges.max(scan.ranges.len());
+        }
+    }
+    sink.line(widths.head())?;
+    let names: Vec<String> = log.config.robot_names().map(cell).collect();
+    let mut row = String::new();
+    for frame in frames(log) {
+        if sink.is_closed() {
+            break;
+        }
+        for (name, robot) in names.iter().zip(&frame.robots) {
+            row.clear();
+            widths.row(frame, name, robot, &mut row);
+            sink.line(&row)?;
+        }
+    }
+    Ok(())
+}
+
+impl Widths {
+    fn head(&self) -> String {
+        let mut head = "tick,time,id,robot".to_owned();
+        let mut list = |name: &str, width: usize| {
+            for i in 0..width {
+                let _ = write!(head, ",{name}{i}");
+            }
+        };
+        list("configuration", self.configuration);
+        list("extra", self.extra);
+        list("channel", 2);
+        list("target", self.target);
+        head.push_str(",manual,in_contact,contacts,flash,refusals");
+        for i in 0..self.ranges {
+            let _ = write!(head, ",range{i}");
+        }
+        head
+    }
+
+    fn row(&self, frame: &Frame, name: &str, robot: &RobotState, row: &mut String) {
+        let RobotState { id, configuration, extra, channels, target, manual, in_contact, contacts, flash, refusals } =
+            robot;
+        let Frame { tick, .. } = frame;
+        // writing into a string can't fail
+        let _ = write!(row, "{tick},{:?},{id},{name}", *tick as f64 * DT);
+        list(configuration, self.configuration, row);
+        list(extra, self.extra, row);
+        let _ = write!(row, ",{},{}", channels[0], channels[1]);
+        list(target, self.target, row);
+        let _ = write!(row, ",{manual},{in_contact},{contacts},{flash},{refusals}");
+        let scan = frame.scans.iter().find(|scan| scan.robot == *id);
+        list(scan.map_or(&[], |scan| &scan.ranges), self.ranges, row);
+    }
+}
+
+fn list(numbers: &[f64], width: usize, row: &mut String) {
+    for i in 0..width {
+        row.push(',');
+        if let Some(x) = numbers.get(i) {
+            let _ = write!(row, "{x:?}");
+        }
+    }
+}
+
+/// A text as a cell: in quotes where it has to be.
+fn cell(text: &str) -> String {
+    if text.contains([',', '"', '\n', '\r']) { format!("\"{}\"", text.replace('"', "\"\"")) } else { text.to_owned() }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn cells_are_quoted_where_they_must_be() {
+        assert_eq!(cell("Rusty 2"), "Rusty 2");
+        assert_eq!(cell("a,b \"c\"\n"), "\"a,b \"\"c\"\"\n\"");
+    }
+
+    #[test]
+    fn numbers_keep_every_bit_and_missing_ones_are_empty() {
+        let mut row = String::new();
+        list(&[0.1 + 0.2, -0.0, f64::INFINITY, 5e-324], 5, &mut row);
+        assert_eq!(row, ",0.30000000000000004,-0.0,inf,5e-324,");
+    }
+}

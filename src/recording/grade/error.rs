@@ -1,0 +1,80 @@
+//! Why an assignment file is refused, and where in it.
+
+use std::fmt;
+
+use super::super::RunError;
+use super::MAX_SEEDS;
+use crate::tour::MAX_TICKS;
+
+/// An assignment file that is refused: where, which item, and why.
+///
+/// Prints as `exam.ron:5: goal: 2 coordinates, 3 tolerances: there must be one for each`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct AssignmentError {
+    /// The file, as the caller named it.
+    pub file: String,
+    /// The line, from 1: where the item begins, or where reading stopped.
+    pub line: usize,
+    /// The item; empty when the file is not of the format's form.
+    pub item: &'static str,
+    /// The reason.
+    pub problem: AssignmentProblem,
+}
+
+impl fmt::Display for AssignmentError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}:{}: ", self.file, self.line)?;
+        if !self.item.is_empty() {
+            write!(f, "{}: ", self.item)?;
+        }
+        write!(f, "{}", self.problem)
+    }
+}
+
+impl std::error::Error for AssignmentError {}
+
+/// Why an assignment file is refused.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum AssignmentProblem {
+    /// Not RON, or not of the expected form: an unknown or missing field, a text where a number belongs.
+    #[error("{0}")]
+    Syntax(String),
+    /// A version of the format that this program does not read.
+    #[error("version {0}: this program reads version 1")]
+    Version(u64),
+    /// A robot that does not live in the world.
+    #[error("there is no robot {robot:?} in the world; it has {there}")]
+    Robot {
+        /// The robot asked for.
+        robot: String,
+        /// The robots that are there.
+        there: String,
+    },
+    /// Coordinates that are no configuration of the robot.
+    #[error("no configuration of the robot: {0}")]
+    Configuration(RunError),
+    /// The robot would be in contact from the beginning, or at the goal.
+    #[error("there the robot touches {0}")]
+    Touches(String),
+    /// Not one tolerance for each coordinate.
+    #[error("{coordinates} coordinates, {tolerances} tolerances: there must be one for each")]
+    Tolerances {
+        /// The coordinates.
+        coordinates: usize,
+        /// The tolerances.
+        tolerances: usize,
+    },
+    /// A tolerance that is negative or not a number.
+    #[error("tolerance {0}: it must be 0 or more")]
+    Tolerance(f64),
+    /// A number of ticks out of range.
+    #[error("{0} ticks: there must be 1 to {MAX_TICKS}")]
+    Ticks(u64),
+    /// Reversals of a robot that has no forward.
+    #[error("an arm has no direction to reverse")]
+    Reversals,
+    /// No seed, or too many.
+    #[error("{0} seeds: there must be 1 to {MAX_SEEDS}")]
+    Seeds(usize),
+}

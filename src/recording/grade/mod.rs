@@ -1,0 +1,140 @@
+//! Grading: an instructor's [`Assignment`] against what was handed in, by running it again.
+//!
+//! A submission is a script, or a log, which holds a script. The script is run at every seed of the assignment; what a log's
+//! frames claim is not believed but simulated again, and a log whose frames are not those of its own run is forged.
+//!
+//! ```
+//! use motion_lab::recording::{AssignmentFile, Submission, Verdict};
+//! use motion_lab::run::Script;
+//! use motion_lab::worlds::World;
+//!
+//! let text = r#"Assignment(
+//!     version: 1,
+//!     world: "lot",                                     // a built-in world, or a world file
+//!     robot: "Hitch",
+//!     start: [6.5, 2.5, 0],                             // left out: where the world has it
+//!     goal: (at: [7.5, 2.5, 0], within: [0.1, 0.1, 0.1], ticks: 1),
+//!     limits: (ticks: 200, contacts: 0, reversals: 0),  // the last two may be left out
+//!     seeds: [1, 2005],
+//! )"#;
+//! let file = AssignmentFile::parse("forward.ron", text)?;
+//! let assignment = file.in_world(World::lot())?;
+//! let script = Script::parse("mine.ron", r#"Script(version: 1, events: [
+//!     (tick: 1, robot: "Hitch", input: Drive(128, 0)),
+//! ])"#)?;
+//! let grade = assignment.grade(&Submission::Script(script));
+//! assert!(grade.passed(), "{grade:?}");
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+
+mod assignment;
+mod attempt;
+mod error;
+
+use std::iter::once;
+use std::slice::from_ref;
+
+pub use assignment::{Assignment, AssignmentFile, Goal, Limits, MAX_SEEDS};
+pub use attempt::{Attempt, Verdict};
+pub use error::{AssignmentError, AssignmentProblem};
+
+use super::{Recorder, RunError};
+use crate::run::{Divergence, Log, RobotInput, Script, ScriptError, first_divergence};
+
+/// What was handed in.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Submission {
+    /// A script.
+    Script(Script),
+    /// A recorded run.
+    Log(Box<Log>),
+}
+
+/// Why a submission cannot be graded at all.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum Refusal {
+    /// The script names a robot that is not there, or is none.
+    #[error(transparent)]
+    Script(#[from] ScriptError),
+    /// A teleport, which is no way to get anywhere.
+    #[error("events[{0}]: a teleport is not allowed")]
+    Teleport(usize),
+    /// The run of a log, or of an assignment, cannot start.
+    #[error(transparent)]
+    Run(#[from] RunError),
+    /// A log of a run elsewhere.
+    #[error("the log was recorded in another world, or from another start")]
+    OtherWorld,
+    /// A frame of a log that is not what its script makes of its seed.
+    #[error("forged at {0}")]
+    Forged(Box<Divergence>),
+}
+
+/// What a submission came to.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Grade {
+    /// Why it was not run; `None` when it was.
+    pub refusal: Option<Refusal>,
+    /// One attempt for each of the assignment's seeds, in its order; none when it was refused.
+    pub attempts: Vec<Attempt>,
+}
+
+impl Grade {
+    /// Whether the submission does what the assignment asks for, at every seed.
+    pub fn passed(&self) -> bool {
+        self.refusal.is_none() && self.attempts.iter().all(|attempt| attempt.verdict == Verdict::Passed)
+    }
+}
+
+impl Assignment {
+    /// Grades a submission: the same grade on every machine.
+    pub fn grade(&self, submission: &Submission) -> Grade {
+        let script = match submission {
+            Submission::Script(script) => script,
+            Submission::Log(log) => &log.script,
+        };
+        let attempts = self.accept(submission).and_then(|()| {
+            self.seeds().iter().map(|&seed| Ok(Attempt::run(self, seed, script)?)).collect::<Result<Vec<_>, Refusal>>()
+        });
+        match attempts {
+            Ok(attempts) => Grade { refusal: None, attempts },
+            Err(refusal) => Grade { refusal: Some(refusal), attempts: Vec::new() },
+        }
+    }
+
+    fn accept(&self, submission: &Submission) -> Result<(), Refusal> {
+        let script = match submission {
+            Submission::Script(script) => script,
+            Submission::Log(log) => {
+                if let Some(divergence) = forgery(log)? {
+                    return Err(Refusal::Forged(Box::new(divergence)));
+                }
+                let hash = self.world().content_hash();
+                if !log.config.worlds.iter().any(|world| world.content_hash() == hash) {
+                    return Err(Refusal::OtherWorld);
+                }
+                &log.script
+            }
+        };
+        script.check()?;
+        let names: Vec<&str> = self.world().robots.iter().map(|robot| robot.name.as_str()).collect();
+        script.check_robots(&names)?;
+        match script.events.iter().position(|event| matches!(event.input, RobotInput::Teleport(_))) {
+            Some(event) => Err(Refusal::Teleport(event)),
+            None => Ok(()),
+        }
+    }
+}
+
+/// The first value of a log's frames that its seed, configuration and script do not give.
+fn forgery(log: &Log) -> Result<Option<Divergence>, RunError> {
+    let mut run = Recorder::new(log.config.clone(), (log.seed, log.script.clone()))?;
+    for (tick, claimed) in (0..).zip(once(&log.initial).chain(&log.frames)) {
+        let frame = if tick == 0 { run.frame() } else { run.step() };
+        if let Some(divergence) = first_divergence(from_ref(frame), from_ref(claimed)) {
+            return Ok(Some(divergence));
+        }
+    }
+    Ok(None)
+}

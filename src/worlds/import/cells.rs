@@ -1,0 +1,141 @@
+//! `CellMap`, a map of cells, and the world it stands for.
+
+use super::trace::trace;
+use super::{Draft, ImportError, ImportProblem, Imported};
+use crate::geometry::{MIN_FEATURE, Point2, Pose2};
+use crate::num::{greater, lesser};
+use crate::worlds::description::{ShapeText, Xy};
+use crate::worlds::{Grid, MAX_CELLS, WorldProblem};
+
+/// What occupied cells become.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum CellStyle {
+    /// Closed walls along their borders, edges in line joined to one. Their inside holds no obstacle: nothing gets in, but a
+    /// robot put there touches nothing.
+    #[default]
+    Walls,
+    /// Boxes that cover them, inside and all.
+    Boxes,
+}
+
+/// A map of occupied cells.
+#[derive(Clone, Debug, PartialEq)]
+pub struct CellMap {
+    /// The cells.
+    pub grid: Grid,
+    /// The pose of the grid's frame in the world. Where it is the identity the cells' corners are the grid's own, to the bit.
+    pub frame: Pose2,
+    /// What a reader should know of it.
+    pub notes: Vec<String>,
+}
+
+impl CellMap {
+    /// The world in which the occupied cells are obstacles, within the map's border. Every edge lies on borders of cells.
+    ///
+    /// # Errors
+    /// [`ImportError`] when there are too many edges or boxes for a world, when coordinates are too large or cells smaller than
+    /// [`MIN_FEATURE`], or when no cell is occupied. `file` is what it calls the map.
+    pub fn world(&self, file: &str, name: &str, style: CellStyle) -> Result<Imported, ImportError> {
+        let mut draft = Draft::default();
+        self.notes.iter().for_each(|note| draft.note(note));
+        let obstacles = match style {
+            CellStyle::Walls => self.walls(&mut draft),
+            CellStyle::Boxes => self.boxes(&mut draft),
+        };
+        let imported = obstacles.and_then(|()| {
+            let (min, max) = self.bounds();
+            if draft.is_empty() { Ok(None) } else { draft.finish(name, min, max).map(Some) }
+        });
+        match imported {
+            Ok(Some(imported)) => Ok(imported),
+            Ok(None) => Err(ImportError::at(0, "", ImportProblem::Nothing).of(file)),
+            Err(problem) => Err(ImportError::at(0, "", problem).of(file)),
+        }
+    }
+
+    fn walls(&self, draft: &mut Draft) -> Result<(), WorldProblem> {
+        let lines = trace(&self.grid);
+        lines.iter().try_for_each(|line| draft.wall("wall", line.iter().map(|&c| self.corner(c)).collect(), true))
+    }
+
+    fn boxes(&self, draft: &mut Draft) -> Result<(), WorldProblem> {
+        for (low, high) in rectangles(&self.grid) {
+            let shape = if self.frame == Pose2::IDENTITY {
+                ShapeText::Box { min: self.corner(low), max: self.corner(high) }
+            } else {
+                let corners = [low, (high.0, low.1), high, (low.0, high.1)];
+                ShapeText::Polygon(corners.map(|c| self.corner(c)).to_vec())
+            };
+            draft.solid("box", shape)?;
+        }
+        Ok(())
+    }
+
+    /// A corner of cells in the world.
+    fn corner(&self, (column, row): (u32, u32)) -> Xy {
+        let at = self.grid.corner(column, row);
+        let at = if self.frame == Pose2::IDENTITY { at } else { self.frame.transform(at) };
+        (at.x, at.y)
+    }
+
+    fn bounds(&self) -> (Xy, Xy) {
+        let (right, top) = (self.grid.columns(), self.grid.rows());
+        let [first, rest @ ..] = [(0, 0), (right, 0), (right, top), (0, top)].map(|c| self.corner(c));
+        rest.iter().fold((first, first), |(min, max), p| {
+            ((lesser(p.0, min.0), lesser(p.1, min.1)), (greater(p.0, max.0), greater(p.1, max.1)))
+        })
+    }
+}
+
+/// Rectangles of cells, by their lower left and upper right corner, that cover the occupied cells and overlap nowhere: each as
+/// wide as can be, then as high.
+fn rectangles(grid: &Grid) -> Vec<((u32, u32), (u32, u32))> {
+    let (columns, rows) = (grid.columns(), grid.rows());
+    let mut left = grid.clone();
+    let mut found = Vec::new();
+    for row in 0..rows {
+        for column in 0..columns {
+            if !left.is_occupied(column, row) {
+                continue;
+            }
+            let end = (column..columns).find(|&c| !left.is_occupied(c, row)).unwrap_or(columns);
+            let is_full = |r: u32| (column..end).all(|c| left.is_occupied(c, r));
+            let top = (row + 1..rows).find(|&r| !is_full(r)).unwrap_or(rows);
+            for r in row..top {
+                (column..end).for_each(|c| left.set_occupied(c, r, false));
+            }
+            found.push(((column, row), (end, top)));
+        }
+    }
+    found
+}
+
+/// The cells of a map given by its rows from the top, checked for their number and size.
+pub(super) fn grid_of(
+    origin: Point2,
+    resolution: f64,
+    columns: u64,
+    rows: u64,
+    cells: impl FnOnce() -> Result<Vec<bool>, ImportError>,
+) -> Result<Grid, ImportError> {
+    check_size(columns, rows).map_err(|problem| ImportError::at(0, "", problem))?;
+    if !(resolution.is_finite() && resolution >= MIN_FEATURE) {
+        let problem = super::error::wrong_value(resolution, "a cell's size in metres, finite and at least 0.001");
+        return Err(ImportError::at(0, "resolution", problem));
+    }
+    let from_the_top = cells()?;
+    let from_below: Vec<bool> = from_the_top.chunks(columns as usize).rev().flatten().copied().collect();
+    Grid::of_cells(origin, resolution, columns as u32, rows as u32, from_below).ok_or_else(|| {
+        let problem =
+            ImportProblem::Count { what: "cells", found: from_the_top.len() as u64, expected: columns * rows };
+        ImportError::at(0, "", problem)
+    })
+}
+
+/// Whether a map may have so many cells.
+pub(super) fn check_size(columns: u64, rows: u64) -> Result<(), ImportProblem> {
+    match columns.checked_mul(rows) {
+        Some(cells) if cells <= MAX_CELLS => Ok(()),
+        _ => Err(ImportProblem::TooManyCells { columns, rows }),
+    }
+}

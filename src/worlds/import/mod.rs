@@ -1,0 +1,64 @@
+//! Worlds from elsewhere: maps and drawings of other programs, read as worlds.
+//!
+//! | from | what becomes of it |
+//! |---|---|
+//! | a ROS map, [`RosMap`] | the borders of its occupied cells as closed walls, or the cells themselves as boxes |
+//! | a MovingAI map, [`movingai`] | the same |
+//!
+//! Nothing here opens a file: bytes go in, a [`CellMap`] or an [`Imported`] world comes out. The world is one that
+//! [`World::parse`] would give: its text reads back as the same world.
+
+mod cells;
+mod draft;
+mod error;
+mod movingai;
+mod pgm;
+mod ros;
+mod trace;
+mod yaml;
+
+use super::items::make_resident;
+use super::{World, WorldProblem, description};
+
+pub use cells::{CellMap, CellStyle};
+pub use error::{ImportError, ImportProblem};
+pub use movingai::movingai;
+pub use ros::{RosMap, Unknown, is_ros_map};
+
+use draft::Draft;
+
+/// A world that was read from another format.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Imported {
+    /// The world.
+    pub world: World,
+    /// What a reader should know of it, a sentence each: what was left out, what was taken as what.
+    pub notes: Vec<String>,
+}
+
+impl Imported {
+    /// Puts a robot of this kind into the world, starting at these coordinates, under the name of its kind.
+    ///
+    /// # Errors
+    /// [`WorldProblem`] when there is no such kind or the coordinates do not fit it.
+    pub fn put_robot(&mut self, kind: &str, start: &[f64]) -> Result<(), WorldProblem> {
+        let mut name = kind.to_owned();
+        if let Some(first) = name.get_mut(..1) {
+            first.make_ascii_uppercase();
+        }
+        let name = draft::free_name(&name, |name| self.world.has_name(name));
+        let text = description::RobotText { name, kind: kind.to_owned(), start: start.to_vec(), sensor: None };
+        self.world.robots.push(make_resident(&text)?);
+        Ok(())
+    }
+}
+
+impl World {
+    /// Whether something in the world has this name.
+    fn has_name(&self, name: &str) -> bool {
+        self.obstacle(name).is_some()
+            || self.place(name).is_some()
+            || self.marks.iter().any(|m| m.name == name)
+            || self.robots.iter().any(|r| r.name == name)
+    }
+}

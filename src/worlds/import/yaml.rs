@@ -1,0 +1,256 @@
+//! YAML as a tree in which every part knows its line. Anchors, aliases and tags are refused: maps and scenes have none, and
+//! without them a file's tree is no larger than the file.
+
+use saphyr_parser::{Event, Parser, ScalarStyle};
+
+use super::error::wrong_value;
+use super::{ImportError, ImportProblem};
+
+/// How deep lists and mappings may be nested.
+const DEEPEST: usize = 32;
+
+/// A part of a file.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Node {
+    pub line: usize,
+    pub value: Value,
+}
+
+#[derive(Clone, Debug, PartialEq)]
+pub(super) enum Value {
+    /// A text; `quoted` when it stands in quotes, so that it is no number.
+    Scalar {
+        text: String,
+        quoted: bool,
+    },
+    List(Vec<Node>),
+    /// Keys with their lines, no two of them equal.
+    Mapping(Vec<(String, usize, Node)>),
+}
+
+/// A list or mapping of which the end has not come.
+enum Open {
+    List(usize, Vec<Node>),
+    Mapping(usize, Vec<(String, usize, Node)>, Option<(String, usize)>),
+}
+
+/// The tree of a file that holds one document. A file of nothing is an empty mapping.
+pub(super) fn read(text: &str) -> Result<Node, ImportError> {
+    let mut open: Vec<Open> = Vec::new();
+    let mut whole: Option<Node> = None;
+    for event in Parser::new_from_str(text) {
+        let (event, span) = event.map_err(|error| syntax(error.marker().line(), error.info()))?;
+        let line = span.start.line();
+        let closed = match event {
+            Event::Scalar(_, _, 1.., _)
+            | Event::SequenceStart(1.., _)
+            | Event::MappingStart(1.., _)
+            | Event::Alias(_) => {
+                return Err(unsupported(line, "anchors and aliases; write the value out"));
+            }
+            Event::Scalar(_, _, _, Some(_)) | Event::SequenceStart(_, Some(_)) | Event::MappingStart(_, Some(_)) => {
+                return Err(unsupported(line, "tags"));
+            }
+            Event::Scalar(text, style, ..) => {
+                Some(Node { line, value: Value::Scalar { text: text.into(), quoted: style != ScalarStyle::Plain } })
+            }
+            Event::SequenceStart(..) | Event::MappingStart(..) if open.len() == DEEPEST => {
+                return Err(syntax(line, "nested too deeply"));
+            }
+            Event::SequenceStart(..) => {
+                open.push(Open::List(line, Vec::new()));
+                None
+            }
+            Event::MappingStart(..) => {
+                open.push(Open::Mapping(line, Vec::new(), None));
+                None
+            }
+            Event::SequenceEnd | Event::MappingEnd => open.pop().map(|part| match part {
+                Open::List(line, nodes) => Node { line, value: Value::List(nodes) },
+                Open::Mapping(line, entries, _) => Node { line, value: Value::Mapping(entries) },
+            }),
+            Event::DocumentStart(_) if whole.is_some() => return Err(syntax(line, "a second document")),
+            _ => None,
+        };
+        let Some(node) = closed else { continue };
+        match open.last_mut() {
+            None => whole = Some(node),
+            Some(Open::List(_, nodes)) => nodes.push(node),
+            Some(Open::Mapping(_, entries, key)) => match key.take() {
+                Some((key, key_line)) => entries.push((key, key_line, node)),
+                None => *key = Some(key_of(node, entries)?),
+            },
+        }
+    }
+    Ok(whole.unwrap_or(Node { line: 1, value: Value::Mapping(Vec::new()) }))
+}
+
+/// The key that a node is.
+fn key_of(node: Node, before: &[(String, usize, Node)]) -> Result<(String, usize), ImportError> {
+    match node.value {
+        Value::Scalar { text, .. } if before.iter().any(|(key, ..)| *key == text) => {
+            Err(ImportError::at(node.line, text, ImportProblem::Syntax("the key stands there twice".into())))
+        }
+        Value::Scalar { text, .. } => Ok((text, node.line)),
+        _ => Err(syntax(node.line, "a key must be a word")),
+    }
+}
+
+fn syntax(line: usize, reason: &str) -> ImportError {
+    ImportError::at(line, "", ImportProblem::Syntax(reason.into()))
+}
+
+fn unsupported(line: usize, what: &str) -> ImportError {
+    ImportError::at(line, "", ImportProblem::Unsupported(what.into()))
+}
+
+impl Node {
+    /// The number that `item` is.
+    pub fn number(&self, item: &str) -> Result<f64, ImportError> {
+        let expected = "a finite number";
+        match &self.value {
+            Value::Scalar { text, quoted: false } => match text.parse::<f64>() {
+                Ok(x) if x.is_finite() => Ok(x),
+                _ => Err(ImportError::at(self.line, item, wrong_value(text, expected))),
+            },
+            _ => Err(self.wrong(item, expected)),
+        }
+    }
+
+    /// The text that `item` is.
+    pub fn text(&self, item: &str) -> Result<&str, ImportError> {
+        match &self.value {
+            Value::Scalar { text, .. } if !text.is_empty() => Ok(text),
+            _ => Err(self.wrong(item, "a text")),
+        }
+    }
+
+    /// The list that `item` is.
+    pub fn list(&self, item: &str) -> Result<&[Node], ImportError> {
+        match &self.value {
+            Value::List(nodes) => Ok(nodes),
+            _ => Err(self.wrong(item, "a list")),
+        }
+    }
+
+    /// The numbers that `item` is a list of, as many as `count` allows.
+    pub fn numbers(
+        &self,
+        item: &str,
+        count: std::ops::RangeInclusive<usize>,
+        expected: &'static str,
+    ) -> Result<Vec<f64>, ImportError> {
+        let nodes = self.list(item).map_err(|_| self.wrong(item, expected))?;
+        if !count.contains(&nodes.len()) {
+            let found = format!("{} of them", nodes.len());
+            return Err(ImportError::at(self.line, item, wrong_value(found, expected)));
+        }
+        nodes.iter().map(|node| node.number(item)).collect()
+    }
+
+    /// The mapping that `item` is.
+    pub fn fields(&self, item: &str) -> Result<Fields<'_>, ImportError> {
+        match &self.value {
+            Value::Mapping(entries) => {
+                Ok(Fields { line: self.line, item: item.to_owned(), left: entries.iter().collect() })
+            }
+            _ => Err(self.wrong(item, "keys with values")),
+        }
+    }
+
+    /// The error that `item` is not what is expected.
+    pub fn wrong(&self, item: &str, expected: &'static str) -> ImportError {
+        let found = match &self.value {
+            Value::Scalar { text, .. } => text.clone(),
+            Value::List(_) => "a list".into(),
+            Value::Mapping(_) => "keys with values".into(),
+        };
+        ImportError::at(self.line, item, wrong_value(found, expected))
+    }
+}
+
+/// The entries of a mapping that nobody has asked for yet.
+pub(super) struct Fields<'a> {
+    /// The line the mapping begins in.
+    pub line: usize,
+    item: String,
+    left: Vec<&'a (String, usize, Node)>,
+}
+
+impl<'a> Fields<'a> {
+    /// The value of a key, if it is there.
+    pub fn take(&mut self, key: &str) -> Option<&'a Node> {
+        let at = self.left.iter().position(|(k, ..)| k == key)?;
+        Some(&self.left.remove(at).2)
+    }
+
+    /// The value of a key that must be there.
+    pub fn need(&mut self, key: &'static str) -> Result<&'a Node, ImportError> {
+        self.take(key).ok_or_else(|| ImportError::at(self.line, &self.item, ImportProblem::Missing(key)))
+    }
+
+    /// The next key nobody has asked for, with its line.
+    pub fn rest(&mut self) -> Option<(&'a str, usize)> {
+        self.left.pop().map(|(key, line, _)| (key.as_str(), *line))
+    }
+
+    /// That every key was asked for.
+    pub fn finish(mut self, known: &str) -> Result<(), ImportError> {
+        self.left.reverse();
+        match self.rest() {
+            None => Ok(()),
+            Some((key, line)) => {
+                let at = if self.item.is_empty() { key.to_owned() } else { format!("{}.{key}", self.item) };
+                Err(ImportError::at(line, at, ImportProblem::Unsupported(format!("this key; known are {known}"))))
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn refusal(text: &str) -> String {
+        read(text).unwrap_err().to_string()
+    }
+
+    #[test]
+    fn parts_know_their_lines() {
+        let tree = read("# head\na: 1\nb:\n  - {c: [1, 2.5], d: 'x'}\n  - e\n").unwrap();
+        let mut fields = tree.fields("").unwrap();
+        assert_eq!(fields.need("a").unwrap().number("a"), Ok(1.0));
+        let list = fields.need("b").unwrap().list("b").unwrap();
+        assert_eq!((list[0].line, list[1].line), (4, 5));
+        let mut inner = list[0].fields("b[0]").unwrap();
+        assert_eq!(inner.need("c").unwrap().numbers("c", 2..=3, "two or three numbers"), Ok(vec![1.0, 2.5]));
+        let error = inner.finish("c").unwrap_err().to_string();
+        assert!(error.contains(":4: b[0].d: not supported"), "{error}");
+        assert!(fields.need("z").unwrap_err().to_string().contains("`z` is missing"));
+        assert!(fields.finish("").is_ok());
+        assert!(read("").unwrap().fields("").unwrap().finish("").is_ok());
+    }
+
+    #[test]
+    fn what_is_no_tree_of_its_own_size_is_refused() {
+        assert!(refusal("a: &x 1\nb: *x").contains(":1: not supported: anchors"));
+        assert!(refusal("a: !!str 1").contains("tags"));
+        assert!(refusal("a: 1\nb: 2\na: 3").contains(":3: a: the key stands there twice"));
+        assert!(refusal("a: 1\n---\nb: 2").contains("a second document"));
+        assert!(refusal("? [a]\n: 1").contains("a key must be a word"));
+        assert!(refusal(&"[".repeat(33)).contains("nested too deeply"));
+        assert!(refusal(&"- ".repeat(33)).contains("nested too deeply"));
+        // an error, not a crash
+        assert!(read(&"[".repeat(100_000)).is_err() && read(&"- ".repeat(100_000)).is_err());
+        assert!(refusal("a: [1, 2").starts_with(":"), "an end is missing");
+    }
+
+    #[test]
+    fn numbers_are_finite_and_unquoted() {
+        for bad in [".nan", ".inf", "nan", "inf", "-infinity", "1e999", "0x10", "'1'", "one", "", "[1]"] {
+            let tree = read(&format!("a: {bad}")).unwrap();
+            let number = tree.fields("").unwrap().need("a").unwrap().number("a");
+            assert!(number.unwrap_err().to_string().contains("it must be a finite number"), "{bad}");
+        }
+    }
+}

@@ -1,0 +1,133 @@
+//! `diff`: two logs that are equal, differ in one bit, are of different runs, or are not whole.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use motion_lab::run::{Log, LogWriter};
+
+use super::{json, run};
+
+fn recording(folder: &Path, name: &str, more: &[&str]) -> PathBuf {
+    let file = folder.join(name);
+    run(&[&["record", "--ticks", "30", "-o", file.to_str().unwrap()], more].concat()).done();
+    file
+}
+
+/// The log in `file`, changed in memory and written by the crate's own writer, so that its seals are right.
+fn changed(file: &Path, change: impl FnOnce(&mut Log)) -> PathBuf {
+    let mut log = Log::read_mcap(&fs::read(file).unwrap()).unwrap().log;
+    change(&mut log);
+    let mut writer = LogWriter::new(Vec::new(), log.seed, &log.config, &log.script, &log.initial).unwrap();
+    for frame in &log.frames {
+        writer.tick(frame).unwrap();
+    }
+    let changed = file.with_extension("changed.mcap");
+    fs::write(&changed, writer.finish().unwrap()).unwrap();
+    changed
+}
+
+fn diff(more: &[&str], a: &Path, b: &Path) -> super::Run {
+    run(&[&["diff", a.to_str().unwrap(), b.to_str().unwrap()], more].concat())
+}
+
+#[test]
+fn equal_logs_are_0() {
+    let folder = tempfile::tempdir().unwrap();
+    let a = recording(folder.path(), "a.mcap", &[]);
+    let b = recording(folder.path(), "b.mcap", &[]);
+    assert_eq!(diff(&[], &a, &b).done(), "30 ticks, equal to the last bit\n");
+    let told = json(&diff(&["--json"], &a, &b).done());
+    assert_eq!((&told["equal"], &told["ticks"], &told["differing_ticks"]), (&true.into(), &30.into(), &0.into()));
+    assert!(told["divergence"].is_null() && told["setup"].as_array().unwrap().is_empty());
+}
+
+#[test]
+fn one_planted_ulp_is_found_in_its_tick_and_field() {
+    let folder = tempfile::tempdir().unwrap();
+    let a = recording(folder.path(), "a.mcap", &[]);
+    let mut values = (0.0, 0.0);
+    let b = changed(&a, |log| {
+        let range = &mut log.frames[11].scans[0].ranges[77];
+        values = (*range, range.next_up());
+        *range = values.1;
+    });
+    let found = diff(&[], &a, &b);
+    assert_eq!(found.code, Some(4), "{}", found.err);
+    let (x, y) = values;
+    let expected = format!(
+        "tick 12, robot 0 (Rusty), ranges[77]: {x:?} ({:#018x}) in A, {y:?} ({:#018x}) in B, 1 ulp apart\n\
+         1 of 30 ticks differ\n",
+        x.to_bits(),
+        y.to_bits()
+    );
+    assert_eq!(found.out, expected);
+    let told = diff(&["--json"], &b, &a);
+    assert_eq!(told.code, Some(4));
+    let told = json(&told.out);
+    let value = &told["divergence"];
+    assert_eq!((&value["tick"], &value["robot"], &value["name"]), (&12.into(), &0.into(), &"Rusty".into()));
+    assert_eq!((&value["field"], &value["ulps"]), (&"ranges[77]".into(), &1.into()));
+    assert_eq!(value["a"].as_f64().unwrap().to_bits(), y.to_bits(), "A is the first of the two");
+    assert_eq!(value["b_bits"], format!("{:#018x}", x.to_bits()));
+    assert_eq!((&told["equal"], &told["differing_ticks"]), (&false.into(), &1.into()));
+}
+
+#[test]
+fn the_initial_state_is_compared_too() {
+    let folder = tempfile::tempdir().unwrap();
+    let a = recording(folder.path(), "a.mcap", &[]);
+    let b = changed(&a, |log| log.initial.robots[2].contacts += 1);
+    let found = diff(&[], &a, &b);
+    assert_eq!(found.code, Some(4));
+    let expected = "tick 0, robot 2 (Hitch), contacts: 0 (0x0000000000000000) in A, 1 (0x0000000000000001) in B\n";
+    assert!(found.out.starts_with(expected), "{}", found.out);
+}
+
+#[test]
+fn what_determines_a_run_is_named() {
+    let folder = tempfile::tempdir().unwrap();
+    let script = folder.path().join("drive.ron");
+    fs::write(&script, "Script(version: 1, events: [(tick: 40, robot: \"Rusty\", input: Drive(9, 0))])").unwrap();
+    let a = recording(folder.path(), "a.mcap", &["--world", "lot"]);
+    for (more, line) in [
+        (&["--world", "lot", "--seed", "7"][..], "seed: 2005 in A, 7 in B"),
+        (&["--world", "lot", "--rays", "12"], "sensor: 360 rays, 4.0 m in A, 12 rays, 4.0 m in B"),
+        (&["--world", "workbench"], "world 0, line 3: name: \"Lot\", in A, name: \"Workbench\", in B"),
+        (&["--world", "lot", "--world", "apartment"], "worlds: 1 in A, 2 in B"),
+        (
+            &["--world", "lot", "--world", "apartment", "--script", script.to_str().unwrap()],
+            "script, line 4: ], in A, (tick: 40, robot: \"Rusty\", input: Drive(9, 0)), in B",
+        ),
+    ] {
+        let b = recording(folder.path(), "b.mcap", more);
+        let found = diff(&[], &a, &b);
+        assert_eq!(found.code, Some(4), "{}", found.err);
+        assert!(found.out.lines().any(|l| l == line), "{line} is missing from\n{}", found.out);
+    }
+    let shorter = folder.path().join("b.mcap");
+    run(&["record", "--ticks", "20", "--world", "lot", "-o", shorter.to_str().unwrap()]).done();
+    let found = diff(&[], &a, &shorter);
+    assert_eq!(found.code, Some(4));
+    assert!(found.out.starts_with("ticks: 30 in A, 20 in B\ntick 21, frames.len: "), "{}", found.out);
+    assert!(found.out.ends_with("0 of 20 ticks differ\n"), "{}", found.out);
+}
+
+#[test]
+fn a_cut_log_equal_as_far_as_it_is_sealed_is_5() {
+    let folder = tempfile::tempdir().unwrap();
+    let a = recording(folder.path(), "a.mcap", &[]);
+    let bytes = fs::read(&a).unwrap();
+    let cut = folder.path().join("cut.mcap");
+    fs::write(&cut, &bytes[..bytes.len() * 2 / 3]).unwrap();
+    let found = diff(&["--json"], &cut, &a);
+    assert_eq!(found.code, Some(5), "{}", found.err);
+    assert!(found.err.contains("cut.mcap: the log is cut off after byte "), "{}", found.err);
+    let told = json(&found.out);
+    assert!(told["equal"] == true && (1..30).contains(&told["ticks"].as_u64().unwrap()), "{told}");
+    // a difference in what is sealed is told first
+    let b = changed(&a, |log| log.frames[0].robots[0].flash += 1);
+    assert_eq!(diff(&[], &cut, &b).code, Some(4));
+    // nothing to compare with
+    let error = diff(&[], &a, &folder.path().join("nowhere.mcap")).failed(3);
+    assert!(error.contains("nowhere.mcap: there is no such file"), "{error}");
+}

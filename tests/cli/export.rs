@@ -1,0 +1,223 @@
+//! `export`: what is written is what the log holds, to the last bit.
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use motion_lab::run::{Frame, Log, LogWriter};
+use serde_json::Value;
+
+use super::{json, run, run_in};
+
+fn recording(folder: &Path) -> PathBuf {
+    let file = folder.join("run.mcap");
+    // an eye so short-sighted that most ranges are infinite
+    run(&["record", "--ticks", "30", "--rays", "16", "--range", "1.9", "-o", file.to_str().unwrap()]).done();
+    file
+}
+
+fn read(file: &Path) -> Log {
+    Log::read_mcap(&fs::read(file).unwrap()).unwrap().log
+}
+
+fn frames(log: &Log) -> impl Iterator<Item = &Frame> {
+    std::iter::once(&log.initial).chain(&log.frames)
+}
+
+fn export(file: &Path, format: &str) -> super::Run {
+    run(&["export", file.to_str().unwrap(), "--format", format])
+}
+
+/// A number as it was written: infinity is a text.
+fn number(value: &Value) -> f64 {
+    match value {
+        Value::String(text) => text.parse().unwrap(),
+        value => value.as_f64().unwrap(),
+    }
+}
+
+#[track_caller]
+fn same_bits(value: &Value, expected: &[f64]) {
+    let found: Vec<u64> = value.as_array().unwrap().iter().map(|x| number(x).to_bits()).collect();
+    assert_eq!(found, expected.iter().map(|x| x.to_bits()).collect::<Vec<_>>());
+}
+
+#[test]
+fn a_line_of_json_for_each_tick_has_every_bit_of_the_frame() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = recording(folder.path());
+    let mut log = read(&file);
+    // what no run gives, but a log may hold
+    log.frames[4].robots[1].extra.push(-0.0);
+    log.frames[4].robots[1].target.push(f64::MIN_POSITIVE / 3.0);
+    rewrite(&file, &log);
+    let lines: Vec<Value> = export(&file, "jsonl").done().lines().map(json).collect();
+    assert_eq!(lines.len(), 31, "tick 0 first");
+    let mut infinite = 0;
+    for (line, frame) in lines.iter().zip(frames(&log)) {
+        assert_eq!(line["tick"], frame.tick);
+        assert_eq!(line["digest"], frame.digest().to_string());
+        assert_eq!(line["time"].as_f64().unwrap().to_bits(), (frame.tick as f64 * 0.05).to_bits());
+        for (robot, state) in line["robots"].as_array().unwrap().iter().zip(&frame.robots) {
+            same_bits(&robot["configuration"], &state.configuration);
+            same_bits(&robot["extra"], &state.extra);
+            same_bits(&robot["target"], &state.target);
+            assert_eq!((&robot["id"], &robot["contacts"]), (&state.id.into(), &state.contacts.into()));
+            match frame.scans.iter().find(|s| s.robot == state.id) {
+                Some(scan) => {
+                    same_bits(&robot["ranges"], &scan.ranges);
+                    infinite += scan.ranges.iter().filter(|r| r.is_infinite()).count();
+                }
+                None => assert!(robot["ranges"].is_null()),
+            }
+        }
+    }
+    assert!(infinite > 0, "nothing out of range: the sensor sees too far for this test");
+}
+
+fn rewrite(file: &Path, log: &Log) {
+    let mut writer = LogWriter::new(Vec::new(), log.seed, &log.config, &log.script, &log.initial).unwrap();
+    for frame in &log.frames {
+        writer.tick(frame).unwrap();
+    }
+    fs::write(file, writer.finish().unwrap()).unwrap();
+}
+
+#[test]
+fn a_row_of_csv_for_each_tick_and_robot_has_every_bit() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = recording(folder.path());
+    let log = read(&file);
+    let text = run(&["export", file.to_str().unwrap(), "--format", "csv", "--ranges"]).done();
+    let mut lines = text.lines();
+    let head: Vec<&str> = lines.next().unwrap().split(',').collect();
+    assert_eq!(head[..7], ["tick", "time", "id", "robot", "configuration0", "configuration1", "configuration2"]);
+    assert_eq!(head[head.len() - 1], "range15");
+    for frame in frames(&log) {
+        for (robot, name) in frame.robots.iter().zip(["Rusty", "Reach", "Hitch"]) {
+            let line = lines.next().unwrap();
+            let row: BTreeMap<&str, &str> = head.iter().copied().zip(line.split(',')).collect();
+            assert_eq!(line.split(',').count(), head.len(), "{line}");
+            assert_eq!((row["tick"], row["robot"]), (frame.tick.to_string().as_str(), name));
+            let bits = |cell: &str| cell.parse::<f64>().unwrap().to_bits();
+            for (k, x) in robot.configuration.iter().enumerate() {
+                assert_eq!(bits(row[format!("configuration{k}").as_str()]), x.to_bits());
+            }
+            assert_eq!(row["configuration2"].is_empty(), name == "Reach", "a coordinate it does not have");
+            match frame.scans.iter().find(|s| s.robot == robot.id) {
+                Some(scan) => {
+                    for (k, x) in scan.ranges.iter().enumerate() {
+                        assert_eq!(bits(row[format!("range{k}").as_str()]), x.to_bits());
+                    }
+                }
+                None => assert_eq!(row["range3"], ""),
+            }
+        }
+    }
+    assert_eq!(lines.next(), None);
+    assert!(text.contains(",inf"));
+    assert!(!export(&file, "csv").done().contains("range0"), "without --ranges");
+}
+
+#[test]
+fn the_figure_is_the_runs() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = recording(folder.path());
+    let svg = export(&file, "svg").done();
+    assert!(svg.starts_with("<svg") && svg.trim_end().ends_with("</svg>"));
+    assert!(svg.contains(&read(&file).digest().to_string()), "the figure tells the digest");
+    for name in ["Rusty", "Reach", "Hitch"] {
+        assert!(svg.contains(&format!("<title>the way of {name}</title>")), "{name}");
+    }
+    // written to a file it is the same
+    run_in(folder.path(), &["export", "run.mcap", "--format", "svg", "-o", "run.svg"]).done();
+    assert_eq!(fs::read_to_string(folder.path().join("run.svg")).unwrap(), svg);
+}
+
+/// What viewers are shown, read by the crate `mcap`; tests/peers/check reads it by its schemas.
+#[test]
+fn the_viewers_file_has_the_logs_own_messages_and_more() {
+    let folder = tempfile::tempdir().unwrap();
+    recording(folder.path());
+    let export = ["export", "run.mcap", "--format", "foxglove", "-o", "viewer.mcap"];
+    run_in(folder.path(), &export).done();
+    let bytes = fs::read(folder.path().join("viewer.mcap")).unwrap();
+    let messages = |bytes: &[u8]| {
+        let mut by_topic: BTreeMap<String, Vec<(u64, Vec<u8>)>> = BTreeMap::new();
+        for message in mcap::MessageStream::new(bytes).unwrap() {
+            let message = message.unwrap();
+            by_topic
+                .entry(message.channel.topic.clone())
+                .or_default()
+                .push((message.log_time, message.data.into_owned()));
+        }
+        by_topic
+    };
+    let (log, mut viewer) = (messages(&fs::read(folder.path().join("run.mcap")).unwrap()), messages(&bytes));
+    for (topic, own) in log {
+        assert_eq!(viewer.remove(&topic), Some(own), "{topic}");
+    }
+    let counts: Vec<(&str, usize)> = viewer.iter().map(|(topic, messages)| (topic.as_str(), messages.len())).collect();
+    let [(log_topic, told), rest @ ..] = &counts[..] else { panic!("no topics") };
+    assert!(*log_topic == "/viewer/log" && *told >= 1);
+    assert_eq!(
+        rest,
+        [("/viewer/robots", 31), ("/viewer/scan/Rusty", 31), ("/viewer/transforms", 31), ("/viewer/worlds", 1)]
+    );
+    let summary = mcap::Summary::read(&bytes).unwrap().expect("a summary");
+    assert!(!summary.chunk_indexes.is_empty(), "viewers go to any time by the index");
+    assert_eq!(summary.attachment_indexes.len(), 5, "configuration, script and three worlds");
+    // the same log gives the same bytes
+    run_in(folder.path(), &export).done();
+    assert_eq!(fs::read(folder.path().join("viewer.mcap")).unwrap(), bytes);
+    // and it is not taken for a log
+    let error = run_in(folder.path(), &["verify", "viewer.mcap"]).failed(3);
+    assert!(error.contains("viewer.mcap: this is an export") && error.contains("exported from"), "{error}");
+}
+
+#[test]
+fn of_a_damaged_log_the_sealed_beginning_is_exported_and_it_is_5() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = recording(folder.path());
+    let whole: Vec<String> = export(&file, "jsonl").done().lines().map(str::to_owned).collect();
+    let bytes = fs::read(&file).unwrap();
+    fs::write(&file, &bytes[..bytes.len() * 2 / 3]).unwrap();
+    let cut = export(&file, "jsonl");
+    assert_eq!(cut.code, Some(5));
+    assert!(cut.err.contains("run.mcap: the log is cut off after byte "), "{}", cut.err);
+    let lines: Vec<&str> = cut.out.lines().collect();
+    assert!((2..31).contains(&lines.len()) && lines == whole[..lines.len()], "{} lines", lines.len());
+    for format in ["csv", "svg"] {
+        assert_eq!(export(&file, format).code, Some(5), "{format}");
+    }
+    let viewer = run_in(folder.path(), &["export", "run.mcap", "--format", "foxglove", "-o", "viewer.mcap"]);
+    assert_eq!(viewer.code, Some(5), "{}", viewer.err);
+    let bytes = fs::read(folder.path().join("viewer.mcap")).unwrap();
+    let ticks = mcap::MessageStream::new(&bytes).unwrap().filter(|m| m.as_ref().unwrap().channel.topic == "/digest");
+    assert_eq!(ticks.count(), lines.len());
+}
+
+#[test]
+fn what_cannot_be_exported_is_told() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = recording(folder.path());
+    let name = file.to_str().unwrap();
+    for (arguments, code, reason) in [
+        (&["export", name][..], 2, "--format"),
+        (&["export", name, "--format", "foxglove"], 2, "-o FILE"),
+        (&["export", name, "--format", "jsonl", "--ranges"], 2, "--ranges"),
+        (&["export", "nowhere.mcap", "--format", "csv"], 3, "nowhere.mcap: there is no such file"),
+        (&["export", name, "--format", "csv", "-o", "nowhere/run.csv"], 1, "Make its folder first"),
+        (&["export", name, "--format", "foxglove", "-o", "nowhere/run.mcap"], 1, "Make its folder first"),
+    ] {
+        let error = run(arguments).failed(code);
+        assert!(error.contains(reason) && error.lines().count() >= 2, "{arguments:?}: {error}");
+    }
+    // a state that no robot of this kind has
+    let mut log = read(&file);
+    log.frames[7].robots[0].configuration.push(1.0);
+    rewrite(&file, &log);
+    let error = export(&file, "svg").failed(3);
+    assert!(error.contains("run.mcap") && error.contains("tick 8") && error.contains("robot 0"), "{error}");
+    assert_eq!(export(&file, "jsonl").done().lines().count(), 31, "as data it can be written all the same");
+}
