@@ -1,6 +1,8 @@
 //! Worlds from elsewhere: each kind by a small sample of which the walls are known beforehand.
 
 mod cells;
+mod drawing;
+mod irsim;
 
 use motion_lab::collision::{Collision, Scene};
 use motion_lab::geometry::{Footprint, Point2};

@@ -11,7 +11,7 @@ fn sample(name: &str) -> String {
 #[test]
 fn what_is_imported_passes_the_check_and_can_be_run() {
     let folder = tempfile::tempdir().unwrap();
-    for (file, start) in [("room.yaml", "0,0,0"), ("yard.map", "1.5,1.5,0")] {
+    for (file, start) in [("room.yaml", "0,0,0"), ("yard.map", "1.5,1.5,0"), ("hall.svg", "100,60,0")] {
         let told = run_in(
             folder.path(),
             &["world", "import", &sample(file), "--robot", "rusty", "--start", start, "-o", "world.ron"],
@@ -29,10 +29,44 @@ fn what_is_imported_passes_the_check_and_can_be_run() {
 }
 
 #[test]
+fn a_world_of_ir_sim_brings_its_robots() {
+    let folder = tempfile::tempdir().unwrap();
+    let told = run_in(folder.path(), &["world", "import", &sample("garden.yaml"), "-o", "garden.ron"]);
+    assert!(told.err.contains("motion-lab: robot.behavior is left out"), "{}", told.err);
+    told.done();
+    let checked = run_in(folder.path(), &["world", "check", "garden.ron"]).done();
+    assert!(checked.contains("garden, ") && checked.ends_with("robots: Rusty, Hitch\n"), "{checked}");
+    run_in(folder.path(), &["record", "--world", "garden.ron", "--ticks", "3"]).done();
+}
+
+#[test]
+fn an_exported_map_is_imported_again_and_a_picture_is_one() {
+    let folder = tempfile::tempdir().unwrap();
+    let told = run_in(folder.path(), &["world", "export", "lot", "--resolution", "0.25", "-o", "lot.yaml"]);
+    assert!(told.err.contains("wrote lot.yaml and lot.pgm, 64 x 40 cells"), "{}", told.err);
+    told.done();
+    // 16 x 10 m in cells of 0.25 m
+    assert!(fs::read(folder.path().join("lot.pgm")).unwrap().starts_with(b"P5\n64 40\n255\n"));
+    run_in(folder.path(), &["world", "import", "lot.yaml", "-o", "again.ron"]).done();
+    run_in(folder.path(), &["world", "check", "again.ron"]).done();
+    run_in(folder.path(), &["world", "export", "again.ron", "--format", "svg", "-o", "picture"]).done();
+    let picture = fs::read_to_string(folder.path().join("picture")).unwrap();
+    assert!(picture.starts_with("<svg") && picture.contains("wall 1"), "{picture}");
+    for (arguments, reason) in [
+        (&["lot", "-o", "lot.png"][..], "--format"),
+        (&["lot", "-o", "lot.yaml", "--resolution", "0"], "resolution of 0 m"),
+        (&["lot", "-o", "lot.pgm", "--format", "ros"], "the image's name"),
+    ] {
+        let error = run_in(folder.path(), &[&["world", "export"], arguments].concat()).failed(2);
+        assert!(error.contains(reason), "{error}");
+    }
+}
+
+#[test]
 fn a_robot_in_a_wall_is_told_of() {
     let told = run(&["world", "import", &sample("room.yaml"), "--robot", "rusty", "--start", "-0.5,-1.4,0"]);
     assert!(told.err.contains("Rusty starts in contact with wall 4"), "{}", told.err);
-    assert!(told.err.contains("1 unknown cells are taken as occupied"), "{}", told.err);
+    assert!(told.err.contains("unknown cells, taken as occupied: 1"), "{}", told.err);
     assert!(told.done().contains("start: [-0.5, -1.4, 0.0]"));
 }
 

@@ -17,7 +17,7 @@ fn room(unknown: Unknown) -> CellMap {
 fn a_ros_map_becomes_the_borders_of_its_occupied_cells() {
     let imported = room(Unknown::Free).world("room.yaml", "Room", CellStyle::Walls).unwrap();
     let world = imported.world;
-    assert_eq!(imported.notes, ["1 unknown cells are taken as free"]);
+    assert_eq!(imported.notes, ["unknown cells, taken as free: 1"]);
     let names: Vec<&str> = world.obstacles.iter().map(|o| o.name.as_str()).collect();
     assert_eq!(names, ["wall 1", "wall 2", "wall 3"]);
     // 12 x 8 cells of 0.5 m from (-1, -2) on: outside, the block over columns 4, 5 and rows 3, 4, and inside
@@ -37,7 +37,7 @@ fn what_is_unknown_is_occupied_unless_said_otherwise() {
     let imported = room(Unknown::default()).world("room.yaml", "Room", CellStyle::Walls).unwrap();
     // column 9, row 2
     assert_eq!(corners(&imported.world, "wall 2"), [(3.5, -1.0), (4.0, -1.0), (4.0, -0.5), (3.5, -0.5)]);
-    assert_eq!(imported.notes, ["1 unknown cells are taken as occupied"]);
+    assert_eq!(imported.notes, ["unknown cells, taken as occupied: 1"]);
     // the thresholds decide: with these the cell of degree 50 / 255 is free
     let text = sample("room.yaml").replace("0.196", "0.2");
     let map = RosMap::parse("room.yaml", &text).unwrap();

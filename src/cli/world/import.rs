@@ -8,7 +8,9 @@ use motion_lab::random::Seed;
 use motion_lab::run::Script;
 use motion_lab::tour::TourConfig;
 use motion_lab::worlds::World;
-use motion_lab::worlds::import::{CellStyle, ImportError, Imported, RosMap, Unknown, is_ros_map, movingai};
+use motion_lab::worlds::import::{
+    CellStyle, ImportError, Imported, RosMap, SvgOptions, Unknown, irsim, is_ros_map, movingai, svg,
+};
 
 use crate::cli::input::{MAX_TEXT, read_bytes, read_text};
 use crate::cli::output::write_file;
@@ -18,7 +20,9 @@ use crate::cli::{Data, Failure, Outcome, say};
 /// Read a map or drawing of another program and write it as a world file.
 ///
 /// A ROS map is given by its yaml file; its image must be a PGM. In a MovingAI map . G S are free, @ O T W occupied. Of either the
-/// borders of the occupied cells become closed walls, edges in line joined to one.
+/// borders of the occupied cells become closed walls, edges in line joined to one. In an SVG drawing what is filled becomes a solid
+/// obstacle and what is only stroked a wall, called by their ids. Of an IR-SIM world the static obstacles are read, and its robots as
+/// Rusty (diff) and Hitch (acker).
 #[derive(Debug, Args)]
 pub struct Import {
     /// The map or drawing.
@@ -47,6 +51,12 @@ pub struct Import {
     /// The size of a MovingAI map's cells, metres.
     #[arg(long, value_name = "METRES", default_value_t = 1.0)]
     metres_per_cell: f64,
+    /// The length of an SVG drawing's unit, metres.
+    #[arg(long, value_name = "METRES", default_value_t = 1.0)]
+    metres_per_unit: f64,
+    /// How far the straight pieces of an SVG drawing's curves may be from them, metres.
+    #[arg(long, value_name = "METRES", default_value_t = SvgOptions::default().tolerance)]
+    tolerance: f64,
 }
 
 /// A format that can be read.
@@ -56,6 +66,10 @@ enum Kind {
     Ros,
     /// A map of the MovingAI benchmarks.
     Movingai,
+    /// A world of IR-SIM: its static obstacles, its robots diff and acker.
+    Irsim,
+    /// An SVG drawing.
+    Svg,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -109,6 +123,11 @@ impl Import {
             Kind::Movingai => movingai(&file, &text, self.metres_per_cell)
                 .and_then(|cells| cells.world(&file, &name, style))
                 .map_err(refused),
+            Kind::Irsim => irsim(&file, &text, &name).map_err(refused),
+            Kind::Svg => {
+                let options = SvgOptions { metres_per_unit: self.metres_per_unit, tolerance: self.tolerance };
+                svg(&file, &text, &name, options).map_err(refused)
+            }
         }
     }
 }
@@ -122,15 +141,16 @@ fn kind_of(file: &Path) -> Result<Kind, Failure> {
     let extension = file.extension().map(|e| e.to_string_lossy().to_lowercase()).unwrap_or_default();
     match extension.as_str() {
         "map" => Ok(Kind::Movingai),
+        "svg" => Ok(Kind::Svg),
         "yaml" | "yml" if is_ros_map(&read_text(file)?) => Ok(Kind::Ros),
-        "yaml" | "yml" => Ok(Kind::Ros),
+        "yaml" | "yml" => Ok(Kind::Irsim),
         "pgm" => Err(Failure::usage(
             format!("{}: this is a ROS map's image", file.display()),
             "Name the yaml file beside it: that tells the size of a pixel and where the map lies.",
         )),
         _ => Err(Failure::usage(
             format!("{}: its name does not tell what it is", file.display()),
-            "Say it with --from: ros or movingai.",
+            "Say it with --from: ros, movingai, irsim or svg.",
         )),
     }
 }

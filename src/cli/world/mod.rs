@@ -1,5 +1,6 @@
-//! `world`: check world files, list and print worlds, read them from other formats.
+//! `world`: check world files, list and print worlds, read them from other formats and write them in others.
 
+mod export;
 mod import;
 
 use std::path::PathBuf;
@@ -10,9 +11,10 @@ use serde::Serialize;
 
 use crate::cli::world_source::{find_world, read_world};
 use crate::cli::{Data, Failure, Outcome, say};
+use export::Export;
 use import::Import;
 
-/// Check world files; list and print worlds; read them from other formats.
+/// Check world files; list and print worlds; read them from other formats and write them in others.
 #[derive(Debug, Args)]
 pub struct WorldArgs {
     #[command(subcommand)]
@@ -44,6 +46,7 @@ enum WorldCommand {
         world: String,
     },
     Import(Box<Import>),
+    Export(Export),
 }
 
 /// What is said of a world.
@@ -75,6 +78,7 @@ impl WorldArgs {
                 Ok(Outcome::Done)
             }
             WorldCommand::Import(import) => import.run(data),
+            WorldCommand::Export(export) => export.run(),
         }
     }
 }

@@ -55,7 +55,10 @@ impl CellMap {
 
     fn walls(&self, draft: &mut Draft) -> Result<(), WorldProblem> {
         let lines = trace(&self.grid);
-        lines.iter().try_for_each(|line| draft.wall("wall", line.iter().map(|&c| self.corner(c)).collect(), true))
+        lines.iter().try_for_each(|line| {
+            let name = draft.numbered("wall");
+            draft.wall(name, line.iter().map(|&c| self.corner(c)).collect(), true)
+        })
     }
 
     fn boxes(&self, draft: &mut Draft) -> Result<(), WorldProblem> {
@@ -66,7 +69,8 @@ impl CellMap {
                 let corners = [low, (high.0, low.1), high, (low.0, high.1)];
                 ShapeText::Polygon(corners.map(|c| self.corner(c)).to_vec())
             };
-            draft.solid("box", shape)?;
+            let name = draft.numbered("box");
+            draft.solid(name, shape)?;
         }
         Ok(())
     }

@@ -3,16 +3,23 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::Imported;
-use crate::worlds::description::{BoundsText, ObstacleText, PolylineText, ShapeText, Xy};
-use crate::worlds::items::{Budget, make_bounds, make_solid, make_wall};
+use crate::geometry::Pose2;
+use crate::worlds::description::{BoundsText, ObstacleText, PlaceText, PolylineText, RobotText, ShapeText, Xy};
+use crate::worlds::items::{Budget, make_bounds, make_mark, make_place, make_resident, make_solid, make_wall};
 use crate::worlds::parse::{MAX_NAME, check_name};
-use crate::worlds::{Obstacle, World, WorldProblem};
+use crate::worlds::{MAX_ITEMS, Mark, Obstacle, Place, Resident, World, WorldProblem};
+
+/// How many notes are kept: more than anybody reads.
+const MOST_NOTES: usize = 100;
 
 /// A world in the making.
 #[derive(Default)]
 pub(super) struct Draft {
     walls: Vec<Obstacle>,
     solids: Vec<Obstacle>,
+    places: Vec<Place>,
+    marks: Vec<Mark>,
+    robots: Vec<Resident>,
     names: BTreeSet<String>,
     counts: BTreeMap<String, usize>,
     budget: Budget,
@@ -20,26 +27,46 @@ pub(super) struct Draft {
 }
 
 impl Draft {
-    /// Adds a wall along these points, named after `stem`: `wall 1`.
-    pub fn wall(&mut self, stem: &str, points: Vec<Xy>, closed: bool) -> Result<(), WorldProblem> {
-        let name = self.numbered(stem);
+    /// Adds a wall along these points, under a name that was claimed.
+    pub fn wall(&mut self, name: String, points: Vec<Xy>, closed: bool) -> Result<(), WorldProblem> {
         let wall = make_wall(&PolylineText { name, points, closed }, &mut self.budget)?;
         self.walls.push(wall);
         Ok(())
     }
 
-    /// Adds a solid obstacle, named after `stem`: `box 1`.
-    pub fn solid(&mut self, stem: &str, shape: ShapeText) -> Result<(), WorldProblem> {
-        let name = self.numbered(stem);
+    /// Adds a solid obstacle, under a name that was claimed.
+    pub fn solid(&mut self, name: String, shape: ShapeText) -> Result<(), WorldProblem> {
         let solid = make_solid(&ObstacleText { name, shape }, &mut self.budget)?;
         self.solids.push(solid);
+        Ok(())
+    }
+
+    /// Adds a painted mark, under a name that was claimed.
+    pub fn mark(&mut self, name: String, points: Vec<Xy>, closed: bool) -> Result<(), WorldProblem> {
+        check_room("marks", self.marks.len())?;
+        self.marks.push(make_mark(&PolylineText { name, points, closed })?);
+        Ok(())
+    }
+
+    /// Adds a place, under a name that was claimed.
+    pub fn place(&mut self, name: String, pose: Pose2) -> Result<(), WorldProblem> {
+        check_room("places", self.places.len())?;
+        self.places.push(make_place(&PlaceText { name, pose })?);
+        Ok(())
+    }
+
+    /// Adds a robot, named after its kind.
+    pub fn robot(&mut self, kind: &str, start: Vec<f64>) -> Result<(), WorldProblem> {
+        check_room("robots", self.robots.len())?;
+        let name = self.claim(&capitalised(kind));
+        self.robots.push(make_resident(&RobotText { name, kind: kind.to_owned(), start, sensor: None })?);
         Ok(())
     }
 
     /// Adds something a reader should know, once.
     pub fn note(&mut self, note: impl Into<String>) {
         let note = note.into();
-        if !self.notes.contains(&note) {
+        if self.notes.len() < MOST_NOTES && !self.notes.contains(&note) {
             self.notes.push(note);
         }
     }
@@ -49,19 +76,26 @@ impl Draft {
         self.walls.is_empty() && self.solids.is_empty()
     }
 
-    /// The name itself where it is free and good, else made so.
+    /// Claims the name itself where it is free and good, else the next one like it: `table`, `table 2`.
     pub fn claim(&mut self, name: &str) -> String {
-        let name = free_name(name, |name| self.names.contains(name));
-        self.names.insert(name.clone());
-        name
+        let name = good_name(name);
+        if self.names.insert(name.clone()) {
+            self.counts.entry(name.clone()).or_insert(1);
+            return name;
+        }
+        self.numbered(&name)
     }
 
-    /// The next of the names `stem 1`, `stem 2` and so on.
-    fn numbered(&mut self, stem: &str) -> String {
+    /// Claims the next of the names `stem 1`, `stem 2` and so on.
+    pub fn numbered(&mut self, stem: &str) -> String {
         let count = self.counts.entry(stem.to_owned()).or_default();
-        *count += 1;
-        let name = format!("{stem} {count}");
-        self.claim(&name)
+        loop {
+            *count += 1;
+            let name = format!("{stem} {count}");
+            if self.names.insert(name.clone()) {
+                return name;
+            }
+        }
     }
 
     /// The world, within these bounds.
@@ -69,29 +103,34 @@ impl Draft {
         let bounds = make_bounds(&BoundsText { min, max })?;
         let mut obstacles = self.walls;
         obstacles.extend(self.solids);
-        let name = free_name(name, |_| false);
-        let world = World { name, bounds, obstacles, places: Vec::new(), marks: Vec::new(), robots: Vec::new() };
+        let name = good_name(name);
+        let world = World { name, bounds, obstacles, places: self.places, marks: self.marks, robots: self.robots };
         Ok(Imported { world, notes: self.notes })
     }
 }
 
-/// A name like `wanted` that a world file allows and that is not taken.
-pub(super) fn free_name(wanted: &str, taken: impl Fn(&str) -> bool) -> String {
+fn check_room(what: &'static str, there: usize) -> Result<(), WorldProblem> {
+    if there < MAX_ITEMS { Ok(()) } else { Err(WorldProblem::TooMany { what }) }
+}
+
+/// A kind of robot as a name.
+pub(super) fn capitalised(kind: &str) -> String {
+    let mut name = kind.to_owned();
+    if let Some(first) = name.get_mut(..1) {
+        first.make_ascii_uppercase();
+    }
+    name
+}
+
+/// The name, or what of it a world file allows, with room for a number behind it.
+fn good_name(wanted: &str) -> String {
     let clean: String = wanted.chars().filter(|c| !c.is_control()).collect();
-    // room for a number behind it
     let mut end = clean.len().min(MAX_NAME - 12);
     while !clean.is_char_boundary(end) {
         end -= 1;
     }
     let clean = clean[..end].trim();
-    let clean = if check_name(clean).is_ok() { clean } else { "unnamed" };
-    let mut name = clean.to_owned();
-    let mut count = 1;
-    while taken(&name) {
-        count += 1;
-        name = format!("{clean} {count}");
-    }
-    name
+    if check_name(clean).is_ok() { clean.to_owned() } else { "unnamed".to_owned() }
 }
 
 #[cfg(test)]
@@ -102,7 +141,9 @@ mod tests {
     fn names_are_made_good_and_unique() {
         let mut draft = Draft::default();
         assert_eq!(draft.claim("box"), "box");
-        assert_eq!(draft.claim("box"), "box 2");
+        assert_eq!((draft.claim("box"), draft.claim("box")), ("box 2".into(), "box 3".into()));
+        assert_eq!(draft.claim("wall 2"), "wall 2");
+        assert_eq!((draft.numbered("wall"), draft.numbered("wall")), ("wall 1".into(), "wall 3".into()));
         assert_eq!(draft.claim(" \u{7}\n"), "unnamed");
         let long = "é".repeat(300);
         for _ in 0..3 {

@@ -4,16 +4,23 @@
 //! |---|---|
 //! | a ROS map, [`RosMap`] | the borders of its occupied cells as closed walls, or the cells themselves as boxes |
 //! | a MovingAI map, [`movingai`] | the same |
+//! | an IR-SIM world, [`irsim`] | circles, boxes, polygons, walls and robots |
+//! | an SVG drawing, [`svg`] | what is filled as solid obstacles, what is only stroked as walls |
 //!
 //! Nothing here opens a file: bytes go in, a [`CellMap`] or an [`Imported`] world comes out. The world is one that
 //! [`World::parse`] would give: its text reads back as the same world.
 
 mod cells;
+mod curves;
 mod draft;
 mod error;
+mod irsim;
+mod irsim_shape;
 mod movingai;
 mod pgm;
 mod ros;
+mod svg;
+mod svg_check;
 mod trace;
 mod yaml;
 
@@ -22,8 +29,10 @@ use super::{World, WorldProblem, description};
 
 pub use cells::{CellMap, CellStyle};
 pub use error::{ImportError, ImportProblem};
+pub use irsim::irsim;
 pub use movingai::movingai;
 pub use ros::{RosMap, Unknown, is_ros_map};
+pub use svg::{SvgOptions, svg};
 
 use draft::Draft;
 
@@ -42,11 +51,13 @@ impl Imported {
     /// # Errors
     /// [`WorldProblem`] when there is no such kind or the coordinates do not fit it.
     pub fn put_robot(&mut self, kind: &str, start: &[f64]) -> Result<(), WorldProblem> {
-        let mut name = kind.to_owned();
-        if let Some(first) = name.get_mut(..1) {
-            first.make_ascii_uppercase();
+        let plain = draft::capitalised(kind);
+        let mut name = plain.clone();
+        let mut count = 1;
+        while self.world.has_name(&name) {
+            count += 1;
+            name = format!("{plain} {count}");
         }
-        let name = draft::free_name(&name, |name| self.world.has_name(name));
         let text = description::RobotText { name, kind: kind.to_owned(), start: start.to_vec(), sensor: None };
         self.world.robots.push(make_resident(&text)?);
         Ok(())

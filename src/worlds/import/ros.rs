@@ -132,7 +132,7 @@ impl RosMap {
             Unknown::Occupied => "occupied",
             Unknown::Free => "free",
         };
-        let notes = if unknowns == 0 { vec![] } else { vec![format!("{unknowns} unknown cells are taken as {taken}")] };
+        let notes = if unknowns == 0 { vec![] } else { vec![format!("unknown cells, taken as {taken}: {unknowns}")] };
         Ok(CellMap { grid, frame, notes })
     }
 

@@ -1,0 +1,185 @@
+//! SVG drawings.
+
+use motion_lab::collision::{Collision, Scene};
+use motion_lab::geometry::{Footprint, Point2, Shape};
+use motion_lab::worlds::import::{Imported, SvgOptions, svg};
+use motion_lab::worlds::{ObstacleKind, World};
+
+use super::{assert_prints_as_itself, corners, is_hit, sample};
+
+/// 50 units a metre.
+const HALL: SvgOptions = SvgOptions { metres_per_unit: 0.02, tolerance: 1e-3 };
+
+fn hall() -> Imported {
+    svg("hall.svg", &sample("hall.svg"), "Hall", HALL).unwrap()
+}
+
+/// A drawing of 10 x 10 units that holds this.
+fn drawing(inside: &str) -> String {
+    format!("<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 10 10\">\n{inside}\n</svg>")
+}
+
+fn read(inside: &str) -> World {
+    svg("d.svg", &drawing(inside), "d", SvgOptions::default()).unwrap().world
+}
+
+#[track_caller]
+fn assert_near(found: &[(f64, f64)], expected: &[(f64, f64)]) {
+    assert_eq!(found.len(), expected.len(), "{found:?}");
+    for (f, e) in found.iter().zip(expected) {
+        assert!((f.0 - e.0).abs() <= 2e-6 && (f.1 - e.1).abs() <= 2e-6, "{found:?} {expected:?}");
+    }
+}
+
+#[test]
+fn what_is_filled_is_solid_and_what_is_stroked_a_wall() {
+    let Imported { world, notes } = hall();
+    let names: Vec<(&str, ObstacleKind)> = world.obstacles.iter().map(|o| (o.name.as_str(), o.kind)).collect();
+    use ObstacleKind::{Solid, Wall};
+    let expected = [
+        ("outer wall", Wall),
+        ("screen", Wall),
+        ("wall 1", Wall),
+        ("frame", Wall),
+        ("frame 2", Wall),
+        ("table", Solid),
+        ("pillar", Solid),
+        ("polygon 1", Solid),
+        ("polygon 2", Solid),
+    ];
+    assert_eq!(names, expected);
+    // y up: the sheet is 8 m high
+    assert_eq!((world.bounds.min, world.bounds.max), (Point2::new(0.0, 0.0), Point2::new(12.0, 8.0)));
+    assert_near(&corners(&world, "outer wall"), &[(1.0, 7.0), (11.0, 7.0), (11.0, 1.0), (1.0, 1.0)]);
+    assert_near(&corners(&world, "screen"), &[(6.0, 7.0)]);
+    assert_eq!(world.obstacle("wall 1").unwrap().pieces.len(), 2, "a polyline stays open");
+    let table = &world.obstacle("table").unwrap().pieces[0].1;
+    assert_eq!(*table, Shape::Rectangle { min: Point2::new(8.0, 5.0), max: Point2::new(10.0, 6.0) });
+    let (pose, pillar) = &world.obstacle("pillar").unwrap().pieces[0];
+    assert_eq!((pose.x, pose.y), (4.0, 5.5));
+    assert_eq!(*pillar, Shape::Disc { radius: 0.5 });
+    for told in ["text is left out", "its paper", "outlines of its parts"] {
+        assert!(notes.iter().any(|n| n.contains(told)), "{told}: {notes:?}");
+    }
+    assert_prints_as_itself(&world);
+}
+
+#[test]
+fn groups_turn_and_move_what_they_hold() {
+    let world = hall().world;
+    // a square of 1 m turned by 45 degrees about its middle, (9, 2.5): corners half a diagonal away, up, down, left and right
+    let d = 0.5_f64.sqrt();
+    let mut found = corners_of_polygon(&world, "polygon 1");
+    found.sort_by(|a, b| a.partial_cmp(b).unwrap());
+    assert_near(&found, &[(9.0 - d, 2.5), (9.0, 2.5 - d), (9.0, 2.5 + d), (9.0 + d, 2.5)]);
+    assert!(is_hit(&world, 9.0, 2.5) && !is_hit(&world, 9.4, 2.9), "the middle, not what was the corner");
+}
+
+fn corners_of_polygon(world: &World, name: &str) -> Vec<(f64, f64)> {
+    let placed: Vec<_> = world.obstacle(name).unwrap().placed().collect();
+    placed.iter().flat_map(|p| p.core().iter().map(|c| (c.x, c.y)).collect::<Vec<_>>()).collect()
+}
+
+#[test]
+fn curves_are_followed_within_the_tolerance() {
+    // the apse: from (4, 2) over the control point (5, 3) to (6, 2), a parabola through (5, 2.5)
+    for tolerance in [0.1, 1e-2, 1e-3] {
+        let options = SvgOptions { tolerance, ..HALL };
+        let world = svg("hall.svg", &sample("hall.svg"), "Hall", options).unwrap().world;
+        let apse = Scene::of_world(&World { obstacles: vec![world.obstacle("polygon 2").unwrap().clone()], ..world });
+        let mut worst = 0.0_f64;
+        for k in 0..=200 {
+            let t = f64::from(k) / 200.0;
+            let (x, y) = (4.0 + 2.0 * t, 2.0 + 2.0 * t * (1.0 - t));
+            // a disc whose edge would just reach the curve from outside, by the distance to its middle
+            let outside = Point2::new(x, y + 1.0);
+            let gap = apse.distance(&Footprint::disc(outside, 1e-3)) + 1e-3;
+            worst = worst.max(gap - nearest(outside));
+        }
+        assert!(worst <= tolerance + 1e-5, "{worst} for {tolerance}");
+        assert!(worst > tolerance / 50.0, "{worst} for {tolerance}: pieces were not made for nothing");
+    }
+}
+
+/// The distance from a point above it to the parabola y = 2 + 2t(1 - t), x = 4 + 2t, by trying.
+fn nearest(p: Point2) -> f64 {
+    (0..=4000)
+        .map(|k| f64::from(k) / 4000.0)
+        .map(|t| ((4.0 + 2.0 * t - p.x).powi(2) + (2.0 + 2.0 * t * (1.0 - t) - p.y).powi(2)).sqrt())
+        .fold(f64::INFINITY, f64::min)
+}
+
+#[test]
+fn drawings_without_sizes_ids_or_sense_still_have_walls() {
+    let line = read("<path d='M1 1 L9 1' stroke='black'/>");
+    assert_near(&corners(&line, "wall 1"), &[(1.0, 9.0)]);
+    assert_eq!((line.bounds.max.x, line.bounds.max.y), (10.0, 10.0), "the viewBox's units");
+    // a filled bow-tie is no polygon, a filled line has no inside
+    let bow =
+        svg("d.svg", &drawing("<polygon id='bow' points='1,1 9,9 9,1 1,9'/>"), "d", SvgOptions::default()).unwrap();
+    assert_eq!(bow.world.obstacles[0].kind, ObstacleKind::Wall);
+    assert_eq!(bow.world.obstacles[0].pieces.len(), 4);
+    assert!(
+        bow.notes[0].contains("bow is drawn as its outline: the edges after vertex 0 and vertex 2 cross"),
+        "{:?}",
+        bow.notes
+    );
+    // an ellipse is no disc, and the same id twice is two names
+    let two = read("<ellipse id='e' cx='3' cy='3' rx='2' ry='1'/><circle id='e' cx='7' cy='7' r='1'/>");
+    let names: Vec<&str> = two.obstacles.iter().map(|o| o.name.as_str()).collect();
+    assert_eq!(names, ["e", "e 2"]);
+    assert!(matches!(two.obstacles[1].pieces[0].1, Shape::Disc { .. }));
+    assert!(!matches!(two.obstacles[0].pieces[0].1, Shape::Disc { .. }));
+    // a quarter of a circle is no disc
+    let quarter = read("<path d='M5 5 L9 5 A4 4 0 0 1 5 9 Z'/>");
+    assert!(is_hit(&quarter, 6.0, 4.0) && !is_hit(&quarter, 4.9, 5.1), "y was turned over");
+    // what nobody sees is no obstacle
+    let hidden = "<rect x='1' y='1' width='1' height='1' visibility='hidden'/><rect x='4' y='4' width='1' height='1'/>";
+    assert_eq!(read(hidden).obstacles.len(), 1);
+    for world in [line, bow.world, two, quarter] {
+        assert_prints_as_itself(&world);
+    }
+}
+
+#[test]
+fn drawings_that_cannot_be_worlds_are_refused_with_line_and_element() {
+    let refuse = |inside: &str| svg("d.svg", &drawing(inside), "d", SvgOptions::default()).unwrap_err().to_string();
+    assert_eq!(refuse(""), "d.svg: there is no obstacle in it");
+    assert_eq!(refuse("<text x='1' y='1'>words</text>"), "d.svg: there is no obstacle in it");
+    assert!(
+        refuse("\n<image id='photo' href='/etc/passwd'/>")
+            .starts_with("d.svg:3: image \"photo\": not supported: image")
+    );
+    assert!(refuse("<foreignObject/>").starts_with("d.svg:2: foreignObject: not supported"));
+    assert!(refuse("<g clip-path='url(#c)'/>").starts_with("d.svg:2: g: not supported: clip-path"));
+    let clip = "<clipPath id='c'><rect width='1' height='1'/></clipPath>\
+                <rect x='1' y='1' width='2' height='2' style='clip-path:url(#c)'/>";
+    assert!(refuse(clip).contains("not supported: a clip path"), "{}", refuse(clip));
+    for (shape, item) in [
+        ("<rect width='nan' height='1'/>", "rect: width = nan"),
+        ("<circle r='inf'/>", "circle: r = inf"),
+        ("<circle id='c' r='1e999'/>", "circle \"c\": r = 1e999"),
+        ("<path d='M 0 0 L nan 1'/>", "path: d = "),
+        ("<polygon points='0,0 1,inf 2,2'/>", "polygon: points = "),
+    ] {
+        assert!(refuse(shape).starts_with(&format!("d.svg:2: {item}")), "{}", refuse(shape));
+    }
+    let far = refuse("<line id='far' x1='0' y1='0' x2='1e6' y2='5' stroke='red'/>");
+    assert!(far.starts_with("d.svg: far: ") && far.contains("coordinates must be finite and at most 10000"), "{far}");
+    let huge = svg("d.svg", &drawing("").replace("0 0 10 10", "0 0 1e9 1e9"), "d", SvgOptions::default());
+    assert!(huge.is_err());
+    let sheet = drawing("<line x1='0' y1='0' x2='1' y2='1' stroke='red'/>").replace("0 0 10 10", "0 0 1e9 1e9");
+    assert!(svg("d.svg", &sheet, "d", SvgOptions::default()).unwrap_err().to_string().contains("at most 10000"));
+    assert!(svg("d.svg", "<svg", "d", HALL).unwrap_err().to_string().starts_with("d.svg:1: "));
+    assert!(svg("d.svg", "<html/>", "d", HALL).unwrap_err().to_string().starts_with("d.svg: no drawing"));
+    for bad in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+        let one = svg("d.svg", &sample("hall.svg"), "d", SvgOptions { metres_per_unit: bad, ..HALL });
+        let other = svg("d.svg", &sample("hall.svg"), "d", SvgOptions { tolerance: bad, ..HALL });
+        assert!(one.unwrap_err().to_string().contains("metres per unit"));
+        assert!(other.unwrap_err().to_string().contains("tolerance"));
+    }
+    let many = "<path d='M0 0h9' stroke='red'/>".repeat(100_001);
+    assert!(refuse(&many).contains("too many shapes: at most 100000"));
+    let deep = format!("{}{}", "<g>".repeat(100_000), "</g>".repeat(100_000));
+    assert!(refuse(&deep).contains("nested deeper than 200"));
+}
