@@ -7,6 +7,7 @@
 //! - Ask about configurations: [`collision::Checker`], and the trait [`collision::Collision`] that planners take.
 //! - Run something: [`recording::Run`].
 //! - Draw something: [`picture`].
+//! - Write a planner: [`guide::write_a_planner`].
 //!
 //! Conventions: SI units, radians, `f64`; x right, y up, counter-clockwise positive; angles wrapped to `(-pi, pi]`. Touching counts
 //! as collision.
@@ -46,6 +47,8 @@ pub mod app;
 
 #[cfg(target_family = "wasm")]
 pub mod web;
+
+pub mod guide;
 
 /// The names a planner or an experiment usually needs.
 pub mod prelude {

@@ -1,6 +1,8 @@
 //! The queries of the lab's robots touch no heap.
 
-use motion_lab::collision::{Certificate, Checker, Collision, Scene};
+use motion_lab::collision::{
+    Certificate, Checker, Collision, Counted, MarchOptions, Problem, Scene, march, verify_certificate,
+};
 use motion_lab::prelude::*;
 
 /// The heap allocations that `work` makes.
@@ -19,8 +21,20 @@ fn check<R: Robot>(checker: &Checker<R>, a: R::Configuration, b: R::Configuratio
         std::hint::black_box(checker.scene().swept(&footprint, &checker.robot().footprint(&b)));
         std::hint::black_box(checker.edge(&a, &b).unwrap());
         std::hint::black_box(checker.edge_certified(&a, &b, &mut certificate).unwrap());
+        std::hint::black_box(checker.is_free(&a) || checker.edge_free(&a, &b));
+        std::hint::black_box((checker.distance(&a), checker.witness(&a).unwrap(), checker.clearance(&a).unwrap()));
+        std::hint::black_box(checker.last_free(&a, &b).unwrap());
+        let edge = checker.robot().edge(&a, &b).unwrap();
+        std::hint::black_box(verify_certificate(checker.scene(), &edge, &certificate).unwrap());
+        let through = Counted::new(checker.scene());
+        std::hint::black_box(march(&through, &edge, MarchOptions::default(), None));
+        assert!(through.counts().distance > 0, "the march asks for distances");
     });
     assert_eq!(counted, 0, "{a} to {b}");
+    if let Ok(mut problem) = Problem::try_new(checker.clone(), a, a, Seed(1)) {
+        let counted = allocations(|| _ = std::hint::black_box((problem.sample(), problem.sample_free(9))));
+        assert_eq!(counted, 0, "samples");
+    }
 }
 
 /// Random edges: moving rectangles have hulls of up to eight corners, and the march takes every turn it can.

@@ -4,7 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// The modules in reading order: each may use those before it.
-const ORDER: [&str; 16] = [
+const ORDER: [&str; 17] = [
     "num",
     "random",
     "geometry",
@@ -21,6 +21,7 @@ const ORDER: [&str; 16] = [
     "ui",
     "app",
     "web",
+    "guide",
 ];
 
 /// The modules without Bevy: the pure core, and what draws without a window.

@@ -15,6 +15,7 @@ mod json_number;
 mod log_source;
 mod output;
 mod query;
+mod raster;
 mod record;
 mod replay;
 mod script;

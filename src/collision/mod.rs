@@ -14,6 +14,7 @@ mod narrow;
 mod problem;
 mod scene;
 mod segments;
+mod shared;
 mod surroundings;
 mod swept;
 mod witness;

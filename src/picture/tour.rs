@@ -34,15 +34,16 @@ pub struct RobotTour {
     pub readout: String,
 }
 
-/// The figure of a run: its worlds side by side.
-pub fn tour_figure(seed: Seed, ticks: u64, digest: Digest, panels: &[TourPanel<'_>]) -> Figure {
-    let seconds = crate::run::DT * ticks as f64;
+/// The figure of a run after the first of two numbers of ticks, the other being that of the whole run: its worlds side by side.
+pub fn tour_figure(seed: Seed, (tick, ticks): (u64, u64), digest: Digest, panels: &[TourPanel<'_>]) -> Figure {
+    let seconds = crate::run::DT * tick as f64;
+    let so_far = if tick == ticks { format!("{ticks} ticks") } else { format!("tick {tick} of {ticks}") };
     Figure {
         title: format!("A run of {seconds:.0} s at seed {}", seed.0),
         description: description(panels),
         panels: panels.iter().map(panel).collect(),
         caption: vec![
-            format!("Seed {}, {ticks} ticks ({seconds:.2} s). Outlines: start. Crosses: contacts.", seed.0),
+            format!("Seed {}, {so_far} ({seconds:.2} s). Outlines: start. Crosses: contacts.", seed.0),
             format!("Digest {digest}"),
         ],
     }
@@ -122,7 +123,11 @@ mod tests {
             contacts: vec![p(2.0, 2.0)],
             readout: "Pose2 { x: 3.000, y: 1.000, theta: 0.500 }".into(),
         };
-        let figure = tour_figure(Seed(7), 1200, Digest(0xabc), &[TourPanel { world: &yard, robots: vec![robot] }]);
+        let figure =
+            tour_figure(Seed(7), (1200, 1200), Digest(0xabc), &[TourPanel { world: &yard, robots: vec![robot] }]);
+        assert!(figure.caption[0].contains("Seed 7, 1200 ticks (60.00 s)"), "{}", figure.caption[0]);
+        let half = tour_figure(Seed(7), (600, 1200), Digest(0xabc), &[]);
+        assert!(half.caption[0].contains("Seed 7, tick 600 of 1200 (30.00 s)"), "{}", half.caption[0]);
         assert_eq!(figure.panels[0].heading, "Rusty \u{b7} Yard");
         assert_eq!(figure.panels[0].readout[1], "contacts: 1");
         assert!(figure.caption.join(" ").contains(&format!("{:032x}", 0xabc)));

@@ -2,6 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::configuration::Configuration;
+
 /// The version of the script format that this program writes and reads.
 pub const SCRIPT_VERSION: u32 = 1;
 
@@ -69,5 +71,25 @@ impl Script {
     /// The script without an event.
     pub const fn empty() -> Self {
         Script { version: SCRIPT_VERSION, events: Vec::new() }
+    }
+
+    /// The script that moves the robot named `robot` to one configuration after the other, one a tick from tick 1 on: a plan
+    /// for a robot that can be sent to places, such as Reach. Coordinates are rounded to units of 2^-20. `None` when one is not
+    /// finite or out of range.
+    ///
+    /// ```
+    /// use motion_lab::prelude::*;
+    /// use motion_lab::run::Script;
+    /// let script = Script::of_moves("Reach", [T2::new(0.5, 0.0), T2::new(0.5, 0.25)]).unwrap();
+    /// assert_eq!((script.events.len(), script.events[1].tick), (2, 2));
+    /// assert!(Script::of_moves("Reach", [Tn([f64::NAN, 0.0])]).is_none());
+    /// ```
+    pub fn of_moves<C: Configuration>(robot: &str, way: impl IntoIterator<Item = C>) -> Option<Self> {
+        let event = |(tick, q): (u64, C)| {
+            let target = q.coordinates().iter().map(|x| Quantized::try_new(*x)).collect::<Option<_>>()?;
+            Some(Event { tick, robot: robot.to_owned(), input: RobotInput::MoveTo(target) })
+        };
+        let events = (1_u64..).zip(way).map(event).collect::<Option<_>>()?;
+        Some(Script { version: SCRIPT_VERSION, events })
     }
 }

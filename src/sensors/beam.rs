@@ -2,8 +2,11 @@
 
 use super::RangeSensor;
 use crate::num::{exp, ln};
-use crate::random::Stream;
+use crate::random::{DRAWS_PER_INDEX, Stream};
 use crate::worlds::BeamModel;
+
+/// How many draws a reading takes: one for its kind, one for its place, two for a normal number.
+const DRAWS: u64 = 4;
 
 impl BeamModel {
     /// The noisy readings for the exact `ranges` of `sensor` at tick `tick`, drawn from `stream`.
@@ -12,15 +15,18 @@ impl BeamModel {
     /// ray only. Hits are kept in [0, R]; a ray whose exact range is infinite has no hit and no short return within it: it
     /// reads infinity, R or at random. A reading is never negative.
     pub fn apply(&self, sensor: &RangeSensor, ranges: &[f64], stream: &Stream, tick: u64) -> Vec<f64> {
-        let rays = u64::from(sensor.n_rays);
-        (0_u64..)
-            .zip(ranges)
-            .map(|(k, &exact)| self.reading(exact, sensor.max_range, stream.at(tick * rays + k)))
-            .collect()
+        // ray k's draws begin at index tick n + k; the indices follow one another, so the stream is walked, not sought
+        let mut draws = stream.at(tick * u64::from(sensor.n_rays));
+        let mut reading = |&exact: &f64| {
+            let reading = self.reading(exact, sensor.max_range, &mut draws);
+            (DRAWS..DRAWS_PER_INDEX).for_each(|_| _ = draws.bits());
+            reading
+        };
+        ranges.iter().map(&mut reading).collect()
     }
 
-    fn reading(&self, exact: f64, max_range: f64, mut draws: Stream) -> f64 {
-        // every ray makes the same draws, whatever becomes of them
+    fn reading(&self, exact: f64, max_range: f64, draws: &mut Stream) -> f64 {
+        // every ray makes the same DRAWS draws, whatever becomes of them
         let (mut choice, u, noise) = (draws.unit(), draws.unit(), draws.normal());
         let mut falls_to = |probability: f64| {
             let chosen = choice < probability;
@@ -91,6 +97,18 @@ mod tests {
             (mean - 2.0).abs() < 5.0 * 0.1 / 223.6 && (variance - 0.01).abs() < 5.0 * 0.01 * 0.0064,
             "{mean} {variance}"
         );
+    }
+
+    #[test]
+    fn a_ray_draws_from_its_own_place_in_the_stream() {
+        let model = BeamModel { sigma_hit: 0.1, z_rand: 0.5, ..BeamModel::EXACT };
+        let stream = Stream::new(Seed(7), "a");
+        let sensor = RangeSensor { n_rays: 9, max_range: 4.0 };
+        let scan = model.apply(&sensor, &[1.0; 9], &stream, 5);
+        for k in 0..9 {
+            let alone = model.reading(1.0, 4.0, &mut stream.at(5 * 9 + k));
+            assert_eq!(scan[k as usize], alone, "ray {k}");
+        }
     }
 
     #[test]

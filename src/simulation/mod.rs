@@ -44,4 +44,7 @@ pub use state::{Keyframes, LatestFrame, RestoreError, restore, snapshot};
 pub use transport::{Playback, Transport, TransportCommand};
 pub use view::{RobotView, view};
 
+/// Bevy's app, for a program that adds robots of its own and does not otherwise use Bevy.
+pub use bevy::app::App;
+
 use spawn::{SpawnRequest, spawn_robot, start_run_in_order};

@@ -221,3 +221,44 @@ fn what_cannot_be_exported_is_told() {
     assert!(error.contains("run.mcap") && error.contains("tick 8") && error.contains("robot 0"), "{error}");
     assert_eq!(export(&file, "jsonl").done().lines().count(), 31, "as data it can be written all the same");
 }
+
+#[test]
+fn pictures_of_a_run_carry_its_seed_digest_and_tick() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = recording(folder.path());
+    let log = read(&file);
+    let made = |name: &str, more: &[&str]| {
+        let (path, format) = (folder.path().join(name), name.rsplit('.').next().unwrap());
+        let arguments = ["export", file.to_str().unwrap(), "--format", format, "-o", path.to_str().unwrap()];
+        run(&[&arguments, more].concat()).done();
+        fs::read(path).unwrap()
+    };
+    let image = made("half.png", &["--tick", "15", "--width", "400"]);
+    let mut reader = png::Decoder::new(std::io::Cursor::new(&image)).read_info().unwrap();
+    let mut first = vec![0; reader.output_buffer_size().unwrap()];
+    reader.next_frame(&mut first).unwrap();
+    let notes: BTreeMap<&str, &str> =
+        reader.info().uncompressed_latin1_text.iter().map(|note| (&*note.keyword, &*note.text)).collect();
+    assert_eq!((notes["Seed"], notes["Tick"]), ("2005", "15"));
+    assert_eq!(notes["Digest"], log.digest().to_string());
+    assert_eq!(reader.info().width, 400);
+    assert_ne!(made("end.png", &["--width", "400"]), image, "robots have moved on");
+    let svg = String::from_utf8(made("half.svg", &["--tick", "15"])).unwrap();
+    assert!(svg.contains("tick 15 of 30 (0.75 s)"), "the figure tells where it is");
+    // from tick 10 to 20 a picture for every fifth: three, a quarter of a second each
+    let film = made("film.gif", &["--from", "10", "--to", "20", "--every", "5", "--width", "400"]);
+    let mut frames = gif::DecodeOptions::new().read_info(&film[..]).unwrap();
+    let mut delays = Vec::new();
+    while let Some(frame) = frames.read_next_frame().unwrap() {
+        delays.push(frame.delay);
+    }
+    assert_eq!(delays, [25, 25, 25]);
+    let told = String::from_utf8_lossy(&film).contains(&format!("seed 2005, digest {}", log.digest()));
+    assert!(told, "the comment tells the run");
+    for wrong in [&["--format", "png", "--tick", "31"][..], &["--format", "gif", "--from", "20", "--to", "10"]] {
+        let output = folder.path().join("wrong");
+        let arguments = ["export", file.to_str().unwrap(), "-o", output.to_str().unwrap()];
+        run(&[&arguments, wrong].concat()).failed(2);
+        assert!(!output.exists());
+    }
+}

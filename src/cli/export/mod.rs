@@ -4,17 +4,17 @@ mod csv;
 mod foxglove;
 mod jsonl;
 mod sink;
+mod stills;
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
 use motion_lab::run::{Frame, Log};
 
-use super::figure::RunFigure;
 use super::log_source::{LogSource, read_log};
-use super::simulate::show;
 use super::{Data, Failure, Outcome, say};
 use sink::Sink;
+use stills::StillArgs;
 
 /// Write a log in a form that other programs read.
 ///
@@ -34,6 +34,8 @@ pub struct Export {
     /// CSV: a column for each ray of the range sensor as well.
     #[arg(long)]
     ranges: bool,
+    #[command(flatten)]
+    stills: StillArgs,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -44,6 +46,10 @@ enum Format {
     Csv,
     /// The run's figure: traces, ends and contacts in its worlds.
     Svg,
+    /// The same, painted. Seed, digest and tick are in the file's notes.
+    Png,
+    /// The run as it goes: the same figure at tick after tick.
+    Gif,
     /// An MCAP file for Foxglove, Lichtblick and Rerun: the log's own channels, and transforms, scans, scenes and log messages
     /// by Foxglove's schemas. It is not a log that `verify` reads.
     Foxglove,
@@ -55,39 +61,36 @@ impl Export {
         if self.ranges && self.format != Format::Csv {
             return Err(Failure::usage("--ranges goes with --format csv alone", "Leave it out: the others have them."));
         }
-        if self.format == Format::Foxglove && self.output.is_none() {
-            return Err(Failure::usage("an MCAP file is not for standard output", "Name it: -o FILE."));
+        if matches!(self.format, Format::Foxglove | Format::Png | Format::Gif) && self.output.is_none() {
+            return Err(Failure::usage("this form is not for standard output", "Name a file: -o FILE."));
         }
         let LogSource { read, damage } = read_log(&self.file)?;
         if let Some(damage) = &damage {
             say(format!("{damage}\nThis much is exported; `motion-lab record --resume` makes it whole."));
         }
-        if let (Format::Foxglove, Some(output)) = (self.format, &self.output) {
-            foxglove::write(&self.file, &read.log, output)?;
-        } else {
-            let mut sink = Sink::new(self.output.as_deref(), data)?;
-            match self.format {
-                Format::Jsonl => jsonl::write(&read.log, &mut sink)?,
-                Format::Csv => csv::write(&read.log, self.ranges, &mut sink)?,
-                Format::Svg | Format::Foxglove => svg(&self.file, &read.log, &mut sink)?,
+        let (file, log) = (&self.file, &read.log);
+        match (self.format, &self.output) {
+            (Format::Foxglove, Some(output)) => foxglove::write(file, log, output)?,
+            (Format::Png, Some(output)) => stills::png(&self.stills, file, log, output)?,
+            (Format::Gif, Some(output)) => stills::gif(&self.stills, file, log, output)?,
+            (format, output) => {
+                let mut sink = Sink::new(output.as_deref(), data)?;
+                match format {
+                    Format::Jsonl => jsonl::write(log, &mut sink)?,
+                    Format::Csv => csv::write(log, self.ranges, &mut sink)?,
+                    _ => {
+                        let tick = self.stills.tick.unwrap_or(log.frames.len() as u64);
+                        sink.text(&stills::svg_at(file, log, tick)?)?;
+                    }
+                }
+                sink.finish()?;
             }
-            sink.finish()?;
         }
         if let Some(output) = &self.output {
             say(format!("wrote {}", output.display()));
         }
         Ok(if damage.is_some() { Outcome::Recovered } else { Outcome::Done })
     }
-}
-
-/// The run's figure, as its frames say it went.
-fn svg(file: &Path, log: &Log, sink: &mut Sink) -> Result<(), Failure> {
-    let mut figure = RunFigure::default();
-    show(file, log, |run, _| {
-        figure.watch(run.view());
-        Ok(())
-    })?;
-    sink.text(&figure.svg(log.seed, &log.config, log.frames.len() as u64, log.digest()))
 }
 
 /// A log's frames from tick 0 on.

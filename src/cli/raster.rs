@@ -1,0 +1,167 @@
+//! Pixels: an SVG of ours painted without a display, as PNG and GIF.
+
+use std::io::{self, Write};
+use std::path::Path;
+
+use resvg::tiny_skia::{Color, Pixmap, Transform};
+use resvg::usvg::{Options, Tree};
+
+use super::Failure;
+
+/// Paints SVG at a fixed size. Its letters are the window's.
+pub struct Raster {
+    options: Options<'static>,
+    width: u32,
+}
+
+/// An opaque image, row by row from the top, three bytes a pixel.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Image {
+    /// Pixels from left to right.
+    pub width: u32,
+    /// Pixels from top to bottom.
+    pub height: u32,
+    /// Red, green and blue of every pixel.
+    pub rgb: Vec<u8>,
+}
+
+impl Raster {
+    /// A painter of images this many pixels wide.
+    pub fn new(width: u32) -> Self {
+        let mut options = Options::default();
+        let fonts = options.fontdb_mut();
+        for font in [epaint_default_fonts::UBUNTU_LIGHT, epaint_default_fonts::HACK_REGULAR] {
+            fonts.load_font_data(font.to_vec());
+        }
+        fonts.set_sans_serif_family("Ubuntu");
+        fonts.set_monospace_family("Hack");
+        Raster { options, width }
+    }
+
+    /// Paints the sheet on white paper. With a `height` what is lower is cut off and what is missing stays white, so that all
+    /// images of a sequence are of one size.
+    pub fn paint(&self, svg: &str, height: Option<u32>) -> Result<Image, Failure> {
+        let tree = Tree::from_str(svg, &self.options).map_err(Failure::internal)?;
+        let scale = self.width as f32 / tree.size().width();
+        let height = height.unwrap_or((tree.size().height() * scale).ceil() as u32);
+        let too_large =
+            || Failure::usage(format!("{} pixels wide is too large", self.width), "Choose a smaller --width.");
+        let mut pixels = Pixmap::new(self.width, height).ok_or_else(too_large)?;
+        pixels.fill(Color::WHITE);
+        resvg::render(&tree, Transform::from_scale(scale, scale), &mut pixels.as_mut());
+        let rgb = pixels.pixels().iter().flat_map(|p| [p.red(), p.green(), p.blue()]).collect();
+        Ok(Image { width: self.width, height, rgb })
+    }
+}
+
+/// Writes a PNG with these notes, a keyword and its text each, in its metadata.
+pub fn write_png(image: &Image, notes: &[(&str, String)], to: impl Write, path: &Path) -> Result<(), Failure> {
+    let failed = |error: png::EncodingError| match error {
+        png::EncodingError::IoError(error) => Failure::output(path, &error),
+        error => Failure::internal(error),
+    };
+    let mut encoder = png::Encoder::new(to, image.width, image.height);
+    encoder.set_color(png::ColorType::Rgb);
+    for (keyword, text) in notes {
+        encoder.add_text_chunk((*keyword).to_owned(), text.clone()).map_err(failed)?;
+    }
+    let mut writer = encoder.write_header().map_err(failed)?;
+    writer.write_image_data(&image.rgb).map_err(failed)?;
+    writer.finish().map_err(failed)
+}
+
+/// A GIF that is written frame by frame and played without end.
+pub struct GifWriter<W: Write> {
+    encoder: gif::Encoder<W>,
+    hundredths: u16,
+}
+
+impl<W: Write> GifWriter<W> {
+    /// Begins a GIF whose images are all this large and are shown for this many hundredths of a second each.
+    pub fn new(to: W, [width, height]: [u16; 2], hundredths: u16, comment: &str) -> io::Result<Self> {
+        let mut encoder = gif::Encoder::new(to, width, height, &[]).map_err(io::Error::other)?;
+        encoder.set_repeat(gif::Repeat::Infinite).map_err(io::Error::other)?;
+        // a comment is a chain of blocks of at most 255 bytes
+        let blocks: Vec<&[u8]> = comment.as_bytes().chunks(255).collect();
+        encoder.write_raw_extension(gif::AnyExtension(0xFE), &blocks).map_err(io::Error::other)?;
+        Ok(GifWriter { encoder, hundredths })
+    }
+
+    /// Writes the next image.
+    pub fn write(&mut self, image: &Image) -> io::Result<()> {
+        let (width, height) = (image.width as u16, image.height as u16);
+        let mut frame = gif::Frame::from_rgb_speed(width, height, &image.rgb, 10);
+        frame.delay = self.hundredths;
+        self.encoder.write_frame(&frame).map_err(|error| match error {
+            gif::EncodingError::Io(error) => error,
+            error => io::Error::other(error),
+        })
+    }
+
+    /// Ends the GIF and gives back what it was written to.
+    pub fn finish(self) -> io::Result<W> {
+        self.encoder.into_inner().map_err(io::Error::other)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const SVG: &str = r##"<svg xmlns="http://www.w3.org/2000/svg" width="40" height="20">
+        <rect x="0" y="0" width="10" height="20" fill="#ff0000"/>
+        <text x="12" y="15" font-size="12" style="font-family:'No Such Face',monospace">Wm</text></svg>"##;
+
+    fn pixel(image: &Image, x: u32, y: u32) -> [u8; 3] {
+        let at = 3 * (y * image.width + x) as usize;
+        [image.rgb[at], image.rgb[at + 1], image.rgb[at + 2]]
+    }
+
+    #[test]
+    fn shapes_and_letters_are_painted_to_scale_on_white() {
+        let image = Raster::new(80).paint(SVG, None).unwrap();
+        assert_eq!((image.width, image.height), (80, 40));
+        assert_eq!((pixel(&image, 10, 20), pixel(&image, 78, 2)), ([255, 0, 0], [255; 3]));
+        let dark = (24..80).flat_map(|x| (0..40).map(move |y| (x, y))).filter(|&(x, y)| pixel(&image, x, y)[0] < 100);
+        assert!(dark.count() > 60, "the letters are there without any font of the system's");
+        let padded = Raster::new(80).paint(SVG, Some(60)).unwrap();
+        assert_eq!((padded.height, pixel(&padded, 10, 50)), (60, [255; 3]));
+    }
+
+    #[test]
+    fn a_png_reads_back_with_its_notes() {
+        let image = Raster::new(40).paint(SVG, None).unwrap();
+        let mut bytes = Vec::new();
+        write_png(&image, &[("Seed", "2005".into())], &mut bytes, Path::new("x.png")).unwrap();
+        let mut reader = png::Decoder::new(io::Cursor::new(&bytes)).read_info().unwrap();
+        let mut rgb = vec![0; reader.output_buffer_size().unwrap()];
+        reader.next_frame(&mut rgb).unwrap();
+        assert_eq!(rgb, image.rgb);
+        let notes = &reader.info().uncompressed_latin1_text;
+        assert_eq!((notes[0].keyword.as_str(), notes[0].text.as_str()), ("Seed", "2005"));
+    }
+
+    #[test]
+    fn a_gif_holds_every_frame_and_its_comment() {
+        let image = Raster::new(40).paint(SVG, None).unwrap();
+        let comment = "seed 2005 ".repeat(30);
+        let mut writer = GifWriter::new(Vec::new(), [40, 20], 5, &comment).unwrap();
+        for _ in 0..3 {
+            writer.write(&image).unwrap();
+        }
+        let bytes = writer.finish().unwrap();
+        let mut options = gif::DecodeOptions::new();
+        options.set_color_output(gif::ColorOutput::RGBA);
+        let mut decoder = options.read_info(&bytes[..]).unwrap();
+        let mut frames = 0;
+        while let Some(frame) = decoder.read_next_frame().unwrap() {
+            assert_eq!((frame.delay, frame.width, frame.height), (5, 40, 20));
+            let red = &frame.buffer[4 * (5 * 40 + 5)..][..3];
+            assert!(red[0] > 240 && red[1] < 16 && red[2] < 16, "{red:?}");
+            frames += 1;
+        }
+        assert_eq!(frames, 3);
+        let text: Vec<u8> = comment.bytes().take(255).collect();
+        assert!(bytes.windows(255).any(|w| w == text), "the comment's first block");
+    }
+}

@@ -1,0 +1,30 @@
+//! A checker behind a reference or an `Arc` is a checker.
+
+use std::sync::Arc;
+
+use super::{Collision, Witness};
+use crate::geometry::Footprint;
+
+macro_rules! passes_on {
+    ($($holder:ty),*) => { $(
+        /// Passes every question on.
+        impl<C: Collision + ?Sized> Collision for $holder {
+            fn intersects(&self, footprint: &Footprint) -> bool {
+                (**self).intersects(footprint)
+            }
+
+            fn distance(&self, footprint: &Footprint) -> f64 {
+                (**self).distance(footprint)
+            }
+
+            fn witness(&self, footprint: &Footprint) -> Option<Witness> {
+                (**self).witness(footprint)
+            }
+
+            fn swept(&self, a: &Footprint, b: &Footprint) -> bool {
+                (**self).swept(a, b)
+            }
+        }
+    )* };
+}
+passes_on!(&C, Arc<C>);

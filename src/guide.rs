@@ -1,0 +1,4 @@
+//! The guide: chapters to read, whose code blocks run as tests.
+
+#[doc = include_str!("guide/write_a_planner.md")]
+pub mod write_a_planner {}

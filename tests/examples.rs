@@ -1,0 +1,246 @@
+//! The example programs: what they print is pinned, and what they claim is checked by other means than theirs.
+
+use std::f64::consts::{PI, TAU};
+
+use motion_lab::collision::{Checker, Scene};
+use motion_lab::geometry::Placed;
+use motion_lab::num::{cos, sin};
+use motion_lab::prelude::*;
+use motion_lab::robots::PartRates;
+use motion_lab::worlds::World;
+
+use crate::oracle::{plain, sweep};
+
+#[path = "../examples/bug1.rs"]
+mod bug1;
+#[path = "../examples/custom_robot.rs"]
+mod custom_robot;
+#[path = "../examples/lab_tour.rs"]
+mod lab_tour;
+#[path = "../examples/own_planner.rs"]
+mod own_planner;
+#[path = "../examples/redundancy_walk.rs"]
+mod redundancy_walk;
+#[path = "../examples/rrt_crate.rs"]
+mod rrt_crate;
+
+/// Fails when an example prints something else than is pinned in tests/pinned.
+macro_rules! assert_prints {
+    ($name:literal, $printed:expr) => {
+        assert_eq!($printed, include_str!(concat!("pinned/", $name, ".txt")), "examples/{}.rs", $name)
+    };
+}
+
+/// The short way from `a` to `b`, radians.
+fn short(a: f64, b: f64) -> f64 {
+    let d = (b - a) % TAU;
+    if d > PI {
+        d - TAU
+    } else if d <= -PI {
+        d + TAU
+    } else {
+        d
+    }
+}
+
+fn obstacles(scene: &Scene) -> Vec<Placed> {
+    scene.pieces().map(|(_, piece)| piece.clone()).collect()
+}
+
+/// The least clearance of the Workbench's arm along a path, by its kinematics written out and the oracle's distances.
+fn arm_clearance(path: &[T2]) -> f64 {
+    let at = |a: T2, b: T2, s: f64| {
+        let (th1, th2) = (a.0[0] + s * short(a.0[0], b.0[0]), a.0[1] + s * short(a.0[1], b.0[1]));
+        let elbow = Point2::new(cos(th1), sin(th1));
+        let tip = Point2::new(elbow.x + cos(th1 + th2), elbow.y + sin(th1 + th2));
+        [(Point2::origin(), elbow), (elbow, tip)]
+            .map(|(a, b)| Shape::Capsule { a, b, radius: 0.03 }.place(&Pose2::IDENTITY))
+            .to_vec()
+    };
+    let scene = obstacles(&Scene::workbench());
+    let edge = |ends: &[T2]| {
+        let speed = 2.0 * short(ends[0].0[0], ends[1].0[0]).abs() + short(ends[0].0[1], ends[1].0[1]).abs();
+        sweep::clearance(|s| at(ends[0], ends[1], s), speed, &scene, sweep::MICROMETRE).at_most
+    };
+    path.windows(2).map(edge).fold(f64::INFINITY, |m, c| if c < m { c } else { m })
+}
+
+#[test]
+fn the_lab_tour() {
+    assert_prints!("lab_tour", lab_tour::report().unwrap());
+}
+
+#[test]
+fn a_planner_of_ones_own() {
+    assert_prints!("own_planner", own_planner::report().unwrap());
+    let source = include_str!("../examples/own_planner.rs");
+    assert!(source.lines().count() < 80, "the guide promises fewer than 80 lines");
+    for seed in 0..5 {
+        let checker = own_planner::problem().unwrap().checker().clone();
+        let (start, goal) = (T2::new(2.0, 0.0), T2::new(3.1, 0.0));
+        let mut problem = motion_lab::collision::Problem::try_new(checker, start, goal, Seed(seed)).unwrap();
+        let path = own_planner::rrt(&mut problem, 0.4, 10_000).unwrap();
+        assert_eq!((path[0], path[path.len() - 1]), (start, goal));
+        assert!(arm_clearance(&path) > 0.0, "seed {seed}: the oracle finds a contact");
+        assert!(own_planner::rrt(&mut problem, 0.4, 1).is_none(), "one sample leads nowhere: the post is between");
+    }
+}
+
+#[test]
+fn the_crate_rrt() {
+    let (text, figure) = rrt_crate::report().unwrap();
+    assert_prints!("rrt_crate", text);
+    assert_eq!(rrt_crate::report().unwrap(), (text, figure.clone()), "every draw comes from a seeded stream");
+    assert!(figure.starts_with("<svg") && figure.contains("the goal"));
+
+    let reach = rrt_crate::solve(rrt_crate::reach().unwrap(), 0.8).unwrap();
+    assert_eq!((reach.path[0], *reach.path.last().unwrap()), (T2::new(2.0, 0.0), T2::new(-3.0, 0.0)));
+    let found = arm_clearance(&reach.path);
+    assert!(found > 0.0 && found >= reach.clearance - 1e-9, "{found} is below the proven {}", reach.clearance);
+
+    let rusty = rrt_crate::solve(rrt_crate::rusty().unwrap(), 0.8).unwrap();
+    let place = |name| World::apartment().place(name).unwrap().pose.position();
+    assert_eq!((rusty.path[0].0, rusty.path.last().unwrap().0), (place("room A"), place("room E")));
+    let scene = obstacles(&Scene::apartment());
+    for ends in rusty.path.windows(2) {
+        // a disc on a straight edge is a capsule
+        let swept = Shape::Capsule { a: ends[0].0, b: ends[1].0, radius: 0.11 }.place(&Pose2::IDENTITY);
+        let found =
+            scene.iter().map(|o| plain::distance(&swept, o)).fold(f64::INFINITY, |m, d| if d < m { d } else { m });
+        assert!(found > 0.0 && found >= rusty.clearance - 1e-9, "{found} is below the proven {}", rusty.clearance);
+    }
+}
+
+#[test]
+fn the_redundancy_walk() {
+    assert_prints!("redundancy_walk", redundancy_walk::report().unwrap());
+    let arm = Reach::<3>::redundant();
+    for seed in [1, 2, 2005] {
+        let walk = redundancy_walk::walk(&arm, Tn([0.3, 0.9, 0.8]), Seed(seed));
+        assert_eq!(walk.len(), 200);
+        // the tip by hand: three links of 0.6, 0.5 and 0.4 m
+        let tip = |q: &Tn<3>| {
+            let [a, b, c] = q.0;
+            let headings = [(0.6, a), (0.5, a + b), (0.4, a + b + c)];
+            headings.iter().fold([0.0, 0.0], |[x, y], (l, th)| [x + l * cos(*th), y + l * sin(*th)])
+        };
+        let [x, y] = tip(&walk[0]);
+        for q in &walk {
+            let [qx, qy] = tip(q);
+            assert!((qx - x).abs() < 1e-9 && (qy - y).abs() < 1e-9, "{q}");
+        }
+        assert!(walk.windows(2).all(|w| w[0].0[0] != w[1].0[0]), "theta1 varies at every step");
+        let all_near = walk.windows(2).all(|w| short(w[0].0[1], w[1].0[1]).abs() < 0.6);
+        assert!(all_near, "the elbow stays on its side: the arm moves without a jump");
+    }
+}
+
+#[test]
+fn bug1_with_both_sensors() {
+    let all = bug1::outcomes();
+    assert_prints!("bug1", bug1::table(&all));
+    let world = Checker::new(Scene::apartment(), RustyDisc::default());
+    for (seed, [exact, noisy]) in (0..).map(Seed).zip(&all) {
+        let (start, goal) = bug1::task(&world, seed);
+        assert!(exact.reached && exact.misjudged == 0, "seed {seed}: Bug1 reaches what can be reached");
+        // Bug1's bound: the straight way and one and a half times round each obstacle met, of which none is longer than the
+        // walls of all rooms; both ways of it, with a little for turning in and out
+        let bound = (goal - start).norm() + f64::from(exact.rounds) * (1.5 * 95.0 + 2.0);
+        assert!(exact.length >= (goal - start).norm() - 0.1 && exact.length <= bound, "seed {seed}: {exact:?}");
+        assert!(
+            noisy.misjudged > 0 || noisy.reached,
+            "seed {seed}: only a misjudged leave point keeps it from the goal"
+        );
+    }
+    assert!(all.iter().map(|[_, noisy]| noisy.misjudged).sum::<u32>() > 0, "noise breaks the promise");
+}
+
+#[test]
+fn bug1_round_one_disc_goes_as_far_as_geometry_says() {
+    let bounds = motion_lab::worlds::Bounds { min: Point2::new(-3.0, -3.0), max: Point2::new(3.0, 3.0) };
+    let scene = Scene::empty(bounds).with_obstacle("the disc", Shape::Disc { radius: 0.5 });
+    let (start, goal) = (Point2::new(-2.0, 0.05), Point2::new(2.0, 0.05));
+    let run = bug1::bug1(&Checker::new(scene.clone(), RustyDisc::default()), start, goal, None);
+    // up to the circle at KEEP around it, once round, half round again to the nearest point, and on to the goal
+    let circle = 0.5 + bug1::KEEP;
+    let expected = 2.0 * (2.0 - circle) + 1.5 * TAU * circle;
+    assert!(run.reached && run.rounds == 1 && run.misjudged == 0, "{run:?}");
+    assert!((run.length - expected).abs() < 0.06 * expected, "{} m, not {expected} m", run.length);
+
+    // a goal that is walled in is given up after one way round
+    let corner = |x: f64, y: f64| Point2::new(1.5 + 0.6 * x, 0.6 * y);
+    let corners = [corner(-1.0, -1.0), corner(1.0, -1.0), corner(1.0, 1.0), corner(-1.0, 1.0)];
+    let walls: Vec<Segment> = (0..4).map(|i| Segment::new(corners[i], corners[(i + 1) % 4])).collect();
+    let walled = Checker::new(Scene::of_walls(&walls), RustyDisc::default());
+    let run = bug1::bug1(&walled, start, Point2::new(1.5, 0.0), None);
+    assert!(!run.reached && run.rounds == 1, "{run:?}");
+}
+
+#[test]
+fn a_robot_of_ones_own() {
+    use custom_robot::{TRAIN, TrainCfg, config, record, with_trains};
+    use motion_lab::recording::Run;
+
+    assert_prints!("custom_robot", custom_robot::report().unwrap());
+    let log = record(Seed(8)).unwrap();
+    assert_eq!(Run::replay_with_robots(&log, with_trains).unwrap(), log.frames);
+    assert_eq!(log.frames, Run::record_with_robots(config(), Seed(8), with_trains).unwrap().frames);
+    assert_ne!(log.frames, record(Seed(9)).unwrap().frames);
+    let unknown = Run::replay(&log).unwrap_err().to_string();
+    assert!(unknown.contains("there is no kind \"x-train\""), "{unknown}");
+
+    // on tour every axle rolls and none slides: a step moves it along the mean heading of its part, by the oracle's own
+    // kinematics of the recorded numbers
+    let axles = |c: &[f64]| {
+        let behind = |[x, y]: [f64; 2], psi: f64| [x - TRAIN.draw_bar * cos(psi), y - TRAIN.draw_bar * sin(psi)];
+        let first = behind([c[0], c[1]], c[3]);
+        [([c[0], c[1]], c[2]), (first, c[3]), (behind(first, c[4]), c[4])]
+    };
+    let scene = obstacles(&Scene::lot());
+    for pair in log.frames.windows(2) {
+        let (a, b) = (&pair[0].robots[0], &pair[1].robots[0]);
+        assert!(!b.in_contact);
+        for ((p, th), (q, to)) in axles(&a.configuration).into_iter().zip(axles(&b.configuration)) {
+            let (dx, dy, mid) = (q[0] - p[0], q[1] - p[1], th + 0.5 * short(th, to));
+            let (ahead, aside) = (dx * cos(mid) + dy * sin(mid), dy * cos(mid) - dx * sin(mid));
+            assert!(ahead > 0.03 && aside.abs() < 1e-4, "an axle slides: {ahead} ahead, {aside} aside");
+        }
+        let footprint = TRAIN.footprint(&TrainCfg::from_coordinates(&b.configuration).unwrap());
+        assert!(footprint.parts().iter().all(|p| scene.iter().all(|o| plain::distance(p.placed(), o) > 0.0)));
+    }
+}
+
+#[test]
+fn the_bounds_of_a_robot_of_ones_own_hold() {
+    use custom_robot::TRAIN;
+    let mut s = Stream::new(Seed(4), "train");
+    let holds = |footprint_at: &dyn Fn(f64) -> Footprint, rates: PartRates| {
+        for i in 0..16 {
+            let h = 1.0 / 16.0;
+            let s0 = f64::from(i) * h;
+            let at = [0.0, 0.5, 1.0].map(|k| footprint_at(s0 + k * h));
+            for (part, bound) in rates.iter().enumerate() {
+                for v in 0..4 {
+                    let [p, mid, q] = [0, 1, 2].map(|k: usize| at[k].parts()[part].placed().core()[v]);
+                    assert!((q - p).norm() <= bound.speed * h + 1e-12, "part {part} is faster than its bound");
+                    let bow = (mid - (p + (q - p) * 0.5)).norm();
+                    assert!(
+                        bow <= 0.125 * bound.acceleration * h * h + 1e-12,
+                        "part {part} strays farther than its bound"
+                    );
+                }
+            }
+        }
+    };
+    let (low, high) = (Point2::new(-5.0, -5.0), Point2::new(5.0, 5.0));
+    for _ in 0..200 {
+        let (a, b) = (TRAIN.sample(low, high, &mut s), TRAIN.sample(low, high, &mut s));
+        let edge = TRAIN.edge(&a, &b).unwrap();
+        holds(&|s| edge.footprint_at(s), TRAIN.edge_rates(&a, &b).unwrap());
+        assert_eq!((edge.at(0.0), edge.at(1.0)), (a, b));
+        let u = CarCmd { v: s.uniform(-3.0, 3.0), phi: s.uniform(-0.7, 0.7) };
+        let drive = TRAIN.drive(&a, &u, 0.2).unwrap();
+        holds(&|s| drive.footprint_at(s), (0..3).map(|part| drive.rates(part)).collect());
+        assert_eq!(drive.at(0.0), a);
+    }
+}
