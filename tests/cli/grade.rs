@@ -94,6 +94,17 @@ fn scripts_pass_miss_touch_and_turn_round() {
 }
 
 #[test]
+fn a_world_file_is_found_beside_the_assignment() {
+    let folder = folder(&[("ahead.ron", script(&[(1, "Drive(128, 0)")]))]);
+    fs::create_dir(folder.path().join("week 3")).unwrap();
+    let text = run_in(folder.path(), &["world", "show", "lot"]).done();
+    fs::write(folder.path().join("week 3/yard.ron"), text).unwrap();
+    fs::write(folder.path().join("week 3/exam.ron"), ASSIGNMENT.replace("\"lot\"", "\"yard.ron\"")).unwrap();
+    let table = run_in(folder.path(), &["grade", "week 3/exam.ron", "ahead.ron"]).done();
+    assert!(table.ends_with("1 of 1 pass\n"), "{table}");
+}
+
+#[test]
 fn a_goal_may_have_to_be_held() {
     let folder = folder(&[
         ("through.ron", script(&[(1, "Drive(128, 0)")])),

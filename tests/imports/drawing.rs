@@ -135,8 +135,11 @@ fn drawings_without_sizes_ids_or_sense_still_have_walls() {
     let quarter = read("<path d='M5 5 L9 5 A4 4 0 0 1 5 9 Z'/>");
     assert!(is_hit(&quarter, 6.0, 4.0) && !is_hit(&quarter, 4.9, 5.1), "y was turned over");
     // what nobody sees is no obstacle
-    let hidden = "<rect x='1' y='1' width='1' height='1' visibility='hidden'/><rect x='4' y='4' width='1' height='1'/>";
-    assert_eq!(read(hidden).obstacles.len(), 1);
+    let rect = "<rect x='1' y='1' width='1' height='1' visibility='hidden'/>";
+    let hidden = drawing(&format!("{rect}{rect}<rect x='4' y='4' width='1' height='1'/>"));
+    let hidden = svg("d.svg", &hidden, "d", SvgOptions::default()).unwrap();
+    assert_eq!(hidden.world.obstacles.len(), 1);
+    assert_eq!(hidden.notes, ["what is drawn invisibly is left out"], "said once");
     for world in [line, bow.world, two, quarter] {
         assert_prints_as_itself(&world);
     }
