@@ -44,7 +44,7 @@ enum Eyes {
     /// By the exact nearest point: the truth that leave points are judged by.
     Truth,
     /// By its sensor, exact or with noise from a stream.
-    Sensor(Option<(BeamModel, Stream)>),
+    Sensor(Option<Box<(BeamModel, Stream)>>),
 }
 
 /// Rusty on its way.
@@ -76,7 +76,7 @@ impl Bug<'_> {
             return self.world.scene().witness(&Footprint::disc(self.at, 0.0)).map(|w| w.on_obstacle);
         };
         let mut ranges = SENSOR.scan(self.world.scene(), self.at);
-        if let Some((model, stream)) = noise {
+        if let Some((model, stream)) = noise.as_deref() {
             ranges = model.apply(&SENSOR, &ranges, stream, self.tick);
         }
         let n = ranges.len();
@@ -200,7 +200,7 @@ pub struct Outcome {
 /// Runs Bug1 from `start` to `goal`.
 pub fn bug1(world: &DiscChecker, start: Point2, goal: Point2, noise: Option<(BeamModel, Stream)>) -> Outcome {
     let bug = |eyes, at| Bug { world, eyes, goal, at, tick: 0, length: 0.0, bumps: 0, followed: None };
-    let mut rusty = bug(Eyes::Sensor(noise), start);
+    let mut rusty = bug(Eyes::Sensor(noise.map(Box::new)), start);
     let mut outcome = Outcome::default();
     while outcome.rounds < 20 {
         if rusty.head_for_goal() {
