@@ -12,9 +12,9 @@
 //! A leave point is *misjudged* when it lies more than [`TOLERANCE`] farther from the goal than the place where the same way
 //! round, followed by exact nearest points instead of the sensor, comes nearest; or when the sensor then says that the goal
 //! lies behind the obstacle although every start here has a way to its goal; or when the round is never closed. With the exact
-//! sensor that never happens. With the noisy one the nearest reading is off by centimetres in range and by tens of degrees in
-//! bearing, so the boundary's nearest point is taken where there is none, the goal's side of a wall is mistaken for the other,
-//! and the promise is gone. What a real robot does instead is to keep a belief about where it and the walls are.
+//! sensor that never happens. With the noisy one the nearest reading is wrong in range by centimetres, and so in bearing by tens
+//! of degrees; a place seems nearer to the goal than it is, or a way blocked that is free, and the promise is gone. What a real
+//! robot does instead is to keep a belief about where it and the walls are, over many readings.
 #![allow(clippy::print_stdout, dead_code)]
 
 use motion_lab::collision::{Checker, Collision, DiscChecker, Scene};
