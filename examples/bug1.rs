@@ -12,9 +12,9 @@
 //! A leave point is *misjudged* when it lies more than [`TOLERANCE`] farther from the goal than the place where the same way
 //! round, followed by exact nearest points instead of the sensor, comes nearest; or when the sensor then says that the goal
 //! lies behind the obstacle although every start here has a way to its goal; or when the round is never closed. With the exact
-//! sensor that never happens. With the noisy one the nearest reading is off by centimetres in range and by tens of degrees in
-//! bearing, so the boundary's nearest point is taken where there is none, the goal's side of a wall is mistaken for the other,
-//! and the promise is gone. What a real robot does instead is to keep a belief about where it and the walls are.
+//! sensor that never happens. With the noisy one the nearest reading is wrong in range by centimetres, and so in bearing by tens
+//! of degrees; a place seems nearer to the goal than it is, or a way blocked that is free, and the promise is gone. What a real
+//! robot does instead is to keep a belief about where it and the walls are, over many readings.
 #![allow(clippy::print_stdout, dead_code)]
 
 use motion_lab::collision::{Checker, Collision, DiscChecker, Scene};
@@ -40,17 +40,18 @@ pub const NOISE: BeamModel =
     BeamModel { sigma_hit: 0.03, z_short: 0.02, lambda_short: 1.0, z_miss: 0.02, z_max: 0.01, z_rand: 0.01 };
 
 /// How Rusty knows the nearest point of what surrounds it.
-enum Eyes {
+#[derive(Clone, Copy)]
+enum Eyes<'a> {
     /// By the exact nearest point: the truth that leave points are judged by.
     Truth,
     /// By its sensor, exact or with noise from a stream.
-    Sensor(Option<Box<(BeamModel, Stream)>>),
+    Sensor(Option<&'a (BeamModel, Stream)>),
 }
 
 /// Rusty on its way.
 struct Bug<'a> {
     world: &'a DiscChecker,
-    eyes: Eyes,
+    eyes: Eyes<'a>,
     goal: Point2,
     at: Point2,
     tick: u64,
@@ -72,11 +73,11 @@ struct Round {
 impl Bug<'_> {
     /// The point of the surroundings that seems nearest; `None` when nothing is in range.
     fn nearest(&mut self) -> Option<Point2> {
-        let Eyes::Sensor(noise) = &self.eyes else {
+        let Eyes::Sensor(noise) = self.eyes else {
             return self.world.scene().witness(&Footprint::disc(self.at, 0.0)).map(|w| w.on_obstacle);
         };
         let mut ranges = SENSOR.scan(self.world.scene(), self.at);
-        if let Some((model, stream)) = noise.as_deref() {
+        if let Some((model, stream)) = noise {
             ranges = model.apply(&SENSOR, &ranges, stream, self.tick);
         }
         let n = ranges.len();
@@ -198,9 +199,9 @@ pub struct Outcome {
 }
 
 /// Runs Bug1 from `start` to `goal`.
-pub fn bug1(world: &DiscChecker, start: Point2, goal: Point2, noise: Option<(BeamModel, Stream)>) -> Outcome {
+pub fn bug1(world: &DiscChecker, start: Point2, goal: Point2, noise: Option<&(BeamModel, Stream)>) -> Outcome {
     let bug = |eyes, at| Bug { world, eyes, goal, at, tick: 0, length: 0.0, bumps: 0, followed: None };
-    let mut rusty = bug(Eyes::Sensor(noise.map(Box::new)), start);
+    let mut rusty = bug(Eyes::Sensor(noise), start);
     let mut outcome = Outcome::default();
     while outcome.rounds < 20 {
         if rusty.head_for_goal() {
@@ -239,8 +240,8 @@ pub fn outcomes() -> Vec<[Outcome; 2]> {
     let world = Checker::new(Scene::apartment(), RustyDisc::default());
     let run = |seed: u64| {
         let (start, goal) = task(&world, Seed(seed));
-        let noise = Stream::new(Seed(seed), "bug1/beam");
-        [None, Some((NOISE, noise))].map(|noise| bug1(&world, start, goal, noise))
+        let noise = (NOISE, Stream::new(Seed(seed), "bug1/beam"));
+        [None, Some(&noise)].map(|noise| bug1(&world, start, goal, noise))
     };
     (0..100_u64).into_par_iter().map(run).collect()
 }
