@@ -112,6 +112,17 @@ fn parry_is_imported_in_one_file() {
 }
 
 #[test]
+fn foreign_formats_are_read_in_one_place() {
+    let mut readers = 0;
+    for (file, _, lines) in library() {
+        let reads = lines.iter().any(|l| l.contains("usvg") || l.contains("saphyr_parser"));
+        assert!(!reads || file.starts_with("worlds/import/"), "{file}");
+        readers += usize::from(reads);
+    }
+    assert!(readers > 0, "nothing reads them: this test no longer finds the sources");
+}
+
+#[test]
 fn the_pure_core_has_no_bevy_no_egui_and_opens_no_files() {
     for (file, module, lines) in library() {
         if PURE.contains(&module.as_str()) {

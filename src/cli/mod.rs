@@ -6,6 +6,7 @@ mod console;
 mod diff;
 mod end;
 mod export;
+mod few_colours;
 mod figure;
 mod grade;
 mod info;

@@ -7,6 +7,7 @@ use resvg::tiny_skia::{Color, Pixmap, Transform};
 use resvg::usvg::{Options, Tree};
 
 use super::Failure;
+use super::few_colours::FewColours;
 
 /// Paints SVG at a fixed size. Its letters are the window's.
 pub struct Raster {
@@ -90,7 +91,8 @@ impl<W: Write> GifWriter<W> {
     /// Writes the next image.
     pub fn write(&mut self, image: &Image) -> io::Result<()> {
         let (width, height) = (image.width as u16, image.height as u16);
-        let mut frame = gif::Frame::from_rgb_speed(width, height, &image.rgb, 10);
+        let FewColours { palette, pixels } = FewColours::of(&image.rgb);
+        let mut frame = gif::Frame::from_palette_pixels(width, height, pixels, palette, None);
         frame.delay = self.hundredths;
         self.encoder.write_frame(&frame).map_err(|error| match error {
             gif::EncodingError::Io(error) => error,
@@ -157,7 +159,7 @@ mod tests {
         while let Some(frame) = decoder.read_next_frame().unwrap() {
             assert_eq!((frame.delay, frame.width, frame.height), (5, 40, 20));
             let red = &frame.buffer[4 * (5 * 40 + 5)..][..3];
-            assert!(red[0] > 240 && red[1] < 16 && red[2] < 16, "{red:?}");
+            assert_eq!(red, [255, 0, 0]);
             frames += 1;
         }
         assert_eq!(frames, 3);

@@ -108,6 +108,7 @@ mod tests {
     use crate::collision::{Checker, DiscChecker};
     use crate::configuration::{HitchCfg, R2};
     use crate::geometry::{Pose2, Segment, Shape};
+    use crate::num;
     use crate::random::{Seed, Stream};
     use crate::robots::{Drivable, HITCH, RUSTY, Robot, RustyCmd, RustyDisc};
 
@@ -168,11 +169,11 @@ mod tests {
         let arc = RUSTY.drive(&Pose2::IDENTITY, &RustyCmd { v: PI, omega: PI }, 1.0).unwrap();
         let r = RUSTY.body_radius;
         // centre (sin f, 1 - cos f): the wall x = 0.8 is met at sin f = 0.8 - r
-        expect_hit(closed(&wall((0.8, -3.0), (0.8, 3.0)), &arc), (0.8 - r).asin() / PI, PI);
+        expect_hit(closed(&wall((0.8, -3.0), (0.8, 3.0)), &arc), asin(0.8 - r) / PI, PI);
         // ... and the ceiling y = 1.5 at cos f = -(0.5 - r)
-        expect_hit(closed(&wall((-3.0, 1.5), (3.0, 1.5)), &arc), (r - 0.5).acos() / PI, PI);
+        expect_hit(closed(&wall((-3.0, 1.5), (3.0, 1.5)), &arc), num::acos(r - 0.5) / PI, PI);
         // a point of the circle itself at f = 90 degrees is met at a chord of r: 2 sin(d / 2) = r
-        let before = 2.0 * (0.5 * r).asin();
+        let before = 2.0 * asin(0.5 * r);
         expect_hit(closed(&wall((1.0, 1.0), (9.0, 1.0)), &arc), (FRAC_PI_2 - before) / PI, PI);
         // to the right the same, mirrored
         let right = RUSTY.drive(&Pose2::IDENTITY, &RustyCmd { v: PI, omega: -PI }, 1.0).unwrap();
@@ -192,7 +193,7 @@ mod tests {
             (wall((0.0, 1.0), (0.2, 1.0)), TAU, 0.8 - r),        // inside it, an end nearest
             (wall((-3.0, -0.3), (3.0, -0.3)), 1.0, 0.3 - r),     // nearest at the start
             (wall((-3.0, 2.0), (3.0, 2.0)), FRAC_PI_2, 1.0 - r), // nearest at the end
-            (wall((-0.5, 0.5), (-0.5, 1.5)), FRAC_PI_2, hypot_of(0.5, 0.5) - r), // the circle would cross it, the arc does not
+            (wall((-0.5, 0.5), (-0.5, 1.5)), FRAC_PI_2, num::hypot(0.5, 0.5) - r), // the circle would cross it, the arc does not
         ];
         for (i, (scene, turn, exact)) in cases.iter().enumerate() {
             let clearance = free(scene, *turn);
@@ -200,8 +201,8 @@ mod tests {
         }
     }
 
-    fn hypot_of(x: f64, y: f64) -> f64 {
-        crate::num::hypot(x, y)
+    fn asin(x: f64) -> f64 {
+        FRAC_PI_2 - num::acos(x)
     }
 
     #[test]
@@ -224,7 +225,7 @@ mod tests {
             let sampled = |until: f64| {
                 (0..=400)
                     .map(|i| scene.distance(&motion.footprint_at(until * f64::from(i) / 400.0)))
-                    .fold(f64::INFINITY, crate::num::lesser)
+                    .fold(f64::INFINITY, num::lesser)
             };
             match (quick, slow) {
                 (EdgeVerdict::Free { clearance }, EdgeVerdict::Free { .. }) => {

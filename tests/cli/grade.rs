@@ -93,6 +93,35 @@ fn scripts_pass_miss_touch_and_turn_round() {
     assert!(lines[3].contains("events[1]: a teleport is not allowed") && lines[4] == "1 of 2 pass", "{}", table.out);
 }
 
+#[test]
+fn a_world_file_is_found_beside_the_assignment() {
+    let folder = folder(&[("ahead.ron", script(&[(1, "Drive(128, 0)")]))]);
+    fs::create_dir(folder.path().join("week 3")).unwrap();
+    let text = run_in(folder.path(), &["world", "show", "lot"]).done();
+    fs::write(folder.path().join("week 3/yard.ron"), text).unwrap();
+    fs::write(folder.path().join("week 3/exam.ron"), ASSIGNMENT.replace("\"lot\"", "\"yard.ron\"")).unwrap();
+    let table = run_in(folder.path(), &["grade", "week 3/exam.ron", "ahead.ron"]).done();
+    assert!(table.ends_with("1 of 1 pass\n"), "{table}");
+}
+
+#[test]
+fn a_goal_may_have_to_be_held() {
+    let folder = folder(&[
+        ("through.ron", script(&[(1, "Drive(128, 0)")])),
+        ("stop.ron", script(&[(1, "Drive(128, 0)"), (13, "Drive(0, 0)")])),
+    ]);
+    // at full speed the car is within 0.1 m of the goal for less than five ticks
+    fs::write(folder.path().join("exam.ron"), ASSIGNMENT.replace("0.1])", "0.1], ticks: 5)")).unwrap();
+    let rows = graded(folder.path(), &["through.ron", "stop.ron"]).out;
+    let rows: Vec<serde_json::Value> = rows.lines().map(json).collect();
+    assert_eq!(rows[0]["attempts"][0]["verdict"], "too many contacts", "on to the east curb");
+    assert_eq!(
+        (&rows[1]["passed"], &rows[1]["attempts"][0]["tick"]),
+        (&true.into(), &16.into()),
+        "at it from tick 12 on"
+    );
+}
+
 fn record(folder: &Path) -> Log {
     let arguments = ["record", "--world", "lot", "--robot", "Hitch=hitch:6.5,2.5,0", "--ticks", "80", "--seed", "9"];
     run_in(folder, &[&arguments[..], &["--script", "ahead.ron", "-o", "run.mcap"]].concat()).done();

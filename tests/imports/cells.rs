@@ -100,6 +100,17 @@ fn negate_and_raw_turn_the_shades_round() {
 }
 
 #[test]
+fn a_degree_at_the_threshold_itself_is_beyond_it() {
+    let text = "image: x\nresolution: 1\norigin: [0, 0, 0]\nmode: raw\nfree_thresh: 0.25\noccupied_thresh: 0.5\n";
+    let map = RosMap::parse("x.yaml", text).unwrap();
+    let cells = |unknown| map.cells("x", b"P2 4 1 255 24 25 49 50", unknown).unwrap();
+    let occupied = |map: &CellMap| (0..4).map(|c| map.grid.is_occupied(c, 0)).collect::<Vec<_>>();
+    let (free, solid) = (cells(Unknown::Free), cells(Unknown::Occupied));
+    assert_eq!(occupied(&free), [false, false, false, true]);
+    assert_eq!(occupied(&solid), [false, true, true, true]);
+}
+
+#[test]
 fn ros_maps_that_are_none_are_refused() {
     let refuse = |from: &str, to: &str| {
         let text = sample("room.yaml");

@@ -103,7 +103,8 @@ impl AssignmentFile {
             Ok(read) => read.version,
             Err(_) => ron::from_str(text).map_or(1, |Version { version }| version),
         };
-        let error = |line, item, problem| AssignmentError { file: file.to_owned(), line, item, problem };
+        let error =
+            |line, item, problem| AssignmentError { file: file.to_owned(), line, item, problem: Box::new(problem) };
         if version != 1 {
             return Err(error(line_of(text, "version"), "version", AssignmentProblem::Version(version)));
         }
@@ -126,7 +127,7 @@ impl AssignmentFile {
             file: self.file.clone(),
             line: line_of(&self.source, item),
             item,
-            problem,
+            problem: Box::new(problem),
         };
         let Some(number) = world.robots.iter().position(|r| r.name == *robot) else {
             let names: Vec<&str> = world.robots.iter().map(|r| r.name.as_str()).collect();
@@ -141,8 +142,7 @@ impl AssignmentFile {
         if coordinates != tolerances {
             return Err(error("goal", AssignmentProblem::Tolerances { coordinates, tolerances }));
         }
-        // written so that NaN is refused
-        if let Some(wrong) = goal.within.iter().find(|t| !(**t >= 0.0)) {
+        if let Some(wrong) = goal.within.iter().find(|t| t.is_nan() || **t < 0.0) {
             return Err(error("goal", AssignmentProblem::Tolerance(*wrong)));
         }
         let mut there = world.clone();

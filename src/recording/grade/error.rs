@@ -18,7 +18,7 @@ pub struct AssignmentError {
     /// The item; empty when the file is not of the format's form.
     pub item: &'static str,
     /// The reason.
-    pub problem: AssignmentProblem,
+    pub problem: Box<AssignmentProblem>,
 }
 
 impl fmt::Display for AssignmentError {
