@@ -15,7 +15,7 @@ pub use window::{WindowError, run_window};
 
 use crate::picture::{Picture, world as picture_of};
 use crate::simulation::{
-    Playback, RobotView, RunConfig, SimulationPlugin, Transport, TransportCommand, start_run, view,
+    Playback, RobotCommand, RobotView, RunConfig, SimulationPlugin, Transport, TransportCommand, start_run, view,
 };
 use crate::tour::{BOOK_SEED, TourConfig};
 use crate::ui::{self, Cockpit, CockpitRobot, Command, Dashboard, UiState, blend};
@@ -45,7 +45,14 @@ pub fn windowed_app() -> App {
     .insert_resource(EguiGlobalSettings { auto_create_primary_context: false, ..default() })
     .init_resource::<Interface>()
     .init_resource::<Worlds>()
-    .insert_resource(Shown(Dashboard { cockpits: Vec::new(), seed: BOOK_SEED, tick: 0, playing: false }))
+    .insert_resource(Shown(Dashboard {
+        cockpits: Vec::new(),
+        seed: BOOK_SEED,
+        tick: 0,
+        frontier: 0,
+        speed: 1.0,
+        playing: false,
+    }))
     .add_systems(Startup, (add_camera, start))
     .add_systems(Update, (gather, wake).chain())
     .add_systems(EguiPrimaryContextPass, show);
@@ -92,7 +99,8 @@ fn gather(world: &mut World) {
         world: Arc::clone(picture),
         robots: robots.iter().filter(|r| r.world == number).map(|r| shown(r, between)).collect(),
     });
-    let dashboard = Dashboard { cockpits: cockpits.collect(), seed: transport.seed, tick: transport.tick, playing };
+    let Transport { seed, tick, frontier, speed, .. } = transport;
+    let dashboard = Dashboard { cockpits: cockpits.collect(), seed, tick, frontier, speed, playing };
     world.insert_resource(Shown(dashboard));
 }
 
@@ -106,6 +114,9 @@ fn shown(robot: &RobotView, between: f64) -> CockpitRobot {
         flash: robot.flash > 0,
         contacts: robot.contacts,
         manual: robot.manual,
+        // an arm is moved by its joints
+        drivable: robot.tip.is_none(),
+        trailer: (robot.kind == "hitch").then_some(robot.coordinates.len() == 4),
     }
 }
 
@@ -124,6 +135,7 @@ fn show(
     mut interface: ResMut<Interface>,
     mut clear: ResMut<ClearColor>,
     mut transport: MessageWriter<TransportCommand>,
+    mut robots: MessageWriter<RobotCommand>,
     mut redraw: MessageWriter<RequestRedraw>,
 ) -> Result {
     let ctx = contexts.ctx_mut()?;
@@ -132,8 +144,11 @@ fn show(
     let mut commands = Vec::new();
     ui::dashboard(&mut root, &shown.0, &mut interface.0, &mut commands);
     clear.0 = interface.0.theme.clear_colour();
-    for Command::Transport(command) in commands {
-        transport.write(command);
+    for command in commands {
+        match command {
+            Command::Transport(command) => drop(transport.write(command)),
+            Command::Robot(command) => drop(robots.write(command)),
+        }
         redraw.write(RequestRedraw);
     }
     Ok(())

@@ -23,6 +23,10 @@ pub struct CockpitRobot {
     pub contacts: u32,
     /// Whether a person drives it.
     pub manual: bool,
+    /// Whether it has channels to be driven by.
+    pub drivable: bool,
+    /// Whether a trailer is on; `None` for a robot that can't have one.
+    pub trailer: Option<bool>,
 }
 
 /// One pane: a world with its robots.
@@ -43,6 +47,10 @@ pub struct Dashboard {
     pub seed: Seed,
     /// The last tick done.
     pub tick: u64,
+    /// The last tick that the run has reached, however far it was taken back since.
+    pub frontier: u64,
+    /// Simulated seconds per second of the clock.
+    pub speed: f64,
     /// Whether it plays.
     pub playing: bool,
 }

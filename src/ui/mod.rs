@@ -6,8 +6,12 @@ pub mod canvas;
 mod cockpit;
 #[cfg(feature = "window")]
 mod dashboard;
+#[cfg(feature = "window")]
+mod drive;
 mod readout;
 mod theme;
+#[cfg(feature = "window")]
+mod time_line;
 #[cfg(feature = "window")]
 mod transport_bar;
 
@@ -25,6 +29,8 @@ pub use transport_bar::transport_bar;
 pub enum Command {
     /// Move the run.
     Transport(crate::simulation::TransportCommand),
+    /// Put something in to a robot.
+    Robot(crate::simulation::RobotCommand),
 }
 
 /// What the window remembers that is no part of a run.
@@ -36,4 +42,8 @@ pub struct UiState {
     pub pane: usize,
     /// The seed field's text while it is edited.
     pub seed_text: Option<String>,
+    /// The name of the robot that the arrow keys drive.
+    pub armed: Option<String>,
+    /// The channels it was last told to hold.
+    pub held: (i16, i16),
 }

@@ -10,7 +10,8 @@ use crate::geometry::{Point2, Pose2};
 use crate::picture::{Picture, Role};
 use crate::random::Seed;
 use crate::robots::{HITCH, RUSTY, Reach, Robot};
-use crate::simulation::TransportCommand;
+use crate::run::RobotInput;
+use crate::simulation::{RobotCommand, TransportCommand};
 use crate::ui::{Cockpit, CockpitRobot, Command, Dashboard, Theme, UiState};
 use crate::worlds::Bounds;
 
@@ -26,6 +27,8 @@ fn robot<R: Robot>(name: &str, robot: &R, q: R::Configuration) -> CockpitRobot {
         flash: false,
         contacts: 3,
         manual: false,
+        drivable: true,
+        trailer: None,
     }
 }
 
@@ -45,6 +48,8 @@ fn model() -> Dashboard {
         ],
         seed: Seed(2005),
         tick: 1200,
+        frontier: 1200,
+        speed: 1.0,
         playing: true,
     }
 }
@@ -180,4 +185,112 @@ fn contact_shows_in_the_goals_red() {
         Screen::new(WIDE, &model).shapes.iter().any(|s| matches!(s, Shape::Path(path) if path.fill == red))
     };
     assert!(painted(true) && !painted(false));
+}
+
+#[test]
+fn arrow_keys_and_buttons_move_through_time() {
+    let press = |key| Event::Key { key, physical_key: None, pressed: true, repeat: false, modifiers: Modifiers::NONE };
+    let sent = |command| [Command::Transport(command)];
+    let paused = Dashboard { playing: false, tick: 600, ..model() };
+    let mut screen = Screen::new(WIDE, &paused);
+    assert_eq!(screen.frame(&paused, vec![press(Key::ArrowLeft)]), sent(TransportCommand::StepBack));
+    assert_eq!(screen.frame(&paused, vec![press(Key::ArrowRight)]), sent(TransportCommand::Step));
+    assert_eq!(screen.frame(&paused, vec![press(Key::Home)]), sent(TransportCommand::Seek(0)));
+    assert_eq!(screen.click(&paused, "Back"), sent(TransportCommand::StepBack));
+}
+
+#[test]
+fn the_time_line_goes_to_the_tick_that_is_pointed_at() {
+    let paused = Dashboard { playing: false, tick: 1200, ..model() };
+    for size in [WIDE, PHONE] {
+        let mut screen = Screen::new(size, &paused);
+        // the line stands above the row of buttons
+        let (_, play) = screen.texts().into_iter().find(|(text, _)| text == "Play").expect("the bar");
+        let height = if size == PHONE { 44.0 } else { 28.0 };
+        let pos = pos2(0.5 * size.x, play.center().y - height - 4.0);
+        let button =
+            |pressed| Event::PointerButton { pos, button: PointerButton::Primary, pressed, modifiers: Modifiers::NONE };
+        let mut commands = screen.frame(&paused, vec![Event::PointerMoved(pos), button(true)]);
+        commands.extend(screen.frame(&paused, vec![button(false)]));
+        let [Command::Transport(TransportCommand::Seek(tick)), ..] = commands[..] else { panic!("{commands:?}") };
+        assert!(tick.abs_diff(600) <= 20, "the middle of 1200 ticks, not {tick}");
+    }
+    // before the first tick there is nowhere to go
+    let fresh = Dashboard { playing: false, tick: 0, frontier: 0, ..model() };
+    let mut screen = Screen::new(WIDE, &fresh);
+    let pos = pos2(640.0, 800.0 - 10.0 - 28.0 - 4.0 - 14.0);
+    let button =
+        |pressed| Event::PointerButton { pos, button: PointerButton::Primary, pressed, modifiers: Modifiers::NONE };
+    let mut commands = screen.frame(&fresh, vec![Event::PointerMoved(pos), button(true)]);
+    commands.extend(screen.frame(&fresh, vec![button(false)]));
+    assert_eq!(commands, []);
+}
+
+#[test]
+fn a_speed_is_chosen_from_its_list() {
+    let mut screen = Screen::new(WIDE, &model());
+    assert_eq!(screen.click(&model(), "1 x"), []);
+    for _ in 0..3 {
+        screen.frame(&model(), vec![]);
+    }
+    assert_eq!(screen.click(&model(), "16 x"), [Command::Transport(TransportCommand::SetSpeed(16.0))]);
+    let fast = Dashboard { speed: 16.0, ..model() };
+    screen.frame(&fast, vec![]);
+    assert!(screen.texts().iter().any(|(text, _)| text == "16 x"));
+}
+
+#[test]
+fn a_clicked_pane_is_driven_by_the_arrow_keys_until_esc() {
+    let key = |key, pressed| Event::Key { key, physical_key: None, pressed, repeat: false, modifiers: Modifiers::NONE };
+    let told = |a, b| [Command::Robot(RobotCommand { robot: "Rusty".into(), input: RobotInput::Drive(a, b) })];
+    let model = model();
+    let mut screen = Screen::new(WIDE, &model);
+    let pos = pos2(150.0, 200.0); // on the first paper
+    let button =
+        |pressed| Event::PointerButton { pos, button: PointerButton::Primary, pressed, modifiers: Modifiers::NONE };
+    screen.frame(&model, vec![Event::PointerMoved(pos), button(true)]);
+    assert_eq!(screen.frame(&model, vec![button(false)]), [], "arming is no input");
+    assert_eq!(screen.state.armed.as_deref(), Some("Rusty"));
+    screen.frame(&model, vec![]);
+    assert!(screen.texts().iter().any(|(text, _)| text == "arrows drive, Esc lets go"));
+    assert_eq!(screen.frame(&model, vec![key(Key::ArrowUp, true)]), told(128, 0));
+    assert_eq!(screen.frame(&model, vec![]), [], "held: nothing changes");
+    assert_eq!(screen.frame(&model, vec![key(Key::ArrowRight, true)]), told(128, -128));
+    assert_eq!(screen.frame(&model, vec![key(Key::ArrowUp, false)]), told(0, -128));
+    assert_eq!(screen.frame(&model, vec![key(Key::Escape, true)]), told(0, 0), "it does not drive on by itself");
+    assert_eq!(screen.state.armed, None);
+    screen.frame(&model, vec![key(Key::ArrowRight, false), key(Key::Escape, false)]);
+    let step = [Command::Transport(TransportCommand::StepBack)];
+    assert_eq!(screen.frame(&model, vec![key(Key::ArrowLeft, true)]), step, "the keys move through time again");
+}
+
+#[test]
+fn an_arm_is_not_armed_and_links_release_and_couple() {
+    let sent = |robot: &str, input| [Command::Robot(RobotCommand { robot: robot.into(), input })];
+    let mut model = model();
+    model.cockpits[0].robots[0].drivable = false;
+    model.cockpits[1].robots[0].manual = true;
+    model.cockpits[2].robots[0].trailer = Some(true);
+    let mut screen = Screen::new(WIDE, &model);
+    let pos = pos2(150.0, 200.0);
+    let button =
+        |pressed| Event::PointerButton { pos, button: PointerButton::Primary, pressed, modifiers: Modifiers::NONE };
+    screen.frame(&model, vec![Event::PointerMoved(pos), button(true)]);
+    screen.frame(&model, vec![button(false)]);
+    assert_eq!(screen.state.armed, None);
+    assert_eq!(screen.click(&model, "resume tour"), sent("Reach", RobotInput::Release));
+    assert_eq!(screen.click(&model, "take the trailer off"), sent("Hitch", RobotInput::SetTrailer(false)));
+    model.cockpits[2].robots[0].trailer = Some(false);
+    screen.frame(&model, vec![]);
+    assert_eq!(screen.click(&model, "put a trailer on"), sent("Hitch", RobotInput::SetTrailer(true)));
+}
+
+#[test]
+fn hints_and_lists_are_on_the_themes_paper_too() {
+    let mut screen = Screen::new(WIDE, &model());
+    for theme in [Theme::Light, Theme::Dark] {
+        screen.state.theme = theme;
+        screen.frame(&model(), vec![]);
+        assert_eq!(screen.ctx.global_style().visuals.window_fill, theme.colour(Role::Paper), "{theme:?}");
+    }
 }
