@@ -2,9 +2,9 @@
 
 use std::fs::File;
 use std::io::{self, ErrorKind, Read};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
-use super::Failure;
+use super::{Data, Failure, Outcome, say};
 
 /// The greatest size of a world or script file, bytes.
 pub const MAX_TEXT: u64 = 64 << 20;
@@ -34,6 +34,27 @@ pub fn read_bytes(path: &Path, limit: u64) -> Result<Vec<u8>, Failure> {
         ));
     }
     Ok(bytes)
+}
+
+/// Does `with` to every file. One that is wrong gets its message, in order with what was said of the files before, and the
+/// others still have their turn.
+pub fn for_each_file(
+    files: &[PathBuf],
+    data: &mut Data,
+    mut with: impl FnMut(&Path, &mut Data) -> Result<(), Failure>,
+) -> Result<Outcome, Failure> {
+    let mut outcome = Outcome::Done;
+    for file in files {
+        match with(file, data) {
+            Err(failure @ Failure::Input { .. }) => {
+                outcome = Outcome::BadInput;
+                data.flush()?;
+                say(failure);
+            }
+            ended => ended?,
+        }
+    }
+    Ok(outcome)
 }
 
 /// The file, opened for reading; refused when it is a folder.

@@ -9,7 +9,7 @@ use clap::{Args, Subcommand};
 use motion_lab::run::Script;
 use serde::Serialize;
 
-use super::input::{open, read_text, unreadable};
+use super::input::{for_each_file, open, read_text, unreadable};
 use super::log_source::read_log;
 use super::output::write_file;
 use super::world_source::find_world;
@@ -123,26 +123,16 @@ fn print(file: &Path, data: &mut Data) -> Result<Outcome, Failure> {
 fn check(files: &[PathBuf], worlds: &[String], json: bool, data: &mut Data) -> Result<Outcome, Failure> {
     let worlds = worlds.iter().map(|name| find_world(name)).collect::<Result<Vec<_>, _>>()?;
     let names: Vec<&str> = worlds.iter().flat_map(|w| &w.robots).map(|r| r.name.as_str()).collect();
-    let mut outcome = Outcome::Done;
-    for file in files {
-        let robots_are_there = |script: Script| match script.check_robots(&names) {
+    for_each_file(files, data, |file, data| {
+        let script = read_script(file)?;
+        match script.check_robots(&names) {
             Err(error) if !worlds.is_empty() => Err(Failure::input(
                 format!("{}: {error}", file.display()),
                 format!("The robots of these worlds are {}.", names.join(", ")),
             )),
-            _ => Ok(script),
-        };
-        match read_script(file).and_then(robots_are_there) {
-            Ok(script) => summarise(file, &script, json, data)?,
-            Err(failure @ Failure::Input { .. }) => {
-                outcome = Outcome::BadInput;
-                data.flush()?; // in order with what was said of the files before
-                say(failure);
-            }
-            Err(failure) => return Err(failure),
+            _ => summarise(file, &script, json, data),
         }
-    }
-    Ok(outcome)
+    })
 }
 
 fn summarise(file: &Path, script: &Script, json: bool, data: &mut Data) -> Result<(), Failure> {

@@ -9,8 +9,9 @@ use clap::{Args, Subcommand};
 use motion_lab::worlds::World;
 use serde::Serialize;
 
+use crate::cli::input::for_each_file;
 use crate::cli::world_source::{find_world, read_world};
-use crate::cli::{Data, Failure, Outcome, say};
+use crate::cli::{Data, Failure, Outcome};
 use export::Export;
 use import::Import;
 
@@ -84,19 +85,7 @@ impl WorldArgs {
 }
 
 fn check(files: &[PathBuf], json: bool, data: &mut Data) -> Result<Outcome, Failure> {
-    let mut outcome = Outcome::Done;
-    for file in files {
-        match read_world(file) {
-            Ok(world) => summarise(&file.display().to_string(), &world, json, data)?,
-            Err(failure @ Failure::Input { .. }) => {
-                outcome = Outcome::BadInput;
-                data.flush()?; // in order with what was said of the files before
-                say(failure);
-            }
-            Err(failure) => return Err(failure),
-        }
-    }
-    Ok(outcome)
+    for_each_file(files, data, |file, data| summarise(&file.display().to_string(), &read_world(file)?, json, data))
 }
 
 fn summarise(source: &str, world: &World, json: bool, data: &mut Data) -> Result<(), Failure> {
