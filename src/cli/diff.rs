@@ -1,9 +1,10 @@
 //! `diff`: where two logs differ.
 
 use std::path::PathBuf;
+use std::slice::from_ref;
 
 use clap::Args;
-use motion_lab::run::{Divergence, Frame, Log, SetupDifference, Value, first_divergence};
+use motion_lab::run::{Divergence, Log, SetupDifference, Value, first_divergence};
 use serde::Serialize;
 
 use super::json_number::JsonNumber;
@@ -98,11 +99,10 @@ impl Comparison {
     /// Compares all ticks, or those that both logs have.
     fn of(a: &Log, b: &Log, common_only: bool) -> Self {
         let common = a.frames.len().min(b.frames.len());
-        let frames = |log: &Log| -> Vec<Frame> {
-            let end = if common_only { common } else { log.frames.len() };
-            std::iter::once(&log.initial).chain(&log.frames[..end]).cloned().collect()
-        };
-        let divergence = first_divergence(&frames(a), &frames(b)).map(|d| FirstValue::of(&d, a));
+        let end = |log: &Log| if common_only { common } else { log.frames.len() };
+        let divergence = first_divergence(from_ref(&a.initial), from_ref(&b.initial))
+            .or_else(|| first_divergence(&a.frames[..end(a)], &b.frames[..end(b)]))
+            .map(|d| FirstValue::of(&d, a));
         let setup: Vec<Setup> = a
             .setup_differences(b)
             .into_iter()

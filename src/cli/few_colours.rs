@@ -27,7 +27,6 @@ impl FewColours {
         }
         let roles = Role::ALL.map(|role| Theme::Light.palette().colour(role).0);
         let mut colours: Vec<[u8; 3]> = roles.into_iter().filter(|c| counts.remove(c).is_some()).collect();
-        colours.dedup();
         let mut others: Vec<([u8; 3], usize)> = counts.into_iter().collect();
         // stable: colours of one frequency stay in their own order
         others.sort_by_key(|(_, count)| std::cmp::Reverse(*count));

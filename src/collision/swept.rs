@@ -8,7 +8,7 @@ use crate::geometry::{Footprint, Part, Pose2};
 use crate::num::{hypot, wrap};
 use crate::robots::{Motion, Rates};
 
-/// The number of proof attempts after which a sweep counts as a hit. Enough to resolve a clearance of 1e-6 m along a metre
+/// What a sweep asks of the march. After so many proof attempts it counts as a hit: enough to resolve a clearance of 1e-6 m along a metre
 /// of travel and a full half turn of a part ten metres long.
 pub(super) const SWEEP: MarchOptions = MarchOptions { margin: 0.0, budget: 1 << 18 };
 

@@ -18,6 +18,8 @@ pub use divergence::{Divergence, first_divergence};
 pub use field::Value;
 pub use frame::{Frame, RobotScan, RobotState};
 pub use log::{DT, Log};
-pub use mcap::{DamageKind, DamagedLog, EXPORT_PROFILE, FORMAT_VERSION, GENERATOR, LogError, LogWriter, ReadLog};
+pub use mcap::{
+    DamageKind, DamagedLog, EXPORT_PROFILE, FORMAT_VERSION, GENERATOR, LogError, LogWriter, ReadLog, TICK_NANOSECONDS,
+};
 pub use script::{Event, Quantized, RobotInput, SCRIPT_VERSION, Script};
 pub use script_text::{MAX_CHANNEL, MAX_COORDINATES, MAX_EVENTS, ScriptError, ScriptProblem};

@@ -1,5 +1,7 @@
 //! `BeamModel`, the noise of a range sensor, as a world file gives it to a robot.
 
+use serde::Deserialize;
+
 /// The beam model of a range finder (Thrun, Burgard and Fox, *Probabilistic Robotics*, 2005, section 6.3), its parameters
 /// under their usual names. A reading is, independently of all others,
 ///
@@ -13,7 +15,8 @@
 ///
 /// Where nothing is in range there is no hit and no short return: the reading is infinity instead.
 /// [`apply`](Self::apply) draws the readings.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields, default)]
 pub struct BeamModel {
     /// Standard deviation of a hit's noise, metres.
     pub sigma_hit: f64,
@@ -47,6 +50,13 @@ pub enum BeamError {
     /// The probabilities add up to more than 1.
     #[error("z_short + z_miss + z_max + z_rand = {0}: the probabilities must add up to at most 1, the rest is z_hit")]
     Sum(f64),
+}
+
+/// Parameters that are left out are those of no noise.
+impl Default for BeamModel {
+    fn default() -> Self {
+        BeamModel::EXACT
+    }
 }
 
 impl BeamModel {

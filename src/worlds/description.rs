@@ -88,26 +88,7 @@ pub(super) struct RobotText {
     pub kind: String,
     pub start: Vec<f64>,
     #[serde(default, deserialize_with = "given")]
-    pub sensor: Option<SensorText>,
-}
-
-/// The noise of a range sensor.
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields, default)]
-pub(super) struct SensorText {
-    pub sigma_hit: f64,
-    pub z_short: f64,
-    pub lambda_short: f64,
-    pub z_miss: f64,
-    pub z_max: f64,
-    pub z_rand: f64,
-}
-
-impl Default for SensorText {
-    fn default() -> Self {
-        let BeamModel { sigma_hit, z_short, lambda_short, z_miss, z_max, z_rand } = BeamModel::EXACT;
-        SensorText { sigma_hit, z_short, lambda_short, z_miss, z_max, z_rand }
-    }
+    pub sensor: Option<BeamModel>,
 }
 
 /// A field that may be left out, and is written without `Some` when it is there.

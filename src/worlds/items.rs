@@ -1,8 +1,6 @@
 //! Every item of a world file checked and made what it means.
 
-use super::description::{
-    BoundsText, ObstacleText, PlaceText, PolylineText, RobotText, SensorText, ShapeText, Xy, point,
-};
+use super::description::{BoundsText, ObstacleText, PlaceText, PolylineText, RobotText, ShapeText, Xy, point};
 use super::parse::check_name;
 use super::{BeamModel, Bounds, MAX_ITEMS, Mark, Obstacle, ObstacleKind, Place, Resident, WorldProblem, convex_pieces};
 use crate::geometry::{MAX_COORDINATE, Point2, Pose2, Shape, ShapeError, convex_hull};
@@ -163,15 +161,14 @@ pub(super) fn make_resident(text: &RobotText) -> Result<Resident, WorldProblem> 
     if lengths == 2 {
         make_point((start[0], start[1]))?;
     }
-    let sensor = sensor.as_ref().map(|s| make_noise(&kind, s)).transpose()?;
+    let sensor = sensor.map(|noise| make_noise(&kind, noise)).transpose()?;
     Ok(Resident { name, kind, start, sensor })
 }
 
 /// The noise of the sensor of a robot of this kind, which must have one.
-fn make_noise(kind: &str, text: &SensorText) -> Result<BeamModel, WorldProblem> {
+fn make_noise(kind: &str, noise: BeamModel) -> Result<BeamModel, WorldProblem> {
     if ["reach", "reach3", "hitch"].contains(&kind) {
         return Err(WorldProblem::NoSensor(kind.to_owned()));
     }
-    let &SensorText { sigma_hit, z_short, lambda_short, z_miss, z_max, z_rand } = text;
-    Ok(BeamModel { sigma_hit, z_short, lambda_short, z_miss, z_max, z_rand }.try_new()?)
+    Ok(noise.try_new()?)
 }

@@ -30,7 +30,7 @@ pub const FORMAT_VERSION: &str = "1";
 /// Where a run's random numbers come from: see [`Stream`](crate::random::Stream).
 pub const GENERATOR: &str = "chacha8, a stream per name, keyed by xxh3-128";
 /// A tick's length in nanoseconds: [`DT`](crate::run::DT).
-const TICK_NANOSECONDS: u64 = 50_000_000;
+pub const TICK_NANOSECONDS: u64 = 50_000_000;
 const PROFILE: &str = "motion-lab";
 /// The profile in the header of an MCAP file that was made from a log for viewers, and is none itself.
 pub const EXPORT_PROFILE: &str = "motion-lab-export";

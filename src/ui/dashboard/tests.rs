@@ -218,7 +218,7 @@ fn the_time_line_goes_to_the_tick_that_is_pointed_at() {
     // before the first tick there is nowhere to go
     let fresh = Dashboard { playing: false, tick: 0, frontier: 0, ..model() };
     let mut screen = Screen::new(WIDE, &fresh);
-    let pos = pos2(640.0, 800.0 - 10.0 - 28.0 - 4.0 - 14.0);
+    let pos = pos2(1000.0, 800.0 - 10.0 - 28.0 - 4.0 - 14.0);
     let button =
         |pressed| Event::PointerButton { pos, button: PointerButton::Primary, pressed, modifiers: Modifiers::NONE };
     let mut commands = screen.frame(&fresh, vec![Event::PointerMoved(pos), button(true)]);

@@ -2,6 +2,7 @@
 
 use motion_lab::geometry::{Point2, Pose2};
 use motion_lab::num;
+use motion_lab::run::TICK_NANOSECONDS;
 use prost::Message;
 
 /// The compiled schema, which every export carries.
@@ -195,7 +196,9 @@ pub struct TriangleListPrimitive {
 impl Timestamp {
     /// The time of a tick, from zero.
     pub fn of_tick(tick: u64) -> Self {
-        Timestamp { seconds: (tick / 20) as i64, nanos: (tick % 20) as i32 * 50_000_000 }
+        const SECOND: u64 = 1_000_000_000;
+        let (seconds, nanos) = (tick * TICK_NANOSECONDS / SECOND, tick * TICK_NANOSECONDS % SECOND);
+        Timestamp { seconds: seconds as i64, nanos: nanos as i32 }
     }
 }
 

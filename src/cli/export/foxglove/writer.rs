@@ -6,15 +6,12 @@ use std::path::{Path, PathBuf};
 use mcap::records::{MessageHeader, Record};
 use mcap::write::NoSeek;
 use mcap::{Attachment, McapError, WriteOptions, Writer};
-use motion_lab::run::EXPORT_PROFILE;
+use motion_lab::run::{EXPORT_PROFILE, TICK_NANOSECONDS};
 use prost::Message;
 
 use super::message::SCHEMA;
 use crate::cli::Failure;
 use crate::cli::output::PendingFile;
-
-/// A tick's length in nanoseconds.
-const TICK_NANOSECONDS: u64 = 50_000_000;
 
 /// A file on its way, in chunks and with an index, so that viewers can go to any time at once.
 pub struct ViewerFile {
