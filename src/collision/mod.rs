@@ -1,6 +1,7 @@
 //! The collision checker: four questions about a footprint in a scene, and edges proven free.
 
 mod batch;
+mod boxes;
 mod certificate;
 mod checker;
 mod closed;
@@ -26,7 +27,8 @@ pub use edge::{EdgeVerdict, MarchOptions, UnresolvedReason};
 pub use march::{BRACKET, march};
 pub use problem::{Problem, ProblemError};
 pub use scene::Scene;
-pub(crate) use segments::SegmentSoup;
+pub(crate) use scene::touch;
+pub(crate) use segments::{Circle, LANES, SegmentLanes, SegmentSoup};
 pub use surroundings::Surroundings;
 pub use witness::{ObstacleId, Witness};
 

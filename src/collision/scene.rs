@@ -6,15 +6,19 @@ use parry2d_f64::bounding_volume::{Aabb, BoundingVolume};
 use parry2d_f64::math::Vector;
 use parry2d_f64::partitioning::{Bvh, BvhBuildStrategy, BvhNode, TraversalAction};
 
+use super::boxes::Boxes;
 use super::closed::verdict;
 use super::impact::{arc_distance, arc_meets, translation_meets};
 use super::narrow::{Nearest, depth, nearest};
 use super::segments::SegmentSoup;
 use super::swept::{self, SWEEP};
 use super::{Collision, ObstacleId, Witness};
-use crate::geometry::{CircularArc, Footprint, Placed, Pose2, Segment, Shape};
+use crate::geometry::{CircularArc, Footprint, Placed, Point2, Pose2, Segment, Shape};
 use crate::num::{greater, lesser, ulp};
 use crate::worlds::{Bounds, World};
+
+/// Up to so many pieces, looking at every box is quicker than walking the tree.
+const FEW: usize = 64;
 
 /// Named obstacles under one bounding-volume tree.
 ///
@@ -33,6 +37,7 @@ pub struct Scene {
     pieces: Vec<Placed>,
     owners: Vec<u32>,
     soup: SegmentSoup,
+    boxes: Boxes,
     tree: Bvh,
 }
 
@@ -110,8 +115,11 @@ impl Scene {
     fn of_pieces(bounds: Bounds, names: Vec<Arc<str>>, pieces: Vec<Placed>, owners: Vec<u32>) -> Self {
         let boxes: Vec<Aabb> = pieces.iter().map(piece_box).collect();
         let tree = Bvh::from_leaves(BvhBuildStrategy::Binned, &boxes);
-        let soup = SegmentSoup::of_pieces(&pieces, &owners);
-        Scene { bounds, names, pieces, owners, soup, tree }
+        let soup = SegmentSoup::of_pieces(&pieces);
+        let point = |v: Vector| Point2::new(v.x, v.y);
+        let few = if pieces.len() <= FEW { &boxes[..] } else { &[] };
+        let boxes = Boxes::new(few.iter().map(|b| (point(b.mins), point(b.maxs))));
+        Scene { bounds, names, pieces, owners, soup, boxes, tree }
     }
 
     /// The part of the plane the scene shows; not an obstacle.
@@ -137,6 +145,23 @@ impl Scene {
     /// The obstacles' boundary as segments and discs, for rays.
     pub(crate) fn soup(&self) -> &SegmentSoup {
         &self.soup
+    }
+
+    /// Whether the point, a disc of radius 0, is inside an obstacle or on one; true for a point that is not valid.
+    pub(crate) fn holds(&self, point: &Placed) -> bool {
+        if !point.is_valid() {
+            return true;
+        }
+        let held = |piece: usize| touch(point, &self.pieces[piece]);
+        if self.pieces.len() <= FEW {
+            return self.boxes.around(point.core()[0]).any(held);
+        }
+        let mut found = false;
+        self.each_within(point, 0.0, |piece| {
+            found = held(piece);
+            found
+        });
+        found
     }
 
     /// A lower bound on how far the footprint must move to become free, metres: no displacement that moves every point by
@@ -237,6 +262,11 @@ fn pair(part: &Placed, piece: &Placed) -> Nearest {
         let point = part.core()[0];
         Nearest { dist: 0.0, on_a: point, on_b: point }
     }
+}
+
+/// Whether two shapes touch; true when either is not valid.
+pub(crate) fn touch(a: &Placed, b: &Placed) -> bool {
+    !a.is_valid() || pair(a, b).dist == 0.0
 }
 
 /// The box around a placed shape, a little larger, so that rounding prunes nothing. All of the plane for a shape that is
