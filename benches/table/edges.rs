@@ -36,7 +36,10 @@ fn disc(scene: &Scene, side: f64) -> Vec<Timing> {
 }
 
 /// Certified edges beside parry's contact test at every 2 mm.
-fn certified<R: Robot>(checker: &Checker<R>, mut draw: impl FnMut(&mut Stream, &R) -> [R::Configuration; 2]) -> Vec<Timing> {
+fn certified<R: Robot>(
+    checker: &Checker<R>,
+    mut draw: impl FnMut(&mut Stream, &R) -> [R::Configuration; 2],
+) -> Vec<Timing> {
     let peer = Peer::new(pieces(checker.scene()));
     let mut s = draws("certified edges");
     let mut pairs = Vec::new();

@@ -41,7 +41,8 @@ impl Peer {
     pub fn scan(&self, (x, y): (f64, f64), directions: &[(f64, f64)], range: f64, ranges: &mut [f64]) {
         for ((dx, dy), r) in directions.iter().zip(ranges) {
             let ray = Ray::new(Vector::new(x, y), Vector::new(*dx, *dy));
-            let hit = self.tree.cast_ray(&ray, range, |i, best| self.segments[i as usize].cast_local_ray(&ray, best, true));
+            let hit =
+                self.tree.cast_ray(&ray, range, |i, best| self.segments[i as usize].cast_local_ray(&ray, best, true));
             *r = hit.map_or(f64::INFINITY, |(_, t)| t);
         }
     }
@@ -143,8 +144,8 @@ pub fn shape_on_stack(placed: &Placed) -> PartShape {
         [_] => PartShape::Ball(Ball::new(radius)),
         [a, b] if radius > 0.0 => PartShape::Capsule(Capsule::new(vector(a), vector(b), radius)),
         [a, b] => PartShape::Segment(Segment::new(vector(a), vector(b))),
-        _ => PartShape::Polygon(
-            ConvexPolygon::from_convex_polyline(core.iter().map(vector).collect()).expect("convex"),
-        ),
+        _ => {
+            PartShape::Polygon(ConvexPolygon::from_convex_polyline(core.iter().map(vector).collect()).expect("convex"))
+        }
     }
 }

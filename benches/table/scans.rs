@@ -52,10 +52,16 @@ fn against(sensor: RangeSensor, scene: &Scene, poses: &[Pose2], sets: &[Instruct
 
 pub fn rows(table: &mut Table) {
     let best = Instructions::best();
-    let cases = [(40, 8.0, 2.0, 4.0, ">= 30x"), (1_000, 40.0, 1.0, 12.0, ">= 25x"), (10_000, 40.0, 1.0, 12.0, ">= 20x")];
+    // a hall; crowded yards, six things to the square metre; the same number of things spread out
+    let cases = [
+        (40, 8.0, 2.0, 4.0, ">= 30x"),
+        (1_000, 12.6, 1.0, 12.0, ">= 25x"),
+        (10_000, 40.0, 1.0, 12.0, ">= 20x"),
+        (1_000, 40.0, 1.0, 12.0, ""),
+    ];
     for (count, side, longest, range, must) in cases {
         let sensor = RangeSensor { n_rays: 360, max_range: range };
-        let work = format!("scan, 360 rays, {count} segments, R {range} m");
+        let work = format!("scan, 360 rays, {count} segments in {side} m x {side} m, R {range} m");
         let scene = walls(count, side, longest);
         let poses = free_points(&scene, 0.3 * side, 0.7 * side);
         table.row(&format!("{work} ({best:?})"), must, || against(sensor, &scene, &poses, &[best]));

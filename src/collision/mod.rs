@@ -2,6 +2,7 @@
 
 mod batch;
 mod boxes;
+mod cells;
 mod certificate;
 mod checker;
 mod closed;
@@ -20,6 +21,7 @@ mod surroundings;
 mod swept;
 mod witness;
 
+pub(crate) use cells::{Cells, Item};
 pub use certificate::{Certificate, CertificateError, ProvenStep, verify_certificate};
 pub use checker::{CarChecker, ChainChecker, Checker, DiscChecker};
 pub use counted::{Counted, QueryCounts};
@@ -28,7 +30,7 @@ pub use march::{BRACKET, march};
 pub use problem::{Problem, ProblemError};
 pub use scene::Scene;
 pub(crate) use scene::touch;
-pub(crate) use segments::{Circle, LANES, SegmentLanes, SegmentSoup};
+pub(crate) use segments::{Circle, LANES, SegmentSoup};
 pub use surroundings::Surroundings;
 pub use witness::{ObstacleId, Witness};
 

@@ -7,6 +7,7 @@ use parry2d_f64::math::Vector;
 use parry2d_f64::partitioning::{Bvh, BvhBuildStrategy, BvhNode, TraversalAction};
 
 use super::boxes::Boxes;
+use super::cells::Cells;
 use super::closed::verdict;
 use super::impact::{arc_distance, arc_meets, translation_meets};
 use super::narrow::{Nearest, depth, nearest};
@@ -19,6 +20,9 @@ use crate::worlds::{Bounds, World};
 
 /// Up to so many pieces, looking at every box is quicker than walking the tree.
 const FEW: usize = 64;
+
+/// From so many segments and discs on, a scan walks through a grid.
+const MANY: usize = 128;
 
 /// Named obstacles under one bounding-volume tree.
 ///
@@ -37,6 +41,8 @@ pub struct Scene {
     pieces: Vec<Placed>,
     owners: Vec<u32>,
     soup: SegmentSoup,
+    /// Of a large scene.
+    cells: Option<Cells>,
     boxes: Boxes,
     tree: Bvh,
 }
@@ -116,10 +122,12 @@ impl Scene {
         let boxes: Vec<Aabb> = pieces.iter().map(piece_box).collect();
         let tree = Bvh::from_leaves(BvhBuildStrategy::Binned, &boxes);
         let soup = SegmentSoup::of_pieces(&pieces);
+        let many = soup.segments().len() + soup.circles().len() > MANY;
+        let cells = if many { Cells::new(&soup) } else { None };
         let point = |v: Vector| Point2::new(v.x, v.y);
         let few = if pieces.len() <= FEW { &boxes[..] } else { &[] };
         let boxes = Boxes::new(few.iter().map(|b| (point(b.mins), point(b.maxs))));
-        Scene { bounds, names, pieces, owners, soup, boxes, tree }
+        Scene { bounds, names, pieces, owners, soup, cells, boxes, tree }
     }
 
     /// The part of the plane the scene shows; not an obstacle.
@@ -145,6 +153,11 @@ impl Scene {
     /// The obstacles' boundary as segments and discs, for rays.
     pub(crate) fn soup(&self) -> &SegmentSoup {
         &self.soup
+    }
+
+    /// The grid over the boundary of a large scene.
+    pub(crate) fn cells(&self) -> Option<&Cells> {
+        self.cells.as_ref()
     }
 
     /// Whether the point, a disc of radius 0, is inside an obstacle or on one; true for a point that is not valid.

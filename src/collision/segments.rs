@@ -2,16 +2,17 @@
 
 use crate::geometry::{Placed, Point2, Segment};
 
-/// How many segments stand side by side.
+/// How many numbers stand side by side.
 pub(crate) const LANES: usize = 8;
 
-/// Eight segments in structure-of-arrays order; empty places hold NaN, which no ray hits.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct SegmentLanes {
-    pub(crate) ax: [f64; LANES],
-    pub(crate) ay: [f64; LANES],
-    pub(crate) bx: [f64; LANES],
-    pub(crate) by: [f64; LANES],
+/// Segments in structure-of-arrays order, filled up to whole eights with NaN, which no ray hits.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct SegmentArrays {
+    ax: Vec<f64>,
+    ay: Vec<f64>,
+    bx: Vec<f64>,
+    by: Vec<f64>,
+    count: usize,
 }
 
 /// A disc's boundary.
@@ -21,25 +22,50 @@ pub(crate) struct Circle {
     pub(crate) radius: f64,
 }
 
-/// Segments in eights, and discs.
+/// Segments and discs.
 ///
 /// A polygon gives its edges; a shape with a radius gives a disc at every vertex and both offset sides of every edge.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct SegmentSoup {
-    lanes: Vec<SegmentLanes>,
-    segments: usize,
+    segments: SegmentArrays,
     circles: Vec<Circle>,
 }
 
-impl SegmentLanes {
-    const NOTHING: SegmentLanes = {
-        let nan = [f64::NAN; LANES];
-        SegmentLanes { ax: nan, ay: nan, bx: nan, by: nan }
-    };
-
-    /// The segment at place `i` of the eight.
+impl SegmentArrays {
+    /// Segment number `i`.
     pub(crate) fn segment(&self, i: usize) -> Segment {
         Segment::new(Point2::new(self.ax[i], self.ay[i]), Point2::new(self.bx[i], self.by[i]))
+    }
+
+    /// The number of segments.
+    pub(crate) fn len(&self) -> usize {
+        self.count
+    }
+
+    /// The coordinates of the first ends and of the second ends, each x and y, in whole eights.
+    pub(crate) fn arrays(&self) -> [&[f64]; 4] {
+        [&self.ax, &self.ay, &self.bx, &self.by]
+    }
+
+    /// Adds one segment.
+    #[inline]
+    pub(crate) fn push(&mut self, s: Segment) {
+        let i = self.count;
+        if i == self.ax.len() {
+            for array in [&mut self.ax, &mut self.ay, &mut self.bx, &mut self.by] {
+                array.extend([f64::NAN; LANES]);
+            }
+        }
+        (self.ax[i], self.ay[i], self.bx[i], self.by[i]) = (s.a.x, s.a.y, s.b.x, s.b.y);
+        self.count += 1;
+    }
+
+    /// Forgets everything but keeps the room.
+    pub(crate) fn clear(&mut self) {
+        for array in [&mut self.ax, &mut self.ay, &mut self.bx, &mut self.by] {
+            array.clear();
+        }
+        self.count = 0;
     }
 }
 
@@ -53,9 +79,9 @@ impl SegmentSoup {
         soup
     }
 
-    /// The segments, in eights.
-    pub(crate) fn lanes(&self) -> &[SegmentLanes] {
-        &self.lanes
+    /// The segments.
+    pub(crate) fn segments(&self) -> &SegmentArrays {
+        &self.segments
     }
 
     /// The discs.
@@ -63,20 +89,9 @@ impl SegmentSoup {
         &self.circles
     }
 
-    /// The number of segments.
-    pub(crate) fn len(&self) -> usize {
-        self.segments
-    }
-
-    /// Each segment on its own.
-    pub(crate) fn segments(&self) -> impl Iterator<Item = Segment> {
-        (0..self.segments).map(|i| self.lanes[i / LANES].segment(i % LANES))
-    }
-
     /// Forgets everything but keeps the room.
     pub(crate) fn clear(&mut self) {
-        self.lanes.clear();
-        self.segments = 0;
+        self.segments.clear();
         self.circles.clear();
     }
 
@@ -90,16 +105,16 @@ impl SegmentSoup {
         for i in 0..sides {
             let (a, b) = (core[i], core[(i + 1) % core.len()]);
             if r == 0.0 {
-                self.push_segment(Segment::new(a, b));
+                self.segments.push(Segment::new(a, b));
                 continue;
             }
             let u = b - a;
             let length = crate::num::hypot(u.x, u.y);
             if length > 0.0 {
                 let normal = nalgebra::Vector2::new(u.y, -u.x) * (r / length);
-                self.push_segment(Segment::new(a + normal, b + normal));
+                self.segments.push(Segment::new(a + normal, b + normal));
                 if core.len() == 2 {
-                    self.push_segment(Segment::new(a - normal, b - normal));
+                    self.segments.push(Segment::new(a - normal, b - normal));
                 }
             }
         }
@@ -109,19 +124,8 @@ impl SegmentSoup {
     }
 
     /// Adds one segment.
-    pub(crate) fn push_segment(&mut self, s: Segment) {
-        let i = self.segments % LANES;
-        if i == 0 {
-            self.lanes.push(SegmentLanes::NOTHING);
-        }
-        if let Some(lanes) = self.lanes.last_mut() {
-            (lanes.ax[i], lanes.ay[i], lanes.bx[i], lanes.by[i]) = (s.a.x, s.a.y, s.b.x, s.b.y);
-        }
-        self.segments += 1;
-    }
-
-    /// Adds one disc.
-    pub(crate) fn push_circle(&mut self, circle: Circle) {
-        self.circles.push(circle);
+    #[cfg(test)]
+    pub(crate) fn push_segment(&mut self, segment: Segment) {
+        self.segments.push(segment);
     }
 }

@@ -1,15 +1,15 @@
 //! Rays that meet a disc.
 
-use super::kernel::{Rays, View, lanes, turns};
+use super::kernel::{Fan, Rays, View, raised, turns};
 use crate::collision::{Circle, LANES};
-use crate::num::{greater, sqrt};
+use crate::num::sqrt;
 
 /// More than the errors of the two bearings, in turns.
 const SLACK: f64 = 1e-5;
 
 /// Raises the inverse range of every ray that meets the disc: of those between the two tangents.
 #[inline(always)]
-pub(super) fn raise_circle(circle: &Circle, view: &View, rays: &mut [Rays]) {
+pub(super) fn raise_circle(circle: &Circle, view: &View, fan: &mut Fan) {
     let (cx, cy, r) = (circle.centre.x - view.origin.x, circle.centre.y - view.origin.y, circle.radius);
     let (d2, r2) = (cx * cx + cy * cy, r * r);
     let outside = d2 - r2; // positive: the origin is not inside
@@ -22,8 +22,8 @@ pub(super) fn raise_circle(circle: &Circle, view: &View, rays: &mut [Rays]) {
     let end = begin + 2.0 * half;
     let mut raise = |from: f64, to: f64| {
         let block = |turns: f64| (turns * view.rays) as usize / LANES;
-        for eight in rays.iter_mut().take(block(to) + 1).skip(block(from)) {
-            meet(eight, (cx, cy), r2, outside);
+        for block in fan.some(block(from)..block(to) + 1) {
+            meet(block, (cx, cy), r2, outside);
         }
     };
     raise(begin, end);
@@ -34,13 +34,12 @@ pub(super) fn raise_circle(circle: &Circle, view: &View, rays: &mut [Rays]) {
 
 #[inline(always)]
 fn meet(rays: &mut Rays, (cx, cy): (f64, f64), r2: f64, outside: f64) {
-    let Rays { dx, dy, inverse } = *rays;
-    rays.inverse = lanes(|k| {
-        let along = cx * dx[k] + cy * dy[k];
-        let across = cx * dy[k] - cy * dx[k];
+    for ((dx, dy), inverse) in rays.dx.iter().zip(&rays.dy).zip(&mut rays.inverse) {
+        let along = cx * dx + cy * dy;
+        let across = cx * dy - cy * dx;
         let half = r2 - across * across;
         // the nearer root of t^2 - 2 t along + outside = 0, as 1/t = (along + sqrt(half)) / outside
         let value = if (along > 0.0) & (half >= 0.0) { (along + sqrt(half)) / outside } else { 0.0 };
-        greater(value, inverse[k])
-    });
+        *inverse = raised(*inverse, value);
+    }
 }

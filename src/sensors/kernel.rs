@@ -9,8 +9,8 @@
 
 use multiversion::multiversion;
 
-use crate::collision::{LANES, SegmentLanes};
-use crate::geometry::{Point2, orientation};
+pub(super) use crate::collision::LANES;
+use crate::geometry::{Point2, Segment, orientation};
 use crate::num::{greater, lesser, sqrt};
 
 /// Eight numbers side by side.
@@ -24,6 +24,16 @@ pub(super) struct Rays {
     pub(super) dx: Lanes,
     pub(super) dy: Lanes,
     pub(super) inverse: Lanes,
+}
+
+/// The rays of a scan under way.
+#[derive(Clone, Debug)]
+pub(super) struct Fan {
+    pub(super) blocks: Vec<Rays>,
+    rays: usize,
+    /// The blocks with rays that may still be raised, by bits; all, if there are more than 64.
+    pub(super) open: u64,
+    ready: Box<Ready>,
 }
 
 /// From where, and how, a scan looks.
@@ -57,8 +67,7 @@ pub(super) fn turns(x: f64, y: f64) -> f64 {
     const TURN: f64 = std::f64::consts::TAU;
     let (w, h) = (x.abs(), y.abs());
     let steep = h > w;
-    let (low, high) = if steep { (w, h) } else { (h, w) };
-    let t = low / high;
+    let t = lesser(h, w) / greater(h, w);
     let t2 = t * t;
     let r = t * (C[0] / TURN + t2 * (C[1] / TURN + t2 * (C[2] / TURN + t2 * (C[3] / TURN + t2 * (C[4] / TURN)))));
     let r = if steep { 0.25 - r } else { r };
@@ -66,162 +75,221 @@ pub(super) fn turns(x: f64, y: f64) -> f64 {
     if y < 0.0 { 1.0 - r } else { r }
 }
 
-/// Eight numbers, each made on its own.
-#[inline(always)]
-pub(super) fn lanes(f: impl FnMut(usize) -> f64) -> Lanes {
-    std::array::from_fn(f)
-}
+/// How many segments are made ready at once.
+pub(super) const BATCH: usize = 64;
 
-/// Eight segments made ready: the wedge, the two coefficients of the inverse range, and the blocks of eight rays it may meet.
+type Batch = [f64; BATCH];
+
+/// Segments made ready: the wedge, the two coefficients of the inverse range, and the blocks of eight rays that may meet it.
+#[derive(Clone, Debug)]
 struct Ready {
-    px: Lanes,
-    py: Lanes,
-    qx: Lanes,
-    qy: Lanes,
-    a: Lanes,
-    b: Lanes,
-    /// The first and the last block with a ray of the wedge, and how many blocks from ray 0 on it reaches beyond the last of all.
-    first: [u32; LANES],
-    last: [u32; LANES],
-    turned: [u32; LANES],
-    /// All rays of the blocks from `inner` until before `outer` are in the wedge.
-    inner: [u32; LANES],
-    outer: [u32; LANES],
-    /// Not 0 where no ray can meet it.
-    out_of_reach: Lanes,
-    /// Not 0 where p x q is mostly rounding.
-    doubt: Lanes,
+    px: Batch,
+    py: Batch,
+    qx: Batch,
+    qy: Batch,
+    a: Batch,
+    b: Batch,
+    /// The first and the last block with a ray of the wedge, and how many blocks from ray 0 on it reaches beyond the last of
+    /// all; each with [`ROUND`] added.
+    first: Batch,
+    last: Batch,
+    turned: Batch,
+    /// All rays of the blocks from `inner` until before `outer` are in the wedge; with [`ROUND`] added.
+    inner: Batch,
+    outer: Batch,
+    /// 0 where no ray can meet the segment, 2 where p x q is mostly rounding, otherwise 1.
+    fate: Batch,
 }
 
+/// The integer in a number that had [`ROUND`] added.
 #[inline(always)]
-fn ready(s: &SegmentLanes, view: &View) -> Ready {
-    let (x, y) = (view.origin.x, view.origin.y);
-    let (ax, ay) = (lanes(|k| s.ax[k] - x), lanes(|k| s.ay[k] - y));
-    let (bx, by) = (lanes(|k| s.bx[k] - x), lanes(|k| s.by[k] - y));
-    let (left, right) = (lanes(|k| ax[k] * by[k]), lanes(|k| ay[k] * bx[k]));
-    let turn = lanes(|k| left[k] - right[k]);
-    let pick = |a: &Lanes, b: &Lanes| lanes(|k| if turn[k] < 0.0 { b[k] } else { a[k] });
-    let (px, py, qx, qy) = (pick(&ax, &bx), pick(&ay, &by), pick(&bx, &ax), pick(&by, &ay));
-    let area = lanes(|k| turn[k].abs());
-    let (ux, uy) = (lanes(|k| qx[k] - px[k]), lanes(|k| qy[k] - py[k]));
-    // the nearest point of the segment is between its ends, or one of them
-    let out_of_reach = lanes(|k| {
-        let between = (px[k] * ux[k] + py[k] * uy[k] < 0.0) & (qx[k] * ux[k] + qy[k] * uy[k] > 0.0);
-        let (p2, q2) = (px[k] * px[k] + py[k] * py[k], qx[k] * qx[k] + qy[k] * qy[k]);
-        let u2 = ux[k] * ux[k] + uy[k] * uy[k];
-        let end2 = if p2 < q2 { p2 } else { q2 };
-        let d2 = if between { area[k] * area[k] } else { end2 };
-        let scale = if between { u2 } else { 1.0 };
-        // NaN, in an empty place, is out of reach
-        if d2 <= view.reach_squared * scale { 0.0 } else { 1.0 }
-    });
-    let doubt = lanes(|k| if area[k] <= DOUBT * (left[k].abs() + right[k].abs()) + 1e-290 { 1.0 } else { 0.0 });
-    let (p, q) = (lanes(|k| turns(px[k], py[k])), lanes(|k| turns(qx[k], qy[k])));
-    let begin = lanes(|k| {
-        let p = p[k] - view.heading;
-        if p < SLACK { p + 1.0 } else { p }
-    });
-    let end = lanes(|k| {
-        let wide = q[k] - p[k];
-        begin[k] + if wide < -0.25 { wide + 1.0 } else { wide }
-    });
-    // rounding x - 1/2 to the nearest is rounding x down, or one less where x is whole, which is as good here
+fn whole(x: f64) -> usize {
+    x.to_bits() as u32 as usize
+}
+
+impl Default for Ready {
+    fn default() -> Self {
+        let [px, py, qx, qy, a, b, first, last, turned, inner, outer, fate] = [[0.0; BATCH]; 12];
+        Ready { px, py, qx, qy, a, b, first, last, turned, inner, outer, fate }
+    }
+}
+
+/// One loop without a branch, so that it works on several segments at a time.
+#[inline(always)]
+fn make_ready([ax, ay, bx, by]: [&[f64]; 4], view: &View, r: &mut Ready) {
     let blocks = view.rays * (1.0 / LANES as f64);
+    // rounding x - 1/2 to the nearest is rounding x down, or one less where x is whole, which is as good here
     let down = |turns: f64| (turns * blocks - 0.5) + ROUND;
     let up = |turns: f64| (turns * blocks + 0.5) + ROUND;
-    let whole = |x: Lanes| -> [u32; LANES] { std::array::from_fn(|k| x[k].to_bits() as u32) };
-    Ready {
-        px,
-        py,
-        qx,
-        qy,
-        a: lanes(|k| uy[k] / area[k]),
-        b: lanes(|k| ux[k] / area[k]),
-        first: whole(lanes(|k| down(begin[k] - SLACK))),
-        last: whole(lanes(|k| down(end[k] + SLACK))),
-        inner: whole(lanes(|k| up(begin[k] + SLACK))),
-        outer: whole(lanes(|k| down(end[k] - SLACK))),
+    for k in 0..ax.len().min(ay.len()).min(bx.len()).min(by.len()).min(BATCH) {
+        let (ax, ay) = (ax[k] - view.origin.x, ay[k] - view.origin.y);
+        let (bx, by) = (bx[k] - view.origin.x, by[k] - view.origin.y);
+        let (left, right) = (ax * by, ay * bx);
+        let turn = left - right;
+        let (px, qx) = (if turn < 0.0 { bx } else { ax }, if turn < 0.0 { ax } else { bx });
+        let (py, qy) = (if turn < 0.0 { by } else { ay }, if turn < 0.0 { ay } else { by });
+        let area = turn.abs();
+        let (ux, uy) = (qx - px, qy - py);
+        // the nearest point of the segment is between its ends, or one of them
+        let between = (px * ux + py * uy < 0.0) & (qx * ux + qy * uy > 0.0);
+        let (p2, q2, u2) = (px * px + py * py, qx * qx + qy * qy, ux * ux + uy * uy);
+        let end2 = if p2 < q2 { p2 } else { q2 };
+        let d2 = if between { area * area } else { end2 };
+        let scale = if between { u2 } else { 1.0 };
+        let doubt = area <= DOUBT * (left.abs() + right.abs()) + 1e-290;
+        let fate = if doubt { 2.0 } else { 1.0 };
+        let p = turns(px, py);
+        let wide = turns(qx, qy) - p;
+        let wide = if wide < -0.25 { wide + 1.0 } else { wide };
+        let begin = p - view.heading;
+        let begin = if begin < SLACK { begin + 1.0 } else { begin };
+        let end = begin + wide;
+        let over = end + SLACK - 1.0;
+        r.px[k] = px;
+        r.py[k] = py;
+        r.qx[k] = qx;
+        r.qy[k] = qy;
+        r.a[k] = uy / area;
+        r.b[k] = ux / area;
+        r.first[k] = down(begin - SLACK);
+        r.last[k] = down(end + SLACK);
+        r.inner[k] = up(begin + SLACK);
+        r.outer[k] = down(end - SLACK);
         // the rays of a block that is not full are fewer, so one more is taken for good measure
-        turned: whole(lanes(|k| {
-            let over = end[k] + SLACK - 1.0;
-            if over >= 0.0 { up(over) + 1.0 } else { ROUND }
-        })),
-        out_of_reach,
-        doubt,
+        r.turned[k] = if over >= 0.0 { up(over) + 1.0 } else { ROUND };
+        // NaN, in an empty place, is not in reach
+        r.fate[k] = if d2 <= view.reach_squared * scale { fate } else { 0.0 };
     }
 }
 
-/// Raises the rays that are in the wedge.
+/// The greater of the inverse range so far and a new one. The sum, which changes nothing, keeps the compiler from leaving out the
+/// stores that would: a store under a condition is slow.
 #[inline(always)]
-fn raise_tested(rays: &mut Rays, (px, py): (f64, f64), (qx, qy): (f64, f64), a: f64, b: f64) {
-    let Rays { dx, dy, inverse } = *rays;
-    rays.inverse = lanes(|k| {
-        let inside = (px * dy[k] - py * dx[k] >= 0.0) & (dx[k] * qy - dy[k] * qx >= 0.0);
-        let value = if inside { dx[k] * a - dy[k] * b } else { 0.0 };
-        greater(value, inverse[k])
-    });
+pub(super) fn raised(so_far: f64, value: f64) -> f64 {
+    greater(value, so_far + 0.0)
 }
 
-/// Raises eight rays that are all in the wedge.
-#[inline(always)]
-fn raise_all(rays: &mut Rays, a: f64, b: f64) {
-    let Rays { dx, dy, inverse } = *rays;
-    rays.inverse = lanes(|k| greater(dx[k] * a - dy[k] * b, inverse[k]));
+/// A wedge, and the two coefficients of the inverse range in it.
+#[derive(Clone, Copy)]
+struct Wedge {
+    p: (f64, f64),
+    q: (f64, f64),
+    a: f64,
+    b: f64,
 }
 
-#[inline(always)]
-fn raise_here(segments: &[SegmentLanes], view: &View, rays: &mut [Rays]) {
-    for eight in segments {
-        let r = ready(eight, view);
-        for k in 0..LANES {
-            if r.out_of_reach[k] != 0.0 {
-                continue;
-            }
-            if r.doubt[k] != 0.0 {
-                raise_doubtful(eight, k, view, rays);
-                continue;
-            }
-            let (p, q, a, b) = ((r.px[k], r.py[k]), (r.qx[k], r.qy[k]), r.a[k], r.b[k]);
-            let (first, last, turned) = (r.first[k] as usize, r.last[k] as usize, r.turned[k] as usize);
-            if turned > 0 || r.inner[k] as usize != first + 1 || r.outer[k] as usize != last {
-                // past ray 0, or an end so near the first ray of a block that it may be on either side
-                for block in rays.iter_mut().take(last + 1).skip(first) {
-                    raise_tested(block, p, q, a, b);
-                }
-                for block in rays.iter_mut().take(turned) {
-                    raise_tested(block, p, q, a, b);
-                }
-                continue;
-            }
-            let Some(span) = rays.get_mut(first..=last) else { continue };
-            let [block, rest @ ..] = span else { continue };
-            raise_tested(block, p, q, a, b);
-            let [within @ .., block] = rest else { continue };
-            for block in within {
-                raise_all(block, a, b);
-            }
-            raise_tested(block, p, q, a, b);
+impl Rays {
+    /// Raises those of the eight that are in the wedge.
+    #[inline(always)]
+    fn raise_tested(&mut self, w: &Wedge) {
+        for ((dx, dy), inverse) in self.dx.iter().zip(&self.dy).zip(&mut self.inverse) {
+            let inside = (w.p.0 * dy - w.p.1 * dx >= 0.0) & (dx * w.q.1 - dy * w.q.0 >= 0.0);
+            let value = if inside { dx * w.a - dy * w.b } else { 0.0 };
+            *inverse = raised(*inverse, value);
         }
     }
+
+    /// Raises all eight, which are in the wedge.
+    #[inline(always)]
+    fn raise_all(&mut self, w: &Wedge) {
+        for ((dx, dy), inverse) in self.dx.iter().zip(&self.dy).zip(&mut self.inverse) {
+            *inverse = raised(*inverse, dx * w.a - dy * w.b);
+        }
+    }
+}
+
+/// Does something to each of some blocks.
+#[inline(always)]
+fn each_block(blocks: &mut [Rays], mut raise: impl FnMut(&mut Rays)) {
+    for block in blocks {
+        // Never so; it keeps the compiler from working on several blocks at once, lane by lane, with gathers.
+        if block.dx[0] > 2.0 {
+            break;
+        }
+        raise(block);
+    }
+}
+
+impl Fan {
+    /// So many rays without a direction.
+    pub(super) fn new(rays: usize) -> Self {
+        let zero = [0.0; LANES];
+        let blocks = vec![Rays { dx: zero, dy: zero, inverse: zero }; rays.div_ceil(LANES)];
+        Fan { blocks, rays, open: u64::MAX, ready: Box::default() }
+    }
+
+    /// Each ray: its direction and its inverse range.
+    fn each(&mut self) -> impl Iterator<Item = (f64, f64, &mut f64)> {
+        self.blocks
+            .iter_mut()
+            .flat_map(|b| b.dx.iter().zip(&b.dy).zip(&mut b.inverse).map(|((dx, dy), inverse)| (*dx, *dy, inverse)))
+    }
+
+    /// The blocks of a range, those there are.
+    #[inline(always)]
+    pub(super) fn some(&mut self, blocks: std::ops::Range<usize>) -> &mut [Rays] {
+        let end = blocks.end.min(self.blocks.len());
+        self.blocks.get_mut(blocks.start..end).unwrap_or_default()
+    }
+}
+
+#[inline(always)]
+fn raise_here([ax, ay, bx, by]: [&[f64]; 4], view: &View, fan: &mut Fan) {
+    let mut from = 0;
+    while from < ax.len() {
+        let to = (from + BATCH).min(ax.len());
+        let batch = [&ax[from..to], &ay[from..to], &bx[from..to], &by[from..to]];
+        make_ready(batch, view, &mut fan.ready);
+        for k in 0..to - from {
+            let [ax, ay, bx, by] = batch;
+            let segment = || Segment::new(Point2::new(ax[k], ay[k]), Point2::new(bx[k], by[k]));
+            raise_one(k, segment, view, fan);
+        }
+        from = to;
+    }
+}
+
+/// Raises the rays that meet segment number `k` of those made ready.
+#[inline(always)]
+fn raise_one(k: usize, segment: impl Fn() -> Segment, view: &View, fan: &mut Fan) {
+    let r = &fan.ready;
+    if r.fate[k] != 1.0 {
+        if r.fate[k] != 0.0 {
+            raise_doubtful(segment(), view, fan);
+        }
+        return;
+    }
+    let w = Wedge { p: (r.px[k], r.py[k]), q: (r.qx[k], r.qy[k]), a: r.a[k], b: r.b[k] };
+    let (first, last, turned) = (whole(r.first[k]), whole(r.last[k]), whole(r.turned[k]));
+    if (fan.open >> first.min(63)) & (u64::MAX >> (63 - (last - first).min(63))) == 0 && turned == 0 {
+        return;
+    }
+    if turned > 0 || whole(r.inner[k]) != first + 1 || whole(r.outer[k]) != last {
+        // past ray 0, or an end so near the first ray of a block that it may be on either side
+        each_block(fan.some(first..last + 1), |block| block.raise_tested(&w));
+        each_block(fan.some(0..turned), |block| block.raise_tested(&w));
+        return;
+    }
+    let [block, rest @ ..] = fan.some(first..last + 1) else { return };
+    block.raise_tested(&w);
+    let [within @ .., block] = rest else { return };
+    each_block(within, |block| block.raise_all(&w));
+    block.raise_tested(&w);
 }
 
 /// A segment whose line passes so near the origin that p x q is mostly rounding.
 #[cold]
 #[inline(never)]
-fn raise_doubtful(eight: &SegmentLanes, k: usize, view: &View, rays: &mut [Rays]) {
-    let segment = eight.segment(k);
+fn raise_doubtful(segment: Segment, view: &View, fan: &mut Fan) {
     let (mut p, mut q) = (segment.a - view.origin, segment.b - view.origin);
     let area = orientation(segment.a, segment.b, view.origin);
     if area == 0.0 {
         // The origin lies on the segment's line, off the segment: only a ray along the line can hit, at the nearer end.
         let near = if p.norm_squared() <= q.norm_squared() { p } else { q };
         let value = 1.0 / sqrt(near.norm_squared());
-        for block in rays {
-            for l in 0..LANES {
-                let (dx, dy) = (block.dx[l], block.dy[l]);
-                if near.x * dy - near.y * dx == 0.0 && near.x * dx + near.y * dy > 0.0 && value > block.inverse[l] {
-                    block.inverse[l] = value;
-                }
+        for (dx, dy, inverse) in fan.each() {
+            if near.x * dy - near.y * dx == 0.0 && near.x * dx + near.y * dy > 0.0 {
+                *inverse = raised(*inverse, value);
             }
         }
         return;
@@ -239,40 +307,49 @@ fn raise_doubtful(eight: &SegmentLanes, k: usize, view: &View, rays: &mut [Rays]
         (true, false) => (q1, p1),
     };
     let ahead = |dx: f64, dy: f64| if thin { p.x * dx + p.y * dy > 0.0 } else { dx != 0.0 || dy != 0.0 };
-    for block in rays {
-        for l in 0..LANES {
-            let (dx, dy) = (block.dx[l], block.dy[l]);
-            if p.x * dy - p.y * dx >= 0.0 && dx * q.y - dy * q.x >= 0.0 && ahead(dx, dy) {
-                let value = greater(lesser(dx * u.y - dy * u.x, most), least);
-                if value > block.inverse[l] {
-                    block.inverse[l] = value;
-                }
-            }
+    for (dx, dy, inverse) in fan.each() {
+        if p.x * dy - p.y * dx >= 0.0 && dx * q.y - dy * q.x >= 0.0 && ahead(dx, dy) {
+            *inverse = raised(*inverse, greater(lesser(dx * u.y - dy * u.x, most), least));
         }
     }
 }
 
-/// Turns the directions `units` of the sensor's frame by the heading with this cosine and sine, and forgets all ranges.
+/// Turns the directions of the sensor's frame by the heading with this cosine and sine, and forgets all ranges.
 #[inline(always)]
-fn turn_here(units: &[[Lanes; 2]], (c, s): (f64, f64), rays: &mut [Rays]) {
-    for ([x, y], rays) in units.iter().zip(rays) {
-        *rays = Rays {
-            dx: lanes(|k| c * x[k] - s * y[k]),
-            dy: lanes(|k| s * x[k] + c * y[k]),
-            inverse: [0.0; LANES],
-        };
+fn turn_here(units: &[[Lanes; 2]], (c, s): (f64, f64), fan: &mut Fan) {
+    for ([x, y], block) in units.iter().zip(&mut fan.blocks) {
+        if x[0] > 2.0 {
+            break; // never so: see each_block
+        }
+        for k in 0..LANES {
+            block.dx[k] = c * x[k] - s * y[k];
+            block.dy[k] = s * x[k] + c * y[k];
+            block.inverse[k] = 0.0;
+        }
+    }
+    // what is no ray never waits for a hit
+    if let Some(block) = fan.blocks.last_mut() {
+        let rays = (fan.rays + LANES - 1) % LANES + 1;
+        block.inverse[rays..].fill(f64::INFINITY);
     }
 }
 
 /// The ranges, from the inverse ranges: infinity below the least one.
 #[inline(always)]
-fn ranges_here(rays: &[Rays], least: f64, ranges: &mut [f64]) {
-    for (rays, ranges) in rays.iter().zip(ranges.chunks_mut(LANES)) {
-        let inverse = rays.inverse;
-        let all = lanes(|k| if inverse[k] >= least { 1.0 / inverse[k] } else { f64::INFINITY });
-        match <&mut Lanes>::try_from(&mut *ranges) {
-            Ok(ranges) => *ranges = all,
-            Err(_) => ranges.copy_from_slice(&all[..ranges.len()]),
+fn ranges_here(fan: &Fan, least: f64, ranges: &mut [f64]) {
+    let range = |inverse: f64| if inverse >= least { 1.0 / inverse } else { f64::INFINITY };
+    let (eights, rest) = ranges.as_chunks_mut::<LANES>();
+    for (ranges, block) in eights.iter_mut().zip(&fan.blocks) {
+        if block.dx[0] > 2.0 {
+            break; // never so: see each_block
+        }
+        for (r, inverse) in ranges.iter_mut().zip(block.inverse) {
+            *r = range(inverse);
+        }
+    }
+    if let Some(block) = fan.blocks.get(eights.len()) {
+        for (r, inverse) in rest.iter_mut().zip(block.inverse) {
+            *r = range(inverse);
         }
     }
 }
@@ -281,11 +358,11 @@ fn ranges_here(rays: &[Rays], least: f64, ranges: &mut [f64]) {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Kernel {
     /// Raises the inverse range of every ray to that of every segment it hits.
-    pub(super) raise: fn(&[SegmentLanes], &View, &mut [Rays]),
+    pub(super) raise: fn([&[f64]; 4], &View, &mut Fan),
     /// Turns the directions of the sensor's frame by a heading.
-    pub(super) turn: fn(&[[Lanes; 2]], (f64, f64), &mut [Rays]),
+    pub(super) turn: fn(&[[Lanes; 2]], (f64, f64), &mut Fan),
     /// Writes the ranges.
-    pub(super) ranges: fn(&[Rays], f64, &mut [f64]),
+    pub(super) ranges: fn(&Fan, f64, &mut [f64]),
 }
 
 /// The same three functions under every set of features; on another machine they are the plain ones.
@@ -295,18 +372,18 @@ macro_rules! kernel {
             use super::*;
 
             #[multiversion(targets($target))]
-            fn raise(segments: &[SegmentLanes], view: &View, rays: &mut [Rays]) {
-                raise_here(segments, view, rays);
+            fn raise(segments: [&[f64]; 4], view: &View, fan: &mut Fan) {
+                raise_here(segments, view, fan);
             }
 
             #[multiversion(targets($target))]
-            fn turn(units: &[[Lanes; 2]], heading: (f64, f64), rays: &mut [Rays]) {
-                turn_here(units, heading, rays);
+            fn turn(units: &[[Lanes; 2]], heading: (f64, f64), fan: &mut Fan) {
+                turn_here(units, heading, fan);
             }
 
             #[multiversion(targets($target))]
-            fn ranges(rays: &[Rays], least: f64, ranges: &mut [f64]) {
-                ranges_here(rays, least, ranges);
+            fn ranges(fan: &Fan, least: f64, ranges: &mut [f64]) {
+                ranges_here(fan, least, ranges);
             }
 
             pub(in super::super) const KERNEL: Kernel = Kernel { raise, turn, ranges };

@@ -8,6 +8,7 @@ mod range;
 mod scanner;
 #[cfg(test)]
 mod tests;
+mod walk;
 
 pub use crate::worlds::{BeamError, BeamModel};
 pub use instructions::Instructions;

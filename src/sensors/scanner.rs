@@ -5,7 +5,8 @@ use std::f64::consts::TAU;
 use super::RangeSensor;
 use super::circle::raise_circle;
 use super::instructions::Instructions;
-use super::kernel::{Kernel, Lanes, Rays, View};
+use super::kernel::{Fan, Kernel, Lanes, View};
+use super::walk::Walk;
 use crate::collision::{LANES, Scene, SegmentSoup, touch};
 use crate::geometry::{Placed, Pose2};
 use crate::num;
@@ -28,8 +29,9 @@ pub struct Scanner {
     kernel: Kernel,
     /// The rays' directions in the sensor's frame.
     units: Vec<[Lanes; 2]>,
-    rays: Vec<Rays>,
+    fan: Fan,
     others: SegmentSoup,
+    walk: Walk,
 }
 
 impl Scanner {
@@ -48,9 +50,14 @@ impl Scanner {
             let k = k as usize;
             (units[k / LANES][0][k % LANES], units[k / LANES][1][k % LANES]) = (x, y);
         }
-        let zero = [0.0; LANES];
-        let rays = vec![Rays { dx: zero, dy: zero, inverse: zero }; blocks];
-        Scanner { sensor, kernel: instructions.kernel(), units, rays, others: SegmentSoup::default() }
+        Scanner {
+            sensor,
+            kernel: instructions.kernel(),
+            units,
+            fan: Fan::new(sensor.n_rays as usize),
+            others: SegmentSoup::default(),
+            walk: Walk::default(),
+        }
     }
 
     /// The sensor.
@@ -70,9 +77,9 @@ impl Scanner {
             return;
         }
         let (s, c) = if pose.theta == 0.0 { (0.0, 1.0) } else { num::sin_cos(pose.theta) };
-        (self.kernel.turn)(&self.units, (c, s), &mut self.rays);
+        (self.kernel.turn)(&self.units, (c, s), &mut self.fan);
         let heading = num::atan2(s, c) / TAU;
-        let reach = self.sensor.max_range * (1.0 + 1e-9);
+        let reach = self.sensor.max_range * (1.0 + 1e-6);
         let view = View {
             origin,
             reach,
@@ -84,12 +91,23 @@ impl Scanner {
         for part in others {
             self.others.push(part);
         }
-        for soup in [scene.soup(), &self.others] {
-            (self.kernel.raise)(soup.lanes(), &view, &mut self.rays);
-            for circle in soup.circles() {
-                raise_circle(circle, &view, &mut self.rays);
-            }
+        if let Some(cells) = scene.cells() {
+            self.walk.raise(scene.soup(), cells, &view, &self.kernel, &mut self.fan);
+        } else {
+            self.raise_every(scene.soup(), &view);
         }
-        (self.kernel.ranges)(&self.rays, 1.0 / self.sensor.max_range, ranges);
+        self.fan.open = u64::MAX;
+        let others = std::mem::take(&mut self.others);
+        self.raise_every(&others, &view);
+        self.others = others;
+        (self.kernel.ranges)(&self.fan, 1.0 / self.sensor.max_range, ranges);
+    }
+
+    /// Raises the rays that meet anything of the soup.
+    fn raise_every(&mut self, soup: &SegmentSoup, view: &View) {
+        (self.kernel.raise)(soup.segments().arrays(), view, &mut self.fan);
+        for circle in soup.circles() {
+            raise_circle(circle, view, &mut self.fan);
+        }
     }
 }

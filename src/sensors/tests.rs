@@ -28,7 +28,7 @@ fn by_definition(sensor: &RangeSensor, scene: &Scene, others: &[Placed], pose: &
     };
     let directions: Vec<(f64, f64)> =
         (0..sensor.n_rays).map(|k| sensor.direction(k)).map(|(x, y)| (c * x - s * y, s * x + c * y)).collect();
-    for segment in soup.segments() {
+    for segment in (0..soup.segments().len()).map(|i| soup.segments().segment(i)) {
         let (mut p, mut q) = (segment.a - pose.position(), segment.b - pose.position());
         let area = p.x * q.y - p.y * q.x;
         if area < 0.0 {
@@ -87,15 +87,18 @@ fn scanners(n_rays: u32, max_range: f64) -> Vec<Scanner> {
 }
 
 fn random_walls(draws: &mut Stream, count: usize, size: f64) -> Scene {
-    let walls: Vec<Segment> = (0..count)
+    Scene::of_walls(&random_segments(draws, count, size, 0.5 * size))
+}
+
+fn random_segments(draws: &mut Stream, count: usize, size: f64, longest: f64) -> Vec<Segment> {
+    (0..count)
         .map(|_| {
             let a = Point2::new(draws.uniform(0.0, size), draws.uniform(0.0, size));
             let (s, c) = num::sin_cos(draws.uniform(-PI, PI));
-            let length = draws.uniform(0.05, 0.5 * size);
+            let length = draws.uniform(0.05, longest);
             Segment::new(a, Point2::new(a.x + length * c, a.y + length * s))
         })
-        .collect();
-    Scene::of_walls(&walls)
+        .collect()
 }
 
 #[test]
@@ -142,8 +145,32 @@ fn the_worlds_and_other_robots_in_them_are_seen_as_defined() {
                 || Pose2::new(draws.uniform(min.x, max.x), draws.uniform(min.y, max.y), draws.uniform(-PI, PI));
             let capsule =
                 Shape::Capsule { a: Point2::new(0.0, 0.0), b: Point2::new(0.5, 0.1), radius: 0.05 }.place(&pose());
-            let others = [capsule, Shape::Disc { radius: 0.3 }.place(&pose()), Shape::Disc { radius: 1.5 }.place(&pose())];
+            let others =
+                [capsule, Shape::Disc { radius: 0.3 }.place(&pose()), Shape::Disc { radius: 1.5 }.place(&pose())];
             check(&mut scanners, &scene, &others, &pose());
+        }
+    }
+}
+
+#[test]
+fn large_worlds_are_seen_as_defined_from_inside_and_outside() {
+    let mut draws = Stream::new(Seed(6), "scan");
+    for (count, size, longest) in [(200, 10.0, 8.0), (1000, 30.0, 1.0), (3000, 12.0, 0.3), (150, 3.0, 3.0)] {
+        let mut scene = Scene::of_walls(&random_segments(&mut draws, count, size, longest));
+        for i in 0..20 {
+            let at = Pose2::new(draws.uniform(0.0, size), draws.uniform(0.0, size), 0.0);
+            let disc = Shape::Disc { radius: draws.uniform(0.01, 0.03 * size) };
+            scene = scene.with_obstacle_at(&format!("disc {i}"), at, disc);
+        }
+        assert!(scene.cells().is_some());
+        for (n, range) in [(360, 4.0), (7, 100.0), (701, 0.7)] {
+            let mut scanners = scanners(n, range);
+            for k in 0..40 {
+                let margin = if k % 8 == 0 { 2.0 * size } else { 0.0 };
+                let mut x = || draws.uniform(-margin, size + margin);
+                let (x, y) = (x(), x());
+                check(&mut scanners, &scene, &[], &Pose2 { x, y, theta: draws.uniform(-7.0, 7.0) });
+            }
         }
     }
 }
