@@ -22,6 +22,7 @@ pub fn first_step() {
 }
 
 fn minute() -> Vec<Timing> {
+    println!("  digest {}", Run::record(TourConfig::default(), BOOK_SEED).expect("the tour runs").digest());
     race(vec![
         Contender::new("", |_| {
             let log = Run::record(TourConfig::default(), BOOK_SEED).expect("the tour runs");

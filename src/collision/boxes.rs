@@ -1,52 +1,57 @@
-//! `Boxes`, the boxes around many shapes in structure-of-arrays order.
+//! `Boxes`, the boxes around a few shapes in structure-of-arrays order: looked at all at once instead of by a tree.
+
+use smallvec::SmallVec;
 
 use super::segments::LANES;
 use crate::geometry::Point2;
+use crate::num::greater;
 
-type Lanes = [f64; LANES];
-
-/// Axis-parallel boxes in eights; empty places hold boxes that hold nothing.
+/// Axis-parallel boxes; the arrays are filled up to whole eights with boxes infinitely far away.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Boxes {
-    eights: Vec<Eight>,
+    count: usize,
+    x0: Vec<f64>,
+    y0: Vec<f64>,
+    x1: Vec<f64>,
+    y1: Vec<f64>,
 }
 
-#[derive(Clone, Copy, Debug)]
-struct Eight {
-    least: [Lanes; 2],
-    greatest: [Lanes; 2],
-}
+/// At most so many boxes are meant to be looked at all at once.
+pub(super) const FEW: usize = 64;
 
 impl Boxes {
     /// The boxes with these least and greatest corners.
     pub(super) fn new(corners: impl Iterator<Item = (Point2, Point2)>) -> Self {
-        let mut eights: Vec<Eight> = Vec::new();
-        for (i, (min, max)) in corners.enumerate() {
-            let k = i % LANES;
-            if k == 0 {
-                eights.push(Eight { least: [[f64::INFINITY; LANES]; 2], greatest: [[f64::NEG_INFINITY; LANES]; 2] });
-            }
-            if let Some(eight) = eights.last_mut() {
-                for axis in 0..2 {
-                    (eight.least[axis][k], eight.greatest[axis][k]) = (min[axis], max[axis]);
+        let mut boxes = Boxes::default();
+        for (min, max) in corners {
+            if boxes.count == boxes.x0.len() {
+                for array in [&mut boxes.x0, &mut boxes.y0, &mut boxes.x1, &mut boxes.y1] {
+                    array.extend([f64::INFINITY; LANES]);
                 }
             }
+            let i = boxes.count;
+            (boxes.x0[i], boxes.y0[i], boxes.x1[i], boxes.y1[i]) = (min.x, min.y, max.x, max.y);
+            boxes.count += 1;
         }
-        Boxes { eights }
+        boxes
     }
 
-    /// The numbers of the boxes that hold the point.
-    pub(super) fn around(&self, p: Point2) -> impl Iterator<Item = usize> {
-        self.eights.iter().enumerate().flat_map(move |(i, eight)| {
-            let mut holds = 0_u32;
-            for k in 0..LANES {
-                let inside = (eight.least[0][k] <= p.x)
-                    & (p.x <= eight.greatest[0][k])
-                    & (eight.least[1][k] <= p.y)
-                    & (p.y <= eight.greatest[1][k]);
-                holds |= u32::from(inside) << k;
-            }
-            (0..LANES).filter(move |k| holds >> k & 1 == 1).map(move |k| LANES * i + k)
-        })
+    /// Whether there are no more boxes than are looked at all at once.
+    pub(super) fn are_few(&self) -> bool {
+        self.count <= FEW
+    }
+
+    /// Lower bounds of the squared distances from the box with these corners to each box, rounded down by more than the
+    /// arithmetic can have rounded up.
+    pub(super) fn squared_distances(&self, min: Point2, max: Point2) -> SmallVec<[f64; FEW]> {
+        let mut squares: SmallVec<[f64; FEW]> = SmallVec::from_elem(0.0, self.x0.len());
+        let sides = self.x0.iter().zip(&self.x1).zip(self.y0.iter().zip(&self.y1));
+        for (square, ((x0, x1), (y0, y1))) in squares.iter_mut().zip(sides) {
+            let dx = greater(greater(x0 - max.x, min.x - x1), 0.0);
+            let dy = greater(greater(y0 - max.y, min.y - y1), 0.0);
+            *square = (dx * dx + dy * dy) * (1.0 - 1e-14);
+        }
+        squares.truncate(self.count);
+        squares
     }
 }

@@ -26,6 +26,7 @@ pub use certificate::{Certificate, CertificateError, ProvenStep, verify_certific
 pub use checker::{CarChecker, ChainChecker, Checker, DiscChecker};
 pub use counted::{Counted, QueryCounts};
 pub use edge::{EdgeVerdict, MarchOptions, UnresolvedReason};
+pub(crate) use march::march_from;
 pub use march::{BRACKET, march};
 pub use problem::{Problem, ProblemError};
 pub use scene::Scene;

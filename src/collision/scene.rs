@@ -1,5 +1,6 @@
 //! `Scene`, named obstacles under one bounding-volume tree. The only file that imports parry.
 
+use std::cell::Cell;
 use std::sync::Arc;
 
 use parry2d_f64::bounding_volume::{Aabb, BoundingVolume};
@@ -10,16 +11,13 @@ use super::boxes::Boxes;
 use super::cells::Cells;
 use super::closed::verdict;
 use super::impact::{arc_distance, arc_meets, translation_meets};
-use super::narrow::{Nearest, depth, nearest};
+use super::narrow::{self, Nearest, depth, nearest, nearest_within};
 use super::segments::SegmentSoup;
 use super::swept::{self, SWEEP};
 use super::{Collision, ObstacleId, Witness};
 use crate::geometry::{CircularArc, Footprint, Placed, Point2, Pose2, Segment, Shape};
 use crate::num::{greater, lesser, ulp};
 use crate::worlds::{Bounds, World};
-
-/// Up to so many pieces, looking at every box is quicker than walking the tree.
-const FEW: usize = 64;
 
 /// From so many segments and discs on, a scan walks through a grid.
 const MANY: usize = 128;
@@ -124,9 +122,7 @@ impl Scene {
         let soup = SegmentSoup::of_pieces(&pieces);
         let many = soup.segments().len() + soup.circles().len() > MANY;
         let cells = if many { Cells::new(&soup) } else { None };
-        let point = |v: Vector| Point2::new(v.x, v.y);
-        let few = if pieces.len() <= FEW { &boxes[..] } else { &[] };
-        let boxes = Boxes::new(few.iter().map(|b| (point(b.mins), point(b.maxs))));
+        let boxes = Boxes::new(boxes.iter().map(|b| (point(b.mins), point(b.maxs))));
         Scene { bounds, names, pieces, owners, soup, cells, boxes, tree }
     }
 
@@ -165,13 +161,9 @@ impl Scene {
         if !point.is_valid() {
             return true;
         }
-        let held = |piece: usize| touch(point, &self.pieces[piece]);
-        if self.pieces.len() <= FEW {
-            return self.boxes.around(point.core()[0]).any(held);
-        }
         let mut found = false;
         self.each_within(point, 0.0, |piece| {
-            found = held(piece);
+            found = touch(point, &self.pieces[piece]);
             found
         });
         found
@@ -193,15 +185,71 @@ impl Scene {
         bound
     }
 
-    /// The least distance from `shape` to any piece; stops early at 0.
-    fn least_distance(&self, shape: &Placed) -> f64 {
+    /// The nearest piece to `shape`, the first in file order among equals, if any is nearer than `within`.
+    fn nearest_piece(&self, shape: &Placed, within: f64) -> Option<(usize, Nearest)> {
+        let mut best: Option<(usize, Nearest)> = None;
         let from = piece_box(shape);
-        let best = self.tree.find_best(
-            f64::INFINITY,
-            |node: &BvhNode, _| box_distance(&from, node),
-            |piece, _| Some(pair(shape, &self.pieces[piece as usize]).dist),
+        let mut look = |piece: usize| {
+            let so_far = best.map_or(within, |(_, n)| n.dist);
+            let Some(found) = pair_within(shape, &self.pieces[piece], so_far) else { return so_far };
+            if found.dist < so_far || best.is_some_and(|(p, n)| found.dist == n.dist && piece < p) {
+                best = Some((piece, found));
+            }
+            best.map_or(within, |(_, n)| n.dist)
+        };
+        if self.boxes.are_few() {
+            let squares = self.boxes.squared_distances(point(from.mins), point(from.maxs));
+            // the one with the nearest box first: most others need not be looked at then
+            let by_square = |a: &usize, b: &usize| squares[*a].total_cmp(&squares[*b]);
+            let Some(first) = (0..squares.len()).min_by(by_square) else { return None };
+            let mut least = look(first);
+            for (piece, square) in squares.iter().enumerate() {
+                if piece != first && *square <= least * least {
+                    least = look(piece);
+                }
+            }
+            best
+        } else {
+            self.nearest_in_tree(shape, &from, within)
+        }
+    }
+
+    /// As [`nearest_piece`](Self::nearest_piece), by the tree. Costs are squared distances.
+    fn nearest_in_tree(&self, shape: &Placed, from: &Aabb, within: f64) -> Option<(usize, Nearest)> {
+        let best: Cell<Option<(usize, Nearest)>> = Cell::new(None);
+        // no square that underflows is told from another, so none of them prunes
+        let square = |d: f64| if d > 1e-100 { d * d } else { 1e-200 };
+        self.tree.find_best(
+            square(within),
+            |node: &BvhNode, _| box_distance_squared(from, node),
+            |piece, _| {
+                let piece = piece as usize;
+                let so_far = best.get().map_or(within, |(_, n)| n.dist);
+                let found = pair_within(shape, &self.pieces[piece], so_far)?;
+                let nearer = match best.get() {
+                    None => found.dist < within,
+                    Some((p, n)) => found.dist < n.dist || (found.dist == n.dist && piece < p),
+                };
+                if nearer {
+                    best.set(Some((piece, found)));
+                }
+                Some(square(found.dist))
+            },
         );
-        best.map_or(f64::INFINITY, |(_, dist)| dist)
+        // Equals have nearer boxes than they are themselves, so all were met; but not all contacts.
+        match best.get() {
+            Some((_, Nearest { dist: 0.0, .. })) => {
+                let mut first: Option<usize> = None;
+                self.each_near(from, 0.0, |piece| {
+                    if first.is_none_or(|f| piece < f) && touches(shape, &self.pieces[piece]) {
+                        first = Some(piece);
+                    }
+                    false
+                });
+                first.map(|piece| (piece, pair(shape, &self.pieces[piece])))
+            }
+            best => best,
+        }
     }
 
     /// When a footprint that goes from `start` to `end` without turning first touches a piece, as a part of its way; rounded.
@@ -255,6 +303,15 @@ impl Scene {
 
     /// Calls `visit` with each piece whose box is at most `range` from this box, until it returns true.
     fn each_near(&self, from: &Aabb, range: f64, mut visit: impl FnMut(usize) -> bool) {
+        if self.boxes.are_few() {
+            let squares = self.boxes.squared_distances(point(from.mins), point(from.maxs));
+            for (piece, square) in squares.iter().enumerate() {
+                if *square <= range * range && visit(piece) {
+                    break;
+                }
+            }
+            return;
+        }
         self.tree.traverse(|node| {
             if box_distance(from, node) > range {
                 return TraversalAction::Prune;
@@ -267,19 +324,33 @@ impl Scene {
     }
 }
 
+fn point(v: Vector) -> Point2 {
+    Point2::new(v.x, v.y)
+}
+
 /// The nearest points of a part and a piece; contact when the piece is not a valid shape.
 fn pair(part: &Placed, piece: &Placed) -> Nearest {
-    if piece.is_valid() {
-        nearest(part, piece)
-    } else {
-        let point = part.core()[0];
-        Nearest { dist: 0.0, on_a: point, on_b: point }
-    }
+    if piece.is_valid() { nearest(part, piece) } else { contact_at(part) }
+}
+
+/// As [`pair`]; `None` only where the distance is greater than `limit`.
+fn pair_within(part: &Placed, piece: &Placed, limit: f64) -> Option<Nearest> {
+    if piece.is_valid() { nearest_within(part, piece, limit) } else { Some(contact_at(part)) }
+}
+
+fn contact_at(part: &Placed) -> Nearest {
+    let point = part.core()[0];
+    Nearest { dist: 0.0, on_a: point, on_b: point }
 }
 
 /// Whether two shapes touch; true when either is not valid.
 pub(crate) fn touch(a: &Placed, b: &Placed) -> bool {
-    !a.is_valid() || pair(a, b).dist == 0.0
+    !a.is_valid() || touches(a, b)
+}
+
+/// Whether a valid part touches a piece; true when the piece is not a valid shape.
+fn touches(part: &Placed, piece: &Placed) -> bool {
+    !piece.is_valid() || narrow::touch(part, piece)
 }
 
 /// The box around a placed shape, a little larger, so that rounding prunes nothing. All of the plane for a shape that is
@@ -303,12 +374,16 @@ fn arc_box(arc: &CircularArc, radius: f64) -> Aabb {
 
 /// A lower bound of the distance between what two boxes hold.
 fn box_distance(a: &Aabb, node: &BvhNode) -> f64 {
+    crate::num::sqrt(box_distance_squared(a, node))
+}
+
+/// Its square, rounded down by more than the arithmetic can have rounded up.
+fn box_distance_squared(a: &Aabb, node: &BvhNode) -> f64 {
     let (min, max) = (node.mins(), node.maxs());
     let gap = |a0: f64, a1: f64, b0: f64, b1: f64| greater(greater(b0 - a1, a0 - b1), 0.0);
     let dx = gap(a.mins.x, a.maxs.x, min.x, max.x);
     let dy = gap(a.mins.y, a.maxs.y, min.y, max.y);
-    // rounded down by more than the arithmetic can have rounded up
-    crate::num::sqrt(dx * dx + dy * dy) * (1.0 - 1e-14)
+    (dx * dx + dy * dy) * (1.0 - 1e-13)
 }
 
 impl Collision for Scene {
@@ -319,7 +394,7 @@ impl Collision for Scene {
         footprint.parts().iter().any(|part| {
             let mut hit = false;
             self.each_within(part.placed(), 0.0, |piece| {
-                hit = pair(part.placed(), &self.pieces[piece]).dist == 0.0;
+                hit = touches(part.placed(), &self.pieces[piece]);
                 hit
             });
             hit
@@ -332,7 +407,7 @@ impl Collision for Scene {
         }
         let mut least = f64::INFINITY;
         for part in footprint.parts() {
-            least = crate::num::lesser(self.least_distance(part.placed()), least);
+            least = self.nearest_piece(part.placed(), least).map_or(least, |(_, n)| n.dist);
             if least == 0.0 {
                 break;
             }
@@ -346,25 +421,11 @@ impl Collision for Scene {
         }
         let mut best: Option<Witness> = None;
         for (part, shape) in footprint.parts().iter().map(|p| p.placed()).enumerate() {
-            let dist = self.least_distance(shape);
-            if dist == f64::INFINITY || best.is_some_and(|w| w.dist <= dist) {
-                continue;
-            }
-            // among the pieces at that distance, the first in file order
-            let mut first: Option<(usize, Nearest)> = None;
-            self.each_within(shape, dist, |piece| {
-                if first.is_none_or(|(p, _)| piece < p) {
-                    let found = pair(shape, &self.pieces[piece]);
-                    if found.dist == dist {
-                        first = Some((piece, found));
-                    }
-                }
-                false
-            });
-            best = first.map_or(best, |(piece, n)| {
+            let within = best.map_or(f64::INFINITY, |w| w.dist);
+            if let Some((piece, n)) = self.nearest_piece(shape, within) {
                 let obstacle = ObstacleId(self.owners[piece]);
-                Some(Witness { on_robot: n.on_a, on_obstacle: n.on_b, dist, part, obstacle })
-            });
+                best = Some(Witness { on_robot: n.on_a, on_obstacle: n.on_b, dist: n.dist, part, obstacle });
+            }
         }
         best
     }

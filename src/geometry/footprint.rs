@@ -20,6 +20,12 @@ impl Part {
         Part { pose, shape, placed }
     }
 
+    /// The part that is this hull where it is.
+    pub(crate) fn of_hull(hull: Placed) -> Self {
+        let shape = Shape::Hull { vertices: hull.core().into(), radius: hull.radius() };
+        Part { pose: Pose2::IDENTITY, shape, placed: hull }
+    }
+
     /// The pose of the part's frame. A link's frame sits at its proximal end.
     pub fn pose(&self) -> &Pose2 {
         &self.pose

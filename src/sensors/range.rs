@@ -85,6 +85,31 @@ impl RangeSensor {
         Scanner::new(*self).scan_into(scene, others, pose, &mut ranges);
         ranges
     }
+
+    /// The ranges from many poses, one scan after the other, in parallel where threads exist. They do not depend on the number
+    /// of threads.
+    pub fn scans(&self, scene: &Scene, poses: &[Pose2]) -> Vec<f64> {
+        let n = self.n_rays as usize;
+        let mut ranges = vec![0.0; n * poses.len()];
+        if n == 0 {
+            return ranges;
+        }
+        let scan = |scanner: &mut Scanner, (pose, ranges): (&Pose2, &mut [f64])| {
+            scanner.scan_into(scene, &[], pose, ranges);
+        };
+        #[cfg(not(target_family = "wasm"))]
+        {
+            use rayon::prelude::*;
+            let scans = poses.par_iter().zip(ranges.par_chunks_mut(n));
+            scans.for_each_init(|| Scanner::new(*self), scan);
+        }
+        #[cfg(target_family = "wasm")]
+        {
+            let mut scanner = Scanner::new(*self);
+            poses.iter().zip(ranges.chunks_mut(n)).for_each(|one| scan(&mut scanner, one));
+        }
+        ranges
+    }
 }
 
 #[cfg(test)]
