@@ -1,7 +1,5 @@
 //! `Boxes`, the boxes around a few shapes in structure-of-arrays order: looked at all at once instead of by a tree.
 
-use smallvec::SmallVec;
-
 use super::segments::LANES;
 use crate::geometry::Point2;
 use crate::num::greater;
@@ -42,16 +40,14 @@ impl Boxes {
     }
 
     /// Lower bounds of the squared distances from the box with these corners to each box, rounded down by more than the
-    /// arithmetic can have rounded up.
-    pub(super) fn squared_distances(&self, min: Point2, max: Point2) -> SmallVec<[f64; FEW]> {
-        let mut squares: SmallVec<[f64; FEW]> = SmallVec::from_elem(0.0, self.x0.len());
+    /// arithmetic can have rounded up; of a few boxes.
+    pub(super) fn squared_distances<'a>(&self, min: Point2, max: Point2, room: &'a mut [f64; FEW]) -> &'a [f64] {
         let sides = self.x0.iter().zip(&self.x1).zip(self.y0.iter().zip(&self.y1));
-        for (square, ((x0, x1), (y0, y1))) in squares.iter_mut().zip(sides) {
+        for (square, ((x0, x1), (y0, y1))) in room.iter_mut().zip(sides) {
             let dx = greater(greater(x0 - max.x, min.x - x1), 0.0);
             let dy = greater(greater(y0 - max.y, min.y - y1), 0.0);
             *square = (dx * dx + dy * dy) * (1.0 - 1e-14);
         }
-        squares.truncate(self.count);
-        squares
+        &room[..self.count.min(FEW)]
     }
 }

@@ -49,7 +49,7 @@ impl Cells {
             .copied()
             .reduce(|a, b| [lesser(a[0], b[0]), lesser(a[1], b[1]), greater(a[2], b[2]), greater(a[3], b[3])])?;
         let (width, height) = (x1 - x0, y1 - y0);
-        let size = greater(2.0 * sqrt(width * height / count as f64), greater(width, height) / MOST);
+        let size = greater(1.75 * sqrt(width * height / count as f64), greater(width, height) / MOST);
         // a grid that reaches a little farther than all there is, so that rounding puts nothing outside
         let (size, corner) = (size * (1.0 + 1e-9), Point2::new(x0 - 0.01 * size, y0 - 0.01 * size));
         let cells = |extent: f64| (extent / size) as i64 + 2;

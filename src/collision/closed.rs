@@ -53,16 +53,16 @@ fn straight<M: Motion>(scene: &Scene, motion: &M, certificate: Option<&mut Certi
     if (0..parts).any(|k| motion.rates(k).acceleration != 0.0) {
         return None;
     }
-    if scene.intersects(&start) {
-        return None;
-    }
     let end = motion.footprint_at(1.0);
     let prove = |to: f64, footprint: &Footprint| {
         let clearance = step_clearance(scene, motion, (0.0, &start), (to, footprint));
         (clearance > 0.0).then_some(ProvenStep { from: 0.0, to, clearance })
     };
+    // what proves the motion free proves its start free too
     let (step, verdict) = if let Some(step) = prove(1.0, &end) {
         (step, EdgeVerdict::Free { clearance: step.clearance })
+    } else if scene.intersects(&start) {
+        return None;
     } else {
         let first = scene.translation_meets(&start, &end)?;
         let length = (0..parts).fold(0.0, |w, k| greater(motion.bound(k, 0.0, 1.0), w));

@@ -151,35 +151,31 @@ pub(super) fn point_segment(p: Point2, (a, b): (Point2, Point2)) -> (f64, Point2
 /// The distance between two disjoint cores and a pair of nearest points, if it is less than `limit`. It is attained at a vertex of
 /// one of them.
 pub(super) fn cores_distance(a: &[Point2], b: &[Point2], limit: f64) -> Option<(f64, Point2, Point2)> {
-    let mut best = (limit, a[0], b[0]);
-    let mut found = false;
+    let mut least = limit;
+    let mut best = None;
     for &p in a {
         for edge in edges(b) {
-            if farther(p, edge, best.0) {
-                continue;
-            }
-            let (d, foot) = point_segment(p, edge);
-            if d < best.0 {
-                best = (d, p, foot);
-                found = true;
+            if !farther(p, edge, least) {
+                let (d, foot) = point_segment(p, edge);
+                if d < least {
+                    (least, best) = (d, Some((d, p, foot)));
+                }
             }
         }
     }
     if a.len() > 1 {
         for &q in b {
             for edge in edges(a) {
-                if farther(q, edge, best.0) {
-                    continue;
-                }
-                let (d, foot) = point_segment(q, edge);
-                if d < best.0 {
-                    best = (d, foot, q);
-                    found = true;
+                if !farther(q, edge, least) {
+                    let (d, foot) = point_segment(q, edge);
+                    if d < least {
+                        (least, best) = (d, Some((d, foot, q)));
+                    }
                 }
             }
         }
     }
-    found.then_some(best)
+    best
 }
 
 /// Whether `p` is plainly farther than `d` from the segment: by more than [`point_segment`] may be off.

@@ -23,7 +23,7 @@ pub(super) fn step_clearance<M: Motion>(
     for (k, (p0, p1)) in f0.parts().iter().zip(f1.parts()).enumerate() {
         let hull = p0.placed().hull_with(p1.placed());
         let size = largest_coordinate([&hull]);
-        let dist = collision.distance(&Footprint::new([Part::of_hull(hull)]));
+        let dist = collision.distance_of_hull(hull);
         let slack = if dist.is_finite() { 32.0 * ulp(size + dist) } else { 0.0 };
         least = lesser(dist - motion.sagitta(k, s0, s1) - slack, least);
         if least <= 0.0 {

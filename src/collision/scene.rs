@@ -7,7 +7,7 @@ use parry2d_f64::bounding_volume::{Aabb, BoundingVolume};
 use parry2d_f64::math::Vector;
 use parry2d_f64::partitioning::{Bvh, BvhBuildStrategy, BvhNode, TraversalAction};
 
-use super::boxes::Boxes;
+use super::boxes::{Boxes, FEW};
 use super::cells::Cells;
 use super::closed::verdict;
 use super::impact::{arc_distance, arc_meets, translation_meets};
@@ -198,7 +198,8 @@ impl Scene {
             best.map_or(within, |(_, n)| n.dist)
         };
         if self.boxes.are_few() {
-            let squares = self.boxes.squared_distances(point(from.mins), point(from.maxs));
+            let mut room = [0.0; FEW];
+            let squares = self.boxes.squared_distances(point(from.mins), point(from.maxs), &mut room);
             // the one with the nearest box first: most others need not be looked at then
             let by_square = |a: &usize, b: &usize| squares[*a].total_cmp(&squares[*b]);
             let Some(first) = (0..squares.len()).min_by(by_square) else { return None };
@@ -304,7 +305,8 @@ impl Scene {
     /// Calls `visit` with each piece whose box is at most `range` from this box, until it returns true.
     fn each_near(&self, from: &Aabb, range: f64, mut visit: impl FnMut(usize) -> bool) {
         if self.boxes.are_few() {
-            let squares = self.boxes.squared_distances(point(from.mins), point(from.maxs));
+            let mut room = [0.0; FEW];
+            let squares = self.boxes.squared_distances(point(from.mins), point(from.maxs), &mut room);
             for (piece, square) in squares.iter().enumerate() {
                 if *square <= range * range && visit(piece) {
                     break;
@@ -413,6 +415,13 @@ impl Collision for Scene {
             }
         }
         least
+    }
+
+    fn distance_of_hull(&self, hull: Placed) -> f64 {
+        if !hull.is_valid() {
+            return 0.0;
+        }
+        self.nearest_piece(&hull, f64::INFINITY).map_or(f64::INFINITY, |(_, n)| n.dist)
     }
 
     fn witness(&self, footprint: &Footprint) -> Option<Witness> {

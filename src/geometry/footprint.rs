@@ -20,12 +20,6 @@ impl Part {
         Part { pose, shape, placed }
     }
 
-    /// The part that is this hull where it is.
-    pub(crate) fn of_hull(hull: Placed) -> Self {
-        let shape = Shape::Hull { vertices: hull.core().into(), radius: hull.radius() };
-        Part { pose: Pose2::IDENTITY, shape, placed: hull }
-    }
-
     /// The pose of the part's frame. A link's frame sits at its proximal end.
     pub fn pose(&self) -> &Pose2 {
         &self.pose
@@ -61,6 +55,12 @@ impl Footprint {
     /// The footprint made of these parts, numbered from 0 in this order.
     pub fn new(parts: impl IntoIterator<Item = Part>) -> Self {
         Footprint { parts: parts.into_iter().collect() }
+    }
+
+    /// One part, this hull where it is.
+    pub(crate) fn of_hull(hull: Placed) -> Self {
+        let shape = Shape::Hull { vertices: hull.core().into(), radius: hull.radius() };
+        Self::new([Part { pose: Pose2::IDENTITY, shape, placed: hull }])
     }
 
     /// One disc: Rusty.
