@@ -1,5 +1,6 @@
 //! The collision checker: four questions about a footprint in a scene, and edges proven free.
 
+mod answers;
 mod batch;
 mod boxes;
 mod cells;
@@ -21,6 +22,7 @@ mod surroundings;
 mod swept;
 mod witness;
 
+pub(crate) use answers::touch;
 pub(crate) use cells::{Cells, Item};
 pub use certificate::{Certificate, CertificateError, ProvenStep, verify_certificate};
 pub use checker::{CarChecker, ChainChecker, Checker, DiscChecker};
@@ -30,7 +32,7 @@ pub(crate) use march::march_from;
 pub use march::{BRACKET, march};
 pub use problem::{Problem, ProblemError};
 pub use scene::Scene;
-pub(crate) use scene::touch;
+
 pub(crate) use segments::{Circle, LANES, SegmentSoup};
 pub use surroundings::Surroundings;
 pub use witness::{ObstacleId, Witness};

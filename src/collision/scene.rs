@@ -7,14 +7,13 @@ use parry2d_f64::bounding_volume::{Aabb, BoundingVolume};
 use parry2d_f64::math::Vector;
 use parry2d_f64::partitioning::{Bvh, BvhBuildStrategy, BvhNode, TraversalAction};
 
+use super::ObstacleId;
+use super::answers::{pair, pair_within, touch, touches};
 use super::boxes::{Boxes, FEW};
 use super::cells::Cells;
-use super::closed::verdict;
 use super::impact::{arc_distance, arc_meets, translation_meets};
-use super::narrow::{self, Nearest, depth, nearest, nearest_within};
+use super::narrow::{Nearest, depth};
 use super::segments::SegmentSoup;
-use super::swept::{self, SWEEP};
-use super::{Collision, ObstacleId, Witness};
 use crate::geometry::{CircularArc, Footprint, Placed, Point2, Pose2, Segment, Shape};
 use crate::num::{greater, lesser, ulp};
 use crate::worlds::{Bounds, World};
@@ -36,8 +35,8 @@ pub struct Scene {
     bounds: Bounds,
     names: Vec<Arc<str>>,
     /// All convex pieces in file order, and the obstacle that each belongs to.
-    pieces: Vec<Placed>,
-    owners: Vec<u32>,
+    pub(super) pieces: Vec<Placed>,
+    pub(super) owners: Vec<u32>,
     soup: SegmentSoup,
     /// Of a large scene.
     cells: Option<Cells>,
@@ -186,7 +185,7 @@ impl Scene {
     }
 
     /// The nearest piece to `shape`, the first in file order among equals, if any is nearer than `within`.
-    fn nearest_piece(&self, shape: &Placed, within: f64) -> Option<(usize, Nearest)> {
+    pub(super) fn nearest_piece(&self, shape: &Placed, within: f64) -> Option<(usize, Nearest)> {
         let mut best: Option<(usize, Nearest)> = None;
         let from = piece_box(shape);
         let mut look = |piece: usize| {
@@ -202,7 +201,7 @@ impl Scene {
             let squares = self.boxes.squared_distances(point(from.mins), point(from.maxs), &mut room);
             // the one with the nearest box first: most others need not be looked at then
             let by_square = |a: &usize, b: &usize| squares[*a].total_cmp(&squares[*b]);
-            let Some(first) = (0..squares.len()).min_by(by_square) else { return None };
+            let first = (0..squares.len()).min_by(by_square)?;
             let mut least = look(first);
             for (piece, square) in squares.iter().enumerate() {
                 if piece != first && *square <= least * least {
@@ -298,7 +297,7 @@ impl Scene {
     }
 
     /// Calls `visit` with each piece whose box is at most `range` from the shape's box, until it returns true.
-    fn each_within(&self, shape: &Placed, range: f64, visit: impl FnMut(usize) -> bool) {
+    pub(super) fn each_within(&self, shape: &Placed, range: f64, visit: impl FnMut(usize) -> bool) {
         self.each_near(&piece_box(shape), range, visit);
     }
 
@@ -328,31 +327,6 @@ impl Scene {
 
 fn point(v: Vector) -> Point2 {
     Point2::new(v.x, v.y)
-}
-
-/// The nearest points of a part and a piece; contact when the piece is not a valid shape.
-fn pair(part: &Placed, piece: &Placed) -> Nearest {
-    if piece.is_valid() { nearest(part, piece) } else { contact_at(part) }
-}
-
-/// As [`pair`]; `None` only where the distance is greater than `limit`.
-fn pair_within(part: &Placed, piece: &Placed, limit: f64) -> Option<Nearest> {
-    if piece.is_valid() { nearest_within(part, piece, limit) } else { Some(contact_at(part)) }
-}
-
-fn contact_at(part: &Placed) -> Nearest {
-    let point = part.core()[0];
-    Nearest { dist: 0.0, on_a: point, on_b: point }
-}
-
-/// Whether two shapes touch; true when either is not valid.
-pub(crate) fn touch(a: &Placed, b: &Placed) -> bool {
-    !a.is_valid() || touches(a, b)
-}
-
-/// Whether a valid part touches a piece; true when the piece is not a valid shape.
-fn touches(part: &Placed, piece: &Placed) -> bool {
-    !piece.is_valid() || narrow::touch(part, piece)
 }
 
 /// The box around a placed shape, a little larger, so that rounding prunes nothing. All of the plane for a shape that is
@@ -386,60 +360,4 @@ fn box_distance_squared(a: &Aabb, node: &BvhNode) -> f64 {
     let dx = gap(a.mins.x, a.maxs.x, min.x, max.x);
     let dy = gap(a.mins.y, a.maxs.y, min.y, max.y);
     (dx * dx + dy * dy) * (1.0 - 1e-13)
-}
-
-impl Collision for Scene {
-    fn intersects(&self, footprint: &Footprint) -> bool {
-        if !footprint.is_valid() {
-            return true;
-        }
-        footprint.parts().iter().any(|part| {
-            let mut hit = false;
-            self.each_within(part.placed(), 0.0, |piece| {
-                hit = touches(part.placed(), &self.pieces[piece]);
-                hit
-            });
-            hit
-        })
-    }
-
-    fn distance(&self, footprint: &Footprint) -> f64 {
-        if !footprint.is_valid() {
-            return 0.0;
-        }
-        let mut least = f64::INFINITY;
-        for part in footprint.parts() {
-            least = self.nearest_piece(part.placed(), least).map_or(least, |(_, n)| n.dist);
-            if least == 0.0 {
-                break;
-            }
-        }
-        least
-    }
-
-    fn distance_of_hull(&self, hull: Placed) -> f64 {
-        if !hull.is_valid() {
-            return 0.0;
-        }
-        self.nearest_piece(&hull, f64::INFINITY).map_or(f64::INFINITY, |(_, n)| n.dist)
-    }
-
-    fn witness(&self, footprint: &Footprint) -> Option<Witness> {
-        if !footprint.is_valid() {
-            return None;
-        }
-        let mut best: Option<Witness> = None;
-        for (part, shape) in footprint.parts().iter().map(|p| p.placed()).enumerate() {
-            let within = best.map_or(f64::INFINITY, |w| w.dist);
-            if let Some((piece, n)) = self.nearest_piece(shape, within) {
-                let obstacle = ObstacleId(self.owners[piece]);
-                best = Some(Witness { on_robot: n.on_a, on_obstacle: n.on_b, dist: n.dist, part, obstacle });
-            }
-        }
-        best
-    }
-
-    fn swept(&self, a: &Footprint, b: &Footprint) -> bool {
-        swept::hits(self, a, b, |motion| verdict(self, motion, SWEEP, None))
-    }
 }
