@@ -22,34 +22,55 @@ pub(super) struct Walk {
 struct Batch {
     arrays: Box<[[f64; BATCH]; 4]>,
     count: usize,
+    /// The blocks that were open when the first of them was met: only what was closed by then they cannot raise.
+    open: u64,
 }
 
 impl Default for Batch {
     fn default() -> Self {
-        Batch { arrays: Box::new([[f64::NAN; BATCH]; 4]), count: 0 }
+        Batch { arrays: Box::new([[f64::NAN; BATCH]; 4]), count: 0, open: u64::MAX }
     }
 }
 
 impl Batch {
-    /// Adds a segment; whether it is full now.
+    /// Adds a segment if it is `new`, without a branch; whether it is full now.
     #[inline]
-    fn push(&mut self, segment: &Segment) -> bool {
+    fn push_if(&mut self, new: bool, segment: &Segment) -> bool {
         let i = self.count % BATCH;
         let [ax, ay, bx, by] = &mut *self.arrays;
         (ax[i], ay[i], bx[i], by[i]) = (segment.a.x, segment.a.y, segment.b.x, segment.b.y);
-        self.count = i + 1;
+        self.count = i + usize::from(new);
         self.count == BATCH
     }
 
+    /// Raises the rays that meet the first segments, whole eights of them, and keeps the rest for later: a ray is only taken for
+    /// open a little longer then.
+    fn raise_eights(&mut self, open: u64, view: &View, kernel: &Kernel, fan: &mut Fan) {
+        let (whole, rest) = (self.count / LANES * LANES, self.count % LANES);
+        if whole > 0 {
+            self.raise(whole, view, kernel, fan);
+            for array in &mut *self.arrays {
+                array.copy_within(whole..whole + rest, 0);
+            }
+            // fewer than eight were left before this ring, so those left now are of this one
+            (self.count, self.open) = (rest, open);
+        }
+    }
+
     /// Raises the rays that meet the segments, and forgets them.
-    fn raise(&mut self, view: &View, kernel: &Kernel, fan: &mut Fan) {
+    fn raise_all(&mut self, view: &View, kernel: &Kernel, fan: &mut Fan) {
         let places = self.count.next_multiple_of(LANES);
         for array in &mut *self.arrays {
             array[self.count..places].fill(f64::NAN);
         }
+        self.raise(places, view, kernel, fan);
+        self.count = 0;
+    }
+
+    fn raise(&self, places: usize, view: &View, kernel: &Kernel, fan: &mut Fan) {
+        fan.open = self.open;
         let [ax, ay, bx, by] = &*self.arrays;
         (kernel.raise)([&ax[..places], &ay[..places], &bx[..places], &by[..places]], view, fan);
-        self.count = 0;
     }
 }
 
@@ -163,8 +184,7 @@ impl Walk {
         }
         self.scan += 1;
         self.groups.begin(fan, view);
-        fan.open = u64::MAX;
-        let mut open = u64::MAX;
+        let (mut open, mut blocks) = (u64::MAX, u64::MAX);
         let place = cells.place(view.origin);
         let (first, last) = cells.rings(&place);
         for ring in first..=last {
@@ -174,33 +194,36 @@ impl Walk {
             }
             if distance > 0.0 {
                 open = self.groups.close(fan, (1.0 + NEARER) / distance);
-                fan.open = if self.groups.blocks == 1 { self.groups.open } else { u64::MAX };
+                blocks = if self.groups.blocks == 1 { self.groups.open } else { u64::MAX };
                 if open == 0 {
                     break;
                 }
+            }
+            if self.batch.count == 0 {
+                self.batch.open = blocks;
             }
             let (bearings, batch, met) = (&self.bearings, &mut self.batch, &mut self.met[..]);
             let wanted = |i: i64, j: i64| ring > LISTED || bearings.get(i, j) & open != 0;
             cells.each_in_ring(&place, ring, wanted, |items| {
                 for &Item { number, segment } in items {
                     let Some(met) = met.get_mut(number as usize) else { continue };
-                    if *met == self.scan {
-                        continue;
-                    }
+                    let new = *met != self.scan;
                     *met = self.scan;
                     match (number as usize).checked_sub(segments) {
                         None => {
-                            if batch.push(&segment) {
-                                batch.raise(view, kernel, fan);
+                            if batch.push_if(new, &segment) {
+                                batch.raise_all(view, kernel, fan);
+                                batch.open = blocks;
                             }
                         }
-                        Some(circle) => raise_circle(&soup.circles()[circle], view, fan),
+                        Some(circle) if new => raise_circle(&soup.circles()[circle], view, fan),
+                        Some(_) => {}
                     }
                 }
             });
-            if batch.count > 0 {
-                batch.raise(view, kernel, fan);
-            }
+            batch.raise_eights(blocks, view, kernel, fan);
         }
+        // what is left may be nearer than where the walk ended
+        self.batch.raise_all(view, kernel, fan);
     }
 }
