@@ -67,7 +67,8 @@ pub fn rows(table: &mut Table) {
         table.row(&format!("{work} ({best:?})"), must, || against(sensor, &scene, &poses, &[best]));
         for set in Instructions::available() {
             if set != best {
-                table.row(&format!("{work} ({set:?})"), ">= 15x", || against(sensor, &scene, &poses, &[set]));
+                let must = if must.is_empty() { "" } else { ">= 15x" };
+                table.row(&format!("{work} ({set:?})"), must, || against(sensor, &scene, &poses, &[set]));
             }
         }
     }
