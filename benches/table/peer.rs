@@ -1,11 +1,11 @@
 //! The same questions put to parry2d-f64 as one would use it: its shapes under its bounding-volume tree.
 
-use motion_lab::geometry::{Footprint, Placed};
+use motion_lab::geometry::{Footprint, Part, Placed};
 use parry2d_f64::bounding_volume::{Aabb, BoundingVolume};
 use parry2d_f64::math::{Pose, Vector};
 use parry2d_f64::partitioning::{Bvh, BvhBuildStrategy, BvhNode};
 use parry2d_f64::query::{self, Ray, RayCast, ShapeCastOptions};
-use parry2d_f64::shape::{Ball, Capsule, ConvexPolygon, Segment, Shape};
+use parry2d_f64::shape::{Ball, Capsule, ConvexPolygon, Cuboid, Segment, Shape};
 
 /// Obstacles in world coordinates under one tree.
 pub struct Peer {
@@ -88,11 +88,11 @@ impl Peer {
 
     pub fn intersects(&self, footprint: &Footprint) -> bool {
         footprint.parts().iter().any(|part| {
-            let part = shape_on_stack(part.placed());
-            let around = part.as_dyn().compute_local_aabb();
+            let (pose, part) = posed(part);
+            let around = part.as_dyn().compute_aabb(&pose);
             self.tree.intersect_aabb(&around).any(|i| {
                 let obstacle = &*self.shapes[i as usize];
-                let test = query::intersection_test(&Pose::IDENTITY, part.as_dyn(), &Pose::IDENTITY, obstacle);
+                let test = query::intersection_test(&pose, part.as_dyn(), &Pose::IDENTITY, obstacle);
                 test.is_ok_and(|t| t.intersecting)
             })
         })
@@ -125,6 +125,7 @@ pub enum PartShape {
     Capsule(Capsule),
     Segment(Segment),
     Polygon(ConvexPolygon),
+    Cuboid(Cuboid),
 }
 
 impl PartShape {
@@ -134,7 +135,23 @@ impl PartShape {
             PartShape::Capsule(s) => s,
             PartShape::Segment(s) => s,
             PartShape::Polygon(s) => s,
+            PartShape::Cuboid(s) => s,
         }
+    }
+}
+
+/// A part and where it is: a rectangle as parry's cuboid, the rest in world coordinates.
+fn posed(part: &Part) -> (Pose, PartShape) {
+    match part.shape() {
+        motion_lab::geometry::Shape::Rectangle { min, max } => {
+            let (half, middle) = ((max - min) * 0.5, part.pose().transform(min + (max - min) * 0.5));
+            let cuboid = Cuboid::new(Vector::new(half.x, half.y));
+            (Pose::new(vector(&middle), part.pose().theta), PartShape::Cuboid(cuboid))
+        }
+        motion_lab::geometry::Shape::Disc { .. } => {
+            (Pose::from_translation(vector(&part.pose().position())), shape_on_stack(part.placed()))
+        }
+        _ => (Pose::IDENTITY, shape_on_stack(part.placed())),
     }
 }
 
