@@ -40,6 +40,8 @@ pub mod recording;
 
 pub mod picture;
 
+pub mod anatomy;
+
 pub mod ui;
 
 #[cfg(feature = "window")]

@@ -4,7 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// The modules in reading order: each may use those before it.
-const ORDER: [&str; 17] = [
+const ORDER: [&str; 18] = [
     "num",
     "random",
     "geometry",
@@ -18,6 +18,7 @@ const ORDER: [&str; 17] = [
     "simulation",
     "recording",
     "picture",
+    "anatomy",
     "ui",
     "app",
     "web",
@@ -25,7 +26,7 @@ const ORDER: [&str; 17] = [
 ];
 
 /// The modules without Bevy: the pure core, and what draws without a window.
-const PURE: [&str; 11] = [
+const PURE: [&str; 12] = [
     "num",
     "random",
     "geometry",
@@ -37,6 +38,7 @@ const PURE: [&str; 11] = [
     "tour",
     "run",
     "picture",
+    "anatomy",
 ];
 
 fn sources(folder: &Path) -> Vec<PathBuf> {

@@ -6,6 +6,7 @@ mod oracle;
 mod verdicts;
 
 mod allocation;
+mod anatomy;
 mod chapter;
 mod cli;
 mod edges;
