@@ -40,7 +40,11 @@ pub mod recording;
 
 pub mod picture;
 
+pub mod cspace;
+
 pub mod anatomy;
+
+pub mod atlas;
 
 pub mod ui;
 

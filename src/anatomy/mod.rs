@@ -149,13 +149,7 @@ impl Anatomy {
         Anatomy::of(world, WorldSource::Unsaved, checker, q, &[0.0, 0.3])
     }
 
-    fn of(
-        world: World,
-        source: WorldSource,
-        checker: Checker<AnyRobot>,
-        q: AnyConfiguration,
-        step: &[f64],
-    ) -> Self {
+    fn of(world: World, source: WorldSource, checker: Checker<AnyRobot>, q: AnyConfiguration, step: &[f64]) -> Self {
         let mut step = Coordinates::from_slice(step);
         step.resize(q.coordinates().len(), 0.0);
         let elbow_down = elbow(&q).is_none_or(|angle| angle >= 0.0);

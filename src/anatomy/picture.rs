@@ -6,8 +6,8 @@ use crate::collision::{Collision, EdgeVerdict};
 use crate::geometry::{Footprint, Part, Point2, Pose2, Shape, Vector2};
 use crate::num::{self, greater, lesser};
 use crate::picture::{
-    Anchor, Dash, Drawing, Face, Fill, Glyph, Item, Line, Picture, RobotDrawing, Role, footprint, polygon_of, robot, trace,
-    world,
+    Anchor, Dash, Drawing, Face, Fill, Glyph, Item, Line, Picture, RobotDrawing, Role, footprint, polygon_of, robot,
+    trace, world,
 };
 use crate::robots::Robot;
 
@@ -124,8 +124,7 @@ impl Anatomy {
             }
             items.extend(footprint("hit", "the first contact", &at(contact_at), Role::Goal, 0.3));
         }
-        let points: Vec<Point2> =
-            (0..=64).map(|k| robot_model.reference(&sweep.at(f64::from(k) / 64.0))).collect();
+        let points: Vec<Point2> = (0..=64).map(|k| robot_model.reference(&sweep.at(f64::from(k) / 64.0))).collect();
         let way = trace("motion", "the way of the point that stands for the robot", &points);
         items.push(way.stroked(Line::solid(1.0).dashed(Dash::Dashed)));
         items.extend(footprint("second", "the second configuration", &at(1.0), end_role, 0.3));
@@ -153,7 +152,8 @@ fn contact_item(pair: &NearestPair) -> Item {
 /// The segment between two nearest points and its rings; with `feature` the corner or edge it ends on as well.
 fn witness_items(number: usize, pair: &NearestPair, feature: bool) -> Vec<Item> {
     let w = &pair.witness;
-    let item = |part: &str, name: &str, drawing| Item::new(format!("witness/{number}/{part}"), name, Role::Witness, drawing);
+    let item =
+        |part: &str, name: &str, drawing| Item::new(format!("witness/{number}/{part}"), name, Role::Witness, drawing);
     let mut items = Vec::new();
     if let (true, Feature::Edge(a, b)) = (feature, pair.on_obstacle) {
         items.push(item("edge", "the edge it lies on", Drawing::segment(a, b)).stroked(Line::solid(3.0)));
@@ -200,7 +200,8 @@ fn roomy_place(anatomy: &Anatomy, at: Point2, part: f64) -> Point2 {
         let place = at + Vector2::new(1.6 * c, s) * (part * size);
         let inside = [place.x - bounds.min.x, bounds.max.x - place.x, place.y - bounds.min.y, bounds.max.y - place.y];
         // room for half the words to either side
-        let half = [Vector2::new(-1.0, 0.0), Vector2::zeros(), Vector2::new(1.0, 0.0)].map(|v| place + v * (0.07 * size));
+        let half =
+            [Vector2::new(-1.0, 0.0), Vector2::zeros(), Vector2::new(1.0, 0.0)].map(|v| place + v * (0.07 * size));
         let room = half.iter().fold(f64::INFINITY, |room, p| {
             let point = Footprint::disc(*p, 0.0);
             lesser(room, lesser(anatomy.checker().scene().distance(&point), own.distance(&point)))

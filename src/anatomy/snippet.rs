@@ -12,7 +12,8 @@ impl Anatomy {
     /// A program that asks what the tab asks, prints the numbers shown, and fails if it finds others: they are the same to the
     /// last bit wherever it runs. It compiles against this library as it is; a world that is not built in is part of it.
     pub fn copy_as_rust(&self) -> String {
-        let mut code = String::from("use motion_lab::collision::{Checker, Collision, Scene};\nuse motion_lab::prelude::*;\n");
+        let mut code =
+            String::from("use motion_lab::collision::{Checker, Collision, Scene};\nuse motion_lab::prelude::*;\n");
         let scene = match self.source() {
             WorldSource::BuiltIn(name) => format!("Scene::{name}()"),
             _ => {

@@ -99,7 +99,8 @@ fn the_witness_jumps_from_corner_to_edge_and_the_tie_shows_both() {
     let both = at(tie).with_tab(Tab::Witness);
     let pairs = both.nearest();
     assert_eq!(pairs.len(), 2, "{pairs:?}");
-    let kinds = (matches!(pairs[0].on_obstacle, Feature::Corner(_)), matches!(pairs[1].on_obstacle, Feature::Corner(_)));
+    let kinds =
+        (matches!(pairs[0].on_obstacle, Feature::Corner(_)), matches!(pairs[1].on_obstacle, Feature::Corner(_)));
     assert!(kinds.0 != kinds.1, "one at the corner, one on the edge: {pairs:?}");
     assert!((pairs[0].witness.dist - pairs[1].witness.dist).abs() <= TIE);
     assert!(both.readout()[0].starts_with("a tie of 2"));

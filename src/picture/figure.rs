@@ -110,7 +110,9 @@ fn lay_out_panel(panel: &Panel, rect: ScreenRect, entries: &mut Vec<Entry>) -> f
     let frame = vec![vec![[x, y], [right, y], [right, bottom], [x, bottom], [x, y]]];
     entries.push(Entry::Bare(Primitive::Lines { lines: frame, role: Role::Hairline, line: Line::solid(1.0) }));
     let mut baseline = bottom + LEADING + 2.0;
-    entries.extend(scale_bar(&fit, right, baseline));
+    if panel.picture.in_metres {
+        entries.extend(scale_bar(&fit, right, baseline));
+    }
     if !panel.heading.is_empty() {
         entries.push(Entry::Bare(text(x, baseline, &panel.heading, Face::Sans, 14.0, Role::Text)));
     }

@@ -35,6 +35,8 @@ pub struct Picture {
     pub name: String,
     /// The part of the plane it shows, metres.
     pub bounds: Bounds,
+    /// Whether its plane is in metres, so that a scale bar can stand at it. Otherwise lengths are what its axes say.
+    pub in_metres: bool,
     /// The items, lowest first. Their ids are unique.
     pub items: Vec<Item>,
 }
@@ -42,7 +44,7 @@ pub struct Picture {
 impl Picture {
     /// The picture with nothing on it.
     pub fn new(name: impl Into<String>, bounds: Bounds) -> Self {
-        Picture { name: name.into(), bounds, items: Vec::new() }
+        Picture { name: name.into(), bounds, in_metres: true, items: Vec::new() }
     }
 
     /// The picture with these items painted over what is there.

@@ -122,8 +122,7 @@ impl AnyRobot {
                 let elbow = arm.fk(now)[1];
                 let rest = Reach { base: elbow, lengths: [arm.lengths[1], arm.lengths[2]], link_radius: 0.0 };
                 let tip = clamped(&rest, to);
-                tip.and_then(|tip| on_side(arm.with_tip_at(tip, now.0[0]), elbow_down))
-                    .map_or(*q, AnyConfiguration::T3)
+                tip.and_then(|tip| on_side(arm.with_tip_at(tip, now.0[0]), elbow_down)).map_or(*q, AnyConfiguration::T3)
             }
             _ => *q,
         }
