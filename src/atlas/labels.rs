@@ -3,7 +3,7 @@
 use crate::collision::{Collision, Scene};
 use crate::geometry::{Footprint, Point2, Pose2, Vector2};
 use crate::num::{self, greater, lesser};
-use crate::picture::{Anchor, Drawing, Face, Item, Line, Role, polygon_of};
+use crate::picture::{Anchor, Drawing, Face, Item, Line, Role};
 use crate::worlds::{Bounds, World};
 
 /// Height of the letters, pixels.
@@ -150,11 +150,6 @@ fn nearest_of(plate: &Plate, p: Point2) -> Point2 {
     Point2::new(clamp(p.x, plate.middle.x, plate.half.x), clamp(p.y, plate.middle.y, plate.half.y))
 }
 
-/// The outline of the piece of an obstacle that its name belongs to, for highlighting it.
-pub(super) fn outline_of(world: &World, name: &str) -> Vec<Vec<Point2>> {
-    world.obstacle(name).map_or_else(Vec::new, |o| o.placed().map(|p| polygon_of(&p)).collect())
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -198,6 +193,5 @@ mod tests {
         let count = world.obstacles.len() + world.places.len() + world.marks.len() + world.robots.len();
         assert_eq!(all.len(), count);
         assert!(all.iter().all(|n| n.at.x.is_finite()));
-        assert_eq!(outline_of(&world, "the west pillar")[0].len(), 4);
     }
 }

@@ -16,7 +16,7 @@ mod svg;
 mod tour;
 mod world;
 
-pub use figure::{Figure, Panel};
+pub use figure::{Figure, Panel, Sheet};
 pub use fit::{Fit, ScaleBar, ScreenPoint, ScreenRect};
 pub use item::{Anchor, Dash, Drawing, Face, Fill, Glyph, Item, Line};
 pub use outline::{chains, outline, polygon_of};
