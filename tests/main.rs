@@ -7,6 +7,7 @@ mod verdicts;
 
 mod allocation;
 mod anatomy;
+mod atlas;
 mod chapter;
 mod cli;
 mod edges;

@@ -21,8 +21,8 @@ impl Anatomy {
         let half = greater(lesser(3.0 * nearest.dist, most), 0.25 * most);
         let reach = Vector2::new(half, half);
         let bounds = Bounds { min: Point2::from(middle.coords - reach), max: Point2::from(middle.coords + reach) };
-        let mut picture = self.picture();
-        picture.name = format!("{}, close up", picture.name);
-        Some(Picture { bounds, ..picture })
+        let overlay = self.overlay_in(bounds);
+        let name = format!("{}, close up", overlay.name);
+        Some(Picture { bounds, name, ..self.backdrop().with(overlay.items) })
     }
 }

@@ -10,12 +10,13 @@ use crate::picture::{
     trace, world,
 };
 use crate::robots::Robot;
+use crate::worlds::Bounds;
 
 /// At most this many outlines of proven steps are drawn.
 const OUTLINES: usize = 48;
 
 /// How many footprints show where a motion is in contact.
-const SAMPLES: u32 = 40;
+const SAMPLES: u32 = 24;
 
 impl Anatomy {
     /// The world and everything on it.
@@ -30,6 +31,11 @@ impl Anatomy {
 
     /// Everything over the world: the robot, and the tab's answer.
     pub fn overlay(&self) -> Picture {
+        self.overlay_in(self.world().bounds)
+    }
+
+    /// The overlay for a picture of this piece of the plane: its words stand within it.
+    pub(super) fn overlay_in(&self, bounds: Bounds) -> Picture {
         let mut items = Vec::new();
         if self.show_annulus {
             items.extend(annulus_items(self));
@@ -50,14 +56,14 @@ impl Anatomy {
         items.push(Item::new("handle/reference", "drag it", role, handle));
         match self.tab {
             Tab::Intersects => items.extend(self.nearest().first().filter(|p| p.witness.dist == 0.0).map(contact_item)),
-            Tab::Distance | Tab::Witness => items.extend(self.nearest_items()),
+            Tab::Distance | Tab::Witness => items.extend(self.nearest_items(&bounds)),
             Tab::Swept => {}
         }
-        Picture::new(format!("{} in {}", self.tab.name(), self.world().name), self.world().bounds).with(items)
+        Picture::new(format!("{} in {}", self.tab.name(), self.world().name), bounds).with(items)
     }
 
     /// The nearest pairs: the witness alone where the tab asks for the distance.
-    fn nearest_items(&self) -> Vec<Item> {
+    fn nearest_items(&self, bounds: &Bounds) -> Vec<Item> {
         let mut pairs = self.nearest();
         if self.tab == Tab::Distance {
             pairs.truncate(1);
@@ -73,14 +79,13 @@ impl Anatomy {
         if let Some(pair) = pairs.first().filter(|p| p.witness.dist > 0.0) {
             let (a, b) = (pair.witness.on_robot, pair.witness.on_obstacle);
             let middle = a + (b - a) * 0.5;
-            items.extend(self.plate("witness/distance", middle, metres(pair.witness.dist)));
-            if self.tab == Tab::Witness {
-                // beyond their rings, along the line between them
-                let way = if pair.witness.dist > 0.0 { (b - a) / pair.witness.dist } else { b - a };
-                for (part, at, text, along) in [("a*", a, "a*", -way), ("b*", b, "b*", way)] {
-                    let (anchor, at) = (side(along), at);
-                    let drawing =
-                        Drawing::Label { at, text: text.into(), anchor, face: Face::Sans, size_px: 13.0, plate: true };
+            items.extend(self.plate("witness/distance", bounds, middle, metres(pair.witness.dist)));
+            // the two names where there is room for both
+            if self.tab == Tab::Witness && pair.witness.dist > 0.1 * size_of(bounds) {
+                let way = (b - a) * (0.055 * size_of(bounds) / pair.witness.dist);
+                for (part, at) in [("a*", a - way), ("b*", b + way)] {
+                    let (text, anchor, face) = (part.to_owned(), Anchor::Center, Face::Sans);
+                    let drawing = Drawing::Label { at, text, anchor, face, size_px: 14.0, plate: true };
                     items.push(Item::new(format!("witness/1/{part}"), part, Role::Witness, drawing));
                 }
             }
@@ -89,8 +94,8 @@ impl Anatomy {
     }
 
     /// Words on a plate beside a point, where there is room, with a line that leads to them.
-    fn plate(&self, id: &str, at: Point2, text: String) -> [Item; 2] {
-        let center = roomy_place(self, at, 0.075);
+    fn plate(&self, id: &str, bounds: &Bounds, at: Point2, text: String) -> [Item; 2] {
+        let center = roomy_place(self, bounds, at);
         let leader = Item::new(format!("{id}/leader"), &text, Role::Muted, Drawing::segment(at, center))
             .stroked(Line::solid(0.75));
         let name = text.clone();
@@ -118,7 +123,7 @@ impl Anatomy {
                 let s = contact_at + (1.0 - contact_at) * f64::from(k) / f64::from(SAMPLES);
                 let ghost = at(s);
                 if self.checker().scene().intersects(&ghost) {
-                    let line = Line::solid(0.75).at_opacity(0.5);
+                    let line = Line::solid(0.75).at_opacity(0.4);
                     items.push(outline_item(&format!("hit/{k}"), "in contact", &ghost, Role::Goal, line));
                 }
             }
@@ -181,34 +186,29 @@ fn outline_item(id: &str, name: &str, footprint: &Footprint, role: Role, line: L
     Item::new(id, name, role, region).filled(Fill::None).stroked(line)
 }
 
-/// On which side of a point a label stands that is to lie this way from it.
-fn side(way: Vector2) -> Anchor {
-    match () {
-        () if way.y > 0.0 => Anchor::Above,
-        () => Anchor::Below,
-    }
+/// The shorter side of a piece of the plane, metres.
+fn size_of(bounds: &Bounds) -> f64 {
+    lesser(bounds.max.y - bounds.min.y, bounds.max.x - bounds.min.x)
 }
 
-/// Of eight places around a point the one that is farthest from robot and obstacles: a part of the picture's height away.
-fn roomy_place(anatomy: &Anatomy, at: Point2, part: f64) -> Point2 {
-    let bounds = anatomy.world().bounds;
-    let size = lesser(bounds.max.y - bounds.min.y, bounds.max.x - bounds.min.x);
+/// Of the places around a point, a tenth and more of the picture away, the one that is farthest from robot and obstacles.
+fn roomy_place(anatomy: &Anatomy, bounds: &Bounds, at: Point2) -> Point2 {
+    let size = size_of(bounds);
     let own = own_scene(anatomy);
     let mut best = (-f64::INFINITY, at);
-    for k in 0..16 {
+    for k in 0..32 {
         let (s, c) = num::sin_cos(f64::from(k) * std::f64::consts::FRAC_PI_8);
-        let place = at + Vector2::new(1.6 * c, s) * (part * size);
+        let far = if k < 16 { 0.1 } else { 0.15 };
+        let place = at + Vector2::new(1.7 * c, s) * (far * size);
         let inside = [place.x - bounds.min.x, bounds.max.x - place.x, place.y - bounds.min.y, bounds.max.y - place.y];
         // room for half the words to either side
-        let half =
-            [Vector2::new(-1.0, 0.0), Vector2::zeros(), Vector2::new(1.0, 0.0)].map(|v| place + v * (0.07 * size));
-        let room = half.iter().fold(f64::INFINITY, |room, p| {
-            let point = Footprint::disc(*p, 0.0);
+        let room = [-0.1, -0.05, 0.0, 0.05, 0.1].iter().fold(f64::INFINITY, |room, off| {
+            let point = Footprint::disc(place + Vector2::new(*off * size, 0.0), 0.0);
             lesser(room, lesser(anatomy.checker().scene().distance(&point), own.distance(&point)))
         });
         let edge = inside.iter().fold(f64::INFINITY, |m, d| lesser(m, *d));
         // beyond a certain room more is no better; a plate at the picture's edge would be cut
-        let score = lesser(room, 0.05 * size) + 10.0 * lesser(edge - 0.1 * size, 0.0);
+        let score = lesser(room, 0.04 * size) + 10.0 * lesser(edge - 0.13 * size, 0.0);
         if score > best.0 + 1e-12 {
             best = (score, place);
         }

@@ -103,7 +103,7 @@ impl GridLayer {
         items.push(
             self.cells(&image, 0, "occupied".into(), "occupied cells".into(), Role::Unknown).filled(Fill::Tint(0.55)),
         );
-        if columns <= 128 && rows <= 128 {
+        if columns <= 64 && rows <= 64 {
             items.push(self.lines());
         }
         Picture::new(format!("grid of {}", self.name), self.bounds).with(items)

@@ -1,66 +1,73 @@
 //! Names on a world: labels that overlap neither one another nor what they name.
 
+use super::Atlas;
 use crate::collision::{Collision, Scene};
-use crate::geometry::{Footprint, Point2, Pose2, Vector2};
+use crate::geometry::{Footprint, Part, Placed, Point2, Pose2, Segment, Shape, Vector2};
 use crate::num::{self, greater, lesser};
 use crate::picture::{Anchor, Drawing, Face, Item, Line, Role};
-use crate::worlds::{Bounds, World};
+use crate::robots::Robot;
+use crate::worlds::{Bounds, ObstacleKind, World};
 
 /// Height of the letters, pixels.
 const SIZE: f64 = 11.0;
 
-/// A named thing of a world, and the point its name belongs to.
+/// A named thing of a world, and the points that its name can belong to.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Named {
     /// The list it stands in: `walls`, `obstacles`, `places`, `marks`, `robots`.
     pub list: &'static str,
     /// Its name.
     pub name: String,
-    /// A point of it, metres.
-    pub at: Point2,
+    /// Points of it, the best first: a wall's are along its pieces, the longest first. Never none.
+    pub at: Vec<Point2>,
 }
 
-/// Every named thing of a world in file order. A robot is at its start where its kind has a place, else left out.
+/// Every named thing of a world in file order. A robot is at its start, an arm at none: it is left out.
 pub fn named(world: &World) -> Vec<Named> {
     let mut out = Vec::new();
+    let mut add = |list, name: &str, at: Vec<Point2>| {
+        if !at.is_empty() {
+            out.push(Named { list, name: name.to_owned(), at });
+        }
+    };
     for obstacle in &world.obstacles {
-        let list = match obstacle.kind {
-            crate::worlds::ObstacleKind::Wall => "walls",
-            crate::worlds::ObstacleKind::Solid => "obstacles",
-        };
-        // the middle of its longest piece
-        let pieces = obstacle.placed().map(|p| (middle(&p), reach(&p)));
-        if let Some((at, _)) = pieces.reduce(|a, b| if b.1 > a.1 { b } else { a }) {
-            out.push(Named { list, name: obstacle.name.clone(), at });
+        if obstacle.kind == ObstacleKind::Wall {
+            let mut pieces: Vec<Placed> = obstacle.placed().collect();
+            pieces.sort_by(|a, b| size(b).total_cmp(&size(a)));
+            let along = pieces.iter().filter_map(|p| Some((*p.core().first()?, *p.core().last()?)));
+            add("walls", &obstacle.name, along.flat_map(|(a, b)| [0.5, 0.25, 0.75].map(|s| a + (b - a) * s)).collect());
+        } else {
+            let largest = obstacle.placed().reduce(|a, b| if size(&b) > size(&a) { b } else { a });
+            add("obstacles", &obstacle.name, largest.iter().map(middle).collect());
         }
     }
-    out.extend(world.places.iter().map(|p| Named { list: "places", name: p.name.clone(), at: p.pose.position() }));
+    for place in &world.places {
+        add("places", &place.name, vec![place.pose.position()]);
+    }
     for mark in &world.marks {
-        if let Some(pair) = mark.points.windows(2).next() {
-            let at = pair[0] + (pair[1] - pair[0]) * 0.5;
-            out.push(Named { list: "marks", name: mark.name.clone(), at });
-        }
+        let middles = mark.points.windows(2).flat_map(|w| [0.5, 0.25, 0.75].map(|s| w[0] + (w[1] - w[0]) * s));
+        add("marks", &mark.name, middles.collect());
     }
     for robot in &world.robots {
         if let ("rusty" | "hitch", [x, y, ..]) = (robot.kind.as_str(), &robot.start[..]) {
-            out.push(Named { list: "robots", name: robot.name.clone(), at: Point2::new(*x, *y) });
+            add("robots", &robot.name, vec![Point2::new(*x, *y)]);
         }
     }
     out
 }
 
-fn middle(placed: &crate::geometry::Placed) -> Point2 {
+fn middle(placed: &Placed) -> Point2 {
     let (lo, hi) = placed.bounds();
     lo + (hi - lo) * 0.5
 }
 
-fn reach(placed: &crate::geometry::Placed) -> f64 {
+fn size(placed: &Placed) -> f64 {
     let (lo, hi) = placed.bounds();
     num::hypot(hi.x - lo.x, hi.y - lo.y)
 }
 
 /// A label's box on the plane, metres: its middle and half its sides.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Debug)]
 struct Plate {
     middle: Point2,
     half: Vector2,
@@ -72,29 +79,123 @@ impl Plate {
         d.x.abs() < self.half.x + other.half.x && d.y.abs() < self.half.y + other.half.y
     }
 
+    fn covers(&self, p: Point2) -> bool {
+        let d = p - self.middle;
+        d.x.abs() < self.half.x && d.y.abs() < self.half.y
+    }
+
     fn inside(&self, bounds: &Bounds) -> bool {
         let (lo, hi) = (self.middle - self.half, self.middle + self.half);
         lo.x >= bounds.min.x && lo.y >= bounds.min.y && hi.x <= bounds.max.x && hi.y <= bounds.max.y
     }
+
+    fn area(&self) -> Footprint {
+        let (lo, hi) = (self.middle.coords - self.half, self.middle.coords + self.half);
+        Footprint::rects([(Pose2::IDENTITY, Point2::from(lo), Point2::from(hi))])
+    }
+
+    /// The point of it that is nearest to `p`: where a leader ends.
+    fn nearest_to(&self, p: Point2) -> Point2 {
+        let clamp = |x: f64, m: f64, h: f64| greater(m - h, lesser(m + h, x));
+        Point2::new(clamp(p.x, self.middle.x, self.half.x), clamp(p.y, self.middle.y, self.half.y))
+    }
 }
 
-/// The names of everything in a world as items for a picture at this scale, pixels per metre: each label beside its thing where it
-/// covers no obstacle and no other label, with a line that leads to it. A name for which there is no such place within reach is
-/// left out: it is shown when the picture is larger.
-pub fn names(world: &World, px_per_metre: f64) -> Vec<Item> {
-    let scene = Scene::of_world(world);
-    let mut placed: Vec<Plate> = Vec::new();
-    let dots: Vec<Point2> = world.places.iter().map(|p| p.pose.position()).collect();
+/// What labels must keep off: what collides, robots' footprints, painted marks, dots of places, and one another.
+struct Sheet {
+    bounds: Bounds,
+    solid: Scene,
+    marks: Scene,
+    dots: Vec<Point2>,
+    plates: Vec<Plate>,
+}
+
+impl Sheet {
+    fn of(atlas: &Atlas) -> Self {
+        let world = atlas.world();
+        let standing = atlas.robots().iter().fold(Scene::of_world(world), |scene, r| {
+            super::teleport::with_robot(scene, &r.name, &r.robot.footprint(&r.q))
+        });
+        let segments = world.marks.iter().flat_map(|m| m.points.windows(2).map(|w| Segment::new(w[0], w[1])));
+        Sheet {
+            bounds: world.bounds,
+            solid: standing,
+            marks: Scene::of_walls(&segments.collect::<Vec<_>>()),
+            dots: world.places.iter().map(|p| p.pose.position()).collect(),
+            plates: Vec::new(),
+        }
+    }
+
+    fn is_free(&self, plate: &Plate, over_marks: bool) -> bool {
+        plate.inside(&self.bounds)
+            && !self.dots.iter().any(|d| plate.covers(*d))
+            && !self.plates.iter().any(|other| other.overlaps(plate))
+            && !self.solid.intersects(&plate.area())
+            && (over_marks || !self.marks.intersects(&plate.area()))
+    }
+
+    /// Whether a line may lead from a plate to a point of the thing of this name: past no other thing and no other label.
+    fn may_lead(&self, name: &str, from: Point2, to: Point2) -> bool {
+        let line = Footprint::new([Part::new(Pose2::IDENTITY, Shape::Segment { a: from, b: to })]);
+        let past = |id| self.solid.obstacle_name(id).is_some_and(|other| other != name);
+        // its own end may touch what stands there
+        let end = Footprint::disc(to, 0.0);
+        let at_end = self.solid.touched(&end);
+        !self.solid.touched(&line).into_iter().any(|id| past(id) && !at_end.contains(&id))
+            && (0..=16).all(|k| {
+                let p = from + (to - from) * (f64::from(k) / 16.0);
+                !self.plates.iter().any(|plate| plate.covers(p))
+            })
+    }
+
+    /// The nearest place for a label of this size that is good, and where its leader goes.
+    fn place_for(&self, thing: &Named, half: Vector2, px_per_metre: f64) -> Option<(Plate, Point2)> {
+        for over_marks in [false, true] {
+            for gap in [4.0, 8.0, 13.0, 20.0, 30.0, 42.0, 56.0].map(|px| px / px_per_metre) {
+                for &at in &thing.at {
+                    for k in 0..16 {
+                        // to the right first, then around
+                        let (s, c) = num::sin_cos(f64::from(k) * std::f64::consts::FRAC_PI_8);
+                        // from an obstacle's middle the way out of it comes first
+                        let out = self.way_out(&thing.name, at, Vector2::new(c, s));
+                        let away = Vector2::new(c * (half.x + gap), s * (half.y + gap)) + out;
+                        let plate = Plate { middle: at + away, half };
+                        let end = plate.nearest_to(at);
+                        if self.is_free(&plate, over_marks) && self.may_lead(&thing.name, end, at) {
+                            return Some((plate, at));
+                        }
+                    }
+                }
+            }
+        }
+        None
+    }
+
+    /// How far it is from a point inside a thing to its border this way; nothing from a wall.
+    fn way_out(&self, name: &str, at: Point2, way: Vector2) -> Vector2 {
+        let inside = |p: Point2| {
+            let touched = self.solid.touched(&Footprint::disc(p, 0.0));
+            touched.into_iter().any(|id| self.solid.obstacle_name(id) == Some(name))
+        };
+        let step = 0.02 * lesser(self.bounds.max.x - self.bounds.min.x, self.bounds.max.y - self.bounds.min.y);
+        let steps = (0..25).take_while(|k| inside(at + way * (f64::from(*k) * step))).count();
+        way * (step * (steps as f64 - 1.0).clamp(0.0, 25.0))
+    }
+}
+
+/// The names of everything in the world as items for a picture at this scale, pixels per metre: each label beside its thing where
+/// it covers no obstacle, no robot and no other label, with a line that leads to it past nothing else. A name for which there is no
+/// such place near by is left out: it is shown when the picture is larger.
+pub fn names(atlas: &Atlas, px_per_metre: f64) -> Vec<Item> {
+    let mut sheet = Sheet::of(atlas);
     let mut items = Vec::new();
-    for thing in named(world) {
-        let half =
-            Vector2::new(0.5 * (0.56 * SIZE * thing.name.chars().count() as f64 + 8.0), 0.5 * (1.3 * SIZE + 2.0));
-        let half = half / px_per_metre;
-        let Some(plate) = place_for(&thing, half, px_per_metre, world, &scene, &placed, &dots) else { continue };
-        placed.push(plate);
-        let end = nearest_of(&plate, thing.at);
+    for thing in named(atlas.world()) {
+        let width = 0.56 * SIZE * thing.name.chars().count() as f64 + 8.0;
+        let half = Vector2::new(0.5 * width, 0.5 * (1.3 * SIZE + 5.0)) / px_per_metre;
+        let Some((plate, at)) = sheet.place_for(&thing, half, px_per_metre) else { continue };
+        sheet.plates.push(plate);
         let id = format!("name/{}/{}", thing.list, thing.name);
-        let leader = Drawing::segment(thing.at, end);
+        let leader = Drawing::segment(at, plate.nearest_to(at));
         items.push(Item::new(format!("{id}/leader"), &thing.name, Role::Muted, leader).stroked(Line::solid(0.75)));
         let label = Drawing::Label {
             at: plate.middle,
@@ -109,45 +210,6 @@ pub fn names(world: &World, px_per_metre: f64) -> Vec<Item> {
     // the lines below all the words
     items.sort_by_key(|item| matches!(item.drawing, Drawing::Label { .. }));
     items
-}
-
-/// The nearest place for a label that is good.
-fn place_for(
-    thing: &Named,
-    half: Vector2,
-    px_per_metre: f64,
-    world: &World,
-    scene: &Scene,
-    placed: &[Plate],
-    dots: &[Point2],
-) -> Option<Plate> {
-    for ring in 1..8 {
-        let gap = 5.0 * f64::from(ring * ring) / px_per_metre;
-        for k in 0..16 {
-            // to the right first, then around
-            let (s, c) = num::sin_cos(f64::from(k) * std::f64::consts::FRAC_PI_8);
-            let away = Vector2::new(c * (half.x + gap), s * (half.y + gap));
-            let plate = Plate { middle: thing.at + away, half };
-            let lo = Point2::from(plate.middle.coords - half);
-            let hi = Point2::from(plate.middle.coords + half);
-            let covers_dot = dots.iter().any(|d| d.x > lo.x && d.x < hi.x && d.y > lo.y && d.y < hi.y);
-            let area = Footprint::rects([(Pose2::IDENTITY, lo, hi)]);
-            if plate.inside(&world.bounds)
-                && !covers_dot
-                && !placed.iter().any(|other| other.overlaps(&plate))
-                && !scene.intersects(&area)
-            {
-                return Some(plate);
-            }
-        }
-    }
-    None
-}
-
-/// The point of a plate nearest to `p`: where a leader ends.
-fn nearest_of(plate: &Plate, p: Point2) -> Point2 {
-    let clamp = |x: f64, m: f64, h: f64| greater(m - h, lesser(m + h, x));
-    Point2::new(clamp(p.x, plate.middle.x, plate.half.x), clamp(p.y, plate.middle.y, plate.half.y))
 }
 
 #[cfg(test)]
@@ -170,7 +232,7 @@ mod tests {
     fn names_overlap_neither_one_another_nor_what_they_name() {
         for (world, most_missing) in [(World::apartment(), 5), (World::workbench(), 0), (World::lot(), 0)] {
             let scale = 560.0 / (world.bounds.max.y - world.bounds.min.y);
-            let items = names(&world, scale);
+            let items = names(&Atlas::new(world.clone()), scale);
             let plates = plates(&items, scale);
             let all = named(&world);
             assert!(plates.len() + most_missing >= all.len(), "{}: {} of {}", world.name, plates.len(), all.len());
@@ -192,6 +254,6 @@ mod tests {
         let all = named(&world);
         let count = world.obstacles.len() + world.places.len() + world.marks.len() + world.robots.len();
         assert_eq!(all.len(), count);
-        assert!(all.iter().all(|n| n.at.x.is_finite()));
+        assert!(all.iter().all(|n| !n.at.is_empty() && n.at.iter().all(|p| p.x.is_finite())));
     }
 }

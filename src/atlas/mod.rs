@@ -14,7 +14,7 @@ pub use teleport::{Refusal, Teleport};
 
 use crate::collision::{Checker, Scene};
 use crate::configuration::AnyConfiguration;
-use crate::picture::{Picture, RobotDrawing, robot, world};
+use crate::picture::{Drawing, Picture, RobotDrawing, places, robot, world};
 use crate::robots::{AnyRobot, Robot};
 use crate::worlds::World;
 
@@ -76,8 +76,10 @@ impl Atlas {
         Some(answer)
     }
 
-    /// The world with its robots on it.
+    /// The world with its robots and the dots of its places on it.
     pub fn picture(&self) -> Picture {
+        // their names are labels of their own
+        let dots = places(&self.world.places).into_iter().filter(|i| !matches!(i.drawing, Drawing::Label { .. }));
         let drawn = self.residents.iter().flat_map(|r| {
             robot(&RobotDrawing {
                 name: &r.name,
@@ -86,6 +88,6 @@ impl Atlas {
                 in_contact: false,
             })
         });
-        world(&self.world).with(drawn)
+        world(&self.world).with(dots).with(drawn)
     }
 }

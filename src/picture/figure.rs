@@ -78,13 +78,28 @@ impl Figure {
         svg::write(self, &entries, size, sheet)
     }
 
+    /// The scale of every panel on a sheet of this width, pixels per metre: for what keeps its size on the sheet and is to find
+    /// room on a picture.
+    pub fn px_per_metre(&self, width_px: f64) -> Vec<f64> {
+        let sizes = self.rows(width_px).flat_map(|row| frame_sizes(row, width_px));
+        let fit = |(panel, size): (&Panel, [f64; 2])| {
+            Fit::new(&panel.picture.bounds, ScreenRect { min: [0.0; 2], size }, MARGIN).px_per_metre()
+        };
+        self.panels.iter().zip(sizes).map(fit).collect()
+    }
+
+    /// The panels row by row: each at least 300 px wide, the rows of as many each as can be.
+    fn rows(&self, width: f64) -> std::slice::Chunks<'_, Panel> {
+        let columns = ((width / 300.0) as usize).clamp(1, 3);
+        let rows = std::cmp::max(self.panels.len().div_ceil(columns), 1);
+        self.panels.chunks(std::cmp::max(self.panels.len().div_ceil(rows), 1))
+    }
+
     /// All strokes and words in painting order, and the size of the sheet.
     fn lay_out(&self, width: f64) -> (Vec<Entry>, [f64; 2]) {
         let mut entries = Vec::new();
         let (mut right, mut top) = (GAP, GAP);
-        // at least 300 px for each
-        let columns = ((width / 300.0) as usize).clamp(1, 3);
-        for row in self.panels.chunks(columns) {
+        for row in self.rows(width) {
             let [row_right, row_bottom] = lay_out_row(row, top, width, &mut entries);
             right = greater(right, row_right);
             top = row_bottom + GAP;
@@ -95,12 +110,12 @@ impl Figure {
             entries.push(Entry::Bare(text(GAP, top, line, Face::Sans, 13.0, Role::Text)));
             top += LEADING + 2.0;
         }
-        (entries, [right + GAP, top])
+        (entries, [(right + GAP).ceil(), top.ceil()])
     }
 }
 
-/// Lays a row out below `top`, all pictures of one height; returns how far it reaches to the right and down.
-fn lay_out_row(row: &[Panel], top: f64, width: f64, entries: &mut Vec<Entry>) -> [f64; 2] {
+/// The sizes of a row's frames, all of one height.
+fn frame_sizes(row: &[Panel], width: f64) -> Vec<[f64; 2]> {
     let aspect = |panel: &Panel| {
         let bounds = &panel.picture.bounds;
         // very long and very high worlds are shown on a sheet that is not
@@ -109,11 +124,15 @@ fn lay_out_row(row: &[Panel], top: f64, width: f64, entries: &mut Vec<Entry>) ->
     let aspects: f64 = row.iter().map(aspect).sum();
     let room = width - GAP * (row.len() as f64 + 1.0) - 2.0 * MARGIN * row.len() as f64;
     let inner = lesser(room / aspects, TALLEST);
-    let height = inner + 2.0 * MARGIN;
+    row.iter().map(|panel| [inner * aspect(panel) + 2.0 * MARGIN, inner + 2.0 * MARGIN]).collect()
+}
+
+/// Lays a row out below `top`; returns how far it reaches to the right and down.
+fn lay_out_row(row: &[Panel], top: f64, width: f64, entries: &mut Vec<Entry>) -> [f64; 2] {
     let mut left = GAP;
-    let mut bottom = top + height;
-    for panel in row {
-        let rect = ScreenRect { min: [left, top], size: [inner * aspect(panel) + 2.0 * MARGIN, height] };
+    let mut bottom = top;
+    for (panel, size) in row.iter().zip(frame_sizes(row, width)) {
+        let rect = ScreenRect { min: [left, top], size };
         let below = lay_out_panel(panel, rect, entries);
         bottom = greater(bottom, below);
         left += rect.size[0] + GAP;

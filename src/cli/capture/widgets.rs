@@ -88,10 +88,10 @@ pub fn atlas(args: &SceneArgs, paper: &Paper) -> Result<(), Failure> {
         Some(name) => vec![find_world(name)?],
         None => World::built_in_names().into_iter().map(find_world).collect::<Result<_, _>>()?,
     };
-    let across = if worlds.len() > 1 && paper.width() >= 900.0 { worlds.len() as f64 } else { 1.0 };
+    let atlases: Vec<Atlas> = worlds.iter().map(|world| Atlas::new(world.clone())).collect();
     let mut panels = Vec::new();
-    for world in &worlds {
-        let mut picture = Atlas::new(world.clone()).picture();
+    for (world, atlas) in worlds.iter().zip(&atlases) {
+        let mut picture = atlas.picture();
         let mut readout = Vec::new();
         if let Some(resolution) = args.grid {
             let layer = GridLayer::new(world, resolution)
@@ -101,20 +101,19 @@ pub fn atlas(args: &SceneArgs, paper: &Paper) -> Result<(), Failure> {
             picture.items.extend(over.items);
             readout.push(format!("cells of {resolution} m, {} x {}", layer.grid().columns(), layer.grid().rows()));
         }
-        let (w, h) = (world.bounds.max.x - world.bounds.min.x, world.bounds.max.y - world.bounds.min.y);
-        // about the scale it will be shown at
-        let scale = (paper.width() / across - 60.0) / w;
-        let tallest = 544.0 / h;
-        picture.items.extend(names(world, if scale < tallest { scale } else { tallest }));
         panels.push(Panel { heading: world.name.clone(), readout, picture });
     }
     let list = |world: &World| draw_world(world).items.iter().map(|i| i.name.clone()).collect::<Vec<_>>().join(", ");
-    let figure = Figure {
+    let mut figure = Figure {
         title: "World atlas".into(),
         description: worlds.iter().map(|w| format!("{}: {}.", w.name, list(w))).collect::<Vec<_>>().join(" "),
         panels,
         caption: Vec::new(),
     };
+    let scales = figure.px_per_metre(paper.width());
+    for ((panel, atlas), scale) in figure.panels.iter_mut().zip(&atlases).zip(scales) {
+        panel.picture.items.extend(names(atlas, scale));
+    }
     let contents = worlds.iter().map(|w| format!("{} {:032x}", w.name, w.content_hash())).collect::<Vec<_>>();
     paper.write(&figure, &[("World", contents.join(", "))])
 }
