@@ -42,8 +42,8 @@ impl Anatomy {
         match self.tab {
             Tab::Intersects => format!(
                 "{FOOTPRINT}    let intersects = checker.scene().intersects(&footprint);\n    \
-                 println!(\"intersects: {{intersects}}\");\n    assert_eq!(intersects, {});\n",
-                self.intersects()
+                 println!(\"intersects: {{intersects}}\");\n    assert!({}intersects);\n",
+                if self.intersects() { "" } else { "!" }
             ),
             Tab::Distance => format!(
                 "{FOOTPRINT}    let distance = checker.scene().distance(&footprint);\n    \

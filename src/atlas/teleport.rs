@@ -116,7 +116,7 @@ mod tests {
         world.robots.push(Resident::new("Rover", "rusty", [2.0, 2.0, 0.0]));
         let mut atlas = Atlas::new(world);
         let rover = atlas.robots()[1].q;
-        let on_the_arm = rover.with(0, 0.0).with(1, 1.4142);
+        let on_the_arm = rover.with(0, 0.0).with(1, 1.4);
         let refusal = atlas.teleport(1, on_the_arm).unwrap().unwrap_err();
         assert_eq!(refusal.to_string(), "would overlap Reach");
         let at_block_and_arm = rover.with(0, 0.45).with(1, 0.97);

@@ -31,13 +31,15 @@ pub use wrapping::wrapped_pieces;
 
 #[cfg(test)]
 mod tests {
+    use std::f64::consts::{FRAC_PI_2, FRAC_PI_4};
+
     use crate::collision::{Checker, Scene};
     use crate::configuration::AnyConfiguration;
     use crate::robots::{AnyRobot, Reach};
 
     /// The chapter's arm on the Workbench, and its configuration.
     pub(super) fn arm(thick: bool) -> (Checker<AnyRobot>, AnyConfiguration) {
-        let (_, q) = AnyRobot::of_kind("reach", &[0.7853981633974483, 1.5707963267948966]).unwrap();
+        let (_, q) = AnyRobot::of_kind("reach", &[FRAC_PI_4, FRAC_PI_2]).unwrap();
         let arm = if thick { Reach::workbench() } else { Reach::choset() };
         (Checker::new(Scene::workbench(), AnyRobot::Reach(arm)), q)
     }

@@ -67,11 +67,8 @@ mod tests {
             let total: f64 = pieces.iter().map(|p| length(*p)).sum();
             assert!((total - crate::num::hypot(step[0], step[1])).abs() < 1e-9);
             for w in pieces.windows(2) {
-                for i in 0..2 {
-                    assert!(
-                        wrap(w[0][1][i] - w[1][0][i]).abs() < 1e-9,
-                        "each begins where the last ended, on the torus"
-                    );
+                for (end, start) in w[0][1].iter().zip(w[1][0]) {
+                    assert!(wrap(end - start).abs() < 1e-9, "each begins where the last ended, on the torus");
                 }
             }
         }

@@ -7,6 +7,6 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let footprint = checker.robot().footprint(&q);
     let intersects = checker.scene().intersects(&footprint);
     println!("intersects: {intersects}");
-    assert_eq!(intersects, false);
+    assert!(!intersects);
     Ok(())
 }
