@@ -116,6 +116,9 @@ mod tests {
         world.robots.push(Resident::new("Rover", "rusty", [2.0, 2.0, 0.0]));
         let mut atlas = Atlas::new(world);
         let rover = atlas.robots()[1].q;
+        // at the elbow it would overlap both links: one robot
+        let on_the_elbow = rover.with(0, 0.7).with(1, 0.7);
+        assert_eq!(atlas.teleport(1, on_the_elbow).unwrap().unwrap_err().to_string(), "would overlap Reach");
         let on_the_arm = rover.with(0, 0.0).with(1, 1.4);
         let refusal = atlas.teleport(1, on_the_arm).unwrap().unwrap_err();
         assert_eq!(refusal.to_string(), "would overlap Reach");
