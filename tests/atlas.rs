@@ -43,6 +43,7 @@ fn a_world_drawn_in_the_editor_is_checked_and_toured_at_once() {
     };
     let hash = format!("{:032x}", editor.world().content_hash());
     assert!(run(&["world", "check", path]).contains(&hash), "the file is the world that was drawn");
+    assert_eq!(run(&["world", "show", path]), std::fs::read_to_string(&file).unwrap(), "it is saved in canonical form");
     let log = folder.path().join("d.mcap");
     run(&["record", "--world", path, "--seconds", "5", "-o", log.to_str().unwrap()]);
     run(&["verify", log.to_str().unwrap()]);

@@ -202,13 +202,13 @@ fn roomy_place(anatomy: &Anatomy, bounds: &Bounds, at: Point2) -> Point2 {
         let place = at + Vector2::new(1.7 * c, s) * (far * size);
         let inside = [place.x - bounds.min.x, bounds.max.x - place.x, place.y - bounds.min.y, bounds.max.y - place.y];
         // room for half the words to either side
-        let room = [-0.1, -0.05, 0.0, 0.05, 0.1].iter().fold(f64::INFINITY, |room, off| {
+        let room = [-0.12, -0.06, 0.0, 0.06, 0.12].iter().fold(f64::INFINITY, |room, off| {
             let point = Footprint::disc(place + Vector2::new(*off * size, 0.0), 0.0);
             lesser(room, lesser(anatomy.checker().scene().distance(&point), own.distance(&point)))
         });
         let edge = inside.iter().fold(f64::INFINITY, |m, d| lesser(m, *d));
         // beyond a certain room more is no better; a plate at the picture's edge would be cut
-        let score = lesser(room, 0.04 * size) + 10.0 * lesser(edge - 0.13 * size, 0.0);
+        let score = lesser(room, 0.055 * size) + 10.0 * lesser(edge - 0.13 * size, 0.0);
         if score > best.0 + 1e-12 {
             best = (score, place);
         }

@@ -186,7 +186,7 @@ impl Editor {
             let refusal = Teleport::ask_only(&atlas.checker(i)?, &r.q).err()?;
             Some(match refusal {
                 Refusal::Overlap { .. } => format!("{} {refusal} at its start", r.name),
-                Refusal::Configuration(error) => format!("{}: {error}", r.name),
+                other => format!("{}: {other}", r.name),
             })
         });
         starts.collect()

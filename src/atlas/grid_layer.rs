@@ -60,6 +60,11 @@ impl GridLayer {
         &self.transform
     }
 
+    /// The world's obstacles.
+    pub fn scene(&self) -> &Scene {
+        &self.scene
+    }
+
     /// What grid and geometry say of a point; `None` beyond the grid.
     pub fn probe(&self, p: Point2) -> Option<Probe> {
         let cell = self.grid.cell_at(p)?;

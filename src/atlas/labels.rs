@@ -189,7 +189,10 @@ impl Sheet {
 pub fn names(atlas: &Atlas, px_per_metre: f64) -> Vec<Item> {
     let mut sheet = Sheet::of(atlas);
     let mut items = Vec::new();
-    for thing in named(atlas.world()) {
+    let mut things = named(atlas.world());
+    // what has the fewest places for its name comes first
+    things.sort_by_key(|thing| thing.at.len());
+    for thing in things {
         let width = 0.56 * SIZE * thing.name.chars().count() as f64 + 8.0;
         let half = Vector2::new(0.5 * width, 0.5 * (1.3 * SIZE + 5.0)) / px_per_metre;
         let Some((plate, at)) = sheet.place_for(&thing, half, px_per_metre) else { continue };

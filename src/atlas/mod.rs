@@ -4,6 +4,8 @@ mod edit;
 mod grid_layer;
 mod labels;
 mod outline;
+mod overlay;
+mod target;
 mod teleport;
 
 pub use edit::{EditError, Editor, Op, snap};

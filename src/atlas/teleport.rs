@@ -23,6 +23,15 @@ pub enum Refusal {
         /// [`NearestFree`] says how near it is.
         nearest: Option<NearestFree>,
     },
+    /// An arm's tip cannot get there.
+    OutOfReach {
+        /// The least distance of the tip from the base, metres.
+        least: f64,
+        /// The greatest.
+        most: f64,
+        /// The distance asked for.
+        wanted: f64,
+    },
     /// It is no configuration of this robot.
     Configuration(ConfigurationError),
 }
@@ -36,6 +45,9 @@ impl fmt::Display for Refusal {
                 [one] => write!(f, "would overlap {one}"),
                 [head @ .., last] => write!(f, "would overlap {} and {last}", head.join(", ")),
             },
+            Refusal::OutOfReach { least, most, wanted } => {
+                write!(f, "out of reach: {wanted:.2} m from the base, and the tip gets from {least:.2} to {most:.2} m")
+            }
             Refusal::Configuration(error) => write!(f, "{error}"),
         }
     }

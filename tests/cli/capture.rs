@@ -22,11 +22,12 @@ fn size(path: &Path) -> (u32, u32) {
 fn every_widget_is_captured_in_both_themes_the_same_each_time() {
     let folder = tempfile::tempdir().unwrap();
     let at = |name: &str| folder.path().join(name).to_str().unwrap().to_owned();
-    let widgets: [&[&str]; 5] = [
+    let widgets: [&[&str]; 6] = [
         &["dashboard", "--tick", "40", "--seed", "7"],
         &["anatomy"],
         &["anatomy", "--tab", "witness", "--robot", "hitch"],
         &["atlas", "--world", "apartment", "--grid", "0.2"],
+        &["atlas", "--world", "lot", "--teleport", "5.5,5,1.2"],
         &["cspace", "--cells", "6", "--annulus"],
     ];
     for widget in widgets {
@@ -105,7 +106,7 @@ fn what_cannot_be_drawn_is_refused_and_no_file_is_left() {
     let folder = tempfile::tempdir().unwrap();
     let at = |name: &str| folder.path().join(name).to_str().unwrap().to_owned();
     let (svg, gif, bmp) = (at("a.svg"), at("a.gif"), at("a.bmp"));
-    let refused: [(&[&str], &str); 8] = [
+    let refused: [(&[&str], &str); 10] = [
         (&["dashboard", "--tick", "99999", "-o", &svg], "there is no tick 99999"),
         (&["dashboard", "--from", "9", "--to", "3", "-o", &gif], "there is no tick 9"),
         (&["anatomy", "-o", &gif], "only the dashboard moves"),
@@ -114,6 +115,8 @@ fn what_cannot_be_drawn_is_refused_and_no_file_is_left() {
         (&["anatomy", "--step", "1", "-o", &svg], "the step has 2"),
         (&["anatomy", "--robot", "hitch", "--world", "workbench", "-o", &svg], "no hitch lives there"),
         (&["atlas", "--grid", "1e-9", "-o", &svg], "more than"),
+        (&["atlas", "--teleport", "1,2,3", "-o", &svg], "of which world?"),
+        (&["atlas", "--world", "lot", "--teleport", "1,2", "-o", &svg], "2 numbers: Hitch is at HitchCfg"),
     ];
     for (arguments, reason) in refused {
         let told = run(&[&["capture", "--widget"], arguments].concat()).failed(2);

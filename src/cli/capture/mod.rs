@@ -20,7 +20,7 @@ use paper::{Kind, Paper};
 ///
 /// dashboard  the run of a log, or of --seed, at --tick
 /// anatomy    the queries at a configuration: --tab, --robot, --q, --thick, --step
-/// atlas      worlds with their names: --world, --grid
+/// atlas      worlds with their names: --world, --grid, --teleport
 /// cspace     the workspace and beside it the configuration space: --robot, --q, --cells, --step
 #[derive(Debug, Args)]
 #[command(verbatim_doc_comment)]
@@ -99,6 +99,10 @@ pub struct SceneArgs {
     /// Atlas: the grid of this cell size over the world, shaded by its distance transform, metres.
     #[arg(long, value_name = "METRES")]
     grid: Option<f64>,
+    /// Atlas: put the world's first robot there, numbers joined by commas; where it cannot be, what it would overlap is shown, and
+    /// the nearest place that is free.
+    #[arg(long, value_name = "NUMBERS", allow_hyphen_values = true)]
+    teleport: Option<Numbers>,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]

@@ -1,17 +1,18 @@
 //! What the widgets that stand still show: anatomy, atlas, configuration space.
 
 use motion_lab::anatomy::{Anatomy, Tab, WorldSource};
-use motion_lab::atlas::{Atlas, GridLayer, names};
+use motion_lab::atlas::{Atlas, GridLayer, Refusal, names};
 use motion_lab::configuration::AnyConfiguration;
 use motion_lab::cspace::{CellMap, Overlay, Slice, cspace_picture};
-use motion_lab::picture::{Figure, Panel, world as draw_world};
-use motion_lab::robots::AnyRobot;
+use motion_lab::picture::{Figure, Item, Panel, world as draw_world};
+use motion_lab::robots::{AnyRobot, Robot};
 use motion_lab::ui::readout;
 use motion_lab::worlds::World;
 
 use super::paper::{Note, Paper};
 use super::{SceneArgs, TabName};
 use crate::cli::Failure;
+use crate::cli::numbers::Numbers;
 use crate::cli::query::RobotName;
 use crate::cli::world_source::find_world;
 
@@ -88,11 +89,17 @@ pub fn atlas(args: &SceneArgs, paper: &Paper) -> Result<(), Failure> {
         Some(name) => vec![find_world(name)?],
         None => World::built_in_names().into_iter().map(find_world).collect::<Result<_, _>>()?,
     };
-    let atlases: Vec<Atlas> = worlds.iter().map(|world| Atlas::new(world.clone())).collect();
+    if args.teleport.is_some() && worlds.len() > 1 {
+        return Err(Failure::usage("a robot of which world?", "Name it with --world."));
+    }
+    let mut atlases: Vec<Atlas> = worlds.iter().map(|world| Atlas::new(world.clone())).collect();
     let mut panels = Vec::new();
-    for (world, atlas) in worlds.iter().zip(&atlases) {
-        let mut picture = atlas.picture();
-        let mut readout = Vec::new();
+    for (world, atlas) in worlds.iter().zip(&mut atlases) {
+        let (refused, mut readout) = match &args.teleport {
+            Some(Numbers(to)) => teleport(atlas, to)?,
+            None => (Vec::new(), Vec::new()),
+        };
+        let mut picture = atlas.picture().with(refused);
         if let Some(resolution) = args.grid {
             let layer = GridLayer::new(world, resolution)
                 .map_err(|error| Failure::usage(error, "Give a coarser --grid, in metres."))?;
@@ -111,11 +118,31 @@ pub fn atlas(args: &SceneArgs, paper: &Paper) -> Result<(), Failure> {
         caption: Vec::new(),
     };
     let scales = figure.px_per_metre(paper.width());
-    for ((panel, atlas), scale) in figure.panels.iter_mut().zip(&atlases).zip(scales) {
+    let named = if args.teleport.is_some() { &[][..] } else { &atlases };
+    for ((panel, atlas), scale) in figure.panels.iter_mut().zip(named).zip(scales) {
         panel.picture.items.extend(names(atlas, scale));
     }
     let contents = worlds.iter().map(|w| format!("{} {:032x}", w.name, w.content_hash())).collect::<Vec<_>>();
     paper.write(&figure, &[("World", contents.join(", "))])
+}
+
+/// Puts the first robot there; or what is to be drawn and said of its refusal.
+fn teleport(atlas: &mut Atlas, to: &[f64]) -> Result<(Vec<Item>, Vec<String>), Failure> {
+    let usage = |reason: String| Failure::usage(reason, "See `motion-lab capture --help`.");
+    let resident = atlas.robots().first().ok_or_else(|| usage("no robot of the lab's lives there".into()))?;
+    let wrong = || usage(format!("{} numbers: {} is at {}", to.len(), resident.name, resident.q));
+    let wanted = resident.q.with_coordinates(to).filter(|q| resident.robot.check(q).is_ok()).ok_or_else(wrong)?;
+    Ok(match atlas.teleport(0, wanted) {
+        Some(Err(refusal)) => {
+            let mut said = vec![refusal.to_string()];
+            if let Refusal::Overlap { nearest: Some(offer), .. } = &refusal {
+                said.push(format!("nearest free: {}", readout(&offer.q.to_string())));
+                said.push(format!("{:.4} away, and nothing nearer than {:.4} is free", offer.distance, offer.proven));
+            }
+            (atlas.refusal_items(0, &wanted, &refusal), said)
+        }
+        _ => (Vec::new(), Vec::new()),
+    })
 }
 
 /// The scene asked for.
