@@ -58,6 +58,7 @@ fn app(frame: Duration) -> App {
 }
 
 const WIDE: [f32; 2] = [1280.0, 800.0];
+const PHONE: [f32; 2] = [390.0, 844.0];
 
 fn lab(size: [f32; 2]) -> Harness<'static, Lab> {
     let lab = Lab { app: app(Duration::from_millis(25)) };
@@ -359,7 +360,7 @@ fn an_arm_of_three_links_walks_while_its_tip_stays() {
 
 #[test]
 fn the_pad_drives_like_the_keys() {
-    let mut harness = lab(WIDE);
+    let mut harness = lab(PHONE);
     arm_rusty(&mut harness);
     let pad = harness.get_by_label("Rusty: pad, up drives forward").rect();
     pointer(&mut harness, pad.center_top() + egui::vec2(0.0, 1.0), Some(true));
@@ -512,7 +513,7 @@ fn frame_rates_and_stalls_change_no_bit_of_a_run() {
 
 #[test]
 fn a_phone_shows_one_pane_at_a_time_and_all_can_be_reached() {
-    let mut harness = lab([390.0, 844.0]);
+    let mut harness = lab(PHONE);
     assert!(harness.query_by_label_contains("Workbench. Reach").is_none());
     click(&mut harness, "Reach");
     assert!(harness.query_by_label_contains("Workbench. Reach").is_some());

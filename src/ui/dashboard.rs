@@ -11,7 +11,6 @@ use super::manifest::widget;
 use super::pane::{pane, take_in_hand, text_height};
 use super::plots::plots;
 use super::{Command, Dashboard, Look, UiState, drive, frame, help, tools, transport_bar};
-use crate::picture::Role;
 use crate::simulation::History;
 
 /// Below this width the panes are shown one at a time.
@@ -41,13 +40,14 @@ pub fn dashboard(ui: &mut Ui, model: &Dashboard, history: &History, state: &mut 
         keys(ui, model, state, commands);
         drive::drive(ui, model, state, commands);
     }
-    let paper = Frame::NONE.fill(look.theme.colour(Role::Paper));
+    // the window is cleared with the paper already: filling it again would cost as much as all that is drawn on it
+    let paper = Frame::NONE;
     let side = if narrow { 12 } else { GAP as i8 };
     Panel::bottom("transport")
         .frame(paper.inner_margin(Margin::symmetric(side, 8)))
         .show(ui, |ui| transport_bar(ui, model, history, (narrow, &look), state, commands));
     if state.settings.plots && !narrow {
-        let margin = Margin { left: 0, right: side, top: 14, bottom: 0 };
+        let margin = Margin { left: 12, right: side, top: 14, bottom: 0 };
         Panel::right("sheet")
             .exact_size(SHEET)
             .resizable(false)
@@ -108,10 +108,10 @@ fn header(
         });
         ui.with_layout(Layout::right_to_left(Align::Min), |ui| {
             if narrow {
-                ui.menu_button("Menu", |ui| tools::tools(ui, model, state, commands));
+                ui.menu_button("Menu", |ui| tools::tools(ui, model, look, state, commands));
             } else {
                 ui.spacing_mut().button_padding.x = 10.0;
-                tools::tools(ui, model, state, commands);
+                tools::tools(ui, model, look, state, commands);
             }
         });
     });

@@ -3,6 +3,8 @@
 pub mod arm;
 mod blend;
 #[cfg(feature = "window")]
+mod button;
+#[cfg(feature = "window")]
 pub mod canvas;
 mod cockpit;
 #[cfg(feature = "window")]

@@ -111,7 +111,11 @@ fn in_hand(ui: &mut Ui, robot: &CockpitRobot, paper: Rect, look: &Look, state: &
     let rect = Rect::from_min_size(paper.min + vec2(8.0, 8.0), galley.size()).expand2(vec2(4.0, 2.0));
     ui.painter().rect_filled(rect, 2.0, look.tint(Role::Paper, 0.9));
     ui.painter().galley(paper.min + vec2(8.0, 8.0), galley, look.colour(Role::Text));
-    pad::pad(ui, &robot.name, paper, look, state);
+    // a mouse has the keys beside it
+    let touched = ui.input(|i| i.any_touches()) || ui.spacing().interact_size.y > 40.0;
+    if touched {
+        pad::pad(ui, &robot.name, paper, look, state);
+    }
 }
 
 /// Lights the role of the drawn thing that is pointed at.
@@ -147,7 +151,9 @@ fn words(ui: &mut Ui, cockpit: &Cockpit, fit: &Fit, look: &Look, state: &mut UiS
 
 /// The configuration as its type prints. Pointing lights the robot, a click copies every digit.
 fn readouts(ui: &mut Ui, robot: &CockpitRobot, look: &Look, state: &mut UiState) {
-    for line in readout_lines(&readout(&robot.readout)) {
+    let figure = TextStyle::Monospace.resolve(ui.style());
+    let width = ui.ctx().fonts_mut(|f| f.glyph_width(&figure, '0'));
+    for line in readout_lines(&readout(&robot.readout), (ui.available_width() / width) as usize) {
         let text = RichText::new(line).monospace().color(look.colour(Role::Text));
         let response = ui.add(Label::new(text).sense(Sense::click()));
         frame::points_at(state, &response, Role::Robot);

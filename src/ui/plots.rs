@@ -1,7 +1,7 @@
 //! Plots of what has been of the run, with a cursor that is the time line's.
 
-use bevy_egui::egui::{RichText, Ui};
-use egui_plot::{Legend, Line, LineStyle, Plot, PlotPoints, VLine};
+use bevy_egui::egui::{RichText, TextStyle, Ui};
+use egui_plot::{Line, LineStyle, Plot, PlotPoints, VLine};
 
 use super::{Command, Dashboard, Look, UiState};
 use crate::picture::Role;
@@ -92,12 +92,40 @@ pub fn plots(
         ui.weak("Choose a plot.");
         return;
     }
-    let title = ui.text_style_height(&bevy_egui::egui::TextStyle::Small) + 10.0;
+    let title = 2.0 * ui.text_style_height(&TextStyle::Small) + 12.0;
     let height = (ui.available_height() / shown.len() as f32 - title).clamp(70.0, 260.0);
     for graph in shown {
-        ui.label(RichText::new(graph.title).small().color(look.colour(Role::Muted)));
+        legend(ui, graph, model, look);
         plot(ui, graph, height, model, history, look, commands);
     }
+}
+
+/// The lines of a plot: the id of the robot, its name with the channel's, and the value.
+fn lines<'a>(graph: &'a Graph, model: &'a Dashboard) -> impl Iterator<Item = (u32, String, fn(&Trail) -> Option<f64>)> {
+    let robots = || (0_u32..).zip(model.cockpits.iter().flat_map(|c| &c.robots));
+    graph.channels.iter().flat_map(move |channel| {
+        let kinds = channel.kinds;
+        let of = robots().filter(move |(_, r)| kinds.is_empty() || kinds.iter().any(|k| r.kind.starts_with(k)));
+        of.map(|(id, r)| (id, format!("{} {}", r.name, channel.name).trim().to_owned(), channel.value))
+    })
+}
+
+/// The title of a plot, and its lines by name in their colours; dashes as they are drawn.
+fn legend(ui: &mut Ui, graph: &Graph, model: &Dashboard, look: &Look) {
+    ui.horizontal_wrapped(|ui| {
+        ui.spacing_mut().interact_size.y = ui.text_style_height(&TextStyle::Small);
+        ui.spacing_mut().item_spacing.x = 6.0;
+        ui.label(RichText::new(graph.title).small().color(look.colour(Role::Text)));
+        for (number, (_, name, _)) in lines(graph, model).enumerate() {
+            let (colour, style) = line_of(number, look);
+            let dash = match style {
+                LineStyle::Solid => "\u{2014}",
+                LineStyle::Dashed { .. } => "- -",
+                LineStyle::Dotted { .. } => "\u{b7}\u{b7}\u{b7}",
+            };
+            ui.label(RichText::new(format!("{dash} {name}")).small().color(colour));
+        }
+    });
 }
 
 fn plot(
@@ -110,7 +138,6 @@ fn plot(
     commands: &mut Vec<Command>,
 ) {
     let end = DT * model.frontier.max(1) as f64;
-    let robots = || (0_u32..).zip(model.cockpits.iter().flat_map(|c| &c.robots));
     let response = Plot::new(graph.title)
         .height(height)
         .allow_drag(false)
@@ -122,24 +149,12 @@ fn plot(
         .include_x(0.0)
         .include_x(end)
         .y_axis_min_width(28.0)
-        .legend(Legend::default().position(egui_plot::Corner::LeftTop).background_alpha(0.7))
         .show(ui, |plot| {
-            let mut number = 0;
-            for channel in graph.channels {
-                for (id, robot) in robots() {
-                    if !channel.kinds.is_empty() && !channel.kinds.iter().any(|k| robot.kind.starts_with(k)) {
-                        continue;
-                    }
-                    let points: PlotPoints<'_> = history
-                        .series(id, POINTS, channel.value)
-                        .into_iter()
-                        .map(|(tick, value)| [DT * tick as f64, value])
-                        .collect();
-                    let (colour, style) = line_of(number, look);
-                    number += 1;
-                    let name = format!("{} {}", robot.name, channel.name);
-                    plot.line(Line::new(name.trim().to_owned(), points).color(colour).style(style).width(1.25));
-                }
+            for (number, (id, name, value)) in lines(graph, model).enumerate() {
+                let samples = history.series(id, POINTS, value).into_iter();
+                let points: PlotPoints<'_> = samples.map(|(tick, value)| [DT * tick as f64, value]).collect();
+                let (colour, style) = line_of(number, look);
+                plot.line(Line::new(name, points).color(colour).style(style).width(1.25));
             }
             let cursor = VLine::new("", DT * model.tick as f64).color(look.colour(Role::Focus)).width(1.5);
             plot.vline(cursor);

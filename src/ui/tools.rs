@@ -1,9 +1,10 @@
 //! What is done to the session: open and save runs, undo, what is shown.
 
-use bevy_egui::egui::{Button, RichText, TextStyle, Ui};
+use bevy_egui::egui::{RichText, TextStyle, Ui};
 
+use super::button::button;
 use super::keys::{Action, hint};
-use super::{Command, Dashboard, SessionCommand, UiState};
+use super::{Command, Dashboard, Look, SessionCommand, UiState};
 use crate::simulation::TransportCommand;
 
 /// Does what a key or a button asks for, as far as it is the session's.
@@ -24,10 +25,10 @@ pub fn act(action: Action, state: &mut UiState, commands: &mut Vec<Command>) {
 }
 
 /// Shows the buttons, `right to left` in a row on a wide screen, as a list in a menu on a narrow one.
-pub fn tools(ui: &mut Ui, model: &Dashboard, state: &mut UiState, commands: &mut Vec<Command>) {
-    let theme = state.settings.theme.name();
+pub fn tools(ui: &mut Ui, model: &Dashboard, look: &Look, state: &mut UiState, commands: &mut Vec<Command>) {
+    let theme = format!("{} theme", state.settings.theme.name());
     let buttons = [
-        (theme, Action::Theme, true, false),
+        (theme.as_str(), Action::Theme, true, false),
         ("Keys", Action::Help, true, state.help),
         ("Names", Action::Labels, true, state.settings.labels),
         ("Plots", Action::Plots, true, state.settings.plots),
@@ -37,8 +38,7 @@ pub fn tools(ui: &mut Ui, model: &Dashboard, state: &mut UiState, commands: &mut
         ("Open", Action::Open, true, false),
     ];
     for (label, action, enabled, on) in buttons {
-        let button = Button::new(label).selected(on);
-        if ui.add_enabled(enabled, button).on_hover_text(hint(action)).clicked() {
+        if button(ui, label, 0.0, (enabled, on), look).on_hover_text(hint(action)).clicked() {
             act(action, state, commands);
         }
     }

@@ -1,7 +1,8 @@
 //! The transport bar: the time line, play and pause, steps, loop, reset, re-roll, the speed, the seed, the time.
 
-use bevy_egui::egui::{Align, Button, ComboBox, Key, Layout, RichText, TextEdit, TextStyle, Ui, vec2};
+use bevy_egui::egui::{Align, ComboBox, Key, Layout, RichText, TextEdit, TextStyle, Ui, vec2};
 
+use super::button::button;
 use super::keys::{Action, hint};
 use super::time_line::time_line;
 use super::{Command, Dashboard, Look, UiState};
@@ -62,9 +63,9 @@ pub fn transport_bar(
         ui.spacing_mut().button_padding.x = 7.0;
         ui.spacing_mut().item_spacing.x = 5.0;
         ui.horizontal(|ui| {
-            buttons(ui, model, &PLAY, commands);
+            buttons(ui, model, look, &PLAY, commands);
             ui.menu_button("More", |ui| {
-                buttons(ui, model, &MORE, commands);
+                buttons(ui, model, look, &MORE, commands);
                 speed_choice(ui, model, commands);
             });
         });
@@ -73,8 +74,8 @@ pub fn transport_bar(
         ui.horizontal(|ui| {
             ui.spacing_mut().button_padding.x = 9.0;
             ui.spacing_mut().item_spacing.x = 6.0;
-            buttons(ui, model, &PLAY, commands);
-            buttons(ui, model, &MORE, commands);
+            buttons(ui, model, look, &PLAY, commands);
+            buttons(ui, model, look, &MORE, commands);
             speed_choice(ui, model, commands);
             seed_and_time(ui, model, look, state, commands);
         });
@@ -92,8 +93,7 @@ const PLAY: [(&str, Action); 5] = [
 const MORE: [(&str, Action); 3] =
     [("Next contact", Action::NextContact), ("Loop", Action::Loop), ("Continue from here", Action::Continue)];
 
-fn buttons(ui: &mut Ui, model: &Dashboard, buttons: &[(&str, Action)], commands: &mut Vec<Command>) {
-    let height = ui.spacing().interact_size.y;
+fn buttons(ui: &mut Ui, model: &Dashboard, look: &Look, buttons: &[(&str, Action)], commands: &mut Vec<Command>) {
     for &(label, action) in buttons {
         let (label, width) = match action {
             Action::PlayPause if model.playing => ("Pause", 60.0),
@@ -106,8 +106,7 @@ fn buttons(ui: &mut Ui, model: &Dashboard, buttons: &[(&str, Action)], commands:
             _ => true,
         };
         let on = action == Action::Loop && model.looping;
-        let button = Button::new(label).min_size(vec2(width, height)).selected(on);
-        if ui.add_enabled(enabled, button).on_hover_text(hint(action)).clicked() {
+        if button(ui, label, width, (enabled, on), look).on_hover_text(hint(action)).clicked() {
             act(action, model, commands);
         }
     }

@@ -175,7 +175,7 @@ fn buttons_and_the_space_bar_send_what_they_say() {
     assert_eq!(screen.click(&playing, "Step"), sent(TransportCommand::Step));
     assert_eq!(screen.click(&playing, "Reset"), sent(TransportCommand::Reset));
     assert_eq!(screen.click(&playing, "Re-roll"), sent(TransportCommand::ReRoll));
-    assert_eq!(screen.click(&playing, "System"), []);
+    assert_eq!(screen.click(&playing, "System theme"), []);
     assert_eq!(screen.state.settings.theme, ThemeChoice::Light);
 }
 
