@@ -1,6 +1,9 @@
 //! What people see and touch. Colours are known to [`Theme`] alone; what needs a window stands behind the feature `window`.
 
+pub mod arm;
 mod blend;
+#[cfg(feature = "window")]
+mod button;
 #[cfg(feature = "window")]
 pub mod canvas;
 mod cockpit;
@@ -8,10 +11,35 @@ mod cockpit;
 mod dashboard;
 #[cfg(feature = "window")]
 mod drive;
+mod formula;
+#[cfg(feature = "window")]
+mod frame;
+mod goal;
+#[cfg(feature = "window")]
+mod handles;
+#[cfg(feature = "window")]
+mod help;
+#[cfg(feature = "window")]
+pub mod keys;
+#[cfg(feature = "window")]
+mod labels;
+#[cfg(feature = "window")]
+mod look;
+mod manifest;
+#[cfg(feature = "window")]
+mod pad;
+#[cfg(feature = "window")]
+mod pane;
+#[cfg(feature = "window")]
+mod plots;
 mod readout;
+mod settings;
+mod state;
 mod theme;
 #[cfg(feature = "window")]
 mod time_line;
+#[cfg(feature = "window")]
+mod tools;
 #[cfg(feature = "window")]
 mod transport_bar;
 
@@ -19,7 +47,14 @@ pub use blend::{blend, heading};
 pub use cockpit::{Cockpit, CockpitRobot, Dashboard};
 #[cfg(feature = "window")]
 pub use dashboard::dashboard;
+pub use formula::{Formula, Level, Term};
+pub use goal::{Off, ParkingGoal, trailer_of};
+#[cfg(feature = "window")]
+pub use look::Look;
+pub use manifest::{KeyText, WidgetText, widget, widgets};
 pub use readout::{readout, readout_lines};
+pub use settings::{Settings, ThemeChoice};
+pub use state::{Flash, Notice, UiState};
 pub use theme::Theme;
 #[cfg(feature = "window")]
 pub use transport_bar::transport_bar;
@@ -31,19 +66,22 @@ pub enum Command {
     Transport(crate::simulation::TransportCommand),
     /// Put something in to a robot.
     Robot(crate::simulation::RobotCommand),
+    /// Do something with runs as a whole.
+    Session(SessionCommand),
 }
 
-/// What the window remembers that is no part of a run.
-#[derive(Clone, Debug, Default)]
-pub struct UiState {
-    /// Light or dark paper.
-    pub theme: Theme,
-    /// Which pane a narrow screen shows.
-    pub pane: usize,
-    /// The seed field's text while it is edited.
-    pub seed_text: Option<String>,
-    /// The name of the robot that the arrow keys drive.
-    pub armed: Option<String>,
-    /// The channels it was last told to hold.
-    pub held: (i16, i16),
+/// What is asked for that is neither a move of the run nor an input to it.
+#[derive(bevy::prelude::Message, Clone, Debug, PartialEq, Eq)]
+pub enum SessionCommand {
+    /// Save the run: ask for a file first.
+    Save,
+    /// Open a run: ask for a file first.
+    Open,
+    /// A new run in which an arm has so many links.
+    Links {
+        /// The arm.
+        robot: String,
+        /// Two or three.
+        links: usize,
+    },
 }
