@@ -4,19 +4,22 @@ use std::path::Path;
 use std::sync::Arc;
 
 use motion_lab::geometry::Shape;
-use motion_lab::picture::{Figure, Panel, Picture, world};
+use motion_lab::picture::{Figure, Item, Panel, Picture, RobotDrawing, robot, world};
 use motion_lab::random::Seed;
 use motion_lab::recording::{Recorder, Run};
 use motion_lab::run::{DT, Log, Script};
 use motion_lab::simulation::RobotView;
 use motion_lab::tour::{BOOK_SEED, TourConfig};
-use motion_lab::ui::{Cockpit, CockpitRobot, readout, readout_lines};
+use motion_lab::ui::{readout, readout_lines};
 
 use super::RunArgs;
 use super::paper::{Kind, Note, Paper};
 use crate::cli::log_source::{LogSource, read_log};
 use crate::cli::simulate::show;
 use crate::cli::{Failure, say};
+
+/// The most characters to a line of a readout.
+const READOUT: usize = 48;
 
 /// Hundredths of a second in a tick.
 const TICK_HUNDREDTHS: u64 = 5;
@@ -69,47 +72,42 @@ fn log(args: &RunArgs) -> Result<Log, Failure> {
     Run::record(whole, (seed, Script::empty())).map_err(Failure::internal)
 }
 
-/// The cockpits as the window shows them, side by side.
+/// The cockpits side by side.
 fn figure(run: &Recorder, worlds: &[Arc<Picture>], log: &Log, tick: u64) -> Figure {
     let views = run.view();
-    let cockpits = (0_u32..).zip(worlds).map(|(number, world)| Cockpit {
-        world: Arc::clone(world),
-        robots: views.iter().filter(|v| v.world == number).map(cockpit_robot).collect(),
-    });
-    let cockpits: Vec<Cockpit> = cockpits.collect();
-    let panel = |cockpit: &Cockpit| Panel {
-        picture: (*cockpit.world).clone().with(cockpit.robots_picture().items),
-        heading: cockpit.heading(),
-        readout: cockpit
-            .robots
-            .iter()
-            .flat_map(|r| {
-                let mut lines = readout_lines(&readout(&r.readout));
-                lines.push(format!("contacts: {}", r.contacts));
-                lines
-            })
-            .collect(),
+    let panel = |(number, world): (u32, &Arc<Picture>)| {
+        let residents: Vec<&RobotView> = views.iter().filter(|v| v.world == number).collect();
+        let names: Vec<&str> = residents.iter().map(|v| v.name.as_str()).collect();
+        let heading = match names.len() {
+            0 => world.name.clone(),
+            1..=3 => format!("{} \u{b7} {}", names.join(", "), world.name),
+            n => format!("{n} robots \u{b7} {}", world.name),
+        };
+        let readout = residents.iter().flat_map(|v| {
+            let mut lines = readout_lines(&readout(&v.configuration), READOUT);
+            lines.push(format!("contacts: {}", v.contacts));
+            lines
+        });
+        let drawn = residents.iter().flat_map(|v| drawing(v));
+        Panel { heading, readout: readout.collect(), picture: (**world).clone().with(drawn) }
     };
     let seconds = DT * tick as f64;
+    let told = views.iter().map(|v| format!("{} is at {}, contacts: {}.", v.name, v.configuration, v.contacts));
     Figure {
         title: format!("The lab at {seconds:.2} s, seed {}", log.seed.0),
-        description: cockpits.iter().map(Cockpit::described).collect::<Vec<_>>().join(" "),
-        panels: cockpits.iter().map(panel).collect(),
+        description: told.collect::<Vec<_>>().join(" "),
+        panels: (0_u32..).zip(worlds).map(panel).collect(),
         caption: vec![format!("Seed {}, tick {tick} ({seconds:.2} s)", log.seed.0)],
     }
 }
 
-fn cockpit_robot(view: &RobotView) -> CockpitRobot {
+/// A robot as its cockpit shows it: red while its flash holds.
+fn drawing(view: &RobotView) -> Vec<Item> {
     let is_disc = view.footprint.parts().iter().all(|p| matches!(p.shape(), Shape::Disc { .. }));
-    CockpitRobot {
-        name: view.name.clone(),
-        readout: view.configuration.clone(),
-        footprint: view.footprint.clone(),
+    robot(&RobotDrawing {
+        name: &view.name,
+        footprint: &view.footprint,
         heading: view.coordinates.get(2).copied().filter(|_| is_disc),
-        flash: view.flash > 0,
-        contacts: view.contacts,
-        manual: view.manual,
-        drivable: true,
-        trailer: None,
-    }
+        in_contact: view.flash > 0,
+    })
 }
