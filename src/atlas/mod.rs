@@ -3,14 +3,16 @@
 mod edit;
 mod grid_layer;
 mod labels;
+mod op;
 mod outline;
 mod overlay;
 mod target;
 mod teleport;
 
-pub use edit::{EditError, Editor, Op, snap};
+pub use edit::{Editor, snap};
 pub use grid_layer::{GridLayer, Probe};
 pub use labels::{Named, named, names};
+pub use op::{EditError, Op};
 pub use outline::{EditShape, Handle};
 pub use teleport::{Refusal, Teleport};
 

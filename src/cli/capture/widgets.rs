@@ -6,7 +6,7 @@ use motion_lab::configuration::AnyConfiguration;
 use motion_lab::cspace::{CellMap, Overlay, Slice, cspace_picture};
 use motion_lab::picture::{Figure, Item, Panel, world as draw_world};
 use motion_lab::robots::{AnyRobot, Robot};
-use motion_lab::ui::readout;
+use motion_lab::ui::{readout, widget};
 use motion_lab::worlds::World;
 
 use super::paper::{Note, Paper};
@@ -39,7 +39,7 @@ pub fn anatomy(args: &SceneArgs, paper: &Paper) -> Result<(), Failure> {
         title: format!("Query anatomy: {} in the world {}", anatomy.checker().robot().name(), anatomy.world().name),
         description: tabs.iter().map(|t| anatomy.clone().with_tab(*t).described()).collect::<Vec<_>>().join(" "),
         panels,
-        caption: vec![readout(&anatomy.q().to_string())],
+        caption: caption("anatomy", &anatomy),
     };
     paper.write(&figure, &notes(&anatomy))
 }
@@ -78,7 +78,7 @@ pub fn cspace(args: &SceneArgs, paper: &Paper) -> Result<(), Failure> {
         title: format!("Workspace and configuration space of {}", anatomy.checker().robot().name()),
         description: anatomy.described(),
         panels,
-        caption: vec![readout(&anatomy.q().to_string())],
+        caption: caption("cspace", &anatomy),
     };
     paper.write(&figure, &notes(&anatomy))
 }
@@ -115,7 +115,7 @@ pub fn atlas(args: &SceneArgs, paper: &Paper) -> Result<(), Failure> {
         title: "World atlas".into(),
         description: worlds.iter().map(|w| format!("{}: {}.", w.name, list(w))).collect::<Vec<_>>().join(" "),
         panels,
-        caption: Vec::new(),
+        caption: widget("atlas").map(|w| w.misconception.clone()).into_iter().collect(),
     };
     let scales = figure.px_per_metre(paper.width());
     let named = if args.teleport.is_some() { &[][..] } else { &atlases };
@@ -166,6 +166,12 @@ fn frozen(args: &SceneArgs) -> Result<Anatomy, Failure> {
     }
     anatomy.show_annulus = args.annulus;
     Ok(anatomy)
+}
+
+/// What stands under the panels: the misconception that the widget removes, and the configuration shown.
+fn caption(id: &str, anatomy: &Anatomy) -> Vec<String> {
+    let misconception = widget(id).map(|w| w.misconception.clone());
+    misconception.into_iter().chain([readout(&anatomy.q().to_string())]).collect()
 }
 
 /// What makes the picture what it is.
