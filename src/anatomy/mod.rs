@@ -12,6 +12,7 @@
 //! assert!(picture.items.iter().any(|item| item.id == "witness/1/b"));
 //! ```
 
+mod choice;
 mod close_up;
 mod feature;
 mod nearest;

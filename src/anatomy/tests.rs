@@ -223,3 +223,89 @@ fn the_annulus_is_drawn_on_demand() {
     item(&items, "annulus/outer circle");
     assert!(!ids(&items).contains(&"annulus/inner circle"), "of equal links it is a point");
 }
+
+#[test]
+fn every_robot_goes_into_every_world_and_stands_free() {
+    let anatomy = Anatomy::default().with_tab(Tab::Witness);
+    let mut s = crate::random::Stream::new(crate::random::Seed(3), "choices");
+    let mut in_contact = 0;
+    for name in World::built_in_names() {
+        let there = anatomy.in_world(World::built_in(name).unwrap(), WorldSource::BuiltIn(name));
+        for (choice, robot) in Anatomy::choices() {
+            let chosen = there.with_robot(robot);
+            assert_eq!(
+                (chosen.checker().robot(), chosen.tab, &chosen.world().name),
+                (&robot, Tab::Witness, &there.world().name)
+            );
+            if chosen.intersects() {
+                // an arm's base is at a corner of walls there, or a car does not fit anywhere at its heading: no sample is free
+                let bounds = there.world().bounds;
+                for _ in 0..2000 {
+                    let drawn = robot.sample(bounds.min, bounds.max, &mut s);
+                    let place = [0, 1].map(|i| drawn.coordinates()[i]);
+                    let q = chosen.q().with(0, place[0]).with(1, place[1]);
+                    assert!(!chosen.checker().is_free(&q), "{choice} in {name}: {q}");
+                }
+                in_contact += 1;
+            }
+            assert!(!chosen.picture().items.is_empty() && chosen.q().coordinates().iter().all(|c| c.is_finite()));
+        }
+    }
+    assert!(in_contact <= 9, "{in_contact} of 18");
+    // what fits both stays
+    let mut bent = anatomy.clone();
+    bent.set_coordinate(1, 0.3);
+    let thick = bent.with_robot(AnyRobot::Reach(Reach::workbench()));
+    assert_eq!((thick.q(), thick.step()), (bent.q(), bent.step()));
+    let towing = anatomy.in_world(World::lot(), WorldSource::BuiltIn("lot")).with_robot(Anatomy::choices()[5].1);
+    assert_eq!(towing.q().coordinates().len(), 4);
+}
+
+#[test]
+fn what_is_unresolved_is_told_with_its_reason() {
+    // the straight arm turns under a wall that is one ulp above its reach
+    let above = f64::from_bits(2.0_f64.to_bits() + 1);
+    let mut world = World { obstacles: Vec::new(), ..World::workbench() };
+    let wall = Shape::Segment { a: Point2::new(-1.0, above), b: Point2::new(1.0, above) };
+    let pieces = vec![(crate::geometry::Pose2::IDENTITY, wall)];
+    world.obstacles.push(Obstacle { name: "the lid".into(), kind: ObstacleKind::Wall, pieces });
+    let q = AnyConfiguration::T2(T2::new(0.5 * PI - 0.4, 0.0));
+    let arm = AnyRobot::Reach(Reach::choset());
+    let mut anatomy = Anatomy::new(world, WorldSource::Unsaved, arm, q).unwrap().with_tab(Tab::Swept);
+    anatomy.set_step(0, 0.8);
+    let sweep = anatomy.sweep().unwrap();
+    let EdgeVerdict::Unresolved { free_until, gap, .. } = sweep.verdict else { panic!("{:?}", sweep.verdict) };
+    assert!(free_until > 0.49 && free_until < 0.51 && sweep.width == gap, "{:?}", sweep.verdict);
+    assert!(sweep.from_free && sweep.to_free);
+    assert_eq!(anatomy.readout()[1], "unresolved: the gap is below what rounding can tell from contact");
+    assert!(ids(&anatomy.picture().items).iter().any(|id| id.starts_with("step/")));
+}
+
+#[test]
+fn the_distance_stands_where_it_covers_neither_robot_nor_obstacle() {
+    let mut s = crate::random::Stream::new(crate::random::Seed(5), "plates");
+    let mut crowded = 0;
+    for _ in 0..200 {
+        let anatomy = at(s.uniform(-PI, PI), s.uniform(-PI, PI), true).with_tab(Tab::Distance);
+        if anatomy.intersects() {
+            continue;
+        }
+        for picture in [anatomy.picture(), anatomy.close_up().unwrap()] {
+            let crate::picture::Drawing::Label { at: place, .. } =
+                item(&picture.items, "witness/distance").drawing.clone()
+            else {
+                panic!("a label")
+            };
+            let Bounds { min, max } = picture.bounds;
+            assert!(place.x > min.x && place.x < max.x && place.y > min.y && place.y < max.y);
+            let dot = Footprint::disc(place, 0.0);
+            crowded += u32::from(anatomy.checker().scene().intersects(&dot));
+            let w = anatomy.nearest()[0].witness;
+            let (lo, hi) = (picture.bounds.min, picture.bounds.max);
+            for p in [w.on_robot, w.on_obstacle] {
+                assert!(p.x >= lo.x && p.x <= hi.x && p.y >= lo.y && p.y <= hi.y, "both points are in view");
+            }
+        }
+    }
+    assert_eq!(crowded, 0);
+}

@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use super::{ConfigurationError, HITCH, Hitch, PartRates, RUSTY, Reach, Robot, Rusty};
-use crate::configuration::{AnyConfiguration, Configuration, Tn};
+use crate::configuration::{AnyConfiguration, Configuration, HitchCfg, Tn};
 use crate::geometry::{Footprint, Part, Point2, Pose2, Shape};
 use crate::num::{greater, hypot, lesser};
 use crate::random::Stream;
@@ -44,6 +44,24 @@ impl AnyRobot {
         let wrapped = coordinates.iter().enumerate().fold(q, |q, (i, c)| q.with(i, *c));
         robot.check(&wrapped).ok()?;
         q.is_finite().then_some((robot, wrapped))
+    }
+
+    /// `q` if it is a configuration of this robot.
+    pub fn like(&self, q: &AnyConfiguration) -> Option<AnyConfiguration> {
+        self.check(q).is_ok().then_some(*q)
+    }
+
+    /// A configuration at a place, headings 0: for an arm, which is where its base is, half a quarter turn up with its links bent.
+    pub fn home(&self, at: Point2) -> AnyConfiguration {
+        match self {
+            AnyRobot::Rusty(_) => AnyConfiguration::Pose(Pose2::new(at.x, at.y, 0.0)),
+            AnyRobot::Reach(_) => AnyConfiguration::T2(Tn([0.25 * PI, 0.5 * PI])),
+            AnyRobot::Reach3(_) => AnyConfiguration::T3(Tn([0.25 * PI, 0.25 * PI, 0.25 * PI])),
+            AnyRobot::Hitch(car) => {
+                let body = Pose2::new(at.x, at.y, 0.0);
+                AnyConfiguration::Hitch(HitchCfg { body, trailer: car.hitch_len.map(|_| 0.0) })
+            }
+        }
     }
 
     /// The robot's name in the book.
@@ -130,7 +148,7 @@ impl AnyRobot {
 }
 
 fn car_like() -> AnyConfiguration {
-    AnyConfiguration::Hitch(crate::configuration::HitchCfg { body: Pose2::IDENTITY, trailer: None })
+    AnyConfiguration::Hitch(HitchCfg { body: Pose2::IDENTITY, trailer: None })
 }
 
 /// The least and the greatest distance of the tip from the base.
