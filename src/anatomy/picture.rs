@@ -196,9 +196,9 @@ fn roomy_place(anatomy: &Anatomy, bounds: &Bounds, at: Point2) -> Point2 {
     let size = size_of(bounds);
     let own = own_scene(anatomy);
     let mut best = (-f64::INFINITY, at);
-    for k in 0..32 {
+    for k in 0..48_u32 {
         let (s, c) = num::sin_cos(f64::from(k) * std::f64::consts::FRAC_PI_8);
-        let far = if k < 16 { 0.1 } else { 0.15 };
+        let far = [0.1, 0.15, 0.22][(k / 16) as usize];
         let place = at + Vector2::new(1.7 * c, s) * (far * size);
         let inside = [place.x - bounds.min.x, bounds.max.x - place.x, place.y - bounds.min.y, bounds.max.y - place.y];
         // room for half the words to either side

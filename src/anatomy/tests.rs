@@ -298,8 +298,13 @@ fn the_distance_stands_where_it_covers_neither_robot_nor_obstacle() {
             };
             let Bounds { min, max } = picture.bounds;
             assert!(place.x > min.x && place.x < max.x && place.y > min.y && place.y < max.y);
-            let dot = Footprint::disc(place, 0.0);
-            crowded += u32::from(anatomy.checker().scene().intersects(&dot));
+            // the middle of the words with half their height around it
+            let words = Footprint::disc(place, 0.02 * (max.y - min.y));
+            let itself = anatomy.footprint().parts().iter().fold(Scene::empty(picture.bounds), |scene, part| {
+                let core = part.placed().core();
+                scene.with_obstacle("itself", Shape::Capsule { a: core[0], b: core[1], radius: part.placed().radius() })
+            });
+            crowded += u32::from(anatomy.checker().scene().intersects(&words) || itself.intersects(&words));
             let w = anatomy.nearest()[0].witness;
             let (lo, hi) = (picture.bounds.min, picture.bounds.max);
             for p in [w.on_robot, w.on_obstacle] {
