@@ -9,7 +9,7 @@
 //! anatomy.set_coordinate(1, 1.45);
 //! assert!(anatomy.intersects() && anatomy.distance() == 0.0);
 //! let picture = anatomy.with_tab(Tab::Witness).picture();
-//! assert!(picture.items.iter().any(|item| item.id == "witness/1/b"));
+//! assert!(picture.items.iter().any(|item| item.id == "contact")); // a cross where they meet
 //! ```
 
 mod choice;
