@@ -11,7 +11,7 @@ use super::{
     Cockpit, CockpitRobot, Command, Look, ParkingGoal, SessionCommand, UiState, canvas, frame, handles, labels, pad,
     readout, readout_lines,
 };
-use crate::picture::{Drawing, Fit, Picture, Role, ScaleBar, pick, scan};
+use crate::picture::{Fit, Picture, Role, ScaleBar, pick, scan};
 use crate::run::RobotInput;
 use crate::simulation::{RobotCommand, TransportCommand};
 
@@ -38,8 +38,7 @@ pub fn pane(ui: &mut Ui, cockpit: &Cockpit, rect: Rect, look: &Look, state: &mut
     canvas::paint_kept(&painter, &cockpit.world, paper, look);
     let mut over = Picture::new(&cockpit.world.name, cockpit.world.bounds);
     if state.settings.labels {
-        let marks = cockpit.names.iter().filter(|i| !matches!(i.drawing, Drawing::Label { .. }));
-        over = over.with(marks.cloned());
+        over = over.with(cockpit.names.iter().flat_map(|name| name.marks.iter().cloned()));
     }
     if state.settings.scan {
         let seen = cockpit.robots.iter().filter_map(|r| Some((r, r.sees.as_ref()?)));

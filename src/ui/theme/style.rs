@@ -1,7 +1,9 @@
 //! The theme in the window: egui's colours and sizes, and the clear colour behind everything.
 
 use bevy_egui::egui::style::{Selection, WidgetVisuals, Widgets};
-use bevy_egui::egui::{Color32, CornerRadius, FontDefinitions, FontFamily, FontId, Shadow, Stroke, Style, TextStyle, Visuals};
+use bevy_egui::egui::{
+    Color32, CornerRadius, FontDefinitions, FontFamily, FontId, Shadow, Stroke, Style, TextStyle, Visuals,
+};
 
 use super::Theme;
 use crate::num::{exp, greater, ln};
