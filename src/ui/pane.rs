@@ -100,8 +100,12 @@ pub fn take_in_hand(robot: Option<&CockpitRobot>, state: &mut UiState, commands:
 /// What is said and offered on the paper of the robot in hand.
 fn in_hand(ui: &mut Ui, robot: &CockpitRobot, paper: Rect, look: &Look, state: &mut UiState) {
     let sideways = robot.trailer.is_some() && state.held.0 == 0 && state.held.1 != 0;
+    // a mouse has the keys beside it
+    let touched = ui.input(|i| i.any_touches()) || ui.spacing().interact_size.y > 40.0;
     let words = if sideways {
         "steering alone moves nothing: no input moves a car sideways"
+    } else if touched {
+        "the pad drives, a tap beside it lets go"
     } else {
         "arrows drive, Esc lets go"
     };
@@ -110,8 +114,6 @@ fn in_hand(ui: &mut Ui, robot: &CockpitRobot, paper: Rect, look: &Look, state: &
     let rect = Rect::from_min_size(paper.min + vec2(8.0, 8.0), galley.size()).expand2(vec2(4.0, 2.0));
     ui.painter().rect_filled(rect, 2.0, look.tint(Role::Paper, 0.9));
     ui.painter().galley(paper.min + vec2(8.0, 8.0), galley, look.colour(Role::Text));
-    // a mouse has the keys beside it
-    let touched = ui.input(|i| i.any_touches()) || ui.spacing().interact_size.y > 40.0;
     if touched {
         pad::pad(ui, &robot.name, paper, look, state);
     }
