@@ -93,11 +93,6 @@ fn show(world: &mut World) -> Result {
     }
     let builder = egui::UiBuilder::new().layer_id(egui::LayerId::background()).max_rect(ctx.viewport_rect());
     let mut root = egui::Ui::new(ctx.clone(), "lab".into(), builder);
-    static N: std::sync::atomic::AtomicU64 = std::sync::atomic::AtomicU64::new(0); // FPSDEBUG
-    let n = N.fetch_add(1, std::sync::atomic::Ordering::Relaxed);
-    if n % 200 == 0 {
-        eprintln!("FPS {n} {:?}", std::time::SystemTime::now());
-    } // FPSDEBUG
     let mut commands = Vec::new();
     world.resource_scope(|world, mut interface: Mut<Interface>| {
         let (shown, history) = (world.resource::<Shown>(), world.resource::<History>());

@@ -7,7 +7,8 @@ use bevy::prelude::*;
 use super::pace::{Pace, measure, play_flat_out};
 use crate::configuration::Coordinates;
 use crate::geometry::{Point2, Pose2};
-use crate::picture::{Anchor, Drawing, Face, Item, Picture, Role, places, world as picture_of};
+use crate::num::{greater, lesser};
+use crate::picture::{Drawing, Picture, places, polygon_of, world as picture_of};
 use crate::random::Seed;
 use crate::run::RobotInput;
 use crate::simulation::{
@@ -15,8 +16,8 @@ use crate::simulation::{
     TransportCommand, Undo, obey, start_run, view,
 };
 use crate::tour::{BOOK_SEED, TourConfig};
-use crate::ui::{Cockpit, CockpitRobot, Command, Dashboard, Notice, SessionCommand, UiState, blend};
-use crate::worlds::{ObstacleKind, World as WorldModel};
+use crate::ui::{Cockpit, CockpitRobot, Command, Dashboard, Name, Notice, SessionCommand, UiState, blend};
+use crate::worlds::{Obstacle, ObstacleKind, Place, World as WorldModel};
 
 /// Between two ticks no robot moves farther than this, metres; what does was put there.
 const LEAP: f64 = 0.5;
@@ -54,7 +55,7 @@ pub struct Interface(pub UiState);
 
 /// The pictures of the run's worlds, and the names of what is in them.
 #[derive(Resource, Default)]
-struct Worlds(Vec<(Arc<Picture>, Arc<Vec<Item>>)>);
+struct Worlds(Vec<(Arc<Picture>, Arc<Vec<Name>>)>);
 
 /// What is in front in this frame.
 #[derive(Resource)]
@@ -145,23 +146,24 @@ fn target(world: &World, robot: &RobotView) -> Option<Coordinates> {
 }
 
 /// The places of a world, and its solid obstacles' names.
-fn names(world: &WorldModel) -> Vec<Item> {
-    let solid = world.obstacles.iter().filter(|o| o.kind == ObstacleKind::Solid);
-    let label = |o: &crate::worlds::Obstacle| {
-        let corners = o.pieces.iter().flat_map(|(pose, shape)| shape.place(pose).core().to_vec());
-        let (sum, count) = corners.fold((nalgebra::Vector2::zeros(), 0.0), |(s, n), c| (s + c.coords, n + 1.0));
-        let at = Point2::from(sum / count);
-        let drawing = Drawing::Label {
-            at,
-            text: o.name.clone(),
-            anchor: Anchor::Center,
-            face: Face::Sans,
-            size_px: 11.0,
-            plate: true,
-        };
-        Item::new(format!("name/{}", o.name), &o.name, Role::Text, drawing)
+fn names(world: &WorldModel) -> Vec<Name> {
+    let of_obstacle = |o: &Obstacle| {
+        let corners: Vec<Point2> = o.pieces.iter().flat_map(|(pose, shape)| polygon_of(&shape.place(pose))).collect();
+        let (mut least, mut most) = (*corners.first()?, *corners.first()?);
+        for c in &corners {
+            least = Point2::new(lesser(least.x, c.x), lesser(least.y, c.y));
+            most = Point2::new(greater(most.x, c.x), greater(most.y, c.y));
+        }
+        let half = (most - least) * 0.5;
+        Some(Name { text: o.name.clone(), at: least + half, half: [half.x, half.y], marks: vec![] })
     };
-    solid.map(label).chain(places(&world.places)).collect()
+    let of_place = |place: &Place| {
+        let marks = places(std::slice::from_ref(place)).into_iter();
+        let marks = marks.filter(|i| !matches!(i.drawing, Drawing::Label { .. })).collect();
+        Name { text: place.name.clone(), at: place.pose.position(), half: [0.0; 2], marks }
+    };
+    let solid = world.obstacles.iter().filter(|o| o.kind == ObstacleKind::Solid);
+    solid.filter_map(of_obstacle).chain(world.places.iter().map(of_place)).collect()
 }
 
 /// Does what the widgets asked for. What needs a dialog is left to the window, as messages.

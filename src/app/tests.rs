@@ -512,6 +512,23 @@ fn frame_rates_and_stalls_change_no_bit_of_a_run() {
 }
 
 #[test]
+fn every_corner_that_is_painted_is_a_number() {
+    let mut harness = lab(WIDE);
+    click(&mut harness, "Names");
+    click(&mut harness, "show the scan");
+    for _ in 0..20 {
+        harness.run_steps(10);
+        let primitives = harness.ctx.tessellate(harness.output().shapes.clone(), 1.0);
+        let meshes = primitives.iter().filter_map(|p| match &p.primitive {
+            egui::epaint::Primitive::Mesh(mesh) => Some(mesh),
+            egui::epaint::Primitive::Callback(_) => None,
+        });
+        let corners: Vec<Pos2> = meshes.flat_map(|m| m.vertices.iter().map(|v| v.pos)).collect();
+        assert!(corners.len() > 5000 && corners.iter().all(|p| p.x.is_finite() && p.y.is_finite()));
+    }
+}
+
+#[test]
 fn a_phone_shows_one_pane_at_a_time_and_all_can_be_reached() {
     let mut harness = lab(PHONE);
     assert!(harness.query_by_label_contains("Workbench. Reach").is_none());

@@ -111,6 +111,25 @@ struct Kept {
     mesh: Arc<Mesh>,
 }
 
+/// Nearer than this two points are one, pixels: egui has no direction for a line between them and gives corners that are no numbers.
+const SAME: f32 = 1e-2;
+
+fn same(a: Pos2, b: Pos2) -> bool {
+    (a - b).length() < SAME
+}
+
+/// Whether a line through these points goes straight back at the second: egui has no direction for such a corner either.
+fn turns_back(a: Pos2, b: Pos2, c: Pos2) -> bool {
+    ((b - a).normalized() + (c - b).normalized()).length() < 1e-3
+}
+
+/// The points without those that repeat the one before.
+fn distinct(points: &[ScreenPoint]) -> Vec<Pos2> {
+    let mut path: Vec<Pos2> = points.iter().map(pos).collect();
+    path.dedup_by(|b, a| same(*a, *b));
+    path
+}
+
 fn pos(p: &ScreenPoint) -> Pos2 {
     pos2(p[0] as f32, p[1] as f32)
 }
@@ -118,8 +137,13 @@ fn pos(p: &ScreenPoint) -> Pos2 {
 fn paint_primitive(painter: &Painter, primitive: &Primitive, look: &Look) {
     match primitive {
         Primitive::Area { corners, role, opacity } => {
-            let corners = corners.iter().map(pos).collect();
-            painter.add(Shape::convex_polygon(corners, look.tint(*role, *opacity), Stroke::NONE));
+            let mut corners = distinct(corners);
+            if corners.len() > 1 && same(corners[0], corners[corners.len() - 1]) {
+                corners.pop();
+            }
+            if corners.len() > 2 {
+                painter.add(Shape::convex_polygon(corners, look.tint(*role, *opacity), Stroke::NONE));
+            }
         }
         Primitive::Dots { centers, radius, role, opacity } => {
             let colour = look.tint(*role, *opacity);
@@ -160,18 +184,30 @@ fn stroke(role: Role, line: &Line, look: &Look) -> Stroke {
 }
 
 fn paint_line(painter: &Painter, points: &[ScreenPoint], stroke: Stroke, dash: Dash) {
-    let mut path: Vec<Pos2> = points.iter().map(pos).collect();
+    let mut path = distinct(points);
+    if path.len() < 2 {
+        return;
+    }
     if let Some((on, off)) = dash.pattern_px() {
         painter.extend(Shape::dashed_line(&path, stroke, on as f32, off as f32));
         return;
     }
-    let closed = path.len() > 3 && path.first() == path.last();
+    let turns = path.windows(3).any(|w| turns_back(w[0], w[1], w[2]));
+    let closed = !turns && path.len() > 3 && same(path[0], path[path.len() - 1]);
     if closed {
         path.pop();
         painter.add(PathShape::closed_line(path, stroke));
-    } else {
-        painter.line(path, stroke);
+        return;
     }
+    // where a line goes back the way it came a new one begins
+    let mut from = 0;
+    for i in 1..path.len().saturating_sub(1) {
+        if turns_back(path[i - 1], path[i], path[i + 1]) {
+            painter.line(path[from..=i].to_vec(), stroke);
+            from = i;
+        }
+    }
+    painter.line(path[from..].to_vec(), stroke);
 }
 
 #[cfg(test)]

@@ -106,12 +106,12 @@ fn header(
             ui.set_max_width(ui.available_width() - if narrow { 76.0 } else { 560.0 });
             frame::title(ui, words, look);
         });
-        ui.with_layout(Layout::right_to_left(Align::Min), |ui| {
+        ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
             if narrow {
-                ui.menu_button("Menu", |ui| tools::tools(ui, model, look, state, commands));
+                ui.menu_button("Menu", |ui| tools::tools(ui, model, (true, look), state, commands));
             } else {
                 ui.spacing_mut().button_padding.x = 10.0;
-                tools::tools(ui, model, look, state, commands);
+                tools::tools(ui, model, (false, look), state, commands);
             }
         });
     });

@@ -9,14 +9,15 @@ use super::formula::{Formula, Level};
 use super::{Look, UiState, WidgetText};
 use crate::picture::Role;
 
-/// Shows title and misconception.
+/// Shows title and misconception. They stand over what is shown and do not fade with it.
 pub fn title(ui: &mut Ui, widget: &WidgetText, look: &Look) {
-    let heading = ui.label(RichText::new(&widget.title).text_style(TextStyle::Heading).color(look.colour(Role::Text)));
+    let heading =
+        ui.label(RichText::new(&widget.title).text_style(TextStyle::Heading).color(look.theme.colour(Role::Text)));
     // what the widget shows, for who does not see it
     heading.widget_info(|| {
         WidgetInfo::labeled(WidgetType::Label, true, format!("{}. {}", widget.title, widget.description))
     });
-    ui.label(RichText::new(&widget.misconception).color(look.colour(Role::Muted)));
+    ui.label(RichText::new(&widget.misconception).color(look.theme.colour(Role::Muted)));
 }
 
 /// Shows the colour key. Pointing at an entry, or stepping to it by Tab, lights its role.
@@ -111,9 +112,9 @@ pub fn hints(ui: &mut Ui, widget: &WidgetText, look: &Look, state: &mut UiState)
     }
     ui.horizontal_wrapped(|ui| {
         ui.spacing_mut().interact_size.y = ui.text_style_height(&TextStyle::Body);
-        ui.label(RichText::new("Try:").color(look.colour(Role::Focus)).strong());
+        ui.label(RichText::new("Try:").color(look.theme.colour(Role::Focus)).strong());
         for hint in &widget.hints {
-            ui.label(RichText::new(hint).color(look.colour(Role::Text)));
+            ui.label(RichText::new(hint).color(look.theme.colour(Role::Text)));
         }
         if ui.link("Got it").on_hover_text("Put these hints away").clicked() {
             state.settings.hints_seen = true;

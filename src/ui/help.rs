@@ -13,7 +13,8 @@ pub fn help(ctx: &Context, state: &mut UiState) {
     let modal = Modal::new(Id::new("keys")).show(ctx, |ui| {
         ui.label(RichText::new("Keys").text_style(TextStyle::Heading));
         ui.add_space(6.0);
-        let height = 0.7 * ctx.content_rect().height();
+        ui.spacing_mut().interact_size.y = 0.0;
+        let height = 0.8 * ctx.content_rect().height();
         ScrollArea::vertical().max_height(height).show(ui, |ui| {
             for (scope, title) in [
                 (Scope::Armed, "With a robot in hand (click its paper)"),
@@ -21,7 +22,7 @@ pub fn help(ctx: &Context, state: &mut UiState) {
                 (Scope::Always, "Always"),
             ] {
                 ui.label(RichText::new(title).strong());
-                Grid::new(title).num_columns(2).spacing([16.0, 2.0]).show(ui, |ui| {
+                Grid::new(title).num_columns(2).spacing([16.0, 1.0]).min_col_width(72.0).show(ui, |ui| {
                     for binding in BINDINGS.iter().filter(|b| b.scope == scope) {
                         ui.label(RichText::new(binding.keys()).monospace());
                         ui.label(binding.words);

@@ -44,7 +44,7 @@ mod tools;
 mod transport_bar;
 
 pub use blend::{blend, heading};
-pub use cockpit::{Cockpit, CockpitRobot, Dashboard};
+pub use cockpit::{Cockpit, CockpitRobot, Dashboard, Name};
 #[cfg(feature = "window")]
 pub use dashboard::dashboard;
 pub use formula::{Formula, Level, Term};

@@ -30,7 +30,7 @@ pub fn pad(ui: &mut Ui, robot: &str, paper: Rect, look: &Look, state: &mut UiSta
     let off = held.map_or(Vec2::ZERO, |at| (at - center) / radius);
     state.pad = channels(off.x, -off.y);
     let painter = ui.painter_at(rect.expand(2.0));
-    painter.circle(center, radius, look.tint(Role::Paper, 0.8), Stroke::new(1.5, look.colour(Role::Focus)));
+    painter.circle(center, radius, look.tint(Role::Paper, 0.35), Stroke::new(1.5, look.colour(Role::Focus)));
     for (x, y) in [(0.0, -1.0), (0.0, 1.0), (-1.0, 0.0), (1.0, 0.0)] {
         let out = vec2(x, y);
         let side = vec2(-y, x) * 7.0;

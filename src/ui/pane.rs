@@ -11,7 +11,7 @@ use super::{
     Cockpit, CockpitRobot, Command, Look, ParkingGoal, SessionCommand, UiState, canvas, frame, handles, labels, pad,
     readout, readout_lines,
 };
-use crate::picture::{Drawing, Fit, Picture, Role, ScaleBar, pick, scan};
+use crate::picture::{Fit, Picture, Role, ScaleBar, pick, scan};
 use crate::run::RobotInput;
 use crate::simulation::{RobotCommand, TransportCommand};
 
@@ -38,8 +38,7 @@ pub fn pane(ui: &mut Ui, cockpit: &Cockpit, rect: Rect, look: &Look, state: &mut
     canvas::paint_kept(&painter, &cockpit.world, paper, look);
     let mut over = Picture::new(&cockpit.world.name, cockpit.world.bounds);
     if state.settings.labels {
-        let marks = cockpit.names.iter().filter(|i| !matches!(i.drawing, Drawing::Label { .. }));
-        over = over.with(marks.cloned());
+        over = over.with(cockpit.names.iter().flat_map(|name| name.marks.iter().cloned()));
     }
     if state.settings.scan {
         let seen = cockpit.robots.iter().filter_map(|r| Some((r, r.sees.as_ref()?)));
@@ -101,8 +100,12 @@ pub fn take_in_hand(robot: Option<&CockpitRobot>, state: &mut UiState, commands:
 /// What is said and offered on the paper of the robot in hand.
 fn in_hand(ui: &mut Ui, robot: &CockpitRobot, paper: Rect, look: &Look, state: &mut UiState) {
     let sideways = robot.trailer.is_some() && state.held.0 == 0 && state.held.1 != 0;
+    // a mouse has the keys beside it
+    let touched = ui.input(|i| i.any_touches()) || ui.spacing().interact_size.y > 40.0;
     let words = if sideways {
         "steering alone moves nothing: no input moves a car sideways"
+    } else if touched {
+        "the pad drives, a tap beside it lets go"
     } else {
         "arrows drive, Esc lets go"
     };
@@ -111,8 +114,6 @@ fn in_hand(ui: &mut Ui, robot: &CockpitRobot, paper: Rect, look: &Look, state: &
     let rect = Rect::from_min_size(paper.min + vec2(8.0, 8.0), galley.size()).expand2(vec2(4.0, 2.0));
     ui.painter().rect_filled(rect, 2.0, look.tint(Role::Paper, 0.9));
     ui.painter().galley(paper.min + vec2(8.0, 8.0), galley, look.colour(Role::Text));
-    // a mouse has the keys beside it
-    let touched = ui.input(|i| i.any_touches()) || ui.spacing().interact_size.y > 40.0;
     if touched {
         pad::pad(ui, &robot.name, paper, look, state);
     }

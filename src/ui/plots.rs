@@ -22,16 +22,20 @@ struct Channel {
 /// A plot.
 struct Graph {
     title: &'static str,
+    /// Whether its values are angles in (-pi, pi].
+    wraps: bool,
     channels: &'static [Channel],
 }
 
 const GRAPHS: [Graph; 4] = [
     Graph {
         title: "Distance to the nearest obstacle, m",
+        wraps: false,
         channels: &[Channel { kinds: &[], name: "", value: |t| Some(t.clearance).filter(|c| c.is_finite()) }],
     },
     Graph {
         title: "Headings, rad",
+        wraps: true,
         channels: &[
             Channel { kinds: &["rusty", "hitch"], name: "theta", value: |t| t.coordinates.get(2).copied() },
             Channel { kinds: &["hitch"], name: "psi", value: |t| t.coordinates.get(3).copied() },
@@ -39,6 +43,7 @@ const GRAPHS: [Graph; 4] = [
     },
     Graph {
         title: "Encoders against true travel, m",
+        wraps: false,
         channels: &[
             Channel { kinds: &["rusty"], name: "encoders", value: |t| t.encoders },
             Channel { kinds: &["rusty"], name: "true", value: |t| Some(t.travelled) },
@@ -46,6 +51,7 @@ const GRAPHS: [Graph; 4] = [
     },
     Graph {
         title: "Joint angles, rad",
+        wraps: true,
         channels: &[
             Channel { kinds: &["reach"], name: "theta1", value: |t| t.coordinates.first().copied() },
             Channel { kinds: &["reach"], name: "theta2", value: |t| t.coordinates.get(1).copied() },
@@ -54,12 +60,17 @@ const GRAPHS: [Graph; 4] = [
     },
 ];
 
+/// The pieces of a line: an angle that wraps jumps, its line does not.
+fn unbroken(points: &[[f64; 2]], wraps: bool) -> impl Iterator<Item = &[[f64; 2]]> {
+    points.chunk_by(move |a, b| !wraps || (b[1] - a[1]).abs() < std::f64::consts::PI)
+}
+
 /// Lines are told apart by colour and by dash.
 fn line_of(number: usize, look: &Look) -> (bevy_egui::egui::Color32, LineStyle) {
     match number % 4 {
         0 => (look.colour(Role::Robot), LineStyle::Solid),
         1 => (look.colour(Role::Witness), LineStyle::Dashed { length: 6.0 }),
-        2 => (look.colour(Role::Free), LineStyle::Dotted { spacing: 4.0 }),
+        2 => (look.colour(Role::Free), LineStyle::Dashed { length: 2.5 }),
         _ => (look.colour(Role::Path), LineStyle::Dashed { length: 12.0 }),
     }
 }
@@ -120,8 +131,8 @@ fn legend(ui: &mut Ui, graph: &Graph, model: &Dashboard, look: &Look) {
             let (colour, style) = line_of(number, look);
             let dash = match style {
                 LineStyle::Solid => "\u{2014}",
-                LineStyle::Dashed { .. } => "- -",
-                LineStyle::Dotted { .. } => "\u{b7}\u{b7}\u{b7}",
+                LineStyle::Dashed { length } if length < 4.0 => "\u{b7}\u{b7}\u{b7}",
+                _ => "- -",
             };
             ui.label(RichText::new(format!("{dash} {name}")).small().color(colour));
         }
@@ -152,9 +163,12 @@ fn plot(
         .show(ui, |plot| {
             for (number, (id, name, value)) in lines(graph, model).enumerate() {
                 let samples = history.series(id, POINTS, value).into_iter();
-                let points: PlotPoints<'_> = samples.map(|(tick, value)| [DT * tick as f64, value]).collect();
+                let points: Vec<[f64; 2]> = samples.map(|(tick, value)| [DT * tick as f64, value]).collect();
                 let (colour, style) = line_of(number, look);
-                plot.line(Line::new(name, points).color(colour).style(style).width(1.25));
+                for piece in unbroken(&points, graph.wraps) {
+                    let piece = PlotPoints::from(piece.to_vec());
+                    plot.line(Line::new(name.clone(), piece).color(colour).style(style).width(1.25));
+                }
             }
             let cursor = VLine::new("", DT * model.tick as f64).color(look.colour(Role::Focus)).width(1.5);
             plot.vline(cursor);
@@ -166,5 +180,18 @@ fn plot(
         if tick != model.tick {
             commands.push(Command::Transport(TransportCommand::Seek(tick.min(model.frontier))));
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_line_is_broken_where_an_angle_wraps() {
+        let points = [[0.0, 3.0], [1.0, 3.1], [2.0, -3.1], [3.0, -3.0], [4.0, 3.1]];
+        let lengths = |wraps| unbroken(&points, wraps).map(<[_]>::len).collect::<Vec<_>>();
+        assert_eq!(lengths(true), [2, 2, 1]);
+        assert_eq!(lengths(false), [5]);
     }
 }

@@ -24,10 +24,16 @@ pub fn act(action: Action, state: &mut UiState, commands: &mut Vec<Command>) {
     }
 }
 
-/// Shows the buttons, `right to left` in a row on a wide screen, as a list in a menu on a narrow one.
-pub fn tools(ui: &mut Ui, model: &Dashboard, look: &Look, state: &mut UiState, commands: &mut Vec<Command>) {
+/// Shows the buttons: in a row from right to left, or as a list `in_menu`.
+pub fn tools(
+    ui: &mut Ui,
+    model: &Dashboard,
+    (in_menu, look): (bool, &Look),
+    state: &mut UiState,
+    commands: &mut Vec<Command>,
+) {
     let theme = format!("{} theme", state.settings.theme.name());
-    let buttons = [
+    let mut buttons = [
         (theme.as_str(), Action::Theme, true, false),
         ("Keys", Action::Help, true, state.help),
         ("Names", Action::Labels, true, state.settings.labels),
@@ -37,6 +43,9 @@ pub fn tools(ui: &mut Ui, model: &Dashboard, look: &Look, state: &mut UiState, c
         ("Save", Action::Save, true, false),
         ("Open", Action::Open, true, false),
     ];
+    if in_menu {
+        buttons.reverse();
+    }
     for (label, action, enabled, on) in buttons {
         if button(ui, label, 0.0, (enabled, on), look).on_hover_text(hint(action)).clicked() {
             act(action, state, commands);
