@@ -106,7 +106,7 @@ fn what_cannot_be_drawn_is_refused_and_no_file_is_left() {
     let folder = tempfile::tempdir().unwrap();
     let at = |name: &str| folder.path().join(name).to_str().unwrap().to_owned();
     let (svg, gif, bmp) = (at("a.svg"), at("a.gif"), at("a.bmp"));
-    let refused: [(&[&str], &str); 10] = [
+    let refused: [(&[&str], &str); 14] = [
         (&["dashboard", "--tick", "99999", "-o", &svg], "there is no tick 99999"),
         (&["dashboard", "--from", "9", "--to", "3", "-o", &gif], "there is no tick 9"),
         (&["anatomy", "-o", &gif], "only the dashboard moves"),
@@ -116,6 +116,10 @@ fn what_cannot_be_drawn_is_refused_and_no_file_is_left() {
         (&["anatomy", "--robot", "hitch", "--world", "workbench", "-o", &svg], "no hitch lives there"),
         (&["atlas", "--grid", "1e-9", "-o", &svg], "more than"),
         (&["atlas", "--teleport", "1,2,3", "-o", &svg], "of which world?"),
+        (&["cspace", "--tab", "swept", "-o", &svg], "--tab: for the anatomy alone"),
+        (&["anatomy", "--seed", "7", "-o", &svg], "--seed: for the dashboard alone"),
+        (&["dashboard", "--every", "2", "-o", &svg], "--from, --to and --every: for GIF alone"),
+        (&["dashboard", "--tick", "2", "-o", &gif], "--tick: for SVG and PNG alone"),
         (&["atlas", "--world", "lot", "--teleport", "1,2", "-o", &svg], "2 numbers: Hitch is at HitchCfg"),
     ];
     for (arguments, reason) in refused {

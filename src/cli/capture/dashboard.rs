@@ -46,13 +46,13 @@ pub fn capture(args: &RunArgs, paper: &Paper) -> Result<(), Failure> {
         })?;
         return paper.write(&drawn.ok_or_else(|| beyond(tick))?, &notes(tick.to_string()));
     }
-    let (from, to) = (args.from, args.to.unwrap_or(last));
+    let (from, to, every) = (args.from.unwrap_or(0), args.to.unwrap_or(last), args.every.unwrap_or(4));
     if from > to || to > last {
         return Err(beyond(if from > to { from } else { to }));
     }
-    let mut film = paper.film((TICK_HUNDREDTHS * args.every) as u16, &notes(format!("{from} to {to}")))?;
+    let mut film = paper.film((TICK_HUNDREDTHS * every) as u16, &notes(format!("{from} to {to}")))?;
     show(file, &log, |run, frame| {
-        let wanted = (from..=to).contains(&frame.tick) && (frame.tick - from).is_multiple_of(args.every);
+        let wanted = (from..=to).contains(&frame.tick) && (frame.tick - from).is_multiple_of(every);
         if wanted { film.add(&figure(run, &worlds, &log, frame.tick)) } else { Ok(()) }
     })?;
     film.finish()

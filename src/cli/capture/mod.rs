@@ -58,15 +58,15 @@ pub struct RunArgs {
     /// Dashboard: the tick. [default: the last]
     #[arg(long, value_name = "TICK")]
     tick: Option<u64>,
-    /// GIF: the first tick.
-    #[arg(long, value_name = "TICK", default_value_t = 0)]
-    from: u64,
+    /// GIF: the first tick. [default: 0]
+    #[arg(long, value_name = "TICK")]
+    from: Option<u64>,
     /// GIF: the last tick. [default: the last]
     #[arg(long, value_name = "TICK")]
     to: Option<u64>,
-    /// GIF: a picture for every N ticks.
-    #[arg(long, value_name = "N", default_value_t = 4, value_parser = clap::value_parser!(u64).range(1..=1000))]
-    every: u64,
+    /// GIF: a picture for every N ticks. [default: 4]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..=1000))]
+    every: Option<u64>,
 }
 
 /// What the other widgets show.
@@ -90,9 +90,9 @@ pub struct SceneArgs {
     /// Anatomy: draw the annulus of points that an arm's tip can reach.
     #[arg(long)]
     annulus: bool,
-    /// Cspace: how often the plane is halved for the finest cells.
-    #[arg(long, value_name = "LEVEL", default_value_t = 9, value_parser = clap::value_parser!(u32).range(1..=12))]
-    cells: u32,
+    /// Cspace: how often the plane is halved for the finest cells. [default: 9]
+    #[arg(long, value_name = "LEVEL", value_parser = clap::value_parser!(u32).range(1..=12))]
+    cells: Option<u32>,
     /// Cspace: stop after judging so many cells. [default: when all are proven or as fine as --cells says]
     #[arg(long, value_name = "N")]
     budget: Option<u32>,
@@ -149,6 +149,9 @@ impl Capture {
                 "Name an .svg or .png file, or --widget dashboard.",
             ));
         }
+        if let Some((option, place)) = self.astray(paper.kind()) {
+            return Err(Failure::usage(format!("{option}: for {place} alone"), "Leave it out."));
+        }
         match self.widget {
             Widget::Dashboard => dashboard::capture(&self.run, &paper)?,
             Widget::Anatomy => widgets::anatomy(&self.scene, &paper)?,
@@ -157,5 +160,36 @@ impl Capture {
         }
         say(format!("wrote {}", self.output.display()));
         Ok(Outcome::Done)
+    }
+
+    /// The first option given that the widget, or the form, has no use for, and what it goes with.
+    fn astray(&self, kind: Kind) -> Option<(&'static str, &'static str)> {
+        use Widget::{Anatomy, Atlas, Cspace, Dashboard};
+        let (run, scene) = (&self.run, &self.scene);
+        let options: [(&str, bool, &[Widget], &str); 15] = [
+            ("--log", run.log.is_some(), &[Dashboard], "the dashboard"),
+            ("--seed", run.seed.is_some(), &[Dashboard], "the dashboard"),
+            ("--tick", run.tick.is_some(), &[Dashboard], "the dashboard"),
+            ("--from", run.from.is_some(), &[Dashboard], "the dashboard"),
+            ("--to", run.to.is_some(), &[Dashboard], "the dashboard"),
+            ("--every", run.every.is_some(), &[Dashboard], "the dashboard"),
+            ("--tab", scene.tab.is_some(), &[Anatomy], "the anatomy"),
+            ("--robot", scene.robot.is_some(), &[Anatomy, Cspace], "anatomy and cspace"),
+            ("--q", scene.q.is_some(), &[Anatomy, Cspace], "anatomy and cspace"),
+            ("--step", scene.step.is_some(), &[Anatomy, Cspace], "anatomy and cspace"),
+            ("--annulus", scene.annulus, &[Anatomy, Cspace], "anatomy and cspace"),
+            ("--cells or --budget", scene.cells.or(scene.budget).is_some(), &[Cspace], "cspace"),
+            ("--grid", scene.grid.is_some(), &[Atlas], "the atlas"),
+            ("--teleport", scene.teleport.is_some(), &[Atlas], "the atlas"),
+            ("--world", scene.world.is_some(), &[Anatomy, Atlas, Cspace], "anatomy, atlas and cspace"),
+        ];
+        let stray = options.into_iter().find(|(_, given, widgets, _)| *given && !widgets.contains(&self.widget));
+        stray.map(|(option, .., place)| (option, place)).or_else(|| {
+            let span = run.from.or(run.to).or(run.every).is_some();
+            match kind {
+                Kind::Gif => run.tick.map(|_| ("--tick", "SVG and PNG")),
+                _ => span.then_some(("--from, --to and --every", "GIF")),
+            }
+        })
     }
 }

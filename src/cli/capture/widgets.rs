@@ -49,7 +49,7 @@ pub fn cspace(args: &SceneArgs, paper: &Paper) -> Result<(), Failure> {
     let mut anatomy = frozen(args)?.with_tab(Tab::Swept);
     anatomy.show_annulus = args.annulus;
     let slice = Slice::through(anatomy.checker(), &anatomy.q()).map_err(|e| Failure::usage(e, "Change --q."))?;
-    let mut map = CellMap::new(slice, args.cells);
+    let mut map = CellMap::new(slice, args.cells.unwrap_or(9));
     map.refine(args.budget.unwrap_or(u32::MAX));
     let solutions = match (anatomy.checker().robot(), anatomy.q()) {
         (AnyRobot::Reach(arm), AnyConfiguration::T2(q)) => {
