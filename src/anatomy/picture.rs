@@ -1,10 +1,10 @@
 //! The anatomy as a picture: the world, the robot, and what the tab's answer looks like.
 
-use super::words::metres;
+use super::words::{figure, metres};
 use super::{Anatomy, Feature, NearestPair, Sweep, Tab};
-use crate::collision::{Collision, EdgeVerdict};
-use crate::geometry::{Footprint, Part, Point2, Pose2, Shape, Vector2};
-use crate::num::{self, greater, lesser};
+use crate::collision::{Collision, EdgeVerdict, Scene};
+use crate::geometry::{Footprint, Point2, Pose2, Shape, Vector2};
+use crate::num::{self, lesser};
 use crate::picture::{
     Anchor, Dash, Drawing, Face, Fill, Glyph, Item, Line, Picture, RobotDrawing, Role, footprint, polygon_of, robot,
     trace, world,
@@ -79,7 +79,13 @@ impl Anatomy {
         if let Some(pair) = pairs.first().filter(|p| p.witness.dist > 0.0) {
             let (a, b) = (pair.witness.on_robot, pair.witness.on_obstacle);
             let middle = a + (b - a) * 0.5;
-            items.extend(self.plate("witness/distance", bounds, middle, metres(pair.witness.dist)));
+            items.extend(self.plate(
+                "witness/distance",
+                bounds,
+                middle,
+                metres(pair.witness.dist),
+                &[self.footprint()],
+            ));
             // the two names where there is room for both
             if self.tab == Tab::Witness && pair.witness.dist > 0.1 * size_of(bounds) {
                 let way = (b - a) * (0.055 * size_of(bounds) / pair.witness.dist);
@@ -94,8 +100,8 @@ impl Anatomy {
     }
 
     /// Words on a plate beside a point, where there is room, with a line that leads to them.
-    fn plate(&self, id: &str, bounds: &Bounds, at: Point2, text: String) -> [Item; 2] {
-        let center = roomy_place(self, bounds, at);
+    fn plate(&self, id: &str, bounds: &Bounds, at: Point2, text: String, off: &[Footprint]) -> [Item; 2] {
+        let center = roomy_place(self, bounds, at, off);
         let leader = Item::new(format!("{id}/leader"), &text, Role::Muted, Drawing::segment(at, center))
             .stroked(Line::solid(0.75));
         let name = text.clone();
@@ -110,6 +116,8 @@ impl Anatomy {
         let at = |s: f64| robot_model.footprint(&sweep.at(s));
         let ends: Vec<f64> = sweep.certificate.steps().iter().map(|step| step.to).collect();
         let every = ends.len().div_ceil(OUTLINES);
+        // what the words keep off
+        let mut off = vec![at(0.0), at(1.0)];
         let mut items = Vec::new();
         for (number, s) in (1_usize..).zip(&ends) {
             if number.is_multiple_of(every) {
@@ -124,10 +132,24 @@ impl Anatomy {
                 let ghost = at(s);
                 if self.checker().scene().intersects(&ghost) {
                     let line = Line::solid(0.75).at_opacity(0.4);
-                    items.push(outline_item(&format!("hit/{k}"), "in contact", &ghost, Role::Goal, line));
+                    items.push(outline_item(&format!("hit/later/{k}"), "in contact", &ghost, Role::Goal, line));
                 }
             }
-            items.extend(footprint("hit", "the first contact", &at(contact_at), Role::Goal, 0.3));
+            let touching = at(contact_at);
+            items.extend(footprint("hit", "the first contact", &touching, Role::Goal, 0.3));
+            if let Some(w) = self.checker().scene().witness(&touching) {
+                let words = format!("hits at s = {}", figure(contact_at, 4));
+                off.push(touching);
+                items.extend(self.plate("hit/words", &self.world().bounds, w.on_obstacle, words, &off));
+            }
+        }
+        if let EdgeVerdict::Unresolved { free_until, .. } = sweep.verdict {
+            let line = Line::solid(1.5).dashed(Dash::Dotted);
+            items.push(outline_item("unresolved", "not known from here on", &at(free_until), Role::Unknown, line));
+            let words = format!("not known from s = {}", figure(free_until, 4));
+            let place = robot_model.reference(&sweep.at(free_until));
+            off.push(at(free_until));
+            items.extend(self.plate("unresolved/words", &self.world().bounds, place, words, &off));
         }
         let points: Vec<Point2> = (0..=64).map(|k| robot_model.reference(&sweep.at(f64::from(k) / 64.0))).collect();
         let way = trace("motion", "the way of the point that stands for the robot", &points);
@@ -191,10 +213,11 @@ fn size_of(bounds: &Bounds) -> f64 {
     lesser(bounds.max.y - bounds.min.y, bounds.max.x - bounds.min.x)
 }
 
-/// Of the places around a point, a tenth and more of the picture away, the one that is farthest from robot and obstacles.
-fn roomy_place(anatomy: &Anatomy, bounds: &Bounds, at: Point2) -> Point2 {
+/// Of the places around a point, a tenth and more of the picture away, the one that is farthest from obstacles and these
+/// footprints.
+fn roomy_place(anatomy: &Anatomy, bounds: &Bounds, at: Point2, off: &[Footprint]) -> Point2 {
     let size = size_of(bounds);
-    let own = own_scene(anatomy);
+    let own = scene_of(bounds, off);
     let mut best = (-f64::INFINITY, at);
     for k in 0..48_u32 {
         let (s, c) = num::sin_cos(f64::from(k) * std::f64::consts::FRAC_PI_8);
@@ -216,13 +239,12 @@ fn roomy_place(anatomy: &Anatomy, bounds: &Bounds, at: Point2) -> Point2 {
     best.1
 }
 
-/// The robot as a scene of its own.
-fn own_scene(anatomy: &Anatomy) -> crate::collision::Scene {
-    let parts = anatomy.footprint();
-    let empty = crate::collision::Scene::empty(anatomy.world().bounds);
-    parts.parts().iter().fold(empty, |scene, part: &Part| {
+/// Footprints as a scene of their own.
+fn scene_of(bounds: &Bounds, footprints: &[Footprint]) -> Scene {
+    let parts = footprints.iter().flat_map(Footprint::parts);
+    parts.fold(Scene::empty(*bounds), |scene, part| {
         let placed = part.placed();
-        let shape = Shape::Hull { vertices: placed.core().into(), radius: greater(placed.radius(), 0.0) };
-        scene.with_obstacle_at("itself", Pose2::IDENTITY, shape)
+        let shape = Shape::Hull { vertices: placed.core().into(), radius: placed.radius() };
+        scene.with_obstacle_at("a robot", Pose2::IDENTITY, shape)
     })
 }

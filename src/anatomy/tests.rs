@@ -172,6 +172,9 @@ fn swept_catches_midpoint() {
     assert!(anatomy.checker().is_free(&sweep.at(free_until)) && !anatomy.checker().is_free(&sweep.at(contact_at)));
     let picture = anatomy.picture();
     assert_eq!(item(&picture.items, "hit/0").role, Role::Goal, "a red ghost between");
+    item(&picture.items, "hit/words");
+    let unique: BTreeSet<&str> = ids(&picture.items).into_iter().collect();
+    assert_eq!(unique.len(), picture.items.len(), "ids are unique");
     assert_eq!(item(&picture.items, "second/0").role, Role::Robot);
     assert_eq!(item(&picture.items, "robot/Reach/0").role, Role::Robot);
     assert!(ids(&picture.items).iter().any(|id| id.starts_with("step/")));
@@ -278,7 +281,9 @@ fn what_is_unresolved_is_told_with_its_reason() {
     assert!(free_until > 0.49 && free_until < 0.51 && sweep.width == gap, "{:?}", sweep.verdict);
     assert!(sweep.from_free && sweep.to_free);
     assert_eq!(anatomy.readout()[1], "unresolved: the gap is below what rounding can tell from contact");
-    assert!(ids(&anatomy.picture().items).iter().any(|id| id.starts_with("step/")));
+    let picture = anatomy.picture();
+    assert!(ids(&picture.items).iter().any(|id| id.starts_with("step/")));
+    assert_eq!(item(&picture.items, "unresolved").role, Role::Unknown);
 }
 
 #[test]
