@@ -37,6 +37,7 @@ impl Default for Dialogs {
             .add_save_extension("Run", EXTENSION)
             .default_save_extension("Run")
             .default_file_name("run.mcap")
+            .show_search(false)
             .default_size([560.0, 380.0])
             .anchor(egui::Align2::CENTER_CENTER, [0.0, 0.0]);
         Dialogs { dialog, hovered: false }

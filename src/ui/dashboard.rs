@@ -76,7 +76,8 @@ pub fn dashboard(ui: &mut Ui, model: &Dashboard, history: &History, state: &mut 
 
 /// Keys that are the dashboard's; the others it hands on.
 fn keys(ui: &Ui, model: &Dashboard, state: &mut UiState, commands: &mut Vec<Command>) {
-    for action in pressed(ui, state.armed.is_some()) {
+    let nudged = std::mem::take(&mut state.nudging);
+    for action in pressed(ui, state.armed.is_some(), nudged) {
         match action {
             Action::LetGo => drive::let_go(model, state, commands),
             Action::Arm(pane) => {

@@ -47,6 +47,7 @@ pub fn handles(
     robot: &CockpitRobot,
     (paper, fit): (Rect, &Fit),
     look: &Look,
+    state: &mut UiState,
     commands: &mut Vec<Command>,
 ) {
     let going = turned(&robot.footprint, angles(robot));
@@ -59,7 +60,7 @@ pub fn handles(
     }
     let links = points.len().saturating_sub(1);
     for link in 0..links {
-        handle(ui, robot, (link, links), &points, (&painter, fit), look, commands);
+        state.nudging |= handle(ui, robot, (link, links), &points, (&painter, fit), look, commands);
     }
 }
 
@@ -68,6 +69,7 @@ fn over(items: Vec<Item>) -> Picture {
     Picture::new("handles", anywhere).with(items)
 }
 
+/// Shows one handle. Returns whether it has the focus.
 fn handle(
     ui: &mut Ui,
     robot: &CockpitRobot,
@@ -76,7 +78,7 @@ fn handle(
     (painter, fit): (&Painter, &Fit),
     look: &Look,
     commands: &mut Vec<Command>,
-) {
+) -> bool {
     let name = handle_name(link, links);
     let [x, y] = fit.screen_from_world(points[link + 1]);
     let at = pos2(x as f32, y as f32);
@@ -98,7 +100,8 @@ fn handle(
         let to = fit.world_from_screen([f64::from(pointer.x), f64::from(pointer.y)]);
         move_to(robot, &dragged(angles(robot), points, link, to), commands);
     }
-    if response.has_focus() {
+    let focused = response.has_focus();
+    if focused {
         nudge(ui, id, robot, link, commands);
     }
     let held = response.dragged() || response.has_focus();
@@ -117,6 +120,7 @@ fn handle(
     painter.circle(at, 0.5 * DOT * grown, look.colour(Role::Paper), Stroke::new(2.0, look.colour(role)));
     let hint = format!("{name}: drag it, or click it and press the arrow keys");
     response.on_hover_cursor(if held { CursorIcon::Grabbing } else { CursorIcon::Grab }).on_hover_text(hint);
+    focused
 }
 
 fn circle(name: &str, center: Point2, radius: f64) -> Item {

@@ -152,16 +152,17 @@ pub fn hint(action: Action) -> String {
     BINDINGS.iter().find(|b| b.action == action).map_or_else(String::new, |b| format!("{} ({})", b.words, b.keys()))
 }
 
-/// The actions whose keys were pressed in this frame, in the order of the table. While words are typed none; while a button, a
-/// handle or the like has the focus, its own keys (arrows, space, Home, End) are left to it.
-pub fn pressed(ui: &Ui, armed: bool) -> Vec<Action> {
+/// The actions whose keys were pressed in this frame, in the order of the table. While words are typed none; while a button or the
+/// like has the focus, its own keys (arrows, space, Home, End) are left to it; a handle that is `nudged` keeps the arrows only.
+pub fn pressed(ui: &Ui, armed: bool, nudged: bool) -> Vec<Action> {
     if ui.ctx().text_edit_focused() {
         return vec![];
     }
     let focused = ui.memory(|m| m.focused().is_some());
     let own = |key| {
         use Key::{ArrowDown, ArrowLeft, ArrowRight, ArrowUp, End, Enter, Home, Space};
-        focused && matches!(key, ArrowLeft | ArrowRight | ArrowUp | ArrowDown | Space | Enter | Home | End)
+        let arrows = matches!(key, ArrowLeft | ArrowRight | ArrowUp | ArrowDown);
+        focused && (arrows || !nudged && matches!(key, Space | Enter | Home | End))
     };
     let due = |b: &&Binding| {
         let scope = match b.scope {

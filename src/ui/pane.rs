@@ -71,7 +71,7 @@ pub fn pane(ui: &mut Ui, cockpit: &Cockpit, rect: Rect, look: &Look, state: &mut
         in_hand(ui, robot, paper, look, state);
     }
     for robot in cockpit.robots.iter().filter(|r| r.is_arm) {
-        handles::handles(ui, robot, (paper, &fit), look, commands);
+        handles::handles(ui, robot, (paper, &fit), look, state, commands);
     }
     if response.clicked() {
         take_in_hand(driven, state, commands);

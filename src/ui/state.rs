@@ -20,6 +20,8 @@ pub struct UiState {
     pub held: (i16, i16),
     /// The channels that the pad on the screen asks for.
     pub pad: (i16, i16),
+    /// Whether a handle of an arm had the focus in the last frame: it keeps the arrow keys and leaves the others.
+    pub nudging: bool,
     /// The role that is lit.
     pub lit: Option<Role>,
     /// The role that is pointed at in this frame.
