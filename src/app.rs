@@ -96,7 +96,7 @@ fn show(world: &mut World) -> Result {
     let mut commands = Vec::new();
     world.resource_scope(|world, mut interface: Mut<Interface>| {
         let (shown, history) = (world.resource::<Shown>(), world.resource::<History>());
-        ui::dashboard(&mut root, &shown.0, history, &mut interface.0, &mut commands);
+        ui::lab(&mut root, &shown.0, history, &mut interface.0, &mut commands);
         let paper = interface.0.theme().clear_colour();
         world.resource_mut::<ClearColor>().0 = paper;
     });

@@ -7,7 +7,7 @@ use bevy::window::FileDragAndDrop;
 use bevy_egui::egui;
 use egui_file_dialog::{DialogMode, FileDialog, FileDialogLabels};
 
-use super::files::{open_run, save_run};
+use super::files::{open_run, open_world, save_run, save_world};
 use super::session::Interface;
 use crate::simulation::{Playback, Transport};
 use crate::ui::SessionCommand;
@@ -15,55 +15,73 @@ use crate::ui::SessionCommand;
 /// What the lab's logs are called.
 const EXTENSION: &str = "mcap";
 
-/// The dialog, and whether something hovers over the window.
+/// What the lab's worlds are called.
+const WORLD: &str = "ron";
+
+/// The dialogs, and whether something hovers over the window.
 #[derive(Resource)]
 pub struct Dialogs {
-    dialog: FileDialog,
+    runs: FileDialog,
+    worlds: FileDialog,
     /// Whether a file hovers over the window, on its way to be dropped.
     hovered: bool,
 }
 
 impl Default for Dialogs {
     fn default() -> Self {
-        let labels = FileDialogLabels {
-            title_select_file: "Open a run".into(),
-            title_save_file: "Save the run".into(),
-            ..default()
-        };
-        let dialog = FileDialog::new()
-            .labels(labels)
-            .add_file_filter_extensions("Runs (*.mcap)", vec![EXTENSION])
-            .default_file_filter("Runs (*.mcap)")
-            .add_save_extension("Run", EXTENSION)
-            .default_save_extension("Run")
-            .default_file_name("run.mcap")
-            .show_search(false)
-            .default_size([560.0, 380.0])
-            .anchor(egui::Align2::CENTER_CENTER, [0.0, 0.0]);
-        Dialogs { dialog, hovered: false }
+        Dialogs {
+            runs: dialog("run", "Runs (*.mcap)", EXTENSION, "run.mcap"),
+            worlds: dialog("world", "Worlds (*.ron)", WORLD, "world.ron"),
+            hovered: false,
+        }
     }
+}
+
+fn dialog(what: &'static str, filter: &str, extension: &'static str, file: &str) -> FileDialog {
+    let labels = FileDialogLabels {
+        title_select_file: format!("Open a {what}"),
+        title_save_file: format!("Save the {what}"),
+        ..default()
+    };
+    FileDialog::new()
+        .id(what)
+        .labels(labels)
+        .add_file_filter_extensions(filter, vec![extension])
+        .default_file_filter(filter)
+        .add_save_extension(what, extension)
+        .default_save_extension(what)
+        .default_file_name(file)
+        .show_search(false)
+        .default_size([560.0, 380.0])
+        .anchor(egui::Align2::CENTER_CENTER, [0.0, 0.0])
 }
 
 /// Opens the dialog that a command asks for. The run pauses meanwhile.
 pub fn ask(mut asked: MessageReader<SessionCommand>, mut dialogs: ResMut<Dialogs>, mut transport: ResMut<Transport>) {
     for command in asked.read() {
         match command {
-            SessionCommand::Save => dialogs.dialog.save_file(),
-            SessionCommand::Open => dialogs.dialog.pick_file(),
-            SessionCommand::Links { .. } => continue,
+            SessionCommand::Save => dialogs.runs.save_file(),
+            SessionCommand::Open => dialogs.runs.pick_file(),
+            SessionCommand::SaveWorld => dialogs.worlds.save_file(),
+            SessionCommand::OpenWorld => dialogs.worlds.pick_file(),
+            SessionCommand::RunWorld | SessionCommand::Links { .. } => continue,
         }
         transport.playback = Playback::Paused;
     }
 }
 
-/// Takes what was dropped.
+/// Takes what was dropped: a world for the atlas, or a run.
 pub fn dropped(world: &mut World) {
     let events: Vec<FileDragAndDrop> = world.resource_mut::<Messages<FileDragAndDrop>>().drain().collect();
     for event in events {
         let hovered = matches!(event, FileDragAndDrop::HoveredFile { .. });
         world.resource_mut::<Dialogs>().hovered = hovered;
         if let FileDragAndDrop::DroppedFile { path_buf, .. } = event {
-            let notice = open_run(world, &path_buf);
+            let notice = if path_buf.extension().is_some_and(|e| e == WORLD) {
+                open_world(world, &path_buf)
+            } else {
+                open_run(world, &path_buf)
+            };
             world.resource_mut::<Interface>().0.notice = Some(notice);
         }
     }
@@ -71,19 +89,26 @@ pub fn dropped(world: &mut World) {
 
 /// Shows the dialog while it is open, and does what was chosen in it.
 pub fn show(world: &mut World, ctx: &egui::Context) {
-    let picked: Option<(DialogMode, PathBuf)> = {
-        let mut dialogs = world.resource_mut::<Dialogs>();
-        dialogs.dialog.update(ctx);
+    let (run, model) = {
+        let dialogs = world.resource_mut::<Dialogs>().into_inner();
         if dialogs.hovered {
             egui::Area::new("drop".into()).anchor(egui::Align2::CENTER_CENTER, [0.0, 0.0]).show(ctx, |ui| {
-                egui::Frame::popup(ui.style()).show(ui, |ui| ui.heading("Drop a run to open it"));
+                egui::Frame::popup(ui.style()).show(ui, |ui| ui.heading("Drop a run or a world to open it"));
             });
         }
-        let mode = dialogs.dialog.mode();
-        dialogs.dialog.take_picked().map(|path| (mode, path))
+        (picked(&mut dialogs.runs, ctx), picked(&mut dialogs.worlds, ctx))
     };
-    let Some((mode, path)) = picked else { return };
-    let notice = if mode == DialogMode::SaveFile { save_run(world, &path) } else { open_run(world, &path) };
-    world.resource_mut::<Interface>().0.notice = Some(notice);
-    ctx.request_repaint();
+    let of_run = run.map(|(save, path)| if save { save_run(world, &path) } else { open_run(world, &path) });
+    let of_world = model.map(|(save, path)| if save { save_world(world, &path) } else { open_world(world, &path) });
+    if let Some(notice) = of_run.or(of_world) {
+        world.resource_mut::<Interface>().0.notice = Some(notice);
+        ctx.request_repaint();
+    }
+}
+
+/// Shows a dialog while it is open. What was chosen in it, and whether to save there.
+fn picked(dialog: &mut FileDialog, ctx: &egui::Context) -> Option<(bool, PathBuf)> {
+    dialog.update(ctx);
+    let save = dialog.mode() == DialogMode::SaveFile;
+    dialog.take_picked().map(|path| (save, path))
 }

@@ -6,15 +6,23 @@ use std::path::Path;
 
 use bevy::ecs::world::World;
 
+use super::session::Interface;
+use crate::atlas::Editor;
 use crate::recording::Run;
 use crate::run::{Log, LogError, ReadLog, Script, first_divergence};
 use crate::simulation::{
     LatestFrame, PendingInput, Playback, RunConfig, Transport, TransportCommand, obey, seek, start_run, step,
 };
-use crate::ui::Notice;
+use crate::ui::{AtlasState, Notice};
 
 /// The greatest size of a log that the window opens, bytes.
 const MOST_BYTES: u64 = 1 << 30;
+
+/// The greatest size of a world file that the window opens, bytes.
+const MOST_WORLD: u64 = 16 << 20;
+
+/// The atlas's number on the rail.
+const ATLAS: usize = 3;
 
 /// Saves the run as far as it has come: its log, recorded from seed, configuration and script, whole or not at all.
 pub fn save_run(world: &World, path: &Path) -> Notice {
@@ -98,6 +106,43 @@ fn open(world: &mut World, path: &Path) -> Result<Notice, String> {
         text += &format!(" (its sealed beginning: {damage})");
     }
     Ok(Notice { text, is_error: divergence.is_some() || damage.is_some() })
+}
+
+/// Opens a world file in the atlas. Where it is refused, the present one stays.
+pub fn open_world(world: &mut World, path: &Path) -> Notice {
+    let refused = |error: String| Notice { text: format!("{}: not opened: {error}", path.display()), is_error: true };
+    match fs::metadata(path) {
+        Ok(about) if about.len() > MOST_WORLD => {
+            return refused(format!("{} bytes: a world file has at most {MOST_WORLD}", about.len()));
+        }
+        Ok(_) => {}
+        Err(error) => return refused(error.to_string()),
+    }
+    let text = match fs::read_to_string(path) {
+        Ok(text) => text,
+        Err(error) => return refused(error.to_string()),
+    };
+    match Editor::open(&name(path), &text) {
+        Ok(editor) => {
+            let ui = &mut world.resource_mut::<Interface>().into_inner().0;
+            ui.atlas = AtlasState::edited(editor).in_mode(ui.atlas.mode);
+            ui.widget = ATLAS;
+            Notice { text: format!("{}: opened", name(path)), is_error: false }
+        }
+        Err(error) => refused(error.to_string()),
+    }
+}
+
+/// Saves the atlas's world in canonical form, whole or not at all.
+pub fn save_world(world: &mut World, path: &Path) -> Notice {
+    let atlas = &mut world.resource_mut::<Interface>().into_inner().0.atlas;
+    match write_whole(path, atlas.text().as_bytes()) {
+        Ok(()) => {
+            atlas.mark_saved();
+            Notice { text: format!("{}: saved", name(path)), is_error: false }
+        }
+        Err(error) => Notice { text: format!("{}: not saved: {error}", path.display()), is_error: true },
+    }
 }
 
 fn name(path: &Path) -> String {

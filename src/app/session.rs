@@ -178,6 +178,17 @@ pub fn carry_out(world: &mut World, commands: Vec<Command>) {
                     world.resource_mut::<Interface>().0.notice = Some(notice);
                 }
             }
+            Command::Session(SessionCommand::RunWorld) => {
+                let model = world.resource::<Interface>().0.atlas.world().clone();
+                let seed = world.resource::<Transport>().seed;
+                let config = TourConfig { worlds: vec![model], ..TourConfig::default() };
+                let ran = new_run(world, config, seed);
+                let ui = &mut world.resource_mut::<Interface>().into_inner().0;
+                match ran {
+                    Ok(()) => ui.widget = 0,
+                    Err(text) => ui.notice = Some(Notice { text, is_error: true }),
+                }
+            }
             Command::Session(command) => _ = world.write_message(command),
         }
     }
@@ -186,8 +197,8 @@ pub fn carry_out(world: &mut World, commands: Vec<Command>) {
 /// A new run of the same seed in which the arm named `robot` has two or three links.
 fn change_links(world: &mut World, robot: &str, links: usize) -> Result<(), String> {
     let mut config = TourConfig::clone(&world.resource::<RunConfig>().0);
-    let arms = config.worlds.iter_mut().flat_map(|w| &mut w.robots);
-    let Some(arm) = arms.filter(|r| r.name == robot).next() else { return Err(format!("there is no {robot}")) };
+    let mut arms = config.worlds.iter_mut().flat_map(|w| &mut w.robots);
+    let Some(arm) = arms.find(|r| r.name == robot) else { return Err(format!("there is no {robot}")) };
     arm.kind = if links == 3 { "reach3" } else { "reach" }.into();
     arm.start.resize(links, 0.5);
     let seed = world.resource::<Transport>().seed;

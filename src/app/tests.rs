@@ -16,7 +16,7 @@ use crate::run::{Log, RobotInput, Script};
 use crate::simulation::{
     History, LatestFrame, PendingInput, Playback, RobotView, RunConfig, Transport, TransportCommand, view,
 };
-use crate::ui::{SessionCommand, dashboard};
+use crate::ui::SessionCommand;
 
 /// The lab, looked at frame by frame; a frame takes a fortieth of a second: half a tick at normal speed.
 struct Lab {
@@ -30,7 +30,7 @@ impl Lab {
         let mut commands = Vec::new();
         world.resource_scope(|world, mut interface: Mut<Interface>| {
             let (shown, history) = (world.resource::<Shown>(), world.resource::<History>());
-            dashboard(ui, &shown.0, history, &mut interface.0, &mut commands);
+            crate::ui::lab(ui, &shown.0, history, &mut interface.0, &mut commands);
         });
         carry_out(world, commands);
     }

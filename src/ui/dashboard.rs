@@ -1,20 +1,13 @@
 //! The dashboard: the cockpits at once on a wide screen, one at a time on a narrow one.
 
-use std::sync::Arc;
+use bevy_egui::egui::{Align, CentralPanel, Frame, Layout, Margin, Panel, Rect, ScrollArea, Sense, Ui, pos2, vec2};
 
-use bevy_egui::egui::{
-    Align, CentralPanel, Frame, Layout, Margin, Panel, Rect, ScrollArea, Sense, TextStyle, Ui, pos2, vec2,
-};
-
-use super::keys::{Action, pressed};
+use super::keys::Action;
 use super::manifest::widget;
 use super::pane::{pane, take_in_hand, text_height};
 use super::plots::plots;
-use super::{Command, Dashboard, Look, UiState, drive, frame, help, tools, transport_bar};
+use super::{Command, Dashboard, Look, UiState, drive, frame, tools, transport_bar};
 use crate::simulation::History;
-
-/// Below this width the panes are shown one at a time.
-const NARROW: f32 = 720.0;
 
 /// From pane to pane, and from the panes to the window's border, points.
 const GAP: f32 = 20.0;
@@ -22,74 +15,55 @@ const GAP: f32 = 20.0;
 /// Width of the sheet at the side, points.
 const SHEET: f32 = 320.0;
 
-/// Shows the dashboard over the whole of `ui`; what is pressed is pushed onto `commands`.
-pub fn dashboard(ui: &mut Ui, model: &Dashboard, history: &History, state: &mut UiState, commands: &mut Vec<Command>) {
-    let narrow = ui.max_rect().width() < NARROW;
-    let look = Look::of(ui, state);
-    let mut style = look.theme.style(narrow);
-    if state.settings.reduced_motion {
-        style.animation_time = 0.0;
-    }
-    let style = Arc::new(style);
-    if ui.ctx().global_style() != style {
-        // hints and lists pop up outside of `ui`
-        ui.ctx().set_global_style(Arc::clone(&style));
-    }
-    ui.set_style(style);
-    if !state.help {
-        keys(ui, model, state, commands);
-        drive::drive(ui, model, state, commands);
-    }
-    // the window is cleared with the paper already: filling it again would cost as much as all that is drawn on it
-    let paper = Frame::NONE;
+/// Shows the dashboard over what is left of `ui`; what is pressed is pushed onto `commands`.
+pub fn dashboard(
+    ui: &mut Ui,
+    model: &Dashboard,
+    history: &History,
+    (narrow, look): (bool, &Look),
+    state: &mut UiState,
+    commands: &mut Vec<Command>,
+) {
     let side = if narrow { 12 } else { GAP as i8 };
     Panel::bottom("transport")
-        .frame(paper.inner_margin(Margin::symmetric(side, 8)))
-        .show(ui, |ui| transport_bar(ui, model, history, (narrow, &look), state, commands));
+        .frame(Frame::NONE.inner_margin(Margin::symmetric(side, 8)))
+        .show(ui, |ui| transport_bar(ui, model, history, (narrow, look), state, commands));
     if state.settings.plots && !narrow {
         let margin = Margin { left: 12, right: side, top: 14, bottom: 0 };
         Panel::right("sheet")
             .exact_size(SHEET)
             .resizable(false)
-            .frame(paper.inner_margin(margin))
-            .show(ui, |ui| plots(ui, model, history, &look, state, commands));
+            .frame(Frame::NONE.inner_margin(margin))
+            .show(ui, |ui| plots(ui, model, history, look, state, commands));
     }
-    CentralPanel::default().frame(paper.inner_margin(Margin::symmetric(side, 14))).show(ui, |ui| {
-        header(ui, model, (narrow, &look), state, commands);
+    CentralPanel::default().frame(Frame::NONE.inner_margin(Margin::symmetric(side, 14))).show(ui, |ui| {
+        header(ui, model, (narrow, look), state, commands);
         ui.add_space(8.0);
         if narrow {
             if state.settings.plots {
-                ScrollArea::vertical().show(ui, |ui| plots(ui, model, history, &look, state, commands));
+                ScrollArea::vertical().show(ui, |ui| plots(ui, model, history, look, state, commands));
             } else {
-                one_pane(ui, model, &look, state, commands);
+                one_pane(ui, model, look, state, commands);
             }
         } else {
-            all_panes(ui, model, &look, state, commands);
+            all_panes(ui, model, look, state, commands);
         }
     });
-    help::help(ui.ctx(), state);
-    if state.pointed.is_some() || state.lit.is_some() {
-        // the fade goes on without further input
-        ui.ctx().request_repaint();
-    }
 }
 
-/// Keys that are the dashboard's; the others it hands on.
-fn keys(ui: &Ui, model: &Dashboard, state: &mut UiState, commands: &mut Vec<Command>) {
-    let nudged = std::mem::take(&mut state.nudging);
-    for action in pressed(ui, state.armed.is_some(), nudged) {
-        match action {
-            Action::LetGo => drive::let_go(model, state, commands),
-            Action::Arm(pane) => {
-                if let Some(cockpit) = model.cockpits.get(pane) {
-                    state.settings.world = pane as u32;
-                    take_in_hand(cockpit.robots.iter().find(|r| r.drivable), state, commands);
-                }
+/// Does what a key asks for while the dashboard is in front.
+pub fn act(action: Action, model: &Dashboard, state: &mut UiState, commands: &mut Vec<Command>) {
+    match action {
+        Action::LetGo => drive::let_go(model, state, commands),
+        Action::Arm(pane) => {
+            if let Some(cockpit) = model.cockpits.get(pane) {
+                state.settings.world = pane as u32;
+                take_in_hand(cockpit.robots.iter().find(|r| r.drivable), state, commands);
             }
-            action => {
-                tools::act(action, state, commands);
-                transport_bar::act(action, model, commands);
-            }
+        }
+        action => {
+            tools::act(action, state, commands);
+            transport_bar::act(action, model, commands);
         }
     }
 }
@@ -116,11 +90,7 @@ fn header(
             }
         });
     });
-    ui.add_space(2.0);
-    ui.horizontal_wrapped(|ui| {
-        ui.spacing_mut().interact_size.y = ui.text_style_height(&TextStyle::Body);
-        frame::key(ui, words, look, state);
-    });
+    frame::key_row(ui, words, look, state);
     frame::hints(ui, words, look, state);
     tools::notice(ui, state);
 }

@@ -20,8 +20,17 @@ pub fn title(ui: &mut Ui, widget: &WidgetText, look: &Look) {
     ui.label(RichText::new(&widget.misconception).color(look.theme.colour(Role::Muted)));
 }
 
+/// Shows the colour key in a row of its own.
+pub fn key_row(ui: &mut Ui, widget: &WidgetText, look: &Look, state: &mut UiState) {
+    ui.add_space(2.0);
+    ui.horizontal_wrapped(|ui| {
+        ui.spacing_mut().interact_size.y = ui.text_style_height(&TextStyle::Body);
+        key(ui, widget, look, state);
+    });
+}
+
 /// Shows the colour key. Pointing at an entry, or stepping to it by Tab, lights its role.
-pub fn key(ui: &mut Ui, widget: &WidgetText, look: &Look, state: &mut UiState) {
+fn key(ui: &mut Ui, widget: &WidgetText, look: &Look, state: &mut UiState) {
     ui.spacing_mut().item_spacing.x = 12.0;
     for entry in &widget.key {
         let role = entry.role();

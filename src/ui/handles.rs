@@ -185,7 +185,7 @@ pub fn numbers(ui: &mut Ui, robot: &CockpitRobot, look: &Look, state: &mut UiSta
 /// The angles of the first joint about `th1` for which the other two still take the tip there, to a hundredth of a radian.
 fn reachable(arm: &Reach<3>, tip: Point2, th1: f64, side: usize) -> RangeInclusive<f64> {
     let end = |step: f64| {
-        let way = (1..=314).map(|i| th1 + step * f64::from(i)).take_while(|th1| th1.abs() < 3.14);
+        let way = (1..=314).map(|i| th1 + step * f64::from(i)).take_while(|th1| th1.abs() < std::f64::consts::PI);
         way.take_while(|th1| arm.with_tip_at(tip, *th1)[side].is_some()).last().unwrap_or(th1)
     };
     end(-0.01)..=end(0.01)

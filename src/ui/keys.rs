@@ -53,6 +53,8 @@ pub enum Action {
     Theme,
     /// The list of keys.
     Help,
+    /// The widget with this number on the rail.
+    Widget(usize),
 }
 
 /// When a key means something.
@@ -90,7 +92,7 @@ const fn with(action: Action, modifiers: Modifiers, key: Key, words: &'static st
 }
 
 /// All keys.
-pub const BINDINGS: [Binding; 31] = [
+pub const BINDINGS: [Binding; 35] = [
     plain(Action::PlayPause, Key::Space, Scope::Always, "play or pause"),
     plain(Action::StepBack, Key::ArrowLeft, Scope::Unarmed, "one tick back, and pause"),
     plain(Action::Step, Key::ArrowRight, Scope::Unarmed, "one tick, and pause"),
@@ -122,6 +124,10 @@ pub const BINDINGS: [Binding; 31] = [
     plain(Action::Theme, Key::D, Scope::Always, "system, light or dark paper"),
     plain(Action::Help, Key::Questionmark, Scope::Always, "this list"),
     plain(Action::Help, Key::F1, Scope::Always, "this list"),
+    with(Action::Widget(0), Modifiers::COMMAND, Key::Num1, "the dashboard"),
+    with(Action::Widget(1), Modifiers::COMMAND, Key::Num2, "query anatomy"),
+    with(Action::Widget(2), Modifiers::COMMAND, Key::Num3, "configuration space"),
+    with(Action::Widget(3), Modifiers::COMMAND, Key::Num4, "world atlas"),
 ];
 
 impl Binding {

@@ -14,6 +14,8 @@ pub struct WidgetText {
     pub id: String,
     /// Its title.
     pub title: String,
+    /// Its title on the rail.
+    short: String,
     /// The misconception it removes, in one line.
     pub misconception: String,
     /// What it shows, for readers who do not see it.
@@ -31,6 +33,13 @@ pub struct KeyText {
     role: String,
     /// What the role stands for here.
     pub text: String,
+}
+
+impl WidgetText {
+    /// Its title on the rail: a word.
+    pub fn short(&self) -> &str {
+        &self.short
+    }
 }
 
 impl KeyText {
@@ -63,7 +72,7 @@ mod tests {
         assert_eq!(parsed, widgets());
         assert!(widget("dashboard").is_some() && widget("a cat").is_none());
         for widget in widgets() {
-            for words in [&widget.id, &widget.title, &widget.misconception, &widget.description] {
+            for words in [&widget.id, &widget.title, &widget.short, &widget.misconception, &widget.description] {
                 assert!(!words.trim().is_empty(), "{}", widget.id);
             }
             assert!(!widget.misconception.contains('\n') && !widget.key.is_empty() && !widget.hints.is_empty());

@@ -1,12 +1,20 @@
 //! What people see and touch. Colours are known to [`Theme`] alone; what needs a window stands behind the feature `window`.
 
+#[cfg(feature = "window")]
+mod anatomy_view;
 pub mod arm;
+#[cfg(feature = "window")]
+mod atlas_state;
+#[cfg(feature = "window")]
+mod atlas_view;
 mod blend;
 #[cfg(feature = "window")]
 mod button;
 #[cfg(feature = "window")]
 pub mod canvas;
 mod cockpit;
+#[cfg(feature = "window")]
+mod cspace_view;
 #[cfg(feature = "window")]
 mod dashboard;
 #[cfg(feature = "window")]
@@ -22,6 +30,8 @@ mod help;
 #[cfg(feature = "window")]
 pub mod keys;
 #[cfg(feature = "window")]
+mod lab;
+#[cfg(feature = "window")]
 mod labels;
 #[cfg(feature = "window")]
 mod look;
@@ -34,6 +44,8 @@ mod pane;
 mod plots;
 mod readout;
 mod settings;
+#[cfg(feature = "window")]
+mod sheet;
 mod state;
 mod theme;
 #[cfg(feature = "window")]
@@ -43,12 +55,18 @@ mod tools;
 #[cfg(feature = "window")]
 mod transport_bar;
 
+#[cfg(feature = "window")]
+pub use anatomy_view::AnatomyState;
+#[cfg(feature = "window")]
+pub use atlas_state::{AtlasState, Mode};
 pub use blend::{blend, heading};
 pub use cockpit::{Cockpit, CockpitRobot, Dashboard, Name};
 #[cfg(feature = "window")]
-pub use dashboard::dashboard;
+pub use cspace_view::CspaceState;
 pub use formula::{Formula, Level, Term};
 pub use goal::{Off, ParkingGoal, trailer_of};
+#[cfg(feature = "window")]
+pub use lab::lab;
 #[cfg(feature = "window")]
 pub use look::Look;
 pub use manifest::{KeyText, WidgetText, widget, widgets};
@@ -77,6 +95,12 @@ pub enum SessionCommand {
     Save,
     /// Open a run: ask for a file first.
     Open,
+    /// Open a world in the atlas: ask for a file first.
+    OpenWorld,
+    /// Save the atlas's world: ask for a file first.
+    SaveWorld,
+    /// A new run in the atlas's world.
+    RunWorld,
     /// A new run in which an arm has so many links.
     Links {
         /// The arm.

@@ -10,6 +10,17 @@ use crate::picture::Role;
 pub struct UiState {
     /// What is kept from one start to the next.
     pub settings: Settings,
+    /// The number of the widget in front, on the rail.
+    pub widget: usize,
+    /// The anatomy's, with the robot of the configuration space.
+    #[cfg(feature = "window")]
+    pub anatomy: super::AnatomyState,
+    /// The configuration space's.
+    #[cfg(feature = "window")]
+    pub cspace: super::CspaceState,
+    /// The atlas's.
+    #[cfg(feature = "window")]
+    pub atlas: super::AtlasState,
     /// The paper that the system asks for.
     pub system_theme: Theme,
     /// The seed field's text while it is edited.

@@ -4,7 +4,6 @@ use std::sync::Arc;
 
 use bevy_egui::egui::{Context, Event, Key, Modifiers, PointerButton, RawInput, Rect, Shape, Vec2, pos2};
 
-use super::dashboard;
 use crate::configuration::{Configuration, HitchCfg, T2};
 use crate::geometry::{Point2, Pose2};
 use crate::picture::{Picture, Role};
@@ -12,7 +11,7 @@ use crate::random::Seed;
 use crate::robots::{HITCH, RUSTY, Reach, Robot};
 use crate::run::RobotInput;
 use crate::simulation::{History, RobotCommand, TransportCommand};
-use crate::ui::{Cockpit, CockpitRobot, Command, Dashboard, Theme, ThemeChoice, UiState};
+use crate::ui::{Cockpit, CockpitRobot, Command, Dashboard, Theme, ThemeChoice, UiState, lab};
 use crate::worlds::Bounds;
 
 const WIDE: Vec2 = Vec2::new(1280.0, 800.0);
@@ -93,7 +92,7 @@ impl Screen {
         let input = RawInput { screen_rect, events, ..RawInput::default() };
         let mut commands = Vec::new();
         let mut output =
-            self.ctx.run_ui(input, |ui| dashboard(ui, model, &History::default(), &mut self.state, &mut commands));
+            self.ctx.run_ui(input, |ui| lab(ui, model, &History::default(), &mut self.state, &mut commands));
         output.textures_delta.clear(); // no one uploads them
         self.shapes = output.shapes.into_iter().map(|clipped| clipped.shape).collect();
         commands
@@ -229,7 +228,8 @@ fn the_time_line_goes_to_the_tick_that_is_pointed_at() {
         // the line stands above the row of buttons
         let (_, play) = screen.texts().into_iter().find(|(text, _)| text == "Play").expect("the bar");
         let height = if size == PHONE { 44.0 } else { 28.0 };
-        let pos = pos2(0.5 * size.x, play.center().y - height - 4.0);
+        let rail = if size == PHONE { 0.0 } else { 76.0 };
+        let pos = pos2(0.5 * (size.x + rail), play.center().y - height - 4.0);
         let button =
             |pressed| Event::PointerButton { pos, button: PointerButton::Primary, pressed, modifiers: Modifiers::NONE };
         let mut commands = screen.frame(&paused, vec![Event::PointerMoved(pos), button(true)]);
