@@ -165,11 +165,11 @@ fn inset(ui: &mut Ui, look: &Look, state: &mut UiState) {
 /// The two questions that ask for a number first.
 fn prompts(ui: &mut Ui, state: &mut UiState) {
     for (i, prompt) in Prompt::all().iter().enumerate() {
-        ui.label(prompt.question);
+        let label = ui.label(prompt.question);
         ui.horizontal(|ui| {
             let guess = &mut state.anatomy.guesses[i];
-            let field = ui.add(TextEdit::singleline(guess).desired_width(80.0).hint_text("metres"));
-            field.widget_info(|| WidgetInfo::text_edit(true, "", &*guess, prompt.id));
+            let field =
+                ui.add(TextEdit::singleline(guess).desired_width(80.0).hint_text("metres")).labelled_by(label.id);
             let entered = field.lost_focus() && ui.input(|i| i.key_pressed(bevy_egui::egui::Key::Enter));
             if ui.button("Check").clicked() || entered {
                 state.anatomy.answers[i] = Some(match prompt.check_text(guess) {

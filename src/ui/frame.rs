@@ -72,6 +72,14 @@ fn swatch(ui: &Ui, role: Role, at: bevy_egui::egui::Pos2, look: &Look) {
                 painter.circle_filled(at + vec2(4.0, dy), 1.2, colour);
             }
         }
+        Role::Free => drop(painter.rect(square, 0.0, look.tint(role, 0.3), line, StrokeKind::Inside)),
+        Role::Unknown => {
+            for x in [-3.0, 0.0, 3.0] {
+                for y in [-3.0, 0.0, 3.0] {
+                    painter.circle_filled(at + vec2(x, y), 0.9, colour);
+                }
+            }
+        }
         Role::Focus => drop(painter.rect_stroke(square, 0.0, Stroke::new(2.0, colour), StrokeKind::Inside)),
         Role::Goal => {
             painter.line_segment([at - vec2(4.0, 4.0), at + vec2(4.0, 4.0)], line);

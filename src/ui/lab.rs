@@ -50,7 +50,7 @@ pub fn lab(ui: &mut Ui, model: &Dashboard, history: &History, state: &mut UiStat
     } else {
         let frame = Frame::NONE.inner_margin(margin);
         Panel::left("rail").exact_size(RAIL).resizable(false).frame(frame).show(ui, |ui| {
-            ui.vertical(|ui| rail(ui, model, (&look, 44.0), state, commands));
+            ui.vertical_centered(|ui| rail(ui, model, (&look, 44.0), state, commands));
         });
     }
     if state.widget == 0 {

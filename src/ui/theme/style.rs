@@ -106,7 +106,8 @@ impl Theme {
         Visuals {
             widgets: Widgets {
                 noninteractive: widget(paper, self.colour(Role::Hairline)),
-                inactive: widget(paper, edge),
+                // a slider's rail is seen by its filling alone
+                inactive: WidgetVisuals { bg_fill: self.washed(Role::Text, 0.12), ..widget(paper, edge) },
                 hovered: widget(self.washed(Role::Text, 0.06), self.colour(Role::Text)),
                 active: widget(self.washed(Role::Text, 0.14), self.colour(Role::Text)),
                 open: widget(self.washed(Role::Text, 0.06), edge),
