@@ -23,6 +23,7 @@ mod pairs;
 mod penetration;
 mod planner;
 mod polygons;
+mod scans;
 mod send_sync;
 mod sensor_noise;
 mod simulation;

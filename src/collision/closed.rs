@@ -1,7 +1,7 @@
 //! Verdicts in closed form: discs on lines and arcs, and parts that move without turning.
 
 use super::march::{BRACKET, march, step_clearance};
-use super::{Certificate, Collision, EdgeVerdict, MarchOptions, ObstacleId, ProvenStep, Scene};
+use super::{Certificate, Collision, EdgeVerdict, MarchOptions, ObstacleId, ProvenStep, Scene, Witness};
 use crate::geometry::{CircularArc, Footprint, Point2};
 use crate::num::{greater, ulp};
 use crate::robots::Motion;
@@ -32,11 +32,11 @@ pub(super) fn verdict<M: Motion>(
 /// The hit of which everything before `free_until` was proven free, if there is contact at `contact_at`.
 fn hit<M: Motion>(scene: &Scene, motion: &M, free_until: f64, contact_at: f64) -> Option<EdgeVerdict> {
     let footprint = motion.footprint_at(contact_at);
-    if !scene.intersects(&footprint) {
-        return None;
+    if !footprint.is_valid() {
+        return Some(EdgeVerdict::Hit { free_until, contact_at, part: 0, obstacle: ObstacleId::UNKNOWN });
     }
-    let (part, obstacle) = scene.witness(&footprint).map_or((0, ObstacleId::UNKNOWN), |w| (w.part, w.obstacle));
-    Some(EdgeVerdict::Hit { free_until, contact_at, part, obstacle })
+    let Witness { dist, part, obstacle, .. } = scene.witness(&footprint)?;
+    (dist == 0.0).then_some(EdgeVerdict::Hit { free_until, contact_at, part, obstacle })
 }
 
 /// The bracket about a first contact at `s`: a little less than [`BRACKET`] of motion, so that its two ends fit in it.
@@ -53,14 +53,12 @@ fn straight<M: Motion>(scene: &Scene, motion: &M, certificate: Option<&mut Certi
     if (0..parts).any(|k| motion.rates(k).acceleration != 0.0) {
         return None;
     }
-    if scene.intersects(&start) {
-        return None;
-    }
     let end = motion.footprint_at(1.0);
     let prove = |to: f64, footprint: &Footprint| {
         let clearance = step_clearance(scene, motion, (0.0, &start), (to, footprint));
         (clearance > 0.0).then_some(ProvenStep { from: 0.0, to, clearance })
     };
+    // every proof holds for the start too, so that need not be asked about
     let (step, verdict) = if let Some(step) = prove(1.0, &end) {
         (step, EdgeVerdict::Free { clearance: step.clearance })
     } else {
@@ -82,9 +80,6 @@ fn straight<M: Motion>(scene: &Scene, motion: &M, certificate: Option<&mut Certi
 
 /// A disc of this radius whose centre runs along an arc.
 fn circular<M: Motion>(scene: &Scene, motion: &M, arc: &CircularArc, radius: f64) -> Option<EdgeVerdict> {
-    if scene.intersects(&motion.footprint_at(0.0)) {
-        return None;
-    }
     let far = Point2::new(arc.centre.x.abs() + arc.radius, arc.centre.y.abs() + arc.radius);
     // the arc's own rounding, that of the distance to it and that of the footprint placed on it
     let slack = 128.0 * ulp(greater(greater(far.x, far.y) + radius, 1.0));

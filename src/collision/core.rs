@@ -1,7 +1,7 @@
 //! Exact contact and accurate distance between two convex cores (points, segments, polygons) without radii.
 
 use crate::geometry::{Point2, cross, orientation};
-use crate::num::sqrt;
+use crate::num::{greater, lesser, sqrt};
 
 /// The boundary edges of a core: a point is one edge of length 0, a segment one edge, a polygon all its sides.
 pub(super) fn edges(core: &[Point2]) -> impl Iterator<Item = (Point2, Point2)> {
@@ -69,8 +69,43 @@ pub(super) fn polygon_contains(polygon: &[Point2], p: Point2) -> bool {
     inside
 }
 
+/// Whether the boxes around two cores, or for some side the half-planes, show at a glance that they are disjoint. What is not
+/// shown is not so either way.
+fn plainly_apart(a: &[Point2], b: &[Point2]) -> bool {
+    let span = |core: &[Point2], axis: usize| {
+        core.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(lo, hi), p| (lesser(p[axis], lo), greater(p[axis], hi)))
+    };
+    for axis in 0..2 {
+        let ((a0, a1), (b0, b1)) = (span(a, axis), span(b, axis));
+        if a1 < b0 || b1 < a0 {
+            return true;
+        }
+    }
+    separates(a, b) || separates(b, a)
+}
+
+/// Whether a side of `a` has all of `b` plainly to its right and the rest of `a` plainly to its left; of a segment, whether all of `b`
+/// is plainly on one side. A cross product counts only where it exceeds several times the rounding it may hold.
+fn separates(a: &[Point2], b: &[Point2]) -> bool {
+    edges(a).any(|(p, q)| {
+        let u = q - p;
+        let side = |v: &Point2| {
+            let w = v - p;
+            let (left, right) = (u.x * w.y, u.y * w.x);
+            let area = left - right;
+            let rounding = 16.0 * f64::EPSILON * (left.abs() + right.abs()) + f64::MIN_POSITIVE;
+            if area.abs() <= rounding { 0.0 } else { area }
+        };
+        let right = b.iter().all(|v| side(v) < 0.0) && a.iter().all(|v| *v == p || *v == q || side(v) > 0.0);
+        right || (a.len() == 2 && b.iter().all(|v| side(v) > 0.0))
+    })
+}
+
 /// A common point of two cores, or `None` when they are disjoint; exact.
 pub(super) fn cores_contact(a: &[Point2], b: &[Point2]) -> Option<Point2> {
+    if plainly_apart(a, b) {
+        return None;
+    }
     for p in edges(a) {
         for q in edges(b) {
             if let Some(point) = segments_contact(p, q) {
@@ -113,28 +148,49 @@ pub(super) fn point_segment(p: Point2, (a, b): (Point2, Point2)) -> (f64, Point2
     (area.abs() / sqrt(length_squared), foot)
 }
 
-/// The distance between two disjoint cores and a pair of nearest points. It is attained at a vertex of one of them.
-pub(super) fn cores_distance(a: &[Point2], b: &[Point2]) -> (f64, Point2, Point2) {
-    let mut best = (f64::INFINITY, a[0], b[0]);
+/// The distance between two disjoint cores and a pair of nearest points, if it is less than `limit`. It is attained at a vertex of
+/// one of them.
+pub(super) fn cores_distance(a: &[Point2], b: &[Point2], limit: f64) -> Option<(f64, Point2, Point2)> {
+    let mut least = limit;
+    let mut best = None;
     for &p in a {
         for edge in edges(b) {
-            let (d, foot) = point_segment(p, edge);
-            if d < best.0 {
-                best = (d, p, foot);
+            if !farther(p, edge, least) {
+                let (d, foot) = point_segment(p, edge);
+                if d < least {
+                    (least, best) = (d, Some((d, p, foot)));
+                }
             }
         }
     }
     if a.len() > 1 {
         for &q in b {
             for edge in edges(a) {
-                let (d, foot) = point_segment(q, edge);
-                if d < best.0 {
-                    best = (d, foot, q);
+                if !farther(q, edge, least) {
+                    let (d, foot) = point_segment(q, edge);
+                    if d < least {
+                        (least, best) = (d, Some((d, foot, q)));
+                    }
                 }
             }
         }
     }
     best
+}
+
+/// Whether `p` is plainly farther than `d` from the segment: by more than [`point_segment`] may be off.
+fn farther(p: Point2, (a, b): (Point2, Point2), d: f64) -> bool {
+    let (u, from_a, from_b) = (b - a, p - a, p - b);
+    let (square, scale) = if from_a.dot(&u) <= 0.0 {
+        (from_a.norm_squared(), 1.0)
+    } else if from_b.dot(&u) >= 0.0 {
+        (from_b.norm_squared(), 1.0)
+    } else {
+        let size = (u.x.abs() + u.y.abs()) * (from_a.x.abs() + from_a.y.abs());
+        let area = cross(u, from_a).abs() - 32.0 * f64::EPSILON * size;
+        (if area > 0.0 { area * area } else { 0.0 }, u.norm_squared())
+    };
+    square > d * d * scale * (1.0 + 1e-9)
 }
 
 #[cfg(test)]

@@ -1,7 +1,7 @@
 //! The certified march: a motion proven free piece by piece, or bracketed where it hits.
 
 use super::{Certificate, Collision, EdgeVerdict, MarchOptions, ObstacleId, ProvenStep, UnresolvedReason};
-use crate::geometry::{Footprint, Part, Pose2, Shape, largest_coordinate};
+use crate::geometry::{Footprint, Part, largest_coordinate};
 use crate::num::{greater, lesser, sqrt, ulp};
 use crate::robots::Motion;
 
@@ -23,8 +23,7 @@ pub(super) fn step_clearance<M: Motion>(
     for (k, (p0, p1)) in f0.parts().iter().zip(f1.parts()).enumerate() {
         let hull = p0.placed().hull_with(p1.placed());
         let size = largest_coordinate([&hull]);
-        let shape = Shape::Hull { vertices: hull.core().into(), radius: hull.radius() };
-        let dist = collision.distance(&Footprint::new([Part::new(Pose2::IDENTITY, shape)]));
+        let dist = collision.distance_of_hull(hull);
         let slack = if dist.is_finite() { 32.0 * ulp(size + dist) } else { 0.0 };
         least = lesser(dist - motion.sagitta(k, s0, s1) - slack, least);
         if least <= 0.0 {
@@ -59,13 +58,26 @@ pub fn march<M: Motion>(
     collision: &dyn Collision,
     motion: &M,
     options: MarchOptions,
+    certificate: Option<&mut Certificate>,
+) -> EdgeVerdict {
+    let start = motion.footprint_at(0.0);
+    let distance = collision.distance(&start);
+    march_from(collision, motion, options, certificate, (start, distance))
+}
+
+/// As [`march`], given the footprint at the start and its distance.
+pub(crate) fn march_from<M: Motion>(
+    collision: &dyn Collision,
+    motion: &M,
+    options: MarchOptions,
     mut certificate: Option<&mut Certificate>,
+    (start, start_distance): (Footprint, f64),
 ) -> EdgeVerdict {
     if let Some(c) = certificate.as_deref_mut() {
         c.clear(options.margin);
     }
     let margin = options.margin;
-    let mut at_lo = motion.footprint_at(0.0);
+    let mut at_lo = start;
     let parts = at_lo.parts().len();
     let above_margin = |footprint: &Footprint| collision.distance(footprint) - margin;
     let hit = |free_until: f64, contact_at: f64| {
@@ -74,11 +86,19 @@ pub fn march<M: Motion>(
             .map_or((0, ObstacleId::UNKNOWN), |w| (w.part, w.obstacle));
         EdgeVerdict::Hit { free_until, contact_at, part, obstacle }
     };
-    let mut gap = above_margin(&at_lo);
+    let mut gap = start_distance - margin;
     if gap <= 0.0 {
         return hit(0.0, 0.0);
     }
     let end = motion.footprint_at(1.0);
+    // most motions are proven free by one step; where the end is in contact, this one cannot be
+    let whole = if options.budget > 0 { step_clearance(collision, motion, (0.0, &at_lo), (1.0, &end)) } else { 0.0 };
+    if whole > margin {
+        if let Some(c) = certificate {
+            c.push(ProvenStep { from: 0.0, to: 1.0, clearance: whole });
+        }
+        return EdgeVerdict::Free { clearance: whole };
+    }
     // the first place known to be in contact; nothing beyond it matters
     let mut contact = (above_margin(&end) <= 0.0).then_some(1.0);
     let size = largest_coordinate(at_lo.parts().iter().chain(end.parts()).map(Part::placed));
@@ -102,7 +122,8 @@ pub fn march<M: Motion>(
             _ => lesser(lo + h, 1.0),
         };
         let at_hi = if hi == 1.0 { end.clone() } else { motion.footprint_at(hi) };
-        let proven = step_clearance(collision, motion, (lo, &at_lo), (hi, &at_hi));
+        let proven =
+            if (lo, hi) == (0.0, 1.0) { whole } else { step_clearance(collision, motion, (lo, &at_lo), (hi, &at_hi)) };
         if proven > margin {
             clearance = lesser(proven, clearance);
             if let Some(c) = certificate.as_deref_mut() {

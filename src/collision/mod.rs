@@ -1,6 +1,9 @@
 //! The collision checker: four questions about a footprint in a scene, and edges proven free.
 
+mod answers;
 mod batch;
+mod boxes;
+mod cells;
 mod certificate;
 mod checker;
 mod closed;
@@ -19,18 +22,22 @@ mod surroundings;
 mod swept;
 mod witness;
 
+pub(crate) use answers::touch;
+pub(crate) use cells::{Cells, Item};
 pub use certificate::{Certificate, CertificateError, ProvenStep, verify_certificate};
 pub use checker::{CarChecker, ChainChecker, Checker, DiscChecker};
 pub use counted::{Counted, QueryCounts};
 pub use edge::{EdgeVerdict, MarchOptions, UnresolvedReason};
+pub(crate) use march::march_from;
 pub use march::{BRACKET, march};
 pub use problem::{Problem, ProblemError};
 pub use scene::Scene;
-pub(crate) use segments::SegmentSoup;
+
+pub(crate) use segments::{Circle, LANES, SegmentSoup};
 pub use surroundings::Surroundings;
 pub use witness::{ObstacleId, Witness};
 
-use crate::geometry::Footprint;
+use crate::geometry::{Footprint, Placed};
 
 /// The four questions a planner may ask, and no others. Planners take `&dyn Collision`.
 ///
@@ -47,6 +54,13 @@ pub trait Collision: Send + Sync {
 
     /// The distance from the footprint to the nearest obstacle, metres: 0.0 on contact, infinity in an empty scene.
     fn distance(&self, footprint: &Footprint) -> f64;
+
+    /// [`distance`](Self::distance) of the footprint that is this hull alone. Not a question of its own: it spares the march, which
+    /// asks for hulls again and again, the making of footprints.
+    #[doc(hidden)]
+    fn distance_of_hull(&self, hull: Placed) -> f64 {
+        self.distance(&Footprint::of_hull(hull))
+    }
 
     /// A pair of points that attains the distance; on contact one common point, with `dist` 0. `None` in an empty scene
     /// (and for a footprint that is not finite or has no parts). Ties go to the lowest part, then to the obstacle first in file order.

@@ -22,14 +22,25 @@ pub(super) struct Nearest {
 /// A shape with a radius is its core's exact distance minus the radius. Where the rounded distance cannot tell contact from
 /// a gap, squares are compared in double-double arithmetic.
 pub(super) fn nearest(a: &Placed, b: &Placed) -> Nearest {
+    nearest_within(a, b, f64::INFINITY).unwrap_or_else(|| {
+        // only where a distance is not a number, which valid shapes do not have
+        let point = a.core()[0];
+        Nearest { dist: 0.0, on_a: point, on_b: point }
+    })
+}
+
+/// As [`nearest`]; `None` only where the distance is greater than `limit`.
+pub(super) fn nearest_within(a: &Placed, b: &Placed, limit: f64) -> Option<Nearest> {
     if let Some(point) = cores_contact(a.core(), b.core()) {
-        return Nearest { dist: 0.0, on_a: point, on_b: point };
+        return Some(Nearest { dist: 0.0, on_a: point, on_b: point });
     }
-    let (core_dist, foot_a, foot_b) = cores_distance(a.core(), b.core());
-    let core_dist = greater(core_dist, f64::MIN_POSITIVE); // disjoint, whatever was lost to underflow
+    // more than rounding can make of a distance at the limit
     let reach = a.radius() + b.radius();
+    let core_limit = (limit + reach) * (1.0 + 1e-9) + 1e-9;
+    let (core_dist, foot_a, foot_b) = cores_distance(a.core(), b.core(), core_limit)?;
+    let core_dist = greater(core_dist, f64::MIN_POSITIVE); // disjoint, whatever was lost to underflow
     if reach == 0.0 {
-        return Nearest { dist: core_dist, on_a: foot_a, on_b: foot_b };
+        return Some(Nearest { dist: core_dist, on_a: foot_a, on_b: foot_b });
     }
     let direction = (foot_b - foot_a) / core_dist;
     let margin = 64.0 * ulp(largest_coordinate([a, b]));
@@ -41,7 +52,7 @@ pub(super) fn nearest(a: &Placed, b: &Placed) -> Nearest {
     } else {
         decided_gap(a, b)
     };
-    match gap {
+    Some(match gap {
         Some(dist) => Nearest {
             dist: greater(dist, f64::MIN_POSITIVE),
             on_a: foot_a + direction * a.radius(),
@@ -52,7 +63,12 @@ pub(super) fn nearest(a: &Placed, b: &Placed) -> Nearest {
             let point = foot_a + direction * lesser(a.radius(), core_dist);
             Nearest { dist: 0.0, on_a: point, on_b: point }
         }
-    }
+    })
+}
+
+/// Whether `a` and `b`, both valid, touch: exactly when [`nearest`] says 0.
+pub(super) fn touch(a: &Placed, b: &Placed) -> bool {
+    if a.radius() + b.radius() == 0.0 { cores_contact(a.core(), b.core()).is_some() } else { nearest(a, b).dist == 0.0 }
 }
 
 /// The gap between two shapes whose cores are disjoint, or `None` on contact: squares compared in double-double.

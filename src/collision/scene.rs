@@ -1,20 +1,25 @@
 //! `Scene`, named obstacles under one bounding-volume tree. The only file that imports parry.
 
+use std::cell::Cell;
 use std::sync::Arc;
 
 use parry2d_f64::bounding_volume::{Aabb, BoundingVolume};
 use parry2d_f64::math::Vector;
 use parry2d_f64::partitioning::{Bvh, BvhBuildStrategy, BvhNode, TraversalAction};
 
-use super::closed::verdict;
+use super::ObstacleId;
+use super::answers::{pair, pair_within, touch, touches};
+use super::boxes::{Boxes, FEW};
+use super::cells::Cells;
 use super::impact::{arc_distance, arc_meets, translation_meets};
-use super::narrow::{Nearest, depth, nearest};
+use super::narrow::{Nearest, depth};
 use super::segments::SegmentSoup;
-use super::swept::{self, SWEEP};
-use super::{Collision, ObstacleId, Witness};
-use crate::geometry::{CircularArc, Footprint, Placed, Pose2, Segment, Shape};
+use crate::geometry::{CircularArc, Footprint, Placed, Point2, Pose2, Segment, Shape};
 use crate::num::{greater, lesser, ulp};
 use crate::worlds::{Bounds, World};
+
+/// From so many segments and discs on, a scan walks through a grid.
+const MANY: usize = 128;
 
 /// Named obstacles under one bounding-volume tree.
 ///
@@ -30,9 +35,12 @@ pub struct Scene {
     bounds: Bounds,
     names: Vec<Arc<str>>,
     /// All convex pieces in file order, and the obstacle that each belongs to.
-    pieces: Vec<Placed>,
-    owners: Vec<u32>,
+    pub(super) pieces: Vec<Placed>,
+    pub(super) owners: Vec<u32>,
     soup: SegmentSoup,
+    /// Of a large scene.
+    cells: Option<Cells>,
+    boxes: Boxes,
     tree: Bvh,
 }
 
@@ -110,8 +118,11 @@ impl Scene {
     fn of_pieces(bounds: Bounds, names: Vec<Arc<str>>, pieces: Vec<Placed>, owners: Vec<u32>) -> Self {
         let boxes: Vec<Aabb> = pieces.iter().map(piece_box).collect();
         let tree = Bvh::from_leaves(BvhBuildStrategy::Binned, &boxes);
-        let soup = SegmentSoup::of_pieces(&pieces, &owners);
-        Scene { bounds, names, pieces, owners, soup, tree }
+        let soup = SegmentSoup::of_pieces(&pieces);
+        let many = soup.segments().len() + soup.circles().len() > MANY;
+        let cells = if many { Cells::new(&soup) } else { None };
+        let boxes = Boxes::new(boxes.iter().map(|b| (point(b.mins), point(b.maxs))));
+        Scene { bounds, names, pieces, owners, soup, cells, boxes, tree }
     }
 
     /// The part of the plane the scene shows; not an obstacle.
@@ -156,6 +167,24 @@ impl Scene {
         touched.into_iter().collect()
     }
 
+    /// The grid over the boundary of a large scene.
+    pub(crate) fn cells(&self) -> Option<&Cells> {
+        self.cells.as_ref()
+    }
+
+    /// Whether the point, a disc of radius 0, is inside an obstacle or on one; true for a point that is not valid.
+    pub(crate) fn holds(&self, point: &Placed) -> bool {
+        if !point.is_valid() {
+            return true;
+        }
+        let mut found = false;
+        self.each_within(point, 0.0, |piece| {
+            found = touch(point, &self.pieces[piece]);
+            found
+        });
+        found
+    }
+
     /// A lower bound on how far the footprint must move to become free, metres: no displacement that moves every point by
     /// less can free it. 0 when it is free; infinity for a footprint that is not finite.
     pub fn depth(&self, footprint: &Footprint) -> f64 {
@@ -172,15 +201,72 @@ impl Scene {
         bound
     }
 
-    /// The least distance from `shape` to any piece; stops early at 0.
-    fn least_distance(&self, shape: &Placed) -> f64 {
+    /// The nearest piece to `shape`, the first in file order among equals, if any is nearer than `within`.
+    pub(super) fn nearest_piece(&self, shape: &Placed, within: f64) -> Option<(usize, Nearest)> {
+        let mut best: Option<(usize, Nearest)> = None;
         let from = piece_box(shape);
-        let best = self.tree.find_best(
-            f64::INFINITY,
-            |node: &BvhNode, _| box_distance(&from, node),
-            |piece, _| Some(pair(shape, &self.pieces[piece as usize]).dist),
+        let mut look = |piece: usize| {
+            let so_far = best.map_or(within, |(_, n)| n.dist);
+            let Some(found) = pair_within(shape, &self.pieces[piece], so_far) else { return so_far };
+            if found.dist < so_far || best.is_some_and(|(p, n)| found.dist == n.dist && piece < p) {
+                best = Some((piece, found));
+            }
+            best.map_or(within, |(_, n)| n.dist)
+        };
+        if self.boxes.are_few() {
+            let mut room = [0.0; FEW];
+            let squares = self.boxes.squared_distances(point(from.mins), point(from.maxs), &mut room);
+            // the one with the nearest box first: most others need not be looked at then
+            let by_square = |a: &usize, b: &usize| squares[*a].total_cmp(&squares[*b]);
+            let first = (0..squares.len()).min_by(by_square)?;
+            let mut least = look(first);
+            for (piece, square) in squares.iter().enumerate() {
+                if piece != first && *square <= least * least {
+                    least = look(piece);
+                }
+            }
+            best
+        } else {
+            self.nearest_in_tree(shape, &from, within)
+        }
+    }
+
+    /// As [`nearest_piece`](Self::nearest_piece), by the tree. Costs are squared distances.
+    fn nearest_in_tree(&self, shape: &Placed, from: &Aabb, within: f64) -> Option<(usize, Nearest)> {
+        let best: Cell<Option<(usize, Nearest)>> = Cell::new(None);
+        // no square that underflows is told from another, so none of them prunes
+        let square = |d: f64| if d > 1e-100 { d * d } else { 1e-200 };
+        self.tree.find_best(
+            square(within),
+            |node: &BvhNode, _| box_distance_squared(from, node),
+            |piece, _| {
+                let piece = piece as usize;
+                let so_far = best.get().map_or(within, |(_, n)| n.dist);
+                let found = pair_within(shape, &self.pieces[piece], so_far)?;
+                let nearer = match best.get() {
+                    None => found.dist < within,
+                    Some((p, n)) => found.dist < n.dist || (found.dist == n.dist && piece < p),
+                };
+                if nearer {
+                    best.set(Some((piece, found)));
+                }
+                Some(square(found.dist))
+            },
         );
-        best.map_or(f64::INFINITY, |(_, dist)| dist)
+        // Equals have nearer boxes than they are themselves, so all were met; but not all contacts.
+        match best.get() {
+            Some((_, Nearest { dist: 0.0, .. })) => {
+                let mut first: Option<usize> = None;
+                self.each_near(from, 0.0, |piece| {
+                    if first.is_none_or(|f| piece < f) && touches(shape, &self.pieces[piece]) {
+                        first = Some(piece);
+                    }
+                    false
+                });
+                first.map(|piece| (piece, pair(shape, &self.pieces[piece])))
+            }
+            best => best,
+        }
     }
 
     /// When a footprint that goes from `start` to `end` without turning first touches a piece, as a part of its way; rounded.
@@ -228,12 +314,22 @@ impl Scene {
     }
 
     /// Calls `visit` with each piece whose box is at most `range` from the shape's box, until it returns true.
-    fn each_within(&self, shape: &Placed, range: f64, visit: impl FnMut(usize) -> bool) {
+    pub(super) fn each_within(&self, shape: &Placed, range: f64, visit: impl FnMut(usize) -> bool) {
         self.each_near(&piece_box(shape), range, visit);
     }
 
     /// Calls `visit` with each piece whose box is at most `range` from this box, until it returns true.
     fn each_near(&self, from: &Aabb, range: f64, mut visit: impl FnMut(usize) -> bool) {
+        if self.boxes.are_few() {
+            let mut room = [0.0; FEW];
+            let squares = self.boxes.squared_distances(point(from.mins), point(from.maxs), &mut room);
+            for (piece, square) in squares.iter().enumerate() {
+                if *square <= range * range && visit(piece) {
+                    break;
+                }
+            }
+            return;
+        }
         self.tree.traverse(|node| {
             if box_distance(from, node) > range {
                 return TraversalAction::Prune;
@@ -246,14 +342,8 @@ impl Scene {
     }
 }
 
-/// The nearest points of a part and a piece; contact when the piece is not a valid shape.
-fn pair(part: &Placed, piece: &Placed) -> Nearest {
-    if piece.is_valid() {
-        nearest(part, piece)
-    } else {
-        let point = part.core()[0];
-        Nearest { dist: 0.0, on_a: point, on_b: point }
-    }
+fn point(v: Vector) -> Point2 {
+    Point2::new(v.x, v.y)
 }
 
 /// The box around a placed shape, a little larger, so that rounding prunes nothing. All of the plane for a shape that is
@@ -277,73 +367,14 @@ fn arc_box(arc: &CircularArc, radius: f64) -> Aabb {
 
 /// A lower bound of the distance between what two boxes hold.
 fn box_distance(a: &Aabb, node: &BvhNode) -> f64 {
+    crate::num::sqrt(box_distance_squared(a, node))
+}
+
+/// Its square, rounded down by more than the arithmetic can have rounded up.
+fn box_distance_squared(a: &Aabb, node: &BvhNode) -> f64 {
     let (min, max) = (node.mins(), node.maxs());
     let gap = |a0: f64, a1: f64, b0: f64, b1: f64| greater(greater(b0 - a1, a0 - b1), 0.0);
     let dx = gap(a.mins.x, a.maxs.x, min.x, max.x);
     let dy = gap(a.mins.y, a.maxs.y, min.y, max.y);
-    // rounded down by more than the arithmetic can have rounded up
-    crate::num::sqrt(dx * dx + dy * dy) * (1.0 - 1e-14)
-}
-
-impl Collision for Scene {
-    fn intersects(&self, footprint: &Footprint) -> bool {
-        if !footprint.is_valid() {
-            return true;
-        }
-        footprint.parts().iter().any(|part| {
-            let mut hit = false;
-            self.each_within(part.placed(), 0.0, |piece| {
-                hit = pair(part.placed(), &self.pieces[piece]).dist == 0.0;
-                hit
-            });
-            hit
-        })
-    }
-
-    fn distance(&self, footprint: &Footprint) -> f64 {
-        if !footprint.is_valid() {
-            return 0.0;
-        }
-        let mut least = f64::INFINITY;
-        for part in footprint.parts() {
-            least = crate::num::lesser(self.least_distance(part.placed()), least);
-            if least == 0.0 {
-                break;
-            }
-        }
-        least
-    }
-
-    fn witness(&self, footprint: &Footprint) -> Option<Witness> {
-        if !footprint.is_valid() {
-            return None;
-        }
-        let mut best: Option<Witness> = None;
-        for (part, shape) in footprint.parts().iter().map(|p| p.placed()).enumerate() {
-            let dist = self.least_distance(shape);
-            if dist == f64::INFINITY || best.is_some_and(|w| w.dist <= dist) {
-                continue;
-            }
-            // among the pieces at that distance, the first in file order
-            let mut first: Option<(usize, Nearest)> = None;
-            self.each_within(shape, dist, |piece| {
-                if first.is_none_or(|(p, _)| piece < p) {
-                    let found = pair(shape, &self.pieces[piece]);
-                    if found.dist == dist {
-                        first = Some((piece, found));
-                    }
-                }
-                false
-            });
-            best = first.map_or(best, |(piece, n)| {
-                let obstacle = ObstacleId(self.owners[piece]);
-                Some(Witness { on_robot: n.on_a, on_obstacle: n.on_b, dist, part, obstacle })
-            });
-        }
-        best
-    }
-
-    fn swept(&self, a: &Footprint, b: &Footprint) -> bool {
-        swept::hits(self, a, b, |motion| verdict(self, motion, SWEEP, None))
-    }
+    (dx * dx + dy * dy) * (1.0 - 1e-13)
 }

@@ -1,35 +1,102 @@
 //! `SegmentSoup`, the boundary of many shapes as flat arrays of segments and discs: what rays are cast at.
 
-use crate::geometry::{Placed, Point2};
+use crate::geometry::{Placed, Point2, Segment};
 
-/// Segments and discs in structure-of-arrays order, each with the number of its owner.
+/// How many numbers stand side by side.
+pub(crate) const LANES: usize = 8;
+
+/// Segments in structure-of-arrays order, filled up to whole eights with NaN, which no ray hits.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct SegmentArrays {
+    ax: Vec<f64>,
+    ay: Vec<f64>,
+    bx: Vec<f64>,
+    by: Vec<f64>,
+    count: usize,
+}
+
+/// A disc's boundary.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Circle {
+    pub(crate) centre: Point2,
+    pub(crate) radius: f64,
+}
+
+/// Segments and discs.
 ///
 /// A polygon gives its edges; a shape with a radius gives a disc at every vertex and both offset sides of every edge.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct SegmentSoup {
-    pub(crate) ax: Vec<f64>,
-    pub(crate) ay: Vec<f64>,
-    pub(crate) bx: Vec<f64>,
-    pub(crate) by: Vec<f64>,
-    pub(crate) segment_owner: Vec<u32>,
-    pub(crate) cx: Vec<f64>,
-    pub(crate) cy: Vec<f64>,
-    pub(crate) radius: Vec<f64>,
-    pub(crate) disc_owner: Vec<u32>,
+    segments: SegmentArrays,
+    circles: Vec<Circle>,
+}
+
+impl SegmentArrays {
+    /// Segment number `i`.
+    pub(crate) fn segment(&self, i: usize) -> Segment {
+        Segment::new(Point2::new(self.ax[i], self.ay[i]), Point2::new(self.bx[i], self.by[i]))
+    }
+
+    /// The number of segments.
+    pub(crate) fn len(&self) -> usize {
+        self.count
+    }
+
+    /// The coordinates of the first ends and of the second ends, each x and y, in whole eights.
+    pub(crate) fn arrays(&self) -> [&[f64]; 4] {
+        [&self.ax, &self.ay, &self.bx, &self.by]
+    }
+
+    /// Adds one segment.
+    #[inline]
+    pub(crate) fn push(&mut self, s: Segment) {
+        let i = self.count;
+        if i == self.ax.len() {
+            for array in [&mut self.ax, &mut self.ay, &mut self.bx, &mut self.by] {
+                array.extend([f64::NAN; LANES]);
+            }
+        }
+        (self.ax[i], self.ay[i], self.bx[i], self.by[i]) = (s.a.x, s.a.y, s.b.x, s.b.y);
+        self.count += 1;
+    }
+
+    /// Forgets everything but keeps the room.
+    pub(crate) fn clear(&mut self) {
+        for array in [&mut self.ax, &mut self.ay, &mut self.bx, &mut self.by] {
+            array.clear();
+        }
+        self.count = 0;
+    }
 }
 
 impl SegmentSoup {
     /// The boundaries of the valid ones of `pieces`.
-    pub(crate) fn of_pieces(pieces: &[Placed], owners: &[u32]) -> Self {
+    pub(crate) fn of_pieces(pieces: &[Placed]) -> Self {
         let mut soup = SegmentSoup::default();
-        for (piece, &owner) in pieces.iter().zip(owners) {
-            soup.push(piece, owner);
+        for piece in pieces {
+            soup.push(piece);
         }
         soup
     }
 
+    /// The segments.
+    pub(crate) fn segments(&self) -> &SegmentArrays {
+        &self.segments
+    }
+
+    /// The discs.
+    pub(crate) fn circles(&self) -> &[Circle] {
+        &self.circles
+    }
+
+    /// Forgets everything but keeps the room.
+    pub(crate) fn clear(&mut self) {
+        self.segments.clear();
+        self.circles.clear();
+    }
+
     /// Adds the boundary of one shape; one that is not valid adds nothing.
-    pub(crate) fn push(&mut self, shape: &Placed, owner: u32) {
+    pub(crate) fn push(&mut self, shape: &Placed) {
         if !shape.is_valid() {
             return;
         }
@@ -38,34 +105,27 @@ impl SegmentSoup {
         for i in 0..sides {
             let (a, b) = (core[i], core[(i + 1) % core.len()]);
             if r == 0.0 {
-                self.push_segment(a, b, owner);
+                self.segments.push(Segment::new(a, b));
                 continue;
             }
             let u = b - a;
             let length = crate::num::hypot(u.x, u.y);
             if length > 0.0 {
                 let normal = nalgebra::Vector2::new(u.y, -u.x) * (r / length);
-                self.push_segment(a + normal, b + normal, owner);
+                self.segments.push(Segment::new(a + normal, b + normal));
                 if core.len() == 2 {
-                    self.push_segment(a - normal, b - normal, owner);
+                    self.segments.push(Segment::new(a - normal, b - normal));
                 }
             }
         }
         if r > 0.0 {
-            for p in core {
-                self.cx.push(p.x);
-                self.cy.push(p.y);
-                self.radius.push(r);
-                self.disc_owner.push(owner);
-            }
+            self.circles.extend(core.iter().map(|&centre| Circle { centre, radius: r }));
         }
     }
 
-    fn push_segment(&mut self, a: Point2, b: Point2, owner: u32) {
-        self.ax.push(a.x);
-        self.ay.push(a.y);
-        self.bx.push(b.x);
-        self.by.push(b.y);
-        self.segment_owner.push(owner);
+    /// Adds one segment.
+    #[cfg(test)]
+    pub(crate) fn push_segment(&mut self, segment: Segment) {
+        self.segments.push(segment);
     }
 }

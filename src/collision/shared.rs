@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use super::{Collision, Witness};
-use crate::geometry::Footprint;
+use crate::geometry::{Footprint, Placed};
 
 macro_rules! passes_on {
     ($($holder:ty),*) => { $(
@@ -15,6 +15,10 @@ macro_rules! passes_on {
 
             fn distance(&self, footprint: &Footprint) -> f64 {
                 (**self).distance(footprint)
+            }
+
+            fn distance_of_hull(&self, hull: Placed) -> f64 {
+                (**self).distance_of_hull(hull)
             }
 
             fn witness(&self, footprint: &Footprint) -> Option<Witness> {

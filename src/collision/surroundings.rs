@@ -52,6 +52,15 @@ impl Collision for Surroundings<'_> {
         crate::num::lesser(self.scene.distance(footprint), other)
     }
 
+    fn distance_of_hull(&self, hull: Placed) -> f64 {
+        if !hull.is_valid() || !self.others.iter().all(Placed::is_valid) {
+            return 0.0;
+        }
+        let others = self.others.iter().map(|other| nearest(&hull, other).dist);
+        let other = others.fold(f64::INFINITY, |least, dist| crate::num::lesser(dist, least));
+        crate::num::lesser(self.scene.distance_of_hull(hull), other)
+    }
+
     fn witness(&self, footprint: &Footprint) -> Option<Witness> {
         if !self.decidable(footprint) {
             return None;

@@ -57,6 +57,12 @@ impl Footprint {
         Footprint { parts: parts.into_iter().collect() }
     }
 
+    /// One part, this hull where it is.
+    pub(crate) fn of_hull(hull: Placed) -> Self {
+        let shape = Shape::Hull { vertices: hull.core().into(), radius: hull.radius() };
+        Self::new([Part { pose: Pose2::IDENTITY, shape, placed: hull }])
+    }
+
     /// One disc: Rusty.
     pub fn disc(center: Point2, radius: f64) -> Self {
         Self::new([Part::new(Pose2 { x: center.x, y: center.y, theta: 0.0 }, Shape::Disc { radius })])

@@ -3,9 +3,10 @@
 use std::cmp::Ordering;
 use std::f64::consts::{FRAC_1_SQRT_2, FRAC_PI_2};
 
-use crate::collision::{Collision, Scene, SegmentSoup, Surroundings};
-use crate::geometry::{Footprint, Part, Placed, Point2, Pose2, Shape};
-use crate::num::{self, sqrt};
+use super::Scanner;
+use crate::collision::Scene;
+use crate::geometry::{Placed, Point2, Pose2};
+use crate::num;
 
 /// A range sensor with `n_rays` rays evenly spread over the full circle and a greatest range in metres.
 ///
@@ -78,90 +79,43 @@ impl RangeSensor {
     }
 
     /// The ranges from a pose, with ray k at bearing 2 pi k / n from the pose's heading, against the scene and the other
-    /// robots' parts. A robot does not see itself: leave it out of `others`.
+    /// robots' parts. A robot does not see itself: leave it out of `others`. For many scans keep a [`Scanner`].
     pub fn scan_from(&self, scene: &Scene, others: &[Placed], pose: &Pose2) -> Vec<f64> {
-        let n = self.n_rays as usize;
-        let inside = Footprint::new([Part::new(Pose2 { theta: 0.0, ..*pose }, Shape::Disc { radius: 0.0 })]);
-        if !pose.is_finite() || (Surroundings { scene, others }).intersects(&inside) {
-            return vec![0.0; n];
-        }
-        let (s, c) = if pose.theta == 0.0 { (0.0, 1.0) } else { num::sin_cos(pose.theta) };
-        let directions: Vec<(f64, f64)> = (0..self.n_rays)
-            .map(|k| {
-                let (x, y) = self.direction(k);
-                (c * x - s * y, s * x + c * y)
-            })
-            .collect();
-        let mut other_soup = SegmentSoup::default();
-        for part in others {
-            other_soup.push(part, 0);
-        }
-        // the greatest inverse range along each ray so far
-        let mut inverse = vec![0.0; n];
-        for soup in [scene.soup(), &other_soup] {
-            cast(soup, pose.position(), self.max_range, &directions, &mut inverse);
-        }
-        let least = 1.0 / self.max_range;
-        inverse.iter().map(|&i| if i >= least { 1.0 / i } else { f64::INFINITY }).collect()
+        let mut ranges = vec![0.0; self.n_rays as usize];
+        Scanner::new(*self).scan_into(scene, others, pose, &mut ranges);
+        ranges
     }
-}
 
-/// Raises `inverse[k]` to the inverse range of every segment and disc that ray k hits.
-fn cast(soup: &SegmentSoup, origin: Point2, max_range: f64, directions: &[(f64, f64)], inverse: &mut [f64]) {
-    let raise = |slot: &mut f64, value: f64| {
-        if value > *slot {
-            *slot = value;
+    /// The ranges from many poses, one scan after the other, in parallel where threads exist. They do not depend on the number
+    /// of threads.
+    pub fn scans(&self, scene: &Scene, poses: &[Pose2]) -> Vec<f64> {
+        let n = self.n_rays as usize;
+        let mut ranges = vec![0.0; n * poses.len()];
+        if n == 0 {
+            return ranges;
         }
-    };
-    for i in 0..soup.ax.len() {
-        let (mut px, mut py) = (soup.ax[i] - origin.x, soup.ay[i] - origin.y);
-        let (mut qx, mut qy) = (soup.bx[i] - origin.x, soup.by[i] - origin.y);
-        let area = px * qy - py * qx;
-        if area == 0.0 {
-            // The origin lies on the segment's line, off the segment: only a ray along the line can hit, at the nearer end.
-            let (p2, q2) = (px * px + py * py, qx * qx + qy * qy);
-            let (ex, ey, e2) = if p2 <= q2 { (px, py, p2) } else { (qx, qy, q2) };
-            for ((dx, dy), slot) in directions.iter().zip(&mut *inverse) {
-                if ex * dy - ey * dx == 0.0 && ex * dx + ey * dy > 0.0 {
-                    raise(slot, 1.0 / sqrt(e2));
-                }
-            }
-            continue;
+        let scan = |scanner: &mut Scanner, (pose, ranges): (&Pose2, &mut [f64])| {
+            scanner.scan_into(scene, &[], pose, ranges);
+        };
+        #[cfg(not(target_family = "wasm"))]
+        {
+            use rayon::prelude::*;
+            let scans = poses.par_iter().zip(ranges.par_chunks_mut(n));
+            scans.for_each_init(|| Scanner::new(*self), scan);
         }
-        if area < 0.0 {
-            (px, py, qx, qy) = (qx, qy, px, py);
+        #[cfg(target_family = "wasm")]
+        {
+            let mut scanner = Scanner::new(*self);
+            poses.iter().zip(ranges.chunks_mut(n)).for_each(|one| scan(&mut scanner, one));
         }
-        let area = area.abs();
-        // 1/t = (d x (q - p)) / (p x q), linear in d; a ray is in the closed wedge of p and q when p x d >= 0 and d x q >= 0
-        let (a, b) = ((qy - py) / area, (qx - px) / area);
-        for ((dx, dy), slot) in directions.iter().zip(&mut *inverse) {
-            if px * dy - py * dx >= 0.0 && dx * qy - dy * qx >= 0.0 {
-                raise(slot, dx * a - dy * b);
-            }
-        }
-    }
-    for i in 0..soup.cx.len() {
-        let (cx, cy, r) = (soup.cx[i] - origin.x, soup.cy[i] - origin.y, soup.radius[i]);
-        let outside = cx * cx + cy * cy - r * r; // positive: the origin is not inside
-        if outside <= 0.0 || sqrt(cx * cx + cy * cy) - r > max_range * (1.0 + 1e-9) {
-            continue;
-        }
-        for ((dx, dy), slot) in directions.iter().zip(&mut *inverse) {
-            let along = cx * dx + cy * dy;
-            let across = cx * dy - cy * dx;
-            let half = r * r - across * across;
-            if along > 0.0 && half >= 0.0 {
-                // the nearer root of t^2 - 2 t along + outside = 0, as 1/t = (along + sqrt(..)) / outside
-                raise(slot, (along + sqrt(half)) / outside);
-            }
-        }
+        ranges
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geometry::Segment;
+    use crate::geometry::{Segment, Shape};
 
     fn wall() -> Scene {
         Scene::of_walls(&[Segment::new(Point2::new(3.0, 0.0), Point2::new(3.0, 3.0))])

@@ -9,7 +9,7 @@ use super::SimulatedRobot;
 use crate::collision::Scene;
 use crate::geometry::{Pose2, Shape};
 use crate::random::Stream;
-use crate::sensors::{BeamModel, RangeSensor};
+use crate::sensors::{BeamModel, RangeSensor, Scanner};
 use crate::worlds::World as WorldModel;
 
 /// A world of the run: the model it was made from. On the world's entity, with its [`WorldScene`].
@@ -71,6 +71,10 @@ pub struct Sensors(Vec<Entity>);
 #[derive(Component, Clone, Copy, Debug, PartialEq)]
 #[component(immutable)]
 pub struct SensorModel(pub RangeSensor);
+
+/// What a range sensor keeps between its scans; away while it scans.
+#[derive(Component, Clone, Debug)]
+pub struct SensorScanner(pub(super) Option<Box<Scanner>>);
 
 /// The noise of a range sensor, and the sensor's own stream; ray k of tick t draws at index t n + k.
 #[derive(Component, Clone, Debug)]

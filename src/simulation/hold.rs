@@ -1,6 +1,6 @@
 //! Holding: how far a tick's motion may go before it would touch something.
 
-use crate::collision::{Collision, EdgeVerdict, MarchOptions, march};
+use crate::collision::{Collision, EdgeVerdict, MarchOptions, march_from};
 use crate::num::{greater, lesser};
 use crate::robots::Motion;
 
@@ -51,12 +51,13 @@ pub fn margin_from(start: f64) -> f64 {
 /// width, or at its start when that is nearer. A start in contact stays.
 pub fn advance(surroundings: &dyn Collision, motion: &impl Motion) -> Advance {
     let clearance_at = |s: f64| surroundings.distance(&motion.footprint_at(s));
-    let start_clearance = clearance_at(0.0);
+    let start = motion.footprint_at(0.0);
+    let start_clearance = surroundings.distance(&start);
     if start_clearance <= 0.0 {
         return Advance { until: 0.0, blocked: true, start_clearance };
     }
     let options = MarchOptions { margin: margin_from(start_clearance), ..MarchOptions::default() };
-    let free_until = match march(surroundings, motion, options, None) {
+    let free_until = match march_from(surroundings, motion, options, None, (start, start_clearance)) {
         EdgeVerdict::Free { .. } => return Advance { until: 1.0, blocked: false, start_clearance },
         EdgeVerdict::Hit { free_until, .. } | EdgeVerdict::Unresolved { free_until, .. } => free_until,
     };

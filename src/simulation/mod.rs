@@ -31,7 +31,7 @@ mod view;
 pub use components::{
     Configuration, Contacts, Control, Cut, DriveMode, Extra, MountedOn, ObstacleOf, ObstacleShape, Obstacles, OwnState,
     PreviousConfiguration, Residents, ResidesIn, RobotId, RobotModel, RobotName, Route, Scan, SensorModel, SensorNoise,
-    Sensors, SimulatedWorld, Slip, TickMotion, WorldScene,
+    SensorScanner, Sensors, SimulatedWorld, Slip, TickMotion, WorldScene,
 };
 pub use history::{Happening, History, HistoryPlugin, TickMark, Trail};
 pub use hold::{Advance, HOLD_CLEARANCE, LEAST_CLEARANCE, MARGIN, advance, margin_from};

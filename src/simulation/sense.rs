@@ -3,30 +3,43 @@
 use bevy::prelude::*;
 
 use super::starts::others_now;
-use super::{MountedOn, ResidesIn, RobotId, RobotOps, Scan, SensorModel, SensorNoise, Transport, WorldScene};
+use super::{
+    ResidesIn, RobotId, RobotOps, Roster, Scan, SensorModel, SensorNoise, SensorScanner, Sensors, Transport, WorldScene,
+};
 
 /// Scans from where the robots are now. A sensor sees the obstacles and the other robots of its world, not its own robot.
 /// A noisy sensor's readings are drawn anew for the tick, from its own stream.
 pub(super) fn sense(world: &mut World) {
-    let tick = world.resource::<Transport>().tick;
-    let mut sensors = world.query::<(Entity, &SensorModel, &MountedOn, Option<&SensorNoise>)>();
-    let scans: Vec<(Entity, Vec<f64>)> = sensors
-        .iter(world)
-        .filter_map(|(sensor, SensorModel(model), &MountedOn(robot), noise)| {
-            let pose = (world.get::<RobotOps>(robot)?.sensor_pose)(world, robot)?;
-            let inhabited = world.get::<ResidesIn>(robot)?.0;
-            let others = others_now(world, inhabited, *world.get::<RobotId>(robot)?);
-            let exact = model.scan_from(&world.get::<WorldScene>(inhabited)?.0, &others, &pose);
-            let ranges = match noise {
-                Some(SensorNoise { model: noise, stream }) => noise.apply(model, &exact, stream, tick),
-                None => exact,
-            };
-            Some((sensor, ranges))
-        })
-        .collect();
-    for (sensor, ranges) in scans {
-        if let Some(mut scan) = world.get_mut::<Scan>(sensor) {
-            scan.0 = ranges;
+    let robots = world.get_resource::<Roster>().map_or(0, |r| r.robots().len());
+    for number in 0..robots {
+        let robot = world.resource::<Roster>().robots()[number];
+        let sensors = world.get::<Sensors>(robot).map_or(0, |s| s.len());
+        for which in 0..sensors {
+            let Some(sensor) = world.get::<Sensors>(robot).and_then(|s| s.iter().nth(which)) else { continue };
+            scan(world, robot, sensor);
         }
     }
+}
+
+/// One sensor's scan, into the room of its last one.
+fn scan(world: &mut World, robot: Entity, sensor: Entity) -> Option<()> {
+    let mut scanner = world.get_mut::<SensorScanner>(sensor)?.0.take()?;
+    let mut ranges = world.get_mut::<Scan>(sensor).map(|mut scan| std::mem::take(&mut scan.0)).unwrap_or_default();
+    let model = world.get::<SensorModel>(sensor)?.0;
+    ranges.resize(model.n_rays as usize, 0.0);
+    let seen = (|| {
+        let pose = (world.get::<RobotOps>(robot)?.sensor_pose)(world, robot)?;
+        let inhabited = world.get::<ResidesIn>(robot)?.0;
+        let others = others_now(world, inhabited, *world.get::<RobotId>(robot)?);
+        scanner.scan_into(&world.get::<WorldScene>(inhabited)?.0, &others, &pose, &mut ranges);
+        if let Some(SensorNoise { model: noise, stream }) = world.get::<SensorNoise>(sensor) {
+            ranges = noise.apply(&model, &ranges, stream, world.resource::<Transport>().tick);
+        }
+        Some(())
+    })();
+    if seen.is_some() {
+        world.get_mut::<Scan>(sensor)?.0 = ranges;
+    }
+    world.get_mut::<SensorScanner>(sensor)?.0 = Some(scanner);
+    Some(())
 }

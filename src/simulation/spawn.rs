@@ -8,13 +8,13 @@ use super::simulated_robot::canonical;
 use super::{
     Configuration, Keyframes, LatestFrame, MountedOn, ObstacleOf, ObstacleShape, OwnState, PendingInput,
     PreviousConfiguration, ResidesIn, RobotId, RobotKinds, RobotModel, RobotName, RobotOps, Route, Scan, SensorModel,
-    SensorNoise, SimulatedRobot, SimulatedWorld, Slip, Transport, WorldScene,
+    SensorNoise, SensorScanner, SimulatedRobot, SimulatedWorld, Slip, Transport, WorldScene,
 };
 use crate::collision::Scene;
 use crate::configuration::Configuration as _;
 use crate::random::{Seed, Stream};
 use crate::run::{Script, ScriptError};
-use crate::sensors::{BeamError, RangeSensor, SensorError};
+use crate::sensors::{BeamError, RangeSensor, Scanner, SensorError};
 use crate::tour::{BOOK_SEED, ConfigError, TourConfig};
 use crate::worlds::{Resident, World as WorldModel};
 
@@ -165,7 +165,12 @@ pub(super) fn spawn_robot<R: SimulatedRobot>(
         ))
         .id();
     if let Some(sensor) = sensor {
-        let mut spawned = world.spawn((SensorModel(sensor), Scan::default(), MountedOn(entity)));
+        let mut spawned = world.spawn((
+            SensorModel(sensor),
+            SensorScanner(Some(Box::new(Scanner::new(sensor)))),
+            Scan::default(),
+            MountedOn(entity),
+        ));
         if let Some(model) = noise {
             let stream = Stream::new(request.seed, &format!("{}/beam", resident.name));
             spawned.insert(SensorNoise { model, stream });

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use bevy::prelude::*;
 
-use super::{MountedOn, RobotId, RobotOps, Roster, Scan, Transport};
+use super::{RobotId, RobotOps, Roster, Scan, Sensors, Transport};
 use crate::run::{Frame, RobotScan};
 
 /// The frame of the last tick.
@@ -85,17 +85,18 @@ pub enum RestoreError {
 }
 
 /// The state of the simulation now: the canonical form, the same for equal states.
-pub fn snapshot(world: &mut World) -> Frame {
-    let mut sensors = world.query::<(&MountedOn, &Scan)>();
-    let mut scans: Vec<RobotScan> = sensors
-        .iter(world)
-        .filter_map(|(&MountedOn(robot), Scan(ranges))| {
-            Some(RobotScan { robot: world.get::<RobotId>(robot)?.0, ranges: ranges.clone() })
-        })
-        .collect();
-    scans.sort_by_key(|s| s.robot);
-    let tick = world.get_resource::<Transport>().map_or(0, |t| t.tick);
+pub fn snapshot(world: &World) -> Frame {
     let robots = world.get_resource::<Roster>().map_or(&[][..], Roster::robots);
+    // the roster is in the order of the ids
+    let scans = robots.iter().flat_map(|&robot| {
+        let sensors = world.get::<Sensors>(robot).into_iter().flat_map(|sensors| sensors.iter());
+        sensors.filter_map(move |sensor| {
+            let ranges = world.get::<Scan>(sensor)?.0.clone();
+            Some(RobotScan { robot: world.get::<RobotId>(robot)?.0, ranges })
+        })
+    });
+    let scans = scans.collect();
+    let tick = world.get_resource::<Transport>().map_or(0, |t| t.tick);
     let robots = robots.iter().filter_map(|&e| (world.get::<RobotOps>(e)?.encode)(world, e)).collect();
     Frame { tick, robots, scans }
 }

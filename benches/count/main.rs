@@ -1,0 +1,51 @@
+//! Fixed work for `benches/instructions`, which counts the instructions it takes: `count KERNEL TIMES`.
+#![allow(missing_docs, dead_code, clippy::unwrap_used, clippy::expect_used, clippy::disallowed_methods)]
+
+#[path = "../table/worlds.rs"]
+mod worlds;
+
+use std::hint::black_box;
+
+use motion_lab::collision::{Checker, Collision, Scene};
+use motion_lab::prelude::*;
+use motion_lab::recording::Recorder;
+use motion_lab::sensors::{Instructions, RangeSensor, Scanner};
+use motion_lab::tour::{BOOK_SEED, TourConfig};
+
+/// The baseline, so that every machine counts the same.
+fn scans(scene: &Scene, side: f64, max_range: f64, times: usize) {
+    let poses = worlds::free_points(scene, 0.3 * side, 0.7 * side);
+    let mut scanner = Scanner::with_instructions(RangeSensor { n_rays: 360, max_range }, Instructions::Baseline);
+    let mut ranges = [0.0; 360];
+    for pose in poses.iter().cycle().take(times) {
+        scanner.scan_into(scene, &[], pose, &mut ranges);
+        black_box(&ranges);
+    }
+}
+
+fn arms(times: usize, ask: impl Fn(&Checker<Reach<2>>, &T2, &T2)) {
+    let checker = Checker::new(worlds::boxes(100, 0.2), Reach::<2>::workbench());
+    let mut s = worlds::draws("count");
+    let mut draw = || T2::new(s.uniform(-3.0, 3.0), s.uniform(-3.0, 3.0));
+    for _ in 0..times {
+        let a = draw();
+        ask(&checker, &a, &T2::new(a.0[0] + 0.3, a.0[1] - 0.2));
+    }
+}
+
+fn main() {
+    let mut arguments = std::env::args().skip(1);
+    let kernel = arguments.next().unwrap_or_default();
+    let times = arguments.next().and_then(|n| n.parse().ok()).unwrap_or(0);
+    match kernel.as_str() {
+        "scan-hall" => scans(&worlds::walls(40, 8.0, 2.0), 8.0, 4.0, times),
+        "scan-yard" => scans(&worlds::walls(1_000, 12.6, 1.0), 12.6, 12.0, times),
+        "witness" => arms(times, |c, a, _| _ = black_box(c.scene().witness(&c.robot().footprint(a)))),
+        "edge" => arms(times, |c, a, b| _ = black_box(c.edge(a, b))),
+        "tick" => {
+            let mut recorder = Recorder::new(TourConfig::default(), BOOK_SEED).expect("the tour runs");
+            (0..times).for_each(|_| _ = black_box(recorder.step().tick));
+        }
+        _ => {}
+    }
+}

@@ -1,0 +1,74 @@
+//! What the lab costs beside parry2d-f64, row by row, written into README.
+//!
+//! `cargo bench --no-default-features --features headless --bench table`; with `-- scan` only the rows whose name has that in it,
+//! printed and not written.
+#![allow(missing_docs, clippy::unwrap_used, clippy::expect_used, clippy::print_stdout, clippy::disallowed_methods)]
+
+mod edges;
+mod measure;
+mod peer;
+mod queries;
+mod readme;
+mod runs;
+mod scans;
+mod worlds;
+
+use measure::Timing;
+
+/// A line of the table.
+pub struct Row {
+    pub work: String,
+    pub ours: String,
+    pub peer: String,
+    pub ratio: String,
+    pub spread: String,
+    pub must: &'static str,
+}
+
+/// The rows asked for, measured one after the other.
+pub struct Table {
+    only: Option<String>,
+    pub rows: Vec<Row>,
+}
+
+impl Table {
+    /// Adds a row if it is asked for: `measure` gives our timing and then the others'.
+    pub fn row(&mut self, work: &str, must: &'static str, measure: impl FnOnce() -> Vec<Timing>) {
+        if self.wants(work) {
+            let timings = measure();
+            let (ours, peer) = (&timings[0], timings.get(1));
+            self.push(Row {
+                work: work.into(),
+                ours: readme::time(ours.median),
+                peer: peer.map_or_else(String::new, |p| format!("{} {}", p.name, readme::time(p.median))),
+                ratio: peer.map_or_else(String::new, |p| format!("{:.1}x", ours.times_faster_than(p))),
+                spread: timings.iter().map(|t| format!("{:.0} %", 100.0 * t.spread)).collect::<Vec<_>>().join(", "),
+                must,
+            });
+        }
+    }
+
+    pub fn wants(&self, work: &str) -> bool {
+        self.only.as_ref().is_none_or(|only| work.contains(only.as_str()))
+    }
+
+    pub fn push(&mut self, row: Row) {
+        println!("{}", readme::line(&row));
+        self.rows.push(row);
+    }
+}
+
+fn main() {
+    if std::env::var_os(runs::CHILD).is_some() {
+        return runs::first_step();
+    }
+    let only = std::env::args().skip(1).find(|a| !a.starts_with("--"));
+    let mut table = Table { only, rows: Vec::new() };
+    scans::rows(&mut table);
+    queries::rows(&mut table);
+    edges::rows(&mut table);
+    runs::rows(&mut table);
+    if table.only.is_none() {
+        readme::write(&table.rows);
+    }
+}

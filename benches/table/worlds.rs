@@ -1,0 +1,77 @@
+//! The worlds of the table: random, and the same at every run.
+
+use std::f64::consts::PI;
+
+use motion_lab::collision::{Collision, Scene};
+use motion_lab::geometry::{Footprint, Placed, Point2, Pose2, Segment, Shape};
+use motion_lab::num;
+use motion_lab::random::{Seed, Stream};
+use motion_lab::worlds::{Bounds, Obstacle, ObstacleKind, World};
+
+/// How many poses, configurations or edges a row goes through.
+pub const CASES: usize = 256;
+
+pub fn draws(name: &str) -> Stream {
+    Stream::new(Seed(7), name)
+}
+
+/// Walls of 0.2 to `longest` metres in a square.
+pub fn walls(count: usize, side: f64, longest: f64) -> Scene {
+    let mut s = draws("walls");
+    let walls: Vec<Segment> = (0..count)
+        .map(|_| {
+            let a = Point2::new(s.uniform(0.0, side), s.uniform(0.0, side));
+            let (sin, cos) = num::sin_cos(s.uniform(-PI, PI));
+            let length = s.uniform(0.2, longest);
+            Segment::new(a, Point2::new(a.x + length * cos, a.y + length * sin))
+        })
+        .collect();
+    Scene::of_walls(&walls)
+}
+
+/// Boxes of 0.1 to 0.5 m, turned anyhow, one to every square metre of a square about the origin; none within `clear`
+/// metres of it.
+pub fn boxes(count: usize, clear: f64) -> Scene {
+    let half = 0.5 * (count as f64).sqrt();
+    let mut s = draws("boxes");
+    let mut pieces = Vec::new();
+    while pieces.len() < count {
+        let pose = Pose2::new(s.uniform(-half, half), s.uniform(-half, half), s.uniform(-PI, PI));
+        let (w, h) = (s.uniform(0.05, 0.25), s.uniform(0.05, 0.25));
+        if num::hypot(pose.x, pose.y) > clear + 0.4 {
+            let shape = Shape::try_rectangle(Point2::new(-w, -h), Point2::new(w, h)).expect("a rectangle");
+            pieces.push((pose, shape));
+        }
+    }
+    let corner = Point2::new(half, half);
+    let obstacles = pieces.into_iter().enumerate().map(|(i, piece)| Obstacle {
+        name: format!("box {i}"),
+        kind: ObstacleKind::Solid,
+        pieces: vec![piece],
+    });
+    Scene::of_world(&World {
+        name: "boxes".into(),
+        bounds: Bounds { min: Point2::new(-half, -half), max: corner },
+        obstacles: obstacles.collect(),
+        places: Vec::new(),
+        marks: Vec::new(),
+        robots: Vec::new(),
+    })
+}
+
+pub fn pieces(scene: &Scene) -> impl Iterator<Item = &Placed> {
+    scene.pieces().map(|(_, piece)| piece)
+}
+
+/// Places that nothing holds.
+pub fn free_points(scene: &Scene, from: f64, to: f64) -> Vec<Pose2> {
+    let mut s = draws("points");
+    let mut points = Vec::new();
+    while points.len() < CASES {
+        let pose = Pose2::new(s.uniform(from, to), s.uniform(from, to), s.uniform(-PI, PI));
+        if !scene.intersects(&Footprint::disc(pose.position(), 0.02)) {
+            points.push(pose);
+        }
+    }
+    points
+}

@@ -1,0 +1,226 @@
+//! `Cells`, a grid that says which segments and discs are where, for scans of large worlds.
+
+use super::segments::{Circle, SegmentSoup};
+use crate::geometry::{Point2, Segment};
+use crate::num::{greater, lesser, sqrt};
+
+/// A uniform grid over a soup: for each cell the numbers of what touches it, discs after segments.
+#[derive(Clone, Debug)]
+pub(crate) struct Cells {
+    corner: Point2,
+    size: f64,
+    columns: i64,
+    rows: i64,
+    /// Where each cell's list begins in `items`, row by row, and where the last ends.
+    starts: Vec<u32>,
+    items: Vec<Item>,
+}
+
+/// Something in a cell.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Item {
+    /// Its number in the soup, discs after segments.
+    pub(crate) number: u32,
+    /// The segment, so that it lies in memory beside the others of the cell; for a disc, its box's diagonal.
+    pub(crate) segment: Segment,
+}
+
+/// Where a point lies in the grid.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Place {
+    pub(crate) column: i64,
+    pub(crate) row: i64,
+    /// How far it is from the nearest side of its cell.
+    inset: f64,
+}
+
+/// At most so many cells a side.
+const MOST: f64 = 512.0;
+
+impl Cells {
+    /// The grid over a soup, with about as many cells as things in it; `None` where its boundary is not finite.
+    pub(crate) fn new(soup: &SegmentSoup) -> Option<Self> {
+        let segments = soup.segments();
+        let count = segments.len() + soup.circles().len();
+        let segment_boxes = (0..segments.len()).map(|i| segment_box(&segments.segment(i)));
+        let boxes: Vec<[f64; 4]> = segment_boxes.chain(soup.circles().iter().map(circle_box)).collect();
+        let [x0, y0, x1, y1] = boxes
+            .iter()
+            .copied()
+            .reduce(|a, b| [lesser(a[0], b[0]), lesser(a[1], b[1]), greater(a[2], b[2]), greater(a[3], b[3])])?;
+        let (width, height) = (x1 - x0, y1 - y0);
+        let size = greater(1.75 * sqrt(width * height / count as f64), greater(width, height) / MOST);
+        // a grid that reaches a little farther than all there is, so that rounding puts nothing outside
+        let (size, corner) = (size * (1.0 + 1e-9), Point2::new(x0 - 0.01 * size, y0 - 0.01 * size));
+        let cells = |extent: f64| (extent / size) as i64 + 2;
+        if !(size > 0.0 && size.is_finite()) {
+            return None;
+        }
+        let mut grid =
+            Cells { corner, size, columns: cells(width), rows: cells(height), starts: vec![], items: vec![] };
+        let mut pairs: Vec<(u32, u32)> = Vec::new();
+        for (i, b) in boxes.iter().enumerate() {
+            let segment = (i < segments.len()).then(|| segments.segment(i));
+            grid.touched(b, segment, |cell| pairs.push((cell, i as u32)));
+        }
+        pairs.sort_unstable();
+        grid.starts = vec![0; (grid.columns * grid.rows) as usize + 1];
+        for (cell, _) in &pairs {
+            grid.starts[*cell as usize + 1] += 1;
+        }
+        for i in 1..grid.starts.len() {
+            grid.starts[i] += grid.starts[i - 1];
+        }
+        let diagonal = |b: [f64; 4]| Segment::new(Point2::new(b[0], b[1]), Point2::new(b[2], b[3]));
+        let item = |i: usize| if i < segments.len() { segments.segment(i) } else { diagonal(boxes[i]) };
+        grid.items = pairs.into_iter().map(|(_, i)| Item { number: i, segment: item(i as usize) }).collect();
+        Some(grid)
+    }
+
+    /// Calls `visit` with every cell that something with this box touches, and for a segment with those that its own way
+    /// through the box's rows touches; at most a little more.
+    fn touched(&self, b: &[f64; 4], segment: Option<Segment>, mut visit: impl FnMut(u32)) {
+        let slack = 1e-6 * self.size;
+        let row = |y: f64| (((y - self.corner.y) / self.size) as i64).clamp(0, self.rows - 1);
+        let column = |x: f64| (((x - self.corner.x) / self.size) as i64).clamp(0, self.columns - 1);
+        for j in row(b[1] - slack)..=row(b[3] + slack) {
+            let (mut from, mut to) = (b[0], b[2]);
+            if let Some(Segment { a, b }) = segment
+                && a.y != b.y
+            {
+                let (low, high) = (self.corner.y + j as f64 * self.size, self.corner.y + (j + 1) as f64 * self.size);
+                let x_at = |y: f64| a.x + (b.x - a.x) * ((y - a.y) / (b.y - a.y)).clamp(0.0, 1.0);
+                let (p, q) = (x_at(low - slack), x_at(high + slack));
+                (from, to) = (lesser(p, q), greater(p, q));
+            }
+            for i in column(from - slack)..=column(to + slack) {
+                visit((j * self.columns + i) as u32);
+            }
+        }
+    }
+
+    /// Where a point lies, also outside the grid.
+    pub(crate) fn place(&self, p: Point2) -> Place {
+        let (x, y) = ((p.x - self.corner.x) / self.size, (p.y - self.corner.y) / self.size);
+        let (column, row) = (x.floor(), y.floor());
+        let inset = |f: f64| lesser(f, 1.0 - f);
+        let inset = greater(lesser(inset(x - column), inset(y - row)) - 1e-6, 0.0) * self.size;
+        Place { column: column as i64, row: row as i64, inset }
+    }
+
+    /// Nothing in the ring of cells number `ring` about a place, nor beyond, is nearer than this, metres.
+    pub(crate) fn least_distance(&self, place: &Place, ring: i64) -> f64 {
+        if ring == 0 { 0.0 } else { place.inset + (ring - 1) as f64 * self.size * (1.0 - 1e-9) }
+    }
+
+    /// The first ring about a place that holds cells of the grid, and the last.
+    pub(crate) fn rings(&self, place: &Place) -> (i64, i64) {
+        let outside = |x: i64, count: i64| (-x).max(x - count + 1).max(0);
+        let farthest = |x: i64, count: i64| x.abs().max((count - 1 - x).abs());
+        (
+            outside(place.column, self.columns).max(outside(place.row, self.rows)),
+            farthest(place.column, self.columns).max(farthest(place.row, self.rows)),
+        )
+    }
+
+    /// Calls `visit` with what touches each cell of ring number `ring` about a place that is `wanted`, told how many columns
+    /// and rows the cell is off.
+    #[inline]
+    pub(crate) fn each_in_ring(
+        &self,
+        place: &Place,
+        ring: i64,
+        wanted: impl Fn(i64, i64) -> bool,
+        mut visit: impl FnMut(&[Item]),
+    ) {
+        let (left, right) = (place.column - ring, place.column + ring);
+        let (low, high) = (place.row - ring, place.row + ring);
+        let mut cell = |i: i64, j: i64| {
+            if wanted(i - place.column, j - place.row) {
+                let cell = (j * self.columns + i) as usize;
+                visit(&self.items[self.starts[cell] as usize..self.starts[cell + 1] as usize]);
+            }
+        };
+        let rows = low.max(0)..=high.min(self.rows - 1);
+        for j in [low, high].into_iter().take(if ring == 0 { 1 } else { 2 }) {
+            if rows.contains(&j) {
+                (left.max(0)..=right.min(self.columns - 1)).for_each(|i| cell(i, j));
+            }
+        }
+        for j in (low + 1).max(0)..=(high - 1).min(self.rows - 1) {
+            if left >= 0 && left < self.columns {
+                cell(left, j);
+            }
+            if right >= 0 && right < self.columns {
+                cell(right, j);
+            }
+        }
+    }
+}
+
+fn segment_box(s: &Segment) -> [f64; 4] {
+    [lesser(s.a.x, s.b.x), lesser(s.a.y, s.b.y), greater(s.a.x, s.b.x), greater(s.a.y, s.b.y)]
+}
+
+fn circle_box(c: &Circle) -> [f64; 4] {
+    let (p, r) = (c.centre, c.radius);
+    [p.x - r, p.y - r, p.x + r, p.y + r]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::random::{Seed, Stream};
+
+    #[test]
+    fn every_point_of_every_segment_is_in_a_cell_that_lists_it() {
+        let mut draws = Stream::new(Seed(1), "cells");
+        let mut soup = SegmentSoup::default();
+        let segments: Vec<Segment> = (0..300)
+            .map(|i| {
+                // lattice ones too, which run along the sides of cells
+                let mut x = || if i % 3 == 0 { draws.below(20) as f64 } else { draws.uniform(0.0, 20.0) };
+                Segment::new(Point2::new(x(), x()), Point2::new(x(), x()))
+            })
+            .collect();
+        segments.iter().for_each(|s| soup.push_segment(*s));
+        let grid = Cells::new(&soup).unwrap();
+        for (i, s) in segments.iter().enumerate() {
+            for k in 0..=100 {
+                let p = s.a + (s.b - s.a) * (f64::from(k) / 100.0);
+                let place = grid.place(p);
+                let mut listed = false;
+                grid.each_in_ring(
+                    &place,
+                    0,
+                    |_, _| true,
+                    |items| listed = items.iter().any(|item| item.number == i as u32),
+                );
+                assert!(listed, "{s:?} at {p}");
+            }
+        }
+    }
+
+    #[test]
+    fn the_rings_about_a_place_hold_every_cell_once() {
+        let mut soup = SegmentSoup::default();
+        for k in 0..40 {
+            let x = f64::from(k);
+            soup.push_segment(Segment::new(Point2::new(x, 0.0), Point2::new(x, 30.0)));
+        }
+        let grid = Cells::new(&soup).unwrap();
+        for p in [Point2::new(3.0, 4.0), Point2::new(-9.0, 50.0), Point2::new(100.0, 10.0)] {
+            let place = grid.place(p);
+            let (first, last) = grid.rings(&place);
+            let seen = std::cell::RefCell::new(std::collections::BTreeSet::new());
+            for ring in first..=last {
+                let wanted = |i, j| {
+                    assert!(seen.borrow_mut().insert((i, j)), "{i} {j} twice");
+                    false
+                };
+                grid.each_in_ring(&place, ring, wanted, |_| ());
+            }
+            assert_eq!(seen.borrow().len() as i64, grid.columns * grid.rows);
+        }
+    }
+}

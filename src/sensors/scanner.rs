@@ -1,0 +1,113 @@
+//! `Scanner`, a range sensor with everything it needs again and again.
+
+use std::f64::consts::TAU;
+
+use super::RangeSensor;
+use super::circle::raise_circle;
+use super::instructions::Instructions;
+use super::kernel::{Fan, Kernel, Lanes, View};
+use super::walk::Walk;
+use crate::collision::{LANES, Scene, SegmentSoup, touch};
+use crate::geometry::{Placed, Pose2};
+use crate::num;
+
+/// A range sensor that keeps its rays' directions and its scratch between scans: after the first scans it allocates nothing.
+///
+/// ```
+/// use motion_lab::prelude::*;
+/// use motion_lab::collision::Scene;
+/// use motion_lab::sensors::{RangeSensor, Scanner};
+/// let scene = Scene::apartment();
+/// let mut scanner = Scanner::new(RangeSensor { n_rays: 360, max_range: 4.0 });
+/// let mut ranges = [0.0; 360];
+/// scanner.scan_into(&scene, &[], &Pose2::new(6.0, 4.0, 0.0), &mut ranges);
+/// assert_eq!(ranges.to_vec(), scanner.sensor().scan(&scene, Point2::new(6.0, 4.0)));
+/// ```
+#[derive(Clone, Debug)]
+pub struct Scanner {
+    sensor: RangeSensor,
+    kernel: Kernel,
+    /// The rays' directions in the sensor's frame.
+    units: Vec<[Lanes; 2]>,
+    fan: Fan,
+    others: SegmentSoup,
+    walk: Walk,
+}
+
+impl Scanner {
+    /// A scanner with the rays of this sensor, by the best instructions this processor has.
+    pub fn new(sensor: RangeSensor) -> Self {
+        Self::with_instructions(sensor, Instructions::best())
+    }
+
+    /// A scanner that uses these instructions. The ranges are the same to the last bit; a set that this processor does not
+    /// have is replaced by the baseline.
+    pub fn with_instructions(sensor: RangeSensor, instructions: Instructions) -> Self {
+        let blocks = (sensor.n_rays as usize).div_ceil(LANES);
+        let mut units = vec![[[0.0; LANES]; 2]; blocks];
+        for k in 0..sensor.n_rays {
+            let (x, y) = sensor.direction(k);
+            let k = k as usize;
+            (units[k / LANES][0][k % LANES], units[k / LANES][1][k % LANES]) = (x, y);
+        }
+        Scanner {
+            sensor,
+            kernel: instructions.kernel(),
+            units,
+            fan: Fan::new(sensor.n_rays as usize),
+            others: SegmentSoup::default(),
+            walk: Walk::default(),
+        }
+    }
+
+    /// The sensor.
+    pub fn sensor(&self) -> &RangeSensor {
+        &self.sensor
+    }
+
+    /// Writes the ranges from a pose into `ranges`, as [`RangeSensor::scan_from`] gives them: ray k into place k, as far as
+    /// there are places.
+    pub fn scan_into(&mut self, scene: &Scene, others: &[Placed], pose: &Pose2, ranges: &mut [f64]) {
+        let rays = ranges.len().min(self.sensor.n_rays as usize);
+        let ranges = &mut ranges[..rays];
+        let origin = pose.position();
+        let point = Placed::new(smallvec::smallvec![origin], 0.0);
+        if !pose.is_finite() || scene.holds(&point) || others.iter().any(|other| touch(&point, other)) {
+            ranges.fill(0.0);
+            return;
+        }
+        let (s, c) = if pose.theta == 0.0 { (0.0, 1.0) } else { num::sin_cos(pose.theta) };
+        (self.kernel.turn)(&self.units, (c, s), &mut self.fan);
+        let heading = num::atan2(s, c) / TAU;
+        let reach = self.sensor.max_range * (1.0 + 1e-6);
+        let view = View {
+            origin,
+            reach,
+            reach_squared: reach * reach,
+            heading: if heading < 0.0 { heading + 1.0 } else { heading },
+            rays: f64::from(self.sensor.n_rays),
+        };
+        self.others.clear();
+        for part in others {
+            self.others.push(part);
+        }
+        if let Some(cells) = scene.cells() {
+            self.walk.raise(scene.soup(), cells, &view, &self.kernel, &mut self.fan);
+        } else {
+            self.raise_every(scene.soup(), &view);
+        }
+        self.fan.open = u64::MAX;
+        let others = std::mem::take(&mut self.others);
+        self.raise_every(&others, &view);
+        self.others = others;
+        (self.kernel.ranges)(&self.fan, 1.0 / self.sensor.max_range, ranges);
+    }
+
+    /// Raises the rays that meet anything of the soup.
+    fn raise_every(&mut self, soup: &SegmentSoup, view: &View) {
+        (self.kernel.raise)(soup.segments().arrays(), view, &mut self.fan);
+        for circle in soup.circles() {
+            raise_circle(circle, view, &mut self.fan);
+        }
+    }
+}
