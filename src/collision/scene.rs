@@ -151,7 +151,7 @@ impl Scene {
     }
 
     /// Every obstacle that the footprint overlaps or touches, in file order: none exactly when
-    /// [`intersects`](Collision::intersects) is false, and for a footprint that is not finite, which touches nothing in particular.
+    /// [`intersects`](super::Collision::intersects) is false, and for a footprint that is not finite, which touches nothing in particular.
     pub fn touched(&self, footprint: &Footprint) -> Vec<ObstacleId> {
         let mut touched = std::collections::BTreeSet::new();
         if footprint.is_valid() {

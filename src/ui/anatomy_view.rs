@@ -9,7 +9,7 @@ use bevy_egui::egui::{
 use super::button::button;
 use super::manifest::widget;
 use super::sheet::sheet;
-use super::{Look, UiState, frame, readout};
+use super::{Look, UiState, frame};
 use crate::anatomy::{Anatomy, Guess, Prompt, Tab, WorldSource};
 use crate::configuration::Configuration;
 use crate::picture::{Picture, Role};
@@ -94,7 +94,7 @@ fn beside_the_paper(ui: &mut Ui, narrow: bool, look: &Look, state: &mut UiState)
     ui.label(anatomy.question());
     for line in anatomy.readout() {
         let role = if anatomy.intersects() && anatomy.tab != Tab::Swept { Role::Goal } else { Role::Text };
-        ui.label(RichText::new(readout(&line)).monospace().color(look.colour(role)));
+        ui.label(RichText::new(line.replace('-', "\u{2212}")).monospace().color(look.colour(role)));
     }
     ui.add_space(4.0);
     sliders(ui, anatomy);

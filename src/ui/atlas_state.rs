@@ -163,9 +163,10 @@ impl AtlasState {
         let mut over = Picture::new(picture.name.clone(), picture.bounds);
         // the atlas draws the world first: that lies below already
         over.items.extend(picture.items.into_iter().skip(ours));
-        if let Some((q, refusal)) = &self.refused {
+        let put = self.mode == Mode::Put;
+        if let Some((q, refusal)) = self.refused.as_ref().filter(|_| put) {
             over.items.extend(self.atlas.refusal_items(self.robot, q, refusal));
-        } else if let Some((q, robot)) = self.wanted.as_ref().zip(self.atlas.robots().get(self.robot)) {
+        } else if let Some((q, robot)) = self.wanted.as_ref().filter(|_| put).zip(self.atlas.robots().get(self.robot)) {
             let ghost = footprint("wanted", "where it would be", &robot.robot.footprint(q), Role::Robot, 0.3);
             over.items.extend(ghost);
         }

@@ -44,7 +44,12 @@ pub fn atlas_view(ui: &mut Ui, (narrow, look): (bool, &Look), state: &mut UiStat
     let at = hover.map(|p| fit.world_from_screen([f64::from(p.x), f64::from(p.y)]));
     moving.items.extend(state.atlas.probe_items(at));
     let spoken = state.atlas.described();
+    let pointed = state.pointed;
     let on = sheet(ui, (paper, spoken), &still, &moving, look, state);
+    if state.atlas.mode == Mode::Measure {
+        // the pointer is always on what it measures
+        state.pointed = pointed;
+    }
     match state.atlas.mode {
         Mode::Put => put(&on, &mut state.atlas),
         Mode::Edit => edit(&on, &moving, &still, &mut state.atlas),
