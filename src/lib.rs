@@ -40,6 +40,12 @@ pub mod recording;
 
 pub mod picture;
 
+pub mod cspace;
+
+pub mod anatomy;
+
+pub mod atlas;
+
 pub mod ui;
 
 #[cfg(feature = "window")]

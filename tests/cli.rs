@@ -1,5 +1,6 @@
 //! The whole program: every command and every exit code, by running it.
 
+mod capture;
 mod diff;
 mod driving;
 mod export;

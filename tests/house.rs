@@ -4,7 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// The modules in reading order: each may use those before it.
-const ORDER: [&str; 17] = [
+const ORDER: [&str; 20] = [
     "num",
     "random",
     "geometry",
@@ -18,6 +18,9 @@ const ORDER: [&str; 17] = [
     "simulation",
     "recording",
     "picture",
+    "cspace",
+    "anatomy",
+    "atlas",
     "ui",
     "app",
     "web",
@@ -25,7 +28,7 @@ const ORDER: [&str; 17] = [
 ];
 
 /// The modules without Bevy: the pure core, and what draws without a window.
-const PURE: [&str; 11] = [
+const PURE: [&str; 14] = [
     "num",
     "random",
     "geometry",
@@ -37,6 +40,9 @@ const PURE: [&str; 11] = [
     "tour",
     "run",
     "picture",
+    "cspace",
+    "anatomy",
+    "atlas",
 ];
 
 fn sources(folder: &Path) -> Vec<PathBuf> {

@@ -6,6 +6,8 @@ mod oracle;
 mod verdicts;
 
 mod allocation;
+mod anatomy;
+mod atlas;
 mod chapter;
 mod cli;
 mod edges;

@@ -2,8 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use motion_lab::picture::Role;
-use motion_lab::ui::Theme;
+use motion_lab::picture::{Palette, Role};
 
 /// How many colours there may be.
 const MOST: usize = 256;
@@ -19,13 +18,13 @@ pub struct FewColours {
 impl FewColours {
     /// The picture of pixels of three bytes each: in the colours of the roles, which are kept however rare (a red cross is a
     /// few pixels), and in those that are the most frequent. Any other pixel gets the nearest of these.
-    pub fn of(rgb: &[u8]) -> Self {
+    pub fn of(rgb: &[u8], roles: &Palette) -> Self {
         let mut counts: BTreeMap<[u8; 3], usize> = BTreeMap::new();
         let pixels = || rgb.as_chunks::<3>().0.iter().copied();
         for colour in pixels() {
             *counts.entry(colour).or_default() += 1;
         }
-        let roles = Role::ALL.map(|role| Theme::Light.palette().colour(role).0);
+        let roles = Role::ALL.map(|role| roles.colour(role).0);
         let mut colours: Vec<[u8; 3]> = roles.into_iter().filter(|c| counts.remove(c).is_some()).collect();
         let mut others: Vec<([u8; 3], usize)> = counts.into_iter().collect();
         // stable: colours of one frequency stay in their own order
@@ -46,6 +45,8 @@ fn nearest(colours: &[[u8; 3]], colour: [u8; 3]) -> u8 {
 
 #[cfg(test)]
 mod tests {
+    use motion_lab::ui::Theme;
+
     use super::*;
 
     #[test]
@@ -58,7 +59,7 @@ mod tests {
             pixels.extend(std::iter::repeat_n(colour, if i % 5 == 0 { 3 } else { 2 }));
         }
         pixels.push(red);
-        let few = FewColours::of(&pixels.concat());
+        let few = FewColours::of(&pixels.concat(), Theme::Light.palette());
         assert_eq!((few.palette.len(), few.pixels.len()), (3 * MOST, pixels.len()));
         let colour = |pixel: usize| &few.palette[3 * usize::from(few.pixels[pixel])..][..3];
         assert_eq!(colour(pixels.len() - 1), red);
@@ -73,7 +74,7 @@ mod tests {
     #[test]
     fn a_picture_of_few_colours_is_itself() {
         let rgb = [[9, 8, 7], [1, 2, 3], [9, 8, 7]].concat();
-        let few = FewColours::of(&rgb);
+        let few = FewColours::of(&rgb, Theme::Dark.palette());
         let back: Vec<u8> = few.pixels.iter().flat_map(|n| few.palette[3 * usize::from(*n)..][..3].to_vec()).collect();
         assert_eq!(back, rgb);
     }

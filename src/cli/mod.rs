@@ -1,6 +1,7 @@
 //! The command line: one command a file. Data goes to standard output, messages to standard error.
 
 mod bare;
+mod capture;
 mod completions;
 mod console;
 mod diff;
@@ -14,6 +15,7 @@ mod input;
 mod interrupt;
 mod json_number;
 mod log_source;
+mod numbers;
 mod output;
 mod query;
 mod raster;
@@ -67,6 +69,7 @@ enum Command {
     Export(export::Export),
     Info(info::Info),
     Query(query::Query),
+    Capture(Box<capture::Capture>),
     World(world::WorldArgs),
     Script(script::ScriptArgs),
     Completions(completions::Completions),
@@ -85,6 +88,7 @@ impl Cli {
             Some(Command::Export(export)) => export.run(data),
             Some(Command::Info(info)) => info.run(data),
             Some(Command::Query(query)) => query.run(data),
+            Some(Command::Capture(capture)) => capture.run(),
             Some(Command::World(world)) => world.run(data),
             Some(Command::Script(script)) => script.run(data),
             Some(Command::Completions(completions)) => completions.run(data),

@@ -8,11 +8,21 @@ use resvg::usvg::{Options, Tree};
 
 use super::Failure;
 use super::few_colours::FewColours;
+use motion_lab::picture::Palette;
 
 /// Paints SVG at a fixed size. Its letters are the window's.
 pub struct Raster {
     options: Options<'static>,
-    width: u32,
+    size: Size,
+}
+
+/// How large an image is.
+#[derive(Clone, Copy, Debug)]
+pub enum Size {
+    /// So many pixels wide.
+    Wide(u32),
+    /// So many pixels for each of the sheet's.
+    Times(f32),
 }
 
 /// An opaque image, row by row from the top, three bytes a pixel.
@@ -27,8 +37,8 @@ pub struct Image {
 }
 
 impl Raster {
-    /// A painter of images this many pixels wide.
-    pub fn new(width: u32) -> Self {
+    /// A painter of images of this size.
+    pub fn new(size: Size) -> Self {
         let mut options = Options::default();
         let fonts = options.fontdb_mut();
         for font in [epaint_default_fonts::UBUNTU_LIGHT, epaint_default_fonts::HACK_REGULAR] {
@@ -36,22 +46,24 @@ impl Raster {
         }
         fonts.set_sans_serif_family("Ubuntu");
         fonts.set_monospace_family("Hack");
-        Raster { options, width }
+        Raster { options, size }
     }
 
     /// Paints the sheet on white paper. With a `height` what is lower is cut off and what is missing stays white, so that all
     /// images of a sequence are of one size.
     pub fn paint(&self, svg: &str, height: Option<u32>) -> Result<Image, Failure> {
         let tree = Tree::from_str(svg, &self.options).map_err(Failure::internal)?;
-        let scale = self.width as f32 / tree.size().width();
+        let (width, scale) = match self.size {
+            Size::Wide(width) => (width, width as f32 / tree.size().width()),
+            Size::Times(scale) => ((tree.size().width() * scale).ceil() as u32, scale),
+        };
         let height = height.unwrap_or((tree.size().height() * scale).ceil() as u32);
-        let too_large =
-            || Failure::usage(format!("{} pixels wide is too large", self.width), "Choose a smaller --width.");
-        let mut pixels = Pixmap::new(self.width, height).ok_or_else(too_large)?;
+        let too_large = || Failure::usage(format!("{width} pixels wide is too large"), "Choose a smaller --width.");
+        let mut pixels = Pixmap::new(width, height).ok_or_else(too_large)?;
         pixels.fill(Color::WHITE);
         resvg::render(&tree, Transform::from_scale(scale, scale), &mut pixels.as_mut());
         let rgb = pixels.pixels().iter().flat_map(|p| [p.red(), p.green(), p.blue()]).collect();
-        Ok(Image { width: self.width, height, rgb })
+        Ok(Image { width, height, rgb })
     }
 }
 
@@ -75,23 +87,31 @@ pub fn write_png(image: &Image, notes: &[(&str, String)], to: impl Write, path: 
 pub struct GifWriter<W: Write> {
     encoder: gif::Encoder<W>,
     hundredths: u16,
+    palette: &'static Palette,
 }
 
 impl<W: Write> GifWriter<W> {
-    /// Begins a GIF whose images are all this large and are shown for this many hundredths of a second each.
-    pub fn new(to: W, [width, height]: [u16; 2], hundredths: u16, comment: &str) -> io::Result<Self> {
+    /// Begins a GIF whose images are all this large and are shown for this many hundredths of a second each. The palette's
+    /// colours are kept, however rare.
+    pub fn new(
+        to: W,
+        [width, height]: [u16; 2],
+        hundredths: u16,
+        palette: &'static Palette,
+        comment: &str,
+    ) -> io::Result<Self> {
         let mut encoder = gif::Encoder::new(to, width, height, &[]).map_err(io::Error::other)?;
         encoder.set_repeat(gif::Repeat::Infinite).map_err(io::Error::other)?;
         // a comment is a chain of blocks of at most 255 bytes
         let blocks: Vec<&[u8]> = comment.as_bytes().chunks(255).collect();
         encoder.write_raw_extension(gif::AnyExtension(0xFE), &blocks).map_err(io::Error::other)?;
-        Ok(GifWriter { encoder, hundredths })
+        Ok(GifWriter { encoder, hundredths, palette })
     }
 
     /// Writes the next image.
     pub fn write(&mut self, image: &Image) -> io::Result<()> {
         let (width, height) = (image.width as u16, image.height as u16);
-        let FewColours { palette, pixels } = FewColours::of(&image.rgb);
+        let FewColours { palette, pixels } = FewColours::of(&image.rgb, self.palette);
         let mut frame = gif::Frame::from_palette_pixels(width, height, pixels, palette, None);
         frame.delay = self.hundredths;
         self.encoder.write_frame(&frame).map_err(|error| match error {
@@ -121,18 +141,18 @@ mod tests {
 
     #[test]
     fn shapes_and_letters_are_painted_to_scale_on_white() {
-        let image = Raster::new(80).paint(SVG, None).unwrap();
+        let image = Raster::new(Size::Wide(80)).paint(SVG, None).unwrap();
         assert_eq!((image.width, image.height), (80, 40));
         assert_eq!((pixel(&image, 10, 20), pixel(&image, 78, 2)), ([255, 0, 0], [255; 3]));
         let dark = (24..80).flat_map(|x| (0..40).map(move |y| (x, y))).filter(|&(x, y)| pixel(&image, x, y)[0] < 100);
         assert!(dark.count() > 60, "the letters are there without any font of the system's");
-        let padded = Raster::new(80).paint(SVG, Some(60)).unwrap();
+        let padded = Raster::new(Size::Wide(80)).paint(SVG, Some(60)).unwrap();
         assert_eq!((padded.height, pixel(&padded, 10, 50)), (60, [255; 3]));
     }
 
     #[test]
     fn a_png_reads_back_with_its_notes() {
-        let image = Raster::new(40).paint(SVG, None).unwrap();
+        let image = Raster::new(Size::Wide(40)).paint(SVG, None).unwrap();
         let mut bytes = Vec::new();
         write_png(&image, &[("Seed", "2005".into())], &mut bytes, Path::new("x.png")).unwrap();
         let mut reader = png::Decoder::new(io::Cursor::new(&bytes)).read_info().unwrap();
@@ -145,9 +165,10 @@ mod tests {
 
     #[test]
     fn a_gif_holds_every_frame_and_its_comment() {
-        let image = Raster::new(40).paint(SVG, None).unwrap();
+        let image = Raster::new(Size::Wide(40)).paint(SVG, None).unwrap();
         let comment = "seed 2005 ".repeat(30);
-        let mut writer = GifWriter::new(Vec::new(), [40, 20], 5, &comment).unwrap();
+        let mut writer =
+            GifWriter::new(Vec::new(), [40, 20], 5, motion_lab::ui::Theme::Light.palette(), &comment).unwrap();
         for _ in 0..3 {
             writer.write(&image).unwrap();
         }

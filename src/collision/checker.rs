@@ -46,6 +46,11 @@ impl<R: Robot> Checker<R> {
         &self.scene
     }
 
+    /// The scene, to be shared with another checker.
+    pub fn shared_scene(&self) -> Arc<Scene> {
+        Arc::clone(&self.scene)
+    }
+
     /// The robot.
     pub fn robot(&self) -> &R {
         &self.robot

@@ -150,6 +150,23 @@ impl Scene {
         &self.soup
     }
 
+    /// Every obstacle that the footprint overlaps or touches, in file order: none exactly when
+    /// [`intersects`](super::Collision::intersects) is false, and for a footprint that is not finite, which touches nothing in particular.
+    pub fn touched(&self, footprint: &Footprint) -> Vec<ObstacleId> {
+        let mut touched = std::collections::BTreeSet::new();
+        if footprint.is_valid() {
+            for part in footprint.parts() {
+                self.each_within(part.placed(), 0.0, |piece| {
+                    if pair(part.placed(), &self.pieces[piece]).dist == 0.0 {
+                        touched.insert(ObstacleId(self.owners[piece]));
+                    }
+                    false
+                });
+            }
+        }
+        touched.into_iter().collect()
+    }
+
     /// The grid over the boundary of a large scene.
     pub(crate) fn cells(&self) -> Option<&Cells> {
         self.cells.as_ref()

@@ -42,6 +42,7 @@
 //! RustyDisc::default().footprint(&R2::new(0.0, 0.0));
 //! ```
 
+mod any;
 mod hitch;
 mod pose;
 mod r2;
@@ -51,6 +52,7 @@ use std::fmt::{Debug, Display};
 
 use smallvec::SmallVec;
 
+pub use any::AnyConfiguration;
 pub use hitch::HitchCfg;
 pub use r2::R2;
 pub use torus::{T2, Tn};

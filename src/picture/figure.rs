@@ -27,10 +27,24 @@ pub struct Panel {
     pub readout: Vec<String>,
 }
 
-/// Something laid out on a sheet: a group with its name, or a bare stroke or word of the sheet's own.
+/// The sheet of paper that a figure is put on.
+#[derive(Clone, Copy, Debug)]
+pub struct Sheet<'a> {
+    /// The colours.
+    pub palette: &'a Palette,
+    /// The greatest width, pixels. Up to three panels stand side by side on a wide sheet, on one of a column's width fewer.
+    pub width_px: f64,
+    /// What a program finds in the file, a keyword and a text each: the seed, the digest.
+    pub notes: &'a [(&'static str, String)],
+}
+
+/// Something laid out on a sheet: a group with its name, a bare stroke or word of the sheet's own, or where something begins and
+/// ends to be cut off at a panel's frame.
 pub(super) enum Entry {
     Bare(Primitive),
     Group { id: String, name: String, role: Role, primitives: Vec<Primitive> },
+    Clip(ScreenRect),
+    Unclip,
 }
 
 /// Free room at the sheet's border and between its panels, pixels.
@@ -55,42 +69,70 @@ impl Figure {
     /// The figure as an SVG file, the same bytes for the same figure and palette. Metres are fitted to the panels, and line
     /// widths are in pixels.
     pub fn svg(&self, palette: &Palette) -> String {
-        let (entries, size) = self.lay_out();
-        svg::write(self, &entries, size, palette)
+        self.svg_on(&Sheet { palette, width_px: WIDTH, notes: &[] })
+    }
+
+    /// As [`svg`](Self::svg), on a sheet of another width, with notes.
+    pub fn svg_on(&self, sheet: &Sheet<'_>) -> String {
+        let (entries, size) = self.lay_out(sheet.width_px);
+        svg::write(self, &entries, size, sheet)
+    }
+
+    /// The scale of every panel on a sheet of this width, pixels per metre: for what keeps its size on the sheet and is to find
+    /// room on a picture.
+    pub fn px_per_metre(&self, width_px: f64) -> Vec<f64> {
+        let sizes = self.rows(width_px).flat_map(|row| frame_sizes(row, width_px));
+        let fit = |(panel, size): (&Panel, [f64; 2])| {
+            Fit::new(&panel.picture.bounds, ScreenRect { min: [0.0; 2], size }, MARGIN).px_per_metre()
+        };
+        self.panels.iter().zip(sizes).map(fit).collect()
+    }
+
+    /// The panels row by row: each at least 300 px wide, the rows of as many each as can be.
+    fn rows(&self, width: f64) -> std::slice::Chunks<'_, Panel> {
+        let columns = ((width / 300.0) as usize).clamp(1, 3);
+        let rows = std::cmp::max(self.panels.len().div_ceil(columns), 1);
+        self.panels.chunks(std::cmp::max(self.panels.len().div_ceil(rows), 1))
     }
 
     /// All strokes and words in painting order, and the size of the sheet.
-    fn lay_out(&self) -> (Vec<Entry>, [f64; 2]) {
+    fn lay_out(&self, width: f64) -> (Vec<Entry>, [f64; 2]) {
         let mut entries = Vec::new();
         let (mut right, mut top) = (GAP, GAP);
-        for row in self.panels.chunks(3) {
-            let [row_right, row_bottom] = lay_out_row(row, top, &mut entries);
+        for row in self.rows(width) {
+            let [row_right, row_bottom] = lay_out_row(row, top, width, &mut entries);
             right = greater(right, row_right);
             top = row_bottom + GAP;
         }
-        for line in &self.caption {
+        let letters = ((width - 2.0 * GAP) / (13.0 * 0.52)) as usize;
+        for line in self.caption.iter().flat_map(|line| wrapped(line, letters)) {
+            let line = line.trim();
             entries.push(Entry::Bare(text(GAP, top, line, Face::Sans, 13.0, Role::Text)));
             top += LEADING + 2.0;
         }
-        (entries, [right + GAP, top])
+        (entries, [(right + GAP).ceil(), top.ceil()])
     }
 }
 
-/// Lays a row out below `top`, all pictures of one height; returns how far it reaches to the right and down.
-fn lay_out_row(row: &[Panel], top: f64, entries: &mut Vec<Entry>) -> [f64; 2] {
+/// The sizes of a row's frames, all of one height.
+fn frame_sizes(row: &[Panel], width: f64) -> Vec<[f64; 2]> {
     let aspect = |panel: &Panel| {
         let bounds = &panel.picture.bounds;
         // very long and very high worlds are shown on a sheet that is not
         ((bounds.max.x - bounds.min.x) / (bounds.max.y - bounds.min.y)).clamp(0.5, 3.0)
     };
     let aspects: f64 = row.iter().map(aspect).sum();
-    let room = WIDTH - GAP * (row.len() as f64 + 1.0) - 2.0 * MARGIN * row.len() as f64;
+    let room = width - GAP * (row.len() as f64 + 1.0) - 2.0 * MARGIN * row.len() as f64;
     let inner = lesser(room / aspects, TALLEST);
-    let height = inner + 2.0 * MARGIN;
+    row.iter().map(|panel| [inner * aspect(panel) + 2.0 * MARGIN, inner + 2.0 * MARGIN]).collect()
+}
+
+/// Lays a row out below `top`; returns how far it reaches to the right and down.
+fn lay_out_row(row: &[Panel], top: f64, width: f64, entries: &mut Vec<Entry>) -> [f64; 2] {
     let mut left = GAP;
-    let mut bottom = top + height;
-    for panel in row {
-        let rect = ScreenRect { min: [left, top], size: [inner * aspect(panel) + 2.0 * MARGIN, height] };
+    let mut bottom = top;
+    for (panel, size) in row.iter().zip(frame_sizes(row, width)) {
+        let rect = ScreenRect { min: [left, top], size };
         let below = lay_out_panel(panel, rect, entries);
         bottom = greater(bottom, below);
         left += rect.size[0] + GAP;
@@ -100,17 +142,22 @@ fn lay_out_row(row: &[Panel], top: f64, entries: &mut Vec<Entry>) -> [f64; 2] {
 
 fn lay_out_panel(panel: &Panel, rect: ScreenRect, entries: &mut Vec<Entry>) -> f64 {
     let fit = Fit::new(&panel.picture.bounds, rect, MARGIN);
-    for item in &panel.picture.items {
-        let primitives = resolve(item, &fit);
+    let items: Vec<_> = panel.picture.items.iter().map(|item| (item, resolve(item, &fit))).collect();
+    let cut = items.iter().any(|(_, primitives)| primitives.iter().any(|p| reaches_out(p, &rect)));
+    entries.extend(cut.then_some(Entry::Clip(rect)));
+    for (item, primitives) in items {
         let id = format!("{}/{}", panel.picture.name, item.id);
         entries.push(Entry::Group { id, name: item.name.clone(), role: item.role, primitives });
     }
+    entries.extend(cut.then_some(Entry::Unclip));
     let [x, y] = rect.min;
     let (right, bottom) = (x + rect.size[0], y + rect.size[1]);
     let frame = vec![vec![[x, y], [right, y], [right, bottom], [x, bottom], [x, y]]];
     entries.push(Entry::Bare(Primitive::Lines { lines: frame, role: Role::Hairline, line: Line::solid(1.0) }));
     let mut baseline = bottom + LEADING + 2.0;
-    entries.extend(scale_bar(&fit, right, baseline));
+    if panel.picture.in_metres {
+        entries.extend(scale_bar(&fit, right, baseline));
+    }
     if !panel.heading.is_empty() {
         entries.push(Entry::Bare(text(x, baseline, &panel.heading, Face::Sans, 14.0, Role::Text)));
     }
@@ -120,6 +167,18 @@ fn lay_out_panel(panel: &Panel, rect: ScreenRect, entries: &mut Vec<Entry>) -> f
         entries.push(Entry::Bare(text(x, baseline, &line, Face::Mono, 11.0, Role::Muted)));
     }
     baseline + 4.0
+}
+
+/// Whether a stroke or area goes beyond a rectangle.
+fn reaches_out(primitive: &Primitive, rect: &ScreenRect) -> bool {
+    let out = |p: &[f64; 2], by: f64| (0..2).any(|i| p[i] - by < rect.min[i] || p[i] + by > rect.min[i] + rect.size[i]);
+    match primitive {
+        Primitive::Area { corners, .. } => corners.iter().any(|p| out(p, 0.0)),
+        Primitive::Dots { centers, radius, .. } => centers.iter().any(|p| out(p, *radius)),
+        Primitive::Circle { center, radius, .. } => out(center, *radius),
+        Primitive::Lines { lines, .. } => lines.iter().flatten().any(|p| out(p, 0.0)),
+        Primitive::Text { at, .. } => out(at, 0.0),
+    }
 }
 
 /// A line broken at spaces where it is longer than `columns`, what follows a break set in by two.

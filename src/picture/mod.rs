@@ -9,6 +9,7 @@ mod fit;
 mod hatch;
 mod item;
 mod outline;
+mod pick;
 mod resolve;
 mod robot;
 mod role;
@@ -16,10 +17,11 @@ mod svg;
 mod tour;
 mod world;
 
-pub use figure::{Figure, Panel};
+pub use figure::{Figure, Panel, Sheet};
 pub use fit::{Fit, ScaleBar, ScreenPoint, ScreenRect};
 pub use item::{Anchor, Dash, Drawing, Face, Fill, Glyph, Item, Line};
 pub use outline::{chains, outline, polygon_of};
+pub use pick::pick;
 pub use resolve::{Primitive, resolve};
 pub use robot::{RobotDrawing, footprint, robot, scan, trace};
 pub use role::{Palette, Rgb, Role};
@@ -35,6 +37,8 @@ pub struct Picture {
     pub name: String,
     /// The part of the plane it shows, metres.
     pub bounds: Bounds,
+    /// Whether its plane is in metres, so that a scale bar can stand at it. Otherwise lengths are what its axes say.
+    pub in_metres: bool,
     /// The items, lowest first. Their ids are unique.
     pub items: Vec<Item>,
 }
@@ -42,7 +46,7 @@ pub struct Picture {
 impl Picture {
     /// The picture with nothing on it.
     pub fn new(name: impl Into<String>, bounds: Bounds) -> Self {
-        Picture { name: name.into(), bounds, items: Vec::new() }
+        Picture { name: name.into(), bounds, in_metres: true, items: Vec::new() }
     }
 
     /// The picture with these items painted over what is there.

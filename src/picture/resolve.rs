@@ -91,9 +91,8 @@ pub fn resolve(item: &Item, fit: &Fit) -> Vec<Primitive> {
             stroke(&mut out, *role, *line, vec![closed(corners)]);
         }
         Drawing::Region { pieces, outline } => {
-            for piece in pieces {
-                area(&mut out, *role, *fill, &piece.iter().map(px).collect::<Vec<_>>());
-            }
+            let pieces: Vec<Vec<ScreenPoint>> = pieces.iter().map(|piece| piece.iter().map(px).collect()).collect();
+            areas(&mut out, *role, *fill, &pieces);
             stroke(&mut out, *role, *line, outline.iter().map(|l| l.iter().map(px).collect()).collect());
         }
         Drawing::Disc { center, radius } => {
@@ -162,15 +161,26 @@ pub fn resolve(item: &Item, fit: &Fit) -> Vec<Primitive> {
 }
 
 fn area(out: &mut Vec<Primitive>, role: Role, fill: Fill, corners: &[ScreenPoint]) {
+    areas(out, role, fill, &[corners.to_vec()]);
+}
+
+/// Areas of one fill: first all of them, one after the other, then what is on them.
+fn areas(out: &mut Vec<Primitive>, role: Role, fill: Fill, pieces: &[Vec<ScreenPoint>]) {
     let opacity = match fill {
         Fill::None => return,
         Fill::Tint(opacity) => opacity,
         Fill::Hatch | Fill::Dots => TINT,
     };
-    out.push(Primitive::Area { corners: corners.to_vec(), role, opacity });
+    out.extend(pieces.iter().map(|corners| Primitive::Area { corners: corners.clone(), role, opacity }));
     match fill {
-        Fill::Hatch => stroke(out, role, Some(Line::solid(1.0).at_opacity(HATCH_OPACITY)), hatch(corners)),
-        Fill::Dots => out.push(Primitive::Dots { centers: dots(corners), radius: 0.9, role, opacity: 0.8 }),
+        Fill::Hatch => {
+            let lines = pieces.iter().flat_map(|p| hatch(p)).collect();
+            stroke(out, role, Some(Line::solid(1.0).at_opacity(HATCH_OPACITY)), lines);
+        }
+        Fill::Dots => {
+            let centers = pieces.iter().flat_map(|p| dots(p)).collect();
+            out.push(Primitive::Dots { centers, radius: 0.9, role, opacity: 0.8 });
+        }
         _ => {}
     }
 }

@@ -4,13 +4,13 @@ use std::collections::BTreeSet;
 use std::fmt::Write;
 
 use super::figure::Entry;
-use super::{Anchor, Face, Figure, Line, Palette, Primitive, Role, ScreenPoint};
+use super::{Anchor, Face, Figure, Line, Primitive, Role, ScreenPoint, Sheet};
 
 /// Writes laid-out entries as a standalone SVG file of this size in pixels.
 ///
 /// Every item is a group with its id, its role as class and its name as title. Colours stand in one stylesheet: in a group of
 /// role r, class `f` is filled with the role's colour and `l` stroked with it.
-pub(super) fn write(figure: &Figure, entries: &[Entry], size: [f64; 2], palette: &Palette) -> String {
+pub(super) fn write(figure: &Figure, entries: &[Entry], size: [f64; 2], sheet: &Sheet<'_>) -> String {
     let mut out = Out { text: String::new(), ids: BTreeSet::new() };
     let (w, h) = (number(size[0]), number(size[1]));
     let _ = write!(
@@ -21,7 +21,11 @@ pub(super) fn write(figure: &Figure, entries: &[Entry], size: [f64; 2], palette:
         escape(&figure.description),
     );
     out.ids.extend(["title".to_owned(), "desc".to_owned()]);
-    out.stylesheet(palette);
+    if !sheet.notes.is_empty() {
+        let notes = sheet.notes.iter().map(|(key, text)| format!("{key}: {text}")).collect::<Vec<_>>().join("; ");
+        let _ = writeln!(out.text, "<metadata>{}</metadata>", escape(&notes));
+    }
+    out.stylesheet(sheet.palette);
     let _ = writeln!(out.text, "<rect class=\"paper f\" width=\"{w}\" height=\"{h}\"/>");
     for entry in entries {
         match entry {
@@ -29,11 +33,20 @@ pub(super) fn write(figure: &Figure, entries: &[Entry], size: [f64; 2], palette:
             Entry::Group { id, name, role, primitives } => {
                 let id = out.unique(id);
                 let _ = writeln!(out.text, "<g id=\"{id}\" class=\"{}\"><title>{}</title>", role.name(), escape(name));
-                for primitive in primitives {
-                    out.primitive(primitive);
-                }
+                out.primitives(primitives);
                 out.text.push_str("</g>\n");
             }
+            Entry::Clip(rect) => {
+                let id = out.unique("clip");
+                let [x, y] = rect.min.map(number);
+                let [w, h] = rect.size.map(number);
+                let _ = writeln!(
+                    out.text,
+                    "<clipPath id=\"{id}\"><rect x=\"{x}\" y=\"{y}\" width=\"{w}\" height=\"{h}\"/></clipPath>\n\
+                     <g clip-path=\"url(#{id})\">"
+                );
+            }
+            Entry::Unclip => out.text.push_str("</g>\n"),
         }
     }
     out.text.push_str("</svg>\n");
@@ -70,7 +83,7 @@ struct Out {
 }
 
 impl Out {
-    fn stylesheet(&mut self, palette: &Palette) {
+    fn stylesheet(&mut self, palette: &super::Palette) {
         self.text.push_str("<style>\n.l{fill:none;stroke-linejoin:round;stroke-linecap:round}\n");
         self.text.push_str(".sans{font-family:\"Noto Sans\",\"DejaVu Sans\",\"Helvetica Neue\",Arial,sans-serif}\n");
         self.text.push_str(".mono{font-family:\"Noto Sans Mono\",\"DejaVu Sans Mono\",Menlo,Consolas,monospace}\n");
@@ -96,14 +109,36 @@ impl Out {
         candidate
     }
 
+    /// Areas of one kind that follow one another are one path: edges that they share then leave no seam.
+    fn primitives(&mut self, primitives: &[Primitive]) {
+        let kind = |p: &Primitive| match p {
+            Primitive::Area { role, opacity, .. } => Some((*role, opacity.to_bits())),
+            _ => None,
+        };
+        for run in primitives.chunk_by(|a, b| kind(a).is_some() && kind(a) == kind(b)) {
+            if kind(&run[0]).is_some() {
+                self.areas(run);
+            } else {
+                run.iter().for_each(|p| self.primitive(p));
+            }
+        }
+    }
+
+    fn areas(&mut self, run: &[Primitive]) {
+        let (mut d, mut class, mut opaque) = (String::new(), "", String::new());
+        for primitive in run {
+            if let Primitive::Area { corners, role, opacity } = primitive {
+                subpath(&mut d, corners);
+                d.push('Z');
+                (class, opaque) = (role.name(), alpha("fill", *opacity));
+            }
+        }
+        let _ = writeln!(self.text, "<path class=\"{class} f\"{opaque} d=\"{d}\"/>");
+    }
+
     fn primitive(&mut self, primitive: &Primitive) {
         match primitive {
-            Primitive::Area { corners, role, opacity } => {
-                let mut d = String::new();
-                subpath(&mut d, corners);
-                let alpha = alpha("fill", *opacity);
-                let _ = writeln!(self.text, "<path class=\"{} f\"{alpha} d=\"{d}Z\"/>", role.name());
-            }
+            Primitive::Area { .. } => self.areas(std::slice::from_ref(primitive)),
             Primitive::Dots { centers, radius, role, opacity } => {
                 let (name, r) = (role.name(), number(*radius));
                 let alpha = alpha("fill", *opacity);
@@ -197,7 +232,7 @@ fn stroke(line: &Line) -> String {
 mod tests {
     use super::*;
     use crate::geometry::Point2;
-    use crate::picture::{Dash, Drawing, Fill, Item, Panel, Picture, Rgb};
+    use crate::picture::{Dash, Drawing, Fill, Item, Palette, Panel, Picture, Rgb};
     use crate::worlds::Bounds;
 
     fn figure() -> Figure {
@@ -281,6 +316,36 @@ mod tests {
         let points: Vec<f64> =
             d.split('"').next().unwrap().split(['M', 'L', ' ']).filter_map(|n| n.parse().ok()).collect();
         assert!(points[2] > points[0] && points[3] < points[1], "{points:?}");
+    }
+
+    #[test]
+    fn shared_edges_leave_no_seam_and_what_reaches_out_is_cut_off() {
+        let p = Point2::new;
+        let bounds = Bounds { min: p(0.0, 0.0), max: p(10.0, 10.0) };
+        let square = |x: f64| vec![p(x, 1.0), p(x + 2.0, 1.0), p(x + 2.0, 3.0), p(x, 3.0)];
+        let region = |x| Drawing::Region { pieces: vec![square(x), square(x + 2.0)], outline: vec![] };
+        let item = |x| Item::new("r", "r", Role::Free, region(x)).filled(Fill::Tint(0.5));
+        let inside = Figure::of(Picture::new("t", bounds).with([item(1.0)])).svg(&palette());
+        assert_eq!(inside.matches("fill-opacity=\"0.5\"").count(), 1, "two pieces, one path");
+        assert!(!inside.contains("clip"));
+        let outside = Figure::of(Picture::new("t", bounds).with([item(8.0)])).svg(&palette());
+        assert!(outside.contains("<clipPath id=\"clip\">") && outside.contains("url(#clip)"));
+        ids_of_well_formed(&outside);
+    }
+
+    #[test]
+    fn notes_are_metadata_and_a_narrow_sheet_stacks_its_panels() {
+        let mut figure = figure();
+        figure.panels = vec![figure.panels[0].clone(), figure.panels[0].clone()];
+        let notes = [("Seed", "2005".to_owned()), ("By", "<me>".to_owned())];
+        let width = |width_px: f64| {
+            let svg = figure.svg_on(&Sheet { palette: &palette(), width_px, notes: &notes });
+            ids_of_well_formed(&svg);
+            assert!(svg.contains("<metadata>Seed: 2005; By: &lt;me&gt;</metadata>"));
+            svg.split(" width=\"").nth(1).unwrap().split('"').next().unwrap().parse::<f64>().unwrap()
+        };
+        assert!(width(420.0) <= 420.0 && width(700.0) > 600.0 && width(700.0) <= 700.0);
+        assert!(!figure.svg(&palette()).contains("metadata"));
     }
 
     #[test]

@@ -1,5 +1,6 @@
 //! Robots: what occupies which part of the plane at which configuration, and how far a motion moves it.
 
+mod any;
 mod chart_line;
 mod hitch;
 mod motion;
@@ -8,6 +9,7 @@ mod rusty;
 
 use smallvec::SmallVec;
 
+pub use any::AnyRobot;
 pub use chart_line::ChartLine;
 pub use hitch::{CarBody, CarCmd, HITCH, Hitch, HitchArc, TrailerBody};
 pub use motion::{Motion, Rates};
@@ -37,6 +39,9 @@ pub enum ConfigurationError {
     /// A car with a hitch, but no trailer heading.
     #[error("the car has a hitch, but the configuration has no trailer heading")]
     HitchWithoutTrailer,
+    /// A configuration of another robot.
+    #[error("the configuration is one of another robot")]
+    OtherRobot,
     /// The two ends of an edge lie in different spaces.
     #[error(transparent)]
     ChartMismatch(#[from] ChartMismatch),

@@ -118,6 +118,11 @@ impl Rusty {
         let count = |angle: f64| (angle / TAU * self.counts_per_turn).floor() as i64;
         EncoderCounts { left: count(turned.left), right: count(turned.right) }
     }
+
+    /// The way that the encoders tell, metres: the mean of what both wheels have rolled. Slip and walls are not in it.
+    pub fn travelled(&self, counts: &EncoderCounts) -> f64 {
+        0.5 * (counts.left + counts.right) as f64 / self.counts_per_turn * TAU * self.wheel_radius
+    }
 }
 
 impl Robot for Rusty {

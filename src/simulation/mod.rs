@@ -7,6 +7,7 @@
 
 mod components;
 mod drive;
+mod history;
 mod hold;
 mod input;
 mod kinds;
@@ -24,6 +25,7 @@ mod sweep;
 #[cfg(test)]
 mod tests;
 mod transport;
+mod undo;
 mod view;
 
 pub use components::{
@@ -31,10 +33,11 @@ pub use components::{
     PreviousConfiguration, Residents, ResidesIn, RobotId, RobotModel, RobotName, Route, Scan, SensorModel, SensorNoise,
     SensorScanner, Sensors, SimulatedWorld, Slip, TickMotion, WorldScene,
 };
+pub use history::{Happening, History, HistoryPlugin, TickMark, Trail};
 pub use hold::{Advance, HOLD_CLEARANCE, LEAST_CLEARANCE, MARGIN, advance, margin_from};
 pub use input::{PendingInput, RobotCommand};
 pub use ops::RobotOps;
-pub use plugin::{SimulationPlugin, obey, seek, step};
+pub use plugin::{SimulationPlugin, obey, play_tick, seek, step};
 pub use robot_plugin::{RobotKinds, RobotPlugin};
 pub use schedule::{SimulationSchedule, SimulationSystems};
 pub use settle::FLASH_TICKS;
@@ -42,6 +45,7 @@ pub use simulated_robot::SimulatedRobot;
 pub use spawn::{Roster, RunConfig, RunInput, SpawnError, start_run};
 pub use state::{Keyframes, LatestFrame, RestoreError, restore, snapshot};
 pub use transport::{Playback, Transport, TransportCommand};
+pub use undo::Undo;
 pub use view::{RobotView, view};
 
 /// Bevy's app, for a program that adds robots of its own and does not otherwise use Bevy.

@@ -7,9 +7,9 @@ use super::schedule::{Phase, simulation_schedule};
 use super::starts::{Starts, Sweeps, gather_starts};
 use super::transport::re_rolled;
 use super::{
-    Keyframes, LatestFrame, PendingInput, Playback, RestoreError, RobotCommand, RobotKinds, RobotName, RobotPlugin,
-    RunConfig, SimulationSchedule, SimulationSystems, SpawnError, Transport, TransportCommand, input, restore, sense,
-    start_run_in_order, state,
+    History, Keyframes, LatestFrame, PendingInput, Playback, RestoreError, RobotCommand, RobotKinds, RobotName,
+    RobotPlugin, RunConfig, SimulationSchedule, SimulationSystems, SpawnError, Transport, TransportCommand, Undo,
+    input, restore, sense, start_run_in_order, state, undo,
 };
 use crate::random::Seed;
 use crate::robots::{HITCH, RUSTY, Reach};
@@ -32,6 +32,7 @@ impl Plugin for SimulationPlugin {
             .init_resource::<PendingInput>()
             .init_resource::<Keyframes>()
             .init_resource::<LatestFrame>()
+            .init_resource::<Undo>()
             .insert_resource(Transport::new(Seed(0)))
             .insert_resource(Time::<Fixed>::from_seconds(DT))
             .add_message::<TransportCommand>()
@@ -47,7 +48,7 @@ impl Plugin for SimulationPlugin {
             )
             .add_systems(
                 RunFixedMainLoop,
-                (take_robot_commands, take_transport_commands)
+                (take_transport_commands, take_robot_commands)
                     .chain()
                     .in_set(RunFixedMainLoopSystems::BeforeFixedMainLoop),
             )
@@ -87,17 +88,22 @@ fn continue_from_here(world: &mut World) {
     let tick = world.resource::<Transport>().tick;
     world.resource_mut::<PendingInput>().truncate_after(tick);
     world.resource_mut::<Keyframes>().truncate_after(tick);
-    world.resource_mut::<Transport>().frontier = tick;
+    if let Some(mut history) = world.get_resource_mut::<History>() {
+        history.truncate_after(tick);
+    }
+    let mut transport = world.resource_mut::<Transport>();
+    (transport.frontier, transport.looping) = (tick, false);
 }
 
 /// A new run of the present configuration; playback and speed stay.
 fn restart(world: &mut World, seed: Seed) -> Result<(), SpawnError> {
     let Some(RunConfig(config)) = world.get_resource::<RunConfig>().cloned() else { return Ok(()) };
-    let Transport { playback, speed, .. } = *world.resource::<Transport>();
+    undo::checkpoint_before_new_run(world);
+    let Transport { playback, speed, looping, .. } = *world.resource::<Transport>();
     let order: Vec<usize> = (0..config.worlds.iter().map(|w| w.robots.len()).sum()).collect();
     start_run_in_order(world, config, (seed, Script::empty()).into(), &order)?;
     let mut transport = world.resource_mut::<Transport>();
-    (transport.playback, transport.speed) = (playback, speed);
+    *transport = Transport { playback, speed, looping, ..*transport };
     Ok(())
 }
 
@@ -122,18 +128,26 @@ pub fn obey(world: &mut World, command: TransportCommand) -> Result<(), String> 
             to(world, tick.saturating_sub(1))?;
         }
         TransportCommand::Seek(tick) => to(world, tick)?,
-        TransportCommand::ContinueFromHere => continue_from_here(world),
+        TransportCommand::ContinueFromHere => {
+            undo::checkpoint(world);
+            continue_from_here(world);
+        }
         TransportCommand::Reset => anew(world, seed)?,
         TransportCommand::ReRoll => anew(world, re_rolled(seed))?,
         TransportCommand::SetSeed(seed) => anew(world, seed)?,
         TransportCommand::SetSpeed(speed) => {
-            if (1.0 / 64.0..=64.0).contains(&speed) {
+            if (1.0 / 64.0..=64.0).contains(&speed) || speed == f64::INFINITY {
                 world.resource_mut::<Transport>().speed = speed;
                 if let Some(mut time) = world.get_resource_mut::<Time<Virtual>>() {
-                    time.set_relative_speed_f64(speed);
+                    // as fast as possible is not the fixed loop's business
+                    time.set_relative_speed_f64(if speed.is_finite() { speed } else { 1.0 });
                 }
             }
         }
+        TransportCommand::SetLooping(looping) => world.resource_mut::<Transport>().looping = looping,
+        TransportCommand::Checkpoint => undo::checkpoint(world),
+        TransportCommand::Undo => undo::undo(world)?,
+        TransportCommand::Redo => undo::redo(world)?,
     }
     Ok(())
 }
@@ -168,7 +182,18 @@ fn take_transport_commands(world: &mut World) {
 }
 
 fn run_while_playing(world: &mut World) {
-    if world.resource::<Transport>().playback == Playback::Playing {
-        step(world);
+    let Transport { playback, speed, .. } = *world.resource::<Transport>();
+    if playback == Playback::Playing && speed.is_finite() {
+        play_tick(world);
     }
+}
+
+/// The next tick of a run that plays: a looping one begins anew at its frontier.
+pub fn play_tick(world: &mut World) {
+    let Transport { tick, frontier, looping, .. } = *world.resource::<Transport>();
+    if looping && tick >= frontier && frontier > 0 {
+        // tick 0 is always kept
+        let _ = seek(world, 0);
+    }
+    step(world);
 }

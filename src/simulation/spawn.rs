@@ -247,6 +247,9 @@ pub(super) fn start_run_in_order(
     world.insert_resource(PendingInput::new(input.script));
     world.insert_resource(Keyframes::default());
     world.insert_resource(LatestFrame::default());
+    if world.contains_resource::<super::History>() {
+        world.insert_resource(super::History::default());
+    }
     super::sense::sense(world);
     super::state::record(world);
     Ok(())

@@ -17,7 +17,10 @@ impl Default for LatestFrame {
     }
 }
 
-/// Frames kept on the way, so that a seek need not begin at tick 0.
+/// More frames than this are thinned to every second one.
+const MOST_KEYFRAMES: usize = 1024;
+
+/// Frames kept on the way, so that a seek need not begin at tick 0. Their number is bounded: of long runs fewer are kept.
 #[derive(Resource, Clone, Debug, PartialEq)]
 pub struct Keyframes {
     every: u64,
@@ -45,11 +48,15 @@ impl Keyframes {
         if frame.tick.is_multiple_of(self.every) {
             self.frames.insert(frame.tick, frame.clone());
         }
+        if self.frames.len() > MOST_KEYFRAMES {
+            self.every *= 2;
+            self.frames.retain(|tick, _| tick.is_multiple_of(self.every));
+        }
     }
 
     /// Forgets every frame after `tick`.
     pub(super) fn truncate_after(&mut self, tick: u64) {
-        self.frames.split_off(&(tick + 1));
+        self.frames.split_off(&tick.saturating_add(1));
     }
 }
 
@@ -99,6 +106,7 @@ pub(super) fn record(world: &mut World) {
     let frame = snapshot(world);
     world.resource_mut::<Keyframes>().keep(&frame);
     world.resource_mut::<LatestFrame>().0 = frame;
+    super::history::note_where_kept(world);
 }
 
 /// Puts the simulation into the state of `frame`, overwriting components; nothing is spawned. What follows is what followed

@@ -23,8 +23,10 @@ pub struct Transport {
     pub tick: u64,
     /// Whether it plays.
     pub playback: Playback,
-    /// Simulated seconds per second of the clock, above 0.
+    /// Simulated seconds per second of the clock, above 0; infinite for as fast as possible.
     pub speed: f64,
+    /// Whether playing begins anew at tick 0 when it has come to the frontier.
+    pub looping: bool,
     /// The last tick that this run has reached, however far it was taken back since.
     pub frontier: u64,
 }
@@ -32,7 +34,7 @@ pub struct Transport {
 impl Transport {
     /// The start of a run, paused, at normal speed.
     pub fn new(seed: Seed) -> Self {
-        Transport { seed, tick: 0, playback: Playback::Paused, speed: 1.0, frontier: 0 }
+        Transport { seed, tick: 0, playback: Playback::Paused, speed: 1.0, looping: false, frontier: 0 }
     }
 }
 
@@ -57,8 +59,16 @@ pub enum TransportCommand {
     ReRoll,
     /// A new run with this seed.
     SetSeed(Seed),
-    /// Simulated seconds per second of the clock; anything not finite, or out of [1/64, 64], is ignored.
+    /// Simulated seconds per second of the clock, from 1/64 to 64, or infinity for as fast as possible; anything else is ignored.
     SetSpeed(f64),
+    /// Whether to play what there is of the run again and again. Input ends it: a run that is driven goes on.
+    SetLooping(bool),
+    /// Something is about to be done to the run's input: what follows, up to the next checkpoint, is undone as one.
+    Checkpoint,
+    /// Back to the input before the last checkpoint that something followed, and to where the run stood then.
+    Undo,
+    /// The reverse of an undo.
+    Redo,
 }
 
 /// The seed that a re-roll goes to: up to six digits, so that it is easily typed back.

@@ -2,8 +2,9 @@
 
 use std::sync::Arc;
 
-use crate::geometry::Footprint;
-use crate::picture::{Picture, RobotDrawing, robot};
+use crate::configuration::Coordinates;
+use crate::geometry::{Footprint, Point2, Pose2};
+use crate::picture::{Item, Picture, RobotDrawing, robot};
 use crate::random::Seed;
 
 /// One robot in its cockpit.
@@ -25,8 +26,37 @@ pub struct CockpitRobot {
     pub manual: bool,
     /// Whether it has channels to be driven by.
     pub drivable: bool,
+    /// Its kind, as worlds name it.
+    pub kind: String,
+    /// Whether it is an arm, moved by its joints.
+    pub is_arm: bool,
+    /// The coordinates of its configuration at the last tick.
+    pub coordinates: Coordinates,
+    /// Its configuration with every digit.
+    pub in_full: String,
+    /// The coordinates it was told to be at by the next tick.
+    pub target: Option<Coordinates>,
+    /// Where its range sensor is and what it sees, metres; `None` without one.
+    pub sees: Option<(Pose2, Vec<f64>)>,
+    /// The point of an arm that reaches.
+    pub tip: Option<Point2>,
+    /// How often it changed between forward and backward.
+    pub reversals: u32,
     /// Whether a trailer is on; `None` for a robot that can't have one.
     pub trailer: Option<bool>,
+}
+
+/// A name on a paper.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Name {
+    /// The name.
+    pub text: String,
+    /// The middle of what it names, metres.
+    pub at: Point2,
+    /// How far that reaches from its middle, across and up, metres; zero for a place.
+    pub half: [f64; 2],
+    /// What is drawn with it.
+    pub marks: Vec<Item>,
 }
 
 /// One pane: a world with its robots.
@@ -34,6 +64,8 @@ pub struct CockpitRobot {
 pub struct Cockpit {
     /// The world.
     pub world: Arc<Picture>,
+    /// The names of its places and obstacles, shown on demand.
+    pub names: Arc<Vec<Name>>,
     /// Its robots.
     pub robots: Vec<CockpitRobot>,
 }
@@ -53,6 +85,16 @@ pub struct Dashboard {
     pub speed: f64,
     /// Whether it plays.
     pub playing: bool,
+    /// Whether it plays again and again.
+    pub looping: bool,
+    /// What is said when the run falls behind its speed.
+    pub behind: Option<String>,
+    /// The tick of the next contact known.
+    pub next_contact: Option<u64>,
+    /// Whether something can be undone.
+    pub can_undo: bool,
+    /// Whether something can be done again.
+    pub can_redo: bool,
 }
 
 impl Cockpit {
@@ -74,12 +116,13 @@ impl Cockpit {
         }
     }
 
-    /// The robots as a picture over the world.
-    pub fn robots_picture(&self) -> Picture {
-        let items = self.robots.iter().flat_map(|r| {
-            robot(&RobotDrawing { name: &r.name, footprint: &r.footprint, heading: r.heading, in_contact: r.flash })
-        });
-        Picture::new(&self.world.name, self.world.bounds).with(items)
+    /// The robots as items over the world, each red or not as `red` says.
+    pub fn robots_picture(&self, mut red: impl FnMut(&CockpitRobot) -> bool) -> Vec<Item> {
+        let drawn = |r: &CockpitRobot| {
+            let in_contact = red(r);
+            robot(&RobotDrawing { name: &r.name, footprint: &r.footprint, heading: r.heading, in_contact })
+        };
+        self.robots.iter().flat_map(drawn).collect()
     }
 
     /// The pane in words.

@@ -1,10 +1,10 @@
-//! Driving the armed robot with the arrow keys.
+//! Driving the robot in hand, with the arrow keys or the pad.
 
-use bevy_egui::egui::{InputState, Key, Modifiers, Ui};
+use bevy_egui::egui::{InputState, Key, Ui};
 
 use super::{Command, Dashboard, UiState};
 use crate::run::RobotInput;
-use crate::simulation::RobotCommand;
+use crate::simulation::{RobotCommand, TransportCommand};
 
 /// A key asks for all of a channel.
 const FULL: i16 = 128;
@@ -15,25 +15,42 @@ fn channels(input: &InputState) -> (i16, i16) {
     (axis(Key::ArrowUp, Key::ArrowDown), axis(Key::ArrowLeft, Key::ArrowRight))
 }
 
-/// Lets the arrow keys drive the armed robot, and Esc let go of it. Returns whether one is armed: then the arrow keys are its.
+/// Lets the arrow keys and the pad drive the robot in hand; of the two the one that asks for something.
 ///
-/// Arming is no input: the robot goes on with its tour until the first key.
-pub fn drive(ui: &Ui, model: &Dashboard, state: &mut UiState, commands: &mut Vec<Command>) -> bool {
+/// Taking in hand is no input: the robot goes on with its tour until the first key. A key on a paused run lets it play: who
+/// drives wants to see it move. From one rest to the next is one thing to be undone.
+pub fn drive(ui: &Ui, model: &Dashboard, state: &mut UiState, commands: &mut Vec<Command>) {
     let robots = || model.cockpits.iter().flat_map(|cockpit| &cockpit.robots);
-    let Some(robot) = state.armed.take().filter(|name| robots().any(|r| r.drivable && r.name == *name)) else {
-        state.held = (0, 0);
-        return false;
+    let Some(robot) = state.armed.clone().filter(|name| robots().any(|r| r.drivable && r.name == *name)) else {
+        state.armed = None;
+        (state.held, state.pad) = ((0, 0), (0, 0));
+        return;
     };
     let elsewhere = ui.memory(|m| m.focused().is_some());
-    let lets_go = ui.input_mut(|i| i.consume_key(Modifiers::NONE, Key::Escape));
-    let wanted = if lets_go || elsewhere { (0, 0) } else { ui.input(channels) };
-    if wanted != state.held {
-        state.held = wanted;
-        let input = RobotInput::Drive(wanted.0, wanted.1);
-        commands.push(Command::Robot(RobotCommand { robot: robot.clone(), input }));
+    let keys = if elsewhere { (0, 0) } else { ui.input(channels) };
+    let wanted = if keys == (0, 0) { state.pad } else { keys };
+    tell(robot, wanted, model, state, commands);
+}
+
+/// Lets go of the robot in hand. It does not drive on by itself.
+pub fn let_go(model: &Dashboard, state: &mut UiState, commands: &mut Vec<Command>) {
+    if let Some(robot) = state.armed.take() {
+        state.pad = (0, 0);
+        tell(robot, (0, 0), model, state, commands);
     }
-    if !lets_go {
-        state.armed = Some(robot);
+}
+
+fn tell(robot: String, wanted: (i16, i16), model: &Dashboard, state: &mut UiState, commands: &mut Vec<Command>) {
+    if wanted == state.held {
+        return;
     }
-    state.armed.is_some()
+    if state.held == (0, 0) {
+        commands.push(Command::Transport(TransportCommand::Checkpoint));
+        if !model.playing {
+            commands.push(Command::Transport(TransportCommand::Play));
+        }
+    }
+    state.held = wanted;
+    let input = RobotInput::Drive(wanted.0, wanted.1);
+    commands.push(Command::Robot(RobotCommand { robot, input }));
 }

@@ -1,25 +1,78 @@
 //! What people see and touch. Colours are known to [`Theme`] alone; what needs a window stands behind the feature `window`.
 
+#[cfg(feature = "window")]
+mod anatomy_view;
+pub mod arm;
+#[cfg(feature = "window")]
+mod atlas_state;
+#[cfg(feature = "window")]
+mod atlas_view;
 mod blend;
+#[cfg(feature = "window")]
+mod button;
 #[cfg(feature = "window")]
 pub mod canvas;
 mod cockpit;
 #[cfg(feature = "window")]
+mod cspace_view;
+#[cfg(feature = "window")]
 mod dashboard;
 #[cfg(feature = "window")]
 mod drive;
+mod formula;
+#[cfg(feature = "window")]
+mod frame;
+mod goal;
+#[cfg(feature = "window")]
+mod handles;
+#[cfg(feature = "window")]
+mod help;
+#[cfg(feature = "window")]
+pub mod keys;
+#[cfg(feature = "window")]
+mod lab;
+#[cfg(feature = "window")]
+mod labels;
+#[cfg(feature = "window")]
+mod look;
+mod manifest;
+#[cfg(feature = "window")]
+mod pad;
+#[cfg(feature = "window")]
+mod pane;
+#[cfg(feature = "window")]
+mod plots;
 mod readout;
+mod settings;
+#[cfg(feature = "window")]
+mod sheet;
+mod state;
 mod theme;
 #[cfg(feature = "window")]
 mod time_line;
 #[cfg(feature = "window")]
+mod tools;
+#[cfg(feature = "window")]
 mod transport_bar;
 
-pub use blend::{blend, heading};
-pub use cockpit::{Cockpit, CockpitRobot, Dashboard};
 #[cfg(feature = "window")]
-pub use dashboard::dashboard;
+pub use anatomy_view::AnatomyState;
+#[cfg(feature = "window")]
+pub use atlas_state::{AtlasState, Mode};
+pub use blend::{blend, heading};
+pub use cockpit::{Cockpit, CockpitRobot, Dashboard, Name};
+#[cfg(feature = "window")]
+pub use cspace_view::CspaceState;
+pub use formula::{Formula, Level, Term};
+pub use goal::{Off, ParkingGoal, trailer_of};
+#[cfg(feature = "window")]
+pub use lab::lab;
+#[cfg(feature = "window")]
+pub use look::Look;
+pub use manifest::{KeyText, WidgetText, widget, widgets};
 pub use readout::{readout, readout_lines};
+pub use settings::{Settings, ThemeChoice};
+pub use state::{Flash, Notice, UiState};
 pub use theme::Theme;
 #[cfg(feature = "window")]
 pub use transport_bar::transport_bar;
@@ -31,19 +84,28 @@ pub enum Command {
     Transport(crate::simulation::TransportCommand),
     /// Put something in to a robot.
     Robot(crate::simulation::RobotCommand),
+    /// Do something with runs as a whole.
+    Session(SessionCommand),
 }
 
-/// What the window remembers that is no part of a run.
-#[derive(Clone, Debug, Default)]
-pub struct UiState {
-    /// Light or dark paper.
-    pub theme: Theme,
-    /// Which pane a narrow screen shows.
-    pub pane: usize,
-    /// The seed field's text while it is edited.
-    pub seed_text: Option<String>,
-    /// The name of the robot that the arrow keys drive.
-    pub armed: Option<String>,
-    /// The channels it was last told to hold.
-    pub held: (i16, i16),
+/// What is asked for that is neither a move of the run nor an input to it.
+#[derive(bevy::prelude::Message, Clone, Debug, PartialEq, Eq)]
+pub enum SessionCommand {
+    /// Save the run: ask for a file first.
+    Save,
+    /// Open a run: ask for a file first.
+    Open,
+    /// Open a world in the atlas: ask for a file first.
+    OpenWorld,
+    /// Save the atlas's world: ask for a file first.
+    SaveWorld,
+    /// A new run in the atlas's world.
+    RunWorld,
+    /// A new run in which an arm has so many links.
+    Links {
+        /// The arm.
+        robot: String,
+        /// Two or three.
+        links: usize,
+    },
 }

@@ -33,8 +33,22 @@ fn number_start(text: &str) -> Option<usize> {
     (1..bytes.len()).find(|&i| (bytes[i].is_ascii_digit() || bytes[i] == b'-') && matches!(bytes[i - 1], b' ' | b'('))
 }
 
-/// A readout on lines of its own for each field where it is long: a car's body and trailer.
-pub fn readout_lines(readout: &str) -> Vec<String> {
+/// A readout on lines of at most `most` characters where it can be broken: a car's body and trailer each on lines of their own,
+/// and a pose that is still too long on two.
+pub fn readout_lines(readout: &str, most: usize) -> Vec<String> {
+    let too_long = |line: &String| line.chars().count() > most;
+    let broken = |line: String| match line.split_once("{ ") {
+        Some((name, numbers)) if too_long(&line) => {
+            let indent = name.chars().take_while(|c| *c == ' ').count() + 2;
+            vec![format!("{name}{{"), format!("{:indent$}{numbers}", "")]
+        }
+        _ => vec![line],
+    };
+    fields(readout).into_iter().flat_map(broken).collect()
+}
+
+/// Each field of a car's configuration on a line of its own.
+fn fields(readout: &str) -> Vec<String> {
     let fields = readout.split_once(" body:").and_then(|(name, rest)| Some((name, rest.split_once(" trailer:")?)));
     match fields {
         Some((name, (body, trailer))) => {
@@ -64,13 +78,16 @@ mod tests {
     #[test]
     fn a_car_reads_field_by_field() {
         let q = HitchCfg { body: Pose2::new(1.0, 2.0, 0.5), trailer: Some(-0.1) };
-        let lines = readout_lines(&readout(&q.to_string()));
+        let lines = readout_lines(&readout(&q.to_string()), 60);
         let expected = [
             "HitchCfg {",
             "  body: Pose2 { x:  1.000, y:  2.000, theta:  0.500 },",
             "  trailer: Some(\u{2212}0.100) }",
         ];
         assert_eq!(lines, expected);
-        assert_eq!(readout_lines("T2 { th1: 0.1 }"), ["T2 { th1: 0.1 }"]);
+        assert_eq!(readout_lines("T2 { th1: 0.1 }", 60), ["T2 { th1: 0.1 }"]);
+        let narrow = readout_lines(&readout(&q.to_string()), 50);
+        assert_eq!(narrow[1..3], ["  body: Pose2 {", "    x:  1.000, y:  2.000, theta:  0.500 },"]);
+        assert!(narrow.iter().all(|line| line.chars().count() <= 50));
     }
 }

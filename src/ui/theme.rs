@@ -6,7 +6,7 @@ mod style;
 use crate::picture::{Palette, Rgb};
 
 /// Light or dark paper.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Theme {
     /// Dark strokes on light paper.
     #[default]
@@ -59,15 +59,6 @@ impl Theme {
         match self {
             Theme::Light => &LIGHT,
             Theme::Dark => &DARK,
-        }
-    }
-
-    /// The other theme.
-    #[must_use]
-    pub const fn toggled(self) -> Self {
-        match self {
-            Theme::Light => Theme::Dark,
-            Theme::Dark => Theme::Light,
         }
     }
 }

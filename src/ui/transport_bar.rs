@@ -1,15 +1,18 @@
-//! The transport bar: the time line, play and pause, steps, reset, re-roll, the speed, the seed, the time.
+//! The transport bar: the time line, play and pause, steps, loop, reset, re-roll, the speed, the seed, the time.
 
-use bevy_egui::egui::{Align, Button, ComboBox, Key, Layout, Modifiers, RichText, TextEdit, Ui, vec2};
+use bevy_egui::egui::{Align, ComboBox, Key, Layout, RichText, TextEdit, TextStyle, Ui, vec2};
 
+use super::button::button;
+use super::keys::{Action, hint};
 use super::time_line::time_line;
-use super::{Command, Dashboard, UiState};
+use super::{Command, Dashboard, Look, UiState};
+use crate::picture::Role;
 use crate::random::Seed;
 use crate::run::DT;
-use crate::simulation::TransportCommand;
+use crate::simulation::{History, TransportCommand};
 
 /// The speeds to choose from, simulated seconds per second of the clock.
-const SPEEDS: [(f64, &str); 10] = [
+const SPEEDS: [(f64, &str); 11] = [
     (0.125, "1/8 x"),
     (0.25, "1/4 x"),
     (0.5, "1/2 x"),
@@ -20,61 +23,91 @@ const SPEEDS: [(f64, &str); 10] = [
     (16.0, "16 x"),
     (32.0, "32 x"),
     (64.0, "64 x"),
+    (f64::INFINITY, "as fast as possible"),
 ];
 
-/// The keys that move the run while nothing has the focus.
-const KEYS: [(Key, TransportCommand); 3] = [
-    (Key::ArrowLeft, TransportCommand::StepBack),
-    (Key::ArrowRight, TransportCommand::Step),
-    (Key::Home, TransportCommand::Seek(0)),
-];
+/// Does what a key or a button asks for, as far as it moves the run.
+pub fn act(action: Action, model: &Dashboard, commands: &mut Vec<Command>) {
+    let at = SPEEDS.iter().position(|(speed, _)| *speed == model.speed);
+    let speed = |at: Option<usize>| SPEEDS.get(at?).map(|(speed, _)| TransportCommand::SetSpeed(*speed));
+    let command = match action {
+        Action::PlayPause if model.playing => Some(TransportCommand::Pause),
+        Action::PlayPause => Some(TransportCommand::Play),
+        Action::StepBack => Some(TransportCommand::StepBack),
+        Action::Step => Some(TransportCommand::Step),
+        Action::Start => Some(TransportCommand::Seek(0)),
+        Action::End => Some(TransportCommand::Seek(model.frontier)),
+        Action::NextContact => model.next_contact.map(TransportCommand::Seek),
+        Action::Loop => Some(TransportCommand::SetLooping(!model.looping)),
+        Action::Slower => speed(at.and_then(|i| i.checked_sub(1))),
+        Action::Faster => speed(at.map(|i| i + 1)),
+        Action::Continue if model.tick < model.frontier => Some(TransportCommand::ContinueFromHere),
+        Action::Reset => Some(TransportCommand::Reset),
+        Action::ReRoll => Some(TransportCommand::ReRoll),
+        _ => None,
+    };
+    commands.extend(command.map(Command::Transport));
+}
 
-/// Shows the time line and the bar under it, on a `narrow` screen in more rows. While a robot is `armed` the arrow keys are its.
+/// Shows the time line and the bar under it, on a `narrow` screen in more rows.
 pub fn transport_bar(
     ui: &mut Ui,
     model: &Dashboard,
+    history: &History,
+    (narrow, look): (bool, &Look),
     state: &mut UiState,
-    (narrow, armed): (bool, bool),
     commands: &mut Vec<Command>,
 ) {
-    // a focused button, field or line keeps its own keys
-    let free = ui.memory(|m| m.focused().is_none());
-    let pressed = |key| free && ui.input_mut(|i| i.consume_key(Modifiers::NONE, key));
-    let space = pressed(Key::Space);
-    for (key, command) in KEYS {
-        if !armed && pressed(key) {
-            commands.push(Command::Transport(command));
-        }
-    }
-    time_line(ui, model, commands);
-    ui.horizontal(|ui| {
-        play_and_step(ui, model, space, commands);
-        if !narrow {
-            speed_choice(ui, model, commands);
-            seed_and_time(ui, model, state, commands);
-        }
-    });
+    time_line(ui, model, history, look, commands);
     if narrow {
-        ui.horizontal(|ui| seed_and_time(ui, model, state, commands));
+        ui.spacing_mut().button_padding.x = 7.0;
+        ui.spacing_mut().item_spacing.x = 5.0;
+        ui.horizontal(|ui| {
+            buttons(ui, model, look, &PLAY, commands);
+            ui.menu_button("More", |ui| {
+                buttons(ui, model, look, &MORE, commands);
+                speed_choice(ui, model, commands);
+            });
+        });
+        ui.horizontal(|ui| seed_and_time(ui, model, look, state, commands));
+    } else {
+        ui.horizontal(|ui| {
+            ui.spacing_mut().button_padding.x = 9.0;
+            ui.spacing_mut().item_spacing.x = 6.0;
+            buttons(ui, model, look, &PLAY, commands);
+            buttons(ui, model, look, &MORE, commands);
+            speed_choice(ui, model, commands);
+            seed_and_time(ui, model, look, state, commands);
+        });
     }
 }
 
-fn play_and_step(ui: &mut Ui, model: &Dashboard, space: bool, commands: &mut Vec<Command>) {
-    let height = ui.spacing().interact_size.y;
-    let (label, command) =
-        if model.playing { ("Pause", TransportCommand::Pause) } else { ("Play", TransportCommand::Play) };
-    let play = ui.add(Button::new(label).min_size(vec2(64.0, height))).on_hover_text("Space");
-    if play.clicked() || space {
-        commands.push(Command::Transport(command));
-    }
-    for (label, hint, command) in [
-        ("Back", "One tick back, and pause: left arrow", TransportCommand::StepBack),
-        ("Step", "One tick, and pause: right arrow", TransportCommand::Step),
-        ("Reset", "Back to the start, same seed, no input", TransportCommand::Reset),
-        ("Re-roll", "A new run from another seed", TransportCommand::ReRoll),
-    ] {
-        if ui.button(label).on_hover_text(hint).clicked() {
-            commands.push(Command::Transport(command));
+/// What a narrow screen shows at once, and what it keeps in a menu.
+const PLAY: [(&str, Action); 5] = [
+    ("Play", Action::PlayPause),
+    ("Back", Action::StepBack),
+    ("Step", Action::Step),
+    ("Reset", Action::Reset),
+    ("Re-roll", Action::ReRoll),
+];
+const MORE: [(&str, Action); 3] =
+    [("Next contact", Action::NextContact), ("Loop", Action::Loop), ("Continue from here", Action::Continue)];
+
+fn buttons(ui: &mut Ui, model: &Dashboard, look: &Look, buttons: &[(&str, Action)], commands: &mut Vec<Command>) {
+    for &(label, action) in buttons {
+        let (label, width) = match action {
+            Action::PlayPause if model.playing => ("Pause", 60.0),
+            Action::PlayPause => (label, 60.0),
+            _ => (label, 0.0),
+        };
+        let enabled = match action {
+            Action::NextContact => model.next_contact.is_some(),
+            Action::Continue => model.tick < model.frontier,
+            _ => true,
+        };
+        let on = action == Action::Loop && model.looping;
+        if button(ui, label, width, (enabled, on), look).on_hover_text(hint(action)).clicked() {
+            act(action, model, commands);
         }
     }
 }
@@ -82,26 +115,32 @@ fn play_and_step(ui: &mut Ui, model: &Dashboard, space: bool, commands: &mut Vec
 /// How fast it plays.
 fn speed_choice(ui: &mut Ui, model: &Dashboard, commands: &mut Vec<Command>) {
     let name = |speed: f64| SPEEDS.iter().find(|(s, _)| *s == speed).map_or("other", |(_, name)| name);
-    let choice =
-        ComboBox::from_id_salt("speed").width(72.0).height(400.0).selected_text(name(model.speed)).show_ui(ui, |ui| {
-            for (speed, name) in SPEEDS {
-                if ui.selectable_label(speed == model.speed, name).clicked() {
-                    commands.push(Command::Transport(TransportCommand::SetSpeed(speed)));
-                }
+    let selected = if model.speed.is_infinite() { "fastest" } else { name(model.speed) };
+    let choice = ComboBox::from_id_salt("speed").width(64.0).height(440.0).selected_text(selected).show_ui(ui, |ui| {
+        for (speed, name) in SPEEDS {
+            if ui.selectable_label(speed == model.speed, name).clicked() {
+                commands.push(Command::Transport(TransportCommand::SetSpeed(speed)));
             }
-        });
-    choice.response.on_hover_text("Simulated seconds per second");
+        }
+    });
+    choice.response.on_hover_text(format!(
+        "Simulated seconds per second: {}, {}",
+        hint(Action::Slower),
+        hint(Action::Faster)
+    ));
 }
 
-/// The seed, and at the right end the time and the paper.
-fn seed_and_time(ui: &mut Ui, model: &Dashboard, state: &mut UiState, commands: &mut Vec<Command>) {
+/// The seed, and at the right end the time.
+fn seed_and_time(ui: &mut Ui, model: &Dashboard, look: &Look, state: &mut UiState, commands: &mut Vec<Command>) {
     if let Some(seed) = seed_field(ui, model.seed, state) {
         commands.push(Command::Transport(TransportCommand::SetSeed(seed)));
     }
     ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-        theme_button(ui, state);
         let time = format!("{:7.2} s  tick {:5}", DT * model.tick as f64, model.tick);
         ui.label(RichText::new(time).monospace());
+        if let Some(behind) = &model.behind {
+            ui.label(RichText::new(behind).small().color(look.colour(Role::Focus)));
+        }
     });
 }
 
@@ -109,7 +148,7 @@ fn seed_and_time(ui: &mut Ui, model: &Dashboard, state: &mut UiState, commands: 
 fn seed_field(ui: &mut Ui, seed: Seed, state: &mut UiState) -> Option<Seed> {
     let label = ui.label("seed");
     let mut text = state.seed_text.take().unwrap_or_else(|| seed.0.to_string());
-    let field = TextEdit::singleline(&mut text).desired_width(72.0).font(bevy_egui::egui::TextStyle::Monospace);
+    let field = TextEdit::singleline(&mut text).desired_width(56.0).font(TextStyle::Monospace);
     let field = field.vertical_align(Align::Center).min_size(vec2(0.0, ui.spacing().interact_size.y));
     let response = ui.add(field).labelled_by(label.id);
     if response.has_focus() {
@@ -118,11 +157,4 @@ fn seed_field(ui: &mut Ui, seed: Seed, state: &mut UiState) -> Option<Seed> {
     }
     let entered = response.lost_focus() && ui.input(|i| i.key_pressed(Key::Enter));
     text.trim().parse().ok().map(Seed).filter(|new| entered && *new != seed)
-}
-
-fn theme_button(ui: &mut Ui, state: &mut UiState) {
-    let other = state.theme.toggled();
-    if ui.button(format!("{other:?}")).on_hover_text("Light or dark paper").clicked() {
-        state.theme = other;
-    }
 }

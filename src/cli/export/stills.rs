@@ -4,11 +4,12 @@ use std::path::Path;
 
 use clap::Args;
 use motion_lab::run::Log;
+use motion_lab::ui::Theme;
 
 use crate::cli::Failure;
 use crate::cli::figure::RunFigure;
 use crate::cli::output::PendingFile;
-use crate::cli::raster::{GifWriter, Raster, write_png};
+use crate::cli::raster::{GifWriter, Raster, Size, write_png};
 use crate::cli::simulate::show;
 
 /// Hundredths of a second in a tick.
@@ -52,7 +53,7 @@ pub fn svg_at(file: &Path, log: &Log, tick: u64) -> Result<String, Failure> {
 /// Writes a PNG of the run at one tick.
 pub fn png(args: &StillArgs, file: &Path, log: &Log, output: &Path) -> Result<(), Failure> {
     let tick = args.tick.unwrap_or(log.frames.len() as u64);
-    let image = Raster::new(args.width).paint(&svg_at(file, log, tick)?, None)?;
+    let image = Raster::new(Size::Wide(args.width)).paint(&svg_at(file, log, tick)?, None)?;
     let mut pending = PendingFile::create(output)?;
     let notes = [
         ("Software", format!("motion-lab {}", env!("CARGO_PKG_VERSION"))),
@@ -72,7 +73,7 @@ pub fn gif(args: &StillArgs, file: &Path, log: &Log, output: &Path) -> Result<()
         return Err(beyond(log, if from > to { from } else { to }));
     }
     let failed = |error| Failure::output(output, &error);
-    let raster = Raster::new(args.width);
+    let raster = Raster::new(Size::Wide(args.width));
     let comment = format!("motion-lab, seed {}, digest {}, ticks {from} to {to}", log.seed.0, log.digest());
     let hundredths = (TICK_HUNDREDTHS * args.every) as u16;
     let mut pending = Some(PendingFile::create(output)?);
@@ -83,7 +84,10 @@ pub fn gif(args: &StillArgs, file: &Path, log: &Log, output: &Path) -> Result<()
         if let Some(pending) = pending.take() {
             let too_large = |_| Failure::usage("the pictures are too large for a GIF", "Choose a smaller --width.");
             let size = [image.width.try_into().map_err(too_large)?, image.height.try_into().map_err(too_large)?];
-            writer = Some((GifWriter::new(pending, size, hundredths, &comment).map_err(failed)?, image.height));
+            writer = Some((
+                GifWriter::new(pending, size, hundredths, Theme::Light.palette(), &comment).map_err(failed)?,
+                image.height,
+            ));
         }
         match &mut writer {
             Some((writer, _)) => writer.write(&image).map_err(failed),

@@ -7,7 +7,6 @@ mod robot;
 
 use std::io::{self, Read};
 use std::path::{Path, PathBuf};
-use std::str::FromStr;
 use std::sync::Arc;
 
 use clap::{Args, ValueEnum};
@@ -18,9 +17,10 @@ use serde::Serialize;
 use answer::{Answer, ask_scan};
 use line::{Asked, parse_line};
 use lines::Lines;
-use robot::RobotName;
+pub use robot::RobotName;
 
 use super::input::open;
+use super::numbers::Numbers;
 use super::world_source::find_world;
 use super::{Data, Failure, Outcome, say};
 
@@ -90,20 +90,6 @@ enum Question {
     Edge,
     /// What a range sensor there sees.
     Scan,
-}
-
-/// Numbers joined by commas.
-#[derive(Clone, Debug)]
-struct Numbers(Vec<f64>);
-
-impl FromStr for Numbers {
-    type Err = String;
-
-    fn from_str(text: &str) -> Result<Self, String> {
-        let number =
-            |n: &str| n.trim().parse().map_err(|_| format!("{n:?} is no number; join numbers by commas: 0.785,1.571"));
-        text.split(',').map(number).collect::<Result<_, _>>().map(Numbers)
-    }
 }
 
 impl Query {

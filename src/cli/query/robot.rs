@@ -1,13 +1,15 @@
 //! The robots that can be asked about, by name.
 
+use std::f64::consts::{FRAC_PI_2, FRAC_PI_4};
 use std::sync::Arc;
 
 use clap::ValueEnum;
 use motion_lab::collision::{Checker, Scene};
-use motion_lab::configuration::{HitchCfg, Tn};
+use motion_lab::configuration::{AnyConfiguration, HitchCfg, Tn};
 use motion_lab::geometry::{MAX_COORDINATE, Pose2};
 use motion_lab::num::wrap;
-use motion_lab::robots::{HITCH, RUSTY, Reach, Robot};
+use motion_lab::robots::{AnyRobot, HITCH, RUSTY, Reach, Robot};
+use motion_lab::worlds::World;
 
 use super::Question;
 use super::answer::{Answer, ask};
@@ -44,8 +46,33 @@ impl RobotName {
         }
     }
 
+    /// The robot with a configuration: these numbers, or where a world's resident of its kind starts, or for an arm the book's.
+    pub fn at(self, numbers: Option<&[f64]>, world: &World) -> Result<(AnyRobot, AnyConfiguration), String> {
+        let kind = match self {
+            RobotName::Rusty => "rusty",
+            RobotName::Reach | RobotName::Choset => "reach",
+            RobotName::Reach3 => "reach3",
+            RobotName::Hitch => "hitch",
+        };
+        let resident = world.robots.iter().find(|r| r.kind == kind).map(|r| r.start.clone());
+        let numbers = match (numbers, kind) {
+            (Some([x, y]), "rusty") => vec![*x, *y, 0.0],
+            (Some(numbers), _) => numbers.to_vec(),
+            (None, "reach") => vec![FRAC_PI_4, FRAC_PI_2],
+            (None, "reach3") => resident.unwrap_or(vec![0.5, 0.9, 0.7]),
+            (None, _) => resident.ok_or_else(|| format!("no {kind} lives there: give its configuration with --q"))?,
+        };
+        if matches!(self, RobotName::Rusty | RobotName::Hitch) {
+            check_place(&numbers)?;
+        }
+        let (robot, q) =
+            AnyRobot::of_kind(kind, &numbers).ok_or_else(|| format!("{numbers:?} is no configuration of a {kind}"))?;
+        let robot = if self == RobotName::Choset { AnyRobot::Reach(Reach::choset()) } else { robot };
+        Ok((robot, q))
+    }
+
     /// The answer to a question about this robot.
-    pub fn answer(self, scene: &Arc<Scene>, question: Question, asked: &Asked) -> Result<Answer, String> {
+    pub(super) fn answer(self, scene: &Arc<Scene>, question: Question, asked: &Asked) -> Result<Answer, String> {
         let with_trailer = asked.q.len() == 4;
         match self {
             RobotName::Rusty => convert(scene, RUSTY, question, asked, rusty_pose),

@@ -4,53 +4,67 @@ use std::sync::Arc;
 
 use bevy_egui::egui::{Context, Event, Key, Modifiers, PointerButton, RawInput, Rect, Shape, Vec2, pos2};
 
-use super::dashboard;
-use crate::configuration::{HitchCfg, T2};
+use crate::configuration::{Configuration, HitchCfg, T2};
 use crate::geometry::{Point2, Pose2};
 use crate::picture::{Picture, Role};
 use crate::random::Seed;
 use crate::robots::{HITCH, RUSTY, Reach, Robot};
 use crate::run::RobotInput;
-use crate::simulation::{RobotCommand, TransportCommand};
-use crate::ui::{Cockpit, CockpitRobot, Command, Dashboard, Theme, UiState};
+use crate::simulation::{History, RobotCommand, TransportCommand};
+use crate::ui::{Cockpit, CockpitRobot, Command, Dashboard, Theme, ThemeChoice, UiState, lab};
 use crate::worlds::Bounds;
 
 const WIDE: Vec2 = Vec2::new(1280.0, 800.0);
 const PHONE: Vec2 = Vec2::new(390.0, 844.0);
 
-fn robot<R: Robot>(name: &str, robot: &R, q: R::Configuration) -> CockpitRobot {
+fn robot<R: Robot>(name: &str, kind: &str, robot: &R, q: R::Configuration) -> CockpitRobot {
     CockpitRobot {
         name: name.into(),
+        kind: kind.into(),
         readout: q.to_string(),
+        in_full: format!("{q:?}"),
+        coordinates: q.coordinates(),
+        target: None,
         footprint: robot.footprint(&q),
         heading: None,
         flash: false,
         contacts: 3,
         manual: false,
-        drivable: true,
+        drivable: !kind.starts_with("reach"),
+        is_arm: kind.starts_with("reach"),
         trailer: None,
+        sees: None,
+        tip: None,
+        reversals: 0,
     }
 }
 
 fn cockpit(world: &str, width: f64, height: f64, robot: CockpitRobot) -> Cockpit {
     let bounds = Bounds { min: Point2::new(0.0, 0.0), max: Point2::new(width, height) };
-    Cockpit { world: Arc::new(Picture::new(world, bounds)), robots: vec![robot] }
+    Cockpit { world: Arc::new(Picture::new(world, bounds)), names: Arc::default(), robots: vec![robot] }
 }
 
 fn model() -> Dashboard {
     let car = HITCH.with_trailer();
     let pose = Pose2::new(10.5, 6.25, -1.5);
+    let mut hitch = robot("Hitch", "hitch", &car, HitchCfg { body: pose, trailer: Some(-1.5) });
+    hitch.trailer = Some(true);
     Dashboard {
         cockpits: vec![
-            cockpit("Apartment", 12.0, 8.0, robot("Rusty", &RUSTY, pose)),
-            cockpit("Workbench", 4.8, 4.8, robot("Reach", &Reach::<2>::workbench(), T2::new(0.5, 1.0))),
-            cockpit("Lot", 16.0, 10.0, robot("Hitch", &car, HitchCfg { body: pose, trailer: Some(-1.5) })),
+            cockpit("Apartment", 12.0, 8.0, robot("Rusty", "rusty", &RUSTY, pose)),
+            cockpit("Workbench", 4.8, 4.8, robot("Reach", "reach", &Reach::<2>::workbench(), T2::new(0.5, 1.0))),
+            cockpit("Lot", 16.0, 10.0, hitch),
         ],
         seed: Seed(2005),
         tick: 1200,
         frontier: 1200,
         speed: 1.0,
         playing: true,
+        looping: false,
+        behind: None,
+        next_contact: None,
+        can_undo: true,
+        can_redo: false,
     }
 }
 
@@ -64,7 +78,9 @@ struct Screen {
 
 impl Screen {
     fn new(size: Vec2, model: &Dashboard) -> Self {
-        let mut screen = Screen { ctx: Context::default(), size, state: UiState::default(), shapes: Vec::new() };
+        let mut state = UiState::default();
+        state.settings.hints_seen = true;
+        let mut screen = Screen { ctx: Context::default(), size, state, shapes: Vec::new() };
         for _ in 0..3 {
             screen.frame(model, vec![]); // egui learns sizes from the frame before
         }
@@ -75,7 +91,8 @@ impl Screen {
         let screen_rect = Some(Rect::from_min_size(pos2(0.0, 0.0), self.size));
         let input = RawInput { screen_rect, events, ..RawInput::default() };
         let mut commands = Vec::new();
-        let mut output = self.ctx.run_ui(input, |ui| dashboard(ui, model, &mut self.state, &mut commands));
+        let mut output =
+            self.ctx.run_ui(input, |ui| lab(ui, model, &History::default(), &mut self.state, &mut commands));
         output.textures_delta.clear(); // no one uploads them
         self.shapes = output.shapes.into_iter().map(|clipped| clipped.shape).collect();
         commands
@@ -96,7 +113,8 @@ impl Screen {
         fn collect(shape: &Shape, out: &mut Vec<(String, Rect)>) {
             match shape {
                 Shape::Text(text) => {
-                    let rect = text.galley.rect.translate(text.pos.to_vec2());
+                    // where the ink is: the first line of words in a row is indented within its own rectangle
+                    let rect = text.galley.mesh_bounds.translate(text.pos.to_vec2());
                     out.push((text.galley.text().to_owned(), rect));
                 }
                 Shape::Vec(shapes) => shapes.iter().for_each(|s| collect(s, out)),
@@ -118,7 +136,10 @@ fn all_words_stay_on_the_screen_and_apart() {
         for (i, (text, rect)) in texts.iter().enumerate() {
             assert!(page.contains_rect(*rect), "{text:?} at {rect} leaves the page of {size}");
             for (other, place) in &texts[..i] {
-                assert!(!rect.shrink(0.5).intersects(place.shrink(0.5)), "{text:?} runs into {other:?} at {size}");
+                assert!(
+                    !rect.shrink(0.5).intersects(place.shrink(0.5)),
+                    "{text:?} at {rect} runs into {other:?} at {place}, {size}"
+                );
             }
         }
         assert!(texts.len() > 10, "the test no longer finds the words");
@@ -153,8 +174,8 @@ fn buttons_and_the_space_bar_send_what_they_say() {
     assert_eq!(screen.click(&playing, "Step"), sent(TransportCommand::Step));
     assert_eq!(screen.click(&playing, "Reset"), sent(TransportCommand::Reset));
     assert_eq!(screen.click(&playing, "Re-roll"), sent(TransportCommand::ReRoll));
-    assert_eq!(screen.click(&playing, "Dark"), []);
-    assert_eq!(screen.state.theme, Theme::Dark);
+    assert_eq!(screen.click(&playing, "System theme"), []);
+    assert_eq!(screen.state.settings.theme, ThemeChoice::Light);
 }
 
 #[test]
@@ -207,7 +228,8 @@ fn the_time_line_goes_to_the_tick_that_is_pointed_at() {
         // the line stands above the row of buttons
         let (_, play) = screen.texts().into_iter().find(|(text, _)| text == "Play").expect("the bar");
         let height = if size == PHONE { 44.0 } else { 28.0 };
-        let pos = pos2(0.5 * size.x, play.center().y - height - 4.0);
+        let rail = if size == PHONE { 0.0 } else { 76.0 };
+        let pos = pos2(0.5 * (size.x + rail), play.center().y - height - 4.0);
         let button =
             |pressed| Event::PointerButton { pos, button: PointerButton::Primary, pressed, modifiers: Modifiers::NONE };
         let mut commands = screen.frame(&paused, vec![Event::PointerMoved(pos), button(true)]);
@@ -253,7 +275,9 @@ fn a_clicked_pane_is_driven_by_the_arrow_keys_until_esc() {
     assert_eq!(screen.state.armed.as_deref(), Some("Rusty"));
     screen.frame(&model, vec![]);
     assert!(screen.texts().iter().any(|(text, _)| text == "arrows drive, Esc lets go"));
-    assert_eq!(screen.frame(&model, vec![key(Key::ArrowUp, true)]), told(128, 0));
+    let checkpoint = Command::Transport(TransportCommand::Checkpoint);
+    let first = screen.frame(&model, vec![key(Key::ArrowUp, true)]);
+    assert_eq!((&first[0], &first[1..]), (&checkpoint, &told(128, 0)[..]), "what follows can be undone");
     assert_eq!(screen.frame(&model, vec![]), [], "held: nothing changes");
     assert_eq!(screen.frame(&model, vec![key(Key::ArrowRight, true)]), told(128, -128));
     assert_eq!(screen.frame(&model, vec![key(Key::ArrowUp, false)]), told(0, -128));
@@ -266,7 +290,10 @@ fn a_clicked_pane_is_driven_by_the_arrow_keys_until_esc() {
 
 #[test]
 fn an_arm_is_not_armed_and_links_release_and_couple() {
-    let sent = |robot: &str, input| [Command::Robot(RobotCommand { robot: robot.into(), input })];
+    let sent = |robot: &str, input| {
+        let checkpoint = Command::Transport(TransportCommand::Checkpoint);
+        [checkpoint, Command::Robot(RobotCommand { robot: robot.into(), input })]
+    };
     let mut model = model();
     model.cockpits[0].robots[0].drivable = false;
     model.cockpits[1].robots[0].manual = true;
@@ -289,7 +316,7 @@ fn an_arm_is_not_armed_and_links_release_and_couple() {
 fn hints_and_lists_are_on_the_themes_paper_too() {
     let mut screen = Screen::new(WIDE, &model());
     for theme in [Theme::Light, Theme::Dark] {
-        screen.state.theme = theme;
+        screen.state.settings.theme = if theme == Theme::Dark { ThemeChoice::Dark } else { ThemeChoice::Light };
         screen.frame(&model(), vec![]);
         assert_eq!(screen.ctx.global_style().visuals.window_fill, theme.colour(Role::Paper), "{theme:?}");
     }

@@ -1,7 +1,9 @@
 //! The theme in the window: egui's colours and sizes, and the clear colour behind everything.
 
 use bevy_egui::egui::style::{Selection, WidgetVisuals, Widgets};
-use bevy_egui::egui::{Color32, CornerRadius, FontFamily, FontId, Shadow, Stroke, Style, TextStyle, Visuals};
+use bevy_egui::egui::{
+    Color32, CornerRadius, FontDefinitions, FontFamily, FontId, Shadow, Stroke, Style, TextStyle, Visuals,
+};
 
 use super::Theme;
 use crate::num::{exp, greater, ln};
@@ -75,6 +77,16 @@ impl Theme {
         style
     }
 
+    /// The faces: egui's own, the one for figures standing in for signs that the one for words lacks.
+    pub fn fonts() -> FontDefinitions {
+        let mut fonts = FontDefinitions::default();
+        let mono = fonts.families.get(&FontFamily::Monospace).cloned().unwrap_or_default();
+        if let Some(sans) = fonts.families.get_mut(&FontFamily::Proportional) {
+            sans.extend(mono.into_iter().filter(|name| !sans.contains(name)).collect::<Vec<_>>());
+        }
+        fonts
+    }
+
     fn visuals(self) -> Visuals {
         let paper = self.colour(Role::Paper);
         let base = match self {
@@ -94,7 +106,8 @@ impl Theme {
         Visuals {
             widgets: Widgets {
                 noninteractive: widget(paper, self.colour(Role::Hairline)),
-                inactive: widget(paper, edge),
+                // a slider's rail is seen by its filling alone
+                inactive: WidgetVisuals { bg_fill: self.washed(Role::Text, 0.12), ..widget(paper, edge) },
                 hovered: widget(self.washed(Role::Text, 0.06), self.colour(Role::Text)),
                 active: widget(self.washed(Role::Text, 0.14), self.colour(Role::Text)),
                 open: widget(self.washed(Role::Text, 0.06), edge),
@@ -116,6 +129,8 @@ impl Theme {
             window_shadow: Shadow::NONE,
             popup_shadow: Shadow::NONE,
             panel_fill: paper,
+            // a fade would be blended in linear light and come out grey: what is disabled is drawn in fainter ink instead
+            disabled_alpha: 1.0,
             ..base
         }
     }

@@ -1,0 +1,102 @@
+//! The swept tab's answer: what is known of the motion to a second configuration, and the proof.
+
+use super::words::{figure, metres};
+use crate::collision::{Certificate, Checker, Collision, EdgeVerdict, UnresolvedReason};
+use crate::configuration::{AnyConfiguration, Configuration};
+use crate::num::greater;
+use crate::robots::{AnyRobot, ConfigurationError, Motion, Robot};
+
+/// The motion along the chart's straight line to a second configuration.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Sweep {
+    /// Where it starts.
+    pub from: AnyConfiguration,
+    /// Where it ends.
+    pub to: AnyConfiguration,
+    /// Whether the start is free.
+    pub from_free: bool,
+    /// Whether the end is free.
+    pub to_free: bool,
+    /// The verdict.
+    pub verdict: EdgeVerdict,
+    /// The steps that prove the motion free as far as it is.
+    pub certificate: Certificate,
+    /// How far the footprint moves at most in the bracket of a hit, or in what is unresolved, metres; 0 when it is free.
+    pub width: f64,
+    /// The answer of the query `swept` between the two footprints: each part's frame in a straight line, which for an arm is
+    /// another motion.
+    pub straight_hits: bool,
+}
+
+impl Sweep {
+    /// The motion from `from` to `to`.
+    ///
+    /// # Errors
+    /// [`ConfigurationError`] when either is not a configuration of the checker's robot.
+    pub fn new(
+        checker: &Checker<AnyRobot>,
+        from: &AnyConfiguration,
+        to: &AnyConfiguration,
+    ) -> Result<Self, ConfigurationError> {
+        let mut certificate = Certificate::new();
+        let verdict = checker.edge_certified(from, to, &mut certificate)?;
+        let line = checker.robot().edge(from, to)?;
+        let (start, end) = (line.footprint_at(0.0), line.footprint_at(1.0));
+        let width = match verdict {
+            EdgeVerdict::Free { .. } => 0.0,
+            EdgeVerdict::Hit { free_until, contact_at, .. } => {
+                (0..start.parts().len()).fold(0.0, |w, part| greater(line.bound(part, free_until, contact_at), w))
+            }
+            EdgeVerdict::Unresolved { gap, .. } => gap,
+        };
+        Ok(Sweep {
+            from: *from,
+            to: *to,
+            from_free: checker.is_free(from),
+            to_free: checker.is_free(to),
+            verdict,
+            certificate,
+            width,
+            straight_hits: checker.scene().swept(&start, &end),
+        })
+    }
+
+    /// The configuration a fraction `s` along the motion.
+    pub fn at(&self, s: f64) -> AnyConfiguration {
+        self.from.interpolate(&self.to, s).unwrap_or(self.from)
+    }
+
+    /// What is known, in words; `name` tells an obstacle's name and `part` a part's.
+    pub(super) fn words(&self, name: impl Fn(crate::collision::ObstacleId) -> String, robot: &AnyRobot) -> Vec<String> {
+        let free = |free| if free { "free" } else { "in contact" };
+        let steps = match self.certificate.steps().len() {
+            1 => "1 step".to_owned(),
+            n => format!("{n} steps"),
+        };
+        let mut lines = vec![format!("start {}, end {}", free(self.from_free), free(self.to_free))];
+        match self.verdict {
+            EdgeVerdict::Free { clearance } => {
+                lines.push(format!("free all the way, at least {} clear", metres(clearance)));
+                lines.push(format!("proven in {steps}"));
+            }
+            EdgeVerdict::Hit { free_until, contact_at, part, obstacle } => {
+                lines.push(format!("{} hits {}", robot.part_name(part), name(obstacle)));
+                lines.push(format!("proven free to s = {}, {steps}", figure(free_until, 7)));
+                lines.push(format!("in contact at s = {}", figure(contact_at, 7)));
+                lines.push(format!("between the two at most {} \u{b5}m", figure(self.width * 1e6, 2)));
+            }
+            EdgeVerdict::Unresolved { free_until, gap, reason } => {
+                let why = match reason {
+                    UnresolvedReason::Tolerance => "the gap is below what rounding can tell from contact",
+                    UnresolvedReason::Budget => "the steps ran out",
+                };
+                lines.push(format!("unresolved: {why}"));
+                lines.push(format!("proven free to s = {}, {steps}", figure(free_until, 7)));
+                lines.push(format!("not known: the last {}", metres(gap)));
+            }
+        }
+        let straight = if self.straight_hits { "hits" } else { "is free" };
+        lines.push(format!("each part in a straight line: {straight}"));
+        lines
+    }
+}

@@ -1,0 +1,114 @@
+//! The dialogs that ask for a file, and files dropped on the window.
+
+use std::path::PathBuf;
+
+use bevy::prelude::*;
+use bevy::window::FileDragAndDrop;
+use bevy_egui::egui;
+use egui_file_dialog::{DialogMode, FileDialog, FileDialogLabels};
+
+use super::files::{open_run, open_world, save_run, save_world};
+use super::session::Interface;
+use crate::simulation::{Playback, Transport};
+use crate::ui::SessionCommand;
+
+/// What the lab's logs are called.
+const EXTENSION: &str = "mcap";
+
+/// What the lab's worlds are called.
+const WORLD: &str = "ron";
+
+/// The dialogs, and whether something hovers over the window.
+#[derive(Resource)]
+pub struct Dialogs {
+    runs: FileDialog,
+    worlds: FileDialog,
+    /// Whether a file hovers over the window, on its way to be dropped.
+    hovered: bool,
+}
+
+impl Default for Dialogs {
+    fn default() -> Self {
+        Dialogs {
+            runs: dialog("run", "Runs (*.mcap)", EXTENSION, "run.mcap"),
+            worlds: dialog("world", "Worlds (*.ron)", WORLD, "world.ron"),
+            hovered: false,
+        }
+    }
+}
+
+fn dialog(what: &'static str, filter: &str, extension: &'static str, file: &str) -> FileDialog {
+    let labels = FileDialogLabels {
+        title_select_file: format!("Open a {what}"),
+        title_save_file: format!("Save the {what}"),
+        ..default()
+    };
+    FileDialog::new()
+        .id(what)
+        .labels(labels)
+        .add_file_filter_extensions(filter, vec![extension])
+        .default_file_filter(filter)
+        .add_save_extension(what, extension)
+        .default_save_extension(what)
+        .default_file_name(file)
+        .show_search(false)
+        .default_size([560.0, 380.0])
+        .anchor(egui::Align2::CENTER_CENTER, [0.0, 0.0])
+}
+
+/// Opens the dialog that a command asks for. The run pauses meanwhile.
+pub fn ask(mut asked: MessageReader<SessionCommand>, mut dialogs: ResMut<Dialogs>, mut transport: ResMut<Transport>) {
+    for command in asked.read() {
+        match command {
+            SessionCommand::Save => dialogs.runs.save_file(),
+            SessionCommand::Open => dialogs.runs.pick_file(),
+            SessionCommand::SaveWorld => dialogs.worlds.save_file(),
+            SessionCommand::OpenWorld => dialogs.worlds.pick_file(),
+            SessionCommand::RunWorld | SessionCommand::Links { .. } => continue,
+        }
+        transport.playback = Playback::Paused;
+    }
+}
+
+/// Takes what was dropped: a world for the atlas, or a run.
+pub fn dropped(world: &mut World) {
+    let events: Vec<FileDragAndDrop> = world.resource_mut::<Messages<FileDragAndDrop>>().drain().collect();
+    for event in events {
+        let hovered = matches!(event, FileDragAndDrop::HoveredFile { .. });
+        world.resource_mut::<Dialogs>().hovered = hovered;
+        if let FileDragAndDrop::DroppedFile { path_buf, .. } = event {
+            let notice = if path_buf.extension().is_some_and(|e| e == WORLD) {
+                open_world(world, &path_buf)
+            } else {
+                open_run(world, &path_buf)
+            };
+            world.resource_mut::<Interface>().0.notice = Some(notice);
+        }
+    }
+}
+
+/// Shows the dialog while it is open, and does what was chosen in it.
+pub fn show(world: &mut World, ctx: &egui::Context) {
+    let (run, model) = {
+        let dialogs = world.resource_mut::<Dialogs>().into_inner();
+        if dialogs.hovered {
+            egui::Area::new("drop".into()).anchor(egui::Align2::CENTER_CENTER, [0.0, 0.0]).show(ctx, |ui| {
+                egui::Frame::popup(ui.style()).show(ui, |ui| ui.heading("Drop a run or a world to open it"));
+            });
+        }
+        (picked(&mut dialogs.runs, ctx), picked(&mut dialogs.worlds, ctx))
+    };
+    let of_run = run.map(|(save, path)| if save { save_run(world, &path) } else { open_run(world, &path) });
+    let of_world = model.map(|(save, path)| if save { save_world(world, &path) } else { open_world(world, &path) });
+    if let Some(notice) = of_run.or(of_world) {
+        world.resource_mut::<Interface>().0.notice = Some(notice);
+        ctx.request_repaint();
+    }
+}
+
+/// Shows a dialog while it is open. What was chosen in it, and whether to save there.
+fn picked(dialog: &mut FileDialog, ctx: &egui::Context) -> Option<(bool, PathBuf)> {
+    dialog.update(ctx);
+    let save = dialog.mode() == DialogMode::SaveFile;
+    dialog.take_picked().map(|path| (save, path))
+}

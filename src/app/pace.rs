@@ -1,0 +1,126 @@
+//! `Pace`, whether the run keeps up with its speed; and playing as fast as possible.
+
+use std::collections::VecDeque;
+use std::time::Duration;
+
+use bevy::platform::time::Instant;
+use bevy::prelude::*;
+
+use crate::run::DT;
+use crate::simulation::{Playback, Transport, play_tick};
+
+/// Of every frame so much goes into ticks when the run plays as fast as possible.
+const BUDGET: Duration = Duration::from_millis(12);
+
+/// So much of the past is looked at, seconds of the clock.
+const WINDOW: f64 = 1.5;
+
+/// A run that reaches less than this part of its speed is behind.
+const ENOUGH: f64 = 0.9;
+
+/// How far the run went in the last second or so of the clock.
+#[derive(Resource, Clone, Debug, Default)]
+pub struct Pace {
+    /// Seconds of the clock, and ticks, of the last frames.
+    frames: VecDeque<(f64, u64)>,
+    last: Option<(u64, f64)>,
+}
+
+impl Pace {
+    /// Takes down a frame that took `seconds` of the clock: the run stands at `tick`.
+    pub fn frame(&mut self, seconds: f64, transport: &Transport) {
+        let Transport { tick, speed, playback, .. } = *transport;
+        let before = self.last.replace((tick, speed));
+        // a pause, a jump or another speed begins a new measurement
+        let Some((from, _)) = before.filter(|(t, s)| *t <= tick && *s == speed && playback == Playback::Playing) else {
+            self.frames.clear();
+            return;
+        };
+        self.frames.push_back((seconds, tick - from));
+        while self.seconds() - self.frames.front().map_or(0.0, |f| f.0) >= WINDOW {
+            self.frames.pop_front();
+        }
+    }
+
+    fn seconds(&self) -> f64 {
+        self.frames.iter().map(|f| f.0).sum()
+    }
+
+    /// Simulated seconds per second of the clock; `None` before enough is known.
+    pub fn reached(&self) -> Option<f64> {
+        let seconds = self.seconds();
+        let ticks: u64 = self.frames.iter().map(|f| f.1).sum();
+        // a tick too many or too few is no news
+        (seconds >= 0.6 * WINDOW).then(|| DT * ticks as f64 / seconds)
+    }
+
+    /// What is to be said of a run that falls behind its speed, or that plays as fast as possible.
+    pub fn words(&self, speed: f64) -> Option<String> {
+        let reached = self.reached()?;
+        let round = |x: f64| if x < 10.0 { format!("{x:.1}") } else { format!("{x:.0}") };
+        if speed.is_infinite() {
+            return Some(format!("{} x", round(reached)));
+        }
+        let slack = DT / WINDOW;
+        if reached >= ENOUGH * speed - slack {
+            None
+        } else if reached < 1.0 {
+            Some(format!("slower than real time: {} x", round(reached)))
+        } else {
+            Some(format!("slower than asked: {} x", round(reached)))
+        }
+    }
+}
+
+/// Plays as many ticks as fit the budget, when the run is to go as fast as possible. How many those are decides nothing but
+/// what the frame shows.
+pub fn play_flat_out(world: &mut World) {
+    let flat_out = |world: &World| {
+        let Transport { playback, speed, .. } = *world.resource::<Transport>();
+        playback == Playback::Playing && speed.is_infinite()
+    };
+    let start = Instant::now();
+    while flat_out(world) && start.elapsed() < BUDGET {
+        play_tick(world);
+    }
+}
+
+/// Measures the frame.
+pub fn measure(world: &mut World) {
+    let seconds = world.resource::<Time<Real>>().delta_secs_f64();
+    let transport = *world.resource::<Transport>();
+    world.resource_mut::<Pace>().frame(seconds, &transport);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::random::Seed;
+
+    /// What is said after two seconds of frames, each `seconds` long, in which the run goes on by `ticks`.
+    fn said(speed: f64, seconds: f64, ticks: f64) -> Option<String> {
+        let mut pace = Pace::default();
+        let mut transport = Transport { speed, playback: Playback::Playing, ..Transport::new(Seed(1)) };
+        let mut sum = 0.0;
+        for _ in 0..(2.0 / seconds) as u32 {
+            sum += ticks;
+            transport.tick = sum as u64;
+            pace.frame(seconds, &transport);
+        }
+        pace.words(speed)
+    }
+
+    #[test]
+    fn a_run_that_keeps_up_is_not_talked_of() {
+        assert_eq!(said(1.0, 1.0 / 60.0, 20.0 / 60.0), None);
+        assert_eq!(said(64.0, 1.0 / 30.0, 64.0 * 20.0 / 30.0), None);
+        assert_eq!(said(0.125, 1.0 / 60.0, 2.5 / 60.0), None);
+    }
+
+    #[test]
+    fn one_that_does_not_is() {
+        assert_eq!(said(1.0, 0.5, 5.0).as_deref(), Some("slower than real time: 0.5 x"));
+        assert_eq!(said(64.0, 0.1, 82.0).as_deref(), Some("slower than asked: 41 x"));
+        assert_eq!(said(f64::INFINITY, 0.02, 40.0).as_deref(), Some("100 x"));
+    }
+}

@@ -1,0 +1,216 @@
+//! The session without its window: what a view shows of the run, and what its commands do.
+
+use std::sync::Arc;
+
+use bevy::prelude::*;
+
+use super::pace::{Pace, measure, play_flat_out};
+use crate::configuration::Coordinates;
+use crate::geometry::{Point2, Pose2};
+use crate::num::{greater, lesser};
+use crate::picture::{Drawing, Picture, places, polygon_of, world as picture_of};
+use crate::random::Seed;
+use crate::run::RobotInput;
+use crate::simulation::{
+    History, HistoryPlugin, LatestFrame, PendingInput, Playback, RobotView, RunConfig, SimulationPlugin, Transport,
+    TransportCommand, Undo, obey, start_run, view,
+};
+use crate::tour::{BOOK_SEED, TourConfig};
+use crate::ui::{Cockpit, CockpitRobot, Command, Dashboard, Name, Notice, SessionCommand, UiState, blend};
+use crate::worlds::{Obstacle, ObstacleKind, Place, World as WorldModel};
+
+/// Between two ticks no robot moves farther than this, metres; what does was put there.
+const LEAP: f64 = 0.5;
+
+/// The simulation with all that a view needs of it. Frames, windows and dialogs are someone else's.
+pub struct SessionPlugin;
+
+impl Plugin for SessionPlugin {
+    fn build(&self, app: &mut App) {
+        app.add_plugins((SimulationPlugin, HistoryPlugin))
+            .init_resource::<Interface>()
+            .init_resource::<Worlds>()
+            .init_resource::<Pace>()
+            .insert_resource(Shown(Dashboard {
+                cockpits: Vec::new(),
+                seed: BOOK_SEED,
+                tick: 0,
+                frontier: 0,
+                speed: 1.0,
+                playing: false,
+                looping: false,
+                behind: None,
+                next_contact: None,
+                can_undo: false,
+                can_redo: false,
+            }))
+            .add_systems(Startup, start)
+            .add_systems(Update, (play_flat_out, measure, gather).chain());
+    }
+}
+
+/// What the window remembers that is no part of a run.
+#[derive(Resource, Default)]
+pub struct Interface(pub UiState);
+
+/// The pictures of the run's worlds, and the names of what is in them.
+#[derive(Resource, Default)]
+struct Worlds(Vec<(Arc<Picture>, Arc<Vec<Name>>)>);
+
+/// What is in front in this frame.
+#[derive(Resource)]
+pub struct Shown(pub Dashboard);
+
+fn start(world: &mut World) -> Result {
+    if !world.contains_resource::<RunConfig>() {
+        start_run(world, TourConfig::default(), BOOK_SEED)?;
+        world.resource_mut::<Transport>().playback = Playback::Playing;
+    }
+    Ok(())
+}
+
+/// Takes what the window shows from the simulation. This is the one place where the two meet.
+pub fn gather(world: &mut World) {
+    if world.is_resource_changed::<RunConfig>() {
+        let drawn = |w: &WorldModel| (Arc::new(picture_of(w)), Arc::new(names(w)));
+        let pictures = world.resource::<RunConfig>().0.worlds.iter().map(drawn).collect();
+        world.insert_resource(Worlds(pictures));
+    }
+    let Transport { seed, tick, frontier, speed, looping, playback } = *world.resource::<Transport>();
+    let playing = playback == Playback::Playing;
+    // while it plays the view is one tick behind and moves smoothly; paused, or with many ticks a frame, it shows the tick itself
+    let smooth = playing && speed.is_finite();
+    let between = if smooth { world.resource::<Time<Fixed>>().overstep_fraction_f64() } else { 1.0 };
+    let robots: Vec<(u32, CockpitRobot)> = view(world).iter().map(|r| (r.world, shown(world, r, between))).collect();
+    let cockpits = world.resource::<Worlds>().0.iter().zip(0..).map(|((picture, names), number)| Cockpit {
+        world: Arc::clone(picture),
+        names: Arc::clone(names),
+        robots: robots.iter().filter(|(w, _)| *w == number).map(|(_, r)| r.clone()).collect(),
+    });
+    let (undo, history) = (world.resource::<Undo>(), world.resource::<History>());
+    let dashboard = Dashboard {
+        cockpits: cockpits.collect(),
+        seed,
+        tick,
+        frontier,
+        speed,
+        playing,
+        looping,
+        behind: world.resource::<Pace>().words(speed).filter(|_| playing),
+        next_contact: history.next_contact(tick),
+        can_undo: undo.can_undo(),
+        can_redo: undo.can_redo(),
+    };
+    world.insert_resource(Shown(dashboard));
+}
+
+fn shown(world: &World, robot: &RobotView, between: f64) -> CockpitRobot {
+    let tick = world.resource::<Transport>().tick;
+    let is_arm = robot.tip.is_some();
+    let pose = match robot.coordinates[..] {
+        [x, y, theta, ..] => Some(Pose2 { x, y, theta }),
+        _ => None,
+    };
+    let scan = world.resource::<LatestFrame>().0.scans.iter().find(|s| s.robot == robot.id);
+    let trail = world.resource::<History>().at(tick, robot.id);
+    CockpitRobot {
+        name: robot.name.clone(),
+        kind: robot.kind.clone(),
+        readout: robot.configuration.clone(),
+        in_full: robot.configuration_in_full.clone(),
+        coordinates: robot.coordinates.clone(),
+        target: target(world, robot),
+        footprint: blend(&robot.previous_footprint, &robot.footprint, between, LEAP),
+        // a disc does not show which way it faces; its third coordinate does
+        heading: pose.filter(|_| robot.footprint.parts().len() == 1 && !is_arm).map(|p| p.theta),
+        flash: robot.flash > 0,
+        contacts: robot.contacts,
+        manual: robot.manual,
+        // an arm is moved by its joints
+        drivable: !is_arm,
+        is_arm,
+        trailer: (robot.kind == "hitch").then_some(robot.coordinates.len() == 4),
+        sees: pose.and_then(|pose| Some((pose, scan?.ranges.clone()))),
+        tip: robot.tip,
+        reversals: trail.map_or(0, |t| t.reversals),
+    }
+}
+
+/// Where an arm was told to be by the next tick.
+fn target(world: &World, robot: &RobotView) -> Option<Coordinates> {
+    let due = world.resource::<PendingInput>().due(world.resource::<Transport>().tick + 1);
+    due.iter().rev().filter(|e| e.robot == robot.name).find_map(|e| match &e.input {
+        RobotInput::MoveTo(to) => Some(to.iter().map(|c| c.value()).collect()),
+        _ => None,
+    })
+}
+
+/// The places of a world, and its solid obstacles' names.
+fn names(world: &WorldModel) -> Vec<Name> {
+    let of_obstacle = |o: &Obstacle| {
+        let corners: Vec<Point2> = o.pieces.iter().flat_map(|(pose, shape)| polygon_of(&shape.place(pose))).collect();
+        let (mut least, mut most) = (*corners.first()?, *corners.first()?);
+        for c in &corners {
+            least = Point2::new(lesser(least.x, c.x), lesser(least.y, c.y));
+            most = Point2::new(greater(most.x, c.x), greater(most.y, c.y));
+        }
+        let half = (most - least) * 0.5;
+        Some(Name { text: o.name.clone(), at: least + half, half: [half.x, half.y], marks: vec![] })
+    };
+    let of_place = |place: &Place| {
+        let marks = places(std::slice::from_ref(place)).into_iter();
+        let marks = marks.filter(|i| !matches!(i.drawing, Drawing::Label { .. })).collect();
+        Name { text: place.name.clone(), at: place.pose.position(), half: [0.0; 2], marks }
+    };
+    let solid = world.obstacles.iter().filter(|o| o.kind == ObstacleKind::Solid);
+    solid.filter_map(of_obstacle).chain(world.places.iter().map(of_place)).collect()
+}
+
+/// Does what the widgets asked for. What needs a dialog is left to the window, as messages.
+pub fn carry_out(world: &mut World, commands: Vec<Command>) {
+    for command in commands {
+        match command {
+            Command::Transport(command) => _ = world.write_message(command),
+            Command::Robot(command) => _ = world.write_message(command),
+            Command::Session(SessionCommand::Links { robot, links }) => {
+                if let Err(error) = change_links(world, &robot, links) {
+                    let notice = Notice { text: error, is_error: true };
+                    world.resource_mut::<Interface>().0.notice = Some(notice);
+                }
+            }
+            Command::Session(SessionCommand::RunWorld) => {
+                let model = world.resource::<Interface>().0.atlas.world().clone();
+                let seed = world.resource::<Transport>().seed;
+                let config = TourConfig { worlds: vec![model], ..TourConfig::default() };
+                let ran = new_run(world, config, seed);
+                let ui = &mut world.resource_mut::<Interface>().into_inner().0;
+                match ran {
+                    Ok(()) => ui.widget = 0,
+                    Err(text) => ui.notice = Some(Notice { text, is_error: true }),
+                }
+            }
+            Command::Session(command) => _ = world.write_message(command),
+        }
+    }
+}
+
+/// A new run of the same seed in which the arm named `robot` has two or three links.
+fn change_links(world: &mut World, robot: &str, links: usize) -> Result<(), String> {
+    let mut config = TourConfig::clone(&world.resource::<RunConfig>().0);
+    let mut arms = config.worlds.iter_mut().flat_map(|w| &mut w.robots);
+    let Some(arm) = arms.find(|r| r.name == robot) else { return Err(format!("there is no {robot}")) };
+    arm.kind = if links == 3 { "reach3" } else { "reach" }.into();
+    arm.start.resize(links, 0.5);
+    let seed = world.resource::<Transport>().seed;
+    new_run(world, config, seed)
+}
+
+/// A new run in place of the present one, which an undo brings back; playback, speed and loop stay.
+pub fn new_run(world: &mut World, config: TourConfig, seed: Seed) -> Result<(), String> {
+    obey(world, TransportCommand::Checkpoint)?;
+    let Transport { playback, speed, .. } = *world.resource::<Transport>();
+    start_run(world, config, seed).map_err(|e| e.to_string())?;
+    let mut transport = world.resource_mut::<Transport>();
+    (transport.playback, transport.speed) = (playback, speed);
+    Ok(())
+}

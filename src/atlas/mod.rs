@@ -1,0 +1,97 @@
+//! The atlas: worlds with their names on them, robots put where a finger points, grids beside the exact distance, and an editor.
+
+mod edit;
+mod grid_layer;
+mod labels;
+mod op;
+mod outline;
+mod overlay;
+mod target;
+mod teleport;
+
+pub use edit::{Editor, snap};
+pub use grid_layer::{GridLayer, Probe};
+pub use labels::{Named, named, names};
+pub use op::{EditError, Op};
+pub use outline::{EditShape, Handle};
+pub use teleport::{Refusal, Teleport};
+
+use crate::collision::{Checker, Scene};
+use crate::configuration::AnyConfiguration;
+use crate::picture::{Drawing, Picture, RobotDrawing, places, robot, world};
+use crate::robots::{AnyRobot, Robot};
+use crate::worlds::World;
+
+/// A world and the residents of it that are robots of the lab, where they start.
+#[derive(Clone, Debug)]
+pub struct Atlas {
+    world: World,
+    residents: Vec<AtlasRobot>,
+}
+
+/// A robot on the atlas.
+#[derive(Clone, Debug, PartialEq)]
+pub struct AtlasRobot {
+    /// Its name in the world.
+    pub name: String,
+    /// What it is.
+    pub robot: AnyRobot,
+    /// Where it is.
+    pub q: AnyConfiguration,
+}
+
+impl Atlas {
+    /// The world with its robots at their starts. Residents of other kinds are left out.
+    pub fn new(world: World) -> Self {
+        let residents = world.robots.iter().filter_map(|r| {
+            let (robot, q) = AnyRobot::of_kind(&r.kind, &r.start)?;
+            Some(AtlasRobot { name: r.name.clone(), robot, q })
+        });
+        Atlas { residents: residents.collect(), world }
+    }
+
+    /// The world.
+    pub fn world(&self) -> &World {
+        &self.world
+    }
+
+    /// The robots.
+    pub fn robots(&self) -> &[AtlasRobot] {
+        &self.residents
+    }
+
+    /// Robot number `index` among the obstacles and the other robots, which have their names there; `None` when there is no
+    /// such robot.
+    pub fn checker(&self, index: usize) -> Option<Checker<AnyRobot>> {
+        let mut scene = Scene::of_world(&self.world);
+        for (_, other) in self.residents.iter().enumerate().filter(|(i, _)| *i != index) {
+            scene = teleport::with_robot(scene, &other.name, &other.robot.footprint(&other.q));
+        }
+        Some(Checker::new(scene, self.residents.get(index)?.robot))
+    }
+
+    /// Puts robot number `index` at `to`, or says why not. `None` when there is no such robot.
+    pub fn teleport(&mut self, index: usize, to: AnyConfiguration) -> Option<Result<(), Refusal>> {
+        let checker = self.checker(index)?;
+        let answer = Teleport::ask(&checker, &to);
+        if answer.is_ok() {
+            self.residents[index].q = to;
+        }
+        Some(answer)
+    }
+
+    /// The world with its robots and the dots of its places on it.
+    pub fn picture(&self) -> Picture {
+        // their names are labels of their own
+        let dots = places(&self.world.places).into_iter().filter(|i| !matches!(i.drawing, Drawing::Label { .. }));
+        let drawn = self.residents.iter().flat_map(|r| {
+            robot(&RobotDrawing {
+                name: &r.name,
+                footprint: &r.robot.footprint(&r.q),
+                heading: r.robot.heading(&r.q),
+                in_contact: false,
+            })
+        });
+        world(&self.world).with(dots).with(drawn)
+    }
+}

@@ -1,0 +1,164 @@
+//! What is drawn over the atlas: a refusal with its offer, a probe of the grid, a selected thing with its handles.
+
+use super::{Atlas, EditShape, Editor, GridLayer, Refusal};
+use crate::collision::Collision;
+use crate::configuration::AnyConfiguration;
+use crate::geometry::{Footprint, Point2};
+use crate::picture::{Anchor, Dash, Drawing, Face, Glyph, Item, Line, Role, footprint, outline, polygon_of};
+use crate::robots::Robot;
+use crate::worlds::Obstacle;
+
+/// Words on a plate over or under a point.
+fn label(id: &str, at: Point2, anchor: Anchor, text: String) -> Item {
+    let name = text.clone();
+    let drawing = Drawing::Label { at, text, anchor, face: Face::Sans, size_px: 12.0, plate: true };
+    Item::new(id, name, Role::Text, drawing)
+}
+
+impl Atlas {
+    /// A refused teleport of robot number `index` to `wanted`: its ghost in red with the words, what it would overlap outlined, and
+    /// the nearest free configuration offered as a ghost with the way to it.
+    pub fn refusal_items(&self, index: usize, wanted: &AnyConfiguration, refusal: &Refusal) -> Vec<Item> {
+        let Some(resident) = self.robots().get(index) else { return Vec::new() };
+        let robot = resident.robot;
+        let mut items = Vec::new();
+        let at = robot.reference(wanted);
+        if let Refusal::Overlap { names, nearest } = refusal {
+            for name in names {
+                let outline = self.world().obstacle(name).map_or_else(Vec::new, around);
+                let region = Drawing::Region { pieces: Vec::new(), outline };
+                let id = format!("refused/{name}");
+                items
+                    .push(Item::new(id, format!("{name} is in the way"), Role::Goal, region).stroked(Line::solid(2.0)));
+            }
+            items.extend(footprint("refused/ghost", "where it cannot be", &robot.footprint(wanted), Role::Goal, 0.3));
+            if let Some(offer) = nearest {
+                let ghost = robot.footprint(&offer.q);
+                items.extend(footprint("offer/ghost", "the nearest free place", &ghost, Role::Robot, 0.3));
+                let way = Drawing::segment(at, robot.reference(&offer.q));
+                items.push(
+                    Item::new("offer/way", "the way to it", Role::Focus, way)
+                        .stroked(Line::solid(1.5).dashed(Dash::Dashed)),
+                );
+                let ring = Drawing::Mark { at: robot.reference(&offer.q), glyph: Glyph::Handle, radius_px: 5.0 };
+                items.push(Item::new("offer/handle", "put it there", Role::Focus, ring));
+            }
+        }
+        // under the ghosts, so that they cover nothing of them; over them where there is no room below
+        let offered = match refusal {
+            Refusal::Overlap { nearest: Some(offer), .. } => robot.footprint(&offer.q),
+            _ => Footprint::default(),
+        };
+        let shown = robot.footprint(wanted);
+        let boxes = shown.parts().iter().chain(offered.parts()).map(|p| p.placed().bounds());
+        let (lo, hi) = boxes.reduce(|a, b| (a.0.inf(&b.0), a.1.sup(&b.1))).unwrap_or((at, at));
+        let bounds = self.world().bounds;
+        let below = lo.y > bounds.min.y + 0.08 * (bounds.max.y - bounds.min.y);
+        let (y, anchor) = if below { (lo.y, Anchor::Below) } else { (hi.y, Anchor::Above) };
+        items.push(label("refused/words", Point2::new(0.5 * (lo.x + hi.x), y), anchor, refusal.to_string()));
+        items
+    }
+}
+
+impl GridLayer {
+    /// What grid and geometry say of a point: its cell, the exact shortest way, and both distances. None beyond the grid.
+    pub fn probe_items(&self, p: Point2) -> Vec<Item> {
+        let Some(probe) = self.probe(p) else { return Vec::new() };
+        let (lo, hi) = self.grid().square(probe.cell.0, probe.cell.1);
+        let cell = vec![lo, Point2::new(hi.x, lo.y), hi, Point2::new(lo.x, hi.y), lo];
+        let mut items =
+            vec![Item::new("probe/cell", "its cell", Role::Focus, Drawing::Polyline(cell)).stroked(Line::solid(1.5))];
+        if let Some(w) = self.scene().witness(&Footprint::disc(p, 0.0)).filter(|w| w.dist > 0.0) {
+            let way = Drawing::segment(p, w.on_obstacle);
+            items.push(Item::new("probe/way", "the shortest way", Role::Witness, way).stroked(Line::solid(2.0)));
+            let ring = Drawing::Mark { at: w.on_obstacle, glyph: Glyph::Ring, radius_px: 3.5 };
+            items.push(Item::new("probe/b", "the nearest point", Role::Witness, ring));
+        }
+        let ring = Drawing::Mark { at: p, glyph: Glyph::Ring, radius_px: 3.5 };
+        items.push(Item::new("probe/a", "the point", Role::Witness, ring));
+        let length = |d: f64| if d.is_finite() { format!("{d:.3} m") } else { "\u{221e}".into() };
+        let words = format!("exact {}, by the grid {}", length(probe.exact), length(probe.derived));
+        items.push(label("probe/words", p, Anchor::Above, words));
+        items
+    }
+}
+
+impl Editor {
+    /// The thing of this name as it is when selected: its outline in the focus colour, and its handles. Nothing for a name that no
+    /// wall, obstacle or place has.
+    pub fn selected_items(&self, name: &str) -> Vec<Item> {
+        let handle = |index: usize, at: Point2| {
+            let mark = Drawing::Mark { at, glyph: Glyph::Handle, radius_px: 5.0 };
+            Item::new(format!("handle/{index}"), format!("handle {} of {name}", index + 1), Role::Focus, mark)
+        };
+        if let Some(place) = self.world().place(name) {
+            return vec![handle(0, place.pose.position())];
+        }
+        let Some(obstacle) = self.world().obstacle(name) else { return Vec::new() };
+        let outline = around(obstacle);
+        let region = Drawing::Region { pieces: Vec::new(), outline };
+        let mut items = vec![Item::new("selected", name, Role::Focus, region).stroked(Line::solid(2.0))];
+        items.extend(EditShape::of(obstacle).handles().into_iter().map(|h| handle(h.index, h.at)));
+        items
+    }
+}
+
+/// The lines around an obstacle, its pieces as one.
+fn around(obstacle: &Obstacle) -> Vec<Vec<Point2>> {
+    let (mut lines, pieces): (Vec<_>, Vec<_>) = obstacle.placed().map(|p| polygon_of(&p)).partition(|p| p.len() == 2);
+    lines.extend(outline(&pieces));
+    lines
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::worlds::World;
+
+    fn ids(items: &[Item]) -> Vec<&str> {
+        items.iter().map(|i| i.id.as_str()).collect()
+    }
+
+    #[test]
+    fn a_refusal_shows_what_is_in_the_way_and_the_offer() {
+        let mut atlas = Atlas::new(World::lot());
+        let wanted = atlas.robots()[0].q.with(0, 5.5).with(1, 5.0).with(2, 1.2);
+        let refusal = atlas.teleport(0, wanted).unwrap().unwrap_err();
+        let items = atlas.refusal_items(0, &wanted, &refusal);
+        let expected = [
+            "refused/the west pillar",
+            "refused/ghost/0",
+            "offer/ghost/0",
+            "offer/way",
+            "offer/handle",
+            "refused/words",
+        ];
+        assert_eq!(ids(&items), expected);
+        assert_eq!((items[0].role, items[5].name.as_str()), (Role::Goal, "would overlap the west pillar"));
+    }
+
+    #[test]
+    fn a_probe_shows_both_distances() {
+        let layer = GridLayer::new(&World::workbench(), 0.1).unwrap();
+        let items = layer.probe_items(Point2::new(0.75, 0.52));
+        assert_eq!(ids(&items), ["probe/cell", "probe/way", "probe/b", "probe/a", "probe/words"]);
+        // 0.48 m below the block; by the grid five cells, as the row above 1.0 is the first that is occupied
+        assert!(items[4].name.starts_with("exact 0.480 m, by the grid 0."), "{}", items[4].name);
+        assert!(layer.probe_items(Point2::new(9.0, 0.0)).is_empty());
+        let inside = layer.probe_items(Point2::new(0.75, 1.25));
+        assert_eq!(inside.last().unwrap().name, "exact 0.000 m, by the grid 0.000 m");
+    }
+
+    #[test]
+    fn what_is_selected_has_handles_where_its_corners_are() {
+        let editor = Editor::new(World::workbench());
+        let items = editor.selected_items("the block");
+        assert_eq!(ids(&items), ["selected", "handle/0", "handle/1", "handle/2", "handle/3"]);
+        for (item, handle) in items[1..].iter().zip(editor.handles("the block")) {
+            let Drawing::Mark { at, .. } = item.drawing else { panic!("a mark") };
+            assert_eq!(at, handle.at);
+        }
+        assert_eq!(editor.selected_items("the base").len(), 1);
+        assert!(editor.selected_items("nobody").is_empty());
+    }
+}

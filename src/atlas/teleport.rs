@@ -1,0 +1,156 @@
+//! Whether a robot can be put somewhere, and where it could be put instead.
+
+use std::fmt;
+
+use crate::collision::{Checker, Collision, Scene};
+use crate::configuration::AnyConfiguration;
+use crate::cspace::{NearestFree, Slice, nearest_free};
+use crate::geometry::{Footprint, Pose2, Shape};
+use crate::robots::{AnyRobot, ConfigurationError, Robot};
+
+/// Asks whether a robot can be put somewhere.
+#[derive(Clone, Copy, Debug)]
+pub struct Teleport;
+
+/// Why a robot cannot be put there.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Refusal {
+    /// It would overlap or touch something.
+    Overlap {
+        /// The names of everything it would overlap or touch, in file order, other robots last.
+        names: Vec<String>,
+        /// The nearest configuration that is free, if one was found: its headings are kept (an arm's first joint of three);
+        /// [`NearestFree`] says how near it is.
+        nearest: Option<NearestFree>,
+    },
+    /// An arm's tip cannot get there.
+    OutOfReach {
+        /// The least distance of the tip from the base, metres.
+        least: f64,
+        /// The greatest.
+        most: f64,
+        /// The distance asked for.
+        wanted: f64,
+    },
+    /// It is no configuration of this robot.
+    Configuration(ConfigurationError),
+}
+
+impl fmt::Display for Refusal {
+    /// As it is said in place: `would overlap the post`.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Refusal::Overlap { names, .. } => match &names[..] {
+                [] => write!(f, "would overlap something"),
+                [one] => write!(f, "would overlap {one}"),
+                [head @ .., last] => write!(f, "would overlap {} and {last}", head.join(", ")),
+            },
+            Refusal::OutOfReach { least, most, wanted } => {
+                write!(f, "out of reach: {wanted:.2} m from the base, and the tip gets from {least:.2} to {most:.2} m")
+            }
+            Refusal::Configuration(error) => write!(f, "{error}"),
+        }
+    }
+}
+
+impl std::error::Error for Refusal {}
+
+impl Teleport {
+    /// Whether the checker's robot can be put at `to`: by the query that stops the robots of a run, so that what is accepted
+    /// here is accepted there.
+    ///
+    /// # Errors
+    /// [`Refusal`] with the names of what it would overlap or touch, and the nearest free configuration.
+    pub fn ask(checker: &Checker<AnyRobot>, to: &AnyConfiguration) -> Result<(), Refusal> {
+        Self::ask_only(checker, to).map_err(|refusal| match refusal {
+            Refusal::Overlap { names, .. } => {
+                let slice = Slice::through(checker, to);
+                Refusal::Overlap { names, nearest: slice.ok().and_then(|slice| nearest_free(&slice, to)) }
+            }
+            refusal => refusal,
+        })
+    }
+
+    /// As [`ask`](Self::ask) without looking for the nearest free configuration: while something is still dragged.
+    ///
+    /// # Errors
+    /// [`Refusal`], whose `nearest` is `None`.
+    pub fn ask_only(checker: &Checker<AnyRobot>, to: &AnyConfiguration) -> Result<(), Refusal> {
+        checker.robot().check(to).map_err(Refusal::Configuration)?;
+        let footprint = checker.robot().footprint(to);
+        if !checker.scene().intersects(&footprint) {
+            return Ok(());
+        }
+        let touched = checker.scene().touched(&footprint);
+        let mut names: Vec<String> =
+            touched.into_iter().filter_map(|id| checker.scene().obstacle_name(id)).map(str::to_owned).collect();
+        // a robot of several parts is one
+        names.dedup();
+        Err(Refusal::Overlap { names, nearest: None })
+    }
+}
+
+/// The scene with a robot standing in it, under its name.
+pub(super) fn with_robot(scene: Scene, name: &str, footprint: &Footprint) -> Scene {
+    footprint.parts().iter().fold(scene, |scene, part| {
+        let placed = part.placed();
+        let shape = Shape::Hull { vertices: placed.core().into(), radius: placed.radius() };
+        scene.with_obstacle_at(name, Pose2::IDENTITY, shape)
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::atlas::Atlas;
+    use crate::worlds::{Resident, World};
+
+    #[test]
+    fn a_refusal_names_everything_and_offers_the_nearest_free_place() {
+        let mut atlas = Atlas::new(World::lot());
+        let car = atlas.robots()[0].q;
+        let in_the_corner = car.with(0, 0.5).with(1, 0.5);
+        let refusal = atlas.teleport(0, in_the_corner).unwrap().unwrap_err();
+        assert_eq!(refusal.to_string(), "would overlap the south curb and the west curb");
+        let on_the_pillar = car.with(0, 5.5).with(1, 5.0).with(2, 1.2);
+        let refusal = atlas.teleport(0, on_the_pillar).unwrap().unwrap_err();
+        assert_eq!(refusal.to_string(), "would overlap the west pillar");
+        assert_eq!(atlas.robots()[0].q, car, "it stays where it is");
+        let Refusal::Overlap { nearest: Some(offer), .. } = refusal else { panic!("{refusal:?}") };
+        assert!(offer.distance > 0.1 && offer.distance - offer.proven < 2e-3, "{offer:?}");
+        assert_eq!(atlas.teleport(0, offer.q), Some(Ok(())));
+        assert_eq!(atlas.robots()[0].q, offer.q);
+    }
+
+    #[test]
+    fn other_robots_are_in_the_way_under_their_names() {
+        let mut world = World::workbench();
+        world.robots.push(Resident::new("Rover", "rusty", [2.0, 2.0, 0.0]));
+        let mut atlas = Atlas::new(world);
+        let rover = atlas.robots()[1].q;
+        // at the elbow it would overlap both links: one robot
+        let on_the_elbow = rover.with(0, 0.7).with(1, 0.7);
+        assert_eq!(atlas.teleport(1, on_the_elbow).unwrap().unwrap_err().to_string(), "would overlap Reach");
+        let on_the_arm = rover.with(0, 0.0).with(1, 1.4);
+        let refusal = atlas.teleport(1, on_the_arm).unwrap().unwrap_err();
+        assert_eq!(refusal.to_string(), "would overlap Reach");
+        let at_block_and_arm = rover.with(0, 0.45).with(1, 0.97);
+        let refusal = atlas.teleport(1, at_block_and_arm).unwrap().unwrap_err();
+        assert_eq!(refusal.to_string(), "would overlap the block and Reach");
+        assert_eq!(atlas.teleport(7, rover), None);
+        let wrong = atlas.robots()[0].q;
+        assert!(matches!(atlas.teleport(1, wrong), Some(Err(Refusal::Configuration(_)))));
+    }
+
+    #[test]
+    fn touching_is_refused() {
+        let mut world = World::lot();
+        world.robots = vec![Resident::new("Rover", "rusty", [2.0, 2.0, 0.0])];
+        world.robots[0].kind = "rusty".into();
+        let mut atlas = Atlas::new(world);
+        let q = atlas.robots()[0].q;
+        let touching = q.with(0, 0.11); // a body radius from the west curb, exactly
+        assert!(atlas.teleport(0, touching).unwrap().is_err());
+        assert_eq!(atlas.teleport(0, q.with(0, 0.11 + 1e-9)), Some(Ok(())));
+    }
+}

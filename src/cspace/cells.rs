@@ -1,0 +1,297 @@
+//! `CellMap`, a slice cut into cells as fine as their proofs need.
+
+use std::collections::VecDeque;
+
+use super::{CellState, Slice};
+
+/// The finest level there is: cells of a 4096th of the slice's sides.
+pub const MAX_LEVEL: u32 = 12;
+
+/// A cell: of the `2^level` columns and rows of its level the one at `column`, `row`, counted from the least coordinates.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Cell {
+    /// How often the slice was halved.
+    pub level: u32,
+    /// The column.
+    pub column: u32,
+    /// The row.
+    pub row: u32,
+    /// What is known of it.
+    pub state: CellState,
+}
+
+/// How far the proofs have come.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Progress {
+    /// Cells judged so far.
+    pub judged: u64,
+    /// The part of the slice proven free, 0 to 1.
+    pub free: f64,
+    /// The part proven blocked.
+    pub blocked: f64,
+    /// The part not known.
+    pub unknown: f64,
+    /// Whether every cell is proven or of the finest level.
+    pub done: bool,
+}
+
+/// A node of the tree of cells; a leaf has no children.
+#[derive(Clone, Debug)]
+struct Node {
+    cell: Cell,
+    /// The first of four children, which stand side by side.
+    children: Option<u32>,
+}
+
+/// The cells of a slice: a tree in which a cell that is not proven is cut in four, coarse cells before fine ones.
+///
+/// What is known after so many judged cells depends on nothing else: not on how many calls it took.
+#[derive(Clone, Debug)]
+pub struct CellMap {
+    slice: Slice,
+    finest: u32,
+    nodes: Vec<Node>,
+    waiting: VecDeque<u32>,
+    judged: u64,
+    /// The proven area in cells of the finest level.
+    free: u64,
+    blocked: u64,
+}
+
+impl CellMap {
+    /// The map in which nothing is known, its finest cells a `2^finest`th of the slice's sides, at most [`MAX_LEVEL`].
+    pub fn new(slice: Slice, finest: u32) -> Self {
+        let finest = std::cmp::min(finest, MAX_LEVEL);
+        let root = Node { cell: Cell { level: 0, column: 0, row: 0, state: CellState::Unknown }, children: None };
+        CellMap { slice, finest, nodes: vec![root], waiting: VecDeque::from([0]), judged: 0, free: 0, blocked: 0 }
+    }
+
+    /// The slice.
+    pub fn slice(&self) -> &Slice {
+        &self.slice
+    }
+
+    /// The finest level.
+    pub fn finest(&self) -> u32 {
+        self.finest
+    }
+
+    /// Judges up to `budget` cells more. Returns whether there are more to judge.
+    pub fn refine(&mut self, budget: u32) -> bool {
+        for _ in 0..budget {
+            let Some(number) = self.waiting.pop_front() else { return false };
+            self.judge(number as usize);
+        }
+        !self.waiting.is_empty()
+    }
+
+    fn judge(&mut self, number: usize) {
+        let cell = self.nodes[number].cell;
+        let (center, half) = self.place(&cell);
+        let state = self.slice.judge(center, half);
+        self.nodes[number].cell.state = state;
+        self.judged += 1;
+        let area = 1_u64 << (2 * (self.finest - cell.level));
+        match state {
+            CellState::Free => self.free += area,
+            CellState::Blocked => self.blocked += area,
+            CellState::Unknown if cell.level < self.finest => {
+                let first = self.nodes.len() as u32;
+                self.nodes[number].children = Some(first);
+                for k in 0..4 {
+                    let (column, row) = (2 * cell.column + k % 2, 2 * cell.row + k / 2);
+                    let cell = Cell { level: cell.level + 1, column, row, state: CellState::Unknown };
+                    self.nodes.push(Node { cell, children: None });
+                    self.waiting.push_back(first + k);
+                }
+            }
+            CellState::Unknown => {}
+        }
+    }
+
+    /// The middle of a cell and half its sides.
+    pub fn place(&self, cell: &Cell) -> ([f64; 2], [f64; 2]) {
+        let (_, whole) = self.slice.whole();
+        let scale = 1.0 / f64::from(1_u32 << cell.level);
+        let half = whole.map(|h| h * scale);
+        let min = self.slice.min();
+        let index = [cell.column, cell.row].map(f64::from);
+        ([0, 1].map(|i| min[i] + (2.0 * index[i] + 1.0) * half[i]), half)
+    }
+
+    /// How far the proofs have come.
+    pub fn progress(&self) -> Progress {
+        let all = (1_u64 << (2 * self.finest)) as f64;
+        let (free, blocked) = (self.free as f64 / all, self.blocked as f64 / all);
+        let unknown = ((1_u64 << (2 * self.finest)) - self.free - self.blocked) as f64 / all;
+        Progress { judged: self.judged, free, blocked, unknown, done: self.waiting.is_empty() }
+    }
+
+    /// What is known of the cell that a point of the slice lies in; unknown beyond the slice.
+    pub fn state(&self, p: [f64; 2]) -> CellState {
+        let (min, max) = (self.slice.min(), self.slice.max());
+        if !(0..2).all(|i| p[i] >= min[i] && p[i] <= max[i]) {
+            return CellState::Unknown;
+        }
+        let mut node = &self.nodes[0];
+        while let Some(first) = node.children {
+            let (center, _) = self.place(&node.cell);
+            let (right, upper) = (u32::from(p[0] >= center[0]), u32::from(p[1] >= center[1]));
+            node = &self.nodes[(first + right + 2 * upper) as usize];
+        }
+        node.cell.state
+    }
+
+    /// The cells that are not cut further, coarse before fine.
+    pub fn leaves(&self) -> impl Iterator<Item = &Cell> {
+        self.nodes.iter().filter(|node| node.children.is_none()).map(|node| &node.cell)
+    }
+
+    /// What is known, as an image of `2^level` by `2^level` cells, row after row from the least coordinates, `level` at most
+    /// [`finest`](Self::finest). A cell of the image whose own cells differ counts as unknown.
+    pub fn raster(&self, level: u32) -> Vec<CellState> {
+        let level = std::cmp::min(level, self.finest);
+        let side = 1_usize << level;
+        let mut image = vec![CellState::Unknown; side * side];
+        for Cell { level: own, column, row, state } in self.leaves().filter(|leaf| leaf.level <= level) {
+            let scale = 1_usize << (level - own);
+            let (left, low) = (*column as usize * scale, *row as usize * scale);
+            for row in image.chunks_exact_mut(side).skip(low).take(scale) {
+                row[left..left + scale].fill(*state);
+            }
+        }
+        image
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::f64::consts::PI;
+
+    use super::*;
+    use crate::configuration::AnyConfiguration;
+    use crate::cspace::tests::arm;
+    use crate::robots::AnyRobot;
+
+    fn map(thick: bool, finest: u32) -> CellMap {
+        let (checker, q) = arm(thick);
+        CellMap::new(Slice::through(&checker, &q).unwrap(), finest)
+    }
+
+    /// Every sample of a dense raster against what is proven of its cell; the number of samples in proven cells.
+    fn compare(map: &CellMap, side: u32) -> usize {
+        let slice = map.slice();
+        let mut proven = 0;
+        for k in 0..side * side {
+            // off every grid line, and on the edges as well
+            let part = |i: u32| if i == 0 { 0.0 } else { (f64::from(i) + 0.317) / f64::from(side) };
+            let (u, v) = (part(k % side), part(k / side));
+            let p = [
+                slice.min()[0] + u * (slice.max()[0] - slice.min()[0]),
+                slice.min()[1] + v * (slice.max()[1] - slice.min()[1]),
+            ];
+            let is_free = slice.checker().is_free(&slice.at(p));
+            match map.state(p) {
+                CellState::Free => assert!(is_free, "{p:?} is in a cell proven free"),
+                CellState::Blocked => assert!(!is_free, "{p:?} is in a cell proven blocked"),
+                CellState::Unknown => continue,
+            }
+            proven += 1;
+        }
+        proven
+    }
+
+    #[test]
+    fn dense_samples_never_contradict_a_proven_cell() {
+        for thick in [false, true] {
+            let mut map = map(thick, 7);
+            assert_eq!(compare(&map, 8), 0, "nothing is known at first");
+            while map.refine(500) {
+                compare(&map, 40);
+            }
+            let proven = compare(&map, 160);
+            let unknown = map.progress().unknown;
+            let share = 1.0 - proven as f64 / 25600.0;
+            assert!((share - unknown).abs() < 0.02, "{unknown} of the area, {share} of the samples");
+            assert!(unknown < 0.35, "{unknown}");
+        }
+    }
+
+    #[test]
+    fn the_other_robots_cells_hold_too() {
+        for (kind, start, world, most) in [
+            ("rusty", &[1.0, 1.0, 0.0][..], crate::collision::Scene::apartment(), 0.25),
+            ("hitch", &[6.5, 2.5, 0.4], crate::collision::Scene::lot(), 0.35),
+            ("hitch", &[6.5, 2.5, 0.4, -0.3], crate::collision::Scene::lot(), 0.4),
+            ("reach3", &[0.3, 0.2, 0.1], crate::collision::Scene::workbench(), 0.3),
+        ] {
+            let (robot, q) = AnyRobot::of_kind(kind, start).unwrap();
+            let checker = crate::collision::Checker::new(world, robot);
+            let mut map = CellMap::new(Slice::through(&checker, &q).unwrap(), 7);
+            map.refine(u32::MAX);
+            compare(&map, 120);
+            let progress = map.progress();
+            assert!(progress.done && progress.unknown < most, "{kind} {progress:?}");
+            assert!(progress.free > 0.0 && progress.blocked > 0.0, "{kind} {progress:?}");
+        }
+    }
+
+    #[test]
+    fn rusty_sees_the_obstacles_grown_by_its_radius() {
+        let (robot, q) = AnyRobot::of_kind("rusty", &[1.0, 1.0, 0.0]).unwrap();
+        let pillar = crate::geometry::Shape::Disc { radius: 0.5 };
+        let bounds = crate::worlds::Bounds { min: [-2.0, -2.0].into(), max: [2.0, 2.0].into() };
+        let scene = crate::collision::Scene::empty(bounds).with_obstacle("the pillar", pillar);
+        let mut map = CellMap::new(Slice::through(&crate::collision::Checker::new(scene, robot), &q).unwrap(), 8);
+        map.refine(u32::MAX);
+        let grown = 0.5 + 0.11; // the pillar's radius and Rusty's
+        let cell = 4.0 / 256.0 * 1.5;
+        for k in 0..64 {
+            let (s, c) = crate::num::sin_cos(f64::from(k) * PI / 32.0);
+            assert_eq!(map.state([(grown - cell) * c, (grown - cell) * s]), CellState::Blocked, "{k}");
+            assert_eq!(map.state([(grown + cell) * c, (grown + cell) * s]), CellState::Free, "{k}");
+        }
+    }
+
+    #[test]
+    fn refining_in_pieces_is_refining_at_once() {
+        let (mut pieces, mut whole) = (map(false, 6), map(false, 6));
+        for budget in [1, 7, 100, 0, 392] {
+            pieces.refine(budget);
+        }
+        whole.refine(500);
+        assert_eq!(pieces.progress(), whole.progress());
+        assert_eq!(pieces.raster(6), whole.raster(6));
+        assert!(whole.refine(1) && !whole.refine(u32::MAX) && whole.progress().done);
+    }
+
+    #[test]
+    fn an_image_shows_what_the_cells_say() {
+        let mut map = map(false, 6);
+        map.refine(900);
+        for level in [3, 6, 9] {
+            let image = map.raster(level);
+            let side = 1_usize << std::cmp::min(level, 6);
+            assert_eq!(image.len(), side * side);
+            for (k, state) in image.iter().enumerate() {
+                let at = |i: usize| PI * (2.0 * (i as f64 + 0.5) / side as f64 - 1.0);
+                let truth = map.state([at(k % side), at(k / side)]);
+                assert!(*state == truth || (*state == CellState::Unknown && level < 6), "{k}: {state:?} {truth:?}");
+            }
+        }
+        let areas: f64 = map.leaves().map(|leaf| 1.0 / f64::from(1_u32 << (2 * leaf.level))).sum();
+        assert_eq!(areas, 1.0, "the leaves tile the slice");
+    }
+
+    #[test]
+    fn edges_of_the_square_are_one() {
+        let slice = map(false, 3).slice().clone();
+        assert!(slice.wraps());
+        assert_eq!(slice.at([-PI, 0.3]), slice.at([PI, 0.3]));
+        assert!((slice.distance([3.0, 0.0], [-3.0, 0.0]) - (2.0 * PI - 6.0)).abs() < 1e-12);
+        assert!(slice.holds(&AnyConfiguration::T2(crate::configuration::T2::new(1.0, 2.0))));
+        let (car, q) = AnyRobot::of_kind("hitch", &[6.5, 2.5, 0.4]).unwrap();
+        let slice = Slice::through(&crate::collision::Checker::new(crate::collision::Scene::lot(), car), &q).unwrap();
+        assert!(slice.holds(&q.with(0, 3.0)) && !slice.holds(&q.with(2, 0.5)), "another heading, another slice");
+    }
+}

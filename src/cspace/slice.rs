@@ -1,0 +1,162 @@
+//! `Slice`, a plane of configurations, and the proof about a cell of it.
+
+use std::f64::consts::PI;
+
+use crate::collision::{Checker, Collision};
+use crate::configuration::{AnyConfiguration, Configuration};
+use crate::geometry::Footprint;
+use crate::num::{hypot, lesser, wrap};
+use crate::robots::{AnyRobot, ConfigurationError, Robot};
+
+/// Taken off every clearance before it is compared with a bound, metres: far above what rounding does to either.
+const SLACK: f64 = 1e-11;
+
+/// What is known of a cell.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum CellState {
+    /// Every configuration in it is free, by proof.
+    Free,
+    /// Every configuration in it is in contact, by proof.
+    Blocked,
+    /// Neither is proven.
+    #[default]
+    Unknown,
+}
+
+/// Two coordinates of a robot's configurations, the others held: a plane through its configuration space, or a torus.
+///
+/// - An arm with two links: both angles, from -pi to pi, opposite edges one. With three: the last two, the first held.
+/// - Rusty: its place, in the world's bounds. It is a disc, so its heading does not matter.
+/// - Hitch: its rear axle's place, in the world's bounds, the headings held.
+#[derive(Clone, Debug)]
+pub struct Slice {
+    checker: Checker<AnyRobot>,
+    base: AnyConfiguration,
+    axes: [usize; 2],
+    min: [f64; 2],
+    max: [f64; 2],
+}
+
+impl Slice {
+    /// The slice through `q`.
+    ///
+    /// # Errors
+    /// [`ConfigurationError`] when `q` is not a configuration of the checker's robot.
+    pub fn through(checker: &Checker<AnyRobot>, q: &AnyConfiguration) -> Result<Self, ConfigurationError> {
+        checker.robot().check(q)?;
+        let axes = if matches!(q, AnyConfiguration::T3(_)) { [1, 2] } else { [0, 1] };
+        let bounds = checker.scene().bounds();
+        let (min, max) = if q.is_angle(axes[0]) {
+            ([-PI; 2], [PI; 2])
+        } else {
+            ([bounds.min.x, bounds.min.y], [bounds.max.x, bounds.max.y])
+        };
+        Ok(Slice { checker: checker.clone(), base: *q, axes, min, max })
+    }
+
+    /// The robot in its scene.
+    pub fn checker(&self) -> &Checker<AnyRobot> {
+        &self.checker
+    }
+
+    /// The least coordinates.
+    pub fn min(&self) -> [f64; 2] {
+        self.min
+    }
+
+    /// The greatest coordinates.
+    pub fn max(&self) -> [f64; 2] {
+        self.max
+    }
+
+    /// Whether opposite edges are one: a torus.
+    pub fn wraps(&self) -> bool {
+        self.base.is_angle(self.axes[0])
+    }
+
+    /// The names of the two coordinates: `th1`, `x`.
+    pub fn names(&self) -> [String; 2] {
+        let names = self.base.coordinate_names();
+        self.axes.map(|axis| names.get(axis).cloned().unwrap_or_default())
+    }
+
+    /// The configuration at a point of the slice.
+    pub fn at(&self, p: [f64; 2]) -> AnyConfiguration {
+        self.base.with(self.axes[0], p[0]).with(self.axes[1], p[1])
+    }
+
+    /// The point of the slice that a configuration lies over.
+    pub fn point(&self, q: &AnyConfiguration) -> [f64; 2] {
+        let c = q.coordinates();
+        self.axes.map(|axis| c.get(axis).copied().unwrap_or(0.0))
+    }
+
+    /// Whether `q` lies in this slice: its other coordinates are those held. A disc's heading does not matter.
+    pub fn holds(&self, q: &AnyConfiguration) -> bool {
+        let same = matches!(q, AnyConfiguration::Pose(_)) || self.base.with_point(self.axes, self.point(q)) == *q;
+        same && self.checker.robot().check(q).is_ok()
+    }
+
+    /// How far apart two points of the slice are, metres or radians: the length of their difference, angles the short way.
+    pub fn distance(&self, a: [f64; 2], b: [f64; 2]) -> f64 {
+        let d = [b[0] - a[0], b[1] - a[1]];
+        let [x, y] = if self.wraps() { d.map(wrap) } else { d };
+        hypot(x, y)
+    }
+
+    /// What can be proven of the cell of all points within `half` of `center` in each coordinate.
+    ///
+    /// At the centre every part has a clearance, or a depth: how far it must move to be free. Within the cell no point of a part
+    /// moves farther than the robot's motion bound to the cell's corner, which is the greatest there is in it. A clearance of
+    /// every part above its bound proves the cell free, a depth of one part above its bound proves it blocked.
+    pub fn judge(&self, center: [f64; 2], half: [f64; 2]) -> CellState {
+        let (robot, scene) = (self.checker.robot(), self.checker.scene());
+        let q = self.at(center);
+        // the rates depend on the difference alone; from 0, so that it is not wrapped
+        let Ok(rates) = robot.edge_rates(&self.at([0.0; 2]), &self.at([half[0], half[1]])) else {
+            return CellState::Unknown;
+        };
+        let footprint = robot.footprint(&q);
+        let parts =
+            footprint.parts().iter().zip(&rates).map(|(part, rate)| (Footprint::new([part.clone()]), rate.speed));
+        let mut free = true;
+        for (part, bound) in parts {
+            let gap = scene.distance(&part) - SLACK;
+            if gap > bound {
+                continue;
+            }
+            free = false;
+            if gap <= 0.0 && scene.depth(&part) - SLACK > bound {
+                return CellState::Blocked;
+            }
+        }
+        if free { CellState::Free } else { CellState::Unknown }
+    }
+
+    /// The point of a cell that is nearest to `p`, and how far that is.
+    pub(super) fn nearest_in(&self, p: [f64; 2], center: [f64; 2], half: [f64; 2]) -> ([f64; 2], f64) {
+        let nearest = [0, 1].map(|i| {
+            let off = if self.wraps() { wrap(p[i] - center[i]) } else { p[i] - center[i] };
+            center[i] + off.clamp(-half[i], half[i])
+        });
+        (nearest, self.distance(p, nearest))
+    }
+
+    /// Half the slice in each coordinate, and its middle.
+    pub(super) fn whole(&self) -> ([f64; 2], [f64; 2]) {
+        let half = [0, 1].map(|i| 0.5 * (self.max[i] - self.min[i]));
+        ([0, 1].map(|i| self.min[i] + half[i]), half)
+    }
+
+    /// The shorter of two sides.
+    pub(super) fn least_side(&self) -> f64 {
+        lesser(self.max[0] - self.min[0], self.max[1] - self.min[1])
+    }
+}
+
+impl AnyConfiguration {
+    /// This configuration with two coordinates replaced.
+    fn with_point(&self, axes: [usize; 2], p: [f64; 2]) -> AnyConfiguration {
+        self.with(axes[0], p[0]).with(axes[1], p[1])
+    }
+}

@@ -1,0 +1,242 @@
+//! `Undo`, earlier versions of the run's input.
+
+use std::sync::Arc;
+
+use bevy::prelude::*;
+
+use super::{History, Keyframes, PendingInput, Playback, RunConfig, Transport, restore, seek, start_run_in_order};
+use crate::random::Seed;
+use crate::run::Script;
+use crate::tour::TourConfig;
+
+/// The most versions that are kept.
+const MOST: usize = 200;
+
+/// A run's input, and where the run stood.
+#[derive(Clone, Debug)]
+struct Version {
+    config: Arc<TourConfig>,
+    seed: Seed,
+    script: Script,
+    tick: u64,
+    frontier: u64,
+    /// A new run began after it: a step even when the input is the same.
+    ends: bool,
+}
+
+impl Version {
+    fn of(world: &World) -> Option<Self> {
+        let Transport { seed, tick, frontier, .. } = *world.resource::<Transport>();
+        let config = Arc::clone(&world.get_resource::<RunConfig>()?.0);
+        Some(Version {
+            config,
+            seed,
+            script: world.resource::<PendingInput>().script().clone(),
+            tick,
+            frontier,
+            ends: false,
+        })
+    }
+
+    /// Whether both are the same run, wherever it stands.
+    fn is(&self, other: &Version) -> bool {
+        !self.ends && Arc::ptr_eq(&self.config, &other.config) && self.seed == other.seed && self.script == other.script
+    }
+}
+
+/// What was done to the run's input, so that it can be undone and done again. Playing on is nothing to undo.
+#[derive(Resource, Clone, Debug, Default)]
+pub struct Undo {
+    past: Vec<Version>,
+    future: Vec<Version>,
+}
+
+impl Undo {
+    /// Whether something can be undone.
+    pub fn can_undo(&self) -> bool {
+        !self.past.is_empty()
+    }
+
+    /// Whether something undone can be done again.
+    pub fn can_redo(&self) -> bool {
+        !self.future.is_empty()
+    }
+}
+
+/// Remembers the input as it is, before something is done to it: what follows, up to the next checkpoint, is undone as one.
+pub(super) fn checkpoint(world: &mut World) {
+    push(world, false);
+}
+
+/// [`checkpoint`] before a new run in place of this one.
+pub(super) fn checkpoint_before_new_run(world: &mut World) {
+    push(world, true);
+}
+
+fn push(world: &mut World, ends: bool) {
+    let Some(now) = Version::of(world).map(|version| Version { ends, ..version }) else { return };
+    let mut undo = world.resource_mut::<Undo>();
+    undo.future.clear();
+    // of a gesture that came to nothing only the place is kept
+    if undo.past.last().is_some_and(|last| last.is(&now)) {
+        undo.past.pop();
+    }
+    undo.past.push(now);
+    if undo.past.len() > MOST {
+        undo.past.remove(0);
+    }
+}
+
+/// Restores the version before the last checkpoint that something followed, and goes to where the run stood then. Paused.
+///
+/// # Errors
+/// What a start or a seek refuses, as text; it does not happen to a version that has run.
+pub(super) fn undo(world: &mut World) -> Result<(), String> {
+    travel(world, |undo| &mut undo.past, |undo| &mut undo.future)
+}
+
+/// The reverse of [`undo`].
+///
+/// # Errors
+/// As [`undo`].
+pub(super) fn redo(world: &mut World) -> Result<(), String> {
+    travel(world, |undo| &mut undo.future, |undo| &mut undo.past)
+}
+
+fn travel(
+    world: &mut World,
+    from: fn(&mut Undo) -> &mut Vec<Version>,
+    to: fn(&mut Undo) -> &mut Vec<Version>,
+) -> Result<(), String> {
+    let Some(now) = Version::of(world) else { return Ok(()) };
+    loop {
+        let Some(version) = from(&mut world.resource_mut::<Undo>()).pop() else { return Ok(()) };
+        if !version.is(&now) {
+            to(&mut world.resource_mut::<Undo>()).push(Version { ends: version.ends, ..now });
+            return apply(world, version);
+        }
+    }
+}
+
+fn apply(world: &mut World, version: Version) -> Result<(), String> {
+    let Version { config, seed, script, tick, frontier, .. } = version;
+    let Transport { seed: present, speed, looping, .. } = *world.resource::<Transport>();
+    let same_run = world.get_resource::<RunConfig>().is_some_and(|c| Arc::ptr_eq(&c.0, &config)) && seed == present;
+    if same_run {
+        // up to where both scripts agree the run is the same
+        let shared = shared_ticks(world.resource::<PendingInput>().script(), &script);
+        let keep = if shared < tick { shared } else { tick };
+        world.insert_resource(PendingInput::new(script));
+        world.resource_mut::<Keyframes>().truncate_after(shared);
+        if let Some(mut history) = world.get_resource_mut::<History>() {
+            history.truncate_after(shared);
+        }
+        let start = world.resource::<Keyframes>().before(keep).cloned();
+        if let Some(frame) = start {
+            restore(world, &frame).map_err(|e| e.to_string())?;
+        }
+    } else {
+        let count = config.worlds.iter().map(|w| w.robots.len()).sum();
+        let order: Vec<usize> = (0..count).collect();
+        start_run_in_order(world, config, (seed, script).into(), &order).map_err(|e| e.to_string())?;
+    }
+    // as far as it had come, for what lies ahead to be known; then back to where it stood
+    for to in [frontier, tick] {
+        seek(world, to).map_err(|e| e.to_string())?;
+    }
+    let mut transport = world.resource_mut::<Transport>();
+    *transport = Transport { playback: Playback::Paused, speed, looping, frontier, ..*transport };
+    Ok(())
+}
+
+/// The last tick up to which two scripts have the same input.
+fn shared_ticks(a: &Script, b: &Script) -> u64 {
+    let same = a.events.iter().zip(&b.events).take_while(|(a, b)| a == b).count();
+    let next = [a.events.get(same), b.events.get(same)].into_iter().flatten().map(|e| e.tick).min();
+    next.map_or(u64::MAX, |tick| tick.saturating_sub(1))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::run::RobotInput;
+    use crate::simulation::{
+        HistoryPlugin, LatestFrame, RobotCommand, SimulationPlugin, TransportCommand, obey, snapshot, start_run, step,
+    };
+    use crate::tour::BOOK_SEED;
+
+    fn app() -> App {
+        let mut app = App::new();
+        app.add_plugins((bevy::time::TimePlugin, SimulationPlugin, HistoryPlugin));
+        start_run(app.world_mut(), TourConfig::default(), BOOK_SEED).unwrap();
+        app.update();
+        app
+    }
+
+    fn drive(app: &mut App, v: i16) {
+        let input = RobotInput::Drive(v, 0);
+        app.world_mut().write_message(RobotCommand { robot: "Rusty".into(), input });
+        app.update();
+    }
+
+    fn advance(app: &mut App, ticks: u64) {
+        (0..ticks).for_each(|_| step(app.world_mut()));
+    }
+
+    fn state(app: &mut App) -> (Script, crate::run::Frame, u64) {
+        let world = app.world_mut();
+        (world.resource::<PendingInput>().script().clone(), snapshot(world), world.resource::<Transport>().frontier)
+    }
+
+    fn command(app: &mut App, command: TransportCommand) {
+        obey(app.world_mut(), command).unwrap();
+    }
+
+    #[test]
+    fn an_undo_restores_the_script_and_the_place_and_a_redo_does_it_again() {
+        let mut app = app();
+        advance(&mut app, 150);
+        let touring = state(&mut app);
+        // one gesture: two changes after one checkpoint
+        app.world_mut().write_message(TransportCommand::Checkpoint);
+        drive(&mut app, 128);
+        advance(&mut app, 30);
+        drive(&mut app, 0);
+        advance(&mut app, 20);
+        let driven = state(&mut app);
+        assert_eq!(driven.0.events.len(), 2);
+        command(&mut app, TransportCommand::Undo);
+        assert_eq!(state(&mut app), touring);
+        assert!(app.world().resource::<Undo>().can_redo() && !app.world().resource::<Undo>().can_undo());
+        command(&mut app, TransportCommand::Redo);
+        assert_eq!(state(&mut app), driven);
+        let trail = app.world().resource::<History>().at(200, 0).unwrap().clone();
+        assert!(trail.manual, "the history went along");
+    }
+
+    #[test]
+    fn a_reset_and_a_new_seed_can_be_undone() {
+        let mut app = app();
+        advance(&mut app, 40);
+        let before = state(&mut app);
+        for new in [TransportCommand::Reset, TransportCommand::ReRoll, TransportCommand::SetSeed(Seed(7))] {
+            command(&mut app, new);
+            assert_eq!(app.world().resource::<LatestFrame>().0.tick, 0);
+            command(&mut app, TransportCommand::Undo);
+            assert_eq!(state(&mut app), before, "{new:?}");
+        }
+    }
+
+    #[test]
+    fn a_gesture_that_came_to_nothing_is_no_step() {
+        let mut app = app();
+        advance(&mut app, 10);
+        app.world_mut().write_message(TransportCommand::Checkpoint);
+        drive(&mut app, 128);
+        advance(&mut app, 10);
+        command(&mut app, TransportCommand::Checkpoint);
+        command(&mut app, TransportCommand::Checkpoint);
+        command(&mut app, TransportCommand::Undo);
+        assert_eq!(state(&mut app).0, Script::empty());
+    }
+}

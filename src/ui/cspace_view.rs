@@ -1,0 +1,175 @@
+//! The configuration space beside the workspace: the same robot as in the anatomy, as a point.
+
+use std::sync::Arc;
+
+use bevy_egui::egui::{Rect, RichText, Ui, pos2, vec2};
+
+use super::manifest::widget;
+use super::sheet::sheet;
+use super::{Look, UiState, frame, readout};
+use crate::anatomy::{Anatomy, Tab};
+use crate::configuration::{AnyConfiguration, Configuration};
+use crate::cspace::{CellMap, Overlay, Slice, cspace_picture, overlay_items};
+use crate::picture::{Picture, Role};
+use crate::robots::AnyRobot;
+
+/// Cells are cut down to a 128th of the sides.
+const FINEST: u32 = 7;
+/// So many cells are judged in a frame.
+const BUDGET: u32 = 1500;
+/// So many points of the way are kept.
+const TRACE: usize = 2000;
+
+/// What the widget remembers.
+#[derive(Clone, Debug, Default)]
+pub struct CspaceState {
+    map: Option<Map>,
+    trace: Vec<AnyConfiguration>,
+}
+
+/// The proofs, and how they were last drawn.
+#[derive(Clone, Debug)]
+struct Map {
+    cells: CellMap,
+    /// What they are of: robot, scene and the coordinates that are held.
+    of: String,
+    picture: Arc<Picture>,
+    /// How many cells were judged when it was drawn.
+    drawn: u64,
+}
+
+/// What the cells depend on: the robot, the world, and the coordinates that the slice holds.
+fn of(anatomy: &Anatomy, slice: &Slice) -> String {
+    let q = anatomy.q();
+    let held = if slice.wraps() { q.coordinates().len() - 2 } else { 0 };
+    let coordinates = q.coordinates();
+    let held: Vec<f64> = match q {
+        AnyConfiguration::Hitch(_) => coordinates[2..].to_vec(),
+        _ => coordinates[..held].to_vec(),
+    };
+    format!("{:?} {} {held:?}", anatomy.checker().robot(), anatomy.world().name)
+}
+
+impl CspaceState {
+    /// Goes on with the proofs. Returns whether there is more to prove.
+    fn refine(&mut self, anatomy: &Anatomy) -> bool {
+        let Ok(slice) = Slice::through(anatomy.checker(), &anatomy.q()) else { return false };
+        let of = of(anatomy, &slice);
+        if self.map.as_ref().is_none_or(|m| m.of != of) {
+            let cells = CellMap::new(slice, FINEST);
+            let picture = Arc::new(cspace_picture(&cells, &Overlay::default()));
+            self.map = Some(Map { cells, of, picture, drawn: 0 });
+            self.trace.clear();
+        }
+        let Some(map) = &mut self.map else { return false };
+        let more = map.cells.refine(BUDGET);
+        let judged = map.cells.progress().judged;
+        // what is drawn lags a little behind what is known: merging the cells costs more than judging them
+        if judged != map.drawn && (!more || judged > map.drawn + map.drawn / 3) {
+            map.picture = Arc::new(cspace_picture(&map.cells, &Overlay::default()));
+            map.drawn = judged;
+        }
+        more
+    }
+}
+
+/// Shows the widget.
+pub fn cspace_view(ui: &mut Ui, (narrow, look): (bool, &Look), state: &mut UiState) {
+    let Some(words) = widget("cspace") else { return };
+    frame::title(ui, words, look);
+    frame::key_row(ui, words, look, state);
+    ui.add_space(6.0);
+    let anatomy = state.anatomy.anatomy.clone();
+    if state.cspace.refine(&anatomy) {
+        ui.ctx().request_repaint();
+    }
+    let text = 96.0;
+    let room = ui.available_rect_before_wrap();
+    let side = if narrow {
+        room.width().min(0.5 * (room.height() - text))
+    } else {
+        (0.5 * (room.width() - 20.0)).min(room.height() - text)
+    };
+    let left = Rect::from_min_size(room.min, vec2(side, side));
+    let right = if narrow { left.translate(vec2(0.0, side + 8.0)) } else { left.translate(vec2(side + 20.0, 0.0)) };
+    workspace(ui, left, look, state);
+    space(ui, right, look, state);
+    let below = Rect::from_min_max(pos2(room.left(), right.bottom() + 6.0), room.max);
+    ui.scope_builder(bevy_egui::egui::UiBuilder::new().max_rect(below), |ui| {
+        ui.spacing_mut().interact_size.y = 0.0;
+        ui.label(RichText::new(readout(&state.anatomy.anatomy.q().to_string())).monospace());
+        if let Some(map) = &state.cspace.map {
+            let p = map.cells.progress();
+            let percent = |x: f64| format!("{:5.1} %", 100.0 * x);
+            let text = format!(
+                "proven free {}  proven blocked {}  not known {}  ({} cells judged)",
+                percent(p.free),
+                percent(p.blocked),
+                percent(p.unknown),
+                p.judged
+            );
+            ui.label(RichText::new(text).monospace().color(look.colour(Role::Muted)));
+        }
+        let mut annulus = state.anatomy.anatomy.show_annulus;
+        if ui.checkbox(&mut annulus, "the points that the tip can reach").changed() {
+            state.anatomy.anatomy.show_annulus = annulus;
+        }
+    });
+}
+
+/// The workspace: the robot is dragged there.
+fn workspace(ui: &mut Ui, paper: Rect, look: &Look, state: &mut UiState) {
+    let still = Arc::clone(state.anatomy.backdrop());
+    let overlay = state.anatomy.anatomy.overlay();
+    let spoken = format!("workspace. {}", state.anatomy.anatomy.described());
+    let on = sheet(ui, (paper, spoken), &still, &overlay, look, state);
+    if let Some(to) = on.held().filter(|_| on.response.dragged() || on.response.clicked()) {
+        state.anatomy.anatomy.drag(to);
+        remember(state);
+    }
+}
+
+/// The configuration space: the point is dragged there.
+fn space(ui: &mut Ui, paper: Rect, look: &Look, state: &mut UiState) {
+    let Some(map) = &state.cspace.map else { return };
+    let anatomy = &state.anatomy.anatomy;
+    let (slice, still) = (map.cells.slice().clone(), Arc::clone(&map.picture));
+    let overlay = Overlay {
+        now: Some(anatomy.q()),
+        in_contact: anatomy.intersects(),
+        trace: state.cspace.trace.clone(),
+        line: (anatomy.tab == Tab::Swept).then(|| [anatomy.q(), anatomy.second()]),
+        solutions: solutions(anatomy),
+    };
+    let moving = Picture::new(still.name.clone(), still.bounds).with(overlay_items(&slice, &overlay));
+    let spoken = format!("configuration space. The robot is the point {}", anatomy.q());
+    let on = sheet(ui, (paper, spoken), &still, &moving, look, state);
+    if let Some(to) = on.held().filter(|_| on.response.dragged() || on.response.clicked()) {
+        let (min, max) = (slice.min(), slice.max());
+        let p = [to.x.clamp(min[0], max[0]), to.y.clamp(min[1], max[1])];
+        // a point of the slice is a configuration of the robot
+        if state.anatomy.anatomy.set_q(slice.at(p)).is_ok() {
+            remember(state);
+        }
+    }
+}
+
+/// Both arms that reach the tip of a two-link arm.
+fn solutions(anatomy: &Anatomy) -> Vec<AnyConfiguration> {
+    match (anatomy.checker().robot(), anatomy.q()) {
+        (AnyRobot::Reach(arm), AnyConfiguration::T2(q)) => {
+            arm.ik(arm.tip(&q)).into_iter().flatten().map(AnyConfiguration::T2).collect()
+        }
+        _ => Vec::new(),
+    }
+}
+
+fn remember(state: &mut UiState) {
+    let q = state.anatomy.anatomy.q();
+    let trace = &mut state.cspace.trace;
+    if trace.last() != Some(&q) {
+        trace.push(q);
+        let spare = trace.len().saturating_sub(TRACE);
+        trace.drain(..spare);
+    }
+}

@@ -1,0 +1,90 @@
+//! `Formula`, a line of mathematics as runs of text.
+
+use crate::picture::Role;
+
+/// How a run stands to the line.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Level {
+    /// On it.
+    Base,
+    /// Below it, smaller.
+    Sub,
+    /// Above it, smaller.
+    Sup,
+}
+
+/// A piece of a formula.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Term {
+    /// Its letters.
+    pub text: &'static str,
+    /// What it stands for, when it is a term that a picture draws.
+    pub role: Option<Role>,
+    /// Where it stands.
+    pub level: Level,
+}
+
+/// A line of mathematics.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Formula(pub Vec<Term>);
+
+impl Formula {
+    /// The configuration of a robot of this kind, with a trailer on or not, and the space it lies in. Empty for a kind that is
+    /// not the lab's.
+    pub fn space(kind: &str, trailer: bool) -> Self {
+        let term = |text, role, level| Term { text, role, level };
+        let base = |text| term(text, None, Level::Base);
+        let q = term("q", Some(Role::Robot), Level::Base);
+        let sub = |text| term(text, None, Level::Sub);
+        let sup = |text| term(text, None, Level::Sup);
+        Formula(match (kind, trailer) {
+            ("rusty", _) => vec![q, base(" = (x, y) \u{2208} R"), sup("2")],
+            ("reach", _) => {
+                vec![q, base(" = (\u{3b8}"), sub("1"), base(", \u{3b8}"), sub("2"), base(") \u{2208} T"), sup("2")]
+            }
+            ("reach3", _) => vec![
+                q,
+                base(" = (\u{3b8}"),
+                sub("1"),
+                base(", \u{3b8}"),
+                sub("2"),
+                base(", \u{3b8}"),
+                sub("3"),
+                base(") \u{2208} T"),
+                sup("3"),
+            ],
+            ("hitch", false) => vec![q, base(" = (x, y, \u{3b8}) \u{2208} SE(2)")],
+            ("hitch", true) => vec![q, base(" = (x, y, \u{3b8}, \u{3c8}) \u{2208} SE(2) \u{d7} S"), sup("1")],
+            _ => vec![],
+        })
+    }
+
+    /// The formula as it is read aloud, and why the space is that one.
+    pub fn spoken(kind: &str, trailer: bool) -> &'static str {
+        match (kind, trailer) {
+            ("rusty", _) => {
+                "A point of the plane: a disc looks the same whichever way it faces. The simulator keeps the heading too."
+            }
+            ("reach", _) => "Two angles: a point of the torus, not the place of the tip.",
+            ("reach3", _) => "Three angles for a tip with two coordinates: one to spare.",
+            ("hitch", false) => "Position and heading: three numbers, though only two can be commanded.",
+            ("hitch", true) => "Position and heading of the car, and the trailer's heading psi.",
+            _ => "",
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn each_robot_has_the_space_of_its_type() {
+        let written = |kind, trailer| Formula::space(kind, trailer).0.iter().map(|t| t.text).collect::<String>();
+        assert_eq!(written("rusty", false), "q = (x, y) \u{2208} R2");
+        assert_eq!(written("reach", false), "q = (\u{3b8}1, \u{3b8}2) \u{2208} T2");
+        assert_eq!(written("hitch", false), "q = (x, y, \u{3b8}) \u{2208} SE(2)");
+        assert!(written("hitch", true).ends_with("SE(2) \u{d7} S1"));
+        assert!(Formula::space("tricycle", false).0.is_empty() && Formula::spoken("tricycle", false).is_empty());
+    }
+}

@@ -1,0 +1,209 @@
+//! The keys: one table feeds the shortcuts, the list of them, the hints on buttons and a test against clashes.
+
+use bevy_egui::egui::{Key, Modifiers, Ui};
+
+/// What a key asks for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Action {
+    /// Play, or pause.
+    PlayPause,
+    /// One tick back.
+    StepBack,
+    /// One tick on.
+    Step,
+    /// To tick 0.
+    Start,
+    /// As far as the run has come.
+    End,
+    /// To the next contact known.
+    NextContact,
+    /// Play again and again, or not.
+    Loop,
+    /// The next slower speed.
+    Slower,
+    /// The next faster speed.
+    Faster,
+    /// Forget what comes after the present tick.
+    Continue,
+    /// A new run from the same seed.
+    Reset,
+    /// A new run from another seed.
+    ReRoll,
+    /// Undo.
+    Undo,
+    /// Do again.
+    Redo,
+    /// Save the run.
+    Save,
+    /// Open a run.
+    Open,
+    /// Take the robot of this pane in hand.
+    Arm(usize),
+    /// Let go of it.
+    LetGo,
+    /// The four keys that drive.
+    Drive,
+    /// Open or fold the plots.
+    Plots,
+    /// Names on or off.
+    Labels,
+    /// The scan on or off.
+    Scan,
+    /// The next theme.
+    Theme,
+    /// The list of keys.
+    Help,
+    /// The widget with this number on the rail.
+    Widget(usize),
+}
+
+/// When a key means something.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Scope {
+    /// Always.
+    Always,
+    /// While no robot is in hand.
+    Unarmed,
+    /// While one is.
+    Armed,
+}
+
+/// A row of the table.
+#[derive(Clone, Copy, Debug)]
+pub struct Binding {
+    /// What it asks for.
+    pub action: Action,
+    /// The key.
+    pub key: Key,
+    /// With these held.
+    pub modifiers: Modifiers,
+    /// When.
+    pub scope: Scope,
+    /// What it does, in words: the list and the hints show them.
+    pub words: &'static str,
+}
+
+const fn plain(action: Action, key: Key, scope: Scope, words: &'static str) -> Binding {
+    Binding { action, key, modifiers: Modifiers::NONE, scope, words }
+}
+
+const fn with(action: Action, modifiers: Modifiers, key: Key, words: &'static str) -> Binding {
+    Binding { action, key, modifiers, scope: Scope::Always, words }
+}
+
+/// All keys.
+pub const BINDINGS: [Binding; 35] = [
+    plain(Action::PlayPause, Key::Space, Scope::Always, "play or pause"),
+    plain(Action::StepBack, Key::ArrowLeft, Scope::Unarmed, "one tick back, and pause"),
+    plain(Action::Step, Key::ArrowRight, Scope::Unarmed, "one tick, and pause"),
+    plain(Action::Start, Key::Home, Scope::Always, "to the start"),
+    plain(Action::End, Key::End, Scope::Always, "as far as the run has come"),
+    plain(Action::NextContact, Key::N, Scope::Always, "to the next contact"),
+    plain(Action::Loop, Key::L, Scope::Always, "play again and again, or not"),
+    plain(Action::Slower, Key::Comma, Scope::Always, "slower"),
+    plain(Action::Faster, Key::Period, Scope::Always, "faster"),
+    plain(Action::Continue, Key::C, Scope::Always, "continue from here: forget what comes later"),
+    plain(Action::Reset, Key::R, Scope::Always, "reset: the same seed, no input"),
+    plain(Action::ReRoll, Key::G, Scope::Always, "re-roll: another seed"),
+    with(Action::Undo, Modifiers::COMMAND, Key::Z, "undo"),
+    with(Action::Redo, Modifiers::COMMAND.plus(Modifiers::SHIFT), Key::Z, "do again"),
+    with(Action::Redo, Modifiers::COMMAND, Key::Y, "do again"),
+    with(Action::Save, Modifiers::COMMAND, Key::S, "save the run"),
+    with(Action::Open, Modifiers::COMMAND, Key::O, "open a run"),
+    plain(Action::Arm(0), Key::Num1, Scope::Always, "take the first pane's robot in hand, or let go"),
+    plain(Action::Arm(1), Key::Num2, Scope::Always, "take the second pane's robot in hand, or let go"),
+    plain(Action::Arm(2), Key::Num3, Scope::Always, "take the third pane's robot in hand, or let go"),
+    plain(Action::LetGo, Key::Escape, Scope::Armed, "let go"),
+    plain(Action::Drive, Key::ArrowUp, Scope::Armed, "forward"),
+    plain(Action::Drive, Key::ArrowDown, Scope::Armed, "backward"),
+    plain(Action::Drive, Key::ArrowLeft, Scope::Armed, "turn or steer left"),
+    plain(Action::Drive, Key::ArrowRight, Scope::Armed, "turn or steer right"),
+    plain(Action::Plots, Key::P, Scope::Always, "plots"),
+    plain(Action::Labels, Key::T, Scope::Always, "names of things"),
+    plain(Action::Scan, Key::F, Scope::Always, "what the range sensor sees"),
+    plain(Action::Theme, Key::D, Scope::Always, "system, light or dark paper"),
+    plain(Action::Help, Key::Questionmark, Scope::Always, "this list"),
+    plain(Action::Help, Key::F1, Scope::Always, "this list"),
+    with(Action::Widget(0), Modifiers::COMMAND, Key::Num1, "the dashboard"),
+    with(Action::Widget(1), Modifiers::COMMAND, Key::Num2, "query anatomy"),
+    with(Action::Widget(2), Modifiers::COMMAND, Key::Num3, "configuration space"),
+    with(Action::Widget(3), Modifiers::COMMAND, Key::Num4, "world atlas"),
+];
+
+impl Binding {
+    /// The key as it is printed on the keyboard.
+    pub fn keys(&self) -> String {
+        let mut keys = String::new();
+        for (held, name) in [(self.modifiers.command, "Ctrl+"), (self.modifiers.shift, "Shift+")] {
+            if held && self.key != Key::Questionmark {
+                keys.push_str(name);
+            }
+        }
+        let name = match self.key {
+            Key::ArrowLeft => "\u{2190}",
+            Key::ArrowRight => "\u{2192}",
+            Key::ArrowUp => "\u{2191}",
+            Key::ArrowDown => "\u{2193}",
+            Key::Questionmark => "?",
+            Key::Comma => ",",
+            Key::Period => ".",
+            key => key.name(),
+        };
+        keys + name
+    }
+}
+
+/// What the first key for an action does, and which it is: `one tick, and pause (→)`.
+pub fn hint(action: Action) -> String {
+    BINDINGS.iter().find(|b| b.action == action).map_or_else(String::new, |b| format!("{} ({})", b.words, b.keys()))
+}
+
+/// The actions whose keys were pressed in this frame, in the order of the table. While words are typed none; while a button or the
+/// like has the focus, its own keys (arrows, space, Home, End) are left to it; a handle that is `nudged` keeps the arrows only.
+pub fn pressed(ui: &Ui, armed: bool, nudged: bool) -> Vec<Action> {
+    if ui.ctx().text_edit_focused() {
+        return vec![];
+    }
+    let focused = ui.memory(|m| m.focused().is_some());
+    let own = |key| {
+        use Key::{ArrowDown, ArrowLeft, ArrowRight, ArrowUp, End, Enter, Home, Space};
+        let arrows = matches!(key, ArrowLeft | ArrowRight | ArrowUp | ArrowDown);
+        focused && (arrows || !nudged && matches!(key, Space | Enter | Home | End))
+    };
+    let due = |b: &&Binding| {
+        let scope = match b.scope {
+            Scope::Always => true,
+            Scope::Unarmed => !armed,
+            Scope::Armed => armed,
+        };
+        scope && !own(b.key) && b.action != Action::Drive
+    };
+    // the one with more modifiers first: without, it would take the other's key
+    let mut bindings: Vec<&Binding> = BINDINGS.iter().filter(due).collect();
+    bindings.sort_by_key(|b| std::cmp::Reverse(u8::from(b.modifiers.command) + u8::from(b.modifiers.shift)));
+    ui.input_mut(|i| bindings.iter().filter(|b| i.consume_key(b.modifiers, b.key)).map(|b| b.action).collect())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn no_key_means_two_things_at_once() {
+        for (i, a) in BINDINGS.iter().enumerate() {
+            assert!(!a.words.is_empty() && !a.keys().is_empty());
+            for b in &BINDINGS[..i] {
+                let together = a.scope == b.scope || a.scope == Scope::Always || b.scope == Scope::Always;
+                let same = a.key == b.key && a.modifiers == b.modifiers && together;
+                assert!(!same, "{:?} and {:?} share {}", a.action, b.action, a.keys());
+            }
+        }
+    }
+
+    #[test]
+    fn hints_name_the_key() {
+        assert_eq!(hint(Action::Step), "one tick, and pause (\u{2192})");
+        assert_eq!(hint(Action::Redo), "do again (Ctrl+Shift+Z)");
+        assert_eq!(hint(Action::Help), "this list (?)");
+    }
+}

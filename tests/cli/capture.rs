@@ -1,0 +1,130 @@
+//! `capture`: every widget as SVG and PNG, the dashboard as GIF, what is in the files, what is refused.
+
+use std::fs;
+use std::path::Path;
+
+use super::run;
+
+/// The text notes of a PNG, `keyword: text`.
+fn notes(path: &Path) -> Vec<String> {
+    let decoder = png::Decoder::new(std::io::BufReader::new(fs::File::open(path).unwrap()));
+    let reader = decoder.read_info().unwrap();
+    reader.info().uncompressed_latin1_text.iter().map(|t| format!("{}: {}", t.keyword, t.text)).collect()
+}
+
+fn size(path: &Path) -> (u32, u32) {
+    let decoder = png::Decoder::new(std::io::BufReader::new(fs::File::open(path).unwrap()));
+    let reader = decoder.read_info().unwrap();
+    (reader.info().width, reader.info().height)
+}
+
+#[test]
+fn every_widget_is_captured_in_both_themes_the_same_each_time() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = |name: &str| folder.path().join(name).to_str().unwrap().to_owned();
+    let widgets: [&[&str]; 6] = [
+        &["dashboard", "--tick", "40", "--seed", "7"],
+        &["anatomy"],
+        &["anatomy", "--tab", "witness", "--robot", "hitch"],
+        &["atlas", "--world", "apartment", "--grid", "0.2"],
+        &["atlas", "--world", "lot", "--teleport", "5.5,5,1.2"],
+        &["cspace", "--cells", "6", "--annulus"],
+    ];
+    for widget in widgets {
+        let mut seen = Vec::new();
+        for theme in ["light", "dark", "light"] {
+            let file = at("w.svg");
+            let arguments = [&["capture", "--widget"], widget, &["--theme", theme, "-o", &file]].concat();
+            run(&arguments).done();
+            let svg = fs::read_to_string(&file).unwrap();
+            assert!(svg.starts_with("<svg") && svg.contains("<metadata>Software: motion-lab"), "{widget:?}");
+            assert!(svg.contains("<title id=\"title\">") && !svg.contains("NaN"), "{widget:?}");
+            seen.push(svg);
+        }
+        assert_eq!(seen[0], seen[2], "{widget:?}: the same bytes for the same request");
+        assert_ne!(seen[0], seen[1], "{widget:?}");
+    }
+}
+
+#[test]
+fn a_png_holds_seed_digest_and_tick_and_is_as_large_as_asked() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("d.png");
+    let out = file.to_str().unwrap();
+    run(&["capture", "--widget", "dashboard", "--seed", "7", "--tick", "600", "--theme", "dark", "--out", out]).done();
+    let told = notes(&file);
+    let log = folder.path().join("r.mcap");
+    run(&["record", "--seed", "7", "-o", log.to_str().unwrap()]).done();
+    let info = run(&["info", log.to_str().unwrap(), "--json"]).done();
+    let digest = super::json(&info)["digest"].as_str().unwrap().to_owned();
+    assert!(told.contains(&"Seed: 7".to_owned()) && told.contains(&"Tick: 600".to_owned()), "{told:?}");
+    assert!(told.contains(&format!("Digest: {digest}")), "{told:?}: the digest that the log has, {digest}");
+    let (one, _) = size(&file);
+    let of_log = ["capture", "--widget", "dashboard", "--log", log.to_str().unwrap(), "--tick", "600"];
+    run(&[&of_log[..], &["--theme", "dark", "--scale", "2", "-o", out]].concat()).done();
+    assert_eq!(size(&file).0, 2 * one);
+    assert_eq!(notes(&file), told, "from the log as from its seed");
+    run(&["capture", "--widget", "anatomy", "--width", "420", "-o", out]).done();
+    assert!(size(&file).0 <= 420, "a column's width");
+    assert!(notes(&file).iter().any(|n| n.starts_with("Configuration: T2(Tn([0.785398")), "{:?}", notes(&file));
+}
+
+#[test]
+fn a_gif_runs_over_the_ticks_asked_for() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("d.gif");
+    let out = file.to_str().unwrap();
+    run(&[
+        "capture",
+        "--widget",
+        "dashboard",
+        "--from",
+        "10",
+        "--to",
+        "30",
+        "--every",
+        "5",
+        "--width",
+        "400",
+        "-o",
+        out,
+    ])
+    .done();
+    let bytes = fs::read(&file).unwrap();
+    let mut decoder = gif::DecodeOptions::new().read_info(&bytes[..]).unwrap();
+    let mut delays = Vec::new();
+    while let Some(frame) = decoder.read_next_frame().unwrap() {
+        delays.push(frame.delay);
+    }
+    assert_eq!(delays, [25; 5], "ticks 10, 15, 20, 25 and 30, a quarter of a second each");
+    let text = String::from_utf8_lossy(&bytes);
+    assert!(text.contains("Seed: 2005; Digest: ") && text.contains("Tick: 10 to 30"));
+}
+
+#[test]
+fn what_cannot_be_drawn_is_refused_and_no_file_is_left() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = |name: &str| folder.path().join(name).to_str().unwrap().to_owned();
+    let (svg, gif, bmp) = (at("a.svg"), at("a.gif"), at("a.bmp"));
+    let refused: [(&[&str], &str); 14] = [
+        (&["dashboard", "--tick", "99999", "-o", &svg], "there is no tick 99999"),
+        (&["dashboard", "--from", "9", "--to", "3", "-o", &gif], "there is no tick 9"),
+        (&["anatomy", "-o", &gif], "only the dashboard moves"),
+        (&["anatomy", "-o", &bmp], "its name does not tell the form"),
+        (&["anatomy", "--q", "1,2,3", "-o", &svg], "is no configuration of a reach"),
+        (&["anatomy", "--step", "1", "-o", &svg], "the step has 2"),
+        (&["anatomy", "--robot", "hitch", "--world", "workbench", "-o", &svg], "no hitch lives there"),
+        (&["atlas", "--grid", "1e-9", "-o", &svg], "more than"),
+        (&["atlas", "--teleport", "1,2,3", "-o", &svg], "of which world?"),
+        (&["cspace", "--tab", "swept", "-o", &svg], "--tab: for the anatomy alone"),
+        (&["anatomy", "--seed", "7", "-o", &svg], "--seed: for the dashboard alone"),
+        (&["dashboard", "--every", "2", "-o", &svg], "--from, --to and --every: for GIF alone"),
+        (&["dashboard", "--tick", "2", "-o", &gif], "--tick: for SVG and PNG alone"),
+        (&["atlas", "--world", "lot", "--teleport", "1,2", "-o", &svg], "2 numbers: Hitch is at HitchCfg"),
+    ];
+    for (arguments, reason) in refused {
+        let told = run(&[&["capture", "--widget"], arguments].concat()).failed(2);
+        assert!(told.contains(reason), "{arguments:?}: {told}");
+    }
+    assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 0);
+}

@@ -1,0 +1,17 @@
+use motion_lab::collision::{Checker, Collision, Scene};
+use motion_lab::prelude::*;
+
+fn main() -> Result<(), Box<dyn std::error::Error>> {
+    let checker = Checker::new(Scene::workbench(), Reach::<2>::choset());
+    let q = T2::new(0.7853981633974483, 1.5707963267948966);
+    let to = T2::new(-0.7853981633974483, 1.5707963267948966);
+    let verdict = checker.edge(&q, &to)?;
+    println!("{verdict:?}");
+    assert_eq!(
+        format!("{verdict:?}"),
+        "Hit { free_until: 0.09033428205103669, contact_at: 0.09033447060245904, part: 1, obstacle: ObstacleId(0) }"
+    );
+    let (a, b) = (checker.robot().footprint(&q), checker.robot().footprint(&to));
+    println!("swept: {}", checker.scene().swept(&a, &b));
+    Ok(())
+}

@@ -1,0 +1,12 @@
+use motion_lab::collision::{Checker, Collision, Scene};
+use motion_lab::prelude::*;
+
+fn main() -> Result<(), Box<dyn std::error::Error>> {
+    let checker = Checker::new(Scene::workbench(), Reach::<2>::workbench());
+    let q = T2::new(0.7853981633974483, 1.5707963267948966);
+    let footprint = checker.robot().footprint(&q);
+    let distance = checker.scene().distance(&footprint);
+    println!("distance: {distance} m");
+    assert_eq!(distance, 0.030660171779821284);
+    Ok(())
+}
