@@ -48,7 +48,7 @@ impl Plugin for SimulationPlugin {
             )
             .add_systems(
                 RunFixedMainLoop,
-                (take_transport_commands, take_robot_commands)
+                (take_checkpoints, take_robot_commands, take_transport_commands)
                     .chain()
                     .in_set(RunFixedMainLoopSystems::BeforeFixedMainLoop),
             )
@@ -171,6 +171,17 @@ fn take_robot_commands(world: &mut World) {
             pending.capture(event);
         }
     }
+}
+
+/// What is to be undone as one begins before the frame's input, whatever order they came in.
+fn take_checkpoints(world: &mut World) {
+    let commands: Vec<TransportCommand> = world.resource_mut::<Messages<TransportCommand>>().drain().collect();
+    let (checkpoints, others): (Vec<_>, Vec<_>) =
+        commands.into_iter().partition(|command| *command == TransportCommand::Checkpoint);
+    if !checkpoints.is_empty() {
+        undo::checkpoint(world);
+    }
+    others.into_iter().for_each(|command| _ = world.write_message(command));
 }
 
 fn take_transport_commands(world: &mut World) {
