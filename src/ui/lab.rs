@@ -45,7 +45,7 @@ pub fn lab(ui: &mut Ui, model: &Dashboard, history: &History, state: &mut UiStat
     let margin = Margin::symmetric(if narrow { 8 } else { 6 }, if narrow { 4 } else { 14 });
     if narrow {
         Panel::top("rail").frame(Frame::NONE.inner_margin(margin)).show_separator_line(false).show(ui, |ui| {
-            ui.horizontal(|ui| rail(ui, model, (&look, 30.0), state, commands));
+            ui.horizontal(|ui| rail(ui, model, (&look, 40.0), state, commands));
         });
     } else {
         let frame = Frame::NONE.inner_margin(margin);
