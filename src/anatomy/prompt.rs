@@ -48,7 +48,7 @@ impl Prompt {
         [
             Prompt {
                 id: "thick links",
-                question: "The links are given a radius of 3 cm. How far is the arm from the block now?",
+                question: "At q = (\u{3c0}/4, \u{3c0}/2) the links are given a radius of 3 cm. How far is the arm from the block then?",
                 // four decimals, as the distance is shown
                 tolerance: 0.5e-4,
                 moral: "A radius is taken off the distance of the bare links, exactly.",

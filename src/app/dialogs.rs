@@ -52,6 +52,7 @@ fn dialog(what: &'static str, filter: &str, extension: &'static str, file: &str)
         .default_save_extension(what)
         .default_file_name(file)
         .show_search(false)
+        .show_menu_button(false)
         .default_size([560.0, 380.0])
         .anchor(egui::Align2::CENTER_CENTER, [0.0, 0.0])
 }

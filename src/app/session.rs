@@ -5,15 +5,16 @@ use std::sync::Arc;
 use bevy::prelude::*;
 
 use super::pace::{Pace, measure, play_flat_out};
-use crate::configuration::Coordinates;
-use crate::geometry::{Point2, Pose2};
+use crate::configuration::{Coordinates, HitchCfg};
+use crate::geometry::{Footprint, Point2, Pose2, Segment};
 use crate::num::{greater, lesser};
 use crate::picture::{Drawing, Picture, places, polygon_of, world as picture_of};
 use crate::random::Seed;
-use crate::run::RobotInput;
+use crate::robots::{HITCH, Robot};
+use crate::run::{Event, RobotInput};
 use crate::simulation::{
-    History, HistoryPlugin, LatestFrame, PendingInput, Playback, RobotView, RunConfig, SimulationPlugin, Transport,
-    TransportCommand, Undo, obey, start_run, view,
+    History, HistoryPlugin, LatestFrame, PendingInput, Playback, RobotView, Roster, RunConfig, SimulationPlugin,
+    Transport, TransportCommand, Undo, WorldScene, obey, start_run, view,
 };
 use crate::tour::{BOOK_SEED, TourConfig};
 use crate::ui::{Cockpit, CockpitRobot, Command, Dashboard, Name, Notice, SessionCommand, UiState, blend};
@@ -133,7 +134,31 @@ fn shown(world: &World, robot: &RobotView, between: f64) -> CockpitRobot {
         sees: pose.and_then(|pose| Some((pose, scan?.ranges.clone()))),
         tip: robot.tip,
         reversals: trail.map_or(0, |t| t.reversals),
+        no_room: pose
+            .filter(|_| robot.kind == "hitch" && robot.coordinates.len() == 3)
+            .and_then(|p| no_room(world, robot, p)),
+        waiting: waiting(world, robot),
     }
+}
+
+/// Whether the run is paused with an input to a robot that is not an arm's target.
+fn waiting(world: &World, robot: &RobotView) -> bool {
+    let Transport { tick, playback, .. } = *world.resource::<Transport>();
+    let due = world.resource::<PendingInput>().due(tick + 1);
+    let own = |e: &Event| e.robot == robot.name && !matches!(e.input, RobotInput::MoveTo(_));
+    playback == Playback::Paused && due.iter().any(own)
+}
+
+/// What a trailer put on behind the car at `body`, or the bar between them, would overlap.
+fn no_room(world: &World, robot: &RobotView, body: Pose2) -> Option<String> {
+    let inhabited = *world.resource::<Roster>().worlds().get(robot.world as usize)?;
+    let scene = &world.get::<WorldScene>(inhabited)?.0;
+    let (car, q) = (HITCH.with_trailer(), HitchCfg { body, trailer: Some(body.theta) });
+    let bar = Segment::new(body.position(), car.trailer_axle(&q)?.position());
+    let touched = [car.footprint(&q), Footprint::capsules([bar], 0.0)].map(|f| scene.touched(&f));
+    let mut names: Vec<&str> = touched.iter().flatten().filter_map(|id| scene.obstacle_name(*id)).collect();
+    names.dedup();
+    names.first().map(|name| format!("would overlap {name}"))
 }
 
 /// Where an arm was told to be by the next tick.

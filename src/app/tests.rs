@@ -68,6 +68,17 @@ fn lab(size: [f32; 2]) -> Harness<'static, Lab> {
     harness
 }
 
+#[test]
+fn the_first_hints_are_put_away_for_good() {
+    let mut harness = lab(WIDE);
+    harness.state_mut().app.world_mut().resource_mut::<Interface>().0.settings.hints_seen = false;
+    harness.run_steps(2);
+    harness.get_by_label("Drag the arm's elbow or tip.");
+    click(&mut harness, "Got it");
+    assert!(harness.query_by_label("Drag the arm's elbow or tip.").is_none());
+    assert!(harness.state().app.world().resource::<Interface>().0.settings.hints_seen, "the settings keep it");
+}
+
 /// Clicks what is called so.
 fn click(harness: &mut Harness<'_, Lab>, name: &str) {
     harness.get_by_label(name).click();
@@ -338,6 +349,24 @@ fn the_trailer_goes_on_and_a_goal_is_set_for_it() {
 }
 
 #[test]
+fn where_there_is_no_room_for_a_trailer_it_is_said() {
+    let mut harness = lab(WIDE);
+    pause(&mut harness);
+    // the rear axle half a metre from the west curb, facing away from it: the trailer would stand through it, or wholly beyond
+    for x in [1.2, 2.5] {
+        let to = [x, 2.5, 0.0].map(|v| crate::run::Quantized::try_new(v).unwrap()).to_vec();
+        let command = crate::simulation::RobotCommand { robot: "Hitch".into(), input: RobotInput::Teleport(to) };
+        harness.state_mut().app.world_mut().write_message(command);
+        harness.run_steps(3);
+        harness.get_by_label("comes with the next tick");
+        click(&mut harness, "Step");
+        assert!((harness.state().robot(2).coordinates[0] - x).abs() < 1e-6, "{:?}", harness.state().robot(2));
+        harness.get_by_label("no room for a trailer: would overlap the west curb");
+        assert!(harness.query_by_label("put a trailer on").is_none());
+    }
+}
+
+#[test]
 fn an_arm_of_three_links_walks_while_its_tip_stays() {
     let mut harness = lab(WIDE);
     pause(&mut harness);
@@ -589,7 +618,7 @@ fn a_number_is_asked_for_before_it_is_shown() {
     let mut harness = lab(WIDE);
     front(&mut harness, "Query");
     assert!(harness.query_by_label_contains("0.0306").is_none());
-    harness.get_by_label_contains("The links are given a radius of 3 cm").focus();
+    harness.get_by_label_contains("the links are given a radius of 3 cm").focus();
     harness.run_steps(2);
     harness.event(Event::Text("0.05".into()));
     harness.step();

@@ -59,6 +59,9 @@ pub fn anatomy_view(ui: &mut Ui, (narrow, look): (bool, &Look), state: &mut UiSt
     let Some(words) = widget("anatomy") else { return };
     frame::title(ui, words, look);
     frame::key_row(ui, words, look, state);
+    if !narrow {
+        frame::hints(ui, words, look, state);
+    }
     ui.add_space(6.0);
     let room = ui.available_rect_before_wrap();
     let side = if narrow { room.width() } else { room.width() - SIDE - 20.0 };

@@ -25,6 +25,9 @@ pub fn atlas_view(ui: &mut Ui, (narrow, look): (bool, &Look), state: &mut UiStat
     let Some(words) = widget("atlas") else { return };
     frame::title(ui, words, look);
     frame::key_row(ui, words, look, state);
+    if !narrow {
+        frame::hints(ui, words, look, state);
+    }
     super::tools::notice(ui, state);
     ui.add_space(6.0);
     let room = ui.available_rect_before_wrap();

@@ -40,6 +40,10 @@ pub struct CockpitRobot {
     pub sees: Option<(Pose2, Vec<f64>)>,
     /// The point of an arm that reaches.
     pub tip: Option<Point2>,
+    /// Why a trailer can't be put on here; `None` where it can, or is.
+    pub no_room: Option<String>,
+    /// Whether the run is paused with an input that comes with the next tick.
+    pub waiting: bool,
     /// How often it changed between forward and backward.
     pub reversals: u32,
     /// Whether a trailer is on; `None` for a robot that can't have one.

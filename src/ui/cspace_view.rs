@@ -10,8 +10,9 @@ use super::{Look, UiState, frame, readout};
 use crate::anatomy::{Anatomy, Tab};
 use crate::configuration::{AnyConfiguration, Configuration};
 use crate::cspace::{CellMap, Overlay, Slice, cspace_picture, overlay_items};
-use crate::picture::{Picture, Role};
-use crate::robots::AnyRobot;
+use crate::num::wrap;
+use crate::picture::{Picture, Role, footprint};
+use crate::robots::{AnyRobot, Robot};
 
 /// Cells are cut down to a 128th of the sides.
 const FINEST: u32 = 7;
@@ -78,6 +79,9 @@ pub fn cspace_view(ui: &mut Ui, (narrow, look): (bool, &Look), state: &mut UiSta
     let Some(words) = widget("cspace") else { return };
     frame::title(ui, words, look);
     frame::key_row(ui, words, look, state);
+    if !narrow {
+        frame::hints(ui, words, look, state);
+    }
     ui.add_space(6.0);
     let anatomy = state.anatomy.anatomy.clone();
     if state.cspace.refine(&anatomy) {
@@ -120,7 +124,12 @@ pub fn cspace_view(ui: &mut Ui, (narrow, look): (bool, &Look), state: &mut UiSta
 /// The workspace: the robot is dragged there.
 fn workspace(ui: &mut Ui, paper: Rect, look: &Look, state: &mut UiState) {
     let still = Arc::clone(state.anatomy.backdrop());
-    let overlay = state.anatomy.anatomy.overlay();
+    let mut overlay = state.anatomy.anatomy.overlay();
+    let anatomy = &state.anatomy.anatomy;
+    for other in solutions(anatomy).into_iter().filter(|q| *q != anatomy.q()) {
+        let shape = anatomy.checker().robot().footprint(&other);
+        overlay.items.extend(footprint("other", "the other arm with this tip", &shape, Role::Robot, 0.3));
+    }
     let spoken = format!("workspace. {}", state.anatomy.anatomy.described());
     let on = sheet(ui, (paper, spoken), &still, &overlay, look, state);
     if let Some(to) = on.held().filter(|_| on.response.dragged() || on.response.clicked()) {
@@ -146,7 +155,12 @@ fn space(ui: &mut Ui, paper: Rect, look: &Look, state: &mut UiState) {
     let on = sheet(ui, (paper, spoken), &still, &moving, look, state);
     if let Some(to) = on.held().filter(|_| on.response.dragged() || on.response.clicked()) {
         let (min, max) = (slice.min(), slice.max());
-        let p = [to.x.clamp(min[0], max[0]), to.y.clamp(min[1], max[1])];
+        // beyond an edge of the torus is the other edge
+        let p = if slice.wraps() {
+            [wrap(to.x), wrap(to.y)]
+        } else {
+            [to.x.clamp(min[0], max[0]), to.y.clamp(min[1], max[1])]
+        };
         // a point of the slice is a configuration of the robot
         if state.anatomy.anatomy.set_q(slice.at(p)).is_ok() {
             remember(state);

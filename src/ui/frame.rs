@@ -1,7 +1,7 @@
 //! The frame of a widget: its title, the misconception it removes, its colour key and the first hints.
 
 use bevy_egui::egui::{
-    FontId, RichText, Sense, Stroke, StrokeKind, TextFormat, TextStyle, Ui, Vec2, WidgetInfo, WidgetType,
+    FontId, RichText, Sense, Stroke, StrokeKind, TextFormat, TextStyle, TextWrapMode, Ui, Vec2, WidgetInfo, WidgetType,
     text::LayoutJob, vec2,
 };
 
@@ -92,9 +92,19 @@ fn swatch(ui: &Ui, role: Role, at: bevy_egui::egui::Pos2, look: &Look) {
 
 /// Notes that something of a role is pointed at or has the focus.
 pub fn points_at(state: &mut UiState, response: &bevy_egui::egui::Response, role: Role) {
-    if response.hovered() || response.has_focus() {
+    if response.hovered() && rests(response) || response.has_focus() {
         state.pointed = Some(role);
     }
+}
+
+/// Whether the pointer has come to rest: what it only passes over lights nothing.
+pub fn rests(response: &bevy_egui::egui::Response) -> bool {
+    const REST_SECONDS: f32 = 0.3;
+    let still = response.ctx.input(|i| i.pointer.time_since_last_movement());
+    if still < REST_SECONDS {
+        response.ctx.request_repaint_after_secs(REST_SECONDS - still);
+    }
+    still >= REST_SECONDS
 }
 
 /// Shows a formula in a line; its terms light their roles.
@@ -129,6 +139,8 @@ pub fn hints(ui: &mut Ui, widget: &WidgetText, look: &Look, state: &mut UiState)
     }
     ui.horizontal_wrapped(|ui| {
         ui.spacing_mut().interact_size.y = ui.text_style_height(&TextStyle::Body);
+        // a hint goes to the next row as a whole
+        ui.style_mut().wrap_mode = Some(TextWrapMode::Extend);
         ui.label(RichText::new("Try:").color(look.theme.colour(Role::Focus)).strong());
         for hint in &widget.hints {
             ui.label(RichText::new(hint).color(look.theme.colour(Role::Text)));

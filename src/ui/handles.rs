@@ -118,8 +118,7 @@ fn handle(
     let grown = if held || response.hovered() { 1.35 } else { 1.0 };
     let role = if held { Role::Focus } else { Role::Robot };
     painter.circle(at, 0.5 * DOT * grown, look.colour(Role::Paper), Stroke::new(2.0, look.colour(role)));
-    let hint = format!("{name}: drag it, or click it and press the arrow keys");
-    response.on_hover_cursor(if held { CursorIcon::Grabbing } else { CursorIcon::Grab }).on_hover_text(hint);
+    response.on_hover_cursor(if held { CursorIcon::Grabbing } else { CursorIcon::Grab });
     focused
 }
 

@@ -6,7 +6,7 @@ use super::{Theme, UiState};
 use crate::picture::Role;
 
 /// How much of a role is left when another is lit.
-const FADED: f64 = 0.18;
+const FADED: f64 = 0.3;
 
 /// How long a fade takes, seconds.
 const FADE_SECONDS: f32 = 0.12;

@@ -1,8 +1,8 @@
 //! A pane of the dashboard: a world with its robots on paper, and under it what is to be read and set.
 
 use bevy_egui::egui::{
-    Align, Label, Layout, Rect, Response, RichText, Sense, Stroke, StrokeKind, TextStyle, Ui, UiBuilder, Vec2,
-    WidgetInfo, WidgetType, pos2, vec2,
+    Align, Label, Layout, Rect, Response, RichText, Sense, Stroke, StrokeKind, TextStyle, TextWrapMode, Ui, UiBuilder,
+    Vec2, WidgetInfo, WidgetType, pos2, vec2,
 };
 
 use super::formula::Formula;
@@ -73,7 +73,8 @@ pub fn pane(ui: &mut Ui, cockpit: &Cockpit, rect: Rect, look: &Look, state: &mut
     for robot in cockpit.robots.iter().filter(|r| r.is_arm) {
         handles::handles(ui, robot, (paper, &fit), look, state, commands);
     }
-    if response.clicked() {
+    // under a mouse Esc lets go; a finger has no Esc
+    if response.clicked() && (armed.is_none() || touched(ui)) {
         take_in_hand(driven, state, commands);
     }
     if let Some(robot) = driven.filter(|_| armed.is_none()) {
@@ -97,11 +98,15 @@ pub fn take_in_hand(robot: Option<&CockpitRobot>, state: &mut UiState, commands:
     state.armed = robot.filter(|_| !again).map(|r| r.name.clone());
 }
 
+/// Whether a finger is in use: a mouse has the keys beside it.
+fn touched(ui: &Ui) -> bool {
+    ui.input(|i| i.any_touches()) || ui.spacing().interact_size.y > 40.0
+}
+
 /// What is said and offered on the paper of the robot in hand.
 fn in_hand(ui: &mut Ui, robot: &CockpitRobot, paper: Rect, look: &Look, state: &mut UiState) {
     let sideways = robot.trailer.is_some() && state.held.0 == 0 && state.held.1 != 0;
-    // a mouse has the keys beside it
-    let touched = ui.input(|i| i.any_touches()) || ui.spacing().interact_size.y > 40.0;
+    let touched = touched(ui);
     let words = if sideways {
         "steering alone moves nothing: no input moves a car sideways"
     } else if touched {
@@ -121,7 +126,7 @@ fn in_hand(ui: &mut Ui, robot: &CockpitRobot, paper: Rect, look: &Look, state: &
 
 /// Lights the role of the drawn thing that is pointed at.
 fn point_out(response: &Response, over: &Picture, cockpit: &Cockpit, fit: &Fit, state: &mut UiState) {
-    let Some(at) = response.hover_pos().filter(|_| response.hovered()) else { return };
+    let Some(at) = response.hover_pos().filter(|_| response.hovered() && frame::rests(response)) else { return };
     let at = [f64::from(at.x), f64::from(at.y)];
     let item = pick(over, fit, at, REACH).or_else(|| pick(&cockpit.world, fit, at, REACH));
     if let Some(item) = item.filter(|i| i.role != Role::Muted && i.role != Role::Paper) {
@@ -187,15 +192,21 @@ fn links(ui: &mut Ui, robot: &CockpitRobot, state: &mut UiState, commands: &mut 
     // rows that wrap are as high as their words
     ui.spacing_mut().interact_size.y = ui.text_style_height(&TextStyle::Body);
     ui.horizontal_wrapped(|ui| {
+        ui.style_mut().wrap_mode = Some(TextWrapMode::Extend);
         let mut put_in = |input| {
             commands.push(Command::Transport(TransportCommand::Checkpoint));
             commands.push(Command::Robot(RobotCommand { robot: robot.name.clone(), input }));
         };
-        if let Some(on) = robot.trailer {
+        if let Some(why) = &robot.no_room {
+            ui.weak(format!("no room for a trailer: {why}"));
+        } else if let Some(on) = robot.trailer {
             let words = if on { "take the trailer off" } else { "put a trailer on" };
             if ui.link(words).clicked() {
                 put_in(RobotInput::SetTrailer(!on));
             }
+        }
+        if robot.waiting {
+            ui.weak("comes with the next tick");
         }
         if robot.manual && ui.link("resume tour").clicked() {
             put_in(RobotInput::Release);

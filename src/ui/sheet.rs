@@ -2,7 +2,7 @@
 
 use bevy_egui::egui::{Rect, Response, Sense, Stroke, StrokeKind, Ui, WidgetInfo, WidgetType};
 
-use super::{Look, UiState, canvas};
+use super::{Look, UiState, canvas, frame};
 use crate::geometry::Point2;
 use crate::picture::{Fit, Picture, Role, pick};
 
@@ -48,7 +48,9 @@ pub fn sheet(
     canvas::paint(&ui.painter_at(paper), moving, &fit, look);
     let role = if response.has_focus() { Role::Focus } else { Role::Hairline };
     painter.rect_stroke(paper, 0.0, Stroke::new(1.0, look.colour(role)), StrokeKind::Inside);
-    if let Some(at) = response.hover_pos().filter(|_| response.hovered() && !response.dragged()) {
+    if let Some(at) =
+        response.hover_pos().filter(|_| response.hovered() && !response.dragged() && frame::rests(&response))
+    {
         let at = [f64::from(at.x), f64::from(at.y)];
         let item = pick(moving, &fit, at, REACH).or_else(|| pick(still, &fit, at, REACH));
         state.pointed =

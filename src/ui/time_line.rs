@@ -4,7 +4,6 @@ use bevy_egui::egui::{Rect, Sense, Shape, Slider, Stroke, Ui, WidgetInfo, Widget
 
 use super::{Command, Dashboard, Look};
 use crate::picture::Role;
-use crate::run::DT;
 use crate::simulation::{Happening, History, TickMark, TransportCommand};
 
 /// Height of the strip of marks, points.
@@ -23,7 +22,6 @@ pub fn time_line(ui: &mut Ui, model: &Dashboard, history: &History, look: &Look,
     let radius = response.rect.height() / 2.5;
     let across = Rect::from_x_y_ranges(strip.x_range().shrink(radius), strip.y_range());
     marks(ui, model, history.marks(), (across, end), look, commands);
-    let response = response.on_hover_text(format!("Drag to any of {end} ticks ({:.2} s)", DT * end as f64));
     if response.changed() && tick != model.tick {
         commands.push(Command::Transport(TransportCommand::Seek(tick.min(end))));
     }

@@ -36,6 +36,8 @@ fn robot<R: Robot>(name: &str, kind: &str, robot: &R, q: R::Configuration) -> Co
         sees: None,
         tip: None,
         reversals: 0,
+        no_room: None,
+        waiting: false,
     }
 }
 
