@@ -5,10 +5,10 @@ use std::sync::Arc;
 use bevy::prelude::*;
 
 use super::pace::{Pace, measure, play_flat_out};
+use crate::atlas::Atlas;
 use crate::configuration::{Coordinates, HitchCfg};
-use crate::geometry::{Footprint, Point2, Pose2, Segment};
-use crate::num::{greater, lesser};
-use crate::picture::{Drawing, Picture, places, polygon_of, world as picture_of};
+use crate::geometry::{Footprint, Pose2, Segment};
+use crate::picture::{Picture, world as picture_of};
 use crate::random::Seed;
 use crate::robots::{HITCH, Robot};
 use crate::run::{Event, RobotInput};
@@ -17,8 +17,8 @@ use crate::simulation::{
     Transport, TransportCommand, Undo, WorldScene, obey, start_run, view,
 };
 use crate::tour::{BOOK_SEED, TourConfig};
-use crate::ui::{Cockpit, CockpitRobot, Command, Dashboard, Name, Notice, SessionCommand, UiState, blend};
-use crate::worlds::{Obstacle, ObstacleKind, Place, World as WorldModel};
+use crate::ui::{Cockpit, CockpitRobot, Command, Dashboard, Notice, SessionCommand, UiState, blend};
+use crate::worlds::World as WorldModel;
 
 /// Between two ticks no robot moves farther than this, metres; what does was put there.
 const LEAP: f64 = 0.5;
@@ -54,9 +54,9 @@ impl Plugin for SessionPlugin {
 #[derive(Resource, Default)]
 pub struct Interface(pub UiState);
 
-/// The pictures of the run's worlds, and the names of what is in them.
+/// The pictures of the run's worlds, and the worlds with their names.
 #[derive(Resource, Default)]
-struct Worlds(Vec<(Arc<Picture>, Arc<Vec<Name>>)>);
+struct Worlds(Vec<(Arc<Picture>, Arc<Atlas>)>);
 
 /// What is in front in this frame.
 #[derive(Resource)]
@@ -73,7 +73,7 @@ fn start(world: &mut World) -> Result {
 /// Takes what the window shows from the simulation. This is the one place where the two meet.
 pub fn gather(world: &mut World) {
     if world.is_resource_changed::<RunConfig>() {
-        let drawn = |w: &WorldModel| (Arc::new(picture_of(w)), Arc::new(names(w)));
+        let drawn = |w: &WorldModel| (Arc::new(picture_of(w)), Arc::new(Atlas::new(w.clone())));
         let pictures = world.resource::<RunConfig>().0.worlds.iter().map(drawn).collect();
         world.insert_resource(Worlds(pictures));
     }
@@ -83,9 +83,9 @@ pub fn gather(world: &mut World) {
     let smooth = playing && speed.is_finite();
     let between = if smooth { world.resource::<Time<Fixed>>().overstep_fraction_f64() } else { 1.0 };
     let robots: Vec<(u32, CockpitRobot)> = view(world).iter().map(|r| (r.world, shown(world, r, between))).collect();
-    let cockpits = world.resource::<Worlds>().0.iter().zip(0..).map(|((picture, names), number)| Cockpit {
+    let cockpits = world.resource::<Worlds>().0.iter().zip(0..).map(|((picture, atlas), number)| Cockpit {
         world: Arc::clone(picture),
-        names: Arc::clone(names),
+        atlas: Arc::clone(atlas),
         robots: robots.iter().filter(|(w, _)| *w == number).map(|(_, r)| r.clone()).collect(),
     });
     let (undo, history) = (world.resource::<Undo>(), world.resource::<History>());
@@ -168,27 +168,6 @@ fn target(world: &World, robot: &RobotView) -> Option<Coordinates> {
         RobotInput::MoveTo(to) => Some(to.iter().map(|c| c.value()).collect()),
         _ => None,
     })
-}
-
-/// The places of a world, and its solid obstacles' names.
-fn names(world: &WorldModel) -> Vec<Name> {
-    let of_obstacle = |o: &Obstacle| {
-        let corners: Vec<Point2> = o.pieces.iter().flat_map(|(pose, shape)| polygon_of(&shape.place(pose))).collect();
-        let (mut least, mut most) = (*corners.first()?, *corners.first()?);
-        for c in &corners {
-            least = Point2::new(lesser(least.x, c.x), lesser(least.y, c.y));
-            most = Point2::new(greater(most.x, c.x), greater(most.y, c.y));
-        }
-        let half = (most - least) * 0.5;
-        Some(Name { text: o.name.clone(), at: least + half, half: [half.x, half.y], marks: vec![] })
-    };
-    let of_place = |place: &Place| {
-        let marks = places(std::slice::from_ref(place)).into_iter();
-        let marks = marks.filter(|i| !matches!(i.drawing, Drawing::Label { .. })).collect();
-        Name { text: place.name.clone(), at: place.pose.position(), half: [0.0; 2], marks }
-    };
-    let solid = world.obstacles.iter().filter(|o| o.kind == ObstacleKind::Solid);
-    solid.filter_map(of_obstacle).chain(world.places.iter().map(of_place)).collect()
 }
 
 /// Does what the widgets asked for. What needs a dialog is left to the window, as messages.

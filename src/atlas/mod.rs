@@ -23,7 +23,7 @@ use crate::robots::{AnyRobot, Robot};
 use crate::worlds::World;
 
 /// A world and the residents of it that are robots of the lab, where they start.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Atlas {
     world: World,
     residents: Vec<AtlasRobot>,

@@ -216,7 +216,7 @@ impl Plugin for HistoryPlugin {
 mod tests {
     use super::*;
     use crate::run::{RobotInput, Script};
-    use crate::simulation::{RunConfig, SimulationPlugin, TransportCommand, obey, seek, start_run, step};
+    use crate::simulation::{SimulationPlugin, TransportCommand, obey, seek, start_run, step};
     use crate::tour::{BOOK_SEED, TourConfig};
 
     fn app(script: Script) -> App {
@@ -289,7 +289,6 @@ mod tests {
         let history = world.resource::<History>();
         assert_eq!(history.samples(), 101);
         assert!(history.marks().iter().all(|m| m.tick <= 100));
-        let _ = world.resource::<RunConfig>();
     }
 
     #[test]

@@ -2,13 +2,11 @@
 
 use std::sync::Arc;
 
-use bevy_egui::egui::{
-    CollapsingHeader, ComboBox, Rect, RichText, ScrollArea, Slider, TextEdit, Ui, WidgetInfo, pos2, vec2,
-};
+use bevy_egui::egui::{CollapsingHeader, ComboBox, RichText, ScrollArea, Slider, TextEdit, Ui, WidgetInfo, vec2};
 
 use super::button::button;
 use super::manifest::widget;
-use super::sheet::sheet;
+use super::sheet::{sheet, split};
 use super::{Look, UiState, frame};
 use crate::anatomy::{Anatomy, Guess, Prompt, Tab, WorldSource};
 use crate::configuration::Configuration;
@@ -64,9 +62,7 @@ pub fn anatomy_view(ui: &mut Ui, (narrow, look): (bool, &Look), state: &mut UiSt
     }
     ui.add_space(6.0);
     let room = ui.available_rect_before_wrap();
-    let side = if narrow { room.width() } else { room.width() - SIDE - 20.0 };
-    let height = if narrow { (0.5 * room.height()).min(side) } else { room.height().min(side) };
-    let paper = Rect::from_min_size(room.min, vec2(side, height));
+    let (paper, beside) = split(room, narrow, SIDE);
     let shown = &state.anatomy;
     let (backdrop, overlay) = (Arc::clone(&shown.backdrop), shown.anatomy.overlay());
     let spoken = shown.anatomy.described();
@@ -74,12 +70,7 @@ pub fn anatomy_view(ui: &mut Ui, (narrow, look): (bool, &Look), state: &mut UiSt
     if let Some(to) = on.held().filter(|_| on.response.dragged() || on.response.clicked()) {
         state.anatomy.anatomy.drag(to);
     }
-    on.response.on_hover_text_at_pointer(format!("Drag {}", "the robot: an arm by its tip"));
-    let beside = if narrow {
-        Rect::from_min_max(pos2(room.left(), paper.bottom() + 8.0), room.max)
-    } else {
-        Rect::from_min_max(pos2(paper.right() + 20.0, room.top()), room.max)
-    };
+    on.response.on_hover_text_at_pointer("Drag the robot: an arm by its tip");
     ui.scope_builder(bevy_egui::egui::UiBuilder::new().max_rect(beside), |ui| {
         ScrollArea::vertical().auto_shrink(false).show(ui, |ui| beside_the_paper(ui, narrow, look, state));
     });

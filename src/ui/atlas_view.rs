@@ -1,13 +1,11 @@
 //! World atlas: worlds with their names, robots put by a click, the derived grid, and the editor.
 
-use bevy_egui::egui::{
-    ComboBox, Key, Rect, RichText, ScrollArea, Slider, TextEdit, Ui, UiBuilder, WidgetInfo, pos2, vec2,
-};
+use bevy_egui::egui::{ComboBox, Key, RichText, ScrollArea, Slider, TextEdit, Ui, UiBuilder, WidgetInfo};
 
 use super::atlas_state::{AtlasState, Mode};
 use super::button::button;
 use super::manifest::widget;
-use super::sheet::{Sheet, sheet};
+use super::sheet::{Sheet, sheet, split};
 use super::{Command, Look, SessionCommand, UiState, frame, readout};
 use crate::atlas::{EditShape, Op};
 use crate::geometry::{Point2, Pose2};
@@ -31,12 +29,7 @@ pub fn atlas_view(ui: &mut Ui, (narrow, look): (bool, &Look), state: &mut UiStat
     super::tools::notice(ui, state);
     ui.add_space(6.0);
     let room = ui.available_rect_before_wrap();
-    let size = if narrow {
-        vec2(room.width(), (0.5 * room.height()).min(room.width()))
-    } else {
-        vec2(room.width() - SIDE - 20.0, room.height())
-    };
-    let paper = Rect::from_min_size(room.min, size);
+    let (paper, beside) = split(room, narrow, SIDE);
     let still = state.atlas.still();
     let fit = super::canvas::fit(&still, paper);
     let mut moving = state.atlas.over();
@@ -58,11 +51,6 @@ pub fn atlas_view(ui: &mut Ui, (narrow, look): (bool, &Look), state: &mut UiStat
         Mode::Edit => edit(&on, &moving, &still, &mut state.atlas),
         Mode::Measure => {}
     }
-    let beside = if narrow {
-        Rect::from_min_max(pos2(room.left(), paper.bottom() + 8.0), room.max)
-    } else {
-        Rect::from_min_max(pos2(paper.right() + 20.0, room.top()), room.max)
-    };
     ui.scope_builder(UiBuilder::new().max_rect(beside), |ui| {
         ScrollArea::vertical().auto_shrink(false).show(ui, |ui| beside_the_paper(ui, look, state, commands));
     });

@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use crate::atlas::Atlas;
 use crate::configuration::Coordinates;
 use crate::geometry::{Footprint, Point2, Pose2};
 use crate::picture::{Item, Picture, RobotDrawing, robot};
@@ -50,26 +51,13 @@ pub struct CockpitRobot {
     pub trailer: Option<bool>,
 }
 
-/// A name on a paper.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Name {
-    /// The name.
-    pub text: String,
-    /// The middle of what it names, metres.
-    pub at: Point2,
-    /// How far that reaches from its middle, across and up, metres; zero for a place.
-    pub half: [f64; 2],
-    /// What is drawn with it.
-    pub marks: Vec<Item>,
-}
-
 /// One pane: a world with its robots.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Cockpit {
     /// The world.
     pub world: Arc<Picture>,
-    /// The names of its places and obstacles, shown on demand.
-    pub names: Arc<Vec<Name>>,
+    /// The world with its names, shown on demand.
+    pub atlas: Arc<Atlas>,
     /// Its robots.
     pub robots: Vec<CockpitRobot>,
 }

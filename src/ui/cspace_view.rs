@@ -8,7 +8,7 @@ use super::manifest::widget;
 use super::sheet::sheet;
 use super::{Look, UiState, frame, readout};
 use crate::anatomy::{Anatomy, Tab};
-use crate::configuration::{AnyConfiguration, Configuration};
+use crate::configuration::AnyConfiguration;
 use crate::cspace::{CellMap, Overlay, Slice, cspace_picture, overlay_items};
 use crate::num::wrap;
 use crate::picture::{Picture, Role, footprint};
@@ -32,34 +32,28 @@ pub struct CspaceState {
 #[derive(Clone, Debug)]
 struct Map {
     cells: CellMap,
-    /// What they are of: robot, scene and the coordinates that are held.
-    of: String,
     picture: Arc<Picture>,
     /// How many cells were judged when it was drawn.
     drawn: u64,
 }
 
-/// What the cells depend on: the robot, the world, and the coordinates that the slice holds.
-fn of(anatomy: &Anatomy, slice: &Slice) -> String {
-    let q = anatomy.q();
-    let held = if slice.wraps() { q.coordinates().len() - 2 } else { 0 };
-    let coordinates = q.coordinates();
-    let held: Vec<f64> = match q {
-        AnyConfiguration::Hitch(_) => coordinates[2..].to_vec(),
-        _ => coordinates[..held].to_vec(),
-    };
-    format!("{:?} {} {held:?}", anatomy.checker().robot(), anatomy.world().name)
+impl Map {
+    /// Whether its cells are those of this robot, in this scene, with the same coordinates held.
+    fn is_of(&self, anatomy: &Anatomy) -> bool {
+        let (ours, its) = (self.cells.slice(), anatomy.checker());
+        let same_scene = Arc::ptr_eq(&ours.checker().shared_scene(), &its.shared_scene());
+        same_scene && ours.checker().robot() == its.robot() && ours.holds(&anatomy.q())
+    }
 }
 
 impl CspaceState {
     /// Goes on with the proofs. Returns whether there is more to prove.
     fn refine(&mut self, anatomy: &Anatomy) -> bool {
-        let Ok(slice) = Slice::through(anatomy.checker(), &anatomy.q()) else { return false };
-        let of = of(anatomy, &slice);
-        if self.map.as_ref().is_none_or(|m| m.of != of) {
+        if !self.map.as_ref().is_some_and(|map| map.is_of(anatomy)) {
+            let Ok(slice) = Slice::through(anatomy.checker(), &anatomy.q()) else { return false };
             let cells = CellMap::new(slice, FINEST);
             let picture = Arc::new(cspace_picture(&cells, &Overlay::default()));
-            self.map = Some(Map { cells, of, picture, drawn: 0 });
+            self.map = Some(Map { cells, picture, drawn: 0 });
             self.trace.clear();
         }
         let Some(map) = &mut self.map else { return false };

@@ -54,7 +54,7 @@ pub fn dashboard(
 /// Does what a key asks for while the dashboard is in front.
 pub fn act(action: Action, model: &Dashboard, state: &mut UiState, commands: &mut Vec<Command>) {
     match action {
-        Action::LetGo => drive::let_go(model, state, commands),
+        Action::LetGo => drive::let_go(state, commands),
         Action::Arm(pane) => {
             if let Some(cockpit) = model.cockpits.get(pane) {
                 state.settings.world = pane as u32;

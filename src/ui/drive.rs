@@ -29,18 +29,6 @@ pub fn drive(ui: &Ui, model: &Dashboard, state: &mut UiState, commands: &mut Vec
     let elsewhere = ui.memory(|m| m.focused().is_some());
     let keys = if elsewhere { (0, 0) } else { ui.input(channels) };
     let wanted = if keys == (0, 0) { state.pad } else { keys };
-    tell(robot, wanted, model, state, commands);
-}
-
-/// Lets go of the robot in hand. It does not drive on by itself.
-pub fn let_go(model: &Dashboard, state: &mut UiState, commands: &mut Vec<Command>) {
-    if let Some(robot) = state.armed.take() {
-        state.pad = (0, 0);
-        tell(robot, (0, 0), model, state, commands);
-    }
-}
-
-fn tell(robot: String, wanted: (i16, i16), model: &Dashboard, state: &mut UiState, commands: &mut Vec<Command>) {
     if wanted == state.held {
         return;
     }
@@ -50,7 +38,19 @@ fn tell(robot: String, wanted: (i16, i16), model: &Dashboard, state: &mut UiStat
             commands.push(Command::Transport(TransportCommand::Play));
         }
     }
-    state.held = wanted;
-    let input = RobotInput::Drive(wanted.0, wanted.1);
+    hold(robot, wanted, state, commands);
+}
+
+/// Lets go of the robot in hand. It does not drive on by itself.
+pub fn let_go(state: &mut UiState, commands: &mut Vec<Command>) {
+    state.pad = (0, 0);
+    if let Some(robot) = state.armed.take().filter(|_| state.held != (0, 0)) {
+        hold(robot, (0, 0), state, commands);
+    }
+}
+
+fn hold(robot: String, channels: (i16, i16), state: &mut UiState, commands: &mut Vec<Command>) {
+    state.held = channels;
+    let input = RobotInput::Drive(channels.0, channels.1);
     commands.push(Command::Robot(RobotCommand { robot, input }));
 }

@@ -34,6 +34,7 @@ pub fn help(ctx: &Context, state: &mut UiState) {
             ui.label("A dot on the arm: drag it, or click it and use the arrow keys; Shift turns a tenth as far.");
             ui.label("Tab goes from one control to the next.");
         });
+        ui.checkbox(&mut state.settings.reduced_motion, "Reduced motion: nothing eases on the screen");
         ui.add_space(6.0);
         ui.button("Close").clicked()
     });

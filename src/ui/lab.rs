@@ -98,6 +98,6 @@ fn choose(number: usize, model: &Dashboard, state: &mut UiState, commands: &mut 
     if number != 0 && model.playing {
         commands.push(Command::Transport(TransportCommand::Pause));
     }
-    drive::let_go(model, state, commands);
+    drive::let_go(state, commands);
     state.widget = number.min(widgets().len() - 1);
 }

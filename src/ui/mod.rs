@@ -32,8 +32,6 @@ pub mod keys;
 #[cfg(feature = "window")]
 mod lab;
 #[cfg(feature = "window")]
-mod labels;
-#[cfg(feature = "window")]
 mod look;
 mod manifest;
 #[cfg(feature = "window")]
@@ -60,7 +58,7 @@ pub use anatomy_view::AnatomyState;
 #[cfg(feature = "window")]
 pub use atlas_state::{AtlasState, Mode};
 pub use blend::{blend, heading};
-pub use cockpit::{Cockpit, CockpitRobot, Dashboard, Name};
+pub use cockpit::{Cockpit, CockpitRobot, Dashboard};
 #[cfg(feature = "window")]
 pub use cspace_view::CspaceState;
 pub use formula::{Formula, Level, Term};

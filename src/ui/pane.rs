@@ -1,17 +1,20 @@
 //! A pane of the dashboard: a world with its robots on paper, and under it what is to be read and set.
 
+use std::sync::Arc;
+
 use bevy_egui::egui::{
-    Align, Label, Layout, Rect, Response, RichText, Sense, Stroke, StrokeKind, TextStyle, TextWrapMode, Ui, UiBuilder,
-    Vec2, WidgetInfo, WidgetType, pos2, vec2,
+    Align, Id, Label, Layout, Rect, Response, RichText, Sense, Stroke, StrokeKind, TextStyle, TextWrapMode, Ui,
+    UiBuilder, Vec2, WidgetInfo, WidgetType, pos2, vec2,
 };
 
 use super::formula::Formula;
 use super::goal::trailer_of;
 use super::{
-    Cockpit, CockpitRobot, Command, Look, ParkingGoal, SessionCommand, UiState, canvas, frame, handles, labels, pad,
+    Cockpit, CockpitRobot, Command, Look, ParkingGoal, SessionCommand, UiState, canvas, drive, frame, handles, pad,
     readout, readout_lines,
 };
-use crate::picture::{Fit, Picture, Role, ScaleBar, pick, scan};
+use crate::atlas;
+use crate::picture::{Drawing, Fit, Item, Picture, Role, ScaleBar, pick, places, scan};
 use crate::run::RobotInput;
 use crate::simulation::{RobotCommand, TransportCommand};
 
@@ -38,7 +41,7 @@ pub fn pane(ui: &mut Ui, cockpit: &Cockpit, rect: Rect, look: &Look, state: &mut
     canvas::paint_kept(&painter, &cockpit.world, paper, look);
     let mut over = Picture::new(&cockpit.world.name, cockpit.world.bounds);
     if state.settings.labels {
-        over = over.with(cockpit.names.iter().flat_map(|name| name.marks.iter().cloned()));
+        over = over.with(names(ui, cockpit, &fit));
     }
     if state.settings.scan {
         let seen = cockpit.robots.iter().filter_map(|r| Some((r, r.sees.as_ref()?)));
@@ -58,9 +61,6 @@ pub fn pane(ui: &mut Ui, cockpit: &Cockpit, rect: Rect, look: &Look, state: &mut
         red
     }));
     canvas::paint(&painter, &over, &fit, look);
-    if state.settings.labels {
-        labels::labels(ui, &painter, &cockpit.names, (paper, &fit), look);
-    }
     point_out(&response, &over, cockpit, &fit, state);
     let driven = cockpit.robots.iter().find(|r| r.drivable);
     let armed = driven.filter(|r| state.armed.as_ref() == Some(&r.name));
@@ -86,15 +86,26 @@ pub fn pane(ui: &mut Ui, cockpit: &Cockpit, rect: Rect, look: &Look, state: &mut
     words(&mut ui, cockpit, &fit, look, state, commands);
 }
 
+/// The dots of the places and the names of everything, placed anew when the scale changes only.
+fn names(ui: &Ui, cockpit: &Cockpit, fit: &Fit) -> Vec<Item> {
+    let scale = fit.px_per_metre();
+    let key = (Arc::as_ptr(&cockpit.atlas) as usize, scale.to_bits());
+    let id = Id::new(("names", &cockpit.world.name));
+    let kept: Option<(_, Vec<Item>)> = ui.data(|d| d.get_temp(id));
+    let kept = kept.filter(|(k, _)| *k == key).unwrap_or_else(|| {
+        let dots = places(&cockpit.atlas.world().places).into_iter();
+        let dots = dots.filter(|i| !matches!(i.drawing, Drawing::Label { .. }));
+        let made = (key, dots.chain(atlas::names(&cockpit.atlas, scale)).collect::<Vec<_>>());
+        ui.data_mut(|d| d.insert_temp(id, made.clone()));
+        made
+    });
+    kept.1
+}
+
 /// A click on a paper takes its robot in hand, or lets go of it.
 pub fn take_in_hand(robot: Option<&CockpitRobot>, state: &mut UiState, commands: &mut Vec<Command>) {
     let again = robot.is_some_and(|r| state.armed.as_ref() == Some(&r.name));
-    if state.held != (0, 0) {
-        // what was in hand does not drive on by itself
-        let input = RobotInput::Drive(0, 0);
-        commands.extend(state.armed.take().map(|robot| Command::Robot(RobotCommand { robot, input })));
-        state.held = (0, 0);
-    }
+    drive::let_go(state, commands);
     state.armed = robot.filter(|_| !again).map(|r| r.name.clone());
 }
 

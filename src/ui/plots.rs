@@ -88,11 +88,11 @@ pub fn plots(
     let mut shown = Vec::new();
     ui.spacing_mut().interact_size.y = 20.0;
     for (i, graph) in GRAPHS.iter().enumerate() {
-        let mut on = !state.hidden_channels.contains(&i);
+        let mut on = !state.hidden_plots.contains(&i);
         if ui.checkbox(&mut on, graph.title).changed() {
-            state.hidden_channels.retain(|hidden| *hidden != i);
+            state.hidden_plots.retain(|hidden| *hidden != i);
             if !on {
-                state.hidden_channels.push(i);
+                state.hidden_plots.push(i);
             }
         }
         if on {

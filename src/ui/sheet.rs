@@ -30,6 +30,17 @@ impl Sheet {
     }
 }
 
+/// The room for a widget's paper, and that beside it, `width` points wide: under it on a narrow screen.
+pub fn split(room: Rect, narrow: bool, width: f32) -> (Rect, Rect) {
+    if narrow {
+        let (paper, rest) = room.split_top_bottom_at_y(room.top() + (0.5 * room.height()).min(room.width()));
+        (paper, rest.with_min_y(rest.top() + 8.0))
+    } else {
+        let (paper, rest) = room.split_left_right_at_x(room.right() - width - 20.0);
+        (paper, rest.with_min_x(rest.left() + 20.0))
+    }
+}
+
 /// Shows `still`, which is kept from frame to frame, and `moving` over it. `spoken` is read to who does not see them. Pointing at a
 /// drawn thing lights its role.
 pub fn sheet(

@@ -41,8 +41,8 @@ pub struct UiState {
     pub help: bool,
     /// The parking exercise, by the name of the car.
     pub goal: Option<(String, ParkingGoal)>,
-    /// Which plots are shown, by the number of the channel.
-    pub hidden_channels: Vec<usize>,
+    /// The plots that are not shown, by number.
+    pub hidden_plots: Vec<usize>,
     /// Since when each robot's flash is shown as it is.
     pub flashes: BTreeMap<String, Flash>,
     /// What the window says of the last file, until it is put away.

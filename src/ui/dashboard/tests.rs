@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use bevy_egui::egui::{Context, Event, Key, Modifiers, PointerButton, RawInput, Rect, Shape, Vec2, pos2};
 
+use crate::atlas::Atlas;
 use crate::configuration::{Configuration, HitchCfg, T2};
 use crate::geometry::{Point2, Pose2};
 use crate::picture::{Picture, Role};
@@ -12,7 +13,7 @@ use crate::robots::{HITCH, RUSTY, Reach, Robot};
 use crate::run::RobotInput;
 use crate::simulation::{History, RobotCommand, TransportCommand};
 use crate::ui::{Cockpit, CockpitRobot, Command, Dashboard, Theme, ThemeChoice, UiState, lab};
-use crate::worlds::Bounds;
+use crate::worlds::{Bounds, World};
 
 const WIDE: Vec2 = Vec2::new(1280.0, 800.0);
 const PHONE: Vec2 = Vec2::new(390.0, 844.0);
@@ -43,7 +44,9 @@ fn robot<R: Robot>(name: &str, kind: &str, robot: &R, q: R::Configuration) -> Co
 
 fn cockpit(world: &str, width: f64, height: f64, robot: CockpitRobot) -> Cockpit {
     let bounds = Bounds { min: Point2::new(0.0, 0.0), max: Point2::new(width, height) };
-    Cockpit { world: Arc::new(Picture::new(world, bounds)), names: Arc::default(), robots: vec![robot] }
+    let model = World { name: world.into(), bounds, obstacles: vec![], places: vec![], marks: vec![], robots: vec![] };
+    let atlas = Arc::new(Atlas::new(model));
+    Cockpit { world: Arc::new(Picture::new(world, bounds)), atlas, robots: vec![robot] }
 }
 
 fn model() -> Dashboard {

@@ -1,0 +1,93 @@
+//! Driving the rover and the car, by keys and by the pad.
+
+use super::*;
+
+#[test]
+fn rusty_is_driven_into_a_wall_and_stops_a_radius_short_of_it() {
+    let mut harness = lab(WIDE);
+    arm_rusty(&mut harness);
+    assert!(!harness.state().robot(0).manual, "taking in hand is no input");
+    harness.key_down(Key::ArrowUp);
+    harness.run_steps(600);
+    let rusty = harness.state().robot(0);
+    assert!(rusty.manual && rusty.in_contact);
+    let trail = harness.state().app.world().resource::<History>().at(harness.state().transport().tick, 0).cloned();
+    let clearance = trail.expect("noted").clearance;
+    assert!((1e-5..=1e-4).contains(&clearance), "{clearance}");
+    assert_eq!(rusty.footprint.parts()[0].placed().radius(), 0.11);
+    // backing away is free again
+    harness.key_up(Key::ArrowUp);
+    harness.key_down(Key::ArrowDown);
+    harness.run_steps(40);
+    assert!(!harness.state().robot(0).in_contact);
+    harness.key_up(Key::ArrowDown);
+    harness.step();
+    harness.key_press(Key::Escape);
+    harness.run_steps(2);
+    assert_eq!(harness.state().app.world().resource::<Interface>().0.armed, None);
+    assert!(harness.state().robot(0).manual, "letting go is not giving back");
+    click(&mut harness, "resume tour");
+    harness.run_steps(4);
+    assert!(!harness.state().robot(0).manual);
+}
+
+#[test]
+fn a_car_does_not_slide_sideways_and_is_told_so() {
+    let mut harness = lab(WIDE);
+    harness.key_press(Key::Num3);
+    harness.run_steps(2);
+    harness.key_down(Key::ArrowLeft);
+    harness.run_steps(10);
+    let before = harness.state().robot(2).coordinates;
+    harness.run_steps(40);
+    assert_eq!(harness.state().robot(2).coordinates, before, "steering alone moves nothing");
+    assert_eq!(harness.state().robot(2).channels, [0, 128]);
+}
+
+#[test]
+fn the_trailer_goes_on_and_a_goal_is_set_for_it() {
+    let mut harness = lab(WIDE);
+    pause(&mut harness);
+    click(&mut harness, "put a trailer on");
+    click(&mut harness, "Step");
+    assert_eq!(harness.state().robot(2).coordinates.len(), 4);
+    click(&mut harness, "goal: one metre to the left");
+    harness.get_by_label("goal: off by 1.00 m, 0.00 rad; 0 reversals");
+    click(&mut harness, "drop the goal");
+    assert!(harness.query_by_label("drop the goal").is_none());
+    click(&mut harness, "take the trailer off");
+    click(&mut harness, "Step");
+    assert_eq!(harness.state().robot(2).coordinates.len(), 3);
+}
+
+#[test]
+fn where_there_is_no_room_for_a_trailer_it_is_said() {
+    let mut harness = lab(WIDE);
+    pause(&mut harness);
+    // the rear axle half a metre from the west curb, facing away from it: the trailer would stand through it, or wholly beyond
+    for x in [1.2, 2.5] {
+        let to = [x, 2.5, 0.0].map(|v| crate::run::Quantized::try_new(v).unwrap()).to_vec();
+        let command = crate::simulation::RobotCommand { robot: "Hitch".into(), input: RobotInput::Teleport(to) };
+        harness.state_mut().app.world_mut().write_message(command);
+        harness.run_steps(3);
+        harness.get_by_label("comes with the next tick");
+        click(&mut harness, "Step");
+        assert!((harness.state().robot(2).coordinates[0] - x).abs() < 1e-6, "{:?}", harness.state().robot(2));
+        harness.get_by_label("no room for a trailer: would overlap the west curb");
+        assert!(harness.query_by_label("put a trailer on").is_none());
+    }
+}
+
+#[test]
+fn the_pad_drives_like_the_keys() {
+    let mut harness = lab(PHONE);
+    arm_rusty(&mut harness);
+    let pad = harness.get_by_label("Rusty: pad, up drives forward").rect();
+    pointer(&mut harness, pad.center_top() + egui::vec2(0.0, 1.0), Some(true));
+    harness.run_steps(6);
+    let channels = harness.state().robot(0).channels;
+    assert!(channels[0] > 120 && channels[1] == 0, "{channels:?}");
+    pointer(&mut harness, pad.center_top(), Some(false));
+    harness.run_steps(6);
+    assert_eq!(harness.state().robot(0).channels, [0, 0]);
+}

@@ -1,0 +1,148 @@
+//! Moving through time: scrubbing, seeds, loops, speeds, frame rates.
+
+use super::*;
+
+#[test]
+fn scrubbing_back_and_driving_on_forgets_what_came_later() {
+    let mut harness = lab(WIDE);
+    arm_rusty(&mut harness);
+    harness.key_down(Key::ArrowUp);
+    harness.run_steps(40);
+    harness.key_up(Key::ArrowUp);
+    harness.step();
+    harness.key_press(Key::Escape);
+    harness.run_steps(20);
+    pause(&mut harness);
+    let end = harness.state().transport();
+    let there = harness.state().app.world().resource::<LatestFrame>().0.clone();
+    harness.key_press(Key::Home);
+    harness.run_steps(2);
+    assert_eq!(harness.state().transport().tick, 0);
+    assert_eq!(harness.state().transport().frontier, end.frontier, "scrubbing forgets nothing");
+    harness.key_press(Key::End);
+    harness.run_steps(2);
+    assert_eq!(harness.state().app.world().resource::<LatestFrame>().0, there, "the same bits");
+    // to the middle by the time line itself
+    let line = harness.get_by_label("time line, in ticks").rect();
+    click_at(&mut harness, line.center());
+    let middle = harness.state().transport().tick;
+    assert!(middle.abs_diff(end.frontier / 2) <= 1, "{middle} of {}", end.frontier);
+    click(&mut harness, "Continue from here");
+    assert_eq!(harness.state().transport().frontier, middle);
+    assert!(harness.state().script().events.iter().all(|e| e.tick <= middle));
+    click(&mut harness, "Undo");
+    assert_eq!(harness.state().transport().frontier, end.frontier);
+    assert_eq!(harness.state().transport().tick, middle);
+    // driving from the past continues from there too
+    arm_rusty(&mut harness);
+    harness.key_down(Key::ArrowDown);
+    harness.run_steps(10);
+    assert!(harness.state().transport().frontier < end.frontier);
+    assert_eq!(harness.state().transport().playback, Playback::Playing, "who drives sees it move");
+}
+
+#[test]
+fn a_seed_is_typed_and_typed_back() {
+    let mut harness = lab(WIDE);
+    harness.run_steps(100);
+    pause(&mut harness);
+    let tick = harness.state().transport().tick;
+    let before = harness.state().app.world().resource::<LatestFrame>().0.clone();
+    let seed = |harness: &mut Harness<'_, Lab>, seed: &str| {
+        harness.get_by_label("seed").focus();
+        harness.run_steps(2);
+        harness.key_combination_modifiers(Modifiers::COMMAND, &[Key::A]);
+        harness.step();
+        harness.event(Event::Text(seed.into()));
+        harness.step();
+        harness.key_press(Key::Enter);
+        harness.run_steps(3);
+        for _ in 0..tick {
+            harness.key_press(Key::ArrowRight);
+            harness.step();
+        }
+        harness.run_steps(2);
+        harness.state().app.world().resource::<LatestFrame>().0.clone()
+    };
+    let other = seed(&mut harness, "77");
+    assert_eq!(harness.state().transport().seed.0, 77);
+    assert_eq!(other.tick, tick);
+    for (a, b) in other.robots.iter().zip(&before.robots) {
+        assert!(a.configuration.iter().zip(&b.configuration).all(|(a, b)| a != b), "every coordinate is another");
+    }
+    assert_eq!(seed(&mut harness, "2005"), before, "typed back, each is restored");
+}
+
+#[test]
+fn loops_speeds_and_contacts() {
+    let mut harness = lab(WIDE);
+    harness.run_steps(200);
+    pause(&mut harness);
+    let frontier = harness.state().transport().frontier;
+    click(&mut harness, "Loop");
+    click(&mut harness, "Play");
+    harness.run_steps(60);
+    let transport = harness.state().transport();
+    assert!(transport.looping && transport.frontier == frontier && transport.tick < frontier, "{transport:?}");
+    pause(&mut harness);
+    let next = harness.state().app.world().resource::<Shown>().0.next_contact.expect("the arm meets obstacles");
+    click(&mut harness, "Next contact");
+    assert_eq!(harness.state().transport().tick, next);
+    assert!(view(harness.state().app.world()).iter().any(|r| r.in_contact));
+    for _ in 0..20 {
+        harness.key_press(Key::Period);
+        harness.run_steps(2);
+    }
+    assert!(harness.state().transport().speed.is_infinite());
+    click(&mut harness, "Loop");
+    harness.key_press(Key::End);
+    harness.run_steps(2);
+    click(&mut harness, "Play");
+    harness.run_steps(10);
+    let gone = harness.state().transport().tick - frontier;
+    assert!(gone >= 10, "at least a tick a frame, where normal speed makes half of one: {gone} in ten frames");
+}
+
+/// The frames of the first 200 ticks with input in them, at some rate of frames, with a stall of 5 s or not.
+fn played(frames_per_second: u32, stall: bool) -> Vec<crate::run::Frame> {
+    let mut app = app(Duration::from_secs_f64(1.0 / f64::from(frames_per_second)));
+    app.update();
+    let config = RunConfig::clone(app.world().resource::<RunConfig>());
+    let event = |tick, robot: &str, input| crate::run::Event { tick, robot: robot.into(), input };
+    let events = vec![
+        event(10, "Rusty", RobotInput::Drive(128, 0)),
+        event(40, "Hitch", RobotInput::SetTrailer(true)),
+        event(60, "Hitch", RobotInput::Drive(-100, 50)),
+        event(90, "Rusty", RobotInput::Release),
+    ];
+    let script = Script { events, ..Script::empty() };
+    let world = app.world_mut();
+    crate::simulation::start_run(world, (*config.0).clone(), (crate::tour::BOOK_SEED, script)).unwrap();
+    world.resource_mut::<Transport>().playback = Playback::Playing;
+    let mut frames = Vec::new();
+    while app.world().resource::<Transport>().tick < 200 {
+        if stall && app.world().resource::<Transport>().tick > 50 && frames.len() < 60 {
+            let usual = Duration::from_secs_f64(1.0 / f64::from(frames_per_second));
+            app.insert_resource(TimeUpdateStrategy::ManualDuration(Duration::from_secs(5)));
+            app.update();
+            app.insert_resource(TimeUpdateStrategy::ManualDuration(usual));
+        }
+        app.update();
+        frames.push(app.world().resource::<LatestFrame>().0.clone());
+    }
+    let world = app.world_mut();
+    (1..=200)
+        .map(|tick| {
+            crate::simulation::obey(world, TransportCommand::Seek(tick)).unwrap();
+            world.resource::<LatestFrame>().0.clone()
+        })
+        .collect()
+}
+
+#[test]
+fn frame_rates_and_stalls_change_no_bit_of_a_run() {
+    let smooth = played(60, false);
+    for (rate, stall) in [(20, false), (144, false), (60, true), (7, true)] {
+        assert_eq!(played(rate, stall), smooth, "{rate} frames a second, stall: {stall}");
+    }
+}

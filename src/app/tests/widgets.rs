@@ -1,0 +1,119 @@
+//! Query anatomy, configuration space and atlas.
+
+use super::*;
+
+/// Puts the widget with this word on the rail in front.
+fn front(harness: &mut Harness<'_, Lab>, word: &str) {
+    click(harness, word);
+    harness.run_steps(3);
+}
+
+fn value(harness: &Harness<'_, Lab>, name: &str) -> f64 {
+    let slider = harness.get_by_role_and_label(egui::accesskit::Role::Slider, name);
+    slider.accesskit_node().numeric_value().expect("a value")
+}
+
+#[test]
+fn the_anatomy_answers_the_four_questions() {
+    let mut harness = lab(WIDE);
+    front(&mut harness, "Query");
+    assert_eq!(harness.state().transport().playback, Playback::Paused, "the run waits");
+    harness.get_by_label("intersects: false");
+    click(&mut harness, "distance");
+    harness.get_by_label("distance: 0.0607 m");
+    click(&mut harness, "3 cm capsule links");
+    harness.get_by_label("distance: 0.0307 m");
+    click(&mut harness, "3 cm capsule links");
+    // theta2 slides down until the arm touches the block: exactly 0, and it stays 0
+    let anatomy = |h: &Harness<'_, Lab>| h.state().app.world().resource::<Interface>().0.anatomy.anatomy.clone();
+    let slider = harness.get_by_role_and_label(egui::accesskit::Role::Slider, "th2").rect();
+    let mut seen = Vec::new();
+    for part in [0.76, 0.74, 0.71, 0.68] {
+        click_at(&mut harness, slider.left_center() + egui::vec2(part * 180.0, 0.0));
+        seen.push((value(&harness, "th2"), anatomy(&harness).distance(), anatomy(&harness).intersects()));
+    }
+    assert!(seen[0].1 > 0.0 && !seen[0].2, "{seen:?}");
+    assert!(seen.iter().all(|(th2, d, hit)| (*d == 0.0) == *hit && (*th2 < 1.4008) == *hit), "{seen:?}");
+    assert!(seen[3].2, "{seen:?}");
+    click(&mut harness, "Reset");
+    click(&mut harness, "swept");
+    let said = anatomy(&harness).described();
+    assert!(said.contains("the block"), "{said}");
+    harness.get_by_role_and_label(egui::accesskit::Role::Slider, "step of th1");
+}
+
+#[test]
+fn a_number_is_asked_for_before_it_is_shown() {
+    let mut harness = lab(WIDE);
+    front(&mut harness, "Query");
+    assert!(harness.query_by_label_contains("0.0306").is_none());
+    harness.get_by_label_contains("the links are given a radius of 3 cm").focus();
+    harness.run_steps(2);
+    harness.event(Event::Text("0.05".into()));
+    harness.step();
+    harness.key_press(Key::Enter);
+    harness.run_steps(3);
+    harness.get_by_label_contains("Off by +0.0193 m: it is 0.030660 m");
+}
+
+#[test]
+fn the_configuration_space_is_proven_and_moves_the_arm() {
+    let mut harness = lab(WIDE);
+    front(&mut harness, "Space");
+    harness.run_steps(12);
+    harness.get_by_label_contains("proven free  71.");
+    let space = harness.get_by_label_contains("configuration space. The robot is the point").rect();
+    click_at(&mut harness, space.center());
+    let q = harness.state().app.world().resource::<Interface>().0.anatomy.anatomy.q().to_string();
+    click_at(&mut harness, space.center() + egui::vec2(60.0, 0.0));
+    let moved = harness.state().app.world().resource::<Interface>().0.anatomy.anatomy.q().to_string();
+    assert_ne!(q, moved);
+    let th2 = |q: &str| q.rsplit_once("th2: ").map(|(_, tail)| tail.to_owned());
+    assert_eq!(th2(&q), th2(&moved), "a point to the right is another theta1");
+}
+
+#[test]
+fn the_atlas_puts_robots_refuses_and_edits() {
+    let mut harness = lab(WIDE);
+    front(&mut harness, "Atlas");
+    let paper = harness.get_by_label_contains("World Apartment").rect();
+    let atlas = |h: &Harness<'_, Lab>| h.state().app.world().resource::<Interface>().0.atlas.clone();
+    let fit = crate::ui::canvas::fit(&crate::picture::world(atlas(&harness).world()), paper);
+    let at = |x: f64, y: f64| {
+        let [x, y] = fit.screen_from_world(crate::geometry::Point2::new(x, y));
+        pos2(x as f32, y as f32)
+    };
+    click_at(&mut harness, at(6.0, 4.0));
+    let q = atlas(&harness).atlas().robots()[0].q;
+    assert!((crate::configuration::Configuration::coordinates(&q)[0] - 6.0).abs() < 0.05, "{q}");
+    // on the round table: refused by name, in place
+    click_at(&mut harness, at(6.0, 6.75));
+    assert_eq!(atlas(&harness).atlas().robots()[0].q, q, "it stays");
+    harness.get_by_label("would overlap B's round table; click the ring for the nearest free place");
+    // the editor
+    click(&mut harness, "Edit");
+    click(&mut harness, "Add box");
+    assert!(atlas(&harness).world().obstacle("box").is_some());
+    click(&mut harness, "Delete");
+    assert!(atlas(&harness).world().obstacle("box").is_none());
+    click(&mut harness, "Undo");
+    assert!(atlas(&harness).world().obstacle("box").is_some());
+    // saved, it is a world file that runs
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("mine.ron");
+    let notice = crate::app::files::save_world(harness.state_mut().app.world_mut(), &path);
+    assert!(!notice.is_error && atlas(&harness).is_saved(), "{notice:?}");
+    let text = std::fs::read_to_string(&path).unwrap();
+    let world = crate::worlds::World::parse("mine.ron", &text).unwrap();
+    assert_eq!(world.to_ron(), text, "canonical");
+    let opened = crate::app::files::open_world(harness.state_mut().app.world_mut(), &path);
+    assert!(!opened.is_error && atlas(&harness).is_saved());
+    std::fs::write(&path, "a cat").unwrap();
+    let refused = crate::app::files::open_world(harness.state_mut().app.world_mut(), &path);
+    assert!(refused.is_error && atlas(&harness).is_saved(), "{refused:?}");
+    click(&mut harness, "Run this world");
+    let config = harness.state().app.world().resource::<RunConfig>().0.clone();
+    assert!(config.worlds.len() == 1 && config.worlds[0].obstacle("box").is_some());
+    click(&mut harness, "Undo");
+    assert_eq!(harness.state().app.world().resource::<RunConfig>().0.worlds.len(), 3);
+}
