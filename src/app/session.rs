@@ -73,7 +73,9 @@ fn start(world: &mut World) -> Result {
 /// Takes what the window shows from the simulation. This is the one place where the two meet.
 pub fn gather(world: &mut World) {
     if world.is_resource_changed::<RunConfig>() {
-        let drawn = |w: &WorldModel| (Arc::new(picture_of(w)), Arc::new(Atlas::new(w.clone())));
+        // its robots move: only what stands still is named
+        let standing = |w: &WorldModel| Atlas::new(WorldModel { robots: vec![], ..w.clone() });
+        let drawn = |w: &WorldModel| (Arc::new(picture_of(w)), Arc::new(standing(w)));
         let pictures = world.resource::<RunConfig>().0.worlds.iter().map(drawn).collect();
         world.insert_resource(Worlds(pictures));
     }
