@@ -1,8 +1,11 @@
 //! Verdicts in closed form: discs on lines and arcs, and parts that move without turning.
 
-use super::march::{BRACKET, march, step_clearance};
+use super::disc_line::DiscLine;
+use super::extent::Extent;
+use super::march::{BRACKET, first_step, march_on, step_clearance};
+use super::vicinity::Vicinity;
 use super::{Certificate, Collision, EdgeVerdict, MarchOptions, ObstacleId, ProvenStep, Scene, Witness};
-use crate::geometry::{CircularArc, Footprint, Point2};
+use crate::geometry::{CircularArc, Footprint, Point2, Segment};
 use crate::num::{greater, ulp};
 use crate::robots::Motion;
 
@@ -19,6 +22,8 @@ pub(super) fn verdict<M: Motion>(
 ) -> EdgeVerdict {
     let closed = if options.margin != 0.0 {
         None
+    } else if let Some((way, radius)) = motion.disc_line() {
+        linear(scene, motion, way, radius, certificate.as_deref_mut())
     } else if certificate.is_none()
         && let Some((arc, radius)) = motion.disc_arc()
     {
@@ -26,7 +31,43 @@ pub(super) fn verdict<M: Motion>(
     } else {
         straight(scene, motion, certificate.as_deref_mut())
     };
-    closed.unwrap_or_else(|| march(scene, motion, options, certificate))
+    closed.unwrap_or_else(|| march_nearby(scene, motion, options, certificate))
+}
+
+/// As [`march`](super::march()), of a motion in a scene: what one step does not prove free is marched among the pieces that it can come near.
+fn march_nearby<M: Motion>(
+    scene: &Scene,
+    motion: &M,
+    options: MarchOptions,
+    certificate: Option<&mut Certificate>,
+) -> EdgeVerdict {
+    let start = motion.footprint_at(0.0);
+    if let Some(step) = first_step(scene, motion, options, &start) {
+        return step.of_all(options.margin, certificate);
+    }
+    let distance = scene.distance(&start);
+    let from = (start, distance);
+    match vicinity(scene, motion, options, &from) {
+        Some(vicinity) => march_on(&vicinity, motion, options, certificate, from),
+        None => march_on(scene, motion, options, certificate, from),
+    }
+}
+
+/// What is near enough to the motion to matter: its clearance is nowhere said to be more than at the start.
+fn vicinity<'a, M: Motion>(
+    scene: &'a Scene,
+    motion: &M,
+    options: MarchOptions,
+    (start, distance): &(Footprint, f64),
+) -> Option<Vicinity<'a>> {
+    let end = motion.footprint_at(1.0);
+    if !(*distance > options.margin && distance.is_finite() && end.is_valid()) {
+        return None;
+    }
+    let parts = start.parts().iter().zip(end.parts()).enumerate();
+    let swept = parts
+        .map(|(k, (a, b))| Extent::of(a.placed()).merged(&Extent::of(b.placed())).grown(motion.sagitta(k, 0.0, 1.0)));
+    Vicinity::new(scene, &swept.reduce(|a, b| a.merged(&b))?, *distance)
 }
 
 /// The hit of which everything before `free_until` was proven free, if there is contact at `contact_at`.
@@ -78,6 +119,24 @@ fn straight<M: Motion>(scene: &Scene, motion: &M, certificate: Option<&mut Certi
     Some(verdict)
 }
 
+/// A disc of this radius whose centre runs along a line.
+fn linear<M: Motion>(
+    scene: &Scene,
+    motion: &M,
+    way: Segment,
+    radius: f64,
+    mut certificate: Option<&mut Certificate>,
+) -> Option<EdgeVerdict> {
+    let Some((step, verdict)) = DiscLine::new(way, radius, scene).and_then(|disc| disc.verdict(scene)) else {
+        return straight(scene, motion, certificate);
+    };
+    if let Some(c) = certificate.as_deref_mut() {
+        c.clear(0.0);
+        c.push(step);
+    }
+    Some(verdict)
+}
+
 /// A disc of this radius whose centre runs along an arc.
 fn circular<M: Motion>(scene: &Scene, motion: &M, arc: &CircularArc, radius: f64) -> Option<EdgeVerdict> {
     let far = Point2::new(arc.centre.x.abs() + arc.radius, arc.centre.y.abs() + arc.radius);
@@ -100,7 +159,7 @@ mod tests {
     use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
     use super::*;
-    use crate::collision::{Checker, DiscChecker};
+    use crate::collision::{Checker, DiscChecker, march};
     use crate::configuration::{HitchCfg, R2};
     use crate::geometry::{Pose2, Segment, Shape};
     use crate::num;
