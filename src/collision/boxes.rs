@@ -1,8 +1,10 @@
 //! `Boxes`, the boxes around a few shapes in structure-of-arrays order: looked at all at once.
 
+use multiversion::multiversion;
+
 use super::extent::{Extent, square};
 use super::segments::LANES;
-use crate::num::greater;
+use crate::num::{greater, lesser};
 
 /// Axis-parallel boxes; the arrays are filled up to whole eights with boxes infinitely far away.
 #[derive(Clone, Debug, Default)]
@@ -15,7 +17,7 @@ pub(super) struct Boxes {
 }
 
 /// At most so many boxes are looked at all at once.
-pub(super) const FEW: usize = 16;
+pub(super) const FEW: usize = 64;
 
 impl Boxes {
     /// A few boxes, known by their numbers.
@@ -31,31 +33,20 @@ impl Boxes {
         boxes
     }
 
-    /// [`Extent::squared_distance`] from a box to each.
-    fn squared_distances<'a>(&self, from: &Extent, room: &'a mut [f64; FEW]) -> &'a [f64] {
-        let sides = self.x0.iter().zip(&self.x1).zip(self.y0.iter().zip(&self.y1));
-        for (square, ((x0, x1), (y0, y1))) in room.iter_mut().zip(sides) {
-            let dx = greater(greater(x0 - from.max.x, from.min.x - x1), 0.0);
-            let dy = greater(greater(y0 - from.max.y, from.min.y - y1), 0.0);
-            *square = (dx * dx + dy * dy) * (1.0 - 1e-13);
-        }
-        &room[..self.count]
+    fn sides(&self) -> [&[f64]; 4] {
+        [&self.x0, &self.y0, &self.x1, &self.y1]
     }
 
     /// Calls `look`, which gives the least distance so far, with every box that may hold something as near as that; the
     /// nearest box first, because most others need not be looked at then.
     pub(super) fn nearest(&self, from: &Extent, within: f64, mut look: impl FnMut(usize) -> f64) {
-        let mut room = [0.0; FEW];
-        let squares = self.squared_distances(from, &mut room);
-        let (mut first, mut nearest) = (usize::MAX, square(within));
-        for (i, square) in squares.iter().enumerate() {
-            if *square < nearest || (*square == nearest && first == usize::MAX) {
-                (first, nearest) = (i, *square);
-            }
-        }
-        if first == usize::MAX {
+        let mut squares = [f64::INFINITY; FEW];
+        let nearest = squared_distances(self.sides(), from, &mut squares);
+        if nearest > square(within) || self.count == 0 {
             return;
         }
+        let squares = &squares[..self.count];
+        let first = squares.iter().position(|s| *s == nearest).unwrap_or(0);
         let mut least = square(look(first));
         for (i, distance) in squares.iter().enumerate() {
             if *distance <= least && i != first {
@@ -66,11 +57,30 @@ impl Boxes {
 
     /// Calls `visit` with each box at most `range` away, until it returns true.
     pub(super) fn each_near(&self, from: &Extent, range: f64, mut visit: impl FnMut(usize) -> bool) {
-        let mut room = [0.0; FEW];
-        for (i, distance) in self.squared_distances(from, &mut room).iter().enumerate() {
+        let mut squares = [f64::INFINITY; FEW];
+        squared_distances(self.sides(), from, &mut squares);
+        for (i, distance) in squares[..self.count].iter().enumerate() {
             if *distance <= range * range && visit(i) {
                 return;
             }
         }
     }
+}
+
+/// [`Extent::squared_distance`] from a box to each, and the least of them.
+#[multiversion(targets("x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl", "x86_64+avx2"))]
+fn squared_distances([x0, y0, x1, y1]: [&[f64]; 4], from: &Extent, squares: &mut [f64; FEW]) -> f64 {
+    let Extent { min, max } = *from;
+    let mut least = [f64::INFINITY; LANES];
+    let blocks = x0.as_chunks().0.iter().zip(y0.as_chunks().0).zip(x1.as_chunks().0.iter().zip(y1.as_chunks().0));
+    for (((x0, y0), (x1, y1)), squares) in blocks.zip(squares.as_chunks_mut::<LANES>().0) {
+        let (x0, y0, x1, y1): (&[f64; LANES], &[f64; LANES], &[f64; LANES], &[f64; LANES]) = (x0, y0, x1, y1);
+        for i in 0..LANES {
+            let dx = greater(greater(x0[i] - max.x, min.x - x1[i]), 0.0);
+            let dy = greater(greater(y0[i] - max.y, min.y - y1[i]), 0.0);
+            squares[i] = (dx * dx + dy * dy) * (1.0 - 1e-13);
+            least[i] = lesser(squares[i], least[i]);
+        }
+    }
+    least.into_iter().fold(f64::INFINITY, lesser)
 }

@@ -20,18 +20,28 @@ pub(super) fn verdict<M: Motion>(
     options: MarchOptions,
     mut certificate: Option<&mut Certificate>,
 ) -> EdgeVerdict {
-    let closed = if options.margin != 0.0 {
-        None
-    } else if let Some((way, radius)) = motion.disc_line() {
-        linear(scene, motion, way, radius, certificate.as_deref_mut())
-    } else if certificate.is_none()
+    if options.margin == 0.0
+        && let Some((way, radius)) = motion.disc_line()
+        && let Some(verdict) = linear(scene, way, radius, certificate.as_deref_mut())
+    {
+        return verdict;
+    }
+    if options.margin == 0.0
+        && certificate.is_none()
         && let Some((arc, radius)) = motion.disc_arc()
     {
-        circular(scene, motion, &arc, radius)
-    } else {
-        straight(scene, motion, certificate.as_deref_mut())
-    };
-    closed.unwrap_or_else(|| march_nearby(scene, motion, options, certificate))
+        let closed = circular(scene, motion, &arc, radius);
+        return closed.unwrap_or_else(|| march_nearby(scene, motion, options, None, motion.footprint_at(0.0)));
+    }
+    let start = motion.footprint_at(0.0);
+    let turns = (0..start.parts().len()).any(|k| motion.rates(k).acceleration != 0.0);
+    if options.margin == 0.0
+        && !turns
+        && let Some(verdict) = straight(scene, motion, &start, certificate.as_deref_mut())
+    {
+        return verdict;
+    }
+    march_nearby(scene, motion, options, certificate, start)
 }
 
 /// As [`march`](super::march()), of a motion in a scene: what one step does not prove free is marched among the pieces that it can come near.
@@ -40,8 +50,8 @@ fn march_nearby<M: Motion>(
     motion: &M,
     options: MarchOptions,
     certificate: Option<&mut Certificate>,
+    start: Footprint,
 ) -> EdgeVerdict {
-    let start = motion.footprint_at(0.0);
     if let Some(step) = first_step(scene, motion, options, &start) {
         return step.of_all(options.margin, certificate);
     }
@@ -88,23 +98,23 @@ fn bracket(s: f64, length: f64) -> (f64, f64) {
 
 /// A motion none of whose parts turns: one step proves it free, or its first contact is where a vertex comes within reach
 /// of an edge.
-fn straight<M: Motion>(scene: &Scene, motion: &M, certificate: Option<&mut Certificate>) -> Option<EdgeVerdict> {
-    let start = motion.footprint_at(0.0);
-    let parts = start.parts().len();
-    if (0..parts).any(|k| motion.rates(k).acceleration != 0.0) {
-        return None;
-    }
+fn straight<M: Motion>(
+    scene: &Scene,
+    motion: &M,
+    start: &Footprint,
+    certificate: Option<&mut Certificate>,
+) -> Option<EdgeVerdict> {
     let end = motion.footprint_at(1.0);
     let prove = |to: f64, footprint: &Footprint| {
-        let clearance = step_clearance(scene, motion, (0.0, &start), (to, footprint));
+        let clearance = step_clearance(scene, motion, (0.0, start), (to, footprint));
         (clearance > 0.0).then_some(ProvenStep { from: 0.0, to, clearance })
     };
     // every proof holds for the start too, so that need not be asked about
     let (step, verdict) = if let Some(step) = prove(1.0, &end) {
         (step, EdgeVerdict::Free { clearance: step.clearance })
     } else {
-        let first = scene.translation_meets(&start, &end)?;
-        let length = (0..parts).fold(0.0, |w, k| greater(motion.bound(k, 0.0, 1.0), w));
+        let first = scene.translation_meets(start, &end)?;
+        let length = (0..start.parts().len()).fold(0.0, |w, k| greater(motion.bound(k, 0.0, 1.0), w));
         let (before, after) = bracket(first, length);
         if before <= 0.0 {
             return None;
@@ -120,17 +130,9 @@ fn straight<M: Motion>(scene: &Scene, motion: &M, certificate: Option<&mut Certi
 }
 
 /// A disc of this radius whose centre runs along a line.
-fn linear<M: Motion>(
-    scene: &Scene,
-    motion: &M,
-    way: Segment,
-    radius: f64,
-    mut certificate: Option<&mut Certificate>,
-) -> Option<EdgeVerdict> {
-    let Some((step, verdict)) = DiscLine::new(way, radius, scene).and_then(|disc| disc.verdict(scene)) else {
-        return straight(scene, motion, certificate);
-    };
-    if let Some(c) = certificate.as_deref_mut() {
+fn linear(scene: &Scene, way: Segment, radius: f64, certificate: Option<&mut Certificate>) -> Option<EdgeVerdict> {
+    let (step, verdict) = DiscLine::new(way, radius, scene)?.verdict(scene)?;
+    if let Some(c) = certificate {
         c.clear(0.0);
         c.push(step);
     }
@@ -172,9 +174,10 @@ mod tests {
 
     /// The verdict by closed form alone.
     fn closed<M: Motion>(scene: &Scene, motion: &M) -> EdgeVerdict {
-        let found = match motion.disc_arc() {
-            Some((arc, radius)) => circular(scene, motion, &arc, radius),
-            None => straight(scene, motion, None),
+        let found = match (motion.disc_line(), motion.disc_arc()) {
+            (Some((way, radius)), _) => linear(scene, way, radius, None),
+            (None, Some((arc, radius))) => circular(scene, motion, &arc, radius),
+            (None, None) => straight(scene, motion, &motion.footprint_at(0.0), None),
         };
         found.expect("a closed form decides")
     }

@@ -112,25 +112,24 @@ impl DiscLine {
         }
         // off by some ulps from where the footprint is placed
         let at = |s: f64| self.way.a + self.way.u * s;
-        let before = Leg::new(self.way.a, at(free_until));
-        let gap = |leg: &Leg, piece: &Placed| gap(leg, piece).0 - radius;
-        let clearance = pieces().fold(BRACKET, |least, (_, piece)| lesser(gap(&before, piece), least)) - slack;
+        let (before, after) = (at(free_until), at(contact_at));
+        let (mut clearance, mut obstacle) = (BRACKET, None);
+        for (piece, shape) in pieces() {
+            let (nearer, farther) = (point_gap(after, shape) - radius, point_gap(before, shape) - radius);
+            // The distance from a point or a segment is a convex function: where it still falls it has fallen all the way. That from a
+            // polygon's boundary is not: the way may begin inside.
+            let falls = shape.core().len() <= 2 && nearer < farther - slack;
+            let least = if falls { farther } else { gap(&Leg::new(self.way.a, before), shape).0 - radius };
+            clearance = lesser(least - slack, clearance);
+            // touched for certain, or apart for certain
+            if nearer < -slack {
+                obstacle = Some(obstacle.map_or(piece, |o: u32| o.min(piece)));
+            } else if nearer <= slack {
+                return None;
+            }
+        }
         if clearance <= 0.0 {
             return None;
-        }
-        let there = at(contact_at);
-        let there = Leg::new(there, there);
-        // touched for certain, or apart for certain
-        let touches = |piece: &Placed| match gap(&there, piece) {
-            d if d < -slack => Some(true),
-            d if d > slack => Some(false),
-            _ => None,
-        };
-        let mut obstacle = None;
-        for (piece, shape) in pieces() {
-            if touches(shape)? && obstacle.is_none_or(|o| piece < o) {
-                obstacle = Some(piece);
-            }
         }
         let obstacle = ObstacleId(scene.owners[obstacle? as usize]);
         let step = ProvenStep { from: 0.0, to: free_until, clearance };
@@ -187,4 +186,14 @@ fn gap(leg: &Leg, piece: &Placed) -> (f64, f64) {
         inside &= cross(edge.u, leg.a - a) >= 0.0;
     }
     (if inside { 0.0 } else { sqrt(least) } - piece.radius(), longest)
+}
+
+/// The distance of a point from a piece; of one inside it, from its boundary. Rounded.
+fn point_gap(p: Point2, piece: &Placed) -> f64 {
+    let core = piece.core();
+    let least = match core {
+        [a, b] => Leg::new(*a, *b).squared_distance(p),
+        _ => edges(core).fold(f64::INFINITY, |least, (a, b)| lesser(Leg::new(a, b).squared_distance(p), least)),
+    };
+    sqrt(least) - piece.radius()
 }

@@ -62,7 +62,9 @@ mod tests {
     #[test]
     fn every_kind_of_index_finds_the_same() {
         let mut draws = Stream::new(Seed(5), "index");
-        for (count, spread, grid) in [(16, 9, false), (300, 30, true), (300, 2000, true), (300, 6, false)] {
+        for (count, spread, grid) in
+            [(40, 9, false), (64, 20, false), (300, 30, true), (300, 2000, true), (300, 6, false)]
+        {
             let extents = boxes(count, spread, &mut draws);
             let index = Index::new(&extents);
             assert_eq!(matches!(index, Index::Grid(_)), grid, "{count} in {spread}");

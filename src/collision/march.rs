@@ -71,7 +71,7 @@ pub fn march<M: Motion>(
 }
 
 /// The step that proves all of the motion free, which for most motions there is.
-pub(super) fn first_step<M: Motion>(
+pub(crate) fn first_step<M: Motion>(
     collision: &dyn Collision,
     motion: &M,
     options: MarchOptions,

@@ -19,6 +19,7 @@ mod march;
 mod narrow;
 mod piece_grid;
 mod problem;
+mod rectangles;
 mod scene;
 mod search;
 mod segments;
@@ -35,9 +36,10 @@ pub use certificate::{Certificate, CertificateError, ProvenStep, verify_certific
 pub use checker::{CarChecker, ChainChecker, Checker, DiscChecker};
 pub use counted::{Counted, QueryCounts};
 pub use edge::{EdgeVerdict, MarchOptions, UnresolvedReason};
-pub(crate) use march::march_from;
 pub use march::{BRACKET, march};
+pub(crate) use march::{first_step, march_from};
 pub use problem::{Problem, ProblemError};
+pub use rectangles::Rectangles;
 pub use scene::Scene;
 
 pub(crate) use segments::{Circle, LANES, SegmentSoup};

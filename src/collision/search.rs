@@ -4,7 +4,7 @@ use super::answers::pair_within;
 use super::core::edges;
 use super::extent::Extent;
 use super::narrow::Nearest;
-use crate::geometry::Placed;
+use crate::geometry::{Placed, Point2};
 use crate::num::{greater, sqrt};
 
 /// At most so many half-planes about a shape tell what is far from it.
@@ -83,20 +83,20 @@ impl Sides {
             let inverse = 1.0 / sqrt(u.norm_squared());
             let (ux, uy) = (u.x * inverse, u.y * inverse);
             if core.len() > 2 {
-                sides.push(uy, -ux, uy * a.x - ux * a.y);
+                sides.push(core, (uy, -ux));
             } else {
                 // of a segment both sides and both ends
-                let (across, from, to) = (uy * a.x - ux * a.y, ux * a.x + uy * a.y, ux * b.x + uy * b.y);
-                sides.push(uy, -ux, across);
-                sides.push(-uy, ux, -across);
-                sides.push(ux, uy, to);
-                sides.push(-ux, -uy, -from);
+                for normal in [(uy, -ux), (-uy, ux), (ux, uy), (-ux, -uy)] {
+                    sides.push(core, normal);
+                }
             }
         }
         sides
     }
 
-    fn push(&mut self, nx: f64, ny: f64, out: f64) {
+    /// The half-plane with this outward normal that just holds the core.
+    fn push(&mut self, core: &[Point2], (nx, ny): (f64, f64)) {
+        let out = core.iter().fold(f64::NEG_INFINITY, |out, v| greater(nx * v.x + ny * v.y, out));
         (self.nx[self.count], self.ny[self.count], self.out[self.count]) = (nx, ny, out);
         self.count += 1;
     }
