@@ -57,9 +57,10 @@ fn march_nearby<M: Motion>(
     }
     let distance = scene.distance(&start);
     let from = (start, distance);
+    let may_pinch = options.margin == 0.0;
     match vicinity(scene, motion, options, &from) {
-        Some(vicinity) => march_on(&vicinity, motion, options, certificate, from),
-        None => march_on(scene, motion, options, certificate, from),
+        Some(vicinity) => march_on(&vicinity, motion, options, certificate, from, may_pinch),
+        None => march_on(scene, motion, options, certificate, from, may_pinch),
     }
 }
 
@@ -305,5 +306,23 @@ mod tests {
         }
         assert!(free > 50 && hits > 50, "{free} {hits}");
         assert!(decided > 590, "closed forms decide nearly all: {decided} of 600");
+    }
+    #[test]
+    fn nearly_every_disc_line_is_decided_without_a_march() {
+        let scene = Scene::apartment();
+        let mut draws = Stream::new(Seed(4), "lines");
+        let (mut decided, mut free) = (0, 0);
+        for _ in 0..1000 {
+            let mut at = || Point2::new(draws.uniform(0.0, 12.0), draws.uniform(0.0, 8.0));
+            let way = Segment::new(at(), at());
+            if scene.intersects(&Footprint::disc(way.a, 0.11)) {
+                decided += 1; // its start is asked about anyway
+                continue;
+            }
+            let verdict = linear(&scene, way, 0.11, None);
+            decided += usize::from(verdict.is_some());
+            free += usize::from(verdict.is_some_and(|v| v.is_free()));
+        }
+        assert!(decided > 990 && free > 20, "{decided} decided, {free} of them free");
     }
 }

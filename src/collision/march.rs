@@ -1,5 +1,6 @@
 //! The certified march: a motion proven free piece by piece, or bracketed where it hits.
 
+use super::pinch::{Pace, pinch};
 use super::{Certificate, Collision, EdgeVerdict, MarchOptions, ObstacleId, ProvenStep, UnresolvedReason};
 use crate::geometry::{Footprint, Part, largest_coordinate};
 use crate::num::{greater, lesser, sqrt, ulp};
@@ -65,7 +66,7 @@ pub fn march<M: Motion>(
         Some(step) => step.of_all(options.margin, certificate),
         None => {
             let distance = collision.distance(&start);
-            march_on(collision, motion, options, certificate, (start, distance))
+            march_on(collision, motion, options, certificate, (start, distance), false)
         }
     }
 }
@@ -106,16 +107,18 @@ pub(crate) fn march_from<M: Motion>(
     {
         return step.of_all(options.margin, certificate);
     }
-    march_on(collision, motion, options, certificate, (start, start_distance))
+    march_on(collision, motion, options, certificate, (start, start_distance), false)
 }
 
-/// As [`march_from`], of a motion that one step does not prove free.
+/// As [`march_from`], of a motion that one step does not prove free. A contact that comes in sight may be pinched instead of marched at: the
+/// verdict then says the same in other brackets, which what has been recorded does not allow.
 pub(super) fn march_on<M: Motion>(
     collision: &dyn Collision,
     motion: &M,
     options: MarchOptions,
     mut certificate: Option<&mut Certificate>,
     (start, start_distance): (Footprint, f64),
+    mut may_pinch: bool,
 ) -> EdgeVerdict {
     if let Some(c) = certificate.as_deref_mut() {
         c.clear(options.margin);
@@ -153,6 +156,15 @@ pub(super) fn march_on<M: Motion>(
             return EdgeVerdict::Unresolved { free_until: lo, gap, reason: UnresolvedReason::Budget };
         }
         steps += 1;
+        if let Some(ahead) = contact
+            && std::mem::take(&mut may_pinch)
+            && let Some(pinched) = pinch(collision, motion, Pace { speed, acceleration }, (lo, &at_lo, gap), ahead)
+        {
+            if let Some(c) = certificate {
+                pinched.steps.iter().rev().for_each(|step| c.push(*step));
+            }
+            return hit(pinched.free_until, pinched.contact_at);
+        }
         let hi = match contact {
             Some(c) if lo + h >= c => lo + 0.5 * (c - lo),
             _ => lesser(lo + h, 1.0),

@@ -18,6 +18,7 @@ mod index;
 mod march;
 mod narrow;
 mod piece_grid;
+mod pinch;
 mod problem;
 mod rectangles;
 mod scene;

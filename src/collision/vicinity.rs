@@ -91,3 +91,35 @@ impl Collision for Vicinity<'_> {
         self.scene.swept(a, b)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::{Point2, Segment};
+    use crate::random::{Seed, Stream};
+
+    #[test]
+    fn a_vicinity_answers_as_the_scene_does() {
+        let scene = Scene::apartment();
+        let mut draws = Stream::new(Seed(2), "vicinity");
+        let mut beyond = 0;
+        for _ in 0..300 {
+            let mut at = |reach: f64| Point2::new(draws.uniform(3.0, 3.0 + reach), draws.uniform(2.0, 2.0 + reach));
+            let within = Extent { min: Point2::new(3.0, 2.0), max: Point2::new(5.0, 4.0) };
+            let vicinity = Vicinity::new(&scene, &within, 0.25).unwrap();
+            let hull = Placed::new(smallvec::smallvec![at(2.0), at(2.0)], 0.05);
+            let footprint = Footprint::of_hull(hull.clone());
+            let distance = scene.distance(&footprint);
+            assert_eq!(vicinity.distance(&footprint), distance);
+            assert_eq!(vicinity.distance_of_hull(hull), distance);
+            assert_eq!(vicinity.intersects(&footprint), distance == 0.0);
+            beyond += usize::from(distance > 0.25);
+        }
+        assert!(beyond > 10 && beyond < 290, "{beyond} beyond the range");
+        let wall = |k: u32| Segment::new(Point2::new(f64::from(k), 0.0), Point2::new(f64::from(k), 1.0));
+        let walls: Vec<Segment> = (0..=MOST as u32).map(wall).collect();
+        let all = Extent { min: Point2::origin(), max: Point2::new(99.0, 1.0) };
+        assert!(Vicinity::new(&Scene::of_walls(&walls), &all, 1.0).is_none(), "too much to be worth it");
+        assert!(Vicinity::new(&Scene::of_walls(&walls[1..]), &all, 1.0).is_some());
+    }
+}
