@@ -48,10 +48,9 @@ pub mod atlas;
 
 pub mod ui;
 
-#[cfg(feature = "window")]
+#[cfg(feature = "screen")]
 pub mod app;
 
-#[cfg(target_family = "wasm")]
 pub mod web;
 
 pub mod guide;

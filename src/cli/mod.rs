@@ -4,11 +4,11 @@ mod bare;
 mod capture;
 mod completions;
 mod console;
+mod describe;
 mod diff;
 mod end;
 mod export;
 mod few_colours;
-mod figure;
 mod grade;
 mod info;
 mod input;
@@ -75,6 +75,7 @@ enum Command {
     Completions(completions::Completions),
     Man(completions::ManPages),
     Grade(grade::GradeArgs),
+    Describe(describe::Describe),
 }
 
 impl Cli {
@@ -94,6 +95,7 @@ impl Cli {
             Some(Command::Completions(completions)) => completions.run(data),
             Some(Command::Man(man)) => man.run(data),
             Some(Command::Grade(grade)) => grade.run(data),
+            Some(Command::Describe(describe)) => describe.run(data),
             None => bare::bare(data),
         }
     }

@@ -137,8 +137,10 @@ pub fn hints(ui: &mut Ui, widget: &WidgetText, look: &Look, state: &mut UiState)
     if state.settings.hints_seen {
         return;
     }
+    // a row is no higher than its words, the rows after the first too
+    let row = ui.text_style_height(&TextStyle::Body);
+    let height = std::mem::replace(&mut ui.spacing_mut().interact_size.y, row);
     ui.horizontal_wrapped(|ui| {
-        ui.spacing_mut().interact_size.y = ui.text_style_height(&TextStyle::Body);
         // a hint goes to the next row as a whole
         ui.style_mut().wrap_mode = Some(TextWrapMode::Extend);
         ui.label(RichText::new("Try:").color(look.theme.colour(Role::Focus)).strong());
@@ -149,6 +151,7 @@ pub fn hints(ui: &mut Ui, widget: &WidgetText, look: &Look, state: &mut UiState)
             state.settings.hints_seen = true;
         }
     });
+    ui.spacing_mut().interact_size.y = height;
 }
 
 fn small(ui: &Ui) -> FontId {
