@@ -1,6 +1,8 @@
 //! The lab in a window: the session, a camera, and egui painting what is in front.
 
 #[cfg(not(target_family = "wasm"))]
+mod capture;
+#[cfg(not(target_family = "wasm"))]
 mod dialogs;
 #[cfg(not(target_family = "wasm"))]
 mod files;
@@ -54,7 +56,8 @@ pub fn windowed_app() -> App {
     .add_systems(EguiPrimaryContextPass, show);
     #[cfg(not(target_family = "wasm"))]
     app.init_resource::<dialogs::Dialogs>()
-        .add_systems(Update, (dialogs::ask, dialogs::dropped).chain().before(session::gather));
+        .init_resource::<capture::Capturing>()
+        .add_systems(Update, (dialogs::ask, dialogs::dropped, capture::follow).chain().before(session::gather));
     app
 }
 

@@ -277,6 +277,17 @@ impl Anatomy {
         nearest_pairs(self.checker.scene(), &self.footprint())
     }
 
+    /// Both configurations of a two-link arm that have its tip, its own among them: one where they are the same. None for another
+    /// robot.
+    pub fn solutions(&self) -> Vec<AnyConfiguration> {
+        match (self.checker.robot(), self.q) {
+            (AnyRobot::Reach(arm), AnyConfiguration::T2(q)) => {
+                arm.ik(arm.tip(&q)).into_iter().flatten().map(AnyConfiguration::T2).collect()
+            }
+            _ => Vec::new(),
+        }
+    }
+
     /// What is known of the motion to the [second configuration](Self::second).
     ///
     /// # Errors

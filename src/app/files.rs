@@ -1,18 +1,20 @@
 //! Runs as files: saved, opened, dropped on the window.
 
 use std::fs;
-use std::io::Write;
 use std::path::Path;
 
 use bevy::ecs::world::World;
 
 use super::session::Interface;
 use crate::atlas::Editor;
+use crate::output::write_file;
+use crate::random::Seed;
 use crate::recording::Run;
 use crate::run::{Log, LogError, ReadLog, Script, first_divergence};
 use crate::simulation::{
     LatestFrame, PendingInput, Playback, RunConfig, Transport, TransportCommand, obey, seek, start_run, step,
 };
+use crate::tour::TourConfig;
 use crate::ui::{AtlasState, Notice};
 
 /// The greatest size of a log that the window opens, bytes.
@@ -32,30 +34,26 @@ pub fn save_run(world: &World, path: &Path) -> Notice {
     }
 }
 
-fn save(world: &World, path: &Path) -> Result<String, String> {
+/// What determines the run as far as it has come: its configuration with so many ticks, its seed and its script.
+pub fn so_far(world: &World) -> (TourConfig, (Seed, Script)) {
     let Transport { seed, frontier, .. } = *world.resource::<Transport>();
+    let config = TourConfig { ticks: frontier, ..TourConfig::clone(&world.resource::<RunConfig>().0) };
+    let mut script = world.resource::<PendingInput>().script().clone();
+    script.events.retain(|e| e.tick <= frontier);
+    (config, (seed, script))
+}
+
+fn save(world: &World, path: &Path) -> Result<String, String> {
+    let (config, input) = so_far(world);
+    let frontier = config.ticks;
     if frontier == 0 {
         return Err("nothing has been run yet; press Play first".into());
     }
-    let mut config = crate::tour::TourConfig::clone(&world.resource::<RunConfig>().0);
-    config.ticks = frontier;
-    let mut script: Script = world.resource::<PendingInput>().script().clone();
-    script.events.retain(|e| e.tick <= frontier);
-    let log = Run::record(config, (seed, script)).map_err(|e| e.to_string())?;
+    let log = Run::record(config, input).map_err(|e| e.to_string())?;
     let mut bytes = Vec::new();
     log.write_mcap(&mut bytes).map_err(|e| e.to_string())?;
-    write_whole(path, &bytes).map_err(|e| e.to_string())?;
+    write_file(path, &bytes).map_err(|e| e.to_string())?;
     Ok(format!("{}: saved, {frontier} ticks, digest {}", name(path), log.digest()))
-}
-
-/// Puts a file in place whole: written beside it under another name first, then renamed.
-fn write_whole(path: &Path, bytes: &[u8]) -> std::io::Result<()> {
-    let folder = path.parent().filter(|f| !f.as_os_str().is_empty()).unwrap_or(Path::new("."));
-    let mut file = tempfile::Builder::new().prefix(".motion-lab-").tempfile_in(folder)?;
-    file.write_all(bytes)?;
-    file.as_file().sync_all()?;
-    file.persist(path).map_err(|e| e.error)?;
-    Ok(())
 }
 
 /// Opens a run in place of the present one: simulates it again from its seed and script, compares every frame, and shows it
@@ -136,7 +134,7 @@ pub fn open_world(world: &mut World, path: &Path) -> Notice {
 /// Saves the atlas's world in canonical form, whole or not at all.
 pub fn save_world(world: &mut World, path: &Path) -> Notice {
     let atlas = &mut world.resource_mut::<Interface>().into_inner().0.atlas;
-    match write_whole(path, atlas.text().as_bytes()) {
+    match write_file(path, atlas.text().as_bytes()) {
         Ok(()) => {
             atlas.mark_saved();
             Notice { text: format!("{}: saved", name(path)), is_error: false }
@@ -145,6 +143,7 @@ pub fn save_world(world: &mut World, path: &Path) -> Notice {
     }
 }
 
-fn name(path: &Path) -> String {
+/// A file's name without its folder.
+pub fn name(path: &Path) -> String {
     path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned()
 }

@@ -5,11 +5,11 @@ use std::sync::Arc;
 use bevy_egui::egui::{CollapsingHeader, ComboBox, RichText, ScrollArea, Slider, TextEdit, Ui, WidgetInfo, vec2};
 
 use super::button::button;
-use super::manifest::widget;
 use super::sheet::{sheet, split};
-use super::{Look, UiState, frame};
+use super::{Command, Dashboard, Look, UiState};
 use crate::anatomy::{Anatomy, Guess, Prompt, Tab, WorldSource};
 use crate::configuration::Configuration;
+use crate::manifest::widget;
 use crate::picture::{Picture, Role};
 use crate::worlds::World;
 
@@ -53,14 +53,15 @@ impl AnatomyState {
 }
 
 /// Shows the widget.
-pub fn anatomy_view(ui: &mut Ui, (narrow, look): (bool, &Look), state: &mut UiState) {
+pub fn anatomy_view(
+    ui: &mut Ui,
+    model: &Dashboard,
+    (narrow, look): (bool, &Look),
+    state: &mut UiState,
+    commands: &mut Vec<Command>,
+) {
     let Some(words) = widget("anatomy") else { return };
-    frame::title(ui, words, look);
-    frame::key_row(ui, words, look, state);
-    if !narrow {
-        frame::hints(ui, words, look, state);
-    }
-    ui.add_space(6.0);
+    super::tools::head(ui, words, model, (narrow, look), state, commands);
     let room = ui.available_rect_before_wrap();
     let (paper, beside) = split(room, narrow, SIDE);
     let shown = &state.anatomy;

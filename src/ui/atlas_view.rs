@@ -4,11 +4,11 @@ use bevy_egui::egui::{ComboBox, Key, RichText, ScrollArea, Slider, TextEdit, Ui,
 
 use super::atlas_state::{AtlasState, Mode};
 use super::button::button;
-use super::manifest::widget;
 use super::sheet::{Sheet, sheet, split};
-use super::{Command, Look, SessionCommand, UiState, frame, readout};
+use super::{Command, Dashboard, Look, SessionCommand, UiState, readout};
 use crate::atlas::{EditShape, Op};
 use crate::geometry::{Point2, Pose2};
+use crate::manifest::widget;
 use crate::picture::{Picture, Role, ScreenPoint, pick};
 use crate::worlds::World;
 
@@ -19,15 +19,15 @@ const SIDE: f32 = 300.0;
 const DRAGGED: f64 = 8.0;
 
 /// Shows the widget.
-pub fn atlas_view(ui: &mut Ui, (narrow, look): (bool, &Look), state: &mut UiState, commands: &mut Vec<Command>) {
+pub fn atlas_view(
+    ui: &mut Ui,
+    model: &Dashboard,
+    (narrow, look): (bool, &Look),
+    state: &mut UiState,
+    commands: &mut Vec<Command>,
+) {
     let Some(words) = widget("atlas") else { return };
-    frame::title(ui, words, look);
-    frame::key_row(ui, words, look, state);
-    if !narrow {
-        frame::hints(ui, words, look, state);
-    }
-    super::tools::notice(ui, state);
-    ui.add_space(6.0);
+    super::tools::head(ui, words, model, (narrow, look), state, commands);
     let room = ui.available_rect_before_wrap();
     let (paper, beside) = split(room, narrow, SIDE);
     let still = state.atlas.still();

@@ -4,15 +4,16 @@ use std::sync::Arc;
 
 use bevy_egui::egui::{Rect, RichText, Ui, pos2, vec2};
 
-use super::manifest::widget;
 use super::sheet::sheet;
-use super::{Look, UiState, frame, readout};
+use super::{Command, Dashboard, Look, UiState, readout};
 use crate::anatomy::{Anatomy, Tab};
+use crate::capture::{self, Captured};
 use crate::configuration::AnyConfiguration;
 use crate::cspace::{CellMap, Overlay, Slice, cspace_picture, overlay_items};
+use crate::manifest::widget;
 use crate::num::wrap;
 use crate::picture::{Picture, Role, footprint};
-use crate::robots::{AnyRobot, Robot};
+use crate::robots::{ConfigurationError, Robot};
 
 /// Cells are cut down to a 128th of the sides.
 const FINEST: u32 = 7;
@@ -47,6 +48,17 @@ impl Map {
 }
 
 impl CspaceState {
+    /// Workspace and configuration space as they are, the proofs brought to their end.
+    pub fn captured(&self, anatomy: &Anatomy) -> Result<Captured, ConfigurationError> {
+        let kept = self.map.as_ref().filter(|map| map.is_of(anatomy)).map(|map| map.cells.clone());
+        let mut cells = match kept {
+            Some(cells) => cells,
+            None => CellMap::new(Slice::through(anatomy.checker(), &anatomy.q())?, FINEST),
+        };
+        cells.refine(u32::MAX);
+        Ok(capture::cspace(anatomy, &cells, self.trace.clone()))
+    }
+
     /// Goes on with the proofs. Returns whether there is more to prove.
     fn refine(&mut self, anatomy: &Anatomy) -> bool {
         if !self.map.as_ref().is_some_and(|map| map.is_of(anatomy)) {
@@ -69,14 +81,15 @@ impl CspaceState {
 }
 
 /// Shows the widget.
-pub fn cspace_view(ui: &mut Ui, (narrow, look): (bool, &Look), state: &mut UiState) {
+pub fn cspace_view(
+    ui: &mut Ui,
+    model: &Dashboard,
+    (narrow, look): (bool, &Look),
+    state: &mut UiState,
+    commands: &mut Vec<Command>,
+) {
     let Some(words) = widget("cspace") else { return };
-    frame::title(ui, words, look);
-    frame::key_row(ui, words, look, state);
-    if !narrow {
-        frame::hints(ui, words, look, state);
-    }
-    ui.add_space(6.0);
+    super::tools::head(ui, words, model, (narrow, look), state, commands);
     let anatomy = state.anatomy.anatomy.clone();
     if state.cspace.refine(&anatomy) {
         ui.ctx().request_repaint();
@@ -120,7 +133,7 @@ fn workspace(ui: &mut Ui, paper: Rect, look: &Look, state: &mut UiState) {
     let still = Arc::clone(state.anatomy.backdrop());
     let mut overlay = state.anatomy.anatomy.overlay();
     let anatomy = &state.anatomy.anatomy;
-    for other in solutions(anatomy).into_iter().filter(|q| *q != anatomy.q()) {
+    for other in anatomy.solutions().into_iter().filter(|q| *q != anatomy.q()) {
         let shape = anatomy.checker().robot().footprint(&other);
         overlay.items.extend(footprint("other", "the other arm with this tip", &shape, Role::Robot, 0.3));
     }
@@ -142,7 +155,7 @@ fn space(ui: &mut Ui, paper: Rect, look: &Look, state: &mut UiState) {
         in_contact: anatomy.intersects(),
         trace: state.cspace.trace.clone(),
         line: (anatomy.tab == Tab::Swept).then(|| [anatomy.q(), anatomy.second()]),
-        solutions: solutions(anatomy),
+        solutions: anatomy.solutions(),
     };
     let moving = Picture::new(still.name.clone(), still.bounds).with(overlay_items(&slice, &overlay));
     let spoken = format!("configuration space. The robot is the point {}", anatomy.q());
@@ -159,16 +172,6 @@ fn space(ui: &mut Ui, paper: Rect, look: &Look, state: &mut UiState) {
         if state.anatomy.anatomy.set_q(slice.at(p)).is_ok() {
             remember(state);
         }
-    }
-}
-
-/// Both arms that reach the tip of a two-link arm.
-fn solutions(anatomy: &Anatomy) -> Vec<AnyConfiguration> {
-    match (anatomy.checker().robot(), anatomy.q()) {
-        (AnyRobot::Reach(arm), AnyConfiguration::T2(q)) => {
-            arm.ik(arm.tip(&q)).into_iter().flatten().map(AnyConfiguration::T2).collect()
-        }
-        _ => Vec::new(),
     }
 }
 

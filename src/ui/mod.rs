@@ -4,6 +4,8 @@
 mod anatomy_view;
 pub mod arm;
 #[cfg(feature = "window")]
+mod atlas_editing;
+#[cfg(feature = "window")]
 mod atlas_state;
 #[cfg(feature = "window")]
 mod atlas_view;
@@ -12,6 +14,8 @@ mod blend;
 mod button;
 #[cfg(feature = "window")]
 pub mod canvas;
+#[cfg(feature = "window")]
+mod capture_form;
 mod cockpit;
 #[cfg(feature = "window")]
 mod cspace_view;
@@ -33,14 +37,12 @@ pub mod keys;
 mod lab;
 #[cfg(feature = "window")]
 mod look;
-mod manifest;
 #[cfg(feature = "window")]
 mod pad;
 #[cfg(feature = "window")]
 mod pane;
 #[cfg(feature = "window")]
 mod plots;
-mod readout;
 mod settings;
 #[cfg(feature = "window")]
 mod sheet;
@@ -58,6 +60,8 @@ pub use anatomy_view::AnatomyState;
 #[cfg(feature = "window")]
 pub use atlas_state::{AtlasState, Mode};
 pub use blend::{blend, heading};
+#[cfg(feature = "window")]
+pub use capture_form::{CaptureOrder, CaptureState};
 pub use cockpit::{Cockpit, CockpitRobot, Dashboard};
 #[cfg(feature = "window")]
 pub use cspace_view::CspaceState;
@@ -67,13 +71,14 @@ pub use goal::{Off, ParkingGoal, trailer_of};
 pub use lab::lab;
 #[cfg(feature = "window")]
 pub use look::Look;
-pub use manifest::{KeyText, WidgetText, widget, widgets};
-pub use readout::{readout, readout_lines};
 pub use settings::{Settings, ThemeChoice};
-pub use state::{Flash, Notice, UiState};
+pub use state::{Flash, Notice, UiState, Working};
 pub use theme::Theme;
 #[cfg(feature = "window")]
 pub use transport_bar::transport_bar;
+
+pub use crate::manifest::{KeyText, WidgetText, widget, widgets};
+pub use crate::picture::{readout, readout_lines};
 
 /// What a widget asks for. Widgets change nothing but their own [`UiState`].
 #[derive(Clone, Debug, PartialEq)]
@@ -97,6 +102,9 @@ pub enum SessionCommand {
     OpenWorld,
     /// Save the atlas's world: ask for a file first.
     SaveWorld,
+    /// Capture the widget in front: ask for a file first.
+    #[cfg(feature = "window")]
+    Capture(CaptureOrder),
     /// A new run in the atlas's world.
     RunWorld,
     /// A new run in which an arm has so many links.
