@@ -136,11 +136,11 @@ impl Anatomy {
         let world = World {
             name: "Exercise 3".into(),
             bounds: Bounds { min: p(-0.4, -0.4), max: p(1.6, 1.6) },
-            obstacles: vec![Obstacle {
-                name: "the square".into(),
-                kind: ObstacleKind::Solid,
-                pieces: vec![(crate::geometry::Pose2::IDENTITY, square)],
-            }],
+            obstacles: vec![Obstacle::new(
+                "the square",
+                ObstacleKind::Solid,
+                vec![(crate::geometry::Pose2::IDENTITY, square)],
+            )],
             places: Vec::new(),
             marks: Vec::new(),
             robots: Vec::new(),

@@ -271,7 +271,7 @@ fn what_is_unresolved_is_told_with_its_reason() {
     let mut world = World { obstacles: Vec::new(), ..World::workbench() };
     let wall = Shape::Segment { a: Point2::new(-1.0, above), b: Point2::new(1.0, above) };
     let pieces = vec![(crate::geometry::Pose2::IDENTITY, wall)];
-    world.obstacles.push(Obstacle { name: "the lid".into(), kind: ObstacleKind::Wall, pieces });
+    world.obstacles.push(Obstacle::new("the lid", ObstacleKind::Wall, pieces));
     let q = AnyConfiguration::T2(T2::new(0.5 * PI - 0.4, 0.0));
     let arm = AnyRobot::Reach(Reach::choset());
     let mut anatomy = Anatomy::new(world, WorldSource::Unsaved, arm, q).unwrap().with_tab(Tab::Swept);

@@ -6,12 +6,34 @@ use super::AtlasState;
 use super::atlas_state::Drag;
 use crate::atlas::{Op, snap};
 use crate::geometry::{Point2, Pose2};
+use crate::num::atan2;
 use crate::picture::world as picture_of;
 
+/// Points snap to a grid of so many metres.
+const GRID: f64 = 0.05;
+
+/// Headings snap to multiples of this, radians: 15 degrees.
+const TURN: f64 = std::f64::consts::PI / 12.0;
+
 impl AtlasState {
+    /// Whether the last change can be taken back, and whether the one taken back last can be made again.
+    pub fn can_undo(&self) -> [bool; 2] {
+        [self.editor.can_undo(), self.editor.can_redo()]
+    }
+
+    /// What saving would drop, in words.
+    pub fn drops(&self) -> Option<String> {
+        let words = match self.editor.comments() {
+            0 => return None,
+            1 => "one comment".to_owned(),
+            n => format!("{n} comments"),
+        };
+        Some(format!("Saving drops the {words} of {}: worlds are saved in canonical form.", self.editor.file()))
+    }
+
     /// Selects a thing by name, or nothing.
     pub fn select(&mut self, name: Option<&str>) {
-        let known = |n: &&str| self.world().obstacle(n).is_some() || self.world().place(n).is_some();
+        let known = |n: &&str| self.editor.shape(n).is_some() || self.world().place(n).is_some();
         self.selected = name.filter(known).map(str::to_owned);
         self.name_text = self.selected.clone().unwrap_or_default();
         self.message = None;
@@ -28,18 +50,24 @@ impl AtlasState {
         self.drag = self.selected.is_some().then_some(Drag { from, handle, op: None });
     }
 
-    /// A drag goes on to a point, which snaps to corners within `reach` metres and to a grid of 5 cm.
+    /// A drag goes on to a point, which snaps to corners within `reach` metres and to a grid of 5 cm; a heading snaps to 15 degrees.
     pub fn drag_to(&mut self, to: Point2, reach: f64) {
         let (Some(drag), Some(name)) = (self.drag.clone(), self.selected.clone()) else { return };
         let others = self.world().obstacles.iter().filter(|o| o.name != name);
-        let corners: Vec<Point2> =
+        let mut corners: Vec<Point2> =
             others.flat_map(|o| o.placed().flat_map(|p| p.core().to_vec()).collect::<Vec<_>>()).collect();
-        let to = snap(to, &corners, reach, 0.05);
-        let from = snap(drag.from, &[], 0.0, 0.05);
+        let shape = self.editor.shape(&name);
+        // onto its neighbour, where a corner goes away
+        corners.extend(shape.iter().zip(drag.handle).flat_map(|(shape, handle)| shape.neighbours(handle)));
+        let snapped = snap(to, &corners, reach, GRID);
         let op = match (drag.handle, self.world().place(&name)) {
-            (_, Some(place)) => Op::SetPose { name, pose: Pose2 { x: to.x, y: to.y, theta: place.pose.theta } },
-            (Some(handle), None) => Op::Drag { name, handle, to },
-            (None, None) => Op::Move { name, by: to - from },
+            (Some(1), Some(place)) => {
+                let way = to - place.pose.position();
+                let theta = (atan2(way.y, way.x) / TURN).round() * TURN;
+                Op::SetPose { pose: Pose2 { theta, ..place.pose }, name }
+            }
+            (Some(handle), _) => Op::Drag { name, handle, to: snapped },
+            (None, _) => Op::Move { name, by: snapped - snap(drag.from, &[], 0.0, GRID) },
         };
         match self.editor.preview(&op) {
             Ok(world) => {

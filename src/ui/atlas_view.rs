@@ -4,6 +4,7 @@ use bevy_egui::egui::{ComboBox, Key, RichText, ScrollArea, Slider, TextEdit, Ui,
 
 use super::atlas_state::{AtlasState, Mode};
 use super::button::button;
+use super::keys::{Action, hint};
 use super::sheet::{Sheet, sheet, split};
 use super::{Command, Dashboard, Look, SessionCommand, UiState, readout};
 use crate::atlas::{EditShape, Op};
@@ -56,6 +57,17 @@ pub fn atlas_view(
     });
 }
 
+/// Does what a key asks for while the atlas is in front: files are worlds, and what is undone is an edit.
+pub fn act(action: Action, model: &Dashboard, state: &mut UiState, commands: &mut Vec<Command>) {
+    match action {
+        Action::Undo if state.atlas.mode == Mode::Edit => state.atlas.undo(true),
+        Action::Redo if state.atlas.mode == Mode::Edit => state.atlas.undo(false),
+        Action::Save => commands.push(Command::Session(SessionCommand::SaveWorld)),
+        Action::Open => commands.push(Command::Session(SessionCommand::OpenWorld)),
+        action => super::tools::act(action, model, state, commands),
+    }
+}
+
 /// A click puts the robot there; a drag turns it; a click on an offer takes it.
 fn put(on: &Sheet, atlas: &mut AtlasState) {
     let Some(at) = on.held() else {
@@ -106,7 +118,7 @@ fn edit(on: &Sheet, moving: &Picture, still: &Picture, atlas: &mut AtlasState) {
 
 /// The name of the thing that an item is drawn for.
 fn thing(id: &str) -> Option<&str> {
-    if let Some(name) = id.strip_prefix("obstacle/") {
+    if let Some(name) = id.strip_prefix("obstacle/").or(id.strip_prefix("mark/")) {
         return Some(name);
     }
     id.strip_prefix("place/").and_then(|rest| rest.rsplit_once('/')).map(|(name, _)| name)
@@ -185,7 +197,7 @@ fn measure_panel(ui: &mut Ui, state: &mut UiState) {
 
 fn edit_panel(ui: &mut Ui, look: &Look, state: &mut UiState) {
     let atlas = &mut state.atlas;
-    ui.label("Click a wall, an obstacle or a place, and drag it or its handles.");
+    ui.label("Click a wall, an obstacle, a place or a painted mark, and drag it or its handles. A ring on an edge makes a corner; a corner dragged onto the next goes away.");
     ui.horizontal_wrapped(|ui| {
         let middle = atlas.middle();
         let corner = |x: f64, y: f64| Point2::new(middle.x + x, middle.y + y);
@@ -193,6 +205,8 @@ fn edit_panel(ui: &mut Ui, look: &Look, state: &mut UiState) {
             ("wall", EditShape::Wall(vec![corner(-0.5, 0.0), corner(0.5, 0.0)])),
             ("box", EditShape::Box { min: corner(-0.25, -0.25), max: corner(0.25, 0.25) }),
             ("disc", EditShape::Disc { center: middle, radius: 0.25 }),
+            ("polygon", EditShape::Polygon(vec![corner(-0.3, -0.25), corner(0.3, -0.25), corner(0.0, 0.3)])),
+            ("mark", EditShape::Mark(vec![corner(-0.5, 0.0), corner(0.5, 0.0)])),
         ];
         for (kind, shape) in shapes {
             if button(ui, &format!("Add {kind}"), 0.0, (true, false), look).clicked() {
@@ -221,10 +235,11 @@ fn edit_panel(ui: &mut Ui, look: &Look, state: &mut UiState) {
         });
     }
     ui.horizontal(|ui| {
-        if button(ui, "Undo", 0.0, (true, false), look).clicked() {
+        let [back, again] = atlas.can_undo();
+        if button(ui, "Undo", 0.0, (back, false), look).on_hover_text(hint(Action::Undo)).clicked() {
             atlas.undo(true);
         }
-        if button(ui, "Redo", 0.0, (true, false), look).clicked() {
+        if button(ui, "Redo", 0.0, (again, false), look).on_hover_text(hint(Action::Redo)).clicked() {
             atlas.undo(false);
         }
     });
@@ -235,4 +250,7 @@ fn edit_panel(ui: &mut Ui, look: &Look, state: &mut UiState) {
         ui.label(RichText::new(warning).color(look.colour(Role::Goal)));
     }
     ui.label(if atlas.is_saved() { "saved" } else { "not saved in a file" });
+    if let Some(words) = atlas.drops() {
+        ui.label(RichText::new(words).color(look.colour(Role::Muted)));
+    }
 }

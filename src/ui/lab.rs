@@ -18,6 +18,9 @@ const NARROW: f32 = 720.0;
 /// Width of the rail, points.
 const RAIL: f32 = 76.0;
 
+/// The atlas's number on the rail.
+const ATLAS: usize = 3;
+
 /// Shows the lab over the whole of `ui`; what is pressed is pushed onto `commands`.
 pub fn lab(ui: &mut Ui, model: &Dashboard, history: &History, state: &mut UiState, commands: &mut Vec<Command>) {
     let narrow = ui.max_rect().width() < NARROW;
@@ -38,6 +41,7 @@ pub fn lab(ui: &mut Ui, model: &Dashboard, history: &History, state: &mut UiStat
         match action {
             Action::Widget(number) => choose(number, model, state, commands),
             action if state.widget == 0 => dashboard::act(action, model, state, commands),
+            action if state.widget == ATLAS => atlas_view::act(action, model, state, commands),
             action => tools::act(action, model, state, commands),
         }
     }
