@@ -123,7 +123,7 @@ pub fn open_world(world: &mut World, path: &Path) -> Notice {
     match Editor::open(&name(path), &text) {
         Ok(editor) => {
             let ui = &mut world.resource_mut::<Interface>().into_inner().0;
-            ui.atlas = AtlasState::edited(editor).in_mode(ui.atlas.mode);
+            ui.atlas = AtlasState::edited(editor).of_file(path).in_mode(ui.atlas.mode);
             ui.widget = ATLAS;
             Notice { text: format!("{}: opened", name(path)), is_error: false }
         }
@@ -136,7 +136,7 @@ pub fn save_world(world: &mut World, path: &Path) -> Notice {
     let atlas = &mut world.resource_mut::<Interface>().into_inner().0.atlas;
     match write_file(path, atlas.text().as_bytes()) {
         Ok(()) => {
-            atlas.mark_saved();
+            atlas.mark_saved(path);
             Notice { text: format!("{}: saved", name(path)), is_error: false }
         }
         Err(error) => Notice { text: format!("{}: not saved: {error}", path.display()), is_error: true },

@@ -70,6 +70,16 @@ impl Subject {
         Err(CaptureError::NotInRun(wanted + &place))
     }
 
+    /// The same without names, which change no words under the pictures.
+    #[cfg(not(target_family = "wasm"))]
+    pub(super) fn unnamed(&self) -> Subject {
+        match self.clone() {
+            Subject::Dashboard { scan, .. } => Subject::Dashboard { names: false, scan },
+            Subject::Atlas { world, .. } => Subject::Atlas { world, names: false },
+            space => space,
+        }
+    }
+
     /// The world that is drawn alone.
     fn world(&self) -> Option<&World> {
         match self {

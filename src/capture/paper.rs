@@ -89,7 +89,8 @@ fn each(
     drawn: bool,
     mut take: impl FnMut(&Captured) -> Result<(), CaptureError>,
 ) -> Result<(), CaptureError> {
-    let mut moving = Moving::new(log, subject.clone(), paper.width_px())?;
+    let subject = if drawn { subject.clone() } else { subject.unnamed() };
+    let mut moving = Moving::new(log, subject, paper.width_px())?;
     Run::show(log, |run| {
         let tick = run.frame().tick;
         if tick > span.to {

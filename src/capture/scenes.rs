@@ -41,6 +41,7 @@ pub fn cspace(anatomy: &Anatomy, map: &CellMap, trace: Vec<AnyConfiguration>) ->
     let progress = map.progress();
     let share = |part: f64| format!("{:.1} %", 100.0 * part);
     let known = vec![
+        map.slice().described(),
         format!("proven free {}, proven blocked {}", share(progress.free), share(progress.blocked)),
         format!("not known {}, {} cells judged", share(progress.unknown), progress.judged),
     ];
@@ -108,7 +109,9 @@ pub fn atlas(sheets: &[AtlasSheet<'_>], width_px: f64) -> Captured {
 
 /// What stands under the panels: the misconception that the widget removes, and the configuration shown.
 fn caption(id: &str, anatomy: &Anatomy) -> Vec<String> {
-    let misconception = widget(id).map(|w| w.misconception.clone());
+    // what is said of the arm is not true of the others
+    let said = id == "anatomy" || anatomy.checker().robot().annulus().is_some();
+    let misconception = widget(id).filter(|_| said).map(|w| w.misconception.clone());
     misconception.into_iter().chain([readout(&anatomy.q().to_string())]).collect()
 }
 

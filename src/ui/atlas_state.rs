@@ -1,8 +1,10 @@
 //! `AtlasState`, what the atlas remembers: the world under a hand, its robots, a refusal, a drag.
 
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use super::readout;
+use crate::anatomy::WorldSource;
 use crate::atlas::{Atlas, Editor, GridLayer, Op, Refusal, names};
 use crate::capture::{self, AtlasSheet, Captured};
 use crate::configuration::AnyConfiguration;
@@ -35,6 +37,8 @@ pub(super) struct Drag {
 #[derive(Clone, Debug)]
 pub struct AtlasState {
     pub(super) editor: Editor,
+    /// The file it was read from or saved in.
+    path: Option<PathBuf>,
     atlas: Atlas,
     /// The world as it is drawn: that of a drag under way, if it is accepted.
     pub(super) still: Arc<Picture>,
@@ -82,6 +86,7 @@ impl AtlasState {
             atlas: Atlas::new(world),
             warnings: editor.warnings(),
             editor,
+            path: None,
             labels: None,
             grid: None,
             mode: Mode::default(),
@@ -119,8 +124,23 @@ impl AtlasState {
     }
 
     /// To be called when the text is on the disk.
-    pub fn mark_saved(&mut self) {
+    pub fn mark_saved(&mut self, path: &Path) {
         self.editor.mark_saved();
+        self.path = Some(path.to_owned());
+    }
+
+    /// The world that was read from this file.
+    #[must_use]
+    pub fn of_file(self, path: &Path) -> Self {
+        AtlasState { path: Some(path.to_owned()), ..self }
+    }
+
+    /// Where the world is to be found: in its file, when that is the world as it is.
+    pub fn source(&self) -> WorldSource {
+        match &self.path {
+            Some(path) if self.is_saved() => WorldSource::File(path.display().to_string()),
+            _ => WorldSource::Unsaved,
+        }
     }
 
     /// Whether the file on the disk is the world as it is.

@@ -2,8 +2,9 @@
 
 use std::sync::Arc;
 
-use bevy_egui::egui::{Rect, RichText, Ui, pos2, vec2};
+use bevy_egui::egui::{Rect, RichText, ScrollArea, Ui, pos2, vec2};
 
+use super::anatomy_view::{annulus, coordinate, robot_choice, world_choice};
 use super::sheet::sheet;
 use super::{Command, Dashboard, Look, UiState, readout};
 use crate::anatomy::{Anatomy, Tab};
@@ -94,7 +95,7 @@ pub fn cspace_view(
     if state.cspace.refine(&anatomy) {
         ui.ctx().request_repaint();
     }
-    let text = 96.0;
+    let text = if narrow { 190.0 } else { 150.0 };
     let room = ui.available_rect_before_wrap();
     let side = if narrow {
         room.width().min(0.5 * (room.height() - text))
@@ -107,23 +108,44 @@ pub fn cspace_view(
     space(ui, right, look, state);
     let below = Rect::from_min_max(pos2(room.left(), right.bottom() + 6.0), room.max);
     ui.scope_builder(bevy_egui::egui::UiBuilder::new().max_rect(below), |ui| {
-        ui.spacing_mut().interact_size.y = 0.0;
-        ui.label(RichText::new(readout(&state.anatomy.anatomy.q().to_string())).monospace());
-        if let Some(map) = &state.cspace.map {
-            let p = map.cells.progress();
-            let percent = |x: f64| format!("{:5.1} %", 100.0 * x);
-            let text = format!(
-                "proven free {}  proven blocked {}  not known {}  ({} cells judged)",
-                percent(p.free),
-                percent(p.blocked),
-                percent(p.unknown),
-                p.judged
-            );
-            ui.label(RichText::new(text).monospace().color(look.colour(Role::Muted)));
+        if narrow {
+            ScrollArea::vertical().auto_shrink(false).show(ui, |ui| below_the_papers(ui, look, state));
+        } else {
+            below_the_papers(ui, look, state);
         }
-        let mut annulus = state.anatomy.anatomy.show_annulus;
-        if ui.checkbox(&mut annulus, "the points that the tip can reach").changed() {
-            state.anatomy.anatomy.show_annulus = annulus;
+    });
+}
+
+/// What is to be read, and what is held or chosen.
+fn below_the_papers(ui: &mut Ui, look: &Look, state: &mut UiState) {
+    ui.label(RichText::new(readout(&state.anatomy.anatomy.q().to_string())).monospace());
+    if let Some(map) = &state.cspace.map {
+        let p = map.cells.progress();
+        let percent = |x: f64| format!("{:5.1} %", 100.0 * x);
+        let text = format!(
+            "proven free {}  proven blocked {}  not known {}  ({} cells judged)",
+            percent(p.free),
+            percent(p.blocked),
+            percent(p.unknown),
+            p.judged
+        );
+        let muted = |text: String| RichText::new(text).monospace().color(look.colour(Role::Muted));
+        ui.label(muted(text));
+        ui.label(muted(map.cells.slice().described()));
+    }
+    ui.horizontal_wrapped(|ui| {
+        robot_choice(ui, state);
+        world_choice(ui, state);
+        annulus(ui, state);
+        let mut line = state.anatomy.anatomy.tab == Tab::Swept;
+        if ui.checkbox(&mut line, "the swept tab's motion").changed() {
+            state.anatomy.anatomy.tab = if line { Tab::Swept } else { Tab::Distance };
+        }
+        // what the slice holds
+        ui.spacing_mut().slider_width = 180.0;
+        let held: Vec<(usize, String)> = state.cspace.map.as_ref().map_or_else(Vec::new, |m| m.cells.slice().held());
+        for (index, name) in held {
+            coordinate(ui, &mut state.anatomy.anatomy, index, &name);
         }
     });
 }

@@ -106,10 +106,10 @@ fn a_gif_shows_a_robot_of_the_run_beside_its_point_and_the_atlas_with_its_robots
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().join("w.gif");
     let out = file.to_str().unwrap();
-    let span = ["--seed", "7", "--from", "20", "--to", "60", "--every", "20", "--width", "420", "-o", out];
+    let span = ["--seed", "7", "--from", "20", "--to", "60", "--every", "20", "--width", "320", "-o", out];
     let widgets: [&[&str]; 4] = [
         &["cspace", "--robot", "reach", "--cells", "5"],
-        &["cspace", "--robot", "rusty", "--cells", "5"],
+        &["cspace", "--robot", "rusty", "--cells", "4"],
         &["cspace", "--robot", "hitch", "--cells", "4"],
         &["atlas", "--world", "apartment"],
     ];
@@ -134,6 +134,24 @@ fn a_gif_shows_a_robot_of_the_run_beside_its_point_and_the_atlas_with_its_robots
     run(&["capture", "--widget", "cspace", "--seed", "7", "--tick", "60", "-o", svg.to_str().unwrap()]).done();
     let drawn = fs::read_to_string(&svg).unwrap();
     assert!(drawn.contains(">where it was<") && drawn.contains("Seed: 7; Digest: ") && drawn.contains("; Tick: 60"));
+}
+
+#[test]
+fn what_is_said_of_the_arm_is_not_said_of_the_car() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().join("c.svg");
+    let out = out.to_str().unwrap();
+    for (robot, words, arm) in [
+        ("reach", "opposite edges are one", true),
+        ("rusty", "every obstacle is grown by r = 0.11 m", false),
+        ("hitch", "x and y at theta = 0.000", false),
+        ("reach3", "at \u{3b8}1 = ", true),
+    ] {
+        run(&["capture", "--widget", "cspace", "--robot", robot, "--cells", "4", "-o", out]).done();
+        let svg = fs::read_to_string(out).unwrap();
+        assert!(svg.contains(words), "{robot}");
+        assert_eq!(svg.contains("The arm is a point"), arm, "{robot}");
+    }
 }
 
 #[test]

@@ -179,3 +179,54 @@ fn the_editor_draws_with_the_mouse_undoes_by_key_and_saves_the_same_bytes() {
     let turned = atlas(&harness).world().places.last().unwrap().pose;
     assert!((turned.theta - std::f64::consts::FRAC_PI_2).abs() < 1e-9 && turned.x == place.pose.x, "{turned:?}");
 }
+
+#[test]
+fn the_three_robots_have_their_spaces_and_the_car_its_slice() {
+    let mut harness = lab(WIDE);
+    front(&mut harness, "Space");
+    harness.run_steps(4);
+    harness.get_by_label("\u{3b8}1 and \u{3b8}2: opposite edges are one");
+    let pick = |harness: &mut Harness<'_, Lab>, name: &str| {
+        harness.get_by_role_and_label(egui::accesskit::Role::ComboBox, "robot").click();
+        harness.run_steps(3);
+        click(harness, name);
+        harness.run_steps(6);
+    };
+    pick(&mut harness, "Rusty");
+    harness.get_by_label("x and y: every obstacle is grown by r = 0.11 m");
+    assert!(harness.query_by_label("the points that the tip can reach").is_none());
+    pick(&mut harness, "Hitch");
+    harness.get_by_label("x and y at theta = 0.000");
+    let anatomy = |h: &Harness<'_, Lab>| h.state().app.world().resource::<Interface>().0.anatomy.anatomy.clone();
+    assert_eq!(anatomy(&harness).world().name, "Lot", "where it lives");
+    // another heading is another slice
+    let slider = harness.get_by_role_and_label(egui::accesskit::Role::Slider, "theta").rect();
+    click_at(&mut harness, slider.left_center() + egui::vec2(0.75 * 180.0, 0.0));
+    harness.run_steps(4);
+    let theta = value(&harness, "theta");
+    assert!(theta > 1.0 && theta < 2.0, "{theta}");
+    harness.get_by_label(&format!("x and y at theta = {theta:.3}"));
+    // the motion of the swept tab, on demand
+    click(&mut harness, "the swept tab's motion");
+    assert_eq!(anatomy(&harness).tab, crate::anatomy::Tab::Swept);
+}
+
+#[test]
+fn a_world_of_the_atlas_is_asked_about_in_the_anatomy() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("mine.ron");
+    let mut harness = lab(WIDE);
+    front(&mut harness, "Atlas");
+    click(&mut harness, "Edit");
+    click(&mut harness, "Add disc");
+    crate::app::files::save_world(harness.state_mut().app.world_mut(), &path);
+    front(&mut harness, "Query");
+    click(&mut harness, "Any robot, any world");
+    harness.run_steps(20);
+    harness.get_by_role_and_label(egui::accesskit::Role::ComboBox, "world").click();
+    harness.run_steps(3);
+    click(&mut harness, "Apartment, in the atlas");
+    let anatomy = harness.state().app.world().resource::<Interface>().0.anatomy.anatomy.clone();
+    assert!(anatomy.world().obstacle("disc").is_some());
+    assert!(anatomy.copy_as_command().unwrap().contains("mine.ron"), "a command about the file");
+}
