@@ -165,7 +165,13 @@ pub fn snap(p: Point2, corners: &[Point2], reach: f64, step: f64) -> Point2 {
     let nearest = corners.iter().filter(|c| off(c) <= reach).min_by(|a, b| off(a).total_cmp(&off(b)));
     match nearest {
         Some(corner) => *corner,
-        None if step > 0.0 => Point2::new((p.x / step).round() * step, (p.y / step).round() * step),
+        None if step > 0.0 => {
+            // divided by a whole number where that is the step, so that 24 steps of 0.05 are 1.2
+            let per = (1.0 / step).round();
+            let whole = (per * step - 1.0).abs() < 1e-9;
+            let at = |x: f64| if whole { (x * per).round() / per } else { (x / step).round() * step };
+            Point2::new(at(p.x), at(p.y))
+        }
         None => p,
     }
 }

@@ -22,7 +22,7 @@ pub enum Op {
         /// Where it is.
         pose: Pose2,
     },
-    /// Move anything that has a name: an arm's base stays, as its start says nothing of it.
+    /// Move anything that has a name, its coordinates rounded to a nanometre: an arm's base stays, as its start says nothing of it.
     Move {
         /// Its name.
         name: String,
@@ -132,6 +132,11 @@ fn reshape(world: &mut World, at: Found, name: &str, shape: &EditShape) -> Resul
     Ok(())
 }
 
+/// A coordinate to the nanometre: what rounding adds to a sum is no part of a drawing.
+pub(super) fn tidy(x: f64) -> f64 {
+    (x * 1e9).round() / 1e9
+}
+
 /// The world after a change, not checked yet.
 pub(super) fn changed(world: &World, op: &Op) -> Result<World, EditError> {
     let mut world = world.clone();
@@ -149,13 +154,13 @@ pub(super) fn changed(world: &World, op: &Op) -> Result<World, EditError> {
             }
             Found::Place(i) => {
                 let pose = &mut world.places[i].pose;
-                (pose.x, pose.y) = (pose.x + by.x, pose.y + by.y);
+                (pose.x, pose.y) = (tidy(pose.x + by.x), tidy(pose.y + by.y));
             }
-            Found::Mark(i) => world.marks[i].points.iter_mut().for_each(|p| *p += *by),
+            Found::Mark(i) => world.marks[i].points.iter_mut().for_each(|p| *p = (*p + by).map(tidy)),
             Found::Robot(i) => {
                 let robot = &mut world.robots[i];
                 if let ("rusty" | "hitch", [x, y, ..]) = (robot.kind.as_str(), &mut robot.start[..]) {
-                    (*x, *y) = (*x + by.x, *y + by.y);
+                    (*x, *y) = (tidy(*x + by.x), tidy(*y + by.y));
                 } else {
                     return Err(EditError::NoShape(name.clone()));
                 }

@@ -1,5 +1,6 @@
 //! `EditShape`, the shape of a wall, an obstacle or a painted mark as a hand changes it.
 
+use super::op::tidy;
 use crate::geometry::{Point2, Pose2, Shape, Vector2, convex_hull};
 use crate::num::hypot;
 use crate::worlds::{Obstacle, ObstacleKind, OutlineError, Written};
@@ -220,15 +221,16 @@ impl EditShape {
         shape
     }
 
-    /// The shape moved.
+    /// The shape moved, its coordinates rounded to a nanometre.
     #[must_use]
     pub fn moved(&self, by: Vector2) -> EditShape {
-        let all = |points: &[Point2]| points.iter().map(|p| p + by).collect();
+        let moved = |p: &Point2| (p + by).map(tidy);
+        let all = |points: &[Point2]| points.iter().map(moved).collect();
         match self {
             EditShape::Wall(points) => EditShape::Wall(all(points)),
             EditShape::Mark(points) => EditShape::Mark(all(points)),
-            EditShape::Disc { center, radius } => EditShape::Disc { center: center + by, radius: *radius },
-            EditShape::Box { min, max } => EditShape::Box { min: min + by, max: max + by },
+            EditShape::Disc { center, radius } => EditShape::Disc { center: moved(center), radius: *radius },
+            EditShape::Box { min, max } => EditShape::Box { min: moved(min), max: moved(max) },
             EditShape::Polygon(points) => EditShape::Polygon(all(points)),
             EditShape::Rounded { points, radius } => EditShape::Rounded { points: all(points), radius: *radius },
             EditShape::Union(members) => EditShape::Union(members.iter().map(|m| m.moved(by)).collect()),

@@ -6,8 +6,9 @@ use super::AtlasState;
 use super::atlas_state::Drag;
 use crate::atlas::{Op, snap};
 use crate::geometry::{Point2, Pose2};
-use crate::num::atan2;
+use crate::num::{atan2, greater, lesser};
 use crate::picture::world as picture_of;
+use crate::worlds::Bounds;
 
 /// Points snap to a grid of so many metres.
 const GRID: f64 = 0.05;
@@ -19,6 +20,12 @@ impl AtlasState {
     /// Whether the last change can be taken back, and whether the one taken back last can be made again.
     pub fn can_undo(&self) -> [bool; 2] {
         [self.editor.can_undo(), self.editor.can_redo()]
+    }
+
+    /// Half the size of a thing that is added, metres: a 20th of the shorter side of the world, on the grid.
+    pub fn unit(&self) -> f64 {
+        let Bounds { min, max } = self.world().bounds;
+        greater(1.0, (0.05 * lesser(max.x - min.x, max.y - min.y) / GRID).round()) * GRID
     }
 
     /// What saving would drop, in words.

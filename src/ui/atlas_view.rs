@@ -199,14 +199,14 @@ fn edit_panel(ui: &mut Ui, look: &Look, state: &mut UiState) {
     let atlas = &mut state.atlas;
     ui.label("Click a wall, an obstacle, a place or a painted mark, and drag it or its handles. A ring on an edge makes a corner; a corner dragged onto the next goes away.");
     ui.horizontal_wrapped(|ui| {
-        let middle = atlas.middle();
-        let corner = |x: f64, y: f64| Point2::new(middle.x + x, middle.y + y);
+        let (middle, u) = (atlas.middle(), atlas.unit());
+        let corner = |x: f64, y: f64| Point2::new(middle.x + x * u, middle.y + y * u);
         let shapes = [
-            ("wall", EditShape::Wall(vec![corner(-0.5, 0.0), corner(0.5, 0.0)])),
-            ("box", EditShape::Box { min: corner(-0.25, -0.25), max: corner(0.25, 0.25) }),
-            ("disc", EditShape::Disc { center: middle, radius: 0.25 }),
-            ("polygon", EditShape::Polygon(vec![corner(-0.3, -0.25), corner(0.3, -0.25), corner(0.0, 0.3)])),
-            ("mark", EditShape::Mark(vec![corner(-0.5, 0.0), corner(0.5, 0.0)])),
+            ("wall", EditShape::Wall(vec![corner(-2.0, 0.0), corner(2.0, 0.0)])),
+            ("box", EditShape::Box { min: corner(-1.0, -1.0), max: corner(1.0, 1.0) }),
+            ("disc", EditShape::Disc { center: middle, radius: u }),
+            ("polygon", EditShape::Polygon(vec![corner(-2.0, -1.0), corner(2.0, -1.0), corner(0.0, 2.0)])),
+            ("mark", EditShape::Mark(vec![corner(-2.0, 0.0), corner(2.0, 0.0)])),
         ];
         for (kind, shape) in shapes {
             if button(ui, &format!("Add {kind}"), 0.0, (true, false), look).clicked() {

@@ -16,8 +16,8 @@ use crate::num::wrap;
 use crate::picture::{Picture, Role, footprint};
 use crate::robots::{ConfigurationError, Robot};
 
-/// Cells are cut down to a 128th of the sides.
-const FINEST: u32 = 7;
+/// Cells are cut down to a 256th of the sides.
+const FINEST: u32 = 8;
 /// So many cells are judged in a frame.
 const BUDGET: u32 = 1500;
 /// So many points of the way are kept.

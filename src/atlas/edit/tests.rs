@@ -189,6 +189,16 @@ fn corners_are_made_and_go_away_and_places_turn() {
 }
 
 #[test]
+fn what_is_moved_stays_readable() {
+    let mut editor = Editor::new(World::lot());
+    let triangle = EditShape::Polygon(vec![p(7.0, 4.5), p(9.0, 4.5), p(8.0, 6.0)]);
+    editor.apply(&Op::Add { name: name("island"), shape: triangle }).unwrap();
+    editor.apply(&Op::Move { name: name("island"), by: Vector2::new(5.45, -2.75) }).unwrap();
+    let line = editor.text().lines().find(|l| l.contains("island")).unwrap().trim().to_owned();
+    assert_eq!(line, "(name: \"island\", shape: Polygon([(12.45, 1.75), (14.45, 1.75), (13.45, 3.25)])),");
+}
+
+#[test]
 fn comments_are_told_before_they_are_dropped() {
     let text = World::workbench().to_ron();
     let noted = format!("// mine\n{text}");
@@ -212,6 +222,7 @@ fn starts_in_contact_are_told() {
 fn points_snap_to_corners_first_and_then_to_the_grid() {
     let corners = [p(1.0, 1.0), p(1.06, 1.0)];
     assert_eq!(snap(p(1.04, 1.01), &corners, 0.1, 0.25), corners[1]);
+    assert_eq!(snap(p(1.19, 12.44), &[], 0.0, 0.05), p(1.2, 12.45), "as it is written");
     let on_grid = snap(p(1.30, 0.88), &corners, 0.1, 0.25);
     assert_eq!(on_grid, p(1.25, 1.0));
     assert_eq!(snap(p(1.3, 0.9), &corners, 0.1, 0.0), p(1.3, 0.9));
