@@ -95,14 +95,15 @@ pub fn cspace_view(
     if state.cspace.refine(&anatomy) {
         ui.ctx().request_repaint();
     }
-    let text = if narrow { 190.0 } else { 150.0 };
+    let text = if narrow { 160.0 } else { 120.0 };
     let room = ui.available_rect_before_wrap();
     let side = if narrow {
         room.width().min(0.5 * (room.height() - text))
     } else {
         (0.5 * (room.width() - 20.0)).min(room.height() - text)
     };
-    let left = Rect::from_min_size(room.min, vec2(side, side));
+    let margin = if narrow { 0.5 * (room.width() - side) } else { 0.0 };
+    let left = Rect::from_min_size(room.min + vec2(margin, 0.0), vec2(side, side));
     let right = if narrow { left.translate(vec2(0.0, side + 8.0)) } else { left.translate(vec2(side + 20.0, 0.0)) };
     workspace(ui, left, look, state);
     space(ui, right, look, state);

@@ -1,6 +1,6 @@
 //! What is done to the session: open and save runs, undo, what is shown.
 
-use bevy_egui::egui::{Align, Layout, RichText, TextStyle, Ui};
+use bevy_egui::egui::{Align, Layout, RichText, Ui};
 
 use super::button::button;
 use super::keys::{Action, hint};
@@ -111,8 +111,7 @@ pub fn tools(
 /// What is said of the last file, with a way to put it away.
 pub fn notice(ui: &mut Ui, state: &mut UiState) {
     if let Some(working) = &mut state.working {
-        ui.horizontal_wrapped(|ui| {
-            ui.spacing_mut().interact_size.y = ui.text_style_height(&TextStyle::Body);
+        frame::rows_of_words(ui, |ui| {
             ui.label(&working.text);
             working.stop |= ui.link("Stop").clicked();
         });
@@ -122,12 +121,11 @@ pub fn notice(ui: &mut Ui, state: &mut UiState) {
     let Some(notice) = &state.notice else { return };
     let colour = if notice.is_error { ui.visuals().error_fg_color } else { ui.visuals().text_color() };
     let text = RichText::new(&notice.text).color(colour);
-    let put_away = ui.horizontal_wrapped(|ui| {
-        ui.spacing_mut().interact_size.y = ui.text_style_height(&TextStyle::Body);
+    let put_away = frame::rows_of_words(ui, |ui| {
         ui.label(text);
         ui.link("Dismiss").clicked()
     });
-    if put_away.inner {
+    if put_away {
         state.notice = None;
     }
 }
