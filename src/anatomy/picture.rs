@@ -89,7 +89,7 @@ impl Anatomy {
             if self.tab == Tab::Witness && pair.witness.dist > 0.1 * size_of(bounds) {
                 // beside their points, off the robot, the obstacles, the way and its length
                 let line = |a, b| Footprint::new([Part::new(Pose2::IDENTITY, Shape::Segment { a, b })]);
-                let wide = Vector2::new(0.12 * size_of(bounds), 0.0);
+                let wide = Vector2::new(0.16 * size_of(bounds), 0.0);
                 let off = scene_of(bounds, &[self.footprint(), line(a, b), line(words - wide, words + wide)]);
                 let beside = |p: Point2| {
                     let ways = (0..16).map(|k| num::sin_cos(f64::from(k) * std::f64::consts::FRAC_PI_8));

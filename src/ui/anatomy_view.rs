@@ -16,6 +16,9 @@ use crate::worlds::World;
 /// Width of what stands beside the paper, points.
 const SIDE: f32 = 380.0;
 
+/// Side of the close view, points.
+const INSET: f32 = 230.0;
+
 /// What the widget remembers.
 #[derive(Clone, Debug)]
 pub struct AnatomyState {
@@ -143,7 +146,7 @@ fn sliders(ui: &mut Ui, anatomy: &mut Anatomy) {
 /// What is near the nearest points, larger.
 fn inset(ui: &mut Ui, look: &Look, state: &mut UiState) {
     let Some(close) = state.anatomy.anatomy.close_up() else { return };
-    let (rect, _) = ui.allocate_exact_size(vec2(170.0, 170.0), bevy_egui::egui::Sense::hover());
+    let (rect, _) = ui.allocate_exact_size(vec2(INSET, INSET), bevy_egui::egui::Sense::hover());
     let painter = ui.painter_at(rect);
     super::canvas::paint(&painter, &close, &super::canvas::fit(&close, rect), look);
     let frame = bevy_egui::egui::Stroke::new(1.0, look.colour(Role::Hairline));
