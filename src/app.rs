@@ -1,6 +1,9 @@
 //! The lab in a window: the session, a camera, and egui painting what is in front.
 
 #[cfg(not(target_family = "wasm"))]
+mod capture;
+mod captured;
+#[cfg(not(target_family = "wasm"))]
 mod dialogs;
 #[cfg(not(target_family = "wasm"))]
 mod files;
@@ -30,6 +33,8 @@ pub use window::{WindowError, run_window};
 
 use crate::simulation::History;
 use crate::ui::{self, SessionCommand, Theme};
+#[cfg(all(target_family = "wasm", feature = "web"))]
+pub(crate) use captured::captured;
 #[cfg(all(target_family = "wasm", feature = "web"))]
 pub(crate) use runs::{open_log, open_world_text, recorded, shown_run};
 use session::carry_out;
@@ -68,7 +73,8 @@ pub fn windowed_app() -> App {
     #[cfg(not(target_family = "wasm"))]
     app.add_systems(Update, system_theme)
         .init_resource::<dialogs::Dialogs>()
-        .add_systems(Update, (dialogs::ask, dialogs::dropped).chain().before(session::gather));
+        .init_resource::<capture::Capturing>()
+        .add_systems(Update, (dialogs::ask, dialogs::dropped, capture::follow).chain().before(session::gather));
     app
 }
 

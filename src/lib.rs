@@ -46,6 +46,13 @@ pub mod anatomy;
 
 pub mod atlas;
 
+#[cfg(not(target_family = "wasm"))]
+pub mod output;
+
+pub mod manifest;
+
+pub mod capture;
+
 pub mod ui;
 
 #[cfg(feature = "screen")]

@@ -1,13 +1,13 @@
 //! Runs and worlds as files of the system: saved, opened, dropped on the window.
 
 use std::fs;
-use std::io::Write;
 use std::path::Path;
 
 use bevy::ecs::world::World;
 
 use super::runs::{open_log, open_world_text, recorded};
 use super::session::Interface;
+use crate::output::write_file;
 use crate::ui::Notice;
 
 /// The greatest size of a log that the window opens, bytes.
@@ -26,18 +26,8 @@ pub fn save_run(world: &World, path: &Path) -> Notice {
 
 fn save(world: &World, path: &Path) -> Result<String, String> {
     let (log, bytes) = recorded(world)?;
-    write_whole(path, &bytes).map_err(|e| e.to_string())?;
+    write_file(path, &bytes).map_err(|e| e.to_string())?;
     Ok(format!("{}: saved, {} ticks, digest {}", name(path), log.frames.len(), log.digest()))
-}
-
-/// Puts a file in place whole: written beside it under another name first, then renamed.
-fn write_whole(path: &Path, bytes: &[u8]) -> std::io::Result<()> {
-    let folder = path.parent().filter(|f| !f.as_os_str().is_empty()).unwrap_or(Path::new("."));
-    let mut file = tempfile::Builder::new().prefix(".motion-lab-").tempfile_in(folder)?;
-    file.write_all(bytes)?;
-    file.as_file().sync_all()?;
-    file.persist(path).map_err(|e| e.error)?;
-    Ok(())
 }
 
 /// Opens a run in place of the present one: simulates it again from its seed and script, compares every frame, and shows it
@@ -71,21 +61,26 @@ pub fn open_world(world: &mut World, path: &Path) -> Notice {
         Ok(text) => text,
         Err(error) => return refused(error.to_string()),
     };
-    open_world_text(world, &name(path), &text)
+    let notice = open_world_text(world, &name(path), &text);
+    if !notice.is_error {
+        world.resource_mut::<Interface>().0.atlas.stands_in(path);
+    }
+    notice
 }
 
 /// Saves the atlas's world in canonical form, whole or not at all.
 pub fn save_world(world: &mut World, path: &Path) -> Notice {
     let atlas = &mut world.resource_mut::<Interface>().into_inner().0.atlas;
-    match write_whole(path, atlas.text().as_bytes()) {
+    match write_file(path, atlas.text().as_bytes()) {
         Ok(()) => {
-            atlas.mark_saved();
+            atlas.mark_saved(path);
             Notice { text: format!("{}: saved", name(path)), is_error: false }
         }
         Err(error) => Notice { text: format!("{}: not saved: {error}", path.display()), is_error: true },
     }
 }
 
-fn name(path: &Path) -> String {
+/// A file's name without its folder.
+pub fn name(path: &Path) -> String {
     path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned()
 }

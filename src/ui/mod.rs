@@ -4,6 +4,8 @@
 mod anatomy_view;
 pub mod arm;
 #[cfg(feature = "screen")]
+mod atlas_editing;
+#[cfg(feature = "screen")]
 mod atlas_state;
 #[cfg(feature = "screen")]
 mod atlas_view;
@@ -12,6 +14,8 @@ mod blend;
 mod button;
 #[cfg(feature = "screen")]
 pub mod canvas;
+#[cfg(feature = "screen")]
+mod capture_form;
 mod cockpit;
 #[cfg(feature = "screen")]
 mod cspace_view;
@@ -33,14 +37,12 @@ pub mod keys;
 mod lab;
 #[cfg(feature = "screen")]
 mod look;
-mod manifest;
 #[cfg(feature = "screen")]
 mod pad;
 #[cfg(feature = "screen")]
 mod pane;
 #[cfg(feature = "screen")]
 mod plots;
-mod readout;
 mod run_figure;
 mod settings;
 #[cfg(feature = "screen")]
@@ -59,6 +61,8 @@ pub use anatomy_view::AnatomyState;
 #[cfg(feature = "screen")]
 pub use atlas_state::{AtlasState, Mode};
 pub use blend::{blend, heading};
+#[cfg(feature = "screen")]
+pub use capture_form::{CaptureOrder, CaptureState};
 pub use cockpit::{Cockpit, CockpitRobot, Dashboard};
 #[cfg(feature = "screen")]
 pub use cspace_view::CspaceState;
@@ -68,14 +72,15 @@ pub use goal::{Off, ParkingGoal, trailer_of};
 pub use lab::lab;
 #[cfg(feature = "screen")]
 pub use look::Look;
-pub use manifest::{KeyText, WidgetText, number_of, widget, widgets};
-pub use readout::{readout, readout_lines};
 pub use run_figure::RunFigure;
 pub use settings::{Settings, ThemeChoice};
-pub use state::{Flash, Notice, UiState};
+pub use state::{Flash, Notice, UiState, Working};
 pub use theme::{FACES, Theme};
 #[cfg(feature = "screen")]
 pub use transport_bar::transport_bar;
+
+pub use crate::manifest::{KeyText, WidgetText, number_of, widget, widgets};
+pub use crate::picture::{readout, readout_lines};
 
 /// What a widget asks for. Widgets change nothing but their own [`UiState`].
 #[derive(Clone, Debug, PartialEq)]
@@ -99,6 +104,9 @@ pub enum SessionCommand {
     OpenWorld,
     /// Save the atlas's world: ask for a file first.
     SaveWorld,
+    /// Capture the widget in front: ask for a file first.
+    #[cfg(feature = "screen")]
+    Capture(CaptureOrder),
     /// A new run in the atlas's world.
     RunWorld,
     /// A new run in which an arm has so many links.

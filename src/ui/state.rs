@@ -21,6 +21,9 @@ pub struct UiState {
     /// The atlas's.
     #[cfg(feature = "screen")]
     pub atlas: super::AtlasState,
+    /// The capture form.
+    #[cfg(feature = "screen")]
+    pub capture: super::CaptureState,
     /// The paper that the system asks for.
     pub system_theme: Theme,
     /// The seed field's text while it is edited.
@@ -51,6 +54,17 @@ pub struct UiState {
     pub flashes: BTreeMap<String, Flash>,
     /// What the window says of the last file, until it is put away.
     pub notice: Option<Notice>,
+    /// What is under way beside the window, and whether it is to stop.
+    pub working: Option<Working>,
+}
+
+/// What is under way beside the window.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Working {
+    /// How far it has come, in words.
+    pub text: String,
+    /// Whether it was asked to stop.
+    pub stop: bool,
 }
 
 /// A robot's flash as it is shown.

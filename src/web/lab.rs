@@ -15,12 +15,13 @@ use wasm_bindgen::prelude::*;
 use super::message::{Action, Message};
 use super::mirror::mirror;
 use super::{Link, LinkError, runs::RunParts};
-use crate::app::{Interface, Shown, new_run, open_log, open_world_text, recorded, shown_run, windowed_app};
+use crate::app::{Interface, Shown, captured, new_run, open_log, open_world_text, recorded, shown_run, windowed_app};
+use crate::capture::{Form, Paper};
 use crate::picture::Role;
 use crate::random::Seed;
 use crate::run::Log;
 use crate::simulation::{PendingInput, Playback, RunConfig, Transport, TransportCommand, obey};
-use crate::ui::{Notice, SessionCommand, ThemeChoice, number_of, widgets};
+use crate::ui::{CaptureOrder, Notice, SessionCommand, ThemeChoice, number_of, widgets};
 
 /// What comes in from the page.
 enum Incoming {
@@ -362,7 +363,7 @@ fn files(world: &mut World) {
             SessionCommand::SaveWorld => {
                 let atlas = &mut world.resource_mut::<Interface>().into_inner().0.atlas;
                 tell_with(&json!({ "kind": "file", "name": "world.ron" }), Some(atlas.text().as_bytes()));
-                atlas.mark_saved();
+                atlas.mark_saved(std::path::Path::new("world.ron"));
                 Ok("world.ron: saved".into())
             }
             SessionCommand::Open => {
@@ -373,6 +374,7 @@ fn files(world: &mut World) {
                 tell(&json!({ "kind": "ask", "accept": ".ron" }));
                 continue;
             }
+            SessionCommand::Capture(order) => picture(world, &order),
             SessionCommand::RunWorld | SessionCommand::Links { .. } => continue,
         };
         let notice = match notice {
@@ -381,6 +383,20 @@ fn files(world: &mut World) {
         };
         world.resource_mut::<Interface>().0.notice = Some(notice);
     }
+}
+
+/// Gives the page a picture of the widget in front.
+fn picture(world: &World, order: &CaptureOrder) -> Result<String, String> {
+    let Transport { seed, tick, frontier, .. } = *world.resource::<Transport>();
+    let (config, script) = shown_run(world, frontier);
+    let ui = &world.resource::<Interface>().0;
+    let paper = Paper { palette: ui.theme().palette(), width: order.width, scale: 1.0 };
+    let figure = captured(ui, (config, seed, script), tick, paper.width_px()).map_err(|e| e.to_string())?;
+    let name = format!("{}.svg", widgets().get(ui.widget).map_or("picture", |w| &w.id));
+    tell_with(&json!({ "kind": "file", "name": name }), Some(figure.svg(&paper).as_bytes()));
+    let also =
+        if order.form == Form::Svg { "" } else { "; pixels and moving pictures are made by `motion-lab capture`" };
+    Ok(format!("{name}: saved{also}"))
 }
 
 fn saved(log: &Log) -> String {

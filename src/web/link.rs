@@ -270,7 +270,7 @@ mod tests {
         assert_eq!(Link::parse(&format!("?{query}&utm=mail&x")).unwrap(), link, "other fields are ignored");
         assert_eq!(Link::parse("").unwrap(), Link::default());
         assert_eq!(Link::parse(&Link::default().query().unwrap()).unwrap(), Link::default());
-        assert_eq!(link.config().worlds.iter().map(|w| w.name.as_str()).collect::<Vec<_>>(), ["lot", "workbench"]);
+        assert_eq!(link.config().worlds.iter().map(|w| w.name.as_str()).collect::<Vec<_>>(), ["Lot", "Workbench"]);
     }
 
     #[test]
