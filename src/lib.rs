@@ -46,12 +46,18 @@ pub mod anatomy;
 
 pub mod atlas;
 
+#[cfg(not(target_family = "wasm"))]
+pub mod output;
+
+pub mod manifest;
+
+pub mod capture;
+
 pub mod ui;
 
-#[cfg(feature = "window")]
+#[cfg(feature = "screen")]
 pub mod app;
 
-#[cfg(target_family = "wasm")]
 pub mod web;
 
 pub mod guide;

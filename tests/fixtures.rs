@@ -138,11 +138,10 @@ pub fn footprint_of(bodies: &[Body]) -> Footprint {
 
 /// The scene with each of these bodies as an obstacle, in this order.
 pub fn scene_of(bodies: &[Body]) -> Scene {
-    let obstacles = bodies.iter().enumerate().map(|(i, body)| Obstacle {
-        name: format!("obstacle {i}"),
-        kind: ObstacleKind::Solid,
-        pieces: vec![body.clone()],
-    });
+    let obstacles = bodies
+        .iter()
+        .enumerate()
+        .map(|(i, body)| Obstacle::new(format!("obstacle {i}"), ObstacleKind::Solid, vec![body.clone()]));
     Scene::of_world(&World {
         name: "fixture".into(),
         bounds: PLANE,

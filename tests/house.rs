@@ -4,7 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// The modules in reading order: each may use those before it.
-const ORDER: [&str; 20] = [
+const ORDER: [&str; 23] = [
     "num",
     "random",
     "geometry",
@@ -21,6 +21,9 @@ const ORDER: [&str; 20] = [
     "cspace",
     "anatomy",
     "atlas",
+    "output",
+    "manifest",
+    "capture",
     "ui",
     "app",
     "web",
@@ -122,7 +125,8 @@ fn foreign_formats_are_read_in_one_place() {
     let mut readers = 0;
     for (file, _, lines) in library() {
         let reads = lines.iter().any(|l| l.contains("usvg") || l.contains("saphyr_parser"));
-        assert!(!reads || file.starts_with("worlds/import/"), "{file}");
+        // our own SVG is painted by the reader of others'
+        assert!(!reads || file.starts_with("worlds/import/") || file == "capture/raster.rs", "{file}");
         readers += usize::from(reads);
     }
     assert!(readers > 0, "nothing reads them: this test no longer finds the sources");

@@ -44,11 +44,10 @@ pub fn boxes(count: usize, clear: f64) -> Scene {
         }
     }
     let corner = Point2::new(half, half);
-    let obstacles = pieces.into_iter().enumerate().map(|(i, piece)| Obstacle {
-        name: format!("box {i}"),
-        kind: ObstacleKind::Solid,
-        pieces: vec![piece],
-    });
+    let obstacles = pieces
+        .into_iter()
+        .enumerate()
+        .map(|(i, piece)| Obstacle::new(format!("box {i}"), ObstacleKind::Solid, vec![piece]));
     Scene::of_world(&World {
         name: "boxes".into(),
         bounds: Bounds { min: Point2::new(-half, -half), max: corner },

@@ -28,6 +28,23 @@ impl Anatomy {
         self.put((**self.world()).clone(), self.source().clone(), robot)
     }
 
+    /// The same tab with another robot: in this world if one of its kind lives here or the world is none of the book's, else in the
+    /// book's world where it lives.
+    #[must_use]
+    pub fn at_home(&self, robot: AnyRobot) -> Anatomy {
+        let lives_in = |world: &World| {
+            world.robots.iter().any(|r| r.kind.trim_end_matches('3') == robot.kind().trim_end_matches('3'))
+        };
+        if lives_in(self.world()) || !matches!(self.source(), WorldSource::BuiltIn(_)) {
+            return self.with_robot(robot);
+        }
+        let worlds = World::built_in_names().into_iter().filter_map(|name| Some((name, World::built_in(name)?)));
+        match worlds.into_iter().find(|(_, world)| lives_in(world)) {
+            Some((name, home)) => self.put(home, WorldSource::BuiltIn(name), robot),
+            None => self.with_robot(robot),
+        }
+    }
+
     /// The same robot and tab in another world, and where [`with_robot`](Self::with_robot) says. An arm keeps its angles.
     #[must_use]
     pub fn in_world(&self, world: World, source: WorldSource) -> Anatomy {

@@ -136,11 +136,11 @@ impl Anatomy {
         let world = World {
             name: "Exercise 3".into(),
             bounds: Bounds { min: p(-0.4, -0.4), max: p(1.6, 1.6) },
-            obstacles: vec![Obstacle {
-                name: "the square".into(),
-                kind: ObstacleKind::Solid,
-                pieces: vec![(crate::geometry::Pose2::IDENTITY, square)],
-            }],
+            obstacles: vec![Obstacle::new(
+                "the square",
+                ObstacleKind::Solid,
+                vec![(crate::geometry::Pose2::IDENTITY, square)],
+            )],
             places: Vec::new(),
             marks: Vec::new(),
             robots: Vec::new(),
@@ -275,6 +275,17 @@ impl Anatomy {
     /// The witness and what ties with it; none in an empty scene.
     pub fn nearest(&self) -> Vec<NearestPair> {
         nearest_pairs(self.checker.scene(), &self.footprint())
+    }
+
+    /// Both configurations of a two-link arm that have its tip, its own among them: one where they are the same. None for another
+    /// robot.
+    pub fn solutions(&self) -> Vec<AnyConfiguration> {
+        match (self.checker.robot(), self.q) {
+            (AnyRobot::Reach(arm), AnyConfiguration::T2(q)) => {
+                arm.ik(arm.tip(&q)).into_iter().flatten().map(AnyConfiguration::T2).collect()
+            }
+            _ => Vec::new(),
+        }
     }
 
     /// What is known of the motion to the [second configuration](Self::second).

@@ -3,7 +3,7 @@
 use super::words::{figure, metres};
 use super::{Anatomy, Feature, NearestPair, Sweep, Tab};
 use crate::collision::{Collision, EdgeVerdict, Scene};
-use crate::geometry::{Footprint, Point2, Pose2, Shape, Vector2};
+use crate::geometry::{Footprint, Part, Point2, Pose2, Shape, Vector2};
 use crate::num::{self, lesser};
 use crate::picture::{
     Anchor, Dash, Drawing, Face, Fill, Glyph, Item, Line, Picture, RobotDrawing, Role, footprint, polygon_of, robot,
@@ -79,17 +79,28 @@ impl Anatomy {
         if let Some(pair) = pairs.first().filter(|p| p.witness.dist > 0.0) {
             let (a, b) = (pair.witness.on_robot, pair.witness.on_obstacle);
             let middle = a + (b - a) * 0.5;
-            items.extend(self.plate(
-                "witness/distance",
-                bounds,
-                middle,
-                metres(pair.witness.dist),
-                &[self.footprint()],
-            ));
+            let plate = self.plate("witness/distance", bounds, middle, metres(pair.witness.dist), &[self.footprint()]);
+            let words = match plate[1].drawing {
+                Drawing::Label { at, .. } => at,
+                _ => middle,
+            };
+            items.extend(plate);
             // the two names where there is room for both
             if self.tab == Tab::Witness && pair.witness.dist > 0.1 * size_of(bounds) {
-                let way = (b - a) * (0.055 * size_of(bounds) / pair.witness.dist);
-                for (part, at) in [("a*", a - way), ("b*", b + way)] {
+                // beside their points, off the robot, the obstacles, the way and its length
+                let line = |a, b| Footprint::new([Part::new(Pose2::IDENTITY, Shape::Segment { a, b })]);
+                let wide = Vector2::new(0.16 * size_of(bounds), 0.0);
+                let off = scene_of(bounds, &[self.footprint(), line(a, b), line(words - wide, words + wide)]);
+                let beside = |p: Point2| {
+                    let ways = (0..16).map(|k| num::sin_cos(f64::from(k) * std::f64::consts::FRAC_PI_8));
+                    let places = ways.map(|(s, c)| p + Vector2::new(c, s) * (0.065 * size_of(bounds)));
+                    let room = |at: &Point2| {
+                        let point = Footprint::disc(*at, 0.0);
+                        lesser(self.checker().scene().distance(&point), off.distance(&point))
+                    };
+                    places.reduce(|best, at| if room(&at) > room(&best) + 1e-9 { at } else { best }).unwrap_or(p)
+                };
+                for (part, at) in [("a*", beside(a)), ("b*", beside(b))] {
                     let (text, anchor, face) = (part.to_owned(), Anchor::Center, Face::Sans);
                     let drawing = Drawing::Label { at, text, anchor, face, size_px: 14.0, plate: true };
                     items.push(Item::new(format!("witness/1/{part}"), part, Role::Witness, drawing));

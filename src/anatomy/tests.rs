@@ -4,7 +4,7 @@ use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI};
 use super::*;
 use crate::collision::EdgeVerdict;
 use crate::num::{cos, sin, sqrt};
-use crate::picture::{Item, Role};
+use crate::picture::{Drawing, Item, Role};
 
 fn at(th1: f64, th2: f64, thick: bool) -> Anatomy {
     let mut anatomy = Anatomy::default();
@@ -271,7 +271,7 @@ fn what_is_unresolved_is_told_with_its_reason() {
     let mut world = World { obstacles: Vec::new(), ..World::workbench() };
     let wall = Shape::Segment { a: Point2::new(-1.0, above), b: Point2::new(1.0, above) };
     let pieces = vec![(crate::geometry::Pose2::IDENTITY, wall)];
-    world.obstacles.push(Obstacle { name: "the lid".into(), kind: ObstacleKind::Wall, pieces });
+    world.obstacles.push(Obstacle::new("the lid", ObstacleKind::Wall, pieces));
     let q = AnyConfiguration::T2(T2::new(0.5 * PI - 0.4, 0.0));
     let arm = AnyRobot::Reach(Reach::choset());
     let mut anatomy = Anatomy::new(world, WorldSource::Unsaved, arm, q).unwrap().with_tab(Tab::Swept);
@@ -318,4 +318,40 @@ fn the_distance_stands_where_it_covers_neither_robot_nor_obstacle() {
         }
     }
     assert_eq!(crowded, 0);
+}
+
+#[test]
+fn the_names_of_the_nearest_points_stand_off_what_they_name() {
+    // corner and edge, near and far
+    let mut named = 0;
+    for th2 in [FRAC_PI_2, 1.5, 1.7, 2.2, 2.6] {
+        let anatomy = at(FRAC_PI_4, th2, false).with_tab(Tab::Witness);
+        let close = anatomy.close_up().unwrap();
+        if !ids(&close.items).contains(&"witness/1/a*") {
+            // where they are so near there is no room for names
+            continue;
+        }
+        named += 1;
+        let size = close.bounds.max.x - close.bounds.min.x;
+        for id in ["witness/1/a*", "witness/1/b*"] {
+            let Drawing::Label { at, .. } = item(&close.items, id).drawing else { panic!("a label") };
+            let point = Footprint::disc(at, 0.0);
+            let off = anatomy.checker().scene().distance(&point);
+            assert!(off > 0.03 * size, "{id} at theta2 = {th2}: {off} of {size} from an obstacle");
+        }
+    }
+    assert!(named >= 3, "{named}");
+}
+
+#[test]
+fn a_robot_goes_where_it_lives() {
+    let anatomy = Anatomy::default();
+    let robot = |name: &str| Anatomy::choices().into_iter().find(|(n, _)| *n == name).unwrap().1;
+    let home = anatomy.at_home(robot("Hitch with its trailer"));
+    assert_eq!((home.world().name.as_str(), home.intersects()), ("Lot", false));
+    assert_eq!(anatomy.at_home(robot("Reach, three links")).world().name, "Workbench", "an arm stays");
+    let mut own = World::lot();
+    own.name = "Mine".into();
+    let mine = home.in_world(own, WorldSource::Unsaved);
+    assert_eq!(mine.at_home(robot("Rusty")).world().name, "Mine", "a world of one's own is kept");
 }

@@ -7,10 +7,11 @@ use bevy::window::FileDragAndDrop;
 use bevy_egui::egui;
 use egui_file_dialog::{DialogMode, FileDialog, FileDialogLabels};
 
+use super::capture::{capture, check, not_captured};
 use super::files::{open_run, open_world, save_run, save_world};
 use super::session::Interface;
-use crate::simulation::{Playback, Transport};
-use crate::ui::SessionCommand;
+use crate::simulation::{Playback, RunConfig, Transport};
+use crate::ui::{CaptureOrder, SessionCommand, UiState, widgets};
 
 /// What the lab's logs are called.
 const EXTENSION: &str = "mcap";
@@ -23,6 +24,8 @@ const WORLD: &str = "ron";
 pub struct Dialogs {
     runs: FileDialog,
     worlds: FileDialog,
+    /// Where a capture goes, and what is asked for.
+    picture: Option<(FileDialog, CaptureOrder)>,
     /// Whether a file hovers over the window, on its way to be dropped.
     hovered: bool,
 }
@@ -32,9 +35,18 @@ impl Default for Dialogs {
         Dialogs {
             runs: dialog("run", "Runs (*.mcap)", EXTENSION, "run.mcap"),
             worlds: dialog("world", "Worlds (*.ron)", WORLD, "world.ron"),
+            picture: None,
             hovered: false,
         }
     }
+}
+
+/// The dialog for a capture of the widget in front.
+fn picture_dialog(state: &UiState, order: &CaptureOrder, tick: u64) -> FileDialog {
+    let (extension, name) = (order.form.extension(), order.form.name());
+    let widget = widgets().get(state.widget).map_or("lab", |w| w.id.as_str());
+    let file = if state.widget == 0 { format!("{widget}-{tick}.{extension}") } else { format!("{widget}.{extension}") };
+    dialog("picture", &format!("{name} (*.{extension})"), extension, &file)
 }
 
 fn dialog(what: &'static str, filter: &str, extension: &'static str, file: &str) -> FileDialog {
@@ -58,13 +70,29 @@ fn dialog(what: &'static str, filter: &str, extension: &'static str, file: &str)
 }
 
 /// Opens the dialog that a command asks for. The run pauses meanwhile.
-pub fn ask(mut asked: MessageReader<SessionCommand>, mut dialogs: ResMut<Dialogs>, mut transport: ResMut<Transport>) {
+pub fn ask(
+    mut asked: MessageReader<SessionCommand>,
+    mut dialogs: ResMut<Dialogs>,
+    mut transport: ResMut<Transport>,
+    mut interface: ResMut<Interface>,
+    config: Option<Res<RunConfig>>,
+) {
+    let Some(config) = config else { return };
     for command in asked.read() {
         match command {
             SessionCommand::Save => dialogs.runs.save_file(),
             SessionCommand::Open => dialogs.runs.pick_file(),
             SessionCommand::SaveWorld => dialogs.worlds.save_file(),
             SessionCommand::OpenWorld => dialogs.worlds.pick_file(),
+            SessionCommand::Capture(order) => {
+                if let Err(error) = check(&config.0, &interface.0, order) {
+                    interface.0.notice = Some(not_captured(&error));
+                    continue;
+                }
+                let mut dialog = picture_dialog(&interface.0, order, transport.tick);
+                dialog.save_file();
+                dialogs.picture = Some((dialog, *order));
+            }
             SessionCommand::RunWorld | SessionCommand::Links { .. } => continue,
         }
         transport.playback = Playback::Paused;
@@ -90,15 +118,20 @@ pub fn dropped(world: &mut World) {
 
 /// Shows the dialog while it is open, and does what was chosen in it.
 pub fn show(world: &mut World, ctx: &egui::Context) {
-    let (run, model) = {
+    let (run, model, picture) = {
         let dialogs = world.resource_mut::<Dialogs>().into_inner();
         if dialogs.hovered {
             egui::Area::new("drop".into()).anchor(egui::Align2::CENTER_CENTER, [0.0, 0.0]).show(ctx, |ui| {
                 egui::Frame::popup(ui.style()).show(ui, |ui| ui.heading("Drop a run or a world to open it"));
             });
         }
-        (picked(&mut dialogs.runs, ctx), picked(&mut dialogs.worlds, ctx))
+        let picture = dialogs.picture.as_mut().and_then(|(dialog, order)| Some((picked(dialog, ctx)?.1, *order)));
+        (picked(&mut dialogs.runs, ctx), picked(&mut dialogs.worlds, ctx), picture)
     };
+    if let Some((path, order)) = picture {
+        capture(world, &order, &path);
+        ctx.request_repaint();
+    }
     let of_run = run.map(|(save, path)| if save { save_run(world, &path) } else { open_run(world, &path) });
     let of_world = model.map(|(save, path)| if save { save_world(world, &path) } else { open_world(world, &path) });
     if let Some(notice) = of_run.or(of_world) {

@@ -1,6 +1,7 @@
 //! The session with its widgets, without a window: every behaviour by the names that a screen reader reads.
 
 mod arm;
+mod capture;
 mod drive;
 mod files;
 mod screen;

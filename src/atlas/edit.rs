@@ -1,16 +1,17 @@
 //! `Editor`, a world under a hand: every change checked as world files are, every change undone again.
 
-use super::op::{changed, is_taken};
+use super::op::{changed, is_taken, shape_of};
 use super::{Atlas, EditError, EditShape, Handle, Op, Refusal, Teleport};
-use crate::geometry::Point2;
-use crate::num::hypot;
-use crate::worlds::{World, WorldError};
+use crate::geometry::{Point2, Vector2};
+use crate::num::{hypot, lesser, sin_cos};
+use crate::worlds::{Bounds, World, WorldError, comments};
 
 /// A world under a hand.
 ///
 /// Each change gives a world that reading its file would give: it is printed and read again, so what `world check` refuses is
 /// refused here with the same words, and what is saved is what was seen. A file is saved in canonical form: opened and saved
-/// without a change it is the same to the byte, if it was canonical; comments are not kept.
+/// without a change it is the same to the byte, if it was canonical; comments are not kept, and [`comments`](Editor::comments) says
+/// so before.
 #[derive(Clone, Debug)]
 pub struct Editor {
     file: String,
@@ -18,7 +19,12 @@ pub struct Editor {
     history: Vec<World>,
     now: usize,
     saved: Option<usize>,
+    /// How many comments the text had that it was opened from.
+    comments: usize,
 }
+
+/// How far from a place the handle of its heading is, of the shorter side of the world.
+const HEADING: f64 = 0.05;
 
 impl Editor {
     /// Opens the text of a world file. `file` is what errors call it.
@@ -28,12 +34,12 @@ impl Editor {
     pub fn open(file: &str, text: &str) -> Result<Self, WorldError> {
         let world = World::parse(file, text)?;
         let saved = (world.to_ron() == text).then_some(0);
-        Ok(Editor { file: file.to_owned(), history: vec![world], now: 0, saved })
+        Ok(Editor { file: file.to_owned(), history: vec![world], now: 0, saved, comments: comments(text) })
     }
 
     /// Opens a world that is in no file yet.
     pub fn new(world: World) -> Self {
-        Editor { file: "world.ron".into(), history: vec![world], now: 0, saved: None }
+        Editor { file: "world.ron".into(), history: vec![world], now: 0, saved: None, comments: 0 }
     }
 
     /// The world as it is.
@@ -48,7 +54,27 @@ impl Editor {
 
     /// To be called when [`text`](Self::text) is on the disk.
     pub fn mark_saved(&mut self) {
-        self.saved = Some(self.now);
+        (self.saved, self.comments) = (Some(self.now), 0);
+    }
+
+    /// How many comments are in the file that was opened: saving drops them.
+    pub fn comments(&self) -> usize {
+        self.comments
+    }
+
+    /// What errors call the file.
+    pub fn file(&self) -> &str {
+        &self.file
+    }
+
+    /// Whether a change can be taken back.
+    pub fn can_undo(&self) -> bool {
+        self.now > 0
+    }
+
+    /// Whether a change that was taken back can be made again.
+    pub fn can_redo(&self) -> bool {
+        self.now + 1 < self.history.len()
     }
 
     /// Whether the file on the disk is the world as it is.
@@ -83,21 +109,33 @@ impl Editor {
 
     /// Takes the last change back; false when there is none.
     pub fn undo(&mut self) -> bool {
-        let can = self.now > 0;
+        let can = self.can_undo();
         self.now -= usize::from(can);
         can
     }
 
     /// Makes the change again that was taken back last; false when there is none.
     pub fn redo(&mut self) -> bool {
-        let can = self.now + 1 < self.history.len();
+        let can = self.can_redo();
         self.now += usize::from(can);
         can
     }
 
-    /// The handles of a wall or obstacle; none for anything else.
+    /// The shape of a wall, an obstacle or a mark; `None` for anything else.
+    pub fn shape(&self, name: &str) -> Option<EditShape> {
+        shape_of(self.world(), name)
+    }
+
+    /// The handles of a wall, an obstacle or a mark, or of a place: where it is, and where it faces. None for anything else.
     pub fn handles(&self, name: &str) -> Vec<Handle> {
-        self.world().obstacle(name).map_or_else(Vec::new, |o| EditShape::of(o).handles())
+        if let Some(place) = self.world().place(name) {
+            let Bounds { min, max } = self.world().bounds;
+            let (s, c) = sin_cos(place.pose.theta);
+            let ahead = Vector2::new(c, s) * (HEADING * lesser(max.x - min.x, max.y - min.y));
+            let at = place.pose.position();
+            return [(0, at), (1, at + ahead)].map(|(index, at)| Handle { index, at, makes_corner: false }).to_vec();
+        }
+        self.shape(name).map_or_else(Vec::new, |shape| shape.handles())
     }
 
     /// What is right in a file and would still be refused when the world runs: robots that start in contact.
@@ -127,152 +165,16 @@ pub fn snap(p: Point2, corners: &[Point2], reach: f64, step: f64) -> Point2 {
     let nearest = corners.iter().filter(|c| off(c) <= reach).min_by(|a, b| off(a).total_cmp(&off(b)));
     match nearest {
         Some(corner) => *corner,
-        None if step > 0.0 => Point2::new((p.x / step).round() * step, (p.y / step).round() * step),
+        None if step > 0.0 => {
+            // divided by a whole number where that is the step, so that 24 steps of 0.05 are 1.2
+            let per = (1.0 / step).round();
+            let whole = (per * step - 1.0).abs() < 1e-9;
+            let at = |x: f64| if whole { (x * per).round() / per } else { (x / step).round() * step };
+            Point2::new(at(p.x), at(p.y))
+        }
         None => p,
     }
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::geometry::{Pose2, Vector2};
-
-    fn p(x: f64, y: f64) -> Point2 {
-        Point2::new(x, y)
-    }
-
-    fn name(name: &str) -> String {
-        name.to_owned()
-    }
-
-    fn boxed(x0: f64, y0: f64, x1: f64, y1: f64) -> EditShape {
-        EditShape::Box { min: p(x0, y0), max: p(x1, y1) }
-    }
-
-    #[test]
-    fn canonical_files_are_saved_as_they_were_opened() {
-        for built_in in World::built_in_names() {
-            let text = World::built_in(built_in).unwrap().to_ron();
-            let mut editor = Editor::open("w.ron", &text).unwrap();
-            assert!(editor.is_saved());
-            assert_eq!(editor.text(), text, "{built_in}: open, save: the same bytes");
-            // and an edit taken back leaves no trace
-            let place = editor.world().places[0].name.clone();
-            editor.apply(&Op::Move { name: place, by: Vector2::new(0.1, 0.0) }).unwrap();
-            assert!(editor.text() != text && !editor.is_saved());
-            assert!(editor.undo() && editor.is_saved());
-            assert_eq!(editor.text(), text);
-        }
-    }
-
-    #[test]
-    fn a_drawn_world_is_a_world_file() {
-        let mut editor = Editor::new(World::workbench());
-        let ops = [
-            Op::Add {
-                name: name("the fence"),
-                shape: EditShape::Wall(vec![p(-2.0, -2.0), p(2.0, -2.0), p(2.0, -1.8)]),
-            },
-            Op::Add { name: name("the tree"), shape: EditShape::Disc { center: p(-1.5, 1.5), radius: 0.2 } },
-            Op::Add {
-                name: name("the ell"),
-                shape: EditShape::Polygon(vec![
-                    p(1.5, 0.0),
-                    p(2.1, 0.0),
-                    p(2.1, 0.2),
-                    p(1.7, 0.2),
-                    p(1.7, 0.9),
-                    p(1.5, 0.9),
-                ]),
-            },
-            Op::Add {
-                name: name("the log"),
-                shape: EditShape::Rounded { points: vec![p(-2.0, 0.0), p(-1.8, 0.3)], radius: 0.05 },
-            },
-            Op::AddPlace { name: name("there"), pose: Pose2::new(1.0, 0.3, 7.0) },
-            Op::Move { name: name("the post"), by: Vector2::new(-0.5, 0.25) },
-            Op::Drag { name: name("the block"), handle: 2, to: p(1.2, 1.8) },
-            Op::Drag { name: name("the fence"), handle: 2, to: p(2.0, -1.0) },
-            Op::Drag { name: name("the tree"), handle: 1, to: p(-1.5, 1.9) },
-            Op::Rename { name: name("the shelf"), to: name("the \"bar\"") },
-            Op::Delete { name: name("the base") },
-        ];
-        for op in &ops {
-            let seen = editor.preview(op).unwrap();
-            editor.apply(op).unwrap();
-            assert_eq!(*editor.world(), seen);
-            assert_eq!(World::parse("w.ron", &editor.text()).unwrap(), seen, "{op:?}");
-        }
-        let world = editor.world();
-        assert_eq!(EditShape::of(world.obstacle("the post").unwrap()), boxed(-0.7 - 0.5, 0.55, -0.5 - 0.5, 0.75));
-        assert_eq!(EditShape::of(world.obstacle("the block").unwrap()), boxed(0.5, 1.0, 1.2, 1.8));
-        let EditShape::Disc { radius, .. } = EditShape::of(world.obstacle("the tree").unwrap()) else {
-            panic!("a disc")
-        };
-        assert!((radius - 0.4).abs() < 1e-12);
-        assert!(world.obstacle("the \"bar\"").is_some() && world.places.iter().all(|p| p.name != "the base"));
-        assert!(world.place("there").unwrap().pose.theta < 3.2, "an angle is wrapped, as in a file");
-        assert!(editor.handles("the ell").len() >= 7, "its convex pieces' corners");
-        for _ in &ops {
-            assert!(editor.undo());
-        }
-        assert!(!editor.undo());
-        assert_eq!(*editor.world(), World::workbench());
-        while editor.redo() {}
-        assert!(editor.world().obstacle("the ell").is_some());
-    }
-
-    #[test]
-    fn what_a_file_would_be_refused_for_is_refused_and_changes_nothing() {
-        let mut editor = Editor::new(World::workbench());
-        let bow = EditShape::Polygon(vec![p(0.0, 0.0), p(1.0, 1.0), p(1.0, 0.0), p(0.0, 1.0)]);
-        let refused = [
-            (Op::Add { name: name("the block"), shape: boxed(0.0, 0.0, 1.0, 1.0) }, "the name is taken"),
-            (Op::Add { name: name(""), shape: boxed(0.0, 0.0, 1.0, 1.0) }, "it must be 1 to 200 bytes"),
-            (Op::Add { name: name("dust"), shape: EditShape::Disc { center: p(0.0, 0.0), radius: 0.0 } }, "radius 0 m"),
-            (Op::Add { name: name("nan"), shape: EditShape::Disc { center: p(f64::NAN, 0.0), radius: 1.0 } }, ""),
-            (Op::Add { name: name("bow"), shape: bow }, "polygon: "),
-            (Op::Add { name: name("dot"), shape: EditShape::Wall(vec![p(0.0, 0.0)]) }, ""),
-            (Op::Drag { name: name("the block"), handle: 2, to: p(0.5, 1.0) }, "the smallest feature"),
-            (Op::Rename { name: name("the block"), to: name("the post") }, "the name is taken"),
-            (Op::Delete { name: name("nobody") }, "nothing here is called \"nobody\""),
-            (Op::Reshape { name: name("the base"), shape: boxed(0.0, 0.0, 1.0, 1.0) }, "has no shape"),
-            (Op::Move { name: name("Reach"), by: Vector2::new(1.0, 0.0) }, "has no shape"),
-        ];
-        for (op, reason) in refused {
-            let error = editor.apply(&op).unwrap_err().to_string();
-            assert!(error.contains(reason), "{op:?}: {error}");
-            assert_eq!(*editor.world(), World::workbench());
-        }
-        assert!(!editor.undo(), "nothing was done");
-    }
-
-    #[test]
-    fn closed_walls_stay_closed_and_names_stay_free() {
-        let mut editor = Editor::new(World::lot());
-        let square = vec![p(1.0, 1.0), p(2.0, 1.0), p(2.0, 2.0), p(1.0, 1.0)];
-        editor.apply(&Op::Add { name: editor.free_name("wall"), shape: EditShape::Wall(square) }).unwrap();
-        assert_eq!(editor.handles("wall").len(), 3);
-        editor.apply(&Op::Drag { name: name("wall"), handle: 0, to: p(0.5, 0.5) }).unwrap();
-        let EditShape::Wall(points) = EditShape::of(editor.world().obstacle("wall").unwrap()) else { panic!("a wall") };
-        assert_eq!((points[0], points[3]), (p(0.5, 0.5), p(0.5, 0.5)));
-        assert_eq!(editor.free_name("wall"), "wall 2");
-    }
-
-    #[test]
-    fn starts_in_contact_are_told() {
-        let mut editor = Editor::new(World::lot());
-        assert!(editor.warnings().is_empty());
-        editor.apply(&Op::Move { name: name("the west pillar"), by: Vector2::new(1.0, -2.4) }).unwrap();
-        assert_eq!(editor.warnings(), ["Hitch would overlap the west pillar at its start"]);
-    }
-
-    #[test]
-    fn points_snap_to_corners_first_and_then_to_the_grid() {
-        let corners = [p(1.0, 1.0), p(1.06, 1.0)];
-        assert_eq!(snap(p(1.04, 1.01), &corners, 0.1, 0.25), corners[1]);
-        let on_grid = snap(p(1.30, 0.88), &corners, 0.1, 0.25);
-        assert_eq!(on_grid, p(1.25, 1.0));
-        assert_eq!(snap(p(1.3, 0.9), &corners, 0.1, 0.0), p(1.3, 0.9));
-    }
-}
+mod tests;

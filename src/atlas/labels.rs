@@ -11,6 +11,21 @@ use crate::worlds::{Bounds, ObstacleKind, World};
 /// Height of the letters, pixels.
 const SIZE: f64 = 11.0;
 
+/// Length of the arrow at a place, pixels.
+const ARROW: f64 = 9.0;
+
+/// How far a leader reaches into its thing, pixels.
+const INNER: f64 = 8.0;
+
+/// How far labels stand from their things, pixels: as near as there is room.
+const GAPS: [f64; 7] = [3.0, 7.0, 12.0, 18.0, 26.0, 36.0, 48.0];
+
+/// In so many directions they are tried.
+const WAYS: u32 = 24;
+
+/// So often the names are laid out anew, with one that found no place put first.
+const ROUNDS: usize = 4;
+
 /// A named thing of a world, and the points that its name can belong to.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Named {
@@ -74,11 +89,6 @@ struct Plate {
 }
 
 impl Plate {
-    fn overlaps(&self, other: &Plate) -> bool {
-        let d = self.middle - other.middle;
-        d.x.abs() < self.half.x + other.half.x && d.y.abs() < self.half.y + other.half.y
-    }
-
     fn covers(&self, p: Point2) -> bool {
         let d = p - self.middle;
         d.x.abs() < self.half.x && d.y.abs() < self.half.y
@@ -101,69 +111,91 @@ impl Plate {
     }
 }
 
-/// What labels must keep off: what collides, robots' footprints, painted marks, dots of places, and one another.
+/// What labels keep off: what collides, robots' footprints, painted marks, the dots and arrows of places, and one another.
 struct Sheet {
     bounds: Bounds,
+    px: f64,
     solid: Scene,
     marks: Scene,
     dots: Vec<Point2>,
-    plates: Vec<Plate>,
+    /// The labels there are, with their lines.
+    taken: Scene,
+}
+
+/// A place for a label: its plate, and the line that leads to its thing.
+struct Spot {
+    plate: Plate,
+    leader: Segment,
 }
 
 impl Sheet {
-    fn of(atlas: &Atlas) -> Self {
+    /// The bare sheet, a pixel of it being `px` metres.
+    fn of(atlas: &Atlas, px: f64) -> Self {
         let world = atlas.world();
         let standing = atlas.robots().iter().fold(Scene::of_world(world), |scene, r| {
             super::teleport::with_robot(scene, &r.name, &r.robot.footprint(&r.q))
         });
         let segments = world.marks.iter().flat_map(|m| m.points.windows(2).map(|w| Segment::new(w[0], w[1])));
+        let dots = world.places.iter().flat_map(|p| {
+            let (s, c) = num::sin_cos(p.pose.theta);
+            [0.0, 0.5, 1.0].map(|part| p.pose.position() + Vector2::new(c, s) * (part * ARROW * px))
+        });
         Sheet {
             bounds: world.bounds,
+            px,
             solid: standing,
             marks: Scene::of_walls(&segments.collect::<Vec<_>>()),
-            dots: world.places.iter().map(|p| p.pose.position()).collect(),
-            plates: Vec::new(),
+            dots: dots.collect(),
+            taken: Scene::empty(world.bounds),
         }
     }
 
-    fn is_free(&self, plate: &Plate, over_marks: bool) -> bool {
+    fn is_free(&self, plate: &Plate) -> bool {
+        // dots have a size, and the heads of arrows
+        let wide = Plate { half: plate.half + Vector2::new(3.0, 3.0) * self.px, ..*plate };
         plate.inside(&self.bounds)
-            && !self.dots.iter().any(|d| plate.covers(*d))
-            && !self.plates.iter().any(|other| other.overlaps(plate))
+            && !self.dots.iter().any(|d| wide.covers(*d))
             && !self.solid.intersects(&plate.area())
-            && (over_marks || !self.marks.intersects(&plate.area()))
+            && !self.marks.intersects(&plate.area())
+            && !self.taken.intersects(&plate.area())
     }
 
-    /// Whether a line may lead from a plate to a point of the thing of this name: past no other thing and no other label.
-    fn may_lead(&self, name: &str, from: Point2, to: Point2) -> bool {
-        let line = Footprint::new([Part::new(Pose2::IDENTITY, Shape::Segment { a: from, b: to })]);
-        let past = |id| self.solid.obstacle_name(id).is_some_and(|other| other != name);
+    /// Whether a line may lead from a thing of this name to a plate: past no other thing, no label, no other line; and no mark
+    /// unless it may cross them.
+    fn may_lead(&self, name: &str, leader: &Segment, over_marks: bool) -> bool {
+        let line = |s: &Segment| Footprint::new([Part::new(Pose2::IDENTITY, Shape::Segment { a: s.a, b: s.b })]);
+        // a mark may end where the line begins
+        let outer = Segment::new(leader.a + (leader.b - leader.a) * 0.25, leader.b);
         // its own end may touch what stands there
-        let end = Footprint::disc(to, 0.0);
-        let at_end = self.solid.touched(&end);
-        !self.solid.touched(&line).into_iter().any(|id| past(id) && !at_end.contains(&id))
-            && (0..=16).all(|k| {
-                let p = from + (to - from) * (f64::from(k) / 16.0);
-                !self.plates.iter().any(|plate| plate.covers(p))
-            })
+        let at_end = self.solid.touched(&Footprint::disc(leader.a, 0.0));
+        let past = |id| self.solid.obstacle_name(id).is_some_and(|other| other != name);
+        !self.solid.touched(&line(leader)).into_iter().any(|id| past(id) && !at_end.contains(&id))
+            && !self.taken.intersects(&line(leader))
+            && (over_marks || !self.marks.intersects(&line(&outer)))
     }
 
-    /// The nearest place for a label of this size that is good, and where its leader goes.
-    fn place_for(&self, thing: &Named, half: Vector2, px_per_metre: f64) -> Option<(Plate, Point2)> {
+    /// Keeps a place for a label.
+    fn take(&mut self, Spot { plate, leader }: &Spot) {
+        let (min, max) =
+            (Point2::from(plate.middle.coords - plate.half), Point2::from(plate.middle.coords + plate.half));
+        let line = Shape::Segment { a: leader.a, b: leader.b };
+        let taken = self.taken.clone().with_obstacle("a label", Shape::Rectangle { min, max });
+        self.taken = taken.with_obstacle("a line", line);
+    }
+
+    /// The nearest place for a label of this size that is good.
+    fn place_for(&self, thing: &Named, half: Vector2) -> Option<Spot> {
         for over_marks in [false, true] {
-            for gap in [4.0, 8.0, 13.0, 20.0, 30.0, 42.0, 56.0].map(|px| px / px_per_metre) {
+            for gap in GAPS {
                 for &at in &thing.at {
-                    for k in 0..16 {
-                        // to the right first, then around
-                        let (s, c) = num::sin_cos(f64::from(k) * std::f64::consts::FRAC_PI_8);
-                        // from an obstacle's middle the way out of it comes first
-                        let out = self.way_out(&thing.name, at, Vector2::new(c, s));
-                        let away = Vector2::new(c * (half.x + gap), s * (half.y + gap)) + out;
-                        let plate = Plate { middle: at + away, half };
-                        let end = plate.nearest_to(at);
-                        if self.is_free(&plate, over_marks) && self.may_lead(&thing.name, end, at) {
-                            return Some((plate, at));
-                        }
+                    // to the right first, then around
+                    let ways =
+                        (0..WAYS).map(|k| num::sin_cos(f64::from(k) * (std::f64::consts::TAU / f64::from(WAYS))));
+                    let mut spots = ways.map(|(s, c)| self.spot(&thing.name, at, Vector2::new(c, s), (half, gap)));
+                    let good =
+                        |spot: &Spot| self.is_free(&spot.plate) && self.may_lead(&thing.name, &spot.leader, over_marks);
+                    if let Some(spot) = spots.find(good) {
+                        return Some(spot);
                     }
                 }
             }
@@ -171,35 +203,91 @@ impl Sheet {
         None
     }
 
-    /// How far it is from a point inside a thing to its border this way; nothing from a wall.
-    fn way_out(&self, name: &str, at: Point2, way: Vector2) -> Vector2 {
+    /// The plate whose border is `gap` pixels this way beyond the border of the thing around `at`.
+    fn spot(&self, name: &str, at: Point2, way: Vector2, (half, gap): (Vector2, f64)) -> Spot {
+        let border = at + way * self.way_out(name, at, way);
+        // how far the plate reaches back against the way
+        let reach = lesser(half.x / greater(way.x.abs(), 1e-9), half.y / greater(way.y.abs(), 1e-9));
+        let plate = Plate { middle: border + way * (gap * self.px + reach), half };
+        // a line that leads to something large ends within it
+        let inner = border - way * lesser((border - at).norm(), INNER * self.px);
+        Spot { plate, leader: Segment::new(inner, plate.nearest_to(border)) }
+    }
+
+    /// How far it is from a point inside a thing to its border this way, metres; nothing from a wall or a mark.
+    fn way_out(&self, name: &str, at: Point2, way: Vector2) -> f64 {
         let inside = |p: Point2| {
             let touched = self.solid.touched(&Footprint::disc(p, 0.0));
             touched.into_iter().any(|id| self.solid.obstacle_name(id) == Some(name))
         };
-        let step = 0.02 * lesser(self.bounds.max.x - self.bounds.min.x, self.bounds.max.y - self.bounds.min.y);
-        let steps = (0..25).take_while(|k| inside(at + way * (f64::from(*k) * step))).count();
-        way * (step * (steps as f64 - 1.0).clamp(0.0, 25.0))
+        if !inside(at + way * self.px) {
+            return 0.0;
+        }
+        // twice as far each time until it is out, then halves
+        let (mut within, mut beyond) = (self.px, 2.0 * self.px);
+        while inside(at + way * beyond) && beyond < 1e6 * self.px {
+            (within, beyond) = (beyond, 2.0 * beyond);
+        }
+        while beyond - within > 0.5 * self.px {
+            let middle = 0.5 * (within + beyond);
+            if inside(at + way * middle) { within = middle } else { beyond = middle }
+        }
+        beyond
     }
 }
 
-/// The names of everything in the world as items for a picture at this scale, pixels per metre: each label beside its thing where
-/// it covers no obstacle, no robot and no other label, with a line that leads to it past nothing else. A name for which there is no
-/// such place near by is left out: it is shown when the picture is larger.
-pub fn names(atlas: &Atlas, px_per_metre: f64) -> Vec<Item> {
-    let mut sheet = Sheet::of(atlas);
-    let mut items = Vec::new();
-    let mut things = named(atlas.world());
-    // what has the fewest places for its name comes first
-    things.sort_by_key(|thing| thing.at.len());
-    for thing in things {
+/// Places for the names of these things, the first with the first choice, and the number of the first that found none.
+fn lay_out(mut sheet: Sheet, things: &[Named]) -> (Vec<(Named, Spot)>, Option<usize>) {
+    let (mut spots, mut without) = (Vec::new(), None);
+    for (number, thing) in things.iter().enumerate() {
         let width = 0.56 * SIZE * thing.name.chars().count() as f64 + 8.0;
-        let half = Vector2::new(0.5 * width, 0.5 * (1.3 * SIZE + 5.0)) / px_per_metre;
-        let Some((plate, at)) = sheet.place_for(&thing, half, px_per_metre) else { continue };
-        sheet.plates.push(plate);
+        let half = Vector2::new(0.5 * width, 0.5 * (1.3 * SIZE + 5.0)) * sheet.px;
+        match sheet.place_for(thing, half) {
+            Some(spot) => {
+                sheet.take(&spot);
+                spots.push((thing.clone(), spot));
+            }
+            None => without = without.or(Some(number)),
+        }
+    }
+    (spots, without)
+}
+
+/// What the names that found a place are worth: who comes first counts more.
+fn worth(spots: &[(Named, Spot)]) -> usize {
+    let of = |thing: &Named| match thing.list {
+        "robots" | "obstacles" => 4,
+        "places" => 2,
+        _ => 1,
+    };
+    spots.iter().map(|(thing, _)| of(thing)).sum()
+}
+
+/// The names of everything in the world as items for a picture at this scale, pixels per metre: each label beside its thing where
+/// it covers no obstacle, no robot, no mark and no other label, with a line that leads to it past nothing else. A name for which
+/// there is no such place near by is left out, and shown when the picture is larger. Who comes first has the first choice:
+/// robots, then obstacles, places, walls and marks, each in file order.
+pub fn names(atlas: &Atlas, px_per_metre: f64) -> Vec<Item> {
+    let px = 1.0 / px_per_metre;
+    let mut things = named(atlas.world());
+    let rank =
+        |thing: &Named| ["robots", "obstacles", "places", "walls", "marks"].iter().position(|l| *l == thing.list);
+    things.sort_by_key(rank);
+    let mut best = Vec::new();
+    for _ in 0..ROUNDS {
+        let (spots, without) = lay_out(Sheet::of(atlas, px), &things);
+        if worth(&spots) > worth(&best) {
+            best = spots;
+        }
+        // the first that found no place has the first choice in the next round
+        let Some(without) = without else { break };
+        things[..=without].rotate_right(1);
+    }
+    let mut items = Vec::new();
+    for (thing, Spot { plate, leader }) in best {
         let id = format!("name/{}/{}", thing.list, thing.name);
-        let leader = Drawing::segment(at, plate.nearest_to(at));
-        items.push(Item::new(format!("{id}/leader"), &thing.name, Role::Muted, leader).stroked(Line::solid(0.75)));
+        let line = Drawing::segment(leader.a, leader.b);
+        items.push(Item::new(format!("{id}/leader"), &thing.name, Role::Muted, line).stroked(Line::solid(0.75)));
         let label = Drawing::Label {
             at: plate.middle,
             text: thing.name.clone(),
@@ -219,6 +307,13 @@ pub fn names(atlas: &Atlas, px_per_metre: f64) -> Vec<Item> {
 mod tests {
     use super::*;
 
+    impl Plate {
+        fn overlaps(&self, other: &Plate) -> bool {
+            let d = self.middle - other.middle;
+            d.x.abs() < self.half.x + other.half.x && d.y.abs() < self.half.y + other.half.y
+        }
+    }
+
     fn plates(items: &[Item], px_per_metre: f64) -> Vec<(String, Plate)> {
         let plates = items.iter().filter_map(|item| match &item.drawing {
             Drawing::Label { at, text, size_px, .. } => {
@@ -232,21 +327,46 @@ mod tests {
     }
 
     #[test]
-    fn names_overlap_neither_one_another_nor_what_they_name() {
-        for (world, most_missing) in [(World::apartment(), 5), (World::workbench(), 0), (World::lot(), 0)] {
-            let scale = 560.0 / (world.bounds.max.y - world.bounds.min.y);
-            let items = names(&Atlas::new(world.clone()), scale);
-            let plates = plates(&items, scale);
-            let all = named(&world);
-            assert!(plates.len() + most_missing >= all.len(), "{}: {} of {}", world.name, plates.len(), all.len());
-            let scene = Scene::of_world(&world);
-            for (i, (name, plate)) in plates.iter().enumerate() {
-                let corners =
-                    (Point2::from(plate.middle.coords - plate.half), Point2::from(plate.middle.coords + plate.half));
-                assert!(!scene.intersects(&Footprint::rects([(Pose2::IDENTITY, corners.0, corners.1)])), "{name}");
-                for (other, p) in &plates[..i] {
-                    assert!(!plate.overlaps(p), "{name} and {other}");
+    fn names_overlap_nothing_at_any_size_and_the_last_drop_out_first() {
+        for (world, missing) in [
+            // the fewest names that are left out on paper 560, 380 and 240 pixels high
+            (World::apartment(), [4, 14, 26]),
+            (World::workbench(), [0, 0, 0]),
+            (World::lot(), [0, 4, 8]),
+        ] {
+            for (height, most_missing) in [560.0, 380.0, 240.0].into_iter().zip(missing) {
+                let scale = height / (world.bounds.max.y - world.bounds.min.y);
+                let atlas = Atlas::new(world.clone());
+                let items = names(&atlas, scale);
+                let plates = plates(&items, scale);
+                let all = named(&world);
+                let told = format!("{} at {height}: {} of {}", world.name, plates.len(), all.len());
+                assert!(plates.len() + most_missing >= all.len(), "{told}");
+                let sheet = Sheet::of(&atlas, 1.0 / scale);
+                let leader = |item: &Item| match &item.drawing {
+                    Drawing::Polyline(points) => Some(Segment::new(points[0], points[1])),
+                    _ => None,
+                };
+                let leaders: Vec<Segment> = items.iter().filter_map(leader).collect();
+                assert_eq!(leaders.len(), plates.len());
+                for (i, (name, plate)) in plates.iter().enumerate() {
+                    assert!(!sheet.solid.intersects(&plate.area()), "{told}: {name} on something solid");
+                    assert!(!sheet.marks.intersects(&plate.area()), "{told}: {name} on a mark");
+                    assert!(!sheet.dots.iter().any(|d| plate.covers(*d)), "{told}: {name} on an arrow");
+                    let others = leaders.iter().enumerate().filter(|(k, _)| *k != i).map(|(_, s)| *s);
+                    let lines = Scene::of_walls(&others.collect::<Vec<_>>());
+                    assert!(!lines.intersects(&plate.area()), "{told}: a line through {name}");
+                    for (other, p) in &plates[..i] {
+                        assert!(!plate.overlaps(p), "{told}: {name} and {other}");
+                    }
                 }
+                // obstacles have the first choice
+                let share = |list: &str| {
+                    let of_list: Vec<&Named> = all.iter().filter(|n| n.list == list).collect();
+                    let shown = of_list.iter().filter(|n| plates.iter().any(|(p, _)| *p == n.name)).count();
+                    if of_list.is_empty() { 0.0 } else { shown as f64 / of_list.len() as f64 }
+                };
+                assert!(share("obstacles") > 0.0 && share("obstacles") + 1e-9 >= share("walls"), "{told}");
             }
         }
     }

@@ -2,12 +2,13 @@
 
 use super::EditShape;
 use crate::geometry::{Point2, Pose2, Vector2};
-use crate::worlds::{OutlineError, Place, World, WorldError};
+use crate::num::atan2;
+use crate::worlds::{Mark, OutlineError, Place, World, WorldError};
 
 /// A change of a world.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Op {
-    /// Add a wall or an obstacle.
+    /// Add a wall, an obstacle or a painted mark.
     Add {
         /// Its name.
         name: String,
@@ -21,14 +22,14 @@ pub enum Op {
         /// Where it is.
         pose: Pose2,
     },
-    /// Move anything that has a name: an arm's base stays, as its start says nothing of it.
+    /// Move anything that has a name, its coordinates rounded to a nanometre: an arm's base stays, as its start says nothing of it.
     Move {
         /// Its name.
         name: String,
         /// How far.
         by: Vector2,
     },
-    /// Drag one of a wall's or obstacle's [handles](EditShape::handles).
+    /// Drag one of a thing's [handles](super::Editor::handles).
     Drag {
         /// Its name.
         name: String,
@@ -37,7 +38,7 @@ pub enum Op {
         /// Where it goes.
         to: Point2,
     },
-    /// Give a wall or obstacle another shape.
+    /// Give a wall or an obstacle another shape, or a mark another line.
     Reshape {
         /// Its name.
         name: String,
@@ -106,42 +107,82 @@ pub(super) fn is_taken(world: &World, name: &str) -> bool {
     find(world, name).is_some()
 }
 
+/// The shape of the thing of this name, of a wall, an obstacle or a mark.
+pub(super) fn shape_of(world: &World, name: &str) -> Option<EditShape> {
+    shape_at(world, find(world, name)?)
+}
+
+fn shape_at(world: &World, at: Found) -> Option<EditShape> {
+    match at {
+        Found::Obstacle(i) => Some(EditShape::of(&world.obstacles[i])),
+        Found::Mark(i) => Some(EditShape::Mark(world.marks[i].points.clone())),
+        Found::Place(_) | Found::Robot(_) => None,
+    }
+}
+
+/// Gives an obstacle another shape, or a mark another line.
+fn reshape(world: &mut World, at: Found, name: &str, shape: &EditShape) -> Result<(), EditError> {
+    match (at, shape) {
+        (Found::Mark(i), EditShape::Mark(points)) => world.marks[i].points.clone_from(points),
+        (Found::Obstacle(i), shape) if !matches!(shape, EditShape::Mark(_)) => {
+            world.obstacles[i] = shape.obstacle(name)?;
+        }
+        _ => return Err(EditError::NoShape(name.to_owned())),
+    }
+    Ok(())
+}
+
+/// A coordinate to the nanometre: what rounding adds to a sum is no part of a drawing.
+pub(super) fn tidy(x: f64) -> f64 {
+    (x * 1e9).round() / 1e9
+}
+
 /// The world after a change, not checked yet.
 pub(super) fn changed(world: &World, op: &Op) -> Result<World, EditError> {
     let mut world = world.clone();
     let found = |world: &World, name: &str| find(world, name).ok_or_else(|| EditError::NoSuchName(name.to_owned()));
-    let obstacle = |world: &World, name: &str| match found(world, name)? {
-        Found::Obstacle(i) => Ok(i),
-        _ => Err(EditError::NoShape(name.to_owned())),
-    };
     match op {
+        Op::Add { name, shape: EditShape::Mark(points) } => {
+            world.marks.push(Mark { name: name.clone(), points: points.clone() });
+        }
         Op::Add { name, shape } => world.obstacles.push(shape.obstacle(name)?),
         Op::AddPlace { name, pose } => world.places.push(Place { name: name.clone(), pose: *pose }),
         Op::Move { name, by } => match found(&world, name)? {
             Found::Obstacle(i) => {
-                world.obstacles[i] = EditShape::of(&world.obstacles[i]).moved(*by).obstacle(name)?;
+                let moved = EditShape::of(&world.obstacles[i]).moved(*by);
+                reshape(&mut world, Found::Obstacle(i), name, &moved)?;
             }
             Found::Place(i) => {
                 let pose = &mut world.places[i].pose;
-                (pose.x, pose.y) = (pose.x + by.x, pose.y + by.y);
+                (pose.x, pose.y) = (tidy(pose.x + by.x), tidy(pose.y + by.y));
             }
-            Found::Mark(i) => world.marks[i].points.iter_mut().for_each(|p| *p += *by),
+            Found::Mark(i) => world.marks[i].points.iter_mut().for_each(|p| *p = (*p + by).map(tidy)),
             Found::Robot(i) => {
                 let robot = &mut world.robots[i];
                 if let ("rusty" | "hitch", [x, y, ..]) = (robot.kind.as_str(), &mut robot.start[..]) {
-                    (*x, *y) = (*x + by.x, *y + by.y);
+                    (*x, *y) = (tidy(*x + by.x), tidy(*y + by.y));
                 } else {
                     return Err(EditError::NoShape(name.clone()));
                 }
             }
         },
         Op::Drag { name, handle, to } => {
-            let i = obstacle(&world, name)?;
-            world.obstacles[i] = EditShape::of(&world.obstacles[i]).with_handle(*handle, *to).obstacle(name)?;
+            let at = found(&world, name)?;
+            if let Found::Place(i) = at {
+                let pose = &mut world.places[i].pose;
+                if *handle == 0 {
+                    (pose.x, pose.y) = (to.x, to.y);
+                } else {
+                    pose.theta = atan2(to.y - pose.y, to.x - pose.x);
+                }
+            } else {
+                let shape = shape_at(&world, at).ok_or_else(|| EditError::NoShape(name.to_owned()))?;
+                reshape(&mut world, at, name, &shape.with_handle(*handle, *to))?;
+            }
         }
         Op::Reshape { name, shape } => {
-            let i = obstacle(&world, name)?;
-            world.obstacles[i] = shape.obstacle(name)?;
+            let at = found(&world, name)?;
+            reshape(&mut world, at, name, shape)?;
         }
         Op::SetPose { name, pose } => match found(&world, name)? {
             Found::Place(i) => world.places[i].pose = *pose,

@@ -1,14 +1,17 @@
-//! `EditShape`, the shape of a wall or obstacle as a hand changes it.
+//! `EditShape`, the shape of a wall, an obstacle or a painted mark as a hand changes it.
 
+use super::op::tidy;
 use crate::geometry::{Point2, Pose2, Shape, Vector2, convex_hull};
 use crate::num::hypot;
-use crate::worlds::{Obstacle, ObstacleKind, OutlineError, convex_pieces};
+use crate::worlds::{Obstacle, ObstacleKind, OutlineError, Written};
 
-/// The shape of a wall or an obstacle, with the points that a hand can drag.
+/// The shape of a wall, an obstacle or a painted mark, with the points that a hand can drag.
 #[derive(Clone, Debug, PartialEq)]
 pub enum EditShape {
     /// A thin polyline. One that ends where it starts is closed.
     Wall(Vec<Point2>),
+    /// A painted polyline, never collided with. One that ends where it starts is closed.
+    Mark(Vec<Point2>),
     /// A disc.
     Disc {
         /// Its centre.
@@ -23,7 +26,7 @@ pub enum EditShape {
         /// The corner with the greatest.
         max: Point2,
     },
-    /// A simple polygon, convex or not, in either orientation. A concave one is kept as its convex pieces.
+    /// A simple polygon, convex or not, in either orientation.
     Polygon(Vec<Point2>),
     /// All points within a radius of the hull of these.
     Rounded {
@@ -43,6 +46,8 @@ pub struct Handle {
     pub index: usize,
     /// Where it is.
     pub at: Point2,
+    /// Whether dragging it makes a new corner there: it is the middle of an edge.
+    pub makes_corner: bool,
 }
 
 impl EditShape {
@@ -59,24 +64,22 @@ impl EditShape {
             }
             return EditShape::Wall(points);
         }
-        let piece = |(pose, shape): &(Pose2, Shape)| match shape {
-            Shape::Disc { radius } => EditShape::Disc { center: pose.position(), radius: *radius },
-            Shape::Rectangle { min, max } if *pose == Pose2::IDENTITY => EditShape::Box { min: *min, max: *max },
-            Shape::Polygon(_) => EditShape::Polygon(shape.place(pose).core().to_vec()),
-            _ => {
-                let placed = shape.place(pose);
-                EditShape::Rounded { points: placed.core().to_vec(), radius: placed.radius() }
-            }
+        let shape = |written: &Written<'_>| match written {
+            Written::Outline(points) => EditShape::Polygon(points.to_vec()),
+            Written::Piece((pose, shape)) => match shape {
+                Shape::Disc { radius } => EditShape::Disc { center: pose.position(), radius: *radius },
+                Shape::Rectangle { min, max } if *pose == Pose2::IDENTITY => EditShape::Box { min: *min, max: *max },
+                Shape::Polygon(_) => EditShape::Polygon(shape.place(pose).core().to_vec()),
+                _ => {
+                    let placed = shape.place(pose);
+                    EditShape::Rounded { points: placed.core().to_vec(), radius: placed.radius() }
+                }
+            },
         };
-        match &obstacle.pieces[..] {
-            [one] => piece(one),
-            several => EditShape::Union(several.iter().map(piece).collect()),
+        match &obstacle.written()[..] {
+            [one] => shape(one),
+            several => EditShape::Union(several.iter().map(shape).collect()),
         }
-    }
-
-    /// Whether it is a wall.
-    pub fn is_wall(&self) -> bool {
-        matches!(self, EditShape::Wall(_))
     }
 
     /// The obstacle of this shape. Its numbers are not checked: reading the world's text does that.
@@ -84,43 +87,70 @@ impl EditShape {
     /// # Errors
     /// [`OutlineError`] when a polygon is none.
     pub(super) fn obstacle(&self, name: &str) -> Result<Obstacle, OutlineError> {
-        let kind = if self.is_wall() { ObstacleKind::Wall } else { ObstacleKind::Solid };
-        let mut pieces = Vec::new();
-        self.add_pieces(&mut pieces)?;
-        Ok(Obstacle { name: name.to_owned(), kind, pieces })
+        let kind = if matches!(self, EditShape::Wall(_)) { ObstacleKind::Wall } else { ObstacleKind::Solid };
+        let mut obstacle = Obstacle::new(name, kind, Vec::new());
+        self.add_to(&mut obstacle)?;
+        Ok(obstacle)
     }
 
-    fn add_pieces(&self, out: &mut Vec<(Pose2, Shape)>) -> Result<(), OutlineError> {
+    fn add_to(&self, obstacle: &mut Obstacle) -> Result<(), OutlineError> {
+        let pieces = &mut obstacle.pieces;
         match self {
-            EditShape::Wall(points) => {
-                out.extend(points.windows(2).map(|w| (Pose2::IDENTITY, Shape::Segment { a: w[0], b: w[1] })));
+            EditShape::Wall(points) | EditShape::Mark(points) => {
+                pieces.extend(points.windows(2).map(|w| (Pose2::IDENTITY, Shape::Segment { a: w[0], b: w[1] })));
             }
             EditShape::Disc { center, radius } => {
-                out.push((Pose2::new(center.x, center.y, 0.0), Shape::Disc { radius: *radius }));
+                pieces.push((Pose2::new(center.x, center.y, 0.0), Shape::Disc { radius: *radius }));
             }
-            EditShape::Box { min, max } => out.push((Pose2::IDENTITY, Shape::Rectangle { min: *min, max: *max })),
-            EditShape::Polygon(points) => {
-                out.extend(convex_pieces(points)?.into_iter().map(|p| (Pose2::IDENTITY, Shape::Polygon(p))));
-            }
+            EditShape::Box { min, max } => pieces.push((Pose2::IDENTITY, Shape::Rectangle { min: *min, max: *max })),
+            EditShape::Polygon(points) => obstacle.add_polygon(points)?,
             EditShape::Rounded { points, radius } => {
-                out.push((Pose2::IDENTITY, Shape::Hull { vertices: convex_hull(points), radius: *radius }));
+                pieces.push((Pose2::IDENTITY, Shape::Hull { vertices: convex_hull(points), radius: *radius }));
             }
-            EditShape::Union(members) => members.iter().try_for_each(|member| member.add_pieces(out))?,
+            EditShape::Union(members) => members.iter().try_for_each(|member| member.add_to(obstacle))?,
         }
         Ok(())
     }
 
-    /// The points to drag: a wall's and a polygon's corners, a box's four, a disc's centre and a point of its rim.
+    /// The corners of a polyline or polygon, the last not that which closes it; whether it is closed, and how few there may be.
+    fn ring(&self) -> Option<(&[Point2], bool, usize)> {
+        match self {
+            EditShape::Wall(points) | EditShape::Mark(points) => {
+                let closed = points.len() > 2 && points.first() == points.last();
+                Some((&points[..points.len() - usize::from(closed)], closed, if closed { 3 } else { 2 }))
+            }
+            EditShape::Polygon(points) => Some((points, true, 3)),
+            _ => None,
+        }
+    }
+
+    /// The same polyline or polygon with other corners.
+    fn with_ring(&self, mut ring: Vec<Point2>, closed: bool) -> EditShape {
+        match self {
+            EditShape::Polygon(_) => EditShape::Polygon(ring),
+            line => {
+                ring.extend(ring.first().copied().filter(|_| closed));
+                if matches!(line, EditShape::Mark(_)) { EditShape::Mark(ring) } else { EditShape::Wall(ring) }
+            }
+        }
+    }
+
+    /// The points to drag: the corners of a polyline or a polygon and then the middles of its edges, a box's four corners, a disc's
+    /// centre and a point of its rim.
     pub fn handles(&self) -> Vec<Handle> {
-        self.points().into_iter().enumerate().map(|(index, at)| Handle { index, at }).collect()
+        let corners = self.points();
+        let middles = self.ring().map_or_else(Vec::new, |(ring, closed, _)| {
+            let edges = if closed { ring.len() } else { ring.len() - 1 };
+            (0..edges).map(|i| nalgebra::center(&ring[i], &ring[(i + 1) % ring.len()])).collect()
+        });
+        let makes = corners.iter().map(|_| false).chain(middles.iter().map(|_| true));
+        let handle = |(index, (at, makes_corner))| Handle { index, at, makes_corner };
+        corners.iter().chain(&middles).copied().zip(makes).enumerate().map(handle).collect()
     }
 
     fn points(&self) -> Vec<Point2> {
         match self {
-            EditShape::Wall(points) => {
-                let closed = points.len() > 2 && points.first() == points.last();
-                points[..points.len() - usize::from(closed)].to_vec()
-            }
+            EditShape::Wall(_) | EditShape::Mark(_) => self.ring().map_or_else(Vec::new, |(ring, ..)| ring.to_vec()),
             EditShape::Disc { center, radius } => vec![*center, Point2::new(center.x + radius, center.y)],
             EditShape::Box { min, max } => {
                 vec![*min, Point2::new(max.x, min.y), *max, Point2::new(min.x, max.y)]
@@ -130,21 +160,37 @@ impl EditShape {
         }
     }
 
-    /// The shape with one of its handles dragged. A box keeps the corner opposite; a disc's rim changes its radius.
+    /// The corners beside the corner of handle `index`: dragged onto one of them it goes away.
+    pub fn neighbours(&self, index: usize) -> Vec<Point2> {
+        let Some((ring, closed, _)) = self.ring().filter(|(ring, ..)| index < ring.len()) else { return Vec::new() };
+        let n = ring.len();
+        let before = if index > 0 || closed { Some((index + n - 1) % n) } else { None };
+        let after = if index + 1 < n || closed { Some((index + 1) % n) } else { None };
+        before.into_iter().chain(after).map(|i| ring[i]).collect()
+    }
+
+    /// The shape with one of its handles dragged. A box keeps the corner opposite; a disc's rim changes its radius; the middle of an
+    /// edge becomes a corner, and a corner on its neighbour goes away while there are enough.
     #[must_use]
     pub fn with_handle(&self, index: usize, to: Point2) -> EditShape {
+        if let Some((ring, closed, least)) = self.ring() {
+            let n = ring.len();
+            let mut ring = ring.to_vec();
+            let edges = if closed { n } else { n - 1 };
+            if index >= n + edges {
+                return self.clone();
+            } else if index >= n {
+                ring.insert(index - n + 1, to);
+            } else if n > least && self.neighbours(index).contains(&to) {
+                ring.remove(index);
+            } else {
+                ring[index] = to;
+            }
+            return self.with_ring(ring, closed);
+        }
         let mut shape = self.clone();
         match &mut shape {
-            EditShape::Wall(points) => {
-                let closed = points.len() > 2 && points.first() == points.last();
-                if let Some(p) = points.get_mut(index) {
-                    *p = to;
-                }
-                if let (true, 0, Some(last)) = (closed, index, points.last_mut()) {
-                    *last = to;
-                }
-            }
-            EditShape::Polygon(points) | EditShape::Rounded { points, .. } => {
+            EditShape::Rounded { points, .. } => {
                 if let Some(p) = points.get_mut(index) {
                     *p = to;
                 }
@@ -170,18 +216,21 @@ impl EditShape {
                     index -= own;
                 }
             }
+            EditShape::Wall(_) | EditShape::Mark(_) | EditShape::Polygon(_) => {}
         }
         shape
     }
 
-    /// The shape moved.
+    /// The shape moved, its coordinates rounded to a nanometre.
     #[must_use]
     pub fn moved(&self, by: Vector2) -> EditShape {
-        let all = |points: &[Point2]| points.iter().map(|p| p + by).collect();
+        let moved = |p: &Point2| (p + by).map(tidy);
+        let all = |points: &[Point2]| points.iter().map(moved).collect();
         match self {
             EditShape::Wall(points) => EditShape::Wall(all(points)),
-            EditShape::Disc { center, radius } => EditShape::Disc { center: center + by, radius: *radius },
-            EditShape::Box { min, max } => EditShape::Box { min: min + by, max: max + by },
+            EditShape::Mark(points) => EditShape::Mark(all(points)),
+            EditShape::Disc { center, radius } => EditShape::Disc { center: moved(center), radius: *radius },
+            EditShape::Box { min, max } => EditShape::Box { min: moved(min), max: moved(max) },
             EditShape::Polygon(points) => EditShape::Polygon(all(points)),
             EditShape::Rounded { points, radius } => EditShape::Rounded { points: all(points), radius: *radius },
             EditShape::Union(members) => EditShape::Union(members.iter().map(|m| m.moved(by)).collect()),

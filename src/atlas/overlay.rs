@@ -1,6 +1,6 @@
 //! What is drawn over the atlas: a refusal with its offer, a probe of the grid, a selected thing with its handles.
 
-use super::{Atlas, EditShape, Editor, GridLayer, Refusal};
+use super::{Atlas, Editor, GridLayer, Handle, Refusal};
 use crate::collision::Collision;
 use crate::configuration::AnyConfiguration;
 use crate::geometry::{Footprint, Point2};
@@ -84,21 +84,22 @@ impl GridLayer {
 }
 
 impl Editor {
-    /// The thing of this name as it is when selected: its outline in the focus colour, and its handles. Nothing for a name that no
-    /// wall, obstacle or place has.
+    /// The thing of this name as it is when selected: its outline in the focus colour, and its handles; those that make a corner as
+    /// rings. Nothing for a name that no wall, obstacle, mark or place has.
     pub fn selected_items(&self, name: &str) -> Vec<Item> {
-        let handle = |index: usize, at: Point2| {
-            let mark = Drawing::Mark { at, glyph: Glyph::Handle, radius_px: 5.0 };
-            Item::new(format!("handle/{index}"), format!("handle {} of {name}", index + 1), Role::Focus, mark)
-        };
-        if let Some(place) = self.world().place(name) {
-            return vec![handle(0, place.pose.position())];
-        }
-        let Some(obstacle) = self.world().obstacle(name) else { return Vec::new() };
-        let outline = around(obstacle);
+        let world = self.world();
+        let mark = world.marks.iter().find(|mark| mark.name == name).map(|mark| vec![mark.points.clone()]);
+        let heading =
+            world.place(name).map(|_| self.handles(name).iter().map(|h| vec![h.at]).collect::<Vec<_>>().concat());
+        let lines = world.obstacle(name).map(around).or(mark).or(heading.map(|line| vec![line]));
+        let Some(outline) = lines else { return Vec::new() };
         let region = Drawing::Region { pieces: Vec::new(), outline };
         let mut items = vec![Item::new("selected", name, Role::Focus, region).stroked(Line::solid(2.0))];
-        items.extend(EditShape::of(obstacle).handles().into_iter().map(|h| handle(h.index, h.at)));
+        items.extend(self.handles(name).into_iter().map(|Handle { index, at, makes_corner }| {
+            let (glyph, radius_px) = if makes_corner { (Glyph::Ring, 3.5) } else { (Glyph::Handle, 5.0) };
+            let mark = Drawing::Mark { at, glyph, radius_px };
+            Item::new(format!("handle/{index}"), format!("handle {} of {name}", index + 1), Role::Focus, mark)
+        }));
         items
     }
 }
@@ -158,7 +159,11 @@ mod tests {
             let Drawing::Mark { at, .. } = item.drawing else { panic!("a mark") };
             assert_eq!(at, handle.at);
         }
-        assert_eq!(editor.selected_items("the base").len(), 1);
+        assert_eq!(
+            ids(&editor.selected_items("the base")),
+            ["selected", "handle/0", "handle/1"],
+            "where it is, and faces"
+        );
         assert!(editor.selected_items("nobody").is_empty());
     }
 }

@@ -80,6 +80,30 @@ impl Slice {
         self.axes.map(|axis| names.get(axis).cloned().unwrap_or_default())
     }
 
+    /// The coordinates that are held, by number and name: none for an arm with two links, or a disc, whose heading does not matter.
+    pub fn held(&self) -> Vec<(usize, String)> {
+        let names = self.base.coordinate_names().into_iter().enumerate();
+        let matters = |i: &usize| !self.axes.contains(i) && !matches!(self.base, AnyConfiguration::Pose(_));
+        names.filter(|(i, _)| matters(i)).map(|(i, name)| (i, name.to_string())).collect()
+    }
+
+    /// What the plane is, in a line: its two coordinates, and what is held.
+    pub fn described(&self) -> String {
+        let [across, up] = self.names().map(|name| name.replace("th", "\u{3b8}"));
+        let at = |(i, name): &(usize, String)| {
+            let value = format!("{:.3}", self.base.coordinates()[*i]).replace('-', "\u{2212}");
+            format!("{} = {value}", name.replace("th1", "\u{3b8}1"))
+        };
+        let held: Vec<String> = self.held().iter().map(at).collect();
+        match self.checker.robot() {
+            AnyRobot::Rusty(rover) => {
+                format!("{across} and {up}: every obstacle is grown by r = {} m", rover.body_radius)
+            }
+            _ if held.is_empty() => format!("{across} and {up}: opposite edges are one"),
+            _ => format!("{across} and {up} at {}", held.join(", ")),
+        }
+    }
+
     /// The configuration at a point of the slice.
     pub fn at(&self, p: [f64; 2]) -> AnyConfiguration {
         self.base.with(self.axes[0], p[0]).with(self.axes[1], p[1])

@@ -53,6 +53,8 @@ const GAP: f64 = 20.0;
 const WIDTH: f64 = 1280.0;
 /// The greatest height of a picture, pixels.
 const TALLEST: f64 = 560.0;
+/// How much higher the pictures of a row may be than those of another.
+const HIGHER: f64 = 1.3;
 /// From line to line of a readout, pixels.
 const LEADING: f64 = 16.0;
 /// Free room inside a picture's frame, pixels.
@@ -81,7 +83,8 @@ impl Figure {
     /// The scale of every panel on a sheet of this width, pixels per metre: for what keeps its size on the sheet and is to find
     /// room on a picture.
     pub fn px_per_metre(&self, width_px: f64) -> Vec<f64> {
-        let sizes = self.rows(width_px).flat_map(|row| frame_sizes(row, width_px));
+        let tallest = self.tallest(width_px);
+        let sizes = self.rows(width_px).flat_map(|row| frame_sizes(row, (width_px, tallest)));
         let fit = |(panel, size): (&Panel, [f64; 2])| {
             Fit::new(&panel.picture.bounds, ScreenRect { min: [0.0; 2], size }, MARGIN).px_per_metre()
         };
@@ -95,12 +98,20 @@ impl Figure {
         self.panels.chunks(std::cmp::max(self.panels.len().div_ceil(rows), 1))
     }
 
+    /// The greatest height of a picture: none is much higher than those of another row.
+    fn tallest(&self, width: f64) -> f64 {
+        let heights =
+            self.rows(width).filter_map(|row| Some(frame_sizes(row, (width, TALLEST)).first()?[1] - 2.0 * MARGIN));
+        heights.fold(TALLEST, |tallest, height| lesser(tallest, HIGHER * height))
+    }
+
     /// All strokes and words in painting order, and the size of the sheet.
     fn lay_out(&self, width: f64) -> (Vec<Entry>, [f64; 2]) {
         let mut entries = Vec::new();
         let (mut right, mut top) = (GAP, GAP);
+        let tallest = self.tallest(width);
         for row in self.rows(width) {
-            let [row_right, row_bottom] = lay_out_row(row, top, width, &mut entries);
+            let [row_right, row_bottom] = lay_out_row(row, top, (width, tallest), &mut entries);
             right = greater(right, row_right);
             top = row_bottom + GAP;
         }
@@ -114,8 +125,8 @@ impl Figure {
     }
 }
 
-/// The sizes of a row's frames, all of one height.
-fn frame_sizes(row: &[Panel], width: f64) -> Vec<[f64; 2]> {
+/// The sizes of a row's frames, all of one height: as large as the width allows, at most `tallest` inside.
+fn frame_sizes(row: &[Panel], (width, tallest): (f64, f64)) -> Vec<[f64; 2]> {
     let aspect = |panel: &Panel| {
         let bounds = &panel.picture.bounds;
         // very long and very high worlds are shown on a sheet that is not
@@ -123,15 +134,15 @@ fn frame_sizes(row: &[Panel], width: f64) -> Vec<[f64; 2]> {
     };
     let aspects: f64 = row.iter().map(aspect).sum();
     let room = width - GAP * (row.len() as f64 + 1.0) - 2.0 * MARGIN * row.len() as f64;
-    let inner = lesser(room / aspects, TALLEST);
+    let inner = lesser(room / aspects, tallest);
     row.iter().map(|panel| [inner * aspect(panel) + 2.0 * MARGIN, inner + 2.0 * MARGIN]).collect()
 }
 
 /// Lays a row out below `top`; returns how far it reaches to the right and down.
-fn lay_out_row(row: &[Panel], top: f64, width: f64, entries: &mut Vec<Entry>) -> [f64; 2] {
+fn lay_out_row(row: &[Panel], top: f64, room: (f64, f64), entries: &mut Vec<Entry>) -> [f64; 2] {
     let mut left = GAP;
     let mut bottom = top;
-    for (panel, size) in row.iter().zip(frame_sizes(row, width)) {
+    for (panel, size) in row.iter().zip(frame_sizes(row, room)) {
         let rect = ScreenRect { min: [left, top], size };
         let below = lay_out_panel(panel, rect, entries);
         bottom = greater(bottom, below);
@@ -224,6 +235,26 @@ fn text(left: f64, baseline: f64, text: &str, face: Face, size: f64, role: Role)
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_panel_alone_in_its_row_is_not_much_higher_than_the_others() {
+        let panel = |x: f64, y: f64| {
+            let bounds = crate::worlds::Bounds { min: [0.0, 0.0].into(), max: [x, y].into() };
+            Panel { picture: Picture::new("p", bounds), heading: String::new(), readout: Vec::new() }
+        };
+        let figure = |panels: Vec<Panel>| Figure { panels, ..Figure::of(panel(1.0, 1.0).picture) };
+        let three = figure(vec![panel(12.0, 8.0), panel(4.8, 4.8), panel(16.0, 10.0)]).px_per_metre(640.0);
+        let heights = [8.0 * three[0], 4.8 * three[1], 10.0 * three[2]];
+        assert!(
+            (heights[0] - heights[1]).abs() < 1e-9 && (heights[2] / heights[0] - HIGHER).abs() < 1e-9,
+            "{heights:?}"
+        );
+        let alone = figure(vec![panel(16.0, 10.0)]).px_per_metre(640.0);
+        assert!(
+            (16.0 * alone[0] - (640.0 - 2.0 * GAP - 2.0 * MARGIN)).abs() < 1e-9,
+            "alone it is as wide as the sheet"
+        );
+    }
 
     #[test]
     fn long_readouts_break_at_spaces() {

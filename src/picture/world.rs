@@ -68,16 +68,16 @@ mod tests {
             name: "Yard".into(),
             bounds: Bounds { min: p(0.0, 0.0), max: p(4.0, 4.0) },
             obstacles: vec![
-                Obstacle {
-                    name: "the fence".into(),
-                    kind: ObstacleKind::Wall,
-                    pieces: vec![wall(p(0.0, 0.0), p(4.0, 0.0)), wall(p(4.0, 0.0), p(4.0, 4.0))],
-                },
-                Obstacle {
-                    name: "the box".into(),
-                    kind: ObstacleKind::Solid,
-                    pieces: vec![(Pose2::IDENTITY, Shape::try_rectangle(p(1.0, 1.0), p(2.0, 2.0)).unwrap())],
-                },
+                Obstacle::new(
+                    "the fence",
+                    ObstacleKind::Wall,
+                    vec![wall(p(0.0, 0.0), p(4.0, 0.0)), wall(p(4.0, 0.0), p(4.0, 4.0))],
+                ),
+                Obstacle::new(
+                    "the box",
+                    ObstacleKind::Solid,
+                    vec![(Pose2::IDENTITY, Shape::try_rectangle(p(1.0, 1.0), p(2.0, 2.0)).unwrap())],
+                ),
             ],
             places: vec![Place { name: "the gate".into(), pose: Pose2::IDENTITY }],
             marks: vec![Mark { name: "the line".into(), points: vec![p(0.0, 3.0), p(4.0, 3.0)] }],

@@ -53,6 +53,19 @@ impl Run {
         Ok(Self::frames(&mut recorder, log.config.ticks))
     }
 
+    /// Shows `watch` the run in the state of each of the log's frames, from tick 0 on, without simulating: what the frames say.
+    ///
+    /// # Errors
+    /// [`RunError`] when the run cannot start, or a frame is none that a run gives; and what `watch` returns.
+    pub fn show<E: From<RunError>>(log: &Log, mut watch: impl FnMut(&Recorder) -> Result<(), E>) -> Result<(), E> {
+        let mut run = Recorder::new(log.config.clone(), (log.seed, log.script.clone()))?;
+        for frame in std::iter::once(&log.initial).chain(&log.frames) {
+            run.restore(frame)?;
+            watch(&run)?;
+        }
+        Ok(())
+    }
+
     fn frames(recorder: &mut Recorder, ticks: u64) -> Vec<Frame> {
         (0..ticks).map(|_| recorder.step().clone()).collect()
     }

@@ -64,6 +64,16 @@ impl AnyRobot {
         }
     }
 
+    /// Its kind, as worlds name it.
+    pub const fn kind(&self) -> &'static str {
+        match self {
+            AnyRobot::Rusty(_) => "rusty",
+            AnyRobot::Reach(_) => "reach",
+            AnyRobot::Reach3(_) => "reach3",
+            AnyRobot::Hitch(_) => "hitch",
+        }
+    }
+
     /// The robot's name in the book.
     pub const fn name(&self) -> &'static str {
         match self {

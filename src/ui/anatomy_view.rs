@@ -5,16 +5,19 @@ use std::sync::Arc;
 use bevy_egui::egui::{CollapsingHeader, ComboBox, RichText, ScrollArea, Slider, TextEdit, Ui, WidgetInfo, vec2};
 
 use super::button::button;
-use super::manifest::widget;
 use super::sheet::{sheet, split};
-use super::{Look, UiState, frame};
+use super::{Command, Dashboard, Look, UiState};
 use crate::anatomy::{Anatomy, Guess, Prompt, Tab, WorldSource};
 use crate::configuration::Configuration;
+use crate::manifest::widget;
 use crate::picture::{Picture, Role};
 use crate::worlds::World;
 
 /// Width of what stands beside the paper, points.
 const SIDE: f32 = 380.0;
+
+/// Side of the close view, points.
+const INSET: f32 = 230.0;
 
 /// What the widget remembers.
 #[derive(Clone, Debug)]
@@ -53,14 +56,15 @@ impl AnatomyState {
 }
 
 /// Shows the widget.
-pub fn anatomy_view(ui: &mut Ui, (narrow, look): (bool, &Look), state: &mut UiState) {
+pub fn anatomy_view(
+    ui: &mut Ui,
+    model: &Dashboard,
+    (narrow, look): (bool, &Look),
+    state: &mut UiState,
+    commands: &mut Vec<Command>,
+) {
     let Some(words) = widget("anatomy") else { return };
-    frame::title(ui, words, look);
-    frame::key_row(ui, words, look, state);
-    if !narrow {
-        frame::hints(ui, words, look, state);
-    }
-    ui.add_space(6.0);
+    super::tools::head(ui, words, model, (narrow, look), state, commands);
     let room = ui.available_rect_before_wrap();
     let (paper, beside) = split(room, narrow, SIDE);
     let shown = &state.anatomy;
@@ -122,14 +126,7 @@ fn sliders(ui: &mut Ui, anatomy: &mut Anatomy) {
     let names = anatomy.q().coordinate_names();
     ui.spacing_mut().slider_width = 180.0;
     for (i, name) in names.iter().enumerate() {
-        let [least, most] = anatomy.range(i);
-        let mut value = anatomy.q().coordinates()[i];
-        let slider = Slider::new(&mut value, least..=most).fixed_decimals(4).text(name.as_str());
-        let response = ui.add(slider);
-        response.widget_info(|| WidgetInfo::slider(true, value, name));
-        if response.changed() {
-            anatomy.set_coordinate(i, value);
-        }
+        coordinate(ui, anatomy, i, name);
     }
     if anatomy.tab == Tab::Swept {
         ui.label("and the step of the motion:");
@@ -149,7 +146,7 @@ fn sliders(ui: &mut Ui, anatomy: &mut Anatomy) {
 /// What is near the nearest points, larger.
 fn inset(ui: &mut Ui, look: &Look, state: &mut UiState) {
     let Some(close) = state.anatomy.anatomy.close_up() else { return };
-    let (rect, _) = ui.allocate_exact_size(vec2(170.0, 170.0), bevy_egui::egui::Sense::hover());
+    let (rect, _) = ui.allocate_exact_size(vec2(INSET, INSET), bevy_egui::egui::Sense::hover());
     let painter = ui.painter_at(rect);
     super::canvas::paint(&painter, &close, &super::canvas::fit(&close, rect), look);
     let frame = bevy_egui::egui::Stroke::new(1.0, look.colour(Role::Hairline));
@@ -187,24 +184,59 @@ fn prompts(ui: &mut Ui, state: &mut UiState) {
 
 /// Another robot, another world, the annulus.
 fn any(ui: &mut Ui, state: &mut UiState) {
+    robot_choice(ui, state);
+    world_choice(ui, state);
+    annulus(ui, state);
+}
+
+/// Another robot.
+pub(super) fn robot_choice(ui: &mut Ui, state: &mut UiState) {
     let anatomy = state.anatomy.anatomy.clone();
-    ComboBox::from_label("robot").selected_text(anatomy.checker().robot().name()).show_ui(ui, |ui| {
+    let present = *anatomy.checker().robot();
+    let name = Anatomy::choices().into_iter().find(|(_, robot)| *robot == present).map_or(present.name(), |(n, _)| n);
+    ComboBox::from_label("robot").selected_text(name).show_ui(ui, |ui| {
         for (name, robot) in Anatomy::choices() {
-            if ui.selectable_label(*anatomy.checker().robot() == robot, name).clicked() {
-                state.anatomy.set(anatomy.with_robot(robot));
+            if ui.selectable_label(present == robot, name).clicked() {
+                state.anatomy.set(anatomy.at_home(robot));
             }
         }
     });
+}
+
+/// Another world: one of the book's, or the atlas's as it is there.
+pub(super) fn world_choice(ui: &mut Ui, state: &mut UiState) {
+    let anatomy = state.anatomy.anatomy.clone();
+    let books =
+        World::built_in_names().into_iter().filter_map(|n| Some((World::built_in(n)?, WorldSource::BuiltIn(n))));
+    let mut worlds: Vec<(String, World, WorldSource)> = books.map(|(w, source)| (w.name.clone(), w, source)).collect();
+    let atlas = state.atlas.world();
+    if worlds.iter().all(|(_, world, _)| world != atlas) {
+        worlds.push((format!("{}, in the atlas", atlas.name), atlas.clone(), state.atlas.source()));
+    }
     ComboBox::from_label("world").selected_text(anatomy.world().name.as_str()).show_ui(ui, |ui| {
-        for name in World::built_in_names() {
-            let Some(world) = World::built_in(name) else { continue };
-            if ui.selectable_label(anatomy.world().name == world.name, &world.name).clicked() {
-                state.anatomy.set(anatomy.in_world(world, WorldSource::BuiltIn(name)));
+        for (name, world, source) in worlds {
+            if ui.selectable_label(**anatomy.world() == world, name).clicked() {
+                state.anatomy.set(anatomy.in_world(world, source));
             }
         }
     });
-    let mut annulus = anatomy.show_annulus;
-    if ui.checkbox(&mut annulus, "the points that the tip can reach").changed() {
-        state.anatomy.anatomy.show_annulus = annulus;
+}
+
+/// Whether the points that the tip of an arm can reach are shown.
+pub(super) fn annulus(ui: &mut Ui, state: &mut UiState) {
+    let anatomy = &mut state.anatomy.anatomy;
+    if anatomy.checker().robot().annulus().is_some() {
+        ui.checkbox(&mut anatomy.show_annulus, "the points that the tip can reach");
+    }
+}
+
+/// A slider for a coordinate of the configuration.
+pub(super) fn coordinate(ui: &mut Ui, anatomy: &mut Anatomy, index: usize, name: &str) {
+    let [least, most] = anatomy.range(index);
+    let mut value = anatomy.q().coordinates()[index];
+    let response = ui.add(Slider::new(&mut value, least..=most).fixed_decimals(4).text(name));
+    response.widget_info(|| WidgetInfo::slider(true, value, name));
+    if response.changed() {
+        anatomy.set_coordinate(index, value);
     }
 }

@@ -1,10 +1,14 @@
 //! `AtlasState`, what the atlas remembers: the world under a hand, its robots, a refusal, a drag.
 
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use crate::atlas::{Atlas, Editor, GridLayer, Op, Refusal, names, snap};
+use super::readout;
+use crate::anatomy::WorldSource;
+use crate::atlas::{Atlas, Editor, GridLayer, Op, Refusal, names};
+use crate::capture::{self, AtlasSheet, Captured};
 use crate::configuration::AnyConfiguration;
-use crate::geometry::{Point2, Pose2};
+use crate::geometry::Point2;
 use crate::picture::{Item, Picture, Role, footprint, world as picture_of};
 use crate::robots::Robot;
 use crate::worlds::World;
@@ -23,19 +27,21 @@ pub enum Mode {
 
 /// A drag of a thing, or of one of its handles.
 #[derive(Clone, Debug, PartialEq)]
-struct Drag {
-    from: Point2,
-    handle: Option<usize>,
-    op: Option<Op>,
+pub(super) struct Drag {
+    pub from: Point2,
+    pub handle: Option<usize>,
+    pub op: Option<Op>,
 }
 
 /// What the atlas remembers.
 #[derive(Clone, Debug)]
 pub struct AtlasState {
-    editor: Editor,
+    pub(super) editor: Editor,
+    /// The file it was read from or saved in.
+    path: Option<PathBuf>,
     atlas: Atlas,
     /// The world as it is drawn: that of a drag under way, if it is accepted.
-    still: Arc<Picture>,
+    pub(super) still: Arc<Picture>,
     /// The names at the last scale.
     labels: Option<(f64, Vec<Item>)>,
     warnings: Vec<String>,
@@ -57,7 +63,7 @@ pub struct AtlasState {
     pub name_text: String,
     /// Why the last change was refused.
     pub message: Option<String>,
-    drag: Option<Drag>,
+    pub(super) drag: Option<Drag>,
 }
 
 impl Default for AtlasState {
@@ -80,6 +86,7 @@ impl AtlasState {
             atlas: Atlas::new(world),
             warnings: editor.warnings(),
             editor,
+            path: None,
             labels: None,
             grid: None,
             mode: Mode::default(),
@@ -117,8 +124,22 @@ impl AtlasState {
     }
 
     /// To be called when the text is on the disk.
-    pub fn mark_saved(&mut self) {
+    pub fn mark_saved(&mut self, path: &Path) {
         self.editor.mark_saved();
+        self.path = Some(path.to_owned());
+    }
+
+    /// Remembers the file that the world was read from.
+    pub fn stands_in(&mut self, path: &Path) {
+        self.path = Some(path.to_owned());
+    }
+
+    /// Where the world is to be found: in its file, when that is the world as it is.
+    pub fn source(&self) -> WorldSource {
+        match &self.path {
+            Some(path) if self.is_saved() => WorldSource::File(path.display().to_string()),
+            _ => WorldSource::Unsaved,
+        }
     }
 
     /// Whether the file on the disk is the world as it is.
@@ -196,6 +217,19 @@ impl AtlasState {
         self.grid = None;
     }
 
+    /// The atlas as it is, for a sheet of this width, pixels; with the names of everything or without.
+    pub fn captured(&self, names: bool, width_px: f64) -> Captured {
+        let refused = self.refused.as_ref().filter(|_| self.mode == Mode::Put);
+        let over = refused.map_or_else(Vec::new, |(q, refusal)| self.atlas.refusal_items(self.robot, q, refusal));
+        let robots = self.atlas.robots().iter().map(|r| readout(&r.q.to_string()));
+        let mut readout: Vec<String> = robots.collect();
+        readout.extend(refused.map(|(_, refusal)| refusal.to_string()));
+        let grid = self.grid.as_ref().map(|(layer, _)| layer).filter(|_| self.mode == Mode::Measure);
+        // a refusal says its own words where names would be
+        let names = names && refused.is_none();
+        capture::atlas(&[AtlasSheet { atlas: &self.atlas, grid, over, readout, names }], width_px)
+    }
+
     /// The widget in words.
     pub fn described(&self) -> String {
         let robots: Vec<String> = self.atlas.robots().iter().map(|r| format!("{}: {}", r.name, r.q)).collect();
@@ -244,88 +278,8 @@ impl AtlasState {
         matches!(self.atlas.teleport(self.robot, q), Some(Ok(())))
     }
 
-    /// Selects a thing by name, or nothing.
-    pub fn select(&mut self, name: Option<&str>) {
-        let known = |n: &&str| self.world().obstacle(n).is_some() || self.world().place(n).is_some();
-        self.selected = name.filter(known).map(str::to_owned);
-        self.name_text = self.selected.clone().unwrap_or_default();
-        self.message = None;
-    }
-
-    /// The handle of the selected thing within `reach` metres of a point.
-    pub fn handle_at(&self, at: Point2, reach: f64) -> Option<usize> {
-        let handles = self.editor.handles(self.selected.as_ref()?);
-        handles.into_iter().find(|h| (h.at - at).norm() <= reach).map(|h| h.index)
-    }
-
-    /// A drag begins.
-    pub fn begin_drag(&mut self, from: Point2, handle: Option<usize>) {
-        self.drag = self.selected.is_some().then_some(Drag { from, handle, op: None });
-    }
-
-    /// A drag goes on to a point, which snaps to corners within `reach` metres and to a grid of 5 cm.
-    pub fn drag_to(&mut self, to: Point2, reach: f64) {
-        let (Some(drag), Some(name)) = (self.drag.clone(), self.selected.clone()) else { return };
-        let others = self.world().obstacles.iter().filter(|o| o.name != name);
-        let corners: Vec<Point2> =
-            others.flat_map(|o| o.placed().flat_map(|p| p.core().to_vec()).collect::<Vec<_>>()).collect();
-        let to = snap(to, &corners, reach, 0.05);
-        let from = snap(drag.from, &[], 0.0, 0.05);
-        let op = match (drag.handle, self.world().place(&name)) {
-            (_, Some(place)) => Op::SetPose { name, pose: Pose2 { x: to.x, y: to.y, theta: place.pose.theta } },
-            (Some(handle), None) => Op::Drag { name, handle, to },
-            (None, None) => Op::Move { name, by: to - from },
-        };
-        match self.editor.preview(&op) {
-            Ok(world) => {
-                self.still = Arc::new(picture_of(&world));
-                self.message = None;
-                self.drag = Some(Drag { op: Some(op), ..drag });
-            }
-            Err(error) => {
-                self.message = Some(error.to_string());
-                self.drag = Some(Drag { op: None, ..drag });
-            }
-        }
-    }
-
-    /// A drag ends: its last accepted change is made.
-    pub fn end_drag(&mut self) {
-        let drag = self.drag.take();
-        match drag.and_then(|d| d.op) {
-            Some(op) => self.change(&op, self.selected.clone()),
-            None => self.redraw(),
-        }
-    }
-
-    /// Makes a change, or says why not; then `select` is selected.
-    pub fn change(&mut self, op: &Op, select: Option<String>) {
-        match self.editor.apply(op) {
-            Ok(()) => {
-                self.message = None;
-                self.redraw();
-                self.select(select.as_deref());
-            }
-            Err(error) => {
-                self.redraw();
-                self.message = Some(error.to_string());
-            }
-        }
-    }
-
-    /// Undoes a change, or does it again.
-    pub fn undo(&mut self, back: bool) {
-        if back {
-            self.editor.undo()
-        } else {
-            self.editor.redo()
-        };
-        self.redraw();
-        self.select(self.selected.clone().as_deref());
-    }
-
     /// Draws the world as it is, its robots where they start.
-    fn redraw(&mut self) {
+    pub(super) fn redraw(&mut self) {
         let world = self.editor.world().clone();
         self.still = Arc::new(picture_of(&world));
         self.atlas = Atlas::new(world);
@@ -358,26 +312,5 @@ mod tests {
         assert_eq!(atlas.atlas().robots()[0].q, offer.q);
         atlas.ask(Point2::new(8.0, 2.5), None, true);
         assert_eq!(atlas.atlas().robots()[0].robot.reference(&atlas.atlas().robots()[0].q), Point2::new(8.0, 2.5));
-    }
-
-    #[test]
-    fn a_thing_is_dragged_by_itself_and_by_its_handles_and_refused_changes_are_told() {
-        let mut atlas = AtlasState::of(World::workbench());
-        atlas.select(Some("the block"));
-        atlas.begin_drag(Point2::new(0.75, 1.25), None);
-        atlas.drag_to(Point2::new(-0.25, 1.25), 0.05);
-        assert_eq!(atlas.world(), &World::workbench(), "not before it is let go");
-        atlas.end_drag();
-        let x = |a: &AtlasState| a.world().obstacle("the block").unwrap().placed().next().unwrap().core()[0].x;
-        assert!((x(&atlas) + 0.5).abs() < 1e-12, "{}", x(&atlas));
-        atlas.undo(true);
-        assert_eq!(atlas.world(), &World::workbench());
-        atlas.undo(false);
-        assert!((x(&atlas) + 0.5).abs() < 1e-12);
-        // a name that is taken
-        atlas.change(&Op::Rename { name: "the block".into(), to: "the post".into() }, None);
-        assert!(atlas.message.as_ref().is_some_and(|m| m.contains("the post")), "{:?}", atlas.message);
-        assert_eq!(atlas.selected.as_deref(), Some("the block"));
-        assert!(!atlas.is_saved());
     }
 }

@@ -4,11 +4,12 @@ use bevy_egui::egui::{ComboBox, Key, RichText, ScrollArea, Slider, TextEdit, Ui,
 
 use super::atlas_state::{AtlasState, Mode};
 use super::button::button;
-use super::manifest::widget;
+use super::keys::{Action, hint};
 use super::sheet::{Sheet, sheet, split};
-use super::{Command, Look, SessionCommand, UiState, frame, readout};
+use super::{Command, Dashboard, Look, SessionCommand, UiState, readout};
 use crate::atlas::{EditShape, Op};
 use crate::geometry::{Point2, Pose2};
+use crate::manifest::widget;
 use crate::picture::{Picture, Role, ScreenPoint, pick};
 use crate::worlds::World;
 
@@ -19,15 +20,15 @@ const SIDE: f32 = 300.0;
 const DRAGGED: f64 = 8.0;
 
 /// Shows the widget.
-pub fn atlas_view(ui: &mut Ui, (narrow, look): (bool, &Look), state: &mut UiState, commands: &mut Vec<Command>) {
+pub fn atlas_view(
+    ui: &mut Ui,
+    model: &Dashboard,
+    (narrow, look): (bool, &Look),
+    state: &mut UiState,
+    commands: &mut Vec<Command>,
+) {
     let Some(words) = widget("atlas") else { return };
-    frame::title(ui, words, look);
-    frame::key_row(ui, words, look, state);
-    if !narrow {
-        frame::hints(ui, words, look, state);
-    }
-    super::tools::notice(ui, state);
-    ui.add_space(6.0);
+    super::tools::head(ui, words, model, (narrow, look), state, commands);
     let room = ui.available_rect_before_wrap();
     let (paper, beside) = split(room, narrow, SIDE);
     let still = state.atlas.still();
@@ -54,6 +55,17 @@ pub fn atlas_view(ui: &mut Ui, (narrow, look): (bool, &Look), state: &mut UiStat
     ui.scope_builder(UiBuilder::new().max_rect(beside), |ui| {
         ScrollArea::vertical().auto_shrink(false).show(ui, |ui| beside_the_paper(ui, look, state, commands));
     });
+}
+
+/// Does what a key asks for while the atlas is in front: files are worlds, and what is undone is an edit.
+pub fn act(action: Action, model: &Dashboard, state: &mut UiState, commands: &mut Vec<Command>) {
+    match action {
+        Action::Undo if state.atlas.mode == Mode::Edit => state.atlas.undo(true),
+        Action::Redo if state.atlas.mode == Mode::Edit => state.atlas.undo(false),
+        Action::Save => commands.push(Command::Session(SessionCommand::SaveWorld)),
+        Action::Open => commands.push(Command::Session(SessionCommand::OpenWorld)),
+        action => super::tools::act(action, model, state, commands),
+    }
 }
 
 /// A click puts the robot there; a drag turns it; a click on an offer takes it.
@@ -106,7 +118,7 @@ fn edit(on: &Sheet, moving: &Picture, still: &Picture, atlas: &mut AtlasState) {
 
 /// The name of the thing that an item is drawn for.
 fn thing(id: &str) -> Option<&str> {
-    if let Some(name) = id.strip_prefix("obstacle/") {
+    if let Some(name) = id.strip_prefix("obstacle/").or(id.strip_prefix("mark/")) {
         return Some(name);
     }
     id.strip_prefix("place/").and_then(|rest| rest.rsplit_once('/')).map(|(name, _)| name)
@@ -185,14 +197,16 @@ fn measure_panel(ui: &mut Ui, state: &mut UiState) {
 
 fn edit_panel(ui: &mut Ui, look: &Look, state: &mut UiState) {
     let atlas = &mut state.atlas;
-    ui.label("Click a wall, an obstacle or a place, and drag it or its handles.");
+    ui.label("Click a wall, an obstacle, a place or a painted mark, and drag it or its handles. A ring on an edge makes a corner; a corner dragged onto the next goes away.");
     ui.horizontal_wrapped(|ui| {
-        let middle = atlas.middle();
-        let corner = |x: f64, y: f64| Point2::new(middle.x + x, middle.y + y);
+        let (middle, u) = (atlas.middle(), atlas.unit());
+        let corner = |x: f64, y: f64| Point2::new(middle.x + x * u, middle.y + y * u);
         let shapes = [
-            ("wall", EditShape::Wall(vec![corner(-0.5, 0.0), corner(0.5, 0.0)])),
-            ("box", EditShape::Box { min: corner(-0.25, -0.25), max: corner(0.25, 0.25) }),
-            ("disc", EditShape::Disc { center: middle, radius: 0.25 }),
+            ("wall", EditShape::Wall(vec![corner(-2.0, 0.0), corner(2.0, 0.0)])),
+            ("box", EditShape::Box { min: corner(-1.0, -1.0), max: corner(1.0, 1.0) }),
+            ("disc", EditShape::Disc { center: middle, radius: u }),
+            ("polygon", EditShape::Polygon(vec![corner(-2.0, -1.0), corner(2.0, -1.0), corner(0.0, 2.0)])),
+            ("mark", EditShape::Mark(vec![corner(-2.0, 0.0), corner(2.0, 0.0)])),
         ];
         for (kind, shape) in shapes {
             if button(ui, &format!("Add {kind}"), 0.0, (true, false), look).clicked() {
@@ -221,10 +235,11 @@ fn edit_panel(ui: &mut Ui, look: &Look, state: &mut UiState) {
         });
     }
     ui.horizontal(|ui| {
-        if button(ui, "Undo", 0.0, (true, false), look).clicked() {
+        let [back, again] = atlas.can_undo();
+        if button(ui, "Undo", 0.0, (back, false), look).on_hover_text(hint(Action::Undo)).clicked() {
             atlas.undo(true);
         }
-        if button(ui, "Redo", 0.0, (true, false), look).clicked() {
+        if button(ui, "Redo", 0.0, (again, false), look).on_hover_text(hint(Action::Redo)).clicked() {
             atlas.undo(false);
         }
     });
@@ -235,4 +250,7 @@ fn edit_panel(ui: &mut Ui, look: &Look, state: &mut UiState) {
         ui.label(RichText::new(warning).color(look.colour(Role::Goal)));
     }
     ui.label(if atlas.is_saved() { "saved" } else { "not saved in a file" });
+    if let Some(words) = atlas.drops() {
+        ui.label(RichText::new(words).color(look.colour(Role::Muted)));
+    }
 }

@@ -2,20 +2,22 @@
 
 use std::sync::Arc;
 
-use bevy_egui::egui::{Rect, RichText, Ui, pos2, vec2};
+use bevy_egui::egui::{Rect, RichText, ScrollArea, Ui, pos2, vec2};
 
-use super::manifest::widget;
+use super::anatomy_view::{annulus, coordinate, robot_choice, world_choice};
 use super::sheet::sheet;
-use super::{Look, UiState, frame, readout};
+use super::{Command, Dashboard, Look, UiState, readout};
 use crate::anatomy::{Anatomy, Tab};
+use crate::capture::{self, Captured};
 use crate::configuration::AnyConfiguration;
 use crate::cspace::{CellMap, Overlay, Slice, cspace_picture, overlay_items};
+use crate::manifest::widget;
 use crate::num::wrap;
 use crate::picture::{Picture, Role, footprint};
-use crate::robots::{AnyRobot, Robot};
+use crate::robots::{ConfigurationError, Robot};
 
-/// Cells are cut down to a 128th of the sides.
-const FINEST: u32 = 7;
+/// Cells are cut down to a 256th of the sides.
+const FINEST: u32 = 8;
 /// So many cells are judged in a frame.
 const BUDGET: u32 = 1500;
 /// So many points of the way are kept.
@@ -47,6 +49,17 @@ impl Map {
 }
 
 impl CspaceState {
+    /// Workspace and configuration space as they are, the proofs brought to their end.
+    pub fn captured(&self, anatomy: &Anatomy) -> Result<Captured, ConfigurationError> {
+        let kept = self.map.as_ref().filter(|map| map.is_of(anatomy)).map(|map| map.cells.clone());
+        let mut cells = match kept {
+            Some(cells) => cells,
+            None => CellMap::new(Slice::through(anatomy.checker(), &anatomy.q())?, FINEST),
+        };
+        cells.refine(u32::MAX);
+        Ok(capture::cspace(anatomy, &cells, self.trace.clone()))
+    }
+
     /// Goes on with the proofs. Returns whether there is more to prove.
     fn refine(&mut self, anatomy: &Anatomy) -> bool {
         if !self.map.as_ref().is_some_and(|map| map.is_of(anatomy)) {
@@ -69,48 +82,71 @@ impl CspaceState {
 }
 
 /// Shows the widget.
-pub fn cspace_view(ui: &mut Ui, (narrow, look): (bool, &Look), state: &mut UiState) {
+pub fn cspace_view(
+    ui: &mut Ui,
+    model: &Dashboard,
+    (narrow, look): (bool, &Look),
+    state: &mut UiState,
+    commands: &mut Vec<Command>,
+) {
     let Some(words) = widget("cspace") else { return };
-    frame::title(ui, words, look);
-    frame::key_row(ui, words, look, state);
-    if !narrow {
-        frame::hints(ui, words, look, state);
-    }
-    ui.add_space(6.0);
+    super::tools::head(ui, words, model, (narrow, look), state, commands);
     let anatomy = state.anatomy.anatomy.clone();
     if state.cspace.refine(&anatomy) {
         ui.ctx().request_repaint();
     }
-    let text = 96.0;
+    let text = if narrow { 160.0 } else { 120.0 };
     let room = ui.available_rect_before_wrap();
     let side = if narrow {
         room.width().min(0.5 * (room.height() - text))
     } else {
         (0.5 * (room.width() - 20.0)).min(room.height() - text)
     };
-    let left = Rect::from_min_size(room.min, vec2(side, side));
+    let margin = if narrow { 0.5 * (room.width() - side) } else { 0.0 };
+    let left = Rect::from_min_size(room.min + vec2(margin, 0.0), vec2(side, side));
     let right = if narrow { left.translate(vec2(0.0, side + 8.0)) } else { left.translate(vec2(side + 20.0, 0.0)) };
     workspace(ui, left, look, state);
     space(ui, right, look, state);
     let below = Rect::from_min_max(pos2(room.left(), right.bottom() + 6.0), room.max);
     ui.scope_builder(bevy_egui::egui::UiBuilder::new().max_rect(below), |ui| {
-        ui.spacing_mut().interact_size.y = 0.0;
-        ui.label(RichText::new(readout(&state.anatomy.anatomy.q().to_string())).monospace());
-        if let Some(map) = &state.cspace.map {
-            let p = map.cells.progress();
-            let percent = |x: f64| format!("{:5.1} %", 100.0 * x);
-            let text = format!(
-                "proven free {}  proven blocked {}  not known {}  ({} cells judged)",
-                percent(p.free),
-                percent(p.blocked),
-                percent(p.unknown),
-                p.judged
-            );
-            ui.label(RichText::new(text).monospace().color(look.colour(Role::Muted)));
+        if narrow {
+            ScrollArea::vertical().auto_shrink(false).show(ui, |ui| below_the_papers(ui, look, state));
+        } else {
+            below_the_papers(ui, look, state);
         }
-        let mut annulus = state.anatomy.anatomy.show_annulus;
-        if ui.checkbox(&mut annulus, "the points that the tip can reach").changed() {
-            state.anatomy.anatomy.show_annulus = annulus;
+    });
+}
+
+/// What is to be read, and what is held or chosen.
+fn below_the_papers(ui: &mut Ui, look: &Look, state: &mut UiState) {
+    ui.label(RichText::new(readout(&state.anatomy.anatomy.q().to_string())).monospace());
+    if let Some(map) = &state.cspace.map {
+        let p = map.cells.progress();
+        let percent = |x: f64| format!("{:5.1} %", 100.0 * x);
+        let text = format!(
+            "proven free {}  proven blocked {}  not known {}  ({} cells judged)",
+            percent(p.free),
+            percent(p.blocked),
+            percent(p.unknown),
+            p.judged
+        );
+        let muted = |text: String| RichText::new(text).monospace().color(look.colour(Role::Muted));
+        ui.label(muted(text));
+        ui.label(muted(map.cells.slice().described()));
+    }
+    ui.horizontal_wrapped(|ui| {
+        robot_choice(ui, state);
+        world_choice(ui, state);
+        annulus(ui, state);
+        let mut line = state.anatomy.anatomy.tab == Tab::Swept;
+        if ui.checkbox(&mut line, "the swept tab's motion").changed() {
+            state.anatomy.anatomy.tab = if line { Tab::Swept } else { Tab::Distance };
+        }
+        // what the slice holds
+        ui.spacing_mut().slider_width = 180.0;
+        let held: Vec<(usize, String)> = state.cspace.map.as_ref().map_or_else(Vec::new, |m| m.cells.slice().held());
+        for (index, name) in held {
+            coordinate(ui, &mut state.anatomy.anatomy, index, &name);
         }
     });
 }
@@ -120,7 +156,7 @@ fn workspace(ui: &mut Ui, paper: Rect, look: &Look, state: &mut UiState) {
     let still = Arc::clone(state.anatomy.backdrop());
     let mut overlay = state.anatomy.anatomy.overlay();
     let anatomy = &state.anatomy.anatomy;
-    for other in solutions(anatomy).into_iter().filter(|q| *q != anatomy.q()) {
+    for other in anatomy.solutions().into_iter().filter(|q| *q != anatomy.q()) {
         let shape = anatomy.checker().robot().footprint(&other);
         overlay.items.extend(footprint("other", "the other arm with this tip", &shape, Role::Robot, 0.3));
     }
@@ -142,7 +178,7 @@ fn space(ui: &mut Ui, paper: Rect, look: &Look, state: &mut UiState) {
         in_contact: anatomy.intersects(),
         trace: state.cspace.trace.clone(),
         line: (anatomy.tab == Tab::Swept).then(|| [anatomy.q(), anatomy.second()]),
-        solutions: solutions(anatomy),
+        solutions: anatomy.solutions(),
     };
     let moving = Picture::new(still.name.clone(), still.bounds).with(overlay_items(&slice, &overlay));
     let spoken = format!("configuration space. The robot is the point {}", anatomy.q());
@@ -159,16 +195,6 @@ fn space(ui: &mut Ui, paper: Rect, look: &Look, state: &mut UiState) {
         if state.anatomy.anatomy.set_q(slice.at(p)).is_ok() {
             remember(state);
         }
-    }
-}
-
-/// Both arms that reach the tip of a two-link arm.
-fn solutions(anatomy: &Anatomy) -> Vec<AnyConfiguration> {
-    match (anatomy.checker().robot(), anatomy.q()) {
-        (AnyRobot::Reach(arm), AnyConfiguration::T2(q)) => {
-            arm.ik(arm.tip(&q)).into_iter().flatten().map(AnyConfiguration::T2).collect()
-        }
-        _ => Vec::new(),
     }
 }
 

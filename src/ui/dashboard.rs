@@ -1,12 +1,12 @@
 //! The dashboard: the cockpits at once on a wide screen, one at a time on a narrow one.
 
-use bevy_egui::egui::{Align, CentralPanel, Frame, Layout, Margin, Panel, Rect, ScrollArea, Sense, Ui, pos2, vec2};
+use bevy_egui::egui::{CentralPanel, Frame, Margin, Panel, Rect, ScrollArea, Sense, Ui, pos2, vec2};
 
 use super::keys::Action;
-use super::manifest::widget;
 use super::pane::{pane, take_in_hand, text_height};
 use super::plots::plots;
 use super::{Command, Dashboard, Look, UiState, drive, frame, tools, transport_bar};
+use crate::manifest::widget;
 use crate::simulation::History;
 
 /// From pane to pane, and from the panes to the window's border, points.
@@ -62,7 +62,7 @@ pub fn act(action: Action, model: &Dashboard, state: &mut UiState, commands: &mu
             }
         }
         action => {
-            tools::act(action, state, commands);
+            tools::act(action, model, state, commands);
             transport_bar::act(action, model, commands);
         }
     }
@@ -76,20 +76,7 @@ fn header(
     commands: &mut Vec<Command>,
 ) {
     let Some(words) = widget("dashboard") else { return };
-    ui.horizontal(|ui| {
-        ui.vertical(|ui| {
-            ui.set_max_width(ui.available_width() - if narrow { 76.0 } else { 560.0 });
-            frame::title(ui, words, look);
-        });
-        ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-            if narrow {
-                ui.menu_button("Menu", |ui| tools::tools(ui, model, (true, look), state, commands));
-            } else {
-                ui.spacing_mut().button_padding.x = 10.0;
-                tools::tools(ui, model, (false, look), state, commands);
-            }
-        });
-    });
+    tools::header(ui, words, model, (narrow, look), state, commands);
     frame::key_row(ui, words, look, state);
     frame::hints(ui, words, look, state);
     tools::notice(ui, state);

@@ -23,10 +23,16 @@ pub fn title(ui: &mut Ui, widget: &WidgetText, look: &Look) {
 /// Shows the colour key in a row of its own.
 pub fn key_row(ui: &mut Ui, widget: &WidgetText, look: &Look, state: &mut UiState) {
     ui.add_space(2.0);
-    ui.horizontal_wrapped(|ui| {
-        ui.spacing_mut().interact_size.y = ui.text_style_height(&TextStyle::Body);
-        key(ui, widget, look, state);
-    });
+    rows_of_words(ui, |ui| key(ui, widget, look, state));
+}
+
+/// Rows that wrap and are as high as their words, not as buttons.
+pub fn rows_of_words<R>(ui: &mut Ui, add: impl FnOnce(&mut Ui) -> R) -> R {
+    ui.scope(|ui| {
+        ui.spacing_mut().interact_size.y = ui.text_style_height(&TextStyle::Body) + 2.0;
+        ui.horizontal_wrapped(add).inner
+    })
+    .inner
 }
 
 /// Shows the colour key. Pointing at an entry, or stepping to it by Tab, lights its role.
@@ -137,8 +143,7 @@ pub fn hints(ui: &mut Ui, widget: &WidgetText, look: &Look, state: &mut UiState)
     if state.settings.hints_seen {
         return;
     }
-    ui.horizontal_wrapped(|ui| {
-        ui.spacing_mut().interact_size.y = ui.text_style_height(&TextStyle::Body);
+    rows_of_words(ui, |ui| {
         // a hint goes to the next row as a whole
         ui.style_mut().wrap_mode = Some(TextWrapMode::Extend);
         ui.label(RichText::new("Try:").color(look.theme.colour(Role::Focus)).strong());

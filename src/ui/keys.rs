@@ -37,6 +37,8 @@ pub enum Action {
     Save,
     /// Open a run.
     Open,
+    /// Capture the widget in front.
+    Capture,
     /// Take the robot of this pane in hand.
     Arm(usize),
     /// Let go of it.
@@ -92,7 +94,7 @@ const fn with(action: Action, modifiers: Modifiers, key: Key, words: &'static st
 }
 
 /// All keys.
-pub const BINDINGS: [Binding; 35] = [
+pub const BINDINGS: [Binding; 36] = [
     plain(Action::PlayPause, Key::Space, Scope::Always, "play or pause"),
     plain(Action::StepBack, Key::ArrowLeft, Scope::Unarmed, "one tick back, and pause"),
     plain(Action::Step, Key::ArrowRight, Scope::Unarmed, "one tick, and pause"),
@@ -105,11 +107,12 @@ pub const BINDINGS: [Binding; 35] = [
     plain(Action::Continue, Key::C, Scope::Always, "continue from here: forget what comes later"),
     plain(Action::Reset, Key::R, Scope::Always, "reset: the same seed, no input"),
     plain(Action::ReRoll, Key::G, Scope::Always, "re-roll: another seed"),
-    with(Action::Undo, Modifiers::COMMAND, Key::Z, "undo"),
+    with(Action::Undo, Modifiers::COMMAND, Key::Z, "undo; in the atlas an edit"),
     with(Action::Redo, Modifiers::COMMAND.plus(Modifiers::SHIFT), Key::Z, "do again"),
     with(Action::Redo, Modifiers::COMMAND, Key::Y, "do again"),
-    with(Action::Save, Modifiers::COMMAND, Key::S, "save the run"),
-    with(Action::Open, Modifiers::COMMAND, Key::O, "open a run"),
+    with(Action::Save, Modifiers::COMMAND, Key::S, "save the run; in the atlas its world"),
+    with(Action::Open, Modifiers::COMMAND, Key::O, "open a run; in the atlas a world"),
+    plain(Action::Capture, Key::I, Scope::Always, "capture: the picture in front as a file"),
     plain(Action::Arm(0), Key::Num1, Scope::Always, "take the first pane's robot in hand, or let go"),
     plain(Action::Arm(1), Key::Num2, Scope::Always, "take the second pane's robot in hand, or let go"),
     plain(Action::Arm(2), Key::Num3, Scope::Always, "take the third pane's robot in hand, or let go"),

@@ -5,11 +5,11 @@ use std::sync::Arc;
 use bevy_egui::egui::{CentralPanel, Frame, Margin, Panel, Ui, vec2};
 
 use super::keys::{Action, pressed};
-use super::manifest::widgets;
 use super::{
-    Command, Dashboard, Look, UiState, anatomy_view, atlas_view, button::button, cspace_view, dashboard, drive, help,
-    tools,
+    Command, Dashboard, Look, UiState, anatomy_view, atlas_view, button::button, capture_form, cspace_view, dashboard,
+    drive, help, tools,
 };
+use crate::manifest::widgets;
 use crate::simulation::{History, TransportCommand};
 
 /// Below this width a widget shows one thing at a time.
@@ -17,6 +17,9 @@ const NARROW: f32 = 720.0;
 
 /// Width of the rail, points.
 const RAIL: f32 = 76.0;
+
+/// The atlas's number on the rail.
+const ATLAS: usize = 3;
 
 /// Shows the lab over the whole of `ui`; what is pressed is pushed onto `commands`.
 pub fn lab(ui: &mut Ui, model: &Dashboard, history: &History, state: &mut UiState, commands: &mut Vec<Command>) {
@@ -33,17 +36,20 @@ pub fn lab(ui: &mut Ui, model: &Dashboard, history: &History, state: &mut UiStat
     }
     ui.set_style(style);
     let nudged = std::mem::take(&mut state.nudging);
-    let actions = if state.help { vec![] } else { pressed(ui, state.armed.is_some(), nudged) };
+    let actions = if state.help || state.capture.open { vec![] } else { pressed(ui, state.armed.is_some(), nudged) };
     for action in actions {
         match action {
             Action::Widget(number) => choose(number, model, state, commands),
             action if state.widget == 0 => dashboard::act(action, model, state, commands),
-            action => tools::act(action, state, commands),
+            action if state.widget == ATLAS => atlas_view::act(action, model, state, commands),
+            action => tools::act(action, model, state, commands),
         }
     }
     // the window is cleared with the paper already: filling it again would cost as much as all that is drawn on it
     let margin = Margin::symmetric(if narrow { 8 } else { 6 }, if narrow { 4 } else { 14 });
-    if narrow {
+    if state.embedded {
+        // the page chose the widget
+    } else if narrow {
         Panel::top("rail").frame(Frame::NONE.inner_margin(margin)).show_separator_line(false).show(ui, |ui| {
             ui.horizontal(|ui| rail(ui, model, (&look, 40.0), state, commands));
         });
@@ -54,7 +60,7 @@ pub fn lab(ui: &mut Ui, model: &Dashboard, history: &History, state: &mut UiStat
         });
     }
     if state.widget == 0 {
-        if !state.help {
+        if !state.help && !state.capture.open {
             drive::drive(ui, model, state, commands);
         }
         dashboard::dashboard(ui, model, history, (narrow, &look), state, commands);
@@ -63,12 +69,13 @@ pub fn lab(ui: &mut Ui, model: &Dashboard, history: &History, state: &mut UiStat
         CentralPanel::default().frame(Frame::NONE.inner_margin(Margin::symmetric(side, 14))).show(ui, |ui| match state
             .widget
         {
-            1 => anatomy_view::anatomy_view(ui, (narrow, &look), state),
-            2 => cspace_view::cspace_view(ui, (narrow, &look), state),
-            _ => atlas_view::atlas_view(ui, (narrow, &look), state, commands),
+            1 => anatomy_view::anatomy_view(ui, model, (narrow, &look), state, commands),
+            2 => cspace_view::cspace_view(ui, model, (narrow, &look), state, commands),
+            _ => atlas_view::atlas_view(ui, model, (narrow, &look), state, commands),
         });
     }
     help::help(ui.ctx(), state);
+    capture_form::capture_form(ui.ctx(), model, &look, state, commands);
     if state.pointed.is_some() || state.lit.is_some() {
         // the fade goes on without further input
         ui.ctx().request_repaint();

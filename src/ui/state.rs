@@ -13,14 +13,17 @@ pub struct UiState {
     /// The number of the widget in front, on the rail.
     pub widget: usize,
     /// The anatomy's, with the robot of the configuration space.
-    #[cfg(feature = "window")]
+    #[cfg(feature = "screen")]
     pub anatomy: super::AnatomyState,
     /// The configuration space's.
-    #[cfg(feature = "window")]
+    #[cfg(feature = "screen")]
     pub cspace: super::CspaceState,
     /// The atlas's.
-    #[cfg(feature = "window")]
+    #[cfg(feature = "screen")]
     pub atlas: super::AtlasState,
+    /// The capture form.
+    #[cfg(feature = "screen")]
+    pub capture: super::CaptureState,
     /// The paper that the system asks for.
     pub system_theme: Theme,
     /// The seed field's text while it is edited.
@@ -35,6 +38,10 @@ pub struct UiState {
     pub nudging: bool,
     /// The role that is lit.
     pub lit: Option<Role>,
+    /// The role that the page around the lab asks to light, while nothing here is pointed at.
+    pub page_lit: Option<Role>,
+    /// Whether the lab shows one widget on a page of someone else's: no rail.
+    pub embedded: bool,
     /// The role that is pointed at in this frame.
     pub pointed: Option<Role>,
     /// Whether the list of keys is open.
@@ -47,6 +54,17 @@ pub struct UiState {
     pub flashes: BTreeMap<String, Flash>,
     /// What the window says of the last file, until it is put away.
     pub notice: Option<Notice>,
+    /// What is under way beside the window, and whether it is to stop.
+    pub working: Option<Working>,
+}
+
+/// What is under way beside the window.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Working {
+    /// How far it has come, in words.
+    pub text: String,
+    /// Whether it was asked to stop.
+    pub stop: bool,
 }
 
 /// A robot's flash as it is shown.

@@ -1,20 +1,21 @@
 //! What is done to the session: open and save runs, undo, what is shown.
 
-use bevy_egui::egui::{RichText, TextStyle, Ui};
+use bevy_egui::egui::{Align, Layout, RichText, Ui};
 
 use super::button::button;
 use super::keys::{Action, hint};
-use super::{Command, Dashboard, Look, SessionCommand, UiState};
+use super::{Command, Dashboard, Look, SessionCommand, UiState, WidgetText, frame};
 use crate::simulation::TransportCommand;
 
 /// Does what a key or a button asks for, as far as it is the session's.
-pub fn act(action: Action, state: &mut UiState, commands: &mut Vec<Command>) {
+pub fn act(action: Action, model: &Dashboard, state: &mut UiState, commands: &mut Vec<Command>) {
     let settings = &mut state.settings;
     match action {
         Action::Undo => commands.push(Command::Transport(TransportCommand::Undo)),
         Action::Redo => commands.push(Command::Transport(TransportCommand::Redo)),
         Action::Save => commands.push(Command::Session(SessionCommand::Save)),
         Action::Open => commands.push(Command::Session(SessionCommand::Open)),
+        Action::Capture => state.ask_for_capture(model),
         Action::Plots => settings.plots = !settings.plots,
         Action::Labels => settings.labels = !settings.labels,
         Action::Scan => settings.scan = !settings.scan,
@@ -22,6 +23,54 @@ pub fn act(action: Action, state: &mut UiState, commands: &mut Vec<Command>) {
         Action::Help => state.help = !state.help,
         _ => {}
     }
+}
+
+/// Shows a widget's title, and the buttons beside it: in a menu on a narrow screen.
+pub fn header(
+    ui: &mut Ui,
+    words: &WidgetText,
+    model: &Dashboard,
+    (narrow, look): (bool, &Look),
+    state: &mut UiState,
+    commands: &mut Vec<Command>,
+) {
+    let room = match (narrow, state.widget) {
+        (true, _) => 76.0,
+        (false, 0) => 650.0,
+        (false, _) => 280.0,
+    };
+    ui.horizontal(|ui| {
+        ui.vertical(|ui| {
+            ui.set_max_width(ui.available_width() - room);
+            frame::title(ui, words, look);
+        });
+        ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+            if narrow {
+                ui.menu_button("Menu", |ui| tools(ui, model, (true, look), state, commands));
+            } else {
+                ui.spacing_mut().button_padding.x = 10.0;
+                tools(ui, model, (false, look), state, commands);
+            }
+        });
+    });
+}
+
+/// Shows the head of a widget that is not the dashboard: title and buttons, colour key, hints, and what is said of the last file.
+pub fn head(
+    ui: &mut Ui,
+    words: &WidgetText,
+    model: &Dashboard,
+    (narrow, look): (bool, &Look),
+    state: &mut UiState,
+    commands: &mut Vec<Command>,
+) {
+    header(ui, words, model, (narrow, look), state, commands);
+    frame::key_row(ui, words, look, state);
+    if !narrow {
+        frame::hints(ui, words, look, state);
+    }
+    notice(ui, state);
+    ui.add_space(6.0);
 }
 
 /// Shows the buttons: in a row from right to left, or as a list `in_menu`.
@@ -33,37 +82,50 @@ pub fn tools(
     commands: &mut Vec<Command>,
 ) {
     let theme = format!("{} theme", state.settings.theme.name());
-    let mut buttons = [
-        (theme.as_str(), Action::Theme, true, false),
-        ("Keys", Action::Help, true, state.help),
-        ("Names", Action::Labels, true, state.settings.labels),
-        ("Plots", Action::Plots, true, state.settings.plots),
-        ("Redo", Action::Redo, model.can_redo, false),
-        ("Undo", Action::Undo, model.can_undo, false),
-        ("Save", Action::Save, true, false),
-        ("Open", Action::Open, true, false),
-    ];
+    let mut buttons = vec![(theme.as_str(), Action::Theme, true, false), ("Keys", Action::Help, true, state.help)];
+    // the web has no files to write to
+    if cfg!(not(target_family = "wasm")) {
+        buttons.push(("Capture", Action::Capture, true, state.capture.open));
+    }
+    // what is done to the run stands where the run is shown
+    if state.widget == 0 {
+        buttons.extend([
+            ("Names", Action::Labels, true, state.settings.labels),
+            ("Plots", Action::Plots, true, state.settings.plots),
+            ("Redo", Action::Redo, model.can_redo, false),
+            ("Undo", Action::Undo, model.can_undo, false),
+            ("Save", Action::Save, true, false),
+            ("Open", Action::Open, true, false),
+        ]);
+    }
     if in_menu {
         buttons.reverse();
     }
     for (label, action, enabled, on) in buttons {
         if button(ui, label, 0.0, (enabled, on), look).on_hover_text(hint(action)).clicked() {
-            act(action, state, commands);
+            act(action, model, state, commands);
         }
     }
 }
 
 /// What is said of the last file, with a way to put it away.
 pub fn notice(ui: &mut Ui, state: &mut UiState) {
+    if let Some(working) = &mut state.working {
+        frame::rows_of_words(ui, |ui| {
+            ui.label(&working.text);
+            working.stop |= ui.link("Stop").clicked();
+        });
+        // it goes on without further input
+        ui.ctx().request_repaint_after_secs(0.2);
+    }
     let Some(notice) = &state.notice else { return };
     let colour = if notice.is_error { ui.visuals().error_fg_color } else { ui.visuals().text_color() };
     let text = RichText::new(&notice.text).color(colour);
-    let put_away = ui.horizontal_wrapped(|ui| {
-        ui.spacing_mut().interact_size.y = ui.text_style_height(&TextStyle::Body);
+    let put_away = frame::rows_of_words(ui, |ui| {
         ui.label(text);
         ui.link("Dismiss").clicked()
     });
-    if put_away.inner {
+    if put_away {
         state.notice = None;
     }
 }

@@ -2,7 +2,7 @@
 
 use super::description::{BoundsText, ObstacleText, PlaceText, PolylineText, RobotText, ShapeText, Xy, point};
 use super::parse::check_name;
-use super::{BeamModel, Bounds, MAX_ITEMS, Mark, Obstacle, ObstacleKind, Place, Resident, WorldProblem, convex_pieces};
+use super::{BeamModel, Bounds, MAX_ITEMS, Mark, Obstacle, ObstacleKind, Place, Resident, WorldProblem};
 use crate::geometry::{MAX_COORDINATE, Point2, Pose2, Shape, ShapeError, convex_hull};
 use crate::num;
 
@@ -71,7 +71,7 @@ pub(super) fn make_wall(text: &PolylineText, budget: &mut Budget) -> Result<Obst
     let (_, segments) = make_polyline(text)?;
     budget.spend(segments.len())?;
     let pieces = segments.into_iter().map(|s| (Pose2::IDENTITY, s)).collect();
-    Ok(Obstacle { name: text.name.clone(), kind: ObstacleKind::Wall, pieces })
+    Ok(Obstacle::new(&text.name, ObstacleKind::Wall, pieces))
 }
 
 pub(super) fn make_mark(text: &PolylineText) -> Result<Mark, WorldProblem> {
@@ -80,37 +80,36 @@ pub(super) fn make_mark(text: &PolylineText) -> Result<Mark, WorldProblem> {
 }
 
 pub(super) fn make_solid(text: &ObstacleText, budget: &mut Budget) -> Result<Obstacle, WorldProblem> {
-    let mut pieces = Vec::new();
-    make_pieces(&text.shape, &mut pieces, budget)?;
-    Ok(Obstacle { name: text.name.clone(), kind: ObstacleKind::Solid, pieces })
+    let mut solid = Obstacle::new(&text.name, ObstacleKind::Solid, Vec::new());
+    make_pieces(&text.shape, &mut solid, budget)?;
+    Ok(solid)
 }
 
 /// The recursion ends: ron reads no union nested deeper than its limit of 128.
-fn make_pieces(text: &ShapeText, out: &mut Vec<(Pose2, Shape)>, budget: &mut Budget) -> Result<(), WorldProblem> {
-    let before = out.len();
+fn make_pieces(text: &ShapeText, solid: &mut Obstacle, budget: &mut Budget) -> Result<(), WorldProblem> {
+    let before = solid.pieces.len();
     let at_origin = |shape| (Pose2::IDENTITY, shape);
     match text {
         ShapeText::Disc { center, radius } => {
             let center = make_point(*center)?;
-            out.push((Pose2::new(center.x, center.y, 0.0), Shape::try_disc(*radius)?));
+            solid.pieces.push((Pose2::new(center.x, center.y, 0.0), Shape::try_disc(*radius)?));
         }
-        ShapeText::Box { min, max } => out.push(at_origin(make_box(make_point(*min)?, make_point(*max)?)?)),
+        ShapeText::Box { min, max } => solid.pieces.push(at_origin(make_box(make_point(*min)?, make_point(*max)?)?)),
         ShapeText::Polygon(outline) => {
-            let pieces = convex_pieces(&outline.iter().map(|&xy| point(xy)).collect::<Vec<_>>())?;
-            out.extend(pieces.into_iter().map(|p| at_origin(Shape::Polygon(p))));
+            solid.add_polygon(&outline.iter().map(|&xy| point(xy)).collect::<Vec<_>>())?;
         }
         ShapeText::Rounded { points, radius } => {
             let points: Vec<Point2> = points.iter().map(|&xy| make_point(xy)).collect::<Result<_, _>>()?;
-            out.push(at_origin(make_rounded(&points, *radius)?));
+            solid.pieces.push(at_origin(make_rounded(&points, *radius)?));
         }
         ShapeText::Union(members) => {
             if members.is_empty() {
                 return Err(WorldProblem::EmptyUnion);
             }
-            return members.iter().try_for_each(|member| make_pieces(member, out, budget));
+            return members.iter().try_for_each(|member| make_pieces(member, solid, budget));
         }
     }
-    budget.spend(out.len() - before)
+    budget.spend(solid.pieces.len() - before)
 }
 
 fn make_rounded(points: &[Point2], radius: f64) -> Result<Shape, WorldProblem> {

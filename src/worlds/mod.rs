@@ -36,6 +36,7 @@
 
 mod beam;
 mod built_in;
+mod comments;
 mod convex_pieces;
 mod description;
 mod distance_transform;
@@ -52,11 +53,12 @@ mod ros_export;
 mod source;
 
 pub use beam::{BeamError, BeamModel};
+pub use comments::comments;
 pub use convex_pieces::{MAX_CONCAVE_VERTICES, OutlineError, convex_pieces};
 pub use distance_transform::DistanceTransform;
 pub use error::{WorldError, WorldItem, WorldProblem};
 pub use grid::{Grid, GridError, MAX_CELLS};
-pub use model::{Bounds, Mark, Obstacle, ObstacleKind, Place, Resident, World};
+pub use model::{Bounds, Mark, Obstacle, ObstacleKind, Outline, Place, Resident, World, Written};
 pub use ros_export::RosFiles;
 
 /// The version of the world format that is read and written.

@@ -1,7 +1,7 @@
 //! `World`, a checked world: what is meant, as opposed to what is written in a file.
 
-use super::BeamModel;
-use crate::geometry::{Placed, Point2, Pose2, Shape};
+use super::{BeamModel, OutlineError, convex_pieces};
+use crate::geometry::{ConvexPolygon, Placed, Point2, Pose2, Shape};
 
 /// An axis-parallel box: the part of the plane a world shows. It is not an obstacle.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -30,6 +30,28 @@ pub struct Obstacle {
     pub kind: ObstacleKind,
     /// The pieces, each with the pose of its frame: a polyline's segments, a concave polygon's convex pieces, a disc.
     pub pieces: Vec<(Pose2, Shape)>,
+    /// The concave polygons among them as they were written, in order. Queries see the pieces alone.
+    pub outlines: Vec<Outline>,
+}
+
+/// A concave polygon of an obstacle.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Outline {
+    /// The number of the first of the convex pieces it was cut into.
+    pub first: usize,
+    /// How many there are.
+    pub pieces: usize,
+    /// Its vertices as they were written.
+    pub points: Vec<Point2>,
+}
+
+/// A shape of an obstacle as it was written.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Written<'a> {
+    /// A concave polygon.
+    Outline(&'a [Point2]),
+    /// Anything else.
+    Piece(&'a (Pose2, Shape)),
 }
 
 /// A named place.
@@ -88,6 +110,55 @@ impl Resident {
 }
 
 impl Obstacle {
+    /// The obstacle of these pieces.
+    pub fn new(name: impl Into<String>, kind: ObstacleKind, pieces: Vec<(Pose2, Shape)>) -> Self {
+        Obstacle { name: name.into(), kind, pieces, outlines: Vec::new() }
+    }
+
+    /// Adds a polygon, convex or not, cut into convex pieces.
+    ///
+    /// # Errors
+    /// [`OutlineError`] when the points are the outline of none.
+    pub fn add_polygon(&mut self, points: &[Point2]) -> Result<(), OutlineError> {
+        let cut = convex_pieces(points)?;
+        if cut.len() > 1 {
+            self.outlines.push(Outline { first: self.pieces.len(), pieces: cut.len(), points: points.to_vec() });
+        }
+        self.pieces.extend(cut.into_iter().map(|p| (Pose2::IDENTITY, Shape::Polygon(p))));
+        Ok(())
+    }
+
+    /// The shapes as they were written, in order: the outline of each concave polygon, or else a piece.
+    pub fn written(&self) -> Vec<Written<'_>> {
+        let mut written = Vec::new();
+        let mut at = 0;
+        while let Some(piece) = self.pieces.get(at) {
+            match self.outlines.iter().find(|outline| outline.first == at && self.is_own(outline)) {
+                Some(outline) => {
+                    written.push(Written::Outline(&outline.points));
+                    at += outline.pieces;
+                }
+                None => {
+                    written.push(Written::Piece(piece));
+                    at += 1;
+                }
+            }
+        }
+        written
+    }
+
+    /// Whether an outline is still that of its pieces: in an obstacle put together by hand it need not be.
+    fn is_own(&self, outline: &Outline) -> bool {
+        let Some(own) = self.pieces.get(outline.first..outline.first.saturating_add(outline.pieces)) else {
+            return false;
+        };
+        let cut = convex_pieces(&outline.points).unwrap_or_default();
+        let same = |((pose, shape), piece): (&(Pose2, Shape), &ConvexPolygon)| {
+            *pose == Pose2::IDENTITY && matches!(shape, Shape::Polygon(own) if own == piece)
+        };
+        outline.pieces > 1 && cut.len() == own.len() && own.iter().zip(&cut).all(same)
+    }
+
     /// The pieces placed in the world, in order.
     pub fn placed(&self) -> impl Iterator<Item = Placed> + '_ {
         self.pieces.iter().map(|(pose, shape)| shape.place(pose))

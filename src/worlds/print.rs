@@ -4,7 +4,7 @@ use std::fmt::{self, Write};
 
 use xxhash_rust::xxh3::xxh3_128;
 
-use super::{BeamModel, Obstacle, ObstacleKind, WORLD_VERSION, World};
+use super::{BeamModel, Obstacle, ObstacleKind, WORLD_VERSION, World, Written};
 use crate::geometry::{Point2, Pose2, Shape};
 
 impl World {
@@ -35,7 +35,7 @@ impl World {
             let name = Quoted(&obstacle.name);
             match chain(obstacle) {
                 Some(points) => walls.push(format!("name: {name}, points: {}", Points(&points))),
-                None => solids.push(format!("name: {name}, shape: {}", shape_text(&obstacle.pieces))),
+                None => solids.push(format!("name: {name}, shape: {}", shape_text(obstacle))),
             }
         }
         let places = self.places.iter().map(|p| {
@@ -89,10 +89,14 @@ fn chain(obstacle: &Obstacle) -> Option<Vec<Point2>> {
     (points.len() >= 2).then_some(points)
 }
 
-fn shape_text(pieces: &[(Pose2, Shape)]) -> String {
-    match pieces {
-        [piece] => piece_text(piece),
-        _ => format!("Union([{}])", pieces.iter().map(piece_text).collect::<Vec<_>>().join(", ")),
+fn shape_text(obstacle: &Obstacle) -> String {
+    let text = |written: &Written<'_>| match written {
+        Written::Outline(points) => format!("Polygon({})", Points(points)),
+        Written::Piece(piece) => piece_text(piece),
+    };
+    match &obstacle.written()[..] {
+        [one] => text(one),
+        several => format!("Union([{}])", several.iter().map(text).collect::<Vec<_>>().join(", ")),
     }
 }
 

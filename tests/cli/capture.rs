@@ -102,14 +102,67 @@ fn a_gif_runs_over_the_ticks_asked_for() {
 }
 
 #[test]
+fn a_gif_shows_a_robot_of_the_run_beside_its_point_and_the_atlas_with_its_robots() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("w.gif");
+    let out = file.to_str().unwrap();
+    let span = ["--seed", "7", "--from", "20", "--to", "60", "--every", "20", "--width", "320", "-o", out];
+    let widgets: [&[&str]; 4] = [
+        &["cspace", "--robot", "reach", "--cells", "5"],
+        &["cspace", "--robot", "rusty", "--cells", "4"],
+        &["cspace", "--robot", "hitch", "--cells", "4"],
+        &["atlas", "--world", "apartment"],
+    ];
+    for widget in widgets {
+        run(&[&["capture", "--widget"], widget, &span].concat()).done();
+        let bytes = fs::read(&file).unwrap();
+        let mut options = gif::DecodeOptions::new();
+        options.set_color_output(gif::ColorOutput::RGBA);
+        let mut decoder = options.read_info(&bytes[..]).unwrap();
+        let mut pictures = Vec::new();
+        while let Some(frame) = decoder.read_next_frame().unwrap() {
+            assert_eq!(frame.delay, 100, "{widget:?}");
+            pictures.push(frame.buffer.to_vec());
+        }
+        assert_eq!(pictures.len(), 3, "{widget:?}");
+        assert!(pictures[0] != pictures[1] && pictures[1] != pictures[2], "{widget:?}: it moves");
+        let text = String::from_utf8_lossy(&bytes);
+        assert!(text.contains("Seed: 7; Digest: ") && text.contains("Tick: 20 to 60"), "{widget:?}");
+    }
+    // and at one tick, with its way
+    let svg = folder.path().join("w.svg");
+    run(&["capture", "--widget", "cspace", "--seed", "7", "--tick", "60", "-o", svg.to_str().unwrap()]).done();
+    let drawn = fs::read_to_string(&svg).unwrap();
+    assert!(drawn.contains(">where it was<") && drawn.contains("Seed: 7; Digest: ") && drawn.contains("; Tick: 60"));
+}
+
+#[test]
+fn what_is_said_of_the_arm_is_not_said_of_the_car() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().join("c.svg");
+    let out = out.to_str().unwrap();
+    for (robot, words, arm) in [
+        ("reach", "opposite edges are one", true),
+        ("rusty", "every obstacle is grown by r = 0.11 m", false),
+        ("hitch", "x and y at theta = 0.000", false),
+        ("reach3", "at \u{3b8}1 = ", true),
+    ] {
+        run(&["capture", "--widget", "cspace", "--robot", robot, "--cells", "4", "-o", out]).done();
+        let svg = fs::read_to_string(out).unwrap();
+        assert!(svg.contains(words), "{robot}");
+        assert_eq!(svg.contains("The arm is a point"), arm, "{robot}");
+    }
+}
+
+#[test]
 fn what_cannot_be_drawn_is_refused_and_no_file_is_left() {
     let folder = tempfile::tempdir().unwrap();
     let at = |name: &str| folder.path().join(name).to_str().unwrap().to_owned();
     let (svg, gif, bmp) = (at("a.svg"), at("a.gif"), at("a.bmp"));
-    let refused: [(&[&str], &str); 14] = [
+    let refused: [(&[&str], &str); 18] = [
         (&["dashboard", "--tick", "99999", "-o", &svg], "there is no tick 99999"),
         (&["dashboard", "--from", "9", "--to", "3", "-o", &gif], "there is no tick 9"),
-        (&["anatomy", "-o", &gif], "only the dashboard moves"),
+        (&["anatomy", "-o", &gif], "query anatomy is one frozen scene"),
         (&["anatomy", "-o", &bmp], "its name does not tell the form"),
         (&["anatomy", "--q", "1,2,3", "-o", &svg], "is no configuration of a reach"),
         (&["anatomy", "--step", "1", "-o", &svg], "the step has 2"),
@@ -117,9 +170,13 @@ fn what_cannot_be_drawn_is_refused_and_no_file_is_left() {
         (&["atlas", "--grid", "1e-9", "-o", &svg], "more than"),
         (&["atlas", "--teleport", "1,2,3", "-o", &svg], "of which world?"),
         (&["cspace", "--tab", "swept", "-o", &svg], "--tab: for the anatomy alone"),
-        (&["anatomy", "--seed", "7", "-o", &svg], "--seed: for the dashboard alone"),
+        (&["anatomy", "--seed", "7", "-o", &svg], "--seed: for dashboard, atlas and cspace alone"),
         (&["dashboard", "--every", "2", "-o", &svg], "--from, --to and --every: for GIF alone"),
         (&["dashboard", "--tick", "2", "-o", &gif], "--tick: for SVG and PNG alone"),
+        (&["cspace", "--seed", "7", "--q", "0,0", "-o", &svg], "--q: for what stands still alone"),
+        (&["atlas", "--seed", "7", "--grid", "0.1", "-o", &svg], "--grid: for what stands still alone"),
+        (&["cspace", "--robot", "reach3", "--to", "8", "-o", &gif], "the run has no robot of kind reach3"),
+        (&["cspace", "--robot", "reach", "--world", "lot", "-o", &gif], "no robot of kind reach in Lot"),
         (&["atlas", "--world", "lot", "--teleport", "1,2", "-o", &svg], "2 numbers: Hitch is at HitchCfg"),
     ];
     for (arguments, reason) in refused {

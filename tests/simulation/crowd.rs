@@ -18,7 +18,7 @@ pub(crate) fn arena(half: f64, robots: &[(&str, &str, &[f64])]) -> World {
         let (a, b) = (corners[i], corners[(i + 1) % 4]);
         (Pose2::IDENTITY, Shape::Segment { a, b })
     };
-    let wall = Obstacle { name: "the wall".into(), kind: ObstacleKind::Wall, pieces: (0..4).map(side).collect() };
+    let wall = Obstacle::new("the wall", ObstacleKind::Wall, (0..4).map(side).collect());
     World {
         name: "the arena".into(),
         bounds: Bounds { min: corners[0], max: corners[2] },

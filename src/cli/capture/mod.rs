@@ -1,27 +1,29 @@
 //! `capture`: what a widget shows, without a display, as SVG, PNG or GIF.
 
-mod dashboard;
-mod paper;
+mod run;
 mod widgets;
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
+use motion_lab::capture::{CaptureError, Form, Paper};
+use motion_lab::ui::Theme;
 
 use super::numbers::Numbers;
 use super::query::RobotName;
+use super::simulate::not_shown;
 use super::{Failure, Outcome, say};
-use paper::{Kind, Paper};
 
-/// Draw what a widget shows, without a display: a figure for a page, as SVG or PNG; the dashboard over a span of ticks as GIF.
+/// Draw what a widget shows, without a display: a figure for a page, as SVG or PNG; a run over a span of ticks as GIF.
 ///
 /// The file's name tells the form. Seed and digest, or the world's content hash and the configuration, are in the file: in the
 /// notes of a PNG, the metadata of an SVG, the comment of a GIF.
 ///
 /// dashboard  the run of a log, or of --seed, at --tick
-/// anatomy    the queries at a configuration: --tab, --robot, --q, --thick, --step
-/// atlas      worlds with their names: --world, --grid, --teleport
-/// cspace     the workspace and beside it the configuration space: --robot, --q, --cells, --step
+/// anatomy    the queries at a configuration: --tab, --robot, --q, --step
+/// atlas      worlds with their names: --world, --grid, --teleport; of a run: --seed or --log, its robots where they are
+/// cspace     the workspace and beside it the configuration space: --robot, --q, --cells, --step; of a run: --seed or --log,
+///            a robot of it with its way
 #[derive(Debug, Args)]
 #[command(verbatim_doc_comment)]
 pub struct Capture {
@@ -46,16 +48,16 @@ pub struct Capture {
     scene: SceneArgs,
 }
 
-/// Which run the dashboard shows, and when.
+/// Which run is shown, and when.
 #[derive(Debug, Args)]
 pub struct RunArgs {
-    /// Dashboard: this log, instead of the run of --seed.
+    /// The run of this log, instead of that of --seed.
     #[arg(long, value_name = "FILE", conflicts_with = "seed")]
     log: Option<PathBuf>,
-    /// Dashboard: the tour's seed.
+    /// The tour of this seed. [default: 2005, where a run is shown]
     #[arg(long, value_name = "SEED")]
     seed: Option<u64>,
-    /// Dashboard: the tick. [default: the last]
+    /// SVG and PNG of a run: the tick. [default: the last]
     #[arg(long, value_name = "TICK")]
     tick: Option<u64>,
     /// GIF: the first tick. [default: 0]
@@ -67,6 +69,19 @@ pub struct RunArgs {
     /// GIF: a picture for every N ticks. [default: 4]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..=1000))]
     every: Option<u64>,
+    /// Dashboard: everything that stands still with its name.
+    #[arg(long)]
+    names: bool,
+    /// Dashboard: what the range sensors see.
+    #[arg(long)]
+    scan: bool,
+}
+
+impl RunArgs {
+    /// Whether the widget shows a run, where it need not.
+    fn asked(&self, form: Form) -> bool {
+        form == Form::Gif || self.log.is_some() || self.seed.is_some() || self.tick.is_some()
+    }
 }
 
 /// What the other widgets show.
@@ -75,7 +90,7 @@ pub struct SceneArgs {
     /// Anatomy: the tab; all four when left out.
     #[arg(long, value_enum)]
     tab: Option<TabName>,
-    /// Anatomy and cspace: the robot. [default: choset]
+    /// Anatomy and cspace: the robot. [default: choset; of a run its first]
     #[arg(long, value_enum)]
     robot: Option<RobotName>,
     /// Anatomy, atlas and cspace: a built-in world or the path of a world file. [default: the robot's home; atlas: all three]
@@ -90,7 +105,7 @@ pub struct SceneArgs {
     /// Anatomy: draw the annulus of points that an arm's tip can reach.
     #[arg(long)]
     annulus: bool,
-    /// Cspace: how often the plane is halved for the finest cells. [default: 9]
+    /// Cspace: how often the plane is halved for the finest cells. [default: 9; of a run 7]
     #[arg(long, value_name = "LEVEL", value_parser = clap::value_parser!(u32).range(1..=12))]
     cells: Option<u32>,
     /// Cspace: stop after judging so many cells. [default: when all are proven or as fine as --cells says]
@@ -139,40 +154,59 @@ impl Capture {
     /// Runs the command.
     pub fn run(self) -> Result<Outcome, Failure> {
         let theme = match self.theme {
-            ThemeName::Light => motion_lab::ui::Theme::Light,
-            ThemeName::Dark => motion_lab::ui::Theme::Dark,
+            ThemeName::Light => Theme::Light,
+            ThemeName::Dark => Theme::Dark,
         };
-        let paper = Paper::new(&self.output, theme, self.width, self.scale)?;
-        if paper.kind() == Kind::Gif && self.widget != Widget::Dashboard {
-            return Err(Failure::usage(
-                "only the dashboard moves",
-                "Name an .svg or .png file, or --widget dashboard.",
-            ));
+        let paper = Paper { palette: theme.palette(), width: self.width, scale: self.scale };
+        let form = Form::of(&self.output).ok_or_else(|| {
+            let reason = format!("{}: its name does not tell the form", self.output.display());
+            Failure::usage(reason, "Let it end in .svg, .png or .gif.")
+        })?;
+        let of_run = self.widget == Widget::Dashboard || self.run.asked(form);
+        if self.widget == Widget::Anatomy && form == Form::Gif {
+            return Err(self.failure(CaptureError::Frozen));
         }
-        if let Some((option, place)) = self.astray(paper.kind()) {
+        if let Some((option, place)) = self.astray(form, of_run) {
             return Err(Failure::usage(format!("{option}: for {place} alone"), "Leave it out."));
         }
-        match self.widget {
-            Widget::Dashboard => dashboard::capture(&self.run, &paper)?,
-            Widget::Anatomy => widgets::anatomy(&self.scene, &paper)?,
-            Widget::Atlas => widgets::atlas(&self.scene, &paper)?,
-            Widget::Cspace => widgets::cspace(&self.scene, &paper)?,
+        if of_run {
+            self.of_run(form, &paper)?;
+        } else {
+            let captured = match self.widget {
+                Widget::Atlas => widgets::atlas(&self.scene, &paper)?,
+                Widget::Cspace => widgets::cspace(&self.scene)?,
+                Widget::Anatomy | Widget::Dashboard => widgets::anatomy(&self.scene)?,
+            };
+            motion_lab::capture::write(&captured, &paper, form, &self.output).map_err(|e| self.failure(e))?;
         }
         say(format!("wrote {}", self.output.display()));
         Ok(Outcome::Done)
     }
 
+    /// What the library says, as this program says it.
+    fn failure(&self, error: CaptureError) -> Failure {
+        match error {
+            CaptureError::Write(error) => Failure::output(&self.output, &error),
+            CaptureError::Fault(reason) => Failure::internal(anyhow::anyhow!(reason)),
+            CaptureError::Run(error) => not_shown(self.run.log.as_deref().unwrap_or(Path::new("the run")), &error),
+            error => Failure::usage(&error, next(&error)),
+        }
+    }
+
     /// The first option given that the widget, or the form, has no use for, and what it goes with.
-    fn astray(&self, kind: Kind) -> Option<(&'static str, &'static str)> {
+    fn astray(&self, form: Form, of_run: bool) -> Option<(&'static str, &'static str)> {
         use Widget::{Anatomy, Atlas, Cspace, Dashboard};
         let (run, scene) = (&self.run, &self.scene);
-        let options: [(&str, bool, &[Widget], &str); 15] = [
-            ("--log", run.log.is_some(), &[Dashboard], "the dashboard"),
-            ("--seed", run.seed.is_some(), &[Dashboard], "the dashboard"),
-            ("--tick", run.tick.is_some(), &[Dashboard], "the dashboard"),
-            ("--from", run.from.is_some(), &[Dashboard], "the dashboard"),
-            ("--to", run.to.is_some(), &[Dashboard], "the dashboard"),
-            ("--every", run.every.is_some(), &[Dashboard], "the dashboard"),
+        let runs: &[Widget] = &[Dashboard, Atlas, Cspace];
+        let options: [(&str, bool, &[Widget], &str); 17] = [
+            ("--log", run.log.is_some(), runs, "dashboard, atlas and cspace"),
+            ("--seed", run.seed.is_some(), runs, "dashboard, atlas and cspace"),
+            ("--tick", run.tick.is_some(), runs, "dashboard, atlas and cspace"),
+            ("--from", run.from.is_some(), runs, "dashboard, atlas and cspace"),
+            ("--to", run.to.is_some(), runs, "dashboard, atlas and cspace"),
+            ("--every", run.every.is_some(), runs, "dashboard, atlas and cspace"),
+            ("--names", run.names, &[Dashboard], "the dashboard"),
+            ("--scan", run.scan, &[Dashboard], "the dashboard"),
             ("--tab", scene.tab.is_some(), &[Anatomy], "the anatomy"),
             ("--robot", scene.robot.is_some(), &[Anatomy, Cspace], "anatomy and cspace"),
             ("--q", scene.q.is_some(), &[Anatomy, Cspace], "anatomy and cspace"),
@@ -184,12 +218,32 @@ impl Capture {
             ("--world", scene.world.is_some(), &[Anatomy, Atlas, Cspace], "anatomy, atlas and cspace"),
         ];
         let stray = options.into_iter().find(|(_, given, widgets, _)| *given && !widgets.contains(&self.widget));
-        stray.map(|(option, .., place)| (option, place)).or_else(|| {
+        // a run says where its robots are
+        let still = [
+            ("--q", scene.q.is_some()),
+            ("--step", scene.step.is_some()),
+            ("--teleport", scene.teleport.is_some()),
+            ("--grid", scene.grid.is_some()),
+            ("--budget", scene.budget.is_some()),
+        ];
+        let of_still =
+            still.into_iter().find(|(_, given)| of_run && *given).map(|(option, _)| (option, "what stands still"));
+        stray.map(|(option, .., place)| (option, place)).or(of_still).or_else(|| {
             let span = run.from.or(run.to).or(run.every).is_some();
-            match kind {
-                Kind::Gif => run.tick.map(|_| ("--tick", "SVG and PNG")),
+            match form {
+                Form::Gif => run.tick.map(|_| ("--tick", "SVG and PNG")),
                 _ => span.then_some(("--from, --to and --every", "GIF")),
             }
         })
+    }
+}
+
+/// What to do about it.
+fn next(error: &CaptureError) -> &'static str {
+    match error {
+        CaptureError::NoTick { .. } => "Choose one of them.",
+        CaptureError::Frozen => "Name an .svg or .png file, or --widget cspace to see a robot move beside its point.",
+        CaptureError::NotInRun(_) => "Name a --log with it, or another --robot or --world.",
+        _ => "Choose a smaller --width or --scale.",
     }
 }

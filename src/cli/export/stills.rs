@@ -3,17 +3,13 @@
 use std::path::Path;
 
 use clap::Args;
+use motion_lab::capture::{CaptureError, GifWriter, Image, Raster, Size, TICK_HUNDREDTHS, write_png};
 use motion_lab::run::Log;
-use motion_lab::ui::Theme;
+use motion_lab::ui::{RunFigure, Theme};
 
 use crate::cli::Failure;
-use crate::cli::figure::RunFigure;
 use crate::cli::output::PendingFile;
-use crate::cli::raster::{GifWriter, Raster, Size, write_png};
 use crate::cli::simulate::show;
-
-/// Hundredths of a second in a tick.
-const TICK_HUNDREDTHS: u64 = 5;
 
 /// Which ticks are drawn, and how large.
 #[derive(Debug, Args)]
@@ -53,7 +49,7 @@ pub fn svg_at(file: &Path, log: &Log, tick: u64) -> Result<String, Failure> {
 /// Writes a PNG of the run at one tick.
 pub fn png(args: &StillArgs, file: &Path, log: &Log, output: &Path) -> Result<(), Failure> {
     let tick = args.tick.unwrap_or(log.frames.len() as u64);
-    let image = Raster::new(Size::Wide(args.width)).paint(&svg_at(file, log, tick)?, None)?;
+    let image = paint(&Raster::new(Size::Wide(args.width)), &svg_at(file, log, tick)?, None)?;
     let mut pending = PendingFile::create(output)?;
     let notes = [
         ("Software", format!("motion-lab {}", env!("CARGO_PKG_VERSION"))),
@@ -61,7 +57,10 @@ pub fn png(args: &StillArgs, file: &Path, log: &Log, output: &Path) -> Result<()
         ("Digest", log.digest().to_string()),
         ("Tick", tick.to_string()),
     ];
-    write_png(&image, &notes, &mut pending, output)?;
+    write_png(&image, &notes, &mut pending).map_err(|error| match error {
+        CaptureError::Write(error) => Failure::output(output, &error),
+        error => Failure::internal(error),
+    })?;
     pending.commit()
 }
 
@@ -80,7 +79,7 @@ pub fn gif(args: &StillArgs, file: &Path, log: &Log, output: &Path) -> Result<()
     let mut writer: Option<(GifWriter<PendingFile>, u32)> = None;
     let wanted = |tick: u64| (from..=to).contains(&tick) && (tick - from).is_multiple_of(args.every);
     each_svg(file, log, wanted, |svg| {
-        let image = raster.paint(&svg, writer.as_ref().map(|(_, height)| *height))?;
+        let image = paint(&raster, &svg, writer.as_ref().map(|(_, height)| *height))?;
         if let Some(pending) = pending.take() {
             let too_large = |_| Failure::usage("the pictures are too large for a GIF", "Choose a smaller --width.");
             let size = [image.width.try_into().map_err(too_large)?, image.height.try_into().map_err(too_large)?];
@@ -100,6 +99,13 @@ pub fn gif(args: &StillArgs, file: &Path, log: &Log, output: &Path) -> Result<()
     }
 }
 
+fn paint(raster: &Raster, svg: &str, height: Option<u32>) -> Result<Image, Failure> {
+    raster.paint(svg, height).map_err(|error| match error {
+        error @ CaptureError::TooLarge(_) => Failure::usage(error, "Choose a smaller --width."),
+        error => Failure::internal(error),
+    })
+}
+
 /// Gives `take` the SVG of the run after each tick that is wanted.
 fn each_svg(
     file: &Path,
@@ -111,7 +117,7 @@ fn each_svg(
     show(file, log, |run, frame| {
         figure.watch(run.view());
         if wanted(frame.tick) {
-            take(figure.svg(log.seed, &log.config, frame.tick, digest))?;
+            take(figure.svg(log.seed, &log.config, (frame.tick, digest), Theme::Light))?;
         }
         Ok(())
     })

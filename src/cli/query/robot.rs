@@ -46,14 +46,19 @@ impl RobotName {
         }
     }
 
-    /// The robot with a configuration: these numbers, or where a world's resident of its kind starts, or for an arm the book's.
-    pub fn at(self, numbers: Option<&[f64]>, world: &World) -> Result<(AnyRobot, AnyConfiguration), String> {
-        let kind = match self {
+    /// Its kind, as worlds name it.
+    pub fn kind(self) -> &'static str {
+        match self {
             RobotName::Rusty => "rusty",
             RobotName::Reach | RobotName::Choset => "reach",
             RobotName::Reach3 => "reach3",
             RobotName::Hitch => "hitch",
-        };
+        }
+    }
+
+    /// The robot with a configuration: these numbers, or where a world's resident of its kind starts, or for an arm the book's.
+    pub fn at(self, numbers: Option<&[f64]>, world: &World) -> Result<(AnyRobot, AnyConfiguration), String> {
+        let kind = self.kind();
         let resident = world.robots.iter().find(|r| r.kind == kind).map(|r| r.start.clone());
         let numbers = match (numbers, kind) {
             (Some([x, y]), "rusty") => vec![*x, *y, 0.0],

@@ -26,6 +26,8 @@ World(
         (name: "rail", shape: Rounded(points: [(1, 1), (2, 1)], radius: 0)),
         (name: "rock", shape: Rounded(points: [(1, 1), (2, 1), (1.5, 1.25), (1, 2)], radius: 0.1)),
         (name: "table", shape: Union([Box(min: (1, 4), max: (3, 5)), Union([Disc(center: (0, 0), radius: 1e-3)])])),
+        (name: "islands", shape: Union([Disc(center: (0, 0), radius: 1), Polygon([(5, 1), (7, 1), (6, 1.5), (6, 3)]),
+            Box(min: (1, 4), max: (3, 5)), Polygon([(5, 3), (5.5, 1), (5, 1.5), (4, 1)])])), // the second clockwise
     ],
     places: [(name: "home", pose: (x: 3e0, y: 0.1, theta: 7))],
     marks: [(name: "path", points: [(0, 3), (4, 3.5), (4.00000000001, 5e-324)], closed: true)],
@@ -67,6 +69,15 @@ fn the_yard_is_read_as_meant() {
     );
     assert_eq!(pieces("tree"), [(Pose2::new(2.0, 3.0, 0.0), Shape::Disc { radius: 0.4 })]);
     assert_eq!(pieces("pond").len(), 2, "one notch, two convex pieces");
+    let pond = "(name: \"pond\", shape: Polygon([(4.0, 1.0), (6.0, 1.0), (5.5, 2.0), (6.0, 3.0), (4.0, 3.0)])),";
+    assert!(world.to_ron().contains(pond), "and printed as the polygon that was written");
+    // one put together by hand whose outline is no longer its own is printed as what it is
+    let mut other = world.clone();
+    let at = other.obstacles.iter().position(|o| o.name == "pond").unwrap();
+    other.obstacles[at].outlines[0].points[2].x = 5.25;
+    assert!(other.to_ron().contains("(name: \"pond\", shape: Union([Polygon(["));
+    other.obstacles[at].outlines.clear();
+    assert!(other.to_ron().contains("(name: \"pond\", shape: Union([Polygon(["));
     assert_eq!(world.obstacle("sign").unwrap().placed().next().unwrap().core(), [p(1., 4.), p(2., 4.), p(1., 5.)]);
     assert_eq!(pieces("log")[0].1, Shape::Capsule { a: p(1.0, 1.0), b: p(2.0, 1.0), radius: 0.2 });
     assert!(matches!(&pieces("rock")[0].1, Shape::Hull { vertices, radius: 0.1 } if vertices.len() == 3));

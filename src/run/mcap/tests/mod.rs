@@ -97,7 +97,7 @@ fn what_is_no_run_is_not_written() {
         ("worlds/0.ron in the log: the world is not one", |l| {
             let wall = Shape::Segment { a: Point2::new(0.0, 0.0), b: Point2::new(1.0, 0.0) };
             let pieces = vec![(Pose2::new(0.0, 0.0, 0.5), wall)];
-            l.config.worlds[0].obstacles.push(Obstacle { name: "turned".into(), kind: ObstacleKind::Wall, pieces });
+            l.config.worlds[0].obstacles.push(Obstacle::new("turned", ObstacleKind::Wall, pieces));
         }),
         ("the configuration: 0 worlds", |l| l.config.worlds.clear()),
         ("the script: events[2]: there is no robot \"Cat\"", |l| l.script.events[2].robot = "Cat".into()),

@@ -7,7 +7,7 @@ const FIGURE: usize = 6;
 /// letters stay where they are while it changes.
 ///
 /// ```
-/// # use motion_lab::ui::readout;
+/// # use motion_lab::picture::readout;
 /// assert_eq!(readout("T2 { th1: 0.785, th2: -1.571 }"), "T2 { th1:  0.785, th2: \u{2212}1.571 }");
 /// ```
 pub fn readout(printed: &str) -> String {

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use motion_lab::picture::{Palette, Role};
+use crate::picture::{Palette, Role};
 
 /// How many colours there may be.
 const MOST: usize = 256;
@@ -45,13 +45,15 @@ fn nearest(colours: &[[u8; 3]], colour: [u8; 3]) -> u8 {
 
 #[cfg(test)]
 mod tests {
-    use motion_lab::ui::Theme;
-
     use super::*;
+    use crate::picture::Rgb;
+
+    /// A palette in which everything is red.
+    const REDS: Palette = Palette::new([Rgb([200, 30, 40]); Role::ALL.len()]);
 
     #[test]
     fn rare_colours_of_roles_stay_and_others_get_the_nearest() {
-        let red = Theme::Light.palette().colour(Role::Goal).0;
+        let red = REDS.colour(Role::Goal).0;
         // 400 colours, two pixels each and every fifth three, and a single red pixel among them
         let mut pixels: Vec<[u8; 3]> = Vec::new();
         for i in 0..400_u32 {
@@ -59,7 +61,7 @@ mod tests {
             pixels.extend(std::iter::repeat_n(colour, if i % 5 == 0 { 3 } else { 2 }));
         }
         pixels.push(red);
-        let few = FewColours::of(&pixels.concat(), Theme::Light.palette());
+        let few = FewColours::of(&pixels.concat(), &REDS);
         assert_eq!((few.palette.len(), few.pixels.len()), (3 * MOST, pixels.len()));
         let colour = |pixel: usize| &few.palette[3 * usize::from(few.pixels[pixel])..][..3];
         assert_eq!(colour(pixels.len() - 1), red);
@@ -74,7 +76,7 @@ mod tests {
     #[test]
     fn a_picture_of_few_colours_is_itself() {
         let rgb = [[9, 8, 7], [1, 2, 3], [9, 8, 7]].concat();
-        let few = FewColours::of(&rgb, Theme::Dark.palette());
+        let few = FewColours::of(&rgb, &REDS);
         let back: Vec<u8> = few.pixels.iter().flat_map(|n| few.palette[3 * usize::from(*n)..][..3].to_vec()).collect();
         assert_eq!(back, rgb);
     }

@@ -1,19 +1,19 @@
 //! Pixels: an SVG of ours painted without a display, as PNG and GIF.
 
 use std::io::{self, Write};
-use std::path::Path;
 
-use resvg::tiny_skia::{Color, Pixmap, Transform};
+use resvg::tiny_skia::{Pixmap, Transform};
 use resvg::usvg::{Options, Tree};
 
-use super::Failure;
+use super::CaptureError;
 use super::few_colours::FewColours;
-use motion_lab::picture::Palette;
+use crate::picture::{Palette, Rgb};
 
 /// Paints SVG at a fixed size. Its letters are the window's.
 pub struct Raster {
     options: Options<'static>,
     size: Size,
+    paper: Rgb,
 }
 
 /// How large an image is.
@@ -46,21 +46,48 @@ impl Raster {
         }
         fonts.set_sans_serif_family("Ubuntu");
         fonts.set_monospace_family("Hack");
-        Raster { options, size }
+        Raster { options, size, paper: Rgb([255; 3]) }
     }
 
-    /// Paints the sheet on white paper. With a `height` what is lower is cut off and what is missing stays white, so that all
-    /// images of a sequence are of one size.
-    pub fn paint(&self, svg: &str, height: Option<u32>) -> Result<Image, Failure> {
-        let tree = Tree::from_str(svg, &self.options).map_err(Failure::internal)?;
-        let (width, scale) = match self.size {
+    /// The same on paper of this colour.
+    #[must_use]
+    pub fn on(self, paper: Rgb) -> Self {
+        Raster { paper, ..self }
+    }
+
+    fn tree(&self, svg: &str) -> Result<Tree, CaptureError> {
+        Tree::from_str(svg, &self.options).map_err(|error| CaptureError::Fault(error.to_string()))
+    }
+
+    /// How wide the image of a tree is, and by how much that is larger.
+    fn width(&self, tree: &Tree) -> (u32, f32) {
+        match self.size {
             Size::Wide(width) => (width, width as f32 / tree.size().width()),
             Size::Times(scale) => ((tree.size().width() * scale).ceil() as u32, scale),
-        };
+        }
+    }
+
+    /// How high the image of the sheet is, pixels.
+    ///
+    /// # Errors
+    /// [`CaptureError::Fault`] for what is no SVG.
+    pub fn height(&self, svg: &str) -> Result<u32, CaptureError> {
+        let tree = self.tree(svg)?;
+        Ok((tree.size().height() * self.width(&tree).1).ceil() as u32)
+    }
+
+    /// Paints the sheet. With a `height` what is lower is cut off and what is missing stays bare paper, so that all images of a
+    /// sequence are of one size.
+    ///
+    /// # Errors
+    /// [`CaptureError::TooLarge`]; [`CaptureError::Fault`] for what is no SVG.
+    pub fn paint(&self, svg: &str, height: Option<u32>) -> Result<Image, CaptureError> {
+        let tree = self.tree(svg)?;
+        let (width, scale) = self.width(&tree);
         let height = height.unwrap_or((tree.size().height() * scale).ceil() as u32);
-        let too_large = || Failure::usage(format!("{width} pixels wide is too large"), "Choose a smaller --width.");
-        let mut pixels = Pixmap::new(width, height).ok_or_else(too_large)?;
-        pixels.fill(Color::WHITE);
+        let mut pixels = Pixmap::new(width, height).ok_or(CaptureError::TooLarge(width))?;
+        let Rgb([r, g, b]) = self.paper;
+        pixels.data_mut().as_chunks_mut::<4>().0.fill([r, g, b, u8::MAX]);
         resvg::render(&tree, Transform::from_scale(scale, scale), &mut pixels.as_mut());
         let rgb = pixels.pixels().iter().flat_map(|p| [p.red(), p.green(), p.blue()]).collect();
         Ok(Image { width, height, rgb })
@@ -68,10 +95,13 @@ impl Raster {
 }
 
 /// Writes a PNG with these notes, a keyword and its text each, in its metadata.
-pub fn write_png(image: &Image, notes: &[(&str, String)], to: impl Write, path: &Path) -> Result<(), Failure> {
+///
+/// # Errors
+/// [`CaptureError::Write`] when it can't be written.
+pub fn write_png(image: &Image, notes: &[(&str, String)], to: impl Write) -> Result<(), CaptureError> {
     let failed = |error: png::EncodingError| match error {
-        png::EncodingError::IoError(error) => Failure::output(path, &error),
-        error => Failure::internal(error),
+        png::EncodingError::IoError(error) => CaptureError::Write(error),
+        error => CaptureError::Fault(error.to_string()),
     };
     let mut encoder = png::Encoder::new(to, image.width, image.height);
     encoder.set_color(png::ColorType::Rgb);
@@ -93,6 +123,9 @@ pub struct GifWriter<W: Write> {
 impl<W: Write> GifWriter<W> {
     /// Begins a GIF whose images are all this large and are shown for this many hundredths of a second each. The palette's
     /// colours are kept, however rare.
+    ///
+    /// # Errors
+    /// [`io::Error`] when it can't be written.
     pub fn new(
         to: W,
         [width, height]: [u16; 2],
@@ -109,6 +142,9 @@ impl<W: Write> GifWriter<W> {
     }
 
     /// Writes the next image.
+    ///
+    /// # Errors
+    /// [`io::Error`] when it can't be written.
     pub fn write(&mut self, image: &Image) -> io::Result<()> {
         let (width, height) = (image.width as u16, image.height as u16);
         let FewColours { palette, pixels } = FewColours::of(&image.rgb, self.palette);
@@ -121,6 +157,9 @@ impl<W: Write> GifWriter<W> {
     }
 
     /// Ends the GIF and gives back what it was written to.
+    ///
+    /// # Errors
+    /// [`io::Error`] when it can't be written.
     pub fn finish(self) -> io::Result<W> {
         self.encoder.into_inner().map_err(io::Error::other)
     }
@@ -130,8 +169,10 @@ impl<W: Write> GifWriter<W> {
 mod tests {
     use super::*;
 
+    const REDS: Palette = Palette::new([Rgb([255, 0, 0]); crate::picture::Role::ALL.len()]);
+
     const SVG: &str = r##"<svg xmlns="http://www.w3.org/2000/svg" width="40" height="20">
-        <rect x="0" y="0" width="10" height="20" fill="#ff0000"/>
+        <rect x="0" y="0" width="10" height="20" fill="red"/>
         <text x="12" y="15" font-size="12" style="font-family:'No Such Face',monospace">Wm</text></svg>"##;
 
     fn pixel(image: &Image, x: u32, y: u32) -> [u8; 3] {
@@ -148,13 +189,16 @@ mod tests {
         assert!(dark.count() > 60, "the letters are there without any font of the system's");
         let padded = Raster::new(Size::Wide(80)).paint(SVG, Some(60)).unwrap();
         assert_eq!((padded.height, pixel(&padded, 10, 50)), (60, [255; 3]));
+        let dark = Raster::new(Size::Wide(80)).on(Rgb([9, 8, 7]));
+        assert_eq!(pixel(&dark.paint(SVG, Some(60)).unwrap(), 10, 50), [9, 8, 7], "what is missing is paper too");
+        assert_eq!(dark.height(SVG).unwrap(), 40);
     }
 
     #[test]
     fn a_png_reads_back_with_its_notes() {
         let image = Raster::new(Size::Wide(40)).paint(SVG, None).unwrap();
         let mut bytes = Vec::new();
-        write_png(&image, &[("Seed", "2005".into())], &mut bytes, Path::new("x.png")).unwrap();
+        write_png(&image, &[("Seed", "2005".into())], &mut bytes).unwrap();
         let mut reader = png::Decoder::new(io::Cursor::new(&bytes)).read_info().unwrap();
         let mut rgb = vec![0; reader.output_buffer_size().unwrap()];
         reader.next_frame(&mut rgb).unwrap();
@@ -167,8 +211,7 @@ mod tests {
     fn a_gif_holds_every_frame_and_its_comment() {
         let image = Raster::new(Size::Wide(40)).paint(SVG, None).unwrap();
         let comment = "seed 2005 ".repeat(30);
-        let mut writer =
-            GifWriter::new(Vec::new(), [40, 20], 5, motion_lab::ui::Theme::Light.palette(), &comment).unwrap();
+        let mut writer = GifWriter::new(Vec::new(), [40, 20], 5, &REDS, &comment).unwrap();
         for _ in 0..3 {
             writer.write(&image).unwrap();
         }

@@ -50,11 +50,16 @@ impl KeyText {
 }
 
 static WIDGETS: LazyLock<Vec<WidgetText>> =
-    LazyLock::new(|| ron::from_str(include_str!("../../assets/widgets.ron")).unwrap_or_default());
+    LazyLock::new(|| ron::from_str(include_str!("../assets/widgets.ron")).unwrap_or_default());
 
 /// The words of every widget, in the order of the rail.
 pub fn widgets() -> &'static [WidgetText] {
     &WIDGETS
+}
+
+/// The number on the rail of the widget with this id.
+pub fn number_of(id: &str) -> Option<usize> {
+    widgets().iter().position(|w| w.id == id)
 }
 
 /// The words of the widget with this id.
@@ -68,7 +73,7 @@ mod tests {
 
     #[test]
     fn the_manifest_is_whole() {
-        let parsed: Vec<WidgetText> = ron::from_str(include_str!("../../assets/widgets.ron")).unwrap();
+        let parsed: Vec<WidgetText> = ron::from_str(include_str!("../assets/widgets.ron")).unwrap();
         assert_eq!(parsed, widgets());
         assert!(widget("dashboard").is_some() && widget("a cat").is_none());
         for widget in widgets() {

@@ -1,0 +1,122 @@
+//! Captures from the window: the widget in front as a file, drawn and written beside the window, which goes on meanwhile.
+
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+use std::thread::{self, JoinHandle};
+
+use bevy::prelude::*;
+
+use super::captured::{captured, subject};
+use super::files::name;
+use super::runs::shown_run;
+use super::session::Interface;
+use crate::capture::{CaptureError, Form, Paper, film, write};
+use crate::recording::Run;
+use crate::simulation::Transport;
+use crate::tour::TourConfig;
+use crate::ui::{CaptureOrder, Notice, UiState, Working};
+
+/// The capture under way.
+#[derive(Resource, Default)]
+pub struct Capturing(Option<Job>);
+
+struct Job {
+    path: PathBuf,
+    progress: Arc<Progress>,
+    work: JoinHandle<Result<(), CaptureError>>,
+}
+
+/// How far a capture has come: pictures done, of how many, and whether it is to stop.
+#[derive(Default)]
+struct Progress {
+    done: AtomicU64,
+    all: AtomicU64,
+    stop: AtomicBool,
+}
+
+/// Whether the widget in front can be captured so, from a run of this configuration.
+pub fn check(config: &TourConfig, state: &UiState, order: &CaptureOrder) -> Result<(), CaptureError> {
+    subject(state, order.form)?.map_or(Ok(()), |subject| subject.check(config))
+}
+
+/// What is said of a capture that was not made.
+pub fn not_captured(error: &CaptureError) -> Notice {
+    Notice { text: format!("not captured: {error}"), is_error: true }
+}
+
+/// Begins to capture the widget in front; [`follow`] tells what comes of it. One that is under way is stopped.
+pub fn capture(world: &mut World, order: &CaptureOrder, path: &Path) {
+    let state = world.resource::<Interface>().0.clone();
+    // a name with another ending asks for another form
+    let form = Form::of(path).unwrap_or(order.form);
+    let paper = Paper { palette: state.theme().palette(), width: order.width, scale: order.scale as f32 };
+    let (tick, span) = (world.resource::<Transport>().tick, order.span);
+    let (seed, frontier) = (world.resource::<Transport>().seed, world.resource::<Transport>().frontier);
+    let (config, script) = shown_run(world, frontier);
+    let progress = Arc::new(Progress::default());
+    let (told, to) = (Arc::clone(&progress), path.to_owned());
+    let work = thread::spawn(move || {
+        if form == Form::Gif
+            && let Some(subject) = subject(&state, form)?
+        {
+            let log = Run::record(config, (seed, script))?;
+            return film(&log, &subject, span, (&paper, &to), |done, all| {
+                told.done.store(done, Ordering::Relaxed);
+                told.all.store(all, Ordering::Relaxed);
+                !told.stop.load(Ordering::Relaxed)
+            });
+        }
+        let figure = captured(&state, (config, seed, script), tick, paper.width_px())?;
+        write(&figure, &paper, form, &to)
+    });
+    if let Some(before) = &world.resource::<Capturing>().0 {
+        before.progress.stop.store(true, Ordering::Relaxed);
+    }
+    world.resource_mut::<Capturing>().0 = Some(Job { path: path.to_owned(), progress, work });
+    let state = &mut world.resource_mut::<Interface>().into_inner().0;
+    (state.notice, state.working) = (None, Some(Working::default()));
+    follow(world);
+}
+
+/// One that is given up stops at its next picture.
+impl Drop for Capturing {
+    fn drop(&mut self) {
+        if let Some(job) = &self.0 {
+            job.progress.stop.store(true, Ordering::Relaxed);
+        }
+    }
+}
+
+/// Says how far the capture under way has come, and at its end what came of it.
+pub fn follow(world: &mut World) {
+    let Some(job) = world.resource_mut::<Capturing>().0.take() else { return };
+    let state = &mut world.resource_mut::<Interface>().into_inner().0;
+    if job.work.is_finished() {
+        state.working = None;
+        state.notice = Some(ended(&job.path, job.work.join().unwrap_or(Err(fault()))));
+        return;
+    }
+    let (done, all) = (job.progress.done.load(Ordering::Relaxed), job.progress.all.load(Ordering::Relaxed));
+    let stop = state.working.as_ref().is_some_and(|w| w.stop);
+    job.progress.stop.store(stop, Ordering::Relaxed);
+    let text = match all {
+        0 => format!("{}: drawing", name(&job.path)),
+        _ => format!("{}: picture {} of {all}", name(&job.path), done + 1),
+    };
+    state.working = Some(Working { text, stop });
+    world.resource_mut::<Capturing>().0 = Some(job);
+}
+
+fn fault() -> CaptureError {
+    CaptureError::Fault("a fault of the lab".into())
+}
+
+fn ended(path: &Path, outcome: Result<(), CaptureError>) -> Notice {
+    let (text, is_error) = match outcome {
+        Ok(()) => (format!("{}: captured", name(path)), false),
+        Err(CaptureError::Stopped) => (format!("{}: stopped, no file was written", name(path)), false),
+        Err(error) => (format!("{}: not captured: {error}", path.display()), true),
+    };
+    Notice { text, is_error }
+}

@@ -1,0 +1,229 @@
+//! The editor.
+
+use super::*;
+use crate::geometry::Pose2;
+
+fn p(x: f64, y: f64) -> Point2 {
+    Point2::new(x, y)
+}
+
+fn name(name: &str) -> String {
+    name.to_owned()
+}
+
+fn boxed(x0: f64, y0: f64, x1: f64, y1: f64) -> EditShape {
+    EditShape::Box { min: p(x0, y0), max: p(x1, y1) }
+}
+
+#[test]
+fn canonical_files_are_saved_as_they_were_opened() {
+    for built_in in World::built_in_names() {
+        let text = World::built_in(built_in).unwrap().to_ron();
+        let mut editor = Editor::open("w.ron", &text).unwrap();
+        assert!(editor.is_saved());
+        assert_eq!(editor.text(), text, "{built_in}: open, save: the same bytes");
+        // and an edit taken back leaves no trace
+        let place = editor.world().places[0].name.clone();
+        editor.apply(&Op::Move { name: place, by: Vector2::new(0.1, 0.0) }).unwrap();
+        assert!(editor.text() != text && !editor.is_saved());
+        assert!(editor.undo() && editor.is_saved());
+        assert_eq!(editor.text(), text);
+    }
+}
+
+#[test]
+fn a_drawn_world_is_a_world_file() {
+    let mut editor = Editor::new(World::workbench());
+    let ops = [
+        Op::Add { name: name("the fence"), shape: EditShape::Wall(vec![p(-2.0, -2.0), p(2.0, -2.0), p(2.0, -1.8)]) },
+        Op::Add { name: name("the tree"), shape: EditShape::Disc { center: p(-1.5, 1.5), radius: 0.2 } },
+        Op::Add {
+            name: name("the ell"),
+            shape: EditShape::Polygon(vec![
+                p(1.5, 0.0),
+                p(2.1, 0.0),
+                p(2.1, 0.2),
+                p(1.7, 0.2),
+                p(1.7, 0.9),
+                p(1.5, 0.9),
+            ]),
+        },
+        Op::Add {
+            name: name("the log"),
+            shape: EditShape::Rounded { points: vec![p(-2.0, 0.0), p(-1.8, 0.3)], radius: 0.05 },
+        },
+        Op::AddPlace { name: name("there"), pose: Pose2::new(1.0, 0.3, 7.0) },
+        Op::Move { name: name("the post"), by: Vector2::new(-0.5, 0.25) },
+        Op::Drag { name: name("the block"), handle: 2, to: p(1.2, 1.8) },
+        Op::Drag { name: name("the fence"), handle: 2, to: p(2.0, -1.0) },
+        Op::Drag { name: name("the tree"), handle: 1, to: p(-1.5, 1.9) },
+        Op::Rename { name: name("the shelf"), to: name("the \"bar\"") },
+        Op::Delete { name: name("the base") },
+    ];
+    for op in &ops {
+        let seen = editor.preview(op).unwrap();
+        editor.apply(op).unwrap();
+        assert_eq!(*editor.world(), seen);
+        assert_eq!(World::parse("w.ron", &editor.text()).unwrap(), seen, "{op:?}");
+    }
+    let world = editor.world();
+    assert_eq!(EditShape::of(world.obstacle("the post").unwrap()), boxed(-0.7 - 0.5, 0.55, -0.5 - 0.5, 0.75));
+    assert_eq!(EditShape::of(world.obstacle("the block").unwrap()), boxed(0.5, 1.0, 1.2, 1.8));
+    let EditShape::Disc { radius, .. } = EditShape::of(world.obstacle("the tree").unwrap()) else { panic!("a disc") };
+    assert!((radius - 0.4).abs() < 1e-12);
+    assert!(world.obstacle("the \"bar\"").is_some() && world.places.iter().all(|p| p.name != "the base"));
+    assert!(world.place("there").unwrap().pose.theta < 3.2, "an angle is wrapped, as in a file");
+    // the concave polygon is one, in the file too: six corners and the middles of its edges
+    assert_eq!(editor.handles("the ell").iter().filter(|h| !h.makes_corner).count(), 6);
+    assert_eq!(editor.handles("the ell").len(), 12);
+    let line = editor.text().lines().find(|l| l.contains("the ell")).unwrap().trim().to_owned();
+    let points = "(1.5, 0.0), (2.1, 0.0), (2.1, 0.2), (1.7, 0.2), (1.7, 0.9), (1.5, 0.9)";
+    assert_eq!(line, format!("(name: \"the ell\", shape: Polygon([{points}])),"));
+    for _ in &ops {
+        assert!(editor.undo());
+    }
+    assert!(!editor.undo());
+    assert_eq!(*editor.world(), World::workbench());
+    while editor.redo() {}
+    assert!(editor.world().obstacle("the ell").is_some());
+}
+
+#[test]
+fn what_a_file_would_be_refused_for_is_refused_and_changes_nothing() {
+    let mut editor = Editor::new(World::workbench());
+    let bow = EditShape::Polygon(vec![p(0.0, 0.0), p(1.0, 1.0), p(1.0, 0.0), p(0.0, 1.0)]);
+    let refused = [
+        (Op::Add { name: name("the block"), shape: boxed(0.0, 0.0, 1.0, 1.0) }, "the name is taken"),
+        (Op::Add { name: name(""), shape: boxed(0.0, 0.0, 1.0, 1.0) }, "it must be 1 to 200 bytes"),
+        (Op::Add { name: name("dust"), shape: EditShape::Disc { center: p(0.0, 0.0), radius: 0.0 } }, "radius 0 m"),
+        (Op::Add { name: name("nan"), shape: EditShape::Disc { center: p(f64::NAN, 0.0), radius: 1.0 } }, ""),
+        (Op::Add { name: name("bow"), shape: bow }, "polygon: "),
+        (Op::Add { name: name("dot"), shape: EditShape::Wall(vec![p(0.0, 0.0)]) }, ""),
+        (Op::Drag { name: name("the block"), handle: 2, to: p(0.5, 1.0) }, "the smallest feature"),
+        (Op::Rename { name: name("the block"), to: name("the post") }, "the name is taken"),
+        (Op::Delete { name: name("nobody") }, "nothing here is called \"nobody\""),
+        (Op::Reshape { name: name("the base"), shape: boxed(0.0, 0.0, 1.0, 1.0) }, "has no shape"),
+        (Op::Move { name: name("Reach"), by: Vector2::new(1.0, 0.0) }, "has no shape"),
+    ];
+    for (op, reason) in refused {
+        let error = editor.apply(&op).unwrap_err().to_string();
+        assert!(error.contains(reason), "{op:?}: {error}");
+        assert_eq!(*editor.world(), World::workbench());
+    }
+    assert!(!editor.undo(), "nothing was done");
+}
+
+#[test]
+fn closed_walls_stay_closed_and_names_stay_free() {
+    let mut editor = Editor::new(World::lot());
+    let square = vec![p(1.0, 1.0), p(2.0, 1.0), p(2.0, 2.0), p(1.0, 1.0)];
+    editor.apply(&Op::Add { name: editor.free_name("wall"), shape: EditShape::Wall(square) }).unwrap();
+    assert_eq!(editor.handles("wall").len(), 6, "three corners, three edges");
+    editor.apply(&Op::Drag { name: name("wall"), handle: 0, to: p(0.5, 0.5) }).unwrap();
+    let EditShape::Wall(points) = EditShape::of(editor.world().obstacle("wall").unwrap()) else { panic!("a wall") };
+    assert_eq!((points[0], points[3]), (p(0.5, 0.5), p(0.5, 0.5)));
+    assert_eq!(editor.free_name("wall"), "wall 2");
+}
+
+#[test]
+fn painted_marks_are_added_moved_reshaped_renamed_and_deleted() {
+    let mut editor = Editor::new(World::workbench());
+    let line = |editor: &Editor, name: &str| editor.world().marks.iter().find(|m| m.name == name).cloned();
+    let shape = EditShape::Mark(vec![p(0.0, 0.0), p(1.0, 0.0)]);
+    for (op, expected) in [
+        (Op::Add { name: name("stripe"), shape }, vec![p(0.0, 0.0), p(1.0, 0.0)]),
+        (Op::Move { name: name("stripe"), by: Vector2::new(0.0, 0.5) }, vec![p(0.0, 0.5), p(1.0, 0.5)]),
+        (Op::Drag { name: name("stripe"), handle: 0, to: p(-1.0, 0.5) }, vec![p(-1.0, 0.5), p(1.0, 0.5)]),
+        // the middle of its one edge becomes a corner, and goes away on its neighbour
+        (Op::Drag { name: name("stripe"), handle: 2, to: p(0.0, 1.0) }, vec![p(-1.0, 0.5), p(0.0, 1.0), p(1.0, 0.5)]),
+        (Op::Drag { name: name("stripe"), handle: 1, to: p(1.0, 0.5) }, vec![p(-1.0, 0.5), p(1.0, 0.5)]),
+        (
+            Op::Reshape { name: name("stripe"), shape: EditShape::Mark(vec![p(0.0, 0.0), p(0.0, 2.0)]) },
+            vec![p(0.0, 0.0), p(0.0, 2.0)],
+        ),
+    ] {
+        editor.apply(&op).unwrap();
+        assert_eq!(line(&editor, "stripe").unwrap().points, expected, "{op:?}");
+    }
+    assert_eq!(editor.selected_items("stripe").len(), 4, "its line and three handles");
+    editor.apply(&Op::Rename { name: name("stripe"), to: name("the stripe") }).unwrap();
+    assert!(line(&editor, "the stripe").is_some() && line(&editor, "stripe").is_none());
+    // a mark is no obstacle, and an obstacle no mark
+    let refused = [
+        Op::Reshape { name: name("the stripe"), shape: boxed(0.0, 0.0, 1.0, 1.0) },
+        Op::Reshape { name: name("the block"), shape: EditShape::Mark(vec![p(0.0, 0.0), p(1.0, 0.0)]) },
+    ];
+    for op in refused {
+        assert!(matches!(editor.apply(&op), Err(EditError::NoShape(_))), "{op:?}");
+    }
+    editor.apply(&Op::Delete { name: name("the stripe") }).unwrap();
+    assert_eq!(editor.world().marks, World::workbench().marks);
+}
+
+#[test]
+fn corners_are_made_and_go_away_and_places_turn() {
+    let mut editor = Editor::new(World::lot());
+    editor.apply(&Op::Add { name: name("wall"), shape: EditShape::Wall(vec![p(1.0, 4.0), p(2.0, 4.0)]) }).unwrap();
+    let corners = |editor: &Editor| editor.handles("wall").iter().filter(|h| !h.makes_corner).count();
+    editor.apply(&Op::Drag { name: name("wall"), handle: 2, to: p(1.5, 4.5) }).unwrap();
+    assert_eq!((corners(&editor), editor.handles("wall").len()), (3, 5));
+    assert_eq!(editor.shape("wall").unwrap().neighbours(1), [p(1.0, 4.0), p(2.0, 4.0)]);
+    editor.apply(&Op::Drag { name: name("wall"), handle: 0, to: p(1.5, 4.5) }).unwrap();
+    assert_eq!(editor.shape("wall"), Some(EditShape::Wall(vec![p(1.5, 4.5), p(2.0, 4.0)])));
+    // two are the fewest: the second is refused as a piece without length
+    assert!(editor.apply(&Op::Drag { name: name("wall"), handle: 0, to: p(2.0, 4.0) }).is_err());
+    // a concave polygon made of a convex one by a corner
+    let triangle = EditShape::Polygon(vec![p(4.0, 3.0), p(6.0, 3.0), p(5.0, 5.0)]);
+    editor.apply(&Op::Add { name: name("dart"), shape: triangle }).unwrap();
+    editor.apply(&Op::Drag { name: name("dart"), handle: 3, to: p(5.0, 4.0) }).unwrap();
+    let dart = editor.world().obstacle("dart").unwrap();
+    assert_eq!((dart.pieces.len(), dart.outlines.len()), (2, 1));
+    editor.apply(&Op::Drag { name: name("dart"), handle: 1, to: p(6.0, 3.0) }).unwrap();
+    assert_eq!(editor.world().obstacle("dart").unwrap().pieces.len(), 1, "convex again");
+    let place = editor.world().places[0].name.clone();
+    editor.apply(&Op::Drag { name: place.clone(), handle: 0, to: p(3.0, 3.0) }).unwrap();
+    editor.apply(&Op::Drag { name: place.clone(), handle: 1, to: p(3.0, 9.0) }).unwrap();
+    let pose = editor.world().place(&place).unwrap().pose;
+    assert_eq!((pose.x, pose.y, pose.theta), (3.0, 3.0, std::f64::consts::FRAC_PI_2));
+    assert!((editor.handles(&place)[1].at - p(3.0, 3.5)).norm() < 1e-12, "half a metre of ten");
+}
+
+#[test]
+fn what_is_moved_stays_readable() {
+    let mut editor = Editor::new(World::lot());
+    let triangle = EditShape::Polygon(vec![p(7.0, 4.5), p(9.0, 4.5), p(8.0, 6.0)]);
+    editor.apply(&Op::Add { name: name("island"), shape: triangle }).unwrap();
+    editor.apply(&Op::Move { name: name("island"), by: Vector2::new(5.45, -2.75) }).unwrap();
+    let line = editor.text().lines().find(|l| l.contains("island")).unwrap().trim().to_owned();
+    assert_eq!(line, "(name: \"island\", shape: Polygon([(12.45, 1.75), (14.45, 1.75), (13.45, 3.25)])),");
+}
+
+#[test]
+fn comments_are_told_before_they_are_dropped() {
+    let text = World::workbench().to_ron();
+    let noted = format!("// mine\n{text}");
+    let mut editor = Editor::open("w.ron", &noted).unwrap();
+    assert_eq!((editor.comments(), editor.is_saved()), (1, false));
+    assert_eq!(editor.text(), text);
+    editor.mark_saved();
+    assert_eq!(editor.comments(), 0);
+    assert_eq!(Editor::open("w.ron", &text).unwrap().comments(), 0);
+}
+
+#[test]
+fn starts_in_contact_are_told() {
+    let mut editor = Editor::new(World::lot());
+    assert!(editor.warnings().is_empty());
+    editor.apply(&Op::Move { name: name("the west pillar"), by: Vector2::new(1.0, -2.4) }).unwrap();
+    assert_eq!(editor.warnings(), ["Hitch would overlap the west pillar at its start"]);
+}
+
+#[test]
+fn points_snap_to_corners_first_and_then_to_the_grid() {
+    let corners = [p(1.0, 1.0), p(1.06, 1.0)];
+    assert_eq!(snap(p(1.04, 1.01), &corners, 0.1, 0.25), corners[1]);
+    assert_eq!(snap(p(1.19, 12.44), &[], 0.0, 0.05), p(1.2, 12.45), "as it is written");
+    let on_grid = snap(p(1.30, 0.88), &corners, 0.1, 0.25);
+    assert_eq!(on_grid, p(1.25, 1.0));
+    assert_eq!(snap(p(1.3, 0.9), &corners, 0.1, 0.0), p(1.3, 0.9));
+}

@@ -1,0 +1,126 @@
+//! Captures: what a widget shows as a figure for a page, and what a program finds in its file: a run's seed and digest, or a world's
+//! content hash and the configuration. The window and `capture` on the command line draw and write by these alone.
+//!
+//! A [`Captured`] is a figure with its notes: [`anatomy`], [`cspace`] and [`atlas`] make one of a scene that stands still, [`at_tick`] of
+//! a run at a tick. A [`Paper`] says how large it is and on which paper. Natively it is written as SVG, PNG, or over a [`Span`] of
+//! ticks as GIF.
+//!
+//! ```
+//! use motion_lab::anatomy::{Anatomy, Tab};
+//! use motion_lab::capture::{Paper, anatomy};
+//! use motion_lab::ui::Theme;
+//! let captured = anatomy(&Anatomy::default(), &[Tab::Witness]);
+//! let svg = captured.svg(&Paper { palette: Theme::Light.palette(), width: 640, scale: 1.0 });
+//! assert!(svg.contains("Configuration: T2(")); // its metadata
+//! ```
+
+mod error;
+#[cfg(not(target_family = "wasm"))]
+mod few_colours;
+mod moving;
+#[cfg(not(target_family = "wasm"))]
+mod paper;
+#[cfg(not(target_family = "wasm"))]
+mod raster;
+mod scenes;
+mod space;
+
+use std::path::Path;
+
+pub use error::CaptureError;
+pub use moving::{Span, Subject, at_tick};
+#[cfg(not(target_family = "wasm"))]
+pub use paper::{film, write};
+#[cfg(not(target_family = "wasm"))]
+pub use raster::{GifWriter, Image, Raster, Size, write_png};
+pub use scenes::{AtlasSheet, anatomy, atlas, cspace};
+
+use crate::picture::{Figure, Palette, Sheet};
+
+/// Hundredths of a second in a tick.
+pub const TICK_HUNDREDTHS: u64 = 5;
+
+/// A keyword and its text, as they stand in the file.
+pub type Note = (&'static str, String);
+
+/// The form of a captured file.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Form {
+    /// Lines and letters, sharp at any size.
+    Svg,
+    /// Pixels.
+    #[default]
+    Png,
+    /// Pixels over a span of ticks, played without end.
+    Gif,
+}
+
+impl Form {
+    /// Every form.
+    pub const ALL: [Form; 3] = [Form::Png, Form::Svg, Form::Gif];
+
+    /// The form that a file's name tells.
+    pub fn of(path: &Path) -> Option<Form> {
+        let extension = path.extension()?.to_str()?;
+        Form::ALL.into_iter().find(|form| form.extension() == extension)
+    }
+
+    /// What such a file's name ends in.
+    pub const fn extension(self) -> &'static str {
+        match self {
+            Form::Svg => "svg",
+            Form::Png => "png",
+            Form::Gif => "gif",
+        }
+    }
+
+    /// Its name.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Form::Svg => "SVG",
+            Form::Png => "PNG",
+            Form::Gif => "GIF",
+        }
+    }
+}
+
+/// A figure, and what a program finds in its file.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Captured {
+    /// The figure.
+    pub figure: Figure,
+    /// The notes, without the program's own.
+    pub notes: Vec<Note>,
+}
+
+/// The paper that a figure is put on, and how large.
+#[derive(Clone, Copy, Debug)]
+pub struct Paper {
+    /// Its colours: a theme's.
+    pub palette: &'static Palette,
+    /// The sheet's greatest width, pixels: 420 to 640 for a column, 1280 for a page. Letters keep their size.
+    pub width: u32,
+    /// PNG and GIF: dots for each pixel of the sheet.
+    pub scale: f32,
+}
+
+impl Paper {
+    /// The width of the sheet, pixels.
+    pub fn width_px(&self) -> f64 {
+        f64::from(self.width)
+    }
+}
+
+impl Captured {
+    /// The figure as an SVG file with its notes, the same bytes for the same figure.
+    pub fn svg(&self, paper: &Paper) -> String {
+        let notes = with_program(&self.notes);
+        self.figure.svg_on(&Sheet { palette: paper.palette, width_px: paper.width_px(), notes: &notes })
+    }
+}
+
+/// The notes, after the program that wrote them.
+fn with_program(notes: &[Note]) -> Vec<Note> {
+    let program = ("Software", format!("motion-lab {}", env!("CARGO_PKG_VERSION")));
+    std::iter::once(program).chain(notes.iter().cloned()).collect()
+}

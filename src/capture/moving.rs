@@ -1,0 +1,293 @@
+//! Widgets that move with a run: drawn at any of its ticks.
+
+use std::sync::Arc;
+
+use super::space::Space;
+use super::{CaptureError, Captured, Note};
+use crate::atlas::{Atlas, names};
+use crate::geometry::{Pose2, Shape};
+use crate::manifest::widget;
+use crate::picture::{
+    Drawing, Figure, Item, Panel, Picture, RobotDrawing, places, readout, readout_lines, robot, scan,
+    world as draw_world,
+};
+use crate::recording::{Recorder, Run};
+use crate::run::{DT, Log};
+use crate::simulation::RobotView;
+use crate::tour::TourConfig;
+
+use crate::worlds::World;
+
+/// The most characters to a line of a readout.
+const READOUT: usize = 48;
+
+/// What of a run is drawn.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Subject {
+    /// The cockpits side by side.
+    Dashboard {
+        /// Whether everything that stands still carries its name.
+        names: bool,
+        /// Whether the scans are drawn.
+        scan: bool,
+    },
+    /// A robot's workspace, and beside it its configuration space with its way since tick 0.
+    Cspace {
+        /// The world it lives in; any when left out.
+        world: Option<World>,
+        /// Its kind; the first robot of the lab's when left out.
+        kind: Option<String>,
+        /// How often the slice is halved for the finest cells.
+        finest: u32,
+        /// Whether the annulus of points that an arm's tip can reach is drawn.
+        annulus: bool,
+    },
+    /// The atlas, its robots where they are.
+    Atlas {
+        /// The world; all of the run's when left out.
+        world: Option<World>,
+        /// Whether everything that stands still carries its name.
+        names: bool,
+    },
+}
+
+impl Subject {
+    /// Whether a run of this configuration has what is to be drawn.
+    ///
+    /// # Errors
+    /// [`CaptureError::NotInRun`] names what it has not.
+    pub fn check(&self, config: &TourConfig) -> Result<(), CaptureError> {
+        if let Some(world) = self.world().filter(|world| !config.worlds.contains(world)) {
+            return Err(CaptureError::NotInRun(format!("world {} as it is here: run this world first", world.name)));
+        }
+        let Subject::Cspace { kind, .. } = self else { return Ok(()) };
+        let mut robots = config.worlds.iter().filter(|w| self.shows(w)).flat_map(|w| &w.robots);
+        if robots.any(|robot| is_wanted(&robot.kind, kind.as_deref())) {
+            return Ok(());
+        }
+        let wanted = kind.as_deref().map_or("robot of the lab's".to_owned(), |kind| format!("robot of kind {kind}"));
+        let place = self.world().map_or_else(String::new, |world| format!(" in {}", world.name));
+        Err(CaptureError::NotInRun(wanted + &place))
+    }
+
+    /// The same without names, which change no words under the pictures.
+    #[cfg(not(target_family = "wasm"))]
+    pub(super) fn unnamed(&self) -> Subject {
+        match self.clone() {
+            Subject::Dashboard { scan, .. } => Subject::Dashboard { names: false, scan },
+            Subject::Atlas { world, .. } => Subject::Atlas { world, names: false },
+            space => space,
+        }
+    }
+
+    /// The world that is drawn alone.
+    fn world(&self) -> Option<&World> {
+        match self {
+            Subject::Dashboard { .. } => None,
+            Subject::Cspace { world, .. } | Subject::Atlas { world, .. } => world.as_ref(),
+        }
+    }
+
+    /// Whether this world of the run is drawn.
+    fn shows(&self, world: &World) -> bool {
+        self.world().is_none_or(|only| only == world)
+    }
+}
+
+/// Whether a robot of this kind has a configuration space to be drawn, and is the one asked for.
+fn is_wanted(kind: &str, wanted: Option<&str>) -> bool {
+    ["rusty", "reach", "reach3", "hitch"].contains(&kind) && wanted.is_none_or(|wanted| wanted == kind)
+}
+
+/// A span of ticks: from the first to the last, a picture for every so many.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Span {
+    /// The first tick.
+    pub from: u64,
+    /// The last.
+    pub to: u64,
+    /// From picture to picture, at least 1.
+    pub every: u64,
+}
+
+impl Span {
+    /// The span, if the run has it.
+    ///
+    /// # Errors
+    /// [`CaptureError::NoTick`] names the tick that is beyond `last`, or after the end of the span.
+    pub fn within(self, last: u64) -> Result<Span, CaptureError> {
+        let Span { from, to, every } = self;
+        if from > to || to > last {
+            return Err(CaptureError::NoTick { tick: if from > to { from } else { to }, last });
+        }
+        Ok(Span { from, to, every: std::cmp::max(every, 1) })
+    }
+
+    /// Whether there is a picture for a tick.
+    pub fn has(&self, tick: u64) -> bool {
+        (self.from..=self.to).contains(&tick) && (tick - self.from).is_multiple_of(self.every)
+    }
+
+    /// How many pictures there are.
+    pub fn pictures(&self) -> u64 {
+        (self.to - self.from) / self.every + 1
+    }
+}
+
+/// The run of a log as it is after `tick`, for a sheet of this width, pixels.
+///
+/// # Errors
+/// [`CaptureError`] says what the run does not have.
+pub fn at_tick(log: &Log, subject: &Subject, tick: u64, width_px: f64) -> Result<Captured, CaptureError> {
+    let mut drawn = None;
+    let mut moving = Moving::new(log, subject.clone(), width_px)?;
+    Run::show(log, |run| {
+        moving.see(run)?;
+        if run.frame().tick == tick {
+            drawn = Some(moving.captured(run, true)?);
+        }
+        Ok::<_, CaptureError>(())
+    })?;
+    let last = log.frames.len() as u64;
+    let Captured { figure, mut notes } = drawn.ok_or(CaptureError::NoTick { tick, last })?;
+    notes.push(("Tick", tick.to_string()));
+    Ok(Captured { figure, notes })
+}
+
+/// A world of the run, and what stands still in it.
+struct Backdrop {
+    number: u32,
+    world: Arc<Picture>,
+    /// The names of everything and the dots of the places.
+    names: Vec<Item>,
+}
+
+/// A subject under way: shown the run tick by tick, it draws any of them.
+pub(super) struct Moving<'a> {
+    log: &'a Log,
+    digest: String,
+    subject: Subject,
+    backdrops: Vec<Backdrop>,
+    space: Option<Space>,
+}
+
+impl<'a> Moving<'a> {
+    /// The subject before the first tick, for a sheet of this width.
+    pub fn new(log: &'a Log, subject: Subject, width_px: f64) -> Result<Self, CaptureError> {
+        subject.check(&log.config)?;
+        let named = match &subject {
+            Subject::Dashboard { names, .. } | Subject::Atlas { names, .. } => *names,
+            Subject::Cspace { .. } => false,
+        };
+        let shown: Vec<(u32, &World)> = (0..).zip(&log.config.worlds).filter(|(_, w)| subject.shows(w)).collect();
+        let pictures: Vec<Arc<Picture>> = shown.iter().map(|(_, w)| Arc::new(draw_world(w))).collect();
+        let bare = |picture: &Arc<Picture>| Panel {
+            picture: Picture::new("", picture.bounds),
+            heading: String::new(),
+            readout: Vec::new(),
+        };
+        let panels = pictures.iter().map(bare).collect();
+        let blank = Figure { title: String::new(), description: String::new(), panels, caption: Vec::new() };
+        let named = |(&(number, model), (world, scale)): (&(u32, &World), (&Arc<Picture>, f64))| {
+            // its robots move: only what stands still is named
+            let standing = Atlas::new(World { robots: Vec::new(), ..model.clone() });
+            let dots = places(&model.places).into_iter().filter(|i| !matches!(i.drawing, Drawing::Label { .. }));
+            let names = if named { dots.chain(names(&standing, scale)).collect() } else { Vec::new() };
+            Backdrop { number, world: Arc::clone(world), names }
+        };
+        let backdrops = shown.iter().zip(pictures.iter().zip(blank.px_per_metre(width_px))).map(named).collect();
+        Ok(Moving { log, digest: log.digest().to_string(), subject, backdrops, space: None })
+    }
+
+    /// Takes in the next tick.
+    pub fn see(&mut self, run: &Recorder) -> Result<(), CaptureError> {
+        let Subject::Cspace { kind, finest, annulus, .. } = &self.subject else { return Ok(()) };
+        let views = run.view();
+        if self.space.is_none() {
+            let fits = |v: &&RobotView| {
+                is_wanted(&v.kind, kind.as_deref()) && self.backdrops.iter().any(|b| b.number == v.world)
+            };
+            let nobody = || CaptureError::NotInRun("such robot".into());
+            let view = views.iter().find(fits).ok_or_else(nobody)?;
+            let world = self.log.config.worlds.get(view.world as usize).ok_or_else(nobody)?;
+            self.space = Some(Space::new(world, view, *finest, *annulus)?);
+        }
+        match &mut self.space {
+            Some(space) => views.iter().find(|v| v.id == space.robot).map_or(Ok(()), |view| space.see(view)),
+            None => Ok(()),
+        }
+    }
+
+    /// The figure of the tick that was seen last; not `drawn`, with its words and sizes alone.
+    pub fn captured(&mut self, run: &Recorder, drawn: bool) -> Result<Captured, CaptureError> {
+        let tick = run.frame().tick;
+        let seed = self.log.seed.0;
+        let when = format!("Seed {seed}, tick {tick} ({:.2} s)", DT * tick as f64);
+        let notes: Vec<Note> = vec![("Seed", seed.to_string()), ("Digest", self.digest.clone())];
+        if let Some(space) = &mut self.space {
+            let mut captured = space.captured(drawn)?;
+            captured.figure.caption.push(when);
+            return Ok(Captured { notes, ..captured });
+        }
+        let views = run.view();
+        let in_atlas = matches!(self.subject, Subject::Atlas { .. });
+        let panels = self.backdrops.iter().map(|b| self.panel(b, run, &views, drawn)).collect();
+        let told = views.iter().map(|v| format!("{} is at {}, contacts: {}.", v.name, v.configuration, v.contacts));
+        let mut caption = vec![when];
+        if in_atlas {
+            caption.splice(0..0, widget("atlas").map(|w| w.misconception.clone()));
+        }
+        let seconds = DT * tick as f64;
+        let figure = Figure {
+            title: format!("{} at {seconds:.2} s, seed {seed}", if in_atlas { "World atlas" } else { "The lab" }),
+            description: told.collect::<Vec<_>>().join(" "),
+            panels,
+            caption,
+        };
+        Ok(Captured { figure, notes })
+    }
+
+    fn panel(&self, backdrop: &Backdrop, run: &Recorder, views: &[RobotView], drawn: bool) -> Panel {
+        let world = &backdrop.world;
+        let residents: Vec<&RobotView> = views.iter().filter(|v| v.world == backdrop.number).collect();
+        let names: Vec<&str> = residents.iter().map(|v| v.name.as_str()).collect();
+        let heading = match names.len() {
+            0 => world.name.clone(),
+            1..=3 => format!("{} \u{b7} {}", names.join(", "), world.name),
+            n => format!("{n} robots \u{b7} {}", world.name),
+        };
+        let counts = matches!(self.subject, Subject::Dashboard { .. });
+        let readout = residents.iter().flat_map(|v| {
+            let mut lines = readout_lines(&readout(&v.configuration), READOUT);
+            lines.extend(counts.then(|| format!("contacts: {}", v.contacts)));
+            lines
+        });
+        let readout = readout.collect();
+        if !drawn {
+            return Panel { heading, readout, picture: Picture::new(&world.name, world.bounds) };
+        }
+        let mut picture = (**world).clone().with(backdrop.names.iter().cloned());
+        if let Subject::Dashboard { scan: true, .. } = self.subject {
+            picture = picture.with(residents.iter().filter_map(|v| seen(run, v)));
+        }
+        Panel { heading, readout, picture: picture.with(residents.iter().flat_map(|v| drawing(v))) }
+    }
+}
+
+/// What a robot's range sensor sees.
+fn seen(run: &Recorder, view: &RobotView) -> Option<Item> {
+    let [x, y, theta, ..] = view.coordinates[..] else { return None };
+    let seen = run.frame().scans.iter().find(|s| s.robot == view.id)?;
+    Some(scan(&format!("scan/{}", view.name), "scan", &Pose2 { x, y, theta }, &seen.ranges))
+}
+
+/// A robot as its cockpit shows it: red while its flash holds.
+fn drawing(view: &RobotView) -> Vec<Item> {
+    let is_disc = view.footprint.parts().iter().all(|p| matches!(p.shape(), Shape::Disc { .. }));
+    robot(&RobotDrawing {
+        name: &view.name,
+        footprint: &view.footprint,
+        heading: view.coordinates.get(2).copied().filter(|_| is_disc),
+        in_contact: view.flash > 0,
+    })
+}

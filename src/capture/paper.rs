@@ -1,0 +1,108 @@
+//! Captured files: SVG, PNG, and GIF over a span of ticks.
+
+use std::path::Path;
+
+use super::moving::Moving;
+use super::raster::{GifWriter, Image, Raster, Size, write_png};
+use super::{CaptureError, Captured, Form, Note, Paper, Span, Subject, TICK_HUNDREDTHS, with_program};
+use crate::output::{PendingFile, write_file};
+use crate::picture::Role;
+use crate::recording::Run;
+use crate::run::Log;
+
+impl Paper {
+    fn raster(&self) -> Raster {
+        Raster::new(Size::Times(self.scale)).on(self.palette.colour(Role::Paper))
+    }
+}
+
+/// Writes one figure, as SVG or PNG: whole, or not at all.
+///
+/// # Errors
+/// [`CaptureError`] says what is too large or can't be written. A GIF is no figure alone: see [`film`].
+pub fn write(captured: &Captured, paper: &Paper, form: Form, path: &Path) -> Result<(), CaptureError> {
+    let svg = captured.svg(paper);
+    match form {
+        Form::Svg => Ok(write_file(path, svg.as_bytes())?),
+        Form::Png => {
+            let image = paper.raster().paint(&svg, None)?;
+            let mut pending = PendingFile::create(path)?;
+            write_png(&image, &with_program(&captured.notes), &mut pending)?;
+            Ok(pending.commit()?)
+        }
+        Form::Gif => Err(CaptureError::Frozen),
+    }
+}
+
+/// Writes a GIF of a run over a span of its ticks, which plays as fast as the run. `go_on` is told how many pictures there are of
+/// how many, and says whether to go on.
+///
+/// # Errors
+/// [`CaptureError`] says what the run does not have, what is too large or can't be written. Then there is no file.
+pub fn film(
+    log: &Log,
+    subject: &Subject,
+    span: Span,
+    (paper, path): (&Paper, &Path),
+    mut go_on: impl FnMut(u64, u64) -> bool,
+) -> Result<(), CaptureError> {
+    let span = span.within(log.frames.len() as u64)?;
+    let pending = PendingFile::create(path)?;
+    let raster = paper.raster();
+    let mut height = 0;
+    // all pictures are as high as the one with the most words
+    each(log, subject, span, paper, false, |captured| {
+        height = std::cmp::max(height, raster.height(&captured.svg(paper))?);
+        Ok(())
+    })?;
+    let ticks: [Note; 1] = [("Tick", format!("{} to {}", span.from, span.to))];
+    let (mut pending, mut writer, mut done) = (Some(pending), None, 0);
+    each(log, subject, span, paper, true, |captured| {
+        if !go_on(done, span.pictures()) {
+            return Err(CaptureError::Stopped);
+        }
+        done += 1;
+        let image = raster.paint(&captured.svg(paper), Some(height))?;
+        if let Some(pending) = pending.take() {
+            let notes = with_program(&[&captured.notes[..], &ticks].concat());
+            let comment: Vec<String> = notes.iter().map(|(key, text)| format!("{key}: {text}")).collect();
+            let hundredths = (TICK_HUNDREDTHS * span.every) as u16;
+            writer = Some(GifWriter::new(pending, gif_size(&image)?, hundredths, paper.palette, &comment.join("; "))?);
+        }
+        match &mut writer {
+            Some(writer) => Ok(writer.write(&image)?),
+            None => Ok(()),
+        }
+    })?;
+    match writer {
+        Some(writer) => Ok(writer.finish()?.commit()?),
+        None => Ok(()),
+    }
+}
+
+/// Gives `take` what is captured at each tick of the span.
+fn each(
+    log: &Log,
+    subject: &Subject,
+    span: Span,
+    paper: &Paper,
+    drawn: bool,
+    mut take: impl FnMut(&Captured) -> Result<(), CaptureError>,
+) -> Result<(), CaptureError> {
+    let subject = if drawn { subject.clone() } else { subject.unnamed() };
+    let mut moving = Moving::new(log, subject, paper.width_px())?;
+    Run::show(log, |run| {
+        let tick = run.frame().tick;
+        if tick > span.to {
+            return Ok(());
+        }
+        moving.see(run)?;
+        if span.has(tick) { take(&moving.captured(run, drawn)?) } else { Ok(()) }
+    })
+}
+
+/// The sides of a GIF's pictures.
+pub fn gif_size(image: &Image) -> Result<[u16; 2], CaptureError> {
+    let fits = |pixels: u32| u16::try_from(pixels).map_err(|_| CaptureError::TooLarge(image.width));
+    Ok([fits(image.width)?, fits(image.height)?])
+}

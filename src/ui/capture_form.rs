@@ -1,0 +1,162 @@
+//! What is asked before a capture: form, size, and for a GIF the span of ticks.
+
+use bevy_egui::egui::{
+    Context, DragValue, Grid, Id, Key, Modal, Modifiers, RichText, TextStyle, Ui, WidgetInfo, WidgetType,
+};
+
+use super::button::button;
+use super::{Command, Dashboard, Look, SessionCommand, UiState};
+use crate::capture::{CaptureError, Form, Span};
+use crate::manifest::widgets;
+use crate::picture::Role;
+use crate::run::DT;
+
+/// How long the span of a GIF is at first, ticks: ten seconds.
+const SPAN: u64 = 200;
+
+/// The anatomy's number on the rail.
+const ANATOMY: usize = 1;
+
+/// What is to be captured of the widget in front.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct CaptureOrder {
+    /// The form of the file.
+    pub form: Form,
+    /// The sheet's greatest width, pixels.
+    pub width: u32,
+    /// Dots for each pixel of the sheet.
+    pub scale: u32,
+    /// The ticks of a GIF.
+    pub span: Span,
+}
+
+/// What the capture form remembers.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct CaptureState {
+    /// Whether it is open.
+    pub open: bool,
+    /// What it asks for.
+    pub order: CaptureOrder,
+}
+
+impl Default for CaptureState {
+    fn default() -> Self {
+        let order = CaptureOrder { form: Form::Png, width: 1280, scale: 2, span: Span { from: 0, to: 0, every: 4 } };
+        CaptureState { open: false, order }
+    }
+}
+
+impl UiState {
+    /// Opens the form; a GIF would end at the present tick.
+    pub fn ask_for_capture(&mut self, model: &Dashboard) {
+        let to = if model.tick > 0 { model.tick } else { model.frontier };
+        self.capture.order.span = Span { from: to.saturating_sub(SPAN), to, ..self.capture.order.span };
+        self.capture.open = true;
+    }
+}
+
+/// Shows the form over everything else while it is open. Esc, its button or a click beside it closes it.
+pub fn capture_form(ctx: &Context, model: &Dashboard, look: &Look, state: &mut UiState, commands: &mut Vec<Command>) {
+    if !state.capture.open {
+        return;
+    }
+    let title = widgets().get(state.widget).map_or("", |w| w.title.as_str());
+    let order = &mut state.capture.order;
+    let refusal = refusal(state.widget, order, model);
+    let modal = Modal::new(Id::new("capture")).show(ctx, |ui| {
+        ui.set_max_width(400.0);
+        ui.label(RichText::new(format!("Capture: {title}")).text_style(TextStyle::Heading));
+        ui.add_space(6.0);
+        Grid::new("capture").num_columns(2).spacing([16.0, 8.0]).show(ui, |ui| choices(ui, model, look, order));
+        ui.add_space(4.0);
+        match &refusal {
+            Some(words) => ui.label(RichText::new(words).color(look.colour(Role::Goal))),
+            None => ui.label(RichText::new(holds(state.widget, order)).color(look.colour(Role::Muted))),
+        };
+        ui.add_space(8.0);
+        ui.horizontal(|ui| {
+            let chosen = button(ui, "Choose a file", 0.0, (refusal.is_none(), false), look).clicked();
+            (chosen, button(ui, "Cancel", 0.0, (true, false), look).clicked())
+        })
+        .inner
+    });
+    let (chosen, cancelled) = modal.inner;
+    if chosen {
+        commands.push(Command::Session(SessionCommand::Capture(state.capture.order)));
+    }
+    let escape = ctx.input_mut(|i| i.consume_key(Modifiers::NONE, Key::Escape));
+    if chosen || cancelled || modal.backdrop_response.clicked() || escape {
+        state.capture.open = false;
+    }
+}
+
+fn choices(ui: &mut Ui, model: &Dashboard, look: &Look, order: &mut CaptureOrder) {
+    ui.label("form");
+    ui.horizontal(|ui| {
+        for form in Form::ALL {
+            if button(ui, form.name(), 0.0, (true, order.form == form), look).clicked() {
+                order.form = form;
+            }
+        }
+    });
+    ui.end_row();
+    ui.label("width");
+    ui.horizontal(|ui| {
+        for (width, name) in [(640, "column, 640"), (1280, "page, 1280")] {
+            if button(ui, name, 0.0, (true, order.width == width), look).clicked() {
+                order.width = width;
+            }
+        }
+    });
+    ui.end_row();
+    if order.form != Form::Svg {
+        ui.label("dots a pixel");
+        ui.horizontal(|ui| {
+            for scale in 1..=3 {
+                if button(ui, &format!("{scale}\u{d7}"), 0.0, (true, order.scale == scale), look).clicked() {
+                    order.scale = scale;
+                }
+            }
+        });
+        ui.end_row();
+    }
+    if order.form == Form::Gif {
+        ui.label("ticks");
+        ui.horizontal(|ui| {
+            let Span { from, to, every } = &mut order.span;
+            for (name, value, least, most) in
+                [("from", from, 0, model.frontier), ("to", to, 0, model.frontier), ("every", every, 1, 1000)]
+            {
+                ui.label(name);
+                let spoken = format!("GIF: {name}{}", if name == "every" { " so many ticks" } else { " tick" });
+                let field = ui.add(DragValue::new(value).range(least..=most));
+                field.widget_info(|| WidgetInfo::labeled(WidgetType::DragValue, true, &spoken));
+            }
+        });
+        ui.end_row();
+    }
+}
+
+/// Why it can't be captured so.
+fn refusal(widget: usize, order: &CaptureOrder, model: &Dashboard) -> Option<String> {
+    if order.form != Form::Gif {
+        return None;
+    }
+    if widget == ANATOMY {
+        return Some(format!("{}. Choose PNG or SVG.", CaptureError::Frozen));
+    }
+    order.span.within(model.frontier).err().map(|error| match model.frontier {
+        0 => "nothing has been run yet: press Play first".into(),
+        _ => error.to_string(),
+    })
+}
+
+/// What will be in the file.
+fn holds(widget: usize, order: &CaptureOrder) -> String {
+    if order.form == Form::Gif {
+        let (pictures, seconds) = (order.span.pictures(), DT * (order.span.to - order.span.from) as f64);
+        return format!("{pictures} pictures, {seconds:.2} s of the run; seed, digest and ticks in its comment");
+    }
+    let what = if widget == 0 { "seed, digest and tick" } else { "the world's content hash and the configuration" };
+    format!("{what} in its metadata")
+}
