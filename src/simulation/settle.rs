@@ -9,7 +9,7 @@ use super::sweep::{CutMotion, sweeps_meet};
 use super::{
     Configuration, Contacts, Cut, DriveMode, ResidesIn, RobotId, RobotModel, SimulatedRobot, TickMotion, WorldScene,
 };
-use crate::collision::{MarchOptions, Surroundings, march};
+use crate::collision::{Collision, MarchOptions, Surroundings, first_step, march};
 use crate::configuration::Configuration as _;
 use crate::robots::Motion;
 
@@ -35,12 +35,21 @@ pub(super) fn cut<R: SimulatedRobot>(
             Cut::new(until, blocked)
         } else {
             // nothing holds it: all the way, in contact unless proven free
-            Cut::new(1.0, !march(&surroundings, motion, MarchOptions::default(), None).is_free())
+            Cut::new(1.0, !is_free(&surroundings, motion))
         };
         if !others.is_empty() {
             sweeps.add(world, id, Box::new(CutMotion { motion: motion.clone(), until: cut.until }));
         }
     }
+}
+
+/// Whether all of a motion is proven free. Where one of its ends is in contact it is not, and need not be marched to find out where it hits.
+fn is_free(surroundings: &Surroundings, motion: &impl Motion) -> bool {
+    let (start, options) = (motion.footprint_at(0.0), MarchOptions::default());
+    first_step(surroundings, motion, options, &start).is_some()
+        || (!surroundings.intersects(&motion.footprint_at(1.0))
+            && !surroundings.intersects(&start)
+            && march(surroundings, motion, options, None).is_free())
 }
 
 /// What [`settle`] reads and writes of a robot.
