@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 use std::fs;
 use std::path::Path;
 
-use motion_lab::ui::FACES;
+use motion_lab::picture::FACES;
 use motion_lab::worlds::World;
 use skrifa::{FontRef, MetadataProvider};
 
