@@ -4,6 +4,7 @@ mod anatomy;
 mod arm;
 mod atlas;
 mod capture;
+mod cspace;
 mod drive;
 mod files;
 mod screen;
