@@ -2,32 +2,45 @@
 
 #[cfg(not(target_family = "wasm"))]
 mod capture;
+mod captured;
 #[cfg(not(target_family = "wasm"))]
 mod dialogs;
 #[cfg(not(target_family = "wasm"))]
 mod files;
 mod pace;
 mod rest;
+mod runs;
 mod session;
 mod settings;
 #[cfg(test)]
 mod tests;
+#[cfg(not(target_family = "wasm"))]
 mod window;
 
 use bevy::log::{Level, LogPlugin};
 use bevy::prelude::*;
-use bevy::window::{RequestRedraw, WindowResolution, WindowTheme};
+#[cfg(not(target_family = "wasm"))]
+use bevy::window::WindowTheme;
+use bevy::window::{RequestRedraw, WindowResolution};
 use bevy::winit::{UpdateMode, WinitSettings};
 use bevy_egui::{EguiContext, EguiGlobalSettings, EguiPlugin, EguiPrimaryContextPass, PrimaryEguiContext, egui};
 
 #[cfg(not(target_family = "wasm"))]
 pub use files::{open_run, save_run};
 pub use session::SessionPlugin;
+#[cfg(not(target_family = "wasm"))]
 pub use window::{WindowError, run_window};
 
 use crate::simulation::History;
 use crate::ui::{self, SessionCommand, Theme};
-use session::{Interface, Shown, carry_out};
+#[cfg(all(target_family = "wasm", feature = "web"))]
+pub(crate) use captured::captured;
+#[cfg(all(target_family = "wasm", feature = "web"))]
+pub(crate) use runs::{open_log, open_world_text, recorded, shown_run};
+use session::carry_out;
+#[cfg(all(target_family = "wasm", feature = "web"))]
+pub(crate) use session::new_run;
+pub(crate) use session::{Interface, Shown};
 
 /// The lab in a window: the three worlds touring from the book's seed. A run already started in the app is kept.
 pub fn windowed_app() -> App {
@@ -35,7 +48,9 @@ pub fn windowed_app() -> App {
         title: "Motion Lab".into(),
         resolution: WindowResolution::new(1280, 800),
         fit_canvas_to_parent: true,
+        // the page decides which keys and touches are its own
         prevent_default_event_handling: false,
+        canvas: Some("#lab".into()),
         ..default()
     };
     // the graphics layers tell at length what `run_window` says in one line
@@ -52,10 +67,12 @@ pub fn windowed_app() -> App {
     .insert_resource(EguiGlobalSettings { auto_create_primary_context: false, ..default() })
     .add_message::<SessionCommand>()
     .add_systems(Startup, add_camera)
-    .add_systems(Update, (system_theme, wake.after(session::gather)))
+    .add_systems(Update, wake.after(session::gather))
     .add_systems(EguiPrimaryContextPass, show);
+    // a page tells of its theme itself
     #[cfg(not(target_family = "wasm"))]
-    app.init_resource::<dialogs::Dialogs>()
+    app.add_systems(Update, system_theme)
+        .init_resource::<dialogs::Dialogs>()
         .init_resource::<capture::Capturing>()
         .add_systems(Update, (dialogs::ask, dialogs::dropped, capture::follow).chain().before(session::gather));
     app
@@ -66,6 +83,7 @@ fn add_camera(mut commands: Commands) {
     commands.spawn((Camera2d, PrimaryEguiContext, Msaa::Off));
 }
 
+#[cfg(not(target_family = "wasm"))]
 /// Follows the system from light to dark and back. Where the system does not say, paper is light.
 fn system_theme(windows: Query<&Window, Changed<Window>>, mut interface: ResMut<Interface>) {
     for window in &windows {

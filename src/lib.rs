@@ -55,10 +55,9 @@ pub mod capture;
 
 pub mod ui;
 
-#[cfg(feature = "window")]
+#[cfg(feature = "screen")]
 pub mod app;
 
-#[cfg(target_family = "wasm")]
 pub mod web;
 
 pub mod guide;

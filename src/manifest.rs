@@ -57,6 +57,11 @@ pub fn widgets() -> &'static [WidgetText] {
     &WIDGETS
 }
 
+/// The number on the rail of the widget with this id.
+pub fn number_of(id: &str) -> Option<usize> {
+    widgets().iter().position(|w| w.id == id)
+}
+
 /// The words of the widget with this id.
 pub fn widget(id: &str) -> Option<&'static WidgetText> {
     widgets().iter().find(|w| w.id == id)

@@ -18,6 +18,7 @@ mod failsafe;
 mod faults;
 mod house;
 mod imports;
+mod letters;
 mod metamorphic;
 mod pairs;
 mod penetration;

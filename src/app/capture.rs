@@ -7,9 +7,11 @@ use std::thread::{self, JoinHandle};
 
 use bevy::prelude::*;
 
-use super::files::{name, so_far};
+use super::captured::{captured, subject};
+use super::files::name;
+use super::runs::shown_run;
 use super::session::Interface;
-use crate::capture::{CaptureError, Captured, Form, Paper, Subject, anatomy, at_tick, film, write};
+use crate::capture::{CaptureError, Form, Paper, film, write};
 use crate::recording::Run;
 use crate::simulation::Transport;
 use crate::tour::TourConfig;
@@ -33,34 +35,6 @@ struct Progress {
     stop: AtomicBool,
 }
 
-/// What the widget in front shows of the run; nothing where it shows something that stands still.
-fn subject(state: &UiState, form: Form) -> Result<Option<Subject>, CaptureError> {
-    let moves = form == Form::Gif;
-    let (names, scan) = (state.settings.labels, state.settings.scan);
-    Ok(match state.widget {
-        0 => Some(Subject::Dashboard { names, scan }),
-        1 if moves => return Err(CaptureError::Frozen),
-        2 if moves => {
-            let anatomy = &state.anatomy.anatomy;
-            let kind = Some(anatomy.checker().robot().kind().to_owned());
-            let world = Some((**anatomy.world()).clone());
-            Some(Subject::Cspace { world, kind, finest: 7, annulus: anatomy.show_annulus })
-        }
-        3 if moves => Some(Subject::Atlas { world: Some(state.atlas.world().clone()), names }),
-        _ => None,
-    })
-}
-
-/// What the widget in front shows that stands still, for a sheet of this width.
-fn scene(state: &UiState, width_px: f64) -> Result<Captured, CaptureError> {
-    let shown = &state.anatomy.anatomy;
-    match state.widget {
-        2 => state.cspace.captured(shown).map_err(|error| CaptureError::Fault(error.to_string())),
-        3 => Ok(state.atlas.captured(state.settings.labels, width_px)),
-        _ => Ok(anatomy(shown, &[shown.tab])),
-    }
-}
-
 /// Whether the widget in front can be captured so, from a run of this configuration.
 pub fn check(config: &TourConfig, state: &UiState, order: &CaptureOrder) -> Result<(), CaptureError> {
     subject(state, order.form)?.map_or(Ok(()), |subject| subject.check(config))
@@ -78,23 +52,23 @@ pub fn capture(world: &mut World, order: &CaptureOrder, path: &Path) {
     let form = Form::of(path).unwrap_or(order.form);
     let paper = Paper { palette: state.theme().palette(), width: order.width, scale: order.scale as f32 };
     let (tick, span) = (world.resource::<Transport>().tick, order.span);
-    let run = so_far(world);
+    let (seed, frontier) = (world.resource::<Transport>().seed, world.resource::<Transport>().frontier);
+    let (config, script) = shown_run(world, frontier);
     let progress = Arc::new(Progress::default());
     let (told, to) = (Arc::clone(&progress), path.to_owned());
     let work = thread::spawn(move || {
-        let Some(subject) = subject(&state, form)? else {
-            return write(&scene(&state, paper.width_px())?, &paper, form, &to);
-        };
-        let (config, input) = run;
-        let log = Run::record(config, input)?;
-        if form == Form::Gif {
+        if form == Form::Gif
+            && let Some(subject) = subject(&state, form)?
+        {
+            let log = Run::record(config, (seed, script))?;
             return film(&log, &subject, span, (&paper, &to), |done, all| {
                 told.done.store(done, Ordering::Relaxed);
                 told.all.store(all, Ordering::Relaxed);
                 !told.stop.load(Ordering::Relaxed)
             });
         }
-        write(&at_tick(&log, &subject, tick, paper.width_px())?, &paper, form, &to)
+        let figure = captured(&state, (config, seed, script), tick, paper.width_px())?;
+        write(&figure, &paper, form, &to)
     });
     if let Some(before) = &world.resource::<Capturing>().0 {
         before.progress.stop.store(true, Ordering::Relaxed);

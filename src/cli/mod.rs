@@ -4,10 +4,10 @@ mod bare;
 mod capture;
 mod completions;
 mod console;
+mod describe;
 mod diff;
 mod end;
 mod export;
-mod figure;
 mod grade;
 mod info;
 mod input;
@@ -73,6 +73,7 @@ enum Command {
     Completions(completions::Completions),
     Man(completions::ManPages),
     Grade(grade::GradeArgs),
+    Describe(describe::Describe),
 }
 
 impl Cli {
@@ -92,6 +93,7 @@ impl Cli {
             Some(Command::Completions(completions)) => completions.run(data),
             Some(Command::Man(man)) => man.run(data),
             Some(Command::Grade(grade)) => grade.run(data),
+            Some(Command::Describe(describe)) => describe.run(data),
             None => bare::bare(data),
         }
     }

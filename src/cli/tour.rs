@@ -5,8 +5,8 @@ use std::path::Path;
 
 use motion_lab::run::Script;
 use motion_lab::tour::{BOOK_SEED, TourConfig};
+use motion_lab::ui::{RunFigure, Theme};
 
-use super::figure::RunFigure;
 use super::log_source::read_log;
 use super::output::write_file;
 use super::record::{Ended, Plan, Stop, write_run};
@@ -46,7 +46,7 @@ pub fn tour(data: &mut Data) -> Result<Outcome, Failure> {
     data.line(format!("{ticks} of {ticks} ticks bit-identical"))?;
 
     let drawing = folder.join(format!("tour-{BOOK_SEED}.svg"));
-    write_file(&drawing, figure.svg(log.seed, &log.config, ticks, digest).as_bytes())?;
+    write_file(&drawing, figure.svg(log.seed, &log.config, (ticks, digest), Theme::Light).as_bytes())?;
     say(format!("wrote {} and {}", file.display(), drawing.display()));
     Ok(Outcome::Done)
 }

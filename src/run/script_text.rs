@@ -168,6 +168,17 @@ impl Script {
         text
     }
 
+    /// The same in one line, without a blank that is not part of a name. Reading it gives the script back.
+    pub fn to_line(&self) -> String {
+        let mut text = format!("Script(version:{},events:[", self.version);
+        for Event { tick, robot, input } in &self.events {
+            let input = InputText(input).to_string().replace(' ', "");
+            // writing into a string can't fail
+            let _ = write!(text, "(tick:{tick},robot:{robot:?},input:{input}),");
+        }
+        text + "])"
+    }
+
     /// Whether the script is one that [`parse`](Self::parse) would give: for scripts made by a program.
     ///
     /// # Errors

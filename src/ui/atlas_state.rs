@@ -129,10 +129,9 @@ impl AtlasState {
         self.path = Some(path.to_owned());
     }
 
-    /// The world that was read from this file.
-    #[must_use]
-    pub fn of_file(self, path: &Path) -> Self {
-        AtlasState { path: Some(path.to_owned()), ..self }
+    /// Remembers the file that the world was read from.
+    pub fn stands_in(&mut self, path: &Path) {
+        self.path = Some(path.to_owned());
     }
 
     /// Where the world is to be found: in its file, when that is the world as it is.

@@ -59,6 +59,25 @@ impl Formula {
         })
     }
 
+    /// The formula as a MathML element; a term's role is its class, `role-robot` for instance, and the attribute `data-role`.
+    ///
+    /// Text on the line is read letter by letter: runs of Latin letters and single Greek ones are identifiers, digits numbers, the
+    /// rest operators. A raised or lowered run goes with the piece before it.
+    pub fn mathml(&self) -> String {
+        let mut pieces: Vec<String> = Vec::new();
+        for term in &self.0 {
+            let marks = term.role.map_or(String::new(), |r| format!(" class=\"role-{0}\" data-role=\"{0}\"", r.name()));
+            let row = tokens(term.text, &marks);
+            let scripted = |tag, base| format!("<{tag}>{base}<mrow>{}</mrow></{tag}>", row.concat());
+            match (term.level, pieces.pop()) {
+                (Level::Sub, Some(base)) => pieces.push(scripted("msub", base)),
+                (Level::Sup, Some(base)) => pieces.push(scripted("msup", base)),
+                (_, before) => pieces.extend(before.into_iter().chain(row)),
+            }
+        }
+        format!("<math>{}</math>", pieces.concat())
+    }
+
     /// The formula as it is read aloud, and why the space is that one.
     pub fn spoken(kind: &str, trailer: bool) -> &'static str {
         match (kind, trailer) {
@@ -74,6 +93,29 @@ impl Formula {
     }
 }
 
+/// The pieces of a run of text, each an element of MathML with these attributes.
+fn tokens(text: &str, marks: &str) -> Vec<String> {
+    let kind = |c: char| match c {
+        'a'..='z' | 'A'..='Z' => 'w',
+        _ if c.is_alphabetic() => 'g',
+        '0'..='9' => 'n',
+        _ => 'o',
+    };
+    let mut pieces: Vec<(char, String)> = Vec::new();
+    for c in text.chars().filter(|c| !c.is_whitespace()) {
+        match pieces.last_mut() {
+            Some((last, piece)) if *last == kind(c) && matches!(last, 'w' | 'n') => piece.push(c),
+            _ => pieces.push((kind(c), c.to_string())),
+        }
+    }
+    let tag = |kind| match kind {
+        'n' => "mn",
+        'o' => "mo",
+        _ => "mi",
+    };
+    pieces.iter().map(|(k, p)| format!("<{0}{marks}>{p}</{0}>", tag(*k))).collect()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -85,6 +127,14 @@ mod tests {
         assert_eq!(written("reach", false), "q = (\u{3b8}1, \u{3b8}2) \u{2208} T2");
         assert_eq!(written("hitch", false), "q = (x, y, \u{3b8}) \u{2208} SE(2)");
         assert!(written("hitch", true).ends_with("SE(2) \u{d7} S1"));
+        assert_eq!(
+            Formula::space("reach", false).mathml(),
+            "<math><mi class=\"role-robot\" data-role=\"robot\">q</mi><mo>=</mo><mo>(</mo>\
+             <msub><mi>\u{3b8}</mi><mrow><mn>1</mn></mrow></msub><mo>,</mo>\
+             <msub><mi>\u{3b8}</mi><mrow><mn>2</mn></mrow></msub><mo>)</mo><mo>\u{2208}</mo>\
+             <msup><mi>T</mi><mrow><mn>2</mn></mrow></msup></math>"
+        );
+        assert!(Formula::space("hitch", true).mathml().contains("<mi>SE</mi><mo>(</mo><mn>2</mn><mo>)</mo>"));
         assert!(Formula::space("tricycle", false).0.is_empty() && Formula::spoken("tricycle", false).is_empty());
     }
 }

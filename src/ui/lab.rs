@@ -47,7 +47,9 @@ pub fn lab(ui: &mut Ui, model: &Dashboard, history: &History, state: &mut UiStat
     }
     // the window is cleared with the paper already: filling it again would cost as much as all that is drawn on it
     let margin = Margin::symmetric(if narrow { 8 } else { 6 }, if narrow { 4 } else { 14 });
-    if narrow {
+    if state.embedded {
+        // the page chose the widget
+    } else if narrow {
         Panel::top("rail").frame(Frame::NONE.inner_margin(margin)).show_separator_line(false).show(ui, |ui| {
             ui.horizontal(|ui| rail(ui, model, (&look, 40.0), state, commands));
         });

@@ -30,7 +30,7 @@ impl From<Theme> for Look {
 impl Look {
     /// The look of this frame: what was pointed at in the last one is lit now.
     pub fn of(ui: &Ui, state: &mut UiState) -> Self {
-        let pointed = state.pointed.take();
+        let pointed = state.pointed.take().or(state.page_lit);
         if pointed != state.lit && pointed.is_some() {
             state.lit = pointed;
         }

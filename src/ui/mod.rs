@@ -1,83 +1,85 @@
 //! What people see and touch. Colours are known to [`Theme`] alone; what needs a window stands behind the feature `window`.
 
-#[cfg(feature = "window")]
+#[cfg(feature = "screen")]
 mod anatomy_view;
 pub mod arm;
-#[cfg(feature = "window")]
+#[cfg(feature = "screen")]
 mod atlas_editing;
-#[cfg(feature = "window")]
+#[cfg(feature = "screen")]
 mod atlas_state;
-#[cfg(feature = "window")]
+#[cfg(feature = "screen")]
 mod atlas_view;
 mod blend;
-#[cfg(feature = "window")]
+#[cfg(feature = "screen")]
 mod button;
-#[cfg(feature = "window")]
+#[cfg(feature = "screen")]
 pub mod canvas;
-#[cfg(feature = "window")]
+#[cfg(feature = "screen")]
 mod capture_form;
 mod cockpit;
-#[cfg(feature = "window")]
+#[cfg(feature = "screen")]
 mod cspace_view;
-#[cfg(feature = "window")]
+#[cfg(feature = "screen")]
 mod dashboard;
-#[cfg(feature = "window")]
+#[cfg(feature = "screen")]
 mod drive;
 mod formula;
-#[cfg(feature = "window")]
+#[cfg(feature = "screen")]
 mod frame;
 mod goal;
-#[cfg(feature = "window")]
+#[cfg(feature = "screen")]
 mod handles;
-#[cfg(feature = "window")]
+#[cfg(feature = "screen")]
 mod help;
-#[cfg(feature = "window")]
+#[cfg(feature = "screen")]
 pub mod keys;
-#[cfg(feature = "window")]
+#[cfg(feature = "screen")]
 mod lab;
-#[cfg(feature = "window")]
+#[cfg(feature = "screen")]
 mod look;
-#[cfg(feature = "window")]
+#[cfg(feature = "screen")]
 mod pad;
-#[cfg(feature = "window")]
+#[cfg(feature = "screen")]
 mod pane;
-#[cfg(feature = "window")]
+#[cfg(feature = "screen")]
 mod plots;
+mod run_figure;
 mod settings;
-#[cfg(feature = "window")]
+#[cfg(feature = "screen")]
 mod sheet;
 mod state;
 mod theme;
-#[cfg(feature = "window")]
+#[cfg(feature = "screen")]
 mod time_line;
-#[cfg(feature = "window")]
+#[cfg(feature = "screen")]
 mod tools;
-#[cfg(feature = "window")]
+#[cfg(feature = "screen")]
 mod transport_bar;
 
-#[cfg(feature = "window")]
+#[cfg(feature = "screen")]
 pub use anatomy_view::AnatomyState;
-#[cfg(feature = "window")]
+#[cfg(feature = "screen")]
 pub use atlas_state::{AtlasState, Mode};
 pub use blend::{blend, heading};
-#[cfg(feature = "window")]
+#[cfg(feature = "screen")]
 pub use capture_form::{CaptureOrder, CaptureState};
 pub use cockpit::{Cockpit, CockpitRobot, Dashboard};
-#[cfg(feature = "window")]
+#[cfg(feature = "screen")]
 pub use cspace_view::CspaceState;
 pub use formula::{Formula, Level, Term};
 pub use goal::{Off, ParkingGoal, trailer_of};
-#[cfg(feature = "window")]
+#[cfg(feature = "screen")]
 pub use lab::lab;
-#[cfg(feature = "window")]
+#[cfg(feature = "screen")]
 pub use look::Look;
+pub use run_figure::RunFigure;
 pub use settings::{Settings, ThemeChoice};
 pub use state::{Flash, Notice, UiState, Working};
-pub use theme::Theme;
-#[cfg(feature = "window")]
+pub use theme::{FACES, Theme};
+#[cfg(feature = "screen")]
 pub use transport_bar::transport_bar;
 
-pub use crate::manifest::{KeyText, WidgetText, widget, widgets};
+pub use crate::manifest::{KeyText, WidgetText, number_of, widget, widgets};
 pub use crate::picture::{readout, readout_lines};
 
 /// What a widget asks for. Widgets change nothing but their own [`UiState`].
@@ -103,7 +105,7 @@ pub enum SessionCommand {
     /// Save the atlas's world: ask for a file first.
     SaveWorld,
     /// Capture the widget in front: ask for a file first.
-    #[cfg(feature = "window")]
+    #[cfg(feature = "screen")]
     Capture(CaptureOrder),
     /// A new run in the atlas's world.
     RunWorld,

@@ -76,6 +76,8 @@ pub fn pane(ui: &mut Ui, cockpit: &Cockpit, rect: Rect, look: &Look, state: &mut
     // under a mouse Esc lets go; a finger has no Esc
     if response.clicked() && (armed.is_none() || touched(ui)) {
         take_in_hand(driven, state, commands);
+        // the arrow keys are the robot's now, also of who came here by Tab
+        response.surrender_focus();
     }
     if let Some(robot) = driven.filter(|_| armed.is_none()) {
         response.on_hover_text_at_pointer(format!("Click to drive {}", robot.name));

@@ -4,7 +4,7 @@ use super::Theme;
 
 /// Which paper is asked for.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-#[cfg_attr(feature = "window", derive(bevy::reflect::Reflect))]
+#[cfg_attr(feature = "screen", derive(bevy::reflect::Reflect))]
 pub enum ThemeChoice {
     /// As the system says.
     #[default]
@@ -51,7 +51,7 @@ impl ThemeChoice {
 
 /// What a user has set. No part of a run.
 #[derive(Clone, Debug, PartialEq, Eq)]
-#[cfg_attr(feature = "window", derive(bevy::reflect::Reflect))]
+#[cfg_attr(feature = "screen", derive(bevy::reflect::Reflect))]
 pub struct Settings {
     /// Light or dark paper.
     pub theme: ThemeChoice,

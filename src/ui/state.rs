@@ -13,16 +13,16 @@ pub struct UiState {
     /// The number of the widget in front, on the rail.
     pub widget: usize,
     /// The anatomy's, with the robot of the configuration space.
-    #[cfg(feature = "window")]
+    #[cfg(feature = "screen")]
     pub anatomy: super::AnatomyState,
     /// The configuration space's.
-    #[cfg(feature = "window")]
+    #[cfg(feature = "screen")]
     pub cspace: super::CspaceState,
     /// The atlas's.
-    #[cfg(feature = "window")]
+    #[cfg(feature = "screen")]
     pub atlas: super::AtlasState,
     /// The capture form.
-    #[cfg(feature = "window")]
+    #[cfg(feature = "screen")]
     pub capture: super::CaptureState,
     /// The paper that the system asks for.
     pub system_theme: Theme,
@@ -38,6 +38,10 @@ pub struct UiState {
     pub nudging: bool,
     /// The role that is lit.
     pub lit: Option<Role>,
+    /// The role that the page around the lab asks to light, while nothing here is pointed at.
+    pub page_lit: Option<Role>,
+    /// Whether the lab shows one widget on a page of someone else's: no rail.
+    pub embedded: bool,
     /// The role that is pointed at in this frame.
     pub pointed: Option<Role>,
     /// Whether the list of keys is open.

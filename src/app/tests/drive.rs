@@ -3,6 +3,23 @@
 use super::*;
 
 #[test]
+fn a_pane_is_taken_in_hand_by_keyboard_alone_and_driven() {
+    let mut harness = lab(WIDE);
+    let pane = harness
+        .get_all_by_role(egui::accesskit::Role::Button)
+        .find(|n| n.accesskit_node().label().is_some_and(|label| label.starts_with("Apartment")));
+    pane.expect("the pane").focus();
+    harness.run_steps(2);
+    harness.key_press(Key::Enter);
+    harness.run_steps(2);
+    harness.key_down(Key::ArrowUp);
+    harness.run_steps(4);
+    harness.key_up(Key::ArrowUp);
+    harness.run_steps(2);
+    assert_eq!(harness.state().script().events.first().map(|e| &e.input), Some(&RobotInput::Drive(128, 0)));
+}
+
+#[test]
 fn rusty_is_driven_into_a_wall_and_stops_a_radius_short_of_it() {
     let mut harness = lab(WIDE);
     arm_rusty(&mut harness);

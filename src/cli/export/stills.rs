@@ -5,10 +5,9 @@ use std::path::Path;
 use clap::Args;
 use motion_lab::capture::{CaptureError, GifWriter, Image, Raster, Size, TICK_HUNDREDTHS, write_png};
 use motion_lab::run::Log;
-use motion_lab::ui::Theme;
+use motion_lab::ui::{RunFigure, Theme};
 
 use crate::cli::Failure;
-use crate::cli::figure::RunFigure;
 use crate::cli::output::PendingFile;
 use crate::cli::simulate::show;
 
@@ -118,7 +117,7 @@ fn each_svg(
     show(file, log, |run, frame| {
         figure.watch(run.view());
         if wanted(frame.tick) {
-            take(figure.svg(log.seed, &log.config, frame.tick, digest))?;
+            take(figure.svg(log.seed, &log.config, (frame.tick, digest), Theme::Light))?;
         }
         Ok(())
     })

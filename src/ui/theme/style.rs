@@ -1,11 +1,13 @@
 //! The theme in the window: egui's colours and sizes, and the clear colour behind everything.
 
+use std::sync::Arc;
+
 use bevy_egui::egui::style::{Selection, WidgetVisuals, Widgets};
 use bevy_egui::egui::{
-    Color32, CornerRadius, FontDefinitions, FontFamily, FontId, Shadow, Stroke, Style, TextStyle, Visuals,
+    Color32, CornerRadius, FontData, FontDefinitions, FontFamily, FontId, Shadow, Stroke, Style, TextStyle, Visuals,
 };
 
-use super::Theme;
+use super::{FACES, Theme};
 use crate::num::{exp, greater, ln};
 use crate::picture::{Rgb, Role};
 
@@ -77,12 +79,15 @@ impl Theme {
         style
     }
 
-    /// The faces: egui's own, the one for figures standing in for signs that the one for words lacks.
+    /// The faces: the lab's own, each standing in for signs that the other lacks. Where egui has faces of its own (not on the
+    /// web), they come last.
     pub fn fonts() -> FontDefinitions {
         let mut fonts = FontDefinitions::default();
-        let mono = fonts.families.get(&FontFamily::Monospace).cloned().unwrap_or_default();
-        if let Some(sans) = fonts.families.get_mut(&FontFamily::Proportional) {
-            sans.extend(mono.into_iter().filter(|name| !sans.contains(name)).collect::<Vec<_>>());
+        for (name, letters) in FACES {
+            fonts.font_data.insert(name.into(), Arc::new(FontData::from_static(letters)));
+        }
+        for (family, order) in [(FontFamily::Proportional, [0, 2, 1]), (FontFamily::Monospace, [1, 2, 0])] {
+            fonts.families.entry(family).or_default().splice(0..0, order.map(|face| FACES[face].0.into()));
         }
         fonts
     }

@@ -1,4 +1,4 @@
-//! What the WebAssembly build exports.
+//! Runs for comparing platforms, as the WebAssembly builds export them.
 
 use wasm_bindgen::prelude::*;
 

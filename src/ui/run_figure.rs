@@ -1,15 +1,15 @@
-//! The figure of a run, gathered while it runs.
+//! `RunFigure`, the figure of a run, gathered while it runs.
 
-use motion_lab::geometry::{Point2, Shape};
-use motion_lab::picture::{RobotTour, TourPanel, tour_figure};
-use motion_lab::random::Seed;
-use motion_lab::recording::printed_configuration;
-use motion_lab::run::Digest;
-use motion_lab::simulation::RobotView;
-use motion_lab::tour::TourConfig;
-use motion_lab::ui::Theme;
+use super::Theme;
+use crate::geometry::{Point2, Shape};
+use crate::picture::{RobotTour, TourPanel, tour_figure};
+use crate::random::Seed;
+use crate::recording::printed_configuration;
+use crate::run::Digest;
+use crate::simulation::RobotView;
+use crate::tour::TourConfig;
 
-/// What a figure needs of a run so far.
+/// What a figure needs of a run so far: where its robots went, stand and had contacts.
 #[derive(Default)]
 pub struct RunFigure {
     robots: Vec<Watched>,
@@ -32,8 +32,8 @@ impl RunFigure {
         }
     }
 
-    /// The figure as SVG, on light paper, after `ticks` of the run with this digest.
-    pub fn svg(&self, seed: Seed, config: &TourConfig, ticks: u64, digest: Digest) -> String {
+    /// The figure as SVG after `ticks` of the run with this digest.
+    pub fn svg(&self, seed: Seed, config: &TourConfig, (ticks, digest): (u64, Digest), theme: Theme) -> String {
         let panels: Vec<TourPanel> = (0_u32..)
             .zip(&config.worlds)
             .map(|(number, world)| TourPanel {
@@ -41,7 +41,7 @@ impl RunFigure {
                 robots: self.robots.iter().filter(|r| r.world == number).map(|r| r.tour.clone()).collect(),
             })
             .collect();
-        tour_figure(seed, (ticks, config.ticks), digest, &panels).svg(Theme::Light.palette())
+        tour_figure(seed, (ticks, config.ticks), digest, &panels).svg(theme.palette())
     }
 }
 

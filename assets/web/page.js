@@ -1,0 +1,397 @@
+// The page around the lab: loads it, mirrors its controls as elements of the page, and speaks with it by messages.
+//
+// For who embeds it: `window.motionLab.send({ do: "seek", tick: 600 })` does what src/web/message.rs lists; the page gets events
+// `motionlab` on `window` with what the lab tells in `detail`. An embedding page posts the same as
+// `frame.contentWindow.postMessage({ motionLab: { do: "light", role: "robot" } }, origin)` and hears `{ motionLab: ... }`.
+const $ = (id) => document.getElementById(id);
+const root = document.documentElement;
+const files = JSON.parse($("files").textContent);
+const embedded = root.dataset.page === "embed";
+const canvas = $("lab");
+const RESTART = "motion-lab/restart";
+const MOST_BYTES = 256 * 1024 * 1024;
+
+let lab = null; // the lab's exports once it runs
+let wasm = null; // the memory and functions under them
+let state = null; // what it told last
+let parts = null; // the run's parts, with which the simulator alone can record it again
+let failed = false;
+
+const say = (text) => ($("said").textContent = text);
+const announce = (text) => ($("heard").textContent = text); // for who does not see it: the lab shows it too
+const warn = (text) => ($("alert").textContent = text);
+
+/** Tells the lab something; see src/web/message.rs. */
+function send(message) {
+  if (!lab || failed) return;
+  try {
+    lab.lab_send(JSON.stringify(message));
+  } catch (error) {
+    if (error instanceof WebAssembly.RuntimeError) stop(String(error));
+    else warn(error.message ?? String(error));
+  }
+}
+
+/** Opens a run or a world in the lab. */
+async function open(file) {
+  if (file.size > MOST_BYTES) return warn(`${file.name}: ${file.size} bytes; the page opens at most ${MOST_BYTES}`);
+  lab?.lab_open(file.name, new Uint8Array(await file.arrayBuffer()));
+}
+
+function save(name, bytes, type = "application/octet-stream") {
+  const link = document.createElement("a");
+  link.href = URL.createObjectURL(new Blob([bytes], { type }));
+  link.download = name;
+  link.click();
+  setTimeout(() => URL.revokeObjectURL(link.href), 60000);
+}
+
+// ---- the simulator alone: it outlives the lab ----
+
+let simulator = null;
+function alone() {
+  simulator ??= new Promise((done, fail) => {
+    const script = document.createElement("script");
+    script.src = files.light;
+    script.onload = () => wasm_bindgen({ module_or_path: files.lightWasm }).then(() => done(wasm_bindgen), fail);
+    script.onerror = () => fail(new Error("the simulator could not be loaded"));
+    document.head.append(script);
+  });
+  return simulator;
+}
+
+/** The log of the run as far as it has come. */
+async function runLog() {
+  if (!parts || !state?.frontier) throw new Error("nothing has been run yet; press Play first");
+  return (await alone()).record_log(JSON.stringify({ ...parts, ticks: state.frontier }));
+}
+
+const base64 = (bytes) => {
+  let text = "";
+  for (let i = 0; i < bytes.length; i += 32768) text += String.fromCharCode(...bytes.subarray(i, i + 32768));
+  return btoa(text);
+};
+
+/** A page that holds the run and simulates it again in whatever browser opens it. */
+async function savedPage() {
+  const log = await runLog();
+  const light = await alone();
+  const found = JSON.parse(light.verify_log(log));
+  const fetched = async (name) => (await fetch(name)).arrayBuffer();
+  const template = new TextDecoder().decode(await fetched(files.saved));
+  const wasm = new Uint8Array(await fetched(files.lightWasm));
+  const figure = new TextEncoder().encode(light.figure_of_log(log, false));
+  const values = { SEED: found.seed, TICKS: found.ticks, DIGEST: found.digest, FIGURE: base64(figure), WASM: base64(wasm), LOG: base64(log) };
+  return template.replace(/%(SEED|TICKS|DIGEST|FIGURE|WASM|LOG)%/g, (_, name) => values[name]);
+}
+
+// ---- what the lab tells ----
+
+const hear = {
+  ready() {
+    $("loading").hidden = true;
+    if (!embedded) canvas.focus({ preventScroll: true });
+    scrollTo(0, 0);
+    performance.mark("first-frame");
+    const kept = sessionStorage.getItem(RESTART);
+    if (kept) {
+      sessionStorage.removeItem(RESTART);
+      alone()
+        .then((light) => lab.lab_open("the run before", light.record_log(kept)))
+        .catch((error) => warn(`The run before could not be restored: ${error.message ?? error}`));
+    }
+  },
+  state(told) {
+    const before = state;
+    state = told;
+    root.dataset.theme = told.theme;
+    if (told.notice?.text !== before?.notice?.text) {
+      if (told.notice?.error) warn(told.notice.text);
+      else {
+        warn("");
+        announce(told.notice?.text ?? "");
+      }
+    }
+    if (before && told.playing !== before.playing) announce(told.playing ? "Playing" : `Paused at tick ${told.tick}`);
+    if (before && told.armed !== before.armed) announce(told.armed ? `${told.armed} is in your hand: arrow keys drive, Escape lets go` : "No robot is in your hand");
+    for (const robot of told.robots) {
+      const earlier = before?.robots.find((r) => r.name === robot.name);
+      if (earlier && robot.contacts > earlier.contacts) announce(`${robot.name}: contact ${robot.contacts}`);
+    }
+    if (told.widget !== before?.widget) showKey(told.widget);
+    light(told.lit);
+  },
+  tree: ({ widgets }) => mirror(widgets),
+  run(told) {
+    parts = told.parts;
+  },
+  async link({ query, digest, error }) {
+    warn(error ?? "");
+    if (error) return;
+    const address = `${location.origin}${location.pathname}?${query}`;
+    try {
+      const late = new Promise((_, fail) => setTimeout(fail, 1000));
+      await Promise.race([navigator.clipboard.writeText(address), late]);
+      say(`Link copied${digest ? `; digest ${digest}` : ""}`);
+    } catch {
+      say(address);
+    }
+  },
+  copy: ({ text }) => navigator.clipboard.writeText(text).catch(() => warn("The browser does not let the page copy.")),
+  file: ({ name }, bytes) => save(name, bytes),
+  ask({ accept }) {
+    $("file").accept = accept;
+    $("file").click();
+  },
+  failed: ({ text }) => stop(text),
+};
+
+function listen(json, bytes) {
+  const told = JSON.parse(json);
+  hear[told.kind]?.(told, bytes);
+  window.dispatchEvent(new CustomEvent("motionlab", { detail: told }));
+  if (parent !== window && told.kind !== "tree") parent.postMessage({ motionLab: told }, "*");
+}
+
+/** Shows why the lab stopped. The run is kept: the simulator alone can record it again. */
+function stop(reason) {
+  if (failed) return;
+  failed = true;
+  $("overlay-text").textContent = reason;
+  $("overlay-tools").hidden = !parts;
+  $("loading").hidden = true;
+  $("overlay").hidden = false;
+  $("overlay-restart").focus();
+}
+
+// ---- the controls of the canvas as elements of the page ----
+
+const elements = new Map();
+const OWN_KEYS = { text: "", button: "Enter Space Tab", check: "Enter Space Tab", handle: "Tab" };
+
+function make(widget) {
+  const element = document.createElement({ text: "p", button: "div", handle: "div" }[widget.kind] ?? "label");
+  let control = element;
+  if (widget.kind === "button" || widget.kind === "handle") {
+    element.append((control = document.createElement("button")));
+    control.type = "button";
+  } else if (widget.kind !== "text") {
+    control = document.createElement("input");
+    control.type = { check: "checkbox", slider: "range", number: "number", field: "text" }[widget.kind];
+    element.append(document.createElement("span"), control);
+  }
+  const own = { element, control, widget };
+  if (control !== element) {
+    control.addEventListener("focus", () => send({ do: "act", id: own.widget.id, action: "focus" }));
+    const click = () => send({ do: "act", id: own.widget.id, action: "click" });
+    if (widget.kind === "button" || widget.kind === "handle") control.addEventListener("click", click);
+    else if (widget.kind === "check") control.addEventListener("change", click);
+    else if (widget.kind === "field") {
+      const commit = () => {
+        if (control.value !== own.widget.value) send({ do: "act", id: own.widget.id, action: "type", value: control.value });
+      };
+      control.addEventListener("blur", commit);
+      control.addEventListener("keydown", ({ key }) => key === "Enter" && commit());
+    } else {
+      control.addEventListener("input", () => {
+        if (control.value !== "") send({ do: "act", id: own.widget.id, action: "set", value: control.value });
+      });
+    }
+    // the lab's keys work here too, where the control does not need them itself
+    const needed = OWN_KEYS[widget.kind];
+    if (needed !== undefined) for (const type of ["keydown", "keyup"]) control.addEventListener(type, (event) => forward(event, needed));
+  }
+  return own;
+}
+
+function forward(event, needed) {
+  const name = event.key === " " ? "Space" : event.key;
+  if (event.ctrlKey || event.metaKey || event.altKey || needed.split(" ").includes(name) || event.isComposing) return;
+  event.preventDefault();
+  if (!event.repeat) send({ do: "key", key: event.key, pressed: event.type === "keydown", shift: event.shiftKey });
+}
+
+function update(own, widget) {
+  const before = own.widget;
+  own.widget = widget;
+  const { control, element } = own;
+  if (widget.place && String(widget.place) !== own.place) {
+    own.place = String(widget.place);
+    const [left, top, width, height] = widget.place;
+    Object.assign(element.style, { left: `${left}px`, top: `${top}px`, width: `${width}px`, height: `${height}px` });
+  }
+  if (widget.kind === "text") {
+    if (element.textContent !== widget.name) element.textContent = widget.name;
+    return;
+  }
+  const label = widget.value !== undefined && (widget.kind === "button" || widget.kind === "handle") ? `${widget.name}: ${widget.value}` : widget.name;
+  const words = widget.kind === "button" || widget.kind === "handle" ? control : element.firstChild;
+  if (words.textContent !== label) words.textContent = label;
+  control.disabled = widget.off_limits ?? false;
+  if (widget.kind === "check") control.checked = widget.on;
+  else if (widget.kind === "button" && widget.on !== undefined) control.setAttribute("aria-pressed", widget.on);
+  if (widget.range && (before !== widget || !control.step)) {
+    [control.min, control.max] = widget.range;
+    control.step = widget.range[2] || "any";
+  }
+  if (widget.value !== undefined && control !== document.activeElement && "value" in control && control.type !== "checkbox") control.value = widget.value;
+}
+
+function mirror(widgets) {
+  const seen = new Set();
+  let last = null;
+  for (const widget of widgets) {
+    seen.add(widget.id);
+    let own = elements.get(widget.id);
+    if (own && own.widget.kind !== widget.kind) {
+      own.element.remove();
+      own = null;
+    }
+    if (!own) elements.set(widget.id, (own = make(widget)));
+    update(own, widget);
+    const place = last ? last.nextSibling : $("controls").firstChild;
+    // moving an element would take its focus away
+    if (own.element !== place && !own.element.contains(document.activeElement)) $("controls").insertBefore(own.element, place);
+    last = own.element;
+  }
+  for (const [id, own] of elements) {
+    if (!seen.has(id)) {
+      if (own.element.contains(document.activeElement)) canvas.focus();
+      own.element.remove();
+      elements.delete(id);
+    }
+  }
+}
+
+// ---- roles: lit in the page and in the canvas alike ----
+
+function light(role) {
+  if (role) root.dataset.lit = role;
+  else delete root.dataset.lit;
+  for (const element of document.querySelectorAll("#beside [data-role]")) element.toggleAttribute("data-lit", element.dataset.role === role);
+}
+
+function showKey(widget) {
+  const entry = ({ role, text }) => {
+    const item = document.createElement("li");
+    const button = document.createElement("button");
+    button.type = "button";
+    button.className = `role-${role}`;
+    button.dataset.role = role;
+    button.textContent = text;
+    item.append(button);
+    return item;
+  };
+  $("key").replaceChildren(...(files.widgets[widget]?.key ?? []).map(entry));
+}
+
+for (const [type, on] of [["pointerover", true], ["focusin", true], ["pointerout", false], ["focusout", false]]) {
+  $("beside").addEventListener(type, ({ target }) => {
+    const role = target.closest("[data-role]")?.dataset.role;
+    if (role) send({ do: "light", role: on ? role : null });
+  });
+}
+
+// ---- the page's own controls ----
+
+$("copy-link").addEventListener("click", () => send({ do: "link" }));
+$("save-run").addEventListener("click", () => send({ do: "save" }));
+$("open-file").addEventListener("click", () => hear.ask({ accept: ".mcap,.ron" }));
+$("save-page").addEventListener("click", async () => {
+  try {
+    save("run.html", await savedPage(), "text/html");
+    say("The page is saved: it holds the run and simulates it again wherever it is opened");
+  } catch (error) {
+    warn(`Not saved: ${error.message ?? error}`);
+  }
+});
+$("file").addEventListener("change", ({ target }) => {
+  for (const file of target.files) open(file);
+  target.value = "";
+});
+document.addEventListener("dragover", (event) => event.preventDefault());
+document.addEventListener("drop", (event) => {
+  event.preventDefault();
+  for (const file of event.dataTransfer?.files ?? []) open(file);
+});
+$("overlay-save").addEventListener("click", async () => {
+  try {
+    save("run.mcap", await runLog());
+  } catch (error) {
+    $("overlay-text").textContent = `Not saved: ${error.message ?? error}`;
+  }
+});
+$("overlay-restart").addEventListener("click", () => {
+  if (parts && state?.frontier) {
+    try {
+      sessionStorage.setItem(RESTART, JSON.stringify({ ...parts, ticks: state.frontier }));
+    } catch {
+      // a page without storage starts anew
+    }
+  }
+  location.reload();
+});
+
+// keys that the lab uses do not scroll the page; Tab and the browser's own stay
+canvas.addEventListener("keydown", (event) => {
+  const shortcut = (event.ctrlKey || event.metaKey) && "sozy".includes(event.key.toLowerCase());
+  const plain = !event.ctrlKey && !event.metaKey && !event.altKey && event.key !== "Tab" && !/^F\d/.test(event.key);
+  if (shortcut || plain) event.preventDefault();
+});
+document.addEventListener("paste", (event) => {
+  if (document.activeElement === canvas) send({ do: "paste", text: event.clipboardData.getData("text/plain") });
+});
+canvas.addEventListener("pointerdown", () => canvas.focus({ preventScroll: true }));
+canvas.addEventListener("contextmenu", (event) => event.preventDefault());
+canvas.addEventListener("webglcontextlost", () => stop("The browser took the graphics context away (WebGL context lost)."));
+document.addEventListener("visibilitychange", () => send({ do: "visible", visible: !document.hidden }));
+
+const dark = matchMedia("(prefers-color-scheme: dark)");
+const calm = matchMedia("(prefers-reduced-motion: reduce)");
+const tellSystem = () => send({ do: "system", dark: dark.matches, reduced_motion: calm.matches });
+dark.addEventListener("change", tellSystem);
+calm.addEventListener("change", tellSystem);
+
+window.addEventListener("message", ({ data, source }) => {
+  if (source === parent && data?.motionLab?.do) send(data.motionLab);
+});
+window.motionLab = { send, open, savedPage, memory: () => wasm?.memory.buffer.byteLength, get state() { return state; } };
+
+// ---- loading ----
+
+/** The response with its bytes counted as they come. */
+function counted(response) {
+  const megabytes = (bytes) => (bytes / 1e6).toFixed(1);
+  $("total").textContent = megabytes(files.labBytes);
+  let loaded = 0;
+  const count = new TransformStream({
+    transform(chunk, out) {
+      loaded += chunk.byteLength;
+      $("loaded").textContent = megabytes(loaded);
+      $("progress").value = loaded / files.labBytes;
+      out.enqueue(chunk);
+    },
+  });
+  return new Response(response.body.pipeThrough(count), { headers: { "content-type": "application/wasm" } });
+}
+
+async function start() {
+  if (!document.createElement("canvas").getContext("webgl2")) {
+    return warn("This browser has no WebGL 2, which the lab draws with. Below are its widgets as pictures; a browser with hardware acceleration switched on shows the lab.");
+  }
+  root.dataset.lab = "loading";
+  $("loading").hidden = false;
+  try {
+    const [module, response] = await Promise.all([import(new URL(files.lab, location.href)), fetch(files.labWasm)]);
+    if (!response.ok) throw new Error(`${files.labWasm}: ${response.status} ${response.statusText}`);
+    wasm = await module.default({ module_or_path: counted(response) });
+    lab = module;
+    lab.lab_start(location.search, embedded, listen);
+    root.dataset.lab = "running";
+    tellSystem();
+  } catch (error) {
+    stop(error.message ?? String(error));
+  }
+}
+
+start();

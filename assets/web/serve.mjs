@@ -1,0 +1,56 @@
+// A small static server for the site: types, the compressed copies, and the policy as a header too. For trying and for tests.
+import { createServer } from "node:http";
+import { createReadStream, existsSync, statSync } from "node:fs";
+import { join, normalize, extname } from "node:path";
+import { fileURLToPath } from "node:url";
+
+const TYPES = {
+  ".html": "text/html; charset=utf-8",
+  ".js": "text/javascript; charset=utf-8",
+  ".css": "text/css; charset=utf-8",
+  ".json": "application/json",
+  ".svg": "image/svg+xml",
+  ".wasm": "application/wasm",
+  ".txt": "text/plain; charset=utf-8",
+};
+
+/** Serves `folder` on `port` (0: any that is free) of the loopback interface; gives the server once it listens. */
+export function serve(folder, port) {
+  const server = createServer((request, response) => {
+    const path = decodeURIComponent(new URL(request.url, "http://localhost").pathname);
+    let file = join(folder, normalize(path));
+    if (existsSync(file) && statSync(file).isDirectory()) file = join(file, "index.html");
+    if (!file.startsWith(folder) || !existsSync(file)) {
+      response.writeHead(404, { "content-type": "text/plain" }).end("There is no such page.\n");
+      return;
+    }
+    const headers = {
+      "content-type": TYPES[extname(file)] ?? "application/octet-stream",
+      "cache-control": /\.[0-9a-f]{12}\./.test(file) ? "public, max-age=31536000, immutable" : "no-cache",
+      "x-content-type-options": "nosniff",
+      "referrer-policy": "no-referrer",
+    };
+    const compressed = `${file}.br`;
+    if (existsSync(compressed) && /\bbr\b/.test(request.headers["accept-encoding"] ?? "")) {
+      file = compressed;
+      headers["content-encoding"] = "br";
+    }
+    response.writeHead(200, { ...headers, "content-length": statSync(file).size });
+    if (request.method === "HEAD") response.end();
+    else createReadStream(file).pipe(response);
+  });
+  return new Promise((done, failed) => {
+    server.on("error", failed);
+    server.listen(port, "127.0.0.1", () => done(server));
+  });
+}
+
+if (process.argv[1] === fileURLToPath(import.meta.url)) {
+  const [folder, port] = process.argv.slice(2);
+  if (!existsSync(join(folder, "index.html"))) {
+    console.error("There is no site yet: run assets/web/build first.");
+    process.exit(1);
+  }
+  const server = await serve(folder, Number(port));
+  console.log(`The lab is at http://localhost:${server.address().port}/ (Ctrl-C ends it).`);
+}

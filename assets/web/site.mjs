@@ -1,0 +1,126 @@
+// Puts the site together: node site.mjs PARTS OUT [--budget]. Every file but the pages carries a hash of its contents in its name.
+import { createHash } from "node:crypto";
+import { mkdirSync, readFileSync, rmSync, writeFileSync } from "node:fs";
+import { dirname, extname, join } from "node:path";
+import { fileURLToPath } from "node:url";
+import { brotliCompressSync, constants } from "node:zlib";
+
+/** The most that the whole site may weigh, compressed. */
+const BUDGET = 4 * 1000 * 1000;
+const POLICY =
+  "default-src 'none'; script-src 'self' 'wasm-unsafe-eval'; style-src 'self'; img-src 'self' data: blob:; " +
+  "connect-src 'self'; frame-src 'self'; base-uri 'none'; form-action 'none'";
+
+const [parts, out, budget] = process.argv.slice(2);
+const here = dirname(fileURLToPath(import.meta.url));
+const lab = JSON.parse(readFileSync(join(parts, "lab.json"), "utf8"));
+const escape = (text) => text.replace(/[&<>"]/g, (c) => `&#${c.charCodeAt(0)};`);
+const source = (name) => readFileSync(join(here, name), "utf8");
+const fill = (template, values) =>
+  template.replace(/\{\{([\w.-]+)\}\}/g, (_, name) => {
+    if (!(name in values)) throw new Error(`nothing fills {{${name}}}`);
+    return values[name];
+  });
+
+rmSync(out, { recursive: true, force: true });
+mkdirSync(out, { recursive: true });
+const weights = [];
+
+/** Writes a file and its compressed copy. */
+function write(name, contents, part) {
+  const bytes = Buffer.from(contents);
+  const quality = budget || bytes.length < 1e6 ? 11 : 5;
+  const compressed = brotliCompressSync(bytes, {
+    params: { [constants.BROTLI_PARAM_QUALITY]: quality, [constants.BROTLI_PARAM_LGWIN]: 24, [constants.BROTLI_PARAM_SIZE_HINT]: bytes.length },
+  });
+  writeFileSync(join(out, name), bytes);
+  writeFileSync(join(out, `${name}.br`), compressed);
+  weights.push({ part, name, raw: bytes.length, compressed: compressed.length });
+  return name;
+}
+
+/** Writes a file under a name that tells its contents. */
+function hashed(name, contents, part) {
+  const hash = createHash("sha256").update(contents).digest("hex").slice(0, 12);
+  return write(`${name.slice(0, -extname(name).length)}.${hash}${extname(name)}`, contents, part);
+}
+
+const colours = (theme) => Object.entries(lab.colours[theme]).map(([role, colour]) => `--${role}:${colour};`).join("");
+const roles = Object.keys(lab.colours.light).map((role) => `.role-${role}{color:var(--${role})}`).join("\n");
+const style =
+  `:root{color-scheme:light;${colours("light")}}\n` +
+  `@media (prefers-color-scheme:dark){:root:not([data-theme=light]){color-scheme:dark;${colours("dark")}}}\n` +
+  `:root[data-theme=dark]{color-scheme:dark;${colours("dark")}}\n${roles}\n${source("style.css")}`;
+
+const pictures = {};
+for (const { id } of lab.widgets) {
+  for (const theme of ["light", "dark"]) {
+    const name = `${id}-${theme}.svg`;
+    pictures[name] = hashed(name, readFileSync(join(parts, name)), "pictures for readers without script");
+  }
+}
+const files = {
+  lab: hashed("lab.js", readFileSync(join(parts, "lab.js")), "the lab"),
+  labWasm: hashed("lab.wasm", readFileSync(join(parts, "lab_bg.wasm")), "the lab"),
+  light: hashed("light.js", readFileSync(join(parts, "light.js")), "the simulator alone"),
+  lightWasm: hashed("light.wasm", readFileSync(join(parts, "light_bg.wasm")), "the simulator alone"),
+};
+files.labBytes = weights.find((w) => w.name === files.labWasm).raw;
+
+// the page that a run is saved in: its script and style are fixed, so their hashes are too
+const script = `${readFileSync(join(parts, "light.js"), "utf8")}\n${source("saved.js")}`;
+const hash = (text) => `sha256-${createHash("sha256").update(text).digest("base64")}`;
+if (script.includes("</script")) throw new Error("the script would end itself");
+const css = source("saved.css");
+const saved = fill(source("saved.html"), { script, style: css, "script-hash": hash(script), "style-hash": hash(css) });
+files.saved = hashed("saved.html", saved, "the simulator alone");
+files.widgets = Object.fromEntries(lab.widgets.map((w) => [w.id, { title: w.title, key: w.key, description: w.description }]));
+
+const picture = (w) =>
+  `<picture><source srcset="${pictures[`${w.id}-dark.svg`]}" media="(prefers-color-scheme: dark)">` +
+  `<img src="${pictures[`${w.id}-light.svg`]}" loading="lazy" alt="${escape(w.description)}"></picture>`;
+const values = {
+  policy: POLICY,
+  "style.css": hashed("style.css", style, "the page"),
+  "page.js": hashed("page.js", source("page.js"), "the page"),
+  "icon.svg": hashed("icon.svg", source("icon.svg"), "the page"),
+  files: JSON.stringify(files).replace(/</g, "\\u003c"),
+  formulas: lab.formulas.map((f) => `<li title="${escape(f.spoken)}">${f.mathml}</li>`).join("\n"),
+  widgets: lab.widgets
+    .map(
+      (w) =>
+        `<figure id="${w.id}"><h2>${escape(w.title)}</h2>${picture(w)}` +
+        `<figcaption><p><strong>${escape(w.misconception)}</strong></p><p>${escape(w.description)}</p></figcaption></figure>`,
+    )
+    .join("\n"),
+  frames: lab.widgets
+    .map(
+      (w) =>
+        `<figure class="frame"><h2>${escape(w.title)}</h2><iframe src="embed.html?widget=${w.id}" title="${escape(w.title)}" loading="lazy"></iframe>` +
+        `<figcaption>${escape(w.misconception)}</figcaption></figure>`,
+    )
+    .join("\n"),
+};
+for (const [name, template, page] of [
+  ["index.html", "index.html", "lab"],
+  ["embed.html", "index.html", "embed"],
+  ["widgets.html", "widgets.html", "widgets"],
+]) {
+  write(name, fill(source(template), { ...values, page }), "the page");
+}
+
+const kb = (bytes) => (bytes / 1000).toFixed(0).padStart(7);
+const total = { raw: 0, compressed: 0 };
+console.log("  raw kB  brotli kB");
+for (const part of new Set(weights.map((w) => w.part))) {
+  const own = weights.filter((w) => w.part === part);
+  const sum = (field) => own.reduce((s, w) => s + w[field], 0);
+  console.log(`${kb(sum("raw"))}  ${kb(sum("compressed"))}  ${part} (${own.length} files)`);
+  total.raw += sum("raw");
+  total.compressed += sum("compressed");
+}
+console.log(`${kb(total.raw)}  ${kb(total.compressed)}  in all`);
+if (budget && total.compressed > BUDGET) {
+  console.error(`The site weighs ${total.compressed} bytes compressed, and at most ${BUDGET} are allowed.`);
+  process.exit(1);
+}

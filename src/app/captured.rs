@@ -1,0 +1,52 @@
+//! What the widget in front shows, as a figure for a page.
+
+use crate::capture::{CaptureError, Captured, Form, Subject, anatomy, at_tick};
+use crate::random::Seed;
+use crate::recording::Run;
+use crate::run::Script;
+use crate::tour::TourConfig;
+use crate::ui::UiState;
+
+/// The widget in front as a figure of this width: of the run at a tick, or of what stands still.
+///
+/// # Errors
+/// [`CaptureError`], when the run or the scene can't be drawn.
+pub fn captured(
+    state: &UiState,
+    (config, seed, script): (TourConfig, Seed, Script),
+    tick: u64,
+    width_px: f64,
+) -> Result<Captured, CaptureError> {
+    match subject(state, Form::Svg)? {
+        None => scene(state, width_px),
+        Some(subject) => at_tick(&Run::record(config, (seed, script))?, &subject, tick, width_px),
+    }
+}
+
+/// What the widget in front shows of the run; nothing where it shows something that stands still.
+pub fn subject(state: &UiState, form: Form) -> Result<Option<Subject>, CaptureError> {
+    let moves = form == Form::Gif;
+    let (names, scan) = (state.settings.labels, state.settings.scan);
+    Ok(match state.widget {
+        0 => Some(Subject::Dashboard { names, scan }),
+        1 if moves => return Err(CaptureError::Frozen),
+        2 if moves => {
+            let anatomy = &state.anatomy.anatomy;
+            let kind = Some(anatomy.checker().robot().kind().to_owned());
+            let world = Some((**anatomy.world()).clone());
+            Some(Subject::Cspace { world, kind, finest: 7, annulus: anatomy.show_annulus })
+        }
+        3 if moves => Some(Subject::Atlas { world: Some(state.atlas.world().clone()), names }),
+        _ => None,
+    })
+}
+
+/// What the widget in front shows that stands still, for a sheet of this width.
+fn scene(state: &UiState, width_px: f64) -> Result<Captured, CaptureError> {
+    let shown = &state.anatomy.anatomy;
+    match state.widget {
+        2 => state.cspace.captured(shown).map_err(|error| CaptureError::Fault(error.to_string())),
+        3 => Ok(state.atlas.captured(state.settings.labels, width_px)),
+        _ => Ok(anatomy(shown, &[shown.tab])),
+    }
+}

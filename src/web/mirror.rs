@@ -1,0 +1,203 @@
+//! `Mirrored`, what egui tells assistive technology of its widgets, in the few words that a page builds its own controls from.
+
+use bevy_egui::egui::accesskit::{Action, Live, Node, NodeId, Role, Toggled, TreeUpdate};
+use serde::Serialize;
+
+/// One widget of the canvas as a page shows it to who does not see the canvas.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub struct Mirrored {
+    /// Its number, a string because it has 64 bits.
+    pub id: String,
+    /// Which control of a page it is.
+    pub kind: Kind,
+    /// Its accessible name.
+    #[serde(skip_serializing_if = "String::is_empty")]
+    pub name: String,
+    /// The text or number it holds.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub value: Option<String>,
+    /// Least, greatest and step of a number.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub range: Option<[f64; 3]>,
+    /// Whether it is on, of what can be on or off.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub on: Option<bool>,
+    /// Whether it can't be used now.
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    pub off_limits: bool,
+    /// Whether its text is to be read aloud when it changes.
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    pub live: bool,
+    /// Where it is drawn, from left and top of the canvas: left, top, width and height, whole points.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub place: Option<[i32; 4]>,
+    /// Whether it has the focus in the canvas.
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    pub focus: bool,
+}
+
+/// The controls that a page knows.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Kind {
+    /// Words.
+    #[default]
+    Text,
+    /// What can be pressed.
+    Button,
+    /// What is on or off.
+    Check,
+    /// A number on a scale.
+    Slider,
+    /// A number to type or to step.
+    Number,
+    /// Text to type.
+    Field,
+    /// What takes the arrow keys while it has the focus: a painted handle or a pane.
+    Handle,
+}
+
+/// The widgets of an update in reading order. Groups are dissolved; what has neither name nor value is left out.
+pub fn mirror(update: &TreeUpdate) -> Vec<Mirrored> {
+    let find = |id: NodeId| update.nodes.iter().find(|(n, _)| *n == id).map(|(_, node)| node);
+    let mut found = Vec::new();
+    let Some(root) = update.tree.as_ref().map(|t| t.root) else { return found };
+    let mut open = vec![root];
+    while let Some(id) = open.pop() {
+        let Some(node) = find(id) else { continue };
+        let labels = node.labelled_by().iter().filter_map(|l| find(*l)).filter_map(|l| l.value().or(l.label()));
+        found.extend(mirrored(id, node, labels.collect::<Vec<_>>().join(" "), update.focus == id));
+        // the runs of a field's text are its value once more
+        if node.role() != Role::TextInput {
+            open.extend(node.children().iter().rev());
+        }
+    }
+    found
+}
+
+fn mirrored(id: NodeId, node: &Node, labels: String, focus: bool) -> Option<Mirrored> {
+    let kind = match node.role() {
+        Role::Label | Role::Image | Role::ProgressIndicator => Kind::Text,
+        Role::Button | Role::Link | Role::ComboBox | Role::ColorWell => Kind::Button,
+        Role::CheckBox | Role::RadioButton => Kind::Check,
+        // what can't be set takes the arrow keys
+        Role::Slider | Role::SpinButton if !node.supports_action(Action::SetValue) => Kind::Handle,
+        Role::Slider => Kind::Slider,
+        Role::SpinButton => Kind::Number,
+        Role::TextInput | Role::MultilineTextInput => Kind::Field,
+        Role::Unknown if node.supports_action(Action::Focus) => Kind::Handle,
+        _ => return None,
+    };
+    let own = node.label().or(node.value().filter(|_| kind == Kind::Text));
+    let name = own.map_or(labels, str::to_owned);
+    let number = node.numeric_value();
+    let value = match kind {
+        Kind::Text => None,
+        Kind::Slider | Kind::Number => number.map(|n| n.to_string()).or(node.value().map(str::to_owned)),
+        _ => node.value().map(str::to_owned).or(number.map(|n| n.to_string())),
+    };
+    if name.is_empty() && value.is_none() {
+        return None;
+    }
+    let bound = |x: Option<f64>, else_: f64| x.filter(|x| x.is_finite()).unwrap_or(else_);
+    let range = (kind == Kind::Slider || kind == Kind::Number).then(|| {
+        [
+            bound(node.min_numeric_value(), -1e9),
+            bound(node.max_numeric_value(), 1e9),
+            bound(node.numeric_value_step(), 0.0),
+        ]
+    });
+    Some(Mirrored {
+        id: id.0.to_string(),
+        kind,
+        name,
+        value,
+        range,
+        on: node.toggled().map(|t| t == Toggled::True),
+        off_limits: node.is_disabled(),
+        live: node.live().is_some_and(|l| l != Live::Off),
+        place: node.bounds().map(|b| [b.x0, b.y0, b.width(), b.height()].map(|x| x.round() as i32)),
+        focus,
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use bevy_egui::egui::accesskit::{Rect, Tree, TreeId};
+
+    use super::*;
+
+    fn node(role: Role, fill: impl FnOnce(&mut Node)) -> Node {
+        let mut node = Node::new(role);
+        fill(&mut node);
+        node
+    }
+
+    #[test]
+    fn widgets_come_in_reading_order_with_what_a_control_needs() {
+        let nodes = [
+            (0, node(Role::Window, |n| n.set_children([4, 1].map(NodeId::from)))),
+            (1, node(Role::GenericContainer, |n| n.set_children([2, 3, 9, 11].map(NodeId::from)))),
+            (
+                2,
+                node(Role::Button, |n| {
+                    n.set_label("Play");
+                    n.set_bounds(Rect { x0: 1.0, y0: 2.2, x1: 41.0, y1: 30.1 });
+                }),
+            ),
+            (
+                3,
+                node(Role::Slider, |n| {
+                    n.set_label("speed");
+                    n.set_numeric_value(0.5);
+                    n.set_min_numeric_value(0.125);
+                    n.set_max_numeric_value(f64::INFINITY);
+                    n.add_action(Action::SetValue);
+                    n.set_disabled();
+                }),
+            ),
+            (4, node(Role::Label, |n| n.set_value("Dashboard"))),
+            (
+                9,
+                node(Role::TextInput, |n| {
+                    n.push_labelled_by(NodeId::from(4));
+                    n.set_value("2005");
+                    n.set_children([10].map(NodeId::from));
+                }),
+            ),
+            (
+                11,
+                node(Role::SpinButton, |n| {
+                    n.set_label("elbow");
+                    n.set_numeric_value(1.5);
+                }),
+            ),
+            (10, node(Role::TextRun, |n| n.set_value("2005"))),
+        ];
+        let update = TreeUpdate {
+            nodes: nodes.into_iter().map(|(id, n)| (NodeId::from(id), n)).collect(),
+            tree: Some(Tree::new(NodeId::from(0))),
+            tree_id: TreeId::ROOT,
+            focus: NodeId::from(2),
+        };
+        let found = mirror(&update);
+        let told: Vec<(&str, Kind)> = found.iter().map(|m| (m.name.as_str(), m.kind)).collect();
+        assert_eq!(
+            told,
+            [
+                ("Dashboard", Kind::Text),
+                ("Play", Kind::Button),
+                ("speed", Kind::Slider),
+                ("Dashboard", Kind::Field),
+                ("elbow", Kind::Handle)
+            ]
+        );
+        assert!(found[1].focus && !found[0].focus);
+        assert_eq!((found[2].range, found[2].off_limits), (Some([0.125, 1e9, 0.0]), true));
+        assert_eq!(found[3].value.as_deref(), Some("2005"));
+        assert_eq!(
+            serde_json::to_string(&found[1]).unwrap(),
+            r#"{"id":"2","kind":"button","name":"Play","place":[1,2,40,28],"focus":true}"#
+        );
+    }
+}

@@ -1,0 +1,19 @@
+//! The lab in a web page: addresses that hold a run, and what the WebAssembly builds export.
+//!
+//! There are two. The light one, without the feature `web`, records, verifies and draws runs; the page's overlay, the pages that
+//! hold one run, and the identity tests use it. The other is the lab itself.
+
+#[cfg(target_family = "wasm")]
+mod identity;
+mod link;
+#[cfg(feature = "screen")]
+pub mod mirror;
+#[cfg(target_family = "wasm")]
+mod runs;
+
+#[cfg(all(target_family = "wasm", feature = "web"))]
+mod lab;
+#[cfg(all(target_family = "wasm", feature = "web"))]
+mod message;
+
+pub use link::{LINK_VERSION, Link, LinkError, MAX_LINK, MAX_LINK_TICK};

@@ -1,0 +1,128 @@
+//! Runs as the light WebAssembly build exports them: recorded from their parts, verified, drawn.
+
+use serde::{Deserialize, Serialize};
+use wasm_bindgen::prelude::*;
+
+use super::link::Link;
+use crate::random::Seed;
+use crate::recording::{Recorder, Run};
+use crate::run::{Log, Script, first_divergence};
+use crate::tour::TourConfig;
+use crate::ui::{RunFigure, Theme};
+use crate::worlds::World;
+
+/// The parts that a run is made of, all of them text: what a page keeps so that it can record the run again when the lab itself has
+/// stopped.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct RunParts {
+    /// The seed, in decimal.
+    pub seed: String,
+    /// World files.
+    pub worlds: Vec<String>,
+    /// The input script.
+    pub script: String,
+    /// How many ticks.
+    pub ticks: u64,
+}
+
+impl RunParts {
+    fn log(&self) -> Result<Log, String> {
+        let seed = self.seed.parse().map_err(|_| format!("{}: not a seed", self.seed))?;
+        let parse = |text: &String| World::parse("the world", text).map_err(|e| e.to_string());
+        let worlds = self.worlds.iter().map(parse).collect::<Result<_, _>>()?;
+        let script = Script::parse("the script", &self.script).map_err(|e| e.to_string())?;
+        let config = TourConfig { worlds, ticks: self.ticks, ..TourConfig::default() };
+        Run::record(config, (Seed(seed), script)).map_err(|e| e.to_string())
+    }
+}
+
+/// What there is to say of a log that was simulated again.
+#[derive(Debug, Serialize)]
+struct Verdict {
+    /// Whether every frame came out equal to the last bit, and the file is whole.
+    verified: bool,
+    /// How many ticks the log holds.
+    ticks: usize,
+    /// The first tick that differs.
+    diverging_tick: Option<u64>,
+    /// The run's digest, computed anew.
+    digest: String,
+    seed: String,
+    /// In words.
+    text: String,
+}
+
+fn written(log: &Log) -> Result<Vec<u8>, String> {
+    let mut bytes = Vec::new();
+    log.write_mcap(&mut bytes).map_err(|e| e.to_string())?;
+    Ok(bytes)
+}
+
+fn error(text: impl ToString) -> JsError {
+    JsError::new(&text.to_string())
+}
+
+/// The bytes of the log of a run from its parts, as JSON: `{ "seed", "worlds", "script", "ticks" }`.
+///
+/// # Errors
+/// The reason, when a part is refused.
+#[wasm_bindgen]
+pub fn record_log(parts: &str) -> Result<Vec<u8>, JsError> {
+    let parts: RunParts = serde_json::from_str(parts).map_err(error)?;
+    parts.log().and_then(|log| written(&log)).map_err(error)
+}
+
+/// The bytes of the log of the run that the query of an address stands for.
+///
+/// # Errors
+/// The reason, when a field is refused.
+#[wasm_bindgen]
+pub fn record_link(query: &str) -> Result<Vec<u8>, JsError> {
+    let link = Link::parse(query).map_err(error)?;
+    let log = Run::record(link.config(), (link.seed, link.script.clone())).map_err(error)?;
+    written(&log).map_err(error)
+}
+
+/// Simulates a log's run again from its seed, configuration and script, and compares every frame to the last bit. JSON:
+/// `{ "verified", "ticks", "diverging_tick", "digest", "seed", "text" }`.
+///
+/// # Errors
+/// The reason, when the bytes are no log, or one that was cut or damaged.
+#[wasm_bindgen]
+pub fn verify_log(bytes: &[u8]) -> Result<String, JsError> {
+    let log = Log::read_mcap(bytes).map_err(error)?.log;
+    let again = Run::record(log.config.clone(), (log.seed, log.script.clone())).map_err(error)?;
+    let divergence = first_divergence(std::slice::from_ref(&log.initial), std::slice::from_ref(&again.initial))
+        .or_else(|| first_divergence(&log.frames, &again.frames));
+    let ticks = log.frames.len();
+    let verdict = Verdict {
+        verified: divergence.is_none(),
+        ticks,
+        diverging_tick: divergence.as_ref().map(|d| d.tick),
+        digest: again.digest().to_string(),
+        seed: log.seed.to_string(),
+        text: match divergence {
+            None => format!("bit-identical, {ticks} of {ticks}"),
+            Some(divergence) => divergence.to_string(),
+        },
+    };
+    serde_json::to_string(&verdict).map_err(error)
+}
+
+/// The tour of a log's run as an SVG figure, on light or dark paper.
+///
+/// # Errors
+/// The reason, when the bytes are no log, or one that was cut or damaged.
+#[wasm_bindgen]
+pub fn figure_of_log(bytes: &[u8], dark: bool) -> Result<String, JsError> {
+    let log = Log::read_mcap(bytes).map_err(error)?.log;
+    let theme = if dark { Theme::Dark } else { Theme::Light };
+    let mut recorder = Recorder::new(log.config.clone(), (log.seed, log.script.clone())).map_err(error)?;
+    let mut figure = RunFigure::default();
+    figure.watch(recorder.view());
+    for _ in &log.frames {
+        recorder.step();
+        figure.watch(recorder.view());
+    }
+    Ok(figure.svg(log.seed, &log.config, (log.frames.len() as u64, log.digest()), theme))
+}

@@ -1,0 +1,424 @@
+// The lab in a browser, as readers use it.
+import assert from "node:assert/strict";
+import { readFileSync, writeFileSync } from "node:fs";
+import { after, before, test } from "node:test";
+import { join } from "node:path";
+import { Lab, begin, end, native, newBrowser, origin, shots } from "./harness.mjs";
+
+before(begin);
+after(end);
+
+/** A test on a page of its own, at the end of which nothing that must not happen may have happened. */
+function lab(name, path, body, options = {}) {
+  test(name, { timeout: 180000 }, async () => {
+    const page = await Lab.open(path, options);
+    try {
+      await body(page);
+    } catch (error) {
+      await page.shot(`failed-${name.replace(/\W+/g, "-")}`).catch(() => {});
+      console.error(`# what happened on the page: ${page.faults.join("; ") || "no fault"}`);
+      throw error;
+    }
+    assert.deepEqual(await page.close(), [], "no errors, no policy violations, no foreign requests");
+  });
+}
+
+const digestOf = (text) => /digest ([0-9a-f]{32})/.exec(text)[1];
+const rusty = (s) => s.robots.find((r) => r.name === "Rusty");
+
+async function download(page, act) {
+  const [file] = await Promise.all([page.waitForEvent("download"), act()]);
+  return { name: file.suggestedFilename(), path: await file.path() };
+}
+
+lab("loads, plays, and its first frame is soon there", "/", async (lab) => {
+  const first = await lab.page.evaluate(() => performance.getEntriesByName("first-frame")[0].startTime);
+  console.log(`# first frame after ${Math.round(first)} ms`);
+  assert.ok(first < 60000);
+  const { tick } = await lab.state();
+  await lab.until((s) => s.tick > tick + 10);
+  assert.equal(await lab.page.locator("#loading").isVisible(), false);
+  await lab.shot("light-desktop");
+  const colours = await lab.page.evaluate(() => {
+    const copy = document.createElement("canvas");
+    [copy.width, copy.height] = [200, 200];
+    return new Promise((done) =>
+      requestAnimationFrame(() => {
+        const at = copy.getContext("2d");
+        at.drawImage(document.getElementById("lab"), 0, 0, 200, 200);
+        done(new Set(at.getImageData(0, 0, 200, 200).data).size);
+      }),
+    );
+  });
+  console.log(`# ${colours} different byte values in the canvas`);
+});
+
+lab("Rusty and Hitch are driven by keys, Reach by dragging", "/?seed=7", async (lab) => {
+  await lab.send({ do: "pause" });
+  await lab.send({ do: "seek", tick: 0 });
+  await lab.click(/^Apartment\. Rusty/, [0.1, 0.2]);
+  await lab.until((s) => s.armed === "Rusty");
+  await lab.send({ do: "play" });
+  await lab.page.keyboard.down("ArrowUp");
+  await lab.until((s) => s.robots.some((r) => r.name === "Rusty" && r.driven) && s.tick > 30);
+  await lab.page.keyboard.up("ArrowUp");
+  await lab.page.keyboard.press("Escape");
+  await lab.until((s) => s.armed === null);
+  await lab.click(/^Lot\. Hitch/, [0.1, 0.1]);
+  await lab.until((s) => s.armed === "Hitch");
+  await lab.page.keyboard.down("ArrowDown");
+  await lab.until((s) => s.robots.some((r) => r.name === "Hitch" && r.driven));
+  await lab.page.keyboard.up("ArrowDown");
+  await lab.send({ do: "pause" });
+  const before = (await lab.until((s) => !s.playing)).robots.find((r) => r.name === "Reach").configuration;
+  const from = await lab.at("Reach: tip, theta2 in radians");
+  await lab.drag(from, [from[0] - 60, from[1] + 50]);
+  await lab.send({ do: "step" });
+  const after = (await lab.until((s) => s.robots.some((r) => r.name === "Reach" && r.driven))).robots.find((r) => r.name === "Reach").configuration;
+  assert.notEqual(after, before);
+});
+
+lab("what is driven here is saved, and verifies natively to the same digest", "/", async (lab) => {
+  await lab.click(/^Apartment\. Rusty/, [0.1, 0.2]);
+  await lab.page.keyboard.down("ArrowUp");
+  await lab.until((s) => s.tick > 60);
+  await lab.page.keyboard.up("ArrowUp");
+  await lab.page.keyboard.down("ArrowLeft");
+  await lab.until((s) => s.tick > 90);
+  await lab.page.keyboard.up("ArrowLeft");
+  await lab.send({ do: "pause" });
+  await lab.until((s) => !s.playing);
+  const { path } = await download(lab.page, () => lab.page.click("#save-run"));
+  const { notice } = await lab.until((s) => s.notice);
+  const log = join(shots, "driven.mcap");
+  writeFileSync(log, readFileSync(path));
+  const said = native("verify", log);
+  console.log(`# ${notice.text}; natively: ${said.trim().split("\n").join(" / ")}`);
+  assert.ok(/bit-identical/.test(said));
+  assert.ok(native("info", log).includes(digestOf(notice.text)), "the same digest natively");
+  // and it is opened by dropping it
+  const bytes = readFileSync(log).toString("base64");
+  await lab.page.evaluate(async (text) => {
+    const data = new DataTransfer();
+    data.items.add(new File([Uint8Array.from(atob(text), (c) => c.charCodeAt(0))], "dropped.mcap"));
+    document.dispatchEvent(new DragEvent("drop", { dataTransfer: data, bubbles: true, cancelable: true }));
+  }, bytes);
+  const opened = await lab.until((s) => s.notice && s.notice.text.startsWith("dropped.mcap"));
+  assert.match(opened.notice.text, /^dropped\.mcap: bit-identical, (\d+) of \1$/);
+  assert.equal(opened.tick, 0);
+  // bytes that are no log are refused in place and lose nothing
+  await lab.page.evaluate(() => window.motionLab.open(new File([new Uint8Array(100)], "nonsense.mcap")));
+  const refused = await lab.until((s) => s.notice && s.notice.error);
+  assert.match(refused.notice.text, /^nonsense\.mcap: not opened/);
+  assert.equal(refused.frontier, opened.frontier);
+});
+
+lab("a robot is put by a click in the atlas, and refused where it would overlap", "/?widget=atlas", async (lab) => {
+  const paper = await lab.find(/^World Apartment/);
+  const refusals = [];
+  for (let u = 0.05; u < 1; u += 0.1) {
+    for (const v of [0.25, 0.5, 0.75]) {
+      await lab.click(/^World Apartment/, [u, v]);
+      await lab.page.waitForTimeout(60);
+    }
+    const words = (await lab.tree()).map((w) => w.name).filter((n) => /^would overlap/.test(n));
+    refusals.push(...words);
+  }
+  assert.ok(paper && refusals.length > 0, "somewhere something is in the way");
+  console.log(`# ${refusals[0]}`);
+  assert.match(refusals[0], /would overlap .+/);
+});
+
+lab("the time line goes back to any tick, and Continue drives on from there", "/", async (lab) => {
+  await lab.until((s) => s.tick > 40);
+  await lab.send({ do: "pause" });
+  const { frontier } = await lab.until((s) => !s.playing);
+  const line = await lab.at("time line, in ticks", [0.3, 0.5]);
+  await lab.page.mouse.click(...line, { delay: 120 });
+  const { tick } = await lab.until((s) => s.tick < s.frontier);
+  assert.ok(tick > 0 && tick < frontier);
+  await lab.click("Continue from here");
+  await lab.until((s) => s.frontier === tick);
+});
+
+lab("a link opens to the same bits", "/?seed=11&world=lot", async (lab) => {
+  await lab.until((s) => s.tick > 30);
+  await lab.click(/^Lot\. Hitch/, [0.1, 0.1]);
+  await lab.until((s) => s.armed === "Hitch");
+  await lab.page.keyboard.down("ArrowUp");
+  await lab.until((s) => s.tick > 60 && s.robots[0].driven);
+  await lab.page.keyboard.up("ArrowUp");
+  await lab.send({ do: "pause" });
+  const here = await lab.until((s) => !s.playing);
+  await lab.context.grantPermissions(["clipboard-read", "clipboard-write"]);
+  await lab.page.click("#copy-link");
+  await lab.page.waitForFunction(() => /digest/.test(document.getElementById("said").textContent));
+  const address = await lab.page.evaluate(() => navigator.clipboard.readText());
+  const digest = digestOf(await lab.page.textContent("#said"));
+  console.log(`# ${address.length} characters: ${address.slice(0, 160)}`);
+  const there = await Lab.open(address);
+  const opened = await there.until((s) => s.notice);
+  assert.equal(opened.notice.text, `the same run to the last bit: tick ${here.tick}, digest ${digest}`);
+  assert.equal(opened.robots[0].configuration, here.robots[0].configuration);
+  assert.deepEqual(await there.close(), []);
+  const other = await Lab.open(address.replace(digest, "0".repeat(32)));
+  assert.match((await other.until((s) => s.notice && s.notice.error)).notice.text, /^another run than the link's/);
+  await other.close();
+});
+
+lab("hostile links are refused by name, and the lab starts all the same", "/?seed=1e9&tick=3", async (lab) => {
+  const { notice, seed } = await lab.until((s) => s.notice && s.notice.error);
+  assert.match(notice.text, /^the link: seed=1e9: it must be a whole number/);
+  assert.equal(seed, "2005");
+  for (const [query, said] of [
+    ["?tick=99999999", /tick=99999999: it must be/],
+    ["?world=%3Cimg%20src=x%3E", /world=<img src=x>: it must be one of/],
+    ["?script=Script(version:1,events:[(tick:1,robot:%22Rusty%22,input:Drive(999,0))])", /channel 999/],
+    ["?script=Script(version:1,events:[(tick:1,robot:%22Nobody%22,input:Release)])&tick=2", /Nobody/],
+    ["?v=9", /v=9: this lab reads links of version 1/],
+  ]) {
+    const page = await Lab.open(`/${query}`);
+    assert.match((await page.until((s) => s.notice && s.notice.error)).notice.text, said);
+    assert.deepEqual(await page.close(), []);
+  }
+});
+
+for (const [name, scheme, viewport] of [
+  ["desktop", "dark", { width: 1280, height: 800 }],
+  ["wide", "light", { width: 1920, height: 1080 }],
+  ["phone", "light", { width: 390, height: 844 }],
+  ["phone", "dark", { width: 390, height: 844 }],
+]) {
+  lab(
+    `every widget is looked at: ${name}, ${scheme}`,
+    "/?tick=300",
+    async (lab) => {
+      assert.equal((await lab.state()).theme, scheme);
+      for (const id of ["dashboard", "anatomy", "cspace", "atlas"]) {
+        await lab.send({ do: "widget", id });
+        await lab.until((s) => s.widget === id);
+        await lab.page.waitForTimeout(700);
+        await lab.shot(`${name}-${scheme}-${id}`);
+      }
+      const wider = await lab.page.evaluate(() => document.documentElement.scrollWidth - innerWidth);
+      assert.ok(wider <= 0, `nothing is cut off at the right: ${wider}`);
+    },
+    { options: { viewport, colorScheme: scheme } },
+  );
+}
+
+lab(
+  "fingers drive it on a phone",
+  "/",
+  async (lab) => {
+    await lab.page.touchscreen.tap(...(await lab.at(/^Apartment\. Rusty/, [0.15, 0.2])));
+    await lab.until((s) => s.armed === "Rusty");
+    const [x, y] = await lab.at("Rusty: pad, up drives forward", [0.5, 0.1]);
+    // a finger that stays down
+    const session = await lab.context.newCDPSession(lab.page);
+    await session.send("Input.dispatchTouchEvent", { type: "touchStart", touchPoints: [{ x, y }] });
+    await lab.until((s) => s.robots.some((r) => r.name === "Rusty" && r.driven));
+    await session.send("Input.dispatchTouchEvent", { type: "touchEnd", touchPoints: [] });
+    await lab.shot("phone-driving");
+  },
+  { options: { viewport: { width: 390, height: 844 }, hasTouch: true, isMobile: true } },
+);
+
+lab("everything is done by keyboard alone, and Tab is not trapped", "/", async (lab) => {
+  const { keyboard } = lab.page;
+  await lab.page.focus("#lab");
+  const focused = () => lab.page.evaluate(() => document.activeElement.id || document.activeElement.textContent || document.activeElement.tagName);
+  const reached = [];
+  for (let i = 0; i < 80; i++) {
+    await keyboard.press("Tab");
+    reached.push(await focused());
+    if (/^(BODY|All widgets|copy-link)/.test(reached.at(-1))) break;
+  }
+  console.log(`# Tab goes over ${reached.length} stops`);
+  assert.ok(reached.some((n) => /Play|Pause/.test(n)) && reached.some((n) => /Re-roll/.test(n)), reached.join(" | "));
+  assert.ok(reached.length < 80, `Tab leaves the lab: ${reached.join(" | ")}`);
+  // pause by the element that stands for the canvas's button
+  const press = async (name) => {
+    await lab.page.locator("#controls button", { hasText: name }).first().focus();
+    await keyboard.press("Enter");
+  };
+  await press(/^Pause$/);
+  await lab.until((s) => !s.playing);
+  await press(/^Re-roll$/);
+  await lab.until((s) => s.seed !== "2005");
+  const seed = lab.page.getByLabel("seed", { exact: true });
+  await seed.focus();
+  await seed.fill("2005");
+  await keyboard.press("Enter");
+  await lab.until((s) => s.seed === "2005");
+  await press(/^Apartment\. Rusty/);
+  await lab.until((s) => s.armed === "Rusty");
+  await lab.send({ do: "play" });
+  await keyboard.down("ArrowUp");
+  await lab.until((s) => s.robots.some((r) => r.name === "Rusty" && r.driven));
+  await keyboard.up("ArrowUp");
+  await keyboard.press("Escape");
+  await lab.until((s) => s.armed === null);
+  const theta = lab.page.getByLabel("Reach: theta1");
+  await theta.focus();
+  await theta.fill("0.5");
+  await lab.until((s) => s.robots.some((r) => r.name === "Reach" && /th1: 0.500/.test(r.configuration)));
+});
+
+lab("the accessibility tree tells what the canvas shows", "/?tick=200", async (lab) => {
+  await lab.find("Play");
+  const session = await lab.context.newCDPSession(lab.page);
+  const { nodes } = await session.send("Accessibility.getFullAXTree");
+  const named = (role) => nodes.filter((n) => n.role?.value === role && !n.ignored).map((n) => n.name?.value);
+  const buttons = named("button");
+  for (const name of ["Play", "Step", "Reset", "Re-roll", "Copy link", "Save run", "Drive", "Atlas"]) assert.ok(buttons.includes(name), `${name} among ${buttons}`);
+  assert.ok(named("textbox").includes("seed"), named("textbox").join());
+  assert.ok(named("spinbutton").includes("Reach: theta1"), named("spinbutton").join());
+  assert.ok(nodes.some((n) => /Pose2 \{ x: /.test(n.name?.value ?? "")), "the readouts are told");
+  assert.ok(nodes.some((n) => n.role?.value === "status"), "a live region");
+  assert.ok(nodes.some((n) => n.role?.value === "alert"), "and one for what went wrong");
+});
+
+lab("a role lights in page and canvas alike", "/", async (lab) => {
+  await lab.page.locator("#key button", { hasText: "obstacle" }).focus();
+  await lab.until((s) => s.lit === "obstacle");
+  assert.equal(await lab.page.evaluate(() => document.documentElement.dataset.lit), "obstacle");
+  await lab.page.focus("#copy-link");
+  await lab.until((s) => s.lit === null);
+  const [x, y] = await lab.at("colour key: scan");
+  await lab.page.mouse.move(x, y);
+  await lab.until((s) => s.lit === "sensor");
+});
+
+lab("a saved page verifies from disk, without a server, and tells a forged run", "/?seed=42", async (lab) => {
+  await lab.until((s) => s.tick > 60);
+  await lab.send({ do: "pause" });
+  await lab.until((s) => !s.playing);
+  const { path } = await download(lab.page, () => lab.page.click("#save-page"));
+  const html = readFileSync(path, "utf8");
+  console.log(`# the page has ${html.length} bytes`);
+  const file = join(shots, "run.html");
+  writeFileSync(file, html);
+  const read = async (address) => {
+    const page = await Lab.open(`file://${address}`, { wait: false });
+    await page.page.waitForFunction(() => document.documentElement.dataset.verdict, null, { timeout: 30000 });
+    const said = await page.page.textContent("#verdict");
+    await page.shot(`saved-${said.slice(0, 8)}`);
+    assert.deepEqual(await page.close(), []);
+    return said;
+  };
+  const said = await read(file);
+  assert.match(said, /^Verified: bit-identical, (\d+) of \1, digest [0-9a-f]{32}\.$/);
+  // the run of another seed under this one's name
+  const forged = html.replace(/(id="bytes">)([^<]*)/, (_, tag, text) => {
+    const bytes = Buffer.from(text, "base64");
+    bytes[Math.floor(bytes.length / 2)] ^= 1;
+    return tag + bytes.toString("base64");
+  });
+  writeFileSync(join(shots, "forged.html"), forged);
+  const refused = await read(join(shots, "forged.html"));
+  assert.match(refused, /^Not verified: |^Another run: /);
+});
+
+lab("a page embeds one widget, sized to its frame, and speaks with it", "/widgets.html", async (lab) => {
+  const frame = await (await lab.page.waitForSelector('iframe[title="Dashboard"]')).contentFrame();
+  await frame.waitForFunction(() => window.motionLab?.state, null, { timeout: 60000 });
+  const names = await frame.evaluate(() => [...document.querySelectorAll("#controls button")].map((b) => b.textContent));
+  assert.ok(names.includes("Reset") && !names.includes("Atlas"), "no rail: one widget");
+  const heard = await lab.page.evaluate(
+    () =>
+      new Promise((done) => {
+        const view = document.querySelector('iframe[title="Dashboard"]').contentWindow;
+        addEventListener("message", ({ data }) => data.motionLab?.kind === "state" && data.motionLab.lit === "robot" && done(data.motionLab));
+        view.postMessage({ motionLab: { do: "light", role: "robot" } }, "*");
+      }),
+  );
+  assert.equal(heard.widget, "dashboard");
+  await lab.shot("widgets");
+}, { wait: false });
+
+for (const [name, fail] of [
+  ["a failure", (lab) => lab.send({ do: "fail" })],
+  ["a lost graphics context", (lab) => lab.page.evaluate(() => document.getElementById("lab").getContext("webgl2").getExtension("WEBGL_lose_context").loseContext())],
+]) {
+  test(`${name} is shown with its reason, keeps the run, and starts again`, { timeout: 120000 }, async () => {
+    const lab = await Lab.open("/?seed=5");
+    await lab.until((s) => s.tick > 30);
+    await lab.send({ do: "pause" });
+    const { frontier } = await lab.until((s) => !s.playing);
+    await lab.page.waitForTimeout(300);
+    await fail(lab);
+    await lab.page.waitForSelector("#overlay:not([hidden])");
+    console.log(`# ${await lab.page.textContent("#overlay-text")}`);
+    await lab.shot(`overlay-${name.replace(/\W/g, "-")}`);
+    const { path } = await download(lab.page, () => lab.page.click("#overlay-save"));
+    const log = join(shots, "kept.mcap");
+    writeFileSync(log, readFileSync(path));
+    assert.ok(new RegExp(`${frontier} of ${frontier}`).test(native("verify", log)));
+    await lab.page.click("#overlay-restart");
+    await lab.page.waitForFunction(() => window.told.kinds.includes("ready"), null, { timeout: 60000 });
+    const again = await lab.until((s) => s.notice && s.notice.text.startsWith("the run before"));
+    assert.equal(again.frontier, frontier);
+    await lab.close();
+  });
+}
+
+lab("a hidden page stands still, and goes on without a burst", "/", async (lab) => {
+  await lab.until((s) => s.tick > 10);
+  const hide = (hidden) =>
+    lab.page.evaluate((h) => {
+      Object.defineProperty(document, "hidden", { configurable: true, get: () => h });
+      document.dispatchEvent(new Event("visibilitychange"));
+    }, hidden);
+  await hide(true);
+  await lab.page.waitForTimeout(400);
+  const { tick } = await lab.state();
+  await lab.page.waitForTimeout(3000);
+  assert.equal((await lab.state()).tick, tick, "no tick while it is hidden");
+  await hide(false);
+  await lab.page.waitForTimeout(250);
+  const after = (await lab.state()).tick;
+  assert.ok(after - tick <= 8, `${after - tick} ticks in a quarter of a second`);
+  await lab.until((s) => s.tick > tick);
+});
+
+lab("memory stays flat while worlds are opened", "/?widget=atlas", async (lab) => {
+  const world = native("world", "show", "apartment");
+  const load = (times) =>
+    lab.page.evaluate(
+      async ([text, n]) => {
+        const file = new File([text], "again.ron");
+        for (let i = 0; i < n; i++) {
+          await window.motionLab.open(file);
+          if (i % 50 === 49) await new Promise((next) => requestAnimationFrame(() => requestAnimationFrame(next)));
+        }
+        await new Promise((next) => setTimeout(next, 1500));
+        return window.motionLab.memory();
+      },
+      [world, times],
+    );
+  const times = Number(process.env.MOTION_LAB_LOADS ?? 500);
+  const warm = await load(Math.min(times, 500));
+  const end = await load(times);
+  console.log(`# WebAssembly memory: ${warm} bytes, after ${times} more worlds ${end}`);
+  assert.ok(end <= 1.02 * warm + 131072, `${end} after ${warm}`);
+});
+
+test("without WebGL 2 the page says so and shows its pictures", { timeout: 60000 }, async () => {
+  const bare = await newBrowser(["--disable-3d-apis"]);
+  const lab = await Lab.open(`${origin()}/`, { wait: false, from: bare });
+  await lab.page.waitForFunction(() => /WebGL 2/.test(document.getElementById("alert").textContent));
+  assert.ok(await lab.page.locator("#still figure img").first().isVisible());
+  await lab.shot("without-webgl");
+  await lab.close();
+  await bare.close();
+});
+
+test("without script the page shows its pictures and words", { timeout: 60000 }, async () => {
+  const lab = await Lab.open("/", { wait: false, options: { javaScriptEnabled: false } });
+  const text = await lab.page.locator("#still").innerText();
+  for (const title of ["Dashboard", "Query anatomy", "Configuration space", "World atlas"]) assert.ok(text.includes(title), title);
+  assert.equal(await lab.page.locator("#still figure img").count(), 4);
+  await lab.shot("without-script");
+  assert.deepEqual(await lab.close(), []);
+});
