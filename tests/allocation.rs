@@ -77,3 +77,19 @@ fn footprints_queries_and_edges_of_the_three_robots_do_not_allocate() {
     let towing = |x: f64, theta: f64| HitchCfg { body: pose(x, theta), trailer: Some(theta - 0.2) };
     check(&Checker::new(scene, HITCH.with_trailer()), towing(-4.0, 0.0), towing(2.0, 0.7));
 }
+
+/// A log's room is made by its first ticks.
+#[test]
+fn logging_a_tick_does_not_allocate() {
+    use motion_lab::recording::Run;
+    use motion_lab::run::{LogWriter, Script};
+    use motion_lab::tour::{BOOK_SEED, TourConfig};
+
+    let config = TourConfig { ticks: 40, ..TourConfig::default() };
+    let log = Run::record(config.clone(), BOOK_SEED).unwrap();
+    let mut writer = LogWriter::new(std::io::sink(), BOOK_SEED, &config, &Script::empty(), &log.initial).unwrap();
+    let (first, rest) = log.frames.split_at(5);
+    first.iter().for_each(|frame| _ = writer.tick(frame).unwrap());
+    let counted = allocations(|| rest.iter().for_each(|frame| _ = std::hint::black_box(writer.tick(frame).unwrap())));
+    assert_eq!(counted, 0, "of {} ticks", rest.len());
+}

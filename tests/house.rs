@@ -117,7 +117,7 @@ fn parry_is_imported_in_one_file() {
         .filter(|(_, _, lines)| lines.iter().any(|l| l.contains("parry2d")))
         .map(|(file, ..)| file)
         .collect();
-    assert_eq!(users, ["collision/scene.rs"]);
+    assert_eq!(users, ["collision/tree.rs"]);
 }
 
 #[test]

@@ -1,7 +1,7 @@
 //! What the lab costs beside parry2d-f64, row by row, written into README.
 //!
 //! `cargo bench --no-default-features --features headless --bench table`; with `-- scan` only the rows whose name has that in it,
-//! printed and not written.
+//! printed and not written; `-- worlds` prints the worlds, for `benches/peers`.
 #![allow(missing_docs, clippy::unwrap_used, clippy::expect_used, clippy::print_stdout, clippy::disallowed_methods)]
 
 mod edges;
@@ -12,6 +12,7 @@ mod readme;
 mod runs;
 mod scans;
 mod worlds;
+mod worlds_json;
 
 use measure::Timing;
 
@@ -63,6 +64,9 @@ fn main() {
         return runs::first_step();
     }
     let only = std::env::args().skip(1).find(|a| !a.starts_with("--"));
+    if only.as_deref() == Some("worlds") {
+        return worlds_json::print();
+    }
     let mut table = Table { only, rows: Vec::new() };
     scans::rows(&mut table);
     queries::rows(&mut table);

@@ -38,6 +38,11 @@ impl Timing {
         Timing { name, median, spread: 0.5 * (high - low) / median, rounds }
     }
 
+    /// The same work told as the time of one of its `parts`.
+    pub fn per(&self, parts: f64) -> Self {
+        Self::of(self.name, self.rounds.iter().map(|t| t / parts).collect())
+    }
+
     /// The median over the rounds of how many times longer `other` took.
     pub fn times_faster_than(&self, other: &Timing) -> f64 {
         let ratios: Vec<f64> = self.rounds.iter().zip(&other.rounds).map(|(a, b)| b / a).collect();

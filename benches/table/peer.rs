@@ -1,6 +1,6 @@
 //! The same questions put to parry2d-f64 as one would use it: its shapes under its bounding-volume tree.
 
-use motion_lab::geometry::{Footprint, Part, Placed};
+use motion_lab::geometry::{Footprint, Part, Placed, Point2, Pose2};
 use parry2d_f64::bounding_volume::{Aabb, BoundingVolume};
 use parry2d_f64::math::{Pose, Vector};
 use parry2d_f64::partitioning::{Bvh, BvhBuildStrategy, BvhNode};
@@ -15,7 +15,7 @@ pub struct Peer {
     tree: Bvh,
 }
 
-fn vector(p: &motion_lab::geometry::Point2) -> Vector {
+fn vector(p: &Point2) -> Vector {
     Vector::new(p.x, p.y)
 }
 
@@ -116,6 +116,24 @@ impl Peer {
             }
         }
         first
+    }
+}
+
+/// Rectangles as parry's cuboids where they are.
+pub struct Cuboids(Vec<(Pose, Cuboid)>);
+
+impl Cuboids {
+    /// Of rectangles whose frames are at their middles.
+    pub fn new(rects: &[(Pose2, Point2, Point2)]) -> Self {
+        let cuboid = |(pose, _, max): &(Pose2, Point2, Point2)| {
+            (Pose::new(vector(&pose.position()), pose.theta), Cuboid::new(vector(max)))
+        };
+        Cuboids(rects.iter().map(cuboid).collect())
+    }
+
+    pub fn touch(&self, a: usize, b: usize) -> bool {
+        let ((at, cuboid), (there, other)) = (&self.0[a], &self.0[b]);
+        query::intersection_test(at, cuboid, there, other).is_ok_and(|t| t.intersecting)
     }
 }
 

@@ -1,12 +1,12 @@
 //! Distance with witness, and contact.
 
-use motion_lab::collision::{Collision, Scene};
+use motion_lab::collision::{Collision, Rectangles, Scene};
 use motion_lab::prelude::*;
 
 use crate::Table;
 use crate::measure::{Contender, Timing, race};
-use crate::peer::Peer;
-use crate::worlds::{CASES, boxes, draws, pieces};
+use crate::peer::{Cuboids, Peer};
+use crate::worlds::{CASES, boxes, draws, pieces, rectangles};
 
 /// The arm's scenes by their numbers of obstacles.
 pub fn arm_scenes() -> Vec<(usize, Scene)> {
@@ -32,9 +32,30 @@ fn arm_distance(scene: &Scene) -> Vec<Timing> {
     ])
 }
 
+/// One rectangle against many; the time is that of a pair.
+fn rectangle_pairs() -> Vec<Timing> {
+    let rects = rectangles(CASES, 8.0);
+    let (ours, peers) = (Rectangles::new(rects.iter().copied()), Cuboids::new(&rects));
+    let mut touched = Vec::new();
+    for (k, rect) in rects.iter().enumerate() {
+        ours.touched_by(*rect, &mut touched);
+        assert!((0..CASES).all(|i| touched[i] == peers.touch(k, i)), "parry differs at {k}");
+    }
+    let pairs = CASES as f64;
+    let timings = race(vec![
+        Contender::new("", |k| {
+            ours.touched_by(rects[k % CASES], &mut touched);
+            touched[k % CASES]
+        }),
+        Contender::new("parry", |k| (0..CASES).filter(|&i| peers.touch(k % CASES, i)).count()),
+    ]);
+    timings.iter().map(|t| t.per(pairs)).collect()
+}
+
 pub fn rows(table: &mut Table) {
     let musts = [">= 5x", ">= 2.8x", ">= 2.5x"];
     for ((count, scene), must) in arm_scenes().into_iter().zip(musts) {
         table.row(&format!("arm, distance and witness, {count} obstacles"), must, || arm_distance(&scene));
     }
+    table.row("rectangle pair, boolean, one against 256", ">= 15x", rectangle_pairs);
 }

@@ -4,7 +4,9 @@ use std::process::Command;
 use std::time::Instant;
 
 use motion_lab::recording::{Recorder, Run};
+use motion_lab::run::LogWriter;
 use motion_lab::tour::{BOOK_SEED, TourConfig};
+use motion_lab::worlds::World;
 
 use crate::measure::{Contender, Timing, race};
 use crate::{Row, Table, readme};
@@ -56,6 +58,28 @@ pub fn rows(table: &mut Table) {
                 recorder = Recorder::new(TourConfig::default(), BOOK_SEED).expect("the tour runs");
             }
             recorder.step().tick
+        })])
+    });
+    table.row("of it the schedule: a tick without a robot", "", || {
+        let mut world = World::workbench();
+        world.robots.clear();
+        let mut config = TourConfig::default();
+        config.worlds = vec![world];
+        let mut recorder = Recorder::new(config, BOOK_SEED).expect("it runs without robots");
+        race(vec![Contender::new("", |_| recorder.step().tick)])
+    });
+    table.row("a tick of the tour written and sealed, to memory", "", || {
+        let log = Run::record(TourConfig::default(), BOOK_SEED).expect("the tour runs");
+        let begin = || {
+            let room = Vec::with_capacity(16 << 20);
+            LogWriter::new(room, BOOK_SEED, &log.config, &log.script, &log.initial).expect("a log of the tour")
+        };
+        let mut writer = begin();
+        race(vec![Contender::new("", |i| {
+            if i % log.frames.len() == 0 {
+                writer = begin();
+            }
+            writer.tick(&log.frames[i % log.frames.len()]).expect("the next tick")
         })])
     });
     let start = "start to first step, peak memory";

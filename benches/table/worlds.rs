@@ -58,6 +58,17 @@ pub fn boxes(count: usize, clear: f64) -> Scene {
     })
 }
 
+/// Rectangles of 0.2 to 2 m a side, turned anyhow, in a square.
+pub fn rectangles(count: usize, side: f64) -> Vec<(Pose2, Point2, Point2)> {
+    let mut s = draws("rectangles");
+    let mut rectangle = || {
+        let pose = Pose2::new(s.uniform(0.0, side), s.uniform(0.0, side), s.uniform(-PI, PI));
+        let (w, h) = (s.uniform(0.1, 1.0), s.uniform(0.1, 1.0));
+        (pose, Point2::new(-w, -h), Point2::new(w, h))
+    };
+    (0..count).map(|_| rectangle()).collect()
+}
+
 pub fn pieces(scene: &Scene) -> impl Iterator<Item = &Placed> {
     scene.pieces().map(|(_, piece)| piece)
 }

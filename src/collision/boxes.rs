@@ -1,8 +1,10 @@
-//! `Boxes`, the boxes around a few shapes in structure-of-arrays order: looked at all at once instead of by a tree.
+//! `Boxes`, the boxes around a few shapes in structure-of-arrays order: looked at all at once.
 
+use multiversion::multiversion;
+
+use super::extent::{Extent, square};
 use super::segments::LANES;
-use crate::geometry::Point2;
-use crate::num::greater;
+use crate::num::{greater, lesser};
 
 /// Axis-parallel boxes; the arrays are filled up to whole eights with boxes infinitely far away.
 #[derive(Clone, Debug, Default)]
@@ -14,40 +16,71 @@ pub(super) struct Boxes {
     y1: Vec<f64>,
 }
 
-/// At most so many boxes are meant to be looked at all at once.
+/// At most so many boxes are looked at all at once.
 pub(super) const FEW: usize = 64;
 
 impl Boxes {
-    /// The boxes with these least and greatest corners.
-    pub(super) fn new(corners: impl Iterator<Item = (Point2, Point2)>) -> Self {
-        let mut boxes = Boxes::default();
-        for (min, max) in corners {
-            if boxes.count == boxes.x0.len() {
-                for array in [&mut boxes.x0, &mut boxes.y0, &mut boxes.x1, &mut boxes.y1] {
-                    array.extend([f64::INFINITY; LANES]);
-                }
-            }
-            let i = boxes.count;
-            (boxes.x0[i], boxes.y0[i], boxes.x1[i], boxes.y1[i]) = (min.x, min.y, max.x, max.y);
-            boxes.count += 1;
+    /// A few boxes, known by their numbers.
+    pub(super) fn new(extents: &[Extent]) -> Self {
+        let mut boxes = Boxes { count: extents.len().min(FEW), ..Boxes::default() };
+        let room = boxes.count.next_multiple_of(LANES);
+        for array in [&mut boxes.x0, &mut boxes.y0, &mut boxes.x1, &mut boxes.y1] {
+            array.resize(room, f64::INFINITY);
+        }
+        for (i, e) in extents.iter().enumerate().take(FEW) {
+            (boxes.x0[i], boxes.y0[i], boxes.x1[i], boxes.y1[i]) = (e.min.x, e.min.y, e.max.x, e.max.y);
         }
         boxes
     }
 
-    /// Whether there are no more boxes than are looked at all at once.
-    pub(super) fn are_few(&self) -> bool {
-        self.count <= FEW
+    fn sides(&self) -> [&[f64]; 4] {
+        [&self.x0, &self.y0, &self.x1, &self.y1]
     }
 
-    /// Lower bounds of the squared distances from the box with these corners to each box, rounded down by more than the
-    /// arithmetic can have rounded up; of a few boxes.
-    pub(super) fn squared_distances<'a>(&self, min: Point2, max: Point2, room: &'a mut [f64; FEW]) -> &'a [f64] {
-        let sides = self.x0.iter().zip(&self.x1).zip(self.y0.iter().zip(&self.y1));
-        for (square, ((x0, x1), (y0, y1))) in room.iter_mut().zip(sides) {
-            let dx = greater(greater(x0 - max.x, min.x - x1), 0.0);
-            let dy = greater(greater(y0 - max.y, min.y - y1), 0.0);
-            *square = (dx * dx + dy * dy) * (1.0 - 1e-14);
+    /// Calls `look`, which gives the least distance so far, with every box that may hold something as near as that; the
+    /// nearest box first, because most others need not be looked at then.
+    pub(super) fn nearest(&self, from: &Extent, within: f64, mut look: impl FnMut(usize) -> f64) {
+        let mut squares = [f64::INFINITY; FEW];
+        let nearest = squared_distances(self.sides(), from, &mut squares);
+        if nearest > square(within) || self.count == 0 {
+            return;
         }
-        &room[..self.count.min(FEW)]
+        let squares = &squares[..self.count];
+        let first = squares.iter().position(|s| *s == nearest).unwrap_or(0);
+        let mut least = square(look(first));
+        for (i, distance) in squares.iter().enumerate() {
+            if *distance <= least && i != first {
+                least = square(look(i));
+            }
+        }
     }
+
+    /// Calls `visit` with each box at most `range` away, until it returns true.
+    pub(super) fn each_near(&self, from: &Extent, range: f64, mut visit: impl FnMut(usize) -> bool) {
+        let mut squares = [f64::INFINITY; FEW];
+        squared_distances(self.sides(), from, &mut squares);
+        for (i, distance) in squares[..self.count].iter().enumerate() {
+            if *distance <= range * range && visit(i) {
+                return;
+            }
+        }
+    }
+}
+
+/// [`Extent::squared_distance`] from a box to each, and the least of them.
+#[multiversion(targets("x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl", "x86_64+avx2"))]
+fn squared_distances([x0, y0, x1, y1]: [&[f64]; 4], from: &Extent, squares: &mut [f64; FEW]) -> f64 {
+    let Extent { min, max } = *from;
+    let mut least = [f64::INFINITY; LANES];
+    let blocks = x0.as_chunks().0.iter().zip(y0.as_chunks().0).zip(x1.as_chunks().0.iter().zip(y1.as_chunks().0));
+    for (((x0, y0), (x1, y1)), squares) in blocks.zip(squares.as_chunks_mut::<LANES>().0) {
+        let (x0, y0, x1, y1): (&[f64; LANES], &[f64; LANES], &[f64; LANES], &[f64; LANES]) = (x0, y0, x1, y1);
+        for i in 0..LANES {
+            let dx = greater(greater(x0[i] - max.x, min.x - x1[i]), 0.0);
+            let dy = greater(greater(y0[i] - max.y, min.y - y1[i]), 0.0);
+            squares[i] = (dx * dx + dy * dy) * (1.0 - 1e-13);
+            least[i] = lesser(squares[i], least[i]);
+        }
+    }
+    least.into_iter().fold(f64::INFINITY, lesser)
 }

@@ -72,16 +72,7 @@ pub(super) fn polygon_contains(polygon: &[Point2], p: Point2) -> bool {
 /// Whether the boxes around two cores, or for some side the half-planes, show at a glance that they are disjoint. What is not
 /// shown is not so either way.
 fn plainly_apart(a: &[Point2], b: &[Point2]) -> bool {
-    let span = |core: &[Point2], axis: usize| {
-        core.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(lo, hi), p| (lesser(p[axis], lo), greater(p[axis], hi)))
-    };
-    for axis in 0..2 {
-        let ((a0, a1), (b0, b1)) = (span(a, axis), span(b, axis));
-        if a1 < b0 || b1 < a0 {
-            return true;
-        }
-    }
-    separates(a, b) || separates(b, a)
+    Span::of(a).is_apart(&Span::of(b)) || separates(a, b) || separates(b, a)
 }
 
 /// Whether a side of `a` has all of `b` plainly to its right and the rest of `a` plainly to its left; of a segment, whether all of `b`
@@ -151,11 +142,18 @@ pub(super) fn point_segment(p: Point2, (a, b): (Point2, Point2)) -> (f64, Point2
 /// The distance between two disjoint cores and a pair of nearest points, if it is less than `limit`. It is attained at a vertex of
 /// one of them.
 pub(super) fn cores_distance(a: &[Point2], b: &[Point2], limit: f64) -> Option<(f64, Point2, Point2)> {
+    // No two vertices are nearer than the cores, so what is plainly farther need not be looked at.
+    let between = a.iter().flat_map(|p| b.iter().map(move |q| (p - q).norm_squared())).fold(f64::INFINITY, lesser);
+    let enough = lesser(sqrt(between) * (1.0 + 1e-9), limit);
     let mut least = limit;
     let mut best = None;
+    let around = Span::of(b);
     for &p in a {
+        if around.is_farther(p, lesser(least, enough)) {
+            continue;
+        }
         for edge in edges(b) {
-            if !farther(p, edge, least) {
+            if !farther(p, edge, lesser(least, enough)) {
                 let (d, foot) = point_segment(p, edge);
                 if d < least {
                     (least, best) = (d, Some((d, p, foot)));
@@ -164,9 +162,13 @@ pub(super) fn cores_distance(a: &[Point2], b: &[Point2], limit: f64) -> Option<(
         }
     }
     if a.len() > 1 {
+        let around = Span::of(a);
         for &q in b {
+            if around.is_farther(q, lesser(least, enough)) {
+                continue;
+            }
             for edge in edges(a) {
-                if !farther(q, edge, least) {
+                if !farther(q, edge, lesser(least, enough)) {
                     let (d, foot) = point_segment(q, edge);
                     if d < least {
                         (least, best) = (d, Some((d, foot, q)));
@@ -176,6 +178,34 @@ pub(super) fn cores_distance(a: &[Point2], b: &[Point2], limit: f64) -> Option<(
         }
     }
     best
+}
+
+/// The box around a core.
+struct Span {
+    min: Point2,
+    max: Point2,
+}
+
+impl Span {
+    fn of(core: &[Point2]) -> Self {
+        let (mut min, mut max) = (core[0], core[0]);
+        for p in &core[1..] {
+            (min.x, min.y) = (lesser(p.x, min.x), lesser(p.y, min.y));
+            (max.x, max.y) = (greater(p.x, max.x), greater(p.y, max.y));
+        }
+        Span { min, max }
+    }
+
+    fn is_apart(&self, other: &Span) -> bool {
+        self.max.x < other.min.x || other.max.x < self.min.x || self.max.y < other.min.y || other.max.y < self.min.y
+    }
+
+    /// Whether `p` is plainly farther than `d` from all the box holds: by more than [`point_segment`] may be off.
+    fn is_farther(&self, p: Point2, d: f64) -> bool {
+        let dx = greater(greater(self.min.x - p.x, p.x - self.max.x), 0.0);
+        let dy = greater(greater(self.min.y - p.y, p.y - self.max.y), 0.0);
+        dx * dx + dy * dy > d * d * (1.0 + 1e-9)
+    }
 }
 
 /// Whether `p` is plainly farther than `d` from the segment: by more than [`point_segment`] may be off.

@@ -15,7 +15,7 @@ fn earlier(best: Option<f64>, s: f64) -> Option<f64> {
 /// about its ends, where |p + s v - a|^2 = reach^2.
 fn line_meets(p: Point2, v: Vector2, (a, b): (Point2, Point2), reach: f64) -> Option<f64> {
     let u = b - a;
-    let length = hypot(u.x, u.y);
+    let length = sqrt(u.norm_squared());
     let mut best = None;
     let (side, closing) = (cross(u, p - a), cross(u, v));
     if side.abs() > reach * length && side * closing < 0.0 {
@@ -38,15 +38,18 @@ fn line_meets(p: Point2, v: Vector2, (a, b): (Point2, Point2), reach: f64) -> Op
     best
 }
 
+/// When `p + s v` first comes within `reach` of the core, for a start farther away; rounded.
+pub(super) fn point_meets(p: Point2, v: Vector2, core: &[Point2], reach: f64) -> Option<f64> {
+    edges(core).filter_map(|edge| line_meets(p, v, edge, reach)).fold(None, earlier)
+}
+
 /// When `part`, moved by `s v` without turning, first touches `piece`, for a start that is free; rounded. Two convex cores
 /// first come within a distance at a vertex of one of them.
 pub(super) fn translation_meets(part: &Placed, v: Vector2, piece: &Placed) -> Option<f64> {
     let reach = part.radius() + piece.radius();
     let mut best = None;
     for &p in part.core() {
-        for edge in edges(piece.core()) {
-            best = line_meets(p, v, edge, reach).map_or(best, |s| earlier(best, s));
-        }
+        best = point_meets(p, v, piece.core(), reach).map_or(best, |s| earlier(best, s));
     }
     if part.core().len() > 1 {
         for &q in piece.core() {

@@ -1,5 +1,6 @@
 //! The certified march: a motion proven free piece by piece, or bracketed where it hits.
 
+use super::pinch::{Pace, pinch};
 use super::{Certificate, Collision, EdgeVerdict, MarchOptions, ObstacleId, ProvenStep, UnresolvedReason};
 use crate::geometry::{Footprint, Part, largest_coordinate};
 use crate::num::{greater, lesser, sqrt, ulp};
@@ -61,8 +62,36 @@ pub fn march<M: Motion>(
     certificate: Option<&mut Certificate>,
 ) -> EdgeVerdict {
     let start = motion.footprint_at(0.0);
-    let distance = collision.distance(&start);
-    march_from(collision, motion, options, certificate, (start, distance))
+    match first_step(collision, motion, options, &start) {
+        Some(step) => step.of_all(options.margin, certificate),
+        None => {
+            let distance = collision.distance(&start);
+            march_on(collision, motion, options, certificate, (start, distance), false)
+        }
+    }
+}
+
+/// The step that proves all of the motion free, which for most motions there is.
+pub(crate) fn first_step<M: Motion>(
+    collision: &dyn Collision,
+    motion: &M,
+    options: MarchOptions,
+    start: &Footprint,
+) -> Option<ProvenStep> {
+    let ends = ((0.0, start), (1.0, &motion.footprint_at(1.0)));
+    let clearance = if options.budget > 0 { step_clearance(collision, motion, ends.0, ends.1) } else { 0.0 };
+    (clearance > options.margin).then_some(ProvenStep { from: 0.0, to: 1.0, clearance })
+}
+
+impl ProvenStep {
+    /// The verdict, where this step is from 0 to 1.
+    pub(super) fn of_all(self, margin: f64, certificate: Option<&mut Certificate>) -> EdgeVerdict {
+        if let Some(c) = certificate {
+            c.clear(margin);
+            c.push(self);
+        }
+        EdgeVerdict::Free { clearance: self.clearance }
+    }
 }
 
 /// As [`march`], given the footprint at the start and its distance.
@@ -70,8 +99,26 @@ pub(crate) fn march_from<M: Motion>(
     collision: &dyn Collision,
     motion: &M,
     options: MarchOptions,
+    certificate: Option<&mut Certificate>,
+    (start, start_distance): (Footprint, f64),
+) -> EdgeVerdict {
+    if start_distance - options.margin > 0.0
+        && let Some(step) = first_step(collision, motion, options, &start)
+    {
+        return step.of_all(options.margin, certificate);
+    }
+    march_on(collision, motion, options, certificate, (start, start_distance), false)
+}
+
+/// As [`march_from`], of a motion that one step does not prove free. A contact that comes in sight may be pinched instead of marched at: the
+/// verdict then says the same in other brackets, which what has been recorded does not allow.
+pub(super) fn march_on<M: Motion>(
+    collision: &dyn Collision,
+    motion: &M,
+    options: MarchOptions,
     mut certificate: Option<&mut Certificate>,
     (start, start_distance): (Footprint, f64),
+    mut may_pinch: bool,
 ) -> EdgeVerdict {
     if let Some(c) = certificate.as_deref_mut() {
         c.clear(options.margin);
@@ -91,14 +138,6 @@ pub(crate) fn march_from<M: Motion>(
         return hit(0.0, 0.0);
     }
     let end = motion.footprint_at(1.0);
-    // most motions are proven free by one step; where the end is in contact, this one cannot be
-    let whole = if options.budget > 0 { step_clearance(collision, motion, (0.0, &at_lo), (1.0, &end)) } else { 0.0 };
-    if whole > margin {
-        if let Some(c) = certificate {
-            c.push(ProvenStep { from: 0.0, to: 1.0, clearance: whole });
-        }
-        return EdgeVerdict::Free { clearance: whole };
-    }
     // the first place known to be in contact; nothing beyond it matters
     let mut contact = (above_margin(&end) <= 0.0).then_some(1.0);
     let size = largest_coordinate(at_lo.parts().iter().chain(end.parts()).map(Part::placed));
@@ -117,13 +156,23 @@ pub(crate) fn march_from<M: Motion>(
             return EdgeVerdict::Unresolved { free_until: lo, gap, reason: UnresolvedReason::Budget };
         }
         steps += 1;
+        if let Some(ahead) = contact
+            && std::mem::take(&mut may_pinch)
+            && let Some(pinched) = pinch(collision, motion, Pace { speed, acceleration }, (lo, &at_lo, gap), ahead)
+        {
+            if let Some(c) = certificate {
+                pinched.steps.iter().rev().for_each(|step| c.push(*step));
+            }
+            return hit(pinched.free_until, pinched.contact_at);
+        }
         let hi = match contact {
             Some(c) if lo + h >= c => lo + 0.5 * (c - lo),
             _ => lesser(lo + h, 1.0),
         };
         let at_hi = if hi == 1.0 { end.clone() } else { motion.footprint_at(hi) };
+        // all of it at once is known not to be proven
         let proven =
-            if (lo, hi) == (0.0, 1.0) { whole } else { step_clearance(collision, motion, (lo, &at_lo), (hi, &at_hi)) };
+            if (lo, hi) == (0.0, 1.0) { 0.0 } else { step_clearance(collision, motion, (lo, &at_lo), (hi, &at_hi)) };
         if proven > margin {
             clearance = lesser(proven, clearance);
             if let Some(c) = certificate.as_deref_mut() {

@@ -10,16 +10,25 @@ mod closed;
 mod core;
 mod counted;
 mod dd;
+mod disc_line;
 mod edge;
+mod extent;
 mod impact;
+mod index;
 mod march;
 mod narrow;
+mod piece_grid;
+mod pinch;
 mod problem;
+mod rectangles;
 mod scene;
+mod search;
 mod segments;
 mod shared;
 mod surroundings;
 mod swept;
+mod tree;
+mod vicinity;
 mod witness;
 
 pub(crate) use answers::touch;
@@ -28,9 +37,10 @@ pub use certificate::{Certificate, CertificateError, ProvenStep, verify_certific
 pub use checker::{CarChecker, ChainChecker, Checker, DiscChecker};
 pub use counted::{Counted, QueryCounts};
 pub use edge::{EdgeVerdict, MarchOptions, UnresolvedReason};
-pub(crate) use march::march_from;
 pub use march::{BRACKET, march};
+pub(crate) use march::{first_step, march_from};
 pub use problem::{Problem, ProblemError};
+pub use rectangles::Rectangles;
 pub use scene::Scene;
 
 pub(crate) use segments::{Circle, LANES, SegmentSoup};

@@ -1,27 +1,24 @@
-//! `Scene`, named obstacles under one bounding-volume tree. The only file that imports parry.
+//! `Scene`, named obstacles under one index.
 
-use std::cell::Cell;
 use std::sync::Arc;
 
-use parry2d_f64::bounding_volume::{Aabb, BoundingVolume};
-use parry2d_f64::math::Vector;
-use parry2d_f64::partitioning::{Bvh, BvhBuildStrategy, BvhNode, TraversalAction};
-
 use super::ObstacleId;
-use super::answers::{pair, pair_within, touch, touches};
-use super::boxes::{Boxes, FEW};
+use super::answers::{pair, touch};
 use super::cells::Cells;
+use super::extent::Extent;
 use super::impact::{arc_distance, arc_meets, translation_meets};
+use super::index::Index;
 use super::narrow::{Nearest, depth};
+use super::search::Search;
 use super::segments::SegmentSoup;
-use crate::geometry::{CircularArc, Footprint, Placed, Point2, Pose2, Segment, Shape};
-use crate::num::{greater, lesser, ulp};
+use crate::geometry::{CircularArc, Footprint, Placed, Pose2, Segment, Shape, largest_coordinate};
+use crate::num::{greater, lesser};
 use crate::worlds::{Bounds, World};
 
 /// From so many segments and discs on, a scan walks through a grid.
 const MANY: usize = 128;
 
-/// Named obstacles under one bounding-volume tree.
+/// Named obstacles under one index: a few side by side, many in a grid or under a bounding-volume tree.
 ///
 /// ```
 /// use motion_lab::prelude::*;
@@ -40,8 +37,9 @@ pub struct Scene {
     soup: SegmentSoup,
     /// Of a large scene.
     cells: Option<Cells>,
-    boxes: Boxes,
-    tree: Bvh,
+    pub(super) index: Index,
+    /// No coordinate of a piece is larger; infinite where a piece is not valid.
+    pub(super) size: f64,
 }
 
 impl std::fmt::Debug for Scene {
@@ -116,13 +114,13 @@ impl Scene {
     }
 
     fn of_pieces(bounds: Bounds, names: Vec<Arc<str>>, pieces: Vec<Placed>, owners: Vec<u32>) -> Self {
-        let boxes: Vec<Aabb> = pieces.iter().map(piece_box).collect();
-        let tree = Bvh::from_leaves(BvhBuildStrategy::Binned, &boxes);
+        let extents: Vec<Extent> = pieces.iter().map(Extent::of).collect();
         let soup = SegmentSoup::of_pieces(&pieces);
         let many = soup.segments().len() + soup.circles().len() > MANY;
         let cells = if many { Cells::new(&soup) } else { None };
-        let boxes = Boxes::new(boxes.iter().map(|b| (point(b.mins), point(b.maxs))));
-        Scene { bounds, names, pieces, owners, soup, cells, boxes, tree }
+        let valid = pieces.iter().all(Placed::is_valid);
+        let size = if valid { largest_coordinate(&pieces) } else { f64::INFINITY };
+        Scene { bounds, names, pieces, owners, soup, cells, index: Index::new(&extents), size }
     }
 
     /// The part of the plane the scene shows; not an obstacle.
@@ -201,72 +199,16 @@ impl Scene {
         bound
     }
 
-    /// The nearest piece to `shape`, the first in file order among equals, if any is nearer than `within`.
-    pub(super) fn nearest_piece(&self, shape: &Placed, within: f64) -> Option<(usize, Nearest)> {
-        let mut best: Option<(usize, Nearest)> = None;
-        let from = piece_box(shape);
-        let mut look = |piece: usize| {
-            let so_far = best.map_or(within, |(_, n)| n.dist);
-            let Some(found) = pair_within(shape, &self.pieces[piece], so_far) else { return so_far };
-            if found.dist < so_far || best.is_some_and(|(p, n)| found.dist == n.dist && piece < p) {
-                best = Some((piece, found));
-            }
-            best.map_or(within, |(_, n)| n.dist)
-        };
-        if self.boxes.are_few() {
-            let mut room = [0.0; FEW];
-            let squares = self.boxes.squared_distances(point(from.mins), point(from.maxs), &mut room);
-            // the one with the nearest box first: most others need not be looked at then
-            let by_square = |a: &usize, b: &usize| squares[*a].total_cmp(&squares[*b]);
-            let first = (0..squares.len()).min_by(by_square)?;
-            let mut least = look(first);
-            for (piece, square) in squares.iter().enumerate() {
-                if piece != first && *square <= least * least {
-                    least = look(piece);
-                }
-            }
-            best
-        } else {
-            self.nearest_in_tree(shape, &from, within)
-        }
+    /// A search for the piece nearest to `shape`, if any is nearer than `within`.
+    pub(super) fn search<'a>(&'a self, shape: &'a Placed, within: f64) -> Search<'a> {
+        Search::new(shape, &self.pieces, self.size, within)
     }
 
-    /// As [`nearest_piece`](Self::nearest_piece), by the tree. Costs are squared distances.
-    fn nearest_in_tree(&self, shape: &Placed, from: &Aabb, within: f64) -> Option<(usize, Nearest)> {
-        let best: Cell<Option<(usize, Nearest)>> = Cell::new(None);
-        // no square that underflows is told from another, so none of them prunes
-        let square = |d: f64| if d > 1e-100 { d * d } else { 1e-200 };
-        self.tree.find_best(
-            square(within),
-            |node: &BvhNode, _| box_distance_squared(from, node),
-            |piece, _| {
-                let piece = piece as usize;
-                let so_far = best.get().map_or(within, |(_, n)| n.dist);
-                let found = pair_within(shape, &self.pieces[piece], so_far)?;
-                let nearer = match best.get() {
-                    None => found.dist < within,
-                    Some((p, n)) => found.dist < n.dist || (found.dist == n.dist && piece < p),
-                };
-                if nearer {
-                    best.set(Some((piece, found)));
-                }
-                Some(square(found.dist))
-            },
-        );
-        // Equals have nearer boxes than they are themselves, so all were met; but not all contacts.
-        match best.get() {
-            Some((_, Nearest { dist: 0.0, .. })) => {
-                let mut first: Option<usize> = None;
-                self.each_near(from, 0.0, |piece| {
-                    if first.is_none_or(|f| piece < f) && touches(shape, &self.pieces[piece]) {
-                        first = Some(piece);
-                    }
-                    false
-                });
-                first.map(|piece| (piece, pair(shape, &self.pieces[piece])))
-            }
-            best => best,
-        }
+    /// The nearest piece to `shape`, the first in file order among equals, if any is nearer than `within`.
+    pub(super) fn nearest_piece(&self, shape: &Placed, within: f64) -> Option<(usize, Nearest)> {
+        let mut search = self.search(shape, within);
+        self.index.nearest(&search.extent(), within, |piece| search.look(piece));
+        search.found()
     }
 
     /// When a footprint that goes from `start` to `end` without turning first touches a piece, as a part of its way; rounded.
@@ -275,7 +217,7 @@ impl Scene {
         for (a, b) in start.parts().iter().zip(end.parts()) {
             let (a, b) = (a.placed(), b.placed());
             let v = b.core()[0] - a.core()[0];
-            self.each_near(&piece_box(a).merged(&piece_box(b)), 0.0, |piece| {
+            self.index.each_near(&Extent::of(a).merged(&Extent::of(b)), 0.0, |piece| {
                 if let Some(s) = translation_meets(a, v, &self.pieces[piece]) {
                     first = Some(first.map_or(s, |f| lesser(s, f)));
                 }
@@ -288,7 +230,7 @@ impl Scene {
     /// When a disc of this radius whose centre runs along the arc first touches a piece; rounded.
     pub(super) fn arc_meets(&self, arc: &CircularArc, radius: f64) -> Option<f64> {
         let mut first: Option<f64> = None;
-        self.each_near(&arc_box(arc, radius), 0.0, |piece| {
+        self.index.each_near(&arc_box(arc, radius), 0.0, |piece| {
             let piece = &self.pieces[piece];
             if let Some(s) = arc_meets(arc, piece.core(), radius + piece.radius()) {
                 first = Some(first.map_or(s, |f| lesser(s, f)));
@@ -301,80 +243,24 @@ impl Scene {
     /// The least clearance of a disc of this radius whose centre runs along the arc as far as `until`, metres; rounded. It is
     /// not positive in contact, and infinity in an empty scene.
     pub(super) fn arc_clearance(&self, arc: &CircularArc, until: f64, radius: f64) -> f64 {
-        let from = arc_box(arc, 0.0);
-        let best = self.tree.find_best(
-            f64::INFINITY,
-            |node: &BvhNode, _| box_distance(&from, node) - radius,
-            |piece, _| {
-                let piece = &self.pieces[piece as usize];
-                Some(arc_distance(arc, until, piece.core()) - piece.radius() - radius)
-            },
-        );
-        best.map_or(f64::INFINITY, |(_, clearance)| clearance)
+        let mut least = f64::INFINITY;
+        self.index.nearest(&arc_box(arc, 0.0), least, |piece| {
+            let piece = &self.pieces[piece];
+            least = lesser(arc_distance(arc, until, piece.core()) - piece.radius(), least);
+            least
+        });
+        least - radius
     }
 
     /// Calls `visit` with each piece whose box is at most `range` from the shape's box, until it returns true.
     pub(super) fn each_within(&self, shape: &Placed, range: f64, visit: impl FnMut(usize) -> bool) {
-        self.each_near(&piece_box(shape), range, visit);
+        self.index.each_near(&Extent::of(shape), range, visit);
     }
-
-    /// Calls `visit` with each piece whose box is at most `range` from this box, until it returns true.
-    fn each_near(&self, from: &Aabb, range: f64, mut visit: impl FnMut(usize) -> bool) {
-        if self.boxes.are_few() {
-            let mut room = [0.0; FEW];
-            let squares = self.boxes.squared_distances(point(from.mins), point(from.maxs), &mut room);
-            for (piece, square) in squares.iter().enumerate() {
-                if *square <= range * range && visit(piece) {
-                    break;
-                }
-            }
-            return;
-        }
-        self.tree.traverse(|node| {
-            if box_distance(from, node) > range {
-                return TraversalAction::Prune;
-            }
-            match node.leaf_data() {
-                Some(piece) if visit(piece as usize) => TraversalAction::EarlyExit,
-                _ => TraversalAction::Continue,
-            }
-        });
-    }
-}
-
-fn point(v: Vector) -> Point2 {
-    Point2::new(v.x, v.y)
-}
-
-/// The box around a placed shape, a little larger, so that rounding prunes nothing. All of the plane for a shape that is
-/// not valid.
-fn piece_box(shape: &Placed) -> Aabb {
-    if !shape.is_valid() {
-        return Aabb::new(Vector::splat(-1e200), Vector::splat(1e200));
-    }
-    let (min, max) = shape.bounds();
-    let size = [min.x, min.y, max.x, max.y].iter().fold(1.0, |m, x| greater(m, x.abs()));
-    let slack = 64.0 * ulp(size);
-    Aabb::new(Vector::new(min.x - slack, min.y - slack), Vector::new(max.x + slack, max.y + slack))
 }
 
 /// A box around what a disc of this radius touches along the arc: every point of it is at most half its length from one end.
-fn arc_box(arc: &CircularArc, radius: f64) -> Aabb {
+fn arc_box(arc: &CircularArc, radius: f64) -> Extent {
     let grown = radius + lesser(0.5 * arc.length(), 2.0 * arc.radius);
     let ends = [arc.at(0.0), arc.at(1.0)].map(|p| Placed::new(smallvec::smallvec![p], grown));
-    piece_box(&ends[0]).merged(&piece_box(&ends[1]))
-}
-
-/// A lower bound of the distance between what two boxes hold.
-fn box_distance(a: &Aabb, node: &BvhNode) -> f64 {
-    crate::num::sqrt(box_distance_squared(a, node))
-}
-
-/// Its square, rounded down by more than the arithmetic can have rounded up.
-fn box_distance_squared(a: &Aabb, node: &BvhNode) -> f64 {
-    let (min, max) = (node.mins(), node.maxs());
-    let gap = |a0: f64, a1: f64, b0: f64, b1: f64| greater(greater(b0 - a1, a0 - b1), 0.0);
-    let dx = gap(a.mins.x, a.maxs.x, min.x, max.x);
-    let dy = gap(a.mins.y, a.maxs.y, min.y, max.y);
-    (dx * dx + dy * dy) * (1.0 - 1e-13)
+    Extent::of(&ends[0]).merged(&Extent::of(&ends[1]))
 }

@@ -2,7 +2,7 @@
 
 use super::{ConfigurationError, Motion, PartRates, Rates, Robot};
 use crate::configuration::Configuration;
-use crate::geometry::Footprint;
+use crate::geometry::{Footprint, Segment};
 
 /// The motion along the chart's straight line between two configurations, angles the short way round.
 #[derive(Clone, Debug)]
@@ -40,5 +40,9 @@ impl<R: Robot> Motion for ChartLine<R> {
 
     fn rates(&self, part: usize) -> Rates {
         self.rates[part]
+    }
+
+    fn disc_line(&self) -> Option<(Segment, f64)> {
+        self.robot.disc_line(&self.from, &self.to)
     }
 }

@@ -17,7 +17,7 @@ pub use reach::{JointPoints, Reach, ReachError};
 pub use rusty::{EncoderCounts, RUSTY, Rusty, RustyArc, RustyCmd, RustyDisc, WheelSlip, WheelTurns};
 
 use crate::configuration::{ChartMismatch, Configuration};
-use crate::geometry::{Footprint, Point2};
+use crate::geometry::{Footprint, Point2, Segment};
 use crate::random::Stream;
 
 /// The rates of a footprint's parts, in the parts' order.
@@ -75,6 +75,12 @@ pub trait Robot: Clone + std::fmt::Debug + PartialEq + Send + Sync + 'static {
     /// A configuration drawn uniformly: positions in the box from `min` to `max`, angles in `(-pi, pi]`. How many numbers are
     /// drawn does not depend on their values.
     fn sample(&self, min: Point2, max: Point2, stream: &mut Stream) -> Self::Configuration;
+
+    /// The line that the footprint's centre follows along the chart's straight line from `a` to `b`, and its radius, where the robot is a
+    /// disc.
+    fn disc_line(&self, _a: &Self::Configuration, _b: &Self::Configuration) -> Option<(Segment, f64)> {
+        None
+    }
 
     /// The motion along the straight line of the configuration chart from `a` to `b`, angles the short way round.
     ///

@@ -1,7 +1,7 @@
 //! `Motion`, what the certified march, the simulator's holding and the planners' edges have in common.
 
 use crate::configuration::Configuration;
-use crate::geometry::{CircularArc, Footprint};
+use crate::geometry::{CircularArc, Footprint, Segment};
 
 /// Bounds on how the points of one part's core move, per unit of the motion's parameter.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -29,6 +29,12 @@ pub trait Motion {
     /// The arc that the centre of the footprint's only part follows, and the part's radius, where the part is a disc and the
     /// motion such an arc. For these the checker has closed forms.
     fn disc_arc(&self) -> Option<(CircularArc, f64)> {
+        None
+    }
+
+    /// The line that the centre of the footprint's only part follows at a constant speed, and the part's radius, where the part is a disc
+    /// and the motion such a line. For these the checker has closed forms.
+    fn disc_line(&self) -> Option<(Segment, f64)> {
         None
     }
 

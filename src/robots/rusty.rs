@@ -6,7 +6,7 @@ use smallvec::smallvec;
 
 use super::{ConfigurationError, Drivable, Motion, PartRates, Rates, Robot, sample_angle};
 use crate::configuration::{Configuration, R2};
-use crate::geometry::{CircularArc, Footprint, Point2, Pose2, Shape, ShapeError, Tangent2};
+use crate::geometry::{CircularArc, Footprint, Point2, Pose2, Segment, Shape, ShapeError, Tangent2};
 use crate::num;
 use crate::random::Stream;
 
@@ -144,6 +144,10 @@ impl Robot for Rusty {
     fn edge_rates(&self, a: &Pose2, b: &Pose2) -> Result<PartRates, ConfigurationError> {
         Ok(smallvec![Rates { speed: num::hypot(b.x - a.x, b.y - a.y), acceleration: 0.0 }])
     }
+
+    fn disc_line(&self, a: &Pose2, b: &Pose2) -> Option<(Segment, f64)> {
+        Some((Segment::new(a.position(), b.position()), self.body_radius))
+    }
 }
 
 /// Rusty's motion over one step: an exact circular arc.
@@ -243,6 +247,10 @@ impl Robot for RustyDisc {
 
     fn edge_rates(&self, a: &R2, b: &R2) -> Result<PartRates, ConfigurationError> {
         Ok(smallvec![Rates { speed: num::hypot(b.0.x - a.0.x, b.0.y - a.0.y), acceleration: 0.0 }])
+    }
+
+    fn disc_line(&self, a: &R2, b: &R2) -> Option<(Segment, f64)> {
+        Some((Segment::new(a.0, b.0), self.radius))
     }
 }
 

@@ -19,9 +19,14 @@ impl std::fmt::Display for Digest {
 impl Frame {
     /// The digest of the frame's [canonical encoding](Frame::encode).
     pub fn digest(&self) -> Digest {
-        let mut bytes = Vec::new();
-        self.encode(&mut bytes);
-        Digest(xxh3_128(&bytes))
+        self.digest_in(&mut Vec::with_capacity(self.encoded_length()))
+    }
+
+    /// As [`digest`](Self::digest), with room for the encoding.
+    pub(super) fn digest_in(&self, room: &mut Vec<u8>) -> Digest {
+        room.clear();
+        self.encode(room);
+        Digest(xxh3_128(room))
     }
 }
 

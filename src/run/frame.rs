@@ -95,6 +95,14 @@ impl Frame {
         self.visit(&mut |_, _, value| out.extend_from_slice(&value.bits().to_le_bytes()));
     }
 
+    /// The number of bytes that the canonical encoding takes.
+    pub(super) fn encoded_length(&self) -> usize {
+        let Frame { robots, scans, .. } = self;
+        let lists = |r: &RobotState| r.configuration.len() + r.extra.len() + r.target.len();
+        let words = robots.iter().map(|r| 11 + lists(r)).sum::<usize>();
+        8 * (3 + words + scans.iter().map(|s| 2 + s.ranges.len()).sum::<usize>())
+    }
+
     /// The first NaN in canonical order: its robot and the field's name.
     pub fn first_nan(&self) -> Option<(u32, String)> {
         let mut found = None;
@@ -170,6 +178,7 @@ mod tests {
         assert_eq!(words[..19], expected);
         assert_eq!(words[19..], [2.5_f64.to_bits()]);
         assert_eq!(bytes.len(), 160, "whole words only");
+        assert_eq!(frame.encoded_length(), 160);
     }
 
     #[test]

@@ -1,6 +1,6 @@
 //! Holding: how far a tick's motion may go before it would touch something.
 
-use crate::collision::{Collision, EdgeVerdict, MarchOptions, march_from};
+use crate::collision::{Collision, EdgeVerdict, MarchOptions, first_step, march_from};
 use crate::num::{greater, lesser};
 use crate::robots::Motion;
 
@@ -27,8 +27,6 @@ pub struct Advance {
     pub until: f64,
     /// Whether it was blocked.
     pub blocked: bool,
-    /// The clearance at its start, metres; 0 when the start is in contact.
-    pub start_clearance: f64,
 }
 
 /// The clearance that a motion starting at the clearance `start` has to keep, metres: [`MARGIN`], or for a nearer start
@@ -50,19 +48,24 @@ pub fn margin_from(start: f64) -> f64 {
 /// Free, it goes all the way. Blocked, it is held at a clearance of [`HOLD_CLEARANCE`], a little more by the bisection's
 /// width, or at its start when that is nearer. A start in contact stays.
 pub fn advance(surroundings: &dyn Collision, motion: &impl Motion) -> Advance {
-    let clearance_at = |s: f64| surroundings.distance(&motion.footprint_at(s));
     let start = motion.footprint_at(0.0);
+    // Most motions keep well away from everything. One step that proves so proves it of the start too, whose clearance need not be known then.
+    let well_away = MarchOptions { margin: MARGIN + 2.0 * WEAR, ..MarchOptions::default() };
+    if first_step(surroundings, motion, well_away, &start).is_some() {
+        return Advance { until: 1.0, blocked: false };
+    }
+    let clearance_at = |s: f64| surroundings.distance(&motion.footprint_at(s));
     let start_clearance = surroundings.distance(&start);
     if start_clearance <= 0.0 {
-        return Advance { until: 0.0, blocked: true, start_clearance };
+        return Advance { until: 0.0, blocked: true };
     }
     let options = MarchOptions { margin: margin_from(start_clearance), ..MarchOptions::default() };
     let free_until = match march_from(surroundings, motion, options, None, (start, start_clearance)) {
-        EdgeVerdict::Free { .. } => return Advance { until: 1.0, blocked: false, start_clearance },
+        EdgeVerdict::Free { .. } => return Advance { until: 1.0, blocked: false },
         EdgeVerdict::Hit { free_until, .. } | EdgeVerdict::Unresolved { free_until, .. } => free_until,
     };
     let until = if start_clearance < HOLD_CLEARANCE { 0.0 } else { back_off(clearance_at, free_until) };
-    Advance { until, blocked: true, start_clearance }
+    Advance { until, blocked: true }
 }
 
 /// The last parameter up to `free_until` at which the clearance is at least [`HOLD_CLEARANCE`], given that it is at 0; found by
@@ -210,7 +213,7 @@ mod tests {
     fn a_start_in_contact_stays_and_another_robot_is_a_wall_too() {
         let scene = wall();
         let motion = RUSTY.drive(&Pose2::new(-0.05, 0.0, PI), &RustyCmd { v: 0.6, omega: 0.0 }, 0.05).unwrap();
-        assert_eq!(advance(&scene, &motion), Advance { until: 0.0, blocked: true, start_clearance: 0.0 });
+        assert_eq!(advance(&scene, &motion), Advance { until: 0.0, blocked: true });
         let start = Pose2::new(-3.0, 0.0, 0.0);
         let motion = RUSTY.drive(&start, &RustyCmd { v: 0.6, omega: 0.0 }, 0.05).unwrap();
         let other = RUSTY.footprint(&Pose2::new(-2.77, 0.0, 0.0)).parts()[0].placed().clone();

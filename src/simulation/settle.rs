@@ -31,7 +31,7 @@ pub(super) fn cut<R: SimulatedRobot>(
         let others = starts.others(world, id);
         let surroundings = Surroundings { scene, others: &others };
         *cut = if R::HELD {
-            let Advance { until, blocked, .. } = hold::advance(&surroundings, motion);
+            let Advance { until, blocked } = hold::advance(&surroundings, motion);
             Cut::new(until, blocked)
         } else {
             // nothing holds it: all the way, in contact unless proven free

@@ -8,7 +8,7 @@ use crate::collision::{Collision, Scene, Surroundings};
 use crate::geometry::{Footprint, Placed, Point2};
 use crate::worlds::Bounds;
 
-/// The robots' footprints at the start of the tick, by ascending id.
+/// The robots' footprints at the start of the tick, by ascending id; of robots alone in their world, none.
 #[derive(Resource, Default)]
 pub struct Starts(Vec<(Entity, RobotId, Footprint)>);
 
@@ -62,23 +62,32 @@ impl Sweeps {
 
 /// The parts of all robots now in `world` but `id`, by ascending id.
 pub fn others_now(world: &World, inhabited: Entity, id: RobotId) -> Vec<Placed> {
-    footprints_now(world)
-        .filter(|(w, i, _)| *w == inhabited && *i != id)
-        .flat_map(|(_, _, f)| f.parts().iter().map(|p| p.placed().clone()).collect::<Vec<_>>())
-        .collect()
+    let mut parts = Vec::new();
+    for (e, _, _) in robots(world).filter(|(_, w, i)| *w == inhabited && *i != id) {
+        if let Some(footprint) = world.get::<RobotOps>(e).and_then(|ops| (ops.footprint)(world, e)) {
+            parts.extend(footprint.parts().iter().map(|p| p.placed().clone()));
+        }
+    }
+    parts
 }
 
-fn footprints_now(world: &World) -> impl Iterator<Item = (Entity, RobotId, Footprint)> {
+/// Each robot with its world and id, by ascending id.
+fn robots(world: &World) -> impl Iterator<Item = (Entity, Entity, RobotId)> {
     let robots = world.get_resource::<Roster>().map_or(&[][..], Roster::robots);
-    robots.iter().filter_map(|&e| {
-        let ops = world.get::<RobotOps>(e)?;
-        Some((world.get::<ResidesIn>(e)?.0, *world.get::<RobotId>(e)?, (ops.footprint)(world, e)?))
-    })
+    robots.iter().filter_map(|&e| Some((e, world.get::<ResidesIn>(e)?.0, *world.get::<RobotId>(e)?)))
 }
 
 /// Gathers the footprints at the start of the tick, and forgets the sweeps of the last.
 pub(super) fn gather_starts(world: &mut World) {
-    let starts = Starts(footprints_now(world).collect());
-    world.insert_resource(starts);
+    let mut starts = std::mem::take(&mut world.resource_mut::<Starts>().0);
+    starts.clear();
+    for (e, inhabited, id) in robots(world) {
+        let shares = robots(world).any(|(_, w, i)| w == inhabited && i != id);
+        let ops = world.get::<RobotOps>(e).filter(|_| shares);
+        if let Some(footprint) = ops.and_then(|ops| (ops.footprint)(world, e)) {
+            starts.push((inhabited, id, footprint));
+        }
+    }
+    world.resource_mut::<Starts>().0 = starts;
     world.resource_mut::<Sweeps>().sweeps.clear();
 }

@@ -86,24 +86,39 @@ pub enum RestoreError {
 
 /// The state of the simulation now: the canonical form, the same for equal states.
 pub fn snapshot(world: &World) -> Frame {
+    let mut frame = LatestFrame::default().0;
+    snapshot_into(world, &mut frame);
+    frame
+}
+
+/// As [`snapshot`], in the room of an earlier frame.
+fn snapshot_into(world: &World, frame: &mut Frame) {
     let robots = world.get_resource::<Roster>().map_or(&[][..], Roster::robots);
+    frame.tick = world.get_resource::<Transport>().map_or(0, |t| t.tick);
+    frame.robots.clear();
+    frame.robots.extend(robots.iter().filter_map(|&e| (world.get::<RobotOps>(e)?.encode)(world, e)));
     // the roster is in the order of the ids
-    let scans = robots.iter().flat_map(|&robot| {
+    let sensors = robots.iter().flat_map(|&robot| {
         let sensors = world.get::<Sensors>(robot).into_iter().flat_map(|sensors| sensors.iter());
-        sensors.filter_map(move |sensor| {
-            let ranges = world.get::<Scan>(sensor)?.0.clone();
-            Some(RobotScan { robot: world.get::<RobotId>(robot)?.0, ranges })
-        })
+        sensors.filter_map(move |sensor| Some((world.get::<RobotId>(robot)?.0, &world.get::<Scan>(sensor)?.0)))
     });
-    let scans = scans.collect();
-    let tick = world.get_resource::<Transport>().map_or(0, |t| t.tick);
-    let robots = robots.iter().filter_map(|&e| (world.get::<RobotOps>(e)?.encode)(world, e)).collect();
-    Frame { tick, robots, scans }
+    let mut count = 0;
+    for (robot, ranges) in sensors {
+        if count == frame.scans.len() {
+            frame.scans.push(RobotScan { robot, ranges: Vec::new() });
+        }
+        let scan = &mut frame.scans[count];
+        scan.robot = robot;
+        scan.ranges.clone_from(ranges);
+        count += 1;
+    }
+    frame.scans.truncate(count);
 }
 
 /// Takes the frame of the tick.
 pub(super) fn record(world: &mut World) {
-    let frame = snapshot(world);
+    let mut frame = std::mem::take(&mut *world.resource_mut::<LatestFrame>()).0;
+    snapshot_into(world, &mut frame);
     world.resource_mut::<Keyframes>().keep(&frame);
     world.resource_mut::<LatestFrame>().0 = frame;
     super::history::note_where_kept(world);

@@ -25,6 +25,16 @@ pub struct Encoder {
     message_counts: [u64; CHANNELS.len()],
     index: Vec<Indexed>,
     piece: Vec<u8>,
+    room: Room,
+}
+
+/// What is filled anew for every tick, so that a tick allocates nothing once the room is there.
+#[derive(Clone, Default)]
+struct Room {
+    frame: FrameMessage,
+    scan: ScanMessage,
+    digest: DigestMessage,
+    encoding: Vec<u8>,
 }
 
 impl Encoder {
@@ -40,6 +50,7 @@ impl Encoder {
             message_counts: [0; CHANNELS.len()],
             index: Vec::new(),
             piece: MAGIC.to_vec(),
+            room: Room::default(),
         };
         put_record(&mut encoder.piece, opcode::HEADER, |out| {
             put_str(out, super::PROFILE);
@@ -63,7 +74,7 @@ impl Encoder {
             put_message(&mut self.piece, &mut self.message_counts, channel::INPUT, frame.tick, &input);
             self.next_event += 1;
         }
-        let digest = frame.digest();
+        let digest = frame.digest_in(&mut self.room.encoding);
         self.put_frame(frame, digest);
         self.seal(frame.tick);
         self.next_tick += 1;
@@ -106,12 +117,16 @@ impl Encoder {
 
     fn put_frame(&mut self, frame: &Frame, digest: Digest) {
         let (out, counts, tick) = (&mut self.piece, &mut self.message_counts, frame.tick);
-        put_message(out, counts, channel::FRAME, tick, &FrameMessage::of(frame));
+        let room = &mut self.room;
+        room.frame.take(frame);
+        put_message(out, counts, channel::FRAME, tick, &room.frame);
         let max_range = self.preamble.config.sensor.map(|s| s.max_range);
         for scan in &frame.scans {
-            put_message(out, counts, channel::SCAN, tick, &ScanMessage::of(tick, max_range, scan));
+            room.scan.take(tick, max_range, scan);
+            put_message(out, counts, channel::SCAN, tick, &room.scan);
         }
-        put_message(out, counts, channel::DIGEST, tick, &DigestMessage::of(tick, digest));
+        room.digest.take(tick, digest);
+        put_message(out, counts, channel::DIGEST, tick, &room.digest);
     }
 
     /// Ends the piece with a seal: the tick, where the seal begins, and the xxh3-128 of every byte before it.
@@ -188,7 +203,8 @@ fn put_message(out: &mut Vec<u8>, counts: &mut [u64; CHANNELS.len()], channel: u
         put_u32(out, tick as u32); // the sequence number; it may wrap
         put_u64(out, tick * TICK_NANOSECONDS); // log time
         put_u64(out, tick * TICK_NANOSECONDS); // publish time
-        out.extend_from_slice(&message.encode_to_vec());
+        // a vector takes whatever is written to it
+        let _ = message.encode(out);
     });
     counts[usize::from(channel) - 1] += 1;
 }

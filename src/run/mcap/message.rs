@@ -2,6 +2,8 @@
 //!
 //! A single float is `optional` and several are `repeated`: plain proto3 floats lose the sign of -0.0.
 
+use std::fmt::Write;
+
 use prost::{Message, Oneof};
 
 use super::super::{DT, Digest, Event, Frame, Quantized, RobotInput, RobotScan, RobotState};
@@ -105,22 +107,15 @@ pub struct DigestMessage {
 }
 
 impl FrameMessage {
-    pub fn of(frame: &Frame) -> Self {
-        let robot = |r: &RobotState| RobotStateMessage {
-            id: r.id,
-            configuration: r.configuration.to_vec(),
-            extra: r.extra.to_vec(),
-            channels: r.channels.map(i32::from).to_vec(),
-            target: r.target.to_vec(),
-            manual: r.manual,
-            in_contact: r.in_contact,
-            contacts: r.contacts,
-            flash: r.flash,
-            refusals: r.refusals,
-        };
+    /// Becomes the message of this frame, in the room of the one before.
+    pub fn take(&mut self, frame: &Frame) {
+        self.tick = frame.tick;
         // ticks stay below 2^53, so the product is rounded once
-        let time = Some(frame.tick as f64 * DT);
-        FrameMessage { tick: frame.tick, time, robots: frame.robots.iter().map(robot).collect() }
+        self.time = Some(frame.tick as f64 * DT);
+        self.robots.resize_with(frame.robots.len(), RobotStateMessage::default);
+        for (message, robot) in self.robots.iter_mut().zip(&frame.robots) {
+            message.take(robot);
+        }
     }
 
     /// The frame, without its scans; `None` for control channels that are not two, or don't fit.
@@ -145,9 +140,28 @@ impl FrameMessage {
     }
 }
 
+impl RobotStateMessage {
+    fn take(&mut self, r: &RobotState) {
+        let RobotState { id, configuration, extra, channels, target, manual, in_contact, contacts, flash, refusals } =
+            r;
+        (self.id, self.manual, self.in_contact) = (*id, *manual, *in_contact);
+        (self.contacts, self.flash, self.refusals) = (*contacts, *flash, *refusals);
+        let lists =
+            [(&mut self.configuration, &configuration[..]), (&mut self.extra, extra), (&mut self.target, target)];
+        for (list, values) in lists {
+            list.clear();
+            list.extend_from_slice(values);
+        }
+        self.channels.clear();
+        self.channels.extend(channels.map(i32::from));
+    }
+}
+
 impl ScanMessage {
-    pub fn of(tick: u64, max_range: Option<f64>, scan: &RobotScan) -> Self {
-        ScanMessage { tick, robot: scan.robot, max_range, ranges: scan.ranges.clone() }
+    /// Becomes the message of this scan, in the room of the one before.
+    pub fn take(&mut self, tick: u64, max_range: Option<f64>, scan: &RobotScan) {
+        (self.tick, self.robot, self.max_range) = (tick, scan.robot, max_range);
+        self.ranges.clone_from(&scan.ranges);
     }
 
     pub fn into_scan(self) -> RobotScan {
@@ -172,7 +186,11 @@ impl InputMessage {
 }
 
 impl DigestMessage {
-    pub fn of(tick: u64, digest: Digest) -> Self {
-        DigestMessage { tick, xxh3_128: digest.to_string() }
+    /// Becomes the message of this digest, in the room of the one before.
+    pub fn take(&mut self, tick: u64, digest: Digest) {
+        self.tick = tick;
+        self.xxh3_128.clear();
+        // a string takes whatever is written to it
+        let _ = write!(self.xxh3_128, "{digest}");
     }
 }

@@ -124,10 +124,13 @@ fn what_is_written_is_what_the_schema_says() {
         (robot.contacts, robot.flash, robot.refusals) = (1, 2, 3);
     }
     let mut met = BTreeMap::new();
-    let frame_message = FrameMessage::of(&frame);
+    let mut frame_message = FrameMessage::default();
+    frame_message.take(&frame);
     frame.scans[0].robot = 1;
-    let scan_message = ScanMessage::of(7, Some(4.0), &frame.scans[0]);
-    let digest_message = DigestMessage::of(7, Digest(1));
+    let mut scan_message = ScanMessage::default();
+    scan_message.take(7, Some(4.0), &frame.scans[0]);
+    let mut digest_message = DigestMessage::default();
+    digest_message.take(7, Digest(1));
     walk("Frame", &frame_message.encode_to_vec(), &mut met);
     walk("Scan", &scan_message.encode_to_vec(), &mut met);
     walk("Digest", &digest_message.encode_to_vec(), &mut met);
@@ -168,7 +171,9 @@ fn every_number_survives_a_message_bit_for_bit() {
     let mut frame = fixture::frame(1);
     frame.robots[0].extra = numbers.into_iter().collect();
     frame.scans.clear();
-    let bytes = FrameMessage::of(&frame).encode_to_vec();
+    let mut message = FrameMessage::default();
+    message.take(&frame);
+    let bytes = message.encode_to_vec();
     let back = FrameMessage::decode(&bytes[..]).unwrap().into_frame().unwrap();
     assert_eq!(first_divergence(&[frame], &[back]), None);
     for x in numbers {
