@@ -117,7 +117,9 @@ fn decide(arrays: [&[f64]; 6], other: &Frame, doubt: f64, touched: &mut [bool]) 
         }
         for i in 0..LANES {
             touched[i] = gaps[i] < -doubt;
-            undecided[i] |= !(gaps[i] < -doubt || gaps[i] > doubt);
+            // what is no number is not decided either
+            let decided = gaps[i].abs() > doubt;
+            undecided[i] |= !decided;
         }
     }
     undecided.contains(&true)
