@@ -11,13 +11,13 @@ mod pace;
 mod rest;
 mod runs;
 mod session;
+#[cfg(feature = "window")]
 mod settings;
 #[cfg(test)]
 mod tests;
 #[cfg(not(target_family = "wasm"))]
 mod window;
 
-use bevy::log::{Level, LogPlugin};
 use bevy::prelude::*;
 #[cfg(not(target_family = "wasm"))]
 use bevy::window::WindowTheme;
@@ -53,22 +53,19 @@ pub fn windowed_app() -> App {
         canvas: Some("#lab".into()),
         ..default()
     };
-    // the graphics layers tell at length what `run_window` says in one line
-    let filter = "wgpu_hal=off,wgpu_core=off,naga=off".into();
-    let log = LogPlugin { level: Level::ERROR, filter, ..default() };
     let mut app = App::new();
-    app.add_plugins((
-        DefaultPlugins.set(WindowPlugin { primary_window: Some(window), ..default() }).set(log),
-        EguiPlugin::default(),
-        SessionPlugin,
-        settings::KeepSettingsPlugin,
-        rest::RestPlugin,
-    ))
-    .insert_resource(EguiGlobalSettings { auto_create_primary_context: false, ..default() })
-    .add_message::<SessionCommand>()
-    .add_systems(Startup, add_camera)
-    .add_systems(Update, wake.after(session::gather))
-    .add_systems(EguiPrimaryContextPass, show);
+    let plugins = DefaultPlugins.set(WindowPlugin { primary_window: Some(window), ..default() });
+    // a page keeps the settings, and has the browser's console
+    #[cfg(feature = "window")]
+    let plugins = plugins.set(quiet_log());
+    #[cfg(feature = "window")]
+    app.add_plugins(settings::KeepSettingsPlugin);
+    app.add_plugins((plugins, EguiPlugin::default(), SessionPlugin, rest::RestPlugin))
+        .insert_resource(EguiGlobalSettings { auto_create_primary_context: false, ..default() })
+        .add_message::<SessionCommand>()
+        .add_systems(Startup, add_camera)
+        .add_systems(Update, wake.after(session::gather))
+        .add_systems(EguiPrimaryContextPass, show);
     // a page tells of its theme itself
     #[cfg(not(target_family = "wasm"))]
     app.add_systems(Update, system_theme)
@@ -76,6 +73,13 @@ pub fn windowed_app() -> App {
         .init_resource::<capture::Capturing>()
         .add_systems(Update, (dialogs::ask, dialogs::dropped, capture::follow).chain().before(session::gather));
     app
+}
+
+/// The graphics layers tell at length what `run_window` says in one line.
+#[cfg(feature = "window")]
+fn quiet_log() -> bevy::log::LogPlugin {
+    let filter = "wgpu_hal=off,wgpu_core=off,naga=off".into();
+    bevy::log::LogPlugin { level: bevy::log::Level::ERROR, filter, ..default() }
 }
 
 /// Egui's painter smooths its own edges: multisampling would only cost.

@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 use std::fs;
 use std::path::Path;
 
-use motion_lab::ui::FACES;
+use motion_lab::picture::FACES;
 use motion_lab::worlds::World;
 use skrifa::{FontRef, MetadataProvider};
 
@@ -12,7 +12,9 @@ use skrifa::{FontRef, MetadataProvider};
 fn missing(signs: impl IntoIterator<Item = char>) -> BTreeSet<char> {
     let faces = FACES.map(|(name, bytes)| FontRef::new(bytes).unwrap_or_else(|e| panic!("{name}: {e}")));
     let has = |c: char| faces.iter().any(|face| face.charmap().map(c).is_some_and(|glyph| glyph.to_u32() != 0));
-    signs.into_iter().filter(|c| !c.is_control() && !has(*c)).collect()
+    // the SVG writer names the two that are no characters, to drop them
+    let is_sign = |c: &char| !c.is_control() && !matches!(c, '\u{fffe}' | '\u{ffff}');
+    signs.into_iter().filter(is_sign).filter(|c| !has(*c)).collect()
 }
 
 /// The signs of a source file before its tests, those that are written by their number too.

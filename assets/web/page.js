@@ -9,6 +9,7 @@ const files = JSON.parse($("files").textContent);
 const embedded = root.dataset.page === "embed";
 const canvas = $("lab");
 const RESTART = "motion-lab/restart";
+const SETTINGS = "motion-lab/settings";
 const MOST_BYTES = 256 * 1024 * 1024;
 
 let lab = null; // the lab's exports once it runs
@@ -16,6 +17,15 @@ let wasm = null; // the memory and functions under them
 let state = null; // what it told last
 let parts = null; // the run's parts, with which the simulator alone can record it again
 let failed = false;
+
+/** Does something with the browser's storage; a page that may not use it does without. */
+function store(act) {
+  try {
+    return act();
+  } catch {
+    return null;
+  }
+}
 
 const say = (text) => ($("said").textContent = text);
 const announce = (text) => ($("heard").textContent = text); // for who does not see it: the lab shows it too
@@ -93,9 +103,9 @@ const hear = {
     if (!embedded) canvas.focus({ preventScroll: true });
     scrollTo(0, 0);
     performance.mark("first-frame");
-    const kept = sessionStorage.getItem(RESTART);
+    const kept = store(() => sessionStorage.getItem(RESTART));
     if (kept) {
-      sessionStorage.removeItem(RESTART);
+      store(() => sessionStorage.removeItem(RESTART));
       alone()
         .then((light) => lab.lab_open("the run before", light.record_log(kept)))
         .catch((error) => warn(`The run before could not be restored: ${error.message ?? error}`));
@@ -122,6 +132,9 @@ const hear = {
     light(told.lit);
   },
   tree: ({ widgets }) => mirror(widgets),
+  settings({ settings }) {
+    store(() => localStorage.setItem(SETTINGS, JSON.stringify(settings)));
+  },
   run(told) {
     parts = told.parts;
   },
@@ -323,11 +336,7 @@ $("overlay-save").addEventListener("click", async () => {
 });
 $("overlay-restart").addEventListener("click", () => {
   if (parts && state?.frontier) {
-    try {
-      sessionStorage.setItem(RESTART, JSON.stringify({ ...parts, ticks: state.frontier }));
-    } catch {
-      // a page without storage starts anew
-    }
+    store(() => sessionStorage.setItem(RESTART, JSON.stringify({ ...parts, ticks: state.frontier })));
   }
   location.reload();
 });
@@ -386,7 +395,7 @@ async function start() {
     if (!response.ok) throw new Error(`${files.labWasm}: ${response.status} ${response.statusText}`);
     wasm = await module.default({ module_or_path: counted(response) });
     lab = module;
-    lab.lab_start(location.search, embedded, listen);
+    lab.lab_start(location.search, embedded, store(() => localStorage.getItem(SETTINGS)) ?? "", listen);
     root.dataset.lab = "running";
     tellSystem();
   } catch (error) {

@@ -1,7 +1,10 @@
 //! The session with its widgets, without a window: every behaviour by the names that a screen reader reads.
 
+mod anatomy;
 mod arm;
+mod atlas;
 mod capture;
+mod cspace;
 mod drive;
 mod files;
 mod screen;

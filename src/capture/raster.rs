@@ -7,7 +7,7 @@ use resvg::usvg::{Options, Tree};
 
 use super::CaptureError;
 use super::few_colours::FewColours;
-use crate::picture::{Palette, Rgb};
+use crate::picture::{FACES, Palette, Rgb};
 
 /// Paints SVG at a fixed size. Its letters are the window's.
 pub struct Raster {
@@ -41,11 +41,12 @@ impl Raster {
     pub fn new(size: Size) -> Self {
         let mut options = Options::default();
         let fonts = options.fontdb_mut();
-        for font in [epaint_default_fonts::UBUNTU_LIGHT, epaint_default_fonts::HACK_REGULAR] {
-            fonts.load_font_data(font.to_vec());
+        for (_, letters) in FACES {
+            fonts.load_font_data(letters.to_vec());
         }
-        fonts.set_sans_serif_family("Ubuntu");
-        fonts.set_monospace_family("Hack");
+        // as assets/fonts/build names them
+        fonts.set_sans_serif_family("Ubuntu derivative Motion Lab");
+        fonts.set_monospace_family("Motion Lab Mono");
         Raster { options, size, paper: Rgb([255; 3]) }
     }
 

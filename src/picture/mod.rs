@@ -4,6 +4,7 @@
 //! sheet, [`resolve`] turns its items into lines and areas in pixels, still by [`Role`], and a medium gives the roles their
 //! colours: the SVG writer ([`Figure::svg`]) from a [`Palette`], the window from its theme. Both draw the same strokes.
 
+mod faces;
 mod figure;
 mod fit;
 mod hatch;
@@ -18,6 +19,7 @@ mod svg;
 mod tour;
 mod world;
 
+pub use faces::FACES;
 pub use figure::{Figure, Panel, Sheet};
 pub use fit::{Fit, ScaleBar, ScreenPoint, ScreenRect};
 pub use item::{Anchor, Dash, Drawing, Face, Fill, Glyph, Item, Line};

@@ -134,7 +134,7 @@ fn sliders(ui: &mut Ui, anatomy: &mut Anatomy) {
             let mut step = anatomy.step()[i];
             let most = if anatomy.q().is_angle(i) { std::f64::consts::PI } else { 5.0 };
             let name = format!("step of {name}");
-            let response = ui.add(Slider::new(&mut step, -most..=most).fixed_decimals(3).text(name.as_str()));
+            let response = ui.add(exact(Slider::new(&mut step, -most..=most), 3).text(name.as_str()));
             response.widget_info(|| WidgetInfo::slider(true, step, &name));
             if response.changed() {
                 anatomy.set_step(i, step);
@@ -230,11 +230,16 @@ pub(super) fn annulus(ui: &mut Ui, state: &mut UiState) {
     }
 }
 
+/// A slider that shows so many decimals of its value and keeps them all: `fixed_decimals` would round what is only shown.
+fn exact(slider: Slider<'_>, decimals: usize) -> Slider<'_> {
+    slider.custom_formatter(move |value, _| format!("{value:.decimals$}"))
+}
+
 /// A slider for a coordinate of the configuration.
 pub(super) fn coordinate(ui: &mut Ui, anatomy: &mut Anatomy, index: usize, name: &str) {
     let [least, most] = anatomy.range(index);
     let mut value = anatomy.q().coordinates()[index];
-    let response = ui.add(Slider::new(&mut value, least..=most).fixed_decimals(4).text(name));
+    let response = ui.add(exact(Slider::new(&mut value, least..=most), 4).text(name));
     response.widget_info(|| WidgetInfo::slider(true, value, name));
     if response.changed() {
         anatomy.set_coordinate(index, value);

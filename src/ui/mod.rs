@@ -75,7 +75,7 @@ pub use look::Look;
 pub use run_figure::RunFigure;
 pub use settings::{Settings, ThemeChoice};
 pub use state::{Flash, Notice, UiState, Working};
-pub use theme::{FACES, Theme};
+pub use theme::Theme;
 #[cfg(feature = "screen")]
 pub use transport_bar::transport_bar;
 

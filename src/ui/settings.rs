@@ -1,10 +1,12 @@
 //! `Settings`, what is kept from one start of the program to the next.
 
+use serde::{Deserialize, Serialize};
+
 use super::Theme;
 
 /// Which paper is asked for.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-#[cfg_attr(feature = "screen", derive(bevy::reflect::Reflect))]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "window", derive(bevy::reflect::Reflect))]
 pub enum ThemeChoice {
     /// As the system says.
     #[default]
@@ -50,8 +52,9 @@ impl ThemeChoice {
 }
 
 /// What a user has set. No part of a run.
-#[derive(Clone, Debug, PartialEq, Eq)]
-#[cfg_attr(feature = "screen", derive(bevy::reflect::Reflect))]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "window", derive(bevy::reflect::Reflect))]
+#[serde(default)]
 pub struct Settings {
     /// Light or dark paper.
     pub theme: ThemeChoice,

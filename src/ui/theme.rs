@@ -5,14 +5,6 @@ mod style;
 
 use crate::picture::{Palette, Rgb};
 
-/// The faces of the lab by name: for words, for figures and code, and for signs that both lack. TrueType; `assets/fonts/build` makes
-/// them.
-pub const FACES: [(&str, &[u8]); 3] = [
-    ("lab-sans", include_bytes!("../../assets/fonts/lab-sans.ttf")),
-    ("lab-mono", include_bytes!("../../assets/fonts/lab-mono.ttf")),
-    ("lab-signs", include_bytes!("../../assets/fonts/lab-signs.ttf")),
-];
-
 /// Light or dark paper.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Theme {

@@ -21,7 +21,7 @@ use crate::picture::Role;
 use crate::random::Seed;
 use crate::run::Log;
 use crate::simulation::{PendingInput, Playback, RunConfig, Transport, TransportCommand, obey};
-use crate::ui::{CaptureOrder, Notice, SessionCommand, ThemeChoice, number_of, widgets};
+use crate::ui::{CaptureOrder, Notice, SessionCommand, Settings, ThemeChoice, number_of, widgets};
 
 /// What comes in from the page.
 enum Incoming {
@@ -43,11 +43,12 @@ thread_local! {
 }
 
 /// Starts the lab on the canvas with the id `lab`, as the query of an address says, and tells `listener` what happens: it is called
-/// with JSON, and with bytes where a file goes with it. `embedded` shows one widget without the rail.
+/// with JSON, and with bytes where a file goes with it. `embedded` shows one widget without the rail; `settings` are those that the page
+/// was told to keep, or nothing.
 ///
 /// A query that is refused starts the book's run, and the lab says why.
 #[wasm_bindgen]
-pub fn lab_start(query: &str, embedded: bool, listener: js_sys::Function) {
+pub fn lab_start(query: &str, embedded: bool, settings: &str, listener: js_sys::Function) {
     let link = Link::parse(query);
     LISTENER.set(Some(listener));
     let mut app = windowed_app();
@@ -58,7 +59,9 @@ pub fn lab_start(query: &str, embedded: bool, listener: js_sys::Function) {
         speak(info);
     }));
     let before = receive.after(EguiPreUpdateSet::ProcessInput).before(EguiPreUpdateSet::BeginPass);
-    app.insert_resource(Start { link, embedded })
+    // of another version's settings the usual ones are better than none
+    let settings = serde_json::from_str(settings).unwrap_or_default();
+    app.insert_resource(Start { link, embedded, settings })
         .init_resource::<Told>()
         .init_resource::<Staged>()
         .add_systems(PostStartup, start)
@@ -115,6 +118,7 @@ fn tell_with(message: &Value, bytes: Option<&[u8]>) {
 struct Start {
     link: Result<Link, LinkError>,
     embedded: bool,
+    settings: Settings,
 }
 
 /// Events of egui that wait for their frame: a field must have the focus before it takes letters.
@@ -126,6 +130,7 @@ struct Staged(VecDeque<Vec<egui::Event>>);
 struct Told {
     frames: u64,
     state: Value,
+    settings: Option<Settings>,
     tree: Value,
     /// Which run: its configuration's address, its seed, how many events.
     run: Option<(usize, Seed, usize)>,
@@ -134,7 +139,7 @@ struct Told {
 }
 
 fn start(world: &mut World) {
-    let Some(Start { link, embedded }) = world.remove_resource() else { return };
+    let Some(Start { link, embedded, settings }) = world.remove_resource() else { return };
     let (link, refused) = match link {
         Ok(link) => (link, None),
         Err(error) => (Link::default(), Some(Notice { text: format!("the link: {error}"), is_error: true })),
@@ -147,6 +152,7 @@ fn start(world: &mut World) {
     {
         let ui = &mut world.resource_mut::<Interface>().into_inner().0;
         ui.embedded = embedded;
+        ui.settings = settings;
         ui.widget = link.widget.as_deref().and_then(number_of).unwrap_or(0);
         ui.settings.theme = link.theme.unwrap_or(ui.settings.theme);
     }
@@ -425,6 +431,11 @@ fn report(world: &mut World) {
         if state != told.state {
             tell(&state);
             told.state = state;
+        }
+        let settings = &world.resource::<Interface>().0.settings;
+        if told.settings.as_ref() != Some(settings) {
+            tell(&json!({ "kind": "settings", "settings": settings }));
+            told.settings = Some(settings.clone());
         }
         if let Some(tree) = tree(world)
             && tree != told.tree

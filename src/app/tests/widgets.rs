@@ -125,68 +125,6 @@ fn the_atlas_puts_robots_refuses_and_edits() {
     assert_eq!(harness.state().app.world().resource::<RunConfig>().0.worlds.len(), 3);
 }
 
-/// Drags on the atlas's paper from one point of its world to another.
-fn drag_on(harness: &mut Harness<'_, Lab>, from: [f64; 2], to: [f64; 2]) {
-    let world = harness.state().app.world().resource::<Interface>().0.atlas.world().clone();
-    let paper = harness.get_by_label_contains(&format!("World {}", world.name)).rect();
-    let fit = crate::ui::canvas::fit(&crate::picture::world(&world), paper);
-    let at = |[x, y]: [f64; 2]| {
-        let [x, y] = fit.screen_from_world(crate::geometry::Point2::new(x, y));
-        pos2(x as f32, y as f32)
-    };
-    pointer(harness, at(from), Some(true));
-    for i in 1..=6 {
-        pointer(harness, at(from).lerp(at(to), i as f32 / 6.0), None);
-    }
-    pointer(harness, at(to), Some(false));
-    harness.run_steps(3);
-}
-
-#[test]
-fn the_editor_draws_with_the_mouse_undoes_by_key_and_saves_the_same_bytes() {
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("bench.ron");
-    let text = crate::worlds::World::workbench().to_ron();
-    std::fs::write(&path, format!("// the bench\n{text}")).unwrap();
-    let mut harness = lab(WIDE);
-    let atlas = |h: &Harness<'_, Lab>| h.state().app.world().resource::<Interface>().0.atlas.clone();
-    let opened = crate::app::files::open_world(harness.state_mut().app.world_mut(), &path);
-    assert!(!opened.is_error, "{opened:?}");
-    harness.run_steps(3);
-    click(&mut harness, "Edit");
-    harness.get_by_label("Saving drops the one comment of bench.ron: worlds are saved in canonical form.");
-    let saved = crate::app::files::save_world(harness.state_mut().app.world_mut(), &path);
-    assert!(!saved.is_error && std::fs::read_to_string(&path).unwrap() == text);
-    harness.run_steps(2);
-    assert!(harness.query_by_label_contains("Saving drops").is_none());
-    // opened and saved again: the same bytes
-    crate::app::files::open_world(harness.state_mut().app.world_mut(), &path);
-    crate::app::files::save_world(harness.state_mut().app.world_mut(), &path);
-    assert_eq!(std::fs::read_to_string(&path).unwrap(), text);
-    harness.run_steps(2);
-    // a mark is added in the middle, moved by its line, and given a corner
-    click(&mut harness, "Add mark");
-    drag_on(&mut harness, [0.2, 0.0], [0.2, -0.5]);
-    drag_on(&mut harness, [0.0, -0.5], [0.0, -0.8]);
-    drag_on(&mut harness, [0.5, -0.5], [0.9, -0.5]);
-    let points = |h: &Harness<'_, Lab>| {
-        let mark = atlas(h).world().marks.iter().find(|m| m.name == "mark").cloned().expect("the mark");
-        mark.points.iter().map(|p| [p.x, p.y].map(|c| (c * 1e6).round() / 1e6)).collect::<Vec<_>>()
-    };
-    assert_eq!(points(&harness), [[-0.5, -0.5], [0.0, -0.8], [0.9, -0.5]]);
-    harness.key_press_modifiers(Modifiers::COMMAND, Key::Z);
-    harness.run_steps(3);
-    assert_eq!(points(&harness), [[-0.5, -0.5], [0.0, -0.8], [0.5, -0.5]], "the key undoes the edit");
-    assert_eq!(harness.state().app.world().resource::<RunConfig>().0.worlds.len(), 3, "and nothing of the run");
-    // a place is turned by its second handle, to a whole step
-    click(&mut harness, "Add place");
-    let place = atlas(&harness).world().places.last().unwrap().clone();
-    let ahead = place.pose.x + 0.05 * 4.8;
-    drag_on(&mut harness, [ahead, place.pose.y], [place.pose.x + 0.02, place.pose.y + 0.6]);
-    let turned = atlas(&harness).world().places.last().unwrap().pose;
-    assert!((turned.theta - std::f64::consts::FRAC_PI_2).abs() < 1e-9 && turned.x == place.pose.x, "{turned:?}");
-}
-
 #[test]
 fn the_three_robots_have_their_spaces_and_the_car_its_slice() {
     let mut harness = lab(WIDE);

@@ -7,9 +7,9 @@ use bevy_egui::egui::{
     Color32, CornerRadius, FontData, FontDefinitions, FontFamily, FontId, Shadow, Stroke, Style, TextStyle, Visuals,
 };
 
-use super::{FACES, Theme};
+use super::Theme;
 use crate::num::{exp, greater, ln};
-use crate::picture::{Rgb, Role};
+use crate::picture::{FACES, Rgb, Role};
 
 /// The light of a stored sRGB byte, from 0 to 1.
 fn linear(byte: u8) -> f64 {

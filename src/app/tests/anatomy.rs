@@ -1,0 +1,194 @@
+//! Query anatomy, behaviour by behaviour.
+
+use super::*;
+use crate::anatomy::{Anatomy, Tab};
+use crate::geometry::Point2;
+
+fn anatomy(harness: &Harness<'_, Lab>) -> Anatomy {
+    harness.state().app.world().resource::<Interface>().0.anatomy.anatomy.clone()
+}
+
+/// The lab with the anatomy in front, on this tab.
+fn on(tab: &str) -> Harness<'static, Lab> {
+    let mut harness = lab(WIDE);
+    click(&mut harness, "Query");
+    click(&mut harness, tab);
+    harness
+}
+
+/// What was copied in the last frame.
+fn copied(harness: &Harness<'_, Lab>) -> Option<String> {
+    let commands = &harness.output().platform_output.commands;
+    commands.iter().find_map(|c| match c {
+        egui::OutputCommand::CopyText(text) => Some(text.clone()),
+        _ => None,
+    })
+}
+
+fn press(harness: &mut Harness<'_, Lab>, name: &str) -> Option<String> {
+    harness.get_by_label(name).click();
+    // the click is seen in one frame and its text is put out in it
+    (0..3).find_map(|_| {
+        harness.step();
+        copied(harness)
+    })
+}
+
+/// Whether the line of the readout that begins so is there to be read.
+fn says(harness: &Harness<'_, Lab>, begins: &str) {
+    let lines = anatomy(harness).readout();
+    let line = lines.iter().find(|line| line.starts_with(begins)).unwrap_or_else(|| panic!("{begins}: {lines:?}"));
+    harness.get_by_label(&line.replace('-', "\u{2212}"));
+}
+
+/// Sets a coordinate.
+fn set(harness: &mut Harness<'_, Lab>, coordinate: usize, value: f64) {
+    harness.state_mut().app.world_mut().resource_mut::<Interface>().0.anatomy.anatomy.set_coordinate(coordinate, value);
+    harness.run_steps(2);
+}
+
+#[test]
+fn the_witness_names_its_feature_jumps_and_ties() {
+    let mut harness = on("witness");
+    harness.get_by_label("b* = (0.500, 1.000) at a corner of the block");
+    harness.get_by_label("a* = (0.457, 0.957) on link 2");
+    // above the block with the bare arm level: the edge is nearest, not the corner
+    let mut features = std::collections::BTreeSet::new();
+    for k in 0..60 {
+        set(&mut harness, 1, 1.5 + 0.02 * f64::from(k));
+        let words = anatomy(&harness).readout();
+        features.insert(words.iter().find(|w| w.starts_with("b*")).map(|w| w.split(") ").last().unwrap().to_owned()));
+    }
+    assert!(features.len() >= 2, "it jumps: {features:?}");
+    // between two posts as far to either side
+    let world = crate::worlds::World::parse(
+        "posts.ron",
+        "World(version: 1, name: \"Posts\", bounds: (min: (-2, -2), max: (2, 2)), obstacles: [\
+         (name: \"left\", shape: Box(min: (-1, 0), max: (-0.5, 1))), (name: \"right\", shape: Box(min: (0.5, 0), max: (1, 1)))])",
+    );
+    let rusty = Anatomy::choices().into_iter().find(|(n, _)| *n == "Rusty").unwrap().1;
+    let (_, q) = crate::robots::AnyRobot::of_kind("rusty", &[0.0, 0.5, 0.0]).unwrap();
+    let tied = Anatomy::new(world.unwrap(), crate::anatomy::WorldSource::Unsaved, rusty, q).unwrap();
+    harness.state_mut().app.world_mut().resource_mut::<Interface>().0.anatomy.set(tied.with_tab(Tab::Witness));
+    harness.run_steps(2);
+    says(&harness, "a tie of 2");
+    let words = anatomy(&harness).readout().join("; ");
+    assert!(words.contains("on an edge of left") && words.contains("on an edge of right"), "{words}");
+}
+
+#[test]
+fn the_tip_is_dragged_by_inverse_kinematics_on_its_elbow_side() {
+    let mut harness = on("distance");
+    let paper = harness.get_by_label_contains("Reach at T2").rect();
+    let fit = crate::ui::canvas::fit(&anatomy(&harness).backdrop(), paper);
+    let at = |p: Point2| {
+        let [x, y] = fit.screen_from_world(p);
+        pos2(x as f32, y as f32)
+    };
+    let tip = |h: &Harness<'_, Lab>| anatomy(h).checker().robot().reference(&anatomy(h).q());
+    let (from, to) = (tip(&harness), Point2::new(-1.0, 0.75));
+    pointer(&mut harness, at(from), Some(true));
+    for i in 1..=8 {
+        pointer(&mut harness, at(from).lerp(at(to), i as f32 / 8.0), None);
+    }
+    pointer(&mut harness, at(to), Some(false));
+    harness.run_steps(2);
+    assert!((tip(&harness) - to).norm() < 0.01, "{}", tip(&harness));
+    assert!(
+        anatomy(&harness).q().to_string().contains("th2: 1."),
+        "the elbow keeps its side: {}",
+        anatomy(&harness).q()
+    );
+    // beyond the annulus the arm is straight
+    pointer(&mut harness, at(to), Some(true));
+    pointer(&mut harness, at(Point2::new(-2.3, 0.1)), None);
+    pointer(&mut harness, at(Point2::new(-2.35, 0.1)), None);
+    pointer(&mut harness, at(Point2::new(-2.35, 0.1)), Some(false));
+    harness.run_steps(2);
+    assert!((tip(&harness).coords.norm() - 2.0).abs() < 1e-6, "clamped: {}", tip(&harness));
+}
+
+#[test]
+fn the_swept_tab_shows_free_ends_a_hit_between_and_its_bracket() {
+    let mut harness = on("swept");
+    harness.get_by_label("start free, end free");
+    harness.get_by_label("link 2 hits the block");
+    says(&harness, "proven free to s = ");
+    says(&harness, "in contact at s = ");
+    says(&harness, "between the two at most ");
+    let items = anatomy(&harness).overlay().items;
+    let role = |id: &str| items.iter().find(|i| i.id == id).map(|i| i.role);
+    let steps = anatomy(&harness).sweep().unwrap().certificate.steps().len();
+    let outlines = items.iter().filter(|i| i.id.starts_with("step/")).count();
+    assert!(steps > 0 && outlines == steps, "the proven steps as outlines: {outlines} of {steps}");
+    assert!(items.iter().any(|i| i.id.starts_with("hit/later/")) && role("second/0").is_some());
+    assert_eq!(role("second/0"), Some(crate::picture::Role::Robot), "the end is free");
+    assert_eq!(items.iter().find(|i| i.id.starts_with("hit/")).unwrap().role, crate::picture::Role::Goal);
+    // the step slider: a step of nothing is free
+    let slider = harness.get_by_role_and_label(egui::accesskit::Role::Slider, "step of th1").rect();
+    click_at(&mut harness, slider.left_center() + egui::vec2(0.49 * 180.0, 0.0));
+    assert!(anatomy(&harness).step()[0].abs() < 0.15, "{:?}", anatomy(&harness).step());
+    says(&harness, "free all the way");
+}
+
+#[test]
+fn what_is_unresolved_says_why() {
+    let mut harness = on("swept");
+    // the straight arm turns under a wall that is one ulp above its reach
+    let text = format!(
+        "World(version: 1, name: \"Lid\", bounds: (min: (-3, -3), max: (3, 3)), walls: [\
+         (name: \"the lid\", points: [(-1, {above:?}), (1, {above:?})])])",
+        above = f64::from_bits(2.0_f64.to_bits() + 1)
+    );
+    let world = crate::worlds::World::parse("lid.ron", &text).unwrap();
+    let bare = Anatomy::choices()[0].1;
+    let (_, q) = crate::robots::AnyRobot::of_kind("reach", &[std::f64::consts::FRAC_PI_2 - 0.4, 0.0]).unwrap();
+    let mut lid = Anatomy::new(world, crate::anatomy::WorldSource::Unsaved, bare, q).unwrap().with_tab(Tab::Swept);
+    lid.set_step(0, 0.8);
+    harness.state_mut().app.world_mut().resource_mut::<Interface>().0.anatomy.set(lid);
+    harness.run_steps(2);
+    harness.get_by_label("unresolved: the gap is below what rounding can tell from contact");
+    let items = anatomy(&harness).overlay().items;
+    assert!(items.iter().any(|i| i.id == "unresolved" && i.role == crate::picture::Role::Unknown));
+}
+
+#[test]
+fn what_is_shown_is_not_rounded_by_its_sliders() {
+    let mut harness = on("distance");
+    harness.run_steps(5);
+    let (elbow, tip) = (std::f64::consts::FRAC_PI_4, std::f64::consts::FRAC_PI_2);
+    assert_eq!(
+        anatomy(&harness).q(),
+        crate::configuration::AnyConfiguration::T2(crate::configuration::T2::new(elbow, tip))
+    );
+    assert!((anatomy(&harness).distance() - (1.5 / 2.0_f64.sqrt() - 1.0)).abs() < 1e-9, "the chapter's number");
+    click(&mut harness, "swept");
+    harness.run_steps(5);
+    assert_eq!(anatomy(&harness).step(), [-tip, 0.0]);
+}
+
+#[test]
+fn code_and_command_are_copied() {
+    let mut harness = on("distance");
+    let rust = press(&mut harness, "Copy as Rust").expect("code");
+    assert_eq!(rust, anatomy(&harness).copy_as_rust());
+    assert!(rust.contains("fn main") && rust.contains("0.0606601717"), "{rust}");
+    let command = press(&mut harness, "Copy as command").expect("a command");
+    assert_eq!(Some(command), anatomy(&harness).copy_as_command());
+}
+
+#[test]
+fn the_second_prompt_shows_its_scene_once_it_is_answered() {
+    let mut harness = on("intersects");
+    assert!(harness.query_by_label("Show").is_none());
+    harness.get_by_label_contains("How far from it is link 2 at").focus();
+    harness.run_steps(2);
+    harness.event(Event::Text("0.17043".into()));
+    harness.step();
+    harness.key_press(Key::Enter);
+    harness.run_steps(3);
+    harness.get_by_label_contains("Right: 0.170435 m. The nearest point is the square's corner");
+    click(&mut harness, "Show");
+    assert_eq!(anatomy(&harness).world().name, "Exercise 3");
+    says(&harness, "b* = (0.900, 0.900) at a corner of the square");
+}

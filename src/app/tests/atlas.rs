@@ -1,0 +1,170 @@
+//! The atlas and its editor, behaviour by behaviour.
+
+use bevy::window::FileDragAndDrop;
+
+use super::*;
+use crate::configuration::Configuration;
+use crate::ui::AtlasState;
+
+fn atlas(harness: &Harness<'_, Lab>) -> AtlasState {
+    harness.state().app.world().resource::<Interface>().0.atlas.clone()
+}
+
+/// Where a point of the atlas's world is on the screen.
+fn at(harness: &Harness<'_, Lab>, [x, y]: [f64; 2]) -> Pos2 {
+    let world = atlas(harness).world().clone();
+    let paper = harness.get_by_label_contains(&format!("World {}", world.name)).rect();
+    let fit = crate::ui::canvas::fit(&crate::picture::world(&world), paper);
+    let [x, y] = fit.screen_from_world(crate::geometry::Point2::new(x, y));
+    pos2(x as f32, y as f32)
+}
+
+/// Drags on the atlas's paper from one point of its world to another.
+fn drag_on(harness: &mut Harness<'_, Lab>, from: [f64; 2], to: [f64; 2]) {
+    let (from, to) = (at(harness, from), at(harness, to));
+    pointer(harness, from, Some(true));
+    for i in 1..=6 {
+        pointer(harness, from.lerp(to, i as f32 / 6.0), None);
+    }
+    pointer(harness, to, Some(false));
+    harness.run_steps(3);
+}
+
+#[test]
+fn the_editor_draws_with_the_mouse_undoes_by_key_and_saves_the_same_bytes() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("bench.ron");
+    let text = crate::worlds::World::workbench().to_ron();
+    std::fs::write(&path, format!("// the bench\n{text}")).unwrap();
+    let mut harness = lab(WIDE);
+    let opened = crate::app::files::open_world(harness.state_mut().app.world_mut(), &path);
+    assert!(!opened.is_error, "{opened:?}");
+    harness.run_steps(3);
+    click(&mut harness, "Edit");
+    harness.get_by_label("Saving drops the one comment of bench.ron: worlds are saved in canonical form.");
+    let saved = crate::app::files::save_world(harness.state_mut().app.world_mut(), &path);
+    assert!(!saved.is_error && std::fs::read_to_string(&path).unwrap() == text);
+    harness.run_steps(2);
+    assert!(harness.query_by_label_contains("Saving drops").is_none());
+    // opened and saved again: the same bytes
+    crate::app::files::open_world(harness.state_mut().app.world_mut(), &path);
+    crate::app::files::save_world(harness.state_mut().app.world_mut(), &path);
+    assert_eq!(std::fs::read_to_string(&path).unwrap(), text);
+    harness.run_steps(2);
+    // a mark is added in the middle, moved by its line, and given a corner
+    click(&mut harness, "Add mark");
+    drag_on(&mut harness, [0.2, 0.0], [0.2, -0.5]);
+    drag_on(&mut harness, [0.0, -0.5], [0.0, -0.8]);
+    drag_on(&mut harness, [0.5, -0.5], [0.9, -0.5]);
+    let points = |h: &Harness<'_, Lab>| {
+        let mark = atlas(h).world().marks.iter().find(|m| m.name == "mark").cloned().expect("the mark");
+        mark.points.iter().map(|p| [p.x, p.y].map(|c| (c * 1e6).round() / 1e6)).collect::<Vec<_>>()
+    };
+    assert_eq!(points(&harness), [[-0.5, -0.5], [0.0, -0.8], [0.9, -0.5]]);
+    harness.key_press_modifiers(Modifiers::COMMAND, Key::Z);
+    harness.run_steps(3);
+    assert_eq!(points(&harness), [[-0.5, -0.5], [0.0, -0.8], [0.5, -0.5]], "the key undoes the edit");
+    assert_eq!(harness.state().app.world().resource::<RunConfig>().0.worlds.len(), 3, "and nothing of the run");
+    // a place is turned by its second handle, to a whole step
+    click(&mut harness, "Add place");
+    let place = atlas(&harness).world().places.last().unwrap().clone();
+    let ahead = place.pose.x + 0.05 * 4.8;
+    drag_on(&mut harness, [ahead, place.pose.y], [place.pose.x + 0.02, place.pose.y + 0.6]);
+    let turned = atlas(&harness).world().places.last().unwrap().pose;
+    assert!((turned.theta - std::f64::consts::FRAC_PI_2).abs() < 1e-9 && turned.x == place.pose.x, "{turned:?}");
+}
+
+#[test]
+fn a_drag_turns_the_robot_and_the_offer_is_taken_by_a_click() {
+    let mut harness = lab(WIDE);
+    click(&mut harness, "Atlas");
+    let q = |h: &Harness<'_, Lab>| atlas(h).atlas().robots()[0].q.coordinates();
+    drag_on(&mut harness, [6.0, 4.0], [6.0, 4.8]);
+    assert!((q(&harness)[2] - std::f64::consts::FRAC_PI_2).abs() < 0.05, "{:?}", q(&harness));
+    // on the round table it is refused; the ring of the offer is at the nearest free place
+    let on_table = at(&harness, [6.0, 6.75]);
+    click_at(&mut harness, on_table);
+    let before = q(&harness);
+    let items = atlas(&harness).over().items;
+    let ring = items.iter().find(|i| i.id == "offer/handle").expect("an offer");
+    let crate::picture::Drawing::Mark { at: ring, .. } = ring.drawing else { panic!("a mark") };
+    let ring = at(&harness, [ring.x, ring.y]);
+    click_at(&mut harness, ring);
+    assert!(q(&harness) != before && atlas(&harness).refusal().is_none(), "{:?}", q(&harness));
+}
+
+#[test]
+fn names_come_on_demand_and_the_grid_at_any_resolution() {
+    let mut harness = lab(WIDE);
+    click(&mut harness, "Atlas");
+    let scale = 60.0;
+    assert!(atlas(&harness).labels(scale).iter().any(|i| i.name == "B's round table"));
+    click(&mut harness, "names of everything");
+    assert!(harness.state().app.world().resource::<Interface>().0.settings.labels);
+    click(&mut harness, "Measure");
+    let slider = harness.get_by_role_and_label(egui::accesskit::Role::Slider, "cell size in metres").rect();
+    let before = atlas(&harness).resolution;
+    click_at(&mut harness, slider.left_center() + egui::vec2(90.0, 0.0));
+    let after = atlas(&harness).resolution;
+    assert!(after > before && after <= 1.0, "{before} {after}");
+    // pointing shows both distances
+    let somewhere = at(&harness, [6.0, 4.0]);
+    pointer(&mut harness, somewhere, None);
+    harness.run_steps(2);
+    let probe = atlas(&harness).probe_items(Some(crate::geometry::Point2::new(6.0, 4.0)));
+    let words = probe.iter().find(|i| i.id == "probe/words").expect("words");
+    let scene = crate::collision::Scene::of_world(atlas(&harness).world());
+    let point = crate::geometry::Footprint::disc(crate::geometry::Point2::new(6.0, 4.0), 0.0);
+    let exact = crate::collision::Collision::distance(&scene, &point);
+    assert!(words.name.starts_with(&format!("exact {exact:.3} m, by the grid ")), "{}", words.name);
+}
+
+#[test]
+fn a_thing_is_renamed_and_a_name_that_is_taken_is_refused_in_place() {
+    let mut harness = lab(WIDE);
+    click(&mut harness, "Atlas");
+    click(&mut harness, "Edit");
+    let table = at(&harness, [6.0, 6.75]);
+    click_at(&mut harness, table);
+    assert_eq!(atlas(&harness).selected.as_deref(), Some("B's round table"));
+    let rename = |harness: &mut Harness<'_, Lab>, to: &str| {
+        harness.state_mut().app.world_mut().resource_mut::<Interface>().0.atlas.name_text.clear();
+        harness.run_steps(2);
+        harness.get_by_role_and_label(egui::accesskit::Role::TextInput, "name").focus();
+        harness.run_steps(2);
+        harness.event(Event::Text(to.into()));
+        harness.step();
+        harness.key_press(Key::Enter);
+        harness.run_steps(3);
+    };
+    rename(&mut harness, "the hearth");
+    assert!(atlas(&harness).world().obstacle("the hearth").is_some());
+    assert_eq!(atlas(&harness).selected.as_deref(), Some("the hearth"));
+    rename(&mut harness, "A's bed");
+    harness.get_by_label_contains("the name is taken");
+    assert!(atlas(&harness).world().obstacle("the hearth").is_some());
+}
+
+#[test]
+fn a_world_dropped_on_the_window_is_opened_in_the_atlas() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("mine.ron");
+    std::fs::write(&path, crate::worlds::World::lot().to_ron()).unwrap();
+    let mut harness = lab(WIDE);
+    let drop_file = |harness: &mut Harness<'_, Lab>, path: &std::path::Path| {
+        let world = harness.state_mut().app.world_mut();
+        world.init_resource::<crate::app::dialogs::Dialogs>();
+        world.init_resource::<Messages<FileDragAndDrop>>();
+        world.write_message(FileDragAndDrop::DroppedFile { window: Entity::PLACEHOLDER, path_buf: path.to_owned() });
+        crate::app::dialogs::dropped(world);
+        harness.run_steps(3);
+    };
+    drop_file(&mut harness, &path);
+    harness.get_by_label("mine.ron: opened");
+    harness.get_by_label_contains("World Lot");
+    assert!(atlas(&harness).is_saved());
+    std::fs::write(&path, "World(version: 1, name: \"\")").unwrap();
+    drop_file(&mut harness, &path);
+    harness.get_by_label_contains("mine.ron: not opened: mine.ron:1:");
+    assert_eq!(atlas(&harness).world().name, "Lot", "the present one stays");
+}
