@@ -63,8 +63,7 @@ pub fn rows(table: &mut Table) {
     table.row("of it the schedule: a tick without a robot", "", || {
         let mut world = World::workbench();
         world.robots.clear();
-        let mut config = TourConfig::default();
-        config.worlds = vec![world];
+        let config = TourConfig { worlds: vec![world], ..TourConfig::default() };
         let mut recorder = Recorder::new(config, BOOK_SEED).expect("it runs without robots");
         race(vec![Contender::new("", |_| recorder.step().tick)])
     });
