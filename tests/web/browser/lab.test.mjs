@@ -408,7 +408,7 @@ test("without WebGL 2 the page says so and shows its pictures", { timeout: 60000
   const bare = await newBrowser(["--disable-3d-apis"]);
   const lab = await Lab.open(`${origin()}/`, { wait: false, from: bare });
   await lab.page.waitForFunction(() => /WebGL 2/.test(document.getElementById("alert").textContent));
-  assert.ok(await lab.page.locator("#still figure img").first().isVisible());
+  await lab.page.locator("#still figure img").first().waitFor({ state: "visible", timeout: 10000 });
   await lab.shot("without-webgl");
   await lab.close();
   await bare.close();
