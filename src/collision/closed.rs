@@ -2,7 +2,7 @@
 
 use super::disc_line::DiscLine;
 use super::extent::Extent;
-use super::march::{BRACKET, first_step, march_on, step_clearance};
+use super::march::{BRACKET, all_free, at_once, march_on, step_clearance};
 use super::vicinity::Vicinity;
 use super::{Certificate, Collision, EdgeVerdict, MarchOptions, ObstacleId, ProvenStep, Scene, Witness};
 use crate::geometry::{CircularArc, Footprint, Point2, Segment};
@@ -52,8 +52,8 @@ fn march_nearby<M: Motion>(
     certificate: Option<&mut Certificate>,
     start: Footprint,
 ) -> EdgeVerdict {
-    if let Some(step) = first_step(scene, motion, options, &start) {
-        return step.of_all(options.margin, certificate);
+    if let Some(clearance) = at_once(scene, motion, options, &start) {
+        return all_free(clearance, options.margin, certificate);
     }
     let distance = scene.distance(&start);
     let from = (start, distance);

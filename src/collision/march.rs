@@ -62,57 +62,41 @@ pub fn march<M: Motion>(
     certificate: Option<&mut Certificate>,
 ) -> EdgeVerdict {
     let start = motion.footprint_at(0.0);
-    match first_step(collision, motion, options, &start) {
-        Some(step) => step.of_all(options.margin, certificate),
-        None => {
-            let distance = collision.distance(&start);
-            march_on(collision, motion, options, certificate, (start, distance), false)
-        }
+    if let Some(clearance) = at_once(collision, motion, options, &start) {
+        return all_free(clearance, options.margin, certificate);
     }
+    let distance = collision.distance(&start);
+    march_on(collision, motion, options, certificate, (start, distance), false)
 }
 
-/// The step that proves all of the motion free, which for most motions there is.
-pub(crate) fn first_step<M: Motion>(
+/// The clearance of a motion that one step proves free, as these options ask for it.
+pub(super) fn at_once<M: Motion>(
     collision: &dyn Collision,
     motion: &M,
     options: MarchOptions,
     start: &Footprint,
-) -> Option<ProvenStep> {
-    let ends = ((0.0, start), (1.0, &motion.footprint_at(1.0)));
-    let clearance = if options.budget > 0 { step_clearance(collision, motion, ends.0, ends.1) } else { 0.0 };
-    (clearance > options.margin).then_some(ProvenStep { from: 0.0, to: 1.0, clearance })
+) -> Option<f64> {
+    let clearance = if options.budget > 0 { clearance_of_all(collision, motion, start) } else { 0.0 };
+    (clearance > options.margin).then_some(clearance)
 }
 
-impl ProvenStep {
-    /// The verdict, where this step is from 0 to 1.
-    pub(super) fn of_all(self, margin: f64, certificate: Option<&mut Certificate>) -> EdgeVerdict {
-        if let Some(c) = certificate {
-            c.clear(margin);
-            c.push(self);
-        }
-        EdgeVerdict::Free { clearance: self.clearance }
+/// The clearance that one step proves of all of the motion, metres; not above 0 where it proves nothing. Most motions are proven so.
+pub(crate) fn clearance_of_all<M: Motion>(collision: &dyn Collision, motion: &M, start: &Footprint) -> f64 {
+    step_clearance(collision, motion, (0.0, start), (1.0, &motion.footprint_at(1.0)))
+}
+
+/// The verdict on a motion that one step proves to keep this clearance, above the margin.
+pub(super) fn all_free(clearance: f64, margin: f64, certificate: Option<&mut Certificate>) -> EdgeVerdict {
+    if let Some(c) = certificate {
+        c.clear(margin);
+        c.push(ProvenStep { from: 0.0, to: 1.0, clearance });
     }
+    EdgeVerdict::Free { clearance }
 }
 
-/// As [`march`], given the footprint at the start and its distance.
-pub(crate) fn march_from<M: Motion>(
-    collision: &dyn Collision,
-    motion: &M,
-    options: MarchOptions,
-    certificate: Option<&mut Certificate>,
-    (start, start_distance): (Footprint, f64),
-) -> EdgeVerdict {
-    if start_distance - options.margin > 0.0
-        && let Some(step) = first_step(collision, motion, options, &start)
-    {
-        return step.of_all(options.margin, certificate);
-    }
-    march_on(collision, motion, options, certificate, (start, start_distance), false)
-}
-
-/// As [`march_from`], of a motion that one step does not prove free. A contact that comes in sight may be pinched instead of marched at: the
+/// As [`march`], of a motion that one step does not prove free, given the footprint at its start and its distance. A contact that comes in sight may be pinched instead of marched at: the
 /// verdict then says the same in other brackets, which what has been recorded does not allow.
-pub(super) fn march_on<M: Motion>(
+pub(crate) fn march_on<M: Motion>(
     collision: &dyn Collision,
     motion: &M,
     options: MarchOptions,

@@ -38,7 +38,7 @@ pub use checker::{CarChecker, ChainChecker, Checker, DiscChecker};
 pub use counted::{Counted, QueryCounts};
 pub use edge::{EdgeVerdict, MarchOptions, UnresolvedReason};
 pub use march::{BRACKET, march};
-pub(crate) use march::{first_step, march_from};
+pub(crate) use march::{clearance_of_all, march_on};
 pub use problem::{Problem, ProblemError};
 pub use rectangles::Rectangles;
 pub use scene::Scene;

@@ -1,6 +1,6 @@
 //! Holding: how far a tick's motion may go before it would touch something.
 
-use crate::collision::{Collision, EdgeVerdict, MarchOptions, first_step, march_from};
+use crate::collision::{Collision, EdgeVerdict, MarchOptions, clearance_of_all, march_on};
 use crate::num::{greater, lesser};
 use crate::robots::Motion;
 
@@ -50,8 +50,8 @@ pub fn margin_from(start: f64) -> f64 {
 pub fn advance(surroundings: &dyn Collision, motion: &impl Motion) -> Advance {
     let start = motion.footprint_at(0.0);
     // Most motions keep well away from everything. One step that proves so proves it of the start too, whose clearance need not be known then.
-    let well_away = MarchOptions { margin: MARGIN + 2.0 * WEAR, ..MarchOptions::default() };
-    if first_step(surroundings, motion, well_away, &start).is_some() {
+    let all = clearance_of_all(surroundings, motion, &start);
+    if all > MARGIN + 2.0 * WEAR {
         return Advance { until: 1.0, blocked: false };
     }
     let clearance_at = |s: f64| surroundings.distance(&motion.footprint_at(s));
@@ -60,7 +60,10 @@ pub fn advance(surroundings: &dyn Collision, motion: &impl Motion) -> Advance {
         return Advance { until: 0.0, blocked: true };
     }
     let options = MarchOptions { margin: margin_from(start_clearance), ..MarchOptions::default() };
-    let free_until = match march_from(surroundings, motion, options, None, (start, start_clearance)) {
+    if all > options.margin {
+        return Advance { until: 1.0, blocked: false };
+    }
+    let free_until = match march_on(surroundings, motion, options, None, (start, start_clearance), false) {
         EdgeVerdict::Free { .. } => return Advance { until: 1.0, blocked: false },
         EdgeVerdict::Hit { free_until, .. } | EdgeVerdict::Unresolved { free_until, .. } => free_until,
     };

@@ -9,7 +9,7 @@ use super::sweep::{CutMotion, sweeps_meet};
 use super::{
     Configuration, Contacts, Cut, DriveMode, ResidesIn, RobotId, RobotModel, SimulatedRobot, TickMotion, WorldScene,
 };
-use crate::collision::{Collision, MarchOptions, Surroundings, first_step, march};
+use crate::collision::{Collision, MarchOptions, Surroundings, clearance_of_all, march_on};
 use crate::configuration::Configuration as _;
 use crate::robots::Motion;
 
@@ -46,10 +46,13 @@ pub(super) fn cut<R: SimulatedRobot>(
 /// Whether all of a motion is proven free. Where one of its ends is in contact it is not, and need not be marched to find out where it hits.
 fn is_free(surroundings: &Surroundings, motion: &impl Motion) -> bool {
     let (start, options) = (motion.footprint_at(0.0), MarchOptions::default());
-    first_step(surroundings, motion, options, &start).is_some()
-        || (!surroundings.intersects(&motion.footprint_at(1.0))
-            && !surroundings.intersects(&start)
-            && march(surroundings, motion, options, None).is_free())
+    if clearance_of_all(surroundings, motion, &start) > options.margin {
+        return true;
+    }
+    let distance = surroundings.distance(&start);
+    distance > 0.0
+        && !surroundings.intersects(&motion.footprint_at(1.0))
+        && march_on(surroundings, motion, options, None, (start, distance), false).is_free()
 }
 
 /// What [`settle`] reads and writes of a robot.
