@@ -36,7 +36,7 @@ use crate::ui::{self, SessionCommand, Theme};
 #[cfg(all(target_family = "wasm", feature = "web"))]
 pub(crate) use captured::captured;
 #[cfg(all(target_family = "wasm", feature = "web"))]
-pub(crate) use runs::{open_log, open_world_text, recorded, shown_run};
+pub(crate) use runs::{log_up_to, open_log, open_world_text, recorded, shown_run};
 use session::carry_out;
 #[cfg(all(target_family = "wasm", feature = "web"))]
 pub(crate) use session::new_run;

@@ -20,14 +20,19 @@ pub fn shown_run(world: &World, ticks: u64) -> (TourConfig, Script) {
     (config, script)
 }
 
+/// The run up to `ticks`, recorded.
+pub fn log_up_to(world: &World, ticks: u64) -> Result<Log, String> {
+    let (config, script) = shown_run(world, ticks);
+    Run::record(config, (world.resource::<Transport>().seed, script)).map_err(|e| e.to_string())
+}
+
 /// The run as far as it has come, recorded from seed, configuration and script, and its log's bytes.
 pub fn recorded(world: &World) -> Result<(Log, Vec<u8>), String> {
-    let Transport { seed, frontier, .. } = *world.resource::<Transport>();
+    let Transport { frontier, .. } = *world.resource::<Transport>();
     if frontier == 0 {
         return Err("nothing has been run yet; press Play first".into());
     }
-    let (config, script) = shown_run(world, frontier);
-    let log = Run::record(config, (seed, script)).map_err(|e| e.to_string())?;
+    let log = log_up_to(world, frontier)?;
     let mut bytes = Vec::new();
     log.write_mcap(&mut bytes).map_err(|e| e.to_string())?;
     Ok((log, bytes))

@@ -9,12 +9,11 @@ use crate::atlas::Atlas;
 use crate::configuration::{Coordinates, HitchCfg};
 use crate::geometry::{Footprint, Pose2, Segment};
 use crate::picture::{Picture, world as picture_of};
-use crate::random::Seed;
 use crate::robots::{HITCH, Robot};
 use crate::run::{Event, RobotInput};
 use crate::simulation::{
-    History, HistoryPlugin, LatestFrame, PendingInput, Playback, RobotView, Roster, RunConfig, SimulationPlugin,
-    Transport, TransportCommand, Undo, WorldScene, obey, start_run, view,
+    History, HistoryPlugin, LatestFrame, PendingInput, Playback, RobotView, Roster, RunConfig, RunInput,
+    SimulationPlugin, Transport, TransportCommand, Undo, WorldScene, obey, start_run, view,
 };
 use crate::tour::{BOOK_SEED, TourConfig};
 use crate::ui::{Cockpit, CockpitRobot, Command, Dashboard, Notice, SessionCommand, UiState, blend};
@@ -212,10 +211,10 @@ fn change_links(world: &mut World, robot: &str, links: usize) -> Result<(), Stri
 }
 
 /// A new run in place of the present one, which an undo brings back; playback, speed and loop stay.
-pub fn new_run(world: &mut World, config: TourConfig, seed: Seed) -> Result<(), String> {
+pub fn new_run(world: &mut World, config: TourConfig, input: impl Into<RunInput>) -> Result<(), String> {
     obey(world, TransportCommand::Checkpoint)?;
     let Transport { playback, speed, .. } = *world.resource::<Transport>();
-    start_run(world, config, seed).map_err(|e| e.to_string())?;
+    start_run(world, config, input).map_err(|e| e.to_string())?;
     let mut transport = world.resource_mut::<Transport>();
     (transport.playback, transport.speed) = (playback, speed);
     Ok(())

@@ -1,4 +1,4 @@
-//! What people see and touch. Colours are known to [`Theme`] alone; what needs a window stands behind the feature `window`.
+//! What people see and touch. Colours are known to [`Theme`] alone; what needs a screen stands behind the feature `screen`.
 
 #[cfg(feature = "screen")]
 mod anatomy_view;

@@ -82,11 +82,11 @@ pub fn tools(
     commands: &mut Vec<Command>,
 ) {
     let theme = format!("{} theme", state.settings.theme.name());
-    let mut buttons = vec![(theme.as_str(), Action::Theme, true, false), ("Keys", Action::Help, true, state.help)];
-    // the web has no files to write to
-    if cfg!(not(target_family = "wasm")) {
-        buttons.push(("Capture", Action::Capture, true, state.capture.open));
-    }
+    let mut buttons = vec![
+        (theme.as_str(), Action::Theme, true, false),
+        ("Keys", Action::Help, true, state.help),
+        ("Capture", Action::Capture, true, state.capture.open),
+    ];
     // what is done to the run stands where the run is shown
     if state.widget == 0 {
         buttons.extend([

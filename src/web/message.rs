@@ -1,4 +1,4 @@
-//! `Message`, what a page asks of the lab. README's page on the web lists them for who embeds it.
+//! `Message`, what a page asks of the lab. README names this file to who embeds the lab.
 
 use serde::Deserialize;
 

@@ -12,8 +12,20 @@ pub mod mirror;
 mod runs;
 
 #[cfg(all(target_family = "wasm", feature = "web"))]
+mod controls;
+#[cfg(all(target_family = "wasm", feature = "web"))]
+mod downloads;
+#[cfg(all(target_family = "wasm", feature = "web"))]
+mod inbox;
+#[cfg(all(target_family = "wasm", feature = "web"))]
 mod lab;
 #[cfg(all(target_family = "wasm", feature = "web"))]
+mod listener;
+#[cfg(all(target_family = "wasm", feature = "web"))]
 mod message;
+#[cfg(all(target_family = "wasm", feature = "web"))]
+mod report;
+#[cfg(all(target_family = "wasm", feature = "web"))]
+mod run_link;
 
 pub use link::{LINK_VERSION, Link, LinkError, MAX_LINK, MAX_LINK_TICK};

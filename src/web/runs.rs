@@ -7,13 +7,13 @@ use super::link::Link;
 use crate::random::Seed;
 use crate::recording::{Recorder, Run};
 use crate::run::{Log, Script, first_divergence};
-use crate::tour::TourConfig;
+use crate::tour::{SensorConfig, TourConfig};
 use crate::ui::{RunFigure, Theme};
 use crate::worlds::World;
 
 /// The parts that a run is made of, all of them text: what a page keeps so that it can record the run again when the lab itself has
 /// stopped.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct RunParts {
     /// The seed, in decimal.
     pub seed: String,
@@ -21,17 +21,33 @@ pub struct RunParts {
     pub worlds: Vec<String>,
     /// The input script.
     pub script: String,
-    /// How many ticks.
+    /// How many ticks; input after them is left out.
     pub ticks: u64,
+    /// The rays and the range of the range sensor, metres.
+    pub sensor: Option<(u32, f64)>,
 }
 
 impl RunParts {
+    /// The parts of a run of no ticks yet.
+    #[cfg(feature = "web")]
+    pub fn of(config: &TourConfig, seed: Seed, script: &Script) -> Self {
+        RunParts {
+            seed: seed.to_string(),
+            worlds: config.worlds.iter().map(World::to_ron).collect(),
+            script: script.to_ron(),
+            ticks: 0,
+            sensor: config.sensor.map(|s| (s.n_rays, s.max_range)),
+        }
+    }
+
     fn log(&self) -> Result<Log, String> {
         let seed = self.seed.parse().map_err(|_| format!("{}: not a seed", self.seed))?;
         let parse = |text: &String| World::parse("the world", text).map_err(|e| e.to_string());
         let worlds = self.worlds.iter().map(parse).collect::<Result<_, _>>()?;
-        let script = Script::parse("the script", &self.script).map_err(|e| e.to_string())?;
-        let config = TourConfig { worlds, ticks: self.ticks, ..TourConfig::default() };
+        let mut script = Script::parse("the script", &self.script).map_err(|e| e.to_string())?;
+        script.events.retain(|e| e.tick <= self.ticks);
+        let sensor = self.sensor.map(|(n_rays, max_range)| SensorConfig { n_rays, max_range });
+        let config = TourConfig { worlds, ticks: self.ticks, sensor };
         Run::record(config, (Seed(seed), script)).map_err(|e| e.to_string())
     }
 }
@@ -62,7 +78,7 @@ fn error(text: impl ToString) -> JsError {
     JsError::new(&text.to_string())
 }
 
-/// The bytes of the log of a run from its parts, as JSON: `{ "seed", "worlds", "script", "ticks" }`.
+/// The bytes of the log of a run from its parts, as JSON: `{ "seed", "worlds", "script", "ticks", "sensor" }`.
 ///
 /// # Errors
 /// The reason, when a part is refused.

@@ -1,0 +1,160 @@
+//! What the page asks of the lab, done.
+
+use std::collections::VecDeque;
+
+use bevy::prelude::*;
+use bevy_egui::egui::accesskit::{self, ActionData, ActionRequest, NodeId, TreeId};
+use bevy_egui::{EguiInput, egui};
+use serde_json::json;
+
+use super::MAX_LINK_TICK;
+use super::inbox::{Incoming, take_all, wake};
+use super::listener::tell;
+use super::message::{Action, Message};
+use super::run_link::link_of;
+use crate::app::{Interface, open_log, open_world_text};
+use crate::picture::Role;
+use crate::random::Seed;
+use crate::simulation::{TransportCommand, obey};
+use crate::ui::{Notice, SessionCommand, Theme, ThemeChoice, UiState, number_of};
+
+/// Events of egui that wait for their frame: a field must have the focus before it takes letters.
+#[derive(Resource, Default)]
+pub struct Staged(VecDeque<Vec<egui::Event>>);
+
+/// Does what has come in.
+pub fn receive(world: &mut World) {
+    for incoming in take_all() {
+        let done = match incoming {
+            Incoming::File { name, bytes } => {
+                let notice = open(world, &name, &bytes);
+                world.resource_mut::<Interface>().0.notice = Some(notice);
+                Ok(())
+            }
+            Incoming::Message(message) => take(world, message),
+        };
+        if let Err(text) = done {
+            world.resource_mut::<Interface>().0.notice = Some(Notice { text, is_error: true });
+        }
+    }
+    let events = world.resource_mut::<Staged>().0.pop_front().unwrap_or_default();
+    let mut inputs = world.query::<&mut EguiInput>();
+    for mut input in inputs.iter_mut(world) {
+        // while a twin in the page has the focus, the canvas does not; egui would let its fields rest
+        input.focused = true;
+        input.events.extend(events.iter().cloned());
+    }
+    if !world.resource::<Staged>().0.is_empty() {
+        wake();
+    }
+}
+
+fn open(world: &mut World, name: &str, bytes: &[u8]) -> Notice {
+    let refused = |error: String| Notice { text: format!("{name}: not opened: {error}"), is_error: true };
+    if name.ends_with(".ron") {
+        return match std::str::from_utf8(bytes) {
+            Ok(text) => open_world_text(world, name, text),
+            Err(_) => refused("it is not text".into()),
+        };
+    }
+    open_log(world, name, bytes).unwrap_or_else(refused)
+}
+
+fn take(world: &mut World, message: Message) -> Result<(), String> {
+    let transport = |world: &mut World, command| obey(world, command).map(|_| ());
+    let ui = |world: &mut World, change: &dyn Fn(&mut UiState)| {
+        change(&mut world.resource_mut::<Interface>().into_inner().0);
+        Ok(())
+    };
+    match message {
+        Message::Act { id, action, value } => act(world, &id, action, value),
+        Message::Key { key, pressed, shift } => {
+            let name = if key == " " { "Space" } else { &key };
+            let key = egui::Key::from_name(name).ok_or_else(|| format!("{name} is no key"))?;
+            let modifiers = if shift { egui::Modifiers::SHIFT } else { egui::Modifiers::NONE };
+            let event = egui::Event::Key { key, physical_key: None, pressed, repeat: false, modifiers };
+            world.resource_mut::<Staged>().0.push_back(vec![event]);
+            Ok(())
+        }
+        Message::Paste { text } => {
+            world.resource_mut::<Staged>().0.push_back(vec![egui::Event::Paste(text)]);
+            Ok(())
+        }
+        Message::Light { role } => {
+            let role = role.and_then(|name| Role::ALL.into_iter().find(|r| r.name() == name));
+            ui(world, &|ui| ui.page_lit = role)
+        }
+        Message::Play => transport(world, TransportCommand::Play),
+        Message::Pause => transport(world, TransportCommand::Pause),
+        Message::Step => transport(world, TransportCommand::Step),
+        Message::StepBack => transport(world, TransportCommand::StepBack),
+        Message::Seek { tick } if tick > MAX_LINK_TICK => Err(format!("tick {tick}: at most {MAX_LINK_TICK}")),
+        Message::Seek { tick } => transport(world, TransportCommand::Seek(tick)),
+        Message::Reset => transport(world, TransportCommand::Reset),
+        Message::Reroll => transport(world, TransportCommand::ReRoll),
+        Message::Seed { seed } => {
+            let seed = seed.parse().map_err(|_| format!("{seed}: not a seed"))?;
+            transport(world, TransportCommand::SetSeed(Seed(seed)))
+        }
+        Message::Widget { id } => {
+            let number = number_of(&id).ok_or_else(|| format!("{id} is no widget"))?;
+            if number != 0 {
+                transport(world, TransportCommand::Pause)?;
+            }
+            ui(world, &|ui| ui.widget = number)
+        }
+        Message::Theme { name } => {
+            let choice = ThemeChoice::ALL.into_iter().find(|t| t.name().eq_ignore_ascii_case(&name));
+            let choice = choice.ok_or_else(|| format!("{name} is no theme"))?;
+            ui(world, &|ui| ui.settings.theme = choice)
+        }
+        Message::System { dark, reduced_motion } => ui(world, &|ui| {
+            ui.system_theme = if dark { Theme::Dark } else { Theme::Light };
+            ui.settings.reduced_motion |= reduced_motion;
+        }),
+        Message::Link => {
+            let said = link_of(world).and_then(|l| l.query().map_err(|e| e.to_string()).map(|q| (q, l.digest)));
+            tell(&match said {
+                Ok((query, digest)) => json!({ "kind": "link", "query": query, "digest": digest }),
+                Err(error) => json!({ "kind": "link", "error": error }),
+            });
+            Ok(())
+        }
+        Message::Save => {
+            world.write_message(SessionCommand::Save);
+            Ok(())
+        }
+        Message::Visible { .. } => Ok(()),
+        // it is asked for, to see what the page does then
+        Message::Fail => panic!("a page asked the lab to fail"),
+    }
+}
+
+/// Does something with a widget, as assistive technology asks for it.
+fn act(world: &mut World, id: &str, action: Action, value: Option<String>) -> Result<(), String> {
+    let target_node = NodeId::from(id.parse::<u64>().map_err(|_| format!("{id} is no widget of the canvas"))?);
+    let request = |action, data| {
+        egui::Event::AccessKitActionRequest(ActionRequest { action, target_tree: TreeId::ROOT, target_node, data })
+    };
+    let staged = &mut world.resource_mut::<Staged>().0;
+    match (action, value) {
+        (Action::Click, _) => staged.push_back(vec![request(accesskit::Action::Click, None)]),
+        (Action::Focus, _) => staged.push_back(vec![request(accesskit::Action::Focus, None)]),
+        (Action::Set, Some(value)) => match value.parse::<f64>().ok().filter(|v| v.is_finite()) {
+            Some(number) => {
+                let data = Some(ActionData::NumericValue(number));
+                staged.push_back(vec![request(accesskit::Action::SetValue, data)]);
+            }
+            None => return Err(format!("{value}: not a number")),
+        },
+        (Action::Type, Some(value)) => {
+            let key =
+                |key, modifiers| egui::Event::Key { key, physical_key: None, pressed: true, repeat: false, modifiers };
+            staged.push_back(vec![request(accesskit::Action::Focus, None)]);
+            staged.push_back(vec![key(egui::Key::A, egui::Modifiers::COMMAND), egui::Event::Text(value)]);
+            staged.push_back(vec![key(egui::Key::Enter, egui::Modifiers::NONE)]);
+        }
+        (Action::Set | Action::Type, None) => return Err("there is nothing to set it to".into()),
+    }
+    Ok(())
+}

@@ -1,0 +1,63 @@
+//! Downloads: what the lab would save by a dialog, given to the page.
+
+use bevy::prelude::*;
+use serde_json::json;
+
+use super::listener::{tell, tell_with};
+use crate::app::{Interface, captured, recorded, shown_run};
+use crate::capture::{Form, Paper};
+use crate::run::Log;
+use crate::simulation::Transport;
+use crate::ui::{CaptureOrder, Notice, SessionCommand, widgets};
+
+/// Gives the page what the lab would ask a dialog for.
+pub fn files(world: &mut World) {
+    let asked: Vec<SessionCommand> = world.resource_mut::<Messages<SessionCommand>>().drain().collect();
+    for command in asked {
+        let notice = match command {
+            SessionCommand::Save => recorded(world).map(|(log, bytes)| {
+                tell_with(&json!({ "kind": "file", "name": "run.mcap" }), Some(&bytes));
+                saved(&log)
+            }),
+            SessionCommand::SaveWorld => {
+                let atlas = &mut world.resource_mut::<Interface>().into_inner().0.atlas;
+                tell_with(&json!({ "kind": "file", "name": "world.ron" }), Some(atlas.text().as_bytes()));
+                atlas.mark_saved(std::path::Path::new("world.ron"));
+                Ok("world.ron: saved".into())
+            }
+            SessionCommand::Open => {
+                tell(&json!({ "kind": "ask", "accept": ".mcap" }));
+                continue;
+            }
+            SessionCommand::OpenWorld => {
+                tell(&json!({ "kind": "ask", "accept": ".ron" }));
+                continue;
+            }
+            SessionCommand::Capture(order) => picture(world, &order),
+            SessionCommand::RunWorld | SessionCommand::Links { .. } => continue,
+        };
+        let notice = match notice {
+            Ok(text) => Notice { text, is_error: false },
+            Err(error) => Notice { text: format!("not saved: {error}"), is_error: true },
+        };
+        world.resource_mut::<Interface>().0.notice = Some(notice);
+    }
+}
+
+/// Gives the page a picture of the widget in front.
+fn picture(world: &World, order: &CaptureOrder) -> Result<String, String> {
+    let Transport { seed, tick, frontier, .. } = *world.resource::<Transport>();
+    let (config, script) = shown_run(world, frontier);
+    let ui = &world.resource::<Interface>().0;
+    let paper = Paper { palette: ui.theme().palette(), width: order.width, scale: 1.0 };
+    let figure = captured(ui, (config, seed, script), tick, paper.width_px()).map_err(|e| e.to_string())?;
+    let name = format!("{}.svg", widgets().get(ui.widget).map_or("picture", |w| &w.id));
+    tell_with(&json!({ "kind": "file", "name": name }), Some(figure.svg(&paper).as_bytes()));
+    let also =
+        if order.form == Form::Svg { "" } else { "; pixels and moving pictures are made by `motion-lab capture`" };
+    Ok(format!("{name}: saved{also}"))
+}
+
+fn saved(log: &Log) -> String {
+    format!("run.mcap: saved, {} ticks, digest {}", log.frames.len(), log.digest())
+}

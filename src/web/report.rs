@@ -1,0 +1,116 @@
+//! The report: how things stand in the lab, told to the page.
+
+use std::sync::Arc;
+
+use bevy::prelude::*;
+use bevy_egui::{EguiContext, EguiOutput, egui};
+use serde_json::{Value, json};
+
+use super::listener::tell;
+use super::mirror::mirror;
+use super::runs::RunParts;
+use crate::app::{Interface, Shown};
+use crate::picture::Role;
+use crate::random::Seed;
+use crate::run::Script;
+use crate::simulation::{PendingInput, Playback, RunConfig, Transport};
+use crate::tour::TourConfig;
+use crate::ui::{Settings, Theme, widgets};
+
+/// What the listener was told last.
+#[derive(Resource, Default)]
+pub struct Told {
+    frames: u64,
+    state: Value,
+    settings: Option<Settings>,
+    tree: Value,
+    run: Option<(Arc<TourConfig>, Seed, Script)>,
+    /// When the last of these was told, seconds since the start.
+    at: f64,
+}
+
+/// Tells the page how things stand, at most ten times a second.
+pub fn report(world: &mut World) {
+    copied(world);
+    let now = world.resource::<Time<Real>>().elapsed_secs_f64();
+    let mut told = world.remove_resource::<Told>().unwrap_or_default();
+    told.frames += 1;
+    if told.frames == 1 {
+        let mut contexts = world.query::<&mut EguiContext>();
+        for mut context in contexts.iter_mut(world) {
+            context.get_mut().enable_accesskit();
+        }
+    }
+    if told.frames == 2 {
+        tell(&json!({ "kind": "ready" }));
+    }
+    let still = world.resource::<Transport>().playback == Playback::Paused;
+    if told.frames > 2 && (still || now - told.at >= 0.1) {
+        told.at = now;
+        let state = state(world);
+        if state != told.state {
+            tell(&state);
+            told.state = state;
+        }
+        let settings = &world.resource::<Interface>().0.settings;
+        if told.settings.as_ref() != Some(settings) {
+            tell(&json!({ "kind": "settings", "settings": settings }));
+            told.settings = Some(settings.clone());
+        }
+        if let Some(tree) = tree(world)
+            && tree != told.tree
+        {
+            tell(&tree);
+            told.tree = tree;
+        }
+        let (config, seed) = (&world.resource::<RunConfig>().0, world.resource::<Transport>().seed);
+        let script = world.resource::<PendingInput>().script();
+        // a new tick is no news: the page knows it from the state
+        if !told.run.as_ref().is_some_and(|(c, s, i)| Arc::ptr_eq(c, config) && *s == seed && i == script) {
+            tell(&json!({ "kind": "run", "parts": RunParts::of(config, seed, script) }));
+            told.run = Some((Arc::clone(config), seed, script.clone()));
+        }
+    }
+    world.insert_resource(told);
+}
+
+/// Gives the page what was copied: only a page may write to the clipboard.
+fn copied(world: &mut World) {
+    let mut outputs = world.query::<&mut EguiOutput>();
+    for mut output in outputs.iter_mut(world) {
+        for command in output.bypass_change_detection().platform_output.commands.drain(..) {
+            if let egui::OutputCommand::CopyText(text) = command {
+                tell(&json!({ "kind": "copy", "text": text }));
+            }
+        }
+    }
+}
+
+/// What the page shows and mirrors in its own words.
+fn state(world: &World) -> Value {
+    let shown = &world.resource::<Shown>().0;
+    let ui = &world.resource::<Interface>().0;
+    let robots = shown.cockpits.iter().flat_map(|c| &c.robots).map(|r| {
+        json!({ "name": r.name, "configuration": r.readout, "contacts": r.contacts, "touching": r.flash, "driven": r.manual })
+    });
+    json!({
+        "kind": "state",
+        "tick": shown.tick,
+        "frontier": shown.frontier,
+        "seed": shown.seed.to_string(),
+        "playing": shown.playing,
+        "widget": widgets().get(ui.widget).map(|w| &w.id),
+        "theme": if ui.theme() == Theme::Dark { "dark" } else { "light" },
+        "lit": ui.lit.map(Role::name),
+        "armed": ui.armed,
+        "notice": ui.notice.as_ref().map(|n| json!({ "text": n.text, "error": n.is_error })),
+        "robots": robots.collect::<Vec<_>>(),
+    })
+}
+
+/// The widgets of the canvas.
+fn tree(world: &mut World) -> Option<Value> {
+    let mut outputs = world.query::<&EguiOutput>();
+    let output = outputs.iter(world).find_map(|o| o.platform_output.accesskit_update.as_ref())?;
+    Some(json!({ "kind": "tree", "widgets": mirror(output) }))
+}

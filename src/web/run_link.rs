@@ -1,0 +1,43 @@
+//! From a link to the lab's run, and back.
+
+use bevy::ecs::world::World;
+
+use super::Link;
+use crate::app::{Interface, log_up_to, new_run, shown_run};
+use crate::simulation::{Playback, Transport, TransportCommand, obey};
+use crate::ui::{Notice, ThemeChoice, widgets};
+
+/// Runs a link's run up to its tick and compares the digest that came with it.
+pub fn open_link(world: &mut World, link: &Link) -> Result<Option<Notice>, String> {
+    new_run(world, link.config(), (link.seed, link.script.clone()))?;
+    world.resource_mut::<Transport>().playback = if link.tick == 0 { Playback::Playing } else { Playback::Paused };
+    obey(world, TransportCommand::Seek(link.tick))?;
+    if link.tick == 0 {
+        return Ok(None);
+    }
+    let digest = log_up_to(world, link.tick)?.digest().to_string();
+    Ok(Some(match &link.digest {
+        None => Notice { text: format!("tick {}, digest {digest}", link.tick), is_error: false },
+        Some(told) if *told == digest => Notice {
+            text: format!("the same run to the last bit: tick {}, digest {digest}", link.tick),
+            is_error: false,
+        },
+        Some(told) => {
+            Notice { text: format!("another run than the link's: digest {digest}, not {told}"), is_error: true }
+        }
+    }))
+}
+
+/// The link of what is shown.
+pub fn link_of(world: &World) -> Result<Link, String> {
+    let Transport { seed, tick, .. } = *world.resource::<Transport>();
+    let (config, script) = shown_run(world, tick);
+    let mut link = Link::of(seed, &config, script).map_err(|e| e.to_string())?;
+    if tick > 0 {
+        link.digest = Some(log_up_to(world, tick)?.digest().to_string());
+    }
+    let ui = &world.resource::<Interface>().0;
+    link.widget = (ui.widget != 0).then(|| widgets().get(ui.widget).map(|w| w.id.clone())).flatten();
+    link.theme = Some(ui.settings.theme).filter(|t| *t != ThemeChoice::System);
+    Ok(link)
+}
