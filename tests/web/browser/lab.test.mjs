@@ -1,6 +1,6 @@
 // The lab in a browser, as readers use it.
 import assert from "node:assert/strict";
-import { readFileSync, writeFileSync } from "node:fs";
+import { readFileSync, rmSync, writeFileSync } from "node:fs";
 import { after, before, test } from "node:test";
 import { join } from "node:path";
 import { Lab, begin, end, native, newBrowser, origin, shots } from "./harness.mjs";
@@ -111,6 +111,30 @@ lab("what is driven here is saved, and verifies natively to the same digest", "/
   const refused = await lab.until((s) => s.notice && s.notice.error);
   assert.match(refused.notice.text, /^nonsense\.mcap: not opened/);
   assert.equal(refused.frontier, opened.frontier);
+});
+
+lab("a run that is opened with its script and its range sensor is kept whole by the page", "/", async (lab) => {
+  const script = "tests/scripts/driving.ron";
+  const log = join(shots, "scripted.mcap");
+  rmSync(log, { force: true });
+  native("record", "--seed", "3", "--seconds", "20", "--script", script, "--rays", "90", "-o", log);
+  const bytes = readFileSync(log).toString("base64");
+  await lab.page.evaluate((text) => {
+    const file = new File([Uint8Array.from(atob(text), (c) => c.charCodeAt(0))], "scripted.mcap");
+    return window.motionLab.open(file);
+  }, bytes);
+  await lab.until((s) => s.seed === "3" && s.notice?.text.startsWith("scripted.mcap"));
+  await lab.send({ do: "seek", tick: 120 });
+  await lab.until((s) => s.tick === 120);
+  await lab.send({ do: "save" });
+  const { notice } = await lab.until((s) => s.notice?.text.startsWith("run.mcap"));
+  const page = await lab.page.evaluate(() => window.motionLab.savedPage());
+  console.log(`# ${notice.text}`);
+  assert.ok(page.includes(digestOf(notice.text)), "the page would record the same run");
+  // as far as a link goes, and no further
+  await lab.send({ do: "seek", tick: 72001 });
+  const refused = await lab.until((s) => s.notice?.error);
+  assert.equal(refused.notice.text, "tick 72001: at most 72000");
 });
 
 lab("a robot is put by a click in the atlas, and refused where it would overlap", "/?widget=atlas", async (lab) => {
