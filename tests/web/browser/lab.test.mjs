@@ -10,7 +10,7 @@ after(end);
 
 /** A test on a page of its own, at the end of which nothing that must not happen may have happened. */
 function lab(name, path, body, options = {}) {
-  test(name, { timeout: 180000 }, async () => {
+  test(name, { timeout: options.timeout ?? 180000 }, async () => {
     const page = await Lab.open(path, options);
     try {
       await body(page);
@@ -413,6 +413,7 @@ lab("a hidden page stands still, and goes on without a burst", "/", async (lab) 
   await lab.until((s) => s.tick > tick);
 });
 
+const LOADS = Number(process.env.MOTION_LAB_LOADS ?? 500);
 lab("memory stays flat while worlds are opened", "/?widget=atlas", async (lab) => {
   const world = native("world", "show", "apartment");
   const load = (times) =>
@@ -428,12 +429,11 @@ lab("memory stays flat while worlds are opened", "/?widget=atlas", async (lab) =
       },
       [world, times],
     );
-  const times = Number(process.env.MOTION_LAB_LOADS ?? 500);
-  const warm = await load(Math.min(times, 500));
-  const end = await load(times);
-  console.log(`# WebAssembly memory: ${warm} bytes, after ${times} more worlds ${end}`);
+  const warm = await load(Math.min(LOADS, 500));
+  const end = await load(LOADS);
+  console.log(`# WebAssembly memory: ${warm} bytes, after ${LOADS} more worlds ${end}`);
   assert.ok(end <= 1.02 * warm + 131072, `${end} after ${warm}`);
-});
+}, { timeout: 180000 + 200 * LOADS });
 
 test("without WebGL 2 the page says so and shows its pictures", { timeout: 60000 }, async () => {
   const bare = await newBrowser(["--disable-3d-apis"]);
