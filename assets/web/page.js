@@ -29,6 +29,7 @@ function store(act) {
 
 const say = (text) => ($("said").textContent = text);
 const announce = (text) => ($("heard").textContent = text); // for who does not see it: the lab shows it too
+const alarm = (text) => ($("urgent").textContent = text); // likewise
 const warn = (text) => ($("alert").textContent = text);
 
 /** Tells the lab something; see src/web/message.rs. */
@@ -38,8 +39,17 @@ function send(message) {
     lab.lab_send(JSON.stringify(message));
   } catch (error) {
     if (error instanceof WebAssembly.RuntimeError) stop(String(error));
-    else warn(error.message ?? String(error));
+    else {
+      warn(error.message ?? String(error));
+      tellAll({ kind: "error", text: error.message ?? String(error) });
+    }
   }
+}
+
+/** Tells whoever listens on this page, and the page around it. */
+function tellAll(told) {
+  window.dispatchEvent(new CustomEvent("motionlab", { detail: told }));
+  if (parent !== window && told.kind !== "tree") parent.postMessage({ motionLab: told }, "*");
 }
 
 /** Opens a run or a world in the lab. */
@@ -90,9 +100,9 @@ async function savedPage() {
   const fetched = async (name) => (await fetch(name)).arrayBuffer();
   const template = new TextDecoder().decode(await fetched(files.saved));
   const wasm = new Uint8Array(await fetched(files.lightWasm));
-  const figure = new TextEncoder().encode(light.figure_of_log(log, false));
-  const values = { SEED: found.seed, TICKS: found.ticks, DIGEST: found.digest, FIGURE: base64(figure), WASM: base64(wasm), LOG: base64(log) };
-  return template.replace(/%(SEED|TICKS|DIGEST|FIGURE|WASM|LOG)%/g, (_, name) => values[name]);
+  const figure = (dark) => base64(new TextEncoder().encode(light.figure_of_log(log, dark)));
+  const values = { SEED: found.seed, TICKS: found.ticks, DIGEST: found.digest, FIGURE: figure(false), DARK: figure(true), WASM: base64(wasm), LOG: base64(log) };
+  return template.replace(/%(SEED|TICKS|DIGEST|FIGURE|DARK|WASM|LOG)%/g, (_, name) => values[name]);
 }
 
 // ---- what the lab tells ----
@@ -103,6 +113,7 @@ const hear = {
     if (!embedded) canvas.focus({ preventScroll: true });
     scrollTo(0, 0);
     performance.mark("first-frame");
+    if (calm.matches) send({ do: "pause" }); // what moves by itself waits until it is asked to
     const kept = store(() => sessionStorage.getItem(RESTART));
     if (kept) {
       store(() => sessionStorage.removeItem(RESTART));
@@ -116,11 +127,8 @@ const hear = {
     state = told;
     root.dataset.theme = told.theme;
     if (told.notice?.text !== before?.notice?.text) {
-      if (told.notice?.error) warn(told.notice.text);
-      else {
-        warn("");
-        announce(told.notice?.text ?? "");
-      }
+      alarm(told.notice?.error ? told.notice.text : "");
+      announce(told.notice?.error ? "" : (told.notice?.text ?? ""));
     }
     if (before && told.playing !== before.playing) announce(told.playing ? "Playing" : `Paused at tick ${told.tick}`);
     if (before && told.armed !== before.armed) announce(told.armed ? `${told.armed} is in your hand: arrow keys drive, Escape lets go` : "No robot is in your hand");
@@ -162,8 +170,7 @@ const hear = {
 function listen(json, bytes) {
   const told = JSON.parse(json);
   hear[told.kind]?.(told, bytes);
-  window.dispatchEvent(new CustomEvent("motionlab", { detail: told }));
-  if (parent !== window && told.kind !== "tree") parent.postMessage({ motionLab: told }, "*");
+  tellAll(told);
 }
 
 /** Shows why the lab stopped. The run is kept: the simulator alone can record it again. */
@@ -237,7 +244,8 @@ function update(own, widget) {
     if (element.textContent !== widget.name) element.textContent = widget.name;
     return;
   }
-  const label = widget.value !== undefined && (widget.kind === "button" || widget.kind === "handle") ? `${widget.name}: ${widget.value}` : widget.name;
+  const both = widget.value !== undefined && (widget.kind === "button" || widget.kind === "handle");
+  const label = both ? `${widget.name ?? ""}: ${widget.value}` : (widget.name ?? "");
   const words = widget.kind === "button" || widget.kind === "handle" ? control : element.firstChild;
   if (words.textContent !== label) words.textContent = label;
   control.disabled = widget.off_limits ?? false;
@@ -307,6 +315,8 @@ for (const [type, on] of [["pointerover", true], ["focusin", true], ["pointerout
 
 // ---- the page's own controls ----
 
+// what an earlier one said is no more
+document.querySelector("header").addEventListener("click", () => (say(""), warn("")), { capture: true });
 $("copy-link").addEventListener("click", () => send({ do: "link" }));
 $("save-run").addEventListener("click", () => send({ do: "save" }));
 $("open-file").addEventListener("click", () => hear.ask({ accept: ".mcap,.ron" }));
@@ -343,7 +353,7 @@ $("overlay-restart").addEventListener("click", () => {
 
 // keys that the lab uses do not scroll the page; Tab and the browser's own stay
 canvas.addEventListener("keydown", (event) => {
-  const shortcut = (event.ctrlKey || event.metaKey) && "sozy".includes(event.key.toLowerCase());
+  const shortcut = (event.ctrlKey || event.metaKey) && "asozy".includes(event.key.toLowerCase());
   const plain = !event.ctrlKey && !event.metaKey && !event.altKey && event.key !== "Tab" && !/^F\d/.test(event.key);
   if (shortcut || plain) event.preventDefault();
 });

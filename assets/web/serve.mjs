@@ -51,6 +51,16 @@ if (process.argv[1] === fileURLToPath(import.meta.url)) {
     console.error("There is no site yet: run assets/web/build first.");
     process.exit(1);
   }
-  const server = await serve(folder, Number(port));
-  console.log(`The lab is at http://localhost:${server.address().port}/ (Ctrl-C ends it).`);
+  if (!/^\d{1,5}$/.test(port) || Number(port) > 65535) {
+    console.error(`${port}: not a port. Usage: assets/web/serve [PORT, 8000 by default]`);
+    process.exit(2);
+  }
+  try {
+    const server = await serve(folder, Number(port));
+    console.log(`The lab is at http://localhost:${server.address().port}/ (Ctrl-C ends it).`);
+  } catch (error) {
+    const why = error.code === "EADDRINUSE" ? `port ${port} is in use; another one: assets/web/serve ${Number(port) + 1}` : error.message;
+    console.error(why);
+    process.exit(1);
+  }
 }

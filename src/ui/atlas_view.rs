@@ -1,6 +1,6 @@
 //! World atlas: worlds with their names, robots put by a click, the derived grid, and the editor.
 
-use bevy_egui::egui::{ComboBox, Key, RichText, ScrollArea, Slider, TextEdit, Ui, UiBuilder, WidgetInfo};
+use bevy_egui::egui::{ComboBox, Key, RichText, ScrollArea, Slider, TextEdit, Ui, UiBuilder, WidgetInfo, WidgetType};
 
 use super::atlas_state::{AtlasState, Mode};
 use super::button::button;
@@ -127,13 +127,17 @@ fn thing(id: &str) -> Option<&str> {
 fn beside_the_paper(ui: &mut Ui, look: &Look, state: &mut UiState, commands: &mut Vec<Command>) {
     ui.horizontal(|ui| {
         let present = state.atlas.world().name.clone();
-        ComboBox::from_id_salt("world").selected_text(present.as_str()).show_ui(ui, |ui| {
+        let choice = ComboBox::from_id_salt("world").selected_text(present.as_str()).show_ui(ui, |ui| {
             for name in World::built_in_names() {
                 let Some(world) = World::built_in(name) else { continue };
                 if ui.selectable_label(present == world.name, &world.name).clicked() {
                     state.atlas = AtlasState::of(world).in_mode(state.atlas.mode);
                 }
             }
+        });
+        choice.response.widget_info(|| WidgetInfo {
+            current_text_value: Some(present.clone()),
+            ..WidgetInfo::labeled(WidgetType::ComboBox, true, "world")
         });
         if button(ui, "Open", 0.0, (true, false), look).clicked() {
             commands.push(Command::Session(SessionCommand::OpenWorld));

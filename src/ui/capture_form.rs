@@ -11,6 +11,12 @@ use crate::manifest::widgets;
 use crate::picture::Role;
 use crate::run::DT;
 
+/// The forms to choose from: a page has the vector picture only, whose fonts and pixels the browser makes.
+const FORMS: &[Form] = if cfg!(target_family = "wasm") { &[Form::Svg] } else { &Form::ALL };
+
+/// What the button says that makes the file: a page gives it to the browser.
+const SAVE: &str = if cfg!(target_family = "wasm") { "Save" } else { "Choose a file" };
+
 /// How long the span of a GIF is at first, ticks: ten seconds.
 const SPAN: u64 = 200;
 
@@ -41,7 +47,7 @@ pub struct CaptureState {
 
 impl Default for CaptureState {
     fn default() -> Self {
-        let order = CaptureOrder { form: Form::Png, width: 1280, scale: 2, span: Span { from: 0, to: 0, every: 4 } };
+        let order = CaptureOrder { form: FORMS[0], width: 1280, scale: 2, span: Span { from: 0, to: 0, every: 4 } };
         CaptureState { open: false, order }
     }
 }
@@ -75,7 +81,7 @@ pub fn capture_form(ctx: &Context, model: &Dashboard, look: &Look, state: &mut U
         };
         ui.add_space(8.0);
         ui.horizontal(|ui| {
-            let chosen = button(ui, "Choose a file", 0.0, (refusal.is_none(), false), look).clicked();
+            let chosen = button(ui, SAVE, 0.0, (refusal.is_none(), false), look).clicked();
             (chosen, button(ui, "Cancel", 0.0, (true, false), look).clicked())
         })
         .inner
@@ -93,7 +99,7 @@ pub fn capture_form(ctx: &Context, model: &Dashboard, look: &Look, state: &mut U
 fn choices(ui: &mut Ui, model: &Dashboard, look: &Look, order: &mut CaptureOrder) {
     ui.label("form");
     ui.horizontal(|ui| {
-        for form in Form::ALL {
+        for &form in FORMS {
             if button(ui, form.name(), 0.0, (true, order.form == form), look).clicked() {
                 order.form = form;
             }
@@ -158,5 +164,6 @@ fn holds(widget: usize, order: &CaptureOrder) -> String {
         return format!("{pictures} pictures, {seconds:.2} s of the run; seed, digest and ticks in its comment");
     }
     let what = if widget == 0 { "seed, digest and tick" } else { "the world's content hash and the configuration" };
-    format!("{what} in its metadata")
+    let others = if FORMS.len() == 1 { "; PNG and GIF are made by motion-lab capture" } else { "" };
+    format!("{what} in its metadata{others}")
 }

@@ -25,6 +25,9 @@ pub fn act(action: Action, model: &Dashboard, state: &mut UiState, commands: &mu
     }
 }
 
+/// The least width of a title that has buttons beside it, points.
+const TITLE: f32 = 300.0;
+
 /// Shows a widget's title, and the buttons beside it: in a menu on a narrow screen.
 pub fn header(
     ui: &mut Ui,
@@ -34,11 +37,10 @@ pub fn header(
     state: &mut UiState,
     commands: &mut Vec<Command>,
 ) {
-    let room = match (narrow, state.widget) {
-        (true, _) => 76.0,
-        (false, 0) => 650.0,
-        (false, _) => 280.0,
-    };
+    let buttons = if state.widget == 0 { 650.0 } else { 280.0 };
+    // beside the buttons the title needs room of its own; where there is none, they are a menu
+    let narrow = narrow || ui.available_width() < buttons + TITLE;
+    let room = if narrow { 76.0 } else { buttons };
     ui.horizontal(|ui| {
         ui.vertical(|ui| {
             ui.set_max_width(ui.available_width() - room);

@@ -1,11 +1,11 @@
 //! The transport bar: the time line, play and pause, steps, loop, reset, re-roll, the speed, the seed, the time.
 
-use bevy_egui::egui::{Align, ComboBox, Key, Layout, RichText, TextEdit, TextStyle, Ui, vec2};
+use bevy_egui::egui::{Align, ComboBox, Key, Layout, RichText, TextEdit, TextStyle, Ui, WidgetInfo, WidgetType, vec2};
 
 use super::button::button;
 use super::keys::{Action, hint};
 use super::time_line::time_line;
-use super::{Command, Dashboard, Look, UiState};
+use super::{Command, Dashboard, Look, Notice, UiState};
 use crate::picture::Role;
 use crate::random::Seed;
 use crate::run::DT;
@@ -49,6 +49,12 @@ pub fn act(action: Action, model: &Dashboard, commands: &mut Vec<Command>) {
     commands.extend(command.map(Command::Transport));
 }
 
+/// Below this width the bar takes two rows and a menu, points.
+const ONE_ROW: f32 = 960.0;
+
+/// The width that the note beside the time takes, points.
+const NOTE: f32 = 180.0;
+
 /// Shows the time line and the bar under it, on a `narrow` screen in more rows.
 pub fn transport_bar(
     ui: &mut Ui,
@@ -59,7 +65,7 @@ pub fn transport_bar(
     commands: &mut Vec<Command>,
 ) {
     time_line(ui, model, history, look, commands);
-    if narrow {
+    if narrow || ui.available_width() < ONE_ROW {
         ui.spacing_mut().button_padding.x = 7.0;
         ui.spacing_mut().item_spacing.x = 5.0;
         ui.horizontal(|ui| {
@@ -123,6 +129,10 @@ fn speed_choice(ui: &mut Ui, model: &Dashboard, commands: &mut Vec<Command>) {
             }
         }
     });
+    choice.response.widget_info(|| WidgetInfo {
+        current_text_value: Some(selected.into()),
+        ..WidgetInfo::labeled(WidgetType::ComboBox, true, "speed")
+    });
     choice.response.on_hover_text(format!(
         "Simulated seconds per second: {}, {}",
         hint(Action::Slower),
@@ -138,13 +148,14 @@ fn seed_and_time(ui: &mut Ui, model: &Dashboard, look: &Look, state: &mut UiStat
     ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
         let time = format!("{:7.2} s  tick {:5}", DT * model.tick as f64, model.tick);
         ui.label(RichText::new(time).monospace());
-        if let Some(behind) = &model.behind {
+        // where there is no room for it, the note is what goes
+        if let Some(behind) = model.behind.as_ref().filter(|_| ui.available_width() > NOTE) {
             ui.label(RichText::new(behind).small().color(look.colour(Role::Focus)));
         }
     });
 }
 
-/// The seed as an editable field: a new one is taken when Enter is pressed; what is no seed is put back.
+/// The seed as an editable field: a new one is taken when Enter is pressed; what is no seed is put back, and said to be none.
 fn seed_field(ui: &mut Ui, seed: Seed, state: &mut UiState) -> Option<Seed> {
     let label = ui.label("seed");
     let mut text = state.seed_text.take().unwrap_or_else(|| seed.0.to_string());
@@ -155,6 +166,15 @@ fn seed_field(ui: &mut Ui, seed: Seed, state: &mut UiState) -> Option<Seed> {
         state.seed_text = Some(text);
         return None;
     }
-    let entered = response.lost_focus() && ui.input(|i| i.key_pressed(Key::Enter));
-    text.trim().parse().ok().map(Seed).filter(|new| entered && *new != seed)
+    if !(response.lost_focus() && ui.input(|i| i.key_pressed(Key::Enter))) {
+        return None;
+    }
+    match text.trim().parse().map(Seed) {
+        Ok(new) => Some(new).filter(|new| *new != seed),
+        Err(_) => {
+            let text = format!("seed {}: it must be a whole number, at most {}", text.trim(), u64::MAX);
+            state.notice = Some(Notice { text, is_error: true });
+            None
+        }
+    }
 }

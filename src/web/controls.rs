@@ -34,6 +34,7 @@ pub fn receive(world: &mut World) {
             Incoming::Message(message) => take(world, message),
         };
         if let Err(text) = done {
+            tell(&json!({ "kind": "error", "text": text }));
             world.resource_mut::<Interface>().0.notice = Some(Notice { text, is_error: true });
         }
     }
@@ -81,7 +82,8 @@ fn take(world: &mut World, message: Message) -> Result<(), String> {
             Ok(())
         }
         Message::Light { role } => {
-            let role = role.and_then(|name| Role::ALL.into_iter().find(|r| r.name() == name));
+            let named = |name| Role::ALL.into_iter().find(|r| r.name() == name).ok_or(format!("{name} is no role"));
+            let role = role.as_deref().map(named).transpose()?;
             ui(world, &|ui| ui.page_lit = role)
         }
         Message::Play => transport(world, TransportCommand::Play),

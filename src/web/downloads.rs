@@ -5,7 +5,7 @@ use serde_json::json;
 
 use super::listener::{tell, tell_with};
 use crate::app::{Interface, captured, recorded, shown_run};
-use crate::capture::{Form, Paper};
+use crate::capture::Paper;
 use crate::run::Log;
 use crate::simulation::Transport;
 use crate::ui::{CaptureOrder, Notice, SessionCommand, widgets};
@@ -53,9 +53,7 @@ fn picture(world: &World, order: &CaptureOrder) -> Result<String, String> {
     let figure = captured(ui, (config, seed, script), tick, paper.width_px()).map_err(|e| e.to_string())?;
     let name = format!("{}.svg", widgets().get(ui.widget).map_or("picture", |w| &w.id));
     tell_with(&json!({ "kind": "file", "name": name }), Some(figure.svg(&paper).as_bytes()));
-    let also =
-        if order.form == Form::Svg { "" } else { "; pixels and moving pictures are made by `motion-lab capture`" };
-    Ok(format!("{name}: saved{also}"))
+    Ok(format!("{name}: saved"))
 }
 
 fn saved(log: &Log) -> String {

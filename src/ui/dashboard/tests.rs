@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use bevy_egui::egui::{Context, Event, Key, Modifiers, PointerButton, RawInput, Rect, Shape, Vec2, pos2};
+use bevy_egui::egui::{Context, Event, Key, Modifiers, PointerButton, RawInput, Rect, Shape, Vec2, pos2, vec2};
 
 use crate::atlas::Atlas;
 use crate::configuration::{Configuration, HitchCfg, T2};
@@ -196,10 +196,28 @@ fn a_seed_is_typed_in_and_what_is_none_is_put_back() {
         let mut commands = screen.frame(&model(), vec![press(Key::Enter)]);
         commands.extend(screen.frame(&model(), vec![]));
         screen.frame(&model(), vec![]);
-        (commands, screen.texts().iter().any(|(t, _)| t == "2005"))
+        let back = screen.texts().iter().any(|(t, _)| t == "2005");
+        (commands, back, screen.state.notice.map(|n| n.text))
     };
-    assert_eq!(typed("77"), (vec![Command::Transport(TransportCommand::SetSeed(Seed(77)))], true));
-    assert_eq!(typed("a cat"), (vec![], true));
+    assert_eq!(typed("77"), (vec![Command::Transport(TransportCommand::SetSeed(Seed(77)))], true, None));
+    let refused = "seed a cat: it must be a whole number, at most 18446744073709551615";
+    assert_eq!(typed("a cat"), (vec![], true, Some(refused.into())));
+}
+
+#[test]
+fn on_no_width_do_the_words_of_the_bar_lie_on_one_another() {
+    let late = Dashboard { behind: Some("slower than real time: 0.5 x".into()), ..model() };
+    for width in (320..=1400).step_by(20) {
+        let screen = Screen::new(vec2(width as f32, 800.0), &late);
+        let texts = screen.texts();
+        let top = texts.iter().find(|(t, _)| t == "Pause").expect("the bar").1.top() - 4.0;
+        let bar: Vec<_> = texts.iter().filter(|(_, at)| at.top() >= top && (width < 720 || at.left() > 76.0)).collect();
+        for (i, (a, at)) in bar.iter().enumerate() {
+            for (b, there) in &bar[i + 1..] {
+                assert!(!at.shrink(1.0).intersects(*there), "{width} wide: {a} at {at} on {b} at {there}");
+            }
+        }
+    }
 }
 
 #[test]

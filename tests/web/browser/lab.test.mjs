@@ -302,6 +302,7 @@ lab("the accessibility tree tells what the canvas shows", "/?tick=200", async (l
   const { nodes } = await session.send("Accessibility.getFullAXTree");
   const named = (role) => nodes.filter((n) => n.role?.value === role && !n.ignored).map((n) => n.name?.value);
   const buttons = named("button");
+  assert.ok(buttons.includes("speed: 1 x"), `${buttons}`);
   for (const name of ["Play", "Step", "Reset", "Re-roll", "Copy link", "Save run", "Drive", "Atlas"]) assert.ok(buttons.includes(name), `${name} among ${buttons}`);
   assert.ok(named("textbox").includes("seed"), named("textbox").join());
   assert.ok(named("spinbutton").includes("Reach: theta1"), named("spinbutton").join());
@@ -365,8 +366,46 @@ lab("a page embeds one widget, sized to its frame, and speaks with it", "/widget
       }),
   );
   assert.equal(heard.widget, "dashboard");
+  // what is no role is said to be none
+  const error = await lab.page.evaluate(
+    () =>
+      new Promise((done) => {
+        const view = document.querySelector('iframe[title="Dashboard"]').contentWindow;
+        addEventListener("message", ({ data }) => data.motionLab?.kind === "error" && done(data.motionLab.text));
+        view.postMessage({ motionLab: { do: "light", role: "banana" } }, "*");
+      }),
+  );
+  assert.equal(error, "banana is no role");
   await lab.shot("widgets");
 }, { wait: false });
+
+lab(
+  "who asks for less motion presses Play first",
+  "/",
+  async (lab) => {
+    const { tick } = await lab.until((s) => !s.playing);
+    await lab.page.waitForTimeout(500);
+    assert.equal((await lab.state()).tick, tick);
+    await lab.click("Play");
+    await lab.until((s) => s.tick > tick + 5);
+  },
+  { options: { reducedMotion: "reduce" } },
+);
+
+lab(
+  "a low screen scrolls the page instead of shrinking the pictures",
+  "/",
+  async (lab) => {
+    const [, , , height] = (await lab.find(/^Apartment\. Rusty/)).place;
+    await lab.shot("low");
+    assert.ok(height > 150, `the paper is ${height} high`);
+    const before = await lab.page.evaluate(() => scrollY);
+    await lab.page.mouse.move(300, 200);
+    await lab.page.mouse.wheel(0, 300);
+    await lab.page.waitForFunction((y) => scrollY > y + 100, before);
+  },
+  { options: { viewport: { width: 853, height: 480 } } },
+);
 
 for (const [name, fail] of [
   ["a failure", (lab) => lab.send({ do: "fail" })],
