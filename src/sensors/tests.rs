@@ -119,6 +119,17 @@ fn random_walls_are_seen_as_defined_by_any_number_of_rays() {
 }
 
 #[test]
+fn more_rays_than_sixteen_bits_count_in_eights_are_cast_as_defined() {
+    let mut draws = Stream::new(Seed(7), "scan");
+    let mut scanners = scanners(600_000, 20.0);
+    let scene = random_walls(&mut draws, 12, 10.0);
+    for _ in 0..2 {
+        let pose = Pose2::new(draws.uniform(0.0, 10.0), draws.uniform(0.0, 10.0), draws.uniform(-PI, PI));
+        assert!(check(&mut scanners, &scene, &[], &pose) > 100_000);
+    }
+}
+
+#[test]
 fn lattice_walls_are_seen_as_defined_from_lattice_points_and_beside_them() {
     let mut draws = Stream::new(Seed(2), "scan");
     let mut scanners = scanners(360, 7.0);
