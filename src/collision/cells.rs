@@ -23,8 +23,8 @@ pub(crate) struct Cells {
 pub(crate) struct Place {
     pub(crate) column: i64,
     pub(crate) row: i64,
-    /// How far it is from the nearest side of its cell.
-    inset: f64,
+    /// How far it is at least from the right, left, upper and lower side of its cell, metres.
+    sides: [f64; 4],
 }
 
 /// At most so many cells a side.
@@ -42,7 +42,7 @@ impl Cells {
             .copied()
             .reduce(|a, b| [lesser(a[0], b[0]), lesser(a[1], b[1]), greater(a[2], b[2]), greater(a[3], b[3])])?;
         let (width, height) = (x1 - x0, y1 - y0);
-        let size = greater(1.75 * sqrt(width * height / count as f64), greater(width, height) / MOST);
+        let size = greater(1.6 * sqrt(width * height / count as f64), greater(width, height) / MOST);
         // a grid that reaches a little farther than all there is, so that rounding puts nothing outside
         let (size, corner) = (size * (1.0 + 1e-9), Point2::new(x0 - 0.01 * size, y0 - 0.01 * size));
         let cells = |extent: f64| (extent / size) as i64 + 2;
@@ -104,14 +104,20 @@ impl Cells {
     pub(crate) fn place(&self, p: Point2) -> Place {
         let (x, y) = ((p.x - self.corner.x) / self.size, (p.y - self.corner.y) / self.size);
         let (column, row) = (x.floor(), y.floor());
-        let inset = |f: f64| lesser(f, 1.0 - f);
-        let inset = greater(lesser(inset(x - column), inset(y - row)) - 1e-6, 0.0) * self.size;
-        Place { column: column as i64, row: row as i64, inset }
+        let (fx, fy) = (x - column, y - row);
+        let sides = [1.0 - fx, fx, 1.0 - fy, fy].map(|f| greater(f - 1e-6, 0.0) * self.size);
+        Place { column: column as i64, row: row as i64, sides }
+    }
+
+    /// How far it is at least from a place to the right, left, upper and lower side of the cells nearer than ring number `ring`
+    /// about it, metres.
+    pub(crate) fn sides(&self, place: &Place, ring: i64) -> [f64; 4] {
+        place.sides.map(|side| side + (ring - 1) as f64 * self.size * (1.0 - 1e-9))
     }
 
     /// Nothing in the ring of cells number `ring` about a place, nor beyond, is nearer than this, metres.
     pub(crate) fn least_distance(&self, place: &Place, ring: i64) -> f64 {
-        if ring == 0 { 0.0 } else { place.inset + (ring - 1) as f64 * self.size * (1.0 - 1e-9) }
+        if ring == 0 { 0.0 } else { self.sides(place, ring).into_iter().fold(f64::INFINITY, lesser) }
     }
 
     /// The first ring about a place that holds cells of the grid, and the last.

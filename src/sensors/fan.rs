@@ -123,15 +123,20 @@ impl Fan {
         }
     }
 
-    /// Which blocks have a ray that does not hit nearer than this inverse range: 1, the others 0.
+    /// Which blocks have a ray that hits nothing within a box about the sensor: 1, the others 0. The box is given by the inverses
+    /// of how far its right, left, upper and lower side are, the left and the lower one negative.
     #[inline(always)]
-    pub(super) fn open(&self, inverse: f64, open: &mut [u8]) {
+    pub(super) fn open(&self, [right, left, upper, lower]: [f64; 4], open: &mut [u8]) {
         for (block, open) in self.blocks.iter().zip(open) {
             if block.dx[0] > 2.0 {
                 break; // never so: see each_block
             }
-            let nearer = block.inverse.iter().fold(true, |nearer, i| nearer & (*i >= inverse));
-            *open = u8::from(!nearer);
+            let mut closed = true;
+            for ((dx, dy), inverse) in block.dx.iter().zip(&block.dy).zip(&block.inverse) {
+                let (across, along) = (greater(dx * right, dx * left), greater(dy * upper, dy * lower));
+                closed &= *inverse >= greater(across, along);
+            }
+            *open = u8::from(!closed);
         }
     }
 

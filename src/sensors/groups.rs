@@ -24,6 +24,9 @@ const TURN: f64 = 4_294_967_296.0;
 /// More than the errors of the bearings: 1e-5 turns.
 const SLACK: u32 = 42_950;
 
+/// A ray is closed when it hits this much nearer than the box's side: more than rounding can make of a hit.
+const NEARER: f64 = 1e-6;
+
 /// A group with more of a turn than this lies in all sectors.
 const NEARLY_ALL: f64 = 0.95;
 
@@ -55,9 +58,11 @@ impl Groups {
         }));
     }
 
-    /// Closes the groups all of whose rays hit nearer than 1 / `inverse`; the sectors of the world with open ones.
-    pub(super) fn close(&mut self, fan: &Fan, kernel: &Kernel, inverse: f64) -> u64 {
-        (kernel.open)(fan, inverse, &mut self.left);
+    /// Closes the groups all of whose rays hit within a box about the sensor, whose right, left, upper and lower side are so far; the
+    /// sectors of the world with open ones.
+    pub(super) fn close(&mut self, fan: &Fan, kernel: &Kernel, [right, left, upper, lower]: [f64; 4]) -> u64 {
+        const NEAR: f64 = 1.0 + NEARER;
+        (kernel.open)(fan, [NEAR / right, -NEAR / left, NEAR / upper, -NEAR / lower], &mut self.left);
         if self.blocks > 1 {
             for (g, blocks) in self.left.chunks(self.blocks).enumerate() {
                 let any = blocks.iter().fold(0, |any, left| any | left);

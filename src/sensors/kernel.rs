@@ -26,8 +26,8 @@ pub(super) struct Kernel {
     pub(super) raise: fn(&mut Desk, [&[f64]; 4], &View, &mut Fan),
     /// Raises the rays that meet a disc.
     pub(super) circle: fn(&Circle, &View, &mut Fan),
-    /// The blocks all of whose rays hit nearer than an inverse range are 0.
-    pub(super) open: fn(&Fan, f64, &mut [u8]),
+    /// Says which blocks have a ray that hits nothing within a box.
+    pub(super) open: fn(&Fan, [f64; 4], &mut [u8]),
     /// Writes the ranges.
     pub(super) ranges: fn(&Fan, f64, &mut [f64]),
 }
@@ -59,8 +59,8 @@ macro_rules! kernel {
             }
 
             $(#[$target])?
-            fn open(fan: &Fan, inverse: f64, open: &mut [u8]) {
-                fan.open(inverse, open);
+            fn open(fan: &Fan, sides: [f64; 4], open: &mut [u8]) {
+                fan.open(sides, open);
             }
 
             $(#[$target])?

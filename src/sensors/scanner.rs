@@ -81,13 +81,14 @@ impl Scanner {
         }
         let (s, c) = if pose.theta == 0.0 { (0.0, 1.0) } else { num::sin_cos(pose.theta) };
         (self.kernel.turn)(&mut self.fan, &self.units, (c, s));
-        let heading = num::atan2(s, c) / TAU;
+        // for what may be met, not what is: good to much less than the bearings' errors
+        let turns = if pose.theta.abs() < 1e6 { pose.theta / TAU } else { num::atan2(s, c) / TAU };
         let reach = self.sensor.max_range * (1.0 + 1e-6);
         let view = View {
             origin,
             reach,
             reach_squared: reach * reach,
-            heading: if heading < 0.0 { heading + 1.0 } else { heading },
+            heading: turns - turns.floor(),
             rays: f64::from(self.sensor.n_rays),
             nothing: 0.0,
         };

@@ -33,9 +33,6 @@ struct Pending {
     arrays: Box<[Batch; 4]>,
 }
 
-/// A ray is closed when it hits this much nearer than a ring begins: more than rounding can make of a hit.
-const NEARER: f64 = 1e-6;
-
 impl Default for Walk {
     fn default() -> Self {
         let arrays = Box::new([[f64::NAN; BATCH]; 4]);
@@ -84,7 +81,8 @@ impl Walk {
             cells.each_in_ring(place, ring, |cell| self.cells.push(cell));
             return;
         }
-        let listed = bearings::ring(ring);
+        let [right, left, upper, lower] = cells.sides(place, 1);
+        let listed = bearings::ring(ring, left > right, lower > upper);
         let mut count = 0;
         self.cells.resize(listed.len() + 1, 0);
         for cell in listed {
@@ -142,7 +140,7 @@ impl Walk {
             let distance = cells.least_distance(&place, ring);
             // hardly ever is a ray closed by then, and so the first two rings are taken as they are
             if ring > first + 1 {
-                open = self.groups.close(fan, kernel, (1.0 + NEARER) / distance);
+                open = self.groups.close(fan, kernel, cells.sides(&place, ring));
             }
             // what is left may be nearer than where the walk ends
             let more = ring <= last && distance <= view.reach && open != 0;
