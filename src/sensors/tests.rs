@@ -187,6 +187,20 @@ fn large_worlds_are_seen_as_defined_from_inside_and_outside() {
 }
 
 #[test]
+fn a_ray_that_hits_beyond_the_cells_visited_is_not_done() {
+    // long walls, close together: those of the cells visited reach far beyond them, and nearer ones begin there
+    let mut draws = Stream::new(Seed(8), "scan");
+    let mut scanners = scanners(360, 4.0);
+    for _ in 0..4 {
+        let scene = Scene::of_walls(&random_segments(&mut draws, 300, 6.0, 1.5));
+        for _ in 0..150 {
+            let pose = Pose2::new(draws.uniform(0.0, 6.0), draws.uniform(0.0, 6.0), draws.uniform(-PI, PI));
+            check(&mut scanners, &scene, &[], &pose);
+        }
+    }
+}
+
+#[test]
 fn a_sensor_a_hair_from_a_wall_or_from_its_line_leaks_no_ray() {
     // the closed room is seen on every ray from wherever it is not touched
     let corners = [(0.1, 0.2), (5.3, 0.7), (4.9, 6.1), (-0.3, 5.5), (0.1, 0.2)].map(|(x, y)| Point2::new(x, y));
