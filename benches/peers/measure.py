@@ -145,7 +145,7 @@ def irsim(worlds):
             path = os.path.join(folder, "world.yaml")
             with open(path, "w") as file:
                 json.dump({"world": {"height": 100, "width": 100}, "robot": [robot], "obstacle": walls}, file)  # YAML holds JSON
-            env = irsim.make(path, display=False)
+            env = irsim.make(path, display=False, log_level="ERROR")
         scanner = env.robot.lidar
         scan = lambda pose: scanner.step(numpy.array(pose).reshape(3, 1))
         yield f"scan, 360 rays, {name} segments", timed(scan, world["poses"][:8])

@@ -1,9 +1,11 @@
 //! What the lab costs beside parry2d-f64, row by row, written into README.
 //!
 //! `cargo bench --no-default-features --features headless --bench table`; with `-- scan` only the rows whose name has that in it,
-//! printed and not written; `-- worlds` prints the worlds, for `benches/peers`.
+//! printed and not written; `-- worlds` prints the worlds, for `benches/peers`; `-- digests` what the scans come to, for
+//! `benches/wasm`.
 #![allow(missing_docs, clippy::unwrap_used, clippy::expect_used, clippy::print_stdout, clippy::disallowed_methods)]
 
+mod contest;
 mod edges;
 mod measure;
 mod peer;
@@ -11,6 +13,7 @@ mod queries;
 mod readme;
 mod runs;
 mod scans;
+mod wasm;
 mod worlds;
 mod worlds_json;
 
@@ -67,8 +70,12 @@ fn main() {
     if only.as_deref() == Some("worlds") {
         return worlds_json::print();
     }
+    if only.as_deref() == Some("digests") {
+        return scans::print_digests();
+    }
     let mut table = Table { only, rows: Vec::new() };
     scans::rows(&mut table);
+    wasm::rows(&mut table);
     queries::rows(&mut table);
     edges::rows(&mut table);
     runs::rows(&mut table);

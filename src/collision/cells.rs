@@ -4,25 +4,18 @@ use super::segments::{Circle, SegmentSoup};
 use crate::geometry::{Point2, Segment};
 use crate::num::{greater, lesser, sqrt};
 
-/// A uniform grid over a soup: for each cell the numbers of what touches it, discs after segments.
+/// A uniform grid over a soup: for each cell the numbers of what touches it. The segments have numbers of the grid's own, so that
+/// those of neighbouring cells lie together in memory; the discs are numbered after them, as in the soup.
 #[derive(Clone, Debug)]
 pub(crate) struct Cells {
     corner: Point2,
     size: f64,
     columns: i64,
     rows: i64,
-    /// Where each cell's list begins in `items`, row by row, and where the last ends.
+    /// Where each cell's list begins in `things`, row by row, and where the last ends.
     starts: Vec<u32>,
-    items: Vec<Item>,
-}
-
-/// Something in a cell.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Item {
-    /// Its number in the soup, discs after segments.
-    pub(crate) number: u32,
-    /// The segment, so that it lies in memory beside the others of the cell; for a disc, its box's diagonal.
-    pub(crate) segment: Segment,
+    things: Vec<u32>,
+    segments: Vec<Segment>,
 }
 
 /// Where a point lies in the grid.
@@ -30,8 +23,8 @@ pub(crate) struct Item {
 pub(crate) struct Place {
     pub(crate) column: i64,
     pub(crate) row: i64,
-    /// How far it is from the nearest side of its cell.
-    inset: f64,
+    /// How far it is at least from the right, left, upper and lower side of its cell, metres.
+    sides: [f64; 4],
 }
 
 /// At most so many cells a side.
@@ -49,15 +42,15 @@ impl Cells {
             .copied()
             .reduce(|a, b| [lesser(a[0], b[0]), lesser(a[1], b[1]), greater(a[2], b[2]), greater(a[3], b[3])])?;
         let (width, height) = (x1 - x0, y1 - y0);
-        let size = greater(1.75 * sqrt(width * height / count as f64), greater(width, height) / MOST);
+        let size = greater(1.6 * sqrt(width * height / count as f64), greater(width, height) / MOST);
         // a grid that reaches a little farther than all there is, so that rounding puts nothing outside
         let (size, corner) = (size * (1.0 + 1e-9), Point2::new(x0 - 0.01 * size, y0 - 0.01 * size));
         let cells = |extent: f64| (extent / size) as i64 + 2;
         if !(size > 0.0 && size.is_finite()) {
             return None;
         }
-        let mut grid =
-            Cells { corner, size, columns: cells(width), rows: cells(height), starts: vec![], items: vec![] };
+        let (columns, rows) = (cells(width), cells(height));
+        let mut grid = Cells { corner, size, columns, rows, starts: vec![], things: vec![], segments: vec![] };
         let mut pairs: Vec<(u32, u32)> = Vec::new();
         for (i, b) in boxes.iter().enumerate() {
             let segment = (i < segments.len()).then(|| segments.segment(i));
@@ -71,9 +64,17 @@ impl Cells {
         for i in 1..grid.starts.len() {
             grid.starts[i] += grid.starts[i - 1];
         }
-        let diagonal = |b: [f64; 4]| Segment::new(Point2::new(b[0], b[1]), Point2::new(b[2], b[3]));
-        let item = |i: usize| if i < segments.len() { segments.segment(i) } else { diagonal(boxes[i]) };
-        grid.items = pairs.into_iter().map(|(_, i)| Item { number: i, segment: item(i as usize) }).collect();
+        const NONE: u32 = u32::MAX;
+        let mut renumbered = vec![NONE; segments.len()];
+        let number = |(_, i): (u32, u32)| {
+            let Some(new) = renumbered.get_mut(i as usize) else { return i };
+            if *new == NONE {
+                *new = grid.segments.len() as u32;
+                grid.segments.push(segments.segment(i as usize));
+            }
+            *new
+        };
+        grid.things = pairs.into_iter().map(number).collect();
         Some(grid)
     }
 
@@ -103,14 +104,20 @@ impl Cells {
     pub(crate) fn place(&self, p: Point2) -> Place {
         let (x, y) = ((p.x - self.corner.x) / self.size, (p.y - self.corner.y) / self.size);
         let (column, row) = (x.floor(), y.floor());
-        let inset = |f: f64| lesser(f, 1.0 - f);
-        let inset = greater(lesser(inset(x - column), inset(y - row)) - 1e-6, 0.0) * self.size;
-        Place { column: column as i64, row: row as i64, inset }
+        let (fx, fy) = (x - column, y - row);
+        let sides = [1.0 - fx, fx, 1.0 - fy, fy].map(|f| greater(f - 1e-6, 0.0) * self.size);
+        Place { column: column as i64, row: row as i64, sides }
+    }
+
+    /// How far it is at least from a place to the right, left, upper and lower side of the cells nearer than ring number `ring`
+    /// about it, metres.
+    pub(crate) fn sides(&self, place: &Place, ring: i64) -> [f64; 4] {
+        place.sides.map(|side| side + (ring - 1) as f64 * self.size * (1.0 - 1e-9))
     }
 
     /// Nothing in the ring of cells number `ring` about a place, nor beyond, is nearer than this, metres.
     pub(crate) fn least_distance(&self, place: &Place, ring: i64) -> f64 {
-        if ring == 0 { 0.0 } else { place.inset + (ring - 1) as f64 * self.size * (1.0 - 1e-9) }
+        if ring == 0 { 0.0 } else { self.sides(place, ring).into_iter().fold(f64::INFINITY, lesser) }
     }
 
     /// The first ring about a place that holds cells of the grid, and the last.
@@ -123,24 +130,40 @@ impl Cells {
         )
     }
 
-    /// Calls `visit` with what touches each cell of ring number `ring` about a place that is `wanted`, told how many columns
-    /// and rows the cell is off.
-    #[inline]
-    pub(crate) fn each_in_ring(
-        &self,
-        place: &Place,
-        ring: i64,
-        wanted: impl Fn(i64, i64) -> bool,
-        mut visit: impl FnMut(&[Item]),
-    ) {
+    /// A length in cells.
+    pub(crate) fn in_cells(&self, length: f64) -> f64 {
+        length / self.size
+    }
+
+    /// Whether there is a cell in this column and row.
+    #[inline(always)]
+    pub(crate) fn holds(&self, column: i64, row: i64) -> bool {
+        ((column as u64) < self.columns as u64) & ((row as u64) < self.rows as u64)
+    }
+
+    /// The number of a cell that the grid [`holds`](Self::holds).
+    #[inline(always)]
+    pub(crate) fn number(&self, column: i64, row: i64) -> usize {
+        row.wrapping_mul(self.columns).wrapping_add(column) as usize
+    }
+
+    /// The numbers of what touches a cell.
+    #[inline(always)]
+    pub(crate) fn things(&self, cell: usize) -> &[u32] {
+        &self.things[self.starts[cell] as usize..self.starts[cell + 1] as usize]
+    }
+
+    /// The segment of this number.
+    #[inline(always)]
+    pub(crate) fn segment(&self, number: u32) -> &Segment {
+        &self.segments[number as usize]
+    }
+
+    /// Calls `visit` with each cell of ring number `ring` about a place.
+    pub(crate) fn each_in_ring(&self, place: &Place, ring: i64, mut visit: impl FnMut(usize)) {
         let (left, right) = (place.column - ring, place.column + ring);
         let (low, high) = (place.row - ring, place.row + ring);
-        let mut cell = |i: i64, j: i64| {
-            if wanted(i - place.column, j - place.row) {
-                let cell = (j * self.columns + i) as usize;
-                visit(&self.items[self.starts[cell] as usize..self.starts[cell + 1] as usize]);
-            }
-        };
+        let mut cell = |i: i64, j: i64| visit(self.number(i, j));
         let rows = low.max(0)..=high.min(self.rows - 1);
         for j in [low, high].into_iter().take(if ring == 0 { 1 } else { 2 }) {
             if rows.contains(&j) {
@@ -185,18 +208,12 @@ mod tests {
             .collect();
         segments.iter().for_each(|s| soup.push_segment(*s));
         let grid = Cells::new(&soup).unwrap();
-        for (i, s) in segments.iter().enumerate() {
+        for s in &segments {
             for k in 0..=100 {
                 let p = s.a + (s.b - s.a) * (f64::from(k) / 100.0);
                 let place = grid.place(p);
-                let mut listed = false;
-                grid.each_in_ring(
-                    &place,
-                    0,
-                    |_, _| true,
-                    |items| listed = items.iter().any(|item| item.number == i as u32),
-                );
-                assert!(listed, "{s:?} at {p}");
+                let listed = grid.things(grid.number(place.column, place.row));
+                assert!(listed.iter().any(|&number| grid.segment(number) == s), "{s:?} at {p}");
             }
         }
     }
@@ -212,15 +229,11 @@ mod tests {
         for p in [Point2::new(3.0, 4.0), Point2::new(-9.0, 50.0), Point2::new(100.0, 10.0)] {
             let place = grid.place(p);
             let (first, last) = grid.rings(&place);
-            let seen = std::cell::RefCell::new(std::collections::BTreeSet::new());
+            let mut seen = std::collections::BTreeSet::new();
             for ring in first..=last {
-                let wanted = |i, j| {
-                    assert!(seen.borrow_mut().insert((i, j)), "{i} {j} twice");
-                    false
-                };
-                grid.each_in_ring(&place, ring, wanted, |_| ());
+                grid.each_in_ring(&place, ring, |cell| assert!(seen.insert(cell), "{cell} twice"));
             }
-            assert_eq!(seen.borrow().len() as i64, grid.columns * grid.rows);
+            assert_eq!(seen.len() as i64, grid.columns * grid.rows);
         }
     }
 }

@@ -32,7 +32,7 @@ mod vicinity;
 mod witness;
 
 pub(crate) use answers::touch;
-pub(crate) use cells::{Cells, Item};
+pub(crate) use cells::{Cells, Place};
 pub use certificate::{Certificate, CertificateError, ProvenStep, verify_certificate};
 pub use checker::{CarChecker, ChainChecker, Checker, DiscChecker};
 pub use counted::{Counted, QueryCounts};

@@ -1,6 +1,7 @@
 //! Rays that meet a disc.
 
-use super::kernel::{Fan, Rays, View, raised, turns};
+use super::fan::{Fan, Rays, View, raised, some};
+use super::ready::turns;
 use crate::collision::{Circle, LANES};
 use crate::num::sqrt;
 
@@ -22,8 +23,8 @@ pub(super) fn raise_circle(circle: &Circle, view: &View, fan: &mut Fan) {
     let end = begin + 2.0 * half;
     let mut raise = |from: f64, to: f64| {
         let block = |turns: f64| (turns * view.rays) as usize / LANES;
-        for block in fan.some(block(from)..block(to) + 1) {
-            meet(block, (cx, cy), r2, outside);
+        for block in some(&mut fan.blocks, block(from)..block(to) + 1) {
+            meet(block, (cx, cy), r2, outside, view.nothing);
         }
     };
     raise(begin, end);
@@ -33,13 +34,13 @@ pub(super) fn raise_circle(circle: &Circle, view: &View, fan: &mut Fan) {
 }
 
 #[inline(always)]
-fn meet(rays: &mut Rays, (cx, cy): (f64, f64), r2: f64, outside: f64) {
+fn meet(rays: &mut Rays, (cx, cy): (f64, f64), r2: f64, outside: f64, nothing: f64) {
     for ((dx, dy), inverse) in rays.dx.iter().zip(&rays.dy).zip(&mut rays.inverse) {
         let along = cx * dx + cy * dy;
         let across = cx * dy - cy * dx;
         let half = r2 - across * across;
         // the nearer root of t^2 - 2 t along + outside = 0, as 1/t = (along + sqrt(half)) / outside
         let value = if (along > 0.0) & (half >= 0.0) { (along + sqrt(half)) / outside } else { 0.0 };
-        *inverse = raised(*inverse, value);
+        *inverse = raised(*inverse, value, nothing);
     }
 }

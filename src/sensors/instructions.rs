@@ -43,7 +43,7 @@ impl Instructions {
 
     pub(super) fn kernel(self) -> Kernel {
         match self {
-            Self::Baseline => kernel::BASELINE,
+            Self::Baseline => kernel::baseline::KERNEL,
             Self::Avx2 => kernel::avx2::KERNEL,
             Self::Avx512 => kernel::avx512::KERNEL,
         }

@@ -3,9 +3,10 @@
 use std::f64::consts::TAU;
 
 use super::RangeSensor;
-use super::circle::raise_circle;
+use super::fan::{Fan, Lanes, View};
 use super::instructions::Instructions;
-use super::kernel::{Fan, Kernel, Lanes, View};
+use super::kernel::Kernel;
+use super::raise::{Desk, raise};
 use super::walk::Walk;
 use crate::collision::{LANES, Scene, SegmentSoup, touch};
 use crate::geometry::{Placed, Pose2};
@@ -32,6 +33,7 @@ pub struct Scanner {
     fan: Fan,
     others: SegmentSoup,
     walk: Walk,
+    desk: Box<Desk>,
 }
 
 impl Scanner {
@@ -57,6 +59,7 @@ impl Scanner {
             fan: Fan::new(sensor.n_rays as usize),
             others: SegmentSoup::default(),
             walk: Walk::default(),
+            desk: Box::default(),
         }
     }
 
@@ -77,37 +80,37 @@ impl Scanner {
             return;
         }
         let (s, c) = if pose.theta == 0.0 { (0.0, 1.0) } else { num::sin_cos(pose.theta) };
-        (self.kernel.turn)(&self.units, (c, s), &mut self.fan);
-        let heading = num::atan2(s, c) / TAU;
+        (self.kernel.turn)(&mut self.fan, &self.units, (c, s));
+        // for what may be met, not what is: good to much less than the bearings' errors
+        let turns = if pose.theta.abs() < 1e6 { pose.theta / TAU } else { num::atan2(s, c) / TAU };
         let reach = self.sensor.max_range * (1.0 + 1e-6);
         let view = View {
             origin,
             reach,
             reach_squared: reach * reach,
-            heading: if heading < 0.0 { heading + 1.0 } else { heading },
+            heading: turns - turns.floor(),
             rays: f64::from(self.sensor.n_rays),
+            nothing: 0.0,
         };
         self.others.clear();
         for part in others {
             self.others.push(part);
         }
-        if let Some(cells) = scene.cells() {
-            self.walk.raise(scene.soup(), cells, &view, &self.kernel, &mut self.fan);
-        } else {
-            self.raise_every(scene.soup(), &view);
+        let Scanner { kernel, fan, walk, desk, others, .. } = self;
+        match scene.cells() {
+            Some(cells) => walk.raise((scene.soup(), cells), &view, kernel, fan, desk),
+            None => raise_every(scene.soup(), &view, kernel, fan, desk),
         }
-        self.fan.open = u64::MAX;
-        let others = std::mem::take(&mut self.others);
-        self.raise_every(&others, &view);
-        self.others = others;
+        fan.open = u64::MAX;
+        raise_every(others, &view, kernel, fan, desk);
         (self.kernel.ranges)(&self.fan, 1.0 / self.sensor.max_range, ranges);
     }
+}
 
-    /// Raises the rays that meet anything of the soup.
-    fn raise_every(&mut self, soup: &SegmentSoup, view: &View) {
-        (self.kernel.raise)(soup.segments().arrays(), view, &mut self.fan);
-        for circle in soup.circles() {
-            raise_circle(circle, view, &mut self.fan);
-        }
+/// Raises the rays that meet anything of the soup.
+fn raise_every(soup: &SegmentSoup, view: &View, kernel: &Kernel, fan: &mut Fan, desk: &mut Desk) {
+    raise(soup.segments().arrays(), view, kernel, fan, desk);
+    for circle in soup.circles() {
+        (kernel.circle)(circle, view, fan);
     }
 }

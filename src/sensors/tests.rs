@@ -119,6 +119,17 @@ fn random_walls_are_seen_as_defined_by_any_number_of_rays() {
 }
 
 #[test]
+fn more_rays_than_sixteen_bits_count_in_eights_are_cast_as_defined() {
+    let mut draws = Stream::new(Seed(7), "scan");
+    let mut scanners = scanners(600_000, 20.0);
+    let scene = random_walls(&mut draws, 12, 10.0);
+    for _ in 0..2 {
+        let pose = Pose2::new(draws.uniform(0.0, 10.0), draws.uniform(0.0, 10.0), draws.uniform(-PI, PI));
+        assert!(check(&mut scanners, &scene, &[], &pose) > 100_000);
+    }
+}
+
+#[test]
 fn lattice_walls_are_seen_as_defined_from_lattice_points_and_beside_them() {
     let mut draws = Stream::new(Seed(2), "scan");
     let mut scanners = scanners(360, 7.0);
@@ -171,6 +182,20 @@ fn large_worlds_are_seen_as_defined_from_inside_and_outside() {
                 let (x, y) = (x(), x());
                 check(&mut scanners, &scene, &[], &Pose2 { x, y, theta: draws.uniform(-7.0, 7.0) });
             }
+        }
+    }
+}
+
+#[test]
+fn a_ray_that_hits_beyond_the_cells_visited_is_not_done() {
+    // long walls, close together: those of the cells visited reach far beyond them, and nearer ones begin there
+    let mut draws = Stream::new(Seed(8), "scan");
+    let mut scanners = scanners(360, 4.0);
+    for _ in 0..4 {
+        let scene = Scene::of_walls(&random_segments(&mut draws, 300, 6.0, 1.5));
+        for _ in 0..150 {
+            let pose = Pose2::new(draws.uniform(0.0, 6.0), draws.uniform(0.0, 6.0), draws.uniform(-PI, PI));
+            check(&mut scanners, &scene, &[], &pose);
         }
     }
 }
