@@ -52,7 +52,7 @@ fn is_free(surroundings: &Surroundings, motion: &impl Motion) -> bool {
     let distance = surroundings.distance(&start);
     distance > 0.0
         && !surroundings.intersects(&motion.footprint_at(1.0))
-        && march_on(surroundings, motion, options, None, (start, distance), false).is_free()
+        && march_on(surroundings, motion, options, None, (start, distance)).is_free()
 }
 
 /// What [`settle`] reads and writes of a robot.
