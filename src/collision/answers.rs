@@ -58,7 +58,7 @@ impl Collision for Scene {
     }
 
     fn swept(&self, a: &Footprint, b: &Footprint) -> bool {
-        swept::hits(self, a, b, |motion| verdict(self, motion, SWEEP, None))
+        swept::hits(self, a, b, |motion| verdict(self, motion, SWEEP.budget, None))
     }
 }
 

@@ -133,12 +133,12 @@ impl<R: Robot> Checker<R> {
         b: &R::Configuration,
         certificate: &mut Certificate,
     ) -> Result<EdgeVerdict, ConfigurationError> {
-        Ok(verdict(&self.scene, &self.robot.edge(a, b)?, MarchOptions::default(), Some(certificate)))
+        Ok(verdict(&self.scene, &self.robot.edge(a, b)?, MarchOptions::default().budget, Some(certificate)))
     }
 
     /// The verdict on any motion of this robot: an edge, or the arc of a drive.
     pub fn motion(&self, motion: &impl Motion<Configuration = R::Configuration>) -> EdgeVerdict {
-        verdict(&self.scene, motion, MarchOptions::default(), None)
+        verdict(&self.scene, motion, MarchOptions::default().budget, None)
     }
 }
 

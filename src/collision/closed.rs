@@ -1,15 +1,15 @@
 //! Verdicts in closed form: discs on lines and arcs, and parts that move without turning.
 
 use super::disc_line::DiscLine;
-use super::extent::Extent;
-use super::march::{BRACKET, all_free, at_once, march_on, step_clearance};
-use super::vicinity::Vicinity;
-use super::{Certificate, Collision, EdgeVerdict, MarchOptions, ObstacleId, ProvenStep, Scene, Witness};
+use super::march::{BRACKET, step_clearance};
+use super::nearby::march_nearby;
+use super::{Certificate, Collision, EdgeVerdict, ObstacleId, ProvenStep, Scene, Witness};
 use crate::geometry::{CircularArc, Footprint, Point2, Segment};
 use crate::num::{greater, ulp};
 use crate::robots::Motion;
 
-/// The verdict on a motion in a scene: in closed form where there is one that decides, otherwise by the march.
+/// The verdict on a motion in a scene: in closed form where there is one that decides, otherwise by the march, in at most `budget` attempts
+/// to prove a step.
 ///
 /// A closed form says where the first contact is; that everything up to just before it is free, and that just after it there is contact,
 /// is then shown as the march would. So a closed form cannot make a verdict wrong, only quick. With a certificate asked for, every
@@ -17,68 +17,26 @@ use crate::robots::Motion;
 pub(super) fn verdict<M: Motion>(
     scene: &Scene,
     motion: &M,
-    options: MarchOptions,
+    budget: u32,
     mut certificate: Option<&mut Certificate>,
 ) -> EdgeVerdict {
-    if options.margin == 0.0
-        && let Some((way, radius)) = motion.disc_line()
+    if let Some((way, radius)) = motion.disc_line()
         && let Some(verdict) = linear(scene, way, radius, certificate.as_deref_mut())
     {
         return verdict;
     }
-    if options.margin == 0.0
-        && certificate.is_none()
+    if certificate.is_none()
         && let Some((arc, radius)) = motion.disc_arc()
     {
         let closed = circular(scene, motion, &arc, radius);
-        return closed.unwrap_or_else(|| march_nearby(scene, motion, options, None, motion.footprint_at(0.0)));
+        return closed.unwrap_or_else(|| march_nearby(scene, motion, budget, None, motion.footprint_at(0.0)));
     }
     let start = motion.footprint_at(0.0);
     let turns = (0..start.parts().len()).any(|k| motion.rates(k).acceleration != 0.0);
-    if options.margin == 0.0
-        && !turns
-        && let Some(verdict) = straight(scene, motion, &start, certificate.as_deref_mut())
-    {
+    if !turns && let Some(verdict) = straight(scene, motion, &start, certificate.as_deref_mut()) {
         return verdict;
     }
-    march_nearby(scene, motion, options, certificate, start)
-}
-
-/// As [`march`](super::march()), of a motion in a scene: what one step does not prove free is marched among the pieces that it can come near.
-fn march_nearby<M: Motion>(
-    scene: &Scene,
-    motion: &M,
-    options: MarchOptions,
-    certificate: Option<&mut Certificate>,
-    start: Footprint,
-) -> EdgeVerdict {
-    if let Some(clearance) = at_once(scene, motion, options, &start) {
-        return all_free(clearance, options.margin, certificate);
-    }
-    let distance = scene.distance(&start);
-    let from = (start, distance);
-    let may_pinch = options.margin == 0.0;
-    match vicinity(scene, motion, options, &from) {
-        Some(vicinity) => march_on(&vicinity, motion, options, certificate, from, may_pinch),
-        None => march_on(scene, motion, options, certificate, from, may_pinch),
-    }
-}
-
-/// What is near enough to the motion to matter: its clearance is nowhere said to be more than at the start.
-fn vicinity<'a, M: Motion>(
-    scene: &'a Scene,
-    motion: &M,
-    options: MarchOptions,
-    (start, distance): &(Footprint, f64),
-) -> Option<Vicinity<'a>> {
-    let end = motion.footprint_at(1.0);
-    if !(*distance > options.margin && distance.is_finite() && end.is_valid()) {
-        return None;
-    }
-    let parts = start.parts().iter().zip(end.parts()).enumerate();
-    let swept = parts
-        .map(|(k, (a, b))| Extent::of(a.placed()).merged(&Extent::of(b.placed())).grown(motion.sagitta(k, 0.0, 1.0)));
-    Vicinity::new(scene, &swept.reduce(|a, b| a.merged(&b))?, *distance)
+    march_nearby(scene, motion, budget, certificate, start)
 }
 
 /// The hit of which everything before `free_until` was proven free, if there is contact at `contact_at`.
@@ -162,7 +120,7 @@ mod tests {
     use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
     use super::*;
-    use crate::collision::{Checker, DiscChecker, march};
+    use crate::collision::{Checker, DiscChecker, MarchOptions, march};
     use crate::configuration::{HitchCfg, R2};
     use crate::geometry::{Pose2, Segment, Shape};
     use crate::num;
@@ -278,7 +236,7 @@ mod tests {
             let motion = RUSTY.drive(&q, &u, 1.0).unwrap();
             let (arc, radius) = motion.disc_arc().unwrap();
             decided += usize::from(circular(&scene, &motion, &arc, radius).is_some());
-            let quick = verdict(&scene, &motion, MarchOptions::default(), None);
+            let quick = verdict(&scene, &motion, MarchOptions::default().budget, None);
             let slow = march(&scene, &motion, MarchOptions::default(), None);
             let sampled = |until: f64| {
                 (0..=400)

@@ -75,21 +75,31 @@ fn plainly_apart(a: &[Point2], b: &[Point2]) -> bool {
     Span::of(a).is_apart(&Span::of(b)) || separates(a, b) || separates(b, a)
 }
 
+/// The cross product of an edge and the way from its beginning to `v`, positive to the left; 0 where it does not exceed several times the rounding it
+/// may hold.
+#[inline]
+fn plain_side((p, q): (Point2, Point2), v: &Point2) -> f64 {
+    let (u, w) = (q - p, v - p);
+    let (left, right) = (u.x * w.y, u.y * w.x);
+    let area = left - right;
+    let rounding = 16.0 * f64::EPSILON * (left.abs() + right.abs()) + f64::MIN_POSITIVE;
+    if area.abs() <= rounding { 0.0 } else { area }
+}
+
 /// Whether a side of `a` has all of `b` plainly to its right and the rest of `a` plainly to its left; of a segment, whether all of `b`
 /// is plainly on one side. A cross product counts only where it exceeds several times the rounding it may hold.
 fn separates(a: &[Point2], b: &[Point2]) -> bool {
     edges(a).any(|(p, q)| {
-        let u = q - p;
-        let side = |v: &Point2| {
-            let w = v - p;
-            let (left, right) = (u.x * w.y, u.y * w.x);
-            let area = left - right;
-            let rounding = 16.0 * f64::EPSILON * (left.abs() + right.abs()) + f64::MIN_POSITIVE;
-            if area.abs() <= rounding { 0.0 } else { area }
-        };
+        let side = |v: &Point2| plain_side((p, q), v);
         let right = b.iter().all(|v| side(v) < 0.0) && a.iter().all(|v| *v == p || *v == q || side(v) > 0.0);
         right || (a.len() == 2 && b.iter().all(|v| side(v) > 0.0))
     })
+}
+
+/// Whether a vertex of one polygon is plainly inside the other. What is not shown is not so either way.
+pub(super) fn plainly_overlap(a: &[Point2], b: &[Point2]) -> bool {
+    let inside = |polygon: &[Point2], p: &Point2| edges(polygon).all(|edge| plain_side(edge, p) > 0.0);
+    (a.len() > 2 && b.iter().any(|p| inside(a, p))) || (b.len() > 2 && a.iter().any(|p| inside(b, p)))
 }
 
 /// A common point of two cores, or `None` when they are disjoint; exact.
@@ -142,42 +152,65 @@ pub(super) fn point_segment(p: Point2, (a, b): (Point2, Point2)) -> (f64, Point2
 /// The distance between two disjoint cores and a pair of nearest points, if it is less than `limit`. It is attained at a vertex of
 /// one of them.
 pub(super) fn cores_distance(a: &[Point2], b: &[Point2], limit: f64) -> Option<(f64, Point2, Point2)> {
-    // No two vertices are nearer than the cores, so what is plainly farther need not be looked at.
-    let between = a.iter().flat_map(|p| b.iter().map(move |q| (p - q).norm_squared())).fold(f64::INFINITY, lesser);
-    let enough = lesser(sqrt(between) * (1.0 + 1e-9), limit);
-    let mut least = limit;
-    let mut best = None;
+    let enough = lesser(between_vertices(a, b), limit);
+    let mut closest = Closest { least: limit, pair: None };
     let around = Span::of(b);
     for &p in a {
-        if around.is_farther(p, lesser(least, enough)) {
+        if around.is_farther(p, lesser(closest.least, enough)) {
             continue;
         }
         for edge in edges(b) {
-            if !farther(p, edge, lesser(least, enough)) {
-                let (d, foot) = point_segment(p, edge);
-                if d < least {
-                    (least, best) = (d, Some((d, p, foot)));
-                }
-            }
+            closest.look(p, edge, enough, |p, foot| (p, foot));
         }
     }
     if a.len() > 1 {
         let around = Span::of(a);
         for &q in b {
-            if around.is_farther(q, lesser(least, enough)) {
+            if around.is_farther(q, lesser(closest.least, enough)) {
                 continue;
             }
             for edge in edges(a) {
-                if !farther(q, edge, lesser(least, enough)) {
-                    let (d, foot) = point_segment(q, edge);
-                    if d < least {
-                        (least, best) = (d, Some((d, foot, q)));
-                    }
-                }
+                closest.look(q, edge, enough, |q, foot| (foot, q));
             }
         }
     }
-    best
+    closest.found()
+}
+
+/// No two vertices are nearer than the cores, so what is plainly farther than this need not be looked at.
+pub(super) fn between_vertices(a: &[Point2], b: &[Point2]) -> f64 {
+    let between = a.iter().flat_map(|p| b.iter().map(move |q| (p - q).norm_squared())).fold(f64::INFINITY, lesser);
+    sqrt(between) * (1.0 + 1e-9)
+}
+
+/// The nearest pair of points so far.
+pub(super) struct Closest {
+    pub(super) least: f64,
+    pub(super) pair: Option<(Point2, Point2)>,
+}
+
+impl Closest {
+    /// Looks at a vertex and an edge, unless they are plainly farther apart than is known to be enough.
+    #[inline]
+    pub(super) fn look(
+        &mut self,
+        p: Point2,
+        edge: (Point2, Point2),
+        enough: f64,
+        pair: impl Fn(Point2, Point2) -> (Point2, Point2),
+    ) {
+        if !farther(p, edge, lesser(self.least, enough)) {
+            let (d, foot) = point_segment(p, edge);
+            if d < self.least {
+                (self.least, self.pair) = (d, Some(pair(p, foot)));
+            }
+        }
+    }
+
+    /// The distance and the two points; `None` where nothing was nearer than the limit.
+    pub(super) fn found(self) -> Option<(f64, Point2, Point2)> {
+        self.pair.map(|(p, q)| (self.least, p, q))
+    }
 }
 
 /// The box around a core.

@@ -1,6 +1,5 @@
 //! The certified march: a motion proven free piece by piece, or bracketed where it hits.
 
-use super::pinch::{Pace, pinch};
 use super::{Certificate, Collision, EdgeVerdict, MarchOptions, ObstacleId, ProvenStep, UnresolvedReason};
 use crate::geometry::{Footprint, Part, largest_coordinate};
 use crate::num::{greater, lesser, sqrt, ulp};
@@ -25,8 +24,7 @@ pub(super) fn step_clearance<M: Motion>(
         let hull = p0.placed().hull_with(p1.placed());
         let size = largest_coordinate([&hull]);
         let dist = collision.distance_of_hull(hull);
-        let slack = if dist.is_finite() { 32.0 * ulp(size + dist) } else { 0.0 };
-        least = lesser(dist - motion.sagitta(k, s0, s1) - slack, least);
+        least = lesser(dist - motion.sagitta(k, s0, s1) - rounding(size, dist), least);
         if least <= 0.0 {
             break;
         }
@@ -34,14 +32,19 @@ pub(super) fn step_clearance<M: Motion>(
     least
 }
 
+/// What a step's proof takes off the distance of a hull whose coordinates are at most `size`, metres.
+pub(super) fn rounding(size: f64, distance: f64) -> f64 {
+    if distance.is_finite() { 32.0 * ulp(size + distance) } else { 0.0 }
+}
+
 /// How far any part can move between `s0` and `s1`, metres.
-fn width<M: Motion>(motion: &M, parts: usize, s0: f64, s1: f64) -> f64 {
+pub(super) fn width<M: Motion>(motion: &M, parts: usize, s0: f64, s1: f64) -> f64 {
     (0..parts).fold(0.0, |w, k| greater(motion.bound(k, s0, s1), w))
 }
 
 /// The length of the next step to try: where the clearance, falling from `clearance` at `closing` metres per unit of s, still
 /// exceeds one and a half times the sagitta of the step.
-fn promising(clearance: f64, closing: f64, acceleration: f64) -> f64 {
+pub(super) fn promising(clearance: f64, closing: f64, acceleration: f64) -> f64 {
     let a = 1.5 * 0.125 * acceleration;
     // the positive root of a h^2 + closing h = clearance, in the form that keeps its digits
     2.0 * clearance / (closing + sqrt(closing * closing + 4.0 * a * clearance))
@@ -62,22 +65,16 @@ pub fn march<M: Motion>(
     certificate: Option<&mut Certificate>,
 ) -> EdgeVerdict {
     let start = motion.footprint_at(0.0);
-    if let Some(clearance) = at_once(collision, motion, options, &start) {
-        return all_free(clearance, options.margin, certificate);
+    let clearance = if options.budget > 0 { clearance_of_all(collision, motion, &start) } else { 0.0 };
+    if clearance > options.margin {
+        if let Some(c) = certificate {
+            c.clear(options.margin);
+            c.push(ProvenStep { from: 0.0, to: 1.0, clearance });
+        }
+        return EdgeVerdict::Free { clearance };
     }
     let distance = collision.distance(&start);
-    march_on(collision, motion, options, certificate, (start, distance), false)
-}
-
-/// The clearance of a motion that one step proves free, as these options ask for it.
-pub(super) fn at_once<M: Motion>(
-    collision: &dyn Collision,
-    motion: &M,
-    options: MarchOptions,
-    start: &Footprint,
-) -> Option<f64> {
-    let clearance = if options.budget > 0 { clearance_of_all(collision, motion, start) } else { 0.0 };
-    (clearance > options.margin).then_some(clearance)
+    march_on(collision, motion, options, certificate, (start, distance))
 }
 
 /// The clearance that one step proves of all of the motion, metres; not above 0 where it proves nothing. Most motions are proven so.
@@ -85,24 +82,13 @@ pub(crate) fn clearance_of_all<M: Motion>(collision: &dyn Collision, motion: &M,
     step_clearance(collision, motion, (0.0, start), (1.0, &motion.footprint_at(1.0)))
 }
 
-/// The verdict on a motion that one step proves to keep this clearance, above the margin.
-pub(super) fn all_free(clearance: f64, margin: f64, certificate: Option<&mut Certificate>) -> EdgeVerdict {
-    if let Some(c) = certificate {
-        c.clear(margin);
-        c.push(ProvenStep { from: 0.0, to: 1.0, clearance });
-    }
-    EdgeVerdict::Free { clearance }
-}
-
-/// As [`march`], of a motion that one step does not prove free, given the footprint at its start and its distance. A contact that comes in sight may be pinched instead of marched at: the
-/// verdict then says the same in other brackets, which what has been recorded does not allow.
+/// As [`march`], of a motion that one step does not prove free, given the footprint at its start and its distance.
 pub(crate) fn march_on<M: Motion>(
     collision: &dyn Collision,
     motion: &M,
     options: MarchOptions,
     mut certificate: Option<&mut Certificate>,
     (start, start_distance): (Footprint, f64),
-    mut may_pinch: bool,
 ) -> EdgeVerdict {
     if let Some(c) = certificate.as_deref_mut() {
         c.clear(options.margin);
@@ -140,15 +126,6 @@ pub(crate) fn march_on<M: Motion>(
             return EdgeVerdict::Unresolved { free_until: lo, gap, reason: UnresolvedReason::Budget };
         }
         steps += 1;
-        if let Some(ahead) = contact
-            && std::mem::take(&mut may_pinch)
-            && let Some(pinched) = pinch(collision, motion, Pace { speed, acceleration }, (lo, &at_lo, gap), ahead)
-        {
-            if let Some(c) = certificate {
-                pinched.steps.iter().rev().for_each(|step| c.push(*step));
-            }
-            return hit(pinched.free_until, pinched.contact_at);
-        }
         let hi = match contact {
             Some(c) if lo + h >= c => lo + 0.5 * (c - lo),
             _ => lesser(lo + h, 1.0),

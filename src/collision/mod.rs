@@ -17,6 +17,8 @@ mod impact;
 mod index;
 mod march;
 mod narrow;
+mod nearby;
+mod parting;
 mod piece_grid;
 mod pinch;
 mod problem;

@@ -2,6 +2,7 @@
 
 use super::core::{cores_contact, cores_distance, edges, point_segment, polygon_contains, segments_contact};
 use super::dd::Dd;
+use super::parting::{Parting, parted_distance};
 use crate::geometry::{Placed, Point2, largest_coordinate};
 use crate::num::{greater, lesser, sqrt, ulp};
 use std::cmp::Ordering;
@@ -34,10 +35,22 @@ pub(super) fn nearest_within(a: &Placed, b: &Placed, limit: f64) -> Option<Neare
     if let Some(point) = cores_contact(a.core(), b.core()) {
         return Some(Nearest { dist: 0.0, on_a: point, on_b: point });
     }
-    // more than rounding can make of a distance at the limit
+    nearest_apart(a, b, cores_distance(a.core(), b.core(), core_limit(a, b, limit))?)
+}
+
+/// As [`nearest_within`], of shapes whose cores a line plainly parts; what heights above it may be off by.
+pub(super) fn nearest_across(a: &Placed, b: &Placed, limit: f64, line: (&Parting, f64)) -> Option<Nearest> {
+    nearest_apart(a, b, parted_distance(a.core(), b.core(), core_limit(a, b, limit), line)?)
+}
+
+/// The limit of the cores' distance: more than rounding can make of a distance at the limit.
+fn core_limit(a: &Placed, b: &Placed, limit: f64) -> f64 {
+    (limit + (a.radius() + b.radius())) * (1.0 + 1e-9) + 1e-9
+}
+
+/// The nearest points of two shapes, from those of their cores.
+fn nearest_apart(a: &Placed, b: &Placed, (core_dist, foot_a, foot_b): (f64, Point2, Point2)) -> Option<Nearest> {
     let reach = a.radius() + b.radius();
-    let core_limit = (limit + reach) * (1.0 + 1e-9) + 1e-9;
-    let (core_dist, foot_a, foot_b) = cores_distance(a.core(), b.core(), core_limit)?;
     let core_dist = greater(core_dist, f64::MIN_POSITIVE); // disjoint, whatever was lost to underflow
     if reach == 0.0 {
         return Some(Nearest { dist: core_dist, on_a: foot_a, on_b: foot_b });

@@ -2,8 +2,7 @@
 
 use smallvec::SmallVec;
 
-use super::march::{BRACKET, step_clearance};
-use super::{Collision, ProvenStep};
+use super::march::BRACKET;
 use crate::geometry::Footprint;
 use crate::num::{greater, lesser, sqrt};
 use crate::robots::Motion;
@@ -11,10 +10,16 @@ use crate::robots::Motion;
 /// More steps than this are left to the march.
 const MOST: usize = 24;
 
+/// Steps, each from where to where.
+type Steps = SmallVec<[(f64, f64); MOST]>;
+
+/// So many contacts are tried, each before the last: the first one tried need not be the first on the way.
+const CONTACTS: u32 = 8;
+
 /// So many distances at most are asked on the way to a contact.
 const TRIES: u32 = 40;
 
-/// What a pinch needs to know of a motion: bounds over all its parts.
+/// What a pinch needs to know of a motion: bounds over the parts that may hit.
 #[derive(Clone, Copy)]
 pub(super) struct Pace {
     pub(super) speed: f64,
@@ -29,50 +34,75 @@ struct Near {
     closing: f64,
 }
 
-/// A contact in a bracket of at most [`BRACKET`] of motion, and the steps, last first, that prove everything from where the search began
-/// to the bracket.
+/// A contact in a bracket of at most [`BRACKET`] of motion, and from where to where the steps go, last first, that prove everything from
+/// where the search began to the bracket.
 pub(super) struct Pinched {
     pub(super) free_until: f64,
     pub(super) contact_at: f64,
-    pub(super) steps: SmallVec<[ProvenStep; MOST]>,
+    pub(super) steps: Steps,
 }
 
-/// Searches from a free place, where the footprint is `gap` metres from contact, to one that is in contact. `None` where that takes too long or
-/// what lies between is not proven: another contact may come first. Then it is the march's business.
+/// Searches from a free place, where the footprint is `gap_lo` metres from contact, to one that is in contact. `None` where that takes too long or
+/// what lies between is not proven: then it is the march's business.
+///
+/// `gap` tells how far a footprint is from contact, metres, 0 in contact; `clearance` what one step between two places proves.
 pub(super) fn pinch<M: Motion>(
-    collision: &dyn Collision,
+    gap: impl Fn(&Footprint) -> f64,
+    clearance: impl Fn((f64, &Footprint), (f64, &Footprint)) -> f64,
     motion: &M,
     pace: Pace,
-    (lo, at_lo, gap): (f64, &Footprint, f64),
-    contact: f64,
+    (lo, at_lo, gap_lo): (f64, &Footprint, f64),
+    mut contact: f64,
 ) -> Option<Pinched> {
-    let gap_at = |s: f64| collision.distance(&motion.footprint_at(s));
-    let (near, contact_at) = approach(gap_at, pace, Near { s: lo, gap, closing: pace.speed }, contact)?;
-    let mut steps = SmallVec::new();
-    let (mut hi, mut at_hi, mut gap) = (near.s, motion.footprint_at(near.s), near.gap);
+    let gap_at = |s: f64| gap(&motion.footprint_at(s));
+    let from = Near { s: lo, gap: gap_lo, closing: pace.speed };
+    for _ in 0..CONTACTS {
+        let (near, contact_at) = approach(gap_at, pace, from, contact)?;
+        match prove_back(&gap, &clearance, motion, pace, (lo, at_lo), near)? {
+            Ok(steps) => return Some(Pinched { free_until: near.s, contact_at, steps }),
+            Err(earlier) => contact = earlier,
+        }
+    }
+    None
+}
+
+/// Proves everything from `lo` to a free place, backward from that in steps that grow with the clearance: the steps, last first, or a
+/// contact on the way.
+fn prove_back<M: Motion>(
+    gap: impl Fn(&Footprint) -> f64,
+    clearance: impl Fn((f64, &Footprint), (f64, &Footprint)) -> f64,
+    motion: &M,
+    pace: Pace,
+    (lo, at_lo): (f64, &Footprint),
+    near: Near,
+) -> Option<Result<Steps, f64>> {
+    let mut steps = Steps::new();
+    let (mut hi, mut at_hi, mut room) = (near.s, motion.footprint_at(near.s), near.gap);
     while hi > lo {
         if steps.len() == MOST {
             return None;
         }
-        // as far back as the gap, which is least at the near side, exceeds one and a half times the sagitta
-        let mut h = sqrt(gap / (1.5 * 0.125 * greater(pace.acceleration, 1e-9)));
-        let (from, at_from, clearance) = loop {
+        // as far back as the room, which is least at the near side, exceeds one and a half times the sagitta
+        let mut h = sqrt(room / (1.5 * 0.125 * greater(pace.acceleration, 1e-9)));
+        let (from, at_from) = loop {
             let from = if h < hi - lo { hi - h } else { lo };
             let at_from = if from == lo { at_lo.clone() } else { motion.footprint_at(from) };
-            let clearance = step_clearance(collision, motion, (from, &at_from), (hi, &at_hi));
-            if clearance > 0.0 {
-                break (from, at_from, clearance);
+            if clearance((from, &at_from), (hi, &at_hi)) > 0.0 {
+                break (from, at_from);
+            }
+            if from > lo && gap(&at_from) <= 0.0 {
+                return Some(Err(from));
             }
             h = 0.25 * lesser(h, hi - lo);
             if h * pace.speed < 0.1 * BRACKET {
                 return None;
             }
         };
-        steps.push(ProvenStep { from, to: hi, clearance });
-        gap += 0.5 * near.closing * (hi - from);
+        steps.push((from, hi));
+        room += 0.5 * near.closing * (hi - from);
         (hi, at_hi) = (from, at_from);
     }
-    Some(Pinched { free_until: near.s, contact_at, steps })
+    Some(Ok(steps))
 }
 
 /// The free place nearest to the contact and the contact, not farther apart than [`BRACKET`].

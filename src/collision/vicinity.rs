@@ -2,26 +2,32 @@
 
 use smallvec::SmallVec;
 
+use super::Scene;
 use super::answers::touches;
 use super::extent::{Extent, square};
-use super::narrow::Nearest;
-use super::{Collision, Scene, Witness};
-use crate::geometry::{Footprint, Placed};
+use super::search::Search;
+use crate::geometry::Placed;
+use crate::num::lesser;
 
 /// At most so many pieces are taken out of a scene.
-const MOST: usize = 32;
+const MOST: usize = 64;
 
-/// The pieces of a scene within a range of where a motion goes. Asked about places of that motion it answers as the scene does; only what
-/// is farther off than the range it has to ask the scene about.
+/// The pieces of a scene within a range of where a motion goes. Asked about shapes on that way it answers as the scene does; only about
+/// what is farther off than the range, or where the pieces are too many to be worth it, it has to ask the scene.
 pub(super) struct Vicinity<'a> {
     scene: &'a Scene,
     range: f64,
-    pieces: SmallVec<[(Extent, u32); MOST]>,
+    pieces: Option<SmallVec<[(Extent, u32); MOST]>>,
 }
 
 impl<'a> Vicinity<'a> {
-    /// What is within `range` metres of a box; `None` where that is too much to be worth it.
-    pub(super) fn new(scene: &'a Scene, within: &Extent, range: f64) -> Option<Self> {
+    /// All of a scene.
+    pub(super) fn all(scene: &'a Scene) -> Self {
+        Vicinity { scene, range: 0.0, pieces: None }
+    }
+
+    /// What is within `range` metres of a box.
+    pub(super) fn new(scene: &'a Scene, within: &Extent, range: f64) -> Self {
         let mut pieces = SmallVec::new();
         let mut fits = true;
         scene.index.each_near(within, range, |piece| {
@@ -31,71 +37,113 @@ impl<'a> Vicinity<'a> {
             }
             !fits
         });
-        fits.then_some(Vicinity { scene, range, pieces })
+        Vicinity { scene, range, pieces: fits.then_some(pieces) }
     }
 
-    fn nearest(&self, shape: &Placed, within: f64) -> Option<(usize, Nearest)> {
-        let mut search = self.scene.search(shape, within);
-        let from = search.extent();
+    /// About what is farther off than this, metres, it asks the scene.
+    pub(super) fn range(&self) -> f64 {
+        if self.pieces.is_some() { self.range } else { f64::INFINITY }
+    }
+
+    /// The distance of a valid shape on the way from the nearest piece, metres, if it is less than `within`. Once a piece is known to be no farther
+    /// than `enough`, how near the nearest is is no longer asked: any such distance will do.
+    pub(super) fn distance(&self, shape: &Placed, enough: f64, within: f64) -> Option<f64> {
+        let Some(pieces) = &self.pieces else { return self.in_scene(shape, enough, within) };
+        let near = self.among(pieces, shape, enough, lesser(within, self.range));
+        if near.is_some() || within <= self.range { near } else { self.in_scene(shape, enough, within) }
+    }
+
+    /// As [`distance`](Self::distance), of all pieces of the scene.
+    fn in_scene(&self, shape: &Placed, enough: f64, within: f64) -> Option<f64> {
+        let mut look = Look::new(self.scene, shape, enough, within);
+        let from = look.extent();
+        self.scene.index.nearest(&from, within, |piece| look.at(piece));
+        look.found()
+    }
+
+    /// As [`distance`](Self::distance), of these pieces alone.
+    fn among(&self, pieces: &[(Extent, u32)], shape: &Placed, enough: f64, within: f64) -> Option<f64> {
+        let mut look = Look::new(self.scene, shape, enough, within);
+        let from = look.extent();
         let mut squares = [f64::INFINITY; MOST];
         let (mut first, mut nearest) = (0, f64::INFINITY);
-        for (i, ((extent, _), distance)) in self.pieces.iter().zip(&mut squares).enumerate() {
+        for (i, ((extent, _), distance)) in pieces.iter().zip(&mut squares).enumerate() {
             *distance = from.squared_distance(extent);
             if *distance < nearest {
                 (first, nearest) = (i, *distance);
             }
         }
-        if nearest > square(within) || self.pieces.is_empty() {
+        if nearest > square(within) || pieces.is_empty() {
             return None;
         }
-        let mut least = square(search.look(self.pieces[first].1 as usize));
-        for (i, ((_, piece), distance)) in self.pieces.iter().zip(&squares).enumerate() {
+        let mut least = square(look.at(pieces[first].1 as usize));
+        for (i, ((_, piece), distance)) in pieces.iter().zip(&squares).enumerate() {
             if *distance <= least && i != first {
-                least = square(search.look(*piece as usize));
+                least = square(look.at(*piece as usize));
             }
         }
-        search.found()
+        look.found()
+    }
+
+    /// Whether a valid shape on the way touches a piece.
+    pub(super) fn touches(&self, shape: &Placed) -> bool {
+        let from = Extent::of(shape);
+        let touched = |piece: usize| touches(shape, &self.scene.pieces[piece]);
+        match &self.pieces {
+            Some(pieces) => pieces.iter().any(|(e, piece)| from.squared_distance(e) == 0.0 && touched(*piece as usize)),
+            None => {
+                let mut found = false;
+                self.scene.each_within(shape, 0.0, |piece| {
+                    found = touched(piece);
+                    found
+                });
+                found
+            }
+        }
     }
 }
 
-impl Collision for Vicinity<'_> {
-    fn intersects(&self, footprint: &Footprint) -> bool {
-        !footprint.is_valid()
-            || footprint.parts().iter().any(|part| {
-                self.pieces.iter().any(|(_, piece)| touches(part.placed(), &self.scene.pieces[*piece as usize]))
-            })
+/// A search for the distance alone, which ends when that is known to be small enough.
+struct Look<'a> {
+    search: Search<'a>,
+    within: f64,
+    enough: f64,
+    /// What was found to be near enough.
+    near: Option<f64>,
+}
+
+impl<'a> Look<'a> {
+    fn new(scene: &'a Scene, shape: &'a Placed, enough: f64, within: f64) -> Self {
+        Look { search: scene.search(shape, within), within, enough, near: None }
     }
 
-    fn distance(&self, footprint: &Footprint) -> f64 {
-        if !footprint.is_valid() {
+    fn extent(&self) -> Extent {
+        self.search.extent()
+    }
+
+    /// Looks at a piece and gives the least distance so far; 0 once it is small enough, so that little else is looked at.
+    fn at(&mut self, piece: usize) -> f64 {
+        if self.near.is_some() {
             return 0.0;
         }
-        let parts = footprint.parts().iter();
-        let least =
-            parts.fold(self.range, |least, part| self.nearest(part.placed(), least).map_or(least, |(_, n)| n.dist));
-        if least < self.range { least } else { self.scene.distance(footprint) }
-    }
-
-    fn distance_of_hull(&self, hull: Placed) -> f64 {
-        if !hull.is_valid() {
+        let least = self.search.look_for_distance(piece);
+        if least <= self.enough && least < self.within {
+            self.near = Some(least);
             return 0.0;
         }
-        self.nearest(&hull, self.range).map_or_else(|| self.scene.distance_of_hull(hull), |(_, n)| n.dist)
+        least
     }
 
-    fn witness(&self, footprint: &Footprint) -> Option<Witness> {
-        self.scene.witness(footprint)
-    }
-
-    fn swept(&self, a: &Footprint, b: &Footprint) -> bool {
-        self.scene.swept(a, b)
+    fn found(self) -> Option<f64> {
+        self.near.or_else(|| self.search.found().map(|(_, n)| n.dist))
     }
 }
 
 #[cfg(test)]
 mod tests {
+    use super::super::Collision;
     use super::*;
-    use crate::geometry::{Point2, Segment};
+    use crate::geometry::{Footprint, Point2, Segment};
     use crate::random::{Seed, Stream};
 
     #[test]
@@ -105,21 +153,28 @@ mod tests {
         let mut beyond = 0;
         for _ in 0..300 {
             let mut at = |reach: f64| Point2::new(draws.uniform(3.0, 3.0 + reach), draws.uniform(2.0, 2.0 + reach));
-            let within = Extent { min: Point2::new(3.0, 2.0), max: Point2::new(5.0, 4.0) };
-            let vicinity = Vicinity::new(&scene, &within, 0.25).unwrap();
+            let way = Extent { min: Point2::new(3.0, 2.0), max: Point2::new(5.0, 4.0) };
+            let vicinity = Vicinity::new(&scene, &way, 0.25);
+            assert!(vicinity.pieces.is_some());
             let hull = Placed::new(smallvec::smallvec![at(2.0), at(2.0)], 0.05);
-            let footprint = Footprint::of_hull(hull.clone());
-            let distance = scene.distance(&footprint);
-            assert_eq!(vicinity.distance(&footprint), distance);
-            assert_eq!(vicinity.distance_of_hull(hull), distance);
-            assert_eq!(vicinity.intersects(&footprint), distance == 0.0);
+            let distance = scene.distance(&Footprint::of_hull(hull.clone()));
+            for within in [0.1, 0.25, 0.5, f64::INFINITY] {
+                let expected = (distance < within).then_some(distance);
+                for vicinity in [&vicinity, &Vicinity::all(&scene)] {
+                    assert_eq!(vicinity.distance(&hull, 0.0, within), expected, "{distance} within {within}");
+                    let near = vicinity.distance(&hull, 0.2, within);
+                    assert!(near == expected || near.is_some_and(|n| n <= 0.2 && distance <= n), "{near:?} {distance}");
+                }
+            }
+            assert_eq!(vicinity.touches(&hull), distance == 0.0);
+            assert_eq!(Vicinity::all(&scene).touches(&hull), distance == 0.0);
             beyond += usize::from(distance > 0.25);
         }
         assert!(beyond > 10 && beyond < 290, "{beyond} beyond the range");
         let wall = |k: u32| Segment::new(Point2::new(f64::from(k), 0.0), Point2::new(f64::from(k), 1.0));
         let walls: Vec<Segment> = (0..=MOST as u32).map(wall).collect();
         let all = Extent { min: Point2::origin(), max: Point2::new(99.0, 1.0) };
-        assert!(Vicinity::new(&Scene::of_walls(&walls), &all, 1.0).is_none(), "too much to be worth it");
-        assert!(Vicinity::new(&Scene::of_walls(&walls[1..]), &all, 1.0).is_some());
+        assert!(Vicinity::new(&Scene::of_walls(&walls), &all, 1.0).pieces.is_none(), "too much to be worth it");
+        assert!(Vicinity::new(&Scene::of_walls(&walls[1..]), &all, 1.0).pieces.is_some());
     }
 }

@@ -16,23 +16,40 @@ pub fn convex_hull(points: &[Point2]) -> SmallVec<[Point2; 8]> {
     if sorted.len() <= 2 {
         return SmallVec::from_slice(&sorted);
     }
-    // with room for the start twice: the hull of two rectangles may have eight corners, and must not touch the heap
-    let mut hull: SmallVec<[Point2; 16]> = SmallVec::new();
-    let chain = |hull: &mut SmallVec<[Point2; 16]>, from: usize, p: Point2| {
-        while hull.len() >= from + 2 && orientation(hull[hull.len() - 2], hull[hull.len() - 1], p) <= 0.0 {
-            hull.pop();
+    // With room for the start twice. The hull of two rectangles may have eight corners, and must not touch the heap.
+    if sorted.len() < ROOM {
+        let mut room = [Point2::origin(); ROOM];
+        let count = chains(&sorted, &mut room);
+        return SmallVec::from_slice(&room[..count]);
+    }
+    let mut room = vec![Point2::origin(); sorted.len() + 1];
+    let count = chains(&sorted, &mut room);
+    SmallVec::from_slice(&room[..count])
+}
+
+/// So many points are worked on beside the heap.
+const ROOM: usize = 17;
+
+/// The lower chain of sorted points and after it the upper one, into a room for one more than all; returns how many corners there are.
+fn chains(sorted: &[Point2], hull: &mut [Point2]) -> usize {
+    let mut count = 0;
+    let mut go_on = |p: Point2, from: usize| {
+        while count >= from + 2 && orientation(hull[count - 2], hull[count - 1], p) <= 0.0 {
+            count -= 1;
         }
-        hull.push(p);
+        hull[count] = p;
+        count += 1;
+        count
     };
-    for &p in &sorted {
-        chain(&mut hull, 0, p);
+    let mut lower = 0;
+    for &p in sorted {
+        lower = go_on(p, 0);
     }
-    let lower = hull.len() - 1;
+    let mut all = lower;
     for &p in sorted.iter().rev().skip(1) {
-        chain(&mut hull, lower, p);
+        all = go_on(p, lower - 1);
     }
-    hull.pop(); // the start again
-    SmallVec::from_slice(&hull)
+    all - 1 // without the start again
 }
 
 #[cfg(test)]

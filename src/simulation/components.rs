@@ -180,7 +180,8 @@ pub struct Cut<R: SimulatedRobot> {
     pub until: f64,
     /// Whether it was blocked, or hit.
     pub contact: bool,
-    marker: std::marker::PhantomData<fn() -> R>,
+    /// The configuration and the control that made the motion, where nothing else that may change had a say: the same two are cut the same.
+    pub of: Option<(R::Configuration, R::Control)>,
 }
 
 impl<R: SimulatedRobot> Contacts<R> {
@@ -200,7 +201,7 @@ impl<R: SimulatedRobot> OwnState<R> {
 impl<R: SimulatedRobot> Cut<R> {
     /// This cut.
     pub fn new(until: f64, contact: bool) -> Self {
-        Cut { until, contact, marker: std::marker::PhantomData }
+        Cut { until, contact, of: None }
     }
 }
 

@@ -63,7 +63,7 @@ pub fn advance(surroundings: &dyn Collision, motion: &impl Motion) -> Advance {
     if all > options.margin {
         return Advance { until: 1.0, blocked: false };
     }
-    let free_until = match march_on(surroundings, motion, options, None, (start, start_clearance), false) {
+    let free_until = match march_on(surroundings, motion, options, None, (start, start_clearance)) {
         EdgeVerdict::Free { .. } => return Advance { until: 1.0, blocked: false },
         EdgeVerdict::Hit { free_until, .. } | EdgeVerdict::Unresolved { free_until, .. } => free_until,
     };

@@ -7,7 +7,8 @@ use super::simulated_robot::canonical;
 use super::starts::{Starts, Sweeps};
 use super::sweep::{CutMotion, sweeps_meet};
 use super::{
-    Configuration, Contacts, Cut, DriveMode, ResidesIn, RobotId, RobotModel, SimulatedRobot, TickMotion, WorldScene,
+    Configuration, Contacts, Control, Cut, DriveMode, ResidesIn, RobotId, RobotModel, SimulatedRobot, TickMotion,
+    WorldScene,
 };
 use crate::collision::{Collision, MarchOptions, Surroundings, clearance_of_all, march_on};
 use crate::configuration::Configuration as _;
@@ -16,19 +17,34 @@ use crate::robots::Motion;
 /// How many ticks a flash holds after contact: 0.3 s.
 pub const FLASH_TICKS: u32 = 6;
 
-/// Cuts every motion of a kind at the walls and at all other robots' starting footprints.
+/// What [`cut`] reads and writes of a robot.
+type CutRobot<R> = (
+    &'static RobotId,
+    &'static ResidesIn,
+    &'static Configuration<R>,
+    &'static Control<R>,
+    &'static TickMotion<R>,
+    &'static mut Cut<R>,
+);
+
+/// Cuts every motion of a kind at the walls and at all other robots' starting footprints. A robot alone in its world that was held where it is
+/// and gets the same control again is held again: its motion is the same.
 pub(super) fn cut<R: SimulatedRobot>(
     starts: Res<Starts>,
     mut sweeps: ResMut<Sweeps>,
     scenes: Query<&WorldScene>,
-    mut robots: Query<(&RobotId, &ResidesIn, &TickMotion<R>, &mut Cut<R>)>,
+    mut robots: Query<CutRobot<R>>,
 ) {
-    for (&id, &ResidesIn(world), TickMotion(motion), mut cut) in &mut robots {
+    for (&id, &ResidesIn(world), Configuration(q), Control(u), TickMotion(motion), mut cut) in &mut robots {
         let (Some(motion), Ok(WorldScene(scene))) = (motion, scenes.get(world)) else {
             *cut = Cut::new(0.0, false);
             continue;
         };
         let others = starts.others(world, id);
+        let of = others.is_empty().then_some((*q, *u));
+        if of.is_some() && cut.of == of {
+            continue;
+        }
         let surroundings = Surroundings { scene, others: &others };
         *cut = if R::HELD {
             let Advance { until, blocked } = hold::advance(&surroundings, motion);
@@ -37,6 +53,7 @@ pub(super) fn cut<R: SimulatedRobot>(
             // nothing holds it: all the way, in contact unless proven free
             Cut::new(1.0, !is_free(&surroundings, motion))
         };
+        cut.of = of;
         if !others.is_empty() {
             sweeps.add(world, id, Box::new(CutMotion { motion: motion.clone(), until: cut.until }));
         }
@@ -52,7 +69,7 @@ fn is_free(surroundings: &Surroundings, motion: &impl Motion) -> bool {
     let distance = surroundings.distance(&start);
     distance > 0.0
         && !surroundings.intersects(&motion.footprint_at(1.0))
-        && march_on(surroundings, motion, options, None, (start, distance), false).is_free()
+        && march_on(surroundings, motion, options, None, (start, distance)).is_free()
 }
 
 /// What [`settle`] reads and writes of a robot.

@@ -1,0 +1,337 @@
+//! The march of a motion in a scene, among the pieces that it can come near.
+
+use smallvec::SmallVec;
+
+use super::extent::Extent;
+use super::march::{BRACKET, march_on, promising, rounding, step_clearance, width};
+use super::pinch::{Pace, pinch};
+use super::vicinity::Vicinity;
+use super::{Certificate, Collision, EdgeVerdict, MarchOptions, ObstacleId, ProvenStep, Scene, UnresolvedReason};
+use crate::geometry::{Footprint, Part, largest_coordinate};
+use crate::num::{greater, lesser, ulp};
+use crate::robots::Motion;
+
+/// A place of a motion.
+type Place<'a> = (f64, &'a Footprint);
+
+/// A march under way.
+struct Nearby<'a, M> {
+    scene: &'a Scene,
+    motion: &'a M,
+    around: Vicinity<'a>,
+    /// The number of the footprint's parts.
+    parts: usize,
+    /// The parts that can come near anything.
+    open: SmallVec<[usize; 4]>,
+    /// The clearance that a step of any length proves for all others, metres.
+    kept: f64,
+    /// The least clearance of the steps proven so far, metres.
+    clearance: f64,
+    certificate: Option<&'a mut Certificate>,
+}
+
+/// The verdict on a motion in a scene: what [`march`](super::march()) says, in the same steps as far as the motion is free.
+///
+/// Most motions are proven free in one step. Where that step fails it still tells what need not be looked at again: a part whose hull keeps
+/// more than two sagittas from everything is free in every step, because a step's ends are within one sagitta of that hull and its own sagitta
+/// is no longer. What remains is marched among the pieces that it can come near, taken out of the scene once, and a step that fails is given up
+/// at the first piece that is too near. A contact in sight is not marched at but [pinched](pinch).
+pub(super) fn march_nearby<M: Motion>(
+    scene: &Scene,
+    motion: &M,
+    budget: u32,
+    certificate: Option<&mut Certificate>,
+    start: Footprint,
+) -> EdgeVerdict {
+    let end = motion.footprint_at(1.0);
+    if budget == 0 || !(start.is_valid() && end.is_valid()) {
+        let (distance, options) = (scene.distance(&start), MarchOptions { margin: 0.0, budget });
+        return march_on(scene, motion, options, certificate, (start, distance));
+    }
+    let parts = start.parts().len();
+    let mut march = Nearby {
+        scene,
+        motion,
+        around: Vicinity::all(scene),
+        parts,
+        open: (0..parts).collect(),
+        kept: f64::INFINITY,
+        clearance: f64::INFINITY,
+        certificate,
+    };
+    if let Some(c) = march.certificate.as_deref_mut() {
+        c.clear(0.0);
+    }
+    if march.whole(&start, &end) {
+        return EdgeVerdict::Free { clearance: march.clearance };
+    }
+    let gap = march.gap(&start);
+    if gap <= 0.0 {
+        return march.hit(0.0, 0.0);
+    }
+    march.go((start, gap), &end, budget)
+}
+
+impl<'a, M: Motion> Nearby<'a, M> {
+    /// Tries all of the motion in one step, and finds out what there is to look at.
+    fn whole(&mut self, start: &Footprint, end: &Footprint) -> bool {
+        let (from, to) = ((0.0, start), (1.0, end));
+        let all = std::mem::take(&mut self.open);
+        let mut least = f64::INFINITY;
+        let mut swept: Option<Extent> = None;
+        for k in all {
+            let (sagitta, distance, rounding) = self.clears(k, from, to);
+            least = lesser(distance - sagitta - rounding, least);
+            let kept = distance - 2.0 * sagitta - 4.0 * rounding;
+            if kept > 0.0 {
+                self.kept = lesser(kept, self.kept);
+                continue;
+            }
+            self.open.push(k);
+            let [a, b] = [start, end].map(|footprint| Extent::of(footprint.parts()[k].placed()));
+            let way = a.merged(&b).grown(sagitta);
+            swept = Some(swept.map_or(way, |swept| swept.merged(&way)));
+        }
+        if least > 0.0 {
+            self.clearance = least;
+            if let Some(c) = self.certificate.as_deref_mut() {
+                c.push(ProvenStep { from: 0.0, to: 1.0, clearance: least });
+            }
+            return true;
+        }
+        if let Some(swept) = swept {
+            // the clearance is nowhere said to be more than at the start; between places farther off than that steps are planned
+            let range = self.open_gap(start, f64::INFINITY) + 0.25 * self.width(0.0, 1.0);
+            self.around = Vicinity::new(self.scene, &swept, range);
+        }
+        false
+    }
+
+    /// Marches from a free start; all of it at once is known not to be proven. As [`march_on`](super::march_on), but for contacts in sight.
+    fn go(&mut self, (start, gap): (Footprint, f64), end: &Footprint, mut budget: u32) -> EdgeVerdict {
+        let mut contact = self.touches(end).then_some(1.0);
+        let size = largest_coordinate(start.parts().iter().chain(end.parts()).map(Part::placed));
+        let finest = 64.0 * ulp(size);
+        let speed = self.width(0.0, 1.0);
+        let acceleration = (0..self.parts).fold(0.0, |a, k| greater(8.0 * self.motion.sagitta(k, 0.0, 1.0), a));
+        // a little less than the bracket, so that its two ends fit in it
+        let fine = 0.45 * BRACKET / speed;
+        let (mut lo, mut gap, mut at_lo) = (0.0, gap, start);
+        let mut may_pinch = true;
+        let (mut h, mut trust) =
+            if contact.is_some() { (promising(gap, speed, acceleration), 1.0) } else { (0.5, 0.5) };
+        loop {
+            if budget == 0 {
+                return self.unresolved(lo, contact, UnresolvedReason::Budget);
+            }
+            budget -= 1;
+            if let Some(ahead) = contact
+                && std::mem::take(&mut may_pinch)
+                && let Some(verdict) = self.pinched((lo, &at_lo), gap, ahead)
+            {
+                return verdict;
+            }
+            let hi = match contact {
+                Some(c) if lo + h >= c => lo + 0.5 * (c - lo),
+                _ => lesser(lo + h, 1.0),
+            };
+            let at_hi = if hi == 1.0 { end.clone() } else { self.motion.footprint_at(hi) };
+            if self.proves((lo, &at_lo), (hi, &at_hi)) {
+                if hi == 1.0 {
+                    return EdgeVerdict::Free { clearance: self.clearance };
+                }
+                let gap_hi = self.gap(&at_hi);
+                let closing = greater((gap - gap_hi) / (hi - lo), 0.0);
+                (lo, at_lo, gap) = (hi, at_hi, gap_hi);
+                if let Some(c) = contact
+                    && self.width(lo, c) <= BRACKET
+                {
+                    return self.hit(lo, c);
+                }
+                h = greater(trust * promising(gap, closing, acceleration), 16.0 * f64::EPSILON); // never too short to go forward
+                trust = lesser(1.5 * trust, 1.0);
+                if h < fine {
+                    // about to touch: a contact just ahead ends the march, otherwise it creeps on
+                    let ahead = lesser(lo + 2.0 * fine, 1.0);
+                    if self.touches(&self.motion.footprint_at(ahead)) {
+                        return self.hit(lo, ahead);
+                    }
+                }
+                continue;
+            }
+            if hi < contact.unwrap_or(1.0) && self.touches(&at_hi) {
+                contact = Some(hi);
+                if self.width(lo, hi) <= BRACKET {
+                    return self.hit(lo, hi);
+                }
+            }
+            let middle = lo + 0.5 * (hi - lo);
+            if self.width(lo, hi) <= finest || middle <= lo || middle >= hi {
+                // Nothing finer can be told apart here. A contact known farther on still makes it a hit, in a wider bracket.
+                return match contact {
+                    Some(c) => self.hit(lo, c),
+                    None => self.unresolved(lo, None, UnresolvedReason::Tolerance),
+                };
+            }
+            h = 0.5 * (hi - lo);
+            trust *= 0.5;
+        }
+    }
+
+    /// The sagitta of a part in a step, the distance of its hull and the rounding of that. A distance of no more than the sagitta is only a
+    /// bound, and so is one that neither leaves the step unproven nor lowers the clearance.
+    fn clears(&self, part: usize, from: Place, to: Place) -> (f64, f64, f64) {
+        let hull = from.1.parts()[part].placed().hull_with(to.1.parts()[part].placed());
+        let (size, sagitta) = (largest_coordinate([&hull]), self.motion.sagitta(part, from.0, to.0));
+        let reach = self.clearance + sagitta;
+        let within = reach + 2.0 * rounding(size, reach);
+        let distance = self.around.distance(&hull, sagitta, within).unwrap_or(within);
+        (sagitta, distance, rounding(size, distance))
+    }
+
+    /// What a step proves for the open parts, metres; not positive when it proves nothing. A bound where it is more than the clearance so far.
+    fn open_clearance(&self, from: Place, to: Place) -> f64 {
+        let mut least = f64::INFINITY;
+        for &k in &self.open {
+            let (sagitta, distance, rounding) = self.clears(k, from, to);
+            least = lesser(distance - sagitta - rounding, least);
+            if least <= 0.0 {
+                break;
+            }
+        }
+        least
+    }
+
+    /// Whether one step proves this stretch; if so it is taken down, with the clearance that [`step_clearance`] says.
+    fn proves(&mut self, from: Place, to: Place) -> bool {
+        let open = self.open_clearance(from, to);
+        if open <= 0.0 {
+            return false;
+        }
+        let needed = self.certificate.is_some() || self.kept < lesser(open, self.clearance);
+        let clearance = if needed { step_clearance(self.scene, self.motion, from, to) } else { open };
+        self.clearance = lesser(clearance, self.clearance);
+        if let Some(c) = self.certificate.as_deref_mut() {
+            c.push(ProvenStep { from: from.0, to: to.0, clearance });
+        }
+        true
+    }
+
+    /// The distance of a footprint on the way, metres.
+    fn gap(&self, footprint: &Footprint) -> f64 {
+        let gap = self.open_gap(footprint, f64::INFINITY);
+        // the others keep more than that everywhere
+        if self.kept < gap { self.scene.distance(footprint) } else { gap }
+    }
+
+    /// The distance of a footprint's open parts, metres, if it is less than `within`; else that.
+    fn open_gap(&self, footprint: &Footprint, within: f64) -> f64 {
+        if !footprint.is_valid() {
+            return 0.0;
+        }
+        let parts = self.open.iter().map(|&k| footprint.parts()[k].placed());
+        parts.fold(within, |least, part| self.around.distance(part, 0.0, least).unwrap_or(least))
+    }
+
+    /// Whether a footprint on the way touches anything.
+    fn touches(&self, footprint: &Footprint) -> bool {
+        !footprint.is_valid() || self.open.iter().any(|&k| self.around.touches(footprint.parts()[k].placed()))
+    }
+
+    /// The hit in whose bracket a contact is pinched that is in sight from a free place.
+    fn pinched(&mut self, from: Place, gap: f64, contact: f64) -> Option<EdgeVerdict> {
+        let acceleration = self.open.iter().fold(0.0, |most, &k| greater(self.motion.rates(k).acceleration, most));
+        let pace = Pace { speed: self.width(0.0, 1.0), acceleration };
+        let range = self.around.range();
+        let gap_at = |footprint: &Footprint| self.open_gap(footprint, range);
+        let clearance = |from: Place, to: Place| self.open_clearance(from, to);
+        let found = pinch(gap_at, clearance, self.motion, pace, (from.0, from.1, gap), contact)?;
+        if let Some(c) = self.certificate.as_deref_mut() {
+            for &(lo, hi) in found.steps.iter().rev() {
+                let [at_lo, at_hi] = [lo, hi].map(|s| self.motion.footprint_at(s));
+                let clearance = step_clearance(self.scene, self.motion, (lo, &at_lo), (hi, &at_hi));
+                c.push(ProvenStep { from: lo, to: hi, clearance });
+            }
+        }
+        Some(self.hit(found.free_until, found.contact_at))
+    }
+
+    /// How far any part can move in a stretch, metres.
+    fn width(&self, lo: f64, hi: f64) -> f64 {
+        width(self.motion, self.parts, lo, hi)
+    }
+
+    fn hit(&self, free_until: f64, contact_at: f64) -> EdgeVerdict {
+        let witness = self.scene.witness(&self.motion.footprint_at(contact_at));
+        let (part, obstacle) = witness.map_or((0, ObstacleId::UNKNOWN), |w| (w.part, w.obstacle));
+        EdgeVerdict::Hit { free_until, contact_at, part, obstacle }
+    }
+
+    fn unresolved(&self, free_until: f64, contact: Option<f64>, reason: UnresolvedReason) -> EdgeVerdict {
+        let gap = self.width(free_until, contact.unwrap_or(1.0));
+        EdgeVerdict::Unresolved { free_until, gap, reason }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::f64::consts::PI;
+
+    use super::super::march;
+    use super::*;
+    use crate::configuration::{HitchCfg, Tn};
+    use crate::geometry::{Point2, Pose2};
+    use crate::random::{Seed, Stream};
+    use crate::robots::{HITCH, Reach, Robot};
+
+    /// Random edges: the same steps as the march of all the scene where they are free, a bracket about the same contact where they are not.
+    fn compare<R: Robot>(scene: &Scene, robot: &R, mut draw: impl FnMut(&mut Stream) -> [R::Configuration; 2]) {
+        let mut draws = Stream::new(Seed(9), "nearby");
+        let (mut ours, mut theirs) = (Certificate::new(), Certificate::new());
+        let (mut free, mut hits) = (0, 0);
+        let budget = MarchOptions::default().budget;
+        while free <= 40 || hits <= 40 {
+            let [a, b] = draw(&mut draws);
+            if scene.intersects(&robot.footprint(&a)) {
+                continue;
+            }
+            let edge = robot.edge(&a, &b).unwrap();
+            let quick = march_nearby(scene, &edge, budget, Some(&mut ours), edge.footprint_at(0.0));
+            let slow = march(scene, &edge, MarchOptions::default(), Some(&mut theirs));
+            assert_eq!(march_nearby(scene, &edge, budget, None, edge.footprint_at(0.0)), quick, "{a} to {b}");
+            match (quick, slow) {
+                (
+                    EdgeVerdict::Hit { free_until, contact_at, .. },
+                    EdgeVerdict::Hit { free_until: f, contact_at: c, .. },
+                ) => {
+                    hits += 1;
+                    assert!(free_until <= c && f <= contact_at, "{quick:?} {slow:?}");
+                }
+                _ => {
+                    free += usize::from(quick.is_free() && ours.steps().len() > 1);
+                    assert_eq!((quick, &ours), (slow, &theirs), "{a} to {b}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn a_free_edge_takes_the_same_steps_as_by_the_march() {
+        let bench = Scene::workbench();
+        let angles = |s: &mut Stream| Tn([s.uniform(-PI, PI), s.uniform(-PI, PI), s.uniform(-PI, PI)]);
+        compare(&bench, &Reach::<3>::redundant(), |s| {
+            let (a, by) = (angles(s), angles(s));
+            [a, Tn([0, 1, 2].map(|i| a.0[i] + 0.4 * by.0[i])).wrapped()]
+        });
+        let lot = Scene::lot();
+        let bounds = lot.bounds();
+        compare(&lot, &HITCH.with_trailer(), |s| {
+            let at = Point2::new(s.uniform(bounds.min.x, bounds.max.x), s.uniform(bounds.min.y, bounds.max.y));
+            let body = Pose2::new(at.x, at.y, s.uniform(-PI, PI));
+            let psi = body.theta + s.uniform(-0.5, 0.5);
+            let moved =
+                Pose2::new(at.x + s.uniform(-1.0, 1.0), at.y + s.uniform(-1.0, 1.0), body.theta + s.uniform(-0.5, 0.5));
+            [(body, psi), (moved, psi + s.uniform(-0.5, 0.5))].map(|(body, psi)| HitchCfg { body, trailer: Some(psi) })
+        });
+    }
+}
