@@ -27,6 +27,7 @@ mod scene;
 mod search;
 mod segments;
 mod shared;
+mod sides;
 mod surroundings;
 mod swept;
 mod tree;

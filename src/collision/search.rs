@@ -5,6 +5,7 @@ use super::core::plainly_overlap;
 use super::extent::Extent;
 use super::narrow::{Nearest, nearest_across};
 use super::parting::Parting;
+use super::sides::Sides;
 use crate::geometry::Placed;
 
 /// A search under way for the piece nearest to a shape, the first in file order among equals.
@@ -15,12 +16,13 @@ pub(super) struct Search<'a> {
     size: f64,
     within: f64,
     best: Option<(usize, Nearest)>,
+    sides: Option<Sides>,
 }
 
 impl<'a> Search<'a> {
     /// A search for what is nearer than `within`.
     pub(super) fn new(shape: &'a Placed, pieces: &'a [Placed], size: f64, within: f64) -> Self {
-        Search { shape, pieces, size, within, best: None }
+        Search { shape, pieces, size, within, best: None, sides: None }
     }
 
     /// The box around the shape.
@@ -34,18 +36,36 @@ impl<'a> Search<'a> {
 
     /// Looks at a piece and gives the least distance so far.
     pub(super) fn look(&mut self, piece: usize) -> f64 {
-        let other = &self.pieces[piece];
-        self.take(piece, self.parting(other))
+        let (other, least) = (&self.pieces[piece], self.least());
+        if least < f64::INFINITY && self.passes_over(other, least) {
+            return least;
+        }
+        self.take(piece, pair_within(self.shape, other, least))
     }
 
-    /// As [`look`](Self::look), but 0 at once where piece and shape plainly overlap: then nothing is found.
+    /// Whether some half-plane about the shape shows that a piece is farther than `least`.
+    fn passes_over(&mut self, piece: &Placed, least: f64) -> bool {
+        let sides = self.sides.get_or_insert_with(|| Sides::of(self.shape));
+        let reach = self.shape.radius() + piece.radius();
+        sides.gap(piece) - reach > least * (1.0 + 1e-12) + 64.0 * f64::EPSILON * (self.size + reach)
+    }
+
+    /// As [`look`](Self::look), but 0 at once where piece and shape plainly overlap: then nothing is found. On the way of an edge, where the
+    /// shapes are near one another and have many corners, a line between the two is worth looking for first.
     pub(super) fn look_for_distance(&mut self, piece: usize) -> f64 {
-        let other = &self.pieces[piece];
-        let parting = self.parting(other);
-        if parting.is_none() && plainly_overlap(self.shape.core(), other.core()) {
-            return 0.0;
-        }
-        self.take(piece, parting)
+        let (other, least) = (&self.pieces[piece], self.least());
+        let found = match self.parting(other) {
+            Some((line, rounding)) => {
+                let gap = line.gap - (self.shape.radius() + other.radius());
+                if gap > least * (1.0 + 1e-12) + rounding {
+                    return least;
+                }
+                nearest_across(self.shape, other, least, (&line, rounding))
+            }
+            None if plainly_overlap(self.shape.core(), other.core()) => return 0.0,
+            None => pair_within(self.shape, other, least),
+        };
+        self.take(piece, found)
     }
 
     /// A line that plainly parts the cores of the shape and of a piece, and what a height above it may be off by.
@@ -59,20 +79,11 @@ impl<'a> Search<'a> {
         (parting.gap > 1e-12 * parting.gap + rounding).then_some((parting, rounding))
     }
 
-    fn take(&mut self, piece: usize, parting: Option<(Parting, f64)>) -> f64 {
-        let (other, least) = (&self.pieces[piece], self.least());
-        let found = match parting {
-            Some((line, rounding)) => {
-                let gap = line.gap - (self.shape.radius() + other.radius());
-                if gap > least * (1.0 + 1e-12) + rounding {
-                    return least;
-                }
-                nearest_across(self.shape, other, least, (&line, rounding))
-            }
-            None => pair_within(self.shape, other, least),
-        };
-        let Some(found) = found else { return least };
-        if found.dist < least || self.best.is_some_and(|(p, n)| found.dist == n.dist && piece < p) {
+    /// Takes what was found of a piece and gives the least distance so far.
+    fn take(&mut self, piece: usize, found: Option<Nearest>) -> f64 {
+        if let Some(found) = found
+            && (found.dist < self.least() || self.best.is_some_and(|(p, n)| found.dist == n.dist && piece < p))
+        {
             self.best = Some((piece, found));
         }
         self.least()
