@@ -395,13 +395,18 @@ function counted(response) {
 }
 
 async function start() {
+  // asked for first: a browser takes a while to say whether it has WebGL 2
+  const unwanted = new AbortController();
+  const pieces = Promise.all([import(new URL(files.lab, location.href)), fetch(files.labWasm, { signal: unwanted.signal })]);
   if (!document.createElement("canvas").getContext("webgl2")) {
+    pieces.catch(() => {});
+    unwanted.abort();
     return warn("This browser has no WebGL 2, which the lab draws with. Below are its widgets as pictures; a browser with hardware acceleration switched on shows the lab.");
   }
   root.dataset.lab = "loading";
   $("loading").hidden = false;
   try {
-    const [module, response] = await Promise.all([import(new URL(files.lab, location.href)), fetch(files.labWasm)]);
+    const [module, response] = await pieces;
     if (!response.ok) throw new Error(`${files.labWasm}: ${response.status} ${response.statusText}`);
     wasm = await module.default({ module_or_path: counted(response) });
     lab = module;
