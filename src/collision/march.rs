@@ -44,7 +44,7 @@ pub(super) fn width<M: Motion>(motion: &M, parts: usize, s0: f64, s1: f64) -> f6
 
 /// The length of the next step to try: where the clearance, falling from `clearance` at `closing` metres per unit of s, still
 /// exceeds one and a half times the sagitta of the step.
-pub(super) fn promising(clearance: f64, closing: f64, acceleration: f64) -> f64 {
+fn promising(clearance: f64, closing: f64, acceleration: f64) -> f64 {
     let a = 1.5 * 0.125 * acceleration;
     // the positive root of a h^2 + closing h = clearance, in the form that keeps its digits
     2.0 * clearance / (closing + sqrt(closing * closing + 4.0 * a * clearance))
@@ -88,92 +88,168 @@ pub(crate) fn march_on<M: Motion>(
     motion: &M,
     options: MarchOptions,
     mut certificate: Option<&mut Certificate>,
-    (start, start_distance): (Footprint, f64),
+    (start, distance): (Footprint, f64),
 ) -> EdgeVerdict {
     if let Some(c) = certificate.as_deref_mut() {
         c.clear(options.margin);
     }
-    let margin = options.margin;
-    let mut at_lo = start;
-    let parts = at_lo.parts().len();
-    let above_margin = |footprint: &Footprint| collision.distance(footprint) - margin;
-    let hit = |free_until: f64, contact_at: f64| {
-        let (part, obstacle) = collision
-            .witness(&motion.footprint_at(contact_at))
-            .map_or((0, ObstacleId::UNKNOWN), |w| (w.part, w.obstacle));
-        EdgeVerdict::Hit { free_until, contact_at, part, obstacle }
-    };
-    let mut gap = start_distance - margin;
+    let gap = distance - options.margin;
     if gap <= 0.0 {
-        return hit(0.0, 0.0);
+        return hit(collision, motion, 0.0, 0.0);
     }
-    let end = motion.footprint_at(1.0);
+    let mut plain = Plain { collision, motion, margin: options.margin, clearance: f64::INFINITY, certificate };
+    go(&mut plain, motion, (start, gap), &motion.footprint_at(1.0), options.budget)
+}
+
+/// A place of a motion.
+pub(super) type Place<'a> = (f64, &'a Footprint);
+
+/// What a march asks on its way.
+pub(super) trait Ground {
+    /// Whether one step proves this stretch; if so it is taken down.
+    fn proves(&mut self, from: Place, to: Place) -> bool;
+
+    /// The least clearance of the steps proven so far, metres.
+    fn clearance(&self) -> f64;
+
+    /// How far a footprint on the way is above the margin, metres.
+    fn gap(&self, footprint: &Footprint) -> f64;
+
+    /// Whether a footprint on the way is not above the margin.
+    fn touches(&self, footprint: &Footprint) -> bool {
+        self.gap(footprint) <= 0.0
+    }
+
+    /// The hit in whose bracket a contact lies that is in sight from a free place for the first time, where it need not be marched at.
+    fn pinched(&mut self, _from: Place, _gap: f64, _contact: f64) -> Option<EdgeVerdict> {
+        None
+    }
+
+    /// What all questions may be put to.
+    fn collision(&self) -> &dyn Collision;
+}
+
+/// All of a scene, asked by the four questions alone.
+struct Plain<'a, M> {
+    collision: &'a dyn Collision,
+    motion: &'a M,
+    margin: f64,
+    clearance: f64,
+    certificate: Option<&'a mut Certificate>,
+}
+
+impl<M: Motion> Ground for Plain<'_, M> {
+    fn proves(&mut self, from: Place, to: Place) -> bool {
+        let clearance = step_clearance(self.collision, self.motion, from, to);
+        if clearance > self.margin {
+            self.clearance = lesser(clearance, self.clearance);
+            if let Some(c) = self.certificate.as_deref_mut() {
+                c.push(ProvenStep { from: from.0, to: to.0, clearance });
+            }
+        }
+        clearance > self.margin
+    }
+
+    fn clearance(&self) -> f64 {
+        self.clearance
+    }
+
+    fn gap(&self, footprint: &Footprint) -> f64 {
+        self.collision.distance(footprint) - self.margin
+    }
+
+    fn collision(&self) -> &dyn Collision {
+        self.collision
+    }
+}
+
+/// The verdict that a motion hits, with what it hits.
+pub(super) fn hit(collision: &dyn Collision, motion: &impl Motion, free_until: f64, contact_at: f64) -> EdgeVerdict {
+    let witness = collision.witness(&motion.footprint_at(contact_at));
+    let (part, obstacle) = witness.map_or((0, ObstacleId::UNKNOWN), |w| (w.part, w.obstacle));
+    EdgeVerdict::Hit { free_until, contact_at, part, obstacle }
+}
+
+/// Marches from a free start, so far above the margin; all of the motion at once is known not to be proven.
+pub(super) fn go<M: Motion>(
+    ground: &mut impl Ground,
+    motion: &M,
+    (start, gap): (Footprint, f64),
+    end: &Footprint,
+    mut budget: u32,
+) -> EdgeVerdict {
+    let parts = start.parts().len();
+    let width = |lo: f64, hi: f64| width(motion, parts, lo, hi);
+    let unresolved = |free_until: f64, contact: Option<f64>, reason| {
+        let gap = width(free_until, contact.unwrap_or(1.0));
+        EdgeVerdict::Unresolved { free_until, gap, reason }
+    };
     // the first place known to be in contact; nothing beyond it matters
-    let mut contact = (above_margin(&end) <= 0.0).then_some(1.0);
-    let size = largest_coordinate(at_lo.parts().iter().chain(end.parts()).map(Part::placed));
+    let mut contact = ground.touches(end).then_some(1.0);
+    let size = largest_coordinate(start.parts().iter().chain(end.parts()).map(Part::placed));
     let finest = 64.0 * ulp(size);
-    let speed = width(motion, parts, 0.0, 1.0);
+    let speed = width(0.0, 1.0);
     let acceleration = (0..parts).fold(0.0, |a, k| greater(8.0 * motion.sagitta(k, 0.0, 1.0), a));
     // a little less than the bracket, so that its two ends fit in it
     let fine = 0.45 * BRACKET / speed;
-    let (mut lo, mut clearance, mut steps) = (0.0, f64::INFINITY, 0);
+    let (mut lo, mut gap, mut at_lo) = (0.0, gap, start);
+    let mut may_pinch = true;
     // how much of the guessed step is tried: guesses that fail again and again are too bold for this motion
     let mut trust = 1.0;
     let mut h = if contact.is_some() { promising(gap, speed, acceleration) } else { 1.0 };
     loop {
-        if steps == options.budget {
-            let gap = width(motion, parts, lo, contact.unwrap_or(1.0));
-            return EdgeVerdict::Unresolved { free_until: lo, gap, reason: UnresolvedReason::Budget };
+        if budget == 0 {
+            return unresolved(lo, contact, UnresolvedReason::Budget);
         }
-        steps += 1;
+        budget -= 1;
+        if let Some(ahead) = contact
+            && std::mem::take(&mut may_pinch)
+            && let Some(verdict) = ground.pinched((lo, &at_lo), gap, ahead)
+        {
+            return verdict;
+        }
         let hi = match contact {
             Some(c) if lo + h >= c => lo + 0.5 * (c - lo),
             _ => lesser(lo + h, 1.0),
         };
         let at_hi = if hi == 1.0 { end.clone() } else { motion.footprint_at(hi) };
         // all of it at once is known not to be proven
-        let proven =
-            if (lo, hi) == (0.0, 1.0) { 0.0 } else { step_clearance(collision, motion, (lo, &at_lo), (hi, &at_hi)) };
-        if proven > margin {
-            clearance = lesser(proven, clearance);
-            if let Some(c) = certificate.as_deref_mut() {
-                c.push(ProvenStep { from: lo, to: hi, clearance: proven });
-            }
+        if (lo, hi) != (0.0, 1.0) && ground.proves((lo, &at_lo), (hi, &at_hi)) {
             if hi == 1.0 {
-                return EdgeVerdict::Free { clearance };
+                return EdgeVerdict::Free { clearance: ground.clearance() };
             }
-            let gap_hi = above_margin(&at_hi);
+            let gap_hi = ground.gap(&at_hi);
             let closing = greater((gap - gap_hi) / (hi - lo), 0.0);
             (lo, at_lo, gap) = (hi, at_hi, gap_hi);
-            if contact.is_some_and(|c| width(motion, parts, lo, c) <= BRACKET) {
-                return hit(lo, contact.unwrap_or(1.0));
+            if let Some(c) = contact
+                && width(lo, c) <= BRACKET
+            {
+                return hit(ground.collision(), motion, lo, c);
             }
             h = greater(trust * promising(gap, closing, acceleration), 16.0 * f64::EPSILON); // never too short to go forward
             trust = lesser(1.5 * trust, 1.0);
             if h < fine {
                 // about to touch: a contact just ahead ends the march, otherwise it creeps on
                 let ahead = lesser(lo + 2.0 * fine, 1.0);
-                if above_margin(&motion.footprint_at(ahead)) <= 0.0 {
-                    return hit(lo, ahead);
+                if ground.touches(&motion.footprint_at(ahead)) {
+                    return hit(ground.collision(), motion, lo, ahead);
                 }
             }
             continue;
         }
-        if contact.is_none_or(|c| hi < c) && above_margin(&at_hi) <= 0.0 {
+        // of the end it is known that it is free, or that it is not
+        if hi < contact.unwrap_or(1.0) && ground.touches(&at_hi) {
             contact = Some(hi);
-            if width(motion, parts, lo, hi) <= BRACKET {
-                return hit(lo, hi);
+            if width(lo, hi) <= BRACKET {
+                return hit(ground.collision(), motion, lo, hi);
             }
         }
         let middle = lo + 0.5 * (hi - lo);
-        if width(motion, parts, lo, hi) <= finest || middle <= lo || middle >= hi {
+        if width(lo, hi) <= finest || middle <= lo || middle >= hi {
             // Nothing finer can be told apart here. A contact known farther on still makes it a hit, in a wider bracket.
             return match contact {
-                Some(c) => hit(lo, c),
-                None => {
-                    let gap = width(motion, parts, lo, 1.0);
-                    EdgeVerdict::Unresolved { free_until: lo, gap, reason: UnresolvedReason::Tolerance }
-                }
+                Some(c) => hit(ground.collision(), motion, lo, c),
+                None => unresolved(lo, None, UnresolvedReason::Tolerance),
             };
         }
         h = 0.5 * (hi - lo);

@@ -3,16 +3,13 @@
 use smallvec::SmallVec;
 
 use super::extent::Extent;
-use super::march::{BRACKET, march_on, promising, rounding, step_clearance, width};
+use super::march::{Ground, Place, go, hit, march_on, rounding, step_clearance, width};
 use super::pinch::{Pace, pinch};
 use super::vicinity::Vicinity;
-use super::{Certificate, Collision, EdgeVerdict, MarchOptions, ObstacleId, ProvenStep, Scene, UnresolvedReason};
-use crate::geometry::{Footprint, Part, largest_coordinate};
-use crate::num::{greater, lesser, ulp};
+use super::{Certificate, Collision, EdgeVerdict, MarchOptions, ProvenStep, Scene};
+use crate::geometry::{Footprint, largest_coordinate};
+use crate::num::{greater, lesser};
 use crate::robots::Motion;
-
-/// A place of a motion.
-type Place<'a> = (f64, &'a Footprint);
 
 /// A march under way.
 struct Nearby<'a, M> {
@@ -67,9 +64,9 @@ pub(super) fn march_nearby<M: Motion>(
     }
     let gap = march.gap(&start);
     if gap <= 0.0 {
-        return march.hit(0.0, 0.0);
+        return hit(scene, motion, 0.0, 0.0);
     }
-    march.go((start, gap), &end, budget)
+    go(&mut march, motion, (start, gap), &end, budget)
 }
 
 impl<'a, M: Motion> Nearby<'a, M> {
@@ -107,77 +104,6 @@ impl<'a, M: Motion> Nearby<'a, M> {
         false
     }
 
-    /// Marches from a free start; all of it at once is known not to be proven. As [`march_on`](super::march_on), but for contacts in sight.
-    fn go(&mut self, (start, gap): (Footprint, f64), end: &Footprint, mut budget: u32) -> EdgeVerdict {
-        let mut contact = self.touches(end).then_some(1.0);
-        let size = largest_coordinate(start.parts().iter().chain(end.parts()).map(Part::placed));
-        let finest = 64.0 * ulp(size);
-        let speed = self.width(0.0, 1.0);
-        let acceleration = (0..self.parts).fold(0.0, |a, k| greater(8.0 * self.motion.sagitta(k, 0.0, 1.0), a));
-        // a little less than the bracket, so that its two ends fit in it
-        let fine = 0.45 * BRACKET / speed;
-        let (mut lo, mut gap, mut at_lo) = (0.0, gap, start);
-        let mut may_pinch = true;
-        let (mut h, mut trust) =
-            if contact.is_some() { (promising(gap, speed, acceleration), 1.0) } else { (0.5, 0.5) };
-        loop {
-            if budget == 0 {
-                return self.unresolved(lo, contact, UnresolvedReason::Budget);
-            }
-            budget -= 1;
-            if let Some(ahead) = contact
-                && std::mem::take(&mut may_pinch)
-                && let Some(verdict) = self.pinched((lo, &at_lo), gap, ahead)
-            {
-                return verdict;
-            }
-            let hi = match contact {
-                Some(c) if lo + h >= c => lo + 0.5 * (c - lo),
-                _ => lesser(lo + h, 1.0),
-            };
-            let at_hi = if hi == 1.0 { end.clone() } else { self.motion.footprint_at(hi) };
-            if self.proves((lo, &at_lo), (hi, &at_hi)) {
-                if hi == 1.0 {
-                    return EdgeVerdict::Free { clearance: self.clearance };
-                }
-                let gap_hi = self.gap(&at_hi);
-                let closing = greater((gap - gap_hi) / (hi - lo), 0.0);
-                (lo, at_lo, gap) = (hi, at_hi, gap_hi);
-                if let Some(c) = contact
-                    && self.width(lo, c) <= BRACKET
-                {
-                    return self.hit(lo, c);
-                }
-                h = greater(trust * promising(gap, closing, acceleration), 16.0 * f64::EPSILON); // never too short to go forward
-                trust = lesser(1.5 * trust, 1.0);
-                if h < fine {
-                    // about to touch: a contact just ahead ends the march, otherwise it creeps on
-                    let ahead = lesser(lo + 2.0 * fine, 1.0);
-                    if self.touches(&self.motion.footprint_at(ahead)) {
-                        return self.hit(lo, ahead);
-                    }
-                }
-                continue;
-            }
-            if hi < contact.unwrap_or(1.0) && self.touches(&at_hi) {
-                contact = Some(hi);
-                if self.width(lo, hi) <= BRACKET {
-                    return self.hit(lo, hi);
-                }
-            }
-            let middle = lo + 0.5 * (hi - lo);
-            if self.width(lo, hi) <= finest || middle <= lo || middle >= hi {
-                // Nothing finer can be told apart here. A contact known farther on still makes it a hit, in a wider bracket.
-                return match contact {
-                    Some(c) => self.hit(lo, c),
-                    None => self.unresolved(lo, None, UnresolvedReason::Tolerance),
-                };
-            }
-            h = 0.5 * (hi - lo);
-            trust *= 0.5;
-        }
-    }
-
     /// The sagitta of a part in a step, the distance of its hull and the rounding of that. A distance of no more than the sagitta is only a
     /// bound, and so is one that neither leaves the step unproven nor lowers the clearance.
     fn clears(&self, part: usize, from: Place, to: Place) -> (f64, f64, f64) {
@@ -202,7 +128,22 @@ impl<'a, M: Motion> Nearby<'a, M> {
         least
     }
 
-    /// Whether one step proves this stretch; if so it is taken down, with the clearance that [`step_clearance`] says.
+    /// The distance of a footprint's open parts, metres, if it is less than `within`; else that.
+    fn open_gap(&self, footprint: &Footprint, within: f64) -> f64 {
+        if !footprint.is_valid() {
+            return 0.0;
+        }
+        let parts = self.open.iter().map(|&k| footprint.parts()[k].placed());
+        parts.fold(within, |least, part| self.around.distance(part, 0.0, least).unwrap_or(least))
+    }
+
+    /// How far any part can move in a stretch, metres.
+    fn width(&self, lo: f64, hi: f64) -> f64 {
+        width(self.motion, self.parts, lo, hi)
+    }
+}
+
+impl<M: Motion> Ground for Nearby<'_, M> {
     fn proves(&mut self, from: Place, to: Place) -> bool {
         let open = self.open_clearance(from, to);
         if open <= 0.0 {
@@ -217,28 +158,20 @@ impl<'a, M: Motion> Nearby<'a, M> {
         true
     }
 
-    /// The distance of a footprint on the way, metres.
+    fn clearance(&self) -> f64 {
+        self.clearance
+    }
+
     fn gap(&self, footprint: &Footprint) -> f64 {
         let gap = self.open_gap(footprint, f64::INFINITY);
         // the others keep more than that everywhere
         if self.kept < gap { self.scene.distance(footprint) } else { gap }
     }
 
-    /// The distance of a footprint's open parts, metres, if it is less than `within`; else that.
-    fn open_gap(&self, footprint: &Footprint, within: f64) -> f64 {
-        if !footprint.is_valid() {
-            return 0.0;
-        }
-        let parts = self.open.iter().map(|&k| footprint.parts()[k].placed());
-        parts.fold(within, |least, part| self.around.distance(part, 0.0, least).unwrap_or(least))
-    }
-
-    /// Whether a footprint on the way touches anything.
     fn touches(&self, footprint: &Footprint) -> bool {
         !footprint.is_valid() || self.open.iter().any(|&k| self.around.touches(footprint.parts()[k].placed()))
     }
 
-    /// The hit in whose bracket a contact is pinched that is in sight from a free place.
     fn pinched(&mut self, from: Place, gap: f64, contact: f64) -> Option<EdgeVerdict> {
         let acceleration = self.open.iter().fold(0.0, |most, &k| greater(self.motion.rates(k).acceleration, most));
         let pace = Pace { speed: self.width(0.0, 1.0), acceleration };
@@ -253,23 +186,11 @@ impl<'a, M: Motion> Nearby<'a, M> {
                 c.push(ProvenStep { from: lo, to: hi, clearance });
             }
         }
-        Some(self.hit(found.free_until, found.contact_at))
+        Some(hit(self.scene, self.motion, found.free_until, found.contact_at))
     }
 
-    /// How far any part can move in a stretch, metres.
-    fn width(&self, lo: f64, hi: f64) -> f64 {
-        width(self.motion, self.parts, lo, hi)
-    }
-
-    fn hit(&self, free_until: f64, contact_at: f64) -> EdgeVerdict {
-        let witness = self.scene.witness(&self.motion.footprint_at(contact_at));
-        let (part, obstacle) = witness.map_or((0, ObstacleId::UNKNOWN), |w| (w.part, w.obstacle));
-        EdgeVerdict::Hit { free_until, contact_at, part, obstacle }
-    }
-
-    fn unresolved(&self, free_until: f64, contact: Option<f64>, reason: UnresolvedReason) -> EdgeVerdict {
-        let gap = self.width(free_until, contact.unwrap_or(1.0));
-        EdgeVerdict::Unresolved { free_until, gap, reason }
+    fn collision(&self) -> &dyn Collision {
+        self.scene
     }
 }
 
