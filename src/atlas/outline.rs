@@ -105,7 +105,8 @@ impl EditShape {
             EditShape::Box { min, max } => pieces.push((Pose2::IDENTITY, Shape::Rectangle { min: *min, max: *max })),
             EditShape::Polygon(points) => obstacle.add_polygon(points)?,
             EditShape::Rounded { points, radius } => {
-                pieces.push((Pose2::IDENTITY, Shape::Hull { vertices: convex_hull(points), radius: *radius }));
+                pieces
+                    .push((Pose2::IDENTITY, Shape::Hull { vertices: convex_hull(points)[..].into(), radius: *radius }));
             }
             EditShape::Union(members) => members.iter().try_for_each(|member| member.add_to(obstacle))?,
         }

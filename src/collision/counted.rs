@@ -3,7 +3,7 @@
 use std::sync::atomic::{AtomicU64, Ordering};
 
 use super::{Collision, Witness};
-use crate::geometry::Footprint;
+use crate::geometry::{Footprint, Placed};
 
 /// A [`Collision`] that passes every question on and counts it. Planners are compared by these counts.
 ///
@@ -69,6 +69,11 @@ impl<C: Collision> Collision for Counted<C> {
     fn distance(&self, footprint: &Footprint) -> f64 {
         self.distance.fetch_add(1, Ordering::Relaxed);
         self.inner.distance(footprint)
+    }
+
+    fn distance_of_hull(&self, hull: Placed) -> f64 {
+        self.distance.fetch_add(1, Ordering::Relaxed);
+        self.inner.distance_of_hull(hull)
     }
 
     fn witness(&self, footprint: &Footprint) -> Option<Witness> {

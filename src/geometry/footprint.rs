@@ -15,8 +15,16 @@ pub struct Part {
 
 impl Part {
     /// The part with this shape in the frame `pose`.
+    #[inline]
     pub fn new(pose: Pose2, shape: Shape) -> Self {
         let placed = shape.place(&pose);
+        Part { pose, shape, placed }
+    }
+
+    /// As [`new`](Self::new), given the sine and the cosine of the frame's angle.
+    #[inline]
+    pub(crate) fn new_by(pose: Pose2, sin_cos: (f64, f64), shape: Shape) -> Self {
+        let placed = shape.place_by(&pose, sin_cos);
         Part { pose, shape, placed }
     }
 
@@ -53,6 +61,7 @@ pub struct Footprint {
 
 impl Footprint {
     /// The footprint made of these parts, numbered from 0 in this order.
+    #[inline]
     pub fn new(parts: impl IntoIterator<Item = Part>) -> Self {
         Footprint { parts: parts.into_iter().collect() }
     }
@@ -119,6 +128,7 @@ impl Footprint {
     }
 
     /// The parts, lowest number first.
+    #[inline]
     pub fn parts(&self) -> &[Part] {
         &self.parts
     }

@@ -18,16 +18,19 @@ pub struct Placed {
 impl Placed {
     /// The placed shape with this core and radius. An empty core stands for nothing that can be decided: every query
     /// counts it as contact.
+    #[inline]
     pub fn new(core: SmallVec<[Point2; 8]>, radius: f64) -> Self {
         Placed { core, radius }
     }
 
     /// The core's vertices.
+    #[inline]
     pub fn core(&self) -> &[Point2] {
         &self.core
     }
 
     /// The radius around the core, metres.
+    #[inline]
     pub fn radius(&self) -> f64 {
         self.radius
     }

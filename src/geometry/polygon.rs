@@ -1,16 +1,16 @@
 //! `ConvexPolygon`, checked once where it is made.
 
-use smallvec::SmallVec;
+use std::sync::Arc;
 
 use super::{MAX_COORDINATE, MIN_FEATURE, Point2, orientation};
 use crate::num;
 
 /// A strictly convex polygon, its vertices in counter-clockwise order, at least three.
 ///
-/// Up to eight vertices are stored without a heap allocation.
+/// Cheap to clone: the vertices are shared.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ConvexPolygon {
-    vertices: SmallVec<[Point2; 8]>,
+    vertices: Arc<[Point2]>,
 }
 
 /// Why a list of vertices is not a convex polygon.
@@ -64,7 +64,7 @@ impl ConvexPolygon {
             })
             .unwrap_or(0);
         let turn = |v: &[Point2], i: usize| orientation(v[(i + n - 1) % n], v[i], v[(i + 1) % n]);
-        let mut stored: SmallVec<[Point2; 8]> = SmallVec::from_slice(vertices);
+        let mut stored = vertices.to_vec();
         // the lowest, leftmost vertex is a true corner of the hull, so its turn gives the orientation
         if turn(vertices, lowest) < 0.0 {
             stored[1..].reverse();
@@ -84,7 +84,7 @@ impl ConvexPolygon {
         if (0..n).filter(|&i| !upward(i) && upward(i + 1)).count() != 1 {
             return Err(PolygonError::SelfCrossing);
         }
-        Ok(ConvexPolygon { vertices: stored })
+        Ok(ConvexPolygon { vertices: stored.into() })
     }
 
     /// The vertices, counter-clockwise.

@@ -58,7 +58,12 @@ impl Pose2 {
 
     /// A point given in this frame, in world coordinates.
     pub fn transform(&self, p_in_frame: Point2) -> Point2 {
-        let (s, c) = num::sin_cos(self.theta);
+        self.transform_by(num::sin_cos(self.theta), p_in_frame)
+    }
+
+    /// As [`transform`](Self::transform), given the sine and the cosine of the frame's angle.
+    #[inline]
+    pub(crate) fn transform_by(&self, (s, c): (f64, f64), p_in_frame: Point2) -> Point2 {
         Point2::new(self.x + (c * p_in_frame.x - s * p_in_frame.y), self.y + (s * p_in_frame.x + c * p_in_frame.y))
     }
 

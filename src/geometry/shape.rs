@@ -1,5 +1,7 @@
 //! `Shape`, what footprints and worlds are made of.
 
+use std::sync::Arc;
+
 use smallvec::{SmallVec, smallvec};
 
 use super::{ConvexPolygon, MAX_COORDINATE, MIN_FEATURE, Placed, Point2, PolygonError, Pose2};
@@ -45,7 +47,7 @@ pub enum Shape {
     /// All points within `radius` of the convex hull of some points: what a part sweeps over.
     Hull {
         /// The hull's vertices, counter-clockwise; one or two points are allowed.
-        vertices: SmallVec<[Point2; 8]>,
+        vertices: Arc<[Point2]>,
         /// The radius, metres.
         radius: f64,
     },
@@ -137,6 +139,7 @@ impl Shape {
     }
 
     /// The radius around the core: 0 for segments, rectangles and polygons.
+    #[inline]
     pub fn radius(&self) -> f64 {
         match self {
             Shape::Disc { radius } | Shape::Capsule { radius, .. } | Shape::Hull { radius, .. } => *radius,
@@ -146,6 +149,7 @@ impl Shape {
 
     /// The core's vertices in the shape's frame: 1 for a disc, 2 for a segment or capsule, else the boundary
     /// counter-clockwise.
+    #[inline]
     pub fn core(&self) -> SmallVec<[Point2; 8]> {
         match self {
             Shape::Disc { .. } => smallvec![Point2::origin()],
@@ -154,7 +158,7 @@ impl Shape {
                 smallvec![*min, Point2::new(max.x, min.y), *max, Point2::new(min.x, max.y)]
             }
             Shape::Polygon(p) => SmallVec::from_slice(p.vertices()),
-            Shape::Hull { vertices, .. } => vertices.clone(),
+            Shape::Hull { vertices, .. } => SmallVec::from_slice(vertices),
         }
     }
 
@@ -165,12 +169,18 @@ impl Shape {
     }
 
     /// The shape placed in the world: its vertices rounded to `f64`, and its radius.
+    #[inline]
     pub fn place(&self, pose: &Pose2) -> Placed {
+        self.place_by(pose, num::sin_cos(pose.theta))
+    }
+
+    /// As [`place`](Self::place), given the sine and the cosine of the frame's angle.
+    #[inline]
+    pub(crate) fn place_by(&self, pose: &Pose2, sin_cos: (f64, f64)) -> Placed {
         let mut core = self.core();
         if *pose != Pose2::IDENTITY {
-            let (s, c) = num::sin_cos(pose.theta);
             for p in &mut core {
-                *p = Point2::new(pose.x + (c * p.x - s * p.y), pose.y + (s * p.x + c * p.y));
+                *p = pose.transform_by(sin_cos, *p);
             }
         }
         Placed::new(core, self.radius())

@@ -118,6 +118,22 @@ impl Reach<3> {
     }
 }
 
+/// A link where it is.
+#[derive(Clone, Copy)]
+struct Link {
+    /// Its frame: the origin at its proximal end, the x axis along it.
+    pose: Pose2,
+    /// Of the frame's angle.
+    sin_cos: (f64, f64),
+    length: f64,
+}
+
+impl Link {
+    fn end(&self) -> Point2 {
+        self.pose.transform_by(self.sin_cos, Point2::new(self.length, 0.0))
+    }
+}
+
 impl<const N: usize> Reach<N> {
     /// The arm with these links; a `link_radius` of exactly 0 gives segments.
     ///
@@ -136,27 +152,27 @@ impl<const N: usize> Reach<N> {
     /// Link k leaves joint k at the absolute heading `th1 + .. + thk`; one running heading and one running position give
     /// the product of the N rigid motions "turn by the joint angle, then go the link's length ahead".
     pub fn fk(&self, q: &Tn<N>) -> JointPoints {
-        self.links(q).map(|(pose, _)| pose.position()).chain([self.tip(q)]).collect()
+        self.links(q).map(|link| link.pose.position()).chain([self.tip(q)]).collect()
     }
 
     /// The position of the tip, metres.
     pub fn tip(&self, q: &Tn<N>) -> Point2 {
-        self.links(q).last().map_or(self.base, |(pose, length)| pose.transform(Point2::new(length, 0.0)))
+        self.links(q).last().map_or(self.base, |link| link.end())
     }
 
     /// The absolute heading of the last link, radians: with [`tip`](Self::tip) the position-and-orientation map.
     pub fn heading(&self, q: &Tn<N>) -> f64 {
-        self.links(q).last().map_or(0.0, |(pose, _)| pose.theta)
+        self.links(q).last().map_or(0.0, |link| link.pose.theta)
     }
 
-    /// Each link's frame (origin at its proximal end, x axis along it) and length.
-    fn links(&self, q: &Tn<N>) -> impl Iterator<Item = (Pose2, f64)> {
-        let (mut at, mut heading) = (self.base, 0.0);
+    fn links(&self, q: &Tn<N>) -> impl Iterator<Item = Link> {
+        let (base, mut last) = (self.base, None::<Link>);
         q.0.into_iter().zip(self.lengths).map(move |(angle, length)| {
-            heading = wrap(heading + angle);
-            let pose = Pose2 { x: at.x, y: at.y, theta: heading };
-            at = pose.transform(Point2::new(length, 0.0));
-            (pose, length)
+            let (at, heading) = last.map_or((base, 0.0), |link| (link.end(), link.pose.theta));
+            let theta = wrap(heading + angle);
+            let link = Link { pose: Pose2 { x: at.x, y: at.y, theta }, sin_cos: num::sin_cos(theta), length };
+            last = Some(link);
+            link
         })
     }
 }
@@ -170,9 +186,9 @@ impl<const N: usize> Robot for Reach<N> {
 
     /// One capsule per link, part 0 the one at the base.
     fn footprint(&self, q: &Tn<N>) -> Footprint {
-        Footprint::new(self.links(q).map(|(pose, length)| {
+        Footprint::new(self.links(q).map(|Link { pose, sin_cos, length }| {
             let shape = Shape::Capsule { a: Point2::origin(), b: Point2::new(length, 0.0), radius: self.link_radius };
-            Part::new(pose, shape)
+            Part::new_by(pose, sin_cos, shape)
         }))
     }
 

@@ -123,7 +123,7 @@ fn make_rounded(points: &[Point2], radius: f64) -> Result<Shape, WorldProblem> {
     for (i, a) in vertices.iter().enumerate() {
         Shape::try_segment(*a, vertices[(i + 1) % vertices.len()])?;
     }
-    Ok(Shape::Hull { vertices, radius })
+    Ok(Shape::Hull { vertices: vertices[..].into(), radius })
 }
 
 pub(super) fn make_place(text: &PlaceText) -> Result<Place, WorldProblem> {

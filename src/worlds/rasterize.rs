@@ -131,8 +131,8 @@ mod tests {
             let (a, b, c) = (point(), point(), point());
             let shape = match i % 4 {
                 0 => Shape::Segment { a, b },
-                1 => Shape::Hull { vertices: convex_hull(&[a, b, c]), radius: 0.0 },
-                2 => Shape::Hull { vertices: convex_hull(&[a, b, c]), radius: 0.375 },
+                1 => Shape::Hull { vertices: convex_hull(&[a, b, c])[..].into(), radius: 0.0 },
+                2 => Shape::Hull { vertices: convex_hull(&[a, b, c])[..].into(), radius: 0.375 },
                 _ => Shape::Capsule { a, b, radius: 0.7 },
             };
             let placed = shape.place(&Pose2::IDENTITY);
