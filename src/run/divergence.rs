@@ -85,7 +85,7 @@ pub fn first_divergence(expected: &[Frame], found: &[Frame]) -> Option<Divergenc
 fn differing_value(expected: &Frame, found: &Frame) -> Option<Divergence> {
     let values = |frame: &Frame| {
         let mut values: Vec<(Option<u32>, Field, Value)> = Vec::new();
-        frame.visit(&mut |robot, field, value| values.push((robot, field, value)));
+        frame.visit(&mut |robot: Option<u32>, field: Field, value: Value| values.push((robot, field, value)));
         values
     };
     let (a, b) = (values(expected), values(found));

@@ -58,17 +58,17 @@ impl Frame {
     ///
     /// This one list is the canonical encoding, the digest's input and what a divergence is found in. A list's length
     /// comes before its items, so two frames' lists run alike up to their first difference.
-    pub(super) fn visit(&self, visit: &mut impl FnMut(Option<u32>, Field, Value)) {
+    pub(super) fn visit(&self, visit: &mut impl Visit) {
         // taken apart by name, so that a field added later can't be forgotten here
         let Frame { tick, robots, scans } = self;
-        visit(None, Field::one("tick"), Value::Count(*tick));
-        visit(None, Field::one("robots.len"), Value::of_len(robots.len()));
+        visit.value(None, Field::one("tick"), Value::Count(*tick));
+        visit.value(None, Field::one("robots.len"), Value::of_len(robots.len()));
         for robot in robots {
             robot.visit(visit);
         }
-        visit(None, Field::one("scans.len"), Value::of_len(scans.len()));
+        visit.value(None, Field::one("scans.len"), Value::of_len(scans.len()));
         for RobotScan { robot, ranges } in scans {
-            visit(Some(*robot), Field::one("scan.robot"), Value::Count(u64::from(*robot)));
+            visit.value(Some(*robot), Field::one("scan.robot"), Value::Count(u64::from(*robot)));
             visit_list(Some(*robot), "ranges.len", "ranges", ranges, visit);
         }
     }
@@ -92,7 +92,7 @@ impl Frame {
     ///
     /// An `f64` is its bits. No two frames that differ in a bit have one encoding, and none's is the beginning of another's.
     pub fn encode(&self, out: &mut Vec<u8>) {
-        self.visit(&mut |_, _, value| out.extend_from_slice(&value.bits().to_le_bytes()));
+        self.visit(&mut Words(out));
     }
 
     /// The number of bytes that the canonical encoding takes.
@@ -106,7 +106,7 @@ impl Frame {
     /// The first NaN in canonical order: its robot and the field's name.
     pub fn first_nan(&self) -> Option<(u32, String)> {
         let mut found = None;
-        self.visit(&mut |robot, field, value| {
+        self.visit(&mut |robot: Option<u32>, field: Field, value: Value| {
             if let (None, Some(robot), Value::Float(x)) = (&found, robot, value)
                 && x.is_nan()
             {
@@ -118,35 +118,63 @@ impl Frame {
 }
 
 impl RobotState {
-    fn visit(&self, visit: &mut impl FnMut(Option<u32>, Field, Value)) {
+    fn visit(&self, visit: &mut impl Visit) {
         let RobotState { id, configuration, extra, channels, target, manual, in_contact, contacts, flash, refusals } =
             self;
         let robot = Some(*id);
-        visit(robot, Field::one("id"), Value::Count(u64::from(*id)));
+        visit.value(robot, Field::one("id"), Value::Count(u64::from(*id)));
         visit_list(robot, "configuration.len", "configuration", configuration, visit);
         visit_list(robot, "extra.len", "extra", extra, visit);
         for (i, channel) in channels.iter().enumerate() {
-            visit(robot, Field::item("channels", i), Value::Integer(i64::from(*channel)));
+            visit.value(robot, Field::item("channels", i), Value::Integer(i64::from(*channel)));
         }
         visit_list(robot, "target.len", "target", target, visit);
-        visit(robot, Field::one("manual"), Value::Flag(*manual));
-        visit(robot, Field::one("in_contact"), Value::Flag(*in_contact));
-        visit(robot, Field::one("contacts"), Value::Count(u64::from(*contacts)));
-        visit(robot, Field::one("flash"), Value::Count(u64::from(*flash)));
-        visit(robot, Field::one("refusals"), Value::Count(u64::from(*refusals)));
+        visit.value(robot, Field::one("manual"), Value::Flag(*manual));
+        visit.value(robot, Field::one("in_contact"), Value::Flag(*in_contact));
+        visit.value(robot, Field::one("contacts"), Value::Count(u64::from(*contacts)));
+        visit.value(robot, Field::one("flash"), Value::Count(u64::from(*flash)));
+        visit.value(robot, Field::one("refusals"), Value::Count(u64::from(*refusals)));
     }
 }
 
-fn visit_list(
-    robot: Option<u32>,
-    len_name: &'static str,
-    name: &'static str,
-    list: &[f64],
-    visit: &mut impl FnMut(Option<u32>, Field, Value),
-) {
-    visit(robot, Field::one(len_name), Value::of_len(list.len()));
-    for (i, x) in list.iter().enumerate() {
-        visit(robot, Field::item(name, i), Value::Float(*x));
+fn visit_list(robot: Option<u32>, len_name: &'static str, name: &'static str, list: &[f64], visit: &mut impl Visit) {
+    visit.value(robot, Field::one(len_name), Value::of_len(list.len()));
+    visit.floats(robot, name, list);
+}
+
+/// What goes over the values of a frame.
+pub(super) trait Visit {
+    /// A value.
+    fn value(&mut self, robot: Option<u32>, field: Field, value: Value);
+
+    /// The items of a list.
+    fn floats(&mut self, robot: Option<u32>, name: &'static str, list: &[f64]) {
+        for (i, x) in list.iter().enumerate() {
+            self.value(robot, Field::item(name, i), Value::Float(*x));
+        }
+    }
+}
+
+impl<F: FnMut(Option<u32>, Field, Value)> Visit for F {
+    fn value(&mut self, robot: Option<u32>, field: Field, value: Value) {
+        self(robot, field, value);
+    }
+}
+
+/// The values' words, lists all at once: most of a frame is a scan.
+struct Words<'a>(&'a mut Vec<u8>);
+
+impl Visit for Words<'_> {
+    fn value(&mut self, _robot: Option<u32>, _field: Field, value: Value) {
+        self.0.extend_from_slice(&value.bits().to_le_bytes());
+    }
+
+    fn floats(&mut self, _robot: Option<u32>, _name: &'static str, list: &[f64]) {
+        let before = self.0.len();
+        self.0.resize(before + 8 * list.len(), 0);
+        for (word, x) in self.0[before..].as_chunks_mut().0.iter_mut().zip(list) {
+            *word = x.to_bits().to_le_bytes();
+        }
     }
 }
 

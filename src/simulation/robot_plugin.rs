@@ -35,7 +35,7 @@ type Spawner = Arc<dyn Fn(&mut World, &SpawnRequest) -> Result<Entity, SpawnErro
 #[derive(Resource, Clone, Default)]
 pub struct RobotKinds {
     spawners: BTreeMap<String, Spawner>,
-    /// How many types of robots have their systems in the schedule.
+    /// How many types of robots there are.
     types: usize,
 }
 
@@ -50,15 +50,41 @@ impl RobotKinds {
     }
 }
 
-/// That the systems of `R` are in the schedule.
+/// The systems of `R`: their place among those of all types, and whether they are in the schedule.
 #[derive(Resource)]
-struct SystemsOf<R>(std::marker::PhantomData<fn() -> R>);
+struct SystemsOf<R> {
+    number: usize,
+    installed: bool,
+    of: std::marker::PhantomData<fn() -> R>,
+}
+
+/// Puts the systems of `R` into the schedule if they are not there yet. That waits for the first such robot: a tick is not to pay for types of
+/// which there are none.
+fn install<R: SimulatedRobot>(world: &mut World) {
+    let Some(mut systems) = world.get_resource_mut::<SystemsOf<R>>() else { return };
+    if std::mem::replace(&mut systems.installed, true) {
+        return;
+    }
+    let number = systems.number;
+    world.resource_mut::<Schedules>().add_systems(
+        SimulationSchedule,
+        (
+            drive::drive::<R>.in_set(KindSystems::Drive(number)).in_set(SimulationSystems::Drive),
+            drive::plan::<R>.in_set(KindSystems::Plan(number)).in_set(Phase::Plan),
+            settle::cut::<R>.in_set(KindSystems::Cut(number)).in_set(Phase::Cut),
+            settle::settle::<R>.in_set(KindSystems::Settle(number)).in_set(Phase::Settle),
+        ),
+    );
+}
 
 impl<R: SimulatedRobot> Plugin for RobotPlugin<R> {
     fn build(&self, app: &mut App) {
         let model = self.model.clone();
         let ops = RobotOps::of::<R>();
-        let spawner: Spawner = Arc::new(move |world, request| spawn_robot(world, &model, ops, request));
+        let spawner: Spawner = Arc::new(move |world, request| {
+            install::<R>(world);
+            spawn_robot(world, &model, ops, request)
+        });
         let mut kinds = app.world_mut().get_resource_or_init::<RobotKinds>();
         kinds.spawners.insert(self.kind.clone(), spawner);
         let number = kinds.types;
@@ -66,21 +92,12 @@ impl<R: SimulatedRobot> Plugin for RobotPlugin<R> {
             return;
         }
         app.world_mut().resource_mut::<RobotKinds>().types += 1;
-        app.insert_resource(SystemsOf::<R>(std::marker::PhantomData));
+        app.insert_resource(SystemsOf::<R> { number, installed: false, of: std::marker::PhantomData });
         for set in [KindSystems::Drive, KindSystems::Plan, KindSystems::Cut, KindSystems::Settle] {
             if let Some(before) = number.checked_sub(1) {
                 app.configure_sets(SimulationSchedule, set(number).after(set(before)));
             }
         }
-        app.add_systems(
-            SimulationSchedule,
-            (
-                drive::drive::<R>.in_set(KindSystems::Drive(number)).in_set(SimulationSystems::Drive),
-                drive::plan::<R>.in_set(KindSystems::Plan(number)).in_set(Phase::Plan),
-                settle::cut::<R>.in_set(KindSystems::Cut(number)).in_set(Phase::Cut),
-                settle::settle::<R>.in_set(KindSystems::Settle(number)).in_set(Phase::Settle),
-            ),
-        );
     }
 
     fn name(&self) -> &str {

@@ -1,6 +1,7 @@
 //! The system that lets every range sensor scan.
 
 use bevy::prelude::*;
+use smallvec::SmallVec;
 
 use super::starts::others_now;
 use super::{
@@ -10,12 +11,11 @@ use super::{
 /// Scans from where the robots are now. A sensor sees the obstacles and the other robots of its world, not its own robot.
 /// A noisy sensor's readings are drawn anew for the tick, from its own stream.
 pub(super) fn sense(world: &mut World) {
-    let robots = world.get_resource::<Roster>().map_or(0, |r| r.robots().len());
-    for number in 0..robots {
-        let robot = world.resource::<Roster>().robots()[number];
-        let sensors = world.get::<Sensors>(robot).map_or(0, |s| s.len());
-        for which in 0..sensors {
-            let Some(sensor) = world.get::<Sensors>(robot).and_then(|s| s.iter().nth(which)) else { continue };
+    let robots: SmallVec<[Entity; 8]> =
+        world.get_resource::<Roster>().map_or_else(SmallVec::new, |r| r.robots().into());
+    for robot in robots {
+        let Some(sensors) = world.get::<Sensors>(robot) else { continue };
+        for sensor in sensors.iter().collect::<SmallVec<[Entity; 4]>>() {
             scan(world, robot, sensor);
         }
     }

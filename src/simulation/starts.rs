@@ -3,7 +3,7 @@
 use bevy::prelude::*;
 
 use super::sweep::Sweep;
-use super::{ResidesIn, RobotId, RobotOps, Roster};
+use super::{Residents, ResidesIn, RobotId, RobotOps, Roster};
 use crate::collision::{Collision, Scene, Surroundings};
 use crate::geometry::{Footprint, Placed, Point2};
 use crate::worlds::Bounds;
@@ -63,12 +63,20 @@ impl Sweeps {
 /// The parts of all robots now in `world` but `id`, by ascending id.
 pub fn others_now(world: &World, inhabited: Entity, id: RobotId) -> Vec<Placed> {
     let mut parts = Vec::new();
+    if lives_alone(world, inhabited) {
+        return parts;
+    }
     for (e, _, _) in robots(world).filter(|(_, w, i)| *w == inhabited && *i != id) {
         if let Some(footprint) = world.get::<RobotOps>(e).and_then(|ops| (ops.footprint)(world, e)) {
             parts.extend(footprint.parts().iter().map(|p| p.placed().clone()));
         }
     }
     parts
+}
+
+/// Whether no two robots live in that world.
+fn lives_alone(world: &World, inhabited: Entity) -> bool {
+    world.get::<Residents>(inhabited).is_none_or(|residents| residents.len() < 2)
 }
 
 /// Each robot with its world and id, by ascending id.
@@ -82,8 +90,10 @@ pub(super) fn gather_starts(world: &mut World) {
     let mut starts = std::mem::take(&mut world.resource_mut::<Starts>().0);
     starts.clear();
     for (e, inhabited, id) in robots(world) {
-        let shares = robots(world).any(|(_, w, i)| w == inhabited && i != id);
-        let ops = world.get::<RobotOps>(e).filter(|_| shares);
+        if lives_alone(world, inhabited) {
+            continue;
+        }
+        let ops = world.get::<RobotOps>(e);
         if let Some(footprint) = ops.and_then(|ops| (ops.footprint)(world, e)) {
             starts.push((inhabited, id, footprint));
         }
