@@ -42,6 +42,7 @@ fn main() {
         "scan-yard" => scans(&worlds::walls(1_000, 12.6, 1.0), 12.6, 12.0, times),
         "witness" => arms(times, |c, a, _| _ = black_box(c.scene().witness(&c.robot().footprint(a)))),
         "edge" => arms(times, |c, a, b| _ = black_box(c.edge(a, b))),
+        "free" => arms(times, |c, a, b| _ = black_box(c.edge_free(a, b))),
         "tick" => {
             let mut recorder = Recorder::new(TourConfig::default(), BOOK_SEED).expect("the tour runs");
             (0..times).for_each(|_| _ = black_box(recorder.step().tick));

@@ -1,5 +1,6 @@
 //! The four questions put to a scene.
 
+use super::clear_way::Way;
 use super::closed::verdict;
 use super::narrow::{self, Nearest, nearest, nearest_within};
 use super::swept::{self, SWEEP};
@@ -40,6 +41,10 @@ impl Collision for Scene {
             return 0.0;
         }
         self.nearest_piece(&hull, f64::INFINITY).map_or(f64::INFINITY, |(_, n)| n.dist)
+    }
+
+    fn clears(&self, from: &Placed, to: &Placed, reach: f64) -> bool {
+        Way::new(from, to).is_some_and(|way| way.clears(self, reach))
     }
 
     fn witness(&self, footprint: &Footprint) -> Option<Witness> {

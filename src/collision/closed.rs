@@ -1,5 +1,6 @@
 //! Verdicts in closed form: discs on lines and arcs, and parts that move without turning.
 
+use super::clear_way::halve;
 use super::disc_line::DiscLine;
 use super::march::{BRACKET, step_clearance};
 use super::nearby::march_nearby;
@@ -37,6 +38,19 @@ pub(super) fn verdict<M: Motion>(
         return verdict;
     }
     march_nearby(scene, motion, budget, certificate, start)
+}
+
+/// So many halvings decide on most motions, or it takes a march.
+const HALVINGS: u32 = 48;
+
+/// Whether a motion is proven free: wherever the [`verdict`] says so, but neither how near it comes nor where it hits is looked for.
+pub(super) fn is_free<M: Motion>(scene: &Scene, motion: &M, budget: u32) -> bool {
+    if budget == 0 || motion.disc_line().is_some() || motion.disc_arc().is_some() {
+        return verdict(scene, motion, budget, None).is_free();
+    }
+    let (start, end) = (motion.footprint_at(0.0), motion.footprint_at(1.0));
+    let decided = halve(scene, motion, (&start, &end), HALVINGS);
+    decided.unwrap_or_else(|| verdict(scene, motion, budget, None).is_free())
 }
 
 /// The hit of which everything before `free_until` was proven free, if there is contact at `contact_at`.

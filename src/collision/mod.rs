@@ -6,6 +6,7 @@ mod boxes;
 mod cells;
 mod certificate;
 mod checker;
+mod clear_way;
 mod closed;
 mod core;
 mod counted;
@@ -38,6 +39,7 @@ pub(crate) use answers::touch;
 pub(crate) use cells::{Cells, Place};
 pub use certificate::{Certificate, CertificateError, ProvenStep, verify_certificate};
 pub use checker::{CarChecker, ChainChecker, Checker, DiscChecker};
+pub(crate) use clear_way::is_plainly_clear;
 pub use counted::{Counted, QueryCounts};
 pub use edge::{EdgeVerdict, MarchOptions, UnresolvedReason};
 pub use march::{BRACKET, march};
@@ -73,6 +75,13 @@ pub trait Collision: Send + Sync {
     #[doc(hidden)]
     fn distance_of_hull(&self, hull: Placed) -> f64 {
         self.distance(&Footprint::of_hull(hull))
+    }
+
+    /// Whether it is plain that a part whose vertices go in straight lines from one place to another keeps more than `reach` metres from
+    /// everything. Not a question of its own either: what is not plain is asked of [`distance`](Self::distance).
+    #[doc(hidden)]
+    fn clears(&self, _from: &Placed, _to: &Placed, _reach: f64) -> bool {
+        false
     }
 
     /// A pair of points that attains the distance; on contact one common point, with `dist` 0. `None` in an empty scene

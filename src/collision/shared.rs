@@ -21,6 +21,10 @@ macro_rules! passes_on {
                 (**self).distance_of_hull(hull)
             }
 
+            fn clears(&self, from: &Placed, to: &Placed, reach: f64) -> bool {
+                (**self).clears(from, to, reach)
+            }
+
             fn witness(&self, footprint: &Footprint) -> Option<Witness> {
                 (**self).witness(footprint)
             }

@@ -1,10 +1,11 @@
 //! `Surroundings`, a scene and other robots' footprints in it.
 
+use super::clear_way::Way;
 use super::march::march;
-use super::narrow::nearest;
+use super::narrow::{nearest, touch};
 use super::swept::{self, SWEEP};
 use super::{Collision, ObstacleId, Scene, Witness};
-use crate::geometry::{Footprint, Placed};
+use crate::geometry::{Footprint, Part, Placed, largest_coordinate};
 
 /// A scene together with further placed shapes: what one robot among several may not touch. Obstacle ids from the scene's
 /// [`obstacle_count`](Scene::obstacle_count) on number the further shapes.
@@ -41,7 +42,8 @@ impl Surroundings<'_> {
 
 impl Collision for Surroundings<'_> {
     fn intersects(&self, footprint: &Footprint) -> bool {
-        self.distance(footprint) == 0.0
+        let met = |part: &Part| self.others.iter().any(|other| touch(part.placed(), other));
+        !self.decidable(footprint) || self.scene.intersects(footprint) || footprint.parts().iter().any(met)
     }
 
     fn distance(&self, footprint: &Footprint) -> f64 {
@@ -59,6 +61,13 @@ impl Collision for Surroundings<'_> {
         let others = self.others.iter().map(|other| nearest(&hull, other).dist);
         let other = others.fold(f64::INFINITY, |least, dist| crate::num::lesser(dist, least));
         crate::num::lesser(self.scene.distance_of_hull(hull), other)
+    }
+
+    fn clears(&self, from: &Placed, to: &Placed, reach: f64) -> bool {
+        let passes =
+            |way: &Way, other| Placed::is_valid(other) && way.passes(other, reach, largest_coordinate([other]));
+        Way::new(from, to)
+            .is_some_and(|way| way.clears(self.scene, reach) && self.others.iter().all(|other| passes(&way, other)))
     }
 
     fn witness(&self, footprint: &Footprint) -> Option<Witness> {

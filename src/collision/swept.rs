@@ -2,7 +2,7 @@
 
 use smallvec::SmallVec;
 
-use super::{Collision, EdgeVerdict, MarchOptions};
+use super::{Collision, EdgeVerdict, MarchOptions, is_plainly_clear};
 use crate::configuration::R2;
 use crate::geometry::{Footprint, Part, Pose2};
 use crate::num::{hypot, wrap};
@@ -72,5 +72,6 @@ pub(super) fn hits(
     });
     let rates = rates.collect();
     let motion = PartsMotion { from: a, to: b, turns, rates };
-    !judge(&motion).is_free()
+    !is_plainly_clear(collision, &motion, 0.0, (a, b))
+        && (collision.intersects(a) || collision.intersects(b) || !judge(&motion).is_free())
 }

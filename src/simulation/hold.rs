@@ -1,6 +1,6 @@
 //! Holding: how far a tick's motion may go before it would touch something.
 
-use crate::collision::{Collision, EdgeVerdict, MarchOptions, clearance_of_all, march_on};
+use crate::collision::{Collision, EdgeVerdict, MarchOptions, clearance_of_all, is_plainly_clear, march_on};
 use crate::num::{greater, lesser};
 use crate::robots::Motion;
 
@@ -48,7 +48,10 @@ pub fn margin_from(start: f64) -> f64 {
 /// Free, it goes all the way. Blocked, it is held at a clearance of [`HOLD_CLEARANCE`], a little more by the bisection's
 /// width, or at its start when that is nearer. A start in contact stays.
 pub fn advance(surroundings: &dyn Collision, motion: &impl Motion) -> Advance {
-    let start = motion.footprint_at(0.0);
+    let (start, end) = (motion.footprint_at(0.0), motion.footprint_at(1.0));
+    if is_plainly_clear(surroundings, motion, MARGIN + 2.0 * WEAR, (&start, &end)) {
+        return Advance { until: 1.0, blocked: false };
+    }
     // Most motions keep well away from everything. One step that proves so proves it of the start too, whose clearance need not be known then.
     let all = clearance_of_all(surroundings, motion, &start);
     if all > MARGIN + 2.0 * WEAR {

@@ -10,7 +10,7 @@ use super::{
     Configuration, Contacts, Control, Cut, DriveMode, ResidesIn, RobotId, RobotModel, SimulatedRobot, TickMotion,
     WorldScene,
 };
-use crate::collision::{Collision, MarchOptions, Surroundings, clearance_of_all, march_on};
+use crate::collision::{Collision, MarchOptions, Surroundings, clearance_of_all, is_plainly_clear, march_on};
 use crate::configuration::Configuration as _;
 use crate::robots::Motion;
 
@@ -62,14 +62,16 @@ pub(super) fn cut<R: SimulatedRobot>(
 
 /// Whether all of a motion is proven free. Where one of its ends is in contact it is not, and need not be marched to find out where it hits.
 fn is_free(surroundings: &Surroundings, motion: &impl Motion) -> bool {
-    let (start, options) = (motion.footprint_at(0.0), MarchOptions::default());
-    if clearance_of_all(surroundings, motion, &start) > options.margin {
+    let (start, end, options) = (motion.footprint_at(0.0), motion.footprint_at(1.0), MarchOptions::default());
+    if is_plainly_clear(surroundings, motion, options.margin, (&start, &end)) {
         return true;
     }
+    if surroundings.intersects(&start) || surroundings.intersects(&end) {
+        return false;
+    }
     let distance = surroundings.distance(&start);
-    distance > 0.0
-        && !surroundings.intersects(&motion.footprint_at(1.0))
-        && march_on(surroundings, motion, options, None, (start, distance)).is_free()
+    clearance_of_all(surroundings, motion, &start) > options.margin
+        || march_on(surroundings, motion, options, None, (start, distance)).is_free()
 }
 
 /// What [`settle`] reads and writes of a robot.
@@ -92,13 +94,13 @@ pub(super) fn settle<R: SimulatedRobot>(starts: Res<Starts>, sweeps: Res<Sweeps>
     {
         let (mut until, mut in_contact) = (cut.until, cut.contact);
         if let Some(motion) = motion {
-            let own = CutMotion { motion: motion.clone(), until };
             let met = until > 0.0
                 && sweeps.below(world, id).any(|(lower, sweep)| {
                     // at one that stands still the motion is cut already
                     if sweep.is_still() {
                         return false;
                     }
+                    let own = CutMotion { motion: motion.clone(), until };
                     let margin = margin_from(starts.distance(sweeps.nothing(), world, id, lower));
                     sweeps_meet(sweeps.nothing(), &own, sweep, margin)
                 });
