@@ -37,39 +37,52 @@ impl Boxes {
         [&self.x0, &self.y0, &self.x1, &self.y1]
     }
 
+    /// Gives the squared distances of all boxes, and the least of them, to `work`.
+    fn measured(&self, from: &Extent, work: impl FnOnce(&[f64], f64)) {
+        // no more room is filled than is needed
+        let (mut few, mut many);
+        let squares: &mut [f64] = if self.count <= LANES {
+            few = [f64::INFINITY; LANES];
+            &mut few
+        } else {
+            many = [f64::INFINITY; FEW];
+            &mut many
+        };
+        let least = squared_distances(self.sides(), from, squares);
+        work(&squares[..self.count], least);
+    }
+
     /// Calls `look`, which gives the least distance so far, with every box that may hold something as near as that; the
     /// nearest box first, because most others need not be looked at then.
     pub(super) fn nearest(&self, from: &Extent, within: f64, mut look: impl FnMut(usize) -> f64) {
-        let mut squares = [f64::INFINITY; FEW];
-        let nearest = squared_distances(self.sides(), from, &mut squares);
-        if nearest > square(within) || self.count == 0 {
-            return;
-        }
-        let squares = &squares[..self.count];
-        let first = squares.iter().position(|s| *s == nearest).unwrap_or(0);
-        let mut least = square(look(first));
-        for (i, distance) in squares.iter().enumerate() {
-            if *distance <= least && i != first {
-                least = square(look(i));
+        self.measured(from, |squares, nearest| {
+            if nearest > square(within) || squares.is_empty() {
+                return;
             }
-        }
+            let first = squares.iter().position(|s| *s == nearest).unwrap_or(0);
+            let mut least = square(look(first));
+            for (i, distance) in squares.iter().enumerate() {
+                if *distance <= least && i != first {
+                    least = square(look(i));
+                }
+            }
+        });
     }
 
     /// Calls `visit` with each box at most `range` away, until it returns true.
     pub(super) fn each_near(&self, from: &Extent, range: f64, mut visit: impl FnMut(usize) -> bool) {
-        let mut squares = [f64::INFINITY; FEW];
-        squared_distances(self.sides(), from, &mut squares);
-        for (i, distance) in squares[..self.count].iter().enumerate() {
-            if *distance <= range * range && visit(i) {
-                return;
+        self.measured(from, |squares, nearest| {
+            if nearest <= range * range {
+                let mut near = squares.iter().enumerate().filter(|(_, distance)| **distance <= range * range);
+                near.any(|(i, _)| visit(i));
             }
-        }
+        });
     }
 }
 
 /// [`Extent::squared_distance`] from a box to each, and the least of them.
 #[multiversion(targets("x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl", "x86_64+avx2"))]
-fn squared_distances([x0, y0, x1, y1]: [&[f64]; 4], from: &Extent, squares: &mut [f64; FEW]) -> f64 {
+fn squared_distances([x0, y0, x1, y1]: [&[f64]; 4], from: &Extent, squares: &mut [f64]) -> f64 {
     let Extent { min, max } = *from;
     let mut least = [f64::INFINITY; LANES];
     let blocks = x0.as_chunks().0.iter().zip(y0.as_chunks().0).zip(x1.as_chunks().0.iter().zip(y1.as_chunks().0));

@@ -112,13 +112,16 @@ impl<'a> Way<'a> {
 
     /// Whether it is plain that all valid pieces of the scene are farther off than `reach`.
     pub(super) fn clears(&self, scene: &Scene, reach: f64) -> bool {
+        if !scene.size.is_finite() {
+            return false; // a piece that is no valid shape is everywhere
+        }
         let mut near = false;
         let range = self.radius + reach + self.slack(scene.size);
         scene.index.each_near(&self.bounds, range, |piece| {
             near = !self.passes(&scene.pieces[piece], reach, scene.size);
             near
         });
-        !near && scene.size.is_finite()
+        !near
     }
 
     /// Whether it is plain that a valid piece, no coordinate of which is larger than `size`, is farther off than `reach`: some line parts them

@@ -128,82 +128,96 @@ pub(super) fn cores_contact(a: &[Point2], b: &[Point2]) -> Option<Point2> {
 /// The distance to the segment's line is a cross product with the displacement from the nearer end, so its rounding is a
 /// few ulps of that displacement; where it cancels, the adaptive predicate gives its value.
 pub(super) fn point_segment(p: Point2, (a, b): (Point2, Point2)) -> (f64, Point2) {
+    point_segment_within(p, (a, b), f64::INFINITY).unwrap_or((f64::INFINITY, a))
+}
+
+/// As [`point_segment`]; `None` where the distance is more than the root of `square`, by more than it may be off.
+#[inline]
+fn point_segment_within(p: Point2, (a, b): (Point2, Point2), square: f64) -> Option<(f64, Point2)> {
     let (u, from_a, from_b) = (b - a, p - a, p - b);
     let (along, rest) = (from_a.dot(&u), -from_b.dot(&u));
-    if along <= 0.0 {
-        return (sqrt(from_a.norm_squared()), a);
-    }
-    if rest <= 0.0 {
-        return (sqrt(from_b.norm_squared()), b);
+    if along <= 0.0 || rest <= 0.0 {
+        let (apart, foot) = if along <= 0.0 { (from_a.norm_squared(), a) } else { (from_b.norm_squared(), b) };
+        return (apart <= square).then(|| (sqrt(apart), foot));
     }
     let length_squared = u.norm_squared();
-    let (w, foot) = if along <= rest {
-        (from_a, a + u * (along / length_squared))
-    } else {
-        (from_b, b - u * (rest / length_squared))
-    };
+    let near_a = along <= rest;
+    let w = if near_a { from_a } else { from_b };
     let mut area = cross(u, w);
-    if area.abs() <= 16.0 * f64::EPSILON * (u.x.abs() + u.y.abs()) * (w.x.abs() + w.y.abs()) {
+    let rounding = 16.0 * f64::EPSILON * (u.x.abs() + u.y.abs()) * (w.x.abs() + w.y.abs());
+    let plain = greater(area.abs() - 2.0 * rounding, 0.0);
+    if plain * plain > square * length_squared {
+        return None;
+    }
+    let foot = if near_a { a + u * (along / length_squared) } else { b - u * (rest / length_squared) };
+    if area.abs() <= rounding {
         area = orientation(a, b, p);
     }
-    (area.abs() / sqrt(length_squared), foot)
+    Some((area.abs() / sqrt(length_squared), foot))
 }
 
 /// The distance between two disjoint cores and a pair of nearest points, if it is less than `limit`. It is attained at a vertex of
 /// one of them.
 pub(super) fn cores_distance(a: &[Point2], b: &[Point2], limit: f64) -> Option<(f64, Point2, Point2)> {
-    let enough = lesser(between_vertices(a, b), limit);
-    let mut closest = Closest { least: limit, pair: None };
+    let mut closest = Closest::new(limit, between_vertices(a, b));
     let around = Span::of(b);
     for &p in a {
-        if around.is_farther(p, lesser(closest.least, enough)) {
+        if around.is_farther(p, closest.square) {
             continue;
         }
         for edge in edges(b) {
-            closest.look(p, edge, enough, |p, foot| (p, foot));
+            closest.look(p, edge, |p, foot| (p, foot));
         }
     }
     if a.len() > 1 {
         let around = Span::of(a);
         for &q in b {
-            if around.is_farther(q, lesser(closest.least, enough)) {
+            if around.is_farther(q, closest.square) {
                 continue;
             }
             for edge in edges(a) {
-                closest.look(q, edge, enough, |q, foot| (foot, q));
+                closest.look(q, edge, |q, foot| (foot, q));
             }
         }
     }
     closest.found()
 }
 
-/// No two vertices are nearer than the cores, so what is plainly farther than this need not be looked at.
+/// The square of the distance between the nearest vertices: the cores are no farther apart.
 pub(super) fn between_vertices(a: &[Point2], b: &[Point2]) -> f64 {
-    let between = a.iter().flat_map(|p| b.iter().map(move |q| (p - q).norm_squared())).fold(f64::INFINITY, lesser);
-    sqrt(between) * (1.0 + 1e-9)
+    a.iter().flat_map(|p| b.iter().map(move |q| (p - q).norm_squared())).fold(f64::INFINITY, lesser)
 }
+
+/// More than rounding makes of a square.
+const ROUNDED_UP: f64 = 1.0 + 1e-8;
 
 /// The nearest pair of points so far.
 pub(super) struct Closest {
     pub(super) least: f64,
-    pub(super) pair: Option<(Point2, Point2)>,
+    /// The square of what is known to be enough, rounded up: what is farther than that need not be looked at.
+    square: f64,
+    pair: Option<(Point2, Point2)>,
 }
 
 impl Closest {
+    /// Nothing yet, of what is nearer than `limit`; something is no farther than the root of `between`.
+    pub(super) fn new(limit: f64, between: f64) -> Self {
+        Closest { least: limit, square: lesser(between, limit * limit) * ROUNDED_UP, pair: None }
+    }
+
     /// Looks at a vertex and an edge, unless they are plainly farther apart than is known to be enough.
     #[inline]
     pub(super) fn look(
         &mut self,
         p: Point2,
         edge: (Point2, Point2),
-        enough: f64,
         pair: impl Fn(Point2, Point2) -> (Point2, Point2),
     ) {
-        if !farther(p, edge, lesser(self.least, enough)) {
-            let (d, foot) = point_segment(p, edge);
-            if d < self.least {
-                (self.least, self.pair) = (d, Some(pair(p, foot)));
-            }
+        if let Some((d, foot)) = point_segment_within(p, edge, self.square)
+            && d < self.least
+        {
+            (self.least, self.pair) = (d, Some(pair(p, foot)));
+            self.square = lesser(self.square, d * d * ROUNDED_UP);
         }
     }
 
@@ -233,27 +247,12 @@ impl Span {
         self.max.x < other.min.x || other.max.x < self.min.x || self.max.y < other.min.y || other.max.y < self.min.y
     }
 
-    /// Whether `p` is plainly farther than `d` from all the box holds: by more than [`point_segment`] may be off.
-    fn is_farther(&self, p: Point2, d: f64) -> bool {
+    /// Whether `p` is farther than the root of `square` from all the box holds.
+    fn is_farther(&self, p: Point2, square: f64) -> bool {
         let dx = greater(greater(self.min.x - p.x, p.x - self.max.x), 0.0);
         let dy = greater(greater(self.min.y - p.y, p.y - self.max.y), 0.0);
-        dx * dx + dy * dy > d * d * (1.0 + 1e-9)
+        dx * dx + dy * dy > square
     }
-}
-
-/// Whether `p` is plainly farther than `d` from the segment: by more than [`point_segment`] may be off.
-fn farther(p: Point2, (a, b): (Point2, Point2), d: f64) -> bool {
-    let (u, from_a, from_b) = (b - a, p - a, p - b);
-    let (square, scale) = if from_a.dot(&u) <= 0.0 {
-        (from_a.norm_squared(), 1.0)
-    } else if from_b.dot(&u) >= 0.0 {
-        (from_b.norm_squared(), 1.0)
-    } else {
-        let size = (u.x.abs() + u.y.abs()) * (from_a.x.abs() + from_a.y.abs());
-        let area = cross(u, from_a).abs() - 32.0 * f64::EPSILON * size;
-        (if area > 0.0 { area * area } else { 0.0 }, u.norm_squared())
-    };
-    square > d * d * scale * (1.0 + 1e-9)
 }
 
 #[cfg(test)]

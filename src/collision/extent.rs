@@ -17,6 +17,12 @@ impl Extent {
         if !shape.is_valid() {
             return Extent { min: Point2::new(-1e200, -1e200), max: Point2::new(1e200, 1e200) };
         }
+        Self::of_valid(shape)
+    }
+
+    /// As [`of`](Self::of), of a shape known to be valid.
+    #[inline]
+    pub(super) fn of_valid(shape: &Placed) -> Self {
         let (min, max) = shape.bounds();
         Extent { min, max }.grown(64.0 * ulp(Extent { min, max }.size()))
     }

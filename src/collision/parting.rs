@@ -86,8 +86,8 @@ pub(super) fn parted_distance(
         *height = line.height(*q);
         lowest = lesser(*height, lowest);
     }
-    let enough = lesser(between_vertices(a, b), limit);
-    let mut closest = Closest { least: limit, pair: None };
+    let between = between_vertices(a, b);
+    let (enough, mut closest) = (lesser(sqrt(between), limit), Closest::new(limit, between));
     let far = |apart: f64, least: f64| apart > lesser(least, enough) * (1.0 + 1e-9) + slack;
     for (&p, below) in a.iter().zip(&below) {
         if far(lowest - below, closest.least) {
@@ -95,7 +95,7 @@ pub(super) fn parted_distance(
         }
         for ((edge, h0), h1) in edges(b).zip(&above).zip(above[1..b.len()].iter().chain(&above[..1])) {
             if !far(lesser(*h0, *h1) - below, closest.least) {
-                closest.look(p, edge, enough, |p, foot| (p, foot));
+                closest.look(p, edge, |p, foot| (p, foot));
             }
         }
     }
@@ -106,7 +106,7 @@ pub(super) fn parted_distance(
             }
             for ((edge, h0), h1) in edges(a).zip(&below).zip(below[1..a.len()].iter().chain(&below[..1])) {
                 if !far(above - greater(*h0, *h1), closest.least) {
-                    closest.look(q, edge, enough, |q, foot| (foot, q));
+                    closest.look(q, edge, |q, foot| (foot, q));
                 }
             }
         }

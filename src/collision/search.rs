@@ -25,9 +25,9 @@ impl<'a> Search<'a> {
         Search { shape, pieces, size, within, best: None, sides: None }
     }
 
-    /// The box around the shape.
+    /// The box around the shape, which is valid.
     pub(super) fn extent(&self) -> Extent {
-        Extent::of(self.shape)
+        Extent::of_valid(self.shape)
     }
 
     fn least(&self) -> f64 {

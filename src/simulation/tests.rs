@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use bevy::prelude::*;
 
-use super::{LatestFrame, SimulationPlugin, start_run_in_order, step};
+use super::{LatestFrame, SimulationPlugin, SimulationSchedule, start_run, start_run_in_order, step};
 use crate::geometry::Point2;
 use crate::random::{Seed, Stream};
 use crate::run::{Event, Frame, RobotInput, Script};
@@ -37,9 +37,13 @@ fn crowd() -> (Arc<TourConfig>, Script) {
 }
 
 fn run(order: &[usize]) -> Vec<Frame> {
-    let (config, script) = crowd();
     let mut app = App::new();
     app.add_plugins(SimulationPlugin);
+    run_in(&mut app, order)
+}
+
+fn run_in(app: &mut App, order: &[usize]) -> Vec<Frame> {
+    let (config, script) = crowd();
     start_run_in_order(app.world_mut(), config, (Seed(3), script).into(), order).unwrap();
     (0..120)
         .map(|_| {
@@ -57,4 +61,18 @@ fn the_order_of_spawning_does_not_matter() {
     for order in [[6, 5, 4, 3, 2, 1, 0], [3, 0, 6, 2, 5, 1, 4]] {
         assert_eq!(run(&order), frames);
     }
+}
+
+#[test]
+fn a_tick_has_systems_for_the_robots_that_were_there_and_later_ones_get_theirs() {
+    let mut app = App::new();
+    app.add_plugins(SimulationPlugin);
+    let systems = |app: &App| app.world().resource::<Schedules>().get(SimulationSchedule).unwrap().systems_len();
+    let apartment = TourConfig { worlds: vec![WorldModel::apartment()], ..TourConfig::default() };
+    start_run(app.world_mut(), apartment, Seed(3)).unwrap();
+    step(app.world_mut());
+    let of_one_type = systems(&app);
+    assert_eq!(run_in(&mut app, &[3, 0, 6, 2, 5, 1, 4]), run(&[0, 1, 2, 3, 4, 5, 6]), "whatever ran before");
+    // four systems for each of the car and the two arms
+    assert_eq!(systems(&app), of_one_type + 12);
 }
