@@ -118,8 +118,8 @@ impl<R: Robot> Checker<R> {
         })
     }
 
-    /// Whether the edge is proven free: exactly when [`edge`](Self::edge) says `Free`, and sooner, because neither how near it comes nor
-    /// where it hits is asked.
+    /// Whether the edge is proven free: always where [`edge`](Self::edge) says `Free`, never where it says `Hit`. Several times as fast,
+    /// because neither how near the edge comes nor where it hits is looked for.
     pub fn edge_free(&self, a: &R::Configuration, b: &R::Configuration) -> bool {
         self.robot.edge(a, b).is_ok_and(|edge| is_free(&self.scene, &edge, MarchOptions::default().budget))
     }
