@@ -112,11 +112,11 @@ impl<'a> Way<'a> {
 
     /// Whether it is plain that all valid pieces of the scene are farther off than `reach`.
     pub(super) fn clears(&self, scene: &Scene, reach: f64) -> bool {
-        if !scene.size.is_finite() {
-            return false; // a piece that is no valid shape is everywhere
+        let range = self.radius + reach + self.slack(scene.size);
+        if !range.is_finite() {
+            return false; // a bound that is no number, or a piece that is no valid shape, which is everywhere
         }
         let mut near = false;
-        let range = self.radius + reach + self.slack(scene.size);
         scene.index.each_near(&self.bounds, range, |piece| {
             near = !self.passes(&scene.pieces[piece], reach, scene.size);
             near
@@ -219,6 +219,8 @@ mod tests {
         assert!(scene.clears(&disc(0.0, 0.1), &disc(1.0, 0.1), 1.0), "there is nothing");
         assert!(!scene.clears(&disc(0.0, 0.1), &disc(f64::NAN, 0.1), 1.0));
         assert!(!scene.clears(&disc(0.0, f64::NAN), &disc(1.0, 0.1), 1.0));
+        let post = scene.clone().with_obstacle("post", Shape::Disc { radius: 0.1 });
+        assert!(!post.clears(&disc(5.0, 0.1), &disc(6.0, 0.1), f64::NAN), "a bound that is no number");
         let scene = scene.with_obstacle("nothing that is", Shape::Disc { radius: f64::NAN });
         assert!(!scene.clears(&disc(50.0, 0.1), &disc(60.0, 0.1), 1.0));
     }
