@@ -9,7 +9,8 @@ use crate::peer::Peer;
 use crate::queries::arm_scenes;
 use crate::worlds::{CASES, boxes, draws, free_points, pieces, walls};
 
-fn disc(scene: &Scene, side: f64) -> Vec<Timing> {
+/// A disc's edges, and parry's cast along them, which tells whether it hits and when.
+fn disc<T>(scene: &Scene, side: f64, ask: impl Fn(&Checker<RustyDisc>, &R2, &R2) -> T) -> Vec<Timing> {
     let checker = Checker::new(scene.clone(), RustyDisc::default());
     let (peer, radius) = (Peer::new(pieces(scene)), RustyDisc::default().radius);
     let mut s = draws("disc edges");
@@ -20,6 +21,7 @@ fn disc(scene: &Scene, side: f64) -> Vec<Timing> {
         if checker.is_free(&a) {
             let hit = peer.disc_line(radius, (a.0.x, a.0.y), (b.0.x - a.0.x, b.0.y - a.0.y)).is_some();
             assert_eq!(hit, !checker.edge_free(&a, &b), "{a} to {b}");
+            assert_eq!(hit, !checker.edge(&a, &b).is_ok_and(|verdict| verdict.is_free()), "{a} to {b}");
             pairs.push((a, b));
         }
         if pairs.len() == CASES {
@@ -27,7 +29,7 @@ fn disc(scene: &Scene, side: f64) -> Vec<Timing> {
         }
     }
     race(vec![
-        Contender::new("", |i| checker.edge(&pairs[i % CASES].0, &pairs[i % CASES].1)),
+        Contender::new("", |i| ask(&checker, &pairs[i % CASES].0, &pairs[i % CASES].1)),
         Contender::new("parry cast", |i| {
             let (a, b) = &pairs[i % CASES];
             peer.disc_line(radius, (a.0.x, a.0.y), (b.0.x - a.0.x, b.0.y - a.0.y))
@@ -96,7 +98,13 @@ fn certified<R: Robot>(table: &mut Table, robot: &str, count: usize, edges: impl
 
 pub fn rows(table: &mut Table) {
     for (count, side, longest, must) in [(40, 8.0, 2.0, ">= 5x"), (10_000, 100.0, 1.0, ">= 2x")] {
-        table.row(&format!("disc edge, {count} segments"), must, || disc(&walls(count, side, longest), side));
+        let scene = walls(count, side, longest);
+        table.row(&format!("disc edge, exact, free or not, {count} segments"), must, || {
+            disc(&scene, side, Checker::edge_free)
+        });
+        table.row(&format!("disc edge, exact, with its clearance or hit, {count} segments"), must, || {
+            disc(&scene, side, Checker::edge)
+        });
     }
     for (count, scene) in arm_scenes() {
         certified(table, "arm", count, || {

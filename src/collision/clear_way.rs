@@ -170,10 +170,10 @@ mod tests {
 
     use super::*;
     use crate::collision::{Checker, MarchOptions, march};
-    use crate::configuration::{HitchCfg, T2, Tn};
+    use crate::configuration::{HitchCfg, R2, T2, Tn};
     use crate::geometry::{Pose2, Shape, convex_hull};
     use crate::random::{Seed, Stream};
-    use crate::robots::{HITCH, Reach, Robot};
+    use crate::robots::{HITCH, Reach, Robot, RustyDisc};
     use crate::worlds::Bounds;
 
     /// A point, a segment or a polygon, every other one with corners on a lattice.
@@ -243,7 +243,8 @@ mod tests {
             Checker::new(Scene::workbench(), Reach::<3>::redundant()),
         );
         let (car, towing) = (Checker::new(Scene::lot(), HITCH), Checker::new(Scene::lot(), HITCH.with_trailer()));
-        let (mut free, mut hit) = ([0; 4], [0; 4]);
+        let disc = Checker::new(Scene::apartment(), RustyDisc::default());
+        let (mut free, mut hit) = ([0; 5], [0; 5]);
         let mut count = |robot: usize, is: bool| if is { free[robot] += 1 } else { hit[robot] += 1 };
         for _ in 0..400 {
             let mut u = |size: f64| draws.uniform(-size, size);
@@ -254,6 +255,8 @@ mod tests {
             let then = Pose2::new(pose.x + b[0], pose.y + b[1], pose.theta + b[2]);
             let at = |body: Pose2, trailer| HitchCfg { body, trailer };
             count(2, agree(&car, &at(pose, None), &at(then, None)));
+            let from = R2::new(6.0 + 2.0 * a[0], 4.0 + a[1]);
+            count(4, agree(&disc, &from, &R2::new(from.0.x + b[0], from.0.y + b[1])));
             count(3, agree(&towing, &at(pose, Some(a[2])), &at(then, Some(a[2] + b[0]))));
         }
         assert!(free.iter().chain(&hit).all(|n| *n > 40), "{free:?} free, {hit:?} not");

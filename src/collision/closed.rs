@@ -45,7 +45,12 @@ const HALVINGS: u32 = 48;
 
 /// Whether a motion is proven free: wherever the [`verdict`] says so, but neither how near it comes nor where it hits is looked for.
 pub(super) fn is_free<M: Motion>(scene: &Scene, motion: &M, budget: u32) -> bool {
-    if budget == 0 || motion.disc_line().is_some() || motion.disc_arc().is_some() {
+    if let Some((way, radius)) = motion.disc_line()
+        && let Some(free) = DiscLine::new(way, radius, scene).and_then(|disc| disc.is_free(scene))
+    {
+        return free;
+    }
+    if budget == 0 || motion.disc_arc().is_some() {
         return verdict(scene, motion, budget, None).is_free();
     }
     let (start, end) = (motion.footprint_at(0.0), motion.footprint_at(1.0));

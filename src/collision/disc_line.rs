@@ -136,6 +136,22 @@ impl DiscLine {
         Some((step, EdgeVerdict::Hit { free_until, contact_at, part: 0, obstacle }))
     }
 
+    /// Whether the disc touches nothing on its way; `None` where it comes so near to touching that rounding would tell.
+    pub(super) fn is_free(&self, scene: &Scene) -> Option<bool> {
+        // more than what a verdict takes off, see `slack`
+        let slack = 1e-12 * (self.size + scene.size + self.radius);
+        let (a, b) = (self.way.a, self.way.b);
+        let (mut free, mut clear) = (true, true);
+        let way = Extent { min: a, max: a }.merged(&Extent { min: b, max: b });
+        scene.index.each_near(&way, self.radius + slack, |piece| {
+            let apart = gap(&self.way, &scene.pieces[piece]).0 - self.radius;
+            free = apart >= -slack;
+            clear &= apart > slack;
+            !free
+        });
+        if clear || !free { Some(free) } else { None }
+    }
+
     /// Goes through the pieces near the way: all that the disc touches, and the nearest.
     fn search(&self, scene: &Scene) -> Found {
         let mut found = Found { least: f64::INFINITY, longest: 0.0, touched: SmallVec::new(), unclear: false };
