@@ -18,10 +18,8 @@ pub(crate) fn is_plainly_clear<M: Motion>(
     margin: f64,
     (start, end): (&Footprint, &Footprint),
 ) -> bool {
-    let parts = start.parts().iter().zip(end.parts()).enumerate();
-    parts
-        .into_iter()
-        .all(|(k, (from, to))| collision.clears(from.placed(), to.placed(), margin + motion.sagitta(k, 0.0, 1.0)))
+    let mut parts = start.parts().iter().zip(end.parts()).enumerate();
+    parts.all(|(k, (from, to))| collision.clears(from.placed(), to.placed(), margin + motion.sagitta(k, 0.0, 1.0)))
 }
 
 /// Whether a motion is free, by halving what is not plainly clear; `None` where that does not decide in so many halvings. Free is proven, and so

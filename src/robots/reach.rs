@@ -165,6 +165,7 @@ impl<const N: usize> Reach<N> {
         self.links(q).last().map_or(0.0, |link| link.pose.theta)
     }
 
+    /// The links from the base on, each where it is.
     fn links(&self, q: &Tn<N>) -> impl Iterator<Item = Link> {
         let (base, mut last) = (self.base, None::<Link>);
         q.0.into_iter().zip(self.lengths).map(move |(angle, length)| {

@@ -69,9 +69,11 @@ fn is_free(surroundings: &Surroundings, motion: &impl Motion) -> bool {
     if surroundings.intersects(&start) || surroundings.intersects(&end) {
         return false;
     }
+    if clearance_of_all(surroundings, motion, &start) > options.margin {
+        return true;
+    }
     let distance = surroundings.distance(&start);
-    clearance_of_all(surroundings, motion, &start) > options.margin
-        || march_on(surroundings, motion, options, None, (start, distance)).is_free()
+    march_on(surroundings, motion, options, None, (start, distance)).is_free()
 }
 
 /// What [`settle`] reads and writes of a robot.
