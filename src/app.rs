@@ -1,11 +1,11 @@
 //! The lab in a window: the session, a camera, and egui painting what is in front.
 
-#[cfg(not(target_family = "wasm"))]
+#[cfg(feature = "window")]
 mod capture;
 mod captured;
-#[cfg(not(target_family = "wasm"))]
+#[cfg(feature = "window")]
 mod dialogs;
-#[cfg(not(target_family = "wasm"))]
+#[cfg(feature = "window")]
 mod files;
 mod pace;
 mod rest;
@@ -13,26 +13,27 @@ mod runs;
 mod session;
 #[cfg(feature = "window")]
 mod settings;
-#[cfg(test)]
+#[cfg(all(test, feature = "window"))]
 mod tests;
-#[cfg(not(target_family = "wasm"))]
+#[cfg(feature = "window")]
 mod window;
 
 use bevy::prelude::*;
-#[cfg(not(target_family = "wasm"))]
+#[cfg(feature = "window")]
 use bevy::window::WindowTheme;
 use bevy::window::{RequestRedraw, WindowResolution};
 use bevy::winit::{UpdateMode, WinitSettings};
 use bevy_egui::{EguiContext, EguiGlobalSettings, EguiPlugin, EguiPrimaryContextPass, PrimaryEguiContext, egui};
 
-#[cfg(not(target_family = "wasm"))]
+#[cfg(feature = "window")]
 pub use files::{open_run, save_run};
 pub use session::SessionPlugin;
-#[cfg(not(target_family = "wasm"))]
+#[cfg(feature = "window")]
 pub use window::{WindowError, run_window};
 
+use crate::picture::Theme;
 use crate::simulation::History;
-use crate::ui::{self, SessionCommand, Theme};
+use crate::ui::{self, SessionCommand};
 #[cfg(all(target_family = "wasm", feature = "web"))]
 pub(crate) use captured::captured;
 #[cfg(all(target_family = "wasm", feature = "web"))]
@@ -67,7 +68,7 @@ pub fn windowed_app() -> App {
         .add_systems(Update, wake.after(session::gather))
         .add_systems(EguiPrimaryContextPass, show);
     // a page tells of its theme itself
-    #[cfg(not(target_family = "wasm"))]
+    #[cfg(feature = "window")]
     app.add_systems(Update, system_theme)
         .init_resource::<dialogs::Dialogs>()
         .init_resource::<capture::Capturing>()
@@ -87,7 +88,7 @@ fn add_camera(mut commands: Commands) {
     commands.spawn((Camera2d, PrimaryEguiContext, Msaa::Off));
 }
 
-#[cfg(not(target_family = "wasm"))]
+#[cfg(feature = "window")]
 /// Follows the system from light to dark and back. Where the system does not say, paper is light.
 fn system_theme(windows: Query<&Window, Changed<Window>>, mut interface: ResMut<Interface>) {
     for window in &windows {
@@ -125,7 +126,7 @@ fn show(world: &mut World) -> Result {
         let paper = interface.0.theme().clear_colour();
         world.resource_mut::<ClearColor>().0 = paper;
     });
-    #[cfg(not(target_family = "wasm"))]
+    #[cfg(feature = "window")]
     dialogs::show(world, &ctx);
     if !commands.is_empty() {
         carry_out(world, commands);

@@ -7,7 +7,6 @@ use motion_lab::geometry::Placed;
 use motion_lab::num::{cos, sin};
 use motion_lab::prelude::*;
 use motion_lab::robots::PartRates;
-use motion_lab::worlds::World;
 
 use crate::oracle::{plain, sweep};
 
@@ -21,8 +20,6 @@ mod lab_tour;
 mod own_planner;
 #[path = "../examples/redundancy_walk.rs"]
 mod redundancy_walk;
-#[path = "../examples/rrt_crate.rs"]
-mod rrt_crate;
 
 /// Fails when an example prints something else than is pinned in tests/pinned.
 macro_rules! assert_prints {
@@ -83,31 +80,6 @@ fn a_planner_of_ones_own() {
         assert_eq!((path[0], path[path.len() - 1]), (start, goal));
         assert!(arm_clearance(&path) > 0.0, "seed {seed}: the oracle finds a contact");
         assert!(own_planner::rrt(&mut problem, 0.4, 1).is_none(), "one sample leads nowhere: the post is between");
-    }
-}
-
-#[test]
-fn the_crate_rrt() {
-    let (text, figure) = rrt_crate::report().unwrap();
-    assert_prints!("rrt_crate", text);
-    assert_eq!(rrt_crate::report().unwrap(), (text, figure.clone()), "every draw comes from a seeded stream");
-    assert!(figure.starts_with("<svg") && figure.contains("the goal"));
-
-    let reach = rrt_crate::solve(rrt_crate::reach().unwrap(), 0.8).unwrap();
-    assert_eq!((reach.path[0], *reach.path.last().unwrap()), (T2::new(2.0, 0.0), T2::new(-3.0, 0.0)));
-    let found = arm_clearance(&reach.path);
-    assert!(found > 0.0 && found >= reach.clearance - 1e-9, "{found} is below the proven {}", reach.clearance);
-
-    let rusty = rrt_crate::solve(rrt_crate::rusty().unwrap(), 0.8).unwrap();
-    let place = |name| World::apartment().place(name).unwrap().pose.position();
-    assert_eq!((rusty.path[0].0, rusty.path.last().unwrap().0), (place("room A"), place("room E")));
-    let scene = obstacles(&Scene::apartment());
-    for ends in rusty.path.windows(2) {
-        // a disc on a straight edge is a capsule
-        let swept = Shape::Capsule { a: ends[0].0, b: ends[1].0, radius: 0.11 }.place(&Pose2::IDENTITY);
-        let found =
-            scene.iter().map(|o| plain::distance(&swept, o)).fold(f64::INFINITY, |m, d| if d < m { d } else { m });
-        assert!(found > 0.0 && found >= rusty.clearance - 1e-9, "{found} is below the proven {}", rusty.clearance);
     }
 }
 

@@ -9,11 +9,8 @@ use motion_lab::configuration::{ChartMismatch, Coordinates};
 use motion_lab::geometry::{ConvexPolygon, Placed, ShapeError};
 use motion_lab::picture::{Figure, Item, Picture};
 use motion_lab::prelude::*;
-use motion_lab::recording::{Recorder, RunError};
 use motion_lab::robots::{ChartLine, ConfigurationError, HitchArc, PartRates, RustyArc};
-use motion_lab::run::{Divergence, Frame, Log, LogError, RunDigest, Script};
 use motion_lab::sensors::{BeamModel, RangeSensor};
-use motion_lab::tour::TourConfig;
 use motion_lab::worlds::{Bounds, DistanceTransform, Grid, GridError, Obstacle, Resident, World, WorldError};
 
 const fn shared<T: Send + Sync + ?Sized>() {}
@@ -39,10 +36,20 @@ const _: () = {
     shared::<(Footprint, Part, Shape, Placed, ConvexPolygon, Segment)>();
     shared::<(World, Bounds, Obstacle, Resident, Grid, DistanceTransform)>();
     shared::<(RangeSensor, BeamModel, Seed, Stream)>();
-    shared::<(TourConfig, Script, Frame, Log, Divergence, RunDigest, Recorder)>();
     shared::<(Picture, Item, Figure)>();
     shared::<(ProblemError, CertificateError, ConfigurationError, ChartMismatch, ShapeError)>();
-    shared::<(WorldError, GridError, LogError, RunError)>();
+    shared::<(WorldError, GridError)>();
+};
+
+/// What records and holds runs.
+#[cfg(feature = "sim")]
+const _: () = {
+    use motion_lab::recording::{Recorder, RunError};
+    use motion_lab::run::{Divergence, Frame, Log, LogError, RunDigest, Script};
+    use motion_lab::tour::TourConfig;
+
+    shared::<(TourConfig, Script, Frame, Log, Divergence, RunDigest, Recorder)>();
+    shared::<(LogError, RunError)>();
 };
 
 /// And the compiler's word is kept: one checker behind `&dyn Collision`, asked from several threads, answers as from one.

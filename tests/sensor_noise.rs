@@ -13,7 +13,7 @@ use motion_lab::worlds::World;
 const R: f64 = 4.0;
 
 /// The Apartment's file with this sensor written into it.
-fn noisy_apartment(sensor: &str) -> World {
+pub fn noisy_apartment(sensor: &str) -> World {
     let text = World::apartment().to_ron();
     let (before, after) = text.split_once("kind: \"rusty\", start: [2.25, 6.25, 0.0]").expect("Rusty in room A");
     let text = format!("{before}kind: \"rusty\", start: [2.25, 6.25, 0.0], sensor: ({sensor}){after}");

@@ -36,7 +36,7 @@ fn arms(times: usize, ask: impl Fn(&Checker<Reach<2>>, &T2, &T2)) {
 fn main() {
     let mut arguments = std::env::args().skip(1);
     let kernel = arguments.next().unwrap_or_default();
-    let times = arguments.next().and_then(|n| n.parse().ok()).unwrap_or(0);
+    let times = arguments.next().and_then(|n| n.parse().ok()).expect("how many times");
     match kernel.as_str() {
         "scan-hall" => scans(&worlds::walls(40, 8.0, 2.0), 8.0, 4.0, times),
         "scan-yard" => scans(&worlds::walls(1_000, 12.6, 1.0), 12.6, 12.0, times),
@@ -47,6 +47,6 @@ fn main() {
             let mut recorder = Recorder::new(TourConfig::default(), BOOK_SEED).expect("the tour runs");
             (0..times).for_each(|_| _ = black_box(recorder.step().tick));
         }
-        _ => {}
+        _ => panic!("no kernel is named {kernel:?}"),
     }
 }

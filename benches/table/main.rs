@@ -2,7 +2,7 @@
 //!
 //! `cargo bench --no-default-features --features headless --bench table`; with `-- scan` only the rows whose name has that in it,
 //! printed and not written; `-- worlds` prints the worlds, for `benches/peers`; `-- digests` what the scans come to, for
-//! `benches/wasm`.
+//! `benches/wasm`; `-- agree` asserts that the lab and its peers agree, row by row, and times nothing.
 #![allow(missing_docs, clippy::unwrap_used, clippy::expect_used, clippy::print_stdout, clippy::disallowed_methods)]
 
 mod contest;
@@ -57,7 +57,11 @@ impl Table {
     }
 
     pub fn push(&mut self, row: Row) {
-        println!("{}", readme::line(&row));
+        if measure::is_timed() {
+            println!("{}", readme::line(&row));
+        } else {
+            println!("agreed: {}", row.work);
+        }
         self.rows.push(row);
     }
 }
@@ -73,13 +77,21 @@ fn main() {
     if only.as_deref() == Some("digests") {
         return scans::print_digests();
     }
-    let mut table = Table { only, rows: Vec::new() };
+    let agree = only.as_deref() == Some("agree");
+    let mut table = Table { only: only.filter(|_| !agree), rows: Vec::new() };
+    if agree {
+        measure::time_nothing();
+    }
     scans::rows(&mut table);
-    wasm::rows(&mut table);
+    if !agree {
+        wasm::rows(&mut table);
+    }
     queries::rows(&mut table);
     edges::rows(&mut table);
     runs::rows(&mut table);
-    if table.only.is_none() {
+    if agree {
+        assert!(table.rows.len() > 25, "only {} rows", table.rows.len());
+    } else if table.only.is_none() {
         readme::write(&table.rows);
     }
 }

@@ -8,31 +8,34 @@
 //! ```
 //! use motion_lab::anatomy::{Anatomy, Tab};
 //! use motion_lab::capture::{Paper, anatomy};
-//! use motion_lab::ui::Theme;
+//! use motion_lab::picture::Theme;
 //! let captured = anatomy(&Anatomy::default(), &[Tab::Witness]);
 //! let svg = captured.svg(&Paper { palette: Theme::Light.palette(), width: 640, scale: 1.0 });
 //! assert!(svg.contains("Configuration: T2(")); // its metadata
 //! ```
 
 mod error;
-#[cfg(not(target_family = "wasm"))]
+#[cfg(feature = "cli")]
 mod few_colours;
 mod moving;
-#[cfg(not(target_family = "wasm"))]
+#[cfg(feature = "cli")]
 mod paper;
-#[cfg(not(target_family = "wasm"))]
+#[cfg(feature = "cli")]
 mod raster;
+mod run_figure;
 mod scenes;
 mod space;
+mod tour_figure;
 
 use std::path::Path;
 
 pub use error::CaptureError;
 pub use moving::{Span, Subject, at_tick};
-#[cfg(not(target_family = "wasm"))]
+#[cfg(feature = "cli")]
 pub use paper::{film, write};
-#[cfg(not(target_family = "wasm"))]
+#[cfg(feature = "cli")]
 pub use raster::{GifWriter, Image, Raster, Size, write_png};
+pub use run_figure::RunFigure;
 pub use scenes::{AtlasSheet, anatomy, atlas, cspace};
 
 use crate::picture::{Figure, Palette, Sheet};

@@ -71,7 +71,7 @@ impl Subject {
     }
 
     /// The same without names, which change no words under the pictures.
-    #[cfg(not(target_family = "wasm"))]
+    #[cfg(feature = "cli")]
     pub(super) fn unnamed(&self) -> Subject {
         match self.clone() {
             Subject::Dashboard { scan, .. } => Subject::Dashboard { names: false, scan },

@@ -4,8 +4,9 @@ use clap::Args;
 use serde_json::{Map, Value, json};
 
 use super::{Data, Failure, Outcome};
+use motion_lab::picture::Theme;
 use motion_lab::picture::{Rgb, Role};
-use motion_lab::ui::{Formula, Theme, widgets};
+use motion_lab::ui::{Formula, widgets};
 
 /// Print what a page about the lab needs, as JSON: each widget's words, the formulas of the configuration spaces in MathML, and the
 /// colours of the roles on light and on dark paper.

@@ -3,9 +3,10 @@
 use std::fs;
 use std::path::Path;
 
+use motion_lab::capture::RunFigure;
+use motion_lab::picture::Theme;
 use motion_lab::run::Script;
 use motion_lab::tour::{BOOK_SEED, TourConfig};
-use motion_lab::ui::{RunFigure, Theme};
 
 use super::log_source::read_log;
 use super::output::write_file;

@@ -164,12 +164,10 @@ fn across(p: Point2, q: Point2) -> Vector2 {
 
 #[cfg(test)]
 mod tests {
-    use smallvec::smallvec;
-
     use super::*;
     use crate::collision::{Checker, MarchOptions, march};
     use crate::configuration::{HitchCfg, R2, T2, Tn};
-    use crate::geometry::{Pose2, Shape, convex_hull};
+    use crate::geometry::{Pose2, Shape, Vertices, convex_hull};
     use crate::random::{Seed, Stream};
     use crate::robots::{HITCH, Reach, Robot, RustyDisc};
     use crate::worlds::Bounds;
@@ -191,7 +189,7 @@ mod tests {
             let (from, piece) = (shape(&mut draws, 0.0), shape(&mut draws, [2.0, 4.0, 5.0][i % 3]));
             let by = Vector2::new(draws.below(3) as f64 - 1.0, draws.uniform(-1.0, 1.0));
             let turned = |p: &Point2| if i % 2 == 0 { p + by } else { Point2::new(-p.y, p.x) + by };
-            let to = Placed::new(from.core().iter().map(turned).collect(), from.radius());
+            let to = Placed::new(from.core().iter().map(turned).collect::<Vertices>(), from.radius());
             let hull = Shape::Hull { vertices: piece.core().into(), radius: piece.radius() };
             let scene = Scene::empty(bounds).with_obstacle("piece", hull);
             let exact = scene.distance_of_hull(from.hull_with(&to));
@@ -212,7 +210,7 @@ mod tests {
     #[test]
     fn what_is_no_valid_shape_is_never_plain() {
         let bounds = Bounds { min: Point2::origin(), max: Point2::new(9.0, 4.0) };
-        let disc = |x: f64, radius: f64| Placed::new(smallvec![Point2::new(x, 0.0)], radius);
+        let disc = |x: f64, radius: f64| Placed::new([Point2::new(x, 0.0)], radius);
         let scene = Scene::empty(bounds);
         assert!(scene.clears(&disc(0.0, 0.1), &disc(1.0, 0.1), 1.0), "there is nothing");
         assert!(!scene.clears(&disc(0.0, 0.1), &disc(f64::NAN, 0.1), 1.0));

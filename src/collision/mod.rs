@@ -43,6 +43,7 @@ pub(crate) use clear_way::is_plainly_clear;
 pub use counted::{Counted, QueryCounts};
 pub use edge::{EdgeVerdict, MarchOptions, UnresolvedReason};
 pub use march::{BRACKET, march};
+#[cfg(feature = "sim")]
 pub(crate) use march::{clearance_of_all, march_on};
 pub use problem::{Problem, ProblemError};
 pub use rectangles::Rectangles;

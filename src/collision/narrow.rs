@@ -164,10 +164,9 @@ pub(super) fn depth(a: &Placed, b: &Placed) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use smallvec::smallvec;
 
     fn disc(x: f64, y: f64, r: f64) -> Placed {
-        Placed::new(smallvec![Point2::new(x, y)], r)
+        Placed::new([Point2::new(x, y)], r)
     }
 
     #[test]
@@ -190,7 +189,7 @@ mod tests {
     #[test]
     fn depth_of_a_disc_in_a_box_is_its_way_out_at_least() {
         let square = Placed::new(
-            smallvec![Point2::new(-1.0, -1.0), Point2::new(1.0, -1.0), Point2::new(1.0, 1.0), Point2::new(-1.0, 1.0)],
+            [Point2::new(-1.0, -1.0), Point2::new(1.0, -1.0), Point2::new(1.0, 1.0), Point2::new(-1.0, 1.0)],
             0.0,
         );
         let d = depth(&disc(0.5, 0.0, 0.25), &square);

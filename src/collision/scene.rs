@@ -261,6 +261,6 @@ impl Scene {
 /// A box around what a disc of this radius touches along the arc: every point of it is at most half its length from one end.
 fn arc_box(arc: &CircularArc, radius: f64) -> Extent {
     let grown = radius + lesser(0.5 * arc.length(), 2.0 * arc.radius);
-    let ends = [arc.at(0.0), arc.at(1.0)].map(|p| Placed::new(smallvec::smallvec![p], grown));
+    let ends = [arc.at(0.0), arc.at(1.0)].map(|p| Placed::new([p], grown));
     Extent::of(&ends[0]).merged(&Extent::of(&ends[1]))
 }

@@ -156,7 +156,7 @@ mod tests {
             let way = Extent { min: Point2::new(3.0, 2.0), max: Point2::new(5.0, 4.0) };
             let vicinity = Vicinity::new(&scene, &way, 0.25);
             assert!(vicinity.pieces.is_some());
-            let hull = Placed::new(smallvec::smallvec![at(2.0), at(2.0)], 0.05);
+            let hull = Placed::new([at(2.0), at(2.0)], 0.05);
             let distance = scene.distance(&Footprint::of_hull(hull.clone()));
             for within in [0.1, 0.25, 0.5, f64::INFINITY] {
                 let expected = (distance < within).then_some(distance);

@@ -50,15 +50,15 @@ mod torus;
 
 use std::fmt::{Debug, Display};
 
-use smallvec::SmallVec;
-
 pub use any::AnyConfiguration;
 pub use hitch::HitchCfg;
 pub use r2::R2;
 pub use torus::{T2, Tn};
 
+use crate::short_list::ShortList;
+
 /// The coordinates of a configuration in its chart: metres and radians, angles wrapped to `(-pi, pi]`.
-pub type Coordinates = SmallVec<[f64; 4]>;
+pub type Coordinates = ShortList<f64, 4>;
 
 /// Two configurations that lie in different spaces, so that no chart line joins them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]

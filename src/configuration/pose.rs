@@ -1,7 +1,5 @@
 //! `Pose2` as a configuration: SE(2), whose chart is (x, y, theta) with theta on the circle.
 
-use smallvec::smallvec;
-
 use super::{ChartMismatch, Configuration, Coordinates};
 use crate::geometry::Pose2;
 use crate::num::wrap;
@@ -12,7 +10,7 @@ impl Configuration for Pose2 {
     }
 
     fn difference(&self, to: &Self) -> Result<Coordinates, ChartMismatch> {
-        Ok(smallvec![to.x - self.x, to.y - self.y, wrap(to.theta - self.theta)])
+        Ok(Coordinates::from([to.x - self.x, to.y - self.y, wrap(to.theta - self.theta)]))
     }
 
     fn interpolate(&self, to: &Self, s: f64) -> Result<Self, ChartMismatch> {
@@ -28,7 +26,7 @@ impl Configuration for Pose2 {
     }
 
     fn coordinates(&self) -> Coordinates {
-        smallvec![self.x, self.y, self.theta]
+        Coordinates::from([self.x, self.y, self.theta])
     }
 
     fn coordinate_names(&self) -> Vec<String> {

@@ -2,8 +2,6 @@
 
 use std::fmt;
 
-use smallvec::smallvec;
-
 use super::{ChartMismatch, Configuration, Coordinates};
 use crate::geometry::Point2;
 
@@ -33,7 +31,7 @@ impl Configuration for R2 {
     }
 
     fn difference(&self, to: &Self) -> Result<Coordinates, ChartMismatch> {
-        Ok(smallvec![to.0.x - self.0.x, to.0.y - self.0.y])
+        Ok(Coordinates::from([to.0.x - self.0.x, to.0.y - self.0.y]))
     }
 
     fn interpolate(&self, to: &Self, s: f64) -> Result<Self, ChartMismatch> {
@@ -41,7 +39,7 @@ impl Configuration for R2 {
     }
 
     fn coordinates(&self) -> Coordinates {
-        smallvec![self.0.x, self.0.y]
+        Coordinates::from([self.0.x, self.0.y])
     }
 
     fn coordinate_names(&self) -> Vec<String> {

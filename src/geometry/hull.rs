@@ -2,29 +2,29 @@
 
 use smallvec::SmallVec;
 
-use super::{Point2, orientation};
+use super::{Point2, Vertices, orientation};
 
 /// The convex hull of `points`: its corners counter-clockwise from the lowest leftmost, duplicates and points on an edge
 /// left out. One point gives one, points on one line give the two outermost.
 ///
 /// Every corner is one of the inputs, bit for bit, and every turn is decided exactly (Andrew's monotone chain, 1979), so the
 /// hull holds every input with no rounding at all.
-pub fn convex_hull(points: &[Point2]) -> SmallVec<[Point2; 8]> {
+pub fn convex_hull(points: &[Point2]) -> Vertices {
     let mut sorted: SmallVec<[Point2; 16]> = SmallVec::from_slice(points);
     sorted.sort_unstable_by(|a, b| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)));
     sorted.dedup();
     if sorted.len() <= 2 {
-        return SmallVec::from_slice(&sorted);
+        return Vertices::from_slice(&sorted);
     }
     // With room for the start twice. The hull of two rectangles may have eight corners, and must not touch the heap.
     if sorted.len() < ROOM {
         let mut room = [Point2::origin(); ROOM];
         let count = chains(&sorted, &mut room);
-        return SmallVec::from_slice(&room[..count]);
+        return Vertices::from_slice(&room[..count]);
     }
     let mut room = vec![Point2::origin(); sorted.len() + 1];
     let count = chains(&sorted, &mut room);
-    SmallVec::from_slice(&room[..count])
+    Vertices::from_slice(&room[..count])
 }
 
 /// So many points are worked on beside the heap.

@@ -12,7 +12,7 @@ mod shape;
 pub use arc::CircularArc;
 pub use footprint::{Footprint, Part};
 pub use hull::convex_hull;
-pub use placed::{Placed, largest_coordinate};
+pub use placed::{Placed, Vertices, largest_coordinate};
 pub use polygon::{ConvexPolygon, PolygonError};
 pub use pose::{Pose2, Tangent2};
 pub use segment::Segment;

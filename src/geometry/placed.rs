@@ -1,9 +1,11 @@
 //! `Placed`, a shape in the world: what every exact query works on.
 
-use smallvec::SmallVec;
-
 use super::{Point2, convex_hull};
 use crate::num::greater;
+use crate::short_list::ShortList;
+
+/// A core's vertices; up to eight take no heap.
+pub type Vertices = ShortList<Point2, 8>;
 
 /// A placed shape: all points within `radius` of the convex core with these vertices, in world coordinates.
 ///
@@ -11,7 +13,7 @@ use crate::num::greater;
 /// centre, two are a segment, three or more a simple polygon in counter-clockwise order.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Placed {
-    core: SmallVec<[Point2; 8]>,
+    core: Vertices,
     radius: f64,
 }
 
@@ -19,8 +21,8 @@ impl Placed {
     /// The placed shape with this core and radius. An empty core stands for nothing that can be decided: every query
     /// counts it as contact.
     #[inline]
-    pub fn new(core: SmallVec<[Point2; 8]>, radius: f64) -> Self {
-        Placed { core, radius }
+    pub fn new(core: impl Into<Vertices>, radius: f64) -> Self {
+        Placed { core: core.into(), radius }
     }
 
     /// The core's vertices.
@@ -59,7 +61,7 @@ impl Placed {
     /// straight lines from here to there can touch.
     #[must_use]
     pub fn hull_with(&self, other: &Placed) -> Placed {
-        let mut points: SmallVec<[Point2; 16]> = SmallVec::from_slice(&self.core);
+        let mut points: ShortList<Point2, 16> = ShortList::from_slice(&self.core);
         points.extend_from_slice(&other.core);
         Placed { core: convex_hull(&points), radius: greater(self.radius, other.radius) }
     }

@@ -2,9 +2,7 @@
 
 use std::sync::Arc;
 
-use smallvec::{SmallVec, smallvec};
-
-use super::{ConvexPolygon, MAX_COORDINATE, MIN_FEATURE, Placed, Point2, PolygonError, Pose2};
+use super::{ConvexPolygon, MAX_COORDINATE, MIN_FEATURE, Placed, Point2, PolygonError, Pose2, Vertices};
 use crate::num::{self, greater};
 
 /// A closed convex shape in its own frame, in metres.
@@ -150,15 +148,15 @@ impl Shape {
     /// The core's vertices in the shape's frame: 1 for a disc, 2 for a segment or capsule, else the boundary
     /// counter-clockwise.
     #[inline]
-    pub fn core(&self) -> SmallVec<[Point2; 8]> {
+    pub fn core(&self) -> Vertices {
         match self {
-            Shape::Disc { .. } => smallvec![Point2::origin()],
-            Shape::Segment { a, b } | Shape::Capsule { a, b, .. } => smallvec![*a, *b],
+            Shape::Disc { .. } => Vertices::from([Point2::origin()]),
+            Shape::Segment { a, b } | Shape::Capsule { a, b, .. } => Vertices::from([*a, *b]),
             Shape::Rectangle { min, max } => {
-                smallvec![*min, Point2::new(max.x, min.y), *max, Point2::new(min.x, max.y)]
+                Vertices::from([*min, Point2::new(max.x, min.y), *max, Point2::new(min.x, max.y)])
             }
-            Shape::Polygon(p) => SmallVec::from_slice(p.vertices()),
-            Shape::Hull { vertices, .. } => SmallVec::from_slice(vertices),
+            Shape::Polygon(p) => Vertices::from_slice(p.vertices()),
+            Shape::Hull { vertices, .. } => Vertices::from_slice(vertices),
         }
     }
 

@@ -16,7 +16,7 @@ mod resolve;
 mod robot;
 mod role;
 mod svg;
-mod tour;
+mod theme;
 mod world;
 
 pub use faces::FACES;
@@ -29,7 +29,7 @@ pub use readout::{readout, readout_lines};
 pub use resolve::{Primitive, resolve};
 pub use robot::{RobotDrawing, footprint, robot, scan, trace};
 pub use role::{Palette, Rgb, Role};
-pub use tour::{RobotTour, TourPanel, tour_figure};
+pub use theme::Theme;
 pub use world::{places, world};
 
 use crate::worlds::Bounds;

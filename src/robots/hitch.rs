@@ -1,12 +1,11 @@
 //! Hitch, a kinematic car that may pull a trailer.
 
-use smallvec::{SmallVec, smallvec};
-
 use super::{ConfigurationError, Drivable, Motion, PartRates, Rates, Robot, sample_angle};
 use crate::configuration::{Configuration, HitchCfg};
 use crate::geometry::{Footprint, Point2, Pose2, Tangent2};
 use crate::num::{self, rk4, wrap};
 use crate::random::Stream;
+use crate::short_list::ShortList;
 
 /// How many Runge-Kutta steps turn the trailer within one tick.
 const TRAILER_SUBSTEPS: u32 = 4;
@@ -168,7 +167,7 @@ impl Robot for Hitch {
     /// A configuration in the wrong space gives a footprint that is not finite and fails safe.
     fn footprint(&self, q: &HitchCfg) -> Footprint {
         let (body_min, body_max) = self.body.corners();
-        let mut rects: SmallVec<[_; 2]> = smallvec![(q.body, body_min, body_max)];
+        let mut rects: ShortList<_, 2> = ShortList::from([(q.body, body_min, body_max)]);
         match (q.trailer, self.hitch_len) {
             (Some(psi), Some(hitch_len)) => {
                 let (min, max) = self.trailer_body.corners(hitch_len);
@@ -195,7 +194,7 @@ impl Robot for Hitch {
             speed: translation + reach * turn.abs(),
             acceleration: reach * turn * turn,
         };
-        let mut parts: PartRates = smallvec![rates(d[2], farthest(self.body.corners()))];
+        let mut parts: PartRates = PartRates::from([rates(d[2], farthest(self.body.corners()))]);
         if let (Some(dpsi), Some(hitch_len)) = (d.get(3), self.hitch_len) {
             parts.push(rates(*dpsi, farthest(self.trailer_body.corners(hitch_len))));
         }

@@ -7,8 +7,6 @@ mod motion;
 mod reach;
 mod rusty;
 
-use smallvec::SmallVec;
-
 pub use any::AnyRobot;
 pub use chart_line::ChartLine;
 pub use hitch::{CarBody, CarCmd, HITCH, Hitch, HitchArc, TrailerBody};
@@ -19,9 +17,10 @@ pub use rusty::{EncoderCounts, RUSTY, Rusty, RustyArc, RustyCmd, RustyDisc, Whee
 use crate::configuration::{ChartMismatch, Configuration};
 use crate::geometry::{Footprint, Point2, Segment};
 use crate::random::Stream;
+use crate::short_list::ShortList;
 
 /// The rates of a footprint's parts, in the parts' order.
-pub type PartRates = SmallVec<[Rates; 3]>;
+pub type PartRates = ShortList<Rates, 3>;
 
 /// Why a configuration or a control is not one of this robot's.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]

@@ -2,16 +2,15 @@
 
 use std::f64::consts::PI;
 
-use smallvec::SmallVec;
-
 use super::{ConfigurationError, Drivable, PartRates, Rates, Robot, sample_angle};
 use crate::configuration::{Configuration, T2, Tn};
 use crate::geometry::{Footprint, Part, Point2, Pose2, Shape, ShapeError};
 use crate::num::{self, greater, wrap};
 use crate::random::Stream;
+use crate::short_list::ShortList;
 
 /// The joint positions of an arm: base, joints, tip.
-pub type JointPoints = SmallVec<[Point2; 4]>;
+pub type JointPoints = ShortList<Point2, 4>;
 
 /// A planar arm of N revolute joints pinned at `base`. Joint angles are relative to the link before; there are no joint
 /// limits, and links pass over one another, so an arm never collides with itself.

@@ -2,8 +2,6 @@
 
 use std::f64::consts::{FRAC_PI_2, TAU};
 
-use smallvec::smallvec;
-
 use super::{ConfigurationError, Drivable, Motion, PartRates, Rates, Robot, sample_angle};
 use crate::configuration::{Configuration, R2};
 use crate::geometry::{CircularArc, Footprint, Point2, Pose2, Segment, Shape, ShapeError, Tangent2};
@@ -142,7 +140,7 @@ impl Robot for Rusty {
 
     /// A disc moves, as a set, exactly as its centre does: the length of the edge, in a straight line.
     fn edge_rates(&self, a: &Pose2, b: &Pose2) -> Result<PartRates, ConfigurationError> {
-        Ok(smallvec![Rates { speed: num::hypot(b.x - a.x, b.y - a.y), acceleration: 0.0 }])
+        Ok(PartRates::from([Rates { speed: num::hypot(b.x - a.x, b.y - a.y), acceleration: 0.0 }]))
     }
 
     fn disc_line(&self, a: &Pose2, b: &Pose2) -> Option<(Segment, f64)> {
@@ -246,7 +244,7 @@ impl Robot for RustyDisc {
     }
 
     fn edge_rates(&self, a: &R2, b: &R2) -> Result<PartRates, ConfigurationError> {
-        Ok(smallvec![Rates { speed: num::hypot(b.0.x - a.0.x, b.0.y - a.0.y), acceleration: 0.0 }])
+        Ok(PartRates::from([Rates { speed: num::hypot(b.0.x - a.0.x, b.0.y - a.0.y), acceleration: 0.0 }]))
     }
 
     fn disc_line(&self, a: &R2, b: &R2) -> Option<(Segment, f64)> {

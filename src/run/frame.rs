@@ -1,9 +1,8 @@
 //! `Frame`, the whole simulation's state after a tick, in its one canonical form.
 
-use smallvec::SmallVec;
-
 use super::field::{Field, Value};
 use crate::configuration::Coordinates;
+use crate::short_list::ShortList;
 
 /// The state of one robot after a tick: all that is needed to go on from here.
 ///
@@ -16,7 +15,7 @@ pub struct RobotState {
     pub configuration: Coordinates,
     /// The robot's own state beside its configuration, in the order its kind documents: Rusty's accumulated left and right
     /// wheel turns (radians), its tour's next waypoint.
-    pub extra: SmallVec<[f64; 4]>,
+    pub extra: ShortList<f64, 4>,
     /// The control channels held by manual driving, -128 to 128 of the maximum.
     pub channels: [i16; 2],
     /// The coordinates a manual move is heading for; empty when there is none.

@@ -74,7 +74,7 @@ impl Scanner {
         let rays = ranges.len().min(self.sensor.n_rays as usize);
         let ranges = &mut ranges[..rays];
         let origin = pose.position();
-        let point = Placed::new(smallvec::smallvec![origin], 0.0);
+        let point = Placed::new([origin], 0.0);
         if !pose.is_finite() || scene.holds(&point) || others.iter().any(|other| touch(&point, other)) {
             ranges.fill(0.0);
             return;

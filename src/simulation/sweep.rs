@@ -1,7 +1,7 @@
 //! Sweeps: whether the sets that two motions cover come near one another.
 
 use crate::collision::{Collision, Scene, Surroundings};
-use crate::geometry::{Footprint, Part, Placed, Pose2, Shape};
+use crate::geometry::{Footprint, Part, Placed, Pose2, Shape, Vertices};
 use crate::robots::Motion;
 
 /// How often the two motions are halved before what is still undecided counts as meeting: pieces of 1/64.
@@ -41,8 +41,7 @@ impl<M: Motion + Send + Sync> Sweep for CutMotion<M> {
         let (s0, s1) = (from * self.until, to * self.until);
         let (a, b) = (self.motion.footprint_at(s0), self.motion.footprint_at(s1));
         let hull = a.parts()[part].placed().hull_with(b.parts()[part].placed());
-        let core = hull.core().into();
-        Placed::new(core, hull.radius() + self.motion.sagitta(part, s0, s1))
+        Placed::new(Vertices::from_slice(hull.core()), hull.radius() + self.motion.sagitta(part, s0, s1))
     }
 }
 

@@ -9,7 +9,9 @@ use bevy_egui::egui::{
 };
 
 use super::Look;
-use crate::picture::{Anchor, Dash, Face, Fit, Line, Picture, Primitive, Role, ScreenPoint, ScreenRect, resolve};
+use crate::picture::{
+    Anchor, Dash, Face, Fit, Line, Picture, Primitive, Role, ScreenPoint, ScreenRect, Theme, resolve,
+};
 
 /// Free room between a picture and its frame, points.
 pub const MARGIN: f32 = 8.0;
@@ -103,7 +105,7 @@ pub fn paint_kept(painter: &Painter, picture: &Arc<Picture>, rect: Rect, look: &
 }
 
 /// What identifies a kept picture: which one, where, how it looks, at which scale, and the texture it refers to.
-type KeptKey = (usize, String, (super::Theme, Option<Role>, u32), u32, [usize; 2]);
+type KeptKey = (usize, String, (Theme, Option<Role>, u32), u32, [usize; 2]);
 
 #[derive(Clone)]
 struct Kept {

@@ -32,7 +32,7 @@ fn angles(robot: &CockpitRobot) -> &Coordinates {
 /// Asks for these joint angles by the end of the next tick.
 fn move_to(robot: &CockpitRobot, to: &[f64], commands: &mut Vec<Command>) {
     let target: Option<Vec<Quantized>> = to.iter().map(|angle| Quantized::try_new(*angle)).collect();
-    if let Some(target) = target.filter(|_| to != angles(robot).as_slice()) {
+    if let Some(target) = target.filter(|_| *to != angles(robot)[..]) {
         commands.push(Command::Robot(RobotCommand { robot: robot.name.clone(), input: RobotInput::MoveTo(target) }));
     }
 }

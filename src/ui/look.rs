@@ -2,8 +2,8 @@
 
 use bevy_egui::egui::{Color32, Id, Ui};
 
-use super::{Theme, UiState};
-use crate::picture::Role;
+use super::UiState;
+use crate::picture::{Role, Theme};
 
 /// How much of a role is left when another is lit.
 const FADED: f64 = 0.3;

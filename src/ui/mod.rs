@@ -1,4 +1,4 @@
-//! What people see and touch. Colours are known to [`Theme`] alone; what needs a screen stands behind the feature `screen`.
+//! What people see and touch. Colours are known to [`Theme`](crate::picture::Theme) alone; what needs a screen stands behind the feature `screen`.
 
 #[cfg(feature = "screen")]
 mod anatomy_view;
@@ -43,12 +43,12 @@ mod pad;
 mod pane;
 #[cfg(feature = "screen")]
 mod plots;
-mod run_figure;
 mod settings;
 #[cfg(feature = "screen")]
 mod sheet;
 mod state;
-mod theme;
+#[cfg(feature = "screen")]
+mod style;
 #[cfg(feature = "screen")]
 mod time_line;
 #[cfg(feature = "screen")]
@@ -72,10 +72,8 @@ pub use goal::{Off, ParkingGoal, trailer_of};
 pub use lab::lab;
 #[cfg(feature = "screen")]
 pub use look::Look;
-pub use run_figure::RunFigure;
 pub use settings::{Settings, ThemeChoice};
 pub use state::{Flash, Notice, UiState, Working};
-pub use theme::Theme;
 #[cfg(feature = "screen")]
 pub use transport_bar::transport_bar;
 

@@ -2,8 +2,8 @@
 
 use std::collections::BTreeMap;
 
-use super::{ParkingGoal, Settings, Theme};
-use crate::picture::Role;
+use super::{ParkingGoal, Settings};
+use crate::picture::{Role, Theme};
 
 /// What the window remembers that is no part of a run.
 #[derive(Clone, Debug, Default)]

@@ -13,10 +13,10 @@ use super::listener::tell;
 use super::message::{Action, Message};
 use super::run_link::link_of;
 use crate::app::{Interface, open_log, open_world_text};
-use crate::picture::Role;
+use crate::picture::{Role, Theme};
 use crate::random::Seed;
 use crate::simulation::{TransportCommand, obey};
-use crate::ui::{Notice, SessionCommand, Theme, ThemeChoice, UiState, number_of};
+use crate::ui::{Notice, SessionCommand, ThemeChoice, UiState, number_of};
 
 /// Events of egui that wait for their frame: a field must have the focus before it takes letters.
 #[derive(Resource, Default)]

@@ -10,12 +10,12 @@ use super::listener::tell;
 use super::mirror::mirror;
 use super::runs::RunParts;
 use crate::app::{Interface, Shown};
-use crate::picture::Role;
+use crate::picture::{Role, Theme};
 use crate::random::Seed;
 use crate::run::Script;
 use crate::simulation::{PendingInput, Playback, RunConfig, Transport};
 use crate::tour::TourConfig;
-use crate::ui::{Settings, Theme, widgets};
+use crate::ui::{Settings, widgets};
 
 /// What the listener was told last.
 #[derive(Resource, Default)]

@@ -4,11 +4,12 @@ use serde::{Deserialize, Serialize};
 use wasm_bindgen::prelude::*;
 
 use super::link::Link;
+use crate::capture::RunFigure;
+use crate::picture::Theme;
 use crate::random::Seed;
 use crate::recording::{Recorder, Run};
 use crate::run::{Log, Script, first_divergence};
 use crate::tour::{SensorConfig, TourConfig};
-use crate::ui::{RunFigure, Theme};
 use crate::worlds::World;
 
 /// The parts that a run is made of, all of them text: what a page keeps so that it can record the run again when the lab itself has

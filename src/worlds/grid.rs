@@ -88,7 +88,7 @@ impl Grid {
     }
 
     /// The grid with these cells, row after row from the lowest; `None` when they are not as many as columns and rows tell.
-    #[cfg(not(target_family = "wasm"))]
+    #[cfg(feature = "cli")]
     pub(super) fn of_cells(
         origin: Point2,
         resolution: f64,

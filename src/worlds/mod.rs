@@ -42,7 +42,7 @@ mod description;
 mod distance_transform;
 mod error;
 mod grid;
-#[cfg(not(target_family = "wasm"))]
+#[cfg(feature = "cli")]
 pub mod import;
 mod items;
 mod model;

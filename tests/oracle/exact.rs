@@ -117,7 +117,7 @@ impl ExactPair {
 
 /// Whether `p` lies within `tolerance` metres of the shape, exactly.
 pub fn lies_on(p: Point2, shape: &Placed, tolerance: f64) -> bool {
-    let point = Placed::new([p].into_iter().collect(), 0.0);
+    let point = Placed::new([p], 0.0);
     !ExactPair::new(&point, shape).apart_by_more_than(tolerance)
 }
 
@@ -204,9 +204,10 @@ fn point_segment<T: Int>(p: &Vertex<T>, a: &Vertex<T>, b: &Vertex<T>) -> (T, T) 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use motion_lab::geometry::Vertices;
 
     fn placed(points: &[(f64, f64)], radius: f64) -> Placed {
-        Placed::new(points.iter().map(|&(x, y)| Point2::new(x, y)).collect(), radius)
+        Placed::new(points.iter().map(|&(x, y)| Point2::new(x, y)).collect::<Vertices>(), radius)
     }
 
     #[test]

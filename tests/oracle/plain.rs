@@ -168,9 +168,10 @@ fn nearest_cores(a: &[Point2], b: &[Point2]) -> Near {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use motion_lab::geometry::Vertices;
 
     fn placed(points: &[(f64, f64)], radius: f64) -> Placed {
-        Placed::new(points.iter().map(|&(x, y)| Point2::new(x, y)).collect(), radius)
+        Placed::new(points.iter().map(|&(x, y)| Point2::new(x, y)).collect::<Vertices>(), radius)
     }
 
     #[test]

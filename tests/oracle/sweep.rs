@@ -3,7 +3,7 @@
 use std::collections::VecDeque;
 use std::f64::consts::{PI, TAU};
 
-use motion_lab::geometry::{Footprint, Placed, Point2, Shape};
+use motion_lab::geometry::{Footprint, Placed, Point2, Shape, Vertices};
 use motion_lab::num::{cos, sin};
 
 use super::plain;
@@ -85,7 +85,7 @@ fn between(p: &motion_lab::geometry::Part, q: &motion_lab::geometry::Part, s: f6
     let turned = core.iter().map(|v| {
         Point2::new(origin.x + cos(angle) * v.x - sin(angle) * v.y, origin.y + sin(angle) * v.x + cos(angle) * v.y)
     });
-    Placed::new(turned.collect(), p.placed().radius())
+    Placed::new(turned.collect::<Vertices>(), p.placed().radius())
 }
 
 /// The turn from `a` to `b` the short way round, radians; exactly half a turn is positive.
@@ -149,7 +149,7 @@ mod tests {
 
     #[test]
     fn a_disc_passing_a_point_has_its_closest_moment_in_the_middle() {
-        let post = [Placed::new([Point2::new(0.37, 0.5)].into_iter().collect(), 0.1)];
+        let post = [Placed::new([Point2::new(0.37, 0.5)], 0.1)];
         let (a, b) = (Footprint::disc(Point2::new(-2.0, 0.0), 0.2), Footprint::disc(Point2::new(2.0, 0.0), 0.2));
         let c = rigid(&a, &b, &post, Fineness { enough: 1.0, ..MICROMETRE });
         assert!((c.at_most - 0.2).abs() < 1e-7 && c.at_least <= 0.2 && c.at_least > 0.2 - 3e-7, "{c:?}");
@@ -163,7 +163,7 @@ mod tests {
             let shape = Shape::Segment { a: Point2::origin(), b: Point2::new(1.0, 0.0) };
             Footprint::new([motion_lab::geometry::Part::new(pose, shape)])
         };
-        let post = [Placed::new([Point2::new(0.9, 0.0)].into_iter().collect(), 0.05)];
+        let post = [Placed::new([Point2::new(0.9, 0.0)], 0.05)];
         assert_eq!(rigid(&bar(-0.5), &bar(0.5), &post, MICROMETRE).at_most, 0.0);
         // and back; the long way round would miss it
         assert_eq!(rigid(&bar(0.5), &bar(-0.5), &post, MICROMETRE).at_most, 0.0);

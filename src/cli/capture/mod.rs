@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
 use motion_lab::capture::{CaptureError, Form, Paper};
-use motion_lab::ui::Theme;
+use motion_lab::picture::Theme;
 
 use super::numbers::Numbers;
 use super::query::RobotName;

@@ -3,9 +3,10 @@
 use std::path::Path;
 
 use clap::Args;
+use motion_lab::capture::RunFigure;
 use motion_lab::capture::{CaptureError, GifWriter, Image, Raster, Size, TICK_HUNDREDTHS, write_png};
+use motion_lab::picture::Theme;
 use motion_lab::run::Log;
-use motion_lab::ui::{RunFigure, Theme};
 
 use crate::cli::Failure;
 use crate::cli::output::PendingFile;

@@ -3,8 +3,8 @@
 use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
+use motion_lab::picture::Theme;
 use motion_lab::picture::{Figure, places, world as draw};
-use motion_lab::ui::Theme;
 use motion_lab::worlds::{Grid, World};
 
 use crate::cli::output::write_file;

@@ -7,12 +7,12 @@ use bevy_egui::egui::{Context, Event, Key, Modifiers, PointerButton, RawInput, R
 use crate::atlas::Atlas;
 use crate::configuration::{Configuration, HitchCfg, T2};
 use crate::geometry::{Point2, Pose2};
-use crate::picture::{Picture, Role};
+use crate::picture::{Picture, Role, Theme};
 use crate::random::Seed;
 use crate::robots::{HITCH, RUSTY, Reach, Robot};
 use crate::run::RobotInput;
 use crate::simulation::{History, RobotCommand, TransportCommand};
-use crate::ui::{Cockpit, CockpitRobot, Command, Dashboard, Theme, ThemeChoice, UiState, lab};
+use crate::ui::{Cockpit, CockpitRobot, Command, Dashboard, ThemeChoice, UiState, lab};
 use crate::worlds::{Bounds, World};
 
 const WIDE: Vec2 = Vec2::new(1280.0, 800.0);

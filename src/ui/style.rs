@@ -7,9 +7,8 @@ use bevy_egui::egui::{
     Color32, CornerRadius, FontData, FontDefinitions, FontFamily, FontId, Shadow, Stroke, Style, TextStyle, Visuals,
 };
 
-use super::Theme;
 use crate::num::{exp, greater, ln};
-use crate::picture::{FACES, Rgb, Role};
+use crate::picture::{FACES, Rgb, Role, Theme};
 
 /// The light of a stored sRGB byte, from 0 to 1.
 fn linear(byte: u8) -> f64 {

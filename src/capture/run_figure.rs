@@ -1,8 +1,8 @@
 //! `RunFigure`, the figure of a run, gathered while it runs.
 
-use super::Theme;
+use super::tour_figure::{RobotTour, TourPanel, tour_figure};
 use crate::geometry::{Point2, Shape};
-use crate::picture::{RobotTour, TourPanel, tour_figure};
+use crate::picture::Theme;
 use crate::random::Seed;
 use crate::recording::printed_configuration;
 use crate::run::Digest;

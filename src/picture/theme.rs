@@ -1,9 +1,6 @@
 //! The theme: roles to colours on light and on dark paper. A colour is named here and nowhere else.
 
-#[cfg(feature = "screen")]
-mod style;
-
-use crate::picture::{Palette, Rgb};
+use super::{Palette, Rgb};
 
 /// Light or dark paper.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]

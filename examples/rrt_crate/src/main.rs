@@ -1,7 +1,8 @@
 //! A published planner, the crate `rrt` (its `dual_rrt_connect`, after Kuffner and LaValle, 2000), on two of the lab's
 //! problems: Reach past the block and the shelf of the Workbench, Rusty from room A to room E of the Apartment.
 //!
-//! `cargo run --example rrt_crate -- [FIGURE.svg]`; the figure goes to `runs/rrt_crate.svg` otherwise.
+//! `cargo run --manifest-path examples/rrt_crate/Cargo.toml -- [FIGURE.svg]`; the figure goes to `runs/rrt_crate.svg` otherwise. It
+//! is a crate of its own, as yours would be: it needs the core of the lab and nothing of the simulator.
 //!
 //! Such a planner asks about points only, here through `&dyn Collision`, and never about the edges between them; this crate
 //! even leaves out the two nodes at which its trees meet. So its path is a proposal. Each edge is put to `edge_free`, a
@@ -13,23 +14,26 @@
 //!
 //! It is deterministic: `dual_rrt_connect` draws from nothing but the closure it is given, which draws from a seeded stream.
 //! The crate's `smooth_path` draws from the thread's own generator, which nobody can seed, so corners are cut here instead.
-#![allow(clippy::print_stdout, clippy::print_stderr, dead_code)]
-
 use std::cell::RefCell;
 use std::error::Error;
 use std::fmt::Write as _;
-use std::io::Write as _;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
-use motion_lab::collision::{
-    Certificate, ChainChecker, Checker, Collision, Counted, DiscChecker, Problem, QueryCounts, Scene,
-    verify_certificate,
-};
+use motion_lab::collision::{Certificate, Counted, QueryCounts, verify_certificate};
+use motion_lab::picture::Theme;
 use motion_lab::picture::{Figure, Item, Panel, Role, footprint, trace, world};
 use motion_lab::prelude::*;
-use motion_lab::robots::Motion;
-use motion_lab::ui::Theme;
-use motion_lab::worlds::World;
+
+#[cfg(test)]
+#[path = "../../../tests/oracle/plain.rs"]
+#[allow(dead_code)]
+mod plain;
+#[cfg(test)]
+#[path = "../../../tests/oracle/sweep.rs"]
+#[allow(dead_code)]
+mod sweep;
+#[cfg(test)]
+mod tests;
 
 type Failure = Box<dyn Error>;
 
@@ -185,22 +189,14 @@ fn tell<C: Configuration>(text: &mut String, name: &str, solution: &Solution<C>)
     writeln!(text, "  {edges} edges proven free in {steps} steps, clearance at least {clearance:.4} m")
 }
 
-/// Writes the file whole or not at all.
-fn write(path: &Path, text: &str) -> std::io::Result<()> {
-    let folder = path.parent().filter(|f| !f.as_os_str().is_empty()).unwrap_or(Path::new("."));
-    std::fs::create_dir_all(folder)?;
-    let mut file = tempfile::NamedTempFile::new_in(folder)?;
-    file.write_all(text.as_bytes())?;
-    file.as_file().sync_all()?;
-    file.persist(path)?;
-    Ok(())
-}
-
 fn main() -> Result<(), Failure> {
     let path = std::env::args_os().nth(1).map_or_else(|| PathBuf::from("runs/rrt_crate.svg"), PathBuf::from);
     let (text, figure) = report()?;
     print!("{text}");
-    write(&path, &figure)?;
+    if let Some(folder) = path.parent() {
+        std::fs::create_dir_all(folder)?;
+    }
+    std::fs::write(&path, &figure)?;
     eprintln!("figure: {}", path.display());
     Ok(())
 }

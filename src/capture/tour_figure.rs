@@ -1,7 +1,7 @@
 //! A run's tour as a figure: where each robot went, where it started and ended, where it touched something.
 
-use super::{Drawing, Figure, Glyph, Item, Panel, RobotDrawing, Role, footprint, robot, trace, world};
 use crate::geometry::{Footprint, Point2};
+use crate::picture::{Drawing, Figure, Glyph, Item, Panel, RobotDrawing, Role, footprint, robot, trace, world};
 use crate::random::Seed;
 use crate::run::Digest;
 use crate::worlds::World;

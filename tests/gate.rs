@@ -1,0 +1,61 @@
+//! The scripts of the gate: that they fail when what they run fails.
+
+use std::fs;
+use std::os::unix::fs::PermissionsExt as _;
+use std::path::Path;
+use std::process::{Command, Output};
+
+/// A program of the shell in this folder.
+fn program(folder: &Path, name: &str, text: &str) {
+    let path = folder.join(name);
+    fs::write(&path, format!("#!/bin/sh\n{text}\n")).unwrap();
+    fs::set_permissions(&path, fs::Permissions::from_mode(0o755)).unwrap();
+}
+
+/// What `benches/instructions` does with this valgrind. The program to count is never started by it.
+fn counted(valgrind: &str) -> Output {
+    let folder = tempfile::tempdir().unwrap();
+    program(folder.path(), "valgrind", valgrind);
+    program(folder.path(), "count", "exit 0");
+    let path = format!("{}:{}", folder.path().display(), std::env::var("PATH").unwrap());
+    Command::new(concat!(env!("CARGO_MANIFEST_DIR"), "/benches/instructions"))
+        .env("PATH", path)
+        .env("MOTION_LAB_COUNT", folder.path().join("count"))
+        .output()
+        .unwrap()
+}
+
+/// A valgrind that says for every kernel `share` percent of the instructions that are kept, which come after its options, the
+/// program, the kernel and the times: `$3`, `$4`, `$5`.
+fn valgrind(share: u32) -> String {
+    let kept = concat!(env!("CARGO_MANIFEST_DIR"), "/benches/instructions.txt");
+    format!(
+        "kept=$(sed -n \"s/^$4 //p\" {kept}); echo \"==1== Collected : $((1000000 + $5 * kept * {share} / 100))\" >&2"
+    )
+}
+
+#[test]
+fn counts_within_the_margin_pass_and_beyond_it_fail() {
+    let said = |o: &Output| String::from_utf8_lossy(&o.stderr).into_owned();
+    for share in [50, 100, 104] {
+        let output = counted(&valgrind(share));
+        assert!(output.status.success(), "{share} %: {}", said(&output));
+        assert_eq!(String::from_utf8_lossy(&output.stdout).lines().count(), 6, "a line for each kernel");
+    }
+    let worse = counted(&valgrind(107));
+    assert!(worse.status.code() == Some(1) && said(&worse).contains("edge takes over 5 % more"), "{}", said(&worse));
+}
+
+#[test]
+fn a_count_that_fails_fails_the_counts() {
+    for (valgrind, reason) in [
+        ("echo 'cannot run' >&2; exit 1", "cannot run"),
+        ("exit 0", "valgrind counted nothing"),
+        ("echo '==1== Collected : 5' >&2", "no more instructions"),
+        ("[ $4 = tick ] && exit 1; echo \"==1== Collected : $5\" >&2", "failed at tick"),
+    ] {
+        let output = counted(valgrind);
+        let said = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert!(output.status.code() == Some(1) && said.contains(reason), "{reason}: {:?} {said}", output.status);
+    }
+}
