@@ -103,6 +103,21 @@ pub fn wrap(angle: f64) -> f64 {
     wrapped + 0.0 // a wrapped -0.0 is stored as +0.0
 }
 
+/// The angle itself, bit for bit, where it lies in `(-pi, pi]` (-0.0 too); [wrapped](wrap) where it lies outside.
+///
+/// What takes an angle from its caller takes it through this: so an angle and the same one a thousand turns on mean one heading, and
+/// none of the bits of an angle in range change.
+///
+/// ```
+/// use motion_lab::num::{in_range, wrap};
+/// assert_eq!(in_range(1e3), wrap(1e3));
+/// assert!(in_range(-0.0).is_sign_negative());
+/// ```
+#[inline]
+pub fn in_range(angle: f64) -> f64 {
+    if angle > -PI && angle <= PI { angle } else { wrap(angle) }
+}
+
 /// The unit in the last place of `x`: the gap from `|x|` to the next larger `f64`.
 ///
 /// ```

@@ -9,6 +9,7 @@ mod verdicts;
 mod allocation;
 #[cfg(feature = "sim")]
 mod anatomy;
+mod angles;
 #[cfg(feature = "cli")]
 mod atlas;
 mod chapter;

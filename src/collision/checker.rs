@@ -94,7 +94,7 @@ impl<R: Robot> Checker<R> {
     ) -> Result<Option<R::Configuration>, ConfigurationError> {
         let edge = self.robot.edge(a, b)?;
         Ok(match self.motion(&edge) {
-            EdgeVerdict::Free { .. } => Some(*b),
+            EdgeVerdict::Free { .. } => Some(edge.at(1.0)),
             EdgeVerdict::Hit { free_until, contact_at, .. } if free_until < contact_at => Some(edge.at(free_until)),
             EdgeVerdict::Hit { .. } => None,
             EdgeVerdict::Unresolved { free_until, .. } => Some(edge.at(free_until)),

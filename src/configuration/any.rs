@@ -101,6 +101,15 @@ impl Configuration for AnyConfiguration {
         }
     }
 
+    fn in_chart(&self) -> Self {
+        match self {
+            Self::Pose(q) => Self::Pose(q.in_chart()),
+            Self::T2(q) => Self::T2(q.in_chart()),
+            Self::T3(q) => Self::T3(q.in_chart()),
+            Self::Hitch(q) => Self::Hitch(q.in_chart()),
+        }
+    }
+
     fn coordinates(&self) -> Coordinates {
         each!(self, q => q.coordinates())
     }

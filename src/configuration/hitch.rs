@@ -4,7 +4,7 @@ use std::fmt;
 
 use super::{ChartMismatch, Configuration, Coordinates};
 use crate::geometry::Pose2;
-use crate::num::wrap;
+use crate::num::{in_range, wrap};
 
 /// A point of SE(2) x S^1, or of SE(2) when there is no trailer. Hitch.
 ///
@@ -37,7 +37,7 @@ impl Configuration for HitchCfg {
     fn difference(&self, to: &Self) -> Result<Coordinates, ChartMismatch> {
         let mut d = self.body.difference(&to.body)?;
         match (self.trailer, to.trailer) {
-            (Some(a), Some(b)) => d.push(wrap(b - a)),
+            (Some(a), Some(b)) => d.push(wrap(in_range(b) - in_range(a))),
             (None, None) => {}
             _ => return Err(ChartMismatch),
         }
@@ -46,12 +46,19 @@ impl Configuration for HitchCfg {
 
     fn interpolate(&self, to: &Self, s: f64) -> Result<Self, ChartMismatch> {
         let trailer = match (self.trailer, to.trailer) {
-            (Some(a), Some(b)) if s > 0.0 && s < 1.0 => Some(wrap(a + s * wrap(b - a))),
+            (Some(a), Some(b)) if s > 0.0 && s < 1.0 => {
+                let from = in_range(a);
+                Some(wrap(from + s * wrap(in_range(b) - from)))
+            }
             (Some(a), Some(b)) => Some(if s >= 1.0 { b } else { a }),
             (None, None) => None,
             _ => return Err(ChartMismatch),
         };
         Ok(HitchCfg { body: self.body.interpolate(&to.body, s)?, trailer })
+    }
+
+    fn in_chart(&self) -> Self {
+        HitchCfg { body: self.body.in_chart(), trailer: self.trailer.map(in_range) }
     }
 
     fn coordinates(&self) -> Coordinates {

@@ -84,6 +84,13 @@ pub trait Configuration: Copy + Debug + Display + PartialEq + Send + Sync + 'sta
     /// [`ChartMismatch`] when the two lie in different spaces.
     fn interpolate(&self, to: &Self, s: f64) -> Result<Self, ChartMismatch>;
 
+    /// The same configuration with its angles in `(-pi, pi]`; angles that are there already keep their bits. Edges and drives begin with
+    /// it. A configuration without angles is itself.
+    #[must_use]
+    fn in_chart(&self) -> Self {
+        *self
+    }
+
     /// The coordinates in the chart.
     fn coordinates(&self) -> Coordinates;
 

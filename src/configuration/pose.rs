@@ -2,7 +2,7 @@
 
 use super::{ChartMismatch, Configuration, Coordinates};
 use crate::geometry::Pose2;
-use crate::num::wrap;
+use crate::num::{in_range, wrap};
 
 impl Configuration for Pose2 {
     fn is_finite(&self) -> bool {
@@ -10,19 +10,24 @@ impl Configuration for Pose2 {
     }
 
     fn difference(&self, to: &Self) -> Result<Coordinates, ChartMismatch> {
-        Ok(Coordinates::from([to.x - self.x, to.y - self.y, wrap(to.theta - self.theta)]))
+        Ok(Coordinates::from([to.x - self.x, to.y - self.y, wrap(in_range(to.theta) - in_range(self.theta))]))
     }
 
     fn interpolate(&self, to: &Self, s: f64) -> Result<Self, ChartMismatch> {
         if s >= 1.0 {
             return Ok(*to);
         }
-        let turn = wrap(to.theta - self.theta);
+        let from = in_range(self.theta);
+        let turn = wrap(in_range(to.theta) - from);
         Ok(Pose2 {
             x: self.x + s * (to.x - self.x),
             y: self.y + s * (to.y - self.y),
-            theta: if s == 0.0 { self.theta } else { wrap(self.theta + s * turn) },
+            theta: if s == 0.0 { self.theta } else { wrap(from + s * turn) },
         })
+    }
+
+    fn in_chart(&self) -> Self {
+        Pose2 { theta: in_range(self.theta), ..*self }
     }
 
     fn coordinates(&self) -> Coordinates {

@@ -3,7 +3,7 @@
 use std::fmt;
 
 use super::{ChartMismatch, Configuration, Coordinates};
-use crate::num::wrap;
+use crate::num::{in_range, wrap};
 
 /// A point of T^N: N joint angles in radians, each wrapped to `(-pi, pi]`. Reach.
 ///
@@ -61,7 +61,7 @@ impl<const N: usize> Configuration for Tn<N> {
     }
 
     fn difference(&self, to: &Self) -> Result<Coordinates, ChartMismatch> {
-        Ok(self.0.iter().zip(&to.0).map(|(a, b)| wrap(b - a)).collect())
+        Ok(self.0.iter().zip(&to.0).map(|(a, b)| wrap(in_range(*b) - in_range(*a))).collect())
     }
 
     fn interpolate(&self, to: &Self, s: f64) -> Result<Self, ChartMismatch> {
@@ -73,9 +73,14 @@ impl<const N: usize> Configuration for Tn<N> {
         }
         let mut angles = self.0;
         for (angle, target) in angles.iter_mut().zip(&to.0) {
-            *angle = wrap(*angle + s * wrap(target - *angle));
+            let from = in_range(*angle);
+            *angle = wrap(from + s * wrap(in_range(*target) - from));
         }
         Ok(Tn(angles))
+    }
+
+    fn in_chart(&self) -> Self {
+        Tn(self.0.map(in_range))
     }
 
     fn coordinates(&self) -> Coordinates {

@@ -14,9 +14,10 @@ pub struct Part {
 }
 
 impl Part {
-    /// The part with this shape in the frame `pose`.
+    /// The part with this shape in the frame `pose`, whose heading is wrapped where it lies outside `(-pi, pi]`.
     #[inline]
     pub fn new(pose: Pose2, shape: Shape) -> Self {
+        let pose = Pose2 { theta: num::in_range(pose.theta), ..pose };
         let placed = shape.place(&pose);
         Part { pose, shape, placed }
     }

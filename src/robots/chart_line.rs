@@ -14,15 +14,16 @@ pub struct ChartLine<R: Robot> {
 }
 
 impl<R: Robot> ChartLine<R> {
-    /// The line from `from` to `to`.
+    /// The line from `from` to `to`, angles outside `(-pi, pi]` wrapped.
     ///
     /// # Errors
     /// [`ConfigurationError`] when either end is not a configuration of `robot`.
     pub fn try_new(robot: &R, from: &R::Configuration, to: &R::Configuration) -> Result<Self, ConfigurationError> {
         robot.check(from)?;
         robot.check(to)?;
-        let rates = robot.edge_rates(from, to)?;
-        Ok(ChartLine { robot: robot.clone(), from: *from, to: *to, rates })
+        let (from, to) = (from.in_chart(), to.in_chart());
+        let rates = robot.edge_rates(&from, &to)?;
+        Ok(ChartLine { robot: robot.clone(), from, to, rates })
     }
 }
 

@@ -141,7 +141,7 @@ impl Hitch {
 
     /// The frame of the trailer's axle: `d_h` behind the hitch along the trailer's heading. `None` without a trailer.
     pub fn trailer_axle(&self, q: &HitchCfg) -> Option<Pose2> {
-        let hitch = Pose2 { theta: q.trailer?, ..q.body };
+        let hitch = Pose2 { theta: num::in_range(q.trailer?), ..q.body };
         let axle = hitch.transform(Point2::new(-self.hitch_len?, 0.0));
         Some(Pose2 { x: axle.x, y: axle.y, theta: hitch.theta })
     }
@@ -266,7 +266,7 @@ impl Drivable for Hitch {
         if !(ahead.is_finite() && turn.is_finite()) {
             return Err(ConfigurationError::ControlNotFinite);
         }
-        Ok(HitchArc { car: *self, start: *q, ahead, turn })
+        Ok(HitchArc { car: *self, start: q.in_chart(), ahead, turn })
     }
 }
 

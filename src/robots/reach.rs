@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use super::{ConfigurationError, Drivable, PartRates, Rates, Robot, sample_angle};
 use crate::configuration::{Configuration, T2, Tn};
 use crate::geometry::{Footprint, Part, Point2, Pose2, Shape, ShapeError};
-use crate::num::{self, greater, wrap};
+use crate::num::{self, greater, in_range, wrap};
 use crate::random::Stream;
 use crate::short_list::ShortList;
 
@@ -169,7 +169,7 @@ impl<const N: usize> Reach<N> {
         let (base, mut last) = (self.base, None::<Link>);
         q.0.into_iter().zip(self.lengths).map(move |(angle, length)| {
             let (at, heading) = last.map_or((base, 0.0), |link| (link.end(), link.pose.theta));
-            let theta = wrap(heading + angle);
+            let theta = wrap(heading + in_range(angle));
             let link = Link { pose: Pose2 { x: at.x, y: at.y, theta }, sin_cos: num::sin_cos(theta), length };
             last = Some(link);
             link

@@ -200,7 +200,7 @@ impl Drivable for Rusty {
         if !(ahead.is_finite() && turn.is_finite()) {
             return Err(ConfigurationError::ControlNotFinite);
         }
-        Ok(RustyArc { robot: *self, start: *q, ahead, turn })
+        Ok(RustyArc { robot: *self, start: q.in_chart(), ahead, turn })
     }
 }
 

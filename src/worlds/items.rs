@@ -138,18 +138,22 @@ fn finite(x: f64, what: &'static str) -> Result<f64, WorldProblem> {
 
 pub(super) fn make_resident(text: &RobotText) -> Result<Resident, WorldProblem> {
     let RobotText { name, kind, start, sensor } = text;
-    let (name, kind, mut start) = (name.clone(), kind.clone(), start.clone());
+    Resident::try_new(name.clone(), kind.clone(), start.clone(), *sensor)
+}
+
+/// The start of a robot of this kind, checked and its angles wrapped.
+pub(super) fn make_start(kind: &str, mut start: Vec<f64>) -> Result<Vec<f64>, WorldProblem> {
     // how many of the coordinates are a position, and how many there may be
-    let (lengths, counts, expected) = match kind.as_str() {
+    let (lengths, counts, expected) = match kind {
         "rusty" => (2, 3..=3, "three: x, y, theta"),
         "reach" => (0, 2..=2, "two: th1, th2"),
         "reach3" => (0, 3..=3, "three: th1, th2, th3"),
         "hitch" => (2, 3..=4, "three: x, y, theta; or with a trailer four: x, y, theta, psi"),
         own if own.len() > 2 && own.starts_with("x-") && check_name(own).is_ok() => (usize::MAX, 1..=64, "1 to 64"),
-        _ => return Err(WorldProblem::Kind(kind)),
+        _ => return Err(WorldProblem::Kind(kind.to_owned())),
     };
     if !counts.contains(&start.len()) {
-        return Err(WorldProblem::Start { kind, expected, found: start.len() });
+        return Err(WorldProblem::Start { kind: kind.to_owned(), expected, found: start.len() });
     }
     for (i, x) in start.iter_mut().enumerate() {
         *x = finite(*x, "a start coordinate")?;
@@ -160,12 +164,11 @@ pub(super) fn make_resident(text: &RobotText) -> Result<Resident, WorldProblem> 
     if lengths == 2 {
         make_point((start[0], start[1]))?;
     }
-    let sensor = sensor.map(|noise| make_noise(&kind, noise)).transpose()?;
-    Ok(Resident { name, kind, start, sensor })
+    Ok(start)
 }
 
 /// The noise of the sensor of a robot of this kind, which must have one.
-fn make_noise(kind: &str, noise: BeamModel) -> Result<BeamModel, WorldProblem> {
+pub(super) fn make_noise(kind: &str, noise: BeamModel) -> Result<BeamModel, WorldProblem> {
     if ["reach", "reach3", "hitch"].contains(&kind) {
         return Err(WorldProblem::NoSensor(kind.to_owned()));
     }

@@ -39,6 +39,31 @@ fn options_that_change_the_run_change_its_digest() {
 }
 
 #[test]
+fn a_stand_in_s_angles_are_wrapped_and_its_place_is_checked() {
+    let folder = tempfile::tempdir().unwrap();
+    let log = folder.path().join("f.mcap");
+    let log = log.to_str().unwrap();
+    let recorded = |robot: &str| {
+        let arguments = ["record", "--ticks", "20", "--world", "workbench", "--robot", robot, "-o", log, "--json"];
+        let digest = json(&run(&arguments).done())["digest"].as_str().unwrap().to_owned();
+        assert!(run(&["verify", log]).done().contains(&digest), "{robot}");
+        digest
+    };
+    // 4 rad is 4 - 2 pi, and -pi is pi
+    assert_eq!(recorded("Reach=reach:4,0"), recorded("Reach=reach:-2.2831853071795862,0"));
+    assert_eq!(recorded("Reach=reach:-3.141592653589793,1"), recorded("Reach=reach:3.141592653589793,1"));
+    for (robot, reason) in [
+        ("Rusty=rusty:10001,1,0", "10001"),
+        ("Rusty=rusty:1,1", "three: x, y, theta"),
+        ("Rusty=rusty:1,inf,0", "finite"),
+        ("Rusty=rocket:1,1,0", "rocket"),
+    ] {
+        let error = run(&["record", "--ticks", "2", "--robot", robot, "-o", log]).failed(2);
+        assert!(error.contains(reason) && error.contains("--robot Rusty"), "{robot}: {error}");
+    }
+}
+
+#[test]
 fn the_text_and_the_json_tell_the_same() {
     let text = run(&["record", "--ticks", "40"]).done();
     let summary = json(&run(&["record", "--ticks", "40", "--json"]).done());

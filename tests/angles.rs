@@ -1,0 +1,181 @@
+//! Angles far outside (-pi, pi]: one heading has one footprint, one edge, one sweep and one drive, however many turns on it is written.
+//!
+//! What an angle means comes from its definition: the remainder of division by the `f64` nearest 2 pi, which the language's own `%`
+//! gives exactly.
+
+use std::f64::consts::{PI, TAU};
+
+use motion_lab::collision::EdgeVerdict;
+use motion_lab::geometry::Placed;
+use motion_lab::prelude::*;
+use motion_lab::worlds::Bounds;
+
+use crate::fixtures::count_from_env;
+use crate::oracle::plain;
+
+/// The angle in (-pi, pi], by the remainder.
+fn short(angle: f64) -> f64 {
+    let r = angle % TAU;
+    if r > PI {
+        r - TAU
+    } else if r <= -PI {
+        r + TAU
+    } else {
+        r
+    }
+}
+
+/// An angle of any size: one in range, exactly the borders, or one of up to 1e15 rad.
+fn angle(s: &mut Stream) -> f64 {
+    let magnitude = [1e2, 1e3, 1e6, 1e9, 1e12, 1e15][s.below(6) as usize];
+    match s.below(8) {
+        0 => s.uniform(-PI, PI),
+        1 => -PI,
+        2 => PI + f64::EPSILON * 2.0,
+        3 => (s.below(200) as f64 - 100.0) * TAU,
+        _ => s.uniform(-magnitude, magnitude),
+    }
+}
+
+/// Boxes and discs about a point, near enough that one in three configurations touches something.
+fn crowd(s: &mut Stream, count: u32) -> Scene {
+    let bounds = Bounds { min: Point2::new(-9.0, -9.0), max: Point2::new(9.0, 9.0) };
+    (0..count).fold(Scene::empty(bounds), |scene, i| {
+        let (x, y, size) = (s.uniform(-5.0, 5.0), s.uniform(-5.0, 5.0), s.uniform(0.02, 0.4));
+        let corner = Point2::new(x, y);
+        let shape = Shape::try_rectangle(corner, Point2::new(x + size, y + size)).unwrap();
+        scene.with_obstacle(&format!("box {i}"), shape)
+    })
+}
+
+fn touches(footprint: &Footprint, obstacles: &[Placed]) -> bool {
+    footprint.parts().iter().any(|p| obstacles.iter().any(|o| plain::intersects(p.placed(), o)))
+}
+
+fn obstacles(scene: &Scene) -> Vec<Placed> {
+    scene.pieces().map(|(_, piece)| piece.clone()).collect()
+}
+
+/// Puts one robot through everything: `far` as it is written, `near` the same with its angles in range.
+fn one_answer<R: Robot>(scene: &Scene, robot: &R, far: [R::Configuration; 2], near: [R::Configuration; 2]) -> bool {
+    let checker = Checker::new(scene.clone(), robot.clone());
+    let placed = obstacles(scene);
+    for (f, n) in far.iter().zip(&near) {
+        assert_eq!(robot.footprint(f), robot.footprint(n), "{f:?}");
+        assert_eq!(checker.is_free(f), checker.is_free(n), "{f:?}");
+        assert_eq!(checker.distance(f).to_bits(), checker.distance(n).to_bits(), "{f:?}");
+        assert_eq!(checker.witness(f).unwrap(), checker.witness(n).unwrap(), "{f:?}");
+    }
+    // every mixture of ends is the same edge and the same sweep
+    let verdict = checker.edge(&near[0], &near[1]).unwrap();
+    let swept = scene.swept(&robot.footprint(&near[0]), &robot.footprint(&near[1]));
+    for (a, b) in [(far[0], far[1]), (far[0], near[1]), (near[0], far[1])] {
+        assert_eq!(checker.edge(&a, &b).unwrap(), verdict, "{a:?} to {b:?}");
+        assert_eq!(checker.edge_free(&a, &b), verdict.is_free(), "{a:?} to {b:?}");
+        assert_eq!(scene.swept(&robot.footprint(&a), &robot.footprint(&b)), swept);
+        let last = checker.last_free(&a, &b).unwrap();
+        assert_eq!(last, checker.last_free(&near[0], &near[1]).unwrap(), "{a:?} to {b:?}");
+    }
+    // the turn that stands still is free exactly when its footprint is, by the oracle
+    let still = checker.edge(&far[0], &near[0]).unwrap();
+    let there = touches(&robot.footprint(&near[0]), &placed);
+    assert_eq!(still.is_free(), !there && checker.is_free(&near[0]), "{:?}", far[0]);
+    if let EdgeVerdict::Free { .. } = verdict {
+        let edge = robot.edge(&far[0], &far[1]).unwrap();
+        for i in 0..=16 {
+            assert!(
+                !touches(&edge.footprint_at(f64::from(i) / 16.0), &placed),
+                "{:?} to {:?} at {i}/16",
+                far[0],
+                far[1]
+            );
+        }
+    }
+    verdict.is_free()
+}
+
+#[test]
+fn an_angle_many_turns_on_is_the_same_angle() {
+    let mut s = Stream::new(Seed(16), "angles");
+    let mut scene = crowd(&mut s, 40);
+    let (mut free, mut all) = (0, 0);
+    for i in 0..count_from_env("MOTION_LAB_EDGES", 3_000) {
+        if i % 100 == 0 {
+            scene = crowd(&mut s, 40);
+        }
+        let mut pose = || Pose2 { x: s.uniform(-4.0, 4.0), y: s.uniform(-4.0, 4.0), theta: angle(&mut s) };
+        let bodies = [pose(), pose()];
+        let angles: [[f64; 3]; 2] = [(); 2].map(|()| [(); 3].map(|()| angle(&mut s)));
+        let wrapped = |p: Pose2| Pose2 { theta: short(p.theta), ..p };
+        let car = |body: Pose2, psi: Option<f64>| HitchCfg { body, trailer: psi };
+        let results = [
+            one_answer(
+                &scene,
+                &HITCH,
+                [0, 1].map(|k| car(bodies[k], None)),
+                [0, 1].map(|k| car(wrapped(bodies[k]), None)),
+            ),
+            one_answer(
+                &scene,
+                &HITCH.with_trailer(),
+                [0, 1].map(|k| car(bodies[k], Some(angles[k][0]))),
+                [0, 1].map(|k| car(wrapped(bodies[k]), Some(short(angles[k][0])))),
+            ),
+            one_answer(&scene, &Reach::<3>::redundant(), angles.map(Tn), angles.map(|q| Tn(q.map(short)))),
+            one_answer(
+                &scene,
+                &Reach::<2>::workbench(),
+                angles.map(|[a, b, _]| Tn([a, b])),
+                angles.map(|[a, b, _]| Tn([short(a), short(b)])),
+            ),
+            one_answer(&scene, &RUSTY, bodies, bodies.map(wrapped)),
+        ];
+        free += results.iter().filter(|free| **free).count();
+        all += results.len();
+    }
+    assert!(free * 20 > all && (all - free) * 4 > all, "{free} of {all} edges are free: too few of one kind");
+}
+
+#[test]
+fn a_drive_from_an_angle_many_turns_on_is_the_drive_from_that_heading() {
+    let mut s = Stream::new(Seed(17), "drives");
+    for _ in 0..2_000 {
+        let body = Pose2 { x: s.uniform(-4.0, 4.0), y: s.uniform(-4.0, 4.0), theta: angle(&mut s) };
+        let (psi, dt) = (angle(&mut s), s.uniform(0.05, 2.0));
+        let near = Pose2 { theta: short(body.theta), ..body };
+        let u = CarCmd { v: s.uniform(-2.0, 2.0), phi: s.uniform(-0.5, 0.5) };
+        let towing = HITCH.with_trailer();
+        let far = towing.drive(&HitchCfg { body, trailer: Some(psi) }, &u, dt).unwrap();
+        let same = towing.drive(&HitchCfg { body: near, trailer: Some(short(psi)) }, &u, dt).unwrap();
+        let rover = RustyCmd { v: s.uniform(-0.5, 0.5), omega: s.uniform(-2.0, 2.0) };
+        let (arc, same_arc) = (RUSTY.drive(&body, &rover, dt).unwrap(), RUSTY.drive(&near, &rover, dt).unwrap());
+        for i in 0..=4 {
+            let t = f64::from(i) / 4.0;
+            assert_eq!(far.at(t), same.at(t), "{body:?} {psi} at {t}");
+            assert_eq!(far.footprint_at(t), same.footprint_at(t));
+            assert_eq!(arc.at(t), same_arc.at(t), "{body:?} at {t}");
+        }
+    }
+}
+
+#[test]
+fn angles_in_range_keep_their_bits() {
+    let mut s = Stream::new(Seed(18), "bits");
+    for q in (0..1_000).map(|_| Tn([s.uniform(-PI, PI), -0.0])).chain([Tn([PI, -0.0])]) {
+        let edge = Reach::<2>::workbench().edge(&q, &T2::new(0.5, 0.5)).unwrap();
+        let same = edge.at(0.0).0.iter().zip(q.0).all(|(a, b)| a.to_bits() == b.to_bits());
+        assert!(same, "{q:?} {:?}", edge.at(0.0));
+    }
+    let edge = Reach::<2>::workbench().edge(&Tn([-PI, 0.0]), &Tn([-PI, 0.0])).unwrap();
+    assert_eq!(edge.at(0.0), Tn([PI, 0.0]), "-pi is pi");
+}
+
+#[test]
+fn a_configuration_that_is_not_finite_stays_one() {
+    for bad in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+        let checker = Checker::new(Scene::lot(), HITCH);
+        let q = HitchCfg { body: Pose2 { x: 6.5, y: 2.5, theta: bad }, trailer: None };
+        assert!(!checker.is_free(&q) && checker.distance(&q) == 0.0 && checker.edge(&q, &q).is_err());
+        assert!(!HITCH.footprint(&q).is_valid());
+    }
+}
