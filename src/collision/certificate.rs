@@ -1,8 +1,4 @@
-//! `Certificate`, the proof that a motion is free, and the verifier that accepts it.
-
-use super::Collision;
-use super::march::step_clearance;
-use crate::robots::Motion;
+//! `Certificate`, the proof that a motion is free. The verifier that accepts it is `verifier.rs`.
 
 /// One proven step of a motion.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -50,6 +46,11 @@ impl Certificate {
         Self::default()
     }
 
+    /// What every step's clearance must exceed, metres.
+    pub fn margin(&self) -> f64 {
+        self.margin
+    }
+
     pub(super) fn clear(&mut self, margin: f64) {
         self.margin = margin;
         self.steps.clear();
@@ -78,32 +79,4 @@ impl Certificate {
     pub fn clearance(&self) -> f64 {
         self.steps.iter().fold(f64::INFINITY, |c, s| crate::num::lesser(s.clearance, c))
     }
-}
-
-/// Accepts a certificate when its steps join from 0 on and each is proven by the distance from the hull of its two end
-/// footprints and the motion's sagitta bound. Returns where the proof ends.
-///
-/// # Errors
-/// [`CertificateError`] names the first step that fails.
-pub fn verify_certificate<M: Motion>(
-    collision: &dyn Collision,
-    motion: &M,
-    certificate: &Certificate,
-) -> Result<f64, CertificateError> {
-    let mut at = 0.0;
-    for (i, step) in certificate.steps.iter().enumerate() {
-        if step.from != at {
-            return Err(CertificateError::Broken(i));
-        }
-        if !(step.to > step.from && step.to <= 1.0) {
-            return Err(CertificateError::Backward(i));
-        }
-        let (f0, f1) = (motion.footprint_at(step.from), motion.footprint_at(step.to));
-        let proven = step_clearance(collision, motion, (step.from, &f0), (step.to, &f1));
-        if !(step.clearance <= proven && proven > certificate.margin) {
-            return Err(CertificateError::Unproven { step: i, claimed: step.clearance, proven });
-        }
-        at = step.to;
-    }
-    Ok(at)
 }

@@ -177,11 +177,12 @@ impl DiscLine {
     /// More than all rounding on the way to a distance, metres.
     ///
     /// A foot is off by at most 8 roundings of the displacements it is made of, none longer than the way, the longest edge and the
-    /// distance together; the verifier of certificates takes off 32 ulps itself.
+    /// distance together. The verifier of certificates takes off 32 ulps of the largest coordinate or 1 itself, and the distance that it
+    /// asks for may be off by 16 more.
     fn slack(&self, found: &Found) -> f64 {
         let least = if found.least.is_finite() { found.least } else { 0.0 };
         let longest = greater(sqrt(found.longest), sqrt(self.way.square));
-        16.0 * f64::EPSILON * (least + longest) + 32.0 * ulp(self.size + self.radius + least)
+        16.0 * f64::EPSILON * (least + longest) + 48.0 * ulp(self.size + self.radius + least)
     }
 }
 

@@ -32,12 +32,13 @@ mod sides;
 mod surroundings;
 mod swept;
 mod tree;
+mod verifier;
 mod vicinity;
 mod witness;
 
 pub(crate) use answers::touch;
 pub(crate) use cells::{Cells, Place};
-pub use certificate::{Certificate, CertificateError, ProvenStep, verify_certificate};
+pub use certificate::{Certificate, CertificateError, ProvenStep};
 pub use checker::{CarChecker, ChainChecker, Checker, DiscChecker};
 pub(crate) use clear_way::is_plainly_clear;
 pub use counted::{Counted, QueryCounts};
@@ -51,6 +52,7 @@ pub use scene::Scene;
 
 pub(crate) use segments::{Circle, LANES, SegmentSoup};
 pub use surroundings::Surroundings;
+pub use verifier::verify_certificate;
 pub use witness::{ObstacleId, Witness};
 
 use crate::geometry::{Footprint, Placed};
