@@ -13,7 +13,9 @@ mod runs;
 mod session;
 #[cfg(feature = "window")]
 mod settings;
-#[cfg(all(test, feature = "window"))]
+// two lines, because the lints look for the first alone
+#[cfg(test)]
+#[cfg(feature = "window")]
 mod tests;
 #[cfg(feature = "window")]
 mod window;

@@ -1,5 +1,6 @@
 //! Standard output for data, standard error for messages.
 
+use std::borrow::Cow;
 use std::fmt::Display;
 use std::io::{self, BufWriter, ErrorKind, StdoutLock, Write};
 
@@ -20,9 +21,9 @@ impl Data {
         Data { out: BufWriter::new(io::stdout().lock()), closed: false }
     }
 
-    /// Writes a line.
+    /// Writes a line, [spelled out](spelled_out) where it would steer a terminal.
     pub fn line(&mut self, line: impl Display) -> Result<(), Failure> {
-        let written = writeln!(self.out, "{line}");
+        let written = writeln!(self.out, "{}", spelled_out(&line.to_string()));
         self.after(written)
     }
 
@@ -34,7 +35,9 @@ impl Data {
 
     /// Writes a value as one line of JSON.
     pub fn json(&mut self, value: &impl Serialize) -> Result<(), Failure> {
-        self.line(serde_json::to_string(value).map_err(Failure::internal)?)
+        let line = serde_json::to_string(value).map_err(Failure::internal)?;
+        let written = writeln!(self.out, "{line}");
+        self.after(written)
     }
 
     /// Sends on what was written so far.
@@ -70,7 +73,40 @@ impl Data {
     }
 }
 
-/// Writes a message to standard error, every message under the program's name. Nobody listening is no error.
+/// Writes a message to standard error, every message under the program's name, [spelled out](spelled_out) where it would steer a
+/// terminal. Nobody listening is no error.
 pub fn say(message: impl Display) {
-    let _ = writeln!(io::stderr().lock(), "motion-lab: {message}");
+    let _ = writeln!(io::stderr().lock(), "motion-lab: {}", spelled_out(&message.to_string()));
+}
+
+/// The text with what could steer a terminal or turn a line round written as its number, as in `\u{1b}`: control characters but for line
+/// ends, and the marks of direction. Names and texts of files may hold them.
+fn spelled_out(text: &str) -> Cow<'_, str> {
+    let steers = |c: char| {
+        c != '\n' && c.is_control()
+            || matches!(c, '\u{61c}' | '\u{200e}' | '\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}')
+    };
+    if !text.contains(steers) {
+        return Cow::Borrowed(text);
+    }
+    let mut plain = String::with_capacity(text.len() + 8);
+    for c in text.chars() {
+        if steers(c) { plain.extend(c.escape_unicode()) } else { plain.push(c) }
+    }
+    Cow::Owned(plain)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_steers_a_terminal_is_written_as_its_number() {
+        assert!(matches!(spelled_out("l'été: \u{3b8} = 1\nand so on"), Cow::Borrowed(_)));
+        assert_eq!(spelled_out("a\u{1b}[31mb"), "a\\u{1b}[31mb");
+        assert_eq!(
+            spelled_out("\u{202e}nor\u{2069}\r\t\u{9b}\u{7f}"),
+            "\\u{202e}nor\\u{2069}\\u{d}\\u{9}\\u{9b}\\u{7f}"
+        );
+    }
 }

@@ -24,9 +24,19 @@ pub fn read_text(path: &Path) -> Result<String, Failure> {
 
 /// The whole file, at most `limit` bytes.
 pub fn read_bytes(path: &Path, limit: u64) -> Result<Vec<u8>, Failure> {
+    read_bytes_if(path, limit, |_| true)
+}
+
+/// The whole file, at most `limit` bytes, if its first eight bytes may be those of the wanted file; otherwise these alone.
+pub fn read_bytes_if(path: &Path, limit: u64, may_be: impl FnOnce(&[u8]) -> bool) -> Result<Vec<u8>, Failure> {
     let mut bytes = Vec::new();
-    let file = open(path)?;
-    file.take(limit + 1).read_to_end(&mut bytes).map_err(|error| unreadable(path, &error))?;
+    let mut file = open(path)?.take(8);
+    file.read_to_end(&mut bytes).map_err(|error| unreadable(path, &error))?;
+    if !may_be(&bytes) {
+        return Ok(bytes);
+    }
+    file.set_limit((limit + 1).saturating_sub(bytes.len() as u64));
+    file.read_to_end(&mut bytes).map_err(|error| unreadable(path, &error))?;
     if bytes.len() as u64 > limit {
         return Err(Failure::input(
             format!("{}: too large: more than {limit} bytes", path.display()),

@@ -5,7 +5,7 @@ use std::path::Path;
 use motion_lab::run::{Log, LogError, ReadLog};
 
 use super::Failure;
-use super::input::read_bytes;
+use super::input::read_bytes_if;
 
 /// The greatest size of a log file, bytes.
 pub const MAX_LOG: u64 = 4 << 30;
@@ -20,7 +20,9 @@ pub struct LogSource {
 
 /// Reads a log. Of a damaged or unfinished file the sealed beginning; an error when not even that can be used.
 pub fn read_log(path: &Path) -> Result<LogSource, Failure> {
-    let bytes = read_bytes(path, MAX_LOG)?;
+    // a file that does not begin as a log is read no farther, however long it is
+    let begins_as_one = |beginning: &[u8]| !matches!(Log::read_mcap(beginning), Err(LogError::NotALog));
+    let bytes = read_bytes_if(path, MAX_LOG, begins_as_one)?;
     let refused =
         |error: &dyn std::fmt::Display, next| Err(Failure::input(format!("{}: {error}", path.display()), next));
     match Log::read_mcap(&bytes) {

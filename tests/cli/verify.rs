@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use motion_lab::run::{Log, LogWriter};
 
-use super::{json, run};
+use super::{json, run, run_in};
 
 fn recording(folder: &Path, ticks: &str) -> PathBuf {
     let file = folder.join("run.mcap");
@@ -90,4 +90,28 @@ fn a_forged_recording_is_4_and_the_first_difference_is_named() {
     let output = folder.path().join("out.mcap");
     run(&["record", "--resume", file.to_str().unwrap(), "-o", output.to_str().unwrap()]).failed(4);
     assert!(!output.exists());
+}
+
+/// What is no log is told by its first bytes: this file has no end.
+#[cfg(unix)]
+#[test]
+fn a_file_without_an_end_is_not_read_to_it() {
+    for command in ["info", "verify", "replay"] {
+        let error = run(&[command, "/dev/zero"]).failed(3);
+        assert!(error.contains("/dev/zero: ") && !error.contains("too large"), "{command}: {error}");
+    }
+}
+
+/// A log may come through a pipe, which can be read once only.
+#[cfg(unix)]
+#[test]
+fn a_log_through_a_pipe_is_read_whole() {
+    let folder = tempfile::tempdir().unwrap();
+    run_in(folder.path(), &["record", "--ticks", "20", "-o", "run.mcap"]).done();
+    let pipe = folder.path().join("pipe");
+    assert!(std::process::Command::new("mkfifo").arg(&pipe).status().unwrap().success());
+    let (from, to) = (folder.path().join("run.mcap"), pipe.clone());
+    let writer = std::thread::spawn(move || std::fs::write(to, std::fs::read(from).unwrap()));
+    assert!(run(&["verify", pipe.to_str().unwrap()]).done().starts_with("20 of 20 ticks"));
+    writer.join().unwrap().unwrap();
 }

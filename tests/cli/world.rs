@@ -55,3 +55,67 @@ fn every_wrong_file_is_named_and_the_right_ones_are_told() {
         assert!(checked.err.contains(&message), "{message} is missing from\n{}", checked.err);
     }
 }
+
+/// A world of 8 m by 6 m with these robots and obstacles.
+fn yard(robots: &str, obstacles: &str) -> String {
+    format!(
+        "World(version: 1, name: \"Yard\", bounds: (min: (0, 0), max: (8, 6)), obstacles: [{obstacles}], robots: [{robots}])"
+    )
+}
+
+#[test]
+fn residents_in_contact_and_obstacles_out_of_sight_are_refused_by_name() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("yard.ron");
+    let file = path.to_str().unwrap();
+    let checked = |robots: &str, obstacles: &str| {
+        fs::write(&path, yard(robots, obstacles)).unwrap();
+        run(&["world", "check", file])
+    };
+    let tree = "(name: \"the tree\", shape: Disc(center: (2, 3), radius: 0.5))";
+    let (anna, bert) = ("(name: \"Anna\", kind: \"rusty\", start: [3, 3, 0])", |x: &str| {
+        format!("(name: \"Bert\", kind: \"rusty\", start: [{x}, 3, 0])")
+    });
+    // discs of radius 0.11 touch from a distance of 0.22 down
+    assert_eq!(checked(&format!("{anna}, {}", bert("3.25")), tree).code, Some(0));
+    let touching = checked(&format!("{anna}, {}", bert("3.21875")), tree).failed(3);
+    assert!(touching.contains(&format!("{file}: \"Anna\" and \"Bert\" touch")), "{touching}");
+    // the tree reaches to x = 2.5, a rover to 0.11 m from its centre
+    let inside = checked(&format!("{anna}, {}", bert("2.59375")), tree).failed(3);
+    assert!(inside.contains("\"Bert\" starts in contact with \"the tree\"") && !inside.contains("Anna"), "{inside}");
+    let both = checked(&format!("{anna}, {}, {}", bert("3.1"), bert("2.5").replace("Bert", "Cleo")), tree).failed(3);
+    assert!(both.contains("Anna") && both.contains("Bert") && both.contains("Cleo"), "{both}");
+
+    let far = "(name: \"the moon\", shape: Disc(center: (9, 3), radius: 0.5))";
+    let outside = checked(anna, &format!("{tree}, {far}")).failed(3);
+    assert!(outside.contains("\"the moon\" lies outside the bounds") && !outside.contains("tree"), "{outside}");
+    let edge = "(name: \"the hedge\", shape: Disc(center: (8.5, 3), radius: 0.5))"; // reaches in by a point
+    assert_eq!(checked(anna, edge).code, Some(0));
+
+    let empty = checked("", tree);
+    assert!(empty.code == Some(0) && empty.err.contains("no robot lives there"), "{}", empty.err);
+    for world in ["apartment", "workbench", "lot"] {
+        fs::write(&path, run(&["world", "show", world]).done()).unwrap();
+        let built_in = run(&["world", "check", file]);
+        assert!(built_in.code == Some(0) && built_in.err.is_empty(), "{world}: {}", built_in.err);
+    }
+}
+
+/// Names may hold marks that turn a line round, and scripts whatever they like: no terminal gets to see them raw.
+#[test]
+fn texts_of_files_do_not_steer_the_terminal() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("yard.ron");
+    let name = "Ann\u{202e}a";
+    fs::write(&path, yard(&format!("(name: \"{name}\", kind: \"rusty\", start: [3, 3, 0])"), "")).unwrap();
+    let listed = run(&["world", "check", path.to_str().unwrap()]).done();
+    assert!(listed.contains("Ann\\u{202e}a") && !listed.contains('\u{202e}'), "{listed}");
+    let as_json = run(&["world", "check", "--json", path.to_str().unwrap()]).done();
+    assert_eq!(json(&as_json)["robots"][0], name, "JSON is data, and stays as it is");
+
+    let script = folder.path().join("script.ron");
+    let text = "Script(version: 1, events: [(tick: 1, robot: \"\\u{1b}[2JRusty\", input: Release)])";
+    fs::write(&script, text).unwrap();
+    let error = run(&["record", "--ticks", "2", "--script", script.to_str().unwrap()]).failed(3);
+    assert!(error.contains("[2JRusty") && !error.contains('\u{1b}'), "{error:?}");
+}

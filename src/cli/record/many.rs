@@ -25,7 +25,7 @@ pub fn record(
     data: &mut Data,
 ) -> Result<Outcome, Failure> {
     let output = template(options)?;
-    let pool = rayon::ThreadPoolBuilder::new().num_threads(options.threads.unwrap_or(0)).build();
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(usize::from(options.threads.unwrap_or(0))).build();
     let pool = pool.map_err(Failure::internal)?;
     let batch = AHEAD * pool.current_num_threads() as u64;
     let mut first = seeds.first;

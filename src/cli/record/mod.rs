@@ -68,9 +68,9 @@ pub struct Record {
     /// Stop after this tick as if by Ctrl-C.
     #[arg(long, value_name = "TICK")]
     stop_after: Option<u64>,
-    /// How many seeds to run at once. It changes no bit. [default: one for each processor]
-    #[arg(long, value_name = "N")]
-    threads: Option<usize>,
+    /// How many seeds to run at once, at most 256. It changes no bit. [default: one for each processor]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(..=256))]
+    threads: Option<u16>,
     /// One line of JSON for each run.
     #[arg(long)]
     json: bool,

@@ -115,7 +115,7 @@ fn cells(row: &str) -> Result<Vec<Cell>, (usize, String)> {
     let mut rest = row.chars().zip(1..).peekable();
     loop {
         while rest.next_if(|(c, _)| c.is_whitespace()).is_some() {}
-        let column = rest.peek().map_or(row.chars().count() + 1, |(_, column)| *column);
+        let column = rest.peek().map_or_else(|| row.chars().count() + 1, |(_, column)| *column);
         let mut text = String::new();
         if rest.next_if(|(c, _)| *c == '"').is_some() {
             loop {
@@ -167,6 +167,14 @@ mod tests {
         ];
         assert_eq!(script.events, expected);
         assert_eq!(super::script("").unwrap(), Script::empty());
+    }
+
+    /// Counted anew for every cell, the characters of this row would take minutes.
+    #[test]
+    fn a_row_of_a_million_cells_is_read_once() {
+        let row = format!("5,Reach,MoveTo{}", ",1".repeat(1_000_000));
+        let error = script(&(row + ",x")).unwrap_err().to_string();
+        assert_eq!(error, "1:2000016: \"x\" is no number");
     }
 
     #[test]

@@ -1,5 +1,6 @@
 //! `world`: check world files, list and print worlds, read them from other formats and write them in others.
 
+mod check;
 mod export;
 mod import;
 
@@ -11,7 +12,7 @@ use serde::Serialize;
 
 use crate::cli::input::for_each_file;
 use crate::cli::world_source::{find_world, read_world};
-use crate::cli::{Data, Failure, Outcome};
+use crate::cli::{Data, Failure, Outcome, say};
 use export::Export;
 use import::Import;
 
@@ -24,8 +25,8 @@ pub struct WorldArgs {
 
 #[derive(Debug, Subcommand)]
 enum WorldCommand {
-    /// Read world files and say what is in them, or what is wrong with them. Every file is read; one that is wrong makes the
-    /// exit code 3.
+    /// Read world files and say what is in them, or what is wrong with them: what they are written like, robots that start in contact with
+    /// something or with one another, obstacles outside the bounds. Every file is read; one that is wrong makes the exit code 3.
     Check {
         /// The world files.
         #[arg(required = true, value_name = "FILE")]
@@ -85,7 +86,22 @@ impl WorldArgs {
 }
 
 fn check(files: &[PathBuf], json: bool, data: &mut Data) -> Result<Outcome, Failure> {
-    for_each_file(files, data, |file, data| summarise(&file.display().to_string(), &read_world(file)?, json, data))
+    for_each_file(files, data, |file, data| {
+        let (source, world) = (file.display().to_string(), read_world(file)?);
+        let problems = check::problems(&world);
+        if !problems.is_empty() {
+            return Err(Failure::input(
+                format!("{source}: {}", problems.join("; ")),
+                "Move them apart, or make the bounds larger.",
+            ));
+        }
+        summarise(&source, &world, json, data)?;
+        if world.robots.is_empty() {
+            data.flush()?;
+            say(format!("{source}: no robot lives there: only worlds with robots can be run"));
+        }
+        Ok(())
+    })
 }
 
 fn summarise(source: &str, world: &World, json: bool, data: &mut Data) -> Result<(), Failure> {

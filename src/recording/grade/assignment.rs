@@ -9,7 +9,7 @@ use crate::collision::{Collision, Scene};
 use crate::random::Seed;
 use crate::run::Script;
 use crate::tour::{MAX_TICKS, TourConfig};
-use crate::worlds::World;
+use crate::worlds::{Resident, World};
 
 /// The greatest number of seeds in an assignment.
 pub const MAX_SEEDS: usize = 10_000;
@@ -169,6 +169,8 @@ impl AssignmentFile {
 fn check_place(world: &World, number: usize) -> Result<(), AssignmentProblem> {
     let config = TourConfig { worlds: vec![world.clone()], ticks: 0, sensor: None };
     let run = Recorder::new(config, Script::empty()).map_err(AssignmentProblem::Configuration)?;
+    let Resident { name, kind, start, .. } = &world.robots[number];
+    Resident::try_new(name.clone(), kind.clone(), start.clone(), None).map_err(AssignmentProblem::Place)?;
     let scene = Scene::of_world(world);
     let Some(robot) = run.view().into_iter().nth(number) else { return Ok(()) };
     match scene.witness(&robot.footprint).filter(|w| w.dist == 0.0) {

@@ -54,6 +54,9 @@ pub enum AssignmentProblem {
     /// Coordinates that are no configuration of the robot.
     #[error("no configuration of the robot: {0}")]
     Configuration(RunError),
+    /// Coordinates that no robot of a world file may have: too few, or too far out.
+    #[error("{0}")]
+    Place(crate::worlds::WorldProblem),
     /// The robot would be in contact from the beginning, or at the goal.
     #[error("there the robot touches {0}")]
     Touches(String),
