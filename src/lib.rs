@@ -23,6 +23,7 @@
 //! | `headless` | `cli`; `motion-lab` without arguments records the tour and checks it |
 //! | `window` (by default) | `cli`; `motion-lab` without arguments opens the lab in a window |
 //! | `web` | `sim`, and the lab in a page, for WebAssembly |
+//! | `screen` | what `window` and `web` share; not to be asked for by itself |
 #![deny(missing_docs)]
 #![forbid(unsafe_code)]
 

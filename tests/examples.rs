@@ -1,14 +1,14 @@
 //! The example programs: what they print is pinned, and what they claim is checked by other means than theirs.
 
-use std::f64::consts::{PI, TAU};
+use std::f64::consts::TAU;
 
 use motion_lab::collision::{Checker, Scene};
-use motion_lab::geometry::Placed;
 use motion_lab::num::{cos, sin};
 use motion_lab::prelude::*;
 use motion_lab::robots::PartRates;
 
-use crate::oracle::{plain, sweep};
+use crate::oracle::arm::{arm_clearance, obstacles, short};
+use crate::oracle::plain;
 
 #[path = "../examples/bug1.rs"]
 mod bug1;
@@ -26,40 +26,6 @@ macro_rules! assert_prints {
     ($name:literal, $printed:expr) => {
         assert_eq!($printed, include_str!(concat!("pinned/", $name, ".txt")), "examples/{}.rs", $name)
     };
-}
-
-/// The short way from `a` to `b`, radians.
-fn short(a: f64, b: f64) -> f64 {
-    let d = (b - a) % TAU;
-    if d > PI {
-        d - TAU
-    } else if d <= -PI {
-        d + TAU
-    } else {
-        d
-    }
-}
-
-fn obstacles(scene: &Scene) -> Vec<Placed> {
-    scene.pieces().map(|(_, piece)| piece.clone()).collect()
-}
-
-/// The least clearance of the Workbench's arm along a path, by its kinematics written out and the oracle's distances.
-fn arm_clearance(path: &[T2]) -> f64 {
-    let at = |a: T2, b: T2, s: f64| {
-        let (th1, th2) = (a.0[0] + s * short(a.0[0], b.0[0]), a.0[1] + s * short(a.0[1], b.0[1]));
-        let elbow = Point2::new(cos(th1), sin(th1));
-        let tip = Point2::new(elbow.x + cos(th1 + th2), elbow.y + sin(th1 + th2));
-        [(Point2::origin(), elbow), (elbow, tip)]
-            .map(|(a, b)| Shape::Capsule { a, b, radius: 0.03 }.place(&Pose2::IDENTITY))
-            .to_vec()
-    };
-    let scene = obstacles(&Scene::workbench());
-    let edge = |ends: &[T2]| {
-        let speed = 2.0 * short(ends[0].0[0], ends[1].0[0]).abs() + short(ends[0].0[1], ends[1].0[1]).abs();
-        sweep::clearance(|s| at(ends[0], ends[1], s), speed, &scene, sweep::MICROMETRE).at_most
-    };
-    path.windows(2).map(edge).fold(f64::INFINITY, |m, c| if c < m { c } else { m })
 }
 
 #[test]

@@ -2,7 +2,8 @@
 //!
 //! `cargo bench --no-default-features --features headless --bench table`; with `-- scan` only the rows whose name has that in it,
 //! printed and not written; `-- worlds` prints the worlds, for `benches/peers`; `-- digests` what the scans come to, for
-//! `benches/wasm`; `-- agree` asserts that the lab and its peers agree, row by row, and times nothing.
+//! `benches/wasm`; `-- agree` does every row once with the checks before it, such as
+//! that lab and peer agree, and times nothing.
 #![allow(missing_docs, clippy::unwrap_used, clippy::expect_used, clippy::print_stdout, clippy::disallowed_methods)]
 
 mod contest;
@@ -60,7 +61,7 @@ impl Table {
         if measure::is_timed() {
             println!("{}", readme::line(&row));
         } else {
-            println!("agreed: {}", row.work);
+            println!("done: {}", row.work);
         }
         self.rows.push(row);
     }

@@ -21,9 +21,15 @@ impl Data {
         Data { out: BufWriter::new(io::stdout().lock()), closed: false }
     }
 
-    /// Writes a line, [spelled out](spelled_out) where it would steer a terminal.
+    /// Writes a line for people, [spelled out](spelled_out) where it would steer a terminal.
     pub fn line(&mut self, line: impl Display) -> Result<(), Failure> {
         let written = writeln!(self.out, "{}", spelled_out(&line.to_string()));
+        self.after(written)
+    }
+
+    /// Writes a line of data for other programs, as it is.
+    pub fn data_line(&mut self, line: impl Display) -> Result<(), Failure> {
+        let written = writeln!(self.out, "{line}");
         self.after(written)
     }
 
@@ -35,9 +41,7 @@ impl Data {
 
     /// Writes a value as one line of JSON.
     pub fn json(&mut self, value: &impl Serialize) -> Result<(), Failure> {
-        let line = serde_json::to_string(value).map_err(Failure::internal)?;
-        let written = writeln!(self.out, "{line}");
-        self.after(written)
+        self.data_line(serde_json::to_string(value).map_err(Failure::internal)?)
     }
 
     /// Sends on what was written so far.

@@ -43,7 +43,7 @@ impl Describe {
             "formulas": formulas,
             "colours": { "light": colours(Theme::Light), "dark": colours(Theme::Dark) },
         });
-        data.line(&serde_json::to_string_pretty(&all).map_err(Failure::internal)?)?;
+        data.data_line(serde_json::to_string_pretty(&all).map_err(Failure::internal)?)?;
         Ok(Outcome::Done)
     }
 }

@@ -83,7 +83,8 @@ impl<R: Robot> Checker<R> {
         Ok(self.motion(&self.robot.edge(a, b)?))
     }
 
-    /// The last configuration along the edge that is proven free: `b` when the whole edge is, `None` when `a` is in contact.
+    /// The last configuration along the edge that is proven free: `b`, its angles in `(-pi, pi]`, when the whole edge is; `None` when `a`
+    /// is in contact.
     ///
     /// # Errors
     /// [`ConfigurationError`] when either end is not a configuration of this robot.

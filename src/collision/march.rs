@@ -24,7 +24,9 @@ pub(super) fn step_clearance<M: Motion>(
         let hull = p0.placed().hull_with(p1.placed());
         let size = largest_coordinate([&hull]);
         let dist = collision.distance_of_hull(hull);
-        least = lesser(dist - motion.sagitta(k, s0, s1) - rounding(size, dist), least);
+        let proven = dist - motion.sagitta(k, s0, s1) - rounding(size, dist);
+        // a bound that is no number proves nothing, whatever the other parts are
+        least = if proven.is_nan() { 0.0 } else { lesser(proven, least) };
         if least <= 0.0 {
             break;
         }

@@ -1,9 +1,9 @@
 //! `verify_certificate`, which accepts certificates. It knows the contracts of [`Motion`] and [`Collision`] and nothing of how a
-//! certificate is made: its hull, its bound and its rounding are its own.
+//! certificate is made: its hull, its bound and its rounding are its own. Only the exact orientation predicate serves both.
 
 use super::{Certificate, CertificateError, Collision, ProvenStep};
 use crate::geometry::{Placed, Point2, Vertices, orientation};
-use crate::num::{greater, ulp};
+use crate::num::{greater, lesser, ulp};
 use crate::robots::Motion;
 use crate::short_list::ShortList;
 
@@ -58,8 +58,10 @@ fn proven<M: Motion>(collision: &dyn Collision, motion: &M, step: &ProvenStep) -
         let distance = collision.distance_of_hull(Placed::new(vertices, radius));
         let rounding = if distance.is_finite() { ROUNDING * ulp(size + distance) } else { 0.0 };
         let proven = distance - motion.sagitta(k, step.from, step.to) - rounding;
-        // written so that a NaN proves nothing
-        least = if proven >= least { least } else { proven };
+        if proven.is_nan() {
+            return 0.0;
+        }
+        least = lesser(proven, least);
     }
     least
 }
@@ -92,10 +94,13 @@ fn around(points: &[Point2]) -> Vertices {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geometry::convex_hull;
+    use crate::collision::{MarchOptions, Scene, march};
+    use crate::configuration::R2;
+    use crate::geometry::{Footprint, Part, Pose2, Segment, Shape, convex_hull};
     use crate::random::{Seed, Stream};
+    use crate::robots::Rates;
 
-    /// The two hulls share no code: sorting and two chains there, a string around the points here.
+    /// The two hulls share no code but the predicate: sorting and two chains there, a string around the points here.
     #[test]
     fn a_string_around_the_points_is_their_hull() {
         let mut s = Stream::new(Seed(5), "string");
@@ -106,5 +111,39 @@ mod tests {
             assert_eq!(around(&points)[..], convex_hull(&points)[..], "{points:?}");
         }
         assert!(around(&[]).is_empty());
+    }
+
+    /// Two discs that stand still, of which one says nothing sensible about how it moves.
+    struct Odd {
+        silent: usize,
+    }
+
+    impl Motion for Odd {
+        type Configuration = R2;
+
+        fn at(&self, _s: f64) -> R2 {
+            R2::new(0.0, 0.0)
+        }
+
+        fn footprint_at(&self, _s: f64) -> Footprint {
+            let disc = |x: f64| Part::new(Pose2::new(x, 0.0, 0.0), Shape::Disc { radius: 0.1 });
+            Footprint::new([disc(0.0), disc(1.0)])
+        }
+
+        fn rates(&self, part: usize) -> Rates {
+            Rates { speed: 0.0, acceleration: if part == self.silent { f64::NAN } else { 0.0 } }
+        }
+    }
+
+    #[test]
+    fn a_bound_that_is_no_number_proves_nothing_whichever_part_it_is_of() {
+        let wall = [Segment::new(Point2::new(-5.0, 2.0), Point2::new(5.0, 2.0))];
+        let scene = Scene::of_walls(&wall);
+        let claim = Certificate::from_steps(0.0, vec![ProvenStep { from: 0.0, to: 1.0, clearance: 1.0 }]);
+        assert_eq!(verify_certificate(&scene, &Odd { silent: 2 }, &claim), Ok(1.0), "1.9 m from the wall");
+        for silent in [0, 1] {
+            assert!(verify_certificate(&scene, &Odd { silent }, &claim).is_err(), "part {silent}");
+            assert!(!march(&scene, &Odd { silent }, MarchOptions::default(), None).is_free(), "part {silent}");
+        }
     }
 }

@@ -2,7 +2,7 @@
 
 use std::fs;
 
-use super::{json, run};
+use super::{json, run, run_in};
 
 #[test]
 fn the_built_in_worlds_are_listed_and_shown_as_files() {
@@ -113,9 +113,51 @@ fn texts_of_files_do_not_steer_the_terminal() {
     let as_json = run(&["world", "check", "--json", path.to_str().unwrap()]).done();
     assert_eq!(json(&as_json)["robots"][0], name, "JSON is data, and stays as it is");
 
+    // data for other programs stays as it is too, on standard output as in a file
+    run_in(folder.path(), &["record", "--ticks", "2", "--world", "yard.ron", "-o", "run.mcap"]).done();
+    for format in ["jsonl", "csv"] {
+        let shown = run_in(folder.path(), &["export", "run.mcap", "--format", format]).done();
+        run_in(folder.path(), &["export", "run.mcap", "--format", format, "-o", "data"]).done();
+        assert_eq!(shown, fs::read_to_string(folder.path().join("data")).unwrap(), "{format}");
+        assert!(shown.contains(name), "{format} names the robot: {shown}");
+    }
+
     let script = folder.path().join("script.ron");
     let text = "Script(version: 1, events: [(tick: 1, robot: \"\\u{1b}[2JRusty\", input: Release)])";
     fs::write(&script, text).unwrap();
     let error = run(&["record", "--ticks", "2", "--script", script.to_str().unwrap()]).failed(3);
     assert!(error.contains("[2JRusty") && !error.contains('\u{1b}'), "{error:?}");
+}
+
+/// Compared pairwise, these would take five thousand million comparisons.
+#[test]
+fn a_hundred_thousand_residents_in_a_row_are_checked_at_once() {
+    use std::fmt::Write as _;
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("row.ron");
+    for (axis, other) in [("x", "y"), ("y", "x")] {
+        let mut robots = String::new();
+        for i in 0..100_000 {
+            let at = f64::from(i) * 0.25 - 9_999.0;
+            // two columns, so that the coordinates stay within what the lab computes with
+            let (along, across) = if at < 9_999.0 { (at, 0) } else { (at - 19_998.0, 1) };
+            let place = if axis == "x" { format!("{along}, {across}") } else { format!("{across}, {along}") };
+            writeln!(robots, "(name: \"{i}\", kind: \"rusty\", start: [{place}, 0]),").unwrap();
+        }
+        let world = |robots: &str| {
+            format!(
+                "World(version: 1, name: \"Row\", bounds: (min: (-10000, -10000), max: (10000, 10000)), robots: [{robots}])"
+            )
+        };
+        fs::write(&path, world(&robots)).unwrap();
+        assert_eq!(run(&["world", "check", path.to_str().unwrap()]).code, Some(0), "along {axis}, not {other}");
+        let touching = robots.replacen("start: [-9998.75, 0", "start: [-9998.875, 0", 1).replacen(
+            "start: [0, -9998.75",
+            "start: [0, -9998.875",
+            1,
+        );
+        fs::write(&path, world(&touching)).unwrap();
+        let error = run(&["world", "check", path.to_str().unwrap()]).failed(3);
+        assert!(error.contains("\"0\" and \"1\" touch"), "along {axis}: {error}");
+    }
 }

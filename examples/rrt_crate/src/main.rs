@@ -25,6 +25,10 @@ use motion_lab::picture::{Figure, Item, Panel, Role, footprint, trace, world};
 use motion_lab::prelude::*;
 
 #[cfg(test)]
+#[path = "../../../tests/oracle/arm.rs"]
+#[allow(dead_code)]
+mod arm;
+#[cfg(test)]
 #[path = "../../../tests/oracle/plain.rs"]
 #[allow(dead_code)]
 mod plain;

@@ -28,7 +28,7 @@ impl<'a> Sink<'a> {
     pub fn line(&mut self, line: impl Display) -> Result<(), Failure> {
         match self {
             Sink::File(path, file) => writeln!(file, "{line}").map_err(|error| Failure::output(path, &error)),
-            Sink::Data(data) => data.line(line),
+            Sink::Data(data) => data.data_line(line),
         }
     }
 

@@ -25,15 +25,18 @@ pub fn problems(world: &World) -> Vec<String> {
     touched.chain(neighbours(world, &residents)).chain(outside(world)).take(MOST).collect()
 }
 
-/// The residents that touch one another: those are compared whose boxes overlap along x.
+/// The residents that touch one another: those are compared whose boxes overlap, found along the axis on which they lie farther apart.
 fn neighbours(world: &World, residents: &[(&str, Footprint)]) -> Vec<String> {
     let nothing = Scene::empty(world.bounds);
-    let mut spans: Vec<(f64, f64, usize)> = (0..residents.len())
-        .filter_map(|i| {
-            let (low, high) = around(residents[i].1.parts().iter().map(|p| p.placed()))?;
-            Some((low.x, high.x, i))
-        })
+    let boxes: Vec<(Point2, Point2, usize)> = (0..residents.len())
+        .filter_map(|i| around(residents[i].1.parts().iter().map(|p| p.placed())).map(|(low, high)| (low, high, i)))
         .collect();
+    // a pair overlaps along both axes, so the axis along which fewer do is the one to go along
+    let pairs = [0, 1].map(|axis| overlaps(&boxes, axis));
+    let mut spans: Vec<(f64, f64, usize)> = {
+        let axis = usize::from(pairs[1] < pairs[0]);
+        boxes.iter().map(|(low, high, i)| (low[axis], high[axis], *i)).collect()
+    };
     spans.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.2.cmp(&b.2)));
     let mut found = Vec::new();
     for (k, (_, right, i)) in spans.iter().enumerate() {
@@ -50,6 +53,23 @@ fn neighbours(world: &World, residents: &[(&str, Footprint)]) -> Vec<String> {
         }
     }
     found
+}
+
+/// How many pairs of boxes overlap along an axis, by their sorted ends.
+fn overlaps(boxes: &[(Point2, Point2, usize)], axis: usize) -> u64 {
+    let mut lows: Vec<f64> = boxes.iter().map(|b| b.0[axis]).collect();
+    let mut highs: Vec<f64> = boxes.iter().map(|b| b.1[axis]).collect();
+    lows.sort_by(f64::total_cmp);
+    highs.sort_by(f64::total_cmp);
+    // each box overlaps those that begin before it ends, less those that ended before it began
+    let (mut ended, mut pairs) = (0, 0);
+    for (begun, low) in lows.iter().enumerate() {
+        while highs[ended] < *low {
+            ended += 1;
+        }
+        pairs += (begun - ended) as u64;
+    }
+    pairs
 }
 
 /// The obstacles of which nothing lies within the bounds.
