@@ -13,7 +13,7 @@ use std::fmt;
 
 use motion_lab::configuration::{ChartMismatch, Coordinates};
 use motion_lab::geometry::Tangent2;
-use motion_lab::num::{atan2, cos, hypot, sin, sin_cos, tan, wrap};
+use motion_lab::num::{atan2, cos, hypot, in_range, sin, sin_cos, tan, wrap};
 use motion_lab::prelude::*;
 use motion_lab::recording::{Run, final_lines};
 use motion_lab::robots::{ConfigurationError, PartRates, Rates};
@@ -63,6 +63,10 @@ impl Configuration for TrainCfg {
             }
         });
         Ok(TrainCfg { body: self.body.interpolate(&to.body, s)?, psi })
+    }
+
+    fn in_chart(&self) -> Self {
+        TrainCfg { body: self.body.in_chart(), psi: self.psi.map(in_range) }
     }
 
     fn coordinates(&self) -> Coordinates {

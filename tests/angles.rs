@@ -166,6 +166,19 @@ fn angles_in_range_keep_their_bits() {
         let same = edge.at(0.0).0.iter().zip(q.0).all(|(a, b)| a.to_bits() == b.to_bits());
         assert!(same, "{q:?} {:?}", edge.at(0.0));
     }
+    // of a pose and a trailer too: in edges, drives and parts
+    let body = Pose2 { x: 1.0, y: 2.0, theta: -0.0 };
+    let (towing, car) = (HITCH.with_trailer(), HitchCfg { body, trailer: Some(-0.0) });
+    let (u, rover) = (CarCmd { v: 1.0, phi: 0.1 }, RustyCmd { v: 0.1, omega: 0.1 });
+    let minus_zero = |x: f64| x.to_bits() == (-0.0_f64).to_bits();
+    for q in [towing.edge(&car, &car).unwrap().at(0.0), towing.drive(&car, &u, 0.1).unwrap().at(0.0)] {
+        assert!(minus_zero(q.body.theta) && q.trailer.is_some_and(minus_zero), "{q:?}");
+    }
+    for q in [RUSTY.edge(&body, &body).unwrap().at(0.0), RUSTY.drive(&body, &rover, 0.1).unwrap().at(0.0)] {
+        assert!(minus_zero(q.theta), "{q:?}");
+    }
+    assert!(towing.footprint(&car).parts().iter().all(|part| minus_zero(part.pose().theta)));
+
     let edge = Reach::<2>::workbench().edge(&Tn([-PI, 0.0]), &Tn([-PI, 0.0])).unwrap();
     assert_eq!(edge.at(0.0), Tn([PI, 0.0]), "-pi is pi");
 }

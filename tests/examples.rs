@@ -150,7 +150,7 @@ fn a_robot_of_ones_own() {
 
 #[test]
 fn the_bounds_of_a_robot_of_ones_own_hold() {
-    use custom_robot::TRAIN;
+    use custom_robot::{TRAIN, TrainCfg};
     let mut s = Stream::new(Seed(4), "train");
     let holds = |footprint_at: &dyn Fn(f64) -> Footprint, rates: PartRates| {
         for i in 0..16 {
@@ -176,6 +176,10 @@ fn the_bounds_of_a_robot_of_ones_own_hold() {
         let edge = TRAIN.edge(&a, &b).unwrap();
         holds(&|s| edge.footprint_at(s), TRAIN.edge_rates(&a, &b).unwrap());
         assert_eq!((edge.at(0.0), edge.at(1.0)), (a, b));
+        // three turns on, as the language's own remainder has it: the same edge but for rounding
+        let far = TrainCfg { psi: a.psi.map(|psi| psi + 3.0 * TAU), ..a };
+        let near = TrainCfg { psi: far.psi.map(|psi| short(0.0, psi)), ..a };
+        assert_eq!(TRAIN.edge(&far, &b).unwrap().at(0.0), near);
         let u = CarCmd { v: s.uniform(-3.0, 3.0), phi: s.uniform(-0.7, 0.7) };
         let drive = TRAIN.drive(&a, &u, 0.2).unwrap();
         holds(&|s| drive.footprint_at(s), (0..3).map(|part| drive.rates(part)).collect());

@@ -12,6 +12,7 @@ mod anatomy;
 mod angles;
 #[cfg(feature = "cli")]
 mod atlas;
+mod certificates;
 mod chapter;
 #[cfg(feature = "cli")]
 mod cli;

@@ -2,7 +2,7 @@
 //!
 //! **The frames' digest** covers every bit of every frame and nothing else. It may change only when robots, sensors, tours or the
 //! simulator are meant to move differently, or when a frame holds something new. Then every recorded run of every user stops
-//! verifying, so it needs a reason in the issue that asks for it, and everyone who keeps logs must be told: by a line in CHANGELOG,
+//! verifying, so it needs a reason in the issue that asks for it, and everyone who keeps logs must hear of it: by a line in CHANGELOG,
 //! under "Digests", that names the run, the new digest and why.
 //!
 //! **The run digest** ([`motion_lab::run::RunDigest`]) covers the frames, and the seed, the configuration, the worlds' content and

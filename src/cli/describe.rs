@@ -4,8 +4,7 @@ use clap::Args;
 use serde_json::{Map, Value, json};
 
 use super::{Data, Failure, Outcome};
-use motion_lab::picture::Theme;
-use motion_lab::picture::{Rgb, Role};
+use motion_lab::picture::{Rgb, Role, Theme};
 use motion_lab::ui::{Formula, widgets};
 
 /// Print what a page about the lab needs, as JSON: each widget's words, the formulas of the configuration spaces in MathML, and the

@@ -2,8 +2,9 @@
 
 use super::clear_way::halve;
 use super::disc_line::DiscLine;
-use super::march::{BRACKET, step_clearance};
+use super::march::BRACKET;
 use super::nearby::march_nearby;
+use super::step::step_clearance;
 use super::{Certificate, Collision, EdgeVerdict, ObstacleId, ProvenStep, Scene, Witness};
 use crate::geometry::{CircularArc, Footprint, Point2, Segment};
 use crate::num::{greater, ulp};

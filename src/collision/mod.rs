@@ -29,6 +29,7 @@ mod search;
 mod segments;
 mod shared;
 mod sides;
+mod step;
 mod surroundings;
 mod swept;
 mod tree;

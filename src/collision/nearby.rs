@@ -3,8 +3,9 @@
 use smallvec::SmallVec;
 
 use super::extent::Extent;
-use super::march::{Ground, Place, go, hit, march_on, rounding, step_clearance, width};
+use super::march::{Ground, Place, go, hit, march_on, width};
 use super::pinch::{Pace, pinch};
+use super::step::{rounding, step_clearance};
 use super::vicinity::Vicinity;
 use super::{Certificate, Collision, EdgeVerdict, MarchOptions, ProvenStep, Scene};
 use crate::geometry::{Footprint, largest_coordinate};

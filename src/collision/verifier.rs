@@ -2,7 +2,7 @@
 //! certificate is made: its hull, its bound and its rounding are its own. Only the exact orientation predicate serves both.
 
 use super::{Certificate, CertificateError, Collision, ProvenStep};
-use crate::geometry::{Placed, Point2, Vertices, orientation};
+use crate::geometry::{Footprint, Placed, Point2, Vertices, orientation};
 use crate::num::{greater, lesser, ulp};
 use crate::robots::Motion;
 use crate::short_list::ShortList;
@@ -41,11 +41,11 @@ pub fn verify_certificate<M: Motion>(
     Ok(at)
 }
 
-/// The clearance that the contracts prove along a step, metres; 0 where the footprints at its ends don't match.
+/// The clearance that the contracts prove along a step, metres; 0 where the footprints at its ends don't match or are not valid.
 fn proven<M: Motion>(collision: &dyn Collision, motion: &M, step: &ProvenStep) -> f64 {
     let ends = [step.from, step.to].map(|s| motion.footprint_at(s));
     let [from, to] = [0, 1].map(|i: usize| ends[i].parts());
-    if from.len() != to.len() {
+    if from.len() != to.len() || !ends.iter().all(Footprint::is_valid) {
         return 0.0;
     }
     let mut least = f64::INFINITY;
@@ -96,7 +96,7 @@ mod tests {
     use super::*;
     use crate::collision::{MarchOptions, Scene, march};
     use crate::configuration::R2;
-    use crate::geometry::{Footprint, Part, Pose2, Segment, Shape, convex_hull};
+    use crate::geometry::{Part, Pose2, Segment, Shape, convex_hull};
     use crate::random::{Seed, Stream};
     use crate::robots::Rates;
 
@@ -113,9 +113,11 @@ mod tests {
         assert!(around(&[]).is_empty());
     }
 
-    /// Two discs that stand still, of which one says nothing sensible about how it moves.
+    /// Two segments that stand still; one may say nothing sensible about how it moves, and a number of either may be none at one end.
+    #[derive(Default)]
     struct Odd {
-        silent: usize,
+        silent: Option<usize>,
+        lost: Option<(usize, f64)>,
     }
 
     impl Motion for Odd {
@@ -125,25 +127,37 @@ mod tests {
             R2::new(0.0, 0.0)
         }
 
-        fn footprint_at(&self, _s: f64) -> Footprint {
-            let disc = |x: f64| Part::new(Pose2::new(x, 0.0, 0.0), Shape::Disc { radius: 0.1 });
-            Footprint::new([disc(0.0), disc(1.0)])
+        fn footprint_at(&self, s: f64) -> Footprint {
+            // two ends and a radius of either part
+            let mut numbers = [0.0, 0.5, 0.1, 1.0, 1.5, 0.1];
+            if let Some((number, _)) = self.lost.filter(|(_, at)| *at == s) {
+                numbers[number] = f64::NAN;
+            }
+            let part = |[a, b, radius]: [f64; 3]| {
+                let (a, b) = (Point2::new(a, 0.0), Point2::new(b, 0.0));
+                Part::new(Pose2::IDENTITY, Shape::Capsule { a, b, radius })
+            };
+            let [a, b, c, d, e, f] = numbers;
+            Footprint::new([part([a, b, c]), part([d, e, f])])
         }
 
         fn rates(&self, part: usize) -> Rates {
-            Rates { speed: 0.0, acceleration: if part == self.silent { f64::NAN } else { 0.0 } }
+            Rates { speed: 0.0, acceleration: if self.silent == Some(part) { f64::NAN } else { 0.0 } }
         }
     }
 
     #[test]
-    fn a_bound_that_is_no_number_proves_nothing_whichever_part_it_is_of() {
+    fn what_is_no_number_proves_nothing_wherever_it_is() {
         let wall = [Segment::new(Point2::new(-5.0, 2.0), Point2::new(5.0, 2.0))];
         let scene = Scene::of_walls(&wall);
         let claim = Certificate::from_steps(0.0, vec![ProvenStep { from: 0.0, to: 1.0, clearance: 1.0 }]);
-        assert_eq!(verify_certificate(&scene, &Odd { silent: 2 }, &claim), Ok(1.0), "1.9 m from the wall");
-        for silent in [0, 1] {
-            assert!(verify_certificate(&scene, &Odd { silent }, &claim).is_err(), "part {silent}");
-            assert!(!march(&scene, &Odd { silent }, MarchOptions::default(), None).is_free(), "part {silent}");
+        assert_eq!(verify_certificate(&scene, &Odd::default(), &claim), Ok(1.0), "1.9 m from the wall");
+        let silent = [0, 1].map(|part| Odd { silent: Some(part), lost: None });
+        let lost = [0.0, 1.0].map(|at| [0, 1, 2, 3, 4, 5].map(|number| Odd { silent: None, lost: Some((number, at)) }));
+        for odd in silent.iter().chain(lost.as_flattened()) {
+            assert!(verify_certificate(&scene, odd, &claim).is_err(), "{:?} {:?}", odd.silent, odd.lost);
+            let verdict = march(&scene, odd, MarchOptions::default(), None);
+            assert!(!verdict.is_free(), "{:?} {:?}", odd.silent, odd.lost);
         }
     }
 }

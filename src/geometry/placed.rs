@@ -63,7 +63,9 @@ impl Placed {
     pub fn hull_with(&self, other: &Placed) -> Placed {
         let mut points: ShortList<Point2, 16> = ShortList::from_slice(&self.core);
         points.extend_from_slice(&other.core);
-        Placed { core: convex_hull(&points), radius: greater(self.radius, other.radius) }
+        // a radius that is no number stays none, and such a shape is not valid
+        let radius = if self.radius.is_nan() { self.radius } else { greater(self.radius, other.radius) };
+        Placed { core: convex_hull(&points), radius }
     }
 }
 

@@ -109,7 +109,7 @@ impl Resident {
     }
 
     /// The robot as a world file may have it: the kind known, as many coordinates as it has, a place within the coordinates that the
-    /// lab computes with, and the angles wrapped to `(-pi, pi]`. The name is not looked at.
+    /// lab computes with, and the angles wrapped to `(-pi, pi]`. The name is not checked.
     ///
     /// # Errors
     /// [`WorldProblem`](super::WorldProblem): the kind, the number of coordinates, one that is not finite or too large, or a sensor that

@@ -92,7 +92,7 @@ fn a_forged_recording_is_4_and_the_first_difference_is_named() {
     assert!(!output.exists());
 }
 
-/// What is no log is told by its first bytes: this file has no end.
+/// A file that is no log is refused by its first bytes: this one has no end.
 #[cfg(unix)]
 #[test]
 fn a_file_without_an_end_is_not_read_to_it() {

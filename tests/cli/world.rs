@@ -80,6 +80,10 @@ fn residents_in_contact_and_obstacles_out_of_sight_are_refused_by_name() {
     assert_eq!(checked(&format!("{anna}, {}", bert("3.25")), tree).code, Some(0));
     let touching = checked(&format!("{anna}, {}", bert("3.21875")), tree).failed(3);
     assert!(touching.contains(&format!("{file}: \"Anna\" and \"Bert\" touch")), "{touching}");
+    // their boxes overlap, but they are 0.24 m apart, and 0.097 m from the tree
+    let aside = bert("3.171875").replace(", 3, 0]", ", 3.171875, 0]");
+    let off_the_tree = "(name: \"Cleo\", kind: \"rusty\", start: [2.5, 3.5, 0])";
+    assert_eq!(checked(&format!("{anna}, {aside}, {off_the_tree}"), tree).code, Some(0));
     // the tree reaches to x = 2.5, a rover to 0.11 m from its centre
     let inside = checked(&format!("{anna}, {}", bert("2.59375")), tree).failed(3);
     assert!(inside.contains("\"Bert\" starts in contact with \"the tree\"") && !inside.contains("Anna"), "{inside}");

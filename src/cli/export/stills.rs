@@ -3,8 +3,7 @@
 use std::path::Path;
 
 use clap::Args;
-use motion_lab::capture::RunFigure;
-use motion_lab::capture::{CaptureError, GifWriter, Image, Raster, Size, TICK_HUNDREDTHS, write_png};
+use motion_lab::capture::{CaptureError, GifWriter, Image, Raster, RunFigure, Size, TICK_HUNDREDTHS, write_png};
 use motion_lab::picture::Theme;
 use motion_lab::run::Log;
 

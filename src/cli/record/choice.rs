@@ -45,7 +45,6 @@ pub fn choose(worlds: &mut [World], choices: &[RobotChoice]) -> Result<(), Failu
         let keep = |r: &Resident| {
             let choice = choices.iter().find(|c| c.name == r.name)?;
             Some(match choice.stand_in.clone() {
-                // a program's own kinds are unknown here: only the run can say so
                 Some((kind, start)) => Resident::try_new(r.name.clone(), kind, start, None).map_err(|problem| {
                     Failure::usage(format!("--robot {}: {problem}", r.name), "See `motion-lab record --help`.")
                 }),

@@ -3,8 +3,7 @@
 use std::collections::BTreeSet;
 
 use motion_lab::geometry::{Point2, Pose2};
-use motion_lab::picture::Theme;
-use motion_lab::picture::{Role, polygon_of};
+use motion_lab::picture::{Role, Theme, polygon_of};
 use motion_lab::simulation::RobotView;
 use motion_lab::worlds::World;
 
