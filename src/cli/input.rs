@@ -6,12 +6,20 @@ use std::path::{Path, PathBuf};
 
 use super::{Data, Failure, Outcome, say};
 
-/// The greatest size of a world or script file, bytes.
+/// The greatest size of a script, a map or another text, bytes.
 pub const MAX_TEXT: u64 = 64 << 20;
+
+/// The greatest size of a world file and of a drawing, bytes: 160 for each of as many shapes as a world holds.
+pub const MAX_WORLD: u64 = 16 << 20;
 
 /// The whole file as text.
 pub fn read_text(path: &Path) -> Result<String, Failure> {
-    let bytes = read_bytes(path, MAX_TEXT)?;
+    read_text_of(path, MAX_TEXT)
+}
+
+/// The whole file as text, at most `limit` bytes.
+pub fn read_text_of(path: &Path, limit: u64) -> Result<String, Failure> {
+    let bytes = read_bytes(path, limit)?;
     String::from_utf8(bytes).map_err(|error| {
         let at = error.utf8_error().valid_up_to();
         let line = error.as_bytes()[..at].iter().filter(|&&b| b == b'\n').count() + 1;

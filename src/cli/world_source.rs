@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use motion_lab::worlds::World;
 
 use super::Failure;
-use super::input::read_text;
+use super::input::{MAX_WORLD, read_text_of};
 
 /// The world that `name` names: the built-in one of that name, else the file at that path.
 pub fn find_world(name: &str) -> Result<World, Failure> {
@@ -24,7 +24,7 @@ pub fn find_world(name: &str) -> Result<World, Failure> {
 
 /// The world in a file.
 pub fn read_world(path: &Path) -> Result<World, Failure> {
-    let text = read_text(path)?;
+    let text = read_text_of(path, MAX_WORLD)?;
     World::parse(&path.display().to_string(), &text).map_err(|error| {
         Failure::input(error, "Correct it there. `motion-lab world show apartment` prints a world file to go by.")
     })

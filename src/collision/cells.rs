@@ -1,6 +1,6 @@
 //! `Cells`, a grid that says which segments and discs are where, for scans of large worlds.
 
-use super::segments::{Circle, SegmentSoup};
+use super::segments::{Circle, SegmentArrays, SegmentSoup};
 use crate::geometry::{Point2, Segment};
 use crate::num::{greater, lesser, sqrt};
 
@@ -29,6 +29,8 @@ pub(crate) struct Place {
 
 /// At most so many cells a side.
 const MOST: f64 = 512.0;
+/// The largest number of cells that a thing touches on average. A grid has at least four cells, and a thing touches all of them at worst.
+const PAIRS: usize = 16;
 
 impl Cells {
     /// The grid over a soup, with about as many cells as things in it; `None` where its boundary is not finite.
@@ -42,20 +44,23 @@ impl Cells {
             .copied()
             .reduce(|a, b| [lesser(a[0], b[0]), lesser(a[1], b[1]), greater(a[2], b[2]), greater(a[3], b[3])])?;
         let (width, height) = (x1 - x0, y1 - y0);
-        let size = greater(1.6 * sqrt(width * height / count as f64), greater(width, height) / MOST);
-        // a grid that reaches a little farther than all there is, so that rounding puts nothing outside
-        let (size, corner) = (size * (1.0 + 1e-9), Point2::new(x0 - 0.01 * size, y0 - 0.01 * size));
-        let cells = |extent: f64| (extent / size) as i64 + 2;
-        if !(size > 0.0 && size.is_finite()) {
-            return None;
-        }
-        let (columns, rows) = (cells(width), cells(height));
-        let mut grid = Cells { corner, size, columns, rows, starts: vec![], things: vec![], segments: vec![] };
-        let mut pairs: Vec<(u32, u32)> = Vec::new();
-        for (i, b) in boxes.iter().enumerate() {
-            let segment = (i < segments.len()).then(|| segments.segment(i));
-            grid.touched(b, segment, |cell| pairs.push((cell, i as u32)));
-        }
+        let mut size = greater(1.6 * sqrt(width * height / count as f64), greater(width, height) / MOST);
+        let (mut grid, mut pairs) = loop {
+            // a grid that reaches a little farther than all there is, so that rounding puts nothing outside
+            size *= 1.0 + 1e-9;
+            let corner = Point2::new(x0 - 0.01 * size, y0 - 0.01 * size);
+            let cells = |extent: f64| (extent / size) as i64 + 2;
+            if !(size > 0.0 && size.is_finite()) {
+                return None;
+            }
+            let (columns, rows) = (cells(width), cells(height));
+            let grid = Cells { corner, size, columns, rows, starts: vec![], things: vec![], segments: vec![] };
+            // larger cells where long segments touch so many that they would fill the memory
+            match grid.pairs(&boxes, segments, PAIRS * count) {
+                Some(pairs) => break (grid, pairs),
+                None => size *= 2.0,
+            }
+        };
         pairs.sort_unstable();
         grid.starts = vec![0; (grid.columns * grid.rows) as usize + 1];
         for (cell, _) in &pairs {
@@ -76,6 +81,19 @@ impl Cells {
         };
         grid.things = pairs.into_iter().map(number).collect();
         Some(grid)
+    }
+
+    /// Each cell with each thing that touches it; `None` where they are more than `most`.
+    fn pairs(&self, boxes: &[[f64; 4]], segments: &SegmentArrays, most: usize) -> Option<Vec<(u32, u32)>> {
+        let mut pairs = Vec::new();
+        for (i, b) in boxes.iter().enumerate() {
+            let segment = (i < segments.len()).then(|| segments.segment(i));
+            self.touched(b, segment, |cell| pairs.push((cell, i as u32)));
+            if pairs.len() > most {
+                return None;
+            }
+        }
+        Some(pairs)
     }
 
     /// Calls `visit` with every cell that something with this box touches, and for a segment with those that its own way

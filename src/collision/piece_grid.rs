@@ -35,6 +35,11 @@ struct Block {
 }
 
 impl Block {
+    /// How many cells it has.
+    fn count(&self) -> usize {
+        usize::from(self.right - self.left + 1) * usize::from(self.high - self.low + 1)
+    }
+
     fn meets(&self, other: &Block) -> bool {
         self.left <= other.right && other.left <= self.right && self.low <= other.high && other.low <= self.high
     }
@@ -64,12 +69,19 @@ impl PieceGrid {
         let (columns, rows) = (cells(width), cells(height));
         let mut grid =
             PieceGrid { corner: all.min, size, inverse: 1.0 / size, columns, rows, starts: vec![], items: vec![] };
+        // counted before the cells are visited: boxes that all cover everything have as many entries as boxes times cells
+        let mut entries = 0;
+        for extent in extents {
+            entries += grid.block(extent).count();
+            if entries > ENTRIES * extents.len() {
+                return None;
+            }
+        }
         let mut counts = vec![0_u32; usize::from(columns) * usize::from(rows) + 1];
         for extent in extents {
             grid.each_cell(&grid.block(extent), |cell| counts[cell + 1] += 1);
         }
-        let entries: usize = counts.iter().map(|&n| n as usize).sum();
-        if entries > ENTRIES * extents.len() || counts.iter().any(|&n| n > CROWD) {
+        if counts.iter().any(|&n| n > CROWD) {
             return None;
         }
         for i in 1..counts.len() {

@@ -1,5 +1,7 @@
 //! A simple polygon cut into convex pieces, by exact predicates and without new vertices.
 
+use std::collections::{BTreeMap, BTreeSet};
+
 use crate::geometry::{ConvexPolygon, Point2, PolygonError, orientation};
 
 /// The greatest number of vertices of a polygon that is not convex: cutting it up takes quadratic time and more.
@@ -59,13 +61,16 @@ fn corners(outline: &[Point2], piece: &[usize]) -> Vec<Point2> {
 
 /// Whether the closed segments `a b` and `c d` have a point in common, exactly.
 fn segments_meet([a, b]: [Point2; 2], [c, d]: [Point2; 2]) -> bool {
+    let apart =
+        |p: f64, q: f64, r: f64, s: f64| (p < r && p < s && q < r && q < s) || (p > r && p > s && q > r && q > s);
+    if apart(a.x, b.x, c.x, d.x) || apart(a.y, b.y, c.y, d.y) {
+        return false;
+    }
+    // on one line each sign is 0, and the boxes have decided
     let sign = |x: f64| if x == 0.0 { 0 } else { x.signum() as i32 };
     let (c_side, d_side) = (sign(orientation(a, b, c)), sign(orientation(a, b, d)));
     let (a_side, b_side) = (sign(orientation(c, d, a)), sign(orientation(c, d, b)));
-    let apart =
-        |p: f64, q: f64, r: f64, s: f64| (p < r && p < s && q < r && q < s) || (p > r && p > s && q > r && q > s);
-    // on one line each sign is 0, and the boxes decide
-    c_side * d_side <= 0 && a_side * b_side <= 0 && !apart(a.x, b.x, c.x, d.x) && !apart(a.y, b.y, c.y, d.y)
+    c_side * d_side <= 0 && a_side * b_side <= 0
 }
 
 /// That no two edges meet but neighbours, and those in their common vertex only.
@@ -91,28 +96,38 @@ fn check_simple(outline: &[Point2]) -> Result<(), OutlineError> {
     Ok(())
 }
 
-/// The indices of a simple polygon's triangles, each counter-clockwise. None is flat.
+/// The indices of a simple polygon's triangles, each counter-clockwise. None is flat. The first ear along the ring is clipped first.
+///
+/// What keeps a corner from being an ear is remembered: the corner's own turn, or a vertex within its triangle. It stays in the way
+/// until it is clipped itself or the corner gets another neighbour. Without that memory a spiral of n corners takes n^3 steps.
 fn triangulate(outline: &[Point2]) -> Vec<Vec<usize>> {
     let turn = |i: usize, j: usize, k: usize| orientation(outline[i], outline[j], outline[k]);
     let mut ring: Vec<usize> = (0..outline.len()).collect();
     if clockwise(outline) {
         ring.reverse();
     }
+    let mut in_the_way: Vec<Option<usize>> = vec![None; outline.len()];
+    let mut clipped = vec![false; outline.len()];
     let mut triangles = Vec::new();
     while ring.len() > 3 {
         let m = ring.len();
         let around = |at: usize| (ring[(at + m - 1) % m], ring[at], ring[(at + 1) % m]);
-        let is_ear = |&at: &usize| {
+        let mut is_ear = |&at: &usize| {
             let (i, j, k) = around(at);
+            if in_the_way[j].is_some_and(|p| !clipped[p]) {
+                return false;
+            }
             let inside = |&p: &usize| {
                 p != i && p != j && p != k && turn(i, j, p) >= 0.0 && turn(j, k, p) >= 0.0 && turn(k, i, p) >= 0.0
             };
-            turn(i, j, k) > 0.0 && !ring.iter().any(inside)
+            in_the_way[j] = if turn(i, j, k) > 0.0 { ring.iter().copied().find(inside) } else { Some(j) };
+            in_the_way[j].is_none()
         };
         // a simple polygon always has an ear; the loop would end without one rather than hang
-        let Some(ear) = (0..m).find(is_ear) else { break };
+        let Some(ear) = (0..m).find(&mut is_ear) else { break };
         let (i, j, k) = around(ear);
         triangles.push(vec![i, j, k]);
+        (in_the_way[i], in_the_way[k], clipped[j]) = (None, None, true);
         ring.remove(ear);
     }
     triangles.push(ring);
@@ -128,23 +143,29 @@ fn clockwise(outline: &[Point2]) -> bool {
     orientation(outline[(lowest + n - 1) % n], outline[lowest], outline[(lowest + 1) % n]) < 0.0
 }
 
-/// Joins pieces across common edges while the result stays strictly convex.
-fn merge(outline: &[Point2], mut pieces: Vec<Vec<usize>>) -> Vec<Vec<usize>> {
-    let mut at = 0;
-    while at < pieces.len() {
-        let joined = (at + 1..pieces.len()).find_map(|other| {
-            let ring = join(&pieces[at], &pieces[other])?;
-            ConvexPolygon::try_new(&corners(outline, &ring)).is_ok().then_some((other, ring))
-        });
-        match joined {
-            Some((other, ring)) => {
-                pieces[at] = ring;
-                pieces.remove(other);
-            }
-            None => at += 1,
+/// Joins pieces across common edges while the result stays strictly convex: each with the first of those behind it that fits.
+fn merge(outline: &[Point2], pieces: Vec<Vec<usize>>) -> Vec<Vec<usize>> {
+    let edges = |ring: &[usize]| (0..ring.len()).map(|i| (ring[i], ring[(i + 1) % ring.len()])).collect::<Vec<_>>();
+    // each directed edge is in one piece, and its neighbour across it has the edge the other way round
+    let mut owners: BTreeMap<(usize, usize), usize> = BTreeMap::new();
+    for (piece, ring) in pieces.iter().enumerate() {
+        owners.extend(edges(ring).into_iter().map(|edge| (edge, piece)));
+    }
+    let mut pieces: Vec<Option<Vec<usize>>> = pieces.into_iter().map(Some).collect();
+    for at in 0..pieces.len() {
+        while let Some(ring) = &pieces[at] {
+            let beside: BTreeSet<usize> =
+                edges(ring).into_iter().filter_map(|(from, to)| owners.get(&(to, from)).copied()).collect();
+            let joined = beside.range(at + 1..).find_map(|&other| {
+                let ring = join(ring, pieces[other].as_ref()?)?;
+                ConvexPolygon::try_new(&corners(outline, &ring)).is_ok().then_some((other, ring))
+            });
+            let Some((other, ring)) = joined else { break };
+            owners.extend(edges(&ring).into_iter().map(|edge| (edge, at)));
+            (pieces[at], pieces[other]) = (Some(ring), None);
         }
     }
-    pieces
+    pieces.into_iter().flatten().collect()
 }
 
 /// Two rings joined along an edge that they share in opposite directions.
@@ -227,6 +248,81 @@ mod tests {
             let outline: Vec<Point2> = (0..n).map(|k| vertex(k, s.uniform(0.5, 6.0))).collect();
             check(&outline, &mut s);
         }
+    }
+
+    /// Every corner tried anew for every triangle.
+    fn triangulate_plainly(outline: &[Point2]) -> Vec<Vec<usize>> {
+        let turn = |i: usize, j: usize, k: usize| orientation(outline[i], outline[j], outline[k]);
+        let mut ring: Vec<usize> = (0..outline.len()).collect();
+        if clockwise(outline) {
+            ring.reverse();
+        }
+        let mut triangles = Vec::new();
+        while ring.len() > 3 {
+            let m = ring.len();
+            let around = |at: usize| (ring[(at + m - 1) % m], ring[at], ring[(at + 1) % m]);
+            let is_ear = |&at: &usize| {
+                let (i, j, k) = around(at);
+                let inside = |&p: &usize| {
+                    p != i && p != j && p != k && turn(i, j, p) >= 0.0 && turn(j, k, p) >= 0.0 && turn(k, i, p) >= 0.0
+                };
+                turn(i, j, k) > 0.0 && !ring.iter().any(inside)
+            };
+            // a simple polygon always has an ear; the loop would end without one rather than hang
+            let Some(ear) = (0..m).find(is_ear) else { break };
+            let (i, j, k) = around(ear);
+            triangles.push(vec![i, j, k]);
+            ring.remove(ear);
+        }
+        triangles.push(ring);
+        triangles
+    }
+
+    /// Every pair of pieces tried anew for every one that is joined.
+    fn merge_plainly(outline: &[Point2], mut pieces: Vec<Vec<usize>>) -> Vec<Vec<usize>> {
+        let mut at = 0;
+        while at < pieces.len() {
+            let joined = (at + 1..pieces.len()).find_map(|other| {
+                let ring = join(&pieces[at], &pieces[other])?;
+                ConvexPolygon::try_new(&corners(outline, &ring)).is_ok().then_some((other, ring))
+            });
+            match joined {
+                Some((other, ring)) => {
+                    pieces[at] = ring;
+                    pieces.remove(other);
+                }
+                None => at += 1,
+            }
+        }
+        pieces
+    }
+
+    /// Worlds keep their pieces, and so their runs: the first ear first, and each piece with the first behind it that fits.
+    #[test]
+    fn what_is_remembered_changes_no_piece() {
+        let mut s = Stream::new(Seed(4), "pieces");
+        let mut spirals = 0;
+        for round in 0..60 {
+            // the inside of a spiral's band of random width, out and back
+            let n = 6 + s.below(60) as usize;
+            let (wide, step) = (s.uniform(0.1, 0.45), s.uniform(0.15, 0.6));
+            let at = |k: usize, r: f64| {
+                let angle = step * k as f64;
+                let r =
+                    r + 0.9 * angle / std::f64::consts::TAU + if round % 2 == 0 { 0.0 } else { 0.02 * (k % 3) as f64 };
+                Point2::new(r * num::cos(angle), r * num::sin(angle))
+            };
+            let outline: Vec<Point2> =
+                (0..n).map(|k| at(k, 1.0)).chain((0..n).rev().map(|k| at(k, 1.0 - wide))).collect();
+            if check_simple(&outline).is_err() {
+                continue;
+            }
+            spirals += 1;
+            let triangles = triangulate_plainly(&outline);
+            assert_eq!(triangulate(&outline), triangles, "{outline:?}");
+            assert_eq!(merge(&outline, triangles.clone()), merge_plainly(&outline, triangles), "{outline:?}");
+        }
+        assert!(spirals > 40, "{spirals}");
     }
 
     #[test]

@@ -2,24 +2,36 @@
 
 use super::description::{BoundsText, ObstacleText, PlaceText, PolylineText, RobotText, ShapeText, Xy, point};
 use super::parse::check_name;
-use super::{BeamModel, Bounds, MAX_ITEMS, Mark, Obstacle, ObstacleKind, Place, Resident, WorldProblem};
-use crate::geometry::{MAX_COORDINATE, Point2, Pose2, Shape, ShapeError, convex_hull};
+use super::{
+    BeamModel, Bounds, MAX_CONCAVE_VERTICES, MAX_ITEMS, Mark, Obstacle, ObstacleKind, Place, Resident, WorldProblem,
+};
+use crate::geometry::{ConvexPolygon, MAX_COORDINATE, Point2, Pose2, Shape, ShapeError, convex_hull};
 use crate::num;
 
-/// How many more shapes the world may have.
+/// How many more shapes the world may have, and how many more corners its polygons: cutting up the concave ones takes quadratic time.
 pub(super) struct Budget {
     left: usize,
+    corners: usize,
 }
 
 impl Default for Budget {
     fn default() -> Self {
-        Budget { left: MAX_ITEMS }
+        Budget { left: MAX_ITEMS, corners: MAX_CORNERS }
     }
 }
+
+/// The largest number of corners of a world's concave polygons together.
+const MAX_CORNERS: usize = MAX_ITEMS;
 
 impl Budget {
     fn spend(&mut self, shapes: usize) -> Result<(), WorldProblem> {
         self.left = self.left.checked_sub(shapes).ok_or(WorldProblem::TooMany { what: "shapes" })?;
+        Ok(())
+    }
+
+    fn spend_corners(&mut self, corners: usize) -> Result<(), WorldProblem> {
+        let what = "corners of concave polygons";
+        self.corners = self.corners.checked_sub(corners).ok_or(WorldProblem::TooMany { what })?;
         Ok(())
     }
 }
@@ -96,7 +108,12 @@ fn make_pieces(text: &ShapeText, solid: &mut Obstacle, budget: &mut Budget) -> R
         }
         ShapeText::Box { min, max } => solid.pieces.push(at_origin(make_box(make_point(*min)?, make_point(*max)?)?)),
         ShapeText::Polygon(outline) => {
-            solid.add_polygon(&outline.iter().map(|&xy| point(xy)).collect::<Vec<_>>())?;
+            let points: Vec<Point2> = outline.iter().map(|&xy| point(xy)).collect();
+            // more than can be cut up are refused there
+            if points.len() <= MAX_CONCAVE_VERTICES && ConvexPolygon::try_new(&points).is_err() {
+                budget.spend_corners(points.len())?;
+            }
+            solid.add_polygon(&points)?;
         }
         ShapeText::Rounded { points, radius } => {
             let points: Vec<Point2> = points.iter().map(|&xy| make_point(xy)).collect::<Result<_, _>>()?;

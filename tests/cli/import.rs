@@ -51,7 +51,7 @@ fn an_exported_map_is_imported_again_and_a_picture_is_one() {
     run_in(folder.path(), &["world", "check", "again.ron"]).done();
     run_in(folder.path(), &["world", "export", "again.ron", "--format", "svg", "-o", "picture"]).done();
     let picture = fs::read_to_string(folder.path().join("picture")).unwrap();
-    assert!(picture.starts_with("<svg") && picture.contains("wall 1"), "{picture}");
+    assert!(picture.starts_with("<svg") && picture.contains("box 1"), "{picture}");
     for (arguments, reason) in [
         (&["lot", "-o", "lot.png"][..], "--format"),
         (&["lot", "-o", "lot.yaml", "--resolution", "0"], "resolution of 0 m"),
@@ -64,10 +64,23 @@ fn an_exported_map_is_imported_again_and_a_picture_is_one() {
 
 #[test]
 fn a_robot_in_a_wall_is_told_of() {
-    let told = run(&["world", "import", &sample("room.yaml"), "--robot", "rusty", "--start", "-0.5,-1.4,0"]);
+    let hollow = ["world", "import", &sample("room.yaml"), "--robot", "rusty", "--start", "-0.5,-1.4,0", "--hollow"];
+    let told = run(&hollow);
     assert!(told.err.contains("Rusty starts in contact with wall 4"), "{}", told.err);
+    assert!(told.err.contains("the occupied cells are hollow"), "{}", told.err);
     assert!(told.err.contains("unknown cells, taken as occupied: 1"), "{}", told.err);
     assert!(told.done().contains("start: [-0.5, -1.4, 0.0]"));
+    // a yard of which all but the border is full: Rusty in the middle touches a box, and nothing where it is hollow
+    let folder = tempfile::tempdir().unwrap();
+    let rows = ["@@@@@@"; 6].join("\n");
+    fs::write(folder.path().join("full.map"), format!("type octile\nheight 6\nwidth 6\nmap\n{rows}\n")).unwrap();
+    let inside = ["world", "import", "full.map", "--robot", "rusty", "--start", "3,3,0"];
+    let told = run_in(folder.path(), &inside);
+    assert!(told.err.contains("Rusty starts in contact with box 1"), "{}", told.err);
+    told.done();
+    let told = run_in(folder.path(), &[&inside[..], &["--hollow"]].concat());
+    assert!(!told.err.contains("contact"), "{}", told.err);
+    told.done();
 }
 
 #[test]

@@ -1,11 +1,15 @@
 //! ROS maps and MovingAI maps.
 
-use motion_lab::geometry::Point2;
+use motion_lab::collision::{Collision, Scene};
+use motion_lab::geometry::{Footprint, Point2, Vector2};
 use motion_lab::random::{Seed, Stream};
 use motion_lab::worlds::import::{CellMap, CellStyle, ImportError, RosMap, Unknown, movingai};
 use motion_lab::worlds::{Grid, ObstacleKind, World};
 
 use super::{assert_prints_as_itself, corners, is_hit, sample};
+
+/// What is said of a hollow world.
+const HOLLOW: &str = "the occupied cells are hollow: a robot put inside their walls touches nothing";
 
 fn room(unknown: Unknown) -> CellMap {
     let map = RosMap::parse("room.yaml", &sample("room.yaml")).unwrap();
@@ -15,9 +19,9 @@ fn room(unknown: Unknown) -> CellMap {
 
 #[test]
 fn a_ros_map_becomes_the_borders_of_its_occupied_cells() {
-    let imported = room(Unknown::Free).world("room.yaml", "Room", CellStyle::Walls).unwrap();
+    let imported = room(Unknown::Free).world("room.yaml", "Room", CellStyle::Hollow).unwrap();
     let world = imported.world;
-    assert_eq!(imported.notes, ["unknown cells, taken as free: 1"]);
+    assert_eq!(imported.notes, ["unknown cells, taken as free: 1", HOLLOW]);
     let names: Vec<&str> = world.obstacles.iter().map(|o| o.name.as_str()).collect();
     assert_eq!(names, ["wall 1", "wall 2", "wall 3"]);
     // 12 x 8 cells of 0.5 m from (-1, -2) on: outside, the block over columns 4, 5 and rows 3, 4, and inside
@@ -34,10 +38,13 @@ fn a_ros_map_becomes_the_borders_of_its_occupied_cells() {
 
 #[test]
 fn what_is_unknown_is_occupied_unless_said_otherwise() {
-    let imported = room(Unknown::default()).world("room.yaml", "Room", CellStyle::Walls).unwrap();
+    let imported = room(Unknown::default()).world("room.yaml", "Room", CellStyle::Hollow).unwrap();
     // column 9, row 2
     assert_eq!(corners(&imported.world, "wall 2"), [(3.5, -1.0), (4.0, -1.0), (4.0, -0.5), (3.5, -0.5)]);
-    assert_eq!(imported.notes, ["unknown cells, taken as occupied: 1"]);
+    assert_eq!(imported.notes, ["unknown cells, taken as occupied: 1", HOLLOW]);
+    let solid = room(Unknown::default()).world("room.yaml", "Room", CellStyle::default()).unwrap();
+    assert_eq!(solid.notes, ["unknown cells, taken as occupied: 1"]);
+    assert!(is_hit(&solid.world, 3.75, -0.75), "the middle of the unknown cell");
     // the thresholds decide: with these the cell of degree 50 / 255 is free
     let text = sample("room.yaml").replace("0.196", "0.2");
     let map = RosMap::parse("room.yaml", &text).unwrap();
@@ -47,7 +54,7 @@ fn what_is_unknown_is_occupied_unless_said_otherwise() {
 
 #[test]
 fn boxes_are_solid_and_cover_the_cells_once() {
-    let world = room(Unknown::Free).world("room.yaml", "Room", CellStyle::Boxes).unwrap().world;
+    let world = room(Unknown::Free).world("room.yaml", "Room", CellStyle::Solid).unwrap().world;
     assert!(world.obstacles.iter().all(|o| o.kind == ObstacleKind::Solid));
     let area: f64 = world
         .obstacles
@@ -57,6 +64,8 @@ fn boxes_are_solid_and_cover_the_cells_once() {
         .sum();
     // 2 * 12 + 2 * 6 cells of the border and 4 of the block
     assert_eq!(area, 40.0 * 0.25);
+    // a ring is four boxes and the block one
+    assert_eq!(world.obstacles.len(), 5);
     assert!(is_hit(&world, 1.5, 0.0), "the inside of the block");
     assert_prints_as_itself(&world);
 }
@@ -66,7 +75,7 @@ fn a_turned_map_is_turned_about_its_lower_left_corner() {
     let text = sample("room.yaml").replace("[-1.0, -2.0, 0.0]", "[3, 1, 1.5707963267948966]");
     let cells = RosMap::parse("room.yaml", &text).unwrap();
     let cells = cells.cells("room.pgm", sample("room.pgm").as_bytes(), Unknown::Free).unwrap();
-    for style in [CellStyle::Walls, CellStyle::Boxes] {
+    for style in [CellStyle::Hollow, CellStyle::Solid] {
         let world = cells.world("room.yaml", "Room", style).unwrap().world;
         // a quarter turn to the left: (x, y) in the map goes to (3 - y, 1 + x)
         for (x, y) in [(2.0, 2.0), (3.0, 1.5), (0.5, 3.5), (5.5, 2.0)] {
@@ -140,7 +149,7 @@ fn ros_maps_that_are_none_are_refused() {
     // too far away for a world
     let far = RosMap::parse("r.yaml", &sample("room.yaml").replace("-1.0", "9999")).unwrap();
     let far = far.cells("r.pgm", sample("room.pgm").as_bytes(), Unknown::Free).unwrap();
-    assert!(far.world("r.yaml", "Room", CellStyle::Walls).unwrap_err().to_string().contains("coordinates must be"));
+    assert!(far.world("r.yaml", "Room", CellStyle::Hollow).unwrap_err().to_string().contains("coordinates must be"));
 }
 
 #[test]
@@ -153,9 +162,37 @@ fn an_exported_map_comes_back_cell_for_cell() {
         let cells = map.cells("m.pgm", &files.image, Unknown::Occupied).unwrap();
         assert_eq!(cells.grid, grid, "{}: origin, resolution and every cell", world.name);
         assert!(cells.notes.is_empty());
-        let again = cells.world("m.yaml", &world.name, CellStyle::Walls).unwrap().world;
-        assert_prints_as_itself(&again);
-        assert_borders(&grid, &again);
+        for (style, check) in
+            [(CellStyle::Solid, assert_solid as fn(&Grid, &World)), (CellStyle::Hollow, assert_borders)]
+        {
+            let again = cells.world("m.yaml", &world.name, style).unwrap().world;
+            assert_prints_as_itself(&again);
+            check(&grid, &again);
+        }
+        // and no cell is lost where the map is made again: what was occupied is, and only what touches it besides
+        let solid = cells.world("m.yaml", &world.name, CellStyle::Solid).unwrap().world;
+        let twice = Grid::rasterize(&solid, resolution).unwrap();
+        assert_eq!((twice.columns(), twice.rows()), (grid.columns(), grid.rows()));
+        let at =
+            |column: u32, row: u32| (column < grid.columns() && row < grid.rows()) && grid.is_occupied(column, row);
+        for (column, row) in (0..grid.rows()).flat_map(|row| (0..grid.columns()).map(move |column| (column, row))) {
+            let beside =
+                (0..3).any(|i| (0..3).any(|k| column + i >= 1 && row + k >= 1 && at(column + i - 1, row + k - 1)));
+            assert_eq!(twice.is_occupied(column, row), beside, "{}: cell ({column}, {row})", world.name);
+        }
+    }
+}
+
+/// That every occupied cell is solid through and through and every other is free: by its middle and by four points near its corners.
+fn assert_solid(grid: &Grid, world: &World) {
+    let scene = Scene::of_world(world);
+    let inside = 0.49 * grid.resolution();
+    for (column, row) in (0..grid.rows()).flat_map(|row| (0..grid.columns()).map(move |column| (column, row))) {
+        let middle = grid.center(column, row);
+        for (x, y) in [(0.0, 0.0), (inside, inside), (-inside, inside), (inside, -inside), (-inside, -inside)] {
+            let hit = scene.intersects(&Footprint::disc(middle + Vector2::new(x, y), 1e-6));
+            assert_eq!(hit, grid.is_occupied(column, row), "cell ({column}, {row}), ({x}, {y}) from its middle");
+        }
     }
 }
 
@@ -192,12 +229,15 @@ fn random_maps_keep_every_cell() {
             text.push('\n');
         }
         let map = movingai("random.map", &text, 0.1).unwrap();
-        let Ok(imported) = map.world("random.map", "Random", CellStyle::Walls) else {
+        let world = |style| map.world("random.map", "Random", style).map(|imported| imported.world);
+        let (Ok(hollow), Ok(solid)) = (world(CellStyle::Hollow), world(CellStyle::default())) else {
             assert!(!text[20..].contains(['@', 'O', 'T', 'W']), "round {round}");
             continue;
         };
-        assert_borders(&map.grid, &imported.world);
-        assert_prints_as_itself(&imported.world);
+        assert_borders(&map.grid, &hollow);
+        assert_solid(&map.grid, &solid);
+        assert_prints_as_itself(&hollow);
+        assert_prints_as_itself(&solid);
         let signs: Vec<&str> = text.lines().skip(4).collect();
         for row in 0..rows {
             for (column, sign) in signs[(rows - 1 - row) as usize].chars().enumerate() {
@@ -210,7 +250,7 @@ fn random_maps_keep_every_cell() {
 #[test]
 fn a_movingai_map_becomes_walls_with_the_first_row_on_top() {
     let map = movingai("yard.map", &sample("yard.map"), 2.0).unwrap();
-    let world = map.world("yard.map", "yard", CellStyle::Walls).unwrap().world;
+    let world = map.world("yard.map", "yard", CellStyle::Hollow).unwrap().world;
     let names: Vec<&str> = world.obstacles.iter().map(|o| o.name.as_str()).collect();
     // around the yard, the trees (rows 2 and 3), the water (row 2), and inside
     assert_eq!(names, ["wall 1", "wall 2", "wall 3", "wall 4"]);
@@ -243,7 +283,7 @@ fn movingai_maps_that_are_none_are_refused() {
         assert!(movingai("y.map", &sample("yard.map"), resolution).unwrap_err().to_string().contains("resolution"));
     }
     let free = "type octile\nheight 1\nwidth 2\nmap\n..\n";
-    let nothing = movingai("y.map", free, 1.0).unwrap().world("y.map", "y", CellStyle::Walls);
+    let nothing = movingai("y.map", free, 1.0).unwrap().world("y.map", "y", CellStyle::Hollow);
     assert_eq!(nothing.unwrap_err().to_string(), "y.map: there is no obstacle in it");
 }
 
@@ -254,7 +294,7 @@ fn more_obstacles_than_a_world_holds_are_refused() {
     let rows: Vec<String> = (0..448).map(|r| row(r % 2 == 1)).collect();
     let text = format!("type octile\nheight 448\nwidth 448\nmap\n{}\n", rows.join("\n"));
     let map = movingai("board.map", &text, 0.1).unwrap();
-    for style in [CellStyle::Walls, CellStyle::Boxes] {
+    for style in [CellStyle::Hollow, CellStyle::Solid] {
         let error: ImportError = map.world("board.map", "board", style).unwrap_err();
         assert_eq!(error.to_string(), "board.map: too many shapes: at most 100000", "{style:?}");
     }

@@ -182,8 +182,59 @@ fn drawings_that_cannot_be_worlds_are_refused_with_line_and_element() {
         assert!(one.unwrap_err().to_string().contains("metres per unit"));
         assert!(other.unwrap_err().to_string().contains("tolerance"));
     }
-    let many = "<path d='M0 0h9' stroke='red'/>".repeat(100_001);
-    assert!(refuse(&many).contains("too many shapes: at most 100000"));
-    let deep = format!("{}{}", "<g>".repeat(100_000), "</g>".repeat(100_000));
+    let deep = format!("{}{}", "<g>".repeat(1_000), "</g>".repeat(1_000));
     assert!(refuse(&deep).contains("nested deeper than 200"));
+}
+
+/// Each of these took its reader minutes or gigabytes, or would: they are refused for a reason, or read as what they show.
+#[test]
+fn drawings_that_would_take_for_ever_are_refused_or_read() {
+    let refuse = |inside: &str| svg("d.svg", &drawing(inside), "d", SvgOptions::default()).unwrap_err().to_string();
+    let rect = "<rect id='u0' x='1' y='1' width='1' height='1'/>";
+    assert!(refuse("<circle r='1e30'/>").starts_with("d.svg:2: circle: r = 1e30: it must be finite numbers"));
+    assert!(refuse("<path d='M0 0 A 1e9 1e9 0 0 1 9 9'/>").starts_with("d.svg:2: path: d = M0 0 A 1e9"));
+    // ten copies of ten copies: 1 + 10 + ... above ten thousand elements
+    let ten = |k: usize| format!("<g id='u{k}'>{}</g>", format!("<use href='#u{}'/>", k - 1).repeat(10));
+    let nested: String = (1..9).map(ten).collect();
+    assert!(refuse(&format!("<defs>{rect}{nested}</defs><use href='#u8'/>")).contains("more than 10000 elements"));
+    assert!(refuse("<g id='g'><use href='#g'/></g>").contains("elements nested deeper than 200"));
+    // and ten copies alone are ten obstacles
+    assert_eq!(read(&format!("<defs>{rect}</defs>{}", "<use href='#u0'/>".repeat(10))).obstacles.len(), 10);
+    let elements = |n: usize| refuse(&"<g/>".repeat(n));
+    assert_eq!(elements(9_999), "d.svg: there is no obstacle in it");
+    assert!(elements(10_000).contains("more than 10000 elements"));
+    let path = |n: usize| format!("<path stroke='red' d='M0 0{}'/>", " h1v1h-1v-1".repeat(n / 4));
+    assert!(refuse(&path(700_000)).contains("bytes of paths and points"));
+    assert!(refuse(&path(100_004)).contains("too many shapes: at most 100000"));
+    // a curve of 10^4 m at a micrometre
+    let fine = SvgOptions { tolerance: 1e-6, ..SvgOptions::default() };
+    let large = "<path stroke='red' d='M0 0 C 9e3 9e3 9e3 -9e3 0 0'/>".repeat(20);
+    let error = svg("d.svg", &drawing(&large), "d", fine).unwrap_err().to_string();
+    assert!(error.contains("too many"), "{error}");
+    let below = SvgOptions { tolerance: 0.9e-6, ..SvgOptions::default() };
+    assert!(svg("d.svg", &drawing(rect), "d", below).unwrap_err().to_string().contains("tolerance: 0.0000009"));
+    // a paint of patterns within patterns, markers, filters and gradients: a filled box as any other
+    let pattern =
+        |k: usize| format!("<pattern id='p{k}'><rect width='1' height='1' fill='url(#p{})'/></pattern>", k + 1);
+    let patterns: String = (0..30).map(|k| pattern(k).repeat(2)).collect();
+    let painted = "<rect x='1' y='2' width='3' height='4' style='fill:url(#p0);filter:url(#f)' marker-mid='url(#m)'/>";
+    let marker = format!("<marker id='m'>{}</marker><filter id='f'/>", rect.repeat(300));
+    let imported = svg("d.svg", &drawing(&format!("{patterns}{marker}{painted}")), "d", SvgOptions::default()).unwrap();
+    assert_eq!(imported.world.obstacles.len(), 1);
+    let expected = Shape::Rectangle { min: Point2::new(1.0, 4.0), max: Point2::new(4.0, 8.0) };
+    assert_eq!(imported.world.obstacles[0].pieces[0].1, expected, "y was turned over");
+    assert_eq!(imported.notes, ["markers are left out"]);
+    // styles: the sheet decides as it does in a browser; a sheet of many rules for many elements is refused
+    let styled =
+        |rules: &str| read(&format!("<style>{rules}</style>{}", painted.replace("style=", "class='a' title=")));
+    assert_eq!(styled(".a{fill:none;stroke:red;filter:url(#f)}").obstacles[0].kind, ObstacleKind::Wall);
+    assert_eq!(styled(".b{fill:none;stroke:red}").obstacles[0].kind, ObstacleKind::Solid);
+    let rules = format!("<style>{}</style>{}", ".a{fill:red}".repeat(30_000), rect.repeat(100));
+    assert!(refuse(&rules).contains("bytes of style sheets"), "{}", refuse(&rules));
+    let rules = format!("<style>{}</style>{}", ".a{fill:red}".repeat(20_000), "<g/>".repeat(60));
+    assert!(refuse(&rules).contains("style sheets of 20000 selectors for 61 elements"), "{}", refuse(&rules));
+    // 101 polygons of 1,000 corners each, concave: more to cut up than a world may have
+    let comb: String = (0..499).map(|k| format!("{} 0 {}.5 1 ", 2 * k, 2 * k)).collect();
+    let polygon = format!("<polygon points='{comb} 998 9 0 9'/>");
+    assert!(refuse(&polygon.repeat(101)).contains("too many corners of concave polygons: at most 100000"));
 }

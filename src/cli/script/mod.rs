@@ -2,6 +2,7 @@
 
 mod table;
 
+use std::collections::BTreeSet;
 use std::io::Read;
 use std::path::{Path, PathBuf};
 
@@ -136,12 +137,9 @@ fn check(files: &[PathBuf], worlds: &[String], json: bool, data: &mut Data) -> R
 }
 
 fn summarise(file: &Path, script: &Script, json: bool, data: &mut Data) -> Result<(), Failure> {
-    let mut robots: Vec<&str> = Vec::new();
-    for event in &script.events {
-        if !robots.contains(&event.robot.as_str()) {
-            robots.push(&event.robot);
-        }
-    }
+    // in the order in which they come
+    let mut seen = BTreeSet::new();
+    let robots: Vec<&str> = script.events.iter().map(|e| e.robot.as_str()).filter(|name| seen.insert(*name)).collect();
     let summary = Summary {
         source: file.display().to_string(),
         events: script.events.len(),

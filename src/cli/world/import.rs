@@ -12,7 +12,7 @@ use motion_lab::worlds::import::{
     CellStyle, ImportError, Imported, RosMap, SvgOptions, Unknown, irsim, is_ros_map, movingai, svg,
 };
 
-use crate::cli::input::{MAX_TEXT, read_bytes, read_text};
+use crate::cli::input::{MAX_TEXT, MAX_WORLD, read_bytes, read_text_of};
 use crate::cli::output::write_file;
 use crate::cli::simulate::begin;
 use crate::cli::{Data, Failure, Outcome, say};
@@ -20,7 +20,7 @@ use crate::cli::{Data, Failure, Outcome, say};
 /// Read a map or drawing of another program and write it as a world file.
 ///
 /// A ROS map is given by its yaml file; its image must be a PGM. In a MovingAI map . G S are free, @ O T W occupied. Of either the
-/// borders of the occupied cells become closed walls, edges in line joined to one. In an SVG drawing what is filled becomes a solid
+/// occupied cells become solid boxes. In an SVG drawing what is filled becomes a solid
 /// obstacle and what is only stroked a wall, called by their ids. Of an IR-SIM world the static obstacles are read, and its robots as
 /// Rusty (diff) and Hitch (acker).
 #[derive(Debug, Args)]
@@ -42,9 +42,9 @@ pub struct Import {
     /// Where that robot starts: x,y,theta; for an arm its joint angles.
     #[arg(long, value_name = "NUMBERS", requires = "robot", value_delimiter = ',', allow_hyphen_values = true)]
     start: Vec<f64>,
-    /// Cover occupied cells with boxes instead of tracing their borders, so that their inside is an obstacle too.
+    /// Trace the borders of occupied cells as closed walls: fewer obstacles, but a robot put inside them touches nothing.
     #[arg(long)]
-    boxes: bool,
+    hollow: bool,
     /// What the unknown cells of a ROS map are.
     #[arg(long, value_name = "WHAT", default_value = "occupied")]
     unknown: UnknownCells,
@@ -106,12 +106,13 @@ impl Import {
         let file = self.file.display().to_string();
         let stem = self.file.file_stem().map(|stem| stem.to_string_lossy().into_owned());
         let name = self.name.clone().or(stem).unwrap_or_default();
-        let style = if self.boxes { CellStyle::Boxes } else { CellStyle::Walls };
+        let style = if self.hollow { CellStyle::Hollow } else { CellStyle::Solid };
         let unknown = match self.unknown {
             UnknownCells::Occupied => Unknown::Occupied,
             UnknownCells::Free => Unknown::Free,
         };
-        let text = read_text(&self.file)?;
+        let limit = if matches!(kind, Kind::Irsim | Kind::Svg) { MAX_WORLD } else { MAX_TEXT };
+        let text = read_text_of(&self.file, limit)?;
         match kind {
             Kind::Ros => RosMap::parse(&file, &text).map_err(refused).and_then(|map| {
                 // the image lies where the yaml says, seen from the yaml's own folder
@@ -142,7 +143,7 @@ fn kind_of(file: &Path) -> Result<Kind, Failure> {
     match extension.as_str() {
         "map" => Ok(Kind::Movingai),
         "svg" => Ok(Kind::Svg),
-        "yaml" | "yml" if is_ros_map(&read_text(file)?) => Ok(Kind::Ros),
+        "yaml" | "yml" if is_ros_map(&read_text_of(file, MAX_WORLD)?) => Ok(Kind::Ros),
         "yaml" | "yml" => Ok(Kind::Irsim),
         "pgm" => Err(Failure::usage(
             format!("{}: this is a ROS map's image", file.display()),

@@ -5,18 +5,21 @@ use super::{Draft, ImportError, ImportProblem, Imported};
 use crate::geometry::{MIN_FEATURE, Point2, Pose2};
 use crate::num::{greater, lesser};
 use crate::worlds::description::{ShapeText, Xy};
-use crate::worlds::{Grid, MAX_CELLS, WorldProblem};
+use crate::worlds::{Grid, MAX_CELLS, MAX_ITEMS, WorldProblem};
 
 /// What occupied cells become.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum CellStyle {
-    /// Closed walls along their borders, edges in line joined to one. Their inside holds no obstacle: nothing gets in, but a
-    /// robot put there touches nothing.
+    /// Boxes that cover them, inside and all, each of as many cells as fit.
     #[default]
-    Walls,
-    /// Boxes that cover them, inside and all.
-    Boxes,
+    Solid,
+    /// Closed walls along their borders, edges in line joined to one. Their inside holds no obstacle: nothing gets in, but a
+    /// robot put there touches nothing. The world's notes say so.
+    Hollow,
 }
+
+/// A rectangle of cells: its lower left corner and its upper right one.
+type Cells = ((u32, u32), (u32, u32));
 
 /// A map of occupied cells.
 #[derive(Clone, Debug, PartialEq)]
@@ -39,8 +42,8 @@ impl CellMap {
         let mut draft = Draft::default();
         self.notes.iter().for_each(|note| draft.note(note));
         let obstacles = match style {
-            CellStyle::Walls => self.walls(&mut draft),
-            CellStyle::Boxes => self.boxes(&mut draft),
+            CellStyle::Solid => self.boxes(&mut draft),
+            CellStyle::Hollow => self.walls(&mut draft),
         };
         let imported = obstacles.and_then(|()| {
             let (min, max) = self.bounds();
@@ -55,6 +58,9 @@ impl CellMap {
 
     fn walls(&self, draft: &mut Draft) -> Result<(), WorldProblem> {
         let lines = trace(&self.grid);
+        if !lines.is_empty() {
+            draft.note("the occupied cells are hollow: a robot put inside their walls touches nothing");
+        }
         lines.iter().try_for_each(|line| {
             let name = draft.numbered("wall");
             draft.wall(name, line.iter().map(|&c| self.corner(c)).collect(), true)
@@ -91,24 +97,44 @@ impl CellMap {
     }
 }
 
-/// Rectangles of cells, by their lower left and upper right corner, that cover the occupied cells and overlap nowhere: each as
-/// wide as can be, then as high.
-fn rectangles(grid: &Grid) -> Vec<((u32, u32), (u32, u32))> {
-    let (columns, rows) = (grid.columns(), grid.rows());
-    let mut left = grid.clone();
+/// Rectangles of cells, by their lower left and upper right corner, that cover the occupied cells and overlap nowhere: the fewer of
+/// those that grow along the rows first and of those that grow along the columns first.
+fn rectangles(grid: &Grid) -> Vec<Cells> {
+    let along = grown(grid.columns(), grid.rows(), |column, row| grid.is_occupied(column, row));
+    let mut up = grown(grid.rows(), grid.columns(), |row, column| grid.is_occupied(column, row));
+    if along.len() <= up.len() {
+        return along;
+    }
+    for (low, high) in &mut up {
+        *low = (low.1, low.0);
+        *high = (high.1, high.0);
+    }
+    up
+}
+
+/// Rectangles that cover the occupied cells of so many columns and rows: each as wide as can be, then as high.
+fn grown(columns: u32, rows: u32, is_occupied: impl Fn(u32, u32) -> bool) -> Vec<Cells> {
+    let index = |column: u32, row: u32| row as usize * columns as usize + column as usize;
+    let mut left: Vec<bool> = (0..rows)
+        .flat_map(|row| (0..columns).map(move |column| (column, row)))
+        .map(|(c, r)| is_occupied(c, r))
+        .collect();
     let mut found = Vec::new();
     for row in 0..rows {
         for column in 0..columns {
-            if !left.is_occupied(column, row) {
+            if !left[index(column, row)] {
                 continue;
             }
-            let end = (column..columns).find(|&c| !left.is_occupied(c, row)).unwrap_or(columns);
-            let is_full = |r: u32| (column..end).all(|c| left.is_occupied(c, r));
+            let end = (column..columns).find(|&c| !left[index(c, row)]).unwrap_or(columns);
+            let is_full = |r: u32| left[index(column, r)..index(end - 1, r) + 1].iter().all(|&l| l);
             let top = (row + 1..rows).find(|&r| !is_full(r)).unwrap_or(rows);
             for r in row..top {
-                (column..end).for_each(|c| left.set_occupied(c, r, false));
+                left[index(column, r)..index(end - 1, r) + 1].fill(false);
             }
             found.push(((column, row), (end, top)));
+            if found.len() > MAX_ITEMS {
+                return found; // more than a world holds
+            }
         }
     }
     found
@@ -127,13 +153,13 @@ pub(super) fn grid_of(
         let problem = super::error::wrong_value(resolution, "a cell's size in metres, finite and at least 0.001");
         return Err(ImportError::at(0, "resolution", problem));
     }
-    let from_the_top = cells()?;
-    let from_below: Vec<bool> = from_the_top.chunks(columns as usize).rev().flatten().copied().collect();
-    Grid::of_cells(origin, resolution, columns as u32, rows as u32, from_below).ok_or_else(|| {
-        let problem =
-            ImportProblem::Count { what: "cells", found: from_the_top.len() as u64, expected: columns * rows };
-        ImportError::at(0, "", problem)
-    })
+    let mut cells = cells()?;
+    let found = cells.len() as u64;
+    // from below instead: the rows change places, then each is the right way round again
+    cells.reverse();
+    cells.chunks_mut(columns as usize).for_each(<[bool]>::reverse);
+    Grid::of_cells(origin, resolution, columns as u32, rows as u32, cells)
+        .ok_or_else(|| ImportError::at(0, "", ImportProblem::Count { what: "cells", found, expected: columns * rows }))
 }
 
 /// Whether a map may have so many cells.

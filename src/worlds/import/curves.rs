@@ -4,9 +4,7 @@ use usvg::tiny_skia_path::{Path, PathSegment};
 
 use crate::geometry::{Point2, Vector2};
 use crate::num::{self, greater, lesser};
-
-/// The most straight pieces of one curve.
-const MOST_PIECES: f64 = 1000.0;
+use crate::worlds::MAX_ITEMS;
 
 /// One part of a path, in metres.
 #[derive(Clone, Debug, PartialEq)]
@@ -19,9 +17,11 @@ pub(super) struct Outline {
 }
 
 /// The parts of a path, its points placed in the world by `place`, which keeps straight lines straight. A curve's straight pieces
-/// leave it by at most `tolerance`.
-pub(super) fn outlines(path: &Path, place: impl Fn(f32, f32) -> Point2, tolerance: f64) -> Vec<Outline> {
+/// leave it by at most `tolerance`. `None` where a curve takes more pieces than a world has shapes, or all of them ten times as many:
+/// most of a fine curve's points lie too close for a world and are left out later.
+pub(super) fn outlines(path: &Path, place: impl Fn(f32, f32) -> Point2, tolerance: f64) -> Option<Vec<Outline>> {
     let mut parts: Vec<Outline> = Vec::new();
+    let mut points = 0;
     let begin = |at: Point2| Outline { points: vec![at], closed: false, curved: false };
     for segment in path.segments() {
         if let PathSegment::MoveTo(p) = segment {
@@ -34,18 +34,23 @@ pub(super) fn outlines(path: &Path, place: impl Fn(f32, f32) -> Point2, toleranc
         }
         let Some(part) = parts.last_mut() else { continue };
         let Some(&from) = part.points.last() else { continue };
+        let before = part.points.len();
         match segment {
             PathSegment::MoveTo(_) => {}
             PathSegment::LineTo(p) => part.points.push(place(p.x, p.y)),
             PathSegment::QuadTo(a, b) => {
                 // the same curve as a cubic
                 let (a, b) = (place(a.x, a.y), place(b.x, b.y));
-                part.curve(from, from + (a - from) * (2.0 / 3.0), b + (a - b) * (2.0 / 3.0), b, tolerance);
+                part.curve(from, from + (a - from) * (2.0 / 3.0), b + (a - b) * (2.0 / 3.0), b, tolerance)?;
             }
             PathSegment::CubicTo(a, b, c) => {
-                part.curve(from, place(a.x, a.y), place(b.x, b.y), place(c.x, c.y), tolerance);
+                part.curve(from, place(a.x, a.y), place(b.x, b.y), place(c.x, c.y), tolerance)?;
             }
             PathSegment::Close => part.closed = true,
+        }
+        points += part.points.len() - before;
+        if points > 10 * MAX_ITEMS {
+            return None;
         }
     }
     for part in &mut parts {
@@ -56,15 +61,17 @@ pub(super) fn outlines(path: &Path, place: impl Fn(f32, f32) -> Point2, toleranc
         }
     }
     parts.retain(|part| part.points.len() > 1);
-    parts
+    Some(parts)
 }
 
 impl Outline {
     /// Appends a cubic curve. Its second derivative is at most 6 `bend`, so that `n` equal pieces leave it by 6/8 `bend` / n^2.
-    fn curve(&mut self, p0: Point2, p1: Point2, p2: Point2, p3: Point2, tolerance: f64) {
+    fn curve(&mut self, p0: Point2, p1: Point2, p2: Point2, p3: Point2, tolerance: f64) -> Option<()> {
         let second = |a: Point2, b: Point2, c: Point2| ((a - b) - (b - c)).norm();
         let bend = greater(second(p0, p1, p2), second(p1, p2, p3));
-        let pieces = num::sqrt(0.75 * bend / tolerance).ceil().clamp(1.0, MOST_PIECES) as u32;
+        let pieces = greater(num::sqrt(0.75 * bend / tolerance).ceil(), 1.0);
+        // written so that NaN is refused
+        let pieces = (pieces <= MAX_ITEMS as f64).then_some(pieces as u32)?;
         for k in 1..=pieces {
             let t = f64::from(k) / f64::from(pieces);
             let u = 1.0 - t;
@@ -75,6 +82,7 @@ impl Outline {
             self.points.push(if k == pieces { p3 } else { Point2::from(sum) });
         }
         self.curved |= bend > 0.0;
+        Some(())
     }
 
     /// The centre and radius of the disc that this is the border of, within the tolerance and a thousandth of the radius: drawn

@@ -2,7 +2,7 @@
 //!
 //! | from | what becomes of it |
 //! |---|---|
-//! | a ROS map, [`RosMap`] | the borders of its occupied cells as closed walls, or the cells themselves as boxes |
+//! | a ROS map, [`RosMap`] | its occupied cells as boxes, or by request their borders as closed walls |
 //! | a MovingAI map, [`movingai`] | the same |
 //! | an IR-SIM world, [`irsim`] | circles, boxes, polygons, walls and robots |
 //! | an SVG drawing, [`svg`] | what is filled as solid obstacles, what is only stroked as walls |
@@ -21,6 +21,9 @@ mod pgm;
 mod ros;
 mod svg;
 mod svg_check;
+mod svg_clean;
+mod svg_css;
+mod svg_scan;
 mod trace;
 mod yaml;
 

@@ -14,8 +14,8 @@ use crate::geometry::{Point2, Pose2};
 /// ```
 /// use motion_lab::worlds::import::{CellStyle, movingai};
 /// let map = movingai("yard.map", "type octile\nheight 2\nwidth 3\nmap\n...\n.@.\n", 0.5)?;
-/// let yard = map.world("yard.map", "Yard", CellStyle::Walls)?.world;
-/// assert_eq!(yard.obstacles[0].pieces.len(), 4); // one cell, from (0.5, 0) to (1, 0.5)
+/// let yard = map.world("yard.map", "Yard", CellStyle::Solid)?.world;
+/// assert_eq!(yard.obstacles.len(), 1); // one box over one cell, from (0.5, 0) to (1, 0.5)
 /// # Ok::<(), motion_lab::worlds::import::ImportError>(())
 /// ```
 pub fn movingai(file: &str, text: &str, resolution: f64) -> Result<CellMap, ImportError> {

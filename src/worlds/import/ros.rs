@@ -112,8 +112,8 @@ impl RosMap {
         let Pgm { columns, rows, max, pixels } = Pgm::read(image)?;
         let mut unknowns = 0_usize;
         let cells: Vec<bool> = pixels
-            .iter()
-            .map(|&pixel| match self.is_occupied(pixel, max) {
+            .into_iter()
+            .map(|pixel| match self.is_occupied(pixel, max) {
                 Some(occupied) => occupied,
                 None => {
                     unknowns += 1;

@@ -5,10 +5,15 @@ use usvg::{Group, Node, Options, Path, Tree};
 
 use super::curves::{Outline, outlines};
 use super::svg_check::check;
+use super::svg_clean::clean;
+use super::svg_scan::scan;
 use super::{Draft, ImportError, ImportProblem, Imported, error::wrong_value};
 use crate::geometry::{MIN_FEATURE, Point2};
 use crate::worlds::WorldProblem;
 use crate::worlds::description::{ShapeText, Xy};
+
+/// The least tolerance, metres: coordinates are rounded to it.
+const MIN_TOLERANCE: f64 = 1e-6;
 
 /// How a drawing is read.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -16,7 +21,7 @@ pub struct SvgOptions {
     /// The length of the drawing's unit, metres: a pixel of its width and height, which is its viewBox's unit where these are
     /// not given otherwise.
     pub metres_per_unit: f64,
-    /// How far a curve's straight pieces may be from it, metres.
+    /// How far a curve's straight pieces may be from it, metres; at least a micrometre, to which coordinates are rounded.
     pub tolerance: f64,
 }
 
@@ -35,26 +40,24 @@ impl Default for SvgOptions {
 /// simple polygon, or has several parts, becomes walls. An obstacle is called by its element's id where it has one.
 ///
 /// # Errors
-/// [`ImportError`] names line and element: no SVG; an image, embedded HTML, a clip or a mask; numbers that are none; a drawing
-/// without obstacles, or with more than a world holds.
+/// [`ImportError`] names line and element: no SVG; an image, embedded HTML, a clip or a mask; numbers that are none or above 10^7; a
+/// drawing without obstacles, or with more than a world holds. Drawings have at most 10,000 elements, those repeated by `use` among
+/// them, 100 attributes an element and 200,000 in all, a megabyte of paths, a quarter of one of style
+/// sheets.
 pub fn svg(file: &str, text: &str, name: &str, options: SvgOptions) -> Result<Imported, ImportError> {
     read(text, name, options).map_err(|error| error.of(file))
 }
 
 fn read(text: &str, name: &str, options: SvgOptions) -> Result<Imported, ImportError> {
-    for (item, value) in [("metres per unit", options.metres_per_unit), ("tolerance", options.tolerance)] {
-        // written so that NaN is refused
-        if !(value > 0.0 && value.is_finite()) {
-            return Err(ImportError::at(0, item, wrong_value(value, "finite and above 0")));
-        }
+    // written so that NaN is refused
+    if !(options.metres_per_unit > 0.0 && options.metres_per_unit.is_finite()) {
+        return Err(ImportError::at(0, "metres per unit", wrong_value(options.metres_per_unit, "finite and above 0")));
     }
-    let parsing = roxmltree::ParsingOptions { allow_dtd: true, nodes_limit: 1_000_000, ..Default::default() };
-    let document = Document::parse_with_options(text, parsing)
-        .map_err(|error| ImportError::at(error.pos().row as usize, "", ImportProblem::Syntax(error.to_string())))?;
+    if !(options.tolerance >= MIN_TOLERANCE && options.tolerance.is_finite()) {
+        return Err(ImportError::at(0, "tolerance", wrong_value(options.tolerance, "finite and at least 0.000001")));
+    }
     let mut draft = Draft::default();
-    check(&document)?.iter().for_each(|note| draft.note(note));
-    let tree = Tree::from_xmltree(&document, &Options::default())
-        .map_err(|error| ImportProblem::Syntax(format!("no drawing: {error}")))?;
+    let tree = tree(text, &mut draft)?;
     let scale = options.metres_per_unit;
     let (width, height) = (f64::from(tree.size().width()), f64::from(tree.size().height()));
     let mut drawing = Drawing { draft, height, options, sheet: (micro(width * scale), micro(height * scale)) };
@@ -63,6 +66,21 @@ fn read(text: &str, name: &str, options: SvgOptions) -> Result<Imported, ImportE
         return Err(ImportProblem::Nothing.into());
     }
     Ok(drawing.draft.finish(name, (0.0, 0.0), drawing.sheet).map_err(ImportProblem::from)?)
+}
+
+/// The drawing with its styles, groups and transforms resolved, within the limits of an import.
+fn tree(text: &str, draft: &mut Draft) -> Result<Tree, ImportError> {
+    scan(text)?;
+    let plain = {
+        let parsing = roxmltree::ParsingOptions { allow_dtd: true, ..Default::default() };
+        let document = Document::parse_with_options(text, parsing)
+            .map_err(|error| ImportError::at(error.pos().row as usize, "", ImportProblem::Syntax(error.to_string())))?;
+        check(&document)?.iter().for_each(|note| draft.note(note));
+        clean(&document)?
+    };
+    let no_drawing = |error: &dyn std::fmt::Display| ImportProblem::Syntax(format!("no drawing: {error}"));
+    let document = Document::parse(&plain).map_err(|error| no_drawing(&error))?;
+    Ok(Tree::from_xmltree(&document, &Options::default()).map_err(|error| no_drawing(&error))?)
 }
 
 /// A length in metres, rounded to micrometres. The drawing's numbers have single precision, and the digits behind are noise.
@@ -80,19 +98,11 @@ struct Drawing {
 
 impl Drawing {
     fn group(&mut self, group: &Group) -> Result<(), ImportError> {
-        let what = match (group.clip_path(), group.mask()) {
-            (Some(_), _) => "a clip path: cut the shapes themselves",
-            (_, Some(_)) => "a mask: cut the shapes themselves",
-            _ => "",
-        };
-        if !what.is_empty() {
-            return Err(ImportError::at(0, group.id(), ImportProblem::Unsupported(what.into())));
-        }
         group.children().iter().try_for_each(|node| match node {
             Node::Group(group) => self.group(group),
             Node::Path(path) => self.path(path),
-            Node::Image(image) => Err(ImportError::at(0, image.id(), ImportProblem::Unsupported("an image".into()))),
-            Node::Text(_) => Ok(()),
+            // neither is left in what was cleaned
+            Node::Image(_) | Node::Text(_) => Ok(()),
         })
     }
 
@@ -108,8 +118,9 @@ impl Drawing {
             let (x, y) = (f64::from(x), f64::from(y));
             Point2::new((sx * x + kx * y + tx) * scale, (height - (ky * x + sy * y + ty)) * scale)
         };
-        let mut parts = outlines(path.data(), place, self.options.tolerance);
         let id = path.id();
+        let mut parts = outlines(path.data(), place, self.options.tolerance)
+            .ok_or_else(|| ImportError::at(0, id, WorldProblem::TooMany { what: "straight pieces of its curves" }))?;
         let added = match (path.fill(), parts.len()) {
             (None, _) => parts.into_iter().try_for_each(|part| self.wall(id, part)),
             (Some(_), 1) => self.solid(id, parts.remove(0)),

@@ -5,10 +5,16 @@ use usvg::roxmltree::{Document, Node};
 use super::error::wrong_value;
 use super::{ImportError, ImportProblem};
 
-const SVG: &str = "http://www.w3.org/2000/svg";
+pub(super) const SVG: &str = "http://www.w3.org/2000/svg";
 
 /// How deep elements may be nested: readers of drawings go down recursively.
-const DEEPEST: usize = 200;
+pub(super) const DEEPEST: usize = 200;
+
+/// The largest number in a shape's attributes: an arc's pieces, and those of a circle, grow with its radius.
+const LARGEST: f64 = 1e7;
+
+/// The largest length of what describes paths and polygons, in all, bytes.
+const MAX_PATH_DATA: usize = 1 << 20;
 
 /// The attributes of shapes that are a length each.
 const LENGTHS: [&str; 13] = ["x", "y", "width", "height", "r", "rx", "ry", "cx", "cy", "x1", "y1", "x2", "y2"];
@@ -16,6 +22,7 @@ const LENGTHS: [&str; 13] = ["x", "y", "width", "height", "r", "rx", "ry", "cx",
 /// Checks every element; returns notes on what will be left out.
 pub(super) fn check(document: &Document) -> Result<Vec<String>, ImportError> {
     let mut notes = Vec::new();
+    let mut path_data = 0;
     let (mut depth, mut last) = (0_usize, document.root());
     for node in document.descendants() {
         // descendants come in document order, so the depth is counted along the way
@@ -37,8 +44,14 @@ pub(super) fn check(document: &Document) -> Result<Vec<String>, ImportError> {
                 return Err(at(node, ImportProblem::Unsupported(format!("{name}: draw it as shapes"))));
             }
             "text" => notes.push("text is left out".to_owned()),
+            "marker" => notes.push("markers are left out".to_owned()),
             "rect" | "line" | "polyline" | "polygon" | "circle" | "ellipse" | "path" => check_numbers(node)?,
             _ => {}
+        }
+        path_data += ["d", "points"].iter().filter_map(|name| node.attribute(*name)).map(str::len).sum::<usize>();
+        if path_data > MAX_PATH_DATA {
+            let problem = format!("more than {MAX_PATH_DATA} bytes of paths and points: fewer digits will do");
+            return Err(at(node, ImportProblem::Unsupported(problem)));
         }
         for cut in ["clip-path", "mask"] {
             if node.attribute(cut).is_some_and(|value| value != "none") {
@@ -51,8 +64,10 @@ pub(super) fn check(document: &Document) -> Result<Vec<String>, ImportError> {
 
 /// Numbers that are none would be passed over in silence, and the shape with them.
 fn check_numbers(node: Node) -> Result<(), ImportError> {
-    let refuse = |name: &str, value: &str| Err(at(node, wrong_value(format!("{name} = {value}"), "finite numbers")));
-    let is_number = |text: &str| text.parse::<f64>().is_ok_and(f64::is_finite);
+    let refuse = |name: &str, value: &str| {
+        Err(at(node, wrong_value(format!("{name} = {value}"), "finite numbers, at most 10000000 in size")))
+    };
+    let is_number = |text: &str| text.parse::<f64>().is_ok_and(|x| x.abs() <= LARGEST);
     for attribute in node.attributes() {
         let (name, value) = (attribute.name(), attribute.value().trim());
         let good = match name {
@@ -61,8 +76,13 @@ fn check_numbers(node: Node) -> Result<(), ImportError> {
                 is_number(value.trim_end_matches(|c: char| c.is_ascii_alphabetic() || c == '%'))
             }
             // numbers may follow one another without a blank, so the signs they are made of is what can be told
-            "d" => value.chars().all(|c| c.is_ascii_whitespace() || "+-.,0123456789eEMmZzLlHhVvCcSsQqTtAa".contains(c)),
-            "points" => value.chars().all(|c| c.is_ascii_whitespace() || "+-.,0123456789eE".contains(c)),
+            "d" => {
+                value.chars().all(|c| c.is_ascii_whitespace() || "+-.,0123456789eEMmZzLlHhVvCcSsQqTtAa".contains(c))
+                    && are_small(value)
+            }
+            "points" => {
+                value.chars().all(|c| c.is_ascii_whitespace() || "+-.,0123456789eE".contains(c)) && are_small(value)
+            }
             _ => true,
         };
         if !good {
@@ -72,9 +92,52 @@ fn check_numbers(node: Node) -> Result<(), ImportError> {
     Ok(())
 }
 
+/// Whether every number in a text is small, by the digits before its point and its exponent: at most seven together. Where one
+/// number ends and the next begins is the business of those who read them.
+fn are_small(text: &str) -> bool {
+    let bytes = text.as_bytes();
+    let (mut digits, mut is_fraction) = (0, false);
+    for (i, b) in bytes.iter().enumerate() {
+        match b {
+            b'0'..=b'9' => digits += usize::from(!is_fraction),
+            b'.' => is_fraction = true,
+            b'e' | b'E' => {
+                let exponent = bytes[i + 1..].strip_prefix(b"+").unwrap_or(&bytes[i + 1..]);
+                let up = exponent
+                    .iter()
+                    .take_while(|b| b.is_ascii_digit())
+                    .take(8)
+                    .fold(0, |n, b| 10 * n + usize::from(b - b'0'));
+                digits += up;
+                is_fraction = true;
+            }
+            _ => (digits, is_fraction) = (0, false),
+        }
+        if digits > 7 {
+            return false;
+        }
+    }
+    true
+}
+
 /// The problem of an element.
-fn at(node: Node, problem: ImportProblem) -> ImportError {
+pub(super) fn at(node: Node, problem: ImportProblem) -> ImportError {
     let line = node.document().text_pos_at(node.range().start).row as usize;
     let id = node.attribute("id").map_or(String::new(), |id| format!(" {id:?}"));
     ImportError::at(line, format!("{}{id}", node.tag_name().name()), problem)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::are_small;
+
+    #[test]
+    fn the_digits_before_the_point_and_the_exponent_tell_the_size() {
+        for small in ["M1234567 0", "0.123456789e-300 .5.5-.25", "1e3,1E+3", "9999999-9999999", "1e-9999999", ""] {
+            assert!(are_small(small), "{small}");
+        }
+        for large in ["12345678", "0 0 1e9", "1E+8", "1.5e7", "h99999999.0", "1e99999999999999999999"] {
+            assert!(!are_small(large), "{large}");
+        }
+    }
 }

@@ -9,6 +9,15 @@ use super::{ImportError, ImportProblem};
 /// How deep lists and mappings may be nested.
 const DEEPEST: usize = 32;
 
+/// The largest number of values, keys among them.
+const MAX_VALUES: usize = 200_000;
+
+/// The largest number of the signs , [ ] { }: the parser keeps all of a list in brackets until it ends, some hundred bytes a value.
+const MAX_SIGNS: usize = 50_000;
+
+/// The largest number of keys of one mapping: each is compared with those before it.
+const MAX_KEYS: usize = 100;
+
 /// A part of a file.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Node {
@@ -36,8 +45,15 @@ enum Open {
 
 /// The tree of a file that holds one document. A file of nothing is an empty mapping.
 pub(super) fn read(text: &str) -> Result<Node, ImportError> {
+    if text.bytes().filter(|b| b",[]{}".contains(b)).count() > MAX_SIGNS {
+        return Err(unsupported(
+            0,
+            &format!("more than {MAX_SIGNS} of the signs , [ ] {{ }}; lists of a line each have none"),
+        ));
+    }
     let mut open: Vec<Open> = Vec::new();
     let mut whole: Option<Node> = None;
+    let mut values = 0;
     for event in Parser::new_from_str(text) {
         let (event, span) = event.map_err(|error| syntax(error.marker().line(), error.info()))?;
         let line = span.start.line();
@@ -73,6 +89,10 @@ pub(super) fn read(text: &str) -> Result<Node, ImportError> {
             _ => None,
         };
         let Some(node) = closed else { continue };
+        values += 1;
+        if values > MAX_VALUES {
+            return Err(unsupported(line, &format!("more than {MAX_VALUES} values")));
+        }
         match open.last_mut() {
             None => whole = Some(node),
             Some(Open::List(_, nodes)) => nodes.push(node),
@@ -88,6 +108,9 @@ pub(super) fn read(text: &str) -> Result<Node, ImportError> {
 /// The key that a node is.
 fn key_of(node: Node, before: &[(String, usize, Node)]) -> Result<(String, usize), ImportError> {
     match node.value {
+        _ if before.len() == MAX_KEYS => {
+            Err(unsupported(node.line, &format!("more than {MAX_KEYS} keys of one mapping")))
+        }
         Value::Scalar { text, .. } if before.iter().any(|(key, ..)| *key == text) => {
             Err(ImportError::at(node.line, text, ImportProblem::Syntax("the key stands there twice".into())))
         }
@@ -243,6 +266,16 @@ mod tests {
         // an error, not a crash
         assert!(read(&"[".repeat(100_000)).is_err() && read(&"- ".repeat(100_000)).is_err());
         assert!(refusal("a: [1, 2").starts_with(":"), "an end is missing");
+        let keys = |n: usize| (0..n).map(|k| format!("k{k}: 1\n")).collect::<String>();
+        assert!(read(&keys(100)).is_ok());
+        assert!(refusal(&keys(101)).starts_with(":101: not supported: more than 100 keys of one mapping"));
+        // the list itself is a value, too, and so are the mapping around it and its key
+        let values = |n: usize| format!("a:\n{}", "- 1\n".repeat(n - 3));
+        assert!(read(&values(200_000)).is_ok());
+        assert!(refusal(&values(200_001)).contains("not supported: more than 200000 values"));
+        let signs = |n: usize| format!("a: [{}1]", "1,".repeat(n - 2));
+        assert!(read(&signs(50_000)).is_ok());
+        assert!(refusal(&signs(50_001)).contains("not supported: more than 50000 of the signs , [ ] { }"));
     }
 
     #[test]
