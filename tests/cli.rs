@@ -1,6 +1,7 @@
 //! The whole program: every command and every exit code, by running it.
 
 mod capture;
+mod certificates;
 mod diff;
 mod driving;
 mod export;

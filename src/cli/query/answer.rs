@@ -77,7 +77,6 @@ pub fn ask_scan(scene: &Scene, sensor: &RangeSensor, q: &[f64]) -> Result<Answer
 }
 
 fn witness(scene: &Scene, w: &Witness) -> WitnessAnswer {
-    let point = |p: Point2| [JsonNumber(p.x), JsonNumber(p.y)];
     WitnessAnswer {
         on_robot: point(w.on_robot),
         on_obstacle: point(w.on_obstacle),
@@ -87,7 +86,8 @@ fn witness(scene: &Scene, w: &Witness) -> WitnessAnswer {
     }
 }
 
-fn edge(scene: &Scene, verdict: EdgeVerdict) -> EdgeAnswer {
+/// A verdict with the names of its obstacles.
+pub fn edge(scene: &Scene, verdict: EdgeVerdict) -> EdgeAnswer {
     match verdict {
         EdgeVerdict::Free { clearance } => EdgeAnswer::Free { clearance: JsonNumber(clearance) },
         EdgeVerdict::Hit { free_until, contact_at, part, obstacle } => EdgeAnswer::Hit {
@@ -107,6 +107,12 @@ fn edge(scene: &Scene, verdict: EdgeVerdict) -> EdgeAnswer {
     }
 }
 
-fn name(scene: &Scene, obstacle: ObstacleId) -> Option<String> {
+/// An obstacle's name.
+pub fn name(scene: &Scene, obstacle: ObstacleId) -> Option<String> {
     scene.obstacle_name(obstacle).map(str::to_owned)
+}
+
+/// A point as a pair of numbers.
+pub fn point(p: Point2) -> [JsonNumber; 2] {
+    [JsonNumber(p.x), JsonNumber(p.y)]
 }

@@ -1,6 +1,9 @@
 //! `query`: the four questions, `edge` and `scan`, about one configuration or many.
 
 mod answer;
+mod certificate;
+mod dimensions;
+mod inquiry;
 mod line;
 mod lines;
 mod robot;
@@ -15,6 +18,7 @@ use motion_lab::sensors::RangeSensor;
 use serde::Serialize;
 
 use answer::{Answer, ask_scan};
+use certificate::{Certify, EdgeCertificate};
 use line::{Asked, parse_line};
 use lines::Lines;
 pub use robot::RobotName;
@@ -43,6 +47,9 @@ const MESSAGES: u64 = 10;
 /// With --input each line is either a configuration, [x, y, theta], or {"q": [..], "to": [..]}; blank lines are passed over.
 /// Each gets its answer in the same order. A wrong one gets {"error": ".."}, the others their answers, and the exit code
 /// is 3.
+///
+/// With --certificate the proof of `edge` goes to a file, as JSON: the world's shapes, the robot, the motion, and the steps
+/// [from, to, clearance] in which it is free, for other programs to check. Of a motion that hits it proves what comes before.
 #[derive(Debug, Args)]
 #[command(verbatim_doc_comment)]
 pub struct Query {
@@ -68,6 +75,9 @@ pub struct Query {
     /// Read the configurations from this file, `-` for standard input.
     #[arg(long, value_name = "FILE")]
     input: Option<PathBuf>,
+    /// Write the proof of `edge` to this file, as JSON.
+    #[arg(long, value_name = "FILE", conflicts_with = "input")]
+    certificate: Option<PathBuf>,
     /// The scan's number of rays, 1 to 100000.
     #[arg(long, default_value_t = 360)]
     rays: u32,
@@ -99,9 +109,14 @@ impl Query {
         match (self.q, &self.input) {
             (Some(Numbers(q)), _) => {
                 let asked = Asked { q, to: self.to.map(|Numbers(to)| to) };
-                let answer =
-                    desk.answer(&asked).map_err(|reason| Failure::usage(reason, "See `motion-lab query --help`."))?;
-                data.json(&answer)?;
+                let usage = |reason: String| Failure::usage(reason, "See `motion-lab query --help`.");
+                if let Some(path) = &self.certificate {
+                    let certificate = desk.certify(&asked).map_err(usage)?;
+                    certificate.write(path)?;
+                    data.json(&certificate.verdict)?;
+                } else {
+                    data.json(&desk.answer(&asked).map_err(usage)?)?;
+                }
                 Ok(Outcome::Done)
             }
             (None, Some(path)) if path == Path::new("-") => desk.answer_all("standard input", io::stdin(), data),
@@ -114,17 +129,26 @@ impl Query {
         if self.robot.is_none() && self.question != Question::Scan {
             return Err(Failure::usage("which robot?", format!("Add --robot with one of {}.", RobotName::list())));
         }
+        if self.certificate.is_some() && self.question != Question::Edge {
+            return Err(Failure::usage(
+                "only an edge has a certificate",
+                "Ask `query edge`, or leave --certificate out.",
+            ));
+        }
         let sensor = RangeSensor::try_new(self.rays, self.range)
             .map_err(|error| Failure::usage(error, "Change --rays or --range."))?;
         let world = self.world.as_deref().unwrap_or_else(|| self.robot.map_or("apartment", RobotName::home));
-        let scene = Arc::new(Scene::of_world(&find_world(world)?));
-        Ok(Desk { question: self.question, scene, robot: self.robot, sensor })
+        let world = find_world(world)?;
+        let scene = Arc::new(Scene::of_world(&world));
+        Ok(Desk { question: self.question, world: world.name, scene, robot: self.robot, sensor })
     }
 }
 
 /// Everything that stays the same from one configuration to the next.
 struct Desk {
     question: Question,
+    /// The world's name.
+    world: String,
     scene: Arc<Scene>,
     robot: Option<RobotName>,
     sensor: RangeSensor,
@@ -137,16 +161,26 @@ struct WrongLine {
 
 impl Desk {
     fn answer(&self, asked: &Asked) -> Result<Answer, String> {
-        let moves = matches!(self.question, Question::Swept | Question::Edge);
-        match (&asked.to, moves) {
-            (None, true) => return Err("where to? this question is about a motion and needs `to`".into()),
-            (Some(_), false) => return Err("this question is about one configuration and takes no `to`".into()),
-            _ => {}
-        }
+        self.check(asked)?;
         match (self.question, self.robot) {
             (Question::Scan, _) => ask_scan(&self.scene, &self.sensor, &asked.q),
-            (question, Some(robot)) => robot.answer(&self.scene, question, asked),
+            (question, Some(robot)) => robot.answer(&self.scene, &question, asked),
             (_, None) => Err("which robot?".into()),
+        }
+    }
+
+    fn certify(&self, asked: &Asked) -> Result<EdgeCertificate, String> {
+        self.check(asked)?;
+        let robot = self.robot.ok_or("which robot?")?;
+        robot.answer(&self.scene, &Certify { world: &self.world }, asked)
+    }
+
+    /// Whether a motion's end is given to a question about a motion, and to no other.
+    fn check(&self, asked: &Asked) -> Result<(), String> {
+        match (&asked.to, matches!(self.question, Question::Swept | Question::Edge)) {
+            (None, true) => Err("where to? this question is about a motion and needs `to`".into()),
+            (Some(_), false) => Err("this question is about one configuration and takes no `to`".into()),
+            _ => Ok(()),
         }
     }
 

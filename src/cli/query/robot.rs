@@ -8,11 +8,11 @@ use motion_lab::collision::{Checker, Scene};
 use motion_lab::configuration::{AnyConfiguration, HitchCfg, Tn};
 use motion_lab::geometry::{MAX_COORDINATE, Pose2};
 use motion_lab::num::wrap;
-use motion_lab::robots::{AnyRobot, HITCH, RUSTY, Reach, Robot};
+use motion_lab::robots::{AnyRobot, HITCH, RUSTY, Reach};
 use motion_lab::worlds::World;
 
-use super::Question;
-use super::answer::{Answer, ask};
+use super::dimensions::Measured;
+use super::inquiry::Inquiry;
 use super::line::Asked;
 
 /// A robot by name.
@@ -76,30 +76,35 @@ impl RobotName {
         Ok((robot, q))
     }
 
-    /// The answer to a question about this robot.
-    pub(super) fn answer(self, scene: &Arc<Scene>, question: Question, asked: &Asked) -> Result<Answer, String> {
+    /// The answer to an inquiry about this robot.
+    pub(super) fn answer<I: Inquiry>(
+        self,
+        scene: &Arc<Scene>,
+        inquiry: &I,
+        asked: &Asked,
+    ) -> Result<I::Answer, String> {
         let with_trailer = asked.q.len() == 4;
         match self {
-            RobotName::Rusty => convert(scene, RUSTY, question, asked, rusty_pose),
-            RobotName::Reach => convert(scene, Reach::workbench(), question, asked, angles),
-            RobotName::Choset => convert(scene, Reach::choset(), question, asked, angles),
-            RobotName::Reach3 => convert(scene, Reach::redundant(), question, asked, angles),
-            RobotName::Hitch if with_trailer => convert(scene, HITCH.with_trailer(), question, asked, car),
-            RobotName::Hitch => convert(scene, HITCH, question, asked, car),
+            RobotName::Rusty => convert(scene, RUSTY, inquiry, asked, rusty_pose),
+            RobotName::Reach => convert(scene, Reach::workbench(), inquiry, asked, angles),
+            RobotName::Choset => convert(scene, Reach::choset(), inquiry, asked, angles),
+            RobotName::Reach3 => convert(scene, Reach::redundant(), inquiry, asked, angles),
+            RobotName::Hitch if with_trailer => convert(scene, HITCH.with_trailer(), inquiry, asked, car),
+            RobotName::Hitch => convert(scene, HITCH, inquiry, asked, car),
         }
     }
 }
 
-fn convert<R: Robot>(
+fn convert<R: Measured, I: Inquiry>(
     scene: &Arc<Scene>,
     robot: R,
-    question: Question,
+    inquiry: &I,
     asked: &Asked,
     configuration: fn(&[f64]) -> Result<R::Configuration, String>,
-) -> Result<Answer, String> {
+) -> Result<I::Answer, String> {
     let q = configuration(&asked.q)?;
     let to = asked.to.as_deref().map(configuration).transpose().map_err(|reason| format!("`to`: {reason}"))?;
-    ask(&Checker::new(Arc::clone(scene), robot), question, &q, to.as_ref())
+    inquiry.ask(&Checker::new(Arc::clone(scene), robot), &q, to.as_ref())
 }
 
 fn angles<const N: usize>(numbers: &[f64]) -> Result<Tn<N>, String> {

@@ -1,0 +1,34 @@
+//! `Inquiry`, what can be asked about any robot in a scene.
+
+use motion_lab::collision::Checker;
+
+use super::Question;
+use super::answer::{Answer, ask};
+use super::dimensions::Measured;
+
+/// What can be asked about any robot in a scene.
+pub trait Inquiry {
+    /// What comes of it.
+    type Answer;
+
+    /// The answer about the robot at `q`, moving to `to` where the inquiry is about a motion. An error says what is wrong with these.
+    fn ask<R: Measured>(
+        &self,
+        checker: &Checker<R>,
+        q: &R::Configuration,
+        to: Option<&R::Configuration>,
+    ) -> Result<Self::Answer, String>;
+}
+
+impl Inquiry for Question {
+    type Answer = Answer;
+
+    fn ask<R: Measured>(
+        &self,
+        checker: &Checker<R>,
+        q: &R::Configuration,
+        to: Option<&R::Configuration>,
+    ) -> Result<Answer, String> {
+        ask(checker, *self, q, to)
+    }
+}
