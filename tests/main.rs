@@ -1,10 +1,6 @@
 //! The whole-system tests: one binary, a module per subject. Without features it has those of the core.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::print_stdout, missing_docs)]
 
-mod fixtures;
-mod oracle;
-mod verdicts;
-
 #[cfg(feature = "sim")]
 mod allocation;
 #[cfg(feature = "sim")]
@@ -12,10 +8,14 @@ mod anatomy;
 mod angles;
 #[cfg(feature = "cli")]
 mod atlas;
+#[cfg(feature = "sim")]
+mod caches;
 mod certificates;
 mod chapter;
 #[cfg(feature = "cli")]
 mod cli;
+#[cfg(feature = "sim")]
+mod controls;
 mod edges;
 #[cfg(feature = "sim")]
 mod examples;
@@ -23,13 +23,23 @@ mod exercises;
 mod extremes;
 mod failsafe;
 mod faults;
+mod fixtures;
 #[cfg(all(unix, feature = "cli"))]
 mod gate;
 mod house;
 #[cfg(feature = "cli")]
 mod imports;
+#[cfg(feature = "sim")]
+mod inputs;
+#[cfg(feature = "sim")]
+mod keyframes;
 mod letters;
+#[cfg(feature = "sim")]
+mod many_worlds;
 mod metamorphic;
+#[cfg(feature = "sim")]
+mod noise_streams;
+mod oracle;
 mod pairs;
 mod penetration;
 #[cfg(feature = "sim")]
@@ -43,4 +53,7 @@ mod sensor_noise;
 #[cfg(feature = "sim")]
 mod simulation;
 mod sweeps;
+mod ties;
 mod touches;
+mod trailer;
+mod verdicts;

@@ -9,6 +9,8 @@ use motion_lab::simulation::SpawnError;
 use motion_lab::tour::{SensorConfig, TourConfig};
 use motion_lab::worlds::World;
 
+use crate::noise_streams::slips;
+
 /// A sensor with 60 rays of 4 m.
 const R: f64 = 4.0;
 
@@ -134,6 +136,20 @@ fn the_sensor_has_a_stream_of_its_own() {
     let (other, _) = twins(ALL, Seed(10), 80);
     assert_ne!(other.frames[0].scans, noisy.frames[0].scans, "the seed is in it");
     assert_ne!(noisy.initial.scans, exact.initial.scans, "tick 0 is scanned too");
+
+    // Streams have no state, so all this would hold if the sensor drew the numbers that the wheels slip by. A reading at random is R times
+    // one draw, a wheel's slip is 1 - s + 2 s times one: no draw of the one may be among those of the other.
+    let (random, _) = twins("z_rand: 1", Seed(9), 80);
+    let scans = std::iter::once(&random.initial).chain(&random.frames).flat_map(|frame| &frame.scans[0].ranges);
+    let mut drawn: Vec<f64> = scans.map(|reading| reading / R).collect();
+    drawn.sort_by(f64::total_cmp);
+    let slips = slips(&random, 0).into_iter().flatten().filter(|slip| slip.is_finite());
+    let slips: Vec<f64> = slips.map(|slip| 0.5 + 0.5 * (slip - 1.0) / RUSTY.max_slip).collect();
+    assert!(drawn.len() == 81 * 60 && slips.len() > 120 && slips.iter().all(|u| (-1e-6..1.000_001).contains(u)));
+    for slip in slips {
+        let next = drawn.partition_point(|u| *u < slip - 1e-9);
+        assert!(drawn.get(next).is_none_or(|u| *u > slip + 1e-9), "{slip} is drawn for the sensor and for a wheel");
+    }
 }
 
 #[test]

@@ -1,0 +1,264 @@
+//! Keyframes: a run taken back, branched, undone and done again about them, thinned, and long beyond a hundred thousand ticks.
+
+use std::time::Duration;
+
+use bevy::app::App;
+use bevy::prelude::MinimalPlugins;
+use bevy::time::TimeUpdateStrategy;
+use motion_lab::num::{sin, tan, wrap};
+use motion_lab::prelude::*;
+use motion_lab::random::DRAWS_PER_INDEX;
+use motion_lab::recording::Run;
+use motion_lab::run::{Event, Frame, Log, LogWriter, RobotInput};
+use motion_lab::simulation::{
+    History, HistoryPlugin, Keyframes, LatestFrame, PendingInput, RobotCommand, SimulationPlugin, Transport,
+    TransportCommand, Undo, restore, start_run, step,
+};
+use motion_lab::tour::TourConfig;
+
+use crate::controls::{driven, open};
+use crate::simulation::{assert_same, event, script};
+
+const SEED: Seed = Seed(7);
+
+/// A car that pulls its trailer, and a rover whose wheels slip in a world of its own.
+fn config(ticks: u64) -> TourConfig {
+    let car = open("the car's", &[("car", "hitch", &[0.0, 0.0, 0.5, 0.5])]);
+    let rover = open("the rover's", &[("rover", "rusty", &[0.0, 0.0, 1.0])]);
+    TourConfig { worlds: vec![car, rover], ticks, sensor: None }
+}
+
+/// What both are told before there is a branch.
+fn told() -> Vec<Event> {
+    vec![
+        event(1, "car", RobotInput::Drive(96, 40)),
+        event(1, "rover", RobotInput::Drive(100, -30)),
+        event(150, "car", RobotInput::Drive(-64, 20)),
+        event(260, "rover", RobotInput::Drive(-128, 64)),
+    ]
+}
+
+/// What the car is told at the branch.
+const OTHERWISE: RobotInput = RobotInput::Drive(-128, -77);
+
+/// What was told up to tick `k`, and something else after it.
+fn told_otherwise_after(k: u64) -> Vec<Event> {
+    let mut events = told();
+    events.retain(|e| e.tick <= k);
+    events.push(event(k + 1, "car", OTHERWISE));
+    events
+}
+
+/// The frames of a run that was never taken back: that of tick k in place k.
+fn fresh(events: Vec<Event>, ticks: u64) -> Vec<Frame> {
+    let log = Run::record(config(ticks), (SEED, script(events))).unwrap();
+    std::iter::once(log.initial).chain(log.frames).collect()
+}
+
+/// A run at tick 0, paused, in an app whose clock stands still.
+fn app(config: TourConfig, events: Vec<Event>, history: bool) -> App {
+    let mut app = App::new();
+    app.add_plugins((MinimalPlugins, SimulationPlugin));
+    if history {
+        app.add_plugins(HistoryPlugin);
+    }
+    start_run(app.world_mut(), config, (SEED, script(events))).unwrap();
+    app.insert_resource(TimeUpdateStrategy::ManualDuration(Duration::ZERO));
+    app
+}
+
+fn send(app: &mut App, command: TransportCommand) {
+    app.world_mut().write_message(command);
+    app.update();
+}
+
+fn drive(app: &mut App, robot: &str, input: RobotInput) {
+    app.world_mut().write_message(RobotCommand { robot: robot.into(), input });
+    app.update();
+}
+
+fn frame(app: &App) -> &Frame {
+    &app.world().resource::<LatestFrame>().0
+}
+
+fn told_to(app: &App) -> &[Event] {
+    &app.world().resource::<PendingInput>().script().events
+}
+
+/// Goes to these ticks, one after the other, and finds there what was there in `run`.
+#[track_caller]
+fn assert_is(app: &mut App, run: &[Frame], ticks: &[u64]) {
+    for &tick in ticks {
+        send(app, TransportCommand::Seek(tick));
+        assert_same(frame(app), &run[tick as usize]);
+    }
+}
+
+/// The ticks whose frames are kept.
+fn kept(app: &App) -> Vec<u64> {
+    let keyframes = app.world().resource::<Keyframes>();
+    let before = |f: &&Frame| keyframes.before(f.tick.checked_sub(1)?);
+    let mut ticks: Vec<u64> = std::iter::successors(keyframes.before(u64::MAX), before).map(|f| f.tick).collect();
+    ticks.reverse();
+    ticks
+}
+
+#[test]
+fn a_branch_before_at_and_after_a_keyframe_is_the_run_of_its_script() {
+    let run = fresh(told(), 320);
+    // back by seeking or from a frame, and from a tick far ahead or the next one
+    for (k, end) in [(99, 320), (100, 320), (101, 320), (199, 200), (199, 320), (200, 320), (201, 320), (299, 300)] {
+        for restored in [false, true] {
+            let mut app = app(config(end), told(), false);
+            send(&mut app, TransportCommand::Seek(end));
+            assert_eq!(kept(&app).last(), Some(&(end / 100 * 100)), "there is something to forget");
+            if restored {
+                restore(app.world_mut(), &run[k as usize]).unwrap();
+            } else {
+                send(&mut app, TransportCommand::Seek(k));
+            }
+            assert_same(frame(&app), &run[k as usize]);
+            drive(&mut app, "car", OTHERWISE);
+            assert!(kept(&app).iter().all(|tick| *tick <= k), "{:?} are kept of a branch at {k}", kept(&app));
+            assert_eq!(told_to(&app), told_otherwise_after(k));
+            let branch = fresh(told_otherwise_after(k), end);
+            // straight to the end first: by what was kept ahead of the branch, were it kept
+            let others = [k + 1, 100, 200, 300, k, 99, 201];
+            assert_is(&mut app, &branch, &[end]);
+            assert_is(&mut app, &branch, &others.map(|tick| if tick <= end { tick } else { end }));
+            assert_ne!(branch[end as usize], run[end as usize]);
+        }
+    }
+}
+
+#[test]
+fn a_frame_put_back_about_a_keyframe_is_followed_by_what_followed_it() {
+    let run = fresh(told(), 320);
+    let mut app = app(config(320), told(), false);
+    for k in [320, 98, 99, 100, 101, 201, 200, 199, 1, 0, 300] {
+        restore(app.world_mut(), &run[k]).unwrap();
+        for after in &run[k..run.len().min(k + 4)] {
+            assert_same(frame(&app), after);
+            step(app.world_mut());
+        }
+    }
+    assert_is(&mut app, &run, &[0, 320, 99, 100, 101, 320, 201, 200, 199]);
+}
+
+#[test]
+fn what_is_undone_and_done_again_is_the_run_of_its_script_at_every_tick() {
+    let (first, second) = (fresh(told(), 330), fresh(told_otherwise_after(120), 330));
+    let mut app = app(config(330), told(), true);
+    assert_is(&mut app, &first, &[330, 120]);
+    app.world_mut().write_message(TransportCommand::Checkpoint);
+    drive(&mut app, "car", OTHERWISE);
+    assert_is(&mut app, &second, &[330]);
+
+    let ticks = [330, 301, 300, 299, 200, 121, 120, 100, 330];
+    for (command, run, events, stands_at) in [
+        (TransportCommand::Undo, &first, told(), 120),
+        (TransportCommand::Redo, &second, told_otherwise_after(120), 330),
+        (TransportCommand::Undo, &first, told(), 330),
+    ] {
+        send(&mut app, command);
+        let Transport { tick, frontier, .. } = *app.world().resource::<Transport>();
+        assert_eq!((tick, frontier), (stands_at, 330), "{command:?}");
+        assert_eq!(told_to(&app), events, "{command:?}");
+        // what is known of the ticks ahead and behind is of this run too
+        let history = app.world().resource::<History>();
+        for tick in ticks {
+            let known = &history.at(tick, 0).unwrap().coordinates;
+            assert_eq!(known, &run[tick as usize].robots[0].configuration, "{command:?}: tick {tick}");
+        }
+        assert_is(&mut app, run, &ticks);
+    }
+
+    // something else is done after the undo: what was undone cannot be done again
+    send(&mut app, TransportCommand::Seek(50));
+    app.world_mut().write_message(TransportCommand::Checkpoint);
+    drive(&mut app, "rover", RobotInput::Drive(1, 1));
+    assert!(!app.world().resource::<Undo>().can_redo());
+    let events = told_to(&app).to_vec();
+    send(&mut app, TransportCommand::Redo);
+    assert_eq!((told_to(&app), frame(&app).tick), (&events[..], 50));
+}
+
+#[test]
+fn a_run_that_fills_its_keyframes_keeps_fewer_evenly_and_its_beginning() {
+    let run = fresh(told(), 1100);
+    let mut app = app(config(1100), told(), false);
+    app.world_mut().insert_resource(Keyframes::every(1));
+    restore(app.world_mut(), &run[0]).unwrap();
+    assert_is(&mut app, &run, &[1000, 1100]);
+    let kept = kept(&app);
+    let apart = kept[1] - kept[0];
+    assert!(kept.len() <= 1024 && kept[0] == 0 && apart.is_power_of_two(), "{kept:?}");
+    assert!(kept.windows(2).all(|w| w[1] - w[0] == apart) && kept.last() > Some(&(1100 - apart)), "{kept:?}");
+    assert_is(&mut app, &run, &[511, 512, 513, 1, 0, 1023, 1024, 1025, 1100, 0, 1100]);
+}
+
+#[test]
+fn beyond_a_hundred_thousand_ticks_steps_seeks_history_and_log_go_on() {
+    const TICKS: u64 = 102_600;
+    const SLOWER: u64 = 100_100;
+    let start = [0.0, 0.0, 0.5, 0.5];
+    let config = TourConfig { worlds: vec![open("open", &[("car", "hitch", &start)])], ticks: TICKS, sensor: None };
+    let events = vec![event(1, "car", RobotInput::Drive(128, 64)), event(SLOWER, "car", RobotInput::Drive(64, 64))];
+    let mut app = app(config.clone(), events.clone(), true);
+    let mut log = LogWriter::new(Vec::new(), SEED, &config, &script(events), frame(&app)).unwrap();
+    let marks = [65_535, 65_536, 65_537, SLOWER - 1, SLOWER, SLOWER + 1, 102_399, 102_400, 102_401, TICKS];
+    let mut seen = Vec::new();
+    for tick in 1..=TICKS {
+        step(app.world_mut());
+        log.tick(frame(&app)).unwrap();
+        if marks.contains(&tick) {
+            seen.push(frame(&app).clone());
+        }
+    }
+
+    // half the steering all the way: one circle, run through at full speed and then at half, with the trailer at its steady angle
+    let curvature = tan(0.5 * HITCH.max_steer) / HITCH.wheelbase;
+    let sine = HITCH.with_trailer().hitch_len.unwrap() * curvature;
+    for (frame, mark) in seen.iter().zip(marks) {
+        assert_eq!(frame.tick, mark);
+        let fast = mark.min(SLOWER - 1);
+        let way = 0.05 * HITCH.max_speed * (fast as f64 + 0.5 * (mark - fast) as f64);
+        let [x, y, theta] = driven([0.0, 0.0, 0.5], 1.0, curvature, way);
+        let q = &frame.robots[0].configuration;
+        assert!((q[0] - x).abs() < 1e-9 && (q[1] - y).abs() < 1e-9, "tick {mark}: {q:?}, not {x} {y}");
+        assert!(wrap(q[2] - theta).abs() < 1e-10, "tick {mark}: {q:?}, not {theta}");
+        assert!((sin(q[2] - q[3]) - sine).abs() < 1e-11, "tick {mark}: {q:?}");
+    }
+
+    let kept = kept(&app);
+    assert!(kept.len() <= 1024 && kept[0] == 0 && kept.last() > Some(&102_000), "{} are kept", kept.len());
+    for i in [9, 0, 5, 3, 9, 6, 8, 1, 4, 7, 2] {
+        send(&mut app, TransportCommand::Seek(marks[i]));
+        assert_same(frame(&app), &seen[i]);
+    }
+    // half an hour is kept in full, more is thinned: these ticks are among what remains
+    let history = app.world().resource::<History>();
+    assert!(history.samples() <= 36_000, "{} samples", history.samples());
+    for i in [1, 4, 7] {
+        assert_eq!(history.at(marks[i], 0).unwrap().coordinates, seen[i].robots[0].configuration);
+    }
+
+    let read = Log::read_mcap(&log.finish().unwrap()).unwrap().log;
+    assert_eq!((read.frames.len() as u64, read.frames.last().map(|f| f.tick)), (TICKS, Some(TICKS)));
+    for frame in &seen {
+        assert_same(&read.frames[frame.tick as usize - 1], frame);
+    }
+}
+
+#[test]
+fn the_draws_of_any_tick_come_after_those_of_all_before_it() {
+    // a noisy sensor's rays count too: sixty of them come to a million in a quarter of an hour
+    let stream = Stream::new(SEED, "rover/slip");
+    let mut walked = stream.clone();
+    for index in 0..=1 << 20 {
+        if [0, 65_535, 65_536, 99_999, 100_000, (1 << 20) - 1, 1 << 20].contains(&index) {
+            assert_eq!(stream.at(index).bits(), walked.clone().bits(), "index {index}");
+        }
+        (0..DRAWS_PER_INDEX).for_each(|_| _ = walked.bits());
+    }
+}
