@@ -9,7 +9,7 @@ use motion_lab::num::tan;
 use motion_lab::prelude::*;
 use motion_lab::run::{Event, RobotInput};
 use motion_lab::simulation::{
-    LatestFrame, PendingInput, RobotCommand, SimulationPlugin, TransportCommand, start_run, view,
+    LatestFrame, PendingInput, RobotCommand, SimulationPlugin, Transport, TransportCommand, start_run, view,
 };
 use motion_lab::tour::TourConfig;
 
@@ -176,4 +176,31 @@ fn back_in_a_scripted_run_a_press_takes_the_place_of_all_that_came_after() {
     step(&mut app, 21);
     assert_gone(&app, [10.0 + 0.5 * 21.0, 0.0]);
     assert_eq!(taken_down(&app), [(10, "a", [128, 0]), (20, "a", [64, 0])]);
+}
+
+#[test]
+fn what_no_script_can_hold_forgets_nothing() {
+    let mut app = cars(&[(30, "a", 128)]);
+    step(&mut app, 40);
+    app.world_mut().write_message(TransportCommand::Seek(19));
+    app.update();
+    // nobody of that name, and channels go to 128
+    press(&mut app, "nobody", 128, 0);
+    press(&mut app, "a", 300, 0);
+    app.update();
+    assert_eq!(app.world().resource::<Transport>().frontier, 40);
+    assert_eq!(taken_down(&app), [(30, "a", [128, 0])]);
+    step(&mut app, 21);
+    assert_gone(&app, [11.0, 0.0]);
+}
+
+#[test]
+fn what_the_script_has_for_the_next_tick_is_forgotten_as_all_after_it() {
+    let mut app = cars(&[(21, "a", -128), (21, "b", -128), (25, "a", -64)]);
+    step(&mut app, 19);
+    press(&mut app, "a", 128, 0);
+    step(&mut app, 3);
+    // ticks 20 to 22 ahead
+    assert_gone(&app, [3.0, 0.0]);
+    assert_eq!(taken_down(&app), [(20, "a", [128, 0])]);
 }

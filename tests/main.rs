@@ -53,6 +53,8 @@ mod sensor_noise;
 #[cfg(feature = "sim")]
 mod simulation;
 mod sweeps;
+#[cfg(feature = "sim")]
+mod tick_oracle;
 mod ties;
 mod touches;
 mod trailer;

@@ -105,10 +105,10 @@ fn farthest((min, max): (Point2, Point2)) -> f64 {
 }
 
 impl Hitch {
-    /// The same car with the trailer attached.
+    /// The same car with the trailer attached: by the hitch that it has, or else by one of two metres.
     #[must_use]
     pub fn with_trailer(self) -> Self {
-        Hitch { hitch_len: Some(TRAILER_HITCH_LEN), ..self }
+        Hitch { hitch_len: self.hitch_len.or(Some(TRAILER_HITCH_LEN)), ..self }
     }
 
     /// The same car without a trailer.

@@ -18,6 +18,8 @@ pub struct RobotCommand {
 #[derive(Resource, Clone, Debug, PartialEq)]
 pub struct PendingInput {
     script: Script,
+    /// The tick that live input was last captured for, so that what stands at the next is a release that it put off.
+    captured: Option<u64>,
 }
 
 impl Default for PendingInput {
@@ -30,7 +32,7 @@ impl PendingInput {
     /// The input of this script; events of one tick stay in their order.
     pub fn new(mut script: Script) -> Self {
         script.events.sort_by_key(|e| e.tick);
-        PendingInput { script }
+        PendingInput { script, captured: None }
     }
 
     /// The script.
@@ -49,6 +51,7 @@ impl PendingInput {
     /// Forgets every event after `tick`.
     pub fn truncate_after(&mut self, tick: u64) {
         self.script.events.retain(|e| e.tick <= tick);
+        self.captured = None;
     }
 
     /// Captures a live input before the step of the event's tick, the next one. Whatever was to come after is forgotten.
@@ -59,8 +62,10 @@ impl PendingInput {
     pub fn capture(&mut self, event: Event) {
         let Event { tick, robot, input } = event;
         let robot = robot.as_str();
-        // one tick beyond, for releases put off
-        self.truncate_after(tick + 1);
+        if self.captured != Some(tick) {
+            self.truncate_after(tick);
+            self.captured = Some(tick);
+        }
         let last = self.script.events.iter().rposition(|e| e.robot == robot);
         let last_due = last.filter(|&i| self.script.events[i].tick >= tick);
         let stamp = last_due.map_or(tick, |i| self.script.events[i].tick);

@@ -160,17 +160,18 @@ fn take_robot_commands(world: &mut World) {
         return;
     }
     let Transport { tick, frontier, .. } = *world.resource::<Transport>();
-    if tick < frontier {
+    let names: Vec<String> = world.query::<&RobotName>().iter(world).map(|n| n.name.clone()).collect();
+    let event = |RobotCommand { robot, input }| Event { tick: tick + 1, robot, input };
+    let holds = |event: &Event| {
+        names.contains(&event.robot) && (Script { events: vec![event.clone()], ..Script::empty() }).check().is_ok()
+    };
+    let events: Vec<Event> = commands.into_iter().map(event).filter(holds).collect();
+    // what is ignored forgets nothing
+    if tick < frontier && !events.is_empty() {
         continue_from_here(world);
     }
-    let names: Vec<String> = world.query::<&RobotName>().iter(world).map(|n| n.name.clone()).collect();
     let mut pending = world.resource_mut::<PendingInput>();
-    for RobotCommand { robot, input } in commands {
-        let event = Event { tick: tick + 1, robot, input };
-        if names.contains(&event.robot) && (Script { events: vec![event.clone()], ..Script::empty() }).check().is_ok() {
-            pending.capture(event);
-        }
-    }
+    events.into_iter().for_each(|event| pending.capture(event));
 }
 
 /// What is to be undone as one begins before the frame's input, whatever order they came in.

@@ -103,4 +103,9 @@ impl<R: SimulatedRobot> Plugin for RobotPlugin<R> {
     fn name(&self) -> &str {
         &self.kind
     }
+
+    /// A kind may be registered again.
+    fn is_unique(&self) -> bool {
+        false
+    }
 }

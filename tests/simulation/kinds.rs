@@ -1,11 +1,13 @@
 //! A kind of robot that the library does not know.
 
+use bevy::app::App;
+use bevy::prelude::MinimalPlugins;
 use motion_lab::collision::{Collision, Scene};
 use motion_lab::prelude::*;
 use motion_lab::recording::{Recorder, Run, RunError};
 use motion_lab::robots::{ChartLine, ConfigurationError, PartRates, Rates};
 use motion_lab::run::RobotInput;
-use motion_lab::simulation::{Extra, RobotPlugin, SimulatedRobot};
+use motion_lab::simulation::{Extra, LatestFrame, RobotPlugin, SimulatedRobot, SimulationPlugin, start_run, view};
 use motion_lab::tour::TourConfig;
 use motion_lab::worlds::World;
 
@@ -116,4 +118,24 @@ fn a_new_kind_runs_by_name_beside_the_lab_s_own() {
 
     let unknown = Run::record(config(1), Seed(8));
     assert!(matches!(unknown, Err(RunError::Spawn(e)) if e.to_string().contains("no kind \"puck\"")));
+}
+
+/// A kind that the plugin has itself, registered again, and a car with a hitch of its own length.
+#[test]
+fn a_kind_registered_again_is_the_new_one_and_keeps_its_dimensions() {
+    let own = Hitch { wheelbase: 2.0, hitch_len: Some(3.0), ..HITCH };
+    let mut app = App::new();
+    app.add_plugins((MinimalPlugins, SimulationPlugin, RobotPlugin::new("hitch", own)));
+    let config = TourConfig { worlds: vec![arena(30.0, &[("Hitch", "hitch", &[0.0; 4])])], ticks: 10, sensor: None };
+    let events = vec![event(1, "Hitch", RobotInput::Drive(128, 128))];
+    start_run(app.world_mut(), config, (Seed(1), script(events))).unwrap();
+    let footprint = view(app.world_mut()).remove(0).footprint;
+    // the trailer's box: from its axle, 3 m behind the car's, 0.8 m back and 1 m ahead
+    let (low, high) = footprint.parts()[1].placed().bounds();
+    assert_eq!((low.x, high.x), (-3.8, -2.0));
+    motion_lab::simulation::step(app.world_mut());
+    // an arc of v dt tan(phi) / L
+    let heading = app.world().resource::<LatestFrame>().0.robots[0].configuration[2];
+    let expected = 1.5 * 0.05 * motion_lab::num::tan(0.6) / 2.0;
+    assert!((heading - expected).abs() < 1e-12, "{heading} {expected}");
 }
