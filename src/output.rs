@@ -1,6 +1,7 @@
 //! Output files: written whole, or not at all. The command line and the window write by these.
 
-use std::fs::{self, File, OpenOptions};
+use std::ffi::OsString;
+use std::fs::{self, File, OpenOptions, TryLockError};
 use std::io::{self, BufWriter, ErrorKind, Write};
 use std::path::{Path, PathBuf};
 
@@ -8,6 +9,9 @@ use tempfile::{Builder, NamedTempFile};
 
 /// A file on its way: written under a temporary name in the folder of its final name, and put there in one step by
 /// [`commit`](Self::commit). Until then, and when it is dropped, an older file of that name is as it was.
+///
+/// The temporary name is the final one with a dot before it and `.XXXXXX.partial` behind. A process that is killed leaves it, and
+/// [`unfinished`] finds it.
 pub struct PendingFile {
     path: PathBuf,
     file: BufWriter<NamedTempFile>,
@@ -22,11 +26,13 @@ impl PendingFile {
         // through a symbolic link to the file itself
         let path = fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
         let older = older_permissions(&path)?;
-        let folder = match path.parent() {
-            Some(folder) if !folder.as_os_str().is_empty() => folder,
-            _ => Path::new("."),
-        };
-        let file = builder().prefix(".motion-lab-").tempfile_in(folder)?;
+        let mut prefix = OsString::from(".");
+        prefix.push(path.file_name().unwrap_or_default());
+        prefix.push(".");
+        // the kind alone: the temporary name is nobody's business
+        let file = builder().prefix(&prefix).suffix(SUFFIX).tempfile_in(folder_of(&path)).map_err(|e| e.kind())?;
+        // Held until the process ends, so that others can tell it from what a killed one left. Where there are no locks, they can't.
+        let _ = file.as_file().try_lock();
         if let Some(permissions) = older {
             file.as_file().set_permissions(permissions)?;
         }
@@ -46,9 +52,26 @@ impl PendingFile {
     ///
     /// # Errors
     /// As [`commit`](Self::commit).
-    pub fn commit_as(self, path: &Path) -> io::Result<()> {
-        let file = self.file.into_inner().map_err(io::IntoInnerError::into_error)?;
-        file.as_file().sync_all()?;
+    pub fn commit_as(mut self, path: &Path) -> io::Result<()> {
+        self.sync()?;
+        self.keep_as(path)
+    }
+
+    /// Has the disk keep all that was written.
+    ///
+    /// # Errors
+    /// [`io::Error`] when it does not.
+    pub fn sync(&mut self) -> io::Result<()> {
+        self.file.flush()?;
+        self.file.get_ref().as_file().sync_all()
+    }
+
+    /// Puts what the disk took under another name of the same folder, after a write that failed. What it did not take is lost.
+    ///
+    /// # Errors
+    /// [`io::Error`] when the file can't be renamed.
+    pub fn keep_as(self, path: &Path) -> io::Result<()> {
+        let (file, _) = self.file.into_parts();
         file.persist(path).map_err(|error| error.error)?;
         sync_folder(path);
         Ok(())
@@ -63,6 +86,58 @@ impl Write for PendingFile {
     fn flush(&mut self) -> io::Result<()> {
         self.file.flush()
     }
+}
+
+/// The end of a temporary name.
+const SUFFIX: &str = ".partial";
+
+/// The number of characters that make a temporary name unique, a dot before them.
+const UNIQUE: usize = 6;
+
+fn folder_of(path: &Path) -> &Path {
+    path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."))
+}
+
+/// The files in the folder of `path` that processes left when they were killed, in the order of their names. Those that a process is
+/// still writing are not among them, where the system has locks.
+///
+/// # Errors
+/// [`io::Error`] when the folder can't be read.
+pub fn unfinished(path: &Path) -> io::Result<Vec<PathBuf>> {
+    let mut found = Vec::new();
+    for entry in fs::read_dir(folder_of(path))? {
+        let path = folder_of(path).join(entry?.file_name());
+        let is_left =
+            || matches!(File::open(&path).map(|file| file.try_lock()), Ok(Ok(()) | Err(TryLockError::Error(_))));
+        if is_temporary(&path) && is_left() {
+            found.push(path);
+        }
+    }
+    found.sort();
+    Ok(found)
+}
+
+/// The name of the file that a temporary one was to become; of another that ends in `.partial` the name without it.
+pub fn whole_name(path: &Path) -> Option<PathBuf> {
+    let whole = path.with_extension("");
+    match path.extension() {
+        Some(extension) if extension == "partial" => {}
+        _ => return None,
+    }
+    if !is_temporary(path) {
+        return Some(whole);
+    }
+    let name = whole.file_stem()?.to_str()?.strip_prefix('.')?;
+    Some(path.with_file_name(name))
+}
+
+fn is_temporary(path: &Path) -> bool {
+    let name = path.file_name().and_then(|name| name.to_str()).unwrap_or_default();
+    let unique =
+        name.strip_prefix('.').and_then(|name| name.strip_suffix(SUFFIX)).and_then(|name| name.rsplit_once('.'));
+    unique.is_some_and(|(name, unique)| {
+        !name.is_empty() && unique.len() == UNIQUE && unique.bytes().all(|b| b.is_ascii_alphanumeric())
+    })
 }
 
 /// Writes a whole file.
@@ -122,5 +197,33 @@ mod tests {
         assert_eq!(fs::read(&path).unwrap(), b"three");
         assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 1);
         assert_eq!(write_file(folder.path(), b"x").unwrap_err().kind(), ErrorKind::IsADirectory);
+    }
+
+    #[test]
+    fn what_a_killed_process_left_is_found_and_what_is_being_written_is_not() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("run.mcap");
+        let mut pending = PendingFile::create(&path).unwrap();
+        pending.write_all(b"one").unwrap();
+        pending.flush().unwrap();
+        let entry = fs::read_dir(folder.path()).unwrap().next().unwrap().unwrap().path();
+        let found = unfinished(&path).unwrap();
+        #[cfg(unix)]
+        assert!(found.is_empty(), "{found:?}");
+        // as if killed: the name stays and the lock goes
+        let (file, _) = pending.file.into_parts();
+        file.keep().unwrap();
+        for other in
+            ["run.mcap.partial", ".hidden", ".run.mcap.a.partial", "..abcdef.partial", ".run.mcap.abcde-.partial"]
+        {
+            fs::write(folder.path().join(other), b"").unwrap();
+        }
+        let name = entry.file_name().unwrap().to_str().unwrap();
+        assert!(name.starts_with(".run.mcap.") && name.ends_with(".partial"), "{name}");
+        assert_eq!(unfinished(&path).unwrap(), [entry.clone()]);
+        assert_eq!(fs::read(&entry).unwrap(), b"one");
+        assert_eq!(whole_name(&entry), Some(path.clone()));
+        assert_eq!(whole_name(&folder.path().join("run.mcap.partial")), Some(path.clone()));
+        assert_eq!(whole_name(&path), None);
     }
 }

@@ -83,12 +83,16 @@ impl Failure {
         let next = match error.kind() {
             io::ErrorKind::NotFound => "Make its folder first, or name another.",
             io::ErrorKind::PermissionDenied => "Name a file in a folder you may write to.",
+            io::ErrorKind::StorageFull | io::ErrorKind::FileTooLarge => {
+                "Make room on the disk, or name a file on another."
+            }
             _ => "Name another file.",
         };
+        let older = if file.is_file() { "The older file of that name is as it was. " } else { "" };
         Failure::Output {
             file: file.display().to_string(),
             reason: format!("it can't be written: {error}"),
-            next: format!("An older file of that name is as it was. {next}"),
+            next: format!("{older}{next}"),
         }
     }
 }

@@ -18,10 +18,13 @@ pub struct LogSource {
     pub damage: Option<String>,
 }
 
+/// Whether a file may be a log, by its first eight bytes. One that is none is read no farther, however long it is.
+pub fn begins_as_one(beginning: &[u8]) -> bool {
+    !matches!(Log::read_mcap(beginning), Err(LogError::NotALog))
+}
+
 /// Reads a log. Of a damaged or unfinished file the sealed beginning; an error when not even that can be used.
 pub fn read_log(path: &Path) -> Result<LogSource, Failure> {
-    // a file that does not begin as a log is read no farther, however long it is
-    let begins_as_one = |beginning: &[u8]| !matches!(Log::read_mcap(beginning), Err(LogError::NotALog));
     let bytes = read_bytes_if(path, MAX_LOG, begins_as_one)?;
     let refused =
         |error: &dyn std::fmt::Display, next| Err(Failure::input(format!("{}: {error}", path.display()), next));

@@ -25,6 +25,16 @@ impl PendingFile {
         self.file.commit().map_err(|error| Failure::output(&self.path, &error))
     }
 
+    /// Has the disk keep all that was written.
+    pub fn sync(&mut self) -> io::Result<()> {
+        self.file.sync()
+    }
+
+    /// Puts what the disk took under another name of the same folder, after a write that failed.
+    pub fn keep_as(self, path: &Path) -> Result<(), Failure> {
+        self.file.keep_as(path).map_err(|error| Failure::output(path, &error))
+    }
+
     /// Puts the file under another name of the same folder.
     pub fn commit_as(self, path: &Path) -> Result<(), Failure> {
         self.file.commit_as(path).map_err(|error| Failure::output(path, &error))

@@ -4,9 +4,30 @@ use std::f64::consts::PI;
 
 use super::{Instructions, RangeSensor, Scanner};
 use crate::collision::{Collision, Scene, Surroundings};
-use crate::geometry::{Footprint, Part, Placed, Point2, Pose2, Segment, Shape, orientation};
+use crate::geometry::{Footprint, Part, Placed, Point2, Pose2, Segment, Shape, Vector2, orientation};
 use crate::num::{self, sqrt};
 use crate::random::{Seed, Stream};
+
+/// The boundary of a shape, not as the scene has it: its core's sides, or, of a shape with a radius, those moved outward by it, of a segment
+/// to both sides, and a circle about each vertex.
+fn boundary(shape: &Placed, segments: &mut Vec<Segment>, circles: &mut Vec<(Point2, f64)>) {
+    let (core, r) = (shape.core(), shape.radius());
+    for (i, &a) in core.iter().enumerate().take(if core.len() == 2 { 1 } else { core.len() }) {
+        let b = core[(i + 1) % core.len()];
+        let (along, length) = (b - a, num::hypot(b.x - a.x, b.y - a.y));
+        // a polygon lies to the left of its sides
+        let right = Vector2::new(along.y, -along.x) * (r / length);
+        match core.len() {
+            1 => {}
+            _ if r == 0.0 => segments.push(Segment::new(a, b)),
+            2 => segments.extend([Segment::new(a + right, b + right), Segment::new(a - right, b - right)]),
+            _ => segments.push(Segment::new(a + right, b + right)),
+        }
+    }
+    if r > 0.0 {
+        circles.extend(core.iter().map(|&vertex| (vertex, r)));
+    }
+}
 
 /// Every ray against every segment and disc, with nothing left out: the kernel without its haste.
 fn by_definition(sensor: &RangeSensor, scene: &Scene, others: &[Placed], pose: &Pose2) -> Vec<f64> {
@@ -15,9 +36,9 @@ fn by_definition(sensor: &RangeSensor, scene: &Scene, others: &[Placed], pose: &
     if (Surroundings { scene, others }).intersects(&inside) {
         return vec![0.0; n];
     }
-    let mut soup = scene.soup().clone();
-    for other in others {
-        soup.push(other);
+    let (mut segments, mut circles) = (Vec::new(), Vec::new());
+    for shape in scene.pieces().map(|(_, piece)| piece).chain(others) {
+        boundary(shape, &mut segments, &mut circles);
     }
     let (s, c) = num::sin_cos(pose.theta);
     let mut inverse = vec![0.0; n];
@@ -28,7 +49,7 @@ fn by_definition(sensor: &RangeSensor, scene: &Scene, others: &[Placed], pose: &
     };
     let directions: Vec<(f64, f64)> =
         (0..sensor.n_rays).map(|k| sensor.direction(k)).map(|(x, y)| (c * x - s * y, s * x + c * y)).collect();
-    for segment in (0..soup.segments().len()).map(|i| soup.segments().segment(i)) {
+    for segment in &segments {
         let (mut p, mut q) = (segment.a - pose.position(), segment.b - pose.position());
         let area = p.x * q.y - p.y * q.x;
         if area < 0.0 {
@@ -46,8 +67,8 @@ fn by_definition(sensor: &RangeSensor, scene: &Scene, others: &[Placed], pose: &
             }
         }
     }
-    for circle in soup.circles() {
-        let (centre, r) = (circle.centre - pose.position(), circle.radius);
+    for (centre, r) in circles {
+        let centre = centre - pose.position();
         let outside = centre.x * centre.x + centre.y * centre.y - r * r;
         for (k, &(dx, dy)) in directions.iter().enumerate() {
             let (along, across) = (centre.x * dx + centre.y * dy, centre.x * dy - centre.y * dx);

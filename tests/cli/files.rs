@@ -1,6 +1,7 @@
 //! Output files: whole, or as they were.
 
 use std::fs;
+use std::path::Path;
 use std::process::Command;
 
 use super::{run, run_in};
@@ -33,23 +34,104 @@ fn a_device_or_a_pipe_is_not_replaced_by_a_file() {
     assert!(fs::metadata(&pipe).unwrap().file_type().is_fifo());
 }
 
-/// The limit on file sizes makes a write fail in the middle, as a full disk does.
+/// Records a minute where no file may grow beyond 32 kB: the write fails in the middle, as on a full disk.
 #[cfg(unix)]
-#[test]
-fn a_write_that_fails_half_way_leaves_the_older_file() {
-    let folder = tempfile::tempdir().unwrap();
-    let output = folder.path().join("run.mcap");
-    fs::write(&output, OLDER).unwrap();
+fn recorded_on_a_full_disk(folder: &Path) -> String {
     let script = format!(
-        "trap '' XFSZ; ulimit -f 64; exec {} record --ticks 1200 -o run.mcap",
+        "trap '' XFSZ; ulimit -f 64; exec {} record --ticks 1200 --no-sensor -o run.mcap",
         env!("CARGO_BIN_EXE_motion-lab")
     );
-    let run = Command::new("sh").arg("-c").arg(script).current_dir(folder.path()).output().unwrap();
-    let error = String::from_utf8_lossy(&run.stderr);
+    let run = Command::new("sh").arg("-c").arg(script).current_dir(folder).output().unwrap();
+    let error = String::from_utf8_lossy(&run.stderr).into_owned();
     assert_eq!(run.status.code(), Some(1), "{error}");
     assert!(error.contains("run.mcap: it can't be written"), "{error}");
-    assert_eq!(fs::read(&output).unwrap(), OLDER);
+    error
+}
+
+#[cfg(unix)]
+#[test]
+fn a_full_disk_keeps_what_it_took_and_the_older_file() {
+    let folder = tempfile::tempdir().unwrap();
+    let output = folder.path().join("run.mcap");
+    let error = recorded_on_a_full_disk(folder.path());
+    assert!(!error.contains("older file"), "there was none: {error}");
+    assert!(error.contains("go on with: motion-lab record --resume run.mcap.partial"), "{error}");
     assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 1, "no temporary file is left");
+    // 32 kB hold more than a second of ticks without scans, and the run goes on from there to the same bytes
+    let info = run_in(folder.path(), &["info", "--json", "run.mcap.partial"]);
+    assert_eq!(info.code, Some(5));
+    let recorded: u64 = serde_json::from_str::<serde_json::Value>(&info.out).unwrap()["recorded"].as_u64().unwrap();
+    assert!(recorded > 20, "{recorded}");
+    run_in(folder.path(), &["record", "--resume", "run.mcap.partial"]).done();
+    run_in(folder.path(), &["record", "--ticks", "1200", "--no-sensor", "-o", "whole.mcap"]).done();
+    assert!(fs::read(&output).unwrap() == fs::read(folder.path().join("whole.mcap")).unwrap());
+
+    fs::remove_file(folder.path().join("whole.mcap")).unwrap();
+    fs::write(&output, OLDER).unwrap();
+    let error = recorded_on_a_full_disk(folder.path());
+    assert!(error.contains("The older file of that name is as it was."), "{error}");
+    assert_eq!(fs::read(&output).unwrap(), OLDER);
+    assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 2, "the older file and what was kept");
+}
+
+/// Nobody but root may write to a folder that is read-only, and root may: then another user is asked for.
+#[cfg(unix)]
+#[test]
+fn a_folder_that_is_read_only_is_named_and_no_temporary_file() {
+    use std::os::unix::fs::PermissionsExt;
+    let folder = tempfile::tempdir().unwrap();
+    fs::set_permissions(folder.path(), fs::Permissions::from_mode(0o555)).unwrap();
+    let output = if fs::write(folder.path().join("x"), b"").is_ok() {
+        // a file system without files to write
+        "/proc/run.mcap".to_owned()
+    } else {
+        folder.path().join("run.mcap").to_str().unwrap().to_owned()
+    };
+    let error = run(&["record", "--ticks", "5", "-o", &output]).failed(1);
+    assert!(error.contains(&format!("{output}: it can't be written: ")), "{error}");
+    assert!(!error.contains(".partial") && !error.contains("older file"), "{error}");
+}
+
+#[cfg(unix)]
+#[test]
+fn what_a_killed_recording_left_is_named_and_goes_on() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut child = super::command(&["record", "--ticks", "4000000", "--no-sensor", "-o", "long.mcap"])
+        .current_dir(folder.path())
+        .stdout(std::process::Stdio::null())
+        .stderr(std::process::Stdio::null())
+        .spawn()
+        .unwrap();
+    let size =
+        || fs::read_dir(folder.path()).unwrap().filter_map(|e| Some(e.ok()?.metadata().ok()?.len())).sum::<u64>();
+    for _ in 0..600 {
+        if size() > 100_000 {
+            break;
+        }
+        std::thread::sleep(std::time::Duration::from_millis(50));
+    }
+    // while it runs it is nobody's left-over
+    let beside = ["record", "--ticks", "5", "-o", "short.mcap"];
+    let told = run_in(folder.path(), &beside);
+    assert!(!told.err.contains("killed"), "{}", told.err);
+    child.kill().unwrap();
+    child.wait().unwrap();
+    let told = run_in(folder.path(), &beside);
+    let line = told.err.lines().find(|line| line.contains("was left by a process that was killed")).unwrap().to_owned();
+    let (_, left) = line.split_once("go on with: motion-lab record --resume ").unwrap();
+    assert!(left.contains(".long.mcap."), "{line}");
+    // all but the second under way is there: whole seconds are handed over, and of them all that were sealed
+    let info = run_in(folder.path(), &["info", "--json", left]);
+    let recorded = serde_json::from_str::<serde_json::Value>(&info.out).unwrap()["recorded"].as_u64().unwrap();
+    assert!(recorded > 0 && recorded.is_multiple_of(20), "{recorded}");
+    // two ticks are enough to see where it goes on: to the name that it was to have
+    let stop = (recorded + 2).to_string();
+    let stopped = run_in(folder.path(), &["record", "--resume", left, "--stop-after", &stop]).failed(75);
+    assert!(
+        stopped.contains("go on with: motion-lab record --resume ") && stopped.contains("long.mcap.partial"),
+        "{stopped}"
+    );
+    assert!(folder.path().join("long.mcap.partial").exists());
 }
 
 #[test]

@@ -80,6 +80,9 @@ impl Record {
     /// Runs the command.
     pub fn run(self, data: &mut Data) -> Result<Outcome, Failure> {
         interrupt::listen()?;
+        if let Some(output) = self.output.as_ref().filter(|_| self.resume.is_none()) {
+            resume::name_unfinished(output);
+        }
         if let Some(file) = &self.resume {
             return resume::resume(file, self.output.as_deref(), self.stop(), self.json, data);
         }

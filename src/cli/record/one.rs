@@ -16,6 +16,9 @@ use crate::cli::{Data, Failure, Outcome, interrupt, say};
 /// The ticks from which on a run tells how far it is.
 const LONG: u64 = 100_000;
 
+/// The ticks of a second.
+const SECOND: u64 = 20;
+
 /// What is run.
 #[derive(Clone, Debug)]
 pub struct Plan {
@@ -88,8 +91,8 @@ pub fn run(
     Ok(Ended::Whole { last: run.frame().clone(), digest: digest.digest() })
 }
 
-/// As [`run`], and writes the log to `output`. Stopped early, what was done goes to the file that [`partial_name`] names, unless
-/// all of it is in `expected` already.
+/// As [`run`], and writes the log to `output`. Stopped early, or where the disk takes no more, what was done goes to the file that
+/// [`partial_name`] names, unless all of it is in `expected` already.
 pub fn write_run(plan: &Plan, expected: &[Frame], stop: Stop, output: &Path) -> Result<Ended, Failure> {
     let failed = |error: LogError| match error {
         LogError::Io(error) => Failure::output(output, &error),
@@ -98,21 +101,50 @@ pub fn write_run(plan: &Plan, expected: &[Frame], stop: Stop, output: &Path) -> 
     let mut file = Some(PendingFile::create(output)?);
     let mut writer: Option<LogWriter<PendingFile>> = None;
     let ended = run(plan, expected, stop, |frame| match &mut writer {
-        Some(writer) => writer.tick(frame).map(drop).map_err(failed),
+        Some(writer) => {
+            writer.tick(frame).map_err(failed)?;
+            // what a killed process leaves is at most a second old
+            if frame.tick % SECOND == 0 { writer.flush().map_err(failed) } else { Ok(()) }
+        }
         None => {
             let Some(file) = file.take() else { return Err(failed(io::Error::other("begun twice").into())) };
             writer = Some(LogWriter::new(file, plan.seed, &plan.config, &plan.script, frame).map_err(failed)?);
             Ok(())
         }
-    })?;
-    match (&ended, writer) {
-        (Ended::Whole { .. }, Some(writer)) => writer.finish().map_err(failed)?.commit()?,
-        (Ended::Stopped(tick), Some(writer)) if *tick > expected.len() as u64 || expected.is_empty() => {
-            writer.into_inner().commit_as(&partial_name(output))?
+    });
+    let Some(mut writer) = writer else { return ended };
+    let is_more = writer.ticks() > expected.len() as u64;
+    let whole = matches!(ended, Ok(Ended::Whole { .. }));
+    let ended = match ended {
+        Ok(ended) if whole => writer.end().map_err(failed).map(|()| ended),
+        ended => ended,
+    };
+    let mut file = writer.into_inner();
+    match ended {
+        Ok(ended) if whole => match file.sync() {
+            Ok(()) => file.commit().map(|()| ended),
+            Err(error) => Err(kept(file, output, failed(error.into()))),
+        },
+        Ok(Ended::Stopped(tick)) if is_more || expected.is_empty() => {
+            file.commit_as(&partial_name(output))?;
+            Ok(Ended::Stopped(tick))
         }
-        _ => {}
+        Err(failure @ Failure::Output { .. }) if is_more => Err(kept(file, output, failure)),
+        ended => ended,
     }
-    Ok(ended)
+}
+
+/// The failure of a write, after what the disk took before was kept.
+fn kept(file: PendingFile, output: &Path, failure: Failure) -> Failure {
+    let partial = partial_name(output);
+    match (failure, file.keep_as(&partial)) {
+        (Failure::Output { file, reason, next }, Ok(())) => {
+            let next =
+                format!("{next}\nWhat was done is kept; go on with: motion-lab record --resume {}", partial.display());
+            Failure::Output { file, reason, next }
+        }
+        (failure, _) => failure,
+    }
 }
 
 /// What a recording that stopped early is called: the output's name with `.partial` behind it.

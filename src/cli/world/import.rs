@@ -111,7 +111,7 @@ impl Import {
             UnknownCells::Occupied => Unknown::Occupied,
             UnknownCells::Free => Unknown::Free,
         };
-        let limit = if matches!(kind, Kind::Irsim | Kind::Svg) { MAX_WORLD } else { MAX_TEXT };
+        let limit = if kind == Kind::Movingai { MAX_TEXT } else { MAX_WORLD };
         let text = read_text_of(&self.file, limit)?;
         match kind {
             Kind::Ros => RosMap::parse(&file, &text).map_err(refused).and_then(|map| {

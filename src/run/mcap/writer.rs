@@ -60,10 +60,27 @@ impl<W: Write> LogWriter<W> {
     /// # Errors
     /// [`LogError::Incomplete`] before the last tick of the configuration; or the output fails.
     pub fn finish(mut self) -> Result<W, LogError> {
+        self.end()?;
+        Ok(self.out)
+    }
+
+    /// Writes the end and flushes the output, as [`finish`](Self::finish) does, and keeps the output where that fails: what was sealed
+    /// before still is.
+    ///
+    /// # Errors
+    /// As [`finish`](Self::finish).
+    pub fn end(&mut self) -> Result<(), LogError> {
         self.encoder.finish()?;
         self.write_piece()?;
-        self.out.flush()?;
-        Ok(self.out)
+        Ok(self.out.flush()?)
+    }
+
+    /// Hands all that was written to the operating system, where a buffer held it back.
+    ///
+    /// # Errors
+    /// [`LogError::Io`] when the output fails.
+    pub fn flush(&mut self) -> Result<(), LogError> {
+        Ok(self.out.flush()?)
     }
 
     /// Gives the output back without writing an end: a log that can be resumed.
