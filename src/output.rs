@@ -220,7 +220,7 @@ mod tests {
         }
         let name = entry.file_name().unwrap().to_str().unwrap();
         assert!(name.starts_with(".run.mcap.") && name.ends_with(".partial"), "{name}");
-        assert_eq!(unfinished(&path).unwrap(), [entry.clone()]);
+        assert_eq!(unfinished(&path).unwrap(), [&*entry]);
         assert_eq!(fs::read(&entry).unwrap(), b"one");
         assert_eq!(whole_name(&entry), Some(path.clone()));
         assert_eq!(whole_name(&folder.path().join("run.mcap.partial")), Some(path.clone()));
