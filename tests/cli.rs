@@ -2,6 +2,7 @@
 
 mod capture;
 mod certificates;
+mod columns;
 mod diff;
 mod driving;
 mod export;
@@ -9,11 +10,14 @@ mod files;
 mod grade;
 mod import;
 mod manual;
+mod messages;
 mod queries;
 mod record;
 mod replay;
 mod scripts;
+mod stills;
 mod verify;
+mod viewer;
 mod world;
 
 use std::io::Write;

@@ -115,6 +115,7 @@ fn assert_telling(name: &str, tallies: &[Tally], count: u64) {
     println!("{name}: {unresolved} of {count} edges unresolved");
     assert!(free > count / 10 && hits > count / 10, "one-sided: {free} free, {hits} hits of {count}");
     assert!(sum(|t| t.transversal) > count / 20, "hardly a transversal hit");
+    assert!(sum(|t| t.wide) <= hits / 100 + 1, "{} of {hits} hits in a wide bracket", sum(|t| t.wide));
     assert!(unresolved <= count / 1000 + 1, "{unresolved} of {count} unresolved");
 }
 

@@ -24,6 +24,7 @@ mod extremes;
 mod failsafe;
 mod faults;
 mod fixtures;
+mod footprints;
 #[cfg(all(unix, feature = "cli"))]
 mod gate;
 mod house;
@@ -46,15 +47,24 @@ mod penetration;
 mod pins;
 mod planner;
 mod polygons;
+mod rays;
+mod rounded;
+mod scan_shapes;
+mod scan_worlds;
 mod scans;
 mod send_sync;
 #[cfg(feature = "sim")]
 mod sensor_noise;
 #[cfg(feature = "sim")]
+mod sightings;
+#[cfg(feature = "sim")]
 mod simulation;
 mod sweeps;
+mod tangents;
 #[cfg(feature = "sim")]
 mod tick_oracle;
+#[cfg(feature = "sim")]
+mod tick_tangents;
 mod ties;
 mod touches;
 mod trailer;

@@ -1,6 +1,9 @@
 //! Scans against the exact oracle, and the promises of a scanner.
 
+use std::f64::consts::TAU;
+
 use motion_lab::collision::Scene;
+use motion_lab::num::{cos, sin};
 use motion_lab::prelude::*;
 use motion_lab::sensors::{Instructions, RangeSensor, Scanner};
 
@@ -33,7 +36,11 @@ fn lattice_rays_hit_exactly_what_they_should() {
             continue;
         }
         for (k, &range) in ranges.iter().enumerate() {
-            let direction = whole(sensor.direction(k as u32)).expect("no component is that small");
+            let (x, y) = sensor.direction(k as u32);
+            let bearing = TAU * k as f64 / f64::from(n_rays);
+            let ahead = (x - cos(bearing)).abs() < 4e-15 && (y - sin(bearing)).abs() < 4e-15;
+            assert!(ahead, "ray {k} of {n_rays} looks along {x}, {y}");
+            let direction = whole((x, y)).expect("no component is that small");
             let met = walls.iter().filter_map(|(a, b)| meets(near(*a), near(*b), direction));
             let exact = met.fold(f64::INFINITY, |m, t| if t < m { t } else { m });
             let right = range == exact || (range - exact).abs() <= 1e-12 * exact;

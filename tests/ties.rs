@@ -111,7 +111,7 @@ fn batches_answer_as_integers_do_in_their_order() {
         assert_eq!(checker.are_free(&qs), free);
         for ((square, free), distance) in squares.iter().zip(&free).zip(checker.distances(&qs)) {
             let expected = if *free { sqrt(f64::from(*square)) - 2.0 } else { 0.0 };
-            assert!((distance - expected).abs() < 1e-14 && (distance == 0.0) != free, "{distance}, not {expected}");
+            assert!((distance - expected).abs() < 1e-14 && (distance == 0.0) != *free, "{distance}, not {expected}");
         }
         let still: Vec<(R2, R2)> = qs.iter().map(|q| (*q, *q)).collect();
         assert!(checker.edges(&still).iter().map(|v| v.unwrap().is_free()).eq(free), "on the spot");

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use motion_lab::run::{Frame, Log, LogWriter};
+use motion_lab::run::{Frame, Log, LogWriter, RobotState};
 use serde_json::Value;
 
 use super::{json, run, run_in};
@@ -47,9 +47,7 @@ fn a_line_of_json_for_each_tick_has_every_bit_of_the_frame() {
     let folder = tempfile::tempdir().unwrap();
     let file = recording(folder.path());
     let mut log = read(&file);
-    // what no run gives, but a log may hold
-    log.frames[4].robots[1].extra.push(-0.0);
-    log.frames[4].robots[1].target.push(f64::MIN_POSITIVE / 3.0);
+    plant(&mut log);
     rewrite(&file, &log);
     let lines: Vec<Value> = export(&file, "jsonl").done().lines().map(json).collect();
     assert_eq!(lines.len(), 31, "tick 0 first");
@@ -62,7 +60,17 @@ fn a_line_of_json_for_each_tick_has_every_bit_of_the_frame() {
             same_bits(&robot["configuration"], &state.configuration);
             same_bits(&robot["extra"], &state.extra);
             same_bits(&robot["target"], &state.target);
-            assert_eq!((&robot["id"], &robot["contacts"]), (&state.id.into(), &state.contacts.into()));
+            let names = ["name", "kind", "world"].map(|name| robot[name].as_str().unwrap());
+            let residents =
+                [["Rusty", "rusty", "Apartment"], ["Reach", "reach", "Workbench"], ["Hitch", "hitch", "Lot"]];
+            assert_eq!(names, residents[state.id as usize]);
+            assert_eq!(robot["channels"], Value::from(state.channels.to_vec()));
+            for (name, flag) in [("manual", state.manual), ("in_contact", state.in_contact)] {
+                assert_eq!(robot[name], flag, "{name}");
+            }
+            for (name, count) in counts(state) {
+                assert_eq!(robot[name], count, "{name}");
+            }
             match frame.scans.iter().find(|s| s.robot == state.id) {
                 Some(scan) => {
                     same_bits(&robot["ranges"], &scan.ranges);
@@ -73,6 +81,22 @@ fn a_line_of_json_for_each_tick_has_every_bit_of_the_frame() {
         }
     }
     assert!(infinite > 0, "nothing out of range: the sensor sees too far for this test");
+}
+
+/// Puts into a frame what no run gives, but a log may hold, and no number twice: no column can stand for its neighbour.
+fn plant(log: &mut Log) {
+    let reach = &mut log.frames[4].robots[1];
+    reach.extra.push(-0.0);
+    reach.target.extend([f64::MIN_POSITIVE / 3.0, 1.0 / 3.0]);
+    reach.channels = [-7, 100];
+    (reach.manual, reach.in_contact) = (true, false);
+    (reach.contacts, reach.flash, reach.refusals) = (31, 41, 59);
+    (log.frames[5].robots[1].manual, log.frames[5].robots[1].in_contact) = (false, true);
+}
+
+/// The counts of a robot by their names.
+fn counts(state: &RobotState) -> [(&'static str, u32); 4] {
+    [("id", state.id), ("contacts", state.contacts), ("flash", state.flash), ("refusals", state.refusals)]
 }
 
 fn rewrite(file: &Path, log: &Log) {
@@ -87,7 +111,9 @@ fn rewrite(file: &Path, log: &Log) {
 fn a_row_of_csv_for_each_tick_and_robot_has_every_bit() {
     let folder = tempfile::tempdir().unwrap();
     let file = recording(folder.path());
-    let log = read(&file);
+    let mut log = read(&file);
+    plant(&mut log);
+    rewrite(&file, &log);
     let text = run(&["export", file.to_str().unwrap(), "--format", "csv", "--ranges"]).done();
     let mut lines = text.lines();
     let head: Vec<&str> = lines.next().unwrap().split(',').collect();
@@ -100,10 +126,25 @@ fn a_row_of_csv_for_each_tick_and_robot_has_every_bit() {
             assert_eq!(line.split(',').count(), head.len(), "{line}");
             assert_eq!((row["tick"], row["robot"]), (frame.tick.to_string().as_str(), name));
             let bits = |cell: &str| cell.parse::<f64>().unwrap().to_bits();
-            for (k, x) in robot.configuration.iter().enumerate() {
-                assert_eq!(bits(row[format!("configuration{k}").as_str()]), x.to_bits());
+            let lists =
+                [("configuration", &robot.configuration[..]), ("extra", &robot.extra), ("target", &robot.target)];
+            for (list, numbers) in lists {
+                for (k, x) in numbers.iter().enumerate() {
+                    assert_eq!(bits(row[format!("{list}{k}").as_str()]), x.to_bits(), "{list}{k}: {line}");
+                }
+                let next = row.get(format!("{list}{}", numbers.len()).as_str());
+                assert!(next.is_none_or(|cell| cell.is_empty()), "a number of {list} that it does not have: {line}");
             }
-            assert_eq!(row["configuration2"].is_empty(), name == "Reach", "a coordinate it does not have");
+            assert_eq!(bits(row["time"]), (frame.tick as f64 * 0.05).to_bits());
+            for (column, channel) in [("channel0", robot.channels[0]), ("channel1", robot.channels[1])] {
+                assert_eq!(row[column], channel.to_string(), "{column}: {line}");
+            }
+            for (column, flag) in [("manual", robot.manual), ("in_contact", robot.in_contact)] {
+                assert_eq!(row[column], flag.to_string(), "{column}: {line}");
+            }
+            for (column, count) in counts(robot) {
+                assert_eq!(row[column], count.to_string(), "{column}: {line}");
+            }
             match frame.scans.iter().find(|s| s.robot == robot.id) {
                 Some(scan) => {
                     for (k, x) in scan.ranges.iter().enumerate() {

@@ -51,6 +51,7 @@ def check_log(log, lines):
         where = f"tick {tick}"
         assert line["tick"] == tick == frame.tick == digest.tick and line["digest"] == digest.xxh3_128, where
         equal(line["time"], frame.time, f"{where}, time")
+        assert math.isclose(frame.time, tick / 20, rel_tol=1e-15), f"{where}: 20 ticks are a second"
         assert len(line["robots"]) == len(frame.robots), where
         for exported, robot in zip(line["robots"], frame.robots):
             at = f"{where}, robot {robot.id}"
@@ -64,6 +65,8 @@ def check_log(log, lines):
             assert (scan is None) == (exported["ranges"] is None), at
             if scan is not None:
                 equal(exported["ranges"], scan.ranges, f"{at}, ranges")
+                most = scan.max_range * (1 + 1e-12)
+                assert all(0 <= r <= most or r == math.inf for r in scan.ranges), f"{at}: beyond the sensor's range"
     assert not scans, "scans of no robot"
 
 
@@ -84,6 +87,19 @@ def check_schema(message, seen):
     for field in message.fields:
         if field.message_type is not None:
             check_schema(field.message_type, seen)
+
+
+def robot_frames(robot):
+    """Where a robot and its parts are and how they are turned, by its configuration and the lab's dimensions."""
+    q = robot["configuration"]
+    if robot["kind"] == "rusty":  # a disc looks alike from all sides
+        base, frames = (q[0], q[1], q[2]), [(q[0], q[1], 0)]
+    elif robot["kind"] == "hitch":  # the hitch is on the rear axle
+        base, frames = (q[0], q[1], q[2]), [(q[0], q[1], heading) for heading in q[2:]]
+    else:  # links of a metre, the first at the origin
+        base, frames = (0, 0, q[0]), [(0, 0, q[0]), (math.cos(q[0]), math.sin(q[0]), q[0] + q[1])]
+    parts = [(f"part/{k}/{robot['name']}", *frame) for k, frame in enumerate(frames)]
+    return [(f"robot/{robot['name']}", *base)] + parts
 
 
 def check_viewer(log, viewer, lines):
@@ -120,12 +136,15 @@ def check_viewer(log, viewer, lines):
             t = placed[f"robot/{robot['name']}"]
             assert t.parent_frame_id == f"world/{robot['world']}"
             if robot["kind"] in ("rusty", "hitch"):
-                x, y, theta = robot["configuration"][:3]
+                x, y = robot["configuration"][:2]
                 equal([x, y], [t.translation.x, t.translation.y], f"tick {tick}, transform of {robot['name']}")
-            else:
-                theta = robot["configuration"][0]
-            turn = 2 * math.atan2(t.rotation.z, t.rotation.w)
-            assert abs(math.remainder(turn - theta, 2 * math.pi)) < 1e-12, (tick, robot["name"])
+            for name, x, y, heading in robot_frames(robot):
+                t = placed.pop(name)
+                at = f"tick {tick}, transform of {name}"
+                assert math.dist((x, y), (t.translation.x, t.translation.y)) < 1e-12 and t.translation.z == 0, at
+                turn = 2 * math.atan2(t.rotation.z, t.rotation.w)
+                assert abs(math.remainder(turn - heading, 2 * math.pi)) < 1e-12, at
+        assert all(name.startswith("world/") for name in placed), f"tick {tick}: frames of nothing: {set(placed)}"
 
     for topic in scan_topics:
         name = topic.removeprefix("/viewer/scan/")
@@ -133,6 +152,8 @@ def check_viewer(log, viewer, lines):
             robot = next(r for r in line["robots"] if r["name"] == name)
             equal(robot["ranges"], scan.ranges, f"tick {tick}, {topic}")
             assert scan.frame_id == f"robot/{name}" and scan.start_angle == 0
+            assert (scan.timestamp.seconds, scan.timestamp.nanos) == divmod(tick * TICK, 10**9)
+            assert (scan.pose.position.x, scan.pose.position.y, scan.pose.orientation.w) == (0, 0, 1)
             n = len(scan.ranges)
             assert abs(scan.end_angle - 2 * math.pi * (n - 1) / n) < 1e-12
 

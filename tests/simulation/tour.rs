@@ -1,5 +1,7 @@
 //! The tours: what each robot does by itself.
 
+use std::f64::consts::TAU;
+
 use motion_lab::prelude::*;
 use motion_lab::recording::{Recorder, Run, final_lines};
 use motion_lab::run::Frame;
@@ -91,14 +93,19 @@ fn slip_is_the_tour_s_only_chance_for_rusty_and_bounded() {
 
 #[test]
 fn the_encoders_count_what_the_wheels_turned() {
-    let log = Run::record(tour(100), Seed(3)).unwrap();
-    for pair in log.frames.windows(2) {
-        for wheel in 0..2 {
-            let turned = (pair[1].robots[0].extra[wheel] - pair[0].robots[0].extra[wheel]).abs();
-            let most = (RUSTY.max_speed + 0.5 * RUSTY.track * RUSTY.max_turn_rate) * 0.05 / RUSTY.wheel_radius;
-            assert!(turned <= most * (1.0 + 1e-12));
-        }
+    let mut run = Recorder::new(tour(100), Seed(3)).unwrap();
+    let mut before = [0.0; 2];
+    while !run.is_complete() {
+        let turned = [run.step().robots[0].extra[0], run.frame().robots[0].extra[1]];
+        // 360 counts a turn, as many as are whole
+        let counts = turned.map(|angle| (angle * 360.0 / TAU).floor() as i64);
+        let read = run.view()[0].encoders.unwrap();
+        assert_eq!([read.left, read.right], counts, "after {turned:?} rad at tick {}", run.frame().tick);
+        let most = (RUSTY.max_speed + 0.5 * RUSTY.track * RUSTY.max_turn_rate) * 0.05 / RUSTY.wheel_radius;
+        assert!(turned.iter().zip(before).all(|(now, then)| (now - then).abs() <= most * (1.0 + 1e-12)));
+        before = turned;
     }
+    assert!(before[0] != before[1] && before[0] > 10.0, "both wheels turn, each by its own: {before:?}");
 }
 
 #[test]

@@ -1,0 +1,272 @@
+//! Every column of what a driven run is exported to, by other readers: rows of CSV taken apart by hand, JSON by serde, and the log's own
+//! messages by protobuf's wire format. What they must hold is what the script, the kinematics and the published schema say.
+
+use std::collections::BTreeMap;
+use std::f64::consts::{PI, TAU};
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::sync::LazyLock;
+
+use motion_lab::num::{cos, greater, sin, tan};
+use motion_lab::prelude::*;
+use motion_lab::recording::Run;
+use motion_lab::run::{Frame, Log, LogWriter, RobotInput, Script};
+use motion_lab::tour::{SensorConfig, TourConfig};
+use serde_json::Value;
+use xxhash_rust::xxh3::xxh3_128;
+
+use super::{json, run};
+use crate::scan_shapes::{Tally, check, things_of};
+
+/// The first 16 s of tests/scripts/driving.ron: walls hit, inputs refused, the trailer put on.
+static DRIVEN: LazyLock<Log> = LazyLock::new(|| {
+    let script = Script::parse("driving.ron", include_str!("../scripts/driving.ron")).unwrap();
+    let sensor = Some(SensorConfig { n_rays: 8, max_range: 1.9 });
+    Run::record(TourConfig { ticks: 320, sensor, ..TourConfig::default() }, (Seed(2005), script)).unwrap()
+});
+
+/// The driven run, and its file.
+pub fn driven(folder: &Path) -> (PathBuf, Log) {
+    (write(folder, &DRIVEN), DRIVEN.clone())
+}
+
+/// The log as a file.
+pub fn write(folder: &Path, log: &Log) -> PathBuf {
+    let mut writer = LogWriter::new(Vec::new(), log.seed, &log.config, &log.script, &log.initial).unwrap();
+    for frame in &log.frames {
+        writer.tick(frame).unwrap();
+    }
+    let file = folder.join("driven.mcap");
+    fs::write(&file, writer.finish().unwrap()).unwrap();
+    file
+}
+
+/// Its frames from tick 0 on.
+pub fn frames(log: &Log) -> impl Iterator<Item = &Frame> {
+    std::iter::once(&log.initial).chain(&log.frames)
+}
+
+/// A row of CSV by the names of its columns.
+type Row = BTreeMap<String, String>;
+
+fn rows(file: &Path) -> Vec<Row> {
+    let text = run(&["export", file.to_str().unwrap(), "--format", "csv", "--ranges"]).done();
+    let mut lines = text.lines();
+    let head: Vec<&str> = lines.next().unwrap().split(',').collect();
+    let lists = |name: &str, count: u32| (0..count).map(|i| format!("{name}{i}")).collect::<Vec<_>>().join(",");
+    let expected = [
+        "tick,time,id,robot".to_owned(),
+        lists("configuration", 4),
+        lists("extra", 3),
+        lists("channel", 2),
+        "manual,in_contact,contacts,flash,refusals".to_owned(),
+        lists("range", 8),
+    ];
+    assert_eq!(head.join(","), expected.join(","));
+    let row = |line: &str| -> Row {
+        assert_eq!(line.split(',').count(), head.len(), "{line}");
+        head.iter().zip(line.split(',')).map(|(name, cell)| ((*name).to_owned(), cell.to_owned())).collect()
+    };
+    lines.map(row).collect()
+}
+
+fn number(row: &Row, column: &str) -> f64 {
+    row[column].parse().unwrap_or_else(|_| panic!("{column}: {:?}", row[column]))
+}
+
+/// The numbers of the columns of this name from 0 on, as many as are not empty.
+fn list(row: &Row, name: &str) -> Vec<f64> {
+    let columns =
+        (0..).map(|i| format!("{name}{i}")).take_while(|column| row.get(column).is_some_and(|c| !c.is_empty()));
+    columns.map(|column| number(row, &column)).collect()
+}
+
+fn short(a: f64, b: f64) -> f64 {
+    let d = (b - a) % TAU;
+    if d > PI {
+        d - TAU
+    } else if d <= -PI {
+        d + TAU
+    } else {
+        d
+    }
+}
+
+/// What the script has a driver hold at a tick; `None` before the first event.
+fn held(log: &Log, robot: &str, tick: u64) -> Option<[i16; 2]> {
+    let due = log.script.events.iter().filter(|e| e.robot == robot && e.tick <= tick);
+    due.fold(None, |held, event| match event.input {
+        RobotInput::Drive(a, b) if robot != "Reach" => Some([a, b]),
+        RobotInput::Drive(..) => held,
+        _ => held.or(Some([0, 0])),
+    })
+}
+
+/// A rover's tick: its wheels roll as commanded, and cover that but for 5 % of slip, unless it is held.
+fn check_rover(before: &Row, after: &Row, [speed, turn]: [i16; 2]) {
+    let (v, omega) = (0.6 * f64::from(speed) / 128.0, 2.5 * f64::from(turn) / 128.0);
+    let rolled = [v - 0.08 * omega, v + 0.08 * omega].map(|wheel| 0.05 * wheel);
+    let (a, b) = (list(before, "configuration"), list(after, "configuration"));
+    let turned = short(a[2], b[2]);
+    let (mean, half) = (a[2] + 0.5 * turned, 0.5 * turned);
+    let chord = (b[0] - a[0]) * cos(mean) + (b[1] - a[1]) * sin(mean);
+    let ahead = if half == 0.0 { chord } else { chord * half / sin(half) };
+    for (wheel, ground) in [ahead - 0.08 * turned, ahead + 0.08 * turned].into_iter().enumerate() {
+        let turned = number(after, &format!("extra{wheel}")) - number(before, &format!("extra{wheel}"));
+        assert!((turned - rolled[wheel] / 0.033).abs() < 1e-12, "wheel {wheel}: {after:?}");
+        if after["in_contact"] == "false" {
+            assert!((ground / rolled[wheel] - 1.0).abs() < 0.05 + 1e-9, "wheel {wheel}: {after:?}");
+        }
+    }
+}
+
+/// A car's tick: its rear axle goes round the turning centre, its trailer's heading follows by its differential equation.
+fn check_car(before: &Row, after: &Row, [speed, steering]: [i16; 2]) {
+    let (v, phi) = (1.5 * f64::from(speed) / 128.0, 0.6 * f64::from(steering) / 128.0);
+    let (a, b) = (list(before, "configuration"), list(after, "configuration"));
+    let (way, curvature) = (0.05 * v, tan(phi) / 2.5);
+    let theta = a[2] + curvature * way;
+    let (dx, dy) = if curvature == 0.0 {
+        (way * cos(theta), way * sin(theta))
+    } else {
+        ((sin(theta) - sin(a[2])) / curvature, (cos(a[2]) - cos(theta)) / curvature)
+    };
+    let off = [b[0] - a[0] - dx, b[1] - a[1] - dy, short(b[2], theta)];
+    assert!(off.iter().all(|d| d.abs() < 1e-12), "{off:?}: {after:?}");
+    if let Some(found) = b.get(3) {
+        let mut psi = a.get(3).copied().unwrap_or(a[2]);
+        for k in 0..200 {
+            let (h, heading) = (way / 200.0, |half: f64| a[2] + curvature * way / 200.0 * (f64::from(k) + half));
+            let middle = psi + 0.25 * h * sin(heading(0.0) - psi);
+            psi += 0.5 * h * sin(heading(0.5) - middle);
+        }
+        assert!(short(psi, *found).abs() < 1e-9, "{psi}: {after:?}");
+    }
+}
+
+#[test]
+fn the_columns_of_a_driven_run_are_what_its_script_and_the_kinematics_make_them() {
+    let folder = tempfile::tempdir().unwrap();
+    let (file, log) = driven(folder.path());
+    let rows = rows(&file);
+    assert_eq!(rows.len(), 3 * 321);
+    let apartment = things_of(&World::apartment());
+    let (mut tally, mut contacts) = (Tally::default(), 0);
+    for (i, after) in rows.iter().enumerate() {
+        let (tick, id) = ((i / 3) as u64, i % 3);
+        let robot = ["Rusty", "Reach", "Hitch"][id];
+        let named = ["tick", "id", "robot"].map(|column| after[column].as_str());
+        assert_eq!(named, [tick.to_string().as_str(), id.to_string().as_str(), robot]);
+        assert!((number(after, "time") - tick as f64 / 20.0).abs() < 1e-12, "20 ticks a second: {after:?}");
+        let widths = [list(after, "configuration").len(), list(after, "extra").len(), list(after, "range").len()];
+        let towing = usize::from(robot == "Hitch" && tick > 230);
+        assert_eq!(widths, [[3, 3, 8], [2, 0, 0], [3 + towing, 0, 0]][id], "{after:?}");
+        if id == 0 {
+            let q = list(after, "configuration");
+            let pose = Pose2 { x: q[0], y: q[1], theta: q[2] };
+            check(&apartment, 1.9, &pose, &list(after, "range"), &mut tally);
+        }
+        let driver = held(&log, robot, tick);
+        let [first, second] = driver.unwrap_or([0, 0]);
+        assert_eq!([&after["channel0"], &after["channel1"]], [&first.to_string(), &second.to_string()], "{after:?}");
+        assert_eq!(after["manual"], driver.is_some().to_string(), "{after:?}");
+        // onto the block at tick 230, and by channels, which an arm has none of, at tick 260
+        let refused = if id == 1 { u8::from(tick >= 230) + u8::from(tick >= 260) } else { 0 };
+        assert_eq!(after["refusals"], refused.to_string(), "{after:?}");
+        let Some(before) = i.checked_sub(3).map(|i| &rows[i]) else { continue };
+        // an episode begins with the first tick in contact; red holds for 0.3 s from the last
+        let hit = [before, after].map(|row| row["in_contact"] == "true");
+        let episodes = number(before, "contacts") + f64::from(u8::from(hit == [false, true]));
+        let flash = if hit[1] { 6.0 } else { greater(number(before, "flash") - 1.0, 0.0) };
+        assert_eq!([number(after, "contacts"), number(after, "flash")], [episodes, flash], "{after:?}");
+        contacts += u32::from(hit == [false, true]);
+        match (robot, driver) {
+            ("Rusty", Some(channels)) => check_rover(before, after, channels),
+            ("Hitch", Some(channels)) if !hit[1] => check_car(before, after, channels),
+            ("Reach", Some(_)) => {
+                let moves = log.script.events.iter().filter(|e| e.robot == "Reach" && e.tick <= tick && e.tick != 230);
+                let told = moves.filter_map(|e| match &e.input {
+                    RobotInput::MoveTo(q) | RobotInput::Teleport(q) => Some([q[0].value(), q[1].value()]),
+                    _ => None,
+                });
+                let (target, q) = (told.last().unwrap(), list(after, "configuration"));
+                assert!((0..2).all(|k| short(target[k], q[k]).abs() < 1e-12), "{target:?}: {after:?}");
+            }
+            _ => {}
+        }
+        // held where it is, for as long as the control is the same
+        if hit == [true, true] && id != 1 && held(&log, robot, tick) == held(&log, robot, tick - 1) {
+            assert_eq!(list(before, "configuration"), list(after, "configuration"), "{after:?}");
+        }
+    }
+    assert!(contacts > 5 && tally.hits > 1_000, "{contacts} contacts, {tally:?}");
+}
+
+/// A number as JSON has it: infinity is a text.
+fn float(value: &Value) -> f64 {
+    value.as_f64().unwrap_or_else(|| value.as_str().unwrap().parse().unwrap())
+}
+
+/// The encoding that `Frame::encode` documents, of a line of JSON: 64-bit words, little-endian.
+fn words(line: &Value) -> Vec<u8> {
+    let (mut words, mut scans) = (vec![line["tick"].as_u64().unwrap()], Vec::new());
+    let list = |words: &mut Vec<u64>, list: &Value| {
+        let list = list.as_array().unwrap();
+        words.push(list.len() as u64);
+        words.extend(list.iter().map(|x| float(x).to_bits()));
+    };
+    let robots = line["robots"].as_array().unwrap();
+    words.push(robots.len() as u64);
+    for robot in robots {
+        words.push(robot["id"].as_u64().unwrap());
+        list(&mut words, &robot["configuration"]);
+        list(&mut words, &robot["extra"]);
+        words.extend(robot["channels"].as_array().unwrap().iter().map(|c| c.as_i64().unwrap() as u64));
+        list(&mut words, &robot["target"]);
+        words.extend(["manual", "in_contact"].map(|flag| u64::from(robot[flag].as_bool().unwrap())));
+        words.extend(["contacts", "flash", "refusals"].map(|count| robot[count].as_u64().unwrap()));
+        if !robot["ranges"].is_null() {
+            scans.push(robot["id"].as_u64().unwrap());
+            list(&mut scans, &robot["ranges"]);
+        }
+    }
+    words.push(1); // scan
+    words.extend(scans);
+    words.iter().flat_map(|word| word.to_le_bytes()).collect()
+}
+
+#[test]
+fn a_line_of_json_has_what_the_rows_of_csv_have_and_the_digest_of_its_words() {
+    let folder = tempfile::tempdir().unwrap();
+    let (file, _) = driven(folder.path());
+    let rows = rows(&file);
+    let text = run(&["export", file.to_str().unwrap(), "--format", "jsonl"]).done();
+    let lines: Vec<Value> = text.lines().map(json).collect();
+    assert_eq!(lines.len(), 321);
+    for (tick, line) in lines.iter().enumerate() {
+        assert_eq!(line["digest"], format!("{:032x}", xxh3_128(&words(line))), "tick {tick}");
+        let robots = line["robots"].as_array().unwrap();
+        assert_eq!(robots.len(), 3);
+        for (id, robot) in robots.iter().enumerate() {
+            let row = &rows[3 * tick + id];
+            let names = ["name", "kind", "world"].map(|name| robot[name].as_str().unwrap());
+            let expected =
+                [["Rusty", "rusty", "Apartment"], ["Reach", "reach", "Workbench"], ["Hitch", "hitch", "Lot"]];
+            assert_eq!((names, row["robot"].as_str()), (expected[id], names[0]));
+            for name in ["configuration", "extra", "range"] {
+                let listed = &robot[if name == "range" { "ranges" } else { name }];
+                let found: Vec<u64> =
+                    listed.as_array().map_or(Vec::new(), |all| all.iter().map(|x| float(x).to_bits()).collect());
+                let cells: Vec<u64> = list(row, name).iter().map(|x| x.to_bits()).collect();
+                assert_eq!(found, cells, "{name} of {} at tick {tick}", names[0]);
+            }
+            assert_eq!((&line["time"], &line["tick"]), (&number(row, "time").into(), &tick.into()));
+            let channels = ["channel0", "channel1"].map(|column| Value::from(number(row, column) as i64));
+            assert_eq!(robot["channels"], Value::from(channels.to_vec()));
+            assert_eq!(robot["target"], Value::from(Vec::<Value>::new()));
+            for name in ["id", "manual", "in_contact", "contacts", "flash", "refusals"] {
+                assert_eq!(robot[name].to_string(), row[name], "{name} of {} at tick {tick}", names[0]);
+            }
+        }
+    }
+}

@@ -1,0 +1,311 @@
+//! Scans of every shape that a world may have, against rays cast by the textbook: at the things as they are written, by Cramer's rule and by
+//! clipping at half-planes, and not at the pieces, segments and discs that the library makes of them.
+
+use std::f64::consts::{PI, TAU};
+
+use motion_lab::geometry::Placed;
+use motion_lab::num::{sin_cos, sqrt};
+use motion_lab::prelude::*;
+use motion_lab::sensors::RangeSensor;
+use motion_lab::worlds::Written;
+
+use crate::oracle::plain::{inside_by_crossings, point_distance};
+
+/// A thing as it is written, in world coordinates.
+#[derive(Clone, Debug)]
+pub enum Seen {
+    /// A wall.
+    Wall(Point2, Point2),
+    /// A polygon by its corners, convex or not.
+    Outline(Vec<Point2>),
+    /// All points within a radius of the convex polygon with these corners, counter-clockwise; of one corner a disc, of two a capsule.
+    Round(Vec<Point2>, f64),
+}
+
+fn least(a: f64, b: f64) -> f64 {
+    if b < a { b } else { a }
+}
+
+fn cross(u: Vector2, v: Vector2) -> f64 {
+    u.x * v.y - u.y * v.x
+}
+
+/// The sides of a polygon; of two corners the segment between them, of one none.
+fn sides(corners: &[Point2]) -> impl Iterator<Item = (Point2, Point2)> + '_ {
+    let n = corners.len();
+    (0..if n > 2 { n } else { n - 1 }).map(move |i| (corners[i], corners[(i + 1) % n]))
+}
+
+/// How far along the ray a segment is met, by Cramer's rule; a parallel one never is.
+fn meets_side(o: Point2, d: Vector2, (a, b): (Point2, Point2)) -> f64 {
+    let (u, w) = (b - a, a - o);
+    let det = cross(d, u);
+    let (t, s) = (cross(w, u) / det, cross(w, d) / det);
+    if t >= 0.0 && (0.0..=1.0).contains(&s) { t } else { f64::INFINITY }
+}
+
+/// How far along the ray a convex counter-clockwise polygon begins, by clipping at its half-planes (Cyrus and Beck, 1978).
+fn enters(o: Point2, d: Vector2, corners: &[Point2]) -> f64 {
+    let (mut from, mut to) = (0.0, f64::INFINITY);
+    for (a, b) in sides(corners) {
+        let (inside, rate) = (cross(b - a, o - a), cross(b - a, d));
+        let at = -inside / rate;
+        if rate > 0.0 && at > from {
+            from = at;
+        } else if rate < 0.0 && at < to {
+            to = at;
+        } else if rate == 0.0 && inside < 0.0 {
+            return f64::INFINITY;
+        }
+    }
+    if from <= to { from } else { f64::INFINITY }
+}
+
+/// How far along the ray a disc begins, by Pythagoras.
+fn enters_disc(o: Point2, d: Vector2, centre: Point2, radius: f64) -> f64 {
+    let (along, across) = ((centre - o).dot(&d), cross(centre - o, d));
+    let half = radius * radius - across * across;
+    if along > 0.0 && half >= 0.0 { along - sqrt(half) } else { f64::INFINITY }
+}
+
+impl Seen {
+    /// How far along the ray of this direction, from outside, the thing is met; infinity where it is not.
+    fn met(&self, o: Point2, d: Vector2) -> f64 {
+        match self {
+            Seen::Wall(a, b) => meets_side(o, d, (*a, *b)),
+            Seen::Outline(corners) => sides(corners).fold(f64::INFINITY, |m, side| least(m, meets_side(o, d, side))),
+            Seen::Round(core, radius) => {
+                // a disc about every corner, a strip along every side, and what they enclose
+                let mut met = core.iter().fold(f64::INFINITY, |m, c| least(m, enters_disc(o, d, *c, *radius)));
+                for (a, b) in sides(core) {
+                    let normal = Vector2::new(a.y - b.y, b.x - a.x) * (radius / (b - a).norm());
+                    met = least(met, enters(o, d, &[a - normal, b - normal, b + normal, a + normal]));
+                }
+                if core.len() > 2 { least(met, enters(o, d, core)) } else { met }
+            }
+        }
+    }
+
+    /// Whether a point is in the thing.
+    fn holds(&self, p: Point2) -> bool {
+        match self {
+            Seen::Wall(..) => false,
+            Seen::Outline(corners) => inside_by_crossings(corners, p),
+            Seen::Round(core, radius) => point_distance(p, &Placed::new(core.clone(), *radius)) == 0.0,
+        }
+    }
+
+    /// The thing with every point mapped.
+    pub fn map(&self, f: impl Fn(Point2) -> Point2) -> Self {
+        let all = |points: &[Point2]| points.iter().map(|p| f(*p)).collect();
+        match self {
+            Seen::Wall(a, b) => Seen::Wall(f(*a), f(*b)),
+            Seen::Outline(corners) => Seen::Outline(all(corners)),
+            Seen::Round(core, radius) => Seen::Round(all(core), *radius),
+        }
+    }
+
+    /// The thing as a shape in a frame; it must be convex.
+    pub fn body(&self) -> (Pose2, Shape) {
+        let shape = match self {
+            Seen::Wall(a, b) => Shape::try_segment(*a, *b),
+            Seen::Outline(corners) => Shape::try_polygon(corners),
+            Seen::Round(core, radius) => match core[..] {
+                [c] => return (Pose2 { x: c.x, y: c.y, theta: 0.0 }, Shape::try_disc(*radius).unwrap()),
+                [a, b] => Shape::try_capsule(a, b, *radius),
+                _ => Ok(Shape::Hull { vertices: core[..].into(), radius: *radius }),
+            },
+        };
+        (Pose2::IDENTITY, shape.unwrap())
+    }
+
+    /// The points of a wall, or the shape, as a world file has it.
+    fn written(&self) -> String {
+        let list =
+            |points: &[Point2]| points.iter().map(|p| format!("({:?}, {:?})", p.x, p.y)).collect::<Vec<_>>().join(", ");
+        match self {
+            Seen::Wall(a, b) => list(&[*a, *b]),
+            Seen::Outline(corners) => format!("Polygon([{}])", list(corners)),
+            Seen::Round(core, radius) if core.len() == 1 => format!("Disc(center: {}, radius: {radius:?})", list(core)),
+            Seen::Round(core, radius) => format!("Rounded(points: [{}], radius: {radius:?})", list(core)),
+        }
+    }
+}
+
+/// The world file with these things: each an obstacle of its own, or all that are no walls one union.
+pub fn world_of(things: &[Seen], union: bool) -> World {
+    let (walls, solids): (Vec<&Seen>, Vec<&Seen>) = things.iter().partition(|t| matches!(t, Seen::Wall(..)));
+    let items = |list: Vec<String>, field: &str| -> String {
+        list.iter().enumerate().map(|(i, text)| format!("(name: \"{field} {i}\", {field}: {text}),")).collect()
+    };
+    let walls = walls.iter().map(|w| format!("[{}]", w.written())).collect();
+    let solids: Vec<String> = solids.iter().map(|s| s.written()).collect();
+    let solids = if union && !solids.is_empty() { vec![format!("Union([{}])", solids.join(", "))] } else { solids };
+    let text = format!(
+        "World(version: 1, name: \"things\", bounds: (min: (-9, -9), max: (9, 9)), walls: [{}], obstacles: [{}])",
+        items(walls, "points"),
+        items(solids, "shape")
+    );
+    World::parse("things.ron", &text).unwrap()
+}
+
+/// What stands in a world, as it was written.
+pub fn things_of(world: &World) -> Vec<Seen> {
+    let piece = |pose: &Pose2, shape: &Shape| {
+        let (sin, cos) = sin_cos(pose.theta);
+        let at = |p: &Point2| Point2::new(pose.x + cos * p.x - sin * p.y, pose.y + sin * p.x + cos * p.y);
+        match shape {
+            Shape::Disc { radius } => Seen::Round(vec![pose.position()], *radius),
+            Shape::Segment { a, b } => Seen::Wall(at(a), at(b)),
+            Shape::Capsule { a, b, radius } => Seen::Round(vec![at(a), at(b)], *radius),
+            Shape::Rectangle { min, max } => {
+                let corners = [(min.x, min.y), (max.x, min.y), (max.x, max.y), (min.x, max.y)];
+                Seen::Outline(corners.iter().map(|&(x, y)| at(&Point2::new(x, y))).collect())
+            }
+            Shape::Polygon(polygon) => Seen::Outline(polygon.vertices().iter().map(at).collect()),
+            Shape::Hull { vertices, radius } => Seen::Round(vertices.iter().map(at).collect(), *radius),
+        }
+    };
+    let written = world.obstacles.iter().flat_map(|obstacle| obstacle.written());
+    let thing = |written: Written<'_>| match written {
+        Written::Outline(points) => Seen::Outline(points.to_vec()),
+        Written::Piece((pose, shape)) => piece(pose, shape),
+    };
+    written.map(thing).collect()
+}
+
+/// How many kinds of things there are: wall, rectangle, convex and concave polygon, disc, capsule, rounded polygon, union.
+pub const KINDS: usize = 8;
+pub const CONCAVE: usize = 3;
+pub const UNION: usize = 7;
+
+/// A thing of a kind, about as large as `size`, in a frame.
+pub fn thing(kind: usize, frame: &Pose2, size: f64) -> Vec<Seen> {
+    let (sin, cos) = sin_cos(frame.theta);
+    let at = |(x, y): (f64, f64)| {
+        let (x, y) = (size * x, size * y);
+        Point2::new(frame.x + cos * x - sin * y, frame.y + sin * x + cos * y)
+    };
+    let all = |corners: &[(f64, f64)]| corners.iter().map(|c| at(*c)).collect::<Vec<_>>();
+    let rectangle = || Seen::Outline(all(&[(-0.9, -0.3), (0.8, -0.3), (0.8, 0.5), (-0.9, 0.5)]));
+    let capsule = || Seen::Round(all(&[(-0.9, 0.0), (0.9, 0.2)]), 0.25 * size);
+    let one = match kind {
+        0 => Seen::Wall(at((-1.0, 0.1)), at((0.9, -0.2))),
+        1 => rectangle(),
+        2 => Seen::Outline(all(&[(-0.8, -0.6), (0.5, -0.7), (1.0, 0.1), (0.2, 0.9), (-0.7, 0.5)])),
+        CONCAVE => {
+            let (outside, bay) = (
+                [(-1.0, -0.7), (1.0, -0.7), (1.0, 0.8), (0.5, 0.8)],
+                [(0.5, -0.2), (-0.4, -0.2), (-0.4, 0.6), (-1.0, 0.6)],
+            );
+            let mut corners = all(&[outside, bay].concat());
+            if frame.theta > 0.0 {
+                corners.reverse(); // a file may have either orientation
+            }
+            Seen::Outline(corners)
+        }
+        4 => Seen::Round(vec![at((0.0, 0.0))], 0.7 * size),
+        5 => capsule(),
+        6 => Seen::Round(all(&[(-0.7, -0.5), (0.8, -0.3), (0.1, 0.7)]), 0.3 * size),
+        _ => {
+            let above = capsule().map(|p| p + Vector2::new(0.0, size));
+            return vec![rectangle(), Seen::Round(vec![at((0.9, 0.4))], 0.5 * size), above];
+        }
+    };
+    vec![one]
+}
+
+/// What some scans came to, ray by ray.
+#[derive(Debug, Default)]
+pub struct Tally {
+    pub rays: usize,
+    pub hits: usize,
+    /// Rays that meet something else a nanoradian aside.
+    pub grazed: usize,
+    /// Rays from inside something.
+    pub inside: usize,
+}
+
+/// What the ray of this bearing meets first, metres off; infinity where there is nothing.
+pub fn cast(things: &[Seen], o: Point2, bearing: f64) -> f64 {
+    let (sin, cos) = sin_cos(bearing);
+    things.iter().fold(f64::INFINITY, |m, t| least(m, t.met(o, Vector2::new(cos, sin))))
+}
+
+/// Checks a scan ray by ray. One that grazes a corner may read what is met a nanoradian to either side, or in between.
+pub fn check(things: &[Seen], max_range: f64, pose: &Pose2, ranges: &[f64], tally: &mut Tally) {
+    let o = pose.position();
+    tally.rays += ranges.len();
+    if things.iter().any(|t| t.holds(o)) {
+        tally.inside += ranges.len();
+        assert!(ranges.iter().all(|r| *r == 0.0), "inside, from {pose:?} at {things:?}: {ranges:?}");
+        return;
+    }
+    for (k, &range) in ranges.iter().enumerate() {
+        let bearing = pose.theta + TAU * k as f64 / ranges.len() as f64;
+        let met = [-1e-9, 0.0, 1e-9].map(|aside| cast(things, o, bearing + aside));
+        let (near, far) =
+            (met.into_iter().fold(f64::INFINITY, least), met.into_iter().fold(0.0, |m, t| -least(-m, -t)));
+        let slack = 1e-9 * (1.0 + range);
+        let right = if range.is_infinite() {
+            far > max_range * (1.0 - 1e-9)
+        } else {
+            near - slack <= range && range <= far + slack && range <= max_range * (1.0 + 1e-9)
+        };
+        assert!(right, "ray {k} of {} from {pose:?} reads {range}, not {near} to {far}: {things:?}", ranges.len());
+        tally.hits += usize::from(range.is_finite());
+        tally.grazed += usize::from(near.is_finite() && far - near > 1e-6 * (1.0 + near));
+    }
+}
+
+#[test]
+fn every_shape_is_seen_where_it_stands_from_any_place_and_heading() {
+    let mut s = Stream::new(Seed(111), "tests/scan shapes");
+    for kind in 0..KINDS {
+        let mut tally = Tally::default();
+        for case in 0..40 {
+            let frame = Pose2::new(s.uniform(-2.0, 2.0), s.uniform(-2.0, 2.0), s.uniform(-PI, PI));
+            let things = thing(kind, &frame, s.uniform(0.4, 1.6));
+            // in the world, or another robot's parts
+            let (scene, others) = if case % 2 == 0 || kind == CONCAVE {
+                (Scene::of_world(&world_of(&things, kind == UNION)), vec![])
+            } else {
+                let parts = things.iter().map(Seen::body).map(|(pose, shape)| shape.place(&pose)).collect();
+                (Scene::of_walls(&[]), parts)
+            };
+            let sensor = RangeSensor { n_rays: [7, 36, 61, 90][case % 4], max_range: [2.0, 6.0, 20.0][case % 3] };
+            let mut place = || Point2::new(s.uniform(-3.5, 3.5), s.uniform(-3.5, 3.5));
+            let mut places: Vec<Point2> = (0..5).map(|_| place()).collect();
+            if kind > 0 {
+                places.extend((0..9999).map(|_| place()).find(|p| things.iter().any(|t| t.holds(*p))));
+            }
+            for (i, p) in places.into_iter().enumerate() {
+                let pose = Pose2 { x: p.x, y: p.y, theta: 2.9 * i as f64 - 0.37 * case as f64 };
+                check(&things, sensor.max_range, &pose, &sensor.scan_from(&scene, &others, &pose), &mut tally);
+            }
+        }
+        assert!(tally.hits > tally.rays / 30 && tally.grazed <= tally.rays / 500, "kind {kind}: {tally:?}");
+        assert!(kind == 0 || tally.inside > tally.rays / 10, "kind {kind}: {tally:?}");
+    }
+}
+
+#[test]
+fn ray_k_looks_at_the_bearing_of_2_pi_k_over_n_counter_clockwise_from_the_heading() {
+    let mut s = Stream::new(Seed(112), "tests/scan shapes");
+    let nothing = Scene::of_walls(&[]);
+    for n in (1..=20).chain([33, 64, 100, 359, 360, 361]) {
+        for _ in 0..6 {
+            let pose = Pose2 { x: s.uniform(-50.0, 50.0), y: s.uniform(-50.0, 50.0), theta: s.uniform(-9.0, 9.0) };
+            let ray = s.below(n.into()) as usize;
+            let (sin, cos) = sin_cos(pose.theta + TAU * ray as f64 / f64::from(n));
+            // a post two metres off, so thin that the next rays pass it by
+            let radius = if n < 3 { 0.3 } else { 0.4 * sin_cos(PI / f64::from(n)).0 };
+            let post = Shape::Disc { radius }.place(&Pose2::new(pose.x + 2.0 * cos, pose.y + 2.0 * sin, 0.0));
+            let ranges = RangeSensor { n_rays: n, max_range: 9.0 }.scan_from(&nothing, &[post], &pose);
+            for (k, range) in ranges.iter().enumerate() {
+                let right = if k == ray { (range - (2.0 - radius)).abs() < 1e-9 } else { range.is_infinite() };
+                assert!(right, "ray {k} of {n} reads {range}, and the post is at ray {ray} from {pose:?}");
+            }
+        }
+    }
+}
