@@ -3,7 +3,7 @@
 use super::ready::Wedge;
 use crate::collision::LANES;
 use crate::geometry::Point2;
-use crate::num::greater;
+use crate::num::{greater, lesser};
 
 /// Eight numbers side by side.
 pub(super) type Lanes = [f64; LANES];
@@ -140,10 +140,12 @@ impl Fan {
         }
     }
 
-    /// The ranges, from the inverse ranges: infinity below the least one.
+    /// The ranges, from the inverse ranges: infinity beyond the greatest one. A hit at exactly that counts, and so what lies beyond it by
+    /// no more than four ulps, where inverses are rounded; it reads the greatest range.
     #[inline(always)]
-    pub(super) fn ranges(&self, least: f64, ranges: &mut [f64]) {
-        let range = |inverse: f64| if inverse >= least { 1.0 / inverse } else { f64::INFINITY };
+    pub(super) fn ranges(&self, greatest: f64, ranges: &mut [f64]) {
+        let least = (1.0 - 4.0 * f64::EPSILON) / greatest;
+        let range = |inverse: f64| if inverse >= least { lesser(1.0 / inverse, greatest) } else { f64::INFINITY };
         let (eights, rest) = ranges.as_chunks_mut::<LANES>();
         for (ranges, block) in eights.iter_mut().zip(&self.blocks) {
             if block.dx[0] > 2.0 {

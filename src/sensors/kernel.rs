@@ -64,8 +64,8 @@ macro_rules! kernel {
             }
 
             $(#[$target])?
-            fn ranges(fan: &Fan, least: f64, ranges: &mut [f64]) {
-                fan.ranges(least, ranges);
+            fn ranges(fan: &Fan, greatest: f64, ranges: &mut [f64]) {
+                fan.ranges(greatest, ranges);
             }
 
             pub(in super::super) const KERNEL: Kernel = Kernel { turn, make, raise, circle, open, ranges };

@@ -15,7 +15,7 @@ use crate::num;
 pub struct RangeSensor {
     /// The number of rays.
     pub n_rays: u32,
-    /// The greatest range R, metres: a hit at exactly R counts, farther reads infinity.
+    /// The greatest range R, metres: a hit at exactly R counts, by four ulps, and farther reads infinity.
     pub max_range: f64,
 }
 
@@ -116,9 +116,27 @@ impl RangeSensor {
 mod tests {
     use super::*;
     use crate::geometry::{Segment, Shape};
+    use crate::random::{Seed, Stream};
 
     fn wall() -> Scene {
         Scene::of_walls(&[Segment::new(Point2::new(3.0, 0.0), Point2::new(3.0, 3.0))])
+    }
+
+    /// Decimals whose inverses are rounded: a wall that stands at the range, given to the bit.
+    #[test]
+    fn a_wall_at_any_range_counts_at_it_and_a_nanometre_beyond_does_not() {
+        let mut draws = Stream::new(Seed(3), "walls");
+        let given = [(1.1, -2.02, 1.72), (0.4, -0.88, 2.04), (3.9, -1.26, 1.63)];
+        let drawn: Vec<(f64, f64, f64)> = (0..2000)
+            .map(|_| (draws.uniform(0.1, 90.0), draws.uniform(-50.0, -0.1), draws.uniform(0.1, 50.0)))
+            .collect();
+        for (x, low, high) in given.into_iter().chain(drawn) {
+            let scene = Scene::of_walls(&[Segment::new(Point2::new(x, low), Point2::new(x, high))]);
+            let ahead = |max_range: f64| RangeSensor { n_rays: 1, max_range }.scan(&scene, Point2::origin())[0];
+            let read = ahead(x);
+            assert!((0.0..=1e-15).contains(&((x - read) / x)), "a wall from {low} to {high} at {x} reads {read}");
+            assert_eq!(ahead(x - 1e-9), f64::INFINITY, "a wall from {low} to {high} at {x}");
+        }
     }
 
     #[test]

@@ -103,7 +103,7 @@ impl Scanner {
         }
         fan.open = u64::MAX;
         raise_every(others, &view, kernel, fan, desk);
-        (self.kernel.ranges)(&self.fan, 1.0 / self.sensor.max_range, ranges);
+        (self.kernel.ranges)(&self.fan, self.sensor.max_range, ranges);
     }
 }
 

@@ -78,8 +78,9 @@ fn by_definition(sensor: &RangeSensor, scene: &Scene, others: &[Placed], pose: &
             }
         }
     }
-    let least = 1.0 / sensor.max_range;
-    inverse.iter().map(|&i| if i >= least { 1.0 / i } else { f64::INFINITY }).collect()
+    let most = sensor.max_range;
+    let least = (1.0 - 4.0 * f64::EPSILON) / most;
+    inverse.iter().map(|&i| if i >= least { (1.0 / i).clamp(0.0, most) } else { f64::INFINITY }).collect()
 }
 
 fn bits(ranges: &[f64]) -> Vec<u64> {
