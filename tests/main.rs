@@ -69,3 +69,4 @@ mod ties;
 mod touches;
 mod trailer;
 mod verdicts;
+mod wrappers;

@@ -4,6 +4,7 @@ use std::f64::consts::{FRAC_PI_2, PI};
 
 use motion_lab::collision::{Collision, Scene};
 use motion_lab::geometry::{Footprint, Part, Placed, Point2, Pose2, Segment, Shape};
+use motion_lab::num::{cos, sin};
 use motion_lab::random::{Seed, Stream};
 
 use crate::fixtures::{Body, KINDS, Kind, count_from_env, footprint_of, placed, random_body, random_kind, scene_of};
@@ -162,4 +163,27 @@ fn sliding_along_a_wall_is_free_above_a_micrometre_however_long() {
     }
     let touching = |x: f64| Footprint::disc(Point2::new(x, 0.5), 0.5);
     assert!(wall.swept(&touching(-50.0), &touching(50.0)));
+}
+
+/// A bar of 1 m about one end, turned from one bearing to another the short way: it sweeps over what lies between them and over nothing else,
+/// whatever the bearings are.
+#[test]
+fn a_turn_sweeps_over_the_bearings_between_its_ends() {
+    let bar = |bearing: f64| {
+        let shape = Shape::Capsule { a: Point2::origin(), b: Point2::new(1.0, 0.0), radius: 0.01 };
+        Footprint::new([Part::new(Pose2::new(2.0, -1.0, bearing), shape)])
+    };
+    // among them turns whose ends lie alike on both sides of bearing 0, and of half a turn
+    for from in [-3.0, -2.0, -1.25, -0.4, 0.0, 1.0, 0.75 - PI, 2.0, 3.0] {
+        for turn in [-1.5, -0.4, 0.2, 0.8, 2.5] {
+            // a pin halfway out at these shares of the turn, and at as many bearings outside it
+            for share in [0.3, 0.5, 0.9, -0.15, 1.15, 1.6] {
+                let at = from + share * turn;
+                let pin = Pose2::new(2.0 + 0.5 * cos(at), -1.0 + 0.5 * sin(at), 0.0);
+                let scene = Scene::of_walls(&[]).with_obstacle_at("the pin", pin, Shape::Disc { radius: 0.001 });
+                let swept = scene.swept(&bar(from), &bar(from + turn));
+                assert_eq!(swept, (0.0..=1.0).contains(&share), "from {from} by {turn}, the pin at {share} of it");
+            }
+        }
+    }
 }

@@ -158,3 +158,28 @@ fn assert_hits(verdict: EdgeVerdict, at: f64, length: f64, id: u32) {
     assert_eq!((part, obstacle), (0, ObstacleId(id)));
     assert!(free_until < at && at <= contact_at && (contact_at - free_until) * length <= 1e-6, "{verdict:?}, not {at}");
 }
+
+/// A hundred and eight points of whole coordinates lie on the circle of radius 1105 = 5 * 13 * 17 about the origin (Gauss): pins there are
+/// equally near to the bit, more than any list of candidates holds, in whatever order they come.
+#[test]
+fn of_a_hundred_equally_near_the_first_in_file_order_is_the_witness() {
+    let on_circle = |x: i32| (-1105..=1105).filter(move |y| x * x + y * y == 1105 * 1105).map(move |y| (x, y));
+    let places: Vec<(i32, i32)> = (-1105..=1105).flat_map(on_circle).collect();
+    assert_eq!(places.len(), 108);
+    let (scale, radius) = (1.0 / 64.0, 0.125);
+    for first in 0..places.len() {
+        // from this one on, and every 11th, which has no divisor in common with 108
+        let order = (0..places.len()).map(|k| places[(first + 11 * k) % places.len()]);
+        let scene = order.enumerate().fold(Scene::of_walls(&[]), |scene, (k, (x, y))| {
+            let pose = Pose2::new(f64::from(x) * scale, f64::from(y) * scale, 0.0);
+            scene.with_obstacle_at(&format!("pin {k}"), pose, Shape::Disc { radius })
+        });
+        let witness = scene.witness(&Footprint::disc(Point2::origin(), 0.25)).unwrap();
+        let (x, y) = places[first];
+        assert_eq!(
+            (witness.obstacle, witness.dist),
+            (ObstacleId(0), 1105.0 * scale - radius - 0.25),
+            "({x}, {y}) is first"
+        );
+    }
+}

@@ -112,3 +112,26 @@ fn a_run_cut_short_can_still_be_read_by_others() {
         .collect();
     assert_eq!(messages.len(), 3 + 5);
 }
+
+#[test]
+fn the_summary_is_found_group_by_group() {
+    let file = written(&fixture::log());
+    let mut groups = Vec::new();
+    let mut footer = None;
+    for record in LinearReader::new(&file).unwrap() {
+        match record.unwrap() {
+            Record::SummaryOffset(group) => groups.push((group.group_start, group.group_length, group.group_opcode)),
+            Record::Footer(found) => footer = Some(found),
+            _ => {}
+        }
+    }
+    let footer = footer.unwrap();
+    assert_eq!(groups.len(), 5, "schemas, channels, statistics, and the indexes of attachments and metadata");
+    // each begins with a record of its own kind, where the one before it ended
+    let mut at = footer.summary_start;
+    for (start, length, opcode) in groups {
+        assert_eq!((start, file[start as usize]), (at, opcode));
+        at += length;
+    }
+    assert_eq!(at, footer.summary_offset_start);
+}

@@ -1,0 +1,64 @@
+//! What passes questions on to a scene: checkers, counters, surroundings and references answer as it does.
+
+use motion_lab::collision::{Collision, Counted, DiscChecker, ObstacleId, QueryCounts, Scene, Surroundings};
+use motion_lab::geometry::{Footprint, Placed, Point2, Segment};
+use motion_lab::robots::RustyDisc;
+
+/// A wall along x = 3, from y = 0 to 3.
+fn wall() -> Scene {
+    Scene::of_walls(&[Segment::new(Point2::new(3.0, 0.0), Point2::new(3.0, 3.0))])
+}
+
+fn disc(x: f64) -> Footprint {
+    Footprint::disc(Point2::new(x, 1.0), 0.25)
+}
+
+/// Asks every question twice, once for either answer.
+#[track_caller]
+fn assert_passes_on(asked: &dyn Collision) {
+    // beside the wall, and touching it; the numbers are exact
+    assert_eq!([1.0, 2.75].map(|x| asked.intersects(&disc(x))), [false, true]);
+    assert_eq!([1.0, 2.75].map(|x| asked.distance(&disc(x))), [1.75, 0.0]);
+    let witness = asked.witness(&disc(1.0)).unwrap();
+    assert_eq!((witness.on_robot, witness.on_obstacle), (Point2::new(1.25, 1.0), Point2::new(3.0, 1.0)));
+    assert_eq!((witness.dist, witness.part, witness.obstacle), (1.75, 0, ObstacleId(0)));
+    // short of the wall, and through it from free to free
+    assert_eq!([2.5, 5.0].map(|x| asked.swept(&disc(1.0), &disc(x))), [false, true]);
+}
+
+/// Of a hull there is a question of its own, for those that take any part.
+#[track_caller]
+fn assert_passes_on_hulls(asked: &dyn Collision) {
+    let hull = |x: f64| Placed::new([Point2::new(x, 1.0), Point2::new(x, 2.0)], 0.25);
+    assert_eq!([1.0, 2.75].map(|x| asked.distance_of_hull(hull(x))), [1.75, 0.0]);
+}
+
+#[test]
+fn whoever_asks_a_scene_gets_its_answers() {
+    assert_passes_on(&wall());
+    assert_passes_on(&DiscChecker::new(wall(), RustyDisc { radius: 0.25 }));
+    assert_passes_on(&Surroundings { scene: &wall(), others: &[] });
+    let counted = Counted::new(wall());
+    assert_passes_on(&counted);
+    assert_passes_on_hulls(&counted);
+    assert_passes_on_hulls(&Surroundings { scene: &wall(), others: &[] });
+    assert_eq!(counted.counts(), QueryCounts { intersects: 2, distance: 4, witness: 1, swept: 2 });
+}
+
+#[test]
+fn further_shapes_are_asked_as_well() {
+    // the wall is a further shape here, and the scene holds nothing
+    let others = [Placed::new([Point2::new(3.0, 0.0), Point2::new(3.0, 3.0)], 0.0)];
+    let around = Surroundings { scene: &Scene::of_walls(&[]), others: &others };
+    assert_passes_on(&around);
+    assert_passes_on_hulls(&around);
+}
+
+#[test]
+fn a_disc_checker_takes_discs_only() {
+    let checker = DiscChecker::new(wall(), RustyDisc { radius: 0.25 });
+    let checker: &dyn Collision = &checker;
+    let arm = Footprint::capsules([Segment::new(Point2::new(0.0, 1.0), Point2::new(1.0, 1.0))], 0.1);
+    assert!(checker.intersects(&arm) && checker.distance(&arm) == 0.0 && checker.witness(&arm).is_none());
+    assert!(checker.swept(&arm, &arm));
+}
