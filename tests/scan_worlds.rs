@@ -88,7 +88,7 @@ fn the_scan_from_room_a_is_the_reversed_scan_from_the_mirrored_place_in_room_c()
         hits += mirrored(&scene, RangeSensor { n_rays, max_range }, &a, &c);
     }
     assert!(hits > 600, "{hits}");
-    // anywhere in the two rooms, at whole 1024ths of a metre, whose images are exact
+    // anywhere in the two rooms, at whole multiples of 2^-10 m, whose images are exact
     let mut s = Stream::new(Seed(115), "tests/rooms");
     let (mut hits, mut zeros) = (0, 0);
     for i in 0..60 {
