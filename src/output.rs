@@ -1,7 +1,7 @@
 //! Output files: written whole, or not at all. The command line and the window write by these.
 
-use std::ffi::OsString;
-use std::fs::{self, File, OpenOptions, TryLockError};
+use std::ffi::{OsStr, OsString};
+use std::fs::{self, File, OpenOptions};
 use std::io::{self, BufWriter, ErrorKind, Write};
 use std::path::{Path, PathBuf};
 
@@ -10,8 +10,8 @@ use tempfile::{Builder, NamedTempFile};
 /// A file on its way: written under a temporary name in the folder of its final name, and put there in one step by
 /// [`commit`](Self::commit). Until then, and when it is dropped, an older file of that name is as it was.
 ///
-/// The temporary name is the final one with a dot before it and `.XXXXXX.partial` behind. A process that is killed leaves it, and
-/// [`unfinished`] finds it.
+/// The temporary name is the final one, or as much of it as there is room for, with a dot before it and `.XXXXXX.unfinished` behind. A
+/// process that is killed leaves it, and [`unfinished`] finds it.
 pub struct PendingFile {
     path: PathBuf,
     file: BufWriter<NamedTempFile>,
@@ -27,12 +27,11 @@ impl PendingFile {
         let path = fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
         let older = older_permissions(&path)?;
         let mut prefix = OsString::from(".");
-        prefix.push(path.file_name().unwrap_or_default());
+        prefix.push(shortened(path.file_name().unwrap_or_default()));
         prefix.push(".");
-        // the kind alone: the temporary name is nobody's business
-        let file = builder().prefix(&prefix).suffix(SUFFIX).tempfile_in(folder_of(&path)).map_err(|e| e.kind())?;
+        let file = builder().prefix(&prefix).suffix(SUFFIX).tempfile_in(folder_of(&path)).map_err(plain)?;
         // Held until the process ends, so that others can tell it from what a killed one left. Where there are no locks, they can't.
-        let _ = file.as_file().try_lock();
+        let _ = file.as_file().lock();
         if let Some(permissions) = older {
             file.as_file().set_permissions(permissions)?;
         }
@@ -62,17 +61,20 @@ impl PendingFile {
     /// # Errors
     /// [`io::Error`] when it does not.
     pub fn sync(&mut self) -> io::Result<()> {
-        self.file.flush()?;
+        self.file.flush().map_err(plain)?;
         self.file.get_ref().as_file().sync_all()
     }
 
     /// Puts what the disk took under another name of the same folder, after a write that failed. What it did not take is lost.
     ///
     /// # Errors
-    /// [`io::Error`] when the file can't be renamed.
+    /// [`io::Error`] when the file can't be renamed: then it stays under its temporary name, which the error tells.
     pub fn keep_as(self, path: &Path) -> io::Result<()> {
         let (file, _) = self.file.into_parts();
-        file.persist(path).map_err(|error| error.error)?;
+        if let Err(refused) = file.persist(path) {
+            let (_, left) = refused.file.keep().map_err(|error| error.error)?;
+            return Err(io::Error::other(format!("{}; what was written is in {}", refused.error, left.display())));
+        }
         sync_folder(path);
         Ok(())
     }
@@ -80,16 +82,29 @@ impl PendingFile {
 
 impl Write for PendingFile {
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
-        self.file.write(bytes)
+        self.file.write(bytes).map_err(plain)
     }
 
     fn flush(&mut self) -> io::Result<()> {
-        self.file.flush()
+        self.file.flush().map_err(plain)
     }
 }
 
 /// The end of a temporary name.
-const SUFFIX: &str = ".partial";
+const SUFFIX: &str = ".unfinished";
+
+/// As much of a name as leaves room for the rest of a temporary one, where names have at most 255 bytes.
+fn shortened(name: &OsStr) -> &OsStr {
+    match name.to_str() {
+        Some(text) => OsStr::new(&text[..text.floor_char_boundary(200)]),
+        None => name,
+    }
+}
+
+/// The error without the temporary name.
+fn plain(error: io::Error) -> io::Error {
+    error.kind().into()
+}
 
 /// The number of characters that make a temporary name unique, a dot before them.
 const UNIQUE: usize = 6;
@@ -105,11 +120,11 @@ fn folder_of(path: &Path) -> &Path {
 /// [`io::Error`] when the folder can't be read.
 pub fn unfinished(path: &Path) -> io::Result<Vec<PathBuf>> {
     let mut found = Vec::new();
-    for entry in fs::read_dir(folder_of(path))? {
-        let path = folder_of(path).join(entry?.file_name());
-        let is_left =
-            || matches!(File::open(&path).map(|file| file.try_lock()), Ok(Ok(()) | Err(TryLockError::Error(_))));
-        if is_temporary(&path) && is_left() {
+    // through a symbolic link, as the output goes
+    let output = fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
+    for entry in fs::read_dir(folder_of(&output))? {
+        let path = folder_of(&output).join(entry?.file_name());
+        if is_temporary(&path) && is_left(&path)? {
             found.push(path);
         }
     }
@@ -117,21 +132,27 @@ pub fn unfinished(path: &Path) -> io::Result<Vec<PathBuf>> {
     Ok(found)
 }
 
+/// Whether no process is writing the file any more. `false` also where the system can't tell.
+///
+/// # Errors
+/// [`io::Error`] when the file can't be opened.
+pub fn is_left(path: &Path) -> io::Result<bool> {
+    // shared, so that two who ask don't stand in one another's way
+    Ok(File::open(path)?.try_lock_shared().is_ok())
+}
+
 /// The name of the file that a temporary one was to become; of another that ends in `.partial` the name without it.
 pub fn whole_name(path: &Path) -> Option<PathBuf> {
     let whole = path.with_extension("");
-    match path.extension() {
-        Some(extension) if extension == "partial" => {}
-        _ => return None,
+    if is_temporary(path) {
+        let name = whole.file_stem()?.to_str()?.strip_prefix('.')?;
+        return Some(path.with_file_name(name));
     }
-    if !is_temporary(path) {
-        return Some(whole);
-    }
-    let name = whole.file_stem()?.to_str()?.strip_prefix('.')?;
-    Some(path.with_file_name(name))
+    path.extension().is_some_and(|extension| extension == "partial").then_some(whole)
 }
 
-fn is_temporary(path: &Path) -> bool {
+/// Whether a name is one that an unfinished file has.
+pub fn is_temporary(path: &Path) -> bool {
     let name = path.file_name().and_then(|name| name.to_str()).unwrap_or_default();
     let unique =
         name.strip_prefix('.').and_then(|name| name.strip_suffix(SUFFIX)).and_then(|name| name.rsplit_once('.'));
@@ -213,17 +234,27 @@ mod tests {
         // as if killed: the name stays and the lock goes
         let (file, _) = pending.file.into_parts();
         file.keep().unwrap();
-        for other in
-            ["run.mcap.partial", ".hidden", ".run.mcap.a.partial", "..abcdef.partial", ".run.mcap.abcde-.partial"]
-        {
+        for other in [
+            "run.mcap.partial",
+            ".hidden",
+            ".run.mcap.a.unfinished",
+            "..abcdef.unfinished",
+            ".run.mcap.abcde-.unfinished",
+        ] {
             fs::write(folder.path().join(other), b"").unwrap();
         }
         let name = entry.file_name().unwrap().to_str().unwrap();
-        assert!(name.starts_with(".run.mcap.") && name.ends_with(".partial"), "{name}");
+        assert!(name.starts_with(".run.mcap.") && name.ends_with(".unfinished"), "{name}");
         assert_eq!(unfinished(&path).unwrap(), [&*entry]);
         assert_eq!(fs::read(&entry).unwrap(), b"one");
         assert_eq!(whole_name(&entry), Some(path.clone()));
         assert_eq!(whole_name(&folder.path().join("run.mcap.partial")), Some(path.clone()));
         assert_eq!(whole_name(&path), None);
+        let hidden = folder.path().join(".run.backup");
+        assert_eq!(whole_name(&hidden.with_extension("backup.partial")), Some(hidden));
+        // two bytes a character: cut between two of them
+        let long = folder.path().join("\u{e9}".repeat(127));
+        write_file(&long, b"long").unwrap();
+        assert_eq!(fs::read(&long).unwrap(), b"long");
     }
 }

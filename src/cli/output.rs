@@ -1,4 +1,4 @@
-//! The library's whole files, their errors told as this program tells them.
+//! The library's whole files, with this program's errors.
 
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
@@ -33,11 +33,6 @@ impl PendingFile {
     /// Puts what the disk took under another name of the same folder, after a write that failed.
     pub fn keep_as(self, path: &Path) -> Result<(), Failure> {
         self.file.keep_as(path).map_err(|error| Failure::output(path, &error))
-    }
-
-    /// Puts the file under another name of the same folder.
-    pub fn commit_as(self, path: &Path) -> Result<(), Failure> {
-        self.file.commit_as(path).map_err(|error| Failure::output(path, &error))
     }
 }
 

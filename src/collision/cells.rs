@@ -27,7 +27,7 @@ pub(crate) struct Place {
     sides: [f64; 4],
 }
 
-/// At most so many cells a side.
+/// The largest number of cells a side.
 const MOST: f64 = 512.0;
 /// The largest number of cells that a thing touches on average. A grid has at least four cells, and a thing touches all of them at worst.
 const PAIRS: usize = 16;
@@ -55,7 +55,7 @@ impl Cells {
             }
             let (columns, rows) = (cells(width), cells(height));
             let grid = Cells { corner, size, columns, rows, starts: vec![], things: vec![], segments: vec![] };
-            // larger cells where long segments touch so many that they would fill the memory
+            // larger cells, where the pairs of these would fill the memory
             match grid.pairs(&boxes, segments, PAIRS * count) {
                 Some(pairs) => break (grid, pairs),
                 None => size *= 2.0,

@@ -45,13 +45,13 @@ impl Block {
     }
 }
 
-/// At most so many cells a side.
+/// The largest number of cells a side.
 const MOST: f64 = 512.0;
 /// A cell that more pieces than this touch makes a tree the better choice.
 const CROWD: u32 = 32;
 /// So are more entries than this for each piece.
 const ENTRIES: usize = 8;
-/// Of so many boxes the nearest is looked at first.
+/// The number of boxes of which the nearest is measured first.
 const SOME: usize = 32;
 
 impl PieceGrid {
@@ -153,7 +153,7 @@ impl PieceGrid {
     pub(super) fn nearest(&self, from: &Extent, within: f64, mut look: impl FnMut(usize) -> f64) {
         let mut least = within;
         let block = self.block(&from.grown(lesser(within, 0.25 * self.size)));
-        // the one with the nearest box first: most others need not be looked at then
+        // the one with the nearest box first: most others need no measuring then
         let (mut found, mut count, mut first) = ([(0.0, 0); SOME], 0, (f64::INFINITY, 0));
         self.each_in(&block, None, |item| {
             let distance = from.squared_distance(&item.extent);

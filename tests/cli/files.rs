@@ -67,6 +67,17 @@ fn a_full_disk_keeps_what_it_took_and_the_older_file() {
     assert!(fs::read(&output).unwrap() == fs::read(folder.path().join("whole.mcap")).unwrap());
 
     fs::remove_file(folder.path().join("whole.mcap")).unwrap();
+    // what was kept is not replaced by less, where the disk is full sooner
+    run_in(folder.path(), &["record", "--ticks", "1200", "--no-sensor", "-o", "b.mcap", "--stop-after", "600"])
+        .failed(75);
+    let before = fs::read(folder.path().join("b.mcap.partial")).unwrap();
+    let script =
+        format!("trap '' XFSZ; ulimit -f 64; exec {} record --resume b.mcap.partial", env!("CARGO_BIN_EXE_motion-lab"));
+    let run = Command::new("sh").arg("-c").arg(script).current_dir(folder.path()).output().unwrap();
+    assert_eq!(run.status.code(), Some(1), "{}", String::from_utf8_lossy(&run.stderr));
+    assert_eq!(fs::read(folder.path().join("b.mcap.partial")).unwrap(), before);
+    fs::remove_file(folder.path().join("b.mcap.partial")).unwrap();
+
     fs::write(&output, OLDER).unwrap();
     let error = recorded_on_a_full_disk(folder.path());
     assert!(error.contains("The older file of that name is as it was."), "{error}");
@@ -90,6 +101,54 @@ fn a_folder_that_is_read_only_is_named_and_no_temporary_file() {
     let error = run(&["record", "--ticks", "5", "-o", &output]).failed(1);
     assert!(error.contains(&format!("{output}: it can't be written: ")), "{error}");
     assert!(!error.contains(".partial") && !error.contains("older file"), "{error}");
+}
+
+/// Stopped at a tick of which the file system does not take the last bytes.
+#[cfg(unix)]
+#[test]
+fn stopping_at_a_full_disk_keeps_what_it_took() {
+    let folder = tempfile::tempdir().unwrap();
+    let stop = |tick: u32| {
+        let script = format!(
+            "trap '' XFSZ; ulimit -f 64; exec {} record --ticks 1200 --no-sensor -o run.mcap --stop-after {tick}",
+            env!("CARGO_BIN_EXE_motion-lab")
+        );
+        Command::new("sh").arg("-c").arg(script).current_dir(folder.path()).output().unwrap().status.code()
+    };
+    let mut full = 0;
+    for tick in 20..160 {
+        let code = stop(tick);
+        assert!(code == Some(75) || code == Some(1), "{tick}: {code:?}");
+        full += u32::from(code == Some(1));
+        assert!(folder.path().join("run.mcap.partial").exists(), "{tick}: {code:?}");
+        fs::remove_file(folder.path().join("run.mcap.partial")).unwrap();
+        assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 0);
+    }
+    assert!(full > 10, "{full} met the end of the disk");
+}
+
+#[cfg(unix)]
+#[test]
+fn a_recording_that_can_not_be_named_is_kept() {
+    let folder = tempfile::tempdir().unwrap();
+    let child = super::command(&["record", "--ticks", "4000000", "--no-sensor", "-o", "run.mcap"])
+        .current_dir(folder.path())
+        .stdout(std::process::Stdio::null())
+        .stderr(std::process::Stdio::piped())
+        .spawn()
+        .unwrap();
+    while fs::read_dir(folder.path()).unwrap().count() == 0 {
+        std::thread::sleep(std::time::Duration::from_millis(20));
+    }
+    fs::create_dir(folder.path().join("run.mcap.partial")).unwrap();
+    std::thread::sleep(std::time::Duration::from_millis(300));
+    assert!(Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap().success());
+    let ended = child.wait_with_output().unwrap();
+    let error = String::from_utf8_lossy(&ended.stderr);
+    assert_eq!(ended.status.code(), Some(1), "{error}");
+    let (_, left) = error.lines().find_map(|line| line.split_once("what was written is in ")).unwrap();
+    let info = run_in(folder.path(), &["info", "--json", left]);
+    assert_eq!(info.code, Some(5), "{left}: {}", info.err);
 }
 
 #[cfg(unix)]
@@ -124,6 +183,16 @@ fn what_a_killed_recording_left_is_named_and_goes_on() {
     let info = run_in(folder.path(), &["info", "--json", left]);
     let recorded = serde_json::from_str::<serde_json::Value>(&info.out).unwrap()["recorded"].as_u64().unwrap();
     assert!(recorded > 0 && recorded.is_multiple_of(20), "{recorded}");
+    // a file that may be newer is not replaced, and one that a process is writing is left to it
+    fs::write(folder.path().join("long.mcap"), OLDER).unwrap();
+    let refused = run_in(folder.path(), &["record", "--resume", left]).failed(2);
+    assert!(refused.contains("long.mcap: there is a file of this name"), "{refused}");
+    fs::remove_file(folder.path().join("long.mcap")).unwrap();
+    let writing = fs::File::open(folder.path().join(left)).unwrap();
+    writing.lock().unwrap();
+    let refused = run_in(folder.path(), &["record", "--resume", left]).failed(3);
+    assert!(refused.contains("another process is writing it"), "{refused}");
+    drop(writing);
     // two ticks are enough to see where it goes on: to the name that it was to have
     let stop = (recorded + 2).to_string();
     let stopped = run_in(folder.path(), &["record", "--resume", left, "--stop-after", &stop]).failed(75);

@@ -238,3 +238,48 @@ fn drawings_that_would_take_for_ever_are_refused_or_read() {
     let polygon = format!("<polygon points='{comb} 998 9 0 9'/>");
     assert!(refuse(&polygon.repeat(101)).contains("too many corners of concave polygons: at most 100000"));
 }
+
+/// What other programs write beside the drawing itself.
+#[test]
+fn attributes_of_others_and_what_is_left_out_change_nothing() {
+    let spaces = "xmlns:xlink='http://www.w3.org/1999/xlink' xmlns:q='urn:q'";
+    let read = |inside: &str| {
+        let text = drawing(inside).replacen("<svg ", &format!("<svg {spaces} "), 1);
+        svg("d.svg", &text, "d", SvgOptions::default()).map(|imported| imported.world)
+    };
+    let corners = |inside: &str| {
+        let world = read(inside).unwrap();
+        assert_eq!(world.obstacles.len(), 1, "{inside}");
+        let (low, high) = world.obstacles[0].placed().next().unwrap().bounds();
+        [low.x, low.y, high.x, high.y].map(|x| (x * 1e6).round() / 1e6)
+    };
+    let rect = "<rect id='a' x='1' y='1' width='2' height='1'/>";
+    assert_eq!(corners(rect), [1.0, 8.0, 3.0, 9.0]);
+    // both references, as for older readers, with a blank
+    let used = format!("<defs>{rect}</defs><use href=' #a' xlink:href='#a' x='4'/>");
+    assert_eq!(corners(&used), [5.0, 8.0, 7.0, 9.0]);
+    assert_eq!(corners(&used.replace("href=' #a' ", "")), [5.0, 8.0, 7.0, 9.0]);
+    let foreign =
+        "<rect q:fill='none' q:r='any text' q:x='5' q:id='b' x='1' y='1' width='2' height='1' q:transform='x'/>";
+    assert_eq!(corners(foreign), [1.0, 8.0, 3.0, 9.0]);
+    // a quarter turn about the middle of a box of 2 by 1
+    let turned = rect.replace("/>", " transform='rotate(90)' transform-origin='2 1.5'/>");
+    assert_eq!(corners(&turned), [1.5, 7.5, 2.5, 9.5]);
+    let switch = format!("<switch><rect requiredExtensions='urn:x' width='9' height='1'/>{rect}</switch>");
+    assert_eq!(corners(&switch), [1.0, 8.0, 3.0, 9.0]);
+    let sized = "<g style='font-size:2px'><rect x='1em' y='1' width='1em' height='1'/></g>";
+    assert_eq!(corners(sized), [2.0, 8.0, 4.0, 9.0]);
+    let important = rect.replace("/>", " style='fill:none !important;stroke:red;fill:red'/>");
+    assert_eq!(read(&important).unwrap().obstacles[0].kind, ObstacleKind::Wall);
+    // rules for what is left out anyway, and ten thousand elements of nobody's drawing
+    let rules = format!(
+        "<style>#g .a .b text{{font-size-adjust:1}}</style><metadata>{}</metadata>{rect}",
+        "<q:x/>".repeat(9_000)
+    );
+    assert_eq!(corners(&rules), [1.0, 8.0, 3.0, 9.0]);
+    // a path of a quarter of a megabyte may be used three times beside itself, and not four times
+    let path = format!("<path id='p' stroke='red' fill='none' d='M1 1{}'/>", "h1h-1".repeat(50_000));
+    let uses = |n: usize| read(&format!("{path}{}", "<use href='#p'/>".repeat(n))).unwrap_err().to_string();
+    assert!(uses(3).contains("too many"), "{}", uses(3));
+    assert!(uses(4).contains("bytes of paths and points"), "{}", uses(4));
+}

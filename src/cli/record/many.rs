@@ -1,4 +1,4 @@
-//! Many seeds at once, told in order.
+//! Many seeds at once, their lines in order.
 
 use std::path::PathBuf;
 

@@ -13,7 +13,7 @@ use crate::cli::simulate::begin;
 use crate::cli::summary::RunSummary;
 use crate::cli::{Data, Failure, Outcome, interrupt, say};
 
-/// The ticks from which on a run tells how far it is.
+/// The ticks from which on a run says how far it is.
 const LONG: u64 = 100_000;
 
 /// The ticks of a second.
@@ -100,11 +100,17 @@ pub fn write_run(plan: &Plan, expected: &[Frame], stop: Stop, output: &Path) -> 
     };
     let mut file = Some(PendingFile::create(output)?);
     let mut writer: Option<LogWriter<PendingFile>> = None;
+    // how many ticks the operating system took
+    let mut taken = 0;
     let ended = run(plan, expected, stop, |frame| match &mut writer {
         Some(writer) => {
             writer.tick(frame).map_err(failed)?;
             // what a killed process leaves is at most a second old
-            if frame.tick % SECOND == 0 { writer.flush().map_err(failed) } else { Ok(()) }
+            if frame.tick % SECOND == 0 {
+                writer.flush().map_err(failed)?;
+                taken = frame.tick;
+            }
+            Ok(())
         }
         None => {
             let Some(file) = file.take() else { return Err(failed(io::Error::other("begun twice").into())) };
@@ -113,24 +119,25 @@ pub fn write_run(plan: &Plan, expected: &[Frame], stop: Stop, output: &Path) -> 
         }
     });
     let Some(mut writer) = writer else { return ended };
-    let is_more = writer.ticks() > expected.len() as u64;
-    let whole = matches!(ended, Ok(Ended::Whole { .. }));
-    let ended = match ended {
-        Ok(ended) if whole => writer.end().map_err(failed).map(|()| ended),
-        ended => ended,
+    let before = expected.len() as u64;
+    let finished = match &ended {
+        Ok(Ended::Whole { .. }) => writer.end().map_err(failed).map(|()| Some(output.to_owned())),
+        Ok(Ended::Stopped(tick)) if *tick > before || before == 0 => Ok(Some(partial_name(output))),
+        _ => Ok(None),
     };
     let mut file = writer.into_inner();
-    match ended {
-        Ok(ended) if whole => match file.sync() {
-            Ok(()) => file.commit().map(|()| ended),
-            Err(error) => Err(kept(file, output, failed(error.into()))),
-        },
-        Ok(Ended::Stopped(tick)) if is_more || expected.is_empty() => {
-            file.commit_as(&partial_name(output))?;
-            Ok(Ended::Stopped(tick))
+    let finished = finished.and_then(|name| match name {
+        Some(name) => file.sync().map(|()| Some(name)).map_err(|error| failed(error.into())),
+        None => Ok(None),
+    });
+    match (ended, finished) {
+        (Ok(ended @ Ended::Whole { .. }), Ok(_)) => file.commit().map(|()| ended),
+        (Ok(ended), Ok(Some(name))) => file.keep_as(&name).map(|()| ended),
+        (Err(failure @ Failure::Output { .. }), _) | (Ok(_), Err(failure)) if taken > before => {
+            Err(kept(file, output, failure))
         }
-        Err(failure @ Failure::Output { .. }) if is_more => Err(kept(file, output, failure)),
-        ended => ended,
+        (Ok(_), Err(failure)) => Err(failure),
+        (ended, _) => ended,
     }
 }
 

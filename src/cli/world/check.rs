@@ -36,7 +36,8 @@ fn crowd(world: &World, residents: &[(&str, Footprint)]) -> Scene {
         Obstacle::new(*name, ObstacleKind::Solid, pieces)
     };
     let obstacles = residents.iter().map(obstacle).collect();
-    Scene::of_world(&World { obstacles, places: vec![], marks: vec![], robots: vec![], ..world.clone() })
+    let (name, places, marks, robots) = (String::new(), vec![], vec![], vec![]);
+    Scene::of_world(&World { name, bounds: world.bounds, obstacles, places, marks, robots })
 }
 
 /// The obstacles of which nothing lies within the bounds.

@@ -112,7 +112,7 @@ fn rectangles(grid: &Grid) -> Vec<Cells> {
     up
 }
 
-/// Rectangles that cover the occupied cells of so many columns and rows: each as wide as can be, then as high.
+/// Rectangles that cover the occupied cells of a grid of this size: each as wide as can be, then as high.
 fn grown(columns: u32, rows: u32, is_occupied: impl Fn(u32, u32) -> bool) -> Vec<Cells> {
     let index = |column: u32, row: u32| row as usize * columns as usize + column as usize;
     let mut left: Vec<bool> = (0..rows)

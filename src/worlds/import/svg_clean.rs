@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 use usvg::roxmltree::{Document, Node};
 
 use super::svg_check::{DEEPEST, SVG, at};
-use super::svg_css::{declarations, style_sheet};
+use super::svg_css::{declarations, kept, style_sheet};
 use super::svg_scan::MAX_ELEMENTS;
 use super::{ImportError, ImportProblem};
 
@@ -15,10 +15,9 @@ const ELEMENTS: [&str; 14] = [
     "polygon",
 ];
 
-const ATTRIBUTES: [&str; 26] = [
+const ATTRIBUTES: [&str; 24] = [
     "id",
     "class",
-    "transform",
     "viewBox",
     "preserveAspectRatio",
     "x",
@@ -36,13 +35,15 @@ const ATTRIBUTES: [&str; 26] = [
     "y2",
     "d",
     "points",
-    "color",
-    "font-size",
     "systemLanguage",
-    "style",
-    "href",
+    "requiredExtensions",
+    "requiredFeatures",
+    "pathLength",
     "fill-rule",
 ];
+
+/// The largest length of what describes paths and polygons, in all, those that `use` repeats among them, bytes.
+const MAX_PATH_DATA: usize = 1 << 20;
 
 /// The largest product of elements and selectors of style sheets: each is tried on each.
 const MAX_MATCHES: usize = 1_000_000;
@@ -61,19 +62,32 @@ pub(super) fn clean(document: &Document) -> Result<String, ImportError> {
     if !is_svg(&root, "svg") {
         return Err(ImportProblem::Syntax("no drawing: the root element is no svg element".into()).into());
     }
+    check_uses(root)?;
     let mut writer = Writer { out: String::new(), elements: 0, selectors: 0, styles: 0 };
     writer.element(root)?;
     if writer.elements * writer.selectors > MAX_MATCHES {
         let problem = format!("style sheets of {} selectors for {} elements", writer.selectors, writer.elements);
         return Err(ImportProblem::Unsupported(problem).into());
     }
-    check_uses(root)?;
     Ok(writer.out)
 }
 
 fn is_svg(node: &Node, name: &str) -> bool {
     node.is_element() && node.tag_name().name() == name && node.tag_name().namespace() == Some(SVG)
 }
+
+/// Whether an element is written at all.
+fn is_kept(node: &Node) -> bool {
+    let name = node.tag_name().name();
+    node.tag_name().namespace() == Some(SVG) && (name == "style" || ELEMENTS.contains(&name))
+}
+
+/// What an element refers to: by its own attribute, or by that of xlink, which is older.
+fn href<'a>(node: &Node<'a, 'a>) -> Option<&'a str> {
+    node.attribute("href").or_else(|| node.attribute((XLINK, "href"))).map(str::trim)
+}
+
+const XLINK: &str = "http://www.w3.org/1999/xlink";
 
 struct Writer {
     out: String,
@@ -86,7 +100,7 @@ struct Writer {
 impl Writer {
     /// Writes an element and what it holds: no deeper than was checked.
     fn element(&mut self, node: Node) -> Result<(), ImportError> {
-        if node.tag_name().namespace() != Some(SVG) {
+        if !is_kept(&node) {
             return Ok(());
         }
         let name = node.tag_name().name();
@@ -104,25 +118,24 @@ impl Writer {
             self.out.push_str("</style>");
             return Ok(());
         }
-        if !ELEMENTS.contains(&name) {
-            return Ok(());
-        }
         self.elements += 1;
         self.out.extend(["<", name]);
         if node.parent_element().is_none() {
             self.attribute("xmlns", SVG);
         }
-        for attribute in node.attributes() {
-            // href is that of xlink, too
+        for attribute in node.attributes().filter(|a| a.namespace().is_none()) {
             let (name, value) = (attribute.name(), attribute.value());
             if name == "style" {
                 let style = declarations(value).map_err(|problem| at(node, problem))?;
                 self.attribute(name, &style);
             } else if ATTRIBUTES.contains(&name) {
                 self.attribute(name, value);
-            } else if let Some(value) = super::svg_css::kept(name, value).map_err(|problem| at(node, problem))? {
+            } else if let Some(value) = kept(name, value).map_err(|problem| at(node, problem))? {
                 self.attribute(name, value);
             }
+        }
+        if let Some(href) = href(&node) {
+            self.attribute("href", href);
         }
         self.out.push('>');
         node.children().filter(Node::is_element).try_for_each(|child| self.element(child))?;
@@ -148,7 +161,8 @@ fn escape(text: &str, out: &mut String) {
     }
 }
 
-/// That the drawing has no more elements than allowed, and none nested deeper, where each `use` stands for what it repeats.
+/// That the drawing has no more elements and path data than allowed, and no element nested deeper, where each `use` stands for what it
+/// repeats.
 fn check_uses(root: Node) -> Result<(), ImportError> {
     let mut targets: BTreeMap<&str, Node> = BTreeMap::new();
     for node in root.descendants() {
@@ -156,30 +170,40 @@ fn check_uses(root: Node) -> Result<(), ImportError> {
             targets.entry(id).or_insert(node);
         }
     }
-    let mut left = MAX_ELEMENTS;
-    expand(root, &targets, 0, &mut left)
+    expand(root, &targets, 0, &mut Left { elements: MAX_ELEMENTS, path_data: MAX_PATH_DATA })
 }
 
-/// Walks through the elements as they are drawn; the walk ends with the elements that are left.
+/// How much more a drawing may have.
+struct Left {
+    elements: usize,
+    path_data: usize,
+}
+
+/// Walks through the elements as they are drawn; the walk ends with what is left.
 fn expand<'a>(
     node: Node<'a, 'a>,
     targets: &BTreeMap<&str, Node<'a, 'a>>,
     depth: usize,
-    left: &mut usize,
+    left: &mut Left,
 ) -> Result<(), ImportError> {
-    *left = left.checked_sub(1).ok_or_else(|| at(node, too_many()))?;
+    if !is_kept(&node) {
+        return Ok(());
+    }
+    let refuse = |what: String| at(node, ImportProblem::Unsupported(what));
+    let elements = left.elements.checked_sub(1);
+    left.elements = elements.ok_or_else(|| refuse(format!("more than {MAX_ELEMENTS} elements")))?;
+    let data: usize = ["d", "points"].iter().filter_map(|name| node.attribute(*name)).map(str::len).sum();
+    left.path_data = left
+        .path_data
+        .checked_sub(data)
+        .ok_or_else(|| refuse(format!("more than {MAX_PATH_DATA} bytes of paths and points: fewer digits will do")))?;
     if depth > DEEPEST {
-        return Err(at(node, ImportProblem::Unsupported(format!("elements nested deeper than {DEEPEST}"))));
+        return Err(refuse(format!("elements nested deeper than {DEEPEST}")));
     }
     if is_svg(&node, "use")
-        && let Some(href) = node.attributes().find(|a| a.name() == "href")
-        && let Some(target) = href.value().strip_prefix('#').and_then(|id| targets.get(id))
+        && let Some(target) = href(&node).and_then(|href| targets.get(href.strip_prefix('#')?))
     {
         expand(*target, targets, depth + 1, left)?;
     }
     node.children().filter(Node::is_element).try_for_each(|child| expand(child, targets, depth + 1, left))
-}
-
-fn too_many() -> ImportProblem {
-    ImportProblem::Unsupported(format!("more than {MAX_ELEMENTS} elements"))
 }

@@ -2,7 +2,7 @@
 
 use super::ImportProblem;
 
-const PROPERTIES: [&str; 10] = [
+const PROPERTIES: [&str; 12] = [
     "fill",
     "stroke",
     "fill-opacity",
@@ -13,6 +13,8 @@ const PROPERTIES: [&str; 10] = [
     "visibility",
     "color",
     "transform",
+    "transform-origin",
+    "font-size",
 ];
 
 /// How many parts a selector may have: one that asks for ancestors is tried on every way up.
@@ -54,11 +56,16 @@ pub(super) fn declarations(style: &str) -> Result<String, ImportProblem> {
         if let Some(value) = kept(name, value)?
             && let Some(i) = PROPERTIES.iter().position(|p| *p == name)
         {
-            last[i] = Some(value);
+            let is_outranked = last[i].is_some_and(|last| is_important(last) && !is_important(value));
+            last[i] = if is_outranked { last[i] } else { Some(value) };
         }
     }
     let all = PROPERTIES.iter().zip(last).filter_map(|(name, value)| Some([name, ":", value?, ";"].concat()));
     Ok(all.collect())
+}
+
+fn is_important(value: &str) -> bool {
+    value.trim_end().ends_with("!important")
 }
 
 /// The rules of a style sheet, each with the declarations that matter; comments and rules that begin with `@` are left out.
@@ -83,6 +90,9 @@ pub(super) fn style_sheet(text: &str) -> Result<StyleSheet, ImportProblem> {
             continue;
         }
         let kept = declarations(block)?;
+        if kept.is_empty() {
+            continue;
+        }
         for one in selector.split(',') {
             let parts = one.split([' ', '\t', '\n', '\r', '>', '+', '~']).filter(|part| !part.is_empty()).count();
             if parts > MAX_PARTS {
@@ -132,7 +142,9 @@ mod tests {
         assert_eq!(declarations(style).unwrap(), "fill:black;display:none;");
         let sheet = "/* a{} */@import 'b';@media print { .c { fill: red } } .d, g > .e{stroke:none;filter:url(#f)} .f{";
         let sheet = style_sheet(sheet).unwrap();
-        assert_eq!((sheet.text.as_str(), sheet.selectors), (".d, g > .e{stroke:none;}.f{}", 3));
+        assert_eq!((sheet.text.as_str(), sheet.selectors), (".d, g > .e{stroke:none;}", 2));
+        assert_eq!(declarations("fill:none !important;fill:red").unwrap(), "fill:none !important;");
+        assert_eq!(declarations("fill:none;fill:red !important").unwrap(), "fill:red !important;");
     }
 
     #[test]
@@ -143,7 +155,8 @@ mod tests {
             assert_eq!(problem, format!("not supported: {what}: cut the shapes themselves"));
             assert!(style_sheet(&format!(".a{{{style}}}")).is_err());
         }
-        assert_eq!(style_sheet("g > .a b{}").unwrap().selectors, 1);
-        assert!(style_sheet("g > .a b *{}").is_err());
+        assert_eq!(style_sheet("g > .a b{fill:red}").unwrap().selectors, 1);
+        assert!(style_sheet("g > .a b *{fill:red}").is_err());
+        assert_eq!(style_sheet("g > .a b text{font-weight:bold}").unwrap().selectors, 0);
     }
 }

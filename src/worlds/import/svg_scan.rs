@@ -29,7 +29,7 @@ pub(super) fn scan(text: &str) -> Result<(), ImportError> {
         let line = 1 + text[..at].bytes().filter(|b| *b == b'\n').count();
         Err(ImportError::at(line, "", ImportProblem::Unsupported(what)))
     };
-    let mut entities: BTreeMap<&str, usize> = BTreeMap::new();
+    let mut entities: BTreeMap<&[u8], usize> = BTreeMap::new();
     let (mut tags, mut all, mut prefixes, mut at) = (0, 0, 0, 0);
     while let Some(found) = text[at..].find('<') {
         let start = at + found;
@@ -44,11 +44,17 @@ pub(super) fn scan(text: &str) -> Result<(), ImportError> {
                 let Some((name, value)) = entity(tag) else {
                     return refuse(start, "an entity that is not a plain text".into());
                 };
-                entities.insert(name, value.len());
-                "<!ENTITY".len()
+                if entities.insert(name.as_bytes(), value.len()).is_some() {
+                    return refuse(start, "an entity declared twice".into());
+                }
+                extent(tag).length
+            } else if tag.starts_with("<?") {
+                skip("?>")
+            } else if tag.starts_with("<!DOCTYPE") {
+                // what it declares stands within it
+                head_of(tag)
             } else if tag.starts_with("<!") {
-                // a document type: what it declares stands within it
-                "<!".len()
+                return refuse(start, "a declaration that is not of an entity".into());
             } else {
                 let Extent { length, attributes, bound } = extent(tag);
                 if attributes > MAX_ATTRIBUTES {
@@ -58,7 +64,7 @@ pub(super) fn scan(text: &str) -> Result<(), ImportError> {
                 length
             };
         tags += 1;
-        // an element has two tags, and as many comments are nobody's drawing either
+        // an element has two tags; comments count as well
         if tags > 4 * MAX_ELEMENTS {
             return refuse(start, format!("more than {MAX_ELEMENTS} elements"));
         }
@@ -70,8 +76,10 @@ pub(super) fn scan(text: &str) -> Result<(), ImportError> {
         }
     }
     let mut length = 0;
+    let longest = entities.keys().map(|name| name.len()).max().unwrap_or(0);
     for (at, _) in text.match_indices('&').filter(|_| !entities.is_empty()) {
-        let name = text[at + 1..].split(';').next().unwrap_or_default();
+        let name = text.as_bytes()[at + 1..].iter().take(longest + 1).position(|b| *b == b';');
+        let name = name.map_or(&[][..], |end| &text.as_bytes()[at + 1..at + 1 + end]);
         length += entities.get(name).copied().unwrap_or(0);
         if length > MAX_ENTITY_TEXT {
             return refuse(at, format!("entities that stand for more than {MAX_ENTITY_TEXT} bytes"));
@@ -88,6 +96,21 @@ fn entity(declaration: &str) -> Option<(&str, &str)> {
     let quote = rest.chars().next().filter(|c| matches!(c, '"' | '\''))?;
     let (value, _) = rest[1..].split_once(quote)?;
     (!value.contains(['&', '<', '%'])).then_some((name, value))
+}
+
+/// The length of a document type's head, up to what it declares or to its end; texts in quotes may hold either sign.
+fn head_of(document_type: &str) -> usize {
+    let mut quote = None;
+    let end = document_type.bytes().position(|b| {
+        match (quote, b) {
+            (Some(open), _) if b == open => quote = None,
+            (None, b'"' | b'\'') => quote = Some(b),
+            (None, b'[' | b'>') => return true,
+            _ => {}
+        }
+        false
+    });
+    end.map_or(document_type.len(), |end| end + 1)
 }
 
 /// How far a tag reaches and what it has.
@@ -148,6 +171,14 @@ mod tests {
         assert!(
             refusal(&file(&plain, (1 << 10) + 1)).starts_with("d.svg:2: not supported: entities that stand for more")
         );
+        let twice = format!("{plain}<!ENTITY e \"\">");
+        assert!(refusal(&file(&twice, 0)).contains("an entity declared twice"));
+        // signs that hide nothing: in an instruction, in the name of a document type, before a name that never ends
+        for before in ["<?a '?>", "<!DOCTYPE a PUBLIC \"<a '\" \"[>\" [", "&".repeat(100_000).as_str()] {
+            let text = format!("{before}{plain}<a b=\"{}\"/>", "&e;".repeat(2_000));
+            assert!(refusal(&text).contains("entities that stand for more"), "{:.20}", text);
+        }
+        assert!(refusal("<!DOCTYPE a [<!ATTLIST a '>").contains("a declaration that is not of an entity"));
         for entity in
             ["<!ENTITY e '&f;'>", "<!ENTITY e '<g/>'>", "<!ENTITY % e 'x'>", "<!ENTITY e SYSTEM 'f'>", "<!ENTITY"]
         {
