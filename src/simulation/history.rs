@@ -247,6 +247,14 @@ mod tests {
         assert_eq!(world.resource::<History>().samples(), 401, "what lies ahead is kept");
         seek(world, 400).unwrap();
         assert_eq!(*world.resource::<History>(), history);
+        // what happened at a tick itself is kept where the run goes on from it
+        let ticks: Vec<u64> = history.marks().iter().map(|m| m.tick).collect();
+        for tick in ticks.iter().rev().copied() {
+            seek(world, tick).unwrap();
+            obey(world, TransportCommand::ContinueFromHere).unwrap();
+            let kept: Vec<u64> = world.resource::<History>().marks().iter().map(|m| m.tick).collect();
+            assert_eq!(kept, ticks.iter().copied().filter(|t| *t <= tick).collect::<Vec<_>>());
+        }
     }
 
     #[test]

@@ -8,11 +8,11 @@ use motion_lab::run::Frame;
 use motion_lab::tour::{BOOK_SEED, TourConfig};
 
 use super::tour;
+use crate::fixtures::count_from_env;
 
-/// The seeds that the tours' promises are tested at: a few, or 0 to 999 with `MOTION_LAB_ALL_SEEDS` set.
+/// The seeds that the tours' promises are made for.
 fn seeds() -> impl Iterator<Item = Seed> {
-    let count = if std::env::var_os("MOTION_LAB_ALL_SEEDS").is_some() { 1000 } else { 6 };
-    (0..count).map(Seed).chain([BOOK_SEED])
+    (0..count_from_env("MOTION_LAB_SEEDS", 1000)).map(Seed).chain([BOOK_SEED])
 }
 
 #[test]
