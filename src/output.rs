@@ -42,18 +42,10 @@ impl PendingFile {
     ///
     /// # Errors
     /// [`io::Error`] when the disk does not take it; whatever was there before still is.
-    pub fn commit(self) -> io::Result<()> {
-        let path = self.path.clone();
-        self.commit_as(&path)
-    }
-
-    /// Puts the file under another name of the same folder.
-    ///
-    /// # Errors
-    /// As [`commit`](Self::commit).
-    pub fn commit_as(mut self, path: &Path) -> io::Result<()> {
+    pub fn commit(mut self) -> io::Result<()> {
         self.sync()?;
-        self.keep_as(path)
+        let path = self.path.clone();
+        self.keep_as(&path)
     }
 
     /// Has the disk keep all that was written.
@@ -65,7 +57,7 @@ impl PendingFile {
         self.file.get_ref().as_file().sync_all()
     }
 
-    /// Puts what the disk took under another name of the same folder, after a write that failed. What it did not take is lost.
+    /// Puts what the disk took under another name of the same folder. What was not handed to it, as after a write that failed, is lost.
     ///
     /// # Errors
     /// [`io::Error`] when the file can't be renamed: then it stays under its temporary name, which the error tells.

@@ -2,26 +2,15 @@
 //!
 //! A chart line goes at a constant rate in every coordinate, in angles the short way round; a drive goes round its turning centre.
 
-use std::f64::consts::{PI, TAU};
+use std::f64::consts::PI;
 
 use motion_lab::geometry::{Placed, Vertices};
 use motion_lab::num::{cos, sin, tan};
 use motion_lab::prelude::*;
 
 use crate::fixtures::{apartment, lot, workbench};
+use crate::oracle::arm::short;
 use crate::oracle::sweep;
-
-/// The difference of two angles the short way round, of exactly half a turn the positive way.
-fn short(a: f64, b: f64) -> f64 {
-    let d = (b - a) % TAU;
-    if d > PI {
-        d - TAU
-    } else if d <= -PI {
-        d + TAU
-    } else {
-        d
-    }
-}
 
 /// The angle in (-pi, pi].
 fn wrapped(angle: f64) -> f64 {

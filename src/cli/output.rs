@@ -30,7 +30,7 @@ impl PendingFile {
         self.file.sync()
     }
 
-    /// Puts what the disk took under another name of the same folder, after a write that failed.
+    /// Puts what the disk took under another name of the same folder.
     pub fn keep_as(self, path: &Path) -> Result<(), Failure> {
         self.file.keep_as(path).map_err(|error| Failure::output(path, &error))
     }

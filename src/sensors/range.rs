@@ -15,7 +15,7 @@ use crate::num;
 pub struct RangeSensor {
     /// The number of rays.
     pub n_rays: u32,
-    /// The greatest range R, metres: a hit at exactly R counts, by four ulps, and farther reads infinity.
+    /// The greatest range R, metres: a hit at exactly R counts, within four ulps; farther reads infinity.
     pub max_range: f64,
 }
 

@@ -2,7 +2,6 @@
 //! messages by protobuf's wire format. What they must hold is what the script, the kinematics and the published schema say.
 
 use std::collections::BTreeMap;
-use std::f64::consts::{PI, TAU};
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::LazyLock;
@@ -16,6 +15,7 @@ use serde_json::Value;
 use xxhash_rust::xxh3::xxh3_128;
 
 use super::{json, run};
+use crate::oracle::arm::short;
 use crate::scan_shapes::{Tally, check, things_of};
 
 /// The first 16 s of tests/scripts/driving.ron: walls hit, inputs refused, the trailer put on.
@@ -79,17 +79,6 @@ fn list(row: &Row, name: &str) -> Vec<f64> {
     let columns =
         (0..).map(|i| format!("{name}{i}")).take_while(|column| row.get(column).is_some_and(|c| !c.is_empty()));
     columns.map(|column| number(row, &column)).collect()
-}
-
-fn short(a: f64, b: f64) -> f64 {
-    let d = (b - a) % TAU;
-    if d > PI {
-        d - TAU
-    } else if d <= -PI {
-        d + TAU
-    } else {
-        d
-    }
 }
 
 /// What the script has a driver hold at a tick; `None` before the first event.

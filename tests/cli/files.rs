@@ -2,11 +2,32 @@
 
 use std::fs;
 use std::path::Path;
-use std::process::Command;
+use std::process::{Child, Command, Stdio};
+use std::time::Duration;
 
 use super::{run, run_in};
 
 const OLDER: &[u8] = b"an older file";
+
+/// A recording of days of simulated time, which can't end by itself before a signal, once its file has grown.
+pub fn long_recording(folder: &Path, output: &str) -> Child {
+    let mut child = super::command(&["record", "--ticks", "4000000", "--no-sensor", "-o", output])
+        .current_dir(folder)
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    let size = || fs::read_dir(folder).unwrap().filter_map(|e| Some(e.ok()?.metadata().ok()?.len())).sum::<u64>();
+    for _ in 0..600 {
+        if size() > 100_000 {
+            return child;
+        }
+        std::thread::sleep(Duration::from_millis(50));
+    }
+    child.kill().unwrap();
+    child.wait().unwrap();
+    panic!("nothing was recorded in half a minute");
+}
 
 #[test]
 fn an_output_that_cannot_be_is_1_and_leaves_nothing() {
@@ -131,17 +152,8 @@ fn stopping_at_a_full_disk_keeps_what_it_took() {
 #[test]
 fn a_recording_that_can_not_be_named_is_kept() {
     let folder = tempfile::tempdir().unwrap();
-    let child = super::command(&["record", "--ticks", "4000000", "--no-sensor", "-o", "run.mcap"])
-        .current_dir(folder.path())
-        .stdout(std::process::Stdio::null())
-        .stderr(std::process::Stdio::piped())
-        .spawn()
-        .unwrap();
-    while fs::read_dir(folder.path()).unwrap().count() == 0 {
-        std::thread::sleep(std::time::Duration::from_millis(20));
-    }
+    let child = long_recording(folder.path(), "run.mcap");
     fs::create_dir(folder.path().join("run.mcap.partial")).unwrap();
-    std::thread::sleep(std::time::Duration::from_millis(300));
     assert!(Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap().success());
     let ended = child.wait_with_output().unwrap();
     let error = String::from_utf8_lossy(&ended.stderr);
@@ -155,20 +167,7 @@ fn a_recording_that_can_not_be_named_is_kept() {
 #[test]
 fn what_a_killed_recording_left_is_named_and_goes_on() {
     let folder = tempfile::tempdir().unwrap();
-    let mut child = super::command(&["record", "--ticks", "4000000", "--no-sensor", "-o", "long.mcap"])
-        .current_dir(folder.path())
-        .stdout(std::process::Stdio::null())
-        .stderr(std::process::Stdio::null())
-        .spawn()
-        .unwrap();
-    let size =
-        || fs::read_dir(folder.path()).unwrap().filter_map(|e| Some(e.ok()?.metadata().ok()?.len())).sum::<u64>();
-    for _ in 0..600 {
-        if size() > 100_000 {
-            break;
-        }
-        std::thread::sleep(std::time::Duration::from_millis(50));
-    }
+    let mut child = long_recording(folder.path(), "long.mcap");
     // while it runs it is nobody's left-over
     let beside = ["record", "--ticks", "5", "-o", "short.mcap"];
     let told = run_in(folder.path(), &beside);

@@ -141,28 +141,9 @@ fn stopping_does_not_touch_an_older_recording() {
 #[cfg(unix)]
 #[test]
 fn an_interrupt_keeps_what_was_done() {
-    use std::process::{Command, Stdio};
-    use std::time::Duration;
     let folder = tempfile::tempdir().unwrap();
-    // days of simulated time: it can't end by itself before the signal
-    let child = super::command(&["record", "--ticks", "4000000", "--no-sensor", "-o", "long.mcap"])
-        .current_dir(folder.path())
-        .stdout(Stdio::piped())
-        .stderr(Stdio::piped())
-        .spawn()
-        .unwrap();
-    // the recording has begun once its temporary file has grown
-    let grown = || {
-        let sizes = fs::read_dir(folder.path()).unwrap().filter_map(|e| e.ok()?.metadata().ok());
-        sizes.map(|m| m.len()).sum::<u64>() > 100_000
-    };
-    for _ in 0..600 {
-        if grown() {
-            break;
-        }
-        std::thread::sleep(Duration::from_millis(50));
-    }
-    assert!(Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap().success());
+    let child = super::files::long_recording(folder.path(), "long.mcap");
+    assert!(std::process::Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap().success());
     let ended = child.wait_with_output().unwrap();
     let error = String::from_utf8_lossy(&ended.stderr);
     assert_eq!(ended.status.code(), Some(75), "{error}");

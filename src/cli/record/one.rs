@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use std::slice;
 
 use motion_lab::random::Seed;
-use motion_lab::run::{Digest, Divergence, Frame, LogError, LogWriter, RunDigest, Script, first_divergence};
+use motion_lab::run::{DT, Digest, Divergence, Frame, LogError, LogWriter, RunDigest, Script, first_divergence};
 use motion_lab::tour::TourConfig;
 
 use crate::cli::output::PendingFile;
@@ -17,7 +17,7 @@ use crate::cli::{Data, Failure, Outcome, interrupt, say};
 const LONG: u64 = 100_000;
 
 /// The ticks of a second.
-const SECOND: u64 = 20;
+const SECOND: u64 = (1.0 / DT) as u64;
 
 /// What is run.
 #[derive(Clone, Debug)]
@@ -149,6 +149,9 @@ fn kept(file: PendingFile, output: &Path, failure: Failure) -> Failure {
             let next =
                 format!("{next}\nWhat was done is kept; go on with: motion-lab record --resume {}", partial.display());
             Failure::Output { file, reason, next }
+        }
+        (Failure::Output { file, reason, next }, Err(Failure::Output { reason: further, .. })) => {
+            Failure::Output { file, reason: format!("{reason}; {}: {further}", partial.display()), next }
         }
         (failure, _) => failure,
     }

@@ -10,7 +10,7 @@ use crate::worlds::{Grid, MAX_CELLS, MAX_ITEMS, WorldProblem};
 /// What occupied cells become.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum CellStyle {
-    /// Boxes that cover them, inside and all, each of as many cells as fit.
+    /// Boxes that cover them, inside and all.
     #[default]
     Solid,
     /// Closed walls along their borders, edges in line joined to one. Their inside holds no obstacle: nothing gets in, but a
