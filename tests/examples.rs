@@ -7,8 +7,9 @@ use motion_lab::num::{cos, sin};
 use motion_lab::prelude::*;
 use motion_lab::robots::PartRates;
 
-use crate::oracle::arm::{arm_clearance, obstacles, short};
+use crate::oracle::arm::{arm_clearance, obstacles};
 use crate::oracle::plain;
+use crate::oracle::short;
 
 #[path = "../examples/bug1.rs"]
 mod bug1;

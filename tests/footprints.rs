@@ -9,7 +9,7 @@ use motion_lab::num::{cos, sin, tan};
 use motion_lab::prelude::*;
 
 use crate::fixtures::{apartment, lot, workbench};
-use crate::oracle::arm::short;
+use crate::oracle::short;
 use crate::oracle::sweep;
 
 /// The angle in (-pi, pi].

@@ -1,25 +1,11 @@
 //! The Workbench's arm along a path, by its kinematics written out.
 
-use std::f64::consts::{PI, TAU};
-
 use motion_lab::collision::Scene;
 use motion_lab::configuration::T2;
 use motion_lab::geometry::{Placed, Point2, Pose2, Shape};
 use motion_lab::num::{cos, sin};
 
-use super::sweep;
-
-/// The short way from `a` to `b`, radians.
-pub fn short(a: f64, b: f64) -> f64 {
-    let d = (b - a) % TAU;
-    if d > PI {
-        d - TAU
-    } else if d <= -PI {
-        d + TAU
-    } else {
-        d
-    }
-}
+use super::{short, sweep};
 
 /// The obstacles of a scene, piece by piece.
 pub fn obstacles(scene: &Scene) -> Vec<Placed> {

@@ -12,7 +12,7 @@ use motion_lab::run::{Event, RobotInput, RobotState};
 use super::cases::Case;
 use super::meetings::{Answer, Cut, clearance};
 use super::robots::{Kind, Motion, shapes, wrap};
-use crate::oracle::arm::short;
+use crate::oracle::short;
 
 /// The length of a tick, seconds.
 const DT: f64 = 0.05;

@@ -10,7 +10,7 @@ use super::inputs::{apply, motion_of};
 use super::meetings::{Answer, Cut, NEAR, clearance, sweeps_meet};
 use super::rays::is_range;
 use super::robots::{Kind, Motion, shapes};
-use crate::oracle::arm::short;
+use crate::oracle::short;
 
 /// How far a coordinate may be from where the equations lead, metres or radians.
 const TOLERANCE: f64 = 1e-9;

@@ -4,7 +4,7 @@ use libm::{cos, sin, tan};
 use motion_lab::geometry::{Placed, Point2};
 use motion_lab::robots::{HITCH, RUSTY, Reach};
 
-use crate::oracle::arm::short;
+use crate::oracle::short;
 
 /// The number of Runge-Kutta steps from the start of a motion to a place on it.
 const STEPS: u32 = 8;
