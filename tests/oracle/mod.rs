@@ -4,23 +4,12 @@
 //! Both take placed shapes as they are, a list of core vertices and a radius, and nothing else from the library. [`arm`] writes out the kinematics of
 //! the Workbench's arm for them.
 
-use std::f64::consts::{PI, TAU};
-
 #[cfg(feature = "sim")]
 pub mod arm;
 pub mod exact;
 pub mod plain;
 pub mod ray;
+mod short;
 pub mod sweep;
 
-/// The short way from `a` to `b`, radians; of exactly half a turn the positive way.
-pub fn short(a: f64, b: f64) -> f64 {
-    let d = (b - a) % TAU;
-    if d > PI {
-        d - TAU
-    } else if d <= -PI {
-        d + TAU
-    } else {
-        d
-    }
-}
+pub use short::short;

@@ -33,11 +33,16 @@ mod arm;
 #[allow(dead_code)]
 mod plain;
 #[cfg(test)]
+#[path = "../../../tests/oracle/short.rs"]
+mod short;
+#[cfg(test)]
 #[path = "../../../tests/oracle/sweep.rs"]
 #[allow(dead_code)]
 mod sweep;
 #[cfg(test)]
 mod tests;
+#[cfg(test)]
+use short::short;
 
 type Failure = Box<dyn Error>;
 
