@@ -1,4 +1,4 @@
-//! What the lab costs beside parry2d-f64, row by row, written into README.
+//! What the lab costs beside parry2d-f64, row by row, written into docs/performance.md.
 //!
 //! `cargo bench --no-default-features --features headless --bench table`; with `-- scan` only the rows whose name has that in it,
 //! printed and not written; `-- worlds` prints the worlds, for `benches/peers`; `-- digests` what the scans come to, for

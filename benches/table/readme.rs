@@ -1,6 +1,9 @@
-//! The table as text, and where it stands in README.
+//! The table as text, and the page it stands in.
 
 use crate::Row;
+
+/// The page that the table stands in.
+const PAGE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/docs/performance.md");
 
 const BEGIN: &str = "<!-- table: begin -->";
 const END: &str = "<!-- table: end -->";
@@ -27,12 +30,11 @@ pub fn line(row: &Row) -> String {
     format!("| {work} | {ours} | {peer} | {ratio} | {must} | {spread} |")
 }
 
-/// Replaces the table in README, between its two marks.
+/// Replaces the table in its page, between its two marks.
 pub fn write(rows: &[Row]) {
-    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/README.md");
-    let text = std::fs::read_to_string(path).expect("README is there");
-    let (before, rest) = text.split_once(BEGIN).expect("README has the table's first mark");
-    let (_, after) = rest.split_once(END).expect("README has the table's last mark");
+    let text = std::fs::read_to_string(PAGE).expect("the page is there");
+    let (before, rest) = text.split_once(BEGIN).expect("the page has the table's first mark");
+    let (_, after) = rest.split_once(END).expect("the page has the table's last mark");
     let lines: Vec<String> = rows.iter().map(line).collect();
     let table = format!(
         "{BEGIN}\n| work | here | beside it | ratio | must reach | spread |\n|---|---|---|---|---|---|\n{}\n\n\
@@ -41,7 +43,7 @@ pub fn write(rows: &[Row]) {
         lines.join("\n"),
         processor()
     );
-    std::fs::write(path, format!("{before}{table}{after}")).expect("README can be written");
+    std::fs::write(PAGE, format!("{before}{table}{after}")).expect("the page can be written");
 }
 
 fn processor() -> String {

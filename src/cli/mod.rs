@@ -1,37 +1,16 @@
 //! The command line: one command a file. Data goes to standard output, messages to standard error.
 
-mod bare;
-mod capture;
-mod completions;
-mod console;
-mod describe;
-mod diff;
-mod end;
-mod export;
-mod grade;
-mod info;
-mod input;
-mod interrupt;
-mod json_number;
-mod log_source;
-mod numbers;
-mod output;
-mod query;
-mod record;
-mod replay;
-mod script;
-mod simulate;
-mod summary;
-#[cfg(feature = "headless")]
-mod tour;
-mod verify;
-mod world;
-mod world_source;
+mod commands;
+mod support;
 
-pub use console::{Data, say};
-pub use end::{Failure, Outcome};
+pub use support::console::{Data, say};
+pub use support::end::{Failure, Outcome};
 
 use clap::{Parser, Subcommand};
+
+use commands::{
+    bare, capture, completions, describe, diff, export, grade, info, query, record, replay, script, verify, world,
+};
 
 /// What `--help` says of the exit codes; the README says the same.
 const EXIT_CODES: &str = "\

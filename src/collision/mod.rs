@@ -1,59 +1,36 @@
 //! The collision checker: four questions about a footprint in a scene, and edges proven free.
 
-mod answers;
 mod batch;
-mod boxes;
-mod cells;
-mod certificate;
+mod boundary;
+mod broad;
 mod checker;
-mod clear_way;
-mod closed;
-mod core;
 mod counted;
-mod dd;
-mod disc_line;
-mod edge;
-mod extent;
-mod impact;
-mod index;
-mod march;
+mod forward;
+mod motion;
 mod narrow;
-mod nearby;
-mod parting;
-mod piece_grid;
-mod pinch;
 mod problem;
+mod queries;
 mod rectangles;
 mod scene;
-mod search;
-mod segments;
-mod shared;
-mod sides;
-mod step;
 mod surroundings;
-mod swept;
-mod tree;
-mod verifier;
-mod vicinity;
 mod witness;
 
-pub(crate) use answers::touch;
-pub(crate) use cells::{Cells, Place};
-pub use certificate::{Certificate, CertificateError, ProvenStep};
+pub(crate) use boundary::grid::{Cells, Place};
+pub(crate) use boundary::segments::{Circle, LANES, SegmentSoup};
 pub use checker::{CarChecker, ChainChecker, Checker, DiscChecker};
-pub(crate) use clear_way::is_plainly_clear;
 pub use counted::{Counted, QueryCounts};
-pub use edge::{EdgeVerdict, MarchOptions, UnresolvedReason};
-pub use march::{BRACKET, march};
+pub use motion::certificate::{Certificate, CertificateError, ProvenStep};
+pub use motion::conservative_advancement::{BRACKET, march};
 #[cfg(feature = "sim")]
-pub(crate) use march::{clearance_of_all, march_on};
+pub(crate) use motion::conservative_advancement::{clearance_of_all, march_on};
+pub(crate) use motion::separation::is_plainly_clear;
+pub use motion::verdict::{EdgeVerdict, MarchOptions, UnresolvedReason};
+pub use motion::verifier::verify_certificate;
+pub(crate) use narrow::pair::touch;
 pub use problem::{Problem, ProblemError};
 pub use rectangles::Rectangles;
 pub use scene::Scene;
-
-pub(crate) use segments::{Circle, LANES, SegmentSoup};
 pub use surroundings::Surroundings;
-pub use verifier::verify_certificate;
 pub use witness::{ObstacleId, Witness};
 
 use crate::geometry::{Footprint, Placed};

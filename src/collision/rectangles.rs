@@ -2,8 +2,8 @@
 
 use multiversion::multiversion;
 
-use super::answers::touch;
-use super::segments::LANES;
+use super::boundary::segments::LANES;
+use super::narrow::pair::touch;
 use crate::geometry::{Placed, Point2, Pose2, Shape, largest_coordinate};
 use crate::num::greater;
 
@@ -127,8 +127,8 @@ fn decide(arrays: [&[f64]; 6], other: &Frame, doubt: f64, touched: &mut [bool]) 
 
 #[cfg(test)]
 mod tests {
-    use super::super::{Collision, Scene};
     use super::*;
+    use crate::collision::{Collision, Scene};
     use crate::geometry::Footprint;
     use crate::random::{Seed, Stream};
 

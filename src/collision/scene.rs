@@ -3,15 +3,14 @@
 use std::sync::Arc;
 
 use super::ObstacleId;
-use super::answers::{pair, touch};
-use super::cells::Cells;
-use super::extent::Extent;
-use super::impact::{arc_distance, arc_meets, translation_meets};
-use super::index::Index;
-use super::narrow::{Nearest, depth};
-use super::search::Search;
-use super::segments::SegmentSoup;
-use crate::geometry::{CircularArc, Footprint, Placed, Pose2, Segment, Shape, largest_coordinate};
+use super::boundary::grid::Cells;
+use super::boundary::segments::SegmentSoup;
+use super::broad::index::Index;
+use super::motion::time_of_impact::{arc_distance, arc_meets, translation_meets};
+use super::narrow::distance::{Nearest, depth};
+use super::narrow::nearest::Search;
+use super::narrow::pair::{pair, touch};
+use crate::geometry::{Aabb, CircularArc, Footprint, Placed, Pose2, Segment, Shape, largest_coordinate};
 use crate::num::{greater, lesser};
 use crate::worlds::{Bounds, World};
 
@@ -114,7 +113,7 @@ impl Scene {
     }
 
     fn of_pieces(bounds: Bounds, names: Vec<Arc<str>>, pieces: Vec<Placed>, owners: Vec<u32>) -> Self {
-        let extents: Vec<Extent> = pieces.iter().map(Extent::of).collect();
+        let extents: Vec<Aabb> = pieces.iter().map(Aabb::of).collect();
         let soup = SegmentSoup::of_pieces(&pieces);
         let many = soup.segments().len() + soup.circles().len() > MANY;
         let cells = if many { Cells::new(&soup) } else { None };
@@ -217,7 +216,7 @@ impl Scene {
         for (a, b) in start.parts().iter().zip(end.parts()) {
             let (a, b) = (a.placed(), b.placed());
             let v = b.core()[0] - a.core()[0];
-            self.index.each_near(&Extent::of(a).merged(&Extent::of(b)), 0.0, |piece| {
+            self.index.each_near(&Aabb::of(a).merged(&Aabb::of(b)), 0.0, |piece| {
                 if let Some(s) = translation_meets(a, v, &self.pieces[piece]) {
                     first = Some(first.map_or(s, |f| lesser(s, f)));
                 }
@@ -254,13 +253,13 @@ impl Scene {
 
     /// Calls `visit` with each piece whose box is at most `range` from the shape's box, until it returns true.
     pub(super) fn each_within(&self, shape: &Placed, range: f64, visit: impl FnMut(usize) -> bool) {
-        self.index.each_near(&Extent::of(shape), range, visit);
+        self.index.each_near(&Aabb::of(shape), range, visit);
     }
 }
 
 /// A box around what a disc of this radius touches along the arc: every point of it is at most half its length from one end.
-fn arc_box(arc: &CircularArc, radius: f64) -> Extent {
+fn arc_box(arc: &CircularArc, radius: f64) -> Aabb {
     let grown = radius + lesser(0.5 * arc.length(), 2.0 * arc.radius);
     let ends = [arc.at(0.0), arc.at(1.0)].map(|p| Placed::new([p], grown));
-    Extent::of(&ends[0]).merged(&Extent::of(&ends[1]))
+    Aabb::of(&ends[0]).merged(&Aabb::of(&ends[1]))
 }

@@ -1,9 +1,9 @@
 //! `Surroundings`, a scene and other robots' footprints in it.
 
-use super::clear_way::Way;
-use super::march::march;
-use super::narrow::{nearest, touch};
-use super::swept::{self, SWEEP};
+use super::motion::conservative_advancement::march;
+use super::motion::separation::Way;
+use super::motion::swept::{self, SWEEP};
+use super::narrow::distance::{nearest, touch};
 use super::{Collision, ObstacleId, Scene, Witness};
 use crate::geometry::{Footprint, Part, Placed, largest_coordinate};
 

@@ -1,5 +1,6 @@
 //! Points, poses, shapes and footprints: plain values in metres and radians, x right, y up, counter-clockwise positive.
 
+mod aabb;
 mod arc;
 mod footprint;
 mod hull;
@@ -9,6 +10,7 @@ mod pose;
 mod segment;
 mod shape;
 
+pub(crate) use aabb::{Aabb, square};
 pub use arc::CircularArc;
 pub use footprint::{Footprint, Part};
 pub use hull::convex_hull;

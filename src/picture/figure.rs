@@ -1,6 +1,6 @@
 //! `Figure`, pictures side by side as a sheet of paper: what an SVG file shows.
 
-use super::{Anchor, Face, Fit, Line, Palette, Picture, Primitive, Role, ScaleBar, ScreenRect, resolve, svg};
+use super::{Anchor, Face, Fit, Line, Palette, Picture, Primitive, Role, ScaleBar, ScreenRect, resolve};
 use crate::num::{greater, lesser};
 
 /// A figure: panels in rows of up to three, and a caption under them.
@@ -50,7 +50,7 @@ pub(super) enum Entry {
 /// Free room at the sheet's border and between its panels, pixels.
 const GAP: f64 = 20.0;
 /// The greatest width of the sheet, pixels.
-const WIDTH: f64 = 1280.0;
+pub(super) const WIDTH: f64 = 1280.0;
 /// The greatest height of a picture, pixels.
 const TALLEST: f64 = 560.0;
 /// How much higher the pictures of a row may be than those of another.
@@ -66,18 +66,6 @@ impl Figure {
         let title = picture.name.clone();
         let panels = vec![Panel { picture, heading: String::new(), readout: Vec::new() }];
         Figure { title, description: String::new(), panels, caption: Vec::new() }
-    }
-
-    /// The figure as an SVG file, the same bytes for the same figure and palette. Metres are fitted to the panels, and line
-    /// widths are in pixels.
-    pub fn svg(&self, palette: &Palette) -> String {
-        self.svg_on(&Sheet { palette, width_px: WIDTH, notes: &[] })
-    }
-
-    /// As [`svg`](Self::svg), on a sheet of another width, with notes.
-    pub fn svg_on(&self, sheet: &Sheet<'_>) -> String {
-        let (entries, size) = self.lay_out(sheet.width_px);
-        svg::write(self, &entries, size, sheet)
     }
 
     /// The scale of every panel on a sheet of this width, pixels per metre: for what keeps its size on the sheet and is to find
@@ -106,7 +94,7 @@ impl Figure {
     }
 
     /// All strokes and words in painting order, and the size of the sheet.
-    fn lay_out(&self, width: f64) -> (Vec<Entry>, [f64; 2]) {
+    pub(super) fn lay_out(&self, width: f64) -> (Vec<Entry>, [f64; 2]) {
         let mut entries = Vec::new();
         let (mut right, mut top) = (GAP, GAP);
         let tallest = self.tallest(width);

@@ -3,14 +3,28 @@
 use std::collections::BTreeSet;
 use std::fmt::Write;
 
-use super::figure::Entry;
-use super::{Anchor, Face, Figure, Line, Primitive, Role, ScreenPoint, Sheet};
+use super::figure::{Entry, WIDTH};
+use super::{Anchor, Face, Figure, Line, Palette, Primitive, Role, ScreenPoint, Sheet};
+
+impl Figure {
+    /// The figure as an SVG file, the same bytes for the same figure and palette. Metres are fitted to the panels, and line
+    /// widths are in pixels.
+    pub fn svg(&self, palette: &Palette) -> String {
+        self.svg_on(&Sheet { palette, width_px: WIDTH, notes: &[] })
+    }
+
+    /// As [`svg`](Self::svg), on a sheet of another width, with notes.
+    pub fn svg_on(&self, sheet: &Sheet<'_>) -> String {
+        let (entries, size) = self.lay_out(sheet.width_px);
+        write(self, &entries, size, sheet)
+    }
+}
 
 /// Writes laid-out entries as a standalone SVG file of this size in pixels.
 ///
 /// Every item is a group with its id, its role as class and its name as title. Colours stand in one stylesheet: in a group of
 /// role r, class `f` is filled with the role's colour and `l` stroked with it.
-pub(super) fn write(figure: &Figure, entries: &[Entry], size: [f64; 2], sheet: &Sheet<'_>) -> String {
+fn write(figure: &Figure, entries: &[Entry], size: [f64; 2], sheet: &Sheet<'_>) -> String {
     let mut out = Out { text: String::new(), ids: BTreeSet::new() };
     let (w, h) = (number(size[0]), number(size[1]));
     let _ = write!(

@@ -227,9 +227,9 @@ impl<const N: usize> Drivable for Reach<N> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::Motion;
     use super::*;
     use crate::random::{Seed, Stream};
+    use crate::robots::Motion;
 
     #[test]
     fn fk_is_the_product_of_the_rigid_motions() {

@@ -63,9 +63,9 @@ fn first_line(item: &str, first: &str, second: &str) -> Option<SetupDifference> 
 
 #[cfg(test)]
 mod tests {
-    use super::super::{Event, RobotInput, fixture};
     use super::*;
     use crate::random::Seed;
+    use crate::run::{Event, RobotInput, fixture};
 
     #[test]
     fn everything_that_determines_a_run_is_compared_and_named() {

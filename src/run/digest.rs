@@ -108,8 +108,8 @@ impl Log {
 
 #[cfg(test)]
 mod tests {
-    use super::super::{Event, RobotInput, fixture};
     use super::*;
+    use crate::run::{Event, RobotInput, fixture};
     use crate::tour::SensorConfig;
 
     #[test]

@@ -102,8 +102,8 @@ fn differing_value(expected: &Frame, found: &Frame) -> Option<Divergence> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::fixture;
     use super::*;
+    use crate::run::fixture;
 
     #[test]
     fn every_field_is_compared_and_named() {

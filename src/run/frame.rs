@@ -179,8 +179,8 @@ impl Visit for Words<'_> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::fixture;
     use super::*;
+    use crate::run::fixture;
 
     #[test]
     fn the_encoding_is_the_documented_words() {

@@ -9,10 +9,11 @@
 
 use multiversion::multiversion;
 
-use super::circle::raise_circle;
-use super::fan::{Fan, Lanes, View};
-use super::raise::{Desk, raise_ready};
-use super::ready::Ready;
+use super::cast_discs::raise_circle;
+use super::cast_segments::{Desk, raise_ready};
+use super::rays::{Fan, Lanes};
+use super::view::View;
+use super::wedges::{BATCH, Ready};
 use crate::collision::Circle;
 
 /// The loops for one instruction set. They are separate functions, so that each has the registers to itself.
@@ -30,6 +31,16 @@ pub(super) struct Kernel {
     pub(super) open: fn(&Fan, [f64; 4], &mut [u8]),
     /// Writes the ranges.
     pub(super) ranges: fn(&Fan, f64, &mut [f64]),
+}
+
+/// Raises the inverse range of every ray to that of every segment it hits; the coordinates of their ends come in whole eights.
+pub(super) fn raise([ax, ay, bx, by]: [&[f64]; 4], view: &View, kernel: &Kernel, fan: &mut Fan, desk: &mut Desk) {
+    for from in (0..ax.len()).step_by(BATCH) {
+        let to = (from + BATCH).min(ax.len());
+        let batch = [&ax[from..to], &ay[from..to], &bx[from..to], &by[from..to]];
+        (kernel.make)(&mut desk.ready, batch, view);
+        (kernel.raise)(desk, batch, view, fan);
+    }
 }
 
 /// The same functions under every set of features; on another machine they are the plain ones.

@@ -1,21 +1,22 @@
 //! Sensors: what a robot can find out about the world.
 
 mod beam;
-mod bearings;
-mod circle;
-mod fan;
-mod groups;
-mod instructions;
+mod cast_discs;
+mod cast_segments;
+mod grid_cast;
 mod kernel;
-mod raise;
+mod open_rays;
 mod range;
-mod ready;
+mod rays;
 mod scanner;
+mod sectors;
+mod simd;
 #[cfg(test)]
 mod tests;
-mod walk;
+mod view;
+mod wedges;
 
 pub use crate::worlds::{BeamError, BeamModel};
-pub use instructions::Instructions;
 pub use range::{RangeSensor, SensorError};
 pub use scanner::Scanner;
+pub use simd::Instructions;

@@ -3,11 +3,13 @@
 use std::f64::consts::TAU;
 
 use super::RangeSensor;
-use super::fan::{Fan, Lanes, View};
-use super::instructions::Instructions;
+use super::cast_segments::Desk;
+use super::grid_cast::Walk;
 use super::kernel::Kernel;
-use super::raise::{Desk, raise};
-use super::walk::Walk;
+use super::kernel::raise;
+use super::rays::{Fan, Lanes};
+use super::simd::Instructions;
+use super::view::View;
 use crate::collision::{LANES, Scene, SegmentSoup, touch};
 use crate::geometry::{Placed, Pose2};
 use crate::num;

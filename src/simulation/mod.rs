@@ -6,27 +6,17 @@
 //! - A window reads [`view`], [`Transport`] and [`LatestFrame`], and sends [`TransportCommand`] and [`RobotCommand`].
 
 mod components;
-mod drive;
 mod history;
-mod hold;
-mod input;
-mod kinds;
-mod ops;
 mod plugin;
-mod robot_plugin;
+mod robot;
 mod schedule;
-mod sense;
-mod settle;
-mod simulated_robot;
 mod spawn;
-mod starts;
 mod state;
-mod sweep;
 #[cfg(test)]
 mod tests;
+mod tick;
 mod transport;
 mod undo;
-mod view;
 
 pub use components::{
     Configuration, Contacts, Control, Cut, DriveMode, Extra, MountedOn, ObstacleOf, ObstacleShape, Obstacles, OwnState,
@@ -34,21 +24,22 @@ pub use components::{
     SensorScanner, Sensors, SimulatedWorld, Slip, TickMotion, WorldScene,
 };
 pub use history::{Happening, History, HistoryPlugin, TickMark, Trail};
-pub use hold::{Advance, HOLD_CLEARANCE, LEAST_CLEARANCE, MARGIN, advance, margin_from};
-pub use input::{PendingInput, RobotCommand};
-pub use ops::RobotOps;
 pub use plugin::{SimulationPlugin, obey, play_tick, seek, step};
-pub use robot_plugin::{RobotKinds, RobotPlugin};
+pub use robot::ops::RobotOps;
+pub use robot::plugin::{RobotKinds, RobotPlugin};
+pub use robot::simulated::SimulatedRobot;
+pub use robot::view::{RobotView, view};
 pub use schedule::{SimulationSchedule, SimulationSystems};
-pub use settle::FLASH_TICKS;
-pub use simulated_robot::SimulatedRobot;
 pub use spawn::{Roster, RunConfig, RunInput, SpawnError, start_run};
 pub use state::{Keyframes, LatestFrame, RestoreError, restore, snapshot};
+pub use tick::hold::{Advance, HOLD_CLEARANCE, LEAST_CLEARANCE, MARGIN, advance, margin_from};
+pub use tick::input::{PendingInput, RobotCommand};
+pub use tick::settle::FLASH_TICKS;
 pub use transport::{Playback, Transport, TransportCommand};
 pub use undo::Undo;
-pub use view::{RobotView, view};
 
 /// Bevy's app, for a program that adds robots of its own and does not otherwise use Bevy.
 pub use bevy::app::App;
 
-use spawn::{SpawnRequest, spawn_robot, start_run_in_order};
+pub(crate) use spawn::SpawnRequest;
+use spawn::{spawn_robot, start_run_in_order};

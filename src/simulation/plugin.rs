@@ -4,12 +4,13 @@ use bevy::app::{RunFixedMainLoop, RunFixedMainLoopSystems};
 use bevy::prelude::*;
 
 use super::schedule::{Phase, simulation_schedule};
-use super::starts::{Starts, Sweeps, gather_starts};
+use super::tick::starts::{Starts, Sweeps, gather_starts};
+use super::tick::{input, sense};
 use super::transport::re_rolled;
 use super::{
     History, Keyframes, LatestFrame, PendingInput, Playback, RestoreError, RobotCommand, RobotKinds, RobotName,
     RobotPlugin, RunConfig, SimulationSchedule, SimulationSystems, SpawnError, Transport, TransportCommand, Undo,
-    input, restore, sense, start_run_in_order, state, undo,
+    restore, start_run_in_order, state, undo,
 };
 use crate::random::Seed;
 use crate::robots::{HITCH, RUSTY, Reach};

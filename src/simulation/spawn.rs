@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use bevy::prelude::*;
 
-use super::simulated_robot::canonical;
+use super::robot::simulated::canonical;
 use super::{
     Configuration, Keyframes, LatestFrame, MountedOn, ObstacleOf, ObstacleShape, OwnState, PendingInput,
     PreviousConfiguration, ResidesIn, RobotId, RobotKinds, RobotModel, RobotName, RobotOps, Route, Scan, SensorModel,
@@ -117,7 +117,7 @@ impl Roster {
 pub struct RunConfig(pub Arc<TourConfig>);
 
 /// One robot to be spawned.
-pub(super) struct SpawnRequest<'a> {
+pub(crate) struct SpawnRequest<'a> {
     seed: Seed,
     id: RobotId,
     world: Entity,
@@ -250,7 +250,7 @@ pub(super) fn start_run_in_order(
     if world.contains_resource::<super::History>() {
         world.insert_resource(super::History::default());
     }
-    super::sense::sense(world);
+    super::tick::sense::sense(world);
     super::state::record(world);
     Ok(())
 }

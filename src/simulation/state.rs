@@ -145,7 +145,7 @@ pub fn restore(world: &mut World, frame: &Frame) -> Result<(), RestoreError> {
         }
     }
     world.resource_mut::<Transport>().tick = tick;
-    super::sense::sense(world);
+    super::tick::sense::sense(world);
     record(world);
     Ok(())
 }

@@ -4,7 +4,7 @@ use bevy_egui::egui::{
     Context, DragValue, Grid, Id, Key, Modal, Modifiers, RichText, TextStyle, Ui, WidgetInfo, WidgetType,
 };
 
-use super::button::button;
+use super::paint::button::button;
 use super::{Command, Dashboard, Look, SessionCommand, UiState};
 use crate::capture::{CaptureError, Form, Span};
 use crate::manifest::widgets;

@@ -4,11 +4,10 @@ use std::sync::Arc;
 
 use bevy_egui::egui::{CentralPanel, Frame, Margin, Panel, Ui, vec2};
 
+use super::dashboard::{self, drive};
 use super::keys::{Action, pressed};
-use super::{
-    Command, Dashboard, Look, UiState, anatomy_view, atlas_view, button::button, capture_form, cspace_view, dashboard,
-    drive, help, tools,
-};
+use super::paint::button::button;
+use super::{Command, Dashboard, Look, UiState, anatomy, atlas, capture_form, cspace, help, tools};
 use crate::manifest::widgets;
 use crate::simulation::{History, TransportCommand};
 
@@ -40,8 +39,8 @@ pub fn lab(ui: &mut Ui, model: &Dashboard, history: &History, state: &mut UiStat
     for action in actions {
         match action {
             Action::Widget(number) => choose(number, model, state, commands),
-            action if state.widget == 0 => dashboard::act(action, model, state, commands),
-            action if state.widget == ATLAS => atlas_view::act(action, model, state, commands),
+            action if state.widget == 0 => dashboard::view::act(action, model, state, commands),
+            action if state.widget == ATLAS => atlas::view::act(action, model, state, commands),
             action => tools::act(action, model, state, commands),
         }
     }
@@ -63,15 +62,15 @@ pub fn lab(ui: &mut Ui, model: &Dashboard, history: &History, state: &mut UiStat
         if !state.help && !state.capture.open {
             drive::drive(ui, model, state, commands);
         }
-        dashboard::dashboard(ui, model, history, (narrow, &look), state, commands);
+        dashboard::view::dashboard(ui, model, history, (narrow, &look), state, commands);
     } else {
         let side = if narrow { 12 } else { 20 };
         CentralPanel::default().frame(Frame::NONE.inner_margin(Margin::symmetric(side, 14))).show(ui, |ui| match state
             .widget
         {
-            1 => anatomy_view::anatomy_view(ui, model, (narrow, &look), state, commands),
-            2 => cspace_view::cspace_view(ui, model, (narrow, &look), state, commands),
-            _ => atlas_view::atlas_view(ui, model, (narrow, &look), state, commands),
+            1 => anatomy::view::anatomy_view(ui, model, (narrow, &look), state, commands),
+            2 => cspace::view::cspace_view(ui, model, (narrow, &look), state, commands),
+            _ => atlas::view::atlas_view(ui, model, (narrow, &look), state, commands),
         });
     }
     help::help(ui.ctx(), state);

@@ -1,34 +1,14 @@
 //! What people see and touch. Colours are known to [`Theme`](crate::picture::Theme) alone; what needs a screen stands behind the feature `screen`.
 
 #[cfg(feature = "screen")]
-mod anatomy_view;
-pub mod arm;
+mod anatomy;
 #[cfg(feature = "screen")]
-mod atlas_editing;
-#[cfg(feature = "screen")]
-mod atlas_state;
-#[cfg(feature = "screen")]
-mod atlas_view;
-mod blend;
-#[cfg(feature = "screen")]
-mod button;
-#[cfg(feature = "screen")]
-pub mod canvas;
+mod atlas;
 #[cfg(feature = "screen")]
 mod capture_form;
-mod cockpit;
 #[cfg(feature = "screen")]
-mod cspace_view;
-#[cfg(feature = "screen")]
+mod cspace;
 mod dashboard;
-#[cfg(feature = "screen")]
-mod drive;
-mod formula;
-#[cfg(feature = "screen")]
-mod frame;
-mod goal;
-#[cfg(feature = "screen")]
-mod handles;
 #[cfg(feature = "screen")]
 mod help;
 #[cfg(feature = "screen")]
@@ -36,48 +16,36 @@ pub mod keys;
 #[cfg(feature = "screen")]
 mod lab;
 #[cfg(feature = "screen")]
-mod look;
-#[cfg(feature = "screen")]
-mod pad;
-#[cfg(feature = "screen")]
-mod pane;
-#[cfg(feature = "screen")]
-mod plots;
+mod paint;
 mod settings;
-#[cfg(feature = "screen")]
-mod sheet;
 mod state;
 #[cfg(feature = "screen")]
-mod style;
-#[cfg(feature = "screen")]
-mod time_line;
-#[cfg(feature = "screen")]
 mod tools;
-#[cfg(feature = "screen")]
-mod transport_bar;
 
 #[cfg(feature = "screen")]
-pub use anatomy_view::AnatomyState;
+pub use anatomy::AnatomyState;
 #[cfg(feature = "screen")]
-pub use atlas_state::{AtlasState, Mode};
-pub use blend::{blend, heading};
+pub use atlas::{AtlasState, Mode};
 #[cfg(feature = "screen")]
 pub use capture_form::{CaptureOrder, CaptureState};
-pub use cockpit::{Cockpit, CockpitRobot, Dashboard};
 #[cfg(feature = "screen")]
-pub use cspace_view::CspaceState;
-pub use formula::{Formula, Level, Term};
-pub use goal::{Off, ParkingGoal, trailer_of};
+pub use cspace::CspaceState;
+pub use dashboard::arm;
+pub use dashboard::blend::{blend, heading};
+pub use dashboard::goal::{Off, ParkingGoal, trailer_of};
+#[cfg(feature = "screen")]
+pub use dashboard::transport_bar::transport_bar;
+pub use dashboard::values::{Cockpit, CockpitRobot, Dashboard};
 #[cfg(feature = "screen")]
 pub use lab::lab;
 #[cfg(feature = "screen")]
-pub use look::Look;
+pub use paint::canvas;
+#[cfg(feature = "screen")]
+pub use paint::look::Look;
 pub use settings::{Settings, ThemeChoice};
 pub use state::{Flash, Notice, UiState, Working};
-#[cfg(feature = "screen")]
-pub use transport_bar::transport_bar;
 
-pub use crate::manifest::{KeyText, WidgetText, number_of, widget, widgets};
+pub use crate::manifest::{Formula, KeyText, Level, Term, WidgetText, number_of, widget, widgets};
 pub use crate::picture::{readout, readout_lines};
 
 /// What a widget asks for. Widgets change nothing but their own [`UiState`].

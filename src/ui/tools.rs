@@ -2,9 +2,10 @@
 
 use bevy_egui::egui::{Align, Layout, RichText, Ui};
 
-use super::button::button;
 use super::keys::{Action, hint};
-use super::{Command, Dashboard, Look, SessionCommand, UiState, WidgetText, frame};
+use super::paint::button::button;
+use super::paint::frame;
+use super::{Command, Dashboard, Look, SessionCommand, UiState, WidgetText};
 use crate::simulation::TransportCommand;
 
 /// Does what a key or a button asks for, as far as it is the session's.

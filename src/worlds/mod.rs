@@ -36,30 +36,22 @@
 
 mod beam;
 mod built_in;
-mod comments;
 mod convex_pieces;
-mod description;
-mod distance_transform;
 mod error;
+mod file;
 mod grid;
 #[cfg(feature = "cli")]
 pub mod import;
-mod items;
 mod model;
-mod parse;
-mod print;
-mod rasterize;
-mod ros_export;
-mod source;
 
 pub use beam::{BeamError, BeamModel};
-pub use comments::comments;
 pub use convex_pieces::{MAX_CONCAVE_VERTICES, OutlineError, convex_pieces};
-pub use distance_transform::DistanceTransform;
 pub use error::{WorldError, WorldItem, WorldProblem};
-pub use grid::{Grid, GridError, MAX_CELLS};
+pub use file::comments::comments;
+pub use grid::cells::{Grid, GridError, MAX_CELLS};
+pub use grid::distance_transform::DistanceTransform;
+pub use grid::ros_export::RosFiles;
 pub use model::{Bounds, Mark, Obstacle, ObstacleKind, Outline, Place, Resident, World, Written};
-pub use ros_export::RosFiles;
 
 /// The version of the world format that is read and written.
 pub const WORLD_VERSION: u64 = 1;

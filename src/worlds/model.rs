@@ -121,8 +121,8 @@ impl Resident {
         sensor: Option<super::BeamModel>,
     ) -> Result<Self, super::WorldProblem> {
         let kind = kind.into();
-        let start = super::items::make_start(&kind, start.into())?;
-        let sensor = sensor.map(|noise| super::items::make_noise(&kind, noise)).transpose()?;
+        let start = super::file::items::make_start(&kind, start.into())?;
+        let sensor = sensor.map(|noise| super::file::items::make_noise(&kind, noise)).transpose()?;
         Ok(Resident { name: name.into(), kind, start, sensor })
     }
 }

@@ -3,10 +3,10 @@
 use ron::value::RawValue;
 use serde::Deserialize;
 
-use super::super::{Recorder, RunError};
 use super::{AssignmentError, AssignmentProblem};
 use crate::collision::{Collision, Scene};
 use crate::random::Seed;
+use crate::recording::{Recorder, RunError};
 use crate::run::Script;
 use crate::tour::{MAX_TICKS, TourConfig};
 use crate::worlds::{Resident, World};

@@ -2,11 +2,11 @@
 
 use std::fmt;
 
-use super::super::RunError;
 use super::Assignment;
 use crate::configuration::{Configuration, Coordinates, HitchCfg, Tn};
 use crate::geometry::Pose2;
 use crate::random::Seed;
+use crate::recording::RunError;
 use crate::run::Script;
 
 /// A motion ahead or back shorter than this is none, metres: a robot held at a wall creeps by less.

@@ -2,8 +2,8 @@
 
 use std::fmt;
 
-use super::super::RunError;
 use super::MAX_SEEDS;
+use crate::recording::RunError;
 use crate::tour::MAX_TICKS;
 
 /// An assignment file that is refused: where, which item, and why.

@@ -6,7 +6,7 @@ use std::fmt::Write;
 
 use prost::{Message, Oneof};
 
-use super::super::{DT, Digest, Event, Frame, Quantized, RobotInput, RobotScan, RobotState};
+use crate::run::{DT, Digest, Event, Frame, Quantized, RobotInput, RobotScan, RobotState};
 
 /// The compiled schema, a serialized `FileDescriptorSet`: what tells other programs how to read the messages.
 pub const SCHEMA: &[u8] = include_bytes!("../../../assets/schema/motion_lab.binpb");

@@ -10,32 +10,23 @@
 //! Nothing here opens a file: bytes go in, a [`CellMap`] or an [`Imported`] world comes out. The world is one that
 //! [`World::parse`] would give: its text reads back as the same world.
 
-mod cells;
-mod curves;
 mod draft;
 mod error;
 mod irsim;
-mod irsim_shape;
-mod movingai;
-mod pgm;
-mod ros;
+mod map;
 mod svg;
-mod svg_check;
-mod svg_clean;
-mod svg_css;
-mod svg_scan;
-mod trace;
 mod yaml;
 
-use super::items::make_resident;
-use super::{World, WorldProblem, description};
+use super::file::description;
+use super::file::items::make_resident;
+use super::{World, WorldProblem};
 
-pub use cells::{CellMap, CellStyle};
 pub use error::{ImportError, ImportProblem};
-pub use irsim::irsim;
-pub use movingai::movingai;
-pub use ros::{RosMap, Unknown, is_ros_map};
-pub use svg::{SvgOptions, svg};
+pub use irsim::scene::irsim;
+pub use map::cells::{CellMap, CellStyle};
+pub use map::movingai::movingai;
+pub use map::ros::{RosMap, Unknown, is_ros_map};
+pub use svg::read::{SvgOptions, svg};
 
 use draft::Draft;
 

@@ -1,0 +1,28 @@
+//! The program without a command: what its features make of it.
+
+use crate::cli::{Data, Failure, Outcome};
+
+/// The 60 s tour, recorded and verified.
+#[cfg(feature = "headless")]
+pub fn bare(data: &mut Data) -> Result<Outcome, Failure> {
+    super::tour::tour(data)
+}
+
+/// The lab in a window.
+#[cfg(all(feature = "window", not(feature = "headless")))]
+pub fn bare(_data: &mut Data) -> Result<Outcome, Failure> {
+    use motion_lab::app::{WindowError, run_window};
+    match run_window() {
+        Ok(()) => Ok(Outcome::Done),
+        Err(error @ WindowError::Closed(_)) => Err(Failure::internal(error)),
+        Err(error) => Err(Failure::NoDisplay(error.to_string())),
+    }
+}
+
+/// The help.
+#[cfg(not(any(feature = "headless", feature = "window")))]
+pub fn bare(data: &mut Data) -> Result<Outcome, Failure> {
+    use clap::CommandFactory;
+    data.text(&crate::cli::Cli::command().render_help().to_string())?;
+    Ok(Outcome::Done)
+}

@@ -1,0 +1,249 @@
+//! `capture`: what a widget shows, without a display, as SVG, PNG or GIF.
+
+mod run;
+mod widgets;
+
+use std::path::{Path, PathBuf};
+
+use clap::{Args, ValueEnum};
+use motion_lab::capture::{CaptureError, Form, Paper};
+use motion_lab::picture::Theme;
+
+use super::query::RobotName;
+use crate::cli::support::numbers::Numbers;
+use crate::cli::support::simulate::not_shown;
+use crate::cli::{Failure, Outcome, say};
+
+/// Draw what a widget shows, without a display: a figure for a page, as SVG or PNG; a run over a span of ticks as GIF.
+///
+/// The file's name tells the form. Seed and digest, or the world's content hash and the configuration, are in the file: in the
+/// notes of a PNG, the metadata of an SVG, the comment of a GIF.
+///
+/// dashboard  the run of a log, or of --seed, at --tick
+/// anatomy    the queries at a configuration: --tab, --robot, --q, --step
+/// atlas      worlds with their names: --world, --grid, --teleport; of a run: --seed or --log, its robots where they are
+/// cspace     the workspace and beside it the configuration space: --robot, --q, --cells, --step; of a run: --seed or --log,
+///            a robot of it with its way
+#[derive(Debug, Args)]
+#[command(verbatim_doc_comment)]
+pub struct Capture {
+    /// The widget.
+    #[arg(long, value_enum)]
+    widget: Widget,
+    /// The file to write: .svg, .png or .gif.
+    #[arg(short, long, visible_alias = "out", value_name = "FILE")]
+    output: PathBuf,
+    /// The paper's colours.
+    #[arg(long, value_enum, default_value = "light")]
+    theme: ThemeName,
+    /// The sheet's greatest width, pixels: 420 to 640 for a column, 1280 for a page. Letters keep their size.
+    #[arg(long, value_name = "PIXELS", default_value_t = 1280, value_parser = clap::value_parser!(u32).range(200..=4096))]
+    width: u32,
+    /// PNG and GIF: dots for each pixel of the sheet; 2 or 3 for print.
+    #[arg(long, value_name = "TIMES", default_value_t = 1.0, value_parser = parse_scale)]
+    scale: f32,
+    #[command(flatten)]
+    run: RunArgs,
+    #[command(flatten)]
+    scene: SceneArgs,
+}
+
+/// Which run is shown, and when.
+#[derive(Debug, Args)]
+pub struct RunArgs {
+    /// The run of this log, instead of that of --seed.
+    #[arg(long, value_name = "FILE", conflicts_with = "seed")]
+    log: Option<PathBuf>,
+    /// The tour of this seed. [default: 2005, where a run is shown]
+    #[arg(long, value_name = "SEED")]
+    seed: Option<u64>,
+    /// SVG and PNG of a run: the tick. [default: the last]
+    #[arg(long, value_name = "TICK")]
+    tick: Option<u64>,
+    /// GIF: the first tick. [default: 0]
+    #[arg(long, value_name = "TICK")]
+    from: Option<u64>,
+    /// GIF: the last tick. [default: the last]
+    #[arg(long, value_name = "TICK")]
+    to: Option<u64>,
+    /// GIF: a picture for every N ticks. [default: 4]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..=1000))]
+    every: Option<u64>,
+    /// Dashboard: everything that stands still with its name.
+    #[arg(long)]
+    names: bool,
+    /// Dashboard: what the range sensors see.
+    #[arg(long)]
+    scan: bool,
+}
+
+impl RunArgs {
+    /// Whether the widget shows a run, where it need not.
+    fn asked(&self, form: Form) -> bool {
+        form == Form::Gif || self.log.is_some() || self.seed.is_some() || self.tick.is_some()
+    }
+}
+
+/// What the other widgets show.
+#[derive(Debug, Args)]
+pub struct SceneArgs {
+    /// Anatomy: the tab; all four when left out.
+    #[arg(long, value_enum)]
+    tab: Option<TabName>,
+    /// Anatomy and cspace: the robot. [default: choset; of a run its first]
+    #[arg(long, value_enum)]
+    robot: Option<RobotName>,
+    /// Anatomy, atlas and cspace: a built-in world or the path of a world file. [default: the robot's home; atlas: all three]
+    #[arg(long, value_name = "NAME|FILE")]
+    world: Option<String>,
+    /// Anatomy and cspace: the configuration, numbers joined by commas. [default: where the robot starts; choset: pi/4, pi/2]
+    #[arg(long, value_name = "NUMBERS", allow_hyphen_values = true)]
+    q: Option<Numbers>,
+    /// Anatomy and cspace: the step to the second configuration.
+    #[arg(long, value_name = "NUMBERS", allow_hyphen_values = true)]
+    step: Option<Numbers>,
+    /// Anatomy: draw the annulus of points that an arm's tip can reach.
+    #[arg(long)]
+    annulus: bool,
+    /// Cspace: how often the plane is halved for the finest cells. [default: 9; of a run 7]
+    #[arg(long, value_name = "LEVEL", value_parser = clap::value_parser!(u32).range(1..=12))]
+    cells: Option<u32>,
+    /// Cspace: stop after judging so many cells. [default: when all are proven or as fine as --cells says]
+    #[arg(long, value_name = "N")]
+    budget: Option<u32>,
+    /// Atlas: the grid of this cell size over the world, shaded by its distance transform, metres.
+    #[arg(long, value_name = "METRES")]
+    grid: Option<f64>,
+    /// Atlas: put the world's first robot there, numbers joined by commas; where it cannot be, what it would overlap is shown, and
+    /// the nearest place that is free.
+    #[arg(long, value_name = "NUMBERS", allow_hyphen_values = true)]
+    teleport: Option<Numbers>,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum Widget {
+    Dashboard,
+    Anatomy,
+    Atlas,
+    Cspace,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum ThemeName {
+    Light,
+    Dark,
+}
+
+/// The anatomy's tabs.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum TabName {
+    Intersects,
+    Distance,
+    Witness,
+    Swept,
+}
+
+fn parse_scale(text: &str) -> Result<f32, String> {
+    match text.parse::<f32>() {
+        Ok(scale) if (0.1..=8.0).contains(&scale) => Ok(scale),
+        _ => Err("it must be a number from 0.1 to 8".into()),
+    }
+}
+
+impl Capture {
+    /// Runs the command.
+    pub fn run(self) -> Result<Outcome, Failure> {
+        let theme = match self.theme {
+            ThemeName::Light => Theme::Light,
+            ThemeName::Dark => Theme::Dark,
+        };
+        let paper = Paper { palette: theme.palette(), width: self.width, scale: self.scale };
+        let form = Form::of(&self.output).ok_or_else(|| {
+            let reason = format!("{}: its name does not tell the form", self.output.display());
+            Failure::usage(reason, "Let it end in .svg, .png or .gif.")
+        })?;
+        let of_run = self.widget == Widget::Dashboard || self.run.asked(form);
+        if self.widget == Widget::Anatomy && form == Form::Gif {
+            return Err(self.failure(CaptureError::Frozen));
+        }
+        if let Some((option, place)) = self.astray(form, of_run) {
+            return Err(Failure::usage(format!("{option}: for {place} alone"), "Leave it out."));
+        }
+        if of_run {
+            self.of_run(form, &paper)?;
+        } else {
+            let captured = match self.widget {
+                Widget::Atlas => widgets::atlas(&self.scene, &paper)?,
+                Widget::Cspace => widgets::cspace(&self.scene)?,
+                Widget::Anatomy | Widget::Dashboard => widgets::anatomy(&self.scene)?,
+            };
+            motion_lab::capture::write(&captured, &paper, form, &self.output).map_err(|e| self.failure(e))?;
+        }
+        say(format!("wrote {}", self.output.display()));
+        Ok(Outcome::Done)
+    }
+
+    /// What the library says, as this program says it.
+    fn failure(&self, error: CaptureError) -> Failure {
+        match error {
+            CaptureError::Write(error) => Failure::output(&self.output, &error),
+            CaptureError::Fault(reason) => Failure::internal(anyhow::anyhow!(reason)),
+            CaptureError::Run(error) => not_shown(self.run.log.as_deref().unwrap_or(Path::new("the run")), &error),
+            error => Failure::usage(&error, next(&error)),
+        }
+    }
+
+    /// The first option given that the widget, or the form, has no use for, and what it goes with.
+    fn astray(&self, form: Form, of_run: bool) -> Option<(&'static str, &'static str)> {
+        use Widget::{Anatomy, Atlas, Cspace, Dashboard};
+        let (run, scene) = (&self.run, &self.scene);
+        let runs: &[Widget] = &[Dashboard, Atlas, Cspace];
+        let options: [(&str, bool, &[Widget], &str); 17] = [
+            ("--log", run.log.is_some(), runs, "dashboard, atlas and cspace"),
+            ("--seed", run.seed.is_some(), runs, "dashboard, atlas and cspace"),
+            ("--tick", run.tick.is_some(), runs, "dashboard, atlas and cspace"),
+            ("--from", run.from.is_some(), runs, "dashboard, atlas and cspace"),
+            ("--to", run.to.is_some(), runs, "dashboard, atlas and cspace"),
+            ("--every", run.every.is_some(), runs, "dashboard, atlas and cspace"),
+            ("--names", run.names, &[Dashboard], "the dashboard"),
+            ("--scan", run.scan, &[Dashboard], "the dashboard"),
+            ("--tab", scene.tab.is_some(), &[Anatomy], "the anatomy"),
+            ("--robot", scene.robot.is_some(), &[Anatomy, Cspace], "anatomy and cspace"),
+            ("--q", scene.q.is_some(), &[Anatomy, Cspace], "anatomy and cspace"),
+            ("--step", scene.step.is_some(), &[Anatomy, Cspace], "anatomy and cspace"),
+            ("--annulus", scene.annulus, &[Anatomy, Cspace], "anatomy and cspace"),
+            ("--cells or --budget", scene.cells.or(scene.budget).is_some(), &[Cspace], "cspace"),
+            ("--grid", scene.grid.is_some(), &[Atlas], "the atlas"),
+            ("--teleport", scene.teleport.is_some(), &[Atlas], "the atlas"),
+            ("--world", scene.world.is_some(), &[Anatomy, Atlas, Cspace], "anatomy, atlas and cspace"),
+        ];
+        let stray = options.into_iter().find(|(_, given, widgets, _)| *given && !widgets.contains(&self.widget));
+        // a run says where its robots are
+        let still = [
+            ("--q", scene.q.is_some()),
+            ("--step", scene.step.is_some()),
+            ("--teleport", scene.teleport.is_some()),
+            ("--grid", scene.grid.is_some()),
+            ("--budget", scene.budget.is_some()),
+        ];
+        let of_still =
+            still.into_iter().find(|(_, given)| of_run && *given).map(|(option, _)| (option, "what stands still"));
+        stray.map(|(option, .., place)| (option, place)).or(of_still).or_else(|| {
+            let span = run.from.or(run.to).or(run.every).is_some();
+            match form {
+                Form::Gif => run.tick.map(|_| ("--tick", "SVG and PNG")),
+                _ => span.then_some(("--from, --to and --every", "GIF")),
+            }
+        })
+    }
+}
+
+/// What to do about it.
+fn next(error: &CaptureError) -> &'static str {
+    match error {
+        CaptureError::NoTick { .. } => "Choose one of them.",
+        CaptureError::Frozen => "Name an .svg or .png file, or --widget cspace to see a robot move beside its point.",
+        CaptureError::NotInRun(_) => "Name a --log with it, or another --robot or --world.",
+        _ => "Choose a smaller --width or --scale.",
+    }
+}

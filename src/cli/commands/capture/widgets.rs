@@ -1,0 +1,107 @@
+//! What the widgets that stand still show: anatomy, atlas, configuration space.
+
+use motion_lab::anatomy::{Anatomy, Tab, WorldSource};
+use motion_lab::atlas::{Atlas, GridLayer, Refusal};
+use motion_lab::capture::{self, AtlasSheet, Captured, Paper};
+use motion_lab::cspace::{CellMap, Slice};
+use motion_lab::picture::Item;
+use motion_lab::robots::Robot;
+use motion_lab::ui::readout;
+use motion_lab::worlds::World;
+
+use super::{SceneArgs, TabName};
+use crate::cli::Failure;
+use crate::cli::commands::query::RobotName;
+use crate::cli::support::numbers::Numbers;
+use crate::cli::support::world_source::find_world;
+
+/// The query anatomy: the tab with a close view, or all four.
+pub fn anatomy(args: &SceneArgs) -> Result<Captured, Failure> {
+    let tab = args.tab.map(|tab| match tab {
+        TabName::Intersects => Tab::Intersects,
+        TabName::Distance => Tab::Distance,
+        TabName::Witness => Tab::Witness,
+        TabName::Swept => Tab::Swept,
+    });
+    Ok(capture::anatomy(&frozen(args)?, &tab.map_or(Tab::ALL.to_vec(), |tab| vec![tab])))
+}
+
+/// The workspace and beside it the configuration space.
+pub fn cspace(args: &SceneArgs) -> Result<Captured, Failure> {
+    let anatomy = frozen(args)?.with_tab(Tab::Swept);
+    let slice = Slice::through(anatomy.checker(), &anatomy.q()).map_err(|e| Failure::usage(e, "Change --q."))?;
+    let mut map = CellMap::new(slice, args.cells.unwrap_or(9));
+    map.refine(args.budget.unwrap_or(u32::MAX));
+    Ok(capture::cspace(&anatomy, &map, Vec::new()))
+}
+
+/// Worlds with the names of everything in them.
+pub fn atlas(args: &SceneArgs, paper: &Paper) -> Result<Captured, Failure> {
+    let worlds: Vec<World> = match &args.world {
+        Some(name) => vec![find_world(name)?],
+        None => World::built_in_names().into_iter().map(find_world).collect::<Result<_, _>>()?,
+    };
+    if args.teleport.is_some() && worlds.len() > 1 {
+        return Err(Failure::usage("a robot of which world?", "Name it with --world."));
+    }
+    let mut atlases: Vec<Atlas> = worlds.into_iter().map(Atlas::new).collect();
+    let grid = |atlas: &Atlas| {
+        let layer = args.grid.map(|resolution| GridLayer::new(atlas.world(), resolution)).transpose();
+        layer.map_err(|error| Failure::usage(error, "Give a coarser --grid, in metres."))
+    };
+    let grids: Vec<Option<GridLayer>> = atlases.iter().map(grid).collect::<Result<_, _>>()?;
+    let mut told = Vec::new();
+    for atlas in &mut atlases {
+        told.push(match &args.teleport {
+            Some(Numbers(to)) => teleport(atlas, to)?,
+            None => (Vec::new(), Vec::new()),
+        });
+    }
+    let sheet =
+        |((atlas, grid), (over, readout))| AtlasSheet { atlas, grid, over, readout, names: args.teleport.is_none() };
+    let sheets: Vec<AtlasSheet<'_>> =
+        atlases.iter().zip(grids.iter().map(Option::as_ref)).zip(told).map(sheet).collect();
+    Ok(capture::atlas(&sheets, paper.width_px()))
+}
+
+/// Puts the first robot there; or what is to be drawn and said of its refusal.
+fn teleport(atlas: &mut Atlas, to: &[f64]) -> Result<(Vec<Item>, Vec<String>), Failure> {
+    let usage = |reason: String| Failure::usage(reason, "See `motion-lab capture --help`.");
+    let resident = atlas.robots().first().ok_or_else(|| usage("no robot of the lab's lives there".into()))?;
+    let wrong = || usage(format!("{} numbers: {} is at {}", to.len(), resident.name, resident.q));
+    let wanted = resident.q.with_coordinates(to).filter(|q| resident.robot.check(q).is_ok()).ok_or_else(wrong)?;
+    Ok(match atlas.teleport(0, wanted) {
+        Some(Err(refusal)) => {
+            let mut said = vec![refusal.to_string()];
+            if let Refusal::Overlap { nearest: Some(offer), .. } = &refusal {
+                said.push(format!("nearest free: {}", readout(&offer.q.to_string())));
+                said.push(format!("{:.4} away, and nothing nearer than {:.4} is free", offer.distance, offer.proven));
+            }
+            (atlas.refusal_items(0, &wanted, &refusal), said)
+        }
+        _ => (Vec::new(), Vec::new()),
+    })
+}
+
+/// The scene asked for.
+fn frozen(args: &SceneArgs) -> Result<Anatomy, Failure> {
+    let name = args.robot.unwrap_or(RobotName::Choset);
+    let world_name = args.world.clone().unwrap_or_else(|| name.home().to_owned());
+    let world = find_world(&world_name)?;
+    let source = World::built_in_names().into_iter().find(|n| *n == world_name);
+    let source = source.map_or(WorldSource::File(world_name), WorldSource::BuiltIn);
+    let usage = |error: &dyn std::fmt::Display| Failure::usage(error, "See `motion-lab capture --help`.");
+    let (robot, q) = name.at(args.q.as_ref().map(|q| &q.0[..]), &world).map_err(|e| usage(&e))?;
+    let mut anatomy = Anatomy::new(world, source, robot, q).map_err(|e| usage(&e))?;
+    if name == RobotName::Choset && args.step.is_none() {
+        anatomy.set_step(0, -std::f64::consts::FRAC_PI_2);
+    }
+    if let Some(step) = &args.step {
+        if step.0.len() != anatomy.step().len() {
+            return Err(usage(&format!("{} numbers: the step has {}", step.0.len(), anatomy.step().len())));
+        }
+        step.0.iter().enumerate().for_each(|(i, s)| anatomy.set_step(i, *s));
+    }
+    anatomy.show_annulus = args.annulus;
+    Ok(anatomy)
+}

@@ -1,0 +1,54 @@
+//! `describe`: the widgets' words, formulas and colours, for pages about the lab.
+
+use clap::Args;
+use serde_json::{Map, Value, json};
+
+use crate::cli::{Data, Failure, Outcome};
+use motion_lab::picture::{Rgb, Role, Theme};
+use motion_lab::ui::{Formula, widgets};
+
+/// Print what a page about the lab needs, as JSON: each widget's words, the formulas of the configuration spaces in MathML, and the
+/// colours of the roles on light and on dark paper.
+#[derive(Debug, Args)]
+pub struct Describe {}
+
+impl Describe {
+    /// Runs the command.
+    pub fn run(self, data: &mut Data) -> Result<Outcome, Failure> {
+        let widgets: Vec<Value> = widgets()
+            .iter()
+            .map(|w| {
+                let key: Vec<Value> =
+                    w.key.iter().map(|k| json!({ "role": k.role().name(), "text": k.text })).collect();
+                json!({
+                    "id": w.id, "title": w.title, "misconception": w.misconception, "description": w.description,
+                    "key": key, "hints": w.hints,
+                })
+            })
+            .collect();
+        let spaces = [("rusty", false), ("reach", false), ("reach3", false), ("hitch", false), ("hitch", true)];
+        let formulas: Vec<Value> = spaces
+            .iter()
+            .map(|&(robot, trailer)| {
+                let formula = Formula::space(robot, trailer);
+                json!({
+                    "robot": robot, "trailer": trailer, "mathml": formula.mathml(),
+                    "spoken": Formula::spoken(robot, trailer),
+                })
+            })
+            .collect();
+        let all = json!({
+            "widgets": widgets,
+            "formulas": formulas,
+            "colours": { "light": colours(Theme::Light), "dark": colours(Theme::Dark) },
+        });
+        data.data_line(serde_json::to_string_pretty(&all).map_err(Failure::internal)?)?;
+        Ok(Outcome::Done)
+    }
+}
+
+/// The colours by role, `#rrggbb`.
+fn colours(theme: Theme) -> Map<String, Value> {
+    let hex = |Rgb([r, g, b]): Rgb| format!("#{r:02x}{g:02x}{b:02x}").into();
+    Role::ALL.into_iter().map(|role| (role.name().to_owned(), hex(theme.palette().colour(role)))).collect()
+}

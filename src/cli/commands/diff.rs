@@ -1,0 +1,179 @@
+//! `diff`: where two logs differ.
+
+use std::path::PathBuf;
+use std::slice::from_ref;
+
+use clap::Args;
+use motion_lab::run::{Divergence, Log, SetupDifference, Value, first_divergence};
+use serde::Serialize;
+
+use crate::cli::support::json_number::JsonNumber;
+use crate::cli::support::log_source::read_log;
+use crate::cli::{Data, Failure, Outcome, say};
+
+/// Compare two logs to the last bit, and name the first value that differs.
+///
+/// Seed, ticks, sensor, worlds and script are compared first, then the frames tick by tick; the programs that wrote the files
+/// don't count. The exit code is 4 when the logs differ. Of a damaged or unfinished file the sealed beginning is compared; when
+/// all of that is equal, the exit code is 5.
+#[derive(Debug, Args)]
+pub struct Diff {
+    /// The first log.
+    a: PathBuf,
+    /// The second log.
+    b: PathBuf,
+    /// One line of JSON.
+    #[arg(long)]
+    json: bool,
+}
+
+/// How two logs compare.
+#[derive(Serialize)]
+struct Comparison {
+    equal: bool,
+    /// The ticks that both logs have.
+    ticks: u64,
+    /// How many of these differ.
+    differing_ticks: u64,
+    setup: Vec<Setup>,
+    divergence: Option<FirstValue>,
+}
+
+#[derive(Serialize)]
+struct Setup {
+    item: String,
+    a: String,
+    b: String,
+}
+
+/// The first value that differs.
+#[derive(Serialize)]
+struct FirstValue {
+    tick: u64,
+    robot: Option<u32>,
+    name: Option<String>,
+    field: String,
+    a: JsonValue,
+    b: JsonValue,
+    a_bits: String,
+    b_bits: String,
+    ulps: Option<u64>,
+    #[serde(skip)]
+    printed: [String; 2],
+}
+
+/// A frame's value as JSON has it.
+#[derive(Serialize)]
+#[serde(untagged)]
+enum JsonValue {
+    Float(JsonNumber),
+    Integer(i64),
+    Count(u64),
+    Flag(bool),
+}
+
+impl Diff {
+    /// Runs the command.
+    pub fn run(self, data: &mut Data) -> Result<Outcome, Failure> {
+        let (a, b) = (read_log(&self.a)?, read_log(&self.b)?);
+        let mut damaged = false;
+        for damage in [&a.damage, &b.damage].into_iter().flatten() {
+            damaged = true;
+            say(format!("{damage}\nThis much is compared; `motion-lab record --resume` makes it whole."));
+        }
+        let comparison = Comparison::of(&a.read.log, &b.read.log, damaged);
+        if self.json {
+            data.json(&comparison)?;
+        } else {
+            comparison.print(data)?;
+        }
+        Ok(match (comparison.equal, damaged) {
+            (false, _) => Outcome::Differs,
+            (true, true) => Outcome::Recovered,
+            (true, false) => Outcome::Done,
+        })
+    }
+}
+
+impl Comparison {
+    /// Compares all ticks, or those that both logs have.
+    fn of(a: &Log, b: &Log, common_only: bool) -> Self {
+        let common = a.frames.len().min(b.frames.len());
+        let end = |log: &Log| if common_only { common } else { log.frames.len() };
+        let divergence = first_divergence(from_ref(&a.initial), from_ref(&b.initial))
+            .or_else(|| first_divergence(&a.frames[..end(a)], &b.frames[..end(b)]))
+            .map(|d| FirstValue::of(&d, a));
+        let setup: Vec<Setup> = a
+            .setup_differences(b)
+            .into_iter()
+            .map(|SetupDifference { item, first, second }| Setup { item, a: first, b: second })
+            .collect();
+        Comparison {
+            equal: setup.is_empty() && divergence.is_none(),
+            ticks: common as u64,
+            differing_ticks: a.digests.iter().zip(&b.digests).filter(|(a, b)| a != b).count() as u64,
+            setup,
+            divergence,
+        }
+    }
+
+    fn print(&self, data: &mut Data) -> Result<(), Failure> {
+        for Setup { item, a, b } in &self.setup {
+            data.line(format!("{item}: {a} in A, {b} in B"))?;
+        }
+        if let Some(value) = &self.divergence {
+            data.line(value.line())?;
+        }
+        let Comparison { ticks, differing_ticks, .. } = self;
+        match self.equal {
+            true => data.line(format!("{ticks} ticks, equal to the last bit")),
+            false => data.line(format!("{differing_ticks} of {ticks} ticks differ")),
+        }
+    }
+}
+
+impl FirstValue {
+    fn of(divergence: &Divergence, log: &Log) -> Self {
+        let Divergence { tick, robot, field, expected, found } = divergence;
+        let name = robot.and_then(|id| log.config.robot_names().nth(id as usize)).map(str::to_owned);
+        FirstValue {
+            tick: *tick,
+            robot: *robot,
+            name,
+            field: field.clone(),
+            a: (*expected).into(),
+            b: (*found).into(),
+            a_bits: format!("{:#018x}", expected.bits()),
+            b_bits: format!("{:#018x}", found.bits()),
+            ulps: divergence.ulps(),
+            printed: [expected.to_string(), found.to_string()],
+        }
+    }
+
+    /// `tick 17, robot 1 (Reach), configuration[0]: 1.5 (0x3ff8000000000000) in A, ... in B, 1 ulp apart`.
+    fn line(&self) -> String {
+        let FirstValue { tick, field, a_bits, b_bits, printed: [a, b], .. } = self;
+        let robot = match (self.robot, &self.name) {
+            (Some(id), Some(name)) => format!("robot {id} ({name}), "),
+            (Some(id), None) => format!("robot {id}, "),
+            (None, _) => String::new(),
+        };
+        let apart = match self.ulps {
+            Some(1) => ", 1 ulp apart".to_owned(),
+            Some(n) => format!(", {n} ulps apart"),
+            None => String::new(),
+        };
+        format!("tick {tick}, {robot}{field}: {a} ({a_bits}) in A, {b} ({b_bits}) in B{apart}")
+    }
+}
+
+impl From<Value> for JsonValue {
+    fn from(value: Value) -> Self {
+        match value {
+            Value::Float(x) => JsonValue::Float(JsonNumber(x)),
+            Value::Integer(i) => JsonValue::Integer(i),
+            Value::Count(n) => JsonValue::Count(n),
+            Value::Flag(yes) => JsonValue::Flag(yes),
+        }
+    }
+}

@@ -1,0 +1,99 @@
+//! `export`: a log in the forms that other programs read.
+
+mod csv;
+mod foxglove;
+mod jsonl;
+mod sink;
+mod stills;
+
+use std::path::PathBuf;
+
+use clap::{Args, ValueEnum};
+use motion_lab::run::{Frame, Log};
+
+use crate::cli::support::log_source::{LogSource, read_log};
+use crate::cli::{Data, Failure, Outcome, say};
+use sink::Sink;
+use stills::StillArgs;
+
+/// Write a log in a form that other programs read.
+///
+/// Every number is written with the fewest digits that read back to the same bits. An infinite range (nothing within reach) is
+/// `inf` in CSV and the text "inf" in JSON, which has no infinity; -0.0 keeps its sign. Of a damaged or unfinished file the sealed
+/// beginning is written, and the exit code is 5.
+#[derive(Debug, Args)]
+pub struct Export {
+    /// The log.
+    file: PathBuf,
+    /// The form.
+    #[arg(long)]
+    format: Format,
+    /// Write to this file; standard output when there is none.
+    #[arg(short, long, value_name = "FILE")]
+    output: Option<PathBuf>,
+    /// CSV: a column for each ray of the range sensor as well.
+    #[arg(long)]
+    ranges: bool,
+    #[command(flatten)]
+    stills: StillArgs,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum Format {
+    /// A line of JSON for each tick, tick 0 first, with all that a frame holds.
+    Jsonl,
+    /// A row for each tick and robot.
+    Csv,
+    /// The run's figure: traces, ends and contacts in its worlds.
+    Svg,
+    /// The same, painted. Seed, digest and tick are in the file's notes.
+    Png,
+    /// The run as it goes: the same figure at tick after tick.
+    Gif,
+    /// An MCAP file for Foxglove, Lichtblick and Rerun: the log's own channels, and transforms, scans, scenes and log messages
+    /// by Foxglove's schemas. It is not a log that `verify` reads.
+    Foxglove,
+}
+
+impl Export {
+    /// Runs the command.
+    pub fn run(self, data: &mut Data) -> Result<Outcome, Failure> {
+        if self.ranges && self.format != Format::Csv {
+            return Err(Failure::usage("--ranges goes with --format csv alone", "Leave it out: the others have them."));
+        }
+        if matches!(self.format, Format::Foxglove | Format::Png | Format::Gif) && self.output.is_none() {
+            return Err(Failure::usage("this form is not for standard output", "Name a file: -o FILE."));
+        }
+        let LogSource { read, damage } = read_log(&self.file)?;
+        if let Some(damage) = &damage {
+            say(format!("{damage}\nThis much is exported; `motion-lab record --resume` makes it whole."));
+        }
+        let (file, log) = (&self.file, &read.log);
+        match (self.format, &self.output) {
+            (Format::Foxglove, Some(output)) => foxglove::write(file, log, output)?,
+            (Format::Png, Some(output)) => stills::png(&self.stills, file, log, output)?,
+            (Format::Gif, Some(output)) => stills::gif(&self.stills, file, log, output)?,
+            (format, output) => {
+                let mut sink = Sink::new(output.as_deref(), data)?;
+                match format {
+                    Format::Jsonl => jsonl::write(log, &mut sink)?,
+                    Format::Csv => csv::write(log, self.ranges, &mut sink)?,
+                    _ => {
+                        let tick = self.stills.tick.unwrap_or(log.frames.len() as u64);
+                        sink.text(&stills::svg_at(file, log, tick)?)?;
+                    }
+                }
+                sink.finish()?;
+            }
+        }
+        if let Some(output) = &self.output {
+            say(format!("wrote {}", output.display()));
+        }
+        Ok(if damage.is_some() { Outcome::Recovered } else { Outcome::Done })
+    }
+}
+
+/// A log's frames from tick 0 on.
+fn frames(log: &Log) -> impl Iterator<Item = &Frame> {
+    std::iter::once(&log.initial).chain(&log.frames)
+}

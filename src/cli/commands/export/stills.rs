@@ -1,0 +1,129 @@
+//! The figure of a run at one of its ticks, and at many: PNG and GIF.
+
+use std::path::Path;
+
+use clap::Args;
+use motion_lab::capture::{CaptureError, GifWriter, Image, Raster, RunFigure, Size, TICK_HUNDREDTHS, write_png};
+use motion_lab::picture::Theme;
+use motion_lab::run::Log;
+
+use crate::cli::Failure;
+use crate::cli::support::output::PendingFile;
+use crate::cli::support::simulate::show;
+
+/// Which ticks are drawn, and how large.
+#[derive(Debug, Args)]
+pub struct StillArgs {
+    /// SVG and PNG: draw the run as it is after this tick. [default: the last]
+    #[arg(long, value_name = "TICK")]
+    pub tick: Option<u64>,
+    /// GIF: the first tick.
+    #[arg(long, value_name = "TICK", default_value_t = 0)]
+    from: u64,
+    /// GIF: the last tick. [default: the last]
+    #[arg(long, value_name = "TICK")]
+    to: Option<u64>,
+    /// GIF: a picture for every N ticks.
+    #[arg(long, value_name = "N", default_value_t = 4, value_parser = clap::value_parser!(u64).range(1..=1000))]
+    every: u64,
+    /// PNG and GIF: pixels from left to right.
+    #[arg(long, value_name = "PIXELS", default_value_t = 1280, value_parser = clap::value_parser!(u32).range(64..=8192))]
+    width: u32,
+}
+
+/// The SVG of the run after `tick`.
+pub fn svg_at(file: &Path, log: &Log, tick: u64) -> Result<String, Failure> {
+    let mut drawn = None;
+    each_svg(
+        file,
+        log,
+        |at| at == tick,
+        |svg| {
+            drawn = Some(svg);
+            Ok(())
+        },
+    )?;
+    drawn.ok_or_else(|| beyond(log, tick))
+}
+
+/// Writes a PNG of the run at one tick.
+pub fn png(args: &StillArgs, file: &Path, log: &Log, output: &Path) -> Result<(), Failure> {
+    let tick = args.tick.unwrap_or(log.frames.len() as u64);
+    let image = paint(&Raster::new(Size::Wide(args.width)), &svg_at(file, log, tick)?, None)?;
+    let mut pending = PendingFile::create(output)?;
+    let notes = [
+        ("Software", format!("motion-lab {}", env!("CARGO_PKG_VERSION"))),
+        ("Seed", log.seed.0.to_string()),
+        ("Digest", log.digest().to_string()),
+        ("Tick", tick.to_string()),
+    ];
+    write_png(&image, &notes, &mut pending).map_err(|error| match error {
+        CaptureError::Write(error) => Failure::output(output, &error),
+        error => Failure::internal(error),
+    })?;
+    pending.commit()
+}
+
+/// Writes a GIF of the run that plays at the speed of the run.
+pub fn gif(args: &StillArgs, file: &Path, log: &Log, output: &Path) -> Result<(), Failure> {
+    let last = log.frames.len() as u64;
+    let (from, to) = (args.from, args.to.unwrap_or(last));
+    if from > to || to > last {
+        return Err(beyond(log, if from > to { from } else { to }));
+    }
+    let failed = |error| Failure::output(output, &error);
+    let raster = Raster::new(Size::Wide(args.width));
+    let comment = format!("motion-lab, seed {}, digest {}, ticks {from} to {to}", log.seed.0, log.digest());
+    let hundredths = (TICK_HUNDREDTHS * args.every) as u16;
+    let mut pending = Some(PendingFile::create(output)?);
+    let mut writer: Option<(GifWriter<PendingFile>, u32)> = None;
+    let wanted = |tick: u64| (from..=to).contains(&tick) && (tick - from).is_multiple_of(args.every);
+    each_svg(file, log, wanted, |svg| {
+        let image = paint(&raster, &svg, writer.as_ref().map(|(_, height)| *height))?;
+        if let Some(pending) = pending.take() {
+            let too_large = |_| Failure::usage("the pictures are too large for a GIF", "Choose a smaller --width.");
+            let size = [image.width.try_into().map_err(too_large)?, image.height.try_into().map_err(too_large)?];
+            writer = Some((
+                GifWriter::new(pending, size, hundredths, Theme::Light.palette(), &comment).map_err(failed)?,
+                image.height,
+            ));
+        }
+        match &mut writer {
+            Some((writer, _)) => writer.write(&image).map_err(failed),
+            None => Ok(()),
+        }
+    })?;
+    match writer {
+        Some((writer, _)) => writer.finish().map_err(failed)?.commit(),
+        None => Err(beyond(log, from)),
+    }
+}
+
+fn paint(raster: &Raster, svg: &str, height: Option<u32>) -> Result<Image, Failure> {
+    raster.paint(svg, height).map_err(|error| match error {
+        error @ CaptureError::TooLarge(_) => Failure::usage(error, "Choose a smaller --width."),
+        error => Failure::internal(error),
+    })
+}
+
+/// Gives `take` the SVG of the run after each tick that is wanted.
+fn each_svg(
+    file: &Path,
+    log: &Log,
+    wanted: impl Fn(u64) -> bool,
+    mut take: impl FnMut(String) -> Result<(), Failure>,
+) -> Result<(), Failure> {
+    let (mut figure, digest) = (RunFigure::default(), log.digest());
+    show(file, log, |run, frame| {
+        figure.watch(run.view());
+        if wanted(frame.tick) {
+            take(figure.svg(log.seed, &log.config, (frame.tick, digest), Theme::Light))?;
+        }
+        Ok(())
+    })
+}
+
+fn beyond(log: &Log, tick: u64) -> Failure {
+    let last = log.frames.len();
+    Failure::usage(format!("there is no tick {tick}: the log's are 0 to {last}"), "Choose one of them.")
+}

@@ -1,0 +1,85 @@
+//! `info`: what is in a log.
+
+use std::path::PathBuf;
+
+use clap::Args;
+use motion_lab::run::DT;
+use serde::Serialize;
+
+use crate::cli::support::json_number::JsonNumber;
+use crate::cli::support::log_source::{LogSource, read_log};
+use crate::cli::support::summary::RunSummary;
+use crate::cli::{Data, Failure, Outcome, say};
+
+/// Say what is in a log, without running it again.
+#[derive(Debug, Args)]
+pub struct Info {
+    /// The log.
+    file: PathBuf,
+    /// One line of JSON.
+    #[arg(long)]
+    json: bool,
+}
+
+#[derive(Serialize)]
+struct Contents<'a> {
+    #[serde(flatten)]
+    run: RunSummary<'a>,
+    sensor: Option<Sensor>,
+    script_events: usize,
+    program: &'a str,
+    damage: Option<&'a str>,
+}
+
+#[derive(Serialize)]
+struct Sensor {
+    rays: u32,
+    range: JsonNumber,
+}
+
+impl Info {
+    /// Runs the command.
+    pub fn run(self, data: &mut Data) -> Result<Outcome, Failure> {
+        let LogSource { read, damage } = read_log(&self.file)?;
+        let log = &read.log;
+        let last = log.frames.last().unwrap_or(&log.initial);
+        let contents = Contents {
+            run: RunSummary::new(log.seed, &log.config, last, log.digest()),
+            sensor: log.config.sensor.map(|s| Sensor { rays: s.n_rays, range: JsonNumber(s.max_range) }),
+            script_events: log.script.events.len(),
+            program: &read.program,
+            damage: damage.as_deref(),
+        };
+        if self.json {
+            data.json(&contents)?;
+        } else {
+            contents.print(data)?;
+        }
+        Ok(match &damage {
+            None => Outcome::Done,
+            Some(damage) => {
+                say(format!("{damage}\n`motion-lab record --resume` makes it whole."));
+                Outcome::Recovered
+            }
+        })
+    }
+}
+
+impl Contents<'_> {
+    fn print(&self, data: &mut Data) -> Result<(), Failure> {
+        let Contents { run, sensor, script_events, program, .. } = self;
+        data.line(format!("seed     {}", run.seed))?;
+        data.line(format!("ticks    {} of {} ({:.2} s)", run.recorded, run.ticks, DT * run.recorded as f64))?;
+        for world in &run.worlds {
+            data.line(format!("world    {}  {}", world.content_hash, world.name))?;
+        }
+        match sensor {
+            Some(Sensor { rays, range }) => data.line(format!("sensor   {rays} rays, {} m", range.0))?,
+            None => data.line("sensor   none")?,
+        }
+        data.line(format!("script   {script_events} events"))?;
+        data.line(format!("program  {program}"))?;
+        data.line(format!("digest   {}", run.digest))?;
+        run.print_robots(data)
+    }
+}

@@ -1,0 +1,18 @@
+//! The commands: a file or a folder each.
+
+pub(crate) mod bare;
+pub(crate) mod capture;
+pub(crate) mod completions;
+pub(crate) mod describe;
+pub(crate) mod diff;
+pub(crate) mod export;
+pub(crate) mod grade;
+pub(crate) mod info;
+pub(crate) mod query;
+pub(crate) mod record;
+pub(crate) mod replay;
+pub(crate) mod script;
+#[cfg(feature = "headless")]
+pub(crate) mod tour;
+pub(crate) mod verify;
+pub(crate) mod world;

@@ -1,0 +1,118 @@
+//! Answers as JSON.
+
+use motion_lab::collision::{Checker, Collision, EdgeVerdict, ObstacleId, Scene, UnresolvedReason, Witness};
+use motion_lab::geometry::{Point2, Pose2};
+use motion_lab::robots::Robot;
+use motion_lab::sensors::RangeSensor;
+use serde::Serialize;
+
+use super::Question;
+use super::line::check_place;
+use crate::cli::support::json_number::JsonNumber;
+
+/// An answer; each kind is a JSON object of its own.
+#[derive(Debug, Serialize)]
+#[serde(untagged)]
+pub enum Answer {
+    Intersects { intersects: bool },
+    Distance { distance: JsonNumber },
+    Witness { witness: Option<WitnessAnswer> },
+    Swept { swept: bool },
+    Edge(EdgeAnswer),
+    Scan { ranges: Vec<JsonNumber> },
+}
+
+/// A pair of nearest points.
+#[derive(Debug, Serialize)]
+pub struct WitnessAnswer {
+    on_robot: [JsonNumber; 2],
+    on_obstacle: [JsonNumber; 2],
+    dist: JsonNumber,
+    part: usize,
+    obstacle: String,
+}
+
+/// A verdict on an edge.
+#[derive(Debug, Serialize)]
+#[serde(tag = "edge", rename_all = "lowercase")]
+pub enum EdgeAnswer {
+    Free { clearance: JsonNumber },
+    Hit { free_until: JsonNumber, contact_at: JsonNumber, part: usize, obstacle: Option<String> },
+    Unresolved { free_until: JsonNumber, gap: JsonNumber, reason: &'static str },
+}
+
+/// The answer about a robot at `q`, moving to `to` where the question is about a motion.
+pub fn ask<R: Robot>(
+    checker: &Checker<R>,
+    question: Question,
+    q: &R::Configuration,
+    to: Option<&R::Configuration>,
+) -> Result<Answer, String> {
+    let (scene, robot) = (checker.scene(), checker.robot());
+    // a configuration that is not this robot's would count as contact; here it is an error
+    for q in [Some(q), to].into_iter().flatten() {
+        robot.check(q).map_err(|error| error.to_string())?;
+    }
+    let at = || robot.footprint(q);
+    let to = || to.ok_or("where to?");
+    Ok(match question {
+        Question::Intersects => Answer::Intersects { intersects: scene.intersects(&at()) },
+        Question::Distance => Answer::Distance { distance: JsonNumber(scene.distance(&at())) },
+        Question::Witness => Answer::Witness { witness: scene.witness(&at()).map(|w| witness(scene, &w)) },
+        Question::Swept => Answer::Swept { swept: scene.swept(&at(), &robot.footprint(to()?)) },
+        Question::Edge => Answer::Edge(edge(scene, checker.edge(q, to()?).map_err(|error| error.to_string())?)),
+        Question::Scan => return Err("a scan is not asked of a robot".into()),
+    })
+}
+
+/// What the sensor sees from x, y and, if given, theta.
+pub fn ask_scan(scene: &Scene, sensor: &RangeSensor, q: &[f64]) -> Result<Answer, String> {
+    let pose = match *q {
+        [x, y] => Pose2::new(x, y, 0.0),
+        [x, y, theta] => Pose2::new(x, y, theta),
+        _ => return Err(format!("{} numbers: a scan is from x, y or x, y, theta", q.len())),
+    };
+    check_place(q)?;
+    Ok(Answer::Scan { ranges: sensor.scan_from(scene, &[], &pose).into_iter().map(JsonNumber).collect() })
+}
+
+fn witness(scene: &Scene, w: &Witness) -> WitnessAnswer {
+    WitnessAnswer {
+        on_robot: point(w.on_robot),
+        on_obstacle: point(w.on_obstacle),
+        dist: JsonNumber(w.dist),
+        part: w.part,
+        obstacle: name(scene, w.obstacle).unwrap_or_default(),
+    }
+}
+
+/// A verdict with the names of its obstacles.
+pub fn edge(scene: &Scene, verdict: EdgeVerdict) -> EdgeAnswer {
+    match verdict {
+        EdgeVerdict::Free { clearance } => EdgeAnswer::Free { clearance: JsonNumber(clearance) },
+        EdgeVerdict::Hit { free_until, contact_at, part, obstacle } => EdgeAnswer::Hit {
+            free_until: JsonNumber(free_until),
+            contact_at: JsonNumber(contact_at),
+            part,
+            obstacle: name(scene, obstacle),
+        },
+        EdgeVerdict::Unresolved { free_until, gap, reason } => EdgeAnswer::Unresolved {
+            free_until: JsonNumber(free_until),
+            gap: JsonNumber(gap),
+            reason: match reason {
+                UnresolvedReason::Tolerance => "tolerance",
+                UnresolvedReason::Budget => "budget",
+            },
+        },
+    }
+}
+
+/// An obstacle's name.
+pub fn name(scene: &Scene, obstacle: ObstacleId) -> Option<String> {
+    scene.obstacle_name(obstacle).map(str::to_owned)
+}
+
+/// A point as a pair of numbers.
+pub fn point(p: Point2) -> [JsonNumber; 2] {
+    [JsonNumber(p.x), JsonNumber(p.y)]
+}

@@ -1,0 +1,129 @@
+//! `EdgeCertificate`, the proof of an edge as JSON.
+
+use std::path::Path;
+
+use motion_lab::collision::{Certificate, Checker, Scene};
+use motion_lab::configuration::Configuration;
+use motion_lab::robots::{ConfigurationError, Motion};
+use serde::Serialize;
+
+use super::answer::{EdgeAnswer, edge, name, point};
+use super::dimensions::{Dimensions, Measured};
+use super::inquiry::Inquiry;
+use crate::cli::support::json_number::JsonNumber;
+use crate::cli::support::output::write_file;
+use crate::cli::{Failure, say};
+
+/// The version of the format. Readers refuse versions that they don't know.
+const VERSION: u32 = 1;
+
+/// The proof that an edge is free, as far as it is, with all that a program of another's needs to check it by its own geometry:
+/// `tests/peers/certificate.py` is one.
+///
+/// From `from` to `to` of each step every part of the robot keeps at least `clearance` metres from every shape of the world, and
+/// `clearance` is above the margin. The steps join, from 0 to `proven_until`.
+#[derive(Debug, Serialize)]
+pub struct EdgeCertificate {
+    version: u32,
+    program: &'static str,
+    world: Shapes,
+    robot: Dimensions,
+    motion: ChartLine,
+    margin: JsonNumber,
+    /// The answer to the question `edge`.
+    pub verdict: EdgeAnswer,
+    proven_until: JsonNumber,
+    /// `[from, to, clearance]`
+    steps: Vec<[JsonNumber; 3]>,
+}
+
+/// What a world's obstacles are made of.
+#[derive(Debug, Serialize)]
+struct Shapes {
+    name: String,
+    obstacles: Vec<Shape>,
+}
+
+/// All points within the radius of the convex hull of the core's points, in world coordinates: a disc has one, a segment or a capsule two.
+#[derive(Debug, Serialize)]
+struct Shape {
+    /// The obstacle that it is a piece of; others may be of the same one.
+    name: String,
+    core: Vec<[JsonNumber; 2]>,
+    radius: JsonNumber,
+}
+
+/// The motion along the straight line of the configuration chart, its parameter s from 0 to 1. Angles lie in `(-pi, pi]` and go the short
+/// way round; a difference of half a turn, as `f64` has it, goes the positive way.
+#[derive(Debug, Serialize)]
+struct ChartLine {
+    kind: &'static str,
+    from: Vec<JsonNumber>,
+    to: Vec<JsonNumber>,
+}
+
+impl EdgeCertificate {
+    /// Writes the certificate to a file, as one line of JSON, and says what it proves.
+    pub fn write(&self, path: &Path) -> Result<(), Failure> {
+        let mut text = serde_json::to_string(self).map_err(Failure::internal)?;
+        text.push('\n');
+        write_file(path, text.as_bytes())?;
+        let proven = match self.steps.len() {
+            0 => "no step; nothing is proven".to_owned(),
+            1 => format!("1 step, free to s = {}", self.proven_until.0),
+            n => format!("{n} steps, free to s = {}", self.proven_until.0),
+        };
+        say(format!("wrote {}: {proven}", path.display()));
+        Ok(())
+    }
+}
+
+/// Asks for the certificate of the edge to `to`.
+pub struct Certify<'a> {
+    /// The world's name.
+    pub world: &'a str,
+}
+
+impl Inquiry for Certify<'_> {
+    type Answer = EdgeCertificate;
+
+    fn ask<R: Measured>(
+        &self,
+        checker: &Checker<R>,
+        q: &R::Configuration,
+        to: Option<&R::Configuration>,
+    ) -> Result<EdgeCertificate, String> {
+        let (scene, robot) = (checker.scene(), checker.robot());
+        let to = to.ok_or("where to?")?;
+        let reason = |error: ConfigurationError| error.to_string();
+        let line = robot.edge(q, to).map_err(reason)?;
+        let mut proof = Certificate::new();
+        let verdict = checker.edge_certified(q, to, &mut proof).map_err(reason)?;
+        Ok(EdgeCertificate {
+            version: VERSION,
+            program: concat!("motion-lab ", env!("CARGO_PKG_VERSION")),
+            world: Shapes { name: self.world.to_owned(), obstacles: shapes(scene) },
+            robot: robot.dimensions(),
+            motion: ChartLine { kind: "chart line", from: numbers(&line.at(0.0)), to: numbers(&line.at(1.0)) },
+            margin: JsonNumber(proof.margin()),
+            verdict: edge(scene, verdict),
+            proven_until: JsonNumber(proof.proven_until()),
+            steps: proof.steps().iter().map(|step| [step.from, step.to, step.clearance].map(JsonNumber)).collect(),
+        })
+    }
+}
+
+fn shapes(scene: &Scene) -> Vec<Shape> {
+    scene
+        .pieces()
+        .map(|(id, piece)| Shape {
+            name: name(scene, id).unwrap_or_default(),
+            core: piece.core().iter().copied().map(point).collect(),
+            radius: JsonNumber(piece.radius()),
+        })
+        .collect()
+}
+
+fn numbers(q: &impl Configuration) -> Vec<JsonNumber> {
+    q.coordinates().into_iter().map(JsonNumber).collect()
+}

@@ -1,0 +1,220 @@
+//! `query`: the four questions, `edge` and `scan`, about one configuration or many.
+
+mod answer;
+mod certificate;
+mod dimensions;
+mod inquiry;
+mod line;
+mod lines;
+mod robot;
+
+use std::io::{self, Read};
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use clap::{Args, ValueEnum};
+use motion_lab::collision::Scene;
+use motion_lab::sensors::RangeSensor;
+use serde::Serialize;
+
+use answer::{Answer, ask_scan};
+use certificate::{Certify, EdgeCertificate};
+use line::{Asked, parse_line};
+use lines::Lines;
+pub use robot::RobotName;
+
+use crate::cli::support::input::open;
+use crate::cli::support::numbers::Numbers;
+use crate::cli::support::world_source::find_world;
+use crate::cli::{Data, Failure, Outcome, say};
+
+/// How many wrong lines get a message of their own.
+const MESSAGES: u64 = 10;
+
+/// Ask about a robot's configurations in a world.
+///
+/// Every answer is one line of JSON with full precision: each number has the fewest digits that read back to the same
+/// bits, and infinity is the text "inf".
+///
+///   intersects  {"intersects":false}
+///   distance    {"distance":0.06066017177982128}, metres; 0 on contact, "inf" in an empty world
+///   witness     {"witness":{"on_robot":[x,y],"on_obstacle":[x,y],"dist":d,"part":0,"obstacle":"the block"}}, or null
+///   swept       {"swept":true}: whether the motion hits, each part in a straight line
+///   edge        {"edge":"free","clearance":c}, {"edge":"hit","free_until":s,"contact_at":s,"part":0,"obstacle":".."}
+///               or {"edge":"unresolved","free_until":s,"gap":g,"reason":"tolerance"}, s in [0, 1] along the chart line
+///   scan        {"ranges":[..]}, metres, ray k at bearing 2 pi k / n from the heading; "inf" where nothing is in range
+///
+/// With --input each line is either a configuration, [x, y, theta], or {"q": [..], "to": [..]}; blank lines are passed over.
+/// Each gets its answer in the same order. A wrong one gets {"error": ".."}, the others their answers, and the exit code
+/// is 3.
+///
+/// With --certificate the proof of `edge` goes to a file, as JSON: the world's shapes, the robot, the motion, and the steps
+/// [from, to, clearance] in which it is free, for other programs to check. Of a motion that hits it proves what comes before.
+#[derive(Debug, Args)]
+#[command(verbatim_doc_comment)]
+pub struct Query {
+    /// The question.
+    question: Question,
+    /// The configuration: numbers joined by commas, in metres and radians.
+    #[arg(
+        value_name = "NUMBERS",
+        allow_hyphen_values = true,
+        required_unless_present = "input",
+        conflicts_with = "input"
+    )]
+    q: Option<Numbers>,
+    /// Where the motion of `swept` or `edge` ends.
+    #[arg(value_name = "TO", allow_hyphen_values = true)]
+    to: Option<Numbers>,
+    /// The robot; `scan` needs none, its configuration is where the sensor is: x,y or x,y,theta.
+    #[arg(long, value_enum)]
+    robot: Option<RobotName>,
+    /// A built-in world or the path of a world file; the robot's home when left out.
+    #[arg(long, value_name = "NAME|FILE")]
+    world: Option<String>,
+    /// Read the configurations from this file, `-` for standard input.
+    #[arg(long, value_name = "FILE")]
+    input: Option<PathBuf>,
+    /// Write the proof of `edge` to this file, as JSON.
+    #[arg(long, value_name = "FILE", conflicts_with = "input")]
+    certificate: Option<PathBuf>,
+    /// The scan's number of rays, 1 to 100000.
+    #[arg(long, default_value_t = 360)]
+    rays: u32,
+    /// The scan's greatest range, metres, 0.001 to 10000.
+    #[arg(long, default_value_t = 4.0)]
+    range: f64,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum Question {
+    /// Whether the robot touches anything.
+    Intersects,
+    /// How far it is from the nearest obstacle.
+    Distance,
+    /// The nearest points, and what they lie on.
+    Witness,
+    /// Whether the motion to TO hits, each part moving in a straight line.
+    Swept,
+    /// What is known of the straight line of the configuration chart to TO.
+    Edge,
+    /// What a range sensor there sees.
+    Scan,
+}
+
+impl Query {
+    /// Runs the command.
+    pub fn run(self, data: &mut Data) -> Result<Outcome, Failure> {
+        let desk = self.desk()?;
+        match (self.q, &self.input) {
+            (Some(Numbers(q)), _) => {
+                let asked = Asked { q, to: self.to.map(|Numbers(to)| to) };
+                let usage = |reason: String| Failure::usage(reason, "See `motion-lab query --help`.");
+                if let Some(path) = &self.certificate {
+                    let certificate = desk.certify(&asked).map_err(usage)?;
+                    certificate.write(path)?;
+                    data.json(&certificate.verdict)?;
+                } else {
+                    data.json(&desk.answer(&asked).map_err(usage)?)?;
+                }
+                Ok(Outcome::Done)
+            }
+            (None, Some(path)) if path == Path::new("-") => desk.answer_all("standard input", io::stdin(), data),
+            (None, Some(path)) => desk.answer_all(&path.display().to_string(), open(path)?, data),
+            (None, None) => Err(Failure::usage("no configuration", "Give its numbers, or --input FILE.")),
+        }
+    }
+
+    fn desk(&self) -> Result<Desk, Failure> {
+        if self.robot.is_none() && self.question != Question::Scan {
+            return Err(Failure::usage("which robot?", format!("Add --robot with one of {}.", RobotName::list())));
+        }
+        if self.certificate.is_some() && self.question != Question::Edge {
+            return Err(Failure::usage(
+                "only an edge has a certificate",
+                "Ask `query edge`, or leave --certificate out.",
+            ));
+        }
+        let sensor = RangeSensor::try_new(self.rays, self.range)
+            .map_err(|error| Failure::usage(error, "Change --rays or --range."))?;
+        let world = self.world.as_deref().unwrap_or_else(|| self.robot.map_or("apartment", RobotName::home));
+        let world = find_world(world)?;
+        let scene = Arc::new(Scene::of_world(&world));
+        Ok(Desk { question: self.question, world: world.name, scene, robot: self.robot, sensor })
+    }
+}
+
+/// Everything that stays the same from one configuration to the next.
+struct Desk {
+    question: Question,
+    /// The world's name.
+    world: String,
+    scene: Arc<Scene>,
+    robot: Option<RobotName>,
+    sensor: RangeSensor,
+}
+
+#[derive(Serialize)]
+struct WrongLine {
+    error: String,
+}
+
+impl Desk {
+    fn answer(&self, asked: &Asked) -> Result<Answer, String> {
+        self.check(asked)?;
+        match (self.question, self.robot) {
+            (Question::Scan, _) => ask_scan(&self.scene, &self.sensor, &asked.q),
+            (question, Some(robot)) => robot.answer(&self.scene, &question, asked),
+            (_, None) => Err("which robot?".into()),
+        }
+    }
+
+    fn certify(&self, asked: &Asked) -> Result<EdgeCertificate, String> {
+        self.check(asked)?;
+        let robot = self.robot.ok_or("which robot?")?;
+        robot.answer(&self.scene, &Certify { world: &self.world }, asked)
+    }
+
+    /// Whether a motion's end is given to a question about a motion, and to no other.
+    fn check(&self, asked: &Asked) -> Result<(), String> {
+        match (&asked.to, matches!(self.question, Question::Swept | Question::Edge)) {
+            (None, true) => Err("where to? this question is about a motion and needs `to`".into()),
+            (Some(_), false) => Err("this question is about one configuration and takes no `to`".into()),
+            _ => Ok(()),
+        }
+    }
+
+    fn answer_all(&self, name: &str, reader: impl Read, data: &mut Data) -> Result<Outcome, Failure> {
+        let mut lines = Lines::new(reader);
+        let mut wrong = 0_u64;
+        while !data.is_closed() {
+            // somebody may be waiting for the answers so far before asking on
+            if lines.would_wait() {
+                data.flush()?;
+            }
+            let Some(line) = lines.next_line().map_err(|e| Failure::input(format!("{name}: {e}"), "Try again."))?
+            else {
+                break;
+            };
+            let answer = line.text.and_then(|text| match text.trim() {
+                "" => Ok(None),
+                text => self.answer(&parse_line(text)?).map(Some),
+            });
+            match answer {
+                Ok(None) => {}
+                Ok(Some(answer)) => data.json(&answer)?,
+                Err(error) => {
+                    wrong += 1;
+                    if wrong <= MESSAGES {
+                        say(format!("{name}:{}: {error}", line.number));
+                    }
+                    data.json(&WrongLine { error: format!("line {}: {error}", line.number) })?;
+                }
+            }
+        }
+        if wrong > MESSAGES {
+            say(format!("{name}: {wrong} wrong lines in all"));
+        }
+        Ok(if wrong == 0 { Outcome::Done } else { Outcome::BadInput })
+    }
+}

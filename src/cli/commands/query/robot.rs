@@ -1,0 +1,139 @@
+//! The robots that can be asked about, by name.
+
+use std::f64::consts::{FRAC_PI_2, FRAC_PI_4};
+use std::sync::Arc;
+
+use clap::ValueEnum;
+use motion_lab::collision::{Checker, Scene};
+use motion_lab::configuration::{AnyConfiguration, HitchCfg, Tn};
+use motion_lab::geometry::Pose2;
+use motion_lab::num::wrap;
+use motion_lab::robots::{AnyRobot, HITCH, RUSTY, Reach};
+use motion_lab::worlds::World;
+
+use super::dimensions::Measured;
+use super::inquiry::Inquiry;
+use super::line::{Asked, check_place, finite};
+
+/// A robot by name.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum RobotName {
+    /// The disc of radius 0.11 m: x, y or x, y, theta.
+    Rusty,
+    /// The two-link arm with 3 cm capsule links: th1, th2.
+    Reach,
+    /// The same arm without thickness: th1, th2.
+    Choset,
+    /// The three-link arm: th1, th2, th3.
+    Reach3,
+    /// The car: x, y, theta; with the trailer x, y, theta, psi.
+    Hitch,
+}
+
+impl RobotName {
+    /// The names, for messages.
+    pub fn list() -> String {
+        let names = Self::value_variants().iter().filter_map(|r| r.to_possible_value());
+        names.map(|v| v.get_name().to_owned()).collect::<Vec<_>>().join(", ")
+    }
+
+    /// The built-in world it lives in.
+    pub fn home(self) -> &'static str {
+        match self {
+            RobotName::Rusty => "apartment",
+            RobotName::Reach | RobotName::Choset | RobotName::Reach3 => "workbench",
+            RobotName::Hitch => "lot",
+        }
+    }
+
+    /// Its kind, as worlds name it.
+    pub fn kind(self) -> &'static str {
+        match self {
+            RobotName::Rusty => "rusty",
+            RobotName::Reach | RobotName::Choset => "reach",
+            RobotName::Reach3 => "reach3",
+            RobotName::Hitch => "hitch",
+        }
+    }
+
+    /// The robot with a configuration: these numbers, or where a world's resident of its kind starts, or for an arm the book's.
+    pub fn at(self, numbers: Option<&[f64]>, world: &World) -> Result<(AnyRobot, AnyConfiguration), String> {
+        let kind = self.kind();
+        let resident = world.robots.iter().find(|r| r.kind == kind).map(|r| r.start.clone());
+        let numbers = match (numbers, kind) {
+            (Some([x, y]), "rusty") => vec![*x, *y, 0.0],
+            (Some(numbers), _) => numbers.to_vec(),
+            (None, "reach") => vec![FRAC_PI_4, FRAC_PI_2],
+            (None, "reach3") => resident.unwrap_or(vec![0.5, 0.9, 0.7]),
+            (None, _) => resident.ok_or_else(|| format!("no {kind} lives there: give its configuration with --q"))?,
+        };
+        if matches!(self, RobotName::Rusty | RobotName::Hitch) {
+            check_place(&numbers)?;
+        }
+        let (robot, q) =
+            AnyRobot::of_kind(kind, &numbers).ok_or_else(|| format!("{numbers:?} is no configuration of a {kind}"))?;
+        let robot = if self == RobotName::Choset { AnyRobot::Reach(Reach::choset()) } else { robot };
+        Ok((robot, q))
+    }
+
+    /// The answer to an inquiry about this robot.
+    pub(crate) fn answer<I: Inquiry>(
+        self,
+        scene: &Arc<Scene>,
+        inquiry: &I,
+        asked: &Asked,
+    ) -> Result<I::Answer, String> {
+        let with_trailer = asked.q.len() == 4;
+        match self {
+            RobotName::Rusty => convert(scene, RUSTY, inquiry, asked, rusty_pose),
+            RobotName::Reach => convert(scene, Reach::workbench(), inquiry, asked, angles),
+            RobotName::Choset => convert(scene, Reach::choset(), inquiry, asked, angles),
+            RobotName::Reach3 => convert(scene, Reach::redundant(), inquiry, asked, angles),
+            RobotName::Hitch if with_trailer => convert(scene, HITCH.with_trailer(), inquiry, asked, car),
+            RobotName::Hitch => convert(scene, HITCH, inquiry, asked, car),
+        }
+    }
+}
+
+fn convert<R: Measured, I: Inquiry>(
+    scene: &Arc<Scene>,
+    robot: R,
+    inquiry: &I,
+    asked: &Asked,
+    configuration: fn(&[f64]) -> Result<R::Configuration, String>,
+) -> Result<I::Answer, String> {
+    let q = configuration(&asked.q)?;
+    let to = asked.to.as_deref().map(configuration).transpose().map_err(|reason| format!("`to`: {reason}"))?;
+    inquiry.ask(&Checker::new(Arc::clone(scene), robot), &q, to.as_ref())
+}
+
+fn angles<const N: usize>(numbers: &[f64]) -> Result<Tn<N>, String> {
+    let angles = numbers.try_into().map_err(|_| format!("{} numbers: this arm has {N} joint angles", numbers.len()))?;
+    finite(numbers)?;
+    Ok(Tn(angles).wrapped())
+}
+
+fn rusty_pose(numbers: &[f64]) -> Result<Pose2, String> {
+    let pose = match *numbers {
+        [x, y] => Pose2::new(x, y, 0.0),
+        [x, y, theta] => Pose2::new(x, y, theta),
+        _ => return Err(format!("{} numbers: a rusty has x, y or x, y, theta", numbers.len())),
+    };
+    check_place(numbers)?;
+    Ok(pose)
+}
+
+fn car(numbers: &[f64]) -> Result<HitchCfg, String> {
+    let (body, trailer) = match *numbers {
+        [x, y, theta] => (Pose2::new(x, y, theta), None),
+        [x, y, theta, psi] => (Pose2::new(x, y, theta), Some(wrap(psi))),
+        _ => {
+            return Err(format!(
+                "{} numbers: a hitch has x, y, theta or, with the trailer, x, y, theta, psi",
+                numbers.len()
+            ));
+        }
+    };
+    check_place(numbers)?;
+    Ok(HitchCfg { body, trailer })
+}

@@ -1,0 +1,74 @@
+//! Many seeds at once, their lines in order.
+
+use std::path::PathBuf;
+
+use motion_lab::random::Seed;
+use motion_lab::run::Script;
+use motion_lab::tour::TourConfig;
+use rayon::prelude::*;
+
+use super::one::{Ended, Plan, Stop, run, write_run};
+use super::seeds::SeedRange;
+use super::{Outcome, Record};
+use crate::cli::support::summary::RunSummary;
+use crate::cli::{Data, Failure, say};
+
+/// How many runs each thread has ahead of the printing.
+const AHEAD: u64 = 4;
+
+/// Records a run for each seed.
+pub fn record(
+    options: &Record,
+    seeds: SeedRange,
+    config: &TourConfig,
+    script: &Script,
+    data: &mut Data,
+) -> Result<Outcome, Failure> {
+    let output = template(options)?;
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(usize::from(options.threads.unwrap_or(0))).build();
+    let pool = pool.map_err(Failure::internal)?;
+    let batch = AHEAD * pool.current_num_threads() as u64;
+    let mut first = seeds.first;
+    while first < seeds.end && !data.is_closed() {
+        let end = seeds.end.min(first.saturating_add(batch));
+        let one = |seed: u64| {
+            let plan = Plan { seed: Seed(seed), config: config.clone(), script: script.clone() };
+            match &output {
+                Some(template) => write_run_whole(&plan, &template.replace("{seed}", &seed.to_string())),
+                None => run(&plan, &[], Stop::default(), |_| Ok(())),
+            }
+        };
+        let ended: Vec<_> = pool.install(|| (first..end).into_par_iter().map(one).collect());
+        for (seed, ended) in (first..end).zip(ended) {
+            match ended? {
+                Ended::Whole { last, digest } if options.json => {
+                    data.json(&RunSummary::new(Seed(seed), config, &last, digest))?;
+                }
+                Ended::Whole { digest, .. } => data.line(format!("{seed} {digest}"))?,
+                Ended::Stopped(_) | Ended::Differs(_) => {
+                    say(format!("stopped before seed {seed}\nGo on with: --seeds {seed}..{}", seeds.end));
+                    return Ok(Outcome::Stopped);
+                }
+            }
+        }
+        data.flush()?;
+        first = end;
+    }
+    Ok(Outcome::Done)
+}
+
+/// The output's name with `{seed}` in it.
+fn template(options: &Record) -> Result<Option<String>, Failure> {
+    let Some(output) = &options.output else { return Ok(None) };
+    match output.to_str() {
+        Some(name) if name.contains("{seed}") => Ok(Some(name.to_owned())),
+        _ => Err(Failure::usage(
+            format!("{}: one name for many logs", output.display()),
+            "Put {seed} in it, as in -o runs/{seed}.mcap.",
+        )),
+    }
+}
+
+fn write_run_whole(plan: &Plan, output: &str) -> Result<Ended, Failure> {
+    write_run(plan, &[], Stop::default(), &PathBuf::from(output))
+}

@@ -1,0 +1,102 @@
+//! `record`: run the simulation and keep what came of it.
+
+mod choice;
+mod many;
+mod one;
+mod resume;
+mod seeds;
+mod setup;
+
+use std::path::PathBuf;
+
+use clap::Args;
+
+use crate::cli::support::interrupt;
+use crate::cli::{Data, Failure, Outcome};
+use choice::RobotChoice;
+use seeds::SeedRange;
+
+#[cfg(feature = "headless")]
+pub use one::{Ended, write_run};
+pub use one::{Plan, Stop};
+
+/// Record a run, and print where its robots end, their contacts and its digest.
+///
+/// The same options give the same digest on every machine, whatever the number of threads. Ctrl-C ends a recording after the tick
+/// under way: with -o FILE what was done is kept in FILE.partial, and `record --resume FILE.partial` goes on from there.
+#[derive(Debug, Args)]
+pub struct Record {
+    /// A built-in world or the path of a world file; may be given several times. [default: apartment, workbench, lot]
+    #[arg(long, value_name = "NAME|FILE")]
+    world: Vec<String>,
+    /// Keep only the robots named so; may be given several times. NAME=KIND:NUMBERS puts a robot of that kind (rusty, reach,
+    /// reach3, hitch) there in its place, starting at these coordinates: "Reach=reach3:0.1,0.2,0.3".
+    #[arg(long, value_name = "NAME[=KIND:NUMBERS]")]
+    robot: Vec<RobotChoice>,
+    /// The seed. [default: 2005]
+    #[arg(long, conflicts_with = "seeds")]
+    seed: Option<u64>,
+    /// Record a run for each of these seeds, A to B without B, and print a line for each, `SEED DIGEST`, in this order.
+    #[arg(long, value_name = "A..B", conflicts_with_all = ["resume", "stop_after"])]
+    seeds: Option<SeedRange>,
+    /// How long, in ticks of 0.05 s. [default: 1200]
+    #[arg(long)]
+    ticks: Option<u64>,
+    /// How long, in seconds; a whole number of ticks.
+    #[arg(long, conflicts_with = "ticks")]
+    seconds: Option<f64>,
+    /// The input script.
+    #[arg(long, value_name = "FILE")]
+    script: Option<PathBuf>,
+    /// The range sensor's number of rays, 1 to 100000.
+    #[arg(long)]
+    rays: Option<u32>,
+    /// The range sensor's greatest range, metres, up to 10000.
+    #[arg(long)]
+    range: Option<f64>,
+    /// No range sensor.
+    #[arg(long, conflicts_with_all = ["rays", "range"])]
+    no_sensor: bool,
+    /// Write the log to this file; with --seeds {seed} in its name stands for the seed.
+    #[arg(short, long, value_name = "FILE")]
+    output: Option<PathBuf>,
+    /// Go on with a recording that stopped early: run it again from its seed and script, check it against what is there, and
+    /// write the whole. The output is named as FILE is, without .partial.
+    #[arg(long, value_name = "FILE", conflicts_with_all = [
+        "world", "robot", "seed", "ticks", "seconds", "script", "rays", "range", "no_sensor",
+    ])]
+    resume: Option<PathBuf>,
+    /// Stop after this tick as if by Ctrl-C.
+    #[arg(long, value_name = "TICK")]
+    stop_after: Option<u64>,
+    /// How many seeds to run at once, at most 256. It changes no bit. [default: one for each processor]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(..=256))]
+    threads: Option<u16>,
+    /// One line of JSON for each run.
+    #[arg(long)]
+    json: bool,
+}
+
+impl Record {
+    /// Runs the command.
+    pub fn run(self, data: &mut Data) -> Result<Outcome, Failure> {
+        interrupt::listen()?;
+        if let Some(output) = self.output.as_ref().filter(|_| self.resume.is_none()) {
+            resume::name_unfinished(output);
+        }
+        if let Some(file) = &self.resume {
+            return resume::resume(file, self.output.as_deref(), self.stop(), self.json, data);
+        }
+        let (config, script) = (setup::config(&self)?, setup::script(&self)?);
+        setup::check(&self, &config, &script)?;
+        if let Some(seeds) = self.seeds {
+            return many::record(&self, seeds, &config, &script, data);
+        }
+        let plan = Plan { seed: setup::seed(&self), config, script };
+        one::record(&plan, &[], self.output.as_deref(), self.stop(), self.json, data)
+    }
+
+    fn stop(&self) -> Stop {
+        Stop { after: self.stop_after }
+    }
+}

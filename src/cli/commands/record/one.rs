@@ -1,0 +1,219 @@
+//! One run, tick by tick.
+
+use std::io;
+use std::path::{Path, PathBuf};
+use std::slice;
+
+use motion_lab::random::Seed;
+use motion_lab::run::{DT, Digest, Divergence, Frame, LogError, LogWriter, RunDigest, Script, first_divergence};
+use motion_lab::tour::TourConfig;
+
+use crate::cli::support::interrupt;
+use crate::cli::support::output::PendingFile;
+use crate::cli::support::simulate::begin;
+use crate::cli::support::summary::RunSummary;
+use crate::cli::{Data, Failure, Outcome, say};
+
+/// The ticks from which on a run says how far it is.
+const LONG: u64 = 100_000;
+
+/// The ticks of a second.
+const SECOND: u64 = (1.0 / DT) as u64;
+
+/// What is run.
+#[derive(Clone, Debug)]
+pub struct Plan {
+    /// The seed.
+    pub seed: Seed,
+    /// The configuration.
+    pub config: TourConfig,
+    /// The script.
+    pub script: Script,
+}
+
+/// When to stop early.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Stop {
+    /// After this tick.
+    pub after: Option<u64>,
+}
+
+impl Stop {
+    fn now(self, tick: u64) -> bool {
+        self.after.is_some_and(|after| tick >= after) || interrupt::asked_to_stop()
+    }
+}
+
+/// How a run ended.
+pub enum Ended {
+    /// After its last tick.
+    Whole {
+        /// The last frame.
+        last: Frame,
+        /// The run's digest.
+        digest: Digest,
+    },
+    /// Early, after this tick.
+    Stopped(u64),
+    /// Where it differs from what was expected of it.
+    Differs(Divergence),
+}
+
+/// Runs `plan` and hands every frame to `sink`, the one before tick 1 first. Ends early when `stop` says so, or at the first
+/// frame that is not the one of `expected` for its tick.
+pub fn run(
+    plan: &Plan,
+    expected: &[Frame],
+    stop: Stop,
+    mut sink: impl FnMut(&Frame) -> Result<(), Failure>,
+) -> Result<Ended, Failure> {
+    let Plan { seed, config, script } = plan;
+    let mut run = begin(*seed, config, script)?;
+    let mut digest = RunDigest::new(*seed, config, script, run.frame());
+    sink(run.frame())?;
+    let mut expected = expected.iter();
+    while !run.is_complete() {
+        let tick = run.frame().tick;
+        if stop.now(tick) {
+            return Ok(Ended::Stopped(tick));
+        }
+        let frame = run.step();
+        if let Some(divergence) =
+            expected.next().and_then(|expected| first_divergence(slice::from_ref(expected), slice::from_ref(frame)))
+        {
+            return Ok(Ended::Differs(divergence));
+        }
+        digest.tick(frame);
+        sink(frame)?;
+        if config.ticks >= LONG && frame.tick % (config.ticks / 10) == 0 {
+            say(format!("tick {} of {}", frame.tick, config.ticks));
+        }
+    }
+    Ok(Ended::Whole { last: run.frame().clone(), digest: digest.digest() })
+}
+
+/// As [`run`], and writes the log to `output`. Stopped early, or where the disk takes no more, what was done goes to the file that
+/// [`partial_name`] names, unless all of it is in `expected` already.
+pub fn write_run(plan: &Plan, expected: &[Frame], stop: Stop, output: &Path) -> Result<Ended, Failure> {
+    let failed = |error: LogError| match error {
+        LogError::Io(error) => Failure::output(output, &error),
+        error => Failure::internal(error),
+    };
+    let mut file = Some(PendingFile::create(output)?);
+    let mut writer: Option<LogWriter<PendingFile>> = None;
+    // how many ticks the operating system took
+    let mut taken = 0;
+    let ended = run(plan, expected, stop, |frame| match &mut writer {
+        Some(writer) => {
+            writer.tick(frame).map_err(failed)?;
+            // what a killed process leaves is at most a second old
+            if frame.tick % SECOND == 0 {
+                writer.flush().map_err(failed)?;
+                taken = frame.tick;
+            }
+            Ok(())
+        }
+        None => {
+            let Some(file) = file.take() else { return Err(failed(io::Error::other("begun twice").into())) };
+            writer = Some(LogWriter::new(file, plan.seed, &plan.config, &plan.script, frame).map_err(failed)?);
+            Ok(())
+        }
+    });
+    let Some(mut writer) = writer else { return ended };
+    let before = expected.len() as u64;
+    let finished = match &ended {
+        Ok(Ended::Whole { .. }) => writer.end().map_err(failed).map(|()| Some(output.to_owned())),
+        Ok(Ended::Stopped(tick)) if *tick > before || before == 0 => Ok(Some(partial_name(output))),
+        _ => Ok(None),
+    };
+    let mut file = writer.into_inner();
+    let finished = finished.and_then(|name| match name {
+        Some(name) => file.sync().map(|()| Some(name)).map_err(|error| failed(error.into())),
+        None => Ok(None),
+    });
+    match (ended, finished) {
+        (Ok(ended @ Ended::Whole { .. }), Ok(_)) => file.commit().map(|()| ended),
+        (Ok(ended), Ok(Some(name))) => file.keep_as(&name).map(|()| ended),
+        (Err(failure @ Failure::Output { .. }), _) | (Ok(_), Err(failure)) if taken > before => {
+            Err(kept(file, output, failure))
+        }
+        (Ok(_), Err(failure)) => Err(failure),
+        (ended, _) => ended,
+    }
+}
+
+/// The failure of a write, after what the disk took before was kept.
+fn kept(file: PendingFile, output: &Path, failure: Failure) -> Failure {
+    let partial = partial_name(output);
+    match (failure, file.keep_as(&partial)) {
+        (Failure::Output { file, reason, next }, Ok(())) => {
+            let next =
+                format!("{next}\nWhat was done is kept; go on with: motion-lab record --resume {}", partial.display());
+            Failure::Output { file, reason, next }
+        }
+        (Failure::Output { file, reason, next }, Err(Failure::Output { reason: further, .. })) => {
+            Failure::Output { file, reason: format!("{reason}; {}: {further}", partial.display()), next }
+        }
+        (failure, _) => failure,
+    }
+}
+
+/// What a recording that stopped early is called: the output's name with `.partial` behind it.
+pub fn partial_name(output: &Path) -> PathBuf {
+    let mut name = output.as_os_str().to_owned();
+    name.push(".partial");
+    name.into()
+}
+
+/// Records one run and says what came of it.
+pub fn record(
+    plan: &Plan,
+    expected: &[Frame],
+    output: Option<&Path>,
+    stop: Stop,
+    json: bool,
+    data: &mut Data,
+) -> Result<Outcome, Failure> {
+    let ended = match output {
+        Some(output) => write_run(plan, expected, stop, output)?,
+        None => run(plan, expected, stop, |_| Ok(()))?,
+    };
+    match ended {
+        Ended::Whole { last, digest } => {
+            let summary = RunSummary::new(plan.seed, &plan.config, &last, digest);
+            if json {
+                data.json(&summary)?;
+            } else {
+                summary.print_robots(data)?;
+                data.line(format!("digest {digest}"))?;
+            }
+            if let Some(output) = output {
+                say(format!("wrote {}", output.display()));
+            }
+            Ok(Outcome::Done)
+        }
+        Ended::Stopped(tick) if tick <= expected.len() as u64 && !expected.is_empty() => {
+            say(format!("stopped after tick {tick}, within what is recorded already: that is as it was"));
+            Ok(Outcome::Stopped)
+        }
+        Ended::Stopped(tick) => {
+            let ticks = plan.config.ticks;
+            match output.map(partial_name) {
+                Some(kept) => say(format!(
+                    "stopped after tick {tick} of {ticks}\nIt is kept; go on with: motion-lab record --resume {}",
+                    kept.display()
+                )),
+                None => say(format!(
+                    "stopped after tick {tick} of {ticks}\nNothing is kept, for want of -o FILE: start anew."
+                )),
+            }
+            Ok(Outcome::Stopped)
+        }
+        Ended::Differs(divergence) => {
+            say(format!(
+                "the run does not repeat its recording: {divergence}\nNothing was written. Was it recorded by another version?"
+            ));
+            Ok(Outcome::Differs)
+        }
+    }
+}

@@ -1,0 +1,62 @@
+//! From options to what is run.
+
+use motion_lab::random::Seed;
+use motion_lab::run::{DT, Script};
+use motion_lab::tour::{BOOK_SEED, SensorConfig, TourConfig};
+
+use super::Record;
+use super::choice::choose;
+use crate::cli::Failure;
+use crate::cli::support::input::read_text;
+use crate::cli::support::world_source::find_world;
+
+/// The seed.
+pub fn seed(options: &Record) -> Seed {
+    options.seed.map_or(BOOK_SEED, Seed)
+}
+
+/// The configuration: the default tour with what the options change.
+pub fn config(options: &Record) -> Result<TourConfig, Failure> {
+    let mut config = TourConfig::default();
+    if !options.world.is_empty() {
+        config.worlds = options.world.iter().map(|name| find_world(name)).collect::<Result<_, _>>()?;
+    }
+    choose(&mut config.worlds, &options.robot)?;
+    config.ticks = ticks(options)?.unwrap_or(config.ticks);
+    let SensorConfig { n_rays, max_range } = config.sensor.unwrap_or(SensorConfig { n_rays: 360, max_range: 4.0 });
+    config.sensor = (!options.no_sensor).then_some(SensorConfig {
+        n_rays: options.rays.unwrap_or(n_rays),
+        max_range: options.range.unwrap_or(max_range),
+    });
+    Ok(config)
+}
+
+fn ticks(options: &Record) -> Result<Option<u64>, Failure> {
+    let Some(seconds) = options.seconds else { return Ok(options.ticks) };
+    let ticks = (seconds / DT).round();
+    // written so that NaN is refused
+    if !(0.0..1e15).contains(&ticks) || (ticks * DT - seconds).abs() > 1e-9 {
+        return Err(Failure::usage(
+            format!("--seconds {seconds}: not a whole number of ticks of {DT} s"),
+            "Give a multiple of 0.05 s from 0 on, or --ticks.",
+        ));
+    }
+    Ok(Some(ticks as u64))
+}
+
+/// The script.
+pub fn script(options: &Record) -> Result<Script, Failure> {
+    let Some(path) = &options.script else { return Ok(Script::empty()) };
+    Script::parse(&path.display().to_string(), &read_text(path)?)
+        .map_err(|error| Failure::input(error, "Correct the script there."))
+}
+
+/// Whether the configuration can be run and the script is one for its robots.
+pub fn check(options: &Record, config: &TourConfig, script: &Script) -> Result<(), Failure> {
+    config.validate().map_err(|error| Failure::usage(error, "See `motion-lab record --help`."))?;
+    let names: Vec<&str> = config.robot_names().collect();
+    script.check_robots(&names).map_err(|error| {
+        let file = options.script.as_deref().map_or(String::new(), |path| format!("{}: ", path.display()));
+        Failure::input(format!("{file}{error}"), format!("The robots of this run are {}.", names.join(", ")))
+    })
+}

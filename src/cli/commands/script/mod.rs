@@ -1,0 +1,160 @@
+//! `script`: check, print and make input scripts.
+
+mod table;
+
+use std::collections::BTreeSet;
+use std::io::Read;
+use std::path::{Path, PathBuf};
+
+use clap::{Args, Subcommand};
+use motion_lab::run::Script;
+use serde::Serialize;
+
+use crate::cli::support::input::{for_each_file, open, read_text, unreadable};
+use crate::cli::support::log_source::read_log;
+use crate::cli::support::output::write_file;
+use crate::cli::support::world_source::find_world;
+use crate::cli::{Data, Failure, Outcome, say};
+
+/// Check and print input scripts; make one from a table.
+#[derive(Debug, Args)]
+pub struct ScriptArgs {
+    #[command(subcommand)]
+    command: ScriptCommand,
+}
+
+#[derive(Debug, Subcommand)]
+enum ScriptCommand {
+    /// Read scripts and say what is in them, or what is wrong with them. Every file is read; one that is wrong makes the exit code 3.
+    Check {
+        /// The scripts.
+        #[arg(required = true, value_name = "FILE")]
+        files: Vec<PathBuf>,
+        /// Check the robots' names as well: a built-in world or a world file that they live in; may be given several times.
+        #[arg(long, value_name = "NAME|FILE")]
+        world: Vec<String>,
+        /// One line of JSON for each file that is right.
+        #[arg(long)]
+        json: bool,
+    },
+    /// Print a script in its canonical form: an event a line.
+    Print {
+        /// A script, or a log with one.
+        file: PathBuf,
+    },
+    /// Make a script from a table of comma-separated values.
+    ///
+    /// A row is `tick,robot,input` and the input's values: `1,Rusty,Drive,64,-20` (parts in 128 of the maximum),
+    /// `5,Reach,MoveTo,0.785,1.571` and `7,Rusty,Teleport,2.25,6.25,0` (metres and radians, rounded to 2^-20),
+    /// `9,Hitch,SetTrailer,on`, `12,Rusty,Release`. Ticks ascend. A first row that begins with `tick` is a heading; empty rows and
+    /// rows that begin with # are left out.
+    Convert {
+        /// The table.
+        #[arg(value_name = "FILE.csv")]
+        file: PathBuf,
+        /// Write to this file; standard output when there is none.
+        #[arg(short, long, value_name = "FILE")]
+        output: Option<PathBuf>,
+    },
+}
+
+/// What is said of a script.
+#[derive(Serialize)]
+struct Summary<'a> {
+    source: String,
+    events: usize,
+    /// The ticks of the first and the last event.
+    first: Option<u64>,
+    last: Option<u64>,
+    /// The robots in the order of their first events.
+    robots: Vec<&'a str>,
+}
+
+impl ScriptArgs {
+    /// Runs the command.
+    pub fn run(self, data: &mut Data) -> Result<Outcome, Failure> {
+        match self.command {
+            ScriptCommand::Check { files, world, json } => check(&files, &world, json, data),
+            ScriptCommand::Print { file } => print(&file, data),
+            ScriptCommand::Convert { file, output } => {
+                let text = read_text(&file)?;
+                let script = table::script(&text).map_err(|error| {
+                    Failure::input(
+                        format!("{}:{error}", file.display()),
+                        "Correct it there; `motion-lab script convert --help` tells the form.",
+                    )
+                })?;
+                match &output {
+                    None => data.text(&script.to_ron())?,
+                    Some(output) => {
+                        write_file(output, script.to_ron().as_bytes())?;
+                        say(format!("wrote {}", output.display()));
+                    }
+                }
+                Ok(Outcome::Done)
+            }
+        }
+    }
+}
+
+fn read_script(file: &Path) -> Result<Script, Failure> {
+    Script::parse(&file.display().to_string(), &read_text(file)?)
+        .map_err(|error| Failure::input(error, "Correct the script there."))
+}
+
+fn print(file: &Path, data: &mut Data) -> Result<Outcome, Failure> {
+    let mut first = Vec::new();
+    open(file)?.take(1).read_to_end(&mut first).map_err(|error| unreadable(file, &error))?;
+    // a log begins with a byte that begins no text
+    if first != [0x89] {
+        data.text(&read_script(file)?.to_ron())?;
+        return Ok(Outcome::Done);
+    }
+    let source = read_log(file)?;
+    data.text(&source.read.log.script.to_ron())?;
+    Ok(match source.damage {
+        None => Outcome::Done,
+        Some(damage) => {
+            say(format!("{damage}\nThe script is whole all the same."));
+            Outcome::Recovered
+        }
+    })
+}
+
+fn check(files: &[PathBuf], worlds: &[String], json: bool, data: &mut Data) -> Result<Outcome, Failure> {
+    let worlds = worlds.iter().map(|name| find_world(name)).collect::<Result<Vec<_>, _>>()?;
+    let names: Vec<&str> = worlds.iter().flat_map(|w| &w.robots).map(|r| r.name.as_str()).collect();
+    for_each_file(files, data, |file, data| {
+        let script = read_script(file)?;
+        match script.check_robots(&names) {
+            Err(error) if !worlds.is_empty() => Err(Failure::input(
+                format!("{}: {error}", file.display()),
+                format!("The robots of these worlds are {}.", names.join(", ")),
+            )),
+            _ => summarise(file, &script, json, data),
+        }
+    })
+}
+
+fn summarise(file: &Path, script: &Script, json: bool, data: &mut Data) -> Result<(), Failure> {
+    // in the order in which they come
+    let mut seen = BTreeSet::new();
+    let robots: Vec<&str> = script.events.iter().map(|e| e.robot.as_str()).filter(|name| seen.insert(*name)).collect();
+    let summary = Summary {
+        source: file.display().to_string(),
+        events: script.events.len(),
+        first: script.events.first().map(|e| e.tick),
+        last: script.events.last().map(|e| e.tick),
+        robots,
+    };
+    if json {
+        return data.json(&summary);
+    }
+    let Summary { source, events, robots, .. } = &summary;
+    match (summary.first, summary.last) {
+        (Some(first), Some(last)) => {
+            data.line(format!("{source}: {events} events, ticks {first} to {last}, robots: {}", robots.join(", ")))
+        }
+        _ => data.line(format!("{source}: no events")),
+    }
+}

@@ -1,0 +1,54 @@
+//! What the program does by itself with the feature `headless`: the book's tour, recorded, replayed and compared.
+
+use std::fs;
+use std::path::Path;
+
+use motion_lab::capture::RunFigure;
+use motion_lab::picture::Theme;
+use motion_lab::run::Script;
+use motion_lab::tour::{BOOK_SEED, TourConfig};
+
+use super::record::{Ended, Plan, Stop, write_run};
+use crate::cli::support::interrupt;
+use crate::cli::support::log_source::read_log;
+use crate::cli::support::output::write_file;
+use crate::cli::support::simulate::run_again;
+use crate::cli::support::summary::RunSummary;
+use crate::cli::{Data, Failure, Outcome, say};
+
+/// Where the recording and its figure go.
+const FOLDER: &str = "runs";
+
+/// Records the 60 s tour at the book's seed, reads the recording back, replays it from its seed and script alone, compares
+/// every bit, and draws it.
+pub fn tour(data: &mut Data) -> Result<Outcome, Failure> {
+    let folder = Path::new(FOLDER);
+    fs::create_dir_all(folder).map_err(|error| Failure::output(folder, &error))?;
+    let file = folder.join(format!("tour-{BOOK_SEED}.mcap"));
+    let plan = Plan { seed: BOOK_SEED, config: TourConfig::default(), script: Script::empty() };
+    interrupt::listen()?;
+    if let Ended::Stopped(tick) = write_run(&plan, &[], Stop::default(), &file)? {
+        say(format!("stopped after tick {tick}; run it again"));
+        return Ok(Outcome::Stopped);
+    }
+
+    let log = read_log(&file)?.read.log;
+    let mut figure = RunFigure::default();
+    let divergence = run_again(&log, |run| figure.watch(run.view()))?;
+    let digest = log.digest();
+    let last = log.frames.last().unwrap_or(&log.initial);
+    RunSummary::new(log.seed, &log.config, last, digest).print_robots(data)?;
+    data.line(format!("digest {digest}"))?;
+    let ticks = log.config.ticks;
+    if let Some(divergence) = divergence {
+        data.line(format!("{} of {ticks} ticks bit-identical", divergence.tick.saturating_sub(1)))?;
+        say(format!("the replay differs: {divergence}"));
+        return Ok(Outcome::Differs);
+    }
+    data.line(format!("{ticks} of {ticks} ticks bit-identical"))?;
+
+    let drawing = folder.join(format!("tour-{BOOK_SEED}.svg"));
+    write_file(&drawing, figure.svg(log.seed, &log.config, (ticks, digest), Theme::Light).as_bytes())?;
+    say(format!("wrote {} and {}", file.display(), drawing.display()));
+    Ok(Outcome::Done)
+}

@@ -1,0 +1,77 @@
+//! `verify`: simulate a recorded run again and compare every bit.
+
+use std::path::PathBuf;
+
+use clap::Args;
+use motion_lab::run::Divergence;
+use serde::Serialize;
+
+use crate::cli::support::log_source::{LogSource, read_log};
+use crate::cli::support::simulate::run_again;
+use crate::cli::{Data, Failure, Outcome, say};
+
+/// Simulate a recorded run again, from its seed and script alone, and compare every frame to the last bit.
+///
+/// Of a damaged or unfinished file its sealed beginning is verified, and the exit code is 5. Where the run differs, the first
+/// value that does is printed, and the exit code is 4.
+#[derive(Debug, Args)]
+pub struct Verify {
+    /// The log.
+    file: PathBuf,
+    /// One line of JSON.
+    #[arg(long)]
+    json: bool,
+}
+
+#[derive(Serialize)]
+struct Verdict {
+    ticks: u64,
+    sealed: u64,
+    identical: u64,
+    digest: String,
+    divergence: Option<String>,
+}
+
+impl Verify {
+    /// Runs the command.
+    pub fn run(self, data: &mut Data) -> Result<Outcome, Failure> {
+        let LogSource { read, damage } = read_log(&self.file)?;
+        if let Some(damage) = &damage {
+            say(format!("{damage}\nThis much is verified; `motion-lab record --resume` makes it whole."));
+        }
+        let divergence = run_again(&read.log, |_| {})?;
+        let sealed = read.log.frames.len() as u64;
+        let verdict = Verdict {
+            ticks: read.log.config.ticks,
+            sealed,
+            identical: divergence.as_ref().map_or(sealed, |d| d.tick.saturating_sub(1)),
+            digest: read.log.digest().to_string(),
+            divergence: divergence.as_ref().map(Divergence::to_string),
+        };
+        if self.json {
+            data.json(&verdict)?;
+        } else {
+            verdict.print(damage.is_some(), data)?;
+        }
+        Ok(match (divergence, damage) {
+            (Some(_), _) => Outcome::Differs,
+            (None, Some(_)) => Outcome::Recovered,
+            (None, None) => Outcome::Done,
+        })
+    }
+}
+
+impl Verdict {
+    fn print(&self, damaged: bool, data: &mut Data) -> Result<(), Failure> {
+        let Verdict { ticks, sealed, identical, digest, divergence } = self;
+        if let Some(divergence) = divergence {
+            data.line(divergence)?;
+        }
+        if damaged {
+            data.line(format!("{identical} of {sealed} sealed ticks bit-identical; the run has {ticks}"))
+        } else {
+            data.line(format!("{identical} of {ticks} ticks bit-identical"))?;
+            data.line(format!("digest {digest}"))
+        }
+    }
+}

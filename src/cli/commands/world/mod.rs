@@ -1,0 +1,125 @@
+//! `world`: check world files, list and print worlds, read them from other formats and write them in others.
+
+mod check;
+mod export;
+mod import;
+
+use std::path::PathBuf;
+
+use clap::{Args, Subcommand};
+use motion_lab::worlds::World;
+use serde::Serialize;
+
+use crate::cli::support::input::for_each_file;
+use crate::cli::support::world_source::{find_world, read_world};
+use crate::cli::{Data, Failure, Outcome, say};
+use export::Export;
+use import::Import;
+
+/// Check world files; list and print worlds; read them from other formats and write them in others.
+#[derive(Debug, Args)]
+pub struct WorldArgs {
+    #[command(subcommand)]
+    command: WorldCommand,
+}
+
+#[derive(Debug, Subcommand)]
+enum WorldCommand {
+    /// Read world files and say what is in them, or what is wrong with them: what they are written like, robots that start in contact with
+    /// something or with one another, obstacles outside the bounds. Every file is read; one that is wrong makes the exit code 3.
+    Check {
+        /// The world files.
+        #[arg(required = true, value_name = "FILE")]
+        files: Vec<PathBuf>,
+        /// One line of JSON for each file that is right.
+        #[arg(long)]
+        json: bool,
+    },
+    /// List the built-in worlds.
+    List {
+        /// One line of JSON for each.
+        #[arg(long)]
+        json: bool,
+    },
+    /// Print a world as a world file: a start for one of your own.
+    Show {
+        /// A built-in world's name, or the path of a world file.
+        #[arg(value_name = "NAME|FILE")]
+        world: String,
+    },
+    Import(Box<Import>),
+    Export(Export),
+}
+
+/// What is said of a world.
+#[derive(Serialize)]
+struct Summary<'a> {
+    /// The name or file it is asked for by.
+    source: &'a str,
+    name: &'a str,
+    content_hash: String,
+    obstacles: usize,
+    places: usize,
+    marks: usize,
+    robots: Vec<&'a str>,
+}
+
+impl WorldArgs {
+    /// Runs the command.
+    pub fn run(self, data: &mut Data) -> Result<Outcome, Failure> {
+        match self.command {
+            WorldCommand::Check { files, json } => check(&files, json, data),
+            WorldCommand::List { json } => {
+                for name in World::built_in_names() {
+                    summarise(name, &find_world(name)?, json, data)?;
+                }
+                Ok(Outcome::Done)
+            }
+            WorldCommand::Show { world } => {
+                data.text(&find_world(&world)?.to_ron())?;
+                Ok(Outcome::Done)
+            }
+            WorldCommand::Import(import) => import.run(data),
+            WorldCommand::Export(export) => export.run(),
+        }
+    }
+}
+
+fn check(files: &[PathBuf], json: bool, data: &mut Data) -> Result<Outcome, Failure> {
+    for_each_file(files, data, |file, data| {
+        let (source, world) = (file.display().to_string(), read_world(file)?);
+        let problems = check::problems(&world);
+        if !problems.is_empty() {
+            return Err(Failure::input(
+                format!("{source}: {}", problems.join("; ")),
+                "Move them apart, or make the bounds larger.",
+            ));
+        }
+        summarise(&source, &world, json, data)?;
+        if world.robots.is_empty() {
+            data.flush()?;
+            say(format!("{source}: no robot lives there: only worlds with robots can be run"));
+        }
+        Ok(())
+    })
+}
+
+fn summarise(source: &str, world: &World, json: bool, data: &mut Data) -> Result<(), Failure> {
+    let summary = Summary {
+        source,
+        name: &world.name,
+        content_hash: format!("{:032x}", world.content_hash()),
+        obstacles: world.obstacles.len(),
+        places: world.places.len(),
+        marks: world.marks.len(),
+        robots: world.robots.iter().map(|r| r.name.as_str()).collect(),
+    };
+    if json {
+        return data.json(&summary);
+    }
+    let Summary { name, content_hash, obstacles, places, marks, .. } = &summary;
+    let robots = if summary.robots.is_empty() { "none".to_owned() } else { summary.robots.join(", ") };
+    data.line(format!(
+        "{source}: {name}, content {content_hash}, {obstacles} obstacles, {places} places, {marks} marks, robots: {robots}"
+    ))
+}

@@ -1,0 +1,116 @@
+//! Standard output for data, standard error for messages.
+
+use std::borrow::Cow;
+use std::fmt::Display;
+use std::io::{self, BufWriter, ErrorKind, StdoutLock, Write};
+
+use serde::Serialize;
+
+use crate::cli::Failure;
+
+/// Standard output. A reader that has gone away is no error: what is written then is dropped, and the command ends with
+/// the exit code that its work deserves.
+pub struct Data {
+    out: BufWriter<StdoutLock<'static>>,
+    closed: bool,
+}
+
+impl Data {
+    /// The standard output of this process.
+    pub fn stdout() -> Self {
+        Data { out: BufWriter::new(io::stdout().lock()), closed: false }
+    }
+
+    /// Writes a line for people, [spelled out](spelled_out) where it would steer a terminal.
+    pub fn line(&mut self, line: impl Display) -> Result<(), Failure> {
+        let written = writeln!(self.out, "{}", spelled_out(&line.to_string()));
+        self.after(written)
+    }
+
+    /// Writes a line of data for other programs, as it is.
+    pub fn data_line(&mut self, line: impl Display) -> Result<(), Failure> {
+        let written = writeln!(self.out, "{line}");
+        self.after(written)
+    }
+
+    /// Writes a text as it is.
+    pub fn text(&mut self, text: &str) -> Result<(), Failure> {
+        let written = self.out.write_all(text.as_bytes());
+        self.after(written)
+    }
+
+    /// Writes a value as one line of JSON.
+    pub fn json(&mut self, value: &impl Serialize) -> Result<(), Failure> {
+        self.data_line(serde_json::to_string(value).map_err(Failure::internal)?)
+    }
+
+    /// Sends on what was written so far.
+    pub fn flush(&mut self) -> Result<(), Failure> {
+        let written = self.out.flush();
+        self.after(written)
+    }
+
+    /// Whether the reader has gone away.
+    pub fn is_closed(&self) -> bool {
+        self.closed
+    }
+
+    /// Sends on the rest.
+    pub fn finish(mut self) -> Result<(), Failure> {
+        self.flush()
+    }
+
+    fn after(&mut self, written: io::Result<()>) -> Result<(), Failure> {
+        match written {
+            Err(_) if self.closed => Ok(()),
+            Err(error) if error.kind() == ErrorKind::BrokenPipe => {
+                self.closed = true;
+                Ok(())
+            }
+            Err(error) => Err(Failure::Output {
+                file: "standard output".into(),
+                reason: format!("it can't be written: {error}"),
+                next: "Send it elsewhere.".into(),
+            }),
+            Ok(()) => Ok(()),
+        }
+    }
+}
+
+/// Writes a message to standard error, every message under the program's name, [spelled out](spelled_out) where it would steer a
+/// terminal. Nobody listening is no error.
+pub fn say(message: impl Display) {
+    let _ = writeln!(io::stderr().lock(), "motion-lab: {}", spelled_out(&message.to_string()));
+}
+
+/// The text with what could steer a terminal or turn a line round written as its number, as in `\u{1b}`: control characters but for line
+/// ends, and the marks of direction. Names and texts of files may hold them.
+fn spelled_out(text: &str) -> Cow<'_, str> {
+    let steers = |c: char| {
+        c != '\n' && c.is_control()
+            || matches!(c, '\u{61c}' | '\u{200e}' | '\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}')
+    };
+    if !text.contains(steers) {
+        return Cow::Borrowed(text);
+    }
+    let mut plain = String::with_capacity(text.len() + 8);
+    for c in text.chars() {
+        if steers(c) { plain.extend(c.escape_unicode()) } else { plain.push(c) }
+    }
+    Cow::Owned(plain)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_steers_a_terminal_is_written_as_its_number() {
+        assert!(matches!(spelled_out("l'été: \u{3b8} = 1\nand so on"), Cow::Borrowed(_)));
+        assert_eq!(spelled_out("a\u{1b}[31mb"), "a\\u{1b}[31mb");
+        assert_eq!(
+            spelled_out("\u{202e}nor\u{2069}\r\t\u{9b}\u{7f}"),
+            "\\u{202e}nor\\u{2069}\\u{d}\\u{9}\\u{9b}\\u{7f}"
+        );
+    }
+}

@@ -1,0 +1,22 @@
+//! Ctrl-C: finish the tick under way, keep what was done, and end.
+
+use std::sync::atomic::{AtomicBool, Ordering};
+
+use crate::cli::Failure;
+
+static ASKED: AtomicBool = AtomicBool::new(false);
+
+/// From here on Ctrl-C (and a termination signal) asks to stop instead of ending the process; a second one ends it at once.
+pub fn listen() -> Result<(), Failure> {
+    let handler = || {
+        if ASKED.swap(true, Ordering::Relaxed) {
+            std::process::exit(130);
+        }
+    };
+    ctrlc::set_handler(handler).map_err(Failure::internal)
+}
+
+/// Whether somebody asked to stop.
+pub fn asked_to_stop() -> bool {
+    ASKED.load(Ordering::Relaxed)
+}

@@ -1,0 +1,13 @@
+//! What several commands need.
+
+pub(crate) mod console;
+pub(crate) mod end;
+pub(crate) mod input;
+pub(crate) mod interrupt;
+pub(crate) mod json_number;
+pub(crate) mod log_source;
+pub(crate) mod numbers;
+pub(crate) mod output;
+pub(crate) mod simulate;
+pub(crate) mod summary;
+pub(crate) mod world_source;

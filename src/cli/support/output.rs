@@ -1,0 +1,52 @@
+//! The library's whole files, with this program's errors.
+
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+
+use motion_lab::output;
+
+use crate::cli::Failure;
+
+/// A file on its way: see [`output::PendingFile`].
+pub struct PendingFile {
+    path: PathBuf,
+    file: output::PendingFile,
+}
+
+impl PendingFile {
+    /// Begins a file that will be at `path`.
+    pub fn create(path: &Path) -> Result<Self, Failure> {
+        let file = output::PendingFile::create(path).map_err(|error| Failure::output(path, &error))?;
+        Ok(PendingFile { path: path.to_owned(), file })
+    }
+
+    /// Puts the file in its place.
+    pub fn commit(self) -> Result<(), Failure> {
+        self.file.commit().map_err(|error| Failure::output(&self.path, &error))
+    }
+
+    /// Has the disk keep all that was written.
+    pub fn sync(&mut self) -> io::Result<()> {
+        self.file.sync()
+    }
+
+    /// Puts what the disk took under another name of the same folder.
+    pub fn keep_as(self, path: &Path) -> Result<(), Failure> {
+        self.file.keep_as(path).map_err(|error| Failure::output(path, &error))
+    }
+}
+
+impl Write for PendingFile {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        self.file.write(bytes)
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        self.file.flush()
+    }
+}
+
+/// Writes a whole file.
+pub fn write_file(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
+    output::write_file(path, bytes).map_err(|error| Failure::output(path, &error))
+}

@@ -1,0 +1,72 @@
+//! Runs under way, as the commands start them.
+
+use std::path::Path;
+
+use motion_lab::random::Seed;
+use motion_lab::recording::{Recorder, Run, RunError};
+use motion_lab::run::{Divergence, Frame, Log, Script, first_divergence};
+use motion_lab::tour::TourConfig;
+
+use crate::cli::Failure;
+
+/// What to do about a run that can't start.
+const CHANGE: &str = "Change the world file, the script or --robot.";
+
+/// A run at tick 0.
+pub fn begin(seed: Seed, config: &TourConfig, script: &Script) -> Result<Recorder, Failure> {
+    Recorder::new(config.clone(), (seed, script.clone())).map_err(|error| Failure::input(error, CHANGE))
+}
+
+/// Runs a log again, from its seed, configuration and script alone, as far as it has frames, and shows `watch` the run at every
+/// tick from 0 on. Returns the first value that differs from the log's frames.
+pub fn run_again(log: &Log, mut watch: impl FnMut(&Recorder)) -> Result<Option<Divergence>, Failure> {
+    let mut run = begin(log.seed, &log.config, &log.script)?;
+    let mut expected = std::iter::once(&log.initial).chain(&log.frames);
+    let mut next = expected.next();
+    while let Some(frame) = next {
+        watch(&run);
+        if let Some(divergence) = first_divergence(std::slice::from_ref(frame), std::slice::from_ref(run.frame())) {
+            return Ok(Some(divergence));
+        }
+        next = expected.next();
+        if next.is_some() {
+            run.step();
+        }
+    }
+    Ok(None)
+}
+
+/// Why a run is no longer shown.
+enum Stop {
+    Run(RunError),
+    Own(Failure),
+}
+
+impl From<RunError> for Stop {
+    fn from(error: RunError) -> Self {
+        Stop::Run(error)
+    }
+}
+
+/// Shows `watch` the run of the log in `file` in the state of each of its frames: see [`Run::show`].
+pub fn show(
+    file: &Path,
+    log: &Log,
+    mut watch: impl FnMut(&Recorder, &Frame) -> Result<(), Failure>,
+) -> Result<(), Failure> {
+    Run::show(log, |run| watch(run, run.frame()).map_err(Stop::Own)).map_err(|stop| match stop {
+        Stop::Own(failure) => failure,
+        Stop::Run(error) => not_shown(file, &error),
+    })
+}
+
+/// The failure of a run that can't be shown.
+pub fn not_shown(file: &Path, error: &RunError) -> Failure {
+    match error {
+        RunError::Restore(_) => Failure::input(
+            format!("{}: {error}", file.display()),
+            "The log holds what no run gives; `motion-lab verify` says where it differs.",
+        ),
+        error => Failure::input(error, CHANGE),
+    }
+}

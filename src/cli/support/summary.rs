@@ -1,0 +1,96 @@
+//! What is said of a run: its robots' last states, its worlds, its digest.
+
+use motion_lab::random::Seed;
+use motion_lab::recording::printed_configuration;
+use motion_lab::run::{Digest, Frame, RobotState};
+use motion_lab::tour::TourConfig;
+use motion_lab::worlds::{Resident, World};
+use serde::Serialize;
+
+use super::json_number::JsonNumber;
+use crate::cli::{Data, Failure};
+
+/// A run as JSON.
+#[derive(Debug, Serialize)]
+pub struct RunSummary<'a> {
+    /// The seed.
+    pub seed: u64,
+    /// The ticks configured.
+    pub ticks: u64,
+    /// The ticks recorded.
+    pub recorded: u64,
+    /// The digest of the run as far as it is recorded, as 32 hexadecimal digits.
+    pub digest: String,
+    /// The worlds.
+    pub worlds: Vec<WorldSummary<'a>>,
+    /// The robots' last states, by id.
+    pub robots: Vec<RobotSummary<'a>>,
+}
+
+/// A world of a run.
+#[derive(Debug, Serialize)]
+pub struct WorldSummary<'a> {
+    /// Its name.
+    pub name: &'a str,
+    /// The hash of its content, as 32 hexadecimal digits.
+    pub content_hash: String,
+}
+
+/// A robot's last state.
+#[derive(Debug, Serialize)]
+pub struct RobotSummary<'a> {
+    /// Its name.
+    pub name: &'a str,
+    /// Its kind.
+    pub kind: &'a str,
+    /// Its world's name.
+    pub world: &'a str,
+    /// The coordinates of its configuration.
+    pub configuration: Vec<JsonNumber>,
+    /// Its contact episodes.
+    pub contacts: u32,
+    /// The inputs it refused.
+    pub refusals: u32,
+    /// The configuration as it is printed.
+    #[serde(skip)]
+    pub printed: String,
+}
+
+impl<'a> RunSummary<'a> {
+    /// The summary of a run that has come to `last`.
+    pub fn new(seed: Seed, config: &'a TourConfig, last: &Frame, digest: Digest) -> Self {
+        let worlds = config.worlds.iter();
+        RunSummary {
+            seed: seed.0,
+            ticks: config.ticks,
+            recorded: last.tick,
+            digest: digest.to_string(),
+            worlds: worlds
+                .map(|w| WorldSummary { name: &w.name, content_hash: format!("{:032x}", w.content_hash()) })
+                .collect(),
+            robots: robots(config, last),
+        }
+    }
+
+    /// Prints one line for each robot: `Rusty  Pose2 { x: 2.250, y: 6.250 }  contacts: 0`.
+    pub fn print_robots(&self, data: &mut Data) -> Result<(), Failure> {
+        for RobotSummary { name, printed, contacts, .. } in &self.robots {
+            data.line(format!("{name}  {printed}  contacts: {contacts}"))?;
+        }
+        Ok(())
+    }
+}
+
+fn robots<'a>(config: &'a TourConfig, frame: &Frame) -> Vec<RobotSummary<'a>> {
+    let residents = config.worlds.iter().flat_map(|w| w.robots.iter().map(move |r| (w, r)));
+    let summary = |((world, resident), state): ((&'a World, &'a Resident), &RobotState)| RobotSummary {
+        name: &resident.name,
+        kind: &resident.kind,
+        world: &world.name,
+        configuration: state.configuration.iter().copied().map(JsonNumber).collect(),
+        contacts: state.contacts,
+        refusals: state.refusals,
+        printed: printed_configuration(&resident.kind, &state.configuration),
+    };
+    residents.zip(&frame.robots).map(summary).collect()
+}

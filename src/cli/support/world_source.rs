@@ -1,0 +1,36 @@
+//! A world named on the command line: a built-in one, or a file.
+
+use std::path::{Path, PathBuf};
+
+use motion_lab::worlds::World;
+
+use super::input::{MAX_WORLD, read_text_of};
+use crate::cli::Failure;
+
+/// The world that `name` names: the built-in one of that name, else the file at that path.
+pub fn find_world(name: &str) -> Result<World, Failure> {
+    if let Some(world) = World::built_in(name) {
+        return Ok(world);
+    }
+    let path = PathBuf::from(name);
+    if !path.exists() {
+        return Err(Failure::input(
+            format!("{name}: no built-in world has this name, and there is no such file"),
+            format!("The built-in worlds are {}; anything else is the path of a world file.", built_in_list()),
+        ));
+    }
+    read_world(&path)
+}
+
+/// The world in a file.
+pub fn read_world(path: &Path) -> Result<World, Failure> {
+    let text = read_text_of(path, MAX_WORLD)?;
+    World::parse(&path.display().to_string(), &text).map_err(|error| {
+        Failure::input(error, "Correct it there. `motion-lab world show apartment` prints a world file to go by.")
+    })
+}
+
+/// The names of the built-in worlds, for messages.
+pub fn built_in_list() -> String {
+    World::built_in_names().join(", ")
+}

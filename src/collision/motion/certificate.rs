@@ -1,0 +1,82 @@
+//! `Certificate`, the proof that a motion is free. The verifier that accepts it is `verifier.rs`.
+
+/// One proven step of a motion.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ProvenStep {
+    /// Where the step begins.
+    pub from: f64,
+    /// Where the step ends.
+    pub to: f64,
+    /// The clearance proven along it, metres.
+    pub clearance: f64,
+}
+
+/// The steps that prove a motion free from 0 to [`proven_until`](Self::proven_until), reused between edges.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Certificate {
+    margin: f64,
+    steps: Vec<ProvenStep>,
+}
+
+/// Why a certificate is not accepted.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum CertificateError {
+    /// The steps do not begin at 0 or do not join.
+    #[error("step {0} does not begin where the one before ends")]
+    Broken(usize),
+    /// A step that ends before it begins or beyond 1.
+    #[error("step {0} does not go forward within [0, 1]")]
+    Backward(usize),
+    /// A step whose claimed clearance is more than the distance and the motion bound prove.
+    #[error("step {step} claims {claimed} m of clearance, but only {proven} m are proven")]
+    Unproven {
+        /// The number of the step, from 0.
+        step: usize,
+        /// What the certificate says.
+        claimed: f64,
+        /// What was found.
+        proven: f64,
+    },
+}
+
+impl Certificate {
+    /// An empty certificate.
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    /// What every step's clearance must exceed, metres.
+    pub fn margin(&self) -> f64 {
+        self.margin
+    }
+
+    pub(crate) fn clear(&mut self, margin: f64) {
+        self.margin = margin;
+        self.steps.clear();
+    }
+
+    pub(crate) fn push(&mut self, step: ProvenStep) {
+        self.steps.push(step);
+    }
+
+    /// The steps in order.
+    pub fn steps(&self) -> &[ProvenStep] {
+        &self.steps
+    }
+
+    /// A certificate with these steps and margin, for a verifier of proofs from elsewhere.
+    pub fn from_steps(margin: f64, steps: Vec<ProvenStep>) -> Self {
+        Certificate { margin, steps }
+    }
+
+    /// Where the proof ends: 1 when the whole motion is proven free.
+    pub fn proven_until(&self) -> f64 {
+        self.steps.last().map_or(0.0, |s| s.to)
+    }
+
+    /// The clearance proven along all of it; infinity without a step.
+    pub fn clearance(&self) -> f64 {
+        self.steps.iter().fold(f64::INFINITY, |c, s| crate::num::lesser(s.clearance, c))
+    }
+}

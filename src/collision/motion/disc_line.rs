@@ -1,0 +1,215 @@
+//! `DiscLine`, a disc whose centre runs along a line: its first contact and its clearance in closed form.
+
+use smallvec::SmallVec;
+
+use super::conservative_advancement::BRACKET;
+use super::time_of_impact::point_meets;
+use crate::collision::narrow::convex::edges;
+use crate::collision::{EdgeVerdict, ObstacleId, ProvenStep, Scene};
+use crate::geometry::{Aabb, Placed, Point2, Segment, Vector2, cross};
+use crate::num::{greater, lesser, sqrt, ulp};
+
+/// More pieces in the way than this are left to the march.
+const MOST: usize = 16;
+
+/// A disc on a straight way.
+pub(crate) struct DiscLine {
+    way: Leg,
+    radius: f64,
+    /// No coordinate of the way is larger.
+    size: f64,
+}
+
+/// A straight way, or a wall, with what is asked of it again and again.
+#[derive(Clone, Copy)]
+struct Leg {
+    a: Point2,
+    b: Point2,
+    u: Vector2,
+    /// Its squared length, and the inverse of that; 0 for a point.
+    square: f64,
+    inverse: f64,
+}
+
+impl Leg {
+    fn new(a: Point2, b: Point2) -> Self {
+        let u = b - a;
+        let square = u.norm_squared();
+        Leg { a, b, u, square, inverse: if square > 0.0 { 1.0 / square } else { 0.0 } }
+    }
+
+    /// The squared distance from `p`.
+    #[inline]
+    fn squared_distance(&self, p: Point2) -> f64 {
+        let w = p - self.a;
+        let s = w.dot(&self.u) * self.inverse;
+        let s = if s > 0.0 { if s < 1.0 { s } else { 1.0 } } else { 0.0 };
+        (w - self.u * s).norm_squared()
+    }
+
+    /// The squared distance between two legs; 0 where they cross.
+    #[inline]
+    fn squared_distance_to(&self, other: &Leg) -> f64 {
+        let side = |leg: &Leg, p: Point2| cross(leg.u, p - leg.a);
+        let across = |leg: &Leg, of: &Leg| (side(of, leg.a) > 0.0) != (side(of, leg.b) > 0.0);
+        if across(self, other) && across(other, self) {
+            return 0.0;
+        }
+        lesser(
+            lesser(self.squared_distance(other.a), self.squared_distance(other.b)),
+            lesser(other.squared_distance(self.a), other.squared_distance(self.b)),
+        )
+    }
+}
+
+/// What is known of the pieces that a search has come across.
+struct Found {
+    /// The least distance of the way from a piece, its radius taken off, metres.
+    least: f64,
+    /// The square of the longest edge looked at.
+    longest: f64,
+    /// The pieces that the disc touches on its way, or may touch.
+    touched: SmallVec<[u32; MOST]>,
+    /// Whether something was met that only the march can decide.
+    unclear: bool,
+}
+
+impl DiscLine {
+    /// The disc of this radius on this way; `None` where the way is so short or the disc so small that rounding would tell,
+    /// or the scene holds something that is no valid shape.
+    pub(crate) fn new(way: Segment, radius: f64, scene: &Scene) -> Option<Self> {
+        let size = Aabb { min: way.a, max: way.a }.merged(&Aabb { min: way.b, max: way.b }).size();
+        let way = Leg::new(way.a, way.b);
+        let largest = greater(size, scene.size);
+        let sound = radius > 1e-7 * largest && radius < 1e6 && largest < 1e6 && way.square > 1e-18 * size * size;
+        sound.then_some(DiscLine { way, radius, size })
+    }
+
+    /// The verdict, and the step that proves it as far as it is free; `None` where it takes a march.
+    pub(crate) fn verdict(&self, scene: &Scene) -> Option<(ProvenStep, EdgeVerdict)> {
+        let radius = self.radius;
+        let found = self.search(scene);
+        if found.unclear {
+            return None;
+        }
+        let slack = self.slack(&found);
+        if found.touched.is_empty() {
+            let clearance = found.least - radius - slack;
+            let step = ProvenStep { from: 0.0, to: 1.0, clearance };
+            return (clearance > 0.0).then_some((step, EdgeVerdict::Free { clearance }));
+        }
+        let pieces = || found.touched.iter().map(|&piece| (piece, &scene.pieces[piece as usize]));
+        let mut first = 1.0;
+        for (_, piece) in pieces() {
+            first = lesser(point_meets(self.way.a, self.way.u, piece.core(), radius + piece.radius())?, first);
+        }
+        // a little less than the bracket, so that its two ends fit in it
+        let half = 0.45 * BRACKET / sqrt(self.way.square);
+        let (free_until, contact_at) = (first - half, if first + half < 1.0 { first + half } else { 1.0 });
+        if free_until <= 0.0 {
+            return None;
+        }
+        // off by some ulps from where the footprint is placed
+        let at = |s: f64| self.way.a + self.way.u * s;
+        let (before, after) = (at(free_until), at(contact_at));
+        let (mut clearance, mut obstacle) = (BRACKET, None);
+        for (piece, shape) in pieces() {
+            let (nearer, farther) = (point_gap(after, shape) - radius, point_gap(before, shape) - radius);
+            // The distance from a point or a segment is a convex function: where it still falls it has fallen all the way. That from a
+            // polygon's boundary is not: the way may begin inside.
+            let falls = shape.core().len() <= 2 && nearer < farther - slack;
+            let least = if falls { farther } else { gap(&Leg::new(self.way.a, before), shape).0 - radius };
+            clearance = lesser(least - slack, clearance);
+            // touched for certain, or apart for certain
+            if nearer < -slack {
+                obstacle = Some(obstacle.map_or(piece, |o: u32| o.min(piece)));
+            } else if nearer <= slack {
+                return None;
+            }
+        }
+        if clearance <= 0.0 {
+            return None;
+        }
+        let obstacle = ObstacleId(scene.owners[obstacle? as usize]);
+        let step = ProvenStep { from: 0.0, to: free_until, clearance };
+        Some((step, EdgeVerdict::Hit { free_until, contact_at, part: 0, obstacle }))
+    }
+
+    /// Whether the disc touches nothing on its way; `None` where it comes so near to touching that rounding would tell.
+    pub(crate) fn is_free(&self, scene: &Scene) -> Option<bool> {
+        // more than what a verdict takes off, see `slack`
+        let slack = 1e-12 * (self.size + scene.size + self.radius);
+        let (a, b) = (self.way.a, self.way.b);
+        let (mut free, mut clear) = (true, true);
+        let way = Aabb { min: a, max: a }.merged(&Aabb { min: b, max: b });
+        scene.index.each_near(&way, self.radius + slack, |piece| {
+            let apart = gap(&self.way, &scene.pieces[piece]).0 - self.radius;
+            free = apart >= -slack;
+            clear &= apart > slack;
+            !free
+        });
+        if clear || !free { Some(free) } else { None }
+    }
+
+    /// Goes through the pieces near the way: all that the disc touches, and the nearest.
+    fn search(&self, scene: &Scene) -> Found {
+        let mut found = Found { least: f64::INFINITY, longest: 0.0, touched: SmallVec::new(), unclear: false };
+        let (a, b) = (self.way.a, self.way.b);
+        let extent = Aabb { min: a, max: a }.merged(&Aabb { min: b, max: b }).grown(64.0 * ulp(self.size));
+        // what is farther off than this is apart for certain
+        let near = self.radius + BRACKET;
+        scene.index.nearest(&extent, f64::INFINITY, |piece| {
+            let (distance, longest) = gap(&self.way, &scene.pieces[piece]);
+            found.longest = greater(longest, found.longest);
+            if distance > near {
+                found.least = lesser(distance, found.least);
+            } else if found.touched.len() < MOST && distance <= near {
+                found.touched.push(piece as u32);
+            } else {
+                found.unclear = true;
+            }
+            if found.touched.is_empty() { greater(found.least, near) } else { near }
+        });
+        found
+    }
+
+    /// More than all rounding on the way to a distance, metres.
+    ///
+    /// A foot is off by at most 8 roundings of the displacements it is made of, none longer than the way, the longest edge and the
+    /// distance together. The verifier of certificates takes off 32 ulps of the largest coordinate or 1 itself, and the distance that it
+    /// asks for may be off by 16 more.
+    fn slack(&self, found: &Found) -> f64 {
+        let least = if found.least.is_finite() { found.least } else { 0.0 };
+        let longest = greater(sqrt(found.longest), sqrt(self.way.square));
+        16.0 * f64::EPSILON * (least + longest) + 48.0 * ulp(self.size + self.radius + least)
+    }
+}
+
+/// The distance of a leg from a piece, 0 where they cross or the piece holds the leg's beginning; and the squared length of the
+/// longest edge of the piece. Rounded.
+fn gap(leg: &Leg, piece: &Placed) -> (f64, f64) {
+    let core = piece.core();
+    if let [a, b] = core {
+        let edge = Leg::new(*a, *b);
+        return (sqrt(edge.squared_distance_to(leg)) - piece.radius(), edge.square);
+    }
+    let (mut least, mut longest) = (f64::INFINITY, 0.0);
+    let mut inside = core.len() > 2;
+    for (a, b) in edges(core) {
+        let edge = Leg::new(a, b);
+        least = lesser(edge.squared_distance_to(leg), least);
+        longest = greater(edge.square, longest);
+        inside &= cross(edge.u, leg.a - a) >= 0.0;
+    }
+    (if inside { 0.0 } else { sqrt(least) } - piece.radius(), longest)
+}
+
+/// The distance of a point from a piece; of one inside it, from its boundary. Rounded.
+fn point_gap(p: Point2, piece: &Placed) -> f64 {
+    let core = piece.core();
+    let least = match core {
+        [a, b] => Leg::new(*a, *b).squared_distance(p),
+        _ => edges(core).fold(f64::INFINITY, |least, (a, b)| lesser(Leg::new(a, b).squared_distance(p), least)),
+    };
+    sqrt(least) - piece.radius()
+}

@@ -1,0 +1,258 @@
+//! The march of a motion in a scene, among the pieces that it can come near.
+
+use smallvec::SmallVec;
+
+use super::bisection::{Pace, pinch};
+use super::conservative_advancement::{Ground, Place, go, hit, march_on, width};
+use super::local_scene::Vicinity;
+use super::step::{rounding, step_clearance};
+use crate::collision::{Certificate, Collision, EdgeVerdict, MarchOptions, ProvenStep, Scene};
+use crate::geometry::{Aabb, Footprint, largest_coordinate};
+use crate::num::{greater, lesser};
+use crate::robots::Motion;
+
+/// A march under way.
+struct Nearby<'a, M> {
+    scene: &'a Scene,
+    motion: &'a M,
+    around: Vicinity<'a>,
+    /// The number of the footprint's parts.
+    parts: usize,
+    /// The parts that can come near anything.
+    open: SmallVec<[usize; 4]>,
+    /// The clearance that a step of any length proves for all others, metres.
+    kept: f64,
+    /// The least clearance of the steps proven so far, metres.
+    clearance: f64,
+    certificate: Option<&'a mut Certificate>,
+}
+
+/// The verdict on a motion in a scene: what [`march`](super::conservative_advancement()) says, in the same steps as far as the motion is free.
+///
+/// Most motions are proven free in one step. Where that step fails it still tells what need not be looked at again: a part whose hull keeps
+/// more than two sagittas from everything is free in every step, because a step's ends are within one sagitta of that hull and its own sagitta
+/// is no longer. What remains is marched among the pieces that it can come near, taken out of the scene once, and a step that fails is given up
+/// at the first piece that is too near. A contact in sight is not marched at but [pinched](pinch).
+pub(crate) fn march_nearby<M: Motion>(
+    scene: &Scene,
+    motion: &M,
+    budget: u32,
+    certificate: Option<&mut Certificate>,
+    start: Footprint,
+) -> EdgeVerdict {
+    let end = motion.footprint_at(1.0);
+    if budget == 0 || !(start.is_valid() && end.is_valid()) {
+        let (distance, options) = (scene.distance(&start), MarchOptions { margin: 0.0, budget });
+        return march_on(scene, motion, options, certificate, (start, distance));
+    }
+    let parts = start.parts().len();
+    let mut march = Nearby {
+        scene,
+        motion,
+        around: Vicinity::all(scene),
+        parts,
+        open: (0..parts).collect(),
+        kept: f64::INFINITY,
+        clearance: f64::INFINITY,
+        certificate,
+    };
+    if let Some(c) = march.certificate.as_deref_mut() {
+        c.clear(0.0);
+    }
+    if march.whole(&start, &end) {
+        return EdgeVerdict::Free { clearance: march.clearance };
+    }
+    let gap = march.gap(&start);
+    if gap <= 0.0 {
+        return hit(scene, motion, 0.0, 0.0);
+    }
+    go(&mut march, motion, (start, gap), &end, budget)
+}
+
+impl<'a, M: Motion> Nearby<'a, M> {
+    /// Tries all of the motion in one step, and finds out what there is to look at.
+    fn whole(&mut self, start: &Footprint, end: &Footprint) -> bool {
+        let (from, to) = ((0.0, start), (1.0, end));
+        let all = std::mem::take(&mut self.open);
+        let mut least = f64::INFINITY;
+        let mut swept: Option<Aabb> = None;
+        for k in all {
+            let (sagitta, distance, rounding) = self.clears(k, from, to);
+            least = lesser(distance - sagitta - rounding, least);
+            let kept = distance - 2.0 * sagitta - 4.0 * rounding;
+            if kept > 0.0 {
+                self.kept = lesser(kept, self.kept);
+                continue;
+            }
+            self.open.push(k);
+            let [a, b] = [start, end].map(|footprint| Aabb::of(footprint.parts()[k].placed()));
+            let way = a.merged(&b).grown(sagitta);
+            swept = Some(swept.map_or(way, |swept| swept.merged(&way)));
+        }
+        if least > 0.0 {
+            self.clearance = least;
+            if let Some(c) = self.certificate.as_deref_mut() {
+                c.push(ProvenStep { from: 0.0, to: 1.0, clearance: least });
+            }
+            return true;
+        }
+        if let Some(swept) = swept {
+            // the clearance is nowhere said to be more than at the start; between places farther off than that steps are planned
+            let range = self.open_gap(start, f64::INFINITY) + 0.25 * self.width(0.0, 1.0);
+            self.around = Vicinity::new(self.scene, &swept, range);
+        }
+        false
+    }
+
+    /// The sagitta of a part in a step, the distance of its hull and the rounding of that. A distance of no more than the sagitta is only a
+    /// bound, and so is one that neither leaves the step unproven nor lowers the clearance.
+    fn clears(&self, part: usize, from: Place, to: Place) -> (f64, f64, f64) {
+        let hull = from.1.parts()[part].placed().hull_with(to.1.parts()[part].placed());
+        let (size, sagitta) = (largest_coordinate([&hull]), self.motion.sagitta(part, from.0, to.0));
+        let reach = self.clearance + sagitta;
+        let within = reach + 2.0 * rounding(size, reach);
+        let distance = self.around.distance(&hull, sagitta, within).unwrap_or(within);
+        (sagitta, distance, rounding(size, distance))
+    }
+
+    /// What a step proves for the open parts, metres; not positive when it proves nothing. A bound where it is more than the clearance so far.
+    fn open_clearance(&self, from: Place, to: Place) -> f64 {
+        let mut least = f64::INFINITY;
+        for &k in &self.open {
+            let (sagitta, distance, rounding) = self.clears(k, from, to);
+            least = lesser(distance - sagitta - rounding, least);
+            if least <= 0.0 {
+                break;
+            }
+        }
+        least
+    }
+
+    /// The distance of a footprint's open parts, metres, if it is less than `within`; else that.
+    fn open_gap(&self, footprint: &Footprint, within: f64) -> f64 {
+        if !footprint.is_valid() {
+            return 0.0;
+        }
+        let parts = self.open.iter().map(|&k| footprint.parts()[k].placed());
+        parts.fold(within, |least, part| self.around.distance(part, 0.0, least).unwrap_or(least))
+    }
+
+    /// How far any part can move in a stretch, metres.
+    fn width(&self, lo: f64, hi: f64) -> f64 {
+        width(self.motion, self.parts, lo, hi)
+    }
+}
+
+impl<M: Motion> Ground for Nearby<'_, M> {
+    fn proves(&mut self, from: Place, to: Place) -> bool {
+        let open = self.open_clearance(from, to);
+        if open <= 0.0 {
+            return false;
+        }
+        let needed = self.certificate.is_some() || self.kept < lesser(open, self.clearance);
+        let clearance = if needed { step_clearance(self.scene, self.motion, from, to) } else { open };
+        self.clearance = lesser(clearance, self.clearance);
+        if let Some(c) = self.certificate.as_deref_mut() {
+            c.push(ProvenStep { from: from.0, to: to.0, clearance });
+        }
+        true
+    }
+
+    fn clearance(&self) -> f64 {
+        self.clearance
+    }
+
+    fn gap(&self, footprint: &Footprint) -> f64 {
+        let gap = self.open_gap(footprint, f64::INFINITY);
+        // the others keep more than that everywhere
+        if self.kept < gap { self.scene.distance(footprint) } else { gap }
+    }
+
+    fn touches(&self, footprint: &Footprint) -> bool {
+        !footprint.is_valid() || self.open.iter().any(|&k| self.around.touches(footprint.parts()[k].placed()))
+    }
+
+    fn pinched(&mut self, from: Place, gap: f64, contact: f64) -> Option<EdgeVerdict> {
+        let acceleration = self.open.iter().fold(0.0, |most, &k| greater(self.motion.rates(k).acceleration, most));
+        let pace = Pace { speed: self.width(0.0, 1.0), acceleration };
+        let range = self.around.range();
+        let gap_at = |footprint: &Footprint| self.open_gap(footprint, range);
+        let clearance = |from: Place, to: Place| self.open_clearance(from, to);
+        let found = pinch(gap_at, clearance, self.motion, pace, (from.0, from.1, gap), contact)?;
+        if let Some(c) = self.certificate.as_deref_mut() {
+            for &(lo, hi) in found.steps.iter().rev() {
+                let [at_lo, at_hi] = [lo, hi].map(|s| self.motion.footprint_at(s));
+                let clearance = step_clearance(self.scene, self.motion, (lo, &at_lo), (hi, &at_hi));
+                c.push(ProvenStep { from: lo, to: hi, clearance });
+            }
+        }
+        Some(hit(self.scene, self.motion, found.free_until, found.contact_at))
+    }
+
+    fn collision(&self) -> &dyn Collision {
+        self.scene
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::f64::consts::PI;
+
+    use super::super::conservative_advancement::march;
+    use super::*;
+    use crate::configuration::{HitchCfg, Tn};
+    use crate::geometry::{Point2, Pose2};
+    use crate::random::{Seed, Stream};
+    use crate::robots::{HITCH, Reach, Robot};
+
+    /// Random edges: the same steps as the march of all the scene where they are free, a bracket about the same contact where they are not.
+    fn compare<R: Robot>(scene: &Scene, robot: &R, mut draw: impl FnMut(&mut Stream) -> [R::Configuration; 2]) {
+        let mut draws = Stream::new(Seed(9), "nearby");
+        let (mut ours, mut theirs) = (Certificate::new(), Certificate::new());
+        let (mut free, mut hits) = (0, 0);
+        let budget = MarchOptions::default().budget;
+        while free <= 40 || hits <= 40 {
+            let [a, b] = draw(&mut draws);
+            if scene.intersects(&robot.footprint(&a)) {
+                continue;
+            }
+            let edge = robot.edge(&a, &b).unwrap();
+            let quick = march_nearby(scene, &edge, budget, Some(&mut ours), edge.footprint_at(0.0));
+            let slow = march(scene, &edge, MarchOptions::default(), Some(&mut theirs));
+            assert_eq!(march_nearby(scene, &edge, budget, None, edge.footprint_at(0.0)), quick, "{a} to {b}");
+            match (quick, slow) {
+                (
+                    EdgeVerdict::Hit { free_until, contact_at, .. },
+                    EdgeVerdict::Hit { free_until: f, contact_at: c, .. },
+                ) => {
+                    hits += 1;
+                    assert!(free_until <= c && f <= contact_at, "{quick:?} {slow:?}");
+                }
+                _ => {
+                    free += usize::from(quick.is_free() && ours.steps().len() > 1);
+                    assert_eq!((quick, &ours), (slow, &theirs), "{a} to {b}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn a_free_edge_takes_the_same_steps_as_by_the_march() {
+        let bench = Scene::workbench();
+        let angles = |s: &mut Stream| Tn([s.uniform(-PI, PI), s.uniform(-PI, PI), s.uniform(-PI, PI)]);
+        compare(&bench, &Reach::<3>::redundant(), |s| {
+            let (a, by) = (angles(s), angles(s));
+            [a, Tn([0, 1, 2].map(|i| a.0[i] + 0.4 * by.0[i])).wrapped()]
+        });
+        let lot = Scene::lot();
+        let bounds = lot.bounds();
+        compare(&lot, &HITCH.with_trailer(), |s| {
+            let at = Point2::new(s.uniform(bounds.min.x, bounds.max.x), s.uniform(bounds.min.y, bounds.max.y));
+            let body = Pose2::new(at.x, at.y, s.uniform(-PI, PI));
+            let psi = body.theta + s.uniform(-0.5, 0.5);
+            let moved =
+                Pose2::new(at.x + s.uniform(-1.0, 1.0), at.y + s.uniform(-1.0, 1.0), body.theta + s.uniform(-0.5, 0.5));
+            [(body, psi), (moved, psi + s.uniform(-0.5, 0.5))].map(|(body, psi)| HitchCfg { body, trailer: Some(psi) })
+        });
+    }
+}

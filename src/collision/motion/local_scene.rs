@@ -1,0 +1,179 @@
+//! `Vicinity`, the part of a scene that a motion can come near.
+
+use smallvec::SmallVec;
+
+use crate::collision::Scene;
+use crate::collision::narrow::nearest::Search;
+use crate::collision::narrow::pair::touches;
+use crate::geometry::{Aabb, Placed, square};
+use crate::num::lesser;
+
+/// At most so many pieces are taken out of a scene.
+const MOST: usize = 64;
+
+/// The pieces of a scene within a range of where a motion goes. Asked about shapes on that way it answers as the scene does; only about
+/// what is farther off than the range, or where the pieces are too many to be worth it, it has to ask the scene.
+pub(crate) struct Vicinity<'a> {
+    scene: &'a Scene,
+    range: f64,
+    pieces: Option<SmallVec<[(Aabb, u32); MOST]>>,
+}
+
+impl<'a> Vicinity<'a> {
+    /// All of a scene.
+    pub(crate) fn all(scene: &'a Scene) -> Self {
+        Vicinity { scene, range: 0.0, pieces: None }
+    }
+
+    /// What is within `range` metres of a box.
+    pub(crate) fn new(scene: &'a Scene, within: &Aabb, range: f64) -> Self {
+        let mut pieces = SmallVec::new();
+        let mut fits = true;
+        scene.index.each_near(within, range, |piece| {
+            fits = pieces.len() < MOST;
+            if fits {
+                pieces.push((Aabb::of(&scene.pieces[piece]), piece as u32));
+            }
+            !fits
+        });
+        Vicinity { scene, range, pieces: fits.then_some(pieces) }
+    }
+
+    /// About what is farther off than this, metres, it asks the scene.
+    pub(crate) fn range(&self) -> f64 {
+        if self.pieces.is_some() { self.range } else { f64::INFINITY }
+    }
+
+    /// The distance of a valid shape on the way from the nearest piece, metres, if it is less than `within`. Once a piece is known to be no farther
+    /// than `enough`, how near the nearest is is no longer asked: any such distance will do.
+    pub(crate) fn distance(&self, shape: &Placed, enough: f64, within: f64) -> Option<f64> {
+        let Some(pieces) = &self.pieces else { return self.in_scene(shape, enough, within) };
+        let near = self.among(pieces, shape, enough, lesser(within, self.range));
+        if near.is_some() || within <= self.range { near } else { self.in_scene(shape, enough, within) }
+    }
+
+    /// As [`distance`](Self::distance), of all pieces of the scene.
+    fn in_scene(&self, shape: &Placed, enough: f64, within: f64) -> Option<f64> {
+        let mut look = Look::new(self.scene, shape, enough, within);
+        let from = look.extent();
+        self.scene.index.nearest(&from, within, |piece| look.at(piece));
+        look.found()
+    }
+
+    /// As [`distance`](Self::distance), of these pieces alone.
+    fn among(&self, pieces: &[(Aabb, u32)], shape: &Placed, enough: f64, within: f64) -> Option<f64> {
+        let mut look = Look::new(self.scene, shape, enough, within);
+        let from = look.extent();
+        let mut squares = [f64::INFINITY; MOST];
+        let (mut first, mut nearest) = (0, f64::INFINITY);
+        for (i, ((extent, _), distance)) in pieces.iter().zip(&mut squares).enumerate() {
+            *distance = from.squared_distance(extent);
+            if *distance < nearest {
+                (first, nearest) = (i, *distance);
+            }
+        }
+        if nearest > square(within) || pieces.is_empty() {
+            return None;
+        }
+        let mut least = square(look.at(pieces[first].1 as usize));
+        for (i, ((_, piece), distance)) in pieces.iter().zip(&squares).enumerate() {
+            if *distance <= least && i != first {
+                least = square(look.at(*piece as usize));
+            }
+        }
+        look.found()
+    }
+
+    /// Whether a valid shape on the way touches a piece.
+    pub(crate) fn touches(&self, shape: &Placed) -> bool {
+        let from = Aabb::of(shape);
+        let touched = |piece: usize| touches(shape, &self.scene.pieces[piece]);
+        match &self.pieces {
+            Some(pieces) => pieces.iter().any(|(e, piece)| from.squared_distance(e) == 0.0 && touched(*piece as usize)),
+            None => {
+                let mut found = false;
+                self.scene.each_within(shape, 0.0, |piece| {
+                    found = touched(piece);
+                    found
+                });
+                found
+            }
+        }
+    }
+}
+
+/// A search for the distance alone, which ends when that is known to be small enough.
+struct Look<'a> {
+    search: Search<'a>,
+    within: f64,
+    enough: f64,
+    /// What was found to be near enough.
+    near: Option<f64>,
+}
+
+impl<'a> Look<'a> {
+    fn new(scene: &'a Scene, shape: &'a Placed, enough: f64, within: f64) -> Self {
+        Look { search: scene.search(shape, within), within, enough, near: None }
+    }
+
+    fn extent(&self) -> Aabb {
+        self.search.extent()
+    }
+
+    /// Looks at a piece and gives the least distance so far; 0 once it is small enough, so that little else is looked at.
+    fn at(&mut self, piece: usize) -> f64 {
+        if self.near.is_some() {
+            return 0.0;
+        }
+        let least = self.search.look_for_distance(piece);
+        if least <= self.enough && least < self.within {
+            self.near = Some(least);
+            return 0.0;
+        }
+        least
+    }
+
+    fn found(self) -> Option<f64> {
+        self.near.or_else(|| self.search.found().map(|(_, n)| n.dist))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::collision::Collision;
+    use crate::geometry::{Footprint, Point2, Segment};
+    use crate::random::{Seed, Stream};
+
+    #[test]
+    fn a_vicinity_answers_as_the_scene_does() {
+        let scene = Scene::apartment();
+        let mut draws = Stream::new(Seed(2), "vicinity");
+        let mut beyond = 0;
+        for _ in 0..300 {
+            let mut at = |reach: f64| Point2::new(draws.uniform(3.0, 3.0 + reach), draws.uniform(2.0, 2.0 + reach));
+            let way = Aabb { min: Point2::new(3.0, 2.0), max: Point2::new(5.0, 4.0) };
+            let vicinity = Vicinity::new(&scene, &way, 0.25);
+            assert!(vicinity.pieces.is_some());
+            let hull = Placed::new([at(2.0), at(2.0)], 0.05);
+            let distance = scene.distance(&Footprint::of_hull(hull.clone()));
+            for within in [0.1, 0.25, 0.5, f64::INFINITY] {
+                let expected = (distance < within).then_some(distance);
+                for vicinity in [&vicinity, &Vicinity::all(&scene)] {
+                    assert_eq!(vicinity.distance(&hull, 0.0, within), expected, "{distance} within {within}");
+                    let near = vicinity.distance(&hull, 0.2, within);
+                    assert!(near == expected || near.is_some_and(|n| n <= 0.2 && distance <= n), "{near:?} {distance}");
+                }
+            }
+            assert_eq!(vicinity.touches(&hull), distance == 0.0);
+            assert_eq!(Vicinity::all(&scene).touches(&hull), distance == 0.0);
+            beyond += usize::from(distance > 0.25);
+        }
+        assert!(beyond > 10 && beyond < 290, "{beyond} beyond the range");
+        let wall = |k: u32| Segment::new(Point2::new(f64::from(k), 0.0), Point2::new(f64::from(k), 1.0));
+        let walls: Vec<Segment> = (0..=MOST as u32).map(wall).collect();
+        let all = Aabb { min: Point2::origin(), max: Point2::new(99.0, 1.0) };
+        assert!(Vicinity::new(&Scene::of_walls(&walls), &all, 1.0).pieces.is_none(), "too much to be worth it");
+        assert!(Vicinity::new(&Scene::of_walls(&walls[1..]), &all, 1.0).pieces.is_some());
+    }
+}

@@ -1,0 +1,260 @@
+//! Whether it is plain that a part's way keeps off everything: what most free motions show at a glance.
+
+use smallvec::SmallVec;
+
+use super::conservative_advancement::Place;
+use crate::collision::narrow::convex::edges;
+use crate::collision::{Collision, Scene};
+use crate::geometry::{Aabb, Footprint, Placed, Point2, Vector2};
+use crate::num::{greater, lesser};
+use crate::robots::Motion;
+
+/// Whether it is plain that every part of a motion from `start` to `end` keeps more than `margin` metres from everything. Not plain does not
+/// mean that it does not. Plain is only what one step of the [march](super::conservative_advancement()) proves too.
+pub(crate) fn is_plainly_clear<M: Motion>(
+    collision: &dyn Collision,
+    motion: &M,
+    margin: f64,
+    (start, end): (&Footprint, &Footprint),
+) -> bool {
+    let mut parts = start.parts().iter().zip(end.parts()).enumerate();
+    parts.all(|(k, (from, to))| collision.clears(from.placed(), to.placed(), margin + motion.sagitta(k, 0.0, 1.0)))
+}
+
+/// Whether a motion is free, by halving what is not plainly clear; `None` where that does not decide in so many halvings. Free is proven, and so
+/// is that it is not: it is in contact somewhere.
+pub(crate) fn halve<M: Motion>(
+    scene: &Scene,
+    motion: &M,
+    (start, end): (&Footprint, &Footprint),
+    halvings: u32,
+) -> Option<bool> {
+    let mut halving = Halving { scene, motion, halvings };
+    let (from, to) = ((0.0, start), (1.0, end));
+    let open = halving.open((0..start.parts().len()).collect(), from, to);
+    if open.is_empty() {
+        return Some(true);
+    }
+    if scene.intersects(start) || scene.intersects(end) {
+        return Some(false);
+    }
+    halving.halves(from, to, &open)
+}
+
+/// Numbers of parts.
+type Parts = SmallVec<[usize; 4]>;
+
+/// A motion looked at half by half.
+struct Halving<'a, M> {
+    scene: &'a Scene,
+    motion: &'a M,
+    /// How often it may still be halved.
+    halvings: u32,
+}
+
+impl<M: Motion> Halving<'_, M> {
+    /// Which of these parts are not plainly clear of everything in a stretch.
+    fn open(&self, mut parts: Parts, from: Place, to: Place) -> Parts {
+        parts.retain(|k| {
+            let [a, b] = [from.1, to.1].map(|footprint| footprint.parts()[*k].placed());
+            !self.scene.clears(a, b, self.motion.sagitta(*k, from.0, to.0))
+        });
+        parts
+    }
+
+    /// As [`halve`], of a stretch between two free places; all parts but these are clear of everything there.
+    fn halves(&mut self, from: Place, to: Place, open: &[usize]) -> Option<bool> {
+        self.halvings = self.halvings.checked_sub(1)?;
+        let middle = 0.5 * (from.0 + to.0);
+        let footprint = self.motion.footprint_at(middle);
+        if self.scene.intersects(&footprint) {
+            return Some(false);
+        }
+        let at = (middle, &footprint);
+        for (from, to) in [(from, at), (at, to)] {
+            let open = self.open(open.into(), from, to);
+            if !open.is_empty() && !self.halves(from, to, &open)? {
+                return Some(false);
+            }
+        }
+        Some(true)
+    }
+}
+
+/// What a part whose vertices go in straight lines from one place to another sweeps over: the hull of the two, which is not computed.
+pub(crate) struct Way<'a> {
+    from: &'a Placed,
+    to: &'a Placed,
+    radius: f64,
+    /// No coordinate is larger.
+    size: f64,
+    bounds: Aabb,
+}
+
+impl<'a> Way<'a> {
+    /// The way between two places of a part; `None` where one of them is not valid.
+    pub(crate) fn new(from: &'a Placed, to: &'a Placed) -> Option<Self> {
+        if !(from.is_valid() && to.is_valid()) {
+            return None;
+        }
+        let radius = greater(from.radius(), to.radius());
+        let infinity = Point2::new(f64::INFINITY, f64::INFINITY);
+        let mut bounds = Aabb { min: infinity, max: -infinity };
+        for p in from.core().iter().chain(to.core()) {
+            bounds.min = Point2::new(lesser(bounds.min.x, p.x), lesser(bounds.min.y, p.y));
+            bounds.max = Point2::new(greater(bounds.max.x, p.x), greater(bounds.max.y, p.y));
+        }
+        Some(Way { from, to, radius, size: bounds.size() + radius, bounds })
+    }
+
+    /// Whether it is plain that all valid pieces of the scene are farther off than `reach`.
+    pub(crate) fn clears(&self, scene: &Scene, reach: f64) -> bool {
+        let range = self.radius + reach + self.slack(scene.size);
+        if !range.is_finite() {
+            return false; // a bound that is no number, or a piece that is no valid shape, which is everywhere
+        }
+        let mut near = false;
+        scene.index.each_near(&self.bounds, range, |piece| {
+            near = !self.passes(&scene.pieces[piece], reach, scene.size);
+            near
+        });
+        !near
+    }
+
+    /// Whether it is plain that a valid piece, no coordinate of which is larger than `size`, is farther off than `reach`: some line parts them
+    /// by more than that.
+    pub(crate) fn passes(&self, piece: &Placed, reach: f64, size: f64) -> bool {
+        let reach = reach + self.radius + piece.radius() + self.slack(size);
+        let parts = |ahead: Vector2| {
+            let along = |points: &[Point2]| {
+                let heights = points.iter().map(|p| p.coords.dot(&ahead));
+                heights.fold((f64::INFINITY, f64::NEG_INFINITY), |(lo, hi), h| (lesser(h, lo), greater(h, hi)))
+            };
+            let ((a, b), (c, d), (e, f)) = (along(self.from.core()), along(self.to.core()), along(piece.core()));
+            let gap = greater(e - greater(b, d), lesser(a, c) - f);
+            gap > 0.0 && gap * gap > reach * reach * ahead.norm_squared()
+        };
+        // from one middle to the other, then across the sides that either has
+        let middle = |core: &[Point2]| core[0] + (core[core.len() / 2] - core[0]) * 0.5;
+        let sides = |core: &[Point2]| match core {
+            [_] => false,
+            // beside a segment, or beyond an end
+            [p, q] => parts(across(*p, *q)) || parts(q - p),
+            _ => edges(core).any(|(p, q)| parts(across(p, q))),
+        };
+        parts(middle(piece.core()) - middle(self.from.core()))
+            || sides(piece.core())
+            || sides(self.from.core())
+            || sides(self.to.core())
+            || self.from.core().iter().zip(self.to.core()).any(|(p, q)| parts(across(*p, *q)))
+    }
+
+    /// More than the rounding of all distances here, and than what a step of the march takes off for it, metres.
+    fn slack(&self, size: f64) -> f64 {
+        1e-12 * (self.size + size)
+    }
+}
+
+/// Square to the line through two points.
+fn across(p: Point2, q: Point2) -> Vector2 {
+    let u = q - p;
+    Vector2::new(u.y, -u.x)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::conservative_advancement::march;
+    use super::*;
+    use crate::collision::{Checker, MarchOptions};
+    use crate::configuration::{HitchCfg, R2, T2, Tn};
+    use crate::geometry::{Pose2, Shape, Vertices, convex_hull};
+    use crate::random::{Seed, Stream};
+    use crate::robots::{HITCH, Reach, Robot, RustyDisc};
+    use crate::worlds::Bounds;
+
+    /// A point, a segment or a polygon, every other one with corners on a lattice.
+    fn shape(draws: &mut Stream, at: f64) -> Placed {
+        let (count, lattice) = ([1, 2, 4, 5][draws.below(4) as usize], draws.below(2) == 0);
+        let mut x = || if lattice { draws.below(5) as f64 } else { draws.uniform(0.0, 4.0) };
+        let points: Vec<Point2> = (0..count).map(|_| Point2::new(at + x(), x())).collect();
+        Placed::new(convex_hull(&points), [0.0, 0.5][draws.below(2) as usize])
+    }
+
+    #[test]
+    fn what_is_plain_is_so_and_most_that_is_so_is_plain() {
+        let mut draws = Stream::new(Seed(8), "ways");
+        let bounds = Bounds { min: Point2::origin(), max: Point2::new(9.0, 4.0) };
+        let (mut apart, mut plain) = (0, 0);
+        for i in 0..4000 {
+            let (from, piece) = (shape(&mut draws, 0.0), shape(&mut draws, [2.0, 4.0, 5.0][i % 3]));
+            let by = Vector2::new(draws.below(3) as f64 - 1.0, draws.uniform(-1.0, 1.0));
+            let turned = |p: &Point2| if i % 2 == 0 { p + by } else { Point2::new(-p.y, p.x) + by };
+            let to = Placed::new(from.core().iter().map(turned).collect::<Vertices>(), from.radius());
+            let hull = Shape::Hull { vertices: piece.core().into(), radius: piece.radius() };
+            let scene = Scene::empty(bounds).with_obstacle("piece", hull);
+            let exact = scene.distance_of_hull(from.hull_with(&to));
+            for reach in [exact, 1.1 * exact, exact + 1e-9, 0.0] {
+                assert!(
+                    !scene.clears(&from, &to, reach) || reach < exact,
+                    "{from:?} {to:?} {piece:?} {reach} of {exact}"
+                );
+            }
+            if exact > 0.0 {
+                apart += 1;
+                plain += usize::from(scene.clears(&from, &to, 0.95 * exact));
+            }
+        }
+        assert!(apart > 1000 && 100 * plain > 95 * apart, "{plain} of {apart}");
+    }
+
+    #[test]
+    fn what_is_no_valid_shape_is_never_plain() {
+        let bounds = Bounds { min: Point2::origin(), max: Point2::new(9.0, 4.0) };
+        let disc = |x: f64, radius: f64| Placed::new([Point2::new(x, 0.0)], radius);
+        let scene = Scene::empty(bounds);
+        assert!(scene.clears(&disc(0.0, 0.1), &disc(1.0, 0.1), 1.0), "there is nothing");
+        assert!(!scene.clears(&disc(0.0, 0.1), &disc(f64::NAN, 0.1), 1.0));
+        assert!(!scene.clears(&disc(0.0, f64::NAN), &disc(1.0, 0.1), 1.0));
+        let post = scene.clone().with_obstacle("post", Shape::Disc { radius: 0.1 });
+        assert!(!post.clears(&disc(5.0, 0.1), &disc(6.0, 0.1), f64::NAN), "a bound that is no number");
+        let scene = scene.with_obstacle("nothing that is", Shape::Disc { radius: f64::NAN });
+        assert!(!scene.clears(&disc(50.0, 0.1), &disc(60.0, 0.1), 1.0));
+    }
+
+    /// Whether edges are free, asked four ways: at a glance, by verdict, by the march, and by contact at many places.
+    fn agree<R: Robot>(checker: &Checker<R>, a: &R::Configuration, b: &R::Configuration) -> bool {
+        let (free, edge) = (checker.edge_free(a, b), checker.robot().edge(a, b).unwrap());
+        assert_eq!(free, checker.edge(a, b).unwrap().is_free(), "{a} to {b}");
+        assert_eq!(free, march(checker.scene(), &edge, MarchOptions::default(), None).is_free(), "{a} to {b}");
+        let touches = |i: u32| checker.scene().intersects(&edge.footprint_at(f64::from(i) / 200.0));
+        assert!(!free || !(0..=200).any(touches), "{a} to {b}");
+        free
+    }
+
+    #[test]
+    fn an_edge_is_free_exactly_where_its_verdict_says_so() {
+        let mut draws = Stream::new(Seed(9), "edges");
+        let (arm, arm3) = (
+            Checker::new(Scene::workbench(), Reach::<2>::workbench()),
+            Checker::new(Scene::workbench(), Reach::<3>::redundant()),
+        );
+        let (car, towing) = (Checker::new(Scene::lot(), HITCH), Checker::new(Scene::lot(), HITCH.with_trailer()));
+        let disc = Checker::new(Scene::apartment(), RustyDisc::default());
+        let (mut free, mut hit) = ([0; 5], [0; 5]);
+        let mut count = |robot: usize, is: bool| if is { free[robot] += 1 } else { hit[robot] += 1 };
+        for _ in 0..400 {
+            let mut u = |size: f64| draws.uniform(-size, size);
+            let (a, b) = ([u(3.0), u(3.0), u(3.0)], [u(1.0), u(1.0), u(1.0)]);
+            count(0, agree(&arm, &T2::new(a[0], a[1]), &T2::new(a[0] + b[0], a[1] + b[1])));
+            count(1, agree(&arm3, &Tn(a), &Tn([a[0] + b[0], a[1] + b[1], a[2] + b[2]])));
+            let pose = Pose2::new(7.0 + 2.0 * a[0], 5.0 + a[1], a[2]);
+            let then = Pose2::new(pose.x + b[0], pose.y + b[1], pose.theta + b[2]);
+            let at = |body: Pose2, trailer| HitchCfg { body, trailer };
+            count(2, agree(&car, &at(pose, None), &at(then, None)));
+            let from = R2::new(6.0 + 2.0 * a[0], 4.0 + a[1]);
+            count(4, agree(&disc, &from, &R2::new(from.0.x + b[0], from.0.y + b[1])));
+            count(3, agree(&towing, &at(pose, Some(a[2])), &at(then, Some(a[2] + b[0]))));
+        }
+        assert!(free.iter().chain(&hit).all(|n| *n > 40), "{free:?} free, {hit:?} not");
+    }
+}

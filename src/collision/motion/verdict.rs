@@ -1,0 +1,64 @@
+//! `EdgeVerdict`, what the certified march says about a motion.
+
+use crate::collision::ObstacleId;
+
+/// What is known of a motion over its parameter `s` in `[0, 1]`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum EdgeVerdict {
+    /// The whole motion is proven free.
+    Free {
+        /// A proven lower bound of the clearance along it, metres; infinity in an empty scene.
+        clearance: f64,
+    },
+    /// The motion hits.
+    Hit {
+        /// Everything before this `s` is proven free. 0 when the start is in contact.
+        free_until: f64,
+        /// At this `s` the footprint is in contact.
+        contact_at: f64,
+        /// The part in contact there.
+        part: usize,
+        /// The obstacle it touches.
+        obstacle: ObstacleId,
+    },
+    /// Neither could be shown.
+    Unresolved {
+        /// Everything before this `s` is proven free.
+        free_until: f64,
+        /// How far the footprint can still move after `free_until`, to the motion's end or the first contact known, metres.
+        gap: f64,
+        /// Why the march ended.
+        reason: UnresolvedReason,
+    },
+}
+
+/// Why a march ended without a verdict.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum UnresolvedReason {
+    /// The clearance fell below what rounding lets a proof tell from contact.
+    Tolerance,
+    /// The budget of steps was used up.
+    Budget,
+}
+
+/// What a march asks for.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct MarchOptions {
+    /// The clearance to be proven, metres: a motion that comes closer counts as a hit. 0 for plain freedom.
+    pub margin: f64,
+    /// The greatest number of proof attempts.
+    pub budget: u32,
+}
+
+impl Default for MarchOptions {
+    fn default() -> Self {
+        MarchOptions { margin: 0.0, budget: 4096 }
+    }
+}
+
+impl EdgeVerdict {
+    /// Whether the whole motion is proven free.
+    pub fn is_free(&self) -> bool {
+        matches!(self, EdgeVerdict::Free { .. })
+    }
+}

@@ -1,0 +1,164 @@
+//! `verify_certificate`, which accepts certificates. It knows the contracts of [`Motion`] and [`Collision`] and nothing of how a
+//! certificate is made: its hull, its bound and its rounding are its own. Only the exact orientation predicate serves both.
+
+use crate::collision::{Certificate, CertificateError, Collision, ProvenStep};
+use crate::geometry::{Footprint, Placed, Point2, Vertices, orientation};
+use crate::num::{greater, lesser, ulp};
+use crate::robots::Motion;
+use crate::short_list::ShortList;
+
+/// What a distance and the vertices of a placed shape may be off by, ulps of the largest coordinate: 16 each.
+const ROUNDING: f64 = 32.0;
+
+/// Accepts a certificate when its steps join from 0 on and each is proven by the distance from the hull of its two end
+/// footprints and the motion's sagitta bound. Returns where the proof ends.
+///
+/// Within a step no point of a part strays farther than the sagitta from the chord between its places at the two ends, which lies in
+/// the convex hull of the part's two placed shapes. So the hull's distance, less the sagitta, is a lower bound of the clearance; 32 ulps
+/// of the largest coordinate are taken off for rounding.
+///
+/// # Errors
+/// [`CertificateError`] names the first step that fails.
+pub fn verify_certificate<M: Motion>(
+    collision: &dyn Collision,
+    motion: &M,
+    certificate: &Certificate,
+) -> Result<f64, CertificateError> {
+    let mut at = 0.0;
+    for (i, step) in certificate.steps().iter().enumerate() {
+        if step.from != at {
+            return Err(CertificateError::Broken(i));
+        }
+        if !(step.to > step.from && step.to <= 1.0) {
+            return Err(CertificateError::Backward(i));
+        }
+        let proven = proven(collision, motion, step);
+        if !(step.clearance <= proven && proven > certificate.margin()) {
+            return Err(CertificateError::Unproven { step: i, claimed: step.clearance, proven });
+        }
+        at = step.to;
+    }
+    Ok(at)
+}
+
+/// The clearance that the contracts prove along a step, metres; 0 where the footprints at its ends don't match or are not valid.
+fn proven<M: Motion>(collision: &dyn Collision, motion: &M, step: &ProvenStep) -> f64 {
+    let ends = [step.from, step.to].map(|s| motion.footprint_at(s));
+    let [from, to] = [0, 1].map(|i: usize| ends[i].parts());
+    if from.len() != to.len() || !ends.iter().all(Footprint::is_valid) {
+        return 0.0;
+    }
+    let mut least = f64::INFINITY;
+    for (k, (p, q)) in from.iter().zip(to).enumerate() {
+        let (p, q) = (p.placed(), q.placed());
+        let points: ShortList<Point2, 16> = p.core().iter().chain(q.core()).copied().collect();
+        let vertices = around(&points);
+        let radius = greater(p.radius(), q.radius());
+        let size = vertices.iter().fold(greater(radius, 1.0), |m, v| greater(greater(v.x.abs(), v.y.abs()), m));
+        let distance = collision.distance_of_hull(Placed::new(vertices, radius));
+        let rounding = if distance.is_finite() { ROUNDING * ulp(size + distance) } else { 0.0 };
+        let proven = distance - motion.sagitta(k, step.from, step.to) - rounding;
+        if proven.is_nan() {
+            return 0.0;
+        }
+        least = lesser(proven, least);
+    }
+    least
+}
+
+/// The corners of the convex hull, counter-clockwise from the leftmost (the lowest of these), by wrapping a string around the points
+/// (Jarvis, 1973); points on an edge are left out.
+fn around(points: &[Point2]) -> Vertices {
+    let before = |a: &Point2, b: &Point2| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y));
+    let Some(&start) = points.iter().min_by(|a, b| before(a, b)) else { return Vertices::new() };
+    let (mut corners, mut at) = (Vertices::from([start]), start);
+    // no hull has more corners than there are points
+    for _ in 0..points.len() {
+        let mut next = start;
+        for &p in points {
+            let turn = orientation(at, next, p);
+            let farther = (p.x - at.x).abs() > (next.x - at.x).abs() || (p.y - at.y).abs() > (next.y - at.y).abs();
+            if next == at || turn < 0.0 || (turn == 0.0 && farther) {
+                next = p;
+            }
+        }
+        if next == start {
+            break;
+        }
+        corners.push(next);
+        at = next;
+    }
+    corners
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::collision::march;
+    use crate::collision::{MarchOptions, Scene};
+    use crate::configuration::R2;
+    use crate::geometry::{Part, Pose2, Segment, Shape, convex_hull};
+    use crate::random::{Seed, Stream};
+    use crate::robots::Rates;
+
+    /// The two hulls share no code but the predicate: sorting and two chains there, a string around the points here.
+    #[test]
+    fn a_string_around_the_points_is_their_hull() {
+        let mut s = Stream::new(Seed(5), "string");
+        for i in 0..4000 {
+            let n = 1 + s.below(10) as usize;
+            let mut x = || if i % 2 == 0 { s.below(4) as f64 } else { s.uniform(-1.0, 1.0) };
+            let points: Vec<Point2> = (0..n).map(|_| Point2::new(x(), x())).collect();
+            assert_eq!(around(&points)[..], convex_hull(&points)[..], "{points:?}");
+        }
+        assert!(around(&[]).is_empty());
+    }
+
+    /// Two segments that stand still; one may say nothing sensible about how it moves, and a number of either may be none at one end.
+    #[derive(Default)]
+    struct Odd {
+        silent: Option<usize>,
+        lost: Option<(usize, f64)>,
+    }
+
+    impl Motion for Odd {
+        type Configuration = R2;
+
+        fn at(&self, _s: f64) -> R2 {
+            R2::new(0.0, 0.0)
+        }
+
+        fn footprint_at(&self, s: f64) -> Footprint {
+            // two ends and a radius of either part
+            let mut numbers = [0.0, 0.5, 0.1, 1.0, 1.5, 0.1];
+            if let Some((number, _)) = self.lost.filter(|(_, at)| *at == s) {
+                numbers[number] = f64::NAN;
+            }
+            let part = |[a, b, radius]: [f64; 3]| {
+                let (a, b) = (Point2::new(a, 0.0), Point2::new(b, 0.0));
+                Part::new(Pose2::IDENTITY, Shape::Capsule { a, b, radius })
+            };
+            let [a, b, c, d, e, f] = numbers;
+            Footprint::new([part([a, b, c]), part([d, e, f])])
+        }
+
+        fn rates(&self, part: usize) -> Rates {
+            Rates { speed: 0.0, acceleration: if self.silent == Some(part) { f64::NAN } else { 0.0 } }
+        }
+    }
+
+    #[test]
+    fn what_is_no_number_proves_nothing_wherever_it_is() {
+        let wall = [Segment::new(Point2::new(-5.0, 2.0), Point2::new(5.0, 2.0))];
+        let scene = Scene::of_walls(&wall);
+        let claim = Certificate::from_steps(0.0, vec![ProvenStep { from: 0.0, to: 1.0, clearance: 1.0 }]);
+        assert_eq!(verify_certificate(&scene, &Odd::default(), &claim), Ok(1.0), "1.9 m from the wall");
+        let silent = [0, 1].map(|part| Odd { silent: Some(part), lost: None });
+        let lost = [0.0, 1.0].map(|at| [0, 1, 2, 3, 4, 5].map(|number| Odd { silent: None, lost: Some((number, at)) }));
+        for odd in silent.iter().chain(lost.as_flattened()) {
+            assert!(verify_certificate(&scene, odd, &claim).is_err(), "{:?} {:?}", odd.silent, odd.lost);
+            let verdict = march(&scene, odd, MarchOptions::default(), None);
+            assert!(!verdict.is_free(), "{:?} {:?}", odd.silent, odd.lost);
+        }
+    }
+}

@@ -1,0 +1,61 @@
+//! `Sides`, half-planes about a shape: what lies outside of one is far from the shape.
+
+use super::convex::edges;
+use crate::geometry::{Placed, Point2};
+use crate::num::{greater, sqrt};
+
+/// At most so many half-planes about a shape tell what is far from it.
+const SIDES: usize = 8;
+
+/// Half-planes that hold the shape: unit normals, and how far out each lies.
+pub(crate) struct Sides {
+    count: usize,
+    nx: [f64; SIDES],
+    ny: [f64; SIDES],
+    out: [f64; SIDES],
+}
+
+impl Sides {
+    /// The half-planes along the sides of a shape; of a segment also across its ends.
+    pub(crate) fn of(shape: &Placed) -> Self {
+        let core = shape.core();
+        let mut sides = Sides { count: 0, nx: [0.0; SIDES], ny: [0.0; SIDES], out: [0.0; SIDES] };
+        if core.len() < 2 {
+            return sides;
+        }
+        for (a, b) in edges(core).take(SIDES) {
+            let u = b - a;
+            let inverse = 1.0 / sqrt(u.norm_squared());
+            let (ux, uy) = (u.x * inverse, u.y * inverse);
+            if core.len() > 2 {
+                sides.push(core, (uy, -ux));
+            } else {
+                // of a segment both sides and both ends
+                for normal in [(uy, -ux), (-uy, ux), (ux, uy), (-ux, -uy)] {
+                    sides.push(core, normal);
+                }
+            }
+        }
+        sides
+    }
+
+    /// The half-plane with this outward normal that just holds the core.
+    fn push(&mut self, core: &[Point2], (nx, ny): (f64, f64)) {
+        let out = core.iter().fold(f64::NEG_INFINITY, |out, v| greater(nx * v.x + ny * v.y, out));
+        (self.nx[self.count], self.ny[self.count], self.out[self.count]) = (nx, ny, out);
+        self.count += 1;
+    }
+
+    /// How far the core of a piece lies outside the half-plane that it is farthest outside of; rounded.
+    pub(crate) fn gap(&self, piece: &Placed) -> f64 {
+        let mut most = f64::NEG_INFINITY;
+        for ((nx, ny), out) in self.nx.iter().zip(&self.ny).zip(&self.out).take(self.count) {
+            let nearest = piece.core().iter().fold(f64::INFINITY, |least, v| {
+                let along = nx * v.x + ny * v.y;
+                if along < least { along } else { least }
+            });
+            most = greater(nearest - out, most);
+        }
+        most
+    }
+}

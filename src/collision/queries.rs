@@ -1,0 +1,68 @@
+//! The four questions put to a scene.
+
+use super::motion::closed_form::verdict;
+use super::motion::separation::Way;
+use super::motion::swept::{self, SWEEP};
+use super::narrow::pair::touches;
+use super::{Collision, ObstacleId, Scene, Witness};
+use crate::geometry::{Footprint, Placed};
+
+impl Collision for Scene {
+    fn intersects(&self, footprint: &Footprint) -> bool {
+        if !footprint.is_valid() {
+            return true;
+        }
+        footprint.parts().iter().any(|part| {
+            let mut hit = false;
+            self.each_within(part.placed(), 0.0, |piece| {
+                hit = touches(part.placed(), &self.pieces[piece]);
+                hit
+            });
+            hit
+        })
+    }
+
+    fn distance(&self, footprint: &Footprint) -> f64 {
+        if !footprint.is_valid() {
+            return 0.0;
+        }
+        let mut least = f64::INFINITY;
+        for part in footprint.parts() {
+            least = self.nearest_piece(part.placed(), least).map_or(least, |(_, n)| n.dist);
+            if least == 0.0 {
+                break;
+            }
+        }
+        least
+    }
+
+    fn distance_of_hull(&self, hull: Placed) -> f64 {
+        if !hull.is_valid() {
+            return 0.0;
+        }
+        self.nearest_piece(&hull, f64::INFINITY).map_or(f64::INFINITY, |(_, n)| n.dist)
+    }
+
+    fn clears(&self, from: &Placed, to: &Placed, reach: f64) -> bool {
+        Way::new(from, to).is_some_and(|way| way.clears(self, reach))
+    }
+
+    fn witness(&self, footprint: &Footprint) -> Option<Witness> {
+        if !footprint.is_valid() {
+            return None;
+        }
+        let mut best: Option<Witness> = None;
+        for (part, shape) in footprint.parts().iter().map(|p| p.placed()).enumerate() {
+            let within = best.map_or(f64::INFINITY, |w| w.dist);
+            if let Some((piece, n)) = self.nearest_piece(shape, within) {
+                let obstacle = ObstacleId(self.owners[piece]);
+                best = Some(Witness { on_robot: n.on_a, on_obstacle: n.on_b, dist: n.dist, part, obstacle });
+            }
+        }
+        best
+    }
+
+    fn swept(&self, a: &Footprint, b: &Footprint) -> bool {
+        swept::hits(self, a, b, |motion| verdict(self, motion, SWEEP.budget, None))
+    }
+}

@@ -1,0 +1,93 @@
+//! `WidgetText`, what stands around a widget: read from the one manifest in assets/.
+
+mod formula;
+
+pub use formula::{Formula, Level, Term};
+
+use std::sync::LazyLock;
+
+use serde::Deserialize;
+
+use crate::picture::Role;
+
+/// The words of one widget.
+#[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct WidgetText {
+    /// Its id, by which a page names it.
+    pub id: String,
+    /// Its title.
+    pub title: String,
+    /// Its title on the rail.
+    short: String,
+    /// The misconception it removes, in one line.
+    pub misconception: String,
+    /// What it shows, for readers who do not see it.
+    pub description: String,
+    /// The colour key.
+    pub key: Vec<KeyText>,
+    /// What a new reader may try first.
+    pub hints: Vec<String>,
+}
+
+/// An entry of a colour key.
+#[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct KeyText {
+    role: String,
+    /// What the role stands for here.
+    pub text: String,
+}
+
+impl WidgetText {
+    /// Its title on the rail: a word.
+    pub fn short(&self) -> &str {
+        &self.short
+    }
+}
+
+impl KeyText {
+    /// The role; text for a name that is none, which a test excludes.
+    pub fn role(&self) -> Role {
+        Role::ALL.into_iter().find(|r| r.name() == self.role).unwrap_or(Role::Text)
+    }
+}
+
+static WIDGETS: LazyLock<Vec<WidgetText>> =
+    LazyLock::new(|| ron::from_str(include_str!("../../assets/widgets.ron")).unwrap_or_default());
+
+/// The words of every widget, in the order of the rail.
+pub fn widgets() -> &'static [WidgetText] {
+    &WIDGETS
+}
+
+/// The number on the rail of the widget with this id.
+pub fn number_of(id: &str) -> Option<usize> {
+    widgets().iter().position(|w| w.id == id)
+}
+
+/// The words of the widget with this id.
+pub fn widget(id: &str) -> Option<&'static WidgetText> {
+    widgets().iter().find(|w| w.id == id)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_manifest_is_whole() {
+        let parsed: Vec<WidgetText> = ron::from_str(include_str!("../../assets/widgets.ron")).unwrap();
+        assert_eq!(parsed, widgets());
+        assert!(widget("dashboard").is_some() && widget("a cat").is_none());
+        for widget in widgets() {
+            for words in [&widget.id, &widget.title, &widget.short, &widget.misconception, &widget.description] {
+                assert!(!words.trim().is_empty(), "{}", widget.id);
+            }
+            assert!(!widget.misconception.contains('\n') && !widget.key.is_empty() && !widget.hints.is_empty());
+            for entry in &widget.key {
+                assert_eq!(entry.role().name(), entry.role, "{}", widget.id);
+            }
+        }
+    }
+}

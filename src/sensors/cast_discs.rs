@@ -1,0 +1,47 @@
+//! Rays that meet a disc.
+
+use super::rays::{Fan, Rays, raised, some};
+use super::view::View;
+use super::wedges::turns;
+use crate::collision::{Circle, LANES};
+use crate::num::sqrt;
+
+/// More than the errors of the two bearings, in turns.
+const SLACK: f64 = 1e-5;
+
+/// Raises the inverse range of every ray that meets the disc: of those between the two tangents.
+#[inline(always)]
+pub(super) fn raise_circle(circle: &Circle, view: &View, fan: &mut Fan) {
+    let (cx, cy, r) = (circle.centre.x - view.origin.x, circle.centre.y - view.origin.y, circle.radius);
+    let (d2, r2) = (cx * cx + cy * cy, r * r);
+    let outside = d2 - r2; // positive: the origin is not inside
+    if outside <= 0.0 || sqrt(d2) - r > view.reach {
+        return;
+    }
+    let (middle, half) = (turns(cx, cy) - view.heading, turns(sqrt(outside), r) + SLACK);
+    let forward = |turns: f64| if turns < 0.0 { turns + 1.0 } else { turns };
+    let begin = forward(forward(middle) - half);
+    let end = begin + 2.0 * half;
+    let mut raise = |from: f64, to: f64| {
+        let block = |turns: f64| (turns * view.rays) as usize / LANES;
+        for block in some(&mut fan.blocks, block(from)..block(to) + 1) {
+            meet(block, (cx, cy), r2, outside, view.nothing);
+        }
+    };
+    raise(begin, end);
+    if end >= 1.0 {
+        raise(0.0, end - 1.0);
+    }
+}
+
+#[inline(always)]
+fn meet(rays: &mut Rays, (cx, cy): (f64, f64), r2: f64, outside: f64, nothing: f64) {
+    for ((dx, dy), inverse) in rays.dx.iter().zip(&rays.dy).zip(&mut rays.inverse) {
+        let along = cx * dx + cy * dy;
+        let across = cx * dy - cy * dx;
+        let half = r2 - across * across;
+        // the nearer root of t^2 - 2 t along + outside = 0, as 1/t = (along + sqrt(half)) / outside
+        let value = if (along > 0.0) & (half >= 0.0) { (along + sqrt(half)) / outside } else { 0.0 };
+        *inverse = raised(*inverse, value, nothing);
+    }
+}

@@ -1,0 +1,167 @@
+//! A scan of a large world: ring by ring outward, leaving out what only closed sectors could see.
+
+use super::cast_segments::Desk;
+use super::kernel::Kernel;
+use super::kernel::raise;
+use super::open_rays::Groups;
+use super::rays::Fan;
+use super::sectors;
+use super::view::View;
+use super::wedges::{BATCH, Batch};
+use crate::collision::{Cells, LANES, Place, SegmentSoup};
+
+/// What a walk needs again and again.
+#[derive(Clone, Debug)]
+pub(super) struct Walk {
+    groups: Groups,
+    /// In which scan each thing was last met.
+    met: Vec<u32>,
+    scan: u32,
+    /// The cells of the ring under way that are looked at.
+    cells: Vec<usize>,
+    pending: Pending,
+}
+
+/// The segments met, by their numbers in the grid, in the order they were met.
+#[derive(Clone, Debug)]
+struct Pending {
+    numbers: Vec<u32>,
+    /// Those from here on are not raised yet.
+    from: usize,
+    count: usize,
+    /// The blocks that were open when the first of those was met: only what was closed by then they cannot raise.
+    open: u64,
+    /// Ends in structure-of-arrays order.
+    arrays: Box<[Batch; 4]>,
+}
+
+impl Default for Walk {
+    fn default() -> Self {
+        let arrays = Box::new([[f64::NAN; BATCH]; 4]);
+        let pending = Pending { numbers: Vec::new(), from: 0, count: 0, open: u64::MAX, arrays };
+        Walk { groups: Groups::default(), met: Vec::new(), scan: 0, cells: Vec::new(), pending }
+    }
+}
+
+impl Pending {
+    /// Raises the rays that meet the segments. If there is more to come, less than eight are kept for later: a ray is only taken
+    /// for open a little longer then.
+    fn raise(&mut self, more: bool, cells: &Cells, view: &View, kernel: &Kernel, fan: &mut Fan, desk: &mut Desk) {
+        let Pending { numbers, from, count, open, arrays } = self;
+        let kept = if more { (*count - *from) % LANES } else { 0 };
+        let [ax, ay, bx, by] = &mut **arrays;
+        fan.open = *open;
+        for numbers in numbers[*from..*count - kept].chunks(BATCH) {
+            let places = numbers.len().next_multiple_of(LANES).min(BATCH);
+            for (k, &number) in numbers.iter().enumerate() {
+                let s = cells.segment(number);
+                (ax[k], ay[k], bx[k], by[k]) = (s.a.x, s.a.y, s.b.x, s.b.y);
+            }
+            ax[numbers.len()..places].fill(f64::NAN);
+            raise([&ax[..places], &ay[..places], &bx[..places], &by[..places]], view, kernel, fan, desk);
+        }
+        *from = *count - kept;
+    }
+}
+
+impl Walk {
+    /// Room for so many things.
+    fn prepare(&mut self, things: usize) {
+        if self.met.len() < things || self.scan == u32::MAX {
+            self.met = vec![0; things];
+            self.pending.numbers = vec![0; things + 1];
+            self.scan = 0;
+        }
+        self.scan += 1;
+        (self.pending.from, self.pending.count) = (0, 0);
+    }
+
+    /// Takes the cells of a ring that open sectors see within reach.
+    fn take_cells(&mut self, cells: &Cells, place: &Place, ring: i64, open: u64, reach: f64) {
+        if ring > sectors::LISTED {
+            self.cells.clear();
+            cells.each_in_ring(place, ring, |cell| self.cells.push(cell));
+            return;
+        }
+        let [right, left, upper, lower] = cells.sides(place, 1);
+        let listed = sectors::ring(ring, left > right, lower > upper);
+        let mut count = 0;
+        self.cells.resize(listed.len() + 1, 0);
+        for cell in listed {
+            let (column, row) = (place.column + cell.i, place.row + cell.j);
+            let wanted = (cell.sectors & open != 0) & (cell.near <= reach) & cells.holds(column, row);
+            if let Some(place) = self.cells.get_mut(count) {
+                *place = cells.number(column, row);
+            }
+            count += usize::from(wanted);
+        }
+        self.cells.truncate(count);
+    }
+
+    /// Takes what the cells hold and was not met before; discs are raised at once.
+    fn meet(&mut self, soup: &SegmentSoup, cells: &Cells, view: &View, kernel: &Kernel, fan: &mut Fan) {
+        let segments = soup.segments().len();
+        // values of this loop's own, which the compiler need not keep in memory
+        let (met, numbers, scan) = (&mut self.met[..], &mut self.pending.numbers[..], self.scan);
+        let mut count = self.pending.count;
+        for &cell in &self.cells {
+            for &number in cells.things(cell) {
+                let Some(met) = met.get_mut(number as usize) else { continue };
+                let new = *met != scan;
+                *met = scan;
+                if let Some(circle) = (number as usize).checked_sub(segments) {
+                    if new {
+                        (kernel.circle)(&soup.circles()[circle], view, fan);
+                    }
+                } else if let Some(place) = numbers.get_mut(count) {
+                    *place = number;
+                    count += usize::from(new);
+                }
+            }
+        }
+        self.pending.count = count;
+    }
+
+    /// Raises the rays that meet anything of the soup under this grid.
+    pub(super) fn raise(
+        &mut self,
+        (soup, cells): (&SegmentSoup, &Cells),
+        view: &View,
+        kernel: &Kernel,
+        fan: &mut Fan,
+        desk: &mut Desk,
+    ) {
+        self.prepare(soup.segments().len() + soup.circles().len());
+        self.groups.begin(fan, view);
+        let mut open = u64::MAX;
+        let place = cells.place(view.origin);
+        let (first, last) = cells.rings(&place);
+        let reach = cells.in_cells(view.reach);
+        let mut ring = first;
+        loop {
+            let distance = cells.least_distance(&place, ring);
+            // hardly ever is a ray closed by then, and so the first two rings are taken as they are
+            if ring > first + 1 {
+                open = self.groups.close(fan, kernel, cells.sides(&place, ring));
+            }
+            // what is left may be nearer than where the walk ends
+            let more = ring <= last && distance <= view.reach && open != 0;
+            if more {
+                if self.pending.from == self.pending.count {
+                    self.pending.open = self.groups.open_blocks();
+                }
+                self.take_cells(cells, &place, ring, open, reach * reach);
+                self.meet(soup, cells, view, kernel, fan);
+            }
+            if !more || self.pending.count - self.pending.from >= LANES {
+                self.pending.raise(more, cells, view, kernel, fan, desk);
+                // fewer than eight were left before this ring, so those left now are of this one
+                self.pending.open = self.groups.open_blocks();
+            }
+            if !more {
+                break;
+            }
+            ring += 1;
+        }
+    }
+}

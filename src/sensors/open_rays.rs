@@ -1,0 +1,89 @@
+//! `Groups`, which rays of a scan under way may still hit something.
+
+use super::kernel::Kernel;
+use super::rays::Fan;
+use super::view::View;
+use crate::collision::LANES;
+
+/// The rays in up to 64 groups of whole blocks, and which of them are open.
+#[derive(Clone, Debug)]
+pub(super) struct Groups {
+    /// How many blocks a group has.
+    blocks: usize,
+    /// The open ones, by bits.
+    open: u64,
+    /// The sectors of the world in which each group's rays lie.
+    sectors: Vec<u64>,
+    /// For each block, 1 if it was open at last; and for each group.
+    left: Vec<u8>,
+    any: [u8; 64],
+}
+
+/// A turn in whole numbers that wrap as it does.
+const TURN: f64 = 4_294_967_296.0;
+
+/// More than the errors of the bearings: 1e-5 turns.
+const SLACK: u32 = 42_950;
+
+/// A ray is closed when it hits this much nearer than the box's side: more than rounding can make of a hit.
+const NEARER: f64 = 1e-6;
+
+/// A group with more of a turn than this lies in all sectors.
+const NEARLY_ALL: f64 = 0.95;
+
+impl Default for Groups {
+    fn default() -> Self {
+        Groups { blocks: 1, open: 0, sectors: Vec::new(), left: Vec::new(), any: [0; 64] }
+    }
+}
+
+impl Groups {
+    /// All are open.
+    pub(super) fn begin(&mut self, fan: &Fan, view: &View) {
+        self.blocks = fan.blocks.len().div_ceil(64).max(1);
+        let count = fan.blocks.len().div_ceil(self.blocks);
+        self.open = u64::MAX >> 64_usize.saturating_sub(count).min(63);
+        let turn = (LANES * self.blocks) as f64 / view.rays;
+        let all = turn > NEARLY_ALL;
+        // a turn in 40 bits, so that the errors of so many groups do not add up to anything
+        let fixed = |turns: f64| (turns * 256.0 * TURN) as u64;
+        let (begin, step) = (fixed(view.heading), fixed(turn));
+        self.left.resize(fan.blocks.len(), 1);
+        self.sectors.clear();
+        self.sectors.extend((0..count as u64).map(|g| {
+            let begin = ((begin + step * g) >> 8) as u32;
+            let end = begin.wrapping_add((step >> 8) as u32).wrapping_add(SLACK);
+            let first = begin.wrapping_sub(SLACK) >> 26;
+            let more = (end >> 26).wrapping_sub(first) & 63;
+            if all { u64::MAX } else { (u64::MAX >> (63 - more)).rotate_left(first) }
+        }));
+    }
+
+    /// Closes the groups all of whose rays hit within a box about the sensor, whose right, left, upper and lower side are so far; the
+    /// sectors of the world with open ones.
+    pub(super) fn close(&mut self, fan: &Fan, kernel: &Kernel, [right, left, upper, lower]: [f64; 4]) -> u64 {
+        const NEAR: f64 = 1.0 + NEARER;
+        (kernel.open)(fan, [NEAR / right, -NEAR / left, NEAR / upper, -NEAR / lower], &mut self.left);
+        if self.blocks > 1 {
+            for (g, blocks) in self.left.chunks(self.blocks).enumerate() {
+                let any = blocks.iter().fold(0, |any, left| any | left);
+                self.any[g % 64] = any;
+            }
+        } else {
+            self.any[..self.left.len()].copy_from_slice(&self.left);
+        }
+        let (mut open, mut sectors) = (0, 0);
+        for (g, (left, mine)) in self.any.iter().zip(&self.sectors).enumerate() {
+            let left = u64::from(*left);
+            open |= left << g;
+            sectors |= left.wrapping_neg() & mine;
+        }
+        self.open = open;
+        sectors
+    }
+
+    /// The blocks with open rays by bits; all, if there are more than 64.
+    pub(super) fn open_blocks(&self) -> u64 {
+        if self.blocks == 1 { self.open } else { u64::MAX }
+    }
+}

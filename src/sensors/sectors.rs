@@ -1,0 +1,127 @@
+//! Where the cells about a sensor's own lie, ring by ring.
+
+use std::sync::LazyLock;
+
+use super::wedges::turns;
+use crate::num::{greater, lesser};
+
+/// A cell by how many columns and rows it is off.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Cell {
+    pub(super) i: i64,
+    pub(super) j: i64,
+    /// In which of 64 sectors of the world it may lie, wherever in a quarter of its own cell the sensor is.
+    pub(super) sectors: u64,
+    /// No point of it is nearer than this many cells, squared.
+    pub(super) near: f64,
+}
+
+/// Cells up to so many rings off are listed.
+pub(super) const LISTED: i64 = 24;
+
+/// More than the errors of the bearings, in turns.
+const SLACK: f64 = 1e-5;
+
+/// The listed cells, ring by ring, as seen from each quarter of the sensor's cell.
+static CELLS: LazyLock<[Vec<Cell>; 4]> = LazyLock::new(|| {
+    [(0.25, 0.25), (0.75, 0.25), (0.25, 0.75), (0.75, 0.75)]
+        .map(|quarter| (0..=LISTED).flat_map(around).map(|off| Cell::seen(quarter, off)).collect())
+});
+
+/// The cells of a ring by how many columns and rows they are off.
+fn around(ring: i64) -> impl Iterator<Item = (i64, i64)> {
+    (-ring..=ring).flat_map(move |j| {
+        let step = if j.abs() == ring { 1 } else { 2 * ring as usize };
+        (-ring..=ring).step_by(step.max(1)).map(move |i| (i, j))
+    })
+}
+
+/// The cells of a ring up to [`LISTED`], in no particular order, as seen from the quarter of the sensor's cell that is to the right or
+/// not, and up or not.
+pub(super) fn ring(number: i64, right: bool, up: bool) -> &'static [Cell] {
+    let before = |ring: i64| (if ring > 0 { (2 * ring - 1) * (2 * ring - 1) } else { 0 }) as usize;
+    let seen = &CELLS[usize::from(right) + 2 * usize::from(up)];
+    seen.get(before(number)..before(number + 1)).unwrap_or_default()
+}
+
+/// The sectors of the world between two bearings in turns from -1 on, the second less than a turn from the first.
+fn sectors_between(begin: f64, end: f64) -> u64 {
+    let (first, last) = ((64.0 * (begin + 1.0)) as u32, (64.0 * (end + 1.0)) as u32);
+    let more = last.saturating_sub(first).min(63);
+    (u64::MAX >> (63 - more)).rotate_left(first % 64)
+}
+
+/// How far a cell reaches from its middle, and a quarter of one from its own, together.
+const REACH: f64 = 0.75;
+
+impl Cell {
+    /// From anywhere in the quarter cell about this middle; seen so, the cell lies in a box.
+    fn seen((x, y): (f64, f64), (i, j): (i64, i64)) -> Self {
+        let middle = (i as f64 + 0.5 - x, j as f64 + 0.5 - y);
+        let apart = |x: f64| greater(x.abs() - REACH, 0.0) * (1.0 - 1e-9);
+        let (across, along) = (apart(middle.0), apart(middle.1));
+        Cell { i, j, sectors: sectors(middle), near: across * across + along * along }
+    }
+}
+
+/// Of the box of [`REACH`] about a point.
+fn sectors((x, y): (f64, f64)) -> u64 {
+    if lesser(REACH - x.abs(), REACH - y.abs()) > -1e-9 {
+        return u64::MAX; // the sensor may be in it
+    }
+    let middle = turns(x, y);
+    let off = [(-REACH, -REACH), (REACH, -REACH), (REACH, REACH), (-REACH, REACH)].map(|(dx, dy)| {
+        let d = turns(x + dx, y + dy) - middle;
+        if d > 0.5 {
+            d - 1.0
+        } else if d < -0.5 {
+            d + 1.0
+        } else {
+            d
+        }
+    });
+    let (least, most) = (off.into_iter().fold(0.0, lesser), off.into_iter().fold(0.0, greater));
+    sectors_between(middle + least - SLACK, middle + most + SLACK)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::num::sin_cos;
+    use crate::random::{Seed, Stream};
+
+    #[test]
+    fn every_line_of_sight_into_a_cell_is_in_its_sectors_and_no_shorter_than_said() {
+        let mut draws = Stream::new(Seed(1), "bearings");
+        for (cell, right, up) in quarters() {
+            for _ in 0..10 {
+                let from = |more: bool, draws: &mut Stream| 0.5 * (f64::from(u8::from(more)) + draws.uniform(0.0, 1.0));
+                let x = cell.i as f64 + draws.uniform(0.0, 1.0) - from(right, &mut draws);
+                let y = cell.j as f64 + draws.uniform(0.0, 1.0) - from(up, &mut draws);
+                assert!(x * x + y * y >= cell.near, "{cell:?} {x} {y}");
+                // the sector as a wedge between two directions, not by the bearing that is judged
+                let sector = (0..64).find(|&s| {
+                    let edge = |s: u32| sin_cos(std::f64::consts::TAU * f64::from(s) / 64.0);
+                    let ((s0, c0), (s1, c1)) = (edge(s), edge(s + 1));
+                    c0 * y - s0 * x >= 0.0 && x * s1 - y * c1 >= 0.0
+                });
+                let sector = sector.unwrap();
+                assert!(cell.sectors & (1 << sector) != 0, "{cell:?} {x} {y} {sector}");
+            }
+        }
+    }
+
+    fn quarters() -> impl Iterator<Item = (&'static Cell, bool, bool)> {
+        let all = |right, up| (0..=LISTED).flat_map(move |n| ring(n, right, up)).map(move |cell| (cell, right, up));
+        all(false, false).chain(all(true, false)).chain(all(false, true)).chain(all(true, true))
+    }
+
+    #[test]
+    fn a_ring_holds_the_cells_so_many_columns_or_rows_off() {
+        for number in 0..=LISTED {
+            let cells = ring(number, true, false);
+            assert_eq!(cells.len() as i64, (8 * number).max(1));
+            assert!(cells.iter().all(|c| c.i.abs().max(c.j.abs()) == number));
+        }
+    }
+}

@@ -1,0 +1,18 @@
+//! `View`, where a scan's rays begin and how far they reach.
+
+use crate::geometry::Point2;
+
+/// From where, and how, a scan looks.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct View {
+    pub(super) origin: Point2,
+    /// What lies farther off is left out: a little more than the range, metres, and its square.
+    pub(super) reach: f64,
+    pub(super) reach_squared: f64,
+    /// The bearing of ray 0, in turns, in [0, 1].
+    pub(super) heading: f64,
+    /// The number of rays.
+    pub(super) rays: f64,
+    /// 0, which the compiler does not know: see [`raised`](super::rays::raised).
+    pub(super) nothing: f64,
+}

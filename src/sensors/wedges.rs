@@ -1,0 +1,167 @@
+//! `Ready`, segments made ready for a scan, several at a time.
+
+use super::view::View;
+use crate::collision::LANES;
+use crate::num::{greater, lesser};
+
+/// More than the error of [`turns`], in turns.
+const SLACK: f64 = 4e-6;
+
+/// Below this share of its two products, p x q is taken from the exact predicate.
+const DOUBT: f64 = 1e-8;
+
+/// Adding it rounds a small number to an integer, which is then in the lowest bits.
+const ROUND: f64 = 6_755_399_441_055_744.0; // 1.5 x 2^52
+
+/// The bearing of a vector in turns, in [0, 1], to within 2e-6: which rays may meet something, not which do.
+///
+/// Abramowitz and Stegun 4.4.49, whose error is below 1e-5 radians.
+#[inline(always)]
+pub(super) fn turns(x: f64, y: f64) -> f64 {
+    const C: [f64; 5] = [0.999_866_0, -0.330_299_5, 0.180_141_0, -0.085_133_0, 0.020_835_1];
+    const TURN: f64 = std::f64::consts::TAU;
+    let (w, h) = (x.abs(), y.abs());
+    let steep = h > w;
+    let t = lesser(h, w) / greater(h, w);
+    let t2 = t * t;
+    let r = t * (C[0] / TURN + t2 * (C[1] / TURN + t2 * (C[2] / TURN + t2 * (C[3] / TURN + t2 * (C[4] / TURN)))));
+    let r = if steep { 0.25 - r } else { r };
+    let r = if x < 0.0 { 0.5 - r } else { r };
+    if y < 0.0 { 1.0 - r } else { r }
+}
+
+/// How many segments are made ready at once.
+pub(super) const BATCH: usize = 64;
+
+/// A number of each segment of a batch.
+pub(super) type Batch = [f64; BATCH];
+
+/// What is known of a segment made ready: see [`Ready::span`].
+pub(super) mod kind {
+    /// No ray can meet it: it is out of reach, or an empty place.
+    pub(in super::super) const NONE: u64 = 0;
+    /// Every ray of the blocks between its first and its last is in the wedge.
+    pub(in super::super) const SURE: u64 = 1;
+    /// It reaches past ray 0, or an end is so near the first ray of a block that it may be on either side.
+    pub(in super::super) const UNSURE: u64 = 2;
+    /// p x q is mostly rounding.
+    pub(in super::super) const DOUBTFUL: u64 = 3;
+}
+
+/// A wedge, and the two coefficients of the inverse range in it.
+#[derive(Clone, Copy)]
+pub(super) struct Wedge {
+    pub(super) p: (f64, f64),
+    pub(super) q: (f64, f64),
+    pub(super) a: f64,
+    pub(super) b: f64,
+}
+
+/// Segments made ready: the wedge, the two coefficients of the inverse range, and the blocks of eight rays that may meet it.
+#[derive(Clone, Debug)]
+pub(super) struct Ready {
+    px: Batch,
+    py: Batch,
+    qx: Batch,
+    qy: Batch,
+    a: Batch,
+    b: Batch,
+    /// The first and the last block with a ray of the wedge in [`BITS`] each, and one of [`kind`].
+    span: [u64; BATCH],
+    /// How many blocks from ray 0 on the wedge reaches beyond the last of all; with [`ROUND`] added.
+    turned: Batch,
+}
+
+impl Default for Ready {
+    fn default() -> Self {
+        let [px, py, qx, qy, a, b, turned] = [[0.0; BATCH]; 7];
+        Ready { px, py, qx, qy, a, b, span: [0; BATCH], turned }
+    }
+}
+
+/// So many bits of a span are the number of a block.
+const BITS: u32 = 31;
+
+/// The integer in a number that had [`ROUND`] added.
+#[inline(always)]
+fn whole(x: f64) -> u64 {
+    x.to_bits() & ((1 << BITS) - 1)
+}
+
+impl Ready {
+    /// The wedge of segment number `k`.
+    #[inline(always)]
+    pub(super) fn wedge(&self, k: usize) -> Wedge {
+        Wedge { p: (self.px[k], self.py[k]), q: (self.qx[k], self.qy[k]), a: self.a[k], b: self.b[k] }
+    }
+
+    /// The coefficients of the inverse range in the wedge of segment number `k`.
+    #[inline(always)]
+    pub(super) fn inverse(&self, k: usize) -> (f64, f64) {
+        (self.a[k], self.b[k])
+    }
+
+    /// What is known of segment number `k`, and the first and the last block with a ray of its wedge.
+    #[inline(always)]
+    pub(super) fn span(&self, k: usize) -> (u64, usize, usize) {
+        let (span, block) = (self.span[k], |bits: u64| (bits & ((1 << BITS) - 1)) as usize);
+        (span >> (2 * BITS), block(span), block(span >> BITS))
+    }
+
+    /// How many blocks from ray 0 on the wedge of segment number `k` reaches beyond the last of all.
+    #[inline(always)]
+    pub(super) fn turned(&self, k: usize) -> usize {
+        whole(self.turned[k]) as usize
+    }
+
+    /// Makes the first segments ready, by the coordinates of their ends: one loop without a branch, so that it works on several
+    /// at a time.
+    #[inline(always)]
+    pub(super) fn make(&mut self, [ax, ay, bx, by]: [&[f64]; 4], view: &View) {
+        let blocks = view.rays * (1.0 / LANES as f64);
+        // rounding x - 1/2 to the nearest is rounding x down, or one less where x is whole, which is as good here
+        let down = |turns: f64| (turns * blocks - 0.5) + ROUND;
+        let up = |turns: f64| (turns * blocks + 0.5) + ROUND;
+        for k in 0..ax.len().min(ay.len()).min(bx.len()).min(by.len()).min(BATCH) {
+            let (ax, ay) = (ax[k] - view.origin.x, ay[k] - view.origin.y);
+            let (bx, by) = (bx[k] - view.origin.x, by[k] - view.origin.y);
+            let (left, right) = (ax * by, ay * bx);
+            let turn = left - right;
+            let (px, qx) = (if turn < 0.0 { bx } else { ax }, if turn < 0.0 { ax } else { bx });
+            let (py, qy) = (if turn < 0.0 { by } else { ay }, if turn < 0.0 { ay } else { by });
+            let area = turn.abs();
+            let (ux, uy) = (qx - px, qy - py);
+            // the nearest point of the segment is between its ends, or one of them
+            let between = (px * ux + py * uy < 0.0) & (qx * ux + qy * uy > 0.0);
+            let (p2, q2, u2) = (px * px + py * py, qx * qx + qy * qy, ux * ux + uy * uy);
+            let end2 = if p2 < q2 { p2 } else { q2 };
+            let d2 = if between { area * area } else { end2 };
+            let scale = if between { u2 } else { 1.0 };
+            let doubt = area <= DOUBT * (left.abs() + right.abs()) + 1e-290;
+            let p = turns(px, py);
+            let wide = turns(qx, qy) - p;
+            let wide = if wide < -0.25 { wide + 1.0 } else { wide };
+            let begin = p - view.heading;
+            let begin = if begin < SLACK { begin + 1.0 } else { begin };
+            let end = begin + wide;
+            let over = end + SLACK - 1.0;
+            let (first, last) = (down(begin - SLACK), down(end + SLACK));
+            // all rays of the blocks after this one and before that one are in the wedge
+            let (inner, outer) = (up(begin + SLACK), down(end - SLACK));
+            let sure = (inner == first + 1.0) & (outer == last) & (over < 0.0);
+            let kind = if sure { kind::SURE } else { kind::UNSURE };
+            let kind = if doubt { kind::DOUBTFUL } else { kind };
+            self.px[k] = px;
+            self.py[k] = py;
+            self.qx[k] = qx;
+            self.qy[k] = qy;
+            self.a[k] = uy / area;
+            self.b[k] = ux / area;
+            // the rays of a block that is not full are fewer, so one more is taken for good measure
+            self.turned[k] = if over >= 0.0 { up(over) + 1.0 } else { ROUND };
+            // NaN, in an empty place, is not in reach
+            let kind = if d2 <= view.reach_squared * scale { kind } else { kind::NONE };
+            self.span[k] = kind << (2 * BITS) | whole(last) << BITS | whole(first);
+        }
+    }
+}

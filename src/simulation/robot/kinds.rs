@@ -1,0 +1,135 @@
+//! The lab's three robots as kinds of the simulation.
+
+use crate::collision::{Collision, MarchOptions, march};
+use crate::configuration::{HitchCfg, Tn};
+use crate::geometry::{Point2, Pose2};
+use crate::num::wrap;
+use crate::random::{Seed, Stream};
+use crate::robots::{CarCmd, EncoderCounts, Hitch, Reach, Robot, Rusty, RustyCmd, WheelSlip, WheelTurns};
+use crate::simulation::{Extra, SimulatedRobot};
+use crate::tour::{Reversing, Sinusoids, Waypoints};
+use crate::worlds::World;
+
+/// Rusty's own state: the accumulated turns of the left and the right wheel, radians, and the number of the waypoint it
+/// pursues.
+impl SimulatedRobot for Rusty {
+    type Tour = Waypoints;
+
+    fn tour(&self, _seed: Seed, _name: &str, world: &World, _start: &Pose2) -> Waypoints {
+        Waypoints::of_world(world)
+    }
+
+    fn touring(&self, tour: &Waypoints, _tick: u64, _dt: f64, q: &Pose2, extra: &mut Extra) -> RustyCmd {
+        let (command, next) = tour.pursue(self, q, extra[2] as usize);
+        extra[2] = next as f64;
+        command
+    }
+
+    fn resume(&self, tour: &Waypoints, q: &Pose2, obstacles: &dyn Collision, extra: &mut Extra) {
+        let reachable = |p: Point2| {
+            let goal = Pose2 { x: p.x, y: p.y, theta: q.theta };
+            self.edge(q, &goal).is_ok_and(|line| march(obstacles, &line, MarchOptions::default(), None).is_free())
+        };
+        extra[2] = tour.resume(q.position(), reachable) as f64;
+    }
+
+    fn driven(&self, [speed, turn]: [f64; 2]) -> Option<RustyCmd> {
+        Some(RustyCmd { v: speed * self.max_speed, omega: turn * self.max_turn_rate })
+    }
+
+    fn configuration_at(&self, _now: &Pose2, coordinates: &[f64]) -> Option<Pose2> {
+        let &[x, y, theta] = coordinates else { return None };
+        Some(Pose2::new(x, y, theta))
+    }
+
+    fn initial_extra(&self) -> Extra {
+        Extra::from_slice(&[0.0; 3])
+    }
+
+    fn actuate(&self, commanded: &RustyCmd, dt: f64, draws: &mut Stream, extra: &mut Extra) -> RustyCmd {
+        let turns = self.wheel_turns(commanded, dt);
+        extra[0] += turns.left;
+        extra[1] += turns.right;
+        let mut factor = || 1.0 + self.max_slip * draws.uniform(-1.0, 1.0);
+        let slip = WheelSlip { left: factor(), right: factor() };
+        self.command_of(&turns, &slip, dt)
+    }
+
+    fn sensor_pose(&self, q: &Pose2) -> Option<Pose2> {
+        Some(*q)
+    }
+
+    fn encoders(&self, extra: &Extra) -> Option<EncoderCounts> {
+        Some(self.counts(&WheelTurns { left: extra[0], right: extra[1] }))
+    }
+}
+
+/// An arm has no state of its own, no drive channels, and is not held: its motion is scripted or dragged.
+impl<const N: usize> SimulatedRobot for Reach<N> {
+    type Tour = Sinusoids<N>;
+
+    const HELD: bool = false;
+
+    fn tour(&self, seed: Seed, name: &str, _world: &World, start: &Tn<N>) -> Sinusoids<N> {
+        Sinusoids::new(seed, name, *start)
+    }
+
+    fn touring(&self, tour: &Sinusoids<N>, tick: u64, dt: f64, q: &Tn<N>, _extra: &mut Extra) -> Option<Tn<N>> {
+        Some(tour.follow(q, tick as f64 * dt, dt))
+    }
+
+    fn driven(&self, _channels: [f64; 2]) -> Option<Option<Tn<N>>> {
+        None
+    }
+
+    fn toward(&self, _q: &Tn<N>, target: &Tn<N>) -> Option<Option<Tn<N>>> {
+        Some(Some(*target))
+    }
+
+    fn configuration_at(&self, _now: &Tn<N>, coordinates: &[f64]) -> Option<Tn<N>> {
+        coordinates.try_into().ok().map(|angles| Tn::wrapped(Tn(angles)))
+    }
+
+    fn tip(&self, q: &Tn<N>) -> Option<Point2> {
+        Some(Reach::tip(self, q))
+    }
+}
+
+/// The car has no state of its own. Whether it pulls the trailer is told by its configuration, and the model follows.
+impl SimulatedRobot for Hitch {
+    type Tour = Reversing;
+
+    fn tour(&self, seed: Seed, name: &str, _world: &World, _start: &HitchCfg) -> Reversing {
+        Reversing::new(seed, name, self)
+    }
+
+    fn touring(&self, tour: &Reversing, tick: u64, dt: f64, _q: &HitchCfg, _extra: &mut Extra) -> CarCmd {
+        tour.command(self, tick, dt)
+    }
+
+    fn driven(&self, [speed, steering]: [f64; 2]) -> Option<CarCmd> {
+        Some(CarCmd { v: speed * self.max_speed, phi: steering * self.max_steer })
+    }
+
+    /// Three coordinates put a car that pulls the trailer there with the trailer straight behind; four are for such a car only.
+    fn configuration_at(&self, now: &HitchCfg, coordinates: &[f64]) -> Option<HitchCfg> {
+        let (&[x, y, theta], rest) = coordinates.split_first_chunk()?;
+        let body = Pose2::new(x, y, theta);
+        let trailer = match (now.trailer, rest) {
+            (None, []) => None,
+            (Some(_), []) => Some(body.theta),
+            (Some(_), [psi]) => Some(wrap(*psi)),
+            _ => return None,
+        };
+        Some(HitchCfg { body, trailer })
+    }
+
+    fn with_trailer_set(&self, q: &HitchCfg, on: bool) -> Option<HitchCfg> {
+        let trailer = if on { Some(q.trailer.unwrap_or(q.body.theta)) } else { None };
+        Some(HitchCfg { body: q.body, trailer })
+    }
+
+    fn fitted(&self, q: &HitchCfg) -> Hitch {
+        if q.trailer.is_some() { self.with_trailer() } else { self.without_trailer() }
+    }
+}

@@ -1,0 +1,7 @@
+//! Kinds of robots in the simulation.
+
+pub(crate) mod kinds;
+pub(crate) mod ops;
+pub(crate) mod plugin;
+pub(crate) mod simulated;
+pub(crate) mod view;

@@ -1,0 +1,111 @@
+//! `RobotPlugin`, one kind of robot in the simulation.
+
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+use bevy::prelude::*;
+
+use crate::simulation::schedule::{KindSystems, Phase};
+use crate::simulation::tick::{drive, settle};
+use crate::simulation::{
+    RobotOps, SimulatedRobot, SimulationSchedule, SimulationSystems, SpawnError, SpawnRequest, spawn_robot,
+};
+
+/// Makes robots of type `R` known to the simulation under the name of a kind, which worlds name in their residents. Add it
+/// after [`SimulationPlugin`](crate::simulation::SimulationPlugin) and before a run starts.
+///
+/// The kinds `rusty`, `reach`, `reach3` and `hitch` are the plugin's own; a kind registered again replaces the older one.
+#[derive(Clone, Debug)]
+pub struct RobotPlugin<R: SimulatedRobot> {
+    kind: String,
+    model: R,
+}
+
+impl<R: SimulatedRobot> RobotPlugin<R> {
+    /// Robots of kind `kind` are like `model`.
+    pub fn new(kind: impl Into<String>, model: R) -> Self {
+        RobotPlugin { kind: kind.into(), model }
+    }
+}
+
+/// Spawns one robot of a kind.
+type Spawner = Arc<dyn Fn(&mut World, &SpawnRequest) -> Result<Entity, SpawnError> + Send + Sync>;
+
+/// The kinds of robots that worlds may name.
+#[derive(Resource, Clone, Default)]
+pub struct RobotKinds {
+    spawners: BTreeMap<String, Spawner>,
+    /// How many types of robots there are.
+    types: usize,
+}
+
+impl RobotKinds {
+    /// The names of the kinds, in alphabetical order.
+    pub fn names(&self) -> impl Iterator<Item = &str> {
+        self.spawners.keys().map(String::as_str)
+    }
+
+    pub(crate) fn spawner(&self, kind: &str) -> Option<Spawner> {
+        self.spawners.get(kind).cloned()
+    }
+}
+
+/// The systems of `R`: their place among those of all types, and whether they are in the schedule.
+#[derive(Resource)]
+struct SystemsOf<R> {
+    number: usize,
+    installed: bool,
+    of: std::marker::PhantomData<fn() -> R>,
+}
+
+/// Puts the systems of `R` into the schedule if they are not there yet. That waits for the first such robot: a tick is not to pay for types of
+/// which there are none.
+fn install<R: SimulatedRobot>(world: &mut World) {
+    let Some(mut systems) = world.get_resource_mut::<SystemsOf<R>>() else { return };
+    if std::mem::replace(&mut systems.installed, true) {
+        return;
+    }
+    let number = systems.number;
+    world.resource_mut::<Schedules>().add_systems(
+        SimulationSchedule,
+        (
+            drive::drive::<R>.in_set(KindSystems::Drive(number)).in_set(SimulationSystems::Drive),
+            drive::plan::<R>.in_set(KindSystems::Plan(number)).in_set(Phase::Plan),
+            settle::cut::<R>.in_set(KindSystems::Cut(number)).in_set(Phase::Cut),
+            settle::settle::<R>.in_set(KindSystems::Settle(number)).in_set(Phase::Settle),
+        ),
+    );
+}
+
+impl<R: SimulatedRobot> Plugin for RobotPlugin<R> {
+    fn build(&self, app: &mut App) {
+        let model = self.model.clone();
+        let ops = RobotOps::of::<R>();
+        let spawner: Spawner = Arc::new(move |world, request| {
+            install::<R>(world);
+            spawn_robot(world, &model, ops, request)
+        });
+        let mut kinds = app.world_mut().get_resource_or_init::<RobotKinds>();
+        kinds.spawners.insert(self.kind.clone(), spawner);
+        let number = kinds.types;
+        if app.world().contains_resource::<SystemsOf<R>>() {
+            return;
+        }
+        app.world_mut().resource_mut::<RobotKinds>().types += 1;
+        app.insert_resource(SystemsOf::<R> { number, installed: false, of: std::marker::PhantomData });
+        for set in [KindSystems::Drive, KindSystems::Plan, KindSystems::Cut, KindSystems::Settle] {
+            if let Some(before) = number.checked_sub(1) {
+                app.configure_sets(SimulationSchedule, set(number).after(set(before)));
+            }
+        }
+    }
+
+    fn name(&self) -> &str {
+        &self.kind
+    }
+
+    /// A kind may be registered again.
+    fn is_unique(&self) -> bool {
+        false
+    }
+}

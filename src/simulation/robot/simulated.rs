@@ -1,0 +1,93 @@
+//! `SimulatedRobot`, what a kind of robot adds to be simulated.
+
+use crate::collision::Collision;
+use crate::configuration::Configuration;
+use crate::geometry::{Point2, Pose2};
+use crate::random::{Seed, Stream};
+use crate::robots::{Drivable, EncoderCounts};
+use crate::simulation::Extra;
+use crate::worlds::World;
+
+/// A robot that lives in the simulation: its tour, what manual input means to it, what state it keeps. Register it under a
+/// name with [`RobotPlugin`](crate::simulation::RobotPlugin); worlds then name it as the `kind` of a resident.
+///
+/// Everything here is a pure function of its arguments: no clock, no global, no random number but `draws`.
+pub trait SimulatedRobot: Drivable<Drive: Clone + Send + Sync + 'static> {
+    /// What the seed decides once, at the start of a run.
+    type Tour: Clone + std::fmt::Debug + Send + Sync + 'static;
+
+    /// Whether contact holds the robot where it is. A robot that is not held passes through things, in contact.
+    const HELD: bool = true;
+
+    /// The tour of the robot named `name` in `world`.
+    fn tour(&self, seed: Seed, name: &str, world: &World, start: &Self::Configuration) -> Self::Tour;
+
+    /// The control the tour gives for tick number `tick` (from 1), `dt` seconds long, at the configuration `q`.
+    fn touring(
+        &self,
+        tour: &Self::Tour,
+        tick: u64,
+        dt: f64,
+        q: &Self::Configuration,
+        extra: &mut Extra,
+    ) -> Self::Control;
+
+    /// Called when the tour gets the robot back at `q`, among these obstacles.
+    fn resume(&self, _tour: &Self::Tour, _q: &Self::Configuration, _obstacles: &dyn Collision, _extra: &mut Extra) {}
+
+    /// The control that the held channels stand for, each a part in `[-1, 1]` of the maximum. `None` for a robot without
+    /// drive channels, which refuses them.
+    fn driven(&self, channels: [f64; 2]) -> Option<Self::Control>;
+
+    /// The control that leads from `q` toward a target. `None` for a robot that cannot be sent to a place.
+    fn toward(&self, _q: &Self::Configuration, _target: &Self::Configuration) -> Option<Self::Control> {
+        None
+    }
+
+    /// The configuration that chart coordinates from outside stand for, angles wrapped, for a robot now at `now`. `None` when
+    /// their number fits no configuration the robot can be put in.
+    fn configuration_at(&self, now: &Self::Configuration, coordinates: &[f64]) -> Option<Self::Configuration>;
+
+    /// The configuration `q` with the trailer attached or not. `None` for a robot that pulls none.
+    fn with_trailer_set(&self, _q: &Self::Configuration, _on: bool) -> Option<Self::Configuration> {
+        None
+    }
+
+    /// The robot that a configuration is one of: a car with its hitch fitted or not.
+    fn fitted(&self, _q: &Self::Configuration) -> Self {
+        self.clone()
+    }
+
+    /// The robot's own state at the start; its length never changes.
+    fn initial_extra(&self) -> Extra {
+        Extra::new()
+    }
+
+    /// What a commanded control comes to on the ground. Called once in every tick, whoever drives and whether or not the
+    /// robot is held: the place to draw slip and to turn encoders. `draws` is the robot's own stream at this tick, good for
+    /// [`DRAWS_PER_INDEX`](crate::random::DRAWS_PER_INDEX) draws.
+    fn actuate(&self, commanded: &Self::Control, _dt: f64, _draws: &mut Stream, _extra: &mut Extra) -> Self::Control {
+        *commanded
+    }
+
+    /// Where a range sensor sits, and which way it faces. `None` for a robot without one.
+    fn sensor_pose(&self, _q: &Self::Configuration) -> Option<Pose2> {
+        None
+    }
+
+    /// What the wheels' encoders read; `None` without encoders.
+    fn encoders(&self, _extra: &Extra) -> Option<EncoderCounts> {
+        None
+    }
+
+    /// The point of an arm that reaches; `None` for other robots.
+    fn tip(&self, _q: &Self::Configuration) -> Option<Point2> {
+        None
+    }
+}
+
+/// `q` as the state keeps it: every -0.0 as +0.0.
+pub(crate) fn canonical<C: Configuration>(q: &C) -> C {
+    let coordinates: crate::configuration::Coordinates = q.coordinates().iter().map(|x| x + 0.0).collect();
+    C::from_coordinates(&coordinates).unwrap_or(*q)
+}

@@ -1,0 +1,53 @@
+//! `RobotView`, what a view may read of a robot without knowing its type.
+
+use bevy::prelude::*;
+
+use crate::configuration::Coordinates;
+use crate::geometry::{Footprint, Point2};
+use crate::robots::EncoderCounts;
+use crate::simulation::{RobotOps, Roster};
+
+/// A robot as a view shows it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RobotView {
+    /// The id.
+    pub id: u32,
+    /// The unique name.
+    pub name: String,
+    /// The kind, as worlds name it.
+    pub kind: String,
+    /// The number of the world it lives in.
+    pub world: u32,
+    /// The configuration as its type prints, three decimals.
+    pub configuration: String,
+    /// The configuration with every digit, for copying.
+    pub configuration_in_full: String,
+    /// The configuration's coordinates in its chart.
+    pub coordinates: Coordinates,
+    /// The footprint.
+    pub footprint: Footprint,
+    /// The footprint before the last tick's motion, for drawing between ticks.
+    pub previous_footprint: Footprint,
+    /// The point of an arm that reaches.
+    pub tip: Option<Point2>,
+    /// Whether the last tick was in contact.
+    pub in_contact: bool,
+    /// Contact episodes since tick 0.
+    pub contacts: u32,
+    /// Ticks for which the flash still holds; above 0 the robot shows red.
+    pub flash: u32,
+    /// Whether a person drives.
+    pub manual: bool,
+    /// The channels the driver holds, -128 to 128 of the maximum.
+    pub channels: [i16; 2],
+    /// Inputs refused since tick 0.
+    pub refusals: u32,
+    /// What the wheels' encoders read.
+    pub encoders: Option<EncoderCounts>,
+}
+
+/// All robots of the run, by ascending id; none before a run was started.
+pub fn view(world: &World) -> Vec<RobotView> {
+    let robots = world.get_resource::<Roster>().map_or(&[][..], Roster::robots);
+    robots.iter().filter_map(|&e| (world.get::<RobotOps>(e)?.view)(world, e)).collect()
+}

@@ -1,0 +1,197 @@
+//! `PendingInput`, the run's script as it grows, and the system that applies what is due.
+
+use bevy::prelude::*;
+
+use crate::run::{Event, RobotInput, Script};
+use crate::simulation::{RobotName, RobotOps, Roster, Transport};
+
+/// An input to a robot, as a message from whoever drives: it applies before the next tick's step.
+#[derive(Message, Clone, Debug, PartialEq)]
+pub struct RobotCommand {
+    /// The robot's name.
+    pub robot: String,
+    /// What is put in.
+    pub input: RobotInput,
+}
+
+/// All input of the run, past and to come, in order of its ticks. This is what is recorded, and what a replay fills.
+#[derive(Resource, Clone, Debug, PartialEq)]
+pub struct PendingInput {
+    script: Script,
+    /// The tick that live input was last captured for, so that what stands at the next is a release that it put off.
+    captured: Option<u64>,
+}
+
+impl Default for PendingInput {
+    fn default() -> Self {
+        PendingInput::new(Script::empty())
+    }
+}
+
+impl PendingInput {
+    /// The input of this script; events of one tick stay in their order.
+    pub fn new(mut script: Script) -> Self {
+        script.events.sort_by_key(|e| e.tick);
+        PendingInput { script, captured: None }
+    }
+
+    /// The script.
+    pub fn script(&self) -> &Script {
+        &self.script
+    }
+
+    /// The events stamped with `tick`, in order.
+    pub fn due(&self, tick: u64) -> &[Event] {
+        let events = &self.script.events;
+        let from = events.partition_point(|e| e.tick < tick);
+        let to = events.partition_point(|e| e.tick <= tick);
+        &events[from..to]
+    }
+
+    /// Forgets every event after `tick`.
+    pub fn truncate_after(&mut self, tick: u64) {
+        self.script.events.retain(|e| e.tick <= tick);
+        self.captured = None;
+    }
+
+    /// Captures a live input before the step of the event's tick, the next one. Whatever was to come after is forgotten.
+    ///
+    /// - A change is recorded, not a state: channels that are already held, or a target already set in this tick, are not.
+    /// - Of several changes within one tick the last wins, and a drag keeps its last target.
+    /// - But a press shorter than a tick counts for one: channels pressed and let go within the tick are let go in the next.
+    pub fn capture(&mut self, event: Event) {
+        let Event { tick, robot, input } = event;
+        let robot = robot.as_str();
+        if self.captured != Some(tick) {
+            self.truncate_after(tick);
+            self.captured = Some(tick);
+        }
+        let last = self.script.events.iter().rposition(|e| e.robot == robot);
+        let last_due = last.filter(|&i| self.script.events[i].tick >= tick);
+        let stamp = last_due.map_or(tick, |i| self.script.events[i].tick);
+        match (&input, last_due.map(|i| &self.script.events[i].input)) {
+            (&RobotInput::Drive(a, b), Some(&RobotInput::Drive(pressed_a, pressed_b))) => {
+                let (held_a, held_b) = self.held_before(stamp, robot).unwrap_or_default();
+                let tapped = |held, pressed, now| pressed != held && now == held;
+                if stamp == tick && (tapped(held_a, pressed_a, a) || tapped(held_b, pressed_b, b)) {
+                    self.insert(tick + 1, robot, input);
+                } else {
+                    self.replace(last_due, input);
+                }
+            }
+            (RobotInput::MoveTo(_), Some(RobotInput::MoveTo(_)))
+            | (RobotInput::Teleport(_), Some(RobotInput::Teleport(_)))
+            | (RobotInput::SetTrailer(_), Some(RobotInput::SetTrailer(_)))
+            | (RobotInput::Release, Some(RobotInput::Release)) => self.replace(last_due, input),
+            (&RobotInput::Drive(a, b), _) if self.held_before(stamp + 1, robot) == Some((a, b)) => {}
+            _ => self.insert(stamp, robot, input),
+        }
+    }
+
+    /// The channels that the robot's driver holds before the events of `tick`; `None` when the tour drives.
+    fn held_before(&self, tick: u64, robot: &str) -> Option<(i16, i16)> {
+        self.script.events.iter().filter(|e| e.robot == robot && e.tick < tick).fold(None, |held, e| match e.input {
+            RobotInput::Drive(a, b) => Some((a, b)),
+            RobotInput::Release => None,
+            _ => held.or(Some((0, 0))),
+        })
+    }
+
+    fn replace(&mut self, at: Option<usize>, input: RobotInput) {
+        if let Some(e) = at.and_then(|i| self.script.events.get_mut(i)) {
+            e.input = input;
+        }
+    }
+
+    fn insert(&mut self, tick: u64, robot: &str, input: RobotInput) {
+        let at = self.script.events.partition_point(|e| e.tick <= tick);
+        self.script.events.insert(at, Event { tick, robot: robot.to_owned(), input });
+    }
+}
+
+/// The tick begins.
+pub(crate) fn advance_tick(mut transport: ResMut<Transport>) {
+    transport.tick += 1;
+    if transport.tick > transport.frontier {
+        transport.frontier = transport.tick;
+    }
+}
+
+/// Applies the tick's inputs in the script's order. An input for a robot that is not there is dropped; the run's start has
+/// refused such a script.
+pub(crate) fn apply_inputs(world: &mut World) {
+    let tick = world.resource::<Transport>().tick;
+    if world.resource::<PendingInput>().due(tick).is_empty() {
+        return;
+    }
+    world.resource_scope(|world, pending: Mut<PendingInput>| {
+        for event in pending.due(tick) {
+            let robot = world
+                .resource::<Roster>()
+                .robots()
+                .iter()
+                .copied()
+                .find(|&e| world.get::<RobotName>(e).is_some_and(|n| n.name == event.robot));
+            if let Some((robot, ops)) = robot.and_then(|e| Some((e, *world.get::<RobotOps>(e)?))) {
+                (ops.apply)(world, robot, &event.input);
+            }
+        }
+    });
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::run::Quantized;
+
+    fn captured(inputs: &[(u64, RobotInput)]) -> Vec<(u64, RobotInput)> {
+        let mut pending = PendingInput::default();
+        for (tick, input) in inputs {
+            pending.capture(Event { tick: *tick, robot: "r".into(), input: input.clone() });
+        }
+        pending.script().events.iter().map(|e| (e.tick, e.input.clone())).collect()
+    }
+
+    #[test]
+    fn only_changes_are_recorded_and_the_last_of_a_tick_wins() {
+        use RobotInput::{Drive, Release};
+        assert_eq!(
+            captured(&[(3, Drive(128, 0)), (4, Drive(128, 0)), (9, Drive(0, 0))]),
+            [(3, Drive(128, 0)), (9, Drive(0, 0))]
+        );
+        assert_eq!(captured(&[(3, Drive(128, 0)), (3, Drive(128, 64))]), [(3, Drive(128, 64))]);
+        assert_eq!(captured(&[(3, Drive(1, 0)), (4, Release), (5, Drive(1, 0))]).len(), 3);
+        let to = |x| RobotInput::MoveTo(vec![Quantized(x), Quantized(0)]);
+        assert_eq!(captured(&[(3, to(1)), (3, to(2)), (3, to(3)), (4, to(4))]), [(3, to(3)), (4, to(4))]);
+    }
+
+    #[test]
+    fn a_press_shorter_than_a_tick_counts_for_one() {
+        use RobotInput::Drive;
+        let zero = (1, Drive(0, 0));
+        // the first zero takes over from the tour, the press and its release come within tick 3
+        assert_eq!(
+            captured(&[zero.clone(), (3, Drive(128, 0)), (3, Drive(0, 0))]),
+            [zero.clone(), (3, Drive(128, 0)), (4, Drive(0, 0))]
+        );
+        // and a second press after it waits for the next tick, where the last wins
+        assert_eq!(
+            captured(&[zero.clone(), (3, Drive(128, 0)), (3, Drive(0, 0)), (3, Drive(0, 9))]),
+            [zero, (3, Drive(128, 0)), (4, Drive(0, 9))]
+        );
+        // so does a press that takes over from the tour: its release cannot come before one tick is driven
+        assert_eq!(captured(&[(3, Drive(128, 0)), (3, Drive(0, 0))]), [(3, Drive(128, 0)), (4, Drive(0, 0))]);
+    }
+
+    #[test]
+    fn the_events_of_a_tick_are_found() {
+        let drive = |tick, x| Event { tick, robot: "r".into(), input: RobotInput::Drive(x, 0) };
+        let script = Script { events: vec![drive(7, 1), drive(2, 2), drive(7, 3)], ..Script::empty() };
+        let mut pending = PendingInput::new(script);
+        assert_eq!(pending.due(7), [drive(7, 1), drive(7, 3)]);
+        assert_eq!(pending.due(2).len(), 1);
+        assert!(pending.due(3).is_empty());
+        pending.truncate_after(6);
+        assert!(pending.due(7).is_empty());
+    }
+}

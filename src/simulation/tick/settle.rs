@@ -1,0 +1,126 @@
+//! The systems that cut each motion, settle which robots advance, and count contacts.
+
+use bevy::prelude::*;
+
+use super::hold::{self, Advance, margin_from};
+use super::starts::{Starts, Sweeps};
+use super::sweep::{CutMotion, sweeps_meet};
+use crate::collision::{Collision, MarchOptions, Surroundings, clearance_of_all, is_plainly_clear, march_on};
+use crate::configuration::Configuration as _;
+use crate::robots::Motion;
+use crate::simulation::robot::simulated::canonical;
+use crate::simulation::{
+    Configuration, Contacts, Control, Cut, DriveMode, ResidesIn, RobotId, RobotModel, SimulatedRobot, TickMotion,
+    WorldScene,
+};
+
+/// How many ticks a flash holds after contact: 0.3 s.
+pub const FLASH_TICKS: u32 = 6;
+
+/// What [`cut`] reads and writes of a robot.
+type CutRobot<R> = (
+    &'static RobotId,
+    &'static ResidesIn,
+    &'static Configuration<R>,
+    &'static Control<R>,
+    &'static TickMotion<R>,
+    &'static mut Cut<R>,
+);
+
+/// Cuts every motion of a kind at the walls and at all other robots' starting footprints. A robot alone in its world that was held where it is
+/// and gets the same control again is held again: its motion is the same.
+pub(crate) fn cut<R: SimulatedRobot>(
+    starts: Res<Starts>,
+    mut sweeps: ResMut<Sweeps>,
+    scenes: Query<&WorldScene>,
+    mut robots: Query<CutRobot<R>>,
+) {
+    for (&id, &ResidesIn(world), Configuration(q), Control(u), TickMotion(motion), mut cut) in &mut robots {
+        let (Some(motion), Ok(WorldScene(scene))) = (motion, scenes.get(world)) else {
+            *cut = Cut::new(0.0, false);
+            continue;
+        };
+        let others = starts.others(world, id);
+        let of = others.is_empty().then_some((*q, *u));
+        if of.is_some() && cut.of == of {
+            continue;
+        }
+        let surroundings = Surroundings { scene, others: &others };
+        *cut = if R::HELD {
+            let Advance { until, blocked } = hold::advance(&surroundings, motion);
+            Cut::new(until, blocked)
+        } else {
+            // nothing holds it: all the way, in contact unless proven free
+            Cut::new(1.0, !is_free(&surroundings, motion))
+        };
+        cut.of = of;
+        if !others.is_empty() {
+            sweeps.add(world, id, Box::new(CutMotion { motion: motion.clone(), until: cut.until }));
+        }
+    }
+}
+
+/// Whether all of a motion is proven free. Where one of its ends is in contact it is not, and need not be marched to find out where it hits.
+fn is_free(surroundings: &Surroundings, motion: &impl Motion) -> bool {
+    let (start, end, options) = (motion.footprint_at(0.0), motion.footprint_at(1.0), MarchOptions::default());
+    if is_plainly_clear(surroundings, motion, options.margin, (&start, &end)) {
+        return true;
+    }
+    if surroundings.intersects(&start) || surroundings.intersects(&end) {
+        return false;
+    }
+    if clearance_of_all(surroundings, motion, &start) > options.margin {
+        return true;
+    }
+    let distance = surroundings.distance(&start);
+    march_on(surroundings, motion, options, None, (start, distance)).is_free()
+}
+
+/// What [`settle`] reads and writes of a robot.
+type Settled<R> = (
+    &'static RobotId,
+    &'static ResidesIn,
+    &'static RobotModel<R>,
+    &'static TickMotion<R>,
+    &'static Cut<R>,
+    &'static mut Configuration<R>,
+    &'static mut Contacts<R>,
+    &'static mut DriveMode<R>,
+);
+
+/// Advances every robot of a kind: along its cut motion, unless that meets the cut motion of a robot with a lower id in its
+/// world; then it stays where it started.
+pub(crate) fn settle<R: SimulatedRobot>(starts: Res<Starts>, sweeps: Res<Sweeps>, mut robots: Query<Settled<R>>) {
+    for (&id, &ResidesIn(world), RobotModel(robot), TickMotion(motion), cut, mut q, mut contacts, mut mode) in
+        &mut robots
+    {
+        let (mut until, mut in_contact) = (cut.until, cut.contact);
+        if let Some(motion) = motion {
+            let met = until > 0.0
+                && sweeps.below(world, id).any(|(lower, sweep)| {
+                    // at one that stands still the motion is cut already
+                    if sweep.is_still() {
+                        return false;
+                    }
+                    let own = CutMotion { motion: motion.clone(), until };
+                    let margin = margin_from(starts.distance(sweeps.nothing(), world, id, lower));
+                    sweeps_meet(sweeps.nothing(), &own, sweep, margin)
+                });
+            in_contact |= met;
+            if met && R::HELD {
+                until = 0.0;
+            }
+            let end = canonical(&motion.at(until));
+            if robot.fitted(&end).check(&end).is_ok() {
+                q.0 = end;
+            }
+        }
+        let episode = in_contact && !contacts.in_contact;
+        let flash = if in_contact { FLASH_TICKS } else { contacts.flash.saturating_sub(1) };
+        *contacts = Contacts::new(in_contact, contacts.episodes.saturating_add(episode.into()), flash);
+        let arrived = mode.target.is_some_and(|t| t.difference(&q.0).is_ok_and(|d| d.iter().all(|x| *x == 0.0)));
+        if arrived {
+            mode.target = None;
+        }
+    }
+}

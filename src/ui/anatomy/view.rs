@@ -1,0 +1,247 @@
+//! Query anatomy: one frozen scene, four questions.
+
+use std::sync::Arc;
+
+use bevy_egui::egui::{CollapsingHeader, ComboBox, RichText, ScrollArea, Slider, TextEdit, Ui, WidgetInfo, vec2};
+
+use crate::anatomy::{Anatomy, Guess, Prompt, Tab, WorldSource};
+use crate::configuration::Configuration;
+use crate::manifest::widget;
+use crate::picture::{Picture, Role};
+use crate::ui::paint::button::button;
+use crate::ui::paint::sheet::{sheet, split};
+use crate::ui::{Command, Dashboard, Look, UiState};
+use crate::worlds::World;
+
+/// Width of what stands beside the paper, points.
+const SIDE: f32 = 380.0;
+
+/// Side of the close view, points.
+const INSET: f32 = 230.0;
+
+/// What the widget remembers.
+#[derive(Clone, Debug)]
+pub struct AnatomyState {
+    /// The scene, the robot, the question.
+    pub anatomy: Anatomy,
+    /// The scene as it is drawn; made anew when the world changes.
+    backdrop: Arc<Picture>,
+    /// What was guessed, by prompt.
+    guesses: [String; 2],
+    /// What the guesses came to.
+    answers: [Option<String>; 2],
+}
+
+impl Default for AnatomyState {
+    fn default() -> Self {
+        let anatomy = Anatomy::default();
+        let backdrop = Arc::new(anatomy.backdrop());
+        AnatomyState { anatomy, backdrop, guesses: Default::default(), answers: Default::default() }
+    }
+}
+
+impl AnatomyState {
+    /// The world alone, as it is drawn.
+    pub fn backdrop(&self) -> &Arc<Picture> {
+        &self.backdrop
+    }
+
+    /// Puts another scene in front.
+    pub fn set(&mut self, anatomy: Anatomy) {
+        if anatomy.world() != self.anatomy.world() {
+            self.backdrop = Arc::new(anatomy.backdrop());
+        }
+        self.anatomy = anatomy;
+    }
+}
+
+/// Shows the widget.
+pub fn anatomy_view(
+    ui: &mut Ui,
+    model: &Dashboard,
+    (narrow, look): (bool, &Look),
+    state: &mut UiState,
+    commands: &mut Vec<Command>,
+) {
+    let Some(words) = widget("anatomy") else { return };
+    crate::ui::tools::head(ui, words, model, (narrow, look), state, commands);
+    let room = ui.available_rect_before_wrap();
+    let (paper, beside) = split(room, narrow, SIDE);
+    let shown = &state.anatomy;
+    let (backdrop, overlay) = (Arc::clone(&shown.backdrop), shown.anatomy.overlay());
+    let spoken = shown.anatomy.described();
+    let on = sheet(ui, (paper, spoken), &backdrop, &overlay, look, state);
+    if let Some(to) = on.held().filter(|_| on.response.dragged() || on.response.clicked()) {
+        state.anatomy.anatomy.drag(to);
+    }
+    on.response.on_hover_text_at_pointer("Drag the robot: an arm by its tip");
+    ui.scope_builder(bevy_egui::egui::UiBuilder::new().max_rect(beside), |ui| {
+        ScrollArea::vertical().auto_shrink(false).show(ui, |ui| beside_the_paper(ui, narrow, look, state));
+    });
+}
+
+fn beside_the_paper(ui: &mut Ui, narrow: bool, look: &Look, state: &mut UiState) {
+    ui.horizontal(|ui| {
+        for tab in Tab::ALL {
+            if button(ui, tab.name(), 0.0, (true, state.anatomy.anatomy.tab == tab), look).clicked() {
+                state.anatomy.anatomy.tab = tab;
+            }
+        }
+    });
+    let anatomy = &mut state.anatomy.anatomy;
+    ui.label(anatomy.question());
+    for line in anatomy.readout() {
+        let role = if anatomy.intersects() && anatomy.tab != Tab::Swept { Role::Goal } else { Role::Text };
+        ui.label(RichText::new(line.replace('-', "\u{2212}")).monospace().color(look.colour(role)));
+    }
+    ui.add_space(4.0);
+    sliders(ui, anatomy);
+    if let Some(thick) = anatomy.thick_links() {
+        let mut on = thick;
+        if ui.checkbox(&mut on, "3 cm capsule links").changed() {
+            anatomy.set_thick_links(on);
+        }
+    }
+    if !narrow {
+        inset(ui, look, state);
+    }
+    CollapsingHeader::new("Guess first").default_open(!narrow).show(ui, |ui| prompts(ui, state));
+    ui.horizontal(|ui| {
+        if button(ui, "Copy as Rust", 0.0, (true, false), look).clicked() {
+            ui.ctx().copy_text(state.anatomy.anatomy.copy_as_rust());
+        }
+        let command = state.anatomy.anatomy.copy_as_command();
+        if button(ui, "Copy as command", 0.0, (command.is_some(), false), look).clicked() {
+            ui.ctx().copy_text(command.unwrap_or_default());
+        }
+        if button(ui, "Reset", 0.0, (true, false), look).clicked() {
+            state.anatomy = AnatomyState::default();
+        }
+    });
+    CollapsingHeader::new("Any robot, any world").show(ui, |ui| any(ui, state));
+}
+
+/// The configuration as sliders; on the swept tab the step of the motion too.
+fn sliders(ui: &mut Ui, anatomy: &mut Anatomy) {
+    let names = anatomy.q().coordinate_names();
+    ui.spacing_mut().slider_width = 180.0;
+    for (i, name) in names.iter().enumerate() {
+        coordinate(ui, anatomy, i, name);
+    }
+    if anatomy.tab == Tab::Swept {
+        ui.label("and the step of the motion:");
+        for (i, name) in names.iter().enumerate() {
+            let mut step = anatomy.step()[i];
+            let most = if anatomy.q().is_angle(i) { std::f64::consts::PI } else { 5.0 };
+            let name = format!("step of {name}");
+            let response = ui.add(exact(Slider::new(&mut step, -most..=most), 3).text(name.as_str()));
+            response.widget_info(|| WidgetInfo::slider(true, step, &name));
+            if response.changed() {
+                anatomy.set_step(i, step);
+            }
+        }
+    }
+}
+
+/// What is near the nearest points, larger.
+fn inset(ui: &mut Ui, look: &Look, state: &mut UiState) {
+    let Some(close) = state.anatomy.anatomy.close_up() else { return };
+    let (rect, _) = ui.allocate_exact_size(vec2(INSET, INSET), bevy_egui::egui::Sense::hover());
+    let painter = ui.painter_at(rect);
+    crate::ui::paint::canvas::paint(&painter, &close, &crate::ui::paint::canvas::fit(&close, rect), look);
+    let frame = bevy_egui::egui::Stroke::new(1.0, look.colour(Role::Hairline));
+    painter.rect_stroke(rect, 0.0, frame, bevy_egui::egui::StrokeKind::Inside);
+}
+
+/// The two questions that ask for a number first.
+fn prompts(ui: &mut Ui, state: &mut UiState) {
+    for (i, prompt) in Prompt::all().iter().enumerate() {
+        let label = ui.label(prompt.question);
+        ui.horizontal(|ui| {
+            let guess = &mut state.anatomy.guesses[i];
+            let field =
+                ui.add(TextEdit::singleline(guess).desired_width(80.0).hint_text("metres")).labelled_by(label.id);
+            let entered = field.lost_focus() && ui.input(|i| i.key_pressed(bevy_egui::egui::Key::Enter));
+            if ui.button("Check").clicked() || entered {
+                state.anatomy.answers[i] = Some(match prompt.check_text(guess) {
+                    Ok(Guess::Right { answer }) => format!("Right: {answer:.6} m. {}", prompt.moral),
+                    Ok(Guess::Off { answer, by }) => {
+                        format!("Off by {by:+.4} m: it is {answer:.6} m. {}", prompt.moral)
+                    }
+                    Err(none) => none.to_string(),
+                });
+            }
+            let answered = state.anatomy.answers[i].as_ref().is_some_and(|a| a.contains(prompt.moral));
+            if answered && ui.button("Show").clicked() {
+                state.anatomy.set(prompt.shown().clone());
+            }
+        });
+        if let Some(answer) = &state.anatomy.answers[i] {
+            ui.label(RichText::new(answer).strong());
+        }
+    }
+}
+
+/// Another robot, another world, the annulus.
+fn any(ui: &mut Ui, state: &mut UiState) {
+    robot_choice(ui, state);
+    world_choice(ui, state);
+    annulus(ui, state);
+}
+
+/// Another robot.
+pub(crate) fn robot_choice(ui: &mut Ui, state: &mut UiState) {
+    let anatomy = state.anatomy.anatomy.clone();
+    let present = *anatomy.checker().robot();
+    let name = Anatomy::choices().into_iter().find(|(_, robot)| *robot == present).map_or(present.name(), |(n, _)| n);
+    ComboBox::from_label("robot").selected_text(name).show_ui(ui, |ui| {
+        for (name, robot) in Anatomy::choices() {
+            if ui.selectable_label(present == robot, name).clicked() {
+                state.anatomy.set(anatomy.at_home(robot));
+            }
+        }
+    });
+}
+
+/// Another world: one of the book's, or the atlas's as it is there.
+pub(crate) fn world_choice(ui: &mut Ui, state: &mut UiState) {
+    let anatomy = state.anatomy.anatomy.clone();
+    let books =
+        World::built_in_names().into_iter().filter_map(|n| Some((World::built_in(n)?, WorldSource::BuiltIn(n))));
+    let mut worlds: Vec<(String, World, WorldSource)> = books.map(|(w, source)| (w.name.clone(), w, source)).collect();
+    let atlas = state.atlas.world();
+    if worlds.iter().all(|(_, world, _)| world != atlas) {
+        worlds.push((format!("{}, in the atlas", atlas.name), atlas.clone(), state.atlas.source()));
+    }
+    ComboBox::from_label("world").selected_text(anatomy.world().name.as_str()).show_ui(ui, |ui| {
+        for (name, world, source) in worlds {
+            if ui.selectable_label(**anatomy.world() == world, name).clicked() {
+                state.anatomy.set(anatomy.in_world(world, source));
+            }
+        }
+    });
+}
+
+/// Whether the points that the tip of an arm can reach are shown.
+pub(crate) fn annulus(ui: &mut Ui, state: &mut UiState) {
+    let anatomy = &mut state.anatomy.anatomy;
+    if anatomy.checker().robot().annulus().is_some() {
+        ui.checkbox(&mut anatomy.show_annulus, "the points that the tip can reach");
+    }
+}
+
+/// A slider that shows so many decimals of its value and keeps them all: `fixed_decimals` would round what is only shown.
+fn exact(slider: Slider<'_>, decimals: usize) -> Slider<'_> {
+    slider.custom_formatter(move |value, _| format!("{value:.decimals$}"))
+}
+
+/// A slider for a coordinate of the configuration.
+pub(crate) fn coordinate(ui: &mut Ui, anatomy: &mut Anatomy, index: usize, name: &str) {
+    let [least, most] = anatomy.range(index);
+    let mut value = anatomy.q().coordinates()[index];
+    let response = ui.add(exact(Slider::new(&mut value, least..=most), 4).text(name));
+    response.widget_info(|| WidgetInfo::slider(true, value, name));
+    if response.changed() {
+        anatomy.set_coordinate(index, value);
+    }
+}

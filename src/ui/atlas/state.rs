@@ -1,0 +1,316 @@
+//! `AtlasState`, what the atlas remembers: the world under a hand, its robots, a refusal, a drag.
+
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use crate::anatomy::WorldSource;
+use crate::atlas::{Atlas, Editor, GridLayer, Op, Refusal, names};
+use crate::capture::{self, AtlasSheet, Captured};
+use crate::configuration::AnyConfiguration;
+use crate::geometry::Point2;
+use crate::picture::{Item, Picture, Role, footprint, world as picture_of};
+use crate::robots::Robot;
+use crate::ui::readout;
+use crate::worlds::World;
+
+/// What a click does.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Mode {
+    /// Puts a robot there.
+    #[default]
+    Put,
+    /// Nothing: pointing shows distances.
+    Measure,
+    /// Selects and moves things.
+    Edit,
+}
+
+/// A drag of a thing, or of one of its handles.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Drag {
+    pub from: Point2,
+    pub handle: Option<usize>,
+    pub op: Option<Op>,
+}
+
+/// What the atlas remembers.
+#[derive(Clone, Debug)]
+pub struct AtlasState {
+    pub(crate) editor: Editor,
+    /// The file it was read from or saved in.
+    path: Option<PathBuf>,
+    atlas: Atlas,
+    /// The world as it is drawn: that of a drag under way, if it is accepted.
+    pub(crate) still: Arc<Picture>,
+    /// The names at the last scale.
+    labels: Option<(f64, Vec<Item>)>,
+    warnings: Vec<String>,
+    grid: Option<(GridLayer, Arc<Picture>)>,
+    /// What a click does.
+    pub mode: Mode,
+    /// The robot that a click puts somewhere.
+    pub robot: usize,
+    /// Where the pointer was pressed.
+    pub pressed: Option<Point2>,
+    refused: Option<(AnyConfiguration, Refusal)>,
+    /// Where the robot would be put if the pointer were let go.
+    wanted: Option<AnyConfiguration>,
+    /// The side of a grid cell, metres.
+    pub resolution: f64,
+    /// The name of the thing that is selected.
+    pub selected: Option<String>,
+    /// Its name as it is edited.
+    pub name_text: String,
+    /// Why the last change was refused.
+    pub message: Option<String>,
+    pub(crate) drag: Option<Drag>,
+}
+
+impl Default for AtlasState {
+    fn default() -> Self {
+        AtlasState::of(World::apartment())
+    }
+}
+
+impl AtlasState {
+    /// A world that is in no file.
+    pub fn of(world: World) -> Self {
+        AtlasState::edited(Editor::new(world))
+    }
+
+    /// A world under an editor.
+    pub fn edited(editor: Editor) -> Self {
+        let world = editor.world().clone();
+        AtlasState {
+            still: Arc::new(picture_of(&world)),
+            atlas: Atlas::new(world),
+            warnings: editor.warnings(),
+            editor,
+            path: None,
+            labels: None,
+            grid: None,
+            mode: Mode::default(),
+            robot: 0,
+            pressed: None,
+            refused: None,
+            wanted: None,
+            resolution: 0.25,
+            selected: None,
+            name_text: String::new(),
+            message: None,
+            drag: None,
+        }
+    }
+
+    /// The same with a click doing something else.
+    #[must_use]
+    pub fn in_mode(self, mode: Mode) -> Self {
+        AtlasState { mode, ..self }
+    }
+
+    /// The world.
+    pub fn world(&self) -> &World {
+        self.editor.world()
+    }
+
+    /// The world with its robots.
+    pub fn atlas(&self) -> &Atlas {
+        &self.atlas
+    }
+
+    /// The world as a file: canonical.
+    pub fn text(&self) -> String {
+        self.editor.text()
+    }
+
+    /// To be called when the text is on the disk.
+    pub fn mark_saved(&mut self, path: &Path) {
+        self.editor.mark_saved();
+        self.path = Some(path.to_owned());
+    }
+
+    /// Remembers the file that the world was read from.
+    pub fn stands_in(&mut self, path: &Path) {
+        self.path = Some(path.to_owned());
+    }
+
+    /// Where the world is to be found: in its file, when that is the world as it is.
+    pub fn source(&self) -> WorldSource {
+        match &self.path {
+            Some(path) if self.is_saved() => WorldSource::File(path.display().to_string()),
+            _ => WorldSource::Unsaved,
+        }
+    }
+
+    /// Whether the file on the disk is the world as it is.
+    pub fn is_saved(&self) -> bool {
+        self.editor.is_saved()
+    }
+
+    /// What would be refused when the world runs.
+    pub fn warnings(&self) -> &[String] {
+        &self.warnings
+    }
+
+    /// A name that nothing has yet.
+    pub fn free_name(&self, kind: &str) -> String {
+        self.editor.free_name(kind)
+    }
+
+    /// The middle of the world.
+    pub fn middle(&self) -> Point2 {
+        let bounds = self.world().bounds;
+        bounds.min + (bounds.max - bounds.min) * 0.5
+    }
+
+    /// What lies lowest: the world, or its grid where distances are measured.
+    pub fn still(&mut self) -> Arc<Picture> {
+        if self.mode != Mode::Measure {
+            return Arc::clone(&self.still);
+        }
+        if self.grid.is_none()
+            && let Ok(layer) = GridLayer::new(self.world(), self.resolution)
+        {
+            let picture = layer.picture().with(self.still.items.iter().cloned());
+            self.grid = Some((layer, Arc::new(picture)));
+        }
+        self.grid.as_ref().map_or_else(|| Arc::clone(&self.still), |(_, picture)| Arc::clone(picture))
+    }
+
+    /// Everything over it.
+    pub fn over(&self) -> Picture {
+        let picture = self.atlas.picture();
+        let ours = self.still.items.len();
+        let mut over = Picture::new(picture.name.clone(), picture.bounds);
+        // the atlas draws the world first: that lies below already
+        over.items.extend(picture.items.into_iter().skip(ours));
+        let put = self.mode == Mode::Put;
+        if let Some((q, refusal)) = self.refused.as_ref().filter(|_| put) {
+            over.items.extend(self.atlas.refusal_items(self.robot, q, refusal));
+        } else if let Some((q, robot)) = self.wanted.as_ref().filter(|_| put).zip(self.atlas.robots().get(self.robot)) {
+            let ghost = footprint("wanted", "where it would be", &robot.robot.footprint(q), Role::Robot, 0.3);
+            over.items.extend(ghost);
+        }
+        if let Some(name) = self.selected.as_ref().filter(|_| self.mode == Mode::Edit) {
+            over.items.extend(self.editor.selected_items(name));
+        }
+        over
+    }
+
+    /// The names of everything, for a picture of this scale.
+    pub fn labels(&mut self, px_per_metre: f64) -> &[Item] {
+        if self.labels.as_ref().is_none_or(|(scale, _)| *scale != px_per_metre) {
+            self.labels = Some((px_per_metre, names(&self.atlas, px_per_metre)));
+        }
+        self.labels.as_ref().map_or(&[], |(_, items)| items)
+    }
+
+    /// The distances at a point, where they are measured.
+    pub fn probe_items(&self, at: Option<Point2>) -> Vec<Item> {
+        let layer = self.grid.as_ref().filter(|_| self.mode == Mode::Measure);
+        layer.zip(at).map_or_else(Vec::new, |((layer, _), at)| layer.probe_items(at))
+    }
+
+    /// Another side of the grid's cells, metres.
+    pub fn set_resolution(&mut self, resolution: f64) {
+        self.resolution = resolution;
+        self.grid = None;
+    }
+
+    /// The atlas as it is, for a sheet of this width, pixels; with the names of everything or without.
+    pub fn captured(&self, names: bool, width_px: f64) -> Captured {
+        let refused = self.refused.as_ref().filter(|_| self.mode == Mode::Put);
+        let over = refused.map_or_else(Vec::new, |(q, refusal)| self.atlas.refusal_items(self.robot, q, refusal));
+        let robots = self.atlas.robots().iter().map(|r| readout(&r.q.to_string()));
+        let mut readout: Vec<String> = robots.collect();
+        readout.extend(refused.map(|(_, refusal)| refusal.to_string()));
+        let grid = self.grid.as_ref().map(|(layer, _)| layer).filter(|_| self.mode == Mode::Measure);
+        // a refusal says its own words where names would be
+        let names = names && refused.is_none();
+        capture::atlas(&[AtlasSheet { atlas: &self.atlas, grid, over, readout, names }], width_px)
+    }
+
+    /// The widget in words.
+    pub fn described(&self) -> String {
+        let robots: Vec<String> = self.atlas.robots().iter().map(|r| format!("{}: {}", r.name, r.q)).collect();
+        let refusal = self.refusal().map_or_else(String::new, |r| format!(" {r}."));
+        format!("World {}. {}.{refusal}", self.world().name, robots.join("; "))
+    }
+
+    /// Why the robot was not put where it was asked for.
+    pub fn refusal(&self) -> Option<String> {
+        let (_, refusal) = self.refused.as_ref()?;
+        let offer = match refusal {
+            Refusal::Overlap { nearest: Some(_), .. } => "; click the ring for the nearest free place",
+            _ => "",
+        };
+        Some(format!("{refusal}{offer}"))
+    }
+
+    /// Asks for the robot at a point, with a heading or as it is turned; puts it there when `done`.
+    pub fn ask(&mut self, at: Point2, heading: Option<f64>, done: bool) {
+        self.refused = None;
+        self.wanted = None;
+        match self.atlas.target(self.robot, at, heading) {
+            Some(Ok(q)) if done => {
+                if let Some(Err(refusal)) = self.atlas.teleport(self.robot, q) {
+                    self.refused = Some((q, refusal));
+                }
+                self.labels = None;
+            }
+            Some(Ok(q)) => self.wanted = Some(q),
+            Some(Err(refusal)) => {
+                let here = self.atlas.robots().get(self.robot).map(|r| r.q);
+                self.refused = here.map(|q| (q, refusal));
+            }
+            None => {}
+        }
+    }
+
+    /// Takes the offered place, when the point is within `reach` metres of it.
+    pub fn take_offer(&mut self, at: Point2, reach: f64) -> bool {
+        let Some((_, Refusal::Overlap { nearest: Some(offer), .. })) = &self.refused else { return false };
+        let (q, Some(robot)) = (offer.q, self.atlas.robots().get(self.robot)) else { return false };
+        if (robot.robot.reference(&q) - at).norm() > reach {
+            return false;
+        }
+        self.refused = None;
+        matches!(self.atlas.teleport(self.robot, q), Some(Ok(())))
+    }
+
+    /// Draws the world as it is, its robots where they start.
+    pub(crate) fn redraw(&mut self) {
+        let world = self.editor.world().clone();
+        self.still = Arc::new(picture_of(&world));
+        self.atlas = Atlas::new(world);
+        self.warnings = self.editor.warnings();
+        (self.labels, self.grid, self.refused, self.wanted) = (None, None, None, None);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_robot_is_put_refused_and_offered_the_nearest_place() {
+        let mut atlas = AtlasState::of(World::lot());
+        let before = atlas.atlas().robots()[0].q;
+        // on the west pillar
+        atlas.ask(Point2::new(5.5, 5.0), Some(1.2), true);
+        assert_eq!(atlas.atlas().robots()[0].q, before);
+        assert!(atlas.refusal().unwrap().starts_with("would overlap the west pillar"), "{:?}", atlas.refusal());
+        let Some((_, Refusal::Overlap { nearest: Some(offer), .. })) = atlas.refused.clone() else {
+            panic!("an offer")
+        };
+        let at = atlas.atlas().robots()[0].robot.reference(&offer.q);
+        assert!(!atlas.take_offer(at + nalgebra::Vector2::new(1.0, 0.0), 0.1));
+        assert!(atlas.take_offer(at, 0.1));
+        assert_eq!(atlas.atlas().robots()[0].q, offer.q);
+        // while it is only dragged nothing is put
+        atlas.ask(Point2::new(8.0, 2.5), None, false);
+        assert_eq!(atlas.atlas().robots()[0].q, offer.q);
+        atlas.ask(Point2::new(8.0, 2.5), None, true);
+        assert_eq!(atlas.atlas().robots()[0].robot.reference(&atlas.atlas().robots()[0].q), Point2::new(8.0, 2.5));
+    }
+}

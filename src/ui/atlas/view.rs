@@ -1,0 +1,260 @@
+//! World atlas: worlds with their names, robots put by a click, the derived grid, and the editor.
+
+use bevy_egui::egui::{ComboBox, Key, RichText, ScrollArea, Slider, TextEdit, Ui, UiBuilder, WidgetInfo, WidgetType};
+
+use super::state::{AtlasState, Mode};
+use crate::atlas::{EditShape, Op};
+use crate::geometry::{Point2, Pose2};
+use crate::manifest::widget;
+use crate::picture::{Picture, Role, ScreenPoint, pick};
+use crate::ui::keys::{Action, hint};
+use crate::ui::paint::button::button;
+use crate::ui::paint::sheet::{Sheet, sheet, split};
+use crate::ui::{Command, Dashboard, Look, SessionCommand, UiState, readout};
+use crate::worlds::World;
+
+/// Width of what stands beside the paper, points.
+const SIDE: f32 = 300.0;
+
+/// A pointer that moved farther than this on the screen was dragged, points.
+const DRAGGED: f64 = 8.0;
+
+/// Shows the widget.
+pub fn atlas_view(
+    ui: &mut Ui,
+    model: &Dashboard,
+    (narrow, look): (bool, &Look),
+    state: &mut UiState,
+    commands: &mut Vec<Command>,
+) {
+    let Some(words) = widget("atlas") else { return };
+    crate::ui::tools::head(ui, words, model, (narrow, look), state, commands);
+    let room = ui.available_rect_before_wrap();
+    let (paper, beside) = split(room, narrow, SIDE);
+    let still = state.atlas.still();
+    let fit = crate::ui::paint::canvas::fit(&still, paper);
+    let mut moving = state.atlas.over();
+    if state.settings.labels {
+        moving.items.extend(state.atlas.labels(fit.px_per_metre()).iter().cloned());
+    }
+    let hover = ui.input(|i| i.pointer.latest_pos()).filter(|p| paper.contains(*p));
+    let at = hover.map(|p| fit.world_from_screen([f64::from(p.x), f64::from(p.y)]));
+    moving.items.extend(state.atlas.probe_items(at));
+    let spoken = state.atlas.described();
+    let pointed = state.pointed;
+    let on = sheet(ui, (paper, spoken), &still, &moving, look, state);
+    if state.atlas.mode == Mode::Measure {
+        // the pointer is always on what it measures
+        state.pointed = pointed;
+    }
+    match state.atlas.mode {
+        Mode::Put => put(&on, &mut state.atlas),
+        Mode::Edit => edit(&on, &moving, &still, &mut state.atlas),
+        Mode::Measure => {}
+    }
+    ui.scope_builder(UiBuilder::new().max_rect(beside), |ui| {
+        ScrollArea::vertical().auto_shrink(false).show(ui, |ui| beside_the_paper(ui, look, state, commands));
+    });
+}
+
+/// Does what a key asks for while the atlas is in front: files are worlds, and what is undone is an edit.
+pub fn act(action: Action, model: &Dashboard, state: &mut UiState, commands: &mut Vec<Command>) {
+    match action {
+        Action::Undo if state.atlas.mode == Mode::Edit => state.atlas.undo(true),
+        Action::Redo if state.atlas.mode == Mode::Edit => state.atlas.undo(false),
+        Action::Save => commands.push(Command::Session(SessionCommand::SaveWorld)),
+        Action::Open => commands.push(Command::Session(SessionCommand::OpenWorld)),
+        action => crate::ui::tools::act(action, model, state, commands),
+    }
+}
+
+/// A click puts the robot there; a drag turns it; a click on an offer takes it.
+fn put(on: &Sheet, atlas: &mut AtlasState) {
+    let Some(at) = on.held() else {
+        atlas.pressed = None;
+        return;
+    };
+    if on.response.drag_started() || on.response.clicked() || atlas.pressed.is_none() {
+        atlas.pressed = Some(at);
+    }
+    let from = atlas.pressed.unwrap_or(at);
+    let way = at - from;
+    let turned = way.norm() * on.fit.px_per_metre() > DRAGGED;
+    let heading = turned.then(|| crate::num::atan2(way.y, way.x));
+    let done = on.response.clicked() || on.response.drag_stopped();
+    if done && !turned && atlas.take_offer(from, 12.0 / on.fit.px_per_metre()) {
+        atlas.pressed = None;
+        return;
+    }
+    atlas.ask(from, heading, done);
+    if done {
+        atlas.pressed = None;
+    }
+}
+
+/// A press selects what is there; a drag moves it, or one of its handles.
+fn edit(on: &Sheet, moving: &Picture, still: &Picture, atlas: &mut AtlasState) {
+    let Some(at) = on.held() else { return };
+    let screen: ScreenPoint = on.fit.screen_from_world(at);
+    if on.response.drag_started() || on.response.clicked() {
+        let from =
+            on.response.ctx.input(|i| i.pointer.press_origin()).map_or(screen, |p| [f64::from(p.x), f64::from(p.y)]);
+        let origin = on.fit.world_from_screen(from);
+        let handle = atlas.handle_at(origin, 14.0 / on.fit.px_per_metre());
+        if handle.is_none() {
+            let item = pick(moving, &on.fit, from, 4.0).filter(|i| i.id.starts_with("place/"));
+            let item = item.or_else(|| pick(still, &on.fit, from, 5.0));
+            atlas.select(item.and_then(|i| thing(&i.id)));
+        }
+        atlas.begin_drag(origin, handle);
+    }
+    if on.response.dragged() {
+        atlas.drag_to(at, 10.0 / on.fit.px_per_metre());
+    }
+    if on.response.drag_stopped() || on.response.clicked() {
+        atlas.end_drag();
+    }
+}
+
+/// The name of the thing that an item is drawn for.
+fn thing(id: &str) -> Option<&str> {
+    if let Some(name) = id.strip_prefix("obstacle/").or(id.strip_prefix("mark/")) {
+        return Some(name);
+    }
+    id.strip_prefix("place/").and_then(|rest| rest.rsplit_once('/')).map(|(name, _)| name)
+}
+
+fn beside_the_paper(ui: &mut Ui, look: &Look, state: &mut UiState, commands: &mut Vec<Command>) {
+    ui.horizontal(|ui| {
+        let present = state.atlas.world().name.clone();
+        let choice = ComboBox::from_id_salt("world").selected_text(present.as_str()).show_ui(ui, |ui| {
+            for name in World::built_in_names() {
+                let Some(world) = World::built_in(name) else { continue };
+                if ui.selectable_label(present == world.name, &world.name).clicked() {
+                    state.atlas = AtlasState::of(world).in_mode(state.atlas.mode);
+                }
+            }
+        });
+        choice.response.widget_info(|| WidgetInfo {
+            current_text_value: Some(present.clone()),
+            ..WidgetInfo::labeled(WidgetType::ComboBox, true, "world")
+        });
+        if button(ui, "Open", 0.0, (true, false), look).clicked() {
+            commands.push(Command::Session(SessionCommand::OpenWorld));
+        }
+        if button(ui, "Save as", 0.0, (true, false), look).clicked() {
+            commands.push(Command::Session(SessionCommand::SaveWorld));
+        }
+    });
+    ui.horizontal(|ui| {
+        for (mode, name) in [(Mode::Put, "Put the robot"), (Mode::Measure, "Measure"), (Mode::Edit, "Edit")] {
+            if button(ui, name, 0.0, (true, state.atlas.mode == mode), look).clicked() {
+                state.atlas.mode = mode;
+            }
+        }
+    });
+    ui.checkbox(&mut state.settings.labels, "names of everything");
+    match state.atlas.mode {
+        Mode::Put => put_panel(ui, look, state),
+        Mode::Measure => measure_panel(ui, state),
+        Mode::Edit => edit_panel(ui, look, state),
+    }
+    ui.add_space(8.0);
+    if button(ui, "Run this world", 0.0, (true, false), look).on_hover_text("A new run in the dashboard").clicked() {
+        commands.push(Command::Session(SessionCommand::RunWorld));
+    }
+}
+
+fn put_panel(ui: &mut Ui, look: &Look, state: &mut UiState) {
+    let atlas = &mut state.atlas;
+    let names: Vec<String> = atlas.atlas().robots().iter().map(|r| r.name.clone()).collect();
+    if names.is_empty() {
+        ui.label("No robot of the lab lives in this world.");
+        return;
+    }
+    ui.label("Click to put the robot there, drag to turn it.");
+    for (i, name) in names.iter().enumerate() {
+        if names.len() > 1 && ui.radio(atlas.robot == i, name).clicked() {
+            atlas.robot = i;
+        }
+    }
+    if let Some(robot) = atlas.atlas().robots().get(atlas.robot) {
+        for line in crate::picture::readout_lines(&readout(&robot.q.to_string()), 40) {
+            ui.label(RichText::new(line).monospace());
+        }
+    }
+    if let Some(words) = atlas.refusal() {
+        ui.label(RichText::new(words).color(look.colour(Role::Goal)));
+    }
+}
+
+fn measure_panel(ui: &mut Ui, state: &mut UiState) {
+    ui.label("The grid is derived from the world, at any resolution. Point somewhere: the exact distance stands beside the grid's.");
+    let mut resolution = state.atlas.resolution;
+    let slider = Slider::new(&mut resolution, 0.05..=1.0).logarithmic(true).fixed_decimals(2).suffix(" m").text("cell");
+    let response = ui.add(slider);
+    response.widget_info(|| WidgetInfo::slider(true, resolution, "cell size in metres"));
+    if response.changed() {
+        state.atlas.set_resolution(resolution);
+    }
+}
+
+fn edit_panel(ui: &mut Ui, look: &Look, state: &mut UiState) {
+    let atlas = &mut state.atlas;
+    ui.label("Click a wall, an obstacle, a place or a painted mark, and drag it or its handles. A ring on an edge makes a corner; a corner dragged onto the next goes away.");
+    ui.horizontal_wrapped(|ui| {
+        let (middle, u) = (atlas.middle(), atlas.unit());
+        let corner = |x: f64, y: f64| Point2::new(middle.x + x * u, middle.y + y * u);
+        let shapes = [
+            ("wall", EditShape::Wall(vec![corner(-2.0, 0.0), corner(2.0, 0.0)])),
+            ("box", EditShape::Box { min: corner(-1.0, -1.0), max: corner(1.0, 1.0) }),
+            ("disc", EditShape::Disc { center: middle, radius: u }),
+            ("polygon", EditShape::Polygon(vec![corner(-2.0, -1.0), corner(2.0, -1.0), corner(0.0, 2.0)])),
+            ("mark", EditShape::Mark(vec![corner(-2.0, 0.0), corner(2.0, 0.0)])),
+        ];
+        for (kind, shape) in shapes {
+            if button(ui, &format!("Add {kind}"), 0.0, (true, false), look).clicked() {
+                let name = atlas.free_name(kind);
+                atlas.change(&Op::Add { name: name.clone(), shape }, Some(name));
+            }
+        }
+        if button(ui, "Add place", 0.0, (true, false), look).clicked() {
+            let name = atlas.free_name("place");
+            let pose = Pose2 { x: middle.x, y: middle.y, theta: 0.0 };
+            atlas.change(&Op::AddPlace { name: name.clone(), pose }, Some(name));
+        }
+    });
+    if let Some(selected) = atlas.selected.clone() {
+        ui.horizontal(|ui| {
+            let label = ui.label("name");
+            let field = TextEdit::singleline(&mut atlas.name_text).desired_width(140.0);
+            let response = ui.add(field).labelled_by(label.id);
+            if response.lost_focus() && ui.input(|i| i.key_pressed(Key::Enter)) && atlas.name_text != selected {
+                let to = atlas.name_text.trim().to_owned();
+                atlas.change(&Op::Rename { name: selected.clone(), to: to.clone() }, Some(to));
+            }
+            if button(ui, "Delete", 0.0, (true, false), look).clicked() {
+                atlas.change(&Op::Delete { name: selected.clone() }, None);
+            }
+        });
+    }
+    ui.horizontal(|ui| {
+        let [back, again] = atlas.can_undo();
+        if button(ui, "Undo", 0.0, (back, false), look).on_hover_text(hint(Action::Undo)).clicked() {
+            atlas.undo(true);
+        }
+        if button(ui, "Redo", 0.0, (again, false), look).on_hover_text(hint(Action::Redo)).clicked() {
+            atlas.undo(false);
+        }
+    });
+    if let Some(error) = &atlas.message {
+        ui.label(RichText::new(error).color(look.colour(Role::Goal)));
+    }
+    for warning in atlas.warnings() {
+        ui.label(RichText::new(warning).color(look.colour(Role::Goal)));
+    }
+    ui.label(if atlas.is_saved() { "saved" } else { "not saved in a file" });
+    if let Some(words) = atlas.drops() {
+        ui.label(RichText::new(words).color(look.colour(Role::Muted)));
+    }
+}

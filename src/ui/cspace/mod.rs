@@ -1,0 +1,5 @@
+//! The configuration space in the window.
+
+pub(crate) mod view;
+
+pub use view::CspaceState;

@@ -1,0 +1,209 @@
+//! The configuration space beside the workspace: the same robot as in the anatomy, as a point.
+
+use std::sync::Arc;
+
+use bevy_egui::egui::{Rect, RichText, ScrollArea, Ui, pos2, vec2};
+
+use crate::anatomy::{Anatomy, Tab};
+use crate::capture::{self, Captured};
+use crate::configuration::AnyConfiguration;
+use crate::cspace::{CellMap, Overlay, Slice, cspace_picture, overlay_items};
+use crate::manifest::widget;
+use crate::num::wrap;
+use crate::picture::{Picture, Role, footprint};
+use crate::robots::{ConfigurationError, Robot};
+use crate::ui::anatomy::view::{annulus, coordinate, robot_choice, world_choice};
+use crate::ui::paint::sheet::sheet;
+use crate::ui::{Command, Dashboard, Look, UiState, readout};
+
+/// Cells are cut down to a 256th of the sides.
+const FINEST: u32 = 8;
+/// So many cells are judged in a frame.
+const BUDGET: u32 = 1500;
+/// So many points of the way are kept.
+const TRACE: usize = 2000;
+
+/// What the widget remembers.
+#[derive(Clone, Debug, Default)]
+pub struct CspaceState {
+    map: Option<Map>,
+    trace: Vec<AnyConfiguration>,
+}
+
+/// The proofs, and how they were last drawn.
+#[derive(Clone, Debug)]
+struct Map {
+    cells: CellMap,
+    picture: Arc<Picture>,
+    /// How many cells were judged when it was drawn.
+    drawn: u64,
+}
+
+impl Map {
+    /// Whether its cells are those of this robot, in this scene, with the same coordinates held.
+    fn is_of(&self, anatomy: &Anatomy) -> bool {
+        let (ours, its) = (self.cells.slice(), anatomy.checker());
+        let same_scene = Arc::ptr_eq(&ours.checker().shared_scene(), &its.shared_scene());
+        same_scene && ours.checker().robot() == its.robot() && ours.holds(&anatomy.q())
+    }
+}
+
+impl CspaceState {
+    /// Workspace and configuration space as they are, the proofs brought to their end.
+    pub fn captured(&self, anatomy: &Anatomy) -> Result<Captured, ConfigurationError> {
+        let kept = self.map.as_ref().filter(|map| map.is_of(anatomy)).map(|map| map.cells.clone());
+        let mut cells = match kept {
+            Some(cells) => cells,
+            None => CellMap::new(Slice::through(anatomy.checker(), &anatomy.q())?, FINEST),
+        };
+        cells.refine(u32::MAX);
+        Ok(capture::cspace(anatomy, &cells, self.trace.clone()))
+    }
+
+    /// Goes on with the proofs. Returns whether there is more to prove.
+    fn refine(&mut self, anatomy: &Anatomy) -> bool {
+        if !self.map.as_ref().is_some_and(|map| map.is_of(anatomy)) {
+            let Ok(slice) = Slice::through(anatomy.checker(), &anatomy.q()) else { return false };
+            let cells = CellMap::new(slice, FINEST);
+            let picture = Arc::new(cspace_picture(&cells, &Overlay::default()));
+            self.map = Some(Map { cells, picture, drawn: 0 });
+            self.trace.clear();
+        }
+        let Some(map) = &mut self.map else { return false };
+        let more = map.cells.refine(BUDGET);
+        let judged = map.cells.progress().judged;
+        // what is drawn lags a little behind what is known: merging the cells costs more than judging them
+        if judged != map.drawn && (!more || judged > map.drawn + map.drawn / 3) {
+            map.picture = Arc::new(cspace_picture(&map.cells, &Overlay::default()));
+            map.drawn = judged;
+        }
+        more
+    }
+}
+
+/// Shows the widget.
+pub fn cspace_view(
+    ui: &mut Ui,
+    model: &Dashboard,
+    (narrow, look): (bool, &Look),
+    state: &mut UiState,
+    commands: &mut Vec<Command>,
+) {
+    let Some(words) = widget("cspace") else { return };
+    crate::ui::tools::head(ui, words, model, (narrow, look), state, commands);
+    let anatomy = state.anatomy.anatomy.clone();
+    if state.cspace.refine(&anatomy) {
+        ui.ctx().request_repaint();
+    }
+    let text = if narrow { 160.0 } else { 120.0 };
+    let room = ui.available_rect_before_wrap();
+    let side = if narrow {
+        room.width().min(0.5 * (room.height() - text))
+    } else {
+        (0.5 * (room.width() - 20.0)).min(room.height() - text)
+    };
+    let margin = if narrow { 0.5 * (room.width() - side) } else { 0.0 };
+    let left = Rect::from_min_size(room.min + vec2(margin, 0.0), vec2(side, side));
+    let right = if narrow { left.translate(vec2(0.0, side + 8.0)) } else { left.translate(vec2(side + 20.0, 0.0)) };
+    workspace(ui, left, look, state);
+    space(ui, right, look, state);
+    let below = Rect::from_min_max(pos2(room.left(), right.bottom() + 6.0), room.max);
+    ui.scope_builder(bevy_egui::egui::UiBuilder::new().max_rect(below), |ui| {
+        if narrow {
+            ScrollArea::vertical().auto_shrink(false).show(ui, |ui| below_the_papers(ui, look, state));
+        } else {
+            below_the_papers(ui, look, state);
+        }
+    });
+}
+
+/// What is to be read, and what is held or chosen.
+fn below_the_papers(ui: &mut Ui, look: &Look, state: &mut UiState) {
+    ui.label(RichText::new(readout(&state.anatomy.anatomy.q().to_string())).monospace());
+    if let Some(map) = &state.cspace.map {
+        let p = map.cells.progress();
+        let percent = |x: f64| format!("{:5.1} %", 100.0 * x);
+        let text = format!(
+            "proven free {}  proven blocked {}  not known {}  ({} cells judged)",
+            percent(p.free),
+            percent(p.blocked),
+            percent(p.unknown),
+            p.judged
+        );
+        let muted = |text: String| RichText::new(text).monospace().color(look.colour(Role::Muted));
+        ui.label(muted(text));
+        ui.label(muted(map.cells.slice().described()));
+    }
+    ui.horizontal_wrapped(|ui| {
+        robot_choice(ui, state);
+        world_choice(ui, state);
+        annulus(ui, state);
+        let mut line = state.anatomy.anatomy.tab == Tab::Swept;
+        if ui.checkbox(&mut line, "the swept tab's motion").changed() {
+            state.anatomy.anatomy.tab = if line { Tab::Swept } else { Tab::Distance };
+        }
+        // what the slice holds
+        ui.spacing_mut().slider_width = 180.0;
+        let held: Vec<(usize, String)> = state.cspace.map.as_ref().map_or_else(Vec::new, |m| m.cells.slice().held());
+        for (index, name) in held {
+            coordinate(ui, &mut state.anatomy.anatomy, index, &name);
+        }
+    });
+}
+
+/// The workspace: the robot is dragged there.
+fn workspace(ui: &mut Ui, paper: Rect, look: &Look, state: &mut UiState) {
+    let still = Arc::clone(state.anatomy.backdrop());
+    let mut overlay = state.anatomy.anatomy.overlay();
+    let anatomy = &state.anatomy.anatomy;
+    for other in anatomy.solutions().into_iter().filter(|q| *q != anatomy.q()) {
+        let shape = anatomy.checker().robot().footprint(&other);
+        overlay.items.extend(footprint("other", "the other arm with this tip", &shape, Role::Robot, 0.3));
+    }
+    let spoken = format!("workspace. {}", state.anatomy.anatomy.described());
+    let on = sheet(ui, (paper, spoken), &still, &overlay, look, state);
+    if let Some(to) = on.held().filter(|_| on.response.dragged() || on.response.clicked()) {
+        state.anatomy.anatomy.drag(to);
+        remember(state);
+    }
+}
+
+/// The configuration space: the point is dragged there.
+fn space(ui: &mut Ui, paper: Rect, look: &Look, state: &mut UiState) {
+    let Some(map) = &state.cspace.map else { return };
+    let anatomy = &state.anatomy.anatomy;
+    let (slice, still) = (map.cells.slice().clone(), Arc::clone(&map.picture));
+    let overlay = Overlay {
+        now: Some(anatomy.q()),
+        in_contact: anatomy.intersects(),
+        trace: state.cspace.trace.clone(),
+        line: (anatomy.tab == Tab::Swept).then(|| [anatomy.q(), anatomy.second()]),
+        solutions: anatomy.solutions(),
+    };
+    let moving = Picture::new(still.name.clone(), still.bounds).with(overlay_items(&slice, &overlay));
+    let spoken = format!("configuration space. The robot is the point {}", anatomy.q());
+    let on = sheet(ui, (paper, spoken), &still, &moving, look, state);
+    if let Some(to) = on.held().filter(|_| on.response.dragged() || on.response.clicked()) {
+        let (min, max) = (slice.min(), slice.max());
+        // beyond an edge of the torus is the other edge
+        let p = if slice.wraps() {
+            [wrap(to.x), wrap(to.y)]
+        } else {
+            [to.x.clamp(min[0], max[0]), to.y.clamp(min[1], max[1])]
+        };
+        // a point of the slice is a configuration of the robot
+        if state.anatomy.anatomy.set_q(slice.at(p)).is_ok() {
+            remember(state);
+        }
+    }
+}
+
+fn remember(state: &mut UiState) {
+    let q = state.anatomy.anatomy.q();
+    let trace = &mut state.cspace.trace;
+    if trace.last() != Some(&q) {
+        trace.push(q);
+        let spare = trace.len().saturating_sub(TRACE);
+        trace.drain(..spare);
+    }
+}

@@ -1,0 +1,56 @@
+//! Driving the robot in hand, with the arrow keys or the pad.
+
+use bevy_egui::egui::{InputState, Key, Ui};
+
+use crate::run::RobotInput;
+use crate::simulation::{RobotCommand, TransportCommand};
+use crate::ui::{Command, Dashboard, UiState};
+
+/// A key asks for all of a channel.
+const FULL: i16 = 128;
+
+/// The channels that the arrow keys held down ask for: up and down, left and right.
+fn channels(input: &InputState) -> (i16, i16) {
+    let axis = |plus, minus| FULL * (i16::from(input.key_down(plus)) - i16::from(input.key_down(minus)));
+    (axis(Key::ArrowUp, Key::ArrowDown), axis(Key::ArrowLeft, Key::ArrowRight))
+}
+
+/// Lets the arrow keys and the pad drive the robot in hand; of the two the one that asks for something.
+///
+/// Taking in hand is no input: the robot goes on with its tour until the first key. A key on a paused run lets it play: who
+/// drives wants to see it move. From one rest to the next is one thing to be undone.
+pub fn drive(ui: &Ui, model: &Dashboard, state: &mut UiState, commands: &mut Vec<Command>) {
+    let robots = || model.cockpits.iter().flat_map(|cockpit| &cockpit.robots);
+    let Some(robot) = state.armed.clone().filter(|name| robots().any(|r| r.drivable && r.name == *name)) else {
+        state.armed = None;
+        (state.held, state.pad) = ((0, 0), (0, 0));
+        return;
+    };
+    let elsewhere = ui.memory(|m| m.focused().is_some());
+    let keys = if elsewhere { (0, 0) } else { ui.input(channels) };
+    let wanted = if keys == (0, 0) { state.pad } else { keys };
+    if wanted == state.held {
+        return;
+    }
+    if state.held == (0, 0) {
+        commands.push(Command::Transport(TransportCommand::Checkpoint));
+        if !model.playing {
+            commands.push(Command::Transport(TransportCommand::Play));
+        }
+    }
+    hold(robot, wanted, state, commands);
+}
+
+/// Lets go of the robot in hand. It does not drive on by itself.
+pub fn let_go(state: &mut UiState, commands: &mut Vec<Command>) {
+    state.pad = (0, 0);
+    if let Some(robot) = state.armed.take().filter(|_| state.held != (0, 0)) {
+        hold(robot, (0, 0), state, commands);
+    }
+}
+
+fn hold(robot: String, channels: (i16, i16), state: &mut UiState, commands: &mut Vec<Command>) {
+    state.held = channels;
+    let input = RobotInput::Drive(channels.0, channels.1);
+    commands.push(Command::Robot(RobotCommand { robot, input }));
+}

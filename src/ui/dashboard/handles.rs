@@ -1,0 +1,220 @@
+//! Handles: dots on an arm that are dragged, nudged by the arrow keys, or set by numbers.
+
+use std::ops::RangeInclusive;
+
+use bevy_egui::egui::{
+    CursorIcon, DragValue, EventFilter, Id, Key, Painter, Rect, RichText, Sense, Slider, Stroke, Ui, Vec2, WidgetInfo,
+    WidgetType, pos2,
+};
+
+use super::arm::{dragged, handle_name, joints, turned};
+use crate::configuration::{Coordinates, Tn};
+use crate::geometry::Point2;
+use crate::num::wrap;
+use crate::picture::{Dash, Drawing, Fit, Item, Line, Picture, Role, footprint};
+use crate::robots::Reach;
+use crate::run::{Quantized, RobotInput};
+use crate::simulation::{RobotCommand, TransportCommand};
+use crate::ui::paint::canvas;
+use crate::ui::{CockpitRobot, Command, Look, UiState};
+
+/// Diameter of a handle, points.
+const DOT: f32 = 10.0;
+/// Diameter of what takes a mouse, points; a fingertip takes as much as any other control.
+const HIT: f32 = 28.0;
+/// How far an arrow key turns a joint, radians.
+const NUDGE: f64 = 0.02;
+
+/// The angles that the arm is on its way to, or has.
+fn angles(robot: &CockpitRobot) -> &Coordinates {
+    robot.target.as_ref().unwrap_or(&robot.coordinates)
+}
+
+/// Asks for these joint angles by the end of the next tick.
+fn move_to(robot: &CockpitRobot, to: &[f64], commands: &mut Vec<Command>) {
+    let target: Option<Vec<Quantized>> = to.iter().map(|angle| Quantized::try_new(*angle)).collect();
+    if let Some(target) = target.filter(|_| *to != angles(robot)[..]) {
+        commands.push(Command::Robot(RobotCommand { robot: robot.name.clone(), input: RobotInput::MoveTo(target) }));
+    }
+}
+
+fn checkpoint(commands: &mut Vec<Command>) {
+    commands.push(Command::Transport(TransportCommand::Checkpoint));
+}
+
+/// Shows the handles of an arm over its paper; while one is held, the circle that it moves on and where the arm is going.
+pub fn handles(
+    ui: &mut Ui,
+    robot: &CockpitRobot,
+    (paper, fit): (Rect, &Fit),
+    look: &Look,
+    state: &mut UiState,
+    commands: &mut Vec<Command>,
+) {
+    let going = turned(&robot.footprint, angles(robot));
+    let shown = if robot.target.is_some() { &going } else { &robot.footprint };
+    let points = joints(shown);
+    let painter = ui.painter_at(paper);
+    if robot.target.is_some() {
+        let ghost = footprint("target", "where the arm is going", &going, Role::Robot, 0.3);
+        canvas::paint(&painter, &over(ghost), fit, look);
+    }
+    let links = points.len().saturating_sub(1);
+    for link in 0..links {
+        state.nudging |= handle(ui, robot, (link, links), &points, (&painter, fit), look, commands);
+    }
+}
+
+fn over(items: Vec<Item>) -> Picture {
+    let anywhere = crate::worlds::Bounds { min: Point2::origin(), max: Point2::new(1.0, 1.0) };
+    Picture::new("handles", anywhere).with(items)
+}
+
+/// Shows one handle. Returns whether it has the focus.
+fn handle(
+    ui: &mut Ui,
+    robot: &CockpitRobot,
+    (link, links): (usize, usize),
+    points: &[Point2],
+    (painter, fit): (&Painter, &Fit),
+    look: &Look,
+    commands: &mut Vec<Command>,
+) -> bool {
+    let name = handle_name(link, links);
+    let [x, y] = fit.screen_from_world(points[link + 1]);
+    let at = pos2(x as f32, y as f32);
+    let size = if ui.spacing().interact_size.y > HIT { ui.spacing().interact_size.y } else { HIT };
+    let id = Id::new((&robot.name, "handle", link));
+    let response = ui.interact(Rect::from_center_size(at, Vec2::splat(size)), id, Sense::click_and_drag());
+    let angle = angles(robot).get(link).copied().unwrap_or_default();
+    let label = format!("{}: {name}, theta{} in radians", robot.name, link + 1);
+    response.widget_info(|| WidgetInfo::slider(true, angle, &label));
+    if response.drag_started() || response.clicked() {
+        response.request_focus();
+    }
+    if response.drag_started() {
+        checkpoint(commands);
+    }
+    if response.dragged()
+        && let Some(pointer) = response.interact_pointer_pos()
+    {
+        let to = fit.world_from_screen([f64::from(pointer.x), f64::from(pointer.y)]);
+        move_to(robot, &dragged(angles(robot), points, link, to), commands);
+    }
+    let focused = response.has_focus();
+    if focused {
+        nudge(ui, id, robot, link, commands);
+    }
+    let held = response.dragged() || response.has_focus();
+    if held || response.hovered() {
+        // the way that this handle can go
+        let radius = (points[link + 1] - points[link]).norm();
+        let mut circles = vec![circle("its circle", points[link], radius)];
+        if link + 1 < links {
+            let last = points[links];
+            circles.push(circle("the circle of the tip", points[link], (last - points[link]).norm()));
+        }
+        canvas::paint(painter, &over(circles), fit, look);
+    }
+    let grown = if held || response.hovered() { 1.35 } else { 1.0 };
+    let role = if held { Role::Focus } else { Role::Robot };
+    painter.circle(at, 0.5 * DOT * grown, look.colour(Role::Paper), Stroke::new(2.0, look.colour(role)));
+    response.on_hover_cursor(if held { CursorIcon::Grabbing } else { CursorIcon::Grab });
+    focused
+}
+
+fn circle(name: &str, center: Point2, radius: f64) -> Item {
+    Item::new(format!("handle/{name}"), name, Role::Path, Drawing::Disc { center, radius })
+        .stroked(Line::solid(1.0).dashed(Dash::Dashed))
+}
+
+/// Lets the arrow keys turn a focused handle's joint: left and up counter-clockwise; with Shift a tenth as far.
+fn nudge(ui: &Ui, id: Id, robot: &CockpitRobot, link: usize, commands: &mut Vec<Command>) {
+    let own = EventFilter { horizontal_arrows: true, vertical_arrows: true, escape: true, ..EventFilter::default() };
+    ui.memory_mut(|m| m.set_focus_lock_filter(id, own));
+    let (turns, fine, lets_go) = ui.input(|i| {
+        let count = |key| i.num_presses(key) as f64;
+        let turns = count(Key::ArrowLeft) + count(Key::ArrowUp) - count(Key::ArrowRight) - count(Key::ArrowDown);
+        (turns, i.modifiers.shift, i.key_pressed(Key::Escape))
+    });
+    if lets_go {
+        ui.memory_mut(|m| m.surrender_focus(id));
+    } else if turns != 0.0 {
+        checkpoint(commands);
+        let mut to = angles(robot).clone();
+        if let Some(angle) = to.get_mut(link) {
+            *angle = wrap(*angle + turns * NUDGE * if fine { 0.1 } else { 1.0 });
+        }
+        move_to(robot, &to, commands);
+    }
+}
+
+/// The joint angles as numbers to be typed or dragged; for an arm of three links also the walk that keeps the tip where it is.
+pub fn numbers(ui: &mut Ui, robot: &CockpitRobot, look: &Look, state: &mut UiState, commands: &mut Vec<Command>) {
+    let mut to = angles(robot).clone();
+    let mut changed = false;
+    ui.horizontal(|ui| {
+        ui.spacing_mut().button_padding = [4.0, 1.0].into();
+        for (i, angle) in to.iter_mut().enumerate() {
+            let label = ui.label(RichText::new(format!("\u{3b8}{}", i + 1)).color(look.colour(Role::Text)));
+            let field = DragValue::new(angle).speed(0.01).fixed_decimals(3).range(-3.2..=3.2);
+            let response = ui.add(field).labelled_by(label.id);
+            response.widget_info(|| WidgetInfo {
+                label: Some(format!("{}: theta{}", robot.name, i + 1)),
+                ..WidgetInfo::new(WidgetType::DragValue)
+            });
+            if response.drag_started() || response.gained_focus() {
+                checkpoint(commands);
+            }
+            if response.hovered() {
+                state.pointed = Some(Role::Robot);
+            }
+            changed |= response.changed();
+        }
+        ui.weak("rad");
+    });
+    if changed {
+        to.iter_mut().for_each(|angle| *angle = wrap(*angle));
+        move_to(robot, &to, commands);
+    }
+    if let [th1, th2, th3] = to[..] {
+        null_space(ui, robot, Tn([th1, th2, th3]), commands);
+    }
+}
+
+/// The angles of the first joint about `th1` for which the other two still take the tip there, to a hundredth of a radian.
+fn reachable(arm: &Reach<3>, tip: Point2, th1: f64, side: usize) -> RangeInclusive<f64> {
+    let end = |step: f64| {
+        let way = (1..=314).map(|i| th1 + step * f64::from(i)).take_while(|th1| th1.abs() < std::f64::consts::PI);
+        way.take_while(|th1| arm.with_tip_at(tip, *th1)[side].is_some()).last().unwrap_or(th1)
+    };
+    end(-0.01)..=end(0.01)
+}
+
+/// The first joint as a slider while the tip stays: the other two follow by the two-link inverse kinematics, on the elbow side
+/// where they are. Where the tip would come out of reach the slider stops.
+fn null_space(ui: &mut Ui, robot: &CockpitRobot, q: Tn<3>, commands: &mut Vec<Command>) {
+    let arm = Reach::<3>::redundant();
+    let id = Id::new((&robot.name, "null space"));
+    // the tip of the walk is kept from its beginning: it does not drift with the rounding of the targets
+    let walk: Option<(Point2, bool)> = ui.data(|d| d.get_temp(id));
+    let (tip, up) = walk.filter(|(tip, _)| (arm.tip(&q) - tip).norm() < 1e-5).unwrap_or((arm.tip(&q), q.0[2] < 0.0));
+    ui.horizontal(|ui| {
+        let label = ui.label("tip kept:");
+        let mut th1 = q.0[0];
+        ui.spacing_mut().slider_width = (ui.available_width() - 10.0).clamp(60.0, 240.0);
+        let range = reachable(&arm, tip, th1, usize::from(up));
+        let slider = Slider::new(&mut th1, range).show_value(false);
+        let response = ui.add(slider).labelled_by(label.id);
+        if response.drag_started() || response.gained_focus() {
+            checkpoint(commands);
+        }
+        if response.changed()
+            && let Some(to) = arm.with_tip_at(tip, th1)[usize::from(up)]
+        {
+            ui.data_mut(|d| d.insert_temp(id, (tip, up)));
+            move_to(robot, &to.0, commands);
+        }
+        response.on_hover_text("One tip, many configurations: the first joint walks, the tip stays.");
+    });
+}

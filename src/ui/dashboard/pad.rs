@@ -1,0 +1,58 @@
+//! The pad on the screen: drives the robot in hand by a fingertip or the mouse.
+
+use bevy_egui::egui::{CursorIcon, Id, Rect, Sense, Stroke, Ui, Vec2, WidgetInfo, WidgetType, pos2, vec2};
+
+use crate::picture::Role;
+use crate::ui::{Look, UiState};
+
+/// Diameter, points.
+const SIZE: f32 = 104.0;
+/// So near the middle it asks for nothing, as a part of its radius.
+const DEAD: f32 = 0.12;
+
+/// The channels for a pointer off the middle by `(right, up)`, in parts of the radius: up is forward, left turns left.
+pub fn channels(right: f32, up: f32) -> (i16, i16) {
+    let channel = |part: f32| {
+        let part = if part.abs() < DEAD { 0.0 } else { part.clamp(-1.0, 1.0) };
+        (part * 128.0).round() as i16
+    };
+    (channel(up), channel(-right))
+}
+
+/// Shows the pad in the lower right corner of a paper. What it asks for is left in the state; driving takes it from there.
+pub fn pad(ui: &mut Ui, robot: &str, paper: Rect, look: &Look, state: &mut UiState) {
+    let center = pos2(paper.right() - 0.5 * SIZE - 10.0, paper.bottom() - 0.5 * SIZE - 10.0);
+    let rect = Rect::from_center_size(center, Vec2::splat(SIZE));
+    let response = ui.interact(rect, Id::new((robot, "pad")), Sense::drag());
+    response.widget_info(|| WidgetInfo::labeled(WidgetType::Other, true, format!("{robot}: pad, up drives forward")));
+    let radius = 0.5 * SIZE;
+    let held = response.interact_pointer_pos().filter(|_| response.is_pointer_button_down_on());
+    let off = held.map_or(Vec2::ZERO, |at| (at - center) / radius);
+    state.pad = channels(off.x, -off.y);
+    let painter = ui.painter_at(rect.expand(2.0));
+    painter.circle(center, radius, look.tint(Role::Paper, 0.35), Stroke::new(1.5, look.colour(Role::Focus)));
+    for (x, y) in [(0.0, -1.0), (0.0, 1.0), (-1.0, 0.0), (1.0, 0.0)] {
+        let out = vec2(x, y);
+        let side = vec2(-y, x) * 7.0;
+        let tip = center + out * (radius - 8.0);
+        let back = tip - out * 8.0;
+        painter.line(vec![back + side, tip, back - side], Stroke::new(1.5, look.colour(Role::Focus)));
+    }
+    let at = center + vec2(off.x, off.y).clamp(Vec2::splat(-1.0), Vec2::splat(1.0)) * (radius - 14.0);
+    painter.circle_filled(at, 12.0, look.tint(Role::Focus, if held.is_some() { 1.0 } else { 0.5 }));
+    response.on_hover_cursor(CursorIcon::Grab);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn up_is_forward_and_left_turns_left() {
+        assert_eq!(channels(0.0, 1.0), (128, 0));
+        assert_eq!(channels(-1.0, 0.0), (0, 128));
+        assert_eq!(channels(0.5, -0.5), (-64, -64));
+        assert_eq!(channels(0.1, -0.1), (0, 0), "a finger at rest does nothing");
+        assert_eq!(channels(9.0, 9.0), (128, -128));
+    }
+}

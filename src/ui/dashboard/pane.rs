@@ -1,0 +1,269 @@
+//! A pane of the dashboard: a world with its robots on paper, and under it what is to be read and set.
+
+use std::sync::Arc;
+
+use bevy_egui::egui::{
+    Align, Id, Label, Layout, Rect, Response, RichText, Sense, Stroke, StrokeKind, TextStyle, TextWrapMode, Ui,
+    UiBuilder, Vec2, WidgetInfo, WidgetType, pos2, vec2,
+};
+
+use super::goal::trailer_of;
+use super::{drive, handles, pad};
+use crate::atlas;
+use crate::manifest::Formula;
+use crate::picture::{Drawing, Fit, Item, Picture, Role, ScaleBar, pick, places, scan};
+use crate::run::RobotInput;
+use crate::simulation::{RobotCommand, TransportCommand};
+use crate::ui::paint::{canvas, frame};
+use crate::ui::{Cockpit, CockpitRobot, Command, Look, ParkingGoal, SessionCommand, UiState, readout, readout_lines};
+
+/// The rows of a pane's text that are kept free, so that panes do not jump when a trailer comes on.
+const ROWS: f32 = 8.0;
+
+/// So near a drawn thing the pointer points at it, points.
+const REACH: f64 = 4.0;
+
+/// The height of what stands under the paper of a pane of `robots` robots.
+pub fn text_height(ui: &Ui, robots: usize) -> f32 {
+    let row = ui.text_style_height(&TextStyle::Monospace) + 4.0;
+    8.0 + row * ROWS * robots.clamp(1, 3) as f32
+}
+
+/// Shows one cockpit: its paper, as square as fits, and name, space, readout and counts under it.
+pub fn pane(ui: &mut Ui, cockpit: &Cockpit, rect: Rect, look: &Look, state: &mut UiState, commands: &mut Vec<Command>) {
+    let height = (rect.height() - text_height(ui, cockpit.robots.len())).min(rect.width()).max(60.0);
+    let paper = Rect::from_min_size(rect.min, vec2(rect.width(), height));
+    let fit = canvas::fit(&cockpit.world, paper);
+    let response = ui.allocate_rect(paper, Sense::click());
+    response.widget_info(|| WidgetInfo::labeled(WidgetType::Button, true, cockpit.described()));
+    let painter = ui.painter_at(paper.expand(1.0));
+    canvas::paint_kept(&painter, &cockpit.world, paper, look);
+    let mut over = Picture::new(&cockpit.world.name, cockpit.world.bounds);
+    if state.settings.labels {
+        over = over.with(names(ui, cockpit, &fit));
+    }
+    if state.settings.scan {
+        let seen = cockpit.robots.iter().filter_map(|r| Some((r, r.sees.as_ref()?)));
+        over = over.with(seen.map(|(r, (pose, ranges))| scan(&format!("scan/{}", r.name), "scan", pose, ranges)));
+    }
+    for robot in &cockpit.robots {
+        if let Some((_, goal)) = state.goal.as_ref().filter(|(name, _)| *name == robot.name) {
+            over = over.with(goal.items(&robot.footprint));
+        }
+    }
+    let now = ui.input(|i| i.time);
+    over = over.with(cockpit.robots_picture(|robot| {
+        let red = state.flash(&robot.name, robot.flash, now);
+        if state.flash_lags(&robot.name, robot.flash) {
+            ui.ctx().request_repaint_after_secs(0.34);
+        }
+        red
+    }));
+    canvas::paint(&painter, &over, &fit, look);
+    point_out(&response, &over, cockpit, &fit, state);
+    let driven = cockpit.robots.iter().find(|r| r.drivable);
+    let armed = driven.filter(|r| state.armed.as_ref() == Some(&r.name));
+    let role = if armed.is_some() || response.has_focus() { Role::Focus } else { Role::Hairline };
+    let width = if armed.is_some() { 2.0 } else { 1.0 };
+    painter.rect_stroke(paper, 0.0, Stroke::new(width, look.colour(role)), StrokeKind::Inside);
+    if let Some(robot) = armed {
+        in_hand(ui, robot, paper, look, state);
+    }
+    for robot in cockpit.robots.iter().filter(|r| r.is_arm) {
+        handles::handles(ui, robot, (paper, &fit), look, state, commands);
+    }
+    // under a mouse Esc lets go; a finger has no Esc
+    if response.clicked() && (armed.is_none() || touched(ui)) {
+        take_in_hand(driven, state, commands);
+        // the arrow keys are the robot's now, also of who came here by Tab
+        response.surrender_focus();
+    }
+    if let Some(robot) = driven.filter(|_| armed.is_none()) {
+        response.on_hover_text_at_pointer(format!("Click to drive {}", robot.name));
+    }
+    let below = Rect::from_min_max(pos2(rect.left(), paper.bottom() + 6.0), rect.max);
+    let mut ui = ui.new_child(UiBuilder::new().max_rect(below).layout(Layout::top_down(Align::Min)));
+    ui.spacing_mut().interact_size.y = 0.0; // no row of words is as high as a button
+    words(&mut ui, cockpit, &fit, look, state, commands);
+}
+
+/// The dots of the places and the names of everything, placed anew when the scale changes only.
+fn names(ui: &Ui, cockpit: &Cockpit, fit: &Fit) -> Vec<Item> {
+    let scale = fit.px_per_metre();
+    let key = (Arc::as_ptr(&cockpit.atlas) as usize, scale.to_bits());
+    let id = Id::new(("names", &cockpit.world.name));
+    let kept: Option<(_, Vec<Item>)> = ui.data(|d| d.get_temp(id));
+    let kept = kept.filter(|(k, _)| *k == key).unwrap_or_else(|| {
+        let dots = places(&cockpit.atlas.world().places).into_iter();
+        let dots = dots.filter(|i| !matches!(i.drawing, Drawing::Label { .. }));
+        let made = (key, dots.chain(atlas::names(&cockpit.atlas, scale)).collect::<Vec<_>>());
+        ui.data_mut(|d| d.insert_temp(id, made.clone()));
+        made
+    });
+    kept.1
+}
+
+/// A click on a paper takes its robot in hand, or lets go of it.
+pub fn take_in_hand(robot: Option<&CockpitRobot>, state: &mut UiState, commands: &mut Vec<Command>) {
+    let again = robot.is_some_and(|r| state.armed.as_ref() == Some(&r.name));
+    drive::let_go(state, commands);
+    state.armed = robot.filter(|_| !again).map(|r| r.name.clone());
+}
+
+/// Whether a finger is in use: a mouse has the keys beside it.
+fn touched(ui: &Ui) -> bool {
+    ui.input(|i| i.any_touches()) || ui.spacing().interact_size.y > 40.0
+}
+
+/// What is said and offered on the paper of the robot in hand.
+fn in_hand(ui: &mut Ui, robot: &CockpitRobot, paper: Rect, look: &Look, state: &mut UiState) {
+    let sideways = robot.trailer.is_some() && state.held.0 == 0 && state.held.1 != 0;
+    let touched = touched(ui);
+    let words = if sideways {
+        "steering alone moves nothing: no input moves a car sideways"
+    } else if touched {
+        "the pad drives, a tap beside it lets go"
+    } else {
+        "arrows drive, Esc lets go"
+    };
+    let font = TextStyle::Body.resolve(ui.style());
+    let galley = ui.painter().layout(words.into(), font, look.colour(Role::Text), paper.width() - 24.0);
+    let rect = Rect::from_min_size(paper.min + vec2(8.0, 8.0), galley.size()).expand2(vec2(4.0, 2.0));
+    ui.painter().rect_filled(rect, 2.0, look.tint(Role::Paper, 0.9));
+    ui.painter().galley(paper.min + vec2(8.0, 8.0), galley, look.colour(Role::Text));
+    if touched {
+        pad::pad(ui, &robot.name, paper, look, state);
+    }
+}
+
+/// Lights the role of the drawn thing that is pointed at.
+fn point_out(response: &Response, over: &Picture, cockpit: &Cockpit, fit: &Fit, state: &mut UiState) {
+    let Some(at) = response.hover_pos().filter(|_| response.hovered() && frame::rests(response)) else { return };
+    let at = [f64::from(at.x), f64::from(at.y)];
+    let item = pick(over, fit, at, REACH).or_else(|| pick(&cockpit.world, fit, at, REACH));
+    if let Some(item) = item.filter(|i| i.role != Role::Muted && i.role != Role::Paper) {
+        state.pointed = Some(item.role);
+        if item.role == Role::Obstacle {
+            let name = item.name.clone();
+            response.clone().on_hover_text_at_pointer(name);
+        }
+    }
+}
+
+fn words(ui: &mut Ui, cockpit: &Cockpit, fit: &Fit, look: &Look, state: &mut UiState, commands: &mut Vec<Command>) {
+    ui.horizontal(|ui| {
+        ui.label(RichText::new(cockpit.heading()).color(look.colour(Role::Text)));
+        ui.with_layout(Layout::right_to_left(Align::Center), |ui| scale_bar(ui, fit.px_per_metre(), look));
+    });
+    for robot in &cockpit.robots {
+        let towing = robot.trailer == Some(true);
+        frame::formula(ui, &Formula::space(&robot.kind, towing), Formula::spoken(&robot.kind, towing), look, state);
+        readouts(ui, robot, look, state);
+        counts(ui, robot, look, state);
+        if robot.is_arm {
+            handles::numbers(ui, robot, look, state, commands);
+        }
+        links(ui, robot, state, commands);
+    }
+}
+
+/// The configuration as its type prints. Pointing lights the robot, a click copies every digit.
+fn readouts(ui: &mut Ui, robot: &CockpitRobot, look: &Look, state: &mut UiState) {
+    let figure = TextStyle::Monospace.resolve(ui.style());
+    let width = ui.ctx().fonts_mut(|f| f.glyph_width(&figure, '0'));
+    for line in readout_lines(&readout(&robot.readout), (ui.available_width() / width) as usize) {
+        let text = RichText::new(line).monospace().color(look.colour(Role::Text));
+        let response = ui.add(Label::new(text).sense(Sense::click()));
+        frame::points_at(state, &response, Role::Robot);
+        if response.clicked() {
+            ui.ctx().copy_text(robot.in_full.clone());
+        }
+        response.on_hover_text("Click to copy every digit");
+    }
+}
+
+fn counts(ui: &mut Ui, robot: &CockpitRobot, look: &Look, state: &mut UiState) {
+    let mut text = format!("contacts: {}", robot.contacts);
+    if let Some(tip) = robot.tip {
+        text += &readout(&format!("  tip: ({:.3}, {:.3})", tip.x, tip.y));
+    }
+    if robot.trailer.is_some() {
+        text += &format!("  reversals: {}", robot.reversals);
+    }
+    if robot.manual {
+        text += "  driven by hand";
+    }
+    let text = RichText::new(text).monospace().color(look.colour(Role::Muted));
+    let response = ui.add(Label::new(text).sense(Sense::hover()));
+    frame::points_at(state, &response, Role::Goal);
+}
+
+/// What can be done to a robot beside driving it.
+fn links(ui: &mut Ui, robot: &CockpitRobot, state: &mut UiState, commands: &mut Vec<Command>) {
+    let goal = state.goal.clone().filter(|(name, _)| *name == robot.name);
+    // rows that wrap are as high as their words
+    ui.spacing_mut().interact_size.y = ui.text_style_height(&TextStyle::Body);
+    ui.horizontal_wrapped(|ui| {
+        ui.style_mut().wrap_mode = Some(TextWrapMode::Extend);
+        let mut put_in = |input| {
+            commands.push(Command::Transport(TransportCommand::Checkpoint));
+            commands.push(Command::Robot(RobotCommand { robot: robot.name.clone(), input }));
+        };
+        if let Some(why) = &robot.no_room {
+            ui.weak(format!("no room for a trailer: {why}"));
+        } else if let Some(on) = robot.trailer {
+            let words = if on { "take the trailer off" } else { "put a trailer on" };
+            if ui.link(words).clicked() {
+                put_in(RobotInput::SetTrailer(!on));
+            }
+        }
+        if robot.waiting {
+            ui.weak("comes with the next tick");
+        }
+        if robot.manual && ui.link("resume tour").clicked() {
+            put_in(RobotInput::Release);
+        }
+        if robot.sees.is_some() {
+            let words = if state.settings.scan { "hide the scan" } else { "show the scan" };
+            if ui.link(words).clicked() {
+                state.settings.scan = !state.settings.scan;
+            }
+        }
+        if robot.is_arm {
+            let (words, links) = if robot.coordinates.len() == 2 { ("three links", 3) } else { ("two links", 2) };
+            let link = ui.link(words).on_hover_text("A new run with an arm of so many links");
+            if link.clicked() && matches!(robot.kind.as_str(), "reach" | "reach3") {
+                commands.push(Command::Session(SessionCommand::Links { robot: robot.name.clone(), links }));
+            }
+        }
+        match (&goal, trailer_of(&robot.footprint).filter(|_| robot.trailer == Some(true))) {
+            (Some(_), _) => {
+                if ui.link("drop the goal").clicked() {
+                    state.goal = None;
+                }
+            }
+            (None, Some(trailer)) => {
+                let link = ui.link("goal: one metre to the left");
+                if link.on_hover_text("The trailer is to end one metre left of here, facing the same way").clicked() {
+                    state.goal = Some((robot.name.clone(), ParkingGoal::left_of(trailer, robot.reversals)));
+                }
+            }
+            (None, None) => {}
+        }
+    });
+    if let Some((_, goal)) = goal {
+        let text = RichText::new(goal.words(&robot.footprint, robot.reversals)).strong();
+        frame::points_at(state, &ui.add(Label::new(text).sense(Sense::hover())), Role::Goal);
+    }
+}
+
+fn scale_bar(ui: &mut Ui, px_per_metre: f64, look: &Look) {
+    let bar = ScaleBar::new(px_per_metre, 80.0);
+    let (rect, _) = ui.allocate_exact_size(Vec2::new(bar.length_px as f32, 7.0), Sense::hover());
+    let stroke = Stroke::new(1.0, look.colour(Role::Muted));
+    let rect = rect.translate(vec2(-0.5, 0.0));
+    ui.painter().hline(rect.x_range(), rect.center().y, stroke);
+    ui.painter().vline(rect.left(), rect.y_range(), stroke);
+    ui.painter().vline(rect.right(), rect.y_range(), stroke);
+    ui.label(RichText::new(bar.label).small().color(look.colour(Role::Muted)));
+}

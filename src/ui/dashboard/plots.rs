@@ -1,0 +1,197 @@
+//! Plots of what has been of the run, with a cursor that is the time line's.
+
+use bevy_egui::egui::{RichText, TextStyle, Ui};
+use egui_plot::{Line, LineStyle, Plot, PlotPoints, VLine};
+
+use crate::picture::Role;
+use crate::run::DT;
+use crate::simulation::{History, Trail, TransportCommand};
+use crate::ui::{Command, Dashboard, Look, UiState};
+
+/// So many points a line has at most.
+const POINTS: usize = 400;
+
+/// A line of a plot: which robots it is drawn for, its name, its value.
+struct Channel {
+    /// Kinds of robots, by how their names begin; empty for all.
+    kinds: &'static [&'static str],
+    name: &'static str,
+    value: fn(&Trail) -> Option<f64>,
+}
+
+/// A plot.
+struct Graph {
+    title: &'static str,
+    /// Whether its values are angles in (-pi, pi].
+    wraps: bool,
+    channels: &'static [Channel],
+}
+
+const GRAPHS: [Graph; 4] = [
+    Graph {
+        title: "Distance to the nearest obstacle, m",
+        wraps: false,
+        channels: &[Channel { kinds: &[], name: "", value: |t| Some(t.clearance).filter(|c| c.is_finite()) }],
+    },
+    Graph {
+        title: "Headings, rad",
+        wraps: true,
+        channels: &[
+            Channel { kinds: &["rusty", "hitch"], name: "theta", value: |t| t.coordinates.get(2).copied() },
+            Channel { kinds: &["hitch"], name: "psi", value: |t| t.coordinates.get(3).copied() },
+        ],
+    },
+    Graph {
+        title: "Encoders against true travel, m",
+        wraps: false,
+        channels: &[
+            Channel { kinds: &["rusty"], name: "encoders", value: |t| t.encoders },
+            Channel { kinds: &["rusty"], name: "true", value: |t| Some(t.travelled) },
+        ],
+    },
+    Graph {
+        title: "Joint angles, rad",
+        wraps: true,
+        channels: &[
+            Channel { kinds: &["reach"], name: "theta1", value: |t| t.coordinates.first().copied() },
+            Channel { kinds: &["reach"], name: "theta2", value: |t| t.coordinates.get(1).copied() },
+            Channel { kinds: &["reach3"], name: "theta3", value: |t| t.coordinates.get(2).copied() },
+        ],
+    },
+];
+
+/// The pieces of a line: an angle that wraps jumps, its line does not.
+fn unbroken(points: &[[f64; 2]], wraps: bool) -> impl Iterator<Item = &[[f64; 2]]> {
+    points.chunk_by(move |a, b| !wraps || (b[1] - a[1]).abs() < std::f64::consts::PI)
+}
+
+/// Lines are told apart by colour and by dash.
+fn line_of(number: usize, look: &Look) -> (bevy_egui::egui::Color32, LineStyle) {
+    match number % 4 {
+        0 => (look.colour(Role::Robot), LineStyle::Solid),
+        1 => (look.colour(Role::Witness), LineStyle::Dashed { length: 6.0 }),
+        2 => (look.colour(Role::Free), LineStyle::Dashed { length: 2.5 }),
+        _ => (look.colour(Role::Path), LineStyle::Dashed { length: 12.0 }),
+    }
+}
+
+/// Shows the chosen plots one under the other. A click goes to that time.
+pub fn plots(
+    ui: &mut Ui,
+    model: &Dashboard,
+    history: &History,
+    look: &Look,
+    state: &mut UiState,
+    commands: &mut Vec<Command>,
+) {
+    ui.label(RichText::new("Plots").color(look.colour(Role::Text)).strong());
+    let mut shown = Vec::new();
+    ui.spacing_mut().interact_size.y = 20.0;
+    for (i, graph) in GRAPHS.iter().enumerate() {
+        let mut on = !state.hidden_plots.contains(&i);
+        if ui.checkbox(&mut on, graph.title).changed() {
+            state.hidden_plots.retain(|hidden| *hidden != i);
+            if !on {
+                state.hidden_plots.push(i);
+            }
+        }
+        if on {
+            shown.push(graph);
+        }
+    }
+    if shown.is_empty() {
+        ui.weak("Choose a plot.");
+        return;
+    }
+    let title = 2.0 * ui.text_style_height(&TextStyle::Small) + 12.0;
+    let height = (ui.available_height() / shown.len() as f32 - title).clamp(70.0, 260.0);
+    for graph in shown {
+        legend(ui, graph, model, look);
+        plot(ui, graph, height, model, history, look, commands);
+    }
+}
+
+/// The lines of a plot: the id of the robot, its name with the channel's, and the value.
+fn lines<'a>(graph: &'a Graph, model: &'a Dashboard) -> impl Iterator<Item = (u32, String, fn(&Trail) -> Option<f64>)> {
+    let robots = || (0_u32..).zip(model.cockpits.iter().flat_map(|c| &c.robots));
+    graph.channels.iter().flat_map(move |channel| {
+        let kinds = channel.kinds;
+        let of = robots().filter(move |(_, r)| kinds.is_empty() || kinds.iter().any(|k| r.kind.starts_with(k)));
+        of.map(|(id, r)| (id, format!("{} {}", r.name, channel.name).trim().to_owned(), channel.value))
+    })
+}
+
+/// The title of a plot, and its lines by name in their colours; dashes as they are drawn.
+fn legend(ui: &mut Ui, graph: &Graph, model: &Dashboard, look: &Look) {
+    ui.horizontal_wrapped(|ui| {
+        ui.spacing_mut().interact_size.y = ui.text_style_height(&TextStyle::Small);
+        ui.spacing_mut().item_spacing.x = 6.0;
+        ui.label(RichText::new(graph.title).small().color(look.colour(Role::Text)));
+        for (number, (_, name, _)) in lines(graph, model).enumerate() {
+            let (colour, style) = line_of(number, look);
+            let dash = match style {
+                LineStyle::Solid => "\u{2014}",
+                LineStyle::Dashed { length } if length < 4.0 => "\u{b7}\u{b7}\u{b7}",
+                _ => "- -",
+            };
+            ui.label(RichText::new(format!("{dash} {name}")).small().color(colour));
+        }
+    });
+}
+
+fn plot(
+    ui: &mut Ui,
+    graph: &Graph,
+    height: f32,
+    model: &Dashboard,
+    history: &History,
+    look: &Look,
+    commands: &mut Vec<Command>,
+) {
+    let end = DT * model.frontier.max(1) as f64;
+    let response = Plot::new(graph.title)
+        .height(height)
+        .allow_drag(false)
+        .allow_zoom(false)
+        .allow_scroll(false)
+        .allow_boxed_zoom(false)
+        .allow_double_click_reset(false)
+        .show_x(false)
+        .include_x(0.0)
+        .include_x(end)
+        .y_axis_min_width(28.0)
+        .show(ui, |plot| {
+            for (number, (id, name, value)) in lines(graph, model).enumerate() {
+                let samples = history.series(id, POINTS, value).into_iter();
+                let points: Vec<[f64; 2]> = samples.map(|(tick, value)| [DT * tick as f64, value]).collect();
+                let (colour, style) = line_of(number, look);
+                for piece in unbroken(&points, graph.wraps) {
+                    let piece = PlotPoints::from(piece.to_vec());
+                    plot.line(Line::new(name.clone(), piece).color(colour).style(style).width(1.25));
+                }
+            }
+            let cursor = VLine::new("", DT * model.tick as f64).color(look.colour(Role::Focus)).width(1.5);
+            plot.vline(cursor);
+            plot.pointer_coordinate().map(|p| p.x)
+        });
+    let pressed = response.response.clicked() || response.response.dragged();
+    if let Some(seconds) = response.inner.filter(|_| pressed) {
+        let tick = (seconds.clamp(0.0, end) / DT).round() as u64;
+        if tick != model.tick {
+            commands.push(Command::Transport(TransportCommand::Seek(tick.min(model.frontier))));
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_line_is_broken_where_an_angle_wraps() {
+        let points = [[0.0, 3.0], [1.0, 3.1], [2.0, -3.1], [3.0, -3.0], [4.0, 3.1]];
+        let lengths = |wraps| unbroken(&points, wraps).map(<[_]>::len).collect::<Vec<_>>();
+        assert_eq!(lengths(true), [2, 2, 1]);
+        assert_eq!(lengths(false), [5]);
+    }
+}

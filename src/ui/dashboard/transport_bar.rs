@@ -1,0 +1,180 @@
+//! The transport bar: the time line, play and pause, steps, loop, reset, re-roll, the speed, the seed, the time.
+
+use bevy_egui::egui::{Align, ComboBox, Key, Layout, RichText, TextEdit, TextStyle, Ui, WidgetInfo, WidgetType, vec2};
+
+use super::time_line::time_line;
+use crate::picture::Role;
+use crate::random::Seed;
+use crate::run::DT;
+use crate::simulation::{History, TransportCommand};
+use crate::ui::keys::{Action, hint};
+use crate::ui::paint::button::button;
+use crate::ui::{Command, Dashboard, Look, Notice, UiState};
+
+/// The speeds to choose from, simulated seconds per second of the clock.
+const SPEEDS: [(f64, &str); 11] = [
+    (0.125, "1/8 x"),
+    (0.25, "1/4 x"),
+    (0.5, "1/2 x"),
+    (1.0, "1 x"),
+    (2.0, "2 x"),
+    (4.0, "4 x"),
+    (8.0, "8 x"),
+    (16.0, "16 x"),
+    (32.0, "32 x"),
+    (64.0, "64 x"),
+    (f64::INFINITY, "as fast as possible"),
+];
+
+/// Does what a key or a button asks for, as far as it moves the run.
+pub fn act(action: Action, model: &Dashboard, commands: &mut Vec<Command>) {
+    let at = SPEEDS.iter().position(|(speed, _)| *speed == model.speed);
+    let speed = |at: Option<usize>| SPEEDS.get(at?).map(|(speed, _)| TransportCommand::SetSpeed(*speed));
+    let command = match action {
+        Action::PlayPause if model.playing => Some(TransportCommand::Pause),
+        Action::PlayPause => Some(TransportCommand::Play),
+        Action::StepBack => Some(TransportCommand::StepBack),
+        Action::Step => Some(TransportCommand::Step),
+        Action::Start => Some(TransportCommand::Seek(0)),
+        Action::End => Some(TransportCommand::Seek(model.frontier)),
+        Action::NextContact => model.next_contact.map(TransportCommand::Seek),
+        Action::Loop => Some(TransportCommand::SetLooping(!model.looping)),
+        Action::Slower => speed(at.and_then(|i| i.checked_sub(1))),
+        Action::Faster => speed(at.map(|i| i + 1)),
+        Action::Continue if model.tick < model.frontier => Some(TransportCommand::ContinueFromHere),
+        Action::Reset => Some(TransportCommand::Reset),
+        Action::ReRoll => Some(TransportCommand::ReRoll),
+        _ => None,
+    };
+    commands.extend(command.map(Command::Transport));
+}
+
+/// Below this width the bar takes two rows and a menu, points.
+const ONE_ROW: f32 = 960.0;
+
+/// The width that the note beside the time takes, points.
+const NOTE: f32 = 180.0;
+
+/// Shows the time line and the bar under it, on a `narrow` screen in more rows.
+pub fn transport_bar(
+    ui: &mut Ui,
+    model: &Dashboard,
+    history: &History,
+    (narrow, look): (bool, &Look),
+    state: &mut UiState,
+    commands: &mut Vec<Command>,
+) {
+    time_line(ui, model, history, look, commands);
+    if narrow || ui.available_width() < ONE_ROW {
+        ui.spacing_mut().button_padding.x = 7.0;
+        ui.spacing_mut().item_spacing.x = 5.0;
+        ui.horizontal(|ui| {
+            buttons(ui, model, look, &PLAY, commands);
+            ui.menu_button("More", |ui| {
+                buttons(ui, model, look, &MORE, commands);
+                speed_choice(ui, model, commands);
+            });
+        });
+        ui.horizontal(|ui| seed_and_time(ui, model, look, state, commands));
+    } else {
+        ui.horizontal(|ui| {
+            ui.spacing_mut().button_padding.x = 9.0;
+            ui.spacing_mut().item_spacing.x = 6.0;
+            buttons(ui, model, look, &PLAY, commands);
+            buttons(ui, model, look, &MORE, commands);
+            speed_choice(ui, model, commands);
+            seed_and_time(ui, model, look, state, commands);
+        });
+    }
+}
+
+/// What a narrow screen shows at once, and what it keeps in a menu.
+const PLAY: [(&str, Action); 5] = [
+    ("Play", Action::PlayPause),
+    ("Back", Action::StepBack),
+    ("Step", Action::Step),
+    ("Reset", Action::Reset),
+    ("Re-roll", Action::ReRoll),
+];
+const MORE: [(&str, Action); 3] =
+    [("Next contact", Action::NextContact), ("Loop", Action::Loop), ("Continue from here", Action::Continue)];
+
+fn buttons(ui: &mut Ui, model: &Dashboard, look: &Look, buttons: &[(&str, Action)], commands: &mut Vec<Command>) {
+    for &(label, action) in buttons {
+        let (label, width) = match action {
+            Action::PlayPause if model.playing => ("Pause", 60.0),
+            Action::PlayPause => (label, 60.0),
+            _ => (label, 0.0),
+        };
+        let enabled = match action {
+            Action::NextContact => model.next_contact.is_some(),
+            Action::Continue => model.tick < model.frontier,
+            _ => true,
+        };
+        let on = action == Action::Loop && model.looping;
+        if button(ui, label, width, (enabled, on), look).on_hover_text(hint(action)).clicked() {
+            act(action, model, commands);
+        }
+    }
+}
+
+/// How fast it plays.
+fn speed_choice(ui: &mut Ui, model: &Dashboard, commands: &mut Vec<Command>) {
+    let name = |speed: f64| SPEEDS.iter().find(|(s, _)| *s == speed).map_or("other", |(_, name)| name);
+    let selected = if model.speed.is_infinite() { "fastest" } else { name(model.speed) };
+    let choice = ComboBox::from_id_salt("speed").width(64.0).height(440.0).selected_text(selected).show_ui(ui, |ui| {
+        for (speed, name) in SPEEDS {
+            if ui.selectable_label(speed == model.speed, name).clicked() {
+                commands.push(Command::Transport(TransportCommand::SetSpeed(speed)));
+            }
+        }
+    });
+    choice.response.widget_info(|| WidgetInfo {
+        current_text_value: Some(selected.into()),
+        ..WidgetInfo::labeled(WidgetType::ComboBox, true, "speed")
+    });
+    choice.response.on_hover_text(format!(
+        "Simulated seconds per second: {}, {}",
+        hint(Action::Slower),
+        hint(Action::Faster)
+    ));
+}
+
+/// The seed, and at the right end the time.
+fn seed_and_time(ui: &mut Ui, model: &Dashboard, look: &Look, state: &mut UiState, commands: &mut Vec<Command>) {
+    if let Some(seed) = seed_field(ui, model.seed, state) {
+        commands.push(Command::Transport(TransportCommand::SetSeed(seed)));
+    }
+    ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+        let time = format!("{:7.2} s  tick {:5}", DT * model.tick as f64, model.tick);
+        ui.label(RichText::new(time).monospace());
+        // where there is no room for it, the note is what goes
+        if let Some(behind) = model.behind.as_ref().filter(|_| ui.available_width() > NOTE) {
+            ui.label(RichText::new(behind).small().color(look.colour(Role::Focus)));
+        }
+    });
+}
+
+/// The seed as an editable field: a new one is taken when Enter is pressed; what is no seed is put back, and said to be none.
+fn seed_field(ui: &mut Ui, seed: Seed, state: &mut UiState) -> Option<Seed> {
+    let label = ui.label("seed");
+    let mut text = state.seed_text.take().unwrap_or_else(|| seed.0.to_string());
+    let field = TextEdit::singleline(&mut text).desired_width(56.0).font(TextStyle::Monospace);
+    let field = field.vertical_align(Align::Center).min_size(vec2(0.0, ui.spacing().interact_size.y));
+    let response = ui.add(field).labelled_by(label.id);
+    if response.has_focus() {
+        state.seed_text = Some(text);
+        return None;
+    }
+    if !(response.lost_focus() && ui.input(|i| i.key_pressed(Key::Enter))) {
+        return None;
+    }
+    match text.trim().parse().map(Seed) {
+        Ok(new) => Some(new).filter(|new| *new != seed),
+        Err(_) => {
+            let text = format!("seed {}: it must be a whole number, at most {}", text.trim(), u64::MAX);
+            state.notice = Some(Notice { text, is_error: true });
+            None
+        }
+    }
+}

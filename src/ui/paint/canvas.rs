@@ -1,0 +1,232 @@
+//! The canvas: paints a picture with egui's painter, in screen points.
+
+use std::sync::Arc;
+
+use bevy_egui::egui::{
+    Align2, Color32, FontFamily, FontId, Id, LayerId, Mesh, Order, Painter, Pos2, Rect, Shape, Stroke,
+    epaint::{ClippedShape, PathShape, Primitive as Primitive2},
+    pos2,
+};
+
+use crate::picture::{
+    Anchor, Dash, Face, Fit, Line, Picture, Primitive, Role, ScreenPoint, ScreenRect, Theme, resolve,
+};
+use crate::ui::Look;
+
+/// Free room between a picture and its frame, points.
+pub const MARGIN: f32 = 8.0;
+
+/// How a picture lies in a rectangle of the screen.
+pub fn fit(picture: &Picture, rect: Rect) -> Fit {
+    let size = rect.size();
+    let rect = ScreenRect {
+        min: [f64::from(rect.min.x), f64::from(rect.min.y)],
+        size: [f64::from(size.x), f64::from(size.y)],
+    };
+    Fit::new(&picture.bounds, rect, f64::from(MARGIN))
+}
+
+/// Paints the picture's items, the first below all others.
+pub fn paint(painter: &Painter, picture: &Picture, fit: &Fit, look: &Look) {
+    for primitive in picture.items.iter().flat_map(|item| resolve(item, fit)) {
+        paint_primitive(painter, &primitive, look);
+    }
+}
+
+/// As [`paint`], for what stands still: level and upright edges are moved to the pixels, half a pixel at most, so that
+/// all are equally crisp.
+pub fn paint_still(painter: &Painter, picture: &Picture, fit: &Fit, look: &Look) {
+    let scale = f64::from(painter.pixels_per_point());
+    for mut primitive in picture.items.iter().flat_map(|item| resolve(item, fit)) {
+        match &mut primitive {
+            Primitive::Area { corners, .. } => {
+                corners.extend(corners.first().copied());
+                snap(corners, scale, 0.0);
+                corners.pop();
+            }
+            Primitive::Lines { lines, line, .. } => {
+                // the middle of a line of an odd number of pixels is the middle of a pixel
+                let odd = ((line.width_px * scale).floor() % 2.0) * 0.5;
+                lines.iter_mut().for_each(|points| snap(points, scale, odd));
+            }
+            _ => {}
+        }
+        paint_primitive(painter, &primitive, look);
+    }
+}
+
+/// Moves the level and upright pieces of a line to the lattice of `offset` pixels beside the whole ones.
+fn snap(points: &mut [ScreenPoint], scale: f64, offset: f64) {
+    for axis in [0, 1] {
+        let snapped = |v: f64| ((v * scale - offset).round() + offset) / scale;
+        let aligned: Vec<bool> = points.windows(2).map(|w| (w[0][axis] - w[1][axis]).abs() < 1e-6).collect();
+        for (i, point) in points.iter_mut().enumerate() {
+            let beside = [i.checked_sub(1), Some(i)];
+            if beside.into_iter().flatten().any(|edge| aligned.get(edge) == Some(&true)) {
+                point[axis] = snapped(point[axis]);
+            }
+        }
+        // the two ends of a closed line are one corner
+        if let [first, .., last] = points
+            && (first[axis] - last[axis]).abs() < 1.0
+            && (first[1 - axis] - last[1 - axis]).abs() < 1.0
+        {
+            let end = if aligned.first() == Some(&true) { first[axis] } else { last[axis] };
+            (first[axis], last[axis]) = (end, end);
+        }
+    }
+}
+
+/// As [`paint_still`], fitted to `rect`, and kept: while picture, place and look are the same as in the last frame it is neither
+/// resolved nor tessellated anew.
+pub fn paint_kept(painter: &Painter, picture: &Arc<Picture>, rect: Rect, look: &Look) {
+    let ctx = painter.ctx();
+    // the rounded corners and dots of a mesh lie in the font's texture
+    let atlas = ctx.fonts(|f| f.font_image_size());
+    let key = (Arc::as_ptr(picture) as usize, rect.to_string(), look.key(), ctx.pixels_per_point().to_bits(), atlas);
+    let id = Id::new(("kept", &picture.name, rect.min.x as i32, rect.min.y as i32));
+    let kept: Option<Kept> = ctx.data(|d| d.get_temp(id));
+    let kept = kept.filter(|k| k.key == key).unwrap_or_else(|| {
+        let aside = painter.with_clip_rect(rect).with_layer_id(LayerId::new(Order::Background, id));
+        paint_still(&aside, picture, &fit(picture, rect), look);
+        let shapes = ctx.graphics_mut(|layers| layers.get_mut(aside.layer_id()).map(std::mem::take));
+        let shapes: Vec<ClippedShape> = shapes.iter().flat_map(|list| list.all_entries().cloned()).collect();
+        let mut mesh = Mesh::default();
+        for primitive in ctx.tessellate(shapes, ctx.pixels_per_point()) {
+            if let Primitive2::Mesh(piece) = primitive.primitive {
+                mesh.append(piece);
+            }
+        }
+        let kept = Kept { key, mesh: Arc::new(mesh) };
+        ctx.data_mut(|d| d.insert_temp(id, kept.clone()));
+        kept
+    });
+    painter.add(Shape::Mesh(kept.mesh));
+}
+
+/// What identifies a kept picture: which one, where, how it looks, at which scale, and the texture it refers to.
+type KeptKey = (usize, String, (Theme, Option<Role>, u32), u32, [usize; 2]);
+
+#[derive(Clone)]
+struct Kept {
+    key: KeptKey,
+    mesh: Arc<Mesh>,
+}
+
+/// Nearer than this two points are one, pixels: egui has no direction for a line between them and gives corners that are no numbers.
+const SAME: f32 = 1e-2;
+
+fn same(a: Pos2, b: Pos2) -> bool {
+    (a - b).length() < SAME
+}
+
+/// Whether a line through these points goes straight back at the second: egui has no direction for such a corner either.
+fn turns_back(a: Pos2, b: Pos2, c: Pos2) -> bool {
+    ((b - a).normalized() + (c - b).normalized()).length() < 1e-3
+}
+
+/// The points without those that repeat the one before.
+fn distinct(points: &[ScreenPoint]) -> Vec<Pos2> {
+    let mut path: Vec<Pos2> = points.iter().map(pos).collect();
+    path.dedup_by(|b, a| same(*a, *b));
+    path
+}
+
+fn pos(p: &ScreenPoint) -> Pos2 {
+    pos2(p[0] as f32, p[1] as f32)
+}
+
+fn paint_primitive(painter: &Painter, primitive: &Primitive, look: &Look) {
+    match primitive {
+        Primitive::Area { corners, role, opacity } => {
+            let mut corners = distinct(corners);
+            if corners.len() > 1 && same(corners[0], corners[corners.len() - 1]) {
+                corners.pop();
+            }
+            if corners.len() > 2 {
+                painter.add(Shape::convex_polygon(corners, look.tint(*role, *opacity), Stroke::NONE));
+            }
+        }
+        Primitive::Dots { centers, radius, role, opacity } => {
+            let colour = look.tint(*role, *opacity);
+            painter.extend(centers.iter().map(|c| Shape::circle_filled(pos(c), *radius as f32, colour)));
+        }
+        Primitive::Circle { center, radius, role, line } => {
+            painter.circle_stroke(pos(center), *radius as f32, stroke(*role, line, look));
+        }
+        Primitive::Lines { lines, role, line } => {
+            for points in lines {
+                paint_line(painter, points, stroke(*role, line, look), line.dash);
+            }
+        }
+        Primitive::Text { at, anchor, text, face, size, role, plate } => {
+            let family = match face {
+                Face::Sans => FontFamily::Proportional,
+                Face::Mono => FontFamily::Monospace,
+            };
+            let galley = painter.layout_no_wrap(text.clone(), FontId::new(*size as f32, family), look.colour(*role));
+            let (align, offset) = match anchor {
+                Anchor::Center => (Align2::CENTER_CENTER, [0.0, 0.0]),
+                Anchor::Right => (Align2::LEFT_CENTER, [6.0, 0.0]),
+                Anchor::Left => (Align2::RIGHT_CENTER, [-6.0, 0.0]),
+                Anchor::Above => (Align2::CENTER_BOTTOM, [0.0, -6.0]),
+                Anchor::Below => (Align2::CENTER_TOP, [0.0, 6.0]),
+            };
+            let rect = align.anchor_size(pos(at) + offset.into(), galley.size());
+            if *plate {
+                painter.rect_filled(rect.expand2([3.0, 1.0].into()), 2.0, look.tint(Role::Paper, 0.85));
+            }
+            painter.galley(rect.min, galley, Color32::PLACEHOLDER);
+        }
+    }
+}
+
+fn stroke(role: Role, line: &Line, look: &Look) -> Stroke {
+    Stroke::new(line.width_px as f32, look.tint(role, line.opacity))
+}
+
+fn paint_line(painter: &Painter, points: &[ScreenPoint], stroke: Stroke, dash: Dash) {
+    let mut path = distinct(points);
+    if path.len() < 2 {
+        return;
+    }
+    if let Some((on, off)) = dash.pattern_px() {
+        painter.extend(Shape::dashed_line(&path, stroke, on as f32, off as f32));
+        return;
+    }
+    let turns = path.windows(3).any(|w| turns_back(w[0], w[1], w[2]));
+    let closed = !turns && path.len() > 3 && same(path[0], path[path.len() - 1]);
+    if closed {
+        path.pop();
+        painter.add(PathShape::closed_line(path, stroke));
+        return;
+    }
+    // where a line goes back the way it came a new one begins
+    let mut from = 0;
+    for i in 1..path.len().saturating_sub(1) {
+        if turns_back(path[i - 1], path[i], path[i + 1]) {
+            painter.line(path[from..=i].to_vec(), stroke);
+            from = i;
+        }
+    }
+    painter.line(path[from..].to_vec(), stroke);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn level_and_upright_edges_go_to_the_pixels_and_slanted_ones_stay() {
+        let mut square = [[0.3, 0.4], [10.3, 0.4], [10.3, 10.4], [0.3, 10.4], [0.3, 0.4]];
+        snap(&mut square, 1.0, 0.0);
+        assert_eq!(square, [[0.0, 0.0], [10.0, 0.0], [10.0, 10.0], [0.0, 10.0], [0.0, 0.0]]);
+        let mut upright = [[7.9, 0.4], [7.9, 5.2]];
+        snap(&mut upright, 1.0, 0.5);
+        assert_eq!(upright, [[7.5, 0.4], [7.5, 5.2]], "its ends stay");
+        let slanted = [[0.3, 0.4], [5.2, 3.3], [9.1, 0.2]];
+        let mut same = slanted;
+        snap(&mut same, 2.0, 0.5);
+        assert_eq!(same, slanted);
+    }
+}

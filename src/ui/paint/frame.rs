@@ -1,0 +1,161 @@
+//! The frame of a widget: its title, the misconception it removes, its colour key and the first hints.
+
+use bevy_egui::egui::{
+    FontId, RichText, Sense, Stroke, StrokeKind, TextFormat, TextStyle, TextWrapMode, Ui, Vec2, WidgetInfo, WidgetType,
+    text::LayoutJob, vec2,
+};
+
+use crate::manifest::{Formula, Level};
+use crate::picture::Role;
+use crate::ui::{Look, UiState, WidgetText};
+
+/// Shows title and misconception. They stand over what is shown and do not fade with it.
+pub fn title(ui: &mut Ui, widget: &WidgetText, look: &Look) {
+    let heading =
+        ui.label(RichText::new(&widget.title).text_style(TextStyle::Heading).color(look.theme.colour(Role::Text)));
+    // what the widget shows, for who does not see it
+    heading.widget_info(|| {
+        WidgetInfo::labeled(WidgetType::Label, true, format!("{}. {}", widget.title, widget.description))
+    });
+    ui.label(RichText::new(&widget.misconception).color(look.theme.colour(Role::Muted)));
+}
+
+/// Shows the colour key in a row of its own.
+pub fn key_row(ui: &mut Ui, widget: &WidgetText, look: &Look, state: &mut UiState) {
+    ui.add_space(2.0);
+    rows_of_words(ui, |ui| key(ui, widget, look, state));
+}
+
+/// Rows that wrap and are as high as their words, not as buttons.
+pub fn rows_of_words<R>(ui: &mut Ui, add: impl FnOnce(&mut Ui) -> R) -> R {
+    ui.scope(|ui| {
+        ui.spacing_mut().interact_size.y = ui.text_style_height(&TextStyle::Body) + 2.0;
+        ui.horizontal_wrapped(add).inner
+    })
+    .inner
+}
+
+/// Shows the colour key. Pointing at an entry, or stepping to it by Tab, lights its role.
+fn key(ui: &mut Ui, widget: &WidgetText, look: &Look, state: &mut UiState) {
+    ui.spacing_mut().item_spacing.x = 12.0;
+    for entry in &widget.key {
+        let role = entry.role();
+        let text = ui.painter().layout_no_wrap(entry.text.clone(), small(ui), look.colour(Role::Text));
+        let size = vec2(text.size().x + 16.0, text.size().y + 4.0);
+        let (rect, response) = ui.allocate_exact_size(size, Sense::click());
+        response.widget_info(|| WidgetInfo::labeled(WidgetType::Button, true, format!("colour key: {}", entry.text)));
+        swatch(ui, role, rect.left_center() + vec2(5.0, 0.0), look);
+        ui.painter().galley(rect.left_center() + vec2(16.0, -0.5 * text.size().y), text, look.colour(Role::Text));
+        if response.has_focus() {
+            ui.painter().rect_stroke(
+                rect.expand(2.0),
+                2.0,
+                Stroke::new(1.0, look.colour(Role::Focus)),
+                StrokeKind::Outside,
+            );
+        }
+        points_at(state, &response, role);
+    }
+}
+
+/// Marks a role by more than its colour: what is drawn so in the pictures.
+fn swatch(ui: &Ui, role: Role, at: bevy_egui::egui::Pos2, look: &Look) {
+    let (painter, colour) = (ui.painter(), look.colour(role));
+    let line = Stroke::new(1.5, colour);
+    let square = bevy_egui::egui::Rect::from_center_size(at, Vec2::splat(9.0));
+    match role {
+        Role::Obstacle => {
+            painter.rect(square, 0.0, look.tint(role, 0.12), line, StrokeKind::Inside);
+            for offset in [-3.0, 0.0, 3.0] {
+                let d = 4.5 - f32::abs(offset);
+                let c = at + vec2(offset, offset) * 0.5;
+                painter.line_segment([c + vec2(-d, d) * 0.7, c + vec2(d, -d) * 0.7], Stroke::new(1.0, colour));
+            }
+        }
+        Role::Sensor => {
+            for dy in [-4.0, 0.0, 4.0] {
+                painter.line_segment([at - vec2(5.0, 0.0), at + vec2(4.0, dy)], Stroke::new(1.0, colour));
+                painter.circle_filled(at + vec2(4.0, dy), 1.2, colour);
+            }
+        }
+        Role::Free => drop(painter.rect(square, 0.0, look.tint(role, 0.3), line, StrokeKind::Inside)),
+        Role::Unknown => {
+            for x in [-3.0, 0.0, 3.0] {
+                for y in [-3.0, 0.0, 3.0] {
+                    painter.circle_filled(at + vec2(x, y), 0.9, colour);
+                }
+            }
+        }
+        Role::Focus => drop(painter.rect_stroke(square, 0.0, Stroke::new(2.0, colour), StrokeKind::Inside)),
+        Role::Goal => {
+            painter.line_segment([at - vec2(4.0, 4.0), at + vec2(4.0, 4.0)], line);
+            painter.line_segment([at + vec2(-4.0, 4.0), at + vec2(4.0, -4.0)], line);
+        }
+        Role::Path | Role::Witness => drop(painter.line_segment([at - vec2(5.0, 0.0), at + vec2(5.0, 0.0)], line)),
+        _ => drop(painter.circle_filled(at, 4.5, colour)),
+    }
+}
+
+/// Notes that something of a role is pointed at or has the focus.
+pub fn points_at(state: &mut UiState, response: &bevy_egui::egui::Response, role: Role) {
+    if response.hovered() && rests(response) || response.has_focus() {
+        state.pointed = Some(role);
+    }
+}
+
+/// Whether the pointer has come to rest: what it only passes over lights nothing.
+pub fn rests(response: &bevy_egui::egui::Response) -> bool {
+    const REST_SECONDS: f32 = 0.3;
+    let still = response.ctx.input(|i| i.pointer.time_since_last_movement());
+    if still < REST_SECONDS {
+        response.ctx.request_repaint_after_secs(REST_SECONDS - still);
+    }
+    still >= REST_SECONDS
+}
+
+/// Shows a formula in a line; its terms light their roles.
+pub fn formula(ui: &mut Ui, formula: &Formula, spoken: &str, look: &Look, state: &mut UiState) {
+    if formula.0.is_empty() {
+        return;
+    }
+    let body = TextStyle::Body.resolve(ui.style());
+    let mut job = LayoutJob::default();
+    for term in &formula.0 {
+        let (size, valign) = match term.level {
+            Level::Base => (body.size, bevy_egui::egui::Align::Center),
+            Level::Sub => (0.7 * body.size, bevy_egui::egui::Align::BOTTOM),
+            Level::Sup => (0.7 * body.size, bevy_egui::egui::Align::TOP),
+        };
+        let color = look.colour(term.role.unwrap_or(Role::Muted));
+        let font_id = FontId::new(size, body.family.clone());
+        job.append(term.text, 0.0, TextFormat { font_id, color, valign, ..TextFormat::default() });
+    }
+    let response = ui.add(bevy_egui::egui::Label::new(job).sense(Sense::hover()));
+    response.widget_info(|| WidgetInfo::labeled(WidgetType::Label, true, spoken));
+    if let Some(role) = formula.0.iter().find_map(|t| t.role) {
+        points_at(state, &response, role);
+    }
+    response.on_hover_text(spoken);
+}
+
+/// Shows what a new reader may try first, until it is put away.
+pub fn hints(ui: &mut Ui, widget: &WidgetText, look: &Look, state: &mut UiState) {
+    if state.settings.hints_seen {
+        return;
+    }
+    rows_of_words(ui, |ui| {
+        // a hint goes to the next row as a whole
+        ui.style_mut().wrap_mode = Some(TextWrapMode::Extend);
+        ui.label(RichText::new("Try:").color(look.theme.colour(Role::Focus)).strong());
+        for hint in &widget.hints {
+            ui.label(RichText::new(hint).color(look.theme.colour(Role::Text)));
+        }
+        if ui.link("Got it").on_hover_text("Put these hints away").clicked() {
+            state.settings.hints_seen = true;
+        }
+    });
+}
+
+fn small(ui: &Ui) -> FontId {
+    TextStyle::Small.resolve(ui.style())
+}

@@ -1,0 +1,8 @@
+//! What every widget paints with.
+
+pub(crate) mod button;
+pub mod canvas;
+pub(crate) mod frame;
+pub(crate) mod look;
+pub(crate) mod sheet;
+pub(crate) mod style;

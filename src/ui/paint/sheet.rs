@@ -1,0 +1,72 @@
+//! A sheet: one picture on a paper, with a pointer on it.
+
+use bevy_egui::egui::{Rect, Response, Sense, Stroke, StrokeKind, Ui, WidgetInfo, WidgetType};
+
+use super::{canvas, frame};
+use crate::geometry::Point2;
+use crate::picture::{Fit, Picture, Role, pick};
+use crate::ui::{Look, UiState};
+
+/// So near a drawn thing the pointer points at it, points.
+const REACH: f64 = 4.0;
+
+/// What a sheet lets its widget know.
+pub struct Sheet {
+    /// The pointer's doings on the paper.
+    pub response: Response,
+    /// Where the paper is.
+    pub paper: Rect,
+    /// How the picture lies on it.
+    pub fit: Fit,
+}
+
+impl Sheet {
+    /// Where the pointer is held on the paper, in the picture's plane.
+    pub fn held(&self) -> Option<Point2> {
+        self.at(self.response.interact_pointer_pos()?)
+    }
+
+    fn at(&self, pos: bevy_egui::egui::Pos2) -> Option<Point2> {
+        self.paper.contains(pos).then(|| self.fit.world_from_screen([f64::from(pos.x), f64::from(pos.y)]))
+    }
+}
+
+/// The room for a widget's paper, and that beside it, `width` points wide: under it on a narrow screen.
+pub fn split(room: Rect, narrow: bool, width: f32) -> (Rect, Rect) {
+    if narrow {
+        let (paper, rest) = room.split_top_bottom_at_y(room.top() + (0.5 * room.height()).min(room.width()));
+        (paper, rest.with_min_y(rest.top() + 8.0))
+    } else {
+        let (paper, rest) = room.split_left_right_at_x(room.right() - width - 20.0);
+        (paper, rest.with_min_x(rest.left() + 20.0))
+    }
+}
+
+/// Shows `still`, which is kept from frame to frame, and `moving` over it. `spoken` is read to who does not see them. Pointing at a
+/// drawn thing lights its role.
+pub fn sheet(
+    ui: &mut Ui,
+    (paper, spoken): (Rect, String),
+    still: &std::sync::Arc<Picture>,
+    moving: &Picture,
+    look: &Look,
+    state: &mut UiState,
+) -> Sheet {
+    let response = ui.allocate_rect(paper, Sense::click_and_drag());
+    response.widget_info(|| WidgetInfo::labeled(WidgetType::Other, true, &spoken));
+    let fit = canvas::fit(still, paper);
+    let painter = ui.painter_at(paper.expand(1.0));
+    canvas::paint_kept(&painter, still, paper, look);
+    canvas::paint(&ui.painter_at(paper), moving, &fit, look);
+    let role = if response.has_focus() { Role::Focus } else { Role::Hairline };
+    painter.rect_stroke(paper, 0.0, Stroke::new(1.0, look.colour(role)), StrokeKind::Inside);
+    if let Some(at) =
+        response.hover_pos().filter(|_| response.hovered() && !response.dragged() && frame::rests(&response))
+    {
+        let at = [f64::from(at.x), f64::from(at.y)];
+        let item = pick(moving, &fit, at, REACH).or_else(|| pick(still, &fit, at, REACH));
+        state.pointed =
+            item.map(|i| i.role).filter(|r| !matches!(r, Role::Muted | Role::Paper | Role::Text)).or(state.pointed);
+    }
+    Sheet { response, paper, fit }
+}

@@ -1,0 +1,116 @@
+//! A world file as written: RON, nothing checked but its form.
+
+use serde::{Deserialize, Deserializer};
+
+use crate::geometry::{Point2, Pose2};
+use crate::worlds::BeamModel;
+
+/// A point as written: `(x, y)`.
+pub(crate) type Xy = (f64, f64);
+
+/// The whole file.
+#[derive(Deserialize)]
+#[serde(rename = "World", deny_unknown_fields)]
+pub(crate) struct WorldText {
+    pub version: u64,
+    pub name: String,
+    pub bounds: BoundsText,
+    #[serde(default)]
+    pub walls: Vec<PolylineText>,
+    #[serde(default)]
+    pub obstacles: Vec<ObstacleText>,
+    #[serde(default)]
+    pub places: Vec<PlaceText>,
+    #[serde(default)]
+    pub marks: Vec<PolylineText>,
+    #[serde(default)]
+    pub robots: Vec<RobotText>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct BoundsText {
+    pub min: Xy,
+    pub max: Xy,
+}
+
+/// A wall or a mark.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct PolylineText {
+    pub name: String,
+    pub points: Vec<Xy>,
+    /// Whether a last piece leads back to the first point.
+    #[serde(default)]
+    pub closed: bool,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct ObstacleText {
+    pub name: String,
+    pub shape: ShapeText,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) enum ShapeText {
+    Disc {
+        center: Xy,
+        radius: f64,
+    },
+    /// With sides along the axes.
+    Box {
+        min: Xy,
+        max: Xy,
+    },
+    /// A simple polygon, convex or not, in either orientation.
+    Polygon(Vec<Xy>),
+    /// All points within `radius` of the convex hull of `points`.
+    Rounded {
+        points: Vec<Xy>,
+        radius: f64,
+    },
+    Union(Vec<ShapeText>),
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct PlaceText {
+    pub name: String,
+    pub pose: Pose2,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct RobotText {
+    pub name: String,
+    pub kind: String,
+    pub start: Vec<f64>,
+    #[serde(default, deserialize_with = "given")]
+    pub sensor: Option<BeamModel>,
+}
+
+/// A field that may be left out, and is written without `Some` when it is there.
+fn given<'de, D: Deserializer<'de>, T: Deserialize<'de>>(deserializer: D) -> Result<Option<T>, D::Error> {
+    T::deserialize(deserializer).map(Some)
+}
+
+/// An item with a name.
+pub(crate) trait Named {
+    fn name(&self) -> &str;
+}
+
+macro_rules! named {
+    ($($text:ty),*) => { $(impl Named for $text {
+        fn name(&self) -> &str {
+            &self.name
+        }
+    })* };
+}
+named!(PolylineText, ObstacleText, PlaceText, RobotText);
+
+/// The point written so; a negative zero becomes a positive one.
+pub(crate) fn point((x, y): Xy) -> Point2 {
+    Point2::new(x + 0.0, y + 0.0)
+}

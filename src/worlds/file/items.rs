@@ -1,0 +1,193 @@
+//! Every item of a world file checked and made what it means.
+
+use super::description::{BoundsText, ObstacleText, PlaceText, PolylineText, RobotText, ShapeText, Xy, point};
+use super::name::check_name;
+use crate::geometry::{ConvexPolygon, MAX_COORDINATE, Point2, Pose2, Shape, ShapeError, convex_hull};
+use crate::num;
+use crate::worlds::{
+    BeamModel, Bounds, MAX_CONCAVE_VERTICES, MAX_ITEMS, Mark, Obstacle, ObstacleKind, Place, Resident, WorldProblem,
+};
+
+/// How many more shapes the world may have, and how many more corners its polygons: cutting up the concave ones takes quadratic time.
+pub(crate) struct Budget {
+    left: usize,
+    corners: usize,
+}
+
+impl Default for Budget {
+    fn default() -> Self {
+        Budget { left: MAX_ITEMS, corners: MAX_CORNERS }
+    }
+}
+
+/// The largest number of corners of a world's concave polygons together.
+const MAX_CORNERS: usize = MAX_ITEMS;
+
+impl Budget {
+    fn spend(&mut self, shapes: usize) -> Result<(), WorldProblem> {
+        self.left = self.left.checked_sub(shapes).ok_or(WorldProblem::TooMany { what: "shapes" })?;
+        Ok(())
+    }
+
+    fn spend_corners(&mut self, corners: usize) -> Result<(), WorldProblem> {
+        let what = "corners of concave polygons";
+        self.corners = self.corners.checked_sub(corners).ok_or(WorldProblem::TooMany { what })?;
+        Ok(())
+    }
+}
+
+fn make_point(xy: Xy) -> Result<Point2, ShapeError> {
+    let p = point(xy);
+    // written so that NaN fails it
+    if p.x.abs() <= MAX_COORDINATE && p.y.abs() <= MAX_COORDINATE {
+        Ok(p)
+    } else {
+        Err(ShapeError::Coordinate(p.x, p.y))
+    }
+}
+
+pub(crate) fn make_bounds(text: &BoundsText) -> Result<Bounds, WorldProblem> {
+    let (min, max) = (make_point(text.min)?, make_point(text.max)?);
+    make_box(min, max)?;
+    Ok(Bounds { min, max })
+}
+
+/// A box whose corners are given the right way round.
+fn make_box(min: Point2, max: Point2) -> Result<Shape, ShapeError> {
+    for side in [max.x - min.x, max.y - min.y] {
+        if side < 0.0 {
+            return Err(ShapeError::TooShort(side));
+        }
+    }
+    Shape::try_rectangle(min, max)
+}
+
+/// The points of a polyline, the first once more at the end when it is closed, and its segments.
+fn make_polyline(text: &PolylineText) -> Result<(Vec<Point2>, Vec<Shape>), WorldProblem> {
+    let least = if text.closed { 3 } else { 2 };
+    if text.points.len() < least {
+        return Err(WorldProblem::TooFewPoints { found: text.points.len(), least });
+    }
+    let mut points: Vec<Point2> = text.points.iter().map(|&xy| point(xy)).collect();
+    if text.closed {
+        points.push(points[0]);
+    }
+    let segment = |(index, ends): (usize, &[Point2])| {
+        Shape::try_segment(ends[0], ends[1]).map_err(|source| WorldProblem::Segment { index, source })
+    };
+    let segments = points.windows(2).enumerate().map(segment).collect::<Result<_, _>>()?;
+    Ok((points, segments))
+}
+
+pub(crate) fn make_wall(text: &PolylineText, budget: &mut Budget) -> Result<Obstacle, WorldProblem> {
+    let (_, segments) = make_polyline(text)?;
+    budget.spend(segments.len())?;
+    let pieces = segments.into_iter().map(|s| (Pose2::IDENTITY, s)).collect();
+    Ok(Obstacle::new(&text.name, ObstacleKind::Wall, pieces))
+}
+
+pub(crate) fn make_mark(text: &PolylineText) -> Result<Mark, WorldProblem> {
+    let (points, _) = make_polyline(text)?;
+    Ok(Mark { name: text.name.clone(), points })
+}
+
+pub(crate) fn make_solid(text: &ObstacleText, budget: &mut Budget) -> Result<Obstacle, WorldProblem> {
+    let mut solid = Obstacle::new(&text.name, ObstacleKind::Solid, Vec::new());
+    make_pieces(&text.shape, &mut solid, budget)?;
+    Ok(solid)
+}
+
+/// The recursion ends: ron reads no union nested deeper than its limit of 128.
+fn make_pieces(text: &ShapeText, solid: &mut Obstacle, budget: &mut Budget) -> Result<(), WorldProblem> {
+    let before = solid.pieces.len();
+    let at_origin = |shape| (Pose2::IDENTITY, shape);
+    match text {
+        ShapeText::Disc { center, radius } => {
+            let center = make_point(*center)?;
+            solid.pieces.push((Pose2::new(center.x, center.y, 0.0), Shape::try_disc(*radius)?));
+        }
+        ShapeText::Box { min, max } => solid.pieces.push(at_origin(make_box(make_point(*min)?, make_point(*max)?)?)),
+        ShapeText::Polygon(outline) => {
+            let points: Vec<Point2> = outline.iter().map(|&xy| point(xy)).collect();
+            // more than can be cut up are refused there
+            if points.len() <= MAX_CONCAVE_VERTICES && ConvexPolygon::try_new(&points).is_err() {
+                budget.spend_corners(points.len())?;
+            }
+            solid.add_polygon(&points)?;
+        }
+        ShapeText::Rounded { points, radius } => {
+            let points: Vec<Point2> = points.iter().map(|&xy| make_point(xy)).collect::<Result<_, _>>()?;
+            solid.pieces.push(at_origin(make_rounded(&points, *radius)?));
+        }
+        ShapeText::Union(members) => {
+            if members.is_empty() {
+                return Err(WorldProblem::EmptyUnion);
+            }
+            return members.iter().try_for_each(|member| make_pieces(member, solid, budget));
+        }
+    }
+    budget.spend(solid.pieces.len() - before)
+}
+
+fn make_rounded(points: &[Point2], radius: f64) -> Result<Shape, WorldProblem> {
+    let vertices = convex_hull(points);
+    let radius = match vertices.len() {
+        0 | 1 => return Err(WorldProblem::TooFewPoints { found: vertices.len(), least: 2 }),
+        2 => return Ok(Shape::try_capsule(vertices[0], vertices[1], radius)?),
+        _ if radius == 0.0 => 0.0,
+        _ => Shape::try_disc(radius)?.radius(),
+    };
+    for (i, a) in vertices.iter().enumerate() {
+        Shape::try_segment(*a, vertices[(i + 1) % vertices.len()])?;
+    }
+    Ok(Shape::Hull { vertices: vertices[..].into(), radius })
+}
+
+pub(crate) fn make_place(text: &PlaceText) -> Result<Place, WorldProblem> {
+    let p = make_point((text.pose.x, text.pose.y))?;
+    let theta = finite(text.pose.theta, "the heading")?;
+    Ok(Place { name: text.name.clone(), pose: Pose2::new(p.x, p.y, theta) })
+}
+
+fn finite(x: f64, what: &'static str) -> Result<f64, WorldProblem> {
+    if x.is_finite() { Ok(x + 0.0) } else { Err(WorldProblem::NotFinite(what)) }
+}
+
+pub(crate) fn make_resident(text: &RobotText) -> Result<Resident, WorldProblem> {
+    let RobotText { name, kind, start, sensor } = text;
+    Resident::try_new(name.clone(), kind.clone(), start.clone(), *sensor)
+}
+
+/// The start of a robot of this kind, checked and its angles wrapped.
+pub(crate) fn make_start(kind: &str, mut start: Vec<f64>) -> Result<Vec<f64>, WorldProblem> {
+    // how many of the coordinates are a position, and how many there may be
+    let (lengths, counts, expected) = match kind {
+        "rusty" => (2, 3..=3, "three: x, y, theta"),
+        "reach" => (0, 2..=2, "two: th1, th2"),
+        "reach3" => (0, 3..=3, "three: th1, th2, th3"),
+        "hitch" => (2, 3..=4, "three: x, y, theta; or with a trailer four: x, y, theta, psi"),
+        own if own.len() > 2 && own.starts_with("x-") && check_name(own).is_ok() => (usize::MAX, 1..=64, "1 to 64"),
+        _ => return Err(WorldProblem::Kind(kind.to_owned())),
+    };
+    if !counts.contains(&start.len()) {
+        return Err(WorldProblem::Start { kind: kind.to_owned(), expected, found: start.len() });
+    }
+    for (i, x) in start.iter_mut().enumerate() {
+        *x = finite(*x, "a start coordinate")?;
+        if i >= lengths {
+            *x = num::wrap(*x);
+        }
+    }
+    if lengths == 2 {
+        make_point((start[0], start[1]))?;
+    }
+    Ok(start)
+}
+
+/// The noise of the sensor of a robot of this kind, which must have one.
+pub(crate) fn make_noise(kind: &str, noise: BeamModel) -> Result<BeamModel, WorldProblem> {
+    if ["reach", "reach3", "hitch"].contains(&kind) {
+        return Err(WorldProblem::NoSensor(kind.to_owned()));
+    }
+    Ok(noise.try_new()?)
+}

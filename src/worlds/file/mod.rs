@@ -1,0 +1,9 @@
+//! World files: as written, checked, and printed.
+
+pub(crate) mod comments;
+pub(crate) mod description;
+pub(crate) mod items;
+pub(crate) mod name;
+pub(crate) mod parse;
+pub(crate) mod print;
+pub(crate) mod source;

@@ -1,0 +1,144 @@
+//! A world as canonical text, and its hash.
+
+use std::fmt::{self, Write};
+
+use xxhash_rust::xxh3::xxh3_128;
+
+use crate::geometry::{Point2, Pose2, Shape};
+use crate::worlds::{BeamModel, Obstacle, ObstacleKind, WORLD_VERSION, World, Written};
+
+impl World {
+    /// The world as a world file: one item a line, every number with the digits that give the same bits back.
+    ///
+    /// Reading it gives a world that is equal to this one and prints as the same text. (That holds for every world that
+    /// [`parse`](Self::parse) made. In one put together by hand, a piece that the format can't write as it is, such as a
+    /// turned box, comes out as the hull of its placed vertices, and a wall whose pieces are no chain as a union.)
+    pub fn to_ron(&self) -> String {
+        let mut text = String::new();
+        // writing to a String never fails
+        let _ = self.write_ron(&mut text);
+        text
+    }
+
+    /// The xxh3-128 hash of [`to_ron`](Self::to_ron): it depends on the world's content and not on comments or blanks in
+    /// the file it came from.
+    pub fn content_hash(&self) -> u128 {
+        xxh3_128(self.to_ron().as_bytes())
+    }
+
+    fn write_ron(&self, out: &mut String) -> fmt::Result {
+        let (min, max) = (Xy(self.bounds.min), Xy(self.bounds.max));
+        writeln!(out, "World(\n    version: {WORLD_VERSION},\n    name: {},", Quoted(&self.name))?;
+        writeln!(out, "    bounds: (min: {min}, max: {max}),")?;
+        let (mut walls, mut solids) = (Vec::new(), Vec::new());
+        for obstacle in &self.obstacles {
+            let name = Quoted(&obstacle.name);
+            match chain(obstacle) {
+                Some(points) => walls.push(format!("name: {name}, points: {}", Points(&points))),
+                None => solids.push(format!("name: {name}, shape: {}", shape_text(obstacle))),
+            }
+        }
+        let places = self.places.iter().map(|p| {
+            let Pose2 { x, y, theta } = p.pose;
+            format!("name: {}, pose: (x: {x:?}, y: {y:?}, theta: {theta:?})", Quoted(&p.name))
+        });
+        let marks = self.marks.iter().map(|m| format!("name: {}, points: {}", Quoted(&m.name), Points(&m.points)));
+        let robots = self.robots.iter().map(|r| {
+            let head = format!("name: {}, kind: {}, start: {:?}", Quoted(&r.name), Quoted(&r.kind), r.start);
+            r.sensor.map_or(head.clone(), |noise| format!("{head}, sensor: {}", noise_text(&noise)))
+        });
+        write_list(out, "walls", walls)?;
+        write_list(out, "obstacles", solids)?;
+        write_list(out, "places", places)?;
+        write_list(out, "marks", marks)?;
+        write_list(out, "robots", robots)?;
+        out.write_str(")\n")
+    }
+}
+
+fn noise_text(noise: &BeamModel) -> String {
+    let fields: Vec<String> = noise.named().iter().map(|(name, value)| format!("{name}: {value:?}")).collect();
+    format!("({})", fields.join(", "))
+}
+
+fn write_list(out: &mut String, list: &str, items: impl IntoIterator<Item = String>) -> fmt::Result {
+    writeln!(out, "    {list}: [")?;
+    for item in items {
+        writeln!(out, "        ({item}),")?;
+    }
+    out.write_str("    ],\n")
+}
+
+/// The points of a wall: its segments as one polyline.
+fn chain(obstacle: &Obstacle) -> Option<Vec<Point2>> {
+    if obstacle.kind != ObstacleKind::Wall {
+        return None;
+    }
+    let mut points: Vec<Point2> = Vec::with_capacity(obstacle.pieces.len() + 1);
+    for (pose, shape) in &obstacle.pieces {
+        match shape {
+            Shape::Segment { a, b } if *pose == Pose2::IDENTITY && points.last().is_none_or(|last| last == a) => {
+                if points.is_empty() {
+                    points.push(*a);
+                }
+                points.push(*b);
+            }
+            _ => return None,
+        }
+    }
+    (points.len() >= 2).then_some(points)
+}
+
+fn shape_text(obstacle: &Obstacle) -> String {
+    let text = |written: &Written<'_>| match written {
+        Written::Outline(points) => format!("Polygon({})", Points(points)),
+        Written::Piece(piece) => piece_text(piece),
+    };
+    match &obstacle.written()[..] {
+        [one] => text(one),
+        several => format!("Union([{}])", several.iter().map(text).collect::<Vec<_>>().join(", ")),
+    }
+}
+
+fn piece_text((pose, shape): &(Pose2, Shape)) -> String {
+    let at_origin = *pose == Pose2::IDENTITY;
+    match shape {
+        Shape::Disc { radius } => format!("Disc(center: {}, radius: {radius:?})", Xy(pose.position())),
+        Shape::Rectangle { min, max } if at_origin => format!("Box(min: {}, max: {})", Xy(*min), Xy(*max)),
+        Shape::Polygon(polygon) if at_origin => format!("Polygon({})", Points(polygon.vertices())),
+        _ => {
+            let placed = shape.place(pose);
+            format!("Rounded(points: {}, radius: {:?})", Points(placed.core()), placed.radius())
+        }
+    }
+}
+
+/// A point as `(x, y)`. `{:?}` of an `f64` prints the shortest digits that read back as the same bits.
+struct Xy(Point2);
+
+impl fmt::Display for Xy {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "({:?}, {:?})", self.0.x, self.0.y)
+    }
+}
+
+struct Points<'a>(&'a [Point2]);
+
+impl fmt::Display for Points<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_char('[')?;
+        for (i, p) in self.0.iter().enumerate() {
+            write!(f, "{}{}", if i == 0 { "" } else { ", " }, Xy(*p))?;
+        }
+        f.write_char(']')
+    }
+}
+
+/// A name as RON text. Names have no control characters, so quotes and backslashes are all that needs escaping.
+struct Quoted<'a>(&'a str);
+
+impl fmt::Display for Quoted<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "\"{}\"", self.0.replace('\\', "\\\\").replace('"', "\\\""))
+    }
+}

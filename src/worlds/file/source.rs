@@ -1,0 +1,163 @@
+//! A world file's text, and where in it things stand.
+//!
+//! A good file is read once. Only for an error it is read again, this time with its parts left unread ([`RawValue`] borrows
+//! the text), so that a part's address tells its line.
+
+use ron::value::RawValue;
+use serde::Deserialize;
+
+use super::description::WorldText;
+use crate::worlds::{WORLD_VERSION, WorldError, WorldItem, WorldProblem};
+
+/// The text of a world file under the name its errors give it.
+#[derive(Clone, Copy)]
+pub(crate) struct Source<'a> {
+    pub file: &'a str,
+    pub text: &'a str,
+}
+
+/// A part of a world file that an error is about.
+#[derive(Clone, Copy)]
+pub(crate) enum Part<'a> {
+    Name,
+    Bounds,
+    Item(&'a WorldItem),
+}
+
+/// The head of a file, whatever else it holds.
+#[derive(Deserialize)]
+#[serde(rename = "World")]
+struct Head<'a> {
+    #[serde(borrow)]
+    version: &'a RawValue,
+    #[serde(borrow)]
+    name: &'a RawValue,
+    #[serde(borrow)]
+    bounds: &'a RawValue,
+}
+
+/// The version of a file, whatever else it holds.
+#[derive(Deserialize)]
+#[serde(rename = "World")]
+struct Version {
+    version: u64,
+}
+
+/// The lists of a file, whatever else it holds.
+#[derive(Deserialize)]
+#[serde(rename = "World")]
+struct Lists<'a> {
+    #[serde(borrow, default)]
+    walls: Vec<&'a RawValue>,
+    #[serde(borrow, default)]
+    obstacles: Vec<&'a RawValue>,
+    #[serde(borrow, default)]
+    places: Vec<&'a RawValue>,
+    #[serde(borrow, default)]
+    marks: Vec<&'a RawValue>,
+    #[serde(borrow, default)]
+    robots: Vec<&'a RawValue>,
+}
+
+/// The name of an item, whatever else it holds.
+#[derive(Deserialize)]
+struct Name {
+    name: String,
+}
+
+impl<'a> Lists<'a> {
+    fn each(&self) -> [(&'static str, &[&'a RawValue]); 5] {
+        [
+            ("walls", &self.walls),
+            ("obstacles", &self.obstacles),
+            ("places", &self.places),
+            ("marks", &self.marks),
+            ("robots", &self.robots),
+        ]
+    }
+}
+
+impl<'a> Source<'a> {
+    /// The file as written, of the version that this program knows.
+    pub fn read(&self) -> Result<WorldText, WorldError> {
+        let file: Result<WorldText, _> = ron::from_str(self.text);
+        // Another version's file may have another form: then the version is what is wrong.
+        let version = match &file {
+            Ok(file) => Some(file.version),
+            Err(_) => ron::from_str(self.text).ok().map(|v: Version| v.version),
+        };
+        if let Some(other) = version.filter(|v| *v != WORLD_VERSION) {
+            let at = self.position(self.head(|head| head.version));
+            return Err(self.error_at(at, None, WorldProblem::Version(other)));
+        }
+        file.map_err(|error| {
+            let at = (error.span.start.line, error.span.start.col);
+            self.error_at(at, self.item_around(at), WorldProblem::Syntax(error.code.to_string()))
+        })
+    }
+
+    /// An error at the beginning of a part.
+    pub fn error(&self, part: Part, problem: impl Into<WorldProblem>) -> WorldError {
+        let (offset, item) = match part {
+            Part::Name => (self.head(|head| head.name), None),
+            Part::Bounds => (self.head(|head| head.bounds), None),
+            Part::Item(item) => (self.item_offset(item), Some(item.clone())),
+        };
+        self.error_at(self.position(offset), item, problem.into())
+    }
+
+    /// The line in which an item begins.
+    pub fn line(&self, item: &WorldItem) -> usize {
+        self.position(self.item_offset(item)).0
+    }
+
+    fn error_at(&self, (line, column): (usize, usize), item: Option<WorldItem>, problem: WorldProblem) -> WorldError {
+        WorldError { file: self.file.to_owned(), line, column, item: item.map(Box::new), problem: Box::new(problem) }
+    }
+
+    /// Line and column, from 1, of a byte of the text.
+    fn position(&self, offset: usize) -> (usize, usize) {
+        let before = self.text.get(..offset).unwrap_or("");
+        let line = before.matches('\n').count() + 1;
+        let column = before.chars().rev().take_while(|&c| c != '\n').count() + 1;
+        (line, column)
+    }
+
+    /// Where a part of this text begins, comments before it left out.
+    fn offset(&self, part: &RawValue) -> usize {
+        (part.trim().get_ron().as_ptr() as usize).saturating_sub(self.text.as_ptr() as usize)
+    }
+
+    /// Where a part of the head begins; the beginning of the file when there is no telling.
+    fn head(&self, part: impl Fn(&Head<'a>) -> &'a RawValue) -> usize {
+        ron::from_str(self.text).map_or(0, |head: Head| self.offset(part(&head)))
+    }
+
+    fn lists(&self) -> Option<Lists<'a>> {
+        ron::from_str(self.text).ok()
+    }
+
+    fn item_offset(&self, item: &WorldItem) -> usize {
+        let found = self.lists().and_then(|lists| {
+            let (_, raws) = lists.each().into_iter().find(|(list, _)| *list == item.list)?;
+            raws.get(item.index).map(|raw| self.offset(raw))
+        });
+        found.unwrap_or(0)
+    }
+
+    /// The item whose text holds a position; `None` outside the items, or when the file is not even RON.
+    fn item_around(&self, (line, column): (usize, usize)) -> Option<WorldItem> {
+        let before: usize = self.text.split_inclusive('\n').take(line - 1).map(str::len).sum();
+        let within: usize = self.text[before..].chars().take(column - 1).map(char::len_utf8).sum();
+        for (list, raws) in self.lists()?.each() {
+            for (index, raw) in raws.iter().enumerate() {
+                let start = self.offset(raw);
+                if (start..start + raw.trim().get_ron().len()).contains(&(before + within)) {
+                    let name = raw.into_rust().map_or(String::new(), |n: Name| n.name);
+                    return Some(WorldItem { list, index, name });
+                }
+            }
+        }
+        None
+    }
+}

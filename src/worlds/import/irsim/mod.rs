@@ -1,0 +1,4 @@
+//! Scenes of IR-SIM.
+
+pub(crate) mod scene;
+pub(crate) mod shape;

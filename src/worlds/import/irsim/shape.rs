@@ -1,0 +1,99 @@
+//! The shapes of IR-SIM's objects.
+
+use crate::geometry::{Point2, Pose2};
+use crate::worlds::WorldProblem;
+use crate::worlds::file::description::{ShapeText, Xy};
+use crate::worlds::import::yaml::Node;
+use crate::worlds::import::{Draft, ImportError};
+
+/// A shape in its object's frame.
+pub(crate) enum IrShape {
+    Circle { center: Point2, radius: f64 },
+    Rectangle { length: f64, width: f64 },
+    Polygon(Vec<Point2>),
+    Line(Vec<Point2>),
+}
+
+impl IrShape {
+    /// The shape that `item` describes.
+    pub fn read(item: &str, node: &Node) -> Result<IrShape, ImportError> {
+        let mut fields = node.fields(item)?;
+        let name = fields.need("name")?;
+        let (shape, known) = match name.text(item)? {
+            "circle" => {
+                let radius = fields.take("radius").map_or(Ok(0.2), |node| node.number(&format!("{item}.radius")))?;
+                let center = fields.take("center").map(|n| point(&format!("{item}.center"), n)).transpose()?;
+                (IrShape::Circle { center: center.unwrap_or_default(), radius }, "name, radius and center")
+            }
+            "rectangle" => {
+                let mut side = |key: &'static str| fields.need(key)?.number(&format!("{item}.{key}"));
+                let (length, width) = (side("length")?, side("width")?);
+                (IrShape::Rectangle { length, width }, "name, length and width")
+            }
+            kind @ ("polygon" | "linestring") => {
+                let at = format!("{item}.vertices");
+                let vertices = fields.need("vertices")?.list(&at)?;
+                let points = vertices.iter().map(|node| point(&at, node)).collect::<Result<_, _>>()?;
+                (if kind == "polygon" { IrShape::Polygon(points) } else { IrShape::Line(points) }, "name and vertices")
+            }
+            _ => return Err(name.wrong(&format!("{item}.name"), "circle, rectangle, polygon or linestring")),
+        };
+        fields.finish(known)?;
+        Ok(shape)
+    }
+
+    /// What an object of this shape is called.
+    pub fn stem(&self, painted: bool) -> &'static str {
+        match self {
+            _ if painted => "mark",
+            IrShape::Circle { .. } => "disc",
+            IrShape::Rectangle { .. } => "box",
+            IrShape::Polygon(_) => "polygon",
+            IrShape::Line(_) => "wall",
+        }
+    }
+
+    /// Puts an object of this shape into a world, its frame at `pose`; as a mark when it is but painted.
+    pub fn put(&self, pose: &Pose2, painted: bool, name: String, draft: &mut Draft) -> Result<(), WorldProblem> {
+        let place = |p: &Point2| {
+            // a turn by 0 leaves the digits as they are
+            let placed = if pose.theta == 0.0 { p + pose.position().coords } else { pose.transform(*p) };
+            (placed.x, placed.y)
+        };
+        let corners = |length: f64, width: f64| {
+            let (x, y) = (0.5 * length, 0.5 * width);
+            [(-x, -y), (x, -y), (x, y), (-x, y)].map(|(x, y)| Point2::new(x, y))
+        };
+        let placed = |points: &[Point2]| points.iter().map(place).collect::<Vec<Xy>>();
+        match self {
+            IrShape::Circle { .. } if painted => {
+                draft.note(format!("{name}, a circle that nothing collides with, is left out"));
+                Ok(())
+            }
+            IrShape::Circle { center, radius } => {
+                draft.solid(name, ShapeText::Disc { center: place(center), radius: *radius })
+            }
+            IrShape::Rectangle { length, width } if painted => {
+                draft.mark(name, placed(&corners(*length, *width)), true)
+            }
+            IrShape::Rectangle { length, width } => {
+                let points = placed(&corners(*length, *width));
+                let shape = if pose.theta == 0.0 {
+                    ShapeText::Box { min: points[0], max: points[2] }
+                } else {
+                    ShapeText::Polygon(points)
+                };
+                draft.solid(name, shape)
+            }
+            IrShape::Polygon(points) if painted => draft.mark(name, placed(points), true),
+            IrShape::Polygon(points) => draft.solid(name, ShapeText::Polygon(placed(points))),
+            IrShape::Line(points) if painted => draft.mark(name, placed(points), false),
+            IrShape::Line(points) => draft.wall(name, placed(points), false),
+        }
+    }
+}
+
+fn point(item: &str, node: &Node) -> Result<Point2, ImportError> {
+    let numbers = node.numbers(item, 2..=2, "two numbers: x, y")?;
+    Ok(Point2::new(numbers[0], numbers[1]))
+}

@@ -1,0 +1,176 @@
+//! The borders of a grid's occupied cells as closed lines.
+
+use crate::worlds::Grid;
+
+/// A corner of cells: the grid lines it lies on.
+pub(crate) type Corner = (u32, u32);
+
+/// The way a border runs, with the occupied cell on its left.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Way {
+    East,
+    North,
+    West,
+    South,
+}
+
+use Way::{East, North, South, West};
+
+impl Way {
+    fn left(self) -> Way {
+        match self {
+            East => North,
+            North => West,
+            West => South,
+            South => East,
+        }
+    }
+
+    fn right(self) -> Way {
+        self.left().left().left()
+    }
+
+    fn step(self, (x, y): Corner) -> Corner {
+        match self {
+            East => (x + 1, y),
+            North => (x, y + 1),
+            West => (x - 1, y),
+            South => (x, y - 1),
+        }
+    }
+
+    /// The cells to the left and to the right of the way ahead of a corner, as offsets from it.
+    fn ahead(self) -> [(u32, u32); 2] {
+        // a cell lies up and right of its own corner: 1 stands for the cell before it
+        match self {
+            East => [(0, 0), (0, 1)],
+            North => [(1, 0), (0, 0)],
+            West => [(1, 1), (1, 0)],
+            South => [(0, 1), (1, 1)],
+        }
+    }
+}
+
+/// Every border between an occupied cell and one that is not, in one closed line each, given by the corners where it turns:
+/// occupied cells lie on its left, so that outer borders run counter-clockwise. What lies outside the grid is not occupied.
+///
+/// The lines come in the order of their lowest, leftmost edges. Cells that meet in a corner only have lines of their own.
+pub(crate) fn trace(grid: &Grid) -> Vec<Vec<Corner>> {
+    let (columns, rows) = (grid.columns(), grid.rows());
+    let occupied = |(x, y): Corner, (dx, dy): (u32, u32)| match (x.checked_sub(dx), y.checked_sub(dy)) {
+        (Some(column), Some(row)) => column < columns && row < rows && grid.is_occupied(column, row),
+        _ => false,
+    };
+    let is_lower_border = |column, row| occupied((column, row), (0, 0)) && !occupied((column, row), (0, 1));
+    // every closed line runs east somewhere: below an occupied cell
+    let mut traced = vec![false; columns as usize * rows as usize];
+    let index = |column: u32, row: u32| row as usize * columns as usize + column as usize;
+    let mut lines = Vec::new();
+    for row in 0..rows {
+        for column in 0..columns {
+            if !is_lower_border(column, row) || traced[index(column, row)] {
+                continue;
+            }
+            let (mut at, mut way) = ((column, row), East);
+            let mut corners = Vec::new();
+            loop {
+                if way == East {
+                    traced[index(at.0, at.1)] = true;
+                }
+                at = way.step(at);
+                let [left, right] = way.ahead().map(|cell| occupied(at, cell));
+                let next = match (left, right) {
+                    (false, _) => way.left(),
+                    (true, false) => way,
+                    (true, true) => way.right(),
+                };
+                if next != way {
+                    corners.push(at);
+                }
+                way = next;
+                if (at, way) == ((column, row), East) {
+                    break;
+                }
+            }
+            // the walk ended at the corner where it began: the lowest, leftmost one comes first
+            corners.rotate_right(1);
+            lines.push(corners);
+        }
+    }
+    lines
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::Point2;
+    use crate::random::{Seed, Stream};
+
+    /// A grid drawn with the highest row first; `#` is occupied.
+    fn grid(drawing: &[&str]) -> Grid {
+        let rows: Vec<Vec<bool>> = drawing.iter().rev().map(|r| r.chars().map(|c| c == '#').collect()).collect();
+        Grid::of_cells(Point2::origin(), 1.0, rows[0].len() as u32, rows.len() as u32, rows.concat()).unwrap()
+    }
+
+    #[test]
+    fn a_ring_has_an_outer_line_to_the_left_and_an_inner_to_the_right() {
+        let lines = trace(&grid(&["####", "#..#", "####"]));
+        assert_eq!(lines, [vec![(0, 0), (4, 0), (4, 3), (0, 3)], vec![(1, 2), (3, 2), (3, 1), (1, 1)]]);
+    }
+
+    #[test]
+    fn straight_runs_are_one_edge_and_a_corner_joins_nothing() {
+        assert_eq!(trace(&grid(&["#....", "#...#", "###.."])).len(), 2);
+        let ell = trace(&grid(&["#..", "###"]));
+        assert_eq!(ell, [vec![(0, 0), (3, 0), (3, 1), (1, 1), (1, 2), (0, 2)]]);
+        let diagonal = trace(&grid(&[".#", "#."]));
+        assert_eq!(diagonal, [vec![(0, 0), (1, 0), (1, 1), (0, 1)], vec![(1, 1), (2, 1), (2, 2), (1, 2)]]);
+        assert!(trace(&grid(&["..", ".."])).is_empty());
+    }
+
+    /// The lines of random grids are exactly the set of borders: every unit edge between an occupied cell and another once,
+    /// and no other edge.
+    #[test]
+    fn every_border_is_in_exactly_one_line() {
+        let mut s = Stream::new(Seed(7), "trace");
+        for round in 0..300 {
+            let (columns, rows) = (1 + s.below(9) as u32, 1 + s.below(9) as u32);
+            let density = 1 + s.below(4);
+            let cells: Vec<bool> = (0..columns * rows).map(|_| s.below(5) < density).collect();
+            let grid = Grid::of_cells(Point2::origin(), 1.0, columns, rows, cells).unwrap();
+            let mut units = Vec::new();
+            for line in trace(&grid) {
+                for (i, &(x0, y0)) in line.iter().enumerate() {
+                    let (x1, y1) = line[(i + 1) % line.len()];
+                    assert!((x0 == x1) != (y0 == y1), "round {round}: edges run along the grid and have a length");
+                    let (x2, _) = line[(i + 2) % line.len()];
+                    assert!((x0 == x1) != (x1 == x2), "round {round}: neighbours are not in line");
+                    for x in x0.min(x1)..x0.max(x1) {
+                        units.push((x, y0, 'h'));
+                    }
+                    for y in y0.min(y1)..y0.max(y1) {
+                        units.push((x0, y, 'v'));
+                    }
+                }
+            }
+            units.sort_unstable();
+            let at = |x: i64, y: i64| {
+                let inside = x >= 0 && y >= 0 && x < i64::from(columns) && y < i64::from(rows);
+                inside && grid.is_occupied(x as u32, y as u32)
+            };
+            let mut borders = Vec::new();
+            for x in 0..=i64::from(columns) {
+                for y in 0..=i64::from(rows) {
+                    if at(x, y) != at(x, y - 1) {
+                        borders.push((x as u32, y as u32, 'h'));
+                    }
+                    if at(x, y) != at(x - 1, y) {
+                        borders.push((x as u32, y as u32, 'v'));
+                    }
+                }
+            }
+            borders.sort_unstable();
+            assert_eq!(units, borders, "round {round}");
+        }
+    }
+}

@@ -1,0 +1,203 @@
+//! SVG drawings, through the crate `usvg`, which resolves styles, groups and transforms.
+
+use usvg::roxmltree::{self, Document};
+use usvg::{Group, Node, Options, Path, Tree};
+
+use super::check::check;
+use super::clean::clean;
+use super::curves::{Outline, outlines};
+use super::scan::scan;
+use crate::geometry::{MIN_FEATURE, Point2};
+use crate::worlds::WorldProblem;
+use crate::worlds::file::description::{ShapeText, Xy};
+use crate::worlds::import::error::wrong_value;
+use crate::worlds::import::{Draft, ImportError, ImportProblem, Imported};
+
+/// The least tolerance, metres: coordinates are rounded to it.
+const MIN_TOLERANCE: f64 = 1e-6;
+
+/// How a drawing is read.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SvgOptions {
+    /// The length of the drawing's unit, metres: a pixel of its width and height, which is its viewBox's unit where these are
+    /// not given otherwise.
+    pub metres_per_unit: f64,
+    /// How far a curve's straight pieces may be from it, metres; at least a micrometre, to which coordinates are rounded.
+    pub tolerance: f64,
+}
+
+impl Default for SvgOptions {
+    fn default() -> Self {
+        SvgOptions { metres_per_unit: 1.0, tolerance: MIN_FEATURE }
+    }
+}
+
+/// Reads a drawing. What is filled becomes a solid obstacle, what is only stroked a wall along the middle of the stroke; what is
+/// drawn invisibly is left out, and so is a filled shape that covers the whole sheet, its paper. The sheet is the world's
+/// bounds; its lower left corner is the origin, and y points up. `file` is what errors call the drawing.
+///
+/// Circles become discs. Other curves become chains of straight pieces that leave them by at most the tolerance. Coordinates are
+/// rounded to micrometres, and points closer than [`MIN_FEATURE`] to the one before are left out. An outline that is no
+/// simple polygon, or has several parts, becomes walls. An obstacle is called by its element's id where it has one.
+///
+/// # Errors
+/// [`ImportError`] names line and element: no SVG; an image, embedded HTML, a clip or a mask; numbers that are none or above 10^7; a
+/// drawing without obstacles, or with more than a world holds. Drawings have at most 10,000 elements, those repeated by `use` among
+/// them, 100 attributes an element and 200,000 in all, a megabyte of paths, a quarter of one of style
+/// sheets.
+pub fn svg(file: &str, text: &str, name: &str, options: SvgOptions) -> Result<Imported, ImportError> {
+    read(text, name, options).map_err(|error| error.of(file))
+}
+
+fn read(text: &str, name: &str, options: SvgOptions) -> Result<Imported, ImportError> {
+    // written so that NaN is refused
+    if !(options.metres_per_unit > 0.0 && options.metres_per_unit.is_finite()) {
+        return Err(ImportError::at(0, "metres per unit", wrong_value(options.metres_per_unit, "finite and above 0")));
+    }
+    if !(options.tolerance >= MIN_TOLERANCE && options.tolerance.is_finite()) {
+        return Err(ImportError::at(0, "tolerance", wrong_value(options.tolerance, "finite and at least 0.000001")));
+    }
+    let mut draft = Draft::default();
+    let tree = tree(text, &mut draft)?;
+    let scale = options.metres_per_unit;
+    let (width, height) = (f64::from(tree.size().width()), f64::from(tree.size().height()));
+    let mut drawing = Drawing { draft, height, options, sheet: (micro(width * scale), micro(height * scale)) };
+    drawing.group(tree.root())?;
+    if drawing.draft.is_empty() {
+        return Err(ImportProblem::Nothing.into());
+    }
+    Ok(drawing.draft.finish(name, (0.0, 0.0), drawing.sheet).map_err(ImportProblem::from)?)
+}
+
+/// The drawing with its styles, groups and transforms resolved, within the limits of an import.
+fn tree(text: &str, draft: &mut Draft) -> Result<Tree, ImportError> {
+    scan(text)?;
+    let plain = {
+        let parsing = roxmltree::ParsingOptions { allow_dtd: true, ..Default::default() };
+        let document = Document::parse_with_options(text, parsing)
+            .map_err(|error| ImportError::at(error.pos().row as usize, "", ImportProblem::Syntax(error.to_string())))?;
+        check(&document)?.iter().for_each(|note| draft.note(note));
+        clean(&document)?
+    };
+    let no_drawing = |error: &dyn std::fmt::Display| ImportProblem::Syntax(format!("no drawing: {error}"));
+    let document = Document::parse(&plain).map_err(|error| no_drawing(&error))?;
+    Ok(Tree::from_xmltree(&document, &Options::default()).map_err(|error| no_drawing(&error))?)
+}
+
+/// A length in metres, rounded to micrometres. The drawing's numbers have single precision, and the digits behind are noise.
+fn micro(x: f64) -> f64 {
+    (x * 1e6).round() / 1e6 + 0.0
+}
+
+/// A drawing on its way into a world.
+struct Drawing {
+    draft: Draft,
+    height: f64,
+    options: SvgOptions,
+    sheet: Xy,
+}
+
+impl Drawing {
+    fn group(&mut self, group: &Group) -> Result<(), ImportError> {
+        group.children().iter().try_for_each(|node| match node {
+            Node::Group(group) => self.group(group),
+            Node::Path(path) => self.path(path),
+            // neither is left in what was cleaned
+            Node::Image(_) | Node::Text(_) => Ok(()),
+        })
+    }
+
+    fn path(&mut self, path: &Path) -> Result<(), ImportError> {
+        if !path.is_visible() {
+            self.draft.note("what is drawn invisibly is left out");
+            return Ok(());
+        }
+        let t = path.abs_transform();
+        let [sx, kx, ky, sy, tx, ty] = [t.sx, t.kx, t.ky, t.sy, t.tx, t.ty].map(f64::from);
+        let (scale, height) = (self.options.metres_per_unit, self.height);
+        let place = |x: f32, y: f32| {
+            let (x, y) = (f64::from(x), f64::from(y));
+            Point2::new((sx * x + kx * y + tx) * scale, (height - (ky * x + sy * y + ty)) * scale)
+        };
+        let id = path.id();
+        let mut parts = outlines(path.data(), place, self.options.tolerance)
+            .ok_or_else(|| ImportError::at(0, id, WorldProblem::TooMany { what: "straight pieces of its curves" }))?;
+        let added = match (path.fill(), parts.len()) {
+            (None, _) => parts.into_iter().try_for_each(|part| self.wall(id, part)),
+            (Some(_), 1) => self.solid(id, parts.remove(0)),
+            (Some(_), _) => {
+                self.draft.note("a filled shape of several parts is drawn as the outlines of its parts");
+                parts.into_iter().try_for_each(|part| self.wall(id, Outline { closed: true, ..part }))
+            }
+        };
+        added.map_err(|problem| ImportError::at(0, id, problem))
+    }
+
+    /// The name of an element's obstacle.
+    fn name(&mut self, id: &str, stem: &str) -> String {
+        if id.is_empty() { self.draft.numbered(stem) } else { self.draft.claim(id) }
+    }
+
+    fn wall(&mut self, id: &str, outline: Outline) -> Result<(), WorldProblem> {
+        let (points, closed) = spaced(&outline);
+        if points.len() < 2 {
+            self.draft.note("what is smaller than a millimetre is left out");
+            return Ok(());
+        }
+        let name = self.name(id, "wall");
+        self.draft.wall(name, points, closed && outline.closed)
+    }
+
+    /// A filled outline, closed where the drawing left it open.
+    fn solid(&mut self, id: &str, outline: Outline) -> Result<(), WorldProblem> {
+        if let Some((center, radius)) = outline.disc(self.options.tolerance) {
+            let name = self.name(id, "disc");
+            let center = (micro(center.x), micro(center.y));
+            return self.draft.solid(name, ShapeText::Disc { center, radius: micro(radius) });
+        }
+        let (points, _) = spaced(&outline);
+        let (mut min, mut max) = ((f64::INFINITY, f64::INFINITY), (f64::NEG_INFINITY, f64::NEG_INFINITY));
+        for &(x, y) in &points {
+            min = (crate::num::lesser(x, min.0), crate::num::lesser(y, min.1));
+            max = (crate::num::greater(x, max.0), crate::num::greater(y, max.1));
+        }
+        // upright and level sides by turns
+        let upright = |i: usize| points[i].0 == points[(i + 1) % 4].0;
+        let level = |i: usize| points[i].1 == points[(i + 1) % 4].1;
+        let is_box = points.len() == 4 && (0..4).all(|i| upright(i) != level(i) && upright(i) != upright((i + 1) % 4));
+        if is_box && min.0 <= 0.0 && min.1 <= 0.0 && max.0 >= self.sheet.0 && max.1 >= self.sheet.1 {
+            self.draft.note("a filled shape that covers the whole sheet is taken for its paper and left out");
+            return Ok(());
+        }
+        if points.len() < 3 {
+            return self.wall(id, outline);
+        }
+        let (stem, shape) =
+            if is_box { ("box", ShapeText::Box { min, max }) } else { ("polygon", ShapeText::Polygon(points.clone())) };
+        let name = self.name(id, stem);
+        match self.draft.solid(name.clone(), shape) {
+            Err(WorldProblem::Outline(reason)) => {
+                self.draft.note(format!("{name} is drawn as its outline: {reason}"));
+                self.draft.wall(name, points, true)
+            }
+            done => done,
+        }
+    }
+}
+
+/// The points of an outline, rounded, none of them closer than the smallest feature to the one before; and whether there are
+/// enough of them to close it.
+fn spaced(outline: &Outline) -> (Vec<Xy>, bool) {
+    let near = |a: Xy, b: Xy| crate::num::hypot(a.0 - b.0, a.1 - b.1) < MIN_FEATURE;
+    let mut points: Vec<Xy> = Vec::new();
+    for p in outline.points.iter().map(|p| (micro(p.x), micro(p.y))) {
+        if points.last().is_none_or(|&last| !near(last, p)) {
+            points.push(p);
+        }
+    }
+    while outline.closed && points.len() > 1 && near(points[0], points[points.len() - 1]) {
+        points.pop();
+    }
+    let enough = points.len() >= 3;
+    (points, enough)
+}

@@ -1,0 +1,129 @@
+//! Rooms and files: how large, and how they hang together.
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::Path;
+
+use super::sources::{Graph, Source, files, sources};
+
+/// The longest a source file may be, lines.
+const LONGEST: usize = 400;
+
+/// The most files of one room, its own file and its tests apart.
+const LARGEST: usize = 15;
+
+#[test]
+fn no_source_file_is_longer_than_400_lines() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let mut longest = (0, String::new());
+    for folder in ["src", "tests", "benches", "examples"] {
+        for path in files(&root.join(folder), "rs") {
+            let lines = fs::read_to_string(&path).unwrap().lines().count();
+            longest = longest.max((lines, path.strip_prefix(root).unwrap().display().to_string()));
+        }
+    }
+    assert!(longest.0 <= LONGEST, "{} has {} lines", longest.1, longest.0);
+    assert!(longest.0 > LONGEST / 2, "the longest has {} lines: this test no longer reads the files", longest.0);
+}
+
+#[test]
+fn no_room_is_crowded() {
+    let mut rooms: BTreeMap<String, usize> = BTreeMap::new();
+    for source in sources() {
+        if let Some((room, name)) = source.file.rsplit_once('/') {
+            *rooms.entry(room.to_owned()).or_default() += usize::from(!["mod.rs", "tests.rs"].contains(&name));
+        }
+    }
+    let (room, files) = rooms.iter().max_by_key(|(_, files)| **files).unwrap();
+    assert!(*files <= LARGEST, "{room} has {files} files");
+    assert!(rooms.len() > 30, "{} rooms: this test no longer reads the sources", rooms.len());
+}
+
+/// What a walk through the imports knows of a file.
+#[derive(Clone, Copy, PartialEq)]
+enum Seen {
+    Never,
+    OnTheWay,
+    Done,
+}
+
+/// The files of a circle that a walk from `at` comes upon, if any.
+fn circle(at: usize, uses: &[Vec<usize>], seen: &mut [Seen], way: &mut Vec<usize>) -> Option<Vec<usize>> {
+    seen[at] = Seen::OnTheWay;
+    way.push(at);
+    for &next in &uses[at] {
+        match seen[next] {
+            Seen::OnTheWay => return way.iter().position(|w| *w == next).map(|from| way[from..].to_vec()),
+            Seen::Never => {
+                if let Some(found) = circle(next, uses, seen, way) {
+                    return Some(found);
+                }
+            }
+            Seen::Done => {}
+        }
+    }
+    seen[at] = Seen::Done;
+    way.pop();
+    None
+}
+
+fn first_circle(uses: &[Vec<usize>]) -> Option<Vec<usize>> {
+    let mut seen = vec![Seen::Never; uses.len()];
+    (0..uses.len()).find_map(
+        |at| {
+            if seen[at] == Seen::Never { circle(at, uses, &mut seen, &mut Vec::new()) } else { None }
+        },
+    )
+}
+
+#[test]
+fn no_circle_of_files() {
+    // the library and the command line are crates of their own
+    let of_cli = |s: &Source| s.room() == "cli" || s.file == "main.rs";
+    let (cli, library): (Vec<Source>, Vec<Source>) = sources().into_iter().partition(of_cli);
+    let (mut arrows, mut circles) = (0, Vec::new());
+    for part in [library, cli] {
+        let graph = Graph::new(&part);
+        let number = |s: &Source| part.iter().position(|p| p.file == s.file).unwrap();
+        let mut uses: Vec<Vec<usize>> =
+            part.iter().map(|s| graph.uses(s).into_iter().map(number).collect::<Vec<_>>()).collect();
+        arrows += uses.iter().map(Vec::len).sum::<usize>();
+        while let Some(circle) = first_circle(&uses) {
+            let names: Vec<&str> = circle.iter().map(|&k| part[k].file.as_str()).collect();
+            circles.push(names.join(" -> "));
+            let (last, first) = (circle[circle.len() - 1], circle[0]);
+            uses[last].retain(|&k| k != first);
+        }
+    }
+    assert!(circles.is_empty(), "circles:\n{}", circles.join("\n"));
+    assert!(arrows > 1000, "{arrows} imports: this test no longer reads the sources");
+}
+
+#[test]
+fn a_circle_is_found() {
+    assert_eq!(first_circle(&[vec![1], vec![2], vec![], vec![0, 4], vec![5], vec![3]]), Some(vec![3, 4, 5]));
+    assert_eq!(first_circle(&[vec![1, 2], vec![2], vec![]]), None);
+}
+
+#[test]
+fn every_file_of_tests_is_a_module_of_main() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests");
+    let mut declared = 0;
+    for path in files(&root, "rs") {
+        let below = path.strip_prefix(&root).unwrap();
+        if below == Path::new("main.rs") || below.starts_with("snippets") {
+            continue;
+        }
+        let stem = path.file_stem().unwrap().to_str().unwrap();
+        let (folder, module) = match (stem, path.parent().unwrap()) {
+            ("mod", folder) => (folder.parent().unwrap(), folder.file_name().unwrap().to_str().unwrap()),
+            (_, folder) => (folder, stem),
+        };
+        let parents = [folder.join("main.rs"), folder.join("mod.rs"), folder.with_extension("rs")];
+        let declares = |text: String| text.lines().any(|l| l.trim_start_matches("pub ") == format!("mod {module};"));
+        let found = parents.iter().filter_map(|p| fs::read_to_string(p).ok()).any(declares);
+        assert!(found, "{}: no file declares the module {module}, so its tests never run", below.display());
+        declared += 1;
+    }
+    assert!(declared > 60, "{declared} files: this test no longer reads the folder");
+}
