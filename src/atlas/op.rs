@@ -1,6 +1,7 @@
 //! `Op`, a change of a world.
 
 use super::EditShape;
+use super::outline::tidy;
 use crate::geometry::{Point2, Pose2, Vector2};
 use crate::num::atan2;
 use crate::worlds::{Mark, OutlineError, Place, World, WorldError};
@@ -130,11 +131,6 @@ fn reshape(world: &mut World, at: Found, name: &str, shape: &EditShape) -> Resul
         _ => return Err(EditError::NoShape(name.to_owned())),
     }
     Ok(())
-}
-
-/// A coordinate to the nanometre: what rounding adds to a sum is no part of a drawing.
-pub(super) fn tidy(x: f64) -> f64 {
-    (x * 1e9).round() / 1e9
 }
 
 /// The world after a change, not checked yet.

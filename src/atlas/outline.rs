@@ -1,6 +1,5 @@
 //! `EditShape`, the shape of a wall, an obstacle or a painted mark as a hand changes it.
 
-use super::op::tidy;
 use crate::geometry::{Point2, Pose2, Shape, Vector2, convex_hull};
 use crate::num::hypot;
 use crate::worlds::{Obstacle, ObstacleKind, OutlineError, Written};
@@ -237,4 +236,9 @@ impl EditShape {
             EditShape::Union(members) => EditShape::Union(members.iter().map(|m| m.moved(by)).collect()),
         }
     }
+}
+
+/// A coordinate to the nanometre: what rounding adds to a sum is no part of a drawing.
+pub(super) fn tidy(x: f64) -> f64 {
+    (x * 1e9).round() / 1e9
 }

@@ -2,7 +2,11 @@
 
 use smallvec::SmallVec;
 
-use super::{Point2, Vertices, orientation};
+use super::{Point2, orientation};
+use crate::short_list::ShortList;
+
+/// A core's vertices; up to eight take no heap.
+pub type Vertices = ShortList<Point2, 8>;
 
 /// The convex hull of `points`: its corners counter-clockwise from the lowest leftmost, duplicates and points on an edge
 /// left out. One point gives one, points on one line give the two outermost.

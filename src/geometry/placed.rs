@@ -1,11 +1,8 @@
 //! `Placed`, a shape in the world: what every exact query works on.
 
-use super::{Point2, convex_hull};
+use super::{Point2, Vertices, convex_hull};
 use crate::num::greater;
 use crate::short_list::ShortList;
-
-/// A core's vertices; up to eight take no heap.
-pub type Vertices = ShortList<Point2, 8>;
 
 /// A placed shape: all points within `radius` of the convex core with these vertices, in world coordinates.
 ///

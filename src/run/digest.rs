@@ -2,7 +2,7 @@
 
 use xxhash_rust::xxh3::{Xxh3, xxh3_128};
 
-use super::{DT, Frame, Log, Script};
+use super::{DT, Frame, Script};
 use crate::random::Seed;
 use crate::tour::TourConfig;
 
@@ -95,21 +95,10 @@ impl std::fmt::Debug for RunDigest {
     }
 }
 
-impl Log {
-    /// The digest of the whole run; see [`RunDigest`] for what it covers.
-    pub fn digest(&self) -> Digest {
-        let mut run = RunDigest::new(self.seed, &self.config, &self.script, &self.initial);
-        for frame in &self.frames {
-            run.tick(frame);
-        }
-        run.digest()
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::run::{Event, RobotInput, fixture};
+    use crate::run::{Event, Log, RobotInput, fixture};
     use crate::tour::SensorConfig;
 
     #[test]

@@ -4,6 +4,9 @@ use super::field::{Field, Value};
 use crate::configuration::Coordinates;
 use crate::short_list::ShortList;
 
+/// The length of a tick in seconds: the simulation runs at 20 Hz. Time is tick * DT, never a sum.
+pub const DT: f64 = 0.05;
+
 /// The state of one robot after a tick: all that is needed to go on from here.
 ///
 /// No NaN enters it, and -0.0 is stored as +0.0.

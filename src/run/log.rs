@@ -1,11 +1,8 @@
 //! `Log`, a whole run as data.
 
-use super::{Digest, Frame, Script};
+use super::{Digest, Frame, RunDigest, Script};
 use crate::random::Seed;
 use crate::tour::TourConfig;
-
-/// The length of a tick in seconds: the simulation runs at 20 Hz. Time is tick * DT, never a sum.
-pub const DT: f64 = 0.05;
 
 /// A recorded run: everything that determines it, and every frame that came of it.
 #[derive(Clone, Debug, PartialEq)]
@@ -22,4 +19,15 @@ pub struct Log {
     pub frames: Vec<Frame>,
     /// The digest of each tick's frame, in the same order.
     pub digests: Vec<Digest>,
+}
+
+impl Log {
+    /// The digest of the whole run; see [`RunDigest`] for what it covers.
+    pub fn digest(&self) -> Digest {
+        let mut run = RunDigest::new(self.seed, &self.config, &self.script, &self.initial);
+        for frame in &self.frames {
+            run.tick(frame);
+        }
+        run.digest()
+    }
 }

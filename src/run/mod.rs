@@ -16,8 +16,8 @@ pub use difference::SetupDifference;
 pub use digest::{Digest, RunDigest};
 pub use divergence::{Divergence, first_divergence};
 pub use field::Value;
-pub use frame::{Frame, RobotScan, RobotState};
-pub use log::{DT, Log};
+pub use frame::{DT, Frame, RobotScan, RobotState};
+pub use log::Log;
 pub use mcap::{
     DamageKind, DamagedLog, EXPORT_PROFILE, FORMAT_VERSION, GENERATOR, LogError, LogWriter, ReadLog, TICK_NANOSECONDS,
 };

@@ -3,9 +3,6 @@
 use std::cmp::Ordering;
 use std::f64::consts::{FRAC_1_SQRT_2, FRAC_PI_2};
 
-use super::Scanner;
-use crate::collision::Scene;
-use crate::geometry::{Placed, Point2, Pose2};
 use crate::num;
 
 /// A range sensor with `n_rays` rays evenly spread over the full circle and a greatest range in metres.
@@ -69,53 +66,13 @@ impl RangeSensor {
             _ => (s, -c),
         }
     }
-
-    /// The ranges from `position`, metres: ray k at world bearing 2 pi k / n.
-    ///
-    /// Infinity where nothing is within range, 0 everywhere when the position is inside an obstacle or touches one. Rays
-    /// are closed: one through a corner hits it.
-    pub fn scan(&self, scene: &Scene, position: Point2) -> Vec<f64> {
-        self.scan_from(scene, &[], &Pose2 { x: position.x, y: position.y, theta: 0.0 })
-    }
-
-    /// The ranges from a pose, with ray k at bearing 2 pi k / n from the pose's heading, against the scene and the other
-    /// robots' parts. A robot does not see itself: leave it out of `others`. For many scans keep a [`Scanner`].
-    pub fn scan_from(&self, scene: &Scene, others: &[Placed], pose: &Pose2) -> Vec<f64> {
-        let mut ranges = vec![0.0; self.n_rays as usize];
-        Scanner::new(*self).scan_into(scene, others, pose, &mut ranges);
-        ranges
-    }
-
-    /// The ranges from many poses, one scan after the other, in parallel where threads exist. They do not depend on the number
-    /// of threads.
-    pub fn scans(&self, scene: &Scene, poses: &[Pose2]) -> Vec<f64> {
-        let n = self.n_rays as usize;
-        let mut ranges = vec![0.0; n * poses.len()];
-        if n == 0 {
-            return ranges;
-        }
-        let scan = |scanner: &mut Scanner, (pose, ranges): (&Pose2, &mut [f64])| {
-            scanner.scan_into(scene, &[], pose, ranges);
-        };
-        #[cfg(not(target_family = "wasm"))]
-        {
-            use rayon::prelude::*;
-            let scans = poses.par_iter().zip(ranges.par_chunks_mut(n));
-            scans.for_each_init(|| Scanner::new(*self), scan);
-        }
-        #[cfg(target_family = "wasm")]
-        {
-            let mut scanner = Scanner::new(*self);
-            poses.iter().zip(ranges.chunks_mut(n)).for_each(|one| scan(&mut scanner, one));
-        }
-        ranges
-    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geometry::{Segment, Shape};
+    use crate::collision::Scene;
+    use crate::geometry::{Point2, Pose2, Segment, Shape};
     use crate::random::{Seed, Stream};
 
     fn wall() -> Scene {

@@ -11,7 +11,7 @@ use super::rays::{Fan, Lanes};
 use super::simd::Instructions;
 use super::view::View;
 use crate::collision::{LANES, Scene, SegmentSoup, touch};
-use crate::geometry::{Placed, Pose2};
+use crate::geometry::{Placed, Point2, Pose2};
 use crate::num;
 
 /// A range sensor that keeps its rays' directions and its scratch between scans: after the first scans it allocates nothing.
@@ -114,5 +114,48 @@ fn raise_every(soup: &SegmentSoup, view: &View, kernel: &Kernel, fan: &mut Fan, 
     raise(soup.segments().arrays(), view, kernel, fan, desk);
     for circle in soup.circles() {
         (kernel.circle)(circle, view, fan);
+    }
+}
+
+impl RangeSensor {
+    /// The ranges from `position`, metres: ray k at world bearing 2 pi k / n.
+    ///
+    /// Infinity where nothing is within range, 0 everywhere when the position is inside an obstacle or touches one. Rays
+    /// are closed: one through a corner hits it.
+    pub fn scan(&self, scene: &Scene, position: Point2) -> Vec<f64> {
+        self.scan_from(scene, &[], &Pose2 { x: position.x, y: position.y, theta: 0.0 })
+    }
+
+    /// The ranges from a pose, with ray k at bearing 2 pi k / n from the pose's heading, against the scene and the other
+    /// robots' parts. A robot does not see itself: leave it out of `others`. For many scans keep a [`Scanner`].
+    pub fn scan_from(&self, scene: &Scene, others: &[Placed], pose: &Pose2) -> Vec<f64> {
+        let mut ranges = vec![0.0; self.n_rays as usize];
+        Scanner::new(*self).scan_into(scene, others, pose, &mut ranges);
+        ranges
+    }
+
+    /// The ranges from many poses, one scan after the other, in parallel where threads exist. They do not depend on the number
+    /// of threads.
+    pub fn scans(&self, scene: &Scene, poses: &[Pose2]) -> Vec<f64> {
+        let n = self.n_rays as usize;
+        let mut ranges = vec![0.0; n * poses.len()];
+        if n == 0 {
+            return ranges;
+        }
+        let scan = |scanner: &mut Scanner, (pose, ranges): (&Pose2, &mut [f64])| {
+            scanner.scan_into(scene, &[], pose, ranges);
+        };
+        #[cfg(not(target_family = "wasm"))]
+        {
+            use rayon::prelude::*;
+            let scans = poses.par_iter().zip(ranges.par_chunks_mut(n));
+            scans.for_each_init(|| Scanner::new(*self), scan);
+        }
+        #[cfg(target_family = "wasm")]
+        {
+            let mut scanner = Scanner::new(*self);
+            poses.iter().zip(ranges.chunks_mut(n)).for_each(|one| scan(&mut scanner, one));
+        }
+        ranges
     }
 }

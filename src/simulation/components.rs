@@ -4,12 +4,11 @@ use std::sync::Arc;
 
 use bevy::prelude::*;
 
-use super::SimulatedRobot;
+use super::{Extra, SimulatedRobot};
 use crate::collision::Scene;
 use crate::geometry::{Pose2, Shape};
 use crate::random::Stream;
 use crate::sensors::{BeamModel, RangeSensor, Scanner};
-use crate::short_list::ShortList;
 use crate::worlds::World as WorldModel;
 
 /// A world of the run: the model it was made from. On the world's entity, with its [`WorldScene`].
@@ -104,9 +103,6 @@ pub struct RobotName {
     /// The kind, as worlds name it.
     pub kind: String,
 }
-
-/// A robot's own state beside its configuration, in the order its kind documents.
-pub type Extra = ShortList<f64, 4>;
 
 /// What a robot is: its dimensions and limits. The rest of a robot's components come with it.
 #[derive(Component, Clone, Debug, PartialEq)]

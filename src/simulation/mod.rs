@@ -7,10 +7,14 @@
 
 mod components;
 mod history;
+mod latest_frame;
 mod plugin;
 mod robot;
+mod roster;
 mod schedule;
+mod seek;
 mod spawn;
+mod spawn_error;
 mod state;
 #[cfg(test)]
 mod tests;
@@ -19,19 +23,23 @@ mod transport;
 mod undo;
 
 pub use components::{
-    Configuration, Contacts, Control, Cut, DriveMode, Extra, MountedOn, ObstacleOf, ObstacleShape, Obstacles, OwnState,
+    Configuration, Contacts, Control, Cut, DriveMode, MountedOn, ObstacleOf, ObstacleShape, Obstacles, OwnState,
     PreviousConfiguration, Residents, ResidesIn, RobotId, RobotModel, RobotName, Route, Scan, SensorModel, SensorNoise,
     SensorScanner, Sensors, SimulatedWorld, Slip, TickMotion, WorldScene,
 };
 pub use history::{Happening, History, HistoryPlugin, TickMark, Trail};
-pub use plugin::{SimulationPlugin, obey, play_tick, seek, step};
+pub use latest_frame::LatestFrame;
+pub use plugin::{SimulationPlugin, obey};
 pub use robot::ops::RobotOps;
 pub use robot::plugin::{RobotKinds, RobotPlugin};
-pub use robot::simulated::SimulatedRobot;
-pub use robot::view::{RobotView, view};
+pub use robot::simulated::{Extra, SimulatedRobot};
+pub use robot::view::RobotView;
+pub use roster::{Roster, view};
 pub use schedule::{SimulationSchedule, SimulationSystems};
-pub use spawn::{Roster, RunConfig, RunInput, SpawnError, start_run};
-pub use state::{Keyframes, LatestFrame, RestoreError, restore, snapshot};
+pub use seek::{play_tick, seek, step};
+pub use spawn::{RunConfig, RunInput, start_run};
+pub use spawn_error::SpawnError;
+pub use state::{Keyframes, RestoreError, restore, snapshot};
 pub use tick::hold::{Advance, HOLD_CLEARANCE, LEAST_CLEARANCE, MARGIN, advance, margin_from};
 pub use tick::input::{PendingInput, RobotCommand};
 pub use tick::settle::FLASH_TICKS;
@@ -41,5 +49,4 @@ pub use undo::Undo;
 /// Bevy's app, for a program that adds robots of its own and does not otherwise use Bevy.
 pub use bevy::app::App;
 
-pub(crate) use spawn::SpawnRequest;
-use spawn::{spawn_robot, start_run_in_order};
+use spawn::start_run_in_order;

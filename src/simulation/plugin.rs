@@ -8,9 +8,9 @@ use super::tick::starts::{Starts, Sweeps, gather_starts};
 use super::tick::{input, sense};
 use super::transport::re_rolled;
 use super::{
-    History, Keyframes, LatestFrame, PendingInput, Playback, RestoreError, RobotCommand, RobotKinds, RobotName,
-    RobotPlugin, RunConfig, SimulationSchedule, SimulationSystems, SpawnError, Transport, TransportCommand, Undo,
-    restore, start_run_in_order, state, undo,
+    History, Keyframes, LatestFrame, PendingInput, Playback, RobotCommand, RobotKinds, RobotName, RobotPlugin,
+    RunConfig, SimulationSchedule, SimulationSystems, SpawnError, Transport, TransportCommand, Undo, play_tick, seek,
+    start_run_in_order, state, step, undo,
 };
 use crate::random::Seed;
 use crate::robots::{HITCH, RUSTY, Reach};
@@ -61,27 +61,6 @@ impl Plugin for SimulationPlugin {
             RobotPlugin::new("hitch", HITCH),
         ));
     }
-}
-
-/// Runs one tick.
-pub fn step(world: &mut World) {
-    world.run_schedule(SimulationSchedule);
-}
-
-/// Takes the run to `tick`: back by the last keyframe before it, then on by simulating.
-///
-/// # Errors
-/// [`RestoreError`] when the keyframe does not fit the run, which only a frame from elsewhere could cause.
-pub fn seek(world: &mut World, tick: u64) -> Result<(), RestoreError> {
-    let now = world.resource::<Transport>().tick;
-    let keyframe = world.resource::<Keyframes>().before(tick).cloned();
-    if let Some(frame) = keyframe.filter(|f| tick < now || f.tick > now) {
-        restore(world, &frame)?;
-    }
-    while world.resource::<Transport>().tick < tick {
-        step(world);
-    }
-    Ok(())
 }
 
 /// Forgets all input after the present tick.
@@ -199,14 +178,4 @@ fn run_while_playing(world: &mut World) {
     if playback == Playback::Playing && speed.is_finite() {
         play_tick(world);
     }
-}
-
-/// The next tick of a run that plays: a looping one begins anew at its frontier.
-pub fn play_tick(world: &mut World) {
-    let Transport { tick, frontier, looping, .. } = *world.resource::<Transport>();
-    if looping && tick >= frontier && frontier > 0 {
-        // tick 0 is always kept
-        let _ = seek(world, 0);
-    }
-    step(world);
 }

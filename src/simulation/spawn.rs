@@ -4,18 +4,16 @@ use std::sync::Arc;
 
 use bevy::prelude::*;
 
-use super::robot::simulated::canonical;
+use super::robot::spawn::SpawnRequest;
 use super::{
-    Configuration, Keyframes, LatestFrame, MountedOn, ObstacleOf, ObstacleShape, OwnState, PendingInput,
-    PreviousConfiguration, ResidesIn, RobotId, RobotKinds, RobotModel, RobotName, RobotOps, Route, Scan, SensorModel,
-    SensorNoise, SensorScanner, SimulatedRobot, SimulatedWorld, Slip, Transport, WorldScene,
+    History, Keyframes, LatestFrame, ObstacleOf, ObstacleShape, PendingInput, RobotId, RobotKinds, Roster,
+    SimulatedWorld, SpawnError, Transport, WorldScene, state, tick,
 };
 use crate::collision::Scene;
-use crate::configuration::Configuration as _;
-use crate::random::{Seed, Stream};
-use crate::run::{Script, ScriptError};
-use crate::sensors::{BeamError, RangeSensor, Scanner, SensorError};
-use crate::tour::{BOOK_SEED, ConfigError, TourConfig};
+use crate::random::Seed;
+use crate::run::Script;
+use crate::sensors::RangeSensor;
+use crate::tour::{BOOK_SEED, TourConfig};
 use crate::worlds::{Resident, World as WorldModel};
 
 /// What decides a run beside its configuration: a seed, a script, or both.
@@ -46,138 +44,9 @@ impl From<Script> for RunInput {
     }
 }
 
-/// Why a run cannot start.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-#[non_exhaustive]
-pub enum SpawnError {
-    /// A kind of robot that nobody registered.
-    #[error("robot {robot:?} in world {world:?}: there is no kind {kind:?}")]
-    UnknownKind {
-        /// The robot.
-        robot: String,
-        /// Its world.
-        world: String,
-        /// The kind.
-        kind: String,
-    },
-    /// Start coordinates that are no configuration of the robot.
-    #[error("robot {robot:?} in world {world:?}: {start:?} is no configuration of a {kind}")]
-    Start {
-        /// The robot.
-        robot: String,
-        /// Its world.
-        world: String,
-        /// Its kind.
-        kind: String,
-        /// The coordinates.
-        start: Vec<f64>,
-    },
-    /// The configuration is out of range.
-    #[error(transparent)]
-    Config(#[from] ConfigError),
-    /// The script cannot be run with these robots.
-    #[error(transparent)]
-    Script(#[from] ScriptError),
-    /// A sensor whose noise is no distribution, in a world put together by hand.
-    #[error("robot {robot:?} in world {world:?}: sensor: {source}")]
-    Noise {
-        /// The robot.
-        robot: String,
-        /// Its world.
-        world: String,
-        /// What is wrong.
-        source: BeamError,
-    },
-    /// A range sensor out of range.
-    #[error(transparent)]
-    Sensor(#[from] SensorError),
-}
-
-/// The robots and worlds of the run by their numbers; fixed from tick 0 on.
-#[derive(Resource, Clone, Debug, Default)]
-pub struct Roster {
-    worlds: Vec<Entity>,
-    robots: Vec<Entity>,
-}
-
-impl Roster {
-    /// The robots' entities by id.
-    pub fn robots(&self) -> &[Entity] {
-        &self.robots
-    }
-
-    /// The worlds' entities by number.
-    pub fn worlds(&self) -> &[Entity] {
-        &self.worlds
-    }
-}
-
 /// The configuration of the run under way.
 #[derive(Resource, Clone, Debug)]
 pub struct RunConfig(pub Arc<TourConfig>);
-
-/// One robot to be spawned.
-pub(crate) struct SpawnRequest<'a> {
-    seed: Seed,
-    id: RobotId,
-    world: Entity,
-    model: &'a WorldModel,
-    resident: &'a Resident,
-    sensor: Option<RangeSensor>,
-}
-
-/// Spawns a robot of type `R`, with its sensor.
-pub(super) fn spawn_robot<R: SimulatedRobot>(
-    world: &mut World,
-    robot: &R,
-    ops: RobotOps,
-    request: &SpawnRequest,
-) -> Result<Entity, SpawnError> {
-    let resident = request.resident;
-    let refused = || SpawnError::Start {
-        robot: resident.name.clone(),
-        world: request.model.name.clone(),
-        kind: resident.kind.clone(),
-        start: resident.start.clone(),
-    };
-    let q = R::Configuration::from_coordinates(&resident.start).ok_or_else(refused)?;
-    // through the robot itself, which wraps the angles
-    let q = canonical(&robot.configuration_at(&q, &resident.start).ok_or_else(refused)?);
-    robot.fitted(&q).check(&q).map_err(|_| refused())?;
-    let noise = resident.sensor.map(|noise| noise.try_new()).transpose().map_err(|source| SpawnError::Noise {
-        robot: resident.name.clone(),
-        world: request.model.name.clone(),
-        source,
-    })?;
-    let sensor = request.sensor.filter(|_| robot.sensor_pose(&q).is_some());
-    let entity = world
-        .spawn((
-            RobotModel(robot.clone()),
-            Configuration::<R>(q),
-            PreviousConfiguration::<R>(q),
-            OwnState::<R>::new(robot.initial_extra()),
-            Route::<R>(robot.tour(request.seed, &resident.name, request.model, &q)),
-            Slip(Stream::new(request.seed, &format!("{}/slip", resident.name))),
-            ops,
-            request.id,
-            RobotName { name: resident.name.clone(), kind: resident.kind.clone() },
-            ResidesIn(request.world),
-        ))
-        .id();
-    if let Some(sensor) = sensor {
-        let mut spawned = world.spawn((
-            SensorModel(sensor),
-            SensorScanner(Some(Box::new(Scanner::new(sensor)))),
-            Scan::default(),
-            MountedOn(entity),
-        ));
-        if let Some(model) = noise {
-            let stream = Stream::new(request.seed, &format!("{}/beam", resident.name));
-            spawned.insert(SensorNoise { model, stream });
-        }
-    }
-    Ok(entity)
-}
 
 fn spawn_world(world: &mut World, index: u32, model: &WorldModel) -> Entity {
     let scene = WorldScene(Arc::new(Scene::of_world(model)));
@@ -247,10 +116,10 @@ pub(super) fn start_run_in_order(
     world.insert_resource(PendingInput::new(input.script));
     world.insert_resource(Keyframes::default());
     world.insert_resource(LatestFrame::default());
-    if world.contains_resource::<super::History>() {
-        world.insert_resource(super::History::default());
+    if world.contains_resource::<History>() {
+        world.insert_resource(History::default());
     }
-    super::tick::sense::sense(world);
-    super::state::record(world);
+    tick::sense::sense(world);
+    state::record(world);
     Ok(())
 }

@@ -4,18 +4,8 @@ use std::collections::BTreeMap;
 
 use bevy::prelude::*;
 
-use super::{RobotId, RobotOps, Roster, Scan, Sensors, Transport};
+use super::{LatestFrame, RobotId, RobotOps, Roster, Scan, Sensors, Transport};
 use crate::run::{Frame, RobotScan};
-
-/// The frame of the last tick.
-#[derive(Resource, Clone, Debug, PartialEq)]
-pub struct LatestFrame(pub Frame);
-
-impl Default for LatestFrame {
-    fn default() -> Self {
-        LatestFrame(Frame { tick: 0, robots: Vec::new(), scans: Vec::new() })
-    }
-}
 
 /// More frames than this are thinned to every second one.
 const MOST_KEYFRAMES: usize = 1024;

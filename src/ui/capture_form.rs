@@ -4,15 +4,13 @@ use bevy_egui::egui::{
     Context, DragValue, Grid, Id, Key, Modal, Modifiers, RichText, TextStyle, Ui, WidgetInfo, WidgetType,
 };
 
+use super::capture_state::FORMS;
 use super::paint::button::button;
-use super::{Command, Dashboard, Look, SessionCommand, UiState};
+use super::{CaptureOrder, Command, Dashboard, Look, SessionCommand, UiState};
 use crate::capture::{CaptureError, Form, Span};
 use crate::manifest::widgets;
 use crate::picture::Role;
 use crate::run::DT;
-
-/// The forms to choose from: a page has the vector picture only, whose fonts and pixels the browser makes.
-const FORMS: &[Form] = if cfg!(target_family = "wasm") { &[Form::Svg] } else { &Form::ALL };
 
 /// What the button says that makes the file: a page gives it to the browser.
 const SAVE: &str = if cfg!(target_family = "wasm") { "Save" } else { "Choose a file" };
@@ -22,35 +20,6 @@ const SPAN: u64 = 200;
 
 /// The anatomy's number on the rail.
 const ANATOMY: usize = 1;
-
-/// What is to be captured of the widget in front.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct CaptureOrder {
-    /// The form of the file.
-    pub form: Form,
-    /// The sheet's greatest width, pixels.
-    pub width: u32,
-    /// Dots for each pixel of the sheet.
-    pub scale: u32,
-    /// The ticks of a GIF.
-    pub span: Span,
-}
-
-/// What the capture form remembers.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct CaptureState {
-    /// Whether it is open.
-    pub open: bool,
-    /// What it asks for.
-    pub order: CaptureOrder,
-}
-
-impl Default for CaptureState {
-    fn default() -> Self {
-        let order = CaptureOrder { form: FORMS[0], width: 1280, scale: 2, span: Span { from: 0, to: 0, every: 4 } };
-        CaptureState { open: false, order }
-    }
-}
 
 impl UiState {
     /// Opens the form; a GIF would end at the present tick.

@@ -7,6 +7,8 @@ mod atlas;
 #[cfg(feature = "screen")]
 mod capture_form;
 #[cfg(feature = "screen")]
+mod capture_state;
+#[cfg(feature = "screen")]
 mod cspace;
 mod dashboard;
 #[cfg(feature = "screen")]
@@ -27,7 +29,7 @@ pub use anatomy::AnatomyState;
 #[cfg(feature = "screen")]
 pub use atlas::{AtlasState, Mode};
 #[cfg(feature = "screen")]
-pub use capture_form::{CaptureOrder, CaptureState};
+pub use capture_state::{CaptureOrder, CaptureState};
 #[cfg(feature = "screen")]
 pub use cspace::CspaceState;
 pub use dashboard::arm;

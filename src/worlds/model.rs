@@ -107,24 +107,6 @@ impl Resident {
     pub fn new(name: impl Into<String>, kind: impl Into<String>, start: impl Into<Vec<f64>>) -> Self {
         Resident { name: name.into(), kind: kind.into(), start: start.into(), sensor: None }
     }
-
-    /// The robot as a world file may have it: the kind known, as many coordinates as it has, a place within the coordinates that the
-    /// lab computes with, and the angles wrapped to `(-pi, pi]`. The name is not checked.
-    ///
-    /// # Errors
-    /// [`WorldProblem`](super::WorldProblem): the kind, the number of coordinates, one that is not finite or too large, or a sensor that
-    /// is refused.
-    pub fn try_new(
-        name: impl Into<String>,
-        kind: impl Into<String>,
-        start: impl Into<Vec<f64>>,
-        sensor: Option<super::BeamModel>,
-    ) -> Result<Self, super::WorldProblem> {
-        let kind = kind.into();
-        let start = super::file::items::make_start(&kind, start.into())?;
-        let sensor = sensor.map(|noise| super::file::items::make_noise(&kind, noise)).transpose()?;
-        Ok(Resident { name: name.into(), kind, start, sensor })
-    }
 }
 
 impl Obstacle {

@@ -3,16 +3,13 @@
 use ron::value::RawValue;
 use serde::Deserialize;
 
-use super::{AssignmentError, AssignmentProblem};
+use super::{AssignmentError, AssignmentProblem, MAX_SEEDS};
 use crate::collision::{Collision, Scene};
 use crate::random::Seed;
 use crate::recording::{Recorder, RunError};
 use crate::run::Script;
 use crate::tour::{MAX_TICKS, TourConfig};
 use crate::worlds::{Resident, World};
-
-/// The greatest number of seeds in an assignment.
-pub const MAX_SEEDS: usize = 10_000;
 
 /// Where the robot shall be.
 #[derive(Clone, Debug, PartialEq, Deserialize)]

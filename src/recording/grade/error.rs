@@ -2,9 +2,11 @@
 
 use std::fmt;
 
-use super::MAX_SEEDS;
 use crate::recording::RunError;
 use crate::tour::MAX_TICKS;
+
+/// The greatest number of seeds in an assignment.
+pub const MAX_SEEDS: usize = 10_000;
 
 /// An assignment file that is refused: where, which item, and why.
 ///

@@ -34,9 +34,9 @@ mod error;
 use std::iter::once;
 use std::slice::from_ref;
 
-pub use assignment::{Assignment, AssignmentFile, Goal, Limits, MAX_SEEDS};
+pub use assignment::{Assignment, AssignmentFile, Goal, Limits};
 pub use attempt::{Attempt, Verdict};
-pub use error::{AssignmentError, AssignmentProblem};
+pub use error::{AssignmentError, AssignmentProblem, MAX_SEEDS};
 
 use super::{Recorder, RunError};
 use crate::run::{Divergence, Log, RobotInput, Script, ScriptError, first_divergence};

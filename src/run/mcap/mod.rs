@@ -15,6 +15,7 @@ mod encoder;
 mod error;
 mod message;
 mod preamble;
+mod read_log;
 mod reader;
 mod record;
 #[cfg(test)]
@@ -22,7 +23,7 @@ mod tests;
 mod writer;
 
 pub use error::{DamageKind, DamagedLog, LogError};
-pub use reader::ReadLog;
+pub use read_log::ReadLog;
 pub use writer::LogWriter;
 
 /// The version of the log format that this program writes and reads.

@@ -5,9 +5,9 @@ use std::collections::BTreeMap;
 use serde::Deserialize;
 
 use super::record::{self, Cursor, Record, opcode, put_map, put_record, put_str, put_u64};
-use super::{FORMAT_VERSION, GENERATOR, LogError};
+use super::{FORMAT_VERSION, GENERATOR, LogError, ReadLog};
 use crate::random::Seed;
-use crate::run::{DT, Frame, Script};
+use crate::run::{DT, Frame, Log, Script};
 use crate::tour::{SensorConfig, TourConfig};
 use crate::worlds::World;
 
@@ -61,6 +61,14 @@ fn content(item: &str, reason: &str) -> LogError {
 
 fn world_file(index: usize) -> String {
     format!("worlds/{index}.ron")
+}
+
+impl ReadLog {
+    pub(super) fn preamble(&self) -> Preamble {
+        let Log { seed, config, script, initial, .. } = self.log.clone();
+        let (program, world_texts) = (self.program.clone(), self.world_texts.clone());
+        Preamble { seed, config, script, initial, program, world_texts }
+    }
 }
 
 impl Preamble {

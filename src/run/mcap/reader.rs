@@ -7,26 +7,8 @@ use super::encoder::{Encoder, put_seal};
 use super::message::{FrameMessage, ScanMessage};
 use super::preamble::Preamble;
 use super::record::{Cursor, MAGIC, Record, SEAL, message, opcode, record_at};
-use super::{DamageKind, DamagedLog, EXPORT_PROFILE, LogError, channel};
+use super::{DamageKind, DamagedLog, EXPORT_PROFILE, LogError, ReadLog, channel};
 use crate::run::{Frame, Log};
-
-/// A log read from a file.
-#[derive(Clone, Debug, PartialEq)]
-pub struct ReadLog {
-    /// The run, or its sealed beginning.
-    pub log: Log,
-    /// The program that wrote it, with its version.
-    pub program: String,
-    world_texts: Vec<String>,
-}
-
-impl ReadLog {
-    pub(super) fn preamble(&self) -> Preamble {
-        let Log { seed, config, script, initial, .. } = self.log.clone();
-        let (program, world_texts) = (self.program.clone(), self.world_texts.clone());
-        Preamble { seed, config, script, initial, program, world_texts }
-    }
-}
 
 impl Log {
     /// Reads a log from the bytes of an MCAP file.

@@ -4,4 +4,5 @@ pub(crate) mod kinds;
 pub(crate) mod ops;
 pub(crate) mod plugin;
 pub(crate) mod simulated;
+pub(crate) mod spawn;
 pub(crate) mod view;

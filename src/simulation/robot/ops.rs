@@ -5,9 +5,8 @@ use bevy::prelude::*;
 use super::simulated::canonical;
 use crate::collision::{Collision, Surroundings};
 use crate::configuration::{Configuration as _, Coordinates};
-use crate::geometry::{Footprint, Pose2};
+use crate::geometry::{Footprint, Placed, Pose2};
 use crate::run::{Quantized, RobotInput, RobotState};
-use crate::simulation::tick::starts::others_now;
 use crate::simulation::{
     Configuration, Contacts, DriveMode, Extra, OwnState, PreviousConfiguration, ResidesIn, RobotId, RobotModel,
     RobotName, RobotView, Route, SimulatedRobot, SimulatedWorld, WorldScene,
@@ -17,8 +16,8 @@ use crate::simulation::{
 #[derive(Component, Clone, Copy, Debug)]
 #[component(immutable)]
 pub struct RobotOps {
-    /// Applies an input, or counts it as refused.
-    pub(crate) apply: fn(&mut World, Entity, &RobotInput),
+    /// Applies an input among the parts of the other robots of its world, or counts it as refused.
+    pub(crate) apply: fn(&mut World, Entity, &RobotInput, &[Placed]),
     /// The footprint where the robot is.
     pub(crate) footprint: fn(&World, Entity) -> Option<Footprint>,
     /// Where the robot's range sensor sits.
@@ -85,13 +84,12 @@ fn accepted<R: SimulatedRobot>(
     }
 }
 
-fn apply<R: SimulatedRobot>(world: &mut World, e: Entity, input: &RobotInput) {
+fn apply<R: SimulatedRobot>(world: &mut World, e: Entity, input: &RobotInput, others: &[Placed]) {
     let Some(changed) = (|| {
         let robot = &world.get::<RobotModel<R>>(e)?.0;
         let (q, mode) = (world.get::<Configuration<R>>(e)?.0, *world.get::<DriveMode<R>>(e)?);
         let inhabited = world.get::<ResidesIn>(e)?.0;
-        let others = others_now(world, inhabited, *world.get::<RobotId>(e)?);
-        let surroundings = Surroundings { scene: &world.get::<WorldScene>(inhabited)?.0, others: &others };
+        let surroundings = Surroundings { scene: &world.get::<WorldScene>(inhabited)?.0, others };
         let is_free = |q: &R::Configuration| !surroundings.intersects(&robot.fitted(q).footprint(q));
         let (after, put) = accepted(robot, &q, &mode, input, is_free)
             .unwrap_or((DriveMode { refusals: mode.refusals.saturating_add(1), ..mode }, None));

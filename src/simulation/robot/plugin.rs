@@ -5,11 +5,10 @@ use std::sync::Arc;
 
 use bevy::prelude::*;
 
+use super::spawn::{SpawnRequest, spawn_robot};
 use crate::simulation::schedule::{KindSystems, Phase};
 use crate::simulation::tick::{drive, settle};
-use crate::simulation::{
-    RobotOps, SimulatedRobot, SimulationSchedule, SimulationSystems, SpawnError, SpawnRequest, spawn_robot,
-};
+use crate::simulation::{RobotOps, SimulatedRobot, SimulationSchedule, SimulationSystems, SpawnError};
 
 /// Makes robots of type `R` known to the simulation under the name of a kind, which worlds name in their residents. Add it
 /// after [`SimulationPlugin`](crate::simulation::SimulationPlugin) and before a run starts.

@@ -5,8 +5,11 @@ use crate::configuration::Configuration;
 use crate::geometry::{Point2, Pose2};
 use crate::random::{Seed, Stream};
 use crate::robots::{Drivable, EncoderCounts};
-use crate::simulation::Extra;
+use crate::short_list::ShortList;
 use crate::worlds::World;
+
+/// A robot's own state beside its configuration, in the order its kind documents.
+pub type Extra = ShortList<f64, 4>;
 
 /// A robot that lives in the simulation: its tour, what manual input means to it, what state it keeps. Register it under a
 /// name with [`RobotPlugin`](crate::simulation::RobotPlugin); worlds then name it as the `kind` of a resident.

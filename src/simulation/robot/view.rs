@@ -1,11 +1,8 @@
 //! `RobotView`, what a view may read of a robot without knowing its type.
 
-use bevy::prelude::*;
-
 use crate::configuration::Coordinates;
 use crate::geometry::{Footprint, Point2};
 use crate::robots::EncoderCounts;
-use crate::simulation::{RobotOps, Roster};
 
 /// A robot as a view shows it.
 #[derive(Clone, Debug, PartialEq)]
@@ -44,10 +41,4 @@ pub struct RobotView {
     pub refusals: u32,
     /// What the wheels' encoders read.
     pub encoders: Option<EncoderCounts>,
-}
-
-/// All robots of the run, by ascending id; none before a run was started.
-pub fn view(world: &World) -> Vec<RobotView> {
-    let robots = world.get_resource::<Roster>().map_or(&[][..], Roster::robots);
-    robots.iter().filter_map(|&e| (world.get::<RobotOps>(e)?.view)(world, e)).collect()
 }

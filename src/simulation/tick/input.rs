@@ -2,8 +2,9 @@
 
 use bevy::prelude::*;
 
+use super::starts::others_now;
 use crate::run::{Event, RobotInput, Script};
-use crate::simulation::{RobotName, RobotOps, Roster, Transport};
+use crate::simulation::{ResidesIn, RobotId, RobotName, RobotOps, Roster, Transport};
 
 /// An input to a robot, as a message from whoever drives: it applies before the next tick's step.
 #[derive(Message, Clone, Debug, PartialEq)]
@@ -132,8 +133,12 @@ pub(crate) fn apply_inputs(world: &mut World) {
                 .iter()
                 .copied()
                 .find(|&e| world.get::<RobotName>(e).is_some_and(|n| n.name == event.robot));
-            if let Some((robot, ops)) = robot.and_then(|e| Some((e, *world.get::<RobotOps>(e)?))) {
-                (ops.apply)(world, robot, &event.input);
+            let known = robot.and_then(|e| {
+                let others = others_now(world, world.get::<ResidesIn>(e)?.0, *world.get::<RobotId>(e)?);
+                Some((e, *world.get::<RobotOps>(e)?, others))
+            });
+            if let Some((robot, ops, others)) = known {
+                (ops.apply)(world, robot, &event.input, &others);
             }
         }
     });

@@ -1,5 +1,6 @@
 //! Query anatomy in the window.
 
+mod state;
 pub(crate) mod view;
 
-pub use view::AnatomyState;
+pub use state::AnatomyState;

@@ -7,10 +7,10 @@ use bevy_egui::egui::{CollapsingHeader, ComboBox, RichText, ScrollArea, Slider, 
 use crate::anatomy::{Anatomy, Guess, Prompt, Tab, WorldSource};
 use crate::configuration::Configuration;
 use crate::manifest::widget;
-use crate::picture::{Picture, Role};
+use crate::picture::Role;
 use crate::ui::paint::button::button;
 use crate::ui::paint::sheet::{sheet, split};
-use crate::ui::{Command, Dashboard, Look, UiState};
+use crate::ui::{AnatomyState, Command, Dashboard, Look, UiState};
 use crate::worlds::World;
 
 /// Width of what stands beside the paper, points.
@@ -18,42 +18,6 @@ const SIDE: f32 = 380.0;
 
 /// Side of the close view, points.
 const INSET: f32 = 230.0;
-
-/// What the widget remembers.
-#[derive(Clone, Debug)]
-pub struct AnatomyState {
-    /// The scene, the robot, the question.
-    pub anatomy: Anatomy,
-    /// The scene as it is drawn; made anew when the world changes.
-    backdrop: Arc<Picture>,
-    /// What was guessed, by prompt.
-    guesses: [String; 2],
-    /// What the guesses came to.
-    answers: [Option<String>; 2],
-}
-
-impl Default for AnatomyState {
-    fn default() -> Self {
-        let anatomy = Anatomy::default();
-        let backdrop = Arc::new(anatomy.backdrop());
-        AnatomyState { anatomy, backdrop, guesses: Default::default(), answers: Default::default() }
-    }
-}
-
-impl AnatomyState {
-    /// The world alone, as it is drawn.
-    pub fn backdrop(&self) -> &Arc<Picture> {
-        &self.backdrop
-    }
-
-    /// Puts another scene in front.
-    pub fn set(&mut self, anatomy: Anatomy) {
-        if anatomy.world() != self.anatomy.world() {
-            self.backdrop = Arc::new(anatomy.backdrop());
-        }
-        self.anatomy = anatomy;
-    }
-}
 
 /// Shows the widget.
 pub fn anatomy_view(

@@ -1,5 +1,6 @@
 //! The configuration space in the window.
 
+mod state;
 pub(crate) mod view;
 
-pub use view::CspaceState;
+pub use state::CspaceState;

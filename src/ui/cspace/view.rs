@@ -4,82 +4,18 @@ use std::sync::Arc;
 
 use bevy_egui::egui::{Rect, RichText, ScrollArea, Ui, pos2, vec2};
 
-use crate::anatomy::{Anatomy, Tab};
-use crate::capture::{self, Captured};
-use crate::configuration::AnyConfiguration;
-use crate::cspace::{CellMap, Overlay, Slice, cspace_picture, overlay_items};
+use crate::anatomy::Tab;
+use crate::cspace::{Overlay, overlay_items};
 use crate::manifest::widget;
 use crate::num::wrap;
 use crate::picture::{Picture, Role, footprint};
-use crate::robots::{ConfigurationError, Robot};
+use crate::robots::Robot;
 use crate::ui::anatomy::view::{annulus, coordinate, robot_choice, world_choice};
 use crate::ui::paint::sheet::sheet;
 use crate::ui::{Command, Dashboard, Look, UiState, readout};
 
-/// Cells are cut down to a 256th of the sides.
-const FINEST: u32 = 8;
-/// So many cells are judged in a frame.
-const BUDGET: u32 = 1500;
-/// So many points of the way are kept.
+/// The most points of the trace that are kept.
 const TRACE: usize = 2000;
-
-/// What the widget remembers.
-#[derive(Clone, Debug, Default)]
-pub struct CspaceState {
-    map: Option<Map>,
-    trace: Vec<AnyConfiguration>,
-}
-
-/// The proofs, and how they were last drawn.
-#[derive(Clone, Debug)]
-struct Map {
-    cells: CellMap,
-    picture: Arc<Picture>,
-    /// How many cells were judged when it was drawn.
-    drawn: u64,
-}
-
-impl Map {
-    /// Whether its cells are those of this robot, in this scene, with the same coordinates held.
-    fn is_of(&self, anatomy: &Anatomy) -> bool {
-        let (ours, its) = (self.cells.slice(), anatomy.checker());
-        let same_scene = Arc::ptr_eq(&ours.checker().shared_scene(), &its.shared_scene());
-        same_scene && ours.checker().robot() == its.robot() && ours.holds(&anatomy.q())
-    }
-}
-
-impl CspaceState {
-    /// Workspace and configuration space as they are, the proofs brought to their end.
-    pub fn captured(&self, anatomy: &Anatomy) -> Result<Captured, ConfigurationError> {
-        let kept = self.map.as_ref().filter(|map| map.is_of(anatomy)).map(|map| map.cells.clone());
-        let mut cells = match kept {
-            Some(cells) => cells,
-            None => CellMap::new(Slice::through(anatomy.checker(), &anatomy.q())?, FINEST),
-        };
-        cells.refine(u32::MAX);
-        Ok(capture::cspace(anatomy, &cells, self.trace.clone()))
-    }
-
-    /// Goes on with the proofs. Returns whether there is more to prove.
-    fn refine(&mut self, anatomy: &Anatomy) -> bool {
-        if !self.map.as_ref().is_some_and(|map| map.is_of(anatomy)) {
-            let Ok(slice) = Slice::through(anatomy.checker(), &anatomy.q()) else { return false };
-            let cells = CellMap::new(slice, FINEST);
-            let picture = Arc::new(cspace_picture(&cells, &Overlay::default()));
-            self.map = Some(Map { cells, picture, drawn: 0 });
-            self.trace.clear();
-        }
-        let Some(map) = &mut self.map else { return false };
-        let more = map.cells.refine(BUDGET);
-        let judged = map.cells.progress().judged;
-        // what is drawn lags a little behind what is known: merging the cells costs more than judging them
-        if judged != map.drawn && (!more || judged > map.drawn + map.drawn / 3) {
-            map.picture = Arc::new(cspace_picture(&map.cells, &Overlay::default()));
-            map.drawn = judged;
-        }
-        more
-    }
-}
 
 /// Shows the widget.
 pub fn cspace_view(

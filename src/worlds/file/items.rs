@@ -1,12 +1,8 @@
 //! Every item of a world file checked and made what it means.
 
-use super::description::{BoundsText, ObstacleText, PlaceText, PolylineText, RobotText, ShapeText, Xy, point};
-use super::name::check_name;
+use super::description::{BoundsText, ObstacleText, PlaceText, PolylineText, ShapeText, Xy, point};
 use crate::geometry::{ConvexPolygon, MAX_COORDINATE, Point2, Pose2, Shape, ShapeError, convex_hull};
-use crate::num;
-use crate::worlds::{
-    BeamModel, Bounds, MAX_CONCAVE_VERTICES, MAX_ITEMS, Mark, Obstacle, ObstacleKind, Place, Resident, WorldProblem,
-};
+use crate::worlds::{Bounds, MAX_CONCAVE_VERTICES, MAX_ITEMS, Mark, Obstacle, ObstacleKind, Place, WorldProblem};
 
 /// How many more shapes the world may have, and how many more corners its polygons: cutting up the concave ones takes quadratic time.
 pub(crate) struct Budget {
@@ -36,7 +32,7 @@ impl Budget {
     }
 }
 
-fn make_point(xy: Xy) -> Result<Point2, ShapeError> {
+pub(crate) fn make_point(xy: Xy) -> Result<Point2, ShapeError> {
     let p = point(xy);
     // written so that NaN fails it
     if p.x.abs() <= MAX_COORDINATE && p.y.abs() <= MAX_COORDINATE {
@@ -149,45 +145,6 @@ pub(crate) fn make_place(text: &PlaceText) -> Result<Place, WorldProblem> {
     Ok(Place { name: text.name.clone(), pose: Pose2::new(p.x, p.y, theta) })
 }
 
-fn finite(x: f64, what: &'static str) -> Result<f64, WorldProblem> {
+pub(crate) fn finite(x: f64, what: &'static str) -> Result<f64, WorldProblem> {
     if x.is_finite() { Ok(x + 0.0) } else { Err(WorldProblem::NotFinite(what)) }
-}
-
-pub(crate) fn make_resident(text: &RobotText) -> Result<Resident, WorldProblem> {
-    let RobotText { name, kind, start, sensor } = text;
-    Resident::try_new(name.clone(), kind.clone(), start.clone(), *sensor)
-}
-
-/// The start of a robot of this kind, checked and its angles wrapped.
-pub(crate) fn make_start(kind: &str, mut start: Vec<f64>) -> Result<Vec<f64>, WorldProblem> {
-    // how many of the coordinates are a position, and how many there may be
-    let (lengths, counts, expected) = match kind {
-        "rusty" => (2, 3..=3, "three: x, y, theta"),
-        "reach" => (0, 2..=2, "two: th1, th2"),
-        "reach3" => (0, 3..=3, "three: th1, th2, th3"),
-        "hitch" => (2, 3..=4, "three: x, y, theta; or with a trailer four: x, y, theta, psi"),
-        own if own.len() > 2 && own.starts_with("x-") && check_name(own).is_ok() => (usize::MAX, 1..=64, "1 to 64"),
-        _ => return Err(WorldProblem::Kind(kind.to_owned())),
-    };
-    if !counts.contains(&start.len()) {
-        return Err(WorldProblem::Start { kind: kind.to_owned(), expected, found: start.len() });
-    }
-    for (i, x) in start.iter_mut().enumerate() {
-        *x = finite(*x, "a start coordinate")?;
-        if i >= lengths {
-            *x = num::wrap(*x);
-        }
-    }
-    if lengths == 2 {
-        make_point((start[0], start[1]))?;
-    }
-    Ok(start)
-}
-
-/// The noise of the sensor of a robot of this kind, which must have one.
-pub(crate) fn make_noise(kind: &str, noise: BeamModel) -> Result<BeamModel, WorldProblem> {
-    if ["reach", "reach3", "hitch"].contains(&kind) {
-        return Err(WorldProblem::NoSensor(kind.to_owned()));
-    }
-    Ok(noise.try_new()?)
 }

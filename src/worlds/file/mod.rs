@@ -6,4 +6,5 @@ pub(crate) mod items;
 pub(crate) mod name;
 pub(crate) mod parse;
 pub(crate) mod print;
+pub(crate) mod resident;
 pub(crate) mod source;

@@ -3,8 +3,9 @@
 use std::collections::BTreeMap;
 
 use super::description::Named;
-use super::items::{Budget, make_bounds, make_mark, make_place, make_resident, make_solid, make_wall};
+use super::items::{Budget, make_bounds, make_mark, make_place, make_solid, make_wall};
 use super::name::check_name;
+use super::resident::make_resident;
 use super::source::{Part, Source};
 use crate::worlds::{MAX_ITEMS, World, WorldError, WorldItem, WorldProblem};
 

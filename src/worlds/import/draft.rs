@@ -5,8 +5,9 @@ use std::collections::{BTreeMap, BTreeSet};
 use super::Imported;
 use crate::geometry::Pose2;
 use crate::worlds::file::description::{BoundsText, ObstacleText, PlaceText, PolylineText, RobotText, ShapeText, Xy};
-use crate::worlds::file::items::{Budget, make_bounds, make_mark, make_place, make_resident, make_solid, make_wall};
+use crate::worlds::file::items::{Budget, make_bounds, make_mark, make_place, make_solid, make_wall};
 use crate::worlds::file::name::{MAX_NAME, check_name};
+use crate::worlds::file::resident::make_resident;
 use crate::worlds::{MAX_ITEMS, Mark, Obstacle, Place, Resident, World, WorldProblem};
 
 /// How many notes are kept: more than anybody reads.

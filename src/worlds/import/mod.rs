@@ -18,7 +18,7 @@ mod svg;
 mod yaml;
 
 use super::file::description;
-use super::file::items::make_resident;
+use super::file::resident::make_resident;
 use super::{World, WorldProblem};
 
 pub use error::{ImportError, ImportProblem};

@@ -1,0 +1,76 @@
+//! A robot and its sensor as entities.
+
+use bevy::prelude::*;
+
+use super::simulated::canonical;
+use crate::configuration::Configuration as _;
+use crate::random::{Seed, Stream};
+use crate::sensors::{RangeSensor, Scanner};
+use crate::simulation::{
+    Configuration, MountedOn, OwnState, PreviousConfiguration, ResidesIn, RobotId, RobotModel, RobotName, RobotOps,
+    Route, Scan, SensorModel, SensorNoise, SensorScanner, SimulatedRobot, Slip, SpawnError,
+};
+use crate::worlds::{Resident, World as WorldModel};
+
+/// One robot to be spawned.
+pub(crate) struct SpawnRequest<'a> {
+    pub(crate) seed: Seed,
+    pub(crate) id: RobotId,
+    pub(crate) world: Entity,
+    pub(crate) model: &'a WorldModel,
+    pub(crate) resident: &'a Resident,
+    pub(crate) sensor: Option<RangeSensor>,
+}
+
+/// Spawns a robot of type `R`, with its sensor.
+pub(crate) fn spawn_robot<R: SimulatedRobot>(
+    world: &mut World,
+    robot: &R,
+    ops: RobotOps,
+    request: &SpawnRequest,
+) -> Result<Entity, SpawnError> {
+    let resident = request.resident;
+    let refused = || SpawnError::Start {
+        robot: resident.name.clone(),
+        world: request.model.name.clone(),
+        kind: resident.kind.clone(),
+        start: resident.start.clone(),
+    };
+    let q = R::Configuration::from_coordinates(&resident.start).ok_or_else(refused)?;
+    // through the robot itself, which wraps the angles
+    let q = canonical(&robot.configuration_at(&q, &resident.start).ok_or_else(refused)?);
+    robot.fitted(&q).check(&q).map_err(|_| refused())?;
+    let noise = resident.sensor.map(|noise| noise.try_new()).transpose().map_err(|source| SpawnError::Noise {
+        robot: resident.name.clone(),
+        world: request.model.name.clone(),
+        source,
+    })?;
+    let sensor = request.sensor.filter(|_| robot.sensor_pose(&q).is_some());
+    let entity = world
+        .spawn((
+            RobotModel(robot.clone()),
+            Configuration::<R>(q),
+            PreviousConfiguration::<R>(q),
+            OwnState::<R>::new(robot.initial_extra()),
+            Route::<R>(robot.tour(request.seed, &resident.name, request.model, &q)),
+            Slip(Stream::new(request.seed, &format!("{}/slip", resident.name))),
+            ops,
+            request.id,
+            RobotName { name: resident.name.clone(), kind: resident.kind.clone() },
+            ResidesIn(request.world),
+        ))
+        .id();
+    if let Some(sensor) = sensor {
+        let mut spawned = world.spawn((
+            SensorModel(sensor),
+            SensorScanner(Some(Box::new(Scanner::new(sensor)))),
+            Scan::default(),
+            MountedOn(entity),
+        ));
+        if let Some(model) = noise {
+            let stream = Stream::new(request.seed, &format!("{}/beam", resident.name));
+            spawned.insert(SensorNoise { model, stream });
+        }
+    }
+    Ok(entity)
+}

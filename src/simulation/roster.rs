@@ -1,0 +1,30 @@
+//! `Roster`, the robots and worlds of a run by their numbers.
+
+use bevy::prelude::*;
+
+use super::{RobotOps, RobotView};
+
+/// The robots and worlds of the run by their numbers; fixed from tick 0 on.
+#[derive(Resource, Clone, Debug, Default)]
+pub struct Roster {
+    pub(super) worlds: Vec<Entity>,
+    pub(super) robots: Vec<Entity>,
+}
+
+impl Roster {
+    /// The robots' entities by id.
+    pub fn robots(&self) -> &[Entity] {
+        &self.robots
+    }
+
+    /// The worlds' entities by number.
+    pub fn worlds(&self) -> &[Entity] {
+        &self.worlds
+    }
+}
+
+/// All robots of the run, by ascending id; none before a run was started.
+pub fn view(world: &World) -> Vec<RobotView> {
+    let robots = world.get_resource::<Roster>().map_or(&[][..], Roster::robots);
+    robots.iter().filter_map(|&e| (world.get::<RobotOps>(e)?.view)(world, e)).collect()
+}

@@ -1,0 +1,36 @@
+//! Moving a run: a tick on, or to any tick.
+
+use bevy::prelude::*;
+
+use super::{Keyframes, RestoreError, SimulationSchedule, Transport, restore};
+
+/// Runs one tick.
+pub fn step(world: &mut World) {
+    world.run_schedule(SimulationSchedule);
+}
+
+/// Takes the run to `tick`: back by the last keyframe before it, then on by simulating.
+///
+/// # Errors
+/// [`RestoreError`] when the keyframe does not fit the run, which only a frame from elsewhere could cause.
+pub fn seek(world: &mut World, tick: u64) -> Result<(), RestoreError> {
+    let now = world.resource::<Transport>().tick;
+    let keyframe = world.resource::<Keyframes>().before(tick).cloned();
+    if let Some(frame) = keyframe.filter(|f| tick < now || f.tick > now) {
+        restore(world, &frame)?;
+    }
+    while world.resource::<Transport>().tick < tick {
+        step(world);
+    }
+    Ok(())
+}
+
+/// The next tick of a run that plays: a looping one begins anew at its frontier.
+pub fn play_tick(world: &mut World) {
+    let Transport { tick, frontier, looping, .. } = *world.resource::<Transport>();
+    if looping && tick >= frontier && frontier > 0 {
+        // tick 0 is always kept
+        let _ = seek(world, 0);
+    }
+    step(world);
+}

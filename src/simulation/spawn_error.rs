@@ -1,0 +1,52 @@
+//! `SpawnError`, why a run cannot start.
+
+use crate::run::ScriptError;
+use crate::sensors::{BeamError, SensorError};
+use crate::tour::ConfigError;
+
+/// Why a run cannot start.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum SpawnError {
+    /// A kind of robot that nobody registered.
+    #[error("robot {robot:?} in world {world:?}: there is no kind {kind:?}")]
+    UnknownKind {
+        /// The robot.
+        robot: String,
+        /// Its world.
+        world: String,
+        /// The kind.
+        kind: String,
+    },
+    /// Start coordinates that are no configuration of the robot.
+    #[error("robot {robot:?} in world {world:?}: {start:?} is no configuration of a {kind}")]
+    Start {
+        /// The robot.
+        robot: String,
+        /// Its world.
+        world: String,
+        /// Its kind.
+        kind: String,
+        /// The coordinates.
+        start: Vec<f64>,
+    },
+    /// The configuration is out of range.
+    #[error(transparent)]
+    Config(#[from] ConfigError),
+    /// The script cannot be run with these robots.
+    #[error(transparent)]
+    Script(#[from] ScriptError),
+    /// A sensor whose noise is no distribution, in a world put together by hand.
+    #[error("robot {robot:?} in world {world:?}: sensor: {source}")]
+    Noise {
+        /// The robot.
+        robot: String,
+        /// Its world.
+        world: String,
+        /// What is wrong.
+        source: BeamError,
+    },
+    /// A range sensor out of range.
+    #[error(transparent)]
+    Sensor(#[from] SensorError),
+}
