@@ -13,7 +13,7 @@ mod runs;
 mod session;
 #[cfg(feature = "window")]
 mod settings;
-// two lines, because the lints look for the first alone
+// two attributes, because the lints recognise only a bare `cfg(test)`
 #[cfg(test)]
 #[cfg(feature = "window")]
 mod tests;
@@ -45,7 +45,7 @@ use session::carry_out;
 pub(crate) use session::new_run;
 pub(crate) use session::{Interface, Shown};
 
-/// The lab in a window: the three worlds touring from the book's seed. A run already started in the app is kept.
+/// The lab in a window, with the tour of the three worlds from the book's seed. A run already under way is kept.
 pub fn windowed_app() -> App {
     let window = Window {
         title: "Motion Lab".into(),
@@ -58,7 +58,7 @@ pub fn windowed_app() -> App {
     };
     let mut app = App::new();
     let plugins = DefaultPlugins.set(WindowPlugin { primary_window: Some(window), ..default() });
-    // a page keeps the settings, and has the browser's console
+    // on the web, the page keeps the settings and the browser has a console
     #[cfg(feature = "window")]
     let plugins = plugins.set(quiet_log());
     #[cfg(feature = "window")]
@@ -69,7 +69,7 @@ pub fn windowed_app() -> App {
         .add_systems(Startup, add_camera)
         .add_systems(Update, wake.after(session::gather))
         .add_systems(EguiPrimaryContextPass, show);
-    // a page tells of its theme itself
+    // on the web, the page sends the system's theme
     #[cfg(feature = "window")]
     app.add_systems(Update, system_theme)
         .init_resource::<dialogs::Dialogs>()
@@ -78,20 +78,20 @@ pub fn windowed_app() -> App {
     app
 }
 
-/// The graphics layers tell at length what `run_window` says in one line.
+/// The log without the graphics layers, whose long messages `run_window` replaces by one line.
 #[cfg(feature = "window")]
 fn quiet_log() -> bevy::log::LogPlugin {
     let filter = "wgpu_hal=off,wgpu_core=off,naga=off".into();
     bevy::log::LogPlugin { level: bevy::log::Level::ERROR, filter, ..default() }
 }
 
-/// Egui's painter smooths its own edges: multisampling would only cost.
+/// Adds the camera, without multisampling: egui's painter smooths its own edges.
 fn add_camera(mut commands: Commands) {
     commands.spawn((Camera2d, PrimaryEguiContext, Msaa::Off));
 }
 
 #[cfg(feature = "window")]
-/// Follows the system from light to dark and back. Where the system does not say, paper is light.
+/// Follows the system from light to dark and back. The theme is light where the system does not say.
 fn system_theme(windows: Query<&Window, Changed<Window>>, mut interface: ResMut<Interface>) {
     for window in &windows {
         let theme = match window.window_theme {
@@ -104,7 +104,7 @@ fn system_theme(windows: Query<&Window, Changed<Window>>, mut interface: ResMut<
     }
 }
 
-/// While it plays, frames follow one another; paused, the window sleeps until something happens.
+/// Draws frame after frame while the run plays. Paused, the window sleeps until something happens, a second at most.
 fn wake(shown: Res<Shown>, mut settings: ResMut<WinitSettings>) {
     let idle = std::time::Duration::from_secs(1);
     let mode = if shown.0.playing { UpdateMode::Continuous } else { UpdateMode::reactive(idle) };

@@ -1,5 +1,5 @@
-//! A deterministic 2D robot-motion laboratory: three robots, three worlds, one collision checker that answers four questions,
-//! one simulator.
+//! A deterministic 2D robot-motion laboratory: three robots, three worlds, one collision checker that answers four
+//! questions, one simulator.
 //!
 //! The modules stand in reading order: each uses only those above it.
 //!
@@ -8,28 +8,29 @@
 #![cfg_attr(feature = "sim", doc = "- Run something: [`recording::Run`].")]
 #![cfg_attr(feature = "sim", doc = "- Write a planner: [`guide::write_a_planner`].")]
 //!
-//! Conventions: SI units, radians, `f64`; x right, y up, counter-clockwise positive; angles wrapped to `(-pi, pi]`. Touching counts
-//! as collision.
+//! Conventions: SI units, radians, `f64`; x right, y up, counter-clockwise positive; angles wrapped to `(-pi, pi]`.
+//! Touching counts as collision.
 //!
 //! # Features
 //!
-//! Without features the library is the core, which is what a planner needs: robots, worlds, collision answers, sensors, drawings
-//! and the configuration space, without Bevy.
+//! Without features the library is the core, which is what a planner needs: robots, worlds, collision answers, sensors,
+//! drawings and the configuration space, without Bevy.
 //!
 //! | feature | adds |
 //! |---|---|
-//! | `sim` | the simulator, the run log, and what shows them: everything else in the library but what follows |
-//! | `cli` | `sim`, the program `motion-lab`, maps from elsewhere, pictures as PNG and GIF |
+//! | `sim` | the simulator, the run log and what shows them: the rest of the library except for what follows |
+//! | `cli` | `sim`, the program `motion-lab`, worlds from other formats, pictures as PNG and GIF |
 //! | `headless` | `cli`; `motion-lab` without arguments records the tour and checks it |
 //! | `window` (by default) | `cli`; `motion-lab` without arguments opens the lab in a window |
 //! | `web` | `sim`, and the lab in a page, for WebAssembly |
-//! | `screen` | what `window` and `web` share; not to be asked for by itself |
+//! | `screen` | what `window` and `web` share; not meant to be enabled by itself |
 #![deny(missing_docs)]
 #![forbid(unsafe_code)]
 
 pub mod num;
 
 pub mod short_list;
+mod text_position;
 
 pub mod random;
 

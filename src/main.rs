@@ -1,4 +1,4 @@
-//! The lab as a program: it reads the command line, runs one command, and turns its end into an exit code. Only here.
+//! The program: reads the command line, runs one command and maps its outcome to an exit code. No other file does.
 
 mod cli;
 

@@ -1,8 +1,9 @@
 //! Elementary functions that give the same bits on every platform.
 //!
-//! The standard library's `sin`, `cos`, `tan`, `atan2`, `hypot`, `exp` and `ln` are the platform's own and differ between
-//! native and wasm; everything here goes through the crate `libm`. `f64::min` and `f64::max` treat the two zeros differently
-//! between targets, so [`lesser`] and [`greater`] replace them. A clippy ban (`clippy.toml`) enforces both.
+//! The standard library's `sin`, `cos`, `tan`, `atan2`, `hypot`, `exp` and `ln` are the platform's own and differ
+//! between native and wasm; everything here goes through the crate `libm`. `f64::min` and `f64::max` treat the two
+//! zeros differently between targets, so [`lesser`] and [`greater`] replace them. A clippy ban (`clippy.toml`) enforces
+//! both.
 
 use std::f64::consts::{PI, TAU};
 
@@ -105,8 +106,8 @@ pub fn wrap(angle: f64) -> f64 {
 
 /// The angle itself, bit for bit, where it lies in `(-pi, pi]` (-0.0 too); [wrapped](wrap) where it lies outside.
 ///
-/// What takes an angle from its caller takes it through this: so an angle and the same one a thousand turns on mean one heading, and
-/// none of the bits of an angle in range change.
+/// Functions that take an angle from their caller pass it through this one. So an angle and the same angle a thousand
+/// turns on mean one heading, and an angle in range keeps all its bits.
 ///
 /// ```
 /// use motion_lab::num::{in_range, wrap};
@@ -163,7 +164,7 @@ mod tests {
                 let angle = base + turns * TAU;
                 let w = wrap(angle);
                 assert!(w > -PI && w <= PI, "wrap({angle}) = {w}");
-                // exact: the remainder of the difference by TAU is nothing at all
+                // exact: the remainder of the difference by TAU is 0
                 assert_eq!(libm::fmod(libm::fmod(angle, TAU) - w, TAU), 0.0, "wrap({angle}) = {w}");
             }
         }

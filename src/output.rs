@@ -1,4 +1,4 @@
-//! Output files: written whole, or not at all. The command line and the window write by these.
+//! Output files, written whole or not at all. The command line and the window write with these.
 
 use std::ffi::{OsStr, OsString};
 use std::fs::{self, File, OpenOptions};
@@ -7,30 +7,33 @@ use std::path::{Path, PathBuf};
 
 use tempfile::{Builder, NamedTempFile};
 
-/// A file on its way: written under a temporary name in the folder of its final name, and put there in one step by
-/// [`commit`](Self::commit). Until then, and when it is dropped, an older file of that name is as it was.
+/// A file under construction. It is written under a temporary name in the folder of its final name;
+/// [`commit`](Self::commit) renames it in one step. Until then, and when it is dropped, an older file of the final name
+/// stays as it was.
 ///
-/// The temporary name is the final one, or as much of it as there is room for, with a dot before it and `.XXXXXX.unfinished` behind. A
-/// process that is killed leaves it, and [`unfinished`] finds it.
+/// The temporary name is the final one, shortened if it is long, with a dot before it and `.XXXXXX.unfinished` after
+/// it. A killed process leaves the file, and [`unfinished`] finds it.
 pub struct PendingFile {
     path: PathBuf,
     file: BufWriter<NamedTempFile>,
 }
 
 impl PendingFile {
-    /// Begins a file that will be at `path`. Refused where no file can be written, and where something other than a file is.
+    /// Begins a file that will be at `path`. A folder, device or pipe at `path` is refused, and so is a file that can't
+    /// be written.
     ///
     /// # Errors
-    /// [`io::Error`] says why no file can be written there.
+    /// [`io::Error`] gives the reason.
     pub fn create(path: &Path) -> io::Result<Self> {
-        // through a symbolic link to the file itself
+        // a symbolic link is followed to the file itself
         let path = fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
         let older = older_permissions(&path)?;
         let mut prefix = OsString::from(".");
         prefix.push(shortened(path.file_name().unwrap_or_default()));
         prefix.push(".");
         let file = builder().prefix(&prefix).suffix(SUFFIX).tempfile_in(folder_of(&path)).map_err(plain)?;
-        // Held until the process ends, so that others can tell it from what a killed one left. Where there are no locks, they can't.
+        // The lock lasts until the file is closed or the process ends. By it other processes tell the file from one
+        // that a killed process left. On systems without locks they can't.
         let _ = file.as_file().lock();
         if let Some(permissions) = older {
             file.as_file().set_permissions(permissions)?;
@@ -38,29 +41,30 @@ impl PendingFile {
         Ok(PendingFile { path, file: BufWriter::new(file) })
     }
 
-    /// Puts the file in its place: on the disk first, then under its name.
+    /// Writes the file to the disk, then gives it its final name.
     ///
     /// # Errors
-    /// [`io::Error`] when the disk does not take it; whatever was there before still is.
+    /// [`io::Error`] when the disk does not take it. A file that was there before then stays.
     pub fn commit(mut self) -> io::Result<()> {
         self.sync()?;
         let path = self.path.clone();
         self.keep_as(&path)
     }
 
-    /// Has the disk keep all that was written.
+    /// Writes everything so far to the disk.
     ///
     /// # Errors
-    /// [`io::Error`] when it does not.
+    /// [`io::Error`] when the disk does not take it.
     pub fn sync(&mut self) -> io::Result<()> {
         self.file.flush().map_err(plain)?;
         self.file.get_ref().as_file().sync_all()
     }
 
-    /// Puts what the disk took under another name of the same folder. What was not handed to it, as after a write that failed, is lost.
+    /// Gives the file another name in the same folder, with the bytes that have reached it. Bytes still buffered, as
+    /// after a failed write, are lost.
     ///
     /// # Errors
-    /// [`io::Error`] when the file can't be renamed: then it stays under its temporary name, which the error tells.
+    /// [`io::Error`] when the file can't be renamed. It then stays under its temporary name, which the error names.
     pub fn keep_as(self, path: &Path) -> io::Result<()> {
         let (file, _) = self.file.into_parts();
         if let Err(refused) = file.persist(path) {
@@ -85,7 +89,7 @@ impl Write for PendingFile {
 /// The end of a temporary name.
 const SUFFIX: &str = ".unfinished";
 
-/// As much of a name as leaves room for the rest of a temporary one, where names have at most 255 bytes.
+/// A name cut to at most 200 bytes, so that the temporary name fits into 255. A name that is not UTF-8 is not cut.
 fn shortened(name: &OsStr) -> &OsStr {
     match name.to_str() {
         Some(text) => OsStr::new(&text[..text.floor_char_boundary(200)]),
@@ -105,14 +109,14 @@ fn folder_of(path: &Path) -> &Path {
     path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."))
 }
 
-/// The files in the folder of `path` that processes left when they were killed, in the order of their names. Those that a process is
-/// still writing are not among them, where the system has locks.
+/// The files that killed processes left in the folder of `path`, in the order of their names. Where the system has
+/// locks, files that a process is still writing are left out.
 ///
 /// # Errors
 /// [`io::Error`] when the folder can't be read.
 pub fn unfinished(path: &Path) -> io::Result<Vec<PathBuf>> {
     let mut found = Vec::new();
-    // through a symbolic link, as the output goes
+    // a symbolic link is followed, as for the output
     let output = fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
     for entry in fs::read_dir(folder_of(&output))? {
         let path = folder_of(&output).join(entry?.file_name());
@@ -124,16 +128,17 @@ pub fn unfinished(path: &Path) -> io::Result<Vec<PathBuf>> {
     Ok(found)
 }
 
-/// Whether no process is writing the file any more. `false` also where the system can't tell.
+/// Whether no process is writing the file any more. `false` is inconclusive on systems without locks.
 ///
 /// # Errors
 /// [`io::Error`] when the file can't be opened.
 pub fn is_left(path: &Path) -> io::Result<bool> {
-    // shared, so that two who ask don't stand in one another's way
+    // a shared lock, so that two callers don't block one another
     Ok(File::open(path)?.try_lock_shared().is_ok())
 }
 
-/// The name of the file that a temporary one was to become; of another that ends in `.partial` the name without it.
+/// The final name of a temporary file. For another name that ends in `.partial` it is the name without that ending,
+/// else `None`.
 pub fn whole_name(path: &Path) -> Option<PathBuf> {
     let whole = path.with_extension("");
     if is_temporary(path) {
@@ -143,7 +148,7 @@ pub fn whole_name(path: &Path) -> Option<PathBuf> {
     path.extension().is_some_and(|extension| extension == "partial").then_some(whole)
 }
 
-/// Whether a name is one that an unfinished file has.
+/// Whether a name has the form of a temporary name.
 pub fn is_temporary(path: &Path) -> bool {
     let name = path.file_name().and_then(|name| name.to_str()).unwrap_or_default();
     let unique =
@@ -156,14 +161,15 @@ pub fn is_temporary(path: &Path) -> bool {
 /// Writes a whole file.
 ///
 /// # Errors
-/// [`io::Error`] when it can't be written; whatever was there before still is.
+/// [`io::Error`] when it can't be written. A file that was there before then stays.
 pub fn write_file(path: &Path, bytes: &[u8]) -> io::Result<()> {
     let mut file = PendingFile::create(path)?;
     file.write_all(bytes)?;
     file.commit()
 }
 
-/// The permissions of the file at `path`; `None` when there is none. An error when it may not be written, or is no file.
+/// The permissions of the file at `path`; `None` for no file. An error when the file may not be written, or something
+/// else is there.
 fn older_permissions(path: &Path) -> io::Result<Option<fs::Permissions>> {
     match fs::metadata(path) {
         Ok(about) if about.is_file() => {
@@ -186,7 +192,7 @@ fn builder() -> Builder<'static, 'static> {
     builder
 }
 
-/// Has the disk keep the new name. Some file systems can't; the file itself is safe by then.
+/// Writes the new name to the disk. Some file systems can't; the file itself is safe by then.
 fn sync_folder(path: &Path) {
     if let Some(Ok(folder)) = path.parent().map(File::open) {
         let _ = folder.sync_all();

@@ -1,8 +1,9 @@
 //! Seeded random streams: one independent stream per stochastic subsystem.
 //!
-//! A stream is derived from the run's seed and the subsystem's stable name, so that adding a robot, a sensor or a draw
-//! changes nobody else's numbers. The generator is ChaCha with 8 rounds: the same numbers on 32- and 64-bit targets, and
-//! seekable, so that the draws of tick `t` are a pure function of (seed, name, `t`) and no generator state has to be saved.
+//! A stream is derived from the run's seed and the subsystem's stable name, so that a new robot, sensor or draw changes
+//! no other subsystem's numbers. The generator is ChaCha with 8 rounds: the same numbers on 32- and 64-bit targets, and
+//! seekable, so that the draws of tick `t` are a pure function of (seed, name, `t`) and no generator state has to be
+//! saved.
 
 use std::f64::consts::TAU;
 

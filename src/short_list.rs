@@ -7,8 +7,8 @@ use smallvec::SmallVec;
 
 /// A list that keeps up to `N` items inline and goes to the heap beyond them. It reads like a slice.
 ///
-/// Configurations, footprints and motion bounds are of this type, so that planners neither allocate for the lab's robots nor
-/// depend on the crate that keeps the items.
+/// Configurations, footprints and motion bounds are of this type, so that planners neither allocate for the lab's
+/// robots nor depend on the crate that keeps the items.
 ///
 /// ```
 /// use motion_lab::short_list::ShortList;
@@ -45,12 +45,12 @@ impl<T: Copy, const N: usize> ShortList<T, N> {
         self.0.extend_from_slice(items);
     }
 
-    /// Makes it `len` items long: what is beyond is dropped, what is missing is `item`.
+    /// Sets the length to `len`: items beyond it are dropped, missing ones are copies of `item`.
     pub fn resize(&mut self, len: usize, item: T) {
         self.0.resize(len, item);
     }
 
-    /// Takes every item out.
+    /// Removes every item.
     #[inline]
     pub fn clear(&mut self) {
         self.0.clear();

@@ -58,7 +58,7 @@ fn no_random_edge_of_the_three_robots_allocates() {
 #[test]
 fn footprints_queries_and_edges_of_the_three_robots_do_not_allocate() {
     assert!(allocations(|| drop(std::hint::black_box(Box::new(1)))) > 0, "the counter counts");
-    let bounds = motion_lab::worlds::Bounds { min: Point2::new(-9.0, -9.0), max: Point2::new(9.0, 9.0) };
+    let bounds = motion_lab::geometry::Aabb { min: Point2::new(-9.0, -9.0), max: Point2::new(9.0, 9.0) };
     let corner = |x: f64, y: f64| Point2::new(x, y);
     let mut scene = Scene::empty(bounds);
     for k in 0..12 {

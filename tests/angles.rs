@@ -6,9 +6,9 @@
 use std::f64::consts::{PI, TAU};
 
 use motion_lab::collision::EdgeVerdict;
+use motion_lab::geometry::Aabb;
 use motion_lab::geometry::Placed;
 use motion_lab::prelude::*;
-use motion_lab::worlds::Bounds;
 
 use crate::fixtures::count_from_env;
 use crate::oracle::plain;
@@ -39,7 +39,7 @@ fn angle(s: &mut Stream) -> f64 {
 
 /// Boxes and discs about a point, near enough that one in three configurations touches something.
 fn crowd(s: &mut Stream, count: u32) -> Scene {
-    let bounds = Bounds { min: Point2::new(-9.0, -9.0), max: Point2::new(9.0, 9.0) };
+    let bounds = Aabb { min: Point2::new(-9.0, -9.0), max: Point2::new(9.0, 9.0) };
     (0..count).fold(Scene::empty(bounds), |scene, i| {
         let (x, y, size) = (s.uniform(-5.0, 5.0), s.uniform(-5.0, 5.0), s.uniform(0.02, 0.4));
         let corner = Point2::new(x, y);

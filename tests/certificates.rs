@@ -3,9 +3,9 @@
 use std::f64::consts::PI;
 
 use motion_lab::collision::{Certificate, CertificateError, ProvenStep, verify_certificate};
+use motion_lab::geometry::Aabb;
 use motion_lab::num::{self, cos, sin};
 use motion_lab::prelude::*;
-use motion_lab::worlds::Bounds;
 
 use crate::fixtures::{count_from_env, workbench};
 
@@ -21,7 +21,7 @@ fn the_verifier_accepts_every_certificate_of_a_short_edge() {
         let (scale, at) = [(0.4, 0.0), (2.0, 0.0), (3.0, 40.0), (0.3, 0.2)][i as usize % 4];
         let mut place = || Point2::new(at + s.uniform(-scale, scale), at + s.uniform(-scale, scale));
         let (wall, corner) = ([place(), place()], place());
-        let bounds = Bounds { min: Point2::new(at - scale, at - scale), max: Point2::new(at + scale, at + scale) };
+        let bounds = Aabb { min: Point2::new(at - scale, at - scale), max: Point2::new(at + scale, at + scale) };
         let radius = s.uniform(0.01, 0.2);
         // a hair's breadth off what is there: the middle of a wall beside a box, or a pin that stands alone
         let gap = num::exp(s.uniform(num::ln(1e-7), num::ln(1e-2)));

@@ -96,7 +96,7 @@ fn bug1_with_both_sensors() {
 
 #[test]
 fn bug1_round_one_disc_goes_as_far_as_geometry_says() {
-    let bounds = motion_lab::worlds::Bounds { min: Point2::new(-3.0, -3.0), max: Point2::new(3.0, 3.0) };
+    let bounds = motion_lab::geometry::Aabb { min: Point2::new(-3.0, -3.0), max: Point2::new(3.0, 3.0) };
     let scene = Scene::empty(bounds).with_obstacle("the disc", Shape::Disc { radius: 0.5 });
     let (start, goal) = (Point2::new(-2.0, 0.05), Point2::new(2.0, 0.05));
     let run = bug1::bug1(&Checker::new(scene.clone(), RustyDisc::default()), start, goal, None);

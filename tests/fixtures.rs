@@ -3,10 +3,10 @@
 use std::f64::consts::{PI, TAU};
 
 use motion_lab::collision::Scene;
-use motion_lab::geometry::{Footprint, Part, Placed, Point2, Pose2, Shape, convex_hull};
+use motion_lab::geometry::{Aabb, Footprint, Part, Placed, Point2, Pose2, Shape, convex_hull};
 use motion_lab::num::sin_cos;
 use motion_lab::random::Stream;
-use motion_lab::worlds::{Bounds, Obstacle, ObstacleKind, World};
+use motion_lab::worlds::{Obstacle, ObstacleKind, World};
 
 /// The kinds of shapes that robots and worlds are made of.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -28,7 +28,7 @@ pub fn random_kind(s: &mut Stream) -> Kind {
 /// A shape in its frame and the frame's pose: a part of a footprint, or an obstacle.
 pub type Body = (Pose2, Shape);
 
-pub const PLANE: Bounds = Bounds { min: Point2::new(-50.0, -50.0), max: Point2::new(50.0, 50.0) };
+pub const PLANE: Aabb = Aabb { min: Point2::new(-50.0, -50.0), max: Point2::new(50.0, 50.0) };
 
 /// A shape with integer vertices and radius, so that contact is a question about integers.
 #[derive(Clone, Debug)]

@@ -3,7 +3,8 @@
 use motion_lab::prelude::*;
 use motion_lab::recording::{Recorder, Run};
 use motion_lab::run::{Event, Frame, RobotInput, RobotState};
-use motion_lab::tour::{SensorConfig, TourConfig};
+use motion_lab::sensors::RangeSensor;
+use motion_lab::tour::TourConfig;
 use motion_lab::worlds::{Obstacle, ObstacleKind, World};
 
 use crate::controls::open;
@@ -42,7 +43,7 @@ fn who_is_at_the_same_place_of_another_world_is_not_in_the_way_and_not_seen() {
     // whichever has the lower id
     for order in [[0, 1, 2], [2, 1, 0], [1, 0, 2]] {
         let worlds = order.map(|i| crossing()[i].clone());
-        let sensor = Some(SensorConfig { n_rays: 4, max_range: 30.0 });
+        let sensor = Some(RangeSensor { n_rays: 4, max_range: 30.0 });
         let config = TourConfig { worlds: worlds.to_vec(), ticks: 161, sensor };
         let log = Run::record(config, (Seed(1), script(events.clone()))).unwrap();
         let near = |found: f64, expected: f64| found == expected || (found - expected).abs() < 1e-11;
@@ -94,7 +95,7 @@ fn robots_and_scans_come_in_the_order_of_worlds_and_lists_and_each_is_called_by_
     let config = TourConfig {
         worlds: (0..3).map(world).collect(),
         ticks: 1,
-        sensor: Some(SensorConfig { n_rays: 1, max_range: 20.0 }),
+        sensor: Some(RangeSensor { n_rays: 1, max_range: 20.0 }),
     };
     let run = Recorder::new(config, Seed(1)).unwrap();
     let (frame, view) = (run.frame(), run.view());

@@ -8,7 +8,8 @@ use motion_lab::num::{cos, sin, sqrt};
 use motion_lab::prelude::*;
 use motion_lab::recording::Run;
 use motion_lab::run::{Event, Frame, Log, RobotInput, Script};
-use motion_lab::tour::{SensorConfig, TourConfig};
+use motion_lab::sensors::RangeSensor;
+use motion_lab::tour::TourConfig;
 
 /// Rays of every sensor, and their range: beyond everything in the square.
 const RAYS: u32 = 24;
@@ -34,7 +35,7 @@ fn square(name: &str, robots: &[String]) -> World {
 
 /// A run in which nobody moves but who is driven.
 fn run(worlds: Vec<World>, ticks: u64, drive: &[(&str, i16, i16)]) -> Log {
-    let sensor = Some(SensorConfig { n_rays: RAYS, max_range: RANGE });
+    let sensor = Some(RangeSensor { n_rays: RAYS, max_range: RANGE });
     let input =
         |&(robot, a, b): &(&str, i16, i16)| Event { tick: 1, robot: robot.into(), input: RobotInput::Drive(a, b) };
     let script = Script { events: drive.iter().map(input).collect(), ..Script::empty() };

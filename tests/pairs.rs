@@ -1,7 +1,7 @@
 //! Random and lattice pairs: the library against both oracles, and its four answers against one another.
 
-use motion_lab::collision::{Collision, Scene};
-use motion_lab::geometry::{Footprint, Placed, largest_coordinate};
+use motion_lab::collision::{Collision, Scene, distance, footprint_distance, touch};
+use motion_lab::geometry::{Footprint, Placed, Point2, Pose2, Shape, largest_coordinate};
 use motion_lab::num::ulp;
 use motion_lab::random::{Seed, Stream};
 
@@ -22,6 +22,9 @@ fn consistent(scene: &Scene, footprint: &Footprint, part: &Placed, piece: &Place
     let dist = scene.distance(footprint);
     assert!(dist >= 0.0, "{dist}: {}", at());
     assert_eq!(scene.intersects(footprint), dist == 0.0, "intersects but {dist}: {}", at());
+    // the pair by itself, asked about either way
+    assert_eq!(distance(part, piece).to_bits(), dist.to_bits(), "{}", at());
+    assert_eq!((touch(part, piece), touch(piece, part)), (dist == 0.0, dist == 0.0), "{}", at());
     assert_eq!(scene.swept(footprint, footprint), dist == 0.0, "swept on the spot but {dist}: {}", at());
     let w = scene.witness(footprint).expect("the scene is not empty");
     assert_eq!((w.dist, w.part, w.obstacle.0), (dist, 0, 0), "{}", at());
@@ -136,7 +139,7 @@ fn a_crowd_of_obstacles_answers_with_its_nearest_one() {
         let obstacles: Vec<Body> = (0..1 + s.below(40))
             .map(|k| {
                 let mut body = random_body(&mut s, KINDS[k as usize % 5], 20.0);
-                if let motion_lab::geometry::Shape::Disc { radius } = &mut body.1 {
+                if let Shape::Disc { radius } = &mut body.1 {
                     *radius *= 0.5;
                 }
                 body
@@ -163,10 +166,25 @@ fn a_crowd_of_obstacles_answers_with_its_nearest_one() {
         }
         let w = scene.witness(&footprint).unwrap();
         assert_eq!(w.dist, scene.distance(&footprint));
+        let crowd = footprint_of(&obstacles);
+        assert_eq!(footprint_distance(&footprint, &crowd), w.dist, "the same shapes as the parts of another footprint");
         assert_eq!(w.dist == 0.0, scene.intersects(&footprint));
         assert!((w.dist - least.0).abs() <= 32.0 * ulp(m), "{w:?} but C6 has {least:?}");
         // Contacts tie at 0 and go to the lowest part, then to the first obstacle, as the plain search does. Apart, no two
         // random distances are this near.
         assert_eq!((w.part, w.obstacle.0), (least.1, least.2), "{w:?} but C6 has {least:?}");
     }
+}
+
+#[test]
+fn a_shape_that_is_not_valid_is_in_contact_with_everything_and_nothing_is_far_from_everything() {
+    let disc = |x: f64| Shape::Disc { radius: 0.5 }.place(&Pose2::new(x, 0.0, 0.0));
+    for odd in [f64::NAN, f64::INFINITY] {
+        assert!(touch(&disc(odd), &disc(9.0)) && touch(&disc(9.0), &disc(odd)));
+        assert_eq!((distance(&disc(odd), &disc(9.0)), distance(&disc(9.0), &disc(odd))), (0.0, 0.0));
+    }
+    let at = |x: f64| Footprint::disc(Point2::new(x, 0.0), 0.5);
+    assert_eq!(footprint_distance(&at(0.0), &at(3.0)), 2.0);
+    assert_eq!((footprint_distance(&at(f64::NAN), &at(3.0)), footprint_distance(&at(3.0), &at(f64::NAN))), (0.0, 0.0));
+    assert_eq!(footprint_distance(&Footprint::default(), &at(3.0)), f64::INFINITY);
 }

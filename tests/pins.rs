@@ -16,8 +16,9 @@ use bevy::app::App;
 use motion_lab::prelude::*;
 use motion_lab::recording::{Recorder, Run};
 use motion_lab::run::{Digest, Frame, Log, RobotInput, Script};
+use motion_lab::sensors::RangeSensor;
 use motion_lab::simulation::{LatestFrame, PendingInput, RobotCommand, SimulationPlugin, TransportCommand, start_run};
-use motion_lab::tour::{BOOK_SEED, SensorConfig, TourConfig};
+use motion_lab::tour::{BOOK_SEED, TourConfig};
 use xxhash_rust::xxh3::xxh3_128;
 
 use crate::simulation::{event, quantized, script};
@@ -57,7 +58,7 @@ fn driving() -> Log {
 /// Eight robots of every kind among all kinds of obstacles, scanning, some of them driven into one another.
 fn eight() -> Log {
     let world = World::parse("eight.ron", include_str!("samples/eight.ron")).unwrap();
-    let sensor = Some(SensorConfig { n_rays: 90, max_range: 6.0 });
+    let sensor = Some(RangeSensor { n_rays: 90, max_range: 6.0 });
     let script = script(vec![
         event(1, "Anna", RobotInput::Drive(96, -10)),
         event(1, "Bert", RobotInput::Drive(128, 20)),
@@ -78,7 +79,7 @@ fn eight() -> Log {
 fn noisy() -> Log {
     let sensor = "sigma_hit: 0.05, z_short: 0.15, lambda_short: 0.8, z_miss: 0.05, z_max: 0.04, z_rand: 0.1";
     let world = crate::sensor_noise::noisy_apartment(sensor);
-    let sensor = Some(SensorConfig { n_rays: 60, max_range: 4.0 });
+    let sensor = Some(RangeSensor { n_rays: 60, max_range: 4.0 });
     Run::record(TourConfig { worlds: vec![world], ticks: 300, sensor }, Seed(7)).unwrap()
 }
 

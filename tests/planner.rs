@@ -3,11 +3,11 @@
 use std::f64::consts::PI;
 
 use motion_lab::collision::{ChainChecker, Checker, Collision, Problem, ProblemError, Scene};
+use motion_lab::geometry::Aabb;
 use motion_lab::prelude::*;
-use motion_lab::worlds::Bounds;
 
 fn block() -> Scene {
-    let bounds = Bounds { min: Point2::new(-2.4, -2.4), max: Point2::new(2.4, 2.4) };
+    let bounds = Aabb { min: Point2::new(-2.4, -2.4), max: Point2::new(2.4, 2.4) };
     let shape = Shape::try_rectangle(Point2::new(0.5, 1.0), Point2::new(1.0, 1.5)).unwrap();
     Scene::empty(bounds).with_obstacle("the block", shape)
 }

@@ -6,12 +6,12 @@ use motion_lab::collision::{
     MarchOptions, ObstacleId, Problem, ProblemError, ProvenStep, QueryCounts, Scene, Surroundings, Witness,
 };
 use motion_lab::configuration::{ChartMismatch, Coordinates};
-use motion_lab::geometry::{ConvexPolygon, Placed, ShapeError};
+use motion_lab::geometry::{Aabb, ConvexPolygon, Placed, ShapeError};
 use motion_lab::picture::{Figure, Item, Picture};
 use motion_lab::prelude::*;
 use motion_lab::robots::{ChartLine, ConfigurationError, HitchArc, PartRates, RustyArc};
 use motion_lab::sensors::{BeamModel, RangeSensor};
-use motion_lab::worlds::{Bounds, DistanceTransform, Grid, GridError, Obstacle, Resident, World, WorldError};
+use motion_lab::worlds::{DistanceTransform, Grid, GridError, Obstacle, Resident, World, WorldError};
 
 const fn shared<T: Send + Sync + ?Sized>() {}
 
@@ -34,7 +34,7 @@ const _: () = {
     shared::<(R2, Pose2, T2, Tn<3>, HitchCfg, Coordinates)>();
     shared::<(ChartLine<RustyDisc>, ChartLine<Reach<2>>, ChartLine<Hitch>, RustyArc, HitchArc, PartRates)>();
     shared::<(Footprint, Part, Shape, Placed, ConvexPolygon, Segment)>();
-    shared::<(World, Bounds, Obstacle, Resident, Grid, DistanceTransform)>();
+    shared::<(World, Aabb, Obstacle, Resident, Grid, DistanceTransform)>();
     shared::<(RangeSensor, BeamModel, Seed, Stream)>();
     shared::<(Picture, Item, Figure)>();
     shared::<(ProblemError, CertificateError, ConfigurationError, ChartMismatch, ShapeError)>();

@@ -4,9 +4,10 @@ use motion_lab::num::exp;
 use motion_lab::prelude::*;
 use motion_lab::recording::{Recorder, Run};
 use motion_lab::run::{Frame, Log};
+use motion_lab::sensors::RangeSensor;
 use motion_lab::sensors::{BeamError, BeamModel};
 use motion_lab::simulation::SpawnError;
-use motion_lab::tour::{SensorConfig, TourConfig};
+use motion_lab::tour::TourConfig;
 use motion_lab::worlds::World;
 
 use crate::noise_streams::slips;
@@ -23,7 +24,7 @@ pub fn noisy_apartment(sensor: &str) -> World {
 }
 
 fn config(world: World, ticks: u64) -> TourConfig {
-    TourConfig { worlds: vec![world], ticks, sensor: Some(SensorConfig { n_rays: 60, max_range: R }) }
+    TourConfig { worlds: vec![world], ticks, sensor: Some(RangeSensor { n_rays: 60, max_range: R }) }
 }
 
 const ALL: &str = "sigma_hit: 0.05, z_short: 0.15, lambda_short: 0.8, z_miss: 0.05, z_max: 0.04, z_rand: 0.1";

@@ -7,7 +7,8 @@ use motion_lab::num::{cos, sin};
 use motion_lab::prelude::*;
 use motion_lab::recording::Run;
 use motion_lab::run::{Event, Quantized, RobotInput, RobotState, Script};
-use motion_lab::tour::{SensorConfig, TourConfig};
+use motion_lab::sensors::RangeSensor;
+use motion_lab::tour::TourConfig;
 
 use crate::scan_shapes::{Seen, Tally, cast, check, things_of};
 
@@ -77,7 +78,7 @@ fn a_sensor_sees_the_robots_of_its_own_world_where_they_are_after_the_tick_and_n
         event(25, "Gina", RobotInput::SetTrailer(true)),
     ];
     let worlds = worlds();
-    let sensor = Some(SensorConfig { n_rays: 72, max_range: 12.0 });
+    let sensor = Some(RangeSensor { n_rays: 72, max_range: 12.0 });
     let config = TourConfig { worlds: worlds.to_vec(), ticks: 40, sensor };
     let log = Run::record(config, (Seed(21), Script { events, ..Script::empty() })).unwrap();
     let residents: Vec<(usize, &str)> = worlds

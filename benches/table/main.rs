@@ -12,6 +12,7 @@ mod measure;
 mod peer;
 mod queries;
 mod readme;
+mod rectangles;
 mod runs;
 mod scans;
 mod wasm;

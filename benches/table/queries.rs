@@ -1,11 +1,12 @@
 //! Distance with witness, and contact.
 
-use motion_lab::collision::{Collision, Rectangles, Scene};
+use motion_lab::collision::{Collision, Scene};
 use motion_lab::prelude::*;
 
 use crate::Table;
 use crate::measure::{Contender, Timing, race};
 use crate::peer::{Cuboids, Peer};
+use crate::rectangles::Rectangles;
 use crate::worlds::{CASES, boxes, draws, pieces, rectangles};
 
 /// The arm's scenes by their numbers of obstacles.

@@ -3,10 +3,10 @@
 use std::f64::consts::PI;
 
 use motion_lab::collision::{Collision, Scene};
-use motion_lab::geometry::{Footprint, Placed, Point2, Pose2, Segment, Shape};
+use motion_lab::geometry::{Aabb, Footprint, Placed, Point2, Pose2, Segment, Shape};
 use motion_lab::num;
 use motion_lab::random::{Seed, Stream};
-use motion_lab::worlds::{Bounds, Obstacle, ObstacleKind, World};
+use motion_lab::worlds::{Obstacle, ObstacleKind, World};
 
 /// How many poses, configurations or edges a row goes through.
 pub const CASES: usize = 256;
@@ -50,7 +50,7 @@ pub fn boxes(count: usize, clear: f64) -> Scene {
         .map(|(i, piece)| Obstacle::new(format!("box {i}"), ObstacleKind::Solid, vec![piece]));
     Scene::of_world(&World {
         name: "boxes".into(),
-        bounds: Bounds { min: Point2::new(-half, -half), max: corner },
+        bounds: Aabb { min: Point2::new(-half, -half), max: corner },
         obstacles: obstacles.collect(),
         places: Vec::new(),
         marks: Vec::new(),

@@ -1,4 +1,4 @@
-//! Behind the disclosure: any robot, any world.
+//! The choice of another robot or world.
 
 use super::{Anatomy, WorldSource};
 use crate::collision::{Checker, Scene};
@@ -9,7 +9,7 @@ use crate::robots::{AnyRobot, HITCH, RUSTY, Reach};
 use crate::worlds::World;
 
 impl Anatomy {
-    /// The robots there are, under the names of their choice.
+    /// The robots to choose from, with the names shown.
     pub fn choices() -> [(&'static str, AnyRobot); 6] {
         [
             ("Reach, bare links", AnyRobot::Reach(Reach::choset())),
@@ -21,15 +21,16 @@ impl Anatomy {
         ]
     }
 
-    /// The same world and tab with another robot: where it was, if the configuration is one of its own; else where a resident of
-    /// its kind starts; else at the free configuration nearest to the middle of the world, or at the middle if none was found.
+    /// The same world and tab with another robot. It stands at the present configuration if that is one of its own;
+    /// else where a resident of its kind starts; else at the free configuration nearest to the middle of the world, or
+    /// at the middle if none was found.
     #[must_use]
     pub fn with_robot(&self, robot: AnyRobot) -> Anatomy {
         self.put((**self.world()).clone(), self.source().clone(), robot)
     }
 
-    /// The same tab with another robot: in this world if one of its kind lives here or the world is none of the book's, else in the
-    /// book's world where it lives.
+    /// The same tab with another robot. It stays in this world if one of its kind lives here or the world is not built
+    /// in; else it goes to the built-in world where its kind lives.
     #[must_use]
     pub fn at_home(&self, robot: AnyRobot) -> Anatomy {
         let lives_in = |world: &World| {
@@ -45,7 +46,7 @@ impl Anatomy {
         }
     }
 
-    /// The same robot and tab in another world, and where [`with_robot`](Self::with_robot) says. An arm keeps its angles.
+    /// The same robot and tab in another world, placed as by [`with_robot`](Self::with_robot). An arm keeps its angles.
     #[must_use]
     pub fn in_world(&self, world: World, source: WorldSource) -> Anatomy {
         self.put(world, source, *self.checker().robot())
@@ -63,7 +64,7 @@ impl Anatomy {
     }
 }
 
-/// Where a resident that is this robot starts.
+/// The start of the first resident whose start is a configuration of this robot.
 fn resident(world: &World, robot: &AnyRobot) -> Option<AnyConfiguration> {
     world.robots.iter().find_map(|r| robot.like(&AnyRobot::of_kind(&r.kind, &r.start)?.1))
 }

@@ -1,11 +1,11 @@
-//! What a nearest point lies on: a corner, an edge, the end of a wall.
+//! `Feature`, the corner, edge or end on which a nearest point lies.
 
 use std::fmt;
 
 use crate::geometry::{Placed, Point2, Segment};
 use crate::num::hypot;
 
-/// Two points nearer than this are one, metres: rounding puts a foot this near to the corner it is.
+/// Largest distance between two points that count as the same, metres: far above rounding.
 const SAME: f64 = 1e-9;
 
 /// The feature of a placed shape that a point of it lies on.
@@ -19,12 +19,12 @@ pub enum Feature {
     Edge(Point2, Point2),
     /// The rim of a disc.
     Rim,
-    /// Its inside.
+    /// The inside.
     Inside,
 }
 
 impl fmt::Display for Feature {
-    /// As it is said: `corner (0.500, 1.000)`, `edge from (0.500, 1.000) to (1.000, 1.000)`.
+    /// In words: `corner (0.500, 1.000)`, `edge from (0.500, 1.000) to (1.000, 1.000)`.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let at = |p: &Point2| super::words::point(*p);
         match self {
@@ -37,7 +37,7 @@ impl fmt::Display for Feature {
     }
 }
 
-/// Whether two points are one but for rounding.
+/// Whether two points are the same but for rounding.
 fn same(p: Point2, q: Point2) -> bool {
     hypot(p.x - q.x, p.y - q.y) <= SAME
 }
@@ -53,7 +53,7 @@ pub(super) fn edges(core: &[Point2]) -> impl Iterator<Item = Segment> + '_ {
     (0..sides).map(move |i| Segment::new(core[i], core[(i + 1) % n]))
 }
 
-/// The feature of `shape` that `p`, a point of it, lies on. With a radius, the feature of its core that is nearest.
+/// The feature of `shape` on which its point `p` lies. For a shape with a radius it is the nearest feature of the core.
 pub(super) fn feature_of(shape: &Placed, p: Point2) -> Feature {
     let core = shape.core();
     if core.len() < 2 {

@@ -1,4 +1,5 @@
-//! Query anatomy: one frozen scene, one robot in it, and what the four questions answer, as plain values and pictures.
+//! Query anatomy: one frozen scene, one robot in it, and the answers to the four questions, as plain values and
+//! pictures.
 //!
 //! ```
 //! use motion_lab::anatomy::{Anatomy, Tab};
@@ -33,9 +34,9 @@ pub use sweep::Sweep;
 
 use crate::collision::{Checker, Collision, Scene};
 use crate::configuration::{AnyConfiguration, Configuration, Coordinates, T2};
-use crate::geometry::{Footprint, Point2, Shape};
+use crate::geometry::{Aabb, Footprint, Point2, Shape};
 use crate::robots::{AnyRobot, ConfigurationError, Reach, Robot};
-use crate::worlds::{Bounds, Obstacle, ObstacleKind, World};
+use crate::worlds::{Obstacle, ObstacleKind, World};
 
 /// The radius of thick links, metres: the Workbench's.
 pub const THICK_LINKS: f64 = 0.03;
@@ -50,18 +51,18 @@ pub enum Tab {
     Distance,
     /// The nearest points, and what they lie on.
     Witness,
-    /// Whether the motion to a second configuration hits, with the proof.
+    /// Whether the motion to a second configuration hits something, with the proof.
     Swept,
 }
 
-/// Where a world came from: how a command names it.
+/// The source of a world, by which a command names it.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum WorldSource {
     /// Built in, under this name.
     BuiltIn(&'static str),
     /// The file at this path, as it is now.
     File(String),
-    /// Nowhere yet: it has not been saved.
+    /// No file: the world has not been saved.
     Unsaved,
 }
 
@@ -81,8 +82,8 @@ pub struct Anatomy {
 }
 
 impl Default for Anatomy {
-    /// The chapter's worked example: the Workbench, links of 1 m without thickness at (pi/4, pi/2), and on the swept tab a
-    /// quarter turn of joint 1 clockwise, through the block.
+    /// The chapter's worked example: the Workbench, links of 1 m without thickness at (pi/4, pi/2), and on the swept
+    /// tab a quarter turn of joint 1 clockwise, through the block.
     fn default() -> Self {
         let q = AnyConfiguration::T2(T2::new(FRAC_PI_4, FRAC_PI_2));
         let checker = Checker::new(Scene::workbench(), AnyRobot::Reach(Reach::choset()));
@@ -106,8 +107,8 @@ impl Tab {
 }
 
 impl Anatomy {
-    /// A robot at `q` in a world. The motion of the swept tab goes forward by half a radian or half a metre in the first
-    /// coordinate.
+    /// A robot at `q` in a world. The motion of the swept tab goes forward by half a radian or half a metre in the
+    /// first coordinate.
     ///
     /// # Errors
     /// [`ConfigurationError`] when `q` is not a configuration of the robot.
@@ -122,7 +123,7 @@ impl Anatomy {
         Ok(Anatomy::of(world, source, checker, q, &[0.5]))
     }
 
-    /// The first of a world's residents that is one of the lab's robots, where it starts. `None` when there is none.
+    /// The first of a world's residents that is one of the lab's robots, at its start. `None` for a world without one.
     pub fn of_world(world: World, source: WorldSource) -> Option<Self> {
         let resident = |r: &crate::worlds::Resident| AnyRobot::of_kind(&r.kind, &r.start);
         let (robot, q) = world.robots.iter().find_map(resident)?;
@@ -135,7 +136,7 @@ impl Anatomy {
         let square = Shape::Rectangle { min: p(0.9, 0.9), max: p(1.1, 1.1) };
         let world = World {
             name: "Exercise 3".into(),
-            bounds: Bounds { min: p(-0.4, -0.4), max: p(1.6, 1.6) },
+            bounds: Aabb { min: p(-0.4, -0.4), max: p(1.6, 1.6) },
             obstacles: vec![Obstacle::new(
                 "the square",
                 ObstacleKind::Solid,
@@ -158,7 +159,7 @@ impl Anatomy {
         Anatomy { world: Arc::new(world), source, checker, q, step, elbow_down, tab, show_annulus }
     }
 
-    /// The same with another tab in front.
+    /// The same anatomy with another tab in front.
     #[must_use]
     pub fn with_tab(self, tab: Tab) -> Self {
         Anatomy { tab, ..self }
@@ -189,7 +190,7 @@ impl Anatomy {
         self.checker.robot().footprint(&self.q)
     }
 
-    /// Whether the links are thick; `None` for a robot that is no two-link arm.
+    /// Whether the links have a radius; `None` for a robot that is no two-link arm.
     pub fn thick_links(&self) -> Option<bool> {
         match self.checker.robot() {
             AnyRobot::Reach(arm) => Some(arm.link_radius > 0.0),
@@ -197,7 +198,7 @@ impl Anatomy {
         }
     }
 
-    /// Gives the links of a two-link arm a radius of [`THICK_LINKS`], or none; other robots stay as they are.
+    /// Sets the link radius of a two-link arm to [`THICK_LINKS`] or to 0; other robots stay as they are.
     pub fn set_thick_links(&mut self, thick: bool) {
         if let AnyRobot::Reach(arm) = *self.checker.robot() {
             let arm = Reach { link_radius: if thick { THICK_LINKS } else { 0.0 }, ..arm };
@@ -205,7 +206,7 @@ impl Anatomy {
         }
     }
 
-    /// Sets coordinate number `index` (0 is theta1), an angle wrapped. What is not finite changes nothing.
+    /// Sets coordinate number `index` (0 is theta1), an angle wrapped. A value that is not finite changes nothing.
     pub fn set_coordinate(&mut self, index: usize, value: f64) {
         self.set(self.q.with(index, value));
     }
@@ -213,16 +214,17 @@ impl Anatomy {
     /// Puts the robot at `q`.
     ///
     /// # Errors
-    /// [`ConfigurationError`] when `q` is not one of its configurations; it stays where it is.
+    /// [`ConfigurationError`] when `q` is not a configuration of the robot; the robot then stays where it is.
     pub fn set_q(&mut self, q: AnyConfiguration) -> Result<(), ConfigurationError> {
         self.checker.robot().check(&q)?;
         self.set(q);
         Ok(())
     }
 
-    /// Where a slider for coordinate number `index` goes: -pi to pi for an angle, else the world's bounds in that direction.
+    /// The range of a slider for coordinate number `index`: -pi to pi for an angle, else the world's bounds in that
+    /// direction, metres.
     pub fn range(&self, index: usize) -> [f64; 2] {
-        let Bounds { min, max } = self.world.bounds;
+        let Aabb { min, max } = self.world.bounds;
         match index {
             _ if self.q.is_angle(index) => [-PI, PI],
             0 => [min.x, max.x],
@@ -230,8 +232,8 @@ impl Anatomy {
         }
     }
 
-    /// Drags the robot's reference point: an arm's tip by inverse kinematics on the side its elbow is on, clamped to the
-    /// annulus; other robots without turning. Straight or folded, an arm keeps the side it had.
+    /// Drags the robot's reference point. An arm's tip moves by inverse kinematics on its elbow side, clamped to the
+    /// annulus; a straight or folded arm keeps the side it had. Other robots move without turning.
     pub fn drag(&mut self, to: Point2) {
         self.set(self.checker.robot().dragged(&self.q, to, self.elbow_down));
     }
@@ -248,8 +250,8 @@ impl Anatomy {
         &self.step
     }
 
-    /// Sets how far the motion of the swept tab goes in coordinate number `index`: an angle from -pi to pi, as the chart's
-    /// line goes the short way. What is not finite changes nothing.
+    /// Sets the swept tab's motion in coordinate number `index`. An angle is clamped to -pi to pi, because the chart's
+    /// line goes the short way. A value that is not finite changes nothing.
     pub fn set_step(&mut self, index: usize, step: f64) {
         let limit = if self.q.is_angle(index) { PI } else { f64::MAX };
         if let Some(s) = self.step.get_mut(index).filter(|_| step.is_finite()) {
@@ -267,18 +269,18 @@ impl Anatomy {
         self.checker.scene().intersects(&self.footprint())
     }
 
-    /// How far the robot is from the nearest obstacle, metres: 0 exactly in contact, infinity in an empty scene.
+    /// The distance from the robot to the nearest obstacle, metres: exactly 0 in contact, infinity in an empty scene.
     pub fn distance(&self) -> f64 {
         self.checker.scene().distance(&self.footprint())
     }
 
-    /// The witness and what ties with it; none in an empty scene.
+    /// The witness and the pairs that tie with it; empty in an empty scene.
     pub fn nearest(&self) -> Vec<NearestPair> {
         nearest_pairs(self.checker.scene(), &self.footprint())
     }
 
-    /// Both configurations of a two-link arm that have its tip, its own among them: one where they are the same. None for another
-    /// robot.
+    /// The configurations of a two-link arm with the present tip, its own among them: two, or one where they coincide.
+    /// Empty for another robot.
     pub fn solutions(&self) -> Vec<AnyConfiguration> {
         match (self.checker.robot(), self.q) {
             (AnyRobot::Reach(arm), AnyConfiguration::T2(q)) => {
@@ -288,16 +290,16 @@ impl Anatomy {
         }
     }
 
-    /// What is known of the motion to the [second configuration](Self::second).
+    /// The verdict on the motion to the [second configuration](Self::second), with its proof.
     ///
     /// # Errors
-    /// [`ConfigurationError`] when the step leads out of the numbers a configuration can have.
+    /// [`ConfigurationError`] when the second configuration is not one of the robot's.
     pub fn sweep(&self) -> Result<Sweep, ConfigurationError> {
         Sweep::new(&self.checker, &self.q, &self.second())
     }
 }
 
-/// The angle whose sign tells on which side an arm's elbow is.
+/// The joint angle whose sign is the side of an arm's elbow; `None` for other robots.
 fn elbow(q: &AnyConfiguration) -> Option<f64> {
     match q {
         AnyConfiguration::T2(q) => Some(q.th2()),

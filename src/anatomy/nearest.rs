@@ -1,35 +1,35 @@
-//! The pairs of nearest points: the witness, and those that tie with it.
+//! The pairs of nearest points: the witness, and the pairs that tie with it.
 
 use super::feature::{Feature, edges, feature_of};
 use crate::collision::{Collision, ObstacleId, Scene, Witness};
 use crate::geometry::{Footprint, Placed, Point2, Segment};
 use crate::num::hypot;
 
-/// Two distances that differ by no more than this tie, metres: far above what rounding does to them, far below what shows.
+/// Largest difference between two distances that tie, metres: far above rounding, far below what a picture shows.
 pub const TIE: f64 = 1e-9;
 
-/// Pairs whose points are both nearer than this to another pair's are that pair, metres.
+/// Two pairs count as one when their points are at most this far apart on both sides, metres.
 const APART: f64 = 1e-6;
 
-/// At most this many pairs are told.
+/// Largest number of pairs listed.
 const MOST: usize = 8;
 
-/// A pair of nearest points, and what they lie on.
+/// A pair of nearest points, and the features on which they lie.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct NearestPair {
     /// The points, part and obstacle.
     pub witness: Witness,
-    /// What the point a* lies on.
+    /// The feature of the robot on which the point a* lies.
     pub on_robot: Feature,
-    /// What the point b* lies on.
+    /// The feature of the obstacle on which the point b* lies.
     pub on_obstacle: Feature,
 }
 
-/// The witness first, then every other pair of a corner or end and what is opposite that is as near, within [`TIE`]: by part,
-/// then in file order, at most eight. In contact the witness alone; none in an empty scene.
+/// The witness, then the pairs that tie with it within [`TIE`], by part and then in file order: at most eight in all.
+/// Each tied pair has a corner or an end on at least one side. In contact the witness alone; empty in an empty scene.
 ///
-/// The witness is the checker's. The others are found by comparing every vertex of a part with every piece of the scene and
-/// the reverse, so that where two edges are parallel both ends of the stretch that is nearest are told.
+/// The witness is the checker's. The others come from comparing every vertex of a part with every piece of the scene,
+/// and the reverse. So for two parallel edges both ends of the nearest stretch are listed.
 pub fn nearest_pairs(scene: &Scene, footprint: &Footprint) -> Vec<NearestPair> {
     let Some(first) = scene.witness(footprint) else { return Vec::new() };
     let mut found = vec![first];
@@ -48,7 +48,7 @@ pub fn nearest_pairs(scene: &Scene, footprint: &Footprint) -> Vec<NearestPair> {
     found.into_iter().map(|witness| described(scene, footprint, witness)).collect()
 }
 
-/// Whether two pairs are one.
+/// Whether two pairs count as one.
 fn one(a: &Witness, b: &Witness) -> bool {
     let near = |p: Point2, q: Point2| hypot(p.x - q.x, p.y - q.y) <= APART;
     near(a.on_robot, b.on_robot) && near(a.on_obstacle, b.on_obstacle)
@@ -60,8 +60,8 @@ fn described(scene: &Scene, footprint: &Footprint, witness: Witness) -> NearestP
     NearestPair { witness, on_robot, on_obstacle: on_obstacle(scene, witness.obstacle, witness.on_obstacle) }
 }
 
-/// What a point of an obstacle lies on: of its pieces the one that has it on its border. An end that two pieces share is a
-/// corner of the wall.
+/// The feature on which a point of an obstacle lies, from the piece that has the point on its border. An end that two
+/// pieces share is a corner of the wall.
 fn on_obstacle(scene: &Scene, obstacle: ObstacleId, p: Point2) -> Feature {
     let pieces = scene.pieces().filter(|(id, _)| *id == obstacle).map(|(_, piece)| feature_of(piece, p));
     let mut features: Vec<Feature> = pieces.filter(|f| *f != Feature::Inside).collect();
@@ -75,8 +75,8 @@ fn on_obstacle(scene: &Scene, obstacle: ObstacleId, p: Point2) -> Feature {
     }
 }
 
-/// The pairs of a vertex of one shape's core and the nearest point of the other's border, moved out by the radii, and how far
-/// apart they are.
+/// The pairs of a vertex of one shape's core and the nearest point on each edge of the other's, moved out by the radii,
+/// with their distance.
 fn candidates(a: &Placed, b: &Placed) -> Vec<(Point2, Point2, f64)> {
     let border = |core: &[Point2]| -> Vec<Segment> {
         if core.len() == 1 { vec![Segment::new(core[0], core[0])] } else { edges(core).collect() }

@@ -1,21 +1,20 @@
-//! The anatomy as a picture: the world, the robot, and what the tab's answer looks like.
+//! The anatomy as a picture: the world, the robot and the tab's answer.
 
 use super::words::{figure, metres};
 use super::{Anatomy, Feature, NearestPair, Sweep, Tab};
 use crate::collision::{Collision, EdgeVerdict, Scene};
-use crate::geometry::{Footprint, Part, Point2, Pose2, Shape, Vector2};
+use crate::geometry::{Aabb, Footprint, Part, Point2, Pose2, Shape, Vector2};
 use crate::num::{self, lesser};
 use crate::picture::{
     Anchor, Dash, Drawing, Face, Fill, Glyph, Item, Line, Picture, RobotDrawing, Role, footprint, polygon_of, robot,
     trace, world,
 };
 use crate::robots::Robot;
-use crate::worlds::Bounds;
 
-/// At most this many outlines of proven steps are drawn.
+/// Largest number of outlines of proven steps drawn.
 const OUTLINES: usize = 48;
 
-/// How many footprints show where a motion is in contact.
+/// Number of equal intervals after the first contact; at their ends the footprints in contact are drawn.
 const SAMPLES: u32 = 24;
 
 impl Anatomy {
@@ -24,7 +23,7 @@ impl Anatomy {
         self.backdrop().with(self.overlay().items)
     }
 
-    /// The world alone: it changes only with the world.
+    /// The world alone, which changes only with the world.
     pub fn backdrop(&self) -> Picture {
         world(self.world())
     }
@@ -34,8 +33,8 @@ impl Anatomy {
         self.overlay_in(self.world().bounds)
     }
 
-    /// The overlay for a picture of this piece of the plane: its words stand within it.
-    pub(super) fn overlay_in(&self, bounds: Bounds) -> Picture {
+    /// The overlay for a picture with these bounds: its words stand within them.
+    pub(super) fn overlay_in(&self, bounds: Aabb) -> Picture {
         let mut items = Vec::new();
         if self.show_annulus {
             items.extend(annulus_items(self));
@@ -62,8 +61,8 @@ impl Anatomy {
         Picture::new(format!("{} in {}", self.tab.name(), self.world().name), bounds).with(items)
     }
 
-    /// The nearest pairs: the witness alone where the tab asks for the distance.
-    fn nearest_items(&self, bounds: &Bounds) -> Vec<Item> {
+    /// The nearest pairs; on the distance tab the witness alone.
+    fn nearest_items(&self, bounds: &Aabb) -> Vec<Item> {
         let mut pairs = self.nearest();
         if self.tab == Tab::Distance {
             pairs.truncate(1);
@@ -85,9 +84,9 @@ impl Anatomy {
                 _ => middle,
             };
             items.extend(plate);
-            // the two names where there is room for both
+            // both names, where there is room for them
             if self.tab == Tab::Witness && pair.witness.dist > 0.1 * size_of(bounds) {
-                // beside their points, off the robot, the obstacles, the way and its length
+                // the names stand beside their points, off the robot, the obstacles, the segment and its length
                 let line = |a, b| Footprint::new([Part::new(Pose2::IDENTITY, Shape::Segment { a, b })]);
                 let wide = Vector2::new(0.16 * size_of(bounds), 0.0);
                 let off = scene_of(bounds, &[self.footprint(), line(a, b), line(words - wide, words + wide)]);
@@ -101,7 +100,7 @@ impl Anatomy {
                     places.reduce(|best, at| if room(&at) > room(&best) + 1e-9 { at } else { best }).unwrap_or(p)
                 };
                 for (part, at) in [("a*", beside(a)), ("b*", beside(b))] {
-                    let (text, anchor, face) = (part.to_owned(), Anchor::Center, Face::Sans);
+                    let (text, anchor, face) = (part.to_owned(), Anchor::Centre, Face::Sans);
                     let drawing = Drawing::Label { at, text, anchor, face, size_px: 14.0, plate: true };
                     items.push(Item::new(format!("witness/1/{part}"), part, Role::Witness, drawing));
                 }
@@ -110,24 +109,24 @@ impl Anatomy {
         items
     }
 
-    /// Words on a plate beside a point, where there is room, with a line that leads to them.
-    fn plate(&self, id: &str, bounds: &Bounds, at: Point2, text: String, off: &[Footprint]) -> [Item; 2] {
+    /// Words on a plate beside a point, where there is room, with a leader line.
+    fn plate(&self, id: &str, bounds: &Aabb, at: Point2, text: String, off: &[Footprint]) -> [Item; 2] {
         let center = roomy_place(self, bounds, at, off);
         let leader = Item::new(format!("{id}/leader"), &text, Role::Muted, Drawing::segment(at, center))
             .stroked(Line::solid(0.75));
         let name = text.clone();
         let drawing =
-            Drawing::Label { at: center, text, anchor: Anchor::Center, face: Face::Mono, size_px: 12.0, plate: true };
+            Drawing::Label { at: center, text, anchor: Anchor::Centre, face: Face::Mono, size_px: 12.0, plate: true };
         [leader, Item::new(id, name, Role::Text, drawing)]
     }
 
-    /// The motion of the swept tab: the proof's steps, where it is in contact, and where it ends.
+    /// The motion of the swept tab: the proof's steps, the stretch in contact, and the end.
     fn motion_items(&self, sweep: &Sweep) -> Vec<Item> {
         let robot_model = self.checker().robot();
         let at = |s: f64| robot_model.footprint(&sweep.at(s));
         let ends: Vec<f64> = sweep.certificate.steps().iter().map(|step| step.to).collect();
         let every = ends.len().div_ceil(OUTLINES);
-        // what the words keep off
+        // the words keep off these footprints
         let mut off = vec![at(0.0), at(1.0)];
         let mut items = Vec::new();
         for (number, s) in (1_usize..).zip(&ends) {
@@ -170,7 +169,7 @@ impl Anatomy {
     }
 }
 
-/// The circles between which an arm's tip can be; none for other robots.
+/// The circles between which an arm's tip can be; empty for other robots.
 pub(crate) fn annulus_items(anatomy: &Anatomy) -> Vec<Item> {
     let Some((base, radii)) = anatomy.checker().robot().annulus() else { return Vec::new() };
     let ring = |(name, radius): (&str, f64)| {
@@ -181,13 +180,13 @@ pub(crate) fn annulus_items(anatomy: &Anatomy) -> Vec<Item> {
     ["inner circle", "outer circle"].into_iter().zip(radii).filter(|(_, radius)| *radius > 0.0).map(ring).collect()
 }
 
-/// A cross where the robot touches.
+/// A cross at the point of contact.
 fn contact_item(pair: &NearestPair) -> Item {
     let cross = Drawing::Mark { at: pair.witness.on_obstacle, glyph: Glyph::Cross, radius_px: 5.0 };
     Item::new("contact", "a point in common", Role::Goal, cross)
 }
 
-/// The segment between two nearest points and its rings; with `feature` the corner or edge it ends on as well.
+/// The segment between two nearest points and its rings; with `feature` also the obstacle's edge on which it ends.
 fn witness_items(number: usize, pair: &NearestPair, feature: bool) -> Vec<Item> {
     let w = &pair.witness;
     let item =
@@ -206,7 +205,7 @@ fn witness_items(number: usize, pair: &NearestPair, feature: bool) -> Vec<Item> 
     items
 }
 
-/// The outline of a footprint as one thin line a part.
+/// The outline of a footprint, one thin line per part.
 fn outline_item(id: &str, name: &str, footprint: &Footprint, role: Role, line: Line) -> Item {
     let outline = footprint.parts().iter().map(|part| {
         let mut points = polygon_of(part.placed());
@@ -220,13 +219,13 @@ fn outline_item(id: &str, name: &str, footprint: &Footprint, role: Role, line: L
 }
 
 /// The shorter side of a piece of the plane, metres.
-fn size_of(bounds: &Bounds) -> f64 {
+fn size_of(bounds: &Aabb) -> f64 {
     lesser(bounds.max.y - bounds.min.y, bounds.max.x - bounds.min.x)
 }
 
-/// Of the places around a point, a tenth and more of the picture away, the one that is farthest from obstacles and these
-/// footprints.
-fn roomy_place(anatomy: &Anatomy, bounds: &Bounds, at: Point2, off: &[Footprint]) -> Point2 {
+/// The place for words around a point with the most room among obstacles and these footprints, at least a tenth of the
+/// picture away from the point.
+fn roomy_place(anatomy: &Anatomy, bounds: &Aabb, at: Point2, off: &[Footprint]) -> Point2 {
     let size = size_of(bounds);
     let own = scene_of(bounds, off);
     let mut best = (-f64::INFINITY, at);
@@ -241,7 +240,7 @@ fn roomy_place(anatomy: &Anatomy, bounds: &Bounds, at: Point2, off: &[Footprint]
             lesser(room, lesser(anatomy.checker().scene().distance(&point), own.distance(&point)))
         });
         let edge = inside.iter().fold(f64::INFINITY, |m, d| lesser(m, *d));
-        // beyond a certain room more is no better; a plate at the picture's edge would be cut
+        // more room than the words need is no better; a plate at the picture's edge would be cut
         let score = lesser(room, 0.055 * size) + 10.0 * lesser(edge - 0.13 * size, 0.0);
         if score > best.0 + 1e-12 {
             best = (score, place);
@@ -251,7 +250,7 @@ fn roomy_place(anatomy: &Anatomy, bounds: &Bounds, at: Point2, off: &[Footprint]
 }
 
 /// Footprints as a scene of their own.
-fn scene_of(bounds: &Bounds, footprints: &[Footprint]) -> Scene {
+fn scene_of(bounds: &Aabb, footprints: &[Footprint]) -> Scene {
     let parts = footprints.iter().flat_map(Footprint::parts);
     parts.fold(Scene::empty(*bounds), |scene, part| {
         let placed = part.placed();

@@ -1,22 +1,22 @@
-//! Prompts: a number is asked for before it is shown.
+//! `Prompt`, a question whose answer is guessed before it is shown.
 
 use super::{Anatomy, Tab};
 
-/// A question whose answer is a length: first guessed, then shown.
+/// A question whose answer is a length, first guessed, then shown.
 #[derive(Clone, Debug)]
 pub struct Prompt {
     /// A stable name.
     pub id: &'static str,
     /// The question.
     pub question: &'static str,
-    /// How far a guess may be off and still be right, metres.
+    /// Largest error of a right guess, metres.
     pub tolerance: f64,
-    /// What is to be said once the answer is shown.
+    /// The explanation to show with the answer.
     pub moral: &'static str,
     shown: Anatomy,
 }
 
-/// What a guess comes to.
+/// The result of a guess.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Guess {
     /// Within the tolerance.
@@ -24,7 +24,7 @@ pub enum Guess {
         /// The answer in full, metres.
         answer: f64,
     },
-    /// Not within it.
+    /// Outside the tolerance.
     Off {
         /// The answer in full, metres.
         answer: f64,
@@ -39,7 +39,7 @@ pub enum Guess {
 pub struct NoGuess(pub String);
 
 impl Prompt {
-    /// The two prompts: what 3 cm links do to the distance, and exercise 3.
+    /// The two prompts: the distance with 3 cm links, and exercise 3.
     pub fn all() -> [Prompt; 2] {
         let mut thick = Anatomy::default();
         thick.set_thick_links(true);
@@ -65,27 +65,27 @@ impl Prompt {
         ]
     }
 
-    /// The answer, metres: asked of the checker, not looked up.
+    /// The answer, metres, from the checker.
     pub fn answer(&self) -> f64 {
         self.shown.distance()
     }
 
-    /// What is shown with the answer.
+    /// The anatomy shown with the answer.
     pub fn shown(&self) -> &Anatomy {
         &self.shown
     }
 
-    /// Compares a guess, metres, with the answer. One that is not finite is off.
+    /// Compares a guess, metres, with the answer. A guess that is not finite is off.
     pub fn check(&self, guess: f64) -> Guess {
         let answer = self.answer();
         let by = guess - answer;
         if by.abs() <= self.tolerance { Guess::Right { answer } } else { Guess::Off { answer, by } }
     }
 
-    /// As [`check`](Self::check), for a guess as it is typed: a number, with ` m` behind it or not.
+    /// As [`check`](Self::check), for a guess as typed: a number, with or without ` m` after it.
     ///
     /// # Errors
-    /// [`NoGuess`] when it is no finite number.
+    /// [`NoGuess`] when the text is no finite number.
     pub fn check_text(&self, text: &str) -> Result<Guess, NoGuess> {
         let typed = text.trim().trim_end_matches('m').trim_end().replace('\u{2212}', "-");
         match typed.parse::<f64>() {

@@ -1,4 +1,4 @@
-//! What stands beside the picture: the answers in words and figures.
+//! The text beside the picture: the answers in words and figures.
 
 use super::feature::Feature;
 use super::words::{metres, point};
@@ -8,7 +8,7 @@ use crate::geometry::Point2;
 use crate::robots::{AnyRobot, Reach};
 
 impl Anatomy {
-    /// What the tab is about, in a sentence.
+    /// The tab's question, in a sentence.
     pub fn question(&self) -> &'static str {
         match self.tab {
             Tab::Intersects => "Does the robot touch anything? Touching counts.",
@@ -49,7 +49,7 @@ impl Anatomy {
         }
     }
 
-    /// The whole in words, for readers who do not see the picture.
+    /// The scene and the answer in words, for readers who do not see the picture.
     pub fn described(&self) -> String {
         format!(
             "{} at {} in the world {}. {} {}.",
@@ -73,7 +73,7 @@ impl Anatomy {
         ]
     }
 
-    /// Where on the robot: `on link 2`, `at the elbow`.
+    /// The place on the robot in words: `on link 2`, `at the elbow`.
     fn on_robot(&self, pair: &NearestPair) -> String {
         let arm = self.checker().robot();
         let thin = matches!(arm, AnyRobot::Reach(Reach { link_radius: 0.0, .. }));
@@ -96,7 +96,7 @@ impl Anatomy {
         }
     }
 
-    /// Which feature of which obstacle: `at the corner of the block`, `on an edge of the block`.
+    /// The place on the obstacle in words: `at a corner of the block`, `on an edge of the block`.
     fn on_obstacle(&self, pair: &NearestPair) -> String {
         let name = self.obstacle(pair);
         match pair.on_obstacle {

@@ -1,4 +1,4 @@
-//! What is on the screen as code and as a command, to be copied.
+//! The question on the screen as code and as a command, to be copied.
 
 use std::fmt::Write;
 
@@ -9,8 +9,9 @@ use crate::geometry::Pose2;
 use crate::robots::{AnyRobot, HITCH, RUSTY, Reach};
 
 impl Anatomy {
-    /// A program that asks what the tab asks, prints the numbers shown, and fails if it finds others: they are the same to the
-    /// last bit wherever it runs. It compiles against this library as it is; a world that is not built in is part of it.
+    /// A program that asks the tab's question, prints the answer, and panics if it differs from the answer shown. The
+    /// numbers are the same to the last bit on every machine. The program compiles against this library as it is, and
+    /// contains a world that is not built in.
     pub fn copy_as_rust(&self) -> String {
         let mut code =
             String::from("use motion_lab::collision::{Checker, Collision, Scene};\nuse motion_lab::prelude::*;\n");
@@ -84,8 +85,8 @@ impl Anatomy {
         }
     }
 
-    /// The command that asks the same, with every digit; the swept tab's is `query edge`. `None` where no command can: a robot
-    /// whose measures are not the lab's, a world that is not saved.
+    /// The command for the tab's question, with every digit; the swept tab's is `query edge`. `None` for a robot with
+    /// dimensions other than the lab's and for an unsaved world, which no command can name.
     pub fn copy_as_command(&self) -> Option<String> {
         let (robot, home) = match self.checker().robot() {
             AnyRobot::Rusty(rusty) if *rusty == RUSTY => ("rusty", "apartment"),
@@ -149,7 +150,7 @@ fn configuration_code(q: &AnyConfiguration) -> String {
     }
 }
 
-/// A text as a raw string of Rust, with as many `#` as it takes.
+/// A text as a raw string of Rust, with as many `#` as it needs.
 fn raw_string(text: &str) -> String {
     let mut fence = "#".to_owned();
     while text.contains(&format!("\"{fence}")) {

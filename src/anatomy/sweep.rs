@@ -1,4 +1,4 @@
-//! The swept tab's answer: what is known of the motion to a second configuration, and the proof.
+//! The swept tab's answer: the verdict on the motion to a second configuration, and the proof.
 
 use super::words::{figure, metres};
 use crate::collision::{Certificate, Checker, Collision, EdgeVerdict, UnresolvedReason};
@@ -9,9 +9,9 @@ use crate::robots::{AnyRobot, ConfigurationError, Motion, Robot};
 /// The motion along the chart's straight line to a second configuration.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Sweep {
-    /// Where it starts.
+    /// The configuration at the start.
     pub from: AnyConfiguration,
-    /// Where it ends.
+    /// The configuration at the end.
     pub to: AnyConfiguration,
     /// Whether the start is free.
     pub from_free: bool,
@@ -19,12 +19,12 @@ pub struct Sweep {
     pub to_free: bool,
     /// The verdict.
     pub verdict: EdgeVerdict,
-    /// The steps that prove the motion free as far as it is.
+    /// The steps that prove the motion free, up to the bracket if it hits.
     pub certificate: Certificate,
-    /// How far the footprint moves at most in the bracket of a hit, or in what is unresolved, metres; 0 when it is free.
+    /// Largest motion of the footprint within the bracket of a hit or the unresolved rest, metres; 0 for a free motion.
     pub width: f64,
-    /// The answer of the query `swept` between the two footprints: each part's frame in a straight line, which for an arm is
-    /// another motion.
+    /// The answer of the query `swept` between the two footprints. There each part's frame moves in a straight line,
+    /// which for an arm is another motion.
     pub straight_hits: bool,
 }
 
@@ -66,7 +66,7 @@ impl Sweep {
         self.from.interpolate(&self.to, s).unwrap_or(self.from)
     }
 
-    /// What is known, in words; `name` tells an obstacle's name and `part` a part's.
+    /// The answer in words, line by line. `name` gives an obstacle's name; the robot names its parts.
     pub(super) fn words(&self, name: impl Fn(crate::collision::ObstacleId) -> String, robot: &AnyRobot) -> Vec<String> {
         let free = |free| if free { "free" } else { "in contact" };
         let steps = match self.certificate.steps().len() {

@@ -80,8 +80,8 @@ fn exercise_3_touches_then_reads_its_number() {
 
 #[test]
 fn the_witness_jumps_from_corner_to_edge_and_the_tie_shows_both() {
-    // link 2 is level at theta2 = 3 pi/4: on one side of that the block's corner is nearest to the link, on the other its
-    // lower edge is nearest to the elbow
+    // link 2 is level at theta2 = 3 pi/4: on one side of that the block's corner is nearest to the link, on the other
+    // its lower edge is nearest to the elbow
     let tie = 0.75 * PI;
     let at = |th2| {
         let mut world = World::workbench();
@@ -114,7 +114,7 @@ fn every_tied_pair_is_a_pair_of_nearest_points() {
     let mut s = crate::random::Stream::new(crate::random::Seed(11), "ties");
     let mut ties = 0;
     for k in 0..300 {
-        // every other one with a link level or upright, where edges are parallel
+        // in every other case a link is level or upright, and edges are parallel
         let th1 = s.uniform(-PI, PI);
         let th2 = if k % 2 == 0 { s.uniform(-PI, PI) } else { crate::num::wrap(FRAC_PI_2 * f64::from(k % 4) - th1) };
         let anatomy = at(th1, th2, k % 3 == 0);
@@ -126,7 +126,7 @@ fn every_tied_pair_is_a_pair_of_nearest_points() {
             let w = pair.witness;
             assert!((w.dist - anatomy.distance()).abs() <= TIE);
             assert!(((w.on_robot - w.on_obstacle).norm() - w.dist).abs() < 1e-12);
-            // each point lies on what it is said to lie on: a point there touches
+            // each point lies on its obstacle: a point there touches
             let grown = Footprint::disc(w.on_obstacle, 1e-9);
             assert!(scene.intersects(&grown), "{w:?}");
         }
@@ -241,7 +241,7 @@ fn every_robot_goes_into_every_world_and_stands_free() {
                 (&robot, Tab::Witness, &there.world().name)
             );
             if chosen.intersects() {
-                // an arm's base is at a corner of walls there, or a car does not fit anywhere at its heading: no sample is free
+                // the arm's base is at a corner of walls, or the car fits nowhere at its heading: no sample is free
                 let bounds = there.world().bounds;
                 for _ in 0..2000 {
                     let drawn = robot.sample(bounds.min, bounds.max, &mut s);
@@ -255,7 +255,7 @@ fn every_robot_goes_into_every_world_and_stands_free() {
         }
     }
     assert!(in_contact <= 9, "{in_contact} of 18");
-    // what fits both stays
+    // a configuration that fits both robots stays
     let mut bent = anatomy.clone();
     bent.set_coordinate(1, 0.3);
     let thick = bent.with_robot(AnyRobot::Reach(Reach::workbench()));
@@ -301,9 +301,9 @@ fn the_distance_stands_where_it_covers_neither_robot_nor_obstacle() {
             else {
                 panic!("a label")
             };
-            let Bounds { min, max } = picture.bounds;
+            let Aabb { min, max } = picture.bounds;
             assert!(place.x > min.x && place.x < max.x && place.y > min.y && place.y < max.y);
-            // the middle of the words with half their height around it
+            // the middle of the words, with half their height around it
             let words = Footprint::disc(place, 0.02 * (max.y - min.y));
             let itself = anatomy.footprint().parts().iter().fold(Scene::empty(picture.bounds), |scene, part| {
                 let core = part.placed().core();
@@ -328,7 +328,7 @@ fn the_names_of_the_nearest_points_stand_off_what_they_name() {
         let anatomy = at(FRAC_PI_4, th2, false).with_tab(Tab::Witness);
         let close = anatomy.close_up().unwrap();
         if !ids(&close.items).contains(&"witness/1/a*") {
-            // where they are so near there is no room for names
+            // points this near leave no room for names
             continue;
         }
         named += 1;

@@ -1,8 +1,8 @@
-//! Numbers as the anatomy says them: fixed decimals, a true minus sign.
+//! Numbers as the anatomy prints them: fixed decimals, a true minus sign.
 
 use crate::geometry::Point2;
 
-/// A number with so many decimals and a true minus sign; never a minus before a zero.
+/// A number with this many decimals and a true minus sign; never a minus before a zero.
 pub(super) fn figure(x: f64, decimals: usize) -> String {
     let text = format!("{x:.decimals$}");
     match text.strip_prefix('-') {
@@ -12,7 +12,7 @@ pub(super) fn figure(x: f64, decimals: usize) -> String {
     }
 }
 
-/// A length in metres, four decimals: `0.0607 m`; exactly 0 as `0 m`.
+/// A length in metres, four decimals: `0.0607 m`. Exactly 0 is `0 m`.
 pub(super) fn metres(x: f64) -> String {
     if x == 0.0 {
         "0 m".into()

@@ -1,4 +1,4 @@
-//! Captures from the window: the widget in front as a file, drawn and written beside the window, which goes on meanwhile.
+//! Captures from the window: the widget in front as a file, drawn and written in a thread while the window goes on.
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -27,7 +27,7 @@ struct Job {
     work: JoinHandle<Result<(), CaptureError>>,
 }
 
-/// How far a capture has come: pictures done, of how many, and whether it is to stop.
+/// The progress of a capture: pictures done, pictures in all, and whether it is to stop.
 #[derive(Default)]
 struct Progress {
     done: AtomicU64,
@@ -35,20 +35,20 @@ struct Progress {
     stop: AtomicBool,
 }
 
-/// Whether the widget in front can be captured so, from a run of this configuration.
+/// Checks whether the widget in front can be captured as ordered, from a run of this configuration.
 pub fn check(config: &TourConfig, state: &UiState, order: &CaptureOrder) -> Result<(), CaptureError> {
     subject(state, order.form)?.map_or(Ok(()), |subject| subject.check(config))
 }
 
-/// What is said of a capture that was not made.
+/// The notice of a capture that was not made.
 pub fn not_captured(error: &CaptureError) -> Notice {
     Notice { text: format!("not captured: {error}"), is_error: true }
 }
 
-/// Begins to capture the widget in front; [`follow`] tells what comes of it. One that is under way is stopped.
+/// Begins a capture of the widget in front, and stops the one under way. [`follow`] reports progress and outcome.
 pub fn capture(world: &mut World, order: &CaptureOrder, path: &Path) {
     let state = world.resource::<Interface>().0.clone();
-    // a name with another ending asks for another form
+    // the file name's extension decides the format, where it names one
     let form = Form::of(path).unwrap_or(order.form);
     let paper = Paper { palette: state.theme().palette(), width: order.width, scale: order.scale as f32 };
     let (tick, span) = (world.resource::<Transport>().tick, order.span);
@@ -79,7 +79,7 @@ pub fn capture(world: &mut World, order: &CaptureOrder, path: &Path) {
     follow(world);
 }
 
-/// One that is given up stops at its next picture.
+/// Stops an abandoned capture at its next picture.
 impl Drop for Capturing {
     fn drop(&mut self) {
         if let Some(job) = &self.0 {
@@ -88,7 +88,7 @@ impl Drop for Capturing {
     }
 }
 
-/// Says how far the capture under way has come, and at its end what came of it.
+/// Reports the progress of the capture under way, and its outcome at the end.
 pub fn follow(world: &mut World) {
     let Some(job) = world.resource_mut::<Capturing>().0.take() else { return };
     let state = &mut world.resource_mut::<Interface>().into_inner().0;

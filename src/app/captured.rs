@@ -1,4 +1,4 @@
-//! What the widget in front shows, as a figure for a page.
+//! The widget in front as a figure, for captures.
 
 use crate::capture::{CaptureError, Captured, Form, Subject, anatomy, at_tick};
 use crate::random::Seed;
@@ -7,7 +7,8 @@ use crate::run::Script;
 use crate::tour::TourConfig;
 use crate::ui::UiState;
 
-/// The widget in front as a figure of this width: of the run at a tick, or of what stands still.
+/// The widget in front as a figure of this width, pixels. The dashboard shows the run at `tick`; the other widgets do
+/// not depend on the run.
 ///
 /// # Errors
 /// [`CaptureError`], when the run or the scene can't be drawn.
@@ -23,7 +24,7 @@ pub fn captured(
     }
 }
 
-/// What the widget in front shows of the run; nothing where it shows something that stands still.
+/// What the widget in front shows of the run in this file format; `None` where the figure does not depend on the run.
 pub fn subject(state: &UiState, form: Form) -> Result<Option<Subject>, CaptureError> {
     let moves = form == Form::Gif;
     let (names, scan) = (state.settings.labels, state.settings.scan);
@@ -41,7 +42,7 @@ pub fn subject(state: &UiState, form: Form) -> Result<Option<Subject>, CaptureEr
     })
 }
 
-/// What the widget in front shows that stands still, for a sheet of this width.
+/// The widget in front as a figure that does not depend on the run, for a sheet of this width, pixels.
 fn scene(state: &UiState, width_px: f64) -> Result<Captured, CaptureError> {
     let shown = &state.anatomy.anatomy;
     match state.widget {

@@ -13,18 +13,18 @@ use super::session::Interface;
 use crate::simulation::{Playback, RunConfig, Transport};
 use crate::ui::{CaptureOrder, SessionCommand, UiState, widgets};
 
-/// What the lab's logs are called.
+/// File extension of the lab's logs.
 const EXTENSION: &str = "mcap";
 
-/// What the lab's worlds are called.
+/// File extension of the lab's worlds.
 const WORLD: &str = "ron";
 
-/// The dialogs, and whether something hovers over the window.
+/// The dialogs, and whether a file hovers over the window.
 #[derive(Resource)]
 pub struct Dialogs {
     runs: FileDialog,
     worlds: FileDialog,
-    /// Where a capture goes, and what is asked for.
+    /// The dialog for a capture's file, and the order.
     picture: Option<(FileDialog, CaptureOrder)>,
     /// Whether a file hovers over the window, on its way to be dropped.
     hovered: bool,
@@ -69,7 +69,7 @@ fn dialog(what: &'static str, filter: &str, extension: &'static str, file: &str)
         .anchor(egui::Align2::CENTER_CENTER, [0.0, 0.0])
 }
 
-/// Opens the dialog that a command asks for. The run pauses meanwhile.
+/// Opens the dialog that a command asks for, and pauses the run.
 pub fn ask(
     mut asked: MessageReader<SessionCommand>,
     mut dialogs: ResMut<Dialogs>,
@@ -99,7 +99,7 @@ pub fn ask(
     }
 }
 
-/// Takes what was dropped: a world for the atlas, or a run.
+/// Opens what was dropped: a world in the atlas, any other file as a run.
 pub fn dropped(world: &mut World) {
     let events: Vec<FileDragAndDrop> = world.resource_mut::<Messages<FileDragAndDrop>>().drain().collect();
     for event in events {
@@ -116,7 +116,7 @@ pub fn dropped(world: &mut World) {
     }
 }
 
-/// Shows the dialog while it is open, and does what was chosen in it.
+/// Shows the dialogs while they are open, and carries out what was chosen in them.
 pub fn show(world: &mut World, ctx: &egui::Context) {
     let (run, model, picture) = {
         let dialogs = world.resource_mut::<Dialogs>().into_inner();
@@ -140,7 +140,7 @@ pub fn show(world: &mut World, ctx: &egui::Context) {
     }
 }
 
-/// Shows a dialog while it is open. What was chosen in it, and whether to save there.
+/// Shows a dialog while it is open. Returns the file chosen in it, and whether to save there.
 fn picked(dialog: &mut FileDialog, ctx: &egui::Context) -> Option<(bool, PathBuf)> {
     dialog.update(ctx);
     let save = dialog.mode() == DialogMode::SaveFile;

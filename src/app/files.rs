@@ -10,10 +10,10 @@ use super::session::Interface;
 use crate::output::write_file;
 use crate::ui::Notice;
 
-/// The greatest size of a log that the window opens, bytes.
+/// Largest size of a log that the window opens, bytes.
 const MOST_BYTES: u64 = 1 << 30;
 
-/// The greatest size of a world file that the window opens, bytes.
+/// Largest size of a world file that the window opens, bytes.
 const MOST_WORLD: u64 = 16 << 20;
 
 /// Saves the run as far as it has come: its log, recorded from seed, configuration and script, whole or not at all.
@@ -30,8 +30,10 @@ fn save(world: &World, path: &Path) -> Result<String, String> {
     Ok(format!("{}: saved, {} ticks, digest {}", name(path), log.frames.len(), log.digest()))
 }
 
-/// Opens a run in place of the present one: simulates it again from its seed and script, compares every frame, and shows it
-/// from its start, or at the first tick that differs. Paused. Where the file can't be read, the present run stays.
+/// Opens a run in place of the present one: simulates it again from its seed and script and compares every frame.
+///
+/// The run is shown paused, at its start or at the first tick that differs. Where the file can't be read, the present
+/// run stays.
 pub fn open_run(world: &mut World, path: &Path) -> Notice {
     match open(world, path) {
         Ok(notice) => notice,

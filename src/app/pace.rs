@@ -9,16 +9,16 @@ use bevy::prelude::*;
 use crate::run::DT;
 use crate::simulation::{Playback, Transport, play_tick};
 
-/// Of every frame so much goes into ticks when the run plays as fast as possible.
+/// Time that each frame gives to ticks when the run plays as fast as possible.
 const BUDGET: Duration = Duration::from_millis(12);
 
-/// So much of the past is looked at, seconds of the clock.
+/// Length of the measurement, seconds of the clock.
 const WINDOW: f64 = 1.5;
 
-/// A run that reaches less than this part of its speed is behind.
+/// Fraction of its speed below which a run is behind.
 const ENOUGH: f64 = 0.9;
 
-/// How far the run went in the last second or so of the clock.
+/// The speed of the run, measured over the last second or so of the clock.
 #[derive(Resource, Clone, Debug, Default)]
 pub struct Pace {
     /// Seconds of the clock, and ticks, of the last frames.
@@ -27,11 +27,11 @@ pub struct Pace {
 }
 
 impl Pace {
-    /// Takes down a frame that took `seconds` of the clock: the run stands at `tick`.
+    /// Records a frame that took `seconds` of the clock, after which the run stands at the transport's tick.
     pub fn frame(&mut self, seconds: f64, transport: &Transport) {
         let Transport { tick, speed, playback, .. } = *transport;
         let before = self.last.replace((tick, speed));
-        // a pause, a jump or another speed begins a new measurement
+        // a pause, a jump back or another speed begins a new measurement
         let Some((from, _)) = before.filter(|(t, s)| *t <= tick && *s == speed && playback == Playback::Playing) else {
             self.frames.clear();
             return;
@@ -50,11 +50,11 @@ impl Pace {
     pub fn reached(&self) -> Option<f64> {
         let seconds = self.seconds();
         let ticks: u64 = self.frames.iter().map(|f| f.1).sum();
-        // a tick too many or too few is no news
+        // in a shorter time, one tick more or less would weigh too much
         (seconds >= 0.6 * WINDOW).then(|| DT * ticks as f64 / seconds)
     }
 
-    /// What is to be said of a run that falls behind its speed, or that plays as fast as possible.
+    /// A note on the speed reached, where the run falls behind its speed or plays as fast as possible.
     pub fn words(&self, speed: f64) -> Option<String> {
         let reached = self.reached()?;
         let round = |x: f64| if x < 10.0 { format!("{x:.1}") } else { format!("{x:.0}") };
@@ -72,8 +72,8 @@ impl Pace {
     }
 }
 
-/// Plays as many ticks as fit the budget, when the run is to go as fast as possible. How many those are decides nothing but
-/// what the frame shows.
+/// Plays as many ticks as fit the budget, when the run goes as fast as possible. Their number decides only what the
+/// frame shows.
 pub fn play_flat_out(world: &mut World) {
     let flat_out = |world: &World| {
         let Transport { playback, speed, .. } = *world.resource::<Transport>();

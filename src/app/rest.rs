@@ -3,8 +3,9 @@
 use bevy::prelude::*;
 use bevy_egui::{EguiInput, EguiPreUpdateSet, egui};
 
-/// Keeps egui from drawing again and again while nothing happens: bevy_egui tells it of the modifier keys in every frame, and egui takes
-/// any event for a reason to draw.
+/// Keeps egui from drawing again and again while nothing happens.
+///
+/// bevy_egui sends egui the modifier keys in every frame, and egui takes any event for a reason to draw.
 pub struct RestPlugin;
 
 impl Plugin for RestPlugin {
@@ -20,7 +21,7 @@ fn forget_known_modifiers(mut inputs: Query<&mut EguiInput>, mut known: Local<eg
     }
 }
 
-/// Drops the events that say the modifier keys are as they were known to be.
+/// Drops the events that repeat the known state of the modifier keys.
 fn news_only(events: &mut Vec<egui::Event>, known: &mut egui::Modifiers) {
     events.retain(|event| match event {
         egui::Event::ModifiersChanged(now) => std::mem::replace(known, *now) != *now,

@@ -1,4 +1,4 @@
-//! Runs and worlds as bytes: what is saved and opened, wherever the bytes come from.
+//! Runs and worlds as bytes, saved and opened for the window and the web page alike.
 
 use bevy::ecs::world::World;
 
@@ -38,8 +38,10 @@ pub fn recorded(world: &World) -> Result<(Log, Vec<u8>), String> {
     Ok((log, bytes))
 }
 
-/// Opens a log in place of the present run: simulates it again from its seed and script, compares every frame, and shows it
-/// from its start, or at the first tick that differs. Paused. Where it can't be read, the present run stays.
+/// Opens a log in place of the present run: simulates it again from its seed and script and compares every frame.
+///
+/// The run is shown paused, at its start or at the first tick that differs. Where the log can't be read, the present
+/// run stays.
 pub fn open_log(world: &mut World, name: &str, bytes: &[u8]) -> Result<Notice, String> {
     let (log, damage) = match Log::read_mcap(bytes) {
         Ok(ReadLog { log, .. }) => (log, None),

@@ -19,10 +19,10 @@ use crate::tour::{BOOK_SEED, TourConfig};
 use crate::ui::{Cockpit, CockpitRobot, Command, Dashboard, Notice, SessionCommand, UiState, blend};
 use crate::worlds::World as WorldModel;
 
-/// Between two ticks no robot moves farther than this, metres; what does was put there.
+/// Farthest that a part moves from tick to tick, metres. A part that moved farther was put there.
 const LEAP: f64 = 0.5;
 
-/// The simulation with all that a view needs of it. Frames, windows and dialogs are someone else's.
+/// The simulation with all that a view needs of it, without frames on a screen, windows and dialogs.
 pub struct SessionPlugin;
 
 impl Plugin for SessionPlugin {
@@ -49,7 +49,7 @@ impl Plugin for SessionPlugin {
     }
 }
 
-/// What the window remembers that is no part of a run.
+/// The state of the user interface. It is no part of a run.
 #[derive(Resource, Default)]
 pub struct Interface(pub UiState);
 
@@ -57,7 +57,7 @@ pub struct Interface(pub UiState);
 #[derive(Resource, Default)]
 struct Worlds(Vec<(Arc<Picture>, Arc<Atlas>)>);
 
-/// What is in front in this frame.
+/// The values of the dashboard in this frame.
 #[derive(Resource)]
 pub struct Shown(pub Dashboard);
 
@@ -69,10 +69,10 @@ fn start(world: &mut World) -> Result {
     Ok(())
 }
 
-/// Takes what the window shows from the simulation. This is the one place where the two meet.
+/// Reads the values that the window shows from the simulation. This is the one place where the two meet.
 pub fn gather(world: &mut World) {
     if world.is_resource_changed::<RunConfig>() {
-        // its robots move: only what stands still is named
+        // the run's robots move, so only still things are named
         let standing = |w: &WorldModel| Atlas::new(WorldModel { robots: vec![], ..w.clone() });
         let drawn = |w: &WorldModel| (Arc::new(picture_of(w)), Arc::new(standing(w)));
         let pictures = world.resource::<RunConfig>().0.worlds.iter().map(drawn).collect();
@@ -80,7 +80,7 @@ pub fn gather(world: &mut World) {
     }
     let Transport { seed, tick, frontier, speed, looping, playback } = *world.resource::<Transport>();
     let playing = playback == Playback::Playing;
-    // while it plays the view is one tick behind and moves smoothly; paused, or with many ticks a frame, it shows the tick itself
+    // while it plays, the view is one tick behind and moves smoothly; paused or as fast as possible, it shows the tick
     let smooth = playing && speed.is_finite();
     let between = if smooth { world.resource::<Time<Fixed>>().overstep_fraction_f64() } else { 1.0 };
     let robots: Vec<(u32, CockpitRobot)> = view(world).iter().map(|r| (r.world, shown(world, r, between))).collect();
@@ -142,7 +142,7 @@ fn shown(world: &World, robot: &RobotView, between: f64) -> CockpitRobot {
     }
 }
 
-/// Whether the run is paused with an input to a robot that is not an arm's target.
+/// Whether the run is paused with an input to the robot due at the next tick, an arm's target apart.
 fn waiting(world: &World, robot: &RobotView) -> bool {
     let Transport { tick, playback, .. } = *world.resource::<Transport>();
     let due = world.resource::<PendingInput>().due(tick + 1);
@@ -150,7 +150,7 @@ fn waiting(world: &World, robot: &RobotView) -> bool {
     playback == Playback::Paused && due.iter().any(own)
 }
 
-/// What a trailer put on behind the car at `body`, or the bar between them, would overlap.
+/// The first obstacle that a trailer put on behind the car at `body`, or the bar between them, would overlap, in words.
 fn no_room(world: &World, robot: &RobotView, body: Pose2) -> Option<String> {
     let inhabited = *world.resource::<Roster>().worlds().get(robot.world as usize)?;
     let scene = &world.get::<WorldScene>(inhabited)?.0;
@@ -162,7 +162,7 @@ fn no_room(world: &World, robot: &RobotView, body: Pose2) -> Option<String> {
     names.first().map(|name| format!("would overlap {name}"))
 }
 
-/// Where an arm was told to be by the next tick.
+/// The joint angles that an input asks of an arm by the next tick.
 fn target(world: &World, robot: &RobotView) -> Option<Coordinates> {
     let due = world.resource::<PendingInput>().due(world.resource::<Transport>().tick + 1);
     due.iter().rev().filter(|e| e.robot == robot.name).find_map(|e| match &e.input {
@@ -171,7 +171,7 @@ fn target(world: &World, robot: &RobotView) -> Option<Coordinates> {
     })
 }
 
-/// Does what the widgets asked for. What needs a dialog is left to the window, as messages.
+/// Carries out the commands of the widgets. Those that need a dialog are left to the window, as messages.
 pub fn carry_out(world: &mut World, commands: Vec<Command>) {
     for command in commands {
         match command {
@@ -210,7 +210,7 @@ fn change_links(world: &mut World, robot: &str, links: usize) -> Result<(), Stri
     new_run(world, config, seed)
 }
 
-/// A new run in place of the present one, which an undo brings back; playback, speed and loop stay.
+/// Starts a new run in place of the present one, which an undo brings back. Playback and speed stay.
 pub fn new_run(world: &mut World, config: TourConfig, input: impl Into<RunInput>) -> Result<(), String> {
     obey(world, TransportCommand::Checkpoint)?;
     let Transport { playback, speed, .. } = *world.resource::<Transport>();

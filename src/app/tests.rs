@@ -29,7 +29,7 @@ use crate::simulation::{
 };
 use crate::ui::SessionCommand;
 
-/// The lab, looked at frame by frame; a frame takes a fortieth of a second: half a tick at normal speed.
+/// The lab, run frame by frame. A frame takes a fortieth of a second: half a tick at normal speed.
 struct Lab {
     app: App,
 }
@@ -79,13 +79,13 @@ fn lab(size: [f32; 2]) -> Harness<'static, Lab> {
     harness
 }
 
-/// Clicks what is called so.
+/// Clicks the control of this name.
 fn click(harness: &mut Harness<'_, Lab>, name: &str) {
     harness.get_by_label(name).click();
     harness.run_steps(3);
 }
 
-/// The paper of the pane whose description begins so.
+/// The paper of the pane whose description begins with `begins`.
 fn paper(harness: &Harness<'_, Lab>, begins: &str) -> egui::Rect {
     let node = harness
         .get_all_by_role(egui::accesskit::Role::Button)
@@ -119,7 +119,7 @@ fn pause(harness: &mut Harness<'_, Lab>) {
     assert_eq!(harness.state().transport().playback, Playback::Paused);
 }
 
-/// Drags the handle called so to a point of the Workbench, in ten moves.
+/// Drags the handle of this name to a point of the Workbench, in ten moves.
 fn drag(harness: &mut Harness<'_, Lab>, handle: &str, to: [f64; 2]) {
     let from = harness.get_by_label(handle).rect().center();
     let paper = paper(harness, "Workbench");

@@ -8,7 +8,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 use bevy::prelude::*;
 
-/// Why there is no window. Each prints as one line that names the command that needs none.
+/// Why there is no window. Each prints as one line; where no window opened, the line names the command that needs none.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum WindowError {
@@ -26,12 +26,13 @@ pub enum WindowError {
 /// Opens the lab in a window and returns when it is closed.
 ///
 /// # Errors
-/// [`WindowError::NoDisplay`] when the environment names no display, [`WindowError::NotOpened`] when the window system or the
-/// graphics adapter fails before the first frame. A panic after the first frame is a fault of the lab and goes on as one.
+/// [`WindowError::NoDisplay`] when the environment names no display, [`WindowError::NotOpened`] when the window system
+/// or the graphics adapter fails before the first frame, [`WindowError::Closed`] when an error closes the window. A
+/// panic after the first frame is a fault of the lab and goes on as one.
 pub fn run_window() -> Result<(), WindowError> {
     check_display(|name| std::env::var_os(name))?;
     let opened = Arc::new(AtomicBool::new(false));
-    // What fails on the way to the first frame is told in one line below. After it, a panic speaks as usual.
+    // A failure before the first frame is reported in one line below. After it, panics print as usual.
     let speak = take_hook();
     let quiet = Arc::clone(&opened);
     set_hook(Box::new(move |info| {
@@ -53,7 +54,7 @@ pub fn run_window() -> Result<(), WindowError> {
     }
 }
 
-/// On Linux a window needs one of two variables; elsewhere the system always has a display.
+/// Checks that there is a display. On Linux one of two variables must name it; other systems always have one.
 fn check_display(variable: impl Fn(&str) -> Option<OsString>) -> Result<(), WindowError> {
     let set = |name| variable(name).is_some_and(|value| !value.is_empty());
     if cfg!(target_os = "linux") && !set("DISPLAY") && !set("WAYLAND_DISPLAY") {
@@ -62,7 +63,7 @@ fn check_display(variable: impl Fn(&str) -> Option<OsString>) -> Result<(), Wind
     Ok(())
 }
 
-/// What a panic said, its first sentence.
+/// The first sentence of a panic's message.
 fn first_sentence(panic: &(dyn Any + Send)) -> String {
     let said = panic.downcast_ref::<String>().map(String::as_str).or(panic.downcast_ref::<&str>().copied());
     let line = said.and_then(|s| s.lines().next()).unwrap_or("unknown reason");

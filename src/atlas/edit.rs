@@ -1,33 +1,33 @@
-//! `Editor`, a world under a hand: every change checked as world files are, every change undone again.
+//! `Editor`, a world under edit: every change is checked as world files are, and can be undone.
 
 use super::op::{changed, is_taken, shape_of};
 use super::{Atlas, EditError, EditShape, Handle, Op, Refusal, Teleport};
-use crate::geometry::{Point2, Vector2};
+use crate::geometry::{Aabb, Point2, Vector2};
 use crate::num::{hypot, lesser, sin_cos};
-use crate::worlds::{Bounds, World, WorldError, comments};
+use crate::worlds::{World, WorldError, comments};
 
-/// A world under a hand.
+/// A world under edit.
 ///
-/// Each change gives a world that reading its file would give: it is printed and read again, so what `world check` refuses is
-/// refused here with the same words, and what is saved is what was seen. A file is saved in canonical form: opened and saved
-/// without a change it is the same to the byte, if it was canonical; comments are not kept, and [`comments`](Editor::comments) says
-/// so before.
+/// Each change prints the world and reads it again. So the editor refuses what `world check` refuses, with the same
+/// words, and the saved world is the one shown. A file is saved in canonical form: a canonical file that is opened and
+/// saved without a change stays the same to the byte. Comments are not kept; [`comments`](Editor::comments) counts them
+/// beforehand.
 #[derive(Clone, Debug)]
 pub struct Editor {
     file: String,
-    /// Every world since it was opened; the present one is number `now`.
+    /// The versions of the world since it was opened; the present one is number `now`.
     history: Vec<World>,
     now: usize,
     saved: Option<usize>,
-    /// How many comments the text had that it was opened from.
+    /// Number of comments in the text that was opened.
     comments: usize,
 }
 
-/// How far from a place the handle of its heading is, of the shorter side of the world.
+/// Distance from a place to the handle of its heading, as a fraction of the world's shorter side.
 const HEADING: f64 = 0.05;
 
 impl Editor {
-    /// Opens the text of a world file. `file` is what errors call it.
+    /// Opens the text of a world file. Errors call it `file`.
     ///
     /// # Errors
     /// [`WorldError`] when the file is refused.
@@ -37,52 +37,52 @@ impl Editor {
         Ok(Editor { file: file.to_owned(), history: vec![world], now: 0, saved, comments: comments(text) })
     }
 
-    /// Opens a world that is in no file yet.
+    /// Opens a world that has no file yet.
     pub fn new(world: World) -> Self {
         Editor { file: "world.ron".into(), history: vec![world], now: 0, saved: None, comments: 0 }
     }
 
-    /// The world as it is.
+    /// The present world.
     pub fn world(&self) -> &World {
         &self.history[self.now]
     }
 
-    /// The world as a file: canonical.
+    /// The world as the text of a canonical file.
     pub fn text(&self) -> String {
         self.world().to_ron()
     }
 
-    /// To be called when [`text`](Self::text) is on the disk.
+    /// Marks the present world as saved. To be called when [`text`](Self::text) is on the disk.
     pub fn mark_saved(&mut self) {
         (self.saved, self.comments) = (Some(self.now), 0);
     }
 
-    /// How many comments are in the file that was opened: saving drops them.
+    /// Number of comments in the opened file; saving drops them.
     pub fn comments(&self) -> usize {
         self.comments
     }
 
-    /// What errors call the file.
+    /// The name of the file in errors.
     pub fn file(&self) -> &str {
         &self.file
     }
 
-    /// Whether a change can be taken back.
+    /// Whether a change can be undone.
     pub fn can_undo(&self) -> bool {
         self.now > 0
     }
 
-    /// Whether a change that was taken back can be made again.
+    /// Whether an undone change can be made again.
     pub fn can_redo(&self) -> bool {
         self.now + 1 < self.history.len()
     }
 
-    /// Whether the file on the disk is the world as it is.
+    /// Whether the file on the disk holds the present world.
     pub fn is_saved(&self) -> bool {
         self.saved == Some(self.now)
     }
 
-    /// The world that a change would give; nothing is changed. For showing what a drag under way comes to.
+    /// The world after a change, without making it: for showing a drag under way.
     ///
     /// # Errors
     /// [`EditError`] says why the change is refused.
@@ -91,7 +91,7 @@ impl Editor {
         Ok(World::parse(&self.file, &changed.to_ron())?)
     }
 
-    /// Makes a change. What was undone before can't be done again then.
+    /// Makes a change. Undone changes can't be made again after it.
     ///
     /// # Errors
     /// [`EditError`] says why it is refused; the world stays as it was.
@@ -107,14 +107,14 @@ impl Editor {
         Ok(())
     }
 
-    /// Takes the last change back; false when there is none.
+    /// Undoes the last change; `false` when there is none.
     pub fn undo(&mut self) -> bool {
         let can = self.can_undo();
         self.now -= usize::from(can);
         can
     }
 
-    /// Makes the change again that was taken back last; false when there is none.
+    /// Makes the last undone change again; `false` when there is none.
     pub fn redo(&mut self) -> bool {
         let can = self.can_redo();
         self.now += usize::from(can);
@@ -126,10 +126,11 @@ impl Editor {
         shape_of(self.world(), name)
     }
 
-    /// The handles of a wall, an obstacle or a mark, or of a place: where it is, and where it faces. None for anything else.
+    /// The handles of a wall, an obstacle, a mark or a place; empty for anything else. A place has two: its position
+    /// and its heading.
     pub fn handles(&self, name: &str) -> Vec<Handle> {
         if let Some(place) = self.world().place(name) {
-            let Bounds { min, max } = self.world().bounds;
+            let Aabb { min, max } = self.world().bounds;
             let (s, c) = sin_cos(place.pose.theta);
             let ahead = Vector2::new(c, s) * (HEADING * lesser(max.x - min.x, max.y - min.y));
             let at = place.pose.position();
@@ -138,7 +139,7 @@ impl Editor {
         self.shape(name).map_or_else(Vec::new, |shape| shape.handles())
     }
 
-    /// What is right in a file and would still be refused when the world runs: robots that start in contact.
+    /// Warnings about robots that start in contact. A world file may have them.
     pub fn warnings(&self) -> Vec<String> {
         let atlas = Atlas::new(self.world().clone());
         let starts = atlas.robots().iter().enumerate().filter_map(|(i, r)| {
@@ -151,7 +152,7 @@ impl Editor {
         starts.collect()
     }
 
-    /// A name that nothing has yet: `wall`, `wall 2`, ..
+    /// A free name for a new thing: `wall`, `wall 2`, ..
     pub fn free_name(&self, kind: &str) -> String {
         let taken = |name: &str| is_taken(self.world(), name);
         let numbered = std::iter::once(kind.to_owned()).chain((2..).map(|n: u32| format!("{kind} {n}")));
@@ -166,7 +167,7 @@ pub fn snap(p: Point2, corners: &[Point2], reach: f64, step: f64) -> Point2 {
     match nearest {
         Some(corner) => *corner,
         None if step > 0.0 => {
-            // divided by a whole number where that is the step, so that 24 steps of 0.05 are 1.2
+            // where 1/step is a whole number the coordinate is divided by it, so that 24 steps of 0.05 are 1.2
             let per = (1.0 / step).round();
             let whole = (per * step - 1.0).abs() < 1e-9;
             let at = |x: f64| if whole { (x * per).round() / per } else { (x / step).round() * step };

@@ -1,4 +1,4 @@
-//! A world's grid and its distance transform as a layer over it, and the exact distance beside them.
+//! `GridLayer`, a world's occupancy grid and its distance transform, with the exact distance for comparison.
 
 use crate::collision::{Collision, Scene};
 use crate::cspace::rectangles::rectangles;
@@ -7,23 +7,23 @@ use crate::num::{greater, sqrt};
 use crate::picture::{Drawing, Fill, Item, Line, Picture, Role};
 use crate::worlds::{DistanceTransform, Grid, GridError, World};
 
-/// How many shades the distance has.
+/// Number of shades of distance.
 const SHADES: u32 = 8;
 
-/// At most this many cells to a side are drawn one by one.
+/// Largest number of cells to a side of a grid that is drawn with shades.
 const DRAWN: u32 = 2048;
 
 /// The grid of a world at one resolution, and its distance transform.
 #[derive(Clone, Debug)]
 pub struct GridLayer {
     name: String,
-    bounds: crate::worlds::Bounds,
+    bounds: crate::geometry::Aabb,
     grid: Grid,
     transform: DistanceTransform,
     scene: Scene,
 }
 
-/// What grid and geometry say of a point.
+/// The distances of a point by the grid and by geometry.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Probe {
     /// The column and row of its cell.
@@ -34,8 +34,9 @@ pub struct Probe {
     pub derived: f64,
     /// The exact distance from the point to the nearest obstacle, metres.
     pub exact: f64,
-    /// How far the two can be apart, metres: the point is up to half a diagonal from its cell's centre, and the transform errs
-    /// by up to another half. It holds where the nearest obstacle point lies within the bounds.
+    /// Largest difference between the two distances, metres. The point is up to half a diagonal from its cell's centre,
+    /// and the transform errs by up to another half. The bound holds where the nearest obstacle point lies within the
+    /// world's bounds.
     pub most_apart: f64,
 }
 
@@ -65,7 +66,7 @@ impl GridLayer {
         &self.scene
     }
 
-    /// What grid and geometry say of a point; `None` beyond the grid.
+    /// The distances of a point by the grid and by geometry; `None` beyond the grid.
     pub fn probe(&self, p: Point2) -> Option<Probe> {
         let cell = self.grid.cell_at(p)?;
         Some(Probe {
@@ -77,8 +78,9 @@ impl GridLayer {
         })
     }
 
-    /// The layer as a picture: occupied cells solid, the others shaded by their distance, the farther the stronger; with lines
-    /// between the cells where these are large. A grid of more than 2048 cells to a side is drawn without its shades.
+    /// The layer as a picture: occupied cells solid, the others shaded by their distance, the farther the stronger. A
+    /// grid of at most 64 cells to a side has lines between its cells. A grid of more than 2048 cells to a side has no
+    /// shades.
     pub fn picture(&self) -> Picture {
         let (columns, rows) = (self.grid.columns(), self.grid.rows());
         let each = || (0..rows).flat_map(move |row| (0..columns).map(move |column| (column, row)));

@@ -1,12 +1,12 @@
-//! Names on a world: labels that overlap neither one another nor what they name.
+//! Names on a world: labels that overlap neither one another nor the things they name.
 
 use super::Atlas;
 use crate::collision::{Collision, Scene};
-use crate::geometry::{Footprint, Part, Placed, Point2, Pose2, Segment, Shape, Vector2};
+use crate::geometry::{Aabb, Footprint, Part, Placed, Point2, Pose2, Segment, Shape, Vector2};
 use crate::num::{self, greater, lesser};
 use crate::picture::{Anchor, Drawing, Face, Item, Line, Role};
 use crate::robots::Robot;
-use crate::worlds::{Bounds, ObstacleKind, World};
+use crate::worlds::{ObstacleKind, World};
 
 /// Height of the letters, pixels.
 const SIZE: f64 = 11.0;
@@ -14,30 +14,31 @@ const SIZE: f64 = 11.0;
 /// Length of the arrow at a place, pixels.
 const ARROW: f64 = 9.0;
 
-/// How far a leader reaches into its thing, pixels.
+/// Largest length of a leader inside its thing, pixels.
 const INNER: f64 = 8.0;
 
-/// How far labels stand from their things, pixels: as near as there is room.
+/// Distances between a label and its thing, pixels. The nearest with room is used.
 const GAPS: [f64; 7] = [3.0, 7.0, 12.0, 18.0, 26.0, 36.0, 48.0];
 
-/// In so many directions they are tried.
+/// Number of directions in which a label is tried.
 const WAYS: u32 = 24;
 
-/// So often the names are laid out anew, with one that found no place put first.
+/// Largest number of layouts. Each new one puts the first name without a place at the front.
 const ROUNDS: usize = 4;
 
-/// A named thing of a world, and the points that its name can belong to.
+/// A named thing of a world, and the points to which its label can lead.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Named {
-    /// The list it stands in: `walls`, `obstacles`, `places`, `marks`, `robots`.
+    /// The list of the world that holds it: `walls`, `obstacles`, `places`, `marks`, `robots`.
     pub list: &'static str,
     /// Its name.
     pub name: String,
-    /// Points of it, the best first: a wall's are along its pieces, the longest first. Never none.
+    /// Points of it, the best first; a wall's lie along its pieces, the longest first. Never empty.
     pub at: Vec<Point2>,
 }
 
-/// Every named thing of a world in file order. A robot is at its start, an arm at none: it is left out.
+/// Every named thing of a world in file order. Robots of the kinds `rusty` and `hitch` are at their starts; other
+/// robots are left out.
 pub fn named(world: &World) -> Vec<Named> {
     let mut out = Vec::new();
     let mut add = |list, name: &str, at: Vec<Point2>| {
@@ -72,13 +73,12 @@ pub fn named(world: &World) -> Vec<Named> {
 }
 
 fn middle(placed: &Placed) -> Point2 {
-    let (lo, hi) = placed.bounds();
-    lo + (hi - lo) * 0.5
+    placed.bounds().centre()
 }
 
 fn size(placed: &Placed) -> f64 {
-    let (lo, hi) = placed.bounds();
-    num::hypot(hi.x - lo.x, hi.y - lo.y)
+    let Aabb { min, max } = placed.bounds();
+    num::hypot(max.x - min.x, max.y - min.y)
 }
 
 /// A label's box on the plane, metres: its middle and half its sides.
@@ -94,7 +94,7 @@ impl Plate {
         d.x.abs() < self.half.x && d.y.abs() < self.half.y
     }
 
-    fn inside(&self, bounds: &Bounds) -> bool {
+    fn inside(&self, bounds: &Aabb) -> bool {
         let (lo, hi) = (self.middle - self.half, self.middle + self.half);
         lo.x >= bounds.min.x && lo.y >= bounds.min.y && hi.x <= bounds.max.x && hi.y <= bounds.max.y
     }
@@ -104,32 +104,33 @@ impl Plate {
         Footprint::rects([(Pose2::IDENTITY, Point2::from(lo), Point2::from(hi))])
     }
 
-    /// The point of it that is nearest to `p`: where a leader ends.
+    /// The plate's nearest point to `p`, at which a leader ends.
     fn nearest_to(&self, p: Point2) -> Point2 {
         let clamp = |x: f64, m: f64, h: f64| greater(m - h, lesser(m + h, x));
         Point2::new(clamp(p.x, self.middle.x, self.half.x), clamp(p.y, self.middle.y, self.half.y))
     }
 }
 
-/// What labels keep off: what collides, robots' footprints, painted marks, the dots and arrows of places, and one another.
+/// Everything that labels keep off: obstacles, robots' footprints, painted marks, the dots and arrows of places, and
+/// other labels.
 struct Sheet {
-    bounds: Bounds,
+    bounds: Aabb,
     px: f64,
     solid: Scene,
     marks: Scene,
     dots: Vec<Point2>,
-    /// The labels there are, with their lines.
+    /// The labels placed so far, with their leaders.
     taken: Scene,
 }
 
-/// A place for a label: its plate, and the line that leads to its thing.
+/// A place for a label: its plate, and the leader to its thing.
 struct Spot {
     plate: Plate,
     leader: Segment,
 }
 
 impl Sheet {
-    /// The bare sheet, a pixel of it being `px` metres.
+    /// The sheet without labels; a pixel of it is `px` metres.
     fn of(atlas: &Atlas, px: f64) -> Self {
         let world = atlas.world();
         let standing = atlas.robots().iter().fold(Scene::of_world(world), |scene, r| {
@@ -151,7 +152,7 @@ impl Sheet {
     }
 
     fn is_free(&self, plate: &Plate) -> bool {
-        // dots have a size, and the heads of arrows
+        // dots and arrowheads have a size
         let wide = Plate { half: plate.half + Vector2::new(3.0, 3.0) * self.px, ..*plate };
         plate.inside(&self.bounds)
             && !self.dots.iter().any(|d| wide.covers(*d))
@@ -160,13 +161,13 @@ impl Sheet {
             && !self.taken.intersects(&plate.area())
     }
 
-    /// Whether a line may lead from a thing of this name to a plate: past no other thing, no label, no other line; and no mark
-    /// unless it may cross them.
+    /// Whether a leader may go from a thing of this name to a plate. It may cross no other thing, label or leader, and
+    /// marks only with `over_marks`.
     fn may_lead(&self, name: &str, leader: &Segment, over_marks: bool) -> bool {
         let line = |s: &Segment| Footprint::new([Part::new(Pose2::IDENTITY, Shape::Segment { a: s.a, b: s.b })]);
-        // a mark may end where the line begins
+        // a mark may end where the leader begins
         let outer = Segment::new(leader.a + (leader.b - leader.a) * 0.25, leader.b);
-        // its own end may touch what stands there
+        // the leader's end may touch the thing that stands there
         let at_end = self.solid.touched(&Footprint::disc(leader.a, 0.0));
         let past = |id| self.solid.obstacle_name(id).is_some_and(|other| other != name);
         !self.solid.touched(&line(leader)).into_iter().any(|id| past(id) && !at_end.contains(&id))
@@ -174,7 +175,7 @@ impl Sheet {
             && (over_marks || !self.marks.intersects(&line(&outer)))
     }
 
-    /// Keeps a place for a label.
+    /// Marks a place as taken.
     fn take(&mut self, Spot { plate, leader }: &Spot) {
         let (min, max) =
             (Point2::from(plate.middle.coords - plate.half), Point2::from(plate.middle.coords + plate.half));
@@ -183,7 +184,7 @@ impl Sheet {
         self.taken = taken.with_obstacle("a line", line);
     }
 
-    /// The nearest place for a label of this size that is good.
+    /// The nearest free place for a label of this size, half its sides given.
     fn place_for(&self, thing: &Named, half: Vector2) -> Option<Spot> {
         for over_marks in [false, true] {
             for gap in GAPS {
@@ -203,18 +204,18 @@ impl Sheet {
         None
     }
 
-    /// The plate whose border is `gap` pixels this way beyond the border of the thing around `at`.
+    /// The spot whose plate lies `gap` pixels beyond the thing's border, in the direction `way` from `at`.
     fn spot(&self, name: &str, at: Point2, way: Vector2, (half, gap): (Vector2, f64)) -> Spot {
         let border = at + way * self.way_out(name, at, way);
-        // how far the plate reaches back against the way
+        // how far the plate reaches back from its middle
         let reach = lesser(half.x / greater(way.x.abs(), 1e-9), half.y / greater(way.y.abs(), 1e-9));
         let plate = Plate { middle: border + way * (gap * self.px + reach), half };
-        // a line that leads to something large ends within it
+        // the leader to a large thing ends within it
         let inner = border - way * lesser((border - at).norm(), INNER * self.px);
         Spot { plate, leader: Segment::new(inner, plate.nearest_to(border)) }
     }
 
-    /// How far it is from a point inside a thing to its border this way, metres; nothing from a wall or a mark.
+    /// The distance from a point inside a thing to its border in the direction `way`, metres; 0 for a wall or a mark.
     fn way_out(&self, name: &str, at: Point2, way: Vector2) -> f64 {
         let inside = |p: Point2| {
             let touched = self.solid.touched(&Footprint::disc(p, 0.0));
@@ -223,7 +224,7 @@ impl Sheet {
         if !inside(at + way * self.px) {
             return 0.0;
         }
-        // twice as far each time until it is out, then halves
+        // the distance is doubled until the point is outside, then bisected
         let (mut within, mut beyond) = (self.px, 2.0 * self.px);
         while inside(at + way * beyond) && beyond < 1e6 * self.px {
             (within, beyond) = (beyond, 2.0 * beyond);
@@ -236,7 +237,8 @@ impl Sheet {
     }
 }
 
-/// Places for the names of these things, the first with the first choice, and the number of the first that found none.
+/// Places for the names of these things, the first with the first choice, and the number of the first thing without a
+/// place.
 fn lay_out(mut sheet: Sheet, things: &[Named]) -> (Vec<(Named, Spot)>, Option<usize>) {
     let (mut spots, mut without) = (Vec::new(), None);
     for (number, thing) in things.iter().enumerate() {
@@ -253,7 +255,7 @@ fn lay_out(mut sheet: Sheet, things: &[Named]) -> (Vec<(Named, Spot)>, Option<us
     (spots, without)
 }
 
-/// What the names that found a place are worth: who comes first counts more.
+/// The value of a layout: 4 for each placed name of a robot or an obstacle, 2 for a place, 1 for a wall or a mark.
 fn worth(spots: &[(Named, Spot)]) -> usize {
     let of = |thing: &Named| match thing.list {
         "robots" | "obstacles" => 4,
@@ -263,10 +265,10 @@ fn worth(spots: &[(Named, Spot)]) -> usize {
     spots.iter().map(|(thing, _)| of(thing)).sum()
 }
 
-/// The names of everything in the world as items for a picture at this scale, pixels per metre: each label beside its thing where
-/// it covers no obstacle, no robot, no mark and no other label, with a line that leads to it past nothing else. A name for which
-/// there is no such place near by is left out, and shown when the picture is larger. Who comes first has the first choice:
-/// robots, then obstacles, places, walls and marks, each in file order.
+/// The names of everything in the world as items for a picture at this scale, pixels per metre. Each label stands
+/// beside its thing, where it covers no obstacle, robot, mark or other label, and a leader joins the two. A name
+/// without such a place nearby is left out; a larger picture has more room. The order of choice is robots, obstacles,
+/// places, walls, marks, each in file order.
 pub fn names(atlas: &Atlas, px_per_metre: f64) -> Vec<Item> {
     let px = 1.0 / px_per_metre;
     let mut things = named(atlas.world());
@@ -279,7 +281,7 @@ pub fn names(atlas: &Atlas, px_per_metre: f64) -> Vec<Item> {
         if worth(&spots) > worth(&best) {
             best = spots;
         }
-        // the first that found no place has the first choice in the next round
+        // the first thing without a place has the first choice in the next round
         let Some(without) = without else { break };
         things[..=without].rotate_right(1);
     }
@@ -291,14 +293,14 @@ pub fn names(atlas: &Atlas, px_per_metre: f64) -> Vec<Item> {
         let label = Drawing::Label {
             at: plate.middle,
             text: thing.name.clone(),
-            anchor: Anchor::Center,
+            anchor: Anchor::Centre,
             face: Face::Sans,
             size_px: SIZE,
             plate: true,
         };
         items.push(Item::new(id, thing.name, Role::Text, label));
     }
-    // the lines below all the words
+    // leaders are drawn below all words
     items.sort_by_key(|item| matches!(item.drawing, Drawing::Label { .. }));
     items
 }
@@ -329,7 +331,7 @@ mod tests {
     #[test]
     fn names_overlap_nothing_at_any_size_and_the_last_drop_out_first() {
         for (world, missing) in [
-            // the fewest names that are left out on paper 560, 380 and 240 pixels high
+            // the least number of names left out on paper 560, 380 and 240 pixels high
             (World::apartment(), [4, 14, 26]),
             (World::workbench(), [0, 0, 0]),
             (World::lot(), [0, 4, 8]),

@@ -1,4 +1,4 @@
-//! The atlas: worlds with their names on them, robots put where a finger points, grids beside the exact distance, and an editor.
+//! The atlas as values: labelled worlds, teleports of their robots, grids beside the exact distance, and an editor.
 
 mod edit;
 mod grid_layer;
@@ -22,7 +22,7 @@ use crate::picture::{Drawing, Picture, RobotDrawing, places, robot, world};
 use crate::robots::{AnyRobot, Robot};
 use crate::worlds::World;
 
-/// A world and the residents of it that are robots of the lab, where they start.
+/// A world and those of its residents that are robots of the lab.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Atlas {
     world: World,
@@ -34,9 +34,9 @@ pub struct Atlas {
 pub struct AtlasRobot {
     /// Its name in the world.
     pub name: String,
-    /// What it is.
+    /// The robot.
     pub robot: AnyRobot,
-    /// Where it is.
+    /// Its configuration.
     pub q: AnyConfiguration,
 }
 
@@ -60,8 +60,8 @@ impl Atlas {
         &self.residents
     }
 
-    /// Robot number `index` among the obstacles and the other robots, which have their names there; `None` when there is no
-    /// such robot.
+    /// The checker of robot number `index` among the obstacles and the other robots, each an obstacle under its name.
+    /// `None` for an unknown robot.
     pub fn checker(&self, index: usize) -> Option<Checker<AnyRobot>> {
         let mut scene = Scene::of_world(&self.world);
         for (_, other) in self.residents.iter().enumerate().filter(|(i, _)| *i != index) {
@@ -70,7 +70,7 @@ impl Atlas {
         Some(Checker::new(scene, self.residents.get(index)?.robot))
     }
 
-    /// Puts robot number `index` at `to`, or says why not. `None` when there is no such robot.
+    /// Puts robot number `index` at `to`, or returns why not. `None` for an unknown robot.
     pub fn teleport(&mut self, index: usize, to: AnyConfiguration) -> Option<Result<(), Refusal>> {
         let checker = self.checker(index)?;
         let answer = Teleport::ask(&checker, &to);
@@ -80,9 +80,9 @@ impl Atlas {
         Some(answer)
     }
 
-    /// The world with its robots and the dots of its places on it.
+    /// The picture of the world with its robots and the dots of its places.
     pub fn picture(&self) -> Picture {
-        // their names are labels of their own
+        // the places' names are drawn by `names`
         let dots = places(&self.world.places).into_iter().filter(|i| !matches!(i.drawing, Drawing::Label { .. }));
         let drawn = self.residents.iter().flat_map(|r| {
             robot(&RobotDrawing {

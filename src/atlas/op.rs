@@ -23,11 +23,12 @@ pub enum Op {
         /// Where it is.
         pose: Pose2,
     },
-    /// Move anything that has a name, its coordinates rounded to a nanometre: an arm's base stays, as its start says nothing of it.
+    /// Move anything that has a name, its coordinates rounded to a nanometre. Arms are refused, because their start
+    /// holds no base.
     Move {
         /// Its name.
         name: String,
-        /// How far.
+        /// The displacement, metres.
         by: Vector2,
     },
     /// Drag one of a thing's [handles](super::Editor::handles).
@@ -36,7 +37,7 @@ pub enum Op {
         name: String,
         /// The handle's number.
         handle: usize,
-        /// Where it goes.
+        /// The point it is dragged to.
         to: Point2,
     },
     /// Give a wall or an obstacle another shape, or a mark another line.
@@ -46,21 +47,21 @@ pub enum Op {
         /// The shape.
         shape: EditShape,
     },
-    /// Put a place elsewhere, or turn it.
+    /// Move or turn a place.
     SetPose {
         /// Its name.
         name: String,
         /// Where it is.
         pose: Pose2,
     },
-    /// Give anything another name.
+    /// Rename anything.
     Rename {
         /// Its name.
         name: String,
         /// Its new name.
         to: String,
     },
-    /// Take anything out.
+    /// Remove anything that has a name.
     Delete {
         /// Its name.
         name: String,
@@ -74,10 +75,10 @@ pub enum EditError {
     /// Nothing has this name.
     #[error("nothing here is called {0:?}")]
     NoSuchName(String),
-    /// It can't be changed in this way.
+    /// The thing can't be changed in this way.
     #[error("{0:?} has no shape to change")]
     NoShape(String),
-    /// A polygon whose outline is none.
+    /// An invalid outline of a polygon.
     #[error("polygon: {0}")]
     Outline(#[from] OutlineError),
     /// The world would be refused as a file.
@@ -85,7 +86,7 @@ pub enum EditError {
     World(#[from] WorldError),
 }
 
-/// Which list of a world has a thing, and where.
+/// The list of a world that holds a thing, and its place there.
 #[derive(Clone, Copy)]
 enum Found {
     Obstacle(usize),
@@ -108,7 +109,7 @@ pub(super) fn is_taken(world: &World, name: &str) -> bool {
     find(world, name).is_some()
 }
 
-/// The shape of the thing of this name, of a wall, an obstacle or a mark.
+/// The shape of the wall, obstacle or mark of this name.
 pub(super) fn shape_of(world: &World, name: &str) -> Option<EditShape> {
     shape_at(world, find(world, name)?)
 }

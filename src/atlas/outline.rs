@@ -1,10 +1,10 @@
-//! `EditShape`, the shape of a wall, an obstacle or a painted mark as a hand changes it.
+//! `EditShape`, the shape of a wall, an obstacle or a painted mark, and how handles change it.
 
 use crate::geometry::{Point2, Pose2, Shape, Vector2, convex_hull};
 use crate::num::hypot;
 use crate::worlds::{Obstacle, ObstacleKind, OutlineError, Written};
 
-/// The shape of a wall, an obstacle or a painted mark, with the points that a hand can drag.
+/// The shape of a wall, an obstacle or a painted mark, with its handles.
 #[derive(Clone, Debug, PartialEq)]
 pub enum EditShape {
     /// A thin polyline. One that ends where it starts is closed.
@@ -27,25 +27,25 @@ pub enum EditShape {
     },
     /// A simple polygon, convex or not, in either orientation.
     Polygon(Vec<Point2>),
-    /// All points within a radius of the hull of these.
+    /// The convex hull of points, grown by a radius.
     Rounded {
         /// The points.
         points: Vec<Point2>,
         /// The radius.
         radius: f64,
     },
-    /// Several as one.
+    /// Several shapes as one.
     Union(Vec<EditShape>),
 }
 
-/// A point to drag.
+/// A point of a shape that can be dragged.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Handle {
-    /// Its number on its thing.
+    /// Its number on the shape.
     pub index: usize,
     /// Where it is.
     pub at: Point2,
-    /// Whether dragging it makes a new corner there: it is the middle of an edge.
+    /// Whether dragging it makes a new corner, because it is the middle of an edge.
     pub makes_corner: bool,
 }
 
@@ -81,10 +81,10 @@ impl EditShape {
         }
     }
 
-    /// The obstacle of this shape. Its numbers are not checked: reading the world's text does that.
+    /// The obstacle of this shape. Its numbers are not checked here, but when the world's text is read.
     ///
     /// # Errors
-    /// [`OutlineError`] when a polygon is none.
+    /// [`OutlineError`] for an invalid polygon.
     pub(super) fn obstacle(&self, name: &str) -> Result<Obstacle, OutlineError> {
         let kind = if matches!(self, EditShape::Wall(_)) { ObstacleKind::Wall } else { ObstacleKind::Solid };
         let mut obstacle = Obstacle::new(name, kind, Vec::new());
@@ -112,7 +112,8 @@ impl EditShape {
         Ok(())
     }
 
-    /// The corners of a polyline or polygon, the last not that which closes it; whether it is closed, and how few there may be.
+    /// The corners of a polyline or polygon without the closing one, whether it is closed, and the least number of
+    /// corners.
     fn ring(&self) -> Option<(&[Point2], bool, usize)> {
         match self {
             EditShape::Wall(points) | EditShape::Mark(points) => {
@@ -135,8 +136,8 @@ impl EditShape {
         }
     }
 
-    /// The points to drag: the corners of a polyline or a polygon and then the middles of its edges, a box's four corners, a disc's
-    /// centre and a point of its rim.
+    /// The points to drag: the corners of a polyline or a polygon and then the middles of its edges, a box's four
+    /// corners, a disc's centre and a point of its rim, a rounded shape's points, and those of a union's members.
     pub fn handles(&self) -> Vec<Handle> {
         let corners = self.points();
         let middles = self.ring().map_or_else(Vec::new, |(ring, closed, _)| {
@@ -160,7 +161,7 @@ impl EditShape {
         }
     }
 
-    /// The corners beside the corner of handle `index`: dragged onto one of them it goes away.
+    /// The corners beside the corner of handle `index`. Dragged onto one of them, the corner goes away.
     pub fn neighbours(&self, index: usize) -> Vec<Point2> {
         let Some((ring, closed, _)) = self.ring().filter(|(ring, ..)| index < ring.len()) else { return Vec::new() };
         let n = ring.len();
@@ -169,8 +170,8 @@ impl EditShape {
         before.into_iter().chain(after).map(|i| ring[i]).collect()
     }
 
-    /// The shape with one of its handles dragged. A box keeps the corner opposite; a disc's rim changes its radius; the middle of an
-    /// edge becomes a corner, and a corner on its neighbour goes away while there are enough.
+    /// The shape with one of its handles dragged. A box keeps the opposite corner. A disc's rim changes its radius. The
+    /// middle of an edge becomes a corner. A corner dragged onto its neighbour goes away, unless too few would remain.
     #[must_use]
     pub fn with_handle(&self, index: usize, to: Point2) -> EditShape {
         if let Some((ring, closed, least)) = self.ring() {
@@ -238,7 +239,7 @@ impl EditShape {
     }
 }
 
-/// A coordinate to the nanometre: what rounding adds to a sum is no part of a drawing.
+/// A coordinate rounded to the nanometre, which removes the rounding errors of sums.
 pub(super) fn tidy(x: f64) -> f64 {
     (x * 1e9).round() / 1e9
 }

@@ -1,9 +1,9 @@
-//! What is drawn over the atlas: a refusal with its offer, a probe of the grid, a selected thing with its handles.
+//! Overlays of the atlas: a refusal with its offer, a probe of the grid, a selected thing with its handles.
 
 use super::{Atlas, Editor, GridLayer, Handle, Refusal};
 use crate::collision::Collision;
 use crate::configuration::AnyConfiguration;
-use crate::geometry::{Footprint, Point2};
+use crate::geometry::{Aabb, Footprint, Point2};
 use crate::picture::{Anchor, Dash, Drawing, Face, Glyph, Item, Line, Role, footprint, outline, polygon_of};
 use crate::robots::Robot;
 use crate::worlds::Obstacle;
@@ -16,8 +16,8 @@ fn label(id: &str, at: Point2, anchor: Anchor, text: String) -> Item {
 }
 
 impl Atlas {
-    /// A refused teleport of robot number `index` to `wanted`: its ghost in red with the words, what it would overlap outlined, and
-    /// the nearest free configuration offered as a ghost with the way to it.
+    /// A refused teleport of robot number `index` to `wanted`: a red ghost with the reason, the outlines of everything
+    /// it would overlap, and the nearest free configuration as a ghost with the way to it.
     pub fn refusal_items(&self, index: usize, wanted: &AnyConfiguration, refusal: &Refusal) -> Vec<Item> {
         let Some(resident) = self.robots().get(index) else { return Vec::new() };
         let robot = resident.robot;
@@ -44,14 +44,14 @@ impl Atlas {
                 items.push(Item::new("offer/handle", "put it there", Role::Focus, ring));
             }
         }
-        // under the ghosts, so that they cover nothing of them; over them where there is no room below
+        // the words stand under the ghosts, or over them where there is no room below
         let offered = match refusal {
             Refusal::Overlap { nearest: Some(offer), .. } => robot.footprint(&offer.q),
             _ => Footprint::default(),
         };
         let shown = robot.footprint(wanted);
         let boxes = shown.parts().iter().chain(offered.parts()).map(|p| p.placed().bounds());
-        let (lo, hi) = boxes.reduce(|a, b| (a.0.inf(&b.0), a.1.sup(&b.1))).unwrap_or((at, at));
+        let Aabb { min: lo, max: hi } = boxes.reduce(|a, b| a.merged(&b)).unwrap_or(Aabb::new(at, at));
         let bounds = self.world().bounds;
         let below = lo.y > bounds.min.y + 0.08 * (bounds.max.y - bounds.min.y);
         let (y, anchor) = if below { (lo.y, Anchor::Below) } else { (hi.y, Anchor::Above) };
@@ -61,7 +61,7 @@ impl Atlas {
 }
 
 impl GridLayer {
-    /// What grid and geometry say of a point: its cell, the exact shortest way, and both distances. None beyond the grid.
+    /// A probe of a point: its cell, the exact shortest way, and both distances. Empty beyond the grid.
     pub fn probe_items(&self, p: Point2) -> Vec<Item> {
         let Some(probe) = self.probe(p) else { return Vec::new() };
         let (lo, hi) = self.grid().square(probe.cell.0, probe.cell.1);
@@ -84,8 +84,8 @@ impl GridLayer {
 }
 
 impl Editor {
-    /// The thing of this name as it is when selected: its outline in the focus colour, and its handles; those that make a corner as
-    /// rings. Nothing for a name that no wall, obstacle, mark or place has.
+    /// The selected thing of this name: its outline in the focus colour, and its handles. Handles that make a corner
+    /// are rings. Empty for a name that no wall, obstacle, mark or place has.
     pub fn selected_items(&self, name: &str) -> Vec<Item> {
         let world = self.world();
         let mark = world.marks.iter().find(|mark| mark.name == name).map(|mark| vec![mark.points.clone()]);
@@ -104,7 +104,7 @@ impl Editor {
     }
 }
 
-/// The lines around an obstacle, its pieces as one.
+/// The outline of an obstacle, its pieces as one.
 fn around(obstacle: &Obstacle) -> Vec<Vec<Point2>> {
     let (mut lines, pieces): (Vec<_>, Vec<_>) = obstacle.placed().map(|p| polygon_of(&p)).partition(|p| p.len() == 2);
     lines.extend(outline(&pieces));
@@ -143,7 +143,7 @@ mod tests {
         let layer = GridLayer::new(&World::workbench(), 0.1).unwrap();
         let items = layer.probe_items(Point2::new(0.75, 0.52));
         assert_eq!(ids(&items), ["probe/cell", "probe/way", "probe/b", "probe/a", "probe/words"]);
-        // 0.48 m below the block; by the grid five cells, as the row above 1.0 is the first that is occupied
+        // 0.48 m below the block, and five cells by the grid: the row above 1.0 is the first occupied one
         assert!(items[4].name.starts_with("exact 0.480 m, by the grid 0."), "{}", items[4].name);
         assert!(layer.probe_items(Point2::new(9.0, 0.0)).is_empty());
         let inside = layer.probe_items(Point2::new(0.75, 1.25));

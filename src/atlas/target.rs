@@ -1,4 +1,4 @@
-//! Where a finger on the plane puts a robot.
+//! The configuration that a click or a drag on the plane asks for.
 
 use super::{Atlas, Refusal};
 use crate::configuration::{AnyConfiguration, Configuration};
@@ -6,23 +6,23 @@ use crate::geometry::Point2;
 use crate::num::{hypot, wrap};
 
 impl Atlas {
-    /// The configuration that a click at `to` asks of robot number `index`, and a drag from there of a heading, radians.
+    /// The configuration of robot number `index` for a click at `to`, or for a drag from there to a heading, radians.
     ///
-    /// - An arm's tip goes there, by inverse kinematics: on the elbow side it has if that is free, else on the other if that is. A
-    ///   heading means nothing to it.
+    /// - An arm's tip goes there, by inverse kinematics: on its present elbow side if that is free, else on the other
+    ///   side if that is free, else on the present one. The heading is ignored.
     /// - Other robots' reference points go there; a trailer turns with its car.
     ///
-    /// Whether it can be put there is another question: [`teleport`](Atlas::teleport). `None` when there is no such robot.
+    /// The configuration may be in contact: [`teleport`](Atlas::teleport) checks that. `None` for an unknown robot.
     ///
     /// # Errors
-    /// [`Refusal::OutOfReach`] for a point that an arm's tip cannot get to.
+    /// [`Refusal::OutOfReach`] for a point that an arm's tip cannot reach.
     pub fn target(&self, index: usize, to: Point2, heading: Option<f64>) -> Option<Result<AnyConfiguration, Refusal>> {
         let resident = self.robots().get(index)?;
         let (robot, q) = (resident.robot, resident.q);
         if let Some((base, [least, most])) = robot.annulus() {
             let elbow_down = q.coordinates().last().is_none_or(|angle| *angle >= 0.0);
             let sides = [elbow_down, !elbow_down].map(|side| robot.dragged(&q, to, side));
-            // what is out of reach was clamped
+            // a point out of reach was clamped
             let off = robot.reference(&sides[0]) - to;
             if hypot(off.x, off.y) > 1e-9 {
                 let away = to - base;
@@ -51,7 +51,7 @@ mod tests {
     fn an_arms_tip_is_clicked_onto_the_free_side() {
         let atlas = Atlas::new(World::workbench());
         let resident = &atlas.robots()[0];
-        // at the post's height on the left: elbow down the arm goes through the post's neighbourhood, elbow up it does not
+        // at the post's height on the left the arm passes near the post with its elbow down, but not with its elbow up
         let mut both = 0;
         for k in 0..200 {
             let (s, c) = crate::num::sin_cos(f64::from(k) * 0.1);

@@ -1,4 +1,4 @@
-//! Whether a robot can be put somewhere, and where it could be put instead.
+//! Teleports: whether a robot can be put somewhere, and the nearest free configuration if not.
 
 use std::fmt;
 
@@ -8,36 +8,36 @@ use crate::cspace::{NearestFree, Slice, nearest_free};
 use crate::geometry::{Footprint, Pose2, Shape};
 use crate::robots::{AnyRobot, ConfigurationError, Robot};
 
-/// Asks whether a robot can be put somewhere.
+/// The check whether a robot can be put somewhere.
 #[derive(Clone, Copy, Debug)]
 pub struct Teleport;
 
-/// Why a robot cannot be put there.
+/// Why a teleport is refused.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Refusal {
     /// It would overlap or touch something.
     Overlap {
         /// The names of everything it would overlap or touch, in file order, other robots last.
         names: Vec<String>,
-        /// The nearest configuration that is free, if one was found: its headings are kept (an arm's first joint of three);
-        /// [`NearestFree`] says how near it is.
+        /// The nearest free configuration with the same headings (for an arm of three joints, the same first joint), if
+        /// one was found. [`NearestFree`] holds its distance.
         nearest: Option<NearestFree>,
     },
-    /// An arm's tip cannot get there.
+    /// An arm's tip cannot reach the point.
     OutOfReach {
         /// The least distance of the tip from the base, metres.
         least: f64,
-        /// The greatest.
+        /// The greatest distance of the tip from the base, metres.
         most: f64,
-        /// The distance asked for.
+        /// The point's distance from the base, metres.
         wanted: f64,
     },
-    /// It is no configuration of this robot.
+    /// The target is no configuration of this robot.
     Configuration(ConfigurationError),
 }
 
 impl fmt::Display for Refusal {
-    /// As it is said in place: `would overlap the post`.
+    /// In words: `would overlap the post`.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Refusal::Overlap { names, .. } => match &names[..] {
@@ -56,11 +56,11 @@ impl fmt::Display for Refusal {
 impl std::error::Error for Refusal {}
 
 impl Teleport {
-    /// Whether the checker's robot can be put at `to`: by the query that stops the robots of a run, so that what is accepted
-    /// here is accepted there.
+    /// Checks whether the checker's robot can be put at `to`. It asks the query that decides teleports in a run, so a
+    /// run accepts what is accepted here. Touching is refused.
     ///
     /// # Errors
-    /// [`Refusal`] with the names of what it would overlap or touch, and the nearest free configuration.
+    /// [`Refusal`] with the names of everything it would overlap or touch, and the nearest free configuration.
     pub fn ask(checker: &Checker<AnyRobot>, to: &AnyConfiguration) -> Result<(), Refusal> {
         Self::ask_only(checker, to).map_err(|refusal| match refusal {
             Refusal::Overlap { names, .. } => {
@@ -71,7 +71,7 @@ impl Teleport {
         })
     }
 
-    /// As [`ask`](Self::ask) without looking for the nearest free configuration: while something is still dragged.
+    /// As [`ask`](Self::ask), without the search for the nearest free configuration: for use during a drag.
     ///
     /// # Errors
     /// [`Refusal`], whose `nearest` is `None`.
@@ -84,7 +84,7 @@ impl Teleport {
         let touched = checker.scene().touched(&footprint);
         let mut names: Vec<String> =
             touched.into_iter().filter_map(|id| checker.scene().obstacle_name(id)).map(str::to_owned).collect();
-        // a robot of several parts is one
+        // a robot of several parts is named once
         names.dedup();
         Err(Refusal::Overlap { names, nearest: None })
     }

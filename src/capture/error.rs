@@ -4,7 +4,7 @@ use std::io;
 
 use crate::recording::RunError;
 
-/// Why nothing was captured. No file is left behind.
+/// Why a capture failed. No file is left behind.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum CaptureError {
@@ -13,10 +13,10 @@ pub enum CaptureError {
     NoTick {
         /// The tick asked for.
         tick: u64,
-        /// The last there is.
+        /// The run's last tick.
         last: u64,
     },
-    /// What is asked for does not move from tick to tick.
+    /// The subject does not move from tick to tick, so it gives no GIF.
     #[error(
         "query anatomy is one frozen scene: nothing in it moves from tick to tick, so there is nothing to make a GIF of"
     )]
@@ -24,7 +24,7 @@ pub enum CaptureError {
     /// The run has no such robot, or no such world.
     #[error("the run has no {0}")]
     NotInRun(String),
-    /// The run can't be shown.
+    /// The run of the log can't be shown.
     #[error(transparent)]
     Run(#[from] RunError),
     /// The images would be larger than any.

@@ -1,23 +1,23 @@
-//! A picture in 256 colours, as a GIF has them.
+//! `FewColours`, a picture reduced to the 256 colours of a GIF.
 
 use std::collections::BTreeMap;
 
 use crate::picture::{Palette, Role};
 
-/// How many colours there may be.
+/// Largest number of colours.
 const MOST: usize = 256;
 
-/// A picture as colours and the pixels' numbers in them.
+/// A picture as a palette and an index per pixel.
 pub struct FewColours {
     /// Red, green and blue of every colour.
     pub palette: Vec<u8>,
-    /// For every pixel the number of its colour.
+    /// The number of every pixel's colour in the palette.
     pub pixels: Vec<u8>,
 }
 
 impl FewColours {
-    /// The picture of pixels of three bytes each: in the colours of the roles, which are kept however rare (a red cross is a
-    /// few pixels), and in those that are the most frequent. Any other pixel gets the nearest of these.
+    /// Reduces a picture of three bytes per pixel. The colours of the roles are kept, however rare (a red cross is a
+    /// few pixels), then the most frequent others. Any other pixel gets the nearest of these.
     pub fn of(rgb: &[u8], roles: &Palette) -> Self {
         let mut counts: BTreeMap<[u8; 3], usize> = BTreeMap::new();
         let pixels = || rgb.as_chunks::<3>().0.iter().copied();

@@ -1,9 +1,9 @@
-//! Captures: what a widget shows as a figure for a page, and what a program finds in its file: a run's seed and digest, or a world's
-//! content hash and the configuration. The window and `capture` on the command line draw and write by these alone.
+//! Captures: a widget's view as a figure for a page, with metadata in its file: a run's seed and digest, or a world's
+//! content hash and the configuration. The window and the command `capture` draw and write with these alone.
 //!
-//! A [`Captured`] is a figure with its notes: [`anatomy`], [`cspace`] and [`atlas`] make one of a scene that stands still, [`at_tick`] of
-//! a run at a tick. A [`Paper`] says how large it is and on which paper. Natively it is written as SVG, PNG, or over a [`Span`] of
-//! ticks as GIF.
+//! A [`Captured`] is a figure with its notes. [`anatomy`], [`cspace`] and [`atlas`] make one of a scene without a run,
+//! [`at_tick`] of a run at a tick. A [`Paper`] gives its size and colours. Natively a capture is written as SVG or PNG,
+//! or over a [`Span`] of ticks as GIF.
 //!
 //! ```
 //! use motion_lab::anatomy::{Anatomy, Tab};
@@ -43,18 +43,18 @@ use crate::picture::{Figure, Palette, Sheet};
 /// Hundredths of a second in a tick.
 pub const TICK_HUNDREDTHS: u64 = 5;
 
-/// A keyword and its text, as they stand in the file.
+/// A keyword and its text in the file's metadata.
 pub type Note = (&'static str, String);
 
 /// The form of a captured file.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Form {
-    /// Lines and letters, sharp at any size.
+    /// Vector graphics.
     Svg,
     /// Pixels.
     #[default]
     Png,
-    /// Pixels over a span of ticks, played without end.
+    /// Pixels over a span of ticks, played in a loop.
     Gif,
 }
 
@@ -62,13 +62,13 @@ impl Form {
     /// Every form.
     pub const ALL: [Form; 3] = [Form::Png, Form::Svg, Form::Gif];
 
-    /// The form that a file's name tells.
+    /// The form by a file's extension; `None` for any other.
     pub fn of(path: &Path) -> Option<Form> {
         let extension = path.extension()?.to_str()?;
         Form::ALL.into_iter().find(|form| form.extension() == extension)
     }
 
-    /// What such a file's name ends in.
+    /// The extension of such files, without the dot.
     pub const fn extension(self) -> &'static str {
         match self {
             Form::Svg => "svg",
@@ -87,7 +87,7 @@ impl Form {
     }
 }
 
-/// A figure, and what a program finds in its file.
+/// A figure, and the metadata of its file.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Captured {
     /// The figure.
@@ -96,14 +96,14 @@ pub struct Captured {
     pub notes: Vec<Note>,
 }
 
-/// The paper that a figure is put on, and how large.
+/// The colours and the size of a figure.
 #[derive(Clone, Copy, Debug)]
 pub struct Paper {
     /// Its colours: a theme's.
     pub palette: &'static Palette,
-    /// The sheet's greatest width, pixels: 420 to 640 for a column, 1280 for a page. Letters keep their size.
+    /// The sheet's largest width, pixels: 420 to 640 for a column, 1280 for a page. Letters keep their size.
     pub width: u32,
-    /// PNG and GIF: dots for each pixel of the sheet.
+    /// The scale of PNG and GIF: pixels of the image per pixel of the sheet.
     pub scale: f32,
 }
 
@@ -115,7 +115,7 @@ impl Paper {
 }
 
 impl Captured {
-    /// The figure as an SVG file with its notes, the same bytes for the same figure.
+    /// The figure as an SVG file with its notes. The same figure gives the same bytes.
     pub fn svg(&self, paper: &Paper) -> String {
         let notes = with_program(&self.notes);
         self.figure.svg_on(&Sheet { palette: paper.palette, width_px: paper.width_px(), notes: &notes })

@@ -1,4 +1,4 @@
-//! Widgets that move with a run: drawn at any of its ticks.
+//! Captures of widgets that move with a run, at any of its ticks.
 
 use std::sync::Arc;
 
@@ -18,44 +18,44 @@ use crate::tour::TourConfig;
 
 use crate::worlds::World;
 
-/// The most characters to a line of a readout.
+/// Largest number of characters in a line of a readout.
 const READOUT: usize = 48;
 
-/// What of a run is drawn.
+/// The view of a run that is drawn.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Subject {
     /// The cockpits side by side.
     Dashboard {
-        /// Whether everything that stands still carries its name.
+        /// Whether the names of obstacles, places and marks are shown.
         names: bool,
         /// Whether the scans are drawn.
         scan: bool,
     },
-    /// A robot's workspace, and beside it its configuration space with its way since tick 0.
+    /// A robot's workspace, and beside it its configuration space with its path since tick 0.
     Cspace {
         /// The world it lives in; any when left out.
         world: Option<World>,
-        /// Its kind; the first robot of the lab's when left out.
+        /// Its kind; when left out, the first robot of one of the lab's kinds.
         kind: Option<String>,
-        /// How often the slice is halved for the finest cells.
+        /// Number of halvings of the slice down to the finest cells.
         finest: u32,
         /// Whether the annulus of points that an arm's tip can reach is drawn.
         annulus: bool,
     },
-    /// The atlas, its robots where they are.
+    /// The atlas, with the robots at their present configurations.
     Atlas {
         /// The world; all of the run's when left out.
         world: Option<World>,
-        /// Whether everything that stands still carries its name.
+        /// Whether the names of obstacles, places and marks are shown.
         names: bool,
     },
 }
 
 impl Subject {
-    /// Whether a run of this configuration has what is to be drawn.
+    /// Checks that a run of this configuration has the world and the robot to be drawn.
     ///
     /// # Errors
-    /// [`CaptureError::NotInRun`] names what it has not.
+    /// [`CaptureError::NotInRun`] names what is missing.
     pub fn check(&self, config: &TourConfig) -> Result<(), CaptureError> {
         if let Some(world) = self.world().filter(|world| !config.worlds.contains(world)) {
             return Err(CaptureError::NotInRun(format!("world {} as it is here: run this world first", world.name)));
@@ -70,7 +70,7 @@ impl Subject {
         Err(CaptureError::NotInRun(wanted + &place))
     }
 
-    /// The same without names, which change no words under the pictures.
+    /// The same without names, which leaves the text under the pictures as it is.
     #[cfg(feature = "cli")]
     pub(super) fn unnamed(&self) -> Subject {
         match self.clone() {
@@ -80,7 +80,7 @@ impl Subject {
         }
     }
 
-    /// The world that is drawn alone.
+    /// The one world to be drawn; `None` for all.
     fn world(&self) -> Option<&World> {
         match self {
             Subject::Dashboard { .. } => None,
@@ -94,19 +94,19 @@ impl Subject {
     }
 }
 
-/// Whether a robot of this kind has a configuration space to be drawn, and is the one asked for.
+/// Whether a robot of this kind is one of the lab's and of the wanted kind, if one is given.
 fn is_wanted(kind: &str, wanted: Option<&str>) -> bool {
     ["rusty", "reach", "reach3", "hitch"].contains(&kind) && wanted.is_none_or(|wanted| wanted == kind)
 }
 
-/// A span of ticks: from the first to the last, a picture for every so many.
+/// A span of ticks, with a picture every `every` ticks.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Span {
     /// The first tick.
     pub from: u64,
     /// The last.
     pub to: u64,
-    /// From picture to picture, at least 1.
+    /// Ticks from picture to picture, at least 1.
     pub every: u64,
 }
 
@@ -128,16 +128,16 @@ impl Span {
         (self.from..=self.to).contains(&tick) && (tick - self.from).is_multiple_of(self.every)
     }
 
-    /// How many pictures there are.
+    /// Number of pictures.
     pub fn pictures(&self) -> u64 {
         (self.to - self.from) / self.every + 1
     }
 }
 
-/// The run of a log as it is after `tick`, for a sheet of this width, pixels.
+/// The run of a log after `tick`, for a sheet of this width, pixels.
 ///
 /// # Errors
-/// [`CaptureError`] says what the run does not have.
+/// [`CaptureError`] names what the run does not have.
 pub fn at_tick(log: &Log, subject: &Subject, tick: u64, width_px: f64) -> Result<Captured, CaptureError> {
     let mut drawn = None;
     let mut moving = Moving::new(log, subject.clone(), width_px)?;
@@ -154,7 +154,7 @@ pub fn at_tick(log: &Log, subject: &Subject, tick: u64, width_px: f64) -> Result
     Ok(Captured { figure, notes })
 }
 
-/// A world of the run, and what stands still in it.
+/// The parts of a world's picture that do not change during a run.
 struct Backdrop {
     number: u32,
     world: Arc<Picture>,
@@ -162,7 +162,7 @@ struct Backdrop {
     names: Vec<Item>,
 }
 
-/// A subject under way: shown the run tick by tick, it draws any of them.
+/// A subject under way. It is shown the run tick by tick, and draws any of them.
 pub(super) struct Moving<'a> {
     log: &'a Log,
     digest: String,
@@ -189,7 +189,7 @@ impl<'a> Moving<'a> {
         let panels = pictures.iter().map(bare).collect();
         let blank = Figure { title: String::new(), description: String::new(), panels, caption: Vec::new() };
         let named = |(&(number, model), (world, scale)): (&(u32, &World), (&Arc<Picture>, f64))| {
-            // its robots move: only what stands still is named
+            // robots move, so they are not named
             let standing = Atlas::new(World { robots: Vec::new(), ..model.clone() });
             let dots = places(&model.places).into_iter().filter(|i| !matches!(i.drawing, Drawing::Label { .. }));
             let names = if named { dots.chain(names(&standing, scale)).collect() } else { Vec::new() };
@@ -199,7 +199,7 @@ impl<'a> Moving<'a> {
         Ok(Moving { log, digest: log.digest().to_string(), subject, backdrops, space: None })
     }
 
-    /// Takes in the next tick.
+    /// Shows it the next tick.
     pub fn see(&mut self, run: &Recorder) -> Result<(), CaptureError> {
         let Subject::Cspace { kind, finest, annulus, .. } = &self.subject else { return Ok(()) };
         let views = run.view();
@@ -218,7 +218,7 @@ impl<'a> Moving<'a> {
         }
     }
 
-    /// The figure of the tick that was seen last; not `drawn`, with its words and sizes alone.
+    /// The figure of the last tick seen. Without `drawn` it has only words and sizes.
     pub fn captured(&mut self, run: &Recorder, drawn: bool) -> Result<Captured, CaptureError> {
         let tick = run.frame().tick;
         let seed = self.log.seed.0;
@@ -274,14 +274,14 @@ impl<'a> Moving<'a> {
     }
 }
 
-/// What a robot's range sensor sees.
+/// The scan of a robot's range sensor; `None` without one.
 fn seen(run: &Recorder, view: &RobotView) -> Option<Item> {
     let [x, y, theta, ..] = view.coordinates[..] else { return None };
     let seen = run.frame().scans.iter().find(|s| s.robot == view.id)?;
     Some(scan(&format!("scan/{}", view.name), "scan", &Pose2 { x, y, theta }, &seen.ranges))
 }
 
-/// A robot as its cockpit shows it: red while its flash holds.
+/// A robot as its cockpit shows it, red while its flash holds.
 fn drawing(view: &RobotView) -> Vec<Item> {
     let is_disc = view.footprint.parts().iter().all(|p| matches!(p.shape(), Shape::Disc { .. }));
     robot(&RobotDrawing {

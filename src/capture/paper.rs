@@ -1,4 +1,4 @@
-//! Captured files: SVG, PNG, and GIF over a span of ticks.
+//! Writing captured files: SVG, PNG, and GIF over a span of ticks.
 
 use std::path::Path;
 
@@ -16,10 +16,10 @@ impl Paper {
     }
 }
 
-/// Writes one figure, as SVG or PNG: whole, or not at all.
+/// Writes one figure as SVG or PNG, whole or not at all.
 ///
 /// # Errors
-/// [`CaptureError`] says what is too large or can't be written. A GIF is no figure alone: see [`film`].
+/// [`CaptureError`] names what is too large or can't be written. A GIF is refused: [`film`] writes one.
 pub fn write(captured: &Captured, paper: &Paper, form: Form, path: &Path) -> Result<(), CaptureError> {
     let svg = captured.svg(paper);
     match form {
@@ -34,11 +34,11 @@ pub fn write(captured: &Captured, paper: &Paper, form: Form, path: &Path) -> Res
     }
 }
 
-/// Writes a GIF of a run over a span of its ticks, which plays as fast as the run. `go_on` is told how many pictures there are of
-/// how many, and says whether to go on.
+/// Writes a GIF of a run over a span of its ticks, which plays as fast as the run. Before each picture, `go_on` gets
+/// the number of pictures done and the number of all, and returns whether to go on.
 ///
 /// # Errors
-/// [`CaptureError`] says what the run does not have, what is too large or can't be written. Then there is no file.
+/// [`CaptureError`] names what the run does not have, what is too large or can't be written. No file is left then.
 pub fn film(
     log: &Log,
     subject: &Subject,
@@ -50,7 +50,7 @@ pub fn film(
     let pending = PendingFile::create(path)?;
     let raster = paper.raster();
     let mut height = 0;
-    // all pictures are as high as the one with the most words
+    // all pictures are as high as the highest
     each(log, subject, span, paper, false, |captured| {
         height = std::cmp::max(height, raster.height(&captured.svg(paper))?);
         Ok(())
@@ -80,7 +80,7 @@ pub fn film(
     }
 }
 
-/// Gives `take` what is captured at each tick of the span.
+/// Calls `take` with the capture of each tick of the span that has a picture.
 fn each(
     log: &Log,
     subject: &Subject,
@@ -101,7 +101,7 @@ fn each(
     })
 }
 
-/// The sides of a GIF's pictures.
+/// The width and height of a GIF's pictures, pixels.
 pub fn gif_size(image: &Image) -> Result<[u16; 2], CaptureError> {
     let fits = |pixels: u32| u16::try_from(pixels).map_err(|_| CaptureError::TooLarge(image.width));
     Ok([fits(image.width)?, fits(image.height)?])

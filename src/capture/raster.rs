@@ -1,4 +1,4 @@
-//! Pixels: an SVG of ours painted without a display, as PNG and GIF.
+//! Painting our own SVG without a display, and writing it as PNG and GIF.
 
 use std::io::{self, Write};
 
@@ -9,23 +9,23 @@ use super::CaptureError;
 use super::few_colours::FewColours;
 use crate::picture::{FACES, Palette, Rgb};
 
-/// Paints SVG at a fixed size. Its letters are the window's.
+/// Paints SVG at a fixed size, with the window's fonts.
 pub struct Raster {
     options: Options<'static>,
     size: Size,
     paper: Rgb,
 }
 
-/// How large an image is.
+/// The size of an image.
 #[derive(Clone, Copy, Debug)]
 pub enum Size {
-    /// So many pixels wide.
+    /// A width, pixels.
     Wide(u32),
-    /// So many pixels for each of the sheet's.
+    /// A scale: pixels of the image per pixel of the sheet.
     Times(f32),
 }
 
-/// An opaque image, row by row from the top, three bytes a pixel.
+/// An opaque image, row by row from the top, three bytes per pixel.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Image {
     /// Pixels from left to right.
@@ -44,7 +44,7 @@ impl Raster {
         for (_, letters) in FACES {
             fonts.load_font_data(letters.to_vec());
         }
-        // as assets/fonts/build names them
+        // the family names are those of assets/fonts/build
         fonts.set_sans_serif_family("Ubuntu derivative Motion Lab");
         fonts.set_monospace_family("Motion Lab Mono");
         Raster { options, size, paper: Rgb([255; 3]) }
@@ -60,7 +60,7 @@ impl Raster {
         Tree::from_str(svg, &self.options).map_err(|error| CaptureError::Fault(error.to_string()))
     }
 
-    /// How wide the image of a tree is, and by how much that is larger.
+    /// The width of the image of an SVG tree, pixels, and its scale.
     fn width(&self, tree: &Tree) -> (u32, f32) {
         match self.size {
             Size::Wide(width) => (width, width as f32 / tree.size().width()),
@@ -68,20 +68,20 @@ impl Raster {
         }
     }
 
-    /// How high the image of the sheet is, pixels.
+    /// The height of the image of the sheet, pixels.
     ///
     /// # Errors
-    /// [`CaptureError::Fault`] for what is no SVG.
+    /// [`CaptureError::Fault`] for text that is no SVG.
     pub fn height(&self, svg: &str) -> Result<u32, CaptureError> {
         let tree = self.tree(svg)?;
         Ok((tree.size().height() * self.width(&tree).1).ceil() as u32)
     }
 
-    /// Paints the sheet. With a `height` what is lower is cut off and what is missing stays bare paper, so that all images of a
-    /// sequence are of one size.
+    /// Paints the sheet. With a `height` the image is cut off below it or filled up with bare paper, so that all images
+    /// of a sequence have one size.
     ///
     /// # Errors
-    /// [`CaptureError::TooLarge`]; [`CaptureError::Fault`] for what is no SVG.
+    /// [`CaptureError::TooLarge`]; [`CaptureError::Fault`] for text that is no SVG.
     pub fn paint(&self, svg: &str, height: Option<u32>) -> Result<Image, CaptureError> {
         let tree = self.tree(svg)?;
         let (width, scale) = self.width(&tree);
@@ -95,7 +95,7 @@ impl Raster {
     }
 }
 
-/// Writes a PNG with these notes, a keyword and its text each, in its metadata.
+/// Writes a PNG with these notes in its metadata, each a keyword and its text.
 ///
 /// # Errors
 /// [`CaptureError::Write`] when it can't be written.
@@ -114,7 +114,7 @@ pub fn write_png(image: &Image, notes: &[(&str, String)], to: impl Write) -> Res
     writer.finish().map_err(failed)
 }
 
-/// A GIF that is written frame by frame and played without end.
+/// A GIF that is written image by image and played in a loop.
 pub struct GifWriter<W: Write> {
     encoder: gif::Encoder<W>,
     hundredths: u16,
@@ -122,8 +122,8 @@ pub struct GifWriter<W: Write> {
 }
 
 impl<W: Write> GifWriter<W> {
-    /// Begins a GIF whose images are all this large and are shown for this many hundredths of a second each. The palette's
-    /// colours are kept, however rare.
+    /// Begins a GIF of images of this size, each shown for `hundredths` of a second. The palette's colours are kept,
+    /// however rare.
     ///
     /// # Errors
     /// [`io::Error`] when it can't be written.
@@ -157,7 +157,7 @@ impl<W: Write> GifWriter<W> {
         })
     }
 
-    /// Ends the GIF and gives back what it was written to.
+    /// Ends the GIF and returns its writer.
     ///
     /// # Errors
     /// [`io::Error`] when it can't be written.

@@ -9,7 +9,7 @@ use crate::run::Digest;
 use crate::simulation::RobotView;
 use crate::tour::TourConfig;
 
-/// What a figure needs of a run so far: where its robots went, stand and had contacts.
+/// The data of a run's figure: each robot's trace, present footprint and contacts.
 #[derive(Default)]
 pub struct RunFigure {
     robots: Vec<Watched>,
@@ -22,7 +22,7 @@ struct Watched {
 }
 
 impl RunFigure {
-    /// Takes in the robots as they are at the next tick, from tick 0 on.
+    /// Adds the robots of the next tick. The first call is for tick 0.
     pub fn watch(&mut self, robots: Vec<RobotView>) {
         if self.robots.is_empty() {
             self.robots = robots.iter().map(Watched::new).collect();
@@ -66,7 +66,7 @@ impl Watched {
             self.contacts = robot.contacts;
             self.tour.contacts.push(at);
         }
-        // only a disc does not show which way it faces
+        // only a disc's outline does not show its heading
         let is_disc = robot.footprint.parts().iter().all(|p| matches!(p.shape(), Shape::Disc { .. }));
         self.tour.end_heading = robot.coordinates.get(2).copied().filter(|_| is_disc);
         self.tour.readout = printed_configuration(&robot.kind, &robot.coordinates);
@@ -74,7 +74,7 @@ impl Watched {
     }
 }
 
-/// The point that stands for a robot: an arm's tip, else the origin of its first part.
+/// The reference point of a robot: an arm's tip, else the origin of its first part.
 fn reference(robot: &RobotView) -> Point2 {
     robot.tip.unwrap_or_else(|| robot.footprint.parts().first().map_or(Point2::origin(), |part| part.pose().position()))
 }

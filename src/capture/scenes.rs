@@ -1,4 +1,4 @@
-//! The widgets that stand still: anatomy, configuration space, atlas.
+//! Captures of the widgets without a run: anatomy, configuration space, atlas.
 
 use super::{Captured, Note};
 use crate::anatomy::{Anatomy, Tab};
@@ -8,7 +8,7 @@ use crate::cspace::{CellMap, Overlay, cspace_picture};
 use crate::manifest::widget;
 use crate::picture::{Figure, Item, Panel, readout, world as draw_world};
 
-/// The query anatomy: these tabs side by side, or one with a close view of the nearest points.
+/// The query anatomy: these tabs side by side, or one tab with a close-up of the nearest points.
 pub fn anatomy(anatomy: &Anatomy, tabs: &[Tab]) -> Captured {
     let mut panels = Vec::new();
     for tab in tabs {
@@ -28,8 +28,8 @@ pub fn anatomy(anatomy: &Anatomy, tabs: &[Tab]) -> Captured {
     Captured { figure, notes: notes(anatomy) }
 }
 
-/// The workspace and beside it the configuration space as far as `map` knows it, with the way of the point, oldest first. The chart
-/// line is drawn when the anatomy's tab is the swept one.
+/// The workspace, and beside it the configuration space as far as `map` knows it. `trace` is the path of the
+/// configuration, oldest first. The chart line is drawn when the anatomy's tab is the swept one.
 pub fn cspace(anatomy: &Anatomy, map: &CellMap, trace: Vec<AnyConfiguration>) -> Captured {
     let overlay = Overlay {
         now: Some(anatomy.q()),
@@ -65,11 +65,11 @@ pub struct AtlasSheet<'a> {
     pub atlas: &'a Atlas,
     /// The grid under it.
     pub grid: Option<&'a GridLayer>,
-    /// What is drawn over it: a refusal with its offer.
+    /// The items drawn over it, such as a refusal with its offer.
     pub over: Vec<Item>,
-    /// What is to be read under it.
+    /// The text under it.
     pub readout: Vec<String>,
-    /// Whether everything carries its name.
+    /// Whether names are shown.
     pub names: bool,
 }
 
@@ -107,15 +107,15 @@ pub fn atlas(sheets: &[AtlasSheet<'_>], width_px: f64) -> Captured {
     Captured { figure, notes: vec![("World", contents.join(", "))] }
 }
 
-/// What stands under the panels: the misconception that the widget removes, and the configuration shown.
+/// The caption under the panels: the misconception that the widget removes, and the configuration shown.
 fn caption(id: &str, anatomy: &Anatomy) -> Vec<String> {
-    // what is said of the arm is not true of the others
+    // other widgets' text is about the arm and does not hold for other robots
     let said = id == "anatomy" || anatomy.checker().robot().annulus().is_some();
     let misconception = widget(id).filter(|_| said).map(|w| w.misconception.clone());
     misconception.into_iter().chain([readout(&anatomy.q().to_string())]).collect()
 }
 
-/// What makes the picture what it is.
+/// The notes of the file: the world's content hash and the configuration.
 fn notes(anatomy: &Anatomy) -> Vec<Note> {
     vec![
         ("World", format!("{} {:032x}", anatomy.world().name, anatomy.world().content_hash())),

@@ -8,7 +8,7 @@ use crate::robots::{AnyRobot, ConfigurationError, Robot};
 use crate::simulation::RobotView;
 use crate::worlds::World;
 
-/// A robot of a run, its configuration space and its way there.
+/// A robot of a run, its configuration space and its path in it.
 pub(super) struct Space {
     /// The robot's id in the run.
     pub robot: u32,
@@ -19,7 +19,7 @@ pub(super) struct Space {
 }
 
 impl Space {
-    /// The robot where it is; an error for a kind that is none of the lab's.
+    /// The robot at its present configuration. An error for a kind that is not the lab's.
     pub fn new(world: &World, view: &RobotView, finest: u32, annulus: bool) -> Result<Self, CaptureError> {
         let (robot, q) = here(view)?;
         let anatomy = Anatomy::new(world.clone(), WorldSource::Unsaved, robot, q);
@@ -28,11 +28,11 @@ impl Space {
         Ok(Space { robot: view.id, anatomy, finest, map: None, trace: Vec::new() })
     }
 
-    /// Takes in where the robot is at the next tick.
+    /// Adds the robot's configuration at the next tick.
     pub fn see(&mut self, view: &RobotView) -> Result<(), CaptureError> {
         let (robot, q) = here(view)?;
         if *self.anatomy.checker().robot() != robot {
-            // a trailer came on or off
+            // a trailer was attached or removed
             self.anatomy = self.anatomy.with_robot(robot);
             self.map = None;
         }
@@ -45,7 +45,7 @@ impl Space {
         Ok(())
     }
 
-    /// Workspace and configuration space as they are; not `drawn`, with the words and sizes alone.
+    /// The present workspace and configuration space. Without `drawn` the figure has only words and sizes.
     pub fn captured(&mut self, drawn: bool) -> Result<Captured, CaptureError> {
         let q = self.anatomy.q();
         let fault = |error: ConfigurationError| CaptureError::Fault(error.to_string());

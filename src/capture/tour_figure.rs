@@ -1,4 +1,4 @@
-//! A run's tour as a figure: where each robot went, where it started and ended, where it touched something.
+//! A run's tour as a figure: each robot's path, its start and end, and its contacts.
 
 use crate::geometry::{Footprint, Point2};
 use crate::picture::{Drawing, Figure, Glyph, Item, Panel, RobotDrawing, Role, footprint, robot, trace, world};
@@ -15,26 +15,26 @@ pub struct TourPanel<'a> {
     pub robots: Vec<RobotTour>,
 }
 
-/// What one robot did.
+/// The tour of one robot.
 #[derive(Clone, Debug)]
 pub struct RobotTour {
     /// Its unique name.
     pub name: String,
-    /// The points its reference (Rusty's centre, Reach's tip, Hitch's rear axle) went through, tick by tick, the start first.
+    /// The path of its reference point (Rusty's centre, Reach's tip, Hitch's rear axle), tick by tick, the start first.
     pub trace: Vec<Point2>,
-    /// Where it started.
+    /// The footprint at the start.
     pub start: Footprint,
-    /// Where it ended.
+    /// The footprint at the end.
     pub end: Footprint,
-    /// Which way it faced at the end, radians, when its footprint does not tell (a disc).
+    /// The heading at the end, radians, where the footprint does not show it (a disc).
     pub end_heading: Option<f64>,
-    /// Where its reference was at the first tick of each contact.
+    /// The reference point at the first tick of each contact.
     pub contacts: Vec<Point2>,
     /// Its final configuration as it prints.
     pub readout: String,
 }
 
-/// The figure of a run after the first of two numbers of ticks, the other being that of the whole run: its worlds side by side.
+/// The figure of a run, its worlds side by side. `tick` is the number of ticks run, `ticks` that of the whole run.
 pub fn tour_figure(seed: Seed, (tick, ticks): (u64, u64), digest: Digest, panels: &[TourPanel<'_>]) -> Figure {
     let seconds = crate::run::DT * tick as f64;
     let so_far = if tick == ticks { format!("{ticks} ticks") } else { format!("tick {tick} of {ticks}") };
@@ -101,14 +101,14 @@ fn description(panels: &[TourPanel<'_>]) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::worlds::Bounds;
+    use crate::geometry::Aabb;
 
     #[test]
     fn the_figure_tells_seed_digest_contacts_and_ends() {
         let p = Point2::new;
         let yard = World {
             name: "Yard".into(),
-            bounds: Bounds { min: p(0.0, 0.0), max: p(4.0, 4.0) },
+            bounds: Aabb { min: p(0.0, 0.0), max: p(4.0, 4.0) },
             obstacles: vec![],
             places: vec![],
             marks: vec![],

@@ -12,7 +12,7 @@ use commands::{
     bare, capture, completions, describe, diff, export, grade, info, query, record, replay, script, verify, world,
 };
 
-/// What `--help` says of the exit codes; the README says the same.
+/// The exit codes, as `--help` and `docs/cli.md` list them.
 const EXIT_CODES: &str = "\
 Exit codes:
    0  done
@@ -28,8 +28,8 @@ Data goes to standard output, messages to standard error.";
 
 /// A deterministic laboratory of robot motion: three robots, three worlds, one collision checker, one simulator.
 ///
-/// Without a command it opens the lab in a window; built with the feature `headless` it records the 60 s tour, replays it
-/// and compares every bit.
+/// Without a command it opens the lab in a window; built with the feature `headless` it records the 60 s tour, replays
+/// it and compares every bit.
 #[derive(Debug, Parser)]
 #[command(version, after_help = EXIT_CODES, after_long_help = EXIT_CODES)]
 pub struct Cli {

@@ -1,16 +1,16 @@
-//! Questions about many configurations at once, in parallel where threads exist.
+//! Batch queries: many configurations at once, in parallel where threads exist.
 
 use super::{Checker, EdgeVerdict};
 use crate::robots::{ConfigurationError, Robot};
 
-/// `f` of every item, in the items' order whatever the number of threads.
+/// Applies `f` to every item, in parallel. The results are in the items' order, whatever the number of threads.
 #[cfg(not(target_family = "wasm"))]
 fn map<T: Sync, U: Send>(items: &[T], f: impl Fn(&T) -> U + Sync + Send) -> Vec<U> {
     use rayon::prelude::*;
     items.par_iter().map(f).collect()
 }
 
-/// `f` of every item: WebAssembly has one thread.
+/// Applies `f` to every item, one after the other: WebAssembly has one thread.
 #[cfg(target_family = "wasm")]
 fn map<T, U>(items: &[T], f: impl Fn(&T) -> U) -> Vec<U> {
     items.iter().map(f).collect()

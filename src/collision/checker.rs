@@ -1,4 +1,4 @@
-//! `Checker`, a robot in a scene: the questions asked about configurations.
+//! `Checker`, a robot in a scene: queries about configurations, edges and motions.
 
 use std::sync::Arc;
 
@@ -26,10 +26,10 @@ pub struct Checker<R> {
 /// The checker of an arm with N links.
 pub type ChainChecker<const N: usize> = Checker<Reach<N>>;
 
-/// The checker of a disc. For a disc, collision is a point query: it is free exactly when the distance D of its centre to
-/// the obstacles exceeds its radius r, its distance is D - r (0 when not free), and its witness is the centre moved by r
-/// toward the nearest obstacle point. It also answers the four questions itself, for footprints made of discs; any other
-/// footprint counts as contact.
+/// The checker of a disc. For a disc, collision is a point query: it is free exactly when the distance D of its centre
+/// to the obstacles exceeds its radius r, its distance is D - r (0 when not free), and its witness is the centre moved
+/// by r toward the nearest obstacle point. It also answers the four questions itself, for footprints made of discs; any
+/// other footprint counts as contact.
 pub type DiscChecker = Checker<RustyDisc>;
 
 /// The checker of the car.
@@ -83,8 +83,8 @@ impl<R: Robot> Checker<R> {
         Ok(self.motion(&self.robot.edge(a, b)?))
     }
 
-    /// The last configuration along the edge that is proven free: `b`, its angles in `(-pi, pi]`, when the whole edge is; `None` when `a`
-    /// is in contact.
+    /// The last configuration along the edge up to which the edge is proven free. This is `b`, its angles in
+    /// `(-pi, pi]`, when the whole edge is free; `None` when `a` is in contact.
     ///
     /// # Errors
     /// [`ConfigurationError`] when either end is not a configuration of this robot.
@@ -102,8 +102,9 @@ impl<R: Robot> Checker<R> {
         })
     }
 
-    /// The clearance at `q` and the direction in the workspace, a unit vector from b* to a*, in which moving the nearest part
-    /// increases it: the gradient of the distance. No direction in contact or in an empty scene.
+    /// The clearance at `q`, metres, and the gradient of the distance: the unit vector in the workspace from the
+    /// witness point b* on the obstacle to the point a* on the robot. Moving the nearest part in this direction
+    /// increases the clearance. No direction in contact or in an empty scene.
     ///
     /// # Errors
     /// [`ConfigurationError`] when `q` is not a configuration of this robot.
@@ -119,8 +120,8 @@ impl<R: Robot> Checker<R> {
         })
     }
 
-    /// Whether the edge is proven free: always where [`edge`](Self::edge) says `Free`, never where it says `Hit`. Several times as fast,
-    /// because neither how near the edge comes nor where it hits is looked for.
+    /// Whether the edge is proven free: true wherever [`edge`](Self::edge) says `Free`, false wherever it says `Hit`.
+    /// Several times as fast, because it computes neither the clearance along the edge nor the first contact.
     pub fn edge_free(&self, a: &R::Configuration, b: &R::Configuration) -> bool {
         self.robot.edge(a, b).is_ok_and(|edge| is_free(&self.scene, &edge, MarchOptions::default().budget))
     }

@@ -1,11 +1,11 @@
-//! `Counted`, a checker that counts what it is asked.
+//! `Counted`, a checker that counts its queries.
 
 use std::sync::atomic::{AtomicU64, Ordering};
 
 use super::{Collision, Witness};
 use crate::geometry::{Footprint, Placed};
 
-/// A [`Collision`] that passes every question on and counts it. Planners are compared by these counts.
+/// A [`Collision`] that forwards every query to another checker and counts it. Planners are compared by these counts.
 ///
 /// ```
 /// use motion_lab::prelude::*;
@@ -23,7 +23,7 @@ pub struct Counted<C> {
     swept: AtomicU64,
 }
 
-/// How often each question was asked.
+/// How often each query was made.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct QueryCounts {
     /// `intersects`.
@@ -32,12 +32,12 @@ pub struct QueryCounts {
     pub distance: u64,
     /// `witness`.
     pub witness: u64,
-    /// `swept`; the questions it asks in turn are not counted.
+    /// `swept`; the queries it makes in turn are not counted.
     pub swept: u64,
 }
 
 impl<C: Collision> Counted<C> {
-    /// Counts the questions put to `inner`.
+    /// Counts the queries that go to `inner`.
     pub fn new(inner: C) -> Self {
         let zero = AtomicU64::default;
         Counted { inner, intersects: zero(), distance: zero(), witness: zero(), swept: zero() }

@@ -1,4 +1,4 @@
-//! A checker behind a reference or an `Arc` is a checker.
+//! `Collision` for a checker behind a reference or an `Arc`.
 
 use std::sync::Arc;
 
@@ -7,7 +7,7 @@ use crate::geometry::{Footprint, Placed};
 
 macro_rules! passes_on {
     ($($holder:ty),*) => { $(
-        /// Passes every question on.
+        /// Forwards every query to the checker behind it.
         impl<C: Collision + ?Sized> Collision for $holder {
             fn intersects(&self, footprint: &Footprint) -> bool {
                 (**self).intersects(footprint)

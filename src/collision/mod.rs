@@ -10,7 +10,6 @@ mod motion;
 mod narrow;
 mod problem;
 mod queries;
-mod rectangles;
 mod scene;
 mod surroundings;
 mod witness;
@@ -26,9 +25,8 @@ pub(crate) use motion::conservative_advancement::{clearance_of_all, march_on};
 pub(crate) use motion::separation::is_plainly_clear;
 pub use motion::verdict::{EdgeVerdict, MarchOptions, UnresolvedReason};
 pub use motion::verifier::verify_certificate;
-pub(crate) use narrow::pair::touch;
+pub use narrow::pair::{distance, footprint_distance, touch};
 pub use problem::{Problem, ProblemError};
-pub use rectangles::Rectangles;
 pub use scene::Scene;
 pub use surroundings::Surroundings;
 pub use witness::{ObstacleId, Witness};
@@ -37,13 +35,13 @@ use crate::geometry::{Footprint, Placed};
 
 /// The four questions a planner may ask, and no others. Planners take `&dyn Collision`.
 ///
-/// Sets are closed: touching is contact. The answers agree with one another: [`intersects`](Self::intersects) exactly when
-/// [`distance`](Self::distance) is 0. Whatever cannot be decided counts as contact, never as free: a footprint with a number
-/// that is not finite intersects, has distance 0, is hit by every sweep, and has no witness.
+/// Sets are closed: touching is contact. The answers agree with one another: [`intersects`](Self::intersects) exactly
+/// when [`distance`](Self::distance) is 0. Whatever cannot be decided counts as contact, never as free: a footprint
+/// with a number that is not finite intersects, has distance 0, is hit by every sweep, and has no witness.
 ///
-/// A placed shape *is* its rounded `f64` vertices and radius. With M the larger of 1 and the largest coordinate involved:
-/// `intersects` is exact for segments and convex polygons, and with radii errs, if at all, to contact within 8 ulp(M);
-/// `distance` is within 16 ulp(M) of exact, and 0 exactly on contact.
+/// A placed shape *is* its rounded `f64` vertices and radius. With M the larger of 1 and the largest coordinate
+/// involved: `intersects` is exact for segments and convex polygons, and with radii errs, if at all, to contact within
+/// 8 ulp(M); `distance` is within 16 ulp(M) of exact, and 0 exactly on contact.
 pub trait Collision: Send + Sync {
     /// Whether the footprint touches any obstacle.
     fn intersects(&self, footprint: &Footprint) -> bool;
@@ -51,27 +49,31 @@ pub trait Collision: Send + Sync {
     /// The distance from the footprint to the nearest obstacle, metres: 0.0 on contact, infinity in an empty scene.
     fn distance(&self, footprint: &Footprint) -> f64;
 
-    /// [`distance`](Self::distance) of the footprint that is this hull alone. Not a question of its own: it spares the march, which
-    /// asks for hulls again and again, the making of footprints.
+    /// [`distance`](Self::distance) of the footprint that consists of this hull alone. Not a query of its own: it saves
+    /// the march, which queries many hulls, the construction of a footprint for each.
     #[doc(hidden)]
     fn distance_of_hull(&self, hull: Placed) -> f64 {
         self.distance(&Footprint::of_hull(hull))
     }
 
-    /// Whether it is plain that a part whose vertices go in straight lines from one place to another keeps more than `reach` metres from
-    /// everything. Not a question of its own either: what is not plain is asked of [`distance`](Self::distance).
+    /// A conservative separation test: true only if a part whose vertices move in straight lines from one placed shape
+    /// to the other keeps more than `reach` metres from every obstacle. `false` is inconclusive: the caller falls back
+    /// to the exact queries. Not a query of its own either.
     #[doc(hidden)]
     fn clears(&self, _from: &Placed, _to: &Placed, _reach: f64) -> bool {
         false
     }
 
     /// A pair of points that attains the distance; on contact one common point, with `dist` 0. `None` in an empty scene
-    /// (and for a footprint that is not finite or has no parts). Ties go to the lowest part, then to the obstacle first in file order.
+    /// (and for a footprint that is not finite or has no parts). Ties go to the lowest part, then to the obstacle first
+    /// in file order.
     fn witness(&self, footprint: &Footprint) -> Option<Witness>;
 
-    /// Whether the motion from `a` to `b` hits: each part's frame origin in a straight line while it turns the short way.
+    /// Whether the motion from `a` to `b` hits. Each part's frame origin moves in a straight line while the part turns
+    /// the short way.
     ///
-    /// Sound: never false for a motion that touches; never true where the clearance along the whole motion exceeds 1e-6 m.
-    /// `swept(a, a)` is `intersects(a)`; part lists that differ answer true. It is not an arm's chart line: that is an edge.
+    /// Sound: it is never false for a motion that touches, and never true where the clearance along the whole motion is
+    /// more than 1e-6 m. `swept(a, a)` is `intersects(a)`; part lists that differ answer true. It is not an arm's chart
+    /// line: that is an edge.
     fn swept(&self, a: &Footprint, b: &Footprint) -> bool;
 }

@@ -36,7 +36,7 @@ pub enum ProblemError {
 }
 
 impl<R: Robot> Problem<R> {
-    /// The problem of leading the robot from `start` to `goal`; samples come from the stream `planner` of `seed`.
+    /// The problem of moving the robot from `start` to `goal`; samples come from the stream `planner` of `seed`.
     ///
     /// # Errors
     /// [`ProblemError`] when either end is not one of the robot's configurations or is not free.
@@ -61,12 +61,12 @@ impl<R: Robot> Problem<R> {
         &self.checker
     }
 
-    /// Where the robot is.
+    /// The start configuration.
     pub fn start(&self) -> R::Configuration {
         self.start
     }
 
-    /// Where it shall be.
+    /// The goal configuration.
     pub fn goal(&self) -> R::Configuration {
         self.goal
     }

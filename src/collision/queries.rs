@@ -1,4 +1,4 @@
-//! The four questions put to a scene.
+//! `Collision` for a `Scene`: the four queries.
 
 use super::motion::closed_form::verdict;
 use super::motion::separation::Way;

@@ -6,15 +6,14 @@ use super::ObstacleId;
 use super::boundary::grid::Cells;
 use super::boundary::segments::SegmentSoup;
 use super::broad::index::Index;
-use super::motion::time_of_impact::{arc_distance, arc_meets, translation_meets};
 use super::narrow::distance::{Nearest, depth};
 use super::narrow::nearest::Search;
 use super::narrow::pair::{pair, touch};
-use crate::geometry::{Aabb, CircularArc, Footprint, Placed, Pose2, Segment, Shape, largest_coordinate};
-use crate::num::{greater, lesser};
-use crate::worlds::{Bounds, World};
+use crate::geometry::{Aabb, Footprint, Placed, Point2, Pose2, Segment, Shape, largest_coordinate};
+use crate::num::greater;
+use crate::worlds::World;
 
-/// From so many segments and discs on, a scan walks through a grid.
+/// Largest number of segments and discs for which a scan tests them all; with more it walks through a grid.
 const MANY: usize = 128;
 
 /// Named obstacles under one index: a few side by side, many in a grid or under a bounding-volume tree.
@@ -28,16 +27,16 @@ const MANY: usize = 128;
 /// ```
 #[derive(Clone)]
 pub struct Scene {
-    bounds: Bounds,
+    bounds: Aabb,
     names: Vec<Arc<str>>,
     /// All convex pieces in file order, and the obstacle that each belongs to.
     pub(super) pieces: Vec<Placed>,
     pub(super) owners: Vec<u32>,
     soup: SegmentSoup,
-    /// Of a large scene.
+    /// The grid over the boundary; `None` in a small scene.
     cells: Option<Cells>,
     pub(super) index: Index,
-    /// No coordinate of a piece is larger; infinite where a piece is not valid.
+    /// An upper bound on the size of the pieces' coordinates, metres; infinite where a piece is not valid.
     pub(super) size: f64,
 }
 
@@ -49,11 +48,11 @@ impl std::fmt::Debug for Scene {
 
 impl Scene {
     /// A scene without obstacles. The bounds are not an obstacle.
-    pub fn empty(bounds: Bounds) -> Self {
+    pub fn empty(bounds: Aabb) -> Self {
         Self::of_pieces(bounds, Vec::new(), Vec::new(), Vec::new())
     }
 
-    /// The scene with one more obstacle, given in world coordinates. Builds the tree anew; for many obstacles at once use
+    /// The scene with one more obstacle, given in world coordinates. Rebuilds the index; for many obstacles at once use
     /// [`of_world`](Self::of_world).
     ///
     /// A shape that breaks its constructor's rules counts as contact with everything.
@@ -62,8 +61,8 @@ impl Scene {
         self.with_obstacle_at(name, Pose2::IDENTITY, shape)
     }
 
-    /// As [`with_obstacle`](Self::with_obstacle), with the shape given in the frame `pose`: a disc's centre is the frame's
-    /// origin.
+    /// As [`with_obstacle`](Self::with_obstacle), with the shape given in the frame `pose`: a disc's centre is the
+    /// frame's origin.
     #[must_use]
     pub fn with_obstacle_at(mut self, name: &str, pose: Pose2, shape: Shape) -> Self {
         let owner = self.names.len() as u32;
@@ -78,9 +77,8 @@ impl Scene {
         let pieces: Vec<Placed> =
             walls.iter().map(|s| Shape::Segment { a: s.a, b: s.b }.place(&Pose2::IDENTITY)).collect();
         let names = (0..walls.len()).map(|i| format!("wall {i}").into()).collect();
-        let bounds = pieces.iter().map(Placed::bounds).reduce(|a, b| (a.0.inf(&b.0), a.1.sup(&b.1)));
-        let bounds =
-            bounds.map_or(Bounds { min: [0.0; 2].into(), max: [0.0; 2].into() }, |(min, max)| Bounds { min, max });
+        let bounds = pieces.iter().map(Placed::bounds).reduce(|a, b| a.merged(&b));
+        let bounds = bounds.unwrap_or(Aabb::new(Point2::origin(), Point2::origin()));
         Self::of_pieces(bounds, names, pieces, (0..walls.len() as u32).collect())
     }
 
@@ -112,8 +110,8 @@ impl Scene {
         Self::of_world(&World::lot())
     }
 
-    fn of_pieces(bounds: Bounds, names: Vec<Arc<str>>, pieces: Vec<Placed>, owners: Vec<u32>) -> Self {
-        let extents: Vec<Aabb> = pieces.iter().map(Aabb::of).collect();
+    fn of_pieces(bounds: Aabb, names: Vec<Arc<str>>, pieces: Vec<Placed>, owners: Vec<u32>) -> Self {
+        let extents: Vec<Aabb> = pieces.iter().map(Placed::padded_bounds).collect();
         let soup = SegmentSoup::of_pieces(&pieces);
         let many = soup.segments().len() + soup.circles().len() > MANY;
         let cells = if many { Cells::new(&soup) } else { None };
@@ -123,7 +121,7 @@ impl Scene {
     }
 
     /// The part of the plane the scene shows; not an obstacle.
-    pub fn bounds(&self) -> Bounds {
+    pub fn bounds(&self) -> Aabb {
         self.bounds
     }
 
@@ -147,8 +145,9 @@ impl Scene {
         &self.soup
     }
 
-    /// Every obstacle that the footprint overlaps or touches, in file order: none exactly when
-    /// [`intersects`](super::Collision::intersects) is false, and for a footprint that is not finite, which touches nothing in particular.
+    /// The obstacles that the footprint overlaps or touches, in file order. Empty exactly when
+    /// [`intersects`](super::Collision::intersects) is false or the footprint is not finite: such a footprint is in
+    /// contact, but with no obstacle in particular.
     pub fn touched(&self, footprint: &Footprint) -> Vec<ObstacleId> {
         let mut touched = std::collections::BTreeSet::new();
         if footprint.is_valid() {
@@ -164,7 +163,7 @@ impl Scene {
         touched.into_iter().collect()
     }
 
-    /// The grid over the boundary of a large scene.
+    /// The grid over the boundary; `None` in a small scene.
     pub(crate) fn cells(&self) -> Option<&Cells> {
         self.cells.as_ref()
     }
@@ -182,8 +181,8 @@ impl Scene {
         found
     }
 
-    /// A lower bound on how far the footprint must move to become free, metres: no displacement that moves every point by
-    /// less can free it. 0 when it is free; infinity for a footprint that is not finite.
+    /// A lower bound on how far the footprint must move to become free, metres: no displacement that moves every point
+    /// by less can free it. 0 when it is free; infinity for a footprint that is not finite.
     pub fn depth(&self, footprint: &Footprint) -> f64 {
         if !footprint.is_valid() {
             return f64::INFINITY;
@@ -210,56 +209,8 @@ impl Scene {
         search.found()
     }
 
-    /// When a footprint that goes from `start` to `end` without turning first touches a piece, as a part of its way; rounded.
-    pub(super) fn translation_meets(&self, start: &Footprint, end: &Footprint) -> Option<f64> {
-        let mut first: Option<f64> = None;
-        for (a, b) in start.parts().iter().zip(end.parts()) {
-            let (a, b) = (a.placed(), b.placed());
-            let v = b.core()[0] - a.core()[0];
-            self.index.each_near(&Aabb::of(a).merged(&Aabb::of(b)), 0.0, |piece| {
-                if let Some(s) = translation_meets(a, v, &self.pieces[piece]) {
-                    first = Some(first.map_or(s, |f| lesser(s, f)));
-                }
-                false
-            });
-        }
-        first
-    }
-
-    /// When a disc of this radius whose centre runs along the arc first touches a piece; rounded.
-    pub(super) fn arc_meets(&self, arc: &CircularArc, radius: f64) -> Option<f64> {
-        let mut first: Option<f64> = None;
-        self.index.each_near(&arc_box(arc, radius), 0.0, |piece| {
-            let piece = &self.pieces[piece];
-            if let Some(s) = arc_meets(arc, piece.core(), radius + piece.radius()) {
-                first = Some(first.map_or(s, |f| lesser(s, f)));
-            }
-            false
-        });
-        first
-    }
-
-    /// The least clearance of a disc of this radius whose centre runs along the arc as far as `until`, metres; rounded. It is
-    /// not positive in contact, and infinity in an empty scene.
-    pub(super) fn arc_clearance(&self, arc: &CircularArc, until: f64, radius: f64) -> f64 {
-        let mut least = f64::INFINITY;
-        self.index.nearest(&arc_box(arc, 0.0), least, |piece| {
-            let piece = &self.pieces[piece];
-            least = lesser(arc_distance(arc, until, piece.core()) - piece.radius(), least);
-            least
-        });
-        least - radius
-    }
-
     /// Calls `visit` with each piece whose box is at most `range` from the shape's box, until it returns true.
     pub(super) fn each_within(&self, shape: &Placed, range: f64, visit: impl FnMut(usize) -> bool) {
-        self.index.each_near(&Aabb::of(shape), range, visit);
+        self.index.each_near(&shape.padded_bounds(), range, visit);
     }
-}
-
-/// A box around what a disc of this radius touches along the arc: every point of it is at most half its length from one end.
-fn arc_box(arc: &CircularArc, radius: f64) -> Aabb {
-    let grown = radius + lesser(0.5 * arc.length(), 2.0 * arc.radius);
-    let ends = [arc.at(0.0), arc.at(1.0)].map(|p| Placed::new([p], grown));
-    Aabb::of(&ends[0]).merged(&Aabb::of(&ends[1]))
 }

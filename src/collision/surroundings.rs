@@ -7,8 +7,8 @@ use super::narrow::distance::{nearest, touch};
 use super::{Collision, ObstacleId, Scene, Witness};
 use crate::geometry::{Footprint, Part, Placed, largest_coordinate};
 
-/// A scene together with further placed shapes: what one robot among several may not touch. Obstacle ids from the scene's
-/// [`obstacle_count`](Scene::obstacle_count) on number the further shapes.
+/// A scene together with further placed shapes: what one robot among several may not touch. Obstacle ids from the
+/// scene's [`obstacle_count`](Scene::obstacle_count) on number the further shapes.
 #[derive(Clone, Copy, Debug)]
 pub struct Surroundings<'a> {
     /// The scene.
@@ -34,7 +34,7 @@ impl Surroundings<'_> {
         best
     }
 
-    /// Whether everything asked about is a valid shape; otherwise it counts as contact.
+    /// Whether the footprint and all further shapes are valid; if not, the answer is contact.
     fn decidable(&self, footprint: &Footprint) -> bool {
         footprint.is_valid() && self.others.iter().all(Placed::is_valid)
     }

@@ -2,13 +2,13 @@
 
 use crate::geometry::Point2;
 
-/// The number of an obstacle in its scene, in file order. [`Scene::obstacle_name`](super::Scene::obstacle_name) tells its
-/// name.
+/// The number of an obstacle in its scene, in file order. [`Scene::obstacle_name`](super::Scene::obstacle_name) gives
+/// its name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct ObstacleId(pub u32);
 
 impl ObstacleId {
-    /// Stands for "none known": the footprint was not finite, so nothing was asked.
+    /// Stands for no known obstacle: the footprint was not finite, so it has no witness.
     pub const UNKNOWN: ObstacleId = ObstacleId(u32::MAX);
 }
 

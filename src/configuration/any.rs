@@ -5,8 +5,8 @@ use std::fmt;
 use super::{ChartMismatch, Configuration, Coordinates, HitchCfg, T2, Tn};
 use crate::geometry::Pose2;
 
-/// A configuration of one of the lab's robots as one type: for views, where the robot is chosen while the program runs. It
-/// prints as the type that it holds.
+/// A configuration of one of the lab's robots as one type: for views, where the robot is chosen while the program runs.
+/// It prints as the type that it holds.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum AnyConfiguration {
     /// Rusty's.
@@ -19,7 +19,7 @@ pub enum AnyConfiguration {
     Hitch(HitchCfg),
 }
 
-/// `$body` of the configuration held.
+/// Evaluates `$body` with `$q` bound to the configuration held.
 macro_rules! each {
     ($any:expr, $q:ident => $body:expr) => {
         match $any {
@@ -32,7 +32,8 @@ macro_rules! each {
 }
 
 impl AnyConfiguration {
-    /// The configuration of the same type with these coordinates, bit for bit; `None` when their number does not fit it.
+    /// The configuration of the same type with these coordinates, bit for bit; `None` when their number does not fit
+    /// it.
     pub fn with_coordinates(&self, coordinates: &[f64]) -> Option<Self> {
         Some(match self {
             Self::Pose(_) => Self::Pose(Pose2::from_coordinates(coordinates)?),
@@ -54,7 +55,7 @@ impl AnyConfiguration {
         self.with_coordinates(&coordinates).unwrap_or(*self)
     }
 
-    /// The configuration this far along the chart, angles wrapped. Steps that are missing count as 0.
+    /// The configuration moved by these steps in the chart, angles wrapped. Missing steps count as 0.
     #[must_use]
     pub fn plus(&self, steps: &[f64]) -> Self {
         let moved = self.coordinates().into_iter().zip(steps.iter().chain(std::iter::repeat(&0.0))).enumerate();
@@ -118,7 +119,8 @@ impl Configuration for AnyConfiguration {
         each!(self, q => q.coordinate_names())
     }
 
-    /// Always `None`: a number of coordinates does not tell whose they are. See [`with_coordinates`](Self::with_coordinates).
+    /// Always `None`: the coordinates alone do not say whose they are. See
+    /// [`with_coordinates`](Self::with_coordinates).
     fn from_coordinates(_coordinates: &[f64]) -> Option<Self> {
         None
     }

@@ -6,7 +6,7 @@ use super::{ChartMismatch, Configuration, Coordinates};
 use crate::geometry::Pose2;
 use crate::num::{in_range, wrap};
 
-/// A point of SE(2) x S^1, or of SE(2) when there is no trailer. Hitch.
+/// The configuration of Hitch: a point of SE(2) x S^1, or of SE(2) when there is no trailer.
 ///
 /// The steering angle is a control and not part of the configuration: it does not move the footprint. Prints as
 /// `HitchCfg { body: Pose2 { .. }, trailer: Some(0.100) }` or `trailer: None`.

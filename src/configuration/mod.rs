@@ -7,7 +7,7 @@
 //! | Reach | the torus T^N | [`Tn<N>`](Tn), [`T2`] |
 //! | Hitch | SE(2), or SE(2) x S^1 with a trailer | [`HitchCfg`] |
 //!
-//! Handing one to a function that wants another does not compile:
+//! A function does not accept a configuration of another type. This does not compile:
 //!
 //! ```compile_fail,E0308
 //! use motion_lab::prelude::*;
@@ -70,22 +70,22 @@ pub trait Configuration: Copy + Debug + Display + PartialEq + Send + Sync + 'sta
     /// Whether every coordinate is finite.
     fn is_finite(&self) -> bool;
 
-    /// The chart difference from `self` to `to`: coordinate differences, of angles the short way round, a difference of
-    /// exactly pi the positive way.
+    /// The chart difference from `self` to `to`, coordinate by coordinate. Angles go the short way round, and a
+    /// difference of exactly pi goes the positive way.
     ///
     /// # Errors
     /// [`ChartMismatch`] when the two lie in different spaces.
     fn difference(&self, to: &Self) -> Result<Coordinates, ChartMismatch>;
 
-    /// The configuration a fraction `s` in `[0, 1]` along the chart's straight line from `self` to `to`. At 0 it is `self`
-    /// and at 1 it is `to`, bit for bit.
+    /// The configuration a fraction `s` in `[0, 1]` along the chart's straight line from `self` to `to`. At 0 it is
+    /// `self` and at 1 it is `to`, bit for bit.
     ///
     /// # Errors
     /// [`ChartMismatch`] when the two lie in different spaces.
     fn interpolate(&self, to: &Self, s: f64) -> Result<Self, ChartMismatch>;
 
-    /// The same configuration with its angles in `(-pi, pi]`; angles that are there already keep their bits. Edges and drives begin with
-    /// it. A configuration without angles is itself.
+    /// The same configuration with its angles in `(-pi, pi]`; angles that are there already keep their bits. Edges and
+    /// drives begin with it. A configuration without angles is returned as it is.
     #[must_use]
     fn in_chart(&self) -> Self {
         *self
@@ -97,6 +97,7 @@ pub trait Configuration: Copy + Debug + Display + PartialEq + Send + Sync + 'sta
     /// The coordinates' names, in the same order and number: `x`, `y`, `theta`, `th1`, `psi`.
     fn coordinate_names(&self) -> Vec<String>;
 
-    /// The configuration with these coordinates, bit for bit; `None` when their number fits no configuration of this type.
+    /// The configuration with these coordinates, bit for bit; `None` when their number fits no configuration of this
+    /// type.
     fn from_coordinates(coordinates: &[f64]) -> Option<Self>;
 }

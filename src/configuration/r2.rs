@@ -1,11 +1,11 @@
-//! `R2`, a point of the plane.
+//! `R2`, a point of the plane: the configuration of a disc.
 
 use std::fmt;
 
 use super::{ChartMismatch, Configuration, Coordinates};
 use crate::geometry::Point2;
 
-/// A point of R^2, metres: the disc's centre. Rusty as a planner sees it.
+/// The configuration of Rusty as a planner sees it: a point of R^2, the disc's centre, metres.
 ///
 /// Prints as `R2 { x: 2.000, y: 1.000 }`.
 #[derive(Clone, Copy, Debug, PartialEq)]

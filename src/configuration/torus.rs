@@ -5,7 +5,7 @@ use std::fmt;
 use super::{ChartMismatch, Configuration, Coordinates};
 use crate::num::{in_range, wrap};
 
-/// A point of T^N: N joint angles in radians, each wrapped to `(-pi, pi]`. Reach.
+/// The configuration of Reach: a point of T^N, N joint angles in radians, each wrapped to `(-pi, pi]`.
 ///
 /// Prints spelled out: `T2 { th1: 0.785, th2: 1.571 }` for N = 2, `Tn<3> { th1: .., th2: .., th3: .. }` otherwise.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -4,13 +4,13 @@ use std::collections::VecDeque;
 
 use super::{CellState, Slice};
 
-/// The finest level there is: cells of a 4096th of the slice's sides.
+/// The finest level: its cells have a 4096th of the slice's sides.
 pub const MAX_LEVEL: u32 = 12;
 
-/// A cell: of the `2^level` columns and rows of its level the one at `column`, `row`, counted from the least coordinates.
+/// A cell of a level, which has `2^level` columns and rows. Both are counted from the least coordinates.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Cell {
-    /// How often the slice was halved.
+    /// How often the slice's sides were halved.
     pub level: u32,
     /// The column.
     pub column: u32,
@@ -45,7 +45,7 @@ struct Node {
 
 /// The cells of a slice: a tree in which a cell that is not proven is cut in four, coarse cells before fine ones.
 ///
-/// What is known after so many judged cells depends on nothing else: not on how many calls it took.
+/// What is known depends only on the number of cells judged, not on the number of calls.
 #[derive(Clone, Debug)]
 pub struct CellMap {
     slice: Slice,
@@ -59,7 +59,8 @@ pub struct CellMap {
 }
 
 impl CellMap {
-    /// The map in which nothing is known, its finest cells a `2^finest`th of the slice's sides, at most [`MAX_LEVEL`].
+    /// Creates a map in which nothing is known. Its finest cells have a `2^finest`th of the slice's sides; `finest` is
+    /// limited to [`MAX_LEVEL`].
     pub fn new(slice: Slice, finest: u32) -> Self {
         let finest = std::cmp::min(finest, MAX_LEVEL);
         let root = Node { cell: Cell { level: 0, column: 0, row: 0, state: CellState::Unknown }, children: None };
@@ -76,7 +77,7 @@ impl CellMap {
         self.finest
     }
 
-    /// Judges up to `budget` cells more. Returns whether there are more to judge.
+    /// Judges up to `budget` more cells. Returns whether cells are left to judge.
     pub fn refine(&mut self, budget: u32) -> bool {
         for _ in 0..budget {
             let Some(number) = self.waiting.pop_front() else { return false };
@@ -127,7 +128,7 @@ impl CellMap {
         Progress { judged: self.judged, free, blocked, unknown, done: self.waiting.is_empty() }
     }
 
-    /// What is known of the cell that a point of the slice lies in; unknown beyond the slice.
+    /// The state of the cell in which a point of the slice lies; unknown beyond the slice.
     pub fn state(&self, p: [f64; 2]) -> CellState {
         let (min, max) = (self.slice.min(), self.slice.max());
         if !(0..2).all(|i| p[i] >= min[i] && p[i] <= max[i]) {
@@ -147,8 +148,8 @@ impl CellMap {
         self.nodes.iter().filter(|node| node.children.is_none()).map(|node| &node.cell)
     }
 
-    /// What is known, as an image of `2^level` by `2^level` cells, row after row from the least coordinates, `level` at most
-    /// [`finest`](Self::finest). A cell of the image whose own cells differ counts as unknown.
+    /// The states as an image of `2^level` by `2^level` cells, row after row from the least coordinates. `level` is
+    /// limited to [`finest`](Self::finest). A cell of the image that the map has cut further is unknown.
     pub fn raster(&self, level: u32) -> Vec<CellState> {
         let level = std::cmp::min(level, self.finest);
         let side = 1_usize << level;
@@ -178,12 +179,13 @@ mod tests {
         CellMap::new(Slice::through(&checker, &q).unwrap(), finest)
     }
 
-    /// Every sample of a dense raster against what is proven of its cell; the number of samples in proven cells.
+    /// Compares every sample of a dense raster with what is proven of its cell. Returns the number of samples in proven
+    /// cells.
     fn compare(map: &CellMap, side: u32) -> usize {
         let slice = map.slice();
         let mut proven = 0;
         for k in 0..side * side {
-            // off every grid line, and on the edges as well
+            // off every grid line, but on the slice's least edges as well
             let part = |i: u32| if i == 0 { 0.0 } else { (f64::from(i) + 0.317) / f64::from(side) };
             let (u, v) = (part(k % side), part(k / side));
             let p = [
@@ -240,7 +242,7 @@ mod tests {
     fn rusty_sees_the_obstacles_grown_by_its_radius() {
         let (robot, q) = AnyRobot::of_kind("rusty", &[1.0, 1.0, 0.0]).unwrap();
         let pillar = crate::geometry::Shape::Disc { radius: 0.5 };
-        let bounds = crate::worlds::Bounds { min: [-2.0, -2.0].into(), max: [2.0, 2.0].into() };
+        let bounds = crate::geometry::Aabb { min: [-2.0, -2.0].into(), max: [2.0, 2.0].into() };
         let scene = crate::collision::Scene::empty(bounds).with_obstacle("the pillar", pillar);
         let mut map = CellMap::new(Slice::through(&crate::collision::Checker::new(scene, robot), &q).unwrap(), 8);
         map.refine(u32::MAX);

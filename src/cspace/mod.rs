@@ -1,9 +1,9 @@
-//! The configuration space seen: a plane of configurations, cut into cells that are proven free, proven blocked, or not yet
-//! known.
+//! Shows the configuration space: a plane of configurations, cut into cells that are proven free, proven blocked, or
+//! not yet known.
 //!
-//! A [`Slice`] is the plane: for Reach the torus as a square whose edges wrap, for Rusty the workspace with every obstacle grown
-//! by its radius, for Hitch the rear axle's places at one heading. A [`CellMap`] proves its cells a few at a time. The same proof
-//! finds the [nearest free](nearest_free) configuration.
+//! A [`Slice`] is the plane: for Reach the torus as a square whose edges wrap, for Rusty the workspace with every
+//! obstacle grown by its radius, for Hitch the rear axle's positions at one heading. A [`CellMap`] proves its cells a
+//! few at a time. The same proof finds the [nearest free](nearest_free) configuration.
 //!
 //! ```
 //! use motion_lab::collision::{Checker, Scene};

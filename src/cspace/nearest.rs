@@ -1,4 +1,4 @@
-//! The nearest free configuration of a slice.
+//! Finds the nearest free configuration of a slice.
 
 use std::cmp::{Ordering, Reverse};
 use std::collections::BinaryHeap;
@@ -7,25 +7,26 @@ use super::{CellState, Slice};
 use crate::configuration::AnyConfiguration;
 use crate::num::lesser;
 
-/// Cells are not cut below this side, metres or radians.
+/// Cells with sides of at most this, metres or radians, are not cut further.
 const FINEST: f64 = 5e-4;
 
-/// At most so many cells are judged.
+/// Largest number of cells judged.
 const BUDGET: u32 = 40_000;
 
-/// A free configuration near one that is wanted, and how near it is to the nearest.
+/// A free configuration near a wanted one, and how much nearer another could be.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct NearestFree {
-    /// It is free, by the exact query.
+    /// The configuration; free by the exact query.
     pub q: AnyConfiguration,
-    /// How far it is from the one wanted in the slice, metres for a robot that is put somewhere and radians for an arm.
+    /// Its distance in the slice from the wanted configuration: radians for an arm, metres for other robots.
     pub distance: f64,
-    /// Every configuration of the slice nearer than this is in contact, by proof. So no free one is nearer to the one wanted by
-    /// more than `distance - proven`; the search aims at less than two thousandths and tells what it reached.
+    /// Proven distance: every configuration of the slice nearer than this is in contact. A free configuration can thus
+    /// be nearer than `q` by at most `distance - proven`. The search aims at less than two thousandths, and may end
+    /// with more.
     pub proven: f64,
 }
 
-/// A cell in the queue, nearest first; of two as near the one that came first.
+/// A cell in the queue. The nearest comes first; ties go to the cell that was added first.
 struct Waiting {
     distance: f64,
     number: u32,
@@ -55,11 +56,12 @@ impl Ord for Waiting {
     }
 }
 
-/// A free configuration of the slice as near to `wanted` as can be proven, `wanted` itself when it is free. `None` when none was
-/// found: then all of the slice is in contact but for gaps too narrow to see.
+/// Finds a free configuration of the slice, as near to `wanted` as it can prove; `wanted` itself if that is free.
+/// `None` if the search met no free configuration. The slice may still have free gaps that are too narrow for it.
 ///
-/// Cells of the slice are judged from the nearest on. One proven blocked is left; of another the nearest point is asked about
-/// exactly, and unless it is proven free it is cut in four. The same for the same arguments.
+/// Cells of the slice are judged in order of distance. A cell proven blocked is dropped. In any other, the nearest
+/// point and the centre are tested exactly, and unless the nearest point is free the cell is cut in four. The result
+/// depends on the arguments only.
 pub fn nearest_free(slice: &Slice, wanted: &AnyConfiguration) -> Option<NearestFree> {
     let target = slice.point(wanted);
     let (center, half) = slice.whole();
@@ -104,7 +106,7 @@ pub fn nearest_free(slice: &Slice, wanted: &AnyConfiguration) -> Option<NearestF
             add(&mut waiting, [center[0] + x * quarter[0], center[1] + y * quarter[1]], quarter);
         }
     }
-    // the budget may have ended the search: what still waits is not proven
+    // the budget may have ended the search: cells still in the queue are not proven
     let left = waiting.peek().map_or(f64::INFINITY, |Reverse(w)| w.distance);
     best.map(|(distance, q)| NearestFree { q, distance, proven: lesser(distance, lesser(unresolved, left)) })
 }
@@ -154,7 +156,7 @@ mod tests {
                 }
             }
         }
-        // where a depth is 0 in contact (a wall's line through a corner), less is proven, and that is told
+        // where a depth is 0 in contact (a wall's line through a corner), less is proven, and `proven` says so
         assert!(wide <= 1, "{wide} of 30 are not within 2e-3 of the nearest");
     }
 
@@ -162,7 +164,7 @@ mod tests {
     fn a_disc_at_a_wall_is_moved_straight_off_it() {
         let (robot, q) = AnyRobot::of_kind("rusty", &[3.02, 1.5, 0.7]).unwrap();
         let wall = crate::geometry::Shape::Segment { a: [3.0, 0.0].into(), b: [3.0, 3.0].into() };
-        let bounds = crate::worlds::Bounds { min: [0.0, 0.0].into(), max: [6.0, 3.0].into() };
+        let bounds = crate::geometry::Aabb { min: [0.0, 0.0].into(), max: [6.0, 3.0].into() };
         let checker = Checker::new(Scene::empty(bounds).with_obstacle("the wall", wall), robot);
         let offer = nearest_free(&Slice::through(&checker, &q).unwrap(), &q).unwrap();
         assert!((offer.distance - 0.09).abs() < 1e-3, "a radius off the wall: {}", offer.distance);
@@ -175,7 +177,7 @@ mod tests {
     #[test]
     fn where_nothing_is_free_nothing_is_offered() {
         let (robot, q) = AnyRobot::of_kind("rusty", &[1.0, 1.0, 0.0]).unwrap();
-        let bounds = crate::worlds::Bounds { min: [0.0, 0.0].into(), max: [2.0, 2.0].into() };
+        let bounds = crate::geometry::Aabb { min: [0.0, 0.0].into(), max: [2.0, 2.0].into() };
         let all = crate::geometry::Shape::Rectangle { min: [-1.0, -1.0].into(), max: [3.0, 3.0].into() };
         let checker = Checker::new(Scene::empty(bounds).with_obstacle("all", all), robot);
         assert_eq!(nearest_free(&Slice::through(&checker, &q).unwrap(), &q), None);

@@ -1,23 +1,22 @@
-//! The configuration space as a picture.
+//! Draws the configuration space as a picture.
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
 use super::rectangles::rectangles;
 use super::{CellMap, CellState, Slice, wrapped_pieces};
 use crate::configuration::AnyConfiguration;
-use crate::geometry::Point2;
+use crate::geometry::{Aabb, Point2};
 use crate::num::wrap;
 use crate::picture::{Anchor, Dash, Drawing, Face, Fill, Glyph, Item, Line, Picture, Role};
-use crate::worlds::Bounds;
 
 /// What is drawn over the cells.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Overlay {
-    /// Where the robot is.
+    /// The robot's configuration.
     pub now: Option<AnyConfiguration>,
     /// Whether it is in contact there.
     pub in_contact: bool,
-    /// Where it was, oldest first.
+    /// Its past configurations, oldest first.
     pub trace: Vec<AnyConfiguration>,
     /// The chart line from one configuration to another: the swept tab's motion.
     pub line: Option<[AnyConfiguration; 2]>,
@@ -25,8 +24,8 @@ pub struct Overlay {
     pub solutions: Vec<AnyConfiguration>,
 }
 
-/// The picture: cells proven free as a solid tint, not known dotted, proven blocked hatched, and the overlay on them. Its plane is
-/// the slice's: metres for a robot's place, radians for angles.
+/// The picture of a map: cells proven free are tinted, unknown ones dotted, those proven blocked hatched, with the
+/// overlay on top. Its plane is the slice's: metres for positions, radians for angles.
 pub fn cspace_picture(map: &CellMap, overlay: &Overlay) -> Picture {
     let slice = map.slice();
     let (min, max) = (slice.min(), slice.max());
@@ -34,7 +33,7 @@ pub fn cspace_picture(map: &CellMap, overlay: &Overlay) -> Picture {
     // room for the names and figures at the axes
     let room = if slice.wraps() { [0.12 * size[0], 0.08 * size[1]] } else { [0.0, 0.0] };
     let top = if slice.wraps() { [0.03 * size[0], 0.03 * size[1]] } else { [0.0, 0.0] };
-    let bounds = Bounds {
+    let bounds = Aabb {
         min: Point2::new(min[0] - room[0], min[1] - room[1]),
         max: Point2::new(max[0] + top[0], max[1] + top[1]),
     };
@@ -43,7 +42,7 @@ pub fn cspace_picture(map: &CellMap, overlay: &Overlay) -> Picture {
     picture.with(cell_items(map)).with(frame_items(slice)).with(overlay_items(slice, overlay))
 }
 
-/// The three kinds of cells, an item each.
+/// The cells, one item for each of the three states.
 fn cell_items(map: &CellMap) -> Vec<Item> {
     let level = std::cmp::min(map.finest(), 9);
     let side = 1_u32 << level;
@@ -68,7 +67,7 @@ fn cell_items(map: &CellMap) -> Vec<Item> {
     kinds.collect()
 }
 
-/// The square's edges, with figures at a torus' ones and arrows that say they are one.
+/// The slice's edges; on a torus also ticks, their angles and the names of the axes.
 fn frame_items(slice: &Slice) -> Vec<Item> {
     let (min, max) = (slice.min(), slice.max());
     let p = |x: f64, y: f64| Point2::new(x, y);
@@ -102,7 +101,7 @@ fn frame_items(slice: &Slice) -> Vec<Item> {
     items
 }
 
-/// Everything over the cells: it changes with the robot, they do not.
+/// The items over the cells. They change with the robot, the cells do not.
 pub fn overlay_items(slice: &Slice, overlay: &Overlay) -> Vec<Item> {
     let mut items = Vec::new();
     if let Some(lines) = trace_lines(slice, &overlay.trace) {

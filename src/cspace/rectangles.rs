@@ -1,4 +1,4 @@
-//! An image of cells as few rectangles, for drawing.
+//! Covers an image of cells with few rectangles, for drawing.
 
 use std::collections::BTreeMap;
 
@@ -11,8 +11,8 @@ pub(crate) struct Rect {
     pub high: u32,
 }
 
-/// The cells of an image, `columns` wide, for which `wanted` holds, as rectangles that do not overlap: runs of a row, joined with
-/// the same run of the rows above.
+/// Covers the cells for which `wanted` holds with rectangles that do not overlap: runs of a row, joined with equal runs
+/// of the rows above. `columns` is the width of the image.
 pub(crate) fn rectangles<T>(image: &[T], columns: u32, wanted: impl Fn(&T) -> bool) -> Vec<Rect> {
     let mut done = Vec::new();
     let mut open: BTreeMap<(u32, u32), u32> = BTreeMap::new();

@@ -8,7 +8,8 @@ use crate::geometry::Footprint;
 use crate::num::{hypot, lesser, wrap};
 use crate::robots::{AnyRobot, ConfigurationError, Robot};
 
-/// Taken off every clearance before it is compared with a bound, metres: far above what rounding does to either.
+/// Subtracted from every clearance and depth before it is compared with a bound, metres. It is far above the rounding
+/// of either.
 const SLACK: f64 = 1e-11;
 
 /// What is known of a cell.
@@ -25,9 +26,10 @@ pub enum CellState {
 
 /// Two coordinates of a robot's configurations, the others held: a plane through its configuration space, or a torus.
 ///
-/// - An arm with two links: both angles, from -pi to pi, opposite edges one. With three: the last two, the first held.
-/// - Rusty: its place, in the world's bounds. It is a disc, so its heading does not matter.
-/// - Hitch: its rear axle's place, in the world's bounds, the headings held.
+/// - An arm with two links: both angles, from -pi to pi, with opposite edges identified. With three links: the last two
+///   angles, the first held.
+/// - Rusty: its position, in the world's bounds. It is a disc, so its heading does not matter.
+/// - Hitch: its rear axle's position, in the world's bounds, with the headings held.
 #[derive(Clone, Debug)]
 pub struct Slice {
     checker: Checker<AnyRobot>,
@@ -69,7 +71,7 @@ impl Slice {
         self.max
     }
 
-    /// Whether opposite edges are one: a torus.
+    /// Whether opposite edges are identified, so that the slice is a torus.
     pub fn wraps(&self) -> bool {
         self.base.is_angle(self.axes[0])
     }
@@ -80,14 +82,15 @@ impl Slice {
         self.axes.map(|axis| names.get(axis).cloned().unwrap_or_default())
     }
 
-    /// The coordinates that are held, by number and name: none for an arm with two links, or a disc, whose heading does not matter.
+    /// The coordinates that are held, by number and name: none for an arm with two links, or a disc, whose heading does
+    /// not matter.
     pub fn held(&self) -> Vec<(usize, String)> {
         let names = self.base.coordinate_names().into_iter().enumerate();
         let matters = |i: &usize| !self.axes.contains(i) && !matches!(self.base, AnyConfiguration::Pose(_));
         names.filter(|(i, _)| matters(i)).map(|(i, name)| (i, name.to_string())).collect()
     }
 
-    /// What the plane is, in a line: its two coordinates, and what is held.
+    /// Describes the plane in a line: its two coordinates, and what is held.
     pub fn described(&self) -> String {
         let [across, up] = self.names().map(|name| name.replace("th", "\u{3b8}"));
         let at = |(i, name): &(usize, String)| {
@@ -109,34 +112,36 @@ impl Slice {
         self.base.with(self.axes[0], p[0]).with(self.axes[1], p[1])
     }
 
-    /// The point of the slice that a configuration lies over.
+    /// The projection of a configuration onto the slice.
     pub fn point(&self, q: &AnyConfiguration) -> [f64; 2] {
         let c = q.coordinates();
         self.axes.map(|axis| c.get(axis).copied().unwrap_or(0.0))
     }
 
-    /// Whether `q` lies in this slice: its other coordinates are those held. A disc's heading does not matter.
+    /// Whether `q` lies in this slice: its other coordinates are the held ones. A disc's heading does not matter.
     pub fn holds(&self, q: &AnyConfiguration) -> bool {
         let same = matches!(q, AnyConfiguration::Pose(_)) || self.base.with_point(self.axes, self.point(q)) == *q;
         same && self.checker.robot().check(q).is_ok()
     }
 
-    /// How far apart two points of the slice are, metres or radians: the length of their difference, angles the short way.
+    /// How far apart two points of the slice are, metres or radians: the length of their difference, angles the short
+    /// way.
     pub fn distance(&self, a: [f64; 2], b: [f64; 2]) -> f64 {
         let d = [b[0] - a[0], b[1] - a[1]];
         let [x, y] = if self.wraps() { d.map(wrap) } else { d };
         hypot(x, y)
     }
 
-    /// What can be proven of the cell of all points within `half` of `center` in each coordinate.
+    /// Judges a cell: all points within `half` of `center` in each coordinate.
     ///
-    /// At the centre every part has a clearance, or a depth: how far it must move to be free. Within the cell no point of a part
-    /// moves farther than the robot's motion bound to the cell's corner, which is the greatest there is in it. A clearance of
-    /// every part above its bound proves the cell free, a depth of one part above its bound proves it blocked.
+    /// At the centre every part has a clearance, or a depth: how far it must move to be free. Within the cell no point
+    /// of a part moves farther from there than the robot's motion bound to the cell's corner, the greatest bound in the
+    /// cell. A clearance of every part above its bound proves the cell free, a depth of one part above its bound proves
+    /// it blocked.
     pub fn judge(&self, center: [f64; 2], half: [f64; 2]) -> CellState {
         let (robot, scene) = (self.checker.robot(), self.checker.scene());
         let q = self.at(center);
-        // the rates depend on the difference alone; from 0, so that it is not wrapped
+        // the rates depend on the difference alone; it is taken from 0, so that it is not wrapped
         let Ok(rates) = robot.edge_rates(&self.at([0.0; 2]), &self.at([half[0], half[1]])) else {
             return CellState::Unknown;
         };
@@ -166,7 +171,7 @@ impl Slice {
         (nearest, self.distance(p, nearest))
     }
 
-    /// Half the slice in each coordinate, and its middle.
+    /// The middle of the slice, and half its sides.
     pub(super) fn whole(&self) -> ([f64; 2], [f64; 2]) {
         let half = [0, 1].map(|i| 0.5 * (self.max[i] - self.min[i]));
         ([0, 1].map(|i| self.min[i] + half[i]), half)

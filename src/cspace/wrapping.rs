@@ -1,8 +1,8 @@
-//! Lines on a torus, cut where they leave the square at one edge and come back at the other.
+//! Cuts lines on a torus where they leave the square at one edge and come back at the opposite one.
 
 use std::f64::consts::PI;
 
-/// The chart line from `from`, a point of the square from -pi to pi, by `step`, as pieces within the square.
+/// Cuts the chart line from `from` by `step` into pieces within the square from -pi to pi. `from` lies in the square.
 ///
 /// A piece ends on the edge where the line leaves, and the next begins on the edge opposite.
 pub fn wrapped_pieces(from: [f64; 2], step: [f64; 2]) -> Vec<[[f64; 2]; 2]> {

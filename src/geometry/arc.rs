@@ -14,7 +14,7 @@ pub struct CircularArc {
     pub radius: f64,
     /// The bearing from the centre at which the path begins, radians.
     pub start: f64,
-    /// How far the path goes round, radians, counter-clockwise positive; never 0.
+    /// The angle that the path turns through, radians, counter-clockwise positive; never 0.
     pub turn: f64,
 }
 

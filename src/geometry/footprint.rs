@@ -67,13 +67,13 @@ impl Footprint {
         Footprint { parts: parts.into_iter().collect() }
     }
 
-    /// One part, this hull where it is.
+    /// The footprint of one part: this hull, which is in world coordinates.
     pub(crate) fn of_hull(hull: Placed) -> Self {
         let shape = Shape::Hull { vertices: hull.core().into(), radius: hull.radius() };
         Self::new([Part { pose: Pose2::IDENTITY, shape, placed: hull }])
     }
 
-    /// One disc: Rusty.
+    /// One disc, such as Rusty.
     pub fn disc(center: Point2, radius: f64) -> Self {
         Self::new([Part::new(Pose2 { x: center.x, y: center.y, theta: 0.0 }, Shape::Disc { radius })])
     }
@@ -118,7 +118,8 @@ impl Footprint {
     /// As [`rects`](Self::rects), checked.
     ///
     /// # Errors
-    /// [`ShapeError`] for the first rectangle that is too small, or a frame or corner that is not finite or too far out.
+    /// [`ShapeError`] for the first rectangle that is too small, or a frame or corner that is not finite or too far
+    /// out.
     pub fn try_rects(rects: &[(Pose2, Point2, Point2)]) -> Result<Self, ShapeError> {
         for (pose, min, max) in rects {
             Shape::check_point(pose.position())?;
@@ -134,7 +135,7 @@ impl Footprint {
         &self.parts
     }
 
-    /// Whether every part is finite and well formed; only then do the queries look at the geometry.
+    /// Whether every part is finite and well formed; only then do the queries use its geometry.
     pub fn is_valid(&self) -> bool {
         self.parts.iter().all(|p| p.pose.is_finite() && p.placed.is_valid())
     }

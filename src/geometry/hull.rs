@@ -8,11 +8,11 @@ use crate::short_list::ShortList;
 /// A core's vertices; up to eight take no heap.
 pub type Vertices = ShortList<Point2, 8>;
 
-/// The convex hull of `points`: its corners counter-clockwise from the lowest leftmost, duplicates and points on an edge
-/// left out. One point gives one, points on one line give the two outermost.
+/// The convex hull of `points`: its corners counter-clockwise from the lowest leftmost, duplicates and points on an
+/// edge left out. One point gives one, points on one line give the two outermost.
 ///
-/// Every corner is one of the inputs, bit for bit, and every turn is decided exactly (Andrew's monotone chain, 1979), so the
-/// hull holds every input with no rounding at all.
+/// Every corner is one of the inputs, bit for bit, and every turn is decided exactly (Andrew's monotone chain, 1979),
+/// so the hull holds every input with no rounding at all.
 pub fn convex_hull(points: &[Point2]) -> Vertices {
     let mut sorted: SmallVec<[Point2; 16]> = SmallVec::from_slice(points);
     sorted.sort_unstable_by(|a, b| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)));
@@ -31,10 +31,11 @@ pub fn convex_hull(points: &[Point2]) -> Vertices {
     Vertices::from_slice(&room[..count])
 }
 
-/// So many points are worked on beside the heap.
+/// The size of the buffer on the stack, one more than the largest number of points that it serves.
 const ROOM: usize = 17;
 
-/// The lower chain of sorted points and after it the upper one, into a room for one more than all; returns how many corners there are.
+/// Writes the lower chain of sorted points and after it the upper one into `hull`, which has room for one point more
+/// than there are. Returns the number of corners.
 fn chains(sorted: &[Point2], hull: &mut [Point2]) -> usize {
     let mut count = 0;
     let mut go_on = |p: Point2, from: usize| {

@@ -10,7 +10,8 @@ mod pose;
 mod segment;
 mod shape;
 
-pub(crate) use aabb::{Aabb, square};
+pub use aabb::Aabb;
+pub(crate) use aabb::square;
 pub use arc::CircularArc;
 pub use footprint::{Footprint, Part};
 pub use hull::{Vertices, convex_hull};
@@ -38,7 +39,8 @@ pub fn cross(a: Vector2, b: Vector2) -> f64 {
     a.x * b.y - a.y * b.x
 }
 
-/// The sign of the turn `a`, `b`, `c`: positive when counter-clockwise, exactly 0 when the three points lie on one line.
+/// The sign of the turn `a`, `b`, `c`: positive when counter-clockwise, exactly 0 when the three points lie on one
+/// line.
 ///
 /// The sign is exact for every `f64` input (Shewchuk's adaptive predicate, 1997).
 #[inline]

@@ -1,7 +1,7 @@
 //! `Placed`, a shape in the world: what every exact query works on.
 
-use super::{Point2, Vertices, convex_hull};
-use crate::num::greater;
+use super::{Aabb, Point2, Vertices, convex_hull};
+use crate::num::{greater, ulp};
 use crate::short_list::ShortList;
 
 /// A placed shape: all points within `radius` of the convex core with these vertices, in world coordinates.
@@ -15,8 +15,8 @@ pub struct Placed {
 }
 
 impl Placed {
-    /// The placed shape with this core and radius. An empty core stands for nothing that can be decided: every query
-    /// counts it as contact.
+    /// The placed shape with this core and radius. With an empty core it is not valid: every query counts it as
+    /// contact.
     #[inline]
     pub fn new(core: impl Into<Vertices>, radius: f64) -> Self {
         Placed { core: core.into(), radius }
@@ -43,15 +43,29 @@ impl Placed {
             && self.core.iter().all(|p| p.x.abs() <= LIMIT && p.y.abs() <= LIMIT)
     }
 
-    /// The least and greatest corner of the axis-parallel box around the shape, radius included.
-    pub fn bounds(&self) -> (Point2, Point2) {
-        let (mut lo, mut hi) = (Point2::new(f64::INFINITY, f64::INFINITY), Point2::new(-f64::INFINITY, -f64::INFINITY));
-        for p in &self.core {
-            lo = Point2::new(crate::num::lesser(lo.x, p.x), crate::num::lesser(lo.y, p.y));
-            hi = Point2::new(greater(hi.x, p.x), greater(hi.y, p.y));
+    /// The smallest axis-parallel box around the shape, radius included; rounded.
+    pub fn bounds(&self) -> Aabb {
+        const NOTHING: Aabb = Aabb {
+            min: Point2::new(f64::INFINITY, f64::INFINITY),
+            max: Point2::new(f64::NEG_INFINITY, f64::NEG_INFINITY),
+        };
+        Aabb::around(&self.core).unwrap_or(NOTHING).grown(self.radius)
+    }
+
+    /// A box that holds the shape in spite of rounding, so that a broad phase drops nothing by it. All of the plane for
+    /// a shape that is not valid.
+    pub(crate) fn padded_bounds(&self) -> Aabb {
+        if !self.is_valid() {
+            return Aabb::new(Point2::new(-1e200, -1e200), Point2::new(1e200, 1e200));
         }
-        let r = self.radius;
-        (Point2::new(lo.x - r, lo.y - r), Point2::new(hi.x + r, hi.y + r))
+        self.padded_bounds_of_valid()
+    }
+
+    /// [`padded_bounds`](Self::padded_bounds) of a shape known to be valid.
+    #[inline]
+    pub(crate) fn padded_bounds_of_valid(&self) -> Aabb {
+        let bounds = self.bounds();
+        bounds.grown(64.0 * ulp(bounds.size()))
     }
 
     /// The hull of this shape and `other`, with the greater of the two radii: all that a part whose vertices move in
@@ -60,7 +74,7 @@ impl Placed {
     pub fn hull_with(&self, other: &Placed) -> Placed {
         let mut points: ShortList<Point2, 16> = ShortList::from_slice(&self.core);
         points.extend_from_slice(&other.core);
-        // a radius that is no number stays none, and such a shape is not valid
+        // a NaN radius stays NaN, and such a shape is not valid
         let radius = if self.radius.is_nan() { self.radius } else { greater(self.radius, other.radius) };
         Placed { core: convex_hull(&points), radius }
     }

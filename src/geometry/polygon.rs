@@ -1,4 +1,4 @@
-//! `ConvexPolygon`, checked once where it is made.
+//! `ConvexPolygon`, a convex polygon that is checked once, when it is made.
 
 use std::sync::Arc;
 

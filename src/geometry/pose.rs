@@ -90,8 +90,8 @@ impl Pose2 {
     /// This pose times the exponential of a tangent vector given in the body frame: the exact end of the circular arc
     /// that a constant body velocity `tangent` drives in unit time.
     ///
-    /// With `h = dtheta / 2` the displacement is `sinc(h)` times the tangent's translation turned by `h` (the chord of the
-    /// arc). `sinc` is a series near 0, so no digits are lost there.
+    /// With `h = dtheta / 2` the displacement is `sinc(h)` times the tangent's translation turned by `h` (the chord of
+    /// the arc). `sinc` is a series near 0, so no digits are lost there.
     ///
     /// ```
     /// use motion_lab::geometry::{Pose2, Tangent2};

@@ -1,4 +1,4 @@
-//! `Shape`, what footprints and worlds are made of.
+//! `Shape`, the convex shapes that footprints and worlds consist of.
 
 use std::sync::Arc;
 
@@ -8,8 +8,8 @@ use crate::num::{self, greater};
 /// A closed convex shape in its own frame, in metres.
 ///
 /// Every shape is a convex core of vertices and a radius around it ([`Placed`]). Make one with the `try_` constructors,
-/// which check finiteness and size; a shape written out by hand that breaks their rules fails safe in every query (it is
-/// in contact), it never panics.
+/// which check finiteness and size; a shape written out by hand that breaks their rules fails safe in every query (it
+/// is in contact), it never panics.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Shape {
     /// A disc around the frame's origin.
@@ -160,8 +160,9 @@ impl Shape {
         }
     }
 
-    /// The distance from the frame's origin to the farthest point of the core, metres: rotating the frame by `dtheta` moves
-    /// no point of the core farther than this times `|dtheta|`. The radius is left out: rotation moves the core only.
+    /// The distance from the frame's origin to the farthest point of the core, metres: rotating the frame by `dtheta`
+    /// moves no point of the core farther than this times `|dtheta|`. The radius is left out: rotation moves the core
+    /// only.
     pub fn core_reach(&self) -> f64 {
         self.core().iter().fold(0.0, |r, p| greater(r, num::hypot(p.x, p.y)))
     }

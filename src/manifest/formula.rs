@@ -1,26 +1,26 @@
-//! `Formula`, a line of mathematics as runs of text.
+//! `Formula`, a line of mathematics as a list of terms.
 
 use crate::picture::Role;
 
-/// How a run stands to the line.
+/// The position of a term relative to the line.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Level {
-    /// On it.
+    /// On the line.
     Base,
-    /// Below it, smaller.
+    /// A subscript.
     Sub,
-    /// Above it, smaller.
+    /// A superscript.
     Sup,
 }
 
-/// A piece of a formula.
+/// A term of a formula.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Term {
-    /// Its letters.
+    /// Its text.
     pub text: &'static str,
-    /// What it stands for, when it is a term that a picture draws.
+    /// The role whose colour it has in a picture, if the picture draws it.
     pub role: Option<Role>,
-    /// Where it stands.
+    /// Its position relative to the line.
     pub level: Level,
 }
 
@@ -29,7 +29,7 @@ pub struct Term {
 pub struct Formula(pub Vec<Term>);
 
 impl Formula {
-    /// The configuration of a robot of this kind, with a trailer on or not, and the space it lies in. Empty for a kind that is
+    /// The configuration of a robot of this kind, with or without a trailer, and its space. Empty for a kind that is
     /// not the lab's.
     pub fn space(kind: &str, trailer: bool) -> Self {
         let term = |text, role, level| Term { text, role, level };
@@ -59,10 +59,11 @@ impl Formula {
         })
     }
 
-    /// The formula as a MathML element; a term's role is its class, `role-robot` for instance, and the attribute `data-role`.
+    /// The formula as a MathML element. A term's role is its class, `role-robot` for instance, and its attribute
+    /// `data-role`.
     ///
-    /// Text on the line is read letter by letter: runs of Latin letters and single Greek ones are identifiers, digits numbers, the
-    /// rest operators. A raised or lowered run goes with the piece before it.
+    /// Text is split letter by letter: runs of Latin letters and single Greek letters are identifiers, digits are
+    /// numbers, the rest are operators. A subscript or superscript belongs to the piece before it.
     pub fn mathml(&self) -> String {
         let mut pieces: Vec<String> = Vec::new();
         for term in &self.0 {
@@ -78,7 +79,7 @@ impl Formula {
         format!("<math>{}</math>", pieces.concat())
     }
 
-    /// The formula as it is read aloud, and why the space is that one.
+    /// The configuration in words, and why its space is that one. Empty for a kind that is not the lab's.
     pub fn spoken(kind: &str, trailer: bool) -> &'static str {
         match (kind, trailer) {
             ("rusty", _) => {
@@ -93,7 +94,7 @@ impl Formula {
     }
 }
 
-/// The pieces of a run of text, each an element of MathML with these attributes.
+/// The tokens of a text, each an element of MathML with these attributes.
 fn tokens(text: &str, marks: &str) -> Vec<String> {
     let kind = |c: char| match c {
         'a'..='z' | 'A'..='Z' => 'w',

@@ -1,4 +1,4 @@
-//! `WidgetText`, what stands around a widget: read from the one manifest in assets/.
+//! `WidgetText`, the words around a widget, read from the manifest `assets/widgets.ron`.
 
 mod formula;
 
@@ -22,11 +22,11 @@ pub struct WidgetText {
     short: String,
     /// The misconception it removes, in one line.
     pub misconception: String,
-    /// What it shows, for readers who do not see it.
+    /// A description of the widget, for readers who do not see it.
     pub description: String,
     /// The colour key.
     pub key: Vec<KeyText>,
-    /// What a new reader may try first.
+    /// First things for a new reader to try.
     pub hints: Vec<String>,
 }
 
@@ -35,19 +35,19 @@ pub struct WidgetText {
 #[serde(deny_unknown_fields)]
 pub struct KeyText {
     role: String,
-    /// What the role stands for here.
+    /// The meaning of the role in this widget.
     pub text: String,
 }
 
 impl WidgetText {
-    /// Its title on the rail: a word.
+    /// Its title on the rail, one word.
     pub fn short(&self) -> &str {
         &self.short
     }
 }
 
 impl KeyText {
-    /// The role; text for a name that is none, which a test excludes.
+    /// The role; `Role::Text` for an unknown name, which a test excludes.
     pub fn role(&self) -> Role {
         Role::ALL.into_iter().find(|r| r.name() == self.role).unwrap_or(Role::Text)
     }

@@ -1,14 +1,15 @@
-//! `Figure`, pictures side by side as a sheet of paper: what an SVG file shows.
+//! `Figure`, pictures side by side on a sheet of paper, as an SVG file shows them.
 
+use super::item::MIDDLE;
 use super::{Anchor, Face, Fit, Line, Palette, Picture, Primitive, Role, ScaleBar, ScreenRect, resolve};
 use crate::num::{greater, lesser};
 
 /// A figure: panels in rows of up to three, and a caption under them.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Figure {
-    /// What it is, in a few words: the title for readers who do not see it.
+    /// The title, in a few words, for readers who do not see the figure.
     pub title: String,
-    /// What is to be seen, in a sentence or two, for the same readers.
+    /// What the figure shows, in a sentence or two, for the same readers.
     pub description: String,
     /// The panels.
     pub panels: Vec<Panel>,
@@ -16,7 +17,7 @@ pub struct Figure {
     pub caption: Vec<String>,
 }
 
-/// One picture with what stands under it.
+/// One picture with its heading and readout under it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Panel {
     /// The picture.
@@ -27,19 +28,19 @@ pub struct Panel {
     pub readout: Vec<String>,
 }
 
-/// The sheet of paper that a figure is put on.
+/// The sheet of paper on which a figure is laid out.
 #[derive(Clone, Copy, Debug)]
 pub struct Sheet<'a> {
     /// The colours.
     pub palette: &'a Palette,
-    /// The greatest width, pixels. Up to three panels stand side by side on a wide sheet, on one of a column's width fewer.
+    /// Greatest width, pixels. A wide sheet has up to three panels side by side, a narrow one fewer.
     pub width_px: f64,
-    /// What a program finds in the file, a keyword and a text each: the seed, the digest.
+    /// Metadata of the file for programs, a keyword and a text each: the seed, the digest.
     pub notes: &'a [(&'static str, String)],
 }
 
-/// Something laid out on a sheet: a group with its name, a bare stroke or word of the sheet's own, or where something begins and
-/// ends to be cut off at a panel's frame.
+/// Something laid out on a sheet: a group with its name, a bare stroke or word of the sheet's own, or the start or end
+/// of clipping at a panel's frame.
 pub(super) enum Entry {
     Bare(Primitive),
     Group { id: String, name: String, role: Role, primitives: Vec<Primitive> },
@@ -53,9 +54,9 @@ const GAP: f64 = 20.0;
 pub(super) const WIDTH: f64 = 1280.0;
 /// The greatest height of a picture, pixels.
 const TALLEST: f64 = 560.0;
-/// How much higher the pictures of a row may be than those of another.
+/// Greatest ratio between the picture heights of two rows.
 const HIGHER: f64 = 1.3;
-/// From line to line of a readout, pixels.
+/// The line height of a readout, pixels.
 const LEADING: f64 = 16.0;
 /// Free room inside a picture's frame, pixels.
 const MARGIN: f64 = 8.0;
@@ -68,8 +69,8 @@ impl Figure {
         Figure { title, description: String::new(), panels, caption: Vec::new() }
     }
 
-    /// The scale of every panel on a sheet of this width, pixels per metre: for what keeps its size on the sheet and is to find
-    /// room on a picture.
+    /// The scale of every panel on a sheet of this width, pixels per metre. It serves to find room on a picture for
+    /// things whose size on the sheet is fixed.
     pub fn px_per_metre(&self, width_px: f64) -> Vec<f64> {
         let tallest = self.tallest(width_px);
         let sizes = self.rows(width_px).flat_map(|row| frame_sizes(row, (width_px, tallest)));
@@ -79,14 +80,15 @@ impl Figure {
         self.panels.iter().zip(sizes).map(fit).collect()
     }
 
-    /// The panels row by row: each at least 300 px wide, the rows of as many each as can be.
+    /// The panels row by row. A row has up to three panels, one for each 300 px of the width, and the rows are filled
+    /// evenly.
     fn rows(&self, width: f64) -> std::slice::Chunks<'_, Panel> {
         let columns = ((width / 300.0) as usize).clamp(1, 3);
         let rows = std::cmp::max(self.panels.len().div_ceil(columns), 1);
         self.panels.chunks(std::cmp::max(self.panels.len().div_ceil(rows), 1))
     }
 
-    /// The greatest height of a picture: none is much higher than those of another row.
+    /// Greatest height of a picture, pixels, such that none is much higher than those of another row.
     fn tallest(&self, width: f64) -> f64 {
         let heights =
             self.rows(width).filter_map(|row| Some(frame_sizes(row, (width, TALLEST)).first()?[1] - 2.0 * MARGIN));
@@ -117,7 +119,7 @@ impl Figure {
 fn frame_sizes(row: &[Panel], (width, tallest): (f64, f64)) -> Vec<[f64; 2]> {
     let aspect = |panel: &Panel| {
         let bounds = &panel.picture.bounds;
-        // very long and very high worlds are shown on a sheet that is not
+        // the panels of very wide and very high worlds are limited to these ratios
         ((bounds.max.x - bounds.min.x) / (bounds.max.y - bounds.min.y)).clamp(0.5, 3.0)
     };
     let aspects: f64 = row.iter().map(aspect).sum();
@@ -180,7 +182,7 @@ fn reaches_out(primitive: &Primitive, rect: &ScreenRect) -> bool {
     }
 }
 
-/// A line broken at spaces where it is longer than `columns`, what follows a break set in by two.
+/// Breaks a line at spaces where it is longer than `columns`. Continuation lines are indented by two.
 fn wrapped(line: &str, columns: usize) -> Vec<String> {
     let mut lines = vec![String::new()];
     for word in line.split_inclusive(' ') {
@@ -204,7 +206,7 @@ fn scale_bar(fit: &Fit, right: f64, baseline: f64) -> [Entry; 2] {
         vec![[right, y - 3.0], [right, y + 3.0]],
     ];
     let label = Primitive::Text {
-        at: [left - 6.0, baseline],
+        at: Anchor::Left.moved([left, baseline - MIDDLE * 11.0]),
         anchor: Anchor::Left,
         text: bar.label,
         face: Face::Sans,
@@ -217,7 +219,8 @@ fn scale_bar(fit: &Fit, right: f64, baseline: f64) -> [Entry; 2] {
 
 /// Words on a baseline.
 fn text(left: f64, baseline: f64, text: &str, face: Face, size: f64, role: Role) -> Primitive {
-    Primitive::Text { at: [left, baseline], anchor: Anchor::Right, text: text.into(), face, size, role, plate: false }
+    let at = [left, baseline - MIDDLE * size];
+    Primitive::Text { at, anchor: Anchor::Right, text: text.into(), face, size, role, plate: false }
 }
 
 #[cfg(test)]
@@ -227,7 +230,7 @@ mod tests {
     #[test]
     fn a_panel_alone_in_its_row_is_not_much_higher_than_the_others() {
         let panel = |x: f64, y: f64| {
-            let bounds = crate::worlds::Bounds { min: [0.0, 0.0].into(), max: [x, y].into() };
+            let bounds = crate::geometry::Aabb { min: [0.0, 0.0].into(), max: [x, y].into() };
             Panel { picture: Picture::new("p", bounds), heading: String::new(), readout: Vec::new() }
         };
         let figure = |panels: Vec<Panel>| Figure { panels, ..Figure::of(panel(1.0, 1.0).picture) };

@@ -1,8 +1,7 @@
-//! `Fit`, how a picture in metres lies on a screen in pixels; and the scale bar that says so.
+//! `Fit`, the map from a picture in metres to a screen in pixels, and the scale bar that shows its scale.
 
-use crate::geometry::Point2;
+use crate::geometry::{Aabb, Point2};
 use crate::num::lesser;
-use crate::worlds::Bounds;
 
 /// A point of the screen, pixels: x right, y down.
 pub type ScreenPoint = [f64; 2];
@@ -16,7 +15,7 @@ pub struct ScreenRect {
     pub size: [f64; 2],
 }
 
-/// The one map from metres to pixels in which a piece of the plane just fits a rectangle of the screen, in its middle.
+/// The map from metres to pixels under which a piece of the plane just fits a rectangle of the screen, centred.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Fit {
     px_per_metre: f64,
@@ -25,9 +24,9 @@ pub struct Fit {
 }
 
 impl Fit {
-    /// `bounds` in the middle of `rect`, `margin_px` free around it. The scale is never below a thousandth of a pixel per
-    /// metre, however small the rectangle.
-    pub fn new(bounds: &Bounds, rect: ScreenRect, margin_px: f64) -> Self {
+    /// Fits `bounds` into the middle of `rect`, with `margin_px` free around it. The scale is never below a thousandth
+    /// of a pixel per metre, however small the rectangle.
+    pub fn new(bounds: &Aabb, rect: ScreenRect, margin_px: f64) -> Self {
         let (w, h) = (bounds.max.x - bounds.min.x, bounds.max.y - bounds.min.y);
         let scale = lesser((rect.size[0] - 2.0 * margin_px) / w, (rect.size[1] - 2.0 * margin_px) / h);
         Fit {
@@ -38,7 +37,7 @@ impl Fit {
         }
     }
 
-    /// The scale.
+    /// The scale, pixels per metre.
     pub fn px_per_metre(&self) -> f64 {
         self.px_per_metre
     }
@@ -49,7 +48,7 @@ impl Fit {
         [self.center_on_screen[0] + d.x, self.center_on_screen[1] - d.y]
     }
 
-    /// Which point of the world lies there on the screen.
+    /// The point of the world at a point of the screen.
     pub fn world_from_screen(&self, p: ScreenPoint) -> Point2 {
         Point2::new(
             self.center.x + (p[0] - self.center_on_screen[0]) / self.px_per_metre,
@@ -61,14 +60,15 @@ impl Fit {
 /// A bar of a round length.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ScaleBar {
-    /// What stands at it: `2 m`.
+    /// Its label, such as `2 m`.
     pub label: String,
     /// Its length on the screen, pixels.
     pub length_px: f64,
 }
 
 impl ScaleBar {
-    /// The longest bar of 1, 2 or 5 times a power of ten metres, from a millimetre to 5 km, that is at most `most_px` long.
+    /// The longest bar of 1, 2 or 5 times a power of ten metres, from a millimetre to 5 km, that is at most `most_px`
+    /// long. If even the shortest is longer, that one.
     pub fn new(px_per_metre: f64, most_px: f64) -> Self {
         let mut best = (0.001, "1 mm".to_owned());
         for (unit, name, decades) in [(0.001, "mm", 3), (1.0, "m", 3), (1000.0, "km", 1)] {
@@ -91,8 +91,8 @@ impl ScaleBar {
 mod tests {
     use super::*;
 
-    fn bounds(w: f64, h: f64) -> Bounds {
-        Bounds { min: Point2::new(1.0, -1.0), max: Point2::new(1.0 + w, -1.0 + h) }
+    fn bounds(w: f64, h: f64) -> Aabb {
+        Aabb { min: Point2::new(1.0, -1.0), max: Point2::new(1.0 + w, -1.0 + h) }
     }
 
     #[test]

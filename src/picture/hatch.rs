@@ -1,5 +1,5 @@
-//! Hatches and dots: what fills a polygon, in pixels. Their lattice is fixed to the screen, so that the hatches of two pieces
-//! of one obstacle meet.
+//! Fills polygons with hatches and dots, in pixels. Their lattice is fixed to the screen, so that the hatches of two
+//! pieces of one obstacle meet.
 
 use super::ScreenPoint;
 use crate::num::{greater, lesser};
@@ -10,10 +10,10 @@ const HATCH_STEP: f64 = 7.0;
 /// The gap between two dots, pixels.
 const DOT_STEP: f64 = 6.0;
 
-/// At most this many lines or rows are drawn in one polygon, however large it is on the screen.
+/// Largest span of lattice numbers in one polygon. A polygon larger than that on the screen gets no lines or dots.
 const MOST: i64 = 2000;
 
-/// The least and greatest value of `f` over the polygon.
+/// The least and greatest value of `f` over the polygon's corners.
 fn range(polygon: &[ScreenPoint], f: impl Fn(&ScreenPoint) -> f64) -> (f64, f64) {
     polygon.iter().fold((f64::INFINITY, -f64::INFINITY), |(lo, hi), p| (lesser(lo, f(p)), greater(hi, f(p))))
 }
@@ -25,7 +25,7 @@ fn lattice(lo: f64, hi: f64, step: f64) -> std::ops::Range<i64> {
     if fits { first..last.saturating_add(1) } else { 0..0 }
 }
 
-/// The part of the line from `a` along `d` inside the convex polygon: the two parameters, if there is any.
+/// The two parameters between which the line from `a` along `d` lies inside the convex polygon; `None` if it misses it.
 ///
 /// Cyrus and Beck's clipping (1978), for either orientation of the polygon.
 fn clip(polygon: &[ScreenPoint], a: ScreenPoint, d: ScreenPoint) -> Option<(f64, f64)> {

@@ -1,6 +1,6 @@
-//! `Item`, one thing on a picture: what it is, what it stands for, where it is and how it is stroked.
+//! `Item`, one thing on a picture: its name, its role, its geometry, its fill and its stroke.
 
-use super::Role;
+use super::{Role, ScreenPoint};
 use crate::geometry::{Point2, Vector2};
 
 /// One thing on a picture.
@@ -8,7 +8,7 @@ use crate::geometry::{Point2, Vector2};
 pub struct Item {
     /// The stable id, unique in its picture, as a path: `obstacle/the post`, `robot/Rusty/0`.
     pub id: String,
-    /// What it is called, for readers who do not see it.
+    /// Its name, for readers who do not see it.
     pub name: String,
     /// What it stands for.
     pub role: Role,
@@ -20,7 +20,7 @@ pub struct Item {
     pub line: Option<Line>,
 }
 
-/// The geometry of an item: metres, x right, y up; what is called `_px` keeps its size on the screen.
+/// The geometry of an item: metres, x right, y up. A size whose name ends in `_px` is in pixels on the screen.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Drawing {
     /// An open line through these points.
@@ -61,7 +61,7 @@ pub enum Drawing {
     Arrow {
         /// Where it starts.
         from: Point2,
-        /// To its tip.
+        /// The vector from there to its tip.
         along: Vector2,
         /// Its least length on the screen.
         min_px: f64,
@@ -112,7 +112,7 @@ pub enum Fill {
     Tint(f64),
     /// With a light tint and a fine hatch: obstacles.
     Hatch,
-    /// With dots: what is not known.
+    /// With dots: unknown space.
     Dots,
 }
 
@@ -185,7 +185,7 @@ pub enum Glyph {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Anchor {
     /// Centred on the point.
-    Center,
+    Centre,
     /// Right of the point.
     Right,
     /// Left of the point.
@@ -194,6 +194,24 @@ pub enum Anchor {
     Above,
     /// Below the point.
     Below,
+}
+
+/// How far below its middle a line of letters has its baseline, as a part of their size.
+pub(super) const MIDDLE: f64 = 0.35;
+
+impl Anchor {
+    /// The middle of the label's side that faces the point `at`, a gap of 6 pixels away from it; for
+    /// [`Centre`](Self::Centre) the point itself.
+    pub(super) fn moved(self, [x, y]: ScreenPoint) -> ScreenPoint {
+        const GAP: f64 = 6.0;
+        match self {
+            Anchor::Centre => [x, y],
+            Anchor::Right => [x + GAP, y],
+            Anchor::Left => [x - GAP, y],
+            Anchor::Above => [x, y - GAP],
+            Anchor::Below => [x, y + GAP],
+        }
+    }
 }
 
 /// The two faces.
@@ -218,13 +236,13 @@ impl Item {
         Item { id: id.into(), name: name.into(), role, drawing, fill: Fill::None, line: None }
     }
 
-    /// The same item filled so.
+    /// The same item with this fill.
     #[must_use]
     pub fn filled(self, fill: Fill) -> Self {
         Item { fill, ..self }
     }
 
-    /// The same item stroked so.
+    /// The same item with this stroke.
     #[must_use]
     pub fn stroked(self, line: Line) -> Self {
         Item { line: Some(line), ..self }

@@ -1,8 +1,9 @@
 //! Pictures: drawings in metres and roles, drawn once and shown by every medium.
 //!
-//! A [`Picture`] says what is where and what it stands for; it knows neither pixels nor colours. A [`Fit`] places it on a
-//! sheet, [`resolve`] turns its items into lines and areas in pixels, still by [`Role`], and a medium gives the roles their
-//! colours: the SVG writer ([`Figure::svg`]) from a [`Palette`], the window from its theme. Both draw the same strokes.
+//! A [`Picture`] says what is where and what it stands for; it knows neither pixels nor colours. A [`Fit`] places it on
+//! a sheet, [`resolve`] turns its items into lines and areas in pixels, still by [`Role`], and a medium gives the roles
+//! their colours: the SVG writer ([`Figure::svg`]) from a [`Palette`], the window from its theme. Both draw the same
+//! strokes.
 
 mod faces;
 mod figure;
@@ -32,7 +33,7 @@ pub use role::{Palette, Rgb, Role};
 pub use theme::Theme;
 pub use world::{places, world};
 
-use crate::worlds::Bounds;
+use crate::geometry::Aabb;
 
 /// A drawing in metres: items in painting order, the first below all others.
 #[derive(Clone, Debug, PartialEq)]
@@ -40,20 +41,20 @@ pub struct Picture {
     /// What it shows, in a few words.
     pub name: String,
     /// The part of the plane it shows, metres.
-    pub bounds: Bounds,
-    /// Whether its plane is in metres, so that a scale bar can stand at it. Otherwise lengths are what its axes say.
+    pub bounds: Aabb,
+    /// Whether its plane is in metres, so that a scale bar applies. Otherwise its axes give the units.
     pub in_metres: bool,
     /// The items, lowest first. Their ids are unique.
     pub items: Vec<Item>,
 }
 
 impl Picture {
-    /// The picture with nothing on it.
-    pub fn new(name: impl Into<String>, bounds: Bounds) -> Self {
+    /// Creates a picture without items, in metres.
+    pub fn new(name: impl Into<String>, bounds: Aabb) -> Self {
         Picture { name: name.into(), bounds, in_metres: true, items: Vec::new() }
     }
 
-    /// The picture with these items painted over what is there.
+    /// Returns the picture with these items painted over those already there.
     #[must_use]
     pub fn with(mut self, items: impl IntoIterator<Item = Item>) -> Self {
         self.items.extend(items);

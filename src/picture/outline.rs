@@ -5,8 +5,8 @@ use std::f64::consts::PI;
 use crate::geometry::{Placed, Point2, Vector2, cross};
 use crate::num::{self, greater, lesser};
 
-/// The polygon to draw for a placed shape, counter-clockwise: its core, with round corners of its radius as chords that stray
-/// by less than a four-hundredth of the radius. A bare segment gives its two ends, a point itself.
+/// The polygon to draw for a placed shape, counter-clockwise. The round corners become chords, which stray from the arc
+/// by less than a four-hundredth of the radius. A segment without a radius gives its two ends, a point itself.
 pub fn polygon_of(placed: &Placed) -> Vec<Point2> {
     let (core, radius) = (placed.core(), placed.radius());
     let n = core.len();
@@ -32,7 +32,8 @@ pub fn polygon_of(placed: &Placed) -> Vec<Point2> {
     out
 }
 
-/// The lines around the union of convex counter-clockwise polygons: their edges, less what lies in another piece.
+/// The lines around the union of convex counter-clockwise polygons: their edges, without the parts that lie in another
+/// piece.
 ///
 /// An edge that two pieces share is drawn by neither, so the seams of a decomposed polygon vanish.
 pub fn outline(pieces: &[Vec<Point2>]) -> Vec<Vec<Point2>> {
@@ -71,13 +72,14 @@ fn covered(a: Point2, b: Point2, polygon: &[Point2]) -> Option<(f64, f64)> {
     (from < to).then_some((from, to))
 }
 
-/// What is left of a span without another.
+/// What is left of a span after another is removed.
 fn subtract((from, to): (f64, f64), (cut_from, cut_to): (f64, f64)) -> impl Iterator<Item = (f64, f64)> {
     let pieces = [(from, lesser(to, cut_from)), (greater(from, cut_to), to)];
     pieces.into_iter().filter(|(s0, s1)| s1 - s0 > 1e-9)
 }
 
-/// Joins segments end to end into lines, so that their corners are drawn as corners. A closed line repeats its first point.
+/// Joins segments end to end into lines, so that their corners are drawn as corners. A closed line repeats its first
+/// point.
 pub fn chains(segments: &[(Point2, Point2)]) -> Vec<Vec<Point2>> {
     let mut lines: Vec<Vec<Point2>> = Vec::new();
     for &(a, b) in segments {

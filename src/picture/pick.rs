@@ -1,9 +1,9 @@
-//! Which item of a picture lies at a point of the screen.
+//! Finds the item of a picture at a point of the screen.
 
 use super::{Fit, Item, Picture, Primitive, ScreenPoint, resolve};
 use crate::num::{hypot, sqrt};
 
-/// The topmost item that is drawn at `at` or within `reach_px` of it. Words are not asked.
+/// The topmost item that is drawn at `at` or within `reach_px` of it. Words are ignored.
 pub fn pick<'a>(picture: &'a Picture, fit: &Fit, at: ScreenPoint, reach_px: f64) -> Option<&'a Item> {
     picture.items.iter().rev().find(|item| resolve(item, fit).iter().any(|p| touches(p, at, reach_px)))
 }
@@ -21,7 +21,7 @@ fn touches(primitive: &Primitive, at: ScreenPoint, reach: f64) -> bool {
     }
 }
 
-/// Whether a convex polygon, either way round, holds a point.
+/// Whether a convex polygon, in either orientation, holds a point.
 fn contains(corners: &[ScreenPoint], at: ScreenPoint) -> bool {
     let sides = corners.iter().zip(corners.iter().cycle().skip(1));
     let turns = sides.map(|(a, b)| (b[0] - a[0]) * (at[1] - a[1]) - (b[1] - a[1]) * (at[0] - a[0]));
@@ -41,14 +41,14 @@ fn distance(p: ScreenPoint, a: ScreenPoint, b: ScreenPoint) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::geometry::Aabb;
     use crate::geometry::Point2;
     use crate::picture::{Drawing, Fill, Line, Role, ScreenRect};
-    use crate::worlds::Bounds;
 
     #[test]
     fn the_topmost_item_under_the_pointer_is_found() {
         let p = Point2::new;
-        let bounds = Bounds { min: p(0.0, 0.0), max: p(10.0, 10.0) };
+        let bounds = Aabb { min: p(0.0, 0.0), max: p(10.0, 10.0) };
         let square = [p(1.0, 1.0), p(5.0, 1.0), p(5.0, 5.0), p(1.0, 5.0)].to_vec();
         let picture = Picture::new("Yard", bounds).with([
             Item::new("box", "the box", Role::Obstacle, Drawing::Polygon(square)).filled(Fill::Hatch),

@@ -1,10 +1,10 @@
-//! Readouts: configurations as their types, in figures that do not jump.
+//! Readouts: printed configurations whose figures keep their places while they change.
 
-/// The least number of characters a figure takes.
+/// Least width of a figure, characters.
 const FIGURE: usize = 6;
 
-/// A printed configuration for the screen: every number with a true minus sign and padded on the left, so that the next
-/// letters stay where they are while it changes.
+/// Formats a printed configuration for the screen. Every number gets a true minus sign and is padded on the left, so
+/// that what follows it does not move while it changes.
 ///
 /// ```
 /// # use motion_lab::picture::readout;
@@ -26,15 +26,15 @@ pub fn readout(printed: &str) -> String {
     out
 }
 
-/// Where the next decimal number starts: a digit or minus after a space or an opening bracket. Digits in names (`T2`) and
-/// in brackets' names (`Tn<3>`) are none.
+/// Byte offset of the next decimal number: a digit or minus after a space or an opening bracket. Digits in names (`T2`,
+/// `Tn<3>`) do not count.
 fn number_start(text: &str) -> Option<usize> {
     let bytes = text.as_bytes();
     (1..bytes.len()).find(|&i| (bytes[i].is_ascii_digit() || bytes[i] == b'-') && matches!(bytes[i - 1], b' ' | b'('))
 }
 
-/// A readout on lines of at most `most` characters where it can be broken: a car's body and trailer each on lines of their own,
-/// and a pose that is still too long on two.
+/// Breaks a readout into lines. A car's body and trailer get lines of their own; a line that is still longer than
+/// `most` characters is broken once, after its opening brace.
 pub fn readout_lines(readout: &str, most: usize) -> Vec<String> {
     let too_long = |line: &String| line.chars().count() > most;
     let broken = |line: String| match line.split_once("{ ") {

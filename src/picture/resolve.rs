@@ -1,4 +1,4 @@
-//! From items in metres to lines and areas in pixels: what every medium draws, stroke for stroke.
+//! Turns items in metres into lines and areas in pixels, which every medium draws stroke for stroke.
 
 use super::hatch::{dots, hatch};
 use super::outline::polygon_of;
@@ -57,13 +57,13 @@ pub enum Primitive {
     },
     /// Words.
     Text {
-        /// The point they stand at, already moved off what they name.
+        /// The middle of the side that faces what they name, already moved off it.
         at: ScreenPoint,
-        /// On which side of it.
+        /// The side of the named point on which they stand.
         anchor: Anchor,
         /// The words.
         text: String,
-        /// In which face.
+        /// The face.
         face: Face,
         /// Height of the face.
         size: f64,
@@ -74,7 +74,7 @@ pub enum Primitive {
     },
 }
 
-/// The primitives of an item, lowest first. What is not finite is left out.
+/// The primitives of an item, lowest first. A primitive that is not finite is left out.
 pub fn resolve(item: &Item, fit: &Fit) -> Vec<Primitive> {
     let mut out = Vec::new();
     let px = |p: &Point2| fit.screen_from_world(*p);
@@ -147,7 +147,7 @@ pub fn resolve(item: &Item, fit: &Fit) -> Vec<Primitive> {
         }
         Drawing::Mark { at, glyph, radius_px } => mark(&mut out, *role, px(at), *glyph, *radius_px),
         Drawing::Label { at, text, anchor, face, size_px, plate } => out.push(Primitive::Text {
-            at: px(at),
+            at: anchor.moved(px(at)),
             anchor: *anchor,
             text: text.clone(),
             face: *face,
@@ -164,7 +164,7 @@ fn area(out: &mut Vec<Primitive>, role: Role, fill: Fill, corners: &[ScreenPoint
     areas(out, role, fill, &[corners.to_vec()]);
 }
 
-/// Areas of one fill: first all of them, one after the other, then what is on them.
+/// Adds areas of one fill: first all areas, then their hatch or dots.
 fn areas(out: &mut Vec<Primitive>, role: Role, fill: Fill, pieces: &[Vec<ScreenPoint>]) {
     let opacity = match fill {
         Fill::None => return,
@@ -201,7 +201,7 @@ fn mark(out: &mut Vec<Primitive>, role: Role, at: ScreenPoint, glyph: Glyph, rad
         Glyph::Cross => {
             let point = |x: f64, y: f64| [at[0] + radius * x, at[1] + radius * y];
             let lines = vec![vec![point(-1.0, -1.0), point(1.0, 1.0)], vec![point(-1.0, 1.0), point(1.0, -1.0)]];
-            // on a paper edge, so that it reads on top of a line of any colour
+            // with a paper edge, so that it is legible on a line of any colour
             out.push(Primitive::Lines { lines: lines.clone(), role: Role::Paper, line: Line::solid(4.0) });
             out.push(Primitive::Lines { lines, role, line: Line::solid(2.0) });
         }
@@ -232,12 +232,12 @@ fn is_finite(primitive: &Primitive) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::geometry::Aabb;
     use crate::geometry::Vector2;
     use crate::picture::ScreenRect;
-    use crate::worlds::Bounds;
 
     fn fit() -> Fit {
-        let bounds = Bounds { min: Point2::new(0.0, 0.0), max: Point2::new(10.0, 10.0) };
+        let bounds = Aabb { min: Point2::new(0.0, 0.0), max: Point2::new(10.0, 10.0) };
         Fit::new(&bounds, ScreenRect { min: [0.0, 0.0], size: [100.0, 100.0] }, 0.0)
     }
 

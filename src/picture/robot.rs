@@ -1,24 +1,24 @@
-//! Robots, their traces and what their sensors see, as items.
+//! Draws robots, their traces and their sensors' scans, as items.
 
 use super::outline::polygon_of;
 use super::{Drawing, Fill, Glyph, Item, Line, Role};
 use crate::geometry::{Footprint, Part, Point2, Pose2, Shape, Vector2};
 use crate::num;
 
-/// A robot as it is to be drawn.
+/// What to draw of a robot.
 #[derive(Clone, Debug)]
 pub struct RobotDrawing<'a> {
     /// Its unique name.
     pub name: &'a str,
-    /// Where it is.
+    /// Its footprint.
     pub footprint: &'a Footprint,
-    /// Which way it faces, radians, when its footprint does not tell (a disc).
+    /// Its heading, radians, if the footprint does not show it (a disc).
     pub heading: Option<f64>,
-    /// Whether it is shown as touching something.
+    /// Whether it is drawn in contact.
     pub in_contact: bool,
 }
 
-/// A footprint alone: its parts in one role, the fill at this opacity, the edge thin.
+/// The items of a footprint alone: its parts in one role, filled at this opacity, with a thin edge.
 pub fn footprint(id: &str, name: &str, footprint: &Footprint, role: Role, opacity: f64) -> Vec<Item> {
     let parts = footprint.parts().iter().enumerate();
     parts.map(|(i, part)| part_item(format!("{id}/{i}"), name, part, role, opacity)).collect()
@@ -39,8 +39,8 @@ fn part_item(id: String, name: &str, part: &Part, role: Role, opacity: f64) -> I
     Item::new(id, name, role, drawing).filled(Fill::Tint(opacity)).stroked(edge)
 }
 
-/// A robot: its footprint at 85 %, in the goal's red while it touches something, with the marks that tell which way it faces:
-/// a nose on a disc, a chevron on a car's chassis, the joints of an arm.
+/// The items of a robot: its footprint at 85 % opacity, in the goal's colour while in contact, and marks that show its
+/// pose: a nose on a disc, a chevron on a car's chassis, the joints and the tip of an arm.
 pub fn robot(drawing: &RobotDrawing<'_>) -> Vec<Item> {
     let role = if drawing.in_contact { Role::Goal } else { Role::Robot };
     let id = format!("robot/{}", drawing.name);
@@ -81,13 +81,13 @@ fn chevron(pose: &Pose2, min: Point2, max: Point2) -> Vec<Point2> {
         .to_vec()
 }
 
-/// The way a robot went.
+/// The path that a robot took, as a line.
 pub fn trace(id: &str, name: &str, points: &[Point2]) -> Item {
     Item::new(id, name, Role::Path, Drawing::Polyline(points.to_vec())).stroked(Line::solid(1.5).at_opacity(0.9))
 }
 
-/// What a range sensor saw: ray k starts at `pose` with bearing 2 pi k / n from its heading; ranges in metres, infinite ones
-/// are left out. Rays at a quarter of the opacity, their ends as dots.
+/// A range sensor's scan. Ray k starts at `pose`, with bearing 2 pi k / n from its heading. Ranges are in metres; rays
+/// whose range is not finite are left out. Rays are drawn at a quarter of the opacity, their ends as dots.
 pub fn scan(id: &str, name: &str, pose: &Pose2, ranges: &[f64]) -> Item {
     let n = ranges.len() as f64;
     let end = |(k, range): (usize, &f64)| {

@@ -3,13 +3,13 @@
 /// What a drawn thing stands for. Its colour follows from this and from nothing else.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Role {
-    /// The sheet itself, and what is knocked out of a filled shape.
+    /// The sheet itself, and marks left blank in a filled shape.
     Paper,
     /// A robot that touches nothing.
     Robot,
     /// Walls and solid obstacles.
     Obstacle,
-    /// A goal; and contact, which borrows its colour: a collision is where a plan ends.
+    /// A goal. Contact has the same role: a collision is where a plan ends.
     Goal,
     /// The way a robot went or will go.
     Path,
@@ -17,15 +17,15 @@ pub enum Role {
     Sensor,
     /// Nearest points and the distance between them.
     Witness,
-    /// What is proven free.
+    /// Space proven free.
     Free,
-    /// What is not known.
+    /// Space of which nothing is known.
     Unknown,
-    /// What is armed, selected or focused.
+    /// Anything armed, selected or focused.
     Focus,
     /// Words.
     Text,
-    /// Words and marks that stand back.
+    /// Secondary words and marks.
     Muted,
     /// The frames of panes. Decoration only: it carries no meaning, so it may be faint.
     Hairline,
@@ -88,7 +88,7 @@ pub struct Palette {
 }
 
 impl Palette {
-    /// The palette with this colour for each role.
+    /// Creates a palette from the colours of all roles, in the order of `Role::ALL`.
     pub const fn new(colours: [Rgb; Role::ALL.len()]) -> Self {
         Palette { colours }
     }

@@ -4,11 +4,12 @@ use std::collections::BTreeSet;
 use std::fmt::Write;
 
 use super::figure::{Entry, WIDTH};
+use super::item::MIDDLE;
 use super::{Anchor, Face, Figure, Line, Palette, Primitive, Role, ScreenPoint, Sheet};
 
 impl Figure {
-    /// The figure as an SVG file, the same bytes for the same figure and palette. Metres are fitted to the panels, and line
-    /// widths are in pixels.
+    /// The figure as an SVG file, the same bytes for the same figure and palette. Metres are fitted to the panels, and
+    /// line widths are in pixels.
     pub fn svg(&self, palette: &Palette) -> String {
         self.svg_on(&Sheet { palette, width_px: WIDTH, notes: &[] })
     }
@@ -22,8 +23,8 @@ impl Figure {
 
 /// Writes laid-out entries as a standalone SVG file of this size in pixels.
 ///
-/// Every item is a group with its id, its role as class and its name as title. Colours stand in one stylesheet: in a group of
-/// role r, class `f` is filled with the role's colour and `l` stroked with it.
+/// Every item is a group with its id, its role as class and its name as title. Colours stand in one stylesheet: in a
+/// group of role r, class `f` is filled with the role's colour and `l` stroked with it.
 fn write(figure: &Figure, entries: &[Entry], size: [f64; 2], sheet: &Sheet<'_>) -> String {
     let mut out = Out { text: String::new(), ids: BTreeSet::new() };
     let (w, h) = (number(size[0]), number(size[1]));
@@ -74,7 +75,7 @@ fn number(value: f64) -> String {
     if trimmed == "-0" { "0".to_owned() } else { trimmed.to_owned() }
 }
 
-/// Text for XML: markup escaped, control characters, which XML does not know, left out.
+/// Escapes text for XML. Control characters become blanks; U+FFFE and U+FFFF, which XML does not allow, are left out.
 fn escape(text: &str) -> String {
     let mut out = String::with_capacity(text.len());
     for c in text.chars() {
@@ -108,7 +109,8 @@ impl Out {
         self.text.push_str("</style>\n");
     }
 
-    /// The id with what XML does not allow replaced by `-`, and numbered if it was there before.
+    /// Makes an id valid and unique: characters other than letters, digits, `.` and `_` become `-`, an id that does not
+    /// start with a letter gets an `i` before it, and a repeated id gets a number.
     fn unique(&mut self, id: &str) -> String {
         let allowed = |c: char| if c.is_ascii_alphanumeric() || c == '.' || c == '_' { c } else { '-' };
         let slug: String = id.chars().map(allowed).collect();
@@ -123,7 +125,7 @@ impl Out {
         candidate
     }
 
-    /// Areas of one kind that follow one another are one path: edges that they share then leave no seam.
+    /// Writes primitives. Consecutive areas of one kind become one path, so that shared edges leave no seam.
     fn primitives(&mut self, primitives: &[Primitive]) {
         let kind = |p: &Primitive| match p {
             Primitive::Area { role, opacity, .. } => Some((*role, opacity.to_bits())),
@@ -187,14 +189,14 @@ impl Out {
 
     #[allow(clippy::too_many_arguments)] // the fields of one primitive
     fn words(&mut self, at: ScreenPoint, anchor: Anchor, text: &str, face: Face, size: f64, role: Role, plate: bool) {
-        // no font is at hand to measure with, so a plate is as wide as its words usually are
+        // no font is available to measure words, so the width of a plate is an estimate
         let width = text.chars().count() as f64 * size * if face == Face::Mono { 0.61 } else { 0.55 };
         let (align, left, baseline) = match anchor {
-            Anchor::Right => ("start", at[0], at[1]),
-            Anchor::Left => ("end", at[0] - width, at[1]),
-            Anchor::Center => ("middle", at[0] - 0.5 * width, at[1] + 0.35 * size),
-            Anchor::Above => ("middle", at[0] - 0.5 * width, at[1] - 6.0),
-            Anchor::Below => ("middle", at[0] - 0.5 * width, at[1] + 6.0 + 0.8 * size),
+            Anchor::Right => ("start", at[0], at[1] + MIDDLE * size),
+            Anchor::Left => ("end", at[0] - width, at[1] + MIDDLE * size),
+            Anchor::Centre => ("middle", at[0] - 0.5 * width, at[1] + MIDDLE * size),
+            Anchor::Above => ("middle", at[0] - 0.5 * width, at[1]),
+            Anchor::Below => ("middle", at[0] - 0.5 * width, at[1] + 0.8 * size),
         };
         if plate {
             let (x, y, w) = (number(left - 3.0), number(baseline - 0.95 * size), number(width + 6.0));
@@ -217,7 +219,7 @@ impl Out {
     }
 }
 
-/// `M x y L x y ..`, points that round to the one before left out.
+/// Writes `M x y L x y ..`, without points that round to the one before.
 fn subpath(d: &mut String, points: &[ScreenPoint]) {
     let mut before = String::new();
     for (i, p) in points.iter().enumerate() {
@@ -245,13 +247,13 @@ fn stroke(line: &Line) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::geometry::Aabb;
     use crate::geometry::Point2;
     use crate::picture::{Dash, Drawing, Fill, Item, Palette, Panel, Picture, Rgb};
-    use crate::worlds::Bounds;
 
     fn figure() -> Figure {
         let p = Point2::new;
-        let bounds = Bounds { min: p(0.0, 0.0), max: p(10.0, 10.0) };
+        let bounds = Aabb { min: p(0.0, 0.0), max: p(10.0, 10.0) };
         let items = [
             Item::new(
                 "a/<b>",
@@ -282,7 +284,7 @@ mod tests {
         }))
     }
 
-    /// A small reader of well-formed markup: panics when a tag is left open or closed twice, returns all ids.
+    /// Reads well-formed markup and returns all ids. Panics if a tag is left open or closed twice.
     fn ids_of_well_formed(xml: &str) -> Vec<String> {
         let (mut open, mut ids) = (Vec::new(), Vec::new());
         for tag in xml.split('<').skip(1) {
@@ -335,7 +337,7 @@ mod tests {
     #[test]
     fn shared_edges_leave_no_seam_and_what_reaches_out_is_cut_off() {
         let p = Point2::new;
-        let bounds = Bounds { min: p(0.0, 0.0), max: p(10.0, 10.0) };
+        let bounds = Aabb { min: p(0.0, 0.0), max: p(10.0, 10.0) };
         let square = |x: f64| vec![p(x, 1.0), p(x + 2.0, 1.0), p(x + 2.0, 3.0), p(x, 3.0)];
         let region = |x| Drawing::Region { pieces: vec![square(x), square(x + 2.0)], outline: vec![] };
         let item = |x| Item::new("r", "r", Role::Free, region(x)).filled(Fill::Tint(0.5));

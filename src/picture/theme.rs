@@ -17,7 +17,8 @@ const fn rgb(hex: u32) -> Rgb {
     Rgb([(hex >> 16) as u8, (hex >> 8) as u8, hex as u8])
 }
 
-// in the order of `Role::ALL`: paper, robot, obstacle, goal, path, sensor, witness, free, unknown, focus, text, muted, hairline
+// in the order of `Role::ALL`: paper, robot, obstacle, goal, path, sensor, witness, free, unknown, focus, text, muted,
+// hairline
 const LIGHT: Palette = Palette::new([
     rgb(0xfbfaf7),
     rgb(0x0b4caf),
@@ -105,7 +106,8 @@ mod tests {
         if a > b { a / b } else { b / a }
     }
 
-    /// Machado, Oliveira and Fernandes (2009), severity 1: protanopia, deuteranopia, tritanopia; before them, no deficiency.
+    /// Machado, Oliveira and Fernandes (2009), severity 1: protanopia, deuteranopia, tritanopia; before them, no
+    /// deficiency.
     const SIGHTS: [(&str, [[f64; 3]; 3]); 4] = [
         ("full", [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]),
         ("protan", [[0.152286, 1.052583, -0.204868], [0.114503, 0.786281, 0.099216], [-0.003882, -0.048116, 1.051998]]),

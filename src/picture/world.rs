@@ -1,4 +1,4 @@
-//! A world as a picture.
+//! Draws a world as a picture.
 
 use super::outline::{chains, outline, polygon_of};
 use super::{Anchor, Drawing, Face, Fill, Glyph, Item, Line, Picture, Role};
@@ -35,7 +35,7 @@ fn obstacle(obstacle: &Obstacle) -> Item {
         .stroked(Line::solid(width))
 }
 
-/// A world's named places: a dot, a short line the way it faces, and the name below it.
+/// The items of a world's named places: for each a dot, a short arrow along its heading, and its name below.
 pub fn places(places: &[Place]) -> Vec<Item> {
     places.iter().flat_map(place).collect()
 }
@@ -57,8 +57,9 @@ fn place(place: &Place) -> [Item; 3] {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::geometry::Aabb;
     use crate::geometry::{Pose2, Shape};
-    use crate::worlds::{Bounds, Mark};
+    use crate::worlds::Mark;
 
     #[test]
     fn everything_named_is_drawn_once_under_its_name() {
@@ -66,7 +67,7 @@ mod tests {
         let wall = |a, b| (Pose2::IDENTITY, Shape::try_segment(a, b).unwrap());
         let model = World {
             name: "Yard".into(),
-            bounds: Bounds { min: p(0.0, 0.0), max: p(4.0, 4.0) },
+            bounds: Aabb { min: p(0.0, 0.0), max: p(4.0, 4.0) },
             obstacles: vec![
                 Obstacle::new(
                     "the fence",

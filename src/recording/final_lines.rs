@@ -1,4 +1,4 @@
-//! The last lines of a run: where each robot ended, and how often it was in contact.
+//! The last lines of a run: each robot's final configuration and its contact episodes.
 
 use crate::configuration::{Configuration, HitchCfg, R2, T2, Tn};
 use crate::geometry::Pose2;
@@ -6,7 +6,8 @@ use crate::run::Log;
 
 /// One line per robot by ascending id, three decimals: `Reach  T2 { th1: 0.186, th2: 1.324 }  contacts: 9`.
 ///
-/// Rusty prints its position, Hitch without a trailer its body's pose, every other robot its configuration as its type prints.
+/// Rusty prints its position, Hitch without a trailer its body's pose, the arms and a car with a trailer their
+/// configuration as its type prints. A kind that a program registered prints its coordinates.
 pub fn final_lines(log: &Log) -> Vec<String> {
     let residents = log.config.worlds.iter().flat_map(|w| &w.robots);
     let last = log.frames.last().unwrap_or(&log.initial);

@@ -1,4 +1,4 @@
-//! Runs for comparing platforms: seeded, scripted driving whose digest covers all that floating point could get wrong.
+//! Runs for comparing platforms: seeded, scripted driving whose digests cover frames, footprints and witnesses.
 
 use xxhash_rust::xxh3::Xxh3;
 
@@ -10,13 +10,14 @@ use crate::run::{Digest, Event, Quantized, RobotInput, RunDigest, SCRIPT_VERSION
 use crate::tour::TourConfig;
 use crate::worlds::World;
 
-/// How many ticks an identity run has: 30 s.
+/// Number of ticks in an identity run: 30 s.
 const TICKS: u64 = 600;
 
-/// One line: the world, the seed, the digest of the run and a second digest over every footprint's vertices and every witness.
+/// Returns one line: the world, the seed, the digest of the run, and a second digest over every arm's tip, footprint's
+/// vertices and witness.
 ///
-/// The resident of `world` tours and is driven by a script drawn from `seed`: channels, moves, teleports, trailer, release.
-/// Two builds that print the same line computed the same bits.
+/// The residents of `world` tour, and are driven by a script drawn from `seed`: channels, moves, teleports, trailer,
+/// release. Two builds that print the same line computed the same bits.
 ///
 /// # Errors
 /// [`RunError`] when the run cannot start, which does not happen with a built-in world.

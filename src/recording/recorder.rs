@@ -24,7 +24,7 @@ pub enum RunError {
 
 /// A run under way without a window: the same plugin and the same schedule as with one, run directly.
 ///
-/// It holds nothing that is shared, so that many can run on many threads.
+/// It shares nothing, so many can run on many threads.
 pub struct Recorder {
     world: World,
     ticks: u64,
@@ -34,7 +34,7 @@ impl Recorder {
     /// The run at tick 0.
     ///
     /// # Errors
-    /// [`RunError`] names what in the configuration or the script cannot be.
+    /// [`RunError`] names the invalid part of the configuration or the script.
     pub fn new(config: TourConfig, input: impl Into<RunInput>) -> Result<Self, RunError> {
         Self::with_robots(config, input, |_| {})
     }
@@ -43,7 +43,7 @@ impl Recorder {
     /// [`RobotPlugin`](crate::simulation::RobotPlugin).
     ///
     /// # Errors
-    /// [`RunError`] names what in the configuration or the script cannot be.
+    /// [`RunError`] names the invalid part of the configuration or the script.
     pub fn with_robots(
         config: TourConfig,
         input: impl Into<RunInput>,
@@ -58,23 +58,23 @@ impl Recorder {
         Ok(Recorder { world, ticks })
     }
 
-    /// The frame of the last tick; at first that of tick 0.
+    /// The frame of the last tick; at first the frame of tick 0.
     pub fn frame(&self) -> &Frame {
         &self.world.resource::<LatestFrame>().0
     }
 
-    /// Whether the run is as long as its configuration says. It can go on.
+    /// Whether the run has reached its configuration's number of ticks. It can go on.
     pub fn is_complete(&self) -> bool {
         self.frame().tick >= self.ticks
     }
 
-    /// Runs one tick and gives its frame.
+    /// Runs one tick and returns its frame.
     pub fn step(&mut self) -> &Frame {
         step(&mut self.world);
         self.frame()
     }
 
-    /// Goes to a tick, back or ahead, and gives its frame.
+    /// Moves to a tick, back or ahead, and returns its frame.
     ///
     /// # Errors
     /// [`RunError::Restore`], which cannot happen with the run's own keyframes.
@@ -96,7 +96,7 @@ impl Recorder {
         view(&self.world)
     }
 
-    /// Where the run stands.
+    /// The tick at which the run stands, and how it plays.
     pub fn transport(&self) -> &Transport {
         self.world.resource::<Transport>()
     }

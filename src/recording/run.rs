@@ -1,4 +1,4 @@
-//! `Run`, whole runs at once.
+//! `Run`, recording and replaying of whole runs.
 
 use bevy::app::App;
 
@@ -11,10 +11,10 @@ use crate::tour::TourConfig;
 pub struct Run;
 
 impl Run {
-    /// Runs `config` for its ticks from a seed, a script (at the book's seed), or a seed and a script, and gives the log.
+    /// Runs `config` for its ticks and returns the log. The input is a seed, a script (at the book's seed), or both.
     ///
     /// # Errors
-    /// [`RunError`] names what in the configuration or the script cannot be.
+    /// [`RunError`] names the invalid part of the configuration or the script.
     pub fn record(config: TourConfig, input: impl Into<RunInput>) -> Result<Log, RunError> {
         Self::record_with_robots(config, input, |_| {})
     }
@@ -22,7 +22,7 @@ impl Run {
     /// [`record`](Self::record) with further kinds of robots.
     ///
     /// # Errors
-    /// [`RunError`] names what in the configuration or the script cannot be.
+    /// [`RunError`] names the invalid part of the configuration or the script.
     pub fn record_with_robots(
         config: TourConfig,
         input: impl Into<RunInput>,
@@ -36,7 +36,8 @@ impl Run {
         Ok(Log { seed, config, script, initial, frames, digests })
     }
 
-    /// The frames of ticks 1 to the last, from the log's seed, configuration and script alone: its frames are not looked at.
+    /// Simulates a log's run again and returns the frames from tick 1 to the last. It uses the log's seed,
+    /// configuration and script, not its frames.
     ///
     /// # Errors
     /// [`RunError`] when the log's configuration or script cannot be run.
@@ -53,10 +54,11 @@ impl Run {
         Ok(Self::frames(&mut recorder, log.config.ticks))
     }
 
-    /// Shows `watch` the run in the state of each of the log's frames, from tick 0 on, without simulating: what the frames say.
+    /// Calls `watch` with the run in the state of each of the log's frames, from tick 0 on. Nothing is simulated: the
+    /// frames are taken as they are.
     ///
     /// # Errors
-    /// [`RunError`] when the run cannot start, or a frame is none that a run gives; and what `watch` returns.
+    /// [`RunError`] when the run cannot start or a frame does not fit it, and every error of `watch`.
     pub fn show<E: From<RunError>>(log: &Log, mut watch: impl FnMut(&Recorder) -> Result<(), E>) -> Result<(), E> {
         let mut run = Recorder::new(log.config.clone(), (log.seed, log.script.clone()))?;
         for frame in std::iter::once(&log.initial).chain(&log.frames) {

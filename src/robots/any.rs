@@ -29,8 +29,8 @@ pub enum AnyRobot {
 }
 
 impl AnyRobot {
-    /// The robot of this kind, as worlds name it, and its configuration with these coordinates, angles wrapped; the car has
-    /// its trailer when there are four. `None` for another kind or number, or a coordinate that is not finite.
+    /// The robot of this kind, as worlds name it, and its configuration with these coordinates, angles wrapped; the car
+    /// has its trailer when there are four. `None` for another kind or number, or a coordinate that is not finite.
     pub fn of_kind(kind: &str, coordinates: &[f64]) -> Option<(AnyRobot, AnyConfiguration)> {
         let (robot, like) = match (kind, coordinates.len()) {
             ("rusty", 3) => (AnyRobot::Rusty(RUSTY), AnyConfiguration::Pose(Pose2::IDENTITY)),
@@ -51,7 +51,8 @@ impl AnyRobot {
         self.check(q).is_ok().then_some(*q)
     }
 
-    /// A configuration at a place, headings 0: for an arm, which is where its base is, half a quarter turn up with its links bent.
+    /// A configuration at a point, headings 0. An arm stays at its base: its first link points an eighth of a turn up,
+    /// and its other joints are bent.
     pub fn home(&self, at: Point2) -> AnyConfiguration {
         match self {
             AnyRobot::Rusty(_) => AnyConfiguration::Pose(Pose2::new(at.x, at.y, 0.0)),
@@ -83,7 +84,7 @@ impl AnyRobot {
         }
     }
 
-    /// What part number `part` of its footprint is called: `link 2`, `the trailer`.
+    /// The name of part number `part` of its footprint: `link 2`, `the trailer`.
     pub fn part_name(&self, part: usize) -> String {
         match self {
             AnyRobot::Rusty(_) => "the disc".into(),
@@ -93,8 +94,8 @@ impl AnyRobot {
         }
     }
 
-    /// The point that stands for the robot and that a hand drags: the rover's centre, the arm's tip, the car's rear axle. The
-    /// origin for a configuration of another robot.
+    /// The point that stands for the robot and by which it is dragged: the rover's centre, the arm's tip, the car's
+    /// rear axle. The origin for a configuration of another robot.
     pub fn reference(&self, q: &AnyConfiguration) -> Point2 {
         match (self, q) {
             (AnyRobot::Rusty(_), AnyConfiguration::Pose(pose)) => pose.position(),
@@ -105,7 +106,7 @@ impl AnyRobot {
         }
     }
 
-    /// Which way the robot faces, radians, where its footprint does not tell: the rover's heading.
+    /// The robot's heading, radians, where its footprint does not show it: the rover's. `None` for the others.
     pub fn heading(&self, q: &AnyConfiguration) -> Option<f64> {
         match (self, q) {
             (AnyRobot::Rusty(_), AnyConfiguration::Pose(pose)) => Some(pose.theta),
@@ -113,8 +114,9 @@ impl AnyRobot {
         }
     }
 
-    /// Where joint 1 of an arm is, and between which distances from it its tip can be, metres: the annulus
-    /// `|L1 - L2| <= d <= L1 + L2`, and for more links likewise. `None` for a robot that is not an arm.
+    /// The annulus that an arm's tip can reach: the position of joint 1, and the least and the greatest distance of the
+    /// tip from it, metres. `|L1 - L2| <= d <= L1 + L2`, and for more links likewise. `None` for a robot that is not an
+    /// arm.
     pub fn annulus(&self) -> Option<(Point2, [f64; 2])> {
         match self {
             AnyRobot::Reach(arm) => Some((arm.base, annulus(&arm.lengths))),
@@ -123,12 +125,12 @@ impl AnyRobot {
         }
     }
 
-    /// Where `q` goes when its [reference point](Self::reference) is dragged to `to`.
+    /// The configuration after the [reference point](Self::reference) of `q` was dragged to `to`.
     ///
-    /// A rover or a car moves there without turning. A two-link arm's tip goes there by inverse kinematics on the elbow side
-    /// asked for, a tip beyond the annulus to the annulus' nearest point. A three-link arm keeps its first joint and bends
-    /// the other two so, `to` clamped to what they reach. A point that is not finite, or a configuration of another robot,
-    /// changes nothing.
+    /// A rover or a car moves there without turning. A two-link arm's tip goes there by inverse kinematics, on the
+    /// elbow side asked for; from beyond the annulus it goes to the nearest point of the annulus. A three-link arm
+    /// keeps its first joint angle and bends the other two in the same way. A point that is not finite, or a
+    /// configuration of another robot, changes nothing.
     #[must_use]
     pub fn dragged(&self, q: &AnyConfiguration, to: Point2, elbow_down: bool) -> AnyConfiguration {
         if !(to.x.is_finite() && to.y.is_finite()) {
@@ -141,7 +143,7 @@ impl AnyRobot {
             }
             (AnyRobot::Reach(arm), AnyConfiguration::T2(now)) => {
                 let Some(tip) = clamped(arm, to) else {
-                    // on the base itself, where any first angle will do: the present one
+                    // on the base itself, where every first angle is a solution: keep the present one
                     return AnyConfiguration::T2(Tn([now.th1(), bend(PI)]).wrapped());
                 };
                 on_side(arm.ik(tip), elbow_down).map_or(*q, AnyConfiguration::T2)
@@ -180,7 +182,7 @@ fn clamped(arm: &Reach<2>, to: Point2) -> Option<Point2> {
     Some(if wanted == d { to } else { arm.base + out * (wanted / d) })
 }
 
-/// Of two solutions the one on this side; on the annulus' boundary the only one.
+/// The one of two solutions that is on this elbow side; on the annulus' boundary the only one.
 fn on_side<T>([down, up]: [Option<T>; 2], elbow_down: bool) -> Option<T> {
     if elbow_down { down } else { up.or(down) }
 }

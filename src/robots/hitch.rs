@@ -7,10 +7,10 @@ use crate::num::{self, rk4, wrap};
 use crate::random::Stream;
 use crate::short_list::ShortList;
 
-/// How many Runge-Kutta steps turn the trailer within one tick.
+/// The number of Runge-Kutta steps for the trailer's heading in a motion of one tick.
 const TRAILER_SUBSTEPS: u32 = 4;
 
-/// A car with the reference point at the middle of its rear axle, and there the hitch.
+/// A car whose reference point is the middle of its rear axle; the hitch is there too.
 ///
 /// `x' = v cos theta`, `y' = v sin theta`, `theta' = (v / wheelbase) tan phi`, `psi' = (v / d_h) sin(theta - psi)`.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -105,7 +105,7 @@ fn farthest((min, max): (Point2, Point2)) -> f64 {
 }
 
 impl Hitch {
-    /// The same car with the trailer attached: by the hitch that it has, or else by one of two metres.
+    /// The same car with the trailer attached, by the hitch that it has, or by one of two metres if it has none.
     #[must_use]
     pub fn with_trailer(self) -> Self {
         Hitch { hitch_len: self.hitch_len.or(Some(TRAILER_HITCH_LEN)), ..self }
@@ -117,17 +117,19 @@ impl Hitch {
         Hitch { hitch_len: None, ..self }
     }
 
-    /// The curvature of the rear axle's path at steering angle `phi`, clamped to `max_steer`: `tan(phi) / wheelbase`, per
-    /// metre, positive to the left.
+    /// The curvature of the rear axle's path at steering angle `phi`, clamped to `max_steer`: `tan(phi) / wheelbase`,
+    /// per metre, positive to the left.
     pub fn curvature(&self, phi: f64) -> f64 {
         num::tan(phi.clamp(-self.max_steer, self.max_steer)) / self.wheelbase
     }
 
-    /// The configuration after `dt` seconds of the constant control `u`: a pure function. The body moves on its exact arc,
-    /// the trailer's heading by a fixed-step Runge-Kutta integration against the closed form of the body's heading.
+    /// The configuration after `dt` seconds of the constant control `u`: a pure function. The body moves on its exact
+    /// arc, the trailer's heading by a fixed-step Runge-Kutta integration against the closed form of the body's
+    /// heading.
     ///
     /// # Errors
-    /// [`ConfigurationError`] when `q` has a trailer heading and the car no hitch or the reverse, or a number is not finite.
+    /// [`ConfigurationError`] when `q` has a trailer heading and the car no hitch or the reverse, or a number is not
+    /// finite.
     ///
     /// ```
     /// use motion_lab::prelude::*;
@@ -237,8 +239,8 @@ impl Motion for HitchArc {
         let (speed, acceleration) = (self.ahead.abs(), (self.ahead * self.turn).abs());
         match self.car.hitch_len {
             Some(hitch_len) if part == 1 => {
-                // |psi'| <= |ds| / d_h, and |psi''| <= (|ds| / d_h) (|dtheta| + |psi'|). The Runge-Kutta solution follows the
-                // true one to far better than the percent added here.
+                // |psi'| <= |ds| / d_h, and |psi''| <= (|ds| / d_h) (|dtheta| + |psi'|). The Runge-Kutta solution
+                // follows the true one to far better than the percent added here.
                 let spin = 1.01 * speed / hitch_len;
                 let spin_rate = 1.01 * spin * (self.turn.abs() + spin);
                 let reach = farthest(self.car.trailer_body.corners(hitch_len));

@@ -1,4 +1,4 @@
-//! Robots: what occupies which part of the plane at which configuration, and how far a motion moves it.
+//! Robots: the footprint at each configuration, and bounds on how far a motion moves it.
 
 mod any;
 mod chart_line;
@@ -53,7 +53,7 @@ pub trait Robot: Clone + std::fmt::Debug + PartialEq + Send + Sync + 'static {
     /// The type of its configurations.
     type Configuration: Configuration;
 
-    /// Whether `q` is a configuration of this very robot.
+    /// Checks that `q` is a configuration of this very robot.
     ///
     /// # Errors
     /// [`ConfigurationError`]: not finite, or in the wrong space (a trailer heading without a hitch).
@@ -71,12 +71,12 @@ pub trait Robot: Clone + std::fmt::Debug + PartialEq + Send + Sync + 'static {
     /// [`ConfigurationError`] when either end is not a configuration of this robot.
     fn edge_rates(&self, a: &Self::Configuration, b: &Self::Configuration) -> Result<PartRates, ConfigurationError>;
 
-    /// A configuration drawn uniformly: positions in the box from `min` to `max`, angles in `(-pi, pi]`. How many numbers are
-    /// drawn does not depend on their values.
+    /// A configuration drawn uniformly: positions in the box from `min` to `max`, angles in `(-pi, pi]`. How many
+    /// numbers are drawn does not depend on their values.
     fn sample(&self, min: Point2, max: Point2, stream: &mut Stream) -> Self::Configuration;
 
-    /// The line that the footprint's centre follows along the chart's straight line from `a` to `b`, and its radius, where the robot is a
-    /// disc.
+    /// The line that the footprint's centre follows along the chart's straight line from `a` to `b`, and the
+    /// footprint's radius, metres; `None` where the robot is not a disc.
     fn disc_line(&self, _a: &Self::Configuration, _b: &Self::Configuration) -> Option<(Segment, f64)> {
         None
     }

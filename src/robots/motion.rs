@@ -1,4 +1,5 @@
-//! `Motion`, what the certified march, the simulator's holding and the planners' edges have in common.
+//! `Motion`, the common interface of planners' edges and simulated ticks, which the certified march and the simulator's
+//! holding work on.
 
 use crate::configuration::Configuration;
 use crate::geometry::{CircularArc, Footprint, Segment};
@@ -26,14 +27,14 @@ pub trait Motion {
     /// Bounds that hold for part number `part` over the whole motion.
     fn rates(&self, part: usize) -> Rates;
 
-    /// The arc that the centre of the footprint's only part follows, and the part's radius, where the part is a disc and the
-    /// motion such an arc. For these the checker has closed forms.
+    /// The arc that the centre of the footprint's only part follows, and the part's radius, where the part is a disc
+    /// and the motion such an arc. For these the checker has closed forms.
     fn disc_arc(&self) -> Option<(CircularArc, f64)> {
         None
     }
 
-    /// The line that the centre of the footprint's only part follows at a constant speed, and the part's radius, where the part is a disc
-    /// and the motion such a line. For these the checker has closed forms.
+    /// The line that the centre of the footprint's only part follows at a constant speed, and the part's radius, where
+    /// the part is a disc and the motion such a line. For these the checker has closed forms.
     fn disc_line(&self) -> Option<(Segment, f64)> {
         None
     }
@@ -47,8 +48,8 @@ pub trait Motion {
 
     /// How far a point of the core can stray from the straight chord between its places at `s0` and `s1`, metres.
     ///
-    /// For a curve whose second derivative is at most A, linear interpolation over a span h errs by at most A h^2 / 8. So
-    /// all that the part touches between `s0` and `s1` lies within this distance of the convex hull of its two end
+    /// For a curve whose second derivative is at most A, linear interpolation over a span h errs by at most A h^2 / 8.
+    /// So all that the part touches between `s0` and `s1` lies within this distance of the convex hull of its two end
     /// footprints: the bound near a grazed wall is of second order.
     fn sagitta(&self, part: usize, s0: f64, s1: f64) -> f64 {
         let h = s1 - s0;

@@ -48,11 +48,11 @@ impl Reach<2> {
     /// Inverse kinematics: the configurations whose tip is at `tip`, elbow-down (`th2 >= 0`) first.
     ///
     /// - Strictly inside the annulus `|L1 - L2| < |tip - base| < L1 + L2`: both `Some`, and distinct.
-    /// - On its boundary, to within 16 ulps of the largest of 1, the coordinates involved and `L1 + L2`: `[Some, None]`. The
-    ///   two solutions coincide there; exactly one `None` says that the arm is straight or folded.
+    /// - On its boundary, to within 16 ulps of the largest of 1, the coordinates involved and `L1 + L2`:
+    ///   `[Some, None]`. The two solutions coincide there; exactly one `None` says that the arm is straight or folded.
     /// - Outside: `[None, None]`. A tip that [`fk`](Self::fk) produced is never outside.
-    /// - At the base itself, which only an arm with `L1 = L2` reaches, every `th1` folds the arm onto the base. Of these
-    ///   infinitely many solutions the one with `th1 = 0`, `th2 = pi` is returned.
+    /// - At the base itself, which only an arm with `L1 = L2` reaches, every `th1` folds the arm onto the base. Of
+    ///   these infinitely many solutions the one with `th1 = 0`, `th2 = pi` is returned.
     /// - A tip that is not finite gives `[None, None]`.
     ///
     /// With `d = |tip - base|` the law of cosines in half-angle form is
@@ -117,12 +117,12 @@ impl Reach<3> {
     }
 }
 
-/// A link where it is.
+/// A link at a configuration.
 #[derive(Clone, Copy)]
 struct Link {
     /// Its frame: the origin at its proximal end, the x axis along it.
     pose: Pose2,
-    /// Of the frame's angle.
+    /// The sine and the cosine of the frame's angle.
     sin_cos: (f64, f64),
     length: f64,
 }
@@ -148,8 +148,8 @@ impl<const N: usize> Reach<N> {
 
     /// Forward kinematics: the N + 1 points base, joints, tip, in metres.
     ///
-    /// Link k leaves joint k at the absolute heading `th1 + .. + thk`; one running heading and one running position give
-    /// the product of the N rigid motions "turn by the joint angle, then go the link's length ahead".
+    /// Link k leaves joint k at the absolute heading `th1 + .. + thk`; one running heading and one running position
+    /// give the product of the N rigid motions "turn by the joint angle, then go the link's length ahead".
     pub fn fk(&self, q: &Tn<N>) -> JointPoints {
         self.links(q).map(|link| link.pose.position()).chain([self.tip(q)]).collect()
     }
@@ -164,7 +164,7 @@ impl<const N: usize> Reach<N> {
         self.links(q).last().map_or(0.0, |link| link.pose.theta)
     }
 
-    /// The links from the base on, each where it is.
+    /// The links at a configuration, from the base on.
     fn links(&self, q: &Tn<N>) -> impl Iterator<Item = Link> {
         let (base, mut last) = (self.base, None::<Link>);
         q.0.into_iter().zip(self.lengths).map(move |(angle, length)| {

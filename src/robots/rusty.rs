@@ -117,7 +117,8 @@ impl Rusty {
         EncoderCounts { left: count(turned.left), right: count(turned.right) }
     }
 
-    /// The way that the encoders tell, metres: the mean of what both wheels have rolled. Slip and walls are not in it.
+    /// The distance travelled according to the encoders, metres: the mean of what both wheels have rolled. It leaves
+    /// out slip and walls.
     pub fn travelled(&self, counts: &EncoderCounts) -> f64 {
         0.5 * (counts.left + counts.right) as f64 / self.counts_per_turn * TAU * self.wheel_radius
     }

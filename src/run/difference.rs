@@ -1,22 +1,22 @@
-//! `SetupDifference`, what makes two runs different runs before their first frame.
+//! `SetupDifference`, a difference between two runs before their first frame.
 
 use super::Log;
-use crate::tour::SensorConfig;
+use crate::sensors::RangeSensor;
 
-/// Something that determines a run and is not the same in two logs.
+/// A setting of a run that differs between two logs.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct SetupDifference {
-    /// What it is: `seed`, `ticks`, `sensor`, `worlds`, `world 0, line 7`, `script, line 3`.
+    /// The setting's name: `seed`, `ticks`, `sensor`, `worlds`, `world 0, line 7`, `script, line 3`.
     pub item: String,
-    /// What the first log has.
+    /// Its value in the first log.
     pub first: String,
-    /// What the second log has.
+    /// Its value in the second log.
     pub second: String,
 }
 
 impl Log {
-    /// Everything beside the frames in which two logs differ: seed, ticks, sensor, worlds and script. Of each world and of the
-    /// script the first line that differs in their canonical texts. Empty when both logs are of one run.
+    /// Returns the settings in which two logs differ: seed, ticks, sensor, worlds and script. For each world and for
+    /// the script it gives the first line that differs in their canonical texts. Empty if both logs are of one run.
     pub fn setup_differences(&self, other: &Log) -> Vec<SetupDifference> {
         let mut found = Vec::new();
         let mut compare = |item: &str, first: String, second: String| {
@@ -39,9 +39,9 @@ impl Log {
     }
 }
 
-fn sensor(sensor: Option<SensorConfig>) -> String {
+fn sensor(sensor: Option<RangeSensor>) -> String {
     match sensor {
-        Some(SensorConfig { n_rays, max_range }) => format!("{n_rays} rays, {max_range:?} m"),
+        Some(RangeSensor { n_rays, max_range }) => format!("{n_rays} rays, {max_range:?} m"),
         None => "none".to_owned(),
     }
 }
@@ -75,7 +75,7 @@ mod tests {
             ("ticks", "4", |l| l.config.ticks += 1),
             ("sensor", "none", |l| l.config.sensor = None),
             ("sensor", "3 rays, 4.000000000000001 m", |l| {
-                l.config.sensor = Some(SensorConfig { n_rays: 3, max_range: 4.000_000_000_000_001 });
+                l.config.sensor = Some(RangeSensor { n_rays: 3, max_range: 4.000_000_000_000_001 });
             }),
             ("worlds", "0", |l| l.config.worlds.clear()),
             ("world 0, line 3", "name: \"Garden\",", |l| l.config.worlds[0].name = "Garden".into()),

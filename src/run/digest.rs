@@ -6,7 +6,7 @@ use super::{DT, Frame, Script};
 use crate::random::Seed;
 use crate::tour::TourConfig;
 
-/// xxh3-128 of a canonical encoding: of one frame, or of a whole run. Prints as 32 hexadecimal digits.
+/// The xxh3-128 hash of the canonical encoding of a frame or of a whole run. Prints as 32 hexadecimal digits.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Digest(pub u128);
 
@@ -22,7 +22,7 @@ impl Frame {
         self.digest_in(&mut Vec::with_capacity(self.encoded_length()))
     }
 
-    /// As [`digest`](Self::digest), with room for the encoding.
+    /// As [`digest`](Self::digest), with a buffer for the encoding.
     pub(super) fn digest_in(&self, room: &mut Vec<u8>) -> Digest {
         room.clear();
         self.encode(room);
@@ -30,17 +30,17 @@ impl Frame {
     }
 }
 
-/// The digest of a whole run, as far as it got: equal digests mean equal runs, in every bit of every frame.
+/// The digest of a run up to its latest tick. Equal digests mean equal runs, in every bit of every frame.
 ///
-/// Hashed are, in this order (words are 64 bits, little-endian):
+/// The hash covers, in this order (words are 64 bits, little-endian):
 /// 1. the 16 bytes `motion-lab run 1`;
-/// 2. words: the seed, the bits of [`DT`], the number of ticks configured;
-/// 3. words: 0 without a sensor; with one 1, the number of rays, the bits of the range;
+/// 2. words: the seed, the bits of [`DT`], the configured number of ticks;
+/// 3. words: 0 without a sensor; or 1, the number of rays, the bits of the range;
 /// 4. a word: the number of worlds; for each, its content hash as 16 bytes, little-endian;
 /// 5. a word: the length in bytes of the script's canonical text; the text;
 /// 6. the encoding of the initial frame, then of each tick's frame, in order of ticks.
 ///
-/// The container, the program's version and the machine have no part in it.
+/// It does not depend on the container, the program's version or the machine.
 #[derive(Clone)]
 pub struct RunDigest {
     hasher: Xxh3,
@@ -76,7 +76,7 @@ impl RunDigest {
         RunDigest { hasher, buffer: Vec::new() }
     }
 
-    /// Takes the next tick's frame in.
+    /// Adds the next tick's frame.
     pub fn tick(&mut self, frame: &Frame) {
         self.buffer.clear();
         frame.encode(&mut self.buffer);
@@ -99,7 +99,7 @@ impl std::fmt::Debug for RunDigest {
 mod tests {
     use super::*;
     use crate::run::{Event, Log, RobotInput, fixture};
-    use crate::tour::SensorConfig;
+    use crate::sensors::RangeSensor;
 
     #[test]
     fn everything_that_makes_a_run_is_in_its_digest() {
@@ -109,8 +109,8 @@ mod tests {
             ("nothing", |_| {}),
             ("seed", |l| l.seed.0 ^= 1 << 63),
             ("ticks", |l| l.config.ticks += 1),
-            ("rays", |l| l.config.sensor = Some(SensorConfig { n_rays: 4, max_range: 4.0 })),
-            ("range", |l| l.config.sensor = Some(SensorConfig { n_rays: 3, max_range: 4.000_000_000_000_001 })),
+            ("rays", |l| l.config.sensor = Some(RangeSensor { n_rays: 4, max_range: 4.0 })),
+            ("range", |l| l.config.sensor = Some(RangeSensor { n_rays: 3, max_range: 4.000_000_000_000_001 })),
             ("no sensor", |l| l.config.sensor = None),
             ("world", |l| l.config.worlds[0].bounds.max.x += 1.0),
             ("script", |l| {

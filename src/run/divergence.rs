@@ -25,7 +25,7 @@ pub struct Divergence {
 }
 
 impl Divergence {
-    /// How many representable numbers the two values lie apart; `None` unless both are numbers and none is NaN.
+    /// The distance of the two values in representable numbers; `None` unless both are floats and neither is NaN.
     pub fn ulps(&self) -> Option<u64> {
         match (self.expected, self.found) {
             (Value::Float(a), Value::Float(b)) if !a.is_nan() && !b.is_nan() => {
@@ -36,7 +36,7 @@ impl Divergence {
     }
 }
 
-/// A number's place among all `f64` in ascending order, counted from +0.0; -0.0 comes just before it.
+/// The rank of a number among all `f64` in ascending order, counted from +0.0; -0.0 comes just before it.
 fn rank(x: f64) -> i128 {
     let magnitude = i128::from(x.abs().to_bits());
     if x.is_sign_negative() { -magnitude - 1 } else { magnitude }
@@ -58,8 +58,8 @@ impl fmt::Display for Divergence {
     }
 }
 
-/// The first value, in order of ticks and then of [`Frame::encode`], in which two runs' frames differ in a bit.
-/// `None` when they are the same, every bit of every frame.
+/// The first value, in order of ticks and then of [`Frame::encode`], in which two runs' frames differ in a bit. `None`
+/// if they agree in every bit of every frame.
 pub fn first_divergence(expected: &[Frame], found: &[Frame]) -> Option<Divergence> {
     let (mut a, mut b) = (Vec::new(), Vec::new());
     for (one, other) in expected.iter().zip(found) {

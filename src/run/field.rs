@@ -10,7 +10,7 @@ pub(super) struct Field {
 }
 
 impl Field {
-    /// A value that stands alone.
+    /// A value that is not in a list.
     pub const fn one(name: &'static str) -> Self {
         Field { name, index: None }
     }
@@ -33,7 +33,7 @@ impl fmt::Display for Field {
 /// A value of a frame. Prints in full precision.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Value {
-    /// A number, metres or radians.
+    /// A floating-point number, metres or radians.
     Float(f64),
     /// A whole number that may be negative.
     Integer(i64),

@@ -2,10 +2,11 @@
 
 use super::{DT, Event, Frame, Log, Quantized, RobotInput, RobotScan, RobotState, SCRIPT_VERSION, Script};
 use crate::configuration::Coordinates;
-use crate::geometry::Point2;
+use crate::geometry::{Aabb, Point2};
 use crate::random::Seed;
-use crate::tour::{SensorConfig, TourConfig};
-use crate::worlds::{Bounds, Resident, World};
+use crate::sensors::RangeSensor;
+use crate::tour::TourConfig;
+use crate::worlds::{Resident, World};
 
 const SUBNORMAL: f64 = 4.9e-324;
 
@@ -43,7 +44,7 @@ pub fn log() -> Log {
     let resident = |name: &str, kind: &str, start: &[f64]| Resident::new(name, kind, start);
     let world = World {
         name: "Yard".into(),
-        bounds: Bounds { min: Point2::new(-1.0, -2.0), max: Point2::new(3.0, 4.0) },
+        bounds: Aabb { min: Point2::new(-1.0, -2.0), max: Point2::new(3.0, 4.0) },
         obstacles: vec![],
         places: vec![],
         marks: vec![],
@@ -58,7 +59,7 @@ pub fn log() -> Log {
     let frames: Vec<Frame> = (1..=3).map(frame).collect();
     Log {
         seed: Seed(u64::MAX - 1),
-        config: TourConfig { worlds: vec![world], ticks: 3, sensor: Some(SensorConfig { n_rays: 3, max_range: 4.0 }) },
+        config: TourConfig { worlds: vec![world], ticks: 3, sensor: Some(RangeSensor { n_rays: 3, max_range: 4.0 }) },
         script: Script { version: SCRIPT_VERSION, events },
         initial: frame(0),
         digests: frames.iter().map(Frame::digest).collect(),

@@ -1,4 +1,4 @@
-//! `Frame`, the whole simulation's state after a tick, in its one canonical form.
+//! `Frame`, the state of the whole simulation after a tick, in its one canonical form.
 
 use super::field::{Field, Value};
 use crate::configuration::Coordinates;
@@ -7,21 +7,21 @@ use crate::short_list::ShortList;
 /// The length of a tick in seconds: the simulation runs at 20 Hz. Time is tick * DT, never a sum.
 pub const DT: f64 = 0.05;
 
-/// The state of one robot after a tick: all that is needed to go on from here.
+/// The state of one robot after a tick: all that is needed to continue from it.
 ///
 /// No NaN enters it, and -0.0 is stored as +0.0.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RobotState {
-    /// The robot's id: its place in the run's list of robots.
+    /// The robot's id: its index in the run's list of robots.
     pub id: u32,
-    /// The configuration's coordinates in its chart; their number tells the space.
+    /// The chart coordinates of the configuration. Their number determines the space.
     pub configuration: Coordinates,
-    /// The robot's own state beside its configuration, in the order its kind documents: Rusty's accumulated left and right
-    /// wheel turns (radians), its tour's next waypoint.
+    /// The robot's own state beside its configuration, in the order its kind documents: Rusty's accumulated left and
+    /// right wheel turns (radians), its tour's next waypoint.
     pub extra: ShortList<f64, 4>,
     /// The control channels held by manual driving, -128 to 128 of the maximum.
     pub channels: [i16; 2],
-    /// The coordinates a manual move is heading for; empty when there is none.
+    /// The target coordinates of a manual move; empty if there is none.
     pub target: Coordinates,
     /// Whether a person drives, not the tour.
     pub manual: bool,
@@ -29,7 +29,7 @@ pub struct RobotState {
     pub in_contact: bool,
     /// Contact episodes since tick 0.
     pub contacts: u32,
-    /// Ticks for which the flash still holds.
+    /// Number of ticks that the contact flash still lasts.
     pub flash: u32,
     /// Script inputs refused since tick 0 (a teleport onto an obstacle, a trailer where there is no room).
     pub refusals: u32,
@@ -42,11 +42,11 @@ pub struct Frame {
     pub tick: u64,
     /// The robots' states by ascending id.
     pub robots: Vec<RobotState>,
-    /// What the robots' range sensors saw, by ascending robot id; a robot without a sensor has none.
+    /// The scans of the robots' range sensors, by ascending robot id. A robot without a sensor has none.
     pub scans: Vec<RobotScan>,
 }
 
-/// What one robot's range sensor saw at the end of a tick.
+/// The scan of one robot's range sensor at the end of a tick.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RobotScan {
     /// The robot's id.
@@ -58,10 +58,10 @@ pub struct RobotScan {
 impl Frame {
     /// Calls `visit` for every value of the frame in canonical order: the robot it belongs to, its name, the value.
     ///
-    /// This one list is the canonical encoding, the digest's input and what a divergence is found in. A list's length
-    /// comes before its items, so two frames' lists run alike up to their first difference.
+    /// This one order serves the canonical encoding, the digest and the search for a divergence. A list's length comes
+    /// before its items, so the values of two frames correspond up to their first difference.
     pub(super) fn visit(&self, visit: &mut impl Visit) {
-        // taken apart by name, so that a field added later can't be forgotten here
+        // destructured by name, so that a field added later cannot be forgotten here
         let Frame { tick, robots, scans } = self;
         visit.value(None, Field::one("tick"), Value::Count(*tick));
         visit.value(None, Field::one("robots.len"), Value::of_len(robots.len()));
@@ -92,7 +92,8 @@ impl Frame {
     /// | 1 | its robot's id |
     /// | 1 + n | the number of its ranges, and these |
     ///
-    /// An `f64` is its bits. No two frames that differ in a bit have one encoding, and none's is the beginning of another's.
+    /// An `f64` is encoded as its bits. Frames that differ in a bit have different encodings, and no encoding is the
+    /// beginning of another.
     pub fn encode(&self, out: &mut Vec<u8>) {
         self.visit(&mut Words(out));
     }
@@ -144,7 +145,7 @@ fn visit_list(robot: Option<u32>, len_name: &'static str, name: &'static str, li
     visit.floats(robot, name, list);
 }
 
-/// What goes over the values of a frame.
+/// A visitor of the values of a frame.
 pub(super) trait Visit {
     /// A value.
     fn value(&mut self, robot: Option<u32>, field: Field, value: Value);
@@ -163,7 +164,7 @@ impl<F: FnMut(Option<u32>, Field, Value)> Visit for F {
     }
 }
 
-/// The values' words, lists all at once: most of a frame is a scan.
+/// Appends the values as words. Lists are appended in one go, because scans are most of a frame.
 struct Words<'a>(&'a mut Vec<u8>);
 
 impl Visit for Words<'_> {

@@ -4,12 +4,12 @@ use super::{Digest, Frame, RunDigest, Script};
 use crate::random::Seed;
 use crate::tour::TourConfig;
 
-/// A recorded run: everything that determines it, and every frame that came of it.
+/// A recorded run: everything that determines it, and every frame.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Log {
     /// The seed.
     pub seed: Seed,
-    /// The configuration, with the worlds themselves.
+    /// The run's settings, with the worlds themselves.
     pub config: TourConfig,
     /// The input script.
     pub script: Script,

@@ -1,4 +1,4 @@
-//! `Script`, the input of a run: what people and programs did, on change only.
+//! `Script`, the input of a run: what people and programs did, recorded only when it changes.
 
 use serde::{Deserialize, Serialize};
 
@@ -13,7 +13,7 @@ pub const SCRIPT_VERSION: u32 = 1;
 pub struct Script {
     /// The format's version, [`SCRIPT_VERSION`].
     pub version: u32,
-    /// The events in order of their ticks; among those of one tick the order is that of the list.
+    /// The events in order of their ticks. Events of one tick keep the order of the list.
     pub events: Vec<Event>,
 }
 
@@ -25,11 +25,12 @@ pub struct Event {
     pub tick: u64,
     /// The name of the robot.
     pub robot: String,
-    /// What is put in.
+    /// The input.
     pub input: RobotInput,
 }
 
-/// A coordinate as captured: metres or radians in units of 2^-20, so that no pixel enters a run. `Quantized(1 << 20)` is 1.
+/// A captured coordinate, metres or radians in units of 2^-20: `Quantized(1 << 20)` is 1. The rounding keeps pixels out
+/// of runs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 #[serde(transparent)]
 pub struct Quantized(pub i64);
@@ -38,44 +39,46 @@ impl Quantized {
     /// Units per metre or radian.
     pub const UNITS: f64 = 1_048_576.0;
 
-    /// The nearest quantized value (ties to even); `None` unless finite and below 2^33 in size.
+    /// The nearest quantized value (ties to even); `None` unless finite and below 9.1e15 units in size, a little above
+    /// 2^33.
     pub fn try_new(value: f64) -> Option<Self> {
         let scaled = (value * Self::UNITS).round_ties_even();
         (scaled.abs() < 9.1e15).then_some(Quantized(scaled as i64))
     }
 
-    /// The value in metres or radians, exact.
+    /// The value in metres or radians; exact up to 2^53 units.
     pub fn value(self) -> f64 {
         self.0 as f64 / Self::UNITS
     }
 }
 
-/// An input to a robot. The first one takes the robot over from its tour; `Release` gives it back.
+/// An input to a robot. The first one takes the robot over from its tour; `Release` returns it.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub enum RobotInput {
-    /// Hold these control channels: parts in 128 of the maximum, -128 to 128. Rusty: speed, turn rate. Hitch: speed,
+    /// Hold these control channels, in 128ths of the maximum, -128 to 128. Rusty: speed, turn rate. Hitch: speed,
     /// steering angle. Reach has no drive channels and refuses it.
     Drive(i16, i16),
     /// Go to these chart coordinates by the end of the tick. Reach: its joint angles.
     MoveTo(Vec<Quantized>),
     /// Be put at these chart coordinates, unless the footprint there would overlap or touch anything.
     Teleport(Vec<Quantized>),
-    /// Attach the trailer straight behind the car (psi = theta), unless it would overlap or touch anything, or detach it.
+    /// Attach the trailer straight behind the car (psi = theta), unless it would overlap or touch anything, or detach
+    /// it.
     SetTrailer(bool),
     /// Back to the tour.
     Release,
 }
 
 impl Script {
-    /// The script without an event.
+    /// A script without events.
     pub const fn empty() -> Self {
         Script { version: SCRIPT_VERSION, events: Vec::new() }
     }
 
-    /// The script that moves the robot named `robot` to one configuration after the other, one a tick from tick 1 on: a plan
-    /// for a robot that can be sent to places, such as Reach. Coordinates are rounded to units of 2^-20. `None` when one is not
-    /// finite or out of range.
+    /// Creates a script that moves the robot named `robot` through a list of configurations, one a tick from tick 1 on.
+    /// It suits robots that take `MoveTo`, such as Reach. Coordinates are rounded to units of 2^-20. `None` if one is
+    /// not finite or out of range.
     ///
     /// ```
     /// use motion_lab::prelude::*;

@@ -1,4 +1,4 @@
-//! The script as text: reading it with every check, and its one canonical form.
+//! Reads scripts from text, with every check, and writes them in their one canonical form.
 
 use std::collections::BTreeSet;
 use std::fmt::Write;
@@ -8,11 +8,12 @@ use serde::Deserialize;
 
 use super::{Event, Quantized, RobotInput, SCRIPT_VERSION, Script};
 use crate::geometry::MAX_COORDINATE;
+use crate::text_position::{line_at, line_ends, offset_of};
 use crate::tour::MAX_TICKS;
 
-/// The greatest number of events in a script.
+/// Largest number of events in a script.
 pub const MAX_EVENTS: usize = 1_000_000;
-/// The greatest number of coordinates in a `MoveTo` or `Teleport`.
+/// Largest number of coordinates in a `MoveTo` or `Teleport`.
 pub const MAX_COORDINATES: usize = 64;
 /// The greatest absolute value of a control channel: the robot's maximum.
 pub const MAX_CHANNEL: i16 = 128;
@@ -26,7 +27,7 @@ pub struct ScriptError {
     pub file: String,
     /// The line, from 1: where the event begins, or where reading stopped; 0 for a script that was not read from text.
     pub line: usize,
-    /// The event's index, from 0; `None` when the trouble lies outside the list.
+    /// The event's index, from 0; `None` if the error lies outside the list.
     pub event: Option<usize>,
     /// The reason.
     pub problem: ScriptProblem,
@@ -73,7 +74,7 @@ pub enum ScriptProblem {
     /// A control channel beyond the maximum.
     #[error("channel {0}: it must be in -{MAX_CHANNEL} to {MAX_CHANNEL}")]
     Channel(i16),
-    /// A coordinate too large.
+    /// A coordinate that is too large.
     #[error("coordinate {0} (in units of 2^-20): its size must be at most {MAX_COORDINATE} m or rad")]
     Coordinate(i64),
     /// Too few or too many coordinates.
@@ -90,7 +91,7 @@ impl ScriptProblem {
     }
 }
 
-/// The file as written. The events stay unread, so that each is read by itself and its errors know its line.
+/// The file as written. The events stay text here and are parsed one by one, so that an error knows its event and line.
 #[derive(Deserialize)]
 #[serde(rename = "Script", deny_unknown_fields)]
 struct ScriptText<'a> {
@@ -107,11 +108,11 @@ struct VersionText {
 }
 
 impl Script {
-    /// The script that `text` describes. `source_name` is what errors call the file.
+    /// Reads a script from `text`. Errors name the file `source_name`.
     ///
     /// # Errors
-    /// [`ScriptError`] names file, line, event and reason. Refused are: text that is not RON or not of the format's form;
-    /// another version; an unknown field; ticks that don't begin at 1 or later, or don't ascend; channels outside
+    /// [`ScriptError`] names file, line, event and reason. Refused are: text that is not RON or not of the format's
+    /// form; another version; an unknown field; ticks that don't begin at 1 or later, or don't ascend; channels outside
     /// -128 to 128; coordinates beyond [`MAX_COORDINATE`]; more than [`MAX_EVENTS`] events.
     ///
     /// ```
@@ -131,24 +132,24 @@ impl Script {
             error(first_line + e.span.start.line - 1, event, ScriptProblem::Syntax(e.code.to_string()))
         };
         let read: Result<ScriptText, _> = ron::from_str(text);
-        // the version before all else: the rest of another version's file may look different
+        // the version is checked first: a file of another version may have another form
         let version = match &read {
             Ok(file) => file.version,
             Err(_) => ron::from_str(text).map_or(u64::from(SCRIPT_VERSION), |VersionText { version }| version),
         };
         if version != u64::from(SCRIPT_VERSION) {
-            return Err(error(line_of(text, text.find("version").unwrap_or(0)), None, ScriptProblem::Version(version)));
+            return Err(error(line_at(text, text.find("version").unwrap_or(0)), None, ScriptProblem::Version(version)));
         }
         let file = read.map_err(|e| syntax(1, None, e))?;
         let mut script = Script::empty();
         if file.events.len() > MAX_EVENTS {
             return Err(error(1, None, ScriptProblem::TooMany(file.events.len())));
         }
-        // lines are counted on from event to event
+        // lines are counted from event to event
         let (mut line, mut counted) = (1, 0);
         for (i, raw) in file.events.iter().enumerate() {
-            let offset = offset_in(text, raw.trim().get_ron());
-            line += newlines(text, counted, offset);
+            let offset = offset_of(text, raw.trim().get_ron());
+            line += line_ends(text, counted, offset);
             counted = offset;
             let event: Event = ron::from_str(raw.trim().get_ron()).map_err(|e| syntax(line, Some(i), e))?;
             let before = script.events.last().map_or(0, |e| e.tick);
@@ -158,7 +159,8 @@ impl Script {
         Ok(script)
     }
 
-    /// The canonical text: one event a line, every number and name written in one way. Reading it gives the script back.
+    /// The canonical text: one event a line, every number and name written in one way. Reading it gives the script
+    /// back.
     pub fn to_ron(&self) -> String {
         let mut text = format!("Script(\n    version: {},\n    events: [\n", self.version);
         for Event { tick, robot, input } in &self.events {
@@ -169,7 +171,7 @@ impl Script {
         text
     }
 
-    /// The same in one line, without a blank that is not part of a name. Reading it gives the script back.
+    /// The same in one line, with blanks only within names. Reading it gives the script back.
     pub fn to_line(&self) -> String {
         let mut text = format!("Script(version:{},events:[", self.version);
         for Event { tick, robot, input } in &self.events {
@@ -180,7 +182,7 @@ impl Script {
         text + "])"
     }
 
-    /// Whether the script is one that [`parse`](Self::parse) would give: for scripts made by a program.
+    /// Checks a script made by a program: whether [`parse`](Self::parse) could have returned it.
     ///
     /// # Errors
     /// [`ScriptError`] without file and line.
@@ -199,7 +201,7 @@ impl Script {
         Ok(())
     }
 
-    /// Whether every event's robot is among `names`.
+    /// Checks that every event's robot is among `names`.
     ///
     /// # Errors
     /// [`ScriptError`] without file and line, naming the first event of an unknown robot.
@@ -242,7 +244,7 @@ impl Event {
     }
 }
 
-/// An input as the canonical text writes it.
+/// Writes an input as the canonical text has it.
 struct InputText<'a>(&'a RobotInput);
 
 impl std::fmt::Display for InputText<'_> {
@@ -264,25 +266,13 @@ impl std::fmt::Display for InputText<'_> {
     }
 }
 
-/// Where `part`, a part of `text`, begins in it.
-fn offset_in(text: &str, part: &str) -> usize {
-    (part.as_ptr() as usize).saturating_sub(text.as_ptr() as usize).min(text.len())
-}
-
-fn newlines(text: &str, from: usize, to: usize) -> usize {
-    text.as_bytes().get(from..to).map_or(0, |bytes| bytes.iter().filter(|&&b| b == b'\n').count())
-}
-
-fn line_of(text: &str, offset: usize) -> usize {
-    1 + newlines(text, 0, offset)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
 
     const GOOD: &str = "// a drive\nScript(version: 1, events: [\n  (tick: 1, robot: \"Rusty\", input: Drive(128, -128)),\n\n  \
-        // the arm\n  (tick: 1, robot: \"Reach\",\n   input: MoveTo([1048576, -5])),\n  (robot: \"a \\\"b\\\" \\u{e9}\\t\\\\\", \
+        // the arm\n  (tick: 1, robot: \"Reach\",\n   input: MoveTo([1048576, -5])),\n  (robot: \"a \\\"b\\\"
+        // \\u{e9}\\t\\\\\", \
         input: Teleport([0]), tick: 7), (tick: 7, robot: \"Hitch\", input: SetTrailer(true)),\n  \
         (tick: 4294967296, robot: \"Hitch\", input: Release)])";
 
@@ -358,7 +348,7 @@ mod tests {
         assert_eq!(script.check_robots(&all[1..]).unwrap_err().to_string(), "events[3]: there is no robot \"Hitch\"");
     }
 
-    /// Compared pairwise this would take ten thousand million comparisons.
+    /// Pairwise this would take ten thousand million comparisons.
     #[test]
     fn a_hundred_thousand_names_are_looked_up_not_compared_with_one_another() {
         let names: Vec<String> = (0..100_000).map(|i| format!("a robot with the number {i:06}")).collect();

@@ -11,9 +11,9 @@ const DRAWS: u64 = 4;
 impl BeamModel {
     /// The noisy readings for the exact `ranges` of `sensor` at tick `tick`, drawn from `stream`.
     ///
-    /// Every ray draws from its own place in the stream, so a reading depends on the seed, the stream's name, the tick and the
-    /// ray only. Hits are kept in [0, R]; a ray whose exact range is infinite has no hit and no short return within it: it
-    /// reads infinity, R or at random. A reading is never negative.
+    /// Every ray draws from its own place in the stream, so a reading depends on the seed, the stream's name, the tick
+    /// and the ray only. Hits are kept in [0, R]. A ray whose exact range is infinite has neither a hit nor a short
+    /// return: it reads infinity, R or a random range. A reading is never negative.
     pub fn apply(&self, sensor: &RangeSensor, ranges: &[f64], stream: &Stream, tick: u64) -> Vec<f64> {
         // ray k's draws begin at index tick n + k; the indices follow one another, so the stream is walked, not sought
         let mut draws = stream.at(tick * u64::from(sensor.n_rays));

@@ -6,10 +6,10 @@ use super::wedges::turns;
 use crate::collision::{Circle, LANES};
 use crate::num::sqrt;
 
-/// More than the errors of the two bearings, in turns.
+/// An upper bound on the errors of the two bearings together, in turns.
 const SLACK: f64 = 1e-5;
 
-/// Raises the inverse range of every ray that meets the disc: of those between the two tangents.
+/// Raises the inverse range of every ray that meets the disc, that is of every ray between its two tangents.
 #[inline(always)]
 pub(super) fn raise_circle(circle: &Circle, view: &View, fan: &mut Fan) {
     let (cx, cy, r) = (circle.centre.x - view.origin.x, circle.centre.y - view.origin.y, circle.radius);

@@ -1,4 +1,4 @@
-//! Raising the rays that meet segments, without branches that a processor could not foresee.
+//! Raises the inverse ranges of the rays that meet segments, without unpredictable branches.
 
 use super::rays::{Fan, Rays, each_block, each_ray, raised, some};
 use super::view::View;
@@ -6,20 +6,23 @@ use super::wedges::{BATCH, Ready, kind};
 use crate::geometry::{Point2, Segment, orientation};
 use crate::num::{greater, lesser, sqrt};
 
-/// A segment with more blocks than this between its first and its last has a loop to itself.
+/// Largest number of blocks between a segment's first and its last that it adds to the common list; a segment with more
+/// has a loop of its own.
 const WIDE: usize = 8;
 
-/// So many bits of a pair are the number of a block: 26 are 500 million rays, and leave 6 for one of 64 segments.
+/// Number of bits in a pair for the number of a block: 26 suffice for 500 million rays, and leave 6 for one of 64
+/// segments.
 const BITS: u32 = 26;
 
-/// What raising needs again and again.
+/// The working memory for raising rays, kept from batch to batch.
 #[derive(Clone, Debug)]
 pub(super) struct Desk {
     pub(super) ready: Ready,
     /// The numbers of the segments that can raise anything.
     able: [u32; BATCH],
-    /// Segments and blocks all of whose rays are in the segment's wedge: its number, then in [`BITS`] the block's; and room for
-    /// [`WIDE`] more.
+    /// Pairs of a segment and a block all of whose rays are in the segment's wedge: the segment's number in the high
+    /// bits, the block's in the low [`BITS`]. The array is longer by [`WIDE`], because that many pairs are written at a
+    /// time.
     within: [u32; BATCH * WIDE + WIDE],
 }
 
@@ -29,7 +32,7 @@ impl Default for Desk {
     }
 }
 
-/// Raises the rays that meet the segments made ready.
+/// Raises the rays that meet the prepared segments.
 #[inline(always)]
 pub(super) fn raise_ready(desk: &mut Desk, [ax, ay, bx, by]: [&[f64]; 4], view: &View, fan: &mut Fan) {
     let Desk { ready, able, within } = desk;
@@ -38,7 +41,7 @@ pub(super) fn raise_ready(desk: &mut Desk, [ax, ay, bx, by]: [&[f64]; 4], view: 
     let (mut count, mut pairs) = (0, 0);
     for k in 0..ax.len().min(BATCH) {
         let (kind, first, last) = ready.span(k);
-        // of more than 64 blocks all are open, whatever the shifts come to
+        // with more than 64 blocks all count as open, whatever the shifts give
         let seen = (open >> (first % 64)) << (63 - last.wrapping_sub(first) % 64) != 0;
         able[count] = k as u32;
         count += usize::from((kind != kind::NONE) & (seen | (kind != kind::SURE)));
@@ -79,7 +82,7 @@ pub(super) fn raise_ready(desk: &mut Desk, [ax, ay, bx, by]: [&[f64]; 4], view: 
     }
 }
 
-/// A segment whose line passes so near the origin that p x q is mostly rounding.
+/// Raises the rays that meet a segment whose line passes so near the origin that p x q is mostly rounding.
 #[cold]
 #[inline(never)]
 fn raise_doubtful([ax, ay, bx, by]: [f64; 4], view: &View, blocks: &mut [Rays]) {
@@ -101,7 +104,7 @@ fn raise_doubtful([ax, ay, bx, by]: [f64; 4], view: &View, blocks: &mut [Rays]) 
         (p, q) = (q, p);
     }
     let u = (q - p) / area.abs();
-    // seen at a small angle it is nowhere nearer than its nearer end, nor farther than the other
+    // seen at a small angle, the segment is nowhere nearer than its nearer end, nor farther than its farther end
     let (p1, q1) = (1.0 / sqrt(p.norm_squared()), 1.0 / sqrt(q.norm_squared()));
     let thin = p.dot(&q) > 0.0;
     let (least, most) = match (thin, p1 < q1) {

@@ -1,8 +1,7 @@
-//! A scan of a large world: ring by ring outward, leaving out what only closed sectors could see.
+//! A scan of a large world: visits the grid's cells ring by ring outward, and skips those that only closed sectors see.
 
 use super::cast_segments::Desk;
-use super::kernel::Kernel;
-use super::kernel::raise;
+use super::kernel::{Kernel, raise};
 use super::open_rays::Groups;
 use super::rays::Fan;
 use super::sectors;
@@ -10,14 +9,14 @@ use super::view::View;
 use super::wedges::{BATCH, Batch};
 use crate::collision::{Cells, LANES, Place, SegmentSoup};
 
-/// What a walk needs again and again.
+/// The working memory of a walk through the grid, kept from scan to scan.
 #[derive(Clone, Debug)]
 pub(super) struct Walk {
     groups: Groups,
-    /// In which scan each thing was last met.
+    /// The number of the scan in which each segment or disc was last met.
     met: Vec<u32>,
     scan: u32,
-    /// The cells of the ring under way that are looked at.
+    /// The cells of the current ring that have to be visited.
     cells: Vec<usize>,
     pending: Pending,
 }
@@ -26,10 +25,10 @@ pub(super) struct Walk {
 #[derive(Clone, Debug)]
 struct Pending {
     numbers: Vec<u32>,
-    /// Those from here on are not raised yet.
+    /// The place in `numbers` of the first segment that is not raised yet.
     from: usize,
     count: usize,
-    /// The blocks that were open when the first of those was met: only what was closed by then they cannot raise.
+    /// The blocks that were open when the first of those was met. The pending segments can raise no ray of the others.
     open: u64,
     /// Ends in structure-of-arrays order.
     arrays: Box<[Batch; 4]>,
@@ -44,8 +43,8 @@ impl Default for Walk {
 }
 
 impl Pending {
-    /// Raises the rays that meet the segments. If there is more to come, less than eight are kept for later: a ray is only taken
-    /// for open a little longer then.
+    /// Raises the rays that meet the pending segments. If more are to come, fewer than eight are kept for later. That
+    /// is safe: a ray only counts as open a little longer then.
     fn raise(&mut self, more: bool, cells: &Cells, view: &View, kernel: &Kernel, fan: &mut Fan, desk: &mut Desk) {
         let Pending { numbers, from, count, open, arrays } = self;
         let kept = if more { (*count - *from) % LANES } else { 0 };
@@ -65,7 +64,7 @@ impl Pending {
 }
 
 impl Walk {
-    /// Room for so many things.
+    /// Begins a scan, with room for this many segments and discs.
     fn prepare(&mut self, things: usize) {
         if self.met.len() < things || self.scan == u32::MAX {
             self.met = vec![0; things];
@@ -76,7 +75,8 @@ impl Walk {
         (self.pending.from, self.pending.count) = (0, 0);
     }
 
-    /// Takes the cells of a ring that open sectors see within reach.
+    /// Lists the cells of a ring that open sectors see and that are no farther than the root of `reach`, in cells.
+    /// Rings beyond the precomputed ones are listed in full.
     fn take_cells(&mut self, cells: &Cells, place: &Place, ring: i64, open: u64, reach: f64) {
         if ring > sectors::LISTED {
             self.cells.clear();
@@ -98,10 +98,10 @@ impl Walk {
         self.cells.truncate(count);
     }
 
-    /// Takes what the cells hold and was not met before; discs are raised at once.
+    /// Collects the segments of the listed cells that were not met before, and raises the rays that meet new discs.
     fn meet(&mut self, soup: &SegmentSoup, cells: &Cells, view: &View, kernel: &Kernel, fan: &mut Fan) {
         let segments = soup.segments().len();
-        // values of this loop's own, which the compiler need not keep in memory
+        // local values, which the compiler can keep in registers
         let (met, numbers, scan) = (&mut self.met[..], &mut self.pending.numbers[..], self.scan);
         let mut count = self.pending.count;
         for &cell in &self.cells {
@@ -140,11 +140,11 @@ impl Walk {
         let mut ring = first;
         loop {
             let distance = cells.least_distance(&place, ring);
-            // hardly ever is a ray closed by then, and so the first two rings are taken as they are
+            // rays are hardly ever closed before the third ring, so the first two are visited without this test
             if ring > first + 1 {
                 open = self.groups.close(fan, kernel, cells.sides(&place, ring));
             }
-            // what is left may be nearer than where the walk ends
+            // whether the rings that are left may still change a ray
             let more = ring <= last && distance <= view.reach && open != 0;
             if more {
                 if self.pending.from == self.pending.count {

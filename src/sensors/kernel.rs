@@ -1,11 +1,12 @@
 //! The scan's loops, compiled for several instruction sets that all give the same bits.
 //!
-//! A segment with the ends p, q as seen from the sensor, p x q > 0, meets the ray of unit direction d at 1/t = (d x (q - p)) / (p x q),
-//! which is linear in d. A ray meets it when it lies in the closed wedge between p and q: p x d >= 0 and d x q >= 0. Two segments with a
-//! common end use the same rounded p, so a ray is on one side of it or on the other: no corner leaks.
+//! A segment with the ends p, q as seen from the sensor, p x q > 0, meets the ray of unit direction d at
+//! `1/t = (d x (q - p)) / (p x q)`, which is linear in d. A ray meets it when it lies in the closed wedge between p and
+//! q: `p x d >= 0` and `d x q >= 0`. Two segments with a common end use the same rounded p, so a ray is on one side of
+//! it or on the other: no corner leaks.
 //!
-//! Only multiplications, additions, comparisons, divisions and square roots are used, each rounded once on every machine; nothing
-//! is fused or reordered.
+//! Only multiplications, additions, comparisons, divisions and square roots are used, each rounded once on every
+//! machine; nothing is fused or reordered.
 
 use multiversion::multiversion;
 
@@ -21,19 +22,20 @@ use crate::collision::Circle;
 pub(super) struct Kernel {
     /// Turns the directions of the sensor's frame by a heading.
     pub(super) turn: fn(&mut Fan, &[[Lanes; 2]], (f64, f64)),
-    /// Makes segments ready.
+    /// Prepares segments.
     pub(super) make: fn(&mut Ready, [&[f64]; 4], &View),
-    /// Raises the rays that meet the segments made ready.
+    /// Raises the rays that meet the prepared segments.
     pub(super) raise: fn(&mut Desk, [&[f64]; 4], &View, &mut Fan),
     /// Raises the rays that meet a disc.
     pub(super) circle: fn(&Circle, &View, &mut Fan),
-    /// Says which blocks have a ray that hits nothing within a box.
+    /// Marks the blocks that have a ray that hits nothing within a box.
     pub(super) open: fn(&Fan, [f64; 4], &mut [u8]),
     /// Writes the ranges.
     pub(super) ranges: fn(&Fan, f64, &mut [f64]),
 }
 
-/// Raises the inverse range of every ray to that of every segment it hits; the coordinates of their ends come in whole eights.
+/// Raises every ray's inverse range to that of every segment it hits. The arrays of the ends' coordinates are padded to
+/// a multiple of eight.
 pub(super) fn raise([ax, ay, bx, by]: [&[f64]; 4], view: &View, kernel: &Kernel, fan: &mut Fan, desk: &mut Desk) {
     for from in (0..ax.len()).step_by(BATCH) {
         let to = (from + BATCH).min(ax.len());
@@ -43,7 +45,7 @@ pub(super) fn raise([ax, ay, bx, by]: [&[f64]; 4], view: &View, kernel: &Kernel,
     }
 }
 
-/// The same functions under every set of features; on another machine they are the plain ones.
+/// Defines the same functions for a set of target features; a machine without these runs the baseline.
 macro_rules! kernel {
     ($name:ident $(, #[$target:meta])?) => {
         pub(super) mod $name {

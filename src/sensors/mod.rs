@@ -17,6 +17,6 @@ mod view;
 mod wedges;
 
 pub use crate::worlds::{BeamError, BeamModel};
-pub use range::{RangeSensor, SensorError};
+pub use range::{MAX_RANGE, MAX_RAYS, MIN_RANGE, RangeSensor, SensorError};
 pub use scanner::Scanner;
 pub use simd::Instructions;

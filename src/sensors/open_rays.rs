@@ -1,34 +1,35 @@
-//! `Groups`, which rays of a scan under way may still hit something.
+//! `Groups`, which tracks the rays of a scan that may still hit something nearer.
 
 use super::kernel::Kernel;
 use super::rays::Fan;
 use super::view::View;
 use crate::collision::LANES;
 
-/// The rays in up to 64 groups of whole blocks, and which of them are open.
+/// The rays in up to 64 groups of whole blocks, and which groups are open. A group is open while one of its rays has no
+/// hit in the cells visited so far.
 #[derive(Clone, Debug)]
 pub(super) struct Groups {
-    /// How many blocks a group has.
+    /// The number of blocks in a group.
     blocks: usize,
-    /// The open ones, by bits.
+    /// The open groups, a bit each.
     open: u64,
     /// The sectors of the world in which each group's rays lie.
     sectors: Vec<u64>,
-    /// For each block, 1 if it was open at last; and for each group.
+    /// For each block, 1 if it was open when last checked, else 0. `any` is the same for each group.
     left: Vec<u8>,
     any: [u8; 64],
 }
 
-/// A turn in whole numbers that wrap as it does.
+/// A turn in 32-bit fixed point, which wraps as bearings do.
 const TURN: f64 = 4_294_967_296.0;
 
-/// More than the errors of the bearings: 1e-5 turns.
+/// An upper bound on the errors of the bearings, in that fixed point: 1e-5 turns.
 const SLACK: u32 = 42_950;
 
-/// A ray is closed when it hits this much nearer than the box's side: more than rounding can make of a hit.
+/// A ray is closed when it hits nearer than the box's side by this fraction, which is more than the rounding of a hit.
 const NEARER: f64 = 1e-6;
 
-/// A group with more of a turn than this lies in all sectors.
+/// A group that spans more of a turn than this counts as lying in all sectors.
 const NEARLY_ALL: f64 = 0.95;
 
 impl Default for Groups {
@@ -38,14 +39,14 @@ impl Default for Groups {
 }
 
 impl Groups {
-    /// All are open.
+    /// Begins a scan: opens all groups and finds the sectors of each.
     pub(super) fn begin(&mut self, fan: &Fan, view: &View) {
         self.blocks = fan.blocks.len().div_ceil(64).max(1);
         let count = fan.blocks.len().div_ceil(self.blocks);
         self.open = u64::MAX >> 64_usize.saturating_sub(count).min(63);
         let turn = (LANES * self.blocks) as f64 / view.rays;
         let all = turn > NEARLY_ALL;
-        // a turn in 40 bits, so that the errors of so many groups do not add up to anything
+        // a turn in 40 bits, so that the rounding of up to 64 groups does not add up to anything
         let fixed = |turns: f64| (turns * 256.0 * TURN) as u64;
         let (begin, step) = (fixed(view.heading), fixed(turn));
         self.left.resize(fan.blocks.len(), 1);
@@ -59,8 +60,8 @@ impl Groups {
         }));
     }
 
-    /// Closes the groups all of whose rays hit within a box about the sensor, whose right, left, upper and lower side are so far; the
-    /// sectors of the world with open ones.
+    /// Closes the groups all of whose rays hit within a box about the sensor, given the distances of its right, left,
+    /// upper and lower side, metres. Returns the sectors of the world with open groups, a bit each.
     pub(super) fn close(&mut self, fan: &Fan, kernel: &Kernel, [right, left, upper, lower]: [f64; 4]) -> u64 {
         const NEAR: f64 = 1.0 + NEARER;
         (kernel.open)(fan, [NEAR / right, -NEAR / left, NEAR / upper, -NEAR / lower], &mut self.left);
@@ -82,7 +83,7 @@ impl Groups {
         sectors
     }
 
-    /// The blocks with open rays by bits; all, if there are more than 64.
+    /// The blocks with open rays, a bit each; all bits are set if there are more than 64 blocks.
     pub(super) fn open_blocks(&self) -> u64 {
         if self.blocks == 1 { self.open } else { u64::MAX }
     }

@@ -5,6 +5,13 @@ use std::f64::consts::{FRAC_1_SQRT_2, FRAC_PI_2};
 
 use crate::num;
 
+/// The greatest number of rays of a range sensor.
+pub const MAX_RAYS: u32 = 100_000;
+/// The smallest `max_range` that a range sensor may have, metres.
+pub const MIN_RANGE: f64 = 1e-3;
+/// The largest `max_range` that a range sensor may have, metres.
+pub const MAX_RANGE: f64 = 1e4;
+
 /// A range sensor with `n_rays` rays evenly spread over the full circle and a greatest range in metres.
 ///
 /// The scan is the saturated raw distance function rho_R sampled at `n_rays` bearings.
@@ -21,10 +28,10 @@ pub struct RangeSensor {
 #[non_exhaustive]
 pub enum SensorError {
     /// Not from 1 to 100,000 rays.
-    #[error("{0} rays: a sensor has from 1 to 100000")]
+    #[error("{0} rays: there must be 1 to {MAX_RAYS}")]
     Rays(u32),
-    /// A range that is not finite, not positive or beyond 10 km.
-    #[error("range {0} m: it must be finite, from 0.001 to 10000 m")]
+    /// A range that is not finite, below 1 mm or beyond 10 km.
+    #[error("range {0} m: it must be {MIN_RANGE} to {MAX_RANGE} m")]
     Range(f64),
 }
 
@@ -34,17 +41,27 @@ impl RangeSensor {
     /// # Errors
     /// [`SensorError`] when either is out of range.
     pub fn try_new(n_rays: u32, max_range: f64) -> Result<Self, SensorError> {
-        if !(1..=100_000).contains(&n_rays) {
-            return Err(SensorError::Rays(n_rays));
-        }
-        if !(1e-3..=1e4).contains(&max_range) {
-            return Err(SensorError::Range(max_range));
-        }
-        Ok(RangeSensor { n_rays, max_range })
+        let sensor = RangeSensor { n_rays, max_range };
+        sensor.check()?;
+        Ok(sensor)
     }
 
-    /// The direction of ray `k` in the sensor's frame: bearing 2 pi k / n, with exact zeros and ones at the quarter turns and
-    /// equal components at the eighths.
+    /// Checks that the sensor's numbers are in range, for one that was put together by hand.
+    ///
+    /// # Errors
+    /// [`SensorError`] when either is not.
+    pub fn check(&self) -> Result<(), SensorError> {
+        if !(1..=MAX_RAYS).contains(&self.n_rays) {
+            return Err(SensorError::Rays(self.n_rays));
+        }
+        if !(MIN_RANGE..=MAX_RANGE).contains(&self.max_range) {
+            return Err(SensorError::Range(self.max_range));
+        }
+        Ok(())
+    }
+
+    /// The direction of ray `k` in the sensor's frame: bearing 2 pi k / n, with exact zeros and ones at the quarter
+    /// turns and equal components at the eighths.
     pub fn direction(&self, k: u32) -> (f64, f64) {
         let (n, k) = (u64::from(self.n_rays), 4 * u64::from(k));
         let (quarters, rest) = (k / n, k % n);
@@ -79,7 +96,7 @@ mod tests {
         Scene::of_walls(&[Segment::new(Point2::new(3.0, 0.0), Point2::new(3.0, 3.0))])
     }
 
-    /// Decimals whose inverses are rounded: a wall that stands at the range, given to the bit.
+    /// A wall at exactly the range, also where the inverse of that is rounded.
     #[test]
     fn a_wall_at_any_range_counts_at_it_and_a_nanometre_beyond_does_not() {
         let mut draws = Stream::new(Seed(3), "walls");

@@ -7,8 +7,8 @@ use crate::num::{greater, lesser};
 /// Eight numbers side by side.
 pub(super) type Lanes = [f64; LANES];
 
-/// Eight rays: their directions in the world and the greatest inverse range along each so far. Places that are no ray have
-/// the direction 0, along which every inverse range is 0.
+/// Eight rays: their directions in the world and the greatest inverse range along each so far. Unused places have the
+/// direction 0, along which every inverse range is 0.
 #[derive(Clone, Copy, Debug)]
 #[repr(align(64))]
 pub(super) struct Rays {
@@ -22,12 +22,12 @@ pub(super) struct Rays {
 pub(super) struct Fan {
     pub(super) blocks: Vec<Rays>,
     rays: usize,
-    /// The blocks with rays that may still be raised, by bits; all, if there are more than 64.
+    /// The blocks with rays that may still be raised, a bit each; all bits are set if there are more than 64 blocks.
     pub(super) open: u64,
 }
 
-/// The greater of the inverse range so far and a new one. Adding `nothing`, which is 0, keeps the compiler, which does not know
-/// that, from leaving out the stores that would change nothing: a store under a condition is slow.
+/// The greater of the inverse range so far and a new one. `nothing` is 0, which the compiler does not know. Adding it
+/// keeps the compiler from leaving out the stores that would change nothing: a store under a condition is slow.
 #[inline(always)]
 pub(super) fn raised(so_far: f64, value: f64, nothing: f64) -> f64 {
     greater(value, so_far + nothing)
@@ -44,7 +44,7 @@ impl Rays {
         }
     }
 
-    /// Raises all eight, which are in the wedge, by its two coefficients.
+    /// Raises all eight rays, which are in the wedge with these two coefficients.
     #[inline(always)]
     pub(super) fn raise_all(&mut self, (a, b): (f64, f64), nothing: f64) {
         for ((dx, dy), inverse) in self.dx.iter().zip(&self.dy).zip(&mut self.inverse) {
@@ -53,11 +53,11 @@ impl Rays {
     }
 }
 
-/// Does something to each of some blocks.
+/// Calls `raise` with each block.
 #[inline(always)]
 pub(super) fn each_block(blocks: &mut [Rays], mut raise: impl FnMut(&mut Rays)) {
     for block in blocks {
-        // Never so; it keeps the compiler from working on several blocks at once, lane by lane, with gathers.
+        // Never true. It keeps the compiler from working on several blocks at once, lane by lane, with gathers.
         if block.dx[0] > 2.0 {
             break;
         }
@@ -72,7 +72,7 @@ pub(super) fn each_ray(blocks: &mut [Rays]) -> impl Iterator<Item = (f64, f64, &
         .flat_map(|b| b.dx.iter().zip(&b.dy).zip(&mut b.inverse).map(|((dx, dy), inverse)| (*dx, *dy, inverse)))
 }
 
-/// The blocks of a range, those there are.
+/// The blocks in a range, as far as they exist.
 #[inline(always)]
 pub(super) fn some(blocks: &mut [Rays], range: std::ops::Range<usize>) -> &mut [Rays] {
     let end = range.end.min(blocks.len());
@@ -80,14 +80,15 @@ pub(super) fn some(blocks: &mut [Rays], range: std::ops::Range<usize>) -> &mut [
 }
 
 impl Fan {
-    /// So many rays without a direction.
+    /// This many rays, without a direction yet.
     pub(super) fn new(rays: usize) -> Self {
         let zero = [0.0; LANES];
         let blocks = vec![Rays { dx: zero, dy: zero, inverse: zero }; rays.div_ceil(LANES)];
         Fan { blocks, rays, open: u64::MAX }
     }
 
-    /// Turns the directions of the sensor's frame by the heading with this cosine and sine, and forgets all ranges.
+    /// Sets the rays' directions to those of the sensor's frame, turned by the heading with this cosine and sine, and
+    /// resets their inverse ranges.
     #[inline(always)]
     pub(super) fn turn(&mut self, units: &[[Lanes; 2]], (c, s): (f64, f64)) {
         for ([x, y], block) in units.iter().zip(&mut self.blocks) {
@@ -100,15 +101,16 @@ impl Fan {
                 block.inverse[k] = 0.0;
             }
         }
-        // what is no ray never waits for a hit
+        // an unused place never waits for a hit
         if let Some(block) = self.blocks.last_mut() {
             let rays = (self.rays + LANES - 1) % LANES + 1;
             block.inverse[rays..].fill(f64::INFINITY);
         }
     }
 
-    /// Which blocks have a ray that hits nothing within a box about the sensor: 1, the others 0. The box is given by the inverses
-    /// of how far its right, left, upper and lower side are, the left and the lower one negative.
+    /// Writes 1 for each block that has a ray that hits nothing within a box about the sensor, 0 for the others. The
+    /// box is given by the inverse distances of its right, left, upper and lower side, those of the left and the lower
+    /// one negative.
     #[inline(always)]
     pub(super) fn open(&self, [right, left, upper, lower]: [f64; 4], open: &mut [u8]) {
         for (block, open) in self.blocks.iter().zip(open) {
@@ -124,8 +126,8 @@ impl Fan {
         }
     }
 
-    /// The ranges, from the inverse ranges: infinity beyond the greatest one. A hit at exactly that counts, and so what lies beyond it by
-    /// no more than four ulps, where inverses are rounded; it reads the greatest range.
+    /// Writes the ranges from the inverse ranges: infinity beyond the greatest one. A hit beyond it by no more than
+    /// four ulps still counts, because inverses are rounded; it reads the greatest range.
     #[inline(always)]
     pub(super) fn ranges(&self, greatest: f64, ranges: &mut [f64]) {
         let least = (1.0 - 4.0 * f64::EPSILON) / greatest;

@@ -1,12 +1,11 @@
-//! `Scanner`, a range sensor with everything it needs again and again.
+//! `Scanner`, a range sensor with its working memory.
 
 use std::f64::consts::TAU;
 
 use super::RangeSensor;
 use super::cast_segments::Desk;
 use super::grid_cast::Walk;
-use super::kernel::Kernel;
-use super::kernel::raise;
+use super::kernel::{Kernel, raise};
 use super::rays::{Fan, Lanes};
 use super::simd::Instructions;
 use super::view::View;
@@ -14,7 +13,8 @@ use crate::collision::{LANES, Scene, SegmentSoup, touch};
 use crate::geometry::{Placed, Point2, Pose2};
 use crate::num;
 
-/// A range sensor that keeps its rays' directions and its scratch between scans: after the first scans it allocates nothing.
+/// A range sensor that keeps its rays' directions and its scratch between scans: after the first scans it allocates
+/// nothing.
 ///
 /// ```
 /// use motion_lab::prelude::*;
@@ -39,13 +39,13 @@ pub struct Scanner {
 }
 
 impl Scanner {
-    /// A scanner with the rays of this sensor, by the best instructions this processor has.
+    /// A scanner with the rays of this sensor that uses the fastest instructions of this processor.
     pub fn new(sensor: RangeSensor) -> Self {
         Self::with_instructions(sensor, Instructions::best())
     }
 
-    /// A scanner that uses these instructions. The ranges are the same to the last bit; a set that this processor does not
-    /// have is replaced by the baseline.
+    /// A scanner that uses these instructions. The ranges are the same to the last bit; a set that this processor does
+    /// not have is replaced by the baseline.
     pub fn with_instructions(sensor: RangeSensor, instructions: Instructions) -> Self {
         let blocks = (sensor.n_rays as usize).div_ceil(LANES);
         let mut units = vec![[[0.0; LANES]; 2]; blocks];
@@ -70,8 +70,8 @@ impl Scanner {
         &self.sensor
     }
 
-    /// Writes the ranges from a pose into `ranges`, as [`RangeSensor::scan_from`] gives them: ray k into place k, as far as
-    /// there are places.
+    /// Writes the ranges from a pose into `ranges`, as [`RangeSensor::scan_from`] gives them: ray k into place k, as
+    /// far as there are places.
     pub fn scan_into(&mut self, scene: &Scene, others: &[Placed], pose: &Pose2, ranges: &mut [f64]) {
         let rays = ranges.len().min(self.sensor.n_rays as usize);
         let ranges = &mut ranges[..rays];
@@ -83,7 +83,7 @@ impl Scanner {
         }
         let (s, c) = if pose.theta == 0.0 { (0.0, 1.0) } else { num::sin_cos(pose.theta) };
         (self.kernel.turn)(&mut self.fan, &self.units, (c, s));
-        // for what may be met, not what is: good to much less than the bearings' errors
+        // only for which rays may meet something: its error is far below that of the bearings
         let turns = if pose.theta.abs() < 1e6 { pose.theta / TAU } else { num::atan2(s, c) / TAU };
         let reach = self.sensor.max_range * (1.0 + 1e-6);
         let view = View {
@@ -120,22 +120,22 @@ fn raise_every(soup: &SegmentSoup, view: &View, kernel: &Kernel, fan: &mut Fan, 
 impl RangeSensor {
     /// The ranges from `position`, metres: ray k at world bearing 2 pi k / n.
     ///
-    /// Infinity where nothing is within range, 0 everywhere when the position is inside an obstacle or touches one. Rays
-    /// are closed: one through a corner hits it.
+    /// Infinity where nothing is within range, 0 everywhere when the position is inside an obstacle or touches one.
+    /// Rays are closed: one through a corner hits it.
     pub fn scan(&self, scene: &Scene, position: Point2) -> Vec<f64> {
         self.scan_from(scene, &[], &Pose2 { x: position.x, y: position.y, theta: 0.0 })
     }
 
-    /// The ranges from a pose, with ray k at bearing 2 pi k / n from the pose's heading, against the scene and the other
-    /// robots' parts. A robot does not see itself: leave it out of `others`. For many scans keep a [`Scanner`].
+    /// The ranges from a pose, with ray k at bearing 2 pi k / n from the pose's heading, against the scene and the
+    /// other robots' parts. A robot does not see itself: leave it out of `others`. For many scans keep a [`Scanner`].
     pub fn scan_from(&self, scene: &Scene, others: &[Placed], pose: &Pose2) -> Vec<f64> {
         let mut ranges = vec![0.0; self.n_rays as usize];
         Scanner::new(*self).scan_into(scene, others, pose, &mut ranges);
         ranges
     }
 
-    /// The ranges from many poses, one scan after the other, in parallel where threads exist. They do not depend on the number
-    /// of threads.
+    /// The ranges from many poses, one scan after the other, in parallel where threads exist. They do not depend on the
+    /// number of threads.
     pub fn scans(&self, scene: &Scene, poses: &[Pose2]) -> Vec<f64> {
         let n = self.n_rays as usize;
         let mut ranges = vec![0.0; n * poses.len()];

@@ -1,25 +1,26 @@
-//! Where the cells about a sensor's own lie, ring by ring.
+//! The sectors and the distances of the grid's cells about a sensor's own cell, ring by ring.
 
 use std::sync::LazyLock;
 
 use super::wedges::turns;
 use crate::num::{greater, lesser};
 
-/// A cell by how many columns and rows it is off.
+/// A cell, by its offset from the sensor's cell: `i` columns and `j` rows.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Cell {
     pub(super) i: i64,
     pub(super) j: i64,
-    /// In which of 64 sectors of the world it may lie, wherever in a quarter of its own cell the sensor is.
+    /// The sectors of the world, a bit for each of 64, in which it may lie, wherever the sensor is in one quarter of
+    /// its own cell.
     pub(super) sectors: u64,
-    /// No point of it is nearer than this many cells, squared.
+    /// A lower bound on the square of its distance from the sensor, in cells.
     pub(super) near: f64,
 }
 
-/// Cells up to so many rings off are listed.
+/// The last ring whose cells are listed.
 pub(super) const LISTED: i64 = 24;
 
-/// More than the errors of the bearings, in turns.
+/// An upper bound on the errors of the bearings, in turns.
 const SLACK: f64 = 1e-5;
 
 /// The listed cells, ring by ring, as seen from each quarter of the sensor's cell.
@@ -28,7 +29,7 @@ static CELLS: LazyLock<[Vec<Cell>; 4]> = LazyLock::new(|| {
         .map(|quarter| (0..=LISTED).flat_map(around).map(|off| Cell::seen(quarter, off)).collect())
 });
 
-/// The cells of a ring by how many columns and rows they are off.
+/// The cells of a ring, as offsets in columns and rows.
 fn around(ring: i64) -> impl Iterator<Item = (i64, i64)> {
     (-ring..=ring).flat_map(move |j| {
         let step = if j.abs() == ring { 1 } else { 2 * ring as usize };
@@ -36,26 +37,28 @@ fn around(ring: i64) -> impl Iterator<Item = (i64, i64)> {
     })
 }
 
-/// The cells of a ring up to [`LISTED`], in no particular order, as seen from the quarter of the sensor's cell that is to the right or
-/// not, and up or not.
+/// The cells of a ring up to [`LISTED`], in no particular order, as seen from one quarter of the sensor's cell: the
+/// right or the left one, the upper or the lower one.
 pub(super) fn ring(number: i64, right: bool, up: bool) -> &'static [Cell] {
     let before = |ring: i64| (if ring > 0 { (2 * ring - 1) * (2 * ring - 1) } else { 0 }) as usize;
     let seen = &CELLS[usize::from(right) + 2 * usize::from(up)];
     seen.get(before(number)..before(number + 1)).unwrap_or_default()
 }
 
-/// The sectors of the world between two bearings in turns from -1 on, the second less than a turn from the first.
+/// The sectors of the world between two bearings, a bit each. The bearings are in turns and at least -1, the second
+/// less than a turn from the first.
 fn sectors_between(begin: f64, end: f64) -> u64 {
     let (first, last) = ((64.0 * (begin + 1.0)) as u32, (64.0 * (end + 1.0)) as u32);
     let more = last.saturating_sub(first).min(63);
     (u64::MAX >> (63 - more)).rotate_left(first % 64)
 }
 
-/// How far a cell reaches from its middle, and a quarter of one from its own, together.
+/// How far a cell and a quarter of the sensor's cell together reach from their middles, in cells: 0.5 + 0.25.
 const REACH: f64 = 0.75;
 
 impl Cell {
-    /// From anywhere in the quarter cell about this middle; seen so, the cell lies in a box.
+    /// The cell with this offset, as seen from anywhere in the quarter of the sensor's cell with this middle. Seen so,
+    /// it lies in a box that reaches [`REACH`] from its middle.
     fn seen((x, y): (f64, f64), (i, j): (i64, i64)) -> Self {
         let middle = (i as f64 + 0.5 - x, j as f64 + 0.5 - y);
         let apart = |x: f64| greater(x.abs() - REACH, 0.0) * (1.0 - 1e-9);
@@ -64,7 +67,7 @@ impl Cell {
     }
 }
 
-/// Of the box of [`REACH`] about a point.
+/// The sectors in which the box about this point that reaches [`REACH`] to each side may lie, a bit each.
 fn sectors((x, y): (f64, f64)) -> u64 {
     if lesser(REACH - x.abs(), REACH - y.abs()) > -1e-9 {
         return u64::MAX; // the sensor may be in it
@@ -99,7 +102,7 @@ mod tests {
                 let x = cell.i as f64 + draws.uniform(0.0, 1.0) - from(right, &mut draws);
                 let y = cell.j as f64 + draws.uniform(0.0, 1.0) - from(up, &mut draws);
                 assert!(x * x + y * y >= cell.near, "{cell:?} {x} {y}");
-                // the sector as a wedge between two directions, not by the bearing that is judged
+                // the sector as a wedge between two directions, without the bearing that is under test
                 let sector = (0..64).find(|&s| {
                     let edge = |s: u32| sin_cos(std::f64::consts::TAU * f64::from(s) / 64.0);
                     let ((s0, c0), (s1, c1)) = (edge(s), edge(s + 1));

@@ -8,8 +8,8 @@ use crate::geometry::{Footprint, Part, Placed, Point2, Pose2, Segment, Shape, Ve
 use crate::num::{self, sqrt};
 use crate::random::{Seed, Stream};
 
-/// The boundary of a shape, not as the scene has it: its core's sides, or, of a shape with a radius, those moved outward by it, of a segment
-/// to both sides, and a circle about each vertex.
+/// The boundary of a shape, by other code than the scene's: the sides of its core, or, with a radius, those sides moved
+/// outward by it (a segment's to both sides) and a circle about each vertex.
 fn boundary(shape: &Placed, segments: &mut Vec<Segment>, circles: &mut Vec<(Point2, f64)>) {
     let (core, r) = (shape.core(), shape.radius());
     for (i, &a) in core.iter().enumerate().take(if core.len() == 2 { 1 } else { core.len() }) {
@@ -29,7 +29,7 @@ fn boundary(shape: &Placed, segments: &mut Vec<Segment>, circles: &mut Vec<(Poin
     }
 }
 
-/// Every ray against every segment and disc, with nothing left out: the kernel without its haste.
+/// Every ray against every segment and disc, with nothing left out: the kernel without its shortcuts.
 fn by_definition(sensor: &RangeSensor, scene: &Scene, others: &[Placed], pose: &Pose2) -> Vec<f64> {
     let n = sensor.n_rays as usize;
     let inside = Footprint::new([Part::new(Pose2 { theta: 0.0, ..*pose }, Shape::Disc { radius: 0.0 })]);
@@ -87,7 +87,7 @@ fn bits(ranges: &[f64]) -> Vec<u64> {
     ranges.iter().map(|r| r.to_bits()).collect()
 }
 
-/// Checks one scan on every instruction set; how many rays hit.
+/// Checks one scan on every instruction set. Returns how many rays hit.
 fn check(scanners: &mut [Scanner], scene: &Scene, others: &[Placed], pose: &Pose2) -> usize {
     let sensor = *scanners[0].sensor();
     let expected = by_definition(&sensor, scene, others, pose);
@@ -210,7 +210,8 @@ fn large_worlds_are_seen_as_defined_from_inside_and_outside() {
 
 #[test]
 fn a_ray_that_hits_beyond_the_cells_visited_is_not_done() {
-    // long walls, close together: those of the cells visited reach far beyond them, and nearer ones begin there
+    // long walls, close together: those listed in the cells visited reach far beyond these cells, where nearer walls
+    // begin
     let mut draws = Stream::new(Seed(8), "scan");
     let mut scanners = scanners(360, 4.0);
     for _ in 0..4 {
@@ -224,7 +225,7 @@ fn a_ray_that_hits_beyond_the_cells_visited_is_not_done() {
 
 #[test]
 fn a_sensor_a_hair_from_a_wall_or_from_its_line_leaks_no_ray() {
-    // the closed room is seen on every ray from wherever it is not touched
+    // from inside the closed room every ray hits, wherever the sensor touches no wall
     let corners = [(0.1, 0.2), (5.3, 0.7), (4.9, 6.1), (-0.3, 5.5), (0.1, 0.2)].map(|(x, y)| Point2::new(x, y));
     let room = Scene::of_walls(&corners.windows(2).map(|w| Segment::new(w[0], w[1])).collect::<Vec<_>>());
     let mut draws = Stream::new(Seed(4), "scan");

@@ -2,17 +2,17 @@
 
 use crate::geometry::Point2;
 
-/// From where, and how, a scan looks.
+/// The sensor's position, heading, reach and number of rays in a scan.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct View {
     pub(super) origin: Point2,
-    /// What lies farther off is left out: a little more than the range, metres, and its square.
+    /// A little more than the sensor's range, metres, and its square: what lies farther off is left out.
     pub(super) reach: f64,
     pub(super) reach_squared: f64,
     /// The bearing of ray 0, in turns, in [0, 1].
     pub(super) heading: f64,
     /// The number of rays.
     pub(super) rays: f64,
-    /// 0, which the compiler does not know: see [`raised`](super::rays::raised).
+    /// Always 0, which the compiler does not know: see [`raised`](super::rays::raised).
     pub(super) nothing: f64,
 }

@@ -1,19 +1,20 @@
-//! `Ready`, segments made ready for a scan, several at a time.
+//! `Ready`, a batch of segments prepared for a scan.
 
 use super::view::View;
 use crate::collision::LANES;
 use crate::num::{greater, lesser};
 
-/// More than the error of [`turns`], in turns.
+/// An upper bound on the error of [`turns`], in turns.
 const SLACK: f64 = 4e-6;
 
-/// Below this share of its two products, p x q is taken from the exact predicate.
+/// Where p x q is below this fraction of its two products, the exact predicate decides.
 const DOUBT: f64 = 1e-8;
 
 /// Adding it rounds a small number to an integer, which is then in the lowest bits.
 const ROUND: f64 = 6_755_399_441_055_744.0; // 1.5 x 2^52
 
-/// The bearing of a vector in turns, in [0, 1], to within 2e-6: which rays may meet something, not which do.
+/// The bearing of a vector in turns, in [0, 1], to within 2e-6: exact enough to say which rays may meet something, not
+/// which do.
 ///
 /// Abramowitz and Stegun 4.4.49, whose error is below 1e-5 radians.
 #[inline(always)]
@@ -30,15 +31,15 @@ pub(super) fn turns(x: f64, y: f64) -> f64 {
     if y < 0.0 { 1.0 - r } else { r }
 }
 
-/// How many segments are made ready at once.
+/// Largest number of segments prepared at once.
 pub(super) const BATCH: usize = 64;
 
-/// A number of each segment of a batch.
+/// One number for each segment of a batch.
 pub(super) type Batch = [f64; BATCH];
 
-/// What is known of a segment made ready: see [`Ready::span`].
+/// What is known of a prepared segment: see [`Ready::span`].
 pub(super) mod kind {
-    /// No ray can meet it: it is out of reach, or an empty place.
+    /// No ray can meet it: it is out of reach, or an unused place.
     pub(in super::super) const NONE: u64 = 0;
     /// Every ray of the blocks between its first and its last is in the wedge.
     pub(in super::super) const SURE: u64 = 1;
@@ -57,7 +58,8 @@ pub(super) struct Wedge {
     pub(super) b: f64,
 }
 
-/// Segments made ready: the wedge, the two coefficients of the inverse range, and the blocks of eight rays that may meet it.
+/// Prepared segments: for each the wedge, the two coefficients of the inverse range, and the blocks of eight rays that
+/// may meet it.
 #[derive(Clone, Debug)]
 pub(super) struct Ready {
     px: Batch,
@@ -66,9 +68,10 @@ pub(super) struct Ready {
     qy: Batch,
     a: Batch,
     b: Batch,
-    /// The first and the last block with a ray of the wedge in [`BITS`] each, and one of [`kind`].
+    /// One of [`kind`], then the last and the first block with a ray of the wedge, [`BITS`] bits each, packed from the
+    /// high bits down.
     span: [u64; BATCH],
-    /// How many blocks from ray 0 on the wedge reaches beyond the last of all; with [`ROUND`] added.
+    /// For a wedge that reaches past ray 0, the number of blocks that it covers from there on; with [`ROUND`] added.
     turned: Batch,
 }
 
@@ -79,7 +82,7 @@ impl Default for Ready {
     }
 }
 
-/// So many bits of a span are the number of a block.
+/// Number of bits in a span for the number of a block.
 const BITS: u32 = 31;
 
 /// The integer in a number that had [`ROUND`] added.
@@ -108,14 +111,14 @@ impl Ready {
         (span >> (2 * BITS), block(span), block(span >> BITS))
     }
 
-    /// How many blocks from ray 0 on the wedge of segment number `k` reaches beyond the last of all.
+    /// The number of blocks that the wedge of segment number `k` covers from ray 0 on, if it reaches past that ray.
     #[inline(always)]
     pub(super) fn turned(&self, k: usize) -> usize {
         whole(self.turned[k]) as usize
     }
 
-    /// Makes the first segments ready, by the coordinates of their ends: one loop without a branch, so that it works on several
-    /// at a time.
+    /// Prepares the first `BATCH` segments, given the coordinates of their ends. It is one loop without a branch, so
+    /// that it works on several at a time.
     #[inline(always)]
     pub(super) fn make(&mut self, [ax, ay, bx, by]: [&[f64]; 4], view: &View) {
         let blocks = view.rays * (1.0 / LANES as f64);
@@ -157,7 +160,7 @@ impl Ready {
             self.qy[k] = qy;
             self.a[k] = uy / area;
             self.b[k] = ux / area;
-            // the rays of a block that is not full are fewer, so one more is taken for good measure
+            // a block that is not full has fewer rays, so one block more is taken to be safe
             self.turned[k] = if over >= 0.0 { up(over) + 1.0 } else { ROUND };
             // NaN, in an empty place, is not in reach
             let kind = if d2 <= view.reach_squared * scale { kind } else { kind::NONE };

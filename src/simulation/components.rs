@@ -11,11 +11,11 @@ use crate::random::Stream;
 use crate::sensors::{BeamModel, RangeSensor, Scanner};
 use crate::worlds::World as WorldModel;
 
-/// A world of the run: the model it was made from. On the world's entity, with its [`WorldScene`].
+/// A world of the run. A component of the world's entity, beside its [`WorldScene`].
 #[derive(Component, Clone, Debug)]
 #[component(immutable)]
 pub struct SimulatedWorld {
-    /// The world's number in the run's configuration.
+    /// The world's number in the run's configuration, from 0.
     pub index: u32,
     /// The world.
     pub model: Arc<WorldModel>,
@@ -66,12 +66,12 @@ pub struct MountedOn(pub Entity);
 #[relationship_target(relationship = MountedOn, linked_spawn)]
 pub struct Sensors(Vec<Entity>);
 
-/// A range sensor's numbers.
+/// A range sensor's parameters.
 #[derive(Component, Clone, Copy, Debug, PartialEq)]
 #[component(immutable)]
 pub struct SensorModel(pub RangeSensor);
 
-/// What a range sensor keeps between its scans; away while it scans.
+/// A range sensor's scanner, kept from scan to scan; `None` during a scan.
 #[derive(Component, Clone, Debug)]
 pub struct SensorScanner(pub(super) Option<Box<Scanner>>);
 
@@ -85,7 +85,7 @@ pub struct SensorNoise {
     pub stream: Stream,
 }
 
-/// What a range sensor saw at the end of the last tick, metres.
+/// The ranges that a sensor read at the end of the last tick, metres, one per ray.
 #[derive(Component, Clone, Debug, Default, PartialEq)]
 pub struct Scan(pub Vec<f64>);
 
@@ -94,7 +94,7 @@ pub struct Scan(pub Vec<f64>);
 #[component(immutable)]
 pub struct RobotId(pub u32);
 
-/// A robot's unique name, and the kind it is of.
+/// A robot's unique name and its kind.
 #[derive(Component, Clone, Debug, PartialEq, Eq)]
 #[component(immutable)]
 pub struct RobotName {
@@ -104,7 +104,7 @@ pub struct RobotName {
     pub kind: String,
 }
 
-/// What a robot is: its dimensions and limits. The rest of a robot's components come with it.
+/// A robot's model: its dimensions and limits. It requires the rest of a robot's components.
 #[derive(Component, Clone, Debug, PartialEq)]
 #[component(immutable)]
 #[require(Control<R>, Contacts<R>, DriveMode<R>, OwnState<R>, TickMotion<R>, Cut<R>)]
@@ -118,7 +118,7 @@ pub struct Configuration<R: SimulatedRobot>(pub R::Configuration);
 #[derive(Component, Clone, Debug, PartialEq)]
 pub struct PreviousConfiguration<R: SimulatedRobot>(pub R::Configuration);
 
-/// The control of the tick, as it comes to the ground: after limits and slip.
+/// The tick's control as it takes effect, after limits and slip.
 #[derive(Component, Clone, Debug, PartialEq)]
 pub struct Control<R: SimulatedRobot>(pub R::Control);
 
@@ -127,21 +127,21 @@ pub struct Control<R: SimulatedRobot>(pub R::Control);
 pub struct Contacts<R: SimulatedRobot> {
     /// Whether the last tick was in contact.
     pub in_contact: bool,
-    /// Contact episodes since tick 0: ticks in contact after one that was not.
+    /// Contact episodes since tick 0. An episode begins at a tick in contact after one that was not.
     pub episodes: u32,
     /// Ticks for which the flash still holds.
     pub flash: u32,
     marker: std::marker::PhantomData<fn() -> R>,
 }
 
-/// Who drives a robot, and what was put in.
+/// Who drives a robot, and the input in force.
 #[derive(Component, Clone, Debug, PartialEq)]
 pub struct DriveMode<R: SimulatedRobot> {
-    /// Whether a person drives, not the tour.
+    /// Whether a person drives instead of the tour.
     pub manual: bool,
     /// The channels held, -128 to 128 of the maximum.
     pub channels: [i16; 2],
-    /// Where a manual move is heading; `None` once it is there.
+    /// The target of a manual move; `None` once it is reached.
     pub target: Option<R::Configuration>,
     /// Inputs refused since tick 0.
     pub refusals: u32,
@@ -155,7 +155,7 @@ pub struct OwnState<R: SimulatedRobot> {
     marker: std::marker::PhantomData<fn() -> R>,
 }
 
-/// The tour the seed gave a robot.
+/// A robot's tour, drawn from the seed.
 #[derive(Component, Clone, Debug)]
 #[component(immutable)]
 pub struct Route<R: SimulatedRobot>(pub R::Tour);
@@ -165,43 +165,44 @@ pub struct Route<R: SimulatedRobot>(pub R::Tour);
 #[component(immutable)]
 pub struct Slip(pub Stream);
 
-/// The motion of the tick under way; `None` when the control makes none.
+/// The current tick's motion; `None` when the control gives none.
 #[derive(Component, Debug)]
 pub struct TickMotion<R: SimulatedRobot>(pub Option<R::Drive>);
 
-/// How much of the motion of the tick under way the surroundings allow, seen alone.
+/// How far the current tick's motion may go among the obstacles and the other robots' starting footprints.
 #[derive(Component, Clone, Debug, PartialEq)]
 pub struct Cut<R: SimulatedRobot> {
-    /// The motion goes to this parameter.
+    /// The parameter of the motion at which it ends.
     pub until: f64,
-    /// Whether it was blocked, or hit.
+    /// Whether the motion was blocked, or not proven free.
     pub contact: bool,
-    /// The configuration and the control that made the motion, where nothing else that may change had a say: the same two are cut the same.
+    /// The configuration and the control of the motion, for a robot alone in its world. With the same two the cut is
+    /// the same. `None` where other robots matter too.
     pub of: Option<(R::Configuration, R::Control)>,
 }
 
 impl<R: SimulatedRobot> Contacts<R> {
-    /// These contacts.
+    /// Contacts with these counts.
     pub fn new(in_contact: bool, episodes: u32, flash: u32) -> Self {
         Contacts { in_contact, episodes, flash, marker: std::marker::PhantomData }
     }
 }
 
 impl<R: SimulatedRobot> OwnState<R> {
-    /// This state.
+    /// The state with these numbers.
     pub fn new(extra: Extra) -> Self {
         OwnState { extra, marker: std::marker::PhantomData }
     }
 }
 
 impl<R: SimulatedRobot> Cut<R> {
-    /// This cut.
+    /// A cut at the parameter `until`, for no known configuration and control.
     pub fn new(until: f64, contact: bool) -> Self {
         Cut { until, contact, of: None }
     }
 }
 
-// derived, `Copy` would ask for a robot that is `Copy`
+// a derived `Copy` would require the robot to be `Copy`
 impl<R: SimulatedRobot> Copy for Configuration<R> {}
 impl<R: SimulatedRobot> Copy for PreviousConfiguration<R> {}
 impl<R: SimulatedRobot> Copy for Control<R> {}

@@ -1,4 +1,4 @@
-//! `History`, what has been of the run so far: for plots, and for marks on a time line.
+//! `History`, the run's past ticks, for plots and for marks on a time line.
 
 use bevy::prelude::*;
 
@@ -8,10 +8,10 @@ use crate::configuration::Coordinates;
 use crate::geometry::Pose2;
 use crate::robots::RUSTY;
 
-/// More samples than this are thinned to every second one: half an hour at 20 Hz is kept in full.
+/// Largest number of samples; beyond it every second one is dropped. Half an hour at 20 Hz is kept in full.
 const MOST_SAMPLES: usize = 36_000;
 
-/// Farther than this a robot does not go in a tick, metres: it was put there.
+/// Displacement in one tick from which on a robot counts as put there rather than driven, metres.
 const LEAP: f64 = 0.5;
 
 /// A robot after one tick.
@@ -21,17 +21,17 @@ pub struct Trail {
     pub coordinates: Coordinates,
     /// Its distance from the nearest obstacle of its world, metres; 0 in contact, infinity where there is none.
     pub clearance: f64,
-    /// The way it went since the start, metres, backward counted negative; 0 for an arm.
+    /// Signed distance driven since the start, metres, negative for backward; 0 for an arm.
     pub travelled: f64,
-    /// The way that its wheels' encoders tell, the mean of both, metres; `None` without encoders.
+    /// Distance by its wheels' encoders, the mean of both, metres; `None` without encoders.
     pub encoders: Option<f64>,
-    /// How often it changed between forward and backward since the start.
+    /// Number of changes between forward and backward since the start.
     pub reversals: u32,
     /// Contact episodes since the start.
     pub contacts: u32,
     /// Whether a person drove it.
     pub manual: bool,
-    /// The way it went last: 1 forward, -1 backward, 0 not yet.
+    /// Direction of its last motion: 1 forward, -1 backward, 0 before the first.
     direction: i8,
 }
 
@@ -42,7 +42,7 @@ struct Sample {
     robots: Vec<Trail>,
 }
 
-/// What happened to a robot at a tick.
+/// An event of a robot that is marked on a time line.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Happening {
     /// A contact began.
@@ -62,17 +62,17 @@ pub struct TickMark {
     pub what: Happening,
 }
 
-/// The run so far, tick by tick. It is filled while the run goes on and kept when the run is taken back, so that what lies
-/// ahead of the present tick is known too; continuing from an earlier tick forgets what came after.
+/// The run's history, tick by tick. It is filled as the run goes on, and kept when the run is taken back, so that the
+/// ticks ahead are known too. Continuing from an earlier tick forgets the later ones.
 ///
-/// It is no part of the run: without this resource the simulation does the same. Long runs are thinned, so that its memory is
-/// bounded but for the marks.
+/// The history is no part of the run: without this resource the simulation does the same. Long runs are thinned. Memory
+/// is bounded, except for the marks.
 #[derive(Resource, Clone, Debug, Default, PartialEq)]
 pub struct History {
     samples: Vec<Sample>,
     latest: Option<Sample>,
     marks: Vec<TickMark>,
-    /// Every sample kept is of a multiple of 2 to the power of this.
+    /// Samples are kept at the ticks that are multiples of 2 to this power.
     thinned: u32,
 }
 
@@ -89,12 +89,12 @@ impl History {
         &self.marks
     }
 
-    /// The tick of the first contact that begins after `tick`, of those known.
+    /// The tick of the first known contact that begins after `tick`.
     pub fn next_contact(&self, tick: u64) -> Option<u64> {
         self.marks.iter().find(|m| m.tick > tick && m.what == Happening::Contact).map(|m| m.tick)
     }
 
-    /// At most about `most` samples of one robot, evenly spread over the run: the tick, and what `value` makes of it.
+    /// At most about `most` samples of one robot, evenly spread over the run: each sample's tick and its `value`.
     pub fn series(&self, robot: u32, most: usize, value: impl Fn(&Trail) -> Option<f64>) -> Vec<(u64, f64)> {
         let every = self.samples.len().div_ceil(most.max(1)).max(1);
         let pick = |s: &Sample| Some((s.tick, value(s.robots.get(robot as usize)?)?));
@@ -113,12 +113,12 @@ impl History {
         self.latest = self.latest.take().filter(|s| s.tick <= tick);
     }
 
-    /// Takes down the robots as they are now.
+    /// Records the robots as they are now.
     pub(super) fn note(&mut self, world: &World) {
         let tick = world.resource::<Transport>().tick;
         let known = self.samples.binary_search_by_key(&tick, |s| s.tick);
         if let Ok(i) = known {
-            // a run that was taken back goes the same way again
+            // a run that was taken back repeats the same ticks
             self.latest = self.samples.get(i).cloned();
             return;
         }
@@ -157,7 +157,7 @@ impl History {
     }
 }
 
-/// How far the robot with this id is from the obstacles of its world.
+/// The clearance of the robot with this id from its world's obstacles, metres; `None` for an unknown robot.
 fn clearance(world: &World, robot: usize) -> Option<f64> {
     let entity = *world.resource::<Roster>().robots().get(robot)?;
     let footprint = (world.get::<RobotOps>(entity)?.footprint)(world, entity)?;
@@ -175,7 +175,7 @@ impl Trail {
         let way = last.and_then(|t| Some(pose(&robot.coordinates)?.boxminus(&pose(&t.coordinates)?).dx));
         if let Some(way) = way.filter(|d| d.abs() < LEAP) {
             travelled += way;
-            // held at a wall it goes nowhere, and what it is told then is no change of direction
+            // a robot held at a wall does not move, so its control is no change of direction
             if way.abs() > 1e-6 {
                 let now = if way > 0.0 { 1 } else { -1 };
                 reversals += u32::from(direction == -now);
@@ -195,7 +195,7 @@ impl Trail {
     }
 }
 
-/// Notes the state just recorded, where a history is kept.
+/// Adds the state just recorded to the history, if the app keeps one.
 pub(super) fn note_where_kept(world: &mut World) {
     if world.contains_resource::<History>() && !world.resource::<LatestFrame>().0.robots.is_empty() {
         world.resource_scope(|world, mut history: Mut<History>| history.note(world));
@@ -247,7 +247,7 @@ mod tests {
         assert_eq!(world.resource::<History>().samples(), 401, "what lies ahead is kept");
         seek(world, 400).unwrap();
         assert_eq!(*world.resource::<History>(), history);
-        // what happened at a tick itself is kept where the run goes on from it
+        // continuing from a tick keeps the marks of that tick
         let ticks: Vec<u64> = history.marks().iter().map(|m| m.tick).collect();
         for tick in ticks.iter().rev().copied() {
             seek(world, tick).unwrap();
@@ -276,7 +276,7 @@ mod tests {
 
     #[test]
     fn encoders_turn_on_at_a_wall_while_the_way_does_not() {
-        // from its start Rusty drives straight ahead until it stands at something
+        // Rusty drives straight ahead from its start until something holds it
         let mut app = app(Script { events: vec![event(1, "Rusty", RobotInput::Drive(128, 0))], ..Script::empty() });
         (0..600).for_each(|_| step(app.world_mut()));
         let history = app.world().resource::<History>();

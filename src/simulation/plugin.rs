@@ -18,9 +18,9 @@ use crate::run::{DT, Event, Script};
 
 /// The simulation: the same in a window, without one, and on the web.
 ///
-/// It adds the [`SimulationSchedule`] with the systems of the lab's robots, and an exclusive system in `FixedUpdate`, at 20 Hz,
-/// that runs it while the [`Transport`] plays. Messages ([`TransportCommand`], [`RobotCommand`]) are taken before the fixed
-/// loop. A run begins with [`start_run`](super::start_run).
+/// It adds the [`SimulationSchedule`] with the systems of the lab's robots, and an exclusive system in `FixedUpdate`,
+/// at 20 Hz, that runs it while the [`Transport`] plays. Messages ([`TransportCommand`], [`RobotCommand`]) are taken
+/// before the fixed loop. A run begins with [`start_run`](super::start_run).
 #[derive(Clone, Copy, Debug, Default)]
 pub struct SimulationPlugin;
 
@@ -75,7 +75,7 @@ fn continue_from_here(world: &mut World) {
     (transport.frontier, transport.looping) = (tick, false);
 }
 
-/// A new run of the present configuration; playback and speed stay.
+/// Starts a new run of the present configuration. Playback, speed and looping stay.
 fn restart(world: &mut World, seed: Seed) -> Result<(), SpawnError> {
     let Some(RunConfig(config)) = world.get_resource::<RunConfig>().cloned() else { return Ok(()) };
     undo::checkpoint_before_new_run(world);
@@ -87,10 +87,10 @@ fn restart(world: &mut World, seed: Seed) -> Result<(), SpawnError> {
     Ok(())
 }
 
-/// Does what a transport command says.
+/// Carries out a transport command.
 ///
 /// # Errors
-/// What [`seek`] or a new run refuses, as text; neither happens to a run that was started.
+/// The refusal of [`seek`] or of a new run, as text. Neither occurs in a run that was started.
 pub fn obey(world: &mut World, command: TransportCommand) -> Result<(), String> {
     let Transport { seed, tick, .. } = *world.resource::<Transport>();
     let pause = |world: &mut World| world.resource_mut::<Transport>().playback = Playback::Paused;
@@ -119,7 +119,7 @@ pub fn obey(world: &mut World, command: TransportCommand) -> Result<(), String> 
             if (1.0 / 64.0..=64.0).contains(&speed) || speed == f64::INFINITY {
                 world.resource_mut::<Transport>().speed = speed;
                 if let Some(mut time) = world.get_resource_mut::<Time<Virtual>>() {
-                    // as fast as possible is not the fixed loop's business
+                    // "as fast as possible" is not run by the fixed loop
                     time.set_relative_speed_f64(if speed.is_finite() { speed } else { 1.0 });
                 }
             }
@@ -132,8 +132,8 @@ pub fn obey(world: &mut World, command: TransportCommand) -> Result<(), String> 
     Ok(())
 }
 
-/// Stamps the inputs that came in with the next tick. Input at a tick before the frontier continues the run from there. What
-/// no script could hold (an unknown robot, a channel out of range) is ignored.
+/// Stamps incoming inputs with the next tick. Input at a tick before the frontier continues the run from there. An
+/// input that no script could hold (an unknown robot, a channel out of range) is ignored.
 fn take_robot_commands(world: &mut World) {
     let commands: Vec<RobotCommand> = world.resource_mut::<Messages<RobotCommand>>().drain().collect();
     if commands.is_empty() {
@@ -146,7 +146,7 @@ fn take_robot_commands(world: &mut World) {
         names.contains(&event.robot) && (Script { events: vec![event.clone()], ..Script::empty() }).check().is_ok()
     };
     let events: Vec<Event> = commands.into_iter().map(event).filter(holds).collect();
-    // what is ignored forgets nothing
+    // an ignored input leaves the later ticks alone
     if tick < frontier && !events.is_empty() {
         continue_from_here(world);
     }
@@ -154,7 +154,7 @@ fn take_robot_commands(world: &mut World) {
     events.into_iter().for_each(|event| pending.capture(event));
 }
 
-/// What is to be undone as one begins before the frame's input, whatever order they came in.
+/// Sets a checkpoint before this update's input, whatever order the messages came in.
 fn take_checkpoints(world: &mut World) {
     let commands: Vec<TransportCommand> = world.resource_mut::<Messages<TransportCommand>>().drain().collect();
     let (checkpoints, others): (Vec<_>, Vec<_>) =

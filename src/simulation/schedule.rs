@@ -3,17 +3,18 @@
 use bevy::ecs::schedule::{LogLevel, ScheduleBuildSettings, ScheduleLabel, SingleThreadedExecutor};
 use bevy::prelude::*;
 
-/// One tick of the simulation, whoever runs it: the fixed loop of a window, the recorder, a replay, the step button, a seek.
+/// One tick of the simulation, whoever runs it: the fixed loop of a window, the recorder, a replay, the step button, a
+/// seek.
 ///
-/// Single-threaded, and two systems that could run in either order are an error. Inside it there is no `Time`, no `Local`,
-/// no message, no spawning and no reliance on the order of entities.
+/// Single-threaded, and two systems that could run in either order are an error. Inside it there is no `Time`, no
+/// `Local`, no message, no spawning and no reliance on the order of entities.
 #[derive(ScheduleLabel, Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct SimulationSchedule;
 
 /// The parts of a tick, in this order.
 #[derive(SystemSet, Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum SimulationSystems {
-    /// The tick begins; the inputs stamped with it apply.
+    /// The tick begins, and its inputs apply.
     Input,
     /// Each robot's tour or driver gives its control.
     Drive,
@@ -27,7 +28,7 @@ pub enum SimulationSystems {
     Record,
 }
 
-/// The generic systems of one phase run one kind of robot after the other, in the order of registration.
+/// The order of a phase's generic systems: one robot type after the other, in the order of registration.
 #[derive(SystemSet, Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(super) enum KindSystems {
     Drive(usize),
@@ -36,8 +37,8 @@ pub(super) enum KindSystems {
     Settle(usize),
 }
 
-/// The finer order within [`SimulationSystems::Step`] and [`SimulationSystems::Collide`]: the footprints are gathered, every
-/// motion is planned, every motion is cut, and only then any robot advances.
+/// The finer order within [`SimulationSystems::Step`] and [`SimulationSystems::Collide`]: the footprints are gathered,
+/// every motion is planned, every motion is cut, and only then do robots advance.
 #[derive(SystemSet, Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(super) enum Phase {
     Gather,

@@ -9,10 +9,11 @@ pub fn step(world: &mut World) {
     world.run_schedule(SimulationSchedule);
 }
 
-/// Takes the run to `tick`: back by the last keyframe before it, then on by simulating.
+/// Moves the run to `tick`. It restores the last keyframe at or before `tick` if the run stands
+/// after `tick` or before that keyframe, and simulates the rest.
 ///
 /// # Errors
-/// [`RestoreError`] when the keyframe does not fit the run, which only a frame from elsewhere could cause.
+/// [`RestoreError`] when the keyframe does not fit the run. Only a frame from elsewhere could cause that.
 pub fn seek(world: &mut World, tick: u64) -> Result<(), RestoreError> {
     let now = world.resource::<Transport>().tick;
     let keyframe = world.resource::<Keyframes>().before(tick).cloned();
@@ -25,7 +26,7 @@ pub fn seek(world: &mut World, tick: u64) -> Result<(), RestoreError> {
     Ok(())
 }
 
-/// The next tick of a run that plays: a looping one begins anew at its frontier.
+/// Runs the next tick of a run that plays. A looping run at its frontier begins again at tick 0.
 pub fn play_tick(world: &mut World) {
     let Transport { tick, frontier, looping, .. } = *world.resource::<Transport>();
     if looping && tick >= frontier && frontier > 0 {

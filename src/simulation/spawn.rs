@@ -12,11 +12,10 @@ use super::{
 use crate::collision::Scene;
 use crate::random::Seed;
 use crate::run::Script;
-use crate::sensors::RangeSensor;
 use crate::tour::{BOOK_SEED, TourConfig};
 use crate::worlds::{Resident, World as WorldModel};
 
-/// What decides a run beside its configuration: a seed, a script, or both.
+/// The input of a run beside its configuration: a seed, a script, or both.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RunInput {
     /// The seed.
@@ -58,7 +57,7 @@ fn spawn_world(world: &mut World, index: u32, model: &WorldModel) -> Entity {
     entity
 }
 
-/// Starts a run in `world`, in place of the one under way: spawns everything and takes frame 0. Paused.
+/// Starts a run in `world`, in place of the one under way: spawns everything and takes frame 0. The new run is paused.
 ///
 /// # Errors
 /// [`SpawnError`] names the robot, script event or sensor that cannot be; the run under way then goes on.
@@ -79,7 +78,6 @@ pub(super) fn start_run_in_order(
     config.validate()?;
     input.script.check()?;
     input.script.check_robots(&config.robot_names().collect::<Vec<_>>())?;
-    let sensor = config.sensor.map(|s| RangeSensor::try_new(s.n_rays, s.max_range)).transpose()?;
     let worlds: Vec<Entity> =
         config.worlds.iter().enumerate().map(|(i, model)| spawn_world(world, i as u32, model)).collect();
     let mut spawned: Vec<(RobotId, Entity)> = Vec::new();
@@ -87,7 +85,7 @@ pub(super) fn start_run_in_order(
         let (w, resident) = residents[i];
         let model = &config.worlds[w];
         let id = RobotId(i as u32);
-        let request = SpawnRequest { seed: input.seed, id, world: worlds[w], model, resident, sensor };
+        let request = SpawnRequest { seed: input.seed, id, world: worlds[w], model, resident, sensor: config.sensor };
         let spawner = world.get_resource::<RobotKinds>().and_then(|k| k.spawner(&resident.kind));
         let robot = match spawner {
             Some(spawn) => spawn(world, &request),

@@ -1,7 +1,7 @@
 //! `SpawnError`, why a run cannot start.
 
 use crate::run::ScriptError;
-use crate::sensors::{BeamError, SensorError};
+use crate::sensors::BeamError;
 use crate::tour::ConfigError;
 
 /// Why a run cannot start.
@@ -36,7 +36,8 @@ pub enum SpawnError {
     /// The script cannot be run with these robots.
     #[error(transparent)]
     Script(#[from] ScriptError),
-    /// A sensor whose noise is no distribution, in a world put together by hand.
+    /// A sensor whose noise parameters give no distribution. World files are checked for this; a
+    /// world made in code may have one.
     #[error("robot {robot:?} in world {world:?}: sensor: {source}")]
     Noise {
         /// The robot.
@@ -46,7 +47,4 @@ pub enum SpawnError {
         /// What is wrong.
         source: BeamError,
     },
-    /// A range sensor out of range.
-    #[error(transparent)]
-    Sensor(#[from] SensorError),
 }

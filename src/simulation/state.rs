@@ -7,10 +7,11 @@ use bevy::prelude::*;
 use super::{LatestFrame, RobotId, RobotOps, Roster, Scan, Sensors, Transport};
 use crate::run::{Frame, RobotScan};
 
-/// More frames than this are thinned to every second one.
+/// Largest number of keyframes; beyond it every second one is dropped.
 const MOST_KEYFRAMES: usize = 1024;
 
-/// Frames kept on the way, so that a seek need not begin at tick 0. Their number is bounded: of long runs fewer are kept.
+/// The run's keyframes, so that a seek need not begin at tick 0. Their number is bounded: in long runs they lie farther
+/// apart.
 #[derive(Resource, Clone, Debug, PartialEq)]
 pub struct Keyframes {
     every: u64,
@@ -50,7 +51,7 @@ impl Keyframes {
     }
 }
 
-/// A frame that is not one of the run's.
+/// Why a frame cannot be restored in this run.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum RestoreError {
@@ -81,7 +82,7 @@ pub fn snapshot(world: &World) -> Frame {
     frame
 }
 
-/// As [`snapshot`], in the room of an earlier frame.
+/// As [`snapshot`], into the memory of an earlier frame.
 fn snapshot_into(world: &World, frame: &mut Frame) {
     let robots = world.get_resource::<Roster>().map_or(&[][..], Roster::robots);
     frame.tick = world.get_resource::<Transport>().map_or(0, |t| t.tick);
@@ -114,11 +115,12 @@ pub(super) fn record(world: &mut World) {
     super::history::note_where_kept(world);
 }
 
-/// Puts the simulation into the state of `frame`, overwriting components; nothing is spawned. What follows is what followed
-/// then, bit for bit. The scans are taken anew, which gives the frame's own.
+/// Puts the simulation into the state of `frame`, overwriting components; nothing is spawned. The ticks after it repeat
+/// bit for bit. The scans are taken anew, which gives the frame's own.
 ///
 /// # Errors
-/// [`RestoreError`] when the frame is not one of this run; robots before the one named are overwritten then.
+/// [`RestoreError`] when the frame is not one of this run. The robots before the one named are overwritten
+/// all the same.
 pub fn restore(world: &mut World, frame: &Frame) -> Result<(), RestoreError> {
     let robots: Vec<Entity> = world.get_resource::<Roster>().map_or_else(Vec::new, |r| r.robots().to_vec());
     let tick = frame.tick;

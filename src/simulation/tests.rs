@@ -1,15 +1,15 @@
-//! Tests that need what the module keeps to itself.
+//! Tests that need the module's private items.
 
 use std::sync::Arc;
 
 use bevy::prelude::*;
 
 use super::{LatestFrame, SimulationPlugin, SimulationSchedule, start_run, start_run_in_order, step};
-use crate::geometry::Point2;
+use crate::geometry::{Aabb, Point2};
 use crate::random::{Seed, Stream};
 use crate::run::{Event, Frame, RobotInput, Script};
 use crate::tour::TourConfig;
-use crate::worlds::{Bounds, Resident, World as WorldModel};
+use crate::worlds::{Resident, World as WorldModel};
 
 /// Seven robots of three kinds, close together in an open world, all driven at once.
 fn crowd() -> (Arc<TourConfig>, Script) {
@@ -23,7 +23,7 @@ fn crowd() -> (Arc<TourConfig>, Script) {
         resident("arm 2", "reach3", &[0.1, 0.2, 0.3]),
         resident("d", "rusty", &[0.9, 0.6, -2.5]),
     ];
-    let bounds = Bounds { min: Point2::new(-5.0, -5.0), max: Point2::new(5.0, 5.0) };
+    let bounds = Aabb { min: Point2::new(-5.0, -5.0), max: Point2::new(5.0, 5.0) };
     let mut draws = Stream::new(Seed(1), "crowd");
     let mut events = Vec::new();
     for tick in (1..120).step_by(10) {

@@ -1,4 +1,4 @@
-//! `Transport`, where a run stands, and the commands that move it.
+//! `Transport`, the tick and playback of a run, and the commands that move it.
 
 use bevy::prelude::*;
 
@@ -9,12 +9,12 @@ use crate::random::{Seed, Stream};
 pub enum Playback {
     /// The fixed loop runs the simulation.
     Playing,
-    /// It does not.
+    /// The fixed loop does not run the simulation.
     #[default]
     Paused,
 }
 
-/// Where the run stands.
+/// The tick at which the run stands, and how it plays.
 #[derive(Resource, Clone, Copy, Debug, PartialEq)]
 pub struct Transport {
     /// The run's seed.
@@ -27,7 +27,7 @@ pub struct Transport {
     pub speed: f64,
     /// Whether playing begins anew at tick 0 when it has come to the frontier.
     pub looping: bool,
-    /// The last tick that this run has reached, however far it was taken back since.
+    /// The last tick that this run has reached, even if it was taken back since.
     pub frontier: u64,
 }
 
@@ -45,33 +45,35 @@ pub enum TransportCommand {
     Play,
     /// Stop after the tick under way.
     Pause,
-    /// One tick, and pause.
+    /// Pause, and run one tick.
     Step,
-    /// Back by one tick, and pause.
+    /// Pause, and go back by one tick.
     StepBack,
-    /// To any tick of this run, and on at the same playback. Beyond the frontier the run is simulated up to there.
+    /// Go to any tick of this run; playback stays. Beyond the frontier the run is simulated up to there.
     Seek(u64),
-    /// Forget all input after the present tick: the run goes on from here.
+    /// Forget all input after the present tick, and end looping: the run goes on from here.
     ContinueFromHere,
-    /// A new run with the same seed and no input.
+    /// Start a new run with the same seed and no input.
     Reset,
-    /// A new run with a seed drawn from the present one.
+    /// Start a new run with a seed drawn from the present one.
     ReRoll,
-    /// A new run with this seed.
+    /// Start a new run with this seed and no input.
     SetSeed(Seed),
-    /// Simulated seconds per second of the clock, from 1/64 to 64, or infinity for as fast as possible; anything else is ignored.
+    /// Set the simulated seconds per second of the clock, from 1/64 to 64, or infinity for as fast as possible.
+    /// Anything else is ignored.
     SetSpeed(f64),
-    /// Whether to play what there is of the run again and again. Input ends it: a run that is driven goes on.
+    /// Set whether playing repeats the run up to its frontier. Input at a tick before the frontier ends
+    /// looping, and the run goes on.
     SetLooping(bool),
-    /// Something is about to be done to the run's input: what follows, up to the next checkpoint, is undone as one.
+    /// Set a checkpoint before a change of the run's input: what follows, up to the next checkpoint, is undone as one.
     Checkpoint,
-    /// Back to the input before the last checkpoint that something followed, and to where the run stood then.
+    /// Go back to the input and the tick of the last checkpoint that a change followed, and pause.
     Undo,
-    /// The reverse of an undo.
+    /// Reverse the last undo.
     Redo,
 }
 
-/// The seed that a re-roll goes to: up to six digits, so that it is easily typed back.
+/// The seed after a re-roll: at most six digits, so that it is easily typed.
 pub fn re_rolled(seed: Seed) -> Seed {
     let drawn = Stream::new(seed, "re-roll").below(999_999);
     // leave the present seed out

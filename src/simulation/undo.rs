@@ -9,10 +9,10 @@ use crate::random::Seed;
 use crate::run::Script;
 use crate::tour::TourConfig;
 
-/// The most versions that are kept.
+/// Largest number of versions kept.
 const MOST: usize = 200;
 
-/// A run's input, and where the run stood.
+/// A run's input, and the tick at which the run stood.
 #[derive(Clone, Debug)]
 struct Version {
     config: Arc<TourConfig>,
@@ -20,7 +20,7 @@ struct Version {
     script: Script,
     tick: u64,
     frontier: u64,
-    /// A new run began after it: a step even when the input is the same.
+    /// Whether a new run began after it, which is a step even with the same input.
     ends: bool,
 }
 
@@ -38,13 +38,13 @@ impl Version {
         })
     }
 
-    /// Whether both are the same run, wherever it stands.
+    /// Whether both have the same input, at whatever tick. `false` if a new run began after `self`.
     fn is(&self, other: &Version) -> bool {
         !self.ends && Arc::ptr_eq(&self.config, &other.config) && self.seed == other.seed && self.script == other.script
     }
 }
 
-/// What was done to the run's input, so that it can be undone and done again. Playing on is nothing to undo.
+/// Earlier versions of the run's input, for undo, and undone ones, for redo. Playing on adds none.
 #[derive(Resource, Clone, Debug, Default)]
 pub struct Undo {
     past: Vec<Version>,
@@ -63,7 +63,7 @@ impl Undo {
     }
 }
 
-/// Remembers the input as it is, before something is done to it: what follows, up to the next checkpoint, is undone as one.
+/// Remembers the present input before a change: what follows, up to the next checkpoint, is undone as one.
 pub(super) fn checkpoint(world: &mut World) {
     push(world, false);
 }
@@ -77,7 +77,7 @@ fn push(world: &mut World, ends: bool) {
     let Some(now) = Version::of(world).map(|version| Version { ends, ..version }) else { return };
     let mut undo = world.resource_mut::<Undo>();
     undo.future.clear();
-    // of a gesture that came to nothing only the place is kept
+    // a gesture that changed nothing leaves no version, only the later tick
     if undo.past.last().is_some_and(|last| last.is(&now)) {
         undo.past.pop();
     }
@@ -87,10 +87,10 @@ fn push(world: &mut World, ends: bool) {
     }
 }
 
-/// Restores the version before the last checkpoint that something followed, and goes to where the run stood then. Paused.
+/// Restores the input and the tick of the last checkpoint that a change followed. The run is paused.
 ///
 /// # Errors
-/// What a start or a seek refuses, as text; it does not happen to a version that has run.
+/// The refusal of a start or a seek, as text. It does not occur for a version that has run.
 pub(super) fn undo(world: &mut World) -> Result<(), String> {
     travel(world, |undo| &mut undo.past, |undo| &mut undo.future)
 }
@@ -123,7 +123,7 @@ fn apply(world: &mut World, version: Version) -> Result<(), String> {
     let Transport { seed: present, speed, looping, .. } = *world.resource::<Transport>();
     let same_run = world.get_resource::<RunConfig>().is_some_and(|c| Arc::ptr_eq(&c.0, &config)) && seed == present;
     if same_run {
-        // up to where both scripts agree the run is the same
+        // the run is the same up to the tick where the scripts differ
         let shared = shared_ticks(world.resource::<PendingInput>().script(), &script);
         let keep = if shared < tick { shared } else { tick };
         world.insert_resource(PendingInput::new(script));
@@ -140,7 +140,7 @@ fn apply(world: &mut World, version: Version) -> Result<(), String> {
         let order: Vec<usize> = (0..count).collect();
         start_run_in_order(world, config, (seed, script).into(), &order).map_err(|e| e.to_string())?;
     }
-    // as far as it had come, for what lies ahead to be known; then back to where it stood
+    // first to the frontier, so that the history ahead is known; then back to the tick
     for to in [frontier, tick] {
         seek(world, to).map_err(|e| e.to_string())?;
     }

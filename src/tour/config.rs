@@ -1,8 +1,9 @@
-//! `TourConfig`, what is run: the worlds with their resident robots, for how long, with which sensor.
+//! `TourConfig`, the settings of a run: the worlds with their resident robots, its length, and the range sensor.
 
 use std::collections::BTreeSet;
 
 use crate::random::Seed;
+use crate::sensors::{RangeSensor, SensorError};
 use crate::worlds::World;
 
 /// The seed of every run printed in the book.
@@ -10,25 +11,13 @@ pub const BOOK_SEED: Seed = Seed(2005);
 
 /// The greatest number of ticks in a run: nearly seven years at 20 Hz.
 pub const MAX_TICKS: u64 = 1 << 32;
-/// The greatest number of rays of a range sensor.
-pub const MAX_RAYS: u32 = 100_000;
-/// The greatest range of a range sensor, metres.
-pub const MAX_RANGE: f64 = 1e4;
 /// The greatest number of worlds in a run.
 pub const MAX_WORLDS: usize = 1000;
 /// The greatest number of robots in a run.
 pub const MAX_ROBOTS: usize = 100_000;
 
-/// A range sensor as a run configures it.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct SensorConfig {
-    /// The number of rays.
-    pub n_rays: u32,
-    /// The greatest range, metres.
-    pub max_range: f64,
-}
-
-/// What is run. The robots are the worlds' residents, numbered from 0 in the order of the worlds and their lists.
+/// The settings of a run. The robots are the worlds' residents, numbered from 0 in the order of the worlds and their
+/// lists.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TourConfig {
     /// The worlds.
@@ -36,29 +25,26 @@ pub struct TourConfig {
     /// The number of ticks.
     pub ticks: u64,
     /// The range sensor of every Rusty; `None` for none.
-    pub sensor: Option<SensorConfig>,
+    pub sensor: Option<RangeSensor>,
 }
 
-/// Why a configuration is refused.
+/// Why a run's settings are refused.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum ConfigError {
-    /// Too long a run.
+    /// A run with too many ticks.
     #[error("{0} ticks: at most {MAX_TICKS}")]
     Ticks(u64),
-    /// A sensor without rays, or with too many.
-    #[error("{0} rays: there must be 1 to {MAX_RAYS}")]
-    Rays(u32),
-    /// A range that is not finite, not positive, or too large.
-    #[error("range {0} m: it must be above 0 and at most {MAX_RANGE} m")]
-    Range(f64),
+    /// A range sensor out of range.
+    #[error(transparent)]
+    Sensor(#[from] SensorError),
     /// No world, or too many.
     #[error("{0} worlds: there must be 1 to {MAX_WORLDS}")]
     Worlds(usize),
     /// Too many robots.
     #[error("{0} robots: at most {MAX_ROBOTS}")]
     Robots(usize),
-    /// Two robots of one name, in one world or two.
+    /// Two robots with the same name, in the same world or in two.
     #[error("two robots are named {robot:?}, the second in world {world:?}: a script could not tell them apart")]
     RobotName {
         /// The name.
@@ -84,7 +70,7 @@ impl TourConfig {
         self.worlds.iter().flat_map(|w| &w.robots).map(|r| r.name.as_str())
     }
 
-    /// Whether this can be run. The worlds themselves were checked when they were made.
+    /// Checks whether this can be run. The worlds themselves were checked when they were made.
     ///
     /// # Errors
     /// [`ConfigError`], for the first thing out of range.
@@ -92,14 +78,8 @@ impl TourConfig {
         if self.ticks > MAX_TICKS {
             return Err(ConfigError::Ticks(self.ticks));
         }
-        if let Some(SensorConfig { n_rays, max_range }) = self.sensor {
-            if !(1..=MAX_RAYS).contains(&n_rays) {
-                return Err(ConfigError::Rays(n_rays));
-            }
-            // written so that NaN fails
-            if !(max_range > 0.0 && max_range <= MAX_RANGE) {
-                return Err(ConfigError::Range(max_range));
-            }
+        if let Some(sensor) = self.sensor {
+            sensor.check()?;
         }
         if !(1..=MAX_WORLDS).contains(&self.worlds.len()) {
             return Err(ConfigError::Worlds(self.worlds.len()));
@@ -125,11 +105,13 @@ impl TourConfig {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::geometry::Aabb;
     use crate::geometry::Point2;
-    use crate::worlds::{Bounds, Resident};
+    use crate::sensors::{MAX_RANGE, MAX_RAYS, MIN_RANGE};
+    use crate::worlds::Resident;
 
     fn world(name: &str, robots: &[&str]) -> World {
-        let bounds = Bounds { min: Point2::new(0.0, 0.0), max: Point2::new(1.0, 1.0) };
+        let bounds = Aabb { min: Point2::new(0.0, 0.0), max: Point2::new(1.0, 1.0) };
         let resident = |name: &&str| Resident::new(*name, "rusty", [0.5; 3]);
         World {
             name: name.into(),
@@ -142,7 +124,7 @@ mod tests {
     }
 
     fn config() -> TourConfig {
-        let sensor = Some(SensorConfig { n_rays: MAX_RAYS, max_range: MAX_RANGE });
+        let sensor = Some(RangeSensor { n_rays: MAX_RAYS, max_range: MAX_RANGE });
         TourConfig { worlds: vec![world("one", &["a", "b"]), world("two", &["c"])], ticks: MAX_TICKS, sensor }
     }
 
@@ -150,7 +132,7 @@ mod tests {
     fn the_limits_themselves_are_allowed() {
         assert_eq!(config().validate(), Ok(()));
         assert_eq!(config().robot_names().collect::<Vec<_>>(), ["a", "b", "c"], "by id");
-        let least = SensorConfig { n_rays: 1, max_range: f64::MIN_POSITIVE };
+        let least = RangeSensor { n_rays: 1, max_range: MIN_RANGE };
         assert_eq!(TourConfig { sensor: Some(least), ticks: 0, ..config() }.validate(), Ok(()));
         assert_eq!(TourConfig { sensor: None, worlds: vec![world("bare", &[])], ..config() }.validate(), Ok(()));
     }
@@ -158,14 +140,15 @@ mod tests {
     #[test]
     fn what_lies_beyond_them_is_refused() {
         type Change = fn(&mut TourConfig);
-        let changes: [(&str, Change); 11] = [
+        let changes: [(&str, Change); 12] = [
             ("4294967297 ticks", |c| c.ticks += 1),
-            ("0 rays", |c| c.sensor = Some(SensorConfig { n_rays: 0, max_range: 1.0 })),
-            ("100001 rays", |c| c.sensor = Some(SensorConfig { n_rays: MAX_RAYS + 1, max_range: 1.0 })),
-            ("range NaN", |c| c.sensor = Some(SensorConfig { n_rays: 1, max_range: f64::NAN })),
-            ("range inf", |c| c.sensor = Some(SensorConfig { n_rays: 1, max_range: f64::INFINITY })),
-            ("range 0 m", |c| c.sensor = Some(SensorConfig { n_rays: 1, max_range: 0.0 })),
-            ("range 10000.00", |c| c.sensor = Some(SensorConfig { n_rays: 1, max_range: 10_000.000_000_000_002 })),
+            ("0 rays", |c| c.sensor = Some(RangeSensor { n_rays: 0, max_range: 1.0 })),
+            ("100001 rays", |c| c.sensor = Some(RangeSensor { n_rays: MAX_RAYS + 1, max_range: 1.0 })),
+            ("range NaN", |c| c.sensor = Some(RangeSensor { n_rays: 1, max_range: f64::NAN })),
+            ("range inf", |c| c.sensor = Some(RangeSensor { n_rays: 1, max_range: f64::INFINITY })),
+            ("range 0 m", |c| c.sensor = Some(RangeSensor { n_rays: 1, max_range: 0.0 })),
+            ("range 0.000001 m", |c| c.sensor = Some(RangeSensor { n_rays: 1, max_range: 1e-6 })),
+            ("range 10000.00", |c| c.sensor = Some(RangeSensor { n_rays: 1, max_range: 10_000.000_000_000_002 })),
             ("0 worlds", |c| c.worlds.clear()),
             ("1001 worlds", |c| c.worlds = vec![world("w", &[]); 1001]),
             ("two robots are named \"a\", the second in world \"two\"", |c| c.worlds[1].robots[0].name = "a".into()),

@@ -6,9 +6,7 @@ mod sinusoids;
 mod three_worlds;
 mod waypoints;
 
-pub use config::{
-    BOOK_SEED, ConfigError, MAX_RANGE, MAX_RAYS, MAX_ROBOTS, MAX_TICKS, MAX_WORLDS, SensorConfig, TourConfig,
-};
+pub use config::{BOOK_SEED, ConfigError, MAX_ROBOTS, MAX_TICKS, MAX_WORLDS, TourConfig};
 pub use reversing::{LEG_SECONDS, LEGS, Reversing};
 pub use sinusoids::{MAX_JOINT_SPEED, Sinusoids};
 pub use waypoints::{ARRIVAL_RADIUS, TOUR_MARK, Waypoints};

@@ -9,7 +9,7 @@ pub const LEGS: usize = 6;
 /// The length of a leg, seconds.
 pub const LEG_SECONDS: f64 = 10.0;
 
-/// The script's speed as a part of the car's greatest.
+/// The script's speed as a fraction of the car's greatest speed.
 const SPEED: f64 = 0.5;
 
 /// The steering angle of each leg, from the seed. Even legs back up, odd legs go ahead.

@@ -6,8 +6,8 @@ use crate::configuration::Tn;
 use crate::num::{greater, lesser, sin, sqrt, wrap};
 use crate::random::{Seed, Stream};
 
-/// No joint of a touring arm turns faster than this, radians per second. The sinusoids stay well below it; it bounds the way
-/// back to them after manual driving.
+/// Greatest joint speed of a touring arm, radians per second. The sinusoids of two or three joints stay below it; it
+/// bounds the way back to them after manual driving.
 pub const MAX_JOINT_SPEED: f64 = 2.0;
 
 /// The squares of the joints' frequency ratios. Square roots of different primes are incommensurate.
@@ -27,8 +27,8 @@ pub struct Sinusoids<const N: usize> {
 impl<const N: usize> Sinusoids<N> {
     /// The sinusoids that the seed chooses for the arm named `name`, from its stream `<name>/tour`.
     ///
-    /// Amplitudes lie in [0.8, 1.4] rad, the first frequency in [0.5, 0.8] rad/s and the others in fixed irrational ratio
-    /// to it, so that the tip's path never closes.
+    /// Amplitudes lie in [0.8, 1.4] rad, the first frequency in [0.5, 0.8] rad/s and the others in fixed irrational
+    /// ratio to it, so that the tip's path never closes.
     pub fn new(seed: Seed, name: &str, start: Tn<N>) -> Self {
         let mut draws = Stream::new(seed, &format!("{name}/tour"));
         let base = draws.uniform(0.5, 0.8);
@@ -51,8 +51,8 @@ impl<const N: usize> Sinusoids<N> {
         Tn(q)
     }
 
-    /// Where the arm at `q` is to be after `dt` seconds, at `time`: on the curve, or on its way back there with each joint
-    /// turning the short way at no more than [`MAX_JOINT_SPEED`].
+    /// The next configuration of an arm at `q`, `dt` seconds later, at `time`: on the curve, or on the way back to it,
+    /// with each joint turning the short way at no more than [`MAX_JOINT_SPEED`].
     pub fn follow(&self, q: &Tn<N>, time: f64, dt: f64) -> Tn<N> {
         let (goal, most) = (self.at(time), MAX_JOINT_SPEED * dt);
         let mut next = goal.0;

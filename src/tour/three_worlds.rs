@@ -1,6 +1,7 @@
 //! The tour of the book: the three worlds for a minute.
 
-use super::{SensorConfig, TourConfig};
+use super::TourConfig;
+use crate::sensors::RangeSensor;
 use crate::worlds::World;
 
 impl Default for TourConfig {
@@ -9,7 +10,7 @@ impl Default for TourConfig {
         TourConfig {
             worlds: vec![World::apartment(), World::workbench(), World::lot()],
             ticks: 1200,
-            sensor: Some(SensorConfig { n_rays: 360, max_range: 4.0 }),
+            sensor: Some(RangeSensor { n_rays: 360, max_range: 4.0 }),
         }
     }
 }

@@ -17,7 +17,7 @@ const STEERING_GAIN: f64 = 4.0;
 /// Beyond this heading error, radians, Rusty turns on the spot.
 const TURN_ON_THE_SPOT: f64 = 0.6;
 
-/// A loop of waypoints. It does not depend on the seed: of this tour only the wheels' slip is drawn.
+/// A loop of waypoints. It does not depend on the seed: only the wheels' slip is random.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Waypoints {
     points: Vec<Point2>,
@@ -29,8 +29,8 @@ impl Waypoints {
         Waypoints { points }
     }
 
-    /// The loop along the world's mark named [`TOUR_MARK`]; no waypoints, so no motion, where there is none. A mark that
-    /// ends where it begins is a loop painted closed, and its last point is left out.
+    /// The loop along the world's mark named [`TOUR_MARK`]; without such a mark it has no waypoints, and Rusty does not
+    /// move. A mark that ends where it begins is a loop painted closed, and its last point is left out.
     pub fn of_world(world: &World) -> Self {
         let mut points = world.marks.iter().find(|m| m.name == TOUR_MARK).map_or_else(Vec::new, |m| m.points.clone());
         if points.len() > 1 && points.first() == points.last() {
@@ -44,9 +44,10 @@ impl Waypoints {
         &self.points
     }
 
-    /// The command at the pose `q` on the way to waypoint number `next`, and the number of the waypoint pursued after it.
+    /// The command at the pose `q` on the way to waypoint number `next`, and the number of the waypoint to pursue after
+    /// it.
     ///
-    /// Steering is on the true pose: proportional to the heading error, slower the larger it is, and on the spot beyond
+    /// Steering uses the true pose: proportional to the heading error, slower the larger it is, and on the spot beyond
     /// 0.6 rad, so that Rusty leaves each waypoint along the straight line to the next.
     pub fn pursue(&self, robot: &Rusty, q: &Pose2, next: usize) -> (RustyCmd, usize) {
         let Some(&goal) = self.points.get(next) else { return (RustyCmd::default(), 0) };
@@ -61,8 +62,8 @@ impl Waypoints {
         (robot.limited(&RustyCmd { v, omega: STEERING_GAIN * error }), next)
     }
 
-    /// The waypoint to resume the loop at from `position`: the nearest of those that `reachable` allows, or of all when it
-    /// allows none; the lowest number on ties.
+    /// The number of the waypoint at which to resume the loop from `position`: the nearest that `reachable` allows, or
+    /// the nearest of all if it allows none. Ties go to the lowest number.
     pub fn resume(&self, position: Point2, reachable: impl Fn(Point2) -> bool) -> usize {
         let nearest = |allowed: &dyn Fn(Point2) -> bool| {
             let mut best: Option<(f64, usize)> = None;

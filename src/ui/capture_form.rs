@@ -1,4 +1,4 @@
-//! What is asked before a capture: form, size, and for a GIF the span of ticks.
+//! The capture form: the choice of file format, size, and for a GIF the span of ticks.
 
 use bevy_egui::egui::{
     Context, DragValue, Grid, Id, Key, Modal, Modifiers, RichText, TextStyle, Ui, WidgetInfo, WidgetType,
@@ -12,17 +12,17 @@ use crate::manifest::widgets;
 use crate::picture::Role;
 use crate::run::DT;
 
-/// What the button says that makes the file: a page gives it to the browser.
+/// Label of the button that starts the capture. On the web the browser receives the file, so there is none to choose.
 const SAVE: &str = if cfg!(target_family = "wasm") { "Save" } else { "Choose a file" };
 
-/// How long the span of a GIF is at first, ticks: ten seconds.
+/// Initial length of a GIF's span, ticks: ten seconds.
 const SPAN: u64 = 200;
 
-/// The anatomy's number on the rail.
+/// Index of the query anatomy on the rail.
 const ANATOMY: usize = 1;
 
 impl UiState {
-    /// Opens the form; a GIF would end at the present tick.
+    /// Opens the form. The proposed span of a GIF ends at the present tick, or at the last tick reached when that is 0.
     pub fn ask_for_capture(&mut self, model: &Dashboard) {
         let to = if model.tick > 0 { model.tick } else { model.frontier };
         self.capture.order.span = Span { from: to.saturating_sub(SPAN), to, ..self.capture.order.span };
@@ -112,7 +112,7 @@ fn choices(ui: &mut Ui, model: &Dashboard, look: &Look, order: &mut CaptureOrder
     }
 }
 
-/// Why it can't be captured so.
+/// The reason why the order cannot be carried out; `None` if it can.
 fn refusal(widget: usize, order: &CaptureOrder, model: &Dashboard) -> Option<String> {
     if order.form != Form::Gif {
         return None;
@@ -126,7 +126,7 @@ fn refusal(widget: usize, order: &CaptureOrder, model: &Dashboard) -> Option<Str
     })
 }
 
-/// What will be in the file.
+/// A line about what the file will hold.
 fn holds(widget: usize, order: &CaptureOrder) -> String {
     if order.form == Form::Gif {
         let (pictures, seconds) = (order.span.pictures(), DT * (order.span.to - order.span.from) as f64);

@@ -1,16 +1,16 @@
-//! `CaptureState`, what the capture form remembers, and `CaptureOrder`, what it asks for.
+//! `CaptureState`, the state of the capture form, and `CaptureOrder`, the capture that it orders.
 
 use crate::capture::{Form, Span};
 
-/// The forms to choose from: a page has the vector picture only, whose fonts and pixels the browser makes.
+/// The file formats to choose from. On the web only the vector picture: the browser makes its fonts and pixels.
 pub(super) const FORMS: &[Form] = if cfg!(target_family = "wasm") { &[Form::Svg] } else { &Form::ALL };
 
-/// What is to be captured of the widget in front.
+/// An order to capture the widget in front.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct CaptureOrder {
-    /// The form of the file.
+    /// The file format.
     pub form: Form,
-    /// The sheet's greatest width, pixels.
+    /// Largest width of the sheet, pixels.
     pub width: u32,
     /// Dots for each pixel of the sheet.
     pub scale: u32,
@@ -18,12 +18,12 @@ pub struct CaptureOrder {
     pub span: Span,
 }
 
-/// What the capture form remembers.
+/// The state of the capture form.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct CaptureState {
     /// Whether it is open.
     pub open: bool,
-    /// What it asks for.
+    /// The order as chosen so far.
     pub order: CaptureOrder,
 }
 

@@ -59,7 +59,7 @@ pub enum Action {
     Widget(usize),
 }
 
-/// When a key means something.
+/// The states in which a key is active.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Scope {
     /// Always.
@@ -77,9 +77,9 @@ pub struct Binding {
     pub action: Action,
     /// The key.
     pub key: Key,
-    /// With these held.
+    /// The modifiers held with it.
     pub modifiers: Modifiers,
-    /// When.
+    /// When it is active.
     pub scope: Scope,
     /// What it does, in words: the list and the hints show them.
     pub words: &'static str,
@@ -134,7 +134,7 @@ pub const BINDINGS: [Binding; 36] = [
 ];
 
 impl Binding {
-    /// The key as it is printed on the keyboard.
+    /// The key with its modifiers, as printed on the keyboard.
     pub fn keys(&self) -> String {
         let mut keys = String::new();
         for (held, name) in [(self.modifiers.command, "Ctrl+"), (self.modifiers.shift, "Shift+")] {
@@ -156,13 +156,15 @@ impl Binding {
     }
 }
 
-/// What the first key for an action does, and which it is: `one tick, and pause (→)`.
+/// The words and the key of an action's first binding: `one tick, and pause (→)`. Empty without a binding.
 pub fn hint(action: Action) -> String {
     BINDINGS.iter().find(|b| b.action == action).map_or_else(String::new, |b| format!("{} ({})", b.words, b.keys()))
 }
 
-/// The actions whose keys were pressed in this frame, in the order of the table. While words are typed none; while a button or the
-/// like has the focus, its own keys (arrows, space, Home, End) are left to it; a handle that is `nudged` keeps the arrows only.
+/// The actions whose keys were pressed in this frame: keys with more modifiers first, else in the order of the table.
+///
+/// None while text is typed. A control with the focus keeps its own keys: arrows, Space, Enter, Home and End. A handle
+/// that is `nudged` keeps only the arrows. The keys that drive are not among the actions.
 pub fn pressed(ui: &Ui, armed: bool, nudged: bool) -> Vec<Action> {
     if ui.ctx().text_edit_focused() {
         return vec![];
@@ -181,7 +183,7 @@ pub fn pressed(ui: &Ui, armed: bool, nudged: bool) -> Vec<Action> {
         };
         scope && !own(b.key) && b.action != Action::Drive
     };
-    // the one with more modifiers first: without, it would take the other's key
+    // more modifiers first: egui ignores extra modifiers, so Ctrl+Z would also take Ctrl+Shift+Z
     let mut bindings: Vec<&Binding> = BINDINGS.iter().filter(due).collect();
     bindings.sort_by_key(|b| std::cmp::Reverse(u8::from(b.modifiers.command) + u8::from(b.modifiers.shift)));
     ui.input_mut(|i| bindings.iter().filter(|b| i.consume_key(b.modifiers, b.key)).map(|b| b.action).collect())

@@ -11,13 +11,13 @@ use super::{Command, Dashboard, Look, UiState, anatomy, atlas, capture_form, csp
 use crate::manifest::widgets;
 use crate::simulation::{History, TransportCommand};
 
-/// Below this width a widget shows one thing at a time.
+/// Width below which a widget shows one thing at a time, points.
 const NARROW: f32 = 720.0;
 
 /// Width of the rail, points.
 const RAIL: f32 = 76.0;
 
-/// The atlas's number on the rail.
+/// Index of the atlas on the rail.
 const ATLAS: usize = 3;
 
 /// Shows the lab over the whole of `ui`; what is pressed is pushed onto `commands`.
@@ -44,7 +44,7 @@ pub fn lab(ui: &mut Ui, model: &Dashboard, history: &History, state: &mut UiStat
             action => tools::act(action, model, state, commands),
         }
     }
-    // the window is cleared with the paper already: filling it again would cost as much as all that is drawn on it
+    // no fill: the window is cleared to the paper's colour already, and a fill would cost as much as all that is drawn
     let margin = Margin::symmetric(if narrow { 8 } else { 6 }, if narrow { 4 } else { 14 });
     if state.embedded {
         // the page chose the widget
@@ -81,7 +81,7 @@ pub fn lab(ui: &mut Ui, model: &Dashboard, history: &History, state: &mut UiStat
     }
 }
 
-/// The widgets by name.
+/// Shows a button for each widget.
 fn rail(
     ui: &mut Ui,
     model: &Dashboard,
@@ -99,7 +99,7 @@ fn rail(
     }
 }
 
-/// Puts a widget in front. The run waits while another is.
+/// Puts a widget in front and lets go of the robot in hand. The run pauses unless the widget is the dashboard.
 fn choose(number: usize, model: &Dashboard, state: &mut UiState, commands: &mut Vec<Command>) {
     if number != 0 && model.playing {
         commands.push(Command::Transport(TransportCommand::Pause));

@@ -1,4 +1,7 @@
-//! What people see and touch. Colours are known to [`Theme`](crate::picture::Theme) alone; what needs a screen stands behind the feature `screen`.
+//! The user interface: the four widgets, their settings and their commands.
+//!
+//! Colours are named by [`Theme`](crate::picture::Theme) alone. Whatever draws on a screen is behind the feature
+//! `screen`.
 
 #[cfg(feature = "screen")]
 mod anatomy;
@@ -50,18 +53,18 @@ pub use state::{Flash, Notice, UiState, Working};
 pub use crate::manifest::{Formula, KeyText, Level, Term, WidgetText, number_of, widget, widgets};
 pub use crate::picture::{readout, readout_lines};
 
-/// What a widget asks for. Widgets change nothing but their own [`UiState`].
+/// A request of a widget. Widgets change nothing but their own [`UiState`].
 #[derive(Clone, Debug, PartialEq)]
 pub enum Command {
     /// Move the run.
     Transport(crate::simulation::TransportCommand),
-    /// Put something in to a robot.
+    /// Give a robot an input.
     Robot(crate::simulation::RobotCommand),
-    /// Do something with runs as a whole.
+    /// Act on the session: files, captures, new runs.
     Session(SessionCommand),
 }
 
-/// What is asked for that is neither a move of the run nor an input to it.
+/// A request that neither moves the run through time nor gives a robot an input.
 #[derive(bevy::prelude::Message, Clone, Debug, PartialEq, Eq)]
 pub enum SessionCommand {
     /// Save the run: ask for a file first.
@@ -77,11 +80,11 @@ pub enum SessionCommand {
     Capture(CaptureOrder),
     /// A new run in the atlas's world.
     RunWorld,
-    /// A new run in which an arm has so many links.
+    /// A new run in which an arm has this number of links.
     Links {
-        /// The arm.
+        /// The arm's name.
         robot: String,
-        /// Two or three.
+        /// The number of links: two or three.
         links: usize,
     },
 }

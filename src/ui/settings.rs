@@ -4,11 +4,11 @@ use serde::{Deserialize, Serialize};
 
 use crate::picture::Theme;
 
-/// Which paper is asked for.
+/// The choice of theme.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(feature = "window", derive(bevy::reflect::Reflect))]
 pub enum ThemeChoice {
-    /// As the system says.
+    /// The system's theme.
     #[default]
     System,
     /// Light.
@@ -40,7 +40,7 @@ impl ThemeChoice {
         }
     }
 
-    /// The theme, when the system has this one.
+    /// The theme of this choice, where the system's is `system`.
     #[must_use]
     pub const fn theme(self, system: Theme) -> Theme {
         match self {
@@ -51,7 +51,7 @@ impl ThemeChoice {
     }
 }
 
-/// What a user has set. No part of a run.
+/// The user's settings. They are no part of a run.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(feature = "window", derive(bevy::reflect::Reflect))]
 #[serde(default)]
@@ -60,15 +60,15 @@ pub struct Settings {
     pub theme: ThemeChoice,
     /// Whether places and obstacles carry their names.
     pub labels: bool,
-    /// Whether what the range sensor sees is drawn.
+    /// Whether the range sensor's scan is drawn.
     pub scan: bool,
     /// Whether the plots are open.
     pub plots: bool,
-    /// The number of the world that a narrow screen shows.
+    /// Index of the world that a narrow screen shows.
     pub world: u32,
-    /// Whether the first hints were put away.
+    /// Whether the first hints were dismissed.
     pub hints_seen: bool,
-    /// Whether nothing eases on the screen.
+    /// Whether fades and other animations are off.
     pub reduced_motion: bool,
 }
 

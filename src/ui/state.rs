@@ -1,101 +1,102 @@
-//! `UiState`, what the window remembers that is no part of a run.
+//! `UiState`, the state of the user interface. It is no part of a run.
 
 use std::collections::BTreeMap;
 
 use super::{ParkingGoal, Settings};
 use crate::picture::{Role, Theme};
 
-/// What the window remembers that is no part of a run.
+/// The state of the user interface. It is no part of a run.
 #[derive(Clone, Debug, Default)]
 pub struct UiState {
-    /// What is kept from one start to the next.
+    /// The settings, which are kept from one start to the next.
     pub settings: Settings,
-    /// The number of the widget in front, on the rail.
+    /// Index of the widget in front, on the rail.
     pub widget: usize,
-    /// The anatomy's, with the robot of the configuration space.
+    /// The state of the query anatomy. Its robot is also the configuration space's.
     #[cfg(feature = "screen")]
     pub anatomy: super::AnatomyState,
-    /// The configuration space's.
+    /// The state of the configuration space.
     #[cfg(feature = "screen")]
     pub cspace: super::CspaceState,
-    /// The atlas's.
+    /// The state of the atlas.
     #[cfg(feature = "screen")]
     pub atlas: super::AtlasState,
-    /// The capture form.
+    /// The state of the capture form.
     #[cfg(feature = "screen")]
     pub capture: super::CaptureState,
-    /// The paper that the system asks for.
+    /// The system's theme.
     pub system_theme: Theme,
     /// The seed field's text while it is edited.
     pub seed_text: Option<String>,
     /// The name of the robot that the arrow keys drive.
     pub armed: Option<String>,
-    /// The channels it was last told to hold.
+    /// The channels last sent to that robot, in 128ths of the maximum.
     pub held: (i16, i16),
-    /// The channels that the pad on the screen asks for.
+    /// The channels of the pad on the screen, in 128ths of the maximum.
     pub pad: (i16, i16),
-    /// Whether a handle of an arm had the focus in the last frame: it keeps the arrow keys and leaves the others.
+    /// Whether a handle of an arm had the focus in the last frame. Such a handle keeps the arrow keys and no others.
     pub nudging: bool,
-    /// The role that is lit.
+    /// The role that is lit: all others fade.
     pub lit: Option<Role>,
-    /// The role that the page around the lab asks to light, while nothing here is pointed at.
+    /// The role that the surrounding page asks to light. It counts only while nothing here is pointed at.
     pub page_lit: Option<Role>,
-    /// Whether the lab shows one widget on a page of someone else's: no rail.
+    /// Whether the lab is embedded in another page: it shows one widget and no rail.
     pub embedded: bool,
     /// The role that is pointed at in this frame.
     pub pointed: Option<Role>,
     /// Whether the list of keys is open.
     pub help: bool,
-    /// The parking exercise, by the name of the car.
+    /// The name of a car and its parking exercise.
     pub goal: Option<(String, ParkingGoal)>,
-    /// The plots that are not shown, by number.
+    /// Indices of the hidden plots.
     pub hidden_plots: Vec<usize>,
-    /// Since when each robot's flash is shown as it is.
+    /// The flash shown for each robot, by name.
     pub flashes: BTreeMap<String, Flash>,
-    /// What the window says of the last file, until it is put away.
+    /// The last message to the user, until it is dismissed.
     pub notice: Option<Notice>,
-    /// What is under way beside the window, and whether it is to stop.
+    /// The work in the background, if any.
     pub working: Option<Working>,
 }
 
-/// What is under way beside the window.
+/// Work in the background.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Working {
-    /// How far it has come, in words.
+    /// Its progress, in words.
     pub text: String,
     /// Whether it was asked to stop.
     pub stop: bool,
 }
 
-/// A robot's flash as it is shown.
+/// A robot's contact flash, as shown on the screen.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Flash {
-    /// Whether it holds red.
+    /// Whether the robot is shown red.
     pub red: bool,
-    /// Since when, seconds of the window's clock.
+    /// Time of the last change, seconds of the window's clock.
     pub since: f64,
 }
 
-/// What the window says of a file.
+/// A message to the user.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Notice {
     /// The words.
     pub text: String,
-    /// Whether it tells of something wrong.
+    /// Whether it reports an error.
     pub is_error: bool,
 }
 
-/// A flash changes at most so often: three times a second.
+/// Shortest time between two changes of a flash, seconds: at most three changes a second.
 const FLASH_SECONDS: f64 = 1.0 / 3.0;
 
 impl UiState {
-    /// The paper.
+    /// The theme in use: the chosen one, or the system's.
     pub fn theme(&self) -> Theme {
         self.settings.theme.theme(self.system_theme)
     }
 
-    /// Whether a robot is drawn red at `now`, seconds, when the run says `red`: its flash changes at most three times a second,
-    /// however fast the run goes.
+    /// Whether to draw a robot red at `now`, seconds, when the run says `red`.
+    ///
+    /// The answer changes at most three times a second, however fast the run goes.
     pub fn flash(&mut self, robot: &str, red: bool, now: f64) -> bool {
         match self.flashes.get_mut(robot) {
             None => {
@@ -111,7 +112,7 @@ impl UiState {
         }
     }
 
-    /// Whether a flash that the run has ended still holds on the screen.
+    /// Whether the flash on the screen differs from the run's, `red`, because it may not change yet.
     pub fn flash_lags(&self, robot: &str, red: bool) -> bool {
         self.flashes.get(robot).is_some_and(|f| f.red != red)
     }

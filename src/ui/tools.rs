@@ -1,4 +1,4 @@
-//! What is done to the session: open and save runs, undo, what is shown.
+//! The buttons above every widget: theme, keys and capture; on the dashboard also names, plots, undo, save and open.
 
 use bevy_egui::egui::{Align, Layout, RichText, Ui};
 
@@ -8,7 +8,7 @@ use super::paint::frame;
 use super::{Command, Dashboard, Look, SessionCommand, UiState, WidgetText};
 use crate::simulation::TransportCommand;
 
-/// Does what a key or a button asks for, as far as it is the session's.
+/// Carries out the actions that concern the session, and ignores all others.
 pub fn act(action: Action, model: &Dashboard, state: &mut UiState, commands: &mut Vec<Command>) {
     let settings = &mut state.settings;
     match action {
@@ -26,7 +26,7 @@ pub fn act(action: Action, model: &Dashboard, state: &mut UiState, commands: &mu
     }
 }
 
-/// The least width of a title that has buttons beside it, points.
+/// Smallest width of a title that has buttons beside it, points.
 const TITLE: f32 = 300.0;
 
 /// Shows a widget's title, and the buttons beside it: in a menu on a narrow screen.
@@ -39,7 +39,7 @@ pub fn header(
     commands: &mut Vec<Command>,
 ) {
     let buttons = if state.widget == 0 { 650.0 } else { 280.0 };
-    // beside the buttons the title needs room of its own; where there is none, they are a menu
+    // without room for the title and the buttons side by side, the buttons go into a menu
     let narrow = narrow || ui.available_width() < buttons + TITLE;
     let room = if narrow { 76.0 } else { buttons };
     ui.horizontal(|ui| {
@@ -58,7 +58,7 @@ pub fn header(
     });
 }
 
-/// Shows the head of a widget that is not the dashboard: title and buttons, colour key, hints, and what is said of the last file.
+/// Shows the head of a widget other than the dashboard: title and buttons, colour key, hints and the last notice.
 pub fn head(
     ui: &mut Ui,
     words: &WidgetText,
@@ -90,7 +90,7 @@ pub fn tools(
         ("Keys", Action::Help, true, state.help),
         ("Capture", Action::Capture, true, state.capture.open),
     ];
-    // what is done to the run stands where the run is shown
+    // only the dashboard shows the run, so only the dashboard has the buttons that act on it
     if state.widget == 0 {
         buttons.extend([
             ("Names", Action::Labels, true, state.settings.labels),
@@ -111,14 +111,14 @@ pub fn tools(
     }
 }
 
-/// What is said of the last file, with a way to put it away.
+/// Shows the work in the background and the last notice, with links to stop the one and dismiss the other.
 pub fn notice(ui: &mut Ui, state: &mut UiState) {
     if let Some(working) = &mut state.working {
         frame::rows_of_words(ui, |ui| {
             ui.label(&working.text);
             working.stop |= ui.link("Stop").clicked();
         });
-        // it goes on without further input
+        // the work goes on without further input
         ui.ctx().request_repaint_after_secs(0.2);
     }
     let Some(notice) = &state.notice else { return };

@@ -1,4 +1,4 @@
-//! What the page asks of the lab, done.
+//! Carries out what the page asks of the lab.
 
 use std::collections::VecDeque;
 
@@ -18,11 +18,11 @@ use crate::random::Seed;
 use crate::simulation::{TransportCommand, obey};
 use crate::ui::{Notice, SessionCommand, ThemeChoice, UiState, number_of};
 
-/// Events of egui that wait for their frame: a field must have the focus before it takes letters.
+/// Events for egui, a list for each frame to come: a field must have the focus before it takes letters.
 #[derive(Resource, Default)]
 pub struct Staged(VecDeque<Vec<egui::Event>>);
 
-/// Does what has come in.
+/// Carries out the messages and opens the files that have come in, and gives egui the events of this frame.
 pub fn receive(world: &mut World) {
     for incoming in take_all() {
         let done = match incoming {
@@ -41,7 +41,7 @@ pub fn receive(world: &mut World) {
     let events = world.resource_mut::<Staged>().0.pop_front().unwrap_or_default();
     let mut inputs = world.query::<&mut EguiInput>();
     for mut input in inputs.iter_mut(world) {
-        // while a twin in the page has the focus, the canvas does not; egui would let its fields rest
+        // while a control of the page has the focus, the canvas has not, and egui would let its fields rest
         input.focused = true;
         input.events.extend(events.iter().cloned());
     }
@@ -127,12 +127,12 @@ fn take(world: &mut World, message: Message) -> Result<(), String> {
             Ok(())
         }
         Message::Visible { .. } => Ok(()),
-        // it is asked for, to see what the page does then
+        // wanted by tests of the page, which see what it does then
         Message::Fail => panic!("a page asked the lab to fail"),
     }
 }
 
-/// Does something with a widget, as assistive technology asks for it.
+/// Acts on a widget by AccessKit's requests, as assistive technology does.
 fn act(world: &mut World, id: &str, action: Action, value: Option<String>) -> Result<(), String> {
     let target_node = NodeId::from(id.parse::<u64>().map_err(|_| format!("{id} is no widget of the canvas"))?);
     let request = |action, data| {

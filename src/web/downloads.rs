@@ -1,4 +1,4 @@
-//! Downloads: what the lab would save by a dialog, given to the page.
+//! Downloads: the files that a window would save by a dialog, given to the page.
 
 use bevy::prelude::*;
 use serde_json::json;
@@ -10,7 +10,8 @@ use crate::run::Log;
 use crate::simulation::Transport;
 use crate::ui::{CaptureOrder, Notice, SessionCommand, widgets};
 
-/// Gives the page what the lab would ask a dialog for.
+/// Carries out the commands that need a dialog in a window: gives the page the file to save, or asks it for one to
+/// open.
 pub fn files(world: &mut World) {
     let asked: Vec<SessionCommand> = world.resource_mut::<Messages<SessionCommand>>().drain().collect();
     for command in asked {

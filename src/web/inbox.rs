@@ -12,7 +12,7 @@ pub enum Incoming {
     File {
         /// Its name.
         name: String,
-        /// What is in it.
+        /// Its content.
         bytes: Vec<u8>,
     },
 }
@@ -22,12 +22,12 @@ thread_local! {
     static WAKER: RefCell<Option<Box<dyn Fn()>>> = const { RefCell::new(None) };
 }
 
-/// How a frame is asked for.
+/// Sets the function that asks for a frame.
 pub fn wake_by(waker: impl Fn() + 'static) {
     WAKER.set(Some(Box::new(waker)));
 }
 
-/// Takes all that has come in.
+/// Takes everything that has come in.
 pub fn take_all() -> Vec<Incoming> {
     INBOX.take()
 }

@@ -1,4 +1,4 @@
-//! The lab in a page: started with a link, told of messages, and telling a listener what happens.
+//! The lab in a page: it starts with a link, takes messages, and reports to a listener what happens.
 
 use std::cell::Cell;
 use std::time::Duration;
@@ -22,34 +22,34 @@ use crate::app::{Interface, windowed_app};
 use crate::simulation::{Playback, Transport};
 use crate::ui::{Notice, Settings, number_of};
 
-/// For so many frames to come no time passes; all, while the page is not seen.
+/// Value of `STILL` while the page is hidden. `STILL` is the number of frames to come in which no time passes.
 const AWAY: u32 = u32::MAX;
 
-/// The most that a frame lets pass, as Bevy has it.
+/// Longest time that a frame lets pass, as Bevy has it.
 const MOST: Duration = Duration::from_millis(250);
 
 thread_local! {
     static STILL: Cell<u32> = const { Cell::new(0) };
 }
 
-/// Starts the lab on the canvas with the id `lab`, as the query of an address says, and tells `listener` what happens: it is called
-/// with JSON, and with bytes where a file goes with it. `embedded` shows one widget without the rail; `settings` are those that the page
-/// was told to keep, or nothing.
+/// Starts the lab on the canvas with the id `lab`.
 ///
-/// A query that is refused starts the book's run, and the lab says why.
+/// `query` is the query of an address. One that is refused starts the book's run, and the lab says why. `embedded`
+/// shows one widget without the rail. `settings` are the settings that the page keeps, as JSON, or nothing. `listener`
+/// is called with JSON, and with bytes where a file goes with it.
 #[wasm_bindgen]
 pub fn lab_start(query: &str, embedded: bool, settings: &str, listener: js_sys::Function) {
     let link = Link::parse(query);
     listen(listener);
     let mut app = windowed_app();
-    // Bevy has set its own by now
+    // Bevy has set a hook of its own by now
     let speak = std::panic::take_hook();
     std::panic::set_hook(Box::new(move |info| {
         tell(&json!({ "kind": "failed", "text": info.to_string() }));
         speak(info);
     }));
     let before = receive.after(EguiPreUpdateSet::ProcessInput).before(EguiPreUpdateSet::BeginPass);
-    // of another version's settings the usual ones are better than none
+    // settings that can't be read, such as another version's, give way to the defaults
     let settings = serde_json::from_str(settings).unwrap_or_default();
     app.insert_resource(Start { link, embedded, settings })
         .init_resource::<Told>()
@@ -62,7 +62,7 @@ pub fn lab_start(query: &str, embedded: bool, settings: &str, listener: js_sys::
         .run();
 }
 
-/// Tells the lab something: JSON of a [`Message`].
+/// Sends the lab a message: JSON of a [`Message`].
 ///
 /// # Errors
 /// The reason, when it is no message.
@@ -77,7 +77,7 @@ pub fn lab_send(message: &str) -> Result<(), JsError> {
     Ok(())
 }
 
-/// Opens a file: a run's log, or a world when its name ends in `.ron`. What came of it is said in the lab.
+/// Opens a file: a run's log, or a world when its name ends in `.ron`. A notice in the lab says what came of it.
 #[wasm_bindgen]
 pub fn lab_open(name: &str, bytes: Vec<u8>) {
     put(Incoming::File { name: name.to_owned(), bytes });
@@ -125,7 +125,7 @@ fn start(world: &mut World) {
     }
 }
 
-/// Lets no time pass while the page is not seen, and none of that which passed meanwhile.
+/// Lets no time pass while the page is hidden, and skips the time that passed meanwhile.
 fn stand_still(mut time: ResMut<Time<Virtual>>) {
     let frames = STILL.get();
     time.set_max_delta(if frames > 0 { Duration::from_nanos(1) } else { MOST });

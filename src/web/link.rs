@@ -14,13 +14,13 @@ use crate::worlds::World;
 /// The version of the address format that this program writes and reads.
 pub const LINK_VERSION: u32 = 1;
 
-/// The greatest length of a query, bytes: what every browser and mail program carries.
+/// Largest length of a query, bytes: every browser and mail program carries this much.
 pub const MAX_LINK: usize = 8000;
 
-/// The greatest tick of a link: an hour. Whoever opens it must simulate so far.
+/// Largest tick of a link: an hour. Opening a link simulates its run up to that tick.
 pub const MAX_LINK_TICK: u64 = 72_000;
 
-/// What has a meaning of its own in a query, and what programs that look for addresses in text stop at.
+/// Characters to escape: those with a meaning in a query, and those at which programs that find addresses in text stop.
 const ESCAPED: &AsciiSet = &{
     let marks = CONTROLS.add(b' ').add(b'"').add(b'#').add(b'%').add(b'&').add(b'+').add(b'<').add(b'>');
     marks.add(b'[').add(b']').add(b'`').add(b'{').add(b'|').add(b'}').add(b'\\').add(b'^')
@@ -28,12 +28,13 @@ const ESCAPED: &AsciiSet = &{
 
 /// A run and what to show of it, as the query of an address: `?v=1&seed=2005&world=lot&tick=600&script=...`.
 ///
-/// Every field may be left out, and fields of other names are ignored, so that a page may add its own. What is there must be right.
+/// Every field may be left out. Fields of other names are ignored, so that a page may add its own. A known field must
+/// be valid.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Link {
     /// The run's seed; the book's when left out.
     pub seed: Seed,
-    /// The names of its worlds, built in; none stands for all three.
+    /// The names of its worlds, which are built in; an empty list stands for all three.
     pub worlds: Vec<String>,
     /// The tick that is shown.
     pub tick: u64,
@@ -51,27 +52,27 @@ pub struct Link {
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum LinkError {
-    /// It is not of this version.
+    /// The link has another version.
     #[error("v={0}: this lab reads links of version {LINK_VERSION}")]
     Version(String),
-    /// A number that is none, or too large.
+    /// A field that is no whole number, or too large.
     #[error("{field}={text}: it must be a whole number up to {most}")]
     Number {
         /// The field.
         field: &'static str,
-        /// What stands there.
+        /// Its text.
         text: String,
-        /// The greatest that may stand there.
+        /// The largest number allowed.
         most: u64,
     },
-    /// A word that is none of those there are.
+    /// A field that holds none of its known words.
     #[error("{field}={text}: it must be one of {known}")]
     Word {
         /// The field.
         field: &'static str,
-        /// What stands there.
+        /// Its text.
         text: String,
-        /// What may stand there.
+        /// The words allowed.
         known: String,
     },
     /// A digest that is not 32 hexadecimal digits.
@@ -187,7 +188,7 @@ impl Link {
         Ok(link)
     }
 
-    /// The query, without its question mark. Reading it gives the link back.
+    /// The query, without its question mark. Parsing it gives the link back.
     ///
     /// # Errors
     /// [`LinkError::TooLong`].
@@ -218,7 +219,7 @@ impl Link {
         if query.len() > MAX_LINK { Err(LinkError::TooLong(query.len())) } else { Ok(query) }
     }
 
-    /// What is run: the configuration, as long as the link's tick, a tick at least.
+    /// The configuration of the run: as long as the link's tick, and at least one tick.
     pub fn config(&self) -> TourConfig {
         let usual = TourConfig { ticks: self.tick.max(1), ..TourConfig::default() };
         if self.worlds.is_empty() {

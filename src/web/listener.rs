@@ -1,4 +1,4 @@
-//! The listener: what the page gave to be told by.
+//! The listener: the page's function that takes messages of the lab.
 
 use std::cell::RefCell;
 
@@ -9,17 +9,17 @@ thread_local! {
     static LISTENER: RefCell<Option<js_sys::Function>> = const { RefCell::new(None) };
 }
 
-/// From now on this is told.
+/// Sets the listener, in place of any before.
 pub fn listen(listener: js_sys::Function) {
     LISTENER.set(Some(listener));
 }
 
-/// Tells the page something.
+/// Sends the page a message.
 pub fn tell(message: &Value) {
     tell_with(message, None);
 }
 
-/// Tells the page something, and gives it a file.
+/// Sends the page a message, with a file's bytes where there are any.
 pub fn tell_with(message: &Value, bytes: Option<&[u8]>) {
     let Some(listener) = LISTENER.with_borrow(Clone::clone) else { return };
     let bytes = bytes.map_or(JsValue::UNDEFINED, |b| js_sys::Uint8Array::from(b).into());

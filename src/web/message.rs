@@ -1,18 +1,18 @@
-//! `Message`, what a page asks of the lab. README names this file to who embeds the lab.
+//! `Message`, a request of a page to the lab. `docs/web.md` refers to this file those who embed the lab.
 
 use serde::Deserialize;
 
-/// What a page asks of the lab: JSON with its name under `do`.
+/// A request of a page: a JSON object with its name under `do`.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(tag = "do", rename_all = "snake_case")]
 pub enum Message {
-    /// Do something with a widget of the canvas.
+    /// Act on a widget of the canvas.
     Act {
         /// Its number.
         id: String,
-        /// What.
+        /// The action.
         action: Action,
-        /// What to set it to.
+        /// The number or text, where the action takes one.
         #[serde(default)]
         value: Option<String>,
     },
@@ -22,7 +22,7 @@ pub enum Message {
         key: String,
         /// Whether it is down now.
         pressed: bool,
-        /// Whether Shift is.
+        /// Whether Shift is held.
         #[serde(default)]
         shift: bool,
     },
@@ -36,24 +36,24 @@ pub enum Message {
         /// Its name, as in the colour key's classes.
         role: Option<String>,
     },
-    /// Let ticks follow one another.
+    /// Play the run.
     Play,
-    /// Stop.
+    /// Pause the run.
     Pause,
     /// One tick.
     Step,
     /// One tick back.
     StepBack,
-    /// To a tick.
+    /// Go to a tick.
     Seek {
-        /// Which.
+        /// The tick.
         tick: u64,
     },
-    /// The same seed from its start.
+    /// Start a run with the same seed.
     Reset,
-    /// Another seed.
+    /// Start a run with another seed.
     Reroll,
-    /// This seed, in decimal: JavaScript's numbers do not hold all.
+    /// Start a run with this seed, in decimal: JavaScript's numbers do not hold all.
     Seed {
         /// The seed.
         seed: String,
@@ -68,27 +68,27 @@ pub enum Message {
         /// `system`, `light` or `dark`.
         name: String,
     },
-    /// What the system asks for.
+    /// The system's preferences.
     System {
-        /// Dark paper.
+        /// Whether it prefers dark paper.
         dark: bool,
-        /// That nothing eases.
+        /// Whether it prefers reduced motion.
         reduced_motion: bool,
     },
-    /// Say the link of what is shown.
+    /// Send the link of what is shown.
     Link,
-    /// Give the run's log.
+    /// Send the run's log.
     Save,
-    /// The page is seen, or no more.
+    /// The page became visible or hidden.
     Visible {
-        /// Whether it is.
+        /// Whether it is visible.
         visible: bool,
     },
-    /// Fail, so that the page shows what it does then. For tests of the page.
+    /// Panic. Tests of the page see what it does then.
     Fail,
 }
 
-/// What can be done with a widget.
+/// An action on a widget.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Action {

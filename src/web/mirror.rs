@@ -1,14 +1,14 @@
-//! `Mirrored`, what egui tells assistive technology of its widgets, in the few words that a page builds its own controls from.
+//! `Mirrored`, a widget of egui's accessibility tree, reduced to what a page needs for a control of its own.
 
 use bevy_egui::egui::accesskit::{Action, Live, Node, NodeId, Role, Toggled, TreeUpdate};
 use serde::Serialize;
 
-/// One widget of the canvas as a page shows it to who does not see the canvas.
+/// One widget of the canvas, as a page shows it to those who do not see the canvas.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Mirrored {
     /// Its number, a string because it has 64 bits.
     pub id: String,
-    /// Which control of a page it is.
+    /// The kind of control.
     pub kind: Kind,
     /// Its accessible name.
     #[serde(skip_serializing_if = "String::is_empty")]
@@ -19,10 +19,10 @@ pub struct Mirrored {
     /// Least, greatest and step of a number.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub range: Option<[f64; 3]>,
-    /// Whether it is on, of what can be on or off.
+    /// Whether it is on; `None` for a control that can't be on or off.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub on: Option<bool>,
-    /// Whether it can't be used now.
+    /// Whether it is disabled.
     #[serde(skip_serializing_if = "std::ops::Not::not")]
     pub off_limits: bool,
     /// Whether its text is to be read aloud when it changes.
@@ -43,9 +43,9 @@ pub enum Kind {
     /// Words.
     #[default]
     Text,
-    /// What can be pressed.
+    /// A button, a link or a list.
     Button,
-    /// What is on or off.
+    /// A check box or a radio button.
     Check,
     /// A number on a scale.
     Slider,
@@ -53,11 +53,11 @@ pub enum Kind {
     Number,
     /// Text to type.
     Field,
-    /// What takes the arrow keys while it has the focus: a painted handle or a pane.
+    /// A control that takes the arrow keys while it has the focus: a painted handle or a pane.
     Handle,
 }
 
-/// The widgets of an update in reading order. Groups are dissolved; what has neither name nor value is left out.
+/// The widgets of an update in reading order. Groups are dissolved; widgets with neither name nor value are left out.
 pub fn mirror(update: &TreeUpdate) -> Vec<Mirrored> {
     let find = |id: NodeId| update.nodes.iter().find(|(n, _)| *n == id).map(|(_, node)| node);
     let mut found = Vec::new();
@@ -67,7 +67,7 @@ pub fn mirror(update: &TreeUpdate) -> Vec<Mirrored> {
         let Some(node) = find(id) else { continue };
         let labels = node.labelled_by().iter().filter_map(|l| find(*l)).filter_map(|l| l.value().or(l.label()));
         found.extend(mirrored(id, node, labels.collect::<Vec<_>>().join(" "), update.focus == id));
-        // the runs of a field's text are its value once more
+        // the text runs of a field repeat its value
         if node.role() != Role::TextInput {
             open.extend(node.children().iter().rev());
         }
@@ -80,7 +80,7 @@ fn mirrored(id: NodeId, node: &Node, labels: String, focus: bool) -> Option<Mirr
         Role::Label | Role::Image | Role::ProgressIndicator => Kind::Text,
         Role::Button | Role::Link | Role::ComboBox | Role::ColorWell => Kind::Button,
         Role::CheckBox | Role::RadioButton => Kind::Check,
-        // what can't be set takes the arrow keys
+        // a number that can't be set is a handle, which takes the arrow keys
         Role::Slider | Role::SpinButton if !node.supports_action(Action::SetValue) => Kind::Handle,
         Role::Slider => Kind::Slider,
         Role::SpinButton => Kind::Number,

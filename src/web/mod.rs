@@ -1,7 +1,7 @@
 //! The lab in a web page: addresses that hold a run, and what the WebAssembly builds export.
 //!
-//! There are two. The light one, without the feature `web`, records, verifies and draws runs; the page's overlay, the pages that
-//! hold one run, and the identity tests use it. The other is the lab itself.
+//! There are two builds. The light one, without the feature `web`, records, verifies and draws runs; the page's
+//! overlay, the pages that hold one run, and the identity tests use it. The other is the lab itself.
 
 #[cfg(target_family = "wasm")]
 mod identity;

@@ -1,4 +1,4 @@
-//! The report: how things stand in the lab, told to the page.
+//! The report: the state of the lab, sent to the page.
 
 use std::sync::Arc;
 
@@ -17,7 +17,7 @@ use crate::simulation::{PendingInput, Playback, RunConfig, Transport};
 use crate::tour::TourConfig;
 use crate::ui::{Settings, widgets};
 
-/// What the listener was told last.
+/// The last values sent to the page.
 #[derive(Resource, Default)]
 pub struct Told {
     frames: u64,
@@ -25,11 +25,11 @@ pub struct Told {
     settings: Option<Settings>,
     tree: Value,
     run: Option<(Arc<TourConfig>, Seed, Script)>,
-    /// When the last of these was told, seconds since the start.
+    /// Time of the last report, seconds since the start.
     at: f64,
 }
 
-/// Tells the page how things stand, at most ten times a second.
+/// Sends the page what has changed: at most ten times a second while the run plays, in every frame while it is paused.
 pub fn report(world: &mut World) {
     copied(world);
     let now = world.resource::<Time<Real>>().elapsed_secs_f64();
@@ -65,7 +65,7 @@ pub fn report(world: &mut World) {
         }
         let (config, seed) = (&world.resource::<RunConfig>().0, world.resource::<Transport>().seed);
         let script = world.resource::<PendingInput>().script();
-        // a new tick is no news: the page knows it from the state
+        // a new tick alone is not sent: the page knows it from the state
         if !told.run.as_ref().is_some_and(|(c, s, i)| Arc::ptr_eq(c, config) && *s == seed && i == script) {
             tell(&json!({ "kind": "run", "parts": RunParts::of(config, seed, script) }));
             told.run = Some((Arc::clone(config), seed, script.clone()));
@@ -74,7 +74,7 @@ pub fn report(world: &mut World) {
     world.insert_resource(told);
 }
 
-/// Gives the page what was copied: only a page may write to the clipboard.
+/// Sends the page the text that was copied: only a page may write to the clipboard.
 fn copied(world: &mut World) {
     let mut outputs = world.query::<&mut EguiOutput>();
     for mut output in outputs.iter_mut(world) {
@@ -86,7 +86,7 @@ fn copied(world: &mut World) {
     }
 }
 
-/// What the page shows and mirrors in its own words.
+/// The state that the page shows by its own means.
 fn state(world: &World) -> Value {
     let shown = &world.resource::<Shown>().0;
     let ui = &world.resource::<Interface>().0;
@@ -108,7 +108,7 @@ fn state(world: &World) -> Value {
     })
 }
 
-/// The widgets of the canvas.
+/// The widgets of the canvas; `None` where egui has nothing new of them.
 fn tree(world: &mut World) -> Option<Value> {
     let mut outputs = world.query::<&EguiOutput>();
     let output = outputs.iter(world).find_map(|o| o.platform_output.accesskit_update.as_ref())?;

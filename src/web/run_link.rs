@@ -7,7 +7,7 @@ use crate::app::{Interface, log_up_to, new_run, shown_run};
 use crate::simulation::{Playback, Transport, TransportCommand, obey};
 use crate::ui::{Notice, ThemeChoice, widgets};
 
-/// Runs a link's run up to its tick and compares the digest that came with it.
+/// Starts a link's run, simulates it up to its tick, and compares the digest with that of the link.
 pub fn open_link(world: &mut World, link: &Link) -> Result<Option<Notice>, String> {
     new_run(world, link.config(), (link.seed, link.script.clone()))?;
     world.resource_mut::<Transport>().playback = if link.tick == 0 { Playback::Playing } else { Playback::Paused };

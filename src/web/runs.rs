@@ -9,11 +9,11 @@ use crate::picture::Theme;
 use crate::random::Seed;
 use crate::recording::{Recorder, Run};
 use crate::run::{Log, Script, first_divergence};
-use crate::tour::{SensorConfig, TourConfig};
+use crate::sensors::RangeSensor;
+use crate::tour::TourConfig;
 use crate::worlds::World;
 
-/// The parts that a run is made of, all of them text: what a page keeps so that it can record the run again when the lab itself has
-/// stopped.
+/// The parts of a run, as JSON. A page keeps them so that it can record the run again when the lab has stopped.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct RunParts {
     /// The seed, in decimal.
@@ -47,13 +47,13 @@ impl RunParts {
         let worlds = self.worlds.iter().map(parse).collect::<Result<_, _>>()?;
         let mut script = Script::parse("the script", &self.script).map_err(|e| e.to_string())?;
         script.events.retain(|e| e.tick <= self.ticks);
-        let sensor = self.sensor.map(|(n_rays, max_range)| SensorConfig { n_rays, max_range });
+        let sensor = self.sensor.map(|(n_rays, max_range)| RangeSensor { n_rays, max_range });
         let config = TourConfig { worlds, ticks: self.ticks, sensor };
         Run::record(config, (Seed(seed), script)).map_err(|e| e.to_string())
     }
 }
 
-/// What there is to say of a log that was simulated again.
+/// The result of simulating a log again.
 #[derive(Debug, Serialize)]
 struct Verdict {
     /// Whether every frame came out equal to the last bit, and the file is whole.
@@ -65,7 +65,7 @@ struct Verdict {
     /// The run's digest, computed anew.
     digest: String,
     seed: String,
-    /// In words.
+    /// The result in words.
     text: String,
 }
 

@@ -2,19 +2,19 @@
 
 use serde::Deserialize;
 
-/// The beam model of a range finder (Thrun, Burgard and Fox, *Probabilistic Robotics*, 2005, section 6.3), its parameters
-/// under their usual names. A reading is, independently of all others,
+/// The beam model of a range finder (Thrun, Burgard and Fox, *Probabilistic Robotics*, 2005, section 6.3). The
+/// parameters have their usual names. A reading is, independently of all others,
 ///
 /// - with probability `z_short` a short return, from something that is not in the world: exponential with rate
 ///   `lambda_short`, cut off at the exact range;
 /// - with probability `z_miss` a miss: infinity, nothing came back;
 /// - with probability `z_max` a maximum reading: the sensor's greatest range R exactly;
 /// - with probability `z_rand` a random reading: uniform in [0, R);
-/// - else, with probability [`z_hit`](Self::z_hit), a hit: normal about the exact range with standard deviation `sigma_hit`,
-///   kept in [0, R].
+/// - else, with probability [`z_hit`](Self::z_hit), a hit: normal about the exact range with standard deviation
+///   `sigma_hit`, kept in [0, R].
 ///
-/// Where nothing is in range there is no hit and no short return: the reading is infinity instead.
-/// [`apply`](Self::apply) draws the readings.
+/// Where nothing is in range, the reading is infinity instead of a hit or a short return. [`apply`](Self::apply) draws
+/// the readings.
 #[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct BeamModel {
@@ -52,7 +52,7 @@ pub enum BeamError {
     Sum(f64),
 }
 
-/// Parameters that are left out are those of no noise.
+/// Parameters that are left out mean no noise.
 impl Default for BeamModel {
     fn default() -> Self {
         BeamModel::EXACT
@@ -82,10 +82,11 @@ impl BeamModel {
         1.0 - (self.z_short + self.z_miss + self.z_max + self.z_rand)
     }
 
-    /// The model with these numbers; a -0.0 becomes 0.0.
+    /// Returns the model if its numbers are valid; `-0.0` becomes `0.0`.
     ///
     /// # Errors
-    /// [`BeamError`] for a number that is not finite or negative, or probabilities above 1 in all.
+    /// [`BeamError`] for a number that is negative or not finite, a rate of 0 with short returns possible, or
+    /// probabilities above 1 in all.
     pub fn try_new(self) -> Result<Self, BeamError> {
         for (name, value) in self.named() {
             if !(value.is_finite() && value >= 0.0) {

@@ -1,10 +1,10 @@
-//! A simple polygon cut into convex pieces, by exact predicates and without new vertices.
+//! Cuts a simple polygon into convex pieces, by exact predicates and without new vertices.
 
 use std::collections::{BTreeMap, BTreeSet};
 
 use crate::geometry::{ConvexPolygon, Point2, PolygonError, orientation};
 
-/// The greatest number of vertices of a polygon that is not convex: cutting it up takes quadratic time and more.
+/// Largest number of vertices of a concave polygon. Cutting it up takes at least quadratic time.
 pub const MAX_CONCAVE_VERTICES: usize = 1000;
 
 /// Why a list of vertices is not the outline of a polygon.
@@ -30,14 +30,16 @@ pub enum OutlineError {
     TooNarrow,
 }
 
-/// Convex polygons that together make up the polygon with this outline: its vertices in either orientation, straight
-/// corners allowed. One that is strictly convex gives itself; the pieces of another overlap in their edges only.
+/// Cuts a simple polygon into convex pieces, which overlap in their edges only. `outline` holds its vertices in either
+/// orientation; straight corners are allowed. A strictly convex polygon is returned whole.
 ///
-/// Ears are clipped (every simple polygon has one: Meisters, 1975), then triangles merged across their common edges as long
-/// as the result is strictly convex (Hertel and Mehlhorn, 1983), which leaves at most four times the fewest pieces possible.
+/// First ears are clipped: every simple polygon has one (Meisters, 1975). Then triangles are merged across their common
+/// edges as long as the result is strictly convex (Hertel and Mehlhorn, 1983). This leaves at most four times the
+/// fewest pieces possible.
 ///
 /// # Errors
-/// [`OutlineError`] names the vertices: an outline that crosses or touches itself, too few vertices, numbers out of range.
+/// [`OutlineError`] names the vertices: an outline that crosses or touches itself, too few vertices, numbers out of
+/// range.
 pub fn convex_pieces(outline: &[Point2]) -> Result<Vec<ConvexPolygon>, OutlineError> {
     match ConvexPolygon::try_new(outline) {
         Ok(convex) => return Ok(vec![convex]),
@@ -51,7 +53,7 @@ pub fn convex_pieces(outline: &[Point2]) -> Result<Vec<ConvexPolygon>, OutlineEr
     let triangles = triangulate(outline);
     let pieces = merge(outline, triangles);
     let convex = |piece: &Vec<usize>| ConvexPolygon::try_new(&corners(outline, piece));
-    // strictly convex by construction, so that only a short edge is left to go wrong
+    // the pieces are strictly convex by construction, so only a short edge can be refused
     pieces.iter().map(convex).collect::<Result<_, _>>().map_err(|_| OutlineError::TooNarrow)
 }
 
@@ -66,14 +68,14 @@ fn segments_meet([a, b]: [Point2; 2], [c, d]: [Point2; 2]) -> bool {
     if apart(a.x, b.x, c.x, d.x) || apart(a.y, b.y, c.y, d.y) {
         return false;
     }
-    // on one line each sign is 0, and the boxes have decided
+    // for collinear segments each sign is 0, and the boxes have decided
     let sign = |x: f64| if x == 0.0 { 0 } else { x.signum() as i32 };
     let (c_side, d_side) = (sign(orientation(a, b, c)), sign(orientation(a, b, d)));
     let (a_side, b_side) = (sign(orientation(c, d, a)), sign(orientation(c, d, b)));
     c_side * d_side <= 0 && a_side * b_side <= 0
 }
 
-/// That no two edges meet but neighbours, and those in their common vertex only.
+/// Checks that no two edges meet, except neighbours in their common vertex.
 fn check_simple(outline: &[Point2]) -> Result<(), OutlineError> {
     let n = outline.len();
     let edge = |i: usize| [outline[i], outline[(i + 1) % n]];
@@ -82,7 +84,7 @@ fn check_simple(outline: &[Point2]) -> Result<(), OutlineError> {
             let ([a, b], [c, d]) = (edge(first), edge(second));
             let neighbours = second == first + 1 || (first == 0 && second == n - 1);
             let meet = if neighbours {
-                // the common vertex in the middle: a spike turns by half a circle there
+                // `q` is the common vertex; a spike turns by half a circle there
                 let [p, q, r] = if second == first + 1 { [a, b, d] } else { [c, d, b] };
                 orientation(p, q, r) == 0.0 && (p - q).dot(&(r - q)) > 0.0
             } else {
@@ -96,10 +98,12 @@ fn check_simple(outline: &[Point2]) -> Result<(), OutlineError> {
     Ok(())
 }
 
-/// The indices of a simple polygon's triangles, each counter-clockwise. None is flat. The first ear along the ring is clipped first.
+/// Triangulates a simple polygon by clipping the first ear along the ring. Returns the vertex indices of each triangle,
+/// counter-clockwise. No triangle is flat.
 ///
-/// What keeps a corner from being an ear is remembered: the corner's own turn, or a vertex within its triangle. It stays in the way
-/// until it is clipped itself or the corner gets another neighbour. Without that memory a spiral of n corners takes n^3 steps.
+/// For each corner that is not an ear, one obstructing vertex is remembered: the corner itself if it is not convex, or
+/// a vertex within its triangle. It obstructs the corner until it is clipped or the corner gets another neighbour.
+/// Without this memory a spiral of n corners takes n^3 steps.
 fn triangulate(outline: &[Point2]) -> Vec<Vec<usize>> {
     let turn = |i: usize, j: usize, k: usize| orientation(outline[i], outline[j], outline[k]);
     let mut ring: Vec<usize> = (0..outline.len()).collect();
@@ -134,7 +138,7 @@ fn triangulate(outline: &[Point2]) -> Vec<Vec<usize>> {
     triangles
 }
 
-/// The turn at the lowest, leftmost corner tells the orientation; a straight corner there is passed over.
+/// Whether an outline is clockwise, by the turn at its lowest, leftmost corner.
 fn clockwise(outline: &[Point2]) -> bool {
     let n = outline.len();
     let lowest = (0..n).reduce(|l, i| if (outline[i].y, outline[i].x) < (outline[l].y, outline[l].x) { i } else { l });
@@ -143,7 +147,8 @@ fn clockwise(outline: &[Point2]) -> bool {
     orientation(outline[(lowest + n - 1) % n], outline[lowest], outline[(lowest + 1) % n]) < 0.0
 }
 
-/// Joins pieces across common edges while the result stays strictly convex: each with the first of those behind it that fits.
+/// Joins pieces across common edges while the result stays strictly convex. Each piece is joined with the first later
+/// piece that fits.
 fn merge(outline: &[Point2], pieces: Vec<Vec<usize>>) -> Vec<Vec<usize>> {
     let edges = |ring: &[usize]| (0..ring.len()).map(|i| (ring[i], ring[(i + 1) % ring.len()])).collect::<Vec<_>>();
     // each directed edge is in one piece, and its neighbour across it has the edge the other way round
@@ -168,7 +173,7 @@ fn merge(outline: &[Point2], pieces: Vec<Vec<usize>>) -> Vec<Vec<usize>> {
     pieces.into_iter().flatten().collect()
 }
 
-/// Two rings joined along an edge that they share in opposite directions.
+/// Joins two rings along an edge that they share in opposite directions; `None` if they share none.
 fn join(a: &[usize], b: &[usize]) -> Option<Vec<usize>> {
     for i in 0..a.len() {
         let (from, to) = (a[i], a[(i + 1) % a.len()]);
@@ -206,7 +211,7 @@ mod tests {
         (0..n).filter(crosses).count() % 2 == 1
     }
 
-    /// The pieces have the polygon's area and hold exactly its points.
+    /// Checks that the pieces have the polygon's area and cover exactly its points. Returns their number.
     fn check(outline: &[Point2], s: &mut Stream) -> usize {
         let pieces = convex_pieces(outline).unwrap();
         let area: f64 = pieces.iter().map(|p| doubled_area(p.vertices())).sum();
@@ -250,7 +255,7 @@ mod tests {
         }
     }
 
-    /// Every corner tried anew for every triangle.
+    /// `triangulate` without its memory: every corner is tried again for every triangle.
     fn triangulate_plainly(outline: &[Point2]) -> Vec<Vec<usize>> {
         let turn = |i: usize, j: usize, k: usize| orientation(outline[i], outline[j], outline[k]);
         let mut ring: Vec<usize> = (0..outline.len()).collect();
@@ -278,7 +283,7 @@ mod tests {
         triangles
     }
 
-    /// Every pair of pieces tried anew for every one that is joined.
+    /// `merge` without its map of edges: every pair of pieces is tried again after every join.
     fn merge_plainly(outline: &[Point2], mut pieces: Vec<Vec<usize>>) -> Vec<Vec<usize>> {
         let mut at = 0;
         while at < pieces.len() {
@@ -297,7 +302,8 @@ mod tests {
         pieces
     }
 
-    /// Worlds keep their pieces, and so their runs: the first ear first, and each piece with the first behind it that fits.
+    /// A world's runs depend on its pieces, so the memory must not change which ear is clipped or which pieces are
+    /// joined.
     #[test]
     fn what_is_remembered_changes_no_piece() {
         let mut s = Stream::new(Seed(4), "pieces");

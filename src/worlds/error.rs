@@ -34,7 +34,7 @@ pub struct WorldError {
     pub line: usize,
     /// The column in characters, from 1.
     pub column: usize,
-    /// The item; `None` when the trouble lies outside the lists or the file is not RON.
+    /// The item; `None` if the error lies outside the lists or the file is not RON.
     pub item: Option<Box<WorldItem>>,
     /// The reason.
     pub problem: Box<WorldProblem>,
@@ -77,10 +77,10 @@ pub enum WorldProblem {
         /// The line it begins in.
         line: usize,
     },
-    /// Too many items in a list, or shapes in all.
+    /// Too many items in a list, or too many shapes or corners of concave polygons in all.
     #[error("too many {what}: at most {most}", most = super::MAX_ITEMS)]
     TooMany {
-        /// Of what.
+        /// What there are too many of.
         what: &'static str,
     },
     /// A polyline with too few points.
@@ -102,7 +102,7 @@ pub enum WorldProblem {
     /// A shape, position or bounds with bad numbers.
     #[error(transparent)]
     Shape(#[from] ShapeError),
-    /// A polygon whose outline is not one.
+    /// A polygon with an invalid outline.
     #[error("polygon: {0}")]
     Outline(#[from] OutlineError),
     /// A union without members.
@@ -111,7 +111,7 @@ pub enum WorldProblem {
     /// A heading or start coordinate that is not finite.
     #[error("{0} is not a finite number")]
     NotFinite(&'static str),
-    /// A robot of a kind nobody knows.
+    /// A robot of an unknown kind.
     #[error(
         "kind {0:?}: it must be `rusty`, `reach`, `reach3`, `hitch`, or begin with `x-` when a program registers its own"
     )]
@@ -121,7 +121,7 @@ pub enum WorldProblem {
     Start {
         /// The robot's kind.
         kind: String,
-        /// What it needs.
+        /// The coordinates that it needs, in words.
         expected: &'static str,
         /// How many it has.
         found: usize,
@@ -129,7 +129,7 @@ pub enum WorldProblem {
     /// A sensor for a robot of a kind that has none.
     #[error("a {0} has no range sensor: leave out `sensor`")]
     NoSensor(String),
-    /// A sensor whose noise is no distribution.
+    /// Sensor noise that is not a probability distribution.
     #[error("sensor: {0}")]
     Beam(#[from] BeamError),
 }

@@ -23,16 +23,17 @@
 //! )
 //! ```
 //!
-//! A robot with a range sensor may have a noisy one, by the [`BeamModel`]'s parameters, 0 where left out (`lambda_short` 1):
+//! The range sensor of a robot may be noisy. Its parameters are those of [`BeamModel`]; one that is left out is 0, or 1
+//! for `lambda_short`:
 //!
 //! ```ron
 //! (name: "Rusty", kind: "rusty", start: [3, 5.5, 0],
 //!     sensor: (sigma_hit: 0.02, z_short: 0.05, lambda_short: 1, z_miss: 0.01, z_max: 0.01, z_rand: 0.01)),
 //! ```
 //!
-//! Every list may be left out. A name is unique in the whole world. A robot's `start` is its configuration's coordinates:
-//! `rusty` x, y, theta; `reach` th1, th2; `reach3` th1, th2, th3; `hitch` x, y, theta, and psi with a trailer. Other kinds
-//! begin with `x-` and belong to programs that register them.
+//! Every list may be left out. A name is unique in the whole world. A robot's `start` is its configuration's
+//! coordinates: `rusty` x, y, theta; `reach` th1, th2; `reach3` th1, th2, th3; `hitch` x, y, theta, and psi with a
+//! trailer. Other kinds begin with `x-` and belong to programs that register them.
 
 mod beam;
 mod built_in;
@@ -51,13 +52,13 @@ pub use file::comments::comments;
 pub use grid::cells::{Grid, GridError, MAX_CELLS};
 pub use grid::distance_transform::DistanceTransform;
 pub use grid::ros_export::RosFiles;
-pub use model::{Bounds, Mark, Obstacle, ObstacleKind, Outline, Place, Resident, World, Written};
+pub use model::{Mark, Obstacle, ObstacleKind, Outline, Place, Resident, World, Written};
 
 /// The version of the world format that is read and written.
 pub const WORLD_VERSION: u64 = 1;
 
-/// The greatest number of shapes in a world (a polyline counts one for each of its segments, a concave polygon one for each
-/// convex piece), and of items in each of its lists.
+/// Largest number of shapes in a world, and of items in each of its lists. Each segment of a polyline and each convex
+/// piece of a concave polygon counts as a shape.
 pub const MAX_ITEMS: usize = 100_000;
 
 #[cfg(test)]

@@ -1,18 +1,9 @@
 //! `World`, a checked world: what is meant, as opposed to what is written in a file.
 
 use super::{BeamModel, OutlineError, convex_pieces};
-use crate::geometry::{ConvexPolygon, Placed, Point2, Pose2, Shape};
+use crate::geometry::{Aabb, ConvexPolygon, Placed, Point2, Pose2, Shape};
 
-/// An axis-parallel box: the part of the plane a world shows. It is not an obstacle.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Bounds {
-    /// The corner with the least coordinates, metres.
-    pub min: Point2,
-    /// The corner with the greatest coordinates, metres.
-    pub max: Point2,
-}
-
-/// Whether an obstacle is a thin wall or a solid thing; both collide alike.
+/// The kind of an obstacle. Walls and solids collide alike.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ObstacleKind {
     /// Segments.
@@ -28,20 +19,21 @@ pub struct Obstacle {
     pub name: String,
     /// Wall or solid.
     pub kind: ObstacleKind,
-    /// The pieces, each with the pose of its frame: a polyline's segments, a concave polygon's convex pieces, a disc.
+    /// The pieces, each with the pose of its frame: the segments of a polyline, the convex pieces of a concave polygon,
+    /// a disc.
     pub pieces: Vec<(Pose2, Shape)>,
-    /// The concave polygons among them as they were written, in order. Queries see the pieces alone.
+    /// The outlines of the concave polygons, as written and in order. Queries use the pieces only.
     pub outlines: Vec<Outline>,
 }
 
 /// A concave polygon of an obstacle.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Outline {
-    /// The number of the first of the convex pieces it was cut into.
+    /// Index of the first convex piece cut from the polygon, among the obstacle's pieces.
     pub first: usize,
-    /// How many there are.
+    /// Number of convex pieces.
     pub pieces: usize,
-    /// Its vertices as they were written.
+    /// The polygon's vertices, as written.
     pub points: Vec<Point2>,
 }
 
@@ -59,7 +51,7 @@ pub enum Written<'a> {
 pub struct Place {
     /// The unique name.
     pub name: String,
-    /// Where it is, and which way it faces.
+    /// Position, metres, and heading, radians, in the world.
     pub pose: Pose2,
 }
 
@@ -72,16 +64,16 @@ pub struct Mark {
     pub points: Vec<Point2>,
 }
 
-/// A robot that lives in the world.
+/// A resident robot of a world: its kind, its start and the noise of its sensor.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Resident {
     /// The robot's unique name.
     pub name: String,
     /// Its kind: `rusty`, `reach`, `reach3`, `hitch`, or the name a program registered.
     pub kind: String,
-    /// Where it starts: its configuration's chart coordinates. Hitch starts with a trailer when there are four.
+    /// Chart coordinates of the configuration at the start. A `hitch` with four coordinates starts with its trailer.
     pub start: Vec<f64>,
-    /// The noise of its range sensor; `None` for an exact one, or none.
+    /// The noise of its range sensor; `None` if the sensor is exact or the robot has none.
     pub sensor: Option<BeamModel>,
 }
 
@@ -91,7 +83,7 @@ pub struct World {
     /// The world's name.
     pub name: String,
     /// The part of the plane it shows.
-    pub bounds: Bounds,
+    pub bounds: Aabb,
     /// The obstacles in file order: walls first, then solids, as written.
     pub obstacles: Vec<Obstacle>,
     /// The places in file order.
@@ -103,7 +95,7 @@ pub struct World {
 }
 
 impl Resident {
-    /// The robot of this name and kind at this start, its sensor exact.
+    /// Creates a resident with an exact sensor. Nothing is checked.
     pub fn new(name: impl Into<String>, kind: impl Into<String>, start: impl Into<Vec<f64>>) -> Self {
         Resident { name: name.into(), kind: kind.into(), start: start.into(), sensor: None }
     }
@@ -118,7 +110,7 @@ impl Obstacle {
     /// Adds a polygon, convex or not, cut into convex pieces.
     ///
     /// # Errors
-    /// [`OutlineError`] when the points are the outline of none.
+    /// [`OutlineError`] if the points are not the outline of a polygon that can be cut up.
     pub fn add_polygon(&mut self, points: &[Point2]) -> Result<(), OutlineError> {
         let cut = convex_pieces(points)?;
         if cut.len() > 1 {
@@ -128,7 +120,7 @@ impl Obstacle {
         Ok(())
     }
 
-    /// The shapes as they were written, in order: the outline of each concave polygon, or else a piece.
+    /// Returns the shapes as written, in order: an outline for each concave polygon, a piece for every other shape.
     pub fn written(&self) -> Vec<Written<'_>> {
         let mut written = Vec::new();
         let mut at = 0;
@@ -147,7 +139,7 @@ impl Obstacle {
         written
     }
 
-    /// Whether an outline is still that of its pieces: in an obstacle put together by hand it need not be.
+    /// Whether an outline still matches its pieces. In an obstacle assembled by hand it may not.
     fn is_own(&self, outline: &Outline) -> bool {
         let Some(own) = self.pieces.get(outline.first..outline.first.saturating_add(outline.pieces)) else {
             return false;

@@ -10,7 +10,8 @@ use motion_lab::num::{cos, greater, sin, tan};
 use motion_lab::prelude::*;
 use motion_lab::recording::Run;
 use motion_lab::run::{Frame, Log, LogWriter, RobotInput, Script};
-use motion_lab::tour::{SensorConfig, TourConfig};
+use motion_lab::sensors::RangeSensor;
+use motion_lab::tour::TourConfig;
 use serde_json::Value;
 use xxhash_rust::xxh3::xxh3_128;
 
@@ -21,7 +22,7 @@ use crate::scan_shapes::{Tally, check, things_of};
 /// The first 16 s of tests/scripts/driving.ron: walls hit, inputs refused, the trailer put on.
 static DRIVEN: LazyLock<Log> = LazyLock::new(|| {
     let script = Script::parse("driving.ron", include_str!("../scripts/driving.ron")).unwrap();
-    let sensor = Some(SensorConfig { n_rays: 8, max_range: 1.9 });
+    let sensor = Some(RangeSensor { n_rays: 8, max_range: 1.9 });
     Run::record(TourConfig { ticks: 320, sensor, ..TourConfig::default() }, (Seed(2005), script)).unwrap()
 });
 

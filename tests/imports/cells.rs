@@ -60,7 +60,7 @@ fn boxes_are_solid_and_cover_the_cells_once() {
         .obstacles
         .iter()
         .flat_map(|o| o.placed().collect::<Vec<_>>())
-        .map(|p| (p.bounds().1.x - p.bounds().0.x) * (p.bounds().1.y - p.bounds().0.y))
+        .map(|p| (p.bounds().max.x - p.bounds().min.x) * (p.bounds().max.y - p.bounds().min.y))
         .sum();
     // 2 * 12 + 2 * 6 cells of the border and 4 of the block
     assert_eq!(area, 40.0 * 0.25);

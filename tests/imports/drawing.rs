@@ -1,6 +1,7 @@
 //! SVG drawings.
 
 use motion_lab::collision::{Collision, Scene};
+use motion_lab::geometry::Aabb;
 use motion_lab::geometry::{Footprint, Point2, Shape};
 use motion_lab::num;
 use motion_lab::worlds::import::{Imported, SvgOptions, svg};
@@ -250,7 +251,7 @@ fn attributes_of_others_and_what_is_left_out_change_nothing() {
     let corners = |inside: &str| {
         let world = read(inside).unwrap();
         assert_eq!(world.obstacles.len(), 1, "{inside}");
-        let (low, high) = world.obstacles[0].placed().next().unwrap().bounds();
+        let Aabb { min: low, max: high } = world.obstacles[0].placed().next().unwrap().bounds();
         [low.x, low.y, high.x, high.y].map(|x| (x * 1e6).round() / 1e6)
     };
     let rect = "<rect id='a' x='1' y='1' width='2' height='1'/>";

@@ -1,13 +1,14 @@
 //! Many robots in one world.
 
 use motion_lab::collision::{Collision, Scene};
-use motion_lab::geometry::Placed;
+use motion_lab::geometry::{Aabb, Placed};
 use motion_lab::prelude::*;
 use motion_lab::recording::{Recorder, Run};
 use motion_lab::run::{Frame, RobotInput, Script};
+use motion_lab::sensors::RangeSensor;
 use motion_lab::simulation::LEAST_CLEARANCE;
-use motion_lab::tour::{SensorConfig, TourConfig};
-use motion_lab::worlds::{Bounds, Obstacle, ObstacleKind, Resident, World};
+use motion_lab::tour::TourConfig;
+use motion_lab::worlds::{Obstacle, ObstacleKind, Resident, World};
 
 use super::{event, quantized, script};
 
@@ -21,7 +22,7 @@ pub(crate) fn arena(half: f64, robots: &[(&str, &str, &[f64])]) -> World {
     let wall = Obstacle::new("the wall", ObstacleKind::Wall, (0..4).map(side).collect());
     World {
         name: "the arena".into(),
-        bounds: Bounds { min: corners[0], max: corners[2] },
+        bounds: Aabb { min: corners[0], max: corners[2] },
         obstacles: vec![wall],
         places: vec![],
         marks: vec![],
@@ -130,7 +131,7 @@ fn an_arm_is_never_held_and_holds_what_it_lies_on() {
         event(5, "Rusty", RobotInput::Drive(128, 0)),
         turn(10, 3.0),
     ];
-    let sensor = Some(SensorConfig { n_rays: 4, max_range: 9.0 });
+    let sensor = Some(RangeSensor { n_rays: 4, max_range: 9.0 });
     let config = TourConfig { sensor, ..config(arena(3.0, &robots), 20) };
     let log = Run::record(config, (Seed(1), script(events))).unwrap();
     let state = |tick: usize, robot: usize| &log.frames[tick - 1].robots[robot];
@@ -180,7 +181,7 @@ fn adding_a_robot_changes_nobody_else_s_numbers() {
 fn a_sensor_sees_the_others_and_not_its_own_robot() {
     let robots: [(&str, &str, &[f64]); 2] = [("a", "rusty", &[0.0, 0.0, 0.0]), ("b", "rusty", &[0.0, 1.0, 0.0])];
     let mut config = config(arena(2.0, &robots), 1);
-    config.sensor = Some(SensorConfig { n_rays: 4, max_range: 1.5 });
+    config.sensor = Some(RangeSensor { n_rays: 4, max_range: 1.5 });
     let frame = Run::record(config, Seed(1)).unwrap().initial;
     let [a, b] = &frame.scans[..] else { panic!("two sensors") };
     assert_eq!((a.robot, b.robot), (0, 1));

@@ -3,6 +3,7 @@
 use bevy::app::App;
 use bevy::prelude::MinimalPlugins;
 use motion_lab::collision::{Collision, Scene};
+use motion_lab::geometry::Aabb;
 use motion_lab::prelude::*;
 use motion_lab::recording::{Recorder, Run, RunError};
 use motion_lab::robots::{ChartLine, ConfigurationError, PartRates, Rates};
@@ -131,7 +132,7 @@ fn a_kind_registered_again_is_the_new_one_and_keeps_its_dimensions() {
     start_run(app.world_mut(), config, (Seed(1), script(events))).unwrap();
     let footprint = view(app.world_mut()).remove(0).footprint;
     // the trailer's box: from its axle, 3 m behind the car's, 0.8 m back and 1 m ahead
-    let (low, high) = footprint.parts()[1].placed().bounds();
+    let Aabb { min: low, max: high } = footprint.parts()[1].placed().bounds();
     assert_eq!((low.x, high.x), (-3.8, -2.0));
     motion_lab::simulation::step(app.world_mut());
     // an arc of v dt tan(phi) / L

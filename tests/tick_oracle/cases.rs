@@ -5,7 +5,8 @@ use std::f64::consts::TAU;
 use motion_lab::geometry::{Placed, Point2, Vertices};
 use motion_lab::random::{Seed, Stream};
 use motion_lab::run::{Event, RobotInput, RobotState, Script};
-use motion_lab::tour::{SensorConfig, TourConfig};
+use motion_lab::sensors::RangeSensor;
+use motion_lab::tour::TourConfig;
 use motion_lab::worlds::World;
 
 use super::meetings::clearance;
@@ -13,7 +14,7 @@ use super::robots::{Kind, shapes, wrap};
 use crate::fixtures::convex_corners;
 use crate::simulation::{event, quantized, script};
 
-pub const SENSOR: SensorConfig = SensorConfig { n_rays: 7, max_range: 1.5 };
+pub const SENSOR: RangeSensor = RangeSensor { n_rays: 7, max_range: 1.5 };
 
 /// A robot of the run.
 #[derive(Clone, Debug)]

@@ -34,7 +34,7 @@ fn press(harness: &mut Harness<'_, Lab>, name: &str) -> Option<String> {
     })
 }
 
-/// Whether the line of the readout that begins so is there to be read.
+/// Asserts that the line of the readout that begins with `begins` is on the screen.
 fn says(harness: &Harness<'_, Lab>, begins: &str) {
     let lines = anatomy(harness).readout();
     let line = lines.iter().find(|line| line.starts_with(begins)).unwrap_or_else(|| panic!("{begins}: {lines:?}"));

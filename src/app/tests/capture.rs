@@ -20,7 +20,7 @@ fn order(harness: &mut Harness<'_, Lab>) -> CaptureOrder {
     order
 }
 
-/// Captures to a file as the window does, and waits for what is said of it.
+/// Captures to a file as the window does, and waits for the notice.
 fn done(harness: &mut Harness<'_, Lab>, order: &CaptureOrder, path: &Path) -> Notice {
     let world = harness.state_mut().app.world_mut();
     world.init_resource::<Capturing>();
@@ -145,7 +145,7 @@ fn what_does_not_move_or_is_not_in_the_run_is_refused_in_place() {
     let alone = crate::tour::TourConfig { worlds: vec![crate::worlds::World::lot()], ..(*config).clone() };
     let error = check(&alone, &ui(&harness), &asked).unwrap_err().to_string();
     assert!(error.contains("the run has no world Workbench"), "{error}");
-    // what can't be written is told with its path, and nothing is left behind
+    // a file that can't be written is reported with its path, and nothing is left behind
     let nowhere = folder.path().join("none").join("x.png");
     let said = done(&mut harness, &asked, &nowhere);
     assert!(said.is_error && said.text.contains("none") && said.text.contains("can't be written"), "{said:?}");

@@ -81,7 +81,7 @@ fn the_trailer_goes_on_and_a_goal_is_set_for_it() {
 fn where_there_is_no_room_for_a_trailer_it_is_said() {
     let mut harness = lab(WIDE);
     pause(&mut harness);
-    // the rear axle half a metre from the west curb, facing away from it: the trailer would stand through it, or wholly beyond
+    // the rear axle 1.2 m or 2.5 m from the west curb, facing away from it: the trailer would stand across the curb
     for x in [1.2, 2.5] {
         let to = [x, 2.5, 0.0].map(|v| crate::run::Quantized::try_new(v).unwrap()).to_vec();
         let command = crate::simulation::RobotCommand { robot: "Hitch".into(), input: RobotInput::Teleport(to) };

@@ -103,7 +103,7 @@ fn loops_speeds_and_contacts() {
     assert!(gone >= 10, "at least a tick a frame, where normal speed makes half of one: {gone} in ten frames");
 }
 
-/// The frames of the first 200 ticks with input in them, at some rate of frames, with a stall of 5 s or not.
+/// The frames of the first 200 ticks of a run with input, played at this frame rate, with stalls of 5 s or without.
 fn played(frames_per_second: u32, stall: bool) -> Vec<crate::run::Frame> {
     let mut app = app(Duration::from_secs_f64(1.0 / f64::from(frames_per_second)));
     app.update();

@@ -73,7 +73,7 @@ fn a_drawn_world_is_a_world_file() {
     assert!((radius - 0.4).abs() < 1e-12);
     assert!(world.obstacle("the \"bar\"").is_some() && world.places.iter().all(|p| p.name != "the base"));
     assert!(world.place("there").unwrap().pose.theta < 3.2, "an angle is wrapped, as in a file");
-    // the concave polygon is one, in the file too: six corners and the middles of its edges
+    // the concave polygon is one shape, in the file too: six corners and the middles of its edges
     assert_eq!(editor.handles("the ell").iter().filter(|h| !h.makes_corner).count(), 6);
     assert_eq!(editor.handles("the ell").len(), 12);
     let line = editor.text().lines().find(|l| l.contains("the ell")).unwrap().trim().to_owned();
@@ -134,7 +134,7 @@ fn painted_marks_are_added_moved_reshaped_renamed_and_deleted() {
         (Op::Add { name: name("stripe"), shape }, vec![p(0.0, 0.0), p(1.0, 0.0)]),
         (Op::Move { name: name("stripe"), by: Vector2::new(0.0, 0.5) }, vec![p(0.0, 0.5), p(1.0, 0.5)]),
         (Op::Drag { name: name("stripe"), handle: 0, to: p(-1.0, 0.5) }, vec![p(-1.0, 0.5), p(1.0, 0.5)]),
-        // the middle of its one edge becomes a corner, and goes away on its neighbour
+        // the middle of its one edge becomes a corner, which goes away when dragged onto its neighbour
         (Op::Drag { name: name("stripe"), handle: 2, to: p(0.0, 1.0) }, vec![p(-1.0, 0.5), p(0.0, 1.0), p(1.0, 0.5)]),
         (Op::Drag { name: name("stripe"), handle: 1, to: p(1.0, 0.5) }, vec![p(-1.0, 0.5), p(1.0, 0.5)]),
         (
@@ -170,9 +170,9 @@ fn corners_are_made_and_go_away_and_places_turn() {
     assert_eq!(editor.shape("wall").unwrap().neighbours(1), [p(1.0, 4.0), p(2.0, 4.0)]);
     editor.apply(&Op::Drag { name: name("wall"), handle: 0, to: p(1.5, 4.5) }).unwrap();
     assert_eq!(editor.shape("wall"), Some(EditShape::Wall(vec![p(1.5, 4.5), p(2.0, 4.0)])));
-    // two are the fewest: the second is refused as a piece without length
+    // a wall keeps two corners: dragging one onto the other is refused as a piece without length
     assert!(editor.apply(&Op::Drag { name: name("wall"), handle: 0, to: p(2.0, 4.0) }).is_err());
-    // a concave polygon made of a convex one by a corner
+    // a new corner makes a convex polygon concave
     let triangle = EditShape::Polygon(vec![p(4.0, 3.0), p(6.0, 3.0), p(5.0, 5.0)]);
     editor.apply(&Op::Add { name: name("dart"), shape: triangle }).unwrap();
     editor.apply(&Op::Drag { name: name("dart"), handle: 3, to: p(5.0, 4.0) }).unwrap();

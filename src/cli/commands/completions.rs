@@ -1,4 +1,4 @@
-//! `completions` and `man`: what a shell and `man` know of the program.
+//! `completions` and `man`: the completions for a shell, and the manual pages.
 
 use std::fs;
 use std::io;

@@ -7,8 +7,8 @@ use crate::cli::{Data, Failure, Outcome};
 use motion_lab::picture::{Rgb, Role, Theme};
 use motion_lab::ui::{Formula, widgets};
 
-/// Print what a page about the lab needs, as JSON: each widget's words, the formulas of the configuration spaces in MathML, and the
-/// colours of the roles on light and on dark paper.
+/// Print what a page about the lab needs, as JSON: each widget's words, the formulas of the configuration spaces in
+/// MathML, and the colours of the roles on light and on dark paper.
 #[derive(Debug, Args)]
 pub struct Describe {}
 

@@ -13,9 +13,9 @@ use crate::cli::{Data, Failure, Outcome, say};
 
 /// Compare two logs to the last bit, and name the first value that differs.
 ///
-/// Seed, ticks, sensor, worlds and script are compared first, then the frames tick by tick; the programs that wrote the files
-/// don't count. The exit code is 4 when the logs differ. Of a damaged or unfinished file the sealed beginning is compared; when
-/// all of that is equal, the exit code is 5.
+/// Seed, ticks, sensor, worlds and script are compared first, then the frames tick by tick; the programs that wrote the
+/// files don't count. The exit code is 4 when the logs differ. Of a damaged or unfinished file the sealed beginning is
+/// compared; when all of that is equal, the exit code is 5.
 #[derive(Debug, Args)]
 pub struct Diff {
     /// The first log.
@@ -96,7 +96,7 @@ impl Diff {
 }
 
 impl Comparison {
-    /// Compares all ticks, or those that both logs have.
+    /// Compares all ticks; if `common_only`, those that both logs have.
     fn of(a: &Log, b: &Log, common_only: bool) -> Self {
         let common = a.frames.len().min(b.frames.len());
         let end = |log: &Log| if common_only { common } else { log.frames.len() };

@@ -1,4 +1,4 @@
-//! `grade`: an assignment against what was handed in.
+//! `grade`: submissions against an assignment.
 
 use std::path::{Path, PathBuf};
 

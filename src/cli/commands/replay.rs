@@ -15,11 +15,12 @@ use crate::cli::support::simulate::begin;
 use crate::cli::support::summary::RunSummary;
 use crate::cli::{Data, Failure, Outcome, say};
 
-/// Simulate a recorded run again, from its seed and script alone and to its last tick, print where its robots end, and say how
-/// many of the recorded ticks it equals to the last bit.
+/// Simulate a recorded run again, from its seed and script alone and to its last tick, print where its robots end, and
+/// say how many of the recorded ticks it equals to the last bit.
 ///
-/// Unlike `verify` it does not stop where the recording ends or differs: with -o the whole replayed run is kept, for `diff` to
-/// compare. The exit code is 4 when a recorded tick differs, else 5 when the recording is damaged or unfinished.
+/// Unlike `verify` it does not stop where the recording ends or differs: with -o the whole replayed run is kept, for
+/// `diff` to compare. The exit code is 4 when a recorded tick differs, else 5 when the recording is damaged or
+/// unfinished.
 #[derive(Debug, Args)]
 pub struct Replay {
     /// The log.
@@ -36,7 +37,7 @@ pub struct Replay {
 struct Replayed<'a> {
     #[serde(flatten)]
     run: RunSummary<'a>,
-    /// The recorded ticks that there are.
+    /// The number of recorded ticks.
     sealed: u64,
     /// How many of them, from the first on, the replay equals.
     identical: u64,

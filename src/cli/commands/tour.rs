@@ -1,4 +1,4 @@
-//! What the program does by itself with the feature `headless`: the book's tour, recorded, replayed and compared.
+//! The program without a command, with the feature `headless`: the book's tour, recorded, replayed and compared.
 
 use std::fs;
 use std::path::Path;
@@ -19,8 +19,8 @@ use crate::cli::{Data, Failure, Outcome, say};
 /// Where the recording and its figure go.
 const FOLDER: &str = "runs";
 
-/// Records the 60 s tour at the book's seed, reads the recording back, replays it from its seed and script alone, compares
-/// every bit, and draws it.
+/// Records the 60 s tour at the book's seed, reads the recording back, replays it from its seed and script alone,
+/// compares every bit, and draws it.
 pub fn tour(data: &mut Data) -> Result<Outcome, Failure> {
     let folder = Path::new(FOLDER);
     fs::create_dir_all(folder).map_err(|error| Failure::output(folder, &error))?;

@@ -12,8 +12,8 @@ use crate::cli::{Data, Failure, Outcome, say};
 
 /// Simulate a recorded run again, from its seed and script alone, and compare every frame to the last bit.
 ///
-/// Of a damaged or unfinished file its sealed beginning is verified, and the exit code is 5. Where the run differs, the first
-/// value that does is printed, and the exit code is 4.
+/// Of a damaged or unfinished file its sealed beginning is verified, and the exit code is 5. Where the run differs, the
+/// first value that does is printed, and the exit code is 4.
 #[derive(Debug, Args)]
 pub struct Verify {
     /// The log.

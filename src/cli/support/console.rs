@@ -8,8 +8,8 @@ use serde::Serialize;
 
 use crate::cli::Failure;
 
-/// Standard output. A reader that has gone away is no error: what is written then is dropped, and the command ends with
-/// the exit code that its work deserves.
+/// Standard output. A reader that has gone away is no error: further output is dropped, and the exit code is that of
+/// the command's work.
 pub struct Data {
     out: BufWriter<StdoutLock<'static>>,
     closed: bool,
@@ -44,7 +44,7 @@ impl Data {
         self.data_line(serde_json::to_string(value).map_err(Failure::internal)?)
     }
 
-    /// Sends on what was written so far.
+    /// Flushes what was written so far.
     pub fn flush(&mut self) -> Result<(), Failure> {
         let written = self.out.flush();
         self.after(written)
@@ -55,7 +55,7 @@ impl Data {
         self.closed
     }
 
-    /// Sends on the rest.
+    /// Flushes the rest.
     pub fn finish(mut self) -> Result<(), Failure> {
         self.flush()
     }
@@ -77,14 +77,16 @@ impl Data {
     }
 }
 
-/// Writes a message to standard error, every message under the program's name, [spelled out](spelled_out) where it would steer a
-/// terminal. Nobody listening is no error.
+/// Writes a message to standard error after the program's name, [spelled out](spelled_out) where it would steer a
+/// terminal. A standard error that is closed is no error.
 pub fn say(message: impl Display) {
     let _ = writeln!(io::stderr().lock(), "motion-lab: {}", spelled_out(&message.to_string()));
 }
 
-/// The text with what could steer a terminal or turn a line round written as its number, as in `\u{1b}`: control characters but for line
-/// ends, and the marks of direction. Names and texts of files may hold them.
+/// The text with every character that could steer a terminal or turn a line round written as its number, as in
+/// `\u{1b}`: control characters except line ends, and the marks of direction.
+///
+/// Names and texts of files may hold such characters.
 fn spelled_out(text: &str) -> Cow<'_, str> {
     let steers = |c: char| {
         c != '\n' && c.is_control()

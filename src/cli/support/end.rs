@@ -7,7 +7,7 @@ use std::path::Path;
 /// What came of a command that did its work. Each has its exit code.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Outcome {
-    /// All is well.
+    /// It succeeded.
     Done,
     /// Some of several inputs were wrong; each has had its message, the others their answers.
     BadInput,
@@ -78,7 +78,7 @@ impl Failure {
         Failure::Usage { reason: reason.to_string(), next: next.to_string() }
     }
 
-    /// An output file that can't be written; whatever was there before still is.
+    /// An output file that can't be written. An older file of that name is as it was.
     pub fn output(file: &Path, error: &io::Error) -> Self {
         let next = match error.kind() {
             io::ErrorKind::NotFound => "Make its folder first, or name another.",

@@ -1,4 +1,4 @@
-//! Reading input files: as much as is allowed and no more.
+//! Reading input files, each up to a largest size.
 
 use std::fs::File;
 use std::io::{self, ErrorKind, Read};
@@ -6,10 +6,10 @@ use std::path::{Path, PathBuf};
 
 use crate::cli::{Data, Failure, Outcome, say};
 
-/// The greatest size of a script, a map or another text, bytes.
+/// Largest size of a script, a map or another text, bytes.
 pub const MAX_TEXT: u64 = 64 << 20;
 
-/// The greatest size of a world file and of a drawing, bytes: 160 for each of as many shapes as a world holds.
+/// Largest size of a world file and of a drawing, bytes: 160 for each shape that a world may hold.
 pub const MAX_WORLD: u64 = 16 << 20;
 
 /// The whole file as text.
@@ -35,7 +35,7 @@ pub fn read_bytes(path: &Path, limit: u64) -> Result<Vec<u8>, Failure> {
     read_bytes_if(path, limit, |_| true)
 }
 
-/// The whole file, at most `limit` bytes, if its first eight bytes may be those of the wanted file; otherwise these alone.
+/// The whole file, at most `limit` bytes, if `may_be` accepts its first eight bytes; otherwise these eight alone.
 pub fn read_bytes_if(path: &Path, limit: u64, may_be: impl FnOnce(&[u8]) -> bool) -> Result<Vec<u8>, Failure> {
     let mut bytes = Vec::new();
     let mut file = open(path)?.take(8);
@@ -54,7 +54,7 @@ pub fn read_bytes_if(path: &Path, limit: u64, may_be: impl FnOnce(&[u8]) -> bool
     Ok(bytes)
 }
 
-/// Does `with` to every file. One that is wrong gets its message, in order with what was said of the files before, and the
+/// Calls `with` for every file. A wrong file gets a message, in order with the output for the files before it, and the
 /// others still have their turn.
 pub fn for_each_file(
     files: &[PathBuf],
@@ -84,7 +84,7 @@ pub fn open(path: &Path) -> Result<File, Failure> {
     }
 }
 
-/// A file that can't be read.
+/// The failure of a file that can't be read.
 pub fn unreadable(path: &Path, error: &io::Error) -> Failure {
     let (reason, next) = match error.kind() {
         ErrorKind::NotFound => ("there is no such file".into(), "Check the path and the folder you are in."),

@@ -6,7 +6,8 @@ use crate::cli::Failure;
 
 static ASKED: AtomicBool = AtomicBool::new(false);
 
-/// From here on Ctrl-C (and a termination signal) asks to stop instead of ending the process; a second one ends it at once.
+/// Makes Ctrl-C and termination signals ask for a stop instead of ending the process. A second one ends it at once,
+/// with exit code 130.
 pub fn listen() -> Result<(), Failure> {
     let handler = || {
         if ASKED.swap(true, Ordering::Relaxed) {

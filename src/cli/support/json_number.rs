@@ -2,8 +2,8 @@
 
 use serde::{Serialize, Serializer};
 
-/// A number for JSON. A finite one is written with the fewest digits that read back to the same bits; JSON has no infinity,
-/// so infinity is the text `"inf"` (which Python's `float` and most others read).
+/// A number for JSON. A finite one is written with the fewest digits that read back to the same bits. JSON has no
+/// infinity, so infinity is the text `"inf"`, which Python's `float` and most others read.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct JsonNumber(pub f64);
 

@@ -7,7 +7,7 @@ use motion_lab::run::{Log, LogError, ReadLog};
 use super::input::read_bytes_if;
 use crate::cli::Failure;
 
-/// The greatest size of a log file, bytes.
+/// Largest size of a log file, bytes.
 pub const MAX_LOG: u64 = 4 << 30;
 
 /// A log from a file, or its sealed beginning.
@@ -18,12 +18,12 @@ pub struct LogSource {
     pub damage: Option<String>,
 }
 
-/// Whether a file may be a log, by its first eight bytes. One that is none is read no farther, however long it is.
+/// Whether a file may be a log, by its first eight bytes. Any other file is read no farther, however long it is.
 pub fn begins_as_one(beginning: &[u8]) -> bool {
     !matches!(Log::read_mcap(beginning), Err(LogError::NotALog))
 }
 
-/// Reads a log. Of a damaged or unfinished file the sealed beginning; an error when not even that can be used.
+/// Reads a log; of a damaged or unfinished file, its sealed beginning. Fails when not even that can be used.
 pub fn read_log(path: &Path) -> Result<LogSource, Failure> {
     let bytes = read_bytes_if(path, MAX_LOG, begins_as_one)?;
     let refused =

@@ -1,4 +1,4 @@
-//! The library's whole files, with this program's errors.
+//! The library's output files, written whole or not at all, with this program's errors.
 
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
@@ -7,7 +7,7 @@ use motion_lab::output;
 
 use crate::cli::Failure;
 
-/// A file on its way: see [`output::PendingFile`].
+/// A file that is being written: see [`output::PendingFile`].
 pub struct PendingFile {
     path: PathBuf,
     file: output::PendingFile,
@@ -25,12 +25,12 @@ impl PendingFile {
         self.file.commit().map_err(|error| Failure::output(&self.path, &error))
     }
 
-    /// Has the disk keep all that was written.
+    /// Flushes everything written to the disk.
     pub fn sync(&mut self) -> io::Result<()> {
         self.file.sync()
     }
 
-    /// Puts what the disk took under another name of the same folder.
+    /// Keeps what the disk took, under another name in the same folder.
     pub fn keep_as(self, path: &Path) -> Result<(), Failure> {
         self.file.keep_as(path).map_err(|error| Failure::output(path, &error))
     }

@@ -1,4 +1,4 @@
-//! Runs under way, as the commands start them.
+//! Starting, repeating and showing runs, for several commands.
 
 use std::path::Path;
 
@@ -9,7 +9,7 @@ use motion_lab::tour::TourConfig;
 
 use crate::cli::Failure;
 
-/// What to do about a run that can't start.
+/// Advice about a run that can't start.
 const CHANGE: &str = "Change the world file, the script or --robot.";
 
 /// A run at tick 0.
@@ -17,8 +17,8 @@ pub fn begin(seed: Seed, config: &TourConfig, script: &Script) -> Result<Recorde
     Recorder::new(config.clone(), (seed, script.clone())).map_err(|error| Failure::input(error, CHANGE))
 }
 
-/// Runs a log again, from its seed, configuration and script alone, as far as it has frames, and shows `watch` the run at every
-/// tick from 0 on. Returns the first value that differs from the log's frames.
+/// Runs a log again, from its seed, configuration and script alone, as far as it has frames, and calls `watch` with the
+/// run at every tick from 0 on. Stops at the first value that differs from the log's frames, and returns it.
 pub fn run_again(log: &Log, mut watch: impl FnMut(&Recorder)) -> Result<Option<Divergence>, Failure> {
     let mut run = begin(log.seed, &log.config, &log.script)?;
     let mut expected = std::iter::once(&log.initial).chain(&log.frames);
@@ -48,7 +48,7 @@ impl From<RunError> for Stop {
     }
 }
 
-/// Shows `watch` the run of the log in `file` in the state of each of its frames: see [`Run::show`].
+/// Calls `watch` with the run of the log in `file`, in the state of each of its frames: see [`Run::show`].
 pub fn show(
     file: &Path,
     log: &Log,

@@ -1,4 +1,4 @@
-//! What is said of a run: its robots' last states, its worlds, its digest.
+//! The summary of a run: its robots' last states, its worlds, its digest.
 
 use motion_lab::random::Seed;
 use motion_lab::recording::printed_configuration;

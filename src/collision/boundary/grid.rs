@@ -1,11 +1,12 @@
-//! `Cells`, a grid that says which segments and discs are where, for scans of large worlds.
+//! `Cells`, a uniform grid over segments and discs, for scans of large worlds.
 
 use super::segments::{Circle, SegmentArrays, SegmentSoup};
 use crate::geometry::{Point2, Segment};
 use crate::num::{greater, lesser, sqrt};
 
-/// A uniform grid over a soup: for each cell the numbers of what touches it. The segments have numbers of the grid's own, so that
-/// those of neighbouring cells lie together in memory; the discs are numbered after them, as in the soup.
+/// A uniform grid over a soup: each cell lists the numbers of the segments and discs that touch it. The grid renumbers
+/// the segments, so that those of neighbouring cells lie together in memory. The discs are numbered after the soup's
+/// segments, in the soup's order.
 #[derive(Clone, Debug)]
 pub(crate) struct Cells {
     corner: Point2,
@@ -23,17 +24,19 @@ pub(crate) struct Cells {
 pub(crate) struct Place {
     pub(crate) column: i64,
     pub(crate) row: i64,
-    /// How far it is at least from the right, left, upper and lower side of its cell, metres.
+    /// Lower bounds on the distance to the right, left, upper and lower side of the point's cell, metres.
     sides: [f64; 4],
 }
 
-/// The largest number of cells a side.
+/// About the largest number of cells along a side: no cell is smaller than the longer side divided by this.
 const MOST: f64 = 512.0;
-/// The largest number of cells that a thing touches on average. A grid has at least four cells, and a thing touches all of them at worst.
+/// Largest average number of cells that a segment or disc may touch. Larger cells meet it in the end: a grid has at
+/// least four cells, and at worst each segment or disc touches all of them.
 const PAIRS: usize = 16;
 
 impl Cells {
-    /// The grid over a soup, with about as many cells as things in it; `None` where its boundary is not finite.
+    /// The grid over a soup, with about two fifths as many cells as segments and discs. `None` where the boundary is
+    /// empty, not finite or a single point.
     pub(crate) fn new(soup: &SegmentSoup) -> Option<Self> {
         let segments = soup.segments();
         let count = segments.len() + soup.circles().len();
@@ -46,7 +49,7 @@ impl Cells {
         let (width, height) = (x1 - x0, y1 - y0);
         let mut size = greater(1.6 * sqrt(width * height / count as f64), greater(width, height) / MOST);
         let (mut grid, mut pairs) = loop {
-            // a grid that reaches a little farther than all there is, so that rounding puts nothing outside
+            // the grid reaches a little beyond the boundary, so that rounding puts nothing outside
             size *= 1.0 + 1e-9;
             let corner = Point2::new(x0 - 0.01 * size, y0 - 0.01 * size);
             let cells = |extent: f64| (extent / size) as i64 + 2;
@@ -55,7 +58,7 @@ impl Cells {
             }
             let (columns, rows) = (cells(width), cells(height));
             let grid = Cells { corner, size, columns, rows, starts: vec![], things: vec![], segments: vec![] };
-            // larger cells, where the pairs of these would fill the memory
+            // larger cells, where the lists of these would be too long
             match grid.pairs(&boxes, segments, PAIRS * count) {
                 Some(pairs) => break (grid, pairs),
                 None => size *= 2.0,
@@ -83,7 +86,7 @@ impl Cells {
         Some(grid)
     }
 
-    /// Each cell with each thing that touches it; `None` where they are more than `most`.
+    /// The pairs of a cell and a segment or disc that touches it; `None` if there are more than `most`.
     fn pairs(&self, boxes: &[[f64; 4]], segments: &SegmentArrays, most: usize) -> Option<Vec<(u32, u32)>> {
         let mut pairs = Vec::new();
         for (i, b) in boxes.iter().enumerate() {
@@ -96,8 +99,8 @@ impl Cells {
         Some(pairs)
     }
 
-    /// Calls `visit` with every cell that something with this box touches, and for a segment with those that its own way
-    /// through the box's rows touches; at most a little more.
+    /// Calls `visit` with every cell that the box touches or, given a segment, that the segment touches. May visit a
+    /// few more cells, never fewer.
     fn touched(&self, b: &[f64; 4], segment: Option<Segment>, mut visit: impl FnMut(u32)) {
         let slack = 1e-6 * self.size;
         let row = |y: f64| (((y - self.corner.y) / self.size) as i64).clamp(0, self.rows - 1);
@@ -118,7 +121,7 @@ impl Cells {
         }
     }
 
-    /// Where a point lies, also outside the grid.
+    /// The place of a point, which may lie outside the grid.
     pub(crate) fn place(&self, p: Point2) -> Place {
         let (x, y) = ((p.x - self.corner.x) / self.size, (p.y - self.corner.y) / self.size);
         let (column, row) = (x.floor(), y.floor());
@@ -127,13 +130,13 @@ impl Cells {
         Place { column: column as i64, row: row as i64, sides }
     }
 
-    /// How far it is at least from a place to the right, left, upper and lower side of the cells nearer than ring number `ring`
-    /// about it, metres.
+    /// Lower bounds on the distance from a place to the right, left, upper and lower side of the square of cells inside
+    /// ring number `ring`, metres.
     pub(crate) fn sides(&self, place: &Place, ring: i64) -> [f64; 4] {
         place.sides.map(|side| side + (ring - 1) as f64 * self.size * (1.0 - 1e-9))
     }
 
-    /// Nothing in the ring of cells number `ring` about a place, nor beyond, is nearer than this, metres.
+    /// A lower bound on the distance from a place to anything in ring number `ring` or beyond, metres.
     pub(crate) fn least_distance(&self, place: &Place, ring: i64) -> f64 {
         if ring == 0 { 0.0 } else { self.sides(place, ring).into_iter().fold(f64::INFINITY, lesser) }
     }
@@ -148,7 +151,7 @@ impl Cells {
         )
     }
 
-    /// A length in cells.
+    /// A length in units of the cells' size.
     pub(crate) fn in_cells(&self, length: f64) -> f64 {
         length / self.size
     }
@@ -165,7 +168,7 @@ impl Cells {
         row.wrapping_mul(self.columns).wrapping_add(column) as usize
     }
 
-    /// The numbers of what touches a cell.
+    /// The numbers of the segments and discs that touch a cell.
     #[inline(always)]
     pub(crate) fn things(&self, cell: usize) -> &[u32] {
         &self.things[self.starts[cell] as usize..self.starts[cell + 1] as usize]
@@ -219,7 +222,7 @@ mod tests {
         let mut soup = SegmentSoup::default();
         let segments: Vec<Segment> = (0..300)
             .map(|i| {
-                // lattice ones too, which run along the sides of cells
+                // every third on a lattice, where segments run along the sides of cells
                 let mut x = || if i % 3 == 0 { draws.below(20) as f64 } else { draws.uniform(0.0, 20.0) };
                 Segment::new(Point2::new(x(), x()), Point2::new(x(), x()))
             })

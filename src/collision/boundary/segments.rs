@@ -2,10 +2,10 @@
 
 use crate::geometry::{Placed, Point2, Segment};
 
-/// How many numbers stand side by side.
+/// The number of values that the loops handle side by side.
 pub(crate) const LANES: usize = 8;
 
-/// Segments in structure-of-arrays order, filled up to whole eights with NaN, which no ray hits.
+/// Segments in structure-of-arrays order, padded to a multiple of eight with NaN, which no ray hits.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct SegmentArrays {
     ax: Vec<f64>,
@@ -42,7 +42,7 @@ impl SegmentArrays {
         self.count
     }
 
-    /// The coordinates of the first ends and of the second ends, each x and y, in whole eights.
+    /// The arrays of the first ends' x and y and of the second ends' x and y, padded to a multiple of eight.
     pub(crate) fn arrays(&self) -> [&[f64]; 4] {
         [&self.ax, &self.ay, &self.bx, &self.by]
     }
@@ -60,7 +60,7 @@ impl SegmentArrays {
         self.count += 1;
     }
 
-    /// Forgets everything but keeps the room.
+    /// Removes all segments but keeps the memory.
     pub(crate) fn clear(&mut self) {
         for array in [&mut self.ax, &mut self.ay, &mut self.bx, &mut self.by] {
             array.clear();
@@ -70,7 +70,7 @@ impl SegmentArrays {
 }
 
 impl SegmentSoup {
-    /// The boundaries of the valid ones of `pieces`.
+    /// The boundaries of all valid `pieces`.
     pub(crate) fn of_pieces(pieces: &[Placed]) -> Self {
         let mut soup = SegmentSoup::default();
         for piece in pieces {
@@ -89,7 +89,7 @@ impl SegmentSoup {
         &self.circles
     }
 
-    /// Forgets everything but keeps the room.
+    /// Removes everything but keeps the memory.
     pub(crate) fn clear(&mut self) {
         self.segments.clear();
         self.circles.clear();

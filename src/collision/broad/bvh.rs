@@ -21,7 +21,8 @@ impl Tree {
         Tree(Bvh::from_leaves(BvhBuildStrategy::Binned, &boxes))
     }
 
-    /// Calls `look`, which gives the least distance so far, with every box that may hold something as near as that.
+    /// Calls `look` with every box that may hold something no farther than the least distance so far, which `look`
+    /// returns.
     pub(crate) fn nearest(&self, from: &Aabb, within: f64, mut look: impl FnMut(usize) -> f64) {
         let least = Cell::new(within);
         let look = std::cell::RefCell::new(&mut look);
@@ -33,7 +34,8 @@ impl Tree {
                 Some(square(least.get()))
             },
         );
-        // Equals have nearer boxes than they are themselves, so all were met; but not all contacts.
+        // A box's lower bound is below the distance of its piece, so every piece as near as the nearest was visited. At
+        // distance 0 the bound is 0 too, and contacts may be missing: visit them all.
         if least.get() == 0.0 {
             self.each_near(from, 0.0, |piece| {
                 look.borrow_mut()(piece);

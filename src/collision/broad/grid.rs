@@ -1,4 +1,4 @@
-//! `PieceGrid`, which pieces are where: for questions about many pieces that are spread evenly.
+//! `PieceGrid`, a uniform grid over the boxes of many pieces that are spread evenly.
 
 use crate::geometry::{Aabb, Point2, square};
 use crate::num::{lesser, sqrt};
@@ -16,7 +16,7 @@ pub(crate) struct PieceGrid {
     items: Vec<Item>,
 }
 
-/// A box in a cell.
+/// A box in a cell's list, with its piece and all cells that it touches.
 #[derive(Clone, Copy, Debug)]
 struct Item {
     extent: Aabb,
@@ -34,7 +34,7 @@ struct Block {
 }
 
 impl Block {
-    /// How many cells it has.
+    /// The number of cells.
     fn count(&self) -> usize {
         usize::from(self.right - self.left + 1) * usize::from(self.high - self.low + 1)
     }
@@ -44,17 +44,18 @@ impl Block {
     }
 }
 
-/// The largest number of cells a side.
+/// About the largest number of cells along a side: no cell is smaller than the longer side divided by this.
 const MOST: f64 = 512.0;
-/// A cell that more pieces than this touch makes a tree the better choice.
+/// Largest number of pieces that may touch one cell; beyond it a tree is the better choice.
 const CROWD: u32 = 32;
-/// So are more entries than this for each piece.
+/// Largest average number of cells that a piece may touch; beyond it a tree is the better choice.
 const ENTRIES: usize = 8;
-/// The number of boxes of which the nearest is measured first.
+/// Largest number of boxes that wait until the piece of the nearest box has been measured.
 const SOME: usize = 32;
 
 impl PieceGrid {
-    /// The grid over boxes, with about as many cells as boxes; `None` where they are crowded, or too different in size, or not finite.
+    /// The grid over boxes, with about two thirds as many cells as boxes. `None` where the boxes are crowded, too
+    /// different in size, or not finite.
     pub(crate) fn new(extents: &[Aabb]) -> Option<Self> {
         let all = extents.iter().copied().reduce(|a, b| a.merged(&b))?;
         let (width, height) = (all.max.x - all.min.x, all.max.y - all.min.y);
@@ -68,7 +69,8 @@ impl PieceGrid {
         let (columns, rows) = (cells(width), cells(height));
         let mut grid =
             PieceGrid { corner: all.min, size, inverse: 1.0 / size, columns, rows, starts: vec![], items: vec![] };
-        // counted before the cells are visited: boxes that all cover everything have as many entries as boxes times cells
+        // counted before the cells are visited: boxes that all cover everything make as many entries as boxes times
+        // cells
         let mut entries = 0;
         for extent in extents {
             entries += grid.block(extent).count();
@@ -100,7 +102,7 @@ impl PieceGrid {
         Some(grid)
     }
 
-    /// The cells that a box touches, those at the rim for what lies beyond.
+    /// The cells that a box touches. What lies beyond the grid counts as in the cells at its rim.
     fn block(&self, e: &Aabb) -> Block {
         // the cast saturates
         let column = |x: f64| (((x - self.corner.x) * self.inverse) as u16).min(self.columns - 1);
@@ -116,14 +118,14 @@ impl PieceGrid {
         }
     }
 
-    /// Calls `visit` once with each box that touches a cell of `block`, but none that touches one of `without`, until it returns true.
+    /// Calls `visit` once with each box that touches a cell of `block` but none of `without`, until it returns true.
     #[inline]
     fn each_in(&self, block: &Block, without: Option<&Block>, mut visit: impl FnMut(&Item) -> bool) {
         for j in block.low..=block.high {
             for i in block.left..=block.right {
                 let cell = usize::from(j) * usize::from(self.columns) + usize::from(i);
                 for item in &self.items[self.starts[cell] as usize..self.starts[cell + 1] as usize] {
-                    // in the first of its cells in the block
+                    // once only: in the first of its cells in the block
                     let first = i == item.cells.left.max(block.left) && j == item.cells.low.max(block.low);
                     if first && without.is_none_or(|w| !w.meets(&item.cells)) && visit(item) {
                         return;
@@ -133,7 +135,7 @@ impl PieceGrid {
         }
     }
 
-    /// What touches no cell of the block is farther than this from the box.
+    /// A lower bound on the distance from the box to whatever touches no cell of the block, metres.
     fn room(&self, block: &Block, from: &Aabb) -> f64 {
         let side = |inside: bool, room: f64| if inside { room } else { f64::INFINITY };
         let at = |corner: f64, cells: u16| corner + f64::from(cells) * self.size;
@@ -148,11 +150,12 @@ impl PieceGrid {
         lesser(x, y) - 1e-9 * self.size
     }
 
-    /// Calls `look`, which gives the least distance so far, with every box that may hold something as near as that.
+    /// Calls `look` with every box that may hold something no farther than the least distance so far, which `look`
+    /// returns.
     pub(crate) fn nearest(&self, from: &Aabb, within: f64, mut look: impl FnMut(usize) -> f64) {
         let mut least = within;
         let block = self.block(&from.grown(lesser(within, 0.25 * self.size)));
-        // the one with the nearest box first: most others need no measuring then
+        // the piece of the nearest box first: most others can then be passed over
         let (mut found, mut count, mut first) = ([(0.0, 0); SOME], 0, (f64::INFINITY, 0));
         self.each_in(&block, None, |item| {
             let distance = from.squared_distance(&item.extent);

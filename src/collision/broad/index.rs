@@ -1,11 +1,12 @@
-//! `Index`, which pieces of a scene are near something.
+//! `Index`, the boxes of a scene's pieces in the structure that suits their number and spread.
 
 use super::bvh::Tree;
 use super::grid::PieceGrid;
 use super::linear::{Boxes, FEW};
 use crate::geometry::Aabb;
 
-/// The boxes around pieces, known by their numbers: a few side by side, many in a grid, and under a tree where no grid fits them.
+/// The boxes around pieces, known by their numbers: a few side by side, many in a grid, or under a tree where no grid
+/// fits them.
 #[derive(Clone)]
 pub(crate) enum Index {
     Few(Boxes),
@@ -22,8 +23,8 @@ impl Index {
         PieceGrid::new(extents).map_or_else(|| Index::Tree(Tree::new(extents)), Index::Grid)
     }
 
-    /// Calls `look`, which gives the least distance so far, with every piece that may be as near as that, until nothing is left that may
-    /// be; `within` is the least distance before.
+    /// Calls `look` with every piece that may be as near as the least distance so far, which `look` returns, until no
+    /// other can be. `within` is the least distance before the first call.
     pub(crate) fn nearest(&self, from: &Aabb, within: f64, look: impl FnMut(usize) -> f64) {
         match self {
             Index::Few(boxes) => boxes.nearest(from, within, look),
@@ -53,7 +54,8 @@ mod tests {
         Aabb { min: Point2::new(x, y), max: Point2::new(x + w, y + h) }
     }
 
-    /// Boxes on a lattice, so that many touch and lie on the sides of cells; `spread` metres apart.
+    /// Boxes on a lattice, their corners in a square of side `spread` metres, so that many touch and lie on the sides
+    /// of cells.
     fn boxes(count: usize, spread: u64, draws: &mut Stream) -> Vec<Aabb> {
         let mut lattice = |n: u64| draws.below(n) as f64;
         (0..count).map(|_| extent(lattice(spread), lattice(spread), lattice(3), lattice(3))).collect()

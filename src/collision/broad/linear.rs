@@ -1,4 +1,4 @@
-//! `Boxes`, the boxes around a few shapes in structure-of-arrays order: looked at all at once.
+//! `Boxes`, the boxes around a few shapes in structure-of-arrays order: measured all at once.
 
 use multiversion::multiversion;
 
@@ -6,7 +6,7 @@ use crate::collision::boundary::segments::LANES;
 use crate::geometry::{Aabb, square};
 use crate::num::{greater, lesser};
 
-/// Axis-parallel boxes; the arrays are filled up to whole eights with boxes infinitely far away.
+/// Axis-parallel boxes; the arrays are padded to a multiple of eight with boxes infinitely far away.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Boxes {
     count: usize,
@@ -16,11 +16,11 @@ pub(crate) struct Boxes {
     y1: Vec<f64>,
 }
 
-/// At most so many boxes are looked at all at once.
+/// Largest number of boxes that are measured all at once.
 pub(crate) const FEW: usize = 64;
 
 impl Boxes {
-    /// A few boxes, known by their numbers.
+    /// The first `FEW` of these boxes, known by their numbers.
     pub(crate) fn new(extents: &[Aabb]) -> Self {
         let mut boxes = Boxes { count: extents.len().min(FEW), ..Boxes::default() };
         let room = boxes.count.next_multiple_of(LANES);
@@ -37,9 +37,9 @@ impl Boxes {
         [&self.x0, &self.y0, &self.x1, &self.y1]
     }
 
-    /// Gives the squared distances of all boxes, and the least of them, to `work`.
+    /// Passes the squared distances of all boxes, and the least of them, to `work`.
     fn measured(&self, from: &Aabb, work: impl FnOnce(&[f64], f64)) {
-        // no more room is filled than is needed
+        // the shorter array where it is long enough
         let (mut few, mut many);
         let squares: &mut [f64] = if self.count <= LANES {
             few = [f64::INFINITY; LANES];
@@ -52,8 +52,8 @@ impl Boxes {
         work(&squares[..self.count], least);
     }
 
-    /// Calls `look`, which gives the least distance so far, with every box that may hold something as near as that; the
-    /// nearest box first, because most others need not be looked at then.
+    /// Calls `look` with every box that may hold something no farther than the least distance so far, which `look`
+    /// returns. The nearest box comes first, because most others can then be passed over.
     pub(crate) fn nearest(&self, from: &Aabb, within: f64, mut look: impl FnMut(usize) -> f64) {
         self.measured(from, |squares, nearest| {
             if nearest > square(within) || squares.is_empty() {
@@ -80,7 +80,7 @@ impl Boxes {
     }
 }
 
-/// [`Aabb::squared_distance`] from a box to each, and the least of them.
+/// Writes the [`Aabb::squared_distance`] from a box to each of the others, and returns the least of them.
 #[multiversion(targets("x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl", "x86_64+avx2"))]
 fn squared_distances([x0, y0, x1, y1]: [&[f64]; 4], from: &Aabb, squares: &mut [f64]) -> f64 {
     let Aabb { min, max } = *from;

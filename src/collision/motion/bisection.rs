@@ -1,4 +1,5 @@
-//! A first contact pinched between a free place and one in contact, and proven from its near side backward.
+//! A contact bracketed by bisection between a free place and one in contact, then proven to be the first by steps
+//! backward from the bracket.
 
 use smallvec::SmallVec;
 
@@ -7,26 +8,27 @@ use crate::geometry::Footprint;
 use crate::num::{greater, lesser, sqrt};
 use crate::robots::Motion;
 
-/// More steps than this are left to the march.
+/// Largest number of steps in a proof; with more the caller falls back to the march.
 const MOST: usize = 24;
 
-/// Steps, each from where to where.
+/// Steps, each as its start and its end.
 type Steps = SmallVec<[(f64, f64); MOST]>;
 
-/// So many contacts are tried, each before the last: the first one tried need not be the first on the way.
+/// Largest number of contacts tried, each before the last: the contact bracketed first need not be the motion's first.
 const CONTACTS: u32 = 8;
 
-/// So many distances at most are asked on the way to a contact.
+/// Largest number of distance queries in the approach to one contact.
 const TRIES: u32 = 40;
 
-/// What a pinch needs to know of a motion: bounds over the parts that may hit.
+/// Bounds on the speed and acceleration of the parts that may hit, as in `Rates`.
 #[derive(Clone, Copy)]
 pub(crate) struct Pace {
     pub(crate) speed: f64,
     pub(crate) acceleration: f64,
 }
 
-/// A free place of a motion: where, how far from contact, and how fast it closes there, metres per unit of s.
+/// A free place of a motion: its parameter, its distance from contact in metres, and the closing speed there in metres
+/// per unit of s.
 #[derive(Clone, Copy)]
 struct Near {
     s: f64,
@@ -34,7 +36,7 @@ struct Near {
     closing: f64,
 }
 
-/// A contact in a bracket of at most [`BRACKET`] of motion, and from where to where the steps go, last first, that prove everything from
+/// A contact in a bracket of at most [`BRACKET`] of motion, and the steps, last first, that prove the motion free from
 /// where the search began to the bracket.
 pub(crate) struct Pinched {
     pub(crate) free_until: f64,
@@ -42,10 +44,12 @@ pub(crate) struct Pinched {
     pub(crate) steps: Steps,
 }
 
-/// Searches from a free place, where the footprint is `gap_lo` metres from contact, to one that is in contact. `None` where that takes too long or
-/// what lies between is not proven: then it is the march's business.
+/// Brackets the first contact after the free place `lo`, where the footprint is `gap_lo` metres from contact, given a
+/// parameter in contact. `None` where that takes too long or the motion up to the bracket is not proven free: the
+/// caller falls back to the march.
 ///
-/// `gap` tells how far a footprint is from contact, metres, 0 in contact; `clearance` what one step between two places proves.
+/// `gap` returns a footprint's distance from contact, metres, 0 in contact. `clearance` returns what one step between
+/// two places proves, metres.
 pub(crate) fn pinch<M: Motion>(
     gap: impl Fn(&Footprint) -> f64,
     clearance: impl Fn((f64, &Footprint), (f64, &Footprint)) -> f64,
@@ -66,8 +70,8 @@ pub(crate) fn pinch<M: Motion>(
     None
 }
 
-/// Proves everything from `lo` to a free place, backward from that in steps that grow with the clearance: the steps, last first, or a
-/// contact on the way.
+/// Proves the motion free from `lo` to a free place, backward in steps that grow with the clearance. Returns the steps,
+/// last first, or a contact between the two; `None` where it finds neither.
 fn prove_back<M: Motion>(
     gap: impl Fn(&Footprint) -> f64,
     clearance: impl Fn((f64, &Footprint), (f64, &Footprint)) -> f64,
@@ -82,7 +86,8 @@ fn prove_back<M: Motion>(
         if steps.len() == MOST {
             return None;
         }
-        // as far back as the room, which is least at the near side, exceeds one and a half times the sagitta
+        // as far back as the room, which is least at the end nearer to the contact, exceeds one and a half times the
+        // sagitta
         let mut h = sqrt(room / (1.5 * 0.125 * greater(pace.acceleration, 1e-9)));
         let (from, at_from) = loop {
             let from = if h < hi - lo { hi - h } else { lo };
@@ -105,7 +110,7 @@ fn prove_back<M: Motion>(
     Some(Ok(steps))
 }
 
-/// The free place nearest to the contact and the contact, not farther apart than [`BRACKET`].
+/// A free place and a contact after it, not farther apart than [`BRACKET`]; `None` after too many queries.
 fn approach(gap_at: impl Fn(f64) -> f64, pace: Pace, mut near: Near, mut contact: f64) -> Option<(Near, f64)> {
     // a little less than the bracket, so that its two ends fit in it
     let fine = 0.45 * BRACKET / pace.speed;
@@ -114,7 +119,7 @@ fn approach(gap_at: impl Fn(f64) -> f64, pace: Pace, mut near: Near, mut contact
             return Some((near, contact));
         }
         let ahead = near.gap / near.closing;
-        // most of the way to where it would touch; from near by just before it, then just behind it
+        // most of the way to the expected contact; once near, just before it, then just behind it
         let step = if ahead > 1e3 * fine {
             0.9 * ahead
         } else if ahead > fine {
@@ -142,7 +147,7 @@ mod tests {
 
     #[test]
     fn a_contact_is_approached_in_a_few_questions() {
-        // a straight one, one that closes ever faster, one that it hardly closes in on; the first contact is at 0.7
+        // gaps that close evenly, ever faster, and hardly at all; the first contact is at 0.7
         let gaps: [fn(f64) -> f64; 3] = [|s| 0.7 - s, |s| 0.49 - s * s, |s| 0.02 * (0.7 - s)];
         let pace = Pace { speed: 2.0, acceleration: 2.0 };
         for (i, gap) in gaps.into_iter().enumerate() {

@@ -11,7 +11,8 @@ pub struct ProvenStep {
     pub clearance: f64,
 }
 
-/// The steps that prove a motion free from 0 to [`proven_until`](Self::proven_until), reused between edges.
+/// The steps that prove a motion free from 0 to [`proven_until`](Self::proven_until). Its memory can be reused between
+/// edges.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Certificate {
     margin: f64,
@@ -25,7 +26,7 @@ pub enum CertificateError {
     /// The steps do not begin at 0 or do not join.
     #[error("step {0} does not begin where the one before ends")]
     Broken(usize),
-    /// A step that ends before it begins or beyond 1.
+    /// A step that does not end after it begins, or that ends beyond 1.
     #[error("step {0} does not go forward within [0, 1]")]
     Backward(usize),
     /// A step whose claimed clearance is more than the distance and the motion bound prove.
@@ -33,9 +34,9 @@ pub enum CertificateError {
     Unproven {
         /// The number of the step, from 0.
         step: usize,
-        /// What the certificate says.
+        /// The clearance that the certificate claims, metres.
         claimed: f64,
-        /// What was found.
+        /// The clearance that the verifier proves, metres.
         proven: f64,
     },
 }
@@ -46,7 +47,7 @@ impl Certificate {
         Self::default()
     }
 
-    /// What every step's clearance must exceed, metres.
+    /// The clearance that every step must exceed, metres.
     pub fn margin(&self) -> f64 {
         self.margin
     }
@@ -65,7 +66,7 @@ impl Certificate {
         &self.steps
     }
 
-    /// A certificate with these steps and margin, for a verifier of proofs from elsewhere.
+    /// A certificate with these steps and this margin, to verify proofs made elsewhere.
     pub fn from_steps(margin: f64, steps: Vec<ProvenStep>) -> Self {
         Certificate { margin, steps }
     }
@@ -75,7 +76,7 @@ impl Certificate {
         self.steps.last().map_or(0.0, |s| s.to)
     }
 
-    /// The clearance proven along all of it; infinity without a step.
+    /// The clearance proven along all steps, metres; infinity without a step.
     pub fn clearance(&self) -> f64 {
         self.steps.iter().fold(f64::INFINITY, |c, s| crate::num::lesser(s.clearance, c))
     }

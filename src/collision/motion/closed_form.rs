@@ -2,6 +2,7 @@
 
 use super::conservative_advancement::BRACKET;
 use super::disc_line::DiscLine;
+use super::first_contact::{arc_clearance, arc_meets, translation_meets};
 use super::local_march::march_nearby;
 use super::separation::halve;
 use super::step::step_clearance;
@@ -10,12 +11,13 @@ use crate::geometry::{CircularArc, Footprint, Point2, Segment};
 use crate::num::{greater, ulp};
 use crate::robots::Motion;
 
-/// The verdict on a motion in a scene: in closed form where there is one that decides, otherwise by the march, in at most `budget` attempts
-/// to prove a step.
+/// The verdict on a motion in a scene: in closed form where one decides, otherwise by the march with at most `budget`
+/// attempts to prove a step.
 ///
-/// A closed form says where the first contact is; that everything up to just before it is free, and that just after it there is contact,
-/// is then shown as the march would. So a closed form cannot make a verdict wrong, only quick. With a certificate asked for, every
-/// free stretch is proven in steps that the verifier accepts.
+/// A closed form only predicts the first contact. The verdict itself is proven: the motion is free throughout, or up to
+/// just before that contact, and in contact just after it. For parts in translation one step of the march proves it
+/// free, for discs a clearance in closed form, less its rounding. If a certificate is asked for, steps that the
+/// verifier accepts prove every free stretch.
 pub(crate) fn verdict<M: Motion>(
     scene: &Scene,
     motion: &M,
@@ -41,10 +43,11 @@ pub(crate) fn verdict<M: Motion>(
     march_nearby(scene, motion, budget, certificate, start)
 }
 
-/// So many halvings decide on most motions, or it takes a march.
+/// Largest number of halvings, enough for most motions; after that the caller falls back to the verdict.
 const HALVINGS: u32 = 48;
 
-/// Whether a motion is proven free: wherever the [`verdict`] says so, but neither how near it comes nor where it hits is looked for.
+/// Whether a motion is proven free: true wherever the [`verdict`] says so. Faster, because it computes neither the
+/// clearance nor the first contact.
 pub(crate) fn is_free<M: Motion>(scene: &Scene, motion: &M, budget: u32) -> bool {
     if let Some((way, radius)) = motion.disc_line()
         && let Some(free) = DiscLine::new(way, radius, scene).and_then(|disc| disc.is_free(scene))
@@ -59,7 +62,8 @@ pub(crate) fn is_free<M: Motion>(scene: &Scene, motion: &M, budget: u32) -> bool
     decided.unwrap_or_else(|| verdict(scene, motion, budget, None).is_free())
 }
 
-/// The hit of which everything before `free_until` was proven free, if there is contact at `contact_at`.
+/// The verdict that the motion hits, if there is contact at `contact_at`; the caller has proven it free up to
+/// `free_until`.
 fn hit<M: Motion>(scene: &Scene, motion: &M, free_until: f64, contact_at: f64) -> Option<EdgeVerdict> {
     let footprint = motion.footprint_at(contact_at);
     if !footprint.is_valid() {
@@ -75,8 +79,8 @@ fn bracket(s: f64, length: f64) -> (f64, f64) {
     (s - half, if s + half < 1.0 { s + half } else { 1.0 })
 }
 
-/// A motion none of whose parts turns: one step proves it free, or its first contact is where a vertex comes within reach
-/// of an edge.
+/// The verdict on a motion none of whose parts turns. One step proves it free, or its first contact is where a vertex
+/// comes within reach of an edge. `None` where neither can be proven.
 fn straight<M: Motion>(
     scene: &Scene,
     motion: &M,
@@ -88,11 +92,11 @@ fn straight<M: Motion>(
         let clearance = step_clearance(scene, motion, (0.0, start), (to, footprint));
         (clearance > 0.0).then_some(ProvenStep { from: 0.0, to, clearance })
     };
-    // every proof holds for the start too, so that need not be asked about
+    // every proven step covers the start too, so the start needs no query of its own
     let (step, verdict) = if let Some(step) = prove(1.0, &end) {
         (step, EdgeVerdict::Free { clearance: step.clearance })
     } else {
-        let first = scene.translation_meets(start, &end)?;
+        let first = translation_meets(scene, start, &end)?;
         let length = (0..start.parts().len()).fold(0.0, |w, k| greater(motion.bound(k, 0.0, 1.0), w));
         let (before, after) = bracket(first, length);
         if before <= 0.0 {
@@ -108,7 +112,7 @@ fn straight<M: Motion>(
     Some(verdict)
 }
 
-/// A disc of this radius whose centre runs along a line.
+/// The verdict on a disc of this radius whose centre runs along a line; `None` where it takes a march.
 fn linear(scene: &Scene, way: Segment, radius: f64, certificate: Option<&mut Certificate>) -> Option<EdgeVerdict> {
     let (step, verdict) = DiscLine::new(way, radius, scene)?.verdict(scene)?;
     if let Some(c) = certificate {
@@ -118,17 +122,17 @@ fn linear(scene: &Scene, way: Segment, radius: f64, certificate: Option<&mut Cer
     Some(verdict)
 }
 
-/// A disc of this radius whose centre runs along an arc.
+/// The verdict on a disc of this radius whose centre runs along an arc; `None` where it takes a march.
 fn circular<M: Motion>(scene: &Scene, motion: &M, arc: &CircularArc, radius: f64) -> Option<EdgeVerdict> {
     let far = Point2::new(arc.centre.x.abs() + arc.radius, arc.centre.y.abs() + arc.radius);
     // the arc's own rounding, that of the distance to it and that of the footprint placed on it
     let slack = 128.0 * ulp(greater(greater(far.x, far.y) + radius, 1.0));
-    let proven = |until: f64| scene.arc_clearance(arc, until, radius) - slack;
+    let proven = |until: f64| arc_clearance(scene, arc, until, radius) - slack;
     let whole = proven(1.0);
     if whole > 0.0 {
         return Some(EdgeVerdict::Free { clearance: whole });
     }
-    let (before, after) = bracket(scene.arc_meets(arc, radius)?, arc.length());
+    let (before, after) = bracket(arc_meets(scene, arc, radius)?, arc.length());
     if before <= 0.0 || proven(before) <= 0.0 {
         return None;
     }
@@ -178,7 +182,7 @@ mod tests {
         expect_hit(closed(&scene, &line(-0.15)), 2.8 / 8.0, 8.0);
         // passing below it leaves the exact clearance
         let EdgeVerdict::Free { clearance } = closed(&scene, &line(-0.75)) else { panic!() };
-        // 48 ulps of 8.75 m and 16 roundings of as much are taken off
+        // 48 ulps of 8.75 m and 16 roundings of as much are subtracted
         assert!((clearance - 0.5).abs() < 1.2e-13 && clearance <= 0.5, "{clearance}");
     }
 
@@ -197,7 +201,7 @@ mod tests {
         expect_hit(closed(&post, &edge), (3.0 - 0.1 - half) / 4.0, 4.0);
         // a slanting wall y = 3 + x / 2 comes down to the left: the rear left corner meets it
         let slanting = wall((-9.0, -1.5), (9.0, 7.5));
-        let rear = HITCH.footprint(&at(0.0, 0.0)).parts()[0].placed().bounds().0.x;
+        let rear = HITCH.footprint(&at(0.0, 0.0)).parts()[0].placed().bounds().min.x;
         expect_hit(closed(&slanting, &edge), (3.0 + 0.5 * rear - half) / 4.0, 4.0);
     }
 
@@ -231,7 +235,8 @@ mod tests {
             (wall((0.0, 1.0), (0.2, 1.0)), TAU, 0.8 - r),        // inside it, an end nearest
             (wall((-3.0, -0.3), (3.0, -0.3)), 1.0, 0.3 - r),     // nearest at the start
             (wall((-3.0, 2.0), (3.0, 2.0)), FRAC_PI_2, 1.0 - r), // nearest at the end
-            (wall((-0.5, 0.5), (-0.5, 1.5)), FRAC_PI_2, num::hypot(0.5, 0.5) - r), // the circle would cross it, the arc does not
+            // the circle would cross it, the arc does not
+            (wall((-0.5, 0.5), (-0.5, 1.5)), FRAC_PI_2, num::hypot(0.5, 0.5) - r),
         ];
         for (i, (scene, turn, exact)) in cases.iter().enumerate() {
             let clearance = free(scene, *turn);
@@ -296,7 +301,7 @@ mod tests {
             let mut at = || Point2::new(draws.uniform(0.0, 12.0), draws.uniform(0.0, 8.0));
             let way = Segment::new(at(), at());
             if scene.intersects(&Footprint::disc(way.a, 0.11)) {
-                decided += 1; // its start is asked about anyway
+                decided += 1; // every verdict begins with the start, which is in contact
                 continue;
             }
             let verdict = linear(&scene, way, 0.11, None);

@@ -1,4 +1,4 @@
-//! The certified march: a motion proven free piece by piece, or bracketed where it hits.
+//! The certified march: a motion proven free step by step, or bracketed where it hits.
 
 use super::step::step_clearance;
 use crate::collision::{Certificate, Collision, EdgeVerdict, MarchOptions, ObstacleId, ProvenStep, UnresolvedReason};
@@ -6,7 +6,7 @@ use crate::geometry::{Footprint, Part, largest_coordinate};
 use crate::num::{greater, lesser, sqrt, ulp};
 use crate::robots::Motion;
 
-/// A hit is bracketed to this much motion, metres, where the footprint meets the obstacle head-on.
+/// Largest width of a hit's bracket, metres of motion, where the footprint meets the obstacle head-on.
 pub const BRACKET: f64 = 1e-6;
 
 /// How far any part can move between `s0` and `s1`, metres.
@@ -14,8 +14,8 @@ pub(crate) fn width<M: Motion>(motion: &M, parts: usize, s0: f64, s1: f64) -> f6
     (0..parts).fold(0.0, |w, k| greater(motion.bound(k, s0, s1), w))
 }
 
-/// The length of the next step to try: where the clearance, falling from `clearance` at `closing` metres per unit of s, still
-/// exceeds one and a half times the sagitta of the step.
+/// The length of the next step to try, in units of s: the longest after which the clearance, falling from `clearance`
+/// at `closing` metres per unit of s, is still one and a half times the step's sagitta.
 fn promising(clearance: f64, closing: f64, acceleration: f64) -> f64 {
     let a = 1.5 * 0.125 * acceleration;
     // the positive root of a h^2 + closing h = clearance, in the form that keeps its digits
@@ -24,12 +24,12 @@ fn promising(clearance: f64, closing: f64, acceleration: f64) -> f64 {
 
 /// Whether a motion keeps its clearance above `options.margin`, by proof.
 ///
-/// The march goes from 0 to 1 in steps each proven by [`Motion::sagitta`] and one `distance` query per part. It first tries the
-/// whole motion, which proves a free translation or disc line at once; then each step's length is guessed from the clearance and
-/// how fast it falls, and halved where the proof fails. Guesses cost only time: what is proven does not depend on them. Near
-/// a grazed obstacle the sagitta is of second order in the step, so sliding along a wall stays cheap. Where the far end of a failed
-/// step is in contact, the hit is bracketed between the last proven point and that contact; a bracket of at most [`BRACKET`] of motion
-/// ends the march.
+/// The march goes from 0 to 1 in steps, each proven by [`Motion::sagitta`] and one `distance` query per part. It first
+/// tries the whole motion, which proves a free translation or disc line at once. Then each step's length is guessed
+/// from the clearance and how fast it falls, and halved where the proof fails. Guesses cost only time: what is proven
+/// does not depend on them. Near a grazed obstacle the sagitta is of second order in the step, so sliding along a wall
+/// stays cheap. Where the far end of a failed step is in contact, the hit is bracketed between the last proven point
+/// and that contact; a bracket of at most [`BRACKET`] of motion ends the march.
 pub fn march<M: Motion>(
     collision: &dyn Collision,
     motion: &M,
@@ -49,12 +49,14 @@ pub fn march<M: Motion>(
     march_on(collision, motion, options, certificate, (start, distance))
 }
 
-/// The clearance that one step proves of all of the motion, metres; not above 0 where it proves nothing. Most motions are proven so.
+/// The clearance that a single step proves for the whole motion, metres; not positive where it proves nothing. Most
+/// free motions are proven so.
 pub(crate) fn clearance_of_all<M: Motion>(collision: &dyn Collision, motion: &M, start: &Footprint) -> f64 {
     step_clearance(collision, motion, (0.0, start), (1.0, &motion.footprint_at(1.0)))
 }
 
-/// As [`march`], of a motion that one step does not prove free, given the footprint at its start and its distance.
+/// As [`march`], for a motion that one step does not prove free. Takes the footprint at its start and that footprint's
+/// distance.
 pub(crate) fn march_on<M: Motion>(
     collision: &dyn Collision,
     motion: &M,
@@ -73,35 +75,36 @@ pub(crate) fn march_on<M: Motion>(
     go(&mut plain, motion, (start, gap), &motion.footprint_at(1.0), options.budget)
 }
 
-/// A place of a motion.
+/// A place of a motion: its parameter and the footprint there.
 pub(crate) type Place<'a> = (f64, &'a Footprint);
 
-/// What a march asks on its way.
+/// The queries of a march.
 pub(crate) trait Ground {
-    /// Whether one step proves this stretch; if so it is taken down.
+    /// Whether one step proves the motion free between two places; records the step if so.
     fn proves(&mut self, from: Place, to: Place) -> bool;
 
     /// The least clearance of the steps proven so far, metres.
     fn clearance(&self) -> f64;
 
-    /// How far a footprint on the way is above the margin, metres.
+    /// The clearance of a footprint along the motion, less the margin, metres.
     fn gap(&self, footprint: &Footprint) -> f64;
 
-    /// Whether a footprint on the way is not above the margin.
+    /// Whether the clearance of a footprint along the motion does not exceed the margin.
     fn touches(&self, footprint: &Footprint) -> bool {
         self.gap(footprint) <= 0.0
     }
 
-    /// The hit in whose bracket a contact lies that is in sight from a free place for the first time, where it need not be marched at.
+    /// A shortcut to the hit, tried once as soon as a contact is known: brackets the first contact after a free place
+    /// without marching up to it. `None` where the march has to go on.
     fn pinched(&mut self, _from: Place, _gap: f64, _contact: f64) -> Option<EdgeVerdict> {
         None
     }
 
-    /// What all questions may be put to.
+    /// The checker that answers every query.
     fn collision(&self) -> &dyn Collision;
 }
 
-/// All of a scene, asked by the four questions alone.
+/// The queries of a march, all answered by a checker, for all parts and all obstacles.
 struct Plain<'a, M> {
     collision: &'a dyn Collision,
     motion: &'a M,
@@ -135,14 +138,15 @@ impl<M: Motion> Ground for Plain<'_, M> {
     }
 }
 
-/// The verdict that a motion hits, with what it hits.
+/// The verdict that a motion hits, with the part and the obstacle in contact.
 pub(crate) fn hit(collision: &dyn Collision, motion: &impl Motion, free_until: f64, contact_at: f64) -> EdgeVerdict {
     let witness = collision.witness(&motion.footprint_at(contact_at));
     let (part, obstacle) = witness.map_or((0, ObstacleId::UNKNOWN), |w| (w.part, w.obstacle));
     EdgeVerdict::Hit { free_until, contact_at, part, obstacle }
 }
 
-/// Marches from a free start, so far above the margin; all of the motion at once is known not to be proven.
+/// Marches from a free start whose clearance exceeds the margin by `gap` metres. One step is known not to prove the
+/// whole motion.
 pub(crate) fn go<M: Motion>(
     ground: &mut impl Ground,
     motion: &M,
@@ -166,7 +170,7 @@ pub(crate) fn go<M: Motion>(
     let fine = 0.45 * BRACKET / speed;
     let (mut lo, mut gap, mut at_lo) = (0.0, gap, start);
     let mut may_pinch = true;
-    // how much of the guessed step is tried: guesses that fail again and again are too bold for this motion
+    // the fraction of the guessed step that is tried: guesses that fail again and again are too long for this motion
     let mut trust = 1.0;
     let mut h = if contact.is_some() { promising(gap, speed, acceleration) } else { 1.0 };
     loop {
@@ -185,7 +189,7 @@ pub(crate) fn go<M: Motion>(
             _ => lesser(lo + h, 1.0),
         };
         let at_hi = if hi == 1.0 { end.clone() } else { motion.footprint_at(hi) };
-        // all of it at once is known not to be proven
+        // the whole motion is known not to be proven by one step
         if (lo, hi) != (0.0, 1.0) && ground.proves((lo, &at_lo), (hi, &at_hi)) {
             if hi == 1.0 {
                 return EdgeVerdict::Free { clearance: ground.clearance() };
@@ -198,7 +202,8 @@ pub(crate) fn go<M: Motion>(
             {
                 return hit(ground.collision(), motion, lo, c);
             }
-            h = greater(trust * promising(gap, closing, acceleration), 16.0 * f64::EPSILON); // never too short to go forward
+            // never too short to go forward
+            h = greater(trust * promising(gap, closing, acceleration), 16.0 * f64::EPSILON);
             trust = lesser(1.5 * trust, 1.0);
             if h < fine {
                 // about to touch: a contact just ahead ends the march, otherwise it creeps on
@@ -209,7 +214,7 @@ pub(crate) fn go<M: Motion>(
             }
             continue;
         }
-        // of the end it is known that it is free, or that it is not
+        // for the motion's end it is known already
         if hi < contact.unwrap_or(1.0) && ground.touches(&at_hi) {
             contact = Some(hi);
             if width(lo, hi) <= BRACKET {
@@ -218,7 +223,7 @@ pub(crate) fn go<M: Motion>(
         }
         let middle = lo + 0.5 * (hi - lo);
         if width(lo, hi) <= finest || middle <= lo || middle >= hi {
-            // Nothing finer can be told apart here. A contact known farther on still makes it a hit, in a wider bracket.
+            // Rounding allows nothing finer here. A contact known farther on still makes it a hit, in a wider bracket.
             return match contact {
                 Some(c) => hit(ground.collision(), motion, lo, c),
                 None => unresolved(lo, None, UnresolvedReason::Tolerance),

@@ -9,18 +9,18 @@ use crate::collision::{EdgeVerdict, ObstacleId, ProvenStep, Scene};
 use crate::geometry::{Aabb, Placed, Point2, Segment, Vector2, cross};
 use crate::num::{greater, lesser, sqrt, ulp};
 
-/// More pieces in the way than this are left to the march.
+/// Largest number of pieces in contact; with more the caller falls back to the march.
 const MOST: usize = 16;
 
-/// A disc on a straight way.
+/// A disc whose centre runs along a straight line.
 pub(crate) struct DiscLine {
     way: Leg,
     radius: f64,
-    /// No coordinate of the way is larger.
+    /// The larger of 1 and the line's largest coordinate in size, metres.
     size: f64,
 }
 
-/// A straight way, or a wall, with what is asked of it again and again.
+/// A segment, of the line or of a piece, with the values that its distances are computed from.
 #[derive(Clone, Copy)]
 struct Leg {
     a: Point2,
@@ -62,21 +62,21 @@ impl Leg {
     }
 }
 
-/// What is known of the pieces that a search has come across.
+/// What a search among the pieces found.
 struct Found {
-    /// The least distance of the way from a piece, its radius taken off, metres.
+    /// The least distance of the line from a piece that the disc does not touch, less the piece's radius, metres.
     least: f64,
-    /// The square of the longest edge looked at.
+    /// The square of the length of the longest edge measured.
     longest: f64,
-    /// The pieces that the disc touches on its way, or may touch.
+    /// The pieces that the disc touches along the line, or may touch.
     touched: SmallVec<[u32; MOST]>,
-    /// Whether something was met that only the march can decide.
+    /// Whether only the march can decide: too many pieces are touched, or a distance is NaN.
     unclear: bool,
 }
 
 impl DiscLine {
-    /// The disc of this radius on this way; `None` where the way is so short or the disc so small that rounding would tell,
-    /// or the scene holds something that is no valid shape.
+    /// The disc of this radius on this line; `None` where the line is so short or the disc so small that rounding could
+    /// decide, where a coordinate or the radius is too large, or the scene holds a shape that is not valid.
     pub(crate) fn new(way: Segment, radius: f64, scene: &Scene) -> Option<Self> {
         let size = Aabb { min: way.a, max: way.a }.merged(&Aabb { min: way.b, max: way.b }).size();
         let way = Leg::new(way.a, way.b);
@@ -85,7 +85,7 @@ impl DiscLine {
         sound.then_some(DiscLine { way, radius, size })
     }
 
-    /// The verdict, and the step that proves it as far as it is free; `None` where it takes a march.
+    /// The verdict, and the step that proves the motion as far as it is free; `None` where it takes a march.
     pub(crate) fn verdict(&self, scene: &Scene) -> Option<(ProvenStep, EdgeVerdict)> {
         let radius = self.radius;
         let found = self.search(scene);
@@ -115,12 +115,12 @@ impl DiscLine {
         let (mut clearance, mut obstacle) = (BRACKET, None);
         for (piece, shape) in pieces() {
             let (nearer, farther) = (point_gap(after, shape) - radius, point_gap(before, shape) - radius);
-            // The distance from a point or a segment is a convex function: where it still falls it has fallen all the way. That from a
-            // polygon's boundary is not: the way may begin inside.
+            // Along a line, the distance from a point or a segment is a convex function: where it still falls, it has
+            // fallen all the way. The distance from a polygon's boundary is not: the line may begin inside.
             let falls = shape.core().len() <= 2 && nearer < farther - slack;
             let least = if falls { farther } else { gap(&Leg::new(self.way.a, before), shape).0 - radius };
             clearance = lesser(least - slack, clearance);
-            // touched for certain, or apart for certain
+            // certainly in contact, or certainly apart
             if nearer < -slack {
                 obstacle = Some(obstacle.map_or(piece, |o: u32| o.min(piece)));
             } else if nearer <= slack {
@@ -135,9 +135,10 @@ impl DiscLine {
         Some((step, EdgeVerdict::Hit { free_until, contact_at, part: 0, obstacle }))
     }
 
-    /// Whether the disc touches nothing on its way; `None` where it comes so near to touching that rounding would tell.
+    /// Whether the disc touches nothing along the line; `None` where it comes so near to contact that rounding could
+    /// decide.
     pub(crate) fn is_free(&self, scene: &Scene) -> Option<bool> {
-        // more than what a verdict takes off, see `slack`
+        // more than a verdict subtracts, see `slack`
         let slack = 1e-12 * (self.size + scene.size + self.radius);
         let (a, b) = (self.way.a, self.way.b);
         let (mut free, mut clear) = (true, true);
@@ -151,12 +152,12 @@ impl DiscLine {
         if clear || !free { Some(free) } else { None }
     }
 
-    /// Goes through the pieces near the way: all that the disc touches, and the nearest.
+    /// Finds all pieces that the disc touches along the line, or else the distance of the nearest.
     fn search(&self, scene: &Scene) -> Found {
         let mut found = Found { least: f64::INFINITY, longest: 0.0, touched: SmallVec::new(), unclear: false };
         let (a, b) = (self.way.a, self.way.b);
         let extent = Aabb { min: a, max: a }.merged(&Aabb { min: b, max: b }).grown(64.0 * ulp(self.size));
-        // what is farther off than this is apart for certain
+        // a piece farther from the line than this is certainly not touched
         let near = self.radius + BRACKET;
         scene.index.nearest(&extent, f64::INFINITY, |piece| {
             let (distance, longest) = gap(&self.way, &scene.pieces[piece]);
@@ -173,11 +174,11 @@ impl DiscLine {
         found
     }
 
-    /// More than all rounding on the way to a distance, metres.
+    /// An upper bound on the rounding of a distance and of its proof, metres.
     ///
-    /// A foot is off by at most 8 roundings of the displacements it is made of, none longer than the way, the longest edge and the
-    /// distance together. The verifier of certificates takes off 32 ulps of the largest coordinate or 1 itself, and the distance that it
-    /// asks for may be off by 16 more.
+    /// A foot is off by at most 8 roundings of the displacements it is computed from, none longer than the line, the
+    /// longest edge and the distance together. The verifier of certificates subtracts 32 ulps of the largest coordinate
+    /// or 1 itself, and the distance that it asks for may be off by 16 more.
     fn slack(&self, found: &Found) -> f64 {
         let least = if found.least.is_finite() { found.least } else { 0.0 };
         let longest = greater(sqrt(found.longest), sqrt(self.way.square));
@@ -185,8 +186,8 @@ impl DiscLine {
     }
 }
 
-/// The distance of a leg from a piece, 0 where they cross or the piece holds the leg's beginning; and the squared length of the
-/// longest edge of the piece. Rounded.
+/// The distance of a leg from a piece's core, less the piece's radius, metres, and the square of the length of the
+/// core's longest edge. The core's distance is 0 where they cross or the core holds the leg's beginning. Rounded.
 fn gap(leg: &Leg, piece: &Placed) -> (f64, f64) {
     let core = piece.core();
     if let [a, b] = core {
@@ -204,7 +205,7 @@ fn gap(leg: &Leg, piece: &Placed) -> (f64, f64) {
     (if inside { 0.0 } else { sqrt(least) } - piece.radius(), longest)
 }
 
-/// The distance of a point from a piece; of one inside it, from its boundary. Rounded.
+/// The distance of a point from the boundary of a piece's core, less the piece's radius, metres. Rounded.
 fn point_gap(p: Point2, piece: &Placed) -> f64 {
     let core = piece.core();
     let least = match core {

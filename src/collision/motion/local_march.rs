@@ -20,19 +20,21 @@ struct Nearby<'a, M> {
     parts: usize,
     /// The parts that can come near anything.
     open: SmallVec<[usize; 4]>,
-    /// The clearance that a step of any length proves for all others, metres.
+    /// The clearance that every step proves for the other parts, metres.
     kept: f64,
     /// The least clearance of the steps proven so far, metres.
     clearance: f64,
     certificate: Option<&'a mut Certificate>,
 }
 
-/// The verdict on a motion in a scene: what [`march`](super::conservative_advancement()) says, in the same steps as far as the motion is free.
+/// The verdict on a motion in a scene. A motion that [`march`](super::conservative_advancement::march) proves free is
+/// proven in the same steps; a hit may get another bracket of its contact.
 ///
-/// Most motions are proven free in one step. Where that step fails it still tells what need not be looked at again: a part whose hull keeps
-/// more than two sagittas from everything is free in every step, because a step's ends are within one sagitta of that hull and its own sagitta
-/// is no longer. What remains is marched among the pieces that it can come near, taken out of the scene once, and a step that fails is given up
-/// at the first piece that is too near. A contact in sight is not marched at but [pinched](pinch).
+/// Most free motions are proven in one step. Where that step fails, it still settles some parts for good: a part whose
+/// hull keeps more than two sagittas from everything is free in every step, because a step's ends are within one
+/// sagitta of that hull and its own sagitta is no longer. The other parts are marched among the pieces that they can
+/// come near, which are collected from the scene once. A step is given up at the first piece that is too near. A
+/// contact, once it is known, is not marched at but [bracketed by bisection](pinch).
 pub(crate) fn march_nearby<M: Motion>(
     scene: &Scene,
     motion: &M,
@@ -70,7 +72,8 @@ pub(crate) fn march_nearby<M: Motion>(
 }
 
 impl<'a, M: Motion> Nearby<'a, M> {
-    /// Tries all of the motion in one step, and finds out what there is to look at.
+    /// Tries to prove the whole motion in one step. If that fails, finds the open parts and the pieces they can come
+    /// near.
     fn whole(&mut self, start: &Footprint, end: &Footprint) -> bool {
         let (from, to) = ((0.0, start), (1.0, end));
         let all = std::mem::take(&mut self.open);
@@ -85,7 +88,7 @@ impl<'a, M: Motion> Nearby<'a, M> {
                 continue;
             }
             self.open.push(k);
-            let [a, b] = [start, end].map(|footprint| Aabb::of(footprint.parts()[k].placed()));
+            let [a, b] = [start, end].map(|footprint| footprint.parts()[k].placed().padded_bounds());
             let way = a.merged(&b).grown(sagitta);
             swept = Some(swept.map_or(way, |swept| swept.merged(&way)));
         }
@@ -97,15 +100,16 @@ impl<'a, M: Motion> Nearby<'a, M> {
             return true;
         }
         if let Some(swept) = swept {
-            // the clearance is nowhere said to be more than at the start; between places farther off than that steps are planned
+            // no clearance above that at the start is ever reported; beyond it distances only serve to plan steps
             let range = self.open_gap(start, f64::INFINITY) + 0.25 * self.width(0.0, 1.0);
             self.around = Vicinity::new(self.scene, &swept, range);
         }
         false
     }
 
-    /// The sagitta of a part in a step, the distance of its hull and the rounding of that. A distance of no more than the sagitta is only a
-    /// bound, and so is one that neither leaves the step unproven nor lowers the clearance.
+    /// The sagitta of a part in a step, the distance of its hull and that distance's rounding, metres. A distance of no
+    /// more than the sagitta is only an upper bound: the step fails in any case. A distance that would neither fail the
+    /// step nor lower the clearance is only a lower bound.
     fn clears(&self, part: usize, from: Place, to: Place) -> (f64, f64, f64) {
         let hull = from.1.parts()[part].placed().hull_with(to.1.parts()[part].placed());
         let (size, sagitta) = (largest_coordinate([&hull]), self.motion.sagitta(part, from.0, to.0));
@@ -115,7 +119,8 @@ impl<'a, M: Motion> Nearby<'a, M> {
         (sagitta, distance, rounding(size, distance))
     }
 
-    /// What a step proves for the open parts, metres; not positive when it proves nothing. A bound where it is more than the clearance so far.
+    /// The clearance that a step proves for the open parts, metres; not positive when it proves nothing. Only a lower
+    /// bound where it is more than the clearance so far.
     fn open_clearance(&self, from: Place, to: Place) -> f64 {
         let mut least = f64::INFINITY;
         for &k in &self.open {
@@ -128,7 +133,7 @@ impl<'a, M: Motion> Nearby<'a, M> {
         least
     }
 
-    /// The distance of a footprint's open parts, metres, if it is less than `within`; else that.
+    /// The distance of a footprint's open parts, metres, or `within` if it is not less than that.
     fn open_gap(&self, footprint: &Footprint, within: f64) -> f64 {
         if !footprint.is_valid() {
             return 0.0;
@@ -137,7 +142,7 @@ impl<'a, M: Motion> Nearby<'a, M> {
         parts.fold(within, |least, part| self.around.distance(part, 0.0, least).unwrap_or(least))
     }
 
-    /// How far any part can move in a stretch, metres.
+    /// How far any part can move between two parameters, metres.
     fn width(&self, lo: f64, hi: f64) -> f64 {
         width(self.motion, self.parts, lo, hi)
     }
@@ -164,7 +169,7 @@ impl<M: Motion> Ground for Nearby<'_, M> {
 
     fn gap(&self, footprint: &Footprint) -> f64 {
         let gap = self.open_gap(footprint, f64::INFINITY);
-        // the others keep more than that everywhere
+        // the settled parts keep at least `kept` everywhere
         if self.kept < gap { self.scene.distance(footprint) } else { gap }
     }
 
@@ -205,7 +210,8 @@ mod tests {
     use crate::random::{Seed, Stream};
     use crate::robots::{HITCH, Reach, Robot};
 
-    /// Random edges: the same steps as the march of all the scene where they are free, a bracket about the same contact where they are not.
+    /// Compares random edges with the march among all pieces: the same steps where they are free, a bracket about the
+    /// same contact where they are not.
     fn compare<R: Robot>(scene: &Scene, robot: &R, mut draw: impl FnMut(&mut Stream) -> [R::Configuration; 2]) {
         let mut draws = Stream::new(Seed(9), "nearby");
         let (mut ours, mut theirs) = (Certificate::new(), Certificate::new());

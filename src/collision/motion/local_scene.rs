@@ -8,11 +8,11 @@ use crate::collision::narrow::pair::touches;
 use crate::geometry::{Aabb, Placed, square};
 use crate::num::lesser;
 
-/// At most so many pieces are taken out of a scene.
+/// Largest number of pieces in a vicinity; with more it queries the scene.
 const MOST: usize = 64;
 
-/// The pieces of a scene within a range of where a motion goes. Asked about shapes on that way it answers as the scene does; only about
-/// what is farther off than the range, or where the pieces are too many to be worth it, it has to ask the scene.
+/// The pieces of a scene within a range of where a motion goes. For shapes along the motion it answers as the scene
+/// does. It queries the scene only beyond the range, or where the pieces are too many to be worth collecting.
 pub(crate) struct Vicinity<'a> {
     scene: &'a Scene,
     range: f64,
@@ -20,39 +20,39 @@ pub(crate) struct Vicinity<'a> {
 }
 
 impl<'a> Vicinity<'a> {
-    /// All of a scene.
+    /// The whole scene.
     pub(crate) fn all(scene: &'a Scene) -> Self {
         Vicinity { scene, range: 0.0, pieces: None }
     }
 
-    /// What is within `range` metres of a box.
+    /// The pieces whose boxes are within `range` metres of a box.
     pub(crate) fn new(scene: &'a Scene, within: &Aabb, range: f64) -> Self {
         let mut pieces = SmallVec::new();
         let mut fits = true;
         scene.index.each_near(within, range, |piece| {
             fits = pieces.len() < MOST;
             if fits {
-                pieces.push((Aabb::of(&scene.pieces[piece]), piece as u32));
+                pieces.push((scene.pieces[piece].padded_bounds(), piece as u32));
             }
             !fits
         });
         Vicinity { scene, range, pieces: fits.then_some(pieces) }
     }
 
-    /// About what is farther off than this, metres, it asks the scene.
+    /// The distance beyond which it has to query the scene, metres; infinity where it queries the scene for everything.
     pub(crate) fn range(&self) -> f64 {
         if self.pieces.is_some() { self.range } else { f64::INFINITY }
     }
 
-    /// The distance of a valid shape on the way from the nearest piece, metres, if it is less than `within`. Once a piece is known to be no farther
-    /// than `enough`, how near the nearest is is no longer asked: any such distance will do.
+    /// The distance of a valid shape along the motion from the nearest piece, metres, if it is less than `within`.
+    /// Stops once a distance of at most `enough` is found, and returns that one.
     pub(crate) fn distance(&self, shape: &Placed, enough: f64, within: f64) -> Option<f64> {
         let Some(pieces) = &self.pieces else { return self.in_scene(shape, enough, within) };
         let near = self.among(pieces, shape, enough, lesser(within, self.range));
         if near.is_some() || within <= self.range { near } else { self.in_scene(shape, enough, within) }
     }
 
-    /// As [`distance`](Self::distance), of all pieces of the scene.
+    /// As [`distance`](Self::distance), among all pieces of the scene.
     fn in_scene(&self, shape: &Placed, enough: f64, within: f64) -> Option<f64> {
         let mut look = Look::new(self.scene, shape, enough, within);
         let from = look.extent();
@@ -60,7 +60,7 @@ impl<'a> Vicinity<'a> {
         look.found()
     }
 
-    /// As [`distance`](Self::distance), of these pieces alone.
+    /// As [`distance`](Self::distance), among these pieces alone.
     fn among(&self, pieces: &[(Aabb, u32)], shape: &Placed, enough: f64, within: f64) -> Option<f64> {
         let mut look = Look::new(self.scene, shape, enough, within);
         let from = look.extent();
@@ -84,9 +84,9 @@ impl<'a> Vicinity<'a> {
         look.found()
     }
 
-    /// Whether a valid shape on the way touches a piece.
+    /// Whether a valid shape along the motion touches a piece.
     pub(crate) fn touches(&self, shape: &Placed) -> bool {
-        let from = Aabb::of(shape);
+        let from = shape.padded_bounds();
         let touched = |piece: usize| touches(shape, &self.scene.pieces[piece]);
         match &self.pieces {
             Some(pieces) => pieces.iter().any(|(e, piece)| from.squared_distance(e) == 0.0 && touched(*piece as usize)),
@@ -102,12 +102,12 @@ impl<'a> Vicinity<'a> {
     }
 }
 
-/// A search for the distance alone, which ends when that is known to be small enough.
+/// A search for the distance alone, which stops once a distance of at most `enough` is found.
 struct Look<'a> {
     search: Search<'a>,
     within: f64,
     enough: f64,
-    /// What was found to be near enough.
+    /// The distance found that is at most `enough`, metres.
     near: Option<f64>,
 }
 
@@ -120,7 +120,8 @@ impl<'a> Look<'a> {
         self.search.extent()
     }
 
-    /// Looks at a piece and gives the least distance so far; 0 once it is small enough, so that little else is looked at.
+    /// Measures a piece and returns the least distance so far. Returns 0 once that is at most `enough`, so that hardly
+    /// any other piece is measured.
     fn at(&mut self, piece: usize) -> f64 {
         if self.near.is_some() {
             return 0.0;

@@ -5,6 +5,7 @@ pub(crate) mod certificate;
 pub(crate) mod closed_form;
 pub(crate) mod conservative_advancement;
 pub(crate) mod disc_line;
+pub(crate) mod first_contact;
 pub(crate) mod local_march;
 pub(crate) mod local_scene;
 pub(crate) mod separation;

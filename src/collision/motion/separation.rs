@@ -1,4 +1,4 @@
-//! Whether it is plain that a part's way keeps off everything: what most free motions show at a glance.
+//! Separation tests for what moving parts sweep over: they prove most free motions without a distance query.
 
 use smallvec::SmallVec;
 
@@ -9,8 +9,9 @@ use crate::geometry::{Aabb, Footprint, Placed, Point2, Vector2};
 use crate::num::{greater, lesser};
 use crate::robots::Motion;
 
-/// Whether it is plain that every part of a motion from `start` to `end` keeps more than `margin` metres from everything. Not plain does not
-/// mean that it does not. Plain is only what one step of the [march](super::conservative_advancement()) proves too.
+/// A conservative separation test: true only if every part of a motion from `start` to `end` keeps more than `margin`
+/// metres from everything. `false` is inconclusive. What it proves, one step of the
+/// [march](super::conservative_advancement::march) proves too.
 pub(crate) fn is_plainly_clear<M: Motion>(
     collision: &dyn Collision,
     motion: &M,
@@ -21,8 +22,8 @@ pub(crate) fn is_plainly_clear<M: Motion>(
     parts.all(|(k, (from, to))| collision.clears(from.placed(), to.placed(), margin + motion.sagitta(k, 0.0, 1.0)))
 }
 
-/// Whether a motion is free, by halving what is not plainly clear; `None` where that does not decide in so many halvings. Free is proven, and so
-/// is that it is not: it is in contact somewhere.
+/// Whether a motion is free, by halving every stretch that the separation test does not prove. Both answers are proven:
+/// `Some(false)` means that a contact was found. `None` where `halvings` halvings do not decide.
 pub(crate) fn halve<M: Motion>(
     scene: &Scene,
     motion: &M,
@@ -41,19 +42,19 @@ pub(crate) fn halve<M: Motion>(
     halving.halves(from, to, &open)
 }
 
-/// Numbers of parts.
+/// Parts, by their numbers.
 type Parts = SmallVec<[usize; 4]>;
 
-/// A motion looked at half by half.
+/// A motion under repeated halving.
 struct Halving<'a, M> {
     scene: &'a Scene,
     motion: &'a M,
-    /// How often it may still be halved.
+    /// The number of halvings left.
     halvings: u32,
 }
 
 impl<M: Motion> Halving<'_, M> {
-    /// Which of these parts are not plainly clear of everything in a stretch.
+    /// Those of the parts that the separation test does not prove clear of everything between two places.
     fn open(&self, mut parts: Parts, from: Place, to: Place) -> Parts {
         parts.retain(|k| {
             let [a, b] = [from.1, to.1].map(|footprint| footprint.parts()[*k].placed());
@@ -62,7 +63,7 @@ impl<M: Motion> Halving<'_, M> {
         parts
     }
 
-    /// As [`halve`], of a stretch between two free places; all parts but these are clear of everything there.
+    /// As [`halve`], between two free places, where all parts but those in `open` are proven clear of everything.
     fn halves(&mut self, from: Place, to: Place, open: &[usize]) -> Option<bool> {
         self.halvings = self.halvings.checked_sub(1)?;
         let middle = 0.5 * (from.0 + to.0);
@@ -81,18 +82,19 @@ impl<M: Motion> Halving<'_, M> {
     }
 }
 
-/// What a part whose vertices go in straight lines from one place to another sweeps over: the hull of the two, which is not computed.
+/// The swept hull of a part whose vertices move in straight lines from one placed shape to another. The hull is never
+/// computed.
 pub(crate) struct Way<'a> {
     from: &'a Placed,
     to: &'a Placed,
     radius: f64,
-    /// No coordinate is larger.
+    /// An upper bound on the size of the coordinates, metres.
     size: f64,
     bounds: Aabb,
 }
 
 impl<'a> Way<'a> {
-    /// The way between two places of a part; `None` where one of them is not valid.
+    /// The swept hull between two placed shapes of a part; `None` where one of them is not valid.
     pub(crate) fn new(from: &'a Placed, to: &'a Placed) -> Option<Self> {
         if !(from.is_valid() && to.is_valid()) {
             return None;
@@ -107,11 +109,12 @@ impl<'a> Way<'a> {
         Some(Way { from, to, radius, size: bounds.size() + radius, bounds })
     }
 
-    /// Whether it is plain that all valid pieces of the scene are farther off than `reach`.
+    /// A conservative separation test: true only if all pieces of the scene are valid and farther off than `reach`
+    /// metres. `false` is inconclusive.
     pub(crate) fn clears(&self, scene: &Scene, reach: f64) -> bool {
         let range = self.radius + reach + self.slack(scene.size);
         if !range.is_finite() {
-            return false; // a bound that is no number, or a piece that is no valid shape, which is everywhere
+            return false; // `reach` is NaN, or a piece is not valid and counts as contact everywhere
         }
         let mut near = false;
         scene.index.each_near(&self.bounds, range, |piece| {
@@ -121,8 +124,8 @@ impl<'a> Way<'a> {
         !near
     }
 
-    /// Whether it is plain that a valid piece, no coordinate of which is larger than `size`, is farther off than `reach`: some line parts them
-    /// by more than that.
+    /// A conservative separation test for one valid piece whose coordinates are at most `size`: true only if some line
+    /// separates the two by more than `reach` metres. `false` is inconclusive.
     pub(crate) fn passes(&self, piece: &Placed, reach: f64, size: f64) -> bool {
         let reach = reach + self.radius + piece.radius() + self.slack(size);
         let parts = |ahead: Vector2| {
@@ -134,7 +137,8 @@ impl<'a> Way<'a> {
             let gap = greater(e - greater(b, d), lesser(a, c) - f);
             gap > 0.0 && gap * gap > reach * reach * ahead.norm_squared()
         };
-        // from one middle to the other, then across the sides that either has
+        // normals to try: from one middle to the other, then across the sides that either has and across the vertices'
+        // chords
         let middle = |core: &[Point2]| core[0] + (core[core.len() / 2] - core[0]) * 0.5;
         let sides = |core: &[Point2]| match core {
             [_] => false,
@@ -149,13 +153,14 @@ impl<'a> Way<'a> {
             || self.from.core().iter().zip(self.to.core()).any(|(p, q)| parts(across(*p, *q)))
     }
 
-    /// More than the rounding of all distances here, and than what a step of the march takes off for it, metres.
+    /// An upper bound on the rounding of all distances here, and on what a step of the march subtracts for rounding,
+    /// metres.
     fn slack(&self, size: f64) -> f64 {
         1e-12 * (self.size + size)
     }
 }
 
-/// Square to the line through two points.
+/// A normal of the line through two points, as long as they are apart.
 fn across(p: Point2, q: Point2) -> Vector2 {
     let u = q - p;
     Vector2::new(u.y, -u.x)
@@ -170,7 +175,6 @@ mod tests {
     use crate::geometry::{Pose2, Shape, Vertices, convex_hull};
     use crate::random::{Seed, Stream};
     use crate::robots::{HITCH, Reach, Robot, RustyDisc};
-    use crate::worlds::Bounds;
 
     /// A point, a segment or a polygon, every other one with corners on a lattice.
     fn shape(draws: &mut Stream, at: f64) -> Placed {
@@ -183,7 +187,7 @@ mod tests {
     #[test]
     fn what_is_plain_is_so_and_most_that_is_so_is_plain() {
         let mut draws = Stream::new(Seed(8), "ways");
-        let bounds = Bounds { min: Point2::origin(), max: Point2::new(9.0, 4.0) };
+        let bounds = Aabb { min: Point2::origin(), max: Point2::new(9.0, 4.0) };
         let (mut apart, mut plain) = (0, 0);
         for i in 0..4000 {
             let (from, piece) = (shape(&mut draws, 0.0), shape(&mut draws, [2.0, 4.0, 5.0][i % 3]));
@@ -209,7 +213,7 @@ mod tests {
 
     #[test]
     fn what_is_no_valid_shape_is_never_plain() {
-        let bounds = Bounds { min: Point2::origin(), max: Point2::new(9.0, 4.0) };
+        let bounds = Aabb { min: Point2::origin(), max: Point2::new(9.0, 4.0) };
         let disc = |x: f64, radius: f64| Placed::new([Point2::new(x, 0.0)], radius);
         let scene = Scene::empty(bounds);
         assert!(scene.clears(&disc(0.0, 0.1), &disc(1.0, 0.1), 1.0), "there is nothing");
@@ -221,7 +225,8 @@ mod tests {
         assert!(!scene.clears(&disc(50.0, 0.1), &disc(60.0, 0.1), 1.0));
     }
 
-    /// Whether edges are free, asked four ways: at a glance, by verdict, by the march, and by contact at many places.
+    /// Whether an edge is free, by four ways that must agree: `edge_free`, the verdict, the march, and contact at many
+    /// places.
     fn agree<R: Robot>(checker: &Checker<R>, a: &R::Configuration, b: &R::Configuration) -> bool {
         let (free, edge) = (checker.edge_free(a, b), checker.robot().edge(a, b).unwrap());
         assert_eq!(free, checker.edge(a, b).unwrap().is_free(), "{a} to {b}");

@@ -7,9 +7,9 @@ use crate::robots::Motion;
 
 /// The clearance that one step from `s0` to `s1` proves, given the two footprints; not positive when it proves nothing.
 ///
-/// Between `s0` and `s1` each part stays within its sagitta of the convex hull of its two placed cores. So the distance from
-/// that hull to the obstacles, less the sagitta, is a lower bound of the clearance. A further 32 ulps are taken off: 16 that the
-/// distance may err by, the rest for the rounding of the placed vertices.
+/// Between `s0` and `s1` each part stays within its sagitta of the convex hull of its two placed cores. So the distance
+/// from that hull to the obstacles, less the sagitta, is a lower bound of the clearance. Another 32 ulps are
+/// subtracted: 16 that the distance may err by, the rest for the rounding of the placed vertices.
 pub(crate) fn step_clearance<M: Motion>(
     collision: &dyn Collision,
     motion: &M,
@@ -22,7 +22,7 @@ pub(crate) fn step_clearance<M: Motion>(
         let size = largest_coordinate([&hull]);
         let dist = collision.distance_of_hull(hull);
         let proven = dist - motion.sagitta(k, s0, s1) - rounding(size, dist);
-        // a bound that is no number proves nothing, whatever the other parts are
+        // a NaN bound proves nothing, whatever the other parts are
         least = if proven.is_nan() { 0.0 } else { lesser(proven, least) };
         if least <= 0.0 {
             break;
@@ -31,7 +31,7 @@ pub(crate) fn step_clearance<M: Motion>(
     least
 }
 
-/// What a step's proof takes off the distance of a hull whose coordinates are at most `size`, metres.
+/// What a step's proof subtracts for rounding from the distance of a hull whose coordinates are at most `size`, metres.
 pub(crate) fn rounding(size: f64, distance: f64) -> f64 {
     if distance.is_finite() { 32.0 * ulp(size + distance) } else { 0.0 }
 }

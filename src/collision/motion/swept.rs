@@ -1,4 +1,4 @@
-//! The swept query: every part's frame origin in a straight line while it turns the short way.
+//! The swept query: every part's frame origin moves in a straight line while the part turns the short way.
 
 use smallvec::SmallVec;
 
@@ -8,8 +8,9 @@ use crate::geometry::{Footprint, Part, Pose2};
 use crate::num::{hypot, wrap};
 use crate::robots::{Motion, Rates};
 
-/// What a sweep asks of the march. After so many proof attempts it counts as a hit: enough to resolve a clearance of 1e-6 m along a metre
-/// of travel and a full half turn of a part ten metres long.
+/// The march's options for a sweep. A sweep that is undecided after the budget of proof attempts counts as a hit. The
+/// budget is enough to resolve a clearance of 1e-6 m along a metre of travel and a full half turn of a part ten metres
+/// long.
 pub(crate) const SWEEP: MarchOptions = MarchOptions { margin: 0.0, budget: 1 << 18 };
 
 /// The rigid motion of every part from its pose in one footprint to its pose in another.
@@ -23,7 +24,7 @@ pub(crate) struct PartsMotion<'a> {
 impl Motion for PartsMotion<'_> {
     type Configuration = R2;
 
-    /// The place of the first part's frame; the sweep itself is in the footprints.
+    /// The position of the first part's frame, as a stand-in; the sweep itself is in the footprints.
     fn at(&self, s: f64) -> R2 {
         self.footprint_at(s).parts().first().map_or(R2::new(0.0, 0.0), |p| R2(p.pose().position()))
     }
@@ -48,7 +49,7 @@ impl Motion for PartsMotion<'_> {
     }
 }
 
-/// Whether the sweep from `a` to `b` hits, or `judge` cannot prove it free.
+/// Whether the sweep from `a` to `b` hits; true also where `judge` cannot prove it free.
 pub(crate) fn hits(
     collision: &dyn Collision,
     a: &Footprint,

@@ -4,15 +4,15 @@ use crate::collision::narrow::convex::{edges, point_segment, polygon_contains};
 use crate::geometry::{CircularArc, Placed, Point2, Vector2, cross};
 use crate::num::{hypot, lesser, sqrt};
 
-/// The earlier of a known parameter and `s`, where `s` lies in `[0, 1]`.
+/// The earlier of `best` and `s`; an `s` outside `[0, 1]` does not count.
 fn earlier(best: Option<f64>, s: f64) -> Option<f64> {
     if (0.0..=1.0).contains(&s) && best.is_none_or(|b| s < b) { Some(s) } else { best }
 }
 
-/// When `p + s v` first comes within `reach` of the segment, for a start farther away; rounded.
+/// The first `s` in `[0, 1]` at which `p + s v` comes within `reach` of the segment, for a start farther away; rounded.
 ///
-/// The set within `reach` of a segment is bounded by two sides, where |(p + s v - a) x u| = reach |u|, and by two circles
-/// about its ends, where |p + s v - a|^2 = reach^2.
+/// The set within `reach` of a segment is bounded by two sides, where |(p + s v - a) x u| = reach |u|, and by two
+/// circles about its ends, where |p + s v - a|^2 = reach^2.
 fn line_meets(p: Point2, v: Vector2, (a, b): (Point2, Point2), reach: f64) -> Option<f64> {
     let u = b - a;
     let length = sqrt(u.norm_squared());
@@ -38,13 +38,13 @@ fn line_meets(p: Point2, v: Vector2, (a, b): (Point2, Point2), reach: f64) -> Op
     best
 }
 
-/// When `p + s v` first comes within `reach` of the core, for a start farther away; rounded.
+/// The first `s` in `[0, 1]` at which `p + s v` comes within `reach` of the core, for a start farther away; rounded.
 pub(crate) fn point_meets(p: Point2, v: Vector2, core: &[Point2], reach: f64) -> Option<f64> {
     edges(core).filter_map(|edge| line_meets(p, v, edge, reach)).fold(None, earlier)
 }
 
-/// When `part`, moved by `s v` without turning, first touches `piece`, for a start that is free; rounded. Two convex cores
-/// first come within a distance at a vertex of one of them.
+/// The first `s` in `[0, 1]` at which `part`, moved by `s v` without turning, touches `piece`, for a start that is
+/// free; rounded. Two convex cores first come within a distance at a vertex of one of them.
 pub(crate) fn translation_meets(part: &Placed, v: Vector2, piece: &Placed) -> Option<f64> {
     let reach = part.radius() + piece.radius();
     let mut best = None;
@@ -66,7 +66,7 @@ fn arc_cosine(x: f64, r: f64) -> f64 {
     crate::num::atan2(sqrt((r - x) * (r + x)), x)
 }
 
-/// The bearings at which the circle crosses the line through the edge, moved `offset` to its left, beside the edge itself.
+/// The bearings at which the circle crosses the edge, moved by `offset` to its left.
 fn crossings(arc: &CircularArc, (a, b): (Point2, Point2), offset: f64) -> impl Iterator<Item = f64> {
     let u = b - a;
     let length = hypot(u.x, u.y);
@@ -80,7 +80,8 @@ fn crossings(arc: &CircularArc, (a, b): (Point2, Point2), offset: f64) -> impl I
         .filter(move |&bearing| (0.0..=length * length).contains(&(arc.on_circle(bearing) - a).dot(&u)))
 }
 
-/// When a point on the arc first comes within `reach` of the core, for a start farther away; rounded.
+/// The first parameter in `[0, 1]` at which a point on the arc comes within `reach` of the core, for a start farther
+/// away; rounded.
 pub(crate) fn arc_meets(arc: &CircularArc, core: &[Point2], reach: f64) -> Option<f64> {
     let mut best = None;
     for edge in edges(core) {

@@ -1,4 +1,4 @@
-//! `EdgeVerdict`, what the certified march says about a motion.
+//! `EdgeVerdict`, what is known of a motion, and the options of the march.
 
 use crate::collision::ObstacleId;
 
@@ -21,11 +21,12 @@ pub enum EdgeVerdict {
         /// The obstacle it touches.
         obstacle: ObstacleId,
     },
-    /// Neither could be shown.
+    /// Neither could be proven.
     Unresolved {
         /// Everything before this `s` is proven free.
         free_until: f64,
-        /// How far the footprint can still move after `free_until`, to the motion's end or the first contact known, metres.
+        /// How far the footprint can still move after `free_until`, to the motion's end or the first contact known,
+        /// metres.
         gap: f64,
         /// Why the march ended.
         reason: UnresolvedReason,
@@ -35,16 +36,17 @@ pub enum EdgeVerdict {
 /// Why a march ended without a verdict.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum UnresolvedReason {
-    /// The clearance fell below what rounding lets a proof tell from contact.
+    /// The clearance fell below what a proof can distinguish from contact, given rounding.
     Tolerance,
     /// The budget of steps was used up.
     Budget,
 }
 
-/// What a march asks for.
+/// The options of a march.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MarchOptions {
-    /// The clearance to be proven, metres: a motion that comes closer counts as a hit. 0 for plain freedom.
+    /// The clearance that the motion must exceed, metres: one that comes as close counts as a hit. With 0 only contact
+    /// does.
     pub margin: f64,
     /// The greatest number of proof attempts.
     pub budget: u32,

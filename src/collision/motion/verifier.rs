@@ -1,5 +1,6 @@
-//! `verify_certificate`, which accepts certificates. It knows the contracts of [`Motion`] and [`Collision`] and nothing of how a
-//! certificate is made: its hull, its bound and its rounding are its own. Only the exact orientation predicate serves both.
+//! `verify_certificate`, which checks certificates. It knows the contracts of [`Motion`] and [`Collision`] and nothing
+//! of how a certificate is made: its hull, its bound and its rounding are its own. Only the exact orientation predicate
+//! serves both.
 
 use crate::collision::{Certificate, CertificateError, Collision, ProvenStep};
 use crate::geometry::{Footprint, Placed, Point2, Vertices, orientation};
@@ -7,15 +8,16 @@ use crate::num::{greater, lesser, ulp};
 use crate::robots::Motion;
 use crate::short_list::ShortList;
 
-/// What a distance and the vertices of a placed shape may be off by, ulps of the largest coordinate: 16 each.
+/// The rounding allowed for, ulps of the largest coordinate: 16 for a distance and 16 for the vertices of a placed
+/// shape.
 const ROUNDING: f64 = 32.0;
 
 /// Accepts a certificate when its steps join from 0 on and each is proven by the distance from the hull of its two end
 /// footprints and the motion's sagitta bound. Returns where the proof ends.
 ///
-/// Within a step no point of a part strays farther than the sagitta from the chord between its places at the two ends, which lies in
-/// the convex hull of the part's two placed shapes. So the hull's distance, less the sagitta, is a lower bound of the clearance; 32 ulps
-/// of the largest coordinate are taken off for rounding.
+/// Within a step no point of a part strays farther than the sagitta from the chord between its places at the two ends,
+/// which lies in the convex hull of the part's two placed shapes. So the hull's distance, less the sagitta, is a lower
+/// bound of the clearance; 32 ulps of the largest coordinate are subtracted for rounding.
 ///
 /// # Errors
 /// [`CertificateError`] names the first step that fails.
@@ -41,7 +43,8 @@ pub fn verify_certificate<M: Motion>(
     Ok(at)
 }
 
-/// The clearance that the contracts prove along a step, metres; 0 where the footprints at its ends don't match or are not valid.
+/// The clearance that the contracts prove along a step, metres; 0 where the footprints at its ends don't match or are
+/// not valid.
 fn proven<M: Motion>(collision: &dyn Collision, motion: &M, step: &ProvenStep) -> f64 {
     let ends = [step.from, step.to].map(|s| motion.footprint_at(s));
     let [from, to] = [0, 1].map(|i: usize| ends[i].parts());
@@ -66,8 +69,8 @@ fn proven<M: Motion>(collision: &dyn Collision, motion: &M, step: &ProvenStep) -
     least
 }
 
-/// The corners of the convex hull, counter-clockwise from the leftmost (the lowest of these), by wrapping a string around the points
-/// (Jarvis, 1973); points on an edge are left out.
+/// The corners of the convex hull, counter-clockwise from the leftmost (the lowest of these), by wrapping a string
+/// around the points (Jarvis, 1973); points on an edge are left out.
 fn around(points: &[Point2]) -> Vertices {
     let before = |a: &Point2, b: &Point2| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y));
     let Some(&start) = points.iter().min_by(|a, b| before(a, b)) else { return Vertices::new() };
@@ -114,7 +117,8 @@ mod tests {
         assert!(around(&[]).is_empty());
     }
 
-    /// Two segments that stand still; one may say nothing sensible about how it moves, and a number of either may be none at one end.
+    /// Two capsules that stand still. One may give NaN as its acceleration, and one of their numbers may be NaN at one
+    /// end of the motion.
     #[derive(Default)]
     struct Odd {
         silent: Option<usize>,

@@ -1,6 +1,6 @@
 //! Exact contact and accurate distance between two convex cores (points, segments, polygons) without radii.
 
-use crate::geometry::{Point2, cross, orientation};
+use crate::geometry::{Aabb, Point2, cross, orientation};
 use crate::num::{greater, lesser, sqrt};
 
 /// The boundary edges of a core: a point is one edge of length 0, a segment one edge, a polygon all its sides.
@@ -38,8 +38,8 @@ pub(crate) fn segments_contact(p: (Point2, Point2), q: (Point2, Point2)) -> Opti
         }
     }
     if p0 != 0.0 && p1 != 0.0 && q0 != 0.0 && q1 != 0.0 {
-        // They cross properly: the sides have opposite signs, so the weight is in (0, 1). Measured along the shorter one, and
-        // kept in both boxes, the point stays near both even when they are all but collinear.
+        // They cross properly: the sides have opposite signs, so the weight is in (0, 1). Measured along the shorter
+        // one, and kept in both boxes, the point stays near both even when they are all but collinear.
         let along_p = (p.1 - p.0).norm_squared() <= (q.1 - q.0).norm_squared();
         let ((a, b), weight) = if along_p { (p, p0 / (p0 - p1)) } else { (q, q0 / (q0 - q1)) };
         return Some(into_box(q, into_box(p, a + (b - a) * weight)));
@@ -69,14 +69,14 @@ pub(crate) fn polygon_contains(polygon: &[Point2], p: Point2) -> bool {
     inside
 }
 
-/// Whether the boxes around two cores, or for some side the half-planes, show at a glance that they are disjoint. What is not
-/// shown is not so either way.
+/// A separation test for two cores: by the boxes around them, then by the lines through their sides. `false` is
+/// inconclusive.
 fn plainly_apart(a: &[Point2], b: &[Point2]) -> bool {
-    Span::of(a).is_apart(&Span::of(b)) || separates(a, b) || separates(b, a)
+    box_around(a).is_apart(&box_around(b)) || separates(a, b) || separates(b, a)
 }
 
-/// The cross product of an edge and the way from its beginning to `v`, positive to the left; 0 where it does not exceed several times the rounding it
-/// may hold.
+/// The cross product of an edge and the displacement from its first end to `v`, positive to the left. It is 0 where it
+/// does not exceed several times the rounding it may hold, so that its sign is certain.
 #[inline]
 fn plain_side((p, q): (Point2, Point2), v: &Point2) -> f64 {
     let (u, w) = (q - p, v - p);
@@ -86,8 +86,9 @@ fn plain_side((p, q): (Point2, Point2), v: &Point2) -> f64 {
     if area.abs() <= rounding { 0.0 } else { area }
 }
 
-/// Whether a side of `a` has all of `b` plainly to its right and the rest of `a` plainly to its left; of a segment, whether all of `b`
-/// is plainly on one side. A cross product counts only where it exceeds several times the rounding it may hold.
+/// A separation test: whether the line through a side of `a` has all of `b` to its right and the rest of `a` to its
+/// left, or, where `a` is a segment, all of `b` on one side. A cross product counts only where its sign is certain.
+/// `false` is inconclusive.
 fn separates(a: &[Point2], b: &[Point2]) -> bool {
     edges(a).any(|(p, q)| {
         let side = |v: &Point2| plain_side((p, q), v);
@@ -96,7 +97,8 @@ fn separates(a: &[Point2], b: &[Point2]) -> bool {
     })
 }
 
-/// Whether a vertex of one polygon is plainly inside the other. What is not shown is not so either way.
+/// A conservative test for overlap: whether a vertex of one polygon is certainly inside the other. `false` is
+/// inconclusive.
 pub(crate) fn plainly_overlap(a: &[Point2], b: &[Point2]) -> bool {
     let inside = |polygon: &[Point2], p: &Point2| edges(polygon).all(|edge| plain_side(edge, p) > 0.0);
     (a.len() > 2 && b.iter().any(|p| inside(a, p))) || (b.len() > 2 && a.iter().any(|p| inside(b, p)))
@@ -125,13 +127,14 @@ pub(crate) fn cores_contact(a: &[Point2], b: &[Point2]) -> Option<Point2> {
 
 /// The distance from `p` to the segment and the nearest point of it.
 ///
-/// The distance to the segment's line is a cross product with the displacement from the nearer end, so its rounding is a
-/// few ulps of that displacement; where it cancels, the adaptive predicate gives its value.
+/// The distance to the segment's line is a cross product with the displacement from the nearer end, so its rounding is
+/// a few ulps of that displacement; where it cancels, the adaptive predicate gives its value.
 pub(crate) fn point_segment(p: Point2, (a, b): (Point2, Point2)) -> (f64, Point2) {
     point_segment_within(p, (a, b), f64::INFINITY).unwrap_or((f64::INFINITY, a))
 }
 
-/// As [`point_segment`]; `None` where the distance is more than the root of `square`, by more than it may be off.
+/// As [`point_segment`]; `None` where the square of the distance exceeds `square`. The distance to the line through the
+/// segment has to exceed it by more than its rounding.
 #[inline]
 fn point_segment_within(p: Point2, (a, b): (Point2, Point2), square: f64) -> Option<(f64, Point2)> {
     let (u, from_a, from_b) = (b - a, p - a, p - b);
@@ -156,11 +159,11 @@ fn point_segment_within(p: Point2, (a, b): (Point2, Point2), square: f64) -> Opt
     Some((area.abs() / sqrt(length_squared), foot))
 }
 
-/// The distance between two disjoint cores and a pair of nearest points, if it is less than `limit`. It is attained at a vertex of
-/// one of them.
+/// The distance between two disjoint cores and a pair of nearest points, if it is less than `limit`. It is attained at
+/// a vertex of one of them.
 pub(crate) fn cores_distance(a: &[Point2], b: &[Point2], limit: f64) -> Option<(f64, Point2, Point2)> {
     let mut closest = Closest::new(limit, between_vertices(a, b));
-    let around = Span::of(b);
+    let around = box_around(b);
     for &p in a {
         if around.is_farther(p, closest.square) {
             continue;
@@ -170,7 +173,7 @@ pub(crate) fn cores_distance(a: &[Point2], b: &[Point2], limit: f64) -> Option<(
         }
     }
     if a.len() > 1 {
-        let around = Span::of(a);
+        let around = box_around(a);
         for &q in b {
             if around.is_farther(q, closest.square) {
                 continue;
@@ -183,29 +186,36 @@ pub(crate) fn cores_distance(a: &[Point2], b: &[Point2], limit: f64) -> Option<(
     closest.found()
 }
 
-/// The square of the distance between the nearest vertices: the cores are no farther apart.
+/// The square of the distance between the nearest vertices: an upper bound on the square of the cores' distance.
 pub(crate) fn between_vertices(a: &[Point2], b: &[Point2]) -> f64 {
     a.iter().flat_map(|p| b.iter().map(move |q| (p - q).norm_squared())).fold(f64::INFINITY, lesser)
 }
 
-/// More than rounding makes of a square.
+/// The box around a core, which has a vertex.
+fn box_around(core: &[Point2]) -> Aabb {
+    Aabb::around(core).unwrap_or(Aabb { min: core[0], max: core[0] })
+}
+
+/// The factor that makes up for the rounding of a square, and more.
 const ROUNDED_UP: f64 = 1.0 + 1e-8;
 
 /// The nearest pair of points so far.
 pub(crate) struct Closest {
     pub(crate) least: f64,
-    /// The square of what is known to be enough, rounded up: what is farther than that need not be looked at.
+    /// The square of the distance beyond which a pair cannot be the nearest, rounded up.
     square: f64,
     pair: Option<(Point2, Point2)>,
 }
 
 impl Closest {
-    /// Nothing yet, of what is nearer than `limit`; something is no farther than the root of `between`.
+    /// No pair yet. Only pairs nearer than `limit` count. Some pair is known to be no farther apart than the root of
+    /// `between`.
     pub(crate) fn new(limit: f64, between: f64) -> Self {
         Closest { least: limit, square: lesser(between, limit * limit) * ROUNDED_UP, pair: None }
     }
 
-    /// Looks at a vertex and an edge, unless they are plainly farther apart than is known to be enough.
+    /// Takes a vertex and the nearest point of an edge, if no pair so far is nearer. Passes over an edge that is
+    /// certainly too far to matter.
     #[inline]
     pub(crate) fn look(
         &mut self,
@@ -221,37 +231,9 @@ impl Closest {
         }
     }
 
-    /// The distance and the two points; `None` where nothing was nearer than the limit.
+    /// The distance and the two points; `None` where no pair was nearer than the limit.
     pub(crate) fn found(self) -> Option<(f64, Point2, Point2)> {
         self.pair.map(|(p, q)| (self.least, p, q))
-    }
-}
-
-/// The box around a core.
-struct Span {
-    min: Point2,
-    max: Point2,
-}
-
-impl Span {
-    fn of(core: &[Point2]) -> Self {
-        let (mut min, mut max) = (core[0], core[0]);
-        for p in &core[1..] {
-            (min.x, min.y) = (lesser(p.x, min.x), lesser(p.y, min.y));
-            (max.x, max.y) = (greater(p.x, max.x), greater(p.y, max.y));
-        }
-        Span { min, max }
-    }
-
-    fn is_apart(&self, other: &Span) -> bool {
-        self.max.x < other.min.x || other.max.x < self.min.x || self.max.y < other.min.y || other.max.y < self.min.y
-    }
-
-    /// Whether `p` is farther than the root of `square` from all the box holds.
-    fn is_farther(&self, p: Point2, square: f64) -> bool {
-        let dx = greater(greater(self.min.x - p.x, p.x - self.max.x), 0.0);
-        let dy = greater(greater(self.min.y - p.y, p.y - self.max.y), 0.0);
-        dx * dx + dy * dy > square
     }
 }
 

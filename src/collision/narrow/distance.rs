@@ -20,11 +20,11 @@ pub(crate) struct Nearest {
 
 /// The nearest points of `a` and `b`, both valid.
 ///
-/// A shape with a radius is its core's exact distance minus the radius. Where the rounded distance cannot tell contact from
-/// a gap, squares are compared in double-double arithmetic.
+/// A shape with a radius is its core's exact distance minus the radius. Where the rounded distance cannot tell contact
+/// from a gap, squares are compared in double-double arithmetic.
 pub(crate) fn nearest(a: &Placed, b: &Placed) -> Nearest {
     nearest_within(a, b, f64::INFINITY).unwrap_or_else(|| {
-        // only where a distance is not a number, which valid shapes do not have
+        // reached only if a distance is NaN, which valid shapes never give
         let point = a.core()[0];
         Nearest { dist: 0.0, on_a: point, on_b: point }
     })
@@ -38,17 +38,18 @@ pub(crate) fn nearest_within(a: &Placed, b: &Placed, limit: f64) -> Option<Neare
     nearest_apart(a, b, cores_distance(a.core(), b.core(), core_limit(a, b, limit))?)
 }
 
-/// As [`nearest_within`], of shapes whose cores a line plainly parts; what heights above it may be off by.
+/// As [`nearest_within`], for shapes whose cores a line certainly separates. `line` is that line, and what heights
+/// above it may be off by, metres.
 pub(crate) fn nearest_across(a: &Placed, b: &Placed, limit: f64, line: (&Parting, f64)) -> Option<Nearest> {
     nearest_apart(a, b, parted_distance(a.core(), b.core(), core_limit(a, b, limit), line)?)
 }
 
-/// The limit of the cores' distance: more than rounding can make of a distance at the limit.
+/// The limit for the cores' distance: the limit for the shapes' distance plus the radii, and more than rounding.
 fn core_limit(a: &Placed, b: &Placed, limit: f64) -> f64 {
     (limit + (a.radius() + b.radius())) * (1.0 + 1e-9) + 1e-9
 }
 
-/// The nearest points of two shapes, from those of their cores.
+/// The nearest points of two shapes whose cores are disjoint, given the distance and the nearest points of the cores.
 fn nearest_apart(a: &Placed, b: &Placed, (core_dist, foot_a, foot_b): (f64, Point2, Point2)) -> Option<Nearest> {
     let reach = a.radius() + b.radius();
     let core_dist = greater(core_dist, f64::MIN_POSITIVE); // disjoint, whatever was lost to underflow
@@ -72,7 +73,7 @@ fn nearest_apart(a: &Placed, b: &Placed, (core_dist, foot_a, foot_b): (f64, Poin
             on_b: foot_b - direction * b.radius(),
         },
         None => {
-            // within a's radius of its foot, and the rest is within b's
+            // within a's radius of its foot, and within b's radius of the other foot
             let point = foot_a + direction * lesser(a.radius(), core_dist);
             Nearest { dist: 0.0, on_a: point, on_b: point }
         }
@@ -86,7 +87,8 @@ pub(crate) fn touch(a: &Placed, b: &Placed) -> bool {
 
 /// The gap between two shapes whose cores are disjoint, or `None` on contact: squares compared in double-double.
 ///
-/// Exact while the products fit 106 bits; beyond that a difference below 2^-94 of the compared squares counts as contact.
+/// Exact while the products fit 106 bits; beyond that a difference below 2^-94 of the compared squares counts as
+/// contact.
 fn decided_gap(a: &Placed, b: &Placed) -> Option<f64> {
     let reach = Dd::sum(a.radius(), b.radius());
     let mut least = f64::INFINITY;

@@ -80,7 +80,7 @@ mod tests {
             let dd = |x: i128| Dd::sum(x as f64, 0.0);
             let difference = dd(a).mul(dd(b)).sub(dd(c).mul(dd(d)));
             assert_eq!(difference.sign(), (a * b).cmp(&(c * d)));
-            // one more than a product is told from it
+            // a product and one more than it compare as different
             let one_more = dd(a).mul(dd(b)).add(dd(1));
             assert_eq!(one_more.sub(dd(a).mul(dd(b))).sign(), Ordering::Greater);
         }

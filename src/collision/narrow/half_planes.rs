@@ -1,13 +1,13 @@
-//! `Sides`, half-planes about a shape: what lies outside of one is far from the shape.
+//! `Sides`, half-planes that hold a shape's core, for a lower bound on the distance to a piece.
 
 use super::convex::edges;
 use crate::geometry::{Placed, Point2};
 use crate::num::{greater, sqrt};
 
-/// At most so many half-planes about a shape tell what is far from it.
+/// Largest number of half-planes about a shape.
 const SIDES: usize = 8;
 
-/// Half-planes that hold the shape: unit normals, and how far out each lies.
+/// Half-planes that hold a shape's core: their outward unit normals, and their offsets along them, metres.
 pub(crate) struct Sides {
     count: usize,
     nx: [f64; SIDES],
@@ -16,7 +16,8 @@ pub(crate) struct Sides {
 }
 
 impl Sides {
-    /// The half-planes along the sides of a shape; of a segment also across its ends.
+    /// The half-planes along the sides of a shape's core, at most `SIDES` of them. For a segment also those across its
+    /// ends; for a point none.
     pub(crate) fn of(shape: &Placed) -> Self {
         let core = shape.core();
         let mut sides = Sides { count: 0, nx: [0.0; SIDES], ny: [0.0; SIDES], out: [0.0; SIDES] };
@@ -30,7 +31,7 @@ impl Sides {
             if core.len() > 2 {
                 sides.push(core, (uy, -ux));
             } else {
-                // of a segment both sides and both ends
+                // for a segment both sides and both ends
                 for normal in [(uy, -ux), (-uy, ux), (ux, uy), (-ux, -uy)] {
                     sides.push(core, normal);
                 }
@@ -39,14 +40,15 @@ impl Sides {
         sides
     }
 
-    /// The half-plane with this outward normal that just holds the core.
+    /// Adds the smallest half-plane with this outward normal that holds the core.
     fn push(&mut self, core: &[Point2], (nx, ny): (f64, f64)) {
         let out = core.iter().fold(f64::NEG_INFINITY, |out, v| greater(nx * v.x + ny * v.y, out));
         (self.nx[self.count], self.ny[self.count], self.out[self.count]) = (nx, ny, out);
         self.count += 1;
     }
 
-    /// How far the core of a piece lies outside the half-plane that it is farthest outside of; rounded.
+    /// A lower bound on the distance of the two cores, metres; rounded. It is how far the piece's core lies outside the
+    /// half-plane that it is farthest outside of, negative infinity without half-planes.
     pub(crate) fn gap(&self, piece: &Placed) -> f64 {
         let mut most = f64::NEG_INFINITY;
         for ((nx, ny), out) in self.nx.iter().zip(&self.ny).zip(&self.out).take(self.count) {

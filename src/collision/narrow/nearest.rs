@@ -11,7 +11,8 @@ use crate::geometry::{Aabb, Placed};
 pub(crate) struct Search<'a> {
     shape: &'a Placed,
     pieces: &'a [Placed],
-    /// No coordinate of a piece is larger; infinite where a piece is not valid, which nothing may pass over.
+    /// An upper bound on the size of the pieces' coordinates, metres. Infinite where a piece is not valid, so that no
+    /// piece is passed over.
     size: f64,
     within: f64,
     best: Option<(usize, Nearest)>,
@@ -19,21 +20,21 @@ pub(crate) struct Search<'a> {
 }
 
 impl<'a> Search<'a> {
-    /// A search for what is nearer than `within`.
+    /// A search for a piece nearer than `within`.
     pub(crate) fn new(shape: &'a Placed, pieces: &'a [Placed], size: f64, within: f64) -> Self {
         Search { shape, pieces, size, within, best: None, sides: None }
     }
 
     /// The box around the shape, which is valid.
     pub(crate) fn extent(&self) -> Aabb {
-        Aabb::of_valid(self.shape)
+        self.shape.padded_bounds_of_valid()
     }
 
     fn least(&self) -> f64 {
         self.best.map_or(self.within, |(_, n)| n.dist)
     }
 
-    /// Looks at a piece and gives the least distance so far.
+    /// Measures a piece, unless it is certainly too far, and returns the least distance so far.
     pub(crate) fn look(&mut self, piece: usize) -> f64 {
         let (other, least) = (&self.pieces[piece], self.least());
         if least < f64::INFINITY && self.passes_over(other, least) {
@@ -42,15 +43,17 @@ impl<'a> Search<'a> {
         self.take(piece, pair_within(self.shape, other, least))
     }
 
-    /// Whether some half-plane about the shape shows that a piece is farther than `least`.
+    /// A separation test: whether some half-plane about the shape proves a piece farther than `least`. `false` is
+    /// inconclusive.
     fn passes_over(&mut self, piece: &Placed, least: f64) -> bool {
         let sides = self.sides.get_or_insert_with(|| Sides::of(self.shape));
         let reach = self.shape.radius() + piece.radius();
         sides.gap(piece) - reach > least * (1.0 + 1e-12) + 64.0 * f64::EPSILON * (self.size + reach)
     }
 
-    /// As [`look`](Self::look), but 0 at once where piece and shape plainly overlap: then nothing is found. On the way of an edge, where the
-    /// shapes are near one another and have many corners, a line between the two is worth looking for first.
+    /// As [`look`](Self::look), for the hulls and footprints of an edge, which are near the pieces and have many
+    /// corners: it tries a separating line first. Returns 0 at once where piece and shape certainly overlap; then the
+    /// search finds no nearest piece.
     pub(crate) fn look_for_distance(&mut self, piece: usize) -> f64 {
         let (other, least) = (&self.pieces[piece], self.least());
         let found = match self.parting(other) {
@@ -67,9 +70,10 @@ impl<'a> Search<'a> {
         self.take(piece, found)
     }
 
-    /// A line that plainly parts the cores of the shape and of a piece, and what a height above it may be off by.
+    /// A line that certainly separates the cores of the shape and of a piece, and what a height above it may be off by,
+    /// metres. `None` where there is none, or where direct measurement is faster.
     fn parting(&self, other: &Placed) -> Option<(Parting, f64)> {
-        // the first piece that a point or a segment is held against is sooner measured without
+        // for a point or a segment, the first piece is measured faster without a line
         if self.shape.core().len() <= 2 && self.least() == f64::INFINITY {
             return None;
         }
@@ -78,7 +82,8 @@ impl<'a> Search<'a> {
         (parting.gap > 1e-12 * parting.gap + rounding).then_some((parting, rounding))
     }
 
-    /// Takes what was found of a piece and gives the least distance so far.
+    /// Keeps a piece if it is the nearest so far, or as near and before it in file order. Returns the least distance so
+    /// far.
     fn take(&mut self, piece: usize, found: Option<Nearest>) -> f64 {
         if let Some(found) = found
             && (found.dist < self.least() || self.best.is_some_and(|(p, n)| found.dist == n.dist && piece < p))
@@ -88,7 +93,7 @@ impl<'a> Search<'a> {
         self.least()
     }
 
-    /// What was found.
+    /// The nearest piece and the nearest points; `None` where no piece is nearer than the limit.
     pub(crate) fn found(self) -> Option<(usize, Nearest)> {
         self.best
     }

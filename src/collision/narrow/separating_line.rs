@@ -1,25 +1,27 @@
-//! `Parting`, a line between two cores: it tells how far apart they are at least, and what of them need not be looked at.
+//! `Parting`, a separating line between two cores. It gives a lower bound on their distance, and shows which vertices
+//! and edges are too far apart to matter.
 
 use super::convex::{Closest, between_vertices, cores_distance, edges};
 use crate::geometry::{Point2, Vector2};
 use crate::num::{greater, lesser, sqrt};
 
-/// A line through a side of one of two cores that parts them: all of the first lies behind it, all of the second ahead.
+/// A separating line through a side of one of two cores: all of the first core lies behind it, all of the second ahead.
 #[derive(Clone, Copy)]
 pub(crate) struct Parting {
     at: Point2,
-    /// Ahead, a unit vector.
+    /// The unit normal, which points ahead.
     normal: Vector2,
-    /// The distance between what lies behind and what lies ahead, along the normal, metres; rounded.
+    /// The distance of the two cores along the normal, metres; rounded.
     pub(crate) gap: f64,
 }
 
 impl Parting {
-    /// The line that parts two cores by the widest gap; `None` where no side does so.
+    /// The separating line with the widest gap among those through the sides of `a`, or else among those through the
+    /// sides of `b`; `None` where no side separates the cores.
     pub(crate) fn of(a: &[Point2], b: &[Point2]) -> Option<Self> {
         let mut best = None;
         Self::beside(a, b, &mut best);
-        // that of the second core's sides only where the first one's say little: it is rarely wider else
+        // the second core's sides are tried only where no side of the first separates: else their gap is rarely wider
         if best.is_none() {
             Self::beside(b, a, &mut best);
             best = best.map(|p| Parting { normal: -p.normal, ..p });
@@ -27,7 +29,7 @@ impl Parting {
         best
     }
 
-    /// The widest gap ahead of the sides of `a`; of a segment ahead of its ends too.
+    /// Puts into `best` the line with the widest gap ahead of a side of `a`; for a segment, ahead of an end too.
     fn beside(a: &[Point2], b: &[Point2], best: &mut Option<Parting>) {
         let mut offer = |at: Point2, ahead: Vector2| {
             let all_ahead = b.iter().try_fold(f64::INFINITY, |least, q| {
@@ -62,11 +64,12 @@ impl Parting {
     }
 }
 
-/// At most so many vertices have their heights taken down.
+/// Largest number of vertices with cached heights.
 const HEIGHTS: usize = 16;
 
-/// As [`cores_distance`], of cores that a line plainly parts, whose heights above it may be off by `slack`: what they show to be too far apart is not
-/// looked at. The same bits, because only what is plainly farther is passed over.
+/// As [`cores_distance`], for cores that `line` certainly separates; heights above it may be off by `slack` metres.
+/// Vertices and edges that their heights prove too far apart are passed over. The result has the same bits, because
+/// none of those can be nearest.
 pub(crate) fn parted_distance(
     a: &[Point2],
     b: &[Point2],

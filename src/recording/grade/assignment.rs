@@ -1,4 +1,4 @@
-//! `Assignment`, what is to be done: read from a file, checked within its world.
+//! `Assignment`, a robot's goal and limits: read from a file, checked within its world.
 
 use ron::value::RawValue;
 use serde::Deserialize;
@@ -8,18 +8,19 @@ use crate::collision::{Collision, Scene};
 use crate::random::Seed;
 use crate::recording::{Recorder, RunError};
 use crate::run::Script;
+use crate::text_position::{line_at, offset_of};
 use crate::tour::{MAX_TICKS, TourConfig};
 use crate::worlds::{Resident, World};
 
-/// Where the robot shall be.
+/// The configuration to reach, with tolerances.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Goal {
     /// The coordinates of its configuration: metres and radians.
     pub at: Vec<f64>,
-    /// How far each may be off, angles the short way round.
+    /// The tolerance of each coordinate, 0 or more; angles compare the short way round.
     pub within: Vec<f64>,
-    /// For how many ticks in a row it has to be there; 1 when left out.
+    /// Number of ticks in a row that the robot has to be there; 1 when left out.
     #[serde(default = "one")]
     pub ticks: u64,
 }
@@ -28,21 +29,22 @@ fn one() -> u64 {
     1
 }
 
-/// What it may take. A limit itself is allowed.
+/// The limits of an attempt, each inclusive.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Limits {
-    /// The ticks until it has been at the goal.
+    /// The last tick at which the goal may be reached.
     pub ticks: u64,
-    /// The contact episodes until then; any number when left out.
+    /// Largest number of contact episodes until then; any number when left out.
     #[serde(default)]
     pub contacts: Option<u32>,
-    /// How often a robot that drives may change between ahead and back until then; any number when left out.
+    /// Largest number of changes between forward and backward until then, for a robot that drives; any number when left
+    /// out.
     #[serde(default)]
     pub reversals: Option<u32>,
 }
 
-/// An assignment file as written. Its world is but a name.
+/// An assignment file as written. It names its world and does not hold it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct AssignmentFile {
     file: String,
@@ -63,14 +65,14 @@ struct AssignmentText {
     seeds: Vec<u64>,
 }
 
-/// The version alone, whatever else a file of another version holds.
+/// The version alone, for files of other versions.
 #[derive(Deserialize)]
 #[serde(rename = "Assignment")]
 struct Version {
     version: u64,
 }
 
-/// The items unread, for their places in the text.
+/// The items as raw text, for their lines in the file.
 #[derive(Deserialize)]
 #[serde(rename = "Assignment")]
 struct Places<'a> {
@@ -89,13 +91,13 @@ struct Places<'a> {
 }
 
 impl AssignmentFile {
-    /// Reads an assignment file. `file` is what errors call it.
+    /// Reads an assignment file. Errors call it `file`.
     ///
     /// # Errors
-    /// [`AssignmentError`] names file, line and item: no RON, another version, an unknown or missing field.
+    /// [`AssignmentError`] names file, line and item, for invalid RON, another version, or an unknown or missing field.
     pub fn parse(file: &str, text: &str) -> Result<Self, AssignmentError> {
         let read: Result<AssignmentText, _> = options().from_str(text);
-        // the version before all else: the rest of another version's file may look different
+        // the version comes first: the rest of another version's file may look different
         let version = match &read {
             Ok(read) => read.version,
             Err(_) => ron::from_str(text).map_or(1, |Version { version }| version),
@@ -109,7 +111,7 @@ impl AssignmentFile {
         Ok(AssignmentFile { file: file.to_owned(), source: text.to_owned(), text: read })
     }
 
-    /// The world it names: a built-in one, or a world file, seen from the folder of this one.
+    /// The name of its world: a built-in one, or the path of a world file relative to this file's folder.
     pub fn world_name(&self) -> &str {
         &self.text.world
     }
@@ -117,7 +119,8 @@ impl AssignmentFile {
     /// The assignment in the world it names.
     ///
     /// # Errors
-    /// [`AssignmentError`]: no such robot there, a start or goal that is no free configuration of it, limits that make no sense.
+    /// [`AssignmentError`] when the world has no such robot, when the start or goal is no free configuration of it, or
+    /// when a tolerance, a limit or the number of seeds is out of range.
     pub fn in_world(&self, mut world: World) -> Result<Assignment, AssignmentError> {
         let AssignmentText { robot, start, goal, limits, seeds, .. } = &self.text;
         let error = |item: &'static str, problem: AssignmentProblem| AssignmentError {
@@ -162,7 +165,7 @@ impl AssignmentFile {
     }
 }
 
-/// Whether the robot with this number can stand where the world has it, touching no obstacle.
+/// Checks that the robot with this number has a valid start in the world and touches no obstacle there.
 fn check_place(world: &World, number: usize) -> Result<(), AssignmentProblem> {
     let config = TourConfig { worlds: vec![world.clone()], ticks: 0, sensor: None };
     let run = Recorder::new(config, Script::empty()).map_err(AssignmentProblem::Configuration)?;
@@ -178,12 +181,12 @@ fn check_place(world: &World, number: usize) -> Result<(), AssignmentProblem> {
     }
 }
 
-/// How assignments are written: an optional value plainly, as in `contacts: 0`.
+/// The RON options of assignments: an optional value is written plainly, as in `contacts: 0`.
 fn options() -> ron::Options {
     ron::Options::default().with_default_extension(ron::extensions::Extensions::IMPLICIT_SOME)
 }
 
-/// The line in which an item begins, from 1; the first when it is not there.
+/// The line in which an item begins, from 1; line 1 for a missing item.
 fn line_of(text: &str, item: &str) -> usize {
     let part = options().from_str(text).ok().and_then(|places: Places| match item {
         "version" => Some(places.version),
@@ -193,11 +196,10 @@ fn line_of(text: &str, item: &str) -> usize {
         "limits" => places.limits,
         _ => places.seeds,
     });
-    let offset = part.map_or(0, |part| part.trim().get_ron().as_ptr() as usize - text.as_ptr() as usize);
-    1 + text.get(..offset).map_or(0, |before| before.matches('\n').count())
+    part.map_or(1, |part| line_at(text, offset_of(text, part.trim().get_ron())))
 }
 
-/// What is to be done: lead a robot from its start to a goal, within limits, at each of some seeds.
+/// A task: lead a robot from its start to a goal, within limits, at each of several seeds.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Assignment {
     world: World,
@@ -209,7 +211,7 @@ pub struct Assignment {
 }
 
 impl Assignment {
-    /// The world, its robot at the start.
+    /// The world, with the robot at the assignment's start.
     pub fn world(&self) -> &World {
         &self.world
     }
@@ -239,7 +241,7 @@ impl Assignment {
         &self.seeds
     }
 
-    /// A run of it at tick 0.
+    /// Begins a run of the assignment, at tick 0.
     pub(super) fn begin(&self, seed: Seed, script: &Script) -> Result<Recorder, RunError> {
         let config = TourConfig { worlds: vec![self.world.clone()], ticks: self.limits.ticks, sensor: None };
         Recorder::new(config, (seed, script.clone()))

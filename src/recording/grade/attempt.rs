@@ -1,4 +1,4 @@
-//! `Attempt`, a submission at one seed.
+//! `Attempt`, the run of a submission at one seed.
 
 use std::fmt;
 
@@ -9,10 +9,10 @@ use crate::random::Seed;
 use crate::recording::RunError;
 use crate::run::Script;
 
-/// A motion ahead or back shorter than this is none, metres: a robot held at a wall creeps by less.
+/// Least motion of a tick that counts as forward or backward, metres. A robot held at a wall creeps by less.
 const CREEP: f64 = 1e-6;
 
-/// What an attempt came to.
+/// The result of an attempt.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Verdict {
     /// At the goal within every limit.
@@ -36,18 +36,18 @@ impl fmt::Display for Verdict {
     }
 }
 
-/// A submission at one seed, up to the tick that decides it.
+/// The run of a submission at one seed, up to the tick that decides it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Attempt {
     /// The seed.
     pub seed: Seed,
-    /// What it came to.
+    /// The result.
     pub verdict: Verdict,
-    /// The tick that decides: at which the goal was reached, or a limit exceeded; else the last.
+    /// The deciding tick: the one at which the goal was reached or a limit exceeded, else the last.
     pub tick: u64,
     /// The contact episodes up to then.
     pub contacts: u32,
-    /// The changes between ahead and back up to then; of a robot that does not drive, none.
+    /// The changes between forward and backward up to then; 0 for a robot that does not drive.
     pub reversals: u32,
     /// The configuration's coordinates at that tick.
     pub configuration: Coordinates,
@@ -86,7 +86,7 @@ impl Attempt {
     }
 }
 
-/// Whether a robot that drives went ahead; `None` when it hardly moved, or does not drive.
+/// Whether a robot that drives went forward; `None` when it hardly moved, or does not drive.
 fn way(kind: &str, before: &[f64], after: &[f64]) -> Option<bool> {
     if !["rusty", "hitch"].contains(&kind) {
         return None;
@@ -96,7 +96,8 @@ fn way(kind: &str, before: &[f64], after: &[f64]) -> Option<bool> {
     (dx.abs() > CREEP).then_some(dx > 0.0)
 }
 
-/// Whether a configuration is at the goal. One of another space (with a trailer, when the goal has none) is not.
+/// Whether a configuration is at the goal. A configuration of another space (with a trailer, when the goal has none) is
+/// not.
 fn is_within(assignment: &Assignment, q: &[f64]) -> bool {
     let goal = assignment.goal();
     difference(assignment.kind(), &goal.at, q).is_some_and(|d| {
@@ -104,7 +105,8 @@ fn is_within(assignment: &Assignment, q: &[f64]) -> bool {
     })
 }
 
-/// The chart difference of two configurations of this kind; of a kind that a program registered, coordinate by coordinate.
+/// The chart difference of two configurations of this kind. A kind that a program registered is compared coordinate by
+/// coordinate.
 fn difference(kind: &str, from: &[f64], to: &[f64]) -> Option<Coordinates> {
     fn of<C: Configuration>(from: &[f64], to: &[f64]) -> Option<Coordinates> {
         C::from_coordinates(from)?.difference(&C::from_coordinates(to)?).ok()

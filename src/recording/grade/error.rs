@@ -1,14 +1,14 @@
-//! Why an assignment file is refused, and where in it.
+//! The errors of an assignment file, with file, line and item.
 
 use std::fmt;
 
 use crate::recording::RunError;
 use crate::tour::MAX_TICKS;
 
-/// The greatest number of seeds in an assignment.
+/// Largest number of seeds in an assignment.
 pub const MAX_SEEDS: usize = 10_000;
 
-/// An assignment file that is refused: where, which item, and why.
+/// Why an assignment file is refused, with the line and the item.
 ///
 /// Prints as `exam.ron:5: goal: 2 coordinates, 3 tolerances: there must be one for each`.
 #[derive(Clone, Debug, PartialEq)]
@@ -56,13 +56,13 @@ pub enum AssignmentProblem {
     /// Coordinates that are no configuration of the robot.
     #[error("no configuration of the robot: {0}")]
     Configuration(RunError),
-    /// Coordinates that no robot of a world file may have: too few, or too far out.
+    /// Coordinates that a world file may not give a robot: too few, or too far out.
     #[error("{0}")]
     Place(crate::worlds::WorldProblem),
-    /// The robot would be in contact from the beginning, or at the goal.
+    /// The robot would be in contact at the start, or at the goal.
     #[error("there the robot touches {0}")]
     Touches(String),
-    /// Not one tolerance for each coordinate.
+    /// The numbers of coordinates and tolerances differ.
     #[error("{coordinates} coordinates, {tolerances} tolerances: there must be one for each")]
     Tolerances {
         /// The coordinates.
@@ -76,7 +76,7 @@ pub enum AssignmentProblem {
     /// A number of ticks out of range.
     #[error("{0} ticks: there must be 1 to {MAX_TICKS}")]
     Ticks(u64),
-    /// Reversals of a robot that has no forward.
+    /// A limit of reversals for a robot that has no forward direction.
     #[error("an arm has no direction to reverse")]
     Reversals,
     /// No seed, or too many.

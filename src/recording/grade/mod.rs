@@ -1,7 +1,7 @@
-//! Grading: an instructor's [`Assignment`] against what was handed in, by running it again.
+//! Grading: checks a submission against an instructor's [`Assignment`] by running it.
 //!
-//! A submission is a script, or a log, which holds a script. The script is run at every seed of the assignment; what a log's
-//! frames claim is not believed but simulated again, and a log whose frames are not those of its own run is forged.
+//! A submission is a script, or a log, which holds a script. The script is run at every seed of the assignment. A log's
+//! frames are not trusted: its run is simulated again, and a log whose frames differ is refused as forged.
 //!
 //! ```
 //! use motion_lab::recording::{AssignmentFile, Submission, Verdict};
@@ -41,7 +41,7 @@ pub use error::{AssignmentError, AssignmentProblem, MAX_SEEDS};
 use super::{Recorder, RunError};
 use crate::run::{Divergence, Log, RobotInput, Script, ScriptError, first_divergence};
 
-/// What was handed in.
+/// The work handed in.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Submission {
     /// A script.
@@ -54,29 +54,29 @@ pub enum Submission {
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum Refusal {
-    /// The script names a robot that is not there, or is none.
+    /// The script is invalid, or names a robot that the world does not have.
     #[error(transparent)]
     Script(#[from] ScriptError),
-    /// A teleport, which is no way to get anywhere.
+    /// The script contains a teleport, which assignments do not allow.
     #[error("events[{0}]: a teleport is not allowed")]
     Teleport(usize),
     /// The run of a log, or of an assignment, cannot start.
     #[error(transparent)]
     Run(#[from] RunError),
-    /// A log of a run elsewhere.
+    /// The log was recorded in another world, or from another start.
     #[error("the log was recorded in another world, or from another start")]
     OtherWorld,
-    /// A frame of a log that is not what its script makes of its seed.
+    /// A frame of the log differs from the run of its seed, configuration and script.
     #[error("forged at {0}")]
     Forged(Box<Divergence>),
 }
 
-/// What a submission came to.
+/// The result of a submission.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Grade {
-    /// Why it was not run; `None` when it was.
+    /// Why it was not graded; `None` when it was.
     pub refusal: Option<Refusal>,
-    /// One attempt for each of the assignment's seeds, in its order; none when it was refused.
+    /// One attempt for each of the assignment's seeds, in order; empty when it was refused.
     pub attempts: Vec<Attempt>,
 }
 
@@ -127,7 +127,7 @@ impl Assignment {
     }
 }
 
-/// The first value of a log's frames that its seed, configuration and script do not give.
+/// The first value in a log's frames that differs from the run of its seed, configuration and script.
 fn forgery(log: &Log) -> Result<Option<Divergence>, RunError> {
     let mut run = Recorder::new(log.config.clone(), (log.seed, log.script.clone()))?;
     for (tick, claimed) in (0..).zip(once(&log.initial).chain(&log.frames)) {

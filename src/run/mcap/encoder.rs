@@ -1,4 +1,4 @@
-//! `Encoder`, the bytes of a log, piece by piece.
+//! `Encoder` makes the bytes of a log, piece by piece.
 
 use std::collections::BTreeMap;
 
@@ -16,7 +16,7 @@ use crate::run::{Digest, Frame};
 #[derive(Clone)]
 pub struct Encoder {
     preamble: Preamble,
-    /// Of all bytes of the pieces so far.
+    /// The hash of all bytes of the pieces so far.
     hash: Xxh3,
     crc: crc32fast::Hasher,
     length: u64,
@@ -28,7 +28,7 @@ pub struct Encoder {
     room: Room,
 }
 
-/// What is filled anew for every tick, so that a tick allocates nothing once the room is there.
+/// Buffers that are filled again for every tick. Once they have grown, a tick allocates nothing.
 #[derive(Clone, Default)]
 struct Room {
     frame: FrameMessage,
@@ -38,7 +38,7 @@ struct Room {
 }
 
 impl Encoder {
-    /// The piece before the first tick, up to its seal.
+    /// Starts a log: makes the piece before the first tick, with its seal.
     pub fn begin(preamble: Preamble) -> Self {
         let mut encoder = Encoder {
             preamble,
@@ -65,7 +65,7 @@ impl Encoder {
         encoder
     }
 
-    /// The piece of a tick, up to its seal.
+    /// Makes the piece of a tick, with its seal. Returns the frame's digest.
     pub fn tick(&mut self, frame: &Frame) -> Result<Digest, LogError> {
         self.preamble.check_frame(frame, self.next_tick)?;
         self.piece.clear();
@@ -81,7 +81,7 @@ impl Encoder {
         Ok(digest)
     }
 
-    /// The piece after the last tick: data end, summary, footer.
+    /// Makes the piece after the last tick: data end, summary, footer.
     pub fn finish(&mut self) -> Result<(), LogError> {
         let (recorded, ticks) = (self.ticks(), self.preamble.config.ticks);
         if recorded != ticks {
@@ -101,12 +101,12 @@ impl Encoder {
         &self.piece
     }
 
-    /// How many bytes the pieces have so far, the current one included.
+    /// Number of bytes of all pieces so far, including the current one.
     pub fn length(&self) -> u64 {
         self.length
     }
 
-    /// How many ticks there are so far.
+    /// Number of ticks so far.
     pub fn ticks(&self) -> u64 {
         self.next_tick - 1
     }
@@ -172,7 +172,7 @@ impl Encoder {
         put_record(out, opcode::FOOTER, |out| {
             put_u64(out, (start + end_of_data) as u64);
             put_u64(out, offsets_start as u64);
-            // the footer's opcode and length, written before its content is, come under the checksum: both are known
+            // the checksum covers the footer's opcode and length, whose final value is known though not yet written
             let crc = footer_crc(&out[end_of_data..]);
             put_u32(out, crc);
         });
@@ -203,7 +203,7 @@ fn put_message(out: &mut Vec<u8>, counts: &mut [u64; CHANNELS.len()], channel: u
         put_u32(out, tick as u32); // the sequence number; it may wrap
         put_u64(out, tick * TICK_NANOSECONDS); // log time
         put_u64(out, tick * TICK_NANOSECONDS); // publish time
-        // a vector takes whatever is written to it
+        // writing to a vector never fails
         let _ = message.encode(out);
     });
     counts[usize::from(channel) - 1] += 1;

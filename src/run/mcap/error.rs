@@ -1,4 +1,4 @@
-//! `LogError` and `DamagedLog`, what can be wrong with a log.
+//! `LogError` and `DamagedLog`: why a log is refused, and what is left of a damaged one.
 
 use std::fmt;
 
@@ -13,7 +13,7 @@ pub enum LogError {
     /// The output failed.
     #[error("the log can't be written: {0}")]
     Io(#[from] std::io::Error),
-    /// The configuration is out of range.
+    /// The run's settings are out of range.
     #[error("the configuration: {0}")]
     Config(#[from] ConfigError),
     /// The script is out of range, or names a robot that the run does not have.
@@ -67,16 +67,16 @@ pub enum LogError {
         /// The ticks configured.
         ticks: u64,
     },
-    /// The file is something else.
+    /// The file is not an MCAP file.
     #[error("this is not a run log: it does not begin as an MCAP file does")]
     NotALog,
-    /// The file was made from a log for viewers.
+    /// The file is an export for viewers, made from a log.
     #[error("this is an export for viewers, not the run log itself")]
     Export,
     /// A log in a version of the format that this program does not read.
     #[error("the log has format version {0:?}; this program reads version {version:?}", version = super::FORMAT_VERSION)]
     Version(String),
-    /// The part before the first tick is as it was written, but something in it can't be used.
+    /// The part before the first tick is sealed, but something in it is not valid.
     #[error("{item} in the log: {reason}")]
     Content {
         /// The attachment or metadata entry.
@@ -90,7 +90,7 @@ pub enum LogError {
         /// The first byte that differs.
         offset: u64,
     },
-    /// The file was cut or changed after it was written. What is sealed is delivered.
+    /// The file was cut or changed after it was written. Everything sealed is recovered.
     #[error("{0}")]
     Damaged(Box<DamagedLog>),
 }
@@ -103,7 +103,7 @@ pub struct DamagedLog {
     pub recovered: Option<ReadLog>,
     /// The number of sealed ticks.
     pub sealed_ticks: u64,
-    /// Where the sealed bytes end: a run cut short goes on from here.
+    /// The offset at which the sealed bytes end. A run that was cut short resumes here.
     pub first_unsealed_offset: u64,
     /// What probably happened.
     pub kind: DamageKind,

@@ -8,7 +8,7 @@ use prost::{Message, Oneof};
 
 use crate::run::{DT, Digest, Event, Frame, Quantized, RobotInput, RobotScan, RobotState};
 
-/// The compiled schema, a serialized `FileDescriptorSet`: what tells other programs how to read the messages.
+/// The compiled schema, a serialized `FileDescriptorSet`. It tells other programs how to read the messages.
 pub const SCHEMA: &[u8] = include_bytes!("../../../assets/schema/motion_lab.binpb");
 
 #[derive(Clone, PartialEq, Message)]
@@ -107,7 +107,7 @@ pub struct DigestMessage {
 }
 
 impl FrameMessage {
-    /// Becomes the message of this frame, in the room of the one before.
+    /// Overwrites this message with that of a frame, reusing its buffers.
     pub fn take(&mut self, frame: &Frame) {
         self.tick = frame.tick;
         // ticks stay below 2^53, so the product is rounded once
@@ -118,7 +118,7 @@ impl FrameMessage {
         }
     }
 
-    /// The frame, without its scans; `None` for control channels that are not two, or don't fit.
+    /// The frame, without its scans; `None` unless there are two control channels that fit 16 bits.
     pub fn into_frame(self) -> Option<Frame> {
         let robot = |r: RobotStateMessage| {
             let [first, second] = r.channels[..] else { return None };
@@ -158,7 +158,7 @@ impl RobotStateMessage {
 }
 
 impl ScanMessage {
-    /// Becomes the message of this scan, in the room of the one before.
+    /// Overwrites this message with that of a scan, reusing its buffers.
     pub fn take(&mut self, tick: u64, max_range: Option<f64>, scan: &RobotScan) {
         (self.tick, self.robot, self.max_range) = (tick, scan.robot, max_range);
         self.ranges.clone_from(&scan.ranges);
@@ -186,11 +186,11 @@ impl InputMessage {
 }
 
 impl DigestMessage {
-    /// Becomes the message of this digest, in the room of the one before.
+    /// Overwrites this message with that of a digest, reusing its buffers.
     pub fn take(&mut self, tick: u64, digest: Digest) {
         self.tick = tick;
         self.xxh3_128.clear();
-        // a string takes whatever is written to it
+        // writing to a String never fails
         let _ = write!(self.xxh3_128, "{digest}");
     }
 }

@@ -1,7 +1,8 @@
 //! The log as a file: MCAP, unchunked and uncompressed, which Foxglove, Lichtblick, Rerun and PlotJuggler open.
 //!
-//! The file is a sequence of pieces, each ended by a *seal*: a record with opcode 0x80, which other readers skip, of the
-//! tick (64 bits), the offset of the seal itself (64 bits) and the xxh3-128 of every byte before it; little-endian.
+//! The file is a sequence of pieces, each ended by a *seal*, a record with opcode 0x80, which other readers skip. It
+//! holds the tick (64 bits), the offset of the seal itself (64 bits) and the xxh3-128 of every byte before it, all
+//! little-endian.
 //!
 //! | piece | records |
 //! |---|---|
@@ -28,16 +29,16 @@ pub use writer::LogWriter;
 
 /// The version of the log format that this program writes and reads.
 pub const FORMAT_VERSION: &str = "1";
-/// Where a run's random numbers come from: see [`Stream`](crate::random::Stream).
+/// The generator of a run's random numbers: see [`Stream`](crate::random::Stream).
 pub const GENERATOR: &str = "chacha8, a stream per name, keyed by xxh3-128";
 /// A tick's length in nanoseconds: [`DT`](crate::run::DT).
 pub const TICK_NANOSECONDS: u64 = 50_000_000;
 const PROFILE: &str = "motion-lab";
-/// The profile in the header of an MCAP file that was made from a log for viewers, and is none itself.
+/// The profile in the header of an export: an MCAP file made from a log for viewers, which is not a log itself.
 pub const EXPORT_PROFILE: &str = "motion-lab-export";
 const MEDIA_TYPE: &str = "text/x-ron";
 
-/// The channels' topics and message types; their ids count from 1, and so do their schemas'.
+/// The topics and message types of the channels. The ids of channels and schemas count from 1.
 const CHANNELS: [(&str, &str); 4] = [
     ("/input", "motion_lab.Input"),
     ("/frame", "motion_lab.Frame"),

@@ -1,4 +1,4 @@
-//! `Preamble`, what a log holds before its first tick: everything that determines the run.
+//! `Preamble`, the part of a log before its first tick: everything that determines the run.
 
 use std::collections::BTreeMap;
 
@@ -8,7 +8,8 @@ use super::record::{self, Cursor, Record, opcode, put_map, put_record, put_str, 
 use super::{FORMAT_VERSION, GENERATOR, LogError, ReadLog};
 use crate::random::Seed;
 use crate::run::{DT, Frame, Log, Script};
-use crate::tour::{SensorConfig, TourConfig};
+use crate::sensors::RangeSensor;
+use crate::tour::TourConfig;
 use crate::worlds::World;
 
 /// The name of the metadata record.
@@ -16,7 +17,7 @@ const METADATA: &str = "motion-lab";
 const CONFIG: &str = "config.ron";
 const SCRIPT: &str = "script.ron";
 
-/// A run before its first tick, with the texts that stand for it in the file.
+/// A run before its first tick, with its texts in the file.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Preamble {
     pub seed: Seed,
@@ -25,11 +26,12 @@ pub struct Preamble {
     pub initial: Frame,
     /// The program that wrote the log.
     pub program: String,
-    /// The worlds' files, in order: kept as they were read, so that another program version's way of writing one does no harm.
+    /// The texts of the worlds, in order. They are kept as read, because another version of the program may print a
+    /// world differently.
     pub world_texts: Vec<String>,
 }
 
-/// Where a metadata record or an attachment lies, for the summary at the end.
+/// The position of a metadata record or an attachment, for the summary at the end.
 #[derive(Clone, Debug)]
 pub struct Indexed {
     pub opcode: u8,
@@ -39,7 +41,7 @@ pub struct Indexed {
     pub name: String,
 }
 
-/// The configuration as the file has it. The worlds are named by their attachments.
+/// The run's settings as written in the file. The worlds are named by their attachments.
 #[derive(Deserialize)]
 #[serde(rename = "Config", deny_unknown_fields)]
 struct ConfigText {
@@ -72,7 +74,7 @@ impl ReadLog {
 }
 
 impl Preamble {
-    /// The preamble of a run that this program records.
+    /// Creates the preamble of a run that this program records.
     pub fn new(seed: Seed, config: &TourConfig, script: &Script, initial: &Frame) -> Result<Self, LogError> {
         let preamble = Preamble {
             seed,
@@ -83,7 +85,8 @@ impl Preamble {
             world_texts: config.worlds.iter().map(World::to_ron).collect(),
         };
         preamble.check()?;
-        // a world put together by hand may have what the file format can't say; a replay would then run in another one
+        // a world assembled by hand may hold what the file format cannot express; a replay would then run in another
+        // world
         for (i, (world, text)) in config.worlds.iter().zip(&preamble.world_texts).enumerate() {
             let name = world_file(i);
             match World::parse(&name, text) {
@@ -103,7 +106,7 @@ impl Preamble {
         self.check_frame(&self.initial, 0)
     }
 
-    /// Whether `frame` can be this run's frame of tick `expected`.
+    /// Checks that `frame` can be this run's frame of tick `expected`.
     pub fn check_frame(&self, frame: &Frame, expected: u64) -> Result<(), LogError> {
         let (tick, ticks) = (frame.tick, self.config.ticks);
         if tick != expected {
@@ -145,14 +148,14 @@ impl Preamble {
     fn config_text(&self) -> String {
         let TourConfig { worlds, ticks, sensor } = &self.config;
         let sensor = match sensor {
-            Some(SensorConfig { n_rays, max_range }) => format!("Some((n_rays: {n_rays}, max_range: {max_range:?}))"),
+            Some(RangeSensor { n_rays, max_range }) => format!("Some((n_rays: {n_rays}, max_range: {max_range:?}))"),
             None => "None".to_owned(),
         };
         let worlds: Vec<String> = (0..worlds.len()).map(world_file).collect();
         format!("Config(\n    ticks: {ticks},\n    sensor: {sensor},\n    worlds: {worlds:?},\n)\n")
     }
 
-    /// Appends the metadata record and the attachments to a file that is `out` so far.
+    /// Appends the metadata record and the attachments to `out`, which holds the file so far. Returns their positions.
     pub fn put(&self, out: &mut Vec<u8>) -> Vec<Indexed> {
         let mut index = Vec::new();
         let offset = out.len() as u64;
@@ -183,7 +186,7 @@ impl Preamble {
         index
     }
 
-    /// The preamble that sealed records hold. `initial` is the frame that their messages make.
+    /// Reads the preamble from sealed records. `initial` is the frame in their messages.
     pub fn read(records: &[Record<'_>], initial: Option<Frame>) -> Result<Self, LogError> {
         let mut files: BTreeMap<&str, &str> = BTreeMap::new();
         let mut metadata = BTreeMap::new();
@@ -212,7 +215,7 @@ impl Preamble {
         let mut worlds = Vec::new();
         let mut world_texts = Vec::new();
         for (i, name) in config.worlds.iter().enumerate() {
-            // the names say nothing beyond their number, so they can't make one text stand for many worlds
+            // each name must be the one of its number, so that no text can stand for several worlds
             if *name != world_file(i) {
                 return Err(content(CONFIG, "the worlds are not numbered from 0"));
             }
@@ -224,7 +227,7 @@ impl Preamble {
             worlds.push(world);
             world_texts.push(text.to_owned());
         }
-        let sensor = config.sensor.map(|s| SensorConfig { n_rays: s.n_rays, max_range: s.max_range });
+        let sensor = config.sensor.map(|s| RangeSensor { n_rays: s.n_rays, max_range: s.max_range });
         let preamble = Preamble {
             seed: Seed(entry("seed")?.parse().map_err(|_| content("seed", "it is not a whole number below 2^64"))?),
             config: TourConfig { worlds, ticks: config.ticks, sensor },

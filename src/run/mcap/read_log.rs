@@ -1,4 +1,4 @@
-//! `ReadLog`, a log as it was read from a file.
+//! `ReadLog`, a log read from a file.
 
 use crate::run::Log;
 

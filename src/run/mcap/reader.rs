@@ -1,4 +1,4 @@
-//! Reading a log, and telling whether it is whole.
+//! Reads a log and checks that it is whole.
 
 use prost::Message;
 use xxhash_rust::xxh3::xxh3_128;
@@ -13,14 +13,14 @@ use crate::run::{Frame, Log};
 impl Log {
     /// Reads a log from the bytes of an MCAP file.
     ///
-    /// A file is accepted only when it is, byte for byte, what its own content makes the writer write: the bytes of every
-    /// piece, its seal with the hash of everything before it, and the end with its summary and footer are made again and
-    /// compared. So a file that was cut, changed in any bit or appended to is never `Ok`.
+    /// The reader encodes what it has read again, and accepts the file only if every byte agrees: each piece, its seal
+    /// with the hash of everything before it, and the end with its summary and footer. A file that was cut, changed in
+    /// any bit or appended to is therefore never `Ok`.
     ///
     /// # Errors
-    /// [`LogError::Damaged`] with all that is sealed; [`LogError::NotALog`], [`LogError::Export`], [`LogError::Version`]; and when the part before
-    /// the first tick is sealed but makes no sense, [`LogError::Content`], [`LogError::Config`], [`LogError::Script`] or
-    /// [`LogError::Foreign`].
+    /// [`LogError::Damaged`] with everything that is sealed; [`LogError::NotALog`], [`LogError::Export`],
+    /// [`LogError::Version`]; if the part before the first tick is sealed but not valid, [`LogError::Content`],
+    /// [`LogError::Config`], [`LogError::Script`] or [`LogError::Foreign`].
     pub fn read_mcap(file: &[u8]) -> Result<ReadLog, LogError> {
         if !file.starts_with(MAGIC) {
             let cut = MAGIC.starts_with(file);
@@ -29,7 +29,7 @@ impl Log {
         if is_export(file) {
             return Err(LogError::Export);
         }
-        // The seal is checked before anything it covers is looked into: what is damaged is then never called wrong.
+        // The seal is checked before anything it covers is read, so that damage is never reported as invalid content.
         let records = piece(file, MAGIC.len()).map_err(|kind| damaged(None, 0, kind))?;
         if !is_sealed(file, &records, 0) {
             return Err(damaged(None, 0, DamageKind::Changed));
@@ -72,7 +72,7 @@ impl Log {
     }
 }
 
-/// Whether the header says that the file was made for viewers.
+/// Whether the header marks the file as an export for viewers.
 fn is_export(file: &[u8]) -> bool {
     record_at(file, MAGIC.len())
         .is_some_and(|r| r.opcode == opcode::HEADER && Cursor(r.content).str() == Some(EXPORT_PROFILE))
@@ -88,7 +88,7 @@ fn damaged(recovered: Option<ReadLog>, sealed_bytes: usize, kind: DamageKind) ->
     }))
 }
 
-/// The next tick's frame, if the bytes at `at` are exactly those that the frame in them makes.
+/// Reads the next tick's frame. The bytes at `at` must be exactly the encoding of that frame.
 fn next_tick(file: &[u8], at: usize, encoder: &mut Encoder) -> Result<(Frame, crate::run::Digest), DamageKind> {
     let frame = frame_of(&piece(file, at)?).ok_or(DamageKind::Changed)?;
     let digest = encoder.tick(&frame).map_err(|_| DamageKind::Changed)?;
@@ -96,7 +96,7 @@ fn next_tick(file: &[u8], at: usize, encoder: &mut Encoder) -> Result<(Frame, cr
     Ok((frame, digest))
 }
 
-/// Whether the file goes on at `at` with `expected`.
+/// Checks that the file continues at `at` with `expected`.
 fn compare(file: &[u8], at: usize, expected: &[u8]) -> Result<(), DamageKind> {
     let rest = file.get(at..).unwrap_or_default();
     if rest.starts_with(expected) {
@@ -108,7 +108,7 @@ fn compare(file: &[u8], at: usize, expected: &[u8]) -> Result<(), DamageKind> {
     }
 }
 
-/// The records from `start` to the next seal, this one included.
+/// The records from `start` up to and including the next seal.
 fn piece(file: &[u8], start: usize) -> Result<Vec<Record<'_>>, DamageKind> {
     let mut records = Vec::new();
     let mut at = start;
@@ -133,7 +133,7 @@ fn is_sealed(file: &[u8], records: &[Record<'_>], tick: u64) -> bool {
     })
 }
 
-/// The frame that a piece's messages make; `None` when there is none, or it can't be read.
+/// Decodes the frame in a piece's messages; `None` if there is none or it cannot be decoded.
 fn frame_of(records: &[Record<'_>]) -> Option<Frame> {
     let mut frame = None;
     let mut scans = Vec::new();

@@ -1,11 +1,11 @@
-//! MCAP records as bytes: a byte that says what it is, the length of its content as 64 bits, the content. Little-endian.
+//! Reads and writes MCAP records: an opcode byte, the length of the content as 64 bits, the content. Little-endian.
 
 use std::collections::BTreeMap;
 
 pub use mcap::MAGIC;
 pub use mcap::records::op as opcode;
 
-/// The opcode of a seal, in the range kept for applications: other readers skip it.
+/// The opcode of a seal, in the range reserved for applications: other readers skip it.
 pub const SEAL: u8 = 0x80;
 
 /// Appends a record whose content `fill` appends.
@@ -30,13 +30,13 @@ pub fn put_u64(out: &mut Vec<u8>, x: u64) {
     out.extend_from_slice(&x.to_le_bytes());
 }
 
-/// A text with its length in bytes before it.
+/// Appends a text, with its length in bytes before it.
 pub fn put_str(out: &mut Vec<u8>, text: &str) {
     put_u32(out, text.len() as u32);
     out.extend_from_slice(text.as_bytes());
 }
 
-/// A map with its length in bytes before it.
+/// Appends a map, with its length in bytes before it.
 pub fn put_map(out: &mut Vec<u8>, map: &BTreeMap<String, String>) {
     let bytes: usize = map.iter().map(|(key, value)| 8 + key.len() + value.len()).sum();
     put_u32(out, bytes as u32);
@@ -46,8 +46,8 @@ pub fn put_map(out: &mut Vec<u8>, map: &BTreeMap<String, String>) {
     }
 }
 
-/// Takes values off the front of a slice; `None` where there are too few bytes. Nothing is allocated by a length that
-/// was read.
+/// Reads values from the front of a slice; `None` if there are too few bytes. A length that was read never causes an
+/// allocation by itself.
 pub struct Cursor<'a>(pub &'a [u8]);
 
 impl<'a> Cursor<'a> {
@@ -97,23 +97,23 @@ impl<'a> Cursor<'a> {
     }
 }
 
-/// A record as it lies in a file.
+/// A record in a file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Record<'a> {
-    /// Where its first byte, the opcode, lies.
+    /// Offset of its first byte, the opcode.
     pub offset: usize,
     pub opcode: u8,
     pub content: &'a [u8],
 }
 
 impl Record<'_> {
-    /// Where the next record begins.
+    /// Offset of the next record.
     pub fn end(&self) -> usize {
         self.offset + 9 + self.content.len()
     }
 }
 
-/// The record that begins at `offset`; `None` when it runs past the end of `file`.
+/// The record that begins at `offset`; `None` if it runs past the end of `file`.
 pub fn record_at(file: &[u8], offset: usize) -> Option<Record<'_>> {
     let mut cursor = Cursor(file.get(offset..)?);
     let opcode = cursor.u8()?;
@@ -121,7 +121,7 @@ pub fn record_at(file: &[u8], offset: usize) -> Option<Record<'_>> {
     Some(Record { offset, opcode, content: cursor.bytes(length)? })
 }
 
-/// A message: its channel and its data.
+/// Splits a message's content into its channel and its data.
 pub fn message(content: &[u8]) -> Option<(u16, &[u8])> {
     let mut cursor = Cursor(content);
     let channel = cursor.u16()?;
@@ -129,7 +129,7 @@ pub fn message(content: &[u8]) -> Option<(u16, &[u8])> {
     Some((channel, cursor.0))
 }
 
-/// An attachment: its name and its data.
+/// Reads the name and the data from an attachment's content.
 pub fn attachment(content: &[u8]) -> Option<(&str, &[u8])> {
     let mut cursor = Cursor(content);
     let _times = cursor.bytes(16)?;

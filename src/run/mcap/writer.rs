@@ -1,4 +1,4 @@
-//! `LogWriter`, a log written while the run goes on.
+//! `LogWriter` writes a log while the run goes on.
 
 use std::io::Write;
 
@@ -9,8 +9,8 @@ use crate::random::Seed;
 use crate::run::{Digest, Frame, Log, Script};
 use crate::tour::TourConfig;
 
-/// Writes a log tick by tick. The output only grows, and after each tick all of it is sealed, so that a run that is
-/// killed leaves every finished tick readable.
+/// Writes a log tick by tick. The output only grows, and after each tick all of it is sealed. A run that is killed thus
+/// leaves every finished tick readable.
 ///
 /// Each piece is one `write_all`. After a failed write nothing more is written.
 pub struct LogWriter<W: Write> {
@@ -23,7 +23,7 @@ impl<W: Write> LogWriter<W> {
     /// Starts a log: writes everything before the first tick.
     ///
     /// # Errors
-    /// [`LogError`] when the configuration, the script or the initial frame can't be a run's, or the output fails.
+    /// [`LogError`] if the settings, the script or the initial frame are not valid for a run, or the output fails.
     pub fn new(out: W, seed: Seed, config: &TourConfig, script: &Script, initial: &Frame) -> Result<Self, LogError> {
         let encoder = Encoder::begin(Preamble::new(seed, config, script, initial)?);
         let mut writer = LogWriter { out, encoder, failed: false };
@@ -31,11 +31,11 @@ impl<W: Write> LogWriter<W> {
         Ok(writer)
     }
 
-    /// Goes on with a log that was cut short: `read` is what was recovered, and `out` goes on where its
+    /// Resumes a log that was cut short. `read` is the recovered log; `out` must continue where its
     /// [`sealed bytes`](super::DamagedLog::first_unsealed_offset) end. Writes nothing yet.
     ///
     /// # Errors
-    /// [`LogError`] when `read` was changed so that it is no run's beginning.
+    /// [`LogError`] if `read` was changed and is no longer the beginning of a run.
     pub fn resume(out: W, read: &ReadLog) -> Result<Self, LogError> {
         let mut encoder = Encoder::begin(read.preamble());
         for frame in &read.log.frames {
@@ -44,28 +44,28 @@ impl<W: Write> LogWriter<W> {
         Ok(LogWriter { out, encoder, failed: false })
     }
 
-    /// Writes the next tick with its seal, and gives the frame's digest.
+    /// Writes the next tick with its seal. Returns the frame's digest.
     ///
     /// # Errors
-    /// [`LogError`] when the frame is not the next tick's, is not of this run's robots, or holds a NaN (nothing is written
-    /// then); or when the output fails.
+    /// [`LogError`] when the frame is not the next tick's, is not of this run's robots, or holds a NaN (nothing is
+    /// written then); or when the output fails.
     pub fn tick(&mut self, frame: &Frame) -> Result<Digest, LogError> {
         let digest = self.encoder.tick(frame)?;
         self.write_piece()?;
         Ok(digest)
     }
 
-    /// Writes the end, flushes the output and gives it back.
+    /// Writes the end, flushes the output and returns it.
     ///
     /// # Errors
-    /// [`LogError::Incomplete`] before the last tick of the configuration; or the output fails.
+    /// [`LogError::Incomplete`] before the last configured tick; any other [`LogError`] if the output fails.
     pub fn finish(mut self) -> Result<W, LogError> {
         self.end()?;
         Ok(self.out)
     }
 
-    /// Writes the end and flushes the output, as [`finish`](Self::finish) does, and keeps the output where that fails: what was sealed
-    /// before still is.
+    /// Writes the end and flushes the output, as [`finish`](Self::finish) does, but keeps the output if that fails.
+    /// What was sealed before stays sealed.
     ///
     /// # Errors
     /// As [`finish`](Self::finish).
@@ -75,7 +75,7 @@ impl<W: Write> LogWriter<W> {
         Ok(self.out.flush()?)
     }
 
-    /// Hands all that was written to the operating system, where a buffer held it back.
+    /// Flushes the output, so that a buffer holds nothing back.
     ///
     /// # Errors
     /// [`LogError::Io`] when the output fails.
@@ -83,17 +83,17 @@ impl<W: Write> LogWriter<W> {
         Ok(self.out.flush()?)
     }
 
-    /// Gives the output back without writing an end: a log that can be resumed.
+    /// Returns the output without writing an end. The log can be resumed.
     pub fn into_inner(self) -> W {
         self.out
     }
 
-    /// How many ticks are written.
+    /// Number of ticks written.
     pub fn ticks(&self) -> u64 {
         self.encoder.ticks()
     }
 
-    /// How many bytes are written, all of them sealed.
+    /// Number of bytes written, all of them sealed.
     pub fn sealed_bytes(&self) -> u64 {
         self.encoder.length()
     }
@@ -113,7 +113,8 @@ impl Log {
     /// Writes the log as MCAP. The same log gives the same bytes.
     ///
     /// # Errors
-    /// [`LogError`] when this is not a whole run (frames missing, a digest that is not its frame's, a NaN), or the output fails.
+    /// [`LogError`] if this is not a whole run (missing frames, a digest that is not its frame's, a NaN), or the output
+    /// fails.
     pub fn write_mcap(&self, out: impl Write) -> Result<(), LogError> {
         let mut writer = LogWriter::new(out, self.seed, &self.config, &self.script, &self.initial)?;
         for (i, frame) in self.frames.iter().enumerate() {

@@ -95,7 +95,8 @@ impl<const N: usize> SimulatedRobot for Reach<N> {
     }
 }
 
-/// The car has no state of its own. Whether it pulls the trailer is told by its configuration, and the model follows.
+/// The car has no state of its own. Its configuration decides whether it pulls the trailer, and `fitted` gives the
+/// model for it.
 impl SimulatedRobot for Hitch {
     type Tour = Reversing;
 
@@ -111,7 +112,8 @@ impl SimulatedRobot for Hitch {
         Some(CarCmd { v: speed * self.max_speed, phi: steering * self.max_steer })
     }
 
-    /// Three coordinates put a car that pulls the trailer there with the trailer straight behind; four are for such a car only.
+    /// Three coordinates place the car, with its trailer, if it pulls one, straight behind. The fourth, the trailer's
+    /// heading, fits only a car that pulls it.
     fn configuration_at(&self, now: &HitchCfg, coordinates: &[f64]) -> Option<HitchCfg> {
         let (&[x, y, theta], rest) = coordinates.split_first_chunk()?;
         let body = Pose2::new(x, y, theta);

@@ -1,4 +1,4 @@
-//! `RobotOps`, what the exclusive systems do to a robot whose type they do not know.
+//! `RobotOps`, the operations of exclusive systems on a robot whose type they do not know.
 
 use bevy::prelude::*;
 
@@ -12,21 +12,22 @@ use crate::simulation::{
     RobotName, RobotView, Route, SimulatedRobot, SimulatedWorld, WorldScene,
 };
 
-/// The operations of a robot's kind. On the robot's entity.
+/// The operations of a robot's kind. A component of the robot's entity.
 #[derive(Component, Clone, Copy, Debug)]
 #[component(immutable)]
 pub struct RobotOps {
-    /// Applies an input among the parts of the other robots of its world, or counts it as refused.
+    /// Applies an input, or counts it as refused. The last argument holds the parts of the other robots of its world.
     pub(crate) apply: fn(&mut World, Entity, &RobotInput, &[Placed]),
-    /// The footprint where the robot is.
+    /// The robot's present footprint.
     pub(crate) footprint: fn(&World, Entity) -> Option<Footprint>,
-    /// Where the robot's range sensor sits.
+    /// The pose of the robot's range sensor; `None` without one.
     pub(crate) sensor_pose: fn(&World, Entity) -> Option<Pose2>,
     /// The robot's state.
     pub(crate) encode: fn(&World, Entity) -> Option<RobotState>,
-    /// Overwrites the robot's components by a state; `None`, and nothing changed, when it is not one of this robot's.
+    /// Overwrites the robot's components by a state. `None`, with nothing changed, when the state does not fit the
+    /// robot.
     pub(crate) decode: fn(&mut World, Entity, &RobotState) -> Option<()>,
-    /// What a view shows of the robot.
+    /// The robot as a view shows it.
     pub(crate) view: fn(&World, Entity) -> Option<RobotView>,
 }
 
@@ -52,7 +53,8 @@ fn sensor_pose<R: SimulatedRobot>(world: &World, e: Entity) -> Option<Pose2> {
     world.get::<RobotModel<R>>(e)?.0.sensor_pose(&world.get::<Configuration<R>>(e)?.0)
 }
 
-/// The driver's new state, and where the robot is put if it is, after an accepted input; `None` when it is refused.
+/// The driver's new state after an accepted input, and the configuration that the robot is put in, if any. `None`
+/// for a refused input.
 fn accepted<R: SimulatedRobot>(
     robot: &R,
     q: &R::Configuration,

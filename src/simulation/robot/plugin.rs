@@ -10,10 +10,11 @@ use crate::simulation::schedule::{KindSystems, Phase};
 use crate::simulation::tick::{drive, settle};
 use crate::simulation::{RobotOps, SimulatedRobot, SimulationSchedule, SimulationSystems, SpawnError};
 
-/// Makes robots of type `R` known to the simulation under the name of a kind, which worlds name in their residents. Add it
-/// after [`SimulationPlugin`](crate::simulation::SimulationPlugin) and before a run starts.
+/// Registers robots of type `R` with the simulation under the name of a kind. Worlds name the kind in their residents.
+/// Add it after [`SimulationPlugin`](crate::simulation::SimulationPlugin) and before a run starts.
 ///
-/// The kinds `rusty`, `reach`, `reach3` and `hitch` are the plugin's own; a kind registered again replaces the older one.
+/// `SimulationPlugin` registers the kinds `rusty`, `reach`, `reach3` and `hitch`. A kind registered again replaces the
+/// older one.
 #[derive(Clone, Debug)]
 pub struct RobotPlugin<R: SimulatedRobot> {
     kind: String,
@@ -21,7 +22,7 @@ pub struct RobotPlugin<R: SimulatedRobot> {
 }
 
 impl<R: SimulatedRobot> RobotPlugin<R> {
-    /// Robots of kind `kind` are like `model`.
+    /// A plugin whose robots of kind `kind` are copies of `model`.
     pub fn new(kind: impl Into<String>, model: R) -> Self {
         RobotPlugin { kind: kind.into(), model }
     }
@@ -34,7 +35,7 @@ type Spawner = Arc<dyn Fn(&mut World, &SpawnRequest) -> Result<Entity, SpawnErro
 #[derive(Resource, Clone, Default)]
 pub struct RobotKinds {
     spawners: BTreeMap<String, Spawner>,
-    /// How many types of robots there are.
+    /// The number of robot types.
     types: usize,
 }
 
@@ -49,7 +50,7 @@ impl RobotKinds {
     }
 }
 
-/// The systems of `R`: their place among those of all types, and whether they are in the schedule.
+/// The place of the systems of `R` among those of all types, and whether they are in the schedule.
 #[derive(Resource)]
 struct SystemsOf<R> {
     number: usize,
@@ -57,8 +58,8 @@ struct SystemsOf<R> {
     of: std::marker::PhantomData<fn() -> R>,
 }
 
-/// Puts the systems of `R` into the schedule if they are not there yet. That waits for the first such robot: a tick is not to pay for types of
-/// which there are none.
+/// Adds the systems of `R` to the schedule, once. This waits for the first such robot, so that a tick does not pay for
+/// types without robots.
 fn install<R: SimulatedRobot>(world: &mut World) {
     let Some(mut systems) = world.get_resource_mut::<SystemsOf<R>>() else { return };
     if std::mem::replace(&mut systems.installed, true) {

@@ -1,4 +1,4 @@
-//! `SimulatedRobot`, what a kind of robot adds to be simulated.
+//! `SimulatedRobot`, the trait that a kind of robot implements to be simulated.
 
 use crate::collision::Collision;
 use crate::configuration::Configuration;
@@ -11,8 +11,8 @@ use crate::worlds::World;
 /// A robot's own state beside its configuration, in the order its kind documents.
 pub type Extra = ShortList<f64, 4>;
 
-/// A robot that lives in the simulation: its tour, what manual input means to it, what state it keeps. Register it under a
-/// name with [`RobotPlugin`](crate::simulation::RobotPlugin); worlds then name it as the `kind` of a resident.
+/// A robot that lives in the simulation: its tour, what manual input means to it, what state it keeps. Register it
+/// under a name with [`RobotPlugin`](crate::simulation::RobotPlugin); worlds then name it as the `kind` of a resident.
 ///
 /// Everything here is a pure function of its arguments: no clock, no global, no random number but `draws`.
 pub trait SimulatedRobot: Drivable<Drive: Clone + Send + Sync + 'static> {
@@ -35,20 +35,20 @@ pub trait SimulatedRobot: Drivable<Drive: Clone + Send + Sync + 'static> {
         extra: &mut Extra,
     ) -> Self::Control;
 
-    /// Called when the tour gets the robot back at `q`, among these obstacles.
+    /// Called when the tour takes the robot back from its driver, at `q` among these obstacles.
     fn resume(&self, _tour: &Self::Tour, _q: &Self::Configuration, _obstacles: &dyn Collision, _extra: &mut Extra) {}
 
-    /// The control that the held channels stand for, each a part in `[-1, 1]` of the maximum. `None` for a robot without
-    /// drive channels, which refuses them.
+    /// The control that the held channels stand for, each a part in `[-1, 1]` of the maximum. `None` for a robot
+    /// without drive channels, which refuses them.
     fn driven(&self, channels: [f64; 2]) -> Option<Self::Control>;
 
-    /// The control that leads from `q` toward a target. `None` for a robot that cannot be sent to a place.
+    /// The control that leads from `q` toward a target. `None` for a robot that takes no targets.
     fn toward(&self, _q: &Self::Configuration, _target: &Self::Configuration) -> Option<Self::Control> {
         None
     }
 
-    /// The configuration that chart coordinates from outside stand for, angles wrapped, for a robot now at `now`. `None` when
-    /// their number fits no configuration the robot can be put in.
+    /// The configuration with these chart coordinates, angles wrapped, of a robot now at `now`. `None` when the number
+    /// of coordinates fits no configuration that the robot can be put in.
     fn configuration_at(&self, now: &Self::Configuration, coordinates: &[f64]) -> Option<Self::Configuration>;
 
     /// The configuration `q` with the trailer attached or not. `None` for a robot that pulls none.
@@ -66,14 +66,14 @@ pub trait SimulatedRobot: Drivable<Drive: Clone + Send + Sync + 'static> {
         Extra::new()
     }
 
-    /// What a commanded control comes to on the ground. Called once in every tick, whoever drives and whether or not the
-    /// robot is held: the place to draw slip and to turn encoders. `draws` is the robot's own stream at this tick, good for
-    /// [`DRAWS_PER_INDEX`](crate::random::DRAWS_PER_INDEX) draws.
+    /// The control that takes effect for a commanded one. Called once in every tick, whoever drives and whether or not
+    /// the robot is held: the place to draw slip and to turn encoders. `draws` is the robot's own stream at this tick,
+    /// good for [`DRAWS_PER_INDEX`](crate::random::DRAWS_PER_INDEX) draws.
     fn actuate(&self, commanded: &Self::Control, _dt: f64, _draws: &mut Stream, _extra: &mut Extra) -> Self::Control {
         *commanded
     }
 
-    /// Where a range sensor sits, and which way it faces. `None` for a robot without one.
+    /// The pose of the range sensor in the world. `None` for a robot without one.
     fn sensor_pose(&self, _q: &Self::Configuration) -> Option<Pose2> {
         None
     }
@@ -83,13 +83,13 @@ pub trait SimulatedRobot: Drivable<Drive: Clone + Send + Sync + 'static> {
         None
     }
 
-    /// The point of an arm that reaches; `None` for other robots.
+    /// The tip of an arm, in the world; `None` for other robots.
     fn tip(&self, _q: &Self::Configuration) -> Option<Point2> {
         None
     }
 }
 
-/// `q` as the state keeps it: every -0.0 as +0.0.
+/// Returns `q` with every -0.0 replaced by +0.0, as the state keeps it.
 pub(crate) fn canonical<C: Configuration>(q: &C) -> C {
     let coordinates: crate::configuration::Coordinates = q.coordinates().iter().map(|x| x + 0.0).collect();
     C::from_coordinates(&coordinates).unwrap_or(*q)

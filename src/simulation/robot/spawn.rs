@@ -1,4 +1,4 @@
-//! A robot and its sensor as entities.
+//! Spawning a robot and its sensor as entities.
 
 use bevy::prelude::*;
 

@@ -1,4 +1,4 @@
-//! `RobotView`, what a view may read of a robot without knowing its type.
+//! `RobotView`, a robot's state for views that do not know its type.
 
 use crate::configuration::Coordinates;
 use crate::geometry::{Footprint, Point2};
@@ -25,7 +25,7 @@ pub struct RobotView {
     pub footprint: Footprint,
     /// The footprint before the last tick's motion, for drawing between ticks.
     pub previous_footprint: Footprint,
-    /// The point of an arm that reaches.
+    /// The tip of an arm, in the world; `None` for other robots.
     pub tip: Option<Point2>,
     /// Whether the last tick was in contact.
     pub in_contact: bool,
@@ -39,6 +39,6 @@ pub struct RobotView {
     pub channels: [i16; 2],
     /// Inputs refused since tick 0.
     pub refusals: u32,
-    /// What the wheels' encoders read.
+    /// The readings of the wheels' encoders; `None` without encoders.
     pub encoders: Option<EncoderCounts>,
 }

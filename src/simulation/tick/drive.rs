@@ -8,7 +8,7 @@ use crate::simulation::{
     TickMotion, Transport,
 };
 
-/// Channels are held in parts of this.
+/// The channel value that stands for the maximum.
 const CHANNEL_UNITS: f64 = 128.0;
 
 /// The control commanded for a tick: by the driver's target, else the driver's channels, else the tour.
@@ -50,7 +50,7 @@ pub(crate) fn drive<R: SimulatedRobot>(transport: Res<Transport>, mut robots: Qu
         let mut extra = own.extra.clone();
         let command = commanded(robot, tour, mode, tick, q, &mut extra);
         control.0 = robot.actuate(&command, DT, &mut slip.at(tick), &mut extra);
-        // a robot's own state is part of the frames: no -0.0, and what is no number is as it was
+        // a robot's own state is part of the frames: -0.0 becomes +0.0, and a NaN leaves the earlier value
         for (kept, new) in own.extra.iter_mut().zip(&extra) {
             if !new.is_nan() {
                 *kept = new + 0.0;
@@ -62,7 +62,7 @@ pub(crate) fn drive<R: SimulatedRobot>(transport: Res<Transport>, mut robots: Qu
 /// What [`plan`] reads and writes of a robot.
 type Planned<R> = (&'static RobotModel<R>, &'static Configuration<R>, &'static Control<R>, &'static mut TickMotion<R>);
 
-/// Gives every robot of a kind the motion its control makes.
+/// Gives every robot of a kind the motion of its control.
 pub(crate) fn plan<R: SimulatedRobot>(mut robots: Query<Planned<R>>) {
     for (RobotModel(robot), Configuration(q), Control(u), mut motion) in &mut robots {
         motion.0 = robot.fitted(q).drive(q, u, DT).ok();

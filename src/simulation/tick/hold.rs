@@ -4,35 +4,37 @@ use crate::collision::{Collision, EdgeVerdict, MarchOptions, clearance_of_all, i
 use crate::num::{greater, lesser};
 use crate::robots::Motion;
 
-/// A blocked motion ends no nearer to anything than this, metres.
+/// Least clearance at the end of a blocked motion that starts with at least this clearance, metres.
 pub const LEAST_CLEARANCE: f64 = 1e-5;
 
-/// What a motion that starts farther off keeps from everything, metres.
+/// Clearance that a motion keeps when it starts with more than this, metres.
 pub const MARGIN: f64 = 2e-5;
 
-/// Where a blocked motion is held, metres from what blocks it; unless it started nearer.
+/// Clearance at which a blocked motion is held, metres, unless it starts with less.
 pub const HOLD_CLEARANCE: f64 = 4e-5;
 
-/// How much of a small clearance one motion may use up, metres: enough for rounding, so that sliding along a wall never
-/// sticks, and little enough that a clearance is not worn down.
+/// Largest part of a small clearance that one motion may use up, metres. It is enough for rounding, so that sliding
+/// along a wall never sticks, and little enough that a clearance is not worn down.
 const WEAR: f64 = 1e-10;
 
-/// Where a bisection for the hold may stop, metres; it never comes near 1e-4.
+/// Clearance at which the bisection for the hold may stop, metres; well below 1e-4.
 const HOLD_ENOUGH: f64 = 6e-5;
 
 /// How far a motion may go.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Advance {
-    /// The motion is free up to this parameter, and goes there.
+    /// The parameter at which the motion ends; the motion is free up to it.
     pub until: f64,
     /// Whether it was blocked.
     pub blocked: bool,
 }
 
-/// The clearance that a motion starting at the clearance `start` has to keep, metres: [`MARGIN`], or for a nearer start
-/// just below its own clearance, so that it may leave and slide along, and from above [`LEAST_CLEARANCE`] never below it.
+/// The clearance that a motion has to keep when it starts with the clearance `start`, metres. It is [`MARGIN`], or for
+/// a nearer start just below `start`, so that the robot may leave and slide along. For a start above
+/// [`LEAST_CLEARANCE`] it is never below that.
 ///
-/// A start nearer than that, which only being put there gives, may keep its clearance too.
+/// A start nearer than that is possible only where a robot was put there; it too has to keep a
+/// little less than its own clearance.
 pub fn margin_from(start: f64) -> f64 {
     if start > MARGIN + WEAR {
         MARGIN
@@ -43,16 +45,17 @@ pub fn margin_from(start: f64) -> f64 {
     }
 }
 
-/// How far `motion` may go in these surroundings.
+/// Returns how far `motion` may go in these surroundings.
 ///
-/// Free, it goes all the way. Blocked, it is held at a clearance of [`HOLD_CLEARANCE`], a little more by the bisection's
-/// width, or at its start when that is nearer. A start in contact stays.
+/// A free motion goes all the way. A blocked motion is held at a clearance of [`HOLD_CLEARANCE`] or a little more (the
+/// bisection's width), or at its start when that is nearer. A start in contact stays where it is.
 pub fn advance(surroundings: &dyn Collision, motion: &impl Motion) -> Advance {
     let (start, end) = (motion.footprint_at(0.0), motion.footprint_at(1.0));
     if is_plainly_clear(surroundings, motion, MARGIN + 2.0 * WEAR, (&start, &end)) {
         return Advance { until: 1.0, blocked: false };
     }
-    // Most motions keep well away from everything. One step that proves so proves it of the start too, whose clearance need not be known then.
+    // Most motions keep well away from everything. One step proves that, and proves it of the start too, so the start's
+    // clearance is not needed.
     let all = clearance_of_all(surroundings, motion, &start);
     if all > MARGIN + 2.0 * WEAR {
         return Advance { until: 1.0, blocked: false };
@@ -74,8 +77,8 @@ pub fn advance(surroundings: &dyn Collision, motion: &impl Motion) -> Advance {
     Advance { until, blocked: true }
 }
 
-/// The last parameter up to `free_until` at which the clearance is at least [`HOLD_CLEARANCE`], given that it is at 0; found by
-/// ever longer steps back, then bisection.
+/// A parameter up to `free_until` at which the clearance is at least [`HOLD_CLEARANCE`], given that it is so at 0. The
+/// search goes back in ever longer steps, then bisects.
 fn back_off(clearance_at: impl Fn(f64) -> f64, free_until: f64) -> f64 {
     let far_enough = |s: f64| clearance_at(s) >= HOLD_CLEARANCE;
     if far_enough(free_until) {

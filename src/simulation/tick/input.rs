@@ -1,4 +1,4 @@
-//! `PendingInput`, the run's script as it grows, and the system that applies what is due.
+//! `PendingInput`, the run's script as it grows, and the system that applies the events of a tick.
 
 use bevy::prelude::*;
 
@@ -6,20 +6,21 @@ use super::starts::others_now;
 use crate::run::{Event, RobotInput, Script};
 use crate::simulation::{ResidesIn, RobotId, RobotName, RobotOps, Roster, Transport};
 
-/// An input to a robot, as a message from whoever drives: it applies before the next tick's step.
+/// An input to a robot, as a message from its driver. It applies before the next tick's step.
 #[derive(Message, Clone, Debug, PartialEq)]
 pub struct RobotCommand {
     /// The robot's name.
     pub robot: String,
-    /// What is put in.
+    /// The input.
     pub input: RobotInput,
 }
 
-/// All input of the run, past and to come, in order of its ticks. This is what is recorded, and what a replay fills.
+/// All input of the run, past and to come, in order of its ticks. A recorder records it and a replay fills it.
 #[derive(Resource, Clone, Debug, PartialEq)]
 pub struct PendingInput {
     script: Script,
-    /// The tick that live input was last captured for, so that what stands at the next is a release that it put off.
+    /// The tick of the last captured live input. While input is captured for it, events at the next tick are
+    /// releases put off from it.
     captured: Option<u64>,
 }
 
@@ -55,11 +56,12 @@ impl PendingInput {
         self.captured = None;
     }
 
-    /// Captures a live input before the step of the event's tick, the next one. Whatever was to come after is forgotten.
+    /// Captures a live input for the event's tick, which is the next to run. Later events are forgotten.
     ///
-    /// - A change is recorded, not a state: channels that are already held, or a target already set in this tick, are not.
+    /// - Only changes are recorded: channels that are already held, or a target set again in this tick, add no event.
     /// - Of several changes within one tick the last wins, and a drag keeps its last target.
-    /// - But a press shorter than a tick counts for one: channels pressed and let go within the tick are let go in the next.
+    /// - A press shorter than a tick lasts one tick: channels pressed and let go within the tick are let go in the
+    ///   next.
     pub fn capture(&mut self, event: Event) {
         let Event { tick, robot, input } = event;
         let robot = robot.as_str();
@@ -110,7 +112,7 @@ impl PendingInput {
     }
 }
 
-/// The tick begins.
+/// Begins the tick: counts it, and moves the frontier along.
 pub(crate) fn advance_tick(mut transport: ResMut<Transport>) {
     transport.tick += 1;
     if transport.tick > transport.frontier {
@@ -118,8 +120,8 @@ pub(crate) fn advance_tick(mut transport: ResMut<Transport>) {
     }
 }
 
-/// Applies the tick's inputs in the script's order. An input for a robot that is not there is dropped; the run's start has
-/// refused such a script.
+/// Applies the tick's inputs in the script's order. An input for an unknown robot is dropped; `start_run` has already
+/// refused a script with one.
 pub(crate) fn apply_inputs(world: &mut World) {
     let tick = world.resource::<Transport>().tick;
     if world.resource::<PendingInput>().due(tick).is_empty() {
@@ -174,17 +176,17 @@ mod tests {
     fn a_press_shorter_than_a_tick_counts_for_one() {
         use RobotInput::Drive;
         let zero = (1, Drive(0, 0));
-        // the first zero takes over from the tour, the press and its release come within tick 3
+        // the first zero takes over from the tour; the press and its release come within tick 3
         assert_eq!(
             captured(&[zero.clone(), (3, Drive(128, 0)), (3, Drive(0, 0))]),
             [zero.clone(), (3, Drive(128, 0)), (4, Drive(0, 0))]
         );
-        // and a second press after it waits for the next tick, where the last wins
+        // a second press after it waits for the next tick, where the last wins
         assert_eq!(
             captured(&[zero.clone(), (3, Drive(128, 0)), (3, Drive(0, 0)), (3, Drive(0, 9))]),
             [zero, (3, Drive(128, 0)), (4, Drive(0, 9))]
         );
-        // so does a press that takes over from the tour: its release cannot come before one tick is driven
+        // a press that takes over from the tour lasts one tick too: its release waits for the next
         assert_eq!(captured(&[(3, Drive(128, 0)), (3, Drive(0, 0))]), [(3, Drive(128, 0)), (4, Drive(0, 0))]);
     }
 

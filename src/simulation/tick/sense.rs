@@ -1,4 +1,4 @@
-//! The system that lets every range sensor scan.
+//! The system that runs every range sensor's scan.
 
 use bevy::prelude::*;
 use smallvec::SmallVec;
@@ -8,8 +8,8 @@ use crate::simulation::{
     ResidesIn, RobotId, RobotOps, Roster, Scan, SensorModel, SensorNoise, SensorScanner, Sensors, Transport, WorldScene,
 };
 
-/// Scans from where the robots are now. A sensor sees the obstacles and the other robots of its world, not its own robot.
-/// A noisy sensor's readings are drawn anew for the tick, from its own stream.
+/// Scans from where the robots are now. A sensor sees the obstacles and the other robots of its world, not its own
+/// robot. A noisy sensor's readings are drawn anew for the tick, from its own stream.
 pub(crate) fn sense(world: &mut World) {
     let robots: SmallVec<[Entity; 8]> =
         world.get_resource::<Roster>().map_or_else(SmallVec::new, |r| r.robots().into());
@@ -21,7 +21,7 @@ pub(crate) fn sense(world: &mut World) {
     }
 }
 
-/// One sensor's scan, into the room of its last one.
+/// Runs one sensor's scan, into the memory of its last one.
 fn scan(world: &mut World, robot: Entity, sensor: Entity) -> Option<()> {
     let mut scanner = world.get_mut::<SensorScanner>(sensor)?.0.take()?;
     let mut ranges = world.get_mut::<Scan>(sensor).map(|mut scan| std::mem::take(&mut scan.0)).unwrap_or_default();

@@ -14,7 +14,7 @@ use crate::simulation::{
     WorldScene,
 };
 
-/// How many ticks a flash holds after contact: 0.3 s.
+/// Number of ticks that a flash holds after contact: 0.3 s.
 pub const FLASH_TICKS: u32 = 6;
 
 /// What [`cut`] reads and writes of a robot.
@@ -27,8 +27,8 @@ type CutRobot<R> = (
     &'static mut Cut<R>,
 );
 
-/// Cuts every motion of a kind at the walls and at all other robots' starting footprints. A robot alone in its world that was held where it is
-/// and gets the same control again is held again: its motion is the same.
+/// Cuts every motion of a kind at the walls and at all other robots' starting footprints. A robot alone in its world
+/// keeps its last cut while its configuration and control stay the same, because then its motion does too.
 pub(crate) fn cut<R: SimulatedRobot>(
     starts: Res<Starts>,
     mut sweeps: ResMut<Sweeps>,
@@ -50,7 +50,7 @@ pub(crate) fn cut<R: SimulatedRobot>(
             let Advance { until, blocked } = hold::advance(&surroundings, motion);
             Cut::new(until, blocked)
         } else {
-            // nothing holds it: all the way, in contact unless proven free
+            // a robot that is not held goes all the way, in contact unless proven free
             Cut::new(1.0, !is_free(&surroundings, motion))
         };
         cut.of = of;
@@ -60,7 +60,7 @@ pub(crate) fn cut<R: SimulatedRobot>(
     }
 }
 
-/// Whether all of a motion is proven free. Where one of its ends is in contact it is not, and need not be marched to find out where it hits.
+/// Whether a whole motion is proven free. An end in contact decides that it is not, without a march.
 fn is_free(surroundings: &Surroundings, motion: &impl Motion) -> bool {
     let (start, end, options) = (motion.footprint_at(0.0), motion.footprint_at(1.0), MarchOptions::default());
     if is_plainly_clear(surroundings, motion, options.margin, (&start, &end)) {
@@ -88,8 +88,8 @@ type Settled<R> = (
     &'static mut DriveMode<R>,
 );
 
-/// Advances every robot of a kind: along its cut motion, unless that meets the cut motion of a robot with a lower id in its
-/// world; then it stays where it started.
+/// Advances every robot of a kind along its cut motion, and counts contacts. A motion that meets the cut motion of a
+/// robot with a lower id in its world is in contact; a robot that contact holds then stays where it started.
 pub(crate) fn settle<R: SimulatedRobot>(starts: Res<Starts>, sweeps: Res<Sweeps>, mut robots: Query<Settled<R>>) {
     for (&id, &ResidesIn(world), RobotModel(robot), TickMotion(motion), cut, mut q, mut contacts, mut mode) in
         &mut robots
@@ -98,13 +98,13 @@ pub(crate) fn settle<R: SimulatedRobot>(starts: Res<Starts>, sweeps: Res<Sweeps>
         if let Some(motion) = motion {
             let met = until > 0.0
                 && sweeps.below(world, id).any(|(lower, sweep)| {
-                    // at one that stands still the motion is cut already
+                    // the motion is already cut at robots that stand still
                     if sweep.is_still() {
                         return false;
                     }
                     let own = CutMotion { motion: motion.clone(), until };
-                    let margin = margin_from(starts.distance(sweeps.nothing(), world, id, lower));
-                    sweeps_meet(sweeps.nothing(), &own, sweep, margin)
+                    let margin = margin_from(starts.distance(world, id, lower));
+                    sweeps_meet(&own, sweep, margin)
                 });
             in_contact |= met;
             if met && R::HELD {

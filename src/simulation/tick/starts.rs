@@ -1,30 +1,19 @@
-//! `Starts` and `Sweeps`, what the robots of one world see of one another within a tick.
+//! `Starts` and `Sweeps`, the footprints and motions of a tick by which the robots of one world meet.
 
 use bevy::prelude::*;
 
 use super::sweep::Sweep;
-use crate::collision::{Collision, Scene, Surroundings};
-use crate::geometry::{Footprint, Placed, Point2};
+use crate::collision::footprint_distance;
+use crate::geometry::{Footprint, Placed};
 use crate::simulation::{Residents, ResidesIn, RobotId, RobotOps, Roster};
-use crate::worlds::Bounds;
 
-/// The robots' footprints at the start of the tick, by ascending id; of robots alone in their world, none.
+/// The robots' footprints at the start of the tick, by ascending id. Robots alone in their world are left out.
 #[derive(Resource, Default)]
 pub struct Starts(Vec<(Entity, RobotId, Footprint)>);
 
-/// The sets that the cut motions of the tick cover, in no particular order; of robots alone in their world, none.
-#[derive(Resource)]
-pub struct Sweeps {
-    sweeps: Vec<(Entity, RobotId, Box<dyn Sweep>)>,
-    nothing: Scene,
-}
-
-impl Default for Sweeps {
-    fn default() -> Self {
-        let origin = Point2::origin();
-        Sweeps { sweeps: Vec::new(), nothing: Scene::empty(Bounds { min: origin, max: origin }) }
-    }
-}
+/// The sets that the tick's cut motions cover, in no particular order. Robots alone in their world are left out.
+#[derive(Resource, Default)]
+pub struct Sweeps(Vec<(Entity, RobotId, Box<dyn Sweep>)>);
 
 impl Starts {
     /// The parts of the other robots in that world.
@@ -33,30 +22,22 @@ impl Starts {
         others.flat_map(|(_, _, f)| f.parts().iter().map(|p| p.placed().clone())).collect()
     }
 
-    /// The distance between the footprints of two robots of one world, metres; 0 when either is unknown. `nothing` is a scene
-    /// without obstacles.
-    pub fn distance(&self, nothing: &Scene, world: Entity, a: RobotId, b: RobotId) -> f64 {
+    /// The distance between the footprints of two robots of one world, metres; 0 when either is unknown.
+    pub fn distance(&self, world: Entity, a: RobotId, b: RobotId) -> f64 {
         let find = |id| self.0.iter().find(|(w, i, _)| *w == world && *i == id).map(|(_, _, f)| f);
-        let (Some(a), Some(b)) = (find(a), find(b)) else { return 0.0 };
-        let others: Vec<Placed> = b.parts().iter().map(|p| p.placed().clone()).collect();
-        Surroundings { scene: nothing, others: &others }.distance(a)
+        find(a).zip(find(b)).map_or(0.0, |(a, b)| footprint_distance(a, b))
     }
 }
 
 impl Sweeps {
     /// Adds the sweep of a robot.
     pub fn add(&mut self, world: Entity, id: RobotId, sweep: Box<dyn Sweep>) {
-        self.sweeps.push((world, id, sweep));
+        self.0.push((world, id, sweep));
     }
 
     /// The sweeps of the robots of that world with a lower id.
     pub fn below(&self, world: Entity, id: RobotId) -> impl Iterator<Item = (RobotId, &dyn Sweep)> {
-        self.sweeps.iter().filter(move |(w, i, _)| *w == world && *i < id).map(|(_, i, s)| (*i, s.as_ref()))
-    }
-
-    /// A scene without obstacles.
-    pub fn nothing(&self) -> &Scene {
-        &self.nothing
+        self.0.iter().filter(move |(w, i, _)| *w == world && *i < id).map(|(_, i, s)| (*i, s.as_ref()))
     }
 }
 
@@ -74,7 +55,7 @@ pub fn others_now(world: &World, inhabited: Entity, id: RobotId) -> Vec<Placed> 
     parts
 }
 
-/// Whether no two robots live in that world.
+/// Whether at most one robot lives in that world.
 fn lives_alone(world: &World, inhabited: Entity) -> bool {
     world.get::<Residents>(inhabited).is_none_or(|residents| residents.len() < 2)
 }
@@ -99,5 +80,5 @@ pub(crate) fn gather_starts(world: &mut World) {
         }
     }
     world.resource_mut::<Starts>().0 = starts;
-    world.resource_mut::<Sweeps>().sweeps.clear();
+    world.resource_mut::<Sweeps>().0.clear();
 }

@@ -1,10 +1,10 @@
-//! Sweeps: whether the sets that two motions cover come near one another.
+//! Sweeps, the sets that motions cover, and whether two of them come near one another.
 
-use crate::collision::{Collision, Scene, Surroundings};
-use crate::geometry::{Footprint, Part, Placed, Pose2, Shape, Vertices};
+use crate::collision::distance;
+use crate::geometry::{Placed, Vertices};
 use crate::robots::Motion;
 
-/// How often the two motions are halved before what is still undecided counts as meeting: pieces of 1/64.
+/// Number of halvings of two motions, to pieces of 1/64; pieces still undecided then count as meeting.
 const LEVELS: u32 = 6;
 
 /// The set that a robot's cut motion covers, its type forgotten.
@@ -12,10 +12,11 @@ pub trait Sweep: Send + Sync {
     /// The number of the footprint's parts.
     fn parts(&self) -> usize;
 
-    /// Whether nothing moves at all.
+    /// Whether the robot stands still.
     fn is_still(&self) -> bool;
 
-    /// A convex shape that holds all that part number `part` covers between the fractions `from` and `to` of the cut motion.
+    /// A convex shape that contains everything that part number `part` covers between the fractions `from` and `to` of
+    /// the cut motion.
     fn cover(&self, part: usize, from: f64, to: f64) -> Placed;
 }
 
@@ -24,7 +25,7 @@ pub trait Sweep: Send + Sync {
 pub struct CutMotion<M> {
     /// The motion.
     pub motion: M,
-    /// Where it ends.
+    /// The parameter at which it ends.
     pub until: f64,
 }
 
@@ -45,33 +46,25 @@ impl<M: Motion + Send + Sync> Sweep for CutMotion<M> {
     }
 }
 
-/// The distance between two placed shapes, metres.
-fn distance(scene: &Scene, a: &Placed, b: &Placed) -> f64 {
-    let shape = Shape::Hull { vertices: a.core().into(), radius: a.radius() };
-    let footprint = Footprint::new([Part::new(Pose2::IDENTITY, shape)]);
-    Surroundings { scene, others: std::slice::from_ref(b) }.distance(&footprint)
-}
-
-/// Whether two sweeps come within `margin` metres of one another. Sound: never false for sweeps that do.
+/// Whether two sweeps come within `margin` metres of one another. Conservative: never `false` for sweeps that do.
 ///
-/// The whole of one sweep is compared with the whole of the other, whatever the time at which each part is covered.
-pub fn sweeps_meet(nothing: &Scene, a: &dyn Sweep, b: &dyn Sweep, margin: f64) -> bool {
-    (0..a.parts())
-        .any(|i| (0..b.parts()).any(|j| pieces_meet(nothing, (a, i, 0.0, 1.0), (b, j, 0.0, 1.0), margin, LEVELS)))
+/// The whole of one sweep is compared with the whole of the other, regardless of when the robots are where.
+pub fn sweeps_meet(a: &dyn Sweep, b: &dyn Sweep, margin: f64) -> bool {
+    (0..a.parts()).any(|i| (0..b.parts()).any(|j| pieces_meet((a, i, 0.0, 1.0), (b, j, 0.0, 1.0), margin, LEVELS)))
 }
 
 /// One part of a sweep between two fractions of its motion.
 type Piece<'a> = (&'a dyn Sweep, usize, f64, f64);
 
-fn pieces_meet(nothing: &Scene, a: Piece, b: Piece, margin: f64, levels: u32) -> bool {
-    if distance(nothing, &a.0.cover(a.1, a.2, a.3), &b.0.cover(b.1, b.2, b.3)) > margin {
+fn pieces_meet(a: Piece, b: Piece, margin: f64, levels: u32) -> bool {
+    if distance(&a.0.cover(a.1, a.2, a.3), &b.0.cover(b.1, b.2, b.3)) > margin {
         return false;
     }
     if levels == 0 {
         return true;
     }
     let ([a0, a1], [b0, b1]) = (halves(a), halves(b));
-    [(a0, b0), (a0, b1), (a1, b0), (a1, b1)].into_iter().any(|(a, b)| pieces_meet(nothing, a, b, margin, levels - 1))
+    [(a0, b0), (a0, b1), (a1, b0), (a1, b1)].into_iter().any(|(a, b)| pieces_meet(a, b, margin, levels - 1))
 }
 
 fn halves((sweep, part, from, to): Piece) -> [Piece; 2] {

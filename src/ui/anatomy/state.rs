@@ -1,20 +1,20 @@
-//! `AnatomyState`, what the anatomy remembers.
+//! `AnatomyState`, the state of the query anatomy.
 
 use std::sync::Arc;
 
 use crate::anatomy::Anatomy;
 use crate::picture::Picture;
 
-/// What the widget remembers.
+/// The state of the query anatomy.
 #[derive(Clone, Debug)]
 pub struct AnatomyState {
     /// The scene, the robot, the question.
     pub anatomy: Anatomy,
-    /// The scene as it is drawn; made anew when the world changes.
+    /// The picture of the world alone, made again when the world changes.
     pub(super) backdrop: Arc<Picture>,
-    /// What was guessed, by prompt.
+    /// The guesses as typed, by prompt.
     pub(super) guesses: [String; 2],
-    /// What the guesses came to.
+    /// The answers to the guesses, by prompt.
     pub(super) answers: [Option<String>; 2],
 }
 
@@ -27,7 +27,7 @@ impl Default for AnatomyState {
 }
 
 impl AnatomyState {
-    /// The world alone, as it is drawn.
+    /// The picture of the world alone.
     pub fn backdrop(&self) -> &Arc<Picture> {
         &self.backdrop
     }

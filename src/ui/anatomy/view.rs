@@ -13,7 +13,7 @@ use crate::ui::paint::sheet::{sheet, split};
 use crate::ui::{AnatomyState, Command, Dashboard, Look, UiState};
 use crate::worlds::World;
 
-/// Width of what stands beside the paper, points.
+/// Width of the panel beside the paper, points.
 const SIDE: f32 = 380.0;
 
 /// Side of the close view, points.
@@ -85,7 +85,7 @@ fn beside_the_paper(ui: &mut Ui, narrow: bool, look: &Look, state: &mut UiState)
     CollapsingHeader::new("Any robot, any world").show(ui, |ui| any(ui, state));
 }
 
-/// The configuration as sliders; on the swept tab the step of the motion too.
+/// Shows sliders for the configuration; on the swept tab also for the step to the second configuration.
 fn sliders(ui: &mut Ui, anatomy: &mut Anatomy) {
     let names = anatomy.q().coordinate_names();
     ui.spacing_mut().slider_width = 180.0;
@@ -107,7 +107,7 @@ fn sliders(ui: &mut Ui, anatomy: &mut Anatomy) {
     }
 }
 
-/// What is near the nearest points, larger.
+/// Shows the surroundings of the nearest points, enlarged.
 fn inset(ui: &mut Ui, look: &Look, state: &mut UiState) {
     let Some(close) = state.anatomy.anatomy.close_up() else { return };
     let (rect, _) = ui.allocate_exact_size(vec2(INSET, INSET), bevy_egui::egui::Sense::hover());
@@ -117,7 +117,7 @@ fn inset(ui: &mut Ui, look: &Look, state: &mut UiState) {
     painter.rect_stroke(rect, 0.0, frame, bevy_egui::egui::StrokeKind::Inside);
 }
 
-/// The two questions that ask for a number first.
+/// Shows the two prompts, which ask for a guess before they show the number.
 fn prompts(ui: &mut Ui, state: &mut UiState) {
     for (i, prompt) in Prompt::all().iter().enumerate() {
         let label = ui.label(prompt.question);
@@ -146,14 +146,14 @@ fn prompts(ui: &mut Ui, state: &mut UiState) {
     }
 }
 
-/// Another robot, another world, the annulus.
+/// Shows the choice of robot and world, and the annulus's check box.
 fn any(ui: &mut Ui, state: &mut UiState) {
     robot_choice(ui, state);
     world_choice(ui, state);
     annulus(ui, state);
 }
 
-/// Another robot.
+/// Shows the choice of robot.
 pub(crate) fn robot_choice(ui: &mut Ui, state: &mut UiState) {
     let anatomy = state.anatomy.anatomy.clone();
     let present = *anatomy.checker().robot();
@@ -167,7 +167,7 @@ pub(crate) fn robot_choice(ui: &mut Ui, state: &mut UiState) {
     });
 }
 
-/// Another world: one of the book's, or the atlas's as it is there.
+/// Shows the choice of world: the built-in ones, and the atlas's world if it is none of them.
 pub(crate) fn world_choice(ui: &mut Ui, state: &mut UiState) {
     let anatomy = state.anatomy.anatomy.clone();
     let books =
@@ -186,7 +186,7 @@ pub(crate) fn world_choice(ui: &mut Ui, state: &mut UiState) {
     });
 }
 
-/// Whether the points that the tip of an arm can reach are shown.
+/// Shows the check box of the annulus, the points that the tip of an arm can reach; nothing for other robots.
 pub(crate) fn annulus(ui: &mut Ui, state: &mut UiState) {
     let anatomy = &mut state.anatomy.anatomy;
     if anatomy.checker().robot().annulus().is_some() {
@@ -194,7 +194,7 @@ pub(crate) fn annulus(ui: &mut Ui, state: &mut UiState) {
     }
 }
 
-/// A slider that shows so many decimals of its value and keeps them all: `fixed_decimals` would round what is only shown.
+/// A slider that shows `decimals` decimals and keeps its value in full: `fixed_decimals` would round the value itself.
 fn exact(slider: Slider<'_>, decimals: usize) -> Slider<'_> {
     slider.custom_formatter(move |value, _| format!("{value:.decimals$}"))
 }

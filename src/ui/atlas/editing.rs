@@ -4,31 +4,30 @@ use std::sync::Arc;
 
 use super::state::Drag;
 use crate::atlas::{Op, snap};
-use crate::geometry::{Point2, Pose2};
+use crate::geometry::{Aabb, Point2, Pose2};
 use crate::num::{atan2, greater, lesser};
 use crate::picture::world as picture_of;
 use crate::ui::AtlasState;
-use crate::worlds::Bounds;
 
-/// Points snap to a grid of so many metres.
+/// Spacing of the grid that points snap to, metres.
 const GRID: f64 = 0.05;
 
 /// Headings snap to multiples of this, radians: 15 degrees.
 const TURN: f64 = std::f64::consts::PI / 12.0;
 
 impl AtlasState {
-    /// Whether the last change can be taken back, and whether the one taken back last can be made again.
+    /// Whether a change can be undone, and whether one can be redone.
     pub fn can_undo(&self) -> [bool; 2] {
         [self.editor.can_undo(), self.editor.can_redo()]
     }
 
-    /// Half the size of a thing that is added, metres: a 20th of the shorter side of the world, on the grid.
+    /// The unit that added things are sized by, metres: a 20th of the world's shorter side, rounded to the grid.
     pub fn unit(&self) -> f64 {
-        let Bounds { min, max } = self.world().bounds;
+        let Aabb { min, max } = self.world().bounds;
         greater(1.0, (0.05 * lesser(max.x - min.x, max.y - min.y) / GRID).round()) * GRID
     }
 
-    /// What saving would drop, in words.
+    /// A warning of the comments that saving would drop; `None` without comments.
     pub fn drops(&self) -> Option<String> {
         let words = match self.editor.comments() {
             0 => return None,
@@ -52,19 +51,20 @@ impl AtlasState {
         handles.into_iter().find(|h| (h.at - at).norm() <= reach).map(|h| h.index)
     }
 
-    /// A drag begins.
+    /// Begins a drag of the selected thing, or of its handle `handle`.
     pub fn begin_drag(&mut self, from: Point2, handle: Option<usize>) {
         self.drag = self.selected.is_some().then_some(Drag { from, handle, op: None });
     }
 
-    /// A drag goes on to a point, which snaps to corners within `reach` metres and to a grid of 5 cm; a heading snaps to 15 degrees.
+    /// Continues a drag to a point. It snaps to corners within `reach` metres, else to a grid of 5 cm. Headings snap to
+    /// multiples of 15 degrees.
     pub fn drag_to(&mut self, to: Point2, reach: f64) {
         let (Some(drag), Some(name)) = (self.drag.clone(), self.selected.clone()) else { return };
         let others = self.world().obstacles.iter().filter(|o| o.name != name);
         let mut corners: Vec<Point2> =
             others.flat_map(|o| o.placed().flat_map(|p| p.core().to_vec()).collect::<Vec<_>>()).collect();
         let shape = self.editor.shape(&name);
-        // onto its neighbour, where a corner goes away
+        // its own neighbours too: a corner dropped on one of them goes away
         corners.extend(shape.iter().zip(drag.handle).flat_map(|(shape, handle)| shape.neighbours(handle)));
         let snapped = snap(to, &corners, reach, GRID);
         let op = match (drag.handle, self.world().place(&name)) {
@@ -89,7 +89,7 @@ impl AtlasState {
         }
     }
 
-    /// A drag ends: its last accepted change is made.
+    /// Ends a drag and makes its change, unless that was refused.
     pub fn end_drag(&mut self) {
         let drag = self.drag.take();
         match drag.and_then(|d| d.op) {
@@ -98,7 +98,7 @@ impl AtlasState {
         }
     }
 
-    /// Makes a change, or says why not; then `select` is selected.
+    /// Makes a change and selects `select`. A refused change leaves its reason in `message`.
     pub fn change(&mut self, op: &Op, select: Option<String>) {
         match self.editor.apply(op) {
             Ok(()) => {
@@ -113,7 +113,7 @@ impl AtlasState {
         }
     }
 
-    /// Undoes a change, or does it again.
+    /// Undoes a change if `back`, else redoes one.
     pub fn undo(&mut self, back: bool) {
         if back {
             self.editor.undo()

@@ -1,4 +1,4 @@
-//! `AtlasState`, what the atlas remembers: the world under a hand, its robots, a refusal, a drag.
+//! `AtlasState`, the state of the atlas: the world in the editor, its robots, a refusal, a drag.
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -33,33 +33,33 @@ pub(crate) struct Drag {
     pub op: Option<Op>,
 }
 
-/// What the atlas remembers.
+/// The state of the atlas.
 #[derive(Clone, Debug)]
 pub struct AtlasState {
     pub(crate) editor: Editor,
     /// The file it was read from or saved in.
     path: Option<PathBuf>,
     atlas: Atlas,
-    /// The world as it is drawn: that of a drag under way, if it is accepted.
+    /// The picture of the world; during a drag, with its last accepted change.
     pub(crate) still: Arc<Picture>,
-    /// The names at the last scale.
+    /// The name labels, with the scale that they were placed for, pixels per metre.
     labels: Option<(f64, Vec<Item>)>,
     warnings: Vec<String>,
     grid: Option<(GridLayer, Arc<Picture>)>,
     /// What a click does.
     pub mode: Mode,
-    /// The robot that a click puts somewhere.
+    /// Index of the robot that a click places.
     pub robot: usize,
     /// Where the pointer was pressed.
     pub pressed: Option<Point2>,
     refused: Option<(AnyConfiguration, Refusal)>,
-    /// Where the robot would be put if the pointer were let go.
+    /// Where releasing the pointer puts the robot.
     wanted: Option<AnyConfiguration>,
     /// The side of a grid cell, metres.
     pub resolution: f64,
-    /// The name of the thing that is selected.
+    /// The name of the selected thing.
     pub selected: Option<String>,
-    /// Its name as it is edited.
+    /// The text of its name field.
     pub name_text: String,
     /// Why the last change was refused.
     pub message: Option<String>,
@@ -73,12 +73,12 @@ impl Default for AtlasState {
 }
 
 impl AtlasState {
-    /// A world that is in no file.
+    /// The state for a world that is in no file.
     pub fn of(world: World) -> Self {
         AtlasState::edited(Editor::new(world))
     }
 
-    /// A world under an editor.
+    /// The state for an editor and its world.
     pub fn edited(editor: Editor) -> Self {
         let world = editor.world().clone();
         AtlasState {
@@ -102,7 +102,7 @@ impl AtlasState {
         }
     }
 
-    /// The same with a click doing something else.
+    /// The same state in another mode.
     #[must_use]
     pub fn in_mode(self, mode: Mode) -> Self {
         AtlasState { mode, ..self }
@@ -118,12 +118,12 @@ impl AtlasState {
         &self.atlas
     }
 
-    /// The world as a file: canonical.
+    /// The text of the world's file, in canonical form.
     pub fn text(&self) -> String {
         self.editor.text()
     }
 
-    /// To be called when the text is on the disk.
+    /// Records that the text was written to this file.
     pub fn mark_saved(&mut self, path: &Path) {
         self.editor.mark_saved();
         self.path = Some(path.to_owned());
@@ -134,7 +134,7 @@ impl AtlasState {
         self.path = Some(path.to_owned());
     }
 
-    /// Where the world is to be found: in its file, when that is the world as it is.
+    /// The source of the world: its file, if that holds the world's present state.
     pub fn source(&self) -> WorldSource {
         match &self.path {
             Some(path) if self.is_saved() => WorldSource::File(path.display().to_string()),
@@ -142,17 +142,17 @@ impl AtlasState {
         }
     }
 
-    /// Whether the file on the disk is the world as it is.
+    /// Whether the file on the disk holds the world's present state.
     pub fn is_saved(&self) -> bool {
         self.editor.is_saved()
     }
 
-    /// What would be refused when the world runs.
+    /// What a run of the world would refuse.
     pub fn warnings(&self) -> &[String] {
         &self.warnings
     }
 
-    /// A name that nothing has yet.
+    /// A free name for a thing of this kind.
     pub fn free_name(&self, kind: &str) -> String {
         self.editor.free_name(kind)
     }
@@ -163,7 +163,7 @@ impl AtlasState {
         bounds.min + (bounds.max - bounds.min) * 0.5
     }
 
-    /// What lies lowest: the world, or its grid where distances are measured.
+    /// The lower layer: the world, in measure mode on its grid.
     pub fn still(&mut self) -> Arc<Picture> {
         if self.mode != Mode::Measure {
             return Arc::clone(&self.still);
@@ -177,12 +177,12 @@ impl AtlasState {
         self.grid.as_ref().map_or_else(|| Arc::clone(&self.still), |(_, picture)| Arc::clone(picture))
     }
 
-    /// Everything over it.
+    /// The upper layer: robots, a refusal or the place wanted, and the selection.
     pub fn over(&self) -> Picture {
         let picture = self.atlas.picture();
         let ours = self.still.items.len();
         let mut over = Picture::new(picture.name.clone(), picture.bounds);
-        // the atlas draws the world first: that lies below already
+        // the atlas draws the world first, which the lower layer shows already
         over.items.extend(picture.items.into_iter().skip(ours));
         let put = self.mode == Mode::Put;
         if let Some((q, refusal)) = self.refused.as_ref().filter(|_| put) {
@@ -197,7 +197,7 @@ impl AtlasState {
         over
     }
 
-    /// The names of everything, for a picture of this scale.
+    /// The name labels of everything, for a picture of this scale.
     pub fn labels(&mut self, px_per_metre: f64) -> &[Item] {
         if self.labels.as_ref().is_none_or(|(scale, _)| *scale != px_per_metre) {
             self.labels = Some((px_per_metre, names(&self.atlas, px_per_metre)));
@@ -205,19 +205,19 @@ impl AtlasState {
         self.labels.as_ref().map_or(&[], |(_, items)| items)
     }
 
-    /// The distances at a point, where they are measured.
+    /// The items that show the distances at a point; none outside measure mode.
     pub fn probe_items(&self, at: Option<Point2>) -> Vec<Item> {
         let layer = self.grid.as_ref().filter(|_| self.mode == Mode::Measure);
         layer.zip(at).map_or_else(Vec::new, |((layer, _), at)| layer.probe_items(at))
     }
 
-    /// Another side of the grid's cells, metres.
+    /// Sets the side of the grid's cells, metres.
     pub fn set_resolution(&mut self, resolution: f64) {
         self.resolution = resolution;
         self.grid = None;
     }
 
-    /// The atlas as it is, for a sheet of this width, pixels; with the names of everything or without.
+    /// The figure of the atlas, for a sheet of this width, pixels. `names` adds the name labels, but not to a refusal.
     pub fn captured(&self, names: bool, width_px: f64) -> Captured {
         let refused = self.refused.as_ref().filter(|_| self.mode == Mode::Put);
         let over = refused.map_or_else(Vec::new, |(q, refusal)| self.atlas.refusal_items(self.robot, q, refusal));
@@ -225,19 +225,19 @@ impl AtlasState {
         let mut readout: Vec<String> = robots.collect();
         readout.extend(refused.map(|(_, refusal)| refusal.to_string()));
         let grid = self.grid.as_ref().map(|(layer, _)| layer).filter(|_| self.mode == Mode::Measure);
-        // a refusal says its own words where names would be
+        // a refusal has labels of its own where names would be
         let names = names && refused.is_none();
         capture::atlas(&[AtlasSheet { atlas: &self.atlas, grid, over, readout, names }], width_px)
     }
 
-    /// The widget in words.
+    /// The widget in words, for screen readers.
     pub fn described(&self) -> String {
         let robots: Vec<String> = self.atlas.robots().iter().map(|r| format!("{}: {}", r.name, r.q)).collect();
         let refusal = self.refusal().map_or_else(String::new, |r| format!(" {r}."));
         format!("World {}. {}.{refusal}", self.world().name, robots.join("; "))
     }
 
-    /// Why the robot was not put where it was asked for.
+    /// Why the robot was not put where it was wanted, and whether a free place is offered.
     pub fn refusal(&self) -> Option<String> {
         let (_, refusal) = self.refused.as_ref()?;
         let offer = match refusal {
@@ -247,7 +247,7 @@ impl AtlasState {
         Some(format!("{refusal}{offer}"))
     }
 
-    /// Asks for the robot at a point, with a heading or as it is turned; puts it there when `done`.
+    /// Asks for the robot at a point, with this heading or its present one. Puts it there only when `done`.
     pub fn ask(&mut self, at: Point2, heading: Option<f64>, done: bool) {
         self.refused = None;
         self.wanted = None;
@@ -267,7 +267,7 @@ impl AtlasState {
         }
     }
 
-    /// Takes the offered place, when the point is within `reach` metres of it.
+    /// Takes the offered place if the point is within `reach` metres of it. Returns whether the robot was put there.
     pub fn take_offer(&mut self, at: Point2, reach: f64) -> bool {
         let Some((_, Refusal::Overlap { nearest: Some(offer), .. })) = &self.refused else { return false };
         let (q, Some(robot)) = (offer.q, self.atlas.robots().get(self.robot)) else { return false };
@@ -278,7 +278,7 @@ impl AtlasState {
         matches!(self.atlas.teleport(self.robot, q), Some(Ok(())))
     }
 
-    /// Draws the world as it is, its robots where they start.
+    /// Draws the world again, with its robots at their starts.
     pub(crate) fn redraw(&mut self) {
         let world = self.editor.world().clone();
         self.still = Arc::new(picture_of(&world));

@@ -13,10 +13,10 @@ use crate::ui::paint::sheet::{Sheet, sheet, split};
 use crate::ui::{Command, Dashboard, Look, SessionCommand, UiState, readout};
 use crate::worlds::World;
 
-/// Width of what stands beside the paper, points.
+/// Width of the panel beside the paper, points.
 const SIDE: f32 = 300.0;
 
-/// A pointer that moved farther than this on the screen was dragged, points.
+/// Movement of the pointer on the screen beyond which a press is a drag, points.
 const DRAGGED: f64 = 8.0;
 
 /// Shows the widget.
@@ -44,7 +44,7 @@ pub fn atlas_view(
     let pointed = state.pointed;
     let on = sheet(ui, (paper, spoken), &still, &moving, look, state);
     if state.atlas.mode == Mode::Measure {
-        // the pointer is always on what it measures
+        // the pointer is always on the thing measured, which must not light a role
         state.pointed = pointed;
     }
     match state.atlas.mode {
@@ -57,7 +57,8 @@ pub fn atlas_view(
     });
 }
 
-/// Does what a key asks for while the atlas is in front: files are worlds, and what is undone is an edit.
+/// Carries out the action of a key while the atlas is in front. Save and open act on the world; in edit mode, undo and
+/// redo act on edits.
 pub fn act(action: Action, model: &Dashboard, state: &mut UiState, commands: &mut Vec<Command>) {
     match action {
         Action::Undo if state.atlas.mode == Mode::Edit => state.atlas.undo(true),
@@ -68,7 +69,7 @@ pub fn act(action: Action, model: &Dashboard, state: &mut UiState, commands: &mu
     }
 }
 
-/// A click puts the robot there; a drag turns it; a click on an offer takes it.
+/// Handles the pointer in put mode: a click puts the robot there, a drag turns it, a click on an offer takes it.
 fn put(on: &Sheet, atlas: &mut AtlasState) {
     let Some(at) = on.held() else {
         atlas.pressed = None;
@@ -92,7 +93,7 @@ fn put(on: &Sheet, atlas: &mut AtlasState) {
     }
 }
 
-/// A press selects what is there; a drag moves it, or one of its handles.
+/// Handles the pointer in edit mode: a press selects the thing there, a drag moves it or one of its handles.
 fn edit(on: &Sheet, moving: &Picture, still: &Picture, atlas: &mut AtlasState) {
     let Some(at) = on.held() else { return };
     let screen: ScreenPoint = on.fit.screen_from_world(at);

@@ -1,4 +1,4 @@
-//! `CspaceState`, what the configuration space remembers.
+//! `CspaceState`, the state of the configuration space.
 
 use std::sync::Arc;
 
@@ -9,25 +9,25 @@ use crate::cspace::{CellMap, Overlay, Slice, cspace_picture};
 use crate::picture::Picture;
 use crate::robots::ConfigurationError;
 
-/// Cells are cut down to a 256th of the sides.
+/// Level of the finest cells: a 256th of the sides.
 const FINEST: u32 = 8;
-/// The most cells judged in a frame.
+/// Largest number of cells judged in a frame.
 const BUDGET: u32 = 1500;
 
-/// What the widget remembers.
+/// The state of the configuration space.
 #[derive(Clone, Debug, Default)]
 pub struct CspaceState {
     pub(super) map: Option<Map>,
-    /// The configurations it went through.
+    /// The configurations visited, oldest first.
     pub(super) trace: Vec<AnyConfiguration>,
 }
 
-/// The proofs, and how they were last drawn.
+/// The cells judged so far, and the last picture of them.
 #[derive(Clone, Debug)]
 pub(super) struct Map {
     pub(super) cells: CellMap,
     pub(super) picture: Arc<Picture>,
-    /// How many cells were judged when it was drawn.
+    /// Number of cells judged when the picture was drawn.
     drawn: u64,
 }
 
@@ -41,7 +41,7 @@ impl Map {
 }
 
 impl CspaceState {
-    /// Workspace and configuration space as they are, the proofs brought to their end.
+    /// The figure of workspace and configuration space, with every cell judged down to the finest level.
     pub fn captured(&self, anatomy: &Anatomy) -> Result<Captured, ConfigurationError> {
         let kept = self.map.as_ref().filter(|map| map.is_of(anatomy)).map(|map| map.cells.clone());
         let mut cells = match kept {
@@ -52,7 +52,7 @@ impl CspaceState {
         Ok(capture::cspace(anatomy, &cells, self.trace.clone()))
     }
 
-    /// Goes on with the proofs. Returns whether there is more to prove.
+    /// Judges more cells, from the start for another robot or scene. Returns whether any remain.
     pub(super) fn refine(&mut self, anatomy: &Anatomy) -> bool {
         if !self.map.as_ref().is_some_and(|map| map.is_of(anatomy)) {
             let Ok(slice) = Slice::through(anatomy.checker(), &anatomy.q()) else { return false };

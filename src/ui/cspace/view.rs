@@ -14,7 +14,7 @@ use crate::ui::anatomy::view::{annulus, coordinate, robot_choice, world_choice};
 use crate::ui::paint::sheet::sheet;
 use crate::ui::{Command, Dashboard, Look, UiState, readout};
 
-/// The most points of the trace that are kept.
+/// Largest number of points kept in the trace.
 const TRACE: usize = 2000;
 
 /// Shows the widget.
@@ -53,7 +53,7 @@ pub fn cspace_view(
     });
 }
 
-/// What is to be read, and what is held or chosen.
+/// Shows the readouts, the choices, and sliders for the coordinates that the slice holds.
 fn below_the_papers(ui: &mut Ui, look: &Look, state: &mut UiState) {
     ui.label(RichText::new(readout(&state.anatomy.anatomy.q().to_string())).monospace());
     if let Some(map) = &state.cspace.map {
@@ -78,7 +78,7 @@ fn below_the_papers(ui: &mut Ui, look: &Look, state: &mut UiState) {
         if ui.checkbox(&mut line, "the swept tab's motion").changed() {
             state.anatomy.anatomy.tab = if line { Tab::Swept } else { Tab::Distance };
         }
-        // what the slice holds
+        // the coordinates that the slice holds
         ui.spacing_mut().slider_width = 180.0;
         let held: Vec<(usize, String)> = state.cspace.map.as_ref().map_or_else(Vec::new, |m| m.cells.slice().held());
         for (index, name) in held {
@@ -87,7 +87,7 @@ fn below_the_papers(ui: &mut Ui, look: &Look, state: &mut UiState) {
     });
 }
 
-/// The workspace: the robot is dragged there.
+/// Shows the workspace, where the robot can be dragged.
 fn workspace(ui: &mut Ui, paper: Rect, look: &Look, state: &mut UiState) {
     let still = Arc::clone(state.anatomy.backdrop());
     let mut overlay = state.anatomy.anatomy.overlay();
@@ -104,7 +104,7 @@ fn workspace(ui: &mut Ui, paper: Rect, look: &Look, state: &mut UiState) {
     }
 }
 
-/// The configuration space: the point is dragged there.
+/// Shows the configuration space, where the robot's point can be dragged.
 fn space(ui: &mut Ui, paper: Rect, look: &Look, state: &mut UiState) {
     let Some(map) = &state.cspace.map else { return };
     let anatomy = &state.anatomy.anatomy;
@@ -121,7 +121,7 @@ fn space(ui: &mut Ui, paper: Rect, look: &Look, state: &mut UiState) {
     let on = sheet(ui, (paper, spoken), &still, &moving, look, state);
     if let Some(to) = on.held().filter(|_| on.response.dragged() || on.response.clicked()) {
         let (min, max) = (slice.min(), slice.max());
-        // beyond an edge of the torus is the other edge
+        // on a torus the way beyond an edge goes on at the opposite one
         let p = if slice.wraps() {
             [wrap(to.x), wrap(to.y)]
         } else {

@@ -4,7 +4,7 @@ use crate::configuration::Coordinates;
 use crate::geometry::{Footprint, Part, Point2, Segment, Vector2};
 use crate::num::{atan2, sin_cos, wrap};
 
-/// The points of an arm from base to tip, as its footprint of capsules (or segments) shows them; empty for another robot.
+/// The points of an arm from base to tip, read from its footprint of capsules or segments; empty for other robots.
 pub fn joints(footprint: &Footprint) -> Vec<Point2> {
     let ends = |part: &Part| match part.placed().core() {
         [a, b] => Some((*a, *b)),
@@ -24,9 +24,11 @@ pub fn handle_name(link: usize, links: usize) -> String {
     }
 }
 
-/// The joint angles after the end of link `link` was dragged toward `pointer`: that link's joint turns to the pointer's
-/// bearing, and all other (relative) angles are kept. So the elbow takes the whole arm along, and the tip turns on a circle
-/// about the last joint. At the joint itself there is no bearing: nothing turns.
+/// The joint angles after the end of link `link` was dragged toward `pointer`.
+///
+/// That link's joint turns to the pointer's bearing, and all other (relative) angles are kept. So the elbow takes the
+/// whole arm along, and the tip turns on a circle about the last joint. A pointer on the joint itself turns nothing,
+/// because it has no bearing.
 pub fn dragged(coordinates: &[f64], joints: &[Point2], link: usize, pointer: Point2) -> Coordinates {
     let mut angles = Coordinates::from_slice(coordinates);
     let Some(away) = joints.get(link).map(|joint| pointer - joint).filter(|v| *v != Vector2::zeros()) else {

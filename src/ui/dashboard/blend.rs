@@ -3,9 +3,11 @@
 use crate::geometry::{Footprint, Part, Pose2};
 use crate::num::wrap;
 
-/// The footprint a fraction `s` of the way from one tick's to the next's: every part's frame moves in a straight line while it
-/// turns the short way. For the eye only; two footprints that do not match (a trailer was just attached), or a part that
-/// jumped farther than `leap` metres (a teleport), are not blended: the later one is shown.
+/// The footprint a fraction `s` of the way from one tick's to the next's, for display only.
+///
+/// Every part's frame moves in a straight line while it turns the short way. The later footprint is returned unblended
+/// where the two do not match (a trailer was just attached), or where a part jumped farther than `leap` metres (a
+/// teleport).
 pub fn blend(from: &Footprint, to: &Footprint, s: f64, leap: f64) -> Footprint {
     let pairs = || from.parts().iter().zip(to.parts());
     let matches = from.parts().len() == to.parts().len() && pairs().all(|(a, b)| a.shape() == b.shape());

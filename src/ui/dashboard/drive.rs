@@ -6,7 +6,7 @@ use crate::run::RobotInput;
 use crate::simulation::{RobotCommand, TransportCommand};
 use crate::ui::{Command, Dashboard, UiState};
 
-/// A key asks for all of a channel.
+/// Channel value of a key held down: the maximum.
 const FULL: i16 = 128;
 
 /// The channels that the arrow keys held down ask for: up and down, left and right.
@@ -15,10 +15,10 @@ fn channels(input: &InputState) -> (i16, i16) {
     (axis(Key::ArrowUp, Key::ArrowDown), axis(Key::ArrowLeft, Key::ArrowRight))
 }
 
-/// Lets the arrow keys and the pad drive the robot in hand; of the two the one that asks for something.
+/// Drives the robot in hand by the arrow keys, or by the pad while no arrow key is held.
 ///
-/// Taking in hand is no input: the robot goes on with its tour until the first key. A key on a paused run lets it play: who
-/// drives wants to see it move. From one rest to the next is one thing to be undone.
+/// Taking a robot in hand is no input: it goes on with its tour until the first key. A key pressed while the run is
+/// paused starts it, so that the robot is seen to move. Everything between two rests is undone at once.
 pub fn drive(ui: &Ui, model: &Dashboard, state: &mut UiState, commands: &mut Vec<Command>) {
     let robots = || model.cockpits.iter().flat_map(|cockpit| &cockpit.robots);
     let Some(robot) = state.armed.clone().filter(|name| robots().any(|r| r.drivable && r.name == *name)) else {
@@ -41,7 +41,7 @@ pub fn drive(ui: &Ui, model: &Dashboard, state: &mut UiState, commands: &mut Vec
     hold(robot, wanted, state, commands);
 }
 
-/// Lets go of the robot in hand. It does not drive on by itself.
+/// Lets go of the robot in hand and sets its channels to 0, so that it does not drive on by itself.
 pub fn let_go(state: &mut UiState, commands: &mut Vec<Command>) {
     state.pad = (0, 0);
     if let Some(robot) = state.armed.take().filter(|_| state.held != (0, 0)) {

@@ -4,12 +4,12 @@ use crate::geometry::{Footprint, Point2, Pose2};
 use crate::num::wrap;
 use crate::picture::{Item, Role, footprint};
 
-/// How near the trailer must come, metres.
+/// Largest distance of the trailer from its goal that counts as reached, metres.
 pub const DISTANCE: f64 = 0.05;
-/// How well it must face the same way, radians.
+/// Largest difference in heading that counts as reached, radians.
 pub const ANGLE: f64 = 0.05;
 
-/// The exercise, set at some tick.
+/// The parking exercise.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ParkingGoal {
     /// Where the trailer is to be.
@@ -21,9 +21,9 @@ pub struct ParkingGoal {
 /// How far the trailer is from its goal.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Off {
-    /// Metres.
+    /// Distance, metres.
     pub distance: f64,
-    /// Radians, at least 0.
+    /// Difference in heading, radians, at least 0.
     pub angle: f64,
 }
 
@@ -59,7 +59,7 @@ impl ParkingGoal {
         footprint("goal/trailer", "where the trailer is to be", &Footprint::new([placed]), Role::Goal, 0.0)
     }
 
-    /// What is said of it, `reversals` being the car's count now.
+    /// The state of the exercise in words. `reversals` is the car's count now.
     pub fn words(&self, car: &Footprint, reversals: u32) -> String {
         let Some(off) = trailer_of(car).map(|trailer| self.off(trailer)) else {
             return "goal: put the trailer back on".into();

@@ -20,12 +20,12 @@ use crate::ui::{CockpitRobot, Command, Look, UiState};
 
 /// Diameter of a handle, points.
 const DOT: f32 = 10.0;
-/// Diameter of what takes a mouse, points; a fingertip takes as much as any other control.
+/// Diameter of the area that takes a mouse, points. For a fingertip it is as large as any other control.
 const HIT: f32 = 28.0;
 /// How far an arrow key turns a joint, radians.
 const NUDGE: f64 = 0.02;
 
-/// The angles that the arm is on its way to, or has.
+/// The joint angles that the arm is on its way to; otherwise its present ones.
 fn angles(robot: &CockpitRobot) -> &Coordinates {
     robot.target.as_ref().unwrap_or(&robot.coordinates)
 }
@@ -42,7 +42,7 @@ fn checkpoint(commands: &mut Vec<Command>) {
     commands.push(Command::Transport(TransportCommand::Checkpoint));
 }
 
-/// Shows the handles of an arm over its paper; while one is held, the circle that it moves on and where the arm is going.
+/// Shows the handles of an arm over its paper; while the arm is on its way to a target, also the arm there.
 pub fn handles(
     ui: &mut Ui,
     robot: &CockpitRobot,
@@ -66,11 +66,11 @@ pub fn handles(
 }
 
 fn over(items: Vec<Item>) -> Picture {
-    let anywhere = crate::worlds::Bounds { min: Point2::origin(), max: Point2::new(1.0, 1.0) };
+    let anywhere = crate::geometry::Aabb { min: Point2::origin(), max: Point2::new(1.0, 1.0) };
     Picture::new("handles", anywhere).with(items)
 }
 
-/// Shows one handle. Returns whether it has the focus.
+/// Shows one handle, with its circle while it is held or pointed at. Returns whether it has the focus.
 fn handle(
     ui: &mut Ui,
     robot: &CockpitRobot,
@@ -107,7 +107,7 @@ fn handle(
     }
     let held = response.dragged() || response.has_focus();
     if held || response.hovered() {
-        // the way that this handle can go
+        // the circle that this handle moves on
         let radius = (points[link + 1] - points[link]).norm();
         let mut circles = vec![circle("its circle", points[link], radius)];
         if link + 1 < links {
@@ -149,7 +149,8 @@ fn nudge(ui: &Ui, id: Id, robot: &CockpitRobot, link: usize, commands: &mut Vec<
     }
 }
 
-/// The joint angles as numbers to be typed or dragged; for an arm of three links also the walk that keeps the tip where it is.
+/// Shows the joint angles as numbers to type or drag; for an arm of three links also the slider that keeps its tip in
+/// place.
 pub fn numbers(ui: &mut Ui, robot: &CockpitRobot, look: &Look, state: &mut UiState, commands: &mut Vec<Command>) {
     let mut to = angles(robot).clone();
     let mut changed = false;
@@ -182,7 +183,8 @@ pub fn numbers(ui: &mut Ui, robot: &CockpitRobot, look: &Look, state: &mut UiSta
     }
 }
 
-/// The angles of the first joint about `th1` for which the other two still take the tip there, to a hundredth of a radian.
+/// The range of the first joint's angle about `th1` for which the other two joints can keep the tip at `tip`, to a
+/// hundredth of a radian.
 fn reachable(arm: &Reach<3>, tip: Point2, th1: f64, side: usize) -> RangeInclusive<f64> {
     let end = |step: f64| {
         let way = (1..=314).map(|i| th1 + step * f64::from(i)).take_while(|th1| th1.abs() < std::f64::consts::PI);
@@ -191,12 +193,14 @@ fn reachable(arm: &Reach<3>, tip: Point2, th1: f64, side: usize) -> RangeInclusi
     end(-0.01)..=end(0.01)
 }
 
-/// The first joint as a slider while the tip stays: the other two follow by the two-link inverse kinematics, on the elbow side
-/// where they are. Where the tip would come out of reach the slider stops.
+/// Shows a slider for the first joint that keeps the tip in place.
+///
+/// The other two joints follow by two-link inverse kinematics, on the elbow side where they are. The slider ends where
+/// the tip would come out of reach.
 fn null_space(ui: &mut Ui, robot: &CockpitRobot, q: Tn<3>, commands: &mut Vec<Command>) {
     let arm = Reach::<3>::redundant();
     let id = Id::new((&robot.name, "null space"));
-    // the tip of the walk is kept from its beginning: it does not drift with the rounding of the targets
+    // the tip is that of the walk's beginning, so that it does not drift with the rounding of the targets
     let walk: Option<(Point2, bool)> = ui.data(|d| d.get_temp(id));
     let (tip, up) = walk.filter(|(tip, _)| (arm.tip(&q) - tip).norm() < 1e-5).unwrap_or((arm.tip(&q), q.0[2] < 0.0));
     ui.horizontal(|ui| {

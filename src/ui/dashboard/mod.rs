@@ -1,4 +1,4 @@
-//! The dashboard: its values, and the parts that it is painted of.
+//! The dashboard: the values that it shows, and the views that paint them.
 
 pub mod arm;
 pub(crate) mod blend;

@@ -7,10 +7,10 @@ use crate::ui::{Look, UiState};
 
 /// Diameter, points.
 const SIZE: f32 = 104.0;
-/// So near the middle it asks for nothing, as a part of its radius.
+/// Offset along an axis below which that channel is 0, as a fraction of the radius.
 const DEAD: f32 = 0.12;
 
-/// The channels for a pointer off the middle by `(right, up)`, in parts of the radius: up is forward, left turns left.
+/// The channels for a pointer off the middle by `(right, up)`, in units of the radius: up is forward, left turns left.
 pub fn channels(right: f32, up: f32) -> (i16, i16) {
     let channel = |part: f32| {
         let part = if part.abs() < DEAD { 0.0 } else { part.clamp(-1.0, 1.0) };
@@ -19,7 +19,7 @@ pub fn channels(right: f32, up: f32) -> (i16, i16) {
     (channel(up), channel(-right))
 }
 
-/// Shows the pad in the lower right corner of a paper. What it asks for is left in the state; driving takes it from there.
+/// Shows the pad in the lower right corner of a paper. Its channels are left in the state, where `drive` takes them.
 pub fn pad(ui: &mut Ui, robot: &str, paper: Rect, look: &Look, state: &mut UiState) {
     let center = pos2(paper.right() - 0.5 * SIZE - 10.0, paper.bottom() - 0.5 * SIZE - 10.0);
     let rect = Rect::from_center_size(center, Vec2::splat(SIZE));

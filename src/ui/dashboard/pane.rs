@@ -1,4 +1,4 @@
-//! A pane of the dashboard: a world with its robots on paper, and under it what is to be read and set.
+//! A pane of the dashboard: a world with its robots on paper, and under it readouts and controls.
 
 use std::sync::Arc;
 
@@ -17,13 +17,13 @@ use crate::simulation::{RobotCommand, TransportCommand};
 use crate::ui::paint::{canvas, frame};
 use crate::ui::{Cockpit, CockpitRobot, Command, Look, ParkingGoal, SessionCommand, UiState, readout, readout_lines};
 
-/// The rows of a pane's text that are kept free, so that panes do not jump when a trailer comes on.
+/// Rows of text kept free under a pane for each robot, so that panes do not jump when a trailer is put on.
 const ROWS: f32 = 8.0;
 
-/// So near a drawn thing the pointer points at it, points.
+/// Distance within which the pointer points at a drawn thing, points.
 const REACH: f64 = 4.0;
 
-/// The height of what stands under the paper of a pane of `robots` robots.
+/// Height of the text under the paper of a pane of `robots` robots, points. More than three count as three.
 pub fn text_height(ui: &Ui, robots: usize) -> f32 {
     let row = ui.text_style_height(&TextStyle::Monospace) + 4.0;
     8.0 + row * ROWS * robots.clamp(1, 3) as f32
@@ -72,10 +72,10 @@ pub fn pane(ui: &mut Ui, cockpit: &Cockpit, rect: Rect, look: &Look, state: &mut
     for robot in cockpit.robots.iter().filter(|r| r.is_arm) {
         handles::handles(ui, robot, (paper, &fit), look, state, commands);
     }
-    // under a mouse Esc lets go; a finger has no Esc
+    // with a mouse, Esc lets go; a finger has no Esc, so a second tap does
     if response.clicked() && (armed.is_none() || touched(ui)) {
         take_in_hand(driven, state, commands);
-        // the arrow keys are the robot's now, also of who came here by Tab
+        // the arrow keys drive the robot from now on, also when Tab led here
         response.surrender_focus();
     }
     if let Some(robot) = driven.filter(|_| armed.is_none()) {
@@ -87,7 +87,7 @@ pub fn pane(ui: &mut Ui, cockpit: &Cockpit, rect: Rect, look: &Look, state: &mut
     words(&mut ui, cockpit, &fit, look, state, commands);
 }
 
-/// The dots of the places and the names of everything, placed anew when the scale changes only.
+/// The dots of the places and the name labels of everything, kept until the world or the scale changes.
 fn names(ui: &Ui, cockpit: &Cockpit, fit: &Fit) -> Vec<Item> {
     let scale = fit.px_per_metre();
     let key = (Arc::as_ptr(&cockpit.atlas) as usize, scale.to_bits());
@@ -103,19 +103,19 @@ fn names(ui: &Ui, cockpit: &Cockpit, fit: &Fit) -> Vec<Item> {
     kept.1
 }
 
-/// A click on a paper takes its robot in hand, or lets go of it.
+/// Takes a robot in hand; lets go of it if it was in hand already.
 pub fn take_in_hand(robot: Option<&CockpitRobot>, state: &mut UiState, commands: &mut Vec<Command>) {
     let again = robot.is_some_and(|r| state.armed.as_ref() == Some(&r.name));
     drive::let_go(state, commands);
     state.armed = robot.filter(|_| !again).map(|r| r.name.clone());
 }
 
-/// Whether a finger is in use: a mouse has the keys beside it.
+/// Whether the lab is used by touch: a finger is on the screen, or controls are as large as a fingertip.
 fn touched(ui: &Ui) -> bool {
     ui.input(|i| i.any_touches()) || ui.spacing().interact_size.y > 40.0
 }
 
-/// What is said and offered on the paper of the robot in hand.
+/// Shows on the paper of the robot in hand how to drive it, and for a finger the pad.
 fn in_hand(ui: &mut Ui, robot: &CockpitRobot, paper: Rect, look: &Look, state: &mut UiState) {
     let sideways = robot.trailer.is_some() && state.held.0 == 0 && state.held.1 != 0;
     let touched = touched(ui);
@@ -136,7 +136,7 @@ fn in_hand(ui: &mut Ui, robot: &CockpitRobot, paper: Rect, look: &Look, state: &
     }
 }
 
-/// Lights the role of the drawn thing that is pointed at.
+/// Lights the role of the drawn thing that is pointed at, and names an obstacle.
 fn point_out(response: &Response, over: &Picture, cockpit: &Cockpit, fit: &Fit, state: &mut UiState) {
     let Some(at) = response.hover_pos().filter(|_| response.hovered() && frame::rests(response)) else { return };
     let at = [f64::from(at.x), f64::from(at.y)];
@@ -167,7 +167,7 @@ fn words(ui: &mut Ui, cockpit: &Cockpit, fit: &Fit, look: &Look, state: &mut UiS
     }
 }
 
-/// The configuration as its type prints. Pointing lights the robot, a click copies every digit.
+/// Shows the configuration as its type prints it. Pointing lights the robot; a click copies every digit.
 fn readouts(ui: &mut Ui, robot: &CockpitRobot, look: &Look, state: &mut UiState) {
     let figure = TextStyle::Monospace.resolve(ui.style());
     let width = ui.ctx().fonts_mut(|f| f.glyph_width(&figure, '0'));
@@ -198,7 +198,7 @@ fn counts(ui: &mut Ui, robot: &CockpitRobot, look: &Look, state: &mut UiState) {
     frame::points_at(state, &response, Role::Goal);
 }
 
-/// What can be done to a robot beside driving it.
+/// Shows links for what can be done with a robot besides driving it.
 fn links(ui: &mut Ui, robot: &CockpitRobot, state: &mut UiState, commands: &mut Vec<Command>) {
     let goal = state.goal.clone().filter(|(name, _)| *name == robot.name);
     // rows that wrap are as high as their words

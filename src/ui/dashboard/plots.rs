@@ -1,4 +1,4 @@
-//! Plots of what has been of the run, with a cursor that is the time line's.
+//! Plots of the run's history, with a cursor at the present tick.
 
 use bevy_egui::egui::{RichText, TextStyle, Ui};
 use egui_plot::{Line, LineStyle, Plot, PlotPoints, VLine};
@@ -8,7 +8,7 @@ use crate::run::DT;
 use crate::simulation::{History, Trail, TransportCommand};
 use crate::ui::{Command, Dashboard, Look, UiState};
 
-/// So many points a line has at most.
+/// Largest number of points of a line.
 const POINTS: usize = 400;
 
 /// A line of a plot: which robots it is drawn for, its name, its value.
@@ -60,12 +60,12 @@ const GRAPHS: [Graph; 4] = [
     },
 ];
 
-/// The pieces of a line: an angle that wraps jumps, its line does not.
+/// The pieces of a line, which is broken where an angle wraps.
 fn unbroken(points: &[[f64; 2]], wraps: bool) -> impl Iterator<Item = &[[f64; 2]]> {
     points.chunk_by(move |a, b| !wraps || (b[1] - a[1]).abs() < std::f64::consts::PI)
 }
 
-/// Lines are told apart by colour and by dash.
+/// The colour and the dash of a line. Lines differ in both.
 fn line_of(number: usize, look: &Look) -> (bevy_egui::egui::Color32, LineStyle) {
     match number % 4 {
         0 => (look.colour(Role::Robot), LineStyle::Solid),
@@ -121,7 +121,7 @@ fn lines<'a>(graph: &'a Graph, model: &'a Dashboard) -> impl Iterator<Item = (u3
     })
 }
 
-/// The title of a plot, and its lines by name in their colours; dashes as they are drawn.
+/// Shows the title of a plot and the names of its lines, each with its colour and dash.
 fn legend(ui: &mut Ui, graph: &Graph, model: &Dashboard, look: &Look) {
     ui.horizontal_wrapped(|ui| {
         ui.spacing_mut().interact_size.y = ui.text_style_height(&TextStyle::Small);

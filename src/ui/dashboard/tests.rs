@@ -1,4 +1,4 @@
-//! The dashboard without a window: egui lays it out and we look at what it would paint.
+//! The dashboard without a window: egui lays it out, and the tests examine what it would paint.
 
 use std::sync::Arc;
 
@@ -6,14 +6,14 @@ use bevy_egui::egui::{Context, Event, Key, Modifiers, PointerButton, RawInput, R
 
 use crate::atlas::Atlas;
 use crate::configuration::{Configuration, HitchCfg, T2};
-use crate::geometry::{Point2, Pose2};
+use crate::geometry::{Aabb, Point2, Pose2};
 use crate::picture::{Picture, Role, Theme};
 use crate::random::Seed;
 use crate::robots::{HITCH, RUSTY, Reach, Robot};
 use crate::run::RobotInput;
 use crate::simulation::{History, RobotCommand, TransportCommand};
 use crate::ui::{Cockpit, CockpitRobot, Command, Dashboard, ThemeChoice, UiState, lab};
-use crate::worlds::{Bounds, World};
+use crate::worlds::World;
 
 const WIDE: Vec2 = Vec2::new(1280.0, 800.0);
 const PHONE: Vec2 = Vec2::new(390.0, 844.0);
@@ -43,7 +43,7 @@ fn robot<R: Robot>(name: &str, kind: &str, robot: &R, q: R::Configuration) -> Co
 }
 
 fn cockpit(world: &str, width: f64, height: f64, robot: CockpitRobot) -> Cockpit {
-    let bounds = Bounds { min: Point2::new(0.0, 0.0), max: Point2::new(width, height) };
+    let bounds = Aabb { min: Point2::new(0.0, 0.0), max: Point2::new(width, height) };
     let model = World { name: world.into(), bounds, obstacles: vec![], places: vec![], marks: vec![], robots: vec![] };
     let atlas = Arc::new(Atlas::new(model));
     Cockpit { world: Arc::new(Picture::new(world, bounds)), atlas, robots: vec![robot] }
@@ -73,7 +73,7 @@ fn model() -> Dashboard {
     }
 }
 
-/// A screen that is looked at frame by frame.
+/// A screen that is run frame by frame.
 struct Screen {
     ctx: Context,
     size: Vec2,
@@ -113,7 +113,7 @@ impl Screen {
         commands
     }
 
-    /// All words with the place they take.
+    /// All words with the rectangles of their ink.
     fn texts(&self) -> Vec<(String, Rect)> {
         fn collect(shape: &Shape, out: &mut Vec<(String, Rect)>) {
             match shape {

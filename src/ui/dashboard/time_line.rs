@@ -9,7 +9,7 @@ use crate::ui::{Command, Dashboard, Look};
 /// Height of the strip of marks, points.
 const STRIP: f32 = 10.0;
 
-/// Shows the line over the whole width. Pointing, dragging and, when it has the focus, the arrow keys seek.
+/// Shows the line over the whole width. Clicking and dragging seek; so do the arrow keys while it has the focus.
 pub fn time_line(ui: &mut Ui, model: &Dashboard, history: &History, look: &Look, commands: &mut Vec<Command>) {
     let end = model.frontier.max(model.tick);
     let (strip, _) = ui.allocate_exact_size(vec2(ui.available_width(), STRIP), Sense::hover());
@@ -27,7 +27,8 @@ pub fn time_line(ui: &mut Ui, model: &Dashboard, history: &History, look: &Look,
     }
 }
 
-/// Contacts as crosses, takeovers as diamonds: at most one of a kind to three points of the strip.
+/// Shows contacts as crosses and takeovers as diamonds, at least three points apart for each kind. A click on a mark
+/// goes to its tick.
 fn marks(
     ui: &mut Ui,
     model: &Dashboard,
@@ -57,7 +58,7 @@ fn marks(
             ui.painter().add(Shape::convex_polygon(corners.to_vec(), look.colour(role), Stroke::NONE));
         }
     }
-    // one place to point at, whatever the number of marks
+    // one response for all marks, whatever their number
     let response = ui.interact(strip, ui.id().with("marks"), Sense::click());
     response.widget_info(|| {
         let contacts = marks.iter().filter(|m| m.what == Happening::Contact).count();

@@ -26,7 +26,7 @@ const SPEEDS: [(f64, &str); 11] = [
     (f64::INFINITY, "as fast as possible"),
 ];
 
-/// Does what a key or a button asks for, as far as it moves the run.
+/// Carries out the actions that move the run, and ignores all others.
 pub fn act(action: Action, model: &Dashboard, commands: &mut Vec<Command>) {
     let at = SPEEDS.iter().position(|(speed, _)| *speed == model.speed);
     let speed = |at: Option<usize>| SPEEDS.get(at?).map(|(speed, _)| TransportCommand::SetSpeed(*speed));
@@ -49,10 +49,10 @@ pub fn act(action: Action, model: &Dashboard, commands: &mut Vec<Command>) {
     commands.extend(command.map(Command::Transport));
 }
 
-/// Below this width the bar takes two rows and a menu, points.
+/// Width below which the bar takes two rows and a menu, points.
 const ONE_ROW: f32 = 960.0;
 
-/// The width that the note beside the time takes, points.
+/// Width of the note beside the time, points.
 const NOTE: f32 = 180.0;
 
 /// Shows the time line and the bar under it, on a `narrow` screen in more rows.
@@ -88,7 +88,7 @@ pub fn transport_bar(
     }
 }
 
-/// What a narrow screen shows at once, and what it keeps in a menu.
+/// The buttons that a narrow screen shows at once. It keeps those of `MORE` in a menu.
 const PLAY: [(&str, Action); 5] = [
     ("Play", Action::PlayPause),
     ("Back", Action::StepBack),
@@ -118,7 +118,7 @@ fn buttons(ui: &mut Ui, model: &Dashboard, look: &Look, buttons: &[(&str, Action
     }
 }
 
-/// How fast it plays.
+/// Shows the choice of speed.
 fn speed_choice(ui: &mut Ui, model: &Dashboard, commands: &mut Vec<Command>) {
     let name = |speed: f64| SPEEDS.iter().find(|(s, _)| *s == speed).map_or("other", |(_, name)| name);
     let selected = if model.speed.is_infinite() { "fastest" } else { name(model.speed) };
@@ -140,7 +140,7 @@ fn speed_choice(ui: &mut Ui, model: &Dashboard, commands: &mut Vec<Command>) {
     ));
 }
 
-/// The seed, and at the right end the time.
+/// Shows the seed, and at the right end the time.
 fn seed_and_time(ui: &mut Ui, model: &Dashboard, look: &Look, state: &mut UiState, commands: &mut Vec<Command>) {
     if let Some(seed) = seed_field(ui, model.seed, state) {
         commands.push(Command::Transport(TransportCommand::SetSeed(seed)));
@@ -148,14 +148,15 @@ fn seed_and_time(ui: &mut Ui, model: &Dashboard, look: &Look, state: &mut UiStat
     ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
         let time = format!("{:7.2} s  tick {:5}", DT * model.tick as f64, model.tick);
         ui.label(RichText::new(time).monospace());
-        // where there is no room for it, the note is what goes
+        // without room for both, the note is left out
         if let Some(behind) = model.behind.as_ref().filter(|_| ui.available_width() > NOTE) {
             ui.label(RichText::new(behind).small().color(look.colour(Role::Focus)));
         }
     });
 }
 
-/// The seed as an editable field: a new one is taken when Enter is pressed; what is no seed is put back, and said to be none.
+/// Shows the seed as an editable field and returns a new one when Enter is pressed. Text that is no seed gives way to
+/// the present seed, and a notice says so.
 fn seed_field(ui: &mut Ui, seed: Seed, state: &mut UiState) -> Option<Seed> {
     let label = ui.label("seed");
     let mut text = state.seed_text.take().unwrap_or_else(|| seed.0.to_string());

@@ -13,19 +13,19 @@ use crate::random::Seed;
 pub struct CockpitRobot {
     /// Its unique name.
     pub name: String,
-    /// Its configuration as its type prints.
+    /// Its configuration as its type prints it.
     pub readout: String,
     /// Where it is drawn: between two ticks, a blend of both.
     pub footprint: Footprint,
-    /// Which way it faces, radians, when its footprint does not tell (a disc).
+    /// Its heading, radians, for a robot of one part that is no arm; otherwise `None`.
     pub heading: Option<f64>,
-    /// Whether its contact flash holds.
+    /// Whether its contact flash is on.
     pub flash: bool,
     /// Contact episodes since the start.
     pub contacts: u32,
     /// Whether a person drives it.
     pub manual: bool,
-    /// Whether it has channels to be driven by.
+    /// Whether it can be driven by channels.
     pub drivable: bool,
     /// Its kind, as worlds name it.
     pub kind: String,
@@ -35,15 +35,15 @@ pub struct CockpitRobot {
     pub coordinates: Coordinates,
     /// Its configuration with every digit.
     pub in_full: String,
-    /// The coordinates it was told to be at by the next tick.
+    /// The coordinates that an input asks for by the next tick.
     pub target: Option<Coordinates>,
-    /// Where its range sensor is and what it sees, metres; `None` without one.
+    /// The pose and the ranges of its range sensor, metres; `None` without one.
     pub sees: Option<(Pose2, Vec<f64>)>,
-    /// The point of an arm that reaches.
+    /// The tip of an arm, metres; `None` for other robots.
     pub tip: Option<Point2>,
-    /// Why a trailer can't be put on here; `None` where it can, or is.
+    /// Why no trailer can be put on here; `None` where one can be or is on, and for other robots.
     pub no_room: Option<String>,
-    /// Whether the run is paused with an input that comes with the next tick.
+    /// Whether the run is paused with an input that takes effect at the next tick.
     pub waiting: bool,
     /// How often it changed between forward and backward.
     pub reversals: u32,
@@ -71,26 +71,26 @@ pub struct Dashboard {
     pub seed: Seed,
     /// The last tick done.
     pub tick: u64,
-    /// The last tick that the run has reached, however far it was taken back since.
+    /// The last tick that the run has reached, even where it stands at an earlier one now.
     pub frontier: u64,
     /// Simulated seconds per second of the clock.
     pub speed: f64,
     /// Whether it plays.
     pub playing: bool,
-    /// Whether it plays again and again.
+    /// Whether it plays in a loop.
     pub looping: bool,
-    /// What is said when the run falls behind its speed.
+    /// A note on the speed reached, where the run falls behind its speed or plays as fast as possible.
     pub behind: Option<String>,
     /// The tick of the next contact known.
     pub next_contact: Option<u64>,
     /// Whether something can be undone.
     pub can_undo: bool,
-    /// Whether something can be done again.
+    /// Whether something can be redone.
     pub can_redo: bool,
 }
 
 impl Cockpit {
-    /// What stands over the readout: the robots and their world.
+    /// The heading over the readout: the robots and their world.
     pub fn heading(&self) -> String {
         let names: Vec<&str> = self.robots.iter().map(|r| r.name.as_str()).collect();
         match names.len() {
@@ -117,7 +117,7 @@ impl Cockpit {
         self.robots.iter().flat_map(drawn).collect()
     }
 
-    /// The pane in words.
+    /// The pane in words, for screen readers.
     pub fn described(&self) -> String {
         let robots: Vec<String> =
             self.robots.iter().map(|r| format!("{}: {}, contacts: {}", r.name, r.readout, r.contacts)).collect();

@@ -12,10 +12,10 @@ use crate::ui::keys::Action;
 use crate::ui::paint::frame;
 use crate::ui::{Command, Dashboard, Look, UiState, tools};
 
-/// From pane to pane, and from the panes to the window's border, points.
+/// Gap between panes, and between the panes and the window's border, points.
 const GAP: f32 = 20.0;
 
-/// Width of the sheet at the side, points.
+/// Width of the panel of plots at the side, points.
 const SHEET: f32 = 320.0;
 
 /// Shows the dashboard over what is left of `ui`; what is pressed is pushed onto `commands`.
@@ -54,7 +54,7 @@ pub fn dashboard(
     });
 }
 
-/// Does what a key asks for while the dashboard is in front.
+/// Carries out the action of a key while the dashboard is in front.
 pub fn act(action: Action, model: &Dashboard, state: &mut UiState, commands: &mut Vec<Command>) {
     match action {
         Action::LetGo => drive::let_go(state, commands),

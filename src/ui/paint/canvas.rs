@@ -33,7 +33,7 @@ pub fn paint(painter: &Painter, picture: &Picture, fit: &Fit, look: &Look) {
     }
 }
 
-/// As [`paint`], for what stands still: level and upright edges are moved to the pixels, half a pixel at most, so that
+/// As [`paint`], for still pictures: horizontal and vertical edges move to the pixels, by half a pixel at most, so that
 /// all are equally crisp.
 pub fn paint_still(painter: &Painter, picture: &Picture, fit: &Fit, look: &Look) {
     let scale = f64::from(painter.pixels_per_point());
@@ -45,7 +45,7 @@ pub fn paint_still(painter: &Painter, picture: &Picture, fit: &Fit, look: &Look)
                 corners.pop();
             }
             Primitive::Lines { lines, line, .. } => {
-                // the middle of a line of an odd number of pixels is the middle of a pixel
+                // a line that is an odd number of pixels wide is centred on the middle of a pixel
                 let odd = ((line.width_px * scale).floor() % 2.0) * 0.5;
                 lines.iter_mut().for_each(|points| snap(points, scale, odd));
             }
@@ -55,7 +55,7 @@ pub fn paint_still(painter: &Painter, picture: &Picture, fit: &Fit, look: &Look)
     }
 }
 
-/// Moves the level and upright pieces of a line to the lattice of `offset` pixels beside the whole ones.
+/// Moves the horizontal and vertical segments of a line to the pixel grid, shifted by `offset` pixels.
 fn snap(points: &mut [ScreenPoint], scale: f64, offset: f64) {
     for axis in [0, 1] {
         let snapped = |v: f64| ((v * scale - offset).round() + offset) / scale;
@@ -77,8 +77,9 @@ fn snap(points: &mut [ScreenPoint], scale: f64, offset: f64) {
     }
 }
 
-/// As [`paint_still`], fitted to `rect`, and kept: while picture, place and look are the same as in the last frame it is neither
-/// resolved nor tessellated anew.
+/// As [`paint_still`], fitted to `rect`, with a mesh kept from frame to frame.
+///
+/// The picture is resolved and tessellated again only when the picture, its place, the look or the scale changes.
 pub fn paint_kept(painter: &Painter, picture: &Arc<Picture>, rect: Rect, look: &Look) {
     let ctx = painter.ctx();
     // the rounded corners and dots of a mesh lie in the font's texture
@@ -113,14 +114,16 @@ struct Kept {
     mesh: Arc<Mesh>,
 }
 
-/// Nearer than this two points are one, pixels: egui has no direction for a line between them and gives corners that are no numbers.
+/// Distance below which two points count as one, screen points. egui has no direction for a line between such points
+/// and gives corners that are no numbers.
 const SAME: f32 = 1e-2;
 
 fn same(a: Pos2, b: Pos2) -> bool {
     (a - b).length() < SAME
 }
 
-/// Whether a line through these points goes straight back at the second: egui has no direction for such a corner either.
+/// Whether a line through these points turns straight back at the second. egui has no direction for such a corner
+/// either.
 fn turns_back(a: Pos2, b: Pos2, c: Pos2) -> bool {
     ((b - a).normalized() + (c - b).normalized()).length() < 1e-3
 }
@@ -165,14 +168,14 @@ fn paint_primitive(painter: &Painter, primitive: &Primitive, look: &Look) {
                 Face::Mono => FontFamily::Monospace,
             };
             let galley = painter.layout_no_wrap(text.clone(), FontId::new(*size as f32, family), look.colour(*role));
-            let (align, offset) = match anchor {
-                Anchor::Center => (Align2::CENTER_CENTER, [0.0, 0.0]),
-                Anchor::Right => (Align2::LEFT_CENTER, [6.0, 0.0]),
-                Anchor::Left => (Align2::RIGHT_CENTER, [-6.0, 0.0]),
-                Anchor::Above => (Align2::CENTER_BOTTOM, [0.0, -6.0]),
-                Anchor::Below => (Align2::CENTER_TOP, [0.0, 6.0]),
+            let align = match anchor {
+                Anchor::Centre => Align2::CENTER_CENTER,
+                Anchor::Right => Align2::LEFT_CENTER,
+                Anchor::Left => Align2::RIGHT_CENTER,
+                Anchor::Above => Align2::CENTER_BOTTOM,
+                Anchor::Below => Align2::CENTER_TOP,
             };
-            let rect = align.anchor_size(pos(at) + offset.into(), galley.size());
+            let rect = align.anchor_size(pos(at), galley.size());
             if *plate {
                 painter.rect_filled(rect.expand2([3.0, 1.0].into()), 2.0, look.tint(Role::Paper, 0.85));
             }
@@ -201,7 +204,7 @@ fn paint_line(painter: &Painter, points: &[ScreenPoint], stroke: Stroke, dash: D
         painter.add(PathShape::closed_line(path, stroke));
         return;
     }
-    // where a line goes back the way it came a new one begins
+    // where the line turns straight back, a new one begins
     let mut from = 0;
     for i in 1..path.len().saturating_sub(1) {
         if turns_back(path[i - 1], path[i], path[i + 1]) {

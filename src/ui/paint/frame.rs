@@ -9,11 +9,11 @@ use crate::manifest::{Formula, Level};
 use crate::picture::Role;
 use crate::ui::{Look, UiState, WidgetText};
 
-/// Shows title and misconception. They stand over what is shown and do not fade with it.
+/// Shows title and misconception. They do not fade when a role is lit.
 pub fn title(ui: &mut Ui, widget: &WidgetText, look: &Look) {
     let heading =
         ui.label(RichText::new(&widget.title).text_style(TextStyle::Heading).color(look.theme.colour(Role::Text)));
-    // what the widget shows, for who does not see it
+    // the widget's description, for screen readers
     heading.widget_info(|| {
         WidgetInfo::labeled(WidgetType::Label, true, format!("{}. {}", widget.title, widget.description))
     });
@@ -26,7 +26,7 @@ pub fn key_row(ui: &mut Ui, widget: &WidgetText, look: &Look, state: &mut UiStat
     rows_of_words(ui, |ui| key(ui, widget, look, state));
 }
 
-/// Rows that wrap and are as high as their words, not as buttons.
+/// Lays out rows that wrap and are as high as their words, not as buttons.
 pub fn rows_of_words<R>(ui: &mut Ui, add: impl FnOnce(&mut Ui) -> R) -> R {
     ui.scope(|ui| {
         ui.spacing_mut().interact_size.y = ui.text_style_height(&TextStyle::Body) + 2.0;
@@ -58,7 +58,7 @@ fn key(ui: &mut Ui, widget: &WidgetText, look: &Look, state: &mut UiState) {
     }
 }
 
-/// Marks a role by more than its colour: what is drawn so in the pictures.
+/// Paints a role's sample as the pictures draw it, so that not only colour tells roles apart.
 fn swatch(ui: &Ui, role: Role, at: bevy_egui::egui::Pos2, look: &Look) {
     let (painter, colour) = (ui.painter(), look.colour(role));
     let line = Stroke::new(1.5, colour);
@@ -96,14 +96,14 @@ fn swatch(ui: &Ui, role: Role, at: bevy_egui::egui::Pos2, look: &Look) {
     }
 }
 
-/// Notes that something of a role is pointed at or has the focus.
+/// Lights a role in the next frame if something of it is pointed at or has the focus.
 pub fn points_at(state: &mut UiState, response: &bevy_egui::egui::Response, role: Role) {
     if response.hovered() && rests(response) || response.has_focus() {
         state.pointed = Some(role);
     }
 }
 
-/// Whether the pointer has come to rest: what it only passes over lights nothing.
+/// Whether the pointer has come to rest. Things that it only passes over light nothing.
 pub fn rests(response: &bevy_egui::egui::Response) -> bool {
     const REST_SECONDS: f32 = 0.3;
     let still = response.ctx.input(|i| i.pointer.time_since_last_movement());
@@ -113,7 +113,7 @@ pub fn rests(response: &bevy_egui::egui::Response) -> bool {
     still >= REST_SECONDS
 }
 
-/// Shows a formula in a line; its terms light their roles.
+/// Shows a formula in a line, its terms in the colours of their roles. Pointing at it lights the first of these roles.
 pub fn formula(ui: &mut Ui, formula: &Formula, spoken: &str, look: &Look, state: &mut UiState) {
     if formula.0.is_empty() {
         return;
@@ -138,7 +138,7 @@ pub fn formula(ui: &mut Ui, formula: &Formula, spoken: &str, look: &Look, state:
     response.on_hover_text(spoken);
 }
 
-/// Shows what a new reader may try first, until it is put away.
+/// Shows what a new reader may try first, until the hints are dismissed.
 pub fn hints(ui: &mut Ui, widget: &WidgetText, look: &Look, state: &mut UiState) {
     if state.settings.hints_seen {
         return;

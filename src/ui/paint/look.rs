@@ -1,20 +1,20 @@
-//! `Look`, the theme as it is now: with one role lit, all others stand back.
+//! `Look`, the theme of a frame: while one role is lit, the others fade.
 
 use bevy_egui::egui::{Color32, Id, Ui};
 
 use crate::picture::{Role, Theme};
 use crate::ui::UiState;
 
-/// How much of a role is left when another is lit.
+/// Opacity of a role while another is fully lit, from 0 to 1.
 const FADED: f64 = 0.3;
 
-/// How long a fade takes, seconds.
+/// Duration of a fade, seconds.
 const FADE_SECONDS: f32 = 0.12;
 
 /// The colours of this frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Look {
-    /// The paper.
+    /// The theme.
     pub theme: Theme,
     lit: Option<Role>,
     /// How far the others have faded, from 0 to 1.
@@ -28,7 +28,7 @@ impl From<Theme> for Look {
 }
 
 impl Look {
-    /// The look of this frame: what was pointed at in the last one is lit now.
+    /// The look of this frame, which lights the role that was pointed at in the last one.
     pub fn of(ui: &Ui, state: &mut UiState) -> Self {
         let pointed = state.pointed.take().or(state.page_lit);
         if pointed != state.lit && pointed.is_some() {
@@ -48,7 +48,7 @@ impl Look {
         Look { theme, lit: Some(role), strength: 1.0 }
     }
 
-    /// What is left of a role, from 0 to 1.
+    /// The opacity of a role, from 0 to 1.
     fn left(&self, role: Role) -> f64 {
         let stays = matches!(role, Role::Paper | Role::Hairline) || self.lit.is_none_or(|lit| lit == role);
         if stays { 1.0 } else { 1.0 - self.strength * (1.0 - FADED) }
@@ -64,7 +64,7 @@ impl Look {
         self.theme.tint(role, opacity * self.left(role))
     }
 
-    /// What a picture that stands still depends on: it need not be painted anew while this is the same.
+    /// The key by which still pictures are kept: they are painted again only when it changes.
     pub fn key(&self) -> (Theme, Option<Role>, u32) {
         (self.theme, self.lit, (self.strength * 64.0) as u32)
     }

@@ -1,4 +1,4 @@
-//! A sheet: one picture on a paper, with a pointer on it.
+//! A sheet: one picture on a paper that the pointer can act on.
 
 use bevy_egui::egui::{Rect, Response, Sense, Stroke, StrokeKind, Ui, WidgetInfo, WidgetType};
 
@@ -7,12 +7,12 @@ use crate::geometry::Point2;
 use crate::picture::{Fit, Picture, Role, pick};
 use crate::ui::{Look, UiState};
 
-/// So near a drawn thing the pointer points at it, points.
+/// Distance within which the pointer points at a drawn thing, points.
 const REACH: f64 = 4.0;
 
-/// What a sheet lets its widget know.
+/// A sheet as shown in this frame.
 pub struct Sheet {
-    /// The pointer's doings on the paper.
+    /// The pointer's actions on the paper.
     pub response: Response,
     /// Where the paper is.
     pub paper: Rect,
@@ -21,7 +21,7 @@ pub struct Sheet {
 }
 
 impl Sheet {
-    /// Where the pointer is held on the paper, in the picture's plane.
+    /// The point of the picture's plane where the pointer is held down; `None` where it is not, or is off the paper.
     pub fn held(&self) -> Option<Point2> {
         self.at(self.response.interact_pointer_pos()?)
     }
@@ -31,7 +31,8 @@ impl Sheet {
     }
 }
 
-/// The room for a widget's paper, and that beside it, `width` points wide: under it on a narrow screen.
+/// Splits the room into a widget's paper and the panel beside it, `width` points wide. On a narrow screen the panel is
+/// under the paper.
 pub fn split(room: Rect, narrow: bool, width: f32) -> (Rect, Rect) {
     if narrow {
         let (paper, rest) = room.split_top_bottom_at_y(room.top() + (0.5 * room.height()).min(room.width()));
@@ -42,8 +43,9 @@ pub fn split(room: Rect, narrow: bool, width: f32) -> (Rect, Rect) {
     }
 }
 
-/// Shows `still`, which is kept from frame to frame, and `moving` over it. `spoken` is read to who does not see them. Pointing at a
-/// drawn thing lights its role.
+/// Shows `still`, which is kept from frame to frame, and `moving` over it. Pointing at a drawn thing lights its role.
+///
+/// `spoken` describes both for screen readers.
 pub fn sheet(
     ui: &mut Ui,
     (paper, spoken): (Rect, String),

@@ -10,13 +10,13 @@ use bevy_egui::egui::{
 use crate::num::{exp, greater, ln};
 use crate::picture::{FACES, Rgb, Role, Theme};
 
-/// The light of a stored sRGB byte, from 0 to 1.
+/// The linear light of a stored sRGB byte, from 0 to 1.
 fn linear(byte: u8) -> f64 {
     let c = f64::from(byte) / 255.0;
     if c <= 0.04045 { c / 12.92 } else { exp(2.4 * ln((c + 0.055) / 1.055)) }
 }
 
-/// The sRGB byte that stores a light from 0 to 1; less is stored as 0.
+/// The sRGB byte that stores a linear light from 0 to 1. A negative light is stored as 0.
 fn stored(light: f64) -> u8 {
     let c = if light <= 0.0031308 { 12.92 * greater(light, 0.0) } else { 1.055 * exp(ln(light) / 2.4) - 0.055 };
     (255.0 * c).round() as u8
@@ -31,8 +31,8 @@ impl Theme {
 
     /// The colour of a role at an opacity from 0 to 1, made so that on paper it comes out as in an SVG file.
     ///
-    /// The window's surface blends in linear light, SVG between the stored bytes. So the wanted result on paper is worked out
-    /// first, and from it the premultiplied colour that blends to it, with the least alpha above `opacity` that can.
+    /// The window's surface blends in linear light, SVG between the stored bytes. The colour wanted on paper is worked
+    /// out first, then the premultiplied colour that blends to it, with the smallest alpha from `opacity` up that can.
     pub fn tint(self, role: Role, opacity: f64) -> Color32 {
         if opacity >= 1.0 {
             return self.colour(role);
@@ -52,13 +52,13 @@ impl Theme {
         Color32::from_rgb(mix(0), mix(1), mix(2))
     }
 
-    /// The paper as Bevy's cameras clear the window with it.
+    /// The colour of the paper, with which Bevy's cameras clear the window.
     pub fn clear_colour(self) -> bevy::color::Color {
         let Rgb([r, g, b]) = self.palette().colour(Role::Paper);
         bevy::color::Color::srgb_u8(r, g, b)
     }
 
-    /// Type, spacing and colours of everything in the window. `touch` makes what is pressed as large as a fingertip.
+    /// Type, spacing and colours of everything in the window. `touch` makes controls as large as a fingertip.
     pub fn style(self, touch: bool) -> Style {
         let sans = |size| FontId::new(size, FontFamily::Proportional);
         let mono = |size| FontId::new(size, FontFamily::Monospace);
@@ -78,8 +78,8 @@ impl Theme {
         style
     }
 
-    /// The faces: the lab's own, each standing in for signs that the other lacks. Where egui has faces of its own (not on the
-    /// web), they come last.
+    /// The faces: the lab's own, each a fallback for signs that another lacks. Where egui has faces of its own (not on
+    /// the web), they come last.
     pub fn fonts() -> FontDefinitions {
         let mut fonts = FontDefinitions::default();
         for (name, letters) in FACES {
@@ -105,12 +105,12 @@ impl Theme {
             fg_stroke: Stroke::new(1.0, self.colour(Role::Text)),
             expansion: 0.0,
         };
-        // edges of what can be pressed are graphics and keep 3:1; a frame that only decorates may be fainter
+        // edges of controls keep a contrast of 3:1, as graphics must; a decorative frame may be fainter
         let edge = self.colour(Role::Muted);
         Visuals {
             widgets: Widgets {
                 noninteractive: widget(paper, self.colour(Role::Hairline)),
-                // a slider's rail is seen by its filling alone
+                // only its filling makes a slider's rail visible
                 inactive: WidgetVisuals { bg_fill: self.washed(Role::Text, 0.12), ..widget(paper, edge) },
                 hovered: widget(self.washed(Role::Text, 0.06), self.colour(Role::Text)),
                 active: widget(self.washed(Role::Text, 0.14), self.colour(Role::Text)),
@@ -133,7 +133,7 @@ impl Theme {
             window_shadow: Shadow::NONE,
             popup_shadow: Shadow::NONE,
             panel_fill: paper,
-            // a fade would be blended in linear light and come out grey: what is disabled is drawn in fainter ink instead
+            // disabled controls have fainter ink: a fade would be blended in linear light and come out grey
             disabled_alpha: 1.0,
             ..base
         }

@@ -1,6 +1,6 @@
-//! How many comments a world file has.
+//! Counts the comments of a world file.
 
-/// How many comments stand in a world file: printing the world drops them. What looks like one within a name is none.
+/// Counts the comments of a world file, which printing the world drops. Comment marks within a name do not count.
 ///
 /// ```
 /// use motion_lab::worlds::comments;
@@ -25,7 +25,7 @@ pub fn comments(text: &str) -> usize {
     count
 }
 
-/// The length of a block comment, those within it included.
+/// Length of a block comment, bytes, including the comments nested in it.
 fn block(text: &str) -> usize {
     let (mut depth, mut at) = (1, 2);
     while let Some(found) = text.get(at..).and_then(|t| Some(at + t.find(['/', '*'])?)) {
@@ -43,7 +43,7 @@ fn block(text: &str) -> usize {
     text.len()
 }
 
-/// The length of the string or letter that a text begins with; `None` where it begins with none.
+/// Length, bytes, of the string or character literal at the start of a text; `None` if there is none.
 fn literal(text: &str) -> Option<usize> {
     if let Some(raw) = text.strip_prefix('r') {
         let hashes = raw.len() - raw.trim_start_matches('#').len();

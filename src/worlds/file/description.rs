@@ -1,4 +1,4 @@
-//! A world file as written: RON, nothing checked but its form.
+//! A world file as written, in RON. Only its form is checked.
 
 use serde::{Deserialize, Deserializer};
 
@@ -59,7 +59,7 @@ pub(crate) enum ShapeText {
         center: Xy,
         radius: f64,
     },
-    /// With sides along the axes.
+    /// A box with sides along the axes.
     Box {
         min: Xy,
         max: Xy,
@@ -91,7 +91,7 @@ pub(crate) struct RobotText {
     pub sensor: Option<BeamModel>,
 }
 
-/// A field that may be left out, and is written without `Some` when it is there.
+/// Reads a field that may be left out and is written without `Some`.
 fn given<'de, D: Deserializer<'de>, T: Deserialize<'de>>(deserializer: D) -> Result<Option<T>, D::Error> {
     T::deserialize(deserializer).map(Some)
 }
@@ -110,7 +110,7 @@ macro_rules! named {
 }
 named!(PolylineText, ObstacleText, PlaceText, RobotText);
 
-/// The point written so; a negative zero becomes a positive one.
+/// Converts a written point; a negative zero becomes a positive one.
 pub(crate) fn point((x, y): Xy) -> Point2 {
     Point2::new(x + 0.0, y + 0.0)
 }

@@ -1,10 +1,11 @@
-//! Every item of a world file checked and made what it means.
+//! Checks the items of a world file and converts them.
 
 use super::description::{BoundsText, ObstacleText, PlaceText, PolylineText, ShapeText, Xy, point};
-use crate::geometry::{ConvexPolygon, MAX_COORDINATE, Point2, Pose2, Shape, ShapeError, convex_hull};
-use crate::worlds::{Bounds, MAX_CONCAVE_VERTICES, MAX_ITEMS, Mark, Obstacle, ObstacleKind, Place, WorldProblem};
+use crate::geometry::{Aabb, ConvexPolygon, MAX_COORDINATE, Point2, Pose2, Shape, ShapeError, convex_hull};
+use crate::worlds::{MAX_CONCAVE_VERTICES, MAX_ITEMS, Mark, Obstacle, ObstacleKind, Place, WorldProblem};
 
-/// How many more shapes the world may have, and how many more corners its polygons: cutting up the concave ones takes quadratic time.
+/// The shapes, and the corners of concave polygons, that a world may still have. Cutting up concave polygons takes
+/// quadratic time.
 pub(crate) struct Budget {
     left: usize,
     corners: usize,
@@ -16,7 +17,7 @@ impl Default for Budget {
     }
 }
 
-/// The largest number of corners of a world's concave polygons together.
+/// Largest number of corners of all concave polygons of a world together.
 const MAX_CORNERS: usize = MAX_ITEMS;
 
 impl Budget {
@@ -42,13 +43,13 @@ pub(crate) fn make_point(xy: Xy) -> Result<Point2, ShapeError> {
     }
 }
 
-pub(crate) fn make_bounds(text: &BoundsText) -> Result<Bounds, WorldProblem> {
+pub(crate) fn make_bounds(text: &BoundsText) -> Result<Aabb, WorldProblem> {
     let (min, max) = (make_point(text.min)?, make_point(text.max)?);
     make_box(min, max)?;
-    Ok(Bounds { min, max })
+    Ok(Aabb { min, max })
 }
 
-/// A box whose corners are given the right way round.
+/// Makes a box; refuses corners in the wrong order.
 fn make_box(min: Point2, max: Point2) -> Result<Shape, ShapeError> {
     for side in [max.x - min.x, max.y - min.y] {
         if side < 0.0 {
@@ -58,7 +59,7 @@ fn make_box(min: Point2, max: Point2) -> Result<Shape, ShapeError> {
     Shape::try_rectangle(min, max)
 }
 
-/// The points of a polyline, the first once more at the end when it is closed, and its segments.
+/// Returns the points of a polyline and its segments. A closed polyline repeats its first point at the end.
 fn make_polyline(text: &PolylineText) -> Result<(Vec<Point2>, Vec<Shape>), WorldProblem> {
     let least = if text.closed { 3 } else { 2 };
     if text.points.len() < least {
@@ -93,7 +94,7 @@ pub(crate) fn make_solid(text: &ObstacleText, budget: &mut Budget) -> Result<Obs
     Ok(solid)
 }
 
-/// The recursion ends: ron reads no union nested deeper than its limit of 128.
+/// Appends the pieces of a shape. The recursion ends: ron reads no union nested deeper than its limit of 128.
 fn make_pieces(text: &ShapeText, solid: &mut Obstacle, budget: &mut Budget) -> Result<(), WorldProblem> {
     let before = solid.pieces.len();
     let at_origin = |shape| (Pose2::IDENTITY, shape);
@@ -105,7 +106,7 @@ fn make_pieces(text: &ShapeText, solid: &mut Obstacle, budget: &mut Budget) -> R
         ShapeText::Box { min, max } => solid.pieces.push(at_origin(make_box(make_point(*min)?, make_point(*max)?)?)),
         ShapeText::Polygon(outline) => {
             let points: Vec<Point2> = outline.iter().map(|&xy| point(xy)).collect();
-            // more than can be cut up are refused there
+            // `add_polygon` refuses concave outlines with more vertices
             if points.len() <= MAX_CONCAVE_VERTICES && ConvexPolygon::try_new(&points).is_err() {
                 budget.spend_corners(points.len())?;
             }

@@ -1,11 +1,11 @@
-//! The names of worlds and of what is in them.
+//! Checks the names of worlds and of their items.
 
 use crate::worlds::WorldProblem;
 
-/// A name's greatest length, bytes.
+/// Greatest length of a name, bytes.
 pub(crate) const MAX_NAME: usize = 200;
 
-/// Refuses an empty name, a long one, one with blanks at either end and one with control characters.
+/// Refuses a name that is empty or too long, has blanks at either end, or has control characters.
 pub(crate) fn check_name(name: &str) -> Result<(), WorldProblem> {
     let good = !name.is_empty()
         && name.len() <= MAX_NAME

@@ -1,4 +1,4 @@
-//! From a world file to a checked world.
+//! Turns a world file into a checked world.
 
 use std::collections::BTreeMap;
 
@@ -10,15 +10,17 @@ use super::source::{Part, Source};
 use crate::worlds::{MAX_ITEMS, World, WorldError, WorldItem, WorldProblem};
 
 impl World {
-    /// The world that `text`, a world file, describes. `source_name` is what errors call the file.
+    /// Reads a world from `text`, a world file. Errors name the file `source_name`.
     ///
-    /// A clockwise polygon is turned, a concave one cut into convex pieces, an angle wrapped, `-0.0` stored as `0.0`.
+    /// Clockwise polygons are reversed, concave ones cut into convex pieces, and angles wrapped. `-0.0` is stored as
+    /// `0.0`.
     ///
     /// # Errors
-    /// [`WorldError`] names file, line, column, item and reason. Refused are: text that is not RON or not of the format's
-    /// form; another version; an unknown field; a name that is empty or taken; numbers that are not finite; coordinates
-    /// beyond [`MAX_COORDINATE`](crate::geometry::MAX_COORDINATE); features below [`MIN_FEATURE`](crate::geometry::MIN_FEATURE); polygons that cross
-    /// themselves; more than [`MAX_ITEMS`] shapes, or items in a list; unknown kinds of robots.
+    /// [`WorldError`] names file, line, column, item and reason. Refused are: text that is not RON or not of the
+    /// format's form; another version; an unknown field; a name that is empty or taken; numbers that are not finite;
+    /// coordinates beyond [`MAX_COORDINATE`](crate::geometry::MAX_COORDINATE); features below
+    /// [`MIN_FEATURE`](crate::geometry::MIN_FEATURE); polygons that cross themselves; more than [`MAX_ITEMS`] shapes,
+    /// or items in a list; unknown kinds of robots.
     ///
     /// ```
     /// use motion_lab::worlds::World;
@@ -56,7 +58,7 @@ impl World {
 }
 
 impl Source<'_> {
-    /// Makes every item of a list what it means.
+    /// Converts every item of a list.
     fn convert<T: Named, U>(
         &self,
         list: &'static str,
@@ -73,7 +75,7 @@ impl Source<'_> {
     }
 }
 
-/// The names given so far, of all lists together, each with its item.
+/// The names taken so far in all lists, each with the list and index of its item.
 struct Names<'a> {
     source: Source<'a>,
     taken: BTreeMap<&'a str, (&'static str, usize)>,

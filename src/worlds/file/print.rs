@@ -8,11 +8,13 @@ use crate::geometry::{Point2, Pose2, Shape};
 use crate::worlds::{BeamModel, Obstacle, ObstacleKind, WORLD_VERSION, World, Written};
 
 impl World {
-    /// The world as a world file: one item a line, every number with the digits that give the same bits back.
+    /// Prints the world as a world file: one item a line, every number with the shortest digits that read back as the
+    /// same bits.
     ///
-    /// Reading it gives a world that is equal to this one and prints as the same text. (That holds for every world that
-    /// [`parse`](Self::parse) made. In one put together by hand, a piece that the format can't write as it is, such as a
-    /// turned box, comes out as the hull of its placed vertices, and a wall whose pieces are no chain as a union.)
+    /// Reading the text gives an equal world, which prints as the same text. This holds for every world that
+    /// [`parse`](Self::parse) made. In a world assembled by hand, a piece that the format cannot express, such as a
+    /// turned box, becomes the hull of its placed vertices, and a wall whose pieces do not form a chain becomes a solid
+    /// obstacle.
     pub fn to_ron(&self) -> String {
         let mut text = String::new();
         // writing to a String never fails
@@ -20,8 +22,8 @@ impl World {
         text
     }
 
-    /// The xxh3-128 hash of [`to_ron`](Self::to_ron): it depends on the world's content and not on comments or blanks in
-    /// the file it came from.
+    /// The xxh3-128 hash of [`to_ron`](Self::to_ron). It depends on the world's content, not on the comments or blanks
+    /// of its file.
     pub fn content_hash(&self) -> u128 {
         xxh3_128(self.to_ron().as_bytes())
     }
@@ -69,7 +71,7 @@ fn write_list(out: &mut String, list: &str, items: impl IntoIterator<Item = Stri
     out.write_str("    ],\n")
 }
 
-/// The points of a wall: its segments as one polyline.
+/// Joins the segments of a wall into one polyline; `None` if they do not form a chain.
 fn chain(obstacle: &Obstacle) -> Option<Vec<Point2>> {
     if obstacle.kind != ObstacleKind::Wall {
         return None;

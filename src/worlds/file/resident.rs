@@ -1,4 +1,4 @@
-//! The robots of a world, checked.
+//! Checks the robots of a world.
 
 use super::description::RobotText;
 use super::items::{finite, make_point};
@@ -7,12 +7,13 @@ use crate::num;
 use crate::worlds::{BeamModel, Resident, WorldProblem};
 
 impl Resident {
-    /// The robot as a world file may have it: the kind known, as many coordinates as it has, a place within the coordinates that the
-    /// lab computes with, and the angles wrapped to `(-pi, pi]`. The name is not checked.
+    /// Creates a resident that a world file may hold. The kind must be known and the number of coordinates must fit it.
+    /// The position must lie within the lab's greatest coordinate, and angles are wrapped to `(-pi, pi]`. The
+    /// coordinates of a kind that begins with `x-` need only be finite. The name is not checked.
     ///
     /// # Errors
-    /// [`WorldProblem`](crate::worlds::WorldProblem): the kind, the number of coordinates, one that is not finite or too large, or a sensor that
-    /// is refused.
+    /// [`WorldProblem`](crate::worlds::WorldProblem): an unknown kind, a wrong number of coordinates, a coordinate that
+    /// is not finite or is too large, or a refused sensor.
     pub fn try_new(
         name: impl Into<String>,
         kind: impl Into<String>,
@@ -31,9 +32,9 @@ pub(crate) fn make_resident(text: &RobotText) -> Result<Resident, WorldProblem> 
     Resident::try_new(name.clone(), kind.clone(), start.clone(), *sensor)
 }
 
-/// The start of a robot of this kind, checked and its angles wrapped.
+/// Checks the start of a robot of this kind and wraps its angles.
 pub(crate) fn make_start(kind: &str, mut start: Vec<f64>) -> Result<Vec<f64>, WorldProblem> {
-    // how many of the coordinates are a position, and how many there may be
+    // how many coordinates are a position, how many are allowed, and how an error names them
     let (lengths, counts, expected) = match kind {
         "rusty" => (2, 3..=3, "three: x, y, theta"),
         "reach" => (0, 2..=2, "two: th1, th2"),
@@ -57,7 +58,7 @@ pub(crate) fn make_start(kind: &str, mut start: Vec<f64>) -> Result<Vec<f64>, Wo
     Ok(start)
 }
 
-/// The noise of the sensor of a robot of this kind, which must have one.
+/// Checks the sensor noise of a robot. Its kind must have a range sensor.
 pub(crate) fn make_noise(kind: &str, noise: BeamModel) -> Result<BeamModel, WorldProblem> {
     if ["reach", "reach3", "hitch"].contains(&kind) {
         return Err(WorldProblem::NoSensor(kind.to_owned()));

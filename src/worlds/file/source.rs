@@ -1,15 +1,16 @@
-//! A world file's text, and where in it things stand.
+//! The text of a world file, and the positions of its parts.
 //!
-//! A good file is read once. Only for an error it is read again, this time with its parts left unread ([`RawValue`] borrows
-//! the text), so that a part's address tells its line.
+//! A valid file is parsed once. After an error it is parsed again with its parts left as text: [`RawValue`] borrows the
+//! file's text, so the address of a part gives its line.
 
 use ron::value::RawValue;
 use serde::Deserialize;
 
 use super::description::WorldText;
+use crate::text_position::{column_at, line_at, offset_of};
 use crate::worlds::{WORLD_VERSION, WorldError, WorldItem, WorldProblem};
 
-/// The text of a world file under the name its errors give it.
+/// The text of a world file, and the file's name in errors.
 #[derive(Clone, Copy)]
 pub(crate) struct Source<'a> {
     pub file: &'a str,
@@ -78,10 +79,10 @@ impl<'a> Lists<'a> {
 }
 
 impl<'a> Source<'a> {
-    /// The file as written, of the version that this program knows.
+    /// Reads the file as written. Refuses other versions of the format.
     pub fn read(&self) -> Result<WorldText, WorldError> {
         let file: Result<WorldText, _> = ron::from_str(self.text);
-        // Another version's file may have another form: then the version is what is wrong.
+        // A file of another version may have another form; then the version is the error to report.
         let version = match &file {
             Ok(file) => Some(file.version),
             Err(_) => ron::from_str(self.text).ok().map(|v: Version| v.version),
@@ -117,18 +118,15 @@ impl<'a> Source<'a> {
 
     /// Line and column, from 1, of a byte of the text.
     fn position(&self, offset: usize) -> (usize, usize) {
-        let before = self.text.get(..offset).unwrap_or("");
-        let line = before.matches('\n').count() + 1;
-        let column = before.chars().rev().take_while(|&c| c != '\n').count() + 1;
-        (line, column)
+        (line_at(self.text, offset), column_at(self.text, offset))
     }
 
-    /// Where a part of this text begins, comments before it left out.
+    /// Byte offset of a part in the text, after the comments before it.
     fn offset(&self, part: &RawValue) -> usize {
-        (part.trim().get_ron().as_ptr() as usize).saturating_sub(self.text.as_ptr() as usize)
+        offset_of(self.text, part.trim().get_ron())
     }
 
-    /// Where a part of the head begins; the beginning of the file when there is no telling.
+    /// Byte offset of a part of the head; 0 if the head cannot be read.
     fn head(&self, part: impl Fn(&Head<'a>) -> &'a RawValue) -> usize {
         ron::from_str(self.text).map_or(0, |head: Head| self.offset(part(&head)))
     }
@@ -145,7 +143,7 @@ impl<'a> Source<'a> {
         found.unwrap_or(0)
     }
 
-    /// The item whose text holds a position; `None` outside the items, or when the file is not even RON.
+    /// The item whose text holds a position; `None` outside the items, or if the file is not RON.
     fn item_around(&self, (line, column): (usize, usize)) -> Option<WorldItem> {
         let before: usize = self.text.split_inclusive('\n').take(line - 1).map(str::len).sum();
         let within: usize = self.text[before..].chars().take(column - 1).map(char::len_utf8).sum();

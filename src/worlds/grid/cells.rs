@@ -1,10 +1,10 @@
 //! `Grid`, a world as occupied cells: derived from the world, never the other way round.
 
-use crate::geometry::Point2;
+use crate::geometry::{Aabb, Point2};
 use crate::num::greater;
-use crate::worlds::{Bounds, World};
+use crate::worlds::World;
 
-/// The greatest number of cells of a grid: 16 megabytes, and 128 more for its distance transform.
+/// Largest number of cells of a grid. They take 16 megabytes, and 128 more for a distance transform.
 pub const MAX_CELLS: u64 = 1 << 24;
 
 /// Why a grid can't be made.
@@ -14,7 +14,7 @@ pub enum GridError {
     /// A cell size that is not finite or not positive.
     #[error("a resolution of {0} m: it must be finite and positive")]
     Resolution(f64),
-    /// More cells than fit.
+    /// More than `MAX_CELLS` cells.
     #[error("a resolution of {resolution} m gives more than {MAX_CELLS} cells for {width} x {height} m")]
     TooManyCells {
         /// The cell size asked for, metres.
@@ -28,9 +28,9 @@ pub enum GridError {
 
 /// Square cells over a world's bounds, each occupied or not.
 ///
-/// Cell `(column, row)` is the closed square between the grid lines `column` and `column + 1`, `row` and `row + 1`; line
-/// `k` lies at `origin + k * resolution`, rounded, so that neighbours share their line to the bit. Columns count from the
-/// left, rows from below. The last column and row may reach beyond the bounds.
+/// Cell `(column, row)` is the closed square between the grid lines `column` and `column + 1`, `row` and `row + 1`;
+/// line `k` lies at `origin + k * resolution`, rounded, so that neighbours share their line to the bit. Columns count
+/// from the left, rows from below. The last column and row may reach beyond the bounds.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Grid {
     pub(crate) origin: Point2,
@@ -43,10 +43,10 @@ pub struct Grid {
 impl Grid {
     /// The grid of a world with cells of `resolution` metres.
     ///
-    /// A cell is occupied when its closed square meets an obstacle, so that it is conservative: every obstacle point within
-    /// the bounds lies in an occupied cell. Touching counts. For segments, boxes and polygons this is exact; for shapes with a
-    /// radius squares of distances are compared, which errs, if at all, to occupied, within rounding. Obstacles beyond the
-    /// bounds leave no trace.
+    /// A cell is occupied if its closed square meets an obstacle; touching counts. The grid is therefore conservative:
+    /// every obstacle point within the bounds lies in an occupied cell. The test is exact for segments, boxes and
+    /// polygons. For shapes with a radius it compares squared distances and errs, within rounding, towards occupied.
+    /// Obstacles beyond the cells have no effect.
     ///
     /// # Errors
     /// [`GridError`] for a resolution that is not finite and positive, or so fine that there would be more than
@@ -71,7 +71,7 @@ impl Grid {
     ///
     /// # Errors
     /// As [`rasterize`](Self::rasterize).
-    pub fn empty(bounds: &Bounds, resolution: f64) -> Result<Grid, GridError> {
+    pub fn empty(bounds: &Aabb, resolution: f64) -> Result<Grid, GridError> {
         if !(resolution > 0.0 && resolution.is_finite()) {
             return Err(GridError::Resolution(resolution));
         }
@@ -87,7 +87,7 @@ impl Grid {
         Ok(Grid { origin: min, resolution, columns, rows, occupied: vec![false; cells as usize] })
     }
 
-    /// The grid with these cells, row after row from the lowest; `None` when they are not as many as columns and rows tell.
+    /// Creates a grid from its cells, row after row from the lowest; `None` if there are none, or not `columns * rows`.
     #[cfg(feature = "cli")]
     pub(crate) fn of_cells(
         origin: Point2,
@@ -115,12 +115,12 @@ impl Grid {
         self.resolution
     }
 
-    /// Whether a cell is occupied. Of a cell outside the grid nothing is known: it counts as occupied.
+    /// Whether a cell is occupied. A cell outside the grid is unknown and counts as occupied.
     pub fn is_occupied(&self, column: u32, row: u32) -> bool {
         self.index(column, row).is_none_or(|i| self.occupied[i])
     }
 
-    /// Marks a cell as occupied or not; one outside the grid is left alone.
+    /// Marks a cell as occupied or not. A cell outside the grid is ignored.
     pub fn set_occupied(&mut self, column: u32, row: u32, occupied: bool) {
         if let Some(i) = self.index(column, row) {
             self.occupied[i] = occupied;
@@ -138,7 +138,8 @@ impl Grid {
         Point2::new(0.5 * (min.x + max.x), 0.5 * (min.y + max.y))
     }
 
-    /// The cell that holds a point, the right and upper one for a point on a line; `None` outside the grid.
+    /// The cell that holds a point; `None` outside the grid. A point on a grid line belongs to the cell right of it or
+    /// above it.
     pub fn cell_at(&self, p: Point2) -> Option<(u32, u32)> {
         let column = find(self.origin.x, self.resolution, self.columns, p.x)?;
         let row = find(self.origin.y, self.resolution, self.rows, p.y)?;
@@ -155,15 +156,15 @@ impl Grid {
     }
 }
 
-/// The grid line `k`.
+/// Coordinate of grid line `k`, metres.
 fn line(origin: f64, resolution: f64, k: u32) -> f64 {
     origin + f64::from(k) * resolution
 }
 
-/// The number of cells from `min` to `max`, `None` when it is beyond reason.
+/// The number of cells from `min` to `max`, at least 1; `None` if it exceeds `MAX_CELLS` or is NaN.
 fn count(min: f64, max: f64, resolution: f64) -> Option<u32> {
     let quotient = ((max - min) / resolution).ceil();
-    // NaN is no number of cells either
+    // the comparison fails for NaN, too
     let cells = Some(quotient).filter(|cells| *cells <= MAX_CELLS as f64)?;
     let mut n = greater(cells, 1.0) as u32;
     // the quotient is rounded: let the lines themselves decide
@@ -176,7 +177,7 @@ fn count(min: f64, max: f64, resolution: f64) -> Option<u32> {
     Some(n)
 }
 
-/// The last cell whose first line is not beyond `x`.
+/// Index of the last cell whose first line is not beyond `x`; `None` outside the grid.
 fn find(origin: f64, resolution: f64, n: u32, x: f64) -> Option<u32> {
     if !(x >= origin && x <= line(origin, resolution, n)) {
         return None;
@@ -220,7 +221,7 @@ mod tests {
     #[test]
     fn a_quotient_that_rounds_up_adds_no_column() {
         // 2.1 / 0.3 is 7.000000000000001, but line 7 lies at 2.1
-        let bounds = Bounds { min: Point2::new(0.0, 0.0), max: Point2::new(2.1, 4.2) };
+        let bounds = Aabb { min: Point2::new(0.0, 0.0), max: Point2::new(2.1, 4.2) };
         let grid = Grid::empty(&bounds, 0.3).unwrap();
         assert_eq!((grid.columns(), grid.rows()), (7, 14));
     }

@@ -3,12 +3,13 @@
 use crate::num;
 use crate::worlds::Grid;
 
-/// For every cell of a grid the distance from its centre to the centre of the nearest occupied cell.
+/// The distance from the centre of every cell of a grid to the centre of the nearest occupied cell.
 ///
-/// Exact: squared distances, in cells, are whole numbers and computed as such (Felzenszwalb and Huttenlocher, "Distance
-/// transforms of sampled functions", 2012: a lower envelope of parabolas along every column, then along every row; linear
-/// time). For a cell within the bounds it differs from the exact distance to the obstacles by at most half a cell's diagonal,
-/// as long as the nearest obstacle point lies within the bounds too.
+/// The transform is exact: squared distances, in cells, are whole numbers and are computed as such. It takes a lower
+/// envelope of parabolas along every column, then along every row, in linear time (Felzenszwalb and Huttenlocher,
+/// "Distance transforms of sampled functions", 2012). For a cell within the bounds it differs from the exact distance
+/// to the obstacles by at most half a cell's diagonal, as long as the nearest obstacle point lies within the bounds
+/// too.
 #[derive(Clone, Debug, PartialEq)]
 pub struct DistanceTransform {
     resolution: f64,
@@ -17,7 +18,7 @@ pub struct DistanceTransform {
     squared: Vec<u64>,
 }
 
-/// No occupied cell at all. Real squares are far below: (2^24)^2 * 2.
+/// Stands for no occupied cell. Squared distances are far smaller: at most (2^24)^2 * 2.
 const NONE: u64 = u64::MAX;
 
 impl DistanceTransform {
@@ -42,8 +43,8 @@ impl DistanceTransform {
         DistanceTransform { resolution: grid.resolution(), columns, rows, squared }
     }
 
-    /// The squared distance of a cell in units of cells; 0 for an occupied cell and, as nothing is known there, outside the
-    /// grid; `None` when no cell is occupied.
+    /// Squared distance of a cell, in units of cells. It is 0 for an occupied cell, and outside the grid, where nothing
+    /// is known; `None` if no cell is occupied.
     pub fn squared_cells(&self, column: u32, row: u32) -> Option<u64> {
         if column >= self.columns || row >= self.rows {
             return Some(0);
@@ -52,8 +53,8 @@ impl DistanceTransform {
         (d != NONE).then_some(d)
     }
 
-    /// The distance of a cell in metres: the root of [`squared_cells`](Self::squared_cells) times the cell size; infinity
-    /// when no cell is occupied.
+    /// The distance of a cell in metres: the root of [`squared_cells`](Self::squared_cells) times the cell size;
+    /// infinity when no cell is occupied.
     pub fn distance(&self, column: u32, row: u32) -> f64 {
         // below 2^53, hence exact as an f64
         self.squared_cells(column, row).map_or(f64::INFINITY, |d| num::sqrt(d as f64) * self.resolution)
@@ -77,7 +78,7 @@ impl Envelope {
             if height == NONE {
                 continue;
             }
-            // a parabola that the new one undercuts where it begins is undercut from there on
+            // a parabola that the new one undercuts at its start is undercut from there on
             while self.parabolas.last().is_some_and(|&(v, h, start)| value(q, height, start) <= value(v, h, start)) {
                 self.parabolas.pop();
             }
@@ -106,10 +107,11 @@ impl Envelope {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::geometry::Aabb;
     use crate::geometry::Point2;
     use crate::random::{Seed, Stream};
+    use crate::worlds::World;
     use crate::worlds::tests::point_distance;
-    use crate::worlds::{Bounds, World};
 
     #[test]
     fn equals_brute_force_on_random_grids() {
@@ -117,7 +119,7 @@ mod tests {
         for i in 0..300 {
             let (w, h) = (1 + s.below(14), 1 + s.below(14));
             let max = Point2::new(w as f64, h as f64);
-            let mut grid = Grid::empty(&Bounds { min: Point2::new(0.0, 0.0), max }, 1.0).unwrap();
+            let mut grid = Grid::empty(&Aabb { min: Point2::new(0.0, 0.0), max }, 1.0).unwrap();
             let mut cells = Vec::new();
             for row in 0..grid.rows() {
                 for column in 0..grid.columns() {

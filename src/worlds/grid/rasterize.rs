@@ -1,13 +1,13 @@
-//! Which cells of a grid a shape meets.
+//! Marks the cells of a grid that a shape meets.
 
-use crate::geometry::{Placed, Point2, Segment, orientation};
+use crate::geometry::{Aabb, Placed, Point2, Segment, orientation};
 use crate::num::{self, greater, lesser};
 use crate::worlds::Grid;
 
 impl Grid {
-    /// Occupies every cell whose closed square meets the shape.
+    /// Marks every cell whose closed square meets the shape as occupied.
     pub(crate) fn add(&mut self, shape: &Placed) {
-        let (lo, hi) = shape.bounds();
+        let Aabb { min: lo, max: hi } = shape.bounds();
         for row in self.span(self.origin.y, self.rows(), lo.y, hi.y) {
             let (min, max) = self.square(0, row);
             let Some((left, right)) = extent(shape, min.y, max.y) else { continue };
@@ -19,7 +19,7 @@ impl Grid {
         }
     }
 
-    /// The cells along one axis that may meet `[lo, hi]`, and one more to each side for the rounding.
+    /// The cells along one axis that may meet `[lo, hi]`, with one more at either end against rounding.
     fn span(&self, origin: f64, n: u32, lo: f64, hi: f64) -> std::ops::Range<u32> {
         // `as` saturates: below 0 becomes 0, beyond the range its end
         let first = ((lo - origin) / self.resolution() - 1.0).floor() as u32;
@@ -28,9 +28,10 @@ impl Grid {
     }
 }
 
-/// The least and greatest x, up to rounding, of a shape within the strip `bottom <= y <= top`; `None` when it misses it.
+/// The least and greatest x, up to rounding, of a shape within the strip `bottom <= y <= top`; `None` if the shape
+/// misses the strip.
 fn extent(shape: &Placed, bottom: f64, top: f64) -> Option<(f64, f64)> {
-    // a nanometre more, against the rounding
+    // a nanometre more, against rounding
     let r = shape.radius() + 1e-9;
     let (bottom, top) = (bottom - r, top + r);
     let core = shape.core();
@@ -59,7 +60,7 @@ fn meets(shape: &Placed, (min, max): (Point2, Point2)) -> bool {
     if r == 0.0 || cores_meet {
         return cores_meet;
     }
-    // Apart, the nearest pair of points has a vertex on one side: of the core, or of the square.
+    // When core and square are apart, one of the two nearest points is a vertex: of the core, or of the square.
     let to_square = |p: &Point2| {
         let dx = greater(0.0, greater(min.x - p.x, p.x - max.x));
         let dy = greater(0.0, greater(min.y - p.y, p.y - max.y));
@@ -74,8 +75,8 @@ fn meets(shape: &Placed, (min, max): (Point2, Point2)) -> bool {
     core.iter().any(|p| to_square(p) <= reach * reach) || corners.iter().any(|p| to_core(p) <= reach * reach)
 }
 
-/// Whether a convex core and a square have a point in common, exactly: two convex sets are apart exactly when an edge of one
-/// of them has the other strictly on its outer side (of a core that is a segment, on either).
+/// Whether a convex core and a square have a point in common, exactly. Two convex polygons are apart exactly if an edge
+/// of one has the other strictly on its outer side. A core that is a segment has two outer sides.
 fn core_meets(core: &[Point2], corners: &[Point2; 4]) -> bool {
     let (min, max) = (corners[0], corners[2]);
     let beside = core.iter().all(|p| p.x < min.x)
@@ -86,7 +87,7 @@ fn core_meets(core: &[Point2], corners: &[Point2; 4]) -> bool {
         let (a, b) = (core[i], core[(i + 1) % core.len()]);
         corners.iter().all(|&c| orientation(a, b, c) < 0.0)
     };
-    // a segment's two ways round are its two sides; a single point has none
+    // a segment is walked both ways, which tests both its sides; a single point has no edge
     let beyond_an_edge = core.len() > 1 && (0..core.len()).any(outside);
     !(beside || beyond_an_edge)
 }
@@ -96,10 +97,9 @@ mod tests {
     use super::*;
     use crate::geometry::{Pose2, Shape, convex_hull};
     use crate::random::{Seed, Stream};
-    use crate::worlds::Bounds;
 
-    fn bounds(x: f64, y: f64) -> Bounds {
-        Bounds { min: Point2::new(0.0, 0.0), max: Point2::new(x, y) }
+    fn bounds(x: f64, y: f64) -> Aabb {
+        Aabb { min: Point2::new(0.0, 0.0), max: Point2::new(x, y) }
     }
 
     fn occupied(grid: &Grid) -> Vec<(u32, u32)> {

@@ -1,4 +1,4 @@
-//! A grid as a ROS map.
+//! Writes a grid as a ROS map.
 
 use std::fmt::Write;
 

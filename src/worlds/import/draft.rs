@@ -1,4 +1,4 @@
-//! `Draft`, a world in the making: every item goes through the checks of a world file and gets a name of its own.
+//! `Draft`, a world under construction. Every item passes the checks of a world file and gets a unique name.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -10,10 +10,10 @@ use crate::worlds::file::name::{MAX_NAME, check_name};
 use crate::worlds::file::resident::make_resident;
 use crate::worlds::{MAX_ITEMS, Mark, Obstacle, Place, Resident, World, WorldProblem};
 
-/// How many notes are kept: more than anybody reads.
+/// Largest number of notes kept.
 const MOST_NOTES: usize = 100;
 
-/// A world in the making.
+/// A world under construction.
 #[derive(Default)]
 pub(super) struct Draft {
     walls: Vec<Obstacle>,
@@ -64,7 +64,7 @@ impl Draft {
         Ok(())
     }
 
-    /// Adds something a reader should know, once.
+    /// Adds a note for the reader, unless it is there already or there are too many.
     pub fn note(&mut self, note: impl Into<String>) {
         let note = note.into();
         if self.notes.len() < MOST_NOTES && !self.notes.contains(&note) {
@@ -72,12 +72,12 @@ impl Draft {
         }
     }
 
-    /// Whether nothing is there to collide with.
+    /// Whether the world has no obstacle yet.
     pub fn is_empty(&self) -> bool {
         self.walls.is_empty() && self.solids.is_empty()
     }
 
-    /// Claims the name itself where it is free and good, else the next one like it: `table`, `table 2`.
+    /// Claims a name, made valid. If it is taken, claims the next free one like it: `table`, `table 2`.
     pub fn claim(&mut self, name: &str) -> String {
         let name = good_name(name);
         if self.names.insert(name.clone()) {
@@ -87,7 +87,7 @@ impl Draft {
         self.numbered(&name)
     }
 
-    /// Claims the next of the names `stem 1`, `stem 2` and so on.
+    /// Claims the next free one of the names `stem 1`, `stem 2` and so on.
     pub fn numbered(&mut self, stem: &str) -> String {
         let count = self.counts.entry(stem.to_owned()).or_default();
         loop {
@@ -99,7 +99,7 @@ impl Draft {
         }
     }
 
-    /// The world, within these bounds.
+    /// Returns the finished world with these bounds, and the notes.
     pub fn finish(self, name: &str, min: Xy, max: Xy) -> Result<Imported, WorldProblem> {
         let bounds = make_bounds(&BoundsText { min, max })?;
         let mut obstacles = self.walls;
@@ -114,7 +114,7 @@ fn check_room(what: &'static str, there: usize) -> Result<(), WorldProblem> {
     if there < MAX_ITEMS { Ok(()) } else { Err(WorldProblem::TooMany { what }) }
 }
 
-/// A kind of robot as a name.
+/// The kind of a robot as a name: its first letter becomes a capital.
 pub(super) fn capitalised(kind: &str) -> String {
     let mut name = kind.to_owned();
     if let Some(first) = name.get_mut(..1) {
@@ -123,7 +123,7 @@ pub(super) fn capitalised(kind: &str) -> String {
     name
 }
 
-/// The name, or what of it a world file allows, with room for a number behind it.
+/// Makes a name valid: without control characters, short enough for a number after it, or else `unnamed`.
 fn good_name(wanted: &str) -> String {
     let clean: String = wanted.chars().filter(|c| !c.is_control()).collect();
     let mut end = clean.len().min(MAX_NAME - 12);

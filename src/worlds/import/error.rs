@@ -11,9 +11,9 @@ use crate::worlds::{MAX_CELLS, WorldProblem};
 pub struct ImportError {
     /// The file, as the caller named it.
     pub file: String,
-    /// The line, from 1; 0 when there are no lines or no telling.
+    /// The line, from 1; 0 if the file has no lines or the line is unknown.
     pub line: usize,
-    /// The item: a key, an element; empty when the trouble lies in no single one.
+    /// The item, a key or an element; empty if the problem concerns no single item.
     pub item: String,
     /// The reason.
     pub problem: Box<ImportProblem>,
@@ -60,28 +60,28 @@ pub enum ImportProblem {
     /// Not of the format at all.
     #[error("{0}")]
     Syntax(String),
-    /// Something that the format has and this reader does not take.
+    /// A feature of the format that this reader does not support.
     #[error("not supported: {0}")]
     Unsupported(String),
     /// Something that must be there is not.
     #[error("`{0}` is missing")]
     Missing(&'static str),
-    /// A value of another sort.
+    /// A value that is not of the expected kind.
     #[error("{found}: it must be {expected}")]
     Value {
-        /// What stands there.
+        /// The value found.
         found: String,
-        /// What belongs there.
+        /// The value expected, in words.
         expected: &'static str,
     },
-    /// Fewer or more cells, rows or pixels than the head of the file tells.
+    /// Fewer or more cells, rows or pixels than the head of the file declares.
     #[error("{found} {what}: the head of the file tells {expected}")]
     Count {
-        /// Of what.
+        /// What was counted.
         what: &'static str,
-        /// How many there are.
+        /// The number found.
         found: u64,
-        /// How many were told.
+        /// The number declared.
         expected: u64,
     },
     /// A map of more cells than a grid may have.
@@ -92,7 +92,7 @@ pub enum ImportProblem {
         /// The rows.
         rows: u64,
     },
-    /// Nothing in the file can be collided with.
+    /// The file holds no obstacle.
     #[error("there is no obstacle in it")]
     Nothing,
     /// Something that no world can hold.
@@ -100,7 +100,7 @@ pub enum ImportProblem {
     World(#[from] WorldProblem),
 }
 
-/// A value of another sort than expected.
+/// An error for a value that is not of the expected kind.
 pub(super) fn wrong_value(found: impl fmt::Display, expected: &'static str) -> ImportProblem {
     let found: String = found.to_string().chars().take(60).collect();
     ImportProblem::Value { found: if found.is_empty() { "nothing".into() } else { found }, expected }

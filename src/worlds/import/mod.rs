@@ -1,11 +1,11 @@
-//! Worlds from elsewhere: maps and drawings of other programs, read as worlds.
+//! Reads maps and drawings of other programs as worlds.
 //!
 //! | from | what becomes of it |
 //! |---|---|
-//! | a ROS map, [`RosMap`] | its occupied cells as boxes, or by request their borders as closed walls |
+//! | a ROS map, [`RosMap`] | boxes over its occupied cells, or on request closed walls along their borders |
 //! | a MovingAI map, [`movingai`] | the same |
 //! | an IR-SIM world, [`irsim`] | circles, boxes, polygons, walls and robots |
-//! | an SVG drawing, [`svg`] | what is filled as solid obstacles, what is only stroked as walls |
+//! | an SVG drawing, [`svg`] | filled shapes as solid obstacles, shapes that are only stroked as walls |
 //!
 //! Nothing here opens a file: bytes go in, a [`CellMap`] or an [`Imported`] world comes out. The world is one that
 //! [`World::parse`] would give: its text reads back as the same world.
@@ -35,15 +35,15 @@ use draft::Draft;
 pub struct Imported {
     /// The world.
     pub world: World,
-    /// What a reader should know of it, a sentence each: what was left out, what was taken as what.
+    /// Notes for the reader, a sentence each: what was left out and how things were interpreted.
     pub notes: Vec<String>,
 }
 
 impl Imported {
-    /// Puts a robot of this kind into the world, starting at these coordinates, under the name of its kind.
+    /// Adds a robot of this kind, named after its kind. `start` holds its chart coordinates.
     ///
     /// # Errors
-    /// [`WorldProblem`] when there is no such kind or the coordinates do not fit it.
+    /// [`WorldProblem`] if the kind is unknown or the coordinates do not fit it.
     pub fn put_robot(&mut self, kind: &str, start: &[f64]) -> Result<(), WorldProblem> {
         let plain = draft::capitalised(kind);
         let mut name = plain.clone();

@@ -1,21 +1,22 @@
-//! YAML as a tree in which every part knows its line. Anchors, aliases and tags are refused: maps and scenes have none, and
-//! without them a file's tree is no larger than the file.
+//! Parses YAML into a tree in which every part knows its line. Anchors, aliases and tags are refused: maps and scenes
+//! have none, and without them the tree is no larger than the file.
 
 use saphyr_parser::{Event, Parser, ScalarStyle};
 
 use super::error::wrong_value;
 use super::{ImportError, ImportProblem};
 
-/// How deep lists and mappings may be nested.
+/// Greatest depth of nested lists and mappings.
 const DEEPEST: usize = 32;
 
-/// The largest number of values, keys among them.
+/// Largest number of values, including keys.
 const MAX_VALUES: usize = 200_000;
 
-/// The largest number of the signs , [ ] { }: the parser keeps all of a list in brackets until it ends, some hundred bytes a value.
+/// Largest number of the signs `, [ ] { }`. The parser keeps a whole list in brackets until it ends, some hundred bytes
+/// a value.
 const MAX_SIGNS: usize = 50_000;
 
-/// The largest number of keys of one mapping: each is compared with those before it.
+/// Largest number of keys of one mapping: each is compared with those before it.
 const MAX_KEYS: usize = 100;
 
 /// A part of a file.
@@ -27,7 +28,7 @@ pub(super) struct Node {
 
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Value {
-    /// A text; `quoted` when it stands in quotes, so that it is no number.
+    /// A text. If `quoted`, it stood in quotes and is not a number.
     Scalar {
         text: String,
         quoted: bool,
@@ -37,13 +38,13 @@ pub(super) enum Value {
     Mapping(Vec<(String, usize, Node)>),
 }
 
-/// A list or mapping of which the end has not come.
+/// A list or mapping whose end has not been read.
 enum Open {
     List(usize, Vec<Node>),
     Mapping(usize, Vec<(String, usize, Node)>, Option<(String, usize)>),
 }
 
-/// The tree of a file that holds one document. A file of nothing is an empty mapping.
+/// Parses a file that holds one document. An empty file is an empty mapping.
 pub(super) fn read(text: &str) -> Result<Node, ImportError> {
     if text.bytes().filter(|b| b",[]{}".contains(b)).count() > MAX_SIGNS {
         return Err(unsupported(
@@ -105,7 +106,7 @@ pub(super) fn read(text: &str) -> Result<Node, ImportError> {
     Ok(whole.unwrap_or(Node { line: 1, value: Value::Mapping(Vec::new()) }))
 }
 
-/// The key that a node is.
+/// Reads a node as a key of a mapping. Refuses a key that is there already.
 fn key_of(node: Node, before: &[(String, usize, Node)]) -> Result<(String, usize), ImportError> {
     match node.value {
         _ if before.len() == MAX_KEYS => {
@@ -128,7 +129,7 @@ fn unsupported(line: usize, what: &str) -> ImportError {
 }
 
 impl Node {
-    /// The number that `item` is.
+    /// Reads the node as a number. Errors name it `item`.
     pub fn number(&self, item: &str) -> Result<f64, ImportError> {
         let expected = "a finite number";
         match &self.value {
@@ -140,7 +141,7 @@ impl Node {
         }
     }
 
-    /// The text that `item` is.
+    /// Reads the node as a text. Errors name it `item`.
     pub fn text(&self, item: &str) -> Result<&str, ImportError> {
         match &self.value {
             Value::Scalar { text, .. } if !text.is_empty() => Ok(text),
@@ -148,7 +149,7 @@ impl Node {
         }
     }
 
-    /// The list that `item` is.
+    /// Reads the node as a list. Errors name it `item`.
     pub fn list(&self, item: &str) -> Result<&[Node], ImportError> {
         match &self.value {
             Value::List(nodes) => Ok(nodes),
@@ -156,7 +157,7 @@ impl Node {
         }
     }
 
-    /// The numbers that `item` is a list of, as many as `count` allows.
+    /// Reads the node as a list of numbers, as many as `count` allows. Errors name it `item`.
     pub fn numbers(
         &self,
         item: &str,
@@ -171,7 +172,7 @@ impl Node {
         nodes.iter().map(|node| node.number(item)).collect()
     }
 
-    /// The mapping that `item` is.
+    /// Reads the node as a mapping. Errors name it `item`.
     pub fn fields(&self, item: &str) -> Result<Fields<'_>, ImportError> {
         match &self.value {
             Value::Mapping(entries) => {
@@ -192,7 +193,7 @@ impl Node {
     }
 }
 
-/// The entries of a mapping that nobody has asked for yet.
+/// The entries of a mapping that have not been taken yet.
 pub(super) struct Fields<'a> {
     /// The line the mapping begins in.
     pub line: usize,
@@ -201,23 +202,23 @@ pub(super) struct Fields<'a> {
 }
 
 impl<'a> Fields<'a> {
-    /// The value of a key, if it is there.
+    /// Takes the value of a key, if it is there.
     pub fn take(&mut self, key: &str) -> Option<&'a Node> {
         let at = self.left.iter().position(|(k, ..)| k == key)?;
         Some(&self.left.remove(at).2)
     }
 
-    /// The value of a key that must be there.
+    /// Takes the value of a key that must be there.
     pub fn need(&mut self, key: &'static str) -> Result<&'a Node, ImportError> {
         self.take(key).ok_or_else(|| ImportError::at(self.line, &self.item, ImportProblem::Missing(key)))
     }
 
-    /// The next key nobody has asked for, with its line.
+    /// Takes one of the remaining keys, with its line.
     pub fn rest(&mut self) -> Option<(&'a str, usize)> {
         self.left.pop().map(|(key, line, _)| (key.as_str(), *line))
     }
 
-    /// That every key was asked for.
+    /// Refuses keys that have not been taken.
     pub fn finish(mut self, known: &str) -> Result<(), ImportError> {
         self.left.reverse();
         match self.rest() {

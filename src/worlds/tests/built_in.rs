@@ -1,4 +1,4 @@
-//! What the three worlds must be (SPEC W1 to W3).
+//! Tests of what the three worlds must be (SPEC W1 to W3).
 
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI};
 
@@ -17,7 +17,8 @@ fn all_three_are_built_in_under_their_names() {
     assert_eq!(World::built_in("attic"), None);
 }
 
-/// Everything that collides, as sorted lists of bit patterns: segments and polygon edges with their ends in order, discs.
+/// Everything that collides, as sorted lists of bit patterns: segments and polygon edges with their ends in order,
+/// discs.
 fn features(world: &World, mirrored: bool) -> Vec<[u64; 5]> {
     let bits = |p: Point2| {
         let x = if mirrored { 12.0 - p.x } else { p.x };

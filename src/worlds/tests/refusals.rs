@@ -2,7 +2,7 @@
 
 use crate::worlds::World;
 
-/// The error of a file whose third line is this. (The first two hold the version, the name and the bounds.)
+/// The error of a file whose third line is `line`. The first two lines hold the version, the name and the bounds.
 fn refusal(line: &str) -> String {
     let text = format!("World(version: 1, name: \"yard\",\n  bounds: (min: (0, 0), max: (4, 3)),\n{line}\n)");
     World::parse("yard.ron", &text).unwrap_err().to_string()

@@ -1,4 +1,4 @@
-//! Reading, printing and reading again; and texts that were never meant to be worlds.
+//! Tests of reading, printing and reading again, and of malformed texts.
 
 use crate::geometry::{Point2, Pose2, Shape};
 use crate::random::{Seed, Stream};
@@ -10,7 +10,7 @@ const FILES: [&str; 3] = [
     include_str!("../../../worlds/lot.ron"),
 ];
 
-/// Everything the format has.
+/// A world with every feature of the format.
 const YARD: &str = r#"
 // a comment
 World(
@@ -71,7 +71,7 @@ fn the_yard_is_read_as_meant() {
     assert_eq!(pieces("pond").len(), 2, "one notch, two convex pieces");
     let pond = "(name: \"pond\", shape: Polygon([(4.0, 1.0), (6.0, 1.0), (5.5, 2.0), (6.0, 3.0), (4.0, 3.0)])),";
     assert!(world.to_ron().contains(pond), "and printed as the polygon that was written");
-    // one put together by hand whose outline is no longer its own is printed as what it is
+    // an obstacle changed by hand, whose outline no longer matches, is printed as its pieces
     let mut other = world.clone();
     let at = other.obstacles.iter().position(|o| o.name == "pond").unwrap();
     other.obstacles[at].outlines[0].points[2].x = 5.25;

@@ -78,7 +78,7 @@ pub struct RunArgs {
 }
 
 impl RunArgs {
-    /// Whether the widget shows a run, where it need not.
+    /// Whether a run is asked for, of a widget that need not show one.
     fn asked(&self, form: Form) -> bool {
         form == Form::Gif || self.log.is_some() || self.seed.is_some() || self.tick.is_some()
     }
@@ -93,10 +93,12 @@ pub struct SceneArgs {
     /// Anatomy and cspace: the robot. [default: choset; of a run its first]
     #[arg(long, value_enum)]
     robot: Option<RobotName>,
-    /// Anatomy, atlas and cspace: a built-in world or the path of a world file. [default: the robot's home; atlas: all three]
+    /// Anatomy, atlas and cspace: a built-in world or the path of a world file. [default: the robot's home; atlas: all
+    /// three]
     #[arg(long, value_name = "NAME|FILE")]
     world: Option<String>,
-    /// Anatomy and cspace: the configuration, numbers joined by commas. [default: where the robot starts; choset: pi/4, pi/2]
+    /// Anatomy and cspace: the configuration, numbers joined by commas. [default: where the robot starts; choset: pi/4,
+    /// pi/2]
     #[arg(long, value_name = "NUMBERS", allow_hyphen_values = true)]
     q: Option<Numbers>,
     /// Anatomy and cspace: the step to the second configuration.
@@ -114,8 +116,8 @@ pub struct SceneArgs {
     /// Atlas: the grid of this cell size over the world, shaded by its distance transform, metres.
     #[arg(long, value_name = "METRES")]
     grid: Option<f64>,
-    /// Atlas: put the world's first robot there, numbers joined by commas; where it cannot be, what it would overlap is shown, and
-    /// the nearest place that is free.
+    /// Atlas: put the world's first robot there, numbers joined by commas; where it cannot be, what it would overlap is
+    /// shown, and the nearest place that is free.
     #[arg(long, value_name = "NUMBERS", allow_hyphen_values = true)]
     teleport: Option<Numbers>,
 }
@@ -183,7 +185,7 @@ impl Capture {
         Ok(Outcome::Done)
     }
 
-    /// What the library says, as this program says it.
+    /// A failure of the library as one of this program.
     fn failure(&self, error: CaptureError) -> Failure {
         match error {
             CaptureError::Write(error) => Failure::output(&self.output, &error),
@@ -193,7 +195,7 @@ impl Capture {
         }
     }
 
-    /// The first option given that the widget, or the form, has no use for, and what it goes with.
+    /// The first option given for which the widget or the file format has no use, and what it goes with.
     fn astray(&self, form: Form, of_run: bool) -> Option<(&'static str, &'static str)> {
         use Widget::{Anatomy, Atlas, Cspace, Dashboard};
         let (run, scene) = (&self.run, &self.scene);
@@ -218,7 +220,7 @@ impl Capture {
             ("--world", scene.world.is_some(), &[Anatomy, Atlas, Cspace], "anatomy, atlas and cspace"),
         ];
         let stray = options.into_iter().find(|(_, given, widgets, _)| *given && !widgets.contains(&self.widget));
-        // a run says where its robots are
+        // a run has its robots' configurations already
         let still = [
             ("--q", scene.q.is_some()),
             ("--step", scene.step.is_some()),
@@ -238,7 +240,7 @@ impl Capture {
     }
 }
 
-/// What to do about it.
+/// Advice about an error.
 fn next(error: &CaptureError) -> &'static str {
     match error {
         CaptureError::NoTick { .. } => "Choose one of them.",

@@ -1,4 +1,4 @@
-//! What the widgets that stand still show: anatomy, atlas, configuration space.
+//! Figures of the widgets that need no run: anatomy, atlas, configuration space.
 
 use motion_lab::anatomy::{Anatomy, Tab, WorldSource};
 use motion_lab::atlas::{Atlas, GridLayer, Refusal};
@@ -64,7 +64,7 @@ pub fn atlas(args: &SceneArgs, paper: &Paper) -> Result<Captured, Failure> {
     Ok(capture::atlas(&sheets, paper.width_px()))
 }
 
-/// Puts the first robot there; or what is to be drawn and said of its refusal.
+/// Puts the first robot at `to`. For a refusal, returns the items to draw and the lines to show.
 fn teleport(atlas: &mut Atlas, to: &[f64]) -> Result<(Vec<Item>, Vec<String>), Failure> {
     let usage = |reason: String| Failure::usage(reason, "See `motion-lab capture --help`.");
     let resident = atlas.robots().first().ok_or_else(|| usage("no robot of the lab's lives there".into()))?;

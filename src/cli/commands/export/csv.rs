@@ -8,7 +8,7 @@ use super::frames;
 use super::sink::Sink;
 use crate::cli::Failure;
 
-/// How many columns each list gets: as many as it has items at the most.
+/// The number of columns of each list: its largest number of items in the log.
 #[derive(Default)]
 struct Widths {
     configuration: usize,
@@ -17,7 +17,8 @@ struct Widths {
     ranges: usize,
 }
 
-/// Writes the names of the columns, then a row for each tick from 0 on and each robot by id. A cell without a value is empty.
+/// Writes the names of the columns, then a row for each tick from 0 on and each robot by id. A cell without a value is
+/// empty.
 pub fn write(log: &Log, ranges: bool, sink: &mut Sink) -> Result<(), Failure> {
     let mut widths = Widths::default();
     for frame in frames(log) {

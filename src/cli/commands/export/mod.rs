@@ -18,9 +18,9 @@ use stills::StillArgs;
 
 /// Write a log in a form that other programs read.
 ///
-/// Every number is written with the fewest digits that read back to the same bits. An infinite range (nothing within reach) is
-/// `inf` in CSV and the text "inf" in JSON, which has no infinity; -0.0 keeps its sign. Of a damaged or unfinished file the sealed
-/// beginning is written, and the exit code is 5.
+/// Every number is written with the fewest digits that read back to the same bits. An infinite range (nothing within
+/// reach) is `inf` in CSV and the text "inf" in JSON, which has no infinity; -0.0 keeps its sign. Of a damaged or
+/// unfinished file the sealed beginning is written, and the exit code is 5.
 #[derive(Debug, Args)]
 pub struct Export {
     /// The log.
@@ -50,8 +50,8 @@ enum Format {
     Png,
     /// The run as it goes: the same figure at tick after tick.
     Gif,
-    /// An MCAP file for Foxglove, Lichtblick and Rerun: the log's own channels, and transforms, scans, scenes and log messages
-    /// by Foxglove's schemas. It is not a log that `verify` reads.
+    /// An MCAP file for Foxglove, Lichtblick and Rerun: the log's own channels, and transforms, scans, scenes and log
+    /// messages by Foxglove's schemas. It is not a log that `verify` reads.
     Foxglove,
 }
 

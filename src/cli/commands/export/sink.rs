@@ -1,4 +1,4 @@
-//! Where an export goes: a file that is there whole or not at all, or standard output.
+//! The target of an export: a file that is written whole or not at all, or standard output.
 
 use std::fmt::Display;
 use std::io::Write;
@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use crate::cli::support::output::PendingFile;
 use crate::cli::{Data, Failure};
 
-/// A file on its way, or standard output.
+/// A file that is being written, or standard output.
 pub enum Sink<'a> {
     /// A file under this name.
     File(PathBuf, PendingFile),

@@ -17,11 +17,11 @@ use crate::cli::{Failure, say};
 /// The version of the format. Readers refuse versions that they don't know.
 const VERSION: u32 = 1;
 
-/// The proof that an edge is free, as far as it is, with all that a program of another's needs to check it by its own geometry:
-/// `tests/peers/certificate.py` is one.
+/// The proof of how far an edge is free, with all that another program needs to check it by its own geometry, as
+/// `tests/peers/certificate.py` does.
 ///
-/// From `from` to `to` of each step every part of the robot keeps at least `clearance` metres from every shape of the world, and
-/// `clearance` is above the margin. The steps join, from 0 to `proven_until`.
+/// From `from` to `to` of each step every part of the robot keeps at least `clearance` metres from every shape of the
+/// world, and `clearance` is above the margin. The steps join, from 0 to `proven_until`.
 #[derive(Debug, Serialize)]
 pub struct EdgeCertificate {
     version: u32,
@@ -44,17 +44,20 @@ struct Shapes {
     obstacles: Vec<Shape>,
 }
 
-/// All points within the radius of the convex hull of the core's points, in world coordinates: a disc has one, a segment or a capsule two.
+/// A placed shape: all points within the radius of the convex hull of the core's points, in world coordinates. A disc
+/// has one core point, a segment or a capsule two.
 #[derive(Debug, Serialize)]
 struct Shape {
-    /// The obstacle that it is a piece of; others may be of the same one.
+    /// The name of its obstacle, which may have other pieces.
     name: String,
     core: Vec<[JsonNumber; 2]>,
     radius: JsonNumber,
 }
 
-/// The motion along the straight line of the configuration chart, its parameter s from 0 to 1. Angles lie in `(-pi, pi]` and go the short
-/// way round; a difference of half a turn, as `f64` has it, goes the positive way.
+/// The motion along the straight line of the configuration chart, its parameter s from 0 to 1.
+///
+/// Angles lie in `(-pi, pi]` and go the short way round. A difference of half a turn, as `f64` has it, goes the
+/// positive way.
 #[derive(Debug, Serialize)]
 struct ChartLine {
     kind: &'static str,
@@ -78,7 +81,7 @@ impl EdgeCertificate {
     }
 }
 
-/// Asks for the certificate of the edge to `to`.
+/// The inquiry for the certificate of an edge.
 pub struct Certify<'a> {
     /// The world's name.
     pub world: &'a str,

@@ -14,8 +14,8 @@ pub enum Dimensions {
     Rusty { radius: JsonNumber },
     /// Links from the base on, each all points within the radius of a segment; link k has the heading th1 + .. + thk.
     Reach { base: [JsonNumber; 2], lengths: Vec<JsonNumber>, radius: JsonNumber },
-    /// Rectangles, half the width to either side of the x axis of their frames: the body in the frame (x, y, theta), the trailer in the
-    /// frame (x, y, psi).
+    /// Rectangles, half the width to either side of the x axis of their frames: the body in the frame (x, y, theta),
+    /// the trailer in the frame (x, y, psi).
     Hitch { body: Body, trailer: Option<Trailer> },
 }
 

@@ -11,7 +11,8 @@ pub trait Inquiry {
     /// What comes of it.
     type Answer;
 
-    /// The answer about the robot at `q`, moving to `to` where the inquiry is about a motion. An error says what is wrong with these.
+    /// The answer about the robot at `q`, moving to `to` where the inquiry is about a motion. The error says what is
+    /// wrong with `q` or `to`.
     fn ask<R: Measured>(
         &self,
         checker: &Checker<R>,

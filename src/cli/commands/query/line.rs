@@ -3,7 +3,7 @@
 use motion_lab::geometry::MAX_COORDINATE;
 use serde::Deserialize;
 
-/// What is asked about.
+/// The subject of a question: a configuration, or a motion from it.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Asked {
@@ -29,7 +29,8 @@ pub fn parse_line(text: &str) -> Result<Asked, String> {
     })
 }
 
-/// Whether the numbers are finite and the first two, a place, are within the coordinates the lab computes with.
+/// Checks that the numbers are finite, and that the first two, a place, are within the coordinates the lab computes
+/// with.
 pub fn check_place(numbers: &[f64]) -> Result<(), String> {
     finite(numbers)?;
     match numbers.iter().take(2).find(|x| x.abs() > MAX_COORDINATE) {

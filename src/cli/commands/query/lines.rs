@@ -2,7 +2,7 @@
 
 use std::io::{self, BufRead, BufReader, Read};
 
-/// The greatest length of a line, bytes.
+/// Largest length of a line, bytes.
 pub const MAX_LINE: u64 = 1 << 20;
 
 /// A line, or what is wrong with it.

@@ -28,7 +28,7 @@ use crate::cli::support::numbers::Numbers;
 use crate::cli::support::world_source::find_world;
 use crate::cli::{Data, Failure, Outcome, say};
 
-/// How many wrong lines get a message of their own.
+/// Largest number of wrong lines that get a message of their own.
 const MESSAGES: u64 = 10;
 
 /// Ask about a robot's configurations in a world.
@@ -175,7 +175,7 @@ impl Desk {
         robot.answer(&self.scene, &Certify { world: &self.world }, asked)
     }
 
-    /// Whether a motion's end is given to a question about a motion, and to no other.
+    /// Checks that a motion's end is given to a question about a motion, and to no other.
     fn check(&self, asked: &Asked) -> Result<(), String> {
         match (&asked.to, matches!(self.question, Question::Swept | Question::Edge)) {
             (None, true) => Err("where to? this question is about a motion and needs `to`".into()),
@@ -188,7 +188,7 @@ impl Desk {
         let mut lines = Lines::new(reader);
         let mut wrong = 0_u64;
         while !data.is_closed() {
-            // somebody may be waiting for the answers so far before asking on
+            // the other side may wait for the answers so far before it asks on
             if lines.would_wait() {
                 data.flush()?;
             }

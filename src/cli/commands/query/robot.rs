@@ -56,7 +56,10 @@ impl RobotName {
         }
     }
 
-    /// The robot with a configuration: these numbers, or where a world's resident of its kind starts, or for an arm the book's.
+    /// The robot with a configuration: these numbers.
+    ///
+    /// Without numbers, arms of two links take the book's configuration. Other robots start where the world's resident
+    /// of their kind does; where there is none, the arm of three links takes a default and the others are refused.
     pub fn at(self, numbers: Option<&[f64]>, world: &World) -> Result<(AnyRobot, AnyConfiguration), String> {
         let kind = self.kind();
         let resident = world.robots.iter().find(|r| r.kind == kind).map(|r| r.start.clone());

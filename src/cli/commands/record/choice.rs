@@ -6,7 +6,7 @@ use motion_lab::worlds::{Resident, World};
 
 use crate::cli::Failure;
 
-/// A robot to keep: as the world has it, or as another of its name.
+/// A robot to keep: as the world has it, or another robot under its name.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RobotChoice {
     name: String,

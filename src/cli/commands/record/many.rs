@@ -13,7 +13,7 @@ use super::{Outcome, Record};
 use crate::cli::support::summary::RunSummary;
 use crate::cli::{Data, Failure, say};
 
-/// How many runs each thread has ahead of the printing.
+/// Number of runs per thread in a batch. The lines of a batch are printed when all its runs have ended.
 const AHEAD: u64 = 4;
 
 /// Records a run for each seed.

@@ -22,15 +22,16 @@ pub use one::{Plan, Stop};
 
 /// Record a run, and print where its robots end, their contacts and its digest.
 ///
-/// The same options give the same digest on every machine, whatever the number of threads. Ctrl-C ends a recording after the tick
-/// under way: with -o FILE what was done is kept in FILE.partial, and `record --resume FILE.partial` goes on from there.
+/// The same options give the same digest on every machine, whatever the number of threads. Ctrl-C ends a recording
+/// after the tick under way: with -o FILE what was done is kept in FILE.partial, and `record --resume FILE.partial`
+/// goes on from there.
 #[derive(Debug, Args)]
 pub struct Record {
     /// A built-in world or the path of a world file; may be given several times. [default: apartment, workbench, lot]
     #[arg(long, value_name = "NAME|FILE")]
     world: Vec<String>,
-    /// Keep only the robots named so; may be given several times. NAME=KIND:NUMBERS puts a robot of that kind (rusty, reach,
-    /// reach3, hitch) there in its place, starting at these coordinates: "Reach=reach3:0.1,0.2,0.3".
+    /// Keep only the robots named so; may be given several times. NAME=KIND:NUMBERS puts a robot of that kind (rusty,
+    /// reach, reach3, hitch) there in its place, starting at these coordinates: "Reach=reach3:0.1,0.2,0.3".
     #[arg(long, value_name = "NAME[=KIND:NUMBERS]")]
     robot: Vec<RobotChoice>,
     /// The seed. [default: 2005]
@@ -60,8 +61,8 @@ pub struct Record {
     /// Write the log to this file; with --seeds {seed} in its name stands for the seed.
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
-    /// Go on with a recording that stopped early: run it again from its seed and script, check it against what is there, and
-    /// write the whole. The output is named as FILE is, without .partial.
+    /// Go on with a recording that stopped early: run it again from its seed and script, check it against what is
+    /// there, and write the whole. The output is named as FILE is, without .partial.
     #[arg(long, value_name = "FILE", conflicts_with_all = [
         "world", "robot", "seed", "ticks", "seconds", "script", "rays", "range", "no_sensor",
     ])]

@@ -14,13 +14,13 @@ use crate::cli::support::simulate::begin;
 use crate::cli::support::summary::RunSummary;
 use crate::cli::{Data, Failure, Outcome, say};
 
-/// The ticks from which on a run says how far it is.
+/// Number of ticks from which a run reports its progress.
 const LONG: u64 = 100_000;
 
-/// The ticks of a second.
+/// Number of ticks in a second of simulated time.
 const SECOND: u64 = (1.0 / DT) as u64;
 
-/// What is run.
+/// A run to be recorded.
 #[derive(Clone, Debug)]
 pub struct Plan {
     /// The seed.
@@ -59,8 +59,8 @@ pub enum Ended {
     Differs(Divergence),
 }
 
-/// Runs `plan` and hands every frame to `sink`, the one before tick 1 first. Ends early when `stop` says so, or at the first
-/// frame that is not the one of `expected` for its tick.
+/// Runs `plan` and hands every frame to `sink`, that of tick 0 first. Ends early when `stop` says so, or at the first
+/// frame that differs from that of `expected` for its tick.
 pub fn run(
     plan: &Plan,
     expected: &[Frame],
@@ -92,8 +92,10 @@ pub fn run(
     Ok(Ended::Whole { last: run.frame().clone(), digest: digest.digest() })
 }
 
-/// As [`run`], and writes the log to `output`. Stopped early, or where the disk takes no more, what was done goes to the file that
-/// [`partial_name`] names, unless all of it is in `expected` already.
+/// As [`run`], and writes the log to `output`.
+///
+/// Where the run stops early or the disk takes no more, what was done is kept in the file that [`partial_name`] names,
+/// unless all of it is in `expected` already.
 pub fn write_run(plan: &Plan, expected: &[Frame], stop: Stop, output: &Path) -> Result<Ended, Failure> {
     let failed = |error: LogError| match error {
         LogError::Io(error) => Failure::output(output, &error),
@@ -101,12 +103,12 @@ pub fn write_run(plan: &Plan, expected: &[Frame], stop: Stop, output: &Path) -> 
     };
     let mut file = Some(PendingFile::create(output)?);
     let mut writer: Option<LogWriter<PendingFile>> = None;
-    // how many ticks the operating system took
+    // the last tick that the operating system took
     let mut taken = 0;
     let ended = run(plan, expected, stop, |frame| match &mut writer {
         Some(writer) => {
             writer.tick(frame).map_err(failed)?;
-            // what a killed process leaves is at most a second old
+            // a killed process loses at most a second of the run
             if frame.tick % SECOND == 0 {
                 writer.flush().map_err(failed)?;
                 taken = frame.tick;
@@ -158,7 +160,7 @@ fn kept(file: PendingFile, output: &Path, failure: Failure) -> Failure {
     }
 }
 
-/// What a recording that stopped early is called: the output's name with `.partial` behind it.
+/// The name of a recording that stopped early: the output's name with `.partial` behind it.
 pub fn partial_name(output: &Path) -> PathBuf {
     let mut name = output.as_os_str().to_owned();
     name.push(".partial");

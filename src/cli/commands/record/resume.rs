@@ -11,10 +11,11 @@ use crate::cli::support::input::read_bytes_if;
 use crate::cli::support::log_source::{begins_as_one, read_log};
 use crate::cli::{Data, Failure, Outcome, say};
 
-/// How many files that killed processes left are named at most.
+/// Largest number of files left by killed processes that are named.
 const MAX_NAMED: usize = 10;
 
-/// Runs the recording in `file` again from its seed and script, compares with what is sealed in it, and goes on to the end.
+/// Runs the recording in `file` again from its seed and script, compares with what is sealed in it, and goes on to the
+/// end.
 pub fn resume(file: &Path, output: Option<&Path>, stop: Stop, json: bool, data: &mut Data) -> Result<Outcome, Failure> {
     if is_temporary(file) && !is_left(file).unwrap_or(true) {
         return Err(Failure::input(
@@ -24,7 +25,7 @@ pub fn resume(file: &Path, output: Option<&Path>, stop: Stop, json: bool, data: 
     }
     let source = read_log(file)?;
     let log = source.read.log;
-    // a name that says it is partial gives way to the whole
+    // FILE.partial, or an unfinished file of FILE, becomes FILE
     let whole_name = whole_name(file);
     let output = output.or(whole_name.as_deref()).unwrap_or(file);
     if is_temporary(file) && output.exists() {
@@ -45,7 +46,7 @@ pub fn resume(file: &Path, output: Option<&Path>, stop: Stop, json: bool, data: 
     Ok(outcome)
 }
 
-/// Names the recordings beside `output` that were killed, and how to go on with them.
+/// Names the files beside `output` that killed processes left, and says what to do with them.
 pub fn name_unfinished(output: &Path) {
     // a folder that can't be read is an error when the output is begun
     let left = unfinished(output).unwrap_or_default();

@@ -1,8 +1,9 @@
-//! From options to what is run.
+//! From options to a run's seed, configuration and script.
 
 use motion_lab::random::Seed;
 use motion_lab::run::{DT, Script};
-use motion_lab::tour::{BOOK_SEED, SensorConfig, TourConfig};
+use motion_lab::sensors::RangeSensor;
+use motion_lab::tour::{BOOK_SEED, TourConfig};
 
 use super::Record;
 use super::choice::choose;
@@ -23,8 +24,8 @@ pub fn config(options: &Record) -> Result<TourConfig, Failure> {
     }
     choose(&mut config.worlds, &options.robot)?;
     config.ticks = ticks(options)?.unwrap_or(config.ticks);
-    let SensorConfig { n_rays, max_range } = config.sensor.unwrap_or(SensorConfig { n_rays: 360, max_range: 4.0 });
-    config.sensor = (!options.no_sensor).then_some(SensorConfig {
+    let RangeSensor { n_rays, max_range } = config.sensor.unwrap_or(RangeSensor { n_rays: 360, max_range: 4.0 });
+    config.sensor = (!options.no_sensor).then_some(RangeSensor {
         n_rays: options.rays.unwrap_or(n_rays),
         max_range: options.range.unwrap_or(max_range),
     });
@@ -51,7 +52,7 @@ pub fn script(options: &Record) -> Result<Script, Failure> {
         .map_err(|error| Failure::input(error, "Correct the script there."))
 }
 
-/// Whether the configuration can be run and the script is one for its robots.
+/// Checks that the configuration can be run and that the script names its robots only.
 pub fn check(options: &Record, config: &TourConfig, script: &Script) -> Result<(), Failure> {
     config.validate().map_err(|error| Failure::usage(error, "See `motion-lab record --help`."))?;
     let names: Vec<&str> = config.robot_names().collect();

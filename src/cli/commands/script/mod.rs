@@ -25,12 +25,14 @@ pub struct ScriptArgs {
 
 #[derive(Debug, Subcommand)]
 enum ScriptCommand {
-    /// Read scripts and say what is in them, or what is wrong with them. Every file is read; one that is wrong makes the exit code 3.
+    /// Read scripts and say what is in them, or what is wrong with them. Every file is read; one that is wrong makes
+    /// the exit code 3.
     Check {
         /// The scripts.
         #[arg(required = true, value_name = "FILE")]
         files: Vec<PathBuf>,
-        /// Check the robots' names as well: a built-in world or a world file that they live in; may be given several times.
+        /// Check the robots' names as well: a built-in world or a world file that they live in; may be given several
+        /// times.
         #[arg(long, value_name = "NAME|FILE")]
         world: Vec<String>,
         /// One line of JSON for each file that is right.
@@ -46,8 +48,8 @@ enum ScriptCommand {
     ///
     /// A row is `tick,robot,input` and the input's values: `1,Rusty,Drive,64,-20` (parts in 128 of the maximum),
     /// `5,Reach,MoveTo,0.785,1.571` and `7,Rusty,Teleport,2.25,6.25,0` (metres and radians, rounded to 2^-20),
-    /// `9,Hitch,SetTrailer,on`, `12,Rusty,Release`. Ticks ascend. A first row that begins with `tick` is a heading; empty rows and
-    /// rows that begin with # are left out.
+    /// `9,Hitch,SetTrailer,on`, `12,Rusty,Release`. Ticks ascend. A first row that begins with `tick` is a heading;
+    /// empty rows and rows that begin with # are left out.
     Convert {
         /// The table.
         #[arg(value_name = "FILE.csv")]
@@ -58,7 +60,7 @@ enum ScriptCommand {
     },
 }
 
-/// What is said of a script.
+/// The summary of a script.
 #[derive(Serialize)]
 struct Summary<'a> {
     source: String,

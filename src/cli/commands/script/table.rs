@@ -112,8 +112,8 @@ fn coordinates(cells: &[Cell], end: usize) -> Result<Vec<Quantized>, (usize, Str
     cells.iter().map(coordinate).collect()
 }
 
-/// The cells of a row, at least one, white space around them and empty ones at its end left out. A cell may stand in quotes, a
-/// quote in it doubled.
+/// The cells of a row, at least one, without white space around them and without empty ones at its end. A cell may
+/// stand in quotes, a quote in it doubled.
 fn cells(row: &str) -> Result<Vec<Cell>, (usize, String)> {
     let mut cells = Vec::new();
     let mut rest = row.chars().zip(1..).peekable();
@@ -176,7 +176,7 @@ mod tests {
         assert_eq!(super::script("").unwrap(), Script::empty());
     }
 
-    /// A cell of 36 MB of commas took 60 bytes and more.
+    /// Without the limit, each cell of a row of 36 MB of commas took 60 bytes and more.
     #[test]
     fn a_row_has_at_most_a_thousand_cells() {
         // the first value stands in column 16, and a further one two columns on

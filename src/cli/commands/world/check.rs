@@ -1,4 +1,4 @@
-//! What a world file may say and a world still should not: residents that touch something, obstacles out of sight.
+//! Checks of worlds whose files are valid: residents that touch something, obstacles outside the bounds.
 
 use motion_lab::collision::{ObstacleId, Scene};
 use motion_lab::geometry::Footprint;
@@ -8,8 +8,8 @@ use motion_lab::worlds::{Obstacle, ObstacleKind, World};
 /// The largest number of problems reported for one world.
 const MAX_REPORTED: usize = 10;
 
-/// What is wrong with the world, each by name: residents that touch an obstacle or one another at their starts, obstacles of which
-/// nothing lies within the bounds. Robots of a program's own kinds are left out.
+/// The problems of a world, each by name: residents that touch an obstacle or one another at their starts, and
+/// obstacles wholly outside the bounds. Robots of a program's own kinds are left out.
 pub fn problems(world: &World) -> Vec<String> {
     let footprint = |kind: &str, start: &[f64]| AnyRobot::of_kind(kind, start).map(|(robot, q)| robot.footprint(&q));
     let residents: Vec<(&str, Footprint)> =
@@ -40,14 +40,10 @@ fn crowd(world: &World, residents: &[(&str, Footprint)]) -> Scene {
     Scene::of_world(&World { name, bounds: world.bounds, obstacles, places, marks, robots })
 }
 
-/// The obstacles of which nothing lies within the bounds.
+/// The obstacles wholly outside the bounds, by the bounding boxes of their pieces.
 fn outside(world: &World) -> impl Iterator<Item = String> {
-    let (min, max) = (world.bounds.min, world.bounds.max);
     let beyond = world.obstacles.iter().filter(move |obstacle| {
-        obstacle.pieces.iter().all(|(pose, shape)| {
-            let (low, high) = shape.place(pose).bounds();
-            high.x < min.x || low.x > max.x || high.y < min.y || low.y > max.y
-        })
+        obstacle.pieces.iter().all(|(pose, shape)| shape.place(pose).bounds().is_apart(&world.bounds))
     });
     beyond.map(|obstacle| format!("{:?} lies outside the bounds", obstacle.name))
 }

@@ -19,10 +19,10 @@ use crate::cli::{Data, Failure, Outcome, say};
 
 /// Read a map or drawing of another program and write it as a world file.
 ///
-/// A ROS map is given by its yaml file; its image must be a PGM. In a MovingAI map . G S are free, @ O T W occupied. Of either the
-/// occupied cells become solid boxes. In an SVG drawing what is filled becomes a solid
-/// obstacle and what is only stroked a wall, called by their ids. Of an IR-SIM world the static obstacles are read, and its robots as
-/// Rusty (diff) and Hitch (acker).
+/// A ROS map is given by its yaml file; its image must be a PGM. In a MovingAI map . G S are free, @ O T W occupied. Of
+/// either the occupied cells become solid boxes. In an SVG drawing what is filled becomes a solid obstacle and what is
+/// only stroked a wall, called by their ids. Of an IR-SIM world the static obstacles are read, and its robots as Rusty
+/// (diff) and Hitch (acker).
 #[derive(Debug, Args)]
 pub struct Import {
     /// The map or drawing.
@@ -42,7 +42,8 @@ pub struct Import {
     /// Where that robot starts: x,y,theta; for an arm its joint angles.
     #[arg(long, value_name = "NUMBERS", requires = "robot", value_delimiter = ',', allow_hyphen_values = true)]
     start: Vec<f64>,
-    /// Trace the borders of occupied cells as closed walls: fewer obstacles, but a robot put inside them touches nothing.
+    /// Trace the borders of occupied cells as closed walls: fewer obstacles, but a robot put inside them touches
+    /// nothing.
     #[arg(long)]
     hollow: bool,
     /// What the unknown cells of a ROS map are.

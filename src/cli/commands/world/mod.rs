@@ -25,8 +25,9 @@ pub struct WorldArgs {
 
 #[derive(Debug, Subcommand)]
 enum WorldCommand {
-    /// Read world files and say what is in them, or what is wrong with them: what they are written like, robots that start in contact with
-    /// something or with one another, obstacles outside the bounds. Every file is read; one that is wrong makes the exit code 3.
+    /// Read world files and say what is in them, or what is wrong with them: what they are written like, robots that
+    /// start in contact with something or with one another, obstacles outside the bounds. Every file is read; one that
+    /// is wrong makes the exit code 3.
     Check {
         /// The world files.
         #[arg(required = true, value_name = "FILE")]
@@ -51,10 +52,10 @@ enum WorldCommand {
     Export(Export),
 }
 
-/// What is said of a world.
+/// The summary of a world.
 #[derive(Serialize)]
 struct Summary<'a> {
-    /// The name or file it is asked for by.
+    /// The name or file by which it was asked for.
     source: &'a str,
     name: &'a str,
     content_hash: String,

@@ -1,4 +1,4 @@
-//! Every way to cut the file and every bit to flip.
+//! Tests every cut of the file and every flipped bit.
 
 use super::*;
 use crate::run::mcap::encoder::put_seal;
@@ -17,8 +17,8 @@ fn seals(file: &[u8]) -> Vec<usize> {
     ends
 }
 
-/// Reads a damaged file; what is delivered must be the original's first ticks, as many as are sealed before byte
-/// `first_bad`. Gives the kind of damage reported.
+/// Reads a damaged file and returns the reported kind of damage. The recovered ticks must be the original's, exactly
+/// those sealed before byte `first_bad`.
 fn check_damaged(file: &[u8], first_bad: usize, original: &Log, seals: &[usize]) -> DamageKind {
     let whole_pieces = seals.iter().filter(|end| **end <= first_bad).count();
     match Log::read_mcap(file) {
@@ -100,7 +100,7 @@ fn nothing_can_be_appended_or_put_in_unseen() {
     check_damaged(&without_the_end, seals[2], &log, &seals);
 }
 
-/// The file with its first piece changed by `change` and sealed again: what a program that knows the seal could make.
+/// The file with its first piece changed by `change` and sealed again, as a program that knows the seal could do.
 fn forged(file: &[u8], change: impl Fn(&mut Vec<u8>)) -> Vec<u8> {
     let seal_at = seals(file)[0] - 41; // opcode, length, 32 bytes
     let mut forged = file[..seal_at].to_vec();
@@ -144,7 +144,7 @@ fn a_beginning_that_is_sealed_but_senseless_is_refused_by_name() {
 #[test]
 fn hostile_lengths_are_refused_quickly() {
     let file = written(&fixture::log());
-    // whatever lies in the file in turn becomes the greatest number there is: every length among it
+    // every eight bytes that end in four zeros, all lengths among them, become the greatest number in turn
     for at in 8..file.len() - 8 {
         if file[at + 4..at + 8] == [0; 4] {
             let mut bad = file.clone();
@@ -152,7 +152,7 @@ fn hostile_lengths_are_refused_quickly() {
             assert!(Log::read_mcap(&bad).is_err(), "byte {at}");
         }
     }
-    // and with seals that are right, so that all the readers behind the seal meet it
+    // and with valid seals, so that the code behind the seal meets these numbers
     let first = seals(&file)[0] - 41;
     for at in 8..first - 8 {
         let bad = forged(&file, |bytes| bytes[at..at + 8].fill(0xff));

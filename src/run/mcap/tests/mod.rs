@@ -1,4 +1,4 @@
-//! The log as a file, from outside: what is written, read, refused and recovered.
+//! Tests of the log as a file: what is written, read, refused and recovered.
 
 mod damage;
 mod peers;
@@ -15,7 +15,7 @@ fn written(log: &Log) -> Vec<u8> {
     file
 }
 
-/// Whether two logs are the same run, to the last bit of every number. (`==` holds -0.0 equal to 0.0.)
+/// Asserts that two logs are the same run, to the last bit of every number. (`==` takes -0.0 and 0.0 for equal.)
 fn assert_same(found: &Log, expected: &Log) {
     assert_eq!(found, expected);
     assert_eq!(found.digest(), expected.digest());
@@ -110,7 +110,7 @@ fn what_is_no_run_is_not_written() {
     }
 }
 
-/// An output with room for so many bytes.
+/// An output with a limited number of bytes left.
 struct Disk<'a> {
     room: &'a std::cell::Cell<usize>,
 }

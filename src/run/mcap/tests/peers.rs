@@ -1,4 +1,4 @@
-//! The crate `mcap`, which shares no code with ours, reads the files we write.
+//! Tests that the crate `mcap`, which shares no code with our reader and writer, reads the files we write.
 
 use std::io::Cursor;
 
@@ -81,7 +81,7 @@ fn the_checksums_for_other_readers_are_right() {
     assert_eq!(offset_of_end, Some(crc32fast::hash(&file[..summary_start - 13])));
     let before_crc = file.len() - 8 - 4;
     assert_eq!(footer.summary_crc, crc32fast::hash(&file[summary_start..before_crc]));
-    // and the crate's own summary reader, told to check, agrees
+    // and the crate's incremental summary reader finds the summary
     let mut reader = mcap::sans_io::SummaryReader::new();
     let mut cursor = Cursor::new(&file);
     while let Some(event) = reader.next_event() {

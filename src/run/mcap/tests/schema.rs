@@ -1,4 +1,4 @@
-//! The checked-in schema: what it says is what is written, and no float in it can lose its sign.
+//! Tests of the checked-in schema: it describes what is written, and no float in it can lose its sign.
 
 use std::collections::BTreeMap;
 
@@ -72,8 +72,8 @@ fn the_text_and_the_compiled_schema_are_one() {
     assert_eq!(compiled, text, "compile the text again: see its first lines");
 }
 
-/// Walks encoded bytes by the descriptor alone, notes every field met, and fails on one that is not there or not of its
-/// wire type.
+/// Walks encoded bytes by the descriptor alone and notes every field met. Fails on a field that the descriptor lacks or
+/// that has another wire type.
 fn walk(name: &str, mut bytes: &[u8], met: &mut BTreeMap<String, Vec<String>>) {
     let message = descriptor(name);
     while !bytes.is_empty() {

@@ -1,4 +1,4 @@
-//! A subset of IR-SIM's YAML.
+//! Reads a subset of IR-SIM's YAML.
 
 use super::shape::IrShape;
 use crate::geometry::Pose2;
@@ -6,23 +6,25 @@ use crate::worlds::import::error::wrong_value;
 use crate::worlds::import::yaml::{self, Fields, Node, Value};
 use crate::worlds::import::{Draft, ImportError, ImportProblem, Imported};
 
-/// Keys that say how a simulation goes on or looks, and nothing of what is where.
+/// Keys that describe how a simulation runs or looks, not its geometry.
 const WORLD_ASIDE: [&str; 7] =
     ["step_time", "sample_time", "step_mode", "control_mode", "collision_mode", "plot", "status"];
 const OBSTACLE_ASIDE: [&str; 4] = ["color", "plot", "description", "role"];
 const OBSTACLE_KEYS: &str =
     "shape, state, number, distribution, name, unobstructed, and color, plot, description, role";
 
-/// Reads a world of IR-SIM: `world` with `width`, `height` and `offset`; `obstacle` with the shapes `circle`, `rectangle`, `polygon`
-/// and `linestring`, each at its `state`, one or `number` of them in the distribution `manual`; and `robot`.
+/// Reads a world of IR-SIM: `world` with `width`, `height` and `offset`; `obstacle` with the shapes `circle`,
+/// `rectangle`, `polygon` and `linestring`, each at its `state`, one of them or `number` of them in the distribution
+/// `manual`; and `robot`.
 ///
-/// A robot of the kinematics `diff` becomes a Rusty, one of `acker` a Hitch, with this lab's own shape and speed; its goal becomes
-/// a place. What is `unobstructed` becomes a painted mark. Keys of time, behaviour and looks are left out, each with a note.
-/// `file` is what errors call the file.
+/// A robot of the kinematics `diff` becomes a Rusty, one of `acker` a Hitch, with this lab's own shape and speed; its
+/// goal becomes a place. An `unobstructed` obstacle becomes a painted mark; an unobstructed circle is left out. Keys of
+/// time, behaviour and looks are left out as well. Everything left out gets a note. `file` is the file's name in
+/// errors.
 ///
 /// # Errors
-/// [`ImportError`] names line and item: unknown keys, shapes and kinematics, random distributions, obstacles that move or can be
-/// pushed, grid maps.
+/// [`ImportError`] names line and item: unknown keys, shapes and kinematics, random distributions, obstacles that move
+/// or can be pushed, grid maps.
 pub fn irsim(file: &str, text: &str, name: &str) -> Result<Imported, ImportError> {
     read(text, name).map_err(|error| error.of(file))
 }
@@ -75,7 +77,7 @@ fn objects<'a>(section: Option<&'a Node>, name: &str) -> Vec<(String, &'a Node)>
     }
 }
 
-/// Takes the keys that are left out, each with a note.
+/// Takes the keys that are left out and adds a note for each.
 fn aside(fields: &mut Fields, item: &str, keys: &[&str], draft: &mut Draft) {
     for key in keys {
         if fields.take(key).is_some() {
@@ -115,7 +117,7 @@ fn obstacles(item: &str, node: &Node, draft: &mut Draft) -> Result<(), ImportErr
     aside(&mut fields, "obstacle.", &OBSTACLE_ASIDE, draft);
     fields.finish(OBSTACLE_KEYS)?;
     for (i, state) in states.iter().enumerate() {
-        // fewer shapes than states: the last one again
+        // with fewer shapes than states, the last shape is used again
         let shape = &shapes[i.min(shapes.len() - 1)];
         let name = match name {
             Some(name) => draft.claim(name),
@@ -155,7 +157,7 @@ fn robots(item: &str, node: &Node, draft: &mut Draft) -> Result<(), ImportError>
     Ok(())
 }
 
-/// The states of an object, one or as many as it says.
+/// Reads the states of an object. A `number`, if given, must be the number of states.
 fn states(item: &str, fields: &mut Fields) -> Result<Vec<Pose2>, ImportError> {
     let states = match fields.take("state") {
         None => vec![Pose2::IDENTITY],
@@ -180,7 +182,8 @@ fn states(item: &str, fields: &mut Fields) -> Result<Vec<Pose2>, ImportError> {
     Err(ImportError::at(node.line, at, wrong_value(found, "the number of its states")))
 }
 
-/// One pose, or a list of poses: `[x, y]`, `[x, y, theta]`, and for a car its steering angle behind, which a configuration has not.
+/// Reads one pose, or a list of poses: `[x, y]` or `[x, y, theta]`. A fourth number, a car's steering angle, is
+/// ignored.
 fn poses(item: &str, node: &Node) -> Result<Vec<Pose2>, ImportError> {
     let nodes = node.list(item)?;
     let several = nodes.iter().any(|n| matches!(n.value, Value::List(_)));

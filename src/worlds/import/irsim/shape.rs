@@ -15,7 +15,7 @@ pub(crate) enum IrShape {
 }
 
 impl IrShape {
-    /// The shape that `item` describes.
+    /// Reads a shape. Errors name it `item`.
     pub fn read(item: &str, node: &Node) -> Result<IrShape, ImportError> {
         let mut fields = node.fields(item)?;
         let name = fields.need("name")?;
@@ -42,7 +42,7 @@ impl IrShape {
         Ok(shape)
     }
 
-    /// What an object of this shape is called.
+    /// The name of an object of this shape, before its number.
     pub fn stem(&self, painted: bool) -> &'static str {
         match self {
             _ if painted => "mark",
@@ -53,10 +53,11 @@ impl IrShape {
         }
     }
 
-    /// Puts an object of this shape into a world, its frame at `pose`; as a mark when it is but painted.
+    /// Adds an object of this shape with its frame at `pose`; if `painted`, as a mark. A painted circle is left out,
+    /// with a note.
     pub fn put(&self, pose: &Pose2, painted: bool, name: String, draft: &mut Draft) -> Result<(), WorldProblem> {
         let place = |p: &Point2| {
-            // a turn by 0 leaves the digits as they are
+            // without a rotation the coordinates are only added
             let placed = if pose.theta == 0.0 { p + pose.position().coords } else { pose.transform(*p) };
             (placed.x, placed.y)
         };

@@ -1,4 +1,4 @@
-//! `CellMap`, a map of cells, and the world it stands for.
+//! `CellMap`, a map of cells, and its conversion to a world.
 
 use super::trace::trace;
 use crate::geometry::{MIN_FEATURE, Point2, Pose2};
@@ -10,11 +10,11 @@ use crate::worlds::{Grid, MAX_CELLS, MAX_ITEMS, WorldProblem};
 /// What occupied cells become.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum CellStyle {
-    /// Boxes that cover them, inside and all.
+    /// Boxes that cover them, interior included.
     #[default]
     Solid,
-    /// Closed walls along their borders, edges in line joined to one. Their inside holds no obstacle: nothing gets in, but a
-    /// robot put there touches nothing. The world's notes say so.
+    /// Closed walls along their borders, with collinear edges joined. The interior holds no obstacle: nothing can
+    /// enter, but a robot placed inside touches nothing. A note of the world says so.
     Hollow,
 }
 
@@ -26,18 +26,20 @@ type Cells = ((u32, u32), (u32, u32));
 pub struct CellMap {
     /// The cells.
     pub grid: Grid,
-    /// The pose of the grid's frame in the world. Where it is the identity the cells' corners are the grid's own, to the bit.
+    /// The pose of the grid's frame in the world. If it is the identity, the cells' corners are the grid's own, to the
+    /// bit.
     pub frame: Pose2,
-    /// What a reader should know of it.
+    /// Notes for the reader.
     pub notes: Vec<String>,
 }
 
 impl CellMap {
-    /// The world in which the occupied cells are obstacles, within the map's border. Every edge lies on borders of cells.
+    /// Creates a world in which the occupied cells are obstacles. Its bounds enclose the map, and every edge of an
+    /// obstacle lies on borders of cells.
     ///
     /// # Errors
-    /// [`ImportError`] when there are too many edges or boxes for a world, when coordinates are too large or cells smaller than
-    /// [`MIN_FEATURE`], or when no cell is occupied. `file` is what it calls the map.
+    /// [`ImportError`] if there are too many edges or boxes for a world, coordinates are too large, cells are smaller
+    /// than [`MIN_FEATURE`], or no cell is occupied. `file` is the map's name in errors.
     pub fn world(&self, file: &str, name: &str, style: CellStyle) -> Result<Imported, ImportError> {
         let mut draft = Draft::default();
         self.notes.iter().for_each(|note| draft.note(note));
@@ -97,8 +99,8 @@ impl CellMap {
     }
 }
 
-/// Rectangles of cells, by their lower left and upper right corner, that cover the occupied cells and overlap nowhere: the fewer of
-/// those that grow along the rows first and of those that grow along the columns first.
+/// Covers the occupied cells with rectangles that do not overlap, each given by its lower left and upper right corner.
+/// Rectangles are grown along the rows first, and along the columns first; the smaller set is returned.
 fn rectangles(grid: &Grid) -> Vec<Cells> {
     let along = grown(grid.columns(), grid.rows(), |column, row| grid.is_occupied(column, row));
     let mut up = grown(grid.rows(), grid.columns(), |row, column| grid.is_occupied(column, row));
@@ -112,7 +114,7 @@ fn rectangles(grid: &Grid) -> Vec<Cells> {
     up
 }
 
-/// Rectangles that cover the occupied cells of a grid of this size: each as wide as can be, then as high.
+/// Rectangles that cover the occupied cells of a grid of this size: each as wide as possible, then as high as possible.
 fn grown(columns: u32, rows: u32, is_occupied: impl Fn(u32, u32) -> bool) -> Vec<Cells> {
     let index = |column: u32, row: u32| row as usize * columns as usize + column as usize;
     let mut left: Vec<bool> = (0..rows)
@@ -140,7 +142,7 @@ fn grown(columns: u32, rows: u32, is_occupied: impl Fn(u32, u32) -> bool) -> Vec
     found
 }
 
-/// The cells of a map given by its rows from the top, checked for their number and size.
+/// Creates a grid from cells given by rows from the top. Checks their number and size.
 pub(crate) fn grid_of(
     origin: Point2,
     resolution: f64,
@@ -156,14 +158,14 @@ pub(crate) fn grid_of(
     }
     let mut cells = cells()?;
     let found = cells.len() as u64;
-    // from below instead: the rows change places, then each is the right way round again
+    // a grid's rows start at the bottom: reverse all cells, then each row
     cells.reverse();
     cells.chunks_mut(columns as usize).for_each(<[bool]>::reverse);
     Grid::of_cells(origin, resolution, columns as u32, rows as u32, cells)
         .ok_or_else(|| ImportError::at(0, "", ImportProblem::Count { what: "cells", found, expected: columns * rows }))
 }
 
-/// Whether a map may have so many cells.
+/// Refuses a map with more than `MAX_CELLS` cells.
 pub(crate) fn check_size(columns: u64, rows: u64) -> Result<(), ImportProblem> {
     match columns.checked_mul(rows) {
         Some(cells) if cells <= MAX_CELLS => Ok(()),

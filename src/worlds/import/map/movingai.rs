@@ -1,15 +1,16 @@
-//! The maps of the MovingAI benchmarks.
+//! Reads the maps of the MovingAI benchmarks.
 
 use super::cells::{check_size, grid_of};
 use crate::geometry::{Point2, Pose2};
 use crate::worlds::import::error::wrong_value;
 use crate::worlds::import::{CellMap, ImportError, ImportProblem};
 
-/// Reads a MovingAI map with cells of `resolution` metres: `.`, `G` and `S` are free; `@`, `O`, `T` and `W` are occupied. The
-/// lower left corner of the map is the origin. `file` is what errors call it.
+/// Reads a MovingAI map with cells of `resolution` metres: `.`, `G` and `S` are free; `@`, `O`, `T` and `W` are
+/// occupied. The lower left corner of the map is the origin. `file` is the map's name in errors.
 ///
 /// # Errors
-/// [`ImportError`] names line and column: another head, rows too few, too many or of another length, an unknown sign.
+/// [`ImportError`] names line and column: a malformed head, too few or too many rows, a row of the wrong length, an
+/// unknown sign.
 ///
 /// ```
 /// use motion_lab::worlds::import::{CellStyle, movingai};

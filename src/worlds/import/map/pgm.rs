@@ -1,4 +1,4 @@
-//! The portable graymap, P2 and P5.
+//! Reads the portable graymap, P2 and P5.
 
 use super::cells::check_size;
 use crate::worlds::import::error::wrong_value;
@@ -92,7 +92,7 @@ fn plain_raster(words: &mut Words, expected: u64, max: u16) -> Result<Vec<u16>, 
     Ok(pixels)
 }
 
-/// The pixels after the one blank that ends the head. Blanks after the last of them are left out, as editors put them there.
+/// The pixels after the one blank that ends the head. Blanks after the last pixel are left out: some editors add them.
 fn raster(bytes: &[u8], head: usize, expected: u64, max: u16) -> Vec<u16> {
     let mut rest = bytes.get(head + 1..).unwrap_or(&[]);
     let size = if max < 256 { 1 } else { 2 };

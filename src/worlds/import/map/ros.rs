@@ -1,4 +1,4 @@
-//! The maps of ROS: map_server's yaml beside a graymap.
+//! Reads the maps of ROS: map_server's yaml with a graymap.
 
 use super::cells::grid_of;
 use super::pgm::Pgm;
@@ -9,8 +9,9 @@ use crate::worlds::import::{CellMap, ImportError, yaml};
 /// The head of a ROS map: its yaml file.
 ///
 /// A pixel of shade `s` (0 black, 1 white) is occupied to the degree `1 - s`, with `negate` to the degree `s`. From
-/// `occupied_thresh` on it is occupied, below `free_thresh` it is free, in between unknown. In the mode `raw` a pixel's own value
-/// is its degree in hundredths, and beyond 100 it is unknown. Thresholds not given are 0.65 and 0.196, as in map_server.
+/// `occupied_thresh` on it is occupied, below `free_thresh` it is free, in between unknown. In the mode `raw` a pixel's
+/// own value is its degree in hundredths, and beyond 100 it is unknown. Thresholds not given are 0.65 and 0.196, as in
+/// map_server.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RosMap {
     /// The image file, as the yaml names it: relative to the yaml's own folder.
@@ -29,13 +30,13 @@ pub struct RosMap {
     pub raw: bool,
 }
 
-/// What cells are of which a map doesn't tell whether they are free.
+/// How a map's unknown cells are read.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Unknown {
-    /// Occupied: what is not known to be free is never called free.
+    /// As occupied: only cells known to be free are free.
     #[default]
     Occupied,
-    /// Free.
+    /// As free.
     Free,
 }
 
@@ -45,7 +46,7 @@ pub fn is_ros_map(text: &str) -> bool {
 }
 
 impl RosMap {
-    /// Reads a map's yaml file. `file` is what errors call it.
+    /// Reads a map's yaml file. `file` is its name in errors.
     ///
     /// # Errors
     /// [`ImportError`] names line and key: what is missing, unknown or out of range.
@@ -100,10 +101,10 @@ impl RosMap {
         Ok(RosMap { image, resolution, origin, negate, occupied_thresh, free_thresh, raw })
     }
 
-    /// The map's cells, from the bytes of its image, a PGM. `file` is what errors call that.
+    /// Reads the map's cells from the bytes of its image, a PGM. `file` is the image's name in errors.
     ///
     /// # Errors
-    /// [`ImportError`]: no graymap, one cut off, or of a size that no grid has.
+    /// [`ImportError`]: bytes that are not a graymap, a graymap cut short, or a size that no grid may have.
     pub fn cells(&self, file: &str, image: &[u8], unknown: Unknown) -> Result<CellMap, ImportError> {
         self.read_cells(image, unknown).map_err(|error| error.of(file))
     }
@@ -121,7 +122,7 @@ impl RosMap {
                 }
             })
             .collect();
-        // without a turn the grid stands in the world itself, so that its lines are the map's to the bit
+        // without a rotation the grid uses the world's frame, so that its lines are the map's to the bit
         let (origin, frame) = if self.origin.theta == 0.0 {
             (self.origin.position(), Pose2::IDENTITY)
         } else {
@@ -136,7 +137,7 @@ impl RosMap {
         Ok(CellMap { grid, frame, notes })
     }
 
-    /// Whether a pixel is occupied; `None` when it is neither that nor free.
+    /// Whether a pixel is occupied; `None` if it is unknown.
     fn is_occupied(&self, pixel: u16, max: u16) -> Option<bool> {
         let degree = match (self.raw, self.negate) {
             (true, _) if pixel > 100 => return None,

@@ -1,11 +1,11 @@
-//! The borders of a grid's occupied cells as closed lines.
+//! Traces the borders of a grid's occupied cells as closed lines.
 
 use crate::worlds::Grid;
 
 /// A corner of cells: the grid lines it lies on.
 pub(crate) type Corner = (u32, u32);
 
-/// The way a border runs, with the occupied cell on its left.
+/// The direction in which a border runs, with the occupied cell on its left.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Way {
     East,
@@ -39,7 +39,7 @@ impl Way {
         }
     }
 
-    /// The cells to the left and to the right of the way ahead of a corner, as offsets from it.
+    /// The cells to the left and to the right of the edge ahead of a corner, as offsets from it.
     fn ahead(self) -> [(u32, u32); 2] {
         // a cell lies up and right of its own corner: 1 stands for the cell before it
         match self {
@@ -51,10 +51,10 @@ impl Way {
     }
 }
 
-/// Every border between an occupied cell and one that is not, in one closed line each, given by the corners where it turns:
-/// occupied cells lie on its left, so that outer borders run counter-clockwise. What lies outside the grid is not occupied.
+/// Traces every border between occupied cells and others as a closed line, given by the corners where it turns.
+/// Occupied cells lie on its left, so outer borders run counter-clockwise. Everything outside the grid counts as free.
 ///
-/// The lines come in the order of their lowest, leftmost edges. Cells that meet in a corner only have lines of their own.
+/// The lines are in the order of their lowest, leftmost edges. Cells that meet only in a corner have separate lines.
 pub(crate) fn trace(grid: &Grid) -> Vec<Vec<Corner>> {
     let (columns, rows) = (grid.columns(), grid.rows());
     let occupied = |(x, y): Corner, (dx, dy): (u32, u32)| match (x.checked_sub(dx), y.checked_sub(dy)) {
@@ -128,8 +128,8 @@ mod tests {
         assert!(trace(&grid(&["..", ".."])).is_empty());
     }
 
-    /// The lines of random grids are exactly the set of borders: every unit edge between an occupied cell and another once,
-    /// and no other edge.
+    /// The lines of random grids are exactly the set of borders: every unit edge between an occupied cell and another
+    /// once, and no other edge.
     #[test]
     fn every_border_is_in_exactly_one_line() {
         let mut s = Stream::new(Seed(7), "trace");

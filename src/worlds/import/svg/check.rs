@@ -1,4 +1,4 @@
-//! What an SVG file must not hold: refused with its line before anything is read of it.
+//! Refuses SVG files with unsupported elements or numbers, by line, before a drawing is read from them.
 
 use usvg::roxmltree::{Document, Node};
 
@@ -7,10 +7,10 @@ use crate::worlds::import::{ImportError, ImportProblem};
 
 pub(crate) const SVG: &str = "http://www.w3.org/2000/svg";
 
-/// How deep elements may be nested: readers of drawings go down recursively.
+/// Greatest depth of nested elements: readers of drawings recurse.
 pub(crate) const DEEPEST: usize = 200;
 
-/// The largest number in a shape's attributes: an arc's pieces, and those of a circle, grow with its radius.
+/// Largest number in a shape's attributes. The number of pieces of an arc or a circle grows with its radius.
 const LARGEST: f64 = 1e7;
 
 /// The attributes of shapes that are a length each.
@@ -53,7 +53,8 @@ pub(crate) fn check(document: &Document) -> Result<Vec<String>, ImportError> {
     Ok(notes)
 }
 
-/// Numbers that are none would be passed over in silence, and the shape with them.
+/// Checks the numbers in a shape's attributes. The reader would silently skip a malformed number, and the shape with
+/// it.
 fn check_numbers(node: Node) -> Result<(), ImportError> {
     let refuse = |name: &str, value: &str| {
         Err(at(node, wrong_value(format!("{name} = {value}"), "finite numbers, at most 10000000 in size")))
@@ -83,8 +84,8 @@ fn check_numbers(node: Node) -> Result<(), ImportError> {
     Ok(())
 }
 
-/// Whether every number in a text is small, by the digits before its point and its exponent: at most seven together. Where one
-/// number ends and the next begins is the business of those who read them.
+/// Whether every number in a text is small: the count of digits before its point plus its exponent is at most seven.
+/// The text is not split into numbers; any other sign starts the count again.
 fn are_small(text: &str) -> bool {
     let bytes = text.as_bytes();
     let (mut digits, mut is_fraction) = (0, false);
@@ -111,7 +112,7 @@ fn are_small(text: &str) -> bool {
     true
 }
 
-/// The problem of an element.
+/// An error at an element: its line, its name and its id.
 pub(crate) fn at(node: Node, problem: ImportProblem) -> ImportError {
     let line = node.document().text_pos_at(node.range().start).row as usize;
     let id = node.attribute("id").map_or(String::new(), |id| format!(" {id:?}"));

@@ -1,5 +1,5 @@
-//! `clean`, a drawing reduced to what its obstacles depend on. Gradients, patterns, markers, filters and the like take their readers
-//! time and memory without bound and move no wall.
+//! `clean` reduces a drawing to what its obstacles depend on. Gradients, patterns, markers, filters and the like can
+//! take unbounded time and memory to read, and affect no obstacle.
 
 use std::collections::BTreeMap;
 
@@ -42,21 +42,21 @@ const ATTRIBUTES: [&str; 24] = [
     "fill-rule",
 ];
 
-/// The largest length of what describes paths and polygons, in all, those that `use` repeats among them, bytes.
+/// Greatest length of all path data and polygon points together, including those that `use` repeats, bytes.
 const MAX_PATH_DATA: usize = 1 << 20;
 
-/// The largest product of elements and selectors of style sheets: each is tried on each.
+/// Largest product of the numbers of elements and style-sheet selectors: every selector is tried on every element.
 const MAX_MATCHES: usize = 1_000_000;
 
-/// The largest length of style sheets, in all, bytes.
+/// Greatest length of all style sheets together, bytes.
 const MAX_STYLES: usize = 1 << 18;
 
-/// The drawing as text, of known elements and attributes only, after [`check`](super::check::check). What is painted with a
-/// gradient or a pattern is painted black.
+/// Writes a drawing as text, with known elements and attributes only. [`check`](super::check::check) must have accepted
+/// it. Paint from a gradient or a pattern becomes black.
 ///
 /// # Errors
-/// [`ImportError`]: more elements than allowed, those that `use` repeats among them; style sheets with too many selectors; a cut by
-/// style.
+/// [`ImportError`]: too many elements or too much path data, including those that `use` repeats; style sheets that are
+/// too long or have too many selectors; a clip path or mask in a style.
 pub(crate) fn clean(document: &Document) -> Result<String, ImportError> {
     let root = document.root_element();
     if !is_svg(&root, "svg") {
@@ -76,13 +76,13 @@ fn is_svg(node: &Node, name: &str) -> bool {
     node.is_element() && node.tag_name().name() == name && node.tag_name().namespace() == Some(SVG)
 }
 
-/// Whether an element is written at all.
+/// Whether an element is kept.
 fn is_kept(node: &Node) -> bool {
     let name = node.tag_name().name();
     node.tag_name().namespace() == Some(SVG) && (name == "style" || ELEMENTS.contains(&name))
 }
 
-/// What an element refers to: by its own attribute, or by that of xlink, which is older.
+/// The target of an element's `href`, or of its older `xlink:href`.
 fn href<'a>(node: &Node<'a, 'a>) -> Option<&'a str> {
     node.attribute("href").or_else(|| node.attribute((XLINK, "href"))).map(str::trim)
 }
@@ -98,7 +98,7 @@ struct Writer {
 }
 
 impl Writer {
-    /// Writes an element and what it holds: no deeper than was checked.
+    /// Writes an element with its children. The recursion ends: the depth has been checked.
     fn element(&mut self, node: Node) -> Result<(), ImportError> {
         if !is_kept(&node) {
             return Ok(());
@@ -161,8 +161,7 @@ fn escape(text: &str, out: &mut String) {
     }
 }
 
-/// That the drawing has no more elements and path data than allowed, and no element nested deeper, where each `use` stands for what it
-/// repeats.
+/// Checks the number of elements, the length of path data and the depth of a drawing in which each `use` is expanded.
 fn check_uses(root: Node) -> Result<(), ImportError> {
     let mut targets: BTreeMap<&str, Node> = BTreeMap::new();
     for node in root.descendants() {
@@ -173,13 +172,13 @@ fn check_uses(root: Node) -> Result<(), ImportError> {
     expand(root, &targets, 0, &mut Left { elements: MAX_ELEMENTS, path_data: MAX_PATH_DATA })
 }
 
-/// How much more a drawing may have.
+/// The elements, and the bytes of path data, that a drawing may still have.
 struct Left {
     elements: usize,
     path_data: usize,
 }
 
-/// Walks through the elements as they are drawn; the walk ends with what is left.
+/// Walks through the elements as they are drawn. The walk ends when nothing is left of the allowance.
 fn expand<'a>(
     node: Node<'a, 'a>,
     targets: &BTreeMap<&str, Node<'a, 'a>>,

@@ -1,4 +1,4 @@
-//! The styles of a drawing that decide what is an obstacle: whether a shape is filled, stroked and seen. All others are left out.
+//! Reduces a drawing's styles to those that decide what is an obstacle: whether a shape is filled, stroked and visible.
 
 use crate::worlds::import::ImportProblem;
 
@@ -17,17 +17,18 @@ const PROPERTIES: [&str; 12] = [
     "font-size",
 ];
 
-/// How many parts a selector may have: one that asks for ancestors is tried on every way up.
+/// Largest number of parts of a selector. The time to match one that names ancestors grows steeply with their number.
 const MAX_PARTS: usize = 3;
 
-/// A style sheet reduced to what matters.
+/// A style sheet reduced to the properties that matter.
 pub(crate) struct StyleSheet {
     pub text: String,
-    /// How many selectors it has.
+    /// Number of its selectors.
     pub selectors: usize,
 }
 
-/// The value of a property, where it is one of those that matter. A paint that is described elsewhere becomes black.
+/// Returns the value of a property that matters; `None` for any other. Paint that refers to another element becomes
+/// black.
 ///
 /// # Errors
 /// [`ImportProblem::Unsupported`] for a clip path or a mask.
@@ -44,7 +45,8 @@ pub(crate) fn kept<'a>(name: &str, value: &'a str) -> Result<Option<&'a str>, Im
     }
 }
 
-/// The declarations that matter of a `style` attribute, each property once: the last one counts.
+/// Returns the declarations of a `style` attribute that matter, each property once. The last one counts, unless only an
+/// earlier one is `!important`.
 ///
 /// # Errors
 /// As [`kept`].
@@ -68,7 +70,8 @@ fn is_important(value: &str) -> bool {
     value.trim_end().ends_with("!important")
 }
 
-/// The rules of a style sheet, each with the declarations that matter; comments and rules that begin with `@` are left out.
+/// Returns the rules of a style sheet, each with the declarations that matter. Comments and rules that begin with `@`
+/// are left out.
 ///
 /// # Errors
 /// As [`kept`]; a selector of too many parts.
@@ -79,7 +82,7 @@ pub(crate) fn style_sheet(text: &str) -> Result<StyleSheet, ImportProblem> {
     while let Some(open) = rest.find(['{', ';']) {
         let selector = rest[..open].trim();
         if rest.as_bytes()[open] == b';' {
-            // what ends so is a rule like @import
+            // a rule that ends with a semicolon, such as @import
             rest = &rest[open + 1..];
             continue;
         }
@@ -116,7 +119,7 @@ fn without_comments(text: &str) -> String {
     plain + rest
 }
 
-/// The length of a block that begins with a brace, with the blocks in it.
+/// Length of a block that begins with a brace, bytes, including the blocks in it.
 fn block_end(text: &str) -> usize {
     let mut depth = 0_usize;
     for (i, b) in text.bytes().enumerate() {

@@ -1,4 +1,4 @@
-//! The parts of a drawn path as chains of straight pieces.
+//! Converts the parts of a drawn path to chains of straight pieces.
 
 use usvg::tiny_skia_path::{Path, PathSegment};
 
@@ -9,16 +9,17 @@ use crate::worlds::MAX_ITEMS;
 /// One part of a path, in metres.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Outline {
-    /// The points; of a closed part the first is not repeated.
+    /// The points. A closed part does not repeat its first point.
     pub points: Vec<Point2>,
     pub closed: bool,
     /// Whether any of it is curved.
     pub curved: bool,
 }
 
-/// The parts of a path, its points placed in the world by `place`, which keeps straight lines straight. A curve's straight pieces
-/// leave it by at most `tolerance`. `None` where a curve takes more pieces than a world has shapes, or all of them ten times as many:
-/// most of a fine curve's points lie too close for a world and are left out later.
+/// Returns the parts of a path. `place` maps its points into the world and must keep straight lines straight. A curve's
+/// straight pieces lie within `tolerance` of it, metres. `None` if a curve takes more pieces than a world may have
+/// shapes, or all parts together more than ten times as many. The second limit is higher because most points of a fine
+/// curve lie too close together and are left out later.
 pub(crate) fn outlines(path: &Path, place: impl Fn(f32, f32) -> Point2, tolerance: f64) -> Option<Vec<Outline>> {
     let mut parts: Vec<Outline> = Vec::new();
     let mut points = 0;
@@ -28,7 +29,7 @@ pub(crate) fn outlines(path: &Path, place: impl Fn(f32, f32) -> Point2, toleranc
             parts.push(begin(place(p.x, p.y)));
             continue;
         }
-        // what follows the end of a closed part begins where that began
+        // after a closed part the next one begins at its first point
         if let Some(again) = parts.last().filter(|part| part.closed).map(|part| begin(part.points[0])) {
             parts.push(again);
         }
@@ -54,7 +55,7 @@ pub(crate) fn outlines(path: &Path, place: impl Fn(f32, f32) -> Point2, toleranc
         }
     }
     for part in &mut parts {
-        // a part that ends where it began is closed, said or not
+        // a part that ends where it began counts as closed
         while part.points.len() > 3 && part.points.first() == part.points.last() {
             part.points.pop();
             part.closed = true;
@@ -65,7 +66,8 @@ pub(crate) fn outlines(path: &Path, place: impl Fn(f32, f32) -> Point2, toleranc
 }
 
 impl Outline {
-    /// Appends a cubic curve. Its second derivative is at most 6 `bend`, so that `n` equal pieces leave it by 6/8 `bend` / n^2.
+    /// Appends a cubic curve. Its second derivative is at most 6 `bend`, so `n` equal pieces deviate from it by at most
+    /// 6/8 `bend` / n^2.
     fn curve(&mut self, p0: Point2, p1: Point2, p2: Point2, p3: Point2, tolerance: f64) -> Option<()> {
         let second = |a: Point2, b: Point2, c: Point2| ((a - b) - (b - c)).norm();
         let bend = greater(second(p0, p1, p2), second(p1, p2, p3));
@@ -85,8 +87,8 @@ impl Outline {
         Some(())
     }
 
-    /// The centre and radius of the disc that this is the border of, within the tolerance and a thousandth of the radius: drawn
-    /// circles are curves that are nearly round.
+    /// The centre and radius of the disc with this border; `None` if there is none. Drawn circles are curves that are
+    /// nearly round: points may lie off the circle by the tolerance or a thousandth of the radius, whichever is less.
     pub fn disc(&self, tolerance: f64) -> Option<(Point2, f64)> {
         if !self.curved || self.points.len() < 8 {
             return None;
@@ -98,7 +100,7 @@ impl Outline {
         let (center, radius) = (nalgebra::center(&min, &max), 0.5 * (max.x - min.x));
         let off = |p: &Point2| ((p - center).norm() - radius).abs();
         let allowed = lesser(tolerance, 1e-3 * radius);
-        // all the way round: no gap between neighbours wider than a tenth of a turn
+        // all the way round: neighbours are less than 0.7 of the radius apart, about a ninth of a turn
         let n = self.points.len();
         let gap = |i: usize| (self.points[(i + 1) % n] - self.points[i]).norm();
         ((0..n).all(|i| gap(i) < 0.7 * radius) && self.points.iter().all(|p| off(p) <= allowed))

@@ -1,4 +1,4 @@
-//! SVG drawings, through the crate `usvg`, which resolves styles, groups and transforms.
+//! Reads SVG drawings with the crate `usvg`, which resolves styles, groups and transforms.
 
 use usvg::roxmltree::{self, Document};
 use usvg::{Group, Node, Options, Path, Tree};
@@ -19,10 +19,11 @@ const MIN_TOLERANCE: f64 = 1e-6;
 /// How a drawing is read.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SvgOptions {
-    /// The length of the drawing's unit, metres: a pixel of its width and height, which is its viewBox's unit where these are
-    /// not given otherwise.
+    /// The length of the drawing's unit, metres. The unit is a pixel of the drawing's width and height; without these
+    /// it is the unit of its viewBox.
     pub metres_per_unit: f64,
-    /// How far a curve's straight pieces may be from it, metres; at least a micrometre, to which coordinates are rounded.
+    /// Greatest distance of a curve from its straight pieces, metres; at least a micrometre, to which coordinates are
+    /// rounded.
     pub tolerance: f64,
 }
 
@@ -32,19 +33,21 @@ impl Default for SvgOptions {
     }
 }
 
-/// Reads a drawing. What is filled becomes a solid obstacle, what is only stroked a wall along the middle of the stroke; what is
-/// drawn invisibly is left out, and so is a filled shape that covers the whole sheet, its paper. The sheet is the world's
-/// bounds; its lower left corner is the origin, and y points up. `file` is what errors call the drawing.
+/// Reads a drawing. A filled shape becomes a solid obstacle; a shape that is only stroked becomes a wall along the
+/// middle of the stroke. Two things are left out: invisible shapes, and a filled rectangle that covers the whole sheet,
+/// which is its paper. The sheet gives the world's bounds; its lower left corner is the origin, and y points up. `file`
+/// is the drawing's name in errors.
 ///
-/// Circles become discs. Other curves become chains of straight pieces that leave them by at most the tolerance. Coordinates are
-/// rounded to micrometres, and points closer than [`MIN_FEATURE`] to the one before are left out. An outline that is no
-/// simple polygon, or has several parts, becomes walls. An obstacle is called by its element's id where it has one.
+/// Filled circles become discs. Other curves become chains of straight pieces within the tolerance. Coordinates are
+/// rounded to micrometres, and points closer than [`MIN_FEATURE`] to the one before are left out. An outline that is
+/// not a simple polygon, or has several parts, becomes walls. An obstacle is named after its element's id, if there is
+/// one.
 ///
 /// # Errors
-/// [`ImportError`] names line and element: no SVG; an image, embedded HTML, a clip or a mask; numbers that are none or above 10^7; a
-/// drawing without obstacles, or with more than a world holds. Drawings have at most 10,000 elements, those repeated by `use` among
-/// them, 100 attributes an element and 200,000 in all, a megabyte of paths, a quarter of one of style
-/// sheets.
+/// [`ImportError`] names line and element: text that is not SVG; an image, embedded HTML, a clip or a mask; malformed
+/// numbers, or numbers above 10^7; a drawing without obstacles, or with more than a world holds. A drawing may have at
+/// most 10,000 elements, including those repeated by `use`; 100 attributes an element and 200,000 in all; a megabyte of
+/// paths; and a quarter of a megabyte of style sheets.
 pub fn svg(file: &str, text: &str, name: &str, options: SvgOptions) -> Result<Imported, ImportError> {
     read(text, name, options).map_err(|error| error.of(file))
 }
@@ -69,7 +72,7 @@ fn read(text: &str, name: &str, options: SvgOptions) -> Result<Imported, ImportE
     Ok(drawing.draft.finish(name, (0.0, 0.0), drawing.sheet).map_err(ImportProblem::from)?)
 }
 
-/// The drawing with its styles, groups and transforms resolved, within the limits of an import.
+/// Parses a drawing within the limits of an import, and resolves its styles, groups and transforms.
 fn tree(text: &str, draft: &mut Draft) -> Result<Tree, ImportError> {
     scan(text)?;
     let plain = {
@@ -84,12 +87,12 @@ fn tree(text: &str, draft: &mut Draft) -> Result<Tree, ImportError> {
     Ok(Tree::from_xmltree(&document, &Options::default()).map_err(|error| no_drawing(&error))?)
 }
 
-/// A length in metres, rounded to micrometres. The drawing's numbers have single precision, and the digits behind are noise.
+/// Rounds a length in metres to micrometres. A drawing's numbers have single precision: further digits are noise.
 fn micro(x: f64) -> f64 {
     (x * 1e6).round() / 1e6 + 0.0
 }
 
-/// A drawing on its way into a world.
+/// A drawing while it is converted to a world.
 struct Drawing {
     draft: Draft,
     height: f64,
@@ -102,7 +105,7 @@ impl Drawing {
         group.children().iter().try_for_each(|node| match node {
             Node::Group(group) => self.group(group),
             Node::Path(path) => self.path(path),
-            // neither is left in what was cleaned
+            // `clean` has removed both
             Node::Image(_) | Node::Text(_) => Ok(()),
         })
     }
@@ -148,7 +151,7 @@ impl Drawing {
         self.draft.wall(name, points, closed && outline.closed)
     }
 
-    /// A filled outline, closed where the drawing left it open.
+    /// Adds a filled outline, closed even if the drawing left it open.
     fn solid(&mut self, id: &str, outline: Outline) -> Result<(), WorldProblem> {
         if let Some((center, radius)) = outline.disc(self.options.tolerance) {
             let name = self.name(id, "disc");
@@ -161,7 +164,7 @@ impl Drawing {
             min = (crate::num::lesser(x, min.0), crate::num::lesser(y, min.1));
             max = (crate::num::greater(x, max.0), crate::num::greater(y, max.1));
         }
-        // upright and level sides by turns
+        // vertical and horizontal sides alternate
         let upright = |i: usize| points[i].0 == points[(i + 1) % 4].0;
         let level = |i: usize| points[i].1 == points[(i + 1) % 4].1;
         let is_box = points.len() == 4 && (0..4).all(|i| upright(i) != level(i) && upright(i) != upright((i + 1) % 4));
@@ -185,8 +188,8 @@ impl Drawing {
     }
 }
 
-/// The points of an outline, rounded, none of them closer than the smallest feature to the one before; and whether there are
-/// enough of them to close it.
+/// Rounds the points of an outline and drops those closer than the smallest feature to the one before. Also returns
+/// whether enough are left to close the outline.
 fn spaced(outline: &Outline) -> (Vec<Xy>, bool) {
     let near = |a: Xy, b: Xy| crate::num::hypot(a.0 - b.0, a.1 - b.1) < MIN_FEATURE;
     let mut points: Vec<Xy> = Vec::new();

@@ -1,29 +1,30 @@
-//! The limits of an SVG file, counted in one pass over its text before any parser sees it: parsers take time and memory out of all
-//! proportion for some files.
+//! Checks the limits of an SVG file in one pass over its text, before any parser reads it. For some files parsers take
+//! time and memory out of all proportion.
 
 use std::collections::BTreeMap;
 
 use crate::worlds::import::{ImportError, ImportProblem};
 
-/// The largest number of elements, those that `use` repeats among them.
+/// Largest number of elements, including those that `use` repeats.
 pub const MAX_ELEMENTS: usize = 10_000;
 
-/// The largest number of attributes of one element.
+/// Largest number of attributes of one element.
 const MAX_ATTRIBUTES: usize = 100;
 
-/// The largest number of attributes in all.
+/// Largest number of attributes in all.
 const MAX_ALL_ATTRIBUTES: usize = 200_000;
 
-/// The largest number of attributes that bind a prefix to a namespace, in all.
+/// Largest number of attributes that bind a prefix to a namespace, in all.
 const MAX_PREFIXES: usize = 200;
 
-/// The largest length of what entities stand for, in all, bytes.
+/// Greatest length of all expanded entities together, bytes.
 const MAX_ENTITY_TEXT: usize = 1 << 20;
 
-/// Counts what a file holds.
+/// Checks the numbers of elements, attributes and prefixes of a file, and its entities.
 ///
 /// # Errors
-/// [`ImportError`] with the line: too many elements, attributes or prefixes; entities made of others, or too long together.
+/// [`ImportError`] with the line: too many elements, attributes or prefixes; an entity that is not plain text or is
+/// declared twice; entities that expand to too much; any other declaration.
 pub(crate) fn scan(text: &str) -> Result<(), ImportError> {
     let refuse = |at: usize, what: String| {
         let line = 1 + text[..at].bytes().filter(|b| *b == b'\n').count();
@@ -51,7 +52,7 @@ pub(crate) fn scan(text: &str) -> Result<(), ImportError> {
             } else if tag.starts_with("<?") {
                 skip("?>")
             } else if tag.starts_with("<!DOCTYPE") {
-                // what it declares stands within it
+                // its declarations stand within it and are scanned next
                 head_of(tag)
             } else if tag.starts_with("<!") {
                 return refuse(start, "a declaration that is not of an entity".into());
@@ -64,7 +65,7 @@ pub(crate) fn scan(text: &str) -> Result<(), ImportError> {
                 length
             };
         tags += 1;
-        // an element has two tags; comments count as well
+        // an element has up to two tags, and comments count as well
         if tags > 4 * MAX_ELEMENTS {
             return refuse(start, format!("more than {MAX_ELEMENTS} elements"));
         }
@@ -88,7 +89,7 @@ pub(crate) fn scan(text: &str) -> Result<(), ImportError> {
     Ok(())
 }
 
-/// The name and value of an entity that is declared as a plain text without further entities or elements in it.
+/// The name and value of an entity declared as plain text; `None` if the text holds further entities or elements.
 fn entity(declaration: &str) -> Option<(&str, &str)> {
     let rest = declaration.strip_prefix("<!ENTITY")?.trim_start();
     let (name, rest) = rest.split_once(|c: char| c.is_ascii_whitespace())?;
@@ -98,7 +99,8 @@ fn entity(declaration: &str) -> Option<(&str, &str)> {
     (!value.contains(['&', '<', '%'])).then_some((name, value))
 }
 
-/// The length of a document type's head, up to what it declares or to its end; texts in quotes may hold either sign.
+/// Length of a document type's head, bytes: up to the `[` before its declarations, or to its end `>`. Quoted text may
+/// hold either sign.
 fn head_of(document_type: &str) -> usize {
     let mut quote = None;
     let end = document_type.bytes().position(|b| {
@@ -113,11 +115,11 @@ fn head_of(document_type: &str) -> usize {
     end.map_or(document_type.len(), |end| end + 1)
 }
 
-/// How far a tag reaches and what it has.
+/// The length of a tag, bytes, and its numbers of attributes.
 struct Extent {
     length: usize,
     attributes: usize,
-    /// How many attributes bind a prefix.
+    /// Number of attributes that bind a prefix.
     bound: usize,
 }
 
@@ -173,7 +175,8 @@ mod tests {
         );
         let twice = format!("{plain}<!ENTITY e \"\">");
         assert!(refusal(&file(&twice, 0)).contains("an entity declared twice"));
-        // signs that hide nothing: in an instruction, in the name of a document type, before a name that never ends
+        // signs that must hide nothing: in an instruction, in the name of a document type, before a name that never
+        // ends
         for before in ["<?a '?>", "<!DOCTYPE a PUBLIC \"<a '\" \"[>\" [", "&".repeat(100_000).as_str()] {
             let text = format!("{before}{plain}<a b=\"{}\"/>", "&e;".repeat(2_000));
             assert!(refusal(&text).contains("entities that stand for more"), "{:.20}", text);

@@ -8,7 +8,7 @@ use super::message::FrameTransform;
 
 /// The frame that all others lie in.
 const LAB: &str = "lab";
-/// The free room between two worlds, metres.
+/// Gap between two worlds, metres.
 const GAP: f64 = 1.0;
 
 /// A world's frame.
@@ -47,8 +47,8 @@ pub fn robot(tick: u64, world: &World, robot: &RobotView) -> Vec<FrameTransform>
     base.into_iter().chain(parts_frames).collect()
 }
 
-/// The pose of a robot's body: its first part's; a disc, which looks the same from all sides, has its heading in its
-/// configuration.
+/// The pose of a robot's body: that of its first part. A disc looks the same from all sides, so its heading is taken
+/// from the configuration.
 fn base(robot: &RobotView) -> Option<Pose2> {
     let part = robot.footprint.parts().first()?;
     let theta = match (part.shape(), robot.coordinates.get(2)) {

@@ -2,7 +2,7 @@
 //!
 //! | topic | schema | when |
 //! |---|---|---|
-//! | `/viewer/transforms` | `foxglove.FrameTransforms` | each tick: worlds in the frame `lab`, robots and parts in their worlds |
+//! | `/viewer/transforms` | `foxglove.FrameTransforms` | each tick: worlds in `lab`, robots and parts in their worlds |
 //! | `/viewer/worlds` | `foxglove.SceneUpdate` | once |
 //! | `/viewer/robots` | `foxglove.SceneUpdate` | each tick, all of it, so that a viewer may begin anywhere |
 //! | `/viewer/scan/NAME` | `foxglove.LaserScan` | each tick of a robot with a range sensor |
@@ -45,7 +45,7 @@ pub fn write(file: &Path, log: &Log, output: &Path) -> Result<(), Failure> {
     out.finish()
 }
 
-/// The records of the log as it lies in its file.
+/// The log's records, as they lie in its file.
 struct Original<'a> {
     records: Option<LinearReader<'a>>,
 }
@@ -65,10 +65,10 @@ impl Original<'_> {
     }
 }
 
-/// A run as viewers are shown it.
+/// A run as viewers see it.
 struct Viewed<'a> {
     log: &'a Log,
-    /// The robots after the tick before.
+    /// The robots after the previous tick.
     before: Vec<RobotView>,
     /// The parts shown so far.
     parts: BTreeSet<String>,

@@ -41,8 +41,8 @@ pub fn worlds(worlds: &[World]) -> SceneUpdate {
     SceneUpdate { deletions: Vec::new(), entities }
 }
 
-/// The robots after a tick: an entity for each part, red while a contact flashes. `seen` are the parts there were so far; those
-/// that are gone (a trailer that was detached) are deleted.
+/// The robots after a tick: an entity for each part, red while a contact flashes. `seen` are the parts shown so far.
+/// Those of them that are gone, as a detached trailer is, are deleted.
 pub fn robots(tick: u64, robots: &[RobotView], seen: &mut BTreeSet<String>) -> SceneUpdate {
     let mut entities = Vec::new();
     for robot in robots {
@@ -62,7 +62,7 @@ pub fn robots(tick: u64, robots: &[RobotView], seen: &mut BTreeSet<String>) -> S
     SceneUpdate { deletions, entities }
 }
 
-/// An entity with nothing in it yet, there until it is replaced.
+/// An empty entity, which stays until it is replaced.
 fn empty(tick: u64) -> SceneEntity {
     SceneEntity {
         timestamp: Some(Timestamp::of_tick(tick)),
@@ -97,7 +97,7 @@ fn edge(points: &[Point2], kind: i32, role: Role, z: f64) -> LinePrimitive {
     }
 }
 
-/// The role's colour on dark paper, which is what viewers have.
+/// The role's colour on dark paper, as viewers have a dark background.
 fn colour(role: Role, opacity: f64) -> Color {
     let [r, g, b] = Theme::Dark.palette().colour(role).0.map(|c| f64::from(c) / 255.0);
     Color { r, g, b, a: opacity }

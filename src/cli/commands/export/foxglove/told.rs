@@ -4,7 +4,7 @@ use motion_lab::simulation::RobotView;
 
 use super::message::{Log, Timestamp, level};
 
-/// What is new of the robots after a tick. `before` are the robots after the tick before it.
+/// The messages about a tick. `before` are the robots after the previous tick, `now` those after this one.
 pub fn news(tick: u64, before: &[RobotView], now: &[RobotView]) -> Vec<Log> {
     let mut told = Vec::new();
     for (before, now) in before.iter().zip(now) {

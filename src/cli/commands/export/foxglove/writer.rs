@@ -13,7 +13,7 @@ use super::message::SCHEMA;
 use crate::cli::Failure;
 use crate::cli::support::output::PendingFile;
 
-/// A file on its way, in chunks and with an index, so that viewers can go to any time at once.
+/// A file that is being written, in chunks and with an index, so that viewers can go to any time at once.
 pub struct ViewerFile {
     path: PathBuf,
     writer: Writer<NoSeek<PendingFile>>,
@@ -49,7 +49,8 @@ impl ViewerFile {
         self.digests == Some(header.channel_id)
     }
 
-    /// Copies a record of the log. Seals, headers and what stands at the end stay behind: they are about the log's own bytes.
+    /// Copies a record of the log. Seals, headers and the records at the end are left out: they are about the log's own
+    /// bytes.
     pub fn copy(&mut self, record: Record<'_>) -> Result<(), Failure> {
         let copied = match record {
             Record::Schema { header, data } => self

@@ -1,26 +1,18 @@
-//! `Rectangles`, many rectangles of which one asks which touch another.
+//! `Rectangles`, many rectangles that are asked which of them touch another.
 
 use multiversion::multiversion;
 
-use super::boundary::segments::LANES;
-use super::narrow::pair::touch;
-use crate::geometry::{Placed, Point2, Pose2, Shape, largest_coordinate};
-use crate::num::greater;
+use motion_lab::collision::touch;
+use motion_lab::geometry::{Placed, Point2, Pose2, Shape, largest_coordinate};
+use motion_lab::num::greater;
 
-/// Placed rectangles in structure-of-arrays order: which of them touch another is told for eight at a time.
+/// The number of rectangles decided at once.
+const LANES: usize = 8;
+
+/// Placed rectangles in structure-of-arrays order, of which eight at a time are compared with another.
 ///
-/// The answers are exact for the placed rectangles, whose corners are rounded: separating axes decide where they plainly do, exact
-/// predicates elsewhere. A rectangle that is not finite touches everything.
-///
-/// ```
-/// use motion_lab::prelude::*;
-/// use motion_lab::collision::Rectangles;
-/// let square = |x: f64| (Pose2::new(x, 0.0, 0.0), Point2::new(-0.5, -0.5), Point2::new(0.5, 0.5));
-/// let three = Rectangles::new([square(0.0), square(1.0), square(2.5)]);
-/// let mut touched = Vec::new();
-/// three.touched_by(square(0.0), &mut touched);
-/// assert_eq!(touched, [true, true, false]); // sides that touch are contact
-/// ```
+/// The answers are exact for the placed rectangles, whose corners are rounded: separating axes decide where rounding
+/// cannot matter, exact predicates elsewhere. A rectangle that is not finite touches everything.
 #[derive(Clone, Debug)]
 pub struct Rectangles {
     placed: Vec<Placed>,
@@ -48,8 +40,7 @@ fn place((pose, min, max): (Pose2, Point2, Point2)) -> Placed {
 }
 
 impl Rectangles {
-    /// Rectangles given by their frames and corners (least, greatest) in those frames, as [`Footprint::rects`](crate::geometry::Footprint::rects)
-    /// takes them.
+    /// Rectangles given by their frames and corners (least, greatest) in those frames, as `Footprint::rects` takes them.
     pub fn new(rects: impl IntoIterator<Item = (Pose2, Point2, Point2)>) -> Self {
         let placed: Vec<Placed> = rects.into_iter().map(place).collect();
         let mut arrays: [Vec<f64>; 6] = Default::default();
@@ -60,16 +51,6 @@ impl Rectangles {
         }
         let size = largest_coordinate(&placed);
         Rectangles { placed, arrays, size }
-    }
-
-    /// The number of rectangles.
-    pub fn len(&self) -> usize {
-        self.placed.len()
-    }
-
-    /// Whether there are none.
-    pub fn is_empty(&self) -> bool {
-        self.placed.is_empty()
     }
 
     /// Writes for each rectangle, in order, whether it touches this one: `touched` is cleared first.
@@ -123,61 +104,4 @@ fn decide(arrays: [&[f64]; 6], other: &Frame, doubt: f64, touched: &mut [bool]) 
         }
     }
     undecided.contains(&true)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::collision::{Collision, Scene};
-    use crate::geometry::Footprint;
-    use crate::random::{Seed, Stream};
-
-    type Rect = (Pose2, Point2, Point2);
-
-    /// What the scene of one rectangle says of another.
-    fn by_scene(a: Rect, b: Rect) -> bool {
-        let bounds = crate::worlds::Bounds { min: Point2::origin(), max: Point2::origin() };
-        let shape = Shape::Rectangle { min: a.1, max: a.2 };
-        Scene::empty(bounds).with_obstacle_at("rectangle", a.0, shape).intersects(&Footprint::rects([b]))
-    }
-
-    #[test]
-    fn rectangles_that_touch_or_not_are_told_as_by_a_scene() {
-        let mut draws = Stream::new(Seed(8), "rectangles");
-        let (mut touching, mut all) = (0, 0);
-        for round in 0..60 {
-            let mut rect = || {
-                // every other round on a lattice, where sides and corners touch exactly
-                let lattice = round % 2 == 0;
-                let mut x = || if lattice { draws.below(9) as f64 } else { draws.uniform(0.0, 9.0) };
-                let (x, y, w, h) = (x(), x(), x(), x());
-                let theta = if lattice { 0.0 } else { draws.uniform(-3.0, 3.0) };
-                (Pose2::new(x, y, theta), Point2::new(-0.25 - 0.125 * w, -0.5), Point2::new(0.25, 0.125 + 0.125 * h))
-            };
-            let rects: Vec<Rect> = (0..30).map(|_| rect()).collect();
-            let many = Rectangles::new(rects.iter().copied());
-            assert_eq!((many.len(), many.is_empty()), (30, false));
-            let mut touched = vec![true; 99];
-            for _ in 0..10 {
-                let other = rect();
-                many.touched_by(other, &mut touched);
-                let expected: Vec<bool> = rects.iter().map(|r| by_scene(*r, other)).collect();
-                assert_eq!(touched, expected, "{other:?}");
-                touching += touched.iter().filter(|t| **t).count();
-                all += touched.len();
-            }
-        }
-        assert!(touching > all / 50 && touching < all / 2, "{touching} of {all}");
-    }
-
-    #[test]
-    fn what_is_not_finite_touches_everything() {
-        let square = |x: f64| (Pose2::new(x, 0.0, 0.0), Point2::new(-0.5, -0.5), Point2::new(0.5, 0.5));
-        let many = Rectangles::new([square(0.0), square(f64::NAN), square(9.0)]);
-        let mut touched = Vec::new();
-        many.touched_by(square(0.0), &mut touched);
-        assert_eq!(touched, [true, true, false]);
-        many.touched_by(square(f64::INFINITY), &mut touched);
-        assert_eq!(touched, [true, true, true]);
-    }
 }

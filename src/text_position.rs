@@ -1,0 +1,38 @@
+//! Where in a text something stands: what the errors of every file name.
+
+/// Where `part`, a slice of `text`, begins in it, bytes. The end of the text for a slice of another one.
+pub(crate) fn offset_of(text: &str, part: &str) -> usize {
+    (part.as_ptr() as usize).saturating_sub(text.as_ptr() as usize).min(text.len())
+}
+
+/// The number of line ends between two bytes.
+pub(crate) fn line_ends(text: &str, from: usize, to: usize) -> usize {
+    text.as_bytes().get(from..to).map_or(0, |bytes| bytes.iter().filter(|&&b| b == b'\n').count())
+}
+
+/// The line of a byte, from 1.
+pub(crate) fn line_at(text: &str, offset: usize) -> usize {
+    1 + line_ends(text, 0, offset)
+}
+
+/// The column of a byte, from 1, in characters.
+pub(crate) fn column_at(text: &str, offset: usize) -> usize {
+    text.get(..offset).unwrap_or("").chars().rev().take_while(|&c| c != '\n').count() + 1
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn lines_and_columns_count_from_one_and_in_characters() {
+        let text = "World(\n  \u{e9}: 1,\n)";
+        let part = &text[text.find('1').unwrap()..];
+        assert_eq!(offset_of(text, part), 13);
+        assert_eq!((line_at(text, 13), column_at(text, 13)), (2, 6));
+        assert_eq!((line_at(text, 0), column_at(text, 0)), (1, 1));
+        assert_eq!(line_ends(text, 7, text.len()), 1);
+        let far = String::from("elsewhere");
+        assert!(offset_of(text, &far) <= text.len());
+    }
+}
