@@ -1,4 +1,4 @@
-//! What each question costs: the four queries, an edge, a scan, a tick, the minute.
+//! The cost of each operation: the four queries, an edge, a scan, a tick, the minute's tour.
 //!
 //! `cargo bench --no-default-features --features headless`
 #![allow(missing_docs, clippy::unwrap_used)]
@@ -20,7 +20,7 @@ fn main() {
     divan::main();
 }
 
-/// How many configurations each query bench walks through.
+/// Number of configurations that each query bench goes through.
 const CONFIGURATIONS: usize = 256;
 
 fn arm() -> (Checker<Reach<2>>, Vec<Footprint>) {
@@ -77,7 +77,7 @@ mod edge {
     fn edges<R: Robot>(bencher: Bencher, checker: &Checker<R>) {
         let mut s = Stream::new(Seed(2), "bench");
         let bounds = checker.scene().bounds();
-        // an edge that starts in contact costs one query only: it would flatter the average
+        // an edge that starts in contact costs only one query and would flatter the average
         let mut draw = || {
             loop {
                 let q = checker.robot().sample(bounds.min, bounds.max, &mut s);

@@ -2,19 +2,21 @@
 //!
 //! `cargo run --example bug1`
 //!
-//! Bug1 heads for the goal; when it meets an obstacle it goes all the way round, remembers where the boundary came nearest to
-//! the goal, returns there by the shorter way, and leaves for the goal. If the goal still lies behind the obstacle there, it
-//! cannot be reached. Its promise (it reaches every goal that can be reached) rests on finding that leave point.
+//! Bug1 heads for the goal. When it meets an obstacle it goes all the way round, remembers where the boundary comes
+//! nearest to the goal, returns there by the shorter way, and leaves for the goal. If the goal still lies behind the
+//! obstacle there, the goal cannot be reached. Bug1's guarantee (it reaches every reachable goal) rests on finding that
+//! leave point.
 //!
-//! Here Rusty, a disc, knows its position exactly and sees walls by its range sensor alone. It keeps [`KEEP`] metres from the
-//! nearest reading, the wall at its right hand, so "the obstacle" is whatever has no gap wider than twice that.
+//! Here Rusty, a disc, knows its position exactly and sees walls by its range sensor alone. It keeps [`KEEP`] metres
+//! from the nearest reading, with the wall at its right hand. So "the obstacle" is everything that has no gap wider
+//! than twice that.
 //!
-//! A leave point is *misjudged* when it lies more than [`TOLERANCE`] farther from the goal than the place where the same way
-//! round, followed by exact nearest points instead of the sensor, comes nearest; or when the sensor then says that the goal
-//! lies behind the obstacle although every start here has a way to its goal; or when the round is never closed. With the exact
-//! sensor that never happens. With the noisy one the nearest reading is wrong in range by centimetres, and so in bearing by tens
-//! of degrees; a place seems nearer to the goal than it is, or a way blocked that is free, and the promise is gone. What a real
-//! robot does instead is to keep a belief about where it and the walls are, over many readings.
+//! A leave point is *misjudged* in three cases: it lies more than [`TOLERANCE`] farther from the goal than the nearest
+//! place of the same round by exact nearest points; the sensor then shows the goal behind the obstacle, although every
+//! start here has a way to its goal; or the round is never closed. With the exact sensor that never happens. With the
+//! noisy one the nearest reading is wrong in range by centimetres, and so in bearing by tens of degrees. A place seems
+//! nearer to the goal than it is, or a free way seems blocked, and the guarantee is gone. A real robot keeps a belief
+//! about its own place and the walls' instead, over many readings.
 #![allow(clippy::print_stdout, dead_code)]
 
 use motion_lab::collision::{Checker, Collision, DiscChecker, Scene};
@@ -23,15 +25,16 @@ use motion_lab::prelude::*;
 use motion_lab::sensors::{BeamModel, RangeSensor};
 use motion_lab::simulation::advance;
 
-/// How far Rusty's centre stays from what it follows, metres.
+/// Distance that Rusty's centre keeps from the boundary it follows, metres.
 pub const KEEP: f64 = 0.2;
-/// How much farther from the goal a leave point may be than the best, metres.
+/// Largest excess of a leave point's distance from the goal over the best, metres.
 pub const TOLERANCE: f64 = 0.1;
 /// The length of a step, metres.
 const STEP: f64 = 0.06;
-/// How near a place Rusty counts as back there, metres.
+/// Distance from a place at which Rusty counts as back there, metres.
 const BACK: f64 = 0.1;
-/// A way round of more steps than this is not one: round all the walls of the Apartment it takes about 1,600.
+/// Largest number of steps in a round; beyond it Rusty is lost. A round along all the walls of the Apartment takes
+/// about 1,600.
 const LOST: u64 = 5000;
 
 const SENSOR: RangeSensor = RangeSensor { n_rays: 60, max_range: 4.0 };
@@ -39,12 +42,12 @@ const SENSOR: RangeSensor = RangeSensor { n_rays: 60, max_range: 4.0 };
 pub const NOISE: BeamModel =
     BeamModel { sigma_hit: 0.03, z_short: 0.02, lambda_short: 1.0, z_miss: 0.02, z_max: 0.01, z_rand: 0.01 };
 
-/// How Rusty knows the nearest point of what surrounds it.
+/// The source of Rusty's knowledge of the nearest boundary point.
 #[derive(Clone, Copy)]
 enum Eyes<'a> {
-    /// By the exact nearest point: the truth that leave points are judged by.
+    /// The exact nearest point, by which leave points are judged.
     Truth,
-    /// By its sensor, exact or with noise from a stream.
+    /// Its sensor, exact or with noise from a stream.
     Sensor(Option<&'a (BeamModel, Stream)>),
 }
 
@@ -61,17 +64,17 @@ struct Bug<'a> {
     followed: Option<Point2>,
 }
 
-/// What became of a way round an obstacle.
+/// The result of a round about an obstacle.
 struct Round {
-    /// Where Rusty was when the boundary seemed nearest to the goal.
+    /// Rusty's place where the boundary seemed nearest to the goal.
     leave: Point2,
-    /// How far round that was, and how long the whole way round is, metres.
+    /// The distance gone round until then, and the length of the whole round, metres.
     until_leave: f64,
     length: f64,
 }
 
 impl Bug<'_> {
-    /// The point of the surroundings that seems nearest; `None` when nothing is in range.
+    /// The boundary point that seems nearest; `None` when nothing is in range.
     fn nearest(&mut self) -> Option<Point2> {
         let Eyes::Sensor(noise) = self.eyes else {
             return self.world.scene().witness(&Footprint::disc(self.at, 0.0)).map(|w| w.on_obstacle);
@@ -81,7 +84,7 @@ impl Bug<'_> {
             ranges = model.apply(&SENSOR, &ranges, stream, self.tick);
         }
         let n = ranges.len();
-        // the median of three neighbours: a lone short return is nobody's wall
+        // the median of three neighbours, because a lone short return is no wall
         let median = |k: usize| {
             let (a, b, c) = (ranges[(k + n - 1) % n], ranges[k], ranges[(k + 1) % n]);
             greater(lesser(a, b), lesser(greater(a, b), c))
@@ -95,7 +98,7 @@ impl Bug<'_> {
         }
     }
 
-    /// A step in a direction; a wall stops it.
+    /// Takes a step in a direction, until a wall stops it.
     fn step(&mut self, direction: Vector2, length: f64) {
         let to = R2(self.at + direction * (length / hypot(direction.x, direction.y)));
         self.tick += 1;
@@ -114,7 +117,7 @@ impl Bug<'_> {
         self.nearest().is_some_and(|p| (p - at).norm() <= KEEP && (p - at).dot(&(goal - at)) > 0.0)
     }
 
-    /// Heads for the goal until it is there (true) or something is in the way, seen or touched.
+    /// Heads for the goal. `true` at the goal, `false` when something is in the way, seen or touched.
     fn head_for_goal(&mut self) -> bool {
         self.followed = None;
         let bumps = self.bumps;
@@ -127,8 +130,8 @@ impl Bug<'_> {
         true
     }
 
-    /// A step along the wall, which is at the right hand when `side` is 1 and at the left when it is -1. Gives the wall's
-    /// point.
+    /// Takes a step along the wall, which is at the right hand when `side` is 1 and at the left when it is -1. Returns
+    /// the wall's point.
     fn follow(&mut self, side: f64) -> Point2 {
         let wall = self.nearest().or(self.followed).unwrap_or(self.goal);
         self.followed = Some(wall);
@@ -141,7 +144,7 @@ impl Bug<'_> {
         wall
     }
 
-    /// Goes all the way round what it met; `None` when it never comes back.
+    /// Goes all the way round the obstacle; `None` when it never comes back.
     fn go_round(&mut self) -> Option<Round> {
         // the first steps bring it to the distance it keeps
         (0..5).for_each(|_| _ = self.follow(1.0));
@@ -151,7 +154,7 @@ impl Bug<'_> {
         while self.tick < last {
             let from = self.at;
             let wall = self.follow(1.0);
-            // where it should be beside that point of the wall: on this side of it, for a wall may be thin
+            // Rusty's place beside that point of the wall, on this side of it, because a wall may be thin
             let apart = greater((from - wall).norm(), 1e-6);
             let seen = (wall + (from - wall) * (KEEP / apart) - self.goal).norm();
             if seen < least {
@@ -166,7 +169,7 @@ impl Bug<'_> {
         None
     }
 
-    /// Returns to the leave point by the shorter way; false when it does not come by.
+    /// Returns to the leave point by the shorter way; `false` when it never gets there.
     fn return_to(&mut self, round: &Round) -> bool {
         let ahead = round.until_leave <= 0.5 * round.length;
         let (side, way) = if ahead { (1.0, round.until_leave) } else { (-1.0, round.length - round.until_leave) };
@@ -177,24 +180,24 @@ impl Bug<'_> {
             }
             self.follow(side);
         }
-        // the last bit by its own position
+        // the rest of the way goes by Rusty's own position
         self.step(round.leave - self.at, greater((round.leave - self.at).norm(), 1e-9));
         true
     }
 }
 
-/// What became of a run.
+/// The result of a run.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Outcome {
-    /// Whether it came to the goal.
+    /// Whether it reached the goal.
     pub reached: bool,
-    /// The length of its way, metres.
+    /// The length of its path, metres.
     pub length: f64,
-    /// How often it went round an obstacle.
+    /// Number of rounds about obstacles.
     pub rounds: u32,
-    /// How many of the leave points were misjudged.
+    /// Number of misjudged leave points.
     pub misjudged: u32,
-    /// In how many steps a wall stopped it.
+    /// Number of steps that a wall stopped.
     pub bumps: u32,
 }
 
@@ -221,7 +224,7 @@ pub fn bug1(world: &DiscChecker, start: Point2, goal: Point2, noise: Option<&(Be
     Outcome { length: rusty.length, bumps: rusty.bumps, ..outcome }
 }
 
-/// The start and the goal of a seed: two places of the Apartment, well away from everything.
+/// The start and the goal of a seed: two places of the Apartment, well away from all obstacles.
 pub fn task(world: &DiscChecker, seed: Seed) -> (Point2, Point2) {
     let mut places = Stream::new(seed, "bug1/places");
     let bounds = world.scene().bounds();

@@ -3,8 +3,8 @@
 //! `cargo run --example custom_robot`
 //!
 //! Four things make a robot: its configurations (`Configuration`), its footprint and how fast its parts can move
-//! (`Robot`, all that planners and the checker need), its controls (`Drivable`), and its tour (`SimulatedRobot`). A name that
-//! begins with `x-` then stands for it in worlds, logs and scripts.
+//! (`Robot`, all that planners and the checker need), its controls (`Drivable`), and its tour (`SimulatedRobot`).
+//! Worlds, logs and scripts then name it by a kind that begins with `x-`.
 #![allow(clippy::print_stdout, dead_code)]
 
 use std::error::Error;
@@ -22,7 +22,7 @@ use motion_lab::simulation::{App, Extra, RobotPlugin, SimulatedRobot};
 use motion_lab::tour::TourConfig;
 use motion_lab::worlds::{Resident, World};
 
-/// Where a train is: the car's rear axle, and which way each trailer heads.
+/// The configuration of a train: the pose of the car's rear axle, and each trailer's heading.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TrainCfg {
     /// The car.
@@ -52,7 +52,7 @@ impl Configuration for TrainCfg {
 
     fn interpolate(&self, to: &Self, s: f64) -> Result<Self, ChartMismatch> {
         let turn = |i: usize| wrap(self.psi[i] + s * wrap(to.psi[i] - self.psi[i]));
-        // the ends themselves bit for bit
+        // the ends are exact, bit for bit
         let psi = [0, 1].map(|i| {
             if s >= 1.0 {
                 to.psi[i]
@@ -88,17 +88,17 @@ impl Configuration for TrainCfg {
 /// A car with two trailers. A trailer's hitch is the middle of the axle before it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Train {
-    /// From the car's rear to its front axle, metres.
+    /// The distance from the car's rear axle to its front axle, metres.
     pub wheelbase: f64,
-    /// Greatest steering angle, radians.
+    /// Largest steering angle, radians.
     pub max_steer: f64,
     /// Speed on tour, metres per second.
     pub speed: f64,
-    /// From each hitch to the trailer's axle, metres.
+    /// The distance from each hitch to the trailer's axle, metres.
     pub draw_bar: f64,
     /// The width of car and trailers, metres.
     pub width: f64,
-    /// How far each reaches beyond its axles, metres.
+    /// The overhang of each beyond its axles, metres.
     pub overhang: f64,
 }
 
@@ -117,14 +117,15 @@ impl Train {
         [(q.body, car.0, car.1), (first, trailer.0, trailer.1), (second, trailer.0, trailer.1)]
     }
 
-    /// How far a part reaches from the origin of its frame.
+    /// The distance of a part's farthest point from the origin of its frame, metres.
     fn reach(&self, part: usize) -> f64 {
         let ahead = if part == 0 { self.wheelbase } else { self.draw_bar };
         hypot(ahead + self.overhang, 0.5 * self.width)
     }
 
-    /// The rates of the three parts, when the rear axle moves at `origin` and a heading turns at `turns[i]`, changing its rate
-    /// by up to `bends[i]`. A trailer's frame hangs on the axle before it, which adds that trailer's own turning.
+    /// The rates of the three parts, when the rear axle moves at `origin` and heading `i` turns at `turns[i]`, which
+    /// changes by up to `bends[i]`. A trailer's frame hangs on the axle before it, which adds that trailer's own
+    /// turning.
     fn rates(&self, origin: Rates, turns: [f64; 3], bends: [f64; 3]) -> PartRates {
         let swing = |at: Rates, radius: f64, i: usize| Rates {
             speed: at.speed + radius * turns[i].abs(),
@@ -171,7 +172,7 @@ pub struct TrainArc {
 }
 
 impl TrainArc {
-    /// How the trailers turn, per unit of `s`: each axle follows its hitch and does not slide sideways.
+    /// The turn rates of the trailers per unit of `s`: each axle follows its hitch and does not slide sideways.
     fn slope(&self, s: f64, [psi1, psi2]: [f64; 2]) -> [f64; 2] {
         let off = self.start.body.theta + s * self.turn - psi1;
         let (first, rate) = (self.ahead * cos(off), 1.0 / self.train.draw_bar);
@@ -220,7 +221,7 @@ impl Drivable for Train {
         if !(ahead.is_finite() && turn.is_finite()) {
             return Err(ConfigurationError::ControlNotFinite);
         }
-        // no axle is faster than the one before it; a percent more than the exact solution for the numerical one
+        // no axle is faster than the one before it; one percent is added for the error of the numerical solution
         let origin = Rates { speed: ahead.abs(), acceleration: (ahead * turn).abs() };
         let spin = 1.01 * ahead.abs() / self.draw_bar;
         let first = 1.01 * spin * (turn.abs() + spin);
@@ -240,7 +241,7 @@ pub struct Loop {
 impl SimulatedRobot for Train {
     type Tour = Loop;
 
-    /// The seed decides how wide the loop is.
+    /// The seed decides the width of the loop.
     fn tour(&self, seed: Seed, name: &str, world: &World, _start: &TrainCfg) -> Loop {
         let mut draws = Stream::new(seed, &format!("{name}/tour"));
         let size = world.bounds.max - world.bounds.min;
@@ -248,7 +249,7 @@ impl SimulatedRobot for Train {
         Loop { middle: world.bounds.min + size * 0.5, half }
     }
 
-    /// Steers for a point a little ahead on the loop.
+    /// Steers towards a point a little ahead on the loop.
     fn touring(&self, tour: &Loop, _tick: u64, _dt: f64, q: &TrainCfg, _extra: &mut Extra) -> CarCmd {
         let from_middle = q.body.position() - tour.middle;
         let (s, c) = sin_cos(atan2(from_middle.y / tour.half.y, from_middle.x / tour.half.x) + 0.4);
@@ -266,7 +267,7 @@ impl SimulatedRobot for Train {
     }
 }
 
-/// Makes worlds' `x-train` a [`TRAIN`].
+/// Registers [`TRAIN`] as the kind `x-train`.
 pub fn with_trains(app: &mut App) {
     app.add_plugins(RobotPlugin::new("x-train", TRAIN));
 }
@@ -278,14 +279,14 @@ pub fn config() -> TourConfig {
     TourConfig { worlds: vec![lot], ticks: 1200, sensor: None }
 }
 
-/// The recorded run, written and read as a log file is.
+/// The recorded run, written as a log file and read back.
 pub fn record(seed: Seed) -> Result<Log, Box<dyn Error>> {
     let mut file = Vec::new();
     Run::record_with_robots(config(), seed, with_trains)?.write_mcap(&mut file)?;
     Ok(Log::read_mcap(&file)?.log)
 }
 
-/// What the program prints.
+/// The program's output.
 pub fn report() -> Result<String, Box<dyn Error>> {
     let log = record(motion_lab::tour::BOOK_SEED)?;
     let again = Run::replay_with_robots(&log, with_trains)?;

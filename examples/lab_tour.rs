@@ -13,10 +13,10 @@ use motion_lab::recording::Run;
 use motion_lab::tour::{BOOK_SEED, TourConfig};
 use motion_lab::worlds::World;
 
-/// What the program prints.
+/// The program's output.
 pub fn report() -> Result<String, Box<dyn Error>> {
     let mut text = String::new();
-    // Choset's arm at his own configuration
+    // Choset's arm at his configuration
     let arm = Reach::<2>::choset();
     let q = T2::new(FRAC_PI_4, FRAC_PI_2);
     let points = arm.fk(&q);

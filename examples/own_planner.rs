@@ -14,7 +14,8 @@ fn apart<C: Configuration>(a: &C, b: &C) -> f64 {
     a.difference(b).map_or(f64::INFINITY, |d| motion_lab::num::sqrt(d.iter().map(|x| x * x).sum()))
 }
 
-/// A path of free edges from the start to the goal, grown in steps of at most `step`; `None` when `samples` did not do.
+/// A path of free edges from the start to the goal, grown in steps of at most `step`; `None` when `samples` draws find
+/// none.
 pub fn rrt<R: Robot>(problem: &mut Problem<R>, step: f64, samples: u32) -> Option<Vec<R::Configuration>> {
     // every node with the number of its parent; the root is its own
     let mut tree = vec![(problem.start(), 0)];
@@ -49,7 +50,7 @@ pub fn problem() -> Result<Problem<Reach<2>>, Box<dyn Error>> {
     Ok(Problem::try_new(checker, T2::new(2.0, 0.0), T2::new(3.1, 0.0), Seed(2005))?)
 }
 
-/// What the program prints.
+/// The program's output.
 pub fn report() -> Result<String, Box<dyn Error>> {
     let mut problem = problem()?;
     let path = rrt(&mut problem, 0.4, 10_000).ok_or("no path within 10000 samples")?;
@@ -57,7 +58,7 @@ pub fn report() -> Result<String, Box<dyn Error>> {
     writeln!(text, "{}", path[0])?;
     for ends in path.windows(2) {
         problem.checker().edge_certified(&ends[0], &ends[1], &mut certificate)?;
-        // the verifier takes nothing of the planner's or the march's word but the steps themselves
+        // the verifier trusts neither the planner nor the march: it gets the steps and checks them
         let edge = problem.checker().robot().edge(&ends[0], &ends[1])?;
         let proven = verify_certificate(problem.checker().scene(), &edge, &certificate)?;
         assert_eq!(proven, 1.0, "the planner took only edges proven free");

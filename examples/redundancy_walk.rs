@@ -9,11 +9,11 @@ use std::fmt::Write;
 use motion_lab::prelude::*;
 use motion_lab::tour::BOOK_SEED;
 
-/// 200 configurations of one tip: the first joint walks by seeded steps, the other two are solved for by the two-link
-/// inverse kinematics about the end of the first link, on the elbow side where they are. A step out of reach turns back.
+/// 200 configurations of one tip. The first joint walks by seeded steps. The other two follow by two-link inverse
+/// kinematics about the end of the first link, on the elbow side of the start. A step out of reach turns back.
 pub fn walk(arm: &Reach<3>, start: Tn<3>, seed: Seed) -> Vec<Tn<3>> {
     let tip = arm.tip(&start);
-    // [elbow-down, elbow-up]: which of the two solutions the start is
+    // the start's solution among [elbow-down, elbow-up]
     let side = usize::from(start.0[2] < 0.0);
     let mut draws = Stream::new(seed, "redundancy walk");
     let mut walk = vec![start];
@@ -28,7 +28,7 @@ pub fn walk(arm: &Reach<3>, start: Tn<3>, seed: Seed) -> Vec<Tn<3>> {
     walk
 }
 
-/// What the program prints.
+/// The program's output.
 pub fn report() -> Result<String, Box<dyn Error>> {
     let arm = Reach::<3>::redundant();
     let start = Tn([0.3, 0.9, 0.8]);

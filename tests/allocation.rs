@@ -1,11 +1,11 @@
-//! The queries of the lab's robots touch no heap.
+//! Queries about the lab's robots make no heap allocation, and neither does logging a tick.
 
 use motion_lab::collision::{
     Certificate, Checker, Collision, Counted, MarchOptions, Problem, Scene, march, verify_certificate,
 };
 use motion_lab::prelude::*;
 
-/// The heap allocations that `work` makes.
+/// The number of heap allocations in `work`.
 fn allocations(work: impl FnOnce()) -> u64 {
     allocation_counter::measure(work).count_total
 }
@@ -37,7 +37,7 @@ fn check<R: Robot>(checker: &Checker<R>, a: R::Configuration, b: R::Configuratio
     }
 }
 
-/// Random edges: moving rectangles have hulls of up to eight corners, and the march takes every turn it can.
+/// Random edges take every branch of the march. Hulls of moving rectangles have up to eight corners.
 #[test]
 fn no_random_edge_of_the_three_robots_allocates() {
     fn random<R: Robot>(checker: &Checker<R>) {
@@ -78,7 +78,7 @@ fn footprints_queries_and_edges_of_the_three_robots_do_not_allocate() {
     check(&Checker::new(scene, HITCH.with_trailer()), towing(-4.0, 0.0), towing(2.0, 0.7));
 }
 
-/// A log's room is made by its first ticks.
+/// A log's buffers are allocated in its first ticks.
 #[test]
 fn logging_a_tick_does_not_allocate() {
     use motion_lab::recording::Run;

@@ -1,4 +1,4 @@
-//! The anatomy from outside: what it copies as code is compiled and run here, and what it copies as a command is run.
+//! The anatomy from outside: its snippets of code are compiled and run here, and its commands are run.
 
 use std::path::Path;
 
@@ -8,7 +8,8 @@ use motion_lab::num::sqrt;
 use motion_lab::robots::AnyRobot;
 use motion_lab::worlds::World;
 
-/// Each snippet is a program of its own, checked in as it is copied. Its `main` fails when it finds other numbers than shown.
+/// Each snippet is a program of its own, checked in as the anatomy copies it. Its `main` fails on numbers other than
+/// those shown.
 macro_rules! snippets {
     ($($name:ident),*) => {
         $(#[allow(clippy::approx_constant, clippy::excessive_precision, clippy::unreadable_literal)]
@@ -26,7 +27,7 @@ macro_rules! snippets {
 }
 snippets!(intersects, distance, witness, swept, thick_distance, car_swept, own_world_witness, disc_witness);
 
-/// What each of them is copied from.
+/// The anatomy from which a snippet is copied.
 fn source_of(name: &str) -> Anatomy {
     let of = |world: &str| {
         let at = World::built_in_names().into_iter().find(|n| *n == world).unwrap();
@@ -66,7 +67,7 @@ fn copied_code_compiles_runs_and_finds_the_numbers_shown() {
         assert_eq!(&copied, checked_in, "{name}: MOTION_LAB_WRITE_SNIPPETS=1 writes them anew; then run this again");
         run();
     }
-    // the snippets are what is shown, and what is shown is the chapter's
+    // the snippets hold the numbers shown, and these are the chapter's
     let (_, text, _) = SNIPPETS.iter().find(|(name, ..)| *name == "distance").unwrap();
     let claimed = text.split("assert_eq!(distance, ").nth(1).unwrap().split(')').next().unwrap();
     assert!((claimed.parse::<f64>().unwrap() - (1.5 / sqrt(2.0) - 1.0)).abs() < 1e-9, "{claimed}");

@@ -1,7 +1,8 @@
-//! Angles far outside (-pi, pi]: one heading has one footprint, one edge, one sweep and one drive, however many turns on it is written.
+//! Angles far outside (-pi, pi]: a heading has one footprint, edge, sweep and drive, however many turns its number
+//! contains.
 //!
-//! What an angle means comes from its definition: the remainder of division by the `f64` nearest 2 pi, which the language's own `%`
-//! gives exactly.
+//! The meaning of an angle is its definition: the remainder of division by the `f64` nearest to 2 pi, which the
+//! language's `%` gives exactly.
 
 use std::f64::consts::{PI, TAU};
 
@@ -13,7 +14,7 @@ use motion_lab::prelude::*;
 use crate::fixtures::count_from_env;
 use crate::oracle::plain;
 
-/// The angle in (-pi, pi], by the remainder.
+/// An angle reduced to (-pi, pi] by the remainder.
 fn short(angle: f64) -> f64 {
     let r = angle % TAU;
     if r > PI {
@@ -25,7 +26,7 @@ fn short(angle: f64) -> f64 {
     }
 }
 
-/// An angle of any size: one in range, exactly the borders, or one of up to 1e15 rad.
+/// An angle of any size: in range, exactly at a border, or up to 1e15 rad.
 fn angle(s: &mut Stream) -> f64 {
     let magnitude = [1e2, 1e3, 1e6, 1e9, 1e12, 1e15][s.below(6) as usize];
     match s.below(8) {
@@ -37,7 +38,7 @@ fn angle(s: &mut Stream) -> f64 {
     }
 }
 
-/// Boxes and discs about a point, near enough that one in three configurations touches something.
+/// Boxes and discs about a point, so near that one in three configurations touches something.
 fn crowd(s: &mut Stream, count: u32) -> Scene {
     let bounds = Aabb { min: Point2::new(-9.0, -9.0), max: Point2::new(9.0, 9.0) };
     (0..count).fold(Scene::empty(bounds), |scene, i| {
@@ -56,7 +57,8 @@ fn obstacles(scene: &Scene) -> Vec<Placed> {
     scene.pieces().map(|(_, piece)| piece.clone()).collect()
 }
 
-/// Puts one robot through everything: `far` as it is written, `near` the same with its angles in range.
+/// Asks everything about two configurations of a robot: `far` with any angles, `near` the same with its angles in
+/// range.
 fn one_answer<R: Robot>(scene: &Scene, robot: &R, far: [R::Configuration; 2], near: [R::Configuration; 2]) -> bool {
     let checker = Checker::new(scene.clone(), robot.clone());
     let placed = obstacles(scene);
@@ -76,7 +78,7 @@ fn one_answer<R: Robot>(scene: &Scene, robot: &R, far: [R::Configuration; 2], ne
         let last = checker.last_free(&a, &b).unwrap();
         assert_eq!(last, checker.last_free(&near[0], &near[1]).unwrap(), "{a:?} to {b:?}");
     }
-    // the turn that stands still is free exactly when its footprint is, by the oracle
+    // the edge between two writings of one configuration is free exactly when the footprint is, by the oracle
     let still = checker.edge(&far[0], &near[0]).unwrap();
     let there = touches(&robot.footprint(&near[0]), &placed);
     assert_eq!(still.is_free(), !there && checker.is_free(&near[0]), "{:?}", far[0]);
@@ -166,7 +168,7 @@ fn angles_in_range_keep_their_bits() {
         let same = edge.at(0.0).0.iter().zip(q.0).all(|(a, b)| a.to_bits() == b.to_bits());
         assert!(same, "{q:?} {:?}", edge.at(0.0));
     }
-    // of a pose and a trailer too: in edges, drives and parts
+    // a pose and a trailer too: in edges, drives and parts
     let body = Pose2 { x: 1.0, y: 2.0, theta: -0.0 };
     let (towing, car) = (HITCH.with_trailer(), HitchCfg { body, trailer: Some(-0.0) });
     let (u, rover) = (CarCmd { v: 1.0, phi: 0.1 }, RustyCmd { v: 0.1, omega: 0.1 });

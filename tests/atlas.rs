@@ -1,5 +1,5 @@
-//! The atlas and the configuration space from outside: a world drawn by hand runs at once, and the cells of a configuration space
-//! against a brute-force raster.
+//! The atlas and the configuration space from outside: a world drawn by hand runs at once, and the cells of a
+//! configuration space agree with a brute-force raster.
 
 use std::process::Command;
 
@@ -73,7 +73,7 @@ fn the_atlas_and_a_run_accept_and_refuse_the_same_teleports() {
     assert_eq!(rusty.configuration, atlas.robots()[0].q.coordinates(), "and it stands where the atlas has it");
 }
 
-/// The share of unknown cells over time, printed, and every proven cell against a raster of exact answers.
+/// Compares every proven cell with a raster of exact answers, and prints the share of unknown cells over time.
 #[test]
 fn the_torus_of_the_workbench_against_a_brute_force_raster() {
     let side = 256_usize;

@@ -1,5 +1,5 @@
-//! What is kept from one question or tick to the next is kept for the same question only: each part of what it depends on is changed alone,
-//! and the new answer read off the geometry.
+//! Caches: a result kept from one query or tick to the next is used for the same query only. Each input of a cached
+//! result is changed alone, and the new answer is read off the geometry.
 
 use motion_lab::collision::ObstacleId;
 use motion_lab::num::{tan, wrap};
@@ -15,16 +15,16 @@ use crate::controls::open;
 use crate::fixtures::PLANE;
 use crate::simulation::{event, quantized, script};
 
-/// The way of a car in a tick at full speed: 1.5 m/s for 0.05 s.
+/// The distance a car covers in a tick at full speed, metres: 1.5 m/s for 0.05 s.
 const FULL: f64 = 0.075;
 
-/// The frames of ticks 1 to `ticks`: that of tick k in place k - 1.
+/// The frames of ticks 1 to `ticks`; the frame of tick k is at index k - 1.
 fn frames(world: World, events: Vec<Event>, ticks: u64) -> Vec<Frame> {
     let config = TourConfig { worlds: vec![world], ticks, sensor: None };
     Run::record(config, (Seed(1), script(events))).unwrap().frames
 }
 
-/// A car that is held and told nothing new is held by the same answer as before, where nobody else may change it.
+/// A held car with an unchanged control keeps its last answer, unless another robot may change it.
 #[test]
 fn a_held_car_goes_on_when_what_held_it_leaves() {
     let (it, other) =
@@ -34,7 +34,7 @@ fn a_held_car_goes_on_when_what_held_it_leaves() {
     for (id, robots) in [(0, [it, other]), (1, [other, it])] {
         let frames = frames(open("open", &robots), events.clone(), 200);
         let it = |tick: usize| &frames[tick - 1].robots[id];
-        // 3.2 m ahead of its rear axle it stands at the other's side, half a width before 8 m
+        // its front, 3.2 m ahead of its rear axle, stands at the other's side, half a width before 8 m
         let gap = 8.0 - 0.85 - 3.2 - it(60).configuration[0];
         assert!((1e-5..=1e-4).contains(&gap) && it(60).in_contact, "held at {gap}");
         assert!((60..=120).all(|tick| it(tick).configuration == it(60).configuration && it(tick).in_contact));
@@ -55,7 +55,7 @@ fn a_car_held_at_a_wall_goes_on_from_elsewhere_and_with_another_steering() {
     let run = frames(world.clone(), events, 60);
     let x = |run: &[Frame], tick: usize| run[tick - 1].robots[0].configuration[0];
     assert!(x(&run, 30) == x(&run, 49) && run[48].robots[0].in_contact, "1.8 m are 24 ticks");
-    // put 5 m back it drives on with what it holds
+    // put 5 m back it drives on with the channels it holds
     assert!((x(&run, 60) - 11.0 * FULL).abs() < 1e-12 && !run[59].robots[0].in_contact, "{}", x(&run, 60));
     // with the wheels turned it is held as before, and in reverse it leaves
     let drives = [(1, 128, 0), (40, 128, 64), (50, -128, 64)];
@@ -91,7 +91,8 @@ fn robots_of_one_type_keep_the_dimensions_of_their_kinds() {
     }
 }
 
-/// Four discs of radius 0.5 about the origin, their near sides `near` metres away, and so many walls beyond a corner where no ray goes.
+/// Four discs of radius 0.5 about the origin, their near sides `near` metres away, and `far_walls` walls in a corner
+/// where no ray goes.
 fn about_the_origin(near: f64, far_walls: u32) -> Scene {
     let wall = |i: u32| {
         let at = Point2::new(20.0 + 0.25 * f64::from(i % 32), 20.0 + 0.25 * f64::from(i / 32));
@@ -132,7 +133,8 @@ fn one_scanner_sees_each_scene_and_each_robot_as_if_it_were_its_first() {
     }
 }
 
-/// Discs come one after the other along a line toward the origin: whatever a scene is kept in, the newest is the nearest.
+/// Discs are added one after the other along a line toward the origin. Whichever index the scene uses, the newest disc
+/// is the nearest.
 #[test]
 fn every_answer_of_a_scene_sees_what_was_added_last_however_many_there_are() {
     let sensor = RangeSensor { n_rays: 8, max_range: 400.0 };

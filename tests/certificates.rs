@@ -1,4 +1,4 @@
-//! Certificates: the verifier accepts the library's own, and no others.
+//! Certificates: the verifier accepts the library's own and refuses all others.
 
 use std::f64::consts::PI;
 
@@ -9,8 +9,8 @@ use motion_lab::prelude::*;
 
 use crate::fixtures::{count_from_env, workbench};
 
-/// Edges from a micrometre to a centimetre long into and along what is there: where the rounding of closed forms is nearest to the
-/// clearance that they claim.
+/// Edges from a micrometre to a centimetre long, into and along obstacles. There the rounding of closed forms is
+/// nearest to the clearance that they claim.
 #[test]
 fn the_verifier_accepts_every_certificate_of_a_short_edge() {
     let mut s = Stream::new(Seed(88), "tests/short edges");
@@ -23,7 +23,7 @@ fn the_verifier_accepts_every_certificate_of_a_short_edge() {
         let (wall, corner) = ([place(), place()], place());
         let bounds = Aabb { min: Point2::new(at - scale, at - scale), max: Point2::new(at + scale, at + scale) };
         let radius = s.uniform(0.01, 0.2);
-        // a hair's breadth off what is there: the middle of a wall beside a box, or a pin that stands alone
+        // a hair's breadth off an obstacle: the middle of a wall beside a box, or a pin that stands alone
         let gap = num::exp(s.uniform(num::ln(1e-7), num::ln(1e-2)));
         let direction = (wall[1] - wall[0]).normalize();
         let normal = Vector2::new(-direction.y, direction.x);
@@ -99,7 +99,7 @@ fn a_certificate_that_claims_too_much_or_leaves_a_gap_is_refused() {
         assert_eq!(verify(missing), Err(CertificateError::Broken(k)));
         assert_eq!(verify(steps[..k].to_vec()), Ok(steps[k].from), "what is left proves only so far");
     }
-    // and one step over an edge that hits proves nothing, whatever it claims
+    // one step over an edge that hits proves nothing, whatever it claims
     let (a, b) = (T2::new(2.0, 0.0), T2::new(3.1, 0.0));
     let motion = checker.robot().edge(&a, &b).unwrap();
     for clearance in [1.0, 1e-300, 0.0, -1.0] {

@@ -12,7 +12,7 @@ use motion_lab::sensors::RangeSensor;
 
 use crate::fixtures::{PLANE, apartment, workbench};
 
-/// The block alone, and the whole Workbench, on which it is the nearest of all.
+/// The block alone, and the whole Workbench, in which the block is the nearest obstacle.
 fn blocks() -> [Scene; 2] {
     let block = Shape::try_rectangle(Point2::new(0.5, 1.0), Point2::new(1.0, 1.5)).unwrap();
     [Scene::empty(PLANE).with_obstacle("the block", block), workbench()]
@@ -67,8 +67,8 @@ fn first_contact_with_the_block_is_where_the_link_points_at_its_corner() {
                 }
             }
             assert!((contact - expected).abs() < 1e-6, "first contact at {contact}");
-            // and from there on it stays 0, until the link has swept the whole block: its last corner (1, 1) lies
-            // straight ahead of link 1, so that is at theta2 = 0, where a link without thickness just touches it
+            // from there on it stays 0, until the link has swept the whole block. The block's last corner (1, 1) lies
+            // straight ahead of link 1, so the sweep ends at theta2 = 0, where a link without thickness just touches it
             let n = 20_000;
             for i in 0..n {
                 let th2 = contact * f64::from(n - i) / f64::from(n);
@@ -76,7 +76,7 @@ fn first_contact_with_the_block_is_where_the_link_points_at_its_corner() {
                 let footprint = arm.footprint(&T2::new(FRAC_PI_4, th2));
                 assert!(scene.intersects(&footprint) && scene.witness(&footprint).is_some_and(|w| w.dist == 0.0));
             }
-            // while before it, it falls all the way
+            // before the contact it falls all the way
             let mut last = 0.0;
             for i in 1..=1000 {
                 let d = distance(contact + (FRAC_PI_2 - contact) * f64::from(i) / 1000.0);
@@ -103,7 +103,7 @@ fn scan_is_rho_r() {
     assert_eq!(scan.len(), 360);
     assert!((least(&scan) - 1.0).abs() < 1e-9);
     assert!((scan[0] - 1.0).abs() < 1e-9, "ray 0 points at the nearest point");
-    // from anywhere, no ray reads less than the point's distance
+    // no ray from any point reads less than the point's distance
     let mut s = Stream::new(Seed(91), "tests/rho");
     for scene in [wall_scene(), apartment()] {
         for _ in 0..200 {

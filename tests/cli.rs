@@ -24,7 +24,7 @@ use std::io::Write;
 use std::path::Path;
 use std::process::{Command, Output, Stdio};
 
-/// What a run of the program came to.
+/// The exit code and the output of a run of the program.
 struct Run {
     code: Option<i32>,
     out: String,
@@ -68,14 +68,14 @@ fn run_with(input: &[u8], arguments: &[&str]) -> Run {
 }
 
 impl Run {
-    /// The standard output, of a run that did its work.
+    /// The standard output. Fails unless the run succeeded.
     #[track_caller]
     fn done(self) -> String {
         assert_eq!(self.code, Some(0), "{}", self.err);
         self.out
     }
 
-    /// The messages, of a run that ended with this exit code.
+    /// The messages. Fails unless the run ended with this exit code.
     #[track_caller]
     fn failed(self, code: i32) -> String {
         assert_eq!(self.code, Some(code), "out: {}\nerr: {}", self.out, self.err);
@@ -148,7 +148,7 @@ fn a_missing_or_wrong_input_is_3_and_names_the_file() {
     }
 }
 
-/// Without a command the program does what its features make of it.
+/// Without a command, the program's features decide what it does.
 #[cfg(feature = "headless")]
 #[test]
 fn the_tour_is_recorded_replayed_and_drawn() {

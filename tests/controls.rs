@@ -1,4 +1,4 @@
-//! What each control channel and each joint does, and how much of it: the equations of motion written out.
+//! The effect of each control channel and each joint, by the equations of motion written out.
 
 use std::f64::consts::FRAC_PI_2;
 
@@ -28,7 +28,7 @@ pub fn open(name: &str, robots: &[(&str, &str, &[f64])]) -> World {
     }
 }
 
-/// Where everything starts: off the origin, and at no heading at which signs or axes could be confused.
+/// The common start: off the origin, with a heading that confuses neither signs nor axes.
 const START: [f64; 3] = [0.5, -0.25, 2.0];
 
 /// Every sign of both channels, full scale and less.
@@ -47,7 +47,8 @@ const CHANNELS: [(i16, i16); 12] = [
     (-127, -64),
 ];
 
-/// Where a body is that went ahead at `v` and turned at `omega` for `t` seconds: on a circle of radius v / omega, or straight on.
+/// The pose of a body that goes ahead at `v` and turns at `omega` for `t` seconds: on a circle of radius v / omega, or
+/// straight on.
 pub fn driven([x, y, theta]: [f64; 3], v: f64, omega: f64, t: f64) -> [f64; 3] {
     let end = theta + omega * t;
     if omega == 0.0 {
@@ -80,7 +81,7 @@ fn poses(kind: &str, (a, b): (i16, i16), ticks: u64, add: impl FnOnce(&mut App))
 
 #[test]
 fn rusty_s_channels_are_speed_ahead_and_turn_to_the_left_in_parts_of_the_maximum() {
-    // wheels that do not slip leave nothing to chance
+    // wheels without slip draw no random numbers
     let add = |app: &mut App| {
         app.add_plugins(RobotPlugin::new("x-exact", Rusty { max_slip: 0.0, ..RUSTY }));
     };
@@ -90,7 +91,7 @@ fn rusty_s_channels_are_speed_ahead_and_turn_to_the_left_in_parts_of_the_maximum
         for (i, pose) in run.iter().enumerate() {
             assert_near(pose, driven(START, v, omega, 0.05 * (i + 1) as f64), &format!("Drive({a}, {b})"));
         }
-        // and with slip the signs are the same: it is at most a twentieth of what a wheel rolls
+        // slip leaves the signs as they are: it is at most a twentieth of what a wheel rolls
         let slipping = &poses("rusty", (a, b), 1, |_| {})[0];
         let (way, turn) = (ahead_and_left(slipping).0, wrap(slipping[2] - START[2]));
         let most = 0.05 * RUSTY.max_slip * (v.abs() + 0.5 * RUSTY.track * omega.abs());
@@ -101,7 +102,8 @@ fn rusty_s_channels_are_speed_ahead_and_turn_to_the_left_in_parts_of_the_maximum
 
 #[test]
 fn the_encoders_count_each_wheel_forward_positive_and_round_down() {
-    // a counter-clockwise turn is the right wheel's: v -+ omega track / 2 is 0.1 and 0.5 m/s, 60.77 and 303.84 counts in 7 ticks
+    // a counter-clockwise turn is the right wheel's: v -+ omega track / 2 is 0.1 and 0.5 m/s, 60.77 and 303.84 counts
+    // in 7 ticks
     let counts = [
         ((64, 128), (60, 303)),
         ((64, -128), (303, 60)),
@@ -145,7 +147,8 @@ fn hitch_s_channels_are_speed_ahead_and_steering_to_the_left_forward_and_in_reve
         for (i, pose) in run.iter().enumerate() {
             assert_near(pose, driven(START, v, omega, 0.05 * (i + 1) as f64), &format!("Drive({a}, {b})"));
         }
-        // in words: it goes where its speed says, to the side that it steers to, and turns that way only when it goes ahead
+        // in words: its speed decides ahead or back, its steering the side, and it turns to that side only when it goes
+        // ahead
         let last = &run[39];
         let (ahead, left) = ahead_and_left(last);
         let (turn, at_rest) = (wrap(last[2] - START[2]), a == 0);
@@ -156,7 +159,7 @@ fn hitch_s_channels_are_speed_ahead_and_steering_to_the_left_forward_and_in_reve
 
 #[test]
 fn an_arm_s_joints_turn_counter_clockwise_each_from_the_link_before() {
-    // links along the axes: the tip can be read off
+    // the links lie along the axes, so the tip can be read off
     let (q, o) = (FRAC_PI_2, 0.0);
     let cases: [(&str, &[f64], [f64; 2]); 8] = [
         ("reach", &[q, o], [0.0, 2.0]),

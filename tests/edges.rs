@@ -46,7 +46,7 @@ fn survey<R: Robot>(
         assert_eq!(checker.edge(&a, &b).unwrap(), verdict, "{}", at());
         assert_eq!(checker.edge_free(&a, &b), verdict.is_free(), "{}", at());
         if i % 5 == 0 {
-            // what has a closed form must not need it: the march says the same
+            // motions with a closed form are marched too, and the verdicts agree
             let marched = check(&world, &motion, MarchOptions::default(), &mut certificate, &mut by_march, at);
             assert!(agree(verdict, marched), "{verdict:?} {marched:?}: {}", at());
             let options = MarchOptions { margin: 0.02, ..MarchOptions::default() };
@@ -80,7 +80,7 @@ fn worlds() -> [(&'static str, Arc<Scene>); 3] {
     [("the Apartment", Arc::new(apartment())), ("the Workbench", Arc::new(workbench())), ("the Lot", Arc::new(lot()))]
 }
 
-/// How many edges are surveyed in all; `MOTION_LAB_EDGES` changes it (the million of the acceptance run).
+/// Number of edges surveyed in all. `MOTION_LAB_EDGES` changes it (to a million for the acceptance run).
 fn edges() -> u64 {
     count_from_env("MOTION_LAB_EDGES", 10_000)
 }
@@ -108,7 +108,7 @@ fn angle(s: &mut Stream) -> f64 {
     s.uniform(-PI, PI)
 }
 
-/// The verdicts of a robot's edges must be of every sort, and hardly any undecided.
+/// Checks that a robot's verdicts are of every sort, and hardly any undecided.
 fn assert_telling(name: &str, tallies: &[Tally], count: u64) {
     let sum = |f: fn(&Tally) -> u64| tallies.iter().map(f).sum::<u64>();
     let (free, hits, unresolved) = (sum(|t| t.free), sum(|t| t.hits), sum(|t| t.unresolved));
@@ -192,8 +192,8 @@ fn edge_free_against_dense_sampling_at_2_mm_in_the_chart() {
                 footprint.parts().iter().all(|part| sweep::nearest_of(part.placed(), &pieces, 1.0) > 0.0)
             });
             let verdict = checker.edge(&a, &b).unwrap();
-            // The sampling may miss what lies between two samples, so it may say free where the march says hit: then
-            // the verdict's own contact must be one.
+            // Sampling may miss a contact between two samples and find an edge free that the march finds hit. Then the
+            // verdict's own contact must be one.
             if verdict.is_free() {
                 assert!(sampled, "{a} to {b} is said to be free");
             } else if sampled {
@@ -218,7 +218,7 @@ fn edge_free_against_dense_sampling_at_2_mm_in_the_chart() {
     assert!(free.iter().all(|n| (8..80).contains(n)), "one-sided: {free:?} of 88 free");
 }
 
-/// The arcs that a tick or a few seconds of driving make, with the trailer dragged along.
+/// The arcs of a tick or a few seconds of driving, with the trailer in tow.
 #[test]
 fn arcs_of_rusty_and_hitch_agree_with_dense_sampling() {
     let n = edges() / 20;
@@ -244,7 +244,7 @@ fn arcs_of_rusty_and_hitch_agree_with_dense_sampling() {
     assert_telling("Arcs", &[tally], 2 * n);
 }
 
-/// Edges drawn to graze: along walls and past posts at clearances from a millimetre to nothing at all.
+/// Edges drawn to graze: along walls and past posts, at clearances from a millimetre down to 0.
 #[test]
 fn grazing_edges_are_decided_down_to_a_nanometre() {
     let mut s = Stream::new(Seed(86), "tests/grazing");
@@ -283,7 +283,7 @@ fn grazing_edges_are_decided_down_to_a_nanometre() {
                 check(&Sampled::new(&scene), &motion, options, &mut certificate, &mut tally, what)
             }
         };
-        // the bodies' places are rounded, so a gap of exactly 0 may fall to either side
+        // the bodies' places are rounded, so a gap of exactly 0 may become contact or not
         if gap >= 1e-9 {
             assert!(!matches!(verdict, EdgeVerdict::Hit { .. }), "{verdict:?} in {}", what());
         }

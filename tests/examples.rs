@@ -1,4 +1,4 @@
-//! The example programs: what they print is pinned, and what they claim is checked by other means than theirs.
+//! The example programs: their output is pinned, and their claims are checked by other means than theirs.
 
 use std::f64::consts::TAU;
 
@@ -22,7 +22,7 @@ mod own_planner;
 #[path = "../examples/redundancy_walk.rs"]
 mod redundancy_walk;
 
-/// Fails when an example prints something else than is pinned in tests/pinned.
+/// Fails when an example's output differs from the one pinned in tests/pinned.
 macro_rules! assert_prints {
     ($name:literal, $printed:expr) => {
         assert_eq!($printed, include_str!(concat!("pinned/", $name, ".txt")), "examples/{}.rs", $name)
@@ -82,8 +82,8 @@ fn bug1_with_both_sensors() {
     for (seed, [exact, noisy]) in (0..).map(Seed).zip(&all) {
         let (start, goal) = bug1::task(&world, seed);
         assert!(exact.reached && exact.misjudged == 0, "seed {seed}: Bug1 reaches what can be reached");
-        // Bug1's bound: the straight way and one and a half times round each obstacle met, of which none is longer than the
-        // walls of all rooms; both ways of it, with a little for turning in and out
+        // Bug1's bound: the straight way, and one and a half times round each obstacle met, with a little for turning
+        // in and out. No obstacle is longer than both sides of the walls of all rooms
         let bound = (goal - start).norm() + f64::from(exact.rounds) * (1.5 * 95.0 + 2.0);
         assert!(exact.length >= (goal - start).norm() - 0.1 && exact.length <= bound, "seed {seed}: {exact:?}");
         assert!(
@@ -100,13 +100,14 @@ fn bug1_round_one_disc_goes_as_far_as_geometry_says() {
     let scene = Scene::empty(bounds).with_obstacle("the disc", Shape::Disc { radius: 0.5 });
     let (start, goal) = (Point2::new(-2.0, 0.05), Point2::new(2.0, 0.05));
     let run = bug1::bug1(&Checker::new(scene.clone(), RustyDisc::default()), start, goal, None);
-    // up to the circle at KEEP around it, once round, half round again to the nearest point, and on to the goal
+    // the way: up to the circle at KEEP around the obstacle, once round, half round again to the nearest point, and on
+    // to the goal
     let circle = 0.5 + bug1::KEEP;
     let expected = 2.0 * (2.0 - circle) + 1.5 * TAU * circle;
     assert!(run.reached && run.rounds == 1 && run.misjudged == 0, "{run:?}");
     assert!((run.length - expected).abs() < 0.06 * expected, "{} m, not {expected} m", run.length);
 
-    // a goal that is walled in is given up after one way round
+    // a walled-in goal is given up after one round
     let corner = |x: f64, y: f64| Point2::new(1.5 + 0.6 * x, 0.6 * y);
     let corners = [corner(-1.0, -1.0), corner(1.0, -1.0), corner(1.0, 1.0), corner(-1.0, 1.0)];
     let walls: Vec<Segment> = (0..4).map(|i| Segment::new(corners[i], corners[(i + 1) % 4])).collect();
@@ -128,8 +129,8 @@ fn a_robot_of_ones_own() {
     let unknown = Run::replay(&log).unwrap_err().to_string();
     assert!(unknown.contains("there is no kind \"x-train\""), "{unknown}");
 
-    // on tour every axle rolls and none slides: a step moves it along the mean heading of its part, by the oracle's own
-    // kinematics of the recorded numbers
+    // on tour every axle rolls and none slides: a step moves it along the mean heading of its part, by kinematics
+    // written out from the recorded numbers
     let axles = |c: &[f64]| {
         let behind = |[x, y]: [f64; 2], psi: f64| [x - TRAIN.draw_bar * cos(psi), y - TRAIN.draw_bar * sin(psi)];
         let first = behind([c[0], c[1]], c[3]);
@@ -177,7 +178,7 @@ fn the_bounds_of_a_robot_of_ones_own_hold() {
         let edge = TRAIN.edge(&a, &b).unwrap();
         holds(&|s| edge.footprint_at(s), TRAIN.edge_rates(&a, &b).unwrap());
         assert_eq!((edge.at(0.0), edge.at(1.0)), (a, b));
-        // three turns on, as the language's own remainder has it: the same edge but for rounding
+        // three turns on, reduced by the language's own remainder: the same edge but for rounding
         let far = TrainCfg { psi: a.psi.map(|psi| psi + 3.0 * TAU), ..a };
         let near = TrainCfg { psi: far.psi.map(|psi| short(0.0, psi)), ..a };
         assert_eq!(TRAIN.edge(&far, &b).unwrap().at(0.0), near);

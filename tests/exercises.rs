@@ -1,4 +1,5 @@
-//! The chapter's exercises 1 to 3, worked. (Exercise 5 is the example `redundancy_walk`, exercise 6 the example `bug1`.)
+//! The chapter's exercises 1 to 3, worked. (Exercise 5 is the example `redundancy_walk`, exercise 6 the example
+//! `bug1`.)
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
@@ -12,12 +13,12 @@ fn arm(l1: f64, l2: f64) -> Reach<2> {
     Reach { base: Point2::new(0.5, -0.25), lengths: [l1, l2], link_radius: 0.0 }
 }
 
-/// Exercise 1: inverse kinematics for links of any lengths, and what exactly one `None` means.
+/// Exercise 1: inverse kinematics for links of any lengths, and the meaning of exactly one `None`.
 ///
-/// With `d` the distance from base to tip, the triangle of the two links and `d` gives
-/// `cos theta2 = (d^2 - L1^2 - L2^2) / (2 L1 L2)`. Strictly between `|L1 - L2|` and `L1 + L2` that cosine has two angles of
-/// opposite sign: two solutions, mirror images in the line from base to tip. At either end it is 1 or -1, the two angles
-/// coincide (0 or pi), the arm is straight or folded: exactly one solution, so exactly one `None`. Beyond, no triangle exists.
+/// With `d` the distance from base to tip, the triangle of the two links and `d` gives `cos theta2 = (d^2 - L1^2 -
+/// L2^2) / (2 L1 L2)`. Strictly between `|L1 - L2|` and `L1 + L2` that cosine has two angles of opposite sign: two
+/// solutions, mirror images in the line from base to tip. At either end it is 1 or -1, the two angles coincide (0 or
+/// pi), the arm is straight or folded: exactly one solution, so exactly one `None`. Beyond, no triangle exists.
 mod exercise_1 {
     use super::*;
 
@@ -65,7 +66,7 @@ mod exercise_1 {
                 // the longer link points at the tip, or away from it when it is the second
                 let heading = if l1 >= l2 { bearing } else { bearing + PI };
                 assert!(inner == 0.0 || wrap(folded.th1() - heading).abs() < 1e-9);
-                // a hair to either side there are two solutions, or none
+                // a hair to one side there are two solutions, to the other none
                 let hair = 1e-9;
                 assert!(matches!(arm.ik(at(l1 + l2 - hair)), [Some(_), Some(_)]));
                 assert_eq!(arm.ik(at(l1 + l2 + hair)), [None, None]);
@@ -78,9 +79,10 @@ mod exercise_1 {
 
 /// Exercise 2: the footprint of the car with its trailer as two rectangles with explicit poses.
 ///
-/// The rear axle is at `(x, y)`. The chassis heads `theta` and reaches from `-rear_overhang` to `length - rear_overhang`
-/// along it, half the width to each side. The hitch is on the rear axle; the trailer's axle is `d_h` behind it, at
-/// `(x - d_h cos psi, y - d_h sin psi)`, heading `psi`; its box reaches from `-rear_overhang` to `front_overhang` about that.
+/// The rear axle is at `(x, y)`. The chassis heads `theta` and reaches from `-rear_overhang` to `length -
+/// rear_overhang` along it, half the width to each side. The hitch is on the rear axle; the trailer's axle is `d_h`
+/// behind it, at `(x - d_h cos psi, y - d_h sin psi)`, heading `psi`; its box reaches from `-rear_overhang` to
+/// `front_overhang` about that.
 mod exercise_2 {
     use super::*;
 
@@ -126,10 +128,10 @@ mod exercise_2 {
 /// Exercise 3: the witness of the arm and a square of side 0.2 about (1, 1), as the elbow opens beyond a right angle.
 ///
 /// At `(0, pi/2)` the second link runs up through the square, and the distance is 0. At `(0, pi/2 + beta)` it leaves
-/// `(1, 0)` along `(-sin beta, cos beta)`. The distance of the corner `(0.9, 0.9)` from that line is
-/// `|(-0.1, 0.9) x (-sin beta, cos beta)| = 0.9 sin beta - 0.1 cos beta`: 0.170434537 at beta = 0.3. It is positive from
-/// `tan beta = 1/9` on. The foot of the perpendicular lies `0.9 cos beta + 0.1 sin beta` along the link, which is less than
-/// its length 1 for every beta beyond that (the greatest value is sqrt(0.82)), and the corner stays the nearest.
+/// `(1, 0)` along `(-sin beta, cos beta)`. The distance of the corner `(0.9, 0.9)` from that line is `|(-0.1, 0.9) x
+/// (-sin beta, cos beta)| = 0.9 sin beta - 0.1 cos beta`: 0.170434537 at beta = 0.3. It is positive from `tan beta =
+/// 1/9` on. The foot of the perpendicular lies `0.9 cos beta + 0.1 sin beta` along the link, which is less than its
+/// length 1 for every beta beyond that (the greatest value is sqrt(0.82)), and the corner stays the nearest.
 mod exercise_3 {
     use super::*;
 
@@ -162,10 +164,11 @@ mod exercise_3 {
         }
     }
 
-    /// The jump. An arm with links of 0.5 and 1 m at `(0, pi/2 + beta)` has its second link beside the square's left edge,
-    /// its tip at the height of the edge's middle. Leaning away from the square (beta above 0) the link is nearest to the
-    /// corner `(0.9, 0.9)`, at the distance `(0.4, 0.9) x (-sin beta, cos beta)`; leaning toward it, its tip is nearest to the
-    /// edge. At beta = 0 the two are parallel, every pair in between ties, and b* jumps by 0.1 m while the distance does not.
+    /// The jump. An arm with links of 0.5 and 1 m at `(0, pi/2 + beta)` has its second link beside the square's left
+    /// edge, its tip at the height of the edge's middle. Leaning away from the square (beta above 0) the link is
+    /// nearest to the corner `(0.9, 0.9)`, at the distance `(0.4, 0.9) x (-sin beta, cos beta)`; leaning toward it, its
+    /// tip is nearest to the edge. At beta = 0 the two are parallel, every pair in between ties, and b* jumps by 0.1 m
+    /// while the distance does not.
     #[test]
     fn the_witness_jumps_from_corner_to_edge_where_the_two_tie() {
         let checker = Checker::new(square(), Reach { lengths: [0.5, 1.0], ..Reach::<2>::choset() });
@@ -185,7 +188,8 @@ mod exercise_3 {
         assert!((tie.dist - 0.4).abs() < 1e-12 && (0.9..=1.0 + 1e-12).contains(&tie.on_obstacle.y), "any pair will do");
     }
 
-    /// Between such ties the witness moves without a jump: along an edge as the tip passes it, and to a stop at its corner.
+    /// Between such ties the witness moves without a jump: along an edge as the tip passes it, and to a stop at its
+    /// corner.
     #[test]
     fn the_witness_slides_along_an_edge_and_stops_at_the_corner() {
         let checker = Checker::new(square(), Reach { lengths: [0.5, 0.9], ..Reach::<2>::choset() });

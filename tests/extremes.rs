@@ -1,4 +1,4 @@
-//! Pairs at the limits of what shapes may be: from a millimetre to ten kilometres, and all but collinear.
+//! Pairs of shapes at the limits: from a millimetre to ten kilometres, and nearly collinear.
 
 use std::f64::consts::PI;
 
@@ -10,7 +10,7 @@ use motion_lab::random::{Seed, Stream};
 use crate::fixtures::{Body, KINDS, Kind, convex_corners, count_from_env, footprint_of, placed, random_kind, scene_of};
 use crate::oracle::exact::{ExactPair, lies_on};
 
-/// Every magnitude between the two is equally likely.
+/// A random number between two, every magnitude equally likely.
 fn log_uniform(s: &mut Stream, low: f64, high: f64) -> f64 {
     exp(s.uniform(ln(low), ln(high)))
 }
@@ -28,7 +28,7 @@ fn wild_body(s: &mut Stream, kind: Kind) -> Body {
         Kind::Capsule => Shape::try_capsule(o, Point2::new(length, 0.0), radius),
         Kind::Rectangle => Shape::try_rectangle(Point2::new(-length, -radius), Point2::new(length, radius)),
         Kind::Polygon => {
-            // corners too near one another are refused: then larger
+            // corners too near one another are refused, so the size grows
             let mut size = length;
             loop {
                 match Shape::try_polygon(&convex_corners(s, size)) {
@@ -41,19 +41,21 @@ fn wild_body(s: &mut Stream, kind: Kind) -> Body {
     (pose, shape.unwrap())
 }
 
-/// Checks the four answers of a pair against exact arithmetic, the witnesses' places too; whether it is in contact.
+/// Checks the four answers of a pair and the places of its witness against exact arithmetic. Returns whether it is in
+/// contact.
 fn check(body: &Body, obstacle: &Body) -> bool {
     let contact = check_distance(body, obstacle);
     let (part, piece) = (placed(body), placed(obstacle));
     let w = scene_of(std::slice::from_ref(obstacle)).witness(&footprint_of(std::slice::from_ref(body))).unwrap();
-    // two coordinates, each rounded at the size of the whole, for a point and for the line that it lies on
+    // the tolerance covers two coordinates, each rounded at the size of the whole, of a point and of the line that it
+    // lies on
     let tolerance = 32.0 * ulp(largest_coordinate([&part, &piece]));
     let on_both = lies_on(w.on_robot, &part, tolerance) && lies_on(w.on_obstacle, &piece, tolerance);
     assert!(on_both, "{w:?}: {body:?} against {obstacle:?}");
     contact
 }
 
-/// Checks the four answers of a pair against exact arithmetic; whether it is in contact.
+/// Checks the four answers of a pair against exact arithmetic. Returns whether it is in contact.
 fn check_distance(body: &Body, obstacle: &Body) -> bool {
     let (part, piece) = (placed(body), placed(obstacle));
     let (scene, footprint) = (scene_of(std::slice::from_ref(obstacle)), footprint_of(std::slice::from_ref(body)));
@@ -99,7 +101,7 @@ fn segments_and_polygons_all_but_collinear_are_told_apart_exactly() {
     let n = count_from_env("MOTION_LAB_PAIRS", 100_000) / 10;
     let mut contacts = 0;
     for i in 0..n {
-        // points on one line, each off by some last places
+        // points on one line, each moved by some units in the last place
         let (x, y) = (s.uniform(-9.0, 9.0), s.uniform(-9.0, 9.0));
         let (dx, dy) = (s.uniform(-3.0, 3.0), s.uniform(-3.0, 3.0));
         let mut on_line = |t: f64| Point2::new(nudged(&mut s, x + t * dx), nudged(&mut s, y + t * dy));
@@ -123,8 +125,8 @@ fn segments_and_polygons_all_but_collinear_are_told_apart_exactly() {
 
 #[test]
 fn segments_that_cross_all_but_collinearly_have_a_witness_on_both() {
-    // The weight of the crossing is a quotient of two numbers of rounding size, so it says nothing of where the segments
-    // cross: the common point must still lie on both.
+    // The weight of the crossing is a quotient of two rounding errors, so it does not tell where the segments cross.
+    // The common point must still lie on both.
     let segment =
         |a: [f64; 2], b: [f64; 2]| -> Body { (Pose2::IDENTITY, Shape::try_segment(a.into(), b.into()).unwrap()) };
     let first = segment([-0.28749818896766205, 0.5906587658434498], [1.9283373598246625, -1.400967693790499]);
@@ -170,7 +172,7 @@ fn discs_and_capsules_all_but_tangent_err_only_to_contact_and_only_by_8_ulps() {
 
 #[test]
 fn a_placed_vertex_is_the_shape_to_the_last_bit() {
-    // A segment's end placed by its frame is rounded once; a wall through exactly that rounded point is touched, and one
+    // A segment's end placed by its frame is rounded once. A wall through exactly that rounded point is touched; a wall
     // an ulp beyond is not.
     let mut s = Stream::new(Seed(104), "tests/placed");
     for _ in 0..2000 {

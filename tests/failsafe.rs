@@ -1,4 +1,4 @@
-//! What cannot be decided counts as contact, and a scene without obstacles is never hit.
+//! Undecidable queries count as contact, and a scene without obstacles is never hit.
 
 use motion_lab::collision::{Collision, DiscChecker, Scene};
 use motion_lab::geometry::{Footprint, Part, Point2, Pose2, Segment, Shape};
@@ -9,7 +9,7 @@ use motion_lab::random::{Seed, Stream};
 
 const BAD: [f64; 3] = [f64::NAN, f64::INFINITY, f64::NEG_INFINITY];
 
-/// One footprint of each kind with one number that is not finite, in its pose or in its shape.
+/// Footprints of each kind of shape with one number that is not finite, in the pose or in the shape.
 fn bad_footprints() -> Vec<Footprint> {
     let mut s = Stream::new(Seed(41), "tests/failsafe");
     let mut all = Vec::new();
@@ -34,7 +34,7 @@ fn bad_footprints() -> Vec<Footprint> {
         all.extend(shapes.map(|shape| Footprint::new([Part::new(Pose2::IDENTITY, shape)])));
     }
     all.push(Footprint::disc(o, -0.5));
-    // one bad part spoils the whole footprint, wherever it stands in the list
+    // one bad part spoils the whole footprint, wherever it is in the list
     let good = Part::new(Pose2::IDENTITY, Shape::Disc { radius: 0.1 });
     let bad = Part::new(Pose2 { x: f64::NAN, y: 0.0, theta: 0.0 }, Shape::Disc { radius: 0.1 });
     all.push(Footprint::new([good.clone(), bad.clone()]));
@@ -111,7 +111,7 @@ fn nothing_is_ever_hit_in_an_empty_scene() {
         assert_eq!(scene.witness(&a), None);
         assert_eq!(scene.depth(&a), 0.0);
     }
-    // the bounds are not an obstacle: across them and beyond
+    // the bounds are no obstacle: a sweep goes across them and beyond
     assert!(!scene.swept(&Footprint::disc(Point2::origin(), 1.0), &Footprint::disc(Point2::new(900.0, 0.0), 1.0)));
 }
 

@@ -10,7 +10,7 @@ use motion_lab::robots::{HITCH, Reach, Robot, RustyDisc};
 use crate::fixtures::PLANE;
 
 /// The chapter's `swept`: each part is cast from its first pose along the displacement of its frame, without turning.
-/// (Sampled finely here; what it misses it would miss exactly, too.)
+/// (Sampled finely here. An exact version would miss the same.)
 fn swept_by_translation(scene: &Scene, a: &Footprint, b: &Footprint) -> bool {
     (0..=1000).any(|i| {
         let s = f64::from(i) / 1000.0;
@@ -53,7 +53,7 @@ fn square(name: &str, center: Point2, half: f64) -> Scene {
 #[test]
 fn a_rotating_link_between_two_free_poses_is_caught_where_a_translation_cast_misses_it() {
     let scene = square("the post", Point2::new(-0.6, 0.4), 0.1);
-    // one link turning about its base, so that its frame does not move at all
+    // one link turns about its base, so that its frame does not move
     let arm = Reach { base: Point2::origin(), lengths: [1.0], link_radius: 0.03 };
     let (a, b) = (Tn([2.0]), Tn([3.1]));
     let (fa, fb) = (arm.footprint(&a), arm.footprint(&b));
@@ -86,14 +86,14 @@ fn a_thin_wall_is_not_jumped_by_a_minimum_step() {
 #[test]
 fn a_pure_trailer_rotation_is_seen_though_the_body_stands_still() {
     let towing = HITCH.with_trailer();
-    // behind the car, within the trailer's reach: it swings from one side of the post to the other
+    // the post is behind the car, within the trailer's reach: the trailer swings from one side of it to the other
     let scene = square("a post", Point2::new(-2.4, 0.0), 0.05);
     let checker = CarChecker::new(scene, towing);
     let at = |psi: f64| HitchCfg { body: Pose2::IDENTITY, trailer: Some(psi) };
     let (a, b) = (at(-0.8), at(0.8));
     assert!(checker.is_free(&a) && checker.is_free(&b), "free on either side");
     assert!(!checker.is_free(&at(0.0)), "and not half way");
-    // the chapter's bound: translation plus the body's circumscribed radius times the body's turn, which is nothing here
+    // the chapter's bound: translation plus the body's circumscribed radius times the body's turn, which is 0 here
     let difference = a.difference(&b).unwrap();
     let bound = hypot(difference[0], difference[1]) + 3.4 * difference[2].abs();
     assert_eq!(bound, 0.0);
@@ -105,7 +105,7 @@ fn a_pure_trailer_rotation_is_seen_though_the_body_stands_still() {
 
 #[test]
 fn links_without_thickness_that_cross_a_wall_are_at_distance_exactly_zero_at_any_angle() {
-    // The naive distance is the least over end points and segments, without asking whether they cross.
+    // The naive distance is the least over end points and segments, without a test whether they cross.
     let arm = Reach::<2>::choset();
     let wall = Segment::new(Point2::new(0.75, -3.0), Point2::new(0.75, 3.0));
     let scene = Scene::of_walls(&[wall]);

@@ -1,4 +1,4 @@
-//! Shapes and scenes that several subjects need.
+//! Shapes and scenes for several tests.
 
 use std::f64::consts::{PI, TAU};
 
@@ -8,7 +8,7 @@ use motion_lab::num::sin_cos;
 use motion_lab::random::Stream;
 use motion_lab::worlds::{Obstacle, ObstacleKind, World};
 
-/// The kinds of shapes that robots and worlds are made of.
+/// The kinds of shapes of robots and worlds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
     Disc,
@@ -172,7 +172,7 @@ pub fn placed(body: &Body) -> Placed {
     body.1.place(&body.0)
 }
 
-/// `count`, or what the environment variable `name` says.
+/// The number in the environment variable `name`, or `count` where it is not set.
 pub fn count_from_env(name: &str, count: u64) -> u64 {
     std::env::var(name).ok().map_or(count, |text| text.parse().unwrap_or_else(|_| panic!("{name} must be a number")))
 }

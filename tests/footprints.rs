@@ -1,6 +1,8 @@
-//! Where robots are along their motions, by the textbook's formulas and not by the library's, and that verdicts hold for these places.
+//! The places of robots along their motions by the textbook's formulas instead of the library's. Verdicts hold for
+//! these places.
 //!
-//! A chart line goes at a constant rate in every coordinate, in angles the short way round; a drive goes round its turning centre.
+//! A chart line moves at a constant rate in every coordinate, angles the short way round. A drive goes round its
+//! turning centre.
 
 use std::f64::consts::PI;
 
@@ -29,7 +31,7 @@ fn disc(x: f64, y: f64, radius: f64) -> Placed {
     Placed::new([Point2::new(x, y)], radius)
 }
 
-/// The links of an arm, by summing up its angles.
+/// The links of an arm, by the sums of its angles.
 fn links(base: Point2, lengths: &[f64], angles: &[f64], radius: f64) -> Vec<Placed> {
     let (mut at, mut heading) = (base, 0.0);
     let link = |(length, angle): (&f64, &f64)| {
@@ -51,13 +53,15 @@ fn rectangle([x, y]: [f64; 2], heading: f64, [back, front]: [f64; 2], half: f64)
     )
 }
 
-/// The lab's car, 3.9 m by 1.7 m with 0.7 m behind its rear axle, and its trailer, whose box reaches from 2.8 m to 1 m behind that.
+/// The lab's car, 3.9 m by 1.7 m with 0.7 m behind its rear axle, and its trailer, whose box reaches from 2.8 m to 1 m
+/// behind the axle.
 fn car(x: f64, y: f64, theta: f64, psi: Option<f64>) -> Vec<Placed> {
     let trailer = psi.map(|psi| rectangle([x, y], psi, [-2.8, -1.0], 0.75));
     std::iter::once(rectangle([x, y], theta, [-0.7, 3.2], 0.85)).chain(trailer).collect()
 }
 
-/// That the motion is where the textbook has it, and its verdict true of these places; whether it is free.
+/// Checks that the motion goes through the textbook's places and that its verdict holds for them. Returns whether it is
+/// free.
 fn holds<R: Robot>(
     checker: &Checker<R>,
     motion: &impl Motion<Configuration = R::Configuration>,
@@ -173,7 +177,7 @@ fn drives_lead_round_their_turning_centres_and_drag_the_trailer_along() {
     let (rusty, hitch, towing) =
         (Checker::new(apartment(), RUSTY), Checker::new(lot(), HITCH), Checker::new(lot(), HITCH.with_trailer()));
     let mut free = [0; 3];
-    // where (x, y, theta) is after a way along a circle of this curvature: about the centre to the left at its inverse
+    // the pose after a distance along a circle of this curvature, whose centre lies its inverse to the left
     let round = |p: &Pose2, way: f64, curvature: f64| {
         let (r, theta) = (1.0 / curvature, p.theta + curvature * way);
         (p.x - r * sin(p.theta) + r * sin(theta), p.y + r * cos(p.theta) - r * cos(theta), theta)

@@ -1,18 +1,18 @@
-//! The scripts of the gate: that they fail when what they run fails.
+//! The scripts of the gate fail when a program that they run fails.
 
 use std::fs;
 use std::os::unix::fs::PermissionsExt as _;
 use std::path::Path;
 use std::process::{Command, Output};
 
-/// A program of the shell in this folder.
+/// Writes a shell program into this folder.
 fn program(folder: &Path, name: &str, text: &str) {
     let path = folder.join(name);
     fs::write(&path, format!("#!/bin/sh\n{text}\n")).unwrap();
     fs::set_permissions(&path, fs::Permissions::from_mode(0o755)).unwrap();
 }
 
-/// What `benches/instructions` does with this valgrind. The program to count is never started by it.
+/// Runs `benches/instructions` with this valgrind, which never starts the program to count.
 fn counted(valgrind: &str) -> Output {
     let folder = tempfile::tempdir().unwrap();
     program(folder.path(), "valgrind", valgrind);
@@ -25,8 +25,8 @@ fn counted(valgrind: &str) -> Output {
         .unwrap()
 }
 
-/// A valgrind that says for every kernel `share` percent of the instructions that are kept, which come after its options, the
-/// program, the kernel and the times: `$3`, `$4`, `$5`.
+/// A valgrind that reports, for every kernel, `share` percent of the recorded number of instructions. After its options
+/// come the program, the kernel and the times: `$3`, `$4`, `$5`.
 fn valgrind(share: u32) -> String {
     let kept = concat!(env!("CARGO_MANIFEST_DIR"), "/benches/instructions.txt");
     format!(

@@ -1,4 +1,4 @@
-//! The house rules that no compiler checks: who may use whom, and what stays in one place.
+//! The house rules that no compiler checks: which modules may use which, and what stays in one place.
 
 mod rooms;
 mod sources;
@@ -10,7 +10,8 @@ use std::process::Command;
 
 use sources::{Source, sources};
 
-/// The modules in reading order: each may use those before it. The first [`CORE`] of them are the library without features.
+/// The modules in reading order: each may use those before it. The first [`CORE`] of them are the library without
+/// features.
 const ORDER: [&str; 26] = [
     "num",
     "short_list",
@@ -40,10 +41,10 @@ const ORDER: [&str; 26] = [
     "cli",
 ];
 
-/// How many modules the core has.
+/// Number of modules in the core.
 const CORE: usize = 12;
 
-/// The modules beyond the core that are without Bevy all the same.
+/// The modules beyond the core that don't use Bevy either.
 const PURE: [&str; 4] = ["tour", "run", "anatomy", "atlas"];
 
 #[test]
@@ -79,7 +80,7 @@ fn foreign_formats_are_read_in_one_place() {
     let mut readers = 0;
     for Source { file, lines, .. } in sources() {
         let reads = lines.iter().any(|l| l.contains("usvg") || l.contains("saphyr_parser"));
-        // our own SVG is painted by the reader of others'
+        // the crate that reads foreign SVG also paints ours
         assert!(!reads || file.starts_with("worlds/import/") || file == "capture/raster.rs", "{file}");
         readers += usize::from(reads);
     }
@@ -140,7 +141,7 @@ fn unsafe_and_missing_docs_are_forbidden_for_the_whole_package() {
         assert!(manifest.contains(rule), "Cargo.toml no longer says {rule}");
     }
     let banned = fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("clippy.toml")).unwrap();
-    // the functions that core's documentation of f64 calls of unspecified precision, and the three that differ otherwise
+    // the functions of unspecified precision by the documentation of f64 in `core`, and the three that differ otherwise
     let unspecified = "sin cos tan sin_cos asin acos atan atan2 sinh cosh tanh asinh acosh atanh hypot exp exp2 exp_m1 ln ln_1p \
                        log log2 log10 cbrt powf powi mul_add";
     for method in unspecified.split(' ') {
@@ -196,7 +197,7 @@ fn the_core_is_the_modules_without_a_condition() {
     assert_eq!(always, ORDER[..CORE]);
 }
 
-/// What planners hold is of the lab's own types: a signature is what stands from `pub` to the brace or semicolon after it.
+/// Planners handle the lab's own types only. A signature is the text from `pub` to the next brace or semicolon.
 #[test]
 fn no_public_signature_of_the_core_names_the_crate_behind_short_lists() {
     let mut signatures = 0;

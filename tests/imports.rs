@@ -1,4 +1,4 @@
-//! Worlds from elsewhere: each kind by a small sample of which the walls are known beforehand.
+//! Imported worlds: each format by a small sample with known walls.
 
 mod cells;
 mod drawing;
@@ -13,7 +13,7 @@ fn sample(name: &str) -> String {
     std::fs::read_to_string(format!("{}/tests/samples/{name}", env!("CARGO_MANIFEST_DIR"))).unwrap()
 }
 
-/// The points of a wall, its last one left out where the wall is closed.
+/// The points of a wall, without the last one where the wall is closed.
 fn corners(world: &World, name: &str) -> Vec<(f64, f64)> {
     let placed: Vec<_> = world.obstacle(name).unwrap().placed().collect();
     placed.iter().map(|p| (p.core()[0].x, p.core()[0].y)).collect()
@@ -24,7 +24,7 @@ fn is_hit(world: &World, x: f64, y: f64) -> bool {
     Scene::of_world(world).intersects(&Footprint::disc(Point2::new(x, y), 1e-3))
 }
 
-/// That reading the world's own text gives the same world, the same bytes and the same hash.
+/// Checks that reading the world's own text gives the same world, bytes and hash.
 #[track_caller]
 fn assert_prints_as_itself(world: &World) {
     let text = world.to_ron();

@@ -1,4 +1,4 @@
-//! Live input, alone and beside a script: what is taken down of it, and where the cars are then to the last millimetre.
+//! Live input, alone and beside a script: the events recorded, and the cars' places after them.
 
 use std::time::Duration;
 
@@ -16,7 +16,7 @@ use motion_lab::tour::TourConfig;
 use crate::controls::open;
 use crate::simulation::{event, script};
 
-/// The way of a car in a tick at full speed: 1.5 m/s for 0.05 s.
+/// The distance a car covers in a tick at full speed, metres: 1.5 m/s for 0.05 s.
 const FULL: f64 = 0.075;
 
 /// Two cars at rest at the origin of a world each, paused before tick 1, with this script beyond.
@@ -32,13 +32,13 @@ fn cars(more: &[(u64, &str, i16)]) -> App {
     app
 }
 
-/// Presses before the next tick; several within it come in their order.
+/// Presses before the next tick; several presses within a tick keep their order.
 fn press(app: &mut App, robot: &str, speed: i16, steering: i16) {
     let input = RobotInput::Drive(speed, steering);
     app.world_mut().write_message(RobotCommand { robot: robot.into(), input });
 }
 
-/// Runs so many ticks.
+/// Runs this number of ticks.
 fn step(app: &mut App, ticks: u64) {
     for _ in 0..ticks {
         app.world_mut().write_message(TransportCommand::Step);
@@ -46,7 +46,7 @@ fn step(app: &mut App, ticks: u64) {
     }
 }
 
-/// What is in the script beside the rest at the beginning: tick, robot, channels.
+/// The events of the script after tick 1: tick, robot, channels.
 fn taken_down(app: &App) -> Vec<(u64, &str, [i16; 2])> {
     let channels = |e: &Event| match e.input {
         RobotInput::Drive(a, b) => [a, b],
@@ -56,7 +56,7 @@ fn taken_down(app: &App) -> Vec<(u64, &str, [i16; 2])> {
     events.filter(|e| e.tick > 1).map(|e| (e.tick, e.robot.as_str(), channels(e))).collect()
 }
 
-/// Where the cars are: how far ahead, in ticks at full speed.
+/// Checks how far ahead the cars are, in ticks at full speed.
 #[track_caller]
 fn assert_gone(app: &App, expected: [f64; 2]) {
     let frame = &app.world().resource::<LatestFrame>().0;
@@ -81,7 +81,7 @@ fn a_tap_counts_for_one_tick_on_either_channel() {
     let taps = [(4, "a", [128, 0]), (4, "b", [-64, 0]), (5, "a", [0, 0]), (5, "b", [0, 0])];
     assert_eq!(taken_down(&app), taps);
 
-    // steered for one tick while it goes on: it turns by that tick's arc
+    // steered for one tick as it goes on, it turns by that tick's arc
     press(&mut app, "a", 64, 0);
     step(&mut app, 2);
     for steering in [128, 0] {
@@ -117,7 +117,7 @@ fn what_one_robot_is_told_is_no_news_of_another() {
         press(&mut app, robot, 128, 0);
     }
     step(&mut app, 4);
-    // held on, it is no change; the other one's release is none of its own
+    // channels held on are no change, and another car's release is no event of this one
     for robot in ["a", "b"] {
         press(&mut app, robot, 128, 0);
     }
@@ -143,7 +143,7 @@ fn of_two_devices_the_one_that_changed_last_wins_the_tick() {
 #[test]
 fn who_drives_beside_a_script_ends_it_for_all() {
     let script = [(10, "a", 128), (10, "b", 64), (30, "b", -128), (40, "a", 0)];
-    // left alone it is played
+    // without live input the script is played
     let mut app = cars(&script);
     step(&mut app, 50);
     assert_gone(&app, [30.0, 0.5 * 20.0 - 21.0]);

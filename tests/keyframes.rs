@@ -1,4 +1,5 @@
-//! Keyframes: a run taken back, branched, undone and done again about them, thinned, and long beyond a hundred thousand ticks.
+//! Keyframes: runs taken back, branched, undone and redone about them, thinned runs, and runs of more than a hundred
+//! thousand ticks.
 
 use std::time::Duration;
 
@@ -28,7 +29,7 @@ fn config(ticks: u64) -> TourConfig {
     TourConfig { worlds: vec![car, rover], ticks, sensor: None }
 }
 
-/// What both are told before there is a branch.
+/// The script of both robots without a branch.
 fn told() -> Vec<Event> {
     vec![
         event(1, "car", RobotInput::Drive(96, 40)),
@@ -38,10 +39,10 @@ fn told() -> Vec<Event> {
     ]
 }
 
-/// What the car is told at the branch.
+/// The car's input at the branch.
 const OTHERWISE: RobotInput = RobotInput::Drive(-128, -77);
 
-/// What was told up to tick `k`, and something else after it.
+/// The script up to tick `k`, and another input after it.
 fn told_otherwise_after(k: u64) -> Vec<Event> {
     let mut events = told();
     events.retain(|e| e.tick <= k);
@@ -49,7 +50,7 @@ fn told_otherwise_after(k: u64) -> Vec<Event> {
     events
 }
 
-/// The frames of a run that was never taken back: that of tick k in place k.
+/// The frames of a run that was never taken back; the frame of tick k is at index k.
 fn fresh(events: Vec<Event>, ticks: u64) -> Vec<Frame> {
     let log = Run::record(config(ticks), (SEED, script(events))).unwrap();
     std::iter::once(log.initial).chain(log.frames).collect()
@@ -85,7 +86,7 @@ fn told_to(app: &App) -> &[Event] {
     &app.world().resource::<PendingInput>().script().events
 }
 
-/// Goes to these ticks, one after the other, and finds there what was there in `run`.
+/// Goes to these ticks, one after the other, and checks that each frame is that of `run`.
 #[track_caller]
 fn assert_is(app: &mut App, run: &[Frame], ticks: &[u64]) {
     for &tick in ticks {
@@ -106,7 +107,7 @@ fn kept(app: &App) -> Vec<u64> {
 #[test]
 fn a_branch_before_at_and_after_a_keyframe_is_the_run_of_its_script() {
     let run = fresh(told(), 320);
-    // back by seeking or from a frame, and from a tick far ahead or the next one
+    // the run goes back by a seek or from a frame, and from a tick far ahead or the next one
     for (k, end) in [(99, 320), (100, 320), (101, 320), (199, 200), (199, 320), (200, 320), (201, 320), (299, 300)] {
         for restored in [false, true] {
             let mut app = app(config(end), told(), false);
@@ -122,7 +123,7 @@ fn a_branch_before_at_and_after_a_keyframe_is_the_run_of_its_script() {
             assert!(kept(&app).iter().all(|tick| *tick <= k), "{:?} are kept of a branch at {k}", kept(&app));
             assert_eq!(told_to(&app), told_otherwise_after(k));
             let branch = fresh(told_otherwise_after(k), end);
-            // straight to the end first: by what was kept ahead of the branch, were it kept
+            // straight to the end first, which would use keyframes ahead of the branch, were any kept
             let others = [k + 1, 100, 200, 300, k, 99, 201];
             assert_is(&mut app, &branch, &[end]);
             assert_is(&mut app, &branch, &others.map(|tick| if tick <= end { tick } else { end }));
@@ -164,7 +165,7 @@ fn what_is_undone_and_done_again_is_the_run_of_its_script_at_every_tick() {
         let Transport { tick, frontier, .. } = *app.world().resource::<Transport>();
         assert_eq!((tick, frontier), (stands_at, 330), "{command:?}");
         assert_eq!(told_to(&app), events, "{command:?}");
-        // what is known of the ticks ahead and behind is of this run too
+        // the history of the ticks ahead and behind is of this run too
         let history = app.world().resource::<History>();
         for tick in ticks {
             let known = &history.at(tick, 0).unwrap().coordinates;
@@ -173,7 +174,7 @@ fn what_is_undone_and_done_again_is_the_run_of_its_script_at_every_tick() {
         assert_is(&mut app, run, &ticks);
     }
 
-    // something else is done after the undo: what was undone cannot be done again
+    // after a new change the undone one cannot be redone
     send(&mut app, TransportCommand::Seek(50));
     app.world_mut().write_message(TransportCommand::Checkpoint);
     drive(&mut app, "rover", RobotInput::Drive(1, 1));
@@ -216,7 +217,8 @@ fn beyond_a_hundred_thousand_ticks_steps_seeks_history_and_log_go_on() {
         }
     }
 
-    // half the steering all the way: one circle, run through at full speed and then at half, with the trailer at its steady angle
+    // half the steering all the way: one circle, run through at full speed and then at half, with the trailer at its
+    // steady angle
     let curvature = tan(0.5 * HITCH.max_steer) / HITCH.wheelbase;
     let sine = HITCH.with_trailer().hitch_len.unwrap() * curvature;
     for (frame, mark) in seen.iter().zip(marks) {
@@ -236,7 +238,7 @@ fn beyond_a_hundred_thousand_ticks_steps_seeks_history_and_log_go_on() {
         send(&mut app, TransportCommand::Seek(marks[i]));
         assert_same(frame(&app), &seen[i]);
     }
-    // half an hour is kept in full, more is thinned: these ticks are among what remains
+    // half an hour is kept in full and more is thinned; these ticks are among those kept
     let history = app.world().resource::<History>();
     assert!(history.samples() <= 36_000, "{} samples", history.samples());
     for i in [1, 4, 7] {
@@ -252,7 +254,7 @@ fn beyond_a_hundred_thousand_ticks_steps_seeks_history_and_log_go_on() {
 
 #[test]
 fn the_draws_of_any_tick_come_after_those_of_all_before_it() {
-    // a noisy sensor's rays count too: sixty of them come to a million in a quarter of an hour
+    // a noisy sensor's rays count too: sixty rays draw a million times in a quarter of an hour
     let stream = Stream::new(SEED, "rover/slip");
     let mut walked = stream.clone();
     for index in 0..=1 << 20 {

@@ -1,4 +1,4 @@
-//! The faces of the lab hold every sign that it shows.
+//! The lab's fonts hold every character that it shows.
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -8,16 +8,16 @@ use motion_lab::picture::FACES;
 use motion_lab::worlds::World;
 use skrifa::{FontRef, MetadataProvider};
 
-/// The signs that none of the faces has.
+/// The characters that no font has.
 fn missing(signs: impl IntoIterator<Item = char>) -> BTreeSet<char> {
     let faces = FACES.map(|(name, bytes)| FontRef::new(bytes).unwrap_or_else(|e| panic!("{name}: {e}")));
     let has = |c: char| faces.iter().any(|face| face.charmap().map(c).is_some_and(|glyph| glyph.to_u32() != 0));
-    // the SVG writer names the two that are no characters, to drop them
+    // the SVG writer names the two code points that are no characters, to drop them
     let is_sign = |c: &char| !c.is_control() && !matches!(c, '\u{fffe}' | '\u{ffff}');
     signs.into_iter().filter(is_sign).filter(|c| !has(*c)).collect()
 }
 
-/// The signs of a source file before its tests, those that are written by their number too.
+/// The characters of a source file before its tests, those written as escapes too.
 fn signs_of(file: &Path, signs: &mut BTreeSet<char>) {
     let text = fs::read_to_string(file).unwrap();
     let shown = text.split("#[cfg(test)]").next().unwrap_or_default();

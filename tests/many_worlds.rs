@@ -1,4 +1,4 @@
-//! Several worlds in one run: what is at the same coordinates of another world is neither in the way nor seen.
+//! Several worlds in one run: things at the same coordinates of another world neither block nor are seen.
 
 use motion_lab::prelude::*;
 use motion_lab::recording::{Recorder, Run};
@@ -10,15 +10,15 @@ use motion_lab::worlds::{Obstacle, ObstacleKind, World};
 use crate::controls::open;
 use crate::simulation::{event, quantized, script};
 
-/// The way of a car in a tick at full speed: 1.5 m/s for 0.05 s.
+/// The distance a car covers in a tick at full speed, metres: 1.5 m/s for 0.05 s.
 const FULL: f64 = 0.075;
 
 fn drive(tick: u64, robot: &str, speed: i16) -> Event {
     event(tick, robot, RobotInput::Drive(speed, 0))
 }
 
-/// Three worlds whose cars are driven through one another: one goes east from the origin, one comes from the east, and one goes east alone
-/// in its world. Two have a rover each at the same place to the south.
+/// Three worlds whose cars drive through one another's coordinates: one goes east from the origin, one comes from the
+/// east, and one goes east alone in its world. Two worlds have a rover each at the same place to the south.
 fn crossing() -> [World; 3] {
     let south: &[f64] = &[0.0, -20.0, 0.0];
     [
@@ -28,7 +28,7 @@ fn crossing() -> [World; 3] {
     ]
 }
 
-/// The robot of this name in a run of these worlds, and what it scans.
+/// The state of the robot of this name in a run of these worlds, and its scan.
 fn of<'a>(frame: &'a Frame, worlds: &[World], name: &str) -> (&'a RobotState, &'a [f64]) {
     let id = worlds.iter().flat_map(|w| &w.robots).position(|r| r.name == name).unwrap();
     let scan = frame.scans.iter().find(|s| s.robot as usize == id).map_or(&[][..], |s| &s.ranges[..]);
@@ -54,8 +54,8 @@ fn who_is_at_the_same_place_of_another_world_is_not_in_the_way_and_not_seen() {
                 assert!(near(car.configuration[0], x), "{name} is at {:?}, not {x}", car.configuration);
                 assert!(!car.in_contact && car.contacts == 0, "{name} touches somebody at tick {}", frame.tick);
             }
-            // straight north of the rovers' place is the origin: the side of a car there is half its width nearer. A car goes from 0.7 m
-            // behind its rear axle to 3.2 m ahead of it
+            // the origin is straight north of the rovers' place, and the side of a car there is half its width nearer.
+            // A car reaches from 0.7 m behind its rear axle to 3.2 m ahead of it
             let above = |x: f64, heading: f64| (-3.2..0.7).contains(&(heading * x));
             for (name, x, heading) in [("eye", gone, 1.0), ("other eye", 12.0 - gone, -1.0)] {
                 let (_, scan) = of(frame, &worlds, name);

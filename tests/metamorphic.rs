@@ -1,4 +1,5 @@
-//! Answers that must not change, or must change along, when the whole plane is shifted, turned, mirrored, scaled or renumbered.
+//! Answers that stay the same, or change along, when the whole plane is shifted, turned, mirrored, scaled or
+//! renumbered.
 
 use motion_lab::collision::{Collision, Witness};
 use motion_lab::geometry::Point2;
@@ -37,7 +38,7 @@ fn ask(robot: &[LatticeShape], moved: &[LatticeShape], obstacles: &[LatticeShape
     Answers { distance, witness, swept: scene.swept(&a, &b) }
 }
 
-/// Asks about a case and its image under `map`, and about a sweep by whole steps.
+/// Compares the answers about a case and its image under `map`, also for a sweep by whole steps.
 fn compare(name: &str, map: impl Fn([i32; 2]) -> [i32; 2], image: impl Fn(Point2) -> Point2, unit: f64, factor: f64) {
     let mut s = Stream::new(Seed(61), name);
     let (mut contacts, mut swept) = (0, 0);
@@ -52,8 +53,8 @@ fn compare(name: &str, map: impl Fn([i32; 2]) -> [i32; 2], image: impl Fn(Point2
         assert_eq!(before.distance == 0.0, after.distance == 0.0, "{at}");
         assert!((factor * before.distance - after.distance).abs() < 1e-13, "{at}");
         assert_eq!(before.swept, after.swept, "by {step:?}: {at}");
-        // A tie may go to other shapes only where rounding broke it; a witness pair may differ only where several attain
-        // the distance, so the image of the old one must attain it too.
+        // A tie may go to other shapes only where rounding broke it. A witness may differ only where several pairs
+        // attain the distance, so the image of the old one must attain it too.
         let (w, v) = (before.witness, after.witness);
         let apart = (image(w.on_robot) - image(w.on_obstacle)).norm();
         assert!((apart - v.dist).abs() < 1e-13, "{at}");

@@ -1,5 +1,5 @@
-//! Random numbers of a run: every robot's sensor and wheels have streams of their own, named by the robot, and what they draw is distributed
-//! as stated.
+//! Random numbers of a run: every robot's sensor and wheels have streams of their own, named by the robot, and the
+//! draws have the documented distributions.
 
 use std::collections::BTreeSet;
 use std::f64::consts::{PI, TAU};
@@ -11,13 +11,13 @@ use motion_lab::run::{Event, Frame, Log, RobotInput, Script};
 use motion_lab::sensors::RangeSensor;
 use motion_lab::tour::TourConfig;
 
-/// Rays of every sensor, and their range: beyond everything in the square.
+/// Rays of every sensor, and their range, which is beyond everything in the square.
 const RAYS: u32 = 24;
 const RANGE: f64 = 16.0;
 /// Half the width of the square.
 const HALF: f64 = 4.0;
 
-/// A rover at (x, y); of its noise, what a world file has of it.
+/// A rover at (x, y), with `noise` as a world file writes it.
 fn rover(name: &str, (x, y): (f64, f64), noise: &str) -> String {
     let sensor = if noise.is_empty() { String::new() } else { format!(", sensor: ({noise})") };
     format!("(name: \"{name}\", kind: \"rusty\", start: [{x:?}, {y:?}, 0]{sensor})")
@@ -33,7 +33,7 @@ fn square(name: &str, robots: &[String]) -> World {
     World::parse("square.ron", &text).unwrap()
 }
 
-/// A run in which nobody moves but who is driven.
+/// A run in which only driven robots move.
 fn run(worlds: Vec<World>, ticks: u64, drive: &[(&str, i16, i16)]) -> Log {
     let sensor = Some(RangeSensor { n_rays: RAYS, max_range: RANGE });
     let input =
@@ -59,8 +59,8 @@ fn common(a: &[f64], b: &[f64]) -> usize {
     b.iter().filter(|x| set.contains(&x.to_bits())).count()
 }
 
-/// The greatest gap between the share of numbers up to x and x, for numbers that should be uniform in [0, 1), in units of the root of their
-/// number (Kolmogorov and Smirnov): above 2.3 in one of twenty thousand lists.
+/// The Kolmogorov-Smirnov statistic of numbers that should be uniform in [0, 1): the largest gap between x and the
+/// share of numbers up to x, times the root of their number. It is above 2.3 in one of twenty thousand lists.
 fn from_uniform(numbers: &[f64]) -> f64 {
     let mut sorted = numbers.to_vec();
     sorted.sort_by(f64::total_cmp);
@@ -69,7 +69,7 @@ fn from_uniform(numbers: &[f64]) -> f64 {
     sqrt(n) * gaps.fold(0.0, |m, gap| if gap > m { gap } else { m })
 }
 
-/// The correlation of two lists, in units of what it is for independent ones: above 5 in one of two million pairs.
+/// The correlation of two lists, in standard deviations of independent lists: above 5 in one of two million pairs.
 fn correlation(a: &[f64], b: &[f64]) -> f64 {
     let n = a.len().min(b.len());
     let mean = |x: &[f64]| x[..n].iter().sum::<f64>() / n as f64;
@@ -79,7 +79,7 @@ fn correlation(a: &[f64], b: &[f64]) -> f64 {
     (product(a, ma, b, mb) / sqrt(product(a, ma, a, ma) * product(b, mb, b, mb)) * sqrt(n as f64)).abs()
 }
 
-/// Of a sensor that reads at random only, a reading is the range times one draw, whatever is seen.
+/// A sensor with random readings only: each reading is the range times one draw, whatever is ahead.
 #[test]
 fn every_sensor_draws_numbers_of_its_own() {
     let noise = "z_rand: 1";
@@ -90,7 +90,7 @@ fn every_sensor_draws_numbers_of_its_own() {
     for (i, a) in draws.iter().enumerate() {
         assert_eq!(a.len(), 121 * RAYS as usize);
         assert!(from_uniform(a) < 2.3, "sensor {i}: {}", from_uniform(a));
-        // no draw serves two rays or two ticks, and those beside one another know nothing of one another
+        // no draw serves two rays or two ticks, and neighbouring draws are uncorrelated
         let distinct: BTreeSet<u64> = a.iter().map(|u| u.to_bits()).collect();
         assert_eq!(distinct.len(), a.len(), "sensor {i}");
         for lag in [1, RAYS as usize - 1, RAYS as usize, RAYS as usize + 1] {
@@ -120,7 +120,7 @@ fn another_robot_or_sensor_changes_nobodys_noise() {
     ];
     for worlds in companies {
         let others: Vec<String> = worlds.iter().flat_map(|w| &w.robots).map(|r| r.name.clone()).collect();
-        // those that drive draw slip of their own
+        // driven robots draw slip of their own
         let mut drive = vec![("a", 0, 60)];
         drive.extend(
             others.iter().filter(|name| ["b", "c"].contains(&name.as_str())).map(|name| (name.as_str(), 0, -90)),
@@ -131,8 +131,8 @@ fn another_robot_or_sensor_changes_nobodys_noise() {
     }
 }
 
-/// `SensorNoise` documents it: ray k of tick t draws at index t n + k; `BeamModel`: first its kind, then its place. A wheel's slip is drawn at
-/// the tick's index, the left wheel's first.
+/// By the documentation of `SensorNoise`, ray k of tick t draws at index t n + k; by that of `BeamModel`, it draws its
+/// kind first, then its place. Slip is drawn at the tick's index, the left wheel's first.
 #[test]
 fn the_streams_are_named_by_the_robot_and_drawn_at_the_ticks_index() {
     let robots = [rover("Ada", (0.0, 0.0), "z_rand: 1"), rover("Bob", (2.0, 2.0), "z_rand: 1")];
@@ -155,8 +155,9 @@ fn the_streams_are_named_by_the_robot_and_drawn_at_the_ticks_index() {
     }
 }
 
-/// The slip of both wheels of a rover in every tick, left first: the ground covered by a rolled length, which must not be 0. A differential
-/// drive that covers l and r goes (l + r) / 2 ahead along an arc and turns by (r - l) / track.
+/// The slip of both wheels of a rover in every tick, left first: the ground covered divided by the length rolled, which
+/// must not be 0. A differential drive whose wheels cover l and r goes (l + r) / 2 ahead along an arc and turns by (r -
+/// l) / track.
 pub fn slips(log: &Log, id: usize) -> Vec<[f64; 2]> {
     let all: Vec<&Frame> = frames(log).collect();
     let pair = |pair: &[&Frame]| {

@@ -11,12 +11,12 @@ use crate::fixtures::{
 use crate::oracle::exact::{ExactPair, lies_on};
 use crate::oracle::plain;
 
-/// How many pairs are asked about; `MOTION_LAB_PAIRS` changes it.
+/// Number of pairs. `MOTION_LAB_PAIRS` changes it.
 fn pairs() -> u64 {
     count_from_env("MOTION_LAB_PAIRS", 100_000)
 }
 
-/// The four answers for one part and one obstacle, checked against one another; the distance.
+/// Checks the four answers for one part and one obstacle against one another. Returns the distance.
 fn consistent(scene: &Scene, footprint: &Footprint, part: &Placed, piece: &Placed, m: f64) -> f64 {
     let at = || format!("{footprint:?} against {piece:?}");
     let dist = scene.distance(footprint);
@@ -66,7 +66,7 @@ fn lattice_pairs_agree_with_both_oracles() {
     let (mut contacts, mut apart) = (0, 0);
     for i in 0..pairs() * 6 / 10 {
         let (p, q) = (KINDS[i as usize % 5], KINDS[i as usize / 5 % 5]);
-        // from crowded, where everything touches, to roomy; from millimetres to many metres
+        // from crowded scenes, where everything touches, to roomy ones; from millimetres to many metres
         let range = [3, 6, 12, 40][i as usize / 25 % 4];
         let unit = [1.0 / 128.0, 0.25, 1.0, 32.0][i as usize / 100 % 4];
         let far = [[0, 0], [1000, -3000]][i as usize / 400 % 2];
@@ -109,7 +109,8 @@ fn random_pairs_agree_with_both_oracles() {
 
 #[test]
 fn random_pairs_moved_to_almost_touch_are_decided_to_the_last_ulps() {
-    // slid along their witnesses until a rounding error of contact, where only exact arithmetic can tell
+    // bodies are moved along their witness to within a rounding error of contact, where only exact arithmetic can
+    // decide
     let mut s = Stream::new(Seed(23), "tests/almost");
     for i in 0..pairs() / 20 {
         let (p, q) = (KINDS[i as usize % 5], KINDS[i as usize / 5 % 5]);
@@ -170,8 +171,8 @@ fn a_crowd_of_obstacles_answers_with_its_nearest_one() {
         assert_eq!(footprint_distance(&footprint, &crowd), w.dist, "the same shapes as the parts of another footprint");
         assert_eq!(w.dist == 0.0, scene.intersects(&footprint));
         assert!((w.dist - least.0).abs() <= 32.0 * ulp(m), "{w:?} but C6 has {least:?}");
-        // Contacts tie at 0 and go to the lowest part, then to the first obstacle, as the plain search does. Apart, no two
-        // random distances are this near.
+        // Contacts tie at 0 and go to the lowest part, then to the first obstacle, as in the plain search. Apart, no
+        // two random distances are this near.
         assert_eq!((w.part, w.obstacle.0), (least.1, least.2), "{w:?} but C6 has {least:?}");
     }
 }

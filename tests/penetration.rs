@@ -19,7 +19,7 @@ fn turned(bodies: &[Body], about: Point2, angle: f64) -> Vec<Body> {
     bodies.iter().map(|(p, s)| (turn.compose(p), s.clone())).collect()
 }
 
-/// Whether the bodies are free of the obstacles, by the plain oracle, with a gap that is no rounding error.
+/// Whether the bodies are free of the obstacles by the plain oracle, with a gap above rounding errors.
 fn clearly_free(bodies: &[Body], obstacles: &[Body]) -> bool {
     bodies.iter().all(|b| obstacles.iter().all(|o| plain::distance(&placed(b), &placed(o)) > 1e-12))
 }
@@ -53,7 +53,7 @@ fn no_move_shorter_than_the_depth_frees_a_footprint() {
         }
         for _ in 0..4 {
             let about = Point2::new(s.uniform(-3.0, 3.0), s.uniform(-3.0, 3.0));
-            // turning by an angle moves the farthest point by at most the angle times its distance
+            // a turn moves the farthest point by at most the angle times its distance
             let reach = bodies.iter().map(placed).fold(0.0, |reach, part| {
                 part.core()
                     .iter()
@@ -74,7 +74,7 @@ fn no_move_shorter_than_the_depth_frees_a_footprint() {
 
 #[test]
 fn the_depth_of_a_disc_is_its_shortest_way_out_of_a_wall() {
-    // independent of any formula: pushed out sideways by r - d, it touches
+    // a check without any formula: pushed out sideways by r - d, it touches
     let wall = random_wall();
     let scene = scene_of(std::slice::from_ref(&wall));
     for d in [0.0, 0.125, 0.375] {

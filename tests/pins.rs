@@ -1,14 +1,14 @@
-//! The net under every run: six runs that between them use everything, each held by two digests.
+//! Pinned runs: six runs that between them use everything, each pinned by two digests.
 //!
-//! **The frames' digest** covers every bit of every frame and nothing else. It may change only when robots, sensors, tours or the
-//! simulator are meant to move differently, or when a frame holds something new. Then every recorded run of every user stops
-//! verifying, so it needs a reason in the issue that asks for it, and everyone who keeps logs must hear of it: by a line in CHANGELOG,
+//! **The frames' digest** covers every bit of every frame and nothing else. It may change only when robots, sensors,
+//! tours or the simulator are meant to move differently, or when a frame holds something new. Then every recorded run
+//! of every user stops verifying. So the change needs a reason in the issue that asks for it, and a line in CHANGELOG,
 //! under "Digests", that names the run, the new digest and why.
 //!
-//! **The run digest** ([`motion_lab::run::RunDigest`]) covers the frames, and the seed, the configuration, the worlds' content and
-//! the script's text with them. It may change without the frames' only when what is hashed before the frames changes: the print of a
-//! world or a script, or the header. Logs recorded before then still replay to the same frames, but their digests, links and saved
-//! pages no longer compare; the same line in CHANGELOG tells.
+//! **The run digest** ([`motion_lab::run::RunDigest`]) covers the frames, and the seed, the configuration, the worlds'
+//! content and the script's text with them. It may change without the frames' digest only when the data hashed before
+//! the frames changes: the print of a world or a script, or the header. Logs recorded before then still replay to the
+//! same frames, but their digests, links and saved pages no longer compare. This needs the same line in CHANGELOG.
 //!
 //! No digest here may be replaced to make a test pass.
 
@@ -55,7 +55,7 @@ fn driving() -> Log {
     Run::record(TourConfig::default(), (BOOK_SEED, script)).unwrap()
 }
 
-/// Eight robots of every kind among all kinds of obstacles, scanning, some of them driven into one another.
+/// Eight robots of every kind among all kinds of obstacles. They scan, and some are driven into one another.
 fn eight() -> Log {
     let world = World::parse("eight.ron", include_str!("samples/eight.ron")).unwrap();
     let sensor = Some(RangeSensor { n_rays: 90, max_range: 6.0 });
@@ -75,7 +75,7 @@ fn eight() -> Log {
     Run::record(TourConfig { worlds: vec![world], ticks: 400, sensor }, (Seed(8), script)).unwrap()
 }
 
-/// Rusty's tour with a range sensor that misreads in every way the beam model has.
+/// Rusty's tour with a range sensor that misreads in every way of the beam model.
 fn noisy() -> Log {
     let sensor = "sigma_hit: 0.05, z_short: 0.15, lambda_short: 0.8, z_miss: 0.05, z_max: 0.04, z_rand: 0.1";
     let world = crate::sensor_noise::noisy_apartment(sensor);
@@ -162,7 +162,7 @@ fn the_changelog_names_every_pinned_digest() {
     }
 }
 
-/// What the runs are pinned for happens in them.
+/// Checks that the events the runs are pinned for happen in them.
 #[test]
 fn between_them_the_six_runs_use_everything() {
     let [tour, driving, eight, noisy, trailer, branched] = PINS.map(|(_, run, ..)| run());
@@ -198,7 +198,7 @@ fn between_them_the_six_runs_use_everything() {
     assert!((0..3).all(jump), "all three are put elsewhere at tick 100");
     assert!(trailer.frames.last().unwrap().robots.iter().all(|r| r.refusals == 0));
 
-    // the branch is the run of its script, and so is what goes on from its frame at tick 100
+    // the branch is the run of its script, and so is a run continued from its frame at tick 100
     let input = (branched.seed, branched.script.clone());
     assert_eq!(Run::record(branched.config.clone(), input.clone()).unwrap(), branched);
     let mut run = Recorder::new(branched.config.clone(), input).unwrap();
@@ -208,7 +208,7 @@ fn between_them_the_six_runs_use_everything() {
     assert!(branched.script.events.iter().all(|e| [41, 91, 101].contains(&e.tick)), "{:?}", branched.script);
 }
 
-/// Both digests see a change of one unit in the last place, and of nothing but a zero's sign, wherever in a run it is.
+/// Both digests change with one unit in the last place, and with the sign of a zero, anywhere in a run.
 #[test]
 fn a_change_of_one_bit_anywhere_changes_both_digests() {
     let log = Run::record(TourConfig { ticks: 3, ..TourConfig::default() }, BOOK_SEED).unwrap();

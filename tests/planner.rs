@@ -1,4 +1,4 @@
-//! What planners stand on: batches, clearance, the last free configuration, problems.
+//! The interfaces of planners: batches, clearance, the last free configuration, problems.
 
 use std::f64::consts::PI;
 
@@ -49,7 +49,7 @@ fn moving_along_the_clearance_direction_gains_exactly_that_much() {
             assert_eq!(dist, 0.0);
             continue;
         };
-        // a convex obstacle: straight away from the nearest point the distance grows one for one
+        // the obstacle is convex: straight away from the nearest point the distance grows one for one
         let farther = disc.distance(&R2(q.0 + n * 0.25));
         assert!((farther - dist - 0.25).abs() < 1e-14, "{q}: {dist} {farther}");
         tried += 1;

@@ -1,4 +1,4 @@
-//! Table N: separating axis against brute force.
+//! Table N: the separating axis test against brute force.
 
 use motion_lab::collision::Collision;
 use motion_lab::random::{Seed, Stream};

@@ -1,20 +1,22 @@
-//! Rays whose readings are known to the last bit: through corners, along sides, on tangents, and to exactly the greatest range.
+//! Rays whose readings are known to the last bit: through corners, along sides, on tangents, and to exactly the
+//! greatest range.
 //!
-//! Every thing is met four metres off, at coordinates that hold without rounding; so are the quarter turns and the mirrored plane.
+//! Every thing is met four metres off, at coordinates that are exact. The quarter turns and the mirrored plane are
+//! exact too.
 
 use motion_lab::prelude::*;
 use motion_lab::sensors::RangeSensor;
 
 use crate::scan_shapes::{Seen, world_of};
 
-/// So little that it is exact beside every coordinate here.
+/// A small length, metres, that adds exactly to every coordinate here.
 const HAIR: f64 = 1.0 / (1_u64 << 40) as f64;
 
-/// What a ray along x from the origin meets at x = 4.
+/// A thing that a ray along x from the origin meets at x = 4.
 struct Met {
     what: &'static str,
     thing: Seen,
-    /// Whether the thing lies to the left of the ray or on it, so that a hair to the left it is missed.
+    /// Whether the ray only grazes the thing, so that moved a hair to the left it is missed.
     grazed: bool,
 }
 
@@ -88,7 +90,8 @@ fn ray_along(turn: fn(Point2) -> Point2, n_rays: u32) -> usize {
     (quarters * n_rays / 4) as usize
 }
 
-/// The reading of the ray along the image of x, alone or with so many walls far behind that the scene has a grid.
+/// The reading of the ray along the image of x, alone or, when `crowded`, with enough walls far behind that the scene
+/// has a grid.
 fn reading(thing: &Seen, turn: fn(Point2) -> Point2, sensor: RangeSensor, crowded: bool) -> f64 {
     let mut things = vec![thing.map(turn)];
     if crowded {
@@ -112,7 +115,7 @@ fn rays_are_closed_and_so_is_the_range_and_a_hair_beyond_is_beyond() {
                 let at = format!("{what}, symmetry {i}, crowded: {crowded}");
                 assert_eq!(reads(&thing, 9.0), 4.0, "{at}");
                 assert_eq!(reads(&thing, 4.0), 4.0, "at exactly the greatest range: {at}");
-                // four ulps are for the rounding of inverses, and five lie beyond
+                // four ulps allow for the rounding of inverses, so five are beyond the range
                 let below = 4.0 - 5.0 * f64::EPSILON * 4.0;
                 assert_eq!(reads(&thing, below), f64::INFINITY, "just beyond the range: {at}");
                 let farther = thing.map(|p| p + Vector2::new(HAIR, 0.0));

@@ -1,5 +1,5 @@
-//! Polygons with a radius, which world files may have: the four questions, depths and motions among them, against exact arithmetic and
-//! brute force.
+//! Polygons with a radius, which world files may have: the four questions, depths and motions, against exact arithmetic
+//! and brute force.
 
 use std::f64::consts::PI;
 
@@ -20,8 +20,8 @@ fn rounded(s: &mut Stream, range: f64) -> Body {
     (pose, Shape::Hull { vertices: convex_corners(s, size).into(), radius })
 }
 
-/// The least distance between points of two boundaries, so many on each side and about each corner; more than the true one by at most the
-/// distance of two of them.
+/// The least distance between sampled points of two boundaries, `count` to each side and about each corner, and the
+/// most by which it can exceed the true distance.
 fn by_points(a: &Placed, b: &Placed, count: u32) -> (f64, f64) {
     let points = |shape: &Placed| -> (Vec<Point2>, f64) {
         let (core, r) = (shape.core(), shape.radius());
@@ -47,7 +47,8 @@ fn by_points(a: &Placed, b: &Placed, count: u32) -> (f64, f64) {
     (sqrt(least.fold(f64::INFINITY, |m, d| if d < m { d } else { m })), apart + between)
 }
 
-/// The four answers for a pair, and the depth, against exact arithmetic and the plain oracle; whether it is in contact.
+/// Checks the four answers and the depth of a pair against exact arithmetic and the plain oracle. Returns whether it is
+/// in contact.
 fn check(body: &Body, obstacle: &Body) -> bool {
     let (part, piece) = (placed(body), placed(obstacle));
     let (scene, footprint) = (scene_of(std::slice::from_ref(obstacle)), footprint_of(std::slice::from_ref(body)));
@@ -68,7 +69,7 @@ fn check(body: &Body, obstacle: &Body) -> bool {
     assert!(w.dist == dist && ((w.on_robot - w.on_obstacle).norm() - dist).abs() <= 16.0 * ulp(m), "{w:?}: {}", at());
     let tolerance = 32.0 * ulp(m);
     assert!(lies_on(w.on_robot, &part, tolerance) && lies_on(w.on_obstacle, &piece, tolerance), "{w:?}: {}", at());
-    // no shorter move than the depth frees it
+    // no move shorter than the depth frees it
     let depth = scene.depth(&footprint);
     assert!(if dist > 0.0 { depth == 0.0 } else { depth >= 0.0 && depth.is_finite() }, "{depth}: {}", at());
     for k in 0..8 {
@@ -151,7 +152,8 @@ fn a_file_makes_of_its_points_the_hull_with_that_radius() {
     assert!((disc(6.0, 8.0) - 4.25).abs() < 1e-14 && disc(2.0, 2.0) == 0.0 && disc(1.0, 0.25) == 0.0);
 }
 
-/// Edges of discs, arms and cars among rounded polygons: free ones keep the clearance that they claim, others are in contact where they say.
+/// Edges of discs, arms and cars among rounded polygons: free edges keep the clearance that they claim, and hits are in
+/// contact where they claim.
 #[test]
 fn edges_among_rounded_polygons_agree_with_sampling() {
     fn survey<R: Robot>(robot: &R, mut draw: impl FnMut(&mut Stream) -> R::Configuration, s: &mut Stream) -> [u32; 2] {

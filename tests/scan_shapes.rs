@@ -1,5 +1,5 @@
-//! Scans of every shape that a world may have, against rays cast by the textbook: at the things as they are written, by Cramer's rule and by
-//! clipping at half-planes, and not at the pieces, segments and discs that the library makes of them.
+//! Scans of every shape that a world may have, against rays cast by the textbook. These rays meet the things as
+//! written, by Cramer's rule and by clipping at half-planes, instead of the library's pieces, segments and discs.
 
 use std::f64::consts::{PI, TAU};
 
@@ -11,14 +11,15 @@ use motion_lab::worlds::Written;
 
 use crate::oracle::plain::{inside_by_crossings, point_distance};
 
-/// A thing as it is written, in world coordinates.
+/// A thing as written, in world coordinates.
 #[derive(Clone, Debug)]
 pub enum Seen {
     /// A wall.
     Wall(Point2, Point2),
     /// A polygon by its corners, convex or not.
     Outline(Vec<Point2>),
-    /// All points within a radius of the convex polygon with these corners, counter-clockwise; of one corner a disc, of two a capsule.
+    /// All points within a radius of the convex polygon with these corners, counter-clockwise. One corner gives a disc,
+    /// two a capsule.
     Round(Vec<Point2>, f64),
 }
 
@@ -30,13 +31,13 @@ fn cross(u: Vector2, v: Vector2) -> f64 {
     u.x * v.y - u.y * v.x
 }
 
-/// The sides of a polygon; of two corners the segment between them, of one none.
+/// The sides of a polygon; one segment for two corners, none for one.
 fn sides(corners: &[Point2]) -> impl Iterator<Item = (Point2, Point2)> + '_ {
     let n = corners.len();
     (0..if n > 2 { n } else { n - 1 }).map(move |i| (corners[i], corners[(i + 1) % n]))
 }
 
-/// How far along the ray a segment is met, by Cramer's rule; a parallel one never is.
+/// The distance along the ray to a segment, by Cramer's rule. A parallel segment is never met.
 fn meets_side(o: Point2, d: Vector2, (a, b): (Point2, Point2)) -> f64 {
     let (u, w) = (b - a, a - o);
     let det = cross(d, u);
@@ -44,7 +45,8 @@ fn meets_side(o: Point2, d: Vector2, (a, b): (Point2, Point2)) -> f64 {
     if t >= 0.0 && (0.0..=1.0).contains(&s) { t } else { f64::INFINITY }
 }
 
-/// How far along the ray a convex counter-clockwise polygon begins, by clipping at its half-planes (Cyrus and Beck, 1978).
+/// The distance along the ray to a convex counter-clockwise polygon, by clipping at its half-planes (Cyrus and Beck,
+/// 1978).
 fn enters(o: Point2, d: Vector2, corners: &[Point2]) -> f64 {
     let (mut from, mut to) = (0.0, f64::INFINITY);
     for (a, b) in sides(corners) {
@@ -61,7 +63,7 @@ fn enters(o: Point2, d: Vector2, corners: &[Point2]) -> f64 {
     if from <= to { from } else { f64::INFINITY }
 }
 
-/// How far along the ray a disc begins, by Pythagoras.
+/// The distance along the ray to a disc, by Pythagoras.
 fn enters_disc(o: Point2, d: Vector2, centre: Point2, radius: f64) -> f64 {
     let (along, across) = ((centre - o).dot(&d), cross(centre - o, d));
     let half = radius * radius - across * across;
@@ -69,13 +71,13 @@ fn enters_disc(o: Point2, d: Vector2, centre: Point2, radius: f64) -> f64 {
 }
 
 impl Seen {
-    /// How far along the ray of this direction, from outside, the thing is met; infinity where it is not.
+    /// The distance along the ray of this direction, from outside, to the thing; infinity for a miss.
     fn met(&self, o: Point2, d: Vector2) -> f64 {
         match self {
             Seen::Wall(a, b) => meets_side(o, d, (*a, *b)),
             Seen::Outline(corners) => sides(corners).fold(f64::INFINITY, |m, side| least(m, meets_side(o, d, side))),
             Seen::Round(core, radius) => {
-                // a disc about every corner, a strip along every side, and what they enclose
+                // a disc about every corner, a strip along every side, and the polygon itself
                 let mut met = core.iter().fold(f64::INFINITY, |m, c| least(m, enters_disc(o, d, *c, *radius)));
                 for (a, b) in sides(core) {
                     let normal = Vector2::new(a.y - b.y, b.x - a.x) * (radius / (b - a).norm());
@@ -119,7 +121,7 @@ impl Seen {
         (Pose2::IDENTITY, shape.unwrap())
     }
 
-    /// The points of a wall, or the shape, as a world file has it.
+    /// The points of a wall, or the shape, as text of a world file.
     fn written(&self) -> String {
         let list =
             |points: &[Point2]| points.iter().map(|p| format!("({:?}, {:?})", p.x, p.y)).collect::<Vec<_>>().join(", ");
@@ -132,7 +134,7 @@ impl Seen {
     }
 }
 
-/// The world file with these things: each an obstacle of its own, or all that are no walls one union.
+/// The world with these things: each an obstacle of its own, or with `union` all but the walls as one union.
 pub fn world_of(things: &[Seen], union: bool) -> World {
     let (walls, solids): (Vec<&Seen>, Vec<&Seen>) = things.iter().partition(|t| matches!(t, Seen::Wall(..)));
     let items = |list: Vec<String>, field: &str| -> String {
@@ -149,7 +151,7 @@ pub fn world_of(things: &[Seen], union: bool) -> World {
     World::parse("things.ron", &text).unwrap()
 }
 
-/// What stands in a world, as it was written.
+/// The things of a world, as written.
 pub fn things_of(world: &World) -> Vec<Seen> {
     let piece = |pose: &Pose2, shape: &Shape| {
         let (sin, cos) = sin_cos(pose.theta);
@@ -174,7 +176,7 @@ pub fn things_of(world: &World) -> Vec<Seen> {
     written.map(thing).collect()
 }
 
-/// How many kinds of things there are: wall, rectangle, convex and concave polygon, disc, capsule, rounded polygon, union.
+/// Number of kinds of things: wall, rectangle, convex and concave polygon, disc, capsule, rounded polygon, union.
 pub const KINDS: usize = 8;
 pub const CONCAVE: usize = 3;
 pub const UNION: usize = 7;
@@ -215,24 +217,24 @@ pub fn thing(kind: usize, frame: &Pose2, size: f64) -> Vec<Seen> {
     vec![one]
 }
 
-/// What some scans came to, ray by ray.
+/// The counts of some scans, ray by ray.
 #[derive(Debug, Default)]
 pub struct Tally {
     pub rays: usize,
     pub hits: usize,
-    /// Rays that meet something else a nanoradian aside.
+    /// Rays whose range differs a nanoradian aside.
     pub grazed: usize,
     /// Rays from inside something.
     pub inside: usize,
 }
 
-/// What the ray of this bearing meets first, metres off; infinity where there is nothing.
+/// The distance to the first thing on the ray of this bearing, metres; infinity for none.
 pub fn cast(things: &[Seen], o: Point2, bearing: f64) -> f64 {
     let (sin, cos) = sin_cos(bearing);
     things.iter().fold(f64::INFINITY, |m, t| least(m, t.met(o, Vector2::new(cos, sin))))
 }
 
-/// Checks a scan ray by ray. One that grazes a corner may read what is met a nanoradian to either side, or in between.
+/// Checks a scan ray by ray. A ray that grazes a corner may read any range between those a nanoradian to either side.
 pub fn check(things: &[Seen], max_range: f64, pose: &Pose2, ranges: &[f64], tally: &mut Tally) {
     let o = pose.position();
     tally.rays += ranges.len();
@@ -266,7 +268,7 @@ fn every_shape_is_seen_where_it_stands_from_any_place_and_heading() {
         for case in 0..40 {
             let frame = Pose2::new(s.uniform(-2.0, 2.0), s.uniform(-2.0, 2.0), s.uniform(-PI, PI));
             let things = thing(kind, &frame, s.uniform(0.4, 1.6));
-            // in the world, or another robot's parts
+            // the things stand in the world, or are another robot's parts
             let (scene, others) = if case % 2 == 0 || kind == CONCAVE {
                 (Scene::of_world(&world_of(&things, kind == UNION)), vec![])
             } else {
@@ -298,7 +300,7 @@ fn ray_k_looks_at_the_bearing_of_2_pi_k_over_n_counter_clockwise_from_the_headin
             let pose = Pose2 { x: s.uniform(-50.0, 50.0), y: s.uniform(-50.0, 50.0), theta: s.uniform(-9.0, 9.0) };
             let ray = s.below(n.into()) as usize;
             let (sin, cos) = sin_cos(pose.theta + TAU * ray as f64 / f64::from(n));
-            // a post two metres off, so thin that the next rays pass it by
+            // a post two metres off, so thin that the neighbouring rays miss it
             let radius = if n < 3 { 0.3 } else { 0.4 * sin_cos(PI / f64::from(n)).0 };
             let post = Shape::Disc { radius }.place(&Pose2::new(pose.x + 2.0 * cos, pose.y + 2.0 * sin, 0.0));
             let ranges = RangeSensor { n_rays: n, max_range: 9.0 }.scan_from(&nothing, &[post], &pose);

@@ -1,5 +1,5 @@
-//! Scans of whole worlds: thousands of pieces as far out as coordinates go, mirrored worlds, and the Apartment, whose rooms A and C are mirror
-//! images of each other (SPEC W1).
+//! Scans of whole worlds: thousands of pieces near the largest coordinates, mirrored worlds, and the Apartment, whose
+//! rooms A and C are mirror images of each other (SPEC W1).
 
 use std::f64::consts::PI;
 
@@ -12,7 +12,7 @@ use crate::scan_shapes::{CONCAVE, KINDS, Seen, Tally, UNION, check, thing, thing
 #[test]
 fn thousands_of_pieces_are_seen_one_by_one_out_to_the_limit_of_the_coordinates() {
     let mut s = Stream::new(Seed(113), "tests/scan worlds");
-    // where their square lies, how far it reaches, how large they are, how far the sensor sees
+    // the centre of their square, its reach, the size of the things, and the range of the sensor
     let worlds = [(Point2::new(9_960.0, -9_950.0), 30.0, 0.3, 12.0), (Point2::origin(), 9_900.0, 60.0, 4_000.0)];
     for (centre, reach, size, max_range) in worlds {
         let mut place = |theta: f64| Pose2 {
@@ -33,7 +33,7 @@ fn thousands_of_pieces_are_seen_one_by_one_out_to_the_limit_of_the_coordinates()
     }
 }
 
-/// Whether two readings are one.
+/// Whether two readings agree.
 fn same(a: f64, b: f64) -> bool {
     a == b || (a - b).abs() <= 1e-9
 }
@@ -65,7 +65,8 @@ fn a_mirrored_world_and_sensor_give_the_mirrored_scan() {
     assert!(seen > rays / 8 && seen < rays, "{seen} of {rays}");
 }
 
-/// Whether the scans from a pose and from its image in the line x = 6 are mirror images; how many rays hit.
+/// Checks that the scans from a pose and from its image in the line x = 6 are mirror images. Returns the number of rays
+/// that hit.
 fn mirrored(scene: &Scene, sensor: RangeSensor, pose: &Pose2, image: &Pose2) -> usize {
     let n = sensor.n_rays as usize;
     let (a, c) = (sensor.scan_from(scene, &[], pose), sensor.scan_from(scene, &[], image));
@@ -76,8 +77,9 @@ fn mirrored(scene: &Scene, sensor: RangeSensor, pose: &Pose2, image: &Pose2) -> 
     a.iter().filter(|r| r.is_finite() && **r > 0.0).count()
 }
 
-/// From the two rooms' own places no ray of 37 or 359 goes through a corner. Of 360 one does: ray 90 in room A meets the wardrobe's corner, and
-/// its image, as the heading there can't be pi but only the `f64` below it, goes past the corner's.
+/// From the two rooms' own places no ray of 37 or 359 goes through a corner. Of 360 rays one does: ray 90 in room A
+/// meets the wardrobe's corner. Its image goes past the corner's image, because the heading there can't be pi but only
+/// the `f64` below it.
 #[test]
 fn the_scan_from_room_a_is_the_reversed_scan_from_the_mirrored_place_in_room_c() {
     let (scene, world) = (apartment(), World::apartment());

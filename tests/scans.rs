@@ -1,4 +1,4 @@
-//! Scans against the exact oracle, and the promises of a scanner.
+//! Scans against the exact oracle, and the guarantees of a scanner.
 
 use std::f64::consts::TAU;
 
@@ -10,7 +10,8 @@ use motion_lab::sensors::{Instructions, RangeSensor, Scanner};
 use crate::fixtures::count_from_env;
 use crate::oracle::ray::{Lattice, holds_origin, meets, whole};
 
-/// Rays from lattice points into lattice walls: through their ends, along them, past them. `MOTION_LAB_RAYS` sets how many.
+/// Rays from lattice points into lattice walls: through their ends, along them, past them. `MOTION_LAB_RAYS` sets their
+/// number.
 #[test]
 fn lattice_rays_hit_exactly_what_they_should() {
     let rays = count_from_env("MOTION_LAB_RAYS", 100_000);

@@ -1,5 +1,5 @@
-//! Everything a planner holds may be sent to and shared between threads. If one of these types could not, this file would not
-//! compile.
+//! Everything a planner holds may be sent to and shared between threads. If one of these types could not, this file
+//! would not compile.
 
 use motion_lab::collision::{
     CarChecker, Certificate, CertificateError, ChainChecker, Checker, Collision, Counted, DiscChecker, EdgeVerdict,
@@ -41,7 +41,7 @@ const _: () = {
     shared::<(WorldError, GridError)>();
 };
 
-/// What records and holds runs.
+/// The types that record and hold runs.
 #[cfg(feature = "sim")]
 const _: () = {
     use motion_lab::recording::{Recorder, RunError};
@@ -52,7 +52,7 @@ const _: () = {
     shared::<(LogError, RunError)>();
 };
 
-/// And the compiler's word is kept: one checker behind `&dyn Collision`, asked from several threads, answers as from one.
+/// One checker behind `&dyn Collision` gives several threads the answers that it gives one.
 #[test]
 fn one_checker_answers_many_threads() {
     let counted = Counted::new(Scene::apartment());

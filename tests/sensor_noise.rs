@@ -48,7 +48,7 @@ fn readings(sensor: &str) -> Vec<(f64, f64)> {
     pairs
 }
 
-/// The normal distribution's function, by its density integrated from 0 with Simpson's rule.
+/// The normal distribution function, by integrating the density from 0 with Simpson's rule.
 fn normal_cdf(x: f64) -> f64 {
     let end = x.clamp(-8.0, 8.0);
     let density = |t: f64| exp(-0.5 * t * t) / (2.0 * std::f64::consts::PI).sqrt();
@@ -59,7 +59,8 @@ fn normal_cdf(x: f64) -> f64 {
     0.5 + sum * end / (3.0 * f64::from(n))
 }
 
-/// How likely a reading at most `x`, strictly between 0 and R, is for the exact range `r`, given that it lies there.
+/// The probability of a reading of at most `x` for the exact range `r`, given that the reading is strictly between 0
+/// and R.
 fn cdf_inside(m: &BeamModel, r: f64, x: f64) -> f64 {
     let mass_to = |x: f64| {
         let random = m.z_rand * x / R;
@@ -74,7 +75,7 @@ fn cdf_inside(m: &BeamModel, r: f64, x: f64) -> f64 {
     mass_to(x) / mass_to(R)
 }
 
-/// The share of readings that are exactly R: maximum readings, and hits kept there.
+/// The share of readings that are exactly R: maximum readings, and hits clamped to R.
 fn at_most_range(m: &BeamModel, r: f64) -> f64 {
     let z_hit = 1.0 - m.z_short - m.z_miss - m.z_max - m.z_rand;
     m.z_max + if r.is_finite() { z_hit * (1.0 - normal_cdf((R - r) / m.sigma_hit)) } else { 0.0 }
@@ -87,7 +88,7 @@ fn readings_follow_the_beam_model() {
     let pairs = readings(ALL);
     assert!(pairs.iter().any(|(_, e)| e.is_infinite()) && pairs.iter().any(|(_, e)| *e < 0.5), "near and far");
 
-    // the two values that are drawn exactly: as often as they should within five standard deviations
+    // the two values drawn exactly occur as often as they should, within five standard deviations
     let share = |value: f64, probability: &dyn Fn(f64) -> f64| {
         let found = pairs.iter().filter(|(n, _)| *n == value).count() as f64;
         let expected: f64 = pairs.iter().map(|(_, e)| probability(*e)).sum();
@@ -98,8 +99,9 @@ fn readings_follow_the_beam_model() {
     share(f64::INFINITY, &|e| if e.is_finite() { model.z_miss } else { nothing });
     share(R, &|e| at_most_range(&model, e));
 
-    // all others: the distribution's function at each must be uniform, by the test of Kolmogorov and Smirnov. At 1.95 it
-    // refuses one right distribution in a thousand; the seeds are fixed, so this one is refused never or always.
+    // for all other readings the distribution function's values must be uniform, by the test of Kolmogorov and Smirnov.
+    // At 1.95 it refuses one right distribution in a thousand; the seeds are fixed, so this one is refused never or
+    // always.
     let inside = pairs.iter().filter(|(n, _)| *n > 0.0 && *n < R);
     let mut u: Vec<f64> = inside.map(|(n, e)| cdf_inside(&model, *e, *n)).collect();
     u.sort_by(f64::total_cmp);
@@ -138,8 +140,9 @@ fn the_sensor_has_a_stream_of_its_own() {
     assert_ne!(other.frames[0].scans, noisy.frames[0].scans, "the seed is in it");
     assert_ne!(noisy.initial.scans, exact.initial.scans, "tick 0 is scanned too");
 
-    // Streams have no state, so all this would hold if the sensor drew the numbers that the wheels slip by. A reading at random is R times
-    // one draw, a wheel's slip is 1 - s + 2 s times one: no draw of the one may be among those of the other.
+    // Streams have no state, so all this would hold even if the sensor drew the same numbers as the wheels' slip. A
+    // random reading is R times a draw, and a wheel's slip is 1 - s + 2 s times a draw: no draw of the one may be among
+    // those of the other.
     let (random, _) = twins("z_rand: 1", Seed(9), 80);
     let scans = std::iter::once(&random.initial).chain(&random.frames).flat_map(|frame| &frame.scans[0].ranges);
     let mut drawn: Vec<f64> = scans.map(|reading| reading / R).collect();
@@ -177,7 +180,7 @@ fn noise_that_is_no_distribution_is_refused_in_worlds_put_together_by_hand_too()
     assert_eq!(refused, expected.into());
 }
 
-/// Pinned before worlds could have noisy sensors: a file that has none keeps its canonical text.
+/// Hashes pinned before worlds could have noisy sensors: a file without noise keeps its canonical text.
 #[test]
 fn worlds_without_noise_keep_their_bytes() {
     let hashes = World::built_in_names().map(|n| World::built_in(n).unwrap().content_hash());

@@ -1,5 +1,5 @@
-//! What the range sensors of a run see of the other robots, tick by tick: their outlines by their kinematics written out, those of one's own
-//! world alone, and not oneself.
+//! The other robots in the scans of a run, tick by tick. Their outlines come from the kinematics written out. A sensor
+//! sees the robots of its own world alone, and not its own robot.
 
 use std::f64::consts::TAU;
 
@@ -23,7 +23,7 @@ fn world(name: &str, robots: &str) -> World {
     World::parse("sightings.ron", &text).unwrap()
 }
 
-/// The east's first two stand where the west's sensors look, and see nothing of the west.
+/// Two worlds. The first two robots of the east stand where the west's sensors look, and see nothing of the west.
 fn worlds() -> [World; 2] {
     let west = "(name: \"Anna\", kind: \"rusty\", start: [-3, 0.5, 0.3]), (name: \"Bert\", kind: \"hitch\", start: [2, -4, 0.2, 0.5]),
                 (name: \"Cleo\", kind: \"reach\", start: [0.5, 0.8]), (name: \"Dora\", kind: \"rusty\", start: [-2, -1, 2]),
@@ -33,7 +33,7 @@ fn worlds() -> [World; 2] {
     [world("west", west), world("east", east)]
 }
 
-/// Where a robot of this kind is, by its dimensions and the textbook's kinematics.
+/// The outlines of a robot of this kind, by its dimensions and the textbook's kinematics.
 fn outlines(kind: &str, state: &RobotState) -> Vec<Seen> {
     let q = &state.configuration;
     let p = Point2::new;
@@ -104,7 +104,7 @@ fn a_sensor_sees_the_robots_of_its_own_world_where_they_are_after_the_tick_and_n
             let q = &frame.robots[own].configuration;
             let pose = Pose2 { x: q[0], y: q[1], theta: q[2] };
             check(&things, 12.0, &pose, &scan.ranges, &mut tally);
-            // nearer than what stands there: a robot
+            // a range nearer than the world's obstacles is a robot
             let bearing = |k: usize| pose.theta + TAU * k as f64 / 72.0;
             let nearer =
                 |(k, range): &(usize, &f64)| cast(&things[..standing], pose.position(), bearing(*k)) > **range + 0.1;

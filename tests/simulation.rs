@@ -25,7 +25,7 @@ pub(crate) fn event(tick: u64, robot: &str, input: RobotInput) -> Event {
     Event { tick, robot: robot.into(), input }
 }
 
-/// Coordinates as a script holds them.
+/// Coordinates quantized as in a script.
 pub(crate) fn quantized(values: &[f64]) -> Vec<Quantized> {
     values.iter().map(|&v| Quantized::try_new(v).unwrap()).collect()
 }

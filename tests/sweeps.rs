@@ -51,7 +51,7 @@ fn random_sweeps_agree_with_dense_sampling() {
 
 #[test]
 fn sweeps_of_free_ends_are_hits_only_when_something_is_between() {
-    // both ends free, so that the ends alone would say free: what the query exists for
+    // both ends are free, so a test of the ends alone would miss the hits
     let mut s = Stream::new(Seed(72), "tests/between");
     let (mut caught, mut free) = (0, 0);
     while caught < 150 || free < 150 {
@@ -82,8 +82,8 @@ fn post(x: f64, y: f64, radius: f64) -> Scene {
 
 #[test]
 fn a_turning_bar_meets_what_lies_between_its_two_headings() {
-    // The bar turns about its proximal end. Where the post stands is reached by the arc, but not by the chord between the
-    // bar's two ends, nor by casting the start pose along the displacement of the frame, which is zero.
+    // The bar turns about its proximal end. The arc reaches the post, but the chord between the bar's two ends does
+    // not, and neither does casting the start pose along the displacement of the frame, which is zero.
     let scene = post(0.9, 0.0, 0.02);
     let (a, b) = (bar(0.0, 0.0, -0.6, 0.0), bar(0.0, 0.0, 0.6, 0.0));
     assert!(!scene.intersects(&a) && !scene.intersects(&b));
@@ -104,11 +104,11 @@ fn a_sweep_turns_the_short_way_and_half_a_turn_the_positive_way() {
 
 #[test]
 fn a_part_that_travels_and_turns_meets_what_only_the_two_together_reach() {
-    // The frame goes from (-1, 0) to (1, 0) while the bar turns from pointing down to pointing up: half way it points along
-    // x from the origin.
+    // The frame goes from (-1, 0) to (1, 0) while the bar turns from pointing down to pointing up: half way it points
+    // along x from the origin.
     let (a, b) = (bar(-1.0, 0.0, -FRAC_PI_2, 0.0), bar(1.0, 0.0, FRAC_PI_2, 0.0));
     assert!(post(0.98, 0.0, 0.01).swept(&a, &b));
-    // a pure translation of either pose, or a pure turn at either end, never comes near (0.4, 0.8), nor does the motion
+    // neither a pure translation of either pose, nor a pure turn at either end, nor the motion comes near the post
     let off = post(0.1, 0.8, 0.05);
     assert!(!off.swept(&a, &b));
     let backwards = bar(1.0, 0.0, -FRAC_PI_2, 0.0);
@@ -165,15 +165,15 @@ fn sliding_along_a_wall_is_free_above_a_micrometre_however_long() {
     assert!(wall.swept(&touching(-50.0), &touching(50.0)));
 }
 
-/// A bar of 1 m about one end, turned from one bearing to another the short way: it sweeps over what lies between them and over nothing else,
-/// whatever the bearings are.
+/// A bar of 1 m turns about one end from one bearing to another the short way. It sweeps over the bearings between them
+/// and over no others, whatever they are.
 #[test]
 fn a_turn_sweeps_over_the_bearings_between_its_ends() {
     let bar = |bearing: f64| {
         let shape = Shape::Capsule { a: Point2::origin(), b: Point2::new(1.0, 0.0), radius: 0.01 };
         Footprint::new([Part::new(Pose2::new(2.0, -1.0, bearing), shape)])
     };
-    // among them turns whose ends lie alike on both sides of bearing 0, and of half a turn
+    // some turns have their ends symmetric about bearing 0, or about half a turn
     for from in [-3.0, -2.0, -1.25, -0.4, 0.0, 1.0, 0.75 - PI, 2.0, 3.0] {
         for turn in [-1.5, -0.4, 0.2, 0.8, 2.5] {
             // a pin halfway out at these shares of the turn, and at as many bearings outside it

@@ -1,5 +1,5 @@
-//! Motions that graze: exactly tangent, in numbers that hold without rounding. Touching is contact, so none of them is free, whoever is
-//! asked; a nanometre away all of them are.
+//! Motions that graze: exactly tangent, in numbers that hold without rounding. Touching is contact, so every query
+//! finds them in contact; moved away by a nanometre, all are free.
 
 use std::f64::consts::FRAC_PI_2;
 
@@ -11,10 +11,10 @@ use motion_lab::robots::{CarBody, TrailerBody};
 
 use crate::scan_shapes::{Seen, world_of};
 
-/// A nanometre, about; exact beside every coordinate here.
+/// About a nanometre, metres; it adds exactly to every coordinate here.
 pub const HAIR: f64 = 1.0 / (1_u64 << 30) as f64;
 
-/// What is grazed, and the way off it.
+/// A thing that is grazed, and the displacement that takes it a hair away.
 pub struct Grazed {
     pub what: &'static str,
     pub thing: Seen,
@@ -41,7 +41,8 @@ fn scene_of(thing: &Seen) -> Scene {
     Scene::of_world(&world_of(std::slice::from_ref(thing), false))
 }
 
-/// Asks about what is touched and about what is a hair off, each put where it belongs by `place`.
+/// Checks that no query finds the motion free with the thing in place, and that every query does with it a hair away.
+/// `place` maps the thing into the scene.
 fn check(at: &str, grazed: &Grazed, place: impl Fn(Point2) -> Point2, free: impl Fn(&Scene) -> Vec<bool>) {
     let Grazed { what, thing, away } = grazed;
     let touched = free(&scene_of(&thing.map(&place)));
@@ -50,7 +51,7 @@ fn check(at: &str, grazed: &Grazed, place: impl Fn(Point2) -> Point2, free: impl
     assert!(off.iter().all(|f| *f), "{what}, {at}: it is a hair off, and not said to be free: {off:?}");
 }
 
-/// Whether a motion is free, by everything that judges motions: among obstacles, and among the same shapes as other robots.
+/// Whether a motion is free by every query about motions, among obstacles and among the same shapes as other robots.
 fn judged<R: Robot>(scene: &Scene, robot: &R, motion: &impl Motion<Configuration = R::Configuration>) -> Vec<bool> {
     let others: Vec<Placed> = scene.pieces().map(|(_, piece)| piece.clone()).collect();
     let nothing = Scene::empty(scene.bounds());
@@ -64,7 +65,7 @@ fn judged<R: Robot>(scene: &Scene, robot: &R, motion: &impl Motion<Configuration
     verdicts.iter().map(|verdict| verdict.is_free()).collect()
 }
 
-/// Whether an edge is free, there and back, by everything that judges edges.
+/// Whether an edge is free, there and back, by every query about edges.
 fn edges<R: Robot>(scene: &Scene, robot: &R, a: R::Configuration, b: R::Configuration) -> Vec<bool> {
     let checker = Checker::new(scene.clone(), robot.clone());
     let mut certificate = Certificate::new();
@@ -78,7 +79,7 @@ fn edges<R: Robot>(scene: &Scene, robot: &R, a: R::Configuration, b: R::Configur
     free
 }
 
-/// A symmetry of the lattice: a mirror in the x axis or none, then quarter turns.
+/// A symmetry of the lattice: an optional mirror in the x axis, then quarter turns.
 #[derive(Clone, Copy, Debug)]
 struct Symmetry {
     mirror: bool,
@@ -106,7 +107,8 @@ impl Symmetry {
     }
 }
 
-/// What a disc of radius 1/4 grazes whose centre runs along the x axis: at (0, 1/4), or a stretch about that.
+/// The things that a disc of radius 1/4 grazes as its centre runs along the x axis: at (0, 1/4), or along a stretch
+/// about it.
 pub fn beside_a_line() -> Vec<Grazed> {
     let g = |what, thing| Grazed { what, thing, away: Vector2::new(0.0, HAIR) };
     vec![
@@ -127,7 +129,8 @@ pub fn beside_a_line() -> Vec<Grazed> {
 fn a_disc_that_grazes_on_a_line_touches() {
     for grazed in &beside_a_line() {
         for symmetry in Symmetry::all() {
-            // along the lattice, and along its diagonals of 3-4-5, where all is larger by a quarter; here and far off
+            // along the lattice, and along its 3-4-5 diagonals, where everything is larger by a quarter; near the
+            // origin and far off
             for ((a, b), scale) in [((4.0, 0.0), 1.0), ((4.0, 3.0), 1.25)] {
                 for far in [Vector2::new(0.0, 0.0), Vector2::new(1024.0, -768.0)] {
                     let place = |p: Point2| {
@@ -151,7 +154,8 @@ fn a_disc_that_grazes_on_a_line_touches() {
     }
 }
 
-/// What a point grazes that goes round the origin at this radius, within 1.2 rad of the x axis: `post` is a multiple of 5/4 beyond it.
+/// The things that a point grazes as it goes round the origin at this radius, within 1.2 rad of the x axis. `post` is a
+/// multiple of 5/4 beyond the radius.
 pub fn about_a_circle(radius: f64, post: f64) -> Vec<Grazed> {
     let g = |what, thing| Grazed { what, thing, away: Vector2::new(HAIR, 0.0) };
     let slanted = Vector2::new(0.75 * HAIR, HAIR);
@@ -194,7 +198,7 @@ fn an_arm_whose_tip_grazes_touches() {
         for grazed in &about_a_circle(1.25, 2.5) {
             let [q, p] = [a, b].map(|angle| Tn([angle]).wrapped());
             check(&at, grazed, place, |scene| edges(scene, &one, q, p));
-            // of one link the sweep is the edge; it may err to contact by a micrometre
+            // the sweep of one link is its edge; it may err to contact by a micrometre
             let [f, g] = [q, p].map(|q| one.footprint(&q));
             assert!(scene_of(&grazed.thing.map(place)).swept(&f, &g), "{}, {at}", grazed.what);
             let off = grazed.thing.map(|p| place(p + grazed.away * 2048.0));
@@ -233,21 +237,22 @@ fn a_car_or_trailer_whose_corner_grazes_on_the_spot_touches() {
         for grazed in &about_a_circle(5.0, 7.5) {
             let [a, b] = [-0.3, 2.2].map(|theta| HitchCfg { body: body(theta), trailer: None });
             check(&at, grazed, place, |scene| edges(scene, &car, a, b));
-            // the two corners pass the x axis at 2.498 rad to either side, and 3-4-5 at 0.927 beyond: all within this half turn
+            // the two corners pass the x axis at 2.498 rad to either side, and the 3-4-5 direction 0.927 rad beyond:
+            // all within this half turn
             let [a, b] = [2.3, 4.9].map(|psi| HitchCfg { body: body(0.0), trailer: Some(body(psi).theta) });
             check(&at, grazed, place, |scene| edges(scene, &towing, a, b));
         }
     }
 }
 
-/// What lies about the circle, moved so that its centre is there.
+/// The things about the circle, moved so that its centre is at `centre`.
 fn moved(grazed: &Grazed, centre: Vector2) -> Grazed {
     Grazed { thing: grazed.thing.map(|p| p + centre), ..*grazed }
 }
 
 #[test]
 fn a_rover_or_a_car_that_grazes_on_an_arc_touches() {
-    // a circle of radius 5 about (0, 5), on its outside the body reaches out to 6.25, on its inside in to 3.75
+    // a circle of radius 5 about (0, 5): the body reaches out to 6.25 and in to 3.75
     let rover = Rusty { body_radius: 1.25, ..RUSTY };
     let centre = Vector2::new(0.0, 5.0);
     let inward = |what, thing| Grazed { what, thing, away: Vector2::new(-0.75 * HAIR, -HAIR) };

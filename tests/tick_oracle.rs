@@ -1,16 +1,17 @@
-//! Whole ticks computed again by a second, slow and obvious program that shares no code with the simulator.
+//! Whole ticks computed again by a second, slow and simple program that shares no code with the simulator.
 //!
-//! Runs are recorded in random worlds with random scripts. For each tick the program takes the recorded frame before it, so that errors do
-//! not accumulate, and works out the frame after it:
-//! - [`inputs`]: what the script changes, and the motion that the driver or the tour asks for;
+//! Runs are recorded in random worlds with random scripts. For each tick the program takes the recorded frame before
+//! it, so that errors do not accumulate, and computes the frame after it:
+//! - [`inputs`]: the changes by the script, and the motion that the driver or the tour asks for;
 //! - [`robots`]: the motion by its differential equations, and the footprint;
 //! - [`meetings`]: how far the motion can go, and whose sweeps meet, by distances at many places;
-//! - [`rays`]: what the sensors read, ray by ray;
-//! - [`judge`]: the comparison. A robot that comes nearer to something than 1e-4 m without contact may be held or not; either is accepted,
-//!   but then all of its state must agree with it.
+//! - [`rays`]: the sensors' readings, ray by ray;
+//! - [`judge`]: the comparison. A robot that comes nearer to something than 1e-4 m without contact may be held or not.
+//!   Either is accepted, but all of its state must agree with it.
 //!
-//! Worlds are written as text and read by the library; the program keeps its own list of shapes. From the library it takes the robots'
-//! dimensions and the seeded random streams, which have tests of their own. The tours and the wheels' slip are drawn from those.
+//! Worlds are written as text and read by the library; the program keeps its own list of shapes. From the library it
+//! takes the robots' dimensions and the seeded random streams, which have tests of their own. The tours and the wheels'
+//! slip are drawn from those.
 
 mod cases;
 mod inputs;
@@ -38,7 +39,7 @@ fn pairs(log: &Log) -> impl Iterator<Item = (&Frame, &Frame)> {
     std::iter::once(&log.initial).chain(&log.frames).zip(&log.frames)
 }
 
-/// `MOTION_LAB_RUNS` sets how many runs.
+/// `MOTION_LAB_RUNS` sets the number of runs.
 #[test]
 fn every_tick_is_what_the_frame_before_it_and_the_script_make_it() {
     let runs = count_from_env("MOTION_LAB_RUNS", 24);
@@ -68,7 +69,7 @@ fn every_tick_is_what_the_frame_before_it_and_the_script_make_it() {
     assert!(often && sometimes && 2 * yielded >= runs && 5 * hitched >= runs, "{tally:?} in {runs} runs");
 }
 
-/// A change to a robot's state after a tick, given the state before it. It says whether there was anything to change.
+/// A change to a robot's state after a tick, given the state before it. Returns whether there was anything to change.
 type Change = fn(&RobotState, &mut RobotState) -> bool;
 
 const CHANGES: [(&str, Change); 9] = [
@@ -136,7 +137,7 @@ fn frames_that_are_not_quite_right_are_refused() {
         }
     }
     for (i, (name, _)) in CHANGES.iter().enumerate() {
-        // near something, contact and none may both be accepted
+        // near an obstacle, both contact and no contact may be accepted
         let least = if name.contains("contact") || name.contains("stayed") { 9 * tried[i] / 10 } else { tried[i] };
         assert!(tried[i] > 5 && refused[i] >= least, "{name}: {} of {} are refused", refused[i], tried[i]);
     }

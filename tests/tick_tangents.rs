@@ -1,4 +1,4 @@
-//! Ticks of the simulator whose motion grazes: exactly tangent it is a contact, as for an edge, and a little off it is none.
+//! Ticks of the simulator whose motion grazes: exactly tangent it is a contact, as for an edge; a little off it is not.
 
 use bevy::app::App;
 use motion_lab::prelude::*;
@@ -11,7 +11,7 @@ use motion_lab::worlds::Resident;
 use crate::scan_shapes::{Seen, world_of};
 use crate::tangents::{Grazed, HAIR, about_a_circle, beside_a_line};
 
-/// An arm of 2 m with thick links, and a rover without slip, both of dimensions that hold without rounding.
+/// An arm of 2 m with thick links, and a rover without slip, both with dimensions that are exact.
 fn robots(app: &mut App) {
     let arm = Reach { base: Point2::origin(), lengths: [1.0, 1.0], link_radius: 0.25 };
     app.add_plugins((
@@ -32,7 +32,8 @@ fn after_a_tick(thing: &Seen, kind: &str, start: &[f64], input: RobotInput) -> R
 
 #[test]
 fn an_arm_whose_tick_grazes_is_in_contact_and_goes_on() {
-    // through angle 0 within the tick: by one so short that a single step's proof fails by less than a nanometre, and by long ones
+    // motions through angle 0 within the tick: one so short that a single step's proof fails by less than a nanometre,
+    // and long ones
     for (from, to) in [(-1.0 / 128.0, 1.0 / 128.0), (-0.375, 0.5), (0.25, -0.0625)] {
         for Grazed { what, thing, away } in about_a_circle(2.25, 2.5) {
             if what.ends_with("3-4-5") {

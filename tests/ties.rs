@@ -1,6 +1,8 @@
-//! Exact ties: the lowest part, then the obstacle first in file order, whichever way the scene finds them and whoever asks.
+//! Exact ties go to the lowest part, then to the first obstacle in file order, by every index of the scene and every
+//! query.
 //!
-//! Every distance here is one of whole numbers: discs 5 m off by triangles of sides 3, 4 and 5, squares of distances compared as integers.
+//! Every distance here comes from whole numbers: discs 5 m off by triangles with sides 3, 4 and 5, and squares of
+//! distances compared as integers.
 
 use motion_lab::collision::{Checker, ObstacleId, Surroundings};
 use motion_lab::num::sqrt;
@@ -9,7 +11,7 @@ use motion_lab::robots::ConfigurationError;
 
 use crate::fixtures::{Body, footprint_of, placed, scene_of};
 
-/// Points exactly 5 m from the origin. The boxes of discs about some of them are nearer than those of others.
+/// Points exactly 5 m from the origin. The boxes of discs about them are not all equally near.
 const RING: [[i32; 2]; 12] =
     [[5, 0], [3, 4], [-4, 3], [0, -5], [4, -3], [-5, 0], [-3, -4], [0, 5], [-3, 4], [3, -4], [4, 3], [-4, -3]];
 
@@ -17,7 +19,8 @@ fn disc([x, y]: [i32; 2], radius: f64) -> Body {
     (Pose2 { x: f64::from(x), y: f64::from(y), theta: 0.0 }, Shape::Disc { radius })
 }
 
-/// Discs far from everything: none, few, many spread evenly, many in one place. So the nearest are found side by side, in a grid, in a tree.
+/// Discs far from everything: none, few, many spread evenly, many in one place. So the scene finds the nearest in a
+/// list, in a grid and in a tree.
 fn fillers() -> [Vec<Body>; 4] {
     let spread = |n: i32| (0..n).map(|i| disc([60 + 10 * (i % 10), 60 + 10 * (i / 10)], 0.5)).collect();
     [vec![], spread(40), spread(90), vec![disc([80, 80], 0.5); 90]]
@@ -58,7 +61,7 @@ fn of_equally_near_obstacles_the_first_in_file_order_is_the_witness() {
 
 #[test]
 fn of_equally_near_parts_the_lowest_is_the_witness_whatever_the_file_order() {
-    // the first obstacle is as near to the second part as the second obstacle to the first
+    // the first obstacle is as near to the second part as the second obstacle is to the first
     let bodies = [disc([25, 0], 1.0), disc([-25, 0], 1.0)];
     for fillers in fillers() {
         let (scene, id) = amid(&bodies, &fillers);
@@ -101,7 +104,7 @@ fn batches_answer_as_integers_do_in_their_order() {
     let qs: Vec<R2> = lattice.iter().map(|[x, y]| R2::new(f64::from(*x), f64::from(*y))).collect();
     for fillers in fillers() {
         let checker = Checker::new(amid(&bodies, &fillers).0, RustyDisc { radius: 1.0 });
-        // free exactly where no centre is within the two radii, 2 m
+        // a configuration is free exactly where no centre is within the two radii, 2 m
         let squares: Vec<i32> = lattice
             .iter()
             .map(|p| RING.iter().map(|c| (p[0] - c[0]) * (p[0] - c[0]) + (p[1] - c[1]) * (p[1] - c[1])).min().unwrap())
@@ -116,7 +119,7 @@ fn batches_answer_as_integers_do_in_their_order() {
         let still: Vec<(R2, R2)> = qs.iter().map(|q| (*q, *q)).collect();
         assert!(checker.edges(&still).iter().map(|v| v.unwrap().is_free()).eq(free), "on the spot");
     }
-    // an edge that is none is the error of its own place
+    // an invalid edge gives an error at its own place
     let at = |trailer| HitchCfg { body: Pose2::IDENTITY, trailer };
     let (with, without) = (at(Some(0.0)), at(None));
     let pairs = [(with, with), (with, without), (without, without), (with, with)];
@@ -129,7 +132,8 @@ fn batches_answer_as_integers_do_in_their_order() {
 #[test]
 fn an_edge_that_meets_two_obstacles_at_once_hits_the_first_in_file_order() {
     for fillers in fillers() {
-        // a disc between two posts too close for it: the sum of the radii is 5, they are 3 to either side, so 4 ahead
+        // a disc meets two posts too close to pass between: the sum of the radii is 5 and the posts are 3 to either
+        // side, so contact is 4 before them
         for posts in [[[20, 3], [20, -3]], [[20, -3], [20, 3]]] {
             let (scene, id) = amid(&posts.map(|at| disc(at, 2.5)), &fillers);
             let checker = Checker::new(scene, RustyDisc { radius: 2.5 });
@@ -145,7 +149,7 @@ fn an_edge_that_meets_two_obstacles_at_once_hits_the_first_in_file_order() {
             let at = |x: f64| HitchCfg { body: Pose2::new(x, 0.0, 0.0), trailer: None };
             let verdicts = Checker::new(scene, HITCH).edges(&[(at(0.0), at(16.0)), (at(16.0), at(0.0))]);
             assert_hits(verdicts[0].unwrap(), 8.3 / 16.0, 16.0, id);
-            // back from beyond them the rear, 0.7 m behind the axle, meets them at 13.2 m
+            // on the way back from beyond them, the rear, 0.7 m behind the axle, meets them at 13.2 m
             assert_hits(verdicts[1].unwrap(), 2.8 / 16.0, 16.0, id);
         }
     }
@@ -159,8 +163,8 @@ fn assert_hits(verdict: EdgeVerdict, at: f64, length: f64, id: u32) {
     assert!(free_until < at && at <= contact_at && (contact_at - free_until) * length <= 1e-6, "{verdict:?}, not {at}");
 }
 
-/// A hundred and eight points of whole coordinates lie on the circle of radius 1105 = 5 * 13 * 17 about the origin (Gauss): pins there are
-/// equally near to the bit, more than any list of candidates holds, in whatever order they come.
+/// 108 points with whole coordinates lie on the circle of radius 1105 = 5 * 13 * 17 about the origin (Gauss). Pins
+/// there are equally near to the bit, in any order, and more than any list of candidates holds.
 #[test]
 fn of_a_hundred_equally_near_the_first_in_file_order_is_the_witness() {
     let on_circle = |x: i32| (-1105..=1105).filter(move |y| x * x + y * y == 1105 * 1105).map(move |y| (x, y));
@@ -168,7 +172,7 @@ fn of_a_hundred_equally_near_the_first_in_file_order_is_the_witness() {
     assert_eq!(places.len(), 108);
     let (scale, radius) = (1.0 / 64.0, 0.125);
     for first in 0..places.len() {
-        // from this one on, and every 11th, which has no divisor in common with 108
+        // every 11th from this one on; 11 has no divisor in common with 108
         let order = (0..places.len()).map(|k| places[(first + 11 * k) % places.len()]);
         let scene = order.enumerate().fold(Scene::of_walls(&[]), |scene, (k, (x, y))| {
             let pose = Pose2::new(f64::from(x) * scale, f64::from(y) * scale, 0.0);

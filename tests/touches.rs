@@ -8,7 +8,7 @@ use motion_lab::random::{Seed, Stream};
 use crate::fixtures::{KINDS, Kind, LatticeShape, footprint_of, lattice_shape, placed, scene_of};
 use crate::oracle::exact::{ExactPair, lies_on};
 
-/// A pair that touches, and a step of the first shape that takes it away.
+/// A pair that touches, and a step of the first shape that separates it.
 struct Touch {
     what: &'static str,
     a: LatticeShape,
@@ -32,8 +32,8 @@ fn polygon(points: &[[i32; 2]]) -> LatticeShape {
     LatticeShape { kind: Kind::Polygon, points: points.to_vec(), radius: 0 }
 }
 
-/// Every unordered pair of kinds, in each way they can touch. Slanted contacts lie on the line 3x + 4y = 25, whose distance
-/// from the origin is exactly 5, at (3, 4).
+/// Every unordered pair of kinds, in each way that the two can touch. Slanted contacts lie on the line 3x + 4y = 25,
+/// whose distance from the origin is exactly 5, at (3, 4).
 fn touches() -> Vec<Touch> {
     let slanted = || polygon(&[[7, 1], [9, 9], [-1, 7]]);
     let pointed = || polygon(&[[3, 4], [9, 5], [6, 9]]);
@@ -82,7 +82,7 @@ fn touches() -> Vec<Touch> {
     ]
 }
 
-/// Every answer for a pair in contact, or for one apart.
+/// Checks every answer for a pair in contact, or apart.
 fn check(what: &str, robot: &LatticeShape, obstacle: &LatticeShape, unit: f64, contact: bool) {
     let (part, piece) = (robot.body(unit), obstacle.body(unit));
     let scene = scene_of(std::slice::from_ref(&piece));
@@ -164,7 +164,7 @@ fn a_sweep_that_ends_in_a_touch_hits_and_one_that_stays_a_step_away_does_not() {
 
 #[test]
 fn a_sweep_along_a_touch_hits_and_along_a_step_away_does_not() {
-    // past the obstacle from far on one side to far on the other, grazing it in the middle
+    // the shape slides past the obstacle from far on one side to far on the other, grazing it in the middle
     let slide = |a: &LatticeShape, along: [i32; 2], unit: f64| {
         let at = |k: i32| footprint_of(&[a.shifted([k * along[0], k * along[1]]).body(unit)]);
         (at(-8), at(8))

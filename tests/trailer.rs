@@ -1,9 +1,9 @@
-//! The trailer over minutes, against the solution of its differential equation.
+//! The trailer over minutes of driving, against the solution of its differential equation.
 //!
-//! With the fold f = theta - psi, the speed v, the path's curvature k and the bar's length d it is f' = v k - (v / d) sin f. In
-//! u = tan(f / 2) that is u' = (v k / 2)(u - a)(u - b), where a < b are the roots of u^2 - 2 u / (k d) + 1 for k > 0. So
-//! (u - a) / (u - b) falls as exp(-v t sqrt(1 - k^2 d^2) / d), and on a straight line u itself as exp(-v t / d): ahead the trailer comes to
-//! rest at sin f = k d, in reverse that is where it flees from.
+//! The equation is f' = v k - (v / d) sin f, with the fold f = theta - psi, the speed v, the path's curvature k and the
+//! bar's length d. In u = tan(f / 2) it is u' = (v k / 2)(u - a)(u - b), where a < b are the roots of u^2 - 2 u / (k d)
+//! + 1 for k > 0. So (u - a) / (u - b) falls as exp(-v t sqrt(1 - k^2 d^2) / d), and on a straight line u itself falls
+//! as exp(-v t / d). Ahead the trailer settles at sin f = k d; in reverse it moves away from there.
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
@@ -13,7 +13,7 @@ use motion_lab::prelude::*;
 /// The length of a tick, seconds.
 const TICK: f64 = 0.05;
 
-/// The fold `t` seconds after it was `start`, at the speed `v` and the curvature `k`.
+/// The fold after `t` seconds from `start`, at the speed `v`, the curvature `k` and the bar's length `d`.
 fn fold(start: f64, v: f64, k: f64, d: f64, t: f64) -> f64 {
     let u = tan(0.5 * start);
     if k == 0.0 {
@@ -25,8 +25,8 @@ fn fold(start: f64, v: f64, k: f64, d: f64, t: f64) -> f64 {
     2.0 * atan2(a - w * b, 1.0 - w)
 }
 
-/// Drives the lab's car and trailer for so many ticks from this fold, and holds it against the solution at every one of them; the last
-/// fold.
+/// Drives the lab's car and trailer for `ticks` ticks from this fold, and checks every one against the solution.
+/// Returns the last fold.
 #[track_caller]
 fn follow(start: f64, u: CarCmd, ticks: u32) -> f64 {
     let car = HITCH.with_trailer();
@@ -42,7 +42,7 @@ fn follow(start: f64, u: CarCmd, ticks: u32) -> f64 {
         assert!(wrap(theta - 2.0 - u.v * k * t).abs() < 1e-11, "{q} at {t} s of {u:?}");
         let solution = fold(start, u.v, k, d, t);
         last = wrap(theta - psi);
-        // Runge and Kutta's error, in four steps a tick of at most 9 mm for each metre of the bar
+        // the Runge-Kutta error, with four steps per tick of at most 9 mm for each metre of the bar
         assert!(wrap(last - solution).abs() < 2e-9, "fold {last}, not {solution}, {t} s after {start} with {u:?}");
     }
     last
@@ -66,7 +66,7 @@ fn on_a_straight_line_the_fold_dies_away_exponentially() {
 fn in_a_steady_turn_the_trailer_comes_to_rest_at_its_angle_whatever_it_was_before() {
     let car = HITCH.with_trailer();
     for phi in [0.6, -0.6, 0.3, -0.05] {
-        // the sine of the fold in which the trailer's axle runs on a circle of its own about the same centre
+        // the sine of the fold at which the trailer's axle runs on a circle about the same centre
         let sine = car.hitch_len.unwrap() * tan(phi) / car.wheelbase;
         for start in [-1.0, 0.0, 2.5, 3.1] {
             follow(start, CarCmd { v: 0.4, phi }, LONG);
@@ -98,7 +98,7 @@ fn where_the_trailer_rests_its_axle_runs_on_a_circle_about_the_car_s_centre() {
     let at_rest = FRAC_PI_2 - acos(k * d);
     let body = Pose2::new(0.5, -0.25, 2.0);
     let mut q = HitchCfg { body, trailer: Some(wrap(2.0 - at_rest)) };
-    // the centre lies to the left of the rear axle, and the axle's way is at right angles to it: Pythagoras
+    // the centre lies to the left of the rear axle, at right angles to the axle's motion: Pythagoras
     let centre = Point2::new(body.x - sin(2.0) / k, body.y + cos(2.0) / k);
     let radius = sqrt(1.0 / (k * k) - d * d);
     for tick in 0..LONG {

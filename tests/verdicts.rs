@@ -1,4 +1,4 @@
-//! What every verdict on a motion claims, held against dense sampling.
+//! The claims of verdicts on motions, against dense sampling.
 
 use motion_lab::collision::{Certificate, Collision, EdgeVerdict, MarchOptions, Scene, march, verify_certificate};
 use motion_lab::geometry::{Footprint, Placed, largest_coordinate};
@@ -7,10 +7,10 @@ use motion_lab::robots::Motion;
 
 use crate::oracle::{plain, sweep};
 
-/// How far before and after a hit its direction is looked at, metres of motion.
+/// Distance before and after a hit at which its direction is sampled, metres of motion.
 const PROBE: f64 = 1e-4;
 
-/// What a survey of many edges found.
+/// The counts of a survey of many edges.
 #[derive(Debug, Default)]
 pub struct Tally {
     pub edges: u64,
@@ -20,7 +20,7 @@ pub struct Tally {
     pub transversal: u64,
     /// Hits bracketed more widely than a micrometre, where the motion grazes.
     pub wide: u64,
-    /// Hits at the very start.
+    /// Hits at the start of the motion.
     pub from_contact: u64,
     pub unresolved: u64,
     /// Steps of all certificates.
@@ -28,7 +28,7 @@ pub struct Tally {
 }
 
 impl Tally {
-    /// Prints a line of what was found.
+    /// Prints the counts on one line.
     pub fn print(&self, name: &str) {
         println!(
             "{name}: {} edges, {} free, {} hits ({} transversal, {} from contact, {} in a wide bracket), {:.3} % unresolved, \
@@ -155,7 +155,7 @@ pub fn check_claims(
                 tally.transversal += 1;
                 assert!(width <= 1e-6, "a transversal hit in a bracket of {width}: {}", at());
             } else if width > 1e-6 {
-                // only where it is so near before the bracket that no step can be told from contact
+                // a wide bracket is allowed only where the gap before it is too small for any step
                 let gap = world.distance(&motion.footprint_at(free_until)) - margin;
                 assert!(gap <= 1e-9, "a bracket of {width}, though {gap} is left before it: {}", at());
                 tally.wide += 1;
@@ -170,7 +170,7 @@ pub fn check_claims(
     }
 }
 
-/// Whether the motion comes at the obstacle and goes on into it: clear of it a little before, and deep in a little after.
+/// Whether the motion goes on into the obstacle: clear of it a little before the hit, and deep in it a little after.
 fn is_transversal(world: &Sampled<'_>, motion: &impl Motion, (before, after): (f64, f64), speed: f64) -> bool {
     let probe = PROBE / speed;
     before >= probe

@@ -1,4 +1,4 @@
-//! What passes questions on to a scene: checkers, counters, surroundings and references answer as it does.
+//! Wrappers of a scene: checkers, counters, surroundings and references answer as the scene does.
 
 use motion_lab::collision::{Collision, Counted, DiscChecker, ObstacleId, QueryCounts, Scene, Surroundings};
 use motion_lab::geometry::{Footprint, Placed, Point2, Segment};
@@ -13,7 +13,7 @@ fn disc(x: f64) -> Footprint {
     Footprint::disc(Point2::new(x, 1.0), 0.25)
 }
 
-/// Asks every question twice, once for either answer.
+/// Asks every question twice, once for each answer.
 #[track_caller]
 fn assert_passes_on(asked: &dyn Collision) {
     // beside the wall, and touching it; the numbers are exact
@@ -26,7 +26,7 @@ fn assert_passes_on(asked: &dyn Collision) {
     assert_eq!([2.5, 5.0].map(|x| asked.swept(&disc(1.0), &disc(x))), [false, true]);
 }
 
-/// Of a hull there is a question of its own, for those that take any part.
+/// Asks for the distance of a hull, for wrappers that take any part.
 #[track_caller]
 fn assert_passes_on_hulls(asked: &dyn Collision) {
     let hull = |x: f64| Placed::new([Point2::new(x, 1.0), Point2::new(x, 2.0)], 0.25);
@@ -47,7 +47,7 @@ fn whoever_asks_a_scene_gets_its_answers() {
 
 #[test]
 fn further_shapes_are_asked_as_well() {
-    // the wall is a further shape here, and the scene holds nothing
+    // the wall is another robot's part here, and the scene is empty
     let others = [Placed::new([Point2::new(3.0, 0.0), Point2::new(3.0, 3.0)], 0.0)];
     let around = Surroundings { scene: &Scene::of_walls(&[]), others: &others };
     assert_passes_on(&around);

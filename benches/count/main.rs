@@ -12,7 +12,7 @@ use motion_lab::recording::Recorder;
 use motion_lab::sensors::{Instructions, RangeSensor, Scanner};
 use motion_lab::tour::{BOOK_SEED, TourConfig};
 
-/// The baseline, so that every machine counts the same.
+/// Scans with the baseline instructions, so that every machine counts the same.
 fn scans(scene: &Scene, side: f64, max_range: f64, times: usize) {
     let poses = worlds::free_points(scene, 0.3 * side, 0.7 * side);
     let mut scanner = Scanner::with_instructions(RangeSensor { n_rays: 360, max_range }, Instructions::Baseline);

@@ -1,4 +1,5 @@
-//! A scan of a world by the lab and by parry, the same poses after one another: what the table times natively and in WebAssembly.
+//! The contest of the table's scans: the lab and parry scan the same world from the same poses, natively and in
+//! WebAssembly.
 
 use motion_lab::collision::Scene;
 use motion_lab::geometry::Pose2;
@@ -8,14 +9,14 @@ use motion_lab::sensors::{Instructions, RangeSensor, Scanner};
 use crate::peer::Peer;
 use crate::worlds::{CASES, free_points, pieces, walls};
 
-/// A world of walls and how far the sensor sees in it.
+/// A world of walls, and the range of the sensor in it.
 #[derive(Clone, Copy)]
 pub struct Case {
     pub count: usize,
     pub side: f64,
     pub longest: f64,
     pub range: f64,
-    /// What the best instructions must reach.
+    /// The ratio that the best instructions must reach.
     pub must: &'static str,
 }
 
@@ -23,7 +24,7 @@ const fn case(count: usize, side: f64, longest: f64, range: f64, must: &'static 
     Case { count, side, longest, range, must }
 }
 
-/// A hall; crowded yards, six things to the square metre; the same number of things spread out.
+/// A hall; crowded yards with six things per square metre; and the same number of things spread out.
 pub const WORLDS: [Case; 4] = [
     case(40, 8.0, 2.0, 4.0, ">= 30x"),
     case(1_000, 12.6, 1.0, 12.0, ">= 25x"),
@@ -108,7 +109,7 @@ impl Parry {
     }
 }
 
-/// They must agree before they race.
+/// Checks that the two agree before they race.
 pub fn agree(ours: &mut Ours, parry: &mut Parry) {
     for i in 0..CASES {
         let pairs = ours.scan(i).iter().zip(parry.scan(i));

@@ -1,4 +1,4 @@
-//! Edges: exact for the disc, certified for arm and car, beside what parry users do.
+//! Edges: exact for the disc, certified for arm and car, compared with the usual ways with parry.
 
 use motion_lab::collision::{Checker, Scene};
 use motion_lab::prelude::*;
@@ -9,7 +9,7 @@ use crate::peer::Peer;
 use crate::queries::arm_scenes;
 use crate::worlds::{CASES, boxes, draws, free_points, pieces, walls};
 
-/// A disc's edges, and parry's cast along them, which tells whether it hits and when.
+/// A disc's edges, and parry's cast along them, which finds whether and when it hits.
 fn disc<T>(scene: &Scene, side: f64, ask: impl Fn(&Checker<RustyDisc>, &R2, &R2) -> T) -> Vec<Timing> {
     let checker = Checker::new(scene.clone(), RustyDisc::default());
     let (peer, radius) = (Peer::new(pieces(scene)), RustyDisc::default().radius);
@@ -58,7 +58,7 @@ impl<R: Robot> Edges<R> {
         edges
     }
 
-    /// Says how many steps the proofs take and how many edges are free; both answers must agree on that.
+    /// Prints the number of steps of the proofs and the number of free edges, and checks that both queries agree.
     fn tell(&self) {
         let mut certificate = motion_lab::collision::Certificate::new();
         let (mut steps, mut free) = (0, 0);
@@ -71,7 +71,7 @@ impl<R: Robot> Edges<R> {
         println!("  {:.1} proven steps an edge, {free} of {CASES} edges free", steps as f64 / CASES as f64);
     }
 
-    /// What is asked of an edge beside parry's contact test at every 2 mm.
+    /// Times a query of edges and parry's contact test at every 2 mm.
     fn beside_samples<T>(&self, ask: impl Fn(&Checker<R>, &R::Configuration, &R::Configuration) -> T) -> Vec<Timing> {
         let peer = Peer::new(pieces(self.checker.scene()));
         race(vec![
@@ -88,7 +88,7 @@ impl<R: Robot> Edges<R> {
     }
 }
 
-/// The same edges asked two things: whether they are free, which is what samples tell, and how near they come or where they hit.
+/// Two rows for the same edges: whether they are free, which samples answer too, and their clearance or hit.
 fn certified<R: Robot>(table: &mut Table, robot: &str, count: usize, edges: impl Fn() -> Edges<R>) {
     let free = format!("{robot} edge, certified free or not, {count} obstacles");
     table.row(&free, ">= 50x", || edges().beside_samples(Checker::edge_free));

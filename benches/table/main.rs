@@ -1,9 +1,10 @@
-//! What the lab costs beside parry2d-f64, row by row, written into docs/performance.md.
+//! The lab's times beside those of parry2d-f64, row by row, written into docs/performance.md.
 //!
-//! `cargo bench --no-default-features --features headless --bench table`; with `-- scan` only the rows whose name has that in it,
-//! printed and not written; `-- worlds` prints the worlds, for `benches/peers`; `-- digests` what the scans come to, for
-//! `benches/wasm`; `-- agree` does every row once with the checks before it, such as
-//! that lab and peer agree, and times nothing.
+//! `cargo bench --no-default-features --features headless --bench table`
+//!
+//! With an argument after `--`: `scan` (or another word) measures only the rows whose name contains it, and prints them
+//! without writing; `worlds` prints the worlds, for `benches/peers`; `digests` prints the digests of the scans, for
+//! `benches/wasm`; `agree` does every row once with its checks, such as that lab and peer agree, and times nothing.
 #![allow(missing_docs, clippy::unwrap_used, clippy::expect_used, clippy::print_stdout, clippy::disallowed_methods)]
 
 mod contest;
@@ -38,7 +39,7 @@ pub struct Table {
 }
 
 impl Table {
-    /// Adds a row if it is asked for: `measure` gives our timing and then the others'.
+    /// Adds a row if it is asked for. `measure` returns our timing first, then the others'.
     pub fn row(&mut self, work: &str, must: &'static str, measure: impl FnOnce() -> Vec<Timing>) {
         if self.wants(work) {
             let timings = measure();

@@ -1,20 +1,20 @@
-//! Interleaved measurements: every contender in every round, so that what the machine does meanwhile meets all alike.
+//! Interleaved measurements: every round times every contender, so that disturbances by the machine affect all alike.
 
 use std::hint::black_box;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
-/// How many rounds each row takes.
+/// Number of rounds of a row.
 const ROUNDS: usize = 101;
-/// How long one contender works in one round: less than a system lets a program work before another's turn.
+/// Working time of one contender in one round: less than a system's time slice.
 const SLICE: Duration = Duration::from_millis(1);
-/// Of work that takes longer than that, so many rounds.
+/// Number of rounds for work that takes longer than that.
 const FEW_ROUNDS: usize = 15;
 
 /// Set when every contender does its work once and nothing is timed.
 static UNTIMED: AtomicBool = AtomicBool::new(false);
 
-/// From here on every contender does its work once and nothing is timed.
+/// Switches timing off: from now on every contender does its work once.
 pub fn time_nothing() {
     UNTIMED.store(true, Ordering::Relaxed);
 }
@@ -24,7 +24,7 @@ pub fn is_timed() -> bool {
     !UNTIMED.load(Ordering::Relaxed)
 }
 
-/// Someone who does the row's work; called again and again with a count that goes up.
+/// A way to do the row's work. It is called again and again with a rising count.
 pub struct Contender<'a> {
     pub name: &'static str,
     work: Box<dyn FnMut(usize) + 'a>,
@@ -36,7 +36,7 @@ impl<'a> Contender<'a> {
     }
 }
 
-/// What one contender took, nanoseconds a call.
+/// The times of one contender, nanoseconds per call.
 pub struct Timing {
     pub name: &'static str,
     pub median: f64,
@@ -46,18 +46,18 @@ pub struct Timing {
 }
 
 impl Timing {
-    /// A figure measured once or elsewhere.
+    /// The timing of these rounds, nanoseconds.
     pub fn of(name: &'static str, rounds: Vec<f64>) -> Self {
         let (low, median, high) = (quantile(&rounds, 0.25), quantile(&rounds, 0.5), quantile(&rounds, 0.75));
         Timing { name, median, spread: 0.5 * (high - low) / median, rounds }
     }
 
-    /// The same work told as the time of one of its `parts`.
+    /// The time of one of the work's `parts`.
     pub fn per(&self, parts: f64) -> Self {
         Self::of(self.name, self.rounds.iter().map(|t| t / parts).collect())
     }
 
-    /// The median over the rounds of how many times longer `other` took.
+    /// The median over the rounds of the ratio of `other`'s time to this one's.
     pub fn times_faster_than(&self, other: &Timing) -> f64 {
         let ratios: Vec<f64> = self.rounds.iter().zip(&other.rounds).map(|(a, b)| b / a).collect();
         quantile(&ratios, 0.5)
@@ -70,7 +70,7 @@ fn quantile(values: &[f64], share: f64) -> f64 {
     sorted[((sorted.len() - 1) as f64 * share).round() as usize]
 }
 
-/// Times the contenders; the first is ours.
+/// Times the contenders, of which the first is ours.
 pub fn race(contenders: Vec<Contender>) -> Vec<Timing> {
     if !is_timed() {
         let once = |mut c: Contender| {

@@ -1,4 +1,4 @@
-//! The same questions put to parry2d-f64 as one would use it: its shapes under its bounding-volume tree.
+//! The same queries by parry2d-f64 in its usual way: its shapes under its bounding-volume tree.
 
 use motion_lab::geometry::{Footprint, Part, Placed, Point2, Pose2};
 use parry2d_f64::bounding_volume::{Aabb, BoundingVolume};
@@ -10,7 +10,7 @@ use parry2d_f64::shape::{Ball, Capsule, ConvexPolygon, Cuboid, Segment, Shape};
 /// Obstacles in world coordinates under one tree.
 pub struct Peer {
     shapes: Vec<Box<dyn Shape>>,
-    /// The same, where all are segments.
+    /// The obstacles as segments, where all are segments.
     segments: Vec<Segment>,
     tree: Bvh,
 }
@@ -98,7 +98,7 @@ impl Peer {
         })
     }
 
-    /// How far along `way` a disc gets.
+    /// The parameter of a disc's first contact along `way`; `None` without one.
     pub fn disc_line(&self, radius: f64, from: (f64, f64), way: (f64, f64)) -> Option<f64> {
         let (ball, at, way) = (Ball::new(radius), Vector::new(from.0, from.1), Vector::new(way.0, way.1));
         let pose = Pose::from_translation(at);
@@ -119,11 +119,11 @@ impl Peer {
     }
 }
 
-/// Rectangles as parry's cuboids where they are.
+/// Rectangles as parry's cuboids, each with its pose.
 pub struct Cuboids(Vec<(Pose, Cuboid)>);
 
 impl Cuboids {
-    /// Of rectangles whose frames are at their middles.
+    /// Cuboids from rectangles whose frames are at their middles.
     pub fn new(rects: &[(Pose2, Point2, Point2)]) -> Self {
         let cuboid = |(pose, _, max): &(Pose2, Point2, Point2)| {
             (Pose::new(vector(&pose.position()), pose.theta), Cuboid::new(vector(max)))
@@ -137,7 +137,7 @@ impl Cuboids {
     }
 }
 
-/// A part without a heap allocation, as one would write it for speed.
+/// A part's shape without a heap allocation, as for speed.
 pub enum PartShape {
     Ball(Ball),
     Capsule(Capsule),
@@ -158,7 +158,7 @@ impl PartShape {
     }
 }
 
-/// A part and where it is: a rectangle as parry's cuboid, the rest in world coordinates.
+/// A part with its pose: a rectangle as parry's cuboid, any other shape in world coordinates.
 fn posed(part: &Part) -> (Pose, PartShape) {
     match part.shape() {
         motion_lab::geometry::Shape::Rectangle { min, max } => {

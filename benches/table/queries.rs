@@ -33,7 +33,7 @@ fn arm_distance(scene: &Scene) -> Vec<Timing> {
     ])
 }
 
-/// One rectangle against many; the time is that of a pair.
+/// One rectangle against many; the time is per pair.
 fn rectangle_pairs() -> Vec<Timing> {
     let rects = rectangles(CASES, 8.0);
     let (ours, peers) = (Rectangles::new(rects.iter().copied()), Cuboids::new(&rects));

@@ -1,8 +1,8 @@
-//! The table as text, and the page it stands in.
+//! The table as text, and the page that holds it.
 
 use crate::Row;
 
-/// The page that the table stands in.
+/// The page that holds the table.
 const PAGE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/docs/performance.md");
 
 const BEGIN: &str = "<!-- table: begin -->";

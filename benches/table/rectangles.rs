@@ -1,4 +1,4 @@
-//! `Rectangles`, many rectangles that are asked which of them touch another.
+//! `Rectangles`, a list of rectangles with the query which of them touch another.
 
 use multiversion::multiversion;
 
@@ -9,16 +9,18 @@ use motion_lab::num::greater;
 /// The number of rectangles decided at once.
 const LANES: usize = 8;
 
-/// Placed rectangles in structure-of-arrays order, of which eight at a time are compared with another.
+/// Placed rectangles in structure-of-arrays order, compared with another eight at a time.
 ///
-/// The answers are exact for the placed rectangles, whose corners are rounded: separating axes decide where rounding
-/// cannot matter, exact predicates elsewhere. A rectangle that is not finite touches everything.
+/// The answers are exact for the placed rectangles, whose corners are rounded. Separating axes decide wherever the gaps
+/// exceed the rounding. If any does not, exact predicates decide them all. A rectangle that is not finite touches
+/// everything.
 #[derive(Clone, Debug)]
 pub struct Rectangles {
     placed: Vec<Placed>,
-    /// In whole eights, filled up with rectangles of no size.
+    /// The numbers of the rectangles' frames, an array for each, padded to a multiple of eight with rectangles of
+    /// size 0.
     arrays: [Vec<f64>; 6],
-    /// No coordinate is larger.
+    /// An upper bound on the size of the coordinates, metres.
     size: f64,
 }
 
@@ -40,7 +42,8 @@ fn place((pose, min, max): (Pose2, Point2, Point2)) -> Placed {
 }
 
 impl Rectangles {
-    /// Rectangles given by their frames and corners (least, greatest) in those frames, as `Footprint::rects` takes them.
+    /// Rectangles given by their frames and corners (least, greatest) in those frames, as `Footprint::rects` takes
+    /// them.
     pub fn new(rects: impl IntoIterator<Item = (Pose2, Point2, Point2)>) -> Self {
         let placed: Vec<Placed> = rects.into_iter().map(place).collect();
         let mut arrays: [Vec<f64>; 6] = Default::default();
@@ -53,11 +56,11 @@ impl Rectangles {
         Rectangles { placed, arrays, size }
     }
 
-    /// Writes for each rectangle, in order, whether it touches this one: `touched` is cleared first.
+    /// Writes whether each rectangle touches `rect`, in order; `touched` is cleared first.
     pub fn touched_by(&self, rect: (Pose2, Point2, Point2), touched: &mut Vec<bool>) {
         let other = place(rect);
-        // Corners are rounded to ulps of the largest coordinate; what is made of them here is off by some ulps more, and so is a
-        // product with a side by as many times its length, itself no longer than four such coordinates.
+        // Corners are rounded to ulps of the largest coordinate. What is computed from them here is off by some ulps
+        // more, and a product with a side by as many times the side's length, which is at most four such coordinates.
         let size = greater(self.size, largest_coordinate([&other]));
         let doubt = 256.0 * f64::EPSILON * size * size;
         touched.clear();
@@ -72,10 +75,10 @@ impl Rectangles {
     }
 }
 
-/// Decides by separating axes which rectangles touch the other; true where for one they do not decide.
+/// Decides by separating axes which rectangles touch the other. Returns whether any rectangle stays undecided.
 ///
-/// Along the half-side `u` of one the centres are `|d . u|` apart, and the two reach `u . u` and the sum of `|u . w|` over the half-sides w of
-/// the other.
+/// Projected on a half-side `u` of one rectangle, with `d` from centre to centre: the centres are `|d . u|` apart, that
+/// rectangle reaches `u . u`, and the other the sum of `|u . w|` over its half-sides w.
 #[multiversion(targets("x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl", "x86_64+avx2"))]
 fn decide(arrays: [&[f64]; 6], other: &Frame, doubt: f64, touched: &mut [bool]) -> bool {
     let [cx, cy, ux, uy, vx, vy] = arrays.map(|array| array.as_chunks::<LANES>().0);
@@ -98,7 +101,7 @@ fn decide(arrays: [&[f64]; 6], other: &Frame, doubt: f64, touched: &mut [bool]) 
         }
         for i in 0..LANES {
             touched[i] = gaps[i] < -doubt;
-            // what is no number is not decided either
+            // NaN counts as undecided
             let decided = gaps[i].abs() > doubt;
             undecided[i] |= !decided;
         }

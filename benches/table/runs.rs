@@ -1,4 +1,4 @@
-//! Whole runs, and how a run begins.
+//! Whole runs, and the start of a run.
 
 use std::process::Command;
 use std::time::Instant;
@@ -11,10 +11,10 @@ use motion_lab::worlds::World;
 use crate::measure::{Contender, Timing, race};
 use crate::{Row, Table, readme};
 
-/// Set in the child that only runs to its first step.
+/// The environment variable of the child process that runs only its first step.
 pub const CHILD: &str = "MOTION_LAB_FIRST_STEP";
 
-/// What the child does: one tick, then its peak memory, in kilobytes.
+/// The child's work: one tick, and a print of its peak memory, kilobytes.
 pub fn first_step() {
     let mut recorder = Recorder::new(TourConfig::default(), BOOK_SEED).expect("the tour runs");
     std::hint::black_box(recorder.step());

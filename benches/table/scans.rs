@@ -26,7 +26,7 @@ pub fn rows(table: &mut Table) {
     }
 }
 
-/// For each world the digest of its scans, which is one for all instructions.
+/// Prints for each world the digest of its scans, which is the same for all instructions.
 pub fn print_digests() {
     for case in WORLDS {
         for set in Instructions::available() {

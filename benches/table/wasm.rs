@@ -5,7 +5,7 @@ use std::process::{Command, Stdio};
 use crate::contest::WORLDS;
 use crate::{Row, Table};
 
-/// The rows the script prints; without its tools it says so, and there are none.
+/// Adds the rows that the script prints. Without the script's tools it prints a message and adds none.
 pub fn rows(table: &mut Table) {
     if !WORLDS.iter().any(|world| table.wants(&format!("{} (WebAssembly simd128)", world.work()))) {
         return;

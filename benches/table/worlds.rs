@@ -1,4 +1,4 @@
-//! The worlds of the table: random, and the same at every run.
+//! The worlds of the table, random but the same at every run.
 
 use std::f64::consts::PI;
 
@@ -8,7 +8,7 @@ use motion_lab::num;
 use motion_lab::random::{Seed, Stream};
 use motion_lab::worlds::{Obstacle, ObstacleKind, World};
 
-/// How many poses, configurations or edges a row goes through.
+/// Number of poses, configurations or edges that a row goes through.
 pub const CASES: usize = 256;
 
 pub fn draws(name: &str) -> Stream {
@@ -29,8 +29,8 @@ pub fn walls(count: usize, side: f64, longest: f64) -> Scene {
     Scene::of_walls(&walls)
 }
 
-/// Boxes of 0.1 to 0.5 m, turned anyhow, one to every square metre of a square about the origin; none within `clear`
-/// metres of it.
+/// Boxes of 0.1 to 0.5 m at random headings, one per square metre of a square about the origin, and none within `clear`
+/// metres of the origin.
 pub fn boxes(count: usize, clear: f64) -> Scene {
     let half = 0.5 * (count as f64).sqrt();
     let mut s = draws("boxes");
@@ -58,7 +58,7 @@ pub fn boxes(count: usize, clear: f64) -> Scene {
     })
 }
 
-/// Rectangles of 0.2 to 2 m a side, turned anyhow, in a square.
+/// Rectangles of 0.2 to 2 m a side at random headings in a square.
 pub fn rectangles(count: usize, side: f64) -> Vec<(Pose2, Point2, Point2)> {
     let mut s = draws("rectangles");
     let mut rectangle = || {
@@ -73,7 +73,7 @@ pub fn pieces(scene: &Scene) -> impl Iterator<Item = &Placed> {
     scene.pieces().map(|(_, piece)| piece)
 }
 
-/// Places that nothing holds.
+/// Poses at points more than 2 cm from all obstacles.
 pub fn free_points(scene: &Scene, from: f64, to: f64) -> Vec<Pose2> {
     let mut s = draws("points");
     let mut points = Vec::new();

@@ -1,4 +1,4 @@
-//! The table's scans, ours and parry's, for a script that times them in turns: it has the clock.
+//! The table's scans, ours and parry's, for a script that has the clock and times them in turn.
 #![allow(missing_docs, dead_code, clippy::expect_used, clippy::disallowed_methods)]
 
 #[path = "../table/contest.rs"]
@@ -27,7 +27,7 @@ pub struct Contest {
 
 #[wasm_bindgen]
 impl Contest {
-    /// Both in this world, once they agree.
+    /// Both scans in this world, after a check that they agree.
     #[wasm_bindgen(constructor)]
     pub fn new(number: usize) -> Contest {
         let case = WORLDS[number];
@@ -40,7 +40,7 @@ impl Contest {
         self.case.work()
     }
 
-    /// Whether there is a mark to reach.
+    /// Whether the world has a ratio to reach.
     pub fn marked(&self) -> bool {
         !self.case.must.is_empty()
     }
@@ -49,12 +49,12 @@ impl Contest {
         format!("{:016x}", self.ours.digest())
     }
 
-    /// So many scans of ours; one of the ranges, so that none is left out.
+    /// Does this number of our scans. Returns a range, so that no scan is optimised away.
     pub fn ours(&mut self, from: usize, calls: usize) -> f64 {
         (from..from + calls).fold(0.0, |last, i| self.ours.scan(i)[0] + 0.0 * last)
     }
 
-    /// So many scans of parry's.
+    /// Does this number of parry's scans.
     pub fn parry(&mut self, from: usize, calls: usize) -> f64 {
         (from..from + calls).fold(0.0, |last, i| self.parry.scan(i)[0] + 0.0 * last)
     }

@@ -47,7 +47,7 @@ pub enum Tab {
     /// Whether the robot touches anything.
     #[default]
     Intersects,
-    /// How far it is from the nearest obstacle.
+    /// The distance from the nearest obstacle.
     Distance,
     /// The nearest points, and what they lie on.
     Witness,
@@ -170,7 +170,7 @@ impl Anatomy {
         &self.world
     }
 
-    /// Where the world came from.
+    /// The source of the world.
     pub fn source(&self) -> &WorldSource {
         &self.source
     }

@@ -24,7 +24,7 @@ pub fn captured(
     }
 }
 
-/// What the widget in front shows of the run in this file format; `None` where the figure does not depend on the run.
+/// The subject of a capture of the widget in front; `None` where the figure does not depend on the run.
 pub fn subject(state: &UiState, form: Form) -> Result<Option<Subject>, CaptureError> {
     let moves = form == Form::Gif;
     let (names, scan) = (state.settings.labels, state.settings.scan);

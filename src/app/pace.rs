@@ -97,7 +97,7 @@ mod tests {
     use super::*;
     use crate::random::Seed;
 
-    /// What is said after two seconds of frames, each `seconds` long, in which the run goes on by `ticks`.
+    /// The note after two seconds of frames, each `seconds` long, in each of which the run goes on by `ticks`.
     fn said(speed: f64, seconds: f64, ticks: f64) -> Option<String> {
         let mut pace = Pace::default();
         let mut transport = Transport { speed, playback: Playback::Playing, ..Transport::new(Seed(1)) };

@@ -22,7 +22,7 @@ use crate::worlds::World as WorldModel;
 /// Farthest that a part moves from tick to tick, metres. A part that moved farther was put there.
 const LEAP: f64 = 0.5;
 
-/// The simulation with all that a view needs of it, without frames on a screen, windows and dialogs.
+/// The simulation with all that a view needs of it. Drawing, windows and dialogs are left to other plugins.
 pub struct SessionPlugin;
 
 impl Plugin for SessionPlugin {

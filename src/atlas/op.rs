@@ -20,7 +20,7 @@ pub enum Op {
     AddPlace {
         /// Its name.
         name: String,
-        /// Where it is.
+        /// Its pose.
         pose: Pose2,
     },
     /// Move anything that has a name, its coordinates rounded to a nanometre. Arms are refused, because their start
@@ -51,7 +51,7 @@ pub enum Op {
     SetPose {
         /// Its name.
         name: String,
-        /// Where it is.
+        /// Its pose.
         pose: Pose2,
     },
     /// Rename anything.

@@ -43,7 +43,7 @@ pub enum EditShape {
 pub struct Handle {
     /// Its number on the shape.
     pub index: usize,
-    /// Where it is.
+    /// Its position.
     pub at: Point2,
     /// Whether dragging it makes a new corner, because it is the middle of an edge.
     pub makes_corner: bool,

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use super::motion::closed_form::{is_free, verdict};
+use super::motion::decide::{is_free, verdict};
 use super::{Certificate, Collision, EdgeVerdict, MarchOptions, Scene, Witness};
 use crate::geometry::{Footprint, Shape, Vector2};
 use crate::robots::{ConfigurationError, Hitch, Motion, Reach, Robot, RustyDisc};

@@ -1,6 +1,6 @@
 //! `Collision` for a `Scene`: the four queries.
 
-use super::motion::closed_form::verdict;
+use super::motion::decide::verdict;
 use super::motion::separation::Way;
 use super::motion::swept::{self, SWEEP};
 use super::narrow::pair::touches;

@@ -124,8 +124,8 @@ impl Slice {
         same && self.checker.robot().check(q).is_ok()
     }
 
-    /// How far apart two points of the slice are, metres or radians: the length of their difference, angles the short
-    /// way.
+    /// The distance of two points of the slice, metres or radians: the length of their difference, angles taken the
+    /// short way.
     pub fn distance(&self, a: [f64; 2], b: [f64; 2]) -> f64 {
         let d = [b[0] - a[0], b[1] - a[1]];
         let [x, y] = if self.wraps() { d.map(wrap) } else { d };

@@ -196,7 +196,7 @@ pub enum Anchor {
     Below,
 }
 
-/// How far below its middle a line of letters has its baseline, as a part of their size.
+/// Distance of a line's baseline below its middle, as a fraction of the letters' size.
 pub(super) const MIDDLE: f64 = 0.35;
 
 impl Anchor {

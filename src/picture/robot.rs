@@ -5,7 +5,7 @@ use super::{Drawing, Fill, Glyph, Item, Line, Role};
 use crate::geometry::{Footprint, Part, Point2, Pose2, Shape, Vector2};
 use crate::num;
 
-/// What to draw of a robot.
+/// A robot to be drawn.
 #[derive(Clone, Debug)]
 pub struct RobotDrawing<'a> {
     /// Its unique name.

@@ -110,11 +110,11 @@ pub struct RobotName {
 #[require(Control<R>, Contacts<R>, DriveMode<R>, OwnState<R>, TickMotion<R>, Cut<R>)]
 pub struct RobotModel<R: SimulatedRobot>(pub R);
 
-/// Where a robot is.
+/// A robot's configuration.
 #[derive(Component, Clone, Debug, PartialEq)]
 pub struct Configuration<R: SimulatedRobot>(pub R::Configuration);
 
-/// Where a robot was before the last tick's motion, for drawing between ticks.
+/// A robot's configuration before the last tick's motion, for drawing between ticks.
 #[derive(Component, Clone, Debug, PartialEq)]
 pub struct PreviousConfiguration<R: SimulatedRobot>(pub R::Configuration);
 

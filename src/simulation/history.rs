@@ -58,7 +58,7 @@ pub struct TickMark {
     pub tick: u64,
     /// The robot's id.
     pub robot: u32,
-    /// What happened.
+    /// The event.
     pub what: Happening,
 }
 

@@ -8,7 +8,7 @@ use crate::tour::ConfigError;
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum SpawnError {
-    /// A kind of robot that nobody registered.
+    /// A kind of robot that is not registered.
     #[error("robot {robot:?} in world {world:?}: there is no kind {kind:?}")]
     UnknownKind {
         /// The robot.
@@ -44,7 +44,7 @@ pub enum SpawnError {
         robot: String,
         /// Its world.
         world: String,
-        /// What is wrong.
+        /// The reason.
         source: BeamError,
     },
 }

@@ -5,7 +5,8 @@ use crate::sensors::RangeSensor;
 use crate::worlds::World;
 
 impl Default for TourConfig {
-    /// The Apartment, the Workbench and the Lot for 1,200 ticks, 60 s at 20 Hz, with a sensor of 360 rays and 4 m on Rusty.
+    /// The Apartment, the Workbench and the Lot for 1,200 ticks, 60 s at 20 Hz, with a sensor of 360 rays and 4 m on
+    /// Rusty.
     fn default() -> Self {
         TourConfig {
             worlds: vec![World::apartment(), World::workbench(), World::lot()],

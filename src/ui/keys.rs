@@ -2,7 +2,7 @@
 
 use bevy_egui::egui::{Key, Modifiers, Ui};
 
-/// What a key asks for.
+/// An action that a key asks for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Action {
     /// Play, or pause.
@@ -73,7 +73,7 @@ pub enum Scope {
 /// A row of the table.
 #[derive(Clone, Copy, Debug)]
 pub struct Binding {
-    /// What it asks for.
+    /// The action.
     pub action: Action,
     /// The key.
     pub key: Key,
@@ -81,7 +81,7 @@ pub struct Binding {
     pub modifiers: Modifiers,
     /// When it is active.
     pub scope: Scope,
-    /// What it does, in words: the list and the hints show them.
+    /// The action in words, for the list and the hints.
     pub words: &'static str,
 }
 

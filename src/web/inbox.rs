@@ -4,7 +4,7 @@ use std::cell::RefCell;
 
 use super::message::Message;
 
-/// What comes in from the page.
+/// An item from the page.
 pub enum Incoming {
     /// A message.
     Message(Message),

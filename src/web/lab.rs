@@ -83,7 +83,7 @@ pub fn lab_open(name: &str, bytes: Vec<u8>) {
     put(Incoming::File { name: name.to_owned(), bytes });
 }
 
-/// How the lab is to begin.
+/// The arguments of `lab_start`, kept for the start of the app.
 #[derive(Resource)]
 struct Start {
     link: Result<Link, LinkError>,

@@ -1,4 +1,4 @@
-//! `Message`, a request of a page to the lab. `docs/web.md` refers to this file those who embed the lab.
+//! `Message`, a request of a page to the lab. `docs/web.md` names this file to those who embed the lab.
 
 use serde::Deserialize;
 

@@ -28,7 +28,7 @@ pub struct Mirrored {
     /// Whether its text is to be read aloud when it changes.
     #[serde(skip_serializing_if = "std::ops::Not::not")]
     pub live: bool,
-    /// Where it is drawn, from left and top of the canvas: left, top, width and height, whole points.
+    /// Its rectangle on the canvas: left, top, width and height, whole points.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub place: Option<[i32; 4]>,
     /// Whether it has the focus in the canvas.

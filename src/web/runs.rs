@@ -22,7 +22,7 @@ pub struct RunParts {
     pub worlds: Vec<String>,
     /// The input script.
     pub script: String,
-    /// How many ticks; input after them is left out.
+    /// The number of ticks. Input after them is left out.
     pub ticks: u64,
     /// The rays and the range of the range sensor, metres.
     pub sensor: Option<(u32, f64)>,
@@ -58,7 +58,7 @@ impl RunParts {
 struct Verdict {
     /// Whether every frame came out equal to the last bit, and the file is whole.
     verified: bool,
-    /// How many ticks the log holds.
+    /// The number of ticks in the log.
     ticks: usize,
     /// The first tick that differs.
     diverging_tick: Option<u64>,

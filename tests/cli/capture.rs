@@ -1,4 +1,4 @@
-//! `capture`: every widget as SVG and PNG, the dashboard as GIF, what is in the files, what is refused.
+//! `capture`: every widget as SVG and PNG, the dashboard as GIF, the contents of the files, and refusals.
 
 use std::fs;
 use std::path::Path;
@@ -129,7 +129,7 @@ fn a_gif_shows_a_robot_of_the_run_beside_its_point_and_the_atlas_with_its_robots
         let text = String::from_utf8_lossy(&bytes);
         assert!(text.contains("Seed: 7; Digest: ") && text.contains("Tick: 20 to 60"), "{widget:?}");
     }
-    // and at one tick, with its way
+    // and at one tick, with its path
     let svg = folder.path().join("w.svg");
     run(&["capture", "--widget", "cspace", "--seed", "7", "--tick", "60", "-o", svg.to_str().unwrap()]).done();
     let drawn = fs::read_to_string(&svg).unwrap();

@@ -1,4 +1,5 @@
-//! `query edge --certificate`: proofs written for other programs, and checked by one that shares nothing with the lab.
+//! `query edge --certificate`: proofs written for other programs, checked by a program that shares nothing with the
+//! lab.
 
 use std::fs;
 use std::io::Write as _;
@@ -41,7 +42,7 @@ impl Certificates {
         self.folder.path().join(name).to_str().unwrap().to_owned()
     }
 
-    /// The certificate of an edge, read back. Its verdict is the answer, which is the same without it.
+    /// The certificate of an edge, read back. Its verdict is that of the same query without `--certificate`.
     fn ask(&mut self, robot: &str, world: &str, q: &str, to: &str) -> Value {
         let file = self.path(&format!("{}.json", self.files.len()));
         let plain = ["query", "edge", "--robot", robot, "--world", world, q, to];
@@ -92,7 +93,7 @@ fn clearance(certificate: &Value) -> f64 {
     step.clearance
 }
 
-/// The library's verifier accepts what was read back, up to where the verdict says.
+/// Checks that the library's verifier accepts the certificate as read back, up to the end that the verdict gives.
 #[track_caller]
 fn verified<R: Robot>(robot: R, scene: &Scene, certificate: &Value) {
     let verdict = &certificate["verdict"];
@@ -112,7 +113,8 @@ fn verified<R: Robot>(robot: R, scene: &Scene, certificate: &Value) {
     assert_eq!(certificate["world"]["obstacles"], scene.pieces().map(shape).collect::<Value>());
 }
 
-/// What a script of tests/peers says of these files. `None` where it can't be run, which is said past the tests' capture of messages.
+/// The output of a script of tests/peers about these files. `None` where it can't be run; a message about that bypasses
+/// the tests' capture of output.
 fn peer(script: &str, files: &[PathBuf]) -> Option<Output> {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/peers").join(script);
     let python = Command::new("python3").arg("--version").output().is_ok_and(|output| output.status.success());
@@ -124,7 +126,7 @@ fn peer(script: &str, files: &[PathBuf]) -> Option<Output> {
     None
 }
 
-/// The peer accepts these certificates, and refuses forgeries of them.
+/// Checks that the peer accepts these certificates and refuses forgeries of them.
 #[track_caller]
 fn peer_accepts(files: &[PathBuf]) {
     for (script, lines) in [("certificate.py", files.len()), ("tamper.py", 1)] {
@@ -151,8 +153,9 @@ fn clearances_known_by_hand() {
         {"name": "the wedge", "core": [[12.0, -4.0], [14.0, -4.0], [13.0, -3.0]], "radius": 0.0},
     ]);
     assert_eq!(rusty["world"], value!({"name": "Shapes", "obstacles": shapes}));
-    // A straight arm of two links of 1 m swings by a radian before the post. The chord of its tip is nearest to it; each link turns by a
-    // radian, so the second derivative of the tip is 2 m and it strays from its chord by at most an eighth of that.
+    // A straight arm of two links of 1 m swings by a radian before the post. The chord of its tip is nearest to it;
+    // each link turns by a radian, so the second derivative of the tip is 2 m and it strays from its chord by at most
+    // an eighth of that.
     let arm = certificates.in_shapes("choset", "-0.5,0", "0.5,0");
     near(clearance(&arm), 3.0 - 0.2 - 2.0 * num::cos(0.5) - 0.25, 1e-12);
     assert_eq!(arm["robot"], value!({"kind": "reach", "base": [0.0, 0.0], "lengths": [1.0, 1.0], "radius": 0.0}));
@@ -182,7 +185,7 @@ fn edges_of_every_robot_are_accepted_by_verifier_and_peer() {
     for (q, to) in [("2,4", "10,4,1"), ("2,4", "2,7.9"), ("1,4", "11,3.6,-3"), ("4.7,4", "2.9,6.2")] {
         verified(RUSTY, &Scene::apartment(), &certificates.ask("rusty", "apartment", q, to));
     }
-    // the first hits the post; the third goes over the angle pi
+    // the first hits the post; the third crosses the angle pi
     let bench = Scene::workbench();
     let reach = [
         ("2,0", "3.1,0"),
@@ -193,7 +196,8 @@ fn edges_of_every_robot_are_accepted_by_verifier_and_peer() {
     for (q, to) in reach {
         verified(Reach::workbench(), &bench, &certificates.ask("reach", "workbench", q, to));
     }
-    // a difference of half a turn goes the positive way, in which link 1 meets the post's corner (-0.5, 0.5) after an eighth of a turn
+    // a difference of half a turn goes the positive way, in which link 1 meets the post's corner (-0.5, 0.5) after an
+    // eighth of a turn
     let half = certificates.ask("choset", "workbench", "1.5707963267948966,-0.3", "-1.5707963267948966,-0.3");
     near(number(&half["proven_until"]), 0.25, 1e-6);
     verified(Reach::choset(), &bench, &half);
@@ -229,7 +233,7 @@ fn an_empty_world_leaves_infinite_clearance() {
 #[test]
 fn a_motion_that_begins_in_contact_has_a_certificate_of_nothing() {
     let mut certificates = Certificates::new();
-    // an older proof in the file would be taken for this motion's
+    // an older proof left in the file would be taken for this motion's
     fs::write(certificates.path("0.json"), "an older file").unwrap();
     let nothing = certificates.in_shapes("rusty", "0,3", "0,0");
     assert_eq!((&nothing["steps"], &nothing["proven_until"]), (&value!([]), &value!(0.0)));

@@ -1,5 +1,6 @@
-//! Every column of what a driven run is exported to, by other readers: rows of CSV taken apart by hand, JSON by serde, and the log's own
-//! messages by protobuf's wire format. What they must hold is what the script, the kinematics and the published schema say.
+//! Every column of a driven run's exports, by other readers: CSV rows split by hand, JSON by serde, and the log's own
+//! messages by protobuf's wire format. The expected values come from the script, the kinematics and the published
+//! schema.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -75,14 +76,14 @@ fn number(row: &Row, column: &str) -> f64 {
     row[column].parse().unwrap_or_else(|_| panic!("{column}: {:?}", row[column]))
 }
 
-/// The numbers of the columns of this name from 0 on, as many as are not empty.
+/// The numbers of the columns of this name from 0 on, up to the first empty one.
 fn list(row: &Row, name: &str) -> Vec<f64> {
     let columns =
         (0..).map(|i| format!("{name}{i}")).take_while(|column| row.get(column).is_some_and(|c| !c.is_empty()));
     columns.map(|column| number(row, &column)).collect()
 }
 
-/// What the script has a driver hold at a tick; `None` before the first event.
+/// The channels that a driver holds at a tick by the script; `None` before the first event.
 fn held(log: &Log, robot: &str, tick: u64) -> Option<[i16; 2]> {
     let due = log.script.events.iter().filter(|e| e.robot == robot && e.tick <= tick);
     due.fold(None, |held, event| match event.input {
@@ -92,7 +93,7 @@ fn held(log: &Log, robot: &str, tick: u64) -> Option<[i16; 2]> {
     })
 }
 
-/// A rover's tick: its wheels roll as commanded, and cover that but for 5 % of slip, unless it is held.
+/// Checks a rover's tick: its wheels roll as commanded and, unless it is held, cover that distance but for 5 % of slip.
 fn check_rover(before: &Row, after: &Row, [speed, turn]: [i16; 2]) {
     let (v, omega) = (0.6 * f64::from(speed) / 128.0, 2.5 * f64::from(turn) / 128.0);
     let rolled = [v - 0.08 * omega, v + 0.08 * omega].map(|wheel| 0.05 * wheel);
@@ -110,7 +111,8 @@ fn check_rover(before: &Row, after: &Row, [speed, turn]: [i16; 2]) {
     }
 }
 
-/// A car's tick: its rear axle goes round the turning centre, its trailer's heading follows by its differential equation.
+/// Checks a car's tick: its rear axle goes round the turning centre, and its trailer's heading follows its differential
+/// equation.
 fn check_car(before: &Row, after: &Row, [speed, steering]: [i16; 2]) {
     let (v, phi) = (1.5 * f64::from(speed) / 128.0, 0.6 * f64::from(steering) / 128.0);
     let (a, b) = (list(before, "configuration"), list(after, "configuration"));
@@ -160,11 +162,11 @@ fn the_columns_of_a_driven_run_are_what_its_script_and_the_kinematics_make_them(
         let [first, second] = driver.unwrap_or([0, 0]);
         assert_eq!([&after["channel0"], &after["channel1"]], [&first.to_string(), &second.to_string()], "{after:?}");
         assert_eq!(after["manual"], driver.is_some().to_string(), "{after:?}");
-        // onto the block at tick 230, and by channels, which an arm has none of, at tick 260
+        // refused: a teleport onto the block at tick 230, and channels, which an arm does not have, at tick 260
         let refused = if id == 1 { u8::from(tick >= 230) + u8::from(tick >= 260) } else { 0 };
         assert_eq!(after["refusals"], refused.to_string(), "{after:?}");
         let Some(before) = i.checked_sub(3).map(|i| &rows[i]) else { continue };
-        // an episode begins with the first tick in contact; red holds for 0.3 s from the last
+        // an episode begins with the first tick in contact; the red flash holds for 0.3 s after the last
         let hit = [before, after].map(|row| row["in_contact"] == "true");
         let episodes = number(before, "contacts") + f64::from(u8::from(hit == [false, true]));
         let flash = if hit[1] { 6.0 } else { greater(number(before, "flash") - 1.0, 0.0) };
@@ -184,7 +186,7 @@ fn the_columns_of_a_driven_run_are_what_its_script_and_the_kinematics_make_them(
             }
             _ => {}
         }
-        // held where it is, for as long as the control is the same
+        // a held robot stays where it is while its control is the same
         if hit == [true, true] && id != 1 && held(&log, robot, tick) == held(&log, robot, tick - 1) {
             assert_eq!(list(before, "configuration"), list(after, "configuration"), "{after:?}");
         }
@@ -192,12 +194,12 @@ fn the_columns_of_a_driven_run_are_what_its_script_and_the_kinematics_make_them(
     assert!(contacts > 5 && tally.hits > 1_000, "{contacts} contacts, {tally:?}");
 }
 
-/// A number as JSON has it: infinity is a text.
+/// A number in JSON; infinity is a string.
 fn float(value: &Value) -> f64 {
     value.as_f64().unwrap_or_else(|| value.as_str().unwrap().parse().unwrap())
 }
 
-/// The encoding that `Frame::encode` documents, of a line of JSON: 64-bit words, little-endian.
+/// The encoding documented at `Frame::encode`, from a line of JSON: 64-bit words, little-endian.
 fn words(line: &Value) -> Vec<u8> {
     let (mut words, mut scans) = (vec![line["tick"].as_u64().unwrap()], Vec::new());
     let list = |words: &mut Vec<u64>, list: &Value| {

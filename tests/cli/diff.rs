@@ -124,10 +124,10 @@ fn a_cut_log_equal_as_far_as_it_is_sealed_is_5() {
     assert!(found.err.contains("cut.mcap: the log is cut off after byte "), "{}", found.err);
     let told = json(&found.out);
     assert!(told["equal"] == true && (1..30).contains(&told["ticks"].as_u64().unwrap()), "{told}");
-    // a difference in what is sealed is told first
+    // a difference in sealed ticks is reported first
     let b = changed(&a, |log| log.frames[0].robots[0].flash += 1);
     assert_eq!(diff(&[], &cut, &b).code, Some(4));
-    // nothing to compare with
+    // the second file is missing
     let error = diff(&[], &a, &folder.path().join("nowhere.mcap")).failed(3);
     assert!(error.contains("nowhere.mcap: there is no such file"), "{error}");
 }

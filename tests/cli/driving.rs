@@ -17,7 +17,7 @@ fn a_minute_of_manual_driving_verifies_in_another_process() {
         format!("1200 of 1200 ticks bit-identical\ndigest {}\n", recorded["digest"].as_str().unwrap())
     );
 
-    // what the script says it does, it does
+    // the run does what the script says
     let robot = |name: &str| recorded["robots"].as_array().unwrap().iter().find(|r| r["name"] == name).unwrap().clone();
     for (name, refused) in [("Rusty", 1), ("Reach", 2), ("Hitch", 2)] {
         assert!(robot(name)["contacts"].as_u64().unwrap() >= 1, "{name} hits something");

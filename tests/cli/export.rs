@@ -1,4 +1,4 @@
-//! `export`: what is written is what the log holds, to the last bit.
+//! `export`: the exported values are those of the log, to the last bit.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -11,7 +11,7 @@ use super::{json, run, run_in};
 
 fn recording(folder: &Path) -> PathBuf {
     let file = folder.join("run.mcap");
-    // an eye so short-sighted that most ranges are infinite
+    // a range so short that most readings are infinite
     run(&["record", "--ticks", "30", "--rays", "16", "--range", "1.9", "-o", file.to_str().unwrap()]).done();
     file
 }
@@ -28,7 +28,7 @@ fn export(file: &Path, format: &str) -> super::Run {
     run(&["export", file.to_str().unwrap(), "--format", format])
 }
 
-/// A number as it was written: infinity is a text.
+/// A number as written; infinity is a string.
 fn number(value: &Value) -> f64 {
     match value {
         Value::String(text) => text.parse().unwrap(),
@@ -83,7 +83,8 @@ fn a_line_of_json_for_each_tick_has_every_bit_of_the_frame() {
     assert!(infinite > 0, "nothing out of range: the sensor sees too far for this test");
 }
 
-/// Puts into a frame what no run gives, but a log may hold, and no number twice: no column can stand for its neighbour.
+/// Puts values into a frame that a log may hold and no run gives, no number twice, so that no column can stand for its
+/// neighbour.
 fn plant(log: &mut Log) {
     let reach = &mut log.frames[4].robots[1];
     reach.extra.push(-0.0);
@@ -175,7 +176,7 @@ fn the_figure_is_the_runs() {
     assert_eq!(fs::read_to_string(folder.path().join("run.svg")).unwrap(), svg);
 }
 
-/// What viewers are shown, read by the crate `mcap`; tests/peers/check reads it by its schemas.
+/// The export for viewers, read by the crate `mcap`; tests/peers/check reads it by its schemas.
 #[test]
 fn the_viewers_file_has_the_logs_own_messages_and_more() {
     let folder = tempfile::tempdir().unwrap();
@@ -211,7 +212,7 @@ fn the_viewers_file_has_the_logs_own_messages_and_more() {
     // the same log gives the same bytes
     run_in(folder.path(), &export).done();
     assert_eq!(fs::read(folder.path().join("viewer.mcap")).unwrap(), bytes);
-    // and it is not taken for a log
+    // the export is not taken for a log
     let error = run_in(folder.path(), &["verify", "viewer.mcap"]).failed(3);
     assert!(error.contains("viewer.mcap: this is an export") && error.contains("exported from"), "{error}");
 }

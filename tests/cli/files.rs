@@ -1,4 +1,4 @@
-//! Output files: whole, or as they were.
+//! Output files are written whole, or stay as they were.
 
 use std::fs;
 use std::path::Path;
@@ -9,7 +9,7 @@ use super::{run, run_in};
 
 const OLDER: &[u8] = b"an older file";
 
-/// A recording of days of simulated time, which can't end by itself before a signal, once its file has grown.
+/// A recording of days of simulated time, returned once its file has grown. It does not end before a signal.
 pub fn long_recording(folder: &Path, output: &str) -> Child {
     let mut child = super::command(&["record", "--ticks", "4000000", "--no-sensor", "-o", output])
         .current_dir(folder)
@@ -46,7 +46,7 @@ fn an_output_that_cannot_be_is_1_and_leaves_nothing() {
 #[test]
 fn a_device_or_a_pipe_is_not_replaced_by_a_file() {
     use std::os::unix::fs::FileTypeExt;
-    // a pipe of our own: a fault here must not cost the machine its /dev/null
+    // a pipe of our own, so that a fault here does not cost the machine its /dev/null
     let folder = tempfile::tempdir().unwrap();
     let pipe = folder.path().join("pipe");
     assert!(Command::new("mkfifo").arg(&pipe).status().unwrap().success());
@@ -55,7 +55,7 @@ fn a_device_or_a_pipe_is_not_replaced_by_a_file() {
     assert!(fs::metadata(&pipe).unwrap().file_type().is_fifo());
 }
 
-/// Records a minute where no file may grow beyond 32 kB: the write fails in the middle, as on a full disk.
+/// Records a minute with a file size limit of 32 kB, so that a write fails in the middle, as on a full disk.
 #[cfg(unix)]
 fn recorded_on_a_full_disk(folder: &Path) -> String {
     let script = format!(
@@ -78,7 +78,7 @@ fn a_full_disk_keeps_what_it_took_and_the_older_file() {
     assert!(!error.contains("older file"), "there was none: {error}");
     assert!(error.contains("go on with: motion-lab record --resume run.mcap.partial"), "{error}");
     assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 1, "no temporary file is left");
-    // 32 kB hold more than a second of ticks without scans, and the run goes on from there to the same bytes
+    // 32 kB hold more than a second of ticks without scans; resumed from there, the run gives the same bytes
     let info = run_in(folder.path(), &["info", "--json", "run.mcap.partial"]);
     assert_eq!(info.code, Some(5));
     let recorded: u64 = serde_json::from_str::<serde_json::Value>(&info.out).unwrap()["recorded"].as_u64().unwrap();
@@ -88,7 +88,7 @@ fn a_full_disk_keeps_what_it_took_and_the_older_file() {
     assert!(fs::read(&output).unwrap() == fs::read(folder.path().join("whole.mcap")).unwrap());
 
     fs::remove_file(folder.path().join("whole.mcap")).unwrap();
-    // what was kept is not replaced by less, where the disk is full sooner
+    // a kept part is not replaced by a shorter one when the disk is full sooner
     run_in(folder.path(), &["record", "--ticks", "1200", "--no-sensor", "-o", "b.mcap", "--stop-after", "600"])
         .failed(75);
     let before = fs::read(folder.path().join("b.mcap.partial")).unwrap();
@@ -106,7 +106,7 @@ fn a_full_disk_keeps_what_it_took_and_the_older_file() {
     assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 2, "the older file and what was kept");
 }
 
-/// Nobody but root may write to a folder that is read-only, and root may: then another user is asked for.
+/// Root may write to a read-only folder. Run as root, the test uses /proc instead.
 #[cfg(unix)]
 #[test]
 fn a_folder_that_is_read_only_is_named_and_no_temporary_file() {
@@ -114,7 +114,7 @@ fn a_folder_that_is_read_only_is_named_and_no_temporary_file() {
     let folder = tempfile::tempdir().unwrap();
     fs::set_permissions(folder.path(), fs::Permissions::from_mode(0o555)).unwrap();
     let output = if fs::write(folder.path().join("x"), b"").is_ok() {
-        // a file system without files to write
+        // a file system that takes no new files
         "/proc/run.mcap".to_owned()
     } else {
         folder.path().join("run.mcap").to_str().unwrap().to_owned()
@@ -124,7 +124,7 @@ fn a_folder_that_is_read_only_is_named_and_no_temporary_file() {
     assert!(!error.contains(".partial") && !error.contains("older file"), "{error}");
 }
 
-/// Stopped at a tick of which the file system does not take the last bytes.
+/// Recordings stopped at a tick whose last bytes the file system does not take.
 #[cfg(unix)]
 #[test]
 fn stopping_at_a_full_disk_keeps_what_it_took() {
@@ -168,7 +168,7 @@ fn a_recording_that_can_not_be_named_is_kept() {
 fn what_a_killed_recording_left_is_named_and_goes_on() {
     let folder = tempfile::tempdir().unwrap();
     let mut child = long_recording(folder.path(), "long.mcap");
-    // while it runs it is nobody's left-over
+    // while the process runs, its file is not reported as left over
     let beside = ["record", "--ticks", "5", "-o", "short.mcap"];
     let told = run_in(folder.path(), &beside);
     assert!(!told.err.contains("killed"), "{}", told.err);
@@ -178,11 +178,11 @@ fn what_a_killed_recording_left_is_named_and_goes_on() {
     let line = told.err.lines().find(|line| line.contains("was left by a process that was killed")).unwrap().to_owned();
     let (_, left) = line.split_once("go on with: motion-lab record --resume ").unwrap();
     assert!(left.contains(".long.mcap."), "{line}");
-    // all but the second under way is there: whole seconds are handed over, and of them all that were sealed
+    // whole seconds are written to the file, so everything but the second under way is there
     let info = run_in(folder.path(), &["info", "--json", left]);
     let recorded = serde_json::from_str::<serde_json::Value>(&info.out).unwrap()["recorded"].as_u64().unwrap();
     assert!(recorded > 0 && recorded.is_multiple_of(20), "{recorded}");
-    // a file that may be newer is not replaced, and one that a process is writing is left to it
+    // a file that may be newer is not replaced, and neither is one that a process is writing
     fs::write(folder.path().join("long.mcap"), OLDER).unwrap();
     let refused = run_in(folder.path(), &["record", "--resume", left]).failed(2);
     assert!(refused.contains("long.mcap: there is a file of this name"), "{refused}");
@@ -192,7 +192,7 @@ fn what_a_killed_recording_left_is_named_and_goes_on() {
     let refused = run_in(folder.path(), &["record", "--resume", left]).failed(3);
     assert!(refused.contains("another process is writing it"), "{refused}");
     drop(writing);
-    // two ticks are enough to see where it goes on: to the name that it was to have
+    // two more ticks show that it goes on under its final name
     let stop = (recorded + 2).to_string();
     let stopped = run_in(folder.path(), &["record", "--resume", left, "--stop-after", &stop]).failed(75);
     assert!(

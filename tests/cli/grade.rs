@@ -1,4 +1,4 @@
-//! `grade`: what passes, what does not, and what was forged.
+//! `grade`: submissions that pass, that fail and that are forged.
 
 use std::fs;
 use std::path::Path;
@@ -7,7 +7,7 @@ use motion_lab::run::{Log, LogWriter};
 
 use super::{Run, json, run_in};
 
-/// One metre ahead in the Lot, where Hitch has 5 m of free aisle before it.
+/// An assignment to drive one metre ahead in the Lot, where Hitch has 5 m of free aisle before it.
 const ASSIGNMENT: &str = r#"Assignment(
     version: 1,
     world: "lot",
@@ -143,7 +143,7 @@ fn a_log_passes_when_its_script_does_and_a_forged_one_never() {
     let passed = json(&graded(folder.path(), &["run.mcap"]).done());
     assert_eq!(passed["attempts"][1]["seed"], 2005, "at the assignment's seeds, not at its own");
 
-    // one unit in the last place, sealed as it should be
+    // forged by one unit in the last place, with right seals
     let mut forged = log.clone();
     let x = &mut forged.frames[40].robots[0].configuration[0];
     *x = f64::from_bits(x.to_bits() + 1);
@@ -165,7 +165,7 @@ fn a_log_passes_when_its_script_does_and_a_forged_one_never() {
     let cut = json(&graded(folder.path(), &["cut.mcap"]).out);
     assert!(cut["refused"].as_str().unwrap().contains("cut off"), "{cut}");
 
-    // a true run from elsewhere
+    // an honest run from another start
     let arguments =
         ["record", "--world", "lot", "--ticks", "5", "--robot", "Hitch=hitch:6.6,2.5,0", "-o", "other.mcap"];
     run_in(folder.path(), &arguments).done();

@@ -70,7 +70,7 @@ fn a_robot_in_a_wall_is_told_of() {
     assert!(told.err.contains("the occupied cells are hollow"), "{}", told.err);
     assert!(told.err.contains("unknown cells, taken as occupied: 1"), "{}", told.err);
     assert!(told.done().contains("start: [-0.5, -1.4, 0.0]"));
-    // a yard of which all but the border is full: Rusty in the middle touches a box, and nothing where it is hollow
+    // a yard whose cells are all occupied: Rusty in the middle touches a box, but nothing where the cells are hollow
     let folder = tempfile::tempdir().unwrap();
     let rows = ["@@@@@@"; 6].join("\n");
     fs::write(folder.path().join("full.map"), format!("type octile\nheight 6\nwidth 6\nmap\n{rows}\n")).unwrap();

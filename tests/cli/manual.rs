@@ -1,4 +1,4 @@
-//! `completions` and `man`: they know every command.
+//! `completions` and `man` cover every command.
 
 use std::fs;
 

@@ -1,5 +1,5 @@
-//! The messages of a log by protobuf's wire format and the field numbers of assets/schema/motion_lab.proto, and not by our own decoder: what
-//! encoder and decoder had in common would not show between them.
+//! The messages of a log by protobuf's wire format and the field numbers of assets/schema/motion_lab.proto. Our own
+//! decoder is not used, because it could share a mistake with the encoder.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -35,7 +35,7 @@ fn take<'a>(bytes: &mut &'a [u8], count: usize) -> &'a [u8] {
     head
 }
 
-/// A signed number as sint32 has it: 0, -1, 1, -2, ...
+/// A signed number in sint32's encoding: 0, -1, 1, -2, ...
 fn signed(number: u64) -> i64 {
     (number >> 1) as i64 ^ -((number & 1) as i64)
 }
@@ -60,7 +60,7 @@ impl Wire {
         Wire(fields)
     }
 
-    /// The numbers of the fields there are, each once.
+    /// The numbers of the fields present, each once.
     pub fn fields(&self) -> Vec<u64> {
         let mut numbers: Vec<u64> = self.0.iter().map(|(number, _)| *number).collect();
         numbers.sort_unstable();
@@ -96,7 +96,7 @@ impl Wire {
         self.all(number).map(Wire::read).collect()
     }
 
-    /// A message; one without fields where it is left out.
+    /// A message; an empty one where it is left out.
     pub fn message(&self, number: u64) -> Wire {
         self.messages(number).pop().unwrap_or(Wire(Vec::new()))
     }
@@ -124,7 +124,7 @@ impl Wire {
     }
 }
 
-/// The messages of an MCAP file by topic, each with its tick, which every time in it tells: a tick is 50 ms.
+/// The messages of an MCAP file by topic, each with its tick, from the message's times: a tick is 50 ms.
 pub fn messages(bytes: &[u8]) -> BTreeMap<String, Vec<(u64, Wire)>> {
     let mut topics: BTreeMap<String, Vec<(u64, Wire)>> = BTreeMap::new();
     for message in mcap::MessageStream::new(bytes).unwrap() {
@@ -142,7 +142,7 @@ fn same_bits(found: &[f64], expected: &[f64]) {
     assert_eq!(bits(found), bits(expected), "{found:?}, not {expected:?}");
 }
 
-/// The driven run, with numbers in a frame of which no two are alike and a scan with every sort of range.
+/// The driven run with one frame of distinct numbers and a scan with every sort of range.
 fn planted() -> Log {
     let folder = tempfile::tempdir().unwrap();
     let (_, mut log) = driven(folder.path());

@@ -30,7 +30,7 @@ fn near(found: &Value, expected: f64, tolerance: f64) {
     assert!((found - expected).abs() <= tolerance, "{found} is not {expected}");
 }
 
-/// The arm at (0, 0) lies along the x axis; nothing is nearer to it than the post's corner (-0.5, 0.3) is to its base.
+/// The distance of the arm at (0, 0), which lies along the x axis: from its base to the post's corner (-0.5, 0.3).
 fn base_to_post() -> f64 {
     0.34_f64.sqrt()
 }
@@ -92,7 +92,7 @@ fn rusty_before_a_wall() {
     assert_eq!(ranges.len(), 360);
     near(&ranges[0], 1.0, 1e-9);
     assert_eq!(ranges[180], "inf", "nothing behind");
-    // turned half around, the wall is behind
+    // turned by half a turn, the wall is behind
     let turned = ask("scan", "", &[2.0, 1.0, std::f64::consts::PI], &more);
     near(&turned["ranges"][180], 1.0, 1e-9);
     // the same motion under both questions about motions
@@ -115,8 +115,8 @@ fn a_world_without_obstacles_is_infinitely_far() {
 
 #[test]
 fn a_fourth_coordinate_is_the_trailer() {
-    // The aisle: the car's side, at y = 2.5 + 0.85, is nearest to the east pillar, at y = 4.85. A trailer straight behind is
-    // narrower; swung to the south, 2.8 m long, it lies across the curb.
+    // The aisle: the car's side, at y = 2.5 + 0.85, is nearest to the east pillar, at y = 4.85. A trailer straight
+    // behind is narrower; swung to the south, 2.8 m long, it lies across the curb.
     near(&ask("distance", "hitch", &[8.0, 2.5, 0.0], &[])["distance"], 1.5, 1e-12);
     near(&ask("distance", "hitch", &[8.0, 2.5, 0.0, 0.0], &[])["distance"], 1.5, 1e-12);
     let folded = [8.0, 2.5, 0.0, FRAC_PI_2];

@@ -1,4 +1,4 @@
-//! `record`: what determines a run, and nothing else does.
+//! `record`: the inputs that determine a run, and no others.
 
 use std::fs;
 
@@ -108,14 +108,14 @@ fn a_recording_that_stopped_early_goes_on() {
     let stopped = run_in(folder.path(), &stop).failed(75);
     assert!(stopped.contains("after tick 25 of 80") && stopped.contains("--resume run.mcap.partial"), "{stopped}");
     assert!(!folder.path().join("run.mcap").exists());
-    // what is there is sound, and can be looked into
+    // the part recorded so far verifies and can be inspected
     let verified = run_in(folder.path(), &["verify", "run.mcap.partial"]);
     assert_eq!(
         (verified.code, verified.out.as_str()),
         (Some(5), "25 of 25 sealed ticks bit-identical; the run has 80\n")
     );
     assert_eq!(run_in(folder.path(), &["info", "run.mcap.partial"]).code, Some(5));
-    // stopping again within what is there changes nothing
+    // stopping again within that part changes nothing
     let before = fs::read(folder.path().join("run.mcap.partial")).unwrap();
     run_in(folder.path(), &["record", "--resume", "run.mcap.partial", "--stop-after", "10"]).failed(75);
     assert_eq!(fs::read(folder.path().join("run.mcap.partial")).unwrap(), before);

@@ -1,5 +1,5 @@
-//! Pictures of a driven run at its ticks: what the SVG says and where it draws the car, by the frames and the car's dimensions; and that PNG and
-//! GIF show the ticks that they are asked for.
+//! Pictures of a driven run at its ticks. The words of the SVG and the place of the car in it agree with the frames and
+//! the car's dimensions. PNG and GIF show the ticks asked for.
 
 use std::fs;
 use std::path::Path;
@@ -14,7 +14,7 @@ fn svg(file: &Path, tick: u64) -> String {
     run(&["export", file.to_str().unwrap(), "--format", "svg", "--tick", &tick.to_string()]).done()
 }
 
-/// What the figure says of the run after a tick: what was touched so far and where everybody is, to a millimetre.
+/// The figure's description of the run after a tick: the contacts so far and the robots' places, to a millimetre.
 fn description(frame: &Frame) -> String {
     let [rusty, reach, hitch] = [0, 1, 2].map(|id| &frame.robots[id].configuration);
     let body = format!("Pose2 {{ x: {:.3}, y: {:.3}, theta: {:.3} }}", hitch[0], hitch[1], hitch[2]);
@@ -35,7 +35,7 @@ fn description(frame: &Frame) -> String {
     [0, 1, 2].map(sentence).join(" ")
 }
 
-/// What stands between two texts.
+/// The text between two others.
 fn between<'a>(text: &'a str, before: &str, after: &str) -> &'a str {
     let (_, rest) = text.split_once(before).unwrap_or_else(|| panic!("no {before} in {text}"));
     rest.split_once(after).unwrap().0
@@ -52,14 +52,15 @@ fn path(svg: &str, group: &str) -> Vec<[f64; 2]> {
     points.map(point).collect()
 }
 
-/// The corners of the car's chassis, right rear, right front, left front, left rear: 0.7 m behind the rear axle, 3.2 m ahead, 1.7 m wide.
+/// The corners of the car's chassis, right rear, right front, left front, left rear: 0.7 m behind the rear axle, 3.2 m
+/// ahead, 1.7 m wide.
 fn chassis(frame: &Frame) -> [[f64; 2]; 4] {
     let q = &frame.robots[2].configuration;
     let (c, s) = (cos(q[2]), sin(q[2]));
     [(-0.7, -0.85), (3.2, -0.85), (3.2, 0.85), (-0.7, 0.85)].map(|(u, v)| [q[0] + c * u - s * v, q[1] + s * u + c * v])
 }
 
-/// Whether two points of the sheet are one: to a tenth of a pixel, which is less than half a centimetre.
+/// Checks that two points of the sheet agree to a tenth of a pixel, which is less than half a centimetre.
 #[track_caller]
 fn assert_at(found: [f64; 2], expected: [f64; 2], what: &str) {
     let near = (found[0] - expected[0]).abs() < 0.1 && (found[1] - expected[1]).abs() < 0.1;
@@ -82,7 +83,7 @@ fn the_figure_at_a_tick_shows_the_run_as_it_is_then() {
             let crosses = (1..9).take_while(|k| svg.contains(&format!("<title>contact {k} of {name}</title>")));
             assert_eq!(crosses.count(), robot.contacts as usize, "{name} at tick {tick}");
         }
-        // metres on the sheet: by where the car started, unturned, x to the right and y up
+        // the sheet's scale comes from the start of the car, which is unturned: x to the right and y up
         let (start, drawn) = (chassis(all[0]), path(&svg, "Lot-start-Hitch-0"));
         let scale = (drawn[1][0] - drawn[0][0]) / 3.9;
         let sheet =
@@ -135,7 +136,7 @@ fn the_pictures_of_a_film_are_those_of_its_ticks_in_order() {
         assert_eq!(frame.delay, 100, "a second for 20 ticks");
         pictures.push(frame.buffer.to_vec());
     }
-    // a film has fewer colours than a still, but of two stills its picture is nearer to its own
+    // a film has fewer colours than a still, but its picture is nearer to the still of its own tick than to another
     let difference = |picture: &[u8], still: &[u8]| -> u64 {
         let pixels = picture.chunks(4).zip(still.chunks(3));
         pixels

@@ -39,7 +39,7 @@ fn a_cut_file_is_5_and_its_sealed_beginning_is_verified() {
     let verdict = json(&verified.out);
     let sealed = verdict["sealed"].as_u64().unwrap();
     assert!((1..30).contains(&sealed) && verdict["identical"] == sealed && verdict["ticks"] == 30, "{verdict}");
-    // and resumed it is whole again
+    // resumed, the file is whole again
     let whole = folder.path().join("whole.mcap");
     run(&["record", "--resume", file.to_str().unwrap(), "-o", whole.to_str().unwrap()]).done();
     assert_eq!(fs::read(whole).unwrap(), bytes);
@@ -68,7 +68,7 @@ fn a_forged_recording_is_4_and_the_first_difference_is_named() {
     let folder = tempfile::tempdir().unwrap();
     let file = recording(folder.path(), "30");
     let log = Log::read_mcap(&fs::read(&file).unwrap()).unwrap().log;
-    // the same file with one bit of one coordinate changed, sealed as it should be
+    // the same file with one bit of one coordinate changed, and right seals
     let mut forged = log.clone();
     let x = &mut forged.frames[16].robots[1].configuration[0];
     *x = f64::from_bits(x.to_bits() ^ 1);
@@ -86,13 +86,13 @@ fn a_forged_recording_is_4_and_the_first_difference_is_named() {
         told[0]
     );
     assert_eq!(told[1], "16 of 30 ticks bit-identical");
-    // nor is it gone on with
+    // a forged file can't be resumed either
     let output = folder.path().join("out.mcap");
     run(&["record", "--resume", file.to_str().unwrap(), "-o", output.to_str().unwrap()]).failed(4);
     assert!(!output.exists());
 }
 
-/// A file that is no log is refused by its first bytes: this one has no end.
+/// A file that is no log is refused by its first bytes, even a file without an end.
 #[cfg(unix)]
 #[test]
 fn a_file_without_an_end_is_not_read_to_it() {
@@ -102,7 +102,7 @@ fn a_file_without_an_end_is_not_read_to_it() {
     }
 }
 
-/// A log may come through a pipe, which can be read once only.
+/// A log may come through a pipe, which can be read only once.
 #[cfg(unix)]
 #[test]
 fn a_log_through_a_pipe_is_read_whole() {

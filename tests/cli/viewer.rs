@@ -1,5 +1,6 @@
-//! What viewers are shown of a driven run (`export --format foxglove`): every value of every message, by protobuf's wire format and the numbers
-//! of Foxglove's schema, against the run's frames, the robots' dimensions and the worlds as they are written.
+//! The export of a driven run for viewers (`export --format foxglove`). Every value of every message, read by
+//! protobuf's wire format and the field numbers of Foxglove's schema, agrees with the run's frames, the robots'
+//! dimensions and the worlds as written.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::f64::consts::{PI, TAU};
@@ -20,11 +21,12 @@ type Topics = BTreeMap<String, Vec<(u64, Wire)>>;
 
 const NAMES: [&str; 3] = ["Rusty", "Reach", "Hitch"];
 
-/// The driven run with the trailer taken off and a rover given back near its end, and the messages of its export.
+/// The driven run, with the trailer taken off and a rover given back to its tour near the end, and the messages of its
+/// export.
 static EXPORTED: LazyLock<(Log, Topics)> = LazyLock::new(|| {
     let folder = tempfile::tempdir().unwrap();
     let (_, mut log) = driven(folder.path());
-    // it is the frames that are shown
+    // the export shows the frames
     for frame in &mut log.frames[309..] {
         let q = &mut frame.robots[2].configuration;
         *q = q[..3].iter().copied().collect();
@@ -36,10 +38,10 @@ static EXPORTED: LazyLock<(Log, Topics)> = LazyLock::new(|| {
     (log, topics)
 });
 
-/// A frame of reference in its parent: where it is, and its heading.
+/// A coordinate frame in its parent: position and heading.
 type Place = ([f64; 2], f64);
 
-/// The frames of the robots and of their parts, by the kinematics written out.
+/// The coordinate frames of the robots and of their parts, by the kinematics written out.
 fn expected_frames(frame: &Frame) -> Vec<(String, &'static str, Place)> {
     let [rusty, reach, hitch] = [0, 1, 2].map(|id| &frame.robots[id].configuration);
     let (turned, elbow) = (reach[0] + reach[1], [cos(reach[0]), sin(reach[0])]);
@@ -62,7 +64,7 @@ fn vector(wire: &Wire) -> [f64; 3] {
     [1, 2, 3].map(|axis| wire.double(axis))
 }
 
-/// That a Timestamp or a Duration is so many ticks of 50 ms.
+/// Checks that a Timestamp or a Duration is this number of ticks of 50 ms.
 #[track_caller]
 fn assert_time(wire: &Wire, ticks: u64) {
     assert_eq!(wire.number(1) * 1_000_000_000 + wire.number(2), ticks * 50_000_000);
@@ -80,7 +82,7 @@ fn every_frame_of_reference_lies_where_its_robot_part_or_world_is() {
     for (frame, (tick, message)) in frames(log).zip(&topics["/viewer/transforms"]) {
         assert_eq!(frame.tick, *tick);
         let transforms = message.messages(1);
-        // the worlds in a row from 0 on, a metre apart, their lower sides level
+        // the worlds stand in a row from 0 on, a metre apart, their lower sides level
         let mut expected: Vec<(String, &str, Place)> = Vec::new();
         let mut left = 0.0;
         for world in &log.config.worlds {
@@ -137,7 +139,8 @@ fn colour(role: Role, opacity: f64) -> [f64; 4] {
     [r, g, b, opacity]
 }
 
-/// Checks that an entity is one flat area with its edge, or an edge alone, in the colours of its role, and gives the edge's points.
+/// Checks that an entity is one flat area with its edge, or an edge alone, in the colours of its role. Returns the
+/// edge's points.
 fn area(entity: &Wire, role: Role, opacity: f64, above: f64) -> Vec<[f64; 2]> {
     let [lines, areas] = [11, 12].map(|field| entity.messages(field));
     assert_eq!((lines.len(), areas.len().min(1)), (1, areas.len()), "{}", entity.text(3));
@@ -168,7 +171,7 @@ fn surface(points: &[[f64; 2]]) -> f64 {
     points.iter().zip(next).map(|(p, q)| 0.5 * (p[0] * q[1] - p[1] * q[0])).sum()
 }
 
-/// How far a point is from the segment between two on the x axis.
+/// The distance of a point from a segment on the x axis.
 fn off_axis([x, y]: [f64; 2], [from, to]: [f64; 2]) -> f64 {
     let beyond = if x < from {
         from - x
@@ -200,7 +203,7 @@ fn every_part_of_a_robot_has_its_own_shape_and_is_red_while_a_contact_flashes() 
             let flashes = frame.robots[robot].flash > 0;
             red += usize::from(flashes);
             let edge = area(entity, if flashes { Role::Goal } else { Role::Robot }, 0.85, 0.01);
-            // straight sides exactly, round ones from inside to a four-hundredth of their radius
+            // straight sides are exact; round ones lie inside, by at most a four-hundredth of their radius
             let round = |axis: [f64; 2], radius: f64| {
                 let whole = PI * radius * radius + 2.0 * radius * (axis[1] - axis[0]);
                 let on = edge.iter().all(|p| near(off_axis(*p, axis), radius));
@@ -220,7 +223,7 @@ fn every_part_of_a_robot_has_its_own_shape_and_is_red_while_a_contact_flashes() 
                 "{id}: {edge:?}"
             );
         }
-        // what was there and is no more is deleted
+        // entities that have gone are deleted
         let gone: Vec<String> = message.messages(1).iter().map(|deletion| deletion.text(3)).collect();
         message.messages(1).iter().for_each(|deletion| assert_time(&deletion.message(1), *tick));
         assert_eq!(gone, shown.difference(&ids).cloned().collect::<Vec<_>>(), "tick {tick}");
@@ -265,7 +268,7 @@ fn every_obstacle_and_mark_of_the_worlds_is_there_as_it_is_written() {
             let strips: Vec<Vec<[f64; 2]>> =
                 entity.messages(11).iter().filter(|line| line.number(1) == 0).map(points).collect();
             assert_eq!(strips, walls, "{}", obstacle.name);
-            // what is solid covers its area
+            // a solid obstacle covers its area
             let solid = obstacle.written().into_iter().map(|written| match written {
                 Written::Piece((_, Shape::Rectangle { min, max })) => (max.x - min.x) * (max.y - min.y),
                 Written::Piece((_, Shape::Disc { radius })) => PI * radius * radius,

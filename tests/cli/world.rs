@@ -1,4 +1,4 @@
-//! `world`: what is built in, and what is wrong with a file.
+//! `world`: the built-in worlds, and the faults of files.
 
 use std::fs;
 
@@ -76,7 +76,7 @@ fn residents_in_contact_and_obstacles_out_of_sight_are_refused_by_name() {
     let (anna, bert) = ("(name: \"Anna\", kind: \"rusty\", start: [3, 3, 0])", |x: &str| {
         format!("(name: \"Bert\", kind: \"rusty\", start: [{x}, 3, 0])")
     });
-    // discs of radius 0.11 touch from a distance of 0.22 down
+    // discs of radius 0.11 touch at a centre distance of 0.22 or less
     assert_eq!(checked(&format!("{anna}, {}", bert("3.25")), tree).code, Some(0));
     let touching = checked(&format!("{anna}, {}", bert("3.21875")), tree).failed(3);
     assert!(touching.contains(&format!("{file}: \"Anna\" and \"Bert\" touch")), "{touching}");
@@ -84,7 +84,7 @@ fn residents_in_contact_and_obstacles_out_of_sight_are_refused_by_name() {
     let aside = bert("3.171875").replace(", 3, 0]", ", 3.171875, 0]");
     let off_the_tree = "(name: \"Cleo\", kind: \"rusty\", start: [2.5, 3.5, 0])";
     assert_eq!(checked(&format!("{anna}, {aside}, {off_the_tree}"), tree).code, Some(0));
-    // the tree reaches to x = 2.5, a rover to 0.11 m from its centre
+    // the tree reaches to x = 2.5, and a rover reaches 0.11 m from its centre
     let inside = checked(&format!("{anna}, {}", bert("2.59375")), tree).failed(3);
     assert!(inside.contains("\"Bert\" starts in contact with \"the tree\"") && !inside.contains("Anna"), "{inside}");
     let both = checked(&format!("{anna}, {}, {}", bert("3.1"), bert("2.5").replace("Bert", "Cleo")), tree).failed(3);
@@ -105,7 +105,7 @@ fn residents_in_contact_and_obstacles_out_of_sight_are_refused_by_name() {
     }
 }
 
-/// Names may hold marks that turn a line round, and scripts whatever they like: no terminal gets to see them raw.
+/// Names may hold characters that reverse a line, and scripts may hold anything. No terminal gets them raw.
 #[test]
 fn texts_of_files_do_not_steer_the_terminal() {
     let folder = tempfile::tempdir().unwrap();
@@ -117,7 +117,7 @@ fn texts_of_files_do_not_steer_the_terminal() {
     let as_json = run(&["world", "check", "--json", path.to_str().unwrap()]).done();
     assert_eq!(json(&as_json)["robots"][0], name, "JSON is data, and stays as it is");
 
-    // data for other programs stays as it is too, on standard output as in a file
+    // data for other programs stays as it is, on standard output as in a file
     run_in(folder.path(), &["record", "--ticks", "2", "--world", "yard.ron", "-o", "run.mcap"]).done();
     for format in ["jsonl", "csv"] {
         let shown = run_in(folder.path(), &["export", "run.mcap", "--format", format]).done();
@@ -133,7 +133,7 @@ fn texts_of_files_do_not_steer_the_terminal() {
     assert!(error.contains("[2JRusty") && !error.contains('\u{1b}'), "{error:?}");
 }
 
-/// Compared pairwise, these would take five thousand million comparisons.
+/// A pairwise check would take five thousand million comparisons.
 #[test]
 fn a_hundred_thousand_residents_in_a_row_are_checked_at_once() {
     use std::fmt::Write as _;
@@ -143,7 +143,7 @@ fn a_hundred_thousand_residents_in_a_row_are_checked_at_once() {
         let mut robots = String::new();
         for i in 0..100_000 {
             let at = f64::from(i) * 0.25 - 9_999.0;
-            // two columns, so that the coordinates stay within what the lab computes with
+            // two columns, so that the coordinates stay within the lab's limits
             let (along, across) = if at < 9_999.0 { (at, 0) } else { (at - 19_998.0, 1) };
             let place = if axis == "x" { format!("{along}, {across}") } else { format!("{across}, {along}") };
             writeln!(robots, "(name: \"{i}\", kind: \"rusty\", start: [{place}, 0]),").unwrap();

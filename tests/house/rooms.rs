@@ -1,4 +1,4 @@
-//! Rooms and files: how large, and how they hang together.
+//! Limits on the size of rooms and files, and on circles of imports.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -6,10 +6,10 @@ use std::path::Path;
 
 use super::sources::{Graph, Source, files, sources};
 
-/// The longest a source file may be, lines.
+/// Largest number of lines in a source file.
 const LONGEST: usize = 400;
 
-/// The most files of one room, its own file and its tests apart.
+/// Largest number of files in a room, without its own file and its tests.
 const LARGEST: usize = 15;
 
 #[test]
@@ -39,7 +39,7 @@ fn no_room_is_crowded() {
     assert!(rooms.len() > 30, "{} rooms: this test no longer reads the sources", rooms.len());
 }
 
-/// What a walk through the imports knows of a file.
+/// The state of a file in a walk through the imports.
 #[derive(Clone, Copy, PartialEq)]
 enum Seen {
     Never,
@@ -47,7 +47,7 @@ enum Seen {
     Done,
 }
 
-/// The files of a circle that a walk from `at` comes upon, if any.
+/// The files of a circle that a walk from `at` finds, if any.
 fn circle(at: usize, uses: &[Vec<usize>], seen: &mut [Seen], way: &mut Vec<usize>) -> Option<Vec<usize>> {
     seen[at] = Seen::OnTheWay;
     way.push(at);

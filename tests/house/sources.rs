@@ -1,4 +1,4 @@
-//! The project's source files, and what each imports: enough of Rust's grammar for `use` trees and paths.
+//! The project's source files and their imports: enough of Rust's grammar for `use` trees and paths.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -32,8 +32,8 @@ impl Source {
         &self.lines[..self.tests]
     }
 
-    /// What it names of this crate outside its tests, as paths from `crate` on. In the command line, which is a crate of its own on top of
-    /// the library, `motion_lab` is the library's `crate`.
+    /// The items of this crate that it names outside its tests, as paths from `crate` on. The command line is a crate
+    /// of its own on top of the library; there `motion_lab` stands for the library's `crate`.
     pub fn imports(&self) -> Vec<Vec<String>> {
         self.imports_in(self.code())
     }
@@ -66,7 +66,7 @@ impl Source {
         found.into_iter().filter_map(|path| self.absolute(path)).collect()
     }
 
-    /// A path from `crate` on; `None` for one of another crate.
+    /// The path from `crate` on; `None` for a path of another crate.
     fn absolute(&self, path: Vec<String>) -> Option<Vec<String>> {
         let supers = path.iter().take_while(|s| *s == "super").count();
         let rest = path[supers..].to_vec();
@@ -75,7 +75,7 @@ impl Source {
             "motion_lab" => Some([vec!["crate".to_owned()], path[1..].to_vec()].concat()),
             "self" => Some([self.module.clone(), path[1..].to_vec()].concat()),
             "super" => Some([self.module[..self.module.len().saturating_sub(supers)].to_vec(), rest].concat()),
-            // a room's file names its children without more
+            // a room's own file names its children without a prefix
             _ if self.is_room() => Some([self.module.clone(), path].concat()),
             _ => None,
         }
@@ -146,7 +146,7 @@ pub fn sources() -> Vec<Source> {
     files(&root, "rs").into_iter().map(read).collect()
 }
 
-/// From each module to the files that its imports lead to: what a room re-exports leads to the file that has it.
+/// The imports from file to file. An item that a room re-exports leads to the file that defines it.
 pub struct Graph<'a> {
     files: BTreeMap<&'a [String], &'a Source>,
     exports: BTreeMap<Vec<String>, Vec<String>>,
@@ -162,7 +162,7 @@ impl<'a> Graph<'a> {
                 if path.len() > room.module.len() && path.starts_with(&room.module) {
                     let name = path.last().cloned().unwrap_or_default();
                     let exported = [room.module.clone(), vec![name]].concat();
-                    // a file that has an item of its own name is found without
+                    // a file that shares its name with an item is found without an export
                     if !files.contains_key(&exported[..]) {
                         exports.insert(exported, path);
                     }
@@ -172,7 +172,7 @@ impl<'a> Graph<'a> {
         Graph { files, exports }
     }
 
-    /// The file that has what a path names.
+    /// The file that defines the item of a path.
     fn home(&self, path: &[String]) -> Option<&'a Source> {
         if let Some(target) = self.exports.get(path)
             && target != path

@@ -8,7 +8,7 @@ use motion_lab::worlds::{Grid, ObstacleKind, World};
 
 use super::{assert_prints_as_itself, corners, is_hit, sample};
 
-/// What is said of a hollow world.
+/// The note about a hollow world.
 const HOLLOW: &str = "the occupied cells are hollow: a robot put inside their walls touches nothing";
 
 fn room(unknown: Unknown) -> CellMap {
@@ -24,7 +24,8 @@ fn a_ros_map_becomes_the_borders_of_its_occupied_cells() {
     assert_eq!(imported.notes, ["unknown cells, taken as free: 1", HOLLOW]);
     let names: Vec<&str> = world.obstacles.iter().map(|o| o.name.as_str()).collect();
     assert_eq!(names, ["wall 1", "wall 2", "wall 3"]);
-    // 12 x 8 cells of 0.5 m from (-1, -2) on: outside, the block over columns 4, 5 and rows 3, 4, and inside
+    // 12 x 8 cells of 0.5 m from (-1, -2) on; the walls are the outside, the block over columns 4, 5 and rows 3, 4, and
+    // the inside
     assert_eq!(corners(&world, "wall 1"), [(-1.0, -2.0), (5.0, -2.0), (5.0, 2.0), (-1.0, 2.0)]);
     let mut inside = corners(&world, "wall 3");
     inside.sort_by(|a, b| a.partial_cmp(b).unwrap());
@@ -169,7 +170,7 @@ fn an_exported_map_comes_back_cell_for_cell() {
             assert_prints_as_itself(&again);
             check(&grid, &again);
         }
-        // and no cell is lost where the map is made again: what was occupied is, and only what touches it besides
+        // a map made again loses no cell: it has the occupied cells and, besides them, exactly the cells that touch one
         let solid = cells.world("m.yaml", &world.name, CellStyle::Solid).unwrap().world;
         let twice = Grid::rasterize(&solid, resolution).unwrap();
         assert_eq!((twice.columns(), twice.rows()), (grid.columns(), grid.rows()));
@@ -183,7 +184,8 @@ fn an_exported_map_comes_back_cell_for_cell() {
     }
 }
 
-/// That every occupied cell is solid through and through and every other is free: by its middle and by four points near its corners.
+/// Checks that every occupied cell is solid and every other one free, at its middle and at four points near its
+/// corners.
 fn assert_solid(grid: &Grid, world: &World) {
     let scene = Scene::of_world(world);
     let inside = 0.49 * grid.resolution();
@@ -196,8 +198,8 @@ fn assert_solid(grid: &Grid, world: &World) {
     }
 }
 
-/// That the walls are where the grid says: a ray from a cell's middle to the right crosses walls an odd number of times exactly
-/// when the cell is occupied.
+/// Checks that the walls lie along the grid's borders: a ray from a cell's middle to the right crosses walls an odd
+/// number of times exactly when the cell is occupied.
 fn assert_borders(grid: &Grid, world: &World) {
     for row in 0..grid.rows() {
         let y = grid.center(0, row).y;
@@ -289,7 +291,7 @@ fn movingai_maps_that_are_none_are_refused() {
 
 #[test]
 fn more_obstacles_than_a_world_holds_are_refused() {
-    // a chessboard of 448 x 448: 100,352 cells that touch in corners only, one more piece each than a world has room for
+    // a chessboard of 448 x 448: 100,352 cells that touch in corners only, a piece each, more than a world may have
     let row = |odd: bool| if odd { "@.".repeat(224) } else { ".@".repeat(224) };
     let rows: Vec<String> = (0..448).map(|r| row(r % 2 == 1)).collect();
     let text = format!("type octile\nheight 448\nwidth 448\nmap\n{}\n", rows.join("\n"));

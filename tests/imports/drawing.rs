@@ -69,7 +69,8 @@ fn what_is_filled_is_solid_and_what_is_stroked_a_wall() {
 #[test]
 fn groups_turn_and_move_what_they_hold() {
     let world = hall().world;
-    // a square of 1 m turned by 45 degrees about its middle, (9, 2.5): corners half a diagonal away, up, down, left and right
+    // a square of 1 m turned by 45 degrees about its middle, (9, 2.5): corners half a diagonal away, up, down, left and
+    // right
     let d = 0.5_f64.sqrt();
     let mut found = corners_of_polygon(&world, "polygon 1");
     found.sort_by(|a, b| a.partial_cmp(b).unwrap());
@@ -103,7 +104,7 @@ fn curves_are_followed_within_the_tolerance() {
     }
 }
 
-/// The distance from a point above it to the parabola y = 2 + 2t(1 - t), x = 4 + 2t, by trying.
+/// The distance from a point above it to the parabola y = 2 + 2t(1 - t), x = 4 + 2t, by sampling.
 fn nearest(p: Point2) -> f64 {
     (0..=4000)
         .map(|k| f64::from(k) / 4000.0)
@@ -135,7 +136,7 @@ fn drawings_without_sizes_ids_or_sense_still_have_walls() {
     // a quarter of a circle is no disc
     let quarter = read("<path d='M5 5 L9 5 A4 4 0 0 1 5 9 Z'/>");
     assert!(is_hit(&quarter, 6.0, 4.0) && !is_hit(&quarter, 4.9, 5.1), "y was turned over");
-    // what nobody sees is no obstacle
+    // a hidden shape is no obstacle
     let rect = "<rect x='1' y='1' width='1' height='1' visibility='hidden'/>";
     let hidden = drawing(&format!("{rect}{rect}<rect x='4' y='4' width='1' height='1'/>"));
     let hidden = svg("d.svg", &hidden, "d", SvgOptions::default()).unwrap();
@@ -187,7 +188,8 @@ fn drawings_that_cannot_be_worlds_are_refused_with_line_and_element() {
     assert!(refuse(&deep).contains("nested deeper than 200"));
 }
 
-/// Each of these took its reader minutes or gigabytes, or would: they are refused for a reason, or read as what they show.
+/// Drawings that took, or would take, their reader minutes or gigabytes. Each is refused with a reason, or read as the
+/// shapes it shows.
 #[test]
 fn drawings_that_would_take_for_ever_are_refused_or_read() {
     let refuse = |inside: &str| svg("d.svg", &drawing(inside), "d", SvgOptions::default()).unwrap_err().to_string();
@@ -214,7 +216,7 @@ fn drawings_that_would_take_for_ever_are_refused_or_read() {
     assert!(error.contains("too many"), "{error}");
     let below = SvgOptions { tolerance: 0.9e-6, ..SvgOptions::default() };
     assert!(svg("d.svg", &drawing(rect), "d", below).unwrap_err().to_string().contains("tolerance: 0.0000009"));
-    // a paint of patterns within patterns, markers, filters and gradients: a filled box as any other
+    // a fill of patterns within patterns, markers, filters and gradients is a filled box like any other
     let pattern =
         |k: usize| format!("<pattern id='p{k}'><rect width='1' height='1' fill='url(#p{})'/></pattern>", k + 1);
     let patterns: String = (0..30).map(|k| pattern(k).repeat(2)).collect();
@@ -234,13 +236,13 @@ fn drawings_that_would_take_for_ever_are_refused_or_read() {
     assert!(refuse(&rules).contains("bytes of style sheets"), "{}", refuse(&rules));
     let rules = format!("<style>{}</style>{}", ".a{fill:red}".repeat(20_000), "<g/>".repeat(60));
     assert!(refuse(&rules).contains("style sheets of 20000 selectors for 61 elements"), "{}", refuse(&rules));
-    // 101 polygons of 1,000 corners each, concave: more to cut up than a world may have
+    // 101 concave polygons of 1,000 corners each: more pieces than a world may have
     let comb: String = (0..499).map(|k| format!("{} 0 {}.5 1 ", 2 * k, 2 * k)).collect();
     let polygon = format!("<polygon points='{comb} 998 9 0 9'/>");
     assert!(refuse(&polygon.repeat(101)).contains("too many corners of concave polygons: at most 100000"));
 }
 
-/// What other programs write beside the drawing itself.
+/// Attributes and elements that other programs add to a drawing.
 #[test]
 fn attributes_of_others_and_what_is_left_out_change_nothing() {
     let spaces = "xmlns:xlink='http://www.w3.org/1999/xlink' xmlns:q='urn:q'";
@@ -256,7 +258,7 @@ fn attributes_of_others_and_what_is_left_out_change_nothing() {
     };
     let rect = "<rect id='a' x='1' y='1' width='2' height='1'/>";
     assert_eq!(corners(rect), [1.0, 8.0, 3.0, 9.0]);
-    // both references, as for older readers, with a blank
+    // both kinds of reference, as written for older readers, one with a blank
     let used = format!("<defs>{rect}</defs><use href=' #a' xlink:href='#a' x='4'/>");
     assert_eq!(corners(&used), [5.0, 8.0, 7.0, 9.0]);
     assert_eq!(corners(&used.replace("href=' #a' ", "")), [5.0, 8.0, 7.0, 9.0]);
@@ -272,13 +274,13 @@ fn attributes_of_others_and_what_is_left_out_change_nothing() {
     assert_eq!(corners(sized), [2.0, 8.0, 4.0, 9.0]);
     let important = rect.replace("/>", " style='fill:none !important;stroke:red;fill:red'/>");
     assert_eq!(read(&important).unwrap().obstacles[0].kind, ObstacleKind::Wall);
-    // rules for what is left out anyway, and ten thousand elements of nobody's drawing
+    // style rules for ignored elements, and ten thousand metadata elements
     let rules = format!(
         "<style>#g .a .b text{{font-size-adjust:1}}</style><metadata>{}</metadata>{rect}",
         "<q:x/>".repeat(9_000)
     );
     assert_eq!(corners(&rules), [1.0, 8.0, 3.0, 9.0]);
-    // a path of a quarter of a megabyte may be used three times beside itself, and not four times
+    // a path of a quarter of a megabyte may be used three times beside itself, but not four times
     let path = format!("<path id='p' stroke='red' fill='none' d='M1 1{}'/>", "h1h-1".repeat(50_000));
     let uses = |n: usize| read(&format!("{path}{}", "<use href='#p'/>".repeat(n))).unwrap_err().to_string();
     assert!(uses(3).contains("too many"), "{}", uses(3));

@@ -87,14 +87,14 @@ fn more_obstacles_than_are_read_are_refused() {
         let text = format!("world: {{width: 9, height: 9}}\nobstacle:\n{}", post.repeat(posts));
         irsim("posts.yaml", &text, "posts")
     };
-    // three of , [ ] { } in the first line and nine in each post
+    // three of the characters , [ ] { } are in the first line and nine in each post
     let post = "  - {shape: {name: circle, radius: 0.1}, state: [1, 1]}\n";
     assert_eq!(read(post, 5_555).unwrap().world.obstacles.len(), 5_555);
     assert!(read(post, 5_556).unwrap_err().to_string().contains("more than 50000 of the signs"));
-    // seven values before the posts, eleven in each, and at the end the list and the whole
+    // seven values come before the posts, eleven are in each, and the list and the whole count at the end
     let post = "  - shape:\n      name: circle\n      radius: 0.1\n    state:\n      - 1\n      - 1\n";
     assert_eq!(read(post, 18_181).unwrap().world.obstacles.len(), 18_181);
-    // the last of 200,001 stands in post 18,182, six lines each
+    // value 200,001 is in post 18,182, at six lines per post
     let error = read(post, 18_182).unwrap_err().to_string();
     assert!(error.ends_with("not supported: more than 200000 values"), "{error}");
     let line: usize = error.split(':').nth(1).unwrap().parse().unwrap();

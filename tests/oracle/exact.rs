@@ -1,8 +1,8 @@
 //! Contact and distance of two placed shapes in integer arithmetic.
 //!
 //! Every finite `f64` is an integer times a power of two, so any pair of placed shapes lies on a lattice. With the
-//! lattice's step as the unit everything here is a polynomial of integers: `i128` when the numbers are small (the lattice
-//! tests), `BigInt` otherwise. The only irrational quantity, the square root, is avoided by comparing squares.
+//! lattice's step as the unit everything here is a polynomial of integers: `i128` when the numbers are small (the
+//! lattice tests), `BigInt` otherwise. The only irrational quantity, the square root, is avoided by comparing squares.
 
 use std::ops::{Add, Mul, Neg, Sub};
 
@@ -42,7 +42,7 @@ fn decode(x: f64) -> (i64, i32) {
     (if x < 0.0 { -mantissa } else { mantissa }, exponent + zeros)
 }
 
-/// How many binary places `x` has after the point.
+/// The number of binary places of `x` after the point.
 fn places(x: f64) -> u32 {
     (-decode(x).1).max(0) as u32
 }
@@ -53,7 +53,7 @@ fn integer<T: Int>(x: f64, places: u32) -> T {
     T::scaled(mantissa, u32::try_from(exponent + places as i32).expect("enough places"))
 }
 
-/// What is known exactly of a pair of shapes, in units of the lattice's step `2^-places`.
+/// The exact distance of a pair of shapes, in units of the lattice's step `2^-places`.
 pub struct ExactPair {
     places: u32,
     /// The squared distance of the cores is `square / scale`.
@@ -88,7 +88,7 @@ impl ExactPair {
         self.square <= &self.reach * &self.reach * &self.scale
     }
 
-    /// Whether the two shapes touch: in contact, and with radii to spare for nothing.
+    /// Whether the two shapes touch without overlap: the distance of their cores is exactly the sum of the radii.
     pub fn tangent(&self) -> bool {
         self.square == &self.reach * &self.reach * &self.scale
     }
@@ -105,7 +105,7 @@ impl ExactPair {
         not_below && self.compare(claimed, tolerance).is_le()
     }
 
-    /// How (distance of the cores - radii) compares with `x + y >= 0`, exactly.
+    /// Compares the distance of the cores less the radii with `x + y`, exactly; `x + y` must be at least 0.
     fn compare(&self, x: f64, y: f64) -> std::cmp::Ordering {
         assert!(x + y >= 0.0);
         let places = [places(x), places(y), self.places].into_iter().max().unwrap_or(0);
@@ -164,7 +164,7 @@ fn dot<T: Int>(u: &Vertex<T>, v: &Vertex<T>) -> T {
     u[0].clone() * v[0].clone() + u[1].clone() * v[1].clone()
 }
 
-/// -1, 0 or 1: which way `a`, `b`, `c` turn.
+/// The orientation of `a`, `b`, `c`: 1 for a left turn, -1 for a right turn, 0 on a line.
 fn turn<T: Int>(a: &Vertex<T>, b: &Vertex<T>, c: &Vertex<T>) -> i32 {
     cross(&minus(b, a), &minus(c, a)).cmp(&T::scaled(0, 0)) as i32
 }

@@ -1,7 +1,8 @@
-//! The questions about two placed shapes in everyday `f64`, by the textbook's methods and not the library's: crossing
-//! numbers, parametric segment intersection, separating axes.
+//! The questions about two placed shapes in everyday `f64`, by the textbook's methods instead of the library's:
+//! crossing numbers, parametric segment intersection, separating axes.
 //!
-//! Right to within rounding; the tests that use it leave a margin of some ulps or stay on a lattice, where products are exact.
+//! The answers are right to within rounding. Tests that use them leave a margin of some ulps, or stay on a lattice,
+//! where products are exact.
 
 use motion_lab::geometry::{Placed, Point2, Vector2};
 

@@ -1,6 +1,6 @@
 //! Rays from lattice points against lattice segments, hit or missed without any rounding.
 //!
-//! A ray's direction is the `f64` pair it is, times 2^62: whole numbers again.
+//! A ray's direction is its `f64` pair times 2^62, which are whole numbers again.
 
 /// A lattice point.
 pub type Lattice = (i128, i128);
@@ -26,7 +26,8 @@ pub fn holds_origin(p: Lattice, q: Lattice) -> bool {
     cross(p, q) == 0 && dot(p, q) <= 0
 }
 
-/// How far along the ray of this direction the segment from `p` to `q` is met, if it is; the origin is not on it.
+/// The distance along the ray of this direction to the segment from `p` to `q`; `None` for a miss. The origin is not on
+/// the segment.
 pub fn meets(p: Lattice, q: Lattice, direction: Lattice) -> Option<f64> {
     let area = cross(p, q);
     if area == 0 {

@@ -8,7 +8,7 @@ use motion_lab::num::{cos, sin};
 
 use super::plain;
 
-/// What sampling says of the least clearance along a motion, metres.
+/// Bounds on the least clearance along a motion by sampling, metres.
 #[derive(Clone, Copy, Debug)]
 pub struct Clearance {
     /// No moment of the motion is nearer than this.
@@ -17,27 +17,27 @@ pub struct Clearance {
     pub at_most: f64,
 }
 
-/// How finely a motion is sampled.
+/// The fineness of sampling a motion.
 #[derive(Clone, Copy, Debug)]
 pub struct Fineness {
-    /// Stretches proven to keep this clearance are not looked at any closer, metres.
+    /// Stretches proven to keep this clearance are not refined, metres.
     pub enough: f64,
-    /// Nor are those where the two bounds are this near, metres.
+    /// Stretches whose two bounds differ by at most this are not refined, metres.
     pub width: f64,
-    /// No more samples than this; the lower bound is then what they prove.
+    /// Largest number of samples; beyond it the lower bound is what they have proven.
     pub samples: usize,
 }
 
 /// Fine enough to tell a clearance above a micrometre from contact.
 pub const MICROMETRE: Fineness = Fineness { enough: 1e-3, width: 1e-7, samples: 100_000 };
 
-/// The least clearance of a set of shapes in motion, sampled and refined breadth first. `at(s)` gives the shapes at time `s`
-/// in `[0, 1]`; no point of any moves faster than `speed` per unit of `s`.
+/// The least clearance of a set of shapes in motion, sampled and refined breadth first. `at(s)` gives the shapes at
+/// time `s` in `[0, 1]`; no point of any moves faster than `speed` per unit of `s`.
 pub fn clearance(at: impl Fn(f64) -> Vec<Placed>, speed: f64, obstacles: &[Placed], fine: Fineness) -> Clearance {
     let sample = |s: f64| at(s).iter().fold(f64::INFINITY, |m, part| nearest_of(part, obstacles, m));
     let mut at_most = lesser(sample(0.0), sample(1.0));
     let mut at_least = at_most;
-    // stretches by (middle, half width, what the one around it proved)
+    // stretches by (middle, half width, the bound proven for the stretch around it)
     let mut open = VecDeque::from([(0.5, 0.5, 0.0)]);
     let mut samples = 0;
     while let Some((middle, half, proven)) = open.pop_front() {
@@ -62,7 +62,8 @@ pub fn clearance(at: impl Fn(f64) -> Vec<Placed>, speed: f64, obstacles: &[Place
     Clearance { at_least: if at_least > 0.0 { at_least } else { 0.0 }, at_most }
 }
 
-/// The clearance along the rigid sweep from `a` to `b`: every part's origin in a straight line while it turns the short way.
+/// The clearance along the rigid sweep from `a` to `b`: every part's origin in a straight line while it turns the short
+/// way.
 pub fn rigid(a: &Footprint, b: &Footprint, obstacles: &[Placed], fine: Fineness) -> Clearance {
     let mut speed: f64 = 0.0;
     for (p, q) in a.parts().iter().zip(b.parts()) {
@@ -88,7 +89,7 @@ fn between(p: &motion_lab::geometry::Part, q: &motion_lab::geometry::Part, s: f6
     Placed::new(turned.collect::<Vertices>(), p.placed().radius())
 }
 
-/// The turn from `a` to `b` the short way round, radians; exactly half a turn is positive.
+/// The turn from `a` to `b` the short way round, radians; exactly half a turn goes the positive way.
 fn short_turn(a: f64, b: f64) -> f64 {
     let mut d = b - a;
     while d > PI {
@@ -112,7 +113,7 @@ fn vertices(shape: &Shape) -> Vec<Point2> {
     }
 }
 
-/// The distance to the nearest obstacle; those whose boxes are farther than `known` are not looked at.
+/// The distance to the nearest obstacle, at most `known`. Obstacles whose boxes are farther than that are skipped.
 pub fn nearest_of(part: &Placed, obstacles: &[Placed], known: f64) -> f64 {
     let mut least = known;
     let mine = bounding_box(part);
@@ -134,7 +135,7 @@ fn bounding_box(shape: &Placed) -> Box2 {
     })
 }
 
-/// The gap between two boxes along the axis where it is largest: never more than the distance of what they hold.
+/// The gap between two boxes along the axis where it is largest: never more than the distance of their contents.
 fn box_gap(a: &Box2, b: &Box2) -> f64 {
     [b[0] - a[2], a[0] - b[2], b[1] - a[3], a[1] - b[3]].into_iter().fold(-1.0, |m, x| if x > m { x } else { m })
 }
@@ -165,7 +166,7 @@ mod tests {
         };
         let post = [Placed::new([Point2::new(0.9, 0.0)], 0.05)];
         assert_eq!(rigid(&bar(-0.5), &bar(0.5), &post, MICROMETRE).at_most, 0.0);
-        // and back; the long way round would miss it
+        // and back; the long way round would miss the post
         assert_eq!(rigid(&bar(0.5), &bar(-0.5), &post, MICROMETRE).at_most, 0.0);
         assert!(rigid(&bar(2.5), &bar(-2.5), &post, MICROMETRE).at_least >= 1e-3);
     }

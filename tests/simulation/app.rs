@@ -31,7 +31,7 @@ fn send(app: &mut App, command: TransportCommand) {
 fn frame_rates_and_stalls_change_no_bit() {
     let input = (Seed(5), wild_script(5, 120));
     let log = Run::record(tour(120), input.clone()).unwrap();
-    // 60 Hz, 7 Hz, uneven frames with stalls longer than the loop catches up on
+    // updates at 60 Hz, at 7 Hz, and uneven ones with stalls too long for the loop to catch up on
     let rates: [&[u64]; 3] = [&[16, 17, 17], &[143], &[1, 300, 2, 50, 5000, 9]];
     for frames_ms in rates {
         let mut app = app(120, input.clone());
@@ -112,7 +112,7 @@ fn live_driving_is_recorded_and_replays() {
     let replayed = Run::record(tour(20), (Seed(4), script)).unwrap();
     assert_same(&app.world().resource::<LatestFrame>().0, &replayed.frames[19]);
 
-    // back to tick 12: played on, the rest comes again; driven, the rest is forgotten
+    // back to tick 12: playing on repeats the rest, driving forgets it
     send(&mut app, TransportCommand::Seek(12));
     step(&mut app, 8);
     assert_same(&app.world().resource::<LatestFrame>().0, &replayed.frames[19]);

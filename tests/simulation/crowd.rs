@@ -64,7 +64,7 @@ fn nobody_drives_through_anybody() {
         let log = Run::record(config, input).unwrap();
         let mut before = &log.initial;
         for frame in &log.frames {
-            // each robot's arc in eleven places: the whole of one against the whole of the other, at whatever time
+            // each robot's arc at eleven places: the whole of one against the whole of the other, regardless of time
             let arcs: Vec<Vec<Placed>> = (0..9)
                 .map(|i| {
                     let (from, to) = (pose(before, i), pose(frame, i));
@@ -154,7 +154,7 @@ fn an_arm_is_never_held_and_holds_what_it_lies_on() {
 fn nobody_is_put_onto_anybody() {
     let robots: [(&str, &str, &[f64]); 2] = [("a", "rusty", &[0.0, 0.0, 0.0]), ("b", "rusty", &[1.0, 0.0, 0.0])];
     let to = |tick, robot, x: f64| event(tick, robot, RobotInput::Teleport(quantized(&[x, 0.0, 0.0])));
-    // two bodies of 0.11 m need 0.22; within a tick the order of the script counts
+    // two bodies of radius 0.11 m need 0.22 m; within a tick the order of the script decides
     let events =
         vec![to(1, "a", 0.79), to(2, "a", 0.7), to(3, "a", 0.75), to(4, "b", 1.5), to(4, "a", 1.0), to(5, "b", 1.0)];
     let log = Run::record(config(arena(3.0, &robots), 5), (Seed(1), script(events))).unwrap();

@@ -1,4 +1,4 @@
-//! Manual driving by script: taking over, being held, being refused, giving back.
+//! Manual driving by script: taking over, holding, refusals, and giving back.
 
 use motion_lab::collision::{Collision, Scene};
 use motion_lab::prelude::*;
@@ -84,7 +84,8 @@ fn a_car_is_held_with_its_trailer_and_leaves_again() {
 #[test]
 fn a_teleport_is_refused_where_it_would_touch_and_changes_nothing_but_the_count() {
     let to = |tick, x: f64| event(tick, "it", RobotInput::Teleport(quantized(&[x, 0.0, 0.25])));
-    // 5 - 4.75 = 0.25: a free place; 4.89: touching exactly is impossible on the grid of 2^-20, so just beyond; outside too
+    // 5 - 4.75 = 0.25 is a free place. Touching at 4.89 exactly is impossible on the grid of 2^-20, so a place just
+    // beyond is tried, and a place outside
     let frames = frames(one("rusty", &[0.0; 3], 9), vec![to(1, 4.75), to(3, 4.9), to(5, 5.0), to(7, -4.75)]);
     let state = |k: usize| &frames[k].robots[0];
     assert_eq!((state(1).configuration[0], state(1).configuration[2]), (4.75, 0.25));
@@ -193,7 +194,8 @@ fn held_robots_never_come_nearer_than_the_least_clearance_whatever_is_driven() {
                     _ => continue,
                 };
                 let clearance = scene.distance(&v.footprint);
-                // only what puts a robot there may put it nearer than it would ever drive; from there on it loses a rounding at most
+                // only a teleport or a trailer put on may bring a robot nearer than driving does; from there on it
+                // loses a rounding at most
                 let puts = |e: &Event| {
                     let puts = matches!(e.input, RobotInput::Teleport(_) | RobotInput::SetTrailer(_));
                     puts && e.tick == tick && e.robot == v.name

@@ -1,4 +1,4 @@
-//! A kind of robot that the library does not know.
+//! A kind of robot from outside the library.
 
 use bevy::app::App;
 use bevy::prelude::MinimalPlugins;
@@ -66,7 +66,7 @@ impl SimulatedRobot for Puck {
         Some(channels)
     }
 
-    /// A metre per second at most, so that a move takes more than a tick.
+    /// At most a metre per second, so that a move takes more than a tick.
     fn toward(&self, q: &R2, target: &R2) -> Option<[f64; 2]> {
         let d = target.0 - q.0;
         let scale = if d.norm() > 0.05 { 1.0 / d.norm() } else { 20.0 };
@@ -112,7 +112,7 @@ fn a_new_kind_runs_by_name_beside_the_lab_s_own() {
     assert_eq!(puck(61).target.len(), 2);
     assert_eq!(puck(220).extra[0], 220.0);
     assert!(puck(149).configuration[0] < -0.99 && puck(220).configuration[0] > 1.0);
-    // its state is in the frames: restored in the middle, the run goes on
+    // its own state is in the frames, so a run restored in the middle goes on the same
     let mut run = Recorder::with_robots(config(220), (Seed(8), script(events)), add).unwrap();
     run.restore(&log.frames[80]).unwrap();
     assert_eq!(run.step(), &log.frames[81]);
@@ -121,7 +121,7 @@ fn a_new_kind_runs_by_name_beside_the_lab_s_own() {
     assert!(matches!(unknown, Err(RunError::Spawn(e)) if e.to_string().contains("no kind \"puck\"")));
 }
 
-/// A kind that the plugin has itself, registered again, and a car with a hitch of its own length.
+/// One of the lab's own kinds, registered again: a car with dimensions of its own.
 #[test]
 fn a_kind_registered_again_is_the_new_one_and_keeps_its_dimensions() {
     let own = Hitch { wheelbase: 2.0, hitch_len: Some(3.0), ..HITCH };

@@ -1,4 +1,4 @@
-//! The state: keyframes, restoring, seeking, and what a frame may hold.
+//! The state: keyframes, restoring, seeking, and the limits of a frame.
 
 use motion_lab::prelude::*;
 use motion_lab::recording::{Recorder, Run};

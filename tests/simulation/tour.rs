@@ -1,4 +1,4 @@
-//! The tours: what each robot does by itself.
+//! The tours of the robots.
 
 use std::f64::consts::TAU;
 
@@ -10,7 +10,7 @@ use motion_lab::tour::{BOOK_SEED, TourConfig};
 use super::tour;
 use crate::fixtures::count_from_env;
 
-/// The seeds that the tours' promises are made for.
+/// The seeds for which the tours are tested.
 fn seeds() -> impl Iterator<Item = Seed> {
     (0..count_from_env("MOTION_LAB_SEEDS", 1000)).map(Seed).chain([BOOK_SEED])
 }
@@ -21,14 +21,14 @@ fn tour_replays_bitwise() {
     let again = Run::record(TourConfig::default(), BOOK_SEED).unwrap();
     assert_eq!(log.frames.len(), 1200);
     assert_eq!((log.frames[0].tick, log.frames[1199].tick, log.initial.tick), (1, 1200, 0));
-    // the digests tell -0.0 from 0.0, which == does not
+    // the digests distinguish -0.0 from 0.0, which == does not
     assert_eq!(log, again);
     let replayed = Run::replay(&log).unwrap();
     assert_eq!(replayed, log.frames);
     assert!(replayed.iter().map(Frame::digest).eq(log.digests.iter().copied()));
 }
 
-/// The book's run, pinned as a regression: a change of these digits is a change of every printed run.
+/// The book's run, pinned as a regression: a change of these digits changes every printed run.
 #[test]
 fn tour_at_book_seed() {
     let log = Run::record(TourConfig::default(), BOOK_SEED).unwrap();
@@ -82,7 +82,7 @@ fn the_tours_keep_their_promises() {
 
 #[test]
 fn slip_is_the_tour_s_only_chance_for_rusty_and_bounded() {
-    // two seeds: the wheels turn by nearly the same, the places differ
+    // with two seeds the wheels turn by nearly the same, and the places differ
     let at = |seed| Run::record(tour(40), Seed(seed)).unwrap().frames.pop().unwrap().robots.swap_remove(0);
     let (a, b) = (at(1), at(2));
     assert_ne!(a.configuration, b.configuration);
@@ -97,7 +97,7 @@ fn the_encoders_count_what_the_wheels_turned() {
     let mut before = [0.0; 2];
     while !run.is_complete() {
         let turned = [run.step().robots[0].extra[0], run.frame().robots[0].extra[1]];
-        // 360 counts a turn, as many as are whole
+        // 360 counts per turn; only whole counts are read
         let counts = turned.map(|angle| (angle * 360.0 / TAU).floor() as i64);
         let read = run.view()[0].encoders.unwrap();
         assert_eq!([read.left, read.right], counts, "after {turned:?} rad at tick {}", run.frame().tick);

@@ -93,7 +93,7 @@ impl Arena {
         Point2::new(draws.uniform(-self.half, self.half), draws.uniform(-self.half, self.half))
     }
 
-    /// The shape of an obstacle and its text; of a screen, its points.
+    /// The shape of an obstacle and its text; for a screen, the text of its points.
     fn random_thing(&self, draws: &mut Stream, size: f64, number: u32) -> (Placed, String) {
         let at = self.random_point(draws);
         let mut near = |scale: f64| {
@@ -159,7 +159,7 @@ impl Case {
             Arena::random(&mut draws, half, size, crowd.contains(&arm)),
             Arena::random(&mut draws, room, 0.15 * room, alone.is_arm()),
         ];
-        // in some a touring Hitch gets to its second leg
+        // in some cases a touring Hitch reaches its second leg
         let ticks = if number % 8 == 5 { 210 } else { 60 };
         let mut case = Case { seed: Seed(number), arenas, residents: Vec::new(), ticks, script: Script::empty() };
         for (kind, arena) in crowd.into_iter().map(|kind| (kind, 0)).chain([(alone, 1)]) {
@@ -190,7 +190,7 @@ impl Case {
         self.residents.iter().enumerate().filter(move |(_, a)| a.arena == arena)
     }
 
-    /// What a robot may not touch: the obstacles and the other robots of its arena.
+    /// Everything that a robot may not touch: the obstacles and the other robots of its arena.
     pub fn around(&self, robots: &[RobotState], id: usize) -> Vec<Placed> {
         let arena = self.residents[id].arena;
         let others = self.in_arena(arena).filter(|(other, _)| *other != id);
@@ -237,7 +237,7 @@ fn random_driving(draws: &mut Stream, kind: Kind) -> RobotInput {
 
 /// An input of any kind; the robot may have to refuse it.
 fn random_input(draws: &mut Stream, kind: Kind, half: f64) -> RobotInput {
-    // Hitch gets more of the one input that only it can obey
+    // Hitch gets more of the one input that only it accepts
     let (roll, towing) = (draws.below(if kind == Kind::Hitch { 28 } else { 20 }), draws.below(2) == 0);
     let mut q = random_configuration(draws, kind, towing, half);
     if draws.below(4) == 0 {

@@ -1,4 +1,4 @@
-//! What the script changes before a tick, and the motion that the driver or the tour then asks for.
+//! The changes by the script before a tick, and the motion that the driver or the tour then asks for.
 
 use std::f64::consts::TAU;
 
@@ -69,7 +69,8 @@ fn put_at(robot: &mut RobotState, q: &[f64]) {
     robot.configuration = Coordinates::from_slice(q);
 }
 
-/// The configuration with these coordinates, for a robot now at `now`. Three coordinates put a trailer straight behind the car.
+/// The configuration with these coordinates, of a robot now at `now`. Three coordinates place a trailer straight behind
+/// the car.
 fn configuration_at(kind: Kind, now: &[f64], to: &[f64]) -> Option<Vec<f64>> {
     let mut q = to.to_vec();
     match kind {
@@ -115,7 +116,8 @@ fn toward_waypoint(tour: &[Point2], q: &[f64], next: &mut f64) -> (f64, f64) {
     (speed, (4.0 * error).clamp(-RUSTY.max_turn_rate, RUSTY.max_turn_rate))
 }
 
-/// The joint angles of a touring arm after this tick: on a sinusoid for each joint, drawn once for the run, or on the way there at 2 rad/s.
+/// The joint angles of a touring arm after this tick: each joint is on a sinusoid drawn once for the run, or on its way
+/// there at 2 rad/s.
 fn on_sinusoids(mut draws: Stream, start: &[f64], q: &[f64], tick: u64) -> Vec<f64> {
     let (base, time) = (draws.uniform(0.5, 0.8), tick as f64 * DT);
     let joint = |(k, (start, q)): (usize, (&f64, &f64))| {
@@ -135,7 +137,8 @@ fn reversing(mut draws: Stream, tick: u64) -> (f64, f64) {
     (0.5 * HITCH.max_speed * [-1.0, 1.0][leg % 2], legs[leg])
 }
 
-/// The motion that the driver or the tour asks for. Rusty's wheels turn, and slip, even where it is then held. An arm arrives at its target.
+/// The motion that the driver or the tour asks for. Rusty's wheels turn and slip even where the robot is then held. An
+/// arm arrives at its target.
 pub fn motion_of(case: &Case, id: usize, tick: u64, robot: &mut RobotState) -> Motion {
     let resident = &case.residents[id];
     let stream = |name: &str| Stream::new(case.seed, &format!("{}/{name}", resident.name));

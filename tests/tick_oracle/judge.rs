@@ -1,4 +1,4 @@
-//! Whether a frame is what the frame before it and the script make it.
+//! The check of a frame against the frame before it and the script.
 
 use std::f64::consts::TAU;
 
@@ -12,16 +12,16 @@ use super::rays::is_range;
 use super::robots::{Kind, Motion, shapes};
 use crate::oracle::short;
 
-/// How far a coordinate may be from where the equations lead, metres or radians.
+/// Largest error of a coordinate against the equations, metres or radians.
 const TOLERANCE: f64 = 1e-9;
 
-/// No motion ends nearer to anything than this, metres, unless it started nearer.
+/// Least clearance at the end of a motion, metres, unless it started nearer.
 const LEAST: f64 = 1e-5;
 
 /// The number of ticks for which a flash holds.
 const FLASH: u32 = 6;
 
-/// How often each thing happened: one count for each robot and tick, and counts of inputs and rays.
+/// Counts of what happened: one for each robot and tick, and counts of inputs and rays.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Tally {
     /// Robots on wheels whose motion was free.
@@ -32,18 +32,18 @@ pub struct Tally {
     pub at_robot: u64,
     /// Robots that stayed where they started, because their sweep met that of a lower id.
     pub yielded: u64,
-    /// Robots that started in contact, with an arm on them.
+    /// Robots that started in contact with an arm.
     pub pinned: u64,
     /// Robots that stood still and touched nothing.
     pub still: u64,
     /// Arms that hit nothing, and those that hit something.
     pub arm_free: u64,
     pub arm_hit: u64,
-    /// Robots that came so near to something that contact and none are both accepted.
+    /// Robots so near to something that both contact and no contact are accepted.
     pub undecided: u64,
     /// Inputs that were refused.
     pub refused: u64,
-    /// Teleports and trailers that were not refused, and trailers put on.
+    /// Accepted teleports and trailer changes, and trailers put on.
     pub put: u64,
     pub hitched: u64,
     /// Rays.
@@ -51,16 +51,16 @@ pub struct Tally {
     pub misses: u64,
 }
 
-/// What a robot is about to do in the tick.
+/// A robot's plan for the tick.
 struct Plan {
     kind: Kind,
     motion: Motion,
-    /// What it may not touch: obstacles, and the other robots where they start.
+    /// Everything it may not touch: obstacles, and the other robots at their starts.
     around: Vec<Placed>,
     cut: Cut,
 }
 
-/// Whether the frame `after` is right, or what is wrong with it.
+/// Checks the frame `after`. The error says what is wrong with it.
 pub fn judge(case: &Case, before: &Frame, after: &Frame, tally: &mut Tally) -> Result<(), String> {
     let tick = before.tick + 1;
     ensure(after.tick == tick && after.robots.len() == case.residents.len(), || "is not the run's next frame".into())?;
@@ -134,7 +134,8 @@ fn is_near(a: &[f64], b: &[f64], lengths: usize) -> bool {
     a.len() == b.len() && a.iter().zip(b).enumerate().map(apart).all(|d| d <= TOLERANCE)
 }
 
-/// Whether all but the place is right; `expected` is the state before the tick, with its inputs applied and its wheels turned.
+/// Checks everything but the configuration. `expected` is the state before the tick, with its inputs applied and its
+/// wheels turned.
 fn state(expected: &RobotState, found: &RobotState) -> Result<(), String> {
     let touches = found.in_contact;
     let contacts = expected.contacts + u32::from(touches && !expected.in_contact);
@@ -149,7 +150,7 @@ fn state(expected: &RobotState, found: &RobotState) -> Result<(), String> {
     ensure(same, || format!("has not the wheels and waypoint {:?}", expected.extra))
 }
 
-/// Whether the place and the contact are right.
+/// Checks the configuration and the contact.
 fn place(plan: &Plan, yields: Answer, found: &RobotState) -> Result<(), String> {
     let Plan { kind, motion, around, cut } = plan;
     let (q, touches, lengths) = (&found.configuration[..], found.in_contact, if kind.is_arm() { 0 } else { 2 });
@@ -175,7 +176,7 @@ fn place(plan: &Plan, yields: Answer, found: &RobotState) -> Result<(), String> 
     ensure(ends >= least - TOLERANCE, || format!("ends at a clearance of {ends}"))
 }
 
-/// Whether no two robots on wheels end nearer to one another than motions may.
+/// Checks that no two robots on wheels end nearer to one another than motions may.
 fn ends_apart(case: &Case, plans: &[Plan], after: &Frame) -> Result<(), String> {
     let ends = |id: usize| shapes(plans[id].kind, &after.robots[id].configuration);
     for (id, plan) in plans.iter().enumerate().filter(|(_, plan)| !plan.kind.is_arm()) {
@@ -189,7 +190,7 @@ fn ends_apart(case: &Case, plans: &[Plan], after: &Frame) -> Result<(), String> 
     Ok(())
 }
 
-/// Whether every Rusty's sensor reads what is there after the tick.
+/// Checks the readings of every Rusty's sensor after the tick.
 pub fn scans(case: &Case, after: &Frame, tally: &mut Tally) -> Result<(), String> {
     let sensing: Vec<usize> = (0..case.residents.len()).filter(|id| case.residents[*id].kind == Kind::Rusty).collect();
     let scanned: Vec<usize> = after.scans.iter().map(|scan| scan.robot as usize).collect();

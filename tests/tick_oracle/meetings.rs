@@ -1,17 +1,17 @@
-//! How near motions come to obstacles and to one another, by distances at many places.
+//! The clearance of motions from obstacles and from one another, by distances at many places.
 
 use motion_lab::geometry::Placed;
 
 use super::robots::Motion;
 use crate::oracle::{plain, sweep};
 
-/// The greatest clearance at which a robot is held, metres. What comes nearer may hold it.
+/// Largest clearance at which a robot is held, metres. Anything nearer may hold it.
 pub const NEAR: f64 = 1e-4;
 
-/// The number of places at which contact is looked for once a motion has come near something.
+/// Number of places checked for contact once a motion has come near something.
 const PLACES: u32 = 64;
 
-/// The greatest number of distance queries about one motion or one pair of motions.
+/// Largest number of distance queries about one motion or one pair of motions.
 const BUDGET: u32 = 5000;
 
 /// The answer to a question about all places of a motion, from some of them.
@@ -39,7 +39,7 @@ pub fn clearance(parts: &[Placed], obstacles: &[Placed]) -> f64 {
     parts.iter().fold(f64::INFINITY, |least, part| sweep::nearest_of(part, obstacles, least))
 }
 
-/// How far a motion can go among obstacles.
+/// The part of a motion that is possible among obstacles.
 #[derive(Clone, Copy, Debug)]
 pub struct Cut {
     /// Whether the motion touches an obstacle.
@@ -53,11 +53,11 @@ pub struct Cut {
 }
 
 impl Cut {
-    /// How far `motion` can go when what comes nearer than `near` may hold it.
+    /// The part of `motion` that is possible when anything nearer than `near` may hold it.
     ///
-    /// The first loop never steps farther than the clearance above `near`, or a tenth of `near`, so it misses nothing. The second looks for
-    /// contact. A motion that starts where robots are held, and comes no nearer to anything, is free: a motion away from a held pose
-    /// is, and sliding never sticks.
+    /// The first loop steps by at most the clearance above `near`, or a tenth of `near`, so it misses nothing. The
+    /// second loop searches for contact. A motion that starts where robots are held and comes no nearer to anything is
+    /// free: a motion away from a held pose is free, and sliding never sticks.
     pub fn new(motion: &Motion, obstacles: &[Placed], near: f64) -> Self {
         let speed = motion.speed();
         let at = |s: f64| clearance(&motion.shapes_at(s), obstacles);
@@ -99,10 +99,10 @@ impl Cut {
     }
 }
 
-/// Whether the sets that two cut motions sweep over meet, whatever the times.
+/// Whether the sets that two cut motions sweep over meet, regardless of time.
 pub fn sweeps_meet((motion_a, a): (&Motion, &Cut), (motion_b, b): (&Motion, &Cut)) -> Answer {
     let (speed_a, speed_b) = (motion_a.speed(), motion_b.speed());
-    // when one stands still, the other's motion is cut there already
+    // the motion of the other is already cut at a robot that stands still
     if a.at_most == 0.0 || b.at_most * speed_b == 0.0 {
         return Answer::No;
     }
@@ -110,7 +110,7 @@ pub fn sweeps_meet((motion_a, a): (&Motion, &Cut), (motion_b, b): (&Motion, &Cut
     if apart(0.0, 0.0) > NEAR + a.at_most * speed_a + b.at_most * speed_b {
         return Answer::No;
     }
-    // look for contact at places a centimetre apart, as far as both go for certain
+    // contact is searched at places a centimetre apart, as far as both are sure to go
     let places = |motion: &Motion, speed: f64, until: f64| -> Vec<Vec<Placed>> {
         let count = 1 + (100.0 * speed * until) as u32;
         (0..=count).map(|k| motion.shapes_at(until * f64::from(k) / f64::from(count))).collect()
@@ -119,7 +119,7 @@ pub fn sweeps_meet((motion_a, a): (&Motion, &Cut), (motion_b, b): (&Motion, &Cut
     if at_a.iter().any(|a| at_b.iter().any(|b| a.iter().any(|a| b.iter().any(|b| plain::intersects(a, b))))) {
         return Answer::Yes;
     }
-    // prove a distance piece by piece, as far as both may go
+    // a distance is proven piece by piece, as far as both may go
     let mut open = vec![((0.0, a.at_most), (0.0, b.at_most))];
     let mut queries = 0;
     while let Some(((a0, a1), (b0, b1))) = open.pop() {

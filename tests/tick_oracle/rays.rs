@@ -5,13 +5,14 @@ use motion_lab::geometry::{Placed, Point2, Vector2};
 
 use crate::oracle::plain;
 
-/// Rays are bent by this much to either side where a hit may be a miss, radians.
+/// The angle by which rays are turned to either side where a hit may be a miss, radians.
 const BEND: f64 = 1e-9;
 
-/// How far apart two ranges of one ray may be, metres.
+/// Largest difference of two ranges of one ray, metres.
 const TOLERANCE: f64 = 1e-9;
 
-/// Whether `range` is what a ray from `from` at this bearing reads. A ray that barely hits or barely misses something may read either.
+/// Whether a ray from `from` at this bearing may read `range`. A ray that barely hits or barely misses something may
+/// read either.
 pub fn is_range(range: f64, from: Point2, bearing: f64, most: f64, obstacles: &[Placed]) -> bool {
     if obstacles.iter().any(|obstacle| plain::point_distance(from, obstacle) == 0.0) {
         return range == 0.0;
@@ -30,7 +31,7 @@ pub fn is_range(range: f64, from: Point2, bearing: f64, most: f64, obstacles: &[
     bent.iter().any(|t| *t <= range + TOLERANCE) && bent.iter().any(|t| *t >= range - TOLERANCE)
 }
 
-/// How far a ray goes until it meets the shape, metres; infinity if it never does. It begins outside.
+/// The distance along a ray to the shape, metres; infinity for a miss. The ray begins outside.
 fn hit(from: Point2, direction: Vector2, shape: &Placed) -> f64 {
     let (core, radius) = (shape.core(), shape.radius());
     let mut first = f64::INFINITY;

@@ -1,4 +1,5 @@
-//! What robots occupy and how they move within a tick, by their equations. Only the robots' dimensions are the library's.
+//! The robots' footprints and their motions within a tick, by their equations. Only the robots' dimensions come from
+//! the library.
 
 use libm::{cos, sin, tan};
 use motion_lab::geometry::{Placed, Point2};
@@ -32,7 +33,7 @@ impl Kind {
         }
     }
 
-    /// The lengths of an arm's links, metres; none of a robot on wheels.
+    /// The lengths of an arm's links, metres; empty for a robot on wheels.
     pub fn links(self) -> &'static [f64] {
         match self {
             Kind::Rusty | Kind::Hitch => &[],
@@ -58,9 +59,9 @@ fn drawbar() -> f64 {
 
 /// A rectangle seen from a point on its middle line, metres.
 struct Rectangle {
-    /// Where it begins, ahead of the point.
+    /// The near end, ahead of the point.
     from: f64,
-    /// Where it ends.
+    /// The far end, ahead of the point.
     to: f64,
     /// Half its width.
     half: f64,

@@ -1,19 +1,20 @@
 //! A published planner, the crate `rrt` (its `dual_rrt_connect`, after Kuffner and LaValle, 2000), on two of the lab's
 //! problems: Reach past the block and the shelf of the Workbench, Rusty from room A to room E of the Apartment.
 //!
-//! `cargo run --manifest-path examples/rrt_crate/Cargo.toml -- [FIGURE.svg]`; the figure goes to `runs/rrt_crate.svg` otherwise. It
-//! is a crate of its own, as yours would be: it needs the core of the lab and nothing of the simulator.
+//! `cargo run --manifest-path examples/rrt_crate/Cargo.toml -- [FIGURE.svg]`; the figure goes to `runs/rrt_crate.svg`
+//! otherwise. It is a crate of its own, as yours would be. It needs the core of the lab and nothing of the simulator.
 //!
-//! Such a planner asks about points only, here through `&dyn Collision`, and never about the edges between them; this crate
-//! even leaves out the two nodes at which its trees meet. So its path is a proposal. Each edge is put to `edge_free`, a
-//! proposal with an edge that is not free is planned anew in smaller steps, corners are cut where `edge_free` allows, and
-//! what is left gets certificates that a separate verifier accepts.
+//! Such a planner asks about points only, here through `&dyn Collision`, and never about the edges between them. This
+//! crate even leaves out the two nodes at which its trees meet. So its path is a proposal. Each edge is checked by
+//! `edge_free`. A proposal with an edge that is not free is planned anew in smaller steps. Corners are cut where
+//! `edge_free` allows, and the remaining edges get certificates that a separate verifier accepts.
 //!
-//! The crate searches a box and does not know that an angle is a circle, so Reach's goal is one that it can reach without
-//! crossing pi. (The planner of `own_planner` uses the lab's own charts and goes round.)
+//! The crate searches a box and does not know that angles wrap, so Reach's goal is one that it can reach without
+//! crossing pi. (The planner of `own_planner` uses the lab's own charts, in which angles wrap.)
 //!
-//! It is deterministic: `dual_rrt_connect` draws from nothing but the closure it is given, which draws from a seeded stream.
-//! The crate's `smooth_path` draws from the thread's own generator, which nobody can seed, so corners are cut here instead.
+//! The program is deterministic: `dual_rrt_connect` draws only from the closure it is given, which draws from a seeded
+//! stream. The crate's `smooth_path` draws from the thread's own generator, which nobody can seed, so corners are cut
+//! here instead.
 use std::cell::RefCell;
 use std::error::Error;
 use std::fmt::Write as _;
@@ -46,15 +47,15 @@ use short::short;
 
 type Failure = Box<dyn Error>;
 
-/// A path, and what it took to find and to prove it.
+/// A path, and the cost of finding and proving it.
 pub struct Solution<C> {
     /// The configurations, start and goal included.
     pub path: Vec<C>,
-    /// How many configurations the accepted proposal had.
+    /// Number of configurations in the accepted proposal.
     pub proposed: usize,
-    /// How many proposals before it had an edge that was not free.
+    /// Number of earlier proposals with an edge that was not free.
     pub refused: u32,
-    /// What the planner asked.
+    /// The planner's queries.
     pub asked: QueryCounts,
     /// The steps of all certificates together.
     pub steps: usize,
@@ -62,8 +63,8 @@ pub struct Solution<C> {
     pub clearance: f64,
 }
 
-/// One proposal of the crate in steps of `step`, at least the two ends. It sees a configuration as a list of numbers, and of
-/// the world what `obstacles` answers.
+/// One proposal of the crate in steps of `step`, at least the two ends. The crate sees a configuration as a list of
+/// numbers, and of the world only the answers of `obstacles`.
 fn propose<R: Robot>(
     problem: &RefCell<Problem<R>>,
     obstacles: &dyn Collision,
@@ -84,7 +85,7 @@ fn propose<R: Robot>(
     Ok([start].into_iter().chain(inner).chain([goal]).collect())
 }
 
-/// Leaves out whatever lies between two configurations that a free edge joins, farthest first.
+/// Leaves out the configurations between two that a free edge joins, trying the farthest first.
 fn cut_corners<R: Robot>(checker: &Checker<R>, path: &[R::Configuration]) -> Vec<R::Configuration> {
     let mut short = vec![path[0]];
     let mut at = 0;
@@ -95,7 +96,7 @@ fn cut_corners<R: Robot>(checker: &Checker<R>, path: &[R::Configuration]) -> Vec
     short
 }
 
-/// Solves a problem by the crate and proves every edge of what comes of it.
+/// Solves a problem by the crate and proves every edge of the path.
 pub fn solve<R: Robot>(problem: Problem<R>, step: f64) -> Result<Solution<R::Configuration>, Failure> {
     let checker = problem.checker().clone();
     let counted = Counted::new(checker.scene().clone());
@@ -139,7 +140,7 @@ pub fn rusty() -> Result<Problem<RustyDisc>, Failure> {
     Ok(Problem::try_new(checker, place("room A")?, place("room E")?, Seed(2005))?)
 }
 
-/// The world with a path in it: the robot at every corner, and the way of its reference point along the edges.
+/// The world with a path in it: the robot at every corner, and the path of its reference point along the edges.
 fn panel<R: Robot>(
     model: &World,
     heading: &str,
@@ -166,7 +167,7 @@ fn panel<R: Robot>(
     Ok(Panel { picture: world(&bare).with(items), heading: heading.into(), readout: vec![] })
 }
 
-/// What the program prints, and its figure as SVG.
+/// The program's output, and its figure as SVG.
 pub fn report() -> Result<(String, String), Failure> {
     let mut text = String::new();
     let (arm, disc) = (Reach::<2>::workbench(), RustyDisc::default());

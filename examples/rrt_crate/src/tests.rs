@@ -1,4 +1,4 @@
-//! What the program prints is pinned, and its paths are checked by other means than the library's.
+//! The program's output is pinned, and its paths are checked by other means than the library's.
 
 use motion_lab::prelude::*;
 

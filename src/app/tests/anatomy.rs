@@ -16,7 +16,7 @@ fn on(tab: &str) -> Harness<'static, Lab> {
     harness
 }
 
-/// What was copied in the last frame.
+/// The text copied in the last frame.
 fn copied(harness: &Harness<'_, Lab>) -> Option<String> {
     let commands = &harness.output().platform_output.commands;
     commands.iter().find_map(|c| match c {

@@ -27,13 +27,13 @@ pub struct Diff {
     json: bool,
 }
 
-/// How two logs compare.
+/// The comparison of two logs.
 #[derive(Serialize)]
 struct Comparison {
     equal: bool,
     /// The ticks that both logs have.
     ticks: u64,
-    /// How many of these differ.
+    /// The number of these that differ.
     differing_ticks: u64,
     setup: Vec<Setup>,
     divergence: Option<FirstValue>,

@@ -16,13 +16,14 @@ use crate::cli::{Data, Failure, Outcome};
 
 /// Grade scripts and logs by running them again at every seed of an assignment.
 ///
-/// A log's frames are simulated again first: a log that claims others is forged. A submission passes when its robot is at the goal
-/// within every limit, at every seed. The exit code is 0 when all pass, else 4.
+/// A log's frames are simulated again first: a log that claims others is forged. A submission passes when its robot is
+/// at the goal within every limit, at every seed. The exit code is 0 when all pass, else 4.
 ///
 /// An assignment:
 ///
 /// Assignment(version: 1, world: "lot", robot: "Hitch", start: [6.5, 2.5, 0],
-///     goal: (at: [7.5, 2.5, 0], within: [0.1, 0.1, 0.1]), limits: (ticks: 200, contacts: 0, reversals: 3), seeds: [1, 2])
+///     goal: (at: [7.5, 2.5, 0], within: [0.1, 0.1, 0.1]),
+///     limits: (ticks: 200, contacts: 0, reversals: 3), seeds: [1, 2])
 #[derive(Debug, Args)]
 #[command(verbatim_doc_comment)]
 pub struct GradeArgs {
@@ -43,7 +44,7 @@ struct Graded<'a> {
     passed: bool,
     /// The tick of the first forged frame.
     forged_at: Option<u64>,
-    /// Why it was not run.
+    /// The reason why it was refused.
     refused: Option<String>,
     attempts: Vec<Tried>,
 }

@@ -39,7 +39,7 @@ struct Replayed<'a> {
     run: RunSummary<'a>,
     /// The number of recorded ticks.
     sealed: u64,
-    /// How many of them, from the first on, the replay equals.
+    /// The number of them that the replay equals, from the first on.
     identical: u64,
     divergence: Option<String>,
 }
@@ -121,7 +121,7 @@ impl Replay {
     }
 }
 
-/// What came of a replay.
+/// The outcome of a replay.
 struct Ended {
     last: Frame,
     digest: Digest,

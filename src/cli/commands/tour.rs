@@ -16,7 +16,7 @@ use crate::cli::support::simulate::run_again;
 use crate::cli::support::summary::RunSummary;
 use crate::cli::{Data, Failure, Outcome, say};
 
-/// Where the recording and its figure go.
+/// The folder of the recording and its figure.
 const FOLDER: &str = "runs";
 
 /// Records the 60 s tour at the book's seed, reads the recording back, replays it from its seed and script alone,

@@ -12,9 +12,9 @@ pub const MAX_LOG: u64 = 4 << 30;
 
 /// A log from a file, or its sealed beginning.
 pub struct LogSource {
-    /// What was read.
+    /// The log.
     pub read: ReadLog,
-    /// What is wrong with the file, when it is not whole.
+    /// The damage to the file, if it is not whole.
     pub damage: Option<String>,
 }
 

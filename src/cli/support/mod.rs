@@ -1,4 +1,4 @@
-//! What several commands need.
+//! Helpers that several commands share.
 
 pub(crate) mod console;
 pub(crate) mod end;

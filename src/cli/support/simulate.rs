@@ -36,7 +36,7 @@ pub fn run_again(log: &Log, mut watch: impl FnMut(&Recorder)) -> Result<Option<D
     Ok(None)
 }
 
-/// Why a run is no longer shown.
+/// The reason to stop showing a run.
 enum Stop {
     Run(RunError),
     Own(Failure),

@@ -3,64 +3,11 @@
 use super::conservative_advancement::BRACKET;
 use super::disc_line::DiscLine;
 use super::first_contact::{arc_clearance, arc_meets, translation_meets};
-use super::local_march::march_nearby;
-use super::separation::halve;
 use super::step::step_clearance;
 use crate::collision::{Certificate, Collision, EdgeVerdict, ObstacleId, ProvenStep, Scene, Witness};
 use crate::geometry::{CircularArc, Footprint, Point2, Segment};
 use crate::num::{greater, ulp};
 use crate::robots::Motion;
-
-/// The verdict on a motion in a scene: in closed form where one decides, otherwise by the march with at most `budget`
-/// attempts to prove a step.
-///
-/// A closed form only predicts the first contact. The verdict itself is proven: the motion is free throughout, or up to
-/// just before that contact, and in contact just after it. For parts in translation one step of the march proves it
-/// free, for discs a clearance in closed form, less its rounding. If a certificate is asked for, steps that the
-/// verifier accepts prove every free stretch.
-pub(crate) fn verdict<M: Motion>(
-    scene: &Scene,
-    motion: &M,
-    budget: u32,
-    mut certificate: Option<&mut Certificate>,
-) -> EdgeVerdict {
-    if let Some((way, radius)) = motion.disc_line()
-        && let Some(verdict) = linear(scene, way, radius, certificate.as_deref_mut())
-    {
-        return verdict;
-    }
-    if certificate.is_none()
-        && let Some((arc, radius)) = motion.disc_arc()
-    {
-        let closed = circular(scene, motion, &arc, radius);
-        return closed.unwrap_or_else(|| march_nearby(scene, motion, budget, None, motion.footprint_at(0.0)));
-    }
-    let start = motion.footprint_at(0.0);
-    let turns = (0..start.parts().len()).any(|k| motion.rates(k).acceleration != 0.0);
-    if !turns && let Some(verdict) = straight(scene, motion, &start, certificate.as_deref_mut()) {
-        return verdict;
-    }
-    march_nearby(scene, motion, budget, certificate, start)
-}
-
-/// Largest number of halvings, enough for most motions; after that the caller falls back to the verdict.
-const HALVINGS: u32 = 48;
-
-/// Whether a motion is proven free: true wherever the [`verdict`] says so. Faster, because it computes neither the
-/// clearance nor the first contact.
-pub(crate) fn is_free<M: Motion>(scene: &Scene, motion: &M, budget: u32) -> bool {
-    if let Some((way, radius)) = motion.disc_line()
-        && let Some(free) = DiscLine::new(way, radius, scene).and_then(|disc| disc.is_free(scene))
-    {
-        return free;
-    }
-    if budget == 0 || motion.disc_arc().is_some() {
-        return verdict(scene, motion, budget, None).is_free();
-    }
-    let (start, end) = (motion.footprint_at(0.0), motion.footprint_at(1.0));
-    let decided = halve(scene, motion, (&start, &end), HALVINGS);
-    decided.unwrap_or_else(|| verdict(scene, motion, budget, None).is_free())
-}
 
 /// The verdict that the motion hits, if there is contact at `contact_at`; the caller has proven it free up to
 /// `free_until`.
@@ -81,7 +28,7 @@ fn bracket(s: f64, length: f64) -> (f64, f64) {
 
 /// The verdict on a motion none of whose parts turns. One step proves it free, or its first contact is where a vertex
 /// comes within reach of an edge. `None` where neither can be proven.
-fn straight<M: Motion>(
+pub(super) fn straight<M: Motion>(
     scene: &Scene,
     motion: &M,
     start: &Footprint,
@@ -113,7 +60,12 @@ fn straight<M: Motion>(
 }
 
 /// The verdict on a disc of this radius whose centre runs along a line; `None` where it takes a march.
-fn linear(scene: &Scene, way: Segment, radius: f64, certificate: Option<&mut Certificate>) -> Option<EdgeVerdict> {
+pub(super) fn linear(
+    scene: &Scene,
+    way: Segment,
+    radius: f64,
+    certificate: Option<&mut Certificate>,
+) -> Option<EdgeVerdict> {
     let (step, verdict) = DiscLine::new(way, radius, scene)?.verdict(scene)?;
     if let Some(c) = certificate {
         c.clear(0.0);
@@ -123,7 +75,7 @@ fn linear(scene: &Scene, way: Segment, radius: f64, certificate: Option<&mut Cer
 }
 
 /// The verdict on a disc of this radius whose centre runs along an arc; `None` where it takes a march.
-fn circular<M: Motion>(scene: &Scene, motion: &M, arc: &CircularArc, radius: f64) -> Option<EdgeVerdict> {
+pub(super) fn circular<M: Motion>(scene: &Scene, motion: &M, arc: &CircularArc, radius: f64) -> Option<EdgeVerdict> {
     let far = Point2::new(arc.centre.x.abs() + arc.radius, arc.centre.y.abs() + arc.radius);
     // the arc's own rounding, that of the distance to it and that of the footprint placed on it
     let slack = 128.0 * ulp(greater(greater(far.x, far.y) + radius, 1.0));
@@ -144,6 +96,7 @@ mod tests {
     use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
     use super::super::conservative_advancement::march;
+    use super::super::decide::verdict;
     use super::*;
     use crate::collision::{Checker, DiscChecker, MarchOptions};
     use crate::configuration::{HitchCfg, R2};

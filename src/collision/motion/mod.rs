@@ -4,6 +4,7 @@ pub(crate) mod bisection;
 pub(crate) mod certificate;
 pub(crate) mod closed_form;
 pub(crate) mod conservative_advancement;
+pub(crate) mod decide;
 pub(crate) mod disc_line;
 pub(crate) mod first_contact;
 pub(crate) mod local_march;

@@ -12,7 +12,7 @@ use crate::robots::Motion;
 /// A conservative separation test: true only if every part of a motion from `start` to `end` keeps more than `margin`
 /// metres from everything. `false` is inconclusive. What it proves, one step of the
 /// [march](super::conservative_advancement::march) proves too.
-pub(crate) fn is_plainly_clear<M: Motion>(
+pub(crate) fn is_separated<M: Motion>(
     collision: &dyn Collision,
     motion: &M,
     margin: f64,
@@ -22,28 +22,27 @@ pub(crate) fn is_plainly_clear<M: Motion>(
     parts.all(|(k, (from, to))| collision.clears(from.placed(), to.placed(), margin + motion.sagitta(k, 0.0, 1.0)))
 }
 
-/// Whether a motion is free, by halving every stretch that the separation test does not prove. Both answers are proven:
-/// `Some(false)` means that a contact was found. `None` where `halvings` halvings do not decide.
+/// The parts of a motion in a scene that the separation test does not prove clear of everything.
+pub(crate) fn open_parts<M: Motion>(scene: &Scene, motion: &M, start: &Footprint, end: &Footprint) -> Parts {
+    let halving = Halving { scene, motion, halvings: 0 };
+    halving.open((0..start.parts().len()).collect(), (0.0, start), (1.0, end))
+}
+
+/// Whether a motion between two free ends is free, by halving every stretch that the separation test does not prove; all
+/// parts but those in `open` are proven clear. Both answers are proven: `Some(false)` means that a contact was found.
+/// `None` where `halvings` halvings do not decide.
 pub(crate) fn halve<M: Motion>(
     scene: &Scene,
     motion: &M,
     (start, end): (&Footprint, &Footprint),
+    open: &[usize],
     halvings: u32,
 ) -> Option<bool> {
-    let mut halving = Halving { scene, motion, halvings };
-    let (from, to) = ((0.0, start), (1.0, end));
-    let open = halving.open((0..start.parts().len()).collect(), from, to);
-    if open.is_empty() {
-        return Some(true);
-    }
-    if scene.intersects(start) || scene.intersects(end) {
-        return Some(false);
-    }
-    halving.halves(from, to, &open)
+    Halving { scene, motion, halvings }.halves((0.0, start), (1.0, end), open)
 }
 
 /// Parts, by their numbers.
-type Parts = SmallVec<[usize; 4]>;
+pub(crate) type Parts = SmallVec<[usize; 4]>;
 
 /// A motion under repeated halving.
 struct Halving<'a, M> {

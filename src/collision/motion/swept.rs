@@ -2,7 +2,8 @@
 
 use smallvec::SmallVec;
 
-use crate::collision::{Collision, EdgeVerdict, MarchOptions, is_plainly_clear};
+use super::decide::is_free_or;
+use crate::collision::{Collision, EdgeVerdict, MarchOptions};
 use crate::configuration::R2;
 use crate::geometry::{Footprint, Part, Pose2};
 use crate::num::{hypot, wrap};
@@ -73,6 +74,5 @@ pub(crate) fn hits(
     });
     let rates = rates.collect();
     let motion = PartsMotion { from: a, to: b, turns, rates };
-    !is_plainly_clear(collision, &motion, 0.0, (a, b))
-        && (collision.intersects(a) || collision.intersects(b) || !judge(&motion).is_free())
+    !is_free_or(collision, &motion, 0.0, || judge(&motion))
 }

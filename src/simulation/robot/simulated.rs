@@ -16,7 +16,7 @@ pub type Extra = ShortList<f64, 4>;
 ///
 /// Everything here is a pure function of its arguments: no clock, no global, no random number but `draws`.
 pub trait SimulatedRobot: Drivable<Drive: Clone + Send + Sync + 'static> {
-    /// What the seed decides once, at the start of a run.
+    /// The data of a tour, drawn from the seed at the start of a run.
     type Tour: Clone + std::fmt::Debug + Send + Sync + 'static;
 
     /// Whether contact holds the robot where it is. A robot that is not held passes through things, in contact.
@@ -78,7 +78,7 @@ pub trait SimulatedRobot: Drivable<Drive: Clone + Send + Sync + 'static> {
         None
     }
 
-    /// What the wheels' encoders read; `None` without encoders.
+    /// The readings of the wheels' encoders; `None` without encoders.
     fn encoders(&self, _extra: &Extra) -> Option<EncoderCounts> {
         None
     }

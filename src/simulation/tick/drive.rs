@@ -28,7 +28,7 @@ fn commanded<R: SimulatedRobot>(
     to_target.or_else(by_channels).unwrap_or_default()
 }
 
-/// What [`drive`] reads and writes of a robot.
+/// The components of a robot that [`drive`] reads and writes.
 type Driven<R> = (
     &'static RobotModel<R>,
     &'static Route<R>,
@@ -59,7 +59,7 @@ pub(crate) fn drive<R: SimulatedRobot>(transport: Res<Transport>, mut robots: Qu
     }
 }
 
-/// What [`plan`] reads and writes of a robot.
+/// The components of a robot that [`plan`] reads and writes.
 type Planned<R> = (&'static RobotModel<R>, &'static Configuration<R>, &'static Control<R>, &'static mut TickMotion<R>);
 
 /// Gives every robot of a kind the motion of its control.

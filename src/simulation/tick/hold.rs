@@ -1,6 +1,6 @@
 //! Holding: how far a tick's motion may go before it would touch something.
 
-use crate::collision::{Collision, EdgeVerdict, MarchOptions, clearance_of_all, is_plainly_clear, march_on};
+use crate::collision::{Blocked, Collision, keeps};
 use crate::num::{greater, lesser};
 use crate::robots::Motion;
 
@@ -20,7 +20,7 @@ const WEAR: f64 = 1e-10;
 /// Clearance at which the bisection for the hold may stop, metres; well below 1e-4.
 const HOLD_ENOUGH: f64 = 6e-5;
 
-/// How far a motion may go.
+/// The part of a motion that a robot may go.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Advance {
     /// The parameter at which the motion ends; the motion is free up to it.
@@ -50,30 +50,11 @@ pub fn margin_from(start: f64) -> f64 {
 /// A free motion goes all the way. A blocked motion is held at a clearance of [`HOLD_CLEARANCE`] or a little more (the
 /// bisection's width), or at its start when that is nearer. A start in contact stays where it is.
 pub fn advance(surroundings: &dyn Collision, motion: &impl Motion) -> Advance {
-    let (start, end) = (motion.footprint_at(0.0), motion.footprint_at(1.0));
-    if is_plainly_clear(surroundings, motion, MARGIN + 2.0 * WEAR, (&start, &end)) {
+    let Err(Blocked { start, until }) = keeps(surroundings, motion, MARGIN + 2.0 * WEAR, margin_from) else {
         return Advance { until: 1.0, blocked: false };
-    }
-    // Most motions keep well away from everything. One step proves that, and proves it of the start too, so the start's
-    // clearance is not needed.
-    let all = clearance_of_all(surroundings, motion, &start);
-    if all > MARGIN + 2.0 * WEAR {
-        return Advance { until: 1.0, blocked: false };
-    }
-    let clearance_at = |s: f64| surroundings.distance(&motion.footprint_at(s));
-    let start_clearance = surroundings.distance(&start);
-    if start_clearance <= 0.0 {
-        return Advance { until: 0.0, blocked: true };
-    }
-    let options = MarchOptions { margin: margin_from(start_clearance), ..MarchOptions::default() };
-    if all > options.margin {
-        return Advance { until: 1.0, blocked: false };
-    }
-    let free_until = match march_on(surroundings, motion, options, None, (start, start_clearance)) {
-        EdgeVerdict::Free { .. } => return Advance { until: 1.0, blocked: false },
-        EdgeVerdict::Hit { free_until, .. } | EdgeVerdict::Unresolved { free_until, .. } => free_until,
     };
-    let until = if start_clearance < HOLD_CLEARANCE { 0.0 } else { back_off(clearance_at, free_until) };
+    let clearance_at = |s: f64| surroundings.distance(&motion.footprint_at(s));
+    let until = if start < HOLD_CLEARANCE { 0.0 } else { back_off(clearance_at, until) };
     Advance { until, blocked: true }
 }
 

@@ -1,4 +1,4 @@
-//! What a tick does, system by system: input, drive, cut, settle, sense.
+//! The systems of a tick: input, drive, cut, settle, sense.
 
 pub(crate) mod drive;
 pub(crate) mod hold;

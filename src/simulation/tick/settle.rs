@@ -5,9 +5,9 @@ use bevy::prelude::*;
 use super::hold::{self, Advance, margin_from};
 use super::starts::{Starts, Sweeps};
 use super::sweep::{CutMotion, sweeps_meet};
-use crate::collision::{Collision, MarchOptions, Surroundings, clearance_of_all, is_plainly_clear, march_on};
+use crate::collision::{Surroundings, is_free_among};
 use crate::configuration::Configuration as _;
-use crate::robots::Motion;
+use crate::robots::Motion as _;
 use crate::simulation::robot::simulated::canonical;
 use crate::simulation::{
     Configuration, Contacts, Control, Cut, DriveMode, ResidesIn, RobotId, RobotModel, SimulatedRobot, TickMotion,
@@ -17,7 +17,7 @@ use crate::simulation::{
 /// Number of ticks that a flash holds after contact: 0.3 s.
 pub const FLASH_TICKS: u32 = 6;
 
-/// What [`cut`] reads and writes of a robot.
+/// The components of a robot that [`cut`] reads and writes.
 type CutRobot<R> = (
     &'static RobotId,
     &'static ResidesIn,
@@ -51,7 +51,7 @@ pub(crate) fn cut<R: SimulatedRobot>(
             Cut::new(until, blocked)
         } else {
             // a robot that is not held goes all the way, in contact unless proven free
-            Cut::new(1.0, !is_free(&surroundings, motion))
+            Cut::new(1.0, !is_free_among(&surroundings, motion))
         };
         cut.of = of;
         if !others.is_empty() {
@@ -60,23 +60,7 @@ pub(crate) fn cut<R: SimulatedRobot>(
     }
 }
 
-/// Whether a whole motion is proven free. An end in contact decides that it is not, without a march.
-fn is_free(surroundings: &Surroundings, motion: &impl Motion) -> bool {
-    let (start, end, options) = (motion.footprint_at(0.0), motion.footprint_at(1.0), MarchOptions::default());
-    if is_plainly_clear(surroundings, motion, options.margin, (&start, &end)) {
-        return true;
-    }
-    if surroundings.intersects(&start) || surroundings.intersects(&end) {
-        return false;
-    }
-    if clearance_of_all(surroundings, motion, &start) > options.margin {
-        return true;
-    }
-    let distance = surroundings.distance(&start);
-    march_on(surroundings, motion, options, None, (start, distance)).is_free()
-}
-
-/// What [`settle`] reads and writes of a robot.
+/// The components of a robot that [`settle`] reads and writes.
 type Settled<R> = (
     &'static RobotId,
     &'static ResidesIn,

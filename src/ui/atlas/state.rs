@@ -13,7 +13,7 @@ use crate::robots::Robot;
 use crate::ui::readout;
 use crate::worlds::World;
 
-/// What a click does.
+/// The effect of a click.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Mode {
     /// Puts a robot there.
@@ -46,7 +46,7 @@ pub struct AtlasState {
     labels: Option<(f64, Vec<Item>)>,
     warnings: Vec<String>,
     grid: Option<(GridLayer, Arc<Picture>)>,
-    /// What a click does.
+    /// The effect of a click.
     pub mode: Mode,
     /// Index of the robot that a click places.
     pub robot: usize,
@@ -61,7 +61,7 @@ pub struct AtlasState {
     pub selected: Option<String>,
     /// The text of its name field.
     pub name_text: String,
-    /// Why the last change was refused.
+    /// The reason why the last change was refused.
     pub message: Option<String>,
     pub(crate) drag: Option<Drag>,
 }

@@ -12,9 +12,9 @@ pub const ANGLE: f64 = 0.05;
 /// The parking exercise.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ParkingGoal {
-    /// Where the trailer is to be.
+    /// The pose wanted of the trailer.
     pub trailer: Pose2,
-    /// How often the car had changed direction when the goal was set.
+    /// The number of the car's changes of direction when the goal was set.
     pub reversals: u32,
 }
 

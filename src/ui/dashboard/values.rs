@@ -15,7 +15,7 @@ pub struct CockpitRobot {
     pub name: String,
     /// Its configuration as its type prints it.
     pub readout: String,
-    /// Where it is drawn: between two ticks, a blend of both.
+    /// Its footprint as drawn: between two ticks, a blend of both.
     pub footprint: Footprint,
     /// Its heading, radians, for a robot of one part that is no arm; otherwise `None`.
     pub heading: Option<f64>,
@@ -41,11 +41,11 @@ pub struct CockpitRobot {
     pub sees: Option<(Pose2, Vec<f64>)>,
     /// The tip of an arm, metres; `None` for other robots.
     pub tip: Option<Point2>,
-    /// Why no trailer can be put on here; `None` where one can be or is on, and for other robots.
+    /// The reason why no trailer can be put on here; `None` where one can be or is on, and for other robots.
     pub no_room: Option<String>,
     /// Whether the run is paused with an input that takes effect at the next tick.
     pub waiting: bool,
-    /// How often it changed between forward and backward.
+    /// The number of its changes between forward and backward.
     pub reversals: u32,
     /// Whether a trailer is on; `None` for a robot that can't have one.
     pub trailer: Option<bool>,

@@ -1,4 +1,4 @@
-//! What every widget paints with.
+//! Painting, for every widget: canvas, sheets, frame, buttons, colours and style.
 
 pub(crate) mod button;
 pub mod canvas;

@@ -14,9 +14,9 @@ const REACH: f64 = 4.0;
 pub struct Sheet {
     /// The pointer's actions on the paper.
     pub response: Response,
-    /// Where the paper is.
+    /// The rectangle of the paper.
     pub paper: Rect,
-    /// How the picture lies on it.
+    /// The fit of the picture into it.
     pub fit: Fit,
 }
 

@@ -16,14 +16,15 @@ use crate::cli::{Failure, Outcome, say};
 
 /// Draw what a widget shows, without a display: a figure for a page, as SVG or PNG; a run over a span of ticks as GIF.
 ///
-/// The file's name tells the form. Seed and digest, or the world's content hash and the configuration, are in the file: in the
-/// notes of a PNG, the metadata of an SVG, the comment of a GIF.
+/// The file's name tells the form. Seed and digest, or the world's content hash and the configuration, are in the file:
+/// in the notes of a PNG, the metadata of an SVG, the comment of a GIF.
 ///
 /// dashboard  the run of a log, or of --seed, at --tick
 /// anatomy    the queries at a configuration: --tab, --robot, --q, --step
-/// atlas      worlds with their names: --world, --grid, --teleport; of a run: --seed or --log, its robots where they are
-/// cspace     the workspace and beside it the configuration space: --robot, --q, --cells, --step; of a run: --seed or --log,
-///            a robot of it with its way
+/// atlas      worlds with their names: --world, --grid, --teleport; of a run: --seed or --log, its robots where they
+///            are
+/// cspace     the workspace and beside it the configuration space: --robot, --q, --cells, --step; of a run: --seed or
+///            --log, a robot of it with its way
 #[derive(Debug, Args)]
 #[command(verbatim_doc_comment)]
 pub struct Capture {

@@ -40,7 +40,7 @@ impl<'a> Sink<'a> {
         }
     }
 
-    /// Whether nobody reads what is still to come.
+    /// Whether the reader of standard output has gone away.
     pub fn is_closed(&self) -> bool {
         matches!(self, Sink::Data(data) if data.is_closed())
     }

@@ -65,7 +65,7 @@ pub fn ask<R: Robot>(
     })
 }
 
-/// What the sensor sees from x, y and, if given, theta.
+/// The ranges of the sensor at x, y and, if given, with the heading theta.
 pub fn ask_scan(scene: &Scene, sensor: &RangeSensor, q: &[f64]) -> Result<Answer, String> {
     let pose = match *q {
         [x, y] => Pose2::new(x, y, 0.0),

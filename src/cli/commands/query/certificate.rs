@@ -37,7 +37,7 @@ pub struct EdgeCertificate {
     steps: Vec<[JsonNumber; 3]>,
 }
 
-/// What a world's obstacles are made of.
+/// The shapes of a world's obstacles.
 #[derive(Debug, Serialize)]
 struct Shapes {
     name: String,

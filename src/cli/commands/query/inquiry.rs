@@ -1,4 +1,4 @@
-//! `Inquiry`, what can be asked about any robot in a scene.
+//! `Inquiry`, a question that can be asked about any robot in a scene.
 
 use motion_lab::collision::Checker;
 
@@ -6,9 +6,9 @@ use super::Question;
 use super::answer::{Answer, ask};
 use super::dimensions::Measured;
 
-/// What can be asked about any robot in a scene.
+/// A question that can be asked about any robot in a scene.
 pub trait Inquiry {
-    /// What comes of it.
+    /// The type of its answer.
     type Answer;
 
     /// The answer about the robot at `q`, moving to `to` where the inquiry is about a motion. The error says what is

@@ -44,12 +44,13 @@ const MESSAGES: u64 = 10;
 ///               or {"edge":"unresolved","free_until":s,"gap":g,"reason":"tolerance"}, s in [0, 1] along the chart line
 ///   scan        {"ranges":[..]}, metres, ray k at bearing 2 pi k / n from the heading; "inf" where nothing is in range
 ///
-/// With --input each line is either a configuration, [x, y, theta], or {"q": [..], "to": [..]}; blank lines are passed over.
-/// Each gets its answer in the same order. A wrong one gets {"error": ".."}, the others their answers, and the exit code
-/// is 3.
+/// With --input each line is either a configuration, [x, y, theta], or {"q": [..], "to": [..]}; blank lines are passed
+/// over. Each gets its answer in the same order. A wrong one gets {"error": ".."}, the others their answers, and the
+/// exit code is 3.
 ///
-/// With --certificate the proof of `edge` goes to a file, as JSON: the world's shapes, the robot, the motion, and the steps
-/// [from, to, clearance] in which it is free, for other programs to check. Of a motion that hits it proves what comes before.
+/// With --certificate the proof of `edge` goes to a file, as JSON: the world's shapes, the robot, the motion, and the
+/// steps [from, to, clearance] in which it is free, for other programs to check. Of a motion that hits it proves what
+/// comes before.
 #[derive(Debug, Args)]
 #[command(verbatim_doc_comment)]
 pub struct Query {

@@ -55,7 +55,7 @@ pub enum Ended {
     },
     /// Early, after this tick.
     Stopped(u64),
-    /// Where it differs from what was expected of it.
+    /// At the first value that differs from the expected one.
     Differs(Divergence),
 }
 

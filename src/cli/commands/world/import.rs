@@ -138,7 +138,7 @@ fn refused(error: ImportError) -> Failure {
     Failure::input(error, "Correct it there, or leave it out. `motion-lab world import --help` tells what is read.")
 }
 
-/// What a file is, by its name; a yaml file by its content.
+/// The kind of a file, by its name; of a yaml file, by its content.
 fn kind_of(file: &Path) -> Result<Kind, Failure> {
     let extension = file.extension().map(|e| e.to_string_lossy().to_lowercase()).unwrap_or_default();
     match extension.as_str() {

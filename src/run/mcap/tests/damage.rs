@@ -4,7 +4,7 @@ use super::*;
 use crate::run::mcap::encoder::put_seal;
 use crate::run::mcap::record::{SEAL, opcode, record_at};
 
-/// Where each piece of the file ends: the part before the first tick, then each tick.
+/// The offsets at which the pieces of a file end: the part before the first tick, then each tick.
 fn seals(file: &[u8]) -> Vec<usize> {
     let mut ends = Vec::new();
     let mut at = 8;

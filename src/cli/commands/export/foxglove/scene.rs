@@ -13,7 +13,7 @@ use super::message::{
     TriangleListPrimitive, Vector3, line,
 };
 
-/// How far above a world its robots are drawn, so that neither hides in the other, metres.
+/// Height of the robots above their world, so that neither hides in the other, metres.
 const ABOVE: f64 = 0.01;
 /// The width of a line on the screen, pixels.
 const LINE_PX: f64 = 2.0;

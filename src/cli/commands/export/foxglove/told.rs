@@ -1,4 +1,4 @@
-//! What happens in a run, as log messages: contacts, takeovers, refusals.
+//! The events of a run as log messages: contacts, takeovers, refusals.
 
 use motion_lab::simulation::RobotView;
 

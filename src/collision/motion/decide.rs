@@ -1,0 +1,148 @@
+//! Deciding a motion: the one order in which proofs are tried, for edges, sweeps, a tick's cut and holding.
+//!
+//! The cheap proofs come first: a separation test, contact at either end, a closed form or one step of the march; then
+//! the march. Each rung is sound by itself, so the order changes no verdict.
+
+use super::closed_form::{circular, linear, straight};
+use super::conservative_advancement::{clearance_of_all, march, march_on};
+use super::disc_line::DiscLine;
+use super::local_march::march_nearby;
+use super::separation::{halve, is_separated, open_parts};
+use crate::collision::{Certificate, Collision, EdgeVerdict, MarchOptions, Scene};
+use crate::geometry::Footprint;
+use crate::robots::Motion;
+
+/// The verdict on a motion in a scene: in closed form where one decides, otherwise by the march with at most `budget`
+/// attempts to prove a step.
+///
+/// A closed form only predicts the first contact. The verdict itself is proven: the motion is free throughout, or up to
+/// just before that contact, and in contact just after it. For parts in translation one step of the march proves it
+/// free, for discs a clearance in closed form, less its rounding. If a certificate is asked for, steps that the
+/// verifier accepts prove every free stretch.
+pub(crate) fn verdict<M: Motion>(
+    scene: &Scene,
+    motion: &M,
+    budget: u32,
+    mut certificate: Option<&mut Certificate>,
+) -> EdgeVerdict {
+    if let Some((way, radius)) = motion.disc_line()
+        && let Some(verdict) = linear(scene, way, radius, certificate.as_deref_mut())
+    {
+        return verdict;
+    }
+    if certificate.is_none()
+        && let Some((arc, radius)) = motion.disc_arc()
+    {
+        let closed = circular(scene, motion, &arc, radius);
+        return closed.unwrap_or_else(|| march_nearby(scene, motion, budget, None, motion.footprint_at(0.0)));
+    }
+    let start = motion.footprint_at(0.0);
+    let turns = (0..start.parts().len()).any(|k| motion.rates(k).acceleration != 0.0);
+    if !turns && let Some(verdict) = straight(scene, motion, &start, certificate.as_deref_mut()) {
+        return verdict;
+    }
+    march_nearby(scene, motion, budget, certificate, start)
+}
+
+/// Largest number of halvings, enough for most motions; after that the [`verdict`] decides.
+const HALVINGS: u32 = 48;
+
+/// Whether a motion in a scene is proven free: true wherever the [`verdict`] says so. Faster, because it computes neither
+/// the clearance nor the first contact.
+pub(crate) fn is_free<M: Motion>(scene: &Scene, motion: &M, budget: u32) -> bool {
+    if let Some((way, radius)) = motion.disc_line()
+        && let Some(free) = DiscLine::new(way, radius, scene).and_then(|disc| disc.is_free(scene))
+    {
+        return free;
+    }
+    if budget == 0 || motion.disc_arc().is_some() {
+        return verdict(scene, motion, budget, None).is_free();
+    }
+    let separate = |start: &Footprint, end: &Footprint| {
+        let open = open_parts(scene, motion, start, end);
+        (!open.is_empty()).then_some(open)
+    };
+    ladder(scene, motion, separate, |start, end, open| {
+        let decided = halve(scene, motion, (start, end), &open, HALVINGS);
+        decided.unwrap_or_else(|| verdict(scene, motion, budget, None).is_free())
+    })
+}
+
+/// Whether a motion is proven free by more than a margin, in any checker; `judge` decides what the separation test and
+/// the two ends leave undecided.
+pub(crate) fn is_free_or<M: Motion>(
+    collision: &dyn Collision,
+    motion: &M,
+    margin: f64,
+    judge: impl FnOnce() -> EdgeVerdict,
+) -> bool {
+    let separate =
+        |start: &Footprint, end: &Footprint| (!is_separated(collision, motion, margin, (start, end))).then_some(());
+    ladder(collision, motion, separate, |_, _, ()| judge().is_free())
+}
+
+/// Whether a motion is proven free, in any checker.
+#[cfg(feature = "sim")]
+pub(crate) fn is_free_among<M: Motion>(collision: &dyn Collision, motion: &M) -> bool {
+    let options = MarchOptions::default();
+    is_free_or(collision, motion, options.margin, || march(collision, motion, options, None))
+}
+
+/// The ladder: true where `separate` leaves nothing undecided, false where an end is in contact, otherwise what `judge`
+/// says of the rest.
+fn ladder<M: Motion, T>(
+    collision: &dyn Collision,
+    motion: &M,
+    separate: impl FnOnce(&Footprint, &Footprint) -> Option<T>,
+    judge: impl FnOnce(&Footprint, &Footprint, T) -> bool,
+) -> bool {
+    let (start, end) = (motion.footprint_at(0.0), motion.footprint_at(1.0));
+    match separate(&start, &end) {
+        None => true,
+        Some(_) if collision.intersects(&start) || collision.intersects(&end) => false,
+        Some(open) => judge(&start, &end, open),
+    }
+}
+
+/// A motion that does not keep its margin everywhere.
+#[cfg(feature = "sim")]
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Blocked {
+    /// The clearance at the start, metres; 0 in contact.
+    pub(crate) start: f64,
+    /// The parameter up to which the motion is proven to keep its margin.
+    pub(crate) until: f64,
+}
+
+/// Whether a motion keeps a margin that depends on its clearance at the start, metres; if not, how far it does.
+/// `enough` is no less than any margin: a motion that keeps so much needs no query of its start.
+#[cfg(feature = "sim")]
+pub(crate) fn keeps<M: Motion>(
+    collision: &dyn Collision,
+    motion: &M,
+    enough: f64,
+    margin: impl FnOnce(f64) -> f64,
+) -> Result<(), Blocked> {
+    let (start, end) = (motion.footprint_at(0.0), motion.footprint_at(1.0));
+    if is_separated(collision, motion, enough, (&start, &end)) {
+        return Ok(());
+    }
+    let all = clearance_of_all(collision, motion, &start);
+    if all > enough {
+        return Ok(());
+    }
+    let clearance = collision.distance(&start);
+    if clearance <= 0.0 {
+        return Err(Blocked { start: 0.0, until: 0.0 });
+    }
+    let options = MarchOptions { margin: margin(clearance), ..MarchOptions::default() };
+    if all > options.margin {
+        return Ok(());
+    }
+    match march_on(collision, motion, options, None, (start, clearance)) {
+        EdgeVerdict::Free { .. } => Ok(()),
+        EdgeVerdict::Hit { free_until, .. } | EdgeVerdict::Unresolved { free_until, .. } => {
+            Err(Blocked { start: clearance, until: free_until })
+        }
+    }
+}
