@@ -21,7 +21,7 @@ pub use counted::{Counted, QueryCounts};
 pub use motion::certificate::{Certificate, CertificateError, ProvenStep};
 pub use motion::conservative_advancement::{BRACKET, march};
 #[cfg(feature = "sim")]
-pub(crate) use motion::decide::{Blocked, is_free_among, keeps};
+pub(crate) use motion::keeps::{Blocked, is_free_among, keeps};
 pub use motion::verdict::{EdgeVerdict, MarchOptions, UnresolvedReason};
 pub use motion::verifier::verify_certificate;
 pub use narrow::pair::{distance, footprint_distance, touch};

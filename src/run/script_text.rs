@@ -270,10 +270,8 @@ impl std::fmt::Display for InputText<'_> {
 mod tests {
     use super::*;
 
-    const GOOD: &str =
-        "// a drive\nScript(version: 1, events: [\n  (tick: 1, robot: \"Rusty\", input: Drive(128, -128)),\n\n  \
-        // the arm\n  (tick: 1, robot: \"Reach\",\n   input: MoveTo([1048576, -5])),\n  (robot: \"a \\\"b\\\"
-        // \\u{e9}\\t\\\\\", \
+    const GOOD: &str = "// a drive\nScript(version: 1, events: [\n  (tick: 1, robot: \"Rusty\", input: Drive(128, -128)),\n\n  \
+        // the arm\n  (tick: 1, robot: \"Reach\",\n   input: MoveTo([1048576, -5])),\n  (robot: \"a \\\"b\\\" \\u{e9}\\t\\\\\", \
         input: Teleport([0]), tick: 7), (tick: 7, robot: \"Hitch\", input: SetTrailer(true)),\n  \
         (tick: 4294967296, robot: \"Hitch\", input: Release)])";
 

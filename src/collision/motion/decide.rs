@@ -4,11 +4,10 @@
 //! the march. Each rung is sound by itself, so the order changes no verdict.
 
 use super::closed_form::{circular, linear, straight};
-use super::conservative_advancement::{clearance_of_all, march, march_on};
 use super::disc_line::DiscLine;
 use super::local_march::march_nearby;
 use super::separation::{halve, is_separated, open_parts};
-use crate::collision::{Certificate, Collision, EdgeVerdict, MarchOptions, Scene};
+use crate::collision::{Certificate, Collision, EdgeVerdict, Scene};
 use crate::geometry::Footprint;
 use crate::robots::Motion;
 
@@ -81,13 +80,6 @@ pub(crate) fn is_free_or<M: Motion>(
     ladder(collision, motion, separate, |_, _, ()| judge().is_free())
 }
 
-/// Whether a motion is proven free, in any checker.
-#[cfg(feature = "sim")]
-pub(crate) fn is_free_among<M: Motion>(collision: &dyn Collision, motion: &M) -> bool {
-    let options = MarchOptions::default();
-    is_free_or(collision, motion, options.margin, || march(collision, motion, options, None))
-}
-
 /// The ladder: true where `separate` leaves nothing undecided, false where an end is in contact, otherwise what `judge`
 /// says of the rest.
 fn ladder<M: Motion, T>(
@@ -101,48 +93,5 @@ fn ladder<M: Motion, T>(
         None => true,
         Some(_) if collision.intersects(&start) || collision.intersects(&end) => false,
         Some(open) => judge(&start, &end, open),
-    }
-}
-
-/// A motion that does not keep its margin everywhere.
-#[cfg(feature = "sim")]
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Blocked {
-    /// The clearance at the start, metres; 0 in contact.
-    pub(crate) start: f64,
-    /// The parameter up to which the motion is proven to keep its margin.
-    pub(crate) until: f64,
-}
-
-/// Whether a motion keeps a margin that depends on its clearance at the start, metres; if not, how far it does.
-/// `enough` is no less than any margin: a motion that keeps so much needs no query of its start.
-#[cfg(feature = "sim")]
-pub(crate) fn keeps<M: Motion>(
-    collision: &dyn Collision,
-    motion: &M,
-    enough: f64,
-    margin: impl FnOnce(f64) -> f64,
-) -> Result<(), Blocked> {
-    let (start, end) = (motion.footprint_at(0.0), motion.footprint_at(1.0));
-    if is_separated(collision, motion, enough, (&start, &end)) {
-        return Ok(());
-    }
-    let all = clearance_of_all(collision, motion, &start);
-    if all > enough {
-        return Ok(());
-    }
-    let clearance = collision.distance(&start);
-    if clearance <= 0.0 {
-        return Err(Blocked { start: 0.0, until: 0.0 });
-    }
-    let options = MarchOptions { margin: margin(clearance), ..MarchOptions::default() };
-    if all > options.margin {
-        return Ok(());
-    }
-    match march_on(collision, motion, options, None, (start, clearance)) {
-        EdgeVerdict::Free { .. } => Ok(()),
-        EdgeVerdict::Hit { free_until, .. } | EdgeVerdict::Unresolved { free_until, .. } => {
-            Err(Blocked { start: clearance, until: free_until })
-        }
     }
 }

@@ -7,6 +7,8 @@ pub(crate) mod conservative_advancement;
 pub(crate) mod decide;
 pub(crate) mod disc_line;
 pub(crate) mod first_contact;
+#[cfg(feature = "sim")]
+pub(crate) mod keeps;
 pub(crate) mod local_march;
 pub(crate) mod local_scene;
 pub(crate) mod separation;
