@@ -47,7 +47,7 @@ fn step(app: &mut App, ticks: u64) {
 }
 
 /// The events of the script after tick 1: tick, robot, channels.
-fn taken_down(app: &App) -> Vec<(u64, &str, [i16; 2])> {
+fn captured(app: &App) -> Vec<(u64, &str, [i16; 2])> {
     let channels = |e: &Event| match e.input {
         RobotInput::Drive(a, b) => [a, b],
         _ => panic!("{e:?}"),
@@ -79,7 +79,7 @@ fn a_tap_counts_for_one_tick_on_either_channel() {
     step(&mut app, 5);
     assert_gone(&app, [1.0, -0.5]);
     let taps = [(4, "a", [128, 0]), (4, "b", [-64, 0]), (5, "a", [0, 0]), (5, "b", [0, 0])];
-    assert_eq!(taken_down(&app), taps);
+    assert_eq!(captured(&app), taps);
 
     // steered for one tick as it goes on, it turns by that tick's arc
     press(&mut app, "a", 64, 0);
@@ -89,7 +89,7 @@ fn a_tap_counts_for_one_tick_on_either_channel() {
     }
     step(&mut app, 5);
     let steered = [(9, "a", [64, 0]), (11, "a", [64, 128]), (12, "a", [64, 0])];
-    assert_eq!(taken_down(&app)[4..], steered);
+    assert_eq!(captured(&app)[4..], steered);
     let turned = 0.5 * FULL * tan(HITCH.max_steer) / HITCH.wheelbase;
     let cars = view(app.world());
     let headings = [0, 1].map(|id: usize| cars[id].coordinates[2]);
@@ -106,7 +106,7 @@ fn a_release_put_off_survives_what_another_robot_is_told() {
     press(&mut app, "b", -128, 0);
     step(&mut app, 6);
     assert_gone(&app, [1.0, -6.0]);
-    assert_eq!(taken_down(&app), [(4, "a", [128, 0]), (4, "b", [-128, 0]), (5, "a", [0, 0])]);
+    assert_eq!(captured(&app), [(4, "a", [128, 0]), (4, "b", [-128, 0]), (5, "a", [0, 0])]);
 }
 
 #[test]
@@ -124,7 +124,7 @@ fn what_one_robot_is_told_is_no_news_of_another() {
     press(&mut app, "b", 0, 0);
     step(&mut app, 4);
     assert_gone(&app, [8.0, 4.0]);
-    assert_eq!(taken_down(&app), [(3, "a", [128, 0]), (3, "b", [128, 0]), (7, "b", [0, 0])]);
+    assert_eq!(captured(&app), [(3, "a", [128, 0]), (3, "b", [128, 0]), (7, "b", [0, 0])]);
 }
 
 #[test]
@@ -137,7 +137,7 @@ fn of_two_devices_the_one_that_changed_last_wins_the_tick() {
     }
     step(&mut app, 3);
     assert_gone(&app, [3.0, 1.5]);
-    assert_eq!(taken_down(&app), [(2, "a", [128, 0]), (2, "b", [64, 0])]);
+    assert_eq!(captured(&app), [(2, "a", [128, 0]), (2, "b", [64, 0])]);
 }
 
 #[test]
@@ -153,7 +153,7 @@ fn who_drives_beside_a_script_ends_it_for_all() {
     press(&mut app, "a", -64, 0);
     step(&mut app, 31);
     assert_gone(&app, [10.0 - 0.5 * 31.0, 0.5 * 41.0]);
-    assert_eq!(taken_down(&app), [(10, "a", [128, 0]), (10, "b", [64, 0]), (20, "a", [-64, 0])]);
+    assert_eq!(captured(&app), [(10, "a", [128, 0]), (10, "b", [64, 0]), (20, "a", [-64, 0])]);
 }
 
 #[test]
@@ -163,7 +163,7 @@ fn at_the_tick_of_a_script_s_own_input_what_is_pressed_comes_after_it() {
     press(&mut app, "a", -128, 0);
     step(&mut app, 10);
     assert_gone(&app, [-10.0, 10.0]);
-    assert_eq!(taken_down(&app), [(20, "a", [-128, 0]), (20, "b", [128, 0])]);
+    assert_eq!(captured(&app), [(20, "a", [-128, 0]), (20, "b", [128, 0])]);
 }
 
 #[test]
@@ -175,7 +175,7 @@ fn back_in_a_scripted_run_a_press_takes_the_place_of_all_that_came_after() {
     press(&mut app, "a", 64, 0);
     step(&mut app, 21);
     assert_gone(&app, [10.0 + 0.5 * 21.0, 0.0]);
-    assert_eq!(taken_down(&app), [(10, "a", [128, 0]), (20, "a", [64, 0])]);
+    assert_eq!(captured(&app), [(10, "a", [128, 0]), (20, "a", [64, 0])]);
 }
 
 #[test]
@@ -189,7 +189,7 @@ fn what_no_script_can_hold_forgets_nothing() {
     press(&mut app, "a", 300, 0);
     app.update();
     assert_eq!(app.world().resource::<Transport>().frontier, 40);
-    assert_eq!(taken_down(&app), [(30, "a", [128, 0])]);
+    assert_eq!(captured(&app), [(30, "a", [128, 0])]);
     step(&mut app, 21);
     assert_gone(&app, [11.0, 0.0]);
 }
@@ -202,5 +202,22 @@ fn what_the_script_has_for_the_next_tick_is_forgotten_as_all_after_it() {
     step(&mut app, 3);
     // ticks 20 to 22 ahead
     assert_gone(&app, [3.0, 0.0]);
-    assert_eq!(taken_down(&app), [(20, "a", [128, 0])]);
+    assert_eq!(captured(&app), [(20, "a", [128, 0])]);
+}
+
+#[test]
+fn input_at_the_frontier_of_a_looping_run_is_lived_through() {
+    let mut app = cars(&[]);
+    step(&mut app, 5);
+    app.world_mut().write_message(TransportCommand::SetLooping(true));
+    app.update();
+    press(&mut app, "a", 128, 0);
+    app.world_mut().write_message(TransportCommand::Play);
+    app.insert_resource(TimeUpdateStrategy::ManualDuration(Duration::from_millis(50)));
+    for _ in 0..4 {
+        app.update();
+    }
+    let Transport { tick, frontier, looping, .. } = *app.world().resource::<Transport>();
+    assert!(!looping && tick == frontier && tick > 6, "it does not begin again: {tick} of {frontier}");
+    assert_gone(&app, [tick as f64 - 5.0, 0.0]);
 }

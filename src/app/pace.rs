@@ -31,8 +31,11 @@ impl Pace {
     pub fn frame(&mut self, seconds: f64, transport: &Transport) {
         let Transport { tick, speed, playback, .. } = *transport;
         let before = self.last.replace((tick, speed));
-        // a pause, a jump back or another speed begins a new measurement
-        let Some((from, _)) = before.filter(|(t, s)| *t <= tick && *s == speed && playback == Playback::Playing) else {
+        // more ticks than a frame can play, those that a stall left over included, are a jump forward
+        let most = if speed.is_finite() { 16 + (2.0 * speed * seconds / DT) as u64 } else { u64::MAX };
+        let played = |(t, s): &(u64, f64)| (*t..=t.saturating_add(most)).contains(&tick) && *s == speed;
+        // a pause, a jump or another speed begins a new measurement
+        let Some((from, _)) = before.filter(|b| played(b) && playback == Playback::Playing) else {
             self.frames.clear();
             return;
         };
@@ -122,5 +125,27 @@ mod tests {
         assert_eq!(said(1.0, 0.5, 5.0).as_deref(), Some("slower than real time: 0.5 x"));
         assert_eq!(said(64.0, 0.1, 82.0).as_deref(), Some("slower than asked: 41 x"));
         assert_eq!(said(f64::INFINITY, 0.02, 40.0).as_deref(), Some("100 x"));
+    }
+
+    #[test]
+    fn a_jump_begins_a_new_measurement() {
+        let mut pace = Pace::default();
+        let mut transport = Transport { speed: 1.0, playback: Playback::Playing, ..Transport::new(Seed(1)) };
+        for frame in 0..120 {
+            transport.tick = frame / 3;
+            pace.frame(1.0 / 60.0, &transport);
+        }
+        assert_eq!(pace.reached().map(|x| x.round()), Some(1.0));
+        transport.tick += 500;
+        pace.frame(1.0 / 60.0, &transport);
+        assert_eq!(pace.reached(), None, "forward");
+        for frame in 0..120 {
+            transport.tick += u64::from(frame % 3 == 0);
+            pace.frame(1.0 / 60.0, &transport);
+        }
+        assert_eq!(pace.reached().map(|x| x.round()), Some(1.0));
+        transport.tick = 3;
+        pace.frame(1.0 / 60.0, &transport);
+        assert_eq!(pace.reached(), None, "back");
     }
 }

@@ -210,12 +210,12 @@ fn change_links(world: &mut World, robot: &str, links: usize) -> Result<(), Stri
     new_run(world, config, seed)
 }
 
-/// Starts a new run in place of the present one, which an undo brings back. Playback and speed stay.
+/// Starts a new run in place of the present one, which an undo brings back. Playback, speed and looping stay.
 pub fn new_run(world: &mut World, config: TourConfig, input: impl Into<RunInput>) -> Result<(), String> {
     obey(world, TransportCommand::Checkpoint)?;
-    let Transport { playback, speed, .. } = *world.resource::<Transport>();
+    let Transport { playback, speed, looping, .. } = *world.resource::<Transport>();
     start_run(world, config, input).map_err(|e| e.to_string())?;
     let mut transport = world.resource_mut::<Transport>();
-    (transport.playback, transport.speed) = (playback, speed);
+    *transport = Transport { playback, speed, looping, ..*transport };
     Ok(())
 }

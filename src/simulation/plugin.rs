@@ -132,14 +132,15 @@ pub fn obey(world: &mut World, command: TransportCommand) -> Result<(), String> 
     Ok(())
 }
 
-/// Stamps incoming inputs with the next tick. Input at a tick before the frontier continues the run from there. An
-/// input that no script could hold (an unknown robot, a channel out of range) is ignored.
+/// Stamps incoming inputs with the next tick. Input at a tick before the frontier, and any input to a looping run,
+/// continues the run from there. An input that no script could hold (an unknown robot, a channel out of range) is
+/// ignored.
 fn take_robot_commands(world: &mut World) {
     let commands: Vec<RobotCommand> = world.resource_mut::<Messages<RobotCommand>>().drain().collect();
     if commands.is_empty() {
         return;
     }
-    let Transport { tick, frontier, .. } = *world.resource::<Transport>();
+    let Transport { tick, frontier, looping, .. } = *world.resource::<Transport>();
     let names: Vec<String> = world.query::<&RobotName>().iter(world).map(|n| n.name.clone()).collect();
     let event = |RobotCommand { robot, input }| Event { tick: tick + 1, robot, input };
     let holds = |event: &Event| {
@@ -147,7 +148,7 @@ fn take_robot_commands(world: &mut World) {
     };
     let events: Vec<Event> = commands.into_iter().map(event).filter(holds).collect();
     // an ignored input leaves the later ticks alone
-    if tick < frontier && !events.is_empty() {
+    if (tick < frontier || looping) && !events.is_empty() {
         continue_from_here(world);
     }
     let mut pending = world.resource_mut::<PendingInput>();

@@ -62,8 +62,7 @@ pub enum TransportCommand {
     /// Set the simulated seconds per second of the clock, from 1/64 to 64, or infinity for as fast as possible.
     /// Anything else is ignored.
     SetSpeed(f64),
-    /// Set whether playing repeats the run up to its frontier. Input at a tick before the frontier ends
-    /// looping, and the run goes on.
+    /// Set whether playing repeats the run up to its frontier. Input ends looping, and the run goes on.
     SetLooping(bool),
     /// Set a checkpoint before a change of the run's input: what follows, up to the next checkpoint, is undone as one.
     Checkpoint,

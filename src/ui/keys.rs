@@ -101,15 +101,15 @@ pub const BINDINGS: [Binding; 36] = [
     plain(Action::Start, Key::Home, Scope::Always, "to the start"),
     plain(Action::End, Key::End, Scope::Always, "as far as the run has come"),
     plain(Action::NextContact, Key::N, Scope::Always, "to the next contact"),
-    plain(Action::Loop, Key::L, Scope::Always, "play again and again, or not"),
+    plain(Action::Loop, Key::L, Scope::Always, "loop on or off"),
     plain(Action::Slower, Key::Comma, Scope::Always, "slower"),
     plain(Action::Faster, Key::Period, Scope::Always, "faster"),
     plain(Action::Continue, Key::C, Scope::Always, "continue from here: forget what comes later"),
     plain(Action::Reset, Key::R, Scope::Always, "reset: the same seed, no input"),
     plain(Action::ReRoll, Key::G, Scope::Always, "re-roll: another seed"),
     with(Action::Undo, Modifiers::COMMAND, Key::Z, "undo; in the atlas an edit"),
-    with(Action::Redo, Modifiers::COMMAND.plus(Modifiers::SHIFT), Key::Z, "do again"),
-    with(Action::Redo, Modifiers::COMMAND, Key::Y, "do again"),
+    with(Action::Redo, Modifiers::COMMAND.plus(Modifiers::SHIFT), Key::Z, "redo"),
+    with(Action::Redo, Modifiers::COMMAND, Key::Y, "redo"),
     with(Action::Save, Modifiers::COMMAND, Key::S, "save the run; in the atlas its world"),
     with(Action::Open, Modifiers::COMMAND, Key::O, "open a run; in the atlas a world"),
     plain(Action::Capture, Key::I, Scope::Always, "capture: the picture in front as a file"),
@@ -208,7 +208,7 @@ mod tests {
     #[test]
     fn hints_name_the_key() {
         assert_eq!(hint(Action::Step), "one tick, and pause (\u{2192})");
-        assert_eq!(hint(Action::Redo), "do again (Ctrl+Shift+Z)");
+        assert_eq!(hint(Action::Redo), "redo (Ctrl+Shift+Z)");
         assert_eq!(hint(Action::Help), "this list (?)");
     }
 }

@@ -79,16 +79,16 @@ pub enum LinkError {
     #[error("digest={0}: it must be 32 hexadecimal digits")]
     Digest(String),
     /// Text that is not UTF-8 once its escapes are undone.
-    #[error("{0}: what stands there is not text")]
+    #[error("{0}: not valid UTF-8")]
     Text(String),
     /// A script that is refused.
     #[error(transparent)]
     Script(#[from] ScriptError),
     /// Too long for an address.
-    #[error("the link would have {0} characters, and at most {MAX_LINK} go everywhere: save the run as a file instead")]
+    #[error("the link would have {0} characters; the limit is {MAX_LINK}: save the run as a file instead")]
     TooLong(usize),
     /// A run of worlds that are not built in, or of other robots in them.
-    #[error("{0} is not one of the lab's own worlds as they come: save the run as a file instead")]
+    #[error("{0} is not an unmodified built-in world: save the run as a file instead")]
     World(String),
     /// A sensor that is not the lab's.
     #[error("the run has a range sensor of its own: save the run as a file instead")]
@@ -302,7 +302,7 @@ mod tests {
         assert!(said("widget=%3Cscript%3E").starts_with("widget=<script>: it must be one of dashboard"));
         assert_eq!(said("theme=pink"), "theme=pink: it must be one of system, light, dark");
         assert!(said("digest=12").contains("32 hexadecimal"));
-        assert_eq!(said("script=%FF"), "script: what stands there is not text");
+        assert_eq!(said("script=%FF"), "script: not valid UTF-8");
         let script = "Script(version:1,events:[(tick:1,robot:\"Rusty\",input:Drive(129,0))])";
         let query = format!("script={}", utf8_percent_encode(script, ESCAPED));
         assert_eq!(said(&query), "the link's script:1: events[0]: channel 129: it must be in -128 to 128");

@@ -22,9 +22,10 @@ pub fn open_link(world: &mut World, link: &Link) -> Result<Option<Notice>, Strin
             text: format!("the same run to the last bit: tick {}, digest {digest}", link.tick),
             is_error: false,
         },
-        Some(told) => {
-            Notice { text: format!("another run than the link's: digest {digest}, not {told}"), is_error: true }
-        }
+        Some(told) => Notice {
+            text: format!("this run differs from the link's: digest {digest}, expected {told}"),
+            is_error: true,
+        },
     }))
 }
 

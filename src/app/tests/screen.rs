@@ -43,10 +43,10 @@ fn the_colour_key_lights_its_role_and_the_list_of_keys_opens() {
     assert_eq!(lit(&harness), None, "the fade ends");
     harness.key_press(Key::Questionmark);
     harness.run_steps(3);
-    harness.get_by_label("play again and again, or not");
+    harness.get_by_label("loop on or off");
     harness.key_press(Key::Escape);
     harness.run_steps(3);
-    assert!(harness.query_by_label("play again and again, or not").is_none());
+    assert!(harness.query_by_label("loop on or off").is_none());
 }
 
 #[test]

@@ -3,8 +3,8 @@
 //! The cheap proofs come first: a separation test, contact at either end, a closed form or one step of the march; then
 //! the march. Each rung is sound by itself, so the order changes no verdict.
 
-use super::closed_form::{circular, linear, straight};
-use super::disc_line::DiscLine;
+use super::closed_form::disc_line::DiscLine;
+use super::closed_form::verdicts::{circular, linear, straight};
 use super::local_march::march_nearby;
 use super::separation::{halve, is_separated, open_parts};
 use crate::collision::{Certificate, Collision, EdgeVerdict, Scene};

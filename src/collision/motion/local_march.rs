@@ -203,8 +203,8 @@ impl<M: Motion> Ground for Nearby<'_, M> {
 mod tests {
     use std::f64::consts::PI;
 
-    use super::super::conservative_advancement::march;
     use super::*;
+    use crate::collision::motion::conservative_advancement::march;
     use crate::configuration::{HitchCfg, Tn};
     use crate::geometry::{Point2, Pose2};
     use crate::random::{Seed, Stream};

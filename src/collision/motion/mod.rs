@@ -5,8 +5,6 @@ pub(crate) mod certificate;
 pub(crate) mod closed_form;
 pub(crate) mod conservative_advancement;
 pub(crate) mod decide;
-pub(crate) mod disc_line;
-pub(crate) mod first_contact;
 #[cfg(feature = "sim")]
 pub(crate) mod keeps;
 pub(crate) mod local_march;
@@ -14,6 +12,5 @@ pub(crate) mod local_scene;
 pub(crate) mod separation;
 pub(crate) mod step;
 pub(crate) mod swept;
-pub(crate) mod time_of_impact;
 pub(crate) mod verdict;
 pub(crate) mod verifier;

@@ -167,8 +167,8 @@ fn across(p: Point2, q: Point2) -> Vector2 {
 
 #[cfg(test)]
 mod tests {
-    use super::super::conservative_advancement::march;
     use super::*;
+    use crate::collision::motion::conservative_advancement::march;
     use crate::collision::{Checker, MarchOptions};
     use crate::configuration::{HitchCfg, R2, T2, Tn};
     use crate::geometry::{Pose2, Shape, Vertices, convex_hull};

@@ -231,7 +231,7 @@ fn links(ui: &mut Ui, robot: &CockpitRobot, state: &mut UiState, commands: &mut 
         }
         if robot.is_arm {
             let (words, links) = if robot.coordinates.len() == 2 { ("three links", 3) } else { ("two links", 2) };
-            let link = ui.link(words).on_hover_text("A new run with an arm of so many links");
+            let link = ui.link(words).on_hover_text("Start a new run with this arm");
             if link.clicked() && matches!(robot.kind.as_str(), "reach" | "reach3") {
                 commands.push(Command::Session(SessionCommand::Links { robot: robot.name.clone(), links }));
             }

@@ -191,7 +191,7 @@ lab("a link opens to the same bits", "/?seed=11&world=lot", async (lab) => {
   assert.equal(opened.robots[0].configuration, here.robots[0].configuration);
   assert.deepEqual(await there.close(), []);
   const other = await Lab.open(address.replace(digest, "0".repeat(32)));
-  assert.match((await other.until((s) => s.notice && s.notice.error)).notice.text, /^another run than the link's/);
+  assert.match((await other.until((s) => s.notice && s.notice.error)).notice.text, /^this run differs from the link's/);
   await other.close();
 });
 

@@ -170,7 +170,7 @@ impl Capture {
             return Err(self.failure(CaptureError::Frozen));
         }
         if let Some((option, place)) = self.astray(form, of_run) {
-            return Err(Failure::usage(format!("{option}: for {place} alone"), "Leave it out."));
+            return Err(Failure::usage(format!("{option} is only valid for {place}"), "Leave it out."));
         }
         if of_run {
             self.of_run(form, &paper)?;
@@ -229,8 +229,10 @@ impl Capture {
             ("--grid", scene.grid.is_some()),
             ("--budget", scene.budget.is_some()),
         ];
-        let of_still =
-            still.into_iter().find(|(_, given)| of_run && *given).map(|(option, _)| (option, "what stands still"));
+        let of_still = still
+            .into_iter()
+            .find(|(_, given)| of_run && *given)
+            .map(|(option, _)| (option, "figures that do not show a run"));
         stray.map(|(option, .., place)| (option, place)).or(of_still).or_else(|| {
             let span = run.from.or(run.to).or(run.every).is_some();
             match form {

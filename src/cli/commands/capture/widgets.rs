@@ -42,7 +42,7 @@ pub fn atlas(args: &SceneArgs, paper: &Paper) -> Result<Captured, Failure> {
         None => World::built_in_names().into_iter().map(find_world).collect::<Result<_, _>>()?,
     };
     if args.teleport.is_some() && worlds.len() > 1 {
-        return Err(Failure::usage("a robot of which world?", "Name it with --world."));
+        return Err(Failure::usage("--teleport needs a world", "Name it with --world."));
     }
     let mut atlases: Vec<Atlas> = worlds.into_iter().map(Atlas::new).collect();
     let grid = |atlas: &Atlas| {

@@ -59,7 +59,10 @@ impl Export {
     /// Runs the command.
     pub fn run(self, data: &mut Data) -> Result<Outcome, Failure> {
         if self.ranges && self.format != Format::Csv {
-            return Err(Failure::usage("--ranges goes with --format csv alone", "Leave it out: the others have them."));
+            return Err(Failure::usage(
+                "--ranges is only valid with --format csv",
+                "Leave it out: jsonl and foxglove always hold the ranges.",
+            ));
         }
         if matches!(self.format, Format::Foxglove | Format::Png | Format::Gif) && self.output.is_none() {
             return Err(Failure::usage("this form is not for standard output", "Name a file: -o FILE."));

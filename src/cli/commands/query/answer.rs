@@ -54,7 +54,7 @@ pub fn ask<R: Robot>(
         robot.check(q).map_err(|error| error.to_string())?;
     }
     let at = || robot.footprint(q);
-    let to = || to.ok_or("where to?");
+    let to = || to.ok_or("`to`, where the motion ends, is missing");
     Ok(match question {
         Question::Intersects => Answer::Intersects { intersects: scene.intersects(&at()) },
         Question::Distance => Answer::Distance { distance: JsonNumber(scene.distance(&at())) },

@@ -97,7 +97,7 @@ impl Inquiry for Certify<'_> {
         to: Option<&R::Configuration>,
     ) -> Result<EdgeCertificate, String> {
         let (scene, robot) = (checker.scene(), checker.robot());
-        let to = to.ok_or("where to?")?;
+        let to = to.ok_or("`to`, where the motion ends, is missing")?;
         let reason = |error: ConfigurationError| error.to_string();
         let line = robot.edge(q, to).map_err(reason)?;
         let mut proof = Certificate::new();

@@ -128,7 +128,7 @@ impl Query {
 
     fn desk(&self) -> Result<Desk, Failure> {
         if self.robot.is_none() && self.question != Question::Scan {
-            return Err(Failure::usage("which robot?", format!("Add --robot with one of {}.", RobotName::list())));
+            return Err(Failure::usage("no robot is named", format!("Add --robot with one of {}.", RobotName::list())));
         }
         if self.certificate.is_some() && self.question != Question::Edge {
             return Err(Failure::usage(
@@ -166,20 +166,20 @@ impl Desk {
         match (self.question, self.robot) {
             (Question::Scan, _) => ask_scan(&self.scene, &self.sensor, &asked.q),
             (question, Some(robot)) => robot.answer(&self.scene, &question, asked),
-            (_, None) => Err("which robot?".into()),
+            (_, None) => Err("no robot is named".into()),
         }
     }
 
     fn certify(&self, asked: &Asked) -> Result<EdgeCertificate, String> {
         self.check(asked)?;
-        let robot = self.robot.ok_or("which robot?")?;
+        let robot = self.robot.ok_or("no robot is named")?;
         robot.answer(&self.scene, &Certify { world: &self.world }, asked)
     }
 
     /// Checks that a motion's end is given to a question about a motion, and to no other.
     fn check(&self, asked: &Asked) -> Result<(), String> {
         match (&asked.to, matches!(self.question, Question::Swept | Question::Edge)) {
-            (None, true) => Err("where to? this question is about a motion and needs `to`".into()),
+            (None, true) => Err("this question is about a motion and needs `to`, where it ends".into()),
             (Some(_), false) => Err("this question is about one configuration and takes no `to`".into()),
             _ => Ok(()),
         }

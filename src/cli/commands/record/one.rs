@@ -195,7 +195,7 @@ pub fn record(
             Ok(Outcome::Done)
         }
         Ended::Stopped(tick) if tick <= expected.len() as u64 && !expected.is_empty() => {
-            say(format!("stopped after tick {tick}, within what is recorded already: that is as it was"));
+            say(format!("stopped after tick {tick}, before the end of the existing recording, which is unchanged"));
             Ok(Outcome::Stopped)
         }
         Ended::Stopped(tick) => {
@@ -206,7 +206,7 @@ pub fn record(
                     kept.display()
                 )),
                 None => say(format!(
-                    "stopped after tick {tick} of {ticks}\nNothing is kept, for want of -o FILE: start anew."
+                    "stopped after tick {tick} of {ticks}\nNothing was saved, because -o FILE was not given. Start again."
                 )),
             }
             Ok(Outcome::Stopped)

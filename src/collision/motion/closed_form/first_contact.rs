@@ -7,7 +7,7 @@ use crate::num::lesser;
 
 /// The time of impact of a footprint that moves from `start` to `end` without turning, as a fraction of the motion;
 /// rounded. `None` where it touches nothing.
-pub(super) fn translation_meets(scene: &Scene, start: &Footprint, end: &Footprint) -> Option<f64> {
+pub(crate) fn translation_meets(scene: &Scene, start: &Footprint, end: &Footprint) -> Option<f64> {
     let mut first: Option<f64> = None;
     for (a, b) in start.parts().iter().zip(end.parts()) {
         let (a, b) = (a.placed(), b.placed());
@@ -24,7 +24,7 @@ pub(super) fn translation_meets(scene: &Scene, start: &Footprint, end: &Footprin
 
 /// The time of impact of a disc of this radius whose centre runs along the arc, as the arc's parameter; rounded. `None`
 /// where it touches nothing.
-pub(super) fn arc_meets(scene: &Scene, arc: &CircularArc, radius: f64) -> Option<f64> {
+pub(crate) fn arc_meets(scene: &Scene, arc: &CircularArc, radius: f64) -> Option<f64> {
     let mut first: Option<f64> = None;
     scene.index.each_near(&arc_box(arc, radius), 0.0, |piece| {
         let piece = &scene.pieces[piece];
@@ -38,7 +38,7 @@ pub(super) fn arc_meets(scene: &Scene, arc: &CircularArc, radius: f64) -> Option
 
 /// The least clearance of a disc of this radius whose centre runs along the arc as far as `until`, metres; rounded. It
 /// is not positive in contact, and infinity in an empty scene.
-pub(super) fn arc_clearance(scene: &Scene, arc: &CircularArc, until: f64, radius: f64) -> f64 {
+pub(crate) fn arc_clearance(scene: &Scene, arc: &CircularArc, until: f64, radius: f64) -> f64 {
     let mut least = f64::INFINITY;
     scene.index.nearest(&arc_box(arc, 0.0), least, |piece| {
         let piece = &scene.pieces[piece];

@@ -2,8 +2,8 @@
 
 use smallvec::SmallVec;
 
-use super::conservative_advancement::BRACKET;
 use super::time_of_impact::point_meets;
+use crate::collision::motion::conservative_advancement::BRACKET;
 use crate::collision::narrow::convex::edges;
 use crate::collision::{EdgeVerdict, ObstacleId, ProvenStep, Scene};
 use crate::geometry::{Aabb, Placed, Point2, Segment, Vector2, cross};

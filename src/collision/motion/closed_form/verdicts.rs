@@ -1,9 +1,9 @@
 //! Verdicts in closed form: discs on lines and arcs, and parts that move without turning.
 
-use super::conservative_advancement::BRACKET;
 use super::disc_line::DiscLine;
 use super::first_contact::{arc_clearance, arc_meets, translation_meets};
-use super::step::step_clearance;
+use crate::collision::motion::conservative_advancement::BRACKET;
+use crate::collision::motion::step::step_clearance;
 use crate::collision::{Certificate, Collision, EdgeVerdict, ObstacleId, ProvenStep, Scene, Witness};
 use crate::geometry::{CircularArc, Footprint, Point2, Segment};
 use crate::num::{greater, ulp};
@@ -28,7 +28,7 @@ fn bracket(s: f64, length: f64) -> (f64, f64) {
 
 /// The verdict on a motion none of whose parts turns. One step proves it free, or its first contact is where a vertex
 /// comes within reach of an edge. `None` where neither can be proven.
-pub(super) fn straight<M: Motion>(
+pub(crate) fn straight<M: Motion>(
     scene: &Scene,
     motion: &M,
     start: &Footprint,
@@ -60,7 +60,7 @@ pub(super) fn straight<M: Motion>(
 }
 
 /// The verdict on a disc of this radius whose centre runs along a line; `None` where it takes a march.
-pub(super) fn linear(
+pub(crate) fn linear(
     scene: &Scene,
     way: Segment,
     radius: f64,
@@ -75,7 +75,7 @@ pub(super) fn linear(
 }
 
 /// The verdict on a disc of this radius whose centre runs along an arc; `None` where it takes a march.
-pub(super) fn circular<M: Motion>(scene: &Scene, motion: &M, arc: &CircularArc, radius: f64) -> Option<EdgeVerdict> {
+pub(crate) fn circular<M: Motion>(scene: &Scene, motion: &M, arc: &CircularArc, radius: f64) -> Option<EdgeVerdict> {
     let far = Point2::new(arc.centre.x.abs() + arc.radius, arc.centre.y.abs() + arc.radius);
     // the arc's own rounding, that of the distance to it and that of the footprint placed on it
     let slack = 128.0 * ulp(greater(greater(far.x, far.y) + radius, 1.0));
@@ -95,9 +95,9 @@ pub(super) fn circular<M: Motion>(scene: &Scene, motion: &M, arc: &CircularArc, 
 mod tests {
     use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
-    use super::super::conservative_advancement::march;
-    use super::super::decide::verdict;
     use super::*;
+    use crate::collision::motion::conservative_advancement::march;
+    use crate::collision::motion::decide::verdict;
     use crate::collision::{Checker, DiscChecker, MarchOptions};
     use crate::configuration::{HitchCfg, R2};
     use crate::geometry::{Pose2, Segment, Shape};

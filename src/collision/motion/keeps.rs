@@ -1,0 +1,54 @@
+//! A tick's motion: whether it is free, and how far it keeps its margin.
+
+use super::conservative_advancement::{clearance_of_all, march, march_on};
+use super::decide::is_free_or;
+use super::separation::is_separated;
+use crate::collision::{Collision, EdgeVerdict, MarchOptions};
+use crate::robots::Motion;
+
+/// Whether a motion is proven free, in any checker.
+pub(crate) fn is_free_among<M: Motion>(collision: &dyn Collision, motion: &M) -> bool {
+    let options = MarchOptions::default();
+    is_free_or(collision, motion, options.margin, || march(collision, motion, options, None))
+}
+
+/// A motion that does not keep its margin everywhere.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Blocked {
+    /// The clearance at the start, metres; 0 in contact.
+    pub(crate) start: f64,
+    /// The parameter up to which the motion is proven to keep its margin.
+    pub(crate) until: f64,
+}
+
+/// Whether a motion keeps a margin that depends on its clearance at the start, metres; if not, how far it does.
+/// `enough` is no less than any margin: a motion that keeps so much needs no query of its start.
+pub(crate) fn keeps<M: Motion>(
+    collision: &dyn Collision,
+    motion: &M,
+    enough: f64,
+    margin: impl FnOnce(f64) -> f64,
+) -> Result<(), Blocked> {
+    let (start, end) = (motion.footprint_at(0.0), motion.footprint_at(1.0));
+    if is_separated(collision, motion, enough, (&start, &end)) {
+        return Ok(());
+    }
+    let all = clearance_of_all(collision, motion, &start);
+    if all > enough {
+        return Ok(());
+    }
+    let clearance = collision.distance(&start);
+    if clearance <= 0.0 {
+        return Err(Blocked { start: 0.0, until: 0.0 });
+    }
+    let options = MarchOptions { margin: margin(clearance), ..MarchOptions::default() };
+    if all > options.margin {
+        return Ok(());
+    }
+    match march_on(collision, motion, options, None, (start, clearance)) {
+        EdgeVerdict::Free { .. } => Ok(()),
+        EdgeVerdict::Hit { free_until, .. } | EdgeVerdict::Unresolved { free_until, .. } => {
+            Err(Blocked { start: clearance, until: free_until })
+        }
+    }
+}
