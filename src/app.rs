@@ -5,6 +5,7 @@ mod capture;
 mod captured;
 #[cfg(feature = "window")]
 mod dialogs;
+mod error;
 #[cfg(feature = "window")]
 mod files;
 mod pace;
@@ -27,6 +28,7 @@ use bevy::window::{RequestRedraw, WindowResolution};
 use bevy::winit::{UpdateMode, WinitSettings};
 use bevy_egui::{EguiContext, EguiGlobalSettings, EguiPlugin, EguiPrimaryContextPass, PrimaryEguiContext, egui};
 
+pub use error::SessionError;
 #[cfg(feature = "window")]
 pub use files::{open_run, save_run};
 pub use session::SessionPlugin;

@@ -1,12 +1,52 @@
 //! A deterministic 2D robot-motion laboratory: three robots, three worlds, one collision checker that answers four
 //! questions, one simulator.
 //!
-//! The modules stand in reading order: each uses only those above it.
+//! # What you can do here
 //!
-//! - Ask about configurations: [`collision::Checker`], and the trait [`collision::Collision`] that planners take.
-//! - Draw something: [`picture`].
-#![cfg_attr(feature = "sim", doc = "- Run something: [`recording::Run`].")]
-#![cfg_attr(feature = "sim", doc = "- Write a planner: [`guide::write_a_planner`].")]
+//! - Ask a scene: [`collision::Collision`] has the four questions, [`collision::Scene`] the answers.
+//! - Prove an edge: [`collision::Checker::edge`] gives a verdict, [`collision::Certificate`] holds its proof.
+//! - Plan: [`collision::Problem`] has a start, a goal and seeded samples.
+//! - Draw: [`picture::Figure`] makes SVG of pictures in metres.
+#![cfg_attr(feature = "sim", doc = "- Record and verify a run: [`recording::Run`] and [`recording::verify`].")]
+#![cfg_attr(feature = "sim", doc = "- Write a planner, chapter by chapter: [`guide::write_a_planner`].")]
+//!
+//! ```
+//! use motion_lab::picture::{Figure, Theme, world};
+//! use motion_lab::prelude::*;
+//!
+//! let (scene, arm) = (Scene::workbench(), Reach::<2>::workbench());
+//! let (a, b) = (T2::new(2.0, 0.0), T2::new(3.1, 0.0));
+//! // ask a scene: metres to the nearest obstacle
+//! assert!(scene.distance(&arm.footprint(&a)) > 0.0);
+//! // prove an edge: the post stands between two free configurations
+//! let checker = Checker::new(scene, arm);
+//! assert!(matches!(checker.edge(&a, &b)?, EdgeVerdict::Hit { .. }));
+//! // plan: the first sample that a free edge joins to the start
+//! let mut problem = Problem::try_new(checker, a, b, Seed(2005))?;
+//! let next = (0..1000).find_map(|_| Some(problem.sample()).filter(|q| problem.checker().edge_free(&a, q)));
+//! assert!(next.is_some());
+//! // draw: the same bytes on every platform
+//! let svg = Figure::of(world(&World::workbench())).svg(Theme::Light.palette());
+//! assert!(svg.contains("the post"));
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+#![cfg_attr(
+    feature = "sim",
+    doc = r#"
+A run is recorded from a seed, and simulated again to be compared:
+
+```
+use motion_lab::recording::{Run, verify};
+use motion_lab::tour::{BOOK_SEED, TourConfig};
+
+let log = Run::record(TourConfig { ticks: 20, ..TourConfig::default() }, BOOK_SEED)?;
+assert_eq!(verify(&log, |_| {})?.identical, 20); // every f64 to the last bit
+# Ok::<(), motion_lab::recording::RunError>(())
+```
+"#
+)]
+//!
+//! The modules stand in reading order: each uses only those above it. `ARCHITECTURE.md` is their map.
 //!
 //! Conventions: SI units, radians, `f64`; x right, y up, counter-clockwise positive; angles wrapped to `(-pi, pi]`.
 //! Touching counts as collision.
@@ -57,16 +97,16 @@ pub mod tour;
 pub mod run;
 
 #[cfg(feature = "sim")]
-pub mod simulation;
-
-#[cfg(feature = "sim")]
-pub mod recording;
-
-#[cfg(feature = "sim")]
 pub mod anatomy;
 
 #[cfg(feature = "sim")]
 pub mod atlas;
+
+#[cfg(feature = "sim")]
+pub mod simulation;
+
+#[cfg(feature = "sim")]
+pub mod recording;
 
 #[cfg(feature = "cli")]
 pub mod output;

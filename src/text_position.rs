@@ -16,8 +16,22 @@ pub(crate) fn line_at(text: &str, offset: usize) -> usize {
 }
 
 /// The column of a byte, from 1, in characters.
-pub(crate) fn column_at(text: &str, offset: usize) -> usize {
+fn column_at(text: &str, offset: usize) -> usize {
     text.get(..offset).unwrap_or("").chars().rev().take_while(|&c| c != '\n').count() + 1
+}
+
+/// A position in a text.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Position {
+    /// The line, from 1.
+    pub(crate) line: usize,
+    /// The column, from 1, in characters.
+    pub(crate) column: usize,
+}
+
+/// The position of a byte.
+pub(crate) fn position_at(text: &str, offset: usize) -> Position {
+    Position { line: line_at(text, offset), column: column_at(text, offset) }
 }
 
 #[cfg(test)]
@@ -29,8 +43,8 @@ mod tests {
         let text = "World(\n  \u{e9}: 1,\n)";
         let part = &text[text.find('1').unwrap()..];
         assert_eq!(offset_of(text, part), 13);
-        assert_eq!((line_at(text, 13), column_at(text, 13)), (2, 6));
-        assert_eq!((line_at(text, 0), column_at(text, 0)), (1, 1));
+        assert_eq!(position_at(text, 13), Position { line: 2, column: 6 });
+        assert_eq!(position_at(text, 0), Position { line: 1, column: 1 });
         assert_eq!(line_ends(text, 7, text.len()), 1);
         let far = String::from("elsewhere");
         assert!(offset_of(text, &far) <= text.len());

@@ -28,7 +28,7 @@ fn check<R: Robot>(checker: &Checker<R>, a: R::Configuration, b: R::Configuratio
         std::hint::black_box(verify_certificate(checker.scene(), &edge, &certificate).unwrap());
         let through = Counted::new(checker.scene());
         std::hint::black_box(march(&through, &edge, MarchOptions::default(), None));
-        assert!(through.counts().distance > 0, "the march asks for distances");
+        assert!(through.counts().distance_of_hull > 0, "the march asks for distances of hulls");
     });
     assert_eq!(counted, 0, "{a} to {b}");
     if let Ok(mut problem) = Problem::try_new(checker.clone(), a, a, Seed(1)) {

@@ -7,9 +7,10 @@ use bevy::prelude::MinimalPlugins;
 use bevy::time::TimeUpdateStrategy;
 use motion_lab::num::tan;
 use motion_lab::prelude::*;
+use motion_lab::recording::Run;
 use motion_lab::run::{Event, RobotInput};
 use motion_lab::simulation::{
-    LatestFrame, PendingInput, RobotCommand, SimulationPlugin, Transport, TransportCommand, start_run, view,
+    LatestFrame, PendingInput, RobotCommand, RunCommand, SimulationPlugin, Transport, TransportCommand, start_run, view,
 };
 use motion_lab::tour::TourConfig;
 
@@ -35,13 +36,13 @@ fn cars(more: &[(u64, &str, i16)]) -> App {
 /// Presses before the next tick; several presses within a tick keep their order.
 fn press(app: &mut App, robot: &str, speed: i16, steering: i16) {
     let input = RobotInput::Drive(speed, steering);
-    app.world_mut().write_message(RobotCommand { robot: robot.into(), input });
+    app.world_mut().write_message(RunCommand::from(RobotCommand { robot: robot.into(), input }));
 }
 
 /// Runs this number of ticks.
 fn step(app: &mut App, ticks: u64) {
     for _ in 0..ticks {
-        app.world_mut().write_message(TransportCommand::Step);
+        app.world_mut().write_message(RunCommand::from(TransportCommand::Step));
         app.update();
     }
 }
@@ -170,7 +171,7 @@ fn at_the_tick_of_a_script_s_own_input_what_is_pressed_comes_after_it() {
 fn back_in_a_scripted_run_a_press_takes_the_place_of_all_that_came_after() {
     let mut app = cars(&[(10, "a", 128), (20, "b", 128), (30, "a", 0)]);
     step(&mut app, 40);
-    app.world_mut().write_message(TransportCommand::Seek(19));
+    app.world_mut().write_message(RunCommand::from(TransportCommand::Seek(19)));
     app.update();
     press(&mut app, "a", 64, 0);
     step(&mut app, 21);
@@ -182,7 +183,7 @@ fn back_in_a_scripted_run_a_press_takes_the_place_of_all_that_came_after() {
 fn what_no_script_can_hold_forgets_nothing() {
     let mut app = cars(&[(30, "a", 128)]);
     step(&mut app, 40);
-    app.world_mut().write_message(TransportCommand::Seek(19));
+    app.world_mut().write_message(RunCommand::from(TransportCommand::Seek(19)));
     app.update();
     // nobody of that name, and channels go to 128
     press(&mut app, "nobody", 128, 0);
@@ -209,10 +210,10 @@ fn what_the_script_has_for_the_next_tick_is_forgotten_as_all_after_it() {
 fn input_at_the_frontier_of_a_looping_run_is_lived_through() {
     let mut app = cars(&[]);
     step(&mut app, 5);
-    app.world_mut().write_message(TransportCommand::SetLooping(true));
+    app.world_mut().write_message(RunCommand::from(TransportCommand::SetLooping(true)));
     app.update();
     press(&mut app, "a", 128, 0);
-    app.world_mut().write_message(TransportCommand::Play);
+    app.world_mut().write_message(RunCommand::from(TransportCommand::Play));
     app.insert_resource(TimeUpdateStrategy::ManualDuration(Duration::from_millis(50)));
     for _ in 0..4 {
         app.update();
@@ -220,4 +221,39 @@ fn input_at_the_frontier_of_a_looping_run_is_lived_through() {
     let Transport { tick, frontier, looping, .. } = *app.world().resource::<Transport>();
     assert!(!looping && tick == frontier && tick > 6, "it does not begin again: {tick} of {frontier}");
     assert_gone(&app, [tick as f64 - 5.0, 0.0]);
+}
+
+/// Cars this near keep a margin a little below their own distance, so that they can drive apart or side by side.
+#[test]
+fn cars_that_start_fifteen_micrometres_apart_drive_side_by_side() {
+    let apart = HITCH.body.width + 1.5e-5;
+    let world = open("side by side", &[("a", "hitch", &[0.0; 3]), ("b", "hitch", &[0.0, apart, 0.0])]);
+    let config = TourConfig { worlds: vec![world], ticks: 20, sensor: None };
+    let ahead = |robot: &str| event(1, robot, RobotInput::Drive(128, 0));
+    let log = Run::record(config, (Seed(1), script(vec![ahead("a"), ahead("b")]))).unwrap();
+    for frame in &log.frames {
+        for (robot, y) in frame.robots.iter().zip([0.0, apart]) {
+            let [x, across, theta] = robot.configuration[..] else { panic!("{robot:?}") };
+            let expected = frame.tick as f64 * FULL;
+            assert!((x - expected).abs() < 1e-12 && (across, theta) == (y, 0.0), "tick {}: {robot:?}", frame.tick);
+            assert!(!robot.in_contact && robot.contacts == 0, "tick {}: {robot:?}", frame.tick);
+        }
+    }
+}
+
+#[test]
+fn commands_are_carried_out_in_the_order_they_were_written() {
+    let mut app = cars(&[]);
+    step(&mut app, 3);
+    // within one update: pressed, a tick, pressed again, two ticks
+    press(&mut app, "a", 128, 0);
+    app.world_mut().write_message(RunCommand::from(TransportCommand::Step));
+    press(&mut app, "a", -64, 0);
+    for _ in 0..2 {
+        app.world_mut().write_message(RunCommand::from(TransportCommand::Step));
+    }
+    app.update();
+    assert_eq!(captured(&app), [(4, "a", [128, 0]), (5, "a", [-64, 0])]);
+    assert_eq!(app.world().resource::<Transport>().tick, 6);
+    assert_gone(&app, [1.0 - 2.0 * 0.5, 0.0]);
 }

@@ -12,8 +12,8 @@ use motion_lab::random::DRAWS_PER_INDEX;
 use motion_lab::recording::Run;
 use motion_lab::run::{Event, Frame, Log, LogWriter, RobotInput};
 use motion_lab::simulation::{
-    History, HistoryPlugin, Keyframes, LatestFrame, PendingInput, RobotCommand, SimulationPlugin, Transport,
-    TransportCommand, Undo, restore, start_run, step,
+    History, HistoryPlugin, Keyframes, LatestFrame, PendingInput, RobotCommand, RunCommand, SimulationPlugin,
+    Transport, TransportCommand, Undo, restore, start_run, step,
 };
 use motion_lab::tour::TourConfig;
 
@@ -69,12 +69,12 @@ fn app(config: TourConfig, events: Vec<Event>, history: bool) -> App {
 }
 
 fn send(app: &mut App, command: TransportCommand) {
-    app.world_mut().write_message(command);
+    app.world_mut().write_message(RunCommand::from(command));
     app.update();
 }
 
 fn drive(app: &mut App, robot: &str, input: RobotInput) {
-    app.world_mut().write_message(RobotCommand { robot: robot.into(), input });
+    app.world_mut().write_message(RunCommand::from(RobotCommand { robot: robot.into(), input }));
     app.update();
 }
 
@@ -151,7 +151,7 @@ fn what_is_undone_and_done_again_is_the_run_of_its_script_at_every_tick() {
     let (first, second) = (fresh(told(), 330), fresh(told_otherwise_after(120), 330));
     let mut app = app(config(330), told(), true);
     assert_is(&mut app, &first, &[330, 120]);
-    app.world_mut().write_message(TransportCommand::Checkpoint);
+    app.world_mut().write_message(RunCommand::from(TransportCommand::Checkpoint));
     drive(&mut app, "car", OTHERWISE);
     assert_is(&mut app, &second, &[330]);
 
@@ -176,7 +176,7 @@ fn what_is_undone_and_done_again_is_the_run_of_its_script_at_every_tick() {
 
     // after a new change the undone one cannot be redone
     send(&mut app, TransportCommand::Seek(50));
-    app.world_mut().write_message(TransportCommand::Checkpoint);
+    app.world_mut().write_message(RunCommand::from(TransportCommand::Checkpoint));
     drive(&mut app, "rover", RobotInput::Drive(1, 1));
     assert!(!app.world().resource::<Undo>().can_redo());
     let events = told_to(&app).to_vec();

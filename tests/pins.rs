@@ -17,7 +17,9 @@ use motion_lab::prelude::*;
 use motion_lab::recording::{Recorder, Run};
 use motion_lab::run::{Digest, Frame, Log, RobotInput, Script};
 use motion_lab::sensors::RangeSensor;
-use motion_lab::simulation::{LatestFrame, PendingInput, RobotCommand, SimulationPlugin, TransportCommand, start_run};
+use motion_lab::simulation::{
+    LatestFrame, PendingInput, RobotCommand, RunCommand, SimulationPlugin, TransportCommand, start_run,
+};
 use motion_lab::tour::{BOOK_SEED, TourConfig};
 use xxhash_rust::xxh3::xxh3_128;
 
@@ -108,12 +110,12 @@ fn branched() -> Log {
     let frame = |app: &App| app.world().resource::<LatestFrame>().0.clone();
     let initial = frame(&app);
     let drive = |app: &mut App, robot: &str, input| {
-        app.world_mut().write_message(RobotCommand { robot: robot.into(), input });
+        app.world_mut().write_message(RunCommand::from(RobotCommand { robot: robot.into(), input }));
     };
     let mut frames = Vec::new();
     let steps = |app: &mut App, frames: &mut Vec<Frame>, to: usize| {
         while frames.len() < to {
-            app.world_mut().write_message(TransportCommand::Step);
+            app.world_mut().write_message(RunCommand::from(TransportCommand::Step));
             app.update();
             frames.push(frame(app));
         }
@@ -127,7 +129,7 @@ fn branched() -> Log {
     drive(&mut app, "Reach", RobotInput::MoveTo(quantized(&[2.0, 0.0])));
     steps(&mut app, &mut frames, 160);
     let abandoned = frames.split_off(100);
-    app.world_mut().write_message(TransportCommand::Seek(100));
+    app.world_mut().write_message(RunCommand::from(TransportCommand::Seek(100)));
     app.update();
     assert_eq!(frame(&app), frames[99], "what is restored is what was");
     drive(&mut app, "Rusty", RobotInput::Drive(-128, 5));

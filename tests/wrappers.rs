@@ -26,11 +26,13 @@ fn assert_passes_on(asked: &dyn Collision) {
     assert_eq!([2.5, 5.0].map(|x| asked.swept(&disc(1.0), &disc(x))), [false, true]);
 }
 
-/// Asks for the distance of a hull, for wrappers that take any part.
+/// Asks for the distance of a hull and for a separation test, for wrappers that take any part.
 #[track_caller]
-fn assert_passes_on_hulls(asked: &dyn Collision) {
+fn assert_passes_on_hooks(asked: &dyn Collision) {
     let hull = |x: f64| Placed::new([Point2::new(x, 1.0), Point2::new(x, 2.0)], 0.25);
     assert_eq!([1.0, 2.75].map(|x| asked.distance_of_hull(hull(x))), [1.75, 0.0]);
+    // moved to x = 2.5 the part keeps 0.25 m from the wall
+    assert_eq!([0.2, 0.3].map(|reach| asked.clears(&hull(1.0), &hull(2.5), reach)), [true, false]);
 }
 
 #[test]
@@ -40,9 +42,10 @@ fn whoever_asks_a_scene_gets_its_answers() {
     assert_passes_on(&Surroundings { scene: &wall(), others: &[] });
     let counted = Counted::new(wall());
     assert_passes_on(&counted);
-    assert_passes_on_hulls(&counted);
-    assert_passes_on_hulls(&Surroundings { scene: &wall(), others: &[] });
-    assert_eq!(counted.counts(), QueryCounts { intersects: 2, distance: 4, witness: 1, swept: 2 });
+    assert_passes_on_hooks(&counted);
+    assert_passes_on_hooks(&Surroundings { scene: &wall(), others: &[] });
+    let each = QueryCounts { intersects: 2, distance: 2, distance_of_hull: 2, clears: 2, witness: 1, swept: 2 };
+    assert_eq!(counted.counts(), each);
 }
 
 #[test]
@@ -51,7 +54,7 @@ fn further_shapes_are_asked_as_well() {
     let others = [Placed::new([Point2::new(3.0, 0.0), Point2::new(3.0, 3.0)], 0.0)];
     let around = Surroundings { scene: &Scene::of_walls(&[]), others: &others };
     assert_passes_on(&around);
-    assert_passes_on_hulls(&around);
+    assert_passes_on_hooks(&around);
 }
 
 #[test]

@@ -5,7 +5,7 @@ use crate::random::Seed;
 use crate::recording::Run;
 use crate::run::Script;
 use crate::tour::TourConfig;
-use crate::ui::UiState;
+use crate::ui::{UiState, Widget};
 
 /// The widget in front as a figure of this width, pixels. The dashboard shows the run at `tick`; the other widgets do
 /// not depend on the run.
@@ -29,16 +29,16 @@ pub fn subject(state: &UiState, form: Form) -> Result<Option<Subject>, CaptureEr
     let moves = form == Form::Gif;
     let (names, scan) = (state.settings.labels, state.settings.scan);
     Ok(match state.widget {
-        0 => Some(Subject::Dashboard { names, scan }),
-        1 if moves => return Err(CaptureError::Frozen),
-        2 if moves => {
+        Widget::Dashboard => Some(Subject::Dashboard { names, scan }),
+        Widget::Anatomy if moves => return Err(CaptureError::Frozen),
+        Widget::Cspace if moves => {
             let anatomy = &state.anatomy.anatomy;
             let kind = Some(anatomy.checker().robot().kind().to_owned());
             let world = Some((**anatomy.world()).clone());
             Some(Subject::Cspace { world, kind, finest: 7, annulus: anatomy.show_annulus })
         }
-        3 if moves => Some(Subject::Atlas { world: Some(state.atlas.world().clone()), names }),
-        _ => None,
+        Widget::Atlas if moves => Some(Subject::Atlas { world: Some(state.atlas.world().clone()), names }),
+        Widget::Anatomy | Widget::Cspace | Widget::Atlas => None,
     })
 }
 
@@ -46,8 +46,8 @@ pub fn subject(state: &UiState, form: Form) -> Result<Option<Subject>, CaptureEr
 fn scene(state: &UiState, width_px: f64) -> Result<Captured, CaptureError> {
     let shown = &state.anatomy.anatomy;
     match state.widget {
-        2 => state.cspace.captured(shown).map_err(|error| CaptureError::Fault(error.to_string())),
-        3 => Ok(state.atlas.captured(state.settings.labels, width_px)),
-        _ => Ok(anatomy(shown, &[shown.tab])),
+        Widget::Cspace => state.cspace.captured(shown).map_err(|error| CaptureError::Fault(error.to_string())),
+        Widget::Atlas => Ok(state.atlas.captured(state.settings.labels, width_px)),
+        Widget::Anatomy | Widget::Dashboard => Ok(anatomy(shown, &[shown.tab])),
     }
 }

@@ -11,7 +11,7 @@ use super::capture::{capture, check, not_captured};
 use super::files::{open_run, open_world, save_run, save_world};
 use super::session::Interface;
 use crate::simulation::{Playback, RunConfig, Transport};
-use crate::ui::{CaptureOrder, SessionCommand, UiState, widgets};
+use crate::ui::{CaptureOrder, SessionCommand, UiState, Widget};
 
 /// File extension of the lab's logs.
 const EXTENSION: &str = "mcap";
@@ -44,8 +44,12 @@ impl Default for Dialogs {
 /// The dialog for a capture of the widget in front.
 fn picture_dialog(state: &UiState, order: &CaptureOrder, tick: u64) -> FileDialog {
     let (extension, name) = (order.form.extension(), order.form.name());
-    let widget = widgets().get(state.widget).map_or("lab", |w| w.id.as_str());
-    let file = if state.widget == 0 { format!("{widget}-{tick}.{extension}") } else { format!("{widget}.{extension}") };
+    let widget = state.widget.id();
+    let file = if state.widget == Widget::Dashboard {
+        format!("{widget}-{tick}.{extension}")
+    } else {
+        format!("{widget}.{extension}")
+    };
     dialog("picture", &format!("{name} (*.{extension})"), extension, &file)
 }
 

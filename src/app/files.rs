@@ -5,6 +5,7 @@ use std::path::Path;
 
 use bevy::ecs::world::World;
 
+use super::error::SessionError;
 use super::runs::{open_log, open_world_text, recorded};
 use super::session::Interface;
 use crate::output::write_file;
@@ -24,9 +25,9 @@ pub fn save_run(world: &World, path: &Path) -> Notice {
     }
 }
 
-fn save(world: &World, path: &Path) -> Result<String, String> {
+fn save(world: &World, path: &Path) -> Result<String, SessionError> {
     let (log, bytes) = recorded(world)?;
-    write_file(path, &bytes).map_err(|e| e.to_string())?;
+    write_file(path, &bytes)?;
     Ok(format!("{}: saved, {} ticks, digest {}", name(path), log.frames.len(), log.digest()))
 }
 
@@ -41,12 +42,12 @@ pub fn open_run(world: &mut World, path: &Path) -> Notice {
     }
 }
 
-fn open(world: &mut World, path: &Path) -> Result<Notice, String> {
-    let length = fs::metadata(path).map_err(|e| e.to_string())?.len();
+fn open(world: &mut World, path: &Path) -> Result<Notice, SessionError> {
+    let length = fs::metadata(path)?.len();
     if length > MOST_BYTES {
-        return Err(format!("{length} bytes: the window opens at most {MOST_BYTES}"));
+        return Err(SessionError::TooLarge { found: length, most: MOST_BYTES });
     }
-    open_log(world, &name(path), &fs::read(path).map_err(|e| e.to_string())?)
+    open_log(world, &name(path), &fs::read(path)?)
 }
 
 /// Opens a world file in the atlas. Where it is refused, the present one stays.

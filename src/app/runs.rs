@@ -2,15 +2,14 @@
 
 use bevy::ecs::world::World;
 
+use super::error::SessionError;
 use super::session::Interface;
 use crate::atlas::Editor;
 use crate::recording::Run;
-use crate::run::{Log, LogError, ReadLog, Script, first_divergence};
-use crate::simulation::{
-    LatestFrame, PendingInput, Playback, RunConfig, Transport, TransportCommand, obey, seek, start_run, step,
-};
+use crate::run::{Comparison, Log, LogError, ReadLog, Script};
+use crate::simulation::{LatestFrame, PendingInput, Playback, RunConfig, Transport, checkpoint, seek, start_run, step};
 use crate::tour::TourConfig;
-use crate::ui::{AtlasState, Notice, number_of};
+use crate::ui::{AtlasState, Notice, Widget};
 
 /// The run's configuration and script up to `ticks`.
 pub fn shown_run(world: &World, ticks: u64) -> (TourConfig, Script) {
@@ -21,20 +20,20 @@ pub fn shown_run(world: &World, ticks: u64) -> (TourConfig, Script) {
 }
 
 /// The run up to `ticks`, recorded.
-pub fn log_up_to(world: &World, ticks: u64) -> Result<Log, String> {
+pub fn log_up_to(world: &World, ticks: u64) -> Result<Log, SessionError> {
     let (config, script) = shown_run(world, ticks);
-    Run::record(config, (world.resource::<Transport>().seed, script)).map_err(|e| e.to_string())
+    Run::record(config, (world.resource::<Transport>().seed, script)).map_err(SessionError::from)
 }
 
 /// The run as far as it has come, recorded from seed, configuration and script, and its log's bytes.
-pub fn recorded(world: &World) -> Result<(Log, Vec<u8>), String> {
+pub fn recorded(world: &World) -> Result<(Log, Vec<u8>), SessionError> {
     let Transport { frontier, .. } = *world.resource::<Transport>();
     if frontier == 0 {
-        return Err("nothing has been run yet; press Play first".into());
+        return Err(SessionError::NotRun);
     }
     let log = log_up_to(world, frontier)?;
     let mut bytes = Vec::new();
-    log.write_mcap(&mut bytes).map_err(|e| e.to_string())?;
+    log.write_mcap(&mut bytes)?;
     Ok((log, bytes))
 }
 
@@ -42,34 +41,31 @@ pub fn recorded(world: &World) -> Result<(Log, Vec<u8>), String> {
 ///
 /// The run is shown paused, at its start or at the first tick that differs. Where the log can't be read, the present
 /// run stays.
-pub fn open_log(world: &mut World, name: &str, bytes: &[u8]) -> Result<Notice, String> {
+pub fn open_log(world: &mut World, name: &str, bytes: &[u8]) -> Result<Notice, SessionError> {
     let (log, damage) = match Log::read_mcap(bytes) {
         Ok(ReadLog { log, .. }) => (log, None),
-        Err(LogError::Damaged(damaged)) => {
-            let message = damaged.to_string();
-            let read = damaged.recovered.ok_or_else(|| message.clone())?;
-            (read.log, Some(message))
-        }
-        Err(error) => return Err(error.to_string()),
+        Err(LogError::Damaged(mut damaged)) => match damaged.recovered.take() {
+            Some(read) => (read.log, Some(damaged.to_string())),
+            None => return Err(LogError::Damaged(damaged).into()),
+        },
+        Err(error) => return Err(error.into()),
     };
-    obey(world, TransportCommand::Checkpoint)?;
+    checkpoint(world);
     let speed = world.resource::<Transport>().speed;
-    let ticks = log.frames.len() as u64;
-    start_run(world, log.config.clone(), (log.seed, log.script.clone())).map_err(|e| e.to_string())?;
-    let here = |world: &World, frame| {
-        first_divergence(std::slice::from_ref(frame), std::slice::from_ref(&world.resource::<LatestFrame>().0))
-    };
-    let mut divergence = here(world, &log.initial);
-    for frame in &log.frames {
+    start_run(world, log.config.clone(), (log.seed, log.script.clone()))?;
+    let mut comparison = Comparison::with(&log);
+    comparison.frame(&world.resource::<LatestFrame>().0);
+    for _ in &log.frames {
         step(world);
-        divergence = divergence.or_else(|| here(world, frame));
+        comparison.frame(&world.resource::<LatestFrame>().0);
     }
-    let tick = divergence.as_ref().map_or(0, |d| d.tick);
-    seek(world, tick).map_err(|e| e.to_string())?;
+    let divergence = comparison.divergence();
+    let tick = divergence.map_or(0, |d| d.tick);
+    seek(world, tick)?;
     let mut transport = world.resource_mut::<Transport>();
     (transport.playback, transport.speed) = (Playback::Paused, speed);
-    let mut text = match &divergence {
-        None => format!("{name}: bit-identical, {ticks} of {}", log.config.ticks),
+    let mut text = match divergence {
+        None => format!("{name}: bit-identical, {} of {}", comparison.identical(), log.config.ticks),
         Some(divergence) => format!("{name}: {divergence}"),
     };
     if let Some(damage) = &damage {
@@ -84,7 +80,7 @@ pub fn open_world_text(world: &mut World, name: &str, text: &str) -> Notice {
         Ok(editor) => {
             let ui = &mut world.resource_mut::<Interface>().into_inner().0;
             ui.atlas = AtlasState::edited(editor).in_mode(ui.atlas.mode);
-            ui.widget = number_of("atlas").unwrap_or(0);
+            ui.widget = Widget::Atlas;
             Notice { text: format!("{name}: opened"), is_error: false }
         }
         Err(error) => Notice { text: format!("{name}: not opened: {error}"), is_error: true },

@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use bevy::prelude::*;
 
+use super::error::SessionError;
 use super::pace::{Pace, measure, play_flat_out};
 use crate::atlas::Atlas;
 use crate::configuration::{Coordinates, HitchCfg};
@@ -12,11 +13,11 @@ use crate::picture::{Picture, world as picture_of};
 use crate::robots::{HITCH, Robot};
 use crate::run::{Event, RobotInput};
 use crate::simulation::{
-    History, HistoryPlugin, LatestFrame, PendingInput, Playback, RobotView, Roster, RunConfig, RunInput,
-    SimulationPlugin, Transport, TransportCommand, Undo, WorldScene, obey, start_run, view,
+    CommandRefused, History, HistoryPlugin, LatestFrame, PendingInput, Playback, RobotView, Roster, RunConfig,
+    RunInput, SimulationPlugin, Transport, Undo, WorldScene, checkpoint, start_run, view,
 };
 use crate::tour::{BOOK_SEED, TourConfig};
-use crate::ui::{Cockpit, CockpitRobot, Command, Dashboard, Notice, SessionCommand, UiState, blend};
+use crate::ui::{Cockpit, CockpitRobot, Command, Dashboard, Notice, SessionCommand, UiState, Widget, blend};
 use crate::worlds::World as WorldModel;
 
 /// Farthest that a part moves from tick to tick, metres. A part that moved farther was put there.
@@ -45,7 +46,7 @@ impl Plugin for SessionPlugin {
                 can_redo: false,
             }))
             .add_systems(Startup, start)
-            .add_systems(Update, (play_flat_out, measure, gather).chain());
+            .add_systems(Update, (play_flat_out, measure, note_refusals, gather).chain());
     }
 }
 
@@ -67,6 +68,13 @@ fn start(world: &mut World) -> Result {
         world.resource_mut::<Transport>().playback = Playback::Playing;
     }
     Ok(())
+}
+
+/// Shows why a command was refused.
+fn note_refusals(mut refused: MessageReader<CommandRefused>, mut interface: ResMut<Interface>) {
+    for CommandRefused(error) in refused.read() {
+        interface.0.notice = Some(Notice { text: error.to_string(), is_error: true });
+    }
 }
 
 /// Reads the values that the window shows from the simulation. This is the one place where the two meet.
@@ -175,11 +183,10 @@ fn target(world: &World, robot: &RobotView) -> Option<Coordinates> {
 pub fn carry_out(world: &mut World, commands: Vec<Command>) {
     for command in commands {
         match command {
-            Command::Transport(command) => _ = world.write_message(command),
-            Command::Robot(command) => _ = world.write_message(command),
+            Command::Run(command) => _ = world.write_message(command),
             Command::Session(SessionCommand::Links { robot, links }) => {
                 if let Err(error) = change_links(world, &robot, links) {
-                    let notice = Notice { text: error, is_error: true };
+                    let notice = Notice { text: error.to_string(), is_error: true };
                     world.resource_mut::<Interface>().0.notice = Some(notice);
                 }
             }
@@ -190,8 +197,8 @@ pub fn carry_out(world: &mut World, commands: Vec<Command>) {
                 let ran = new_run(world, config, seed);
                 let ui = &mut world.resource_mut::<Interface>().into_inner().0;
                 match ran {
-                    Ok(()) => ui.widget = 0,
-                    Err(text) => ui.notice = Some(Notice { text, is_error: true }),
+                    Ok(()) => ui.widget = Widget::Dashboard,
+                    Err(error) => ui.notice = Some(Notice { text: error.to_string(), is_error: true }),
                 }
             }
             Command::Session(command) => _ = world.write_message(command),
@@ -200,10 +207,10 @@ pub fn carry_out(world: &mut World, commands: Vec<Command>) {
 }
 
 /// A new run of the same seed in which the arm named `robot` has two or three links.
-fn change_links(world: &mut World, robot: &str, links: usize) -> Result<(), String> {
+fn change_links(world: &mut World, robot: &str, links: usize) -> Result<(), SessionError> {
     let mut config = TourConfig::clone(&world.resource::<RunConfig>().0);
     let mut arms = config.worlds.iter_mut().flat_map(|w| &mut w.robots);
-    let Some(arm) = arms.find(|r| r.name == robot) else { return Err(format!("there is no {robot}")) };
+    let Some(arm) = arms.find(|r| r.name == robot) else { return Err(SessionError::NoRobot(robot.to_owned())) };
     arm.kind = if links == 3 { "reach3" } else { "reach" }.into();
     arm.start.resize(links, 0.5);
     let seed = world.resource::<Transport>().seed;
@@ -211,10 +218,10 @@ fn change_links(world: &mut World, robot: &str, links: usize) -> Result<(), Stri
 }
 
 /// Starts a new run in place of the present one, which an undo brings back. Playback, speed and looping stay.
-pub fn new_run(world: &mut World, config: TourConfig, input: impl Into<RunInput>) -> Result<(), String> {
-    obey(world, TransportCommand::Checkpoint)?;
+pub fn new_run(world: &mut World, config: TourConfig, input: impl Into<RunInput>) -> Result<(), SessionError> {
+    checkpoint(world);
     let Transport { playback, speed, looping, .. } = *world.resource::<Transport>();
-    start_run(world, config, input).map_err(|e| e.to_string())?;
+    start_run(world, config, input)?;
     let mut transport = world.resource_mut::<Transport>();
     *transport = Transport { playback, speed, looping, ..*transport };
     Ok(())

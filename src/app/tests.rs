@@ -25,7 +25,7 @@ use crate::configuration::Coordinates;
 use crate::recording::Run;
 use crate::run::{Log, RobotInput, Script};
 use crate::simulation::{
-    History, LatestFrame, PendingInput, Playback, RobotView, RunConfig, Transport, TransportCommand, view,
+    History, LatestFrame, PendingInput, Playback, RobotView, RunCommand, RunConfig, Transport, view,
 };
 use crate::ui::SessionCommand;
 

@@ -119,8 +119,8 @@ impl GridLayer {
     /// The cells of one shade.
     fn cells(&self, image: &[u32], shade: u32, id: String, name: String, role: Role) -> Item {
         let pieces = rectangles(image, self.grid.columns(), |s| *s == shade).into_iter().map(|r| {
-            let (lo, _) = self.grid.square(r.left, r.low);
-            let (_, hi) = self.grid.square(r.right - 1, r.high - 1);
+            let lo = self.grid.square(r.left, r.low).min;
+            let hi = self.grid.square(r.right - 1, r.high - 1).max;
             let hi =
                 Point2::new(crate::num::lesser(hi.x, self.bounds.max.x), crate::num::lesser(hi.y, self.bounds.max.y));
             vec![lo, Point2::new(hi.x, lo.y), hi, Point2::new(lo.x, hi.y)]
@@ -131,11 +131,11 @@ impl GridLayer {
     fn lines(&self) -> Item {
         let (min, max) = (self.bounds.min, self.bounds.max);
         let upright = (1..self.grid.columns()).map(|k| {
-            let x = self.grid.square(k, 0).0.x;
+            let x = self.grid.square(k, 0).min.x;
             vec![Point2::new(x, min.y), Point2::new(x, max.y)]
         });
         let level = (1..self.grid.rows()).map(|k| {
-            let y = self.grid.square(0, k).0.y;
+            let y = self.grid.square(0, k).min.y;
             vec![Point2::new(min.x, y), Point2::new(max.x, y)]
         });
         let outline = upright.chain(level).collect();

@@ -64,7 +64,7 @@ impl GridLayer {
     /// A probe of a point: its cell, the exact shortest way, and both distances. Empty beyond the grid.
     pub fn probe_items(&self, p: Point2) -> Vec<Item> {
         let Some(probe) = self.probe(p) else { return Vec::new() };
-        let (lo, hi) = self.grid().square(probe.cell.0, probe.cell.1);
+        let Aabb { min: lo, max: hi } = self.grid().square(probe.cell.0, probe.cell.1);
         let cell = vec![lo, Point2::new(hi.x, lo.y), hi, Point2::new(lo.x, hi.y), lo];
         let mut items =
             vec![Item::new("probe/cell", "its cell", Role::Focus, Drawing::Polyline(cell)).stroked(Line::solid(1.5))];

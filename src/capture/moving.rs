@@ -6,7 +6,7 @@ use super::space::Space;
 use super::{CaptureError, Captured, Note};
 use crate::atlas::{Atlas, names};
 use crate::geometry::{Pose2, Shape};
-use crate::manifest::widget;
+use crate::manifest::Widget;
 use crate::picture::{
     Drawing, Figure, Item, Panel, Picture, RobotDrawing, places, readout, readout_lines, robot, scan,
     world as draw_world,
@@ -235,7 +235,7 @@ impl<'a> Moving<'a> {
         let told = views.iter().map(|v| format!("{} is at {}, contacts: {}.", v.name, v.configuration, v.contacts));
         let mut caption = vec![when];
         if in_atlas {
-            caption.splice(0..0, widget("atlas").map(|w| w.misconception.clone()));
+            caption.insert(0, Widget::Atlas.text().misconception.clone());
         }
         let seconds = DT * tick as f64;
         let figure = Figure {

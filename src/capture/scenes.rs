@@ -5,7 +5,7 @@ use crate::anatomy::{Anatomy, Tab};
 use crate::atlas::{Atlas, GridLayer, names};
 use crate::configuration::AnyConfiguration;
 use crate::cspace::{CellMap, Overlay, cspace_picture};
-use crate::manifest::widget;
+use crate::manifest::Widget;
 use crate::picture::{Figure, Item, Panel, readout, world as draw_world};
 
 /// The query anatomy: these tabs side by side, or one tab with a close-up of the nearest points.
@@ -23,7 +23,7 @@ pub fn anatomy(anatomy: &Anatomy, tabs: &[Tab]) -> Captured {
         title: format!("Query anatomy: {} in the world {}", anatomy.checker().robot().name(), anatomy.world().name),
         description: tabs.iter().map(|t| anatomy.clone().with_tab(*t).described()).collect::<Vec<_>>().join(" "),
         panels,
-        caption: caption("anatomy", anatomy),
+        caption: caption(Widget::Anatomy, anatomy),
     };
     Captured { figure, notes: notes(anatomy) }
 }
@@ -53,7 +53,7 @@ pub fn cspace(anatomy: &Anatomy, map: &CellMap, trace: Vec<AnyConfiguration>) ->
         title: format!("Workspace and configuration space of {}", anatomy.checker().robot().name()),
         description: anatomy.described(),
         panels,
-        caption: caption("cspace", anatomy),
+        caption: caption(Widget::Cspace, anatomy),
     };
     Captured { figure, notes: notes(anatomy) }
 }
@@ -97,7 +97,7 @@ pub fn atlas(sheets: &[AtlasSheet<'_>], width_px: f64) -> Captured {
         title: "World atlas".into(),
         description: sheets.iter().map(list).collect::<Vec<_>>().join(" "),
         panels: sheets.iter().map(panel).collect(),
-        caption: widget("atlas").map(|w| w.misconception.clone()).into_iter().collect(),
+        caption: vec![Widget::Atlas.text().misconception.clone()],
     };
     let scales = figure.px_per_metre(width_px);
     for ((panel, sheet), scale) in figure.panels.iter_mut().zip(sheets).zip(scales).filter(|((_, s), _)| s.names) {
@@ -108,10 +108,10 @@ pub fn atlas(sheets: &[AtlasSheet<'_>], width_px: f64) -> Captured {
 }
 
 /// The caption under the panels: the misconception that the widget removes, and the configuration shown.
-fn caption(id: &str, anatomy: &Anatomy) -> Vec<String> {
+fn caption(widget: Widget, anatomy: &Anatomy) -> Vec<String> {
     // other widgets' text is about the arm and does not hold for other robots
-    let said = id == "anatomy" || anatomy.checker().robot().annulus().is_some();
-    let misconception = widget(id).filter(|_| said).map(|w| w.misconception.clone());
+    let said = widget == Widget::Anatomy || anatomy.checker().robot().annulus().is_some();
+    let misconception = said.then(|| widget.text().misconception.clone());
     misconception.into_iter().chain([readout(&anatomy.q().to_string())]).collect()
 }
 

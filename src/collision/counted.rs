@@ -7,6 +7,8 @@ use crate::geometry::{Footprint, Placed};
 
 /// A [`Collision`] that forwards every query to another checker and counts it. Planners are compared by these counts.
 ///
+/// The two hooks are forwarded too, so the queries counted are those that the other checker answers without a counter.
+///
 /// ```
 /// use motion_lab::prelude::*;
 /// use motion_lab::collision::{Collision, Counted, Scene};
@@ -19,6 +21,8 @@ pub struct Counted<C> {
     inner: C,
     intersects: AtomicU64,
     distance: AtomicU64,
+    distance_of_hull: AtomicU64,
+    clears: AtomicU64,
     witness: AtomicU64,
     swept: AtomicU64,
 }
@@ -30,6 +34,10 @@ pub struct QueryCounts {
     pub intersects: u64,
     /// `distance`.
     pub distance: u64,
+    /// `distance_of_hull`: the distances that a march asks to prove its steps.
+    pub distance_of_hull: u64,
+    /// `clears`, the separation test, whatever its answer.
+    pub clears: u64,
     /// `witness`.
     pub witness: u64,
     /// `swept`; the queries it makes in turn are not counted.
@@ -40,7 +48,15 @@ impl<C: Collision> Counted<C> {
     /// Counts the queries that go to `inner`.
     pub fn new(inner: C) -> Self {
         let zero = AtomicU64::default;
-        Counted { inner, intersects: zero(), distance: zero(), witness: zero(), swept: zero() }
+        Counted {
+            inner,
+            intersects: zero(),
+            distance: zero(),
+            distance_of_hull: zero(),
+            clears: zero(),
+            witness: zero(),
+            swept: zero(),
+        }
     }
 
     /// The checker that answers.
@@ -54,6 +70,8 @@ impl<C: Collision> Counted<C> {
         QueryCounts {
             intersects: read(&self.intersects),
             distance: read(&self.distance),
+            distance_of_hull: read(&self.distance_of_hull),
+            clears: read(&self.clears),
             witness: read(&self.witness),
             swept: read(&self.swept),
         }
@@ -72,8 +90,13 @@ impl<C: Collision> Collision for Counted<C> {
     }
 
     fn distance_of_hull(&self, hull: Placed) -> f64 {
-        self.distance.fetch_add(1, Ordering::Relaxed);
+        self.distance_of_hull.fetch_add(1, Ordering::Relaxed);
         self.inner.distance_of_hull(hull)
+    }
+
+    fn clears(&self, from: &Placed, to: &Placed, reach: f64) -> bool {
+        self.clears.fetch_add(1, Ordering::Relaxed);
+        self.inner.clears(from, to, reach)
     }
 
     fn witness(&self, footprint: &Footprint) -> Option<Witness> {

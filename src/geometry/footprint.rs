@@ -2,7 +2,7 @@
 
 use smallvec::SmallVec;
 
-use super::{Placed, Point2, Pose2, Segment, Shape, ShapeError};
+use super::{Placed, Point2, Pose2, Segment, Shape, ShapeError, SinCos};
 use crate::num;
 
 /// One rigid part of a footprint: a shape, the pose of its frame, and the shape placed there.
@@ -24,7 +24,7 @@ impl Part {
 
     /// As [`new`](Self::new), given the sine and the cosine of the frame's angle.
     #[inline]
-    pub(crate) fn new_by(pose: Pose2, sin_cos: (f64, f64), shape: Shape) -> Self {
+    pub(crate) fn new_by(pose: Pose2, sin_cos: SinCos, shape: Shape) -> Self {
         let placed = shape.place_by(&pose, sin_cos);
         Part { pose, shape, placed }
     }

@@ -9,6 +9,7 @@ mod polygon;
 mod pose;
 mod segment;
 mod shape;
+mod sin_cos;
 
 pub use aabb::Aabb;
 pub(crate) use aabb::square;
@@ -20,6 +21,7 @@ pub use polygon::{ConvexPolygon, PolygonError};
 pub use pose::{Pose2, Tangent2};
 pub use segment::Segment;
 pub use shape::{Shape, ShapeError};
+pub(crate) use sin_cos::SinCos;
 
 /// A point of the plane, in metres.
 pub type Point2 = nalgebra::Point2<f64>;

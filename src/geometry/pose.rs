@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::{Point2, Vector2};
+use super::{Point2, SinCos, Vector2};
 use crate::num::{self, sinc, wrap};
 
 /// A pose in SE(2): the frame's origin `(x, y)` in metres and its heading `theta` in radians, wrapped to `(-pi, pi]`.
@@ -58,12 +58,13 @@ impl Pose2 {
 
     /// A point given in this frame, in world coordinates.
     pub fn transform(&self, p_in_frame: Point2) -> Point2 {
-        self.transform_by(num::sin_cos(self.theta), p_in_frame)
+        self.transform_by(SinCos::of(self.theta), p_in_frame)
     }
 
     /// As [`transform`](Self::transform), given the sine and the cosine of the frame's angle.
     #[inline]
-    pub(crate) fn transform_by(&self, (s, c): (f64, f64), p_in_frame: Point2) -> Point2 {
+    pub(crate) fn transform_by(&self, sin_cos: SinCos, p_in_frame: Point2) -> Point2 {
+        let SinCos { sin: s, cos: c } = sin_cos;
         Point2::new(self.x + (c * p_in_frame.x - s * p_in_frame.y), self.y + (s * p_in_frame.x + c * p_in_frame.y))
     }
 

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use super::{ConvexPolygon, MAX_COORDINATE, MIN_FEATURE, Placed, Point2, PolygonError, Pose2, Vertices};
+use super::{ConvexPolygon, MAX_COORDINATE, MIN_FEATURE, Placed, Point2, PolygonError, Pose2, SinCos, Vertices};
 use crate::num::{self, greater};
 
 /// A closed convex shape in its own frame, in metres.
@@ -170,12 +170,12 @@ impl Shape {
     /// The shape placed in the world: its vertices rounded to `f64`, and its radius.
     #[inline]
     pub fn place(&self, pose: &Pose2) -> Placed {
-        self.place_by(pose, num::sin_cos(pose.theta))
+        self.place_by(pose, SinCos::of(pose.theta))
     }
 
     /// As [`place`](Self::place), given the sine and the cosine of the frame's angle.
     #[inline]
-    pub(crate) fn place_by(&self, pose: &Pose2, sin_cos: (f64, f64)) -> Placed {
+    pub(crate) fn place_by(&self, pose: &Pose2, sin_cos: SinCos) -> Placed {
         let mut core = self.core();
         if *pose != Pose2::IDENTITY {
             for p in &mut core {

@@ -1,8 +1,10 @@
 //! `WidgetText`, the words around a widget, read from the manifest `assets/widgets.ron`.
 
 mod formula;
+mod widget;
 
 pub use formula::{Formula, Level, Term};
+pub use widget::Widget;
 
 use std::sync::LazyLock;
 
@@ -11,7 +13,7 @@ use serde::Deserialize;
 use crate::picture::Role;
 
 /// The words of one widget.
-#[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Eq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct WidgetText {
     /// Its id, by which a page names it.
@@ -56,19 +58,12 @@ impl KeyText {
 static WIDGETS: LazyLock<Vec<WidgetText>> =
     LazyLock::new(|| ron::from_str(include_str!("../../assets/widgets.ron")).unwrap_or_default());
 
-/// The words of every widget, in the order of the rail.
-pub fn widgets() -> &'static [WidgetText] {
-    &WIDGETS
-}
+/// The words of no widget.
+static NO_WORDS: LazyLock<WidgetText> = LazyLock::new(WidgetText::default);
 
-/// The number on the rail of the widget with this id.
-pub fn number_of(id: &str) -> Option<usize> {
-    widgets().iter().position(|w| w.id == id)
-}
-
-/// The words of the widget with this id.
-pub fn widget(id: &str) -> Option<&'static WidgetText> {
-    widgets().iter().find(|w| w.id == id)
+/// The words of the widget with this id; none for an id that the manifest lacks, which a test excludes.
+fn texts(id: &str) -> &'static WidgetText {
+    WIDGETS.iter().find(|w| w.id == id).unwrap_or(&NO_WORDS)
 }
 
 #[cfg(test)]
@@ -78,9 +73,10 @@ mod tests {
     #[test]
     fn the_manifest_is_whole() {
         let parsed: Vec<WidgetText> = ron::from_str(include_str!("../../assets/widgets.ron")).unwrap();
-        assert_eq!(parsed, widgets());
-        assert!(widget("dashboard").is_some() && widget("a cat").is_none());
-        for widget in widgets() {
+        let ids: Vec<&str> = parsed.iter().map(|words| words.id.as_str()).collect();
+        assert_eq!(ids, Widget::ALL.map(Widget::id), "each once, in the order of the rail");
+        assert_eq!((Widget::of("cspace"), Widget::of("a cat")), (Some(Widget::Cspace), None));
+        for widget in Widget::ALL.map(Widget::text) {
             for words in [&widget.id, &widget.title, &widget.short, &widget.misconception, &widget.description] {
                 assert!(!words.trim().is_empty(), "{}", widget.id);
             }

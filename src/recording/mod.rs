@@ -16,6 +16,7 @@ mod grade;
 mod identity;
 mod recorder;
 mod run;
+mod verification;
 
 pub use crate::simulation::RunInput;
 pub use final_lines::{final_lines, printed_configuration};
@@ -26,3 +27,4 @@ pub use grade::{
 pub use identity::identity_line;
 pub use recorder::{Recorder, RunError};
 pub use run::Run;
+pub use verification::{Verification, verify};

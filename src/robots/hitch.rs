@@ -2,7 +2,7 @@
 
 use super::{ConfigurationError, Drivable, Motion, PartRates, Rates, Robot, sample_angle};
 use crate::configuration::{Configuration, HitchCfg};
-use crate::geometry::{Footprint, Point2, Pose2, Tangent2};
+use crate::geometry::{Aabb, Footprint, Point2, Pose2, Tangent2};
 use crate::num::{self, rk4, wrap};
 use crate::random::Stream;
 use crate::short_list::ShortList;
@@ -85,22 +85,26 @@ impl CarBody {
         self.length - self.rear_overhang - wheelbase
     }
 
-    /// The rectangle's corners (least, greatest) in the rear axle's frame.
-    fn corners(&self) -> (Point2, Point2) {
+    /// The rectangle in the rear axle's frame.
+    fn rectangle(&self) -> Aabb {
         let half = 0.5 * self.width;
-        (Point2::new(-self.rear_overhang, -half), Point2::new(self.length - self.rear_overhang, half))
+        let min = Point2::new(-self.rear_overhang, -half);
+        Aabb { min, max: Point2::new(self.length - self.rear_overhang, half) }
     }
 }
 
 impl TrailerBody {
-    /// The rectangle's corners (least, greatest) in the hitch's frame, x axis along the trailer's heading.
-    fn corners(&self, hitch_len: f64) -> (Point2, Point2) {
+    /// The rectangle in the hitch's frame, x axis along the trailer's heading.
+    fn rectangle(&self, hitch_len: f64) -> Aabb {
         let half = 0.5 * self.width;
-        (Point2::new(-hitch_len - self.rear_overhang, -half), Point2::new(-hitch_len + self.front_overhang, half))
+        let min = Point2::new(-hitch_len - self.rear_overhang, -half);
+        Aabb { min, max: Point2::new(-hitch_len + self.front_overhang, half) }
     }
 }
 
-fn farthest((min, max): (Point2, Point2)) -> f64 {
+/// The distance from a frame's origin to the farthest point of a rectangle in that frame, metres.
+fn farthest(rectangle: Aabb) -> f64 {
+    let Aabb { min, max } = rectangle;
     num::hypot(num::greater(min.x.abs(), max.x.abs()), num::greater(min.y.abs(), max.y.abs()))
 }
 
@@ -168,11 +172,11 @@ impl Robot for Hitch {
     ///
     /// A configuration in the wrong space gives a footprint that is not finite and fails safe.
     fn footprint(&self, q: &HitchCfg) -> Footprint {
-        let (body_min, body_max) = self.body.corners();
-        let mut rects: ShortList<_, 2> = ShortList::from([(q.body, body_min, body_max)]);
+        let Aabb { min, max } = self.body.rectangle();
+        let mut rects: ShortList<_, 2> = ShortList::from([(q.body, min, max)]);
         match (q.trailer, self.hitch_len) {
             (Some(psi), Some(hitch_len)) => {
-                let (min, max) = self.trailer_body.corners(hitch_len);
+                let Aabb { min, max } = self.trailer_body.rectangle(hitch_len);
                 rects.push((Pose2 { theta: psi, ..q.body }, min, max));
             }
             (None, None) => {}
@@ -196,9 +200,9 @@ impl Robot for Hitch {
             speed: translation + reach * turn.abs(),
             acceleration: reach * turn * turn,
         };
-        let mut parts: PartRates = PartRates::from([rates(d[2], farthest(self.body.corners()))]);
+        let mut parts: PartRates = PartRates::from([rates(d[2], farthest(self.body.rectangle()))]);
         if let (Some(dpsi), Some(hitch_len)) = (d.get(3), self.hitch_len) {
-            parts.push(rates(*dpsi, farthest(self.trailer_body.corners(hitch_len))));
+            parts.push(rates(*dpsi, farthest(self.trailer_body.rectangle(hitch_len))));
         }
         Ok(parts)
     }
@@ -243,11 +247,11 @@ impl Motion for HitchArc {
                 // follows the true one to far better than the percent added here.
                 let spin = 1.01 * speed / hitch_len;
                 let spin_rate = 1.01 * spin * (self.turn.abs() + spin);
-                let reach = farthest(self.car.trailer_body.corners(hitch_len));
+                let reach = farthest(self.car.trailer_body.rectangle(hitch_len));
                 Rates { speed: speed + reach * spin, acceleration: acceleration + reach * (spin_rate + spin * spin) }
             }
             _ => {
-                let reach = farthest(self.car.body.corners());
+                let reach = farthest(self.car.body.rectangle());
                 Rates {
                     speed: speed + reach * self.turn.abs(),
                     acceleration: acceleration + reach * self.turn * self.turn,

@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use super::{ConfigurationError, Drivable, PartRates, Rates, Robot, sample_angle};
 use crate::configuration::{Configuration, T2, Tn};
-use crate::geometry::{Footprint, Part, Point2, Pose2, Shape, ShapeError};
+use crate::geometry::{Footprint, Part, Point2, Pose2, Shape, ShapeError, SinCos};
 use crate::num::{self, greater, in_range, wrap};
 use crate::random::Stream;
 use crate::short_list::ShortList;
@@ -123,7 +123,7 @@ struct Link {
     /// Its frame: the origin at its proximal end, the x axis along it.
     pose: Pose2,
     /// The sine and the cosine of the frame's angle.
-    sin_cos: (f64, f64),
+    sin_cos: SinCos,
     length: f64,
 }
 
@@ -170,7 +170,7 @@ impl<const N: usize> Reach<N> {
         q.0.into_iter().zip(self.lengths).map(move |(angle, length)| {
             let (at, heading) = last.map_or((base, 0.0), |link| (link.end(), link.pose.theta));
             let theta = wrap(heading + in_range(angle));
-            let link = Link { pose: Pose2 { x: at.x, y: at.y, theta }, sin_cos: num::sin_cos(theta), length };
+            let link = Link { pose: Pose2 { x: at.x, y: at.y, theta }, sin_cos: SinCos::of(theta), length };
             last = Some(link);
             link
         })

@@ -1,5 +1,6 @@
 //! Runs as data: the input script, the frames, their digests, where two runs differ, and the log as a file.
 
+mod comparison;
 mod difference;
 mod digest;
 mod divergence;
@@ -12,6 +13,7 @@ mod mcap;
 mod script;
 mod script_text;
 
+pub use comparison::Comparison;
 pub use difference::SetupDifference;
 pub use digest::{Digest, RunDigest};
 pub use divergence::{Divergence, first_divergence};

@@ -9,6 +9,18 @@ use crate::num::sqrt;
 /// An upper bound on the errors of the two bearings together, in turns.
 const SLACK: f64 = 1e-5;
 
+/// A disc as the sensor sees it from outside.
+#[derive(Clone, Copy)]
+struct Disc {
+    /// Its centre from the sensor, metres.
+    cx: f64,
+    cy: f64,
+    /// The square of its radius.
+    r2: f64,
+    /// The square of the centre's distance, less `r2`: positive.
+    outside: f64,
+}
+
 /// Raises the inverse range of every ray that meets the disc, that is of every ray between its two tangents.
 #[inline(always)]
 pub(super) fn raise_circle(circle: &Circle, view: &View, fan: &mut Fan) {
@@ -22,10 +34,11 @@ pub(super) fn raise_circle(circle: &Circle, view: &View, fan: &mut Fan) {
     let forward = |turns: f64| if turns < 0.0 { turns + 1.0 } else { turns };
     let begin = forward(forward(middle) - half);
     let end = begin + 2.0 * half;
+    let disc = Disc { cx, cy, r2, outside };
     let mut raise = |from: f64, to: f64| {
         let block = |turns: f64| (turns * view.rays) as usize / LANES;
         for block in some(&mut fan.blocks, block(from)..block(to) + 1) {
-            meet(block, (cx, cy), r2, outside, view.nothing);
+            meet(block, disc, view.nothing);
         }
     };
     raise(begin, end);
@@ -34,8 +47,10 @@ pub(super) fn raise_circle(circle: &Circle, view: &View, fan: &mut Fan) {
     }
 }
 
+/// Raises those of eight rays that meet the disc.
 #[inline(always)]
-fn meet(rays: &mut Rays, (cx, cy): (f64, f64), r2: f64, outside: f64, nothing: f64) {
+fn meet(rays: &mut Rays, disc: Disc, nothing: f64) {
+    let Disc { cx, cy, r2, outside } = disc;
     for ((dx, dy), inverse) in rays.dx.iter().zip(&rays.dy).zip(&mut rays.inverse) {
         let along = cx * dx + cy * dy;
         let across = cx * dy - cy * dx;

@@ -66,7 +66,7 @@ pub(super) fn raise_ready(desk: &mut Desk, [ax, ay, bx, by]: [&[f64]; 4], view: 
         block.raise_tested(&wedge, nothing);
         let between = last.saturating_sub(first + 1);
         if between > WIDE {
-            each_block(some(blocks, first + 1..last), |block| block.raise_all((wedge.a, wedge.b), nothing));
+            each_block(some(blocks, first + 1..last), |block| block.raise_all(wedge.inverse, nothing));
         } else if let Some(room) = within.get_mut(pairs..pairs + WIDE) {
             let next = k << BITS | (first as u32 + 1);
             for (i, pair) in room.iter_mut().enumerate() {

@@ -9,6 +9,15 @@ use super::view::View;
 use super::wedges::{BATCH, Batch};
 use crate::collision::{Cells, LANES, Place, SegmentSoup};
 
+/// The boundary that a scan is cast at, and the grid over it.
+#[derive(Clone, Copy)]
+pub(super) struct Boundary<'a> {
+    /// The segments and discs.
+    pub(super) soup: &'a SegmentSoup,
+    /// The grid's cells.
+    pub(super) cells: &'a Cells,
+}
+
 /// The working memory of a walk through the grid, kept from scan to scan.
 #[derive(Clone, Debug)]
 pub(super) struct Walk {
@@ -99,7 +108,8 @@ impl Walk {
     }
 
     /// Collects the segments of the listed cells that were not met before, and raises the rays that meet new discs.
-    fn meet(&mut self, soup: &SegmentSoup, cells: &Cells, view: &View, kernel: &Kernel, fan: &mut Fan) {
+    fn meet(&mut self, boundary: Boundary, view: &View, kernel: &Kernel, fan: &mut Fan) {
+        let Boundary { soup, cells } = boundary;
         let segments = soup.segments().len();
         // local values, which the compiler can keep in registers
         let (met, numbers, scan) = (&mut self.met[..], &mut self.pending.numbers[..], self.scan);
@@ -122,15 +132,9 @@ impl Walk {
         self.pending.count = count;
     }
 
-    /// Raises the rays that meet anything of the soup under this grid.
-    pub(super) fn raise(
-        &mut self,
-        (soup, cells): (&SegmentSoup, &Cells),
-        view: &View,
-        kernel: &Kernel,
-        fan: &mut Fan,
-        desk: &mut Desk,
-    ) {
+    /// Raises the rays that meet anything of the boundary.
+    pub(super) fn raise(&mut self, boundary: Boundary, view: &View, kernel: &Kernel, fan: &mut Fan, desk: &mut Desk) {
+        let Boundary { soup, cells } = boundary;
         self.prepare(soup.segments().len() + soup.circles().len());
         self.groups.begin(fan, view);
         let mut open = u64::MAX;
@@ -151,7 +155,7 @@ impl Walk {
                     self.pending.open = self.groups.open_blocks();
                 }
                 self.take_cells(cells, &place, ring, open, reach * reach);
-                self.meet(soup, cells, view, kernel, fan);
+                self.meet(boundary, view, kernel, fan);
             }
             if !more || self.pending.count - self.pending.from >= LANES {
                 self.pending.raise(more, cells, view, kernel, fan, desk);

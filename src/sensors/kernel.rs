@@ -16,12 +16,13 @@ use super::rays::{Fan, Lanes};
 use super::view::View;
 use super::wedges::{BATCH, Ready};
 use crate::collision::Circle;
+use crate::geometry::SinCos;
 
 /// The loops for one instruction set. They are separate functions, so that each has the registers to itself.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Kernel {
     /// Turns the directions of the sensor's frame by a heading.
-    pub(super) turn: fn(&mut Fan, &[[Lanes; 2]], (f64, f64)),
+    pub(super) turn: fn(&mut Fan, &[[Lanes; 2]], SinCos),
     /// Prepares segments.
     pub(super) make: fn(&mut Ready, [&[f64]; 4], &View),
     /// Raises the rays that meet the prepared segments.
@@ -52,7 +53,7 @@ macro_rules! kernel {
             use super::*;
 
             $(#[$target])?
-            fn turn(fan: &mut Fan, units: &[[Lanes; 2]], heading: (f64, f64)) {
+            fn turn(fan: &mut Fan, units: &[[Lanes; 2]], heading: SinCos) {
                 fan.turn(units, heading);
             }
 

@@ -1,7 +1,8 @@
 //! `Fan`, the rays of a scan under way, in blocks of eight.
 
-use super::wedges::Wedge;
+use super::wedges::{Inverse, Wedge};
 use crate::collision::LANES;
+use crate::geometry::SinCos;
 use crate::num::{greater, lesser};
 
 /// Eight numbers side by side.
@@ -39,14 +40,15 @@ impl Rays {
     pub(super) fn raise_tested(&mut self, w: &Wedge, nothing: f64) {
         for ((dx, dy), inverse) in self.dx.iter().zip(&self.dy).zip(&mut self.inverse) {
             let inside = (w.p.0 * dy - w.p.1 * dx >= 0.0) & (dx * w.q.1 - dy * w.q.0 >= 0.0);
-            let value = if inside { dx * w.a - dy * w.b } else { 0.0 };
+            let value = if inside { dx * w.inverse.a - dy * w.inverse.b } else { 0.0 };
             *inverse = raised(*inverse, value, nothing);
         }
     }
 
-    /// Raises all eight rays, which are in the wedge with these two coefficients.
+    /// Raises all eight rays, which are in the wedge with this inverse range.
     #[inline(always)]
-    pub(super) fn raise_all(&mut self, (a, b): (f64, f64), nothing: f64) {
+    pub(super) fn raise_all(&mut self, in_wedge: Inverse, nothing: f64) {
+        let Inverse { a, b } = in_wedge;
         for ((dx, dy), inverse) in self.dx.iter().zip(&self.dy).zip(&mut self.inverse) {
             *inverse = raised(*inverse, dx * a - dy * b, nothing);
         }
@@ -87,10 +89,11 @@ impl Fan {
         Fan { blocks, rays, open: u64::MAX }
     }
 
-    /// Sets the rays' directions to those of the sensor's frame, turned by the heading with this cosine and sine, and
-    /// resets their inverse ranges.
+    /// Sets the rays' directions to those of the sensor's frame, turned by the heading, and resets their inverse
+    /// ranges.
     #[inline(always)]
-    pub(super) fn turn(&mut self, units: &[[Lanes; 2]], (c, s): (f64, f64)) {
+    pub(super) fn turn(&mut self, units: &[[Lanes; 2]], heading: SinCos) {
+        let SinCos { sin: s, cos: c } = heading;
         for ([x, y], block) in units.iter().zip(&mut self.blocks) {
             if x[0] > 2.0 {
                 break; // never so: see each_block

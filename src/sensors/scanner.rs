@@ -4,13 +4,13 @@ use std::f64::consts::TAU;
 
 use super::RangeSensor;
 use super::cast_segments::Desk;
-use super::grid_cast::Walk;
+use super::grid_cast::{Boundary, Walk};
 use super::kernel::{Kernel, raise};
 use super::rays::{Fan, Lanes};
 use super::simd::Instructions;
 use super::view::View;
 use crate::collision::{LANES, Scene, SegmentSoup, touch};
-use crate::geometry::{Placed, Point2, Pose2};
+use crate::geometry::{Placed, Point2, Pose2, SinCos};
 use crate::num;
 
 /// A range sensor that keeps its rays' directions and its scratch between scans: after the first scans it allocates
@@ -81,10 +81,10 @@ impl Scanner {
             ranges.fill(0.0);
             return;
         }
-        let (s, c) = if pose.theta == 0.0 { (0.0, 1.0) } else { num::sin_cos(pose.theta) };
-        (self.kernel.turn)(&mut self.fan, &self.units, (c, s));
+        let heading = if pose.theta == 0.0 { SinCos { sin: 0.0, cos: 1.0 } } else { SinCos::of(pose.theta) };
+        (self.kernel.turn)(&mut self.fan, &self.units, heading);
         // only for which rays may meet something: its error is far below that of the bearings
-        let turns = if pose.theta.abs() < 1e6 { pose.theta / TAU } else { num::atan2(s, c) / TAU };
+        let turns = if pose.theta.abs() < 1e6 { pose.theta / TAU } else { num::atan2(heading.sin, heading.cos) / TAU };
         let reach = self.sensor.max_range * (1.0 + 1e-6);
         let view = View {
             origin,
@@ -100,7 +100,7 @@ impl Scanner {
         }
         let Scanner { kernel, fan, walk, desk, others, .. } = self;
         match scene.cells() {
-            Some(cells) => walk.raise((scene.soup(), cells), &view, kernel, fan, desk),
+            Some(cells) => walk.raise(Boundary { soup: scene.soup(), cells }, &view, kernel, fan, desk),
             None => raise_every(scene.soup(), &view, kernel, fan, desk),
         }
         fan.open = u64::MAX;

@@ -3,6 +3,7 @@
 use std::sync::LazyLock;
 
 use super::wedges::turns;
+use crate::geometry::{Point2, Vector2};
 use crate::num::{greater, lesser};
 
 /// A cell, by its offset from the sensor's cell: `i` columns and `j` rows.
@@ -25,8 +26,10 @@ const SLACK: f64 = 1e-5;
 
 /// The listed cells, ring by ring, as seen from each quarter of the sensor's cell.
 static CELLS: LazyLock<[Vec<Cell>; 4]> = LazyLock::new(|| {
-    [(0.25, 0.25), (0.75, 0.25), (0.25, 0.75), (0.75, 0.75)]
-        .map(|quarter| (0..=LISTED).flat_map(around).map(|off| Cell::seen(quarter, off)).collect())
+    [(0.25, 0.25), (0.75, 0.25), (0.25, 0.75), (0.75, 0.75)].map(|(x, y)| {
+        let quarter = Point2::new(x, y);
+        (0..=LISTED).flat_map(around).map(|(i, j)| Cell::seen(quarter, i, j)).collect()
+    })
 });
 
 /// The cells of a ring, as offsets in columns and rows.
@@ -57,18 +60,20 @@ fn sectors_between(begin: f64, end: f64) -> u64 {
 const REACH: f64 = 0.75;
 
 impl Cell {
-    /// The cell with this offset, as seen from anywhere in the quarter of the sensor's cell with this middle. Seen so,
-    /// it lies in a box that reaches [`REACH`] from its middle.
-    fn seen((x, y): (f64, f64), (i, j): (i64, i64)) -> Self {
-        let middle = (i as f64 + 0.5 - x, j as f64 + 0.5 - y);
+    /// The cell with the offset `i`, `j`, as seen from anywhere in the quarter of the sensor's cell with this middle.
+    /// Seen so, it lies in a box that reaches [`REACH`] from its own middle. Lengths are in cells.
+    fn seen(quarter: Point2, i: i64, j: i64) -> Self {
+        let middle = Vector2::new(i as f64 + 0.5 - quarter.x, j as f64 + 0.5 - quarter.y);
         let apart = |x: f64| greater(x.abs() - REACH, 0.0) * (1.0 - 1e-9);
-        let (across, along) = (apart(middle.0), apart(middle.1));
+        let (across, along) = (apart(middle.x), apart(middle.y));
         Cell { i, j, sectors: sectors(middle), near: across * across + along * along }
     }
 }
 
-/// The sectors in which the box about this point that reaches [`REACH`] to each side may lie, a bit each.
-fn sectors((x, y): (f64, f64)) -> u64 {
+/// The sectors in which the box about this point that reaches [`REACH`] to each side may lie, a bit each. The point is
+/// given from the sensor, in cells.
+fn sectors(point: Vector2) -> u64 {
+    let (x, y) = (point.x, point.y);
     if lesser(REACH - x.abs(), REACH - y.abs()) > -1e-9 {
         return u64::MAX; // the sensor may be in it
     }

@@ -49,13 +49,19 @@ pub(super) mod kind {
     pub(in super::super) const DOUBTFUL: u64 = 3;
 }
 
-/// A wedge, and the two coefficients of the inverse range in it.
+/// The inverse range in a wedge: `a dx - b dy`, per metre, along the unit direction `(dx, dy)`.
+#[derive(Clone, Copy)]
+pub(super) struct Inverse {
+    pub(super) a: f64,
+    pub(super) b: f64,
+}
+
+/// A wedge, and the inverse range in it.
 #[derive(Clone, Copy)]
 pub(super) struct Wedge {
     pub(super) p: (f64, f64),
     pub(super) q: (f64, f64),
-    pub(super) a: f64,
-    pub(super) b: f64,
+    pub(super) inverse: Inverse,
 }
 
 /// Prepared segments: for each the wedge, the two coefficients of the inverse range, and the blocks of eight rays that
@@ -95,13 +101,13 @@ impl Ready {
     /// The wedge of segment number `k`.
     #[inline(always)]
     pub(super) fn wedge(&self, k: usize) -> Wedge {
-        Wedge { p: (self.px[k], self.py[k]), q: (self.qx[k], self.qy[k]), a: self.a[k], b: self.b[k] }
+        Wedge { p: (self.px[k], self.py[k]), q: (self.qx[k], self.qy[k]), inverse: self.inverse(k) }
     }
 
-    /// The coefficients of the inverse range in the wedge of segment number `k`.
+    /// The inverse range in the wedge of segment number `k`.
     #[inline(always)]
-    pub(super) fn inverse(&self, k: usize) -> (f64, f64) {
-        (self.a[k], self.b[k])
+    pub(super) fn inverse(&self, k: usize) -> Inverse {
+        Inverse { a: self.a[k], b: self.b[k] }
     }
 
     /// What is known of segment number `k`, and the first and the last block with a ray of its wedge.

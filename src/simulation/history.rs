@@ -214,9 +214,10 @@ impl Plugin for HistoryPlugin {
 
 #[cfg(test)]
 mod tests {
+    use super::super::command::obey;
     use super::*;
     use crate::run::{RobotInput, Script};
-    use crate::simulation::{SimulationPlugin, TransportCommand, obey, seek, start_run, step};
+    use crate::simulation::{SimulationPlugin, TransportCommand, seek, start_run, step};
     use crate::tour::{BOOK_SEED, TourConfig};
 
     fn app(script: Script) -> App {

@@ -3,8 +3,10 @@
 //! - [`SimulationPlugin`] puts it into a Bevy app; [`start_run`] starts a run; [`step`] and [`seek`] move it.
 //! - A robot is an entity with a [`RobotModel<R>`] and the components that come with it. [`RobotPlugin`] adds a kind.
 //! - The state after a tick is a [`Frame`](crate::run::Frame): [`snapshot`] takes it, [`restore`] puts it back.
-//! - A window reads [`view`], [`Transport`] and [`LatestFrame`], and sends [`TransportCommand`] and [`RobotCommand`].
+//! - A window reads [`view`], [`Transport`] and [`LatestFrame`], and sends [`RunCommand`]s.
 
+mod command;
+mod command_error;
 mod components;
 mod history;
 mod latest_frame;
@@ -22,6 +24,8 @@ mod tick;
 mod transport;
 mod undo;
 
+pub use command::RunCommand;
+pub use command_error::{CommandError, CommandRefused};
 pub use components::{
     Configuration, Contacts, Control, Cut, DriveMode, MountedOn, ObstacleOf, ObstacleShape, Obstacles, OwnState,
     PreviousConfiguration, Residents, ResidesIn, RobotId, RobotModel, RobotName, Route, Scan, SensorModel, SensorNoise,
@@ -29,7 +33,7 @@ pub use components::{
 };
 pub use history::{Happening, History, HistoryPlugin, TickMark, Trail};
 pub use latest_frame::LatestFrame;
-pub use plugin::{SimulationPlugin, obey};
+pub use plugin::SimulationPlugin;
 pub use robot::ops::RobotOps;
 pub use robot::plugin::{RobotKinds, RobotPlugin};
 pub use robot::simulated::{Extra, SimulatedRobot};
@@ -44,7 +48,7 @@ pub use tick::hold::{Advance, HOLD_CLEARANCE, LEAST_CLEARANCE, MARGIN, advance, 
 pub use tick::input::{PendingInput, RobotCommand};
 pub use tick::settle::FLASH_TICKS;
 pub use transport::{Playback, Transport, TransportCommand};
-pub use undo::Undo;
+pub use undo::{Undo, checkpoint};
 
 /// Bevy's app, for a program that adds robots of its own and does not otherwise use Bevy.
 pub use bevy::app::App;

@@ -39,7 +39,7 @@ impl Transport {
 }
 
 /// A command of the transport. None of them is part of a run's script.
-#[derive(Message, Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub enum TransportCommand {
     /// Let ticks follow one another.
     Play,

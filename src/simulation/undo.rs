@@ -4,7 +4,9 @@ use std::sync::Arc;
 
 use bevy::prelude::*;
 
-use super::{History, Keyframes, PendingInput, Playback, RunConfig, Transport, restore, seek, start_run_in_order};
+use super::{
+    CommandError, History, Keyframes, PendingInput, Playback, RunConfig, Transport, restore, seek, start_run_in_order,
+};
 use crate::random::Seed;
 use crate::run::Script;
 use crate::tour::TourConfig;
@@ -64,7 +66,7 @@ impl Undo {
 }
 
 /// Remembers the present input before a change: what follows, up to the next checkpoint, is undone as one.
-pub(super) fn checkpoint(world: &mut World) {
+pub fn checkpoint(world: &mut World) {
     push(world, false);
 }
 
@@ -90,8 +92,8 @@ fn push(world: &mut World, ends: bool) {
 /// Restores the input and the tick of the last checkpoint that a change followed. The run is paused.
 ///
 /// # Errors
-/// The refusal of a start or a seek, as text. It does not occur for a version that has run.
-pub(super) fn undo(world: &mut World) -> Result<(), String> {
+/// [`CommandError`] when a start or a seek is refused. It does not occur for a version that has run.
+pub(super) fn undo(world: &mut World) -> Result<(), CommandError> {
     travel(world, |undo| &mut undo.past, |undo| &mut undo.future)
 }
 
@@ -99,7 +101,7 @@ pub(super) fn undo(world: &mut World) -> Result<(), String> {
 ///
 /// # Errors
 /// As [`undo`].
-pub(super) fn redo(world: &mut World) -> Result<(), String> {
+pub(super) fn redo(world: &mut World) -> Result<(), CommandError> {
     travel(world, |undo| &mut undo.future, |undo| &mut undo.past)
 }
 
@@ -107,7 +109,7 @@ fn travel(
     world: &mut World,
     from: fn(&mut Undo) -> &mut Vec<Version>,
     to: fn(&mut Undo) -> &mut Vec<Version>,
-) -> Result<(), String> {
+) -> Result<(), CommandError> {
     let Some(now) = Version::of(world) else { return Ok(()) };
     loop {
         let Some(version) = from(&mut world.resource_mut::<Undo>()).pop() else { return Ok(()) };
@@ -118,7 +120,7 @@ fn travel(
     }
 }
 
-fn apply(world: &mut World, version: Version) -> Result<(), String> {
+fn apply(world: &mut World, version: Version) -> Result<(), CommandError> {
     let Version { config, seed, script, tick, frontier, .. } = version;
     let Transport { seed: present, speed, looping, .. } = *world.resource::<Transport>();
     let same_run = world.get_resource::<RunConfig>().is_some_and(|c| Arc::ptr_eq(&c.0, &config)) && seed == present;
@@ -133,16 +135,16 @@ fn apply(world: &mut World, version: Version) -> Result<(), String> {
         }
         let start = world.resource::<Keyframes>().before(keep).cloned();
         if let Some(frame) = start {
-            restore(world, &frame).map_err(|e| e.to_string())?;
+            restore(world, &frame)?;
         }
     } else {
         let count = config.worlds.iter().map(|w| w.robots.len()).sum();
         let order: Vec<usize> = (0..count).collect();
-        start_run_in_order(world, config, (seed, script).into(), &order).map_err(|e| e.to_string())?;
+        start_run_in_order(world, config, (seed, script).into(), &order)?;
     }
     // first to the frontier, so that the history ahead is known; then back to the tick
     for to in [frontier, tick] {
-        seek(world, to).map_err(|e| e.to_string())?;
+        seek(world, to)?;
     }
     let mut transport = world.resource_mut::<Transport>();
     *transport = Transport { playback: Playback::Paused, speed, looping, frontier, ..*transport };
@@ -158,10 +160,12 @@ fn shared_ticks(a: &Script, b: &Script) -> u64 {
 
 #[cfg(test)]
 mod tests {
+    use super::super::command::obey;
     use super::*;
     use crate::run::RobotInput;
     use crate::simulation::{
-        HistoryPlugin, LatestFrame, RobotCommand, SimulationPlugin, TransportCommand, obey, snapshot, start_run, step,
+        HistoryPlugin, LatestFrame, RobotCommand, RunCommand, SimulationPlugin, TransportCommand, snapshot, start_run,
+        step,
     };
     use crate::tour::BOOK_SEED;
 
@@ -175,7 +179,7 @@ mod tests {
 
     fn drive(app: &mut App, v: i16) {
         let input = RobotInput::Drive(v, 0);
-        app.world_mut().write_message(RobotCommand { robot: "Rusty".into(), input });
+        app.world_mut().write_message(RunCommand::from(RobotCommand { robot: "Rusty".into(), input }));
         app.update();
     }
 
@@ -198,7 +202,7 @@ mod tests {
         advance(&mut app, 150);
         let touring = state(&mut app);
         // one gesture: two changes after one checkpoint
-        app.world_mut().write_message(TransportCommand::Checkpoint);
+        app.world_mut().write_message(RunCommand::from(TransportCommand::Checkpoint));
         drive(&mut app, 128);
         advance(&mut app, 30);
         drive(&mut app, 0);
@@ -231,7 +235,7 @@ mod tests {
     fn a_gesture_that_came_to_nothing_is_no_step() {
         let mut app = app();
         advance(&mut app, 10);
-        app.world_mut().write_message(TransportCommand::Checkpoint);
+        app.world_mut().write_message(RunCommand::from(TransportCommand::Checkpoint));
         drive(&mut app, 128);
         advance(&mut app, 10);
         command(&mut app, TransportCommand::Checkpoint);

@@ -5,10 +5,10 @@ use bevy_egui::egui::{
 };
 
 use super::capture_state::FORMS;
-use super::paint::button::button;
+use super::paint::button::LabButton;
 use super::{CaptureOrder, Command, Dashboard, Look, SessionCommand, UiState};
 use crate::capture::{CaptureError, Form, Span};
-use crate::manifest::widgets;
+use crate::manifest::Widget;
 use crate::picture::Role;
 use crate::run::DT;
 
@@ -17,9 +17,6 @@ const SAVE: &str = if cfg!(target_family = "wasm") { "Save" } else { "Choose a f
 
 /// Initial length of a GIF's span, ticks: ten seconds.
 const SPAN: u64 = 200;
-
-/// Index of the query anatomy on the rail.
-const ANATOMY: usize = 1;
 
 impl UiState {
     /// Opens the form. The proposed span of a GIF ends at the present tick, or at the last tick reached when that is 0.
@@ -35,7 +32,7 @@ pub fn capture_form(ctx: &Context, model: &Dashboard, look: &Look, state: &mut U
     if !state.capture.open {
         return;
     }
-    let title = widgets().get(state.widget).map_or("", |w| w.title.as_str());
+    let title = &state.widget.text().title;
     let order = &mut state.capture.order;
     let refusal = refusal(state.widget, order, model);
     let modal = Modal::new(Id::new("capture")).show(ctx, |ui| {
@@ -50,8 +47,8 @@ pub fn capture_form(ctx: &Context, model: &Dashboard, look: &Look, state: &mut U
         };
         ui.add_space(8.0);
         ui.horizontal(|ui| {
-            let chosen = button(ui, SAVE, 0.0, (refusal.is_none(), false), look).clicked();
-            (chosen, button(ui, "Cancel", 0.0, (true, false), look).clicked())
+            let chosen = LabButton::new(SAVE).enabled(refusal.is_none()).show(ui, look).clicked();
+            (chosen, LabButton::new("Cancel").show(ui, look).clicked())
         })
         .inner
     });
@@ -69,7 +66,7 @@ fn choices(ui: &mut Ui, model: &Dashboard, look: &Look, order: &mut CaptureOrder
     ui.label("form");
     ui.horizontal(|ui| {
         for &form in FORMS {
-            if button(ui, form.name(), 0.0, (true, order.form == form), look).clicked() {
+            if LabButton::new(form.name()).selected(order.form == form).show(ui, look).clicked() {
                 order.form = form;
             }
         }
@@ -78,7 +75,7 @@ fn choices(ui: &mut Ui, model: &Dashboard, look: &Look, order: &mut CaptureOrder
     ui.label("width");
     ui.horizontal(|ui| {
         for (width, name) in [(640, "column, 640"), (1280, "page, 1280")] {
-            if button(ui, name, 0.0, (true, order.width == width), look).clicked() {
+            if LabButton::new(name).selected(order.width == width).show(ui, look).clicked() {
                 order.width = width;
             }
         }
@@ -88,7 +85,7 @@ fn choices(ui: &mut Ui, model: &Dashboard, look: &Look, order: &mut CaptureOrder
         ui.label("dots a pixel");
         ui.horizontal(|ui| {
             for scale in 1..=3 {
-                if button(ui, &format!("{scale}\u{d7}"), 0.0, (true, order.scale == scale), look).clicked() {
+                if LabButton::new(&format!("{scale}\u{d7}")).selected(order.scale == scale).show(ui, look).clicked() {
                     order.scale = scale;
                 }
             }
@@ -113,11 +110,11 @@ fn choices(ui: &mut Ui, model: &Dashboard, look: &Look, order: &mut CaptureOrder
 }
 
 /// The reason why the order cannot be carried out; `None` if it can.
-fn refusal(widget: usize, order: &CaptureOrder, model: &Dashboard) -> Option<String> {
+fn refusal(widget: Widget, order: &CaptureOrder, model: &Dashboard) -> Option<String> {
     if order.form != Form::Gif {
         return None;
     }
-    if widget == ANATOMY {
+    if widget == Widget::Anatomy {
         return Some(format!("{}. Choose PNG or SVG.", CaptureError::Frozen));
     }
     order.span.within(model.frontier).err().map(|error| match model.frontier {
@@ -127,12 +124,16 @@ fn refusal(widget: usize, order: &CaptureOrder, model: &Dashboard) -> Option<Str
 }
 
 /// A line about what the file will hold.
-fn holds(widget: usize, order: &CaptureOrder) -> String {
+fn holds(widget: Widget, order: &CaptureOrder) -> String {
     if order.form == Form::Gif {
         let (pictures, seconds) = (order.span.pictures(), DT * (order.span.to - order.span.from) as f64);
         return format!("{pictures} pictures, {seconds:.2} s of the run; seed, digest and ticks in its comment");
     }
-    let what = if widget == 0 { "seed, digest and tick" } else { "the world's content hash and the configuration" };
+    let what = if widget == Widget::Dashboard {
+        "seed, digest and tick"
+    } else {
+        "the world's content hash and the configuration"
+    };
     let others = if FORMS.len() == 1 { "; PNG and GIF are made by motion-lab capture" } else { "" };
     format!("{what} in its metadata{others}")
 }

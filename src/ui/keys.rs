@@ -2,6 +2,8 @@
 
 use bevy_egui::egui::{Key, Modifiers, Ui};
 
+use crate::manifest::Widget;
+
 /// An action that a key asks for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Action {
@@ -56,7 +58,7 @@ pub enum Action {
     /// The list of keys.
     Help,
     /// The widget with this number on the rail.
-    Widget(usize),
+    Widget(Widget),
 }
 
 /// The states in which a key is active.
@@ -127,10 +129,10 @@ pub const BINDINGS: [Binding; 36] = [
     plain(Action::Theme, Key::D, Scope::Always, "system, light or dark paper"),
     plain(Action::Help, Key::Questionmark, Scope::Always, "this list"),
     plain(Action::Help, Key::F1, Scope::Always, "this list"),
-    with(Action::Widget(0), Modifiers::COMMAND, Key::Num1, "the dashboard"),
-    with(Action::Widget(1), Modifiers::COMMAND, Key::Num2, "query anatomy"),
-    with(Action::Widget(2), Modifiers::COMMAND, Key::Num3, "configuration space"),
-    with(Action::Widget(3), Modifiers::COMMAND, Key::Num4, "world atlas"),
+    with(Action::Widget(Widget::Dashboard), Modifiers::COMMAND, Key::Num1, "the dashboard"),
+    with(Action::Widget(Widget::Anatomy), Modifiers::COMMAND, Key::Num2, "query anatomy"),
+    with(Action::Widget(Widget::Cspace), Modifiers::COMMAND, Key::Num3, "configuration space"),
+    with(Action::Widget(Widget::Atlas), Modifiers::COMMAND, Key::Num4, "world atlas"),
 ];
 
 impl Binding {

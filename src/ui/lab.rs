@@ -6,9 +6,9 @@ use bevy_egui::egui::{CentralPanel, Frame, Margin, Panel, Ui, vec2};
 
 use super::dashboard::{self, drive};
 use super::keys::{Action, pressed};
-use super::paint::button::button;
+use super::paint::button::LabButton;
 use super::{Command, Dashboard, Look, UiState, anatomy, atlas, capture_form, cspace, help, tools};
-use crate::manifest::widgets;
+use crate::manifest::Widget;
 use crate::simulation::{History, TransportCommand};
 
 /// Width below which a widget shows one thing at a time, points.
@@ -17,13 +17,10 @@ const NARROW: f32 = 720.0;
 /// Width of the rail, points.
 const RAIL: f32 = 76.0;
 
-/// Index of the atlas on the rail.
-const ATLAS: usize = 3;
-
 /// Shows the lab over the whole of `ui`; what is pressed is pushed onto `commands`.
 pub fn lab(ui: &mut Ui, model: &Dashboard, history: &History, state: &mut UiState, commands: &mut Vec<Command>) {
     let narrow = ui.max_rect().width() < NARROW;
-    let look = Look::of(ui, state);
+    let look = Look::of(ui, state, narrow);
     let mut style = look.theme.style(narrow);
     if state.settings.reduced_motion {
         style.animation_time = 0.0;
@@ -38,10 +35,12 @@ pub fn lab(ui: &mut Ui, model: &Dashboard, history: &History, state: &mut UiStat
     let actions = if state.help || state.capture.open { vec![] } else { pressed(ui, state.armed.is_some(), nudged) };
     for action in actions {
         match action {
-            Action::Widget(number) => choose(number, model, state, commands),
-            action if state.widget == 0 => dashboard::view::act(action, model, state, commands),
-            action if state.widget == ATLAS => atlas::view::act(action, model, state, commands),
-            action => tools::act(action, model, state, commands),
+            Action::Widget(widget) => choose(widget, model, state, commands),
+            action => match state.widget {
+                Widget::Dashboard => dashboard::view::act(action, model, state, commands),
+                Widget::Atlas => atlas::view::act(action, model, state, commands),
+                Widget::Anatomy | Widget::Cspace => tools::act(action, model, state, commands),
+            },
         }
     }
     // no fill: the window is cleared to the paper's colour already, and a fill would cost as much as all that is drawn
@@ -50,27 +49,26 @@ pub fn lab(ui: &mut Ui, model: &Dashboard, history: &History, state: &mut UiStat
         // the page chose the widget
     } else if narrow {
         Panel::top("rail").frame(Frame::NONE.inner_margin(margin)).show_separator_line(false).show(ui, |ui| {
-            ui.horizontal(|ui| rail(ui, model, (&look, 40.0), state, commands));
+            ui.horizontal(|ui| rail(ui, model, &look, 40.0, state, commands));
         });
     } else {
         let frame = Frame::NONE.inner_margin(margin);
         Panel::left("rail").exact_size(RAIL).resizable(false).frame(frame).show(ui, |ui| {
-            ui.vertical_centered(|ui| rail(ui, model, (&look, 44.0), state, commands));
+            ui.vertical_centered(|ui| rail(ui, model, &look, 44.0, state, commands));
         });
     }
-    if state.widget == 0 {
+    if state.widget == Widget::Dashboard {
         if !state.help && !state.capture.open {
             drive::drive(ui, model, state, commands);
         }
-        dashboard::view::dashboard(ui, model, history, (narrow, &look), state, commands);
+        dashboard::view::dashboard(ui, model, history, &look, state, commands);
     } else {
         let side = if narrow { 12 } else { 20 };
-        CentralPanel::default().frame(Frame::NONE.inner_margin(Margin::symmetric(side, 14))).show(ui, |ui| match state
-            .widget
-        {
-            1 => anatomy::view::anatomy_view(ui, model, (narrow, &look), state, commands),
-            2 => cspace::view::cspace_view(ui, model, (narrow, &look), state, commands),
-            _ => atlas::view::atlas_view(ui, model, (narrow, &look), state, commands),
+        let frame = Frame::NONE.inner_margin(Margin::symmetric(side, 14));
+        CentralPanel::default().frame(frame).show(ui, |ui| match state.widget {
+            Widget::Anatomy => anatomy::view::anatomy_view(ui, model, &look, state, commands),
+            Widget::Cspace => cspace::view::cspace_view(ui, model, &look, state, commands),
+            Widget::Atlas | Widget::Dashboard => atlas::view::atlas_view(ui, model, &look, state, commands),
         });
     }
     help::help(ui.ctx(), state);
@@ -82,28 +80,23 @@ pub fn lab(ui: &mut Ui, model: &Dashboard, history: &History, state: &mut UiStat
 }
 
 /// Shows a button for each widget.
-fn rail(
-    ui: &mut Ui,
-    model: &Dashboard,
-    (look, height): (&Look, f32),
-    state: &mut UiState,
-    commands: &mut Vec<Command>,
-) {
+fn rail(ui: &mut Ui, model: &Dashboard, look: &Look, height: f32, state: &mut UiState, commands: &mut Vec<Command>) {
     ui.spacing_mut().button_padding = vec2(4.0, 2.0);
     ui.spacing_mut().interact_size.y = height;
-    for (number, widget) in widgets().iter().enumerate() {
-        let response = button(ui, widget.short(), RAIL - 12.0, (true, state.widget == number), look);
-        if response.on_hover_text(&widget.title).clicked() {
-            choose(number, model, state, commands);
+    for widget in Widget::ALL {
+        let words = widget.text();
+        let button = LabButton::new(words.short()).width(RAIL - 12.0).selected(state.widget == widget);
+        if button.show(ui, look).on_hover_text(&words.title).clicked() {
+            choose(widget, model, state, commands);
         }
     }
 }
 
 /// Puts a widget in front and lets go of the robot in hand. The run pauses unless the widget is the dashboard.
-fn choose(number: usize, model: &Dashboard, state: &mut UiState, commands: &mut Vec<Command>) {
-    if number != 0 && model.playing {
-        commands.push(Command::Transport(TransportCommand::Pause));
+fn choose(widget: Widget, model: &Dashboard, state: &mut UiState, commands: &mut Vec<Command>) {
+    if widget != Widget::Dashboard && model.playing {
+        commands.push(Command::from(TransportCommand::Pause));
     }
     drive::let_go(state, commands);
-    state.widget = number.min(widgets().len() - 1);
+    state.widget = widget;
 }

@@ -50,18 +50,30 @@ pub use paint::look::Look;
 pub use settings::{Settings, ThemeChoice};
 pub use state::{Flash, Notice, UiState, Working};
 
-pub use crate::manifest::{Formula, KeyText, Level, Term, WidgetText, number_of, widget, widgets};
+use crate::simulation::{RobotCommand, RunCommand, TransportCommand};
+
+pub use crate::manifest::{Formula, KeyText, Level, Term, Widget, WidgetText};
 pub use crate::picture::{readout, readout_lines};
 
 /// A request of a widget. Widgets change nothing but their own [`UiState`].
 #[derive(Clone, Debug, PartialEq)]
 pub enum Command {
-    /// Move the run.
-    Transport(crate::simulation::TransportCommand),
-    /// Give a robot an input.
-    Robot(crate::simulation::RobotCommand),
+    /// Move the run, or give a robot an input.
+    Run(RunCommand),
     /// Act on the session: files, captures, new runs.
     Session(SessionCommand),
+}
+
+impl From<TransportCommand> for Command {
+    fn from(command: TransportCommand) -> Self {
+        Command::Run(command.into())
+    }
+}
+
+impl From<RobotCommand> for Command {
+    fn from(command: RobotCommand) -> Self {
+        Command::Run(command.into())
+    }
 }
 
 /// A request that neither moves the run through time nor gives a robot an input.

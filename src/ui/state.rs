@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use super::{ParkingGoal, Settings};
+use super::{ParkingGoal, Settings, Widget};
 use crate::picture::{Role, Theme};
 
 /// The state of the user interface. It is no part of a run.
@@ -10,8 +10,8 @@ use crate::picture::{Role, Theme};
 pub struct UiState {
     /// The settings, which are kept from one start to the next.
     pub settings: Settings,
-    /// Index of the widget in front, on the rail.
-    pub widget: usize,
+    /// The widget in front.
+    pub widget: Widget,
     /// The state of the query anatomy. Its robot is also the configuration space's.
     #[cfg(feature = "screen")]
     pub anatomy: super::AnatomyState,

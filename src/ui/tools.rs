@@ -3,17 +3,17 @@
 use bevy_egui::egui::{Align, Layout, RichText, Ui};
 
 use super::keys::{Action, hint};
-use super::paint::button::button;
+use super::paint::button::LabButton;
 use super::paint::frame;
-use super::{Command, Dashboard, Look, SessionCommand, UiState, WidgetText};
+use super::{Command, Dashboard, Look, SessionCommand, UiState, Widget, WidgetText};
 use crate::simulation::TransportCommand;
 
 /// Carries out the actions that concern the session, and ignores all others.
 pub fn act(action: Action, model: &Dashboard, state: &mut UiState, commands: &mut Vec<Command>) {
     let settings = &mut state.settings;
     match action {
-        Action::Undo => commands.push(Command::Transport(TransportCommand::Undo)),
-        Action::Redo => commands.push(Command::Transport(TransportCommand::Redo)),
+        Action::Undo => commands.push(Command::from(TransportCommand::Undo)),
+        Action::Redo => commands.push(Command::from(TransportCommand::Redo)),
         Action::Save => commands.push(Command::Session(SessionCommand::Save)),
         Action::Open => commands.push(Command::Session(SessionCommand::Open)),
         Action::Capture => state.ask_for_capture(model),
@@ -34,11 +34,12 @@ pub fn header(
     ui: &mut Ui,
     words: &WidgetText,
     model: &Dashboard,
-    (narrow, look): (bool, &Look),
+    look: &Look,
     state: &mut UiState,
     commands: &mut Vec<Command>,
 ) {
-    let buttons = if state.widget == 0 { 650.0 } else { 280.0 };
+    let narrow = look.narrow;
+    let buttons = if state.widget == Widget::Dashboard { 650.0 } else { 280.0 };
     // without room for the title and the buttons side by side, the buttons go into a menu
     let narrow = narrow || ui.available_width() < buttons + TITLE;
     let room = if narrow { 76.0 } else { buttons };
@@ -49,10 +50,10 @@ pub fn header(
         });
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
             if narrow {
-                ui.menu_button("Menu", |ui| tools(ui, model, (true, look), state, commands));
+                ui.menu_button("Menu", |ui| tools(ui, model, true, look, state, commands));
             } else {
                 ui.spacing_mut().button_padding.x = 10.0;
-                tools(ui, model, (false, look), state, commands);
+                tools(ui, model, false, look, state, commands);
             }
         });
     });
@@ -63,11 +64,12 @@ pub fn head(
     ui: &mut Ui,
     words: &WidgetText,
     model: &Dashboard,
-    (narrow, look): (bool, &Look),
+    look: &Look,
     state: &mut UiState,
     commands: &mut Vec<Command>,
 ) {
-    header(ui, words, model, (narrow, look), state, commands);
+    let narrow = look.narrow;
+    header(ui, words, model, look, state, commands);
     frame::key_row(ui, words, look, state);
     if !narrow {
         frame::hints(ui, words, look, state);
@@ -80,7 +82,8 @@ pub fn head(
 pub fn tools(
     ui: &mut Ui,
     model: &Dashboard,
-    (in_menu, look): (bool, &Look),
+    in_menu: bool,
+    look: &Look,
     state: &mut UiState,
     commands: &mut Vec<Command>,
 ) {
@@ -91,7 +94,7 @@ pub fn tools(
         ("Capture", Action::Capture, true, state.capture.open),
     ];
     // only the dashboard shows the run, so only the dashboard has the buttons that act on it
-    if state.widget == 0 {
+    if state.widget == Widget::Dashboard {
         buttons.extend([
             ("Names", Action::Labels, true, state.settings.labels),
             ("Plots", Action::Plots, true, state.settings.plots),
@@ -105,7 +108,7 @@ pub fn tools(
         buttons.reverse();
     }
     for (label, action, enabled, on) in buttons {
-        if button(ui, label, 0.0, (enabled, on), look).on_hover_text(hint(action)).clicked() {
+        if LabButton::new(label).enabled(enabled).selected(on).show(ui, look).on_hover_text(hint(action)).clicked() {
             act(action, model, state, commands);
         }
     }

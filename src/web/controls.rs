@@ -8,6 +8,7 @@ use bevy_egui::{EguiInput, egui};
 use serde_json::json;
 
 use super::MAX_LINK_TICK;
+use super::error::PageError;
 use super::inbox::{Incoming, take_all, wake};
 use super::listener::tell;
 use super::message::{Action, Message};
@@ -15,8 +16,8 @@ use super::run_link::link_of;
 use crate::app::{Interface, open_log, open_world_text};
 use crate::picture::{Role, Theme};
 use crate::random::Seed;
-use crate::simulation::{TransportCommand, obey};
-use crate::ui::{Notice, SessionCommand, ThemeChoice, UiState, number_of};
+use crate::simulation::{RunCommand, TransportCommand};
+use crate::ui::{Notice, SessionCommand, ThemeChoice, UiState, Widget};
 
 /// Events for egui, a list for each frame to come: a field must have the focus before it takes letters.
 #[derive(Resource, Default)]
@@ -33,7 +34,8 @@ pub fn receive(world: &mut World) {
             }
             Incoming::Message(message) => take(world, message),
         };
-        if let Err(text) = done {
+        if let Err(error) = done {
+            let text = error.to_string();
             tell(&json!({ "kind": "error", "text": text }));
             world.resource_mut::<Interface>().0.notice = Some(Notice { text, is_error: true });
         }
@@ -58,11 +60,14 @@ fn open(world: &mut World, name: &str, bytes: &[u8]) -> Notice {
             Err(_) => refused("it is not text".into()),
         };
     }
-    open_log(world, name, bytes).unwrap_or_else(refused)
+    open_log(world, name, bytes).unwrap_or_else(|error| refused(error.to_string()))
 }
 
-fn take(world: &mut World, message: Message) -> Result<(), String> {
-    let transport = |world: &mut World, command| obey(world, command).map(|_| ());
+fn take(world: &mut World, message: Message) -> Result<(), PageError> {
+    let transport = |world: &mut World, command: TransportCommand| {
+        world.write_message(RunCommand::from(command));
+        Ok(())
+    };
     let ui = |world: &mut World, change: &dyn Fn(&mut UiState)| {
         change(&mut world.resource_mut::<Interface>().into_inner().0);
         Ok(())
@@ -71,7 +76,7 @@ fn take(world: &mut World, message: Message) -> Result<(), String> {
         Message::Act { id, action, value } => act(world, &id, action, value),
         Message::Key { key, pressed, shift } => {
             let name = if key == " " { "Space" } else { &key };
-            let key = egui::Key::from_name(name).ok_or_else(|| format!("{name} is no key"))?;
+            let key = egui::Key::from_name(name).ok_or_else(|| PageError::Key(name.to_owned()))?;
             let modifiers = if shift { egui::Modifiers::SHIFT } else { egui::Modifiers::NONE };
             let event = egui::Event::Key { key, physical_key: None, pressed, repeat: false, modifiers };
             world.resource_mut::<Staged>().0.push_back(vec![event]);
@@ -82,7 +87,10 @@ fn take(world: &mut World, message: Message) -> Result<(), String> {
             Ok(())
         }
         Message::Light { role } => {
-            let named = |name| Role::ALL.into_iter().find(|r| r.name() == name).ok_or(format!("{name} is no role"));
+            let named = |name: &str| {
+                let found = Role::ALL.into_iter().find(|r| r.name() == name);
+                found.ok_or_else(|| PageError::Role(name.to_owned()))
+            };
             let role = role.as_deref().map(named).transpose()?;
             ui(world, &|ui| ui.page_lit = role)
         }
@@ -90,24 +98,24 @@ fn take(world: &mut World, message: Message) -> Result<(), String> {
         Message::Pause => transport(world, TransportCommand::Pause),
         Message::Step => transport(world, TransportCommand::Step),
         Message::StepBack => transport(world, TransportCommand::StepBack),
-        Message::Seek { tick } if tick > MAX_LINK_TICK => Err(format!("tick {tick}: at most {MAX_LINK_TICK}")),
+        Message::Seek { tick } if tick > MAX_LINK_TICK => Err(PageError::Tick(tick)),
         Message::Seek { tick } => transport(world, TransportCommand::Seek(tick)),
         Message::Reset => transport(world, TransportCommand::Reset),
         Message::Reroll => transport(world, TransportCommand::ReRoll),
         Message::Seed { seed } => {
-            let seed = seed.parse().map_err(|_| format!("{seed}: not a seed"))?;
+            let seed = seed.parse().map_err(|_| PageError::Seed(seed))?;
             transport(world, TransportCommand::SetSeed(Seed(seed)))
         }
         Message::Widget { id } => {
-            let number = number_of(&id).ok_or_else(|| format!("{id} is no widget"))?;
-            if number != 0 {
+            let widget = Widget::of(&id).ok_or(PageError::Widget(id))?;
+            if widget != Widget::Dashboard {
                 transport(world, TransportCommand::Pause)?;
             }
-            ui(world, &|ui| ui.widget = number)
+            ui(world, &|ui| ui.widget = widget)
         }
         Message::Theme { name } => {
             let choice = ThemeChoice::ALL.into_iter().find(|t| t.name().eq_ignore_ascii_case(&name));
-            let choice = choice.ok_or_else(|| format!("{name} is no theme"))?;
+            let choice = choice.ok_or(PageError::Theme(name))?;
             ui(world, &|ui| ui.settings.theme = choice)
         }
         Message::System { dark, reduced_motion } => ui(world, &|ui| {
@@ -115,10 +123,10 @@ fn take(world: &mut World, message: Message) -> Result<(), String> {
             ui.settings.reduced_motion |= reduced_motion;
         }),
         Message::Link => {
-            let said = link_of(world).and_then(|l| l.query().map_err(|e| e.to_string()).map(|q| (q, l.digest)));
+            let said = link_of(world).and_then(|l| Ok((l.query()?, l.digest)));
             tell(&match said {
                 Ok((query, digest)) => json!({ "kind": "link", "query": query, "digest": digest }),
-                Err(error) => json!({ "kind": "link", "error": error }),
+                Err(error) => json!({ "kind": "link", "error": error.to_string() }),
             });
             Ok(())
         }
@@ -133,8 +141,8 @@ fn take(world: &mut World, message: Message) -> Result<(), String> {
 }
 
 /// Acts on a widget by AccessKit's requests, as assistive technology does.
-fn act(world: &mut World, id: &str, action: Action, value: Option<String>) -> Result<(), String> {
-    let target_node = NodeId::from(id.parse::<u64>().map_err(|_| format!("{id} is no widget of the canvas"))?);
+fn act(world: &mut World, id: &str, action: Action, value: Option<String>) -> Result<(), PageError> {
+    let target_node = NodeId::from(id.parse::<u64>().map_err(|_| PageError::Control(id.to_owned()))?);
     let request = |action, data| {
         egui::Event::AccessKitActionRequest(ActionRequest { action, target_tree: TreeId::ROOT, target_node, data })
     };
@@ -147,7 +155,7 @@ fn act(world: &mut World, id: &str, action: Action, value: Option<String>) -> Re
                 let data = Some(ActionData::NumericValue(number));
                 staged.push_back(vec![request(accesskit::Action::SetValue, data)]);
             }
-            None => return Err(format!("{value}: not a number")),
+            None => return Err(PageError::Number(value)),
         },
         (Action::Type, Some(value)) => {
             let key =
@@ -156,7 +164,7 @@ fn act(world: &mut World, id: &str, action: Action, value: Option<String>) -> Re
             staged.push_back(vec![key(egui::Key::A, egui::Modifiers::COMMAND), egui::Event::Text(value)]);
             staged.push_back(vec![key(egui::Key::Enter, egui::Modifiers::NONE)]);
         }
-        (Action::Set | Action::Type, None) => return Err("there is nothing to set it to".into()),
+        (Action::Set | Action::Type, None) => return Err(PageError::NoValue),
     }
     Ok(())
 }

@@ -4,11 +4,11 @@ use bevy::prelude::*;
 use serde_json::json;
 
 use super::listener::{tell, tell_with};
-use crate::app::{Interface, captured, recorded, shown_run};
+use crate::app::{Interface, SessionError, captured, recorded, shown_run};
 use crate::capture::Paper;
 use crate::run::Log;
 use crate::simulation::Transport;
-use crate::ui::{CaptureOrder, Notice, SessionCommand, widgets};
+use crate::ui::{CaptureOrder, Notice, SessionCommand};
 
 /// Carries out the commands that need a dialog in a window: gives the page the file to save, or asks it for one to
 /// open.
@@ -46,13 +46,13 @@ pub fn files(world: &mut World) {
 }
 
 /// Gives the page a picture of the widget in front.
-fn picture(world: &World, order: &CaptureOrder) -> Result<String, String> {
+fn picture(world: &World, order: &CaptureOrder) -> Result<String, SessionError> {
     let Transport { seed, tick, frontier, .. } = *world.resource::<Transport>();
     let (config, script) = shown_run(world, frontier);
     let ui = &world.resource::<Interface>().0;
     let paper = Paper { palette: ui.theme().palette(), width: order.width, scale: 1.0 };
-    let figure = captured(ui, (config, seed, script), tick, paper.width_px()).map_err(|e| e.to_string())?;
-    let name = format!("{}.svg", widgets().get(ui.widget).map_or("picture", |w| &w.id));
+    let figure = captured(ui, (config, seed, script), tick, paper.width_px())?;
+    let name = format!("{}.svg", ui.widget.id());
     tell_with(&json!({ "kind": "file", "name": name }), Some(figure.svg(&paper).as_bytes()));
     Ok(format!("{name}: saved"))
 }

@@ -20,7 +20,7 @@ use super::run_link::open_link;
 use super::{Link, LinkError};
 use crate::app::{Interface, windowed_app};
 use crate::simulation::{Playback, Transport};
-use crate::ui::{Notice, Settings, number_of};
+use crate::ui::{Notice, Settings, Widget};
 
 /// Value of `STILL` while the page is hidden. `STILL` is the number of frames to come in which no time passes.
 const AWAY: u32 = u32::MAX;
@@ -106,21 +106,21 @@ fn start(world: &mut World) {
         let ui = &mut world.resource_mut::<Interface>().into_inner().0;
         ui.embedded = embedded;
         ui.settings = settings;
-        ui.widget = link.widget.as_deref().and_then(number_of).unwrap_or(0);
+        ui.widget = link.widget.unwrap_or_default();
         ui.settings.theme = link.theme.unwrap_or(ui.settings.theme);
     }
     // an address without a run plays the book's
-    if link != (Link { widget: link.widget.clone(), theme: link.theme, ..Link::default() }) {
+    if link != (Link { widget: link.widget, theme: link.theme, ..Link::default() }) {
         let notice = match open_link(world, &link) {
             Ok(notice) => notice,
-            Err(text) => Some(Notice { text, is_error: true }),
+            Err(error) => Some(Notice { text: error.to_string(), is_error: true }),
         };
         world.resource_mut::<Interface>().0.notice = notice;
     }
     if refused.is_some() {
         world.resource_mut::<Interface>().0.notice = refused;
     }
-    if world.resource::<Interface>().0.widget != 0 {
+    if world.resource::<Interface>().0.widget != Widget::Dashboard {
         world.resource_mut::<Transport>().playback = Playback::Paused;
     }
 }

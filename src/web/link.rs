@@ -8,7 +8,7 @@ use percent_encoding::{AsciiSet, CONTROLS, percent_decode_str, utf8_percent_enco
 use crate::random::Seed;
 use crate::run::{Script, ScriptError};
 use crate::tour::{BOOK_SEED, TourConfig};
-use crate::ui::{ThemeChoice, widget};
+use crate::ui::{ThemeChoice, Widget};
 use crate::worlds::World;
 
 /// The version of the address format that this program writes and reads.
@@ -38,8 +38,8 @@ pub struct Link {
     pub worlds: Vec<String>,
     /// The tick that is shown.
     pub tick: u64,
-    /// The id of the widget in front.
-    pub widget: Option<String>,
+    /// The widget in front.
+    pub widget: Option<Widget>,
     /// The paper.
     pub theme: Option<ThemeChoice>,
     /// The input.
@@ -164,11 +164,11 @@ impl Link {
             }
         }
         if let Some(text) = fields.remove("widget") {
-            if widget(&text).is_none() {
-                let known = crate::ui::widgets().iter().map(|w| w.id.as_str()).collect::<Vec<_>>().join(", ");
+            link.widget = Widget::of(&text);
+            if link.widget.is_none() {
+                let known = Widget::ALL.map(Widget::id).join(", ");
                 return Err(LinkError::Word { field: "widget", text, known });
             }
-            link.widget = Some(text);
         }
         if let Some(text) = fields.remove("theme") {
             link.theme = ThemeChoice::ALL.into_iter().find(|t| t.name().to_lowercase() == text);
@@ -201,8 +201,8 @@ impl Link {
         if !self.worlds.is_empty() {
             field("world", &self.worlds.join(","));
         }
-        if let Some(widget) = &self.widget {
-            field("widget", widget);
+        if let Some(widget) = self.widget {
+            field("widget", widget.id());
         }
         if let Some(theme) = self.theme {
             field("theme", &theme.name().to_lowercase());
@@ -260,7 +260,7 @@ mod tests {
             seed: Seed(u64::MAX),
             worlds: vec!["lot".into(), "workbench".into()],
             tick: 600,
-            widget: Some("atlas".into()),
+            widget: Some(Widget::Atlas),
             theme: Some(ThemeChoice::Dark),
             script: driven(),
             digest: Some("0123456789abcdef0123456789abcdef".into()),

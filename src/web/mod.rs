@@ -16,6 +16,8 @@ mod controls;
 #[cfg(all(target_family = "wasm", feature = "web"))]
 mod downloads;
 #[cfg(all(target_family = "wasm", feature = "web"))]
+mod error;
+#[cfg(all(target_family = "wasm", feature = "web"))]
 mod inbox;
 #[cfg(all(target_family = "wasm", feature = "web"))]
 mod lab;

@@ -15,7 +15,7 @@ use crate::random::Seed;
 use crate::run::Script;
 use crate::simulation::{PendingInput, Playback, RunConfig, Transport};
 use crate::tour::TourConfig;
-use crate::ui::{Settings, widgets};
+use crate::ui::Settings;
 
 /// The last values sent to the page.
 #[derive(Resource, Default)]
@@ -99,7 +99,7 @@ fn state(world: &World) -> Value {
         "frontier": shown.frontier,
         "seed": shown.seed.to_string(),
         "playing": shown.playing,
-        "widget": widgets().get(ui.widget).map(|w| &w.id),
+        "widget": ui.widget.id(),
         "theme": if ui.theme() == Theme::Dark { "dark" } else { "light" },
         "lit": ui.lit.map(Role::name),
         "armed": ui.armed,

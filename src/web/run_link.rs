@@ -3,15 +3,16 @@
 use bevy::ecs::world::World;
 
 use super::Link;
-use crate::app::{Interface, log_up_to, new_run, shown_run};
-use crate::simulation::{Playback, Transport, TransportCommand, obey};
-use crate::ui::{Notice, ThemeChoice, widgets};
+use super::error::PageError;
+use crate::app::{Interface, SessionError, log_up_to, new_run, shown_run};
+use crate::simulation::{Playback, Transport, seek};
+use crate::ui::{Notice, ThemeChoice, Widget};
 
 /// Starts a link's run, simulates it up to its tick, and compares the digest with that of the link.
-pub fn open_link(world: &mut World, link: &Link) -> Result<Option<Notice>, String> {
+pub fn open_link(world: &mut World, link: &Link) -> Result<Option<Notice>, SessionError> {
     new_run(world, link.config(), (link.seed, link.script.clone()))?;
     world.resource_mut::<Transport>().playback = if link.tick == 0 { Playback::Playing } else { Playback::Paused };
-    obey(world, TransportCommand::Seek(link.tick))?;
+    seek(world, link.tick)?;
     if link.tick == 0 {
         return Ok(None);
     }
@@ -30,15 +31,15 @@ pub fn open_link(world: &mut World, link: &Link) -> Result<Option<Notice>, Strin
 }
 
 /// The link of what is shown.
-pub fn link_of(world: &World) -> Result<Link, String> {
+pub fn link_of(world: &World) -> Result<Link, PageError> {
     let Transport { seed, tick, .. } = *world.resource::<Transport>();
     let (config, script) = shown_run(world, tick);
-    let mut link = Link::of(seed, &config, script).map_err(|e| e.to_string())?;
+    let mut link = Link::of(seed, &config, script)?;
     if tick > 0 {
         link.digest = Some(log_up_to(world, tick)?.digest().to_string());
     }
     let ui = &world.resource::<Interface>().0;
-    link.widget = (ui.widget != 0).then(|| widgets().get(ui.widget).map(|w| w.id.clone())).flatten();
+    link.widget = Some(ui.widget).filter(|w| *w != Widget::Dashboard);
     link.theme = Some(ui.settings.theme).filter(|t| *t != ThemeChoice::System);
     Ok(link)
 }

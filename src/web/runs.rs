@@ -7,11 +7,11 @@ use super::link::Link;
 use crate::capture::RunFigure;
 use crate::picture::Theme;
 use crate::random::Seed;
-use crate::recording::{Recorder, Run};
-use crate::run::{Log, Script, first_divergence};
+use crate::recording::{Recorder, Run, RunError, Verification, verify};
+use crate::run::{Log, Script, ScriptError};
 use crate::sensors::RangeSensor;
 use crate::tour::TourConfig;
-use crate::worlds::World;
+use crate::worlds::{World, WorldError};
 
 /// The parts of a run, as JSON. A page keeps them so that it can record the run again when the lab has stopped.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -41,16 +41,33 @@ impl RunParts {
         }
     }
 
-    fn log(&self) -> Result<Log, String> {
-        let seed = self.seed.parse().map_err(|_| format!("{}: not a seed", self.seed))?;
-        let parse = |text: &String| World::parse("the world", text).map_err(|e| e.to_string());
+    fn log(&self) -> Result<Log, PartsError> {
+        let seed = self.seed.parse().map_err(|_| PartsError::Seed(self.seed.clone()))?;
+        let parse = |text: &String| World::parse("the world", text);
         let worlds = self.worlds.iter().map(parse).collect::<Result<_, _>>()?;
-        let mut script = Script::parse("the script", &self.script).map_err(|e| e.to_string())?;
+        let mut script = Script::parse("the script", &self.script)?;
         script.events.retain(|e| e.tick <= self.ticks);
         let sensor = self.sensor.map(|(n_rays, max_range)| RangeSensor { n_rays, max_range });
         let config = TourConfig { worlds, ticks: self.ticks, sensor };
-        Run::record(config, (Seed(seed), script)).map_err(|e| e.to_string())
+        Ok(Run::record(config, (Seed(seed), script))?)
     }
+}
+
+/// Why the parts of a run make none.
+#[derive(Debug, thiserror::Error)]
+enum PartsError {
+    /// Not a number from 0 to 2^64 - 1.
+    #[error("{0}: not a seed")]
+    Seed(String),
+    /// A world file that is refused.
+    #[error(transparent)]
+    World(#[from] WorldError),
+    /// A script that is refused.
+    #[error(transparent)]
+    Script(#[from] ScriptError),
+    /// The run cannot start.
+    #[error(transparent)]
+    Run(#[from] RunError),
 }
 
 /// The result of simulating a log again.
@@ -59,7 +76,7 @@ struct Verdict {
     /// Whether every frame came out equal to the last bit, and the file is whole.
     verified: bool,
     /// The number of ticks in the log.
-    ticks: usize,
+    ticks: u64,
     /// The first tick that differs.
     diverging_tick: Option<u64>,
     /// The run's digest, computed anew.
@@ -69,9 +86,9 @@ struct Verdict {
     text: String,
 }
 
-fn written(log: &Log) -> Result<Vec<u8>, String> {
+fn written(log: &Log) -> Result<Vec<u8>, JsError> {
     let mut bytes = Vec::new();
-    log.write_mcap(&mut bytes).map_err(|e| e.to_string())?;
+    log.write_mcap(&mut bytes).map_err(error)?;
     Ok(bytes)
 }
 
@@ -86,7 +103,7 @@ fn error(text: impl ToString) -> JsError {
 #[wasm_bindgen]
 pub fn record_log(parts: &str) -> Result<Vec<u8>, JsError> {
     let parts: RunParts = serde_json::from_str(parts).map_err(error)?;
-    parts.log().and_then(|log| written(&log)).map_err(error)
+    written(&parts.log().map_err(error)?)
 }
 
 /// The bytes of the log of the run that the query of an address stands for.
@@ -97,7 +114,7 @@ pub fn record_log(parts: &str) -> Result<Vec<u8>, JsError> {
 pub fn record_link(query: &str) -> Result<Vec<u8>, JsError> {
     let link = Link::parse(query).map_err(error)?;
     let log = Run::record(link.config(), (link.seed, link.script.clone())).map_err(error)?;
-    written(&log).map_err(error)
+    written(&log)
 }
 
 /// Simulates a log's run again from its seed, configuration and script, and compares every frame to the last bit. JSON:
@@ -108,18 +125,15 @@ pub fn record_link(query: &str) -> Result<Vec<u8>, JsError> {
 #[wasm_bindgen]
 pub fn verify_log(bytes: &[u8]) -> Result<String, JsError> {
     let log = Log::read_mcap(bytes).map_err(error)?.log;
-    let again = Run::record(log.config.clone(), (log.seed, log.script.clone())).map_err(error)?;
-    let divergence = first_divergence(std::slice::from_ref(&log.initial), std::slice::from_ref(&again.initial))
-        .or_else(|| first_divergence(&log.frames, &again.frames));
-    let ticks = log.frames.len();
+    let Verification { recorded, digest, divergence, .. } = verify(&log, |_| {}).map_err(error)?;
     let verdict = Verdict {
         verified: divergence.is_none(),
-        ticks,
+        ticks: recorded,
         diverging_tick: divergence.as_ref().map(|d| d.tick),
-        digest: again.digest().to_string(),
+        digest: digest.to_string(),
         seed: log.seed.to_string(),
         text: match divergence {
-            None => format!("bit-identical, {ticks} of {ticks}"),
+            None => format!("bit-identical, {recorded} of {recorded}"),
             Some(divergence) => divergence.to_string(),
         },
     };

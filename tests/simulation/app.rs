@@ -9,7 +9,8 @@ use motion_lab::prelude::*;
 use motion_lab::recording::Run;
 use motion_lab::run::RobotInput;
 use motion_lab::simulation::{
-    LatestFrame, PendingInput, Playback, RobotCommand, SimulationPlugin, Transport, TransportCommand, start_run, view,
+    LatestFrame, PendingInput, Playback, RobotCommand, RunCommand, SimulationPlugin, Transport, TransportCommand,
+    start_run, view,
 };
 
 use super::{assert_same, tour, wild_script};
@@ -23,7 +24,7 @@ fn app(ticks: u64, input: impl Into<motion_lab::recording::RunInput>) -> App {
 }
 
 fn send(app: &mut App, command: TransportCommand) {
-    app.world_mut().write_message(command);
+    app.world_mut().write_message(RunCommand::from(command));
     app.update();
 }
 
@@ -95,7 +96,7 @@ fn the_transport_obeys() {
 fn live_driving_is_recorded_and_replays() {
     let mut app = app(1, Seed(4));
     let drive = |app: &mut App, robot: &str, input| {
-        app.world_mut().write_message(RobotCommand { robot: robot.into(), input });
+        app.world_mut().write_message(RunCommand::from(RobotCommand { robot: robot.into(), input }));
     };
     let step = |app: &mut App, n: u64| (0..n).for_each(|_| send(app, TransportCommand::Step));
     step(&mut app, 10);

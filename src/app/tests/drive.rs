@@ -85,7 +85,7 @@ fn where_there_is_no_room_for_a_trailer_it_is_said() {
     for x in [1.2, 2.5] {
         let to = [x, 2.5, 0.0].map(|v| crate::run::Quantized::try_new(v).unwrap()).to_vec();
         let command = crate::simulation::RobotCommand { robot: "Hitch".into(), input: RobotInput::Teleport(to) };
-        harness.state_mut().app.world_mut().write_message(command);
+        harness.state_mut().app.world_mut().write_message(RunCommand::from(command));
         harness.run_steps(3);
         harness.get_by_label("comes with the next tick");
         click(&mut harness, "Step");

@@ -134,7 +134,7 @@ fn played(frames_per_second: u32, stall: bool) -> Vec<crate::run::Frame> {
     let world = app.world_mut();
     (1..=200)
         .map(|tick| {
-            crate::simulation::obey(world, TransportCommand::Seek(tick)).unwrap();
+            crate::simulation::seek(world, tick).unwrap();
             world.resource::<LatestFrame>().0.clone()
         })
         .collect()

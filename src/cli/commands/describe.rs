@@ -5,7 +5,7 @@ use serde_json::{Map, Value, json};
 
 use crate::cli::{Data, Failure, Outcome};
 use motion_lab::picture::{Rgb, Role, Theme};
-use motion_lab::ui::{Formula, widgets};
+use motion_lab::ui::{Formula, Widget};
 
 /// Print what a page about the lab needs, as JSON: each widget's words, the formulas of the configuration spaces in
 /// MathML, and the colours of the roles on light and on dark paper.
@@ -15,9 +15,10 @@ pub struct Describe {}
 impl Describe {
     /// Runs the command.
     pub fn run(self, data: &mut Data) -> Result<Outcome, Failure> {
-        let widgets: Vec<Value> = widgets()
-            .iter()
-            .map(|w| {
+        let widgets: Vec<Value> = Widget::ALL
+            .into_iter()
+            .map(|widget| {
+                let w = widget.text();
                 let key: Vec<Value> =
                     w.key.iter().map(|k| json!({ "role": k.role().name(), "text": k.text })).collect();
                 json!({

@@ -1,11 +1,10 @@
 //! `replay`: simulate a recorded run again, to its end.
 
 use std::path::PathBuf;
-use std::slice;
 
 use clap::Args;
 use indicatif::{ProgressBar, ProgressStyle};
-use motion_lab::run::{Digest, Divergence, Frame, Log, LogError, LogWriter, RunDigest, first_divergence};
+use motion_lab::run::{Comparison, Digest, Divergence, Frame, Log, LogError, LogWriter, RunDigest};
 use serde::Serialize;
 
 use crate::cli::support::interrupt;
@@ -53,16 +52,16 @@ impl Replay {
             say(format!("{damage}\nThis much is compared; the run is replayed to its end."));
         }
         interrupt::listen()?;
-        let Some(Ended { last, digest, divergence }) = self.replay(&log)? else {
+        let Some(Ended { last, digest, comparison }) = self.replay(&log)? else {
             say("stopped; nothing was written. Replay it again.");
             return Ok(Outcome::Stopped);
         };
-        let sealed = log.frames.len() as u64;
+        let divergence = comparison.divergence();
         let replayed = Replayed {
             run: RunSummary::new(log.seed, &log.config, &last, digest),
-            sealed,
-            identical: divergence.as_ref().map_or(sealed, |d| d.tick.saturating_sub(1)),
-            divergence: divergence.as_ref().map(Divergence::to_string),
+            sealed: comparison.recorded(),
+            identical: comparison.identical(),
+            divergence: divergence.map(Divergence::to_string),
         };
         if self.json {
             data.json(&replayed)?;
@@ -80,19 +79,19 @@ impl Replay {
     }
 
     /// Runs the log's run to its end; `None` when somebody asked to stop.
-    fn replay(&self, log: &Log) -> Result<Option<Ended>, Failure> {
+    fn replay<'a>(&self, log: &'a Log) -> Result<Option<Ended<'a>>, Failure> {
         let mut run = begin(log.seed, &log.config, &log.script)?;
         let mut digest = RunDigest::new(log.seed, &log.config, &log.script, run.frame());
-        let mut divergence = compare(Some(&log.initial), run.frame());
+        let mut comparison = Comparison::with(log);
+        comparison.frame(run.frame());
         let mut writer = self.writer(log, run.frame())?;
         let bar = progress(log.config.ticks);
-        let mut recorded = log.frames.iter();
         while !run.is_complete() {
             if interrupt::asked_to_stop() {
                 return Ok(None);
             }
             let frame = run.step();
-            divergence = divergence.or(compare(recorded.next(), frame));
+            comparison.frame(frame);
             digest.tick(frame);
             if let Some(writer) = &mut writer {
                 writer.tick(frame).map_err(|error| self.failed(error))?;
@@ -103,7 +102,7 @@ impl Replay {
         if let Some(writer) = writer {
             writer.finish().map_err(|error| self.failed(error))?.commit()?;
         }
-        Ok(Some(Ended { last: run.frame().clone(), digest: digest.digest(), divergence }))
+        Ok(Some(Ended { last: run.frame().clone(), digest: digest.digest(), comparison }))
     }
 
     fn writer(&self, log: &Log, initial: &Frame) -> Result<Option<LogWriter<PendingFile>>, Failure> {
@@ -122,14 +121,10 @@ impl Replay {
 }
 
 /// The outcome of a replay.
-struct Ended {
+struct Ended<'a> {
     last: Frame,
     digest: Digest,
-    divergence: Option<Divergence>,
-}
-
-fn compare(recorded: Option<&Frame>, frame: &Frame) -> Option<Divergence> {
-    first_divergence(slice::from_ref(recorded?), slice::from_ref(frame))
+    comparison: Comparison<'a>,
 }
 
 /// A progress bar on standard error; none where that is no terminal.

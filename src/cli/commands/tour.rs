@@ -5,6 +5,7 @@ use std::path::Path;
 
 use motion_lab::capture::RunFigure;
 use motion_lab::picture::Theme;
+use motion_lab::recording::Verification;
 use motion_lab::run::Script;
 use motion_lab::tour::{BOOK_SEED, TourConfig};
 
@@ -12,7 +13,7 @@ use super::record::{Ended, Plan, Stop, write_run};
 use crate::cli::support::interrupt;
 use crate::cli::support::log_source::read_log;
 use crate::cli::support::output::write_file;
-use crate::cli::support::simulate::run_again;
+use crate::cli::support::simulate::verify;
 use crate::cli::support::summary::RunSummary;
 use crate::cli::{Data, Failure, Outcome, say};
 
@@ -34,18 +35,17 @@ pub fn tour(data: &mut Data) -> Result<Outcome, Failure> {
 
     let log = read_log(&file)?.read.log;
     let mut figure = RunFigure::default();
-    let divergence = run_again(&log, |run| figure.watch(run.view()))?;
+    let Verification { identical, divergence, .. } = verify(&log, |run| figure.watch(run.view()))?;
     let digest = log.digest();
     let last = log.frames.last().unwrap_or(&log.initial);
     RunSummary::new(log.seed, &log.config, last, digest).print_robots(data)?;
     data.line(format!("digest {digest}"))?;
     let ticks = log.config.ticks;
+    data.line(format!("{identical} of {ticks} ticks bit-identical"))?;
     if let Some(divergence) = divergence {
-        data.line(format!("{} of {ticks} ticks bit-identical", divergence.tick.saturating_sub(1)))?;
         say(format!("the replay differs: {divergence}"));
         return Ok(Outcome::Differs);
     }
-    data.line(format!("{ticks} of {ticks} ticks bit-identical"))?;
 
     let drawing = folder.join(format!("tour-{BOOK_SEED}.svg"));
     write_file(&drawing, figure.svg(log.seed, &log.config, (ticks, digest), Theme::Light).as_bytes())?;

@@ -3,11 +3,12 @@
 use std::path::PathBuf;
 
 use clap::Args;
+use motion_lab::recording::Verification;
 use motion_lab::run::Divergence;
 use serde::Serialize;
 
 use crate::cli::support::log_source::{LogSource, read_log};
-use crate::cli::support::simulate::run_again;
+use crate::cli::support::simulate::verify;
 use crate::cli::{Data, Failure, Outcome, say};
 
 /// Simulate a recorded run again, from its seed and script alone, and compare every frame to the last bit.
@@ -39,12 +40,11 @@ impl Verify {
         if let Some(damage) = &damage {
             say(format!("{damage}\nThis much is verified; `motion-lab record --resume` makes it whole."));
         }
-        let divergence = run_again(&read.log, |_| {})?;
-        let sealed = read.log.frames.len() as u64;
+        let Verification { recorded: sealed, identical, divergence, .. } = verify(&read.log, |_| {})?;
         let verdict = Verdict {
             ticks: read.log.config.ticks,
             sealed,
-            identical: divergence.as_ref().map_or(sealed, |d| d.tick.saturating_sub(1)),
+            identical,
             digest: read.log.digest().to_string(),
             divergence: divergence.as_ref().map(Divergence::to_string),
         };

@@ -3,8 +3,8 @@
 use std::path::Path;
 
 use motion_lab::random::Seed;
-use motion_lab::recording::{Recorder, Run, RunError};
-use motion_lab::run::{Divergence, Frame, Log, Script, first_divergence};
+use motion_lab::recording::{Recorder, Run, RunError, Verification};
+use motion_lab::run::{Frame, Log, Script};
 use motion_lab::tour::TourConfig;
 
 use crate::cli::Failure;
@@ -17,23 +17,9 @@ pub fn begin(seed: Seed, config: &TourConfig, script: &Script) -> Result<Recorde
     Recorder::new(config.clone(), (seed, script.clone())).map_err(|error| Failure::input(error, CHANGE))
 }
 
-/// Runs a log again, from its seed, configuration and script alone, as far as it has frames, and calls `watch` with the
-/// run at every tick from 0 on. Stops at the first value that differs from the log's frames, and returns it.
-pub fn run_again(log: &Log, mut watch: impl FnMut(&Recorder)) -> Result<Option<Divergence>, Failure> {
-    let mut run = begin(log.seed, &log.config, &log.script)?;
-    let mut expected = std::iter::once(&log.initial).chain(&log.frames);
-    let mut next = expected.next();
-    while let Some(frame) = next {
-        watch(&run);
-        if let Some(divergence) = first_divergence(std::slice::from_ref(frame), std::slice::from_ref(run.frame())) {
-            return Ok(Some(divergence));
-        }
-        next = expected.next();
-        if next.is_some() {
-            run.step();
-        }
-    }
-    Ok(None)
+/// Simulates a log's run again and compares it: see [`motion_lab::recording::verify`].
+pub fn verify(log: &Log, on_tick: impl FnMut(&Recorder)) -> Result<Verification, Failure> {
+    motion_lab::recording::verify(log, on_tick).map_err(|error| Failure::input(error, CHANGE))
 }
 
 /// The reason to stop showing a run.

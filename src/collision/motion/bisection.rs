@@ -4,6 +4,7 @@
 use smallvec::SmallVec;
 
 use super::conservative_advancement::BRACKET;
+use super::place::{ContactAhead, Place};
 use crate::geometry::Footprint;
 use crate::num::{greater, lesser, sqrt};
 use crate::robots::Motion;
@@ -44,25 +45,24 @@ pub(crate) struct Pinched {
     pub(crate) steps: Steps,
 }
 
-/// Brackets the first contact after the free place `lo`, where the footprint is `gap_lo` metres from contact, given a
-/// parameter in contact. `None` where that takes too long or the motion up to the bracket is not proven free: the
-/// caller falls back to the march.
+/// Brackets the first contact after a free place, given a contact farther on. `None` where that takes too long or the
+/// motion up to the bracket is not proven free: the caller falls back to the march.
 ///
 /// `gap` returns a footprint's distance from contact, metres, 0 in contact. `clearance` returns what one step between
 /// two places proves, metres.
 pub(crate) fn pinch<M: Motion>(
     gap: impl Fn(&Footprint) -> f64,
-    clearance: impl Fn((f64, &Footprint), (f64, &Footprint)) -> f64,
+    clearance: impl Fn(Place, Place) -> f64,
     motion: &M,
     pace: Pace,
-    (lo, at_lo, gap_lo): (f64, &Footprint, f64),
-    mut contact: f64,
+    ahead: ContactAhead,
 ) -> Option<Pinched> {
     let gap_at = |s: f64| gap(&motion.footprint_at(s));
-    let from = Near { s: lo, gap: gap_lo, closing: pace.speed };
+    let from = Near { s: ahead.from.s, gap: ahead.gap, closing: pace.speed };
+    let mut contact = ahead.contact;
     for _ in 0..CONTACTS {
         let (near, contact_at) = approach(gap_at, pace, from, contact)?;
-        match prove_back(&gap, &clearance, motion, pace, (lo, at_lo), near)? {
+        match prove_back(&gap, &clearance, motion, pace, ahead.from, near)? {
             Ok(steps) => return Some(Pinched { free_until: near.s, contact_at, steps }),
             Err(earlier) => contact = earlier,
         }
@@ -70,16 +70,17 @@ pub(crate) fn pinch<M: Motion>(
     None
 }
 
-/// Proves the motion free from `lo` to a free place, backward in steps that grow with the clearance. Returns the steps,
-/// last first, or a contact between the two; `None` where it finds neither.
+/// Proves the motion free from `start` to a free place, backward in steps that grow with the clearance. Returns the
+/// steps, last first, or a contact between the two; `None` where it finds neither.
 fn prove_back<M: Motion>(
     gap: impl Fn(&Footprint) -> f64,
-    clearance: impl Fn((f64, &Footprint), (f64, &Footprint)) -> f64,
+    clearance: impl Fn(Place, Place) -> f64,
     motion: &M,
     pace: Pace,
-    (lo, at_lo): (f64, &Footprint),
+    start: Place,
     near: Near,
 ) -> Option<Result<Steps, f64>> {
+    let Place { s: lo, footprint: at_lo } = start;
     let mut steps = Steps::new();
     let (mut hi, mut at_hi, mut room) = (near.s, motion.footprint_at(near.s), near.gap);
     while hi > lo {
@@ -92,7 +93,7 @@ fn prove_back<M: Motion>(
         let (from, at_from) = loop {
             let from = if h < hi - lo { hi - h } else { lo };
             let at_from = if from == lo { at_lo.clone() } else { motion.footprint_at(from) };
-            if clearance((from, &at_from), (hi, &at_hi)) > 0.0 {
+            if clearance(Place::new(from, &at_from), Place::new(hi, &at_hi)) > 0.0 {
                 break (from, at_from);
             }
             if from > lo && gap(&at_from) <= 0.0 {

@@ -1,5 +1,6 @@
 //! The certified march: a motion proven free step by step, or bracketed where it hits.
 
+use super::place::{ContactAhead, Course, Place, Start};
 use super::step::step_clearance;
 use crate::collision::{Certificate, Collision, EdgeVerdict, MarchOptions, ObstacleId, ProvenStep, UnresolvedReason};
 use crate::geometry::{Footprint, Part, largest_coordinate};
@@ -46,37 +47,34 @@ pub fn march<M: Motion>(
         return EdgeVerdict::Free { clearance };
     }
     let distance = collision.distance(&start);
-    march_on(collision, motion, options, certificate, (start, distance))
+    march_on(collision, motion, options, certificate, Start { footprint: start, distance })
 }
 
 /// The clearance that a single step proves for the whole motion, metres; not positive where it proves nothing. Most
 /// free motions are proven so.
 pub(crate) fn clearance_of_all<M: Motion>(collision: &dyn Collision, motion: &M, start: &Footprint) -> f64 {
-    step_clearance(collision, motion, (0.0, start), (1.0, &motion.footprint_at(1.0)))
+    step_clearance(collision, motion, Place::new(0.0, start), Place::new(1.0, &motion.footprint_at(1.0)))
 }
 
-/// As [`march`], for a motion that one step does not prove free. Takes the footprint at its start and that footprint's
-/// distance.
+/// As [`march`], for a motion that one step does not prove free.
 pub(crate) fn march_on<M: Motion>(
     collision: &dyn Collision,
     motion: &M,
     options: MarchOptions,
     mut certificate: Option<&mut Certificate>,
-    (start, distance): (Footprint, f64),
+    start: Start,
 ) -> EdgeVerdict {
     if let Some(c) = certificate.as_deref_mut() {
         c.clear(options.margin);
     }
-    let gap = distance - options.margin;
+    let gap = start.distance - options.margin;
     if gap <= 0.0 {
         return hit(collision, motion, 0.0, 0.0);
     }
     let mut plain = Plain { collision, motion, margin: options.margin, clearance: f64::INFINITY, certificate };
-    go(&mut plain, motion, (start, gap), &motion.footprint_at(1.0), options.budget)
+    let end = motion.footprint_at(1.0);
+    go(&mut plain, motion, Course { start: start.footprint, gap, end: &end }, options.budget)
 }
-
-/// A place of a motion: its parameter and the footprint there.
-pub(crate) type Place<'a> = (f64, &'a Footprint);
 
 /// The queries of a march.
 pub(crate) trait Ground {
@@ -96,7 +94,7 @@ pub(crate) trait Ground {
 
     /// A shortcut to the hit, tried once as soon as a contact is known: brackets the first contact after a free place
     /// without marching up to it. `None` where the march has to go on.
-    fn pinched(&mut self, _from: Place, _gap: f64, _contact: f64) -> Option<EdgeVerdict> {
+    fn pinched(&mut self, _ahead: ContactAhead) -> Option<EdgeVerdict> {
         None
     }
 
@@ -119,7 +117,7 @@ impl<M: Motion> Ground for Plain<'_, M> {
         if clearance > self.margin {
             self.clearance = lesser(clearance, self.clearance);
             if let Some(c) = self.certificate.as_deref_mut() {
-                c.push(ProvenStep { from: from.0, to: to.0, clearance });
+                c.push(ProvenStep { from: from.s, to: to.s, clearance });
             }
         }
         clearance > self.margin
@@ -145,15 +143,9 @@ pub(crate) fn hit(collision: &dyn Collision, motion: &impl Motion, free_until: f
     EdgeVerdict::Hit { free_until, contact_at, part, obstacle }
 }
 
-/// Marches from a free start whose clearance exceeds the margin by `gap` metres. One step is known not to prove the
-/// whole motion.
-pub(crate) fn go<M: Motion>(
-    ground: &mut impl Ground,
-    motion: &M,
-    (start, gap): (Footprint, f64),
-    end: &Footprint,
-    mut budget: u32,
-) -> EdgeVerdict {
+/// Marches from a free start. One step is known not to prove the whole motion.
+pub(crate) fn go<M: Motion>(ground: &mut impl Ground, motion: &M, course: Course, mut budget: u32) -> EdgeVerdict {
+    let Course { start, gap, end } = course;
     let parts = start.parts().len();
     let width = |lo: f64, hi: f64| width(motion, parts, lo, hi);
     let unresolved = |free_until: f64, contact: Option<f64>, reason| {
@@ -178,9 +170,9 @@ pub(crate) fn go<M: Motion>(
             return unresolved(lo, contact, UnresolvedReason::Budget);
         }
         budget -= 1;
-        if let Some(ahead) = contact
+        if let Some(contact) = contact
             && std::mem::take(&mut may_pinch)
-            && let Some(verdict) = ground.pinched((lo, &at_lo), gap, ahead)
+            && let Some(verdict) = ground.pinched(ContactAhead { from: Place::new(lo, &at_lo), gap, contact })
         {
             return verdict;
         }
@@ -190,7 +182,7 @@ pub(crate) fn go<M: Motion>(
         };
         let at_hi = if hi == 1.0 { end.clone() } else { motion.footprint_at(hi) };
         // the whole motion is known not to be proven by one step
-        if (lo, hi) != (0.0, 1.0) && ground.proves((lo, &at_lo), (hi, &at_hi)) {
+        if (lo, hi) != (0.0, 1.0) && ground.proves(Place::new(lo, &at_lo), Place::new(hi, &at_hi)) {
             if hi == 1.0 {
                 return EdgeVerdict::Free { clearance: ground.clearance() };
             }

@@ -1,4 +1,5 @@
-//! Deciding a motion: the one order in which proofs are tried, for edges, sweeps, a tick's cut and holding.
+//! Deciding a motion: the one order in which proofs are tried, for edges, sweeps and the ticks of robots that contact
+//! does not hold. The tick of a robot that is held keeps a margin; its order is in `keeps.rs`.
 //!
 //! The cheap proofs come first: a separation test, contact at either end, a closed form or one step of the march; then
 //! the march. Each rung is sound by itself, so the order changes no verdict.
@@ -6,9 +7,9 @@
 use super::closed_form::disc_line::DiscLine;
 use super::closed_form::verdicts::{circular, linear, straight};
 use super::local_march::march_nearby;
+use super::place::Ends;
 use super::separation::{halve, is_separated, open_parts};
 use crate::collision::{Certificate, Collision, EdgeVerdict, Scene};
-use crate::geometry::Footprint;
 use crate::robots::Motion;
 
 /// The verdict on a motion in a scene: in closed form where one decides, otherwise by the march with at most `budget`
@@ -57,12 +58,12 @@ pub(crate) fn is_free<M: Motion>(scene: &Scene, motion: &M, budget: u32) -> bool
     if budget == 0 || motion.disc_arc().is_some() {
         return verdict(scene, motion, budget, None).is_free();
     }
-    let separate = |start: &Footprint, end: &Footprint| {
-        let open = open_parts(scene, motion, start, end);
+    let separate = |ends: Ends| {
+        let open = open_parts(scene, motion, ends);
         (!open.is_empty()).then_some(open)
     };
-    ladder(scene, motion, separate, |start, end, open| {
-        let decided = halve(scene, motion, (start, end), &open, HALVINGS);
+    ladder(scene, motion, separate, |ends, open| {
+        let decided = halve(scene, motion, ends, &open, HALVINGS);
         decided.unwrap_or_else(|| verdict(scene, motion, budget, None).is_free())
     })
 }
@@ -75,9 +76,8 @@ pub(crate) fn is_free_or<M: Motion>(
     margin: f64,
     judge: impl FnOnce() -> EdgeVerdict,
 ) -> bool {
-    let separate =
-        |start: &Footprint, end: &Footprint| (!is_separated(collision, motion, margin, (start, end))).then_some(());
-    ladder(collision, motion, separate, |_, _, ()| judge().is_free())
+    let separate = |ends: Ends| (!is_separated(collision, motion, margin, ends)).then_some(());
+    ladder(collision, motion, separate, |_, ()| judge().is_free())
 }
 
 /// The ladder: true where `separate` leaves nothing undecided, false where an end is in contact, otherwise what `judge`
@@ -85,13 +85,14 @@ pub(crate) fn is_free_or<M: Motion>(
 fn ladder<M: Motion, T>(
     collision: &dyn Collision,
     motion: &M,
-    separate: impl FnOnce(&Footprint, &Footprint) -> Option<T>,
-    judge: impl FnOnce(&Footprint, &Footprint, T) -> bool,
+    separate: impl FnOnce(Ends) -> Option<T>,
+    judge: impl FnOnce(Ends, T) -> bool,
 ) -> bool {
     let (start, end) = (motion.footprint_at(0.0), motion.footprint_at(1.0));
-    match separate(&start, &end) {
+    let ends = Ends { start: &start, end: &end };
+    match separate(ends) {
         None => true,
         Some(_) if collision.intersects(&start) || collision.intersects(&end) => false,
-        Some(open) => judge(&start, &end, open),
+        Some(open) => judge(ends, open),
     }
 }

@@ -2,6 +2,7 @@
 
 use super::conservative_advancement::{clearance_of_all, march, march_on};
 use super::decide::is_free_or;
+use super::place::{Ends, Start};
 use super::separation::is_separated;
 use crate::collision::{Collision, EdgeVerdict, MarchOptions};
 use crate::robots::Motion;
@@ -30,7 +31,7 @@ pub(crate) fn keeps<M: Motion>(
     margin: impl FnOnce(f64) -> f64,
 ) -> Result<(), Blocked> {
     let (start, end) = (motion.footprint_at(0.0), motion.footprint_at(1.0));
-    if is_separated(collision, motion, enough, (&start, &end)) {
+    if is_separated(collision, motion, enough, Ends { start: &start, end: &end }) {
         return Ok(());
     }
     let all = clearance_of_all(collision, motion, &start);
@@ -45,7 +46,7 @@ pub(crate) fn keeps<M: Motion>(
     if all > options.margin {
         return Ok(());
     }
-    match march_on(collision, motion, options, None, (start, clearance)) {
+    match march_on(collision, motion, options, None, Start { footprint: start, distance: clearance }) {
         EdgeVerdict::Free { .. } => Ok(()),
         EdgeVerdict::Hit { free_until, .. } | EdgeVerdict::Unresolved { free_until, .. } => {
             Err(Blocked { start: clearance, until: free_until })

@@ -3,8 +3,9 @@
 use smallvec::SmallVec;
 
 use super::bisection::{Pace, pinch};
-use super::conservative_advancement::{Ground, Place, go, hit, march_on, width};
+use super::conservative_advancement::{Ground, go, hit, march_on, width};
 use super::local_scene::Vicinity;
+use super::place::{ContactAhead, Course, Place, Start};
 use super::step::{rounding, step_clearance};
 use crate::collision::{Certificate, Collision, EdgeVerdict, MarchOptions, ProvenStep, Scene};
 use crate::geometry::{Aabb, Footprint, largest_coordinate};
@@ -45,7 +46,7 @@ pub(crate) fn march_nearby<M: Motion>(
     let end = motion.footprint_at(1.0);
     if budget == 0 || !(start.is_valid() && end.is_valid()) {
         let (distance, options) = (scene.distance(&start), MarchOptions { margin: 0.0, budget });
-        return march_on(scene, motion, options, certificate, (start, distance));
+        return march_on(scene, motion, options, certificate, Start { footprint: start, distance });
     }
     let parts = start.parts().len();
     let mut march = Nearby {
@@ -68,14 +69,14 @@ pub(crate) fn march_nearby<M: Motion>(
     if gap <= 0.0 {
         return hit(scene, motion, 0.0, 0.0);
     }
-    go(&mut march, motion, (start, gap), &end, budget)
+    go(&mut march, motion, Course { start, gap, end: &end }, budget)
 }
 
 impl<'a, M: Motion> Nearby<'a, M> {
     /// Tries to prove the whole motion in one step. If that fails, finds the open parts and the pieces they can come
     /// near.
     fn whole(&mut self, start: &Footprint, end: &Footprint) -> bool {
-        let (from, to) = ((0.0, start), (1.0, end));
+        let (from, to) = (Place::new(0.0, start), Place::new(1.0, end));
         let all = std::mem::take(&mut self.open);
         let mut least = f64::INFINITY;
         let mut swept: Option<Aabb> = None;
@@ -111,8 +112,8 @@ impl<'a, M: Motion> Nearby<'a, M> {
     /// more than the sagitta is only an upper bound: the step fails in any case. A distance that would neither fail the
     /// step nor lower the clearance is only a lower bound.
     fn clears(&self, part: usize, from: Place, to: Place) -> (f64, f64, f64) {
-        let hull = from.1.parts()[part].placed().hull_with(to.1.parts()[part].placed());
-        let (size, sagitta) = (largest_coordinate([&hull]), self.motion.sagitta(part, from.0, to.0));
+        let hull = from.footprint.parts()[part].placed().hull_with(to.footprint.parts()[part].placed());
+        let (size, sagitta) = (largest_coordinate([&hull]), self.motion.sagitta(part, from.s, to.s));
         let reach = self.clearance + sagitta;
         let within = reach + 2.0 * rounding(size, reach);
         let distance = self.around.distance(&hull, sagitta, within).unwrap_or(within);
@@ -158,7 +159,7 @@ impl<M: Motion> Ground for Nearby<'_, M> {
         let clearance = if needed { step_clearance(self.scene, self.motion, from, to) } else { open };
         self.clearance = lesser(clearance, self.clearance);
         if let Some(c) = self.certificate.as_deref_mut() {
-            c.push(ProvenStep { from: from.0, to: to.0, clearance });
+            c.push(ProvenStep { from: from.s, to: to.s, clearance });
         }
         true
     }
@@ -177,17 +178,18 @@ impl<M: Motion> Ground for Nearby<'_, M> {
         !footprint.is_valid() || self.open.iter().any(|&k| self.around.touches(footprint.parts()[k].placed()))
     }
 
-    fn pinched(&mut self, from: Place, gap: f64, contact: f64) -> Option<EdgeVerdict> {
+    fn pinched(&mut self, ahead: ContactAhead) -> Option<EdgeVerdict> {
         let acceleration = self.open.iter().fold(0.0, |most, &k| greater(self.motion.rates(k).acceleration, most));
         let pace = Pace { speed: self.width(0.0, 1.0), acceleration };
         let range = self.around.range();
         let gap_at = |footprint: &Footprint| self.open_gap(footprint, range);
         let clearance = |from: Place, to: Place| self.open_clearance(from, to);
-        let found = pinch(gap_at, clearance, self.motion, pace, (from.0, from.1, gap), contact)?;
+        let found = pinch(gap_at, clearance, self.motion, pace, ahead)?;
         if let Some(c) = self.certificate.as_deref_mut() {
             for &(lo, hi) in found.steps.iter().rev() {
                 let [at_lo, at_hi] = [lo, hi].map(|s| self.motion.footprint_at(s));
-                let clearance = step_clearance(self.scene, self.motion, (lo, &at_lo), (hi, &at_hi));
+                let (from, to) = (Place::new(lo, &at_lo), Place::new(hi, &at_hi));
+                let clearance = step_clearance(self.scene, self.motion, from, to);
                 c.push(ProvenStep { from: lo, to: hi, clearance });
             }
         }

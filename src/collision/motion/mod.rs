@@ -9,6 +9,7 @@ pub(crate) mod decide;
 pub(crate) mod keeps;
 pub(crate) mod local_march;
 pub(crate) mod local_scene;
+pub(crate) mod place;
 pub(crate) mod separation;
 pub(crate) mod step;
 pub(crate) mod swept;

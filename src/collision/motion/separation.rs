@@ -2,43 +2,34 @@
 
 use smallvec::SmallVec;
 
-use super::conservative_advancement::Place;
+use super::place::{Ends, Place};
 use crate::collision::narrow::convex::edges;
 use crate::collision::{Collision, Scene};
-use crate::geometry::{Aabb, Footprint, Placed, Point2, Vector2};
+use crate::geometry::{Aabb, Placed, Point2, Vector2};
 use crate::num::{greater, lesser};
 use crate::robots::Motion;
 
-/// A conservative separation test: true only if every part of a motion from `start` to `end` keeps more than `margin`
+/// A conservative separation test: true only if every part of a motion with these ends keeps more than `margin`
 /// metres from everything. `false` is inconclusive. What it proves, one step of the
 /// [march](super::conservative_advancement::march) proves too.
-pub(crate) fn is_separated<M: Motion>(
-    collision: &dyn Collision,
-    motion: &M,
-    margin: f64,
-    (start, end): (&Footprint, &Footprint),
-) -> bool {
-    let mut parts = start.parts().iter().zip(end.parts()).enumerate();
+pub(crate) fn is_separated<M: Motion>(collision: &dyn Collision, motion: &M, margin: f64, ends: Ends) -> bool {
+    let mut parts = ends.start.parts().iter().zip(ends.end.parts()).enumerate();
     parts.all(|(k, (from, to))| collision.clears(from.placed(), to.placed(), margin + motion.sagitta(k, 0.0, 1.0)))
 }
 
 /// The parts of a motion in a scene that the separation test does not prove clear of everything.
-pub(crate) fn open_parts<M: Motion>(scene: &Scene, motion: &M, start: &Footprint, end: &Footprint) -> Parts {
+pub(crate) fn open_parts<M: Motion>(scene: &Scene, motion: &M, ends: Ends) -> Parts {
     let halving = Halving { scene, motion, halvings: 0 };
-    halving.open((0..start.parts().len()).collect(), (0.0, start), (1.0, end))
+    let parts = (0..ends.start.parts().len()).collect();
+    halving.open(parts, Place::new(0.0, ends.start), Place::new(1.0, ends.end))
 }
 
 /// Whether a motion between two free ends is free, by halving every stretch that the separation test does not prove; all
 /// parts but those in `open` are proven clear. Both answers are proven: `Some(false)` means that a contact was found.
 /// `None` where `halvings` halvings do not decide.
-pub(crate) fn halve<M: Motion>(
-    scene: &Scene,
-    motion: &M,
-    (start, end): (&Footprint, &Footprint),
-    open: &[usize],
-    halvings: u32,
-) -> Option<bool> {
-    Halving { scene, motion, halvings }.halves((0.0, start), (1.0, end), open)
+pub(crate) fn halve<M: Motion>(scene: &Scene, motion: &M, ends: Ends, open: &[usize], halvings: u32) -> Option<bool> {
+    let mut halving = Halving { scene, motion, halvings };
+    halving.halves(Place::new(0.0, ends.start), Place::new(1.0, ends.end), open)
 }
 
 /// Parts, by their numbers.
@@ -56,8 +47,8 @@ impl<M: Motion> Halving<'_, M> {
     /// Those of the parts that the separation test does not prove clear of everything between two places.
     fn open(&self, mut parts: Parts, from: Place, to: Place) -> Parts {
         parts.retain(|k| {
-            let [a, b] = [from.1, to.1].map(|footprint| footprint.parts()[*k].placed());
-            !self.scene.clears(a, b, self.motion.sagitta(*k, from.0, to.0))
+            let [a, b] = [from, to].map(|place| place.footprint.parts()[*k].placed());
+            !self.scene.clears(a, b, self.motion.sagitta(*k, from.s, to.s))
         });
         parts
     }
@@ -65,12 +56,12 @@ impl<M: Motion> Halving<'_, M> {
     /// As [`halve`], between two free places, where all parts but those in `open` are proven clear of everything.
     fn halves(&mut self, from: Place, to: Place, open: &[usize]) -> Option<bool> {
         self.halvings = self.halvings.checked_sub(1)?;
-        let middle = 0.5 * (from.0 + to.0);
+        let middle = 0.5 * (from.s + to.s);
         let footprint = self.motion.footprint_at(middle);
         if self.scene.intersects(&footprint) {
             return Some(false);
         }
-        let at = (middle, &footprint);
+        let at = Place::new(middle, &footprint);
         for (from, to) in [(from, at), (at, to)] {
             let open = self.open(open.into(), from, to);
             if !open.is_empty() && !self.halves(from, to, &open)? {
@@ -143,7 +134,7 @@ impl<'a> Way<'a> {
             [_] => false,
             // beside a segment, or beyond an end
             [p, q] => parts(across(*p, *q)) || parts(q - p),
-            _ => edges(core).any(|(p, q)| parts(across(p, q))),
+            _ => edges(core).any(|edge| parts(across(edge.a, edge.b))),
         };
         parts(middle(piece.core()) - middle(self.from.core()))
             || sides(piece.core())

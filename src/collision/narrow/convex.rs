@@ -1,47 +1,60 @@
 //! Exact contact and accurate distance between two convex cores (points, segments, polygons) without radii.
 
-use crate::geometry::{Aabb, Point2, cross, orientation};
+use crate::geometry::{Aabb, Point2, Segment, cross, orientation};
 use crate::num::{greater, lesser, sqrt};
 
-/// The boundary edges of a core: a point is one edge of length 0, a segment one edge, a polygon all its sides.
-pub(crate) fn edges(core: &[Point2]) -> impl Iterator<Item = (Point2, Point2)> {
-    let n = core.len();
-    (0..if n <= 2 { 1 } else { n }).map(move |i| (core[i], core[(i + 1) % n]))
+/// The nearest points of two shapes, or of two cores.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Nearest {
+    /// The distance, metres. Of two shapes it is exactly 0 on contact, and only then.
+    pub(crate) dist: f64,
+    /// The point of the first shape or core.
+    pub(crate) on_a: Point2,
+    /// The point of the second shape or core; on contact the same point.
+    pub(crate) on_b: Point2,
 }
 
-/// Whether `p` lies in the closed box with the opposite corners `a` and `b`.
-fn in_box(a: Point2, b: Point2, p: Point2) -> bool {
+/// The boundary edges of a core: a point is one edge of length 0, a segment one edge, a polygon all its sides.
+pub(crate) fn edges(core: &[Point2]) -> impl Iterator<Item = Segment> {
+    let n = core.len();
+    (0..if n <= 2 { 1 } else { n }).map(move |i| Segment { a: core[i], b: core[(i + 1) % n] })
+}
+
+/// Whether `p` lies in the closed box around a segment.
+fn in_box(segment: Segment, p: Point2) -> bool {
+    let Segment { a, b } = segment;
     let between = |a: f64, b: f64, x: f64| if a <= b { a <= x && x <= b } else { b <= x && x <= a };
     between(a.x, b.x, p.x) && between(a.y, b.y, p.y)
 }
 
-/// The point of the closed box with the opposite corners `a` and `b` that is nearest to `p`.
-fn into_box((a, b): (Point2, Point2), p: Point2) -> Point2 {
+/// The point of the closed box around a segment that is nearest to `p`.
+fn into_box(segment: Segment, p: Point2) -> Point2 {
+    let Segment { a, b } = segment;
     let clamp = |x: f64, a: f64, b: f64| if a <= b { x.clamp(a, b) } else { x.clamp(b, a) };
     Point2::new(clamp(p.x, a.x, b.x), clamp(p.y, a.y, b.y))
 }
 
 /// A common point of two closed segments, decided exactly; an end point itself where an end touches.
-pub(crate) fn segments_contact(p: (Point2, Point2), q: (Point2, Point2)) -> Option<Point2> {
-    let (p0, p1) = (orientation(q.0, q.1, p.0), orientation(q.0, q.1, p.1));
+pub(crate) fn segments_contact(p: Segment, q: Segment) -> Option<Point2> {
+    let (p0, p1) = (orientation(q.a, q.b, p.a), orientation(q.a, q.b, p.b));
     if (p0 > 0.0 && p1 > 0.0) || (p0 < 0.0 && p1 < 0.0) {
         return None;
     }
-    let (q0, q1) = (orientation(p.0, p.1, q.0), orientation(p.0, p.1, q.1));
+    let (q0, q1) = (orientation(p.a, p.b, q.a), orientation(p.a, p.b, q.b));
     if (q0 > 0.0 && q1 > 0.0) || (q0 < 0.0 && q1 < 0.0) {
         return None;
     }
-    let ends = [(p0, q, p.0), (p1, q, p.1), (q0, p, q.0), (q1, p, q.1)];
-    for (side, (a, b), end) in ends {
-        if side == 0.0 && in_box(a, b, end) {
+    let ends = [(p0, q, p.a), (p1, q, p.b), (q0, p, q.a), (q1, p, q.b)];
+    for (side, other, end) in ends {
+        if side == 0.0 && in_box(other, end) {
             return Some(end);
         }
     }
     if p0 != 0.0 && p1 != 0.0 && q0 != 0.0 && q1 != 0.0 {
         // They cross properly: the sides have opposite signs, so the weight is in (0, 1). Measured along the shorter
         // one, and kept in both boxes, the point stays near both even when they are all but collinear.
-        let along_p = (p.1 - p.0).norm_squared() <= (q.1 - q.0).norm_squared();
-        let ((a, b), weight) = if along_p { (p, p0 / (p0 - p1)) } else { (q, q0 / (q0 - q1)) };
+        let along_p = (p.b - p.a).norm_squared() <= (q.b - q.a).norm_squared();
+        let (Segment { a, b }, weight) = if along_p { (p, p0 / (p0 - p1)) } else { (q, q0 / (q0 - q1)) };
         return Some(into_box(q, into_box(p, a + (b - a) * weight)));
     }
     None
@@ -53,7 +66,8 @@ pub(crate) fn polygon_contains(polygon: &[Point2], p: Point2) -> bool {
         return false;
     }
     let mut inside = false;
-    for (a, b) in edges(polygon) {
+    for edge in edges(polygon) {
+        let Segment { a, b } = edge;
         if (a.y > p.y) != (b.y > p.y) {
             let side = orientation(a, b, p);
             if side == 0.0 {
@@ -62,7 +76,7 @@ pub(crate) fn polygon_contains(polygon: &[Point2], p: Point2) -> bool {
             if (side > 0.0) == (b.y > a.y) {
                 inside = !inside;
             }
-        } else if orientation(a, b, p) == 0.0 && in_box(a, b, p) {
+        } else if orientation(a, b, p) == 0.0 && in_box(edge, p) {
             return true;
         }
     }
@@ -78,8 +92,8 @@ fn plainly_apart(a: &[Point2], b: &[Point2]) -> bool {
 /// The cross product of an edge and the displacement from its first end to `v`, positive to the left. It is 0 where it
 /// does not exceed several times the rounding it may hold, so that its sign is certain.
 #[inline]
-fn plain_side((p, q): (Point2, Point2), v: &Point2) -> f64 {
-    let (u, w) = (q - p, v - p);
+fn plain_side(edge: Segment, v: &Point2) -> f64 {
+    let (u, w) = (edge.b - edge.a, v - edge.a);
     let (left, right) = (u.x * w.y, u.y * w.x);
     let area = left - right;
     let rounding = 16.0 * f64::EPSILON * (left.abs() + right.abs()) + f64::MIN_POSITIVE;
@@ -90,8 +104,9 @@ fn plain_side((p, q): (Point2, Point2), v: &Point2) -> f64 {
 /// left, or, where `a` is a segment, all of `b` on one side. A cross product counts only where its sign is certain.
 /// `false` is inconclusive.
 fn separates(a: &[Point2], b: &[Point2]) -> bool {
-    edges(a).any(|(p, q)| {
-        let side = |v: &Point2| plain_side((p, q), v);
+    edges(a).any(|edge| {
+        let Segment { a: p, b: q } = edge;
+        let side = |v: &Point2| plain_side(edge, v);
         let right = b.iter().all(|v| side(v) < 0.0) && a.iter().all(|v| *v == p || *v == q || side(v) > 0.0);
         right || (a.len() == 2 && b.iter().all(|v| side(v) > 0.0))
     })
@@ -129,14 +144,15 @@ pub(crate) fn cores_contact(a: &[Point2], b: &[Point2]) -> Option<Point2> {
 ///
 /// The distance to the segment's line is a cross product with the displacement from the nearer end, so its rounding is
 /// a few ulps of that displacement; where it cancels, the adaptive predicate gives its value.
-pub(crate) fn point_segment(p: Point2, (a, b): (Point2, Point2)) -> (f64, Point2) {
-    point_segment_within(p, (a, b), f64::INFINITY).unwrap_or((f64::INFINITY, a))
+pub(crate) fn point_segment(p: Point2, segment: Segment) -> (f64, Point2) {
+    point_segment_within(p, segment, f64::INFINITY).unwrap_or((f64::INFINITY, segment.a))
 }
 
 /// As [`point_segment`]; `None` where the square of the distance exceeds `square`. The distance to the line through the
 /// segment has to exceed it by more than its rounding.
 #[inline]
-fn point_segment_within(p: Point2, (a, b): (Point2, Point2), square: f64) -> Option<(f64, Point2)> {
+fn point_segment_within(p: Point2, segment: Segment, square: f64) -> Option<(f64, Point2)> {
+    let Segment { a, b } = segment;
     let (u, from_a, from_b) = (b - a, p - a, p - b);
     let (along, rest) = (from_a.dot(&u), -from_b.dot(&u));
     if along <= 0.0 || rest <= 0.0 {
@@ -161,7 +177,7 @@ fn point_segment_within(p: Point2, (a, b): (Point2, Point2), square: f64) -> Opt
 
 /// The distance between two disjoint cores and a pair of nearest points, if it is less than `limit`. It is attained at
 /// a vertex of one of them.
-pub(crate) fn cores_distance(a: &[Point2], b: &[Point2], limit: f64) -> Option<(f64, Point2, Point2)> {
+pub(crate) fn cores_distance(a: &[Point2], b: &[Point2], limit: f64) -> Option<Nearest> {
     let mut closest = Closest::new(limit, between_vertices(a, b));
     let around = box_around(b);
     for &p in a {
@@ -217,12 +233,7 @@ impl Closest {
     /// Takes a vertex and the nearest point of an edge, if no pair so far is nearer. Passes over an edge that is
     /// certainly too far to matter.
     #[inline]
-    pub(crate) fn look(
-        &mut self,
-        p: Point2,
-        edge: (Point2, Point2),
-        pair: impl Fn(Point2, Point2) -> (Point2, Point2),
-    ) {
+    pub(crate) fn look(&mut self, p: Point2, edge: Segment, pair: impl Fn(Point2, Point2) -> (Point2, Point2)) {
         if let Some((d, foot)) = point_segment_within(p, edge, self.square)
             && d < self.least
         {
@@ -232,8 +243,8 @@ impl Closest {
     }
 
     /// The distance and the two points; `None` where no pair was nearer than the limit.
-    pub(crate) fn found(self) -> Option<(f64, Point2, Point2)> {
-        self.pair.map(|(p, q)| (self.least, p, q))
+    pub(crate) fn found(self) -> Option<Nearest> {
+        self.pair.map(|(on_a, on_b)| Nearest { dist: self.least, on_a, on_b })
     }
 }
 
@@ -247,18 +258,20 @@ mod tests {
 
     #[test]
     fn segments_meet_exactly_or_not_at_all() {
-        let base = (p(0.0, 0.0), p(3.0, 1.0));
-        assert_eq!(segments_contact(base, (p(3.0, 1.0), p(4.0, 9.0))), Some(p(3.0, 1.0)), "shared end");
-        assert_eq!(segments_contact(base, (p(6.0, 2.0), p(9.0, 3.0))), None, "collinear, apart");
-        assert!(segments_contact(base, (p(1.5, 0.5), p(9.0, 3.0))).is_some(), "collinear, overlapping");
-        assert!(segments_contact(base, (p(1.0, -5.0), p(1.0, 5.0))).is_some(), "proper crossing");
+        let of = Segment::new;
+        let base = of(p(0.0, 0.0), p(3.0, 1.0));
+        assert_eq!(segments_contact(base, of(p(3.0, 1.0), p(4.0, 9.0))), Some(p(3.0, 1.0)), "shared end");
+        assert_eq!(segments_contact(base, of(p(6.0, 2.0), p(9.0, 3.0))), None, "collinear, apart");
+        assert!(segments_contact(base, of(p(1.5, 0.5), p(9.0, 3.0))).is_some(), "collinear, overlapping");
+        assert!(segments_contact(base, of(p(1.0, -5.0), p(1.0, 5.0))).is_some(), "proper crossing");
         // parallel, one ulp apart
-        let shifted = |y: f64| f64::from_bits(y.to_bits() + 1);
-        assert_eq!(segments_contact((p(0.0, 1.0), p(3.0, 1.0)), (p(0.0, shifted(1.0)), p(3.0, shifted(1.0)))), None);
+        let level = |y: f64| of(p(0.0, y), p(3.0, y));
+        assert_eq!(segments_contact(level(1.0), level(f64::from_bits(1.0_f64.to_bits() + 1))), None);
         // degenerate: a point on the segment, a point beside it
-        assert_eq!(segments_contact((p(1.5, 0.5), p(1.5, 0.5)), base), Some(p(1.5, 0.5)));
-        assert_eq!(segments_contact((p(1.5, 0.6), p(1.5, 0.6)), base), None);
-        assert_eq!(segments_contact((p(6.0, 2.0), p(6.0, 2.0)), base), None, "on its line, beyond its end");
+        let point = |x: f64, y: f64| of(p(x, y), p(x, y));
+        assert_eq!(segments_contact(point(1.5, 0.5), base), Some(p(1.5, 0.5)));
+        assert_eq!(segments_contact(point(1.5, 0.6), base), None);
+        assert_eq!(segments_contact(point(6.0, 2.0), base), None, "on its line, beyond its end");
     }
 
     #[test]
@@ -275,7 +288,7 @@ mod tests {
     #[test]
     fn a_short_far_segment_keeps_its_digits() {
         // 1 mm long, 10 m away, seen from beside its middle: the exact distance is 10
-        let (d, _) = point_segment(p(0.0005, 0.0), (p(0.0, 10.0), p(0.001, 10.0)));
+        let (d, _) = point_segment(p(0.0005, 0.0), Segment::new(p(0.0, 10.0), p(0.001, 10.0)));
         assert!((d - 10.0).abs() <= 4.0 * f64::EPSILON * 10.0, "{d}");
     }
 }

@@ -1,22 +1,11 @@
 //! The narrow phase: contact and distance between two placed shapes, closed forms for every pair.
 
-use super::convex::{cores_contact, cores_distance, edges, point_segment, polygon_contains, segments_contact};
+use super::convex::{Nearest, cores_contact, cores_distance, edges, point_segment, polygon_contains, segments_contact};
 use super::double_double::Dd;
-use super::separating_line::{Parting, parted_distance};
-use crate::geometry::{Placed, Point2, largest_coordinate};
+use super::separating_line::{SureParting, parted_distance};
+use crate::geometry::{Placed, Point2, Segment, largest_coordinate};
 use crate::num::{greater, lesser, sqrt, ulp};
 use std::cmp::Ordering;
-
-/// The nearest points of two placed shapes.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Nearest {
-    /// The distance, metres; exactly 0 on contact, and only then.
-    pub(crate) dist: f64,
-    /// The point of the first shape.
-    pub(crate) on_a: Point2,
-    /// The point of the second shape; on contact the same point.
-    pub(crate) on_b: Point2,
-}
 
 /// The nearest points of `a` and `b`, both valid.
 ///
@@ -38,10 +27,9 @@ pub(crate) fn nearest_within(a: &Placed, b: &Placed, limit: f64) -> Option<Neare
     nearest_apart(a, b, cores_distance(a.core(), b.core(), core_limit(a, b, limit))?)
 }
 
-/// As [`nearest_within`], for shapes whose cores a line certainly separates. `line` is that line, and what heights
-/// above it may be off by, metres.
-pub(crate) fn nearest_across(a: &Placed, b: &Placed, limit: f64, line: (&Parting, f64)) -> Option<Nearest> {
-    nearest_apart(a, b, parted_distance(a.core(), b.core(), core_limit(a, b, limit), line)?)
+/// As [`nearest_within`], for shapes whose cores a line certainly separates.
+pub(crate) fn nearest_across(a: &Placed, b: &Placed, limit: f64, parting: &SureParting) -> Option<Nearest> {
+    nearest_apart(a, b, parted_distance(a.core(), b.core(), core_limit(a, b, limit), parting)?)
 }
 
 /// The limit for the cores' distance: the limit for the shapes' distance plus the radii, and more than rounding.
@@ -49,8 +37,9 @@ fn core_limit(a: &Placed, b: &Placed, limit: f64) -> f64 {
     (limit + (a.radius() + b.radius())) * (1.0 + 1e-9) + 1e-9
 }
 
-/// The nearest points of two shapes whose cores are disjoint, given the distance and the nearest points of the cores.
-fn nearest_apart(a: &Placed, b: &Placed, (core_dist, foot_a, foot_b): (f64, Point2, Point2)) -> Option<Nearest> {
+/// The nearest points of two shapes whose cores are disjoint, given those of the cores.
+fn nearest_apart(a: &Placed, b: &Placed, cores: Nearest) -> Option<Nearest> {
+    let Nearest { dist: core_dist, on_a: foot_a, on_b: foot_b } = cores;
     let reach = a.radius() + b.radius();
     let core_dist = greater(core_dist, f64::MIN_POSITIVE); // disjoint, whatever was lost to underflow
     if reach == 0.0 {
@@ -106,7 +95,8 @@ fn decided_gap(a: &Placed, b: &Placed) -> Option<f64> {
 }
 
 /// How much farther than `reach` the point is from the segment; `None` when it is not farther.
-fn point_segment_gap(p: Point2, (a, b): (Point2, Point2), reach: Dd) -> Option<f64> {
+fn point_segment_gap(p: Point2, segment: Segment, reach: Dd) -> Option<f64> {
+    let Segment { a, b } = segment;
     let vector = |to: Point2, from: Point2| (Dd::difference(to.x, from.x), Dd::difference(to.y, from.y));
     let dot = |u: (Dd, Dd), v: (Dd, Dd)| u.0.mul(v.0).add(u.1.mul(v.1));
     let (u, from_a, from_b) = (vector(b, a), vector(p, a), vector(p, b));
@@ -144,7 +134,7 @@ pub(crate) fn depth(a: &Placed, b: &Placed) -> f64 {
     };
     let mut bound = 0.0;
     for (from, to) in [(a.core(), b.core()), (b.core(), a.core())] {
-        for (p, q) in edges(from) {
+        for Segment { a: p, b: q } in edges(from) {
             for weight in [0.0, 0.25, 0.5, 0.75] {
                 bound = greater(inside(p + (q - p) * weight, to), bound);
             }
@@ -154,7 +144,7 @@ pub(crate) fn depth(a: &Placed, b: &Placed) -> f64 {
     for p in edges(a.core()) {
         for q in edges(b.core()) {
             if segments_contact(p, q).is_some() {
-                let ends = [(p.0, q), (p.1, q), (q.0, p), (q.1, p)];
+                let ends = [(p.a, q), (p.b, q), (q.a, p), (q.b, p)];
                 let least = ends.iter().fold(f64::INFINITY, |d, (end, e)| lesser(point_segment(*end, *e).0, d));
                 bound = greater(least + radii, bound);
             }

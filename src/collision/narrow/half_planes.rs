@@ -1,7 +1,7 @@
 //! `Sides`, half-planes that hold a shape's core, for a lower bound on the distance to a piece.
 
 use super::convex::edges;
-use crate::geometry::{Placed, Point2};
+use crate::geometry::{Placed, Point2, Segment, Vector2};
 use crate::num::{greater, sqrt};
 
 /// Largest number of half-planes about a shape.
@@ -24,16 +24,16 @@ impl Sides {
         if core.len() < 2 {
             return sides;
         }
-        for (a, b) in edges(core).take(SIDES) {
+        for Segment { a, b } in edges(core).take(SIDES) {
             let u = b - a;
             let inverse = 1.0 / sqrt(u.norm_squared());
             let (ux, uy) = (u.x * inverse, u.y * inverse);
             if core.len() > 2 {
-                sides.push(core, (uy, -ux));
+                sides.push(core, Vector2::new(uy, -ux));
             } else {
                 // for a segment both sides and both ends
-                for normal in [(uy, -ux), (-uy, ux), (ux, uy), (-ux, -uy)] {
-                    sides.push(core, normal);
+                for (nx, ny) in [(uy, -ux), (-uy, ux), (ux, uy), (-ux, -uy)] {
+                    sides.push(core, Vector2::new(nx, ny));
                 }
             }
         }
@@ -41,7 +41,8 @@ impl Sides {
     }
 
     /// Adds the smallest half-plane with this outward normal that holds the core.
-    fn push(&mut self, core: &[Point2], (nx, ny): (f64, f64)) {
+    fn push(&mut self, core: &[Point2], normal: Vector2) {
+        let (nx, ny) = (normal.x, normal.y);
         let out = core.iter().fold(f64::NEG_INFINITY, |out, v| greater(nx * v.x + ny * v.y, out));
         (self.nx[self.count], self.ny[self.count], self.out[self.count]) = (nx, ny, out);
         self.count += 1;

@@ -1,10 +1,10 @@
 //! `Search`, the nearest piece to a shape.
 
-use super::convex::plainly_overlap;
-use super::distance::{Nearest, nearest_across};
+use super::convex::{Nearest, plainly_overlap};
+use super::distance::nearest_across;
 use super::half_planes::Sides;
 use super::pair::pair_within;
-use super::separating_line::Parting;
+use super::separating_line::{Parting, SureParting};
 use crate::geometry::{Aabb, Placed};
 
 /// A search under way for the piece nearest to a shape, the first in file order among equals.
@@ -57,12 +57,12 @@ impl<'a> Search<'a> {
     pub(crate) fn look_for_distance(&mut self, piece: usize) -> f64 {
         let (other, least) = (&self.pieces[piece], self.least());
         let found = match self.parting(other) {
-            Some((line, rounding)) => {
-                let gap = line.gap - (self.shape.radius() + other.radius());
-                if gap > least * (1.0 + 1e-12) + rounding {
+            Some(parting) => {
+                let gap = parting.line.gap - (self.shape.radius() + other.radius());
+                if gap > least * (1.0 + 1e-12) + parting.slack {
                     return least;
                 }
-                nearest_across(self.shape, other, least, (&line, rounding))
+                nearest_across(self.shape, other, least, &parting)
             }
             None if plainly_overlap(self.shape.core(), other.core()) => return 0.0,
             None => pair_within(self.shape, other, least),
@@ -70,16 +70,16 @@ impl<'a> Search<'a> {
         self.take(piece, found)
     }
 
-    /// A line that certainly separates the cores of the shape and of a piece, and what a height above it may be off by,
-    /// metres. `None` where there is none, or where direct measurement is faster.
-    fn parting(&self, other: &Placed) -> Option<(Parting, f64)> {
+    /// A line that certainly separates the cores of the shape and of a piece. `None` where there is none, or where
+    /// direct measurement is faster.
+    fn parting(&self, other: &Placed) -> Option<SureParting> {
         // for a point or a segment, the first piece is measured faster without a line
         if self.shape.core().len() <= 2 && self.least() == f64::INFINITY {
             return None;
         }
-        let rounding = 64.0 * f64::EPSILON * (self.size + self.shape.radius() + other.radius());
-        let parting = Parting::of(self.shape.core(), other.core())?;
-        (parting.gap > 1e-12 * parting.gap + rounding).then_some((parting, rounding))
+        let slack = 64.0 * f64::EPSILON * (self.size + self.shape.radius() + other.radius());
+        let line = Parting::of(self.shape.core(), other.core())?;
+        (line.gap > 1e-12 * line.gap + slack).then_some(SureParting { line, slack })
     }
 
     /// Keeps a piece if it is the nearest so far, or as near and before it in file order. Returns the least distance so

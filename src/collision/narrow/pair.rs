@@ -1,7 +1,8 @@
 //! Two placed shapes, such as a part of a footprint and a piece of a scene, also where one of them is not valid.
 
+use super::convex::Nearest;
 use super::distance as narrow;
-use super::distance::{Nearest, nearest, nearest_within};
+use super::distance::{nearest, nearest_within};
 use crate::geometry::{Footprint, Placed};
 use crate::num::lesser;
 

@@ -1,8 +1,8 @@
 //! `Parting`, a separating line between two cores. It gives a lower bound on their distance, and shows which vertices
 //! and edges are too far apart to matter.
 
-use super::convex::{Closest, between_vertices, cores_distance, edges};
-use crate::geometry::{Point2, Vector2};
+use super::convex::{Closest, Nearest, between_vertices, cores_distance, edges};
+use crate::geometry::{Point2, Segment, Vector2};
 use crate::num::{greater, lesser, sqrt};
 
 /// A separating line through a side of one of two cores: all of the first core lies behind it, all of the second ahead.
@@ -13,6 +13,15 @@ pub(crate) struct Parting {
     normal: Vector2,
     /// The distance of the two cores along the normal, metres; rounded.
     pub(crate) gap: f64,
+}
+
+/// A separating line that rounding leaves no doubt about.
+#[derive(Clone, Copy)]
+pub(crate) struct SureParting {
+    /// The line.
+    pub(crate) line: Parting,
+    /// What a height above the line may be off by, metres.
+    pub(crate) slack: f64,
 }
 
 impl Parting {
@@ -51,7 +60,7 @@ impl Parting {
                 offer(at, ahead);
             }
         } else if a.len() > 2 {
-            for (p, q) in edges(a) {
+            for Segment { a: p, b: q } in edges(a) {
                 let u = q - p;
                 offer(p, Vector2::new(u.y, -u.x));
             }
@@ -67,15 +76,10 @@ impl Parting {
 /// Largest number of vertices with cached heights.
 const HEIGHTS: usize = 16;
 
-/// As [`cores_distance`], for cores that `line` certainly separates; heights above it may be off by `slack` metres.
-/// Vertices and edges that their heights prove too far apart are passed over. The result has the same bits, because
-/// none of those can be nearest.
-pub(crate) fn parted_distance(
-    a: &[Point2],
-    b: &[Point2],
-    limit: f64,
-    (line, slack): (&Parting, f64),
-) -> Option<(f64, Point2, Point2)> {
+/// As [`cores_distance`], for cores that a line certainly separates. Vertices and edges that their heights above it
+/// prove too far apart are passed over. The result has the same bits, because none of those can be nearest.
+pub(crate) fn parted_distance(a: &[Point2], b: &[Point2], limit: f64, parting: &SureParting) -> Option<Nearest> {
+    let (line, slack) = (&parting.line, parting.slack);
     if a.len() > HEIGHTS || b.len() > HEIGHTS {
         return cores_distance(a, b, limit);
     }
@@ -144,10 +148,10 @@ mod tests {
             assert!(!contact, "{a:?} {b:?}");
             parted += 1;
             let exact = cores_distance(&a, &b, f64::INFINITY);
-            let distance = exact.unwrap().0;
+            let distance = exact.unwrap().dist;
             assert!(line.gap <= distance * (1.0 + 1e-12), "{a:?} {b:?}");
             for limit in [f64::INFINITY, 1.5 * distance, 0.5 * distance] {
-                let across = parted_distance(&a, &b, limit, (&line, 1e-12));
+                let across = parted_distance(&a, &b, limit, &SureParting { line, slack: 1e-12 });
                 assert_eq!(across, cores_distance(&a, &b, limit), "{a:?} {b:?} within {limit}");
             }
         }

@@ -31,15 +31,12 @@ mod assignment;
 mod attempt;
 mod error;
 
-use std::iter::once;
-use std::slice::from_ref;
-
 pub use assignment::{Assignment, AssignmentFile, Goal, Limits};
 pub use attempt::{Attempt, Verdict};
 pub use error::{AssignmentError, AssignmentProblem, MAX_SEEDS};
 
-use super::{Recorder, RunError};
-use crate::run::{Divergence, Log, RobotInput, Script, ScriptError, first_divergence};
+use super::{RunError, verify};
+use crate::run::{Divergence, Log, RobotInput, Script, ScriptError};
 
 /// The work handed in.
 #[derive(Clone, Debug, PartialEq)]
@@ -127,14 +124,9 @@ impl Assignment {
     }
 }
 
-/// The first value in a log's frames that differs from the run of its seed, configuration and script.
+/// The first value in a log's frames that differs from the run of its seed, configuration and script: `found` in the log,
+/// `expected` by the run.
 fn forgery(log: &Log) -> Result<Option<Divergence>, RunError> {
-    let mut run = Recorder::new(log.config.clone(), (log.seed, log.script.clone()))?;
-    for (tick, claimed) in (0..).zip(once(&log.initial).chain(&log.frames)) {
-        let frame = if tick == 0 { run.frame() } else { run.step() };
-        if let Some(divergence) = first_divergence(from_ref(frame), from_ref(claimed)) {
-            return Ok(Some(divergence));
-        }
-    }
-    Ok(None)
+    let divergence = verify(log, |_| {})?.divergence;
+    Ok(divergence.map(|d| Divergence { expected: d.found, found: d.expected, ..d }))
 }

@@ -7,7 +7,7 @@ use crate::run::{Event, RobotInput, Script};
 use crate::simulation::{ResidesIn, RobotId, RobotName, RobotOps, Roster, Transport};
 
 /// An input to a robot, as a message from its driver. It applies before the next tick's step.
-#[derive(Message, Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct RobotCommand {
     /// The robot's name.
     pub robot: String,

@@ -6,9 +6,9 @@ use bevy_egui::egui::{CollapsingHeader, ComboBox, RichText, ScrollArea, Slider, 
 
 use crate::anatomy::{Anatomy, Guess, Prompt, Tab, WorldSource};
 use crate::configuration::Configuration;
-use crate::manifest::widget;
+use crate::manifest::Widget;
 use crate::picture::Role;
-use crate::ui::paint::button::button;
+use crate::ui::paint::button::LabButton;
 use crate::ui::paint::sheet::{sheet, split};
 use crate::ui::{AnatomyState, Command, Dashboard, Look, UiState};
 use crate::worlds::World;
@@ -20,21 +20,16 @@ const SIDE: f32 = 380.0;
 const INSET: f32 = 230.0;
 
 /// Shows the widget.
-pub fn anatomy_view(
-    ui: &mut Ui,
-    model: &Dashboard,
-    (narrow, look): (bool, &Look),
-    state: &mut UiState,
-    commands: &mut Vec<Command>,
-) {
-    let Some(words) = widget("anatomy") else { return };
-    crate::ui::tools::head(ui, words, model, (narrow, look), state, commands);
+pub fn anatomy_view(ui: &mut Ui, model: &Dashboard, look: &Look, state: &mut UiState, commands: &mut Vec<Command>) {
+    let narrow = look.narrow;
+    let words = Widget::Anatomy.text();
+    crate::ui::tools::head(ui, words, model, look, state, commands);
     let room = ui.available_rect_before_wrap();
     let (paper, beside) = split(room, narrow, SIDE);
     let shown = &state.anatomy;
     let (backdrop, overlay) = (Arc::clone(&shown.backdrop), shown.anatomy.overlay());
     let spoken = shown.anatomy.described();
-    let on = sheet(ui, (paper, spoken), &backdrop, &overlay, look, state);
+    let on = sheet(ui, paper, spoken, &backdrop, &overlay, look, state);
     if let Some(to) = on.held().filter(|_| on.response.dragged() || on.response.clicked()) {
         state.anatomy.anatomy.drag(to);
     }
@@ -47,7 +42,7 @@ pub fn anatomy_view(
 fn beside_the_paper(ui: &mut Ui, narrow: bool, look: &Look, state: &mut UiState) {
     ui.horizontal(|ui| {
         for tab in Tab::ALL {
-            if button(ui, tab.name(), 0.0, (true, state.anatomy.anatomy.tab == tab), look).clicked() {
+            if LabButton::new(tab.name()).selected(state.anatomy.anatomy.tab == tab).show(ui, look).clicked() {
                 state.anatomy.anatomy.tab = tab;
             }
         }
@@ -71,14 +66,14 @@ fn beside_the_paper(ui: &mut Ui, narrow: bool, look: &Look, state: &mut UiState)
     }
     CollapsingHeader::new("Guess first").default_open(!narrow).show(ui, |ui| prompts(ui, state));
     ui.horizontal(|ui| {
-        if button(ui, "Copy as Rust", 0.0, (true, false), look).clicked() {
+        if LabButton::new("Copy as Rust").show(ui, look).clicked() {
             ui.ctx().copy_text(state.anatomy.anatomy.copy_as_rust());
         }
         let command = state.anatomy.anatomy.copy_as_command();
-        if button(ui, "Copy as command", 0.0, (command.is_some(), false), look).clicked() {
+        if LabButton::new("Copy as command").enabled(command.is_some()).show(ui, look).clicked() {
             ui.ctx().copy_text(command.unwrap_or_default());
         }
-        if button(ui, "Reset", 0.0, (true, false), look).clicked() {
+        if LabButton::new("Reset").show(ui, look).clicked() {
             state.anatomy = AnatomyState::default();
         }
     });

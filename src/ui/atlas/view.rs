@@ -5,10 +5,10 @@ use bevy_egui::egui::{ComboBox, Key, RichText, ScrollArea, Slider, TextEdit, Ui,
 use super::state::{AtlasState, Mode};
 use crate::atlas::{EditShape, Op};
 use crate::geometry::{Point2, Pose2};
-use crate::manifest::widget;
+use crate::manifest::Widget;
 use crate::picture::{Picture, Role, ScreenPoint, pick};
 use crate::ui::keys::{Action, hint};
-use crate::ui::paint::button::button;
+use crate::ui::paint::button::LabButton;
 use crate::ui::paint::sheet::{Sheet, sheet, split};
 use crate::ui::{Command, Dashboard, Look, SessionCommand, UiState, readout};
 use crate::worlds::World;
@@ -20,15 +20,10 @@ const SIDE: f32 = 300.0;
 const DRAGGED: f64 = 8.0;
 
 /// Shows the widget.
-pub fn atlas_view(
-    ui: &mut Ui,
-    model: &Dashboard,
-    (narrow, look): (bool, &Look),
-    state: &mut UiState,
-    commands: &mut Vec<Command>,
-) {
-    let Some(words) = widget("atlas") else { return };
-    crate::ui::tools::head(ui, words, model, (narrow, look), state, commands);
+pub fn atlas_view(ui: &mut Ui, model: &Dashboard, look: &Look, state: &mut UiState, commands: &mut Vec<Command>) {
+    let narrow = look.narrow;
+    let words = Widget::Atlas.text();
+    crate::ui::tools::head(ui, words, model, look, state, commands);
     let room = ui.available_rect_before_wrap();
     let (paper, beside) = split(room, narrow, SIDE);
     let still = state.atlas.still();
@@ -42,7 +37,7 @@ pub fn atlas_view(
     moving.items.extend(state.atlas.probe_items(at));
     let spoken = state.atlas.described();
     let pointed = state.pointed;
-    let on = sheet(ui, (paper, spoken), &still, &moving, look, state);
+    let on = sheet(ui, paper, spoken, &still, &moving, look, state);
     if state.atlas.mode == Mode::Measure {
         // the pointer is always on the thing measured, which must not light a role
         state.pointed = pointed;
@@ -140,16 +135,16 @@ fn beside_the_paper(ui: &mut Ui, look: &Look, state: &mut UiState, commands: &mu
             current_text_value: Some(present.clone()),
             ..WidgetInfo::labeled(WidgetType::ComboBox, true, "world")
         });
-        if button(ui, "Open", 0.0, (true, false), look).clicked() {
+        if LabButton::new("Open").show(ui, look).clicked() {
             commands.push(Command::Session(SessionCommand::OpenWorld));
         }
-        if button(ui, "Save as", 0.0, (true, false), look).clicked() {
+        if LabButton::new("Save as").show(ui, look).clicked() {
             commands.push(Command::Session(SessionCommand::SaveWorld));
         }
     });
     ui.horizontal(|ui| {
         for (mode, name) in [(Mode::Put, "Put the robot"), (Mode::Measure, "Measure"), (Mode::Edit, "Edit")] {
-            if button(ui, name, 0.0, (true, state.atlas.mode == mode), look).clicked() {
+            if LabButton::new(name).selected(state.atlas.mode == mode).show(ui, look).clicked() {
                 state.atlas.mode = mode;
             }
         }
@@ -161,7 +156,7 @@ fn beside_the_paper(ui: &mut Ui, look: &Look, state: &mut UiState, commands: &mu
         Mode::Edit => edit_panel(ui, look, state),
     }
     ui.add_space(8.0);
-    if button(ui, "Run this world", 0.0, (true, false), look).on_hover_text("A new run in the dashboard").clicked() {
+    if LabButton::new("Run this world").show(ui, look).on_hover_text("A new run in the dashboard").clicked() {
         commands.push(Command::Session(SessionCommand::RunWorld));
     }
 }
@@ -214,12 +209,12 @@ fn edit_panel(ui: &mut Ui, look: &Look, state: &mut UiState) {
             ("mark", EditShape::Mark(vec![corner(-2.0, 0.0), corner(2.0, 0.0)])),
         ];
         for (kind, shape) in shapes {
-            if button(ui, &format!("Add {kind}"), 0.0, (true, false), look).clicked() {
+            if LabButton::new(&format!("Add {kind}")).show(ui, look).clicked() {
                 let name = atlas.free_name(kind);
                 atlas.change(&Op::Add { name: name.clone(), shape }, Some(name));
             }
         }
-        if button(ui, "Add place", 0.0, (true, false), look).clicked() {
+        if LabButton::new("Add place").show(ui, look).clicked() {
             let name = atlas.free_name("place");
             let pose = Pose2 { x: middle.x, y: middle.y, theta: 0.0 };
             atlas.change(&Op::AddPlace { name: name.clone(), pose }, Some(name));
@@ -234,17 +229,17 @@ fn edit_panel(ui: &mut Ui, look: &Look, state: &mut UiState) {
                 let to = atlas.name_text.trim().to_owned();
                 atlas.change(&Op::Rename { name: selected.clone(), to: to.clone() }, Some(to));
             }
-            if button(ui, "Delete", 0.0, (true, false), look).clicked() {
+            if LabButton::new("Delete").show(ui, look).clicked() {
                 atlas.change(&Op::Delete { name: selected.clone() }, None);
             }
         });
     }
     ui.horizontal(|ui| {
         let [back, again] = atlas.can_undo();
-        if button(ui, "Undo", 0.0, (back, false), look).on_hover_text(hint(Action::Undo)).clicked() {
+        if LabButton::new("Undo").enabled(back).show(ui, look).on_hover_text(hint(Action::Undo)).clicked() {
             atlas.undo(true);
         }
-        if button(ui, "Redo", 0.0, (again, false), look).on_hover_text(hint(Action::Redo)).clicked() {
+        if LabButton::new("Redo").enabled(again).show(ui, look).on_hover_text(hint(Action::Redo)).clicked() {
             atlas.undo(false);
         }
     });

@@ -6,7 +6,7 @@ use bevy_egui::egui::{Rect, RichText, ScrollArea, Ui, pos2, vec2};
 
 use crate::anatomy::Tab;
 use crate::cspace::{Overlay, overlay_items};
-use crate::manifest::widget;
+use crate::manifest::Widget;
 use crate::num::wrap;
 use crate::picture::{Picture, Role, footprint};
 use crate::robots::Robot;
@@ -18,15 +18,10 @@ use crate::ui::{Command, Dashboard, Look, UiState, readout};
 const TRACE: usize = 2000;
 
 /// Shows the widget.
-pub fn cspace_view(
-    ui: &mut Ui,
-    model: &Dashboard,
-    (narrow, look): (bool, &Look),
-    state: &mut UiState,
-    commands: &mut Vec<Command>,
-) {
-    let Some(words) = widget("cspace") else { return };
-    crate::ui::tools::head(ui, words, model, (narrow, look), state, commands);
+pub fn cspace_view(ui: &mut Ui, model: &Dashboard, look: &Look, state: &mut UiState, commands: &mut Vec<Command>) {
+    let narrow = look.narrow;
+    let words = Widget::Cspace.text();
+    crate::ui::tools::head(ui, words, model, look, state, commands);
     let anatomy = state.anatomy.anatomy.clone();
     if state.cspace.refine(&anatomy) {
         ui.ctx().request_repaint();
@@ -97,7 +92,7 @@ fn workspace(ui: &mut Ui, paper: Rect, look: &Look, state: &mut UiState) {
         overlay.items.extend(footprint("other", "the other arm with this tip", &shape, Role::Robot, 0.3));
     }
     let spoken = format!("workspace. {}", state.anatomy.anatomy.described());
-    let on = sheet(ui, (paper, spoken), &still, &overlay, look, state);
+    let on = sheet(ui, paper, spoken, &still, &overlay, look, state);
     if let Some(to) = on.held().filter(|_| on.response.dragged() || on.response.clicked()) {
         state.anatomy.anatomy.drag(to);
         remember(state);
@@ -118,7 +113,7 @@ fn space(ui: &mut Ui, paper: Rect, look: &Look, state: &mut UiState) {
     };
     let moving = Picture::new(still.name.clone(), still.bounds).with(overlay_items(&slice, &overlay));
     let spoken = format!("configuration space. The robot is the point {}", anatomy.q());
-    let on = sheet(ui, (paper, spoken), &still, &moving, look, state);
+    let on = sheet(ui, paper, spoken, &still, &moving, look, state);
     if let Some(to) = on.held().filter(|_| on.response.dragged() || on.response.clicked()) {
         let (min, max) = (slice.min(), slice.max());
         // on a torus the way beyond an edge goes on at the opposite one

@@ -33,9 +33,9 @@ pub fn drive(ui: &Ui, model: &Dashboard, state: &mut UiState, commands: &mut Vec
         return;
     }
     if state.held == (0, 0) {
-        commands.push(Command::Transport(TransportCommand::Checkpoint));
+        commands.push(Command::from(TransportCommand::Checkpoint));
         if !model.playing {
-            commands.push(Command::Transport(TransportCommand::Play));
+            commands.push(Command::from(TransportCommand::Play));
         }
     }
     hold(robot, wanted, state, commands);
@@ -52,5 +52,5 @@ pub fn let_go(state: &mut UiState, commands: &mut Vec<Command>) {
 fn hold(robot: String, channels: (i16, i16), state: &mut UiState, commands: &mut Vec<Command>) {
     state.held = channels;
     let input = RobotInput::Drive(channels.0, channels.1);
-    commands.push(Command::Robot(RobotCommand { robot, input }));
+    commands.push(Command::from(RobotCommand { robot, input }));
 }

@@ -34,19 +34,20 @@ fn angles(robot: &CockpitRobot) -> &Coordinates {
 fn move_to(robot: &CockpitRobot, to: &[f64], commands: &mut Vec<Command>) {
     let target: Option<Vec<Quantized>> = to.iter().map(|angle| Quantized::try_new(*angle)).collect();
     if let Some(target) = target.filter(|_| *to != angles(robot)[..]) {
-        commands.push(Command::Robot(RobotCommand { robot: robot.name.clone(), input: RobotInput::MoveTo(target) }));
+        commands.push(Command::from(RobotCommand { robot: robot.name.clone(), input: RobotInput::MoveTo(target) }));
     }
 }
 
 fn checkpoint(commands: &mut Vec<Command>) {
-    commands.push(Command::Transport(TransportCommand::Checkpoint));
+    commands.push(Command::from(TransportCommand::Checkpoint));
 }
 
 /// Shows the handles of an arm over its paper; while the arm is on its way to a target, also the arm there.
 pub fn handles(
     ui: &mut Ui,
     robot: &CockpitRobot,
-    (paper, fit): (Rect, &Fit),
+    paper: Rect,
+    fit: &Fit,
     look: &Look,
     state: &mut UiState,
     commands: &mut Vec<Command>,
@@ -59,9 +60,9 @@ pub fn handles(
         let ghost = footprint("target", "where the arm is going", &going, Role::Robot, 0.3);
         canvas::paint(&painter, &over(ghost), fit, look);
     }
-    let links = points.len().saturating_sub(1);
-    for link in 0..links {
-        state.nudging |= handle(ui, robot, (link, links), &points, (&painter, fit), look, commands);
+    let on = Paper { painter, fit };
+    for link in 0..points.len().saturating_sub(1) {
+        state.nudging |= handle(ui, robot, link, &points, &on, look, commands);
     }
 }
 
@@ -70,16 +71,23 @@ fn over(items: Vec<Item>) -> Picture {
     Picture::new("handles", anywhere).with(items)
 }
 
+/// The paper that the handles lie on.
+struct Paper<'a> {
+    painter: Painter,
+    fit: &'a Fit,
+}
+
 /// Shows one handle, with its circle while it is held or pointed at. Returns whether it has the focus.
 fn handle(
     ui: &mut Ui,
     robot: &CockpitRobot,
-    (link, links): (usize, usize),
+    link: usize,
     points: &[Point2],
-    (painter, fit): (&Painter, &Fit),
+    on: &Paper,
     look: &Look,
     commands: &mut Vec<Command>,
 ) -> bool {
+    let (Paper { painter, fit }, links) = (on, points.len() - 1);
     let name = handle_name(link, links);
     let [x, y] = fit.screen_from_world(points[link + 1]);
     let at = pos2(x as f32, y as f32);

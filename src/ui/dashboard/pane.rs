@@ -70,7 +70,7 @@ pub fn pane(ui: &mut Ui, cockpit: &Cockpit, rect: Rect, look: &Look, state: &mut
         in_hand(ui, robot, paper, look, state);
     }
     for robot in cockpit.robots.iter().filter(|r| r.is_arm) {
-        handles::handles(ui, robot, (paper, &fit), look, state, commands);
+        handles::handles(ui, robot, paper, &fit, look, state, commands);
     }
     // with a mouse, Esc lets go; a finger has no Esc, so a second tap does
     if response.clicked() && (armed.is_none() || touched(ui)) {
@@ -206,8 +206,8 @@ fn links(ui: &mut Ui, robot: &CockpitRobot, state: &mut UiState, commands: &mut 
     ui.horizontal_wrapped(|ui| {
         ui.style_mut().wrap_mode = Some(TextWrapMode::Extend);
         let mut put_in = |input| {
-            commands.push(Command::Transport(TransportCommand::Checkpoint));
-            commands.push(Command::Robot(RobotCommand { robot: robot.name.clone(), input }));
+            commands.push(Command::from(TransportCommand::Checkpoint));
+            commands.push(Command::from(RobotCommand { robot: robot.name.clone(), input }));
         };
         if let Some(why) = &robot.no_room {
             ui.weak(format!("no room for a trailer: {why}"));

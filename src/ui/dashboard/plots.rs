@@ -178,7 +178,7 @@ fn plot(
     if let Some(seconds) = response.inner.filter(|_| pressed) {
         let tick = (seconds.clamp(0.0, end) / DT).round() as u64;
         if tick != model.tick {
-            commands.push(Command::Transport(TransportCommand::Seek(tick.min(model.frontier))));
+            commands.push(Command::from(TransportCommand::Seek(tick.min(model.frontier))));
         }
     }
 }

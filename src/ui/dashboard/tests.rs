@@ -11,7 +11,7 @@ use crate::picture::{Picture, Role, Theme};
 use crate::random::Seed;
 use crate::robots::{HITCH, RUSTY, Reach, Robot};
 use crate::run::RobotInput;
-use crate::simulation::{History, RobotCommand, TransportCommand};
+use crate::simulation::{History, RobotCommand, RunCommand, TransportCommand};
 use crate::ui::{Cockpit, CockpitRobot, Command, Dashboard, ThemeChoice, UiState, lab};
 use crate::worlds::World;
 
@@ -169,7 +169,7 @@ fn a_wide_screen_shows_all_cockpits_and_a_narrow_one_the_chosen() {
 fn buttons_and_the_space_bar_send_what_they_say() {
     let space =
         Event::Key { key: Key::Space, physical_key: None, pressed: true, repeat: false, modifiers: Modifiers::NONE };
-    let sent = |command| [Command::Transport(command)];
+    let sent = |command| [Command::from(command)];
     let (playing, paused) = (model(), Dashboard { playing: false, ..model() });
     let mut screen = Screen::new(WIDE, &playing);
     assert_eq!(screen.frame(&playing, vec![space.clone()]), sent(TransportCommand::Pause));
@@ -199,7 +199,7 @@ fn a_seed_is_typed_in_and_what_is_none_is_put_back() {
         let back = screen.texts().iter().any(|(t, _)| t == "2005");
         (commands, back, screen.state.notice.map(|n| n.text))
     };
-    assert_eq!(typed("77"), (vec![Command::Transport(TransportCommand::SetSeed(Seed(77)))], true, None));
+    assert_eq!(typed("77"), (vec![Command::from(TransportCommand::SetSeed(Seed(77)))], true, None));
     let refused = "seed a cat: it must be a whole number, at most 18446744073709551615";
     assert_eq!(typed("a cat"), (vec![], true, Some(refused.into())));
 }
@@ -234,7 +234,7 @@ fn contact_shows_in_the_goals_red() {
 #[test]
 fn arrow_keys_and_buttons_move_through_time() {
     let press = |key| Event::Key { key, physical_key: None, pressed: true, repeat: false, modifiers: Modifiers::NONE };
-    let sent = |command| [Command::Transport(command)];
+    let sent = |command| [Command::from(command)];
     let paused = Dashboard { playing: false, tick: 600, ..model() };
     let mut screen = Screen::new(WIDE, &paused);
     assert_eq!(screen.frame(&paused, vec![press(Key::ArrowLeft)]), sent(TransportCommand::StepBack));
@@ -257,7 +257,9 @@ fn the_time_line_goes_to_the_tick_that_is_pointed_at() {
             |pressed| Event::PointerButton { pos, button: PointerButton::Primary, pressed, modifiers: Modifiers::NONE };
         let mut commands = screen.frame(&paused, vec![Event::PointerMoved(pos), button(true)]);
         commands.extend(screen.frame(&paused, vec![button(false)]));
-        let [Command::Transport(TransportCommand::Seek(tick)), ..] = commands[..] else { panic!("{commands:?}") };
+        let [Command::Run(RunCommand::Transport(TransportCommand::Seek(tick))), ..] = commands[..] else {
+            panic!("{commands:?}")
+        };
         assert!(tick.abs_diff(600) <= 20, "the middle of 1200 ticks, not {tick}");
     }
     // before the first tick there is nowhere to go
@@ -278,7 +280,7 @@ fn a_speed_is_chosen_from_its_list() {
     for _ in 0..3 {
         screen.frame(&model(), vec![]);
     }
-    assert_eq!(screen.click(&model(), "16 x"), [Command::Transport(TransportCommand::SetSpeed(16.0))]);
+    assert_eq!(screen.click(&model(), "16 x"), [Command::from(TransportCommand::SetSpeed(16.0))]);
     let fast = Dashboard { speed: 16.0, ..model() };
     screen.frame(&fast, vec![]);
     assert!(screen.texts().iter().any(|(text, _)| text == "16 x"));
@@ -287,7 +289,7 @@ fn a_speed_is_chosen_from_its_list() {
 #[test]
 fn a_clicked_pane_is_driven_by_the_arrow_keys_until_esc() {
     let key = |key, pressed| Event::Key { key, physical_key: None, pressed, repeat: false, modifiers: Modifiers::NONE };
-    let told = |a, b| [Command::Robot(RobotCommand { robot: "Rusty".into(), input: RobotInput::Drive(a, b) })];
+    let told = |a, b| [Command::from(RobotCommand { robot: "Rusty".into(), input: RobotInput::Drive(a, b) })];
     let model = model();
     let mut screen = Screen::new(WIDE, &model);
     let pos = pos2(150.0, 200.0); // on the first paper
@@ -298,7 +300,7 @@ fn a_clicked_pane_is_driven_by_the_arrow_keys_until_esc() {
     assert_eq!(screen.state.armed.as_deref(), Some("Rusty"));
     screen.frame(&model, vec![]);
     assert!(screen.texts().iter().any(|(text, _)| text == "arrows drive, Esc lets go"));
-    let checkpoint = Command::Transport(TransportCommand::Checkpoint);
+    let checkpoint = Command::from(TransportCommand::Checkpoint);
     let first = screen.frame(&model, vec![key(Key::ArrowUp, true)]);
     assert_eq!((&first[0], &first[1..]), (&checkpoint, &told(128, 0)[..]), "what follows can be undone");
     assert_eq!(screen.frame(&model, vec![]), [], "held: nothing changes");
@@ -307,15 +309,15 @@ fn a_clicked_pane_is_driven_by_the_arrow_keys_until_esc() {
     assert_eq!(screen.frame(&model, vec![key(Key::Escape, true)]), told(0, 0), "it does not drive on by itself");
     assert_eq!(screen.state.armed, None);
     screen.frame(&model, vec![key(Key::ArrowRight, false), key(Key::Escape, false)]);
-    let step = [Command::Transport(TransportCommand::StepBack)];
+    let step = [Command::from(TransportCommand::StepBack)];
     assert_eq!(screen.frame(&model, vec![key(Key::ArrowLeft, true)]), step, "the keys move through time again");
 }
 
 #[test]
 fn an_arm_is_not_armed_and_links_release_and_couple() {
     let sent = |robot: &str, input| {
-        let checkpoint = Command::Transport(TransportCommand::Checkpoint);
-        [checkpoint, Command::Robot(RobotCommand { robot: robot.into(), input })]
+        let checkpoint = Command::from(TransportCommand::Checkpoint);
+        [checkpoint, Command::from(RobotCommand { robot: robot.into(), input })]
     };
     let mut model = model();
     model.cockpits[0].robots[0].drivable = false;

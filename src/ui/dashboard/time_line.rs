@@ -21,9 +21,9 @@ pub fn time_line(ui: &mut Ui, model: &Dashboard, history: &History, look: &Look,
     // the slider's handle keeps off the ends by its radius
     let radius = response.rect.height() / 2.5;
     let across = Rect::from_x_y_ranges(strip.x_range().shrink(radius), strip.y_range());
-    marks(ui, model, history.marks(), (across, end), look, commands);
+    marks(ui, model, history.marks(), across, end, look, commands);
     if response.changed() && tick != model.tick {
-        commands.push(Command::Transport(TransportCommand::Seek(tick.min(end))));
+        commands.push(Command::from(TransportCommand::Seek(tick.min(end))));
     }
 }
 
@@ -33,7 +33,8 @@ fn marks(
     ui: &mut Ui,
     model: &Dashboard,
     marks: &[TickMark],
-    (strip, end): (Rect, u64),
+    strip: Rect,
+    end: u64,
     look: &Look,
     commands: &mut Vec<Command>,
 ) {
@@ -77,7 +78,7 @@ fn marks(
             Happening::Takeover => format!("tick {}: {name} is taken over", mark.tick),
         };
         if response.clicked() {
-            commands.push(Command::Transport(TransportCommand::Seek(mark.tick)));
+            commands.push(Command::from(TransportCommand::Seek(mark.tick)));
         }
         response.on_hover_text(words);
     }

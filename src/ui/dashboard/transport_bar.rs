@@ -8,7 +8,7 @@ use crate::random::Seed;
 use crate::run::DT;
 use crate::simulation::{History, TransportCommand};
 use crate::ui::keys::{Action, hint};
-use crate::ui::paint::button::button;
+use crate::ui::paint::button::LabButton;
 use crate::ui::{Command, Dashboard, Look, Notice, UiState};
 
 /// The speeds to choose from, simulated seconds per second of the clock.
@@ -46,7 +46,7 @@ pub fn act(action: Action, model: &Dashboard, commands: &mut Vec<Command>) {
         Action::ReRoll => Some(TransportCommand::ReRoll),
         _ => None,
     };
-    commands.extend(command.map(Command::Transport));
+    commands.extend(command.map(Command::from));
 }
 
 /// Width below which the bar takes two rows and a menu, points.
@@ -60,10 +60,11 @@ pub fn transport_bar(
     ui: &mut Ui,
     model: &Dashboard,
     history: &History,
-    (narrow, look): (bool, &Look),
+    look: &Look,
     state: &mut UiState,
     commands: &mut Vec<Command>,
 ) {
+    let narrow = look.narrow;
     time_line(ui, model, history, look, commands);
     if narrow || ui.available_width() < ONE_ROW {
         ui.spacing_mut().button_padding.x = 7.0;
@@ -112,7 +113,14 @@ fn buttons(ui: &mut Ui, model: &Dashboard, look: &Look, buttons: &[(&str, Action
             _ => true,
         };
         let on = action == Action::Loop && model.looping;
-        if button(ui, label, width, (enabled, on), look).on_hover_text(hint(action)).clicked() {
+        if LabButton::new(label)
+            .width(width)
+            .enabled(enabled)
+            .selected(on)
+            .show(ui, look)
+            .on_hover_text(hint(action))
+            .clicked()
+        {
             act(action, model, commands);
         }
     }
@@ -125,7 +133,7 @@ fn speed_choice(ui: &mut Ui, model: &Dashboard, commands: &mut Vec<Command>) {
     let choice = ComboBox::from_id_salt("speed").width(64.0).height(440.0).selected_text(selected).show_ui(ui, |ui| {
         for (speed, name) in SPEEDS {
             if ui.selectable_label(speed == model.speed, name).clicked() {
-                commands.push(Command::Transport(TransportCommand::SetSpeed(speed)));
+                commands.push(Command::from(TransportCommand::SetSpeed(speed)));
             }
         }
     });
@@ -143,7 +151,7 @@ fn speed_choice(ui: &mut Ui, model: &Dashboard, commands: &mut Vec<Command>) {
 /// Shows the seed, and at the right end the time.
 fn seed_and_time(ui: &mut Ui, model: &Dashboard, look: &Look, state: &mut UiState, commands: &mut Vec<Command>) {
     if let Some(seed) = seed_field(ui, model.seed, state) {
-        commands.push(Command::Transport(TransportCommand::SetSeed(seed)));
+        commands.push(Command::from(TransportCommand::SetSeed(seed)));
     }
     ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
         let time = format!("{:7.2} s  tick {:5}", DT * model.tick as f64, model.tick);

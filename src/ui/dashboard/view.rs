@@ -6,7 +6,7 @@ use super::drive;
 use super::pane::{pane, take_in_hand, text_height};
 use super::plots::plots;
 use super::transport_bar::{self, transport_bar};
-use crate::manifest::widget;
+use crate::manifest::Widget;
 use crate::simulation::History;
 use crate::ui::keys::Action;
 use crate::ui::paint::frame;
@@ -23,14 +23,15 @@ pub fn dashboard(
     ui: &mut Ui,
     model: &Dashboard,
     history: &History,
-    (narrow, look): (bool, &Look),
+    look: &Look,
     state: &mut UiState,
     commands: &mut Vec<Command>,
 ) {
+    let narrow = look.narrow;
     let side = if narrow { 12 } else { GAP as i8 };
     Panel::bottom("transport")
         .frame(Frame::NONE.inner_margin(Margin::symmetric(side, 8)))
-        .show(ui, |ui| transport_bar(ui, model, history, (narrow, look), state, commands));
+        .show(ui, |ui| transport_bar(ui, model, history, look, state, commands));
     if state.settings.plots && !narrow {
         let margin = Margin { left: 12, right: side, top: 14, bottom: 0 };
         Panel::right("sheet")
@@ -40,7 +41,7 @@ pub fn dashboard(
             .show(ui, |ui| plots(ui, model, history, look, state, commands));
     }
     CentralPanel::default().frame(Frame::NONE.inner_margin(Margin::symmetric(side, 14))).show(ui, |ui| {
-        header(ui, model, (narrow, look), state, commands);
+        header(ui, model, look, state, commands);
         ui.add_space(8.0);
         if narrow {
             if state.settings.plots {
@@ -71,15 +72,9 @@ pub fn act(action: Action, model: &Dashboard, state: &mut UiState, commands: &mu
     }
 }
 
-fn header(
-    ui: &mut Ui,
-    model: &Dashboard,
-    (narrow, look): (bool, &Look),
-    state: &mut UiState,
-    commands: &mut Vec<Command>,
-) {
-    let Some(words) = widget("dashboard") else { return };
-    tools::header(ui, words, model, (narrow, look), state, commands);
+fn header(ui: &mut Ui, model: &Dashboard, look: &Look, state: &mut UiState, commands: &mut Vec<Command>) {
+    let words = Widget::Dashboard.text();
+    tools::header(ui, words, model, look, state, commands);
     frame::key_row(ui, words, look, state);
     frame::hints(ui, words, look, state);
     tools::notice(ui, state);

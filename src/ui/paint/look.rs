@@ -16,6 +16,8 @@ const FADE_SECONDS: f32 = 0.12;
 pub struct Look {
     /// The theme.
     pub theme: Theme,
+    /// Whether the screen is so narrow that a widget shows one thing at a time.
+    pub narrow: bool,
     lit: Option<Role>,
     /// How far the others have faded, from 0 to 1.
     strength: f64,
@@ -23,13 +25,13 @@ pub struct Look {
 
 impl From<Theme> for Look {
     fn from(theme: Theme) -> Self {
-        Look { theme, lit: None, strength: 0.0 }
+        Look { theme, narrow: false, lit: None, strength: 0.0 }
     }
 }
 
 impl Look {
     /// The look of this frame, which lights the role that was pointed at in the last one.
-    pub fn of(ui: &Ui, state: &mut UiState) -> Self {
+    pub fn of(ui: &Ui, state: &mut UiState, narrow: bool) -> Self {
         let pointed = state.pointed.take().or(state.page_lit);
         if pointed != state.lit && pointed.is_some() {
             state.lit = pointed;
@@ -40,12 +42,12 @@ impl Look {
         if strength == 0.0 && pointed.is_none() {
             state.lit = None;
         }
-        Look { theme: state.theme(), lit: state.lit, strength: f64::from(strength) }
+        Look { theme: state.theme(), narrow, lit: state.lit, strength: f64::from(strength) }
     }
 
     /// The look with this role lit, fully.
     pub fn lighting(theme: Theme, role: Role) -> Self {
-        Look { theme, lit: Some(role), strength: 1.0 }
+        Look { theme, narrow: false, lit: Some(role), strength: 1.0 }
     }
 
     /// The opacity of a role, from 0 to 1.

@@ -48,7 +48,8 @@ pub fn split(room: Rect, narrow: bool, width: f32) -> (Rect, Rect) {
 /// `spoken` describes both for screen readers.
 pub fn sheet(
     ui: &mut Ui,
-    (paper, spoken): (Rect, String),
+    paper: Rect,
+    spoken: String,
     still: &std::sync::Arc<Picture>,
     moving: &Picture,
     look: &Look,

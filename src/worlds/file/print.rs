@@ -94,7 +94,7 @@ fn chain(obstacle: &Obstacle) -> Option<Vec<Point2>> {
 fn shape_text(obstacle: &Obstacle) -> String {
     let text = |written: &Written<'_>| match written {
         Written::Outline(points) => format!("Polygon({})", Points(points)),
-        Written::Piece(piece) => piece_text(piece),
+        Written::Piece((pose, shape)) => piece_text(pose, shape),
     };
     match &obstacle.written()[..] {
         [one] => text(one),
@@ -102,7 +102,7 @@ fn shape_text(obstacle: &Obstacle) -> String {
     }
 }
 
-fn piece_text((pose, shape): &(Pose2, Shape)) -> String {
+fn piece_text(pose: &Pose2, shape: &Shape) -> String {
     let at_origin = *pose == Pose2::IDENTITY;
     match shape {
         Shape::Disc { radius } => format!("Disc(center: {}, radius: {radius:?})", Xy(pose.position())),

@@ -7,7 +7,7 @@ use ron::value::RawValue;
 use serde::Deserialize;
 
 use super::description::WorldText;
-use crate::text_position::{column_at, line_at, offset_of};
+use crate::text_position::{Position, offset_of, position_at};
 use crate::worlds::{WORLD_VERSION, WorldError, WorldItem, WorldProblem};
 
 /// The text of a world file, and the file's name in errors.
@@ -92,7 +92,7 @@ impl<'a> Source<'a> {
             return Err(self.error_at(at, None, WorldProblem::Version(other)));
         }
         file.map_err(|error| {
-            let at = (error.span.start.line, error.span.start.col);
+            let at = Position { line: error.span.start.line, column: error.span.start.col };
             self.error_at(at, self.item_around(at), WorldProblem::Syntax(error.code.to_string()))
         })
     }
@@ -109,16 +109,17 @@ impl<'a> Source<'a> {
 
     /// The line in which an item begins.
     pub fn line(&self, item: &WorldItem) -> usize {
-        self.position(self.item_offset(item)).0
+        self.position(self.item_offset(item)).line
     }
 
-    fn error_at(&self, (line, column): (usize, usize), item: Option<WorldItem>, problem: WorldProblem) -> WorldError {
+    fn error_at(&self, at: Position, item: Option<WorldItem>, problem: WorldProblem) -> WorldError {
+        let Position { line, column } = at;
         WorldError { file: self.file.to_owned(), line, column, item: item.map(Box::new), problem: Box::new(problem) }
     }
 
-    /// Line and column, from 1, of a byte of the text.
-    fn position(&self, offset: usize) -> (usize, usize) {
-        (line_at(self.text, offset), column_at(self.text, offset))
+    /// The position of a byte of the text.
+    fn position(&self, offset: usize) -> Position {
+        position_at(self.text, offset)
     }
 
     /// Byte offset of a part in the text, after the comments before it.
@@ -144,9 +145,9 @@ impl<'a> Source<'a> {
     }
 
     /// The item whose text holds a position; `None` outside the items, or if the file is not RON.
-    fn item_around(&self, (line, column): (usize, usize)) -> Option<WorldItem> {
-        let before: usize = self.text.split_inclusive('\n').take(line - 1).map(str::len).sum();
-        let within: usize = self.text[before..].chars().take(column - 1).map(char::len_utf8).sum();
+    fn item_around(&self, at: Position) -> Option<WorldItem> {
+        let before: usize = self.text.split_inclusive('\n').take(at.line - 1).map(str::len).sum();
+        let within: usize = self.text[before..].chars().take(at.column - 1).map(char::len_utf8).sum();
         for (list, raws) in self.lists()?.each() {
             for (index, raw) in raws.iter().enumerate() {
                 let start = self.offset(raw);

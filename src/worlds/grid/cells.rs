@@ -127,14 +127,15 @@ impl Grid {
         }
     }
 
-    /// The least and the greatest corner of a cell, in world coordinates.
-    pub fn square(&self, column: u32, row: u32) -> (Point2, Point2) {
-        (self.corner(column, row), self.corner(column.saturating_add(1), row.saturating_add(1)))
+    /// The closed square of a cell, in world coordinates.
+    pub fn square(&self, column: u32, row: u32) -> Aabb {
+        let max = self.corner(column.saturating_add(1), row.saturating_add(1));
+        Aabb { min: self.corner(column, row), max }
     }
 
     /// The middle of a cell, in world coordinates.
     pub fn center(&self, column: u32, row: u32) -> Point2 {
-        let (min, max) = self.square(column, row);
+        let Aabb { min, max } = self.square(column, row);
         Point2::new(0.5 * (min.x + max.x), 0.5 * (min.y + max.y))
     }
 
@@ -202,12 +203,11 @@ mod tests {
             let world = World::lot();
             let grid = Grid::empty(&world.bounds, resolution).unwrap();
             let (n, m) = (grid.columns(), grid.rows());
-            let (_, last) = grid.square(n - 1, m - 1);
+            let Aabb { min: start, max: last } = grid.square(n - 1, m - 1);
             assert!(last.x >= 16.0 && last.y >= 10.0, "{resolution}");
-            let (start, _) = grid.square(n - 1, m - 1);
             assert!(start.x < 16.0 && start.y < 10.0, "{resolution}");
             for k in 0..n {
-                let (min, max) = grid.square(k, 0);
+                let Aabb { min, max } = grid.square(k, 0);
                 assert_eq!(grid.cell_at(min), Some((k, 0)), "a line belongs to the right cell");
                 assert_eq!(grid.cell_at(Point2::new(0.5 * (min.x + max.x), 0.0)), Some((k, 0)));
             }

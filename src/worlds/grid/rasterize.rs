@@ -9,7 +9,7 @@ impl Grid {
     pub(crate) fn add(&mut self, shape: &Placed) {
         let Aabb { min: lo, max: hi } = shape.bounds();
         for row in self.span(self.origin.y, self.rows(), lo.y, hi.y) {
-            let (min, max) = self.square(0, row);
+            let Aabb { min, max } = self.square(0, row);
             let Some((left, right)) = extent(shape, min.y, max.y) else { continue };
             for column in self.span(self.origin.x, self.columns(), left, right) {
                 if !self.is_occupied(column, row) && meets(shape, self.square(column, row)) {
@@ -52,7 +52,8 @@ fn extent(shape: &Placed, bottom: f64, top: f64) -> Option<(f64, f64)> {
 }
 
 /// Whether a shape meets a closed square.
-fn meets(shape: &Placed, (min, max): (Point2, Point2)) -> bool {
+fn meets(shape: &Placed, square: Aabb) -> bool {
+    let Aabb { min, max } = square;
     let core = shape.core();
     let corners = [min, Point2::new(max.x, min.y), max, Point2::new(min.x, max.y)];
     let r = shape.radius();
@@ -144,7 +145,7 @@ mod tests {
                     assert_eq!(grid.is_occupied(column, row), all, "{shape:?} ({column}, {row})");
                     // an oracle for plain cores: a sampled point of the shape within the square
                     if shape.radius() == 0.0 && !all {
-                        let (min, max) = grid.square(column, row);
+                        let Aabb { min, max } = grid.square(column, row);
                         let inside = |p: Point2| p.x >= min.x && p.x <= max.x && p.y >= min.y && p.y <= max.y;
                         for k in 0..=16 {
                             let t = f64::from(k) / 16.0;

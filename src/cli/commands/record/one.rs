@@ -2,10 +2,9 @@
 
 use std::io;
 use std::path::{Path, PathBuf};
-use std::slice;
 
 use motion_lab::random::Seed;
-use motion_lab::run::{DT, Digest, Divergence, Frame, LogError, LogWriter, RunDigest, Script, first_divergence};
+use motion_lab::run::{Comparison, DT, Digest, Divergence, Frame, LogError, LogWriter, RunDigest, Script};
 use motion_lab::tour::TourConfig;
 
 use crate::cli::support::interrupt;
@@ -71,17 +70,17 @@ pub fn run(
     let mut run = begin(*seed, config, script)?;
     let mut digest = RunDigest::new(*seed, config, script, run.frame());
     sink(run.frame())?;
-    let mut expected = expected.iter();
+    let mut comparison = Comparison::with_frames(expected);
     while !run.is_complete() {
         let tick = run.frame().tick;
         if stop.now(tick) {
             return Ok(Ended::Stopped(tick));
         }
         let frame = run.step();
-        if let Some(divergence) =
-            expected.next().and_then(|expected| first_divergence(slice::from_ref(expected), slice::from_ref(frame)))
+        if !comparison.frame(frame)
+            && let Some(divergence) = comparison.divergence()
         {
-            return Ok(Ended::Differs(divergence));
+            return Ok(Ended::Differs(divergence.clone()));
         }
         digest.tick(frame);
         sink(frame)?;

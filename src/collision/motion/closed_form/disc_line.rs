@@ -196,7 +196,7 @@ fn gap(leg: &Leg, piece: &Placed) -> (f64, f64) {
     }
     let (mut least, mut longest) = (f64::INFINITY, 0.0);
     let mut inside = core.len() > 2;
-    for (a, b) in edges(core) {
+    for Segment { a, b } in edges(core) {
         let edge = Leg::new(a, b);
         least = lesser(edge.squared_distance_to(leg), least);
         longest = greater(edge.square, longest);
@@ -210,7 +210,7 @@ fn point_gap(p: Point2, piece: &Placed) -> f64 {
     let core = piece.core();
     let least = match core {
         [a, b] => Leg::new(*a, *b).squared_distance(p),
-        _ => edges(core).fold(f64::INFINITY, |least, (a, b)| lesser(Leg::new(a, b).squared_distance(p), least)),
+        _ => edges(core).fold(f64::INFINITY, |least, e| lesser(Leg::new(e.a, e.b).squared_distance(p), least)),
     };
     sqrt(least) - piece.radius()
 }

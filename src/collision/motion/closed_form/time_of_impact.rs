@@ -1,7 +1,7 @@
 //! Closed forms for a point that runs along a line or a circle: when it first comes near a core, and how near it gets.
 
 use crate::collision::narrow::convex::{edges, point_segment, polygon_contains};
-use crate::geometry::{CircularArc, Placed, Point2, Vector2, cross};
+use crate::geometry::{CircularArc, Placed, Point2, Segment, Vector2, cross};
 use crate::num::{hypot, lesser, sqrt};
 
 /// The earlier of `best` and `s`; an `s` outside `[0, 1]` does not count.
@@ -13,7 +13,8 @@ fn earlier(best: Option<f64>, s: f64) -> Option<f64> {
 ///
 /// The set within `reach` of a segment is bounded by two sides, where |(p + s v - a) x u| = reach |u|, and by two
 /// circles about its ends, where |p + s v - a|^2 = reach^2.
-fn line_meets(p: Point2, v: Vector2, (a, b): (Point2, Point2), reach: f64) -> Option<f64> {
+fn line_meets(p: Point2, v: Vector2, segment: Segment, reach: f64) -> Option<f64> {
+    let Segment { a, b } = segment;
     let u = b - a;
     let length = sqrt(u.norm_squared());
     let mut best = None;
@@ -67,7 +68,8 @@ fn arc_cosine(x: f64, r: f64) -> f64 {
 }
 
 /// The bearings at which the circle crosses the edge, moved by `offset` to its left.
-fn crossings(arc: &CircularArc, (a, b): (Point2, Point2), offset: f64) -> impl Iterator<Item = f64> {
+fn crossings(arc: &CircularArc, edge: Segment, offset: f64) -> impl Iterator<Item = f64> {
+    let Segment { a, b } = edge;
     let u = b - a;
     let length = hypot(u.x, u.y);
     // the line's distance from the centre, along the unit normal to the left of the edge
@@ -90,7 +92,7 @@ pub(crate) fn arc_meets(arc: &CircularArc, core: &[Point2], reach: f64) -> Optio
                 best = earlier(best, arc.passes(bearing));
             }
         }
-        for end in [edge.0, edge.1] {
+        for end in [edge.a, edge.b] {
             let d = hypot(end.x - arc.centre.x, end.y - arc.centre.y);
             // law of cosines in the triangle of the centre, the end and the place at `reach` from it
             let (x, r) = (d * d + arc.radius * arc.radius - reach * reach, 2.0 * d * arc.radius);
@@ -117,19 +119,19 @@ pub(crate) fn arc_distance(arc: &CircularArc, until: f64, core: &[Point2]) -> f6
     for edge in edges(core) {
         least = lesser(point_segment(first, edge).0, least);
         least = lesser(point_segment(last, edge).0, least);
-        for end in [edge.0, edge.1] {
+        for end in [edge.a, edge.b] {
             let d = hypot(end.x - arc.centre.x, end.y - arc.centre.y);
             if d == 0.0 || passed(arc.bearing_of(end)) {
                 least = lesser((d - arc.radius).abs(), least);
             }
         }
-        if edge.0 == edge.1 {
+        if edge.a == edge.b {
             continue;
         }
         if crossings(arc, edge, 0.0).any(passed) {
             return 0.0;
         }
-        let u = edge.1 - edge.0;
+        let u = edge.b - edge.a;
         let normal = crate::num::atan2(u.x, -u.y);
         for bearing in [normal, normal + std::f64::consts::PI] {
             if passed(bearing) {

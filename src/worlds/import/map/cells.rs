@@ -1,6 +1,6 @@
 //! `CellMap`, a map of cells, and its conversion to a world.
 
-use super::trace::trace;
+use super::trace::{Corner, trace};
 use crate::geometry::{MIN_FEATURE, Point2, Pose2};
 use crate::num::{greater, lesser};
 use crate::worlds::file::description::{ShapeText, Xy};
@@ -18,8 +18,14 @@ pub enum CellStyle {
     Hollow,
 }
 
-/// A rectangle of cells: its lower left corner and its upper right one.
-type Cells = ((u32, u32), (u32, u32));
+/// A rectangle of cells.
+#[derive(Clone, Copy)]
+struct Rectangle {
+    /// Its lower left corner.
+    low: Corner,
+    /// Its upper right corner.
+    high: Corner,
+}
 
 /// A map of occupied cells.
 #[derive(Clone, Debug, PartialEq)]
@@ -70,11 +76,11 @@ impl CellMap {
     }
 
     fn boxes(&self, draft: &mut Draft) -> Result<(), WorldProblem> {
-        for (low, high) in rectangles(&self.grid) {
+        for Rectangle { low, high } in rectangles(&self.grid) {
             let shape = if self.frame == Pose2::IDENTITY {
                 ShapeText::Box { min: self.corner(low), max: self.corner(high) }
             } else {
-                let corners = [low, (high.0, low.1), high, (low.0, high.1)];
+                let corners = [low, Corner { row: low.row, ..high }, high, Corner { row: high.row, ..low }];
                 ShapeText::Polygon(corners.map(|c| self.corner(c)).to_vec())
             };
             let name = draft.numbered("box");
@@ -84,38 +90,40 @@ impl CellMap {
     }
 
     /// A corner of cells in the world.
-    fn corner(&self, (column, row): (u32, u32)) -> Xy {
-        let at = self.grid.corner(column, row);
+    fn corner(&self, of: Corner) -> Xy {
+        let at = self.grid.corner(of.column, of.row);
         let at = if self.frame == Pose2::IDENTITY { at } else { self.frame.transform(at) };
         (at.x, at.y)
     }
 
     fn bounds(&self) -> (Xy, Xy) {
         let (right, top) = (self.grid.columns(), self.grid.rows());
-        let [first, rest @ ..] = [(0, 0), (right, 0), (right, top), (0, top)].map(|c| self.corner(c));
+        let [first, rest @ ..] =
+            [(0, 0), (right, 0), (right, top), (0, top)].map(|(column, row)| self.corner(Corner { column, row }));
         rest.iter().fold((first, first), |(min, max), p| {
             ((lesser(p.0, min.0), lesser(p.1, min.1)), (greater(p.0, max.0), greater(p.1, max.1)))
         })
     }
 }
 
-/// Covers the occupied cells with rectangles that do not overlap, each given by its lower left and upper right corner.
-/// Rectangles are grown along the rows first, and along the columns first; the smaller set is returned.
-fn rectangles(grid: &Grid) -> Vec<Cells> {
+/// Covers the occupied cells with rectangles that do not overlap. They are grown along the rows first, and along the
+/// columns first; the smaller set is returned.
+fn rectangles(grid: &Grid) -> Vec<Rectangle> {
     let along = grown(grid.columns(), grid.rows(), |column, row| grid.is_occupied(column, row));
     let mut up = grown(grid.rows(), grid.columns(), |row, column| grid.is_occupied(column, row));
     if along.len() <= up.len() {
         return along;
     }
-    for (low, high) in &mut up {
-        *low = (low.1, low.0);
-        *high = (high.1, high.0);
+    for Rectangle { low, high } in &mut up {
+        for corner in [low, high] {
+            *corner = Corner { column: corner.row, row: corner.column };
+        }
     }
     up
 }
 
 /// Rectangles that cover the occupied cells of a grid of this size: each as wide as possible, then as high as possible.
-fn grown(columns: u32, rows: u32, is_occupied: impl Fn(u32, u32) -> bool) -> Vec<Cells> {
+fn grown(columns: u32, rows: u32, is_occupied: impl Fn(u32, u32) -> bool) -> Vec<Rectangle> {
     let index = |column: u32, row: u32| row as usize * columns as usize + column as usize;
     let mut left: Vec<bool> = (0..rows)
         .flat_map(|row| (0..columns).map(move |column| (column, row)))
@@ -133,7 +141,7 @@ fn grown(columns: u32, rows: u32, is_occupied: impl Fn(u32, u32) -> bool) -> Vec
             for r in row..top {
                 left[index(column, r)..index(end - 1, r) + 1].fill(false);
             }
-            found.push(((column, row), (end, top)));
+            found.push(Rectangle { low: Corner { column, row }, high: Corner { column: end, row: top } });
             if found.len() > MAX_ITEMS {
                 return found; // more than a world holds
             }

@@ -2,8 +2,14 @@
 
 use crate::worlds::Grid;
 
-/// A corner of cells: the grid lines it lies on.
-pub(crate) type Corner = (u32, u32);
+/// A corner of cells: the lower left one of the cell in this column and row.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Corner {
+    /// The upright grid line it lies on, from the left.
+    pub(crate) column: u32,
+    /// The level grid line it lies on, from below.
+    pub(crate) row: u32,
+}
 
 /// The direction in which a border runs, with the occupied cell on its left.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -30,12 +36,13 @@ impl Way {
         self.left().left().left()
     }
 
-    fn step(self, (x, y): Corner) -> Corner {
+    fn step(self, from: Corner) -> Corner {
+        let Corner { column, row } = from;
         match self {
-            East => (x + 1, y),
-            North => (x, y + 1),
-            West => (x - 1, y),
-            South => (x, y - 1),
+            East => Corner { column: column + 1, row },
+            North => Corner { column, row: row + 1 },
+            West => Corner { column: column - 1, row },
+            South => Corner { column, row: row - 1 },
         }
     }
 
@@ -57,25 +64,26 @@ impl Way {
 /// The lines are in the order of their lowest, leftmost edges. Cells that meet only in a corner have separate lines.
 pub(crate) fn trace(grid: &Grid) -> Vec<Vec<Corner>> {
     let (columns, rows) = (grid.columns(), grid.rows());
-    let occupied = |(x, y): Corner, (dx, dy): (u32, u32)| match (x.checked_sub(dx), y.checked_sub(dy)) {
+    let occupied = |at: Corner, (dx, dy): (u32, u32)| match (at.column.checked_sub(dx), at.row.checked_sub(dy)) {
         (Some(column), Some(row)) => column < columns && row < rows && grid.is_occupied(column, row),
         _ => false,
     };
-    let is_lower_border = |column, row| occupied((column, row), (0, 0)) && !occupied((column, row), (0, 1));
+    let is_lower_border = |at: Corner| occupied(at, (0, 0)) && !occupied(at, (0, 1));
     // every closed line runs east somewhere: below an occupied cell
     let mut traced = vec![false; columns as usize * rows as usize];
-    let index = |column: u32, row: u32| row as usize * columns as usize + column as usize;
+    let index = |at: Corner| at.row as usize * columns as usize + at.column as usize;
     let mut lines = Vec::new();
     for row in 0..rows {
         for column in 0..columns {
-            if !is_lower_border(column, row) || traced[index(column, row)] {
+            let start = Corner { column, row };
+            if !is_lower_border(start) || traced[index(start)] {
                 continue;
             }
-            let (mut at, mut way) = ((column, row), East);
+            let (mut at, mut way) = (start, East);
             let mut corners = Vec::new();
             loop {
                 if way == East {
-                    traced[index(at.0, at.1)] = true;
+                    traced[index(at)] = true;
                 }
                 at = way.step(at);
                 let [left, right] = way.ahead().map(|cell| occupied(at, cell));
@@ -88,7 +96,7 @@ pub(crate) fn trace(grid: &Grid) -> Vec<Vec<Corner>> {
                     corners.push(at);
                 }
                 way = next;
-                if (at, way) == ((column, row), East) {
+                if (at, way) == (start, East) {
                     break;
                 }
             }
@@ -112,19 +120,25 @@ mod tests {
         Grid::of_cells(Point2::origin(), 1.0, rows[0].len() as u32, rows.len() as u32, rows.concat()).unwrap()
     }
 
+    fn corners(at: &[(u32, u32)]) -> Vec<Corner> {
+        at.iter().map(|&(column, row)| Corner { column, row }).collect()
+    }
+
     #[test]
     fn a_ring_has_an_outer_line_to_the_left_and_an_inner_to_the_right() {
         let lines = trace(&grid(&["####", "#..#", "####"]));
-        assert_eq!(lines, [vec![(0, 0), (4, 0), (4, 3), (0, 3)], vec![(1, 2), (3, 2), (3, 1), (1, 1)]]);
+        let (outer, inner) = ([(0, 0), (4, 0), (4, 3), (0, 3)], [(1, 2), (3, 2), (3, 1), (1, 1)]);
+        assert_eq!(lines, [corners(&outer), corners(&inner)]);
     }
 
     #[test]
     fn straight_runs_are_one_edge_and_a_corner_joins_nothing() {
         assert_eq!(trace(&grid(&["#....", "#...#", "###.."])).len(), 2);
         let ell = trace(&grid(&["#..", "###"]));
-        assert_eq!(ell, [vec![(0, 0), (3, 0), (3, 1), (1, 1), (1, 2), (0, 2)]]);
+        assert_eq!(ell, [corners(&[(0, 0), (3, 0), (3, 1), (1, 1), (1, 2), (0, 2)])]);
         let diagonal = trace(&grid(&[".#", "#."]));
-        assert_eq!(diagonal, [vec![(0, 0), (1, 0), (1, 1), (0, 1)], vec![(1, 1), (2, 1), (2, 2), (1, 2)]]);
+        let (low, high) = ([(0, 0), (1, 0), (1, 1), (0, 1)], [(1, 1), (2, 1), (2, 2), (1, 2)]);
+        assert_eq!(diagonal, [corners(&low), corners(&high)]);
         assert!(trace(&grid(&["..", ".."])).is_empty());
     }
 
@@ -140,6 +154,7 @@ mod tests {
             let grid = Grid::of_cells(Point2::origin(), 1.0, columns, rows, cells).unwrap();
             let mut units = Vec::new();
             for line in trace(&grid) {
+                let line: Vec<(u32, u32)> = line.iter().map(|c| (c.column, c.row)).collect();
                 for (i, &(x0, y0)) in line.iter().enumerate() {
                     let (x1, y1) = line[(i + 1) % line.len()];
                     assert!((x0 == x1) != (y0 == y1), "round {round}: edges run along the grid and have a length");
