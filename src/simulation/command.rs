@@ -3,8 +3,8 @@
 use bevy::prelude::*;
 
 use super::{
-    History, Keyframes, PendingInput, Playback, RestoreError, RobotCommand, RobotName, RunConfig, SpawnError,
-    Transport, TransportCommand, seek, start_run_in_order, step, undo,
+    CommandError, CommandRefused, History, Keyframes, PendingInput, Playback, RobotCommand, RobotName, RunConfig,
+    SpawnError, Transport, TransportCommand, seek, start_run_in_order, step, undo,
 };
 use crate::random::Seed;
 use crate::run::{Event, Script};
