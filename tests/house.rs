@@ -8,6 +8,7 @@ use std::fs;
 use std::path::Path;
 use std::process::Command;
 
+use motion_lab::configuration::RobotKind;
 use sources::{Source, sources};
 
 /// The modules in reading order: each may use those before it. The first [`CORE`] of them are the library without
@@ -101,6 +102,22 @@ fn the_pure_core_has_no_bevy_no_egui_and_opens_no_files() {
             }
         }
     }
+}
+
+#[test]
+fn kinds_of_robots_are_named_in_one_table() {
+    let mut named = 0;
+    for source in sources() {
+        let is_test = source.file.contains("tests") || source.file == "run/fixture.rs";
+        for line in source.code().iter().filter(|_| !is_test) {
+            let names_one = RobotKind::ALL.iter().any(|kind| line.contains(&format!("\"{}\"", kind.name)));
+            // a car's hitch is also a mark on its picture
+            let allowed = ["configuration/kind.rs", "picture/robot.rs"].contains(&source.file.as_str());
+            assert!(!names_one || allowed, "{}: a kind outside the table: {line}", source.file);
+            named += usize::from(names_one);
+        }
+    }
+    assert_eq!(named, 5, "four kinds and the mark: this test no longer finds them");
 }
 
 #[test]

@@ -43,7 +43,7 @@ fn signs_under(folder: &Path, signs: &mut BTreeSet<char>) {
 fn every_sign_on_screen_is_in_a_face() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
     let mut signs = BTreeSet::new();
-    for module in ["ui", "manifest", "anatomy", "atlas", "cspace", "picture"] {
+    for module in ["configuration", "ui", "manifest", "anatomy", "atlas", "cspace", "picture"] {
         signs_under(&root.join("src").join(module), &mut signs);
     }
     signs_of(&root.join("assets/widgets.ron"), &mut signs);

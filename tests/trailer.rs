@@ -1,9 +1,9 @@
 //! The trailer over minutes of driving, against the solution of its differential equation.
 //!
 //! The equation is f' = v k - (v / d) sin f, with the fold f = theta - psi, the speed v, the path's curvature k and the
-//! bar's length d. In u = tan(f / 2) it is u' = (v k / 2)(u - a)(u - b), where a < b are the roots of u^2 - 2 u / (k d)
-//! + 1 for k > 0. So (u - a) / (u - b) falls as exp(-v t sqrt(1 - k^2 d^2) / d), and on a straight line u itself falls
-//! as exp(-v t / d). Ahead the trailer settles at sin f = k d; in reverse it moves away from there.
+//! bar's length d. In u = tan(f / 2) it is u' = (v k / 2)(u - a)(u - b), where a < b are the roots of the polynomial
+//! u^2 - 2 u / (k d) + 1 for k > 0. So (u - a) / (u - b) falls as exp(-v t sqrt(1 - k^2 d^2) / d), and on a straight
+//! line u itself falls as exp(-v t / d). Ahead the trailer settles at sin f = k d; in reverse it moves away from there.
 
 use std::f64::consts::{FRAC_PI_2, PI};
 

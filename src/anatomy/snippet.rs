@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use super::{Anatomy, Tab, WorldSource};
 use crate::collision::Collision;
-use crate::configuration::{AnyConfiguration, Configuration, HitchCfg, Tn};
+use crate::configuration::{AnyConfiguration, Configuration, HitchCfg, RobotKind, Tn};
 use crate::geometry::Pose2;
 use crate::robots::{AnyRobot, HITCH, RUSTY, Reach};
 
@@ -89,11 +89,11 @@ impl Anatomy {
     /// dimensions other than the lab's and for an unsaved world, which no command can name.
     pub fn copy_as_command(&self) -> Option<String> {
         let (robot, home) = match self.checker().robot() {
-            AnyRobot::Rusty(rusty) if *rusty == RUSTY => ("rusty", "apartment"),
+            AnyRobot::Rusty(rusty) if *rusty == RUSTY => (RobotKind::RUSTY.name, "apartment"),
             AnyRobot::Reach(arm) if *arm == Reach::choset() => ("choset", "workbench"),
-            AnyRobot::Reach(arm) if *arm == Reach::workbench() => ("reach", "workbench"),
-            AnyRobot::Reach3(arm) if *arm == Reach::redundant() => ("reach3", "workbench"),
-            AnyRobot::Hitch(car) if *car == HITCH || *car == HITCH.with_trailer() => ("hitch", "lot"),
+            AnyRobot::Reach(arm) if *arm == Reach::workbench() => (RobotKind::REACH.name, "workbench"),
+            AnyRobot::Reach3(arm) if *arm == Reach::redundant() => (RobotKind::REACH3.name, "workbench"),
+            AnyRobot::Hitch(car) if *car == HITCH || *car == HITCH.with_trailer() => (RobotKind::HITCH.name, "lot"),
             _ => return None,
         };
         let world = match self.source() {

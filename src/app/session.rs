@@ -7,7 +7,7 @@ use bevy::prelude::*;
 use super::error::SessionError;
 use super::pace::{Pace, measure, play_flat_out};
 use crate::atlas::Atlas;
-use crate::configuration::{Coordinates, HitchCfg};
+use crate::configuration::{Coordinates, HitchCfg, RobotKind};
 use crate::geometry::{Footprint, Pose2, Segment};
 use crate::picture::{Picture, world as picture_of};
 use crate::robots::{HITCH, Robot};
@@ -126,6 +126,7 @@ fn shown(world: &World, robot: &RobotView, between: f64) -> CockpitRobot {
     CockpitRobot {
         name: robot.name.clone(),
         kind: robot.kind.clone(),
+        about: robot.about,
         readout: robot.configuration.clone(),
         in_full: robot.configuration_in_full.clone(),
         coordinates: robot.coordinates.clone(),
@@ -139,12 +140,12 @@ fn shown(world: &World, robot: &RobotView, between: f64) -> CockpitRobot {
         // an arm is moved by its joints
         drivable: !is_arm,
         is_arm,
-        trailer: (robot.kind == "hitch").then_some(robot.coordinates.len() == 4),
+        trailer: (robot.kind == RobotKind::HITCH.name).then_some(robot.coordinates.len() == 4),
         sees: pose.and_then(|pose| Some((pose, scan?.ranges.clone()))),
         tip: robot.tip,
         reversals: trail.map_or(0, |t| t.reversals),
         no_room: pose
-            .filter(|_| robot.kind == "hitch" && robot.coordinates.len() == 3)
+            .filter(|_| robot.kind == RobotKind::HITCH.name && robot.coordinates.len() == 3)
             .and_then(|p| no_room(world, robot, p)),
         waiting: waiting(world, robot),
     }
@@ -211,7 +212,7 @@ fn change_links(world: &mut World, robot: &str, links: usize) -> Result<(), Sess
     let mut config = TourConfig::clone(&world.resource::<RunConfig>().0);
     let mut arms = config.worlds.iter_mut().flat_map(|w| &mut w.robots);
     let Some(arm) = arms.find(|r| r.name == robot) else { return Err(SessionError::NoRobot(robot.to_owned())) };
-    arm.kind = if links == 3 { "reach3" } else { "reach" }.into();
+    arm.kind = if links == 3 { RobotKind::REACH3 } else { RobotKind::REACH }.name.into();
     arm.start.resize(links, 0.5);
     let seed = world.resource::<Transport>().seed;
     new_run(world, config, seed)

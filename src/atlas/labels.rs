@@ -2,6 +2,7 @@
 
 use super::Atlas;
 use crate::collision::{Collision, Scene};
+use crate::configuration::RobotKind;
 use crate::geometry::{Aabb, Footprint, Part, Placed, Point2, Pose2, Segment, Shape, Vector2};
 use crate::num::{self, greater, lesser};
 use crate::picture::{Anchor, Drawing, Face, Item, Line, Role};
@@ -37,6 +38,11 @@ pub struct Named {
     pub at: Vec<Point2>,
 }
 
+/// Whether robots of this kind drive, so that a start is a place.
+pub(super) fn drives(kind: &str) -> bool {
+    RobotKind::of(kind).is_some_and(|known| known.drives)
+}
+
 /// Every named thing of a world in file order. Robots of the kinds `rusty` and `hitch` are at their starts; other
 /// robots are left out.
 pub fn named(world: &World) -> Vec<Named> {
@@ -65,7 +71,7 @@ pub fn named(world: &World) -> Vec<Named> {
         add("marks", &mark.name, middles.collect());
     }
     for robot in &world.robots {
-        if let ("rusty" | "hitch", [x, y, ..]) = (robot.kind.as_str(), &robot.start[..]) {
+        if let (true, [x, y, ..]) = (drives(&robot.kind), &robot.start[..]) {
             add("robots", &robot.name, vec![Point2::new(*x, *y)]);
         }
     }

@@ -1,6 +1,7 @@
 //! `Op`, a change of a world.
 
 use super::EditShape;
+use super::labels::drives;
 use super::outline::tidy;
 use crate::geometry::{Point2, Pose2, Vector2};
 use crate::num::atan2;
@@ -156,7 +157,7 @@ pub(super) fn changed(world: &World, op: &Op) -> Result<World, EditError> {
             Found::Mark(i) => world.marks[i].points.iter_mut().for_each(|p| *p = (*p + by).map(tidy)),
             Found::Robot(i) => {
                 let robot = &mut world.robots[i];
-                if let ("rusty" | "hitch", [x, y, ..]) = (robot.kind.as_str(), &mut robot.start[..]) {
+                if let (true, [x, y, ..]) = (drives(&robot.kind), &mut robot.start[..]) {
                     (*x, *y) = (tidy(*x + by.x), tidy(*y + by.y));
                 } else {
                     return Err(EditError::NoShape(name.clone()));

@@ -5,6 +5,7 @@ use std::sync::Arc;
 use super::space::Space;
 use super::{CaptureError, Captured, Note};
 use crate::atlas::{Atlas, names};
+use crate::configuration::RobotKind;
 use crate::geometry::{Pose2, Shape};
 use crate::manifest::Widget;
 use crate::picture::{
@@ -96,7 +97,7 @@ impl Subject {
 
 /// Whether a robot of this kind is one of the lab's and of the wanted kind, if one is given.
 fn is_wanted(kind: &str, wanted: Option<&str>) -> bool {
-    ["rusty", "reach", "reach3", "hitch"].contains(&kind) && wanted.is_none_or(|wanted| wanted == kind)
+    RobotKind::of(kind).is_some() && wanted.is_none_or(|wanted| wanted == kind)
 }
 
 /// A span of ticks, with a picture every `every` ticks.

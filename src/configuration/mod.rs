@@ -44,6 +44,7 @@
 
 mod any;
 mod hitch;
+mod kind;
 mod pose;
 mod r2;
 mod torus;
@@ -52,6 +53,7 @@ use std::fmt::{Debug, Display};
 
 pub use any::AnyConfiguration;
 pub use hitch::HitchCfg;
+pub use kind::{RobotKind, Space};
 pub use r2::R2;
 pub use torus::{T2, Tn};
 

@@ -1,5 +1,6 @@
 //! `Formula`, a line of mathematics as a list of terms.
 
+use crate::configuration::Space;
 use crate::picture::Role;
 
 /// The position of a term relative to the line.
@@ -29,34 +30,32 @@ pub struct Term {
 pub struct Formula(pub Vec<Term>);
 
 impl Formula {
-    /// The configuration of a robot of this kind, with or without a trailer, and its space. Empty for a kind that is
-    /// not the lab's.
-    pub fn space(kind: &str, trailer: bool) -> Self {
+    /// The configuration of a robot and its space, as [`Space::formula`] writes them. The first `q` has the role of
+    /// the robot.
+    pub fn of(space: &Space) -> Self {
         let term = |text, role, level| Term { text, role, level };
-        let base = |text| term(text, None, Level::Base);
-        let q = term("q", Some(Role::Robot), Level::Base);
-        let sub = |text| term(text, None, Level::Sub);
-        let sup = |text| term(text, None, Level::Sup);
-        Formula(match (kind, trailer) {
-            ("rusty", _) => vec![q, base(" = (x, y) \u{2208} R"), sup("2")],
-            ("reach", _) => {
-                vec![q, base(" = (\u{3b8}"), sub("1"), base(", \u{3b8}"), sub("2"), base(") \u{2208} T"), sup("2")]
+        let mut terms = Vec::new();
+        let (mut rest, mut level) = (space.formula, Level::Base);
+        while !rest.is_empty() {
+            // a script is one letter or digit, a piece of the line goes up to the next one
+            let first = rest.chars().next().map_or(0, char::len_utf8);
+            let end = if level == Level::Base { rest.find(['_', '^']).unwrap_or(rest.len()) } else { first };
+            let (text, after) = rest.split_at(end);
+            match text.strip_prefix('q').filter(|_| terms.is_empty()) {
+                Some(more) => {
+                    terms.push(term("q", Some(Role::Robot), Level::Base));
+                    terms.push(term(more, None, level));
+                }
+                None => terms.push(term(text, None, level)),
             }
-            ("reach3", _) => vec![
-                q,
-                base(" = (\u{3b8}"),
-                sub("1"),
-                base(", \u{3b8}"),
-                sub("2"),
-                base(", \u{3b8}"),
-                sub("3"),
-                base(") \u{2208} T"),
-                sup("3"),
-            ],
-            ("hitch", false) => vec![q, base(" = (x, y, \u{3b8}) \u{2208} SE(2)")],
-            ("hitch", true) => vec![q, base(" = (x, y, \u{3b8}, \u{3c8}) \u{2208} SE(2) \u{d7} S"), sup("1")],
-            _ => vec![],
-        })
+            (level, rest) = match after.chars().next() {
+                Some('_') => (Level::Sub, &after[1..]),
+                Some('^') => (Level::Sup, &after[1..]),
+                _ => (Level::Base, after),
+            };
+        }
+        terms.retain(|term| !term.text.is_empty());
+        Formula(terms)
     }
 
     /// The formula as a MathML element. A term's role is its class, `role-robot` for instance, and its attribute
@@ -77,20 +76,6 @@ impl Formula {
             }
         }
         format!("<math>{}</math>", pieces.concat())
-    }
-
-    /// The configuration in words, and why its space is that one. Empty for a kind that is not the lab's.
-    pub fn spoken(kind: &str, trailer: bool) -> &'static str {
-        match (kind, trailer) {
-            ("rusty", _) => {
-                "A point of the plane: a disc looks the same whichever way it faces. The simulator keeps the heading too."
-            }
-            ("reach", _) => "Two angles: a point of the torus, not the place of the tip.",
-            ("reach3", _) => "Three angles for a tip with two coordinates: one to spare.",
-            ("hitch", false) => "Position and heading: three numbers, though only two can be commanded.",
-            ("hitch", true) => "Position and heading of the car, and the trailer's heading psi.",
-            _ => "",
-        }
     }
 }
 
@@ -120,22 +105,23 @@ fn tokens(text: &str, marks: &str) -> Vec<String> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::configuration::RobotKind;
 
     #[test]
     fn each_robot_has_the_space_of_its_type() {
-        let written = |kind, trailer| Formula::space(kind, trailer).0.iter().map(|t| t.text).collect::<String>();
-        assert_eq!(written("rusty", false), "q = (x, y) \u{2208} R2");
-        assert_eq!(written("reach", false), "q = (\u{3b8}1, \u{3b8}2) \u{2208} T2");
-        assert_eq!(written("hitch", false), "q = (x, y, \u{3b8}) \u{2208} SE(2)");
-        assert!(written("hitch", true).ends_with("SE(2) \u{d7} S1"));
+        let space = |kind: &RobotKind, coordinates| Formula::of(kind.space(coordinates).unwrap());
+        let written = |kind, coordinates| space(kind, coordinates).0.iter().map(|t| t.text).collect::<String>();
+        assert_eq!(written(&RobotKind::RUSTY, 3), "q = (x, y) \u{2208} R2");
+        assert_eq!(written(&RobotKind::REACH, 2), "q = (\u{3b8}1, \u{3b8}2) \u{2208} T2");
+        assert_eq!(written(&RobotKind::HITCH, 3), "q = (x, y, \u{3b8}) \u{2208} SE(2)");
+        assert!(written(&RobotKind::HITCH, 4).ends_with("SE(2) \u{d7} S1"));
         assert_eq!(
-            Formula::space("reach", false).mathml(),
+            space(&RobotKind::REACH, 2).mathml(),
             "<math><mi class=\"role-robot\" data-role=\"robot\">q</mi><mo>=</mo><mo>(</mo>\
              <msub><mi>\u{3b8}</mi><mrow><mn>1</mn></mrow></msub><mo>,</mo>\
              <msub><mi>\u{3b8}</mi><mrow><mn>2</mn></mrow></msub><mo>)</mo><mo>\u{2208}</mo>\
              <msup><mi>T</mi><mrow><mn>2</mn></mrow></msup></math>"
         );
-        assert!(Formula::space("hitch", true).mathml().contains("<mi>SE</mi><mo>(</mo><mn>2</mn><mo>)</mo>"));
-        assert!(Formula::space("tricycle", false).0.is_empty() && Formula::spoken("tricycle", false).is_empty());
+        assert!(space(&RobotKind::HITCH, 4).mathml().contains("<mi>SE</mi><mo>(</mo><mn>2</mn><mo>)</mo>"));
     }
 }

@@ -4,7 +4,7 @@ use xxhash_rust::xxh3::Xxh3;
 
 use super::{Recorder, RunError};
 use crate::collision::{Collision, Scene};
-use crate::configuration::Coordinates;
+use crate::configuration::{Coordinates, RobotKind};
 use crate::random::{Seed, Stream};
 use crate::run::{Digest, Event, Quantized, RobotInput, RunDigest, SCRIPT_VERSION, Script};
 use crate::tour::TourConfig;
@@ -61,7 +61,7 @@ fn driving(world: &World, seed: Seed) -> Script {
             let mut coordinates = || -> Vec<Quantized> {
                 let (min, max) = (world.bounds.min, world.bounds.max);
                 let mut q = Coordinates::from_slice(&robot.start);
-                let plane = robot.kind == "rusty" || robot.kind == "hitch";
+                let plane = RobotKind::of(&robot.kind).is_some_and(|known| known.drives);
                 for (k, x) in q.iter_mut().enumerate() {
                     *x = match k {
                         0 if plane => s.uniform(min.x, max.x),

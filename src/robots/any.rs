@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use super::{ConfigurationError, HITCH, Hitch, PartRates, RUSTY, Reach, Robot, Rusty};
-use crate::configuration::{AnyConfiguration, Configuration, HitchCfg, Tn};
+use crate::configuration::{AnyConfiguration, Configuration, HitchCfg, RobotKind, Tn};
 use crate::geometry::{Footprint, Part, Point2, Pose2, Shape};
 use crate::num::{greater, hypot, lesser};
 use crate::random::Stream;
@@ -28,16 +28,21 @@ pub enum AnyRobot {
     Hitch(Hitch),
 }
 
+const RUSTY_KIND: &str = RobotKind::RUSTY.name;
+const REACH_KIND: &str = RobotKind::REACH.name;
+const REACH3_KIND: &str = RobotKind::REACH3.name;
+const HITCH_KIND: &str = RobotKind::HITCH.name;
+
 impl AnyRobot {
     /// The robot of this kind, as worlds name it, and its configuration with these coordinates, angles wrapped; the car
     /// has its trailer when there are four. `None` for another kind or number, or a coordinate that is not finite.
     pub fn of_kind(kind: &str, coordinates: &[f64]) -> Option<(AnyRobot, AnyConfiguration)> {
         let (robot, like) = match (kind, coordinates.len()) {
-            ("rusty", 3) => (AnyRobot::Rusty(RUSTY), AnyConfiguration::Pose(Pose2::IDENTITY)),
-            ("reach", 2) => (AnyRobot::Reach(Reach::workbench()), AnyConfiguration::T2(Tn([0.0; 2]))),
-            ("reach3", 3) => (AnyRobot::Reach3(Reach::redundant()), AnyConfiguration::T3(Tn([0.0; 3]))),
-            ("hitch", 3) => (AnyRobot::Hitch(HITCH), car_like()),
-            ("hitch", 4) => (AnyRobot::Hitch(HITCH.with_trailer()), car_like()),
+            (RUSTY_KIND, 3) => (AnyRobot::Rusty(RUSTY), AnyConfiguration::Pose(Pose2::IDENTITY)),
+            (REACH_KIND, 2) => (AnyRobot::Reach(Reach::workbench()), AnyConfiguration::T2(Tn([0.0; 2]))),
+            (REACH3_KIND, 3) => (AnyRobot::Reach3(Reach::redundant()), AnyConfiguration::T3(Tn([0.0; 3]))),
+            (HITCH_KIND, 3) => (AnyRobot::Hitch(HITCH), car_like()),
+            (HITCH_KIND, 4) => (AnyRobot::Hitch(HITCH.with_trailer()), car_like()),
             _ => return None,
         };
         let q = like.with_coordinates(coordinates)?;
@@ -68,10 +73,10 @@ impl AnyRobot {
     /// Its kind, as worlds name it.
     pub const fn kind(&self) -> &'static str {
         match self {
-            AnyRobot::Rusty(_) => "rusty",
-            AnyRobot::Reach(_) => "reach",
-            AnyRobot::Reach3(_) => "reach3",
-            AnyRobot::Hitch(_) => "hitch",
+            AnyRobot::Rusty(_) => RUSTY_KIND,
+            AnyRobot::Reach(_) => REACH_KIND,
+            AnyRobot::Reach3(_) => REACH3_KIND,
+            AnyRobot::Hitch(_) => HITCH_KIND,
         }
     }
 

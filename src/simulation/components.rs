@@ -6,6 +6,7 @@ use bevy::prelude::*;
 
 use super::{Extra, SimulatedRobot};
 use crate::collision::Scene;
+use crate::configuration::RobotKind;
 use crate::geometry::{Pose2, Shape};
 use crate::random::Stream;
 use crate::sensors::{BeamModel, RangeSensor, Scanner};
@@ -102,6 +103,8 @@ pub struct RobotName {
     pub name: String,
     /// The kind, as worlds name it.
     pub kind: String,
+    /// The kind's description, if it has one.
+    pub about: Option<&'static RobotKind>,
 }
 
 /// A robot's model: its dimensions and limits. It requires the rest of a robot's components.

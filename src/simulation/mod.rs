@@ -1,6 +1,6 @@
 //! The simulator: robots, worlds, obstacles and sensors as entities, and one schedule that is a tick.
 //!
-//! - [`SimulationPlugin`] puts it into a Bevy app; [`start_run`] starts a run; [`step`] and [`seek`] move it.
+//! - [`SimulationPlugin`] puts it into a Bevy app; [`start_run`] starts a run; [`step`] and [`seek()`] move it.
 //! - A robot is an entity with a [`RobotModel<R>`] and the components that come with it. [`RobotPlugin`] adds a kind.
 //! - The state after a tick is a [`Frame`](crate::run::Frame): [`snapshot`] takes it, [`restore`] puts it back.
 //! - A window reads [`view`], [`Transport`] and [`LatestFrame`], and sends [`RunCommand`]s.

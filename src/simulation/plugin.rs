@@ -10,6 +10,7 @@ use super::{
     CommandRefused, Keyframes, LatestFrame, PendingInput, Playback, RobotKinds, RobotPlugin, RunCommand,
     SimulationSchedule, SimulationSystems, Transport, Undo, command, play_tick, state,
 };
+use crate::configuration::RobotKind;
 use crate::random::Seed;
 use crate::robots::{HITCH, RUSTY, Reach};
 use crate::run::DT;
@@ -48,10 +49,10 @@ impl Plugin for SimulationPlugin {
             .add_systems(RunFixedMainLoop, command::carry_out.in_set(RunFixedMainLoopSystems::BeforeFixedMainLoop))
             .add_systems(FixedUpdate, run_while_playing);
         app.add_plugins((
-            RobotPlugin::new("rusty", RUSTY),
-            RobotPlugin::new("reach", Reach::<2>::workbench()),
-            RobotPlugin::new("reach3", Reach::<3>::redundant()),
-            RobotPlugin::new("hitch", HITCH),
+            RobotPlugin::new(RobotKind::RUSTY.name, RUSTY),
+            RobotPlugin::new(RobotKind::REACH.name, Reach::<2>::workbench()),
+            RobotPlugin::new(RobotKind::REACH3.name, Reach::<3>::redundant()),
+            RobotPlugin::new(RobotKind::HITCH.name, HITCH),
         ));
     }
 }

@@ -85,7 +85,9 @@ pub(super) fn start_run_in_order(
         let (w, resident) = residents[i];
         let model = &config.worlds[w];
         let id = RobotId(i as u32);
-        let request = SpawnRequest { seed: input.seed, id, world: worlds[w], model, resident, sensor: config.sensor };
+        let about = world.get_resource::<RobotKinds>().and_then(|k| k.about(&resident.kind));
+        let request =
+            SpawnRequest { seed: input.seed, id, world: worlds[w], model, resident, sensor: config.sensor, about };
         let spawner = world.get_resource::<RobotKinds>().and_then(|k| k.spawner(&resident.kind));
         let robot = match spawner {
             Some(spawn) => spawn(world, &request),

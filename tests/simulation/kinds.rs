@@ -3,7 +3,9 @@
 use bevy::app::App;
 use bevy::prelude::MinimalPlugins;
 use motion_lab::collision::{Collision, Scene};
+use motion_lab::configuration::{RobotKind, Space};
 use motion_lab::geometry::Aabb;
+use motion_lab::manifest::{Formula, Level};
 use motion_lab::prelude::*;
 use motion_lab::recording::{Recorder, Run, RunError};
 use motion_lab::robots::{ChartLine, ConfigurationError, PartRates, Rates};
@@ -139,4 +141,27 @@ fn a_kind_registered_again_is_the_new_one_and_keeps_its_dimensions() {
     let heading = app.world().resource::<LatestFrame>().0.robots[0].configuration[2];
     let expected = 1.5 * 0.05 * motion_lab::num::tan(0.6) / 2.0;
     assert!((heading - expected).abs() < 1e-12, "{heading} {expected}");
+}
+
+#[test]
+fn a_kind_of_ones_own_is_shown_by_its_own_description() {
+    static PUCK: RobotKind = RobotKind {
+        name: "puck",
+        coordinates: &["x", "y"],
+        start: "two: x, y",
+        spaces: &[Space { coordinates: 2, formula: "q = (x, y) \u{2208} R^2", words: "A point of the plane." }],
+        has_encoders: false,
+        ..RobotKind::RUSTY
+    };
+    let about = |plugin: RobotPlugin<Puck>| {
+        let add = |app: &mut App| _ = app.add_plugins(plugin);
+        let run = Recorder::with_robots(config(1), Seed(8), add).unwrap();
+        run.view().into_iter().map(|robot| robot.about.map(|kind| kind.name)).collect::<Vec<_>>()
+    };
+    let plugin = || RobotPlugin::new("puck", Puck { radius: 0.2 });
+    assert_eq!(about(plugin()), [None, Some("rusty")], "nobody described it");
+    assert_eq!(about(plugin().described(&PUCK)), [Some("puck"), Some("rusty")]);
+    let formula = Formula::of(PUCK.space(2).unwrap());
+    assert_eq!(formula.0.iter().map(|term| term.text).collect::<String>(), "q = (x, y) \u{2208} R2");
+    assert_eq!(formula.0.last().map(|term| term.level), Some(Level::Sup));
 }

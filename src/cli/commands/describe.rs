@@ -4,6 +4,7 @@ use clap::Args;
 use serde_json::{Map, Value, json};
 
 use crate::cli::{Data, Failure, Outcome};
+use motion_lab::configuration::RobotKind;
 use motion_lab::picture::{Rgb, Role, Theme};
 use motion_lab::ui::{Formula, Widget};
 
@@ -27,14 +28,12 @@ impl Describe {
                 })
             })
             .collect();
-        let spaces = [("rusty", false), ("reach", false), ("reach3", false), ("hitch", false), ("hitch", true)];
+        let spaces = RobotKind::ALL.into_iter().flat_map(|kind| kind.spaces.iter().map(move |space| (kind, space)));
         let formulas: Vec<Value> = spaces
-            .iter()
-            .map(|&(robot, trailer)| {
-                let formula = Formula::space(robot, trailer);
+            .map(|(kind, space)| {
                 json!({
-                    "robot": robot, "trailer": trailer, "mathml": formula.mathml(),
-                    "spoken": Formula::spoken(robot, trailer),
+                    "robot": kind.name, "trailer": space.coordinates > 3, "mathml": Formula::of(space).mathml(),
+                    "spoken": space.words,
                 })
             })
             .collect();

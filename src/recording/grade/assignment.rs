@@ -5,6 +5,7 @@ use serde::Deserialize;
 
 use super::{AssignmentError, AssignmentProblem, MAX_SEEDS};
 use crate::collision::{Collision, Scene};
+use crate::configuration::RobotKind;
 use crate::random::Seed;
 use crate::recording::{Recorder, RunError};
 use crate::run::Script;
@@ -154,7 +155,7 @@ impl AssignmentFile {
             }
         }
         let kind = world.robots[number].kind.clone();
-        if limits.reversals.is_some() && kind.starts_with("reach") {
+        if limits.reversals.is_some() && RobotKind::of(&kind).is_some_and(|known| !known.drives) {
             return Err(error("limits", AssignmentProblem::Reversals));
         }
         if !(1..=MAX_SEEDS).contains(&seeds.len()) {

@@ -3,7 +3,7 @@
 use std::fmt;
 
 use super::Assignment;
-use crate::configuration::{Configuration, Coordinates, HitchCfg, Tn};
+use crate::configuration::{Configuration as _, Coordinates, RobotKind};
 use crate::geometry::Pose2;
 use crate::random::Seed;
 use crate::recording::RunError;
@@ -88,9 +88,7 @@ impl Attempt {
 
 /// Whether a robot that drives went forward; `None` when it hardly moved, or does not drive.
 fn way(kind: &str, before: &[f64], after: &[f64]) -> Option<bool> {
-    if !["rusty", "hitch"].contains(&kind) {
-        return None;
-    }
+    RobotKind::of(kind).filter(|known| known.drives)?;
     let pose = |q: &[f64]| Pose2::from_coordinates(q.get(..3)?);
     let dx = pose(after)?.boxminus(&pose(before)?).dx;
     (dx.abs() > CREEP).then_some(dx > 0.0)
@@ -108,15 +106,9 @@ fn is_within(assignment: &Assignment, q: &[f64]) -> bool {
 /// The chart difference of two configurations of this kind. A kind that a program registered is compared coordinate by
 /// coordinate.
 fn difference(kind: &str, from: &[f64], to: &[f64]) -> Option<Coordinates> {
-    fn of<C: Configuration>(from: &[f64], to: &[f64]) -> Option<Coordinates> {
-        C::from_coordinates(from)?.difference(&C::from_coordinates(to)?).ok()
-    }
-    match kind {
-        "rusty" => of::<Pose2>(from, to),
-        "reach" => of::<Tn<2>>(from, to),
-        "reach3" => of::<Tn<3>>(from, to),
-        "hitch" => of::<HitchCfg>(from, to),
-        _ => (from.len() == to.len()).then(|| from.iter().zip(to).map(|(a, b)| b - a).collect()),
+    match RobotKind::of(kind) {
+        Some(known) => (known.difference)(from, to),
+        None => (from.len() == to.len()).then(|| from.iter().zip(to).map(|(a, b)| b - a).collect()),
     }
 }
 

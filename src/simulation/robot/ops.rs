@@ -163,6 +163,7 @@ fn view<R: SimulatedRobot>(world: &World, e: Entity) -> Option<RobotView> {
         id: world.get::<RobotId>(e)?.0,
         name: name.name.clone(),
         kind: name.kind.clone(),
+        about: name.about,
         world: world.get::<SimulatedWorld>(world.get::<ResidesIn>(e)?.0)?.index,
         configuration: q.to_string(),
         configuration_in_full: format!("{q:?}"),

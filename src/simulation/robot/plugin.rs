@@ -6,6 +6,7 @@ use std::sync::Arc;
 use bevy::prelude::*;
 
 use super::spawn::{SpawnRequest, spawn_robot};
+use crate::configuration::RobotKind;
 use crate::simulation::schedule::{KindSystems, Phase};
 use crate::simulation::tick::{drive, settle};
 use crate::simulation::{RobotOps, SimulatedRobot, SimulationSchedule, SimulationSystems, SpawnError};
@@ -19,12 +20,21 @@ use crate::simulation::{RobotOps, SimulatedRobot, SimulationSchedule, Simulation
 pub struct RobotPlugin<R: SimulatedRobot> {
     kind: String,
     model: R,
+    about: Option<&'static RobotKind>,
 }
 
 impl<R: SimulatedRobot> RobotPlugin<R> {
     /// A plugin whose robots of kind `kind` are copies of `model`.
     pub fn new(kind: impl Into<String>, model: R) -> Self {
-        RobotPlugin { kind: kind.into(), model }
+        let kind = kind.into();
+        RobotPlugin { about: RobotKind::of(&kind), kind, model }
+    }
+
+    /// Describes the kind to figures, plots and the window: its coordinates, its spaces and whether it drives. Without
+    /// a description they show a robot of a program's own kind by its footprint and its readout alone.
+    #[must_use]
+    pub fn described(self, about: &'static RobotKind) -> Self {
+        RobotPlugin { about: Some(about), ..self }
     }
 }
 
@@ -35,6 +45,7 @@ type Spawner = Arc<dyn Fn(&mut World, &SpawnRequest) -> Result<Entity, SpawnErro
 #[derive(Resource, Clone, Default)]
 pub struct RobotKinds {
     spawners: BTreeMap<String, Spawner>,
+    about: BTreeMap<String, &'static RobotKind>,
     /// The number of robot types.
     types: usize,
 }
@@ -43,6 +54,11 @@ impl RobotKinds {
     /// The names of the kinds, in alphabetical order.
     pub fn names(&self) -> impl Iterator<Item = &str> {
         self.spawners.keys().map(String::as_str)
+    }
+
+    /// The description of a kind, if it has one.
+    pub fn about(&self, kind: &str) -> Option<&'static RobotKind> {
+        self.about.get(kind).copied()
     }
 
     pub(crate) fn spawner(&self, kind: &str) -> Option<Spawner> {
@@ -87,6 +103,10 @@ impl<R: SimulatedRobot> Plugin for RobotPlugin<R> {
         });
         let mut kinds = app.world_mut().get_resource_or_init::<RobotKinds>();
         kinds.spawners.insert(self.kind.clone(), spawner);
+        match self.about {
+            Some(about) => _ = kinds.about.insert(self.kind.clone(), about),
+            None => _ = kinds.about.remove(&self.kind),
+        }
         let number = kinds.types;
         if app.world().contains_resource::<SystemsOf<R>>() {
             return;

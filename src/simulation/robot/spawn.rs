@@ -3,7 +3,7 @@
 use bevy::prelude::*;
 
 use super::simulated::canonical;
-use crate::configuration::Configuration as _;
+use crate::configuration::{Configuration as _, RobotKind};
 use crate::random::{Seed, Stream};
 use crate::sensors::{RangeSensor, Scanner};
 use crate::simulation::{
@@ -20,6 +20,7 @@ pub(crate) struct SpawnRequest<'a> {
     pub(crate) model: &'a WorldModel,
     pub(crate) resident: &'a Resident,
     pub(crate) sensor: Option<RangeSensor>,
+    pub(crate) about: Option<&'static RobotKind>,
 }
 
 /// Spawns a robot of type `R`, with its sensor.
@@ -56,7 +57,7 @@ pub(crate) fn spawn_robot<R: SimulatedRobot>(
             Slip(Stream::new(request.seed, &format!("{}/slip", resident.name))),
             ops,
             request.id,
-            RobotName { name: resident.name.clone(), kind: resident.kind.clone() },
+            RobotName { name: resident.name.clone(), kind: resident.kind.clone(), about: request.about },
             ResidesIn(request.world),
         ))
         .id();

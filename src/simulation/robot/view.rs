@@ -1,6 +1,6 @@
 //! `RobotView`, a robot's state for views that do not know its type.
 
-use crate::configuration::Coordinates;
+use crate::configuration::{Coordinates, RobotKind};
 use crate::geometry::{Footprint, Point2};
 use crate::robots::EncoderCounts;
 
@@ -13,6 +13,8 @@ pub struct RobotView {
     pub name: String,
     /// The kind, as worlds name it.
     pub kind: String,
+    /// The kind's description, if it has one.
+    pub about: Option<&'static RobotKind>,
     /// The number of the world it lives in.
     pub world: u32,
     /// The configuration as its type prints, three decimals.

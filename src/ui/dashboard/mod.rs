@@ -13,7 +13,9 @@ pub(crate) mod pad;
 pub(crate) mod pane;
 #[cfg(feature = "screen")]
 pub(crate) mod plots;
-#[cfg(all(test, feature = "screen"))]
+// two attributes, because the lints recognise only a bare `cfg(test)`
+#[cfg(test)]
+#[cfg(feature = "screen")]
 mod tests;
 #[cfg(feature = "screen")]
 pub(crate) mod time_line;

@@ -10,6 +10,7 @@ use bevy_egui::egui::{
 use super::goal::trailer_of;
 use super::{drive, handles, pad};
 use crate::atlas;
+use crate::configuration::RobotKind;
 use crate::manifest::Formula;
 use crate::picture::{Drawing, Fit, Item, Picture, Role, ScaleBar, pick, places, scan};
 use crate::run::RobotInput;
@@ -156,8 +157,9 @@ fn words(ui: &mut Ui, cockpit: &Cockpit, fit: &Fit, look: &Look, state: &mut UiS
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| scale_bar(ui, fit.px_per_metre(), look));
     });
     for robot in &cockpit.robots {
-        let towing = robot.trailer == Some(true);
-        frame::formula(ui, &Formula::space(&robot.kind, towing), Formula::spoken(&robot.kind, towing), look, state);
+        if let Some(space) = robot.about.and_then(|about| about.space(robot.coordinates.len())) {
+            frame::formula(ui, &Formula::of(space), space.words, look, state);
+        }
         readouts(ui, robot, look, state);
         counts(ui, robot, look, state);
         if robot.is_arm {
@@ -232,7 +234,8 @@ fn links(ui: &mut Ui, robot: &CockpitRobot, state: &mut UiState, commands: &mut 
         if robot.is_arm {
             let (words, links) = if robot.coordinates.len() == 2 { ("three links", 3) } else { ("two links", 2) };
             let link = ui.link(words).on_hover_text("Start a new run with this arm");
-            if link.clicked() && matches!(robot.kind.as_str(), "reach" | "reach3") {
+            let own = [RobotKind::REACH.name, RobotKind::REACH3.name].contains(&robot.kind.as_str());
+            if link.clicked() && own {
                 commands.push(Command::Session(SessionCommand::Links { robot: robot.name.clone(), links }));
             }
         }

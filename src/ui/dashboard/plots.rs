@@ -3,6 +3,7 @@
 use bevy_egui::egui::{RichText, TextStyle, Ui};
 use egui_plot::{Line, LineStyle, Plot, PlotPoints, VLine};
 
+use crate::configuration::RobotKind;
 use crate::picture::Role;
 use crate::run::DT;
 use crate::simulation::{History, Trail, TransportCommand};
@@ -13,8 +14,8 @@ const POINTS: usize = 400;
 
 /// A line of a plot: which robots it is drawn for, its name, its value.
 struct Channel {
-    /// Kinds of robots, by how their names begin; empty for all.
-    kinds: &'static [&'static str],
+    /// Whether it has a line for robots of a kind.
+    shows: fn(&RobotKind) -> bool,
     name: &'static str,
     value: fn(&Trail) -> Option<f64>,
 }
@@ -31,31 +32,43 @@ const GRAPHS: [Graph; 4] = [
     Graph {
         title: "Distance to the nearest obstacle, m",
         wraps: false,
-        channels: &[Channel { kinds: &[], name: "", value: |t| Some(t.clearance).filter(|c| c.is_finite()) }],
+        channels: &[Channel { shows: |_| true, name: "", value: |t| Some(t.clearance).filter(|c| c.is_finite()) }],
     },
     Graph {
         title: "Headings, rad",
         wraps: true,
         channels: &[
-            Channel { kinds: &["rusty", "hitch"], name: "theta", value: |t| t.coordinates.get(2).copied() },
-            Channel { kinds: &["hitch"], name: "psi", value: |t| t.coordinates.get(3).copied() },
+            Channel { shows: |k| k.drives, name: "theta", value: |t| t.coordinates.get(2).copied() },
+            Channel {
+                shows: |k| k.drives && k.coordinates.len() > 3,
+                name: "psi",
+                value: |t| t.coordinates.get(3).copied(),
+            },
         ],
     },
     Graph {
         title: "Encoders against true travel, m",
         wraps: false,
         channels: &[
-            Channel { kinds: &["rusty"], name: "encoders", value: |t| t.encoders },
-            Channel { kinds: &["rusty"], name: "true", value: |t| Some(t.travelled) },
+            Channel { shows: |k| k.has_encoders, name: "encoders", value: |t| t.encoders },
+            Channel { shows: |k| k.has_encoders, name: "true", value: |t| Some(t.travelled) },
         ],
     },
     Graph {
         title: "Joint angles, rad",
         wraps: true,
         channels: &[
-            Channel { kinds: &["reach"], name: "theta1", value: |t| t.coordinates.first().copied() },
-            Channel { kinds: &["reach"], name: "theta2", value: |t| t.coordinates.get(1).copied() },
-            Channel { kinds: &["reach3"], name: "theta3", value: |t| t.coordinates.get(2).copied() },
+            Channel { shows: RobotKind::is_arm, name: "theta1", value: |t| t.coordinates.first().copied() },
+            Channel {
+                shows: |k| k.is_arm() && k.coordinates.len() > 1,
+                name: "theta2",
+                value: |t| t.coordinates.get(1).copied(),
+            },
+            Channel {
+                shows: |k| k.is_arm() && k.coordinates.len() > 2,
+                name: "theta3",
+                value: |t| t.coordinates.get(2).copied(),
+            },
         ],
     },
 ];
@@ -115,8 +128,8 @@ pub fn plots(
 fn lines<'a>(graph: &'a Graph, model: &'a Dashboard) -> impl Iterator<Item = (u32, String, fn(&Trail) -> Option<f64>)> {
     let robots = || (0_u32..).zip(model.cockpits.iter().flat_map(|c| &c.robots));
     graph.channels.iter().flat_map(move |channel| {
-        let kinds = channel.kinds;
-        let of = robots().filter(move |(_, r)| kinds.is_empty() || kinds.iter().any(|k| r.kind.starts_with(k)));
+        // a kind without a description has the lines of every robot
+        let of = robots().filter(move |(_, r)| r.about.map_or(channel.name.is_empty(), channel.shows));
         of.map(|(id, r)| (id, format!("{} {}", r.name, channel.name).trim().to_owned(), channel.value))
     })
 }

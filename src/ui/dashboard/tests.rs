@@ -5,7 +5,7 @@ use std::sync::Arc;
 use bevy_egui::egui::{Context, Event, Key, Modifiers, PointerButton, RawInput, Rect, Shape, Vec2, pos2, vec2};
 
 use crate::atlas::Atlas;
-use crate::configuration::{Configuration, HitchCfg, T2};
+use crate::configuration::{Configuration, HitchCfg, RobotKind, T2};
 use crate::geometry::{Aabb, Point2, Pose2};
 use crate::picture::{Picture, Role, Theme};
 use crate::random::Seed;
@@ -22,6 +22,7 @@ fn robot<R: Robot>(name: &str, kind: &str, robot: &R, q: R::Configuration) -> Co
     CockpitRobot {
         name: name.into(),
         kind: kind.into(),
+        about: RobotKind::of(kind),
         readout: q.to_string(),
         in_full: format!("{q:?}"),
         coordinates: q.coordinates(),

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use crate::atlas::Atlas;
-use crate::configuration::Coordinates;
+use crate::configuration::{Coordinates, RobotKind};
 use crate::geometry::{Footprint, Point2, Pose2};
 use crate::picture::{Item, Picture, RobotDrawing, robot};
 use crate::random::Seed;
@@ -29,6 +29,8 @@ pub struct CockpitRobot {
     pub drivable: bool,
     /// Its kind, as worlds name it.
     pub kind: String,
+    /// Its kind's description, if it has one.
+    pub about: Option<&'static RobotKind>,
     /// Whether it is an arm, moved by its joints.
     pub is_arm: bool,
     /// The coordinates of its configuration at the last tick.

@@ -3,6 +3,7 @@
 use super::description::RobotText;
 use super::items::{finite, make_point};
 use super::name::check_name;
+use crate::configuration::RobotKind;
 use crate::num;
 use crate::worlds::{BeamModel, Resident, WorldProblem};
 
@@ -12,7 +13,7 @@ impl Resident {
     /// coordinates of a kind that begins with `x-` need only be finite. The name is not checked.
     ///
     /// # Errors
-    /// [`WorldProblem`](crate::worlds::WorldProblem): an unknown kind, a wrong number of coordinates, a coordinate that
+    /// [`WorldProblem`]: an unknown kind, a wrong number of coordinates, a coordinate that
     /// is not finite or is too large, or a refused sensor.
     pub fn try_new(
         name: impl Into<String>,
@@ -35,13 +36,13 @@ pub(crate) fn make_resident(text: &RobotText) -> Result<Resident, WorldProblem> 
 /// Checks the start of a robot of this kind and wraps its angles.
 pub(crate) fn make_start(kind: &str, mut start: Vec<f64>) -> Result<Vec<f64>, WorldProblem> {
     // how many coordinates are a position, how many are allowed, and how an error names them
-    let (lengths, counts, expected) = match kind {
-        "rusty" => (2, 3..=3, "three: x, y, theta"),
-        "reach" => (0, 2..=2, "two: th1, th2"),
-        "reach3" => (0, 3..=3, "three: th1, th2, th3"),
-        "hitch" => (2, 3..=4, "three: x, y, theta; or with a trailer four: x, y, theta, psi"),
-        own if own.len() > 2 && own.starts_with("x-") && check_name(own).is_ok() => (usize::MAX, 1..=64, "1 to 64"),
-        _ => return Err(WorldProblem::Kind(kind.to_owned())),
+    let (lengths, counts, expected) = match RobotKind::of(kind) {
+        Some(known) => {
+            let least = known.spaces.first().map_or(0, |space| space.coordinates);
+            (known.lengths, least..=known.coordinates.len(), known.start)
+        }
+        None if kind.len() > 2 && kind.starts_with("x-") && check_name(kind).is_ok() => (usize::MAX, 1..=64, "1 to 64"),
+        None => return Err(WorldProblem::Kind(kind.to_owned())),
     };
     if !counts.contains(&start.len()) {
         return Err(WorldProblem::Start { kind: kind.to_owned(), expected, found: start.len() });
@@ -60,7 +61,7 @@ pub(crate) fn make_start(kind: &str, mut start: Vec<f64>) -> Result<Vec<f64>, Wo
 
 /// Checks the sensor noise of a robot. Its kind must have a range sensor.
 pub(crate) fn make_noise(kind: &str, noise: BeamModel) -> Result<BeamModel, WorldProblem> {
-    if ["reach", "reach3", "hitch"].contains(&kind) {
+    if RobotKind::of(kind).is_some_and(|known| !known.senses) {
         return Err(WorldProblem::NoSensor(kind.to_owned()));
     }
     Ok(noise.try_new()?)

@@ -4,8 +4,8 @@
 //! |---|---|
 //! | a ROS map, [`RosMap`] | boxes over its occupied cells, or on request closed walls along their borders |
 //! | a MovingAI map, [`movingai`] | the same |
-//! | an IR-SIM world, [`irsim`] | circles, boxes, polygons, walls and robots |
-//! | an SVG drawing, [`svg`] | filled shapes as solid obstacles, shapes that are only stroked as walls |
+//! | an IR-SIM world, [`irsim()`] | circles, boxes, polygons, walls and robots |
+//! | an SVG drawing, [`svg()`] | filled shapes as solid obstacles, shapes that are only stroked as walls |
 //!
 //! Nothing here opens a file: bytes go in, a [`CellMap`] or an [`Imported`] world comes out. The world is one that
 //! [`World::parse`] would give: its text reads back as the same world.

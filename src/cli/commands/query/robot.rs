@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use clap::ValueEnum;
 use motion_lab::collision::{Checker, Scene};
-use motion_lab::configuration::{AnyConfiguration, HitchCfg, Tn};
+use motion_lab::configuration::{AnyConfiguration, HitchCfg, RobotKind, Tn};
 use motion_lab::geometry::Pose2;
 use motion_lab::num::wrap;
 use motion_lab::robots::{AnyRobot, HITCH, RUSTY, Reach};
@@ -49,10 +49,10 @@ impl RobotName {
     /// Its kind, as worlds name it.
     pub fn kind(self) -> &'static str {
         match self {
-            RobotName::Rusty => "rusty",
-            RobotName::Reach | RobotName::Choset => "reach",
-            RobotName::Reach3 => "reach3",
-            RobotName::Hitch => "hitch",
+            RobotName::Rusty => RobotKind::RUSTY.name,
+            RobotName::Reach | RobotName::Choset => RobotKind::REACH.name,
+            RobotName::Reach3 => RobotKind::REACH3.name,
+            RobotName::Hitch => RobotKind::HITCH.name,
         }
     }
 
@@ -63,11 +63,11 @@ impl RobotName {
     pub fn at(self, numbers: Option<&[f64]>, world: &World) -> Result<(AnyRobot, AnyConfiguration), String> {
         let kind = self.kind();
         let resident = world.robots.iter().find(|r| r.kind == kind).map(|r| r.start.clone());
-        let numbers = match (numbers, kind) {
-            (Some([x, y]), "rusty") => vec![*x, *y, 0.0],
+        let numbers = match (numbers, self) {
+            (Some([x, y]), RobotName::Rusty) => vec![*x, *y, 0.0],
             (Some(numbers), _) => numbers.to_vec(),
-            (None, "reach") => vec![FRAC_PI_4, FRAC_PI_2],
-            (None, "reach3") => resident.unwrap_or(vec![0.5, 0.9, 0.7]),
+            (None, RobotName::Reach | RobotName::Choset) => vec![FRAC_PI_4, FRAC_PI_2],
+            (None, RobotName::Reach3) => resident.unwrap_or(vec![0.5, 0.9, 0.7]),
             (None, _) => resident.ok_or_else(|| format!("no {kind} lives there: give its configuration with --q"))?,
         };
         if matches!(self, RobotName::Rusty | RobotName::Hitch) {

@@ -1,6 +1,7 @@
 //! Reads a subset of IR-SIM's YAML.
 
 use super::shape::IrShape;
+use crate::configuration::RobotKind;
 use crate::geometry::Pose2;
 use crate::worlds::import::error::wrong_value;
 use crate::worlds::import::yaml::{self, Fields, Node, Value};
@@ -134,8 +135,8 @@ fn robots(item: &str, node: &Node, draft: &mut Draft) -> Result<(), ImportError>
     let mut model = kinematics.fields(&format!("{item}.kinematics"))?;
     let model_name = model.need("name")?;
     let kind = match model_name.text("name")? {
-        "diff" => "rusty",
-        "acker" => "hitch",
+        "diff" => RobotKind::RUSTY.name,
+        "acker" => RobotKind::HITCH.name,
         _ => return Err(model_name.wrong(&format!("{item}.kinematics.name"), "diff or acker")),
     };
     let states = states(item, &mut fields)?;
