@@ -27,6 +27,26 @@ fn no_source_file_is_longer_than_400_lines() {
 }
 
 #[test]
+fn comments_keep_the_line_width() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let mut comments = 0;
+    for folder in ["src", "tests", "benches", "examples"] {
+        for path in files(&root.join(folder), "rs") {
+            for (number, line) in fs::read_to_string(&path).unwrap().lines().enumerate() {
+                let text = line.trim_start();
+                // a row of a table has one line, and a string may hold a comment of another language
+                if text.starts_with("//") && !text.starts_with("//! |") && !text.contains("\\n") {
+                    comments += 1;
+                    let width = line.chars().count();
+                    assert!(width <= 120, "{}:{}: {width} columns", path.display(), number + 1);
+                }
+            }
+        }
+    }
+    assert!(comments > 5000, "{comments} lines of comments: this test no longer reads the files");
+}
+
+#[test]
 fn no_room_is_crowded() {
     let mut rooms: BTreeMap<String, usize> = BTreeMap::new();
     for source in sources() {

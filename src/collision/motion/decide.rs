@@ -47,8 +47,8 @@ pub(crate) fn verdict<M: Motion>(
 /// Largest number of halvings, enough for most motions; after that the [`verdict`] decides.
 const HALVINGS: u32 = 48;
 
-/// Whether a motion in a scene is proven free: true wherever the [`verdict`] says so. Faster, because it computes neither
-/// the clearance nor the first contact.
+/// Whether a motion in a scene is proven free: true wherever the [`verdict`] says so. Faster, because it computes
+/// neither the clearance nor the first contact.
 pub(crate) fn is_free<M: Motion>(scene: &Scene, motion: &M, budget: u32) -> bool {
     if let Some((way, radius)) = motion.disc_line()
         && let Some(free) = DiscLine::new(way, radius, scene).and_then(|disc| disc.is_free(scene))

@@ -124,8 +124,8 @@ impl Assignment {
     }
 }
 
-/// The first value in a log's frames that differs from the run of its seed, configuration and script: `found` in the log,
-/// `expected` by the run.
+/// The first value in a log's frames that differs from the run of its seed, configuration and script: `found` in the
+/// log, `expected` by the run.
 fn forgery(log: &Log) -> Result<Option<Divergence>, RunError> {
     let divergence = verify(log, |_| {})?.divergence;
     Ok(divergence.map(|d| Divergence { expected: d.found, found: d.expected, ..d }))
