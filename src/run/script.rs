@@ -56,7 +56,7 @@ impl Quantized {
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub enum RobotInput {
-    /// Hold these control channels, in 128ths of the maximum, -128 to 128. Rusty: speed, turn rate. Hitch: speed,
+    /// Hold these control channels, from -128 to 128, the maximum. Rusty: speed, turn rate. Hitch: speed,
     /// steering angle. Reach has no drive channels and refuses it.
     Drive(i16, i16),
     /// Go to these chart coordinates by the end of the tick. Reach: its joint angles.

@@ -30,9 +30,9 @@ pub struct UiState {
     pub seed_text: Option<String>,
     /// The name of the robot that the arrow keys drive.
     pub armed: Option<String>,
-    /// The channels last sent to that robot, in 128ths of the maximum.
+    /// The channels last sent to that robot, from -128 to 128, the maximum.
     pub held: (i16, i16),
-    /// The channels of the pad on the screen, in 128ths of the maximum.
+    /// The channels of the pad on the screen, from -128 to 128, the maximum.
     pub pad: (i16, i16),
     /// Whether a handle of an arm had the focus in the last frame. Such a handle keeps the arrow keys and no others.
     pub nudging: bool,

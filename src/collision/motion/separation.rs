@@ -25,8 +25,8 @@ pub(crate) fn open_parts<M: Motion>(scene: &Scene, motion: &M, ends: Ends) -> Pa
 }
 
 /// Whether a motion between two free ends is free, by halving every stretch that the separation test does not prove;
-/// all parts but those in `open` are proven clear. Both answers are proven: `Some(false)` means that a contact was found.
-/// `None` where `halvings` halvings do not decide.
+/// all parts but those in `open` are proven clear. Both answers are proven: `Some(false)` means that a contact was
+/// found. `None` where `halvings` halvings do not decide.
 pub(crate) fn halve<M: Motion>(scene: &Scene, motion: &M, ends: Ends, open: &[usize], halvings: u32) -> Option<bool> {
     let mut halving = Halving { scene, motion, halvings };
     halving.halves(Place::new(0.0, ends.start), Place::new(1.0, ends.end), open)
