@@ -1,9 +1,9 @@
 //! Pictures: drawings in metres and roles, drawn once and shown by every medium.
 //!
-//! A [`Picture`] says what is where and what it stands for; it knows neither pixels nor colours. A [`Fit`] places it on
-//! a sheet, [`resolve()`] turns its items into lines and areas in pixels, still by [`Role`], and a medium gives the
-//! roles their colours: the SVG writer ([`Figure::svg`]) from a [`Palette`], the window from its theme. Both draw the same
-//! strokes.
+//! A [`Picture`] says what is where and what it stands for; it knows neither pixels nor colours. A [`Fit`] places it
+//! on a sheet, [`resolve()`] turns its items into lines and areas in pixels, still by [`Role`], and a medium gives the
+//! roles their colours: the SVG writer ([`Figure::svg`]) from a [`Palette`], the window from its theme. Both draw the
+//! same strokes.
 
 mod faces;
 mod figure;
