@@ -22,7 +22,11 @@ fn check<R: Robot>(checker: &Checker<R>, a: R::Configuration, b: R::Configuratio
         std::hint::black_box(checker.edge(&a, &b).unwrap());
         std::hint::black_box(checker.edge_certified(&a, &b, &mut certificate).unwrap());
         std::hint::black_box(checker.is_free(&a) || checker.edge_free(&a, &b));
-        std::hint::black_box((checker.distance(&a), checker.witness(&a).unwrap(), checker.clearance(&a).unwrap()));
+        std::hint::black_box((
+            checker.distance(&a),
+            checker.witness(&a).unwrap(),
+            checker.clearance_gradient(&a).unwrap(),
+        ));
         std::hint::black_box(checker.last_free(&a, &b).unwrap());
         let edge = checker.robot().edge(&a, &b).unwrap();
         std::hint::black_box(verify_certificate(checker.scene(), &edge, &certificate).unwrap());

@@ -86,7 +86,7 @@ fn holds<R: Robot>(
         let all = (0..=samples).map(|i| clearance(until * f64::from(i) / f64::from(samples)));
         all.fold(f64::INFINITY, |m, d| if d < m { d } else { m })
     };
-    let verdict = checker.motion(motion);
+    let verdict = checker.motion_verdict(motion);
     match verdict {
         EdgeVerdict::Free { clearance } => {
             assert!(least(1.0, 120) >= clearance - tolerance, "less than {clearance}: {}", what());

@@ -44,7 +44,7 @@ fn moving_along_the_clearance_direction_gains_exactly_that_much() {
     let mut tried = 0;
     while tried < 300 {
         let q = R2::new(s.uniform(-2.0, 2.0), s.uniform(-2.0, 2.0));
-        let (dist, direction) = disc.clearance(&q).unwrap();
+        let (dist, direction) = disc.clearance_gradient(&q).unwrap();
         let Some(n) = direction else {
             assert_eq!(dist, 0.0);
             continue;

@@ -57,7 +57,7 @@ fn judged<R: Robot>(scene: &Scene, robot: &R, motion: &impl Motion<Configuration
     let nothing = Scene::empty(scene.bounds());
     let (options, mut certificate) = (MarchOptions::default(), Certificate::new());
     let verdicts = [
-        Checker::new(scene.clone(), robot.clone()).motion(motion),
+        Checker::new(scene.clone(), robot.clone()).motion_verdict(motion),
         march(scene, motion, options, None),
         march(scene, motion, options, Some(&mut certificate)),
         march(&Surroundings { scene: &nothing, others: &others }, motion, options, None),

@@ -111,12 +111,12 @@ impl Anatomy {
 
     /// Words on a plate beside a point, where there is room, with a leader line.
     fn plate(&self, id: &str, bounds: &Aabb, at: Point2, text: String, off: &[Footprint]) -> [Item; 2] {
-        let center = roomy_place(self, bounds, at, off);
-        let leader = Item::new(format!("{id}/leader"), &text, Role::Muted, Drawing::segment(at, center))
+        let centre = roomy_place(self, bounds, at, off);
+        let leader = Item::new(format!("{id}/leader"), &text, Role::Muted, Drawing::segment(at, centre))
             .stroked(Line::solid(0.75));
         let name = text.clone();
         let drawing =
-            Drawing::Label { at: center, text, anchor: Anchor::Centre, face: Face::Mono, size_px: 12.0, plate: true };
+            Drawing::Label { at: centre, text, anchor: Anchor::Centre, face: Face::Mono, size_px: 12.0, plate: true };
         [leader, Item::new(id, name, Role::Text, drawing)]
     }
 
@@ -173,7 +173,7 @@ impl Anatomy {
 pub(crate) fn annulus_items(anatomy: &Anatomy) -> Vec<Item> {
     let Some((base, radii)) = anatomy.checker().robot().annulus() else { return Vec::new() };
     let ring = |(name, radius): (&str, f64)| {
-        let circle = Drawing::Disc { center: base, radius };
+        let circle = Drawing::Disc { centre: base, radius };
         Item::new(format!("annulus/{name}"), format!("the {name} of the annulus"), Role::Muted, circle)
             .stroked(Line::solid(1.0).dashed(Dash::Dashed))
     };

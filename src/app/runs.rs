@@ -44,10 +44,14 @@ pub fn recorded(world: &World) -> Result<(Log, Vec<u8>), SessionError> {
 pub fn open_log(world: &mut World, name: &str, bytes: &[u8]) -> Result<Notice, SessionError> {
     let (log, damage) = match Log::read_mcap(bytes) {
         Ok(ReadLog { log, .. }) => (log, None),
-        Err(LogError::Damaged(mut damaged)) => match damaged.recovered.take() {
-            Some(read) => (read.log, Some(damaged.to_string())),
-            None => return Err(LogError::Damaged(damaged).into()),
-        },
+        Err(LogError::Damaged(mut damaged)) => {
+            // said before the recovered part is taken out: the message names it
+            let message = damaged.to_string();
+            match damaged.recovered.take() {
+                Some(read) => (read.log, Some(message)),
+                None => return Err(LogError::Damaged(damaged).into()),
+            }
+        }
         Err(error) => return Err(error.into()),
     };
     checkpoint(world);

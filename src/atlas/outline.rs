@@ -14,7 +14,7 @@ pub enum EditShape {
     /// A disc.
     Disc {
         /// Its centre.
-        center: Point2,
+        centre: Point2,
         /// Its radius.
         radius: f64,
     },
@@ -66,7 +66,7 @@ impl EditShape {
         let shape = |written: &Written<'_>| match written {
             Written::Outline(points) => EditShape::Polygon(points.to_vec()),
             Written::Piece((pose, shape)) => match shape {
-                Shape::Disc { radius } => EditShape::Disc { center: pose.position(), radius: *radius },
+                Shape::Disc { radius } => EditShape::Disc { centre: pose.position(), radius: *radius },
                 Shape::Rectangle { min, max } if *pose == Pose2::IDENTITY => EditShape::Box { min: *min, max: *max },
                 Shape::Polygon(_) => EditShape::Polygon(shape.place(pose).core().to_vec()),
                 _ => {
@@ -98,8 +98,8 @@ impl EditShape {
             EditShape::Wall(points) | EditShape::Mark(points) => {
                 pieces.extend(points.windows(2).map(|w| (Pose2::IDENTITY, Shape::Segment { a: w[0], b: w[1] })));
             }
-            EditShape::Disc { center, radius } => {
-                pieces.push((Pose2::new(center.x, center.y, 0.0), Shape::Disc { radius: *radius }));
+            EditShape::Disc { centre, radius } => {
+                pieces.push((Pose2::new(centre.x, centre.y, 0.0), Shape::Disc { radius: *radius }));
             }
             EditShape::Box { min, max } => pieces.push((Pose2::IDENTITY, Shape::Rectangle { min: *min, max: *max })),
             EditShape::Polygon(points) => obstacle.add_polygon(points)?,
@@ -152,7 +152,7 @@ impl EditShape {
     fn points(&self) -> Vec<Point2> {
         match self {
             EditShape::Wall(_) | EditShape::Mark(_) => self.ring().map_or_else(Vec::new, |(ring, ..)| ring.to_vec()),
-            EditShape::Disc { center, radius } => vec![*center, Point2::new(center.x + radius, center.y)],
+            EditShape::Disc { centre, radius } => vec![*centre, Point2::new(centre.x + radius, centre.y)],
             EditShape::Box { min, max } => {
                 vec![*min, Point2::new(max.x, min.y), *max, Point2::new(min.x, max.y)]
             }
@@ -196,8 +196,8 @@ impl EditShape {
                     *p = to;
                 }
             }
-            EditShape::Disc { center, .. } if index == 0 => *center = to,
-            EditShape::Disc { center, radius } => *radius = hypot(to.x - center.x, to.y - center.y),
+            EditShape::Disc { centre, .. } if index == 0 => *centre = to,
+            EditShape::Disc { centre, radius } => *radius = hypot(to.x - centre.x, to.y - centre.y),
             EditShape::Box { min, max } => {
                 let corners = self.points();
                 if let Some(opposite) = corners.get((index + 2) % 4).filter(|_| index < 4) {
@@ -230,7 +230,7 @@ impl EditShape {
         match self {
             EditShape::Wall(points) => EditShape::Wall(all(points)),
             EditShape::Mark(points) => EditShape::Mark(all(points)),
-            EditShape::Disc { center, radius } => EditShape::Disc { center: moved(center), radius: *radius },
+            EditShape::Disc { centre, radius } => EditShape::Disc { centre: moved(centre), radius: *radius },
             EditShape::Box { min, max } => EditShape::Box { min: moved(min), max: moved(max) },
             EditShape::Polygon(points) => EditShape::Polygon(all(points)),
             EditShape::Rounded { points, radius } => EditShape::Rounded { points: all(points), radius: *radius },

@@ -80,7 +80,7 @@ impl<R: Robot> Checker<R> {
     /// # Errors
     /// [`ConfigurationError`] when either end is not a configuration of this robot.
     pub fn edge(&self, a: &R::Configuration, b: &R::Configuration) -> Result<EdgeVerdict, ConfigurationError> {
-        Ok(self.motion(&self.robot.edge(a, b)?))
+        Ok(self.motion_verdict(&self.robot.edge(a, b)?))
     }
 
     /// The last configuration along the edge up to which the edge is proven free. This is `b`, its angles in
@@ -94,7 +94,7 @@ impl<R: Robot> Checker<R> {
         b: &R::Configuration,
     ) -> Result<Option<R::Configuration>, ConfigurationError> {
         let edge = self.robot.edge(a, b)?;
-        Ok(match self.motion(&edge) {
+        Ok(match self.motion_verdict(&edge) {
             EdgeVerdict::Free { .. } => Some(edge.at(1.0)),
             EdgeVerdict::Hit { free_until, contact_at, .. } if free_until < contact_at => Some(edge.at(free_until)),
             EdgeVerdict::Hit { .. } => None,
@@ -108,7 +108,7 @@ impl<R: Robot> Checker<R> {
     ///
     /// # Errors
     /// [`ConfigurationError`] when `q` is not a configuration of this robot.
-    pub fn clearance(&self, q: &R::Configuration) -> Result<(f64, Option<Vector2>), ConfigurationError> {
+    pub fn clearance_gradient(&self, q: &R::Configuration) -> Result<(f64, Option<Vector2>), ConfigurationError> {
         Ok(match self.witness(q)? {
             None => (self.distance(q), None),
             Some(w) if w.dist == 0.0 => (0.0, None),
@@ -140,7 +140,7 @@ impl<R: Robot> Checker<R> {
     }
 
     /// The verdict on any motion of this robot: an edge, or the arc of a drive.
-    pub fn motion(&self, motion: &impl Motion<Configuration = R::Configuration>) -> EdgeVerdict {
+    pub fn motion_verdict(&self, motion: &impl Motion<Configuration = R::Configuration>) -> EdgeVerdict {
         verdict(&self.scene, motion, MarchOptions::default().budget, None)
     }
 }

@@ -88,8 +88,8 @@ impl CellMap {
 
     fn judge(&mut self, number: usize) {
         let cell = self.nodes[number].cell;
-        let (center, half) = self.place(&cell);
-        let state = self.slice.judge(center, half);
+        let (centre, half) = self.place(&cell);
+        let state = self.slice.judge(centre, half);
         self.nodes[number].cell.state = state;
         self.judged += 1;
         let area = 1_u64 << (2 * (self.finest - cell.level));
@@ -136,8 +136,8 @@ impl CellMap {
         }
         let mut node = &self.nodes[0];
         while let Some(first) = node.children {
-            let (center, _) = self.place(&node.cell);
-            let (right, upper) = (u32::from(p[0] >= center[0]), u32::from(p[1] >= center[1]));
+            let (centre, _) = self.place(&node.cell);
+            let (right, upper) = (u32::from(p[0] >= centre[0]), u32::from(p[1] >= centre[1]));
             node = &self.nodes[(first + right + 2 * upper) as usize];
         }
         node.cell.state

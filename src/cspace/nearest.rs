@@ -30,7 +30,7 @@ pub struct NearestFree {
 struct Waiting {
     distance: f64,
     number: u32,
-    center: [f64; 2],
+    centre: [f64; 2],
     half: [f64; 2],
 }
 
@@ -64,28 +64,28 @@ impl Ord for Waiting {
 /// depends on the arguments only.
 pub fn nearest_free(slice: &Slice, wanted: &AnyConfiguration) -> Option<NearestFree> {
     let target = slice.point(wanted);
-    let (center, half) = slice.whole();
+    let (centre, half) = slice.whole();
     let mut waiting = BinaryHeap::new();
     let mut number = 0;
-    let mut add = |waiting: &mut BinaryHeap<Reverse<Waiting>>, center, half| {
-        let (_, distance) = slice.nearest_in(target, center, half);
+    let mut add = |waiting: &mut BinaryHeap<Reverse<Waiting>>, centre, half| {
+        let (_, distance) = slice.nearest_in(target, centre, half);
         number += 1;
-        waiting.push(Reverse(Waiting { distance, number, center, half }));
+        waiting.push(Reverse(Waiting { distance, number, centre, half }));
     };
-    add(&mut waiting, center, half);
+    add(&mut waiting, centre, half);
     let (mut best, mut unresolved): (Option<(f64, AnyConfiguration)>, f64) = (None, f64::INFINITY);
     for _ in 0..BUDGET {
-        let Some(Reverse(Waiting { distance, center, half, .. })) = waiting.pop() else { break };
+        let Some(Reverse(Waiting { distance, centre, half, .. })) = waiting.pop() else { break };
         if best.is_some_and(|(d, _)| d <= distance) {
             unresolved = lesser(unresolved, distance);
             waiting.clear();
             break;
         }
-        if slice.judge(center, half) == CellState::Blocked {
+        if slice.judge(centre, half) == CellState::Blocked {
             continue;
         }
-        let (nearest, _) = slice.nearest_in(target, center, half);
-        for p in [nearest, center] {
+        let (nearest, _) = slice.nearest_in(target, centre, half);
+        for p in [nearest, centre] {
             let q = slice.at(p);
             let d = slice.distance(target, slice.point(&q));
             if best.is_none_or(|(least, _)| d < least) && slice.checker().is_free(&q) {
@@ -103,7 +103,7 @@ pub fn nearest_free(slice: &Slice, wanted: &AnyConfiguration) -> Option<NearestF
         }
         let quarter = half.map(|h| 0.5 * h);
         for (x, y) in [(-1.0, -1.0), (1.0, -1.0), (-1.0, 1.0), (1.0, 1.0)] {
-            add(&mut waiting, [center[0] + x * quarter[0], center[1] + y * quarter[1]], quarter);
+            add(&mut waiting, [centre[0] + x * quarter[0], centre[1] + y * quarter[1]], quarter);
         }
     }
     // the budget may have ended the search: cells still in the queue are not proven

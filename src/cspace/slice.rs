@@ -132,15 +132,15 @@ impl Slice {
         hypot(x, y)
     }
 
-    /// Judges a cell: all points within `half` of `center` in each coordinate.
+    /// Judges a cell: all points within `half` of `centre` in each coordinate.
     ///
     /// At the centre every part has a clearance, or a depth: how far it must move to be free. Within the cell no point
     /// of a part moves farther from there than the robot's motion bound to the cell's corner, the greatest bound in the
     /// cell. A clearance of every part above its bound proves the cell free, a depth of one part above its bound proves
     /// it blocked.
-    pub fn judge(&self, center: [f64; 2], half: [f64; 2]) -> CellState {
+    pub fn judge(&self, centre: [f64; 2], half: [f64; 2]) -> CellState {
         let (robot, scene) = (self.checker.robot(), self.checker.scene());
-        let q = self.at(center);
+        let q = self.at(centre);
         // the rates depend on the difference alone; it is taken from 0, so that it is not wrapped
         let Ok(rates) = robot.edge_rates(&self.at([0.0; 2]), &self.at([half[0], half[1]])) else {
             return CellState::Unknown;
@@ -163,10 +163,10 @@ impl Slice {
     }
 
     /// The point of a cell that is nearest to `p`, and how far that is.
-    pub(super) fn nearest_in(&self, p: [f64; 2], center: [f64; 2], half: [f64; 2]) -> ([f64; 2], f64) {
+    pub(super) fn nearest_in(&self, p: [f64; 2], centre: [f64; 2], half: [f64; 2]) -> ([f64; 2], f64) {
         let nearest = [0, 1].map(|i| {
-            let off = if self.wraps() { wrap(p[i] - center[i]) } else { p[i] - center[i] };
-            center[i] + off.clamp(-half[i], half[i])
+            let off = if self.wraps() { wrap(p[i] - centre[i]) } else { p[i] - centre[i] };
+            centre[i] + off.clamp(-half[i], half[i])
         });
         (nearest, self.distance(p, nearest))
     }

@@ -74,8 +74,8 @@ impl Footprint {
     }
 
     /// One disc, such as Rusty.
-    pub fn disc(center: Point2, radius: f64) -> Self {
-        Self::new([Part::new(Pose2 { x: center.x, y: center.y, theta: 0.0 }, Shape::Disc { radius })])
+    pub fn disc(centre: Point2, radius: f64) -> Self {
+        Self::new([Part::new(Pose2 { x: centre.x, y: centre.y, theta: 0.0 }, Shape::Disc { radius })])
     }
 
     /// One capsule per segment, each with its frame at the segment's first end and its x axis along the segment. The
@@ -98,10 +98,10 @@ impl Footprint {
     ///
     /// # Errors
     /// [`ShapeError`] when the centre is not finite or too far out, or the radius out of range.
-    pub fn try_disc(center: Point2, radius: f64) -> Result<Self, ShapeError> {
+    pub fn try_disc(centre: Point2, radius: f64) -> Result<Self, ShapeError> {
         Shape::try_disc(radius)?;
-        Shape::check_point(center)?;
-        Ok(Self::disc(center, radius))
+        Shape::check_point(centre)?;
+        Ok(Self::disc(centre, radius))
     }
 
     /// As [`capsules`](Self::capsules), checked.

@@ -175,8 +175,8 @@ fn reaches_out(primitive: &Primitive, rect: &ScreenRect) -> bool {
     let out = |p: &[f64; 2], by: f64| (0..2).any(|i| p[i] - by < rect.min[i] || p[i] + by > rect.min[i] + rect.size[i]);
     match primitive {
         Primitive::Area { corners, .. } => corners.iter().any(|p| out(p, 0.0)),
-        Primitive::Dots { centers, radius, .. } => centers.iter().any(|p| out(p, *radius)),
-        Primitive::Circle { center, radius, .. } => out(center, *radius),
+        Primitive::Dots { centres, radius, .. } => centres.iter().any(|p| out(p, *radius)),
+        Primitive::Circle { centre, radius, .. } => out(centre, *radius),
         Primitive::Lines { lines, .. } => lines.iter().flatten().any(|p| out(p, 0.0)),
         Primitive::Text { at, .. } => out(at, 0.0),
     }

@@ -19,7 +19,7 @@ pub struct ScreenRect {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Fit {
     px_per_metre: f64,
-    center: Point2,
+    centre: Point2,
     center_on_screen: ScreenPoint,
 }
 
@@ -32,7 +32,7 @@ impl Fit {
         Fit {
             // written so that NaN (a picture without extent) falls back too
             px_per_metre: if scale > 1e-3 && scale.is_finite() { scale } else { 1e-3 },
-            center: Point2::new(bounds.min.x + 0.5 * w, bounds.min.y + 0.5 * h),
+            centre: Point2::new(bounds.min.x + 0.5 * w, bounds.min.y + 0.5 * h),
             center_on_screen: [rect.min[0] + 0.5 * rect.size[0], rect.min[1] + 0.5 * rect.size[1]],
         }
     }
@@ -44,15 +44,15 @@ impl Fit {
 
     /// Where a point of the world lies on the screen.
     pub fn screen_from_world(&self, p: Point2) -> ScreenPoint {
-        let d = (p - self.center) * self.px_per_metre;
+        let d = (p - self.centre) * self.px_per_metre;
         [self.center_on_screen[0] + d.x, self.center_on_screen[1] - d.y]
     }
 
     /// The point of the world at a point of the screen.
     pub fn world_from_screen(&self, p: ScreenPoint) -> Point2 {
         Point2::new(
-            self.center.x + (p[0] - self.center_on_screen[0]) / self.px_per_metre,
-            self.center.y - (p[1] - self.center_on_screen[1]) / self.px_per_metre,
+            self.centre.x + (p[0] - self.center_on_screen[0]) / self.px_per_metre,
+            self.centre.y - (p[1] - self.center_on_screen[1]) / self.px_per_metre,
         )
     }
 }

@@ -37,7 +37,7 @@ pub enum Drawing {
     /// A disc, or a ring when it is not filled.
     Disc {
         /// Centre.
-        center: Point2,
+        centre: Point2,
         /// Radius.
         radius: f64,
     },
@@ -69,7 +69,7 @@ pub enum Drawing {
     /// A pointed nose on a disc: the triangle between its sides and a tip ahead, of at least `min_px` from the centre.
     Nose {
         /// The disc's centre.
-        center: Point2,
+        centre: Point2,
         /// The disc's radius.
         radius: f64,
         /// Which way it points, radians.

@@ -12,8 +12,8 @@ fn touches(primitive: &Primitive, at: ScreenPoint, reach: f64) -> bool {
     let from = |p: &ScreenPoint| hypot(p[0] - at[0], p[1] - at[1]);
     match primitive {
         Primitive::Area { corners, .. } => contains(corners, at),
-        Primitive::Dots { centers, radius, .. } => centers.iter().any(|c| from(c) <= radius + reach),
-        Primitive::Circle { center, radius, .. } => (from(center) - radius).abs() <= reach,
+        Primitive::Dots { centres, radius, .. } => centres.iter().any(|c| from(c) <= radius + reach),
+        Primitive::Circle { centre, radius, .. } => (from(centre) - radius).abs() <= reach,
         Primitive::Lines { lines, .. } => {
             lines.iter().flat_map(|l| l.windows(2)).any(|l| distance(at, l[0], l[1]) <= reach)
         }
@@ -54,7 +54,7 @@ mod tests {
             Item::new("box", "the box", Role::Obstacle, Drawing::Polygon(square)).filled(Fill::Hatch),
             Item::new("wall", "the wall", Role::Obstacle, Drawing::segment(p(0.0, 9.0), p(10.0, 9.0)))
                 .stroked(Line::solid(2.0)),
-            Item::new("robot", "Rusty", Role::Robot, Drawing::Disc { center: p(5.0, 3.0), radius: 1.0 })
+            Item::new("robot", "Rusty", Role::Robot, Drawing::Disc { centre: p(5.0, 3.0), radius: 1.0 })
                 .filled(Fill::Tint(0.9)),
         ]);
         let fit = Fit::new(&bounds, ScreenRect { min: [0.0, 0.0], size: [100.0, 100.0] }, 0.0);

@@ -27,7 +27,7 @@ pub enum Primitive {
     /// Filled discs of one size.
     Dots {
         /// Their centres.
-        centers: Vec<ScreenPoint>,
+        centres: Vec<ScreenPoint>,
         /// Their radius.
         radius: f64,
         /// What they stand for.
@@ -38,7 +38,7 @@ pub enum Primitive {
     /// A circle's line.
     Circle {
         /// Its centre.
-        center: ScreenPoint,
+        centre: ScreenPoint,
         /// Its radius.
         radius: f64,
         /// What it stands for.
@@ -95,16 +95,16 @@ pub fn resolve(item: &Item, fit: &Fit) -> Vec<Primitive> {
             areas(&mut out, *role, *fill, &pieces);
             stroke(&mut out, *role, *line, outline.iter().map(|l| l.iter().map(px).collect()).collect());
         }
-        Drawing::Disc { center, radius } => {
-            let (center, radius) = (px(center), radius * fit.px_per_metre());
+        Drawing::Disc { centre, radius } => {
+            let (centre, radius) = (px(centre), radius * fit.px_per_metre());
             match fill {
                 Fill::None => {}
                 Fill::Tint(opacity) => {
-                    out.push(Primitive::Dots { centers: vec![center], radius, role: *role, opacity: *opacity });
+                    out.push(Primitive::Dots { centres: vec![centre], radius, role: *role, opacity: *opacity });
                 }
-                _ => area(&mut out, *role, *fill, &circle(center, radius)),
+                _ => area(&mut out, *role, *fill, &circle(centre, radius)),
             }
-            out.extend(line.map(|line| Primitive::Circle { center, radius, role: *role, line }));
+            out.extend(line.map(|line| Primitive::Circle { centre, radius, role: *role, line }));
         }
         Drawing::Capsule { a, b, radius } => {
             let placed = Shape::Capsule { a: *a, b: *b, radius: *radius }.place(&Pose2::IDENTITY);
@@ -116,7 +116,7 @@ pub fn resolve(item: &Item, fit: &Fit) -> Vec<Primitive> {
             stroke(&mut out, *role, *line, ends.iter().map(|end| vec![px(from), px(end)]).collect());
             if let Fill::Tint(opacity) = *fill {
                 out.push(Primitive::Dots {
-                    centers: ends.iter().map(px).collect(),
+                    centres: ends.iter().map(px).collect(),
                     radius: 1.25,
                     role: *role,
                     opacity,
@@ -135,10 +135,10 @@ pub fn resolve(item: &Item, fit: &Fit) -> Vec<Primitive> {
             let head = vec![point(length - barb, barb), tip, point(length - barb, -barb)];
             stroke(&mut out, *role, *line, vec![vec![from, tip], head]);
         }
-        Drawing::Nose { center, radius, heading, min_px } => {
+        Drawing::Nose { centre, radius, heading, min_px } => {
             let (s, c) = num::sin_cos(*heading);
-            let (center, r) = (px(center), radius * fit.px_per_metre());
-            let point = |ahead: f64, left: f64| [center[0] + c * ahead - s * left, center[1] - s * ahead - c * left];
+            let (centre, r) = (px(centre), radius * fit.px_per_metre());
+            let point = |ahead: f64, left: f64| [centre[0] + c * ahead - s * left, centre[1] - s * ahead - c * left];
             // the tangents from the tip touch the disc where cos = r / tip
             let tip = num::greater(2.2 * r, *min_px);
             let (cos, sin) = (r / tip, num::sqrt(1.0 - r * r / (tip * tip)));
@@ -178,8 +178,8 @@ fn areas(out: &mut Vec<Primitive>, role: Role, fill: Fill, pieces: &[Vec<ScreenP
             stroke(out, role, Some(Line::solid(1.0).at_opacity(HATCH_OPACITY)), lines);
         }
         Fill::Dots => {
-            let centers = pieces.iter().flat_map(|p| dots(p)).collect();
-            out.push(Primitive::Dots { centers, radius: 0.9, role, opacity: 0.8 });
+            let centres = pieces.iter().flat_map(|p| dots(p)).collect();
+            out.push(Primitive::Dots { centres, radius: 0.9, role, opacity: 0.8 });
         }
         _ => {}
     }
@@ -193,8 +193,8 @@ fn stroke(out: &mut Vec<Primitive>, role: Role, line: Option<Line>, mut lines: V
 }
 
 fn mark(out: &mut Vec<Primitive>, role: Role, at: ScreenPoint, glyph: Glyph, radius: f64) {
-    let dot = |role, radius| Primitive::Dots { centers: vec![at], radius, role, opacity: 1.0 };
-    let ring = |role, radius, width| Primitive::Circle { center: at, radius, role, line: Line::solid(width) };
+    let dot = |role, radius| Primitive::Dots { centres: vec![at], radius, role, opacity: 1.0 };
+    let ring = |role, radius, width| Primitive::Circle { centre: at, radius, role, line: Line::solid(width) };
     match glyph {
         Glyph::Dot => out.push(dot(role, radius)),
         Glyph::Ring => out.extend([dot(Role::Paper, radius), ring(role, radius, 1.5)]),
@@ -209,11 +209,11 @@ fn mark(out: &mut Vec<Primitive>, role: Role, at: ScreenPoint, glyph: Glyph, rad
     }
 }
 
-fn circle(center: ScreenPoint, radius: f64) -> Vec<ScreenPoint> {
+fn circle(centre: ScreenPoint, radius: f64) -> Vec<ScreenPoint> {
     (0..64)
         .map(|k| {
             let (s, c) = num::sin_cos(f64::from(k) * std::f64::consts::PI / 32.0);
-            [center[0] + radius * c, center[1] + radius * s]
+            [centre[0] + radius * c, centre[1] + radius * s]
         })
         .collect()
 }
@@ -222,8 +222,8 @@ fn is_finite(primitive: &Primitive) -> bool {
     let point = |p: &ScreenPoint| p[0].is_finite() && p[1].is_finite();
     match primitive {
         Primitive::Area { corners, .. } => corners.iter().all(point),
-        Primitive::Dots { centers, radius, .. } => radius.is_finite() && centers.iter().all(point),
-        Primitive::Circle { center, radius, .. } => radius.is_finite() && point(center),
+        Primitive::Dots { centres, radius, .. } => radius.is_finite() && centres.iter().all(point),
+        Primitive::Circle { centre, radius, .. } => radius.is_finite() && point(centre),
         Primitive::Lines { lines, .. } => lines.iter().flatten().all(point),
         Primitive::Text { at, .. } => point(at),
     }
@@ -254,7 +254,7 @@ mod tests {
     #[test]
     fn a_nose_points_ahead_and_touches_its_disc() {
         let heading = std::f64::consts::FRAC_PI_2;
-        let drawing = Drawing::Nose { center: Point2::new(5.0, 5.0), radius: 1.0, heading, min_px: 1.0 };
+        let drawing = Drawing::Nose { centre: Point2::new(5.0, 5.0), radius: 1.0, heading, min_px: 1.0 };
         let item = Item::new("a", "a", Role::Robot, drawing).filled(Fill::Tint(1.0));
         let [Primitive::Area { corners, .. }] = &resolve(&item, &fit())[..] else { panic!("one triangle") };
         assert!((corners[0][0] - 50.0).abs() < 1e-9 && (corners[0][1] - 28.0).abs() < 1e-9, "up, 2.2 radii");
@@ -271,18 +271,18 @@ mod tests {
         let drawings = [
             Drawing::Polyline(vec![nan, nan]),
             Drawing::Polygon(vec![nan; 3]),
-            Drawing::Disc { center: nan, radius: 1.0 },
+            Drawing::Disc { centre: nan, radius: 1.0 },
             Drawing::Capsule { a: nan, b: nan, radius: 1.0 },
             Drawing::Rays { from: nan, ends: vec![nan] },
             Drawing::Arrow { from: Point2::origin(), along: Vector2::zeros(), min_px: 1.0 },
-            Drawing::Nose { center: nan, radius: 1.0, heading: 0.0, min_px: 1.0 },
+            Drawing::Nose { centre: nan, radius: 1.0, heading: 0.0, min_px: 1.0 },
             Drawing::Mark { at: nan, glyph: Glyph::Cross, radius_px: 1.0 },
         ];
         for drawing in drawings {
             for fill in [Fill::Tint(1.0), Fill::Hatch, Fill::Dots] {
                 let item = Item::new("a", "a", Role::Robot, drawing.clone()).filled(fill).stroked(Line::solid(1.0));
                 let shown = resolve(&item, &fit());
-                let bare = |p: &Primitive| matches!(p, Primitive::Dots { centers, .. } if centers.is_empty());
+                let bare = |p: &Primitive| matches!(p, Primitive::Dots { centres, .. } if centres.is_empty());
                 assert!(shown.iter().all(bare), "{drawing:?} {shown:?}");
             }
         }

@@ -28,7 +28,7 @@ fn part_item(id: String, name: &str, part: &Part, role: Role, opacity: f64) -> I
     let placed = part.placed();
     let edge = Line::solid(1.0);
     let drawing = match placed.core() {
-        [center] => Drawing::Disc { center: *center, radius: placed.radius() },
+        [centre] => Drawing::Disc { centre: *centre, radius: placed.radius() },
         [a, b] if placed.radius() == 0.0 => {
             let line = Line::solid(3.0).at_opacity(num::greater(opacity, 0.5));
             return Item::new(id, name, role, Drawing::segment(*a, *b)).stroked(line);
@@ -48,8 +48,8 @@ pub fn robot(drawing: &RobotDrawing<'_>) -> Vec<Item> {
     let parts = drawing.footprint.parts();
     let item = |part: &str, role, drawn| Item::new(format!("{id}/{part}"), drawing.name, role, drawn);
     if let ([part], Some(heading)) = (parts, drawing.heading) {
-        let (center, radius) = (part.pose().position(), part.placed().radius());
-        let nose = Drawing::Nose { center, radius, heading, min_px: 11.0 };
+        let (centre, radius) = (part.pose().position(), part.placed().radius());
+        let nose = Drawing::Nose { centre, radius, heading, min_px: 11.0 };
         items.push(item("heading", role, nose).filled(Fill::Tint(0.85)));
     }
     if let Some((pose, Shape::Rectangle { min, max })) = parts.first().map(|p| (p.pose(), p.shape())) {

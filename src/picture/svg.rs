@@ -155,16 +155,16 @@ impl Out {
     fn primitive(&mut self, primitive: &Primitive) {
         match primitive {
             Primitive::Area { .. } => self.areas(std::slice::from_ref(primitive)),
-            Primitive::Dots { centers, radius, role, opacity } => {
+            Primitive::Dots { centres, radius, role, opacity } => {
                 let (name, r) = (role.name(), number(*radius));
                 let alpha = alpha("fill", *opacity);
-                for c in centers {
+                for c in centres {
                     let (x, y) = (number(c[0]), number(c[1]));
                     let _ = writeln!(self.text, "<circle class=\"{name} f\"{alpha} cx=\"{x}\" cy=\"{y}\" r=\"{r}\"/>");
                 }
             }
-            Primitive::Circle { center, radius, role, line } => {
-                let (x, y, r) = (number(center[0]), number(center[1]), number(*radius));
+            Primitive::Circle { centre, radius, role, line } => {
+                let (x, y, r) = (number(centre[0]), number(centre[1]), number(*radius));
                 let (name, line) = (role.name(), stroke(line));
                 let _ = writeln!(self.text, "<circle class=\"{name} l\"{line} cx=\"{x}\" cy=\"{y}\" r=\"{r}\"/>");
             }

@@ -2,6 +2,7 @@
 
 use bevy::prelude::*;
 
+use super::transport::re_rolled;
 use super::{
     CommandError, CommandRefused, History, Keyframes, PendingInput, Playback, RobotCommand, RobotName, RunConfig,
     SpawnError, Transport, TransportCommand, seek, start_run_in_order, step, undo,
@@ -9,11 +10,10 @@ use super::{
 use crate::random::Seed;
 use crate::run::{Event, Script};
 
-use super::transport::re_rolled;
-
 /// A command to the run, as a message. Commands are carried out in the order in which they were written, before the
 /// fixed loop.
 #[derive(Message, Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub enum RunCommand {
     /// Move the run through time, or begin another.
     Transport(TransportCommand),

@@ -40,6 +40,7 @@ impl Transport {
 
 /// A command of the transport. None of them is part of a run's script.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub enum TransportCommand {
     /// Let ticks follow one another.
     Play,

@@ -100,7 +100,11 @@ fn choices(ui: &mut Ui, model: &Dashboard, look: &Look, order: &mut CaptureOrder
                 [("from", from, 0, model.frontier), ("to", to, 0, model.frontier), ("every", every, 1, 1000)]
             {
                 ui.label(name);
-                let spoken = format!("GIF: {name}{}", if name == "every" { " so many ticks" } else { " tick" });
+                let spoken = if name == "every" {
+                    "GIF: ticks between pictures".to_owned()
+                } else {
+                    format!("GIF: {name} tick")
+                };
                 let field = ui.add(DragValue::new(value).range(least..=most));
                 field.widget_info(|| WidgetInfo::labeled(WidgetType::DragValue, true, &spoken));
             }

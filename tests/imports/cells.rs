@@ -190,7 +190,7 @@ fn assert_solid(grid: &Grid, world: &World) {
     let scene = Scene::of_world(world);
     let inside = 0.49 * grid.resolution();
     for (column, row) in (0..grid.rows()).flat_map(|row| (0..grid.columns()).map(move |column| (column, row))) {
-        let middle = grid.center(column, row);
+        let middle = grid.centre(column, row);
         for (x, y) in [(0.0, 0.0), (inside, inside), (-inside, inside), (inside, -inside), (-inside, -inside)] {
             let hit = scene.intersects(&Footprint::disc(middle + Vector2::new(x, y), 1e-6));
             assert_eq!(hit, grid.is_occupied(column, row), "cell ({column}, {row}), ({x}, {y}) from its middle");
@@ -202,7 +202,7 @@ fn assert_solid(grid: &Grid, world: &World) {
 /// number of times exactly when the cell is occupied.
 fn assert_borders(grid: &Grid, world: &World) {
     for row in 0..grid.rows() {
-        let y = grid.center(0, row).y;
+        let y = grid.centre(0, row).y;
         let placed = world.obstacles.iter().flat_map(|o| o.placed().collect::<Vec<_>>());
         let crossings: Vec<f64> = placed
             .map(|p| (p.core()[0], p.core()[1]))
@@ -213,7 +213,7 @@ fn assert_borders(grid: &Grid, world: &World) {
             })
             .collect();
         for column in 0..grid.columns() {
-            let x = grid.center(column, row).x;
+            let x = grid.centre(column, row).x;
             let right = crossings.iter().filter(|c| **c > x).count();
             assert_eq!(right % 2 == 1, grid.is_occupied(column, row), "cell ({column}, {row})");
         }

@@ -150,8 +150,12 @@ fn a_kind_of_ones_own_is_shown_by_its_own_description() {
         coordinates: &["x", "y"],
         start: "two: x, y",
         spaces: &[Space { coordinates: 2, formula: "q = (x, y) \u{2208} R^2", words: "A point of the plane." }],
+        lengths: 2,
+        drives: false,
+        senses: false,
         has_encoders: false,
-        ..RobotKind::RUSTY
+        difference: |from, to| R2::from_coordinates(from)?.difference(&R2::from_coordinates(to)?).ok(),
+        printed: |q| R2::from_coordinates(q).map(|q| q.to_string()),
     };
     let about = |plugin: RobotPlugin<Puck>| {
         let add = |app: &mut App| _ = app.add_plugins(plugin);

@@ -42,8 +42,16 @@ fn what_was_driven_is_saved_and_verifies_to_the_same_digest() {
     let opened = open_run(harness.state_mut().app.world_mut(), &path);
     assert!(opened.is_error && opened.text.contains("71"), "{opened:?}");
     assert_eq!(harness.state().transport().tick, 71);
+    // of a cut file the sealed beginning is opened, and the notice says how much that is
+    std::fs::write(&path, &bytes[..bytes.len() / 2]).unwrap();
+    let opened = open_run(harness.state_mut().app.world_mut(), &path);
+    let sealed = harness.state().transport().frontier;
+    assert!(sealed > 10 && sealed < ticks as u64 && opened.is_error, "{opened:?}");
+    let [whole, cut] = [format!("bit-identical, {sealed} of {ticks}"), format!("{sealed} of {ticks} ticks are whole")];
+    assert!(opened.text.contains(&whole) && opened.text.contains(&cut), "{opened:?}");
     // what is no log leaves the run as it is
+    let stands = harness.state().transport().tick;
     std::fs::write(&path, b"a cat").unwrap();
     let opened = open_run(harness.state_mut().app.world_mut(), &path);
-    assert!(opened.is_error && harness.state().transport().tick == 71, "{opened:?}");
+    assert!(opened.is_error && harness.state().transport().tick == stands, "{opened:?}");
 }

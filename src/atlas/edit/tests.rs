@@ -36,7 +36,7 @@ fn a_drawn_world_is_a_world_file() {
     let mut editor = Editor::new(World::workbench());
     let ops = [
         Op::Add { name: name("the fence"), shape: EditShape::Wall(vec![p(-2.0, -2.0), p(2.0, -2.0), p(2.0, -1.8)]) },
-        Op::Add { name: name("the tree"), shape: EditShape::Disc { center: p(-1.5, 1.5), radius: 0.2 } },
+        Op::Add { name: name("the tree"), shape: EditShape::Disc { centre: p(-1.5, 1.5), radius: 0.2 } },
         Op::Add {
             name: name("the ell"),
             shape: EditShape::Polygon(vec![
@@ -95,8 +95,8 @@ fn what_a_file_would_be_refused_for_is_refused_and_changes_nothing() {
     let refused = [
         (Op::Add { name: name("the block"), shape: boxed(0.0, 0.0, 1.0, 1.0) }, "the name is taken"),
         (Op::Add { name: name(""), shape: boxed(0.0, 0.0, 1.0, 1.0) }, "it must be 1 to 200 bytes"),
-        (Op::Add { name: name("dust"), shape: EditShape::Disc { center: p(0.0, 0.0), radius: 0.0 } }, "radius 0 m"),
-        (Op::Add { name: name("nan"), shape: EditShape::Disc { center: p(f64::NAN, 0.0), radius: 1.0 } }, ""),
+        (Op::Add { name: name("dust"), shape: EditShape::Disc { centre: p(0.0, 0.0), radius: 0.0 } }, "radius 0 m"),
+        (Op::Add { name: name("nan"), shape: EditShape::Disc { centre: p(f64::NAN, 0.0), radius: 1.0 } }, ""),
         (Op::Add { name: name("bow"), shape: bow }, "polygon: "),
         (Op::Add { name: name("dot"), shape: EditShape::Wall(vec![p(0.0, 0.0)]) }, ""),
         (Op::Drag { name: name("the block"), handle: 2, to: p(0.5, 1.0) }, "the smallest feature"),

@@ -17,7 +17,7 @@ use crate::cli::{Data, Failure, Outcome, say};
 /// Simulate a recorded run again, from its seed and script alone and to its last tick, print where its robots end, and
 /// say how many of the recorded ticks it equals to the last bit.
 ///
-/// Unlike `verify` it does not stop where the recording ends or differs: with -o the whole replayed run is kept, for
+/// Unlike `verify` it does not stop where the recording ends: with -o the whole replayed run is kept, for
 /// `diff` to compare. The exit code is 4 when a recorded tick differs, else 5 when the recording is damaged or
 /// unfinished.
 #[derive(Debug, Args)]

@@ -204,7 +204,7 @@ fn edit_panel(ui: &mut Ui, look: &Look, state: &mut UiState) {
         let shapes = [
             ("wall", EditShape::Wall(vec![corner(-2.0, 0.0), corner(2.0, 0.0)])),
             ("box", EditShape::Box { min: corner(-1.0, -1.0), max: corner(1.0, 1.0) }),
-            ("disc", EditShape::Disc { center: middle, radius: u }),
+            ("disc", EditShape::Disc { centre: middle, radius: u }),
             ("polygon", EditShape::Polygon(vec![corner(-2.0, -1.0), corner(2.0, -1.0), corner(0.0, 2.0)])),
             ("mark", EditShape::Mark(vec![corner(-2.0, 0.0), corner(2.0, 0.0)])),
         ];

@@ -131,8 +131,8 @@ fn handle(
     focused
 }
 
-fn circle(name: &str, center: Point2, radius: f64) -> Item {
-    Item::new(format!("handle/{name}"), name, Role::Path, Drawing::Disc { center, radius })
+fn circle(name: &str, centre: Point2, radius: f64) -> Item {
+    Item::new(format!("handle/{name}"), name, Role::Path, Drawing::Disc { centre, radius })
         .stroked(Line::solid(1.0).dashed(Dash::Dashed))
 }
 

@@ -21,24 +21,24 @@ pub fn channels(right: f32, up: f32) -> (i16, i16) {
 
 /// Shows the pad in the lower right corner of a paper. Its channels are left in the state, where `drive` takes them.
 pub fn pad(ui: &mut Ui, robot: &str, paper: Rect, look: &Look, state: &mut UiState) {
-    let center = pos2(paper.right() - 0.5 * SIZE - 10.0, paper.bottom() - 0.5 * SIZE - 10.0);
-    let rect = Rect::from_center_size(center, Vec2::splat(SIZE));
+    let centre = pos2(paper.right() - 0.5 * SIZE - 10.0, paper.bottom() - 0.5 * SIZE - 10.0);
+    let rect = Rect::from_center_size(centre, Vec2::splat(SIZE));
     let response = ui.interact(rect, Id::new((robot, "pad")), Sense::drag());
     response.widget_info(|| WidgetInfo::labeled(WidgetType::Other, true, format!("{robot}: pad, up drives forward")));
     let radius = 0.5 * SIZE;
     let held = response.interact_pointer_pos().filter(|_| response.is_pointer_button_down_on());
-    let off = held.map_or(Vec2::ZERO, |at| (at - center) / radius);
+    let off = held.map_or(Vec2::ZERO, |at| (at - centre) / radius);
     state.pad = channels(off.x, -off.y);
     let painter = ui.painter_at(rect.expand(2.0));
-    painter.circle(center, radius, look.tint(Role::Paper, 0.35), Stroke::new(1.5, look.colour(Role::Focus)));
+    painter.circle(centre, radius, look.tint(Role::Paper, 0.35), Stroke::new(1.5, look.colour(Role::Focus)));
     for (x, y) in [(0.0, -1.0), (0.0, 1.0), (-1.0, 0.0), (1.0, 0.0)] {
         let out = vec2(x, y);
         let side = vec2(-y, x) * 7.0;
-        let tip = center + out * (radius - 8.0);
+        let tip = centre + out * (radius - 8.0);
         let back = tip - out * 8.0;
         painter.line(vec![back + side, tip, back - side], Stroke::new(1.5, look.colour(Role::Focus)));
     }
-    let at = center + vec2(off.x, off.y).clamp(Vec2::splat(-1.0), Vec2::splat(1.0)) * (radius - 14.0);
+    let at = centre + vec2(off.x, off.y).clamp(Vec2::splat(-1.0), Vec2::splat(1.0)) * (radius - 14.0);
     painter.circle_filled(at, 12.0, look.tint(Role::Focus, if held.is_some() { 1.0 } else { 0.5 }));
     response.on_hover_cursor(CursorIcon::Grab);
 }

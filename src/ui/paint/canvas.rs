@@ -150,12 +150,12 @@ fn paint_primitive(painter: &Painter, primitive: &Primitive, look: &Look) {
                 painter.add(Shape::convex_polygon(corners, look.tint(*role, *opacity), Stroke::NONE));
             }
         }
-        Primitive::Dots { centers, radius, role, opacity } => {
+        Primitive::Dots { centres, radius, role, opacity } => {
             let colour = look.tint(*role, *opacity);
-            painter.extend(centers.iter().map(|c| Shape::circle_filled(pos(c), *radius as f32, colour)));
+            painter.extend(centres.iter().map(|c| Shape::circle_filled(pos(c), *radius as f32, colour)));
         }
-        Primitive::Circle { center, radius, role, line } => {
-            painter.circle_stroke(pos(center), *radius as f32, stroke(*role, line, look));
+        Primitive::Circle { centre, radius, role, line } => {
+            painter.circle_stroke(pos(centre), *radius as f32, stroke(*role, line, look));
         }
         Primitive::Lines { lines, role, line } => {
             for points in lines {

@@ -134,7 +134,7 @@ impl Grid {
     }
 
     /// The middle of a cell, in world coordinates.
-    pub fn center(&self, column: u32, row: u32) -> Point2 {
+    pub fn centre(&self, column: u32, row: u32) -> Point2 {
         let Aabb { min, max } = self.square(column, row);
         Point2::new(0.5 * (min.x + max.x), 0.5 * (min.y + max.y))
     }

@@ -159,7 +159,7 @@ mod tests {
             let mut farthest = 0.0;
             for row in 0..grid.rows() {
                 for column in 0..grid.columns() {
-                    let p = grid.center(column, row);
+                    let p = grid.centre(column, row);
                     let exact = point_distance(&world, p);
                     let derived = transform.distance(column, row);
                     assert!((derived - exact).abs() <= half_diagonal, "{}: {p} {derived} {exact}", world.name);

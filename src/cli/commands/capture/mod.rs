@@ -111,7 +111,7 @@ pub struct SceneArgs {
     /// Cspace: how often the plane is halved for the finest cells. [default: 9; of a run 7]
     #[arg(long, value_name = "LEVEL", value_parser = clap::value_parser!(u32).range(1..=12))]
     cells: Option<u32>,
-    /// Cspace: stop after judging so many cells. [default: when all are proven or as fine as --cells says]
+    /// Cspace: stop after judging this number of cells. [default: when all are proven or as fine as --cells says]
     #[arg(long, value_name = "N")]
     budget: Option<u32>,
     /// Atlas: the grid of this cell size over the world, shaded by its distance transform, metres.
