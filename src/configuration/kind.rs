@@ -6,8 +6,8 @@ use crate::geometry::Pose2;
 /// A kind of robot, as worlds name it, and all that is not of its type: names, coordinates, formulas.
 ///
 /// The lab's own are [`RobotKind::ALL`]. World files, logs, grading and the atlas know these by name. A program that
-/// adds a robot of its own describes it by another one, which the simulator's plugin for the robot takes; views, formulas
-/// and plots then show the robot by it.
+/// adds a robot of its own describes it by another one, which the simulator's plugin for the robot takes; views,
+/// formulas and plots then show the robot by it.
 ///
 /// ```
 /// use motion_lab::configuration::RobotKind;

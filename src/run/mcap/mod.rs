@@ -19,6 +19,7 @@ mod preamble;
 mod read_log;
 mod reader;
 mod record;
+mod record_writer;
 #[cfg(test)]
 mod tests;
 mod writer;

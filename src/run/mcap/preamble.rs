@@ -4,7 +4,8 @@ use std::collections::BTreeMap;
 
 use serde::Deserialize;
 
-use super::record::{self, Cursor, Record, opcode, put_map, put_record, put_str, put_u64};
+use super::record::{self, Cursor, Record, opcode};
+use super::record_writer::RecordWriter;
 use super::{FORMAT_VERSION, GENERATOR, LogError, ReadLog};
 use crate::random::Seed;
 use crate::run::{DT, Frame, Log, Script};
@@ -29,16 +30,6 @@ pub struct Preamble {
     /// The texts of the worlds, in order. They are kept as read, because another version of the program may print a
     /// world differently.
     pub world_texts: Vec<String>,
-}
-
-/// The position of a metadata record or an attachment, for the summary at the end.
-#[derive(Clone, Debug)]
-pub struct Indexed {
-    pub opcode: u8,
-    pub offset: u64,
-    pub length: u64,
-    pub data_size: u64,
-    pub name: String,
 }
 
 /// The run's settings as written in the file. The worlds are named by their attachments.
@@ -155,35 +146,14 @@ impl Preamble {
         format!("Config(\n    ticks: {ticks},\n    sensor: {sensor},\n    worlds: {worlds:?},\n)\n")
     }
 
-    /// Appends the metadata record and the attachments to `out`, which holds the file so far. Returns their positions.
-    pub fn put(&self, out: &mut Vec<u8>) -> Vec<Indexed> {
-        let mut index = Vec::new();
-        let offset = out.len() as u64;
-        put_record(out, opcode::METADATA, |out| {
-            put_str(out, METADATA);
-            put_map(out, &self.metadata());
-        });
-        let length = out.len() as u64 - offset;
-        index.push(Indexed { opcode: opcode::METADATA, offset, length, data_size: 0, name: METADATA.to_owned() });
-        let worlds = self.world_texts.iter().enumerate().map(|(i, text)| (world_file(i), text.clone()));
-        let files = [(CONFIG.to_owned(), self.config_text())].into_iter().chain(worlds);
-        for (name, text) in files.chain([(SCRIPT.to_owned(), self.script.to_ron())]) {
-            let offset = out.len() as u64;
-            put_record(out, opcode::ATTACHMENT, |out| {
-                let start = out.len();
-                put_u64(out, 0); // log time and
-                put_u64(out, 0); // creation time: no clock is read
-                put_str(out, &name);
-                put_str(out, super::MEDIA_TYPE);
-                put_u64(out, text.len() as u64);
-                out.extend_from_slice(text.as_bytes());
-                let crc = crc32fast::hash(&out[start..]);
-                record::put_u32(out, crc);
-            });
-            let length = out.len() as u64 - offset;
-            index.push(Indexed { opcode: opcode::ATTACHMENT, offset, length, data_size: text.len() as u64, name });
+    /// Writes the metadata record and the attachments.
+    pub fn put(&self, records: &mut RecordWriter) -> Result<(), LogError> {
+        records.metadata(METADATA, self.metadata())?;
+        records.attachment(CONFIG.to_owned(), &self.config_text())?;
+        for (i, text) in self.world_texts.iter().enumerate() {
+            records.attachment(world_file(i), text)?;
         }
-        index
+        records.attachment(SCRIPT.to_owned(), &self.script.to_ron())
     }
 
     /// Reads the preamble from sealed records. `initial` is the frame in their messages.

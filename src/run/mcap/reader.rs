@@ -3,10 +3,11 @@
 use prost::Message;
 use xxhash_rust::xxh3::xxh3_128;
 
-use super::encoder::{Encoder, put_seal};
+use super::encoder::Encoder;
 use super::message::{FrameMessage, ScanMessage};
 use super::preamble::Preamble;
 use super::record::{Cursor, MAGIC, Record, SEAL, message, opcode, record_at};
+use super::record_writer::put_seal;
 use super::{DamageKind, DamagedLog, EXPORT_PROFILE, LogError, ReadLog, channel};
 use crate::run::{Frame, Log};
 
@@ -47,7 +48,7 @@ impl Log {
                 digests: Vec::new(),
             },
         };
-        let mut encoder = Encoder::begin(preamble);
+        let mut encoder = Encoder::begin(preamble)?;
         if !file.starts_with(encoder.piece()) {
             let offset = file.iter().zip(encoder.piece()).take_while(|(a, b)| a == b).count();
             return Err(LogError::Foreign { offset: offset as u64 });

@@ -1,4 +1,4 @@
-//! Reads and writes MCAP records: an opcode byte, the length of the content as 64 bits, the content. Little-endian.
+//! Reads MCAP records: an opcode byte, the length of the content as 64 bits, the content. Little-endian.
 
 use std::collections::BTreeMap;
 
@@ -7,44 +7,6 @@ pub use mcap::records::op as opcode;
 
 /// The opcode of a seal, in the range reserved for applications: other readers skip it.
 pub const SEAL: u8 = 0x80;
-
-/// Appends a record whose content `fill` appends.
-pub fn put_record(out: &mut Vec<u8>, opcode: u8, fill: impl FnOnce(&mut Vec<u8>)) {
-    out.push(opcode);
-    let length_at = out.len();
-    put_u64(out, 0);
-    fill(out);
-    let length = (out.len() - length_at - 8) as u64;
-    out[length_at..length_at + 8].copy_from_slice(&length.to_le_bytes());
-}
-
-pub fn put_u16(out: &mut Vec<u8>, x: u16) {
-    out.extend_from_slice(&x.to_le_bytes());
-}
-
-pub fn put_u32(out: &mut Vec<u8>, x: u32) {
-    out.extend_from_slice(&x.to_le_bytes());
-}
-
-pub fn put_u64(out: &mut Vec<u8>, x: u64) {
-    out.extend_from_slice(&x.to_le_bytes());
-}
-
-/// Appends a text, with its length in bytes before it.
-pub fn put_str(out: &mut Vec<u8>, text: &str) {
-    put_u32(out, text.len() as u32);
-    out.extend_from_slice(text.as_bytes());
-}
-
-/// Appends a map, with its length in bytes before it.
-pub fn put_map(out: &mut Vec<u8>, map: &BTreeMap<String, String>) {
-    let bytes: usize = map.iter().map(|(key, value)| 8 + key.len() + value.len()).sum();
-    put_u32(out, bytes as u32);
-    for (key, value) in map {
-        put_str(out, key);
-        put_str(out, value);
-    }
-}
 
 /// Reads values from the front of a slice; `None` if there are too few bytes. A length that was read never causes an
 /// allocation by itself.
@@ -147,7 +109,7 @@ mod tests {
     #[test]
     fn lengths_that_lie_are_refused_without_allocating() {
         let mut file = vec![opcode::MESSAGE];
-        put_u64(&mut file, u64::MAX);
+        file.extend(u64::MAX.to_le_bytes());
         file.extend([0; 40]);
         assert_eq!(record_at(&file, 0), None);
         file[1..9].copy_from_slice(&41_u64.to_le_bytes());
@@ -164,15 +126,17 @@ mod tests {
     }
 
     #[test]
-    fn what_is_put_is_taken() {
+    fn what_is_written_as_the_format_says_is_read() {
         let mut out = Vec::new();
         let map = BTreeMap::from([("key".to_owned(), "value".to_owned()), ("other".to_owned(), String::new())]);
-        put_record(&mut out, SEAL, |out| {
-            put_u16(out, 7);
-            put_u32(out, 8);
-            put_str(out, "é");
-            put_map(out, &map);
-        });
+        // by MCAP's description: an opcode, the content's length, the content; texts and maps after their lengths
+        let text = |t: &str| [&(t.len() as u32).to_le_bytes()[..], t.as_bytes()].concat();
+        let entries = ["key", "value", "other", ""].map(text).concat();
+        let content = [&7_u16.to_le_bytes()[..], &8_u32.to_le_bytes(), &text("\u{e9}"), &29_u32.to_le_bytes()].concat();
+        out.push(SEAL);
+        out.extend(((content.len() + entries.len()) as u64).to_le_bytes());
+        out.extend(content);
+        out.extend(entries);
         let record = record_at(&out, 0).unwrap();
         assert_eq!((record.opcode, record.end()), (SEAL, out.len()));
         let mut cursor = Cursor(record.content);

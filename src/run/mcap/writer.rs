@@ -25,7 +25,7 @@ impl<W: Write> LogWriter<W> {
     /// # Errors
     /// [`LogError`] if the settings, the script or the initial frame are not valid for a run, or the output fails.
     pub fn new(out: W, seed: Seed, config: &TourConfig, script: &Script, initial: &Frame) -> Result<Self, LogError> {
-        let encoder = Encoder::begin(Preamble::new(seed, config, script, initial)?);
+        let encoder = Encoder::begin(Preamble::new(seed, config, script, initial)?)?;
         let mut writer = LogWriter { out, encoder, failed: false };
         writer.write_piece()?;
         Ok(writer)
@@ -37,7 +37,7 @@ impl<W: Write> LogWriter<W> {
     /// # Errors
     /// [`LogError`] if `read` was changed and is no longer the beginning of a run.
     pub fn resume(out: W, read: &ReadLog) -> Result<Self, LogError> {
-        let mut encoder = Encoder::begin(read.preamble());
+        let mut encoder = Encoder::begin(read.preamble())?;
         for frame in &read.log.frames {
             encoder.tick(frame)?;
         }
