@@ -59,6 +59,14 @@ fn no_room_is_crowded() {
     assert!(rooms.len() > 30, "{} rooms: this test no longer reads the sources", rooms.len());
 }
 
+#[test]
+fn readme_is_a_two_minute_read() {
+    let readme = fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("README.md")).unwrap();
+    let words = readme.split_whitespace().count();
+    assert!(words <= 1500, "{words} words: the rest belongs under docs");
+    assert!(words > 500, "{words} words");
+}
+
 /// The state of a file in a walk through the imports.
 #[derive(Clone, Copy, PartialEq)]
 enum Seen {
