@@ -6,7 +6,8 @@ use super::starts::others_now;
 use crate::run::{Event, RobotInput, Script};
 use crate::simulation::{ResidesIn, RobotId, RobotName, RobotOps, Roster, Transport};
 
-/// An input to a robot from its driver, sent as a [`RunCommand`](crate::simulation::RunCommand). It applies before the next tick's step.
+/// An input to a robot from its driver, sent as a [`RunCommand`](crate::simulation::RunCommand). It applies before the
+/// next tick's step.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RobotCommand {
     /// The robot's name.
