@@ -52,22 +52,22 @@ pub fn capture(world: &mut World, order: &CaptureOrder, path: &Path) {
     let form = Form::of(path).unwrap_or(order.form);
     let paper = Paper { palette: state.theme().palette(), width: order.width, scale: order.scale as f32 };
     let (tick, span) = (world.resource::<Transport>().tick, order.span);
-    let (seed, frontier) = (world.resource::<Transport>().seed, world.resource::<Transport>().frontier);
-    let (config, script) = shown_run(world, frontier);
+    let frontier = world.resource::<Transport>().frontier;
+    let run = shown_run(world, frontier);
     let progress = Arc::new(Progress::default());
     let (told, to) = (Arc::clone(&progress), path.to_owned());
     let work = thread::spawn(move || {
         if form == Form::Gif
             && let Some(subject) = subject(&state, form)?
         {
-            let log = Run::record(config, (seed, script))?;
-            return film(&log, &subject, span, (&paper, &to), |done, all| {
+            let log = Run::record(run.config, (run.seed, run.script))?;
+            return film(&log, &subject, span, &paper, &to, |done, all| {
                 told.done.store(done, Ordering::Relaxed);
                 told.all.store(all, Ordering::Relaxed);
                 !told.stop.load(Ordering::Relaxed)
             });
         }
-        let figure = captured(&state, (config, seed, script), tick, paper.width_px())?;
+        let figure = captured(&state, run, tick, paper.width_px())?;
         write(&figure, &paper, form, &to)
     });
     if let Some(before) = &world.resource::<Capturing>().0 {

@@ -1,10 +1,8 @@
 //! The widget in front as a figure, for captures.
 
+use super::runs::ShownRun;
 use crate::capture::{CaptureError, Captured, Form, Subject, anatomy, at_tick};
-use crate::random::Seed;
 use crate::recording::Run;
-use crate::run::Script;
-use crate::tour::TourConfig;
 use crate::ui::{UiState, Widget};
 
 /// The widget in front as a figure of this width, pixels. The dashboard shows the run at `tick`; the other widgets do
@@ -12,15 +10,10 @@ use crate::ui::{UiState, Widget};
 ///
 /// # Errors
 /// [`CaptureError`], when the run or the scene can't be drawn.
-pub fn captured(
-    state: &UiState,
-    (config, seed, script): (TourConfig, Seed, Script),
-    tick: u64,
-    width_px: f64,
-) -> Result<Captured, CaptureError> {
+pub fn captured(state: &UiState, run: ShownRun, tick: u64, width_px: f64) -> Result<Captured, CaptureError> {
     match subject(state, Form::Svg)? {
         None => scene(state, width_px),
-        Some(subject) => at_tick(&Run::record(config, (seed, script))?, &subject, tick, width_px),
+        Some(subject) => at_tick(&Run::record(run.config, (run.seed, run.script))?, &subject, tick, width_px),
     }
 }
 

@@ -5,24 +5,35 @@ use bevy::ecs::world::World;
 use super::error::SessionError;
 use super::session::Interface;
 use crate::atlas::Editor;
+use crate::random::Seed;
 use crate::recording::Run;
 use crate::run::{Comparison, Log, LogError, ReadLog, Script};
 use crate::simulation::{LatestFrame, PendingInput, Playback, RunConfig, Transport, checkpoint, seek, start_run, step};
 use crate::tour::TourConfig;
 use crate::ui::{AtlasState, Notice, Widget};
 
-/// The run's configuration and script up to `ticks`.
-pub fn shown_run(world: &World, ticks: u64) -> (TourConfig, Script) {
+/// All that determines a run.
+pub struct ShownRun {
+    /// The seed.
+    pub seed: Seed,
+    /// The configuration.
+    pub config: TourConfig,
+    /// The script.
+    pub script: Script,
+}
+
+/// The present run up to `ticks`.
+pub fn shown_run(world: &World, ticks: u64) -> ShownRun {
     let config = TourConfig { ticks, ..TourConfig::clone(&world.resource::<RunConfig>().0) };
     let mut script: Script = world.resource::<PendingInput>().script().clone();
     script.events.retain(|e| e.tick <= ticks);
-    (config, script)
+    ShownRun { seed: world.resource::<Transport>().seed, config, script }
 }
 
 /// The run up to `ticks`, recorded.
 pub fn log_up_to(world: &World, ticks: u64) -> Result<Log, SessionError> {
-    let (config, script) = shown_run(world, ticks);
-    Run::record(config, (world.resource::<Transport>().seed, script)).map_err(SessionError::from)
+    let ShownRun { seed, config, script } = shown_run(world, ticks);
+    Run::record(config, (seed, script)).map_err(SessionError::from)
 }
 
 /// The run as far as it has come, recorded from seed, configuration and script, and its log's bytes.

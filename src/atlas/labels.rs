@@ -198,7 +198,7 @@ impl Sheet {
                     // to the right first, then around
                     let ways =
                         (0..WAYS).map(|k| num::sin_cos(f64::from(k) * (std::f64::consts::TAU / f64::from(WAYS))));
-                    let mut spots = ways.map(|(s, c)| self.spot(&thing.name, at, Vector2::new(c, s), (half, gap)));
+                    let mut spots = ways.map(|(s, c)| self.spot(&thing.name, at, Vector2::new(c, s), half, gap));
                     let good =
                         |spot: &Spot| self.is_free(&spot.plate) && self.may_lead(&thing.name, &spot.leader, over_marks);
                     if let Some(spot) = spots.find(good) {
@@ -211,7 +211,7 @@ impl Sheet {
     }
 
     /// The spot whose plate lies `gap` pixels beyond the thing's border, in the direction `way` from `at`.
-    fn spot(&self, name: &str, at: Point2, way: Vector2, (half, gap): (Vector2, f64)) -> Spot {
+    fn spot(&self, name: &str, at: Point2, way: Vector2, half: Vector2, gap: f64) -> Spot {
         let border = at + way * self.way_out(name, at, way);
         // how far the plate reaches back from its middle
         let reach = lesser(half.x / greater(way.x.abs(), 1e-9), half.y / greater(way.y.abs(), 1e-9));

@@ -43,7 +43,8 @@ pub fn film(
     log: &Log,
     subject: &Subject,
     span: Span,
-    (paper, path): (&Paper, &Path),
+    paper: &Paper,
+    path: &Path,
     mut go_on: impl FnMut(u64, u64) -> bool,
 ) -> Result<(), CaptureError> {
     let span = span.within(log.frames.len() as u64)?;

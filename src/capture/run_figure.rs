@@ -33,7 +33,7 @@ impl RunFigure {
     }
 
     /// The figure as SVG after `ticks` of the run with this digest.
-    pub fn svg(&self, seed: Seed, config: &TourConfig, (ticks, digest): (u64, Digest), theme: Theme) -> String {
+    pub fn svg(&self, seed: Seed, config: &TourConfig, ticks: u64, digest: Digest, theme: Theme) -> String {
         let panels: Vec<TourPanel> = (0_u32..)
             .zip(&config.worlds)
             .map(|(number, world)| TourPanel {
@@ -41,7 +41,7 @@ impl RunFigure {
                 robots: self.robots.iter().filter(|r| r.world == number).map(|r| r.tour.clone()).collect(),
             })
             .collect();
-        tour_figure(seed, (ticks, config.ticks), digest, &panels).svg(theme.palette())
+        tour_figure(seed, ticks, config.ticks, digest, &panels).svg(theme.palette())
     }
 }
 

@@ -35,7 +35,7 @@ pub struct RobotTour {
 }
 
 /// The figure of a run, its worlds side by side. `tick` is the number of ticks run, `ticks` that of the whole run.
-pub fn tour_figure(seed: Seed, (tick, ticks): (u64, u64), digest: Digest, panels: &[TourPanel<'_>]) -> Figure {
+pub fn tour_figure(seed: Seed, tick: u64, ticks: u64, digest: Digest, panels: &[TourPanel<'_>]) -> Figure {
     let seconds = crate::run::DT * tick as f64;
     let so_far = if tick == ticks { format!("{ticks} ticks") } else { format!("tick {tick} of {ticks}") };
     Figure {
@@ -124,9 +124,9 @@ mod tests {
             readout: "Pose2 { x: 3.000, y: 1.000, theta: 0.500 }".into(),
         };
         let figure =
-            tour_figure(Seed(7), (1200, 1200), Digest(0xabc), &[TourPanel { world: &yard, robots: vec![robot] }]);
+            tour_figure(Seed(7), 1200, 1200, Digest(0xabc), &[TourPanel { world: &yard, robots: vec![robot] }]);
         assert!(figure.caption[0].contains("Seed 7, 1200 ticks (60.00 s)"), "{}", figure.caption[0]);
-        let half = tour_figure(Seed(7), (600, 1200), Digest(0xabc), &[]);
+        let half = tour_figure(Seed(7), 600, 1200, Digest(0xabc), &[]);
         assert!(half.caption[0].contains("Seed 7, tick 600 of 1200 (30.00 s)"), "{}", half.caption[0]);
         assert_eq!(figure.panels[0].heading, "Rusty \u{b7} Yard");
         assert_eq!(figure.panels[0].readout[1], "contacts: 1");

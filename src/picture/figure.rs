@@ -73,7 +73,7 @@ impl Figure {
     /// things whose size on the sheet is fixed.
     pub fn px_per_metre(&self, width_px: f64) -> Vec<f64> {
         let tallest = self.tallest(width_px);
-        let sizes = self.rows(width_px).flat_map(|row| frame_sizes(row, (width_px, tallest)));
+        let sizes = self.rows(width_px).flat_map(|row| frame_sizes(row, Room { width: width_px, tallest }));
         let fit = |(panel, size): (&Panel, [f64; 2])| {
             Fit::new(&panel.picture.bounds, ScreenRect { min: [0.0; 2], size }, MARGIN).px_per_metre()
         };
@@ -90,8 +90,9 @@ impl Figure {
 
     /// Greatest height of a picture, pixels, such that none is much higher than those of another row.
     fn tallest(&self, width: f64) -> f64 {
-        let heights =
-            self.rows(width).filter_map(|row| Some(frame_sizes(row, (width, TALLEST)).first()?[1] - 2.0 * MARGIN));
+        let heights = self
+            .rows(width)
+            .filter_map(|row| Some(frame_sizes(row, Room { width, tallest: TALLEST }).first()?[1] - 2.0 * MARGIN));
         heights.fold(TALLEST, |tallest, height| lesser(tallest, HIGHER * height))
     }
 
@@ -101,7 +102,7 @@ impl Figure {
         let (mut right, mut top) = (GAP, GAP);
         let tallest = self.tallest(width);
         for row in self.rows(width) {
-            let [row_right, row_bottom] = lay_out_row(row, top, (width, tallest), &mut entries);
+            let [row_right, row_bottom] = lay_out_row(row, top, Room { width, tallest }, &mut entries);
             right = greater(right, row_right);
             top = row_bottom + GAP;
         }
@@ -115,8 +116,17 @@ impl Figure {
     }
 }
 
+/// The room for a row, pixels.
+#[derive(Clone, Copy)]
+struct Room {
+    /// The width of the sheet.
+    width: f64,
+    /// The greatest height of a picture within its frame.
+    tallest: f64,
+}
+
 /// The sizes of a row's frames, all of one height: as large as the width allows, at most `tallest` inside.
-fn frame_sizes(row: &[Panel], (width, tallest): (f64, f64)) -> Vec<[f64; 2]> {
+fn frame_sizes(row: &[Panel], Room { width, tallest }: Room) -> Vec<[f64; 2]> {
     let aspect = |panel: &Panel| {
         let bounds = &panel.picture.bounds;
         // the panels of very wide and very high worlds are limited to these ratios
@@ -129,7 +139,7 @@ fn frame_sizes(row: &[Panel], (width, tallest): (f64, f64)) -> Vec<[f64; 2]> {
 }
 
 /// Lays a row out below `top`; returns how far it reaches to the right and down.
-fn lay_out_row(row: &[Panel], top: f64, room: (f64, f64), entries: &mut Vec<Entry>) -> [f64; 2] {
+fn lay_out_row(row: &[Panel], top: f64, room: Room, entries: &mut Vec<Entry>) -> [f64; 2] {
     let mut left = GAP;
     let mut bottom = top;
     for (panel, size) in row.iter().zip(frame_sizes(row, room)) {

@@ -1,5 +1,7 @@
 //! Outlines: shapes as polygons to draw, and the line around a union of convex pieces.
 
+use std::ops::Range;
+
 use std::f64::consts::PI;
 
 use crate::geometry::{Placed, Point2, Vector2, cross};
@@ -41,21 +43,21 @@ pub fn outline(pieces: &[Vec<Point2>]) -> Vec<Vec<Point2>> {
     for (i, piece) in pieces.iter().enumerate() {
         for (k, &a) in piece.iter().enumerate() {
             let b = piece[(k + 1) % piece.len()];
-            let mut left = vec![(0.0, 1.0)];
+            let mut left = vec![0.0..1.0];
             for (j, other) in pieces.iter().enumerate() {
                 if let Some(hidden) = (i != j).then(|| covered(a, b, other)).flatten() {
-                    left = left.into_iter().flat_map(|span| subtract(span, hidden)).collect();
+                    left = left.into_iter().flat_map(|span| subtract(span, &hidden)).collect();
                 }
             }
             let at = |s: f64| if s == 1.0 { b } else { a + (b - a) * s };
-            edges.extend(left.into_iter().map(|(from, to)| (at(from), at(to))));
+            edges.extend(left.into_iter().map(|span| (at(span.start), at(span.end))));
         }
     }
     chains(&edges)
 }
 
 /// The part of the segment inside the closed convex polygon.
-fn covered(a: Point2, b: Point2, polygon: &[Point2]) -> Option<(f64, f64)> {
+fn covered(a: Point2, b: Point2, polygon: &[Point2]) -> Option<Range<f64>> {
     let d = b - a;
     let (mut from, mut to) = (0.0, 1.0);
     for (k, &p) in polygon.iter().enumerate() {
@@ -69,13 +71,13 @@ fn covered(a: Point2, b: Point2, polygon: &[Point2]) -> Option<(f64, f64)> {
             return None;
         }
     }
-    (from < to).then_some((from, to))
+    (from < to).then_some(from..to)
 }
 
 /// What is left of a span after another is removed.
-fn subtract((from, to): (f64, f64), (cut_from, cut_to): (f64, f64)) -> impl Iterator<Item = (f64, f64)> {
-    let pieces = [(from, lesser(to, cut_from)), (greater(from, cut_to), to)];
-    pieces.into_iter().filter(|(s0, s1)| s1 - s0 > 1e-9)
+fn subtract(span: Range<f64>, cut: &Range<f64>) -> impl Iterator<Item = Range<f64>> + use<> {
+    let pieces = [span.start..lesser(span.end, cut.start), greater(span.start, cut.end)..span.end];
+    pieces.into_iter().filter(|piece| piece.end - piece.start > 1e-9)
 }
 
 /// Joins segments end to end into lines, so that their corners are drawn as corners. A closed line repeats its first

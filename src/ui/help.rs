@@ -19,6 +19,7 @@ pub fn help(ctx: &Context, state: &mut UiState) {
             for (scope, title) in [
                 (Scope::Armed, "With a robot in hand (click its paper)"),
                 (Scope::Unarmed, "With none in hand"),
+                (Scope::Handle, "With the focus on a dot of an arm (drag it, or click it)"),
                 (Scope::Always, "Always"),
             ] {
                 ui.label(RichText::new(title).strong());
@@ -31,7 +32,6 @@ pub fn help(ctx: &Context, state: &mut UiState) {
                 });
                 ui.add_space(6.0);
             }
-            ui.label("A dot on the arm: drag it, or click it and use the arrow keys; Shift turns a tenth as far.");
             ui.label("Tab goes from one control to the next.");
         });
         ui.checkbox(&mut state.settings.reduced_motion, "Reduced motion: nothing eases on the screen");

@@ -1,6 +1,6 @@
 //! The keys: one table feeds the shortcuts, the list of them, the hints on buttons and a test against clashes.
 
-use bevy_egui::egui::{Key, Modifiers, Ui};
+use bevy_egui::egui::{InputState, Key, Modifiers, Ui};
 
 use crate::manifest::Widget;
 
@@ -45,8 +45,15 @@ pub enum Action {
     Arm(usize),
     /// Let go of it.
     LetGo,
-    /// The four keys that drive.
-    Drive,
+    /// Drive the robot in hand while the key is held.
+    Drive(Push),
+    /// Turn the joint of the handle with the focus: counter-clockwise, or clockwise.
+    Turn {
+        /// Whether counter-clockwise.
+        left: bool,
+    },
+    /// Leave the handle with the focus.
+    LeaveHandle,
     /// Open or fold the plots.
     Plots,
     /// Names on or off.
@@ -61,6 +68,19 @@ pub enum Action {
     Widget(Widget),
 }
 
+/// A direction in which a robot in hand is driven.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Push {
+    /// Forward.
+    Forward,
+    /// Backward.
+    Backward,
+    /// Turning or steering left.
+    Left,
+    /// Turning or steering right.
+    Right,
+}
+
 /// The states in which a key is active.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Scope {
@@ -70,6 +90,8 @@ pub enum Scope {
     Unarmed,
     /// While one is.
     Armed,
+    /// While a handle of an arm has the focus, which then takes the key for itself.
+    Handle,
 }
 
 /// A row of the table.
@@ -96,7 +118,7 @@ const fn with(action: Action, modifiers: Modifiers, key: Key, words: &'static st
 }
 
 /// All keys.
-pub const BINDINGS: [Binding; 36] = [
+pub const BINDINGS: [Binding; 41] = [
     plain(Action::PlayPause, Key::Space, Scope::Always, "play or pause"),
     plain(Action::StepBack, Key::ArrowLeft, Scope::Unarmed, "one tick back, and pause"),
     plain(Action::Step, Key::ArrowRight, Scope::Unarmed, "one tick, and pause"),
@@ -119,10 +141,15 @@ pub const BINDINGS: [Binding; 36] = [
     plain(Action::Arm(1), Key::Num2, Scope::Always, "take the second pane's robot in hand, or let go"),
     plain(Action::Arm(2), Key::Num3, Scope::Always, "take the third pane's robot in hand, or let go"),
     plain(Action::LetGo, Key::Escape, Scope::Armed, "let go"),
-    plain(Action::Drive, Key::ArrowUp, Scope::Armed, "forward"),
-    plain(Action::Drive, Key::ArrowDown, Scope::Armed, "backward"),
-    plain(Action::Drive, Key::ArrowLeft, Scope::Armed, "turn or steer left"),
-    plain(Action::Drive, Key::ArrowRight, Scope::Armed, "turn or steer right"),
+    plain(Action::Drive(Push::Forward), Key::ArrowUp, Scope::Armed, "forward"),
+    plain(Action::Drive(Push::Backward), Key::ArrowDown, Scope::Armed, "backward"),
+    plain(Action::Drive(Push::Left), Key::ArrowLeft, Scope::Armed, "turn or steer left"),
+    plain(Action::Drive(Push::Right), Key::ArrowRight, Scope::Armed, "turn or steer right"),
+    plain(Action::Turn { left: true }, Key::ArrowLeft, Scope::Handle, "turn the joint left; with Shift a tenth as far"),
+    plain(Action::Turn { left: true }, Key::ArrowUp, Scope::Handle, "turn the joint left"),
+    plain(Action::Turn { left: false }, Key::ArrowRight, Scope::Handle, "turn the joint right"),
+    plain(Action::Turn { left: false }, Key::ArrowDown, Scope::Handle, "turn the joint right"),
+    plain(Action::LeaveHandle, Key::Escape, Scope::Handle, "leave the handle"),
     plain(Action::Plots, Key::P, Scope::Always, "plots"),
     plain(Action::Labels, Key::T, Scope::Always, "names of things"),
     plain(Action::Scan, Key::F, Scope::Always, "what the range sensor sees"),
@@ -166,7 +193,7 @@ pub fn hint(action: Action) -> String {
 /// The actions whose keys were pressed in this frame: keys with more modifiers first, else in the order of the table.
 ///
 /// None while text is typed. A control with the focus keeps its own keys: arrows, Space, Enter, Home and End. A handle
-/// that is `nudged` keeps only the arrows. The keys that drive are not among the actions.
+/// that is `nudged` keeps only the arrows. The keys that drive and those of handles are not among the actions.
 pub fn pressed(ui: &Ui, armed: bool, nudged: bool) -> Vec<Action> {
     if ui.ctx().text_edit_focused() {
         return vec![];
@@ -182,13 +209,37 @@ pub fn pressed(ui: &Ui, armed: bool, nudged: bool) -> Vec<Action> {
             Scope::Always => true,
             Scope::Unarmed => !armed,
             Scope::Armed => armed,
+            Scope::Handle => false,
         };
-        scope && !own(b.key) && b.action != Action::Drive
+        scope && !own(b.key) && !matches!(b.action, Action::Drive(_))
     };
     // more modifiers first: egui ignores extra modifiers, so Ctrl+Z would also take Ctrl+Shift+Z
     let mut bindings: Vec<&Binding> = BINDINGS.iter().filter(due).collect();
     bindings.sort_by_key(|b| std::cmp::Reverse(u8::from(b.modifiers.command) + u8::from(b.modifiers.shift)));
     ui.input_mut(|i| bindings.iter().filter(|b| i.consume_key(b.modifiers, b.key)).map(|b| b.action).collect())
+}
+
+/// The directions whose keys are held down.
+pub fn pushed(input: &InputState) -> impl Iterator<Item = Push> {
+    BINDINGS.iter().filter(|b| input.key_down(b.key)).filter_map(|b| match b.action {
+        Action::Drive(push) => Some(push),
+        _ => None,
+    })
+}
+
+/// How often the keys of a handle's joint were pressed in this frame: to the left counted positive, to the right
+/// negative.
+pub fn turns(input: &InputState) -> f64 {
+    let presses = BINDINGS.iter().map(|b| match b.action {
+        Action::Turn { left } => (if left { 1.0 } else { -1.0 }) * input.num_presses(b.key) as f64,
+        _ => 0.0,
+    });
+    presses.sum()
+}
+
+/// Whether the key that leaves a handle was pressed in this frame.
+pub fn leaves_handle(input: &InputState) -> bool {
+    BINDINGS.iter().any(|b| b.action == Action::LeaveHandle && input.key_pressed(b.key))
 }
 
 #[cfg(test)]
@@ -204,6 +255,16 @@ mod tests {
                 let same = a.key == b.key && a.modifiers == b.modifiers && together;
                 assert!(!same, "{:?} and {:?} share {}", a.action, b.action, a.keys());
             }
+        }
+    }
+
+    #[test]
+    fn the_page_about_the_window_lists_every_key() {
+        let page = include_str!("../../docs/window.md");
+        let (_, keys) = page.split_once("## Keys").unwrap();
+        let (table, _) = keys.split_once("\n## ").unwrap();
+        for binding in BINDINGS {
+            assert!(table.contains(&format!("`{}`", binding.keys())), "{:?}: {}", binding.action, binding.keys());
         }
     }
 

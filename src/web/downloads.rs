@@ -47,11 +47,11 @@ pub fn files(world: &mut World) {
 
 /// Gives the page a picture of the widget in front.
 fn picture(world: &World, order: &CaptureOrder) -> Result<String, SessionError> {
-    let Transport { seed, tick, frontier, .. } = *world.resource::<Transport>();
-    let (config, script) = shown_run(world, frontier);
+    let Transport { tick, frontier, .. } = *world.resource::<Transport>();
+    let run = shown_run(world, frontier);
     let ui = &world.resource::<Interface>().0;
     let paper = Paper { palette: ui.theme().palette(), width: order.width, scale: 1.0 };
-    let figure = captured(ui, (config, seed, script), tick, paper.width_px())?;
+    let figure = captured(ui, run, tick, paper.width_px())?;
     let name = format!("{}.svg", ui.widget.id());
     tell_with(&json!({ "kind": "file", "name": name }), Some(figure.svg(&paper).as_bytes()));
     Ok(format!("{name}: saved"))

@@ -32,9 +32,9 @@ pub fn open_link(world: &mut World, link: &Link) -> Result<Option<Notice>, Sessi
 
 /// The link of what is shown.
 pub fn link_of(world: &World) -> Result<Link, PageError> {
-    let Transport { seed, tick, .. } = *world.resource::<Transport>();
-    let (config, script) = shown_run(world, tick);
-    let mut link = Link::of(seed, &config, script)?;
+    let Transport { tick, .. } = *world.resource::<Transport>();
+    let run = shown_run(world, tick);
+    let mut link = Link::of(run.seed, &run.config, run.script)?;
     if tick > 0 {
         link.digest = Some(log_up_to(world, tick)?.digest().to_string());
     }

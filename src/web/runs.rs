@@ -155,5 +155,5 @@ pub fn figure_of_log(bytes: &[u8], dark: bool) -> Result<String, JsError> {
         recorder.step();
         figure.watch(recorder.view());
     }
-    Ok(figure.svg(log.seed, &log.config, (log.frames.len() as u64, log.digest()), theme))
+    Ok(figure.svg(log.seed, &log.config, log.frames.len() as u64, log.digest(), theme))
 }

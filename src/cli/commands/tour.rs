@@ -48,7 +48,7 @@ pub fn tour(data: &mut Data) -> Result<Outcome, Failure> {
     }
 
     let drawing = folder.join(format!("tour-{BOOK_SEED}.svg"));
-    write_file(&drawing, figure.svg(log.seed, &log.config, (ticks, digest), Theme::Light).as_bytes())?;
+    write_file(&drawing, figure.svg(log.seed, &log.config, ticks, digest, Theme::Light).as_bytes())?;
     say(format!("wrote {} and {}", file.display(), drawing.display()));
     Ok(Outcome::Done)
 }

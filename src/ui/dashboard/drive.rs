@@ -1,18 +1,23 @@
 //! Driving the robot in hand, with the arrow keys or the pad.
 
-use bevy_egui::egui::{InputState, Key, Ui};
+use bevy_egui::egui::{InputState, Ui};
 
 use crate::run::RobotInput;
 use crate::simulation::{RobotCommand, TransportCommand};
+use crate::ui::keys::{Push, pushed};
 use crate::ui::{Command, Dashboard, UiState};
 
 /// Channel value of a key held down: the maximum.
 const FULL: i16 = 128;
 
-/// The channels that the arrow keys held down ask for: up and down, left and right.
+/// The channels that the keys held down ask for: forward and backward, left and right.
 fn channels(input: &InputState) -> (i16, i16) {
-    let axis = |plus, minus| FULL * (i16::from(input.key_down(plus)) - i16::from(input.key_down(minus)));
-    (axis(Key::ArrowUp, Key::ArrowDown), axis(Key::ArrowLeft, Key::ArrowRight))
+    pushed(input).fold((0, 0), |(ahead, left), push| match push {
+        Push::Forward => (ahead + FULL, left),
+        Push::Backward => (ahead - FULL, left),
+        Push::Left => (ahead, left + FULL),
+        Push::Right => (ahead, left - FULL),
+    })
 }
 
 /// Drives the robot in hand by the arrow keys, or by the pad while no arrow key is held.

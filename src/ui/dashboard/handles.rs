@@ -3,7 +3,7 @@
 use std::ops::RangeInclusive;
 
 use bevy_egui::egui::{
-    CursorIcon, DragValue, EventFilter, Id, Key, Painter, Rect, RichText, Sense, Slider, Stroke, Ui, Vec2, WidgetInfo,
+    CursorIcon, DragValue, EventFilter, Id, Painter, Rect, RichText, Sense, Slider, Stroke, Ui, Vec2, WidgetInfo,
     WidgetType, pos2,
 };
 
@@ -16,7 +16,7 @@ use crate::robots::Reach;
 use crate::run::{Quantized, RobotInput};
 use crate::simulation::{RobotCommand, TransportCommand};
 use crate::ui::paint::canvas;
-use crate::ui::{CockpitRobot, Command, Look, UiState};
+use crate::ui::{CockpitRobot, Command, Look, UiState, keys};
 
 /// Diameter of a handle, points.
 const DOT: f32 = 10.0;
@@ -140,11 +140,7 @@ fn circle(name: &str, centre: Point2, radius: f64) -> Item {
 fn nudge(ui: &Ui, id: Id, robot: &CockpitRobot, link: usize, commands: &mut Vec<Command>) {
     let own = EventFilter { horizontal_arrows: true, vertical_arrows: true, escape: true, ..EventFilter::default() };
     ui.memory_mut(|m| m.set_focus_lock_filter(id, own));
-    let (turns, fine, lets_go) = ui.input(|i| {
-        let count = |key| i.num_presses(key) as f64;
-        let turns = count(Key::ArrowLeft) + count(Key::ArrowUp) - count(Key::ArrowRight) - count(Key::ArrowDown);
-        (turns, i.modifiers.shift, i.key_pressed(Key::Escape))
-    });
+    let (turns, fine, lets_go) = ui.input(|i| (keys::turns(i), i.modifiers.shift, keys::leaves_handle(i)));
     if lets_go {
         ui.memory_mut(|m| m.surrender_focus(id));
     } else if turns != 0.0 {

@@ -20,7 +20,7 @@ impl Capture {
         let RunArgs { tick, from, to, every, .. } = self.run;
         let written = if form == Form::Gif {
             let span = Span { from: from.unwrap_or(0), to: to.unwrap_or(last), every: every.unwrap_or(4) };
-            film(&log, &subject, span, (paper, &self.output), |_, _| true)
+            film(&log, &subject, span, paper, &self.output, |_, _| true)
         } else {
             at_tick(&log, &subject, tick.unwrap_or(last), paper.width_px())
                 .and_then(|captured| write(&captured, paper, form, &self.output))

@@ -48,7 +48,8 @@ pub fn write(log: &Log, sink: &mut Sink) -> Result<(), Failure> {
         if sink.is_closed() {
             break;
         }
-        let robots = residents.iter().zip(&frame.robots).map(|(resident, state)| robot(*resident, state, frame));
+        let robots =
+            residents.iter().zip(&frame.robots).map(|((world, resident), state)| robot(world, resident, state, frame));
         let tick = Tick {
             tick: frame.tick,
             time: JsonNumber(frame.tick as f64 * DT),
@@ -60,7 +61,7 @@ pub fn write(log: &Log, sink: &mut Sink) -> Result<(), Failure> {
     Ok(())
 }
 
-fn robot<'a>((world, resident): (&'a World, &'a Resident), state: &RobotState, frame: &Frame) -> Robot<'a> {
+fn robot<'a>(world: &'a World, resident: &'a Resident, state: &RobotState, frame: &Frame) -> Robot<'a> {
     // taken apart by name, so that a field added later can't be forgotten here
     let RobotState { id, configuration, extra, channels, target, manual, in_contact, contacts, flash, refusals } =
         state;

@@ -117,7 +117,7 @@ fn each_svg(
     show(file, log, |run, frame| {
         figure.watch(run.view());
         if wanted(frame.tick) {
-            take(figure.svg(log.seed, &log.config, (frame.tick, digest), Theme::Light))?;
+            take(figure.svg(log.seed, &log.config, frame.tick, digest, Theme::Light))?;
         }
         Ok(())
     })
