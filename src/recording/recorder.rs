@@ -24,7 +24,7 @@ pub enum RunError {
 
 /// A run under way without a window: the same plugin and the same schedule as with one, run directly.
 ///
-/// It shares nothing, so many can run on many threads.
+/// It shares nothing with other recorders: each may run on a thread of its own.
 pub struct Recorder {
     world: World,
     ticks: u64,

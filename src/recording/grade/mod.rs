@@ -35,8 +35,8 @@ pub use assignment::{Assignment, AssignmentFile, Goal, Limits};
 pub use attempt::{Attempt, Verdict};
 pub use error::{AssignmentError, AssignmentProblem, MAX_SEEDS};
 
-use super::{Recorder, RunError};
-use crate::run::{Comparison, Divergence, Log, RobotInput, Script, ScriptError};
+use super::{RunError, verify};
+use crate::run::{Divergence, Log, RobotInput, Script, ScriptError};
 
 /// The work handed in.
 #[derive(Clone, Debug, PartialEq)]
@@ -127,13 +127,6 @@ impl Assignment {
 /// The first value in a log's frames that differs from the run of its seed, configuration and script: `found` in the
 /// log, `expected` by the run.
 fn forgery(log: &Log) -> Result<Option<Divergence>, RunError> {
-    let mut run = Recorder::new(log.config.clone(), (log.seed, log.script.clone()))?;
-    let mut comparison = Comparison::with(log);
-    let mut same = comparison.frame(run.frame());
-    for _ in &log.frames {
-        // a forged log is refused at its first difference
-        same = same && comparison.frame(run.step());
-    }
-    let divergence = comparison.divergence().filter(|_| !same).cloned();
+    let divergence = verify(log, |_| {})?.divergence;
     Ok(divergence.map(|d| Divergence { expected: d.found, found: d.expected, ..d }))
 }
