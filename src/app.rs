@@ -9,6 +9,7 @@ mod error;
 #[cfg(feature = "window")]
 mod files;
 mod pace;
+mod put_robot;
 mod rest;
 mod runs;
 mod session;

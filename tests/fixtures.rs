@@ -146,6 +146,7 @@ pub fn scene_of(bodies: &[Body]) -> Scene {
         name: "fixture".into(),
         bounds: PLANE,
         obstacles: obstacles.collect(),
+        doors: vec![],
         places: vec![],
         marks: vec![],
         robots: vec![],

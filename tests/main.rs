@@ -40,6 +40,8 @@ mod many_worlds;
 mod metamorphic;
 #[cfg(feature = "sim")]
 mod noise_streams;
+#[cfg(feature = "sim")]
+mod obstacles;
 mod oracle;
 mod pairs;
 mod penetration;

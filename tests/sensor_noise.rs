@@ -183,7 +183,9 @@ fn noise_that_is_no_distribution_is_refused_in_worlds_put_together_by_hand_too()
 /// Hashes pinned before worlds could have noisy sensors: a file without noise keeps its canonical text.
 #[test]
 fn worlds_without_noise_keep_their_bytes() {
-    let hashes = World::built_in_names().map(|n| World::built_in(n).unwrap().content_hash());
+    // doors are younger than the hashes; a world without any does not mention them
+    let without_doors = |name| World { doors: vec![], ..World::built_in(name).unwrap() };
+    let hashes = World::built_in_names().map(|n| without_doors(n).content_hash());
     assert_eq!(hashes.map(|h| format!("{h:032x}")), BUILT_IN);
 }
 

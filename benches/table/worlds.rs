@@ -52,6 +52,7 @@ pub fn boxes(count: usize, clear: f64) -> Scene {
         name: "boxes".into(),
         bounds: Aabb { min: Point2::new(-half, -half), max: corner },
         obstacles: obstacles.collect(),
+        doors: vec![],
         places: Vec::new(),
         marks: Vec::new(),
         robots: Vec::new(),

@@ -142,6 +142,7 @@ impl Anatomy {
                 ObstacleKind::Solid,
                 vec![(crate::geometry::Pose2::IDENTITY, square)],
             )],
+            doors: vec![],
             places: Vec::new(),
             marks: Vec::new(),
             robots: Vec::new(),

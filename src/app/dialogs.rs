@@ -97,7 +97,10 @@ pub fn ask(
                 dialog.save_file();
                 dialogs.picture = Some((dialog, *order));
             }
-            SessionCommand::RunWorld | SessionCommand::Links { .. } => continue,
+            SessionCommand::RunWorld
+            | SessionCommand::RunFromHere
+            | SessionCommand::PutRobot { .. }
+            | SessionCommand::Links { .. } => continue,
         }
         transport.playback = Playback::Paused;
     }

@@ -1,5 +1,6 @@
 //! `SessionError`, why a run could not be started, saved, opened or pictured.
 
+use crate::atlas::Refusal;
 use crate::capture::CaptureError;
 use crate::recording::RunError;
 use crate::run::LogError;
@@ -33,6 +34,9 @@ pub enum SessionError {
     /// No robot has this name.
     #[error("there is no {0}")]
     NoRobot(String),
+    /// A robot that has no room where it was to be put.
+    #[error("{0}")]
+    Refused(Refusal),
     /// A file that is too large to open.
     #[error("{found} bytes: the window opens at most {most}")]
     TooLarge {

@@ -6,15 +6,16 @@ use bevy::prelude::*;
 
 use super::error::SessionError;
 use super::pace::{Pace, measure, play_flat_out};
+use super::put_robot::put_robot;
 use crate::atlas::Atlas;
-use crate::configuration::{Coordinates, HitchCfg, RobotKind};
+use crate::configuration::{Configuration as _, Coordinates, HitchCfg, RobotKind};
 use crate::geometry::{Footprint, Pose2, Segment};
 use crate::picture::{Picture, world as picture_of};
 use crate::robots::{HITCH, Robot};
 use crate::run::{Event, RobotInput};
 use crate::simulation::{
     CommandRefused, History, HistoryPlugin, LatestFrame, PendingInput, Playback, RobotView, Roster, RunConfig,
-    RunInput, SimulationPlugin, Transport, Undo, WorldScene, checkpoint, start_run, view,
+    RunInput, SimulationPlugin, StandingWorld, Transport, Undo, WorldScene, checkpoint, start_run, view,
 };
 use crate::tour::{BOOK_SEED, TourConfig};
 use crate::ui::{Cockpit, CockpitRobot, Command, Dashboard, Notice, SessionCommand, UiState, Widget, blend};
@@ -54,9 +55,41 @@ impl Plugin for SessionPlugin {
 #[derive(Resource, Default)]
 pub struct Interface(pub UiState);
 
-/// The pictures of the run's worlds, and the worlds with their names.
+/// The run's worlds as they stand.
 #[derive(Resource, Default)]
-struct Worlds(Vec<(Arc<Picture>, Arc<Atlas>)>);
+struct Worlds(Vec<DrawnWorld>);
+
+/// A world with its picture and its names.
+struct DrawnWorld {
+    standing: Arc<WorldModel>,
+    picture: Arc<Picture>,
+    atlas: Arc<Atlas>,
+}
+
+impl DrawnWorld {
+    fn of(standing: &Arc<WorldModel>) -> Self {
+        // the run's robots move, so only still things are named
+        let still = WorldModel { robots: vec![], ..WorldModel::clone(standing) };
+        let (picture, atlas) = (Arc::new(picture_of(standing)), Arc::new(Atlas::new(still)));
+        DrawnWorld { standing: Arc::clone(standing), picture, atlas }
+    }
+}
+
+/// Draws those worlds again whose obstacles or doors have changed.
+fn draw_worlds(world: &mut World) {
+    let entities = world.get_resource::<Roster>().map_or(&[][..], Roster::worlds);
+    let standing: Vec<Arc<WorldModel>> =
+        entities.iter().filter_map(|&e| Some(Arc::clone(&world.get::<StandingWorld>(e)?.0))).collect();
+    let mut drawn = world.resource_mut::<Worlds>();
+    drawn.0.truncate(standing.len());
+    for (i, standing) in standing.iter().enumerate() {
+        match drawn.0.get_mut(i) {
+            Some(old) if Arc::ptr_eq(&old.standing, standing) => {}
+            Some(old) => *old = DrawnWorld::of(standing),
+            None => drawn.0.push(DrawnWorld::of(standing)),
+        }
+    }
+}
 
 /// The values of the dashboard in this frame.
 #[derive(Resource)]
@@ -79,22 +112,16 @@ fn note_refusals(mut refused: MessageReader<CommandRefused>, mut interface: ResM
 
 /// Reads the values that the window shows from the simulation. This is the one place where the two meet.
 pub fn gather(world: &mut World) {
-    if world.is_resource_changed::<RunConfig>() {
-        // the run's robots move, so only still things are named
-        let standing = |w: &WorldModel| Atlas::new(WorldModel { robots: vec![], ..w.clone() });
-        let drawn = |w: &WorldModel| (Arc::new(picture_of(w)), Arc::new(standing(w)));
-        let pictures = world.resource::<RunConfig>().0.worlds.iter().map(drawn).collect();
-        world.insert_resource(Worlds(pictures));
-    }
+    draw_worlds(world);
     let Transport { seed, tick, frontier, speed, looping, playback } = *world.resource::<Transport>();
     let playing = playback == Playback::Playing;
     // while it plays, the view is one tick behind and moves smoothly; paused or as fast as possible, it shows the tick
     let smooth = playing && speed.is_finite();
     let between = if smooth { world.resource::<Time<Fixed>>().overstep_fraction_f64() } else { 1.0 };
     let robots: Vec<(u32, CockpitRobot)> = view(world).iter().map(|r| (r.world, shown(world, r, between))).collect();
-    let cockpits = world.resource::<Worlds>().0.iter().zip(0..).map(|((picture, atlas), number)| Cockpit {
-        world: Arc::clone(picture),
-        atlas: Arc::clone(atlas),
+    let cockpits = world.resource::<Worlds>().0.iter().zip(0..).map(|(drawn, number)| Cockpit {
+        world: Arc::clone(&drawn.picture),
+        atlas: Arc::clone(&drawn.atlas),
         robots: robots.iter().filter(|(w, _)| *w == number).map(|(_, r)| r.clone()).collect(),
     });
     let (undo, history) = (world.resource::<Undo>(), world.resource::<History>());
@@ -191,8 +218,21 @@ pub fn carry_out(world: &mut World, commands: Vec<Command>) {
                     world.resource_mut::<Interface>().0.notice = Some(notice);
                 }
             }
-            Command::Session(SessionCommand::RunWorld) => {
-                let model = world.resource::<Interface>().0.atlas.world().clone();
+            Command::Session(SessionCommand::PutRobot { robot }) => {
+                let atlas = world.resource::<Interface>().0.atlas.atlas();
+                let (of, there) = (atlas.world().name.clone(), atlas.robots().iter().find(|r| r.name == robot));
+                let Some(coordinates) = there.map(|r| r.q.coordinates()) else { continue };
+                let done = put_robot(world, &of, &robot, &coordinates);
+                let notice = match done {
+                    Ok(()) => Notice { text: format!("{robot} is put there at the next tick"), is_error: false },
+                    Err(error) => Notice { text: error.to_string(), is_error: true },
+                };
+                world.resource_mut::<Interface>().0.notice = Some(notice);
+            }
+            Command::Session(command @ (SessionCommand::RunWorld | SessionCommand::RunFromHere)) => {
+                let atlas = &world.resource::<Interface>().0.atlas;
+                let here = command == SessionCommand::RunFromHere;
+                let model = if here { atlas.atlas().from_here() } else { atlas.world().clone() };
                 let seed = world.resource::<Transport>().seed;
                 let config = TourConfig { worlds: vec![model], ..TourConfig::default() };
                 let ran = new_run(world, config, seed);

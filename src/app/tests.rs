@@ -5,6 +5,7 @@ mod arm;
 mod atlas;
 mod capture;
 mod cspace;
+mod doors;
 mod drive;
 mod files;
 mod screen;

@@ -63,6 +63,9 @@ pub fn named(world: &World) -> Vec<Named> {
             add("obstacles", &obstacle.name, largest.iter().map(middle).collect());
         }
     }
+    for door in &world.doors {
+        add("doors", &door.name, [0.5, 0.25, 0.75].map(|s| door.a + (door.b - door.a) * s).to_vec());
+    }
     for place in &world.places {
         add("places", &place.name, vec![place.pose.position()]);
     }
@@ -383,7 +386,8 @@ mod tests {
     fn every_named_thing_is_found() {
         let world = World::lot();
         let all = named(&world);
-        let count = world.obstacles.len() + world.places.len() + world.marks.len() + world.robots.len();
+        let count =
+            world.obstacles.len() + world.doors.len() + world.places.len() + world.marks.len() + world.robots.len();
         assert_eq!(all.len(), count);
         assert!(all.iter().all(|n| !n.at.is_empty() && n.at.iter().all(|p| p.x.is_finite())));
     }

@@ -17,7 +17,7 @@ pub use outline::{EditShape, Handle};
 pub use teleport::{Refusal, Teleport};
 
 use crate::collision::{Checker, Scene};
-use crate::configuration::AnyConfiguration;
+use crate::configuration::{AnyConfiguration, Configuration};
 use crate::picture::{Drawing, Picture, RobotDrawing, places, robot, world};
 use crate::robots::{AnyRobot, Robot};
 use crate::worlds::World;
@@ -53,6 +53,17 @@ impl Atlas {
     /// The world.
     pub fn world(&self) -> &World {
         &self.world
+    }
+
+    /// The world with its robots' starts where the robots are now.
+    pub fn from_here(&self) -> World {
+        let mut world = self.world.clone();
+        for resident in &mut world.robots {
+            if let Some(now) = self.residents.iter().find(|r| r.name == resident.name) {
+                resident.start = now.q.coordinates().to_vec();
+            }
+        }
+        world
     }
 
     /// The robots.

@@ -91,6 +91,7 @@ pub enum EditError {
 #[derive(Clone, Copy)]
 enum Found {
     Obstacle(usize),
+    Door(usize),
     Place(usize),
     Mark(usize),
     Robot(usize),
@@ -100,6 +101,7 @@ fn find(world: &World, name: &str) -> Option<Found> {
     let at = |mut names: Box<dyn Iterator<Item = &str> + '_>| names.position(|n| n == name);
     at(Box::new(world.obstacles.iter().map(|o| o.name.as_str())))
         .map(Found::Obstacle)
+        .or_else(|| at(Box::new(world.doors.iter().map(|d| d.name.as_str()))).map(Found::Door))
         .or_else(|| at(Box::new(world.places.iter().map(|p| p.name.as_str()))).map(Found::Place))
         .or_else(|| at(Box::new(world.marks.iter().map(|m| m.name.as_str()))).map(Found::Mark))
         .or_else(|| at(Box::new(world.robots.iter().map(|r| r.name.as_str()))).map(Found::Robot))
@@ -119,7 +121,7 @@ fn shape_at(world: &World, at: Found) -> Option<EditShape> {
     match at {
         Found::Obstacle(i) => Some(EditShape::of(&world.obstacles[i])),
         Found::Mark(i) => Some(EditShape::Mark(world.marks[i].points.clone())),
-        Found::Place(_) | Found::Robot(_) => None,
+        Found::Door(_) | Found::Place(_) | Found::Robot(_) => None,
     }
 }
 
@@ -149,6 +151,10 @@ pub(super) fn changed(world: &World, op: &Op) -> Result<World, EditError> {
             Found::Obstacle(i) => {
                 let moved = EditShape::of(&world.obstacles[i]).moved(*by);
                 reshape(&mut world, Found::Obstacle(i), name, &moved)?;
+            }
+            Found::Door(i) => {
+                let door = &mut world.doors[i];
+                (door.a, door.b) = ((door.a + by).map(tidy), (door.b + by).map(tidy));
             }
             Found::Place(i) => {
                 let pose = &mut world.places[i].pose;
@@ -189,6 +195,7 @@ pub(super) fn changed(world: &World, op: &Op) -> Result<World, EditError> {
         Op::Rename { name, to } => {
             let slot = match found(&world, name)? {
                 Found::Obstacle(i) => &mut world.obstacles[i].name,
+                Found::Door(i) => &mut world.doors[i].name,
                 Found::Place(i) => &mut world.places[i].name,
                 Found::Mark(i) => &mut world.marks[i].name,
                 Found::Robot(i) => &mut world.robots[i].name,
@@ -197,6 +204,7 @@ pub(super) fn changed(world: &World, op: &Op) -> Result<World, EditError> {
         }
         Op::Delete { name } => match found(&world, name)? {
             Found::Obstacle(i) => drop(world.obstacles.remove(i)),
+            Found::Door(i) => drop(world.doors.remove(i)),
             Found::Place(i) => drop(world.places.remove(i)),
             Found::Mark(i) => drop(world.marks.remove(i)),
             Found::Robot(i) => drop(world.robots.remove(i)),

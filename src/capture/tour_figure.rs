@@ -110,6 +110,7 @@ mod tests {
             name: "Yard".into(),
             bounds: Aabb { min: p(0.0, 0.0), max: p(4.0, 4.0) },
             obstacles: vec![],
+            doors: vec![],
             places: vec![],
             marks: vec![],
             robots: vec![],

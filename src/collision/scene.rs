@@ -12,7 +12,7 @@ use super::narrow::nearest::Search;
 use super::narrow::pair::{pair, touch};
 use crate::geometry::{Aabb, Footprint, Placed, Point2, Pose2, Segment, Shape, largest_coordinate};
 use crate::num::greater;
-use crate::worlds::World;
+use crate::worlds::{Obstacle, World};
 
 /// Largest number of segments and discs for which a scan tests them all; with more it walks through a grid.
 const MANY: usize = 128;
@@ -83,17 +83,23 @@ impl Scene {
         Self::of_pieces(bounds, names, pieces, (0..walls.len() as u32).collect())
     }
 
-    /// The obstacles of a world, in file order.
+    /// The obstacles of a world, in file order, then its closed doors.
     pub fn of_world(world: &World) -> Self {
+        let doors: Vec<Obstacle> = world.closed_doors().collect();
+        Self::of_obstacles(world.bounds, world.obstacles.iter().chain(&doors))
+    }
+
+    /// These obstacles, in their order. The bounds are not an obstacle.
+    pub fn of_obstacles<'a>(bounds: Aabb, obstacles: impl IntoIterator<Item = &'a Obstacle>) -> Self {
         let (mut names, mut pieces, mut owners) = (Vec::new(), Vec::new(), Vec::new());
-        for (owner, obstacle) in world.obstacles.iter().enumerate() {
+        for (owner, obstacle) in obstacles.into_iter().enumerate() {
             names.push(obstacle.name.as_str().into());
             for (pose, shape) in &obstacle.pieces {
                 pieces.push(shape.place(pose));
                 owners.push(owner as u32);
             }
         }
-        Self::of_pieces(world.bounds, names, pieces, owners)
+        Self::of_pieces(bounds, names, pieces, owners)
     }
 
     /// The Apartment.

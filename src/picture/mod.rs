@@ -31,7 +31,7 @@ pub use resolve::{Primitive, resolve};
 pub use robot::{RobotDrawing, footprint, robot, scan, trace};
 pub use role::{Palette, Rgb, Role};
 pub use theme::Theme;
-pub use world::{places, world};
+pub use world::{door_id, places, world};
 
 use crate::geometry::Aabb;
 

@@ -1,12 +1,14 @@
 //! Draws a world as a picture.
 
 use super::outline::{chains, outline, polygon_of};
-use super::{Anchor, Drawing, Face, Fill, Glyph, Item, Line, Picture, Role};
+use super::{Anchor, Dash, Drawing, Face, Fill, Glyph, Item, Line, Picture, Role};
 use crate::geometry::{Point2, Vector2};
 use crate::num;
-use crate::worlds::{Obstacle, ObstacleKind, Place, World};
+use crate::worlds::{Door, Obstacle, ObstacleKind, Place, World};
 
-/// The picture of a world: painted marks, then solid obstacles, then walls.
+/// The picture of a world: painted marks, then solid obstacles, then walls and closed doors, then open doors.
+///
+/// An open door is its leaf, turned a quarter about its hinge, and a thin line over the gap; neither is an obstacle.
 pub fn world(world: &World) -> Picture {
     let marks = world.marks.iter().map(|mark| {
         Item::new(format!("mark/{}", mark.name), &mark.name, Role::Muted, Drawing::Polyline(mark.points.clone()))
@@ -17,6 +19,26 @@ pub fn world(world: &World) -> Picture {
         .with(marks)
         .with(of_kind(ObstacleKind::Solid))
         .with(of_kind(ObstacleKind::Wall))
+        .with(world.doors.iter().flat_map(door))
+}
+
+/// The id of the item over a door's gap, the one to pick a door by.
+pub fn door_id(name: &str) -> String {
+    format!("door/{name}")
+}
+
+fn door(door: &Door) -> Vec<Item> {
+    let item = |id: String, role, points| Item::new(id, &door.name, role, Drawing::Polyline(points));
+    let closed = vec![door.a, door.b];
+    if !door.open {
+        return vec![item(door_id(&door.name), Role::Obstacle, closed).stroked(Line::solid(3.0))];
+    }
+    let along = door.b - door.a;
+    let leaf = vec![door.a, door.a + Vector2::new(-along.y, along.x)];
+    vec![
+        item(door_id(&door.name), Role::Muted, closed).stroked(Line::solid(1.0).dashed(Dash::Dashed)),
+        item(format!("{}/leaf", door_id(&door.name)), Role::Muted, leaf).stroked(Line::solid(1.5)),
+    ]
 }
 
 fn obstacle(obstacle: &Obstacle) -> Item {
@@ -80,6 +102,7 @@ mod tests {
                     vec![(Pose2::IDENTITY, Shape::try_rectangle(p(1.0, 1.0), p(2.0, 2.0)).unwrap())],
                 ),
             ],
+            doors: vec![],
             places: vec![Place { name: "the gate".into(), pose: Pose2::IDENTITY }],
             marks: vec![Mark { name: "the line".into(), points: vec![p(0.0, 3.0), p(4.0, 3.0)] }],
             robots: vec![],

@@ -6,7 +6,7 @@ use super::{Recorder, RunError};
 use crate::collision::{Collision, Scene};
 use crate::configuration::{Coordinates, RobotKind};
 use crate::random::{Seed, Stream};
-use crate::run::{Digest, Event, Quantized, RobotInput, RunDigest, SCRIPT_VERSION, Script};
+use crate::run::{Digest, Event, Quantized, RobotInput, RunDigest, Script};
 use crate::tour::TourConfig;
 use crate::worlds::World;
 
@@ -54,7 +54,7 @@ fn driving(world: &World, seed: Seed) -> Script {
     loop {
         tick += 1 + s.below(40);
         if tick > TICKS {
-            return Script { version: SCRIPT_VERSION, events };
+            return Script::new(events, vec![]);
         }
         for robot in &world.robots {
             let channel = |s: &mut Stream| s.below(257) as i16 - 128;

@@ -1,6 +1,6 @@
 //! A small run for tests: two robots, three ticks, numbers of every sort.
 
-use super::{DT, Event, Frame, Log, Quantized, RobotInput, RobotScan, RobotState, SCRIPT_VERSION, Script};
+use super::{DT, Event, Frame, Log, Quantized, RobotInput, RobotScan, RobotState, Script};
 use crate::configuration::Coordinates;
 use crate::geometry::{Aabb, Point2};
 use crate::random::Seed;
@@ -37,7 +37,7 @@ pub fn frame(tick: u64) -> Frame {
         refusals: 1,
     };
     let scan = RobotScan { robot: 0, ranges: vec![0.0, 1.0 + time, f64::INFINITY] };
-    Frame { tick, robots: vec![car, arm], scans: vec![scan] }
+    Frame { tick, robots: vec![car, arm], scans: vec![scan], obstacles: vec![] }
 }
 
 pub fn log() -> Log {
@@ -46,6 +46,7 @@ pub fn log() -> Log {
         name: "Yard".into(),
         bounds: Aabb { min: Point2::new(-1.0, -2.0), max: Point2::new(3.0, 4.0) },
         obstacles: vec![],
+        doors: vec![],
         places: vec![],
         marks: vec![],
         robots: vec![resident("Car", "rusty", &[1.0, 0.1, 0.2]), resident("Arm", "reach", &[0.0, 0.5])],
@@ -60,7 +61,7 @@ pub fn log() -> Log {
     Log {
         seed: Seed(u64::MAX - 1),
         config: TourConfig { worlds: vec![world], ticks: 3, sensor: Some(RangeSensor { n_rays: 3, max_range: 4.0 }) },
-        script: Script { version: SCRIPT_VERSION, events },
+        script: Script::new(events, vec![]),
         initial: frame(0),
         digests: frames.iter().map(Frame::digest).collect(),
         frames,

@@ -2,6 +2,7 @@
 
 use super::field::{Field, Value};
 use crate::configuration::Coordinates;
+use crate::geometry::Pose2;
 use crate::short_list::ShortList;
 
 /// The length of a tick in seconds: the simulation runs at 20 Hz. Time is tick * DT, never a sum.
@@ -44,6 +45,22 @@ pub struct Frame {
     pub robots: Vec<RobotState>,
     /// The scans of the robots' range sensors, by ascending robot id. A robot without a sensor has none.
     pub scans: Vec<RobotScan>,
+    /// The obstacles and doors that are not as they were at the start, by ascending world, then number.
+    pub obstacles: Vec<ObstacleState>,
+}
+
+/// An obstacle or a door that is not as it was at the start of the run: added, moved, taken away, opened or closed.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ObstacleState {
+    /// The number of its world in the run's configuration, from 0.
+    pub world: u32,
+    /// Its number in the world, from 0: the obstacles in file order, the doors in file order, then what the script adds
+    /// to the world, in the script's order.
+    pub obstacle: u32,
+    /// Whether it is there; a closed door is, an open one is not.
+    pub present: bool,
+    /// The rigid motion from where it was at first to where it is, metres and radians.
+    pub pose: Pose2,
 }
 
 /// The scan of one robot's range sensor at the end of a tick.
@@ -62,7 +79,7 @@ impl Frame {
     /// before its items, so the values of two frames correspond up to their first difference.
     pub(super) fn visit(&self, visit: &mut impl Visit) {
         // destructured by name, so that a field added later cannot be forgotten here
-        let Frame { tick, robots, scans } = self;
+        let Frame { tick, robots, scans, obstacles } = self;
         visit.value(None, Field::one("tick"), Value::Count(*tick));
         visit.value(None, Field::one("robots.len"), Value::of_len(robots.len()));
         for robot in robots {
@@ -72,6 +89,14 @@ impl Frame {
         for RobotScan { robot, ranges } in scans {
             visit.value(Some(*robot), Field::one("scan.robot"), Value::Count(u64::from(*robot)));
             visit_list(Some(*robot), "ranges.len", "ranges", ranges, visit);
+        }
+        visit.count_of_obstacles(obstacles.len());
+        for ObstacleState { world, obstacle, present, pose } in obstacles {
+            visit.value(None, Field::one("obstacle.world"), Value::Count(u64::from(*world)));
+            visit.value(None, Field::one("obstacle.number"), Value::Count(u64::from(*obstacle)));
+            visit.value(None, Field::one("obstacle.present"), Value::Flag(*present));
+            let Pose2 { x, y, theta } = *pose;
+            visit.floats(None, "obstacle.pose", &[x, y, theta]);
         }
     }
 
@@ -91,19 +116,24 @@ impl Frame {
     /// | 1 | the number of scans, then for each: |
     /// | 1 | its robot's id |
     /// | 1 + n | the number of its ranges, and these |
+    /// | 0 or 1 | nothing where all obstacles are as at the start; else 2^63 plus how many are not, then for each: |
+    /// | 2 | its world and its number |
+    /// | 1 | present: 0 or 1 |
+    /// | 3 | its motion: x, y, theta |
     ///
-    /// An `f64` is encoded as its bits. Frames that differ in a bit have different encodings, and no encoding is the
-    /// beginning of another.
+    /// An `f64` is encoded as its bits. Frames that differ in a bit have different encodings. A sequence of encodings
+    /// can be read in one way only: a tick is below 2^63, so the word after the scans says which of the two it is.
     pub fn encode(&self, out: &mut Vec<u8>) {
         self.visit(&mut Words(out));
     }
 
     /// The number of bytes that the canonical encoding takes.
     pub(super) fn encoded_length(&self) -> usize {
-        let Frame { robots, scans, .. } = self;
+        let Frame { robots, scans, obstacles, .. } = self;
+        let changed = if obstacles.is_empty() { 0 } else { 1 + 6 * obstacles.len() };
         let lists = |r: &RobotState| r.configuration.len() + r.extra.len() + r.target.len();
         let words = robots.iter().map(|r| 11 + lists(r)).sum::<usize>();
-        8 * (3 + words + scans.iter().map(|s| 2 + s.ranges.len()).sum::<usize>())
+        8 * (3 + changed + words + scans.iter().map(|s| 2 + s.ranges.len()).sum::<usize>())
     }
 
     /// The first NaN in canonical order: its robot and the field's name.
@@ -150,6 +180,11 @@ pub(super) trait Visit {
     /// A value.
     fn value(&mut self, robot: Option<u32>, field: Field, value: Value);
 
+    /// The number of obstacles that are not as at the start.
+    fn count_of_obstacles(&mut self, count: usize) {
+        self.value(None, Field::one("obstacles.len"), Value::of_len(count));
+    }
+
     /// The items of a list.
     fn floats(&mut self, robot: Option<u32>, name: &'static str, list: &[f64]) {
         for (i, x) in list.iter().enumerate() {
@@ -170,6 +205,12 @@ struct Words<'a>(&'a mut Vec<u8>);
 impl Visit for Words<'_> {
     fn value(&mut self, _robot: Option<u32>, _field: Field, value: Value) {
         self.0.extend_from_slice(&value.bits().to_le_bytes());
+    }
+
+    fn count_of_obstacles(&mut self, count: usize) {
+        if count > 0 {
+            self.0.extend_from_slice(&(1 << 63 | count as u64).to_le_bytes());
+        }
     }
 
     fn floats(&mut self, _robot: Option<u32>, _name: &'static str, list: &[f64]) {
@@ -200,7 +241,12 @@ mod tests {
             flash: 4,
             refusals: 6,
         };
-        let frame = Frame { tick: 9, robots: vec![state], scans: vec![RobotScan { robot: 7, ranges: vec![2.5] }] };
+        let frame = Frame {
+            tick: 9,
+            robots: vec![state],
+            scans: vec![RobotScan { robot: 7, ranges: vec![2.5] }],
+            obstacles: vec![],
+        };
         let mut bytes = Vec::new();
         frame.encode(&mut bytes);
         let words: Vec<u64> = bytes.as_chunks::<8>().0.iter().map(|c| u64::from_le_bytes(*c)).collect();

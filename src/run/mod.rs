@@ -10,18 +10,25 @@ mod fixture;
 mod frame;
 mod log;
 mod mcap;
+mod quantized;
 mod script;
+mod script_check;
+mod script_error;
 mod script_text;
+mod world_change;
 
 pub use comparison::Comparison;
 pub use difference::SetupDifference;
 pub use digest::{Digest, RunDigest};
 pub use divergence::{Divergence, first_divergence};
 pub use field::Value;
-pub use frame::{DT, Frame, RobotScan, RobotState};
+pub use frame::{DT, Frame, ObstacleState, RobotScan, RobotState};
 pub use log::Log;
 pub use mcap::{
-    DamageKind, DamagedLog, EXPORT_PROFILE, FORMAT_VERSION, GENERATOR, LogError, LogWriter, ReadLog, TICK_NANOSECONDS,
+    DamageKind, DamagedLog, EXPORT_PROFILE, FORMAT_VERSION, FORMAT_VERSION_WITH_CHANGES, GENERATOR, LogError,
+    LogWriter, ReadLog, TICK_NANOSECONDS,
 };
-pub use script::{Event, Quantized, RobotInput, SCRIPT_VERSION, Script};
-pub use script_text::{MAX_CHANNEL, MAX_COORDINATES, MAX_EVENTS, ScriptError, ScriptProblem};
+pub use quantized::Quantized;
+pub use script::{Event, RobotInput, SCRIPT_VERSION, SCRIPT_VERSION_WITH_CHANGES, Script};
+pub use script_error::{MAX_CHANNEL, MAX_COORDINATES, MAX_EVENTS, ScriptError, ScriptProblem};
+pub use world_change::{WorldChange, WorldEvent};

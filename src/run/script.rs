@@ -2,19 +2,26 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::{Quantized, WorldEvent};
 use crate::configuration::Configuration;
 
-/// The version of the script format that this program writes and reads.
+/// The version of the script format for a script of events alone.
 pub const SCRIPT_VERSION: u32 = 1;
+/// The version of the script format for a script that changes worlds too.
+pub const SCRIPT_VERSION_WITH_CHANGES: u32 = 2;
 
 /// The input script of a run, as RON. Unknown fields and other versions are refused.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Script {
-    /// The format's version, [`SCRIPT_VERSION`].
+    /// The format's version, [`version_of`](Self::version_of) the changes.
     pub version: u32,
     /// The events in order of their ticks. Events of one tick keep the order of the list.
     pub events: Vec<Event>,
+    /// The changes of worlds in order of their ticks. Those of one tick keep the order of the list, and come before the
+    /// tick's events.
+    #[serde(default)]
+    pub changes: Vec<WorldEvent>,
 }
 
 /// One input to one robot.
@@ -27,29 +34,6 @@ pub struct Event {
     pub robot: String,
     /// The input.
     pub input: RobotInput,
-}
-
-/// A captured coordinate, metres or radians in units of 2^-20: `Quantized(1 << 20)` is 1. The rounding keeps pixels out
-/// of runs.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
-#[serde(transparent)]
-pub struct Quantized(pub i64);
-
-impl Quantized {
-    /// Units per metre or radian.
-    pub const UNITS: f64 = 1_048_576.0;
-
-    /// The nearest quantized value (ties to even); `None` unless finite and below 9.1e15 units in size, a little above
-    /// 2^33.
-    pub fn try_new(value: f64) -> Option<Self> {
-        let scaled = (value * Self::UNITS).round_ties_even();
-        (scaled.abs() < 9.1e15).then_some(Quantized(scaled as i64))
-    }
-
-    /// The value in metres or radians; exact up to 2^53 units.
-    pub fn value(self) -> f64 {
-        self.0 as f64 / Self::UNITS
-    }
 }
 
 /// An input to a robot. The first one takes the robot over from its tour; `Release` returns it.
@@ -73,7 +57,17 @@ pub enum RobotInput {
 impl Script {
     /// A script without events.
     pub const fn empty() -> Self {
-        Script { version: SCRIPT_VERSION, events: Vec::new() }
+        Script { version: SCRIPT_VERSION, events: Vec::new(), changes: Vec::new() }
+    }
+
+    /// The script of these events and changes.
+    pub fn new(events: Vec<Event>, changes: Vec<WorldEvent>) -> Self {
+        Script { version: Script::version_of(&changes), events, changes }
+    }
+
+    /// The version that a script with these changes has: [`SCRIPT_VERSION`] without any.
+    pub const fn version_of(changes: &[WorldEvent]) -> u32 {
+        if changes.is_empty() { SCRIPT_VERSION } else { SCRIPT_VERSION_WITH_CHANGES }
     }
 
     /// Creates a script that moves the robot named `robot` through a list of configurations, one a tick from tick 1 on.
@@ -93,6 +87,6 @@ impl Script {
             Some(Event { tick, robot: robot.to_owned(), input: RobotInput::MoveTo(target) })
         };
         let events = (1_u64..).zip(way).map(event).collect::<Option<_>>()?;
-        Some(Script { version: SCRIPT_VERSION, events })
+        Some(Script::new(events, Vec::new()))
     }
 }

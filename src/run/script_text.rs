@@ -1,95 +1,16 @@
 //! Reads scripts from text, with every check, and writes them in their one canonical form.
 
-use std::collections::BTreeSet;
 use std::fmt::Write;
 
 use ron::value::RawValue;
 use serde::Deserialize;
+use serde::de::DeserializeOwned;
 
-use super::{Event, Quantized, RobotInput, SCRIPT_VERSION, Script};
-use crate::geometry::MAX_COORDINATE;
+use super::script_error::{MAX_EVENTS, ScriptError, ScriptProblem};
+use super::{
+    Event, Quantized, RobotInput, SCRIPT_VERSION, SCRIPT_VERSION_WITH_CHANGES, Script, WorldChange, WorldEvent,
+};
 use crate::text_position::{line_at, line_ends, offset_of};
-use crate::tour::MAX_TICKS;
-
-/// Largest number of events in a script.
-pub const MAX_EVENTS: usize = 1_000_000;
-/// Largest number of coordinates in a `MoveTo` or `Teleport`.
-pub const MAX_COORDINATES: usize = 64;
-/// The greatest absolute value of a control channel: the robot's maximum.
-pub const MAX_CHANNEL: i16 = 128;
-
-/// A script that is refused: where, which event, and why.
-///
-/// Prints as `drive.ron:7: events[3]: channel 129: it must be in -128 to 128`.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct ScriptError {
-    /// The file, as the caller named it; empty for a script that was not read from text.
-    pub file: String,
-    /// The line, from 1: where the event begins, or where reading stopped; 0 for a script that was not read from text.
-    pub line: usize,
-    /// The event's index, from 0; `None` if the error lies outside the list.
-    pub event: Option<usize>,
-    /// The reason.
-    pub problem: ScriptProblem,
-}
-
-impl std::fmt::Display for ScriptError {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        if self.line > 0 {
-            write!(f, "{}:{}: ", self.file, self.line)?;
-        }
-        if let Some(event) = self.event {
-            write!(f, "events[{event}]: ")?;
-        }
-        write!(f, "{}", self.problem)
-    }
-}
-
-impl std::error::Error for ScriptError {}
-
-/// Why a script is refused.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[non_exhaustive]
-pub enum ScriptProblem {
-    /// Not RON, or not of the expected form: an unknown or missing field, a number that doesn't fit its type.
-    #[error("{0}")]
-    Syntax(String),
-    /// A version of the format that this program does not read.
-    #[error("version {0}: this program reads version {SCRIPT_VERSION}")]
-    Version(u64),
-    /// More than [`MAX_EVENTS`] events.
-    #[error("{0} events: at most {MAX_EVENTS}")]
-    TooMany(usize),
-    /// A tick that is 0 or beyond the longest run.
-    #[error("tick {0}: it must be in 1 to {MAX_TICKS}")]
-    Tick(u64),
-    /// A tick before that of the event before it.
-    #[error("tick {tick} comes after tick {before}: ticks must ascend")]
-    Order {
-        /// The event's tick.
-        tick: u64,
-        /// The tick of the event before it.
-        before: u64,
-    },
-    /// A control channel beyond the maximum.
-    #[error("channel {0}: it must be in -{MAX_CHANNEL} to {MAX_CHANNEL}")]
-    Channel(i16),
-    /// A coordinate that is too large.
-    #[error("coordinate {0} (in units of 2^-20): its size must be at most {MAX_COORDINATE} m or rad")]
-    Coordinate(i64),
-    /// Too few or too many coordinates.
-    #[error("{0} coordinates: there must be 1 to {MAX_COORDINATES}")]
-    Coordinates(usize),
-    /// A robot that the run does not have.
-    #[error("there is no robot {0:?}")]
-    Robot(String),
-}
-
-impl ScriptProblem {
-    fn at(self, event: impl Into<Option<usize>>) -> ScriptError {
-        ScriptError { file: String::new(), line: 0, event: event.into(), problem: self }
-    }
-}
 
 /// The file as written. The events stay text here and are parsed one by one, so that an error knows its event and line.
 #[derive(Deserialize)]
@@ -98,6 +19,8 @@ struct ScriptText<'a> {
     version: u64,
     #[serde(borrow)]
     events: Vec<&'a RawValue>,
+    #[serde(borrow, default)]
+    changes: Vec<&'a RawValue>,
 }
 
 /// The version alone, whatever else a file of another version holds.
@@ -122,41 +45,31 @@ impl Script {
     /// assert_eq!(error.to_string(), "drive.ron:2: events[0]: channel 129: it must be in -128 to 128");
     /// ```
     pub fn parse(source_name: &str, text: &str) -> Result<Self, ScriptError> {
-        let error = |line: usize, event: Option<usize>, problem: ScriptProblem| ScriptError {
-            file: source_name.to_owned(),
-            line,
-            event,
-            problem,
-        };
-        let syntax = |first_line: usize, event: Option<usize>, e: ron::error::SpannedError| {
-            error(first_line + e.span.start.line - 1, event, ScriptProblem::Syntax(e.code.to_string()))
-        };
+        let error = |line, problem| ScriptError { file: source_name.to_owned(), line, ..problem };
         let read: Result<ScriptText, _> = ron::from_str(text);
         // the version is checked first: a file of another version may have another form
         let version = match &read {
             Ok(file) => file.version,
             Err(_) => ron::from_str(text).map_or(u64::from(SCRIPT_VERSION), |VersionText { version }| version),
         };
-        if version != u64::from(SCRIPT_VERSION) {
-            return Err(error(line_at(text, text.find("version").unwrap_or(0)), None, ScriptProblem::Version(version)));
+        let line_of = |word: &str| line_at(text, text.find(word).unwrap_or(0));
+        if ![SCRIPT_VERSION, SCRIPT_VERSION_WITH_CHANGES].map(u64::from).contains(&version) {
+            return Err(error(line_of("version"), ScriptProblem::Version(version).anywhere()));
         }
-        let file = read.map_err(|e| syntax(1, None, e))?;
-        let mut script = Script::empty();
-        if file.events.len() > MAX_EVENTS {
-            return Err(error(1, None, ScriptProblem::TooMany(file.events.len())));
+        let file = read.map_err(|e| error(e.span.start.line, ScriptProblem::Syntax(e.code.to_string()).anywhere()))?;
+        if version == u64::from(SCRIPT_VERSION) && !file.changes.is_empty() {
+            return Err(error(line_of("changes"), ScriptProblem::Changes.anywhere()));
         }
-        // lines are counted from event to event
-        let (mut line, mut counted) = (1, 0);
-        for (i, raw) in file.events.iter().enumerate() {
-            let offset = offset_of(text, raw.trim().get_ron());
-            line += line_ends(text, counted, offset);
-            counted = offset;
-            let event: Event = ron::from_str(raw.trim().get_ron()).map_err(|e| syntax(line, Some(i), e))?;
-            let before = script.events.last().map_or(0, |e| e.tick);
-            event.check(before).map_err(|problem| error(line, Some(i), problem))?;
-            script.events.push(event);
+        let count = file.events.len().saturating_add(file.changes.len());
+        if count > MAX_EVENTS {
+            return Err(error(1, ScriptProblem::TooMany(count).anywhere()));
         }
-        Ok(script)
+        let events = List { source_name, text, name: "events" };
+        let events = events.read(&file.events, |event: &Event, before| event.check(before).map(|()| event.tick))?;
+        let changes = List { source_name, text, name: "changes" };
+        let check = |change: &WorldEvent, before| change.check(before).map(|()| change.tick);
+        let changes = changes.read(&file.changes, check)?;
+        Ok(Script { version: Script::version_of(&changes), events, changes })
     }
 
     /// The canonical text: one event a line, every number and name written in one way. Reading it gives the script
@@ -167,7 +80,17 @@ impl Script {
             // writing into a string can't fail
             let _ = writeln!(text, "        (tick: {tick}, robot: {robot:?}, input: {}),", InputText(input));
         }
-        text.push_str("    ],\n)\n");
+        text.push_str("    ],\n");
+        // a script without changes keeps the text that it had before there were any
+        if !self.changes.is_empty() {
+            text.push_str("    changes: [\n");
+            for WorldEvent { tick, world, change } in &self.changes {
+                let _ =
+                    writeln!(text, "        (tick: {tick}, world: {world:?}, change: {}),", ChangeText(change, " "));
+            }
+            text.push_str("    ],\n");
+        }
+        text.push_str(")\n");
         text
     }
 
@@ -179,67 +102,75 @@ impl Script {
             // writing into a string can't fail
             let _ = write!(text, "(tick:{tick},robot:{robot:?},input:{input}),");
         }
-        text + "])"
-    }
-
-    /// Checks a script made by a program: whether [`parse`](Self::parse) could have returned it.
-    ///
-    /// # Errors
-    /// [`ScriptError`] without file and line.
-    pub fn check(&self) -> Result<(), ScriptError> {
-        if self.version != SCRIPT_VERSION {
-            return Err(ScriptProblem::Version(u64::from(self.version)).at(None));
+        text.push(']');
+        if !self.changes.is_empty() {
+            text.push_str(",changes:[");
+            for WorldEvent { tick, world, change } in &self.changes {
+                let _ = write!(text, "(tick:{tick},world:{world:?},change:{}),", ChangeText(change, ""));
+            }
+            text.push(']');
         }
-        if self.events.len() > MAX_EVENTS {
-            return Err(ScriptProblem::TooMany(self.events.len()).at(None));
-        }
-        let mut before = 0;
-        for (i, event) in self.events.iter().enumerate() {
-            event.check(before).map_err(|problem| problem.at(i))?;
-            before = event.tick;
-        }
-        Ok(())
-    }
-
-    /// Checks that every event's robot is among `names`.
-    ///
-    /// # Errors
-    /// [`ScriptError`] without file and line, naming the first event of an unknown robot.
-    pub fn check_robots(&self, names: &[&str]) -> Result<(), ScriptError> {
-        let names: BTreeSet<&str> = names.iter().copied().collect();
-        match self.events.iter().position(|e| !names.contains(e.robot.as_str())) {
-            Some(i) => Err(ScriptProblem::Robot(self.events[i].robot.clone()).at(i)),
-            None => Ok(()),
-        }
+        text + ")"
     }
 }
 
-impl Event {
-    fn check(&self, before: u64) -> Result<(), ScriptProblem> {
-        let Event { tick, input, .. } = self;
-        if *tick < 1 || *tick > MAX_TICKS {
-            return Err(ScriptProblem::Tick(*tick));
+/// A list of a script's text.
+struct List<'a> {
+    source_name: &'a str,
+    text: &'a str,
+    name: &'static str,
+}
+
+impl List<'_> {
+    /// Reads the items. `check` gets each with the tick of the one before it, and returns its own.
+    fn read<T: DeserializeOwned>(
+        &self,
+        items: &[&RawValue],
+        check: impl Fn(&T, u64) -> Result<u64, ScriptProblem>,
+    ) -> Result<Vec<T>, ScriptError> {
+        let mut read = Vec::new();
+        // lines are counted from item to item
+        let (mut line, mut counted, mut before) = (1, 0, 0);
+        for (i, raw) in items.iter().enumerate() {
+            let item = raw.trim().get_ron();
+            let offset = offset_of(self.text, item);
+            line += line_ends(self.text, counted, offset);
+            counted = offset;
+            let error = |line, problem: ScriptProblem| ScriptError {
+                file: self.source_name.to_owned(),
+                line,
+                ..problem.at(self.name, i)
+            };
+            let item: T = ron::from_str(item)
+                .map_err(|e| error(line + e.span.start.line - 1, ScriptProblem::Syntax(e.code.to_string())))?;
+            before = check(&item, before).map_err(|problem| error(line, problem))?;
+            read.push(item);
         }
-        if *tick < before {
-            return Err(ScriptProblem::Order { tick: *tick, before });
-        }
-        match input {
-            RobotInput::Drive(a, b) => match [a, b].into_iter().find(|c| c.unsigned_abs() > MAX_CHANNEL.unsigned_abs())
-            {
-                Some(channel) => Err(ScriptProblem::Channel(*channel)),
-                None => Ok(()),
-            },
-            RobotInput::MoveTo(q) | RobotInput::Teleport(q) => {
-                if q.is_empty() || q.len() > MAX_COORDINATES {
-                    return Err(ScriptProblem::Coordinates(q.len()));
-                }
-                let most = (MAX_COORDINATE * Quantized::UNITS) as u64;
-                match q.iter().find(|c| c.0.unsigned_abs() > most) {
-                    Some(coordinate) => Err(ScriptProblem::Coordinate(coordinate.0)),
-                    None => Ok(()),
-                }
+        Ok(read)
+    }
+}
+
+/// Writes a change as the canonical text has it, with this after each comma and colon.
+struct ChangeText<'a>(&'a WorldChange, &'a str);
+
+impl std::fmt::Display for ChangeText<'_> {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let b = self.1;
+        match self.0 {
+            WorldChange::Close(name) => write!(f, "Close({name:?})"),
+            WorldChange::Open(name) => write!(f, "Open({name:?})"),
+            WorldChange::Remove(name) => write!(f, "Remove({name:?})"),
+            WorldChange::Move { name, to: (x, y, theta) } => {
+                write!(f, "Move(name:{b}{name:?},{b}to:{b}({},{b}{},{b}{}))", x.0, y.0, theta.0)
             }
-            RobotInput::SetTrailer(_) | RobotInput::Release => Ok(()),
+            WorldChange::Add { name, points, radius } => {
+                write!(f, "Add(name:{b}{name:?},{b}points:{b}[")?;
+                for (i, (x, y)) in points.iter().enumerate() {
+                    let comma = if i == 0 { "" } else { "," };
+                    write!(f, "{comma}{}({},{b}{})", if i == 0 { "" } else { b }, x.0, y.0)?;
+                }
+                write!(f, "],{b}radius:{b}{})", radius.0)
+            }
         }
     }
 }
@@ -300,7 +231,7 @@ mod tests {
     fn names_of_every_sort_survive() {
         for name in ["", "\u{0}\u{1}\u{7f}", "\r\n", "'", "\u{301}e\u{202e}", "\u{10ffff}", "// no", "r#\"", "🤖"] {
             let event = Event { tick: 1, robot: name.into(), input: RobotInput::Release };
-            let script = Script { version: SCRIPT_VERSION, events: vec![event] };
+            let script = Script::new(vec![event], vec![]);
             assert_eq!(Script::parse("s", &script.to_ron()).as_ref(), Ok(&script), "{}", script.to_ron());
         }
     }
@@ -331,7 +262,7 @@ mod tests {
         assert!(refused("Release", "Explode").starts_with("s.ron:9: events[4]: "));
         assert!(refused("tick: 7)", "tick: 7, mood: 1)").contains("mood"));
         assert!(refused("version: 1,", "version: 1, mood: 2,").contains("mood"));
-        assert_eq!(refused("version: 1", "version: 2"), "s.ron:2: version 2: this program reads version 1");
+        assert_eq!(refused("version: 1", "version: 3"), "s.ron:2: version 3: this program reads versions 1 and 2");
         assert!(refused("version: 1,", "").starts_with("s.ron:"), "no version");
         assert!(refused("events: [", "events: ").starts_with("s.ron:"));
         assert!(Script::parse("s.ron", "").is_err());
@@ -353,7 +284,7 @@ mod tests {
         let names: Vec<String> = (0..100_000).map(|i| format!("a robot with the number {i:06}")).collect();
         let names: Vec<&str> = names.iter().map(String::as_str).collect();
         let event = |name: &&str| Event { tick: 1, robot: (*name).into(), input: RobotInput::Release };
-        let mut script = Script { version: SCRIPT_VERSION, events: names.iter().rev().map(event).collect() };
+        let mut script = Script::new(names.iter().rev().map(event).collect(), vec![]);
         assert_eq!(script.check_robots(&names), Ok(()));
         script.events[77_777].robot.push('!');
         let error = script.check_robots(&names).unwrap_err();
@@ -363,16 +294,16 @@ mod tests {
     #[test]
     fn a_script_made_by_a_program_gets_the_same_checks() {
         let event = |tick, input| Event { tick, robot: "r".into(), input };
-        let check = |events| Script { version: SCRIPT_VERSION, events }.check().map_err(|e| e.to_string());
+        let check = |events| Script::new(events, vec![]).check().map_err(|e| e.to_string());
         assert_eq!(check(vec![event(2, RobotInput::Release), event(2, RobotInput::Release)]), Ok(()));
         assert!(check(vec![event(2, RobotInput::Release), event(1, RobotInput::Release)]).is_err());
         assert_eq!(
             check(vec![event(1, RobotInput::Drive(0, i16::MIN))]),
             Err("events[0]: channel -32768: it must be in -128 to 128".into())
         );
-        let other = Script { version: 9, events: vec![] };
+        let other = Script { version: 9, ..Script::empty() };
         assert_eq!(other.check().unwrap_err().problem, ScriptProblem::Version(9));
-        let many = Script { version: SCRIPT_VERSION, events: vec![event(1, RobotInput::Release); MAX_EVENTS + 1] };
+        let many = Script::new(vec![event(1, RobotInput::Release); MAX_EVENTS + 1], vec![]);
         assert_eq!(many.check().unwrap_err().problem, ScriptProblem::TooMany(MAX_EVENTS + 1));
     }
 }

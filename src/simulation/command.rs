@@ -2,13 +2,16 @@
 
 use bevy::prelude::*;
 
+use super::obstacles::change::{RefusedChanges, refusal};
+use super::obstacles::roster::sync_added;
+use super::obstacles::start::settle_start;
 use super::transport::re_rolled;
 use super::{
     CommandError, CommandRefused, History, Keyframes, PendingInput, Playback, RobotCommand, RobotName, RunConfig,
     SpawnError, Transport, TransportCommand, seek, start_run_in_order, step, undo,
 };
 use crate::random::Seed;
-use crate::run::{Event, Script};
+use crate::run::{Event, Script, WorldChange, WorldEvent};
 
 /// A command to the run, as a message. Commands are carried out in the order in which they were written, before the
 /// fixed loop.
@@ -19,6 +22,23 @@ pub enum RunCommand {
     Transport(TransportCommand),
     /// Give a robot an input, which applies at the next tick.
     Robot(RobotCommand),
+    /// Change a world, before the next tick's step.
+    World(WorldCommand),
+}
+
+/// A change of a world from its user, sent as a [`RunCommand`].
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct WorldCommand {
+    /// The world's name.
+    pub world: String,
+    /// The change.
+    pub change: WorldChange,
+}
+
+impl From<WorldCommand> for RunCommand {
+    fn from(command: WorldCommand) -> Self {
+        RunCommand::World(command)
+    }
 }
 
 impl From<TransportCommand> for RunCommand {
@@ -35,10 +55,16 @@ impl From<RobotCommand> for RunCommand {
 
 /// Carries out the commands written since the last update, in their order.
 pub(super) fn carry_out(world: &mut World) {
+    settle_start(world);
     let commands: Vec<RunCommand> = world.resource_mut::<Messages<RunCommand>>().drain().collect();
     for command in commands {
         match command {
             RunCommand::Robot(command) => capture(world, command),
+            RunCommand::World(command) => {
+                if let Err(error) = change(world, command) {
+                    world.write_message(CommandRefused(error));
+                }
+            }
             RunCommand::Transport(command) => {
                 if let Err(error) = obey(world, command) {
                     world.write_message(CommandRefused(error));
@@ -46,6 +72,35 @@ pub(super) fn carry_out(world: &mut World) {
             }
         }
     }
+}
+
+/// Reports the changes of worlds that were refused in the ticks since.
+pub(super) fn report_changes(mut refused: ResMut<RefusedChanges>, mut messages: MessageWriter<CommandRefused>) {
+    for change in refused.0.drain(..) {
+        messages.write(CommandRefused(CommandError::Change(change)));
+    }
+}
+
+/// Stamps a change of a world with the next tick. One that would be refused now is refused, and stays out of the
+/// script.
+fn change(world: &mut World, WorldCommand { world: name, change }: WorldCommand) -> Result<(), CommandError> {
+    let Transport { tick, frontier, looping, .. } = *world.resource::<Transport>();
+    let Some(RunConfig(config)) = world.get_resource::<RunConfig>().cloned() else { return Ok(()) };
+    let event = WorldEvent { tick: tick + 1, world: name, change };
+    let mut changes = world.resource::<PendingInput>().script().changes.clone();
+    changes.retain(|c| c.tick <= event.tick);
+    changes.push(event.clone());
+    let script = Script::new(Vec::new(), changes);
+    script.check().and_then(|()| script.check_worlds(&config.worlds))?;
+    if let Some(refused) = refusal(world, &event) {
+        return Err(CommandError::Change(refused));
+    }
+    if tick < frontier || looping {
+        continue_from_here(world);
+    }
+    world.resource_mut::<PendingInput>().capture_change(event);
+    sync_added(world, &script.changes);
+    Ok(())
 }
 
 /// Stamps an input with the next tick. Input at a tick before the frontier, and any input to a looping run, continues
@@ -69,6 +124,8 @@ fn capture(world: &mut World, RobotCommand { robot, input }: RobotCommand) {
 fn continue_from_here(world: &mut World) {
     let tick = world.resource::<Transport>().tick;
     world.resource_mut::<PendingInput>().truncate_after(tick);
+    let changes = world.resource::<PendingInput>().script().changes.clone();
+    sync_added(world, &changes);
     world.resource_mut::<Keyframes>().truncate_after(tick);
     if let Some(mut history) = world.get_resource_mut::<History>() {
         history.truncate_after(tick);

@@ -10,9 +10,10 @@ use crate::configuration::RobotKind;
 use crate::geometry::{Pose2, Shape};
 use crate::random::Stream;
 use crate::sensors::{BeamModel, RangeSensor, Scanner};
-use crate::worlds::World as WorldModel;
+use crate::worlds::{ObstacleKind, World as WorldModel};
 
-/// A world of the run. A component of the world's entity, beside its [`WorldScene`].
+/// A world of the run at its start. A component of the world's entity, beside its [`WorldScene`] and
+/// [`StandingWorld`].
 #[derive(Component, Clone, Debug)]
 #[component(immutable)]
 pub struct SimulatedWorld {
@@ -22,20 +23,59 @@ pub struct SimulatedWorld {
     pub model: Arc<WorldModel>,
 }
 
-/// The world's obstacles as a collision scene.
+/// The world's obstacles as a collision scene. It follows from the obstacles' entities.
 #[derive(Component, Clone, Debug)]
 #[component(immutable)]
 pub struct WorldScene(pub Arc<Scene>);
 
-/// An obstacle, an entity of its world.
+/// The revision of a world's scene. A scene that differs has another revision; whatever is kept of a scene from tick to
+/// tick is kept with it.
+#[derive(Component, Clone, Copy, Debug, PartialEq, Eq)]
+#[component(immutable)]
+pub struct SceneRevision(pub u64);
+
+/// The world as it stands now: its obstacles where they are, and its doors open or closed.
 #[derive(Component, Clone, Debug)]
 #[component(immutable)]
+pub struct StandingWorld(pub Arc<WorldModel>);
+
+/// An obstacle, an entity of its world.
+///
+/// Spawn one with an [`ObstacleOf`] before tick 0, and robots meet it; replace or remove it then, and they meet what is
+/// left. In a run only its script changes obstacles: any other change has no effect and is refused aloud.
+#[derive(Component, Clone, Debug, PartialEq)]
+#[component(immutable)]
+#[require(Placement)]
 pub struct ObstacleShape {
-    /// The obstacle's name.
+    /// The obstacle's name, unique in its world.
     pub name: String,
-    /// Its pieces, each with the pose of its frame.
+    /// Wall or solid, which collide alike.
+    pub kind: ObstacleKind,
+    /// Its pieces at first, each with the pose of its frame.
     pub pieces: Vec<(Pose2, Shape)>,
 }
+
+/// Where an obstacle is. It is part of the run's state: frames hold it, and a restore overwrites it.
+#[derive(Component, Clone, Copy, Debug, PartialEq)]
+#[component(immutable)]
+pub struct Placement {
+    /// Whether it is there; a closed door is, an open one is not.
+    pub present: bool,
+    /// The rigid motion from where its pieces are at first to where it is.
+    pub pose: Pose2,
+}
+
+/// It is there, where its pieces are.
+impl Default for Placement {
+    fn default() -> Self {
+        Placement { present: true, pose: Pose2::IDENTITY }
+    }
+}
+
+/// Marks an obstacle, a single segment, as a door: it is open where it is not present.
+#[derive(Component, Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[component(immutable)]
+pub struct Door;
 
 /// Relates an obstacle to its world.
 #[derive(Component, Clone, Copy, Debug, PartialEq, Eq)]
@@ -179,9 +219,20 @@ pub struct Cut<R: SimulatedRobot> {
     pub until: f64,
     /// Whether the motion was blocked, or not proven free.
     pub contact: bool,
-    /// The configuration and the control of the motion, for a robot alone in its world. With the same two the cut is
-    /// the same. `None` where other robots matter too.
-    pub of: Option<(R::Configuration, R::Control)>,
+    /// What the motion and the cut follow from, for a robot alone in its world. With the same the cut is the same.
+    /// `None` where other robots matter too.
+    pub of: Option<CutOf<R>>,
+}
+
+/// What a robot's motion and its cut follow from, in a world without other robots.
+#[derive(Clone, Debug, PartialEq)]
+pub struct CutOf<R: SimulatedRobot> {
+    /// The configuration at the start of the motion.
+    pub configuration: R::Configuration,
+    /// The control.
+    pub control: R::Control,
+    /// The obstacles.
+    pub scene: SceneRevision,
 }
 
 impl<R: SimulatedRobot> Contacts<R> {
@@ -212,6 +263,7 @@ impl<R: SimulatedRobot> Copy for Control<R> {}
 impl<R: SimulatedRobot> Copy for Contacts<R> {}
 impl<R: SimulatedRobot> Copy for DriveMode<R> {}
 impl<R: SimulatedRobot> Copy for Cut<R> {}
+impl<R: SimulatedRobot> Copy for CutOf<R> {}
 
 impl<R: SimulatedRobot> Default for Control<R> {
     fn default() -> Self {

@@ -10,6 +10,6 @@ pub struct LatestFrame(pub Frame);
 
 impl Default for LatestFrame {
     fn default() -> Self {
-        LatestFrame(Frame { tick: 0, robots: Vec::new(), scans: Vec::new() })
+        LatestFrame(Frame { tick: 0, robots: Vec::new(), scans: Vec::new(), obstacles: Vec::new() })
     }
 }

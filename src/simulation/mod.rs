@@ -10,7 +10,9 @@ mod command_error;
 mod components;
 mod history;
 mod latest_frame;
+mod obstacles;
 mod plugin;
+mod restore_error;
 mod robot;
 mod roster;
 mod schedule;
@@ -24,16 +26,19 @@ mod tick;
 mod transport;
 mod undo;
 
-pub use command::RunCommand;
+pub use command::{RunCommand, WorldCommand};
 pub use command_error::{CommandError, CommandRefused};
 pub use components::{
-    Configuration, Contacts, Control, Cut, DriveMode, MountedOn, ObstacleOf, ObstacleShape, Obstacles, OwnState,
-    PreviousConfiguration, Residents, ResidesIn, RobotId, RobotModel, RobotName, Route, Scan, SensorModel, SensorNoise,
-    SensorScanner, Sensors, SimulatedWorld, Slip, TickMotion, WorldScene,
+    Configuration, Contacts, Control, Cut, CutOf, Door, DriveMode, MountedOn, ObstacleOf, ObstacleShape, Obstacles,
+    OwnState, Placement, PreviousConfiguration, Residents, ResidesIn, RobotId, RobotModel, RobotName, Route, Scan,
+    SceneRevision, SensorModel, SensorNoise, SensorScanner, Sensors, SimulatedWorld, Slip, StandingWorld, TickMotion,
+    WorldScene,
 };
 pub use history::{Happening, History, HistoryPlugin, TickMark, Trail};
 pub use latest_frame::LatestFrame;
+pub use obstacles::change::ChangeRefused;
 pub use plugin::SimulationPlugin;
+pub use restore_error::RestoreError;
 pub use robot::ops::RobotOps;
 pub use robot::plugin::{RobotKinds, RobotPlugin};
 pub use robot::simulated::{Extra, SimulatedRobot};
@@ -43,7 +48,7 @@ pub use schedule::{SimulationSchedule, SimulationSystems};
 pub use seek::{play_tick, seek, step};
 pub use spawn::{RunConfig, RunInput, start_run};
 pub use spawn_error::SpawnError;
-pub use state::{Keyframes, RestoreError, restore, snapshot};
+pub use state::{Keyframes, restore, snapshot};
 pub use tick::hold::{Advance, HOLD_CLEARANCE, LEAST_CLEARANCE, MARGIN, advance, margin_from};
 pub use tick::input::{PendingInput, RobotCommand};
 pub use tick::settle::FLASH_TICKS;

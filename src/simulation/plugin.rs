@@ -3,6 +3,9 @@
 use bevy::app::{RunFixedMainLoop, RunFixedMainLoopSystems};
 use bevy::prelude::*;
 
+use super::obstacles::change::RefusedChanges;
+use super::obstacles::roster::ObstacleRoster;
+use super::obstacles::watch::watch;
 use super::schedule::{Phase, simulation_schedule};
 use super::tick::starts::{Starts, Sweeps, gather_starts};
 use super::tick::{input, sense};
@@ -33,6 +36,8 @@ impl Plugin for SimulationPlugin {
             .init_resource::<Keyframes>()
             .init_resource::<LatestFrame>()
             .init_resource::<Undo>()
+            .init_resource::<ObstacleRoster>()
+            .init_resource::<RefusedChanges>()
             .insert_resource(Transport::new(Seed(0)))
             .insert_resource(Time::<Fixed>::from_seconds(DT))
             .add_message::<RunCommand>()
@@ -47,7 +52,9 @@ impl Plugin for SimulationPlugin {
                 ),
             )
             .add_systems(RunFixedMainLoop, command::carry_out.in_set(RunFixedMainLoopSystems::BeforeFixedMainLoop))
+            .add_systems(RunFixedMainLoop, command::report_changes.in_set(RunFixedMainLoopSystems::AfterFixedMainLoop))
             .add_systems(FixedUpdate, run_while_playing);
+        watch(app);
         app.add_plugins((
             RobotPlugin::new(RobotKind::RUSTY.name, RUSTY),
             RobotPlugin::new(RobotKind::REACH.name, Reach::<2>::workbench()),

@@ -2,10 +2,13 @@
 
 use bevy::prelude::*;
 
+use super::obstacles::change::RefusedChanges;
+use super::obstacles::start::settle_start;
 use super::{Keyframes, RestoreError, SimulationSchedule, Transport, restore};
 
-/// Runs one tick.
+/// Runs one tick. Before the first, obstacles that were changed from outside become those of the run.
 pub fn step(world: &mut World) {
+    settle_start(world);
     world.run_schedule(SimulationSchedule);
 }
 
@@ -15,6 +18,7 @@ pub fn step(world: &mut World) {
 /// # Errors
 /// [`RestoreError`] when the keyframe does not fit the run. Only a frame from elsewhere could cause that.
 pub fn seek(world: &mut World, tick: u64) -> Result<(), RestoreError> {
+    settle_start(world);
     let now = world.resource::<Transport>().tick;
     let keyframe = world.resource::<Keyframes>().before(tick).cloned();
     if let Some(frame) = keyframe.filter(|f| tick < now || f.tick > now) {
@@ -23,6 +27,8 @@ pub fn seek(world: &mut World, tick: u64) -> Result<(), RestoreError> {
     while world.resource::<Transport>().tick < tick {
         step(world);
     }
+    // those on the way there were reported when they were first refused
+    world.resource_mut::<RefusedChanges>().0.clear();
     Ok(())
 }
 

@@ -4,10 +4,11 @@ use std::sync::Arc;
 
 use bevy::prelude::*;
 
+use super::obstacles::roster::{self, Ground, at_work};
 use super::robot::spawn::SpawnRequest;
 use super::{
-    History, Keyframes, LatestFrame, ObstacleOf, ObstacleShape, PendingInput, RobotId, RobotKinds, Roster,
-    SimulatedWorld, SpawnError, Transport, WorldScene, state, tick,
+    History, Keyframes, LatestFrame, PendingInput, RobotId, RobotKinds, Roster, SceneRevision, SimulatedWorld,
+    SpawnError, StandingWorld, Transport, WorldScene, state, tick,
 };
 use crate::collision::Scene;
 use crate::random::Seed;
@@ -48,13 +49,10 @@ impl From<Script> for RunInput {
 pub struct RunConfig(pub Arc<TourConfig>);
 
 fn spawn_world(world: &mut World, index: u32, model: &WorldModel) -> Entity {
-    let scene = WorldScene(Arc::new(Scene::of_world(model)));
-    let entity = world.spawn((SimulatedWorld { index, model: Arc::new(model.clone()) }, scene)).id();
-    for obstacle in &model.obstacles {
-        let shape = ObstacleShape { name: obstacle.name.clone(), pieces: obstacle.pieces.clone() };
-        world.spawn((shape, ObstacleOf(entity)));
-    }
-    entity
+    let (scene, model) = (WorldScene(Arc::new(Scene::of_world(model))), Arc::new(model.clone()));
+    world
+        .spawn((SimulatedWorld { index, model: Arc::clone(&model) }, StandingWorld(model), scene, SceneRevision(0)))
+        .id()
 }
 
 /// Starts a run in `world`, in place of the one under way: spawns everything and takes frame 0. The new run is paused.
@@ -78,6 +76,7 @@ pub(super) fn start_run_in_order(
     config.validate()?;
     input.script.check()?;
     input.script.check_robots(&config.robot_names().collect::<Vec<_>>())?;
+    input.script.check_worlds(&config.worlds)?;
     let worlds: Vec<Entity> =
         config.worlds.iter().enumerate().map(|(i, model)| spawn_world(world, i as u32, model)).collect();
     let mut spawned: Vec<(RobotId, Entity)> = Vec::new();
@@ -107,10 +106,16 @@ pub(super) fn start_run_in_order(
     }
     spawned.sort_unstable_by_key(|(id, _)| *id);
     let roster = Roster { worlds, robots: spawned.into_iter().map(|(_, e)| e).collect() };
-    if let Some(old) = world.remove_resource::<Roster>() {
-        old.worlds.iter().for_each(|&w| _ = world.despawn(w));
-    }
+    let old = world.remove_resource::<Roster>();
+    let grounds = at_work(world, |world, _| {
+        old.iter().flat_map(|old| &old.worlds).for_each(|&w| _ = world.despawn(w));
+        let model = |world: &World, w| world.get::<SimulatedWorld>(w).map(|w| Arc::clone(&w.model));
+        let ground = |&w: &Entity| model(world, w).map(|model| Ground::spawn(world, w, model));
+        roster.worlds.iter().filter_map(ground).collect()
+    });
     world.insert_resource(roster);
+    roster::begin(world, grounds);
+    roster::sync_added(world, &input.script.changes);
     world.insert_resource(RunConfig(config));
     world.insert_resource(Transport::new(input.seed));
     world.insert_resource(PendingInput::new(input.script));

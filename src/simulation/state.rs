@@ -4,7 +4,8 @@ use std::collections::BTreeMap;
 
 use bevy::prelude::*;
 
-use super::{LatestFrame, RobotId, RobotOps, Roster, Scan, Sensors, Transport};
+use super::obstacles::roster::ObstacleRoster;
+use super::{LatestFrame, RestoreError, RobotId, RobotOps, Roster, Scan, Sensors, Transport};
 use crate::run::{Frame, RobotScan};
 
 /// Largest number of keyframes; beyond it every second one is dropped.
@@ -51,30 +52,6 @@ impl Keyframes {
     }
 }
 
-/// Why a frame cannot be restored in this run.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-#[non_exhaustive]
-pub enum RestoreError {
-    /// The frame has other robots than the run.
-    #[error("the frame of tick {tick} has {found} robots, the run has {expected}")]
-    Robots {
-        /// The frame's tick.
-        tick: u64,
-        /// The robots in the frame.
-        found: usize,
-        /// The robots in the run.
-        expected: usize,
-    },
-    /// A robot's state does not fit the robot with its id.
-    #[error("the frame of tick {tick} has a state for robot {id} that does not fit it")]
-    Robot {
-        /// The frame's tick.
-        tick: u64,
-        /// The robot's id.
-        id: u32,
-    },
-}
-
 /// The state of the simulation now: the canonical form, the same for equal states.
 pub fn snapshot(world: &World) -> Frame {
     let mut frame = LatestFrame::default().0;
@@ -104,6 +81,8 @@ fn snapshot_into(world: &World, frame: &mut Frame) {
         count += 1;
     }
     frame.scans.truncate(count);
+    frame.obstacles.clear();
+    frame.obstacles.extend(world.get_resource::<ObstacleRoster>().into_iter().flat_map(ObstacleRoster::states));
 }
 
 /// Takes the frame of the tick.
@@ -136,6 +115,7 @@ pub fn restore(world: &mut World, frame: &Frame) -> Result<(), RestoreError> {
             return Err(refused);
         }
     }
+    super::obstacles::roster::restore(world, tick, &frame.obstacles)?;
     world.resource_mut::<Transport>().tick = tick;
     super::tick::sense::sense(world);
     record(world);

@@ -32,7 +32,15 @@ fn crowd() -> (Arc<TourConfig>, Script) {
             events.push(Event { tick, robot: robot.into(), input });
         }
     }
-    let world = WorldModel { name: "open".into(), bounds, obstacles: vec![], places: vec![], marks: vec![], robots };
+    let world = WorldModel {
+        name: "open".into(),
+        bounds,
+        obstacles: vec![],
+        doors: vec![],
+        places: vec![],
+        marks: vec![],
+        robots,
+    };
     (Arc::new(TourConfig { worlds: vec![world], ticks: 120, sensor: None }), Script { events, ..Script::empty() })
 }
 

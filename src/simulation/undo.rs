@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use bevy::prelude::*;
 
+use super::obstacles::roster::sync_added;
 use super::{
     CommandError, History, Keyframes, PendingInput, Playback, RunConfig, Transport, restore, seek, start_run_in_order,
 };
@@ -128,6 +129,7 @@ fn apply(world: &mut World, version: Version) -> Result<(), CommandError> {
         // the run is the same up to the tick where the scripts differ
         let shared = shared_ticks(world.resource::<PendingInput>().script(), &script);
         let keep = if shared < tick { shared } else { tick };
+        sync_added(world, &script.changes);
         world.insert_resource(PendingInput::new(script));
         world.resource_mut::<Keyframes>().truncate_after(shared);
         if let Some(mut history) = world.get_resource_mut::<History>() {
@@ -154,8 +156,10 @@ fn apply(world: &mut World, version: Version) -> Result<(), CommandError> {
 /// The last tick up to which two scripts have the same input.
 fn shared_ticks(a: &Script, b: &Script) -> u64 {
     let same = a.events.iter().zip(&b.events).take_while(|(a, b)| a == b).count();
-    let next = [a.events.get(same), b.events.get(same)].into_iter().flatten().map(|e| e.tick).min();
-    next.map_or(u64::MAX, |tick| tick.saturating_sub(1))
+    let same_changes = a.changes.iter().zip(&b.changes).take_while(|(a, b)| a == b).count();
+    let events = [a.events.get(same), b.events.get(same)].into_iter().flatten().map(|e| e.tick);
+    let changes = [a.changes.get(same_changes), b.changes.get(same_changes)].into_iter().flatten().map(|c| c.tick);
+    events.chain(changes).min().map_or(u64::MAX, |tick| tick.saturating_sub(1))
 }
 
 #[cfg(test)]

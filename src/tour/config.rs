@@ -117,6 +117,7 @@ mod tests {
             name: name.into(),
             bounds,
             obstacles: vec![],
+            doors: vec![],
             places: vec![],
             marks: vec![],
             robots: robots.iter().map(resident).collect(),

@@ -92,6 +92,13 @@ pub enum SessionCommand {
     Capture(CaptureOrder),
     /// A new run in the atlas's world.
     RunWorld,
+    /// A new run in the atlas's world, with its robots where the atlas has them.
+    RunFromHere,
+    /// Put a robot of the run where the atlas has it.
+    PutRobot {
+        /// The robot's name.
+        robot: String,
+    },
     /// A new run in which an arm has this number of links.
     Links {
         /// The arm's name.

@@ -35,7 +35,10 @@ pub fn files(world: &mut World) {
                 continue;
             }
             SessionCommand::Capture(order) => picture(world, &order),
-            SessionCommand::RunWorld | SessionCommand::Links { .. } => continue,
+            SessionCommand::RunWorld
+            | SessionCommand::RunFromHere
+            | SessionCommand::PutRobot { .. }
+            | SessionCommand::Links { .. } => continue,
         };
         let notice = match notice {
             Ok(text) => Notice { text, is_error: false },

@@ -241,7 +241,7 @@ fn number(fields: &mut BTreeMap<&str, String>, field: &'static str, most: u64) -
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::run::{Event, Quantized, RobotInput, SCRIPT_VERSION};
+    use crate::run::{Event, Quantized, RobotInput};
 
     fn driven() -> Script {
         let event = |tick, robot: &str, input| Event { tick, robot: robot.into(), input };
@@ -251,7 +251,7 @@ mod tests {
             event(9, "Hitch", RobotInput::SetTrailer(true)),
             event(30, "Rusty", RobotInput::Release),
         ];
-        Script { version: SCRIPT_VERSION, events }
+        Script::new(events, vec![])
     }
 
     #[test]
@@ -308,7 +308,7 @@ mod tests {
         assert_eq!(said(&query), "the link's script:1: events[0]: channel 129: it must be in -128 to 128");
         assert!(matches!(Link::parse(&"x".repeat(MAX_LINK + 1)), Err(LinkError::TooLong(_))));
         let events = (1..400).map(|tick| Event { tick, robot: "Rusty".into(), input: RobotInput::Release });
-        let long = Link { script: Script { version: 1, events: events.collect() }, ..Link::default() };
+        let long = Link { script: Script::new(events.collect(), vec![]), ..Link::default() };
         assert!(long.query().unwrap_err().to_string().ends_with("save the run as a file instead"));
     }
 }

@@ -8,7 +8,7 @@ use crate::geometry::ShapeError;
 /// An item of a world file: `obstacles[1] "the post"`.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct WorldItem {
-    /// The list it stands in: `walls`, `obstacles`, `places`, `marks` or `robots`.
+    /// The list it stands in: `walls`, `obstacles`, `doors`, `places`, `marks` or `robots`.
     pub list: &'static str,
     /// Its index in that list, from 0.
     pub index: usize,

@@ -49,10 +49,11 @@ pub use beam::{BeamError, BeamModel};
 pub use convex_pieces::{MAX_CONCAVE_VERTICES, OutlineError, convex_pieces};
 pub use error::{WorldError, WorldItem, WorldProblem};
 pub use file::comments::comments;
+pub(crate) use file::name::check_name;
 pub use grid::cells::{Grid, GridError, MAX_CELLS};
 pub use grid::distance_transform::DistanceTransform;
 pub use grid::ros_export::RosFiles;
-pub use model::{Mark, Obstacle, ObstacleKind, Outline, Place, Resident, World, Written};
+pub use model::{Door, Mark, Obstacle, ObstacleKind, Outline, Place, Resident, World, Written};
 
 /// The version of the world format that is read and written.
 pub const WORLD_VERSION: u64 = 1;

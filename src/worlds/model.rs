@@ -46,6 +46,21 @@ pub enum Written<'a> {
     Piece(&'a (Pose2, Shape)),
 }
 
+/// A door: a segment that can be closed, which makes it a wall, or open, which makes it nothing.
+///
+/// A world file says how a run starts; inputs of the run open and close doors.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Door {
+    /// The unique name.
+    pub name: String,
+    /// The end at the hinge, metres.
+    pub a: Point2,
+    /// The other end, metres.
+    pub b: Point2,
+    /// Whether it is open at the start.
+    pub open: bool,
+}
+
 /// A named place.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Place {
@@ -86,6 +101,8 @@ pub struct World {
     pub bounds: Aabb,
     /// The obstacles in file order: walls first, then solids, as written.
     pub obstacles: Vec<Obstacle>,
+    /// The doors in file order.
+    pub doors: Vec<Door>,
     /// The places in file order.
     pub places: Vec<Place>,
     /// The painted marks in file order.
@@ -98,6 +115,14 @@ impl Resident {
     /// Creates a resident with an exact sensor. Nothing is checked.
     pub fn new(name: impl Into<String>, kind: impl Into<String>, start: impl Into<Vec<f64>>) -> Self {
         Resident { name: name.into(), kind: kind.into(), start: start.into(), sensor: None }
+    }
+}
+
+impl Door {
+    /// The wall that the door is when it is closed.
+    pub fn leaf(&self) -> Obstacle {
+        let segment = Shape::Segment { a: self.a, b: self.b };
+        Obstacle::new(&self.name, ObstacleKind::Wall, vec![(Pose2::IDENTITY, segment)])
     }
 }
 
@@ -158,9 +183,32 @@ impl Obstacle {
 }
 
 impl World {
+    /// A world without anything in it.
+    pub fn empty(name: impl Into<String>, bounds: Aabb) -> Self {
+        World {
+            name: name.into(),
+            bounds,
+            obstacles: vec![],
+            doors: vec![],
+            places: vec![],
+            marks: vec![],
+            robots: vec![],
+        }
+    }
+
     /// The place of this name.
     pub fn place(&self, name: &str) -> Option<&Place> {
         self.places.iter().find(|place| place.name == name)
+    }
+
+    /// The door of this name.
+    pub fn door(&self, name: &str) -> Option<&Door> {
+        self.doors.iter().find(|door| door.name == name)
+    }
+
+    /// The closed doors as walls, in file order.
+    pub fn closed_doors(&self) -> impl Iterator<Item = Obstacle> + '_ {
+        self.doors.iter().filter(|door| !door.open).map(Door::leaf)
     }
 
     /// The obstacle of this name.

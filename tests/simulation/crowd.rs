@@ -24,6 +24,7 @@ pub(crate) fn arena(half: f64, robots: &[(&str, &str, &[f64])]) -> World {
         name: "the arena".into(),
         bounds: Aabb { min: corners[0], max: corners[2] },
         obstacles: vec![wall],
+        doors: vec![],
         places: vec![],
         marks: vec![],
         robots: robots.iter().map(|(name, kind, start)| Resident::new(*name, *kind, *start)).collect(),

@@ -2,10 +2,10 @@
 
 use xxhash_rust::xxh3::Xxh3;
 
-use super::message::{DigestMessage, FrameMessage, InputMessage, ScanMessage};
+use super::message::{DigestMessage, FrameMessage, InputMessage, SCHEMA, SCHEMA_2, ScanMessage};
 use super::preamble::Preamble;
 use super::record_writer::RecordWriter;
-use super::{LogError, channel};
+use super::{FORMAT_VERSION, LogError, channel};
 use crate::run::{Digest, Frame};
 
 /// Makes the bytes of a log in pieces that end in a seal: the part before the first tick, then each tick, then the end.
@@ -20,6 +20,7 @@ pub struct Encoder {
     length: u64,
     next_tick: u64,
     next_event: usize,
+    next_change: usize,
     piece: Vec<u8>,
     room: Room,
 }
@@ -44,11 +45,13 @@ impl Encoder {
             length: 0,
             next_tick: 1,
             next_event: 0,
+            next_change: 0,
             piece: Vec::new(),
             room: Room::default(),
         };
         encoder.preamble.put(&mut encoder.records)?;
-        encoder.records.channels()?;
+        let schema = if encoder.preamble.format() == FORMAT_VERSION { SCHEMA } else { SCHEMA_2 };
+        encoder.records.channels(schema)?;
         let initial = encoder.preamble.initial.clone();
         encoder.put_frame(&initial, initial.digest())?;
         encoder.seal(0)?;
@@ -59,6 +62,11 @@ impl Encoder {
     pub fn tick(&mut self, frame: &Frame) -> Result<Digest, LogError> {
         self.preamble.check_frame(frame, self.next_tick)?;
         self.piece.clear();
+        while let Some(change) = self.preamble.script.changes.get(self.next_change).filter(|c| c.tick <= frame.tick) {
+            let input = InputMessage::of_change(change);
+            self.records.message(channel::INPUT, frame.tick, &input, &mut self.room.content)?;
+            self.next_change += 1;
+        }
         while let Some(event) = self.preamble.script.events.get(self.next_event).filter(|e| e.tick <= frame.tick) {
             let input = InputMessage::of(event);
             self.records.message(channel::INPUT, frame.tick, &input, &mut self.room.content)?;

@@ -43,6 +43,12 @@ pub enum LogError {
         /// How many robots the run has.
         robots: usize,
     },
+    /// A frame whose obstacles are not ones of the run's worlds in ascending order.
+    #[error("tick {tick}: the frame's obstacles are not ones of the run's worlds by ascending number")]
+    Obstacles {
+        /// The frame's tick.
+        tick: u64,
+    },
     /// A NaN in a frame.
     #[error("tick {tick}, robot {robot}: {field} is not a number")]
     NotANumber {
@@ -74,7 +80,8 @@ pub enum LogError {
     #[error("this is an export for viewers, not the run log itself")]
     Export,
     /// A log in a version of the format that this program does not read.
-    #[error("the log has format version {0:?}; this program reads version {version:?}", version = super::FORMAT_VERSION)]
+    #[error("the log has format version {0:?}; this program reads versions {old:?} and {new:?}",
+        old = super::FORMAT_VERSION, new = super::FORMAT_VERSION_WITH_CHANGES)]
     Version(String),
     /// The part before the first tick is sealed, but something in it is not valid.
     #[error("{item} in the log: {reason}")]

@@ -1,4 +1,5 @@
-//! The log's messages: protobuf, as `assets/schema/motion_lab.proto` describes them.
+//! The log's messages: protobuf, as `assets/schema/motion_lab.proto` and, for format 2, `motion_lab_2.proto` describe
+//! them.
 //!
 //! A single float is `optional` and several are `repeated`: plain proto3 floats lose the sign of -0.0.
 
@@ -6,10 +7,16 @@ use std::fmt::Write;
 
 use prost::{Message, Oneof};
 
-use crate::run::{DT, Digest, Event, Frame, Quantized, RobotInput, RobotScan, RobotState};
+use crate::geometry::Pose2;
+use crate::run::{
+    DT, Digest, Event, Frame, ObstacleState, Quantized, RobotInput, RobotScan, RobotState, WorldChange, WorldEvent,
+};
 
-/// The compiled schema, a serialized `FileDescriptorSet`. It tells other programs how to read the messages.
+/// The compiled schema of format 1, a serialized `FileDescriptorSet`. It tells other programs how to read the messages.
 pub const SCHEMA: &[u8] = include_bytes!("../../../assets/schema/motion_lab.binpb");
+
+/// The compiled schema of format 2.
+pub const SCHEMA_2: &[u8] = include_bytes!("../../../assets/schema/motion_lab_2.binpb");
 
 #[derive(Clone, PartialEq, Message)]
 pub struct FrameMessage {
@@ -19,6 +26,22 @@ pub struct FrameMessage {
     pub time: Option<f64>,
     #[prost(message, repeated, tag = "3")]
     pub robots: Vec<RobotStateMessage>,
+    /// Format 2.
+    #[prost(message, repeated, tag = "4")]
+    pub obstacles: Vec<ObstacleStateMessage>,
+}
+
+/// Format 2.
+#[derive(Clone, PartialEq, Message)]
+pub struct ObstacleStateMessage {
+    #[prost(uint32, tag = "1")]
+    pub world: u32,
+    #[prost(uint32, tag = "2")]
+    pub obstacle: u32,
+    #[prost(bool, tag = "3")]
+    pub present: bool,
+    #[prost(double, repeated, tag = "4")]
+    pub pose: Vec<f64>,
 }
 
 #[derive(Clone, PartialEq, Message)]
@@ -63,8 +86,11 @@ pub struct InputMessage {
     pub tick: u64,
     #[prost(string, tag = "2")]
     pub robot: String,
-    #[prost(oneof = "InputKind", tags = "3, 4, 5, 6, 7")]
+    #[prost(oneof = "InputKind", tags = "3, 4, 5, 6, 7, 9, 10, 11, 12, 13")]
     pub input: Option<InputKind>,
+    /// Format 2: the world that is changed; then there is no robot.
+    #[prost(string, tag = "8")]
+    pub world: String,
 }
 
 #[derive(Clone, PartialEq, Oneof)]
@@ -79,6 +105,35 @@ pub enum InputKind {
     SetTrailer(bool),
     #[prost(message, tag = "7")]
     Release(ReleaseMessage),
+    /// Format 2, as the others below.
+    #[prost(string, tag = "9")]
+    Close(String),
+    #[prost(string, tag = "10")]
+    Open(String),
+    #[prost(string, tag = "11")]
+    Remove(String),
+    #[prost(message, tag = "12")]
+    Move(MoveMessage),
+    #[prost(message, tag = "13")]
+    Add(AddMessage),
+}
+
+#[derive(Clone, PartialEq, Message)]
+pub struct MoveMessage {
+    #[prost(string, tag = "1")]
+    pub name: String,
+    #[prost(double, repeated, tag = "2")]
+    pub to: Vec<f64>,
+}
+
+#[derive(Clone, PartialEq, Message)]
+pub struct AddMessage {
+    #[prost(string, tag = "1")]
+    pub name: String,
+    #[prost(double, repeated, tag = "2")]
+    pub points: Vec<f64>,
+    #[prost(double, optional, tag = "3")]
+    pub radius: Option<f64>,
 }
 
 #[derive(Clone, PartialEq, Message)]
@@ -116,9 +171,17 @@ impl FrameMessage {
         for (message, robot) in self.robots.iter_mut().zip(&frame.robots) {
             message.take(robot);
         }
+        self.obstacles.clear();
+        self.obstacles.extend(frame.obstacles.iter().map(|o| ObstacleStateMessage {
+            world: o.world,
+            obstacle: o.obstacle,
+            present: o.present,
+            pose: vec![o.pose.x, o.pose.y, o.pose.theta],
+        }));
     }
 
-    /// The frame, without its scans; `None` unless there are two control channels that fit 16 bits.
+    /// The frame, without its scans; `None` unless there are two control channels that fit 16 bits and each obstacle's
+    /// pose has three numbers.
     pub fn into_frame(self) -> Option<Frame> {
         let robot = |r: RobotStateMessage| {
             let [first, second] = r.channels[..] else { return None };
@@ -136,7 +199,13 @@ impl FrameMessage {
             })
         };
         let robots = self.robots.into_iter().map(robot).collect::<Option<Vec<_>>>()?;
-        Some(Frame { tick: self.tick, robots, scans: Vec::new() })
+        let obstacle = |o: ObstacleStateMessage| {
+            let [x, y, theta] = o.pose[..] else { return None };
+            let pose = Pose2 { x, y, theta };
+            Some(ObstacleState { world: o.world, obstacle: o.obstacle, present: o.present, pose })
+        };
+        let obstacles = self.obstacles.into_iter().map(obstacle).collect::<Option<Vec<_>>>()?;
+        Some(Frame { tick: self.tick, robots, scans: Vec::new(), obstacles })
     }
 }
 
@@ -181,7 +250,24 @@ impl InputMessage {
             RobotInput::SetTrailer(on) => InputKind::SetTrailer(*on),
             RobotInput::Release => InputKind::Release(ReleaseMessage {}),
         };
-        InputMessage { tick: event.tick, robot: event.robot.clone(), input: Some(input) }
+        InputMessage { tick: event.tick, robot: event.robot.clone(), world: String::new(), input: Some(input) }
+    }
+
+    pub fn of_change(event: &WorldEvent) -> Self {
+        let WorldEvent { tick, world, change } = event;
+        let input = match change.clone() {
+            WorldChange::Close(name) => InputKind::Close(name),
+            WorldChange::Open(name) => InputKind::Open(name),
+            WorldChange::Remove(name) => InputKind::Remove(name),
+            WorldChange::Move { name, to: (x, y, theta) } => {
+                InputKind::Move(MoveMessage { name, to: vec![x.value(), y.value(), theta.value()] })
+            }
+            WorldChange::Add { name, points, radius } => {
+                let points = points.iter().flat_map(|(x, y)| [x.value(), y.value()]).collect();
+                InputKind::Add(AddMessage { name, points, radius: Some(radius.value()) })
+            }
+        };
+        InputMessage { tick: *tick, robot: String::new(), world: world.clone(), input: Some(input) }
     }
 }
 

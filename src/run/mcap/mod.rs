@@ -28,8 +28,10 @@ pub use error::{DamageKind, DamagedLog, LogError};
 pub use read_log::ReadLog;
 pub use writer::LogWriter;
 
-/// The version of the log format that this program writes and reads.
+/// The version of the log format for a run that changes no world. The program reads this one and the next.
 pub const FORMAT_VERSION: &str = "1";
+/// The version of the log format for a run whose script changes worlds: frames hold obstacles, inputs name worlds.
+pub const FORMAT_VERSION_WITH_CHANGES: &str = "2";
 /// The generator of a run's random numbers: see [`Stream`](crate::random::Stream).
 pub const GENERATOR: &str = "chacha8, a stream per name, keyed by xxh3-128";
 /// A tick's length in nanoseconds: [`DT`](crate::run::DT).

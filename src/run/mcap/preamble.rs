@@ -6,9 +6,9 @@ use serde::Deserialize;
 
 use super::record::{self, Cursor, Record, opcode};
 use super::record_writer::RecordWriter;
-use super::{FORMAT_VERSION, GENERATOR, LogError, ReadLog};
+use super::{FORMAT_VERSION, FORMAT_VERSION_WITH_CHANGES, GENERATOR, LogError, ReadLog};
 use crate::random::Seed;
-use crate::run::{DT, Frame, Log, Script};
+use crate::run::{DT, Frame, Log, ObstacleState, Script};
 use crate::sensors::RangeSensor;
 use crate::tour::TourConfig;
 use crate::worlds::World;
@@ -94,6 +94,7 @@ impl Preamble {
         self.script.check()?;
         let names: Vec<&str> = self.config.robot_names().collect();
         self.script.check_robots(&names)?;
+        self.script.check_worlds(&self.config.worlds)?;
         self.check_frame(&self.initial, 0)
     }
 
@@ -113,10 +114,23 @@ impl Preamble {
         if !ids_are_right || !scans_are_right {
             return Err(LogError::Robots { tick, robots });
         }
+        let key = |o: &ObstacleState| (o.world, o.obstacle);
+        if !frame.obstacles.is_sorted_by(|a, b| key(a) < key(b))
+            || frame.obstacles.last().is_some_and(|o| o.world as usize >= self.config.worlds.len())
+            || frame.obstacles.iter().any(|o| !o.pose.is_finite())
+            || (!frame.obstacles.is_empty() && self.script.changes.is_empty())
+        {
+            return Err(LogError::Obstacles { tick });
+        }
         match frame.first_nan() {
             Some((robot, field)) => Err(LogError::NotANumber { tick, robot, field }),
             None => Ok(()),
         }
+    }
+
+    /// The version of the log's format.
+    pub fn format(&self) -> &'static str {
+        if self.script.changes.is_empty() { FORMAT_VERSION } else { FORMAT_VERSION_WITH_CHANGES }
     }
 
     fn metadata(&self) -> BTreeMap<String, String> {
@@ -124,7 +138,7 @@ impl Preamble {
         let hashes = self.config.worlds.iter().enumerate();
         let hashes = hashes.map(|(i, world)| (world_file(i), format!("{:032x}", world.content_hash())));
         [
-            entry("format", FORMAT_VERSION.to_owned()),
+            entry("format", self.format().to_owned()),
             entry("program", self.program.clone()),
             entry("seed", self.seed.to_string()),
             entry("dt", format!("{DT:?}")),
@@ -177,7 +191,7 @@ impl Preamble {
         }
         let entry = |key: &str| metadata.get(key).ok_or_else(|| content(key, "the metadata lacks it"));
         let version = entry("format")?;
-        if version != FORMAT_VERSION {
+        if ![FORMAT_VERSION, FORMAT_VERSION_WITH_CHANGES].contains(&version.as_str()) {
             return Err(LogError::Version(version.clone()));
         }
         let file = |name: &str| files.get(name).copied().ok_or_else(|| content(name, "the attachment is missing"));

@@ -9,7 +9,6 @@ use mcap::write::NoSeek;
 use mcap::{WriteOptions, Writer};
 use prost::Message;
 
-use super::message::SCHEMA;
 use super::record::SEAL;
 use super::{CHANNELS, LogError, PROFILE, TICK_NANOSECONDS};
 
@@ -68,10 +67,10 @@ impl RecordWriter {
         self.to.attach(&mcap::Attachment { log_time: 0, create_time: 0, name, media_type, data }).map_err(failed)
     }
 
-    /// Writes the schemas and the channels of all messages.
-    pub fn channels(&mut self) -> Result<(), LogError> {
+    /// Writes the schemas, with their compiled form, and the channels of all messages.
+    pub fn channels(&mut self, compiled: &[u8]) -> Result<(), LogError> {
         for (id, (_, schema)) in (1..).zip(CHANNELS) {
-            self.to.add_schema_with_id(id, schema, "protobuf", SCHEMA).map_err(failed)?;
+            self.to.add_schema_with_id(id, schema, "protobuf", compiled).map_err(failed)?;
         }
         for (id, (topic, _)) in (1..).zip(CHANNELS) {
             self.to.add_channel_with_id(id, id, topic, "protobuf", &BTreeMap::new()).map_err(failed)?;

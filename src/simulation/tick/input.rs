@@ -3,7 +3,8 @@
 use bevy::prelude::*;
 
 use super::starts::others_now;
-use crate::run::{Event, RobotInput, Script};
+use crate::run::{Event, RobotInput, Script, WorldChange, WorldEvent};
+use crate::simulation::obstacles::change;
 use crate::simulation::{ResidesIn, RobotId, RobotName, RobotOps, Roster, Transport};
 
 /// An input to a robot from its driver, sent as a [`RunCommand`](crate::simulation::RunCommand). It applies before the
@@ -35,6 +36,7 @@ impl PendingInput {
     /// The input of this script; events of one tick stay in their order.
     pub fn new(mut script: Script) -> Self {
         script.events.sort_by_key(|e| e.tick);
+        script.changes.sort_by_key(|c| c.tick);
         PendingInput { script, captured: None }
     }
 
@@ -51,10 +53,41 @@ impl PendingInput {
         &events[from..to]
     }
 
-    /// Forgets every event after `tick`.
+    /// The changes of worlds stamped with `tick`, in order.
+    pub fn due_changes(&self, tick: u64) -> &[WorldEvent] {
+        let changes = &self.script.changes;
+        let from = changes.partition_point(|c| c.tick < tick);
+        let to = changes.partition_point(|c| c.tick <= tick);
+        &changes[from..to]
+    }
+
+    /// Forgets every event and every change after `tick`.
     pub fn truncate_after(&mut self, tick: u64) {
         self.script.events.retain(|e| e.tick <= tick);
+        self.script.changes.retain(|c| c.tick <= tick);
+        self.script.version = Script::version_of(&self.script.changes);
         self.captured = None;
+    }
+
+    /// Captures a live change of a world for its tick, which is the next to run. Later input is forgotten. Of several
+    /// changes of one door within one tick the last wins.
+    pub(crate) fn capture_change(&mut self, change: WorldEvent) {
+        self.begin_capture(change.tick);
+        if matches!(change.change, WorldChange::Close(_) | WorldChange::Open(_)) {
+            let (world, name) = (change.world.clone(), change.change.name().to_owned());
+            let is_same = |c: &WorldEvent| c.tick == change.tick && c.world == world && c.change.name() == name;
+            self.script.changes.retain(|c| !is_same(c));
+        }
+        self.script.changes.push(change);
+        self.script.version = Script::version_of(&self.script.changes);
+    }
+
+    /// Forgets what comes after `tick`, at the first input captured for it.
+    fn begin_capture(&mut self, tick: u64) {
+        if self.captured != Some(tick) {
+            self.truncate_after(tick);
+            self.captured = Some(tick);
+        }
     }
 
     /// Captures a live input for the event's tick, which is the next to run. Later events are forgotten.
@@ -66,10 +99,7 @@ impl PendingInput {
     pub fn capture(&mut self, event: Event) {
         let Event { tick, robot, input } = event;
         let robot = robot.as_str();
-        if self.captured != Some(tick) {
-            self.truncate_after(tick);
-            self.captured = Some(tick);
-        }
+        self.begin_capture(tick);
         let last = self.script.events.iter().rposition(|e| e.robot == robot);
         let last_due = last.filter(|&i| self.script.events[i].tick >= tick);
         let stamp = last_due.map_or(tick, |i| self.script.events[i].tick);
@@ -121,14 +151,16 @@ pub(crate) fn advance_tick(mut transport: ResMut<Transport>) {
     }
 }
 
-/// Applies the tick's inputs in the script's order. An input for an unknown robot is dropped; `start_run` has already
+/// Makes the tick's changes of worlds, then applies its inputs, each in the script's order. An input for an unknown robot is dropped; `start_run` has already
 /// refused a script with one.
 pub(crate) fn apply_inputs(world: &mut World) {
     let tick = world.resource::<Transport>().tick;
-    if world.resource::<PendingInput>().due(tick).is_empty() {
+    let pending = world.resource::<PendingInput>();
+    if pending.due(tick).is_empty() && pending.due_changes(tick).is_empty() {
         return;
     }
     world.resource_scope(|world, pending: Mut<PendingInput>| {
+        change::make(world, pending.due_changes(tick));
         for event in pending.due(tick) {
             let robot = world
                 .resource::<Roster>()

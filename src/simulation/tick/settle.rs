@@ -10,8 +10,8 @@ use crate::configuration::Configuration as _;
 use crate::robots::Motion as _;
 use crate::simulation::robot::simulated::canonical;
 use crate::simulation::{
-    Configuration, Contacts, Control, Cut, DriveMode, ResidesIn, RobotId, RobotModel, SimulatedRobot, TickMotion,
-    WorldScene,
+    Configuration, Contacts, Control, Cut, CutOf, DriveMode, ResidesIn, RobotId, RobotModel, SceneRevision,
+    SimulatedRobot, TickMotion, WorldScene,
 };
 
 /// Number of ticks that a flash holds after contact: 0.3 s.
@@ -28,20 +28,20 @@ type CutRobot<R> = (
 );
 
 /// Cuts every motion of a kind at the walls and at all other robots' starting footprints. A robot alone in its world
-/// keeps its last cut while its configuration and control stay the same, because then its motion does too.
+/// keeps its last cut while its configuration, its control and the scene stay the same.
 pub(crate) fn cut<R: SimulatedRobot>(
     starts: Res<Starts>,
     mut sweeps: ResMut<Sweeps>,
-    scenes: Query<&WorldScene>,
+    scenes: Query<(&WorldScene, &SceneRevision)>,
     mut robots: Query<CutRobot<R>>,
 ) {
     for (&id, &ResidesIn(world), Configuration(q), Control(u), TickMotion(motion), mut cut) in &mut robots {
-        let (Some(motion), Ok(WorldScene(scene))) = (motion, scenes.get(world)) else {
+        let (Some(motion), Ok((WorldScene(scene), &revision))) = (motion, scenes.get(world)) else {
             *cut = Cut::new(0.0, false);
             continue;
         };
         let others = starts.others(world, id);
-        let of = others.is_empty().then_some((*q, *u));
+        let of = others.is_empty().then_some(CutOf { configuration: *q, control: *u, scene: revision });
         if of.is_some() && cut.of == of {
             continue;
         }

@@ -10,7 +10,7 @@ use crate::picture::{Picture, Role, ScreenPoint, pick};
 use crate::ui::keys::{Action, hint};
 use crate::ui::paint::button::LabButton;
 use crate::ui::paint::sheet::{Sheet, sheet, split};
-use crate::ui::{Command, Dashboard, Look, SessionCommand, UiState, readout};
+use crate::ui::{Cockpit, Command, Dashboard, Look, SessionCommand, UiState, readout};
 use crate::worlds::World;
 
 /// Width of the panel beside the paper, points.
@@ -48,7 +48,7 @@ pub fn atlas_view(ui: &mut Ui, model: &Dashboard, look: &Look, state: &mut UiSta
         Mode::Measure => {}
     }
     ui.scope_builder(UiBuilder::new().max_rect(beside), |ui| {
-        ScrollArea::vertical().auto_shrink(false).show(ui, |ui| beside_the_paper(ui, look, state, commands));
+        ScrollArea::vertical().auto_shrink(false).show(ui, |ui| beside_the_paper(ui, model, look, state, commands));
     });
 }
 
@@ -120,7 +120,7 @@ fn thing(id: &str) -> Option<&str> {
     id.strip_prefix("place/").and_then(|rest| rest.rsplit_once('/')).map(|(name, _)| name)
 }
 
-fn beside_the_paper(ui: &mut Ui, look: &Look, state: &mut UiState, commands: &mut Vec<Command>) {
+fn beside_the_paper(ui: &mut Ui, model: &Dashboard, look: &Look, state: &mut UiState, commands: &mut Vec<Command>) {
     ui.horizontal(|ui| {
         let present = state.atlas.world().name.clone();
         let choice = ComboBox::from_id_salt("world").selected_text(present.as_str()).show_ui(ui, |ui| {
@@ -151,7 +151,10 @@ fn beside_the_paper(ui: &mut Ui, look: &Look, state: &mut UiState, commands: &mu
     });
     ui.checkbox(&mut state.settings.labels, "names of everything");
     match state.atlas.mode {
-        Mode::Put => put_panel(ui, look, state),
+        Mode::Put => {
+            put_panel(ui, look, state);
+            into_the_run(ui, model, look, state, commands);
+        }
         Mode::Measure => measure_panel(ui, state),
         Mode::Edit => edit_panel(ui, look, state),
     }
@@ -182,6 +185,27 @@ fn put_panel(ui: &mut Ui, look: &Look, state: &mut UiState) {
     if let Some(words) = atlas.refusal() {
         ui.label(RichText::new(words).color(look.colour(Role::Goal)));
     }
+}
+
+/// Offers to put the robot there in the run under way, if it lives there, and to begin a run from here.
+fn into_the_run(ui: &mut Ui, model: &Dashboard, look: &Look, state: &UiState, commands: &mut Vec<Command>) {
+    let atlas = state.atlas.atlas();
+    let Some(robot) = atlas.robots().get(state.atlas.robot) else { return };
+    let lives_there = |c: &Cockpit| c.world.name == atlas.world().name && c.robots.iter().any(|r| r.name == robot.name);
+    ui.add_space(8.0);
+    ui.horizontal_wrapped(|ui| {
+        let is_there = model.cockpits.iter().any(lives_there);
+        let button = LabButton::new("Put it there in the run").enabled(is_there).show(ui, look);
+        let words =
+            if is_there { "At the next tick; Ctrl+Z undoes it" } else { "It does not live in the run under way" };
+        if button.on_hover_text(words).clicked() {
+            commands.push(Command::Session(SessionCommand::PutRobot { robot: robot.name.clone() }));
+        }
+        let button = LabButton::new("Run from here").show(ui, look);
+        if button.on_hover_text("A new run of this world that begins with its robots where they are").clicked() {
+            commands.push(Command::Session(SessionCommand::RunFromHere));
+        }
+    });
 }
 
 fn measure_panel(ui: &mut Ui, state: &mut UiState) {

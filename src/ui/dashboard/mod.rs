@@ -3,6 +3,8 @@
 pub mod arm;
 pub(crate) mod blend;
 #[cfg(feature = "screen")]
+pub(crate) mod doors;
+#[cfg(feature = "screen")]
 pub(crate) mod drive;
 pub(crate) mod goal;
 #[cfg(feature = "screen")]

@@ -3,13 +3,13 @@
 use std::sync::Arc;
 
 use bevy_egui::egui::{
-    Align, Id, Label, Layout, Rect, Response, RichText, Sense, Stroke, StrokeKind, TextStyle, TextWrapMode, Ui,
-    UiBuilder, Vec2, WidgetInfo, WidgetType, pos2, vec2,
+    Align, CursorIcon, Id, Label, Layout, Rect, Response, RichText, Sense, Stroke, StrokeKind, TextStyle, TextWrapMode,
+    Ui, UiBuilder, Vec2, WidgetInfo, WidgetType, pos2, vec2,
 };
 
 use super::goal::trailer_of;
-use super::{drive, handles, pad};
-use crate::atlas;
+use super::{doors, drive, handles, pad};
+use crate::atlas::{self, Atlas};
 use crate::configuration::RobotKind;
 use crate::manifest::Formula;
 use crate::picture::{Drawing, Fit, Item, Picture, Role, ScaleBar, pick, places, scan};
@@ -23,6 +23,10 @@ const ROWS: f32 = 8.0;
 
 /// Distance within which the pointer points at a drawn thing, points.
 const REACH: f64 = 4.0;
+
+/// Distance within which the pointer is at a door, points: with a mouse, and for a finger.
+const DOOR_REACH: f64 = 7.0;
+const TOUCH: f64 = 18.0;
 
 /// Height of the text under the paper of a pane of `robots` robots, points. More than three count as three.
 pub fn text_height(ui: &Ui, robots: usize) -> f32 {
@@ -73,13 +77,15 @@ pub fn pane(ui: &mut Ui, cockpit: &Cockpit, rect: Rect, look: &Look, state: &mut
     for robot in cockpit.robots.iter().filter(|r| r.is_arm) {
         handles::handles(ui, robot, paper, &fit, look, state, commands);
     }
+    // a door is in front of the paper
+    let at_door = door_clicked(&response, cockpit, &fit, touched(ui), commands);
     // with a mouse, Esc lets go; a finger has no Esc, so a second tap does
-    if response.clicked() && (armed.is_none() || touched(ui)) {
+    if response.clicked() && !at_door && (armed.is_none() || touched(ui)) {
         take_in_hand(driven, state, commands);
         // the arrow keys drive the robot from now on, also when Tab led here
         response.surrender_focus();
     }
-    if let Some(robot) = driven.filter(|_| armed.is_none()) {
+    if let Some(robot) = driven.filter(|_| armed.is_none() && !at_door) {
         response.on_hover_text_at_pointer(format!("Click to drive {}", robot.name));
     }
     let below = Rect::from_min_max(pos2(rect.left(), paper.bottom() + 6.0), rect.max);
@@ -88,20 +94,41 @@ pub fn pane(ui: &mut Ui, cockpit: &Cockpit, rect: Rect, look: &Look, state: &mut
     words(&mut ui, cockpit, &fit, look, state, commands);
 }
 
+/// Whether the pointer is at a door. A click there opens or closes it.
+fn door_clicked(response: &Response, cockpit: &Cockpit, fit: &Fit, touch: bool, commands: &mut Vec<Command>) -> bool {
+    let Some(at) = response.interact_pointer_pos().or_else(|| response.hover_pos()) else { return false };
+    let reach = if touch { TOUCH } else { DOOR_REACH };
+    let Some(door) = doors::door_at(cockpit, fit, [f64::from(at.x), f64::from(at.y)], reach) else { return false };
+    if response.clicked() {
+        doors::toggle(&cockpit.world.name, door, commands);
+    }
+    response.clone().on_hover_cursor(CursorIcon::PointingHand).on_hover_text_at_pointer(doors::words(door));
+    true
+}
+
 /// The dots of the places and the name labels of everything, kept until the world or the scale changes.
 fn names(ui: &Ui, cockpit: &Cockpit, fit: &Fit) -> Vec<Item> {
     let scale = fit.px_per_metre();
-    let key = (Arc::as_ptr(&cockpit.atlas) as usize, scale.to_bits());
     let id = Id::new(("names", &cockpit.world.name));
-    let kept: Option<(_, Vec<Item>)> = ui.data(|d| d.get_temp(id));
-    let kept = kept.filter(|(k, _)| *k == key).unwrap_or_else(|| {
+    let kept: Option<KeptNames> = ui.data(|d| d.get_temp(id));
+    let is_same = |k: &KeptNames| Arc::ptr_eq(&k.atlas, &cockpit.atlas) && k.scale.to_bits() == scale.to_bits();
+    let kept = kept.filter(is_same).unwrap_or_else(|| {
         let dots = places(&cockpit.atlas.world().places).into_iter();
         let dots = dots.filter(|i| !matches!(i.drawing, Drawing::Label { .. }));
-        let made = (key, dots.chain(atlas::names(&cockpit.atlas, scale)).collect::<Vec<_>>());
+        let items = dots.chain(atlas::names(&cockpit.atlas, scale)).collect();
+        let made = KeptNames { atlas: Arc::clone(&cockpit.atlas), scale, items };
         ui.data_mut(|d| d.insert_temp(id, made.clone()));
         made
     });
-    kept.1
+    kept.items
+}
+
+/// The names of a world at a scale, kept from frame to frame.
+#[derive(Clone)]
+struct KeptNames {
+    atlas: Arc<Atlas>,
+    scale: f64,
+    items: Vec<Item>,
 }
 
 /// Takes a robot in hand; lets go of it if it was in hand already.
@@ -167,6 +194,7 @@ fn words(ui: &mut Ui, cockpit: &Cockpit, fit: &Fit, look: &Look, state: &mut UiS
         }
         links(ui, robot, state, commands);
     }
+    doors::links(ui, cockpit, commands);
 }
 
 /// Shows the configuration as its type prints it. Pointing lights the robot; a click copies every digit.

@@ -84,10 +84,10 @@ pub fn paint_kept(painter: &Painter, picture: &Arc<Picture>, rect: Rect, look: &
     let ctx = painter.ctx();
     // the rounded corners and dots of a mesh lie in the font's texture
     let atlas = ctx.fonts(|f| f.font_image_size());
-    let key = (Arc::as_ptr(picture) as usize, rect.to_string(), look.key(), ctx.pixels_per_point().to_bits(), atlas);
+    let key = (rect.to_string(), look.key(), ctx.pixels_per_point().to_bits(), atlas);
     let id = Id::new(("kept", &picture.name, rect.min.x as i32, rect.min.y as i32));
     let kept: Option<Kept> = ctx.data(|d| d.get_temp(id));
-    let kept = kept.filter(|k| k.key == key).unwrap_or_else(|| {
+    let kept = kept.filter(|k| k.key == key && Arc::ptr_eq(&k.picture, picture)).unwrap_or_else(|| {
         let aside = painter.with_clip_rect(rect).with_layer_id(LayerId::new(Order::Background, id));
         paint_still(&aside, picture, &fit(picture, rect), look);
         let shapes = ctx.graphics_mut(|layers| layers.get_mut(aside.layer_id()).map(std::mem::take));
@@ -98,19 +98,20 @@ pub fn paint_kept(painter: &Painter, picture: &Arc<Picture>, rect: Rect, look: &
                 mesh.append(piece);
             }
         }
-        let kept = Kept { key, mesh: Arc::new(mesh) };
+        let kept = Kept { key, picture: Arc::clone(picture), mesh: Arc::new(mesh) };
         ctx.data_mut(|d| d.insert_temp(id, kept.clone()));
         kept
     });
     painter.add(Shape::Mesh(kept.mesh));
 }
 
-/// What identifies a kept picture: which one, where, how it looks, at which scale, and the texture it refers to.
-type KeptKey = (usize, String, (Theme, Option<Role>, u32), u32, [usize; 2]);
+/// What a kept mesh depends on beside its picture: where, how it looks, at which scale, and the texture it refers to.
+type KeptKey = (String, (Theme, Option<Role>, u32), u32, [usize; 2]);
 
 #[derive(Clone)]
 struct Kept {
     key: KeptKey,
+    picture: Arc<Picture>,
     mesh: Arc<Mesh>,
 }
 

@@ -20,6 +20,8 @@ pub(crate) struct WorldText {
     #[serde(default)]
     pub obstacles: Vec<ObstacleText>,
     #[serde(default)]
+    pub doors: Vec<DoorText>,
+    #[serde(default)]
     pub places: Vec<PlaceText>,
     #[serde(default)]
     pub marks: Vec<PolylineText>,
@@ -76,6 +78,15 @@ pub(crate) enum ShapeText {
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
+pub(crate) struct DoorText {
+    pub name: String,
+    pub hinge: Xy,
+    pub end: Xy,
+    pub open: bool,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
 pub(crate) struct PlaceText {
     pub name: String,
     pub pose: Pose2,
@@ -108,7 +119,7 @@ macro_rules! named {
         }
     })* };
 }
-named!(PolylineText, ObstacleText, PlaceText, RobotText);
+named!(PolylineText, ObstacleText, DoorText, PlaceText, RobotText);
 
 /// Converts a written point; a negative zero becomes a positive one.
 pub(crate) fn point((x, y): Xy) -> Point2 {

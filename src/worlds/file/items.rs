@@ -1,8 +1,8 @@
 //! Checks the items of a world file and converts them.
 
-use super::description::{BoundsText, ObstacleText, PlaceText, PolylineText, ShapeText, Xy, point};
+use super::description::{BoundsText, DoorText, ObstacleText, PlaceText, PolylineText, ShapeText, Xy, point};
 use crate::geometry::{Aabb, ConvexPolygon, MAX_COORDINATE, Point2, Pose2, Shape, ShapeError, convex_hull};
-use crate::worlds::{MAX_CONCAVE_VERTICES, MAX_ITEMS, Mark, Obstacle, ObstacleKind, Place, WorldProblem};
+use crate::worlds::{Door, MAX_CONCAVE_VERTICES, MAX_ITEMS, Mark, Obstacle, ObstacleKind, Place, WorldProblem};
 
 /// The shapes, and the corners of concave polygons, that a world may still have. Cutting up concave polygons takes
 /// quadratic time.
@@ -81,6 +81,13 @@ pub(crate) fn make_wall(text: &PolylineText, budget: &mut Budget) -> Result<Obst
     budget.spend(segments.len())?;
     let pieces = segments.into_iter().map(|s| (Pose2::IDENTITY, s)).collect();
     Ok(Obstacle::new(&text.name, ObstacleKind::Wall, pieces))
+}
+
+pub(crate) fn make_door(text: &DoorText, budget: &mut Budget) -> Result<Door, WorldProblem> {
+    let (a, b) = (make_point(text.hinge)?, make_point(text.end)?);
+    Shape::try_segment(a, b)?;
+    budget.spend(1)?;
+    Ok(Door { name: text.name.clone(), a, b, open: text.open })
 }
 
 pub(crate) fn make_mark(text: &PolylineText) -> Result<Mark, WorldProblem> {

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::description::Named;
-use super::items::{Budget, make_bounds, make_mark, make_place, make_solid, make_wall};
+use super::items::{Budget, make_bounds, make_door, make_mark, make_place, make_solid, make_wall};
 use super::name::check_name;
 use super::resident::make_resident;
 use super::source::{Part, Source};
@@ -38,6 +38,7 @@ impl World {
         let mut names = Names { source, taken: BTreeMap::new() };
         names.claim("walls", &file.walls)?;
         names.claim("obstacles", &file.obstacles)?;
+        names.claim("doors", &file.doors)?;
         names.claim("places", &file.places)?;
         names.claim("marks", &file.marks)?;
         names.claim("robots", &file.robots)?;
@@ -50,6 +51,7 @@ impl World {
             name: file.name,
             bounds,
             obstacles,
+            doors: source.convert("doors", &file.doors, |d| make_door(d, &mut budget))?,
             places: source.convert("places", &file.places, make_place)?,
             marks: source.convert("marks", &file.marks, make_mark)?,
             robots: source.convert("robots", &file.robots, make_resident)?,

@@ -40,6 +40,10 @@ impl World {
                 None => solids.push(format!("name: {name}, shape: {}", shape_text(obstacle))),
             }
         }
+        let doors = self.doors.iter().map(|d| {
+            let (name, hinge, end) = (Quoted(&d.name), Xy(d.a), Xy(d.b));
+            format!("name: {name}, hinge: {hinge}, end: {end}, open: {}", d.open)
+        });
         let places = self.places.iter().map(|p| {
             let Pose2 { x, y, theta } = p.pose;
             format!("name: {}, pose: (x: {x:?}, y: {y:?}, theta: {theta:?})", Quoted(&p.name))
@@ -51,6 +55,10 @@ impl World {
         });
         write_list(out, "walls", walls)?;
         write_list(out, "obstacles", solids)?;
+        // a world without doors keeps the text and the hash that it had before there were any
+        if !self.doors.is_empty() {
+            write_list(out, "doors", doors)?;
+        }
         write_list(out, "places", places)?;
         write_list(out, "marks", marks)?;
         write_list(out, "robots", robots)?;

@@ -53,6 +53,8 @@ struct Lists<'a> {
     #[serde(borrow, default)]
     obstacles: Vec<&'a RawValue>,
     #[serde(borrow, default)]
+    doors: Vec<&'a RawValue>,
+    #[serde(borrow, default)]
     places: Vec<&'a RawValue>,
     #[serde(borrow, default)]
     marks: Vec<&'a RawValue>,
@@ -67,10 +69,11 @@ struct Name {
 }
 
 impl<'a> Lists<'a> {
-    fn each(&self) -> [(&'static str, &[&'a RawValue]); 5] {
+    fn each(&self) -> [(&'static str, &[&'a RawValue]); 6] {
         [
             ("walls", &self.walls),
             ("obstacles", &self.obstacles),
+            ("doors", &self.doors),
             ("places", &self.places),
             ("marks", &self.marks),
             ("robots", &self.robots),

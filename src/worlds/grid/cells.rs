@@ -2,7 +2,7 @@
 
 use crate::geometry::{Aabb, Point2};
 use crate::num::greater;
-use crate::worlds::World;
+use crate::worlds::{Obstacle, World};
 
 /// Largest number of cells of a grid. They take 16 megabytes, and 128 more for a distance transform.
 pub const MAX_CELLS: u64 = 1 << 24;
@@ -61,7 +61,8 @@ impl Grid {
     /// ```
     pub fn rasterize(world: &World, resolution: f64) -> Result<Grid, GridError> {
         let mut grid = Grid::empty(&world.bounds, resolution)?;
-        for shape in world.obstacles.iter().flat_map(|o| o.placed()) {
+        let doors: Vec<Obstacle> = world.closed_doors().collect();
+        for shape in world.obstacles.iter().chain(&doors).flat_map(|o| o.placed()) {
             grid.add(&shape);
         }
         Ok(grid)

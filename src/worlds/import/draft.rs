@@ -105,7 +105,15 @@ impl Draft {
         let mut obstacles = self.walls;
         obstacles.extend(self.solids);
         let name = good_name(name);
-        let world = World { name, bounds, obstacles, places: self.places, marks: self.marks, robots: self.robots };
+        let world = World {
+            name,
+            bounds,
+            obstacles,
+            doors: vec![],
+            places: self.places,
+            marks: self.marks,
+            robots: self.robots,
+        };
         Ok(Imported { world, notes: self.notes })
     }
 }

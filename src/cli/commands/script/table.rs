@@ -1,6 +1,6 @@
 //! A script as a table of comma-separated values.
 
-use motion_lab::run::{Event, Quantized, RobotInput, SCRIPT_VERSION, Script, ScriptProblem};
+use motion_lab::run::{Event, Quantized, RobotInput, Script, ScriptProblem};
 
 /// What is wrong with a table, and where. Prints as `7:12: "fast" is no whole number`.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -22,7 +22,7 @@ type Cell = (usize, String);
 
 /// The script that a table describes.
 pub fn script(text: &str) -> Result<Script, TableError> {
-    let mut script = Script { version: SCRIPT_VERSION, events: Vec::new() };
+    let mut script = Script::new(Vec::new(), vec![]);
     // of each event the line, and the columns of its tick and of its input's first value
     let mut rows: Vec<(usize, [usize; 2])> = Vec::new();
     let text = text.trim_start_matches('\u{feff}'); // spreadsheets put a mark in front

@@ -3,7 +3,7 @@
 use motion_lab::collision::{ObstacleId, Scene};
 use motion_lab::geometry::Footprint;
 use motion_lab::robots::{AnyRobot, Robot};
-use motion_lab::worlds::{Obstacle, ObstacleKind, World};
+use motion_lab::worlds::{Door, Obstacle, ObstacleKind, World};
 
 /// The largest number of problems reported for one world.
 const MAX_REPORTED: usize = 10;
@@ -36,13 +36,13 @@ fn crowd(world: &World, residents: &[(&str, Footprint)]) -> Scene {
         Obstacle::new(*name, ObstacleKind::Solid, pieces)
     };
     let obstacles = residents.iter().map(obstacle).collect();
-    let (name, places, marks, robots) = (String::new(), vec![], vec![], vec![]);
-    Scene::of_world(&World { name, bounds: world.bounds, obstacles, places, marks, robots })
+    Scene::of_world(&World { obstacles, ..World::empty("", world.bounds) })
 }
 
 /// The obstacles wholly outside the bounds, by the bounding boxes of their pieces.
 fn outside(world: &World) -> impl Iterator<Item = String> {
-    let beyond = world.obstacles.iter().filter(move |obstacle| {
+    let things = world.obstacles.iter().cloned().chain(world.doors.iter().map(Door::leaf));
+    let beyond = things.filter(move |obstacle| {
         obstacle.pieces.iter().all(|(pose, shape)| shape.place(pose).bounds().is_apart(&world.bounds))
     });
     beyond.map(|obstacle| format!("{:?} lies outside the bounds", obstacle.name))

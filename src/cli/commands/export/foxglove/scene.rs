@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use motion_lab::geometry::{Point2, Pose2};
 use motion_lab::picture::{Role, Theme, polygon_of};
 use motion_lab::simulation::RobotView;
-use motion_lab::worlds::World;
+use motion_lab::worlds::{Obstacle, World};
 
 use super::frames;
 use super::message::{
@@ -30,7 +30,8 @@ pub fn worlds(worlds: &[World]) -> SceneUpdate {
             let strip = edge(&mark.points, line::STRIP, Role::Muted, 0.0);
             entities.push(SceneEntity { lines: vec![strip], ..entity("mark", &mark.name) });
         }
-        for obstacle in &world.obstacles {
+        let doors: Vec<Obstacle> = world.closed_doors().collect();
+        for obstacle in world.obstacles.iter().chain(&doors) {
             let mut entity = entity("obstacle", &obstacle.name);
             for (pose, shape) in &obstacle.pieces {
                 draw(&mut entity, &polygon_of(&shape.place(pose)), Role::Obstacle, 0.35, 0.0);

@@ -1,0 +1,52 @@
+//! The doors of a pane's world: found under the pointer, and opened and closed.
+
+use bevy_egui::egui::{TextStyle, Ui};
+
+use crate::geometry::{Point2, Segment};
+use crate::picture::{Fit, ScreenPoint};
+use crate::run::WorldChange;
+use crate::simulation::{TransportCommand, WorldCommand};
+use crate::ui::{Cockpit, Command};
+use crate::worlds::Door;
+
+/// The door nearest to a point of the screen, within `reach` points of its gap.
+pub fn door_at<'a>(cockpit: &'a Cockpit, fit: &Fit, at: ScreenPoint, reach: f64) -> Option<&'a Door> {
+    let on_screen = |p| {
+        let [x, y] = fit.screen_from_world(p);
+        Point2::new(x, y)
+    };
+    let away = |door: &Door| {
+        let at = Point2::new(at[0], at[1]);
+        (Segment::new(on_screen(door.a), on_screen(door.b)).closest_point(at) - at).norm()
+    };
+    let doors = cockpit.atlas.world().doors.iter().map(|door| (away(door), door));
+    doors.filter(|(away, _)| *away <= reach).min_by(|(a, _), (b, _)| a.total_cmp(b)).map(|(_, door)| door)
+}
+
+/// What can be done with a door: `close door A`.
+pub fn words(door: &Door) -> String {
+    format!("{} {}", if door.open { "close" } else { "open" }, door.name)
+}
+
+/// Asks for the door to be opened or closed, as one step to undo.
+pub fn toggle(world: &str, door: &Door, commands: &mut Vec<Command>) {
+    let change = if door.open { WorldChange::Close } else { WorldChange::Open }(door.name.clone());
+    commands.push(Command::from(TransportCommand::Checkpoint));
+    commands.push(Command::Run(WorldCommand { world: world.to_owned(), change }.into()));
+}
+
+/// Shows a link for each door.
+pub fn links(ui: &mut Ui, cockpit: &Cockpit, commands: &mut Vec<Command>) {
+    let world = cockpit.atlas.world();
+    if world.doors.is_empty() {
+        return;
+    }
+    ui.spacing_mut().interact_size.y = ui.text_style_height(&TextStyle::Body);
+    ui.horizontal_wrapped(|ui| {
+        for door in &world.doors {
+            if ui.link(words(door)).clicked() {
+                toggle(&world.name, door, commands);
+            }
+        }
+    });
+}
