@@ -29,10 +29,7 @@ use bevy::window::{RequestRedraw, WindowResolution};
 use bevy::winit::{UpdateMode, WinitSettings};
 use bevy_egui::{EguiContext, EguiGlobalSettings, EguiPlugin, EguiPrimaryContextPass, PrimaryEguiContext, egui};
 
-pub use error::SessionError;
-#[cfg(feature = "window")]
-pub use files::{open_run, save_run};
-pub use session::SessionPlugin;
+pub(crate) use session::SessionPlugin;
 #[cfg(feature = "window")]
 pub use window::{WindowError, run_window};
 
@@ -42,6 +39,8 @@ use crate::ui::{self, SessionCommand};
 #[cfg(all(target_family = "wasm", feature = "web"))]
 pub(crate) use captured::captured;
 #[cfg(all(target_family = "wasm", feature = "web"))]
+pub(crate) use error::SessionError;
+#[cfg(all(target_family = "wasm", feature = "web"))]
 pub(crate) use runs::{log_up_to, open_log, open_world_text, recorded, shown_run};
 use session::carry_out;
 #[cfg(all(target_family = "wasm", feature = "web"))]
@@ -49,7 +48,7 @@ pub(crate) use session::new_run;
 pub(crate) use session::{Interface, Shown};
 
 /// The lab in a window, with the tour of the three worlds from the book's seed. A run already under way is kept.
-pub fn windowed_app() -> App {
+pub(crate) fn windowed_app() -> App {
     let window = Window {
         title: "Motion Lab".into(),
         resolution: WindowResolution::new(1280, 800),

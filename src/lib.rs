@@ -108,23 +108,27 @@ pub mod simulation;
 #[cfg(feature = "sim")]
 pub mod recording;
 
+// the program's own; public because the program is a crate of its own
+#[doc(hidden)]
 #[cfg(feature = "cli")]
 pub mod output;
 
+// likewise
+#[doc(hidden)]
 #[cfg(feature = "sim")]
 pub mod manifest;
 
 #[cfg(feature = "sim")]
 pub mod capture;
 
-#[cfg(feature = "sim")]
-pub mod ui;
+#[cfg(feature = "screen")]
+mod ui;
 
 #[cfg(feature = "screen")]
 pub mod app;
 
-#[cfg(feature = "sim")]
-pub mod web;
+#[cfg(all(feature = "sim", any(target_family = "wasm", test)))]
+mod web;
 
 #[cfg(feature = "sim")]
 pub mod guide;

@@ -94,6 +94,7 @@ fn copied_commands_print_the_numbers_shown() {
                 assert_eq!(answer["edge"].as_str(), Some("hit"));
                 assert_eq!(answer["obstacle"].as_str(), Some("the block"));
             }
+            other => panic!("{other:?} is not compared yet"),
         }
     }
 }

@@ -153,8 +153,8 @@ fn a_missing_or_wrong_input_is_3_and_names_the_file() {
 #[test]
 fn the_tour_is_recorded_replayed_and_drawn() {
     let folder = tempfile::tempdir().unwrap();
-    let told = run_in(folder.path(), &[]).done();
-    let lines: Vec<&str> = told.lines().collect();
+    let printed = run_in(folder.path(), &[]).done();
+    let lines: Vec<&str> = printed.lines().collect();
     for (line, start) in lines.iter().zip(["Rusty  Pose2 { x: ", "Reach  T2 { th1: ", "Hitch  Pose2 { x: ", "digest "])
     {
         assert!(line.starts_with(start), "{line}");

@@ -10,7 +10,6 @@ use motion_lab::robots::{EncoderCounts, WheelTurns};
 use motion_lab::run::RobotInput;
 use motion_lab::simulation::RobotPlugin;
 use motion_lab::tour::TourConfig;
-use motion_lab::ui::arm::{dragged, joints};
 use motion_lab::worlds::{Resident, World};
 
 use crate::fixtures::PLANE;
@@ -182,35 +181,6 @@ fn an_arm_s_joints_turn_counter_clockwise_each_from_the_link_before() {
             let found = run.view()[0].tip.unwrap();
             // each angle was rounded to 2^-20
             assert!((found - Point2::from(tip)).norm() < 3e-6, "{kind} {target:?}: {found}");
-        }
-    }
-}
-
-#[test]
-fn a_dragged_link_points_at_the_pointer_and_takes_along_what_hangs_on_it() {
-    let (base, lengths, q) = (Point2::new(0.5, -0.25), [0.6, 0.5, 0.4], [0.4, -1.1, 2.0]);
-    let arm = Reach { base, lengths, link_radius: 0.03 };
-    // the joints by the angles summed up
-    let points = |q: &[f64]| {
-        let (mut at, mut bearing, mut all) = (base, 0.0, vec![base]);
-        for (angle, length) in q.iter().zip(lengths) {
-            bearing += angle;
-            at += Vector2::new(cos(bearing), sin(bearing)) * length;
-            all.push(at);
-        }
-        all
-    };
-    let before = points(&q);
-    let shown = joints(&arm.footprint(&Tn(q)));
-    assert!(shown.iter().zip(&before).all(|(a, b)| (a - b).norm() < 1e-12), "{shown:?}");
-    for pointer in [Point2::new(2.0, 1.0), Point2::new(-1.0, 0.7), Point2::new(0.2, -3.0)] {
-        for link in 0..3 {
-            let to = dragged(&q, &shown, link, pointer);
-            let after = points(&to);
-            let (along, wanted) = (after[link + 1] - after[link], pointer - after[link]);
-            assert!((along.normalize() - wanted.normalize()).norm() < 1e-12, "link {link} to {pointer}");
-            assert!(after[..=link].iter().zip(&before).all(|(a, b)| (a - b).norm() < 1e-12), "what carries it stays");
-            assert!((0..3).all(|k| k == link || to[k] == q[k]), "no other joint turns: {to:?}");
         }
     }
 }

@@ -99,7 +99,7 @@ fn a_tap_counts_for_one_tick_on_either_channel() {
 }
 
 #[test]
-fn a_release_put_off_survives_what_another_robot_is_told() {
+fn a_release_put_off_survives_an_input_of_another_robot() {
     let mut app = cars(&[]);
     step(&mut app, 3);
     press(&mut app, "a", 128, 0);
@@ -111,7 +111,7 @@ fn a_release_put_off_survives_what_another_robot_is_told() {
 }
 
 #[test]
-fn what_one_robot_is_told_is_no_news_of_another() {
+fn an_input_of_one_robot_is_none_of_another() {
     let mut app = cars(&[]);
     step(&mut app, 2);
     for robot in ["a", "b"] {

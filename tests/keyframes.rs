@@ -30,7 +30,7 @@ fn config(ticks: u64) -> TourConfig {
 }
 
 /// The script of both robots without a branch.
-fn told() -> Vec<Event> {
+fn inputs() -> Vec<Event> {
     vec![
         event(1, "car", RobotInput::Drive(96, 40)),
         event(1, "rover", RobotInput::Drive(100, -30)),
@@ -43,8 +43,8 @@ fn told() -> Vec<Event> {
 const OTHERWISE: RobotInput = RobotInput::Drive(-128, -77);
 
 /// The script up to tick `k`, and another input after it.
-fn told_otherwise_after(k: u64) -> Vec<Event> {
-    let mut events = told();
+fn other_inputs_after(k: u64) -> Vec<Event> {
+    let mut events = inputs();
     events.retain(|e| e.tick <= k);
     events.push(event(k + 1, "car", OTHERWISE));
     events
@@ -82,7 +82,7 @@ fn frame(app: &App) -> &Frame {
     &app.world().resource::<LatestFrame>().0
 }
 
-fn told_to(app: &App) -> &[Event] {
+fn inputs_of(app: &App) -> &[Event] {
     &app.world().resource::<PendingInput>().script().events
 }
 
@@ -106,11 +106,11 @@ fn kept(app: &App) -> Vec<u64> {
 
 #[test]
 fn a_branch_before_at_and_after_a_keyframe_is_the_run_of_its_script() {
-    let run = fresh(told(), 320);
+    let run = fresh(inputs(), 320);
     // the run goes back by a seek or from a frame, and from a tick far ahead or the next one
     for (k, end) in [(99, 320), (100, 320), (101, 320), (199, 200), (199, 320), (200, 320), (201, 320), (299, 300)] {
         for restored in [false, true] {
-            let mut app = app(config(end), told(), false);
+            let mut app = app(config(end), inputs(), false);
             send(&mut app, TransportCommand::Seek(end));
             assert_eq!(kept(&app).last(), Some(&(end / 100 * 100)), "there is something to forget");
             if restored {
@@ -121,8 +121,8 @@ fn a_branch_before_at_and_after_a_keyframe_is_the_run_of_its_script() {
             assert_same(frame(&app), &run[k as usize]);
             drive(&mut app, "car", OTHERWISE);
             assert!(kept(&app).iter().all(|tick| *tick <= k), "{:?} are kept of a branch at {k}", kept(&app));
-            assert_eq!(told_to(&app), told_otherwise_after(k));
-            let branch = fresh(told_otherwise_after(k), end);
+            assert_eq!(inputs_of(&app), other_inputs_after(k));
+            let branch = fresh(other_inputs_after(k), end);
             // straight to the end first, which would use keyframes ahead of the branch, were any kept
             let others = [k + 1, 100, 200, 300, k, 99, 201];
             assert_is(&mut app, &branch, &[end]);
@@ -134,8 +134,8 @@ fn a_branch_before_at_and_after_a_keyframe_is_the_run_of_its_script() {
 
 #[test]
 fn a_frame_put_back_about_a_keyframe_is_followed_by_what_followed_it() {
-    let run = fresh(told(), 320);
-    let mut app = app(config(320), told(), false);
+    let run = fresh(inputs(), 320);
+    let mut app = app(config(320), inputs(), false);
     for k in [320, 98, 99, 100, 101, 201, 200, 199, 1, 0, 300] {
         restore(app.world_mut(), &run[k]).unwrap();
         for after in &run[k..run.len().min(k + 4)] {
@@ -148,8 +148,8 @@ fn a_frame_put_back_about_a_keyframe_is_followed_by_what_followed_it() {
 
 #[test]
 fn what_is_undone_and_done_again_is_the_run_of_its_script_at_every_tick() {
-    let (first, second) = (fresh(told(), 330), fresh(told_otherwise_after(120), 330));
-    let mut app = app(config(330), told(), true);
+    let (first, second) = (fresh(inputs(), 330), fresh(other_inputs_after(120), 330));
+    let mut app = app(config(330), inputs(), true);
     assert_is(&mut app, &first, &[330, 120]);
     app.world_mut().write_message(RunCommand::from(TransportCommand::Checkpoint));
     drive(&mut app, "car", OTHERWISE);
@@ -157,14 +157,14 @@ fn what_is_undone_and_done_again_is_the_run_of_its_script_at_every_tick() {
 
     let ticks = [330, 301, 300, 299, 200, 121, 120, 100, 330];
     for (command, run, events, stands_at) in [
-        (TransportCommand::Undo, &first, told(), 120),
-        (TransportCommand::Redo, &second, told_otherwise_after(120), 330),
-        (TransportCommand::Undo, &first, told(), 330),
+        (TransportCommand::Undo, &first, inputs(), 120),
+        (TransportCommand::Redo, &second, other_inputs_after(120), 330),
+        (TransportCommand::Undo, &first, inputs(), 330),
     ] {
         send(&mut app, command);
         let Transport { tick, frontier, .. } = *app.world().resource::<Transport>();
         assert_eq!((tick, frontier), (stands_at, 330), "{command:?}");
-        assert_eq!(told_to(&app), events, "{command:?}");
+        assert_eq!(inputs_of(&app), events, "{command:?}");
         // the history of the ticks ahead and behind is of this run too
         let history = app.world().resource::<History>();
         for tick in ticks {
@@ -179,15 +179,15 @@ fn what_is_undone_and_done_again_is_the_run_of_its_script_at_every_tick() {
     app.world_mut().write_message(RunCommand::from(TransportCommand::Checkpoint));
     drive(&mut app, "rover", RobotInput::Drive(1, 1));
     assert!(!app.world().resource::<Undo>().can_redo());
-    let events = told_to(&app).to_vec();
+    let events = inputs_of(&app).to_vec();
     send(&mut app, TransportCommand::Redo);
-    assert_eq!((told_to(&app), frame(&app).tick), (&events[..], 50));
+    assert_eq!((inputs_of(&app), frame(&app).tick), (&events[..], 50));
 }
 
 #[test]
 fn a_run_that_fills_its_keyframes_keeps_fewer_evenly_and_its_beginning() {
-    let run = fresh(told(), 1100);
-    let mut app = app(config(1100), told(), false);
+    let run = fresh(inputs(), 1100);
+    let mut app = app(config(1100), inputs(), false);
     app.world_mut().insert_resource(Keyframes::every(1));
     restore(app.world_mut(), &run[0]).unwrap();
     assert_is(&mut app, &run, &[1000, 1100]);

@@ -61,5 +61,5 @@ fn names_in_european_scripts_and_the_signs_of_formulas_are_there() {
     let names = "Küche Łódź Ängström λάμδα Ωmega Москва";
     let formulas = "φϕψθρωλμπΔ∈∉∞≤≥≠≈√±·×−∂∇∑∫ℝℕℂẋⁿ₀₁₂²³←→↑↓";
     assert_eq!(missing(names.chars().chain(formulas.chars())), BTreeSet::new());
-    assert_eq!(missing(['\u{4e2d}']), BTreeSet::from(['\u{4e2d}']), "what is not there is told");
+    assert_eq!(missing(['\u{4e2d}']), BTreeSet::from(['\u{4e2d}']), "a missing letter is reported");
 }

@@ -116,7 +116,7 @@ fn a_part_that_travels_and_turns_meets_what_only_the_two_together_reach() {
 }
 
 #[test]
-fn clearances_around_a_micrometre_are_told_from_contact() {
+fn clearances_around_a_micrometre_differ_from_contact() {
     // a disc past a disc, a bar's tip past a disc, a rectangle's turning corner past a wall
     let mut s = Stream::new(Seed(73), "tests/micrometre");
     for i in 0..200 {

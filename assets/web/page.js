@@ -14,7 +14,7 @@ const MOST_BYTES = 256 * 1024 * 1024;
 
 let lab = null; // the lab's exports once it runs
 let wasm = null; // the memory and functions under them
-let state = null; // what it told last
+let state = null; // its last state
 let parts = null; // the run's parts, with which the simulator alone can record it again
 let failed = false;
 
@@ -47,9 +47,9 @@ function send(message) {
 }
 
 /** Tells whoever listens on this page, and the page around it. */
-function tellAll(told) {
-  window.dispatchEvent(new CustomEvent("motionlab", { detail: told }));
-  if (parent !== window && told.kind !== "tree") parent.postMessage({ motionLab: told }, "*");
+function tellAll(message) {
+  window.dispatchEvent(new CustomEvent("motionlab", { detail: message }));
+  if (parent !== window && message.kind !== "tree") parent.postMessage({ motionLab: message }, "*");
 }
 
 /** Opens a run or a world in the lab. */
@@ -122,29 +122,29 @@ const hear = {
         .catch((error) => warn(`The run before could not be restored: ${error.message ?? error}`));
     }
   },
-  state(told) {
+  state(message) {
     const before = state;
-    state = told;
-    root.dataset.theme = told.theme;
-    if (told.notice?.text !== before?.notice?.text) {
-      alarm(told.notice?.error ? told.notice.text : "");
-      announce(told.notice?.error ? "" : (told.notice?.text ?? ""));
+    state = message;
+    root.dataset.theme = message.theme;
+    if (message.notice?.text !== before?.notice?.text) {
+      alarm(message.notice?.error ? message.notice.text : "");
+      announce(message.notice?.error ? "" : (message.notice?.text ?? ""));
     }
-    if (before && told.playing !== before.playing) announce(told.playing ? "Playing" : `Paused at tick ${told.tick}`);
-    if (before && told.armed !== before.armed) announce(told.armed ? `${told.armed} is in your hand: arrow keys drive, Escape lets go` : "No robot is in your hand");
-    for (const robot of told.robots) {
+    if (before && message.playing !== before.playing) announce(message.playing ? "Playing" : `Paused at tick ${message.tick}`);
+    if (before && message.armed !== before.armed) announce(message.armed ? `${message.armed} is in your hand: arrow keys drive, Escape lets go` : "No robot is in your hand");
+    for (const robot of message.robots) {
       const earlier = before?.robots.find((r) => r.name === robot.name);
       if (earlier && robot.contacts > earlier.contacts) announce(`${robot.name}: contact ${robot.contacts}`);
     }
-    if (told.widget !== before?.widget) showKey(told.widget);
-    light(told.lit);
+    if (message.widget !== before?.widget) showKey(message.widget);
+    light(message.lit);
   },
   tree: ({ widgets }) => mirror(widgets),
   settings({ settings }) {
     store(() => localStorage.setItem(SETTINGS, JSON.stringify(settings)));
   },
-  run(told) {
-    parts = told.parts;
+  run(message) {
+    parts = message.parts;
   },
   async link({ query, digest, error }) {
     warn(error ?? "");
@@ -168,9 +168,9 @@ const hear = {
 };
 
 function listen(json, bytes) {
-  const told = JSON.parse(json);
-  hear[told.kind]?.(told, bytes);
-  tellAll(told);
+  const message = JSON.parse(json);
+  hear[message.kind]?.(message, bytes);
+  tellAll(message);
 }
 
 /** Shows why the lab stopped. The run is kept: the simulator alone can record it again. */

@@ -26,7 +26,7 @@ function contender(work) {
   return { rounds: [], turn() { this.rounds.push((run() * 1e3) / calls); } };
 }
 
-const told = (times) => {
+const summary = (times) => {
   const median = quantile(times, 0.5);
   const spread = (quantile(times, 0.75) - quantile(times, 0.25)) / 2 / median;
   return [`${median.toPrecision(3)} us`, `${Math.round(100 * spread)} %`];
@@ -46,7 +46,7 @@ for (let k = 0; k < lab.worlds(); k++) {
     parry.turn();
   }
   const ratio = quantile(ours.rounds.map((t, i) => parry.rounds[i] / t), 0.5).toFixed(1);
-  const [[time, spread], [theirs, spreads]] = [told(ours.rounds), told(parry.rounds)];
+  const [[time, spread], [theirs, spreads]] = [summary(ours.rounds), summary(parry.rounds)];
   const must = contest.marked() && name.includes("simd") ? ">= 15x" : "";
   console.log(`| ${contest.work()} (${name}) | ${time} | parry ${theirs} | ${ratio}x | ${must} | ${spread}, ${spreads} |`);
 }

@@ -10,6 +10,7 @@ const SAME: f64 = 1e-9;
 
 /// The feature of a placed shape that a point of it lies on.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub enum Feature {
     /// A corner of a polygon, or of a wall where two of its pieces meet.
     Corner(Point2),

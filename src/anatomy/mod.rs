@@ -43,6 +43,7 @@ pub const THICK_LINKS: f64 = 0.03;
 
 /// The four questions, a tab each.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Tab {
     /// Whether the robot touches anything.
     #[default]
@@ -57,6 +58,7 @@ pub enum Tab {
 
 /// The source of a world, by which a command names it.
 #[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum WorldSource {
     /// Built in, under this name.
     BuiltIn(&'static str),

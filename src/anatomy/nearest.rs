@@ -16,6 +16,7 @@ const MOST: usize = 8;
 
 /// A pair of nearest points, and the features on which they lie.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct NearestPair {
     /// The points, part and obstacle.
     pub witness: Witness,

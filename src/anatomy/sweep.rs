@@ -8,6 +8,7 @@ use crate::robots::{AnyRobot, ConfigurationError, Motion, Robot};
 
 /// The motion along the chart's straight line to a second configuration.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Sweep {
     /// The configuration at the start.
     pub from: AnyConfiguration,

@@ -265,7 +265,7 @@ fn every_robot_goes_into_every_world_and_stands_free() {
 }
 
 #[test]
-fn what_is_unresolved_is_told_with_its_reason() {
+fn what_is_unresolved_is_shown_with_its_reason() {
     // the straight arm turns under a wall that is one ulp above its reach
     let above = f64::from_bits(2.0_f64.to_bits() + 1);
     let mut world = World { obstacles: Vec::new(), ..World::workbench() };

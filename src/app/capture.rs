@@ -55,16 +55,16 @@ pub fn capture(world: &mut World, order: &CaptureOrder, path: &Path) {
     let frontier = world.resource::<Transport>().frontier;
     let run = shown_run(world, frontier);
     let progress = Arc::new(Progress::default());
-    let (told, to) = (Arc::clone(&progress), path.to_owned());
+    let (shared, to) = (Arc::clone(&progress), path.to_owned());
     let work = thread::spawn(move || {
         if form == Form::Gif
             && let Some(subject) = subject(&state, form)?
         {
             let log = Run::record(run.config, (run.seed, run.script))?;
             return film(&log, &subject, span, &paper, &to, |done, all| {
-                told.done.store(done, Ordering::Relaxed);
-                told.all.store(all, Ordering::Relaxed);
-                !told.stop.load(Ordering::Relaxed)
+                shared.done.store(done, Ordering::Relaxed);
+                shared.all.store(all, Ordering::Relaxed);
+                !shared.stop.load(Ordering::Relaxed)
             });
         }
         let figure = captured(&state, run, tick, paper.width_px())?;

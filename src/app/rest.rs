@@ -38,13 +38,13 @@ mod tests {
     #[test]
     fn modifiers_are_news_only_when_they_change() {
         let mut known = Modifiers::NONE;
-        let mut told = |modifiers: Modifiers| {
+        let mut is_sent = |modifiers: Modifiers| {
             let mut events = vec![Event::ModifiersChanged(modifiers), Event::PointerGone];
             news_only(&mut events, &mut known);
             assert_eq!(events.last(), Some(&Event::PointerGone), "other events stay");
             events.len() == 2
         };
         let frames = [Modifiers::NONE, Modifiers::SHIFT, Modifiers::SHIFT, Modifiers::NONE, Modifiers::NONE];
-        assert_eq!(frames.map(&mut told), [false, true, false, true, false]);
+        assert_eq!(frames.map(&mut is_sent), [false, true, false, true, false]);
     }
 }

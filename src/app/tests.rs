@@ -20,8 +20,8 @@ use bevy_egui::egui::{self, Event, Key, Modifiers, PointerButton, Pos2, pos2};
 use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT, Queryable};
 
+use super::files::{open_run, save_run};
 use super::session::{Interface, SessionPlugin, Shown, carry_out};
-use super::{open_run, save_run};
 use crate::configuration::Coordinates;
 use crate::recording::Run;
 use crate::run::{Log, RobotInput, Script};

@@ -351,8 +351,8 @@ mod tests {
                 let items = names(&atlas, scale);
                 let plates = plates(&items, scale);
                 let all = named(&world);
-                let told = format!("{} at {height}: {} of {}", world.name, plates.len(), all.len());
-                assert!(plates.len() + most_missing >= all.len(), "{told}");
+                let case = format!("{} at {height}: {} of {}", world.name, plates.len(), all.len());
+                assert!(plates.len() + most_missing >= all.len(), "{case}");
                 let sheet = Sheet::of(&atlas, 1.0 / scale);
                 let leader = |item: &Item| match &item.drawing {
                     Drawing::Polyline(points) => Some(Segment::new(points[0], points[1])),
@@ -361,14 +361,14 @@ mod tests {
                 let leaders: Vec<Segment> = items.iter().filter_map(leader).collect();
                 assert_eq!(leaders.len(), plates.len());
                 for (i, (name, plate)) in plates.iter().enumerate() {
-                    assert!(!sheet.solid.intersects(&plate.area()), "{told}: {name} on something solid");
-                    assert!(!sheet.marks.intersects(&plate.area()), "{told}: {name} on a mark");
-                    assert!(!sheet.dots.iter().any(|d| plate.covers(*d)), "{told}: {name} on an arrow");
+                    assert!(!sheet.solid.intersects(&plate.area()), "{case}: {name} on something solid");
+                    assert!(!sheet.marks.intersects(&plate.area()), "{case}: {name} on a mark");
+                    assert!(!sheet.dots.iter().any(|d| plate.covers(*d)), "{case}: {name} on an arrow");
                     let others = leaders.iter().enumerate().filter(|(k, _)| *k != i).map(|(_, s)| *s);
                     let lines = Scene::of_walls(&others.collect::<Vec<_>>());
-                    assert!(!lines.intersects(&plate.area()), "{told}: a line through {name}");
+                    assert!(!lines.intersects(&plate.area()), "{case}: a line through {name}");
                     for (other, p) in &plates[..i] {
-                        assert!(!plate.overlaps(p), "{told}: {name} and {other}");
+                        assert!(!plate.overlaps(p), "{case}: {name} and {other}");
                     }
                 }
                 // obstacles have the first choice
@@ -377,7 +377,7 @@ mod tests {
                     let shown = of_list.iter().filter(|n| plates.iter().any(|(p, _)| *p == n.name)).count();
                     if of_list.is_empty() { 0.0 } else { shown as f64 / of_list.len() as f64 }
                 };
-                assert!(share("obstacles") > 0.0 && share("obstacles") + 1e-9 >= share("walls"), "{told}");
+                assert!(share("obstacles") > 0.0 && share("obstacles") + 1e-9 >= share("walls"), "{case}");
             }
         }
     }

@@ -9,6 +9,7 @@ use crate::worlds::{Mark, OutlineError, Place, World, WorldError};
 
 /// A change of a world.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub enum Op {
     /// Add a wall, an obstacle or a painted mark.
     Add {

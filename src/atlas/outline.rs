@@ -6,6 +6,7 @@ use crate::worlds::{Obstacle, ObstacleKind, OutlineError, Written};
 
 /// The shape of a wall, an obstacle or a painted mark, with its handles.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub enum EditShape {
     /// A thin polyline. One that ends where it starts is closed.
     Wall(Vec<Point2>),

@@ -14,6 +14,7 @@ pub struct Teleport;
 
 /// Why a teleport is refused.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub enum Refusal {
     /// It would overlap or touch something.
     Overlap {

@@ -34,6 +34,7 @@ pub use moving::{Span, Subject, at_tick};
 #[cfg(feature = "cli")]
 pub use paper::{film, write};
 #[cfg(feature = "cli")]
+#[doc(hidden)]
 pub use raster::{GifWriter, Image, Raster, Size, write_png};
 pub use run_figure::RunFigure;
 pub use scenes::{AtlasSheet, anatomy, atlas, cspace};
@@ -41,6 +42,7 @@ pub use scenes::{AtlasSheet, anatomy, atlas, cspace};
 use crate::picture::{Figure, Palette, Sheet};
 
 /// Hundredths of a second in a tick.
+#[doc(hidden)]
 pub const TICK_HUNDREDTHS: u64 = 5;
 
 /// A keyword and its text in the file's metadata.
@@ -48,6 +50,7 @@ pub type Note = (&'static str, String);
 
 /// The form of a captured file.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Form {
     /// Vector graphics.
     Svg,

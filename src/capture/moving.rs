@@ -24,6 +24,7 @@ const READOUT: usize = 48;
 
 /// The view of a run that is drawn.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub enum Subject {
     /// The cockpits side by side.
     Dashboard {
@@ -57,7 +58,7 @@ impl Subject {
     ///
     /// # Errors
     /// [`CaptureError::NotInRun`] names what is missing.
-    pub fn check(&self, config: &TourConfig) -> Result<(), CaptureError> {
+    pub(crate) fn check(&self, config: &TourConfig) -> Result<(), CaptureError> {
         if let Some(world) = self.world().filter(|world| !config.worlds.contains(world)) {
             return Err(CaptureError::NotInRun(format!("world {} as it is here: run this world first", world.name)));
         }
@@ -233,7 +234,8 @@ impl<'a> Moving<'a> {
         let views = run.view();
         let in_atlas = matches!(self.subject, Subject::Atlas { .. });
         let panels = self.backdrops.iter().map(|b| self.panel(b, run, &views, drawn)).collect();
-        let told = views.iter().map(|v| format!("{} is at {}, contacts: {}.", v.name, v.configuration, v.contacts));
+        let sentences =
+            views.iter().map(|v| format!("{} is at {}, contacts: {}.", v.name, v.configuration, v.contacts));
         let mut caption = vec![when];
         if in_atlas {
             caption.insert(0, Widget::Atlas.text().misconception.clone());
@@ -241,7 +243,7 @@ impl<'a> Moving<'a> {
         let seconds = DT * tick as f64;
         let figure = Figure {
             title: format!("{} at {seconds:.2} s, seed {seed}", if in_atlas { "World atlas" } else { "The lab" }),
-            description: told.collect::<Vec<_>>().join(" "),
+            description: sentences.collect::<Vec<_>>().join(" "),
             panels,
             caption,
         };

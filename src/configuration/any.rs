@@ -8,6 +8,7 @@ use crate::geometry::Pose2;
 /// A configuration of one of the lab's robots as one type: for views, where the robot is chosen while the program runs.
 /// It prints as the type that it holds.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub enum AnyConfiguration {
     /// Rusty's.
     Pose(Pose2),

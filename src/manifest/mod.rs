@@ -1,9 +1,11 @@
 //! `WidgetText`, the words around a widget, read from the manifest `assets/widgets.ron`.
 
 mod formula;
+mod theme_choice;
 mod widget;
 
 pub use formula::{Formula, Level, Term};
+pub use theme_choice::ThemeChoice;
 pub use widget::Widget;
 
 use std::sync::LazyLock;

@@ -4,6 +4,7 @@ use super::{WidgetText, texts};
 
 /// A widget of the lab. The order is that of the rail.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Widget {
     /// The robots of a run, driven and plotted.
     #[default]

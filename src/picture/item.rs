@@ -22,6 +22,7 @@ pub struct Item {
 
 /// The geometry of an item: metres, x right, y up. A size whose name ends in `_px` is in pixels on the screen.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub enum Drawing {
     /// An open line through these points.
     Polyline(Vec<Point2>),
@@ -105,6 +106,7 @@ pub enum Drawing {
 
 /// How the inside of an item is filled.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub enum Fill {
     /// Not at all.
     None,
@@ -170,6 +172,7 @@ impl Dash {
 
 /// The form of a mark.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Glyph {
     /// A filled dot.
     Dot,

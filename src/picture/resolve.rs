@@ -14,6 +14,7 @@ const HATCH_OPACITY: f64 = 0.45;
 
 /// One stroke, area or word on the screen.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub enum Primitive {
     /// A filled convex polygon.
     Area {

@@ -2,6 +2,7 @@
 
 /// What a drawn thing stands for. Its colour follows from this and from nothing else.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[non_exhaustive]
 pub enum Role {
     /// The sheet itself, and marks left blank in a filled shape.
     Paper,

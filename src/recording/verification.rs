@@ -5,6 +5,7 @@ use crate::run::{Comparison, Digest, Divergence, Log, RunDigest};
 
 /// The result of [`verify`].
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Verification {
     /// The number of recorded ticks.
     pub recorded: u64,

@@ -17,6 +17,7 @@ use crate::random::Stream;
 /// assert!(Checker::new(Scene::workbench(), robot).is_free(&q));
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub enum AnyRobot {
     /// The rover.
     Rusty(Rusty),

@@ -39,6 +39,7 @@ pub struct Event {
 /// An input to a robot. The first one takes the robot over from its tour; `Release` returns it.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
+#[non_exhaustive]
 pub enum RobotInput {
     /// Hold these control channels, from -128 to 128, the maximum. Rusty: speed, turn rate. Hitch: speed,
     /// steering angle. Reach has no drive channels and refuses it.

@@ -44,6 +44,7 @@ struct Sample {
 
 /// An event of a robot that is marked on a time line.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Happening {
     /// A contact began.
     Contact,
@@ -53,6 +54,7 @@ pub enum Happening {
 
 /// A tick to be marked on a time line.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct TickMark {
     /// The tick.
     pub tick: u64,

@@ -1,63 +1,41 @@
 //! The user interface: the four widgets, their settings and their commands.
 //!
-//! Colours are named by [`Theme`](crate::picture::Theme) alone. Whatever draws on a screen is behind the feature
-//! `screen`.
+//! Colours are named by [`Theme`](crate::picture::Theme) alone.
 
-#[cfg(feature = "screen")]
 mod anatomy;
-#[cfg(feature = "screen")]
 mod atlas;
-#[cfg(feature = "screen")]
 mod capture_form;
-#[cfg(feature = "screen")]
 mod capture_state;
-#[cfg(feature = "screen")]
 mod cspace;
 mod dashboard;
-#[cfg(feature = "screen")]
 mod help;
-#[cfg(feature = "screen")]
-pub mod keys;
-#[cfg(feature = "screen")]
+pub(crate) mod keys;
 mod lab;
-#[cfg(feature = "screen")]
-mod paint;
+pub(crate) mod paint;
 mod settings;
 mod state;
-#[cfg(feature = "screen")]
 mod tools;
 
-#[cfg(feature = "screen")]
-pub use anatomy::AnatomyState;
-#[cfg(feature = "screen")]
-pub use atlas::{AtlasState, Mode};
-#[cfg(feature = "screen")]
-pub use capture_state::{CaptureOrder, CaptureState};
-#[cfg(feature = "screen")]
-pub use cspace::CspaceState;
-pub use dashboard::arm;
-pub use dashboard::blend::{blend, heading};
-pub use dashboard::goal::{Off, ParkingGoal, trailer_of};
-#[cfg(feature = "screen")]
-pub use dashboard::transport_bar::transport_bar;
-pub use dashboard::values::{Cockpit, CockpitRobot, Dashboard};
-#[cfg(feature = "screen")]
-pub use lab::lab;
-#[cfg(feature = "screen")]
-pub use paint::canvas;
-#[cfg(feature = "screen")]
-pub use paint::look::Look;
-pub use settings::{Settings, ThemeChoice};
-pub use state::{Flash, Notice, UiState, Working};
+pub(crate) use anatomy::AnatomyState;
+pub(crate) use atlas::AtlasState;
+pub(crate) use capture_state::{CaptureOrder, CaptureState};
+pub(crate) use cspace::CspaceState;
+pub(crate) use dashboard::blend::blend;
+pub(crate) use dashboard::goal::ParkingGoal;
+pub(crate) use dashboard::values::{Cockpit, CockpitRobot, Dashboard};
+pub(crate) use lab::lab;
+pub(crate) use paint::look::Look;
+pub(crate) use settings::Settings;
+pub(crate) use state::{Notice, UiState, Working};
 
 use crate::simulation::{RobotCommand, RunCommand, TransportCommand};
 
-pub use crate::manifest::{Formula, KeyText, Level, Term, Widget, WidgetText};
-pub use crate::picture::{readout, readout_lines};
+pub(crate) use crate::manifest::{Widget, WidgetText};
+pub(crate) use crate::picture::{readout, readout_lines};
 
 /// A request of a widget. Widgets change nothing but their own [`UiState`].
 #[derive(Clone, Debug, PartialEq)]
-pub enum Command {
+pub(crate) enum Command {
     /// Move the run, or give a robot an input.
     Run(RunCommand),
     /// Act on the session: files, captures, new runs.
@@ -78,7 +56,7 @@ impl From<RobotCommand> for Command {
 
 /// A request that neither moves the run through time nor gives a robot an input.
 #[derive(bevy::prelude::Message, Clone, Debug, PartialEq, Eq)]
-pub enum SessionCommand {
+pub(crate) enum SessionCommand {
     /// Save the run: ask for a file first.
     Save,
     /// Open a run: ask for a file first.
@@ -88,7 +66,6 @@ pub enum SessionCommand {
     /// Save the atlas's world: ask for a file first.
     SaveWorld,
     /// Capture the widget in front: ask for a file first.
-    #[cfg(feature = "screen")]
     Capture(CaptureOrder),
     /// A new run in the atlas's world.
     RunWorld,

@@ -13,16 +13,12 @@ pub struct UiState {
     /// The widget in front.
     pub widget: Widget,
     /// The state of the query anatomy. Its robot is also the configuration space's.
-    #[cfg(feature = "screen")]
     pub anatomy: super::AnatomyState,
     /// The state of the configuration space.
-    #[cfg(feature = "screen")]
     pub cspace: super::CspaceState,
     /// The state of the atlas.
-    #[cfg(feature = "screen")]
     pub atlas: super::AtlasState,
     /// The state of the capture form.
-    #[cfg(feature = "screen")]
     pub capture: super::CaptureState,
     /// The system's theme.
     pub system_theme: Theme,

@@ -7,17 +7,18 @@ use bevy_egui::egui::accesskit::{self, ActionData, ActionRequest, NodeId, TreeId
 use bevy_egui::{EguiInput, egui};
 use serde_json::json;
 
-use super::MAX_LINK_TICK;
 use super::error::PageError;
 use super::inbox::{Incoming, take_all, wake};
+use super::link::MAX_LINK_TICK;
 use super::listener::tell;
 use super::message::{Action, Message};
 use super::run_link::link_of;
 use crate::app::{Interface, open_log, open_world_text};
+use crate::manifest::ThemeChoice;
 use crate::picture::{Role, Theme};
 use crate::random::Seed;
 use crate::simulation::{RunCommand, TransportCommand};
-use crate::ui::{Notice, SessionCommand, ThemeChoice, UiState, Widget};
+use crate::ui::{Notice, SessionCommand, UiState, Widget};
 
 /// Events for egui, a list for each frame to come: a field must have the focus before it takes letters.
 #[derive(Resource, Default)]

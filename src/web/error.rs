@@ -1,7 +1,6 @@
 //! `PageError`, why the lab could not do what the page asked.
 
-use super::MAX_LINK_TICK;
-use super::link::LinkError;
+use super::link::{LinkError, MAX_LINK_TICK};
 use crate::app::SessionError;
 
 /// Why the lab could not do what the page asked. The lab goes on as it was.

@@ -13,11 +13,11 @@ use wasm_bindgen::prelude::*;
 use super::controls::{Staged, receive};
 use super::downloads::files;
 use super::inbox::{Incoming, put, wake_by};
+use super::link::{Link, LinkError};
 use super::listener::{listen, tell};
 use super::message::Message;
-use super::report::{Told, report};
+use super::report::{Sent, report};
 use super::run_link::open_link;
-use super::{Link, LinkError};
 use crate::app::{Interface, windowed_app};
 use crate::simulation::{Playback, Transport};
 use crate::ui::{Notice, Settings, Widget};
@@ -52,7 +52,7 @@ pub fn lab_start(query: &str, embedded: bool, settings: &str, listener: js_sys::
     // settings that can't be read, such as another version's, give way to the defaults
     let settings = serde_json::from_str(settings).unwrap_or_default();
     app.insert_resource(Start { link, embedded, settings })
-        .init_resource::<Told>()
+        .init_resource::<Sent>()
         .init_resource::<Staged>()
         .add_systems(PostStartup, start)
         .add_systems(First, stand_still.before(TimeSystems))

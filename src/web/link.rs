@@ -5,10 +5,10 @@ use std::fmt::Write;
 
 use percent_encoding::{AsciiSet, CONTROLS, percent_decode_str, utf8_percent_encode};
 
+use crate::manifest::{ThemeChoice, Widget};
 use crate::random::Seed;
 use crate::run::{Script, ScriptError};
 use crate::tour::{BOOK_SEED, TourConfig};
-use crate::ui::{ThemeChoice, Widget};
 use crate::worlds::World;
 
 /// The version of the address format that this program writes and reads.

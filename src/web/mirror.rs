@@ -181,9 +181,9 @@ mod tests {
             focus: NodeId::from(2),
         };
         let found = mirror(&update);
-        let told: Vec<(&str, Kind)> = found.iter().map(|m| (m.name.as_str(), m.kind)).collect();
+        let named: Vec<(&str, Kind)> = found.iter().map(|m| (m.name.as_str(), m.kind)).collect();
         assert_eq!(
-            told,
+            named,
             [
                 ("Dashboard", Kind::Text),
                 ("Play", Kind::Button),

@@ -5,9 +5,11 @@
 
 #[cfg(target_family = "wasm")]
 mod identity;
+// the light build only reads links
+#[cfg_attr(not(feature = "web"), allow(dead_code))]
 mod link;
 #[cfg(feature = "screen")]
-pub mod mirror;
+mod mirror;
 #[cfg(target_family = "wasm")]
 mod runs;
 
@@ -29,5 +31,3 @@ mod message;
 mod report;
 #[cfg(all(target_family = "wasm", feature = "web"))]
 mod run_link;
-
-pub use link::{LINK_VERSION, Link, LinkError, MAX_LINK, MAX_LINK_TICK};

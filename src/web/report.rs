@@ -19,7 +19,7 @@ use crate::ui::Settings;
 
 /// The last values sent to the page.
 #[derive(Resource, Default)]
-pub struct Told {
+pub struct Sent {
     frames: u64,
     state: Value,
     settings: Option<Settings>,
@@ -33,45 +33,45 @@ pub struct Told {
 pub fn report(world: &mut World) {
     copied(world);
     let now = world.resource::<Time<Real>>().elapsed_secs_f64();
-    let mut told = world.remove_resource::<Told>().unwrap_or_default();
-    told.frames += 1;
-    if told.frames == 1 {
+    let mut sent = world.remove_resource::<Sent>().unwrap_or_default();
+    sent.frames += 1;
+    if sent.frames == 1 {
         let mut contexts = world.query::<&mut EguiContext>();
         for mut context in contexts.iter_mut(world) {
             context.get_mut().enable_accesskit();
         }
     }
-    if told.frames == 2 {
+    if sent.frames == 2 {
         tell(&json!({ "kind": "ready" }));
     }
     let still = world.resource::<Transport>().playback == Playback::Paused;
-    if told.frames > 2 && (still || now - told.at >= 0.1) {
-        told.at = now;
+    if sent.frames > 2 && (still || now - sent.at >= 0.1) {
+        sent.at = now;
         let state = state(world);
-        if state != told.state {
+        if state != sent.state {
             tell(&state);
-            told.state = state;
+            sent.state = state;
         }
         let settings = &world.resource::<Interface>().0.settings;
-        if told.settings.as_ref() != Some(settings) {
+        if sent.settings.as_ref() != Some(settings) {
             tell(&json!({ "kind": "settings", "settings": settings }));
-            told.settings = Some(settings.clone());
+            sent.settings = Some(settings.clone());
         }
         if let Some(tree) = tree(world)
-            && tree != told.tree
+            && tree != sent.tree
         {
             tell(&tree);
-            told.tree = tree;
+            sent.tree = tree;
         }
         let (config, seed) = (&world.resource::<RunConfig>().0, world.resource::<Transport>().seed);
         let script = world.resource::<PendingInput>().script();
         // a new tick alone is not sent: the page knows it from the state
-        if !told.run.as_ref().is_some_and(|(c, s, i)| Arc::ptr_eq(c, config) && *s == seed && i == script) {
+        if !sent.run.as_ref().is_some_and(|(c, s, i)| Arc::ptr_eq(c, config) && *s == seed && i == script) {
             tell(&json!({ "kind": "run", "parts": RunParts::of(config, seed, script) }));
-            told.run = Some((Arc::clone(config), seed, script.clone()));
+            sent.run = Some((Arc::clone(config), seed, script.clone()));
         }
     }
-    world.insert_resource(told);
+    world.insert_resource(sent);
 }
 
 /// Sends the page the text that was copied: only a page may write to the clipboard.

@@ -2,11 +2,12 @@
 
 use bevy::ecs::world::World;
 
-use super::Link;
 use super::error::PageError;
+use super::link::Link;
 use crate::app::{Interface, SessionError, log_up_to, new_run, shown_run};
+use crate::manifest::ThemeChoice;
 use crate::simulation::{Playback, Transport, seek};
-use crate::ui::{Notice, ThemeChoice, Widget};
+use crate::ui::{Notice, Widget};
 
 /// Starts a link's run, simulates it up to its tick, and compares the digest with that of the link.
 pub fn open_link(world: &mut World, link: &Link) -> Result<Option<Notice>, SessionError> {
@@ -19,12 +20,12 @@ pub fn open_link(world: &mut World, link: &Link) -> Result<Option<Notice>, Sessi
     let digest = log_up_to(world, link.tick)?.digest().to_string();
     Ok(Some(match &link.digest {
         None => Notice { text: format!("tick {}, digest {digest}", link.tick), is_error: false },
-        Some(told) if *told == digest => Notice {
+        Some(expected) if *expected == digest => Notice {
             text: format!("the same run to the last bit: tick {}, digest {digest}", link.tick),
             is_error: false,
         },
-        Some(told) => Notice {
-            text: format!("this run differs from the link's: digest {digest}, expected {told}"),
+        Some(expected) => Notice {
+            text: format!("this run differs from the link's: digest {digest}, expected {expected}"),
             is_error: true,
         },
     }))

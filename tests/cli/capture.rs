@@ -52,18 +52,18 @@ fn a_png_holds_seed_digest_and_tick_and_is_as_large_as_asked() {
     let file = folder.path().join("d.png");
     let out = file.to_str().unwrap();
     run(&["capture", "--widget", "dashboard", "--seed", "7", "--tick", "600", "--theme", "dark", "--out", out]).done();
-    let told = notes(&file);
+    let in_file = notes(&file);
     let log = folder.path().join("r.mcap");
     run(&["record", "--seed", "7", "-o", log.to_str().unwrap()]).done();
     let info = run(&["info", log.to_str().unwrap(), "--json"]).done();
     let digest = super::json(&info)["digest"].as_str().unwrap().to_owned();
-    assert!(told.contains(&"Seed: 7".to_owned()) && told.contains(&"Tick: 600".to_owned()), "{told:?}");
-    assert!(told.contains(&format!("Digest: {digest}")), "{told:?}: the digest that the log has, {digest}");
+    assert!(in_file.contains(&"Seed: 7".to_owned()) && in_file.contains(&"Tick: 600".to_owned()), "{in_file:?}");
+    assert!(in_file.contains(&format!("Digest: {digest}")), "{in_file:?}: the digest that the log has, {digest}");
     let (one, _) = size(&file);
     let of_log = ["capture", "--widget", "dashboard", "--log", log.to_str().unwrap(), "--tick", "600"];
     run(&[&of_log[..], &["--theme", "dark", "--scale", "2", "-o", out]].concat()).done();
     assert_eq!(size(&file).0, 2 * one);
-    assert_eq!(notes(&file), told, "from the log as from its seed");
+    assert_eq!(notes(&file), in_file, "from the log as from its seed");
     run(&["capture", "--widget", "anatomy", "--width", "420", "-o", out]).done();
     assert!(size(&file).0 <= 420, "a column's width");
     assert!(notes(&file).iter().any(|n| n.starts_with("Configuration: T2(Tn([0.785398")), "{:?}", notes(&file));
@@ -183,8 +183,8 @@ fn what_cannot_be_drawn_is_refused_and_no_file_is_left() {
         (&["atlas", "--world", "lot", "--teleport", "1,2", "-o", &svg], "2 numbers: Hitch is at HitchCfg"),
     ];
     for (arguments, reason) in refused {
-        let told = run(&[&["capture", "--widget"], arguments].concat()).failed(2);
-        assert!(told.contains(reason), "{arguments:?}: {told}");
+        let error = run(&[&["capture", "--widget"], arguments].concat()).failed(2);
+        assert!(error.contains(reason), "{arguments:?}: {error}");
     }
     assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 0);
 }

@@ -133,8 +133,8 @@ fn peer_accepts(files: &[PathBuf]) {
         let Some(output) = peer(script, files) else { continue };
         let said = String::from_utf8_lossy(&output.stdout);
         assert!(output.status.success(), "{said}{}", String::from_utf8_lossy(&output.stderr));
-        let told = if script == "tamper.py" { " refused" } else { ": proven free to s=" };
-        assert!(said.lines().count() == lines && said.lines().all(|line| line.contains(told)), "{said}");
+        let ending = if script == "tamper.py" { " refused" } else { ": proven free to s=" };
+        assert!(said.lines().count() == lines && said.lines().all(|line| line.contains(ending)), "{said}");
     }
 }
 

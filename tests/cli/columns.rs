@@ -177,11 +177,11 @@ fn the_columns_of_a_driven_run_are_what_its_script_and_the_kinematics_make_them(
             ("Hitch", Some(channels)) if !hit[1] => check_car(before, after, channels),
             ("Reach", Some(_)) => {
                 let moves = log.script.events.iter().filter(|e| e.robot == "Reach" && e.tick <= tick && e.tick != 230);
-                let mut told = moves.filter_map(|e| match &e.input {
+                let mut moved = moves.filter_map(|e| match &e.input {
                     RobotInput::MoveTo(q) | RobotInput::Teleport(q) => Some([q[0].value(), q[1].value()]),
                     _ => None,
                 });
-                let (target, q) = (told.next_back().unwrap(), list(after, "configuration"));
+                let (target, q) = (moved.next_back().unwrap(), list(after, "configuration"));
                 assert!((0..2).all(|k| short(target[k], q[k]).abs() < 1e-12), "{target:?}: {after:?}");
             }
             _ => {}

@@ -36,9 +36,9 @@ fn equal_logs_are_0() {
     let a = recording(folder.path(), "a.mcap", &[]);
     let b = recording(folder.path(), "b.mcap", &[]);
     assert_eq!(diff(&[], &a, &b).done(), "30 ticks, equal to the last bit\n");
-    let told = json(&diff(&["--json"], &a, &b).done());
-    assert_eq!((&told["equal"], &told["ticks"], &told["differing_ticks"]), (&true.into(), &30.into(), &0.into()));
-    assert!(told["divergence"].is_null() && told["setup"].as_array().unwrap().is_empty());
+    let report = json(&diff(&["--json"], &a, &b).done());
+    assert_eq!((&report["equal"], &report["ticks"], &report["differing_ticks"]), (&true.into(), &30.into(), &0.into()));
+    assert!(report["divergence"].is_null() && report["setup"].as_array().unwrap().is_empty());
 }
 
 #[test]
@@ -61,15 +61,15 @@ fn one_planted_ulp_is_found_in_its_tick_and_field() {
         y.to_bits()
     );
     assert_eq!(found.out, expected);
-    let told = diff(&["--json"], &b, &a);
-    assert_eq!(told.code, Some(4));
-    let told = json(&told.out);
-    let value = &told["divergence"];
+    let output = diff(&["--json"], &b, &a);
+    assert_eq!(output.code, Some(4));
+    let report = json(&output.out);
+    let value = &report["divergence"];
     assert_eq!((&value["tick"], &value["robot"], &value["name"]), (&12.into(), &0.into(), &"Rusty".into()));
     assert_eq!((&value["field"], &value["ulps"]), (&"ranges[77]".into(), &1.into()));
     assert_eq!(value["a"].as_f64().unwrap().to_bits(), y.to_bits(), "A is the first of the two");
     assert_eq!(value["b_bits"], format!("{:#018x}", x.to_bits()));
-    assert_eq!((&told["equal"], &told["differing_ticks"]), (&false.into(), &1.into()));
+    assert_eq!((&report["equal"], &report["differing_ticks"]), (&false.into(), &1.into()));
 }
 
 #[test]
@@ -122,8 +122,8 @@ fn a_cut_log_equal_as_far_as_it_is_sealed_is_5() {
     let found = diff(&["--json"], &cut, &a);
     assert_eq!(found.code, Some(5), "{}", found.err);
     assert!(found.err.contains("cut.mcap: the log is cut off after byte "), "{}", found.err);
-    let told = json(&found.out);
-    assert!(told["equal"] == true && (1..30).contains(&told["ticks"].as_u64().unwrap()), "{told}");
+    let report = json(&found.out);
+    assert!(report["equal"] == true && (1..30).contains(&report["ticks"].as_u64().unwrap()), "{report}");
     // a difference in sealed ticks is reported first
     let b = changed(&a, |log| log.frames[0].robots[0].flash += 1);
     assert_eq!(diff(&[], &cut, &b).code, Some(4));

@@ -200,8 +200,8 @@ fn the_viewers_file_has_the_logs_own_messages_and_more() {
         assert_eq!(viewer.remove(&topic), Some(own), "{topic}");
     }
     let counts: Vec<(&str, usize)> = viewer.iter().map(|(topic, messages)| (topic.as_str(), messages.len())).collect();
-    let [(log_topic, told), rest @ ..] = &counts[..] else { panic!("no topics") };
-    assert!(*log_topic == "/viewer/log" && *told >= 1);
+    let [(log_topic, messages), rest @ ..] = &counts[..] else { panic!("no topics") };
+    assert!(*log_topic == "/viewer/log" && *messages >= 1);
     assert_eq!(
         rest,
         [("/viewer/robots", 31), ("/viewer/scan/Rusty", 31), ("/viewer/transforms", 31), ("/viewer/worlds", 1)]
@@ -240,7 +240,7 @@ fn of_a_damaged_log_the_sealed_beginning_is_exported_and_it_is_5() {
 }
 
 #[test]
-fn what_cannot_be_exported_is_told() {
+fn what_cannot_be_exported_is_refused() {
     let folder = tempfile::tempdir().unwrap();
     let file = recording(folder.path());
     let name = file.to_str().unwrap();
@@ -295,8 +295,8 @@ fn pictures_of_a_run_carry_its_seed_digest_and_tick() {
         delays.push(frame.delay);
     }
     assert_eq!(delays, [25, 25, 25]);
-    let told = String::from_utf8_lossy(&film).contains(&format!("seed 2005, digest {}", log.digest()));
-    assert!(told, "the comment tells the run");
+    let named = String::from_utf8_lossy(&film).contains(&format!("seed 2005, digest {}", log.digest()));
+    assert!(named, "the comment tells the run");
     for wrong in [&["--format", "png", "--tick", "31"][..], &["--format", "gif", "--from", "20", "--to", "10"]] {
         let output = folder.path().join("wrong");
         let arguments = ["export", file.to_str().unwrap(), "-o", output.to_str().unwrap()];

@@ -170,12 +170,13 @@ fn what_a_killed_recording_left_is_named_and_goes_on() {
     let mut child = long_recording(folder.path(), "long.mcap");
     // while the process runs, its file is not reported as left over
     let beside = ["record", "--ticks", "5", "-o", "short.mcap"];
-    let told = run_in(folder.path(), &beside);
-    assert!(!told.err.contains("killed"), "{}", told.err);
+    let output = run_in(folder.path(), &beside);
+    assert!(!output.err.contains("killed"), "{}", output.err);
     child.kill().unwrap();
     child.wait().unwrap();
-    let told = run_in(folder.path(), &beside);
-    let line = told.err.lines().find(|line| line.contains("was left by a process that was killed")).unwrap().to_owned();
+    let output = run_in(folder.path(), &beside);
+    let line =
+        output.err.lines().find(|line| line.contains("was left by a process that was killed")).unwrap().to_owned();
     let (_, left) = line.split_once("go on with: motion-lab record --resume ").unwrap();
     assert!(left.contains(".long.mcap."), "{line}");
     // whole seconds are written to the file, so everything but the second under way is there

@@ -12,12 +12,12 @@ fn sample(name: &str) -> String {
 fn what_is_imported_passes_the_check_and_can_be_run() {
     let folder = tempfile::tempdir().unwrap();
     for (file, start) in [("room.yaml", "0,0,0"), ("yard.map", "1.5,1.5,0"), ("hall.svg", "100,60,0")] {
-        let told = run_in(
+        let output = run_in(
             folder.path(),
             &["world", "import", &sample(file), "--robot", "rusty", "--start", start, "-o", "world.ron"],
         );
-        assert!(told.err.contains("wrote world.ron with ") && !told.err.contains("contact"), "{}", told.err);
-        told.done();
+        assert!(output.err.contains("wrote world.ron with ") && !output.err.contains("contact"), "{}", output.err);
+        output.done();
         let checked = run_in(folder.path(), &["world", "check", "world.ron"]).done();
         assert!(checked.contains("robots: Rusty"), "{checked}");
         let recorded = run_in(folder.path(), &["record", "--world", "world.ron", "--ticks", "3"]).done();
@@ -31,9 +31,9 @@ fn what_is_imported_passes_the_check_and_can_be_run() {
 #[test]
 fn a_world_of_ir_sim_brings_its_robots() {
     let folder = tempfile::tempdir().unwrap();
-    let told = run_in(folder.path(), &["world", "import", &sample("garden.yaml"), "-o", "garden.ron"]);
-    assert!(told.err.contains("motion-lab: robot.behavior is left out"), "{}", told.err);
-    told.done();
+    let output = run_in(folder.path(), &["world", "import", &sample("garden.yaml"), "-o", "garden.ron"]);
+    assert!(output.err.contains("motion-lab: robot.behavior is left out"), "{}", output.err);
+    output.done();
     let checked = run_in(folder.path(), &["world", "check", "garden.ron"]).done();
     assert!(checked.contains("garden, ") && checked.ends_with("robots: Rusty, Hitch\n"), "{checked}");
     run_in(folder.path(), &["record", "--world", "garden.ron", "--ticks", "3"]).done();
@@ -42,9 +42,9 @@ fn a_world_of_ir_sim_brings_its_robots() {
 #[test]
 fn an_exported_map_is_imported_again_and_a_picture_is_one() {
     let folder = tempfile::tempdir().unwrap();
-    let told = run_in(folder.path(), &["world", "export", "lot", "--resolution", "0.25", "-o", "lot.yaml"]);
-    assert!(told.err.contains("wrote lot.yaml and lot.pgm, 64 x 40 cells"), "{}", told.err);
-    told.done();
+    let output = run_in(folder.path(), &["world", "export", "lot", "--resolution", "0.25", "-o", "lot.yaml"]);
+    assert!(output.err.contains("wrote lot.yaml and lot.pgm, 64 x 40 cells"), "{}", output.err);
+    output.done();
     // 16 x 10 m in cells of 0.25 m
     assert!(fs::read(folder.path().join("lot.pgm")).unwrap().starts_with(b"P5\n64 40\n255\n"));
     run_in(folder.path(), &["world", "import", "lot.yaml", "-o", "again.ron"]).done();
@@ -63,24 +63,24 @@ fn an_exported_map_is_imported_again_and_a_picture_is_one() {
 }
 
 #[test]
-fn a_robot_in_a_wall_is_told_of() {
+fn a_robot_in_a_wall_is_reported() {
     let hollow = ["world", "import", &sample("room.yaml"), "--robot", "rusty", "--start", "-0.5,-1.4,0", "--hollow"];
-    let told = run(&hollow);
-    assert!(told.err.contains("Rusty starts in contact with wall 4"), "{}", told.err);
-    assert!(told.err.contains("the occupied cells are hollow"), "{}", told.err);
-    assert!(told.err.contains("unknown cells, taken as occupied: 1"), "{}", told.err);
-    assert!(told.done().contains("start: [-0.5, -1.4, 0.0]"));
+    let output = run(&hollow);
+    assert!(output.err.contains("Rusty starts in contact with wall 4"), "{}", output.err);
+    assert!(output.err.contains("the occupied cells are hollow"), "{}", output.err);
+    assert!(output.err.contains("unknown cells, taken as occupied: 1"), "{}", output.err);
+    assert!(output.done().contains("start: [-0.5, -1.4, 0.0]"));
     // a yard whose cells are all occupied: Rusty in the middle touches a box, but nothing where the cells are hollow
     let folder = tempfile::tempdir().unwrap();
     let rows = ["@@@@@@"; 6].join("\n");
     fs::write(folder.path().join("full.map"), format!("type octile\nheight 6\nwidth 6\nmap\n{rows}\n")).unwrap();
     let inside = ["world", "import", "full.map", "--robot", "rusty", "--start", "3,3,0"];
-    let told = run_in(folder.path(), &inside);
-    assert!(told.err.contains("Rusty starts in contact with box 1"), "{}", told.err);
-    told.done();
-    let told = run_in(folder.path(), &[&inside[..], &["--hollow"]].concat());
-    assert!(!told.err.contains("contact"), "{}", told.err);
-    told.done();
+    let output = run_in(folder.path(), &inside);
+    assert!(output.err.contains("Rusty starts in contact with box 1"), "{}", output.err);
+    output.done();
+    let output = run_in(folder.path(), &[&inside[..], &["--hollow"]].concat());
+    assert!(!output.err.contains("contact"), "{}", output.err);
+    output.done();
 }
 
 #[test]

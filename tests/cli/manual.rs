@@ -28,9 +28,9 @@ fn every_shell_gets_completions_for_every_command() {
 fn every_command_has_a_page() {
     let folder = tempfile::tempdir().unwrap();
     assert!(run(&["man"]).done().contains(".TH motion-lab 1"));
-    let told = run_in(folder.path(), &["man", "-o", "pages"]);
+    let output = run_in(folder.path(), &["man", "-o", "pages"]);
     let pages = fs::read_dir(folder.path().join("pages")).unwrap().count();
-    assert!(told.code == Some(0) && told.err.contains(&format!("wrote {pages} pages to pages")), "{}", told.err);
+    assert!(output.code == Some(0) && output.err.contains(&format!("wrote {pages} pages to pages")), "{}", output.err);
     for command in commands() {
         let page = fs::read_to_string(folder.path().join(format!("pages/motion-lab-{command}.1"))).unwrap();
         assert!(page.contains(&format!(".TH motion-lab-{command} 1")), "{command}");

@@ -22,9 +22,9 @@ fn a_replay_ends_where_the_recording_does_and_writes_the_same_log() {
     assert_eq!(replayed.err, "motion-lab: wrote again.mcap\n", "no progress bar where there is no terminal");
     assert_eq!(replayed.done(), format!("{recorded}30 of 30 ticks bit-identical\n"));
     assert_eq!(fs::read(folder.path().join("again.mcap")).unwrap(), fs::read(&file).unwrap(), "byte for byte");
-    let told = json(&run(&["replay", "--json", file.to_str().unwrap()]).done());
-    assert_eq!((&told["ticks"], &told["sealed"], &told["identical"]), (&30.into(), &30.into(), &30.into()));
-    assert!(told["divergence"].is_null() && recorded.contains(told["digest"].as_str().unwrap()));
+    let report = json(&run(&["replay", "--json", file.to_str().unwrap()]).done());
+    assert_eq!((&report["ticks"], &report["sealed"], &report["identical"]), (&30.into(), &30.into(), &30.into()));
+    assert!(report["divergence"].is_null() && recorded.contains(report["digest"].as_str().unwrap()));
 }
 
 #[test]
@@ -59,16 +59,16 @@ fn a_forged_recording_is_4_and_diff_finds_it_in_the_replayed_log() {
     assert!(replayed.out.contains("\ntick 10, robot 2, configuration[2]: expected "), "{}", replayed.out);
     assert!(replayed.out.ends_with("\n9 of 30 ticks bit-identical\n"), "{}", replayed.out);
     run_in(folder.path(), &["verify", "true.mcap"]).done();
-    let told = run_in(folder.path(), &["diff", "run.mcap", "true.mcap"]);
+    let output = run_in(folder.path(), &["diff", "run.mcap", "true.mcap"]);
     assert!(
-        told.code == Some(4) && told.out.starts_with("tick 10, robot 2 (Hitch), configuration[2]: "),
+        output.code == Some(4) && output.out.starts_with("tick 10, robot 2 (Hitch), configuration[2]: "),
         "{}",
-        told.out
+        output.out
     );
 }
 
 #[test]
-fn what_cannot_be_replayed_or_written_is_told() {
+fn what_cannot_be_replayed_or_written_is_refused() {
     let folder = tempfile::tempdir().unwrap();
     recording(folder.path());
     let error = run(&["replay", "nowhere.mcap"]).failed(3);

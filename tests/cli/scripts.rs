@@ -22,8 +22,8 @@ fn scripts_are_checked_one_by_one() {
     for reason in ["wrong.ron:2: events[0]: channel -300", "nowhere.ron: there is no such file"] {
         assert!(wrong.err.contains(reason), "{}", wrong.err);
     }
-    let told = json(&wrong.out);
-    assert_eq!((&told["source"], &told["events"], &told["last"]), (&"drive.ron".into(), &2.into(), &9.into()));
+    let report = json(&wrong.out);
+    assert_eq!((&report["source"], &report["events"], &report["last"]), (&"drive.ron".into(), &2.into(), &9.into()));
     // the robots of a world
     let worlds = ["script", "check", "drive.ron", "--world", "apartment", "--world", "lot"];
     run_in(folder.path(), &worlds).done();

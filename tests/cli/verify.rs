@@ -79,13 +79,13 @@ fn a_forged_recording_is_4_and_the_first_difference_is_named() {
     fs::write(&file, writer.finish().unwrap()).unwrap();
     let verified = run(&["verify", file.to_str().unwrap()]);
     assert_eq!(verified.code, Some(4), "{}", verified.err);
-    let told: Vec<&str> = verified.out.lines().collect();
+    let lines: Vec<&str> = verified.out.lines().collect();
     assert!(
-        told[0].starts_with("tick 17, robot 1, configuration[0]: expected ") && told[0].ends_with("1 ulp apart"),
+        lines[0].starts_with("tick 17, robot 1, configuration[0]: expected ") && lines[0].ends_with("1 ulp apart"),
         "{}",
-        told[0]
+        lines[0]
     );
-    assert_eq!(told[1], "16 of 30 ticks bit-identical");
+    assert_eq!(lines[1], "16 of 30 ticks bit-identical");
     // a forged file can't be resumed either
     let output = folder.path().join("out.mcap");
     run(&["record", "--resume", file.to_str().unwrap(), "-o", output.to_str().unwrap()]).failed(4);

@@ -236,7 +236,7 @@ fn every_part_of_a_robot_has_its_own_shape_and_is_red_while_a_contact_flashes() 
 #[test]
 fn every_obstacle_and_mark_of_the_worlds_is_there_as_it_is_written() {
     let (log, topics) = &*EXPORTED;
-    let [(0, message)] = &topics["/viewer/worlds"][..] else { panic!("the worlds are told once") };
+    let [(0, message)] = &topics["/viewer/worlds"][..] else { panic!("the worlds are written once") };
     let entities = message.messages(2);
     let mut expected = 0;
     let entity = |world: &World, kind: &str, name: &str| {
@@ -286,9 +286,9 @@ fn every_obstacle_and_mark_of_the_worlds_is_there_as_it_is_written() {
 }
 
 #[test]
-fn what_happens_is_told_at_its_tick_of_its_robot() {
+fn what_happens_is_logged_at_its_tick_of_its_robot() {
     let (log, topics) = &*EXPORTED;
-    let told: Vec<(u64, u64, String, String)> = topics["/viewer/log"]
+    let written: Vec<(u64, u64, String, String)> = topics["/viewer/log"]
         .iter()
         .map(|(tick, message)| (*tick, message.number(2), message.text(4), message.text(3)))
         .collect();
@@ -314,8 +314,8 @@ fn what_happens_is_told_at_its_tick_of_its_robot() {
             }
         }
     }
-    assert_eq!(told, expected);
+    assert_eq!(written, expected);
     for word in ["contact ", "refused", "taken over", "back on"] {
-        assert!(told.iter().any(|(.., message)| message.contains(word)), "nothing is told of {word}");
+        assert!(written.iter().any(|(.., message)| message.contains(word)), "no message of {word}");
     }
 }

@@ -23,7 +23,7 @@ fn the_built_in_worlds_are_listed_and_shown_as_files() {
 }
 
 #[test]
-fn every_wrong_file_is_named_and_the_right_ones_are_told() {
+fn every_wrong_file_is_named_and_the_right_ones_are_listed() {
     let folder = tempfile::tempdir().unwrap();
     let file = |name: &str, text: &[u8]| {
         let path = folder.path().join(name);

@@ -60,8 +60,8 @@ fn what_is_filled_is_solid_and_what_is_stroked_a_wall() {
     let (pose, pillar) = &world.obstacle("pillar").unwrap().pieces[0];
     assert_eq!((pose.x, pose.y), (4.0, 5.5));
     assert_eq!(*pillar, Shape::Disc { radius: 0.5 });
-    for told in ["text is left out", "its paper", "outlines of its parts"] {
-        assert!(notes.iter().any(|n| n.contains(told)), "{told}: {notes:?}");
+    for left_out in ["text is left out", "its paper", "outlines of its parts"] {
+        assert!(notes.iter().any(|n| n.contains(left_out)), "{left_out}: {notes:?}");
     }
     assert_prints_as_itself(&world);
 }

@@ -167,8 +167,8 @@ def check_viewer(log, viewer, lines):
             [triangles] = entity.triangles
             assert len(triangles.indices) % 3 == 0 and max(triangles.indices) < len(triangles.points)
     contacts = sum(robot["contacts"] for robot in lines[-1]["robots"])
-    told = [m for _, _, m in topics["/viewer/log"] if m.message.startswith("contact ")]
-    assert contacts == len(told) > 0, "a message for each contact"
+    entries = [m for _, _, m in topics["/viewer/log"] if m.message.startswith("contact ")]
+    assert contacts == len(entries) > 0, "a message for each contact"
 
 
 log, jsonl, viewer = sys.argv[1:]

@@ -138,7 +138,7 @@ fn an_arm_is_never_held_and_holds_what_it_lies_on() {
     let state = |tick: usize, robot: usize| &log.frames[tick - 1].robots[robot];
     assert_eq!(state(2, 0).configuration[0], 0.5);
     assert!(!state(2, 0).in_contact);
-    assert!((state(3, 0).configuration[0] - 1.57).abs() < 1e-6, "the arm goes where it is told");
+    assert!((state(3, 0).configuration[0] - 1.57).abs() < 1e-6, "the arm goes where its input says");
     assert!(state(3, 0).in_contact && state(9, 0).in_contact);
     assert_eq!(state(9, 0).contacts, 1, "one episode, not one a tick");
     assert_eq!(state(4, 1).configuration, log.initial.robots[1].configuration);

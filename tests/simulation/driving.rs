@@ -138,7 +138,7 @@ fn inputs_that_mean_nothing_to_a_robot_are_refused() {
 }
 
 #[test]
-fn an_arm_goes_where_it_is_told_by_the_end_of_the_tick_and_stays() {
+fn an_arm_goes_where_its_input_says_by_the_end_of_the_tick_and_stays() {
     let frames =
         frames(one("reach", &[0.0, 1.0], 5), vec![event(2, "it", RobotInput::MoveTo(quantized(&[3.5, -0.5])))]);
     let q = |k: usize| (frames[k].robots[0].configuration[0], frames[k].robots[0].configuration[1]);

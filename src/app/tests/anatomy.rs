@@ -80,7 +80,7 @@ fn the_witness_names_its_feature_jumps_and_ties() {
 fn the_tip_is_dragged_by_inverse_kinematics_on_its_elbow_side() {
     let mut harness = on("distance");
     let paper = harness.get_by_label_contains("Reach at T2").rect();
-    let fit = crate::ui::canvas::fit(&anatomy(&harness).backdrop(), paper);
+    let fit = crate::ui::paint::canvas::fit(&anatomy(&harness).backdrop(), paper);
     let at = |p: Point2| {
         let [x, y] = fit.screen_from_world(p);
         pos2(x as f32, y as f32)

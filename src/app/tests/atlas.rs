@@ -14,7 +14,7 @@ fn atlas(harness: &Harness<'_, Lab>) -> AtlasState {
 fn at(harness: &Harness<'_, Lab>, [x, y]: [f64; 2]) -> Pos2 {
     let world = atlas(harness).world().clone();
     let paper = harness.get_by_label_contains(&format!("World {}", world.name)).rect();
-    let fit = crate::ui::canvas::fit(&crate::picture::world(&world), paper);
+    let fit = crate::ui::paint::canvas::fit(&crate::picture::world(&world), paper);
     let [x, y] = fit.screen_from_world(crate::geometry::Point2::new(x, y));
     pos2(x as f32, y as f32)
 }

@@ -153,7 +153,7 @@ fn what_does_not_move_or_is_not_in_the_run_is_refused_in_place() {
 }
 
 #[test]
-fn a_capture_under_way_is_told_and_stopped() {
+fn a_capture_under_way_is_shown_and_stopped() {
     let folder = tempfile::tempdir().unwrap();
     let mut harness = lab(WIDE);
     harness.run_steps(80);

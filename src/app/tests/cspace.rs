@@ -24,7 +24,7 @@ fn at(harness: &Harness<'_, Lab>, [x, y]: [f64; 2]) -> Pos2 {
     let paper = harness.get_by_label_contains("configuration space. The robot is the point").rect();
     let anatomy = anatomy(harness);
     let slice = Slice::through(anatomy.checker(), &anatomy.q()).unwrap();
-    let fit = crate::ui::canvas::fit(&cspace_picture(&CellMap::new(slice, 1), &Overlay::default()), paper);
+    let fit = crate::ui::paint::canvas::fit(&cspace_picture(&CellMap::new(slice, 1), &Overlay::default()), paper);
     let [x, y] = fit.screen_from_world(crate::geometry::Point2::new(x, y));
     pos2(x as f32, y as f32)
 }

@@ -6,7 +6,7 @@ use crate::run::{RobotInput, WorldChange, WorldEvent};
 /// Where a point of the Apartment is in its pane.
 fn in_the_apartment(harness: &Harness<'_, Lab>, [x, y]: [f64; 2]) -> Pos2 {
     let world = crate::worlds::World::apartment();
-    let fit = crate::ui::canvas::fit(&crate::picture::world(&world), paper(harness, "Apartment"));
+    let fit = crate::ui::paint::canvas::fit(&crate::picture::world(&world), paper(harness, "Apartment"));
     let [x, y] = fit.screen_from_world(crate::geometry::Point2::new(x, y));
     pos2(x as f32, y as f32)
 }
@@ -61,7 +61,7 @@ fn the_atlas_puts_a_robot_of_the_run_under_way_and_says_why_not() {
     click(&mut harness, "Atlas");
     let on_atlas = |h: &Harness<'_, Lab>, [x, y]: [f64; 2]| {
         let paper = h.get_by_label_contains("World Apartment").rect();
-        let fit = crate::ui::canvas::fit(&crate::picture::world(&crate::worlds::World::apartment()), paper);
+        let fit = crate::ui::paint::canvas::fit(&crate::picture::world(&crate::worlds::World::apartment()), paper);
         let [x, y] = fit.screen_from_world(crate::geometry::Point2::new(x, y));
         pos2(x as f32, y as f32)
     };

@@ -49,7 +49,7 @@ fn rusty_is_driven_into_a_wall_and_stops_a_radius_short_of_it() {
 }
 
 #[test]
-fn a_car_does_not_slide_sideways_and_is_told_so() {
+fn a_car_that_only_steers_does_not_slide_sideways() {
     let mut harness = lab(WIDE);
     harness.key_press(Key::Num3);
     harness.run_steps(2);

@@ -85,7 +85,7 @@ fn the_atlas_puts_robots_refuses_and_edits() {
     front(&mut harness, "Atlas");
     let paper = harness.get_by_label_contains("World Apartment").rect();
     let atlas = |h: &Harness<'_, Lab>| h.state().app.world().resource::<Interface>().0.atlas.clone();
-    let fit = crate::ui::canvas::fit(&crate::picture::world(atlas(&harness).world()), paper);
+    let fit = crate::ui::paint::canvas::fit(&crate::picture::world(atlas(&harness).world()), paper);
     let at = |x: f64, y: f64| {
         let [x, y] = fit.screen_from_world(crate::geometry::Point2::new(x, y));
         pos2(x as f32, y as f32)

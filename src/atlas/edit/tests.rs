@@ -199,7 +199,7 @@ fn what_is_moved_stays_readable() {
 }
 
 #[test]
-fn comments_are_told_before_they_are_dropped() {
+fn comments_are_counted_before_they_are_dropped() {
     let text = World::workbench().to_ron();
     let noted = format!("// mine\n{text}");
     let mut editor = Editor::open("w.ron", &noted).unwrap();
@@ -211,7 +211,7 @@ fn comments_are_told_before_they_are_dropped() {
 }
 
 #[test]
-fn starts_in_contact_are_told() {
+fn starts_in_contact_are_reported() {
     let mut editor = Editor::new(World::lot());
     assert!(editor.warnings().is_empty());
     editor.apply(&Op::Move { name: name("the west pillar"), by: Vector2::new(1.0, -2.4) }).unwrap();

@@ -5,8 +5,8 @@ use serde_json::{Map, Value, json};
 
 use crate::cli::{Data, Failure, Outcome};
 use motion_lab::configuration::RobotKind;
+use motion_lab::manifest::{Formula, Widget};
 use motion_lab::picture::{Rgb, Role, Theme};
-use motion_lab::ui::{Formula, Widget};
 
 /// Print what a page about the lab needs, as JSON: each widget's words, the formulas of the configuration spaces in
 /// MathML, and the colours of the roles on light and on dark paper.

@@ -35,11 +35,22 @@ pub enum EdgeVerdict {
 
 /// Why a march ended without a verdict.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum UnresolvedReason {
     /// The clearance fell below what a proof can distinguish from contact, given rounding.
     Tolerance,
     /// The budget of steps was used up.
     Budget,
+}
+
+impl UnresolvedReason {
+    /// The reason's name, as the command `query` prints it.
+    pub const fn name(self) -> &'static str {
+        match self {
+            UnresolvedReason::Tolerance => "tolerance",
+            UnresolvedReason::Budget => "budget",
+        }
+    }
 }
 
 /// The options of a march.

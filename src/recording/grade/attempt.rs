@@ -14,6 +14,7 @@ const CREEP: f64 = 1e-6;
 
 /// The result of an attempt.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Verdict {
     /// At the goal within every limit.
     Passed,
@@ -38,6 +39,7 @@ impl fmt::Display for Verdict {
 
 /// The run of a submission at one seed, up to the tick that decides it.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Attempt {
     /// The seed.
     pub seed: Seed,

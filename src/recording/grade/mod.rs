@@ -40,6 +40,7 @@ use crate::run::{Divergence, Log, RobotInput, Script, ScriptError};
 
 /// The work handed in.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub enum Submission {
     /// A script.
     Script(Script),
@@ -70,6 +71,7 @@ pub enum Refusal {
 
 /// The result of a submission.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Grade {
     /// Why it was not graded; `None` when it was.
     pub refusal: Option<Refusal>,

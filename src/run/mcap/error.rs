@@ -104,6 +104,7 @@ pub enum LogError {
 
 /// What is left of a file that was cut or changed.
 #[derive(Debug)]
+#[non_exhaustive]
 pub struct DamagedLog {
     /// The sealed beginning, equal to the original's to the last bit; `None` when the part before the first tick is
     /// damaged.
@@ -118,6 +119,7 @@ pub struct DamagedLog {
 
 /// What probably happened to a damaged file: a best guess.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum DamageKind {
     /// The end is missing: recording was stopped, or the file was copied in part.
     Cut,

@@ -6,6 +6,7 @@ use crate::robots::EncoderCounts;
 
 /// A robot as a view shows it.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct RobotView {
     /// The id.
     pub id: u32,

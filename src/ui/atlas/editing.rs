@@ -131,7 +131,7 @@ mod tests {
     use crate::worlds::World;
 
     #[test]
-    fn a_thing_is_dragged_by_itself_and_by_its_handles_and_refused_changes_are_told() {
+    fn a_thing_is_dragged_by_itself_and_by_its_handles_and_refused_changes_are_reported() {
         let mut atlas = AtlasState::of(World::workbench());
         atlas.select(Some("the block"));
         atlas.begin_drag(Point2::new(0.75, 1.25), None);

@@ -4,4 +4,4 @@ mod editing;
 mod state;
 pub(crate) mod view;
 
-pub use state::{AtlasState, Mode};
+pub use state::AtlasState;

@@ -66,6 +66,7 @@ pub fn turned(like: &Footprint, coordinates: &[f64]) -> Footprint {
 mod tests {
     use super::*;
     use crate::configuration::{T2, Tn};
+    use crate::num::{cos, sin};
     use crate::robots::{Reach, Robot};
 
     const Q: [f64; 2] = [0.5, 1.0];
@@ -110,5 +111,37 @@ mod tests {
         assert_eq!(joints(&three).len(), 4);
         assert_eq!([0, 1].map(|i| handle_name(i, 2)), ["elbow", "tip"]);
         assert_eq!([0, 1, 2].map(|i| handle_name(i, 3)), ["joint 2", "joint 3", "tip"]);
+    }
+
+    #[test]
+    fn a_dragged_link_points_at_the_pointer_and_takes_along_what_hangs_on_it() {
+        let (base, lengths, q) = (Point2::new(0.5, -0.25), [0.6, 0.5, 0.4], [0.4, -1.1, 2.0]);
+        let arm = Reach { base, lengths, link_radius: 0.03 };
+        // the joints by the angles summed up
+        let points = |q: &[f64]| {
+            let (mut at, mut bearing, mut all) = (base, 0.0, vec![base]);
+            for (angle, length) in q.iter().zip(lengths) {
+                bearing += angle;
+                at += Vector2::new(cos(bearing), sin(bearing)) * length;
+                all.push(at);
+            }
+            all
+        };
+        let before = points(&q);
+        let shown = joints(&arm.footprint(&Tn(q)));
+        assert!(shown.iter().zip(&before).all(|(a, b)| (a - b).norm() < 1e-12), "{shown:?}");
+        for pointer in [Point2::new(2.0, 1.0), Point2::new(-1.0, 0.7), Point2::new(0.2, -3.0)] {
+            for link in 0..3 {
+                let to = dragged(&q, &shown, link, pointer);
+                let after = points(&to);
+                let (along, wanted) = (after[link + 1] - after[link], pointer - after[link]);
+                assert!((along.normalize() - wanted.normalize()).norm() < 1e-12, "link {link} to {pointer}");
+                assert!(
+                    after[..=link].iter().zip(&before).all(|(a, b)| (a - b).norm() < 1e-12),
+                    "what carries it stays"
+                );
+                assert!((0..3).all(|k| k == link || to[k] == q[k]), "no other joint turns: {to:?}");
+            }
+        }
     }
 }

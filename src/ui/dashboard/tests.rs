@@ -7,12 +7,13 @@ use bevy_egui::egui::{Context, Event, Key, Modifiers, PointerButton, RawInput, R
 use crate::atlas::Atlas;
 use crate::configuration::{Configuration, HitchCfg, RobotKind, T2};
 use crate::geometry::{Aabb, Point2, Pose2};
+use crate::manifest::ThemeChoice;
 use crate::picture::{Picture, Role, Theme};
 use crate::random::Seed;
 use crate::robots::{HITCH, RUSTY, Reach, Robot};
 use crate::run::RobotInput;
 use crate::simulation::{History, RobotCommand, RunCommand, TransportCommand};
-use crate::ui::{Cockpit, CockpitRobot, Command, Dashboard, ThemeChoice, UiState, lab};
+use crate::ui::{Cockpit, CockpitRobot, Command, Dashboard, UiState, lab};
 use crate::worlds::World;
 
 const WIDE: Vec2 = Vec2::new(1280.0, 800.0);
@@ -298,7 +299,7 @@ fn a_speed_is_chosen_from_its_list() {
 #[test]
 fn a_clicked_pane_is_driven_by_the_arrow_keys_until_esc() {
     let key = |key, pressed| Event::Key { key, physical_key: None, pressed, repeat: false, modifiers: Modifiers::NONE };
-    let told = |a, b| [Command::from(RobotCommand { robot: "Rusty".into(), input: RobotInput::Drive(a, b) })];
+    let drive = |a, b| [Command::from(RobotCommand { robot: "Rusty".into(), input: RobotInput::Drive(a, b) })];
     let model = model();
     let mut screen = Screen::new(WIDE, &model);
     let pos = pos2(150.0, 200.0); // on the first paper
@@ -311,11 +312,11 @@ fn a_clicked_pane_is_driven_by_the_arrow_keys_until_esc() {
     assert!(screen.texts().iter().any(|(text, _)| text == "arrows drive, Esc lets go"));
     let checkpoint = Command::from(TransportCommand::Checkpoint);
     let first = screen.frame(&model, vec![key(Key::ArrowUp, true)]);
-    assert_eq!((&first[0], &first[1..]), (&checkpoint, &told(128, 0)[..]), "what follows can be undone");
+    assert_eq!((&first[0], &first[1..]), (&checkpoint, &drive(128, 0)[..]), "what follows can be undone");
     assert_eq!(screen.frame(&model, vec![]), [], "held: nothing changes");
-    assert_eq!(screen.frame(&model, vec![key(Key::ArrowRight, true)]), told(128, -128));
-    assert_eq!(screen.frame(&model, vec![key(Key::ArrowUp, false)]), told(0, -128));
-    assert_eq!(screen.frame(&model, vec![key(Key::Escape, true)]), told(0, 0), "it does not drive on by itself");
+    assert_eq!(screen.frame(&model, vec![key(Key::ArrowRight, true)]), drive(128, -128));
+    assert_eq!(screen.frame(&model, vec![key(Key::ArrowUp, false)]), drive(0, -128));
+    assert_eq!(screen.frame(&model, vec![key(Key::Escape, true)]), drive(0, 0), "it does not drive on by itself");
     assert_eq!(screen.state.armed, None);
     screen.frame(&model, vec![key(Key::ArrowRight, false), key(Key::Escape, false)]);
     let step = [Command::from(TransportCommand::StepBack)];

@@ -45,11 +45,6 @@ impl Look {
         Look { theme: state.theme(), narrow, lit: state.lit, strength: f64::from(strength) }
     }
 
-    /// The look with this role lit, fully.
-    pub fn lighting(theme: Theme, role: Role) -> Self {
-        Look { theme, narrow: false, lit: Some(role), strength: 1.0 }
-    }
-
     /// The opacity of a role, from 0 to 1.
     fn left(&self, role: Role) -> f64 {
         let stays = matches!(role, Role::Paper | Role::Hairline) || self.lit.is_none_or(|lit| lit == role);
@@ -79,7 +74,7 @@ mod tests {
     #[test]
     fn one_role_is_lit_and_all_others_stand_back() {
         for theme in [Theme::Light, Theme::Dark] {
-            let look = Look::lighting(theme, Role::Robot);
+            let look = Look { theme, narrow: false, lit: Some(Role::Robot), strength: 1.0 };
             assert_eq!(look.colour(Role::Robot), theme.colour(Role::Robot));
             assert_eq!(look.colour(Role::Paper), theme.colour(Role::Paper));
             for role in [Role::Obstacle, Role::Goal, Role::Sensor, Role::Text, Role::Muted, Role::Focus] {

@@ -1,7 +1,7 @@
 //! Painting, for every widget: canvas, sheets, frame, buttons, colours and style.
 
 pub(crate) mod button;
-pub mod canvas;
+pub(crate) mod canvas;
 pub(crate) mod frame;
 pub(crate) mod look;
 pub(crate) mod sheet;

@@ -24,7 +24,7 @@ fn stored(light: f64) -> u8 {
 
 impl Theme {
     /// The colour of a role on the screen.
-    pub fn colour(self, role: Role) -> Color32 {
+    pub(crate) fn colour(self, role: Role) -> Color32 {
         let Rgb([r, g, b]) = self.palette().colour(role);
         Color32::from_rgb(r, g, b)
     }
@@ -33,7 +33,7 @@ impl Theme {
     ///
     /// The window's surface blends in linear light, SVG between the stored bytes. The colour wanted on paper is worked
     /// out first, then the premultiplied colour that blends to it, with the smallest alpha from `opacity` up that can.
-    pub fn tint(self, role: Role, opacity: f64) -> Color32 {
+    pub(crate) fn tint(self, role: Role, opacity: f64) -> Color32 {
         if opacity >= 1.0 {
             return self.colour(role);
         }
@@ -53,13 +53,13 @@ impl Theme {
     }
 
     /// The colour of the paper, with which Bevy's cameras clear the window.
-    pub fn clear_colour(self) -> bevy::color::Color {
+    pub(crate) fn clear_colour(self) -> bevy::color::Color {
         let Rgb([r, g, b]) = self.palette().colour(Role::Paper);
         bevy::color::Color::srgb_u8(r, g, b)
     }
 
     /// Type, spacing and colours of everything in the window. `touch` makes controls as large as a fingertip.
-    pub fn style(self, touch: bool) -> Style {
+    pub(crate) fn style(self, touch: bool) -> Style {
         let sans = |size| FontId::new(size, FontFamily::Proportional);
         let mono = |size| FontId::new(size, FontFamily::Monospace);
         let mut style = Style { visuals: self.visuals(), animation_time: 0.12, ..Style::default() };
@@ -80,7 +80,7 @@ impl Theme {
 
     /// The faces: the lab's own, each a fallback for signs that another lacks. Where egui has faces of its own (not on
     /// the web), they come last.
-    pub fn fonts() -> FontDefinitions {
+    pub(crate) fn fonts() -> FontDefinitions {
         let mut fonts = FontDefinitions::default();
         for (name, letters) in FACES {
             fonts.font_data.insert(name.into(), Arc::new(FontData::from_static(letters)));

@@ -43,7 +43,7 @@ export const newBrowser = (more = []) => chromium.launch({ executablePath: proce
 /** A page on the lab, once its first frame is drawn. */
 export class Lab {
   faults = [];
-  told = { tree: [], states: 0 };
+  received = { tree: [], states: 0 };
 
   static async open(path = "/", { options = {}, wait = true, before = async () => {}, from = browser } = {}) {
     const lab = new Lab();
@@ -55,11 +55,11 @@ export class Lab {
     page.on("request", (r) => /^(http:\/\/localhost:|data:|blob:|file:)/.test(r.url()) || lab.faults.push(`request: ${r.url()}`));
     page.on("response", (r) => r.status() >= 400 && lab.faults.push(`${r.status()}: ${r.url()}`));
     await page.addInitScript(() => {
-      window.told = { tree: [], state: null, kinds: [] };
+      window.received = { tree: [], state: null, kinds: [] };
       window.addEventListener("motionlab", ({ detail }) => {
-        window.told.kinds.push(detail.kind);
-        if (detail.kind === "tree") window.told.tree = detail.widgets;
-        if (detail.kind === "state") window.told.state = detail;
+        window.received.kinds.push(detail.kind);
+        if (detail.kind === "tree") window.received.tree = detail.widgets;
+        if (detail.kind === "state") window.received.state = detail;
       });
       window.violations = [];
       document.addEventListener("securitypolicyviolation", (e) => window.violations.push(`${e.violatedDirective} ${e.blockedURI}`));
@@ -67,13 +67,13 @@ export class Lab {
     await before(page);
     await page.goto(path.startsWith("http") || path.startsWith("file:") ? path : origin() + path);
     if (wait) {
-      await page.waitForFunction(() => window.told.kinds.includes("ready") && window.told.tree.length > 0 && window.told.state, null, { timeout: 60000 });
+      await page.waitForFunction(() => window.received.kinds.includes("ready") && window.received.tree.length > 0 && window.received.state, null, { timeout: 60000 });
     }
     return lab;
   }
 
-  state = () => this.page.evaluate(() => window.told.state);
-  tree = () => this.page.evaluate(() => window.told.tree);
+  state = () => this.page.evaluate(() => window.received.state);
+  tree = () => this.page.evaluate(() => window.received.tree);
   send = (message) => this.page.evaluate((m) => window.motionLab.send(m), message);
 
   /** Waits until the lab's state is as wanted. */

@@ -306,7 +306,7 @@ lab("the accessibility tree tells what the canvas shows", "/?tick=200", async (l
   for (const name of ["Play", "Step", "Reset", "Re-roll", "Copy link", "Save run", "Drive", "Atlas"]) assert.ok(buttons.includes(name), `${name} among ${buttons}`);
   assert.ok(named("textbox").includes("seed"), named("textbox").join());
   assert.ok(named("spinbutton").includes("Reach: theta1"), named("spinbutton").join());
-  assert.ok(nodes.some((n) => /Pose2 \{ x: /.test(n.name?.value ?? "")), "the readouts are told");
+  assert.ok(nodes.some((n) => /Pose2 \{ x: /.test(n.name?.value ?? "")), "the readouts are named");
   assert.ok(nodes.some((n) => n.role?.value === "status"), "a live region");
   assert.ok(nodes.some((n) => n.role?.value === "alert"), "and one for what went wrong");
 });
@@ -426,7 +426,7 @@ for (const [name, fail] of [
     writeFileSync(log, readFileSync(path));
     assert.ok(new RegExp(`${frontier} of ${frontier}`).test(native("verify", log)));
     await lab.page.click("#overlay-restart");
-    await lab.page.waitForFunction(() => window.told.kinds.includes("ready"), null, { timeout: 60000 });
+    await lab.page.waitForFunction(() => window.received.kinds.includes("ready"), null, { timeout: 60000 });
     const again = await lab.until((s) => s.notice && s.notice.text.startsWith("the run before"));
     assert.equal(again.frontier, frontier);
     await lab.close();

@@ -4,9 +4,8 @@ use motion_lab::anatomy::{Anatomy, Tab, WorldSource};
 use motion_lab::atlas::{Atlas, GridLayer, Refusal};
 use motion_lab::capture::{self, AtlasSheet, Captured, Paper};
 use motion_lab::cspace::{CellMap, Slice};
-use motion_lab::picture::Item;
+use motion_lab::picture::{Item, readout};
 use motion_lab::robots::Robot;
-use motion_lab::ui::readout;
 use motion_lab::worlds::World;
 
 use super::{SceneArgs, TabName};
@@ -50,9 +49,9 @@ pub fn atlas(args: &SceneArgs, paper: &Paper) -> Result<Captured, Failure> {
         layer.map_err(|error| Failure::usage(error, "Give a coarser --grid, in metres."))
     };
     let grids: Vec<Option<GridLayer>> = atlases.iter().map(grid).collect::<Result<_, _>>()?;
-    let mut told = Vec::new();
+    let mut notes = Vec::new();
     for atlas in &mut atlases {
-        told.push(match &args.teleport {
+        notes.push(match &args.teleport {
             Some(Numbers(to)) => teleport(atlas, to)?,
             None => (Vec::new(), Vec::new()),
         });
@@ -60,7 +59,7 @@ pub fn atlas(args: &SceneArgs, paper: &Paper) -> Result<Captured, Failure> {
     let sheet =
         |((atlas, grid), (over, readout))| AtlasSheet { atlas, grid, over, readout, names: args.teleport.is_none() };
     let sheets: Vec<AtlasSheet<'_>> =
-        atlases.iter().zip(grids.iter().map(Option::as_ref)).zip(told).map(sheet).collect();
+        atlases.iter().zip(grids.iter().map(Option::as_ref)).zip(notes).map(sheet).collect();
     Ok(capture::atlas(&sheets, paper.width_px()))
 }
 

@@ -1,6 +1,6 @@
 //! Answers as JSON.
 
-use motion_lab::collision::{Checker, Collision, EdgeVerdict, ObstacleId, Scene, UnresolvedReason, Witness};
+use motion_lab::collision::{Checker, Collision, EdgeVerdict, ObstacleId, Scene, Witness};
 use motion_lab::geometry::{Point2, Pose2};
 use motion_lab::robots::Robot;
 use motion_lab::sensors::RangeSensor;
@@ -96,14 +96,9 @@ pub fn edge(scene: &Scene, verdict: EdgeVerdict) -> EdgeAnswer {
             part,
             obstacle: name(scene, obstacle),
         },
-        EdgeVerdict::Unresolved { free_until, gap, reason } => EdgeAnswer::Unresolved {
-            free_until: JsonNumber(free_until),
-            gap: JsonNumber(gap),
-            reason: match reason {
-                UnresolvedReason::Tolerance => "tolerance",
-                UnresolvedReason::Budget => "budget",
-            },
-        },
+        EdgeVerdict::Unresolved { free_until, gap, reason } => {
+            EdgeAnswer::Unresolved { free_until: JsonNumber(free_until), gap: JsonNumber(gap), reason: reason.name() }
+        }
     }
 }
 

@@ -23,8 +23,8 @@ pub fn parse_line(text: &str) -> Result<Asked, String> {
     };
     read.map_err(|error| {
         // serde_json counts lines too; here there is only the one
-        let told = error.to_string();
-        let reason = told.split(" at line ").next().unwrap_or(&told);
+        let message = error.to_string();
+        let reason = message.split(" at line ").next().unwrap_or(&message);
         format!("column {}: {reason}; expected [numbers] or {{\"q\": [numbers], \"to\": [numbers]}}", error.column())
     })
 }

@@ -165,10 +165,10 @@ fn contacts(world: &World) -> Result<Vec<String>, Failure> {
     let config = TourConfig { worlds: vec![world.clone()], ticks: 0, sensor: None };
     let scene = Scene::of_world(world);
     let run = begin(Seed(0), &config, &Script::empty())?;
-    let told = run.view().into_iter().filter_map(|robot| {
+    let sentences = run.view().into_iter().filter_map(|robot| {
         let touched = scene.witness(&robot.footprint).filter(|w| w.dist == 0.0)?;
         let obstacle = scene.obstacle_name(touched.obstacle).unwrap_or("an obstacle");
         Some(format!("{} starts in contact with {obstacle}: give it another start", robot.name))
     });
-    Ok(told.collect())
+    Ok(sentences.collect())
 }

@@ -8,10 +8,10 @@
 //! | `/viewer/scan/NAME` | `foxglove.LaserScan` | each tick of a robot with a range sensor |
 //! | `/viewer/log` | `foxglove.Log` | contacts, takeovers, refusals |
 
+mod events;
 mod frames;
 mod message;
 mod scene;
-mod told;
 mod writer;
 
 use std::collections::BTreeSet;
@@ -79,8 +79,8 @@ impl Viewed<'_> {
         let (tick, worlds) = (frame.tick, &self.log.config.worlds);
         if tick == 0 {
             out.message("/viewer/worlds", "foxglove.SceneUpdate", 0, &scene::worlds(worlds))?;
-            let told = format!("seed {}, {} ticks, digest {}", self.log.seed, self.log.frames.len(), self.log.digest());
-            out.message("/viewer/log", "foxglove.Log", 0, &told::message_of(0, level::INFO, "motion-lab", told))?;
+            let run = format!("seed {}, {} ticks, digest {}", self.log.seed, self.log.frames.len(), self.log.digest());
+            out.message("/viewer/log", "foxglove.Log", 0, &events::message_of(0, level::INFO, "motion-lab", run))?;
         }
         let world_of = |robot: &RobotView| -> Option<&World> { worlds.get(robot.world as usize) };
         let mut transforms = frames::worlds(tick, worlds);
@@ -96,8 +96,8 @@ impl Viewed<'_> {
                 out.message(&topic, "foxglove.LaserScan", tick, &laser_scan(tick, &robot.name, &scan.ranges))?;
             }
         }
-        for told in told::news(tick, &self.before, &robots) {
-            out.message("/viewer/log", "foxglove.Log", tick, &told)?;
+        for message in events::news(tick, &self.before, &robots) {
+            out.message("/viewer/log", "foxglove.Log", tick, &message)?;
         }
         self.before = robots;
         Ok(())

@@ -6,9 +6,9 @@ use super::message::{Log, Timestamp, level};
 
 /// The messages about a tick. `before` are the robots after the previous tick, `now` those after this one.
 pub fn news(tick: u64, before: &[RobotView], now: &[RobotView]) -> Vec<Log> {
-    let mut told = Vec::new();
+    let mut messages = Vec::new();
     for (before, now) in before.iter().zip(now) {
-        let mut tell = |level, message| told.push(message_of(tick, level, &now.name, message));
+        let mut tell = |level, message| messages.push(message_of(tick, level, &now.name, message));
         if now.contacts > before.contacts {
             tell(level::WARNING, format!("contact {}", now.contacts));
         }
@@ -21,7 +21,7 @@ pub fn news(tick: u64, before: &[RobotView], now: &[RobotView]) -> Vec<Log> {
             _ => {}
         }
     }
-    told
+    messages
 }
 
 /// A message about `name`.
