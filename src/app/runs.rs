@@ -26,7 +26,7 @@ pub struct ShownRun {
 pub fn shown_run(world: &World, ticks: u64) -> ShownRun {
     let config = TourConfig { ticks, ..TourConfig::clone(&world.resource::<RunConfig>().0) };
     let mut script: Script = world.resource::<PendingInput>().script().clone();
-    script.events.retain(|e| e.tick <= ticks);
+    script.truncate_after(ticks);
     ShownRun { seed: world.resource::<Transport>().seed, config, script }
 }
 

@@ -1,14 +1,17 @@
 //! `Recorder`, a run without a window, tick by tick.
 
+use std::sync::Arc;
+
 use bevy::app::App;
 use bevy::ecs::world::World;
 
 use crate::run::{Frame, Script};
 use crate::simulation::{
-    LatestFrame, PendingInput, RestoreError, RobotView, RunInput, SimulationPlugin, SpawnError, Transport, restore,
-    seek, start_run, step, view,
+    LatestFrame, PendingInput, RestoreError, RobotView, Roster, RunInput, SimulationPlugin, SpawnError, StandingWorld,
+    Transport, restore, seek, start_run, step, view,
 };
 use crate::tour::TourConfig;
+use crate::worlds::World as WorldModel;
 
 /// Why a run cannot be recorded or replayed.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -104,6 +107,13 @@ impl Recorder {
     /// The script so far.
     pub fn script(&self) -> &Script {
         self.world.resource::<PendingInput>().script()
+    }
+
+    /// The run's worlds as they stand, in order: obstacles where they are now, doors open or closed. A world that has not
+    /// changed from one tick to the next is the same `Arc`.
+    pub fn standing_worlds(&self) -> Vec<Arc<WorldModel>> {
+        let worlds = self.world.get_resource::<Roster>().map_or(&[][..], Roster::worlds);
+        worlds.iter().filter_map(|&w| Some(Arc::clone(&self.world.get::<StandingWorld>(w)?.0))).collect()
     }
 
     /// The Bevy world that the run lives in.

@@ -66,6 +66,18 @@ impl Script {
         Script { version: Script::version_of(&changes), events, changes }
     }
 
+    /// Whether the script has neither events nor changes.
+    pub fn is_empty(&self) -> bool {
+        self.events.is_empty() && self.changes.is_empty()
+    }
+
+    /// Forgets the events and the changes after `tick`.
+    pub fn truncate_after(&mut self, tick: u64) {
+        self.events.retain(|e| e.tick <= tick);
+        self.changes.retain(|c| c.tick <= tick);
+        self.version = Script::version_of(&self.changes);
+    }
+
     /// The version that a script with these changes has: [`SCRIPT_VERSION`] without any.
     pub const fn version_of(changes: &[WorldEvent]) -> u32 {
         if changes.is_empty() { SCRIPT_VERSION } else { SCRIPT_VERSION_WITH_CHANGES }

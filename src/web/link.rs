@@ -207,7 +207,7 @@ impl Link {
         if let Some(theme) = self.theme {
             field("theme", &theme.name().to_lowercase());
         }
-        if !self.script.events.is_empty() {
+        if !self.script.is_empty() {
             field("script", &self.script.to_line());
         }
         if self.tick > 0 {

@@ -46,7 +46,7 @@ impl RunParts {
         let parse = |text: &String| World::parse("the world", text);
         let worlds = self.worlds.iter().map(parse).collect::<Result<_, _>>()?;
         let mut script = Script::parse("the script", &self.script)?;
-        script.events.retain(|e| e.tick <= self.ticks);
+        script.truncate_after(self.ticks);
         let sensor = self.sensor.map(|(n_rays, max_range)| RangeSensor { n_rays, max_range });
         let config = TourConfig { worlds, ticks: self.ticks, sensor };
         Ok(Run::record(config, (Seed(seed), script))?)

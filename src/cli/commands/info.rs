@@ -27,6 +27,9 @@ struct Contents<'a> {
     run: RunSummary<'a>,
     sensor: Option<Sensor>,
     script_events: usize,
+    /// Changes of worlds; left out where there are none.
+    #[serde(skip_serializing_if = "is_zero")]
+    script_changes: usize,
     program: &'a str,
     damage: Option<&'a str>,
 }
@@ -35,6 +38,10 @@ struct Contents<'a> {
 struct Sensor {
     rays: u32,
     range: JsonNumber,
+}
+
+fn is_zero(count: &usize) -> bool {
+    *count == 0
 }
 
 impl Info {
@@ -47,6 +54,7 @@ impl Info {
             run: RunSummary::new(log.seed, &log.config, last, log.digest()),
             sensor: log.config.sensor.map(|s| Sensor { rays: s.n_rays, range: JsonNumber(s.max_range) }),
             script_events: log.script.events.len(),
+            script_changes: log.script.changes.len(),
             program: &read.program,
             damage: damage.as_deref(),
         };
@@ -67,7 +75,7 @@ impl Info {
 
 impl Contents<'_> {
     fn print(&self, data: &mut Data) -> Result<(), Failure> {
-        let Contents { run, sensor, script_events, program, .. } = self;
+        let Contents { run, sensor, script_events, script_changes, program, .. } = self;
         data.line(format!("seed     {}", run.seed))?;
         data.line(format!("ticks    {} of {} ({:.2} s)", run.recorded, run.ticks, DT * run.recorded as f64))?;
         for world in &run.worlds {
@@ -77,7 +85,8 @@ impl Contents<'_> {
             Some(Sensor { rays, range }) => data.line(format!("sensor   {rays} rays, {} m", range.0))?,
             None => data.line("sensor   none")?,
         }
-        data.line(format!("script   {script_events} events"))?;
+        let changes = if *script_changes > 0 { format!(", {script_changes} changes of worlds") } else { String::new() };
+        data.line(format!("script   {script_events} events{changes}"))?;
         data.line(format!("program  {program}"))?;
         data.line(format!("digest   {}", run.digest))?;
         run.print_robots(data)

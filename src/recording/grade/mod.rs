@@ -55,6 +55,9 @@ pub enum Refusal {
     /// The script is invalid, or names a robot that the world does not have.
     #[error(transparent)]
     Script(#[from] ScriptError),
+    /// The script changes a world, which assignments do not allow.
+    #[error("changes[0]: a change of a world is not allowed")]
+    Change,
     /// The script contains a teleport, which assignments do not allow.
     #[error("events[{0}]: a teleport is not allowed")]
     Teleport(usize),
@@ -119,6 +122,9 @@ impl Assignment {
         script.check()?;
         let names: Vec<&str> = self.world().robots.iter().map(|robot| robot.name.as_str()).collect();
         script.check_robots(&names)?;
+        if !script.changes.is_empty() {
+            return Err(Refusal::Change);
+        }
         match script.events.iter().position(|event| matches!(event.input, RobotInput::Teleport(_))) {
             Some(event) => Err(Refusal::Teleport(event)),
             None => Ok(()),

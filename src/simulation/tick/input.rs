@@ -63,9 +63,7 @@ impl PendingInput {
 
     /// Forgets every event and every change after `tick`.
     pub fn truncate_after(&mut self, tick: u64) {
-        self.script.events.retain(|e| e.tick <= tick);
-        self.script.changes.retain(|c| c.tick <= tick);
-        self.script.version = Script::version_of(&self.script.changes);
+        self.script.truncate_after(tick);
         self.captured = None;
     }
 

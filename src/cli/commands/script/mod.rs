@@ -7,7 +7,7 @@ use std::io::Read;
 use std::path::{Path, PathBuf};
 
 use clap::{Args, Subcommand};
-use motion_lab::run::Script;
+use motion_lab::run::{Script, ScriptError};
 use serde::Serialize;
 
 use crate::cli::support::input::{for_each_file, open, read_text, unreadable};
@@ -65,11 +65,18 @@ enum ScriptCommand {
 struct Summary<'a> {
     source: String,
     events: usize,
-    /// The ticks of the first and the last event.
+    /// Changes of worlds; left out where there are none.
+    #[serde(skip_serializing_if = "is_zero")]
+    changes: usize,
+    /// The ticks of the first and the last event or change.
     first: Option<u64>,
     last: Option<u64>,
     /// The robots in the order of their first events.
     robots: Vec<&'a str>,
+}
+
+fn is_zero(count: &usize) -> bool {
+    *count == 0
 }
 
 impl ScriptArgs {
@@ -128,13 +135,18 @@ fn check(files: &[PathBuf], worlds: &[String], json: bool, data: &mut Data) -> R
     let names: Vec<&str> = worlds.iter().flat_map(|w| &w.robots).map(|r| r.name.as_str()).collect();
     for_each_file(files, data, |file, data| {
         let script = read_script(file)?;
-        match script.check_robots(&names) {
-            Err(error) if !worlds.is_empty() => Err(Failure::input(
-                format!("{}: {error}", file.display()),
-                format!("The robots of these worlds are {}.", names.join(", ")),
-            )),
-            _ => summarise(file, &script, json, data),
+        if worlds.is_empty() {
+            return summarise(file, &script, json, data);
         }
+        let refused = |error: ScriptError| format!("{}: {error}", file.display());
+        script.check_robots(&names).map_err(|error| {
+            Failure::input(refused(error), format!("The robots of these worlds are {}.", names.join(", ")))
+        })?;
+        script.check_worlds(&worlds).map_err(|error| {
+            let named: Vec<&str> = worlds.iter().map(|w| w.name.as_str()).collect();
+            Failure::input(refused(error), format!("The worlds are {}.", named.join(", ")))
+        })?;
+        summarise(file, &script, json, data)
     })
 }
 
@@ -142,20 +154,24 @@ fn summarise(file: &Path, script: &Script, json: bool, data: &mut Data) -> Resul
     // in the order in which they come
     let mut seen = BTreeSet::new();
     let robots: Vec<&str> = script.events.iter().map(|e| e.robot.as_str()).filter(|name| seen.insert(*name)).collect();
+    let ticks = || script.events.iter().map(|e| e.tick).chain(script.changes.iter().map(|c| c.tick));
     let summary = Summary {
         source: file.display().to_string(),
         events: script.events.len(),
-        first: script.events.first().map(|e| e.tick),
-        last: script.events.last().map(|e| e.tick),
+        changes: script.changes.len(),
+        first: ticks().min(),
+        last: ticks().max(),
         robots,
     };
     if json {
         return data.json(&summary);
     }
-    let Summary { source, events, robots, .. } = &summary;
+    let Summary { source, events, changes, robots, .. } = &summary;
+    let changes = if *changes > 0 { format!(", {changes} changes of worlds") } else { String::new() };
     match (summary.first, summary.last) {
         (Some(first), Some(last)) => {
-            data.line(format!("{source}: {events} events, ticks {first} to {last}, robots: {}", robots.join(", ")))
+            let robots = robots.join(", ");
+            data.line(format!("{source}: {events} events{changes}, ticks {first} to {last}, robots: {robots}"))
         }
         _ => data.line(format!("{source}: no events")),
     }

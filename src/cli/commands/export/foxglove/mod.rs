@@ -3,7 +3,7 @@
 //! | topic | schema | when |
 //! |---|---|---|
 //! | `/viewer/transforms` | `foxglove.FrameTransforms` | each tick: worlds in `lab`, robots and parts in their worlds |
-//! | `/viewer/worlds` | `foxglove.SceneUpdate` | once |
+//! | `/viewer/worlds` | `foxglove.SceneUpdate` | at the start, and a world again at each change of its obstacles or doors |
 //! | `/viewer/robots` | `foxglove.SceneUpdate` | each tick, all of it, so that a viewer may begin anywhere |
 //! | `/viewer/scan/NAME` | `foxglove.LaserScan` | each tick of a robot with a range sensor |
 //! | `/viewer/log` | `foxglove.Log` | contacts, takeovers, refusals |
@@ -17,9 +17,11 @@ mod writer;
 use std::collections::BTreeSet;
 use std::f64::consts::TAU;
 use std::path::Path;
+use std::sync::Arc;
 
 use mcap::read::{LinearReader, Options};
 use mcap::records::Record;
+use motion_lab::recording::Recorder;
 use motion_lab::run::{Frame, Log};
 use motion_lab::simulation::RobotView;
 use motion_lab::worlds::World;
@@ -37,10 +39,10 @@ pub fn write(file: &Path, log: &Log, output: &Path) -> Result<(), Failure> {
     let mut original =
         Original { records: LinearReader::new_with_options(&bytes, Options::IgnoreEndMagic.into()).ok() };
     let mut out = ViewerFile::create(output)?;
-    let mut run = Viewed { log, before: Vec::new(), parts: BTreeSet::new() };
+    let mut run = Viewed { log, before: Vec::new(), parts: BTreeSet::new(), shown: Vec::new() };
     show(file, log, |recorder, frame| {
         original.copy_tick(frame.tick, &mut out)?;
-        run.tick(frame, recorder.view(), &mut out)
+        run.tick(frame, recorder, &mut out)
     })?;
     out.finish()
 }
@@ -72,13 +74,19 @@ struct Viewed<'a> {
     before: Vec<RobotView>,
     /// The parts shown so far.
     parts: BTreeSet<String>,
+    /// The worlds as they were shown last.
+    shown: Vec<Arc<World>>,
 }
 
 impl Viewed<'_> {
-    fn tick(&mut self, frame: &Frame, robots: Vec<RobotView>, out: &mut ViewerFile) -> Result<(), Failure> {
-        let (tick, worlds) = (frame.tick, &self.log.config.worlds);
+    fn tick(&mut self, frame: &Frame, recorder: &Recorder, out: &mut ViewerFile) -> Result<(), Failure> {
+        let (tick, worlds, robots) = (frame.tick, &self.log.config.worlds, recorder.view());
+        let standing = recorder.standing_worlds();
+        if let Some(update) = scene::changed_worlds(tick, &self.shown, &standing) {
+            out.message("/viewer/worlds", "foxglove.SceneUpdate", tick, &update)?;
+        }
+        self.shown = standing;
         if tick == 0 {
-            out.message("/viewer/worlds", "foxglove.SceneUpdate", 0, &scene::worlds(worlds))?;
             let run = format!("seed {}, {} ticks, digest {}", self.log.seed, self.log.frames.len(), self.log.digest());
             out.message("/viewer/log", "foxglove.Log", 0, &events::message_of(0, level::INFO, "motion-lab", run))?;
         }

@@ -1,6 +1,7 @@
 //! Worlds and robots as scene entities: flat areas with an edge, in the colours of their roles.
 
 use std::collections::BTreeSet;
+use std::sync::Arc;
 
 use motion_lab::geometry::{Point2, Pose2};
 use motion_lab::picture::{Role, Theme, polygon_of};
@@ -18,13 +19,30 @@ const ABOVE: f64 = 0.01;
 /// The width of a line on the screen, pixels.
 const LINE_PX: f64 = 2.0;
 
-/// All worlds' marks, obstacles and walls: an entity for each.
-pub fn worlds(worlds: &[World]) -> SceneUpdate {
+/// The marks, obstacles, walls and closed doors of those worlds that are not as they were shown: an entity for each. What
+/// is gone is deleted. `None` where nothing has changed.
+pub fn changed_worlds(tick: u64, shown: &[Arc<World>], now: &[Arc<World>]) -> Option<SceneUpdate> {
+    let is_shown = |i: usize, world: &Arc<World>| shown.get(i).is_some_and(|old| Arc::ptr_eq(old, world));
+    let changed: Vec<usize> = (0..now.len()).filter(|&i| !is_shown(i, &now[i])).collect();
+    if changed.is_empty() {
+        return None;
+    }
+    let mut update = worlds(tick, changed.iter().map(|&i| &*now[i]));
+    let there: BTreeSet<&str> = update.entities.iter().map(|e| e.id.as_str()).collect();
+    let before = worlds(tick, changed.iter().filter_map(|&i| Some(&**shown.get(i)?)));
+    let timestamp = Some(Timestamp::of_tick(tick));
+    let gone = before.entities.into_iter().filter(|e| !there.contains(e.id.as_str()));
+    let deletions = gone.map(|e| SceneEntityDeletion { timestamp, id: e.id }).collect();
+    update.deletions = deletions;
+    Some(update)
+}
+
+fn worlds<'a>(tick: u64, worlds: impl Iterator<Item = &'a World>) -> SceneUpdate {
     let mut entities = Vec::new();
     for world in worlds {
         let entity = |kind: &str, name: &str| {
             let id = format!("{}/{kind}/{name}", frames::of_world(world));
-            SceneEntity { id, frame_id: frames::of_world(world), ..empty(0) }
+            SceneEntity { id, frame_id: frames::of_world(world), ..empty(tick) }
         };
         for mark in &world.marks {
             let strip = edge(&mark.points, line::STRIP, Role::Muted, 0.0);
