@@ -34,6 +34,7 @@ pub enum SessionError {
     #[error("there is no {0}")]
     NoRobot(String),
     /// A file that is too large to open.
+    #[cfg(feature = "window")]
     #[error("{found} bytes: the window opens at most {most}")]
     TooLarge {
         /// Its size, bytes.
