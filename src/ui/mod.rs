@@ -26,7 +26,9 @@ pub(crate) use dashboard::values::{Cockpit, CockpitRobot, Dashboard};
 pub(crate) use lab::lab;
 pub(crate) use paint::look::Look;
 pub(crate) use settings::Settings;
-pub(crate) use state::{Notice, UiState, Working};
+#[cfg(feature = "window")]
+pub(crate) use state::Working;
+pub(crate) use state::{Notice, UiState};
 
 use crate::simulation::{RobotCommand, RunCommand, TransportCommand};
 

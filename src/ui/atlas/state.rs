@@ -130,6 +130,7 @@ impl AtlasState {
     }
 
     /// Remembers the file that the world was read from.
+    #[cfg(feature = "window")]
     pub fn stands_in(&mut self, path: &Path) {
         self.path = Some(path.to_owned());
     }
