@@ -217,6 +217,39 @@ fn the_viewers_file_has_the_logs_own_messages_and_more() {
     assert!(error.contains("viewer.mcap: this is an export") && error.contains("exported from"), "{error}");
 }
 
+/// The run of the sample: door A closes at tick 2 and opens at 9, the bed goes at 3 and comes back at 7, a cone comes
+/// at 5.
+#[test]
+fn viewers_see_worlds_change() {
+    let folder = tempfile::tempdir().unwrap();
+    let sample = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/samples/format_2.mcap");
+    run_in(folder.path(), &["export", sample, "--format", "foxglove", "-o", "viewer.mcap"]).done();
+    let bytes = fs::read(folder.path().join("viewer.mcap")).unwrap();
+    let messages = mcap::MessageStream::new(&bytes).unwrap().map(Result::unwrap);
+    let worlds: Vec<(u64, String)> = messages
+        .filter(|message| message.channel.topic == "/viewer/worlds")
+        .map(|message| (message.log_time / 50_000_000, String::from_utf8_lossy(&message.data).into_owned()))
+        .collect();
+    assert_eq!(worlds.iter().map(|(tick, _)| *tick).collect::<Vec<_>>(), [0, 2, 3, 5, 7, 9]);
+    let count = |i: usize, name: &str| worlds[i].1.matches(name).count();
+    // a deletion names a thing once, as an entity does
+    let named = |name| (0..6).map(|i| count(i, name)).collect::<Vec<_>>();
+    assert_eq!(named("obstacle/door A"), [0, 1, 1, 0, 1, 1], "closed, standing, (the Lot), standing, deleted");
+    assert_eq!(named("obstacle/A's bed"), [1, 1, 1, 0, 1, 1], "there, there, deleted, (the Lot), there");
+    assert_eq!(named("obstacle/a cone"), [0, 0, 0, 1, 0, 0]);
+    let info = run(&["info", sample]).done();
+    assert!(info.contains("3 events, 5 changes of worlds"), "{info}");
+    let script = run_in(folder.path(), &["script", "print", sample]).done();
+    fs::write(folder.path().join("s.ron"), &script).unwrap();
+    let check = |world: &str| run_in(folder.path(), &["script", "check", "s.ron", "--world", world, "--world", "lot"]);
+    let workbench = check("workbench").failed(3);
+    assert!(workbench.contains("there is no robot \"Rusty\""), "{workbench}");
+    fs::write(folder.path().join("s.ron"), script.replace("Close(\"door A\")", "Close(\"door X\")")).unwrap();
+    let all = ["script", "check", "s.ron", "--world", "apartment", "--world", "workbench", "--world", "lot"];
+    let refused = run_in(folder.path(), &all).failed(3);
+    assert!(refused.contains("changes[0]: there is no door \"door X\" in world \"Apartment\""), "{refused}");
+}
+
 #[test]
 fn of_a_damaged_log_the_sealed_beginning_is_exported_and_it_is_5() {
     let folder = tempfile::tempdir().unwrap();

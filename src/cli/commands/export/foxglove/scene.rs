@@ -19,8 +19,8 @@ const ABOVE: f64 = 0.01;
 /// The width of a line on the screen, pixels.
 const LINE_PX: f64 = 2.0;
 
-/// The marks, obstacles, walls and closed doors of those worlds that are not as they were shown: an entity for each. What
-/// is gone is deleted. `None` where nothing has changed.
+/// The marks, obstacles, walls and closed doors of those worlds that are not as they were shown: an entity for each.
+/// What is gone is deleted. `None` where nothing has changed.
 pub fn changed_worlds(tick: u64, shown: &[Arc<World>], now: &[Arc<World>]) -> Option<SceneUpdate> {
     let is_shown = |i: usize, world: &Arc<World>| shown.get(i).is_some_and(|old| Arc::ptr_eq(old, world));
     let changed: Vec<usize> = (0..now.len()).filter(|&i| !is_shown(i, &now[i])).collect();
