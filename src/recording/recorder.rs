@@ -109,8 +109,8 @@ impl Recorder {
         self.world.resource::<PendingInput>().script()
     }
 
-    /// The run's worlds as they stand, in order: obstacles where they are now, doors open or closed. A world that has not
-    /// changed from one tick to the next is the same `Arc`.
+    /// The run's worlds as they stand, in order: obstacles where they are now, doors open or closed. A world that has
+    /// not changed from one tick to the next is the same `Arc`.
     pub fn standing_worlds(&self) -> Vec<Arc<WorldModel>> {
         let worlds = self.world.get_resource::<Roster>().map_or(&[][..], Roster::worlds);
         worlds.iter().filter_map(|&w| Some(Arc::clone(&self.world.get::<StandingWorld>(w)?.0))).collect()

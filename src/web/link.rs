@@ -241,7 +241,7 @@ fn number(fields: &mut BTreeMap<&str, String>, field: &'static str, most: u64) -
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::run::{Event, Quantized, RobotInput};
+    use crate::run::{Event, Quantized, RobotInput, WorldChange, WorldEvent};
 
     fn driven() -> Script {
         let event = |tick, robot: &str, input| Event { tick, robot: robot.into(), input };
@@ -272,6 +272,14 @@ mod tests {
         assert_eq!(Link::parse("").unwrap(), Link::default());
         assert_eq!(Link::parse(&Link::default().query().unwrap()).unwrap(), Link::default());
         assert_eq!(link.config().worlds.iter().map(|w| w.name.as_str()).collect::<Vec<_>>(), ["Lot", "Workbench"]);
+    }
+
+    #[test]
+    fn a_link_holds_the_doors_that_were_closed() {
+        let change = WorldChange::Close("door A".into());
+        let script = Script::new(vec![], vec![WorldEvent { tick: 3, world: "Apartment".into(), change }]);
+        let link = Link { script: script.clone(), tick: 9, ..Link::default() };
+        assert_eq!(Link::parse(&link.query().unwrap()).unwrap().script, script);
     }
 
     #[test]

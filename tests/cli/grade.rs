@@ -51,6 +51,12 @@ fn scripts_pass_miss_touch_and_turn_round() {
             "dither.ron",
             script(&[(1, "Drive(-64, 0)"), (11, "Drive(64, 0)"), (21, "Drive(-64, 0)"), (31, "Drive(64, 0)")]),
         ),
+        (
+            "demolition.ron",
+            script(&[(1, "Drive(128, 0)")])
+                .replace("version: 1", "version: 2")
+                .replace("])", "], changes: [(tick: 1, world: \"Lot\", change: Remove(\"the west pillar\"))])"),
+        ),
         ("jump.ron", script(&[(1, "Drive(0, 0)"), (2, "Teleport([7864320, 2621440, 0])")])),
         ("stranger.ron", script(&[(1, "Release")]).replace("Hitch", "Rusty")),
         ("broken.ron", "Script(version: 1,\nevents: [(tick: 0)])".into()),
@@ -86,6 +92,12 @@ fn scripts_pass_miss_touch_and_turn_round() {
     }
     assert_eq!(rows[6]["passed"], true);
 
+    let cheat = graded(folder.path(), &["demolition.ron"]);
+    assert!(
+        cheat.code == Some(4) && cheat.out.contains("changes[0]: a change of a world is not allowed"),
+        "{}",
+        cheat.out
+    );
     let table = run_in(folder.path(), &["grade", "exam.ron", "ahead.ron", "jump.ron"]);
     assert_eq!(table.code, Some(4));
     let lines: Vec<&str> = table.out.lines().collect();

@@ -53,6 +53,19 @@ fn a_click_on_a_door_closes_it_and_its_link_opens_it_again() {
 }
 
 #[test]
+fn a_door_closed_for_a_tick_that_never_came_is_not_in_the_log() {
+    let mut harness = lab(WIDE);
+    pause(&mut harness);
+    click(&mut harness, "close door C");
+    assert_eq!(changes(&harness).len(), 1);
+    let (log, _) = crate::app::runs::recorded(harness.state().app.world()).unwrap();
+    assert_eq!(log.script, Script::empty());
+    click(&mut harness, "Step");
+    let (log, _) = crate::app::runs::recorded(harness.state().app.world()).unwrap();
+    assert_eq!(log.script.changes, changes(&harness));
+}
+
+#[test]
 fn the_atlas_puts_a_robot_of_the_run_under_way_and_says_why_not() {
     let mut harness = lab(WIDE);
     pause(&mut harness);

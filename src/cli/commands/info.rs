@@ -8,6 +8,7 @@ use serde::Serialize;
 
 use crate::cli::support::json_number::JsonNumber;
 use crate::cli::support::log_source::{LogSource, read_log};
+use crate::cli::support::script_words::{changes_in_words, none};
 use crate::cli::support::summary::RunSummary;
 use crate::cli::{Data, Failure, Outcome, say};
 
@@ -28,7 +29,7 @@ struct Contents<'a> {
     sensor: Option<Sensor>,
     script_events: usize,
     /// Changes of worlds; left out where there are none.
-    #[serde(skip_serializing_if = "is_zero")]
+    #[serde(skip_serializing_if = "none")]
     script_changes: usize,
     program: &'a str,
     damage: Option<&'a str>,
@@ -38,10 +39,6 @@ struct Contents<'a> {
 struct Sensor {
     rays: u32,
     range: JsonNumber,
-}
-
-fn is_zero(count: &usize) -> bool {
-    *count == 0
 }
 
 impl Info {
@@ -85,7 +82,7 @@ impl Contents<'_> {
             Some(Sensor { rays, range }) => data.line(format!("sensor   {rays} rays, {} m", range.0))?,
             None => data.line("sensor   none")?,
         }
-        let changes = if *script_changes > 0 { format!(", {script_changes} changes of worlds") } else { String::new() };
+        let changes = changes_in_words(*script_changes);
         data.line(format!("script   {script_events} events{changes}"))?;
         data.line(format!("program  {program}"))?;
         data.line(format!("digest   {}", run.digest))?;

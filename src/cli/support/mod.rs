@@ -8,6 +8,7 @@ pub(crate) mod json_number;
 pub(crate) mod log_source;
 pub(crate) mod numbers;
 pub(crate) mod output;
+pub(crate) mod script_words;
 pub(crate) mod simulate;
 pub(crate) mod summary;
 pub(crate) mod world_source;

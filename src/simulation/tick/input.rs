@@ -149,8 +149,8 @@ pub(crate) fn advance_tick(mut transport: ResMut<Transport>) {
     }
 }
 
-/// Makes the tick's changes of worlds, then applies its inputs, each in the script's order. An input for an unknown robot is dropped; `start_run` has already
-/// refused a script with one.
+/// Makes the tick's changes of worlds, then applies its inputs, each in the script's order. An input for an unknown
+/// robot is dropped; `start_run` has already refused a script with one.
 pub(crate) fn apply_inputs(world: &mut World) {
     let tick = world.resource::<Transport>().tick;
     let pending = world.resource::<PendingInput>();

@@ -88,6 +88,10 @@ lab("what is driven here is saved, and verifies natively to the same digest", "/
   await lab.page.keyboard.up("ArrowLeft");
   await lab.send({ do: "pause" });
   await lab.until((s) => !s.playing);
+  // a door closed by hand is part of the run
+  await lab.click("close door B");
+  await lab.send({ do: "step" });
+  await lab.at("open door B");
   const { path } = await download(lab.page, () => lab.page.click("#save-run"));
   const { notice } = await lab.until((s) => s.notice);
   const log = join(shots, "driven.mcap");
@@ -96,6 +100,7 @@ lab("what is driven here is saved, and verifies natively to the same digest", "/
   console.log(`# ${notice.text}; natively: ${said.trim().split("\n").join(" / ")}`);
   assert.ok(/bit-identical/.test(said));
   assert.ok(native("info", log).includes(digestOf(notice.text)), "the same digest natively");
+  assert.match(native("info", log), /, 1 change of worlds/);
   // and it is opened by dropping it
   const bytes = readFileSync(log).toString("base64");
   await lab.page.evaluate(async (text) => {

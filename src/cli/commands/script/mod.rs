@@ -13,6 +13,7 @@ use serde::Serialize;
 use crate::cli::support::input::{for_each_file, open, read_text, unreadable};
 use crate::cli::support::log_source::read_log;
 use crate::cli::support::output::write_file;
+use crate::cli::support::script_words::{changes_in_words, none};
 use crate::cli::support::world_source::find_world;
 use crate::cli::{Data, Failure, Outcome, say};
 
@@ -66,17 +67,13 @@ struct Summary<'a> {
     source: String,
     events: usize,
     /// Changes of worlds; left out where there are none.
-    #[serde(skip_serializing_if = "is_zero")]
+    #[serde(skip_serializing_if = "none")]
     changes: usize,
     /// The ticks of the first and the last event or change.
     first: Option<u64>,
     last: Option<u64>,
     /// The robots in the order of their first events.
     robots: Vec<&'a str>,
-}
-
-fn is_zero(count: &usize) -> bool {
-    *count == 0
 }
 
 impl ScriptArgs {
@@ -167,7 +164,7 @@ fn summarise(file: &Path, script: &Script, json: bool, data: &mut Data) -> Resul
         return data.json(&summary);
     }
     let Summary { source, events, changes, robots, .. } = &summary;
-    let changes = if *changes > 0 { format!(", {changes} changes of worlds") } else { String::new() };
+    let changes = changes_in_words(*changes);
     match (summary.first, summary.last) {
         (Some(first), Some(last)) => {
             let robots = robots.join(", ");
