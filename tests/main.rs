@@ -6,6 +6,7 @@ mod allocation;
 #[cfg(feature = "sim")]
 mod anatomy;
 mod angles;
+mod arcs;
 #[cfg(feature = "cli")]
 mod atlas;
 #[cfg(feature = "sim")]
