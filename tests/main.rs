@@ -48,6 +48,7 @@ mod penetration;
 mod pins;
 mod planner;
 mod polygons;
+mod rates;
 mod rays;
 mod rounded;
 mod scan_shapes;

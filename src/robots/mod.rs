@@ -37,6 +37,7 @@
 
 mod any;
 mod chart_line;
+mod check_rates;
 mod hitch;
 mod hitch_arc;
 mod motion;
@@ -45,6 +46,7 @@ mod rusty;
 
 pub use any::AnyRobot;
 pub use chart_line::ChartLine;
+pub use check_rates::{Bound, RatesError, RatesUse, check_drive_rates, check_rates};
 pub use hitch::{CarBody, CarCmd, HITCH, Hitch, TrailerBody};
 pub use hitch_arc::HitchArc;
 pub use motion::{Motion, Rates};
