@@ -16,7 +16,7 @@ use motion_lab::geometry::Tangent2;
 use motion_lab::num::{atan2, cos, hypot, in_range, sin, sin_cos, tan, wrap};
 use motion_lab::prelude::*;
 use motion_lab::recording::{Run, final_lines};
-use motion_lab::robots::{ConfigurationError, PartRates, Rates};
+use motion_lab::robots::{ConfigurationError, PartRates, Rates, TICK, check_drive_rates, check_rates};
 use motion_lab::run::Log;
 use motion_lab::simulation::{App, Extra, RobotPlugin, SimulatedRobot};
 use motion_lab::tour::TourConfig;
@@ -286,8 +286,17 @@ pub fn record(seed: Seed) -> Result<Log, Box<dyn Error>> {
     Ok(Log::read_mcap(&file)?.log)
 }
 
+/// Checks the motion bounds above by sampling. The checker trusts them: one too small proves motions free that are not.
+pub fn check_bounds() -> Result<(), Box<dyn Error>> {
+    check_rates(&TRAIN, 20_000)?;
+    let controls = [(3.0, 0.6), (-3.0, 0.6), (1.0, -0.2)].map(|(v, phi)| CarCmd { v, phi });
+    check_drive_rates(&TRAIN, &controls, TICK, 20_000)?;
+    Ok(())
+}
+
 /// The program's output.
 pub fn report() -> Result<String, Box<dyn Error>> {
+    check_bounds()?;
     let log = record(motion_lab::tour::BOOK_SEED)?;
     let again = Run::replay_with_robots(&log, with_trains)?;
     let same = again.iter().zip(&log.digests).filter(|(frame, digest)| frame.digest() == **digest).count();

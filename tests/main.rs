@@ -6,6 +6,7 @@ mod allocation;
 #[cfg(feature = "sim")]
 mod anatomy;
 mod angles;
+mod arcs;
 #[cfg(feature = "cli")]
 mod atlas;
 #[cfg(feature = "sim")]
@@ -49,6 +50,7 @@ mod penetration;
 mod pins;
 mod planner;
 mod polygons;
+mod rates;
 mod rays;
 mod rounded;
 mod scan_shapes;

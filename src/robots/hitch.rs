@@ -2,13 +2,10 @@
 
 use super::{ConfigurationError, Drivable, Motion, PartRates, Rates, Robot, sample_angle};
 use crate::configuration::{Configuration, HitchCfg};
-use crate::geometry::{Aabb, Footprint, Point2, Pose2, Tangent2};
-use crate::num::{self, rk4, wrap};
+use crate::geometry::{Aabb, Footprint, Point2, Pose2};
+use crate::num;
 use crate::random::Stream;
 use crate::short_list::ShortList;
-
-/// The number of Runge-Kutta steps for the trailer's heading in a motion of one tick.
-const TRAILER_SUBSTEPS: u32 = 4;
 
 /// A car whose reference point is the middle of its rear axle; the hitch is there too.
 ///
@@ -86,7 +83,7 @@ impl CarBody {
     }
 
     /// The rectangle in the rear axle's frame.
-    fn rectangle(&self) -> Aabb {
+    pub(super) fn rectangle(&self) -> Aabb {
         let half = 0.5 * self.width;
         let min = Point2::new(-self.rear_overhang, -half);
         Aabb { min, max: Point2::new(self.length - self.rear_overhang, half) }
@@ -95,7 +92,7 @@ impl CarBody {
 
 impl TrailerBody {
     /// The rectangle in the hitch's frame, x axis along the trailer's heading.
-    fn rectangle(&self, hitch_len: f64) -> Aabb {
+    pub(super) fn rectangle(&self, hitch_len: f64) -> Aabb {
         let half = 0.5 * self.width;
         let min = Point2::new(-hitch_len - self.rear_overhang, -half);
         Aabb { min, max: Point2::new(-hitch_len + self.front_overhang, half) }
@@ -103,7 +100,7 @@ impl TrailerBody {
 }
 
 /// The distance from a frame's origin to the farthest point of a rectangle in that frame, metres.
-fn farthest(rectangle: Aabb) -> f64 {
+pub(super) fn farthest(rectangle: Aabb) -> f64 {
     let Aabb { min, max } = rectangle;
     num::hypot(num::greater(min.x.abs(), max.x.abs()), num::greater(min.y.abs(), max.y.abs()))
 }
@@ -127,9 +124,9 @@ impl Hitch {
         num::tan(phi.clamp(-self.max_steer, self.max_steer)) / self.wheelbase
     }
 
-    /// The configuration after `dt` seconds of the constant control `u`: a pure function. The body moves on its exact
-    /// arc, the trailer's heading by a fixed-step Runge-Kutta integration against the closed form of the body's
-    /// heading.
+    /// The configuration after `dt` seconds of the constant control `u`: a pure function, and the end of
+    /// [`drive`](Drivable::drive). In each tick the body moves on its exact arc, the trailer's heading by a fixed-step
+    /// Runge-Kutta integration against the closed form of the body's heading.
     ///
     /// # Errors
     /// [`ConfigurationError`] when `q` has a trailer heading and the car no hitch or the reverse, or a number is not
@@ -208,79 +205,12 @@ impl Robot for Hitch {
     }
 }
 
-/// The car's motion over one step: the body's exact arc, the trailer dragged along.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct HitchArc {
-    car: Hitch,
-    start: HitchCfg,
-    ahead: f64,
-    turn: f64,
-}
-
-impl Motion for HitchArc {
-    type Configuration = HitchCfg;
-
-    fn at(&self, s: f64) -> HitchCfg {
-        if s == 0.0 {
-            return self.start;
-        }
-        let theta = self.start.body.theta;
-        let body = self.start.body.boxplus(&Tangent2::new(s * self.ahead, 0.0, s * self.turn));
-        // Per unit of s: psi' = (ds / d_h) sin(theta(s) - psi) with theta(s) = theta + s dtheta in closed form.
-        let trailer = self.start.trailer.zip(self.car.hitch_len).map(|(psi, hitch_len)| {
-            let slope = |t: f64, psi: f64| self.ahead / hitch_len * num::sin(theta + t * self.turn - psi);
-            wrap(rk4(slope, psi, 0.0, s, TRAILER_SUBSTEPS))
-        });
-        HitchCfg { body, trailer }
-    }
-
-    fn footprint_at(&self, s: f64) -> Footprint {
-        self.car.footprint(&self.at(s))
-    }
-
-    fn rates(&self, part: usize) -> Rates {
-        // The frames' common origin, the rear axle, moves uniformly on a circle.
-        let (speed, acceleration) = (self.ahead.abs(), (self.ahead * self.turn).abs());
-        match self.car.hitch_len {
-            Some(hitch_len) if part == 1 => {
-                // |psi'| <= |ds| / d_h, and |psi''| <= (|ds| / d_h) (|dtheta| + |psi'|). The Runge-Kutta solution
-                // follows the true one to far better than the percent added here.
-                let spin = 1.01 * speed / hitch_len;
-                let spin_rate = 1.01 * spin * (self.turn.abs() + spin);
-                let reach = farthest(self.car.trailer_body.rectangle(hitch_len));
-                Rates { speed: speed + reach * spin, acceleration: acceleration + reach * (spin_rate + spin * spin) }
-            }
-            _ => {
-                let reach = farthest(self.car.body.rectangle());
-                Rates {
-                    speed: speed + reach * self.turn.abs(),
-                    acceleration: acceleration + reach * self.turn * self.turn,
-                }
-            }
-        }
-    }
-}
-
-impl Drivable for Hitch {
-    type Control = CarCmd;
-    type Drive = HitchArc;
-
-    fn drive(&self, q: &HitchCfg, u: &CarCmd, dt: f64) -> Result<HitchArc, ConfigurationError> {
-        self.check(q)?;
-        let ahead = u.v * dt;
-        let turn = self.curvature(u.phi) * ahead;
-        if !(ahead.is_finite() && turn.is_finite()) {
-            return Err(ConfigurationError::ControlNotFinite);
-        }
-        Ok(HitchArc { car: *self, start: q.in_chart(), ahead, turn })
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use std::f64::consts::PI;
 
     use super::*;
+    use crate::num::wrap;
     use crate::random::{Seed, Stream};
 
     #[test]

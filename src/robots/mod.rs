@@ -37,14 +37,18 @@
 
 mod any;
 mod chart_line;
+mod check_rates;
 mod hitch;
+mod hitch_arc;
 mod motion;
 mod reach;
 mod rusty;
 
 pub use any::AnyRobot;
 pub use chart_line::ChartLine;
-pub use hitch::{CarBody, CarCmd, HITCH, Hitch, HitchArc, TrailerBody};
+pub use check_rates::{Bound, RatesError, RatesUse, check_drive_rates, check_rates};
+pub use hitch::{CarBody, CarCmd, HITCH, Hitch, TrailerBody};
+pub use hitch_arc::HitchArc;
 pub use motion::{Motion, Rates};
 pub use reach::{JointPoints, Reach, ReachError};
 pub use rusty::{EncoderCounts, RUSTY, Rusty, RustyArc, RustyCmd, RustyDisc, WheelSlip, WheelTurns};
@@ -53,6 +57,9 @@ use crate::configuration::{ChartMismatch, Configuration};
 use crate::geometry::{Footprint, Point2, Segment};
 use crate::random::Stream;
 use crate::short_list::ShortList;
+
+/// The length of a tick, seconds: the simulator's time step, and that of the integration of a car's trailer.
+pub const TICK: f64 = 0.05;
 
 /// The rates of a footprint's parts, in the parts' order.
 pub type PartRates = ShortList<Rates, 3>;
@@ -67,6 +74,9 @@ pub enum ConfigurationError {
     /// A control or a time step that is NaN or infinite.
     #[error("the control or the time step is not finite")]
     ControlNotFinite,
+    /// A time step of a car that is too long: more than an hour, 72,000 ticks.
+    #[error("the time step is longer than an hour, 72000 ticks")]
+    TooLong,
     /// A trailer heading for a car without a hitch.
     #[error("the configuration has a trailer heading, but the car has no hitch")]
     TrailerWithoutHitch,

@@ -6,7 +6,7 @@ use crate::geometry::Pose2;
 use crate::short_list::ShortList;
 
 /// The length of a tick in seconds: the simulation runs at 20 Hz. Time is tick * DT, never a sum.
-pub const DT: f64 = 0.05;
+pub const DT: f64 = crate::robots::TICK;
 
 /// The state of one robot after a tick: all that is needed to continue from it.
 ///
