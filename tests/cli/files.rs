@@ -179,10 +179,10 @@ fn what_a_killed_recording_left_is_named_and_goes_on() {
         output.err.lines().find(|line| line.contains("was left by a process that was killed")).unwrap().to_owned();
     let (_, left) = line.split_once("go on with: motion-lab record --resume ").unwrap();
     assert!(left.contains(".long.mcap."), "{line}");
-    // whole seconds are written to the file, so everything but the second under way is there
+    // whole seconds are written to the file; the kill may cut the write under way, between any two of its pages
     let info = run_in(folder.path(), &["info", "--json", left]);
     let recorded = serde_json::from_str::<serde_json::Value>(&info.out).unwrap()["recorded"].as_u64().unwrap();
-    assert!(recorded > 0 && recorded.is_multiple_of(20), "{recorded}");
+    assert!(recorded > 0, "{recorded}");
     // a file that may be newer is not replaced, and neither is one that a process is writing
     fs::write(folder.path().join("long.mcap"), OLDER).unwrap();
     let refused = run_in(folder.path(), &["record", "--resume", left]).failed(2);
