@@ -33,7 +33,7 @@ pub use error::SessionError;
 pub use files::{open_run, save_run};
 pub use session::SessionPlugin;
 #[cfg(feature = "window")]
-pub use window::{WindowError, run_window};
+pub use window::{WindowError, run_window, run_window_with};
 
 use crate::picture::Theme;
 use crate::simulation::History;

@@ -7,6 +7,7 @@ mod capture;
 mod cspace;
 mod drive;
 mod files;
+mod own_kind;
 mod screen;
 mod time;
 mod widgets;
