@@ -31,7 +31,7 @@ use bevy_egui::{EguiContext, EguiGlobalSettings, EguiPlugin, EguiPrimaryContextP
 
 pub(crate) use session::SessionPlugin;
 #[cfg(feature = "window")]
-pub use window::{WindowError, run_window};
+pub use window::{WindowError, run_window, run_window_with};
 
 use crate::picture::Theme;
 use crate::simulation::History;

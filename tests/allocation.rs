@@ -97,3 +97,24 @@ fn logging_a_tick_does_not_allocate() {
     let counted = allocations(|| rest.iter().for_each(|frame| _ = std::hint::black_box(writer.tick(frame).unwrap())));
     assert_eq!(counted, 0, "of {} ticks", rest.len());
 }
+
+/// A tick in which no contact begins or ends allocates as much as the schedule alone, observed or not.
+#[test]
+fn contact_events_allocate_nothing_where_nothing_happens() {
+    use bevy::prelude::{On, World};
+    use motion_lab::simulation::{ContactBegan, SimulationSchedule, headless_app, start_run, step};
+    use motion_lab::tour::{BOOK_SEED, TourConfig};
+
+    let counted = |observed: bool, tick: fn(&mut World)| {
+        let mut app = headless_app();
+        if observed {
+            app.add_observer(|_: On<ContactBegan>| panic!("nothing is met in the first second"));
+        }
+        start_run(app.world_mut(), TourConfig::default(), BOOK_SEED).unwrap();
+        (0..5).for_each(|_| tick(app.world_mut())); // systems and buffers are made
+        allocations(|| (0..15).for_each(|_| tick(app.world_mut())))
+    };
+    let bare = counted(false, |world| world.run_schedule(SimulationSchedule));
+    assert_eq!(counted(false, step), bare, "nobody listens");
+    assert_eq!(counted(true, step), bare, "somebody listens");
+}

@@ -12,6 +12,8 @@
 //!
 //! No digest here may be replaced to make a test pass.
 
+mod app;
+
 use bevy::app::App;
 use motion_lab::prelude::*;
 use motion_lab::recording::{Recorder, Run};

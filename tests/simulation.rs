@@ -1,6 +1,7 @@
 //! The simulator: whole runs.
 
 mod app;
+mod contacts;
 mod crowd;
 mod driving;
 mod kinds;

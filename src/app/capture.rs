@@ -11,8 +11,7 @@ use super::captured::{captured, subject};
 use super::files::name;
 use super::runs::shown_run;
 use super::session::Interface;
-use crate::capture::{CaptureError, Form, Paper, film, write};
-use crate::recording::Run;
+use crate::capture::{CaptureError, Form, Paper, film_with_robots, write};
 use crate::simulation::Transport;
 use crate::tour::TourConfig;
 use crate::ui::{CaptureOrder, Notice, UiState, Working};
@@ -60,12 +59,13 @@ pub fn capture(world: &mut World, order: &CaptureOrder, path: &Path) {
         if form == Form::Gif
             && let Some(subject) = subject(&state, form)?
         {
-            let log = Run::record(run.config, (run.seed, run.script))?;
-            return film(&log, &subject, span, &paper, &to, |done, all| {
+            let (kinds, log) = (run.kinds.clone(), run.record()?);
+            let go_on = |done, all| {
                 shared.done.store(done, Ordering::Relaxed);
                 shared.all.store(all, Ordering::Relaxed);
                 !shared.stop.load(Ordering::Relaxed)
-            });
+            };
+            return film_with_robots(&log, &subject, span, &paper, &to, go_on, |app| kinds.add_to(app));
         }
         let figure = captured(&state, run, tick, paper.width_px())?;
         write(&figure, &paper, form, &to)

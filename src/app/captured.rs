@@ -1,8 +1,7 @@
 //! The widget in front as a figure, for captures.
 
 use super::runs::ShownRun;
-use crate::capture::{CaptureError, Captured, Form, Subject, anatomy, at_tick};
-use crate::recording::Run;
+use crate::capture::{CaptureError, Captured, Form, Subject, anatomy, at_tick_with_robots};
 use crate::ui::{UiState, Widget};
 
 /// The widget in front as a figure of this width, pixels. The dashboard shows the run at `tick`; the other widgets do
@@ -13,7 +12,10 @@ use crate::ui::{UiState, Widget};
 pub fn captured(state: &UiState, run: ShownRun, tick: u64, width_px: f64) -> Result<Captured, CaptureError> {
     match subject(state, Form::Svg)? {
         None => scene(state, width_px),
-        Some(subject) => at_tick(&Run::record(run.config, (run.seed, run.script))?, &subject, tick, width_px),
+        Some(subject) => {
+            let kinds = run.kinds.clone();
+            at_tick_with_robots(&run.record()?, &subject, tick, width_px, |app| kinds.add_to(app))
+        }
     }
 }
 

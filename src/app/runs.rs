@@ -6,9 +6,11 @@ use super::error::SessionError;
 use super::session::Interface;
 use crate::atlas::Editor;
 use crate::random::Seed;
-use crate::recording::Run;
+use crate::recording::{Run, RunError};
 use crate::run::{Comparison, Log, LogError, ReadLog, Script};
-use crate::simulation::{LatestFrame, PendingInput, Playback, RunConfig, Transport, checkpoint, seek, start_run, step};
+use crate::simulation::{
+    LatestFrame, PendingInput, Playback, RobotKinds, RunConfig, Transport, checkpoint, seek, start_run,
+};
 use crate::tour::TourConfig;
 use crate::ui::{AtlasState, Notice, Widget};
 
@@ -20,6 +22,15 @@ pub struct ShownRun {
     pub config: TourConfig,
     /// The script.
     pub script: Script,
+    /// The kinds of robots that the program registered.
+    pub kinds: RobotKinds,
+}
+
+impl ShownRun {
+    /// The run, recorded.
+    pub fn record(self) -> Result<Log, RunError> {
+        Run::record_with_robots(self.config, (self.seed, self.script), |app| self.kinds.add_to(app))
+    }
 }
 
 /// The present run up to `ticks`.
@@ -27,13 +38,13 @@ pub fn shown_run(world: &World, ticks: u64) -> ShownRun {
     let config = TourConfig { ticks, ..TourConfig::clone(&world.resource::<RunConfig>().0) };
     let mut script: Script = world.resource::<PendingInput>().script().clone();
     script.truncate_after(ticks);
-    ShownRun { seed: world.resource::<Transport>().seed, config, script }
+    let kinds = world.resource::<RobotKinds>().clone();
+    ShownRun { seed: world.resource::<Transport>().seed, config, script, kinds }
 }
 
 /// The run up to `ticks`, recorded.
 pub fn log_up_to(world: &World, ticks: u64) -> Result<Log, SessionError> {
-    let ShownRun { seed, config, script } = shown_run(world, ticks);
-    Run::record(config, (seed, script)).map_err(SessionError::from)
+    shown_run(world, ticks).record().map_err(SessionError::from)
 }
 
 /// The run as far as it has come, recorded from seed, configuration and script, and its log's bytes.
@@ -71,7 +82,9 @@ pub fn open_log(world: &mut World, name: &str, bytes: &[u8]) -> Result<Notice, S
     let mut comparison = Comparison::with(&log);
     comparison.frame(&world.resource::<LatestFrame>().0);
     for _ in &log.frames {
-        step(world);
+        // a seek, so that observers of contacts hear nothing of the comparison
+        let next = world.resource::<Transport>().tick + 1;
+        seek(world, next)?;
         comparison.frame(&world.resource::<LatestFrame>().0);
     }
     let divergence = comparison.divergence();
@@ -94,7 +107,7 @@ pub fn open_world_text(world: &mut World, name: &str, text: &str) -> Notice {
     match Editor::open(name, text) {
         Ok(editor) => {
             let ui = &mut world.resource_mut::<Interface>().into_inner().0;
-            ui.atlas = AtlasState::edited(editor).in_mode(ui.atlas.mode);
+            ui.atlas = AtlasState::edited(editor).like(&ui.atlas);
             ui.widget = Widget::Atlas;
             Notice { text: format!("{name}: opened"), is_error: false }
         }

@@ -14,8 +14,8 @@ use crate::picture::{Picture, world as picture_of};
 use crate::robots::{HITCH, Robot};
 use crate::run::{Event, RobotInput};
 use crate::simulation::{
-    CommandRefused, History, HistoryPlugin, LatestFrame, PendingInput, Playback, RobotView, Roster, RunConfig,
-    RunInput, SimulationPlugin, StandingWorld, Transport, Undo, WorldScene, checkpoint, start_run, view,
+    CommandRefused, History, HistoryPlugin, LatestFrame, PendingInput, Playback, RobotKinds, RobotView, Roster,
+    RunConfig, RunInput, SimulationPlugin, StandingWorld, Transport, Undo, WorldScene, checkpoint, start_run, view,
 };
 use crate::tour::{BOOK_SEED, TourConfig};
 use crate::ui::{Cockpit, CockpitRobot, Command, Dashboard, Notice, SessionCommand, UiState, Widget, blend};
@@ -96,6 +96,8 @@ fn draw_worlds(world: &mut World) {
 pub struct Shown(pub Dashboard);
 
 fn start(world: &mut World) -> Result {
+    let kinds = world.resource::<RobotKinds>().known();
+    world.resource_mut::<Interface>().0.atlas.know(kinds);
     if !world.contains_resource::<RunConfig>() {
         start_run(world, TourConfig::default(), BOOK_SEED)?;
         world.resource_mut::<Transport>().playback = Playback::Playing;

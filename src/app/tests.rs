@@ -8,6 +8,7 @@ mod cspace;
 mod doors;
 mod drive;
 mod files;
+mod own_kind;
 mod screen;
 mod time;
 mod widgets;

@@ -30,6 +30,16 @@ pub enum WindowError {
 /// or the graphics adapter fails before the first frame, [`WindowError::Closed`] when an error closes the window. A
 /// panic after the first frame is a fault of the lab and goes on as one.
 pub fn run_window() -> Result<(), WindowError> {
+    run_window_with(|_| {})
+}
+
+/// [`run_window`] in an app that `add` has added to: kinds of robots of a program's own by
+/// [`RobotPlugin`](crate::simulation::RobotPlugin), systems, and the run to begin with by
+/// [`start_run`](crate::simulation::start_run).
+///
+/// # Errors
+/// As [`run_window`].
+pub fn run_window_with(add: impl FnOnce(&mut App)) -> Result<(), WindowError> {
     check_display(|name| std::env::var_os(name))?;
     let opened = Arc::new(AtomicBool::new(false));
     // A failure before the first frame is reported in one line below. After it, panics print as usual.
@@ -43,6 +53,7 @@ pub fn run_window() -> Result<(), WindowError> {
     let first_frame = Arc::clone(&opened);
     let outcome = catch_unwind(AssertUnwindSafe(move || {
         let mut app = super::windowed_app();
+        add(&mut app);
         app.add_systems(Last, move || first_frame.store(true, Ordering::Relaxed));
         app.run()
     }));

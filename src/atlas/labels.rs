@@ -2,11 +2,10 @@
 
 use super::Atlas;
 use crate::collision::{Collision, Scene};
-use crate::configuration::RobotKind;
+use crate::configuration::{Kinds, RobotKind};
 use crate::geometry::{Aabb, Footprint, Part, Placed, Point2, Pose2, Segment, Shape, Vector2};
 use crate::num::{self, greater, lesser};
 use crate::picture::{Anchor, Drawing, Face, Item, Line, Role};
-use crate::robots::Robot;
 use crate::worlds::{ObstacleKind, World};
 
 /// Height of the letters, pixels.
@@ -43,9 +42,14 @@ pub(super) fn drives(kind: &str) -> bool {
     RobotKind::of(kind).is_some_and(|known| known.drives)
 }
 
-/// Every named thing of a world in file order. Robots of the kinds `rusty` and `hitch` are at their starts; other
-/// robots are left out.
+/// Every named thing of a world in file order. Robots of the lab's kinds that drive are at their starts; other robots
+/// are left out.
 pub fn named(world: &World) -> Vec<Named> {
+    named_with(world, &Kinds::default())
+}
+
+/// [`named`] with the robots of further kinds whose first two coordinates are a place.
+pub fn named_with(world: &World, kinds: &Kinds) -> Vec<Named> {
     let mut out = Vec::new();
     let mut add = |list, name: &str, at: Vec<Point2>| {
         if !at.is_empty() {
@@ -74,7 +78,7 @@ pub fn named(world: &World) -> Vec<Named> {
         add("marks", &mark.name, middles.collect());
     }
     for robot in &world.robots {
-        if let (true, [x, y, ..]) = (drives(&robot.kind), &robot.start[..]) {
+        if let (true, [x, y, ..]) = (kinds.of(&robot.kind).is_some_and(RobotKind::has_place), &robot.start[..]) {
             add("robots", &robot.name, vec![Point2::new(*x, *y)]);
         }
     }
@@ -142,8 +146,8 @@ impl Sheet {
     /// The sheet without labels; a pixel of it is `px` metres.
     fn of(atlas: &Atlas, px: f64) -> Self {
         let world = atlas.world();
-        let standing = atlas.robots().iter().fold(Scene::of_world(world), |scene, r| {
-            super::teleport::with_robot(scene, &r.name, &r.robot.footprint(&r.q))
+        let standing = atlas.standing().fold(Scene::of_world(world), |scene, (name, footprint)| {
+            super::teleport::with_robot(scene, name, &footprint)
         });
         let segments = world.marks.iter().flat_map(|m| m.points.windows(2).map(|w| Segment::new(w[0], w[1])));
         let dots = world.places.iter().flat_map(|p| {
@@ -280,7 +284,7 @@ fn worth(spots: &[(Named, Spot)]) -> usize {
 /// places, walls, marks, each in file order.
 pub fn names(atlas: &Atlas, px_per_metre: f64) -> Vec<Item> {
     let px = 1.0 / px_per_metre;
-    let mut things = named(atlas.world());
+    let mut things = named_with(atlas.world(), atlas.kinds());
     let rank =
         |thing: &Named| ["robots", "obstacles", "places", "walls", "marks"].iter().position(|l| *l == thing.list);
     things.sort_by_key(rank);

@@ -11,22 +11,25 @@ mod teleport;
 
 pub use edit::{Editor, snap};
 pub use grid_layer::{GridLayer, Probe};
-pub use labels::{Named, named, names};
+pub use labels::{Named, named, named_with, names};
 pub use op::{EditError, Op};
 pub use outline::{EditShape, Handle};
 pub use teleport::{Refusal, Teleport};
 
 use crate::collision::{Checker, Scene};
-use crate::configuration::{AnyConfiguration, Configuration};
+use crate::configuration::{AnyConfiguration, Configuration, Kinds};
+use crate::geometry::Footprint;
 use crate::picture::{Drawing, Picture, RobotDrawing, places, robot, world};
 use crate::robots::{AnyRobot, Robot};
 use crate::worlds::World;
 
-/// A world and those of its residents that are robots of the lab.
+/// A world and those of its residents that are robots of the lab. Robots of a program's own kinds stand at their starts
+/// when the atlas [knows](Atlas::knowing) the kinds.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Atlas {
     world: World,
     residents: Vec<AtlasRobot>,
+    kinds: Kinds,
 }
 
 /// A robot on the atlas.
@@ -47,7 +50,25 @@ impl Atlas {
             let (robot, q) = AnyRobot::of_kind(&r.kind, &r.start)?;
             Some(AtlasRobot { name: r.name.clone(), robot, q })
         });
-        Atlas { residents: residents.collect(), world }
+        Atlas { residents: residents.collect(), world, kinds: Kinds::default() }
+    }
+
+    /// The same atlas that knows these kinds of robots too. It names and draws robots of a program's own kinds at their
+    /// starts, and the lab's robots can't be put onto them.
+    #[must_use]
+    pub fn knowing(self, kinds: Kinds) -> Self {
+        Atlas { kinds, ..self }
+    }
+
+    /// The kinds of robots that it knows.
+    pub fn kinds(&self) -> &Kinds {
+        &self.kinds
+    }
+
+    /// The residents of kinds that are not the lab's, with their footprints at their starts.
+    pub fn others(&self) -> impl Iterator<Item = (&str, Footprint)> {
+        let strangers = self.world.robots.iter().filter(|r| self.residents.iter().all(|known| known.name != r.name));
+        strangers.filter_map(|r| Some((r.name.as_str(), self.kinds.footprint(&r.kind, &r.start)?)))
     }
 
     /// The world.
@@ -71,12 +92,20 @@ impl Atlas {
         &self.residents
     }
 
+    /// All robots with their footprints: the lab's where they are, the others at their starts.
+    pub fn standing(&self) -> impl Iterator<Item = (&str, Footprint)> {
+        self.residents.iter().map(|r| (r.name.as_str(), r.robot.footprint(&r.q))).chain(self.others())
+    }
+
     /// The checker of robot number `index` among the obstacles and the other robots, each an obstacle under its name.
     /// `None` for an unknown robot.
     pub fn checker(&self, index: usize) -> Option<Checker<AnyRobot>> {
         let mut scene = Scene::of_world(&self.world);
         for (_, other) in self.residents.iter().enumerate().filter(|(i, _)| *i != index) {
             scene = teleport::with_robot(scene, &other.name, &other.robot.footprint(&other.q));
+        }
+        for (name, footprint) in self.others() {
+            scene = teleport::with_robot(scene, name, &footprint);
         }
         Some(Checker::new(scene, self.residents.get(index)?.robot))
     }
@@ -103,6 +132,9 @@ impl Atlas {
                 in_contact: false,
             })
         });
-        world(&self.world).with(dots).with(drawn)
+        let others = self.others().flat_map(|(name, footprint)| {
+            robot(&RobotDrawing { name, footprint: &footprint, heading: None, in_contact: false })
+        });
+        world(&self.world).with(dots).with(drawn).with(others)
     }
 }

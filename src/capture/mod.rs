@@ -30,13 +30,13 @@ mod tour_figure;
 use std::path::Path;
 
 pub use error::CaptureError;
-pub use moving::{Span, Subject, at_tick};
+pub use moving::{Span, Subject, at_tick, at_tick_with_robots};
 #[cfg(feature = "cli")]
-pub use paper::{film, write};
+pub use paper::{film, film_with_robots, write};
 #[cfg(feature = "cli")]
 #[doc(hidden)]
 pub use raster::{GifWriter, Image, Raster, Size, write_png};
-pub use run_figure::RunFigure;
+pub use run_figure::{RunFigure, run_svg};
 pub use scenes::{AtlasSheet, anatomy, atlas, cspace};
 
 use crate::picture::{Figure, Palette, Sheet};

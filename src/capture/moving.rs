@@ -2,6 +2,8 @@
 
 use std::sync::Arc;
 
+use bevy::app::App;
+
 use super::space::Space;
 use super::{CaptureError, Captured, Note};
 use crate::atlas::{Atlas, names};
@@ -141,9 +143,23 @@ impl Span {
 /// # Errors
 /// [`CaptureError`] names what the run does not have.
 pub fn at_tick(log: &Log, subject: &Subject, tick: u64, width_px: f64) -> Result<Captured, CaptureError> {
+    at_tick_with_robots(log, subject, tick, width_px, |_| {})
+}
+
+/// [`at_tick`] of a run with kinds of robots that a program added: `add` adds them.
+///
+/// # Errors
+/// [`CaptureError`] names what the run does not have.
+pub fn at_tick_with_robots(
+    log: &Log,
+    subject: &Subject,
+    tick: u64,
+    width_px: f64,
+    add: impl FnOnce(&mut App),
+) -> Result<Captured, CaptureError> {
     let mut drawn = None;
     let mut moving = Moving::new(log, subject.clone(), width_px)?;
-    Run::show(log, |run| {
+    Run::show_with_robots(log, add, |run| {
         moving.see(run)?;
         if run.frame().tick == tick {
             drawn = Some(moving.captured(run, true)?);

@@ -2,6 +2,8 @@
 
 use std::path::Path;
 
+use bevy::app::App;
+
 use super::moving::Moving;
 use super::raster::{GifWriter, Image, Raster, Size, write_png};
 use super::{CaptureError, Captured, Form, Note, Paper, Span, Subject, TICK_HUNDREDTHS, with_program};
@@ -45,20 +47,36 @@ pub fn film(
     span: Span,
     paper: &Paper,
     path: &Path,
+    go_on: impl FnMut(u64, u64) -> bool,
+) -> Result<(), CaptureError> {
+    film_with_robots(log, subject, span, paper, path, go_on, |_| {})
+}
+
+/// [`film`] of a run with kinds of robots that a program added: `add` adds them.
+///
+/// # Errors
+/// As [`film`].
+pub fn film_with_robots(
+    log: &Log,
+    subject: &Subject,
+    span: Span,
+    paper: &Paper,
+    path: &Path,
     mut go_on: impl FnMut(u64, u64) -> bool,
+    add: impl Fn(&mut App),
 ) -> Result<(), CaptureError> {
     let span = span.within(log.frames.len() as u64)?;
     let pending = PendingFile::create(path)?;
     let raster = paper.raster();
     let mut height = 0;
     // all pictures are as high as the highest
-    each(log, subject, span, paper, false, |captured| {
+    each(log, subject, span, paper, false, &add, |captured| {
         height = std::cmp::max(height, raster.height(&captured.svg(paper))?);
         Ok(())
     })?;
     let ticks: [Note; 1] = [("Tick", format!("{} to {}", span.from, span.to))];
     let (mut pending, mut writer, mut done) = (Some(pending), None, 0);
-    each(log, subject, span, paper, true, |captured| {
+    each(log, subject, span, paper, true, &add, |captured| {
         if !go_on(done, span.pictures()) {
             return Err(CaptureError::Stopped);
         }
@@ -88,11 +106,12 @@ fn each(
     span: Span,
     paper: &Paper,
     drawn: bool,
+    add: impl FnOnce(&mut App),
     mut take: impl FnMut(&Captured) -> Result<(), CaptureError>,
 ) -> Result<(), CaptureError> {
     let subject = if drawn { subject.clone() } else { subject.unnamed() };
     let mut moving = Moving::new(log, subject, paper.width_px())?;
-    Run::show(log, |run| {
+    Run::show_with_robots(log, add, |run| {
         let tick = run.frame().tick;
         if tick > span.to {
             return Ok(());

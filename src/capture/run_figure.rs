@@ -1,11 +1,14 @@
 //! `RunFigure`, the figure of a run, gathered while it runs.
 
+use bevy::app::App;
+
+use super::CaptureError;
 use super::tour_figure::{RobotTour, TourPanel, tour_figure};
 use crate::geometry::{Point2, Shape};
 use crate::picture::Theme;
 use crate::random::Seed;
-use crate::recording::printed_configuration;
-use crate::run::Digest;
+use crate::recording::{Run, printed_as};
+use crate::run::{Digest, Log};
 use crate::simulation::RobotView;
 use crate::tour::TourConfig;
 
@@ -45,6 +48,26 @@ impl RunFigure {
     }
 }
 
+/// The figure of a log's run after `tick`, as SVG: traces, ends and contacts in its worlds. Nothing is simulated. `add`
+/// adds the kinds of robots that the log names and the lab does not have.
+///
+/// # Errors
+/// [`CaptureError::NoTick`] when the log ends before, [`CaptureError::Run`] when the run cannot start.
+pub fn run_svg(log: &Log, tick: u64, theme: Theme, add: impl FnOnce(&mut App)) -> Result<String, CaptureError> {
+    let last = log.frames.len() as u64;
+    if tick > last {
+        return Err(CaptureError::NoTick { tick, last });
+    }
+    let mut figure = RunFigure::default();
+    Run::show_with_robots(log, add, |run| {
+        if run.frame().tick <= tick {
+            figure.watch(run.view());
+        }
+        Ok::<_, CaptureError>(())
+    })?;
+    Ok(figure.svg(log.seed, &log.config, tick, log.digest(), theme))
+}
+
 impl Watched {
     fn new(robot: &RobotView) -> Self {
         let tour = RobotTour {
@@ -69,7 +92,7 @@ impl Watched {
         // only a disc's outline does not show its heading
         let is_disc = robot.footprint.parts().iter().all(|p| matches!(p.shape(), Shape::Disc { .. }));
         self.tour.end_heading = robot.coordinates.get(2).copied().filter(|_| is_disc);
-        self.tour.readout = printed_configuration(&robot.kind, &robot.coordinates);
+        self.tour.readout = printed_as(robot.about, &robot.coordinates);
         self.tour.end = robot.footprint;
     }
 }

@@ -5,9 +5,9 @@ use crate::geometry::Pose2;
 
 /// A kind of robot, as worlds name it, and all that is not of its type: names, coordinates, formulas.
 ///
-/// The lab's own are [`RobotKind::ALL`]. World files, logs, grading and the atlas know these by name. A program that
-/// adds a robot of its own describes it by another one, which the simulator's plugin for the robot takes; views,
-/// formulas and plots then show the robot by it.
+/// The lab's own are [`RobotKind::ALL`]. World files and grading know these by name. A program that adds a robot of its
+/// own describes it by another one, which the simulator's plugin for the robot takes; views, formulas, plots, figures
+/// and the atlas then show the robot by it. [`Kinds`](super::Kinds) holds the lab's and a program's own together.
 ///
 /// ```
 /// use motion_lab::configuration::RobotKind;
@@ -161,6 +161,11 @@ impl RobotKind {
         self.spaces.iter().find(|space| space.coordinates == coordinates)
     }
 
+    /// Whether the first two coordinates are a place in the world: those of a body that drives, or any called x and y.
+    pub fn has_place(&self) -> bool {
+        self.drives || self.coordinates.starts_with(&["x", "y"])
+    }
+
     /// Whether it is an arm: every coordinate is a joint angle.
     pub fn is_arm(&self) -> bool {
         self.lengths == 0 && !self.drives
@@ -187,5 +192,7 @@ mod tests {
         }
         assert!(RobotKind::of("tricycle").is_none());
         assert!(RobotKind::REACH3.is_arm() && !RobotKind::HITCH.is_arm());
+        let sled = RobotKind { coordinates: &["x", "y"], ..RobotKind::REACH };
+        assert!(RobotKind::HITCH.has_place() && !RobotKind::REACH.has_place() && sled.has_place());
     }
 }

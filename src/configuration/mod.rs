@@ -45,6 +45,7 @@
 mod any;
 mod hitch;
 mod kind;
+mod kinds;
 mod pose;
 mod r2;
 mod torus;
@@ -54,6 +55,7 @@ use std::fmt::{Debug, Display};
 pub use any::AnyConfiguration;
 pub use hitch::HitchCfg;
 pub use kind::{RobotKind, Space};
+pub use kinds::Kinds;
 pub use r2::R2;
 pub use torus::{T2, Tn};
 

@@ -1,13 +1,19 @@
 //! The last lines of a run: each robot's final configuration and its contact episodes.
 
-use crate::configuration::RobotKind;
+use crate::configuration::{Kinds, RobotKind};
 use crate::run::Log;
 
 /// One line per robot by ascending id, three decimals: `Reach  T2 { th1: 0.186, th2: 1.324 }  contacts: 9`.
 ///
 /// Rusty prints its position, Hitch without a trailer its body's pose, the arms and a car with a trailer their
-/// configuration as its type prints. A kind that a program registered prints its coordinates.
+/// configuration as its type prints. A kind that a program registered prints its coordinates; with its description,
+/// [`final_lines_with`] prints it as that says.
 pub fn final_lines(log: &Log) -> Vec<String> {
+    final_lines_with(log, &Kinds::default())
+}
+
+/// [`final_lines`] of a run with kinds of robots that a program added.
+pub fn final_lines_with(log: &Log, kinds: &Kinds) -> Vec<String> {
     let residents = log.config.worlds.iter().flat_map(|w| &w.robots);
     let last = log.frames.last().unwrap_or(&log.initial);
     residents
@@ -16,7 +22,7 @@ pub fn final_lines(log: &Log) -> Vec<String> {
             format!(
                 "{}  {}  contacts: {}",
                 resident.name,
-                printed_configuration(&resident.kind, &state.configuration),
+                printed_as(kinds.of(&resident.kind), &state.configuration),
                 state.contacts
             )
         })
@@ -25,8 +31,13 @@ pub fn final_lines(log: &Log) -> Vec<String> {
 
 /// The configuration of a robot of this kind as a run's last lines show it.
 pub fn printed_configuration(kind: &str, coordinates: &[f64]) -> String {
+    printed_as(RobotKind::of(kind), coordinates)
+}
+
+/// The configuration of a robot as its kind's description prints it; its coordinates without a description.
+pub fn printed_as(about: Option<&RobotKind>, coordinates: &[f64]) -> String {
     let q = coordinates;
-    let text = RobotKind::of(kind).and_then(|known| (known.printed)(q));
+    let text = about.and_then(|known| (known.printed)(q));
     text.unwrap_or_else(|| {
         let numbers: Vec<String> = q.iter().map(|x| format!("{x:.3}")).collect();
         format!("[{}]", numbers.join(", "))

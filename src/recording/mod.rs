@@ -19,7 +19,7 @@ mod run;
 mod verification;
 
 pub use crate::simulation::RunInput;
-pub use final_lines::{final_lines, printed_configuration};
+pub use final_lines::{final_lines, final_lines_with, printed_as, printed_configuration};
 pub use grade::{
     Assignment, AssignmentError, AssignmentFile, AssignmentProblem, Attempt, Goal, Grade, Limits, MAX_SEEDS, Refusal,
     Submission, Verdict,
@@ -27,4 +27,4 @@ pub use grade::{
 pub use identity::identity_line;
 pub use recorder::{Recorder, RunError};
 pub use run::Run;
-pub use verification::{Verification, verify};
+pub use verification::{Verification, verify, verify_with_robots};

@@ -59,8 +59,20 @@ impl Run {
     ///
     /// # Errors
     /// [`RunError`] when the run cannot start or a frame does not fit it, and every error of `watch`.
-    pub fn show<E: From<RunError>>(log: &Log, mut watch: impl FnMut(&Recorder) -> Result<(), E>) -> Result<(), E> {
-        let mut run = Recorder::new(log.config.clone(), (log.seed, log.script.clone()))?;
+    pub fn show<E: From<RunError>>(log: &Log, watch: impl FnMut(&Recorder) -> Result<(), E>) -> Result<(), E> {
+        Self::show_with_robots(log, |_| {}, watch)
+    }
+
+    /// [`show`](Self::show) with further kinds of robots.
+    ///
+    /// # Errors
+    /// As [`show`](Self::show).
+    pub fn show_with_robots<E: From<RunError>>(
+        log: &Log,
+        add: impl FnOnce(&mut App),
+        mut watch: impl FnMut(&Recorder) -> Result<(), E>,
+    ) -> Result<(), E> {
+        let mut run = Recorder::with_robots(log.config.clone(), (log.seed, log.script.clone()), add)?;
         for frame in std::iter::once(&log.initial).chain(&log.frames) {
             run.restore(frame)?;
             watch(&run)?;

@@ -1,5 +1,7 @@
 //! `verify`, the run of a log simulated again and compared with it.
 
+use bevy::app::App;
+
 use super::{Recorder, RunError};
 use crate::run::{Comparison, Digest, Divergence, Log, RunDigest};
 
@@ -32,8 +34,21 @@ pub struct Verification {
 /// assert_eq!(verify(&log, |_| {})?.identical, 4);
 /// # Ok::<(), motion_lab::recording::RunError>(())
 /// ```
-pub fn verify(log: &Log, mut on_tick: impl FnMut(&Recorder)) -> Result<Verification, RunError> {
-    let mut run = Recorder::new(log.config.clone(), (log.seed, log.script.clone()))?;
+pub fn verify(log: &Log, on_tick: impl FnMut(&Recorder)) -> Result<Verification, RunError> {
+    verify_with_robots(log, |_| {}, on_tick)
+}
+
+/// [`verify`] of a log with kinds of robots that a program added: `add` adds them, by
+/// [`RobotPlugin`](crate::simulation::RobotPlugin) or [`RobotKinds::add_to`](crate::simulation::RobotKinds::add_to).
+///
+/// # Errors
+/// [`RunError`] when the log's configuration or script cannot be run, as with a kind that `add` does not add.
+pub fn verify_with_robots(
+    log: &Log,
+    add: impl FnOnce(&mut App),
+    mut on_tick: impl FnMut(&Recorder),
+) -> Result<Verification, RunError> {
+    let mut run = Recorder::with_robots(log.config.clone(), (log.seed, log.script.clone()), add)?;
     let mut digest = RunDigest::new(log.seed, &log.config, &log.script, run.frame());
     let mut comparison = Comparison::with(log);
     comparison.frame(run.frame());

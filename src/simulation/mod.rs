@@ -4,6 +4,8 @@
 //! - A robot is an entity with a [`RobotModel<R>`] and the components that come with it. [`RobotPlugin`] adds a kind.
 //! - The state after a tick is a [`Frame`](crate::run::Frame): [`snapshot`] takes it, [`restore`] puts it back.
 //! - A window reads [`view`], [`Transport`] and [`LatestFrame`], and sends [`RunCommand`]s.
+//! - [`headless_app`] is an app without a window; [`ContactBegan`] and [`ContactEnded`] are for observers. The guide's
+//!   chapter is [`guide::bevy_app`](crate::guide::bevy_app).
 
 mod command;
 mod command_error;
@@ -37,8 +39,9 @@ pub use components::{
 pub use history::{Happening, History, HistoryPlugin, TickMark, Trail};
 pub use latest_frame::LatestFrame;
 pub use obstacles::change::ChangeRefused;
-pub use plugin::SimulationPlugin;
+pub use plugin::{SimulationPlugin, headless_app};
 pub use restore_error::RestoreError;
+pub use robot::contact::{ContactBegan, ContactEnded};
 pub use robot::ops::RobotOps;
 pub use robot::plugin::{RobotKinds, RobotPlugin};
 pub use robot::simulated::{Extra, SimulatedRobot};

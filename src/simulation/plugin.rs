@@ -64,6 +64,35 @@ impl Plugin for SimulationPlugin {
     }
 }
 
+/// An app without a window: Bevy's `MinimalPlugins` and the [`SimulationPlugin`]. Everything else is yours to add:
+/// robots by [`RobotPlugin`], systems, observers.
+///
+/// The simulation runs in `FixedUpdate` while the [`Transport`] plays, and gives the frames that a
+/// [`Recorder`](crate::recording::Recorder) of the same seed, configuration and script gives, at any rate of updates.
+/// Commands ([`RunCommand`]) written before an update's fixed loop apply at the next tick and become part of the
+/// script. `run()` plays in real time; with `TimeUpdateStrategy::ManualDuration` each `update()` is as long as you say.
+///
+/// ```
+/// use bevy::time::TimeUpdateStrategy;
+/// use motion_lab::simulation::{LatestFrame, Playback, Transport, headless_app, start_run};
+/// use motion_lab::tour::{BOOK_SEED, TourConfig};
+/// use std::time::Duration;
+///
+/// let mut app = headless_app();
+/// start_run(app.world_mut(), TourConfig::default(), BOOK_SEED)?;
+/// app.world_mut().resource_mut::<Transport>().playback = Playback::Playing;
+/// // a tick is 50 ms; the first update is where time begins
+/// app.insert_resource(TimeUpdateStrategy::ManualDuration(Duration::from_millis(50)));
+/// (0..=10).for_each(|_| app.update());
+/// assert_eq!(app.world().resource::<LatestFrame>().0.tick, 10);
+/// # Ok::<(), motion_lab::simulation::SpawnError>(())
+/// ```
+pub fn headless_app() -> App {
+    let mut app = App::new();
+    app.add_plugins((MinimalPlugins, SimulationPlugin));
+    app
+}
+
 fn run_while_playing(world: &mut World) {
     let Transport { playback, speed, .. } = *world.resource::<Transport>();
     if playback == Playback::Playing && speed.is_finite() {

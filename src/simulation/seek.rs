@@ -4,16 +4,24 @@ use bevy::prelude::*;
 
 use super::obstacles::change::RefusedChanges;
 use super::obstacles::start::settle_start;
+use super::robot::contact;
 use super::{Keyframes, RestoreError, SimulationSchedule, Transport, restore};
 
-/// Runs one tick. Before the first, obstacles that were changed from outside become those of the run.
+/// Runs one tick. Before the first, obstacles that were changed from outside become those of the run. After it, the
+/// contacts that began or ended in it are triggered as [`ContactBegan`](super::ContactBegan) and
+/// [`ContactEnded`](super::ContactEnded).
 pub fn step(world: &mut World) {
     settle_start(world);
+    contact::with_events(world, advance);
+}
+
+/// Runs one tick and triggers nothing.
+fn advance(world: &mut World) {
     world.run_schedule(SimulationSchedule);
 }
 
 /// Moves the run to `tick`. It restores the last keyframe at or before `tick` if the run stands
-/// after `tick` or before that keyframe, and simulates the rest.
+/// after `tick` or before that keyframe, and simulates the rest. No contact is triggered.
 ///
 /// # Errors
 /// [`RestoreError`] when the keyframe does not fit the run. Only a frame from elsewhere could cause that.
@@ -25,7 +33,7 @@ pub fn seek(world: &mut World, tick: u64) -> Result<(), RestoreError> {
         restore(world, &frame)?;
     }
     while world.resource::<Transport>().tick < tick {
-        step(world);
+        advance(world);
     }
     // those on the way there were reported when they were first refused
     world.resource_mut::<RefusedChanges>().0.clear();

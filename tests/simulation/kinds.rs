@@ -2,17 +2,22 @@
 
 use bevy::app::App;
 use bevy::prelude::MinimalPlugins;
+use motion_lab::atlas::{Atlas, names};
+use motion_lab::capture::{CaptureError, Subject, at_tick_with_robots, run_svg};
 use motion_lab::collision::{Collision, Scene};
-use motion_lab::configuration::{RobotKind, Space};
+use motion_lab::configuration::{Kinds, RobotKind, Space};
 use motion_lab::geometry::Aabb;
 use motion_lab::manifest::{Formula, Level};
+use motion_lab::picture::Theme;
 use motion_lab::prelude::*;
-use motion_lab::recording::{Recorder, Run, RunError};
+use motion_lab::recording::{Recorder, Run, RunError, final_lines, final_lines_with, verify, verify_with_robots};
 use motion_lab::robots::{ChartLine, ConfigurationError, PartRates, Rates};
-use motion_lab::run::RobotInput;
-use motion_lab::simulation::{Extra, LatestFrame, RobotPlugin, SimulatedRobot, SimulationPlugin, start_run, view};
+use motion_lab::run::{Log, RobotInput};
+use motion_lab::simulation::{
+    Extra, LatestFrame, RobotKinds, RobotPlugin, SimulatedRobot, SimulationPlugin, headless_app, start_run, view,
+};
 use motion_lab::tour::TourConfig;
-use motion_lab::worlds::World;
+use motion_lab::worlds::{Resident, World};
 
 use super::crowd::arena;
 use super::{event, quantized, script};
@@ -143,20 +148,21 @@ fn a_kind_registered_again_is_the_new_one_and_keeps_its_dimensions() {
     assert!((heading - expected).abs() < 1e-12, "{heading} {expected}");
 }
 
+static PUCK: RobotKind = RobotKind {
+    name: "puck",
+    coordinates: &["x", "y"],
+    start: "two: x, y",
+    spaces: &[Space { coordinates: 2, formula: "q = (x, y) \u{2208} R^2", words: "A point of the plane." }],
+    lengths: 2,
+    drives: false,
+    senses: false,
+    has_encoders: false,
+    difference: |from, to| R2::from_coordinates(from)?.difference(&R2::from_coordinates(to)?).ok(),
+    printed: |q| R2::from_coordinates(q).map(|q| q.to_string()),
+};
+
 #[test]
 fn a_kind_of_ones_own_is_shown_by_its_own_description() {
-    static PUCK: RobotKind = RobotKind {
-        name: "puck",
-        coordinates: &["x", "y"],
-        start: "two: x, y",
-        spaces: &[Space { coordinates: 2, formula: "q = (x, y) \u{2208} R^2", words: "A point of the plane." }],
-        lengths: 2,
-        drives: false,
-        senses: false,
-        has_encoders: false,
-        difference: |from, to| R2::from_coordinates(from)?.difference(&R2::from_coordinates(to)?).ok(),
-        printed: |q| R2::from_coordinates(q).map(|q| q.to_string()),
-    };
     let about = |plugin: RobotPlugin<Puck>| {
         let add = |app: &mut App| _ = app.add_plugins(plugin);
         let run = Recorder::with_robots(config(1), Seed(8), add).unwrap();
@@ -168,4 +174,95 @@ fn a_kind_of_ones_own_is_shown_by_its_own_description() {
     let formula = Formula::of(PUCK.space(2).unwrap());
     assert_eq!(formula.0.iter().map(|term| term.text).collect::<String>(), "q = (x, y) \u{2208} R2");
     assert_eq!(formula.0.last().map(|term| term.level), Some(Level::Sup));
+}
+
+/// Adds pucks as worlds' files may name them.
+fn with_pucks(app: &mut App) {
+    app.add_plugins(RobotPlugin::new("x-puck", Puck { radius: 0.2 }).described(&PUCK));
+}
+
+/// A recorded run of a puck and a rover, written as a file and read back.
+fn log_of_pucks() -> Log {
+    let mut config = config(80);
+    config.worlds[0].robots[0].kind = "x-puck".into();
+    let log = Run::record_with_robots(config, Seed(8), with_pucks).unwrap();
+    let mut file = Vec::new();
+    log.write_mcap(&mut file).unwrap();
+    Log::read_mcap(&file).unwrap().log
+}
+
+#[test]
+fn a_log_with_a_kind_of_ones_own_verifies_and_is_drawn_by_the_library() {
+    let mut log = log_of_pucks();
+    assert!(verify(&log, |_| {}).unwrap_err().to_string().contains("no kind \"x-puck\""));
+    let mut seen = 0;
+    let verified = verify_with_robots(&log, with_pucks, |run| seen += run.view().len()).unwrap();
+    assert_eq!((verified.identical, verified.divergence, verified.digest), (80, None, log.digest()));
+    assert_eq!(seen, 2 * 81);
+
+    // the last lines are printed by the description
+    let q = &log.frames[79].robots[0].configuration;
+    let kinds = Kinds::default().with("x-puck", &PUCK);
+    let contacts = log.frames[79].robots[0].contacts;
+    let line = format!("puck  R2 {{ x: {:.3}, y: {:.3} }}  contacts: {contacts}", q[0], q[1]);
+    assert_eq!(final_lines_with(&log, &kinds)[0], line);
+    assert_eq!(final_lines(&log)[0], format!("puck  [{:.3}, {:.3}]  contacts: {contacts}", q[0], q[1]));
+
+    // its figures, of any tick
+    let svg = run_svg(&log, 80, Theme::Light, with_pucks).unwrap();
+    assert!(svg.contains(&log.digest().to_string()) && svg.contains(&format!("R2 {{ x: {:.3}", q[0])), "{svg}");
+    assert_ne!(svg, run_svg(&log, 40, Theme::Light, with_pucks).unwrap());
+    assert!(matches!(run_svg(&log, 81, Theme::Light, with_pucks), Err(CaptureError::NoTick { tick: 81, last: 80 })));
+    assert!(matches!(run_svg(&log, 80, Theme::Light, |_| {}), Err(CaptureError::Run(_))));
+    let subject = Subject::Dashboard { names: false, scan: false };
+    let captured = at_tick_with_robots(&log, &subject, 30, 640.0, with_pucks).unwrap();
+    assert!(captured.figure.panels[0].picture.items.iter().any(|item| item.name == "puck"));
+
+    // a forged tick is found
+    log.frames[9].robots[0].refusals += 1;
+    assert_eq!(verify_with_robots(&log, with_pucks, |_| {}).unwrap().identical, 9);
+}
+
+/// An app hands its kinds on to what records beside it.
+#[test]
+fn the_kinds_of_an_app_are_added_to_another() {
+    let log = log_of_pucks();
+    let mut app = headless_app();
+    with_pucks(&mut app);
+    let longer = Hitch { hitch_len: Some(3.0), ..HITCH };
+    app.add_plugins(RobotPlugin::new("hitch", longer));
+    let kinds = app.world().resource::<RobotKinds>().clone();
+    assert_eq!(verify_with_robots(&log, |app| kinds.add_to(app), |_| {}).unwrap().identical, 80);
+    // from hand to hand, and a kind registered again is the new one
+    let mut second = headless_app();
+    kinds.add_to(&mut second);
+    let mut config = config(1);
+    config.worlds[0].robots = vec![Resident::new("car", "hitch", [0.0; 4])];
+    let second = second.world().resource::<RobotKinds>().clone();
+    let run = Recorder::with_robots(config, Seed(1), |app| second.add_to(app)).unwrap();
+    // the trailer's box ends 0.8 m behind its axle, which is 3 m behind the car's
+    assert_eq!(run.view()[0].footprint.parts()[1].placed().bounds().min.x, -3.8);
+    assert_eq!(second.known().of("x-puck"), Some(&PUCK));
+}
+
+/// The atlas names and draws it at its start, and puts nothing onto it.
+#[test]
+fn the_atlas_shows_a_kind_that_it_knows() {
+    let mut app = headless_app();
+    with_pucks(&mut app);
+    let kinds = app.world().resource::<RobotKinds>().known();
+    let robots: [(&str, &str, &[f64]); 2] = [("puck", "x-puck", &[0.0, 0.5]), ("Rusty", "rusty", &[1.0, 1.0, 0.0])];
+    let plain = Atlas::new(arena(2.0, &robots));
+    let named = |atlas: &Atlas| names(atlas, 100.0).iter().any(|item| item.id == "name/robots/puck");
+    let drawn = |atlas: &Atlas| atlas.picture().items.iter().any(|item| item.name == "puck");
+    assert!(!named(&plain) && !drawn(&plain));
+    let mut atlas = plain.knowing(kinds);
+    assert!(named(&atlas) && drawn(&atlas));
+    let (name, footprint) = atlas.others().next().unwrap();
+    assert_eq!((name, footprint.parts()[0].placed().core()[0]), ("puck", Point2::new(0.0, 0.5)));
+    // a rover of radius 0.11 m beside a puck of radius 0.2 m
+    let rover = atlas.robots()[0].q;
+    let refusal = atlas.teleport(0, rover.with(0, 0.3).with(1, 0.5)).unwrap().unwrap_err();
+    assert_eq!(refusal.to_string(), "would overlap puck");
+    assert_eq!(atlas.teleport(0, rover.with(0, 0.32).with(1, 0.5)), Some(Ok(())));
 }

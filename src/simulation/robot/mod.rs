@@ -1,5 +1,6 @@
 //! Kinds of robots in the simulation.
 
+pub(crate) mod contact;
 pub(crate) mod kinds;
 pub(crate) mod ops;
 pub(crate) mod plugin;

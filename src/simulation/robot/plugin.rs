@@ -6,7 +6,8 @@ use std::sync::Arc;
 use bevy::prelude::*;
 
 use super::spawn::{SpawnRequest, spawn_robot};
-use crate::configuration::RobotKind;
+use crate::configuration::{Configuration as _, Kinds, RobotKind};
+use crate::geometry::Footprint;
 use crate::simulation::schedule::{KindSystems, Phase};
 use crate::simulation::tick::{drive, settle};
 use crate::simulation::{RobotOps, SimulatedRobot, SimulationSchedule, SimulationSystems, SpawnError};
@@ -41,11 +42,18 @@ impl<R: SimulatedRobot> RobotPlugin<R> {
 /// Spawns one robot of a kind.
 type Spawner = Arc<dyn Fn(&mut World, &SpawnRequest) -> Result<Entity, SpawnError> + Send + Sync>;
 
+/// Adds a kind's plugin to an app.
+type Adder = Arc<dyn Fn(&mut App) + Send + Sync>;
+
 /// The kinds of robots that worlds may name.
 #[derive(Resource, Clone, Default)]
 pub struct RobotKinds {
     spawners: BTreeMap<String, Spawner>,
     about: BTreeMap<String, &'static RobotKind>,
+    /// The footprints of the kinds that are not the lab's.
+    known: Kinds,
+    /// The plugins by kind, in the order of registration.
+    plugins: Vec<(String, Adder)>,
     /// The number of robot types.
     types: usize,
 }
@@ -59,6 +67,39 @@ impl RobotKinds {
     /// The description of a kind, if it has one.
     pub fn about(&self, kind: &str) -> Option<&'static RobotKind> {
         self.about.get(kind).copied()
+    }
+
+    /// What is known of the kinds, for what has no simulator: descriptions and, of a program's own kinds, footprints.
+    /// The atlas and a run's last lines use them.
+    pub fn known(&self) -> Kinds {
+        self.about.iter().fold(self.known.clone(), |kinds, (name, about)| kinds.with(name.as_str(), about))
+    }
+
+    /// Registers the same kinds in another app, which has the
+    /// [`SimulationPlugin`](crate::simulation::SimulationPlugin). A window hands its kinds on so to what records and
+    /// draws its runs.
+    ///
+    /// ```
+    /// use motion_lab::recording::Run;
+    /// use motion_lab::simulation::{RobotKinds, headless_app};
+    /// use motion_lab::tour::{BOOK_SEED, TourConfig};
+    ///
+    /// let app = headless_app(); // with plugins of your own
+    /// let kinds = app.world().resource::<RobotKinds>();
+    /// let config = TourConfig { ticks: 5, ..TourConfig::default() };
+    /// let log = Run::record_with_robots(config, BOOK_SEED, |recorder| kinds.add_to(recorder))?;
+    /// assert_eq!(log.frames.len(), 5);
+    /// # Ok::<(), motion_lab::recording::RunError>(())
+    /// ```
+    pub fn add_to(&self, app: &mut App) {
+        self.plugins.iter().for_each(|(_, add)| add(app));
+    }
+
+    fn remember(&mut self, kind: &str, add: Adder) {
+        match self.plugins.iter_mut().find(|(name, _)| name == kind) {
+            Some((_, older)) => *older = add,
+            None => self.plugins.push((kind.to_owned(), add)),
+        }
     }
 
     pub(crate) fn spawner(&self, kind: &str) -> Option<Spawner> {
@@ -93,6 +134,14 @@ fn install<R: SimulatedRobot>(world: &mut World) {
     );
 }
 
+/// The footprint of a robot at these start coordinates; `None` where a run would not start.
+fn footprint<R: SimulatedRobot>(model: &R, start: &[f64]) -> Option<Footprint> {
+    let q = model.configuration_at(&R::Configuration::from_coordinates(start)?, start)?;
+    let robot = model.fitted(&q);
+    robot.check(&q).ok()?;
+    Some(robot.footprint(&q))
+}
+
 impl<R: SimulatedRobot> Plugin for RobotPlugin<R> {
     fn build(&self, app: &mut App) {
         let model = self.model.clone();
@@ -101,7 +150,14 @@ impl<R: SimulatedRobot> Plugin for RobotPlugin<R> {
             install::<R>(world);
             spawn_robot(world, &model, ops, request)
         });
+        let plugin = self.clone();
         let mut kinds = app.world_mut().get_resource_or_init::<RobotKinds>();
+        if RobotKind::of(&self.kind).is_none() {
+            let model = self.model.clone();
+            let known = std::mem::take(&mut kinds.known);
+            kinds.known = known.with_footprint(&self.kind, move |start| footprint(&model, start));
+        }
+        kinds.remember(&self.kind, Arc::new(move |app: &mut App| _ = app.add_plugins(plugin.clone())));
         kinds.spawners.insert(self.kind.clone(), spawner);
         match self.about {
             Some(about) => _ = kinds.about.insert(self.kind.clone(), about),

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use crate::anatomy::WorldSource;
 use crate::atlas::{Atlas, Editor, GridLayer, Op, Refusal, names};
 use crate::capture::{self, AtlasSheet, Captured};
-use crate::configuration::AnyConfiguration;
+use crate::configuration::{AnyConfiguration, Kinds};
 use crate::geometry::Point2;
 use crate::picture::{Item, Picture, Role, footprint, world as picture_of};
 use crate::robots::Robot;
@@ -106,6 +106,20 @@ impl AtlasState {
     #[must_use]
     pub fn in_mode(self, mode: Mode) -> Self {
         AtlasState { mode, ..self }
+    }
+
+    /// The same state in the mode of an earlier one, for the kinds of robots that it knew.
+    #[must_use]
+    pub fn like(self, earlier: &AtlasState) -> Self {
+        let mut new = self.in_mode(earlier.mode);
+        new.know(earlier.atlas.kinds().clone());
+        new
+    }
+
+    /// Shows robots of these kinds too.
+    pub fn know(&mut self, kinds: Kinds) {
+        self.atlas = self.atlas.clone().knowing(kinds);
+        self.labels = None;
     }
 
     /// The world.
@@ -283,7 +297,7 @@ impl AtlasState {
     pub(crate) fn redraw(&mut self) {
         let world = self.editor.world().clone();
         self.still = Arc::new(picture_of(&world));
-        self.atlas = Atlas::new(world);
+        self.atlas = Atlas::new(world).knowing(self.atlas.kinds().clone());
         self.warnings = self.editor.warnings();
         (self.labels, self.grid, self.refused, self.wanted) = (None, None, None, None);
     }

@@ -127,7 +127,7 @@ fn beside_the_paper(ui: &mut Ui, model: &Dashboard, look: &Look, state: &mut UiS
             for name in World::built_in_names() {
                 let Some(world) = World::built_in(name) else { continue };
                 if ui.selectable_label(present == world.name, &world.name).clicked() {
-                    state.atlas = AtlasState::of(world).in_mode(state.atlas.mode);
+                    state.atlas = AtlasState::of(world).like(&state.atlas);
                 }
             }
         });

@@ -259,11 +259,12 @@ fn links(ui: &mut Ui, robot: &CockpitRobot, state: &mut UiState, commands: &mut 
                 state.settings.scan = !state.settings.scan;
             }
         }
-        if robot.is_arm {
+        // a program's own arm has the links that it has
+        let own = [RobotKind::REACH.name, RobotKind::REACH3.name].contains(&robot.kind.as_str());
+        if robot.is_arm && own {
             let (words, links) = if robot.coordinates.len() == 2 { ("three links", 3) } else { ("two links", 2) };
             let link = ui.link(words).on_hover_text("Start a new run with this arm");
-            let own = [RobotKind::REACH.name, RobotKind::REACH3.name].contains(&robot.kind.as_str());
-            if link.clicked() && own {
+            if link.clicked() {
                 commands.push(Command::Session(SessionCommand::Links { robot: robot.name.clone(), links }));
             }
         }

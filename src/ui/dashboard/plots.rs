@@ -20,12 +20,32 @@ struct Channel {
     value: fn(&Trail) -> Option<f64>,
 }
 
+/// The value of a line.
+#[derive(Clone, Copy)]
+enum Value {
+    /// As a channel says.
+    Of(fn(&Trail) -> Option<f64>),
+    /// A coordinate of the configuration.
+    Coordinate(usize),
+}
+
+impl Value {
+    fn of(self, trail: &Trail) -> Option<f64> {
+        match self {
+            Value::Of(value) => value(trail),
+            Value::Coordinate(i) => trail.coordinates.get(i).copied(),
+        }
+    }
+}
+
 /// A plot.
 struct Graph {
     title: &'static str,
     /// Whether its values are angles in (-pi, pi].
     wraps: bool,
     channels: &'static [Channel],
+    /// Whether it also has a line for each angle of robots of a kind, under the coordinate's name.
+    angles: fn(&RobotKind) -> bool,
 }
 
 const GRAPHS: [Graph; 4] = [
@@ -33,19 +53,9 @@ const GRAPHS: [Graph; 4] = [
         title: "Distance to the nearest obstacle, m",
         wraps: false,
         channels: &[Channel { shows: |_| true, name: "", value: |t| Some(t.clearance).filter(|c| c.is_finite()) }],
+        angles: |_| false,
     },
-    Graph {
-        title: "Headings, rad",
-        wraps: true,
-        channels: &[
-            Channel { shows: |k| k.drives, name: "theta", value: |t| t.coordinates.get(2).copied() },
-            Channel {
-                shows: |k| k.drives && k.coordinates.len() > 3,
-                name: "psi",
-                value: |t| t.coordinates.get(3).copied(),
-            },
-        ],
-    },
+    Graph { title: "Headings, rad", wraps: true, channels: &[], angles: |k| !k.is_arm() },
     Graph {
         title: "Encoders against true travel, m",
         wraps: false,
@@ -53,24 +63,9 @@ const GRAPHS: [Graph; 4] = [
             Channel { shows: |k| k.has_encoders, name: "encoders", value: |t| t.encoders },
             Channel { shows: |k| k.has_encoders, name: "true", value: |t| Some(t.travelled) },
         ],
+        angles: |_| false,
     },
-    Graph {
-        title: "Joint angles, rad",
-        wraps: true,
-        channels: &[
-            Channel { shows: RobotKind::is_arm, name: "theta1", value: |t| t.coordinates.first().copied() },
-            Channel {
-                shows: |k| k.is_arm() && k.coordinates.len() > 1,
-                name: "theta2",
-                value: |t| t.coordinates.get(1).copied(),
-            },
-            Channel {
-                shows: |k| k.is_arm() && k.coordinates.len() > 2,
-                name: "theta3",
-                value: |t| t.coordinates.get(2).copied(),
-            },
-        ],
-    },
+    Graph { title: "Joint angles, rad", wraps: true, channels: &[], angles: RobotKind::is_arm },
 ];
 
 /// The pieces of a line, which is broken where an angle wraps.
@@ -124,14 +119,23 @@ pub fn plots(
     }
 }
 
-/// The lines of a plot: the id of the robot, its name with the channel's, and the value.
-fn lines<'a>(graph: &'a Graph, model: &'a Dashboard) -> impl Iterator<Item = (u32, String, fn(&Trail) -> Option<f64>)> {
+/// The lines of a plot: the id of the robot, its name with the channel's or the coordinate's, and the value.
+fn lines<'a>(graph: &'a Graph, model: &'a Dashboard) -> impl Iterator<Item = (u32, String, Value)> {
     let robots = || (0_u32..).zip(model.cockpits.iter().flat_map(|c| &c.robots));
-    graph.channels.iter().flat_map(move |channel| {
+    let channels = graph.channels.iter().flat_map(move |channel| {
         // a kind without a description has the lines of every robot
         let of = robots().filter(move |(_, r)| r.about.map_or(channel.name.is_empty(), channel.shows));
-        of.map(|(id, r)| (id, format!("{} {}", r.name, channel.name).trim().to_owned(), channel.value))
-    })
+        of.map(|(id, r)| (id, format!("{} {}", r.name, channel.name).trim().to_owned(), Value::Of(channel.value)))
+    });
+    let described = move || robots().filter_map(|(id, r)| Some((id, r, r.about.filter(|k| (graph.angles)(k))?)));
+    let most = described().map(|(_, _, kind)| kind.coordinates.len()).max().unwrap_or(0);
+    let angles = (0..most).flat_map(move |i| {
+        let of = described().filter(move |(_, _, kind)| i >= kind.lengths);
+        of.filter_map(move |(id, r, kind)| {
+            Some((id, format!("{} {}", r.name, kind.coordinates.get(i)?), Value::Coordinate(i)))
+        })
+    });
+    channels.chain(angles)
 }
 
 /// Shows the title of a plot and the names of its lines, each with its colour and dash.
@@ -175,7 +179,7 @@ fn plot(
         .y_axis_min_width(28.0)
         .show(ui, |plot| {
             for (number, (id, name, value)) in lines(graph, model).enumerate() {
-                let samples = history.series(id, POINTS, value).into_iter();
+                let samples = history.series(id, POINTS, |trail| value.of(trail)).into_iter();
                 let points: Vec<[f64; 2]> = samples.map(|(tick, value)| [DT * tick as f64, value]).collect();
                 let (colour, style) = line_of(number, look);
                 for piece in unbroken(&points, graph.wraps) {

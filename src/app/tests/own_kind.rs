@@ -1,0 +1,84 @@
+//! A kind of robot that the program added: what the window shows of it.
+
+use super::*;
+use crate::configuration::{Configuration as _, HitchCfg, RobotKind, Space};
+use crate::robots::HITCH;
+use crate::simulation::{RobotPlugin, start_run};
+use crate::tour::TourConfig;
+use crate::worlds::{Resident, World};
+
+static TUG: RobotKind = RobotKind {
+    name: "x-tug",
+    coordinates: &["x", "y", "course", "tow"],
+    lengths: 2,
+    start: "three: x, y, course",
+    spaces: &[Space { coordinates: 4, formula: "q = (x, y, c, t)", words: "A tug's course, and its tow's." }],
+    drives: true,
+    senses: false,
+    has_encoders: false,
+    difference: |from, to| HitchCfg::from_coordinates(from)?.difference(&HitchCfg::from_coordinates(to)?).ok(),
+    printed: |q| q.first().map(|x| format!("a tug at x = {x:.3}")),
+};
+
+fn yard() -> World {
+    let mut world = World::lot();
+    world.robots = vec![Resident::new("Tug", "x-tug", [8.0, 1.9, 0.0, 0.0])];
+    world
+}
+
+/// The window of a program that adds tugs, with a run of one in the Lot.
+fn lab_with_tugs() -> Harness<'static, Lab> {
+    let mut app = app(Duration::from_millis(25));
+    app.add_plugins(RobotPlugin::new("x-tug", HITCH.with_trailer()).described(&TUG));
+    let config = TourConfig { worlds: vec![yard()], ticks: 100, sensor: None };
+    start_run(app.world_mut(), config, crate::random::Seed(3)).unwrap();
+    app.world_mut().resource_mut::<Transport>().playback = Playback::Playing;
+    let build = |ui: &mut egui::Ui, lab: &mut Lab| lab.frame(ui);
+    let mut harness = Harness::builder().with_size(WIDE).with_step_dt(0.025).build_ui_state(build, Lab { app });
+    harness.run_steps(30);
+    harness
+}
+
+#[test]
+fn names_formula_and_plots_are_its_own() {
+    let mut harness = lab_with_tugs();
+    assert!(harness.state().transport().tick > 5);
+    click(&mut harness, "Plots");
+    harness.get_by_label_contains("Tug \u{b7} Lot");
+    harness.get_by_label("A tug's course, and its tow's.");
+    harness.get_by_label_contains("Tug course");
+    harness.get_by_label_contains("Tug tow");
+    assert!(
+        harness.query_by_label_contains("Tug theta").is_none() && harness.query_by_label_contains("Tug psi").is_none()
+    );
+    assert!(harness.query_by_label_contains("Tug x").is_none(), "its lengths are no angles");
+}
+
+#[test]
+fn its_run_is_saved_opened_and_captured() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("tug.mcap");
+    let mut harness = lab_with_tugs();
+    pause(&mut harness);
+    let saved = save_run(harness.state().app.world(), &path);
+    assert!(!saved.is_error, "{saved:?}");
+    let opened = open_run(harness.state_mut().app.world_mut(), &path);
+    assert!(!opened.is_error && opened.text.contains("bit-identical"), "{opened:?}");
+    let world = harness.state().app.world();
+    let run = crate::app::runs::shown_run(world, 10);
+    let figure = crate::app::captured::captured(&world.resource::<Interface>().0, run, 4, 640.0).unwrap().figure;
+    assert!(figure.panels[0].picture.items.iter().any(|item| item.name.contains("Tug")));
+}
+
+#[test]
+fn the_atlas_names_and_draws_it() {
+    let mut harness = lab_with_tugs();
+    let world = harness.state_mut().app.world_mut();
+    let opened = crate::app::runs::open_world_text(world, "yard.ron", &yard().to_ron());
+    assert!(!opened.is_error, "{opened:?}");
+    harness.run_steps(3);
+    let atlas = &mut harness.state_mut().app.world_mut().resource_mut::<Interface>().into_inner().0.atlas;
+    let label = |items: &[crate::picture::Item]| items.iter().any(|item| item.id == "name/robots/Tug");
+    assert!(label(atlas.labels(60.0)));
+    assert!(atlas.over().items.iter().any(|item| item.name.contains("Tug")), "its outline");
+}
