@@ -11,11 +11,11 @@ use std::error::Error;
 use std::f64::consts::PI;
 use std::fmt;
 
-use motion_lab::configuration::{ChartMismatch, Coordinates};
+use motion_lab::configuration::{ChartMismatch, Coordinates, Kinds, RobotKind, Space};
 use motion_lab::geometry::Tangent2;
 use motion_lab::num::{atan2, cos, hypot, in_range, sin, sin_cos, tan, wrap};
 use motion_lab::prelude::*;
-use motion_lab::recording::{Run, final_lines};
+use motion_lab::recording::{Run, final_lines_with, verify_with_robots};
 use motion_lab::robots::{ConfigurationError, PartRates, Rates, TICK, check_drive_rates, check_rates};
 use motion_lab::run::Log;
 use motion_lab::simulation::{App, Extra, RobotPlugin, SimulatedRobot};
@@ -267,15 +267,34 @@ impl SimulatedRobot for Train {
     }
 }
 
-/// Registers [`TRAIN`] as the kind `x-train`.
+/// What figures, plots and a window show of trains: names, spaces, and how a configuration prints.
+pub static ABOUT: RobotKind = RobotKind {
+    name: "x-train",
+    coordinates: &["x", "y", "theta", "psi1", "psi2"],
+    lengths: 2,
+    start: "five: x, y, theta, psi1, psi2",
+    spaces: &[Space {
+        coordinates: 5,
+        formula: "q = (x, y, \u{3b8}, \u{3c8}_1, \u{3c8}_2) \u{2208} SE(2) \u{d7} T^2",
+        words: "Position and heading of the car, and the heading of each trailer.",
+    }],
+    drives: true,
+    senses: false,
+    has_encoders: false,
+    difference: |from, to| TrainCfg::from_coordinates(from)?.difference(&TrainCfg::from_coordinates(to)?).ok(),
+    printed: |q| TrainCfg::from_coordinates(q).map(|q| q.to_string()),
+};
+
+/// Registers [`TRAIN`] as the kind `x-train`. A window of one's own takes it too:
+/// `motion_lab::app::run_window_with(with_trains)`.
 pub fn with_trains(app: &mut App) {
-    app.add_plugins(RobotPlugin::new("x-train", TRAIN));
+    app.add_plugins(RobotPlugin::new(ABOUT.name, TRAIN).described(&ABOUT));
 }
 
 /// A minute of a train in the Lot.
 pub fn config() -> TourConfig {
     let mut lot = World::lot();
-    lot.robots = vec![Resident::new("Train", "x-train", [8.0, 1.9, 0.0, 0.0, 0.0])];
+    lot.robots = vec![Resident::new("Train", ABOUT.name, [8.0, 1.9, 0.0, 0.0, 0.0])];
     TourConfig { worlds: vec![lot], ticks: 1200, sensor: None }
 }
 
@@ -298,10 +317,9 @@ pub fn check_bounds() -> Result<(), Box<dyn Error>> {
 pub fn report() -> Result<String, Box<dyn Error>> {
     check_bounds()?;
     let log = record(motion_lab::tour::BOOK_SEED)?;
-    let again = Run::replay_with_robots(&log, with_trains)?;
-    let same = again.iter().zip(&log.digests).filter(|(frame, digest)| frame.digest() == **digest).count();
-    let mut lines = final_lines(&log);
-    lines.push(format!("{same} of {} ticks bit-identical in the replay\n", log.frames.len()));
+    let verified = verify_with_robots(&log, with_trains, |_| {})?;
+    let mut lines = final_lines_with(&log, &Kinds::default().with(ABOUT.name, &ABOUT));
+    lines.push(format!("{} of {} ticks bit-identical in the replay\n", verified.identical, verified.recorded));
     Ok(lines.join("\n"))
 }
 

@@ -2,3 +2,6 @@
 
 #[doc = include_str!("guide/write_a_planner.md")]
 pub mod write_a_planner {}
+
+#[doc = include_str!("guide/bevy_app.md")]
+pub mod bevy_app {}

@@ -9,6 +9,7 @@ mod export;
 mod files;
 mod grade;
 mod import;
+mod kinds;
 mod manual;
 mod messages;
 mod queries;

@@ -11,10 +11,14 @@ use crate::oracle::arm::{arm_clearance, obstacles};
 use crate::oracle::plain;
 use crate::oracle::short;
 
+#[path = "../examples/bevy_app.rs"]
+mod bevy_app;
 #[path = "../examples/bug1.rs"]
 mod bug1;
+#[path = "../examples/crowd.rs"]
+mod crowd;
 #[path = "../examples/custom_robot.rs"]
-mod custom_robot;
+pub mod custom_robot;
 #[path = "../examples/lab_tour.rs"]
 mod lab_tour;
 #[path = "../examples/own_planner.rs"]
@@ -114,6 +118,39 @@ fn bug1_round_one_disc_goes_as_far_as_geometry_says() {
     let walled = Checker::new(Scene::of_walls(&walls), RustyDisc::default());
     let run = bug1::bug1(&walled, start, Point2::new(1.5, 0.0), None);
     assert!(!run.reached && run.rounds == 1, "{run:?}");
+}
+
+#[test]
+fn an_app_of_ones_own() {
+    use motion_lab::simulation::PendingInput;
+
+    assert_prints!("bevy_app", bevy_app::report().unwrap());
+    let app = bevy_app::ran(400).unwrap();
+    let script = app.world().resource::<PendingInput>().script();
+    let [going, turning] = [[128, 0], [0, 64]].map(|channels| {
+        let is = |e: &&motion_lab::run::Event| e.input == motion_lab::run::RobotInput::Drive(channels[0], channels[1]);
+        script.events.iter().filter(is).count()
+    });
+    assert!(going > 2 && turning > 2 && going + turning == script.events.len(), "{going} and {turning}");
+    assert!(script.events.iter().all(|e| e.robot == "Rusty"), "the system drives rovers alone");
+    // the observer's count is the frame's
+    let frame = &app.world().resource::<motion_lab::simulation::LatestFrame>().0;
+    assert_eq!(
+        app.world().resource::<bevy_app::Diary>().contacts,
+        frame.robots.iter().map(|r| r.contacts).sum::<u32>()
+    );
+}
+
+#[test]
+fn a_hundred_robots() {
+    assert_prints!("crowd", crowd::report(300).unwrap());
+    let log = crowd::record(Seed(3), 40).unwrap();
+    let names: std::collections::BTreeSet<&str> = log.config.robot_names().collect();
+    assert_eq!((names.len(), log.frames[39].robots.len()), (100, 100));
+    let moved =
+        log.initial.robots.iter().zip(&log.frames[39].robots).filter(|(a, b)| a.configuration != b.configuration);
+    assert!(moved.count() > 90, "nearly all are on tour");
+    assert_eq!(motion_lab::recording::verify(&log, |_| {}).unwrap().identical, 40);
 }
 
 #[test]

@@ -99,7 +99,7 @@ fn every_contact_begins_and_ends_once_whoever_runs_the_ticks() {
     let (config, input) = config();
     let log = Run::record(config.clone(), input.clone()).unwrap();
     let expected = by_frames(&log);
-    // a metre apart, less two radii, at twice a rover's speed: 26 ticks at the least, and slip may add one
+    // a metre apart, less two radii, at twice a rover's speed: 13 ticks, and slip may add one
     let closing = ((1.0 - 2.0 * RUSTY.body_radius) / (2.0 * RUSTY.max_speed * 0.05)).ceil() as u64;
     assert!(expected[0].0.abs_diff(closing) <= 1 && expected[0].2, "{expected:?}");
     let ends: Vec<_> = expected.iter().filter(|(.., began)| !began).collect();

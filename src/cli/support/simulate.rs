@@ -2,24 +2,45 @@
 
 use std::path::Path;
 
+use motion_lab::configuration::RobotKind;
 use motion_lab::random::Seed;
 use motion_lab::recording::{Recorder, Run, RunError, Verification};
 use motion_lab::run::{Frame, Log, Script};
+use motion_lab::simulation::SpawnError;
 use motion_lab::tour::TourConfig;
 
 use crate::cli::Failure;
 
 /// Advice about a run that can't start.
-const CHANGE: &str = "Change the world file, the script or --robot.";
+fn advice(error: &RunError) -> String {
+    match error {
+        RunError::Spawn(SpawnError::UnknownKind { .. }) => unknown_kind(),
+        _ => "Change the world file, the script or --robot.".into(),
+    }
+}
+
+/// What to do about a kind of robot that the lab does not have.
+pub fn unknown_kind() -> String {
+    let own: Vec<&str> = RobotKind::ALL.iter().map(|kind| kind.name).collect();
+    format!(
+        "The lab's kinds are {}. A program adds any other by a `RobotPlugin`: record, verify, replay and draw with the \
+         program that made it, as examples/custom_robot.rs and the guide's chapter `bevy_app` show.",
+        own.join(", ")
+    )
+}
+
+fn refused(error: &RunError) -> Failure {
+    Failure::input(error, advice(error))
+}
 
 /// A run at tick 0.
 pub fn begin(seed: Seed, config: &TourConfig, script: &Script) -> Result<Recorder, Failure> {
-    Recorder::new(config.clone(), (seed, script.clone())).map_err(|error| Failure::input(error, CHANGE))
+    Recorder::new(config.clone(), (seed, script.clone())).map_err(|error| refused(&error))
 }
 
 /// Simulates a log's run again and compares it: see [`motion_lab::recording::verify`].
 pub fn verify(log: &Log, on_tick: impl FnMut(&Recorder)) -> Result<Verification, Failure> {
-    motion_lab::recording::verify(log, on_tick).map_err(|error| Failure::input(error, CHANGE))
+    motion_lab::recording::verify(log, on_tick).map_err(|error| refused(&error))
 }
 
 /// The reason to stop showing a run.
@@ -53,6 +74,6 @@ pub fn not_shown(file: &Path, error: &RunError) -> Failure {
             format!("{}: {error}", file.display()),
             "The log holds what no run gives; `motion-lab verify` says where it differs.",
         ),
-        error => Failure::input(error, CHANGE),
+        error => refused(error),
     }
 }

@@ -1,6 +1,7 @@
 //! Checks of worlds whose files are valid: residents that touch something, obstacles outside the bounds.
 
 use motion_lab::collision::{ObstacleId, Scene};
+use motion_lab::configuration::RobotKind;
 use motion_lab::geometry::Footprint;
 use motion_lab::robots::{AnyRobot, Robot};
 use motion_lab::worlds::{Door, Obstacle, ObstacleKind, World};
@@ -27,6 +28,14 @@ pub fn problems(world: &World) -> Vec<String> {
         })
     });
     in_contact.chain(neighbours).chain(outside(world)).take(MAX_REPORTED).collect()
+}
+
+/// The robots of kinds that the lab does not have, whose starts are not checked; `None` when there are none.
+pub fn unknown(world: &World) -> Option<String> {
+    let strangers = world.robots.iter().filter(|r| RobotKind::of(&r.kind).is_none());
+    let named: Vec<String> =
+        strangers.map(|r| format!("{:?} of the kind {:?}", r.name, r.kind)).take(MAX_REPORTED).collect();
+    (!named.is_empty()).then(|| format!("not checked, as this program has no such kind: {}", named.join(", ")))
 }
 
 /// The residents as the obstacles of a scene, in their order.

@@ -11,6 +11,7 @@ use motion_lab::worlds::World;
 use serde::Serialize;
 
 use crate::cli::support::input::for_each_file;
+use crate::cli::support::simulate::unknown_kind;
 use crate::cli::support::world_source::{find_world, read_world};
 use crate::cli::{Data, Failure, Outcome, say};
 use export::Export;
@@ -97,6 +98,10 @@ fn check(files: &[PathBuf], json: bool, data: &mut Data) -> Result<Outcome, Fail
             ));
         }
         summarise(&source, &world, json, data)?;
+        if let Some(unknown) = check::unknown(&world) {
+            data.flush()?;
+            say(format!("{source}: {unknown}\n{}", unknown_kind()));
+        }
         if world.robots.is_empty() {
             data.flush()?;
             say(format!("{source}: no robot lives there: only worlds with robots can be run"));
