@@ -161,8 +161,9 @@ fn an_observer_of_one_robot_hears_that_robot() {
 fn an_observer_may_begin_another_run() {
     let mut app = headless_app();
     app.init_resource::<Diary>();
-    app.add_observer(|on: On<ContactBegan>, mut diary: ResMut<Diary>, mut commands: Commands| {
-        diary.0.push((on.tick, 0, true));
+    // both robots are free from the same tick on
+    app.add_observer(|on: On<ContactEnded>, mut diary: ResMut<Diary>, mut commands: Commands| {
+        diary.0.push((on.tick, 0, false));
         commands.queue(|world: &mut World| {
             let (config, input) = config();
             start_run(world, config, input).unwrap();
@@ -173,6 +174,6 @@ fn an_observer_may_begin_another_run() {
     while app.world().resource::<Diary>().0.is_empty() {
         step(app.world_mut());
     }
-    assert_eq!(app.world().resource::<Diary>().0.len(), 1, "the other robot of that tick is gone");
+    assert_eq!(app.world().resource::<Diary>().0, [(60, 0, false)], "the other robot of that tick is gone");
     assert_eq!(app.world().resource::<Transport>().tick, 0);
 }
