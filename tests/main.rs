@@ -33,6 +33,7 @@ mod house;
 mod imports;
 #[cfg(feature = "sim")]
 mod inputs;
+mod jackknife;
 #[cfg(feature = "sim")]
 mod keyframes;
 mod letters;

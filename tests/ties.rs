@@ -4,7 +4,7 @@
 //! Every distance here comes from whole numbers: discs 5 m off by triangles with sides 3, 4 and 5, and squares of
 //! distances compared as integers.
 
-use motion_lab::collision::{Checker, ObstacleId, Surroundings};
+use motion_lab::collision::{Checker, HitBy, ObstacleId, Surroundings};
 use motion_lab::num::sqrt;
 use motion_lab::prelude::*;
 use motion_lab::robots::ConfigurationError;
@@ -158,8 +158,8 @@ fn an_edge_that_meets_two_obstacles_at_once_hits_the_first_in_file_order() {
 /// Fails unless the verdict is a hit of this obstacle by part 0 with the contact at `at` in a bracket of a micrometre.
 #[track_caller]
 fn assert_hits(verdict: EdgeVerdict, at: f64, length: f64, id: u32) {
-    let EdgeVerdict::Hit { free_until, contact_at, part, obstacle } = verdict else { panic!("{verdict:?}") };
-    assert_eq!((part, obstacle), (0, ObstacleId(id)));
+    let EdgeVerdict::Hit { free_until, contact_at, part, by } = verdict else { panic!("{verdict:?}") };
+    assert_eq!((part, by), (0, HitBy::Obstacle(ObstacleId(id))));
     assert!(free_until < at && at <= contact_at && (contact_at - free_until) * length <= 1e-6, "{verdict:?}, not {at}");
 }
 

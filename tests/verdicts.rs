@@ -131,7 +131,8 @@ pub fn check_claims(
             let sampled = world.least(motion, speed, 1.0);
             assert!(clearance > margin && sampled >= clearance, "{clearance} proven, {sampled} sampled: {}", at());
         }
-        EdgeVerdict::Hit { free_until, contact_at, part, obstacle } => {
+        EdgeVerdict::Hit { free_until, contact_at, part, by } => {
+            let obstacle = by.obstacle().unwrap();
             tally.hits += 1;
             assert_eq!(proven, free_until, "{}", at());
             let contact = motion.footprint_at(contact_at);

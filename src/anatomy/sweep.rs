@@ -1,7 +1,7 @@
 //! The swept tab's answer: the verdict on the motion to a second configuration, and the proof.
 
 use super::words::{figure, metres};
-use crate::collision::{Certificate, Checker, Collision, EdgeVerdict, UnresolvedReason};
+use crate::collision::{Certificate, Checker, Collision, EdgeVerdict, HitBy, UnresolvedReason};
 use crate::configuration::{AnyConfiguration, Configuration};
 use crate::num::greater;
 use crate::robots::{AnyRobot, ConfigurationError, Motion, Robot};
@@ -80,10 +80,15 @@ impl Sweep {
                 lines.push(format!("free all the way, at least {} clear", metres(clearance)));
                 lines.push(format!("proven in {steps}"));
             }
-            EdgeVerdict::Hit { free_until, contact_at, part, obstacle } => {
-                lines.push(format!("{} hits {}", robot.part_name(part), name(obstacle)));
+            EdgeVerdict::Hit { free_until, contact_at, part, by } => {
+                let (part, at) = (robot.part_name(part), figure(contact_at, 7));
+                let (hits, there) = match by {
+                    HitBy::Obstacle(id) => (format!("{part} hits {}", name(id)), format!("in contact at s = {at}")),
+                    HitBy::Limit => (format!("the hitch holds {part}"), format!("beyond its limit at s = {at}")),
+                };
+                lines.push(hits);
                 lines.push(format!("proven free to s = {}, {steps}", figure(free_until, 7)));
-                lines.push(format!("in contact at s = {}", figure(contact_at, 7)));
+                lines.push(there);
                 lines.push(format!("between the two at most {} \u{b5}m", figure(self.width * 1e6, 2)));
             }
             EdgeVerdict::Unresolved { free_until, gap, reason } => {

@@ -164,10 +164,8 @@ fn swept_catches_midpoint() {
     anatomy.set_step(1, 0.0);
     let sweep = anatomy.sweep().unwrap();
     assert!(sweep.from_free && sweep.to_free, "free end points included");
-    let EdgeVerdict::Hit { free_until, contact_at, part: 0, obstacle } = sweep.verdict else {
-        panic!("{:?}", sweep.verdict)
-    };
-    assert_eq!(anatomy.checker().scene().obstacle_name(obstacle), Some("the post"));
+    let EdgeVerdict::Hit { free_until, contact_at, part: 0, by } = sweep.verdict else { panic!("{:?}", sweep.verdict) };
+    assert_eq!(by.obstacle().and_then(|id| anatomy.checker().scene().obstacle_name(id)), Some("the post"));
     assert!(sweep.width <= 1e-6 && free_until < contact_at, "bracketed to a micrometre");
     assert!(anatomy.checker().is_free(&sweep.at(free_until)) && !anatomy.checker().is_free(&sweep.at(contact_at)));
     let picture = anatomy.picture();

@@ -56,12 +56,16 @@ impl<R: Robot> Checker<R> {
         &self.robot
     }
 
-    /// Whether the robot touches nothing at `q`. False for a configuration that is not this robot's.
+    /// Whether the robot touches nothing at `q`, which lies within the robot's own limits. False for a configuration
+    /// that is not this robot's.
     pub fn is_free(&self, q: &R::Configuration) -> bool {
-        self.robot.check(q).is_ok() && !self.scene.intersects(&self.robot.footprint(q))
+        self.robot.check(q).is_ok()
+            && self.robot.is_within_limits(q)
+            && !self.scene.intersects(&self.robot.footprint(q))
     }
 
-    /// The clearance at `q`, metres: 0 in contact, and for a configuration that is not this robot's.
+    /// The clearance at `q`, metres: 0 in contact, and for a configuration that is not this robot's. The robot's own
+    /// limits don't matter here.
     pub fn distance(&self, q: &R::Configuration) -> f64 {
         if self.robot.check(q).is_err() { 0.0 } else { self.scene.distance(&self.robot.footprint(q)) }
     }

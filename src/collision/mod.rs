@@ -28,7 +28,7 @@ pub use narrow::pair::{distance, footprint_distance, touch};
 pub use problem::{Problem, ProblemError};
 pub use scene::Scene;
 pub use surroundings::Surroundings;
-pub use witness::{ObstacleId, Witness};
+pub use witness::{HitBy, ObstacleId, Witness};
 
 use crate::geometry::{Footprint, Placed};
 

@@ -25,6 +25,12 @@ pub enum ProblemError {
         /// What is wrong with it.
         source: ConfigurationError,
     },
+    /// The start or the goal lies outside the robot's own limits: the hitch folds too far.
+    #[error("the {end} lies outside the robot's own limits")]
+    Limit {
+        /// `start` or `goal`.
+        end: &'static str,
+    },
     /// The start or the goal overlaps or touches an obstacle.
     #[error("the {end} would overlap {obstacle}")]
     Overlap {
@@ -51,6 +57,9 @@ impl<R: Robot> Problem<R> {
             if let Some(w) = witness.filter(|w| w.dist == 0.0) {
                 let obstacle = checker.scene().obstacle_name(w.obstacle).unwrap_or("an obstacle").to_owned();
                 return Err(ProblemError::Overlap { end, obstacle });
+            }
+            if !checker.robot().is_within_limits(q) {
+                return Err(ProblemError::Limit { end });
             }
         }
         Ok(Problem { checker, start, goal, samples: Stream::new(seed, "planner") })

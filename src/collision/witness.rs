@@ -12,6 +12,25 @@ impl ObstacleId {
     pub const UNKNOWN: ObstacleId = ObstacleId(u32::MAX);
 }
 
+/// What a motion hits.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum HitBy {
+    /// An obstacle.
+    Obstacle(ObstacleId),
+    /// The robot's own limit, which no obstacle sets: the jackknife limit of a hitch.
+    Limit,
+}
+
+impl HitBy {
+    /// The obstacle; `None` for a limit.
+    pub fn obstacle(self) -> Option<ObstacleId> {
+        match self {
+            HitBy::Obstacle(id) => Some(id),
+            HitBy::Limit => None,
+        }
+    }
+}
+
 /// The nearest points of a footprint and the obstacles, and which part and obstacle they lie on.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Witness {

@@ -29,6 +29,14 @@ impl fmt::Display for HitchCfg {
     }
 }
 
+impl HitchCfg {
+    /// The angle of the hitch, from the car's heading to the trailer's: psi - theta in `(-pi, pi]`, radians. 0 with the
+    /// trailer straight behind, pi with the two on each other. `None` without a trailer.
+    pub fn hitch_angle(&self) -> Option<f64> {
+        Some(wrap(in_range(self.trailer?) - in_range(self.body.theta)))
+    }
+}
+
 impl Configuration for HitchCfg {
     fn is_finite(&self) -> bool {
         self.body.is_finite() && self.trailer.is_none_or(f64::is_finite)

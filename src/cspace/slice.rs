@@ -17,7 +17,7 @@ const SLACK: f64 = 1e-11;
 pub enum CellState {
     /// Every configuration in it is free, by proof.
     Free,
-    /// Every configuration in it is in contact, by proof.
+    /// Every configuration in it is in contact, or outside the robot's own limits, by proof.
     Blocked,
     /// Neither is proven.
     #[default]
@@ -141,6 +141,10 @@ impl Slice {
     pub fn judge(&self, centre: [f64; 2], half: [f64; 2]) -> CellState {
         let (robot, scene) = (self.checker.robot(), self.checker.scene());
         let q = self.at(centre);
+        if !robot.is_within_limits(&q) {
+            // only a car has limits; they are about its headings, which a slice holds
+            return CellState::Blocked;
+        }
         // the rates depend on the difference alone; it is taken from 0, so that it is not wrapped
         let Ok(rates) = robot.edge_rates(&self.at([0.0; 2]), &self.at([half[0], half[1]])) else {
             return CellState::Unknown;

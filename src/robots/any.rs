@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use super::{ConfigurationError, HITCH, Hitch, PartRates, RUSTY, Reach, Robot, Rusty};
+use super::{ConfigurationError, HITCH, Hitch, Leaving, PartRates, RUSTY, Reach, Robot, Rusty};
 use crate::configuration::{AnyConfiguration, Configuration, HitchCfg, RobotKind, Tn};
 use crate::geometry::{Footprint, Part, Point2, Pose2, Shape};
 use crate::num::{greater, hypot, lesser};
@@ -224,6 +224,20 @@ impl Robot for AnyRobot {
             (AnyRobot::Reach3(r), AnyConfiguration::T3(a), AnyConfiguration::T3(b)) => r.edge_rates(a, b),
             (AnyRobot::Hitch(r), AnyConfiguration::Hitch(a), AnyConfiguration::Hitch(b)) => r.edge_rates(a, b),
             _ => Err(ConfigurationError::OtherRobot),
+        }
+    }
+
+    fn is_within_limits(&self, q: &AnyConfiguration) -> bool {
+        match (self, q) {
+            (AnyRobot::Hitch(car), AnyConfiguration::Hitch(q)) => car.is_within_limits(q),
+            _ => true,
+        }
+    }
+
+    fn edge_leaves(&self, a: &AnyConfiguration, b: &AnyConfiguration) -> Option<Leaving> {
+        match (self, a, b) {
+            (AnyRobot::Hitch(car), AnyConfiguration::Hitch(a), AnyConfiguration::Hitch(b)) => car.edge_leaves(a, b),
+            _ => None,
         }
     }
 

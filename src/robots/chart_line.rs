@@ -1,6 +1,6 @@
 //! `ChartLine`, the straight line of a configuration chart as a motion.
 
-use super::{ConfigurationError, Motion, PartRates, Rates, Robot};
+use super::{ConfigurationError, Leaving, Motion, PartRates, Rates, Robot};
 use crate::configuration::Configuration;
 use crate::geometry::{Footprint, Segment};
 
@@ -45,5 +45,9 @@ impl<R: Robot> Motion for ChartLine<R> {
 
     fn disc_line(&self) -> Option<(Segment, f64)> {
         self.robot.disc_line(&self.from, &self.to)
+    }
+
+    fn leaves_limits(&self) -> Option<Leaving> {
+        self.robot.edge_leaves(&self.from, &self.to)
     }
 }

@@ -220,7 +220,8 @@ fn measure<M: Motion>(motion: &M, draws: &mut Stream, used: &mut RatesUse) -> Re
                 Measured { bound: Bound::Acceleration, value: bow, claimed: motion.sagitta(part, s - h, s + h) };
             for (Measured { bound, value, claimed }, unit) in [(speed, 2.0 * h), (acceleration, 0.5 * h * h)] {
                 // a bound that is no number is exceeded
-                if !(value <= claimed + 2.0 * rounding) {
+                let holds = value <= claimed + 2.0 * rounding;
+                if !holds {
                     let (measured, claimed) = (value / unit, claimed / unit);
                     return Err(RatesError::Exceeded { bound, part, from, to, s, measured, claimed });
                 }

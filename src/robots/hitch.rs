@@ -1,6 +1,7 @@
 //! Hitch, a kinematic car that may pull a trailer.
 
-use super::{ConfigurationError, Drivable, Motion, PartRates, Rates, Robot, sample_angle};
+use super::jackknife::leaves_along_line;
+use super::{ConfigurationError, Drivable, Leaving, Motion, PartRates, Rates, Robot, sample_angle};
 use crate::configuration::{Configuration, HitchCfg};
 use crate::geometry::{Aabb, Footprint, Point2, Pose2};
 use crate::num;
@@ -24,6 +25,9 @@ pub struct Hitch {
     pub trailer_body: TrailerBody,
     /// Distance d_h from the rear axle, where the hitch is, to the trailer's axle, metres. `None` without a trailer.
     pub hitch_len: Option<f64>,
+    /// Greatest angle of the hitch to either side, `|psi - theta|` wrapped, radians, between 0 and pi. A configuration
+    /// beyond it is not free, and no motion passes it. `None` without a limit: car and trailer may lie on each other.
+    pub jackknife: Option<f64>,
 }
 
 /// The chassis rectangle, seen from the rear axle.
@@ -56,6 +60,7 @@ pub const HITCH: Hitch = Hitch {
     body: CarBody { length: 3.9, width: 1.7, rear_overhang: 0.7 },
     trailer_body: TrailerBody { front_overhang: 1.0, rear_overhang: 0.8, width: 1.5 },
     hitch_len: None,
+    jackknife: None,
 };
 
 /// The distance from the rear axle to the trailer's axle when the lab's trailer is attached, metres.
@@ -116,6 +121,13 @@ impl Hitch {
     #[must_use]
     pub fn without_trailer(self) -> Self {
         Hitch { hitch_len: None, ..self }
+    }
+
+    /// The same car with a hitch that folds by at most `limit` radians to either side, between 0 and pi. With a limit
+    /// that is not a number no configuration with a trailer is free.
+    #[must_use]
+    pub fn with_jackknife(self, limit: f64) -> Self {
+        Hitch { jackknife: Some(limit), ..self }
     }
 
     /// The curvature of the rear axle's path at steering angle `phi`, clamped to `max_steer`: `tan(phi) / wheelbase`,
@@ -202,6 +214,18 @@ impl Robot for Hitch {
             parts.push(rates(*dpsi, farthest(self.trailer_body.rectangle(hitch_len))));
         }
         Ok(parts)
+    }
+
+    /// Whether the hitch folds by no more than the car's `jackknife`. True without a limit or without a trailer.
+    fn is_within_limits(&self, q: &HitchCfg) -> bool {
+        match (self.jackknife, q.hitch_angle()) {
+            (Some(limit), Some(angle)) => angle.abs() <= limit,
+            _ => true,
+        }
+    }
+
+    fn edge_leaves(&self, a: &HitchCfg, b: &HitchCfg) -> Option<Leaving> {
+        leaves_along_line(self.jackknife?, a, b)
     }
 }
 

@@ -1,10 +1,13 @@
 //! `HitchArc`, what a car does under a constant control: the chain of its ticks' motions.
 
+use std::f64::consts::PI;
+
 use super::hitch::farthest;
-use super::{CarCmd, ConfigurationError, Drivable, Hitch, Motion, Rates, Robot, TICK};
+use super::jackknife::TRAILER;
+use super::{CarCmd, ConfigurationError, Drivable, Hitch, Leaving, Motion, Rates, Robot, TICK};
 use crate::configuration::{Configuration, HitchCfg};
 use crate::geometry::{Footprint, Tangent2};
-use crate::num::{greater, rk4, sin, ulp, wrap};
+use crate::num::{greater, lesser, rk4, sin, ulp, wrap};
 
 /// The number of Runge-Kutta steps for the trailer's heading in a motion of one tick.
 const TRAILER_SUBSTEPS: u32 = 4;
@@ -14,6 +17,9 @@ const MOST_TICKS: f64 = 72_000.0;
 
 /// A time step this near a whole number of ticks is that number of ticks; in ticks.
 const WHOLE: f64 = 1e-9;
+
+/// The greatest number of pieces into which a tick is divided to see whether it leaves the jackknife limit.
+const MOST_PIECES: f64 = 256.0;
 
 /// The motion of one tick: the body's exact arc, the trailer dragged along.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -89,6 +95,8 @@ pub struct HitchArc {
     ticks: f64,
     /// By how much rounding may move a point of the footprint from the end of a tick to the start of the next, metres.
     rounding: f64,
+    /// Where it leaves the car's jackknife limit.
+    leaving: Option<Leaving>,
 }
 
 impl HitchArc {
@@ -100,7 +108,7 @@ impl HitchArc {
 
     /// A motion of one piece.
     fn one(first: TickArc) -> Self {
-        HitchArc { first, later: Vec::new(), ticks: 1.0, rounding: 0.0 }
+        HitchArc { first, later: Vec::new(), ticks: 1.0, rounding: 0.0, leaving: None }
     }
 
     /// The chain of this many ticks, more than one.
@@ -117,7 +125,58 @@ impl HitchArc {
         // by the f64 nearest 2 pi.
         let trailer = first.car.hitch_len.map_or(0.0, |length| farthest(first.car.trailer_body.rectangle(length)));
         let reach = greater(farthest(first.car.body.rectangle()), trailer);
-        HitchArc { first, later, ticks, rounding: 16.0 * ulp(4.0 + size + reach) }
+        HitchArc { first, later, ticks, rounding: 16.0 * ulp(4.0 + size + reach), leaving: None }
+    }
+
+    /// The arc with the place where it leaves its car's jackknife limit.
+    fn limited(self) -> Self {
+        HitchArc { leaving: self.find_leaving(), ..self }
+    }
+
+    /// Where the arc leaves its car's jackknife limit: a pair of neighbouring parameters, or almost.
+    ///
+    /// Under a constant control the hitch's angle f obeys `f' = -(v / d_h) sin f - (v / wheelbase) tan phi`, which does
+    /// not depend on time, so f only rises or only falls, and cannot go round without passing the limit. So the arc
+    /// stays within where the ends of its ticks do. Ticks in which the angle could change by so much that it is not
+    /// known which way round it went are divided. The numerical solution departs from that by less than its own error,
+    /// which for the lab's car and trailer is below 1e-9 rad.
+    fn find_leaving(&self) -> Option<Leaving> {
+        let TickArc { car, start, ahead, turn } = &self.first;
+        let (limit, hitch_len) = (car.jackknife?, car.hitch_len?);
+        let is_within = |q: &HitchCfg| car.is_within_limits(q);
+        let leaving = |within_until: f64, outside_at: f64| Leaving { within_until, outside_at, part: TRAILER };
+        if !is_within(start) {
+            return Some(leaving(0.0, 0.0));
+        }
+        let change = 1.01 * ahead.abs() / hitch_len + turn.abs();
+        if limit >= PI || change == 0.0 {
+            return None;
+        }
+        let pieces = (change / (PI - limit)).ceil();
+        if pieces.is_nan() || pieces > MOST_PIECES {
+            return Some(leaving(0.0, 1.0)); // nothing is known of so wild a motion
+        }
+        let mut within_until = 0.0;
+        let mut number = 0.0;
+        while within_until < 1.0 {
+            number += 1.0;
+            let s = lesser(number / pieces / self.ticks, 1.0);
+            if is_within(&self.at(s)) {
+                within_until = s;
+                continue;
+            }
+            let mut outside_at = s;
+            for _ in 0..64 {
+                let middle = within_until + 0.5 * (outside_at - within_until);
+                if is_within(&self.at(middle)) {
+                    within_until = middle;
+                } else {
+                    outside_at = middle;
+                }
+            }
+            return Some(leaving(within_until, outside_at));
+        }
+        None
     }
 
     /// The number of the tick at `s`, from 0, and the parameter within its motion.
@@ -179,6 +238,10 @@ impl Motion for HitchArc {
         let kink = 0.25 * self.first.kink(part) * self.ticks * h.abs();
         smooth + self.borders(s0, s1) * (kink + self.rounding)
     }
+
+    fn leaves_limits(&self) -> Option<Leaving> {
+        self.leaving
+    }
 }
 
 impl Drivable for Hitch {
@@ -203,7 +266,7 @@ impl Drivable for Hitch {
         };
         let whole = arc(dt).ok_or(ConfigurationError::ControlNotFinite)?;
         if dt.abs() <= TICK {
-            return Ok(HitchArc::one(whole));
+            return Ok(HitchArc::one(whole).limited());
         }
         let ticks = dt.abs() / TICK;
         if ticks > MOST_TICKS {
@@ -212,6 +275,7 @@ impl Drivable for Hitch {
         let tick = arc(if dt > 0.0 { TICK } else { -TICK }).ok_or(ConfigurationError::ControlNotFinite)?;
         let nearest = ticks.round();
         let ticks = if (ticks - nearest).abs() <= WHOLE { nearest } else { ticks };
-        Ok(if ticks == 1.0 { HitchArc::one(tick) } else { HitchArc::chain(tick, ticks) })
+        let arc = if ticks == 1.0 { HitchArc::one(tick) } else { HitchArc::chain(tick, ticks) };
+        Ok(arc.limited())
     }
 }

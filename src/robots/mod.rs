@@ -40,6 +40,7 @@ mod chart_line;
 mod check_rates;
 mod hitch;
 mod hitch_arc;
+mod jackknife;
 mod motion;
 mod reach;
 mod rusty;
@@ -49,7 +50,8 @@ pub use chart_line::ChartLine;
 pub use check_rates::{Bound, RatesError, RatesUse, check_drive_rates, check_rates};
 pub use hitch::{CarBody, CarCmd, HITCH, Hitch, TrailerBody};
 pub use hitch_arc::HitchArc;
-pub use motion::{Motion, Rates};
+pub(crate) use motion::Beginning;
+pub use motion::{Leaving, Motion, Rates};
 pub use reach::{JointPoints, Reach, ReachError};
 pub use rusty::{EncoderCounts, RUSTY, Rusty, RustyArc, RustyCmd, RustyDisc, WheelSlip, WheelTurns};
 
@@ -123,6 +125,21 @@ pub trait Robot: Clone + std::fmt::Debug + PartialEq + Send + Sync + 'static {
     /// The line that the footprint's centre follows along the chart's straight line from `a` to `b`, and the
     /// footprint's radius, metres; `None` where the robot is not a disc.
     fn disc_line(&self, _a: &Self::Configuration, _b: &Self::Configuration) -> Option<(Segment, f64)> {
+        None
+    }
+
+    /// Whether `q` lies within the robot's own limits, which no obstacle sets, such as the angle of a hitch. A
+    /// configuration outside is not free. The limit itself lies within.
+    ///
+    /// A robot that overrides this overrides [`edge_leaves`](Self::edge_leaves) too, and
+    /// [`Motion::leaves_limits`] of its drives.
+    fn is_within_limits(&self, _q: &Self::Configuration) -> bool {
+        true
+    }
+
+    /// Where the chart's straight line from `a` to `b` first leaves the robot's own limits; `None` where it stays
+    /// within them.
+    fn edge_leaves(&self, _a: &Self::Configuration, _b: &Self::Configuration) -> Option<Leaving> {
         None
     }
 

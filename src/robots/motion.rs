@@ -13,6 +13,17 @@ pub struct Rates {
     pub acceleration: f64,
 }
 
+/// Where a motion leaves its robot's own limits, which no obstacle sets: a hitch folds only so far.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Leaving {
+    /// Up to this parameter the configuration lies within the limits. 0 also where the start lies outside.
+    pub within_until: f64,
+    /// At this parameter it lies outside; 0 where the start does.
+    pub outside_at: f64,
+    /// The number of the part that the limit holds.
+    pub part: usize,
+}
+
 /// A continuous motion over the parameter `s` in `[0, 1]`: an edge of a roadmap, a tick of a drive.
 pub trait Motion {
     /// The type of its configurations.
@@ -39,6 +50,12 @@ pub trait Motion {
         None
     }
 
+    /// Where the motion first leaves its robot's own limits; `None` where it stays within them throughout, as every
+    /// motion of a robot without limits does.
+    fn leaves_limits(&self) -> Option<Leaving> {
+        None
+    }
+
     /// How far part number `part`, as a set, can move between `s0` and `s1`, metres.
     ///
     /// The radius does not count: turning a capsule's core on the spot moves the set by as much as the core.
@@ -54,5 +71,37 @@ pub trait Motion {
     fn sagitta(&self, part: usize, s0: f64, s1: f64) -> f64 {
         let h = s1 - s0;
         0.125 * self.rates(part).acceleration * h * h
+    }
+}
+
+/// The beginning of a motion, up to one of its parameters, as a motion of its own. Its places are the motion's own, bit
+/// for bit: `s` here is `s * until` there.
+pub(crate) struct Beginning<'a, M> {
+    pub(crate) motion: &'a M,
+    pub(crate) until: f64,
+}
+
+impl<M: Motion> Motion for Beginning<'_, M> {
+    type Configuration = M::Configuration;
+
+    fn at(&self, s: f64) -> M::Configuration {
+        self.motion.at(s * self.until)
+    }
+
+    fn footprint_at(&self, s: f64) -> Footprint {
+        self.motion.footprint_at(s * self.until)
+    }
+
+    fn rates(&self, part: usize) -> Rates {
+        let Rates { speed, acceleration } = self.motion.rates(part);
+        Rates { speed: speed * self.until, acceleration: acceleration * self.until * self.until }
+    }
+
+    fn bound(&self, part: usize, s0: f64, s1: f64) -> f64 {
+        self.motion.bound(part, s0 * self.until, s1 * self.until)
+    }
+
+    fn sagitta(&self, part: usize, s0: f64, s1: f64) -> f64 {
+        self.motion.sagitta(part, s0 * self.until, s1 * self.until)
     }
 }

@@ -9,7 +9,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     println!("{verdict:?}");
     assert_eq!(
         format!("{verdict:?}"),
-        "Hit { free_until: 0.09033440175947335, contact_at: 0.09033447198881014, part: 1, obstacle: ObstacleId(0) }"
+        "Hit { free_until: 0.09033440175947335, contact_at: 0.09033447198881014, part: 1, by: Obstacle(ObstacleId(0)) }"
     );
     let (a, b) = (checker.robot().footprint(&q), checker.robot().footprint(&to));
     println!("swept: {}", checker.scene().swept(&a, &b));

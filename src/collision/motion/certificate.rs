@@ -29,6 +29,14 @@ pub enum CertificateError {
     /// A step that does not end after it begins, or that ends beyond 1.
     #[error("step {0} does not go forward within [0, 1]")]
     Backward(usize),
+    /// A step that goes on after the motion has left its robot's own limits.
+    #[error("step {step} goes beyond the robot's own limit, within which the motion is up to {within_until}")]
+    BeyondLimit {
+        /// The number of the step, from 0.
+        step: usize,
+        /// Where the motion leaves the limit.
+        within_until: f64,
+    },
     /// A step whose claimed clearance is more than the distance and the motion bound prove.
     #[error("step {step} claims {claimed} m of clearance, but only {proven} m are proven")]
     Unproven {
@@ -55,6 +63,16 @@ impl Certificate {
     pub(crate) fn clear(&mut self, margin: f64) {
         self.margin = margin;
         self.steps.clear();
+    }
+
+    /// Makes the steps of a motion's beginning, up to the parameter `until`, those of the whole motion.
+    pub(crate) fn scale(&mut self, until: f64) {
+        if until <= 0.0 {
+            self.steps.clear();
+        }
+        for step in &mut self.steps {
+            *step = ProvenStep { from: step.from * until, to: step.to * until, ..*step };
+        }
     }
 
     pub(crate) fn push(&mut self, step: ProvenStep) {

@@ -1,8 +1,11 @@
 //! The certified march: a motion proven free step by step, or bracketed where it hits.
 
+use super::limits::judge_beginning;
 use super::place::{ContactAhead, Course, Place, Start};
 use super::step::step_clearance;
-use crate::collision::{Certificate, Collision, EdgeVerdict, MarchOptions, ObstacleId, ProvenStep, UnresolvedReason};
+use crate::collision::{
+    Certificate, Collision, EdgeVerdict, HitBy, MarchOptions, ObstacleId, ProvenStep, UnresolvedReason,
+};
 use crate::geometry::{Footprint, Part, largest_coordinate};
 use crate::num::{greater, lesser, sqrt, ulp};
 use crate::robots::Motion;
@@ -30,8 +33,24 @@ fn promising(clearance: f64, closing: f64, acceleration: f64) -> f64 {
 /// from the clearance and how fast it falls, and halved where the proof fails. Guesses cost only time: what is proven
 /// does not depend on them. Near a grazed obstacle the sagitta is of second order in the step, so sliding along a wall
 /// stays cheap. Where the far end of a failed step is in contact, the hit is bracketed between the last proven point
-/// and that contact; a bracket of at most [`BRACKET`] of motion ends the march.
+/// and that contact; a bracket of at most [`BRACKET`] of motion ends the march. A motion that leaves its robot's own
+/// limits is marched up to there, and hits the limit.
 pub fn march<M: Motion>(
+    collision: &dyn Collision,
+    motion: &M,
+    options: MarchOptions,
+    certificate: Option<&mut Certificate>,
+) -> EdgeVerdict {
+    if let Some(leaving) = motion.leaves_limits() {
+        return judge_beginning(motion, leaving, certificate, |beginning, certificate| {
+            march_within(collision, beginning, options, certificate)
+        });
+    }
+    march_within(collision, motion, options, certificate)
+}
+
+/// As [`march`], for a motion within its robot's own limits.
+fn march_within<M: Motion>(
     collision: &dyn Collision,
     motion: &M,
     options: MarchOptions,
@@ -140,7 +159,7 @@ impl<M: Motion> Ground for Plain<'_, M> {
 pub(crate) fn hit(collision: &dyn Collision, motion: &impl Motion, free_until: f64, contact_at: f64) -> EdgeVerdict {
     let witness = collision.witness(&motion.footprint_at(contact_at));
     let (part, obstacle) = witness.map_or((0, ObstacleId::UNKNOWN), |w| (w.part, w.obstacle));
-    EdgeVerdict::Hit { free_until, contact_at, part, obstacle }
+    EdgeVerdict::Hit { free_until, contact_at, part, by: HitBy::Obstacle(obstacle) }
 }
 
 /// Marches from a free start. One step is known not to prove the whole motion.
@@ -256,7 +275,7 @@ mod tests {
     fn a_hit_is_bracketed_to_a_micrometre_at_the_true_place() {
         let c = disc(wall((3.0, -1.0), (3.0, 1.0)), 0.25);
         let verdict = c.edge(&R2::new(0.0, 0.0), &R2::new(8.0, 0.0)).unwrap();
-        let EdgeVerdict::Hit { free_until, contact_at, part: 0, obstacle: ObstacleId(0) } = verdict else {
+        let EdgeVerdict::Hit { free_until, contact_at, part: 0, by: HitBy::Obstacle(ObstacleId(0)) } = verdict else {
             panic!("{verdict:?}")
         };
         // the disc's edge meets the wall when its centre is at x = 2.75

@@ -6,6 +6,7 @@
 
 use super::closed_form::disc_line::DiscLine;
 use super::closed_form::verdicts::{circular, linear, straight};
+use super::limits::judge_beginning;
 use super::local_march::march_nearby;
 use super::place::Ends;
 use super::separation::{halve, is_separated, open_parts};
@@ -18,8 +19,24 @@ use crate::robots::Motion;
 /// A closed form only predicts the first contact. The verdict itself is proven: the motion is free throughout, or up to
 /// just before that contact, and in contact just after it. For parts in translation one step of the march proves it
 /// free, for discs a clearance in closed form, less its rounding. If a certificate is asked for, steps that the
-/// verifier accepts prove every free stretch.
+/// verifier accepts prove every free stretch. A motion that leaves its robot's own limits is judged up to there, and
+/// hits the limit if that much is free.
 pub(crate) fn verdict<M: Motion>(
+    scene: &Scene,
+    motion: &M,
+    budget: u32,
+    certificate: Option<&mut Certificate>,
+) -> EdgeVerdict {
+    if let Some(leaving) = motion.leaves_limits() {
+        return judge_beginning(motion, leaving, certificate, |beginning, certificate| {
+            verdict_within(scene, beginning, budget, certificate)
+        });
+    }
+    verdict_within(scene, motion, budget, certificate)
+}
+
+/// As [`verdict`], for a motion within its robot's own limits.
+fn verdict_within<M: Motion>(
     scene: &Scene,
     motion: &M,
     budget: u32,
@@ -50,6 +67,9 @@ const HALVINGS: u32 = 48;
 /// Whether a motion in a scene is proven free: true wherever the [`verdict`] says so. Faster, because it computes
 /// neither the clearance nor the first contact.
 pub(crate) fn is_free<M: Motion>(scene: &Scene, motion: &M, budget: u32) -> bool {
+    if motion.leaves_limits().is_some() {
+        return false;
+    }
     if let Some((way, radius)) = motion.disc_line()
         && let Some(free) = DiscLine::new(way, radius, scene).and_then(|disc| disc.is_free(scene))
     {

@@ -7,10 +7,11 @@ use super::separation::is_separated;
 use crate::collision::{Collision, EdgeVerdict, MarchOptions};
 use crate::robots::Motion;
 
-/// Whether a motion is proven free, in any checker.
+/// Whether a motion is proven free, in any checker, and stays within its robot's own limits.
 pub(crate) fn is_free_among<M: Motion>(collision: &dyn Collision, motion: &M) -> bool {
     let options = MarchOptions::default();
-    is_free_or(collision, motion, options.margin, || march(collision, motion, options, None))
+    motion.leaves_limits().is_none()
+        && is_free_or(collision, motion, options.margin, || march(collision, motion, options, None))
 }
 
 /// A motion that does not keep its margin everywhere.
@@ -22,8 +23,8 @@ pub(crate) struct Blocked {
     pub(crate) until: f64,
 }
 
-/// Whether a motion keeps a margin that depends on its clearance at the start, metres; if not, how far it does.
-/// `enough` is no less than any margin: a motion that keeps so much needs no query of its start.
+/// Whether a motion within its robot's own limits keeps a margin that depends on its clearance at the start, metres; if
+/// not, how far it does. `enough` is no less than any margin: a motion that keeps so much needs no query of its start.
 pub(crate) fn keeps<M: Motion>(
     collision: &dyn Collision,
     motion: &M,

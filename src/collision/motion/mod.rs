@@ -7,6 +7,7 @@ pub(crate) mod conservative_advancement;
 pub(crate) mod decide;
 #[cfg(feature = "sim")]
 pub(crate) mod keeps;
+pub(crate) mod limits;
 pub(crate) mod local_march;
 pub(crate) mod local_scene;
 pub(crate) mod place;

@@ -1,6 +1,6 @@
 //! `EdgeVerdict`, what is known of a motion, and the options of the march.
 
-use crate::collision::ObstacleId;
+use crate::collision::HitBy;
 
 /// What is known of a motion over its parameter `s` in `[0, 1]`.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -14,12 +14,12 @@ pub enum EdgeVerdict {
     Hit {
         /// Everything before this `s` is proven free. 0 when the start is in contact.
         free_until: f64,
-        /// At this `s` the footprint is in contact.
+        /// At this `s` the footprint is in contact, or the configuration outside the robot's own limits.
         contact_at: f64,
-        /// The part in contact there.
+        /// The part in contact there, or held by the limit.
         part: usize,
-        /// The obstacle it touches.
-        obstacle: ObstacleId,
+        /// The obstacle it touches, or the limit.
+        by: HitBy,
     },
     /// Neither could be proven.
     Unresolved {

@@ -19,6 +19,8 @@ const ROUNDING: f64 = 32.0;
 /// which lies in the convex hull of the part's two placed shapes. So the hull's distance, less the sagitta, is a lower
 /// bound of the clearance; 32 ulps of the largest coordinate are subtracted for rounding.
 ///
+/// No step may go beyond where the motion leaves its robot's own limits.
+///
 /// # Errors
 /// [`CertificateError`] names the first step that fails.
 pub fn verify_certificate<M: Motion>(
@@ -26,6 +28,7 @@ pub fn verify_certificate<M: Motion>(
     motion: &M,
     certificate: &Certificate,
 ) -> Result<f64, CertificateError> {
+    let limit = motion.leaves_limits().map_or(1.0, |leaving| leaving.within_until);
     let mut at = 0.0;
     for (i, step) in certificate.steps().iter().enumerate() {
         if step.from != at {
@@ -33,6 +36,9 @@ pub fn verify_certificate<M: Motion>(
         }
         if !(step.to > step.from && step.to <= 1.0) {
             return Err(CertificateError::Backward(i));
+        }
+        if step.to > limit {
+            return Err(CertificateError::BeyondLimit { step: i, within_until: limit });
         }
         let proven = proven(collision, motion, step);
         if !(step.clearance <= proven && proven > certificate.margin()) {

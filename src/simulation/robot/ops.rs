@@ -92,7 +92,10 @@ fn apply<R: SimulatedRobot>(world: &mut World, e: Entity, input: &RobotInput, ot
         let (q, mode) = (world.get::<Configuration<R>>(e)?.0, *world.get::<DriveMode<R>>(e)?);
         let inhabited = world.get::<ResidesIn>(e)?.0;
         let surroundings = Surroundings { scene: &world.get::<WorldScene>(inhabited)?.0, others };
-        let is_free = |q: &R::Configuration| !surroundings.intersects(&robot.fitted(q).footprint(q));
+        let is_free = |q: &R::Configuration| {
+            let robot = robot.fitted(q);
+            robot.is_within_limits(q) && !surroundings.intersects(&robot.footprint(q))
+        };
         let (after, put) = accepted(robot, &q, &mode, input, is_free)
             .unwrap_or((DriveMode { refusals: mode.refusals.saturating_add(1), ..mode }, None));
         let mut extra = world.get::<OwnState<R>>(e)?.extra.clone();

@@ -2,7 +2,7 @@
 
 use crate::collision::{Blocked, Collision, keeps};
 use crate::num::{greater, lesser};
-use crate::robots::Motion;
+use crate::robots::{Beginning, Motion};
 
 /// Least clearance at the end of a blocked motion that starts with at least this clearance, metres.
 pub const LEAST_CLEARANCE: f64 = 1e-5;
@@ -48,8 +48,17 @@ pub fn margin_from(start: f64) -> f64 {
 /// Returns how far `motion` may go in these surroundings.
 ///
 /// A free motion goes all the way. A blocked motion is held at a clearance of [`HOLD_CLEARANCE`] or a little more (the
-/// bisection's width), or at its start when that is nearer. A start in contact stays where it is.
+/// bisection's width), or at its start when that is nearer. A start in contact stays where it is. At its own limits,
+/// such as the angle of a hitch, a robot is held as at an obstacle, but without a margin: within to the last bit.
 pub fn advance(surroundings: &dyn Collision, motion: &impl Motion) -> Advance {
+    let Some(leaving) = motion.leaves_limits() else { return advance_within(surroundings, motion) };
+    let limit = leaving.within_until;
+    let until = if limit > 0.0 { advance_within(surroundings, &Beginning { motion, until: limit }).until } else { 0.0 };
+    Advance { until: until * limit, blocked: true }
+}
+
+/// As [`advance`], for a motion within its robot's own limits.
+fn advance_within(surroundings: &dyn Collision, motion: &impl Motion) -> Advance {
     let Err(Blocked { start, until }) = keeps(surroundings, motion, MARGIN + 2.0 * WEAR, margin_from) else {
         return Advance { until: 1.0, blocked: false };
     };

@@ -1,6 +1,6 @@
 //! Answers as JSON.
 
-use motion_lab::collision::{Checker, Collision, EdgeVerdict, ObstacleId, Scene, Witness};
+use motion_lab::collision::{Checker, Collision, EdgeVerdict, HitBy, ObstacleId, Scene, Witness};
 use motion_lab::geometry::{Point2, Pose2};
 use motion_lab::robots::Robot;
 use motion_lab::sensors::RangeSensor;
@@ -36,9 +36,24 @@ pub struct WitnessAnswer {
 #[derive(Debug, Serialize)]
 #[serde(tag = "edge", rename_all = "lowercase")]
 pub enum EdgeAnswer {
-    Free { clearance: JsonNumber },
-    Hit { free_until: JsonNumber, contact_at: JsonNumber, part: usize, obstacle: Option<String> },
-    Unresolved { free_until: JsonNumber, gap: JsonNumber, reason: &'static str },
+    Free {
+        clearance: JsonNumber,
+    },
+    Hit {
+        free_until: JsonNumber,
+        contact_at: JsonNumber,
+        part: usize,
+        /// The obstacle's name; null for the robot's own limit.
+        obstacle: Option<String>,
+        /// `jackknife` where the robot's own limit is hit; not printed otherwise.
+        #[serde(skip_serializing_if = "Option::is_none")]
+        limit: Option<&'static str>,
+    },
+    Unresolved {
+        free_until: JsonNumber,
+        gap: JsonNumber,
+        reason: &'static str,
+    },
 }
 
 /// The answer about a robot at `q`, moving to `to` where the question is about a motion.
@@ -90,11 +105,12 @@ fn witness(scene: &Scene, w: &Witness) -> WitnessAnswer {
 pub fn edge(scene: &Scene, verdict: EdgeVerdict) -> EdgeAnswer {
     match verdict {
         EdgeVerdict::Free { clearance } => EdgeAnswer::Free { clearance: JsonNumber(clearance) },
-        EdgeVerdict::Hit { free_until, contact_at, part, obstacle } => EdgeAnswer::Hit {
+        EdgeVerdict::Hit { free_until, contact_at, part, by } => EdgeAnswer::Hit {
             free_until: JsonNumber(free_until),
             contact_at: JsonNumber(contact_at),
             part,
-            obstacle: name(scene, obstacle),
+            obstacle: by.obstacle().and_then(|id| name(scene, id)),
+            limit: (by == HitBy::Limit).then_some("jackknife"),
         },
         EdgeVerdict::Unresolved { free_until, gap, reason } => {
             EdgeAnswer::Unresolved { free_until: JsonNumber(free_until), gap: JsonNumber(gap), reason: reason.name() }

@@ -5,7 +5,7 @@ use smallvec::SmallVec;
 use super::time_of_impact::point_meets;
 use crate::collision::motion::conservative_advancement::BRACKET;
 use crate::collision::narrow::convex::edges;
-use crate::collision::{EdgeVerdict, ObstacleId, ProvenStep, Scene};
+use crate::collision::{EdgeVerdict, HitBy, ObstacleId, ProvenStep, Scene};
 use crate::geometry::{Aabb, Placed, Point2, Segment, Vector2, cross};
 use crate::num::{greater, lesser, sqrt, ulp};
 
@@ -132,7 +132,7 @@ impl DiscLine {
         }
         let obstacle = ObstacleId(scene.owners[obstacle? as usize]);
         let step = ProvenStep { from: 0.0, to: free_until, clearance };
-        Some((step, EdgeVerdict::Hit { free_until, contact_at, part: 0, obstacle }))
+        Some((step, EdgeVerdict::Hit { free_until, contact_at, part: 0, by: HitBy::Obstacle(obstacle) }))
     }
 
     /// Whether the disc touches nothing along the line; `None` where it comes so near to contact that rounding could

@@ -5,7 +5,7 @@ use super::first_contact::{arc_clearance, arc_meets, translation_meets};
 use crate::collision::motion::conservative_advancement::BRACKET;
 use crate::collision::motion::place::Place;
 use crate::collision::motion::step::step_clearance;
-use crate::collision::{Certificate, Collision, EdgeVerdict, ObstacleId, ProvenStep, Scene, Witness};
+use crate::collision::{Certificate, Collision, EdgeVerdict, HitBy, ObstacleId, ProvenStep, Scene, Witness};
 use crate::geometry::{CircularArc, Footprint, Point2, Segment};
 use crate::num::{greater, ulp};
 use crate::robots::Motion;
@@ -15,10 +15,10 @@ use crate::robots::Motion;
 fn hit<M: Motion>(scene: &Scene, motion: &M, free_until: f64, contact_at: f64) -> Option<EdgeVerdict> {
     let footprint = motion.footprint_at(contact_at);
     if !footprint.is_valid() {
-        return Some(EdgeVerdict::Hit { free_until, contact_at, part: 0, obstacle: ObstacleId::UNKNOWN });
+        return Some(EdgeVerdict::Hit { free_until, contact_at, part: 0, by: HitBy::Obstacle(ObstacleId::UNKNOWN) });
     }
     let Witness { dist, part, obstacle, .. } = scene.witness(&footprint)?;
-    (dist == 0.0).then_some(EdgeVerdict::Hit { free_until, contact_at, part, obstacle })
+    (dist == 0.0).then_some(EdgeVerdict::Hit { free_until, contact_at, part, by: HitBy::Obstacle(obstacle) })
 }
 
 /// The bracket about a first contact at `s`: a little less than [`BRACKET`] of motion, so that its two ends fit in it.
