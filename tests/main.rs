@@ -41,6 +41,8 @@ mod metamorphic;
 #[cfg(feature = "sim")]
 mod noise_streams;
 mod oracle;
+#[cfg(feature = "sim")]
+mod own_sensors;
 mod pairs;
 mod penetration;
 #[cfg(feature = "sim")]

@@ -5,8 +5,8 @@ use bevy::ecs::world::World;
 
 use crate::run::{Frame, Script};
 use crate::simulation::{
-    LatestFrame, PendingInput, RestoreError, RobotView, RunInput, SimulationPlugin, SpawnError, Transport, restore,
-    seek, start_run, step, view,
+    LatestFrame, PendingInput, RestoreError, RobotView, RunInput, SensorView, SimulationPlugin, SpawnError, Transport,
+    restore, seek, sensors, start_run, step, view,
 };
 use crate::tour::TourConfig;
 
@@ -94,6 +94,11 @@ impl Recorder {
     /// The robots as a view shows them.
     pub fn view(&self) -> Vec<RobotView> {
         view(&self.world)
+    }
+
+    /// The sensors as a view shows them: one for each scan of the frame, in the same order.
+    pub fn sensors(&self) -> Vec<SensorView> {
+        sensors(&self.world)
     }
 
     /// The tick at which the run stands, and how it plays.

@@ -2,10 +2,12 @@
 
 use bevy::prelude::*;
 
+use super::sensors::start::fix_sensors;
 use super::{Keyframes, RestoreError, SimulationSchedule, Transport, restore};
 
-/// Runs one tick.
+/// Runs one tick. The first tick of a run fixes its sensors.
 pub fn step(world: &mut World) {
+    fix_sensors(world);
     world.run_schedule(SimulationSchedule);
 }
 

@@ -7,7 +7,7 @@ use bevy::prelude::*;
 use super::robot::spawn::SpawnRequest;
 use super::{
     History, Keyframes, LatestFrame, ObstacleOf, ObstacleShape, PendingInput, RobotId, RobotKinds, Roster,
-    SimulatedWorld, SpawnError, Transport, WorldScene, state, tick,
+    SimulatedWorld, SpawnError, Transport, WorldScene, sensors, state, tick,
 };
 use crate::collision::Scene;
 use crate::random::Seed;
@@ -119,6 +119,7 @@ pub(super) fn start_run_in_order(
     if world.contains_resource::<History>() {
         world.insert_resource(History::default());
     }
+    sensors::start::take_sensors(world);
     tick::sense::sense(world);
     state::record(world);
     Ok(())
