@@ -62,6 +62,7 @@ pub fn world(square: u32, seed: Seed) -> World {
         name: format!("square {}", square + 1),
         bounds: Aabb { min: corners[0], max: corners[2] },
         obstacles,
+        doors: vec![],
         places: Vec::new(),
         marks: vec![tour],
         robots: (0..ROW * ROW).map(|i| resident(square, i, &mut draws)).collect(),

@@ -45,6 +45,8 @@ mod noise_streams;
 #[cfg(feature = "sim")]
 mod obstacles;
 mod oracle;
+#[cfg(feature = "sim")]
+mod own_sensors;
 mod pairs;
 mod penetration;
 #[cfg(feature = "sim")]

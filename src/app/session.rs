@@ -14,8 +14,9 @@ use crate::picture::{Picture, world as picture_of};
 use crate::robots::{HITCH, Robot};
 use crate::run::{Event, RobotInput};
 use crate::simulation::{
-    CommandRefused, History, HistoryPlugin, LatestFrame, PendingInput, Playback, RobotKinds, RobotView, Roster,
-    RunConfig, RunInput, SimulationPlugin, StandingWorld, Transport, Undo, WorldScene, checkpoint, start_run, view,
+    CommandRefused, History, HistoryPlugin, PendingInput, Playback, RobotKinds, RobotView, Roster, RunConfig, RunInput,
+    SensorRefused, SimulationPlugin, StandingWorld, Transport, Undo, WorldScene, checkpoint, sensors, start_run,
+    take_sensors_at_start, view,
 };
 use crate::tour::{BOOK_SEED, TourConfig};
 use crate::ui::{Cockpit, CockpitRobot, Command, Dashboard, Notice, SessionCommand, UiState, Widget, blend};
@@ -105,22 +106,33 @@ fn start(world: &mut World) -> Result {
     Ok(())
 }
 
-/// Shows why a command was refused.
-fn note_refusals(mut refused: MessageReader<CommandRefused>, mut interface: ResMut<Interface>) {
-    for CommandRefused(error) in refused.read() {
-        interface.0.notice = Some(Notice { text: error.to_string(), is_error: true });
+/// Shows why a command was refused, or a sensor.
+fn note_refusals(
+    mut commands: MessageReader<CommandRefused>,
+    mut sensors: MessageReader<SensorRefused>,
+    mut interface: ResMut<Interface>,
+) {
+    let commands = commands.read().map(|CommandRefused(error)| error.to_string());
+    for text in commands.chain(sensors.read().map(ToString::to_string)) {
+        interface.0.notice = Some(Notice { text, is_error: true });
     }
 }
 
 /// Reads the values that the window shows from the simulation. This is the one place where the two meet.
 pub fn gather(world: &mut World) {
+    take_sensors_at_start(world);
     draw_worlds(world);
     let Transport { seed, tick, frontier, speed, looping, playback } = *world.resource::<Transport>();
     let playing = playback == Playback::Playing;
     // while it plays, the view is one tick behind and moves smoothly; paused or as fast as possible, it shows the tick
     let smooth = playing && speed.is_finite();
     let between = if smooth { world.resource::<Time<Fixed>>().overstep_fraction_f64() } else { 1.0 };
-    let robots: Vec<(u32, CockpitRobot)> = view(world).iter().map(|r| (r.world, shown(world, r, between))).collect();
+    let mut sees = sensors(world).into_iter().peekable();
+    let mut robots: Vec<(u32, CockpitRobot)> = Vec::new();
+    for robot in view(world) {
+        let sees = std::iter::from_fn(|| sees.next_if(|sensor| sensor.robot == robot.id)).collect();
+        robots.push((robot.world, CockpitRobot { sees, ..shown(world, &robot, between) }));
+    }
     let cockpits = world.resource::<Worlds>().0.iter().zip(0..).map(|(drawn, number)| Cockpit {
         world: Arc::clone(&drawn.picture),
         atlas: Arc::clone(&drawn.atlas),
@@ -150,7 +162,6 @@ fn shown(world: &World, robot: &RobotView, between: f64) -> CockpitRobot {
         [x, y, theta, ..] => Some(Pose2 { x, y, theta }),
         _ => None,
     };
-    let scan = world.resource::<LatestFrame>().0.scans.iter().find(|s| s.robot == robot.id);
     let trail = world.resource::<History>().at(tick, robot.id);
     CockpitRobot {
         name: robot.name.clone(),
@@ -170,7 +181,7 @@ fn shown(world: &World, robot: &RobotView, between: f64) -> CockpitRobot {
         drivable: !is_arm,
         is_arm,
         trailer: (robot.kind == RobotKind::HITCH.name).then_some(robot.coordinates.len() == 4),
-        sees: pose.and_then(|pose| Some((pose, scan?.ranges.clone()))),
+        sees: Vec::new(),
         tip: robot.tip,
         reversals: trail.map_or(0, |t| t.reversals),
         no_room: pose

@@ -8,15 +8,15 @@ use super::space::Space;
 use super::{CaptureError, Captured, Note};
 use crate::atlas::{Atlas, names};
 use crate::configuration::RobotKind;
-use crate::geometry::{Pose2, Shape};
+use crate::geometry::Shape;
 use crate::manifest::Widget;
 use crate::picture::{
-    Drawing, Figure, Item, Panel, Picture, RobotDrawing, places, readout, readout_lines, robot, scan,
-    world as draw_world,
+    Drawing, Figure, Item, Panel, Picture, RobotDrawing, ScanDrawing, fan_scan, places, readout, readout_lines, robot,
+    scan_id, world as draw_world,
 };
 use crate::recording::{Recorder, Run};
 use crate::run::{DT, Log};
-use crate::simulation::RobotView;
+use crate::simulation::{RobotView, SensorView};
 use crate::tour::TourConfig;
 
 use crate::worlds::World;
@@ -287,17 +287,21 @@ impl<'a> Moving<'a> {
         }
         let mut picture = (**world).clone().with(backdrop.names.iter().cloned());
         if let Subject::Dashboard { scan: true, .. } = self.subject {
-            picture = picture.with(residents.iter().filter_map(|v| seen(run, v)));
+            picture = picture.with(seen(run, &residents));
         }
         Panel { heading, readout, picture: picture.with(residents.iter().flat_map(|v| drawing(v))) }
     }
 }
 
-/// The scan of a robot's range sensor; `None` without one.
-fn seen(run: &Recorder, view: &RobotView) -> Option<Item> {
-    let [x, y, theta, ..] = view.coordinates[..] else { return None };
-    let seen = run.frame().scans.iter().find(|s| s.robot == view.id)?;
-    Some(scan(&format!("scan/{}", view.name), "scan", &Pose2 { x, y, theta }, &seen.ranges))
+/// The scans of these robots' range sensors.
+fn seen(run: &Recorder, views: &[&RobotView]) -> Vec<Item> {
+    let item = |sensor: &SensorView| {
+        let robot = views.iter().find(|view| view.id == sensor.robot)?;
+        let SensorView { pose, rays, ranges, .. } = sensor;
+        let drawing = ScanDrawing { pose: *pose, field_of_view: rays.field_of_view, ranges };
+        Some(fan_scan(&scan_id(&robot.name, &sensor.name), "scan", &drawing))
+    };
+    run.sensors().iter().filter_map(item).collect()
 }
 
 /// A robot as its cockpit shows it, red while its flash holds.

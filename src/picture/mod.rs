@@ -28,7 +28,7 @@ pub use outline::{chains, outline, polygon_of};
 pub use pick::pick;
 pub use readout::{readout, readout_lines};
 pub use resolve::{Primitive, resolve};
-pub use robot::{RobotDrawing, footprint, robot, scan, trace};
+pub use robot::{RobotDrawing, ScanDrawing, fan_scan, footprint, robot, scan, scan_id, trace};
 pub use role::{Palette, Rgb, Role};
 pub use theme::Theme;
 pub use world::{door_id, places, world};

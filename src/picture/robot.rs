@@ -4,6 +4,7 @@ use super::outline::polygon_of;
 use super::{Drawing, Fill, Glyph, Item, Line, Role};
 use crate::geometry::{Footprint, Part, Point2, Pose2, Shape, Vector2};
 use crate::num;
+use crate::sensors::{FanSensor, RangeSensor};
 
 /// A robot to be drawn.
 #[derive(Clone, Debug)]
@@ -86,12 +87,37 @@ pub fn trace(id: &str, name: &str, points: &[Point2]) -> Item {
     Item::new(id, name, Role::Path, Drawing::Polyline(points.to_vec())).stroked(Line::solid(1.5).at_opacity(0.9))
 }
 
-/// A range sensor's scan. Ray k starts at `pose`, with bearing 2 pi k / n from its heading. Ranges are in metres; rays
-/// whose range is not finite are left out. Rays are drawn at a quarter of the opacity, their ends as dots.
+/// The scan of a range sensor that sees all around. Ray k starts at `pose`, with bearing 2 pi k / n from its heading.
+/// Ranges are in metres; rays whose range is not finite are left out. Rays are drawn at a quarter of the opacity, their
+/// ends as dots.
 pub fn scan(id: &str, name: &str, pose: &Pose2, ranges: &[f64]) -> Item {
-    let n = ranges.len() as f64;
+    fan_scan(id, name, &ScanDrawing { pose: *pose, field_of_view: std::f64::consts::TAU, ranges })
+}
+
+/// The id of the item that shows a scan: of the sensor that a run gives to its rovers, which has the empty name, and of
+/// any other.
+pub fn scan_id(robot: &str, sensor: &str) -> String {
+    if sensor.is_empty() { format!("scan/{robot}") } else { format!("scan/{robot}/{sensor}") }
+}
+
+/// A scan to be drawn.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ScanDrawing<'a> {
+    /// The sensor's pose in the world.
+    pub pose: Pose2,
+    /// The sensor's field of view, radians.
+    pub field_of_view: f64,
+    /// The range of each ray, metres.
+    pub ranges: &'a [f64],
+}
+
+/// As [`scan`], of a sensor with any field of view.
+pub fn fan_scan(id: &str, name: &str, drawing: &ScanDrawing<'_>) -> Item {
+    let ScanDrawing { pose, field_of_view, ranges } = *drawing;
+    let sensor = RangeSensor { n_rays: ranges.len() as u32, max_range: f64::INFINITY };
+    let rays = FanSensor { sensor, field_of_view };
     let end = |(k, range): (usize, &f64)| {
-        let (s, c) = num::sin_cos(pose.theta + std::f64::consts::TAU * k as f64 / n);
+        let (s, c) = num::sin_cos(pose.theta + rays.bearing(k as u32));
         range.is_finite().then(|| pose.position() + Vector2::new(c, s) * *range)
     };
     let ends = ranges.iter().enumerate().filter_map(end).collect();

@@ -7,8 +7,8 @@ use bevy::ecs::world::World;
 
 use crate::run::{Frame, Script};
 use crate::simulation::{
-    LatestFrame, PendingInput, RestoreError, RobotView, Roster, RunInput, SimulationPlugin, SpawnError, StandingWorld,
-    Transport, restore, seek, start_run, step, view,
+    LatestFrame, PendingInput, RestoreError, RobotView, Roster, RunInput, SensorView, SimulationPlugin, SpawnError,
+    StandingWorld, Transport, restore, seek, sensors, start_run, step, view,
 };
 use crate::tour::TourConfig;
 use crate::worlds::World as WorldModel;
@@ -97,6 +97,11 @@ impl Recorder {
     /// The robots as a view shows them.
     pub fn view(&self) -> Vec<RobotView> {
         view(&self.world)
+    }
+
+    /// The sensors as a view shows them: one for each scan of the frame, in the same order.
+    pub fn sensors(&self) -> Vec<SensorView> {
+        sensors(&self.world)
     }
 
     /// The tick at which the run stands, and how it plays.

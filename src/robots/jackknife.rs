@@ -23,7 +23,7 @@ pub(super) fn leaves_along_line(limit: f64, a: &HitchCfg, b: &HitchCfg) -> Optio
     let d = a.difference(b).ok()?;
     let sweep = d.get(3)? - d[2];
     let goes_round = limit < PI && (from + sweep).abs() > PI;
-    if within(to) {
+    if within(to) && !goes_round {
         return None;
     }
     let s = (limit.copysign(sweep) - from) / sweep;

@@ -43,7 +43,8 @@ pub struct Frame {
     pub tick: u64,
     /// The robots' states by ascending id.
     pub robots: Vec<RobotState>,
-    /// The scans of the robots' range sensors, by ascending robot id. A robot without a sensor has none.
+    /// The scans of the robots' range sensors, by ascending robot id, those of one robot by the bytes of the sensors'
+    /// names. A robot without a sensor has none.
     pub scans: Vec<RobotScan>,
     /// The obstacles and doors that are not as they were at the start, by ascending world, then number.
     pub obstacles: Vec<ObstacleState>,
@@ -63,7 +64,7 @@ pub struct ObstacleState {
     pub pose: Pose2,
 }
 
-/// The scan of one robot's range sensor at the end of a tick.
+/// The scan of one range sensor of a robot at the end of a tick.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RobotScan {
     /// The robot's id.

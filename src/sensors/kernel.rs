@@ -42,6 +42,9 @@ pub(super) fn raise([ax, ay, bx, by]: [&[f64]; 4], view: &View, kernel: &Kernel,
         let to = (from + BATCH).min(ax.len());
         let batch = [&ax[from..to], &ay[from..to], &bx[from..to], &by[from..to]];
         (kernel.make)(&mut desk.ready, batch, view);
+        if let Some(blocks) = view.fan_blocks {
+            desk.ready.clip(blocks);
+        }
         (kernel.raise)(desk, batch, view, fan);
     }
 }

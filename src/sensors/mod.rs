@@ -16,7 +16,8 @@ mod tests;
 mod view;
 mod wedges;
 
-pub use crate::worlds::{BeamError, BeamModel};
-pub use range::{MAX_RANGE, MAX_RAYS, MIN_RANGE, RangeSensor, SensorError};
+pub use crate::worlds::{
+    BeamError, BeamModel, FanSensor, MAX_RANGE, MAX_RAYS, MIN_FIELD_OF_VIEW, MIN_RANGE, RangeSensor, SensorError,
+};
 pub use scanner::Scanner;
 pub use simd::Instructions;

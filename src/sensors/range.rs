@@ -1,65 +1,12 @@
-//! `RangeSensor`, exact ranges along evenly spread rays.
+//! The directions of a range sensor's rays.
 
 use std::cmp::Ordering;
 use std::f64::consts::{FRAC_1_SQRT_2, FRAC_PI_2};
 
 use crate::num;
-
-/// The greatest number of rays of a range sensor.
-pub const MAX_RAYS: u32 = 100_000;
-/// The smallest `max_range` that a range sensor may have, metres.
-pub const MIN_RANGE: f64 = 1e-3;
-/// The largest `max_range` that a range sensor may have, metres.
-pub const MAX_RANGE: f64 = 1e4;
-
-/// A range sensor with `n_rays` rays evenly spread over the full circle and a greatest range in metres.
-///
-/// The scan is the saturated raw distance function rho_R sampled at `n_rays` bearings.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct RangeSensor {
-    /// The number of rays.
-    pub n_rays: u32,
-    /// The greatest range R, metres: a hit at exactly R counts, within four ulps; farther reads infinity.
-    pub max_range: f64,
-}
-
-/// Why a sensor's numbers are refused.
-#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
-#[non_exhaustive]
-pub enum SensorError {
-    /// Not from 1 to 100,000 rays.
-    #[error("{0} rays: there must be 1 to {MAX_RAYS}")]
-    Rays(u32),
-    /// A range that is not finite, below 1 mm or beyond 10 km.
-    #[error("range {0} m: it must be {MIN_RANGE} to {MAX_RANGE} m")]
-    Range(f64),
-}
+use crate::worlds::{FanSensor, RangeSensor};
 
 impl RangeSensor {
-    /// A sensor with these numbers.
-    ///
-    /// # Errors
-    /// [`SensorError`] when either is out of range.
-    pub fn try_new(n_rays: u32, max_range: f64) -> Result<Self, SensorError> {
-        let sensor = RangeSensor { n_rays, max_range };
-        sensor.check()?;
-        Ok(sensor)
-    }
-
-    /// Checks that the sensor's numbers are in range, for one that was put together by hand.
-    ///
-    /// # Errors
-    /// [`SensorError`] when either is not.
-    pub fn check(&self) -> Result<(), SensorError> {
-        if !(1..=MAX_RAYS).contains(&self.n_rays) {
-            return Err(SensorError::Rays(self.n_rays));
-        }
-        if !(MIN_RANGE..=MAX_RANGE).contains(&self.max_range) {
-            return Err(SensorError::Range(self.max_range));
-        }
-        Ok(())
-    }
-
     /// The direction of ray `k` in the sensor's frame: bearing 2 pi k / n, with exact zeros and ones at the quarter
     /// turns and equal components at the eighths.
     pub fn direction(&self, k: u32) -> (f64, f64) {
@@ -85,12 +32,25 @@ impl RangeSensor {
     }
 }
 
+impl FanSensor {
+    /// The direction of ray `k` in the sensor's frame, at its [`bearing`](Self::bearing). Over a full turn it is that of
+    /// the [`RangeSensor`].
+    pub fn direction(&self, k: u32) -> (f64, f64) {
+        if self.partial().is_none() {
+            return self.sensor.direction(k);
+        }
+        let (s, c) = num::sin_cos(self.bearing(k));
+        (c, s)
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::collision::Scene;
     use crate::geometry::{Point2, Pose2, Segment, Shape};
     use crate::random::{Seed, Stream};
+    use crate::worlds::SensorError;
 
     fn wall() -> Scene {
         Scene::of_walls(&[Segment::new(Point2::new(3.0, 0.0), Point2::new(3.0, 3.0))])
@@ -148,6 +108,43 @@ mod tests {
         let empty = Scene::of_walls(&[]);
         let ahead = sensor.scan_from(&empty, &others, &Pose2::new(0.0, 0.0, FRAC_PI_2));
         assert!((ahead[0] - 1.5).abs() < 1e-15 && ahead[1..].iter().all(|r| r.is_infinite()), "{ahead:?}");
+    }
+
+    /// A wall one metre ahead: at bearing b it is 1 / cos b away. Both a straight and an acute angle by hand.
+    #[test]
+    fn a_fan_goes_from_the_right_border_of_its_field_of_view_to_the_left_one() {
+        let scene = Scene::of_walls(&[Segment::new(Point2::new(1.0, -0.5), Point2::new(1.0, 9.0))]);
+        let fan = |n_rays, wide| FanSensor { sensor: RangeSensor { n_rays, max_range: 4.0 }, field_of_view: wide };
+        let near = |read: &[f64], expected: &[f64]| {
+            let same = |(r, e): (&f64, &f64)| r == e || (r - e).abs() < 1e-15;
+            assert!(read.len() == expected.len() && read.iter().zip(expected).all(same), "{read:?}, not {expected:?}");
+        };
+        let root = std::f64::consts::SQRT_2;
+        // the wall does not reach down to bearing -45 degrees
+        near(&fan(3, FRAC_PI_2).scan_from(&scene, &[], &Pose2::IDENTITY), &[f64::INFINITY, 1.0, root]);
+        let third = 2.0 * FRAC_PI_2 / 3.0;
+        near(&fan(2, 2.0 * third).scan_from(&scene, &[], &Pose2::IDENTITY), &[f64::INFINITY, 2.0]);
+        near(&fan(1, 0.1).scan_from(&scene, &[], &Pose2::IDENTITY), &[1.0]);
+        // turned to the left, only the right border still meets the wall
+        near(&fan(2, FRAC_PI_2).scan_from(&scene, &[], &Pose2::new(0.0, 0.0, FRAC_PI_2)), &[root, f64::INFINITY]);
+        let all = RangeSensor { n_rays: 7, max_range: 4.0 };
+        let turn = FanSensor::from(all).scan_from(&scene, &[], &Pose2::IDENTITY);
+        assert_eq!(turn, all.scan(&scene, Point2::origin()), "a full turn begins straight ahead");
+    }
+
+    #[test]
+    fn a_field_of_view_has_limits() {
+        let rays = RangeSensor { n_rays: 9, max_range: 4.0 };
+        let full = 4.0 * FRAC_PI_2;
+        for good in [1e-3, 1.0, full] {
+            assert!(FanSensor::try_new(rays, good).is_ok(), "{good}");
+        }
+        for bad in [0.0, -1.0, 0.000_999, full + 1e-14, f64::NAN, f64::INFINITY] {
+            let refused = FanSensor::try_new(rays, bad).unwrap_err();
+            assert!(refused.to_string().starts_with("field of view"), "{refused}");
+        }
+        let without = RangeSensor { n_rays: 0, max_range: 4.0 };
+        assert_eq!(FanSensor::try_new(without, 1.0), Err(SensorError::Rays(0)));
     }
 
     #[test]

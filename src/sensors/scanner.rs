@@ -2,13 +2,13 @@
 
 use std::f64::consts::TAU;
 
-use super::RangeSensor;
 use super::cast_segments::Desk;
 use super::grid_cast::{Boundary, Walk};
 use super::kernel::{Kernel, raise};
 use super::rays::{Fan, Lanes};
 use super::simd::Instructions;
 use super::view::View;
+use super::{FanSensor, RangeSensor};
 use crate::collision::{LANES, Scene, SegmentSoup, touch};
 use crate::geometry::{Placed, Point2, Pose2, SinCos};
 use crate::num;
@@ -28,7 +28,7 @@ use crate::num;
 /// ```
 #[derive(Clone, Debug)]
 pub struct Scanner {
-    sensor: RangeSensor,
+    sensor: FanSensor,
     kernel: Kernel,
     /// The rays' directions in the sensor's frame.
     units: Vec<[Lanes; 2]>,
@@ -40,16 +40,18 @@ pub struct Scanner {
 
 impl Scanner {
     /// A scanner with the rays of this sensor that uses the fastest instructions of this processor.
-    pub fn new(sensor: RangeSensor) -> Self {
+    pub fn new(sensor: impl Into<FanSensor>) -> Self {
         Self::with_instructions(sensor, Instructions::best())
     }
 
     /// A scanner that uses these instructions. The ranges are the same to the last bit; a set that this processor does
     /// not have is replaced by the baseline.
-    pub fn with_instructions(sensor: RangeSensor, instructions: Instructions) -> Self {
-        let blocks = (sensor.n_rays as usize).div_ceil(LANES);
+    pub fn with_instructions(sensor: impl Into<FanSensor>, instructions: Instructions) -> Self {
+        let sensor = sensor.into();
+        let n_rays = sensor.sensor.n_rays;
+        let blocks = (n_rays as usize).div_ceil(LANES);
         let mut units = vec![[[0.0; LANES]; 2]; blocks];
-        for k in 0..sensor.n_rays {
+        for k in 0..n_rays {
             let (x, y) = sensor.direction(k);
             let k = k as usize;
             (units[k / LANES][0][k % LANES], units[k / LANES][1][k % LANES]) = (x, y);
@@ -58,22 +60,28 @@ impl Scanner {
             sensor,
             kernel: instructions.kernel(),
             units,
-            fan: Fan::new(sensor.n_rays as usize),
+            fan: Fan::new(n_rays as usize),
             others: SegmentSoup::default(),
             walk: Walk::default(),
             desk: Box::default(),
         }
     }
 
-    /// The sensor.
+    /// The sensor's rays, without their field of view.
     pub fn sensor(&self) -> &RangeSensor {
-        &self.sensor
+        &self.sensor.sensor
     }
 
-    /// Writes the ranges from a pose into `ranges`, as [`RangeSensor::scan_from`] gives them: ray k into place k, as
+    /// The sensor's field of view, radians; 2 pi for a full turn.
+    pub fn field_of_view(&self) -> f64 {
+        self.sensor.field_of_view
+    }
+
+    /// Writes the ranges from a pose into `ranges`, as [`FanSensor::scan_from`] gives them: ray k into place k, as
     /// far as there are places.
     pub fn scan_into(&mut self, scene: &Scene, others: &[Placed], pose: &Pose2, ranges: &mut [f64]) {
-        let rays = ranges.len().min(self.sensor.n_rays as usize);
+        let sensor = self.sensor.sensor;
+        let rays = ranges.len().min(sensor.n_rays as usize);
         let ranges = &mut ranges[..rays];
         let origin = pose.position();
         let point = Placed::new([origin], 0.0);
@@ -85,13 +93,22 @@ impl Scanner {
         (self.kernel.turn)(&mut self.fan, &self.units, heading);
         // only for which rays may meet something: its error is far below that of the bearings
         let turns = if pose.theta.abs() < 1e6 { pose.theta / TAU } else { num::atan2(heading.sin, heading.cos) / TAU };
-        let reach = self.sensor.max_range * (1.0 + 1e-6);
+        // the bearing of ray 0, and how many rays a full turn would have
+        let (turns, rays, fan_blocks) = match self.sensor.partial() {
+            None => (turns, f64::from(sensor.n_rays), None),
+            Some(wide) => {
+                let blocks = self.units.len();
+                (turns - 0.5 * wide / TAU, TAU * f64::from(sensor.n_rays - 1) / wide, Some(blocks))
+            }
+        };
+        let reach = sensor.max_range * (1.0 + 1e-6);
         let view = View {
             origin,
             reach,
             reach_squared: reach * reach,
             heading: turns - turns.floor(),
-            rays: f64::from(self.sensor.n_rays),
+            rays,
+            fan_blocks,
             nothing: 0.0,
         };
         self.others.clear();
@@ -105,7 +122,7 @@ impl Scanner {
         }
         fan.open = u64::MAX;
         raise_every(others, &view, kernel, fan, desk);
-        (self.kernel.ranges)(&self.fan, self.sensor.max_range, ranges);
+        (self.kernel.ranges)(&self.fan, sensor.max_range, ranges);
     }
 }
 
@@ -114,6 +131,20 @@ fn raise_every(soup: &SegmentSoup, view: &View, kernel: &Kernel, fan: &mut Fan, 
     raise(soup.segments().arrays(), view, kernel, fan, desk);
     for circle in soup.circles() {
         (kernel.circle)(circle, view, fan);
+    }
+}
+
+impl FanSensor {
+    /// The ranges from a pose, metres: ray k at its [`bearing`](Self::bearing) from the pose's heading, against the scene
+    /// and the other robots' parts. A robot does not see itself: leave it out of `others`. For many scans keep a
+    /// [`Scanner`].
+    ///
+    /// Infinity where nothing is within range, 0 everywhere when the position is inside an obstacle or touches one.
+    /// Rays are closed: one through a corner hits it.
+    pub fn scan_from(&self, scene: &Scene, others: &[Placed], pose: &Pose2) -> Vec<f64> {
+        let mut ranges = vec![0.0; self.sensor.n_rays as usize];
+        Scanner::new(*self).scan_into(scene, others, pose, &mut ranges);
+        ranges
     }
 }
 

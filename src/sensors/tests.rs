@@ -1,8 +1,8 @@
 //! The scan against its definition, ray by ray, to the last bit and on every instruction set of this processor.
 
-use std::f64::consts::PI;
+use std::f64::consts::{PI, TAU};
 
-use super::{Instructions, RangeSensor, Scanner};
+use super::{FanSensor, Instructions, RangeSensor, Scanner};
 use crate::collision::{Collision, Scene, Surroundings};
 use crate::geometry::{Footprint, Part, Placed, Point2, Pose2, Segment, Shape, Vector2, orientation};
 use crate::num::{self, sqrt};
@@ -30,7 +30,8 @@ fn boundary(shape: &Placed, segments: &mut Vec<Segment>, circles: &mut Vec<(Poin
 }
 
 /// Every ray against every segment and disc, with nothing left out: the kernel without its shortcuts.
-fn by_definition(sensor: &RangeSensor, scene: &Scene, others: &[Placed], pose: &Pose2) -> Vec<f64> {
+fn by_definition(fan: &FanSensor, scene: &Scene, others: &[Placed], pose: &Pose2) -> Vec<f64> {
+    let sensor = fan.sensor;
     let n = sensor.n_rays as usize;
     let inside = Footprint::new([Part::new(Pose2 { theta: 0.0, ..*pose }, Shape::Disc { radius: 0.0 })]);
     if (Surroundings { scene, others }).intersects(&inside) {
@@ -48,7 +49,7 @@ fn by_definition(sensor: &RangeSensor, scene: &Scene, others: &[Placed], pose: &
         }
     };
     let directions: Vec<(f64, f64)> =
-        (0..sensor.n_rays).map(|k| sensor.direction(k)).map(|(x, y)| (c * x - s * y, s * x + c * y)).collect();
+        (0..sensor.n_rays).map(|k| fan.direction(k)).map(|(x, y)| (c * x - s * y, s * x + c * y)).collect();
     for segment in &segments {
         let (mut p, mut q) = (segment.a - pose.position(), segment.b - pose.position());
         let area = p.x * q.y - p.y * q.x;
@@ -90,8 +91,9 @@ fn bits(ranges: &[f64]) -> Vec<u64> {
 /// Checks one scan on every instruction set. Returns how many rays hit.
 fn check(scanners: &mut [Scanner], scene: &Scene, others: &[Placed], pose: &Pose2) -> usize {
     let sensor = *scanners[0].sensor();
+    let sensor = FanSensor { sensor, field_of_view: scanners[0].field_of_view() };
     let expected = by_definition(&sensor, scene, others, pose);
-    let mut ranges = vec![-1.0; sensor.n_rays as usize];
+    let mut ranges = vec![-1.0; sensor.sensor.n_rays as usize];
     for (scanner, set) in scanners.iter_mut().zip(Instructions::available()) {
         scanner.scan_into(scene, others, pose, &mut ranges);
         if bits(&ranges) != bits(&expected) {
@@ -104,7 +106,11 @@ fn check(scanners: &mut [Scanner], scene: &Scene, others: &[Placed], pose: &Pose
 }
 
 fn scanners(n_rays: u32, max_range: f64) -> Vec<Scanner> {
-    let sensor = RangeSensor { n_rays, max_range };
+    fans(n_rays, max_range, TAU)
+}
+
+fn fans(n_rays: u32, max_range: f64, field_of_view: f64) -> Vec<Scanner> {
+    let sensor = FanSensor { sensor: RangeSensor { n_rays, max_range }, field_of_view };
     Instructions::available().into_iter().map(|set| Scanner::with_instructions(sensor, set)).collect()
 }
 
@@ -148,6 +154,85 @@ fn more_rays_than_sixteen_bits_count_in_eights_are_cast_as_defined() {
     for _ in 0..2 {
         let pose = Pose2::new(draws.uniform(0.0, 10.0), draws.uniform(0.0, 10.0), draws.uniform(-PI, PI));
         assert!(check(&mut scanners, &scene, &[], &pose) > 100_000);
+    }
+}
+
+/// Fields of view from the smallest to nearly a full turn, with the borders of their fans in every quarter.
+const FIELDS: [f64; 11] = [1e-3, 0.01, 0.1, 0.5, 1.0, 0.5 * PI, 2.0, PI, 4.0, 6.0, 6.2831];
+
+#[test]
+fn a_fan_of_any_width_sees_random_walls_as_defined() {
+    let mut draws = Stream::new(Seed(11), "scan");
+    let mut hits = 0;
+    for n in [1, 2, 3, 7, 8, 9, 16, 17, 31, 64, 90, 181, 512, 513, 1000, 5000] {
+        for wide in FIELDS {
+            let mut scanners = fans(n, 6.0, wide);
+            for _ in 0..6 {
+                let scene = random_walls(&mut draws, 12, 10.0);
+                for heading in [0.0, draws.uniform(-PI, PI), draws.uniform(-20.0, 20.0), 3e6] {
+                    let pose = Pose2 { x: draws.uniform(0.0, 10.0), y: draws.uniform(0.0, 10.0), theta: heading };
+                    let disc = Pose2::new(draws.uniform(0.0, 10.0), draws.uniform(0.0, 10.0), 0.0);
+                    let others = [Shape::Disc { radius: draws.uniform(0.01, 2.0) }.place(&disc)];
+                    hits += check(&mut scanners, &scene, &others, &pose);
+                }
+            }
+        }
+    }
+    assert!(hits > 500_000, "{hits}");
+}
+
+#[test]
+fn a_fan_sees_large_worlds_as_defined() {
+    let mut draws = Stream::new(Seed(12), "scan");
+    let mut hits = 0;
+    for (count, size, longest) in [(300, 10.0, 6.0), (1000, 30.0, 1.0), (2000, 12.0, 0.3)] {
+        let mut scene = Scene::of_walls(&random_segments(&mut draws, count, size, longest));
+        for i in 0..20 {
+            let at = Pose2::new(draws.uniform(0.0, size), draws.uniform(0.0, size), 0.0);
+            let disc = Shape::Disc { radius: draws.uniform(0.01, 0.03 * size) };
+            scene = scene.with_obstacle_at(&format!("disc {i}"), at, disc);
+        }
+        assert!(scene.cells().is_some());
+        for (n, range) in [(5, 100.0), (90, 4.0), (505, 9.0), (1300, 2.0)] {
+            for wide in FIELDS {
+                let mut scanners = fans(n, range, wide);
+                for k in 0..8 {
+                    let margin = if k == 0 { 2.0 * size } else { 0.0 };
+                    let mut x = || draws.uniform(-margin, size + margin);
+                    let (x, y) = (x(), x());
+                    hits += check(&mut scanners, &scene, &[], &Pose2 { x, y, theta: draws.uniform(-7.0, 7.0) });
+                }
+            }
+        }
+    }
+    assert!(hits > 200_000, "{hits}");
+}
+
+/// The wall passes through the borders of the fan, so that the first and the last ray meet its ends.
+#[test]
+fn the_borders_of_a_fan_are_its_first_and_its_last_ray() {
+    let mut draws = Stream::new(Seed(13), "scan");
+    for n in [2, 8, 9, 64, 65, 4000] {
+        for wide in FIELDS {
+            let mut scanners = fans(n, 9.0, wide);
+            for _ in 0..4 {
+                let pose = Pose2::new(draws.uniform(-1.0, 1.0), draws.uniform(-1.0, 1.0), draws.uniform(-PI, PI));
+                let at = |bearing: f64, range: f64| {
+                    let (s, c) = num::sin_cos(pose.theta + bearing);
+                    pose.position() + Vector2::new(c, s) * range
+                };
+                // to either side of each border, a wall that ends a hair within the fan and one a hair beyond it
+                for (border, sign) in [(-0.5 * wide, -1.0), (0.5 * wide, 1.0)] {
+                    for hair in [-1e-5, -1e-9, 1e-9, 1e-5] {
+                        let (inner, outer) = (border + sign * hair, border + sign * (hair + 1e-4));
+                        let scene = Scene::of_walls(&[Segment::new(at(inner, 2.0), at(outer, 2.0))]);
+                        let hits = check(&mut scanners, &scene, &[], &pose);
+                        let other = wide > 6.0; // the fan's other border may be as near
+                        assert!(other || (hits > 0) == (hair < 0.0), "{n} rays over {wide}: {hits} at {hair}");
+                    }
+                }
+            }
+        }
     }
 }
 

@@ -123,6 +123,21 @@ impl Ready {
         whole(self.turned[k]) as usize
     }
 
+    /// Leaves out the blocks beyond those of a fan of less than a full turn, of which there are `blocks`. The wedges are
+    /// known for a whole turn of rays; the fan has only the first of them.
+    pub(super) fn clip(&mut self, blocks: usize) {
+        let end = blocks as u64;
+        for span in &mut self.span {
+            let block = |bits: u64| bits & ((1 << BITS) - 1);
+            let (kind, last, first) = (*span >> (2 * BITS), block(*span >> BITS), block(*span));
+            // any other kind is tested ray by ray, as far as there are blocks
+            if kind == kind::SURE && last >= end {
+                // the last block is tested, whichever it is, and those before it lie within the wedge as before
+                *span = if first < end { kind::SURE << (2 * BITS) | (end - 1) << BITS | first } else { kind::NONE };
+            }
+        }
+    }
+
     /// Prepares the first `BATCH` segments, given the coordinates of their ends. It is one loop without a branch, so
     /// that it works on several at a time.
     #[inline(always)]

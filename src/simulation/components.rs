@@ -9,7 +9,7 @@ use crate::collision::Scene;
 use crate::configuration::RobotKind;
 use crate::geometry::{Pose2, Shape};
 use crate::random::Stream;
-use crate::sensors::{BeamModel, RangeSensor, Scanner};
+use crate::sensors::{BeamModel, FanSensor, RangeSensor};
 use crate::worlds::{ObstacleKind, World as WorldModel};
 
 /// A world of the run at its start. A component of the world's entity, beside its [`WorldScene`] and
@@ -107,26 +107,35 @@ pub struct MountedOn(pub Entity);
 #[relationship_target(relationship = MountedOn, linked_spawn)]
 pub struct Sensors(Vec<Entity>);
 
-/// A range sensor's parameters.
+/// A range sensor: its rays, its greatest range and its field of view. Spawn it with a [`SensorName`] and a
+/// [`MountedOn`] before the run's first tick, and it is in the run; a [`SensorMount`] and a [`SensorNoise`] may come
+/// with it.
 #[derive(Component, Clone, Copy, Debug, PartialEq)]
 #[component(immutable)]
-pub struct SensorModel(pub RangeSensor);
+#[require(SensorName, SensorMount, Scan)]
+pub struct SensorModel(pub FanSensor);
 
-/// A range sensor's scanner, kept from scan to scan; `None` during a scan.
-#[derive(Component, Clone, Debug)]
-pub struct SensorScanner(pub(super) Option<Box<Scanner>>);
-
-/// The noise of a range sensor, and the sensor's own stream; ray k of tick t draws at index t n + k.
-#[derive(Component, Clone, Debug)]
+/// The name of a sensor, unique on its robot. A robot's sensors are ordered by the bytes of their names. The sensor that
+/// the run gives to its rovers has the empty name, which is the default, so it is the first.
+#[derive(Component, Clone, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
 #[component(immutable)]
-pub struct SensorNoise {
-    /// The model.
-    pub model: BeamModel,
-    /// The stream.
-    pub stream: Stream,
-}
+pub struct SensorName(pub String);
 
-/// The ranges that a sensor read at the end of the last tick, metres, one per ray.
+/// The pose of a sensor in the frame of its robot that sensors are mounted in:
+/// [`SimulatedRobot::mount_pose`]. By default it is that frame itself.
+#[derive(Component, Clone, Copy, Debug, Default, PartialEq)]
+#[component(immutable)]
+pub struct SensorMount(pub Pose2);
+
+/// The noise of a range sensor; without it the sensor is exact.
+///
+/// Each sensor has a stream of its own, by the run's seed and names: the first of the robot NAME `NAME/beam`, another one
+/// `NAME/beam/SENSOR`. With n rays, ray k of tick t draws at index t n + k.
+#[derive(Component, Clone, Copy, Debug, PartialEq)]
+#[component(immutable)]
+pub struct SensorNoise(pub BeamModel);
+
+/// The ranges that a sensor of the run read at the end of the last tick, metres, one per ray; empty before the first scan.
 #[derive(Component, Clone, Debug, Default, PartialEq)]
 pub struct Scan(pub Vec<f64>);
 
@@ -233,6 +242,12 @@ pub struct CutOf<R: SimulatedRobot> {
     pub control: R::Control,
     /// The obstacles.
     pub scene: SceneRevision,
+}
+
+impl From<RangeSensor> for SensorModel {
+    fn from(sensor: RangeSensor) -> Self {
+        SensorModel(sensor.into())
+    }
 }
 
 impl<R: SimulatedRobot> Contacts<R> {

@@ -19,6 +19,7 @@ mod robot;
 mod roster;
 mod schedule;
 mod seek;
+mod sensors;
 mod spawn;
 mod spawn_error;
 mod state;
@@ -33,8 +34,8 @@ pub use command_error::{CommandError, CommandRefused};
 pub use components::{
     Configuration, Contacts, Control, Cut, CutOf, Door, DriveMode, MountedOn, ObstacleOf, ObstacleShape, Obstacles,
     OwnState, Placement, PreviousConfiguration, Residents, ResidesIn, RobotId, RobotModel, RobotName, Route, Scan,
-    SceneRevision, SensorModel, SensorNoise, SensorScanner, Sensors, SimulatedWorld, Slip, StandingWorld, TickMotion,
-    WorldScene,
+    SceneRevision, SensorModel, SensorMount, SensorName, SensorNoise, Sensors, SimulatedWorld, Slip, StandingWorld,
+    TickMotion, WorldScene,
 };
 pub use history::{Happening, History, HistoryPlugin, TickMark, Trail};
 pub use latest_frame::LatestFrame;
@@ -49,6 +50,10 @@ pub use robot::view::RobotView;
 pub use roster::{Roster, view};
 pub use schedule::{SimulationSchedule, SimulationSystems};
 pub use seek::{play_tick, seek, step};
+pub use sensors::refusal::{SensorRefusal, SensorRefused};
+pub use sensors::roster::SensorRoster;
+pub use sensors::start::take_sensors_at_start;
+pub use sensors::view::{SensorView, sensors};
 pub use spawn::{RunConfig, RunInput, start_run};
 pub use spawn_error::SpawnError;
 pub use state::{Keyframes, restore, snapshot};

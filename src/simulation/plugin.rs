@@ -10,8 +10,8 @@ use super::schedule::{Phase, simulation_schedule};
 use super::tick::starts::{Starts, Sweeps, gather_starts};
 use super::tick::{input, sense};
 use super::{
-    CommandRefused, Keyframes, LatestFrame, PendingInput, Playback, RobotKinds, RobotPlugin, RunCommand,
-    SimulationSchedule, SimulationSystems, Transport, Undo, command, play_tick, state,
+    CommandRefused, Keyframes, LatestFrame, PendingInput, Playback, RobotKinds, RobotPlugin, RunCommand, SensorRefused,
+    SensorRoster, SimulationSchedule, SimulationSystems, Transport, Undo, command, play_tick, sensors, state,
 };
 use crate::configuration::RobotKind;
 use crate::random::Seed;
@@ -38,10 +38,14 @@ impl Plugin for SimulationPlugin {
             .init_resource::<Undo>()
             .init_resource::<ObstacleRoster>()
             .init_resource::<RefusedChanges>()
+            .init_resource::<SensorRoster>()
             .insert_resource(Transport::new(Seed(0)))
             .insert_resource(Time::<Fixed>::from_seconds(DT))
             .add_message::<RunCommand>()
             .add_message::<CommandRefused>()
+            .add_message::<SensorRefused>()
+            .add_observer(sensors::changed)
+            .add_observer(sensors::removed)
             .add_systems(
                 SimulationSchedule,
                 (

@@ -5,18 +5,20 @@ use bevy::prelude::*;
 use super::obstacles::change::RefusedChanges;
 use super::obstacles::start::settle_start;
 use super::robot::contact;
+use super::sensors::start::fix_sensors;
 use super::{Keyframes, RestoreError, SimulationSchedule, Transport, restore};
 
-/// Runs one tick. Before the first, obstacles that were changed from outside become those of the run. After it, the
-/// contacts that began or ended in it are triggered as [`ContactBegan`](super::ContactBegan) and
-/// [`ContactEnded`](super::ContactEnded).
+/// Runs one tick. Before the first, obstacles that were changed from outside become those of the run, and its sensors
+/// are fixed. After it, the contacts that began or ended in it are triggered as [`ContactBegan`](super::ContactBegan)
+/// and [`ContactEnded`](super::ContactEnded).
 pub fn step(world: &mut World) {
-    settle_start(world);
     contact::with_events(world, advance);
 }
 
 /// Runs one tick and triggers nothing.
 fn advance(world: &mut World) {
+    settle_start(world);
+    fix_sensors(world);
     world.run_schedule(SimulationSchedule);
 }
 

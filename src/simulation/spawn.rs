@@ -8,7 +8,7 @@ use super::obstacles::roster::{self, Ground, at_work};
 use super::robot::spawn::SpawnRequest;
 use super::{
     History, Keyframes, LatestFrame, PendingInput, RobotId, RobotKinds, Roster, SceneRevision, SimulatedWorld,
-    SpawnError, StandingWorld, Transport, WorldScene, state, tick,
+    SpawnError, StandingWorld, Transport, WorldScene, sensors, state, tick,
 };
 use crate::collision::Scene;
 use crate::random::Seed;
@@ -124,6 +124,7 @@ pub(super) fn start_run_in_order(
     if world.contains_resource::<History>() {
         world.insert_resource(History::default());
     }
+    sensors::start::take_sensors(world);
     tick::sense::sense(world);
     state::record(world);
     Ok(())

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use bevy::prelude::*;
 
 use super::obstacles::roster::ObstacleRoster;
-use super::{LatestFrame, RestoreError, RobotId, RobotOps, Roster, Scan, Sensors, Transport};
+use super::{LatestFrame, RestoreError, RobotId, RobotOps, Roster, SensorRoster, Transport};
 use crate::run::{Frame, RobotScan};
 
 /// Largest number of keyframes; beyond it every second one is dropped.
@@ -65,22 +65,12 @@ fn snapshot_into(world: &World, frame: &mut Frame) {
     frame.tick = world.get_resource::<Transport>().map_or(0, |t| t.tick);
     frame.robots.clear();
     frame.robots.extend(robots.iter().filter_map(|&e| (world.get::<RobotOps>(e)?.encode)(world, e)));
-    // the roster is in the order of the ids
-    let sensors = robots.iter().flat_map(|&robot| {
-        let sensors = world.get::<Sensors>(robot).into_iter().flat_map(|sensors| sensors.iter());
-        sensors.filter_map(move |sensor| Some((world.get::<RobotId>(robot)?.0, &world.get::<Scan>(sensor)?.0)))
-    });
-    let mut count = 0;
-    for (robot, ranges) in sensors {
-        if count == frame.scans.len() {
-            frame.scans.push(RobotScan { robot, ranges: Vec::new() });
-        }
-        let scan = &mut frame.scans[count];
-        scan.robot = robot;
-        scan.ranges.clone_from(ranges);
-        count += 1;
+    let sensors = world.get_resource::<SensorRoster>().map_or(&[][..], |roster| &roster.sensors);
+    frame.scans.resize_with(sensors.len(), || RobotScan { robot: 0, ranges: Vec::new() });
+    for (scan, sensor) in frame.scans.iter_mut().zip(sensors) {
+        scan.robot = sensor.id;
+        scan.ranges.clone_from(&sensor.ranges);
     }
-    frame.scans.truncate(count);
     frame.obstacles.clear();
     frame.obstacles.extend(world.get_resource::<ObstacleRoster>().into_iter().flat_map(ObstacleRoster::states));
 }

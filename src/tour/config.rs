@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use crate::random::Seed;
 use crate::sensors::{RangeSensor, SensorError};
-use crate::worlds::World;
+use crate::worlds::{ResidentSensorError, World, check_sensors};
 
 /// The seed of every run printed in the book.
 pub const BOOK_SEED: Seed = Seed(2005);
@@ -24,7 +24,7 @@ pub struct TourConfig {
     pub worlds: Vec<World>,
     /// The number of ticks.
     pub ticks: u64,
-    /// The range sensor of every Rusty; `None` for none.
+    /// The range sensor of every Rusty; `None` for none. The worlds' residents may have further ones of their own.
     pub sensor: Option<RangeSensor>,
 }
 
@@ -51,6 +51,16 @@ pub enum ConfigError {
         robot: String,
         /// The world of the second one.
         world: String,
+    },
+    /// A sensor of a robot that is refused. World files are checked for this; a world made in code may have one.
+    #[error("robot {robot:?} in world {world:?}: {source}")]
+    ResidentSensor {
+        /// The robot.
+        robot: String,
+        /// Its world.
+        world: String,
+        /// Which of its sensors, and the reason.
+        source: Box<ResidentSensorError>,
     },
     /// A start coordinate that is NaN or infinite.
     #[error("robot {robot:?} in world {world:?}: start coordinate {value} is not a finite number")]
@@ -96,6 +106,9 @@ impl TourConfig {
             }
             if let Some(&value) = robot.start.iter().find(|x| !x.is_finite()) {
                 return Err(ConfigError::Start { robot: name, world, value });
+            }
+            if let Err(source) = check_sensors(&robot.sensors) {
+                return Err(ConfigError::ResidentSensor { robot: name, world, source: Box::new(source) });
             }
         }
         Ok(())

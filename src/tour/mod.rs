@@ -2,6 +2,7 @@
 
 mod config;
 mod reversing;
+mod sensors;
 mod sinusoids;
 mod three_worlds;
 mod waypoints;

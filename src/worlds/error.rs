@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use super::{BeamError, OutlineError};
+use super::{BeamError, OutlineError, ResidentSensorError};
 use crate::geometry::ShapeError;
 
 /// An item of a world file: `obstacles[1] "the post"`.
@@ -132,4 +132,7 @@ pub enum WorldProblem {
     /// Sensor noise that is not a probability distribution.
     #[error("sensor: {0}")]
     Beam(#[from] BeamError),
+    /// One of a robot's own sensors that is refused.
+    #[error(transparent)]
+    Sensors(#[from] ResidentSensorError),
 }

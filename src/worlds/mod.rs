@@ -31,6 +31,18 @@
 //!     sensor: (sigma_hit: 0.02, z_short: 0.05, lambda_short: 1, z_miss: 0.01, z_max: 0.01, z_rand: 0.01)),
 //! ```
 //!
+//! A robot of any kind may carry range sensors of its own, each with a name, a number of rays and a greatest range. Left
+//! out, the field of view is a full turn, the mount is the robot's own frame, and the sensor is exact:
+//!
+//! ```ron
+//! (name: "Hitch", kind: "hitch", start: [3, 1, 0], sensors: [
+//!     (name: "ahead", rays: 90, range: 4, field_of_view: 1.57, mount: (x: 0.5, y: 0, theta: 0)),
+//!     (name: "behind", rays: 30, range: 2, mount: (x: -0.4, y: 0, theta: 3.14), noise: (sigma_hit: 0.02)),
+//! ]),
+//! ```
+//!
+//! Rovers carry the sensor of the run besides; its noise is what `sensor` says.
+//!
 //! Every list may be left out. A name is unique in the whole world. A robot's `start` is its configuration's
 //! coordinates: `rusty` x, y, theta; `reach` th1, th2; `reach3` th1, th2, th3; `hitch` x, y, theta, and psi with a
 //! trailer. Other kinds begin with `x-` and belong to programs that register them.
@@ -44,16 +56,23 @@ mod grid;
 #[cfg(feature = "cli")]
 pub mod import;
 mod model;
+mod sensor;
 
 pub use beam::{BeamError, BeamModel};
 pub use convex_pieces::{MAX_CONCAVE_VERTICES, OutlineError, convex_pieces};
 pub use error::{WorldError, WorldItem, WorldProblem};
 pub use file::comments::comments;
 pub(crate) use file::name::check_name;
+pub(crate) use file::resident::check_sensors;
 pub use grid::cells::{Grid, GridError, MAX_CELLS};
 pub use grid::distance_transform::DistanceTransform;
 pub use grid::ros_export::RosFiles;
 pub use model::{Door, Mark, Obstacle, ObstacleKind, Outline, Place, Resident, World, Written};
+pub(crate) use sensor::check_mount;
+pub use sensor::{
+    FanSensor, MAX_RANGE, MAX_RAYS, MAX_SENSORS, MIN_FIELD_OF_VIEW, MIN_RANGE, RangeSensor, ResidentSensor,
+    ResidentSensorError, ResidentSensorProblem, SensorError,
+};
 
 /// The version of the world format that is read and written.
 pub const WORLD_VERSION: u64 = 1;

@@ -1,6 +1,6 @@
 //! `World`, a checked world: what is meant, as opposed to what is written in a file.
 
-use super::{BeamModel, OutlineError, convex_pieces};
+use super::{BeamModel, OutlineError, ResidentSensor, convex_pieces};
 use crate::geometry::{Aabb, ConvexPolygon, Placed, Point2, Pose2, Shape};
 
 /// The kind of an obstacle. Walls and solids collide alike.
@@ -79,7 +79,7 @@ pub struct Mark {
     pub points: Vec<Point2>,
 }
 
-/// A resident robot of a world: its kind, its start and the noise of its sensor.
+/// A resident robot of a world: its kind, its start and its sensors.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Resident {
     /// The robot's unique name.
@@ -88,8 +88,10 @@ pub struct Resident {
     pub kind: String,
     /// Chart coordinates of the configuration at the start. A `hitch` with four coordinates starts with its trailer.
     pub start: Vec<f64>,
-    /// The noise of its range sensor; `None` if the sensor is exact or the robot has none.
+    /// The noise of the range sensor that the run gives it; `None` if that sensor is exact or the robot has none.
     pub sensor: Option<BeamModel>,
+    /// Its own range sensors, in file order; they come on top of the run's.
+    pub sensors: Vec<ResidentSensor>,
 }
 
 /// A checked world.
@@ -114,7 +116,7 @@ pub struct World {
 impl Resident {
     /// Creates a resident with an exact sensor. Nothing is checked.
     pub fn new(name: impl Into<String>, kind: impl Into<String>, start: impl Into<Vec<f64>>) -> Self {
-        Resident { name: name.into(), kind: kind.into(), start: start.into(), sensor: None }
+        Resident { name: name.into(), kind: kind.into(), start: start.into(), sensor: None, sensors: Vec::new() }
     }
 }
 

@@ -250,6 +250,54 @@ fn viewers_see_worlds_change() {
     assert!(refused.contains("changes[0]: there is no door \"door X\" in world \"Apartment\""), "{refused}");
 }
 
+/// A car with two sensors, and a rover with the run's.
+const TWO_SENSORS: &str = "World(version: 1, name: \"room\", bounds: (min: (-5, -5), max: (5, 5)),
+    walls: [(name: \"wall\", points: [(-5, -5), (5, -5), (5, 5), (-5, 5)], closed: true)], robots: [
+    (name: \"rover\", kind: \"rusty\", start: [-2, 0, 1]), (name: \"car\", kind: \"hitch\", start: [1, 0.5, 0], sensors: [
+        (name: \"left\", rays: 3, range: 9, field_of_view: 1, mount: (x: 0, y: 0.5, theta: 1.5)),
+        (name: \"ahead\", rays: 2, range: 9, mount: (x: 0.5, y: 0, theta: 0))])])";
+
+#[test]
+fn every_sensor_of_a_robot_is_exported_by_its_name() {
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("room.ron"), TWO_SENSORS).unwrap();
+    let record = ["record", "--world", "room.ron", "--ticks", "3", "--rays", "4", "-o", "run.mcap"];
+    run_in(folder.path(), &record).done();
+    run_in(folder.path(), &["verify", "run.mcap"]).done();
+    let file = folder.path().join("run.mcap");
+    let info = run(&["info", file.to_str().unwrap()]).done();
+    assert!(info.contains("\nsensors  car: ahead, left\n"), "{info}");
+    let log = read(&file);
+    for (line, frame) in export(&file, "jsonl").done().lines().map(json).zip(frames(&log)) {
+        let [rover, car] = &line["robots"].as_array().unwrap()[..] else { panic!("two robots") };
+        assert!(rover.get("further_scans").is_none(), "a robot with one sensor has the fields it had");
+        same_bits(&rover["ranges"], &frame.scans[0].ranges);
+        same_bits(&car["ranges"], &frame.scans[1].ranges);
+        let further = car["further_scans"].as_array().unwrap();
+        assert_eq!((further.len(), further[0]["sensor"].as_str()), (1, Some("left")));
+        same_bits(&further[0]["ranges"], &frame.scans[2].ranges);
+    }
+    let text = run(&["export", file.to_str().unwrap(), "--format", "csv", "--ranges"]).done();
+    let mut lines = text.lines();
+    let head = lines.next().unwrap();
+    assert!(head.ends_with(",range0,range1,range2,range3,scan2_range0,scan2_range1,scan2_range2"), "{head}");
+    let (rover, car) = (lines.next().unwrap(), lines.next().unwrap());
+    assert!(rover.ends_with(",,,") && !rover.ends_with(",,,,"), "{rover}");
+    let [ahead, left] =
+        [1, 2].map(|i| log.initial.scans[i].ranges.iter().map(|x| format!("{x:?}")).collect::<Vec<_>>());
+    assert!(car.ends_with(&format!(",{},,,{}", ahead.join(","), left.join(","))), "{car}");
+    let viewer = ["export", "run.mcap", "--format", "foxglove", "-o", "viewer.mcap"];
+    run_in(folder.path(), &viewer).done();
+    let bytes = fs::read(folder.path().join("viewer.mcap")).unwrap();
+    let topics: std::collections::BTreeSet<String> = mcap::MessageStream::new(&bytes)
+        .unwrap()
+        .map(|message| message.unwrap().channel.topic.clone())
+        .filter(|topic| topic.starts_with("/viewer/scan/"))
+        .collect();
+    let expected = ["/viewer/scan/car/ahead", "/viewer/scan/car/left", "/viewer/scan/rover"];
+    assert!(topics.iter().eq(expected), "{topics:?}");
+}
+
 #[test]
 fn of_a_damaged_log_the_sealed_beginning_is_exported_and_it_is_5() {
     let folder = tempfile::tempdir().unwrap();

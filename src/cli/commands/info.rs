@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 use motion_lab::run::DT;
+use motion_lab::tour::TourConfig;
 use serde::Serialize;
 
 use crate::cli::support::json_number::JsonNumber;
@@ -27,6 +28,9 @@ struct Contents<'a> {
     #[serde(flatten)]
     run: RunSummary<'a>,
     sensor: Option<Sensor>,
+    /// The robots with sensors of their own; left out without any.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    robots_sensors: Vec<RobotSensors<'a>>,
     script_events: usize,
     /// Changes of worlds; left out where there are none.
     #[serde(skip_serializing_if = "none")]
@@ -41,6 +45,24 @@ struct Sensor {
     range: JsonNumber,
 }
 
+/// The sensors of a robot's own.
+#[derive(Serialize)]
+struct RobotSensors<'a> {
+    robot: &'a str,
+    /// Their names, in the order of their scans.
+    sensors: Vec<&'a str>,
+}
+
+/// The robots with sensors of their own.
+fn robots_sensors(config: &TourConfig) -> Vec<RobotSensors<'_>> {
+    let own = config.residents().filter(|resident| !resident.sensors.is_empty()).map(|resident| {
+        let mut sensors: Vec<&str> = resident.sensors.iter().map(|sensor| sensor.name.as_str()).collect();
+        sensors.sort_unstable();
+        RobotSensors { robot: &resident.name, sensors }
+    });
+    own.collect()
+}
+
 impl Info {
     /// Runs the command.
     pub fn run(self, data: &mut Data) -> Result<Outcome, Failure> {
@@ -50,6 +72,7 @@ impl Info {
         let contents = Contents {
             run: RunSummary::new(log.seed, &log.config, last, log.digest()),
             sensor: log.config.sensor.map(|s| Sensor { rays: s.n_rays, range: JsonNumber(s.max_range) }),
+            robots_sensors: robots_sensors(&log.config),
             script_events: log.script.events.len(),
             script_changes: log.script.changes.len(),
             program: &read.program,
@@ -72,7 +95,7 @@ impl Info {
 
 impl Contents<'_> {
     fn print(&self, data: &mut Data) -> Result<(), Failure> {
-        let Contents { run, sensor, script_events, script_changes, program, .. } = self;
+        let Contents { run, sensor, robots_sensors, script_events, script_changes, program, .. } = self;
         data.line(format!("seed     {}", run.seed))?;
         data.line(format!("ticks    {} of {} ({:.2} s)", run.recorded, run.ticks, DT * run.recorded as f64))?;
         for world in &run.worlds {
@@ -81,6 +104,9 @@ impl Contents<'_> {
         match sensor {
             Some(Sensor { rays, range }) => data.line(format!("sensor   {rays} rays, {} m", range.0))?,
             None => data.line("sensor   none")?,
+        }
+        for RobotSensors { robot, sensors } in robots_sensors {
+            data.line(format!("sensors  {robot}: {}", sensors.join(", ")))?;
         }
         let changes = changes_in_words(*script_changes);
         data.line(format!("script   {script_events} events{changes}"))?;

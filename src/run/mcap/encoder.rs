@@ -23,6 +23,8 @@ pub struct Encoder {
     next_change: usize,
     piece: Vec<u8>,
     room: Room,
+    /// The greatest range of each scan of the initial frame, as far as the configuration says.
+    max_ranges: Vec<Option<f64>>,
 }
 
 /// Buffers that are filled again for every tick. Once they have grown, a tick allocates nothing.
@@ -48,7 +50,9 @@ impl Encoder {
             next_change: 0,
             piece: Vec::new(),
             room: Room::default(),
+            max_ranges: Vec::new(),
         };
+        encoder.max_ranges = encoder.preamble.max_ranges();
         encoder.preamble.put(&mut encoder.records)?;
         let schema = if encoder.preamble.format() == FORMAT_VERSION { SCHEMA } else { SCHEMA_2 };
         encoder.records.channels(schema)?;
@@ -116,9 +120,9 @@ impl Encoder {
         let Room { frame: of_frame, scan: of_scan, digest: of_digest, content, .. } = &mut self.room;
         of_frame.take(frame);
         records.message(channel::FRAME, tick, of_frame, content)?;
-        let max_range = self.preamble.config.sensor.map(|s| s.max_range);
-        for scan in &frame.scans {
-            of_scan.take(tick, max_range, scan);
+        let given = self.preamble.config.sensor.map(|s| s.max_range);
+        for (i, scan) in frame.scans.iter().enumerate() {
+            of_scan.take(tick, self.max_ranges.get(i).copied().unwrap_or(given), scan);
             records.message(channel::SCAN, tick, of_scan, content)?;
         }
         of_digest.take(tick, digest);

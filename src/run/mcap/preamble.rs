@@ -109,7 +109,7 @@ impl Preamble {
         }
         let robots = self.config.robot_names().count();
         let ids_are_right = frame.robots.len() == robots && (0..).zip(&frame.robots).all(|(id, r)| r.id == id);
-        let scans_are_right = frame.scans.is_sorted_by(|a, b| a.robot < b.robot)
+        let scans_are_right = frame.scans.is_sorted_by_key(|scan| scan.robot)
             && frame.scans.last().is_none_or(|scan| (scan.robot as usize) < robots);
         if !ids_are_right || !scans_are_right {
             return Err(LogError::Robots { tick, robots });
@@ -131,6 +131,18 @@ impl Preamble {
     /// The version of the log's format.
     pub fn format(&self) -> &'static str {
         if self.script.changes.is_empty() { FORMAT_VERSION } else { FORMAT_VERSION_WITH_CHANGES }
+    }
+
+    /// The greatest range of each scan of the initial frame, metres; `None` for one of a sensor that is not the configuration's.
+    pub fn max_ranges(&self) -> Vec<Option<f64>> {
+        let scans = self.initial.scans.chunk_by(|a, b| a.robot == b.robot);
+        let ranges = scans.flat_map(|scans| {
+            let resident = scans.first().and_then(|scan| self.config.residents().nth(scan.robot as usize));
+            let sensors = resident.and_then(|resident| self.config.sensors_of(resident, scans.len()));
+            let range = |i: usize| sensors.as_ref()?.get(i).map(|sensor| sensor.rays.sensor.max_range);
+            (0..scans.len()).map(range).collect::<Vec<_>>()
+        });
+        ranges.collect()
     }
 
     fn metadata(&self) -> BTreeMap<String, String> {
@@ -222,5 +234,28 @@ impl Preamble {
         };
         preamble.check()?;
         Ok(preamble)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::run::{RobotScan, fixture};
+    use crate::worlds::ResidentSensor;
+
+    #[test]
+    fn each_scan_has_the_greatest_range_of_its_own_sensor() {
+        let mut log = fixture::log();
+        let sensor = |name: &str, max_range: f64| ResidentSensor::new(name, RangeSensor { n_rays: 1, max_range });
+        log.config.worlds[0].robots[0].sensors = vec![sensor("far", 9.0)];
+        log.config.worlds[0].robots[1].sensors = vec![sensor("b", 7.0), sensor("a", 5.0)];
+        log.initial.scans = [0, 0, 1, 1].map(|robot| RobotScan { robot, ranges: vec![1.0] }).to_vec();
+        let ranges = |log: &Log| Preamble::new(log.seed, &log.config, &log.script, &log.initial).unwrap().max_ranges();
+        assert_eq!(ranges(&log), [Some(4.0), Some(9.0), Some(5.0), Some(7.0)]);
+        log.initial.scans.insert(4, RobotScan { robot: 1, ranges: vec![1.0] });
+        assert_eq!(ranges(&log), [Some(4.0), Some(9.0), None, None, None], "one from code, whichever it is");
+        log.initial.scans.swap(0, 4);
+        let refused = Preamble::new(log.seed, &log.config, &log.script, &log.initial).unwrap_err();
+        assert!(matches!(refused, LogError::Robots { tick: 0, .. }), "{refused}");
     }
 }

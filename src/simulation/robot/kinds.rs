@@ -90,6 +90,12 @@ impl<const N: usize> SimulatedRobot for Reach<N> {
         coordinates.try_into().ok().map(|angles| Tn::wrapped(Tn(angles)))
     }
 
+    /// At the tip, along the last link.
+    fn mount_pose(&self, q: &Tn<N>) -> Pose2 {
+        let tip = Reach::tip(self, q);
+        Pose2 { x: tip.x, y: tip.y, theta: self.heading(q) }
+    }
+
     fn tip(&self, q: &Tn<N>) -> Option<Point2> {
         Some(Reach::tip(self, q))
     }
@@ -129,6 +135,11 @@ impl SimulatedRobot for Hitch {
     fn with_trailer_set(&self, q: &HitchCfg, on: bool) -> Option<HitchCfg> {
         let trailer = if on { Some(q.trailer.unwrap_or(q.body.theta)) } else { None };
         Some(HitchCfg { body: q.body, trailer })
+    }
+
+    /// The car's rear axle, with the car's heading.
+    fn mount_pose(&self, q: &HitchCfg) -> Pose2 {
+        q.body
     }
 
     fn fitted(&self, q: &HitchCfg) -> Hitch {

@@ -20,8 +20,8 @@ pub struct RobotOps {
     pub(crate) apply: fn(&mut World, Entity, &RobotInput, &[Placed]),
     /// The robot's present footprint.
     pub(crate) footprint: fn(&World, Entity) -> Option<Footprint>,
-    /// The pose of the robot's range sensor; `None` without one.
-    pub(crate) sensor_pose: fn(&World, Entity) -> Option<Pose2>,
+    /// The pose of the frame that the robot's sensors are mounted in.
+    pub(crate) mount_pose: fn(&World, Entity) -> Option<Pose2>,
     /// The robot's state.
     pub(crate) encode: fn(&World, Entity) -> Option<RobotState>,
     /// Overwrites the robot's components by a state. `None`, with nothing changed, when the state does not fit the
@@ -36,7 +36,7 @@ impl RobotOps {
         RobotOps {
             apply: apply::<R>,
             footprint: footprint::<R>,
-            sensor_pose: sensor_pose::<R>,
+            mount_pose: mount_pose::<R>,
             encode: encode::<R>,
             decode: decode::<R>,
             view: view::<R>,
@@ -49,8 +49,8 @@ fn footprint<R: SimulatedRobot>(world: &World, e: Entity) -> Option<Footprint> {
     Some(world.get::<RobotModel<R>>(e)?.0.fitted(&q).footprint(&q))
 }
 
-fn sensor_pose<R: SimulatedRobot>(world: &World, e: Entity) -> Option<Pose2> {
-    world.get::<RobotModel<R>>(e)?.0.sensor_pose(&world.get::<Configuration<R>>(e)?.0)
+fn mount_pose<R: SimulatedRobot>(world: &World, e: Entity) -> Option<Pose2> {
+    Some(world.get::<RobotModel<R>>(e)?.0.mount_pose(&world.get::<Configuration<R>>(e)?.0))
 }
 
 /// The driver's new state after an accepted input, and the configuration that the robot is put in, if any. `None`

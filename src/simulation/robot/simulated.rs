@@ -73,9 +73,16 @@ pub trait SimulatedRobot: Drivable<Drive: Clone + Send + Sync + 'static> {
         *commanded
     }
 
-    /// The pose of the range sensor in the world. `None` for a robot without one.
+    /// The pose in the world of the range sensor that a run gives to its robots. `None` for a robot that gets none.
     fn sensor_pose(&self, _q: &Self::Configuration) -> Option<Pose2> {
         None
+    }
+
+    /// The pose in the world of the frame that sensors are mounted in. Unless a kind says otherwise it is that of its range
+    /// sensor, and without one that of the footprint's first part.
+    fn mount_pose(&self, q: &Self::Configuration) -> Pose2 {
+        let first_part = || self.fitted(q).footprint(q).parts().first().map_or(Pose2::IDENTITY, |part| *part.pose());
+        self.sensor_pose(q).unwrap_or_else(first_part)
     }
 
     /// The readings of the wheels' encoders; `None` without encoders.

@@ -1,14 +1,14 @@
-//! Spawning a robot and its sensor as entities.
+//! Spawning a robot and its sensors as entities.
 
 use bevy::prelude::*;
 
 use super::simulated::canonical;
 use crate::configuration::{Configuration as _, RobotKind};
 use crate::random::{Seed, Stream};
-use crate::sensors::{RangeSensor, Scanner};
+use crate::sensors::RangeSensor;
 use crate::simulation::{
     Configuration, MountedOn, OwnState, PreviousConfiguration, ResidesIn, RobotId, RobotModel, RobotName, RobotOps,
-    Route, Scan, SensorModel, SensorNoise, SensorScanner, SimulatedRobot, Slip, SpawnError,
+    Route, SensorModel, SensorMount, SensorName, SensorNoise, SimulatedRobot, Slip, SpawnError,
 };
 use crate::worlds::{Resident, World as WorldModel};
 
@@ -23,7 +23,7 @@ pub(crate) struct SpawnRequest<'a> {
     pub(crate) about: Option<&'static RobotKind>,
 }
 
-/// Spawns a robot of type `R`, with its sensor.
+/// Spawns a robot of type `R`, with its sensors.
 pub(crate) fn spawn_robot<R: SimulatedRobot>(
     world: &mut World,
     robot: &R,
@@ -62,16 +62,13 @@ pub(crate) fn spawn_robot<R: SimulatedRobot>(
         ))
         .id();
     if let Some(sensor) = sensor {
-        let mut spawned = world.spawn((
-            SensorModel(sensor),
-            SensorScanner(Some(Box::new(Scanner::new(sensor)))),
-            Scan::default(),
-            MountedOn(entity),
-        ));
-        if let Some(model) = noise {
-            let stream = Stream::new(request.seed, &format!("{}/beam", resident.name));
-            spawned.insert(SensorNoise { model, stream });
-        }
+        let mut spawned = world.spawn((SensorModel::from(sensor), MountedOn(entity)));
+        noise.into_iter().for_each(|noise| _ = spawned.insert(SensorNoise(noise)));
+    }
+    for sensor in &resident.sensors {
+        let name = SensorName(sensor.name.clone());
+        let mut spawned = world.spawn((SensorModel(sensor.rays), name, SensorMount(sensor.mount), MountedOn(entity)));
+        sensor.noise.into_iter().for_each(|noise| _ = spawned.insert(SensorNoise(noise)));
     }
     Ok(entity)
 }

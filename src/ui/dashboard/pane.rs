@@ -12,9 +12,9 @@ use super::{doors, drive, handles, pad};
 use crate::atlas::{self, Atlas};
 use crate::configuration::RobotKind;
 use crate::manifest::Formula;
-use crate::picture::{Drawing, Fit, Item, Picture, Role, ScaleBar, pick, places, scan};
+use crate::picture::{Drawing, Fit, Item, Picture, Role, ScaleBar, ScanDrawing, fan_scan, pick, places, scan_id};
 use crate::run::RobotInput;
-use crate::simulation::{RobotCommand, TransportCommand};
+use crate::simulation::{RobotCommand, SensorView, TransportCommand};
 use crate::ui::paint::{canvas, frame};
 use crate::ui::{Cockpit, CockpitRobot, Command, Look, ParkingGoal, SessionCommand, UiState, readout, readout_lines};
 
@@ -48,8 +48,13 @@ pub fn pane(ui: &mut Ui, cockpit: &Cockpit, rect: Rect, look: &Look, state: &mut
         over = over.with(names(ui, cockpit, &fit));
     }
     if state.settings.scan {
-        let seen = cockpit.robots.iter().filter_map(|r| Some((r, r.sees.as_ref()?)));
-        over = over.with(seen.map(|(r, (pose, ranges))| scan(&format!("scan/{}", r.name), "scan", pose, ranges)));
+        over = over.with(cockpit.robots.iter().flat_map(|robot| {
+            robot.sees.iter().map(move |sensor| {
+                let SensorView { pose, rays, ranges, .. } = sensor;
+                let drawing = ScanDrawing { pose: *pose, field_of_view: rays.field_of_view, ranges };
+                fan_scan(&scan_id(&robot.name, &sensor.name), "scan", &drawing)
+            })
+        }));
     }
     for robot in &cockpit.robots {
         if let Some((_, goal)) = state.goal.as_ref().filter(|(name, _)| *name == robot.name) {
@@ -253,7 +258,7 @@ fn links(ui: &mut Ui, robot: &CockpitRobot, state: &mut UiState, commands: &mut 
         if robot.manual && ui.link("resume tour").clicked() {
             put_in(RobotInput::Release);
         }
-        if robot.sees.is_some() {
+        if !robot.sees.is_empty() {
             let words = if state.settings.scan { "hide the scan" } else { "show the scan" };
             if ui.link(words).clicked() {
                 state.settings.scan = !state.settings.scan;

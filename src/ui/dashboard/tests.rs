@@ -36,7 +36,7 @@ fn robot<R: Robot>(name: &str, kind: &str, robot: &R, q: R::Configuration) -> Co
         drivable: !kind.starts_with("reach"),
         is_arm: kind.starts_with("reach"),
         trailer: None,
-        sees: None,
+        sees: Vec::new(),
         tip: None,
         reversals: 0,
         no_room: None,

@@ -4,9 +4,10 @@ use std::sync::Arc;
 
 use crate::atlas::Atlas;
 use crate::configuration::{Coordinates, RobotKind};
-use crate::geometry::{Footprint, Point2, Pose2};
+use crate::geometry::{Footprint, Point2};
 use crate::picture::{Item, Picture, RobotDrawing, robot};
 use crate::random::Seed;
+use crate::simulation::SensorView;
 
 /// One robot in its cockpit.
 #[derive(Clone, Debug, PartialEq)]
@@ -39,8 +40,8 @@ pub struct CockpitRobot {
     pub in_full: String,
     /// The coordinates that an input asks for by the next tick.
     pub target: Option<Coordinates>,
-    /// The pose and the ranges of its range sensor, metres; `None` without one.
-    pub sees: Option<(Pose2, Vec<f64>)>,
+    /// Its range sensors with what they read, in the order of their names.
+    pub sees: Vec<SensorView>,
     /// The tip of an arm, metres; `None` for other robots.
     pub tip: Option<Point2>,
     /// The reason why no trailer can be put on here; `None` where one can be or is on, and for other robots.

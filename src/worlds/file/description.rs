@@ -100,6 +100,24 @@ pub(crate) struct RobotText {
     pub start: Vec<f64>,
     #[serde(default, deserialize_with = "given")]
     pub sensor: Option<BeamModel>,
+    #[serde(default)]
+    pub sensors: Vec<SensorText>,
+}
+
+/// A range sensor of a robot.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct SensorText {
+    pub name: String,
+    pub rays: u32,
+    pub range: f64,
+    /// Radians; a full turn when left out.
+    #[serde(default, deserialize_with = "given")]
+    pub field_of_view: Option<f64>,
+    #[serde(default, deserialize_with = "given")]
+    pub mount: Option<Pose2>,
+    #[serde(default, deserialize_with = "given")]
+    pub noise: Option<BeamModel>,
 }
 
 /// Reads a field that may be left out and is written without `Some`.

@@ -1,11 +1,12 @@
 //! A world as canonical text, and its hash.
 
+use std::f64::consts::TAU;
 use std::fmt::{self, Write};
 
 use xxhash_rust::xxh3::xxh3_128;
 
 use crate::geometry::{Point2, Pose2, Shape};
-use crate::worlds::{BeamModel, Obstacle, ObstacleKind, WORLD_VERSION, World, Written};
+use crate::worlds::{BeamModel, Obstacle, ObstacleKind, ResidentSensor, WORLD_VERSION, World, Written};
 
 impl World {
     /// Prints the world as a world file: one item a line, every number with the shortest digits that read back as the
@@ -51,7 +52,11 @@ impl World {
         let marks = self.marks.iter().map(|m| format!("name: {}, points: {}", Quoted(&m.name), Points(&m.points)));
         let robots = self.robots.iter().map(|r| {
             let head = format!("name: {}, kind: {}, start: {:?}", Quoted(&r.name), Quoted(&r.kind), r.start);
-            r.sensor.map_or(head.clone(), |noise| format!("{head}, sensor: {}", noise_text(&noise)))
+            let noise = r.sensor.map_or(String::new(), |noise| format!(", sensor: {}", noise_text(&noise)));
+            let sensors: Vec<String> = r.sensors.iter().map(sensor_text).collect();
+            let sensors =
+                if sensors.is_empty() { String::new() } else { format!(", sensors: [{}]", sensors.join(", ")) };
+            format!("{head}{noise}{sensors}")
         });
         write_list(out, "walls", walls)?;
         write_list(out, "obstacles", solids)?;
@@ -64,6 +69,23 @@ impl World {
         write_list(out, "robots", robots)?;
         out.write_str(")\n")
     }
+}
+
+/// A sensor, without what is as if left out.
+fn sensor_text(sensor: &ResidentSensor) -> String {
+    let ResidentSensor { name, rays, mount, noise } = sensor;
+    let (n_rays, range) = (rays.sensor.n_rays, rays.sensor.max_range);
+    let mut text = format!("name: {}, rays: {n_rays}, range: {range:?}", Quoted(name));
+    if rays.field_of_view != TAU {
+        text += &format!(", field_of_view: {:?}", rays.field_of_view);
+    }
+    if *mount != Pose2::IDENTITY {
+        text += &format!(", mount: (x: {:?}, y: {:?}, theta: {:?})", mount.x, mount.y, mount.theta);
+    }
+    if let Some(noise) = noise {
+        text += &format!(", noise: {}", noise_text(noise));
+    }
+    format!("({text})")
 }
 
 fn noise_text(noise: &BeamModel) -> String {

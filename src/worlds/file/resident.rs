@@ -1,11 +1,17 @@
 //! Checks the robots of a world.
 
-use super::description::RobotText;
+use std::f64::consts::TAU;
+
+use super::description::{RobotText, SensorText};
 use super::items::{finite, make_point};
-use super::name::check_name;
+use super::name::{MAX_NAME, check_name};
 use crate::configuration::RobotKind;
+use crate::geometry::Pose2;
 use crate::num;
-use crate::worlds::{BeamModel, Resident, WorldProblem};
+use crate::worlds::{
+    BeamModel, FanSensor, MAX_SENSORS, RangeSensor, Resident, ResidentSensor, ResidentSensorError,
+    ResidentSensorProblem, WorldProblem,
+};
 
 impl Resident {
     /// Creates a resident that a world file may hold. The kind must be known and the number of coordinates must fit it.
@@ -24,13 +30,35 @@ impl Resident {
         let kind = kind.into();
         let start = make_start(&kind, start.into())?;
         let sensor = sensor.map(|noise| make_noise(&kind, noise)).transpose()?;
-        Ok(Resident { name: name.into(), kind, start, sensor })
+        Ok(Resident { name: name.into(), kind, start, sensor, sensors: Vec::new() })
+    }
+
+    /// The resident with these range sensors of its own, in place of those it has. Angles are wrapped to `(-pi, pi]`.
+    ///
+    /// # Errors
+    /// [`WorldProblem::Sensors`] for the first sensor with a bad or taken name, or with a number out of range, and for
+    /// more than [`MAX_SENSORS`](crate::worlds::MAX_SENSORS).
+    pub fn try_with_sensors(self, sensors: &[ResidentSensor]) -> Result<Self, WorldProblem> {
+        Ok(Resident { sensors: check_sensors(sensors)?, ..self })
     }
 }
 
 pub(crate) fn make_resident(text: &RobotText) -> Result<Resident, WorldProblem> {
-    let RobotText { name, kind, start, sensor } = text;
-    Resident::try_new(name.clone(), kind.clone(), start.clone(), *sensor)
+    let RobotText { name, kind, start, sensor, sensors } = text;
+    let sensors: Vec<ResidentSensor> = sensors.iter().map(make_sensor).collect();
+    Resident::try_new(name.clone(), kind.clone(), start.clone(), *sensor)?.try_with_sensors(&sensors)
+}
+
+/// A sensor as written, with what is left out filled in.
+fn make_sensor(text: &SensorText) -> ResidentSensor {
+    let SensorText { name, rays, range, field_of_view, mount, noise } = text;
+    let sensor = RangeSensor { n_rays: *rays, max_range: *range };
+    ResidentSensor {
+        name: name.clone(),
+        rays: FanSensor { sensor, field_of_view: field_of_view.unwrap_or(TAU) },
+        mount: mount.unwrap_or(Pose2::IDENTITY),
+        noise: *noise,
+    }
 }
 
 /// Checks the start of a robot of this kind and wraps its angles.
@@ -65,4 +93,24 @@ pub(crate) fn make_noise(kind: &str, noise: BeamModel) -> Result<BeamModel, Worl
         return Err(WorldProblem::NoSensor(kind.to_owned()));
     }
     Ok(noise.try_new()?)
+}
+
+/// Checks the sensors of a robot. Returns them as a world file keeps them, in the same order.
+pub(crate) fn check_sensors(sensors: &[ResidentSensor]) -> Result<Vec<ResidentSensor>, ResidentSensorError> {
+    let mut checked: Vec<ResidentSensor> = Vec::with_capacity(sensors.len());
+    for (index, sensor) in sensors.iter().enumerate() {
+        let refused = |problem| {
+            let name = sensor.name.chars().take(MAX_NAME).collect();
+            ResidentSensorError { index, name, problem }
+        };
+        if index == MAX_SENSORS {
+            return Err(refused(ResidentSensorProblem::TooMany));
+        }
+        check_name(&sensor.name).map_err(|_| refused(ResidentSensorProblem::Name))?;
+        if let Some(earlier) = checked.iter().position(|earlier| earlier.name == sensor.name) {
+            return Err(refused(ResidentSensorProblem::NameTaken(earlier)));
+        }
+        checked.push(sensor.clone().try_numbers().map_err(|reason| refused(reason.into()))?);
+    }
+    Ok(checked)
 }

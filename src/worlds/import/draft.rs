@@ -60,7 +60,13 @@ impl Draft {
     pub fn robot(&mut self, kind: &str, start: Vec<f64>) -> Result<(), WorldProblem> {
         check_room("robots", self.robots.len())?;
         let name = self.claim(&capitalised(kind));
-        self.robots.push(make_resident(&RobotText { name, kind: kind.to_owned(), start, sensor: None })?);
+        self.robots.push(make_resident(&RobotText {
+            name,
+            kind: kind.to_owned(),
+            start,
+            sensor: None,
+            sensors: Vec::new(),
+        })?);
         Ok(())
     }
 

@@ -52,7 +52,13 @@ impl Imported {
             count += 1;
             name = format!("{plain} {count}");
         }
-        let text = description::RobotText { name, kind: kind.to_owned(), start: start.to_vec(), sensor: None };
+        let text = description::RobotText {
+            name,
+            kind: kind.to_owned(),
+            start: start.to_vec(),
+            sensor: None,
+            sensors: vec![],
+        };
         self.world.robots.push(make_resident(&text)?);
         Ok(())
     }

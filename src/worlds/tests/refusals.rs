@@ -152,6 +152,54 @@ fn sensors_that_are_none() {
 }
 
 #[test]
+fn sensors_of_a_robots_own_that_are_none() {
+    let own = |sensors: &str| {
+        refusal(&format!("robots: [\n  (name: \"r\", kind: \"hitch\", start: [0, 0, 0], sensors: [{sensors}])]"))
+    };
+    let at = "yard.ron:4:3: robots[0] \"r\": ";
+    let good = "(name: \"a\", rays: 4, range: 2)";
+    let with = |more: &str| own(&format!("{good}, (name: \"front\", rays: 4, range: 2, {more})"));
+    for (more, reason) in [
+        ("field_of_view: 0", "field of view 0 rad: it must be 0.001 to 6.283185307179586 rad, a full turn"),
+        ("field_of_view: 6.3", "field of view 6.3 rad: "),
+        ("field_of_view: NaN", "field of view NaN rad: "),
+        ("mount: (x: inf, y: 0, theta: 0)", "mount x: inf, y: 0, theta: 0: it must be finite, and within 10000 m"),
+        ("mount: (x: 0, y: -10000.1, theta: 0)", "mount x: 0, y: -10000.1, "),
+        ("mount: (x: 0, y: 0, theta: NaN)", "mount x: 0, y: 0, theta: NaN: "),
+        ("noise: (z_miss: -1)", "noise: z_miss = -1: it must be finite and not negative"),
+    ] {
+        let error = with(more);
+        assert!(error.starts_with(&format!("{at}sensors[1] \"front\": {reason}")), "{error}");
+    }
+    let numbers = |rays: &str, range: &str| own(&format!("(name: \"s\", rays: {rays}, range: {range})"));
+    assert_eq!(numbers("0", "1"), format!("{at}sensors[0] \"s\": 0 rays: there must be 1 to 100000"));
+    assert!(numbers("100001", "1").contains("100001 rays: "));
+    assert_eq!(numbers("1", "0"), format!("{at}sensors[0] \"s\": range 0 m: it must be 0.001 to 10000 m"));
+    assert_eq!(own(&format!("{good}, {good}")), format!("{at}sensors[1] \"a\": the name is taken by sensors[0]"));
+    for name in ["", " a", "a\\n"] {
+        let error = own(&format!("(name: \"{name}\", rays: 4, range: 2)"));
+        assert!(
+            error.starts_with(&format!("{at}sensors[0] ")) && error.contains("its name must be 1 to 200"),
+            "{error}"
+        );
+    }
+    let many = |count: usize| {
+        let each = (0..count).map(|i| format!("(name: \"{i}\", rays: 1, range: 1)"));
+        format!("\"hitch\", start: [0, 0, 0], sensors: [{}])]", each.collect::<Vec<_>>().join(", "))
+    };
+    let yard = |tail: &str| {
+        format!(
+            "World(version: 1, name: \"yard\", bounds: (min: (0, 0), max: (4, 3)),\nrobots: [(name: \"r\", kind: {tail})"
+        )
+    };
+    assert_eq!(World::parse("yard.ron", &yard(&many(64))).unwrap().robots[0].sensors.len(), 64);
+    let error = World::parse("yard.ron", &yard(&many(65))).unwrap_err().to_string();
+    assert_eq!(error, "yard.ron:2:10: robots[0] \"r\": sensors[64] \"64\": a robot has at most 64 sensors");
+    let unknown = own("(name: \"a\", rays: 4, range: 2, fov: 1)");
+    assert!(unknown.starts_with("yard.ron:4:") && unknown.contains(": robots[0] \"r\": "), "{unknown}");
+}
+
+#[test]
 fn the_head_of_the_file() {
     let parse = |text: &str| World::parse("w.ron", text).unwrap_err().to_string();
     let bounds = "bounds: (min: (0, 0), max: (1, 1))";

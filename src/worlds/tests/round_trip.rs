@@ -92,6 +92,39 @@ fn the_yard_is_read_as_meant() {
 }
 
 #[test]
+fn sensors_are_read_as_meant_and_printed_without_what_is_as_if_left_out() {
+    let yard = |sensors: &str| {
+        let robot = format!("(name: \"car\", kind: \"hitch\", start: [1.0, 2.0, 0.5]{sensors})");
+        format!("World(version: 1, name: \"y\", bounds: (min: (0, 0), max: (8, 6)), robots: [{robot}])")
+    };
+    let world = World::parse(
+        "y.ron",
+        &yard(
+            ", sensors: [(name: \"b \\\"2\\\"\", rays: 3, range: 4, field_of_view: 1.5,
+        mount: (x: 0.5, y: -0.0, theta: 7), noise: (sigma_hit: 0.25)), (name: \"a\", rays: 90, range: 0.5,
+        field_of_view: 6.283185307179586, mount: (x: 0, y: 0, theta: -0.0))]",
+        ),
+    )
+    .unwrap();
+    assert_round_trip(&world);
+    let [b, a] = &world.robots[0].sensors[..] else { panic!("in the order of the file") };
+    assert_eq!((b.rays.sensor.n_rays, b.rays.sensor.max_range, b.rays.field_of_view), (3, 4.0, 1.5));
+    assert_eq!(b.mount, Pose2::new(0.5, 0.0, 7.0));
+    assert_eq!(b.noise, Some(BeamModel { sigma_hit: 0.25, ..BeamModel::EXACT }));
+    assert_eq!((a.rays.field_of_view, a.mount, a.noise), (std::f64::consts::TAU, Pose2::IDENTITY, None));
+    let noise = "(sigma_hit: 0.25, z_short: 0.0, lambda_short: 1.0, z_miss: 0.0, z_max: 0.0, z_rand: 0.0)";
+    let line = format!(
+        "(name: \"car\", kind: \"hitch\", start: [1.0, 2.0, 0.5], sensors: [(name: \"b \\\"2\\\"\", rays: 3, range: 4.0, \
+         field_of_view: 1.5, mount: (x: 0.5, y: 0.0, theta: 0.7168146928204138), noise: {noise}), (name: \"a\", rays: 90, \
+         range: 0.5)]),"
+    );
+    assert!(world.to_ron().contains(&line), "{}", world.to_ron());
+    let empty = World::parse("y.ron", &yard(", sensors: []")).unwrap();
+    assert_eq!(empty.to_ron(), World::parse("y.ron", &yard("")).unwrap().to_ron(), "no sensors, no word of them");
+    assert_ne!(world.content_hash(), empty.content_hash());
+}
+
+#[test]
 fn the_hash_sees_the_content_and_not_the_form() {
     for text in FILES {
         let world = World::parse("file", text).unwrap();

@@ -14,11 +14,12 @@ struct Widths {
     configuration: usize,
     extra: usize,
     target: usize,
-    ranges: usize,
+    /// For each of a robot's sensors, from the first on.
+    ranges: Vec<usize>,
 }
 
 /// Writes the names of the columns, then a row for each tick from 0 on and each robot by id. A cell without a value is
-/// empty.
+/// empty. The ranges of a robot's first sensor are `range0` and so on, those of its second one `scan2_range0`.
 pub fn write(log: &Log, ranges: bool, sink: &mut Sink) -> Result<(), Failure> {
     let mut widths = Widths::default();
     for frame in frames(log) {
@@ -27,8 +28,11 @@ pub fn write(log: &Log, ranges: bool, sink: &mut Sink) -> Result<(), Failure> {
             widths.extra = widths.extra.max(robot.extra.len());
             widths.target = widths.target.max(robot.target.len());
         }
-        for scan in frame.scans.iter().filter(|_| ranges) {
-            widths.ranges = widths.ranges.max(scan.ranges.len());
+        for scans in frame.scans.chunk_by(|a, b| a.robot == b.robot).filter(|_| ranges) {
+            widths.ranges.resize(widths.ranges.len().max(scans.len()), 0);
+            for (width, scan) in widths.ranges.iter_mut().zip(scans) {
+                *width = (*width).max(scan.ranges.len());
+            }
         }
     }
     sink.line(widths.head())?;
@@ -60,8 +64,13 @@ impl Widths {
         list("channel", 2);
         list("target", self.target);
         head.push_str(",manual,in_contact,contacts,flash,refusals");
-        for i in 0..self.ranges {
-            let _ = write!(head, ",range{i}");
+        for (sensor, width) in self.ranges.iter().enumerate() {
+            for i in 0..*width {
+                let _ = match sensor {
+                    0 => write!(head, ",range{i}"),
+                    _ => write!(head, ",scan{}_range{i}", sensor + 1),
+                };
+            }
         }
         head
     }
@@ -77,8 +86,10 @@ impl Widths {
         let _ = write!(row, ",{},{}", channels[0], channels[1]);
         list(target, self.target, row);
         let _ = write!(row, ",{manual},{in_contact},{contacts},{flash},{refusals}");
-        let scan = frame.scans.iter().find(|scan| scan.robot == *id);
-        list(scan.map_or(&[], |scan| &scan.ranges), self.ranges, row);
+        let mut scans = frame.scans.iter().filter(|scan| scan.robot == *id);
+        for width in &self.ranges {
+            list(scans.next().map_or(&[], |scan| &scan.ranges), *width, row);
+        }
     }
 }
 

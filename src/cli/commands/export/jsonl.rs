@@ -1,6 +1,6 @@
 //! A line of JSON for each tick.
 
-use motion_lab::run::{DT, Frame, Log, RobotState};
+use motion_lab::run::{DT, Frame, Log, RobotScan, RobotState};
 use motion_lab::worlds::{Resident, World};
 use serde::Serialize;
 
@@ -36,8 +36,19 @@ struct Robot<'a> {
     contacts: u32,
     flash: u32,
     refusals: u32,
-    /// What its range sensor saw; null without one.
+    /// What its first range sensor saw; null without one.
     ranges: Option<Vec<JsonNumber>>,
+    /// What its further sensors saw, by their names; left out without any.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    further_scans: Vec<FurtherScan>,
+}
+
+/// The scan of a robot's second or later sensor.
+#[derive(Serialize)]
+struct FurtherScan {
+    /// The sensor's name; null for one that the run's configuration does not have.
+    sensor: Option<String>,
+    ranges: Vec<JsonNumber>,
 }
 
 /// Writes a line for each tick from 0 on.
@@ -48,8 +59,10 @@ pub fn write(log: &Log, sink: &mut Sink) -> Result<(), Failure> {
         if sink.is_closed() {
             break;
         }
-        let robots =
-            residents.iter().zip(&frame.robots).map(|((world, resident), state)| robot(world, resident, state, frame));
+        let robots = residents.iter().zip(&frame.robots).map(|((world, resident), state)| {
+            let (scan, further_scans) = scans(log, resident, state.id, frame);
+            Robot { ranges: scan, further_scans, ..robot(world, resident, state) }
+        });
         let tick = Tick {
             tick: frame.tick,
             time: JsonNumber(frame.tick as f64 * DT),
@@ -61,7 +74,20 @@ pub fn write(log: &Log, sink: &mut Sink) -> Result<(), Failure> {
     Ok(())
 }
 
-fn robot<'a>(world: &'a World, resident: &'a Resident, state: &RobotState, frame: &Frame) -> Robot<'a> {
+/// The ranges of a robot's first sensor, and the scans of the others.
+fn scans(log: &Log, resident: &Resident, id: u32, frame: &Frame) -> (Option<Vec<JsonNumber>>, Vec<FurtherScan>) {
+    let numbers = |scan: &RobotScan| scan.ranges.iter().copied().map(JsonNumber).collect();
+    let scans: Vec<&RobotScan> = frame.scans.iter().filter(|scan| scan.robot == id).collect();
+    let [first, further @ ..] = &scans[..] else { return (None, Vec::new()) };
+    let sensors = if further.is_empty() { None } else { log.config.sensors_of(resident, scans.len()) };
+    let name = |i: usize| sensors.as_ref()?.get(i).map(|sensor| sensor.name.clone());
+    let further = further.iter().enumerate();
+    let further = further.map(|(i, scan)| FurtherScan { sensor: name(i + 1), ranges: numbers(scan) });
+    (Some(numbers(first)), further.collect())
+}
+
+/// A robot's state, still without its scans.
+fn robot<'a>(world: &'a World, resident: &'a Resident, state: &RobotState) -> Robot<'a> {
     // taken apart by name, so that a field added later can't be forgotten here
     let RobotState { id, configuration, extra, channels, target, manual, in_contact, contacts, flash, refusals } =
         state;
@@ -80,6 +106,7 @@ fn robot<'a>(world: &'a World, resident: &'a Resident, state: &RobotState, frame
         contacts: *contacts,
         flash: *flash,
         refusals: *refusals,
-        ranges: frame.scans.iter().find(|scan| scan.robot == *id).map(|scan| numbers(&scan.ranges)),
+        ranges: None,
+        further_scans: Vec::new(),
     }
 }

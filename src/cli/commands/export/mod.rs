@@ -31,7 +31,7 @@ pub struct Export {
     /// Write to this file; standard output when there is none.
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
-    /// CSV: a column for each ray of the range sensor as well.
+    /// CSV: a column for each ray of the range sensors as well.
     #[arg(long)]
     ranges: bool,
     #[command(flatten)]

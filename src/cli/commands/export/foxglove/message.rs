@@ -218,6 +218,12 @@ impl Quaternion {
 }
 
 impl Pose {
+    /// A pose of the plane.
+    pub fn of(pose: &Pose2) -> Self {
+        let position = Some(Vector3::of(pose.position(), 0.0));
+        Pose { position, orientation: Some(Quaternion::of_turn(pose.theta)) }
+    }
+
     /// The frame itself, raised by `z` metres.
     pub fn raised(z: f64) -> Self {
         Pose { position: Some(Vector3 { x: 0.0, y: 0.0, z }), orientation: Some(Quaternion::of_turn(0.0)) }

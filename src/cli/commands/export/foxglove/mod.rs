@@ -5,7 +5,8 @@
 //! | `/viewer/transforms` | `foxglove.FrameTransforms` | each tick: worlds in `lab`, robots and parts in their worlds |
 //! | `/viewer/worlds` | `foxglove.SceneUpdate` | at the start, and a world again at each change of its obstacles or doors |
 //! | `/viewer/robots` | `foxglove.SceneUpdate` | each tick, all of it, so that a viewer may begin anywhere |
-//! | `/viewer/scan/NAME` | `foxglove.LaserScan` | each tick of a robot with a range sensor |
+//! | `/viewer/scan/NAME` | `foxglove.LaserScan` | each tick of a robot with the run's range sensor |
+//! | `/viewer/scan/NAME/SENSOR` | `foxglove.LaserScan` | each tick, for a sensor of the robot's own |
 //! | `/viewer/log` | `foxglove.Log` | contacts, takeovers, refusals |
 
 mod events;
@@ -15,7 +16,6 @@ mod scene;
 mod writer;
 
 use std::collections::BTreeSet;
-use std::f64::consts::TAU;
 use std::path::Path;
 use std::sync::Arc;
 
@@ -23,7 +23,7 @@ use mcap::read::{LinearReader, Options};
 use mcap::records::Record;
 use motion_lab::recording::Recorder;
 use motion_lab::run::{Frame, Log};
-use motion_lab::simulation::RobotView;
+use motion_lab::simulation::{RobotView, SensorView};
 use motion_lab::worlds::World;
 
 use crate::cli::Failure;
@@ -98,11 +98,18 @@ impl Viewed<'_> {
         out.message("/viewer/transforms", "foxglove.FrameTransforms", tick, &FrameTransforms { transforms })?;
         let scene = scene::robots(tick, &robots, &mut self.parts);
         out.message("/viewer/robots", "foxglove.SceneUpdate", tick, &scene)?;
-        for scan in &frame.scans {
-            if let Some(robot) = robots.iter().find(|robot| robot.id == scan.robot) {
-                let topic = format!("/viewer/scan/{}", robot.name);
-                out.message(&topic, "foxglove.LaserScan", tick, &laser_scan(tick, &robot.name, &scan.ranges))?;
+        for sensor in &recorder.sensors() {
+            let Some(robot) = robots.iter().find(|robot| robot.id == sensor.robot) else { continue };
+            let Some(world) = world_of(robot) else { continue };
+            let mut topic = format!("/viewer/scan/{}", robot.name);
+            let mut scan = laser_scan(tick, sensor);
+            if sensor.name.is_empty() {
+                scan.frame_id = frames::of_robot(&robot.name);
+            } else {
+                topic = format!("{topic}/{}", sensor.name);
+                (scan.frame_id, scan.pose) = (frames::of_world(world), Some(Pose::of(&sensor.pose)));
             }
+            out.message(&topic, "foxglove.LaserScan", tick, &scan)?;
         }
         for message in events::news(tick, &self.before, &robots) {
             out.message("/viewer/log", "foxglove.Log", tick, &message)?;
@@ -112,15 +119,15 @@ impl Viewed<'_> {
     }
 }
 
-/// Ray k of n points at bearing 2 pi k / n from the robot's heading.
-fn laser_scan(tick: u64, robot: &str, ranges: &[f64]) -> LaserScan {
-    let n = ranges.len() as f64;
+/// The scan of a sensor, from the middle of a frame that is still to be named.
+fn laser_scan(tick: u64, sensor: &SensorView) -> LaserScan {
+    let SensorView { rays, ranges, .. } = sensor;
     LaserScan {
         timestamp: Some(Timestamp::of_tick(tick)),
-        frame_id: frames::of_robot(robot),
+        frame_id: String::new(),
         pose: Some(Pose::raised(0.0)),
-        start_angle: 0.0,
-        end_angle: TAU * (n - 1.0) / n,
-        ranges: ranges.to_vec(),
+        start_angle: rays.bearing(0),
+        end_angle: rays.bearing(rays.sensor.n_rays.saturating_sub(1)),
+        ranges: ranges.clone(),
     }
 }

@@ -1,0 +1,133 @@
+//! Takes the sensor entities into the run.
+
+use bevy::prelude::*;
+
+use super::refusal::{SensorRefusal, SensorRefused};
+use super::roster::{RunSensor, SensorRoster};
+use crate::random::Stream;
+use crate::sensors::{Scanner, SensorError};
+use crate::simulation::tick::sense::sense;
+use crate::simulation::{
+    MountedOn, RobotId, RobotName, Roster, Scan, SensorModel, SensorMount, SensorName, SensorNoise, Sensors, Transport,
+    state,
+};
+use crate::worlds::{check_mount, check_name};
+
+/// Takes the sensor entities anew at tick 0, and with them the scans and frame 0, if one was spawned, changed or removed
+/// since. Before a run has left tick 0 its sensor entities are the truth; after it this does nothing.
+///
+/// [`step`](crate::simulation::step) calls it; whoever reads frame 0 after spawning sensors calls it first.
+pub fn take_sensors_at_start(world: &mut World) {
+    let at_start = world.get_resource::<Transport>().is_some_and(|t| t.tick == 0);
+    if at_start && world.get_resource::<SensorRoster>().is_some_and(|r| r.stale && !r.fixed) {
+        take_sensors(world);
+        sense(world);
+        state::record(world);
+    }
+}
+
+/// Takes the sensors at tick 0 for good: the run leaves it.
+pub(crate) fn fix_sensors(world: &mut World) {
+    if world.get_resource::<SensorRoster>().is_some_and(|r| !r.fixed) {
+        take_sensors_at_start(world);
+        world.resource_mut::<SensorRoster>().fixed = true;
+    }
+}
+
+/// Makes the roster of the sensors that there are.
+pub(crate) fn take_sensors(world: &mut World) {
+    let mut roster = SensorRoster::default();
+    let mut refusals = Vec::new();
+    for &robot in world.get_resource::<Roster>().map_or(&[][..], Roster::robots) {
+        take_sensors_of(world, robot, &mut roster.sensors, &mut refusals);
+    }
+    let mut strays: Vec<String> = Vec::new();
+    let mut all = world.query_filtered::<(Option<&SensorName>, Option<&MountedOn>), With<SensorModel>>();
+    for (name, mounted) in all.iter(world) {
+        if mounted.is_none_or(|on| robot_of(world, on.0).is_none()) {
+            strays.push(name.map_or_else(String::new, |name| name.0.clone()));
+        }
+    }
+    strays.sort();
+    refusals.extend(strays.into_iter().map(|sensor| SensorRefused {
+        robot: None,
+        sensor,
+        reason: SensorRefusal::NoRobot,
+    }));
+    refusals.retain(|refused| roster.refuse(refused));
+    for sensor in &roster.sensors {
+        if let Ok(mut entity) = world.get_entity_mut(sensor.entity) {
+            entity.insert(Scan::default());
+        }
+    }
+    world.insert_resource(roster);
+    refusals.into_iter().for_each(|refused| _ = world.write_message(refused));
+}
+
+/// The name of an entity that is a robot of the run under way.
+pub(super) fn robot_of(world: &World, entity: Entity) -> Option<&str> {
+    let id = world.get::<RobotId>(entity)?.0 as usize;
+    let is_in_run = world.get_resource::<Roster>()?.robots().get(id) == Some(&entity);
+    world.get::<RobotName>(entity).filter(|_| is_in_run).map(|name| name.name.as_str())
+}
+
+/// Takes the sensors of a robot, in the order of their names.
+fn take_sensors_of(world: &World, robot: Entity, taken: &mut Vec<RunSensor>, refusals: &mut Vec<SensorRefused>) {
+    let (Some(on_robot), Some(name)) = (world.get::<Sensors>(robot), world.get::<RobotName>(robot)) else { return };
+    let named = |entity: Entity| Some((world.get::<SensorName>(entity)?.0.as_str(), entity));
+    let mut sensors: Vec<(&str, Entity)> =
+        on_robot.iter().filter(|&e| world.get::<SensorModel>(e).is_some()).filter_map(named).collect();
+    sensors.sort_by_key(|(name, _)| *name);
+    let first = taken.len();
+    for (i, &(sensor, entity)) in sensors.iter().enumerate() {
+        let has_name = |other: Option<&(&str, Entity)>| other.is_some_and(|(other, _)| *other == sensor);
+        let is_taken =
+            has_name(i.checked_sub(1).and_then(|before| sensors.get(before))) || has_name(sensors.get(i + 1));
+        // a robot's first sensor has the stream of a robot with one sensor
+        let beam = format!("{}/beam", name.name);
+        let stream = if taken.len() == first { beam } else { format!("{beam}/{sensor}") };
+        let request = Request { robot, entity, name: sensor, stream: &stream };
+        let made = if is_taken { Err(SensorRefusal::NameTaken) } else { make(world, &request) };
+        match made {
+            Ok(sensor) => taken.push(sensor),
+            Err(reason) => {
+                refusals.push(SensorRefused { robot: Some(name.name.clone()), sensor: sensor.to_owned(), reason });
+            }
+        }
+    }
+}
+
+/// A sensor to be made.
+struct Request<'a> {
+    robot: Entity,
+    entity: Entity,
+    name: &'a str,
+    /// The name of the stream of its noise.
+    stream: &'a str,
+}
+
+/// The sensor of an entity's components, if they are in range.
+fn make(world: &World, request: &Request) -> Result<RunSensor, SensorRefusal> {
+    let Request { robot, entity, name, stream } = *request;
+    let (Some(SensorModel(rays)), Some(id)) = (world.get::<SensorModel>(entity), world.get::<RobotId>(robot)) else {
+        return Err(SensorRefusal::NoRobot);
+    };
+    let seed = world.resource::<Transport>().seed;
+    if !name.is_empty() {
+        check_name(name).map_err(|_| SensorRefusal::Name)?;
+    }
+    rays.check()?;
+    let mount = check_mount(world.get::<SensorMount>(entity).copied().unwrap_or_default().0)?;
+    let noise = world.get::<SensorNoise>(entity).map(|SensorNoise(noise)| noise.try_new()).transpose();
+    Ok(RunSensor {
+        entity,
+        robot,
+        id: id.0,
+        name: name.to_owned(),
+        rays: *rays,
+        mount,
+        noise: noise.map_err(SensorError::from)?.map(|noise| (noise, Stream::new(seed, stream))),
+        scanner: Box::new(Scanner::new(*rays)),
+        ranges: vec![0.0; rays.sensor.n_rays as usize],
+    })
+}
