@@ -47,6 +47,7 @@ mod hitch;
 mod kind;
 mod pose;
 mod r2;
+mod sizes;
 mod torus;
 
 use std::fmt::{Debug, Display};
@@ -55,6 +56,7 @@ pub use any::AnyConfiguration;
 pub use hitch::HitchCfg;
 pub use kind::{RobotKind, Space};
 pub use r2::R2;
+pub use sizes::{ArmSizes, CarSizes, DiscSizes, MAX_SIZE, MAX_STEER, MIN_AXLES, Sizes, SizesError, TrailerSizes};
 pub use torus::{T2, Tn};
 
 use crate::short_list::ShortList;

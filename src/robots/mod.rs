@@ -41,6 +41,7 @@ mod hitch;
 mod motion;
 mod reach;
 mod rusty;
+mod sizes;
 
 pub use any::AnyRobot;
 pub use chart_line::ChartLine;

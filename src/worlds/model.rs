@@ -1,6 +1,7 @@
 //! `World`, a checked world: what is meant, as opposed to what is written in a file.
 
 use super::{BeamModel, OutlineError, convex_pieces};
+use crate::configuration::Sizes;
 use crate::geometry::{Aabb, ConvexPolygon, Placed, Point2, Pose2, Shape};
 
 /// The kind of an obstacle. Walls and solids collide alike.
@@ -73,6 +74,8 @@ pub struct Resident {
     pub kind: String,
     /// Chart coordinates of the configuration at the start. A `hitch` with four coordinates starts with its trailer.
     pub start: Vec<f64>,
+    /// What it is like; `None` for what every robot of its kind is like.
+    pub sizes: Option<Sizes>,
     /// The noise of its range sensor; `None` if the sensor is exact or the robot has none.
     pub sensor: Option<BeamModel>,
 }
@@ -95,9 +98,15 @@ pub struct World {
 }
 
 impl Resident {
-    /// Creates a resident with an exact sensor. Nothing is checked.
+    /// Creates a resident of its kind's own sizes with an exact sensor. Nothing is checked.
     pub fn new(name: impl Into<String>, kind: impl Into<String>, start: impl Into<Vec<f64>>) -> Self {
-        Resident { name: name.into(), kind: kind.into(), start: start.into(), sensor: None }
+        Resident { name: name.into(), kind: kind.into(), start: start.into(), sizes: None, sensor: None }
+    }
+
+    /// The same resident with these sizes. Nothing is checked.
+    #[must_use]
+    pub fn with_sizes(self, sizes: Sizes) -> Self {
+        Resident { sizes: Some(sizes), ..self }
     }
 }
 

@@ -4,6 +4,7 @@ use std::fmt::{self, Write};
 
 use xxhash_rust::xxh3::xxh3_128;
 
+use super::sizes::sizes_text;
 use crate::geometry::{Point2, Pose2, Shape};
 use crate::worlds::{BeamModel, Obstacle, ObstacleKind, WORLD_VERSION, World, Written};
 
@@ -47,6 +48,7 @@ impl World {
         let marks = self.marks.iter().map(|m| format!("name: {}, points: {}", Quoted(&m.name), Points(&m.points)));
         let robots = self.robots.iter().map(|r| {
             let head = format!("name: {}, kind: {}, start: {:?}", Quoted(&r.name), Quoted(&r.kind), r.start);
+            let head = head + &sizes_text(r.sizes.as_ref());
             r.sensor.map_or(head.clone(), |noise| format!("{head}, sensor: {}", noise_text(&noise)))
         });
         write_list(out, "walls", walls)?;

@@ -3,7 +3,8 @@
 use super::description::RobotText;
 use super::items::{finite, make_point};
 use super::name::check_name;
-use crate::configuration::RobotKind;
+use super::sizes::{SizesText, make_sizes};
+use crate::configuration::{RobotKind, Sizes};
 use crate::num;
 use crate::worlds::{BeamModel, Resident, WorldProblem};
 
@@ -24,13 +25,24 @@ impl Resident {
         let kind = kind.into();
         let start = make_start(&kind, start.into())?;
         let sensor = sensor.map(|noise| make_noise(&kind, noise)).transpose()?;
-        Ok(Resident { name: name.into(), kind, start, sensor })
+        Ok(Resident { name: name.into(), kind, start, sizes: None, sensor })
+    }
+
+    /// The same resident with these sizes, which a world file may hold.
+    ///
+    /// # Errors
+    /// [`WorldProblem::Sizes`]: a number out of range, or sizes that are not this kind's.
+    pub fn try_with_sizes(self, sizes: Sizes) -> Result<Self, WorldProblem> {
+        sizes.check_for(&self.kind)?;
+        Ok(self.with_sizes(sizes))
     }
 }
 
 pub(crate) fn make_resident(text: &RobotText) -> Result<Resident, WorldProblem> {
-    let RobotText { name, kind, start, sensor } = text;
-    Resident::try_new(name.clone(), kind.clone(), start.clone(), *sensor)
+    let RobotText { name, kind, start, disc, arm, car, sensor } = text;
+    let sizes = SizesText { disc: disc.as_ref(), arm: arm.as_ref(), car: car.as_ref() };
+    let resident = Resident::try_new(name.clone(), kind.clone(), start.clone(), *sensor)?;
+    Ok(Resident { sizes: make_sizes(kind, &sizes)?, ..resident })
 }
 
 /// Checks the start of a robot of this kind and wraps its angles.
