@@ -8,6 +8,7 @@ mod cspace;
 mod drive;
 mod files;
 mod screen;
+mod sizes;
 mod time;
 mod widgets;
 
