@@ -6,7 +6,7 @@ use crate::configuration::AnyConfiguration;
 use crate::cspace::{Slice, nearest_free};
 use crate::geometry::Point2;
 use crate::robots::{AnyRobot, HITCH, RUSTY, Reach};
-use crate::worlds::World;
+use crate::worlds::{Resident, World};
 
 impl Anatomy {
     /// The robots to choose from, with the names shown.
@@ -19,6 +19,24 @@ impl Anatomy {
             ("Hitch", AnyRobot::Hitch(HITCH)),
             ("Hitch with its trailer", AnyRobot::Hitch(HITCH.with_trailer())),
         ]
+    }
+
+    /// The residents of this world whose sizes the world says, with their names: what there is to choose besides
+    /// [`choices`](Self::choices). A car is there with its trailer if it starts with it.
+    pub fn residents(&self) -> Vec<(String, AnyRobot)> {
+        let sized = self.world().robots.iter().filter(|r| r.sizes.is_some());
+        sized.filter_map(|r| Some((r.name.clone(), AnyRobot::of_resident(r)?.0))).collect()
+    }
+
+    /// The first resident of this world that says its sizes and is the robot in the scene.
+    pub fn resident(&self) -> Option<&Resident> {
+        self.world().robots.iter().filter(|r| r.sizes.is_some()).find(|r| self.is_resident(r))
+    }
+
+    /// Whether the robot in the scene is this resident, a car with its trailer or without.
+    pub(super) fn is_resident(&self, resident: &Resident) -> bool {
+        let model = AnyRobot::model(&resident.kind, resident.sizes.as_ref());
+        model.is_some_and(|model| model.fitted(&self.q()) == *self.checker().robot())
     }
 
     /// The same world and tab with another robot. It stands at the present configuration if that is one of its own;
@@ -64,9 +82,11 @@ impl Anatomy {
     }
 }
 
-/// The start of the first resident whose start is a configuration of this robot.
+/// The start of the resident that is this robot, else of the first whose start is a configuration of this robot.
 fn resident(world: &World, robot: &AnyRobot) -> Option<AnyConfiguration> {
-    world.robots.iter().find_map(|r| robot.like(&AnyRobot::of_kind(&r.kind, &r.start)?.1))
+    let starts = || world.robots.iter().filter_map(AnyRobot::of_resident);
+    let own = starts().find(|(resident, _)| resident == robot).map(|(_, q)| q);
+    own.or_else(|| starts().find_map(|(_, q)| robot.like(&q)))
 }
 
 /// The free configuration nearest to the middle of the world.

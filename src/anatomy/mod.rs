@@ -127,8 +127,7 @@ impl Anatomy {
 
     /// The first of a world's residents that is one of the lab's robots, at its start. `None` for a world without one.
     pub fn of_world(world: World, source: WorldSource) -> Option<Self> {
-        let resident = |r: &crate::worlds::Resident| AnyRobot::of_kind(&r.kind, &r.start);
-        let (robot, q) = world.robots.iter().find_map(resident)?;
+        let (robot, q) = world.robots.iter().find_map(AnyRobot::of_resident)?;
         Anatomy::new(world, source, robot, q).ok()
     }
 

@@ -6,7 +6,7 @@ use super::{Anatomy, Tab, WorldSource};
 use crate::collision::Collision;
 use crate::configuration::{AnyConfiguration, Configuration, HitchCfg, RobotKind, Tn};
 use crate::geometry::Pose2;
-use crate::robots::{AnyRobot, HITCH, RUSTY, Reach};
+use crate::robots::{AnyRobot, HITCH, Hitch, RUSTY, Reach};
 
 impl Anatomy {
     /// A program that asks the tab's question, prints the answer, and panics if it differs from the answer shown. The
@@ -85,16 +85,14 @@ impl Anatomy {
         }
     }
 
-    /// The command for the tab's question, with every digit; the swept tab's is `query edge`. `None` for a robot with
-    /// dimensions other than the lab's and for an unsaved world, which no command can name.
+    /// The command for the tab's question, with every digit; the swept tab's is `query edge`. `None` for an unsaved
+    /// world, and for a robot that is neither the lab's nor a resident of the world, which no command can name.
     pub fn copy_as_command(&self) -> Option<String> {
-        let (robot, home) = match self.checker().robot() {
-            AnyRobot::Rusty(rusty) if *rusty == RUSTY => (RobotKind::RUSTY.name, "apartment"),
-            AnyRobot::Reach(arm) if *arm == Reach::choset() => ("choset", "workbench"),
-            AnyRobot::Reach(arm) if *arm == Reach::workbench() => (RobotKind::REACH.name, "workbench"),
-            AnyRobot::Reach3(arm) if *arm == Reach::redundant() => (RobotKind::REACH3.name, "workbench"),
-            AnyRobot::Hitch(car) if *car == HITCH || *car == HITCH.with_trailer() => (RobotKind::HITCH.name, "lot"),
-            _ => return None,
+        let resident = self.resident().map(|r| (quoted(&r.name), ""));
+        let (robot, home) = match resident.or_else(|| self.kind_of_the_lab())? {
+            // a resident of a kind's name would be asked instead
+            (robot, _) if self.world().robots.iter().any(|r| r.name == robot && !self.is_resident(r)) => return None,
+            found => found,
         };
         let world = match self.source() {
             WorldSource::BuiltIn(name) if *name == home => String::new(),
@@ -105,6 +103,19 @@ impl Anatomy {
         let question = if self.tab == Tab::Swept { "edge" } else { self.tab.name() };
         let to = if self.tab == Tab::Swept { format!(" {}", numbers(&self.second())) } else { String::new() };
         Some(format!("motion-lab query {question} --robot {robot}{world} {}{to}", numbers(&self.q())))
+    }
+
+    /// The name by which commands know a robot of the lab's own sizes, and the built-in world it lives in.
+    fn kind_of_the_lab(&self) -> Option<(String, &'static str)> {
+        let (robot, home) = match self.checker().robot() {
+            AnyRobot::Rusty(rusty) if *rusty == RUSTY => (RobotKind::RUSTY.name, "apartment"),
+            AnyRobot::Reach(arm) if *arm == Reach::choset() => ("choset", "workbench"),
+            AnyRobot::Reach(arm) if *arm == Reach::workbench() => (RobotKind::REACH.name, "workbench"),
+            AnyRobot::Reach3(arm) if *arm == Reach::redundant() => (RobotKind::REACH3.name, "workbench"),
+            AnyRobot::Hitch(car) if *car == HITCH || *car == HITCH.with_trailer() => (RobotKind::HITCH.name, "lot"),
+            _ => return None,
+        };
+        Some((robot.to_owned(), home))
     }
 }
 
@@ -126,15 +137,40 @@ fn robot_code(robot: &AnyRobot) -> String {
     };
     match robot {
         AnyRobot::Rusty(rusty) if *rusty == RUSTY => "RUSTY".into(),
-        AnyRobot::Rusty(rusty) => format!("Rusty {{ body_radius: {}, ..RUSTY }}", number(rusty.body_radius)),
+        AnyRobot::Rusty(rusty) => format!(
+            "Rusty {{ body_radius: {}, track: {}, wheel_radius: {}, ..RUSTY }}",
+            number(rusty.body_radius),
+            number(rusty.track),
+            number(rusty.wheel_radius)
+        ),
         AnyRobot::Reach(r) if *r == Reach::choset() => "Reach::<2>::choset()".into(),
         AnyRobot::Reach(r) if *r == Reach::workbench() => "Reach::<2>::workbench()".into(),
         AnyRobot::Reach(r) => arm(r.base, &r.lengths, r.link_radius),
         AnyRobot::Reach3(r) if *r == Reach::redundant() => "Reach::<3>::redundant()".into(),
         AnyRobot::Reach3(r) => arm(r.base, &r.lengths, r.link_radius),
-        AnyRobot::Hitch(car) if car.hitch_len.is_some() => "HITCH.with_trailer()".into(),
-        AnyRobot::Hitch(_) => "HITCH".into(),
+        AnyRobot::Hitch(car) if *car == HITCH.with_trailer() => "HITCH.with_trailer()".into(),
+        AnyRobot::Hitch(car) if *car == HITCH => "HITCH".into(),
+        AnyRobot::Hitch(car) => car_code(car),
     }
+}
+
+fn car_code(car: &Hitch) -> String {
+    let (body, towed) = (car.body, car.trailer_body);
+    let hitch_len = car.hitch_len.map_or("None".into(), |length| format!("Some({})", number(length)));
+    format!(
+        "Hitch {{\n        wheelbase: {},\n        max_steer: {},\n        \
+         body: motion_lab::robots::CarBody {{ length: {}, width: {}, rear_overhang: {} }},\n        \
+         trailer_body: motion_lab::robots::TrailerBody {{ front_overhang: {}, rear_overhang: {}, width: {} }},\n        \
+         hitch_len: {hitch_len},\n        ..HITCH\n    }}",
+        number(car.wheelbase),
+        number(car.max_steer),
+        number(body.length),
+        number(body.width),
+        number(body.rear_overhang),
+        number(towed.front_overhang),
+        number(towed.rear_overhang),
+        number(towed.width),
+    )
 }
 
 fn configuration_code(q: &AnyConfiguration) -> String {

@@ -29,8 +29,9 @@ pub fn subject(state: &UiState, form: Form) -> Result<Option<Subject>, CaptureEr
         Widget::Cspace if moves => {
             let anatomy = &state.anatomy.anatomy;
             let kind = Some(anatomy.checker().robot().kind().to_owned());
+            let robot = anatomy.resident().map(|resident| resident.name.clone());
             let world = Some((**anatomy.world()).clone());
-            Some(Subject::Cspace { world, kind, finest: 7, annulus: anatomy.show_annulus })
+            Some(Subject::Cspace { world, robot, kind, finest: 7, annulus: anatomy.show_annulus })
         }
         Widget::Atlas if moves => Some(Subject::Atlas { world: Some(state.atlas.world().clone()), names }),
         Widget::Anatomy | Widget::Cspace | Widget::Atlas => None,

@@ -8,10 +8,10 @@ use super::error::SessionError;
 use super::pace::{Pace, measure, play_flat_out};
 use super::put_robot::put_robot;
 use crate::atlas::Atlas;
-use crate::configuration::{Configuration as _, Coordinates, HitchCfg, RobotKind};
+use crate::configuration::{Configuration as _, Coordinates, HitchCfg, RobotKind, Sizes};
 use crate::geometry::{Footprint, Pose2, Segment};
 use crate::picture::{Picture, world as picture_of};
-use crate::robots::{HITCH, Robot};
+use crate::robots::{AnyRobot, Robot};
 use crate::run::{Event, RobotInput};
 use crate::simulation::{
     CommandRefused, History, HistoryPlugin, PendingInput, Playback, RobotKinds, RobotView, Roster, RunConfig, RunInput,
@@ -167,6 +167,7 @@ fn shown(world: &World, robot: &RobotView, between: f64) -> CockpitRobot {
         name: robot.name.clone(),
         kind: robot.kind.clone(),
         about: robot.about,
+        model: robot.model,
         readout: robot.configuration.clone(),
         in_full: robot.configuration_in_full.clone(),
         coordinates: robot.coordinates.clone(),
@@ -203,7 +204,8 @@ fn waiting(world: &World, robot: &RobotView) -> bool {
 fn no_room(world: &World, robot: &RobotView, body: Pose2) -> Option<String> {
     let inhabited = *world.resource::<Roster>().worlds().get(robot.world as usize)?;
     let scene = &world.get::<WorldScene>(inhabited)?.0;
-    let (car, q) = (HITCH.with_trailer(), HitchCfg { body, trailer: Some(body.theta) });
+    let Some(AnyRobot::Hitch(car)) = robot.model else { return None };
+    let (car, q) = (car.with_trailer(), HitchCfg { body, trailer: Some(body.theta) });
     let bar = Segment::new(body.position(), car.trailer_axle(&q)?.position());
     let touched = [car.footprint(&q), Footprint::capsules([bar], 0.0)].map(|f| scene.touched(&f));
     let mut names: Vec<&str> = touched.iter().flatten().filter_map(|id| scene.obstacle_name(*id)).collect();
@@ -266,6 +268,10 @@ fn change_links(world: &mut World, robot: &str, links: usize) -> Result<(), Sess
     let mut arms = config.worlds.iter_mut().flat_map(|w| &mut w.robots);
     let Some(arm) = arms.find(|r| r.name == robot) else { return Err(SessionError::NoRobot(robot.to_owned())) };
     arm.kind = if links == 3 { RobotKind::REACH3 } else { RobotKind::REACH }.name.into();
+    // base and radius are its own still; the lengths are those of an arm of so many links
+    if let (Some(Sizes::Arm(own)), Some(Sizes::Arm(other))) = (&mut arm.sizes, Sizes::of_kind(&arm.kind)) {
+        own.lengths = other.lengths;
+    }
     arm.start.resize(links, 0.5);
     let seed = world.resource::<Transport>().seed;
     new_run(world, config, seed)

@@ -10,6 +10,7 @@ mod drive;
 mod files;
 mod own_kind;
 mod screen;
+mod sizes;
 mod time;
 mod widgets;
 

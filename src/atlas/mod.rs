@@ -47,7 +47,7 @@ impl Atlas {
     /// The world with its robots at their starts. Residents of other kinds are left out.
     pub fn new(world: World) -> Self {
         let residents = world.robots.iter().filter_map(|r| {
-            let (robot, q) = AnyRobot::of_kind(&r.kind, &r.start)?;
+            let (robot, q) = AnyRobot::of_resident(r)?;
             Some(AtlasRobot { name: r.name.clone(), robot, q })
         });
         Atlas { residents: residents.collect(), world, kinds: Kinds::default() }

@@ -3,6 +3,7 @@
 use super::EditShape;
 use super::labels::drives;
 use super::outline::tidy;
+use crate::configuration::Sizes;
 use crate::geometry::{Point2, Pose2, Vector2};
 use crate::num::atan2;
 use crate::worlds::{Mark, OutlineError, Place, World, WorldError};
@@ -25,8 +26,8 @@ pub enum Op {
         /// Its pose.
         pose: Pose2,
     },
-    /// Move anything that has a name, its coordinates rounded to a nanometre. Arms are refused, because their start
-    /// holds no base.
+    /// Move anything that has a name, its coordinates rounded to a nanometre. Arms whose sizes the world does not say are
+    /// refused, because their start holds no base.
     Move {
         /// Its name.
         name: String,
@@ -164,7 +165,9 @@ pub(super) fn changed(world: &World, op: &Op) -> Result<World, EditError> {
             Found::Mark(i) => world.marks[i].points.iter_mut().for_each(|p| *p = (*p + by).map(tidy)),
             Found::Robot(i) => {
                 let robot = &mut world.robots[i];
-                if let (true, [x, y, ..]) = (drives(&robot.kind), &mut robot.start[..]) {
+                if let Some(Sizes::Arm(arm)) = &mut robot.sizes {
+                    arm.base = (arm.base + by).map(tidy);
+                } else if let (true, [x, y, ..]) = (drives(&robot.kind), &mut robot.start[..]) {
                     (*x, *y) = (tidy(*x + by.x), tidy(*y + by.y));
                 } else {
                     return Err(EditError::NoShape(name.clone()));

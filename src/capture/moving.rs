@@ -39,6 +39,8 @@ pub enum Subject {
     Cspace {
         /// The world it lives in; any when left out.
         world: Option<World>,
+        /// Its name; any when left out.
+        robot: Option<String>,
         /// Its kind; when left out, the first robot of one of the lab's kinds.
         kind: Option<String>,
         /// Number of halvings of the slice down to the finest cells.
@@ -64,12 +66,13 @@ impl Subject {
         if let Some(world) = self.world().filter(|world| !config.worlds.contains(world)) {
             return Err(CaptureError::NotInRun(format!("world {} as it is here: run this world first", world.name)));
         }
-        let Subject::Cspace { kind, .. } = self else { return Ok(()) };
+        let Subject::Cspace { robot: name, kind, .. } = self else { return Ok(()) };
         let mut robots = config.worlds.iter().filter(|w| self.shows(w)).flat_map(|w| &w.robots);
-        if robots.any(|robot| is_wanted(&robot.kind, kind.as_deref())) {
+        if robots.any(|robot| self.wants(&robot.name, &robot.kind)) {
             return Ok(());
         }
-        let wanted = kind.as_deref().map_or("robot of the lab's".to_owned(), |kind| format!("robot of kind {kind}"));
+        let of_kind = kind.as_deref().map_or("robot of the lab's".to_owned(), |kind| format!("robot of kind {kind}"));
+        let wanted = name.as_deref().map_or(of_kind, |name| format!("robot {name}"));
         let place = self.world().map_or_else(String::new, |world| format!(" in {}", world.name));
         Err(CaptureError::NotInRun(wanted + &place))
     }
@@ -92,15 +95,18 @@ impl Subject {
         }
     }
 
+    /// Whether a robot of this name and kind is one of the lab's, and the one to be drawn as far as these tell.
+    fn wants(&self, name: &str, kind: &str) -> bool {
+        let Subject::Cspace { robot, kind: wanted, .. } = self else { return false };
+        RobotKind::of(kind).is_some()
+            && robot.as_deref().is_none_or(|robot| robot == name)
+            && wanted.as_deref().is_none_or(|wanted| wanted == kind)
+    }
+
     /// Whether this world of the run is drawn.
     fn shows(&self, world: &World) -> bool {
         self.world().is_none_or(|only| only == world)
     }
-}
-
-/// Whether a robot of this kind is one of the lab's and of the wanted kind, if one is given.
-fn is_wanted(kind: &str, wanted: Option<&str>) -> bool {
-    RobotKind::of(kind).is_some() && wanted.is_none_or(|wanted| wanted == kind)
 }
 
 /// A span of ticks, with a picture every `every` ticks.
@@ -219,11 +225,11 @@ impl<'a> Moving<'a> {
 
     /// Shows it the next tick.
     pub fn see(&mut self, run: &Recorder) -> Result<(), CaptureError> {
-        let Subject::Cspace { kind, finest, annulus, .. } = &self.subject else { return Ok(()) };
+        let Subject::Cspace { finest, annulus, .. } = &self.subject else { return Ok(()) };
         let views = run.view();
         if self.space.is_none() {
             let fits = |v: &&RobotView| {
-                is_wanted(&v.kind, kind.as_deref()) && self.backdrops.iter().any(|b| b.number == v.world)
+                self.subject.wants(&v.name, &v.kind) && self.backdrops.iter().any(|b| b.number == v.world)
             };
             let nobody = || CaptureError::NotInRun("such robot".into());
             let view = views.iter().find(fits).ok_or_else(nobody)?;

@@ -69,6 +69,9 @@ impl Space {
 }
 
 fn here(view: &RobotView) -> Result<(AnyRobot, AnyConfiguration), CaptureError> {
-    let known = AnyRobot::of_kind(&view.kind, &view.coordinates);
+    let known = view.model.and_then(|model| {
+        let (_, q) = AnyRobot::of_kind(model.kind(), &view.coordinates)?;
+        Some((model.fitted(&q), q))
+    });
     known.ok_or_else(|| CaptureError::NotInRun(format!("configuration space for {}, a {}", view.name, view.kind)))
 }

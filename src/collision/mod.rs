@@ -10,6 +10,7 @@ mod motion;
 mod narrow;
 mod problem;
 mod queries;
+mod resident;
 mod scene;
 mod surroundings;
 mod witness;

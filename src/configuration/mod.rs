@@ -48,6 +48,7 @@ mod kind;
 mod kinds;
 mod pose;
 mod r2;
+mod sizes;
 mod torus;
 
 use std::fmt::{Debug, Display};
@@ -57,6 +58,7 @@ pub use hitch::HitchCfg;
 pub use kind::{RobotKind, Space};
 pub use kinds::Kinds;
 pub use r2::R2;
+pub use sizes::{ArmSizes, CarSizes, DiscSizes, MAX_SIZE, MAX_STEER, MIN_AXLES, Sizes, SizesError, TrailerSizes};
 pub use torus::{T2, Tn};
 
 use crate::short_list::ShortList;

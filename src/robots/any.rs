@@ -17,7 +17,6 @@ use crate::random::Stream;
 /// assert!(Checker::new(Scene::workbench(), robot).is_free(&q));
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[non_exhaustive]
 pub enum AnyRobot {
     /// The rover.
     Rusty(Rusty),

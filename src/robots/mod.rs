@@ -44,6 +44,7 @@ mod jackknife;
 mod motion;
 mod reach;
 mod rusty;
+mod sizes;
 
 pub use any::AnyRobot;
 pub use chart_line::ChartLine;

@@ -6,7 +6,6 @@ use super::{LatestFrame, ResidesIn, RobotOps, RobotView, Roster, Transport, Worl
 use crate::collision::Collision;
 use crate::configuration::Coordinates;
 use crate::geometry::Pose2;
-use crate::robots::RUSTY;
 
 /// Largest number of samples; beyond it every second one is dropped. Half an hour at 20 Hz is kept in full.
 const MOST_SAMPLES: usize = 36_000;
@@ -188,7 +187,7 @@ impl Trail {
             coordinates: robot.coordinates.clone(),
             clearance,
             travelled,
-            encoders: robot.encoders.map(|counts| RUSTY.travelled(&counts)),
+            encoders: robot.odometer,
             reversals,
             contacts: robot.contacts,
             manual: robot.manual,

@@ -1,5 +1,6 @@
 //! `SpawnError`, why a run cannot start.
 
+use crate::configuration::SizesError;
 use crate::run::ScriptError;
 use crate::sensors::BeamError;
 use crate::tour::ConfigError;
@@ -29,6 +30,16 @@ pub enum SpawnError {
         kind: String,
         /// The coordinates.
         start: Vec<f64>,
+    },
+    /// Sizes that are out of range, or that the robot does not take.
+    #[error("robot {robot:?} in world {world:?}: {source}")]
+    Sizes {
+        /// The robot.
+        robot: String,
+        /// Its world.
+        world: String,
+        /// The reason.
+        source: SizesError,
     },
     /// The configuration is out of range.
     #[error(transparent)]

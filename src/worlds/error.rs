@@ -3,6 +3,7 @@
 use std::fmt;
 
 use super::{BeamError, OutlineError, ResidentSensorError};
+use crate::configuration::SizesError;
 use crate::geometry::ShapeError;
 
 /// An item of a world file: `obstacles[1] "the post"`.
@@ -126,6 +127,9 @@ pub enum WorldProblem {
         /// How many it has.
         found: usize,
     },
+    /// Sizes out of range, or of another sort of robot.
+    #[error(transparent)]
+    Sizes(#[from] SizesError),
     /// A sensor for a robot of a kind that has none.
     #[error("a {0} has no range sensor: leave out `sensor`")]
     NoSensor(String),

@@ -43,6 +43,17 @@
 //!
 //! Rovers carry the sensor of the run besides; its noise is what `sensor` says.
 //!
+//! A robot has the sizes of its kind unless its world says others, one field for each sort of robot. A number that is
+//! left out is the kind's own, of [`Sizes`](crate::configuration::Sizes):
+//!
+//! ```ron
+//! (name: "Big", kind: "rusty", start: [3, 5.5, 0], disc: (radius: 0.25, track: 0.4, wheel_radius: 0.05)),
+//! (name: "Short", kind: "reach", start: [0.1, 0.2], arm: (base: (2, 2), lengths: [0.5, 0.4], radius: 0.02)),
+//! (name: "Lorry", kind: "hitch", start: [6, 2, 0],
+//!     car: (wheelbase: 4, length: 5.6, width: 2, rear_overhang: 0.8, max_steer: 0.4,
+//!         trailer: (hitch: 3, width: 1.8, front_overhang: 1.2, rear_overhang: 1))),
+//! ```
+//!
 //! Every list may be left out. A name is unique in the whole world. A robot's `start` is its configuration's
 //! coordinates: `rusty` x, y, theta; `reach` th1, th2; `reach3` th1, th2, th3; `hitch` x, y, theta, and psi with a
 //! trailer. Other kinds begin with `x-` and belong to programs that register them.

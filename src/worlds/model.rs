@@ -1,6 +1,7 @@
 //! `World`, a checked world: what is meant, as opposed to what is written in a file.
 
 use super::{BeamModel, OutlineError, ResidentSensor, convex_pieces};
+use crate::configuration::Sizes;
 use crate::geometry::{Aabb, ConvexPolygon, Placed, Point2, Pose2, Shape};
 
 /// The kind of an obstacle. Walls and solids collide alike.
@@ -88,6 +89,8 @@ pub struct Resident {
     pub kind: String,
     /// Chart coordinates of the configuration at the start. A `hitch` with four coordinates starts with its trailer.
     pub start: Vec<f64>,
+    /// What it is like; `None` for what every robot of its kind is like.
+    pub sizes: Option<Sizes>,
     /// The noise of the range sensor that the run gives it; `None` if that sensor is exact or the robot has none.
     pub sensor: Option<BeamModel>,
     /// Its own range sensors, in file order; they come on top of the run's.
@@ -114,9 +117,16 @@ pub struct World {
 }
 
 impl Resident {
-    /// Creates a resident with an exact sensor. Nothing is checked.
+    /// Creates a resident of its kind's own sizes with an exact sensor. Nothing is checked.
     pub fn new(name: impl Into<String>, kind: impl Into<String>, start: impl Into<Vec<f64>>) -> Self {
-        Resident { name: name.into(), kind: kind.into(), start: start.into(), sensor: None, sensors: Vec::new() }
+        let (name, kind, start) = (name.into(), kind.into(), start.into());
+        Resident { name, kind, start, sizes: None, sensor: None, sensors: Vec::new() }
+    }
+
+    /// The same resident with these sizes. Nothing is checked.
+    #[must_use]
+    pub fn with_sizes(self, sizes: Sizes) -> Self {
+        Resident { sizes: Some(sizes), ..self }
     }
 }
 

@@ -3,6 +3,7 @@
 mod built_in;
 mod refusals;
 mod round_trip;
+mod sizes;
 
 use super::World;
 use crate::geometry::{Placed, Point2, Segment, orientation};

@@ -1,11 +1,11 @@
 //! The lab's three robots as kinds of the simulation.
 
 use crate::collision::{Collision, MarchOptions, march};
-use crate::configuration::{HitchCfg, Tn};
+use crate::configuration::{HitchCfg, Sizes, Tn};
 use crate::geometry::{Point2, Pose2};
 use crate::num::wrap;
 use crate::random::{Seed, Stream};
-use crate::robots::{CarCmd, EncoderCounts, Hitch, Reach, Robot, Rusty, RustyCmd, WheelSlip, WheelTurns};
+use crate::robots::{AnyRobot, CarCmd, EncoderCounts, Hitch, Reach, Robot, Rusty, RustyCmd, WheelSlip, WheelTurns};
 use crate::simulation::{Extra, SimulatedRobot};
 use crate::tour::{Reversing, Sinusoids, Waypoints};
 use crate::worlds::World;
@@ -42,6 +42,14 @@ impl SimulatedRobot for Rusty {
         Some(Pose2::new(x, y, theta))
     }
 
+    fn with_sizes(&self, sizes: &Sizes) -> Option<Self> {
+        Rusty::with_sizes(self, sizes)
+    }
+
+    fn lab_model(&self) -> Option<AnyRobot> {
+        Some(AnyRobot::Rusty(*self))
+    }
+
     fn initial_extra(&self) -> Extra {
         Extra::from_slice(&[0.0; 3])
     }
@@ -61,6 +69,10 @@ impl SimulatedRobot for Rusty {
 
     fn encoders(&self, extra: &Extra) -> Option<EncoderCounts> {
         Some(self.counts(&WheelTurns { left: extra[0], right: extra[1] }))
+    }
+
+    fn odometer(&self, extra: &Extra) -> Option<f64> {
+        self.encoders(extra).map(|counts| self.travelled(&counts))
     }
 }
 
@@ -94,6 +106,14 @@ impl<const N: usize> SimulatedRobot for Reach<N> {
     fn mount_pose(&self, q: &Tn<N>) -> Pose2 {
         let tip = Reach::tip(self, q);
         Pose2 { x: tip.x, y: tip.y, theta: self.heading(q) }
+    }
+
+    fn with_sizes(&self, sizes: &Sizes) -> Option<Self> {
+        Reach::with_sizes(self, sizes)
+    }
+
+    fn lab_model(&self) -> Option<AnyRobot> {
+        AnyRobot::arm(self)
     }
 
     fn tip(&self, q: &Tn<N>) -> Option<Point2> {
@@ -140,6 +160,14 @@ impl SimulatedRobot for Hitch {
     /// The car's rear axle, with the car's heading.
     fn mount_pose(&self, q: &HitchCfg) -> Pose2 {
         q.body
+    }
+
+    fn with_sizes(&self, sizes: &Sizes) -> Option<Self> {
+        Hitch::with_sizes(self, sizes)
+    }
+
+    fn lab_model(&self) -> Option<AnyRobot> {
+        Some(AnyRobot::Hitch(*self))
     }
 
     fn fitted(&self, q: &HitchCfg) -> Hitch {

@@ -167,6 +167,7 @@ fn view<R: SimulatedRobot>(world: &World, e: Entity) -> Option<RobotView> {
         name: name.name.clone(),
         kind: name.kind.clone(),
         about: name.about,
+        model: robot.lab_model(),
         world: world.get::<SimulatedWorld>(world.get::<ResidesIn>(e)?.0)?.index,
         configuration: q.to_string(),
         configuration_in_full: format!("{q:?}"),
@@ -181,5 +182,6 @@ fn view<R: SimulatedRobot>(world: &World, e: Entity) -> Option<RobotView> {
         channels: mode.channels,
         refusals: mode.refusals,
         encoders: robot.encoders(&world.get::<OwnState<R>>(e)?.extra),
+        odometer: robot.odometer(&world.get::<OwnState<R>>(e)?.extra),
     })
 }

@@ -1,10 +1,10 @@
 //! `SimulatedRobot`, the trait that a kind of robot implements to be simulated.
 
 use crate::collision::Collision;
-use crate::configuration::Configuration;
+use crate::configuration::{Configuration, Sizes};
 use crate::geometry::{Point2, Pose2};
 use crate::random::{Seed, Stream};
-use crate::robots::{Drivable, EncoderCounts};
+use crate::robots::{AnyRobot, Drivable, EncoderCounts};
 use crate::short_list::ShortList;
 use crate::worlds::World;
 
@@ -61,6 +61,18 @@ pub trait SimulatedRobot: Drivable<Drive: Clone + Send + Sync + 'static> {
         self.clone()
     }
 
+    /// The same robot with the sizes that its world gives it. `None` for a robot that takes none, or not these; a run
+    /// with it does not start then. They were checked for their ranges.
+    fn with_sizes(&self, _sizes: &Sizes) -> Option<Self> {
+        None
+    }
+
+    /// The robot as one of the lab's, for views that ask about it: its configuration space, its teleports. `None` for a
+    /// robot of a type of one's own. A car's hitch is there or not whatever it pulls.
+    fn lab_model(&self) -> Option<AnyRobot> {
+        None
+    }
+
     /// The robot's own state at the start; its length never changes.
     fn initial_extra(&self) -> Extra {
         Extra::new()
@@ -87,6 +99,11 @@ pub trait SimulatedRobot: Drivable<Drive: Clone + Send + Sync + 'static> {
 
     /// The readings of the wheels' encoders; `None` without encoders.
     fn encoders(&self, _extra: &Extra) -> Option<EncoderCounts> {
+        None
+    }
+
+    /// The distance travelled according to the encoders, metres; `None` without encoders.
+    fn odometer(&self, _extra: &Extra) -> Option<f64> {
         None
     }
 

@@ -3,7 +3,7 @@
 use bevy::prelude::*;
 
 use super::simulated::canonical;
-use crate::configuration::{Configuration as _, RobotKind};
+use crate::configuration::{Configuration as _, RobotKind, SizesError};
 use crate::random::{Seed, Stream};
 use crate::sensors::RangeSensor;
 use crate::simulation::{
@@ -23,6 +23,16 @@ pub(crate) struct SpawnRequest<'a> {
     pub(crate) about: Option<&'static RobotKind>,
 }
 
+/// The robot that a resident is: the kind's model, with the resident's own sizes.
+fn sized<R: SimulatedRobot>(model: &R, resident: &Resident) -> Result<R, SizesError> {
+    let Some(sizes) = &resident.sizes else { return Ok(model.clone()) };
+    sizes.check()?;
+    model.with_sizes(sizes).ok_or_else(|| {
+        let (kind, found) = (resident.kind.clone(), sizes.field());
+        sizes.check_for(&kind).err().unwrap_or(SizesError::OwnKind { kind, found })
+    })
+}
+
 /// Spawns a robot of type `R`, with its sensors.
 pub(crate) fn spawn_robot<R: SimulatedRobot>(
     world: &mut World,
@@ -31,6 +41,12 @@ pub(crate) fn spawn_robot<R: SimulatedRobot>(
     request: &SpawnRequest,
 ) -> Result<Entity, SpawnError> {
     let resident = request.resident;
+    let sized = sized(robot, resident).map_err(|source| SpawnError::Sizes {
+        robot: resident.name.clone(),
+        world: request.model.name.clone(),
+        source,
+    })?;
+    let robot = &sized;
     let refused = || SpawnError::Start {
         robot: resident.name.clone(),
         world: request.model.name.clone(),

@@ -2,7 +2,7 @@
 
 use crate::configuration::{Coordinates, RobotKind};
 use crate::geometry::{Footprint, Point2};
-use crate::robots::EncoderCounts;
+use crate::robots::{AnyRobot, EncoderCounts};
 
 /// A robot as a view shows it.
 #[derive(Clone, Debug, PartialEq)]
@@ -16,6 +16,8 @@ pub struct RobotView {
     pub kind: String,
     /// The kind's description, if it has one.
     pub about: Option<&'static RobotKind>,
+    /// The robot with its own sizes, if it is one of the lab's. [`AnyRobot::fitted`] fits it to a configuration.
+    pub model: Option<AnyRobot>,
     /// The number of the world it lives in.
     pub world: u32,
     /// The configuration as its type prints, three decimals.
@@ -44,4 +46,6 @@ pub struct RobotView {
     pub refusals: u32,
     /// The readings of the wheels' encoders; `None` without encoders.
     pub encoders: Option<EncoderCounts>,
+    /// The distance travelled according to the encoders, metres; `None` without encoders.
+    pub odometer: Option<f64>,
 }

@@ -152,9 +152,12 @@ fn any(ui: &mut Ui, state: &mut UiState) {
 pub(crate) fn robot_choice(ui: &mut Ui, state: &mut UiState) {
     let anatomy = state.anatomy.anatomy.clone();
     let present = *anatomy.checker().robot();
-    let name = Anatomy::choices().into_iter().find(|(_, robot)| *robot == present).map_or(present.name(), |(n, _)| n);
+    let mut choices = anatomy.residents();
+    choices.extend(Anatomy::choices().map(|(name, robot)| (name.to_owned(), robot)));
+    let name =
+        choices.iter().find(|(_, robot)| *robot == present).map_or(present.name(), |(n, _)| n.as_str()).to_owned();
     ComboBox::from_label("robot").selected_text(name).show_ui(ui, |ui| {
-        for (name, robot) in Anatomy::choices() {
+        for (name, robot) in choices {
             if ui.selectable_label(present == robot, name).clicked() {
                 state.anatomy.set(anatomy.at_home(robot));
             }

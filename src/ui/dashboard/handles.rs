@@ -12,7 +12,7 @@ use crate::configuration::{Coordinates, Tn};
 use crate::geometry::Point2;
 use crate::num::wrap;
 use crate::picture::{Dash, Drawing, Fit, Item, Line, Picture, Role, footprint};
-use crate::robots::Reach;
+use crate::robots::{AnyRobot, Reach};
 use crate::run::{Quantized, RobotInput};
 use crate::simulation::{RobotCommand, TransportCommand};
 use crate::ui::paint::canvas;
@@ -202,7 +202,7 @@ fn reachable(arm: &Reach<3>, tip: Point2, th1: f64, side: usize) -> RangeInclusi
 /// The other two joints follow by two-link inverse kinematics, on the elbow side where they are. The slider ends where
 /// the tip would come out of reach.
 fn null_space(ui: &mut Ui, robot: &CockpitRobot, q: Tn<3>, commands: &mut Vec<Command>) {
-    let arm = Reach::<3>::redundant();
+    let Some(AnyRobot::Reach3(arm)) = robot.model else { return };
     let id = Id::new((&robot.name, "null space"));
     // the tip is that of the walk's beginning, so that it does not drift with the rounding of the targets
     let walk: Option<(Point2, bool)> = ui.data(|d| d.get_temp(id));

@@ -10,7 +10,7 @@ use crate::geometry::{Aabb, Point2, Pose2};
 use crate::manifest::ThemeChoice;
 use crate::picture::{Picture, Role, Theme};
 use crate::random::Seed;
-use crate::robots::{HITCH, RUSTY, Reach, Robot};
+use crate::robots::{AnyRobot, HITCH, RUSTY, Reach, Robot};
 use crate::run::RobotInput;
 use crate::simulation::{History, RobotCommand, RunCommand, TransportCommand};
 use crate::ui::{Cockpit, CockpitRobot, Command, Dashboard, UiState, lab};
@@ -24,6 +24,7 @@ fn robot<R: Robot>(name: &str, kind: &str, robot: &R, q: R::Configuration) -> Co
         name: name.into(),
         kind: kind.into(),
         about: RobotKind::of(kind),
+        model: AnyRobot::model(kind, None),
         readout: q.to_string(),
         in_full: format!("{q:?}"),
         coordinates: q.coordinates(),

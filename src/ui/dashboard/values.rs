@@ -7,6 +7,7 @@ use crate::configuration::{Coordinates, RobotKind};
 use crate::geometry::{Footprint, Point2};
 use crate::picture::{Item, Picture, RobotDrawing, robot};
 use crate::random::Seed;
+use crate::robots::AnyRobot;
 use crate::simulation::SensorView;
 
 /// One robot in its cockpit.
@@ -32,6 +33,8 @@ pub struct CockpitRobot {
     pub kind: String,
     /// Its kind's description, if it has one.
     pub about: Option<&'static RobotKind>,
+    /// The robot with its own sizes, if it is one of the lab's.
+    pub model: Option<AnyRobot>,
     /// Whether it is an arm, moved by its joints.
     pub is_arm: bool,
     /// The coordinates of its configuration at the last tick.

@@ -1,7 +1,8 @@
 //! A world file as written, in RON. Only its form is checked.
 
-use serde::{Deserialize, Deserializer};
+use serde::Deserialize;
 
+use super::sizes::{ArmText, CarText, DiscText, given};
 use crate::geometry::{Point2, Pose2};
 use crate::worlds::BeamModel;
 
@@ -99,6 +100,12 @@ pub(crate) struct RobotText {
     pub kind: String,
     pub start: Vec<f64>,
     #[serde(default, deserialize_with = "given")]
+    pub disc: Option<DiscText>,
+    #[serde(default, deserialize_with = "given")]
+    pub arm: Option<ArmText>,
+    #[serde(default, deserialize_with = "given")]
+    pub car: Option<CarText>,
+    #[serde(default, deserialize_with = "given")]
     pub sensor: Option<BeamModel>,
     #[serde(default)]
     pub sensors: Vec<SensorText>,
@@ -118,11 +125,6 @@ pub(crate) struct SensorText {
     pub mount: Option<Pose2>,
     #[serde(default, deserialize_with = "given")]
     pub noise: Option<BeamModel>,
-}
-
-/// Reads a field that may be left out and is written without `Some`.
-fn given<'de, D: Deserializer<'de>, T: Deserialize<'de>>(deserializer: D) -> Result<Option<T>, D::Error> {
-    T::deserialize(deserializer).map(Some)
 }
 
 /// An item with a name.

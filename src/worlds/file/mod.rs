@@ -7,4 +7,5 @@ pub(crate) mod name;
 pub(crate) mod parse;
 pub(crate) mod print;
 pub(crate) mod resident;
+pub(crate) mod sizes;
 pub(crate) mod source;

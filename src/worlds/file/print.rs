@@ -5,6 +5,7 @@ use std::fmt::{self, Write};
 
 use xxhash_rust::xxh3::xxh3_128;
 
+use super::sizes::sizes_text;
 use crate::geometry::{Point2, Pose2, Shape};
 use crate::worlds::{BeamModel, Obstacle, ObstacleKind, ResidentSensor, WORLD_VERSION, World, Written};
 
@@ -56,7 +57,7 @@ impl World {
             let sensors: Vec<String> = r.sensors.iter().map(sensor_text).collect();
             let sensors =
                 if sensors.is_empty() { String::new() } else { format!(", sensors: [{}]", sensors.join(", ")) };
-            format!("{head}{noise}{sensors}")
+            format!("{head}{}{noise}{sensors}", sizes_text(r.sizes.as_ref()))
         });
         write_list(out, "walls", walls)?;
         write_list(out, "obstacles", solids)?;

@@ -5,7 +5,8 @@ use std::f64::consts::TAU;
 use super::description::{RobotText, SensorText};
 use super::items::{finite, make_point};
 use super::name::{MAX_NAME, check_name};
-use crate::configuration::RobotKind;
+use super::sizes::{SizesText, make_sizes};
+use crate::configuration::{RobotKind, Sizes};
 use crate::geometry::Pose2;
 use crate::num;
 use crate::worlds::{
@@ -30,7 +31,7 @@ impl Resident {
         let kind = kind.into();
         let start = make_start(&kind, start.into())?;
         let sensor = sensor.map(|noise| make_noise(&kind, noise)).transpose()?;
-        Ok(Resident { name: name.into(), kind, start, sensor, sensors: Vec::new() })
+        Ok(Resident { name: name.into(), kind, start, sizes: None, sensor, sensors: Vec::new() })
     }
 
     /// The resident with these range sensors of its own, in place of those it has. Angles are wrapped to `(-pi, pi]`.
@@ -41,12 +42,23 @@ impl Resident {
     pub fn try_with_sensors(self, sensors: &[ResidentSensor]) -> Result<Self, WorldProblem> {
         Ok(Resident { sensors: check_sensors(sensors)?, ..self })
     }
+
+    /// The same resident with these sizes, which a world file may hold.
+    ///
+    /// # Errors
+    /// [`WorldProblem::Sizes`]: a number out of range, or sizes that are not this kind's.
+    pub fn try_with_sizes(self, sizes: Sizes) -> Result<Self, WorldProblem> {
+        sizes.check_for(&self.kind)?;
+        Ok(self.with_sizes(sizes))
+    }
 }
 
 pub(crate) fn make_resident(text: &RobotText) -> Result<Resident, WorldProblem> {
-    let RobotText { name, kind, start, sensor, sensors } = text;
+    let RobotText { name, kind, start, disc, arm, car, sensor, sensors } = text;
+    let sizes = SizesText { disc: disc.as_ref(), arm: arm.as_ref(), car: car.as_ref() };
     let sensors: Vec<ResidentSensor> = sensors.iter().map(make_sensor).collect();
-    Resident::try_new(name.clone(), kind.clone(), start.clone(), *sensor)?.try_with_sensors(&sensors)
+    let resident = Resident::try_new(name.clone(), kind.clone(), start.clone(), *sensor)?;
+    Resident { sizes: make_sizes(kind, &sizes)?, ..resident }.try_with_sensors(&sensors)
 }
 
 /// A sensor as written, with what is left out filled in.

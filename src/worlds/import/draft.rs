@@ -4,10 +4,9 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use super::Imported;
 use crate::geometry::Pose2;
-use crate::worlds::file::description::{BoundsText, ObstacleText, PlaceText, PolylineText, RobotText, ShapeText, Xy};
+use crate::worlds::file::description::{BoundsText, ObstacleText, PlaceText, PolylineText, ShapeText, Xy};
 use crate::worlds::file::items::{Budget, make_bounds, make_mark, make_place, make_solid, make_wall};
 use crate::worlds::file::name::{MAX_NAME, check_name};
-use crate::worlds::file::resident::make_resident;
 use crate::worlds::{MAX_ITEMS, Mark, Obstacle, Place, Resident, World, WorldProblem};
 
 /// Largest number of notes kept.
@@ -60,13 +59,7 @@ impl Draft {
     pub fn robot(&mut self, kind: &str, start: Vec<f64>) -> Result<(), WorldProblem> {
         check_room("robots", self.robots.len())?;
         let name = self.claim(&capitalised(kind));
-        self.robots.push(make_resident(&RobotText {
-            name,
-            kind: kind.to_owned(),
-            start,
-            sensor: None,
-            sensors: Vec::new(),
-        })?);
+        self.robots.push(Resident::try_new(name, kind, start, None)?);
         Ok(())
     }
 

@@ -17,9 +17,7 @@ mod map;
 mod svg;
 mod yaml;
 
-use super::file::description;
-use super::file::resident::make_resident;
-use super::{World, WorldProblem};
+use super::{Resident, World, WorldProblem};
 
 pub use error::{ImportError, ImportProblem};
 pub use irsim::scene::irsim;
@@ -52,14 +50,7 @@ impl Imported {
             count += 1;
             name = format!("{plain} {count}");
         }
-        let text = description::RobotText {
-            name,
-            kind: kind.to_owned(),
-            start: start.to_vec(),
-            sensor: None,
-            sensors: vec![],
-        };
-        self.world.robots.push(make_resident(&text)?);
+        self.world.robots.push(Resident::try_new(name, kind, start, None)?);
         Ok(())
     }
 }

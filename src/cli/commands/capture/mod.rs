@@ -9,7 +9,6 @@ use clap::{Args, ValueEnum};
 use motion_lab::capture::{CaptureError, Form, Paper};
 use motion_lab::picture::Theme;
 
-use super::query::RobotName;
 use crate::cli::support::numbers::Numbers;
 use crate::cli::support::simulate::not_shown;
 use crate::cli::{Failure, Outcome, say};
@@ -91,9 +90,10 @@ pub struct SceneArgs {
     /// Anatomy: the tab; all four when left out.
     #[arg(long, value_enum)]
     tab: Option<TabName>,
-    /// Anatomy and cspace: the robot. [default: choset; of a run its first]
-    #[arg(long, value_enum)]
-    robot: Option<RobotName>,
+    /// Anatomy and cspace: the robot, a resident of the world by its name, or one of a kind: rusty, reach, choset,
+    /// reach3, hitch. [default: choset; of a run its first]
+    #[arg(long, value_name = "NAME|KIND")]
+    robot: Option<String>,
     /// Anatomy, atlas and cspace: a built-in world or the path of a world file. [default: the robot's home; atlas: all
     /// three]
     #[arg(long, value_name = "NAME|FILE")]

@@ -1,5 +1,6 @@
 //! Widgets that show a run: at a tick, and over a span of them.
 
+use clap::ValueEnum;
 use motion_lab::capture::{Form, Paper, Span, Subject, at_tick, film, write};
 use motion_lab::random::Seed;
 use motion_lab::recording::Run;
@@ -7,6 +8,7 @@ use motion_lab::run::{Log, Script};
 use motion_lab::tour::{BOOK_SEED, TourConfig};
 
 use super::{Capture, RunArgs, Widget};
+use crate::cli::commands::query::RobotName;
 use crate::cli::support::log_source::{LogSource, read_log};
 use crate::cli::support::world_source::find_world;
 use crate::cli::{Failure, say};
@@ -14,8 +16,8 @@ use crate::cli::{Failure, say};
 impl Capture {
     /// Writes what the widget shows of the run.
     pub(crate) fn of_run(&self, form: Form, paper: &Paper) -> Result<(), Failure> {
-        let subject = self.subject()?;
         let log = log(&self.run)?;
+        let subject = self.subject(&log)?;
         let last = log.frames.len() as u64;
         let RunArgs { tick, from, to, every, .. } = self.run;
         let written = if form == Form::Gif {
@@ -28,20 +30,32 @@ impl Capture {
         written.map_err(|error| self.failure(error))
     }
 
-    fn subject(&self) -> Result<Subject, Failure> {
+    fn subject(&self, log: &Log) -> Result<Subject, Failure> {
         let scene = &self.scene;
+        let lives = |name: &String| log.config.robot_names().any(|robot| robot == name);
+        let robot = scene.robot.clone().filter(lives);
+        let kind = match (&scene.robot, &robot) {
+            (Some(name), None) => Some(kind_of(name, log)?),
+            _ => None,
+        };
         let world = scene.world.as_deref().map(find_world).transpose()?;
         Ok(match self.widget {
-            Widget::Cspace => Subject::Cspace {
-                world,
-                kind: scene.robot.map(|robot| robot.kind().to_owned()),
-                finest: scene.cells.unwrap_or(7),
-                annulus: scene.annulus,
-            },
+            Widget::Cspace => {
+                Subject::Cspace { world, robot, kind, finest: scene.cells.unwrap_or(7), annulus: scene.annulus }
+            }
             Widget::Atlas => Subject::Atlas { world, names: true },
             Widget::Dashboard | Widget::Anatomy => Subject::Dashboard { names: self.run.names, scan: self.run.scan },
         })
     }
+}
+
+/// The kind of this name, of which a robot of the run is to be.
+fn kind_of(name: &str, log: &Log) -> Result<String, Failure> {
+    RobotName::from_str(name, false).map(|kind| kind.kind().to_owned()).map_err(|_| {
+        let there = log.config.robot_names().collect::<Vec<_>>().join(", ");
+        let next = format!("The kinds are {}; in this run are {there}.", RobotName::list());
+        Failure::usage(format!("no robot is called {name:?}"), next)
+    })
 }
 
 /// The log asked for: of a file, or of the tour at a seed.

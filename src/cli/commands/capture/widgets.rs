@@ -10,7 +10,7 @@ use motion_lab::worlds::World;
 
 use super::{SceneArgs, TabName};
 use crate::cli::Failure;
-use crate::cli::commands::query::RobotName;
+use crate::cli::commands::query::{Chosen, RobotName};
 use crate::cli::support::numbers::Numbers;
 use crate::cli::support::world_source::find_world;
 
@@ -84,15 +84,15 @@ fn teleport(atlas: &mut Atlas, to: &[f64]) -> Result<(Vec<Item>, Vec<String>), F
 
 /// The scene asked for.
 fn frozen(args: &SceneArgs) -> Result<Anatomy, Failure> {
-    let name = args.robot.unwrap_or(RobotName::Choset);
-    let world_name = args.world.clone().unwrap_or_else(|| name.home().to_owned());
-    let world = find_world(&world_name)?;
+    let name = args.robot.as_deref().unwrap_or("choset");
+    let world_name = args.world.clone().unwrap_or_else(|| Chosen::home(name).to_owned());
+    let (chosen, world) = Chosen::in_world(name, Some(&world_name))?;
     let source = World::built_in_names().into_iter().find(|n| *n == world_name);
     let source = source.map_or(WorldSource::File(world_name), WorldSource::BuiltIn);
     let usage = |error: &dyn std::fmt::Display| Failure::usage(error, "See `motion-lab capture --help`.");
-    let (robot, q) = name.at(args.q.as_ref().map(|q| &q.0[..]), &world).map_err(|e| usage(&e))?;
+    let (robot, q) = chosen.at(args.q.as_ref().map(|q| &q.0[..]), &world).map_err(|e| usage(&e))?;
     let mut anatomy = Anatomy::new(world, source, robot, q).map_err(|e| usage(&e))?;
-    if name == RobotName::Choset && args.step.is_none() {
+    if matches!(chosen, Chosen::Kind(RobotName::Choset)) && args.step.is_none() {
         anatomy.set_step(0, -std::f64::consts::FRAC_PI_2);
     }
     if let Some(step) = &args.step {

@@ -2,6 +2,7 @@
 
 mod answer;
 mod certificate;
+mod chosen;
 mod dimensions;
 mod inquiry;
 mod line;
@@ -19,6 +20,7 @@ use serde::Serialize;
 
 use answer::{Answer, ask_scan};
 use certificate::{Certify, EdgeCertificate};
+pub use chosen::Chosen;
 use line::{Asked, parse_line};
 use lines::Lines;
 pub use robot::RobotName;
@@ -56,20 +58,18 @@ const MESSAGES: u64 = 10;
 pub struct Query {
     /// The question.
     question: Question,
-    /// The configuration: numbers joined by commas, in metres and radians.
-    #[arg(
-        value_name = "NUMBERS",
-        allow_hyphen_values = true,
-        required_unless_present = "input",
-        conflicts_with = "input"
-    )]
+    /// The configuration: numbers joined by commas, in metres and radians. [default: a resident's start]
+    #[arg(value_name = "NUMBERS", allow_hyphen_values = true, conflicts_with = "input")]
     q: Option<Numbers>,
     /// Where the motion of `swept` or `edge` ends.
     #[arg(value_name = "TO", allow_hyphen_values = true)]
     to: Option<Numbers>,
-    /// The robot; `scan` needs none, its configuration is where the sensor is: x,y or x,y,theta.
-    #[arg(long, value_enum)]
-    robot: Option<RobotName>,
+    /// The robot: a resident of the world by its name, with the sizes that the world says; else one of a kind: rusty (the
+    /// disc of radius 0.11 m: x,y or x,y,theta), reach (the two-link arm with 3 cm capsule links: th1,th2), choset (the
+    /// same arm without thickness), reach3 (the three-link arm: th1,th2,th3), hitch (the car: x,y,theta; with the
+    /// trailer x,y,theta,psi). `scan` needs none, its configuration is where the sensor is: x,y or x,y,theta.
+    #[arg(long, value_name = "NAME|KIND")]
+    robot: Option<String>,
     /// A built-in world or the path of a world file; the robot's home when left out.
     #[arg(long, value_name = "NAME|FILE")]
     world: Option<String>,
@@ -107,7 +107,9 @@ impl Query {
     /// Runs the command.
     pub fn run(self, data: &mut Data) -> Result<Outcome, Failure> {
         let desk = self.desk()?;
-        match (self.q, &self.input) {
+        let start = || desk.robot.as_ref().and_then(Chosen::start).map(|start| Numbers(start.to_vec()));
+        let q = if self.input.is_some() { None } else { self.q.or_else(start) };
+        match (q, &self.input) {
             (Some(Numbers(q)), _) => {
                 let asked = Asked { q, to: self.to.map(|Numbers(to)| to) };
                 let usage = |reason: String| Failure::usage(reason, "See `motion-lab query --help`.");
@@ -138,10 +140,13 @@ impl Query {
         }
         let sensor = RangeSensor::try_new(self.rays, self.range)
             .map_err(|error| Failure::usage(error, "Change --rays or --range."))?;
-        let world = self.world.as_deref().unwrap_or_else(|| self.robot.map_or("apartment", RobotName::home));
-        let world = find_world(world)?;
+        let world = self.world.as_deref();
+        let (robot, world) = match &self.robot {
+            Some(name) => Chosen::in_world(name, world).map(|(robot, world)| (Some(robot), world))?,
+            None => (None, find_world(world.unwrap_or("apartment"))?),
+        };
         let scene = Arc::new(Scene::of_world(&world));
-        Ok(Desk { question: self.question, world: world.name, scene, robot: self.robot, sensor })
+        Ok(Desk { question: self.question, world: world.name, scene, robot, sensor })
     }
 }
 
@@ -151,7 +156,7 @@ struct Desk {
     /// The world's name.
     world: String,
     scene: Arc<Scene>,
-    robot: Option<RobotName>,
+    robot: Option<Chosen>,
     sensor: RangeSensor,
 }
 
@@ -163,7 +168,7 @@ struct WrongLine {
 impl Desk {
     fn answer(&self, asked: &Asked) -> Result<Answer, String> {
         self.check(asked)?;
-        match (self.question, self.robot) {
+        match (self.question, &self.robot) {
             (Question::Scan, _) => ask_scan(&self.scene, &self.sensor, &asked.q),
             (question, Some(robot)) => robot.answer(&self.scene, &question, asked),
             (_, None) => Err("no robot is named".into()),
@@ -172,7 +177,7 @@ impl Desk {
 
     fn certify(&self, asked: &Asked) -> Result<EdgeCertificate, String> {
         self.check(asked)?;
-        let robot = self.robot.ok_or("no robot is named")?;
+        let robot = self.robot.as_ref().ok_or("no robot is named")?;
         robot.answer(&self.scene, &Certify { world: &self.world }, asked)
     }
 

@@ -79,22 +79,31 @@ impl RobotName {
         Ok((robot, q))
     }
 
-    /// The answer to an inquiry about this robot.
-    pub(crate) fn answer<I: Inquiry>(
-        self,
-        scene: &Arc<Scene>,
-        inquiry: &I,
-        asked: &Asked,
-    ) -> Result<I::Answer, String> {
-        let with_trailer = asked.q.len() == 4;
+    /// The robot, of its kind's own sizes.
+    pub fn model(self) -> AnyRobot {
         match self {
-            RobotName::Rusty => convert(scene, RUSTY, inquiry, asked, rusty_pose),
-            RobotName::Reach => convert(scene, Reach::workbench(), inquiry, asked, angles),
-            RobotName::Choset => convert(scene, Reach::choset(), inquiry, asked, angles),
-            RobotName::Reach3 => convert(scene, Reach::redundant(), inquiry, asked, angles),
-            RobotName::Hitch if with_trailer => convert(scene, HITCH.with_trailer(), inquiry, asked, car),
-            RobotName::Hitch => convert(scene, HITCH, inquiry, asked, car),
+            RobotName::Rusty => AnyRobot::Rusty(RUSTY),
+            RobotName::Reach => AnyRobot::Reach(Reach::workbench()),
+            RobotName::Choset => AnyRobot::Reach(Reach::choset()),
+            RobotName::Reach3 => AnyRobot::Reach3(Reach::redundant()),
+            RobotName::Hitch => AnyRobot::Hitch(HITCH),
         }
+    }
+}
+
+/// The answer to an inquiry about a robot. A car has its trailer if it is asked about four coordinates.
+pub(super) fn ask_about<I: Inquiry>(
+    model: &AnyRobot,
+    scene: &Arc<Scene>,
+    inquiry: &I,
+    asked: &Asked,
+) -> Result<I::Answer, String> {
+    match *model {
+        AnyRobot::Rusty(rover) => convert(scene, rover, inquiry, asked, rusty_pose),
+        AnyRobot::Reach(arm) => convert(scene, arm, inquiry, asked, angles),
+        AnyRobot::Reach3(arm) => convert(scene, arm, inquiry, asked, angles),
+        AnyRobot::Hitch(towing) if asked.q.len() == 4 => convert(scene, towing.with_trailer(), inquiry, asked, car),
+        AnyRobot::Hitch(alone) => convert(scene, alone.without_trailer(), inquiry, asked, car),
     }
 }
 

@@ -45,9 +45,11 @@ pub fn choose(worlds: &mut [World], choices: &[RobotChoice]) -> Result<(), Failu
         let keep = |r: &Resident| {
             let choice = choices.iter().find(|c| c.name == r.name)?;
             Some(match choice.stand_in.clone() {
-                Some((kind, start)) => Resident::try_new(r.name.clone(), kind, start, None).map_err(|problem| {
-                    Failure::usage(format!("--robot {}: {problem}", r.name), "See `motion-lab record --help`.")
-                }),
+                Some((kind, start)) => Resident::try_new(r.name.clone(), kind, start, None)
+                    .map(|stand_in| Resident { sizes: r.sizes.clone().filter(|_| stand_in.kind == r.kind), ..stand_in })
+                    .map_err(|problem| {
+                        Failure::usage(format!("--robot {}: {problem}", r.name), "See `motion-lab record --help`.")
+                    }),
                 None => Ok(r.clone()),
             })
         };

@@ -31,7 +31,8 @@ pub struct Record {
     #[arg(long, value_name = "NAME|FILE")]
     world: Vec<String>,
     /// Keep only the robots named so; may be given several times. NAME=KIND:NUMBERS puts a robot of that kind (rusty,
-    /// reach, reach3, hitch) there in its place, starting at these coordinates: "Reach=reach3:0.1,0.2,0.3".
+    /// reach, reach3, hitch) there in its place, starting at these coordinates: "Reach=reach3:0.1,0.2,0.3". One of the
+    /// same kind keeps the sizes that the world says.
     #[arg(long, value_name = "NAME[=KIND:NUMBERS]")]
     robot: Vec<RobotChoice>,
     /// The seed. [default: 2005]

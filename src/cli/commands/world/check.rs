@@ -12,9 +12,9 @@ const MAX_REPORTED: usize = 10;
 /// The problems of a world, each by name: residents that touch an obstacle or one another at their starts, and
 /// obstacles wholly outside the bounds. Robots of a program's own kinds are left out.
 pub fn problems(world: &World) -> Vec<String> {
-    let footprint = |kind: &str, start: &[f64]| AnyRobot::of_kind(kind, start).map(|(robot, q)| robot.footprint(&q));
+    let footprint = |resident| AnyRobot::of_resident(resident).map(|(robot, q)| robot.footprint(&q));
     let residents: Vec<(&str, Footprint)> =
-        world.robots.iter().filter_map(|r| Some((r.name.as_str(), footprint(&r.kind, &r.start)?))).collect();
+        world.robots.iter().filter_map(|r| Some((r.name.as_str(), footprint(r)?))).collect();
     let scene = Scene::of_world(world);
     let in_contact = residents.iter().filter_map(|(name, footprint)| {
         let obstacle = scene.obstacle_name(*scene.touched(footprint).first()?)?;

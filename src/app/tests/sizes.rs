@@ -1,0 +1,62 @@
+//! Residents with sizes of their own in the window.
+
+use super::super::session::new_run;
+use super::*;
+use crate::anatomy::{Anatomy, WorldSource};
+use crate::random::Seed;
+use crate::robots::AnyRobot;
+use crate::tour::TourConfig;
+use crate::ui::Widget;
+use crate::worlds::World as WorldModel;
+
+/// A wall 4 m behind a lorry whose trailer reaches 5 m behind its rear axle, and an arm with a base of its own.
+fn yard() -> WorldModel {
+    let text = r#"World(version: 1, name: "Yard", bounds: (min: (0, 0), max: (20, 12)),
+        walls: [(name: "the wall", points: [(2, 0), (2, 12)])],
+        robots: [
+            (name: "Lorry", kind: "hitch", start: [6, 8, 0], car: (trailer: (hitch: 4, rear_overhang: 1))),
+            (name: "Short", kind: "reach", start: [0, 0], arm: (base: (12, 3), lengths: [0.5, 0.4], radius: 0.02)),
+        ])"#;
+    WorldModel::parse("yard.ron", text).unwrap()
+}
+
+#[test]
+fn what_is_shown_and_asked_is_the_residents_own() {
+    let mut harness = lab(WIDE);
+    pause(&mut harness);
+    let config = TourConfig { worlds: vec![yard()], ..TourConfig::default() };
+    new_run(harness.state_mut().app.world_mut(), config, Seed(1)).unwrap();
+    harness.run_steps(3);
+    // the kind's own trailer would reach 2.8 m back and not touch it
+    harness.get_by_label("no room for a trailer: would overlap the wall");
+    let tip = harness.state().robot(1).tip.unwrap();
+    assert!((tip.x - 12.9).abs() < 1e-12 && (tip.y - 3.0).abs() < 1e-12, "{tip}");
+    // three links instead of two: another arm at the same base, as thick
+    click(&mut harness, "three links");
+    let arm = harness.state().robot(1);
+    let Some(AnyRobot::Reach3(model)) = arm.model else { panic!("{:?}", arm.model) };
+    assert_eq!((model.base.x, model.base.y, model.link_radius), (12.0, 3.0, 0.02));
+    // its tip stays while its first joint walks
+    let tip = arm.tip.unwrap();
+    let slider = harness.get_by_label("tip kept:").rect();
+    click_at(&mut harness, slider.left_center() + egui::vec2(0.8 * slider.width(), 0.0));
+    click(&mut harness, "Step");
+    let walked = harness.state().robot(1);
+    assert!((walked.coordinates[0] - arm.coordinates[0]).abs() > 0.05, "{:?}", walked.coordinates);
+    assert!((walked.tip.unwrap() - tip).norm() < 1e-5);
+}
+
+#[test]
+fn the_anatomy_offers_the_residents_of_its_world() {
+    let mut harness = lab(WIDE);
+    let shown = Anatomy::of_world(yard(), WorldSource::Unsaved).unwrap();
+    let mut interface = harness.state_mut().app.world_mut().resource_mut::<Interface>();
+    interface.0.widget = Widget::Anatomy;
+    interface.0.anatomy.set(shown);
+    harness.run_steps(3);
+    harness.get_by_role_and_label(egui::accesskit::Role::ComboBox, "robot").click();
+    harness.run_steps(3);
+    click(&mut harness, "Short");
+    let anatomy = &harness.state().app.world().resource::<Interface>().0.anatomy.anatomy;
+    assert_eq!(anatomy.resident().map(|r| r.name.as_str()), Some("Short"));
+}
