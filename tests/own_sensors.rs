@@ -66,7 +66,8 @@ fn an_arm_sees_from_its_tip_along_its_last_link_and_not_itself() {
         (name: \"tip\", rays: 4, range: 9),
         (name: \"turned\", rays: 1, range: 9, mount: (x: 0.25, y: 0.5, theta: -1.5707963267948966))])";
     let mut run = Recorder::new(config(arm, 3), BOOK_SEED).unwrap();
-    // the tip is at (1, 1) and looks up; the other one sits ahead of it and to its left, at (0.5, 1.25), and looks right
+    // the tip is at (1, 1) and looks up; the other one sits ahead of it and to its left, at (0.5, 1.25), and looks
+    // right
     near(&run.frame().scans[0].ranges, &[4.0, 6.0, 6.0, 4.0]);
     near(&run.frame().scans[1].ranges, &[4.5]);
     // it goes with the arm

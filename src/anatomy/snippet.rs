@@ -156,12 +156,14 @@ fn robot_code(robot: &AnyRobot) -> String {
 
 fn car_code(car: &Hitch) -> String {
     let (body, towed) = (car.body, car.trailer_body);
+    let jackknife =
+        car.jackknife.map_or(String::new(), |limit| format!("\n        jackknife: Some({}),", number(limit)));
     let hitch_len = car.hitch_len.map_or("None".into(), |length| format!("Some({})", number(length)));
     format!(
         "Hitch {{\n        wheelbase: {},\n        max_steer: {},\n        \
          body: motion_lab::robots::CarBody {{ length: {}, width: {}, rear_overhang: {} }},\n        \
          trailer_body: motion_lab::robots::TrailerBody {{ front_overhang: {}, rear_overhang: {}, width: {} }},\n        \
-         hitch_len: {hitch_len},\n        ..HITCH\n    }}",
+         hitch_len: {hitch_len},{jackknife}\n        ..HITCH\n    }}",
         number(car.wheelbase),
         number(car.max_steer),
         number(body.length),

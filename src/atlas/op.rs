@@ -26,8 +26,8 @@ pub enum Op {
         /// Its pose.
         pose: Pose2,
     },
-    /// Move anything that has a name, its coordinates rounded to a nanometre. Arms whose sizes the world does not say are
-    /// refused, because their start holds no base.
+    /// Move anything that has a name, its coordinates rounded to a nanometre. Arms whose sizes the world does not say
+    /// are refused, because their start holds no base.
     Move {
         /// Its name.
         name: String,

@@ -10,6 +10,8 @@ pub const MAX_SIZE: f64 = 1e3;
 pub const MIN_AXLES: f64 = 0.1;
 /// Largest steering limit, radians. Nearer to a right angle the turning circle vanishes.
 pub const MAX_STEER: f64 = 1.5;
+/// Largest jackknife limit, radians. A hitch that folds by half a turn has none.
+pub const MAX_JACKKNIFE: f64 = 3.14;
 
 /// How far a chassis may fall short of an axle by rounding, metres.
 const ROUNDING: f64 = 1e-9;
@@ -17,12 +19,10 @@ const ROUNDING: f64 = 1e-9;
 /// What one robot of a kind is like. A resident without sizes has those of its kind, [`Sizes::of_kind`].
 ///
 /// ```
-/// use motion_lab::configuration::Sizes;
-/// let Some(Sizes::Car(mut car)) = Sizes::of_kind("hitch") else { panic!("a car") };
-/// assert_eq!((car.wheelbase, car.trailer.hitch), (2.5, 2.0));
-/// car.wheelbase = 3.5;
-/// let error = Sizes::Car(car).check().unwrap_err();
-/// assert_eq!(error.to_string(), "car: a length of 3.9 m does not reach from 0.7 m behind one axle to the other, 3.5 m on");
+/// use motion_lab::configuration::Sizes; let Some(Sizes::Car(mut car)) = Sizes::of_kind("hitch") else { panic!("a car")
+/// }; assert_eq!((car.wheelbase, car.trailer.hitch_len), (2.5, 2.0)); car.wheelbase = 3.5; let error =
+/// Sizes::Car(car).check().unwrap_err(); assert_eq!(error.to_string(), "car: a length of 3.9 m does not reach from 0.7
+/// m behind one axle to the other, 3.5 m on");
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
@@ -78,13 +78,15 @@ pub struct CarSizes {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TrailerSizes {
     /// Distance from the hitch, at the car's rear axle, to the trailer's axle, metres.
-    pub hitch: f64,
+    pub hitch_len: f64,
     /// Width of the box, metres.
     pub width: f64,
     /// How far the box reaches ahead of its axle, metres.
     pub front_overhang: f64,
     /// How far the box reaches behind its axle, metres.
     pub rear_overhang: f64,
+    /// How far the hitch may fold to either side, radians; `None` for any angle, so that car and trailer may overlap.
+    pub jackknife: Option<f64>,
 }
 
 /// Why sizes are refused.
@@ -167,7 +169,13 @@ impl Sizes {
                 width: 1.7,
                 rear_overhang: 0.7,
                 max_steer: 0.6,
-                trailer: TrailerSizes { hitch: 2.0, width: 1.5, front_overhang: 1.0, rear_overhang: 0.8 },
+                trailer: TrailerSizes {
+                    hitch_len: 2.0,
+                    width: 1.5,
+                    front_overhang: 1.0,
+                    rear_overhang: 0.8,
+                    jackknife: None,
+                },
             }),
         })
     }
@@ -236,10 +244,13 @@ impl CarSizes {
         if length + ROUNDING < rear_overhang + wheelbase {
             return Err(SizesError::Chassis { length, rear_overhang, wheelbase });
         }
-        within("car.trailer.hitch", trailer.hitch, [MIN_AXLES, MAX_SIZE])?;
+        within("car.trailer.hitch_len", trailer.hitch_len, [MIN_AXLES, MAX_SIZE])?;
         size("car.trailer.width", trailer.width)?;
         within("car.trailer.front_overhang", trailer.front_overhang, [0.0, MAX_SIZE])?;
         within("car.trailer.rear_overhang", trailer.rear_overhang, [0.0, MAX_SIZE])?;
+        if let Some(limit) = trailer.jackknife {
+            within("car.trailer.jackknife", limit, [MIN_FEATURE, MAX_JACKKNIFE])?;
+        }
         let reach = trailer.front_overhang + trailer.rear_overhang;
         if reach < MIN_FEATURE { Err(SizesError::Box(reach)) } else { Ok(()) }
     }

@@ -28,7 +28,6 @@ impl Hitch {
         let Sizes::Car(CarSizes { wheelbase, length, width, rear_overhang, max_steer, trailer }) = *sizes else {
             return None;
         };
-        // The one place where a car's numbers of the world become the car's. A jackknife limit goes through here too.
         Some(Hitch {
             wheelbase,
             max_steer,
@@ -38,16 +37,17 @@ impl Hitch {
                 rear_overhang: trailer.rear_overhang,
                 width: trailer.width,
             },
-            hitch_len: Some(trailer.hitch),
+            hitch_len: Some(trailer.hitch_len),
+            jackknife: trailer.jackknife,
             ..*self
         })
     }
 }
 
 impl AnyRobot {
-    /// The model of this kind, as worlds name it, with these sizes, or with its kind's own for `None`. A car given sizes
-    /// has its own trailer attached; [`fitted`](Self::fitted) takes it off. `None` for a kind that is not the lab's, or
-    /// sizes that are not its kind's.
+    /// The model of this kind, as worlds name it, with these sizes, or with its kind's own for `None`. A car given
+    /// sizes has its own trailer attached; [`fitted`](Self::fitted) takes it off. `None` for a kind that is not the
+    /// lab's, or sizes that are not its kind's.
     pub fn model(kind: &str, sizes: Option<&Sizes>) -> Option<AnyRobot> {
         let own = match RobotKind::of(kind)? {
             known if *known == RobotKind::RUSTY => AnyRobot::Rusty(RUSTY),

@@ -33,8 +33,8 @@ impl RangeSensor {
 }
 
 impl FanSensor {
-    /// The direction of ray `k` in the sensor's frame, at its [`bearing`](Self::bearing). Over a full turn it is that of
-    /// the [`RangeSensor`].
+    /// The direction of ray `k` in the sensor's frame, at its [`bearing`](Self::bearing). Over a full turn it is that
+    /// of the [`RangeSensor`].
     pub fn direction(&self, k: u32) -> (f64, f64) {
         if self.partial().is_none() {
             return self.sensor.direction(k);

@@ -135,8 +135,8 @@ fn raise_every(soup: &SegmentSoup, view: &View, kernel: &Kernel, fan: &mut Fan, 
 }
 
 impl FanSensor {
-    /// The ranges from a pose, metres: ray k at its [`bearing`](Self::bearing) from the pose's heading, against the scene
-    /// and the other robots' parts. A robot does not see itself: leave it out of `others`. For many scans keep a
+    /// The ranges from a pose, metres: ray k at its [`bearing`](Self::bearing) from the pose's heading, against the
+    /// scene and the other robots' parts. A robot does not see itself: leave it out of `others`. For many scans keep a
     /// [`Scanner`].
     ///
     /// Infinity where nothing is within range, 0 everywhere when the position is inside an obstacle or touches one.

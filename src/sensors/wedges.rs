@@ -123,8 +123,8 @@ impl Ready {
         whole(self.turned[k]) as usize
     }
 
-    /// Leaves out the blocks beyond those of a fan of less than a full turn, of which there are `blocks`. The wedges are
-    /// known for a whole turn of rays; the fan has only the first of them.
+    /// Leaves out the blocks beyond those of a fan of less than a full turn, of which there are `blocks`. The wedges
+    /// are known for a whole turn of rays; the fan has only the first of them.
     pub(super) fn clip(&mut self, blocks: usize) {
         let end = blocks as u64;
         for span in &mut self.span {

@@ -115,8 +115,8 @@ pub struct Sensors(Vec<Entity>);
 #[require(SensorName, SensorMount, Scan)]
 pub struct SensorModel(pub FanSensor);
 
-/// The name of a sensor, unique on its robot. A robot's sensors are ordered by the bytes of their names. The sensor that
-/// the run gives to its rovers has the empty name, which is the default, so it is the first.
+/// The name of a sensor, unique on its robot. A robot's sensors are ordered by the bytes of their names. The sensor
+/// that the run gives to its rovers has the empty name, which is the default, so it is the first.
 #[derive(Component, Clone, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
 #[component(immutable)]
 pub struct SensorName(pub String);
@@ -129,13 +129,14 @@ pub struct SensorMount(pub Pose2);
 
 /// The noise of a range sensor; without it the sensor is exact.
 ///
-/// Each sensor has a stream of its own, by the run's seed and names: the first of the robot NAME `NAME/beam`, another one
-/// `NAME/beam/SENSOR`. With n rays, ray k of tick t draws at index t n + k.
+/// Each sensor has a stream of its own, by the run's seed and names: the first of the robot NAME `NAME/beam`, another
+/// one `NAME/beam/SENSOR`. With n rays, ray k of tick t draws at index t n + k.
 #[derive(Component, Clone, Copy, Debug, PartialEq)]
 #[component(immutable)]
 pub struct SensorNoise(pub BeamModel);
 
-/// The ranges that a sensor of the run read at the end of the last tick, metres, one per ray; empty before the first scan.
+/// The ranges that a sensor of the run read at the end of the last tick, metres, one per ray; empty before the first
+/// scan.
 #[derive(Component, Clone, Debug, Default, PartialEq)]
 pub struct Scan(pub Vec<f64>);
 

@@ -6,8 +6,8 @@ use crate::worlds::{Resident, ResidentSensor};
 
 impl TourConfig {
     /// The sensors of a robot that has this many scans in each frame, in the order of the scans: first the run's own,
-    /// which has the empty name, if it gives the robot one, then the resident's by the bytes of their names. `None` when
-    /// there are other sensors than the configuration's, as in a run to which a program added some.
+    /// which has the empty name, if it gives the robot one, then the resident's by the bytes of their names. `None`
+    /// when there are other sensors than the configuration's, as in a run to which a program added some.
     pub fn sensors_of(&self, resident: &Resident, scans: usize) -> Option<Vec<ResidentSensor>> {
         let kind = RobotKind::of(&resident.kind);
         let given = self.sensor.filter(|_| kind.is_none_or(|kind| kind.senses));

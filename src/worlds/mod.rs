@@ -31,8 +31,8 @@
 //!     sensor: (sigma_hit: 0.02, z_short: 0.05, lambda_short: 1, z_miss: 0.01, z_max: 0.01, z_rand: 0.01)),
 //! ```
 //!
-//! A robot of any kind may carry range sensors of its own, each with a name, a number of rays and a greatest range. Left
-//! out, the field of view is a full turn, the mount is the robot's own frame, and the sensor is exact:
+//! A robot of any kind may carry range sensors of its own, each with a name, a number of rays and a greatest range.
+//! Left out, the field of view is a full turn, the mount is the robot's own frame, and the sensor is exact:
 //!
 //! ```ron
 //! (name: "Hitch", kind: "hitch", start: [3, 1, 0], sensors: [
@@ -51,7 +51,7 @@
 //! (name: "Short", kind: "reach", start: [0.1, 0.2], arm: (base: (2, 2), lengths: [0.5, 0.4], radius: 0.02)),
 //! (name: "Lorry", kind: "hitch", start: [6, 2, 0],
 //!     car: (wheelbase: 4, length: 5.6, width: 2, rear_overhang: 0.8, max_steer: 0.4,
-//!         trailer: (hitch: 3, width: 1.8, front_overhang: 1.2, rear_overhang: 1))),
+//!         trailer: (hitch_len: 3, width: 1.8, front_overhang: 1.2, rear_overhang: 1))),
 //! ```
 //!
 //! Every list may be left out. A name is unique in the whole world. A robot's `start` is its configuration's

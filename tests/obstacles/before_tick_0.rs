@@ -62,12 +62,14 @@ fn what_is_spawned_moved_and_removed_is_what_robots_meet() {
             world.spawn((bar(name, y), ObstacleOf(apartment)));
         }
         world.despawn(find(world, "A's bed"));
+        let away = Placement { present: false, ..Placement::default() };
+        world.entity_mut(find(world, "A's wardrobe")).insert(away);
         let up = Placement { present: true, pose: Pose2::new(0.0, 0.25, 0.0) };
         world.entity_mut(find(world, "A's armchair")).insert(up);
         let found = frames(world, 400);
         let expected = recorded(
             |world| {
-                world.obstacles.retain(|o| o.name != "A's bed");
+                world.obstacles.retain(|o| o.name != "A's bed" && o.name != "A's wardrobe");
                 let chair = world.obstacles.iter_mut().find(|o| o.name == "A's armchair").unwrap();
                 *chair = Obstacle::new("A's armchair", ObstacleKind::Solid, chair.pieces.clone());
                 chair.pieces[0].0 = Pose2::new(0.0, 0.25, 0.0);

@@ -98,6 +98,24 @@ fn an_obstacle_that_is_taken_away_frees_edges_and_motions() {
     assert_eq!(refused.frames[120].obstacles, []);
 }
 
+/// A car without noise that pushes at a bar gives the same command at the same place, tick after tick: what is kept of
+/// its motion must be forgotten when the bar goes, and when it comes.
+#[test]
+fn a_motion_that_is_kept_is_kept_with_its_scene() {
+    let world = crate::controls::open("field", &[("Car", "hitch", &[0.0, 0.0, 0.0])]);
+    let points = [(6.0, -3.0), (6.0, 3.0)].map(|(x, y)| (quantized(x), quantized(y))).to_vec();
+    let bar = WorldChange::Add { name: "bar".into(), points, radius: quantized(0.0) };
+    let change = |tick, change| WorldEvent { tick, world: "field".into(), change };
+    let changes = vec![change(1, bar), change(100, WorldChange::Remove("bar".into()))];
+    let script = Script::new(vec![event(1, "Car", RobotInput::Drive(128, 0))], changes);
+    let log = Run::record(TourConfig { worlds: vec![world], ticks: 110, sensor: None }, (Seed(1), script)).unwrap();
+    let x = |tick: usize| log.frames[tick - 1].robots[0].configuration[0];
+    // the chassis reaches 3.2 m ahead of the rear axle
+    assert!((6.0 - 3.2 - 1e-4..6.0 - 3.2).contains(&x(99)), "{}", x(99));
+    assert_eq!(x(90).to_bits(), x(99).to_bits());
+    assert!((x(100) - x(99) - 1.5 * 0.05).abs() < 1e-12, "free in the very tick: {}", x(100) - x(99));
+}
+
 #[test]
 fn a_moved_obstacle_is_where_the_rigid_motion_takes_it() {
     // (x, y) -> (4 - y, x - 1): a quarter turn, then a shift; the table's middle (6, 6.75) comes to (-2.75, 5)

@@ -87,6 +87,7 @@ fn of_several_changes_of_a_door_in_a_tick_the_last_wins() {
     seek(app.world_mut(), 3).unwrap();
     send(&mut app, WorldChange::Remove("A's bed".into()));
     assert_eq!(script(&app), changes(&[(4, WorldChange::Remove("A's bed".into()))]));
+    assert_eq!(app.world().resource::<Transport>().frontier, 3, "what came later is forgotten");
 }
 
 #[test]
@@ -135,4 +136,8 @@ fn a_door_where_a_robot_stands_stays_open_and_says_why() {
     run_to(&mut app, 3);
     assert_eq!(refused(&mut app), [why]);
     assert!(frame(&app).obstacles.is_empty());
+    // gone over again, it is no news
+    seek(app.world_mut(), 0).unwrap();
+    seek(app.world_mut(), 3).unwrap();
+    assert!(refused(&mut app).is_empty());
 }

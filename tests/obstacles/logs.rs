@@ -62,6 +62,79 @@ fn the_apartment_has_five_open_doors_in_its_gaps() {
 }
 
 #[test]
+fn grids_pictures_and_the_editor_know_doors() {
+    let mut world = World::apartment();
+    let cell = |world: &World| {
+        let grid = motion_lab::worlds::Grid::rasterize(world, 0.125).unwrap();
+        let (column, row) = grid.cell_at(Point2::new(3.0, 4.75)).unwrap();
+        grid.is_occupied(column, row)
+    };
+    let ids = |world: &World| {
+        let picture = motion_lab::picture::world(world);
+        let doors = picture.items.iter().filter(|i| i.id.starts_with("door/"));
+        doors.map(|i| i.id.clone()).collect::<Vec<_>>()
+    };
+    assert!(!cell(&world));
+    assert_eq!(ids(&world)[..2], ["door/door A", "door/door A/leaf"], "an open one shows its leaf");
+    world.doors[0].open = false;
+    assert!(cell(&world));
+    assert_eq!(ids(&world)[..2], ["door/door A", "door/door B"]);
+
+    use motion_lab::atlas::{Editor, Op};
+    use motion_lab::geometry::Vector2;
+    let mut editor = Editor::new(World::apartment());
+    let by = Vector2::new(0.25, -0.5);
+    editor.apply(&Op::Move { name: "door A".into(), by }).unwrap();
+    editor.apply(&Op::Rename { name: "door A".into(), to: "the gate".into() }).unwrap();
+    editor.apply(&Op::Delete { name: "door B".into() }).unwrap();
+    let doors = &editor.world().doors;
+    assert_eq!((doors[0].name.as_str(), doors.len()), ("the gate", 4));
+    assert_eq!((doors[0].a, doors[0].b), (Point2::new(2.75, 4.25), Point2::new(3.625, 4.25)));
+    let taken = editor.apply(&Op::Rename { name: "the gate".into(), to: "door C".into() });
+    assert!(taken.unwrap_err().to_string().contains("taken"));
+}
+
+/// The whole way of a jackknife limit: from the file to the run.
+#[test]
+fn a_car_is_held_at_the_jackknife_limit_that_its_world_says() {
+    let file = |limit: &str| {
+        format!(
+            "World(version: 1, name: \"yard\", bounds: (min: (-20, -20), max: (20, 20)), robots: [\n\
+             (name: \"Lorry\", kind: \"hitch\", start: [0, 0, 0, 0], car: (trailer: ({limit})))])"
+        )
+    };
+    let run = |limit: &str| {
+        let world = World::parse("yard.ron", &file(limit)).unwrap();
+        assert_eq!(World::parse("again", &world.to_ron()).unwrap(), world);
+        let events = vec![crate::simulation::event(1, "Lorry", motion_lab::run::RobotInput::Drive(-128, 128))];
+        let script = Script::new(events, vec![]);
+        Run::record(TourConfig { worlds: vec![world], ticks: 200, sensor: None }, (Seed(1), script)).unwrap()
+    };
+    let fold = |log: &Log| {
+        let fold = |f: &Frame| {
+            let q = &f.robots[0].configuration;
+            motion_lab::num::wrap(q[3] - q[2]).abs()
+        };
+        log.frames.iter().map(fold).fold(0.0, |a, b| if b > a { b } else { a })
+    };
+    // backward with full lock the trailer folds, past a right angle
+    let free = run("");
+    assert!(fold(&free) > 1.6 && free.frames.iter().all(|f| f.robots[0].contacts == 0), "{}", fold(&free));
+    let held = run("jackknife: 0.75");
+    assert!((0.75 - 1e-3..=0.75).contains(&fold(&held)), "{}", fold(&held));
+    assert_eq!(held.frames[199].robots[0].contacts, 1);
+    assert!(verify(&held, |_| {}).unwrap().divergence.is_none());
+    for (bad, why) in [("jackknife: 0", "car.trailer.jackknife 0"), ("jackknife: 3.2", "it must be from 0.001 to 3.14")]
+    {
+        let error = World::parse("yard.ron", &file(bad)).unwrap_err().to_string();
+        assert!(error.starts_with("yard.ron:2:1: robots[0] \"Lorry\": ") && error.contains(why), "{error}");
+    }
+    let folded = file("jackknife: 0.75").replace("[0, 0, 0, 0]", "[0, 0, 0, 0.8]");
+    let config = TourConfig { worlds: vec![World::parse("yard.ron", &folded).unwrap()], ticks: 1, sensor: None };
+    assert!(Run::record(config, Seed(1)).unwrap_err().to_string().contains("is no configuration of a hitch"));
+}
+
+#[test]
 fn scripts_with_changes_have_one_text_and_errors_with_a_line() {
     let text = "Script(version: 2, events: [(tick: 3, robot: \"Rusty\", input: Release)], changes: [\n\
         (tick: 1, world: \"Apartment\", change: Close(\"door A\")),\n\

@@ -14,7 +14,7 @@ fn yard() -> WorldModel {
     let text = r#"World(version: 1, name: "Yard", bounds: (min: (0, 0), max: (20, 12)),
         walls: [(name: "the wall", points: [(2, 0), (2, 12)])],
         robots: [
-            (name: "Lorry", kind: "hitch", start: [6, 8, 0], car: (trailer: (hitch: 4, rear_overhang: 1))),
+            (name: "Lorry", kind: "hitch", start: [6, 8, 0], car: (trailer: (hitch_len: 4, rear_overhang: 1))),
             (name: "Short", kind: "reach", start: [0, 0], arm: (base: (12, 3), lengths: [0.5, 0.4], radius: 0.02)),
         ])"#;
     WorldModel::parse("yard.ron", text).unwrap()
@@ -47,11 +47,11 @@ fn what_is_shown_and_asked_is_the_residents_own() {
 }
 
 #[test]
-fn the_anatomy_offers_the_residents_of_its_world() {
+fn the_residents_of_the_world_are_to_be_chosen() {
     let mut harness = lab(WIDE);
     let shown = Anatomy::of_world(yard(), WorldSource::Unsaved).unwrap();
     let mut interface = harness.state_mut().app.world_mut().resource_mut::<Interface>();
-    interface.0.widget = Widget::Anatomy;
+    interface.0.widget = Widget::Cspace;
     interface.0.anatomy.set(shown);
     harness.run_steps(3);
     harness.get_by_role_and_label(egui::accesskit::Role::ComboBox, "robot").click();

@@ -133,7 +133,8 @@ impl Preamble {
         if self.script.changes.is_empty() { FORMAT_VERSION } else { FORMAT_VERSION_WITH_CHANGES }
     }
 
-    /// The greatest range of each scan of the initial frame, metres; `None` for one of a sensor that is not the configuration's.
+    /// The greatest range of each scan of the initial frame, metres; `None` for one of a sensor that is not the
+    /// configuration's.
     pub fn max_ranges(&self) -> Vec<Option<f64>> {
         let scans = self.initial.scans.chunk_by(|a, b| a.robot == b.robot);
         let ranges = scans.flat_map(|scans| {

@@ -90,8 +90,8 @@ pub trait SimulatedRobot: Drivable<Drive: Clone + Send + Sync + 'static> {
         None
     }
 
-    /// The pose in the world of the frame that sensors are mounted in. Unless a kind says otherwise it is that of its range
-    /// sensor, and without one that of the footprint's first part.
+    /// The pose in the world of the frame that sensors are mounted in. Unless a kind says otherwise it is that of its
+    /// range sensor, and without one that of the footprint's first part.
     fn mount_pose(&self, q: &Self::Configuration) -> Pose2 {
         let first_part = || self.fitted(q).footprint(q).parts().first().map_or(Pose2::IDENTITY, |part| *part.pose());
         self.sensor_pose(q).unwrap_or_else(first_part)

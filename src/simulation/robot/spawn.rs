@@ -56,7 +56,11 @@ pub(crate) fn spawn_robot<R: SimulatedRobot>(
     let q = R::Configuration::from_coordinates(&resident.start).ok_or_else(refused)?;
     // through the robot itself, which wraps the angles
     let q = canonical(&robot.configuration_at(&q, &resident.start).ok_or_else(refused)?);
-    robot.fitted(&q).check(&q).map_err(|_| refused())?;
+    let fitted = robot.fitted(&q);
+    fitted.check(&q).map_err(|_| refused())?;
+    if !fitted.is_within_limits(&q) {
+        return Err(refused());
+    }
     let noise = resident.sensor.map(|noise| noise.try_new()).transpose().map_err(|source| SpawnError::Noise {
         robot: resident.name.clone(),
         world: request.model.name.clone(),

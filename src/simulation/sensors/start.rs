@@ -13,8 +13,8 @@ use crate::simulation::{
 };
 use crate::worlds::{check_mount, check_name};
 
-/// Takes the sensor entities anew at tick 0, and with them the scans and frame 0, if one was spawned, changed or removed
-/// since. Before a run has left tick 0 its sensor entities are the truth; after it this does nothing.
+/// Takes the sensor entities anew at tick 0, and with them the scans and frame 0, if one was spawned, changed or
+/// removed since. Before a run has left tick 0 its sensor entities are the truth; after it this does nothing.
 ///
 /// [`step`](crate::simulation::step) calls it; whoever reads frame 0 after spawning sensors calls it first.
 pub fn take_sensors_at_start(world: &mut World) {

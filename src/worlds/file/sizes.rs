@@ -64,13 +64,15 @@ pub(crate) struct CarText {
 #[serde(deny_unknown_fields)]
 pub(crate) struct TrailerText {
     #[serde(default, deserialize_with = "given")]
-    hitch: Option<f64>,
+    hitch_len: Option<f64>,
     #[serde(default, deserialize_with = "given")]
     width: Option<f64>,
     #[serde(default, deserialize_with = "given")]
     front_overhang: Option<f64>,
     #[serde(default, deserialize_with = "given")]
     rear_overhang: Option<f64>,
+    #[serde(default, deserialize_with = "given")]
+    jackknife: Option<f64>,
 }
 
 /// The sizes that the text of a robot of this kind gives, checked; `None` where it gives none.
@@ -137,10 +139,11 @@ impl CarText {
 impl TrailerText {
     fn over(&self, own: &TrailerSizes) -> TrailerSizes {
         TrailerSizes {
-            hitch: or(self.hitch, own.hitch),
+            hitch_len: or(self.hitch_len, own.hitch_len),
             width: or(self.width, own.width),
             front_overhang: or(self.front_overhang, own.front_overhang),
             rear_overhang: or(self.rear_overhang, own.rear_overhang),
+            jackknife: self.jackknife.or(own.jackknife),
         }
     }
 }
@@ -169,12 +172,13 @@ pub(super) fn sizes_text(sizes: Option<&Sizes>) -> String {
                 ("max_steer", car.max_steer),
             ]);
             let trailer = numbers(&[
-                ("hitch", car.trailer.hitch),
+                ("hitch_len", car.trailer.hitch_len),
                 ("width", car.trailer.width),
                 ("front_overhang", car.trailer.front_overhang),
                 ("rear_overhang", car.trailer.rear_overhang),
             ]);
-            format!("{chassis}, trailer: ({trailer})")
+            let limit = car.trailer.jackknife.map_or(String::new(), |limit| format!(", jackknife: {limit:?}"));
+            format!("{chassis}, trailer: ({trailer}{limit})")
         }
     };
     format!(", {}: ({inner})", sizes.map_or("", Sizes::field))

@@ -43,9 +43,9 @@ fn numbers_given_are_the_robots_and_the_others_its_kinds() {
     assert_eq!(read(&format!("{REACH}, arm: (base: (1, 2))")), arm(1.0, 2.0, &[1.0, 1.0], 0.03));
     let three = "name: \"r\", kind: \"reach3\", start: [0, 0, 0], arm: (lengths: [3, 2, 1])";
     assert_eq!(read(three), arm(0.0, 0.0, &[3.0, 2.0, 1.0], 0.03));
-    let trailer = TrailerSizes { hitch: 3.0, width: 1.5, front_overhang: 1.0, rear_overhang: 0.0 };
+    let trailer = TrailerSizes { hitch_len: 3.0, width: 1.5, front_overhang: 1.0, rear_overhang: 0.0, jackknife: None };
     let car = CarSizes { wheelbase: 2.0, length: 3.9, width: 1.7, rear_overhang: 0.5, max_steer: 0.4, trailer };
-    let given = "wheelbase: 2, rear_overhang: 0.5, max_steer: 0.4, trailer: (hitch: 3, rear_overhang: -0.0)";
+    let given = "wheelbase: 2, rear_overhang: 0.5, max_steer: 0.4, trailer: (hitch_len: 3, rear_overhang: -0.0)";
     assert_eq!(read(&format!("{HITCH}, car: ({given})")), Some(Sizes::Car(car)));
 }
 
@@ -69,7 +69,7 @@ fn the_print_says_every_number_and_nothing_for_none() {
     assert_eq!(
         line(&format!("{HITCH}, car: (trailer: (width: 1))")),
         "(name: \"r\", kind: \"hitch\", start: [1.0, 2.0, 0.0], car: (wheelbase: 2.5, length: 3.9, width: 1.7, \
-         rear_overhang: 0.7, max_steer: 0.6, trailer: (hitch: 2.0, width: 1.0, front_overhang: 1.0, \
+         rear_overhang: 0.7, max_steer: 0.6, trailer: (hitch_len: 2.0, width: 1.0, front_overhang: 1.0, \
          rear_overhang: 0.8))),"
     );
     let hash = |robot: &str| World::parse("yard.ron", &file(robot)).unwrap().content_hash();
@@ -94,7 +94,7 @@ fn numbers_out_of_range_are_named() {
         (HITCH, "car: (width: {})", range),
         (HITCH, "car: (rear_overhang: {})", "it must be from 0 to 1000"),
         (HITCH, "car: (max_steer: {})", "it must be from 0.001 to 1.5"),
-        (HITCH, "car: (trailer: (hitch: {}))", "it must be from 0.1 to 1000"),
+        (HITCH, "car: (trailer: (hitch_len: {}))", "it must be from 0.1 to 1000"),
         (HITCH, "car: (trailer: (width: {}))", range),
         (HITCH, "car: (trailer: (front_overhang: {}))", "it must be from 0 to 1000"),
         (HITCH, "car: (trailer: (rear_overhang: {}))", "it must be from 0 to 1000"),

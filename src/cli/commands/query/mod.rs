@@ -64,9 +64,9 @@ pub struct Query {
     /// Where the motion of `swept` or `edge` ends.
     #[arg(value_name = "TO", allow_hyphen_values = true)]
     to: Option<Numbers>,
-    /// The robot: a resident of the world by its name, with the sizes that the world says; else one of a kind: rusty (the
-    /// disc of radius 0.11 m: x,y or x,y,theta), reach (the two-link arm with 3 cm capsule links: th1,th2), choset (the
-    /// same arm without thickness), reach3 (the three-link arm: th1,th2,th3), hitch (the car: x,y,theta; with the
+    /// The robot: a resident of the world by its name, with the sizes that the world says; else one of a kind: rusty
+    /// (the disc of radius 0.11 m: x,y or x,y,theta), reach (the two-link arm with 3 cm capsule links: th1,th2), choset
+    /// (the same arm without thickness), reach3 (the three-link arm: th1,th2,th3), hitch (the car: x,y,theta; with the
     /// trailer x,y,theta,psi). `scan` needs none, its configuration is where the sensor is: x,y or x,y,theta.
     #[arg(long, value_name = "NAME|KIND")]
     robot: Option<String>,
