@@ -4,9 +4,10 @@ use std::path::Path;
 
 use motion_lab::anatomy::{Anatomy, Tab, WorldSource};
 use motion_lab::collision::Collision;
+use motion_lab::configuration::Sizes;
 use motion_lab::num::sqrt;
 use motion_lab::robots::AnyRobot;
-use motion_lab::worlds::World;
+use motion_lab::worlds::{Resident, World};
 
 /// Each snippet is a program of its own, checked in as the anatomy copies it. Its `main` fails on numbers other than
 /// those shown.
@@ -25,7 +26,17 @@ macro_rules! snippets {
             &[$((stringify!($name), include_str!(concat!("snippets/", stringify!($name), ".rs")), $name::run)),*];
     };
 }
-snippets!(intersects, distance, witness, swept, thick_distance, car_swept, own_world_witness, disc_witness);
+snippets!(
+    intersects,
+    distance,
+    witness,
+    swept,
+    thick_distance,
+    car_swept,
+    own_world_witness,
+    disc_witness,
+    own_car_swept
+);
 
 /// The anatomy from which a snippet is copied.
 fn source_of(name: &str) -> Anatomy {
@@ -51,6 +62,13 @@ fn source_of(name: &str) -> Anatomy {
             Anatomy::new(world, WorldSource::Unsaved, car, q).unwrap().with_tab(Tab::Witness)
         }
         "disc_witness" => of("apartment").with_tab(Tab::Witness),
+        "own_car_swept" => {
+            let mut world = World::lot();
+            let Some(Sizes::Car(mut car)) = Sizes::of_kind("hitch") else { panic!("a car") };
+            (car.width, car.max_steer, car.trailer.hitch_len) = (1.25, 0.5, 2.75);
+            world.robots[0] = Resident::new("Hitch", "hitch", [6.5, 2.5, 0.25, -0.5]).with_sizes(Sizes::Car(car));
+            Anatomy::of_world(world, WorldSource::Unsaved).unwrap().with_tab(Tab::Swept)
+        }
         other => panic!("no source for {other}"),
     }
 }

@@ -16,6 +16,7 @@ mod queries;
 mod record;
 mod replay;
 mod scripts;
+mod sizes;
 mod stills;
 mod verify;
 mod viewer;

@@ -66,6 +66,8 @@ mod sensor_noise;
 mod sightings;
 #[cfg(feature = "sim")]
 mod simulation;
+#[cfg(feature = "sim")]
+mod sizes;
 mod sweeps;
 mod tangents;
 #[cfg(feature = "sim")]

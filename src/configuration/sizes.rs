@@ -11,7 +11,7 @@ pub const MIN_AXLES: f64 = 0.1;
 /// Largest steering limit, radians. Nearer to a right angle the turning circle vanishes.
 pub const MAX_STEER: f64 = 1.5;
 /// Largest jackknife limit, radians. A hitch that folds by half a turn has none.
-pub const MAX_JACKKNIFE: f64 = 3.14;
+pub const MAX_JACKKNIFE: f64 = 3.1;
 
 /// How far a chassis may fall short of an axle by rounding, metres.
 const ROUNDING: f64 = 1e-9;

@@ -73,12 +73,15 @@ pub use beam::{BeamError, BeamModel};
 pub use convex_pieces::{MAX_CONCAVE_VERTICES, OutlineError, convex_pieces};
 pub use error::{WorldError, WorldItem, WorldProblem};
 pub use file::comments::comments;
+#[cfg(feature = "sim")]
 pub(crate) use file::name::check_name;
+#[cfg(feature = "sim")]
 pub(crate) use file::resident::check_sensors;
 pub use grid::cells::{Grid, GridError, MAX_CELLS};
 pub use grid::distance_transform::DistanceTransform;
 pub use grid::ros_export::RosFiles;
 pub use model::{Door, Mark, Obstacle, ObstacleKind, Outline, Place, Resident, World, Written};
+#[cfg(feature = "sim")]
 pub(crate) use sensor::check_mount;
 pub use sensor::{
     FanSensor, MAX_RANGE, MAX_RAYS, MAX_SENSORS, MIN_FIELD_OF_VIEW, MIN_RANGE, RangeSensor, ResidentSensor,

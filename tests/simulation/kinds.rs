@@ -5,7 +5,7 @@ use bevy::prelude::MinimalPlugins;
 use motion_lab::atlas::{Atlas, names};
 use motion_lab::capture::{CaptureError, Subject, at_tick_with_robots, run_svg};
 use motion_lab::collision::{Collision, Scene};
-use motion_lab::configuration::{Kinds, RobotKind, Space};
+use motion_lab::configuration::{DiscSizes, Kinds, RobotKind, Sizes, Space};
 use motion_lab::geometry::Aabb;
 use motion_lab::manifest::{Formula, Level};
 use motion_lab::picture::Theme;
@@ -126,6 +126,23 @@ fn a_new_kind_runs_by_name_beside_the_lab_s_own() {
 
     let unknown = Run::record(config(1), Seed(8));
     assert!(matches!(unknown, Err(RunError::Spawn(e)) if e.to_string().contains("no kind \"puck\"")));
+}
+
+#[test]
+fn a_type_without_the_hook_takes_no_sizes() {
+    let add = |app: &mut bevy::app::App| {
+        app.add_plugins(RobotPlugin::new("puck", Puck { radius: 0.2 }));
+        app.add_plugins(RobotPlugin::new("x-big", RUSTY));
+    };
+    let sizes = || Sizes::Disc(DiscSizes { radius: 0.4, track: 0.3, wheel_radius: 0.05 });
+    let mut config = config(1);
+    config.worlds[0].robots[0].sizes = Some(sizes());
+    let refused = Run::record_with_robots(config.clone(), Seed(8), add).unwrap_err().to_string();
+    assert!(refused.ends_with("`disc` is for the lab's kinds: what a puck is like, its program says"), "{refused}");
+    // a type that has the hook takes them under any name
+    config.worlds[0].robots = vec![Resident::new("it", "x-big", [0.0; 3]).with_sizes(sizes())];
+    let run = Recorder::with_robots(config, Seed(8), add).unwrap();
+    assert_eq!(run.view()[0].footprint.parts()[0].placed().radius(), 0.4);
 }
 
 /// One of the lab's own kinds, registered again: a car with dimensions of its own.

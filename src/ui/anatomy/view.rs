@@ -199,8 +199,9 @@ fn exact(slider: Slider<'_>, decimals: usize) -> Slider<'_> {
 
 /// A slider for a coordinate of the configuration.
 pub(crate) fn coordinate(ui: &mut Ui, anatomy: &mut Anatomy, index: usize, name: &str) {
+    // another robot may have been chosen in this very frame
+    let Some(mut value) = anatomy.q().coordinates().get(index).copied() else { return };
     let [least, most] = anatomy.range(index);
-    let mut value = anatomy.q().coordinates()[index];
     let response = ui.add(exact(Slider::new(&mut value, least..=most), 4).text(name));
     response.widget_info(|| WidgetInfo::slider(true, value, name));
     if response.changed() {

@@ -38,7 +38,7 @@ impl Resident {
     ///
     /// # Errors
     /// [`WorldProblem::Sensors`] for the first sensor with a bad or taken name, or with a number out of range, and for
-    /// more than [`MAX_SENSORS`](crate::worlds::MAX_SENSORS).
+    /// more than [`MAX_SENSORS`].
     pub fn try_with_sensors(self, sensors: &[ResidentSensor]) -> Result<Self, WorldProblem> {
         Ok(Resident { sensors: check_sensors(sensors)?, ..self })
     }

@@ -20,7 +20,7 @@ pub enum Chosen {
     /// A robot of a kind's own sizes.
     Kind(RobotName),
     /// A resident of the world, as its world says it is.
-    Resident(Resident),
+    Resident(Box<Resident>),
 }
 
 impl Chosen {
@@ -31,7 +31,7 @@ impl Chosen {
                 let reason = format!("{name} is a {}, a kind of some program's own", resident.kind);
                 return Err(Failure::usage(reason, "Ask about it through the library, from that program."));
             }
-            return Ok(Chosen::Resident(resident.clone()));
+            return Ok(Chosen::Resident(Box::new(resident.clone())));
         }
         RobotName::from_str(name, false).map(Chosen::Kind).map_err(|_| {
             let names: Vec<&str> = world.robots.iter().map(|r| r.name.as_str()).collect();
@@ -75,7 +75,7 @@ impl Chosen {
             Chosen::Kind(name) => return name.at(numbers, world),
             Chosen::Resident(resident) => resident,
         };
-        let Resident { name, kind, start, sizes, .. } = resident;
+        let Resident { name, kind, start, sizes, .. } = &**resident;
         let numbers = match numbers {
             Some([x, y]) if *kind == RobotKind::RUSTY.name => vec![*x, *y, 0.0],
             Some(numbers) => numbers.to_vec(),
