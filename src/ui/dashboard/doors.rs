@@ -1,6 +1,6 @@
 //! The doors of a pane's world: found under the pointer, and opened and closed.
 
-use bevy_egui::egui::{TextStyle, Ui};
+use bevy_egui::egui::{TextStyle, TextWrapMode, Ui};
 
 use crate::geometry::{Point2, Segment};
 use crate::picture::{Fit, ScreenPoint};
@@ -43,6 +43,7 @@ pub fn links(ui: &mut Ui, cockpit: &Cockpit, commands: &mut Vec<Command>) {
     }
     ui.spacing_mut().interact_size.y = ui.text_style_height(&TextStyle::Body);
     ui.horizontal_wrapped(|ui| {
+        ui.style_mut().wrap_mode = Some(TextWrapMode::Extend);
         for door in &world.doors {
             if ui.link(words(door)).clicked() {
                 toggle(&world.name, door, commands);
