@@ -5,7 +5,7 @@ use bevy::prelude::*;
 use super::error::SessionError;
 use crate::atlas::Atlas;
 use crate::run::{Quantized, RobotInput};
-use crate::simulation::{RobotCommand, Roster, RunCommand, StandingWorld, TransportCommand, view};
+use crate::simulation::{RobotCommand, RobotKinds, Roster, RunCommand, StandingWorld, TransportCommand, view};
 use crate::worlds::World as WorldModel;
 
 /// Puts a robot of the run at these chart coordinates, as an input of the run that can be undone.
@@ -19,7 +19,7 @@ pub fn put_robot(world: &mut World, of: &str, robot: &str, coordinates: &[f64]) 
     let quantized: Vec<Quantized> =
         coordinates.iter().map(|c| Quantized::try_new(*c)).collect::<Option<_>>().ok_or_else(unknown)?;
     let rounded: Vec<f64> = quantized.iter().map(|c| c.value()).collect();
-    let mut atlas = Atlas::new(standing);
+    let mut atlas = Atlas::new(standing).knowing(world.resource::<RobotKinds>().known());
     let index = atlas.robots().iter().position(|r| r.name == robot).ok_or_else(unknown)?;
     let wanted = atlas.robots()[index].q.with_coordinates(&rounded).ok_or_else(unknown)?;
     atlas.teleport(index, wanted).ok_or_else(unknown)?.map_err(SessionError::Refused)?;

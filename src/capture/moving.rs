@@ -178,12 +178,24 @@ pub fn at_tick_with_robots(
     Ok(Captured { figure, notes })
 }
 
-/// The parts of a world's picture that do not change during a run.
+/// The parts of a world's picture that only a change of the world changes.
 struct Backdrop {
     number: u32,
+    /// The world as it is drawn; `None` for the world at the start.
+    standing: Option<Arc<World>>,
     world: Arc<Picture>,
     /// The names of everything and the dots of the places.
     names: Vec<Item>,
+}
+
+impl Backdrop {
+    /// Draws the world anew where its obstacles or doors have changed.
+    fn stand(&mut self, now: &Arc<World>) {
+        if self.standing.as_ref().is_none_or(|old| !Arc::ptr_eq(old, now)) {
+            self.world = Arc::new(draw_world(now));
+            self.standing = Some(Arc::clone(now));
+        }
+    }
 }
 
 /// A subject under way. It is shown the run tick by tick, and draws any of them.
@@ -217,7 +229,7 @@ impl<'a> Moving<'a> {
             let standing = Atlas::new(World { robots: Vec::new(), ..model.clone() });
             let dots = places(&model.places).into_iter().filter(|i| !matches!(i.drawing, Drawing::Label { .. }));
             let names = if named { dots.chain(names(&standing, scale)).collect() } else { Vec::new() };
-            Backdrop { number, world: Arc::clone(world), names }
+            Backdrop { number, standing: None, world: Arc::clone(world), names }
         };
         let backdrops = shown.iter().zip(pictures.iter().zip(blank.px_per_metre(width_px))).map(named).collect();
         Ok(Moving { log, digest: log.digest().to_string(), subject, backdrops, space: None })
@@ -252,6 +264,12 @@ impl<'a> Moving<'a> {
             let mut captured = space.captured(drawn)?;
             captured.figure.caption.push(when);
             return Ok(Captured { notes, ..captured });
+        }
+        let standing = run.standing_worlds();
+        for backdrop in &mut self.backdrops {
+            if let Some(now) = standing.get(backdrop.number as usize) {
+                backdrop.stand(now);
+            }
         }
         let views = run.view();
         let in_atlas = matches!(self.subject, Subject::Atlas { .. });

@@ -153,6 +153,18 @@ fn a_new_obstacle_stands_where_the_script_puts_it() {
 }
 
 #[test]
+fn a_capture_shows_the_doors_as_they_stand() {
+    let log = Run::record(apartment(6), (Seed(3), changes(&[(2, close()), (5, open())]))).unwrap();
+    let subject = motion_lab::capture::Subject::Dashboard { names: false, scan: false };
+    for (tick, is_open) in [(1, true), (2, false), (4, false), (5, true)] {
+        let captured = motion_lab::capture::at_tick(&log, &subject, tick, 640.0).unwrap();
+        let items = &captured.figure.panels[0].picture.items;
+        assert!(items.iter().any(|item| item.id == "door/door A"));
+        assert_eq!(items.iter().any(|item| item.id == "door/door A/leaf"), is_open, "tick {tick}");
+    }
+}
+
+#[test]
 fn a_run_goes_back_over_its_changes_and_forward_again() {
     let table = "B's round table".to_owned();
     let to = (quantized(0.25), quantized(0.5), quantized(0.125));
