@@ -268,7 +268,7 @@ fn change_links(world: &mut World, robot: &str, links: usize) -> Result<(), Sess
     let mut arms = config.worlds.iter_mut().flat_map(|w| &mut w.robots);
     let Some(arm) = arms.find(|r| r.name == robot) else { return Err(SessionError::NoRobot(robot.to_owned())) };
     arm.kind = if links == 3 { RobotKind::REACH3 } else { RobotKind::REACH }.name.into();
-    // base and radius are its own still; the lengths are those of an arm of so many links
+    // base and radius are its own still; the lengths become those of the other kind
     if let (Some(Sizes::Arm(own)), Some(Sizes::Arm(other))) = (&mut arm.sizes, Sizes::of_kind(&arm.kind)) {
         own.lengths = other.lengths;
     }

@@ -2,7 +2,9 @@
 
 use std::sync::Arc;
 
-use super::{ConvexPolygon, MAX_COORDINATE, MIN_FEATURE, Placed, Point2, PolygonError, Pose2, SinCos, Vertices};
+use super::{
+    ConvexPolygon, MAX_COORDINATE, MIN_FEATURE, Placed, Point2, PolygonError, Pose2, SinCos, Vertices, convex_hull,
+};
 use crate::num::{self, greater};
 
 /// A closed convex shape in its own frame, in metres.
@@ -113,6 +115,26 @@ impl Shape {
         Self::try_segment(a, b)?;
         let radius = if radius == 0.0 { 0.0 } else { check_radius(radius)? };
         Ok(Shape::Capsule { a, b, radius })
+    }
+
+    /// All points within `radius` of the convex hull of some points, at least two of which differ; a radius of exactly
+    /// 0 gives the hull itself.
+    ///
+    /// # Errors
+    /// [`ShapeError`] for a bad coordinate or radius, or a side of the hull shorter than [`MIN_FEATURE`]; for points that
+    /// are all one, a length of 0.
+    pub fn try_rounded(points: &[Point2], radius: f64) -> Result<Self, ShapeError> {
+        let vertices = convex_hull(points);
+        match vertices[..] {
+            [] | [_] => return Err(ShapeError::TooShort(0.0)),
+            [a, b] => return Self::try_capsule(a, b, radius),
+            _ => {}
+        }
+        let radius = if radius == 0.0 { 0.0 } else { check_radius(radius)? };
+        for (i, a) in vertices.iter().enumerate() {
+            Self::try_segment(*a, vertices[(i + 1) % vertices.len()])?;
+        }
+        Ok(Shape::Hull { vertices: vertices[..].into(), radius })
     }
 
     /// A rectangle from two opposite corners.

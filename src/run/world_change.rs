@@ -81,18 +81,8 @@ impl WorldChange {
 /// All points within a radius of the convex hull of some points, with the pose of its frame.
 fn piece(points: &[(Quantized, Quantized)], radius: f64) -> Result<(Pose2, Shape), ShapeError> {
     let points: Vec<Point2> = points.iter().map(|(x, y)| Point2::new(x.value(), y.value())).collect();
-    let vertices = convex_hull(&points);
-    Ok(match vertices[..] {
-        [] => return Err(ShapeError::TooShort(0.0)),
-        [centre] => (Pose2::new(centre.x, centre.y, 0.0), Shape::try_disc(radius)?),
-        [a, b] if radius == 0.0 => (Pose2::IDENTITY, Shape::try_segment(a, b)?),
-        [a, b] => (Pose2::IDENTITY, Shape::try_capsule(a, b, radius)?),
-        _ => {
-            for (i, a) in vertices.iter().enumerate() {
-                Shape::try_segment(*a, vertices[(i + 1) % vertices.len()])?;
-            }
-            let radius = if radius == 0.0 { 0.0 } else { Shape::try_disc(radius)?.radius() };
-            (Pose2::IDENTITY, Shape::Hull { vertices: vertices[..].into(), radius })
-        }
-    })
+    match convex_hull(&points)[..] {
+        [centre] => Ok((Pose2::new(centre.x, centre.y, 0.0), Shape::try_disc(radius)?)),
+        _ => Ok((Pose2::IDENTITY, Shape::try_rounded(&points, radius)?)),
+    }
 }

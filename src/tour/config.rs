@@ -126,15 +126,7 @@ mod tests {
     fn world(name: &str, robots: &[&str]) -> World {
         let bounds = Aabb { min: Point2::new(0.0, 0.0), max: Point2::new(1.0, 1.0) };
         let resident = |name: &&str| Resident::new(*name, "rusty", [0.5; 3]);
-        World {
-            name: name.into(),
-            bounds,
-            obstacles: vec![],
-            doors: vec![],
-            places: vec![],
-            marks: vec![],
-            robots: robots.iter().map(resident).collect(),
-        }
+        World { robots: robots.iter().map(resident).collect(), ..World::empty(name, bounds) }
     }
 
     fn config() -> TourConfig {

@@ -64,12 +64,17 @@ fn what_is_spawned_moved_and_removed_is_what_robots_meet() {
         world.despawn(find(world, "A's bed"));
         let away = Placement { present: false, ..Placement::default() };
         world.entity_mut(find(world, "A's wardrobe")).insert(away);
+        // a door is closed, and put half a metre to the right
+        let aside = Placement { present: true, pose: Pose2::new(0.5, 0.0, 0.0) };
+        world.entity_mut(find(world, "door E")).insert(aside);
         let up = Placement { present: true, pose: Pose2::new(0.0, 0.25, 0.0) };
         world.entity_mut(find(world, "A's armchair")).insert(up);
         let found = frames(world, 400);
         let expected = recorded(
             |world| {
                 world.obstacles.retain(|o| o.name != "A's bed" && o.name != "A's wardrobe");
+                (world.doors[4].a, world.doors[4].b) = (Point2::new(9.0, 3.25), Point2::new(8.125, 3.25));
+                world.doors[4].open = false;
                 let chair = world.obstacles.iter_mut().find(|o| o.name == "A's armchair").unwrap();
                 *chair = Obstacle::new("A's armchair", ObstacleKind::Solid, chair.pieces.clone());
                 chair.pieces[0].0 = Pose2::new(0.0, 0.25, 0.0);

@@ -163,7 +163,7 @@ pub(crate) fn shape_of(obstacle: &Obstacle) -> ObstacleShape {
 }
 
 /// An obstacle after a rigid motion.
-fn moved(obstacle: &Obstacle, pose: &Pose2) -> Obstacle {
+pub(crate) fn moved(obstacle: &Obstacle, pose: &Pose2) -> Obstacle {
     if *pose == Pose2::IDENTITY {
         return obstacle.clone();
     }
@@ -227,10 +227,15 @@ pub(crate) fn refresh(world: &mut World, roster: &mut ObstacleRoster) {
 
 /// Makes the entities of added obstacles those of these changes: spawns what they add, and despawns what they don't.
 pub(crate) fn sync_added(world: &mut World, changes: &[WorldEvent]) {
+    let mut added: BTreeMap<&str, Vec<Obstacle>> = BTreeMap::new();
+    for WorldEvent { world, change, .. } in changes {
+        if let Some(Ok(obstacle)) = change.added() {
+            added.entry(world).or_default().push(obstacle);
+        }
+    }
     at_work(world, |world, roster| {
         for ground in &mut roster.grounds {
-            let own = changes.iter().filter(|change| change.world == ground.start.name);
-            let wanted: Vec<Obstacle> = own.filter_map(|change| change.change.added()?.ok()).collect();
+            let wanted = added.remove(ground.start.name.as_str()).unwrap_or_default();
             let file = ground.start.obstacles.len() + ground.start.doors.len();
             let is_kept = |(entry, obstacle): &(&Entry, &Obstacle)| matches!(&entry.source, Source::Added(own) if own == *obstacle);
             let kept = file + ground.entries[file..].iter().zip(&wanted).take_while(is_kept).count();

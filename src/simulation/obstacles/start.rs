@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use bevy::prelude::*;
 
-use super::roster::{Ground, ObstacleRoster, at_work, refresh};
+use super::roster::{Ground, ObstacleRoster, at_work, moved, refresh};
 use crate::geometry::{Pose2, Shape};
 use crate::simulation::{
     CommandError, CommandRefused, Door, History, Keyframes, ObstacleShape, Obstacles, PendingInput, Placement,
@@ -53,7 +53,8 @@ pub(crate) fn settle_start(world: &mut World) {
 
 /// The obstacles and the doors of a world's entities, and the entities in the same order.
 fn gather(world: &mut World, ground: &Ground) -> (Vec<Obstacle>, Vec<DoorModel>, Vec<Entity>) {
-    let there: Vec<Entity> = world.get::<Obstacles>(ground.entity()).map_or_else(Vec::new, |o| o.iter().collect());
+    let there: BTreeSet<Entity> =
+        world.get::<Obstacles>(ground.entity()).map_or_else(BTreeSet::new, |o| o.iter().collect());
     let known: Vec<Entity> = ground.entities().filter(|e| there.contains(e)).collect();
     let of_file: BTreeSet<Entity> = known.iter().copied().collect();
     let mut new: Vec<(&str, Entity)> = there
@@ -106,17 +107,14 @@ fn are_valid(shape: &ObstacleShape, pose: &Pose2) -> bool {
 fn obstacle(start: &WorldModel, shape: &ObstacleShape, pose: &Pose2) -> Obstacle {
     let is_at_first = *pose == Pose2::IDENTITY;
     let own = start.obstacle(&shape.name).filter(|o| is_at_first && o.kind == shape.kind && o.pieces == shape.pieces);
-    own.cloned().unwrap_or_else(|| {
-        let frame = |f: &Pose2| if is_at_first { *f } else { pose.compose(f) };
-        let pieces = shape.pieces.iter().map(|(f, s)| (frame(f), s.clone())).collect();
-        Obstacle::new(&shape.name, shape.kind, pieces)
-    })
+    own.cloned().unwrap_or_else(|| moved(&Obstacle::new(&shape.name, shape.kind, shape.pieces.clone()), pose))
 }
 
 /// The door of an entity: its one piece must be a segment.
 fn door(shape: &ObstacleShape, placement: &Placement) -> Option<DoorModel> {
-    let [(frame, Shape::Segment { a, b })] = &shape.pieces[..] else { return None };
-    let at = |p| if *frame == Pose2::IDENTITY { p } else { frame.transform(p) };
-    let at = |p| if placement.pose == Pose2::IDENTITY { at(p) } else { placement.pose.transform(at(p)) };
-    Some(DoorModel { name: shape.name.clone(), a: at(*a), b: at(*b), open: !placement.present })
+    let [(_, Shape::Segment { .. })] = &shape.pieces[..] else { return None };
+    let leaf = moved(&Obstacle::new(&shape.name, shape.kind, shape.pieces.clone()), &placement.pose);
+    let placed = leaf.placed().next()?;
+    let [a, b] = *placed.core() else { return None };
+    Some(DoorModel { name: shape.name.clone(), a, b, open: !placement.present })
 }

@@ -47,15 +47,7 @@ fn robot<R: Robot>(name: &str, kind: &str, robot: &R, q: R::Configuration) -> Co
 
 fn cockpit(world: &str, width: f64, height: f64, robot: CockpitRobot) -> Cockpit {
     let bounds = Aabb { min: Point2::new(0.0, 0.0), max: Point2::new(width, height) };
-    let model = World {
-        name: world.into(),
-        bounds,
-        obstacles: vec![],
-        doors: vec![],
-        places: vec![],
-        marks: vec![],
-        robots: vec![],
-    };
+    let model = World::empty(world, bounds);
     let atlas = Arc::new(Atlas::new(model));
     Cockpit { world: Arc::new(Picture::new(world, bounds)), atlas, robots: vec![robot] }
 }

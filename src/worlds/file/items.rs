@@ -134,17 +134,11 @@ fn make_pieces(text: &ShapeText, solid: &mut Obstacle, budget: &mut Budget) -> R
 }
 
 fn make_rounded(points: &[Point2], radius: f64) -> Result<Shape, WorldProblem> {
-    let vertices = convex_hull(points);
-    let radius = match vertices.len() {
-        0 | 1 => return Err(WorldProblem::TooFewPoints { found: vertices.len(), least: 2 }),
-        2 => return Ok(Shape::try_capsule(vertices[0], vertices[1], radius)?),
-        _ if radius == 0.0 => 0.0,
-        _ => Shape::try_disc(radius)?.radius(),
-    };
-    for (i, a) in vertices.iter().enumerate() {
-        Shape::try_segment(*a, vertices[(i + 1) % vertices.len()])?;
+    let found = convex_hull(points).len();
+    if found < 2 {
+        return Err(WorldProblem::TooFewPoints { found, least: 2 });
     }
-    Ok(Shape::Hull { vertices: vertices[..].into(), radius })
+    Ok(Shape::try_rounded(points, radius)?)
 }
 
 pub(crate) fn make_place(text: &PlaceText) -> Result<Place, WorldProblem> {
