@@ -17,6 +17,7 @@ mod chapter;
 mod cli;
 #[cfg(feature = "sim")]
 mod controls;
+mod crowds;
 mod edges;
 #[cfg(feature = "sim")]
 mod examples;

@@ -8,6 +8,7 @@
 #![allow(missing_docs, clippy::unwrap_used, clippy::expect_used, clippy::print_stdout, clippy::disallowed_methods)]
 
 mod contest;
+mod crowd;
 mod edges;
 mod measure;
 mod peer;
@@ -92,6 +93,7 @@ fn main() {
     queries::rows(&mut table);
     edges::rows(&mut table);
     runs::rows(&mut table);
+    crowd::rows(&mut table);
     if agree {
         assert!(table.rows.len() > 25, "only {} rows", table.rows.len());
     } else if table.only.is_none() {

@@ -17,6 +17,8 @@ mod witness;
 
 pub(crate) use boundary::grid::{Cells, Place};
 pub(crate) use boundary::segments::{Circle, LANES, SegmentSoup};
+#[cfg(feature = "sim")]
+pub(crate) use broad::index::Index;
 pub use checker::{CarChecker, ChainChecker, Checker, DiscChecker};
 pub use counted::{Counted, QueryCounts};
 pub use motion::certificate::{Certificate, CertificateError, ProvenStep};

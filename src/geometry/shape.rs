@@ -121,8 +121,8 @@ impl Shape {
     /// 0 gives the hull itself.
     ///
     /// # Errors
-    /// [`ShapeError`] for a bad coordinate or radius, or a side of the hull shorter than [`MIN_FEATURE`]; for points that
-    /// are all one, a length of 0.
+    /// [`ShapeError`] for a bad coordinate or radius, or a side of the hull shorter than [`MIN_FEATURE`]; for points
+    /// that are all one, a length of 0.
     pub fn try_rounded(points: &[Point2], radius: f64) -> Result<Self, ShapeError> {
         let vertices = convex_hull(points);
         match vertices[..] {

@@ -78,9 +78,8 @@ impl RunDigest {
 
     /// Adds the next tick's frame.
     pub fn tick(&mut self, frame: &Frame) {
-        self.buffer.clear();
-        frame.encode(&mut self.buffer);
-        self.hasher.update(&self.buffer);
+        let RunDigest { hasher, buffer } = self;
+        frame.encode_in_pieces(buffer, |piece| hasher.update(piece));
     }
 
     /// The digest of the run so far.

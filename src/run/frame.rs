@@ -128,6 +128,14 @@ impl Frame {
         self.visit(&mut Words(out));
     }
 
+    /// Calls `take` with the canonical encoding, piece by piece, so that a large frame's is never in memory as a whole.
+    pub(super) fn encode_in_pieces(&self, room: &mut Vec<u8>, take: impl FnMut(&[u8])) {
+        room.resize(PIECE, 0);
+        let mut pieces = Pieces { room: room.as_chunks_mut().0, count: 0, take };
+        self.visit(&mut pieces);
+        pieces.pass_on();
+    }
+
     /// The number of bytes that the canonical encoding takes.
     pub(super) fn encoded_length(&self) -> usize {
         let Frame { robots, scans, obstacles, .. } = self;
@@ -200,6 +208,9 @@ impl<F: FnMut(Option<u32>, Field, Value)> Visit for F {
     }
 }
 
+/// What the number of obstacles that are not as at the start is marked with.
+const CHANGED: u64 = 1 << 63;
+
 /// Appends the values as words. Lists are appended in one go, because scans are most of a frame.
 struct Words<'a>(&'a mut Vec<u8>);
 
@@ -210,7 +221,7 @@ impl Visit for Words<'_> {
 
     fn count_of_obstacles(&mut self, count: usize) {
         if count > 0 {
-            self.0.extend_from_slice(&(1 << 63 | count as u64).to_le_bytes());
+            self.0.extend_from_slice(&(CHANGED | count as u64).to_le_bytes());
         }
     }
 
@@ -219,6 +230,59 @@ impl Visit for Words<'_> {
         self.0.resize(before + 8 * list.len(), 0);
         for (word, x) in self.0[before..].as_chunks_mut().0.iter_mut().zip(list) {
             *word = x.to_bits().to_le_bytes();
+        }
+    }
+}
+
+/// The bytes of a piece, whole words.
+const PIECE: usize = 8192;
+
+/// Takes down the values as words, and passes them on whenever there is no room for another.
+struct Pieces<'a, F> {
+    room: &'a mut [[u8; 8]],
+    /// The number of words taken down.
+    count: usize,
+    take: F,
+}
+
+impl<F: FnMut(&[u8])> Pieces<'_, F> {
+    fn pass_on(&mut self) {
+        (self.take)(self.room[..self.count].as_flattened());
+        self.count = 0;
+    }
+
+    fn word(&mut self, word: u64) {
+        if self.count == self.room.len() {
+            self.pass_on();
+        }
+        self.room[self.count] = word.to_le_bytes();
+        self.count += 1;
+    }
+}
+
+impl<F: FnMut(&[u8])> Visit for Pieces<'_, F> {
+    fn value(&mut self, _robot: Option<u32>, _field: Field, value: Value) {
+        self.word(value.bits());
+    }
+
+    fn count_of_obstacles(&mut self, count: usize) {
+        if count > 0 {
+            self.word(CHANGED | count as u64);
+        }
+    }
+
+    fn floats(&mut self, _robot: Option<u32>, _name: &'static str, mut list: &[f64]) {
+        while !list.is_empty() {
+            if self.count == self.room.len() {
+                self.pass_on();
+            }
+            let free = &mut self.room[self.count..];
+            let (now, rest) = list.split_at(list.len().min(free.len()));
+            for (word, x) in free.iter_mut().zip(now) {
+                *word = x.to_bits().to_le_bytes();
+            }
+            self.count += now.len();
+            list = rest;
         }
     }
 }
@@ -257,6 +321,27 @@ mod tests {
         assert_eq!(words[19..], [2.5_f64.to_bits()]);
         assert_eq!(bytes.len(), 160, "whole words only");
         assert_eq!(frame.encoded_length(), 160);
+    }
+
+    #[test]
+    fn the_encoding_in_pieces_is_the_encoding() {
+        let mut frame = fixture::frame(3);
+        let words = PIECE / 8;
+        for length in [0, 1, words - 40, words, words + 1, 3 * words + 7] {
+            frame.scans[0].ranges = (0..length).map(|k| k as f64).collect();
+            for changed in [0, 1, words / 3] {
+                let obstacle =
+                    |number| ObstacleState { world: 0, obstacle: number, present: true, pose: Pose2::IDENTITY };
+                frame.obstacles = (0..changed as u32).map(obstacle).collect();
+                let (mut whole, mut pieces, mut room) = (Vec::new(), Vec::new(), Vec::new());
+                frame.encode(&mut whole);
+                frame.encode_in_pieces(&mut room, |piece| {
+                    assert!(piece.len() <= PIECE);
+                    pieces.extend_from_slice(piece);
+                });
+                assert!(pieces == whole, "{length} ranges, {changed} obstacles");
+            }
+        }
     }
 
     #[test]

@@ -15,14 +15,19 @@ impl BeamModel {
     /// and the ray only. Hits are kept in [0, R]. A ray whose exact range is infinite has neither a hit nor a short
     /// return: it reads infinity, R or a random range. A reading is never negative.
     pub fn apply(&self, sensor: &RangeSensor, ranges: &[f64], stream: &Stream, tick: u64) -> Vec<f64> {
+        let mut readings = ranges.to_vec();
+        self.apply_to(sensor, &mut readings, stream, tick);
+        readings
+    }
+
+    /// As [`apply`](Self::apply), in place of the exact ranges.
+    pub fn apply_to(&self, sensor: &RangeSensor, ranges: &mut [f64], stream: &Stream, tick: u64) {
         // ray k's draws begin at index tick n + k; the indices follow one another, so the stream is walked, not sought
         let mut draws = stream.at(tick * u64::from(sensor.n_rays));
-        let mut reading = |&exact: &f64| {
-            let reading = self.reading(exact, sensor.max_range, &mut draws);
+        for range in ranges {
+            *range = self.reading(*range, sensor.max_range, &mut draws);
             (DRAWS..DRAWS_PER_INDEX).for_each(|_| _ = draws.bits());
-            reading
-        };
-        ranges.iter().map(&mut reading).collect()
+        }
     }
 
     fn reading(&self, exact: f64, max_range: f64, draws: &mut Stream) -> f64 {

@@ -9,8 +9,8 @@ use super::rays::{Fan, Lanes};
 use super::simd::Instructions;
 use super::view::View;
 use super::{FanSensor, RangeSensor};
-use crate::collision::{LANES, Scene, SegmentSoup, touch};
-use crate::geometry::{Placed, Point2, Pose2, SinCos};
+use crate::collision::{Circle, LANES, Scene, SegmentSoup, touch};
+use crate::geometry::{Aabb, Placed, Point2, Pose2, SinCos};
 use crate::num;
 
 /// A range sensor that keeps its rays' directions and its scratch between scans: after the first scans it allocates
@@ -80,12 +80,26 @@ impl Scanner {
     /// Writes the ranges from a pose into `ranges`, as [`FanSensor::scan_from`] gives them: ray k into place k, as
     /// far as there are places.
     pub fn scan_into(&mut self, scene: &Scene, others: &[Placed], pose: &Pose2, ranges: &mut [f64]) {
+        self.scan_among(scene, others.iter(), pose, ranges);
+    }
+
+    /// As [`scan_into`](Self::scan_into), among other robots' parts that lie anywhere, in any order.
+    pub(crate) fn scan_among<'a>(
+        &mut self,
+        scene: &Scene,
+        others: impl Iterator<Item = &'a Placed> + Clone,
+        pose: &Pose2,
+        ranges: &mut [f64],
+    ) {
         let sensor = self.sensor.sensor;
         let rays = ranges.len().min(sensor.n_rays as usize);
         let ranges = &mut ranges[..rays];
         let origin = pose.position();
         let point = Placed::new([origin], 0.0);
-        if !pose.is_finite() || scene.holds(&point) || others.iter().any(|other| touch(&point, other)) {
+        if !pose.is_finite()
+            || scene.holds(&point)
+            || others.clone().any(|other| may_hold(other, origin) && touch(&point, other))
+        {
             ranges.fill(0.0);
             return;
         }
@@ -111,19 +125,30 @@ impl Scanner {
             fan_blocks,
             nothing: 0.0,
         };
-        self.others.clear();
-        for part in others {
-            self.others.push(part);
-        }
-        let Scanner { kernel, fan, walk, desk, others, .. } = self;
+        let Scanner { kernel, fan, walk, desk, others: soup, .. } = self;
         match scene.cells() {
             Some(cells) => walk.raise(Boundary { soup: scene.soup(), cells }, &view, kernel, fan, desk),
             None => raise_every(scene.soup(), &view, kernel, fan, desk),
         }
         fan.open = u64::MAX;
-        raise_every(others, &view, kernel, fan, desk);
+        soup.clear();
+        for part in others {
+            match (part.core(), part.radius()) {
+                (&[centre], radius) if radius > 0.0 && part.is_valid() => {
+                    (kernel.circle)(&Circle { centre, radius }, &view, fan)
+                }
+                _ => soup.push(part),
+            }
+        }
+        raise_every(soup, &view, kernel, fan, desk);
         (self.kernel.ranges)(&self.fan, sensor.max_range, ranges);
     }
+}
+
+/// Whether a shape may hold a point; false only where it certainly does not.
+fn may_hold(shape: &Placed, p: Point2) -> bool {
+    let Aabb { min, max } = shape.padded_bounds();
+    (min.x..=max.x).contains(&p.x) && (min.y..=max.y).contains(&p.y)
 }
 
 /// Raises the rays that meet anything of the soup.

@@ -45,6 +45,7 @@ pub use restore_error::RestoreError;
 pub use robot::contact::{ContactBegan, ContactEnded};
 pub use robot::ops::RobotOps;
 pub use robot::plugin::{RobotKinds, RobotPlugin};
+pub use robot::replicas::Replicas;
 pub use robot::simulated::{Extra, SimulatedRobot};
 pub use robot::view::RobotView;
 pub use roster::{Roster, view};

@@ -7,8 +7,8 @@ use super::obstacles::change::RefusedChanges;
 use super::obstacles::roster::ObstacleRoster;
 use super::obstacles::watch::watch;
 use super::schedule::{Phase, simulation_schedule};
-use super::tick::starts::{Starts, Sweeps, gather_starts};
-use super::tick::{input, sense};
+use super::tick::crowds::Crowds;
+use super::tick::{crowds, input, sense};
 use super::{
     CommandRefused, Keyframes, LatestFrame, PendingInput, Playback, RobotKinds, RobotPlugin, RunCommand, SensorRefused,
     SensorRoster, SimulationSchedule, SimulationSystems, Transport, Undo, command, play_tick, sensors, state,
@@ -30,11 +30,11 @@ impl Plugin for SimulationPlugin {
     fn build(&self, app: &mut App) {
         app.add_schedule(simulation_schedule())
             .init_resource::<RobotKinds>()
-            .init_resource::<Starts>()
-            .init_resource::<Sweeps>()
+            .init_resource::<Crowds>()
             .init_resource::<PendingInput>()
             .init_resource::<Keyframes>()
             .init_resource::<LatestFrame>()
+            .init_resource::<state::Taken>()
             .init_resource::<Undo>()
             .init_resource::<ObstacleRoster>()
             .init_resource::<RefusedChanges>()
@@ -50,9 +50,11 @@ impl Plugin for SimulationPlugin {
                 SimulationSchedule,
                 (
                     (input::advance_tick, input::apply_inputs).chain().in_set(SimulationSystems::Input),
-                    gather_starts.in_set(Phase::Gather),
+                    crowds::begin.in_set(Phase::Begin),
+                    crowds::index.in_set(Phase::Index),
+                    crowds::meet.in_set(Phase::Meet),
                     sense::sense.in_set(SimulationSystems::Sense),
-                    state::record.in_set(SimulationSystems::Record),
+                    state::record.in_set(Phase::Keep),
                 ),
             )
             .add_systems(RunFixedMainLoop, command::carry_out.in_set(RunFixedMainLoopSystems::BeforeFixedMainLoop))

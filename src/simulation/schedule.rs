@@ -18,7 +18,7 @@ pub enum SimulationSystems {
     Input,
     /// Each robot's tour or driver gives its control.
     Drive,
-    /// The control gives the tick's motion, and the robots' footprints at its start are gathered.
+    /// The control gives the tick's motion; robots of one world get their bodies, and an index of who is near whom.
     Step,
     /// The motions are cut where they would hit, contacts are counted, configurations advance.
     Collide,
@@ -35,16 +35,21 @@ pub(super) enum KindSystems {
     Plan(usize),
     Cut(usize),
     Settle(usize),
+    Encode(usize),
 }
 
-/// The finer order within [`SimulationSystems::Step`] and [`SimulationSystems::Collide`]: the footprints are gathered,
-/// every motion is planned, every motion is cut, and only then do robots advance.
+/// The finer order within [`SimulationSystems::Step`] and [`SimulationSystems::Collide`]: every motion is planned, every
+/// motion is cut, those that meet are found, and only then do robots advance. Last come the robots' states in the frame.
 #[derive(SystemSet, Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(super) enum Phase {
-    Gather,
+    Begin,
     Plan,
+    Index,
     Cut,
+    Meet,
     Settle,
+    Encode,
+    Keep,
 }
 
 /// The empty schedule with its sets in order.
@@ -63,7 +68,8 @@ pub(super) fn simulation_schedule() -> Schedule {
         )
             .chain(),
     );
-    schedule.configure_sets((Phase::Gather, Phase::Plan).chain().in_set(SimulationSystems::Step));
-    schedule.configure_sets((Phase::Cut, Phase::Settle).chain().in_set(SimulationSystems::Collide));
+    schedule.configure_sets((Phase::Begin, Phase::Plan, Phase::Index).chain().in_set(SimulationSystems::Step));
+    schedule.configure_sets((Phase::Cut, Phase::Meet, Phase::Settle).chain().in_set(SimulationSystems::Collide));
+    schedule.configure_sets((Phase::Encode, Phase::Keep).chain().in_set(SimulationSystems::Record));
     schedule
 }

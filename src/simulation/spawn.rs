@@ -6,6 +6,7 @@ use bevy::prelude::*;
 
 use super::obstacles::roster::{self, Ground, at_work};
 use super::robot::spawn::SpawnRequest;
+use super::tick::crowds::Crowds;
 use super::{
     History, Keyframes, LatestFrame, PendingInput, RobotId, RobotKinds, Roster, SceneRevision, SimulatedWorld,
     SpawnError, StandingWorld, Transport, WorldScene, sensors, state, tick,
@@ -116,6 +117,7 @@ pub(super) fn start_run_in_order(
     world.insert_resource(roster);
     roster::begin(world, grounds);
     roster::sync_added(world, &input.script.changes);
+    world.insert_resource(Crowds::new(config.worlds.iter().map(|w| w.robots.len())));
     world.insert_resource(RunConfig(config));
     world.insert_resource(Transport::new(input.seed));
     world.insert_resource(PendingInput::new(input.script));
@@ -125,7 +127,7 @@ pub(super) fn start_run_in_order(
         world.insert_resource(History::default());
     }
     sensors::start::take_sensors(world);
-    tick::sense::sense(world);
+    tick::sense::sense_now(world);
     state::record(world);
     Ok(())
 }

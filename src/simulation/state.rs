@@ -5,8 +5,12 @@ use std::collections::BTreeMap;
 use bevy::prelude::*;
 
 use super::obstacles::roster::ObstacleRoster;
-use super::{LatestFrame, RestoreError, RobotId, RobotOps, Roster, SensorRoster, Transport};
-use crate::run::{Frame, RobotScan};
+use super::robot::ops::state_of;
+use super::{
+    Configuration, Contacts, DriveMode, LatestFrame, OwnState, RestoreError, RobotId, RobotOps, Roster, SimulatedRobot,
+    Transport,
+};
+use crate::run::Frame;
 
 /// Largest number of keyframes; beyond it every second one is dropped.
 const MOST_KEYFRAMES: usize = 1024;
@@ -52,33 +56,60 @@ impl Keyframes {
     }
 }
 
-/// The state of the simulation now: the canonical form, the same for equal states.
+/// The state of the simulation now: the canonical form, the same for equal states. The scans are those of the latest
+/// frame.
 pub fn snapshot(world: &World) -> Frame {
-    let mut frame = LatestFrame::default().0;
-    snapshot_into(world, &mut frame);
+    let mut frame = world.get_resource::<LatestFrame>().map_or_else(LatestFrame::default, Clone::clone).0;
+    snapshot_robots(world, &mut frame);
+    snapshot_rest(world, &mut frame);
     frame
 }
 
-/// As [`snapshot`], into the memory of an earlier frame.
-fn snapshot_into(world: &World, frame: &mut Frame) {
+/// Takes the robots of a frame from their components.
+fn snapshot_robots(world: &World, frame: &mut Frame) {
     let robots = world.get_resource::<Roster>().map_or(&[][..], Roster::robots);
-    frame.tick = world.get_resource::<Transport>().map_or(0, |t| t.tick);
     frame.robots.clear();
     frame.robots.extend(robots.iter().filter_map(|&e| (world.get::<RobotOps>(e)?.encode)(world, e)));
-    let sensors = world.get_resource::<SensorRoster>().map_or(&[][..], |roster| &roster.sensors);
-    frame.scans.resize_with(sensors.len(), || RobotScan { robot: 0, ranges: Vec::new() });
-    for (scan, sensor) in frame.scans.iter_mut().zip(sensors) {
-        scan.robot = sensor.id;
-        scan.ranges.clone_from(&sensor.ranges);
-    }
+}
+
+/// Takes all of a frame but the robots and the scans.
+fn snapshot_rest(world: &World, frame: &mut Frame) {
+    frame.tick = world.get_resource::<Transport>().map_or(0, |t| t.tick);
     frame.obstacles.clear();
     frame.obstacles.extend(world.get_resource::<ObstacleRoster>().into_iter().flat_map(ObstacleRoster::states));
 }
 
-/// Takes the frame of the tick.
+/// The components of a robot that are its state.
+type Encoded<R> =
+    (&'static RobotId, &'static Configuration<R>, &'static OwnState<R>, &'static DriveMode<R>, &'static Contacts<R>);
+
+/// The robots' states of the tick, as far as they are taken.
+#[derive(Resource, Default)]
+pub(super) struct Taken(usize);
+
+/// Writes the states of the robots of a kind into the frame, in the places of their ids.
+pub(crate) fn encode<R: SimulatedRobot>(
+    mut frame: ResMut<LatestFrame>,
+    mut taken: ResMut<Taken>,
+    robots: Query<Encoded<R>>,
+) {
+    for (&id, Configuration(q), own, mode, contacts) in &robots {
+        if let Some(state) = frame.0.robots.get_mut(id.0 as usize) {
+            *state = state_of(id, q, own, mode, contacts);
+            taken.0 += 1;
+        }
+    }
+}
+
+/// Takes the frame of the tick, with the states that its robots and its sensors have written.
 pub(super) fn record(world: &mut World) {
+    let taken = std::mem::take(&mut world.resource_mut::<Taken>().0);
     let mut frame = std::mem::take(&mut *world.resource_mut::<LatestFrame>()).0;
-    snapshot_into(world, &mut frame);
+    let robots = world.get_resource::<Roster>().map_or(0, |roster| roster.robots().len());
+    if taken != robots || frame.robots.len() != robots {
+        snapshot_robots(world, &mut frame);
+    }
+    snapshot_rest(world, &mut frame);
     world.resource_mut::<Keyframes>().keep(&frame);
     world.resource_mut::<LatestFrame>().0 = frame;
     super::history::note_where_kept(world);
@@ -107,7 +138,7 @@ pub fn restore(world: &mut World, frame: &Frame) -> Result<(), RestoreError> {
     }
     super::obstacles::roster::restore(world, tick, &frame.obstacles)?;
     world.resource_mut::<Transport>().tick = tick;
-    super::tick::sense::sense(world);
+    super::tick::sense::sense_now(world);
     record(world);
     Ok(())
 }

@@ -1,27 +1,34 @@
 //! `RobotOps`, the operations of exclusive systems on a robot whose type they do not know.
 
+use std::cell::OnceCell;
+
 use bevy::prelude::*;
 
+use super::driven::Driven;
 use super::simulated::canonical;
-use crate::collision::{Collision, Surroundings};
+use crate::collision::Surroundings;
 use crate::configuration::{Configuration as _, Coordinates};
 use crate::geometry::{Footprint, Placed, Pose2};
-use crate::run::{Quantized, RobotInput, RobotState};
+use crate::run::{RobotInput, RobotState};
+use crate::simulation::tick::sweep::{CutMotion, Sweep};
 use crate::simulation::{
-    Configuration, Contacts, DriveMode, Extra, OwnState, PreviousConfiguration, ResidesIn, RobotId, RobotModel,
-    RobotName, RobotView, Route, SimulatedRobot, SimulatedWorld, WorldScene,
+    Configuration, Contacts, Cut, DriveMode, Extra, OwnState, PreviousConfiguration, ResidesIn, RobotId, RobotModel,
+    RobotName, RobotView, Route, SimulatedRobot, SimulatedWorld, TickMotion, WorldScene,
 };
 
 /// The operations of a robot's kind. A component of the robot's entity.
 #[derive(Component, Clone, Copy, Debug)]
 #[component(immutable)]
 pub struct RobotOps {
-    /// Applies an input, or counts it as refused. The last argument holds the parts of the other robots of its world.
-    pub(crate) apply: fn(&mut World, Entity, &RobotInput, &[Placed]),
+    /// Applies an input, or counts it as refused. The last argument gives the parts of the other robots of its world.
+    pub(crate) apply: fn(&mut World, Entity, &RobotInput, &dyn Fn(&World) -> Vec<Placed>),
     /// The robot's present footprint.
     pub(crate) footprint: fn(&World, Entity) -> Option<Footprint>,
     /// The pose of the frame that the robot's sensors are mounted in.
     pub(crate) mount_pose: fn(&World, Entity) -> Option<Pose2>,
+    /// Calls the last argument with the sweep of the robot's cut motion in this tick, and the parameter at which it is
+    /// cut. Without a motion it does nothing.
+    pub(crate) with_sweep: fn(&World, Entity, &mut dyn FnMut(&dyn Sweep, f64)),
     /// The robot's state.
     pub(crate) encode: fn(&World, Entity) -> Option<RobotState>,
     /// Overwrites the robot's components by a state. `None`, with nothing changed, when the state does not fit the
@@ -37,6 +44,7 @@ impl RobotOps {
             apply: apply::<R>,
             footprint: footprint::<R>,
             mount_pose: mount_pose::<R>,
+            with_sweep: with_sweep::<R>,
             encode: encode::<R>,
             decode: decode::<R>,
             view: view::<R>,
@@ -53,78 +61,55 @@ fn mount_pose<R: SimulatedRobot>(world: &World, e: Entity) -> Option<Pose2> {
     Some(world.get::<RobotModel<R>>(e)?.0.mount_pose(&world.get::<Configuration<R>>(e)?.0))
 }
 
-/// The driver's new state after an accepted input, and the configuration that the robot is put in, if any. `None`
-/// for a refused input.
-fn accepted<R: SimulatedRobot>(
-    robot: &R,
-    q: &R::Configuration,
-    mode: &DriveMode<R>,
-    input: &RobotInput,
-    is_free: impl Fn(&R::Configuration) -> bool,
-) -> Option<(DriveMode<R>, Option<R::Configuration>)> {
-    let values = |c: &[Quantized]| c.iter().map(|c| c.value()).collect::<Coordinates>();
-    let taken_over = DriveMode { manual: true, ..*mode };
-    let put = |q: R::Configuration| is_free(&q).then_some((DriveMode { target: None, ..taken_over }, Some(q)));
-    match input {
-        RobotInput::Drive(a, b) => {
-            let channels = [*a, *b];
-            let in_range = channels.iter().all(|c| (-128..=128).contains(c));
-            (in_range && robot.driven([0.0; 2]).is_some())
-                .then_some((DriveMode { channels, target: None, ..taken_over }, None))
-        }
-        RobotInput::MoveTo(target) => {
-            let target = canonical(&robot.configuration_at(q, &values(target))?);
-            robot.toward(q, &target)?;
-            Some((DriveMode { target: Some(target), ..taken_over }, None))
-        }
-        RobotInput::Teleport(to) => put(canonical(&robot.configuration_at(q, &values(to))?)),
-        RobotInput::SetTrailer(on) => {
-            let to = canonical(&robot.with_trailer_set(q, *on)?);
-            if to == *q { Some((taken_over, None)) } else { put(to) }
-        }
-        RobotInput::Release => Some((DriveMode { refusals: mode.refusals, ..DriveMode::default() }, None)),
+fn with_sweep<R: SimulatedRobot>(world: &World, e: Entity, visit: &mut dyn FnMut(&dyn Sweep, f64)) {
+    if let (Some(TickMotion(Some(motion))), Some(cut)) = (world.get::<TickMotion<R>>(e), world.get::<Cut<R>>(e)) {
+        visit(&CutMotion { motion, until: cut.until }, cut.until);
     }
 }
 
-fn apply<R: SimulatedRobot>(world: &mut World, e: Entity, input: &RobotInput, others: &[Placed]) {
-    let Some(changed) = (|| {
-        let robot = &world.get::<RobotModel<R>>(e)?.0;
+fn apply<R: SimulatedRobot>(world: &mut World, e: Entity, input: &RobotInput, others: &dyn Fn(&World) -> Vec<Placed>) {
+    let Some(after) = (|| {
+        let (model, route) = (world.get::<RobotModel<R>>(e)?, world.get::<Route<R>>(e)?);
         let (q, mode) = (world.get::<Configuration<R>>(e)?.0, *world.get::<DriveMode<R>>(e)?);
-        let inhabited = world.get::<ResidesIn>(e)?.0;
-        let surroundings = Surroundings { scene: &world.get::<WorldScene>(inhabited)?.0, others };
-        let is_free = |q: &R::Configuration| {
-            let robot = robot.fitted(q);
-            robot.is_within_limits(q) && !surroundings.intersects(&robot.footprint(q))
-        };
-        let (after, put) = accepted(robot, &q, &mode, input, is_free)
-            .unwrap_or((DriveMode { refusals: mode.refusals.saturating_add(1), ..mode }, None));
-        let mut extra = world.get::<OwnState<R>>(e)?.extra.clone();
-        if mode.manual && !after.manual {
-            robot.resume(&world.get::<Route<R>>(e)?.0, &q, &surroundings, &mut extra);
-        }
-        Some((after, put, extra))
+        let extra = world.get::<OwnState<R>>(e)?.extra.clone();
+        let scene = &world.get::<WorldScene>(world.get::<ResidesIn>(e)?.0)?.0;
+        // most inputs need no others
+        let parts = OnceCell::new();
+        let surroundings = || Surroundings { scene, others: parts.get_or_init(|| others(world)) };
+        Some(Driven { q, mode, extra }.after(&model.0, &route.0, input, surroundings))
     })() else {
         return;
     };
-    let (after, put, extra) = changed;
     let mut robot = world.entity_mut(e);
     if let Some(mut mode) = robot.get_mut::<DriveMode<R>>() {
-        *mode = after;
+        *mode = after.mode;
     }
-    if let (Some(to), Some(mut q)) = (put, robot.get_mut::<Configuration<R>>()) {
-        q.0 = to;
+    if let Some(mut q) = robot.get_mut::<Configuration<R>>() {
+        q.0 = after.q;
     }
     if let Some(mut own) = robot.get_mut::<OwnState<R>>() {
-        own.extra = extra;
+        own.extra = after.extra;
     }
 }
 
 fn encode<R: SimulatedRobot>(world: &World, e: Entity) -> Option<RobotState> {
     let (mode, contacts) = (world.get::<DriveMode<R>>(e)?, world.get::<Contacts<R>>(e)?);
-    Some(RobotState {
-        id: world.get::<RobotId>(e)?.0,
-        configuration: world.get::<Configuration<R>>(e)?.0.coordinates(),
-        extra: world.get::<OwnState<R>>(e)?.extra.clone(),
+    let own = world.get::<OwnState<R>>(e)?;
+    Some(state_of(*world.get::<RobotId>(e)?, &world.get::<Configuration<R>>(e)?.0, own, mode, contacts))
+}
+
+/// The state of a robot with these components.
+pub(crate) fn state_of<R: SimulatedRobot>(
+    RobotId(id): RobotId,
+    q: &R::Configuration,
+    own: &OwnState<R>,
+    mode: &DriveMode<R>,
+    contacts: &Contacts<R>,
+) -> RobotState {
+    RobotState {
+        id,
+        configuration: q.coordinates(),
+        extra: own.extra.clone(),
         channels: mode.channels,
         target: mode.target.map_or_else(Coordinates::new, |t| t.coordinates()),
         manual: mode.manual,
@@ -132,7 +117,7 @@ fn encode<R: SimulatedRobot>(world: &World, e: Entity) -> Option<RobotState> {
         contacts: contacts.episodes,
         flash: contacts.flash,
         refusals: mode.refusals,
-    })
+    }
 }
 
 fn decode<R: SimulatedRobot>(world: &mut World, e: Entity, state: &RobotState) -> Option<()> {

@@ -9,6 +9,7 @@ use super::spawn::{SpawnRequest, spawn_robot};
 use crate::configuration::{Configuration as _, Kinds, RobotKind};
 use crate::geometry::Footprint;
 use crate::simulation::schedule::{KindSystems, Phase};
+use crate::simulation::state;
 use crate::simulation::tick::{drive, settle};
 use crate::simulation::{RobotOps, SimulatedRobot, SimulationSchedule, SimulationSystems, SpawnError};
 
@@ -130,6 +131,7 @@ fn install<R: SimulatedRobot>(world: &mut World) {
             drive::plan::<R>.in_set(KindSystems::Plan(number)).in_set(Phase::Plan),
             settle::cut::<R>.in_set(KindSystems::Cut(number)).in_set(Phase::Cut),
             settle::settle::<R>.in_set(KindSystems::Settle(number)).in_set(Phase::Settle),
+            state::encode::<R>.in_set(KindSystems::Encode(number)).in_set(Phase::Encode),
         ),
     );
 }
@@ -169,7 +171,8 @@ impl<R: SimulatedRobot> Plugin for RobotPlugin<R> {
         }
         app.world_mut().resource_mut::<RobotKinds>().types += 1;
         app.insert_resource(SystemsOf::<R> { number, installed: false, of: std::marker::PhantomData });
-        for set in [KindSystems::Drive, KindSystems::Plan, KindSystems::Cut, KindSystems::Settle] {
+        let sets = [KindSystems::Drive, KindSystems::Plan, KindSystems::Cut, KindSystems::Settle, KindSystems::Encode];
+        for set in sets {
             if let Some(before) = number.checked_sub(1) {
                 app.configure_sets(SimulationSchedule, set(number).after(set(before)));
             }

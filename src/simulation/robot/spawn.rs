@@ -5,7 +5,7 @@ use bevy::prelude::*;
 use super::simulated::canonical;
 use crate::configuration::{Configuration as _, RobotKind, SizesError};
 use crate::random::{Seed, Stream};
-use crate::sensors::RangeSensor;
+use crate::sensors::{BeamModel, RangeSensor};
 use crate::simulation::{
     Configuration, MountedOn, OwnState, PreviousConfiguration, ResidesIn, RobotId, RobotModel, RobotName, RobotOps,
     Route, SensorModel, SensorMount, SensorName, SensorNoise, SimulatedRobot, Slip, SpawnError,
@@ -33,39 +33,54 @@ fn sized<R: SimulatedRobot>(model: &R, resident: &Resident) -> Result<R, SizesEr
     })
 }
 
+/// A robot that can be spawned.
+pub(crate) struct Ready<R: SimulatedRobot> {
+    /// The robot, with the resident's own sizes.
+    pub(crate) robot: R,
+    /// Where it starts.
+    pub(crate) q: R::Configuration,
+    /// The noise of the sensor that the run gives it.
+    pub(crate) noise: Option<BeamModel>,
+}
+
+impl<R: SimulatedRobot> Ready<R> {
+    /// The robot that a resident of a world is, of a kind with this model.
+    pub(crate) fn new(model: &R, resident: &Resident, world: &WorldModel) -> Result<Self, SpawnError> {
+        let (name, world) = (|| resident.name.clone(), || world.name.clone());
+        let sized = sized(model, resident);
+        let robot = sized.map_err(|source| SpawnError::Sizes { robot: name(), world: world(), source })?;
+        let refused = || {
+            let (kind, start) = (resident.kind.clone(), resident.start.clone());
+            SpawnError::Start { robot: name(), world: world(), kind, start }
+        };
+        let q = R::Configuration::from_coordinates(&resident.start).ok_or_else(refused)?;
+        // through the robot itself, which wraps the angles
+        let q = canonical(&robot.configuration_at(&q, &resident.start).ok_or_else(refused)?);
+        let fitted = robot.fitted(&q);
+        fitted.check(&q).map_err(|_| refused())?;
+        if !fitted.is_within_limits(&q) {
+            return Err(refused());
+        }
+        let noise = resident.sensor.map(|noise| noise.try_new()).transpose();
+        let noise = noise.map_err(|source| SpawnError::Noise { robot: name(), world: world(), source })?;
+        Ok(Ready { robot, q, noise })
+    }
+}
+
+/// The stream of a robot's actuation noise.
+pub(crate) fn slip(seed: Seed, robot: &str) -> Stream {
+    Stream::new(seed, &format!("{robot}/slip"))
+}
+
 /// Spawns a robot of type `R`, with its sensors.
 pub(crate) fn spawn_robot<R: SimulatedRobot>(
     world: &mut World,
-    robot: &R,
+    model: &R,
     ops: RobotOps,
     request: &SpawnRequest,
 ) -> Result<Entity, SpawnError> {
     let resident = request.resident;
-    let sized = sized(robot, resident).map_err(|source| SpawnError::Sizes {
-        robot: resident.name.clone(),
-        world: request.model.name.clone(),
-        source,
-    })?;
-    let robot = &sized;
-    let refused = || SpawnError::Start {
-        robot: resident.name.clone(),
-        world: request.model.name.clone(),
-        kind: resident.kind.clone(),
-        start: resident.start.clone(),
-    };
-    let q = R::Configuration::from_coordinates(&resident.start).ok_or_else(refused)?;
-    // through the robot itself, which wraps the angles
-    let q = canonical(&robot.configuration_at(&q, &resident.start).ok_or_else(refused)?);
-    let fitted = robot.fitted(&q);
-    fitted.check(&q).map_err(|_| refused())?;
-    if !fitted.is_within_limits(&q) {
-        return Err(refused());
-    }
-    let noise = resident.sensor.map(|noise| noise.try_new()).transpose().map_err(|source| SpawnError::Noise {
-        robot: resident.name.clone(),
-        world: request.model.name.clone(),
-        source,
-    })?;
+    let Ready { robot, q, noise } = Ready::new(model, resident, request.model)?;
     let sensor = request.sensor.filter(|_| robot.sensor_pose(&q).is_some());
     let entity = world
         .spawn((
@@ -74,7 +89,7 @@ pub(crate) fn spawn_robot<R: SimulatedRobot>(
             PreviousConfiguration::<R>(q),
             OwnState::<R>::new(robot.initial_extra()),
             Route::<R>(robot.tour(request.seed, &resident.name, request.model, &q)),
-            Slip(Stream::new(request.seed, &format!("{}/slip", resident.name))),
+            Slip(slip(request.seed, &resident.name)),
             ops,
             request.id,
             RobotName { name: resident.name.clone(), kind: resident.kind.clone(), about: request.about },

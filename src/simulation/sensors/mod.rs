@@ -3,6 +3,7 @@
 mod changes;
 pub(super) mod refusal;
 pub(super) mod roster;
+pub(crate) mod scanners;
 pub(super) mod start;
 pub(super) mod view;
 

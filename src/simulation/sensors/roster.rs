@@ -1,11 +1,14 @@
 //! `SensorRoster`, the sensors of the run in their order, with what they read.
 
+use std::collections::BTreeMap;
+
 use bevy::prelude::*;
 
 use super::refusal::SensorRefused;
+use super::scanners::Scanners;
 use crate::geometry::Pose2;
 use crate::random::Stream;
-use crate::sensors::{BeamModel, FanSensor, Scanner};
+use crate::sensors::{BeamModel, FanSensor, RangeSensor};
 use crate::simulation::RobotOps;
 
 /// Largest number of refusals that are kept.
@@ -16,6 +19,10 @@ const MOST_REFUSED: usize = 1000;
 #[derive(Resource, Debug, Default)]
 pub struct SensorRoster {
     pub(crate) sensors: Vec<RunSensor>,
+    /// Scanners for the sensors, which many of them share.
+    pub(crate) scanners: Scanners,
+    /// Room for the scans' copies in the sensors' components.
+    pub(crate) copies: Vec<Vec<f64>>,
     refused: Vec<SensorRefused>,
     /// Whether a sensor entity was spawned, changed or removed since the sensors were taken.
     pub(super) stale: bool,
@@ -36,9 +43,8 @@ pub(crate) struct RunSensor {
     pub(crate) mount: Pose2,
     /// The noise, with the sensor's own stream.
     pub(crate) noise: Option<(BeamModel, Stream)>,
-    pub(crate) scanner: Box<Scanner>,
-    /// The ranges read at the end of the last tick, metres.
-    pub(crate) ranges: Vec<f64>,
+    /// The number of its rays' pattern in the roster.
+    pub(crate) fan: usize,
 }
 
 impl SensorRoster {
@@ -50,6 +56,16 @@ impl SensorRoster {
     /// The sensors that were not taken into the run, and the changes without effect, in the order they were met.
     pub fn refused(&self) -> &[SensorRefused] {
         &self.refused
+    }
+
+    /// Numbers the patterns of rays that the sensors have.
+    pub(super) fn sort_fans(&mut self) {
+        let mut fans = BTreeMap::new();
+        for sensor in &mut self.sensors {
+            let FanSensor { sensor: RangeSensor { n_rays, max_range }, field_of_view } = sensor.rays;
+            let number = fans.len();
+            sensor.fan = *fans.entry((n_rays, max_range.to_bits(), field_of_view.to_bits())).or_insert(number);
+        }
     }
 
     /// Notes a refusal. Returns whether it is new.

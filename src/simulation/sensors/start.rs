@@ -5,8 +5,8 @@ use bevy::prelude::*;
 use super::refusal::{SensorRefusal, SensorRefused};
 use super::roster::{RunSensor, SensorRoster};
 use crate::random::Stream;
-use crate::sensors::{Scanner, SensorError};
-use crate::simulation::tick::sense::sense;
+use crate::sensors::SensorError;
+use crate::simulation::tick::sense::sense_now;
 use crate::simulation::{
     MountedOn, RobotId, RobotName, Roster, Scan, SensorModel, SensorMount, SensorName, SensorNoise, Sensors, Transport,
     state,
@@ -21,7 +21,7 @@ pub fn take_sensors_at_start(world: &mut World) {
     let at_start = world.get_resource::<Transport>().is_some_and(|t| t.tick == 0);
     if at_start && world.get_resource::<SensorRoster>().is_some_and(|r| r.stale && !r.fixed) {
         take_sensors(world);
-        sense(world);
+        sense_now(world);
         state::record(world);
     }
 }
@@ -55,6 +55,7 @@ pub(crate) fn take_sensors(world: &mut World) {
         reason: SensorRefusal::NoRobot,
     }));
     refusals.retain(|refused| roster.refuse(refused));
+    roster.sort_fans();
     for sensor in &roster.sensors {
         if let Ok(mut entity) = world.get_entity_mut(sensor.entity) {
             entity.insert(Scan::default());
@@ -84,7 +85,7 @@ fn take_sensors_of(world: &World, robot: Entity, taken: &mut Vec<RunSensor>, ref
         let is_taken =
             has_name(i.checked_sub(1).and_then(|before| sensors.get(before))) || has_name(sensors.get(i + 1));
         // a robot's first sensor has the stream of a robot with one sensor
-        let beam = format!("{}/beam", name.name);
+        let beam = beam(&name.name);
         let stream = if taken.len() == first { beam } else { format!("{beam}/{sensor}") };
         let request = Request { robot, entity, name: sensor, stream: &stream };
         let made = if is_taken { Err(SensorRefusal::NameTaken) } else { make(world, &request) };
@@ -95,6 +96,11 @@ fn take_sensors_of(world: &World, robot: Entity, taken: &mut Vec<RunSensor>, ref
             }
         }
     }
+}
+
+/// The name of the stream of noise of a robot's first sensor.
+pub(crate) fn beam(robot: &str) -> String {
+    format!("{robot}/beam")
 }
 
 /// A sensor to be made.
@@ -127,7 +133,6 @@ fn make(world: &World, request: &Request) -> Result<RunSensor, SensorRefusal> {
         rays: *rays,
         mount,
         noise: noise.map_err(SensorError::from)?.map(|noise| (noise, Stream::new(seed, stream))),
-        scanner: Box::new(Scanner::new(*rays)),
-        ranges: vec![0.0; rays.sensor.n_rays as usize],
+        fan: 0,
     })
 }

@@ -4,7 +4,9 @@ use bevy::prelude::*;
 
 use super::roster::SensorRoster;
 use crate::geometry::Pose2;
+use crate::run::RobotScan;
 use crate::sensors::FanSensor;
+use crate::simulation::LatestFrame;
 
 /// A sensor of the run as a view shows it.
 #[derive(Clone, Debug, PartialEq)]
@@ -24,12 +26,13 @@ pub struct SensorView {
 /// The sensors of the run, ordered by robot, then name: one for each scan of a frame, in the same order.
 pub fn sensors(world: &World) -> Vec<SensorView> {
     let sensors = world.get_resource::<SensorRoster>().map_or(&[][..], |roster| &roster.sensors);
-    let view = |sensor: &super::roster::RunSensor| SensorView {
+    let scans = world.get_resource::<LatestFrame>().map_or(&[][..], |frame| &frame.0.scans);
+    let view = |(sensor, scan): (&super::roster::RunSensor, &RobotScan)| SensorView {
         robot: sensor.id,
         name: sensor.name.clone(),
         rays: sensor.rays,
         pose: sensor.pose(world).unwrap_or_default(),
-        ranges: sensor.ranges.clone(),
+        ranges: scan.ranges.clone(),
     };
-    sensors.iter().map(view).collect()
+    sensors.iter().zip(scans).map(view).collect()
 }

@@ -2,7 +2,7 @@
 
 use bevy::prelude::*;
 
-use super::starts::others_now;
+use super::crowds::others_now;
 use crate::run::{Event, RobotInput, Script, WorldChange, WorldEvent};
 use crate::simulation::obstacles::change;
 use crate::simulation::{ResidesIn, RobotId, RobotName, RobotOps, Roster, Transport};
@@ -166,12 +166,13 @@ pub(crate) fn apply_inputs(world: &mut World) {
                 .iter()
                 .copied()
                 .find(|&e| world.get::<RobotName>(e).is_some_and(|n| n.name == event.robot));
-            let known = robot.and_then(|e| {
-                let others = others_now(world, world.get::<ResidesIn>(e)?.0, *world.get::<RobotId>(e)?);
-                Some((e, *world.get::<RobotOps>(e)?, others))
-            });
-            if let Some((robot, ops, others)) = known {
-                (ops.apply)(world, robot, &event.input, &others);
+            let Some(robot) = robot else { continue };
+            let others = |world: &World| {
+                let place = world.get::<ResidesIn>(robot).zip(world.get::<RobotId>(robot));
+                place.map_or_else(Vec::new, |(inhabited, id)| others_now(world, inhabited.0, *id))
+            };
+            if let Some(RobotOps { apply, .. }) = world.get::<RobotOps>(robot).copied() {
+                apply(world, robot, &event.input, &others);
             }
         }
     });

@@ -1,9 +1,14 @@
 //! The systems of a tick: input, drive, cut, settle, sense.
 
+pub(crate) mod crowd;
+pub(crate) mod crowds;
 pub(crate) mod drive;
 pub(crate) mod hold;
 pub(crate) mod input;
+pub(crate) mod parallel;
 pub(crate) mod sense;
 pub(crate) mod settle;
-pub(crate) mod starts;
 pub(crate) mod sweep;
+
+#[cfg(test)]
+mod tests;

@@ -2,31 +2,76 @@
 
 use bevy::prelude::*;
 
-use super::starts::others_now;
+use super::crowds::{Crowds, stand};
+use super::parallel::each;
+use crate::run::RobotScan;
 use crate::simulation::sensors::roster::RunSensor;
-use crate::simulation::{ResidesIn, RobotId, Scan, SensorRoster, Transport, WorldScene};
+use crate::simulation::sensors::scanners::Desk;
+use crate::simulation::{LatestFrame, ResidesIn, RobotId, Scan, SensorRoster, Transport, WorldScene};
 
-/// Scans from where the robots are now. A sensor sees the obstacles and the other robots of its world, not its own
-/// robot. A noisy sensor's readings are drawn anew for the tick, from its own stream.
-pub(crate) fn sense(world: &mut World) {
-    let Some(mut roster) = world.get_resource_mut::<SensorRoster>() else { return };
-    let mut roster = std::mem::take(&mut *roster);
-    for sensor in &mut roster.sensors {
-        scan(world, sensor);
-    }
-    *world.resource_mut::<SensorRoster>() = roster;
+/// Scans from where the robots are now, outside a tick.
+pub(crate) fn sense_now(world: &mut World) {
+    stand(world);
+    sense(world);
 }
 
-/// Runs one sensor's scan, into the memory of its last one.
-fn scan(world: &mut World, sensor: &mut RunSensor) -> Option<()> {
+/// Scans from where the robots are at the end of the tick, into the frame. A sensor sees the obstacles and the other
+/// robots of its world, not its own robot. A noisy sensor's readings are drawn anew for the tick, from its own stream.
+pub(crate) fn sense(world: &mut World) {
+    let mut scans = std::mem::take(&mut world.resource_mut::<LatestFrame>().0.scans);
+    let mut copies = take_copies(world);
+    let now: &World = world;
+    let SensorRoster { sensors, scanners, .. } = now.resource::<SensorRoster>();
+    scans.resize_with(sensors.len(), || RobotScan { robot: 0, ranges: Vec::new() });
+    let work = sensors.iter().zip(scans.iter_mut().zip(&mut copies));
+    each(
+        work,
+        || scanners.desk(),
+        |borrowed, (sensor, (kept, copy))| {
+            _ = scan(now, sensor, &mut borrowed.desk, kept);
+            copy.clone_from(&kept.ranges);
+        },
+    );
+    world.resource_scope(|world, mut roster: Mut<SensorRoster>| {
+        for (sensor, copy) in roster.sensors.iter().zip(&mut copies) {
+            if let Some(mut scan) = world.get_mut::<Scan>(sensor.entity) {
+                scan.0 = std::mem::take(copy);
+            }
+        }
+        roster.copies = copies;
+    });
+    world.resource_mut::<LatestFrame>().0.scans = scans;
+}
+
+/// Takes the memory of the sensors' components, so that each is filled while its scan is at hand.
+fn take_copies(world: &mut World) -> Vec<Vec<f64>> {
+    world.resource_scope(|world, mut roster: Mut<SensorRoster>| {
+        let mut copies = std::mem::take(&mut roster.copies);
+        copies.clear();
+        copies.extend(roster.sensors.iter().map(|sensor| {
+            world.get_mut::<Scan>(sensor.entity).map_or_else(Vec::new, |mut scan| std::mem::take(&mut scan.0))
+        }));
+        copies
+    })
+}
+
+/// Runs one sensor's scan, into the memory of its last one. `None` where its robot is gone, which changes nothing.
+fn scan(world: &World, sensor: &RunSensor, desk: &mut Desk, RobotScan { robot, ranges }: &mut RobotScan) -> Option<()> {
+    let rays = sensor.rays.sensor;
+    *robot = sensor.id;
+    ranges.resize(rays.n_rays as usize, 0.0);
     let pose = sensor.pose(world)?;
-    let inhabited = world.get::<ResidesIn>(sensor.robot)?.0;
-    let others = others_now(world, inhabited, *world.get::<RobotId>(sensor.robot)?);
-    let RunSensor { rays, noise, scanner, ranges, .. } = sensor;
-    scanner.scan_into(&world.get::<WorldScene>(inhabited)?.0, &others, &pose, ranges);
-    if let Some((noise, stream)) = noise {
-        *ranges = noise.apply(&rays.sensor, ranges, stream, world.resource::<Transport>().tick);
+    let scene = &world.get::<WorldScene>(world.get::<ResidesIn>(sensor.robot)?.0)?.0;
+    let (scanner, room) = desk.at(sensor.fan, sensor.rays);
+    match world.resource::<Crowds>().of(RobotId(sensor.id)) {
+        Some(crowd) => {
+            let others = crowd.seen(sensor.id, pose.position(), rays.max_range, room);
+            scanner.scan_among(scene, others, &pose, ranges);
+        }
+        None => scanner.scan_into(scene, &[], &pose, ranges),
     }
-    world.get_mut::<Scan>(sensor.entity)?.0.clone_from(&sensor.ranges);
+    if let Some((noise, stream)) = &sensor.noise {
+        noise.apply_to(&rays, ranges, stream, world.resource::<Transport>().tick);
+    }
     Some(())
 }

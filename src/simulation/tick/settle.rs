@@ -2,11 +2,13 @@
 
 use bevy::prelude::*;
 
-use super::hold::{self, Advance, margin_from};
-use super::starts::{Starts, Sweeps};
-use super::sweep::{CutMotion, sweeps_meet};
-use crate::collision::{Surroundings, is_free_among};
-use crate::configuration::Configuration as _;
+use super::crowd::Room;
+use super::crowds::Crowds;
+use super::hold::{self, Advance};
+use super::parallel::each;
+use crate::collision::{Scene, Surroundings, is_free_among};
+use crate::configuration::Configuration as Coordinates;
+use crate::geometry::Placed;
 use crate::robots::Motion as _;
 use crate::simulation::robot::simulated::canonical;
 use crate::simulation::{
@@ -27,43 +29,44 @@ type CutRobot<R> = (
     &'static mut Cut<R>,
 );
 
-/// Cuts every motion of a kind at the walls and at all other robots' starting footprints. A robot alone in its world
+/// Cuts every motion of a kind at the walls and at all other robots' starting footprints. A robot without others near
 /// keeps its last cut while its configuration, its control and the scene stay the same.
 pub(crate) fn cut<R: SimulatedRobot>(
-    starts: Res<Starts>,
-    mut sweeps: ResMut<Sweeps>,
+    crowds: Res<Crowds>,
     scenes: Query<(&WorldScene, &SceneRevision)>,
     mut robots: Query<CutRobot<R>>,
 ) {
-    for (&id, &ResidesIn(world), Configuration(q), Control(u), TickMotion(motion), mut cut) in &mut robots {
-        let (Some(motion), Ok((WorldScene(scene), &revision))) = (motion, scenes.get(world)) else {
+    each(robots.iter_mut(), Room::default, |room, (&id, inhabited, q, u, motion, mut cut)| {
+        let (Some(motion), Ok((WorldScene(scene), &revision))) = (&motion.0, scenes.get(inhabited.0)) else {
             *cut = Cut::new(0.0, false);
-            continue;
+            return;
         };
-        let others = starts.others(world, id);
-        let of = others.is_empty().then_some(CutOf { configuration: *q, control: *u, scene: revision });
-        if of.is_some() && cut.of == of {
-            continue;
+        room.clear();
+        if let Some(crowd) = crowds.of(id) {
+            crowd.others(id.0, room);
         }
-        let surroundings = Surroundings { scene, others: &others };
-        *cut = if R::HELD {
-            let Advance { until, blocked } = hold::advance(&surroundings, motion);
-            Cut::new(until, blocked)
-        } else {
-            // a robot that is not held goes all the way, in contact unless proven free
-            Cut::new(1.0, !is_free_among(&surroundings, motion))
-        };
-        cut.of = of;
-        if !others.is_empty() {
-            sweeps.add(world, id, Box::new(CutMotion { motion: motion.clone(), until: cut.until }));
+        let of = room.parts.is_empty().then_some(CutOf { configuration: q.0, control: u.0, scene: revision });
+        if of.is_none() || cut.of != of {
+            *cut = Cut { of, ..cut_among(scene, &room.parts, motion) };
         }
+    });
+}
+
+/// The cut of a motion among obstacles and the parts of other robots.
+pub(crate) fn cut_among<R: SimulatedRobot>(scene: &Scene, others: &[Placed], motion: &R::Drive) -> Cut<R> {
+    let surroundings = Surroundings { scene, others };
+    if R::HELD {
+        let Advance { until, blocked } = hold::advance(&surroundings, motion);
+        Cut::new(until, blocked)
+    } else {
+        // a robot that is not held goes all the way, in contact unless proven free
+        Cut::new(1.0, !is_free_among(&surroundings, motion))
     }
 }
 
 /// The components of a robot that [`settle`] reads and writes.
 type Settled<R> = (
     &'static RobotId,
-    &'static ResidesIn,
     &'static RobotModel<R>,
     &'static TickMotion<R>,
     &'static Cut<R>,
@@ -74,37 +77,41 @@ type Settled<R> = (
 
 /// Advances every robot of a kind along its cut motion, and counts contacts. A motion that meets the cut motion of a
 /// robot with a lower id in its world is in contact; a robot that contact holds then stays where it started.
-pub(crate) fn settle<R: SimulatedRobot>(starts: Res<Starts>, sweeps: Res<Sweeps>, mut robots: Query<Settled<R>>) {
-    for (&id, &ResidesIn(world), RobotModel(robot), TickMotion(motion), cut, mut q, mut contacts, mut mode) in
-        &mut robots
-    {
-        let (mut until, mut in_contact) = (cut.until, cut.contact);
+pub(crate) fn settle<R: SimulatedRobot>(mut crowds: ResMut<Crowds>, mut robots: Query<Settled<R>>) {
+    for (&id, RobotModel(robot), TickMotion(motion), cut, mut q, mut contacts, mut mode) in &mut robots {
+        let met = motion.is_some() && crowds.has_met(id);
         if let Some(motion) = motion {
-            let met = until > 0.0
-                && sweeps.below(world, id).any(|(lower, sweep)| {
-                    // the motion is already cut at robots that stand still
-                    if sweep.is_still() {
-                        return false;
-                    }
-                    let own = CutMotion { motion: motion.clone(), until };
-                    let margin = margin_from(starts.distance(world, id, lower));
-                    sweeps_meet(&own, sweep, margin)
-                });
-            in_contact |= met;
-            if met && R::HELD {
-                until = 0.0;
-            }
-            let end = canonical(&motion.at(until));
-            if robot.fitted(&end).check(&end).is_ok() {
+            let until = if met && R::HELD { 0.0 } else { cut.until };
+            if let Some(end) = end_of(robot, motion, until) {
                 q.0 = end;
             }
         }
-        let episode = in_contact && !contacts.in_contact;
-        let flash = if in_contact { FLASH_TICKS } else { contacts.flash.saturating_sub(1) };
-        *contacts = Contacts::new(in_contact, contacts.episodes.saturating_add(episode.into()), flash);
-        let arrived = mode.target.is_some_and(|t| t.difference(&q.0).is_ok_and(|d| d.iter().all(|x| *x == 0.0)));
-        if arrived {
+        *contacts = contacts.after(cut.contact || met);
+        if mode.target.is_some_and(|target| is_there(&target, &q.0)) {
             mode.target = None;
         }
+        if let Some(crowd) = crowds.of_mut(id) {
+            crowd.settle(id.0, &robot.fitted(&q.0).footprint(&q.0));
+        }
+    }
+}
+
+/// Where a motion cut at `until` ends; `None` for what is no configuration of the robot, which then stays.
+pub(crate) fn end_of<R: SimulatedRobot>(robot: &R, motion: &R::Drive, until: f64) -> Option<R::Configuration> {
+    let end = canonical(&motion.at(until));
+    robot.fitted(&end).check(&end).is_ok().then_some(end)
+}
+
+/// Whether a configuration is that of a target.
+pub(crate) fn is_there<C: Coordinates>(target: &C, q: &C) -> bool {
+    target.difference(q).is_ok_and(|d| d.iter().all(|x| *x == 0.0))
+}
+
+impl<R: SimulatedRobot> Contacts<R> {
+    /// The contacts after one more tick, in contact or not.
+    pub(crate) fn after(&self, in_contact: bool) -> Self {
+        let begins = in_contact && !self.in_contact;
+        let flash = if in_contact { FLASH_TICKS } else { self.flash.saturating_sub(1) };
+        Contacts::new(in_contact, self.episodes.saturating_add(begins.into()), flash)
     }
 }

@@ -21,15 +21,15 @@ pub trait Sweep: Send + Sync {
 }
 
 /// A motion cut at a parameter.
-#[derive(Clone, Debug)]
-pub struct CutMotion<M> {
+#[derive(Debug)]
+pub struct CutMotion<'a, M> {
     /// The motion.
-    pub motion: M,
+    pub motion: &'a M,
     /// The parameter at which it ends.
     pub until: f64,
 }
 
-impl<M: Motion + Send + Sync> Sweep for CutMotion<M> {
+impl<M: Motion + Send + Sync> Sweep for CutMotion<'_, M> {
     fn parts(&self) -> usize {
         self.motion.footprint_at(0.0).parts().len()
     }
