@@ -4,10 +4,10 @@ use std::path::PathBuf;
 use std::slice::from_ref;
 
 use clap::Args;
+use motion_lab::export::JsonNumber;
 use motion_lab::run::{Divergence, Log, SetupDifference, Value, first_divergence};
 use serde::Serialize;
 
-use crate::cli::support::json_number::JsonNumber;
 use crate::cli::support::log_source::read_log;
 use crate::cli::{Data, Failure, Outcome, say};
 

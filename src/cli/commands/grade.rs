@@ -3,13 +3,13 @@
 use std::path::{Path, PathBuf};
 
 use clap::Args;
+use motion_lab::export::JsonNumber;
 use motion_lab::recording::{Assignment, AssignmentFile, Attempt, Grade, Refusal, Submission};
 use motion_lab::run::{Log, Script};
 use motion_lab::worlds::World;
 use serde::Serialize;
 
 use crate::cli::support::input::{MAX_TEXT, read_bytes, read_text};
-use crate::cli::support::json_number::JsonNumber;
 use crate::cli::support::log_source::MAX_LOG;
 use crate::cli::support::world_source::{find_world, read_world};
 use crate::cli::{Data, Failure, Outcome};
