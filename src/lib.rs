@@ -108,6 +108,9 @@ pub mod simulation;
 #[cfg(feature = "sim")]
 pub mod recording;
 
+#[cfg(feature = "sim")]
+pub mod export;
+
 // the program's own; public because the program is a crate of its own
 #[doc(hidden)]
 #[cfg(feature = "cli")]

@@ -10,6 +10,7 @@ mod files;
 mod grade;
 mod import;
 mod kinds;
+mod library_exports;
 mod manual;
 mod messages;
 mod queries;

@@ -13,7 +13,7 @@ use sources::{Source, sources};
 
 /// The modules in reading order: each may use those before it. The first [`CORE`] of them are the library without
 /// features.
-const ORDER: [&str; 26] = [
+const ORDER: [&str; 27] = [
     "num",
     "short_list",
     "text_position",
@@ -32,6 +32,7 @@ const ORDER: [&str; 26] = [
     "atlas",
     "simulation",
     "recording",
+    "export",
     "output",
     "manifest",
     "capture",

@@ -4,6 +4,7 @@ mod app;
 mod contacts;
 mod crowd;
 mod driving;
+mod grading;
 mod kinds;
 mod state;
 mod tour;

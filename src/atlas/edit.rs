@@ -1,10 +1,12 @@
 //! `Editor`, a world under edit: every change is checked as world files are, and can be undone.
 
 use super::op::{changed, is_taken, shape_of};
+use super::teleport::overlap;
 use super::{Atlas, EditError, EditShape, Handle, Op, Refusal, Teleport};
+use crate::configuration::Kinds;
 use crate::geometry::{Aabb, Point2, Vector2};
 use crate::num::{hypot, lesser, sin_cos};
-use crate::worlds::{World, WorldError, comments};
+use crate::worlds::{Resident, World, WorldError, comments};
 
 /// A world under edit.
 ///
@@ -21,6 +23,7 @@ pub struct Editor {
     saved: Option<usize>,
     /// Number of comments in the text that was opened.
     comments: usize,
+    kinds: Kinds,
 }
 
 /// Distance from a place to the handle of its heading, as a fraction of the world's shorter side.
@@ -34,12 +37,25 @@ impl Editor {
     pub fn open(file: &str, text: &str) -> Result<Self, WorldError> {
         let world = World::parse(file, text)?;
         let saved = (world.to_ron() == text).then_some(0);
-        Ok(Editor { file: file.to_owned(), history: vec![world], now: 0, saved, comments: comments(text) })
+        Ok(Editor { file: file.to_owned(), saved, comments: comments(text), ..Editor::new(world) })
     }
 
     /// Opens a world that has no file yet.
     pub fn new(world: World) -> Self {
-        Editor { file: "world.ron".into(), history: vec![world], now: 0, saved: None, comments: 0 }
+        let (file, kinds) = ("world.ron".into(), Kinds::default());
+        Editor { file, history: vec![world], now: 0, saved: None, comments: 0, kinds }
+    }
+
+    /// The same editor that knows these kinds of robots too. It moves robots of a program's own kinds whose first two
+    /// coordinates are a place, and warns of the starts of those that have footprints.
+    #[must_use]
+    pub fn knowing(self, kinds: Kinds) -> Self {
+        Editor { kinds, ..self }
+    }
+
+    /// The kinds of robots that it knows.
+    pub fn kinds(&self) -> &Kinds {
+        &self.kinds
     }
 
     /// The present world.
@@ -87,7 +103,7 @@ impl Editor {
     /// # Errors
     /// [`EditError`] says why the change is refused.
     pub fn preview(&self, op: &Op) -> Result<World, EditError> {
-        let changed = changed(self.world(), op)?;
+        let changed = changed(self.world(), op, &self.kinds)?;
         Ok(World::parse(&self.file, &changed.to_ron())?)
     }
 
@@ -139,9 +155,9 @@ impl Editor {
         self.shape(name).map_or_else(Vec::new, |shape| shape.handles())
     }
 
-    /// Warnings about robots that start in contact. A world file may have them.
+    /// Warnings about robots that start in contact, or where a run would not start. A world file may have them.
     pub fn warnings(&self) -> Vec<String> {
-        let atlas = Atlas::new(self.world().clone());
+        let atlas = Atlas::new(self.world().clone()).knowing(self.kinds.clone());
         let starts = atlas.robots().iter().enumerate().filter_map(|(i, r)| {
             let refusal = Teleport::ask_only(&atlas.checker(i)?, &r.q).err()?;
             Some(match refusal {
@@ -149,7 +165,17 @@ impl Editor {
                 other => format!("{}: {other}", r.name),
             })
         });
-        starts.collect()
+        let known = |robot: &&Resident| {
+            atlas.robots().iter().all(|r| r.name != robot.name) && self.kinds.has_footprints(&robot.kind)
+        };
+        let others = self.world().robots.iter().filter(known).filter_map(|Resident { name, kind, start, .. }| {
+            let Some(footprint) = self.kinds.footprint(kind, start) else {
+                return Some(format!("{name}: its start is no configuration of the kind {kind:?}"));
+            };
+            let refusal = overlap(&atlas.scene_beside(name), &footprint)?;
+            Some(format!("{name} {refusal} at its start"))
+        });
+        starts.chain(others).collect()
     }
 
     /// A free name for a new thing: `wall`, `wall 2`, ..

@@ -37,11 +37,6 @@ pub struct Named {
     pub at: Vec<Point2>,
 }
 
-/// Whether robots of this kind drive, so that a start is a place.
-pub(super) fn drives(kind: &str) -> bool {
-    RobotKind::of(kind).is_some_and(|known| known.drives)
-}
-
 /// Every named thing of a world in file order. Robots of the lab's kinds that drive are at their starts; other robots
 /// are left out.
 pub fn named(world: &World) -> Vec<Named> {

@@ -100,14 +100,16 @@ impl Atlas {
     /// The checker of robot number `index` among the obstacles and the other robots, each an obstacle under its name.
     /// `None` for an unknown robot.
     pub fn checker(&self, index: usize) -> Option<Checker<AnyRobot>> {
-        let mut scene = Scene::of_world(&self.world);
-        for (_, other) in self.residents.iter().enumerate().filter(|(i, _)| *i != index) {
-            scene = teleport::with_robot(scene, &other.name, &other.robot.footprint(&other.q));
-        }
-        for (name, footprint) in self.others() {
-            scene = teleport::with_robot(scene, name, &footprint);
-        }
-        Some(Checker::new(scene, self.residents.get(index)?.robot))
+        let resident = self.residents.get(index)?;
+        Some(Checker::new(self.scene_beside(&resident.name), resident.robot))
+    }
+
+    /// The obstacles and all robots but this one.
+    fn scene_beside(&self, name: &str) -> Scene {
+        let others = self.standing().filter(|(other, _)| *other != name);
+        others.fold(Scene::of_world(&self.world), |scene, (other, footprint)| {
+            teleport::with_robot(scene, other, &footprint)
+        })
     }
 
     /// Puts robot number `index` at `to`, or returns why not. `None` for an unknown robot.

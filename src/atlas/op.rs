@@ -1,12 +1,11 @@
 //! `Op`, a change of a world.
 
 use super::EditShape;
-use super::labels::drives;
 use super::outline::tidy;
-use crate::configuration::Sizes;
+use crate::configuration::{Kinds, RobotKind, Sizes};
 use crate::geometry::{Point2, Pose2, Vector2};
 use crate::num::atan2;
-use crate::worlds::{Mark, OutlineError, Place, World, WorldError};
+use crate::worlds::{Mark, OutlineError, Place, Resident, World, WorldError};
 
 /// A change of a world.
 #[derive(Clone, Debug, PartialEq)]
@@ -27,7 +26,8 @@ pub enum Op {
         pose: Pose2,
     },
     /// Move anything that has a name, its coordinates rounded to a nanometre. Arms whose sizes the world does not say
-    /// are refused, because their start holds no base.
+    /// are refused, because their start holds no base. So are robots of kinds that the editor does not
+    /// [know](super::Editor::knowing), and moves to where a run would refuse to start one that has footprints.
     Move {
         /// Its name.
         name: String,
@@ -81,6 +81,9 @@ pub enum EditError {
     /// The thing can't be changed in this way.
     #[error("{0:?} has no shape to change")]
     NoShape(String),
+    /// The robot's start would be no configuration of its kind.
+    #[error("{0:?} can't start there")]
+    NoConfiguration(String),
     /// An invalid outline of a polygon.
     #[error("polygon: {0}")]
     Outline(#[from] OutlineError),
@@ -139,8 +142,26 @@ fn reshape(world: &mut World, at: Found, name: &str, shape: &EditShape) -> Resul
     Ok(())
 }
 
+/// Moves a robot's start: an arm by the base that its sizes say, any other by the place that its start begins with.
+fn move_robot(robot: &mut Resident, by: Vector2, kinds: &Kinds) -> Result<(), EditError> {
+    if let Some(Sizes::Arm(arm)) = &mut robot.sizes {
+        arm.base = (arm.base + by).map(tidy);
+        return Ok(());
+    }
+    let has_place = kinds.of(&robot.kind).is_some_and(RobotKind::has_place);
+    let stood = kinds.footprint(&robot.kind, &robot.start).is_some();
+    let (true, [x, y, ..]) = (has_place, &mut robot.start[..]) else {
+        return Err(EditError::NoShape(robot.name.clone()));
+    };
+    (*x, *y) = (tidy(*x + by.x), tidy(*y + by.y));
+    if stood && kinds.footprint(&robot.kind, &robot.start).is_none() {
+        return Err(EditError::NoConfiguration(robot.name.clone()));
+    }
+    Ok(())
+}
+
 /// The world after a change, not checked yet.
-pub(super) fn changed(world: &World, op: &Op) -> Result<World, EditError> {
+pub(super) fn changed(world: &World, op: &Op, kinds: &Kinds) -> Result<World, EditError> {
     let mut world = world.clone();
     let found = |world: &World, name: &str| find(world, name).ok_or_else(|| EditError::NoSuchName(name.to_owned()));
     match op {
@@ -163,16 +184,7 @@ pub(super) fn changed(world: &World, op: &Op) -> Result<World, EditError> {
                 (pose.x, pose.y) = (tidy(pose.x + by.x), tidy(pose.y + by.y));
             }
             Found::Mark(i) => world.marks[i].points.iter_mut().for_each(|p| *p = (*p + by).map(tidy)),
-            Found::Robot(i) => {
-                let robot = &mut world.robots[i];
-                if let Some(Sizes::Arm(arm)) = &mut robot.sizes {
-                    arm.base = (arm.base + by).map(tidy);
-                } else if let (true, [x, y, ..]) = (drives(&robot.kind), &mut robot.start[..]) {
-                    (*x, *y) = (tidy(*x + by.x), tidy(*y + by.y));
-                } else {
-                    return Err(EditError::NoShape(name.clone()));
-                }
-            }
+            Found::Robot(i) => move_robot(&mut world.robots[i], *by, kinds)?,
         },
         Op::Drag { name, handle, to } => {
             let at = found(&world, name)?;

@@ -78,17 +78,21 @@ impl Teleport {
     /// [`Refusal`], whose `nearest` is `None`.
     pub fn ask_only(checker: &Checker<AnyRobot>, to: &AnyConfiguration) -> Result<(), Refusal> {
         checker.robot().check(to).map_err(Refusal::Configuration)?;
-        let footprint = checker.robot().footprint(to);
-        if !checker.scene().intersects(&footprint) {
-            return Ok(());
-        }
-        let touched = checker.scene().touched(&footprint);
-        let mut names: Vec<String> =
-            touched.into_iter().filter_map(|id| checker.scene().obstacle_name(id)).map(str::to_owned).collect();
-        // a robot of several parts is named once
-        names.dedup();
-        Err(Refusal::Overlap { names, nearest: None })
+        overlap(checker.scene(), &checker.robot().footprint(to)).map_or(Ok(()), Err)
     }
+}
+
+/// The refusal of a footprint that overlaps or touches something; `None` where it is free.
+pub(super) fn overlap(scene: &Scene, footprint: &Footprint) -> Option<Refusal> {
+    if !scene.intersects(footprint) {
+        return None;
+    }
+    let touched = scene.touched(footprint);
+    let mut names: Vec<String> =
+        touched.into_iter().filter_map(|id| scene.obstacle_name(id)).map(str::to_owned).collect();
+    // a robot of several parts is named once
+    names.dedup();
+    Some(Refusal::Overlap { names, nearest: None })
 }
 
 /// The scene with a robot standing in it, under its name.

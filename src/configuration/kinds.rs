@@ -82,6 +82,11 @@ impl Kinds {
         self.0.get(kind)?.about
     }
 
+    /// Whether the kind has footprints, which the lab's own have not here.
+    pub fn has_footprints(&self, kind: &str) -> bool {
+        self.0.get(kind).is_some_and(|known| known.outline.is_some())
+    }
+
     /// The footprint of a robot of this kind at the configuration with these coordinates. `None` for a kind without
     /// footprints, which the lab's own are here, and for coordinates that are none of its configurations.
     pub fn footprint(&self, kind: &str, coordinates: &[f64]) -> Option<Footprint> {

@@ -3,6 +3,7 @@
 use std::slice::from_ref;
 
 use super::{Divergence, Frame, Log, first_divergence};
+use crate::tour::TourConfig;
 
 /// A run compared with a recording, frame by frame from tick 0 on. The frames of ticks beyond the recording's last one
 /// are compared with nothing.
@@ -11,13 +12,15 @@ pub struct Comparison<'a> {
     /// The recorded frames that are not compared yet.
     recorded: std::iter::Chain<std::option::IntoIter<&'a Frame>, std::slice::Iter<'a, Frame>>,
     ticks: u64,
+    /// The recording's configuration, which names robots and sensors.
+    config: Option<&'a TourConfig>,
     divergence: Option<Divergence>,
 }
 
 impl<'a> Comparison<'a> {
     /// A comparison with all frames of a log. The first frame to compare is that of tick 0.
     pub fn with(log: &'a Log) -> Self {
-        Self::from_tick_0(Some(&log.initial), &log.frames)
+        Comparison { config: Some(&log.config), ..Self::from_tick_0(Some(&log.initial), &log.frames) }
     }
 
     /// A comparison with these frames, the first of which is that of tick 1; tick 0 is not compared.
@@ -26,7 +29,8 @@ impl<'a> Comparison<'a> {
     }
 
     fn from_tick_0(initial: Option<&'a Frame>, frames: &'a [Frame]) -> Self {
-        Comparison { recorded: initial.into_iter().chain(frames), ticks: frames.len() as u64, divergence: None }
+        let recorded = initial.into_iter().chain(frames);
+        Comparison { recorded, ticks: frames.len() as u64, config: None, divergence: None }
     }
 
     /// Compares the next frame of the run with the recorded one. Returns whether all frames so far agree in every bit.
@@ -35,7 +39,11 @@ impl<'a> Comparison<'a> {
         if self.divergence.is_none()
             && let Some(recorded) = recorded
         {
-            self.divergence = first_divergence(from_ref(recorded), from_ref(frame));
+            let divergence = first_divergence(from_ref(recorded), from_ref(frame));
+            self.divergence = match self.config {
+                Some(config) => divergence.map(|divergence| divergence.named(config)),
+                None => divergence,
+            };
         }
         self.divergence.is_none()
     }
@@ -50,7 +58,8 @@ impl<'a> Comparison<'a> {
         self.divergence.as_ref().map_or(self.ticks, |d| d.tick.saturating_sub(1))
     }
 
-    /// The first value that differs: `expected` in the recording, `found` in the run.
+    /// The first value that differs: `expected` in the recording, `found` in the run. Compared with a log, it is
+    /// [named](Divergence::named).
     pub fn divergence(&self) -> Option<&Divergence> {
         self.divergence.as_ref()
     }

@@ -2,8 +2,9 @@
 
 use std::fmt;
 
-use super::Frame;
 use super::field::{Field, Value};
+use super::{Frame, RobotScan};
+use crate::tour::TourConfig;
 
 /// The first value in which two runs differ. A replay that diverges is data, not a panic.
 ///
@@ -15,6 +16,8 @@ pub struct Divergence {
     pub tick: u64,
     /// The robot's id; `None` for a value that belongs to no robot.
     pub robot: Option<u32>,
+    /// The scan that holds the value, of a robot with several in the first run; `None` for any other value.
+    pub scan: Option<DivergingScan>,
     /// The value's name, in the order of [`Frame::encode`]: `configuration[2]`, `contacts`, `ranges.len`; `frames.len`
     /// when one run is the beginning of the other.
     pub field: String,
@@ -24,7 +27,47 @@ pub struct Divergence {
     pub found: Value,
 }
 
+/// One of several scans of a robot, in which two runs differ.
+///
+/// Prints as `sensor "left"` where the sensor is known, as `the run's sensor` for the one of the configuration, else as
+/// `scan 2`.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct DivergingScan {
+    /// Its number among the robot's scans, from 1.
+    pub number: usize,
+    /// How many scans the robot has, 2 or more.
+    pub of: usize,
+    /// The robot's name; `None` until the divergence is [named](Divergence::named).
+    pub robot: Option<String>,
+    /// The sensor's name, empty for the run's own sensor. `None` until the divergence is named, and where the robot has
+    /// other sensors than the configuration's.
+    pub sensor: Option<String>,
+}
+
+impl fmt::Display for DivergingScan {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.sensor.as_deref() {
+            Some("") => f.write_str("the run's sensor"),
+            Some(name) => write!(f, "sensor {name:?}"),
+            None => write!(f, "scan {}", self.number),
+        }
+    }
+}
+
 impl Divergence {
+    /// The same divergence, with the names of the scan's robot and sensor by the first run's configuration. Nothing
+    /// changes where the value is in no scan, or in the only one of its robot.
+    #[must_use]
+    pub fn named(mut self, config: &TourConfig) -> Self {
+        let resident = self.robot.and_then(|id| config.residents().nth(id as usize));
+        if let (Some(scan), Some(resident)) = (&mut self.scan, resident) {
+            let sensors = config.sensors_of(resident, scan.of);
+            scan.robot = Some(resident.name.clone());
+            scan.sensor = sensors.and_then(|sensors| Some(sensors.get(scan.number.checked_sub(1)?)?.name.clone()));
+        }
+        self
+    }
+
     /// The distance of the two values in representable numbers; `None` unless both are floats and neither is NaN.
     pub fn ulps(&self) -> Option<u64> {
         match (self.expected, self.found) {
@@ -46,7 +89,12 @@ impl fmt::Display for Divergence {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "tick {}, ", self.tick)?;
         if let Some(robot) = self.robot {
-            write!(f, "robot {robot}, ")?;
+            write!(f, "robot {robot}")?;
+            match &self.scan {
+                Some(scan @ DivergingScan { robot: Some(name), .. }) => write!(f, " ({name}), {scan}, ")?,
+                Some(scan) => write!(f, ", {scan}, ")?,
+                None => write!(f, ", ")?,
+            }
         }
         let Divergence { field, expected, found, .. } = self;
         write!(f, "{field}: expected {expected} ({:#018x}), found {found} ({:#018x})", expected.bits(), found.bits())?;
@@ -76,6 +124,7 @@ pub fn first_divergence(expected: &[Frame], found: &[Frame]) -> Option<Divergenc
     Some(Divergence {
         tick: beyond.tick,
         robot: None,
+        scan: None,
         field: "frames.len".into(),
         expected: Value::of_len(expected.len()),
         found: Value::of_len(found.len()),
@@ -89,15 +138,25 @@ fn differing_value(expected: &Frame, found: &Frame) -> Option<Divergence> {
         values
     };
     let (a, b) = (values(expected), values(found));
-    let ((robot, field, expected_value), (_, _, found_value)) =
-        a.into_iter().zip(b).find(|((_, _, x), (_, _, y))| x.bits() != y.bits())?;
+    let at = a.iter().zip(&b).position(|((_, _, x), (_, _, y))| x.bits() != y.bits())?;
+    let ((robot, field, expected_value), (_, _, found_value)) = (a[at], b[at]);
+    let scans = a[..=at].iter().filter(|(_, field, _)| *field == Field::one("scan.robot")).count();
     Some(Divergence {
         tick: expected.tick,
         robot,
+        scan: robot.and_then(|_| scan_of_several(&expected.scans[..], scans.checked_sub(1)?)),
         field: field.to_string(),
         expected: expected_value,
         found: found_value,
     })
+}
+
+/// The scan of this index in a frame, if its robot has several.
+fn scan_of_several(scans: &[RobotScan], index: usize) -> Option<DivergingScan> {
+    let robot = scans.get(index)?.robot;
+    let count = |scans: &[RobotScan]| scans.iter().filter(|scan| scan.robot == robot).count();
+    let (number, of) = (count(&scans[..=index]), count(scans));
+    (of > 1).then_some(DivergingScan { number, of, robot: None, sensor: None })
 }
 
 #[cfg(test)]
@@ -162,6 +221,7 @@ mod tests {
         let at = |expected, found| Divergence {
             tick: 17,
             robot: Some(0),
+            scan: None,
             field: "configuration[2]".into(),
             expected,
             found,
@@ -183,5 +243,69 @@ mod tests {
             assert_eq!(at(Value::Float(a), Value::Float(b)).ulps(), ulps, "{a:?} {b:?}");
         }
         assert_eq!(at(Value::Count(1), Value::Count(2)).ulps(), None);
+    }
+
+    /// Robot 0 has three scans and robot 1 has one, of as many ranges as their numbers say.
+    fn scanned() -> Vec<Frame> {
+        let scan = |robot, rays| RobotScan { robot, ranges: vec![1.0; rays] };
+        let scans = vec![scan(0, 2), scan(0, 4), scan(0, 3), scan(1, 2)];
+        (1..=2).map(|tick| Frame { scans: scans.clone(), ..fixture::frame(tick) }).collect()
+    }
+
+    #[test]
+    fn of_several_scans_the_one_that_differs_is_numbered() {
+        let frames = scanned();
+        let differing = |change: fn(&mut Frame)| {
+            let mut other = frames.clone();
+            change(&mut other[1]);
+            first_divergence(&frames, &other).unwrap()
+        };
+        let begins = |change: fn(&mut Frame), words: &str| {
+            let printed = differing(change).to_string();
+            assert!(printed.starts_with(words), "{printed}");
+        };
+        begins(|f| f.scans[0].ranges[1] = 2.0, "tick 2, robot 0, scan 1, ranges[1]: expected 1.0 ");
+        begins(|f| f.scans[1].ranges[3] = 2.0, "tick 2, robot 0, scan 2, ranges[3]: expected 1.0 ");
+        begins(|f| _ = f.scans[2].ranges.pop(), "tick 2, robot 0, scan 3, ranges.len: expected 3 ");
+        begins(|f| f.scans[2].robot = 1, "tick 2, robot 0, scan 3, scan.robot: expected 0 ");
+        // of a robot with one scan, and of values in none, nothing more is said
+        begins(|f| f.scans[3].ranges[0] = 2.0, "tick 2, robot 1, ranges[0]: expected 1.0 ");
+        begins(|f| f.robots[0].contacts += 1, "tick 2, robot 0, contacts: expected ");
+        begins(|f| _ = f.scans.pop(), "tick 2, scans.len: expected 4 ");
+        let obstacle = |f: &mut Frame| {
+            let pose = crate::geometry::Pose2::IDENTITY;
+            f.obstacles.push(crate::run::ObstacleState { world: 0, obstacle: 0, present: false, pose });
+        };
+        begins(obstacle, "tick 2, obstacles.len: expected 0 ");
+        let found = differing(|f| f.scans[1].ranges[3] = 2.0);
+        assert_eq!(found.scan, Some(DivergingScan { number: 2, of: 3, robot: None, sensor: None }));
+    }
+
+    #[test]
+    fn a_scan_has_the_name_of_its_sensor_where_the_configuration_says_it() {
+        use crate::worlds::ResidentSensor;
+        let (frames, mut config) = (scanned(), fixture::log().config);
+        let rays = crate::sensors::RangeSensor { n_rays: 4, max_range: 2.0 };
+        config.worlds[0].robots[0].sensors = ["left", "aft"].map(|name| ResidentSensor::new(name, rays)).to_vec();
+        let printed = |config: &TourConfig, scan: usize| {
+            let mut other = frames.clone();
+            other[0].scans[scan].ranges[1] = 2.0;
+            let printed = first_divergence(&frames, &other).unwrap().named(config).to_string();
+            printed.split(": expected").next().unwrap().to_owned()
+        };
+        // the car carries the run's sensor too, and its own come in the order of their names
+        let names = [0, 1, 2, 3].map(|scan| printed(&config, scan));
+        let expected = [
+            "tick 1, robot 0 (Car), the run's sensor, ranges[1]",
+            "tick 1, robot 0 (Car), sensor \"aft\", ranges[1]",
+            "tick 1, robot 0 (Car), sensor \"left\", ranges[1]",
+            "tick 1, robot 1, ranges[1]",
+        ];
+        assert_eq!(names, expected);
+        // a program gave it others
+        config.worlds[0].robots[0].sensors.clear();
+        assert_eq!(printed(&config, 2), "tick 1, robot 0 (Car), scan 3, ranges[1]");
+        config.worlds.clear();
+        assert_eq!(printed(&config, 2), "tick 1, robot 0, scan 3, ranges[1]");
     }
 }

@@ -20,7 +20,7 @@ mod world_change;
 pub use comparison::Comparison;
 pub use difference::SetupDifference;
 pub use digest::{Digest, RunDigest};
-pub use divergence::{Divergence, first_divergence};
+pub use divergence::{Divergence, DivergingScan, first_divergence};
 pub use field::Value;
 pub use frame::{DT, Frame, ObstacleState, RobotScan, RobotState};
 pub use log::Log;

@@ -72,6 +72,47 @@ fn one_planted_ulp_is_found_in_its_tick_and_field() {
     assert_eq!((&report["equal"], &report["differing_ticks"]), (&false.into(), &1.into()));
 }
 
+/// A car with two sensors of its own, and a rover with the run's and one of its own.
+const SENSORS: &str = "World(version: 1, name: \"room\", bounds: (min: (-5, -5), max: (5, 5)),
+    walls: [(name: \"wall\", points: [(-5, -5), (5, -5), (5, 5), (-5, 5)], closed: true)], robots: [
+    (name: \"rover\", kind: \"rusty\", start: [-2, 0, 1], sensors: [(name: \"aft\", rays: 3, range: 9)]),
+    (name: \"car\", kind: \"hitch\", start: [1, 0.5, 0], sensors: [
+        (name: \"left\", rays: 3, range: 9), (name: \"ahead\", rays: 2, range: 9)])])";
+
+#[test]
+fn of_several_scans_the_one_that_differs_is_named() {
+    let folder = tempfile::tempdir().unwrap();
+    let world = folder.path().join("room.ron");
+    fs::write(&world, SENSORS).unwrap();
+    let a = recording(folder.path(), "a.mcap", &["--world", world.to_str().unwrap(), "--rays", "4"]);
+    let planted = |scan: usize| changed(&a, |log| log.frames[4].scans[scan].ranges[1] += 0.5);
+    for (scan, number, sensor, words) in [
+        (0, 1, "", "robot 0 (rover), the run's sensor, ranges[1]: "),
+        (1, 2, "aft", "robot 0 (rover), sensor \"aft\", ranges[1]: "),
+        (2, 1, "ahead", "robot 1 (car), sensor \"ahead\", ranges[1]: "),
+        (3, 2, "left", "robot 1 (car), sensor \"left\", ranges[1]: "),
+    ] {
+        let b = planted(scan);
+        let found = diff(&[], &a, &b);
+        assert!(found.code == Some(4) && found.out.starts_with(&format!("tick 5, {words}")), "{}", found.out);
+        let report = json(&diff(&["--json"], &a, &b).out);
+        let value = &report["divergence"];
+        assert_eq!(
+            (&value["scan"], &value["sensor"], &value["field"]),
+            (&number.into(), &sensor.into(), &"ranges[1]".into())
+        );
+        // the commands that simulate the run again say the same
+        for command in ["verify", "replay"] {
+            let output = run(&[command, b.to_str().unwrap()]);
+            assert_eq!(output.code, Some(4));
+            assert!(output.out.contains(&format!("tick 5, {words}expected ")), "{command}: {}", output.out);
+        }
+    }
+    // where the value is in no scan nothing is said of one
+    let report = json(&diff(&["--json"], &a, &changed(&a, |log| log.frames[4].robots[0].contacts += 1)).out);
+    assert!(report["divergence"].get("scan").is_none() && report["divergence"].get("sensor").is_none(), "{report}");
+}
+
 #[test]
 fn the_initial_state_is_compared_too() {
     let folder = tempfile::tempdir().unwrap();

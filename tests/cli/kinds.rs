@@ -58,6 +58,34 @@ fn what_needs_the_robot_says_who_has_it() {
 }
 
 #[test]
+fn grading_says_who_has_the_robot() {
+    let (folder, _, _) = with_trains();
+    let exam = |world: &str, robot: &str, goal: &str| {
+        let zeros = goal.split(',').map(|_| "1").collect::<Vec<_>>().join(", ");
+        let text = format!(
+            "Assignment(version: 1, world: {world:?}, robot: {robot:?}, goal: (at: [{goal}], within: [{zeros}]),\n\
+             limits: (ticks: 9), seeds: [1])"
+        );
+        fs::write(folder.path().join("exam.ron"), text).unwrap();
+    };
+    exam("lot.ron", "Train", "9, 1.9, 0, 0, 0");
+    let message = run_in(folder.path(), &["grade", "exam.ron", "train.mcap"]).failed(3);
+    says_what_to_do(&message);
+    assert!(message.contains("exam.ron:1: start: ") && message.contains("\"Train\""), "{message}");
+    // a submission with a train, where the lab's car is asked for
+    exam("lot", "Hitch", "7, 2.5, 0");
+    let graded = run_in(folder.path(), &["grade", "--json", "exam.ron", "train.mcap"]);
+    assert_eq!(graded.code, Some(4), "{}", graded.err);
+    let row = super::json(&graded.out);
+    assert!(row["refused"].as_str().unwrap().contains("there is no kind \"x-train\""), "{row}");
+    assert!(graded.err.contains("train.mcap: ") && graded.err.contains("`RobotPlugin`"), "{}", graded.err);
+    // any other mistake has the advice it had
+    exam("lot", "Train", "7, 2.5, 0");
+    let message = run_in(folder.path(), &["grade", "exam.ron", "train.mcap"]).failed(3);
+    assert!(message.contains("Correct it there") && !message.contains("RobotPlugin"), "{message}");
+}
+
+#[test]
 fn what_does_not_need_the_robot_is_done() {
     let (_folder, log, world) = with_trains();
     assert_eq!(run(&["export", text(&log), "--format", "csv"]).done().lines().count(), 1202);

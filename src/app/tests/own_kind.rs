@@ -1,6 +1,7 @@
 //! A kind of robot that the program added: what the window shows of it.
 
 use super::*;
+use crate::atlas::Op;
 use crate::configuration::{Configuration as _, HitchCfg, RobotKind, Space};
 use crate::robots::HITCH;
 use crate::simulation::{RobotPlugin, start_run};
@@ -81,4 +82,44 @@ fn the_atlas_names_and_draws_it() {
     let label = |items: &[crate::picture::Item]| items.iter().any(|item| item.id == "name/robots/Tug");
     assert!(label(atlas.labels(60.0)));
     assert!(atlas.over().items.iter().any(|item| item.name.contains("Tug")), "its outline");
+    // for who hears the window, its kind prints its start
+    harness.get_by_label_contains("World Lot. Tug: a tug at x = 8.000.");
+}
+
+/// The editor knows the kind of a file opened in the window, and of a world drawn anew after an edit.
+#[test]
+fn the_editor_moves_it_and_warns_of_its_start() {
+    let mut harness = lab_with_tugs();
+    let world = harness.state_mut().app.world_mut();
+    let opened = crate::app::runs::open_world_text(world, "yard.ron", &yard().to_ron());
+    assert!(!opened.is_error, "{opened:?}");
+    let atlas = &mut world.resource_mut::<Interface>().into_inner().0.atlas;
+    let none: [&str; 0] = [];
+    assert_eq!(atlas.warnings(), none);
+    let by = |x, y| Op::Move { name: "Tug".into(), by: crate::geometry::Vector2::new(x, y) };
+    // its front is 3.2 m ahead of its axle, the tow's end 2.8 m behind it
+    let start = |atlas: &crate::ui::AtlasState| atlas.world().robots[0].start.clone();
+    atlas.change(&by(5.0, 0.5), None);
+    assert_eq!((start(atlas), &atlas.message), (vec![13.0, 2.4, 0.0, 0.0], &None));
+    assert_eq!(atlas.warnings(), ["Tug would overlap the east curb at its start"]);
+    atlas.change(&by(-10.5, 0.0), None);
+    assert_eq!(atlas.warnings(), ["Tug would overlap the west curb at its start"]);
+    atlas.change(&by(2.5, 0.0), None);
+    assert_eq!((start(atlas), atlas.warnings()), (vec![5.0, 2.4, 0.0, 0.0], &[][..]));
+    // it is drawn and named where it is now
+    assert!(atlas.over().items.iter().any(|item| item.name.contains("Tug")));
+    assert!(atlas.labels(60.0).iter().any(|item| item.id == "name/robots/Tug"));
+    assert_eq!(atlas.described(), "World Lot. Tug: a tug at x = 5.000.");
+}
+
+/// A stranger's file names a kind that this window does not have.
+#[test]
+fn of_a_kind_that_nobody_added_the_window_says_nothing_wrong() {
+    let mut harness = lab(WIDE);
+    let world = harness.state_mut().app.world_mut();
+    let opened = crate::app::runs::open_world_text(world, "yard.ron", &yard().to_ron());
+    assert!(!opened.is_error, "{opened:?}");
+    harness.run_steps(3);
+    harness.get_by_label_contains("World Lot.");
+    assert!(harness.query_by_label_contains("Tug").is_none(), "nobody knows where it stands");
 }

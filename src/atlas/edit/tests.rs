@@ -1,7 +1,9 @@
 //! The editor.
 
 use super::*;
-use crate::geometry::Pose2;
+use crate::configuration::RobotKind;
+use crate::geometry::{Footprint, Pose2};
+use crate::worlds::Resident;
 
 fn p(x: f64, y: f64) -> Point2 {
     Point2::new(x, y)
@@ -226,4 +228,77 @@ fn points_snap_to_corners_first_and_then_to_the_grid() {
     let on_grid = snap(p(1.30, 0.88), &corners, 0.1, 0.25);
     assert_eq!(on_grid, p(1.25, 1.0));
     assert_eq!(snap(p(1.3, 0.9), &corners, 0.1, 0.0), p(1.3, 0.9));
+}
+
+/// A sled that stands anywhere but beyond x = 9: a box 1 m long and 0.6 m wide, its middle at x, y.
+fn sleds() -> Kinds {
+    static SLED: RobotKind = RobotKind { name: "x-sled", coordinates: &["x", "y", "wear"], ..RobotKind::REACH };
+    static CLAW: RobotKind = RobotKind { name: "x-claw", coordinates: &["grip"], ..RobotKind::REACH };
+    Kinds::default().with("x-sled", &SLED).with("x-claw", &CLAW).with_footprint("x-sled", |q| {
+        let &[x, y, _] = q else { return None };
+        let corner = |side: f64| p(side * 0.5, side * 0.3);
+        (x <= 9.0).then(|| Footprint::rects([(Pose2::new(x, y, 0.0), corner(-1.0), corner(1.0))]))
+    })
+}
+
+/// The Lot with a sled and a claw.
+fn yard() -> World {
+    let mut world = World::lot();
+    world.robots.push(Resident::new("Sled", "x-sled", [3.0, 2.5, 0.7]));
+    world.robots.push(Resident::new("Claw", "x-claw", [1.0]));
+    world
+}
+
+#[test]
+fn robots_of_kinds_that_the_editor_knows_are_moved() {
+    let start = |editor: &Editor| editor.world().robots[1].start.clone();
+    let by = |x, y| Op::Move { name: name("Sled"), by: Vector2::new(x, y) };
+    // who does not know the kind can't say what its coordinates are
+    let mut stranger = Editor::new(yard());
+    assert!(matches!(stranger.apply(&by(1.0, 0.0)), Err(EditError::NoShape(name)) if name == "Sled"));
+    let mut editor = stranger.knowing(sleds());
+    editor.apply(&by(1.1, -0.2)).unwrap();
+    assert_eq!(start(&editor), [4.1, 2.3, 0.7], "the place moves, and nothing else");
+    assert_eq!(World::parse("w.ron", &editor.text()).unwrap(), *editor.world());
+    // to where no run would start it, it is not moved
+    let refused = editor.apply(&by(5.0, 0.0)).unwrap_err();
+    assert!(matches!(&refused, EditError::NoConfiguration(name) if name == "Sled"), "{refused:?}");
+    assert_eq!(refused.to_string(), "\"Sled\" can't start there");
+    assert_eq!(start(&editor), [4.1, 2.3, 0.7]);
+    editor.apply(&by(4.9, 0.0)).unwrap();
+    assert_eq!(start(&editor), [9.0, 2.3, 0.7]);
+    // a kind without a place has no shape to move
+    let claw = Op::Move { name: name("Claw"), by: Vector2::new(0.1, 0.0) };
+    assert!(matches!(editor.apply(&claw), Err(EditError::NoShape(name)) if name == "Claw"));
+    // the lab's robots move as ever, and arms without sizes don't
+    editor.apply(&Op::Move { name: name("Hitch"), by: Vector2::new(0.25, 0.0) }).unwrap();
+    let mut bench = Editor::new(World::workbench()).knowing(sleds());
+    let reach = Op::Move { name: name("Reach"), by: Vector2::new(0.1, 0.0) };
+    assert!(matches!(bench.apply(&reach), Err(EditError::NoShape(_))));
+    assert!(editor.undo() && editor.undo() && editor.undo() && !editor.undo());
+    assert_eq!(start(&editor), [3.0, 2.5, 0.7]);
+    // opened from a file it is the same
+    let mut opened = Editor::open("yard.ron", &yard().to_ron()).unwrap().knowing(sleds());
+    opened.apply(&by(1.1, -0.2)).unwrap();
+    assert_eq!(start(&opened), [4.1, 2.3, 0.7]);
+}
+
+#[test]
+fn starts_of_kinds_that_the_editor_knows_are_warned_of() {
+    let warned = |start: [f64; 3], kinds: Kinds| {
+        let mut world = yard();
+        world.robots[1].start = start.to_vec();
+        Editor::new(world).knowing(kinds).warnings()
+    };
+    let none: [&str; 0] = [];
+    assert_eq!(warned([3.0, 2.5, 0.7], sleds()), none);
+    // its middle 0.49 m from the west curb's face, and its end 0.01 m in it
+    assert_eq!(warned([0.49, 5.0, 0.0], sleds()), ["Sled would overlap the west curb at its start"]);
+    assert_eq!(warned([0.51, 5.0, 0.0], sleds()), none);
+    assert_eq!(warned([9.5, 5.0, 0.0], sleds()), ["Sled: its start is no configuration of the kind \"x-sled\""]);
+    assert_eq!(warned([0.49, 5.0, 0.0], Kinds::default()), none, "nobody knows its footprint");
+    // in the car it is in the way of both
+    let Resident { start, .. } = &World::lot().robots[0];
+    let both = warned([start[0], start[1], 0.0], sleds());
+    assert_eq!(both, ["Hitch would overlap Sled at its start", "Sled would overlap Hitch at its start"]);
 }

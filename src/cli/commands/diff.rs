@@ -4,10 +4,10 @@ use std::path::PathBuf;
 use std::slice::from_ref;
 
 use clap::Args;
-use motion_lab::run::{Divergence, Log, SetupDifference, Value, first_divergence};
+use motion_lab::export::JsonNumber;
+use motion_lab::run::{Divergence, DivergingScan, Log, SetupDifference, Value, first_divergence};
 use serde::Serialize;
 
-use crate::cli::support::json_number::JsonNumber;
 use crate::cli::support::log_source::read_log;
 use crate::cli::{Data, Failure, Outcome, say};
 
@@ -52,6 +52,10 @@ struct FirstValue {
     tick: u64,
     robot: Option<u32>,
     name: Option<String>,
+    /// Of a robot with several scans, the number of the scan that holds the value, from 1, and its sensor's name, which
+    /// is empty for the run's own sensor and null for one that the run's configuration does not have.
+    #[serde(flatten)]
+    scan: Option<Scan>,
     field: String,
     a: JsonValue,
     b: JsonValue,
@@ -60,6 +64,15 @@ struct FirstValue {
     ulps: Option<u64>,
     #[serde(skip)]
     printed: [String; 2],
+}
+
+/// One of a robot's scans.
+#[derive(Serialize)]
+struct Scan {
+    scan: usize,
+    sensor: Option<String>,
+    #[serde(skip)]
+    printed: String,
 }
 
 /// A frame's value as JSON has it.
@@ -102,7 +115,7 @@ impl Comparison {
         let end = |log: &Log| if common_only { common } else { log.frames.len() };
         let divergence = first_divergence(from_ref(&a.initial), from_ref(&b.initial))
             .or_else(|| first_divergence(&a.frames[..end(a)], &b.frames[..end(b)]))
-            .map(|d| FirstValue::of(&d, a));
+            .map(|d| FirstValue::of(&d.named(&a.config), a));
         let setup: Vec<Setup> = a
             .setup_differences(b)
             .into_iter()
@@ -134,12 +147,13 @@ impl Comparison {
 
 impl FirstValue {
     fn of(divergence: &Divergence, log: &Log) -> Self {
-        let Divergence { tick, robot, field, expected, found } = divergence;
+        let Divergence { tick, robot, scan, field, expected, found } = divergence;
         let name = robot.and_then(|id| log.config.robot_names().nth(id as usize)).map(str::to_owned);
         FirstValue {
             tick: *tick,
             robot: *robot,
             name,
+            scan: scan.as_ref().map(Scan::of),
             field: field.clone(),
             a: (*expected).into(),
             b: (*found).into(),
@@ -163,7 +177,14 @@ impl FirstValue {
             Some(n) => format!(", {n} ulps apart"),
             None => String::new(),
         };
-        format!("tick {tick}, {robot}{field}: {a} ({a_bits}) in A, {b} ({b_bits}) in B{apart}")
+        let scan = self.scan.as_ref().map_or_else(String::new, |scan| format!("{}, ", scan.printed));
+        format!("tick {tick}, {robot}{scan}{field}: {a} ({a_bits}) in A, {b} ({b_bits}) in B{apart}")
+    }
+}
+
+impl Scan {
+    fn of(scan: &DivergingScan) -> Self {
+        Scan { scan: scan.number, sensor: scan.sensor.clone(), printed: scan.to_string() }
     }
 }
 

@@ -3,16 +3,20 @@
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use motion_lab::recording::{Assignment, AssignmentFile, Attempt, Grade, Refusal, Submission};
+use motion_lab::export::JsonNumber;
+use motion_lab::recording::{
+    Assignment, AssignmentError, AssignmentFile, AssignmentProblem, Attempt, Grade, Refusal, RunError, Submission,
+};
 use motion_lab::run::{Log, Script};
+use motion_lab::simulation::SpawnError;
 use motion_lab::worlds::World;
 use serde::Serialize;
 
 use crate::cli::support::input::{MAX_TEXT, read_bytes, read_text};
-use crate::cli::support::json_number::JsonNumber;
 use crate::cli::support::log_source::MAX_LOG;
+use crate::cli::support::simulate::unknown_kind;
 use crate::cli::support::world_source::{find_world, read_world};
-use crate::cli::{Data, Failure, Outcome};
+use crate::cli::{Data, Failure, Outcome, say};
 
 /// Grade scripts and logs by running them again at every seed of an assignment.
 ///
@@ -72,7 +76,13 @@ impl GradeArgs {
         }
         for (path, name) in self.submissions.iter().zip(&names) {
             let graded = match read_submission(path)? {
-                Ok(submission) => Graded::new(name, &assignment.grade(&submission)),
+                Ok(submission) => {
+                    let grade = assignment.grade(&submission);
+                    if let Some(Refusal::Run(RunError::Spawn(SpawnError::UnknownKind { .. }))) = grade.refusal {
+                        say(format!("{name}: {}", unknown_kind()));
+                    }
+                    Graded::new(name, &grade)
+                }
                 Err(reason) => Graded::refused(name, reason),
             };
             passed += usize::from(graded.passed);
@@ -130,7 +140,13 @@ impl<'a> Graded<'a> {
 }
 
 fn read_assignment(path: &Path) -> Result<Assignment, Failure> {
-    let refused = |error| Failure::input(error, "Correct it there. `motion-lab grade --help` shows an assignment.");
+    let refused = |error: AssignmentError| {
+        let next = match &*error.problem {
+            AssignmentProblem::Configuration(RunError::Spawn(SpawnError::UnknownKind { .. })) => unknown_kind(),
+            _ => "Correct it there. `motion-lab grade --help` shows an assignment.".into(),
+        };
+        Failure::input(error, next)
+    };
     let file = AssignmentFile::parse(&path.display().to_string(), &read_text(path)?).map_err(refused)?;
     // a world file lies where the assignment says, seen from the assignment's own folder
     let name = file.world_name();

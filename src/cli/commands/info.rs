@@ -3,11 +3,11 @@
 use std::path::PathBuf;
 
 use clap::Args;
+use motion_lab::export::JsonNumber;
 use motion_lab::run::DT;
 use motion_lab::tour::TourConfig;
 use serde::Serialize;
 
-use crate::cli::support::json_number::JsonNumber;
 use crate::cli::support::log_source::{LogSource, read_log};
 use crate::cli::support::script_words::{changes_in_words, none};
 use crate::cli::support::summary::RunSummary;

@@ -60,7 +60,8 @@ impl Data {
         self.flush()
     }
 
-    fn after(&mut self, written: io::Result<()>) -> Result<(), Failure> {
+    /// The failure of something written here. A reader that has gone away is none.
+    pub fn after(&mut self, written: io::Result<()>) -> Result<(), Failure> {
         match written {
             Err(_) if self.closed => Ok(()),
             Err(error) if error.kind() == ErrorKind::BrokenPipe => {
@@ -74,6 +75,17 @@ impl Data {
             }),
             Ok(()) => Ok(()),
         }
+    }
+}
+
+/// Bytes as they are. A reader that has gone away is the error `BrokenPipe` here; [`after`](Data::after) takes it.
+impl Write for Data {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        self.out.write(bytes)
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        self.out.flush()
     }
 }
 

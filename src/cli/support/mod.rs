@@ -4,7 +4,6 @@ pub(crate) mod console;
 pub(crate) mod end;
 pub(crate) mod input;
 pub(crate) mod interrupt;
-pub(crate) mod json_number;
 pub(crate) mod log_source;
 pub(crate) mod numbers;
 pub(crate) mod output;

@@ -1,5 +1,6 @@
 //! The summary of a run: its robots' last states, its worlds, its digest.
 
+use motion_lab::export::JsonNumber;
 use motion_lab::random::Seed;
 use motion_lab::recording::printed_configuration;
 use motion_lab::run::{Digest, Frame, RobotState};
@@ -7,7 +8,6 @@ use motion_lab::tour::TourConfig;
 use motion_lab::worlds::{Resident, World};
 use serde::Serialize;
 
-use super::json_number::JsonNumber;
 use crate::cli::{Data, Failure};
 
 /// A run as JSON.

@@ -1,14 +1,16 @@
 //! `Assignment`, a robot's goal and limits: read from a file, checked within its world.
 
+use bevy::app::App;
 use ron::value::RawValue;
 use serde::Deserialize;
 
+use super::added_kinds::AddedKinds;
 use super::{AssignmentError, AssignmentProblem, MAX_SEEDS};
 use crate::collision::{Collision, Scene};
 use crate::configuration::RobotKind;
 use crate::random::Seed;
-use crate::recording::{Recorder, RunError};
-use crate::run::Script;
+use crate::recording::{Recorder, RunError, Verification, verify_with_robots};
+use crate::run::{Log, Script};
 use crate::text_position::{line_at, offset_of};
 use crate::tour::{MAX_TICKS, TourConfig};
 use crate::worlds::{Resident, World};
@@ -122,7 +124,25 @@ impl AssignmentFile {
     /// # Errors
     /// [`AssignmentError`] when the world has no such robot, when the start or goal is no free configuration of it, or
     /// when a tolerance, a limit or the number of seeds is out of range.
-    pub fn in_world(&self, mut world: World) -> Result<Assignment, AssignmentError> {
+    pub fn in_world(&self, world: World) -> Result<Assignment, AssignmentError> {
+        self.with_kinds(world, AddedKinds::default())
+    }
+
+    /// [`in_world`](Self::in_world) for a world with kinds of robots that a program added: `add` adds them to each run
+    /// that grading begins, by [`RobotPlugin`](crate::simulation::RobotPlugin). A kind's description decides how far a
+    /// configuration is from the goal and which way is forward; without one, coordinates are compared one by one.
+    ///
+    /// # Errors
+    /// As [`in_world`](Self::in_world), and when the world has a robot of a kind that `add` does not add.
+    pub fn in_world_with_robots(
+        &self,
+        world: World,
+        add: impl Fn(&mut App) + Send + Sync + 'static,
+    ) -> Result<Assignment, AssignmentError> {
+        self.with_kinds(world, AddedKinds::by(add))
+    }
+
+    fn with_kinds(&self, mut world: World, added: AddedKinds) -> Result<Assignment, AssignmentError> {
         let AssignmentText { robot, start, goal, limits, seeds, .. } = &self.text;
         let error = |item: &'static str, problem: AssignmentProblem| AssignmentError {
             file: self.file.clone(),
@@ -138,7 +158,7 @@ impl AssignmentFile {
         if let Some(start) = start {
             world.robots[number].start.clone_from(start);
         }
-        check_place(&world, number).map_err(|problem| error("start", problem))?;
+        let about = check_place(&world, number, &added).map_err(|problem| error("start", problem))?;
         let (coordinates, tolerances) = (goal.at.len(), goal.within.len());
         if coordinates != tolerances {
             return Err(error("goal", AssignmentProblem::Tolerances { coordinates, tolerances }));
@@ -148,37 +168,43 @@ impl AssignmentFile {
         }
         let mut there = world.clone();
         there.robots[number].start.clone_from(&goal.at);
-        check_place(&there, number).map_err(|problem| error("goal", problem))?;
+        check_place(&there, number, &added).map_err(|problem| error("goal", problem))?;
         for (item, ticks) in [("limits", limits.ticks), ("goal", goal.ticks)] {
             if !(1..=MAX_TICKS).contains(&ticks) {
                 return Err(error(item, AssignmentProblem::Ticks(ticks)));
             }
         }
         let kind = world.robots[number].kind.clone();
-        if limits.reversals.is_some() && RobotKind::of(&kind).is_some_and(|known| !known.drives) {
+        if limits.reversals.is_some() && about.is_none_or(|known| !known.drives) {
             return Err(error("limits", AssignmentProblem::Reversals));
         }
         if !(1..=MAX_SEEDS).contains(&seeds.len()) {
             return Err(error("seeds", AssignmentProblem::Seeds(seeds.len())));
         }
         let seeds = seeds.iter().copied().map(Seed).collect();
-        Ok(Assignment { world, number, kind, goal: goal.clone(), limits: *limits, seeds })
+        Ok(Assignment { world, number, kind, goal: goal.clone(), limits: *limits, seeds, added, about })
     }
 }
 
-/// Checks that the robot with this number has a valid start in the world and touches no obstacle there.
-fn check_place(world: &World, number: usize) -> Result<(), AssignmentProblem> {
+/// Checks that the robot with this number has a valid start in the world and touches no obstacle there. Returns the
+/// description of its kind, if it has one.
+fn check_place(
+    world: &World,
+    number: usize,
+    added: &AddedKinds,
+) -> Result<Option<&'static RobotKind>, AssignmentProblem> {
     let config = TourConfig { worlds: vec![world.clone()], ticks: 0, sensor: None };
-    let run = Recorder::new(config, Script::empty()).map_err(AssignmentProblem::Configuration)?;
+    let run = Recorder::with_robots(config, Script::empty(), |app| added.add_to(app));
+    let run = run.map_err(AssignmentProblem::Configuration)?;
     let Resident { name, kind, start, .. } = &world.robots[number];
     Resident::try_new(name.clone(), kind.clone(), start.clone(), None).map_err(AssignmentProblem::Place)?;
     let scene = Scene::of_world(world);
-    let Some(robot) = run.view().into_iter().nth(number) else { return Ok(()) };
+    let Some(robot) = run.view().into_iter().nth(number) else { return Ok(None) };
     match scene.witness(&robot.footprint).filter(|w| w.dist == 0.0) {
         Some(touched) => {
             Err(AssignmentProblem::Touches(scene.obstacle_name(touched.obstacle).unwrap_or("an obstacle").to_owned()))
         }
-        None => Ok(()),
+        None => Ok(robot.about),
     }
 }
 
@@ -201,6 +227,9 @@ fn line_of(text: &str, item: &str) -> usize {
 }
 
 /// A task: lead a robot from its start to a goal, within limits, at each of several seeds.
+///
+/// It keeps what adds the kinds of robots it was made with, so that it is graded with no others. Two assignments with
+/// added kinds are equal when one is a copy of the other.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Assignment {
     world: World,
@@ -209,6 +238,8 @@ pub struct Assignment {
     goal: Goal,
     limits: Limits,
     seeds: Vec<Seed>,
+    added: AddedKinds,
+    about: Option<&'static RobotKind>,
 }
 
 impl Assignment {
@@ -225,6 +256,11 @@ impl Assignment {
     /// The robot's kind.
     pub fn kind(&self) -> &str {
         &self.kind
+    }
+
+    /// The description of the robot's kind, if it has one.
+    pub fn about(&self) -> Option<&'static RobotKind> {
+        self.about
     }
 
     /// The goal.
@@ -245,6 +281,11 @@ impl Assignment {
     /// Begins a run of the assignment, at tick 0.
     pub(super) fn begin(&self, seed: Seed, script: &Script) -> Result<Recorder, RunError> {
         let config = TourConfig { worlds: vec![self.world.clone()], ticks: self.limits.ticks, sensor: None };
-        Recorder::new(config, (seed, script.clone()))
+        Recorder::with_robots(config, (seed, script.clone()), |app| self.added.add_to(app))
+    }
+
+    /// Simulates a log's run again and compares it, with the assignment's kinds of robots.
+    pub(super) fn verify(&self, log: &Log) -> Result<Verification, RunError> {
+        verify_with_robots(log, |app| self.added.add_to(app), |_| {})
     }
 }

@@ -66,7 +66,7 @@ impl Attempt {
         loop {
             let frame = run.step();
             let (tick, state) = (frame.tick, &frame.robots[robot]);
-            if let Some(way) = way(assignment.kind(), &before, &state.configuration) {
+            if let Some(way) = way(assignment.about(), &before, &state.configuration) {
                 reversals = reversals.saturating_add(u32::from(ahead.is_some_and(|a| a != way)));
                 ahead = Some(way);
             }
@@ -89,8 +89,8 @@ impl Attempt {
 }
 
 /// Whether a robot that drives went forward; `None` when it hardly moved, or does not drive.
-fn way(kind: &str, before: &[f64], after: &[f64]) -> Option<bool> {
-    RobotKind::of(kind).filter(|known| known.drives)?;
+fn way(about: Option<&RobotKind>, before: &[f64], after: &[f64]) -> Option<bool> {
+    about.filter(|known| known.drives)?;
     let pose = |q: &[f64]| Pose2::from_coordinates(q.get(..3)?);
     let dx = pose(after)?.boxminus(&pose(before)?).dx;
     (dx.abs() > CREEP).then_some(dx > 0.0)
@@ -100,15 +100,15 @@ fn way(kind: &str, before: &[f64], after: &[f64]) -> Option<bool> {
 /// not.
 fn is_within(assignment: &Assignment, q: &[f64]) -> bool {
     let goal = assignment.goal();
-    difference(assignment.kind(), &goal.at, q).is_some_and(|d| {
+    difference(assignment.about(), &goal.at, q).is_some_and(|d| {
         d.len() == goal.within.len() && d.iter().zip(&goal.within).all(|(d, within)| d.abs() <= *within)
     })
 }
 
-/// The chart difference of two configurations of this kind. A kind that a program registered is compared coordinate by
+/// The chart difference of two configurations of this kind. A kind that nobody described is compared coordinate by
 /// coordinate.
-fn difference(kind: &str, from: &[f64], to: &[f64]) -> Option<Coordinates> {
-    match RobotKind::of(kind) {
+fn difference(about: Option<&RobotKind>, from: &[f64], to: &[f64]) -> Option<Coordinates> {
+    match about {
         Some(known) => (known.difference)(from, to),
         None => (from.len() == to.len()).then(|| from.iter().zip(to).map(|(a, b)| b - a).collect()),
     }
@@ -121,19 +121,19 @@ mod tests {
 
     #[test]
     fn angles_differ_the_short_way_and_spaces_do_not_mix() {
-        let near = difference("rusty", &[0.0, 0.0, PI - 0.1], &[1.0, -1.0, 0.1 - PI]).unwrap();
+        let near = difference(Some(&RobotKind::RUSTY), &[0.0, 0.0, PI - 0.1], &[1.0, -1.0, 0.1 - PI]).unwrap();
         assert!((near[2] - 0.2).abs() < 1e-12 && near[0] == 1.0 && near[1] == -1.0, "{near:?}");
-        assert!(difference("hitch", &[0.0; 3], &[0.0; 4]).is_none());
-        assert!(difference("reach", &[0.0; 2], &[0.0; 3]).is_none());
-        assert_eq!(difference("x-crane", &[1.0], &[7.5]).unwrap()[..], [6.5]);
+        assert!(difference(Some(&RobotKind::HITCH), &[0.0; 3], &[0.0; 4]).is_none());
+        assert!(difference(Some(&RobotKind::REACH), &[0.0; 2], &[0.0; 3]).is_none());
+        assert_eq!(difference(None, &[1.0], &[7.5]).unwrap()[..], [6.5]);
     }
 
     #[test]
     fn ahead_is_where_the_robot_faces() {
         let west = [0.0, 0.0, PI];
-        assert_eq!(way("rusty", &west, &[-0.1, 0.0, PI]), Some(true));
-        assert_eq!(way("hitch", &[0.0, 0.0, PI, 0.3], &[0.1, 0.0, PI, 0.3]), Some(false));
-        assert_eq!(way("rusty", &west, &[0.0, 0.0, 1.0]), None, "a turn on the spot");
-        assert_eq!(way("reach", &[0.0, 0.0], &[1.0, 0.0]), None);
+        assert_eq!(way(Some(&RobotKind::RUSTY), &west, &[-0.1, 0.0, PI]), Some(true));
+        assert_eq!(way(Some(&RobotKind::HITCH), &[0.0, 0.0, PI, 0.3], &[0.1, 0.0, PI, 0.3]), Some(false));
+        assert_eq!(way(Some(&RobotKind::RUSTY), &west, &[0.0, 0.0, 1.0]), None, "a turn on the spot");
+        assert_eq!(way(Some(&RobotKind::REACH), &[0.0, 0.0], &[1.0, 0.0]), None);
     }
 }

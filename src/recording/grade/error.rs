@@ -76,8 +76,8 @@ pub enum AssignmentProblem {
     /// A number of ticks out of range.
     #[error("{0} ticks: there must be 1 to {MAX_TICKS}")]
     Ticks(u64),
-    /// A limit of reversals for a robot that has no forward direction.
-    #[error("an arm has no direction to reverse")]
+    /// A limit of reversals for a robot that has no forward direction, or of a kind that nobody described.
+    #[error("only a robot that drives has a direction to reverse")]
     Reversals,
     /// No seed, or too many.
     #[error("{0} seeds: there must be 1 to {MAX_SEEDS}")]

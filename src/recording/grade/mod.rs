@@ -27,6 +27,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+mod added_kinds;
 mod assignment;
 mod attempt;
 mod error;
@@ -35,7 +36,7 @@ pub use assignment::{Assignment, AssignmentFile, Goal, Limits};
 pub use attempt::{Attempt, Verdict};
 pub use error::{AssignmentError, AssignmentProblem, MAX_SEEDS};
 
-use super::{RunError, verify};
+use super::RunError;
 use crate::run::{Divergence, Log, RobotInput, Script, ScriptError};
 
 /// The work handed in.
@@ -90,7 +91,8 @@ impl Grade {
 }
 
 impl Assignment {
-    /// Grades a submission: the same grade on every machine.
+    /// Grades a submission: the same grade on every machine. Kinds of robots that the assignment does not know are
+    /// refused: [`AssignmentFile::in_world_with_robots`] makes one that knows a program's own.
     pub fn grade(&self, submission: &Submission) -> Grade {
         let script = match submission {
             Submission::Script(script) => script,
@@ -109,7 +111,7 @@ impl Assignment {
         let script = match submission {
             Submission::Script(script) => script,
             Submission::Log(log) => {
-                if let Some(divergence) = forgery(log)? {
+                if let Some(divergence) = self.forgery(log)? {
                     return Err(Refusal::Forged(Box::new(divergence)));
                 }
                 let hash = self.world().content_hash();
@@ -130,11 +132,11 @@ impl Assignment {
             None => Ok(()),
         }
     }
-}
 
-/// The first value in a log's frames that differs from the run of its seed, configuration and script: `found` in the
-/// log, `expected` by the run.
-fn forgery(log: &Log) -> Result<Option<Divergence>, RunError> {
-    let divergence = verify(log, |_| {})?.divergence;
-    Ok(divergence.map(|d| Divergence { expected: d.found, found: d.expected, ..d }))
+    /// The first value in a log's frames that differs from the run of its seed, configuration and script: `found` in
+    /// the log, `expected` by the run.
+    fn forgery(&self, log: &Log) -> Result<Option<Divergence>, RunError> {
+        let divergence = self.verify(log)?.divergence;
+        Ok(divergence.map(|d| Divergence { expected: d.found, found: d.expected, ..d }))
+    }
 }

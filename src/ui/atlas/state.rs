@@ -9,6 +9,7 @@ use crate::capture::{self, AtlasSheet, Captured};
 use crate::configuration::{AnyConfiguration, Kinds};
 use crate::geometry::Point2;
 use crate::picture::{Item, Picture, Role, footprint, world as picture_of};
+use crate::recording::printed_as;
 use crate::robots::Robot;
 use crate::ui::readout;
 use crate::worlds::World;
@@ -118,7 +119,9 @@ impl AtlasState {
 
     /// Shows robots of these kinds too.
     pub fn know(&mut self, kinds: Kinds) {
-        self.atlas = self.atlas.clone().knowing(kinds);
+        self.atlas = self.atlas.clone().knowing(kinds.clone());
+        self.editor = self.editor.clone().knowing(kinds);
+        self.warnings = self.editor.warnings();
         self.labels = None;
     }
 
@@ -247,7 +250,13 @@ impl AtlasState {
 
     /// The widget in words, for screen readers.
     pub fn described(&self) -> String {
-        let robots: Vec<String> = self.atlas.robots().iter().map(|r| format!("{}: {}", r.name, r.q)).collect();
+        let lab = self.atlas.robots();
+        let others = self.world().robots.iter().filter(|robot| lab.iter().all(|r| r.name != robot.name));
+        let others = others.filter_map(|robot| {
+            let about = self.atlas.kinds().of(&robot.kind)?;
+            Some(format!("{}: {}", robot.name, printed_as(Some(about), &robot.start)))
+        });
+        let robots: Vec<String> = lab.iter().map(|r| format!("{}: {}", r.name, r.q)).chain(others).collect();
         let refusal = self.refusal().map_or_else(String::new, |r| format!(" {r}."));
         format!("World {}. {}.{refusal}", self.world().name, robots.join("; "))
     }

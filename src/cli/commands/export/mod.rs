@@ -1,17 +1,18 @@
 //! `export`: a log in the forms that other programs read.
 
-mod csv;
-mod foxglove;
-mod jsonl;
 mod sink;
 mod stills;
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
-use motion_lab::run::{Frame, Log};
+use motion_lab::export::{ExportError, write_csv, write_foxglove_of_file, write_jsonl};
+use motion_lab::run::Log;
 
-use crate::cli::support::log_source::{LogSource, read_log};
+use crate::cli::support::input::read_bytes;
+use crate::cli::support::log_source::{LogSource, MAX_LOG, read_log};
+use crate::cli::support::output::PendingFile;
+use crate::cli::support::simulate::not_shown;
 use crate::cli::{Data, Failure, Outcome, say};
 use sink::Sink;
 use stills::StillArgs;
@@ -73,14 +74,14 @@ impl Export {
         }
         let (file, log) = (&self.file, &read.log);
         match (self.format, &self.output) {
-            (Format::Foxglove, Some(output)) => foxglove::write(file, log, output)?,
+            (Format::Foxglove, Some(output)) => foxglove(file, log, output)?,
             (Format::Png, Some(output)) => stills::png(&self.stills, file, log, output)?,
             (Format::Gif, Some(output)) => stills::gif(&self.stills, file, log, output)?,
             (format, output) => {
                 let mut sink = Sink::new(output.as_deref(), data)?;
                 match format {
-                    Format::Jsonl => jsonl::write(log, &mut sink)?,
-                    Format::Csv => csv::write(log, self.ranges, &mut sink)?,
+                    Format::Jsonl => sink.take(|out| write_jsonl(log, out))?,
+                    Format::Csv => sink.take(|out| write_csv(log, self.ranges, out))?,
                     _ => {
                         let tick = self.stills.tick.unwrap_or(log.frames.len() as u64);
                         sink.text(&stills::svg_at(file, log, tick)?)?;
@@ -96,7 +97,14 @@ impl Export {
     }
 }
 
-/// A log's frames from tick 0 on.
-fn frames(log: &Log) -> impl Iterator<Item = &Frame> {
-    std::iter::once(&log.initial).chain(&log.frames)
+/// Writes the log that was read from `file` for viewers.
+fn foxglove(file: &Path, log: &Log, output: &Path) -> Result<(), Failure> {
+    let bytes = read_bytes(file, MAX_LOG)?;
+    let mut pending = PendingFile::create(output)?;
+    write_foxglove_of_file(&bytes, log, &mut pending, |_| {}).map_err(|error| match error {
+        ExportError::Write(error) => Failure::output(output, &error),
+        ExportError::Run(error) => not_shown(file, &error),
+        error => Failure::internal(error),
+    })?;
+    pending.commit()
 }

@@ -1,8 +1,9 @@
 //! The target of an export: a file that is written whole or not at all, or standard output.
 
-use std::fmt::Display;
-use std::io::Write;
+use std::io::{self, Write};
 use std::path::{Path, PathBuf};
+
+use motion_lab::export::ExportError;
 
 use crate::cli::support::output::PendingFile;
 use crate::cli::{Data, Failure};
@@ -24,25 +25,19 @@ impl<'a> Sink<'a> {
         })
     }
 
-    /// Writes a line.
-    pub fn line(&mut self, line: impl Display) -> Result<(), Failure> {
-        match self {
-            Sink::File(path, file) => writeln!(file, "{line}").map_err(|error| Failure::output(path, &error)),
-            Sink::Data(data) => data.data_line(line),
-        }
-    }
-
     /// Writes a text as it is.
     pub fn text(&mut self, text: &str) -> Result<(), Failure> {
-        match self {
-            Sink::File(path, file) => file.write_all(text.as_bytes()).map_err(|error| Failure::output(path, &error)),
-            Sink::Data(data) => data.text(text),
-        }
+        self.take(|out| Ok(out.write_all(text.as_bytes())?))
     }
 
-    /// Whether the reader of standard output has gone away.
-    pub fn is_closed(&self) -> bool {
-        matches!(self, Sink::Data(data) if data.is_closed())
+    /// Takes what `write` writes. A reader of standard output that has gone away is no failure.
+    pub fn take(&mut self, write: impl FnOnce(&mut Self) -> Result<(), ExportError>) -> Result<(), Failure> {
+        match (write(self), self) {
+            (Ok(()), _) => Ok(()),
+            (Err(ExportError::Write(error)), Sink::File(path, _)) => Err(Failure::output(path, &error)),
+            (Err(ExportError::Write(error)), Sink::Data(data)) => data.after(Err(error)),
+            (Err(error), _) => Err(Failure::internal(error)),
+        }
     }
 
     /// Puts a file in its place.
@@ -50,6 +45,22 @@ impl<'a> Sink<'a> {
         match self {
             Sink::File(_, file) => file.commit(),
             Sink::Data(_) => Ok(()),
+        }
+    }
+}
+
+impl Write for Sink<'_> {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        match self {
+            Sink::File(_, file) => file.write(bytes),
+            Sink::Data(data) => data.write(bytes),
+        }
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        match self {
+            Sink::File(_, file) => file.flush(),
+            Sink::Data(data) => Write::flush(&mut **data),
         }
     }
 }

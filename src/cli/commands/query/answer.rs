@@ -1,6 +1,7 @@
 //! Answers as JSON.
 
 use motion_lab::collision::{Checker, Collision, EdgeVerdict, HitBy, ObstacleId, Scene, Witness};
+use motion_lab::export::JsonNumber;
 use motion_lab::geometry::{Point2, Pose2};
 use motion_lab::robots::Robot;
 use motion_lab::sensors::RangeSensor;
@@ -8,7 +9,6 @@ use serde::Serialize;
 
 use super::Question;
 use super::line::check_place;
-use crate::cli::support::json_number::JsonNumber;
 
 /// An answer; each kind is a JSON object of its own.
 #[derive(Debug, Serialize)]

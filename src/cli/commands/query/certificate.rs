@@ -4,13 +4,13 @@ use std::path::Path;
 
 use motion_lab::collision::{Certificate, Checker, Scene};
 use motion_lab::configuration::Configuration;
+use motion_lab::export::JsonNumber;
 use motion_lab::robots::{ConfigurationError, Motion};
 use serde::Serialize;
 
 use super::answer::{EdgeAnswer, edge, name, point};
 use super::dimensions::{Dimensions, Measured};
 use super::inquiry::Inquiry;
-use crate::cli::support::json_number::JsonNumber;
 use crate::cli::support::output::write_file;
 use crate::cli::{Failure, say};
 

@@ -1,10 +1,10 @@
 //! `Dimensions`, a robot's kind and measures as JSON.
 
+use motion_lab::export::JsonNumber;
 use motion_lab::robots::{Hitch, Reach, Robot, Rusty};
 use serde::Serialize;
 
 use super::answer::point;
-use crate::cli::support::json_number::JsonNumber;
 
 /// What a program needs to compute a robot's footprint at a configuration, metres.
 #[derive(Debug, Serialize)]

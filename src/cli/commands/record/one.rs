@@ -80,7 +80,7 @@ pub fn run(
         if !comparison.frame(frame)
             && let Some(divergence) = comparison.divergence()
         {
-            return Ok(Ended::Differs(divergence.clone()));
+            return Ok(Ended::Differs(divergence.clone().named(config)));
         }
         digest.tick(frame);
         sink(frame)?;

@@ -1,12 +1,10 @@
 //! A row of comma-separated values for each tick and robot.
 
 use std::fmt::Write;
+use std::io;
 
-use motion_lab::run::{DT, Frame, Log, RobotState};
-
-use super::frames;
-use super::sink::Sink;
-use crate::cli::Failure;
+use super::{ExportError, frames};
+use crate::run::{DT, Frame, Log, RobotState};
 
 /// The number of columns of each list: its largest number of items in the log.
 #[derive(Default)]
@@ -18,9 +16,15 @@ struct Widths {
     ranges: Vec<usize>,
 }
 
-/// Writes the names of the columns, then a row for each tick from 0 on and each robot by id. A cell without a value is
-/// empty. The ranges of a robot's first sensor are `range0` and so on, those of its second one `scan2_range0`.
-pub fn write(log: &Log, ranges: bool, sink: &mut Sink) -> Result<(), Failure> {
+/// Writes a log as CSV: the names of the columns, then a row for each tick from 0 on and each robot by id. A cell
+/// without a value is empty. Times are seconds, lengths metres, angles radians.
+///
+/// With `ranges` there is a column for each ray too: those of a robot's first sensor are `range0` and so on, those of
+/// its second one `scan2_range0`. Robots of a program's own kinds are written as any other.
+///
+/// # Errors
+/// [`ExportError::Write`] when `out` fails.
+pub fn write_csv(log: &Log, ranges: bool, mut out: impl io::Write) -> Result<(), ExportError> {
     let mut widths = Widths::default();
     for frame in frames(log) {
         for robot in &frame.robots {
@@ -35,17 +39,15 @@ pub fn write(log: &Log, ranges: bool, sink: &mut Sink) -> Result<(), Failure> {
             }
         }
     }
-    sink.line(widths.head())?;
+    writeln!(out, "{}", widths.head())?;
     let names: Vec<String> = log.config.robot_names().map(cell).collect();
     let mut row = String::new();
     for frame in frames(log) {
-        if sink.is_closed() {
-            break;
-        }
         for (name, robot) in names.iter().zip(&frame.robots) {
             row.clear();
             widths.row(frame, name, robot, &mut row);
-            sink.line(&row)?;
+            row.push('\n');
+            out.write_all(row.as_bytes())?;
         }
     }
     Ok(())

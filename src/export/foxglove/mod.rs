@@ -1,13 +1,4 @@
-//! An MCAP file that viewers show by themselves: the log's own channels, and beside them Foxglove's.
-//!
-//! | topic | schema | when |
-//! |---|---|---|
-//! | `/viewer/transforms` | `foxglove.FrameTransforms` | each tick: worlds in `lab`, robots and parts in their worlds |
-//! | `/viewer/worlds` | `foxglove.SceneUpdate` | at the start, and a world again at each change of its obstacles or doors |
-//! | `/viewer/robots` | `foxglove.SceneUpdate` | each tick, all of it, so that a viewer may begin anywhere |
-//! | `/viewer/scan/NAME` | `foxglove.LaserScan` | each tick of a robot with the run's range sensor |
-//! | `/viewer/scan/NAME/SENSOR` | `foxglove.LaserScan` | each tick, for a sensor of the robot's own |
-//! | `/viewer/log` | `foxglove.Log` | contacts, takeovers, refusals |
+//! `write_foxglove`, an MCAP file that viewers show by themselves: the log's own channels, and beside them Foxglove's.
 
 mod events;
 mod frames;
@@ -16,31 +7,71 @@ mod scene;
 mod writer;
 
 use std::collections::BTreeSet;
-use std::path::Path;
+use std::io::{self, Write};
 use std::sync::Arc;
 
+use bevy::app::App;
 use mcap::read::{LinearReader, Options};
 use mcap::records::Record;
-use motion_lab::recording::Recorder;
-use motion_lab::run::{Frame, Log};
-use motion_lab::simulation::{RobotView, SensorView};
-use motion_lab::worlds::World;
 
-use crate::cli::Failure;
-use crate::cli::support::input::read_bytes;
-use crate::cli::support::log_source::MAX_LOG;
-use crate::cli::support::simulate::show;
+use super::ExportError;
+use crate::recording::{Recorder, Run};
+use crate::run::{Frame, Log};
+use crate::simulation::{RobotView, SensorView};
+use crate::worlds::World;
 use message::{FrameTransforms, LaserScan, Pose, Timestamp, level};
 use writer::ViewerFile;
 
-/// Writes the log that was read from `file` for viewers.
-pub fn write(file: &Path, log: &Log, output: &Path) -> Result<(), Failure> {
-    let bytes = read_bytes(file, MAX_LOG)?;
-    let mut original =
-        Original { records: LinearReader::new_with_options(&bytes, Options::IgnoreEndMagic.into()).ok() };
-    let mut out = ViewerFile::create(output)?;
+/// Writes a log for Foxglove, Lichtblick and Rerun: an MCAP file with the log's own messages and, by Foxglove's
+/// schemas, the messages below. It is not a log that [`Log::read_mcap`] reads. Nothing is simulated.
+///
+/// | topic | schema | when |
+/// |---|---|---|
+/// | `/viewer/transforms` | `foxglove.FrameTransforms` | each tick: worlds in `lab`, robots and parts in their worlds |
+/// | `/viewer/worlds` | `foxglove.SceneUpdate` | at the start, and a world again when obstacles or doors change |
+/// | `/viewer/robots` | `foxglove.SceneUpdate` | each tick, all of it, so that a viewer may begin anywhere |
+/// | `/viewer/scan/NAME` | `foxglove.LaserScan` | each tick of a robot with the run's range sensor |
+/// | `/viewer/scan/NAME/SENSOR` | `foxglove.LaserScan` | each tick, for a sensor of the robot's own |
+/// | `/viewer/log` | `foxglove.Log` | contacts, takeovers, refusals |
+///
+/// `add` adds the kinds of robots that the log names and the lab does not have, as with [`Run::show_with_robots`];
+/// `|_| {}` adds none.
+///
+/// # Errors
+/// [`ExportError`]: `out` fails, a kind is missing, or a frame is none of this run.
+///
+/// ```
+/// use motion_lab::export::write_foxglove;
+/// use motion_lab::recording::Run;
+/// use motion_lab::tour::{BOOK_SEED, TourConfig};
+/// let log = Run::record(TourConfig { ticks: 2, ..TourConfig::default() }, BOOK_SEED)?;
+/// let mut file = Vec::new();
+/// write_foxglove(&log, &mut file, |_| {})?;
+/// assert!(file.starts_with(b"\x89MCAP0\r\n"));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub fn write_foxglove(log: &Log, out: impl Write, add: impl FnOnce(&mut App)) -> Result<(), ExportError> {
+    let mut file = Vec::new();
+    log.write_mcap(&mut file)?;
+    write_foxglove_of_file(&file, log, out, add)
+}
+
+/// [`write_foxglove`] of a log that was read from a file with the bytes `file`, whose records are copied as they are:
+/// another version of this program may have written them. The file may be cut off after the log's last tick.
+///
+/// # Errors
+/// As [`write_foxglove`], and when the file ends before the log or its records cannot be copied.
+pub fn write_foxglove_of_file(
+    file: &[u8],
+    log: &Log,
+    out: impl Write,
+    add: impl FnOnce(&mut App),
+) -> Result<(), ExportError> {
+    let mut original = Original { records: LinearReader::new_with_options(file, Options::IgnoreEndMagic.into()).ok() };
+    let mut out = ViewerFile::begin(out)?;
     let mut run = Viewed { log, before: Vec::new(), parts: BTreeSet::new(), shown: Vec::new() };
-    show(file, log, |recorder, frame| {
+    Run::show_with_robots(log, add, |recorder| {
+        let frame = recorder.frame();
         original.copy_tick(frame.tick, &mut out)?;
         run.tick(frame, recorder, &mut out)
     })?;
@@ -54,16 +85,16 @@ struct Original<'a> {
 
 impl Original<'_> {
     /// Copies all records up to the digest that is the last message of a tick.
-    fn copy_tick(&mut self, tick: u64, out: &mut ViewerFile) -> Result<(), Failure> {
+    fn copy_tick(&mut self, tick: u64, out: &mut ViewerFile<impl Write>) -> Result<(), ExportError> {
         for record in self.records.iter_mut().flatten() {
-            let record = record.map_err(Failure::internal)?;
+            let record = record.map_err(|error| ExportError::Records(io::Error::other(error)))?;
             let ends_tick = matches!(&record, Record::Message { header, .. } if out.is_digest(header));
             out.copy(record)?;
             if ends_tick {
                 return Ok(());
             }
         }
-        Err(Failure::internal(anyhow::anyhow!("the log's own messages end before tick {tick}")))
+        Err(ExportError::Ends(tick))
     }
 }
 
@@ -79,7 +110,12 @@ struct Viewed<'a> {
 }
 
 impl Viewed<'_> {
-    fn tick(&mut self, frame: &Frame, recorder: &Recorder, out: &mut ViewerFile) -> Result<(), Failure> {
+    fn tick(
+        &mut self,
+        frame: &Frame,
+        recorder: &Recorder,
+        out: &mut ViewerFile<impl Write>,
+    ) -> Result<(), ExportError> {
         let (tick, worlds, robots) = (frame.tick, &self.log.config.worlds, recorder.view());
         let standing = recorder.standing_worlds();
         if let Some(update) = scene::changed_worlds(tick, &self.shown, &standing) {

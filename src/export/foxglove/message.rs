@@ -1,12 +1,12 @@
 //! The viewers' messages: those parts of assets/schema/foxglove.proto that are written.
 
-use motion_lab::geometry::{Point2, Pose2};
-use motion_lab::num;
-use motion_lab::run::TICK_NANOSECONDS;
+use crate::geometry::{Point2, Pose2};
+use crate::num;
+use crate::run::TICK_NANOSECONDS;
 use prost::Message;
 
 /// The compiled schema, which every export carries.
-pub const SCHEMA: &[u8] = include_bytes!("../../../../../assets/schema/foxglove.binpb");
+pub const SCHEMA: &[u8] = include_bytes!("../../../assets/schema/foxglove.binpb");
 
 #[derive(Clone, Copy, PartialEq, Message)]
 pub struct Timestamp {
@@ -252,7 +252,7 @@ mod tests {
 
     use super::*;
 
-    const PROTO: &str = include_str!("../../../../../assets/schema/foxglove.proto");
+    const PROTO: &str = include_str!("../../../assets/schema/foxglove.proto");
 
     /// A field as the text has it.
     fn words(field: &FieldDescriptorProto) -> String {

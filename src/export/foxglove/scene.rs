@@ -3,10 +3,10 @@
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
-use motion_lab::geometry::{Point2, Pose2};
-use motion_lab::picture::{Role, Theme, polygon_of};
-use motion_lab::simulation::RobotView;
-use motion_lab::worlds::{Obstacle, World};
+use crate::geometry::{Point2, Pose2};
+use crate::picture::{Role, Theme, polygon_of};
+use crate::simulation::RobotView;
+use crate::worlds::{Obstacle, World};
 
 use super::frames;
 use super::message::{

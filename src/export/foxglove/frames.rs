@@ -1,8 +1,8 @@
 //! The frames of reference, by name: the lab, its worlds side by side, the robots in them, the robots' parts.
 
-use motion_lab::geometry::{Pose2, Shape};
-use motion_lab::simulation::RobotView;
-use motion_lab::worlds::World;
+use crate::geometry::{Pose2, Shape};
+use crate::simulation::RobotView;
+use crate::worlds::World;
 
 use super::message::FrameTransform;
 

@@ -1,22 +1,20 @@
 //! The file for viewers: records copied from a log, and messages by Foxglove's schemas.
 
 use std::collections::BTreeMap;
-use std::path::{Path, PathBuf};
+use std::io::Write;
 
 use mcap::records::{MessageHeader, Record};
 use mcap::write::NoSeek;
 use mcap::{Attachment, McapError, WriteOptions, Writer};
-use motion_lab::run::{EXPORT_PROFILE, TICK_NANOSECONDS};
 use prost::Message;
 
 use super::message::SCHEMA;
-use crate::cli::Failure;
-use crate::cli::support::output::PendingFile;
+use crate::export::ExportError;
+use crate::run::{EXPORT_PROFILE, TICK_NANOSECONDS};
 
 /// A file that is being written, in chunks and with an index, so that viewers can go to any time at once.
-pub struct ViewerFile {
-    path: PathBuf,
-    writer: Writer<NoSeek<PendingFile>>,
+pub struct ViewerFile<W: Write> {
+    writer: Writer<NoSeek<W>>,
     /// The copied schemas' and channels' new ids by their old ones.
     schemas: BTreeMap<u16, u16>,
     channels: BTreeMap<u16, u16>,
@@ -26,16 +24,12 @@ pub struct ViewerFile {
     own: BTreeMap<String, u16>,
 }
 
-impl ViewerFile {
+impl<W: Write> ViewerFile<W> {
     /// Begins the file.
-    pub fn create(path: &Path) -> Result<Self, Failure> {
+    pub fn begin(out: W) -> Result<Self, ExportError> {
         let options = WriteOptions::new().compression(None).profile(EXPORT_PROFILE).library("motion-lab");
-        let writer = options
-            .disable_seeking(true)
-            .create(NoSeek::new(PendingFile::create(path)?))
-            .map_err(|error| failed(path, error))?;
+        let writer = options.disable_seeking(true).create(NoSeek::new(out)).map_err(failed)?;
         Ok(ViewerFile {
-            path: path.to_owned(),
             writer,
             schemas: BTreeMap::new(),
             channels: BTreeMap::new(),
@@ -51,7 +45,7 @@ impl ViewerFile {
 
     /// Copies a record of the log. Seals, headers and the records at the end are left out: they are about the log's own
     /// bytes.
-    pub fn copy(&mut self, record: Record<'_>) -> Result<(), Failure> {
+    pub fn copy(&mut self, record: Record<'_>) -> Result<(), ExportError> {
         let copied = match record {
             Record::Schema { header, data } => self
                 .writer
@@ -80,12 +74,12 @@ impl ViewerFile {
             Record::Metadata(metadata) => self.writer.write_metadata(&metadata),
             _ => Ok(()),
         };
-        copied.map_err(|error| failed(&self.path, error))
+        copied.map_err(failed)
     }
 
     /// Writes a message of a tick.
-    pub fn message(&mut self, topic: &str, schema: &str, tick: u64, message: &impl Message) -> Result<(), Failure> {
-        self.try_message(topic, schema, tick, message).map_err(|error| failed(&self.path, error))
+    pub fn message(&mut self, topic: &str, schema: &str, tick: u64, message: &impl Message) -> Result<(), ExportError> {
+        self.try_message(topic, schema, tick, message).map_err(failed)
     }
 
     fn try_message(&mut self, topic: &str, schema: &str, tick: u64, message: &impl Message) -> Result<(), McapError> {
@@ -103,16 +97,16 @@ impl ViewerFile {
         self.writer.write_to_known_channel(&header, &message.encode_to_vec())
     }
 
-    /// Writes the end and puts the file in its place.
-    pub fn finish(mut self) -> Result<(), Failure> {
-        self.writer.finish().map_err(|error| failed(&self.path, error))?;
-        self.writer.into_inner().into_inner().commit()
+    /// Writes the end.
+    pub fn finish(mut self) -> Result<(), ExportError> {
+        self.writer.finish().map_err(failed)?;
+        Ok(self.writer.into_inner().into_inner().flush()?)
     }
 }
 
-fn failed(path: &Path, error: McapError) -> Failure {
+fn failed(error: McapError) -> ExportError {
     match error {
-        McapError::Io(error) => Failure::output(path, &error),
-        error => Failure::internal(error),
+        McapError::Io(error) => ExportError::Write(error),
+        error => ExportError::Records(std::io::Error::other(error)),
     }
 }

@@ -4,6 +4,11 @@ use serde::{Serialize, Serializer};
 
 /// A number for JSON. A finite one is written with the fewest digits that read back to the same bits. JSON has no
 /// infinity, so infinity is the text `"inf"`, which Python's `float` and most others read.
+///
+/// ```
+/// use motion_lab::export::JsonNumber;
+/// assert_eq!(serde_json::to_string(&[0.1, -0.0, f64::INFINITY].map(JsonNumber)).unwrap(), "[0.1,-0.0,\"inf\"]");
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct JsonNumber(pub f64);
 

@@ -1,13 +1,12 @@
 //! A line of JSON for each tick.
 
-use motion_lab::run::{DT, Frame, Log, RobotScan, RobotState};
-use motion_lab::worlds::{Resident, World};
+use std::io::Write;
+
 use serde::Serialize;
 
-use super::frames;
-use super::sink::Sink;
-use crate::cli::Failure;
-use crate::cli::support::json_number::JsonNumber;
+use super::{ExportError, JsonNumber, frames};
+use crate::run::{DT, Frame, Log, RobotScan, RobotState};
+use crate::worlds::{Resident, World};
 
 /// A tick.
 #[derive(Serialize)]
@@ -51,14 +50,16 @@ struct FurtherScan {
     ranges: Vec<JsonNumber>,
 }
 
-/// Writes a line for each tick from 0 on.
-pub fn write(log: &Log, sink: &mut Sink) -> Result<(), Failure> {
+/// Writes a log as lines of JSON: an object for each tick from 0 on, with all that its frame holds. Times are seconds,
+/// lengths metres, angles radians. Robots of a program's own kinds are written as any other.
+///
+/// # Errors
+/// [`ExportError::Write`] when `out` fails.
+pub fn write_jsonl(log: &Log, mut out: impl Write) -> Result<(), ExportError> {
     let residents: Vec<(&World, &Resident)> =
         log.config.worlds.iter().flat_map(|w| w.robots.iter().map(move |r| (w, r))).collect();
+    let mut line = Vec::new();
     for frame in frames(log) {
-        if sink.is_closed() {
-            break;
-        }
         let robots = residents.iter().zip(&frame.robots).map(|((world, resident), state)| {
             let (scan, further_scans) = scans(log, resident, state.id, frame);
             Robot { ranges: scan, further_scans, ..robot(world, resident, state) }
@@ -69,7 +70,10 @@ pub fn write(log: &Log, sink: &mut Sink) -> Result<(), Failure> {
             digest: frame.digest().to_string(),
             robots: robots.collect(),
         };
-        sink.line(serde_json::to_string(&tick).map_err(Failure::internal)?)?;
+        line.clear();
+        serde_json::to_writer(&mut line, &tick).map_err(std::io::Error::from)?;
+        line.push(b'\n');
+        out.write_all(&line)?;
     }
     Ok(())
 }

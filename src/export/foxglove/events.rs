@@ -1,6 +1,6 @@
 //! The events of a run as log messages: contacts, takeovers, refusals.
 
-use motion_lab::simulation::RobotView;
+use crate::simulation::RobotView;
 
 use super::message::{Log, Timestamp, level};
 
