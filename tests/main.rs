@@ -17,6 +17,8 @@ mod chapter;
 mod cli;
 #[cfg(feature = "sim")]
 mod controls;
+#[cfg(feature = "sim")]
+mod crowds;
 mod edges;
 #[cfg(feature = "sim")]
 mod examples;

@@ -1,7 +1,7 @@
 //! `Editor`, a world under edit: every change is checked as world files are, and can be undone.
 
-use super::op::{changed, is_taken, shape_of};
-use super::{Atlas, EditError, EditShape, Handle, Op, Refusal, Teleport};
+use super::op::{all_names, changed, shape_of};
+use super::{Atlas, EditError, EditShape, Handle, Op, Refusal};
 use crate::geometry::{Aabb, Point2, Vector2};
 use crate::num::{hypot, lesser, sin_cos};
 use crate::worlds::{World, WorldError, comments};
@@ -142,21 +142,21 @@ impl Editor {
     /// Warnings about robots that start in contact. A world file may have them.
     pub fn warnings(&self) -> Vec<String> {
         let atlas = Atlas::new(self.world().clone());
-        let starts = atlas.robots().iter().enumerate().filter_map(|(i, r)| {
-            let refusal = Teleport::ask_only(&atlas.checker(i)?, &r.q).err()?;
+        let warning = |(i, refusal): (usize, Refusal)| {
+            let name = &atlas.robots().get(i)?.name;
             Some(match refusal {
-                Refusal::Overlap { .. } => format!("{} {refusal} at its start", r.name),
-                other => format!("{}: {other}", r.name),
+                Refusal::Overlap { .. } => format!("{name} {refusal} at its start"),
+                other => format!("{name}: {other}"),
             })
-        });
-        starts.collect()
+        };
+        atlas.in_contact().into_iter().filter_map(warning).collect()
     }
 
     /// A free name for a new thing: `wall`, `wall 2`, ..
     pub fn free_name(&self, kind: &str) -> String {
-        let taken = |name: &str| is_taken(self.world(), name);
+        let taken = all_names(self.world());
         let numbered = std::iter::once(kind.to_owned()).chain((2..).map(|n: u32| format!("{kind} {n}")));
-        numbered.into_iter().find(|name| !taken(name)).unwrap_or_default()
+        numbered.into_iter().find(|name| !taken.contains(name.as_str())).unwrap_or_default()
     }
 }
 

@@ -53,7 +53,8 @@ pub(crate) fn settle_start(world: &mut World) {
 
 /// The obstacles and the doors of a world's entities, and the entities in the same order.
 fn gather(world: &mut World, ground: &Ground) -> (Vec<Obstacle>, Vec<DoorModel>, Vec<Entity>) {
-    let there: Vec<Entity> = world.get::<Obstacles>(ground.entity()).map_or_else(Vec::new, |o| o.iter().collect());
+    let there: BTreeSet<Entity> =
+        world.get::<Obstacles>(ground.entity()).into_iter().flat_map(Obstacles::iter).collect();
     let known: Vec<Entity> = ground.entities().filter(|e| there.contains(e)).collect();
     let of_file: BTreeSet<Entity> = known.iter().copied().collect();
     let mut new: Vec<(&str, Entity)> = there

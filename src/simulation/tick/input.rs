@@ -5,7 +5,7 @@ use bevy::prelude::*;
 use super::starts::others_now;
 use crate::run::{Event, RobotInput, Script, WorldChange, WorldEvent};
 use crate::simulation::obstacles::change;
-use crate::simulation::{ResidesIn, RobotId, RobotName, RobotOps, Roster, Transport};
+use crate::simulation::{ResidesIn, RobotId, RobotOps, Roster, Transport};
 
 /// An input to a robot from its driver, sent as a [`RunCommand`](crate::simulation::RunCommand). It applies before the
 /// next tick's step.
@@ -160,14 +160,12 @@ pub(crate) fn apply_inputs(world: &mut World) {
     world.resource_scope(|world, pending: Mut<PendingInput>| {
         change::make(world, pending.due_changes(tick));
         for event in pending.due(tick) {
-            let robot = world
-                .resource::<Roster>()
-                .robots()
-                .iter()
-                .copied()
-                .find(|&e| world.get::<RobotName>(e).is_some_and(|n| n.name == event.robot));
+            let robot = world.resource::<Roster>().named(&event.robot);
             let known = robot.and_then(|e| {
-                let others = others_now(world, world.get::<ResidesIn>(e)?.0, *world.get::<RobotId>(e)?);
+                // held channels and targets move nothing yet
+                let is_put = !matches!(event.input, RobotInput::Drive(..) | RobotInput::MoveTo(_));
+                let others = || Some(others_now(world, world.get::<ResidesIn>(e)?.0, *world.get::<RobotId>(e)?));
+                let others = if is_put { others()? } else { Vec::new() };
                 Some((e, *world.get::<RobotOps>(e)?, others))
             });
             if let Some((robot, ops, others)) = known {
