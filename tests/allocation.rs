@@ -118,3 +118,40 @@ fn contact_events_allocate_nothing_where_nothing_happens() {
     assert_eq!(counted(false, step), bare, "nobody listens");
     assert_eq!(counted(true, step), bare, "somebody listens");
 }
+
+/// What keyframes and a history say of their size is what the allocator counts, or a little more.
+#[test]
+fn the_memory_of_keyframes_and_of_a_history_is_counted_honestly() {
+    use motion_lab::simulation::{History, HistoryPlugin, Keyframes, headless_app, restore, snapshot, start_run, step};
+    use motion_lab::tour::{BOOK_SEED, TourConfig};
+    use motion_lab::worlds::{Resident, World};
+
+    let bounds = motion_lab::geometry::Aabb { min: Point2::new(-9.0, -9.0), max: Point2::new(9.0, 9.0) };
+    // robots alone in their worlds, of which some have a configuration of more than four numbers
+    let world = |k: u32| {
+        let (kind, start) = if k.is_multiple_of(3) { ("reach3", [0.1, 0.2, 0.3]) } else { ("rusty", [0.0; 3]) };
+        let robots = vec![Resident::new(format!("robot {k}"), kind, start)];
+        World { robots, ..World::empty(&format!("world {k}"), bounds) }
+    };
+    let config = TourConfig { worlds: (0..150).map(world).collect(), ticks: 200, sensor: None };
+    let mut app = headless_app();
+    app.add_plugins(HistoryPlugin);
+    start_run(app.world_mut(), config, BOOK_SEED).unwrap();
+    app.world_mut().insert_resource(Keyframes::every(5));
+    let start = snapshot(app.world());
+    restore(app.world_mut(), &start).unwrap();
+    (0..200).for_each(|_| step(app.world_mut()));
+
+    fn counted<T: Clone>(kept: &T, said: usize) {
+        let mut copy = None;
+        let measured = allocation_counter::measure(|| copy = Some(kept.clone())).bytes_current as usize;
+        drop(copy);
+        assert!(measured > 100_000 && measured <= said, "{said} bytes are said, {measured} counted");
+        assert!(said < measured + measured / 4, "{said} bytes are said, {measured} counted");
+    }
+    let keyframes = app.world().resource::<Keyframes>();
+    counted(keyframes, keyframes.bytes());
+    let history = app.world().resource::<History>();
+    assert_eq!(history.samples(), 11, "one a second of more than a hundred robots");
+    counted(history, history.bytes());
+}

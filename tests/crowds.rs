@@ -1,120 +1,161 @@
-//! Many robots: the same run on any number of threads, and replicas that give the bits of the schedule.
+//! Worlds of many robots: opened, checked and edited at a cost that grows with their number, not with its square.
 
-use motion_lab::configuration::RobotKind;
-use motion_lab::geometry::Aabb;
+use std::fmt::Write;
+
+use motion_lab::atlas::{Atlas, EditShape, Editor, Op, Teleport, names};
+use motion_lab::collision::{Checker, Scene};
 use motion_lab::prelude::*;
-use motion_lab::recording::{Recorder, Run};
-use motion_lab::robots::{RUSTY, Reach};
+use motion_lab::recording::Recorder;
+use motion_lab::robots::AnyRobot;
 use motion_lab::run::{Event, RobotInput, Script};
-use motion_lab::sensors::{BeamModel, RangeSensor};
-use motion_lab::simulation::Replicas;
 use motion_lab::tour::{BOOK_SEED, TourConfig};
 use motion_lab::worlds::{Resident, World};
 
-use crate::simulation::quantized;
+use crate::simulation::event;
 
-/// So many rovers half a metre apart, driven into one another.
-fn crowd(robots: usize) -> (TourConfig, Script) {
-    let side = 0.5 * (robots as f64).sqrt();
-    let corner = Point2::new(side, side);
-    let mut world =
-        World::empty("square", Aabb { min: Point2::new(-1.0, -1.0), max: corner + (corner - Point2::origin()) });
-    let mut draws = Stream::new(Seed(4), "crowd");
-    let mut events = Vec::new();
-    let columns = (robots as f64).sqrt().ceil() as usize;
-    for i in 0..robots {
-        let (x, y) = (0.5 * (i % columns) as f64, 0.5 * (i / columns) as f64);
-        let start = vec![x, y, draws.uniform(-3.0, 3.0)];
-        world.robots.push(Resident::new(format!("rover {i}"), RobotKind::RUSTY.name, start));
-        let input = RobotInput::Drive(128, draws.below(65) as i16 - 32);
-        events.push(Event { tick: 1, robot: format!("rover {i}"), input });
+/// The text of a world of `n` rovers a metre apart, `wide` in a row, and as many walls as rows.
+pub fn grid(n: usize, wide: usize) -> String {
+    let rows = n.div_ceil(wide);
+    let mut text = format!(
+        "World(\n    version: 1,\n    name: \"crowd\",\n    bounds: (min: (-1, -1), max: ({wide}, {rows})),\n    walls: [\n"
+    );
+    for row in 0..rows {
+        let y = row as f64 + 0.5;
+        writeln!(text, "        (name: \"wall of row {row}\", points: [(-0.5, {y}), ({wide}.5, {y})]),").unwrap();
     }
-    let sensor = RangeSensor { n_rays: 12, max_range: 1.0 };
-    (TourConfig { worlds: vec![world], ticks: 30, sensor: Some(sensor) }, Script { events, ..Script::empty() })
-}
-
-#[test]
-fn a_crowd_runs_the_same_on_any_number_of_threads() {
-    let (config, script) = crowd(600);
-    let run = |threads: usize| {
-        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
-        pool.install(|| Run::record(config.clone(), (BOOK_SEED, script.clone())).unwrap())
-    };
-    let alone = run(1);
-    let contacts: u32 = alone.frames[29].robots.iter().map(|r| r.contacts).sum();
-    assert!(contacts > 100, "they meet: {contacts}");
-    for threads in [2, 3, 8] {
-        assert_eq!(run(threads).digest(), alone.digest(), "{threads} threads");
+    text += "    ],\n    robots: [\n";
+    for k in 0..n {
+        let (x, y) = (k % wide, k / wide);
+        writeln!(text, "        (name: \"rover {k}\", kind: \"rusty\", start: [{x}, {y}, 0]),").unwrap();
     }
+    text + "    ],\n)\n"
 }
 
-/// A world with this resident alone.
-fn alone(world: &World, resident: &Resident) -> World {
-    World { robots: vec![resident.clone()], ..world.clone() }
-}
-
-#[test]
-fn replicas_give_the_bits_of_recorded_runs() {
-    let sensor = Some(RangeSensor { n_rays: 90, max_range: 4.0 });
-    let world = World::apartment();
-    let noise = BeamModel { sigma_hit: 0.02, z_short: 0.1, lambda_short: 1.0, z_miss: 0.05, z_max: 0.05, z_rand: 0.05 };
-    let rover = Resident { sensor: Some(noise), ..world.robots[0].clone() };
-    // into the wall and along it; a teleport into it is refused; then back to the tour
-    let inputs = [
-        (20, RobotInput::Drive(128, 20)),
-        (90, RobotInput::Teleport(quantized(&[0.0; 3]))),
-        (130, RobotInput::Drive(-100, -90)),
-        (200, RobotInput::Release),
-    ];
-    let seeds = [Seed(1), Seed(2), BOOK_SEED, Seed(u64::MAX)];
-    let mut replicas = Replicas::new(&RUSTY, &world, &rover, sensor, seeds).unwrap();
-    let config = TourConfig { worlds: vec![alone(&world, &rover)], ticks: 300, sensor };
-    let recorders = seeds.iter().enumerate().map(|(i, &seed)| {
-        let events = inputs.iter().filter(|_| i % 2 == 0);
-        let events = events.map(|(tick, input)| Event { tick: *tick, robot: rover.name.clone(), input: input.clone() });
-        Recorder::new(config.clone(), (seed, Script { events: events.collect(), ..Script::empty() })).unwrap()
-    });
-    let mut recorders: Vec<Recorder> = recorders.collect();
-    for tick in 0..=300 {
-        for (i, recorder) in recorders.iter_mut().enumerate() {
-            assert_eq!(&replicas.frame(i), recorder.frame(), "replica {i} at tick {tick}");
-            recorder.step();
-        }
-        for (at, input) in &inputs {
-            if *at == tick + 1 {
-                let accepted = [0, 2].map(|i| replicas.input(i, input));
-                assert_eq!(accepted, [!matches!(input, RobotInput::Teleport(_)); 2], "{input:?}");
+/// The warnings of a world in the plainest way: for each robot a scene with every part of every other robot.
+fn plain_warnings(world: &World) -> Vec<String> {
+    let standing: Vec<_> =
+        world.robots.iter().map(|r| (r, AnyRobot::of_resident(r).expect("a robot of the lab"))).collect();
+    let mut warnings = Vec::new();
+    for (i, (resident, (robot, q))) in standing.iter().enumerate() {
+        let mut scene = Scene::of_world(world);
+        for (_, (other, (model, at))) in standing.iter().enumerate().filter(|(k, _)| *k != i) {
+            for part in model.footprint(at).parts() {
+                let placed = part.placed();
+                let shape = Shape::Hull { vertices: placed.core().into(), radius: placed.radius() };
+                scene = scene.with_obstacle(&other.name, shape);
             }
         }
-        replicas.step();
+        if let Err(refusal) = Teleport::ask_only(&Checker::new(scene, *robot), q) {
+            warnings.push(format!("{} {refusal} at its start", resident.name));
+        }
     }
-    assert!(replicas.contacts(0).episodes > 0 && replicas.contacts(1).episodes == 0);
+    warnings
+}
 
-    // one begins anew, the others go on
-    replicas.reset(1, Seed(7));
-    let mut anew = Recorder::new(config, Seed(7)).unwrap();
-    for _ in 0..40 {
-        assert_eq!(&replicas.frame(1), anew.frame());
-        assert_eq!(replicas.tick(0), 301 + replicas.tick(1));
-        anew.step();
-        replicas.step();
+#[test]
+fn the_warnings_of_a_crowd_are_those_of_each_robot_among_all_others() {
+    let mut draws = Stream::new(Seed(19), "tests/crowds");
+    let mut counts = [0_usize; 3];
+    for round in 0..6 {
+        let mut world = if round % 2 == 0 { World::apartment() } else { World::workbench() };
+        let (min, max) = (world.bounds.min, world.bounds.max);
+        world.robots.clear();
+        for k in 0..24 {
+            let (x, y, theta) = (draws.uniform(min.x, max.x), draws.uniform(min.y, max.y), draws.uniform(-3.0, 3.0));
+            let (kind, start) = match k % 4 {
+                0 => ("hitch", vec![x, y, theta, theta + 0.3]),
+                1 if round % 2 == 1 => ("reach3", vec![theta, 0.3, -0.4]),
+                _ => ("rusty", vec![x, y, theta]),
+            };
+            world.robots.push(Resident::new(format!("robot {k}"), kind, start));
+        }
+        // two that touch exactly: rovers a diameter apart, where nothing else is
+        let x = max.x + 20.0;
+        world.robots.push(Resident::new("left", "rusty", [x, 0.0, 0.0]));
+        world.robots.push(Resident::new("right", "rusty", [x + 0.22, 0.0, 0.0]));
+        let plain = plain_warnings(&world);
+        assert_eq!(Editor::new(world.clone()).warnings(), plain);
+        counts[0] += plain.len();
+        counts[1] += plain.iter().filter(|w| w.contains(" and ")).count();
+        counts[2] += usize::from(plain.contains(&"left would overlap right at its start".to_owned()));
+    }
+    assert!(counts[0] > 40 && counts[1] > 10 && counts[2] > 0, "too little was met: {counts:?}");
+}
+
+/// The number of heap allocations in `work`.
+fn allocations(work: impl FnOnce()) -> u64 {
+    allocation_counter::measure(work).count_total
+}
+
+#[test]
+fn opening_checking_and_editing_four_times_as_many_robots_costs_about_four_times_as_much() {
+    type Work = (&'static str, fn(&str, usize));
+    let works: [Work; 5] = [
+        ("open and warn", |text, _| {
+            let editor = Editor::open("crowd.ron", text).unwrap();
+            assert!(editor.warnings().is_empty());
+        }),
+        ("edit", |text, n| {
+            let mut editor = Editor::open("crowd.ron", text).unwrap();
+            let disc = EditShape::Disc { centre: Point2::new(0.0, 0.0), radius: 0.05 };
+            let name = editor.free_name("rover 7");
+            assert_eq!(name, "rover 7 2");
+            editor.apply(&Op::Add { name, shape: disc }).unwrap();
+            editor.apply(&Op::Rename { name: format!("rover {}", n - 1), to: "the last".into() }).unwrap();
+            assert_eq!(editor.warnings(), ["rover 0 would overlap rover 7 2 at its start"]);
+        }),
+        ("teleport in the atlas", |text, n| {
+            let mut atlas = Atlas::new(World::parse("crowd.ron", text).unwrap());
+            let to = atlas.robots()[n - 1].q.with(0, 0.0).with(1, 0.0);
+            let refusal = Teleport::ask_only(&atlas.checker(n - 1).unwrap(), &to).unwrap_err();
+            assert_eq!(refusal.to_string(), "would overlap rover 0");
+            let beside = to.with(0, 0.4);
+            assert_eq!(atlas.teleport(n - 1, beside), Some(Ok(())));
+            assert_eq!(atlas.from_here().robots[n - 1].start[..2], [0.4, 0.0]);
+            assert_eq!(atlas.others().count(), 0);
+        }),
+        ("labels", |text, n| {
+            let atlas = Atlas::new(World::parse("crowd.ron", text).unwrap());
+            assert_eq!(names(&atlas, 400.0).len(), 2 * (n + n / 20), "each has its label and its leader");
+        }),
+        ("start", |text, n| {
+            let world = World::parse("crowd.ron", text).unwrap();
+            let config = TourConfig { worlds: vec![world], ticks: 1, sensor: None };
+            let events: Vec<Event> = (0..n).map(|k| event(1, &format!("rover {k}"), RobotInput::Drive(1, 1))).collect();
+            let run = Recorder::new(config, (BOOK_SEED, Script::new(events, vec![]))).unwrap();
+            assert_eq!(run.frame().robots.len(), n);
+        }),
+    ];
+    for (what, work) in works {
+        let [few, many] = [200, 800].map(|n| {
+            let text = grid(n, 20);
+            allocations(|| work(&text, n))
+        });
+        assert!(many > few && many < 6 * few, "{what}: {few} allocations for 200 robots, {many} for 800");
     }
 }
 
 #[test]
-fn replicas_of_an_arm_have_targets_and_no_sensor() {
-    let world = World::workbench();
-    let arm = &world.robots[0];
-    let mut replicas = Replicas::new(&Reach::<2>::workbench(), &world, arm, None, [Seed(3)]).unwrap();
-    let to = RobotInput::MoveTo(quantized(&[1.0, -0.5]));
-    assert!(replicas.input(0, &to));
-    let script = Script { events: vec![Event { tick: 1, robot: arm.name.clone(), input: to }], ..Script::empty() };
-    let config = TourConfig { worlds: vec![alone(&world, arm)], ticks: 100, sensor: None };
-    let mut recorder = Recorder::new(config, (Seed(3), script)).unwrap();
-    for _ in 0..100 {
-        replicas.step();
-        assert_eq!(&replicas.frame(0), recorder.step());
+fn an_input_reaches_the_robot_of_its_name_among_many() {
+    let world = World::parse("crowd.ron", &grid(60, 20)).unwrap();
+    let config = TourConfig { worlds: vec![world], ticks: 3, sensor: None };
+    let events = vec![
+        event(1, "rover 41", RobotInput::Drive(128, 0)),
+        event(2, "rover 7", RobotInput::Drive(64, 0)),
+        // two metres away where nobody stands, and onto rover 0, which is refused
+        event(2, "rover 59", RobotInput::Teleport(crate::simulation::quantized(&[19.0, 4.0, 0.0]))),
+        event(2, "rover 58", RobotInput::Teleport(crate::simulation::quantized(&[0.0, 0.1, 0.0]))),
+    ];
+    let mut run = Recorder::new(config, (BOOK_SEED, Script::new(events, vec![]))).unwrap();
+    (0..3).for_each(|_| _ = run.step());
+    for (id, robot) in run.frame().robots.iter().enumerate() {
+        let channels = match id {
+            41 => [128, 0],
+            7 => [64, 0],
+            _ => [0, 0],
+        };
+        assert_eq!((robot.channels, robot.manual), (channels, [7, 41, 59].contains(&id)), "rover {id}");
+        assert_eq!(robot.refusals, u32::from(id == 58), "rover {id}");
     }
-    assert_eq!(replicas.configuration(0).0, [1.0, -0.5]);
-    assert!(replicas.ranges(0).is_empty());
+    assert!((run.frame().robots[59].configuration[1] - 4.0).abs() < 1e-9);
 }

@@ -199,6 +199,43 @@ fn a_run_that_fills_its_keyframes_keeps_fewer_evenly_and_its_beginning() {
 }
 
 #[test]
+fn keyframes_thinned_by_their_size_hold_no_scans_and_lead_back_to_the_same_bits() {
+    let config = TourConfig { ticks: 400, ..TourConfig::default() };
+    let drive = |tick, robot: &str, v| event(tick, robot, RobotInput::Drive(v, 20));
+    let events = vec![drive(30, "Rusty", 128), drive(90, "Hitch", -100), drive(251, "Rusty", -60)];
+    let log = Run::record(config.clone(), (SEED, script(events.clone()))).unwrap();
+    let run: Vec<Frame> = std::iter::once(log.initial).chain(log.frames).collect();
+    assert!(run.iter().all(|frame| frame.scans.iter().any(|scan| scan.ranges.len() == 360)), "there are scans");
+    for budget in [1, 5_000, 20_000] {
+        let mut app = app(config.clone(), events.clone(), true);
+        app.world_mut().insert_resource(Keyframes::every(3).within(budget));
+        restore(app.world_mut(), &run[0]).unwrap();
+        assert_is(&mut app, &run, &[400]);
+        let (ticks, keyframes) = (kept(&app), app.world().resource::<Keyframes>());
+        assert_eq!(ticks[0], 0);
+        assert_eq!(ticks.len() == 1, budget == 1, "{ticks:?} of {budget} bytes");
+        assert!(ticks.len() < 400 / 3 && (budget == 1 || keyframes.bytes() <= budget), "thinned: {ticks:?}");
+        assert!(ticks.iter().all(|tick| keyframes.before(*tick).unwrap().scans.is_empty()));
+        let history = app.world().resource::<History>().clone();
+        assert_is(&mut app, &run, &[399, 0, 251, 250, 96, 95, 97, 1, 400, 192, 29, 30, 31, 400]);
+        assert_eq!(*app.world().resource::<History>(), history);
+        // an undo lands on the bits of before
+        send(&mut app, TransportCommand::Seek(200));
+        send(&mut app, TransportCommand::Checkpoint);
+        drive_on(&mut app);
+        assert_ne!(frame(&app), &run[200]);
+        send(&mut app, TransportCommand::Undo);
+        assert_is(&mut app, &run, &[200, 400, 33]);
+    }
+}
+
+/// Gives the rover another input and goes on for a second.
+fn drive_on(app: &mut App) {
+    drive(app, "Rusty", RobotInput::Drive(-128, 90));
+    (0..20).for_each(|_| step(app.world_mut()));
+}
+
+#[test]
 fn beyond_a_hundred_thousand_ticks_steps_seeks_history_and_log_go_on() {
     const TICKS: u64 = 102_600;
     const SLOWER: u64 = 100_100;

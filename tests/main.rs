@@ -17,6 +17,7 @@ mod chapter;
 mod cli;
 #[cfg(feature = "sim")]
 mod controls;
+#[cfg(feature = "sim")]
 mod crowds;
 mod edges;
 #[cfg(feature = "sim")]
@@ -56,6 +57,8 @@ mod planner;
 mod polygons;
 mod rates;
 mod rays;
+#[cfg(feature = "sim")]
+mod replicas;
 mod rounded;
 mod scan_shapes;
 mod scan_worlds;

@@ -1,8 +1,7 @@
 //! `Editor`, a world under edit: every change is checked as world files are, and can be undone.
 
-use super::op::{changed, is_taken, shape_of};
-use super::teleport::overlap;
-use super::{Atlas, EditError, EditShape, Handle, Op, Refusal, Teleport};
+use super::op::{all_names, changed, shape_of};
+use super::{Atlas, EditError, EditShape, Handle, Op, Refusal};
 use crate::configuration::Kinds;
 use crate::geometry::{Aabb, Point2, Vector2};
 use crate::num::{hypot, lesser, sin_cos};
@@ -158,31 +157,25 @@ impl Editor {
     /// Warnings about robots that start in contact, or where a run would not start. A world file may have them.
     pub fn warnings(&self) -> Vec<String> {
         let atlas = Atlas::new(self.world().clone()).knowing(self.kinds.clone());
-        let starts = atlas.robots().iter().enumerate().filter_map(|(i, r)| {
-            let refusal = Teleport::ask_only(&atlas.checker(i)?, &r.q).err()?;
-            Some(match refusal {
-                Refusal::Overlap { .. } => format!("{} {refusal} at its start", r.name),
-                other => format!("{}: {other}", r.name),
-            })
+        let starts = atlas.in_contact().into_iter().map(|(name, refusal)| match refusal {
+            Refusal::Overlap { .. } => format!("{name} {refusal} at its start"),
+            other => format!("{name}: {other}"),
         });
-        let known = |robot: &&Resident| {
-            atlas.robots().iter().all(|r| r.name != robot.name) && self.kinds.has_footprints(&robot.kind)
+        let nowhere = |robot: &&Resident| {
+            self.kinds.has_footprints(&robot.kind) && self.kinds.footprint(&robot.kind, &robot.start).is_none()
         };
-        let others = self.world().robots.iter().filter(known).filter_map(|Resident { name, kind, start, .. }| {
-            let Some(footprint) = self.kinds.footprint(kind, start) else {
-                return Some(format!("{name}: its start is no configuration of the kind {kind:?}"));
-            };
-            let refusal = overlap(&atlas.scene_beside(name), &footprint)?;
-            Some(format!("{name} {refusal} at its start"))
-        });
-        starts.chain(others).collect()
+        let none =
+            self.world().robots.iter().filter(nowhere).map(|Resident { name, kind, .. }| {
+                format!("{name}: its start is no configuration of the kind {kind:?}")
+            });
+        starts.chain(none).collect()
     }
 
     /// A free name for a new thing: `wall`, `wall 2`, ..
     pub fn free_name(&self, kind: &str) -> String {
-        let taken = |name: &str| is_taken(self.world(), name);
+        let taken = all_names(self.world());
         let numbered = std::iter::once(kind.to_owned()).chain((2..).map(|n: u32| format!("{kind} {n}")));
-        numbered.into_iter().find(|name| !taken(name)).unwrap_or_default()
+        numbered.into_iter().find(|name| !taken.contains(name.as_str())).unwrap_or_default()
     }
 }
 

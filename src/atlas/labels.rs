@@ -1,6 +1,7 @@
 //! Names on a world: labels that overlap neither one another nor the things they name.
 
 use super::Atlas;
+use super::taken::Taken;
 use crate::collision::{Collision, Scene};
 use crate::configuration::{Kinds, RobotKind};
 use crate::geometry::{Aabb, Footprint, Part, Placed, Point2, Pose2, Segment, Shape, Vector2};
@@ -22,6 +23,9 @@ const GAPS: [f64; 7] = [3.0, 7.0, 12.0, 18.0, 26.0, 36.0, 48.0];
 
 /// Number of directions in which a label is tried.
 const WAYS: u32 = 24;
+
+/// Largest number of things without a place in a layout; those after it are not tried.
+const MOST_LEFT_OUT: usize = 200;
 
 /// Largest number of layouts. Each new one puts the first name without a place at the front.
 const ROUNDS: usize = 4;
@@ -128,7 +132,7 @@ struct Sheet {
     marks: Scene,
     dots: Vec<Point2>,
     /// The labels placed so far, with their leaders.
-    taken: Scene,
+    taken: Taken,
 }
 
 /// A place for a label: its plate, and the leader to its thing.
@@ -141,9 +145,6 @@ impl Sheet {
     /// The sheet without labels; a pixel of it is `px` metres.
     fn of(atlas: &Atlas, px: f64) -> Self {
         let world = atlas.world();
-        let standing = atlas.standing().fold(Scene::of_world(world), |scene, (name, footprint)| {
-            super::teleport::with_robot(scene, name, &footprint)
-        });
         let segments = world.marks.iter().flat_map(|m| m.points.windows(2).map(|w| Segment::new(w[0], w[1])));
         let dots = world.places.iter().flat_map(|p| {
             let (s, c) = num::sin_cos(p.pose.theta);
@@ -152,10 +153,10 @@ impl Sheet {
         Sheet {
             bounds: world.bounds,
             px,
-            solid: standing,
+            solid: super::teleport::crowd(world, atlas.standing()),
             marks: Scene::of_walls(&segments.collect::<Vec<_>>()),
             dots: dots.collect(),
-            taken: Scene::empty(world.bounds),
+            taken: Taken::default(),
         }
     }
 
@@ -188,8 +189,7 @@ impl Sheet {
         let (min, max) =
             (Point2::from(plate.middle.coords - plate.half), Point2::from(plate.middle.coords + plate.half));
         let line = Shape::Segment { a: leader.a, b: leader.b };
-        let taken = self.taken.clone().with_obstacle("a label", Shape::Rectangle { min, max });
-        self.taken = taken.with_obstacle("a line", line);
+        self.taken.add(vec![Shape::Rectangle { min, max }, line]);
     }
 
     /// The nearest free place for a label of this size, half its sides given.
@@ -248,7 +248,7 @@ impl Sheet {
 /// Places for the names of these things, the first with the first choice, and the number of the first thing without a
 /// place.
 fn lay_out(mut sheet: Sheet, things: &[Named]) -> (Vec<(Named, Spot)>, Option<usize>) {
-    let (mut spots, mut without) = (Vec::new(), None);
+    let (mut spots, mut without) = (Vec::new(), Vec::new());
     for (number, thing) in things.iter().enumerate() {
         let width = 0.56 * SIZE * thing.name.chars().count() as f64 + 8.0;
         let half = Vector2::new(0.5 * width, 0.5 * (1.3 * SIZE + 5.0)) * sheet.px;
@@ -257,10 +257,11 @@ fn lay_out(mut sheet: Sheet, things: &[Named]) -> (Vec<(Named, Spot)>, Option<us
                 sheet.take(&spot);
                 spots.push((thing.clone(), spot));
             }
-            None => without = without.or(Some(number)),
+            None if without.len() == MOST_LEFT_OUT => break,
+            None => without.push(number),
         }
     }
-    (spots, without)
+    (spots, without.first().copied())
 }
 
 /// The value of a layout: 4 for each placed name of a robot or an obstacle, 2 for a place, 1 for a wall or a mark.
@@ -275,7 +276,8 @@ fn worth(spots: &[(Named, Spot)]) -> usize {
 
 /// The names of everything in the world as items for a picture at this scale, pixels per metre. Each label stands
 /// beside its thing, where it covers no obstacle, robot, mark or other label, and a leader joins the two. A name
-/// without such a place nearby is left out; a larger picture has more room. The order of choice is robots, obstacles,
+/// without such a place nearby is left out; a larger picture has more room. After 200 names that are left out no
+/// further one is tried. The order of choice is robots, obstacles,
 /// places, walls, marks, each in file order.
 pub fn names(atlas: &Atlas, px_per_metre: f64) -> Vec<Item> {
     let px = 1.0 / px_per_metre;

@@ -6,6 +6,7 @@ mod labels;
 mod op;
 mod outline;
 mod overlay;
+mod taken;
 mod target;
 mod teleport;
 
@@ -16,7 +17,9 @@ pub use op::{EditError, Op};
 pub use outline::{EditShape, Handle};
 pub use teleport::{Refusal, Teleport};
 
-use crate::collision::{Checker, Scene};
+use std::collections::{BTreeMap, BTreeSet};
+
+use crate::collision::{Checker, ObstacleId};
 use crate::configuration::{AnyConfiguration, Configuration, Kinds};
 use crate::geometry::Footprint;
 use crate::picture::{Drawing, Picture, RobotDrawing, places, robot, world};
@@ -67,7 +70,8 @@ impl Atlas {
 
     /// The residents of kinds that are not the lab's, with their footprints at their starts.
     pub fn others(&self) -> impl Iterator<Item = (&str, Footprint)> {
-        let strangers = self.world.robots.iter().filter(|r| self.residents.iter().all(|known| known.name != r.name));
+        let known: BTreeSet<&str> = self.residents.iter().map(|known| known.name.as_str()).collect();
+        let strangers = self.world.robots.iter().filter(move |r| !known.contains(r.name.as_str()));
         strangers.filter_map(|r| Some((r.name.as_str(), self.kinds.footprint(&r.kind, &r.start)?)))
     }
 
@@ -79,8 +83,10 @@ impl Atlas {
     /// The world with its robots' starts where the robots are now.
     pub fn from_here(&self) -> World {
         let mut world = self.world.clone();
+        // of two with one name the first counts
+        let now: BTreeMap<&str, &AtlasRobot> = self.residents.iter().rev().map(|r| (r.name.as_str(), r)).collect();
         for resident in &mut world.robots {
-            if let Some(now) = self.residents.iter().find(|r| r.name == resident.name) {
+            if let Some(now) = now.get(resident.name.as_str()) {
                 resident.start = now.q.coordinates().to_vec();
             }
         }
@@ -100,16 +106,36 @@ impl Atlas {
     /// The checker of robot number `index` among the obstacles and the other robots, each an obstacle under its name.
     /// `None` for an unknown robot.
     pub fn checker(&self, index: usize) -> Option<Checker<AnyRobot>> {
-        let resident = self.residents.get(index)?;
-        Some(Checker::new(self.scene_beside(&resident.name), resident.robot))
+        let robot = self.residents.get(index)?.robot;
+        let standing = self.standing().enumerate().filter(|(i, _)| *i != index).map(|(_, standing)| standing);
+        Some(Checker::new(teleport::crowd(&self.world, standing), robot))
     }
 
-    /// The obstacles and all robots but this one.
-    fn scene_beside(&self, name: &str) -> Scene {
-        let others = self.standing().filter(|(other, _)| *other != name);
-        others.fold(Scene::of_world(&self.world), |scene, (other, footprint)| {
-            teleport::with_robot(scene, other, &footprint)
-        })
+    /// The robots that could not be put where they stand, each with its name and the reason. Of the lab's robots it is
+    /// what [`Teleport::ask_only`] says of each by its own [`checker`](Self::checker), from one scene for all.
+    pub fn in_contact(&self) -> Vec<(&str, Refusal)> {
+        let standing: Vec<(&str, Footprint)> = self.standing().collect();
+        // where the parts of each robot begin among the obstacles of the scene
+        let world = self.world.obstacles.len() + self.world.closed_doors().count();
+        let first = standing.iter().scan(world, |first, (_, footprint)| {
+            *first += footprint.parts().len();
+            Some(*first - footprint.parts().len())
+        });
+        let first: Vec<usize> = first.collect();
+        let scene = teleport::crowd(&self.world, standing.iter().map(|(name, footprint)| (*name, footprint.clone())));
+        let residents = self.residents.iter().map(Some).chain(std::iter::repeat(None));
+        let refused = standing.iter().zip(first).zip(residents).filter_map(|(((name, footprint), first), resident)| {
+            if let Some(Err(error)) = resident.map(|resident| resident.robot.check(&resident.q)) {
+                return Some((*name, Refusal::Configuration(error)));
+            }
+            let own = first..first + footprint.parts().len();
+            let touched = scene.touched(footprint);
+            let others: Vec<ObstacleId> = touched.into_iter().filter(|id| !own.contains(&(id.0 as usize))).collect();
+            // a footprint that is not finite is in contact, with nothing in particular
+            let is_free = others.is_empty() && footprint.is_valid();
+            (!is_free).then(|| (*name, Refusal::Overlap { names: teleport::names(&scene, others), nearest: None }))
+        });
+        refused.collect()
     }
 
     /// Puts robot number `index` at `to`, or returns why not. `None` for an unknown robot.

@@ -1,5 +1,7 @@
 //! `Op`, a change of a world.
 
+use std::collections::BTreeSet;
+
 use super::EditShape;
 use super::outline::tidy;
 use crate::configuration::{Kinds, RobotKind, Sizes};
@@ -112,9 +114,11 @@ fn find(world: &World, name: &str) -> Option<Found> {
         .or_else(|| at(Box::new(world.robots.iter().map(|r| r.name.as_str()))).map(Found::Robot))
 }
 
-/// Whether anything has this name.
-pub(super) fn is_taken(world: &World, name: &str) -> bool {
-    find(world, name).is_some()
+/// The names of everything in the world.
+pub(super) fn all_names(world: &World) -> BTreeSet<&str> {
+    let obstacles = world.obstacles.iter().map(|o| o.name.as_str()).chain(world.doors.iter().map(|d| d.name.as_str()));
+    let painted = world.places.iter().map(|p| p.name.as_str()).chain(world.marks.iter().map(|m| m.name.as_str()));
+    obstacles.chain(painted).chain(world.robots.iter().map(|r| r.name.as_str())).collect()
 }
 
 /// The shape of the wall, obstacle or mark of this name.

@@ -2,11 +2,12 @@
 
 use std::fmt;
 
-use crate::collision::{Checker, Collision, Scene};
+use crate::collision::{Checker, Collision, ObstacleId, Scene};
 use crate::configuration::AnyConfiguration;
 use crate::cspace::{NearestFree, Slice, nearest_free};
-use crate::geometry::{Footprint, Pose2, Shape};
+use crate::geometry::{Footprint, Part, Pose2, Shape};
 use crate::robots::{AnyRobot, ConfigurationError, Robot};
+use crate::worlds::{Obstacle, ObstacleKind, World};
 
 /// The check whether a robot can be put somewhere.
 #[derive(Clone, Copy, Debug)]
@@ -78,37 +79,43 @@ impl Teleport {
     /// [`Refusal`], whose `nearest` is `None`.
     pub fn ask_only(checker: &Checker<AnyRobot>, to: &AnyConfiguration) -> Result<(), Refusal> {
         checker.robot().check(to).map_err(Refusal::Configuration)?;
-        overlap(checker.scene(), &checker.robot().footprint(to)).map_or(Ok(()), Err)
+        let footprint = checker.robot().footprint(to);
+        if !checker.scene().intersects(&footprint) {
+            return Ok(());
+        }
+        let names = names(checker.scene(), checker.scene().touched(&footprint));
+        Err(Refusal::Overlap { names, nearest: None })
     }
 }
 
-/// The refusal of a footprint that overlaps or touches something; `None` where it is free.
-pub(super) fn overlap(scene: &Scene, footprint: &Footprint) -> Option<Refusal> {
-    if !scene.intersects(footprint) {
-        return None;
-    }
-    let touched = scene.touched(footprint);
+/// The names of these obstacles, in their order. A robot of several parts is named once.
+pub(super) fn names(scene: &Scene, touched: Vec<ObstacleId>) -> Vec<String> {
     let mut names: Vec<String> =
         touched.into_iter().filter_map(|id| scene.obstacle_name(id)).map(str::to_owned).collect();
-    // a robot of several parts is named once
     names.dedup();
-    Some(Refusal::Overlap { names, nearest: None })
+    names
 }
 
-/// The scene with a robot standing in it, under its name.
-pub(super) fn with_robot(scene: Scene, name: &str, footprint: &Footprint) -> Scene {
-    footprint.parts().iter().fold(scene, |scene, part| {
-        let placed = part.placed();
-        let shape = Shape::Hull { vertices: placed.core().into(), radius: placed.radius() };
-        scene.with_obstacle_at(name, Pose2::IDENTITY, shape)
-    })
+/// The scene of a world with robots standing in it: after the world's obstacles and closed doors each part of each
+/// robot, in their order, is an obstacle under the robot's name.
+pub(super) fn crowd<'a>(world: &World, standing: impl Iterator<Item = (&'a str, Footprint)>) -> Scene {
+    let parts = standing.flat_map(|(name, footprint)| {
+        let part = |part: &Part| {
+            let placed = part.placed();
+            let shape = Shape::Hull { vertices: placed.core().into(), radius: placed.radius() };
+            Obstacle::new(name, ObstacleKind::Solid, vec![(Pose2::IDENTITY, shape)])
+        };
+        footprint.parts().iter().map(part).collect::<Vec<_>>()
+    });
+    let added: Vec<Obstacle> = world.closed_doors().chain(parts).collect();
+    Scene::of_obstacles(world.bounds, world.obstacles.iter().chain(&added))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::atlas::Atlas;
-    use crate::worlds::{Resident, World};
+    use crate::worlds::Resident;
 
     #[test]
     fn a_refusal_names_everything_and_offers_the_nearest_free_place() {

@@ -7,7 +7,7 @@ use super::obstacles::roster::sync_added;
 use super::obstacles::start::settle_start;
 use super::transport::re_rolled;
 use super::{
-    CommandError, CommandRefused, History, Keyframes, PendingInput, Playback, RobotCommand, RobotName, RunConfig,
+    CommandError, CommandRefused, History, Keyframes, PendingInput, Playback, RobotCommand, Roster, RunConfig,
     SpawnError, Transport, TransportCommand, seek, start_run_in_order, step, undo,
 };
 use crate::random::Seed;
@@ -107,7 +107,7 @@ fn change(world: &mut World, WorldCommand { world: name, change }: WorldCommand)
 /// the run from there. An input that no script could hold (an unknown robot, a channel out of range) is ignored.
 fn capture(world: &mut World, RobotCommand { robot, input }: RobotCommand) {
     let Transport { tick, frontier, looping, .. } = *world.resource::<Transport>();
-    let known = world.query::<&RobotName>().iter(world).any(|name| name.name == robot);
+    let known = world.get_resource::<Roster>().is_some_and(|roster| roster.named(&robot).is_some());
     let event = Event { tick: tick + 1, robot, input };
     let script = Script { events: vec![event.clone()], ..Script::empty() };
     // what is ignored forgets nothing

@@ -2,37 +2,24 @@
 
 use bevy::prelude::*;
 
-use super::{LatestFrame, ResidesIn, RobotOps, RobotView, Roster, Transport, WorldScene};
+use super::past::trail::Trail;
+use super::{LatestFrame, ResidesIn, RobotOps, Roster, Transport, WorldScene};
 use crate::collision::Collision;
-use crate::configuration::Coordinates;
-use crate::geometry::Pose2;
 
 /// Largest number of samples; beyond it every second one is dropped. Half an hour at 20 Hz is kept in full.
 const MOST_SAMPLES: usize = 36_000;
 
-/// Displacement in one tick from which on a robot counts as put there rather than driven, metres.
-const LEAP: f64 = 0.5;
+/// Largest size of all samples together, bytes; beyond it they are thinned.
+const BUDGET: usize = 96_000_000;
 
-/// A robot after one tick.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Trail {
-    /// The coordinates of its configuration.
-    pub coordinates: Coordinates,
-    /// Its distance from the nearest obstacle of its world, metres; 0 in contact, infinity where there is none.
-    pub clearance: f64,
-    /// Signed distance driven since the start, metres, negative for backward; 0 for an arm.
-    pub travelled: f64,
-    /// Distance by its wheels' encoders, the mean of both, metres; `None` without encoders.
-    pub encoders: Option<f64>,
-    /// Number of changes between forward and backward since the start.
-    pub reversals: u32,
-    /// Contact episodes since the start.
-    pub contacts: u32,
-    /// Whether a person drove it.
-    pub manual: bool,
-    /// Direction of its last motion: 1 forward, -1 backward, 0 before the first.
-    direction: i8,
-}
+/// Largest number of marks; beyond it every second one is dropped.
+const MOST_MARKS: usize = 1 << 19;
+
+/// Largest number of robots that are measured after every tick. More are measured only where a sample is kept.
+const MOST_MEASURED: usize = 100;
+
+/// How far apart the first samples of more robots lie, ticks: a second.
+const SECOND: u64 = 20;
 
 /// All robots after one tick.
 #[derive(Clone, Debug, PartialEq)]
@@ -66,15 +53,36 @@ pub struct TickMark {
 /// The run's history, tick by tick. It is filled as the run goes on, and kept when the run is taken back, so that the
 /// ticks ahead are known too. Continuing from an earlier tick forgets the later ones.
 ///
-/// The history is no part of the run: without this resource the simulation does the same. Long runs are thinned. Memory
-/// is bounded, except for the marks.
-#[derive(Resource, Clone, Debug, Default, PartialEq)]
+/// The history is no part of the run: without this resource the simulation does the same.
+///
+/// Memory is bounded. Of up to 31 robots or so every tick's sample is kept for half an hour; then, each time there are
+/// more than 36,000 samples, every second one is dropped. Where the samples take more than 96 MB they are thinned to
+/// every second tick, every fourth, one a second, one every five seconds, and from then on by halves. More than 100
+/// robots begin with one a second; between samples their clearance and their encoders are those of the last one. Of
+/// more than 2^19 marks every second one is dropped.
+#[derive(Resource, Clone, Debug, PartialEq)]
 pub struct History {
     samples: Vec<Sample>,
     latest: Option<Sample>,
     marks: Vec<TickMark>,
-    /// Samples are kept at the ticks that are multiples of 2 to this power.
-    thinned: u32,
+    /// Samples are kept at the multiples of this many ticks.
+    every: u64,
+    /// The size of the samples, bytes.
+    bytes: usize,
+    budget: usize,
+}
+
+impl Default for History {
+    fn default() -> Self {
+        History { samples: Vec::new(), latest: None, marks: Vec::new(), every: 1, bytes: 0, budget: BUDGET }
+    }
+}
+
+impl Sample {
+    fn bytes(&self) -> usize {
+        // lists grow by doubling
+        2 * size_of::<Sample>() + self.robots.iter().map(Trail::bytes).sum::<usize>()
+    }
 }
 
 impl History {
@@ -107,9 +115,15 @@ impl History {
         self.samples.len()
     }
 
+    /// The memory that samples and marks take, bytes: an estimate from the lengths of the lists, rather too high.
+    pub fn bytes(&self) -> usize {
+        let latest = self.latest.as_ref().map_or(0, Sample::bytes);
+        self.bytes + latest + 2 * size_of_val(&self.marks[..])
+    }
+
     /// Forgets everything after `tick`.
     pub(super) fn truncate_after(&mut self, tick: u64) {
-        self.samples.retain(|s| s.tick <= tick);
+        self.retain(|s| s <= tick);
         self.marks.retain(|m| m.tick <= tick);
         self.latest = self.latest.take().filter(|s| s.tick <= tick);
     }
@@ -123,77 +137,77 @@ impl History {
             self.latest = self.samples.get(i).cloned();
             return;
         }
+        let states = &world.resource::<LatestFrame>().0.robots;
+        let are_many = states.len() > MOST_MEASURED;
+        if are_many && self.samples.is_empty() && self.every < SECOND {
+            self.every = SECOND;
+        }
+        let is_kept = self.samples.last().is_none_or(|s| s.tick < tick) && tick.is_multiple_of(self.every);
         let before = self.latest.take().filter(|s| s.tick + 1 == tick);
-        let robots: Vec<Trail> = super::view(world)
-            .iter()
-            .enumerate()
-            .map(|(i, robot)| {
-                let last = before.as_ref().and_then(|s| s.robots.get(i));
-                Trail::after(last, robot, clearance(world, i).unwrap_or(f64::INFINITY))
-            })
-            .collect();
-        let last_mark = self.marks.last().map_or(0, |m| m.tick);
-        if let Some(before) = before.as_ref().filter(|_| tick > last_mark) {
-            self.mark(tick, &before.robots, &robots);
+        let follows = before.is_some();
+        let is_marked = follows && self.marks.last().is_none_or(|m| m.tick < tick);
+        let new = || Sample { tick, robots: vec![Trail::default(); states.len()] };
+        let mut sample = Sample { tick, ..before.unwrap_or_else(new) };
+        for ((trail, state), robot) in sample.robots.iter_mut().zip(states).zip(0..) {
+            let (contacts, manual) = (trail.contacts, trail.manual);
+            trail.follow(state);
+            if is_marked {
+                let happened =
+                    [(trail.contacts > contacts, Happening::Contact), (trail.manual && !manual, Happening::Takeover)];
+                let new = happened.into_iter().filter(|(is, _)| *is);
+                self.marks.extend(new.map(|(_, what)| TickMark { tick, robot, what }));
+            }
+            if !are_many || is_kept || !follows {
+                measure(world, robot as usize, trail);
+            }
         }
-        let sample = Sample { tick, robots };
-        let is_next = self.samples.last().is_none_or(|s| s.tick < tick);
-        if is_next && tick.is_multiple_of(1 << self.thinned) {
+        self.thin_marks();
+        if is_kept {
+            self.bytes += sample.bytes();
             self.samples.push(sample.clone());
-        }
-        if self.samples.len() > MOST_SAMPLES {
-            self.thinned += 1;
-            self.samples.retain(|s| s.tick.is_multiple_of(1 << self.thinned));
+            self.thin();
         }
         self.latest = Some(sample);
     }
 
-    fn mark(&mut self, tick: u64, before: &[Trail], after: &[Trail]) {
-        for ((a, b), robot) in before.iter().zip(after).zip(0..) {
-            let happened =
-                [(b.contacts > a.contacts, Happening::Contact), (b.manual && !a.manual, Happening::Takeover)];
-            let new = happened.into_iter().filter(|(is, _)| *is);
-            self.marks.extend(new.map(|(_, what)| TickMark { tick, robot, what }));
+    /// Drops samples until the others are few and small enough.
+    fn thin(&mut self) {
+        while self.samples.len() > 1 && (self.samples.len() > MOST_SAMPLES || self.bytes > self.budget) {
+            let is_by_size = self.samples.len() <= MOST_SAMPLES;
+            // every keyframe's tick must have its sample, for the trails to go on from there: up to five seconds the
+            // distance divides that of the first keyframes, and beyond it the larger keyframes are thinned before
+            let times = if is_by_size && self.every < 5 * SECOND && self.every >= 4 { 5 } else { 2 };
+            let every = self.every * times;
+            self.every = every;
+            self.retain(|tick| tick.is_multiple_of(every));
+        }
+    }
+
+    /// Keeps the samples of the ticks that `keep` says.
+    fn retain(&mut self, keep: impl Fn(u64) -> bool) {
+        self.samples.retain(|s| keep(s.tick));
+        self.bytes = self.samples.iter().map(Sample::bytes).sum();
+    }
+
+    /// Drops every second mark when there are too many, and never the last.
+    fn thin_marks(&mut self) {
+        if self.marks.len() > MOST_MARKS {
+            let mut stays = self.marks.len().is_multiple_of(2);
+            self.marks.retain(|_| {
+                stays = !stays;
+                stays
+            });
         }
     }
 }
 
-/// The clearance of the robot with this id from its world's obstacles, metres; `None` for an unknown robot.
-fn clearance(world: &World, robot: usize) -> Option<f64> {
-    let entity = *world.resource::<Roster>().robots().get(robot)?;
-    let footprint = (world.get::<RobotOps>(entity)?.footprint)(world, entity)?;
-    Some(world.get::<WorldScene>(world.get::<ResidesIn>(entity)?.0)?.0.distance(&footprint))
-}
-
-impl Trail {
-    fn after(last: Option<&Trail>, robot: &RobotView, clearance: f64) -> Self {
-        let pose = |q: &Coordinates| match (q.get(..3), robot.tip) {
-            (Some(&[x, y, theta]), None) => Some(Pose2 { x, y, theta }),
-            _ => None,
-        };
-        let (mut travelled, mut reversals, mut direction) =
-            last.map_or((0.0, 0, 0), |t| (t.travelled, t.reversals, t.direction));
-        let way = last.and_then(|t| Some(pose(&robot.coordinates)?.boxminus(&pose(&t.coordinates)?).dx));
-        if let Some(way) = way.filter(|d| d.abs() < LEAP) {
-            travelled += way;
-            // a robot held at a wall does not move, so its control is no change of direction
-            if way.abs() > 1e-6 {
-                let now = if way > 0.0 { 1 } else { -1 };
-                reversals += u32::from(direction == -now);
-                direction = now;
-            }
-        }
-        Trail {
-            coordinates: robot.coordinates.clone(),
-            clearance,
-            travelled,
-            encoders: robot.odometer,
-            reversals,
-            contacts: robot.contacts,
-            manual: robot.manual,
-            direction,
-        }
-    }
+/// Reads the gauges of the robot with this id. An unknown robot has none.
+fn measure(world: &World, robot: usize, trail: &mut Trail) {
+    let entity = world.resource::<Roster>().robots().get(robot).copied();
+    let gauges = entity.and_then(|e| (world.get::<RobotOps>(e)?.gauges)(world, e));
+    let (Some(entity), Some(gauges)) = (entity, gauges) else { return };
+    let scene = world.get::<ResidesIn>(entity).and_then(|on| world.get::<WorldScene>(on.0));
+    trail.read(&gauges, scene.map_or(f64::INFINITY, |scene| scene.0.distance(&gauges.footprint)));
 }
 
 /// Adds the state just recorded to the history, if the app keeps one.
@@ -214,106 +228,4 @@ impl Plugin for HistoryPlugin {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::super::command::obey;
-    use super::*;
-    use crate::run::{RobotInput, Script};
-    use crate::simulation::{SimulationPlugin, TransportCommand, seek, start_run, step};
-    use crate::tour::{BOOK_SEED, TourConfig};
-
-    fn app(script: Script) -> App {
-        let mut app = App::new();
-        app.add_plugins((SimulationPlugin, HistoryPlugin));
-        start_run(app.world_mut(), TourConfig::default(), (BOOK_SEED, script)).unwrap();
-        app
-    }
-
-    fn event(tick: u64, robot: &str, input: RobotInput) -> crate::run::Event {
-        crate::run::Event { tick, robot: robot.into(), input }
-    }
-
-    #[test]
-    fn it_counts_what_the_robots_themselves_count_and_survives_being_taken_back() {
-        let mut app = app(Script::empty());
-        let world = app.world_mut();
-        (0..400).for_each(|_| step(world));
-        let contacts: Vec<u32> = super::super::view(world).iter().map(|r| r.contacts).collect();
-        let history = world.resource::<History>().clone();
-        for (id, count) in (0_u32..).zip(&contacts) {
-            let marked = history.marks().iter().filter(|m| m.robot == id && m.what == Happening::Contact).count();
-            assert_eq!(marked, *count as usize, "robot {id}");
-            assert_eq!(history.at(400, id).unwrap().contacts, *count);
-        }
-        assert!(contacts.iter().any(|c| *c > 0), "or nothing is tested");
-        seek(world, 130).unwrap();
-        assert_eq!(world.resource::<History>().samples(), 401, "what lies ahead is kept");
-        seek(world, 400).unwrap();
-        assert_eq!(*world.resource::<History>(), history);
-        // continuing from a tick keeps the marks of that tick
-        let ticks: Vec<u64> = history.marks().iter().map(|m| m.tick).collect();
-        for tick in ticks.iter().rev().copied() {
-            seek(world, tick).unwrap();
-            obey(world, TransportCommand::ContinueFromHere).unwrap();
-            let kept: Vec<u64> = world.resource::<History>().marks().iter().map(|m| m.tick).collect();
-            assert_eq!(kept, ticks.iter().copied().filter(|t| *t <= tick).collect::<Vec<_>>());
-        }
-    }
-
-    #[test]
-    fn reversals_are_changes_of_the_way_that_was_gone() {
-        let drive = |tick, v| event(tick, "Hitch", RobotInput::Drive(v, 0));
-        // forward, stand, forward again (none), backward (1), forward (2)
-        let events = vec![drive(1, 64), drive(11, 0), drive(16, 64), drive(21, -64), drive(31, 64)];
-        let mut app = app(Script { events, ..Script::empty() });
-        (0..40).for_each(|_| step(app.world_mut()));
-        let history = app.world().resource::<History>();
-        let at = |tick| history.at(tick, 2).unwrap();
-        assert_eq!([10, 20, 25, 40].map(|t| at(t).reversals), [0, 0, 1, 2]);
-        assert!(at(20).travelled > 0.1 && (at(40).travelled - at(20).travelled).abs() < 0.05, "there and back");
-        assert_eq!(
-            history.marks().iter().find(|m| m.robot == 2).map(|m| (m.tick, m.what)),
-            Some((1, Happening::Takeover))
-        );
-    }
-
-    #[test]
-    fn encoders_turn_on_at_a_wall_while_the_way_does_not() {
-        // Rusty drives straight ahead from its start until something holds it
-        let mut app = app(Script { events: vec![event(1, "Rusty", RobotInput::Drive(128, 0))], ..Script::empty() });
-        (0..600).for_each(|_| step(app.world_mut()));
-        let history = app.world().resource::<History>();
-        let (early, late) = (history.at(500, 0).unwrap(), history.at(600, 0).unwrap());
-        assert!((late.travelled - early.travelled).abs() < 1e-3, "held");
-        let turned = late.encoders.unwrap() - early.encoders.unwrap();
-        assert!((turned - 3.0).abs() < 0.05, "5 s at 0.6 m/s roll 3 m, not {turned}");
-        assert!(late.clearance > 0.0 && late.clearance < 1e-3);
-    }
-
-    #[test]
-    fn continuing_forgets_what_came_after() {
-        let mut app = app(Script::empty());
-        let world = app.world_mut();
-        (0..300).for_each(|_| step(world));
-        obey(world, TransportCommand::Seek(100)).unwrap();
-        obey(world, TransportCommand::ContinueFromHere).unwrap();
-        let history = world.resource::<History>();
-        assert_eq!(history.samples(), 101);
-        assert!(history.marks().iter().all(|m| m.tick <= 100));
-    }
-
-    #[test]
-    fn a_long_run_is_thinned_and_goes_on_counting() {
-        let mut app = app(Script::empty());
-        let world = app.world_mut();
-        let trail = Trail { contacts: 0, ..Trail::default() };
-        let sample = |tick| Sample { tick, robots: vec![trail.clone(); 3] };
-        world.resource_mut::<History>().samples = (0..MOST_SAMPLES as u64).map(sample).collect();
-        world.resource_mut::<History>().latest = Some(sample(MOST_SAMPLES as u64 - 1));
-        world.resource_mut::<Transport>().tick = MOST_SAMPLES as u64 - 1;
-        (0..2).for_each(|_| step(world));
-        let history = world.resource::<History>();
-        assert_eq!(history.samples(), MOST_SAMPLES / 2 + 1);
-        assert!(history.samples.iter().all(|s| s.tick % 2 == 0));
-        assert!(history.series(0, 100, |t| Some(t.travelled)).len() <= 101);
-    }
-}
+mod tests;

@@ -13,6 +13,7 @@ mod components;
 mod history;
 mod latest_frame;
 mod obstacles;
+mod past;
 mod plugin;
 mod restore_error;
 mod robot;
@@ -37,9 +38,11 @@ pub use components::{
     SceneRevision, SensorModel, SensorMount, SensorName, SensorNoise, Sensors, SimulatedWorld, Slip, StandingWorld,
     TickMotion, WorldScene,
 };
-pub use history::{Happening, History, HistoryPlugin, TickMark, Trail};
+pub use history::{Happening, History, HistoryPlugin, TickMark};
 pub use latest_frame::LatestFrame;
 pub use obstacles::change::ChangeRefused;
+pub use past::keyframes::Keyframes;
+pub use past::trail::Trail;
 pub use plugin::{SimulationPlugin, headless_app};
 pub use restore_error::RestoreError;
 pub use robot::contact::{ContactBegan, ContactEnded};
@@ -57,7 +60,7 @@ pub use sensors::start::take_sensors_at_start;
 pub use sensors::view::{SensorView, sensors};
 pub use spawn::{RunConfig, RunInput, start_run};
 pub use spawn_error::SpawnError;
-pub use state::{Keyframes, restore, snapshot};
+pub use state::{restore, snapshot};
 pub use tick::hold::{Advance, HOLD_CLEARANCE, LEAST_CLEARANCE, MARGIN, advance, margin_from};
 pub use tick::input::{PendingInput, RobotCommand};
 pub use tick::settle::FLASH_TICKS;

@@ -1,5 +1,7 @@
 //! `Roster`, the robots and worlds of a run by their numbers.
 
+use std::collections::BTreeMap;
+
 use bevy::prelude::*;
 
 use super::{RobotOps, RobotView};
@@ -9,12 +11,18 @@ use super::{RobotOps, RobotView};
 pub struct Roster {
     pub(super) worlds: Vec<Entity>,
     pub(super) robots: Vec<Entity>,
+    pub(super) names: BTreeMap<String, Entity>,
 }
 
 impl Roster {
     /// The robots' entities by id.
     pub fn robots(&self) -> &[Entity] {
         &self.robots
+    }
+
+    /// The entity of the robot with this name.
+    pub fn named(&self, name: &str) -> Option<Entity> {
+        self.names.get(name).copied()
     }
 
     /// The worlds' entities by number.

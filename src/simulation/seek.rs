@@ -30,8 +30,8 @@ fn advance(world: &mut World) {
 pub fn seek(world: &mut World, tick: u64) -> Result<(), RestoreError> {
     settle_start(world);
     let now = world.resource::<Transport>().tick;
-    let keyframe = world.resource::<Keyframes>().before(tick).cloned();
-    if let Some(frame) = keyframe.filter(|f| tick < now || f.tick > now) {
+    let keyframe = world.resource::<Keyframes>().before(tick).filter(|f| tick < now || f.tick > now);
+    if let Some(frame) = keyframe.cloned() {
         restore(world, &frame)?;
     }
     while world.resource::<Transport>().tick < tick {

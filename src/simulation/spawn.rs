@@ -106,7 +106,9 @@ pub(super) fn start_run_in_order(
         }
     }
     spawned.sort_unstable_by_key(|(id, _)| *id);
-    let roster = Roster { worlds, robots: spawned.into_iter().map(|(_, e)| e).collect() };
+    let robots: Vec<Entity> = spawned.into_iter().map(|(_, e)| e).collect();
+    let names = residents.iter().map(|(_, resident)| resident.name.clone()).zip(robots.iter().copied()).collect();
+    let roster = Roster { worlds, robots, names };
     let old = world.remove_resource::<Roster>();
     let grounds = at_work(world, |world, _| {
         old.iter().flat_map(|old| &old.worlds).for_each(|&w| _ = world.despawn(w));

@@ -1,60 +1,14 @@
-//! The state of the whole simulation as a `Frame`: taken, kept as keyframes, and put back.
-
-use std::collections::BTreeMap;
+//! The state of the whole simulation as a `Frame`: taken and put back.
 
 use bevy::prelude::*;
 
 use super::obstacles::roster::ObstacleRoster;
 use super::robot::ops::state_of;
 use super::{
-    Configuration, Contacts, DriveMode, LatestFrame, OwnState, RestoreError, RobotId, RobotOps, Roster, SimulatedRobot,
-    Transport,
+    Configuration, Contacts, DriveMode, Keyframes, LatestFrame, OwnState, RestoreError, RobotId, RobotOps, Roster,
+    SimulatedRobot, Transport,
 };
 use crate::run::Frame;
-
-/// Largest number of keyframes; beyond it every second one is dropped.
-const MOST_KEYFRAMES: usize = 1024;
-
-/// The run's keyframes, so that a seek need not begin at tick 0. Their number is bounded: in long runs they lie farther
-/// apart.
-#[derive(Resource, Clone, Debug, PartialEq)]
-pub struct Keyframes {
-    every: u64,
-    frames: BTreeMap<u64, Frame>,
-}
-
-impl Default for Keyframes {
-    fn default() -> Self {
-        Keyframes { every: 100, frames: BTreeMap::new() }
-    }
-}
-
-impl Keyframes {
-    /// No frames yet; one will be kept every `every` ticks, at least every tick.
-    pub fn every(every: u64) -> Self {
-        Keyframes { every: every.max(1), frames: BTreeMap::new() }
-    }
-
-    /// The last frame kept at or before `tick`.
-    pub fn before(&self, tick: u64) -> Option<&Frame> {
-        self.frames.range(..=tick).next_back().map(|(_, f)| f)
-    }
-
-    fn keep(&mut self, frame: &Frame) {
-        if frame.tick.is_multiple_of(self.every) {
-            self.frames.insert(frame.tick, frame.clone());
-        }
-        if self.frames.len() > MOST_KEYFRAMES {
-            self.every *= 2;
-            self.frames.retain(|tick, _| tick.is_multiple_of(self.every));
-        }
-    }
-
-    /// Forgets every frame after `tick`.
-    pub(super) fn truncate_after(&mut self, tick: u64) {
-        self.frames.split_off(&tick.saturating_add(1));
-    }
-}
 
 /// The state of the simulation now: the canonical form, the same for equal states. The scans are those of the latest
 /// frame.

@@ -54,7 +54,7 @@ pub(crate) fn settle_start(world: &mut World) {
 /// The obstacles and the doors of a world's entities, and the entities in the same order.
 fn gather(world: &mut World, ground: &Ground) -> (Vec<Obstacle>, Vec<DoorModel>, Vec<Entity>) {
     let there: BTreeSet<Entity> =
-        world.get::<Obstacles>(ground.entity()).map_or_else(BTreeSet::new, |o| o.iter().collect());
+        world.get::<Obstacles>(ground.entity()).into_iter().flat_map(Obstacles::iter).collect();
     let known: Vec<Entity> = ground.entities().filter(|e| there.contains(e)).collect();
     let of_file: BTreeSet<Entity> = known.iter().copied().collect();
     let mut new: Vec<(&str, Entity)> = there

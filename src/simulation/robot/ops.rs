@@ -10,6 +10,7 @@ use crate::collision::Surroundings;
 use crate::configuration::{Configuration as _, Coordinates};
 use crate::geometry::{Footprint, Placed, Pose2};
 use crate::run::{RobotInput, RobotState};
+use crate::simulation::past::trail::Gauges;
 use crate::simulation::tick::sweep::{CutMotion, Sweep};
 use crate::simulation::{
     Configuration, Contacts, Cut, DriveMode, Extra, OwnState, PreviousConfiguration, ResidesIn, RobotId, RobotModel,
@@ -24,6 +25,8 @@ pub struct RobotOps {
     pub(crate) apply: fn(&mut World, Entity, &RobotInput, &dyn Fn(&World) -> Vec<Placed>),
     /// The robot's present footprint.
     pub(crate) footprint: fn(&World, Entity) -> Option<Footprint>,
+    /// What a history keeps of the robot beside its state.
+    pub(crate) gauges: fn(&World, Entity) -> Option<Gauges>,
     /// The pose of the frame that the robot's sensors are mounted in.
     pub(crate) mount_pose: fn(&World, Entity) -> Option<Pose2>,
     /// Calls the last argument with the sweep of the robot's cut motion in this tick, and the parameter at which it is
@@ -43,6 +46,7 @@ impl RobotOps {
         RobotOps {
             apply: apply::<R>,
             footprint: footprint::<R>,
+            gauges: gauges::<R>,
             mount_pose: mount_pose::<R>,
             with_sweep: with_sweep::<R>,
             encode: encode::<R>,
@@ -55,6 +59,14 @@ impl RobotOps {
 fn footprint<R: SimulatedRobot>(world: &World, e: Entity) -> Option<Footprint> {
     let q = world.get::<Configuration<R>>(e)?.0;
     Some(world.get::<RobotModel<R>>(e)?.0.fitted(&q).footprint(&q))
+}
+
+fn gauges<R: SimulatedRobot>(world: &World, e: Entity) -> Option<Gauges> {
+    let robot = &world.get::<RobotModel<R>>(e)?.0;
+    let q = world.get::<Configuration<R>>(e)?.0;
+    let footprint = robot.fitted(&q).footprint(&q);
+    let odometer = robot.odometer(&world.get::<OwnState<R>>(e)?.extra);
+    Some(Gauges { footprint, odometer, has_tip: robot.tip(&q).is_some() })
 }
 
 fn mount_pose<R: SimulatedRobot>(world: &World, e: Entity) -> Option<Pose2> {

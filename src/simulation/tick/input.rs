@@ -5,7 +5,7 @@ use bevy::prelude::*;
 use super::crowds::others_now;
 use crate::run::{Event, RobotInput, Script, WorldChange, WorldEvent};
 use crate::simulation::obstacles::change;
-use crate::simulation::{ResidesIn, RobotId, RobotName, RobotOps, Roster, Transport};
+use crate::simulation::{ResidesIn, RobotId, RobotOps, Roster, Transport};
 
 /// An input to a robot from its driver, sent as a [`RunCommand`](crate::simulation::RunCommand). It applies before the
 /// next tick's step.
@@ -160,13 +160,7 @@ pub(crate) fn apply_inputs(world: &mut World) {
     world.resource_scope(|world, pending: Mut<PendingInput>| {
         change::make(world, pending.due_changes(tick));
         for event in pending.due(tick) {
-            let robot = world
-                .resource::<Roster>()
-                .robots()
-                .iter()
-                .copied()
-                .find(|&e| world.get::<RobotName>(e).is_some_and(|n| n.name == event.robot));
-            let Some(robot) = robot else { continue };
+            let Some(robot) = world.resource::<Roster>().named(&event.robot) else { continue };
             let others = |world: &World| {
                 let place = world.get::<ResidesIn>(robot).zip(world.get::<RobotId>(robot));
                 place.map_or_else(Vec::new, |(inhabited, id)| others_now(world, inhabited.0, *id))
