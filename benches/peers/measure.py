@@ -23,6 +23,12 @@ def timed(work, cases):
     return statistics.median(rounds)
 
 
+def stepped(step, robots):
+    """The median time of a step of all robots, microseconds a robot, over a few rounds."""
+    step(None)
+    return timed(step, [None] * (8 if robots > 100 else 64)) / robots
+
+
 def shapely(worlds):
     from shapely import LineString, Polygon, STRtree, distance
 
@@ -150,6 +156,30 @@ def irsim(worlds):
         scan = lambda pose: scanner.step(numpy.array(pose).reshape(3, 1))
         yield f"scan, 360 rays, {name} segments", timed(scan, world["poses"][:8])
         env.end()
+    for name, world in worlds["crowds"].items():
+        if int(name) > 100:
+            continue  # minutes a step
+        lidar = {"type": "lidar2d", "range_min": 0, "range_max": world["range"], "angle_range": math.tau, "number": 360}
+        robot = lambda pose: {
+            "kinematics": {"name": "diff"},
+            "shape": {"name": "circle", "radius": 0.11},
+            "state": pose,
+            "behavior": {"name": "dash"},
+            "goal": [pose[0] + 50, pose[1], 0],
+            "sensors": [lidar],
+        }
+        scene = {
+            "world": {"height": 500, "width": 500, "offset": [-10, -10], "step_time": 0.05, "collision_mode": "stop"},
+            "robot": [robot(pose) for pose in world["robots"]],
+            "obstacle": [wall(*ends) for ends in world["segments"]],
+        }
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "world.yaml")
+            with open(path, "w") as file:
+                json.dump(scene, file)
+            env = irsim.make(path, display=False, log_level="ERROR")
+        yield f"a robot-step among {name} robots", stepped(lambda _: env.step(), len(world["robots"]))
+        env.end()
 
 
 def navground(worlds):
@@ -173,6 +203,32 @@ def navground(worlds):
             lidar.update(agent, scene, state)
 
         yield f"scan, 360 rays, {name} segments", timed(scan, world["poses"])
+    for name, world in worlds["crowds"].items():
+        if int(name) > 1000:
+            continue  # minutes a step
+        scene, sensors = sim.World(), []
+        for ax, ay, bx, by in world["segments"]:
+            scene.add_wall(sim.Wall((ax, ay), (bx, by)))
+        for x, y, theta in world["robots"]:
+            wheels = core.kinematics.TwoWheelsDifferentialDriveKinematics(max_speed=0.6, wheel_axis=0.16)
+            behavior = core.behaviors.DummyBehavior(kinematics=wheels, radius=0.11)
+            agent = sim.Agent(radius=0.11, behavior=behavior, kinematics=wheels)
+            agent.pose = core.Pose2((x, y), theta)
+            scene.add_agent(agent)
+            agent.controller.follow_twist(core.Twist2((0.2, 0.0), 0.0, core.Frame.relative))
+            lidar = sim.state_estimations.LidarStateEstimation(
+                range=world["range"], start_angle=0.0, field_of_view=math.tau, resolution=360
+            )
+            state = core.SensingState()
+            lidar.prepare(agent, scene)
+            sensors.append((agent, lidar, state))
+
+        def step(_):
+            scene.run(1, 0.05)
+            for agent, lidar, state in sensors:
+                lidar.update(agent, scene, state)
+
+        yield f"a robot-step among {name} robots", stepped(step, len(sensors))
 
 
 PEERS = {

@@ -3,9 +3,12 @@
 use motion_lab::collision::Scene;
 use motion_lab::configuration::RobotKind;
 use motion_lab::geometry::{Aabb, Point2, Pose2, Shape};
+use motion_lab::random::Seed;
 use motion_lab::recording::Recorder;
+use motion_lab::robots::RUSTY;
 use motion_lab::run::{Event, RobotInput, RunDigest, Script};
 use motion_lab::sensors::{RangeSensor, Scanner};
+use motion_lab::simulation::Replicas;
 use motion_lab::tour::{BOOK_SEED, TourConfig};
 use motion_lab::worlds::{Obstacle, ObstacleKind, Resident, World};
 
@@ -15,7 +18,7 @@ use crate::measure::{Contender, race};
 const SENSOR: RangeSensor = RangeSensor { n_rays: 360, max_range: 4.0 };
 
 /// Aisles between shelves, with a rover every two metres.
-fn warehouse(robots: usize) -> World {
+pub fn warehouse(robots: usize) -> World {
     let columns = (robots as f64 / 0.625).sqrt().ceil() as usize;
     let mut world = World::empty("warehouse", Aabb { min: Point2::new(-5.0, -5.0), max: Point2::new(2000.0, 3000.0) });
     for i in 0..robots {
@@ -83,4 +86,29 @@ pub fn rows(table: &mut Table) {
             timings.iter().map(|t| t.per(robots as f64)).collect()
         });
     }
+}
+
+/// Many runs of one robot, stepped together, beside their scans alone.
+pub fn replicas(table: &mut Table) {
+    let work = "a step of 1,024 replicas of Rusty in the Apartment with its scan, one thread";
+    table.row(work, "<= 3x", || {
+        let world = World::apartment();
+        let seeds = (0..1024).map(Seed);
+        let mut replicas = Replicas::new(&RUSTY, &world, &world.robots[0], Some(SENSOR), seeds).expect("they start");
+        (0..200).for_each(|_| replicas.step());
+        let poses: Vec<Pose2> = (0..replicas.len()).map(|i| *replicas.configuration(i)).collect();
+        let scene = Scene::apartment();
+        let mut scanner = Scanner::new(SENSOR);
+        let mut ranges = vec![0.0; 360 * poses.len()];
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build().expect("a thread");
+        race(vec![
+            Contender::new("", |_| pool.install(|| replicas.step())),
+            Contender::new("scans alone", |_| {
+                for (pose, ranges) in poses.iter().zip(ranges.chunks_mut(360)) {
+                    scanner.scan_into(&scene, &[], pose, ranges);
+                }
+                ranges[7]
+            }),
+        ])
+    });
 }

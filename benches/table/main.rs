@@ -94,6 +94,7 @@ fn main() {
     edges::rows(&mut table);
     runs::rows(&mut table);
     crowd::rows(&mut table);
+    crowd::replicas(&mut table);
     if agree {
         assert!(table.rows.len() > 25, "only {} rows", table.rows.len());
     } else if table.only.is_none() {

@@ -1,8 +1,10 @@
 //! The table's worlds as JSON, for programs in other languages.
 
+use motion_lab::collision::Scene;
 use motion_lab::geometry::Footprint;
 use motion_lab::prelude::*;
 
+use crate::crowd::warehouse;
 use crate::queries::arm_scenes;
 use crate::worlds::{CASES, draws, free_points, pieces, walls};
 
@@ -13,6 +15,19 @@ fn list<T>(items: impl IntoIterator<Item = T>, text: impl Fn(T) -> String) -> St
 
 fn ends(core: &[Point2]) -> String {
     format!("[{},{},{},{}]", core[0].x, core[0].y, core[1].x, core[1].y)
+}
+
+/// A crowd's shelves by their sides, and its robots at their starts.
+fn crowd(robots: usize) -> String {
+    let world = warehouse(robots);
+    let scene = Scene::of_world(&world);
+    let sides = pieces(&scene).flat_map(|piece| {
+        let core = piece.core();
+        (0..core.len()).map(|i| ends(&[core[i], core[(i + 1) % core.len()]]))
+    });
+    let segments = list(sides, |side| side);
+    let robots_at = list(&world.robots, |r| format!("[{},{},{}]", r.start[0], r.start[1], r.start[2]));
+    format!("\"{robots}\":{{\"range\":4,\"segments\":{segments},\"robots\":{robots_at}}}")
 }
 
 /// Walls and the poses of scans in them; boxes and arms among them.
@@ -35,5 +50,6 @@ pub fn print() {
         format!("\"{count}\":{{\"boxes\":{boxes},\"arms\":{arms}}}")
     });
     let arms: Vec<String> = arms.collect();
-    println!("{{\"scans\":{{{}}},\"arms\":{{{}}}}}", scans.join(","), arms.join(","));
+    let crowds: Vec<String> = [10, 100, 1000].map(crowd).into();
+    println!("{{\"scans\":{{{}}},\"arms\":{{{}}},\"crowds\":{{{}}}}}", scans.join(","), arms.join(","), crowds.join(","));
 }
