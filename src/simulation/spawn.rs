@@ -13,7 +13,7 @@ use super::{
 use crate::collision::Scene;
 use crate::random::Seed;
 use crate::run::Script;
-use crate::tour::{BOOK_SEED, TourConfig};
+use crate::tour::{BOOK_SEED, ConfigError, RouteTours, TourConfig};
 use crate::worlds::{Resident, World as WorldModel};
 
 /// The input of a run beside its configuration: a seed, a script, or both.
@@ -55,6 +55,11 @@ fn spawn_world(world: &mut World, index: u32, model: &WorldModel) -> Entity {
         .id()
 }
 
+fn routes(world: &WorldModel, seed: Seed) -> Result<RouteTours, ConfigError> {
+    let refused = |(route, source)| ConfigError::Route { route, world: world.name.clone(), source };
+    RouteTours::of_world(world, seed).map_err(refused)
+}
+
 /// Starts a run in `world`, in place of the one under way: spawns everything and takes frame 0. The new run is paused.
 ///
 /// # Errors
@@ -77,6 +82,7 @@ pub(super) fn start_run_in_order(
     input.script.check()?;
     input.script.check_robots(&config.robot_names().collect::<Vec<_>>())?;
     input.script.check_worlds(&config.worlds)?;
+    let routes: Vec<RouteTours> = config.worlds.iter().map(|w| routes(w, input.seed)).collect::<Result<_, _>>()?;
     let worlds: Vec<Entity> =
         config.worlds.iter().enumerate().map(|(i, model)| spawn_world(world, i as u32, model)).collect();
     let mut spawned: Vec<(RobotId, Entity)> = Vec::new();
@@ -85,8 +91,16 @@ pub(super) fn start_run_in_order(
         let model = &config.worlds[w];
         let id = RobotId(i as u32);
         let about = world.get_resource::<RobotKinds>().and_then(|k| k.about(&resident.kind));
-        let request =
-            SpawnRequest { seed: input.seed, id, world: worlds[w], model, resident, sensor: config.sensor, about };
+        let request = SpawnRequest {
+            seed: input.seed,
+            id,
+            world: worlds[w],
+            model,
+            resident,
+            sensor: config.sensor,
+            routes: &routes[w],
+            about,
+        };
         let spawner = world.get_resource::<RobotKinds>().and_then(|k| k.spawner(&resident.kind));
         let robot = match spawner {
             Some(spawn) => spawn(world, &request),

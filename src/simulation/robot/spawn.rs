@@ -10,6 +10,7 @@ use crate::simulation::{
     Configuration, MountedOn, OwnState, PreviousConfiguration, ResidesIn, RobotId, RobotModel, RobotName, RobotOps,
     Route, SensorModel, SensorMount, SensorName, SensorNoise, SimulatedRobot, Slip, SpawnError,
 };
+use crate::tour::RouteTours;
 use crate::worlds::{Resident, World as WorldModel};
 
 /// One robot to be spawned.
@@ -20,6 +21,7 @@ pub(crate) struct SpawnRequest<'a> {
     pub(crate) model: &'a WorldModel,
     pub(crate) resident: &'a Resident,
     pub(crate) sensor: Option<RangeSensor>,
+    pub(crate) routes: &'a RouteTours,
     pub(crate) about: Option<&'static RobotKind>,
 }
 
@@ -30,6 +32,26 @@ fn sized<R: SimulatedRobot>(model: &R, resident: &Resident) -> Result<R, SizesEr
     model.with_sizes(sizes).ok_or_else(|| {
         let (kind, found) = (resident.kind.clone(), sizes.field());
         sizes.check_for(&kind).err().unwrap_or(SizesError::OwnKind { kind, found })
+    })
+}
+
+/// The tour of a robot that starts at `q`: along the route that its world gives it, or its kind's own.
+fn tour<R: SimulatedRobot>(robot: &R, request: &SpawnRequest, q: &R::Configuration) -> Result<R::Tour, SpawnError> {
+    let resident = request.resident;
+    let Some(name) = &resident.route else {
+        return Ok(robot.tour(request.seed, &resident.name, request.model, q));
+    };
+    let route = request.routes.get(name).ok_or_else(|| SpawnError::NoSuchRoute {
+        robot: resident.name.clone(),
+        world: request.model.name.clone(),
+        route: name.clone(),
+    })?;
+    robot.route_tour(route, q).ok_or_else(|| SpawnError::Route {
+        robot: resident.name.clone(),
+        world: request.model.name.clone(),
+        kind: resident.kind.clone(),
+        route: name.clone(),
+        speed: route.fastest(),
     })
 }
 
@@ -66,6 +88,7 @@ pub(crate) fn spawn_robot<R: SimulatedRobot>(
         world: request.model.name.clone(),
         source,
     })?;
+    let tour = tour(robot, request, &q)?;
     let sensor = request.sensor.filter(|_| robot.sensor_pose(&q).is_some());
     let entity = world
         .spawn((
@@ -73,7 +96,7 @@ pub(crate) fn spawn_robot<R: SimulatedRobot>(
             Configuration::<R>(q),
             PreviousConfiguration::<R>(q),
             OwnState::<R>::new(robot.initial_extra()),
-            Route::<R>(robot.tour(request.seed, &resident.name, request.model, &q)),
+            Route::<R>(tour),
             Slip(Stream::new(request.seed, &format!("{}/slip", resident.name))),
             ops,
             request.id,

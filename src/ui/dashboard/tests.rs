@@ -52,6 +52,7 @@ fn cockpit(world: &str, width: f64, height: f64, robot: CockpitRobot) -> Cockpit
         bounds,
         obstacles: vec![],
         doors: vec![],
+        routes: vec![],
         places: vec![],
         marks: vec![],
         robots: vec![],
