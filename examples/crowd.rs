@@ -63,6 +63,7 @@ pub fn world(square: u32, seed: Seed) -> World {
         bounds: Aabb { min: corners[0], max: corners[2] },
         obstacles,
         doors: vec![],
+        routes: vec![],
         places: Vec::new(),
         marks: vec![tour],
         robots: (0..ROW * ROW).map(|i| resident(square, i, &mut draws)).collect(),

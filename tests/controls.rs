@@ -22,6 +22,7 @@ pub fn open(name: &str, robots: &[(&str, &str, &[f64])]) -> World {
         bounds: PLANE,
         obstacles: vec![],
         doors: vec![],
+        routes: vec![],
         places: vec![],
         marks: vec![],
         robots: robots.iter().map(|(name, kind, start)| Resident::new(*name, *kind, *start)).collect(),

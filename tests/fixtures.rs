@@ -147,6 +147,7 @@ pub fn scene_of(bodies: &[Body]) -> Scene {
         bounds: PLANE,
         obstacles: obstacles.collect(),
         doors: vec![],
+        routes: vec![],
         places: vec![],
         marks: vec![],
         robots: vec![],

@@ -82,4 +82,6 @@ mod ties;
 mod touches;
 mod trailer;
 mod verdicts;
+#[cfg(feature = "sim")]
+mod warehouse;
 mod wrappers;

@@ -91,7 +91,7 @@ fn replicas_give_the_bits_of_recorded_runs() {
     assert!(replicas.contacts(0).episodes > 0 && replicas.contacts(1).episodes == 0);
 
     // one begins anew, the others go on
-    replicas.reset(1, Seed(7));
+    replicas.reset(1, Seed(7)).unwrap();
     let mut anew = Recorder::new(config, Seed(7)).unwrap();
     for _ in 0..40 {
         assert_eq!(&replicas.frame(1), anew.frame());

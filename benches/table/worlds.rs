@@ -53,6 +53,7 @@ pub fn boxes(count: usize, clear: f64) -> Scene {
         bounds: Aabb { min: Point2::new(-half, -half), max: corner },
         obstacles: obstacles.collect(),
         doors: vec![],
+        routes: vec![],
         places: Vec::new(),
         marks: Vec::new(),
         robots: Vec::new(),

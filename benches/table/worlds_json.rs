@@ -51,5 +51,10 @@ pub fn print() {
     });
     let arms: Vec<String> = arms.collect();
     let crowds: Vec<String> = [10, 100, 1000].map(crowd).into();
-    println!("{{\"scans\":{{{}}},\"arms\":{{{}}},\"crowds\":{{{}}}}}", scans.join(","), arms.join(","), crowds.join(","));
+    println!(
+        "{{\"scans\":{{{}}},\"arms\":{{{}}},\"crowds\":{{{}}}}}",
+        scans.join(","),
+        arms.join(","),
+        crowds.join(",")
+    );
 }

@@ -144,6 +144,7 @@ impl Anatomy {
                 vec![(crate::geometry::Pose2::IDENTITY, square)],
             )],
             doors: vec![],
+            routes: vec![],
             places: Vec::new(),
             marks: Vec::new(),
             robots: Vec::new(),

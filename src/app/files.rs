@@ -15,7 +15,7 @@ use crate::ui::Notice;
 const MOST_BYTES: u64 = 1 << 30;
 
 /// Largest size of a world file that the window opens, bytes.
-const MOST_WORLD: u64 = 16 << 20;
+const MOST_WORLD: u64 = 32 << 20;
 
 /// Saves the run as far as it has come: its log, recorded from seed, configuration and script, whole or not at all.
 pub fn save_run(world: &World, path: &Path) -> Notice {

@@ -111,6 +111,7 @@ mod tests {
             bounds: Aabb { min: p(0.0, 0.0), max: p(4.0, 4.0) },
             obstacles: vec![],
             doors: vec![],
+            routes: vec![],
             places: vec![],
             marks: vec![],
             robots: vec![],

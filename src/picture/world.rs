@@ -6,7 +6,11 @@ use crate::geometry::{Point2, Vector2};
 use crate::num;
 use crate::worlds::{Door, Obstacle, ObstacleKind, Place, World};
 
-/// The picture of a world: painted marks, then solid obstacles, then walls and closed doors, then open doors.
+/// How far the drawn corners of a route may stray from it, metres.
+const STRAY: f64 = 0.01;
+
+/// The picture of a world: routes and painted marks, then solid obstacles, then walls and closed doors, then open
+/// doors.
 ///
 /// An open door is its leaf, turned a quarter about its hinge, and a thin line over the gap; neither is an obstacle.
 pub fn world(world: &World) -> Picture {
@@ -14,8 +18,14 @@ pub fn world(world: &World) -> Picture {
         Item::new(format!("mark/{}", mark.name), &mark.name, Role::Muted, Drawing::Polyline(mark.points.clone()))
             .stroked(Line::solid(1.0))
     });
+    let routes = world.routes.iter().filter_map(|route| {
+        let outline = route.path().ok()?.outline(STRAY);
+        let item = Item::new(format!("route/{}", route.name), &route.name, Role::Muted, Drawing::Polyline(outline));
+        Some(item.stroked(Line::solid(1.0).dashed(Dash::Dashed)))
+    });
     let of_kind = |kind| world.obstacles.iter().filter(move |o| o.kind == kind).map(obstacle);
     Picture::new(&world.name, world.bounds)
+        .with(routes)
         .with(marks)
         .with(of_kind(ObstacleKind::Solid))
         .with(of_kind(ObstacleKind::Wall))
@@ -103,6 +113,7 @@ mod tests {
                 ),
             ],
             doors: vec![],
+            routes: vec![],
             places: vec![Place { name: "the gate".into(), pose: Pose2::IDENTITY }],
             marks: vec![Mark { name: "the line".into(), points: vec![p(0.0, 3.0), p(4.0, 3.0)] }],
             robots: vec![],

@@ -47,6 +47,7 @@ pub fn log() -> Log {
         bounds: Aabb { min: Point2::new(-1.0, -2.0), max: Point2::new(3.0, 4.0) },
         obstacles: vec![],
         doors: vec![],
+        routes: vec![],
         places: vec![],
         marks: vec![],
         robots: vec![resident("Car", "rusty", &[1.0, 0.1, 0.2]), resident("Arm", "reach", &[0.0, 0.5])],

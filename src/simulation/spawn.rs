@@ -5,7 +5,7 @@ use std::sync::Arc;
 use bevy::prelude::*;
 
 use super::obstacles::roster::{self, Ground, at_work};
-use super::robot::spawn::SpawnRequest;
+use super::robot::spawn::{SpawnRequest, routes};
 use super::tick::crowds::Crowds;
 use super::{
     History, Keyframes, LatestFrame, PendingInput, RobotId, RobotKinds, Roster, SceneRevision, SimulatedWorld,
@@ -14,7 +14,7 @@ use super::{
 use crate::collision::Scene;
 use crate::random::Seed;
 use crate::run::Script;
-use crate::tour::{BOOK_SEED, TourConfig};
+use crate::tour::{BOOK_SEED, RouteTours, TourConfig};
 use crate::worlds::{Resident, World as WorldModel};
 
 /// The input of a run beside its configuration: a seed, a script, or both.
@@ -78,6 +78,7 @@ pub(super) fn start_run_in_order(
     input.script.check()?;
     input.script.check_robots(&config.robot_names().collect::<Vec<_>>())?;
     input.script.check_worlds(&config.worlds)?;
+    let routes: Vec<RouteTours> = config.worlds.iter().map(|w| routes(w, input.seed)).collect::<Result<_, _>>()?;
     let worlds: Vec<Entity> =
         config.worlds.iter().enumerate().map(|(i, model)| spawn_world(world, i as u32, model)).collect();
     let mut spawned: Vec<(RobotId, Entity)> = Vec::new();
@@ -86,8 +87,16 @@ pub(super) fn start_run_in_order(
         let model = &config.worlds[w];
         let id = RobotId(i as u32);
         let about = world.get_resource::<RobotKinds>().and_then(|k| k.about(&resident.kind));
-        let request =
-            SpawnRequest { seed: input.seed, id, world: worlds[w], model, resident, sensor: config.sensor, about };
+        let request = SpawnRequest {
+            seed: input.seed,
+            id,
+            world: worlds[w],
+            model,
+            resident,
+            sensor: config.sensor,
+            routes: &routes[w],
+            about,
+        };
         let spawner = world.get_resource::<RobotKinds>().and_then(|k| k.spawner(&resident.kind));
         let robot = match spawner {
             Some(spawn) => spawn(world, &request),

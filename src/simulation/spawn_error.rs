@@ -41,6 +41,30 @@ pub enum SpawnError {
         /// The reason.
         source: SizesError,
     },
+    /// A route that the world does not have. World files are checked for this; a world made in code may have one.
+    #[error("robot {robot:?} in world {world:?}: there is no route {route:?}")]
+    NoSuchRoute {
+        /// The robot.
+        robot: String,
+        /// Its world.
+        world: String,
+        /// The route.
+        route: String,
+    },
+    /// A route that the robot cannot follow: its kind follows none, or it asks for more than nine tenths of its speed.
+    #[error("robot {robot:?} in world {world:?}: a {kind} cannot follow the route {route:?} at {speed} m/s")]
+    Route {
+        /// The robot.
+        robot: String,
+        /// Its world.
+        world: String,
+        /// Its kind.
+        kind: String,
+        /// The route.
+        route: String,
+        /// The route's speed, metres per second.
+        speed: f64,
+    },
     /// The configuration is out of range.
     #[error(transparent)]
     Config(#[from] ConfigError),

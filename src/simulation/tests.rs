@@ -37,6 +37,7 @@ fn crowd() -> (Arc<TourConfig>, Script) {
         bounds,
         obstacles: vec![],
         doors: vec![],
+        routes: vec![],
         places: vec![],
         marks: vec![],
         robots,

@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use crate::random::Seed;
 use crate::sensors::{RangeSensor, SensorError};
-use crate::worlds::{ResidentSensorError, World, check_sensors};
+use crate::worlds::{ResidentSensorError, RouteError, World, check_sensors};
 
 /// The seed of every run printed in the book.
 pub const BOOK_SEED: Seed = Seed(2005);
@@ -62,6 +62,16 @@ pub enum ConfigError {
         /// Which of its sensors, and the reason.
         source: Box<ResidentSensorError>,
     },
+    /// A route that is refused. World files are checked for this; a world made in code may have one.
+    #[error("route {route:?} in world {world:?}: {source}")]
+    Route {
+        /// The route.
+        route: String,
+        /// Its world.
+        world: String,
+        /// The reason.
+        source: RouteError,
+    },
     /// A start coordinate that is NaN or infinite.
     #[error("robot {robot:?} in world {world:?}: start coordinate {value} is not a finite number")]
     Start {
@@ -97,6 +107,13 @@ impl TourConfig {
         let robots = self.robot_names().count();
         if robots > MAX_ROBOTS {
             return Err(ConfigError::Robots(robots));
+        }
+        for world in &self.worlds {
+            for route in &world.routes {
+                let refused =
+                    |source| ConfigError::Route { route: route.name.clone(), world: world.name.clone(), source };
+                route.path().map_err(refused)?;
+            }
         }
         let mut names = BTreeSet::new();
         for (world, robot) in self.worlds.iter().flat_map(|w| w.robots.iter().map(move |r| (w, r))) {

@@ -2,14 +2,14 @@
 
 use std::fmt;
 
-use super::{BeamError, OutlineError, ResidentSensorError};
+use super::{BeamError, OutlineError, ResidentSensorError, RouteError};
 use crate::configuration::SizesError;
 use crate::geometry::ShapeError;
 
 /// An item of a world file: `obstacles[1] "the post"`.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct WorldItem {
-    /// The list it stands in: `walls`, `obstacles`, `doors`, `places`, `marks` or `robots`.
+    /// The list it stands in: `walls`, `obstacles`, `doors`, `routes`, `places`, `marks` or `robots`.
     pub list: &'static str,
     /// Its index in that list, from 0.
     pub index: usize,
@@ -78,7 +78,7 @@ pub enum WorldProblem {
         /// The line it begins in.
         line: usize,
     },
-    /// Too many items in a list, or too many shapes or corners of concave polygons in all.
+    /// Too many items in a list, or too many shapes, corners of concave polygons or corners of routes in all.
     #[error("too many {what}: at most {most}", most = super::MAX_ITEMS)]
     TooMany {
         /// What there are too many of.
@@ -139,4 +139,23 @@ pub enum WorldProblem {
     /// One of a robot's own sensors that is refused.
     #[error(transparent)]
     Sensors(#[from] ResidentSensorError),
+    /// A line that is no route.
+    #[error(transparent)]
+    Route(#[from] RouteError),
+    /// A robot on a route that the world does not have.
+    #[error("there is no route {0:?}")]
+    NoSuchRoute(String),
+    /// A route for a robot of a kind that does not drive.
+    #[error("a {0} does not drive: leave out `route`")]
+    NotRouted(String),
+    /// A route with corners that a car cannot take.
+    #[error("its turning circle has a radius of {least} m, and the corners of the route {route:?} have {radius} m")]
+    TightRoute {
+        /// The route.
+        route: String,
+        /// The radius of the route's corners, metres.
+        radius: f64,
+        /// The least radius that the car can drive, metres.
+        least: f64,
+    },
 }

@@ -54,6 +54,14 @@
 //!         trailer: (hitch_len: 3, width: 1.8, front_overhang: 1.2, rear_overhang: 1))),
 //! ```
 //!
+//! Routes are closed one-way lines, and a robot that names one follows it, from where it starts, when nobody drives it.
+//! Their corners are rounded by `radius`, and `speed` is in metres per second:
+//!
+//! ```ron
+//! routes: [(name: "round", points: [(1, 1), (7, 1), (7, 3)], radius: 0.5, speed: 0.4)],
+//! robots: [(name: "Rusty", kind: "rusty", start: [3, 1, 0], route: "round")],
+//! ```
+//!
 //! Every list may be left out. A name is unique in the whole world. A robot's `start` is its configuration's
 //! coordinates: `rusty` x, y, theta; `reach` th1, th2; `reach3` th1, th2, th3; `hitch` x, y, theta, and psi with a
 //! trailer. Other kinds begin with `x-` and belong to programs that register them.
@@ -67,7 +75,9 @@ mod grid;
 #[cfg(feature = "cli")]
 pub mod import;
 mod model;
+mod route;
 mod sensor;
+mod warehouse;
 
 pub use beam::{BeamError, BeamModel};
 pub use convex_pieces::{MAX_CONCAVE_VERTICES, OutlineError, convex_pieces};
@@ -81,12 +91,15 @@ pub use grid::cells::{Grid, GridError, MAX_CELLS};
 pub use grid::distance_transform::DistanceTransform;
 pub use grid::ros_export::RosFiles;
 pub use model::{Door, Mark, Obstacle, ObstacleKind, Outline, Place, Resident, World, Written};
+pub use route::{MAX_ROUTE_POINTS, ROUTE_RADII, ROUTE_SPEEDS, Route, RouteError, RoutePath};
 #[cfg(feature = "sim")]
 pub(crate) use sensor::check_mount;
 pub use sensor::{
     FanSensor, MAX_RANGE, MAX_RAYS, MAX_SENSORS, MIN_FIELD_OF_VIEW, MIN_RANGE, RangeSensor, ResidentSensor,
     ResidentSensorError, ResidentSensorProblem, SensorError,
 };
+
+pub use warehouse::{WAREHOUSE_ROBOTS, Warehouse, WarehouseError};
 
 /// The version of the world format that is read and written.
 pub const WORLD_VERSION: u64 = 1;

@@ -1,6 +1,6 @@
 //! `World`, a checked world: what is meant, as opposed to what is written in a file.
 
-use super::{BeamModel, OutlineError, ResidentSensor, convex_pieces};
+use super::{BeamModel, OutlineError, ResidentSensor, Route, convex_pieces};
 use crate::configuration::Sizes;
 use crate::geometry::{Aabb, ConvexPolygon, Placed, Point2, Pose2, Shape};
 
@@ -95,6 +95,8 @@ pub struct Resident {
     pub sensor: Option<BeamModel>,
     /// Its own range sensors, in file order; they come on top of the run's.
     pub sensors: Vec<ResidentSensor>,
+    /// The name of the route of its world that it follows when nobody drives it; `None` for its kind's own tour.
+    pub route: Option<String>,
 }
 
 /// A checked world.
@@ -108,6 +110,8 @@ pub struct World {
     pub obstacles: Vec<Obstacle>,
     /// The doors in file order.
     pub doors: Vec<Door>,
+    /// The routes in file order.
+    pub routes: Vec<Route>,
     /// The places in file order.
     pub places: Vec<Place>,
     /// The painted marks in file order.
@@ -120,13 +124,19 @@ impl Resident {
     /// Creates a resident of its kind's own sizes with an exact sensor. Nothing is checked.
     pub fn new(name: impl Into<String>, kind: impl Into<String>, start: impl Into<Vec<f64>>) -> Self {
         let (name, kind, start) = (name.into(), kind.into(), start.into());
-        Resident { name, kind, start, sizes: None, sensor: None, sensors: Vec::new() }
+        Resident { name, kind, start, sizes: None, sensor: None, sensors: Vec::new(), route: None }
     }
 
     /// The same resident with these sizes. Nothing is checked.
     #[must_use]
     pub fn with_sizes(self, sizes: Sizes) -> Self {
         Resident { sizes: Some(sizes), ..self }
+    }
+
+    /// The same resident on the route of this name. Nothing is checked.
+    #[must_use]
+    pub fn with_route(self, route: impl Into<String>) -> Self {
+        Resident { route: Some(route.into()), ..self }
     }
 }
 
@@ -202,6 +212,7 @@ impl World {
             bounds,
             obstacles: vec![],
             doors: vec![],
+            routes: vec![],
             places: vec![],
             marks: vec![],
             robots: vec![],

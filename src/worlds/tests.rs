@@ -3,6 +3,7 @@
 mod built_in;
 mod refusals;
 mod round_trip;
+mod routes;
 mod sizes;
 
 use super::World;

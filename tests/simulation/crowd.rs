@@ -25,6 +25,7 @@ pub(crate) fn arena(half: f64, robots: &[(&str, &str, &[f64])]) -> World {
         bounds: Aabb { min: corners[0], max: corners[2] },
         obstacles: vec![wall],
         doors: vec![],
+        routes: vec![],
         places: vec![],
         marks: vec![],
         robots: robots.iter().map(|(name, kind, start)| Resident::new(*name, *kind, *start)).collect(),

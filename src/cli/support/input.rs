@@ -9,8 +9,11 @@ use crate::cli::{Data, Failure, Outcome, say};
 /// Largest size of a script, a map or another text, bytes.
 pub const MAX_TEXT: u64 = 64 << 20;
 
-/// Largest size of a world file and of a drawing, bytes: 160 for each shape that a world may hold.
-pub const MAX_WORLD: u64 = 16 << 20;
+/// Largest size of a world file, bytes: 320 for each of 100,000 shapes or robots.
+pub const MAX_WORLD: u64 = 32 << 20;
+
+/// Largest size of a map or a drawing of another program, bytes.
+pub const MAX_FOREIGN: u64 = 16 << 20;
 
 /// The whole file as text.
 pub fn read_text(path: &Path) -> Result<String, Failure> {

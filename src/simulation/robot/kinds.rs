@@ -3,29 +3,44 @@
 use crate::collision::{Collision, MarchOptions, march};
 use crate::configuration::{HitchCfg, Sizes, Tn};
 use crate::geometry::{Point2, Pose2};
-use crate::num::wrap;
+use crate::num::{atan2, lesser, wrap};
 use crate::random::{Seed, Stream};
 use crate::robots::{AnyRobot, CarCmd, EncoderCounts, Hitch, Reach, Robot, Rusty, RustyCmd, WheelSlip, WheelTurns};
 use crate::simulation::{Extra, SimulatedRobot};
-use crate::tour::{Reversing, Sinusoids, Waypoints};
+use crate::tour::{Reversing, RouteTour, Sinusoids, Step, Touring, Tracking, Waypoints};
 use crate::worlds::World;
+
+/// How short a way Rusty takes back to its route, per metre.
+const ROVER_STIFFNESS: f64 = 4.0;
 
 /// Rusty's own state: the accumulated turns of the left and the right wheel, radians, and the number of the waypoint it
 /// pursues.
 impl SimulatedRobot for Rusty {
-    type Tour = Waypoints;
+    type Tour = Touring<Waypoints>;
 
-    fn tour(&self, _seed: Seed, _name: &str, world: &World, _start: &Pose2) -> Waypoints {
-        Waypoints::of_world(world)
+    fn tour(&self, _seed: Seed, _name: &str, world: &World, _start: &Pose2) -> Self::Tour {
+        Waypoints::of_world(world).into()
     }
 
-    fn touring(&self, tour: &Waypoints, _tick: u64, _dt: f64, q: &Pose2, extra: &mut Extra) -> RustyCmd {
+    fn route_tour(&self, route: &RouteTour, start: &Pose2) -> Option<Self::Tour> {
+        route.suits(self.max_speed).then(|| Touring::Route(route.starting_at(start.position())))
+    }
+
+    fn touring(&self, tour: &Self::Tour, tick: u64, dt: f64, q: &Pose2, extra: &mut Extra) -> RustyCmd {
+        let tour = match tour {
+            Touring::Own(tour) => tour,
+            Touring::Route(route) => {
+                let Tracking { v, omega } = route.track(q, Step::of_tick(tick, dt), ROVER_STIFFNESS);
+                return self.limited(&RustyCmd { v, omega });
+            }
+        };
         let (command, next) = tour.pursue(self, q, extra[2] as usize);
         extra[2] = next as f64;
         command
     }
 
-    fn resume(&self, tour: &Waypoints, q: &Pose2, obstacles: &dyn Collision, extra: &mut Extra) {
+    fn resume(&self, tour: &Self::Tour, q: &Pose2, obstacles: &dyn Collision, extra: &mut Extra) {
+        let Touring::Own(tour) = tour else { return };
         let reachable = |p: Point2| {
             let goal = Pose2 { x: p.x, y: p.y, theta: q.theta };
             self.edge(q, &goal).is_ok_and(|line| march(obstacles, &line, MarchOptions::default(), None).is_free())
@@ -124,14 +139,27 @@ impl<const N: usize> SimulatedRobot for Reach<N> {
 /// The car has no state of its own. Its configuration decides whether it pulls the trailer, and `fitted` gives the
 /// model for it.
 impl SimulatedRobot for Hitch {
-    type Tour = Reversing;
+    type Tour = Touring<Reversing>;
 
-    fn tour(&self, seed: Seed, name: &str, _world: &World, _start: &HitchCfg) -> Reversing {
-        Reversing::new(seed, name, self)
+    fn tour(&self, seed: Seed, name: &str, _world: &World, _start: &HitchCfg) -> Self::Tour {
+        Reversing::new(seed, name, self).into()
     }
 
-    fn touring(&self, tour: &Reversing, tick: u64, dt: f64, _q: &HitchCfg, _extra: &mut Extra) -> CarCmd {
-        tour.command(self, tick, dt)
+    fn route_tour(&self, route: &RouteTour, start: &HitchCfg) -> Option<Self::Tour> {
+        route.suits(self.max_speed).then(|| Touring::Route(route.starting_at(start.body.position())))
+    }
+
+    /// On a route the car's rear axle tracks the reference; its way back to the line is as long as its wheelbase.
+    fn touring(&self, tour: &Self::Tour, tick: u64, dt: f64, q: &HitchCfg, _extra: &mut Extra) -> CarCmd {
+        match tour {
+            Touring::Own(tour) => tour.command(self, tick, dt),
+            Touring::Route(route) => {
+                let Tracking { v, omega } = route.track(&q.body, Step::of_tick(tick, dt), 1.0 / self.wheelbase);
+                let v = lesser(v, self.max_speed);
+                let phi = if v > 0.0 { atan2(self.wheelbase * omega, v) } else { 0.0 };
+                CarCmd { v, phi: phi.clamp(-self.max_steer, self.max_steer) }
+            }
+        }
     }
 
     fn driven(&self, [speed, steering]: [f64; 2]) -> Option<CarCmd> {

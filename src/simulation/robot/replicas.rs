@@ -6,7 +6,7 @@ use crate::run::{DT, Frame, RobotInput, RobotScan};
 use crate::sensors::{FanSensor, RangeSensor};
 use crate::simulation::robot::driven::Driven;
 use crate::simulation::robot::ops::state_of;
-use crate::simulation::robot::spawn::{Ready, slip};
+use crate::simulation::robot::spawn::{Ready, routes, slip, tour};
 use crate::simulation::sensors::scanners::{Desk, Scanners};
 use crate::simulation::sensors::start::beam;
 use crate::simulation::tick::drive::Driver;
@@ -19,8 +19,8 @@ use crate::worlds::{BeamModel, Resident, World};
 /// together, by the functions that a tick of the schedule consists of, and each gives the frames of a recorded run of
 /// its seed bit for bit. For learning and for statistics: there is no app and no entity behind a replica.
 ///
-/// A step divides the replicas among threads, which changes no bit. The world's other residents are left out, and so are
-/// the sensors that the resident itself names; the sensor given here is the run's own.
+/// A step divides the replicas among threads, which changes no bit. The world's other residents are left out, and so
+/// are the sensors that the resident itself names; the sensor given here is the run's own.
 ///
 /// ```
 /// use motion_lab::prelude::*;
@@ -41,7 +41,7 @@ use crate::worlds::{BeamModel, Resident, World};
 /// let start = &world.robots[0].start;
 /// assert!((replicas.configuration(0).x - start[0]).abs() > 0.2 && replicas.tick(0) == 10);
 /// assert_eq!(replicas.ranges(0).len(), 36);
-/// replicas.reset(0, Seed(99));
+/// replicas.reset(0, Seed(99))?;
 /// assert_eq!((replicas.tick(0), replicas.tick(1)), (0, 10));
 /// # Ok::<(), motion_lab::simulation::SpawnError>(())
 /// ```
@@ -56,7 +56,7 @@ pub struct Replicas<R: SimulatedRobot> {
 /// What the replicas share.
 struct Stage<R: SimulatedRobot> {
     robot: R,
-    name: String,
+    resident: Resident,
     start: R::Configuration,
     world: World,
     scene: Scene,
@@ -89,10 +89,10 @@ impl<R: SimulatedRobot> Replicas<R> {
     ) -> Result<Self, SpawnError> {
         let Ready { robot, q, noise } = Ready::new(model, resident, world)?;
         let rays = sensor.filter(|_| robot.sensor_pose(&q).is_some()).map(FanSensor::from);
-        let name = resident.name.clone();
         let (world, scene) = (world.clone(), Scene::of_world(world));
-        let stage = Stage { robot, name, start: q, world, scene, rays, noise };
-        let replicas: Vec<Replica<R>> = seeds.into_iter().map(|seed| stage.replica(seed)).collect();
+        let stage = Stage { robot, resident: resident.clone(), start: q, world, scene, rays, noise };
+        let replicas: Vec<Replica<R>> =
+            seeds.into_iter().map(|seed| stage.replica(seed)).collect::<Result<_, SpawnError>>()?;
         let ranges = vec![0.0; stage.n_rays() * replicas.len()];
         let mut all = Replicas { stage, replicas, ranges, scanners: Scanners::default() };
         all.each(Stage::sense);
@@ -132,13 +132,17 @@ impl<R: SimulatedRobot> Replicas<R> {
 
     /// Begins a replica anew at tick 0 with this seed; the others stay as they are.
     ///
+    /// # Errors
+    /// [`SpawnError`] where no run of this seed would start; the replica then stays as it is.
+    ///
     /// # Panics
     /// Without such a replica.
-    pub fn reset(&mut self, replica: usize, seed: Seed) {
+    pub fn reset(&mut self, replica: usize, seed: Seed) -> Result<(), SpawnError> {
         let n = self.stage.n_rays();
         let ranges = &mut self.ranges[replica * n..(replica + 1) * n];
-        self.replicas[replica] = self.stage.replica(seed);
+        self.replicas[replica] = self.stage.replica(seed)?;
         self.stage.sense(&mut self.replicas[replica], ranges, &mut self.scanners.desk().desk);
+        Ok(())
     }
 
     /// The tick at which a replica stands.
@@ -198,15 +202,17 @@ impl<R: SimulatedRobot> Stage<R> {
     }
 
     /// The run of a seed at tick 0.
-    fn replica(&self, seed: Seed) -> Replica<R> {
-        Replica {
+    fn replica(&self, seed: Seed) -> Result<Replica<R>, SpawnError> {
+        let Stage { robot, resident, start, world, .. } = self;
+        let routes = routes(world, seed)?;
+        Ok(Replica {
             tick: 0,
-            tour: self.robot.tour(seed, &self.name, &self.world, &self.start),
-            slip: slip(seed, &self.name),
-            beam: Stream::new(seed, &beam(&self.name)),
-            robot: Driven { q: self.start, mode: DriveMode::default(), extra: self.robot.initial_extra() },
+            tour: tour(robot, seed, (world, &routes), resident, start)?,
+            slip: slip(seed, &resident.name),
+            beam: Stream::new(seed, &beam(&resident.name)),
+            robot: Driven { q: *start, mode: DriveMode::default(), extra: robot.initial_extra() },
             contacts: Contacts::default(),
-        }
+        })
     }
 
     /// A tick up to its scan: the phases of the schedule, for a robot without others.

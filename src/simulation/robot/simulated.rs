@@ -6,6 +6,7 @@ use crate::geometry::{Point2, Pose2};
 use crate::random::{Seed, Stream};
 use crate::robots::{AnyRobot, Drivable, EncoderCounts};
 use crate::short_list::ShortList;
+use crate::tour::RouteTour;
 use crate::worlds::World;
 
 /// A robot's own state beside its configuration, in the order its kind documents.
@@ -24,6 +25,12 @@ pub trait SimulatedRobot: Drivable<Drive: Clone + Send + Sync + 'static> {
 
     /// The tour of the robot named `name` in `world`.
     fn tour(&self, seed: Seed, name: &str, world: &World, start: &Self::Configuration) -> Self::Tour;
+
+    /// The tour of a robot whose world gives it this route, its reference to be put where the robot starts. `None` for a
+    /// robot that follows no routes, or none as fast as this one; a run with it does not start then.
+    fn route_tour(&self, _route: &RouteTour, _start: &Self::Configuration) -> Option<Self::Tour> {
+        None
+    }
 
     /// The control the tour gives for tick number `tick` (from 1), `dt` seconds long, at the configuration `q`.
     fn touring(

@@ -10,6 +10,7 @@ use crate::simulation::{
     Configuration, MountedOn, OwnState, PreviousConfiguration, ResidesIn, RobotId, RobotModel, RobotName, RobotOps,
     Route, SensorModel, SensorMount, SensorName, SensorNoise, SimulatedRobot, Slip, SpawnError,
 };
+use crate::tour::{ConfigError, RouteTours};
 use crate::worlds::{Resident, World as WorldModel};
 
 /// One robot to be spawned.
@@ -20,6 +21,7 @@ pub(crate) struct SpawnRequest<'a> {
     pub(crate) model: &'a WorldModel,
     pub(crate) resident: &'a Resident,
     pub(crate) sensor: Option<RangeSensor>,
+    pub(crate) routes: &'a RouteTours,
     pub(crate) about: Option<&'static RobotKind>,
 }
 
@@ -72,6 +74,36 @@ pub(crate) fn slip(seed: Seed, robot: &str) -> Stream {
     Stream::new(seed, &format!("{robot}/slip"))
 }
 
+pub(crate) fn routes(world: &WorldModel, seed: Seed) -> Result<RouteTours, ConfigError> {
+    let refused = |(route, source)| ConfigError::Route { route, world: world.name.clone(), source };
+    RouteTours::of_world(world, seed).map_err(refused)
+}
+
+/// The tour of a robot that starts at `q`: along the route that its world gives it, or its kind's own.
+pub(crate) fn tour<R: SimulatedRobot>(
+    robot: &R,
+    seed: Seed,
+    (world, routes): (&WorldModel, &RouteTours),
+    resident: &Resident,
+    q: &R::Configuration,
+) -> Result<R::Tour, SpawnError> {
+    let Some(name) = &resident.route else {
+        return Ok(robot.tour(seed, &resident.name, world, q));
+    };
+    let route = routes.get(name).ok_or_else(|| SpawnError::NoSuchRoute {
+        robot: resident.name.clone(),
+        world: world.name.clone(),
+        route: name.clone(),
+    })?;
+    robot.route_tour(route, q).ok_or_else(|| SpawnError::Route {
+        robot: resident.name.clone(),
+        world: world.name.clone(),
+        kind: resident.kind.clone(),
+        route: name.clone(),
+        speed: route.fastest(),
+    })
+}
+
 /// Spawns a robot of type `R`, with its sensors.
 pub(crate) fn spawn_robot<R: SimulatedRobot>(
     world: &mut World,
@@ -81,6 +113,7 @@ pub(crate) fn spawn_robot<R: SimulatedRobot>(
 ) -> Result<Entity, SpawnError> {
     let resident = request.resident;
     let Ready { robot, q, noise } = Ready::new(model, resident, request.model)?;
+    let tour = tour(&robot, request.seed, (request.model, request.routes), resident, &q)?;
     let sensor = request.sensor.filter(|_| robot.sensor_pose(&q).is_some());
     let entity = world
         .spawn((
@@ -88,7 +121,7 @@ pub(crate) fn spawn_robot<R: SimulatedRobot>(
             Configuration::<R>(q),
             PreviousConfiguration::<R>(q),
             OwnState::<R>::new(robot.initial_extra()),
-            Route::<R>(robot.tour(request.seed, &resident.name, request.model, &q)),
+            Route::<R>(tour),
             Slip(slip(request.seed, &resident.name)),
             ops,
             request.id,

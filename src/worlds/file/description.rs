@@ -23,6 +23,8 @@ pub(crate) struct WorldText {
     #[serde(default)]
     pub doors: Vec<DoorText>,
     #[serde(default)]
+    pub routes: Vec<RouteText>,
+    #[serde(default)]
     pub places: Vec<PlaceText>,
     #[serde(default)]
     pub marks: Vec<PolylineText>,
@@ -88,6 +90,15 @@ pub(crate) struct DoorText {
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
+pub(crate) struct RouteText {
+    pub name: String,
+    pub points: Vec<Xy>,
+    pub radius: f64,
+    pub speed: f64,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
 pub(crate) struct PlaceText {
     pub name: String,
     pub pose: Pose2,
@@ -109,6 +120,8 @@ pub(crate) struct RobotText {
     pub sensor: Option<BeamModel>,
     #[serde(default)]
     pub sensors: Vec<SensorText>,
+    #[serde(default, deserialize_with = "given")]
+    pub route: Option<String>,
 }
 
 /// A range sensor of a robot.
@@ -139,7 +152,7 @@ macro_rules! named {
         }
     })* };
 }
-named!(PolylineText, ObstacleText, DoorText, PlaceText, RobotText);
+named!(PolylineText, ObstacleText, DoorText, RouteText, PlaceText, RobotText);
 
 /// Converts a written point; a negative zero becomes a positive one.
 pub(crate) fn point((x, y): Xy) -> Point2 {

@@ -9,11 +9,12 @@ use crate::worlds::{Door, MAX_CONCAVE_VERTICES, MAX_ITEMS, Mark, Obstacle, Obsta
 pub(crate) struct Budget {
     left: usize,
     corners: usize,
+    route_corners: usize,
 }
 
 impl Default for Budget {
     fn default() -> Self {
-        Budget { left: MAX_ITEMS, corners: MAX_CORNERS }
+        Budget { left: MAX_ITEMS, corners: MAX_CORNERS, route_corners: MAX_ITEMS }
     }
 }
 
@@ -29,6 +30,12 @@ impl Budget {
     fn spend_corners(&mut self, corners: usize) -> Result<(), WorldProblem> {
         let what = "corners of concave polygons";
         self.corners = self.corners.checked_sub(corners).ok_or(WorldProblem::TooMany { what })?;
+        Ok(())
+    }
+
+    pub(super) fn spend_corners_of_routes(&mut self, corners: usize) -> Result<(), WorldProblem> {
+        let what = "corners of routes";
+        self.route_corners = self.route_corners.checked_sub(corners).ok_or(WorldProblem::TooMany { what })?;
         Ok(())
     }
 }

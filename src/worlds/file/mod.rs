@@ -7,5 +7,6 @@ pub(crate) mod name;
 pub(crate) mod parse;
 pub(crate) mod print;
 pub(crate) mod resident;
+mod route;
 pub(crate) mod sizes;
 pub(crate) mod source;

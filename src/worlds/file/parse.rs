@@ -6,6 +6,7 @@ use super::description::Named;
 use super::items::{Budget, make_bounds, make_door, make_mark, make_place, make_solid, make_wall};
 use super::name::check_name;
 use super::resident::make_resident;
+use super::route::{Radii, make_route, routed};
 use super::source::{Part, Source};
 use crate::worlds::{MAX_ITEMS, World, WorldError, WorldItem, WorldProblem};
 
@@ -20,7 +21,7 @@ impl World {
     /// format's form; another version; an unknown field; a name that is empty or taken; numbers that are not finite;
     /// coordinates beyond [`MAX_COORDINATE`](crate::geometry::MAX_COORDINATE); features below
     /// [`MIN_FEATURE`](crate::geometry::MIN_FEATURE); polygons that cross themselves; more than [`MAX_ITEMS`] shapes,
-    /// or items in a list; unknown kinds of robots.
+    /// or items in a list; unknown kinds of robots; [routes](crate::worlds::RouteError) that are none.
     ///
     /// ```
     /// use motion_lab::worlds::World;
@@ -39,6 +40,7 @@ impl World {
         names.claim("walls", &file.walls)?;
         names.claim("obstacles", &file.obstacles)?;
         names.claim("doors", &file.doors)?;
+        names.claim("routes", &file.routes)?;
         names.claim("places", &file.places)?;
         names.claim("marks", &file.marks)?;
         names.claim("robots", &file.robots)?;
@@ -47,14 +49,19 @@ impl World {
         let mut obstacles = source.convert("walls", &file.walls, |w| make_wall(w, &mut budget))?;
         let solids = source.convert("obstacles", &file.obstacles, |o| make_solid(o, &mut budget))?;
         obstacles.extend(solids);
+        let doors = source.convert("doors", &file.doors, |d| make_door(d, &mut budget))?;
+        let routes = source.convert("routes", &file.routes, |r| make_route(r, &mut budget))?;
+        let radii: Radii<'_> = routes.iter().map(|r| (r.name.as_str(), r.radius)).collect();
+        let robots = source.convert("robots", &file.robots, |r| routed(make_resident(r)?, r, &radii))?;
         Ok(World {
             name: file.name,
             bounds,
             obstacles,
-            doors: source.convert("doors", &file.doors, |d| make_door(d, &mut budget))?,
+            doors,
             places: source.convert("places", &file.places, make_place)?,
             marks: source.convert("marks", &file.marks, make_mark)?,
-            robots: source.convert("robots", &file.robots, make_resident)?,
+            routes,
+            robots,
         })
     }
 }

@@ -46,6 +46,10 @@ impl World {
             let (name, hinge, end) = (Quoted(&d.name), Xy(d.a), Xy(d.b));
             format!("name: {name}, hinge: {hinge}, end: {end}, open: {}", d.open)
         });
+        let routes = self.routes.iter().map(|r| {
+            let (name, points) = (Quoted(&r.name), Points(&r.points));
+            format!("name: {name}, points: {points}, radius: {:?}, speed: {:?}", r.radius, r.speed)
+        });
         let places = self.places.iter().map(|p| {
             let Pose2 { x, y, theta } = p.pose;
             format!("name: {}, pose: (x: {x:?}, y: {y:?}, theta: {theta:?})", Quoted(&p.name))
@@ -57,13 +61,17 @@ impl World {
             let sensors: Vec<String> = r.sensors.iter().map(sensor_text).collect();
             let sensors =
                 if sensors.is_empty() { String::new() } else { format!(", sensors: [{}]", sensors.join(", ")) };
-            format!("{head}{}{noise}{sensors}", sizes_text(r.sizes.as_ref()))
+            let route = r.route.as_ref().map_or(String::new(), |name| format!(", route: {}", Quoted(name)));
+            format!("{head}{}{noise}{sensors}{route}", sizes_text(r.sizes.as_ref()))
         });
         write_list(out, "walls", walls)?;
         write_list(out, "obstacles", solids)?;
-        // a world without doors keeps the text and the hash that it had before there were any
+        // a world without doors or routes keeps the text and the hash that it had before there were any
         if !self.doors.is_empty() {
             write_list(out, "doors", doors)?;
+        }
+        if !self.routes.is_empty() {
+            write_list(out, "routes", routes)?;
         }
         write_list(out, "places", places)?;
         write_list(out, "marks", marks)?;

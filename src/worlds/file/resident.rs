@@ -31,7 +31,7 @@ impl Resident {
         let kind = kind.into();
         let start = make_start(&kind, start.into())?;
         let sensor = sensor.map(|noise| make_noise(&kind, noise)).transpose()?;
-        Ok(Resident { name: name.into(), kind, start, sizes: None, sensor, sensors: Vec::new() })
+        Ok(Resident { name: name.into(), kind, start, sizes: None, sensor, sensors: Vec::new(), route: None })
     }
 
     /// The resident with these range sensors of its own, in place of those it has. Angles are wrapped to `(-pi, pi]`.
@@ -54,7 +54,7 @@ impl Resident {
 }
 
 pub(crate) fn make_resident(text: &RobotText) -> Result<Resident, WorldProblem> {
-    let RobotText { name, kind, start, disc, arm, car, sensor, sensors } = text;
+    let RobotText { name, kind, start, disc, arm, car, sensor, sensors, route: _ } = text;
     let sizes = SizesText { disc: disc.as_ref(), arm: arm.as_ref(), car: car.as_ref() };
     let sensors: Vec<ResidentSensor> = sensors.iter().map(make_sensor).collect();
     let resident = Resident::try_new(name.clone(), kind.clone(), start.clone(), *sensor)?;

@@ -55,6 +55,8 @@ struct Lists<'a> {
     #[serde(borrow, default)]
     doors: Vec<&'a RawValue>,
     #[serde(borrow, default)]
+    routes: Vec<&'a RawValue>,
+    #[serde(borrow, default)]
     places: Vec<&'a RawValue>,
     #[serde(borrow, default)]
     marks: Vec<&'a RawValue>,
@@ -69,11 +71,12 @@ struct Name {
 }
 
 impl<'a> Lists<'a> {
-    fn each(&self) -> [(&'static str, &[&'a RawValue]); 6] {
+    fn each(&self) -> [(&'static str, &[&'a RawValue]); 7] {
         [
             ("walls", &self.walls),
             ("obstacles", &self.obstacles),
             ("doors", &self.doors),
+            ("routes", &self.routes),
             ("places", &self.places),
             ("marks", &self.marks),
             ("robots", &self.robots),

@@ -109,6 +109,7 @@ impl Draft {
             bounds,
             obstacles,
             doors: vec![],
+            routes: vec![],
             places: self.places,
             marks: self.marks,
             robots: self.robots,

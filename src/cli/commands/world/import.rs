@@ -12,7 +12,7 @@ use motion_lab::worlds::import::{
     CellStyle, ImportError, Imported, RosMap, SvgOptions, Unknown, irsim, is_ros_map, movingai, svg,
 };
 
-use crate::cli::support::input::{MAX_TEXT, MAX_WORLD, read_bytes, read_text_of};
+use crate::cli::support::input::{MAX_FOREIGN, MAX_TEXT, read_bytes, read_text_of};
 use crate::cli::support::output::write_file;
 use crate::cli::support::simulate::begin;
 use crate::cli::{Data, Failure, Outcome, say};
@@ -112,7 +112,7 @@ impl Import {
             UnknownCells::Occupied => Unknown::Occupied,
             UnknownCells::Free => Unknown::Free,
         };
-        let limit = if kind == Kind::Movingai { MAX_TEXT } else { MAX_WORLD };
+        let limit = if kind == Kind::Movingai { MAX_TEXT } else { MAX_FOREIGN };
         let text = read_text_of(&self.file, limit)?;
         match kind {
             Kind::Ros => RosMap::parse(&file, &text).map_err(refused).and_then(|map| {
@@ -144,7 +144,7 @@ fn kind_of(file: &Path) -> Result<Kind, Failure> {
     match extension.as_str() {
         "map" => Ok(Kind::Movingai),
         "svg" => Ok(Kind::Svg),
-        "yaml" | "yml" if is_ros_map(&read_text_of(file, MAX_WORLD)?) => Ok(Kind::Ros),
+        "yaml" | "yml" if is_ros_map(&read_text_of(file, MAX_FOREIGN)?) => Ok(Kind::Ros),
         "yaml" | "yml" => Ok(Kind::Irsim),
         "pgm" => Err(Failure::usage(
             format!("{}: this is a ROS map's image", file.display()),

@@ -2,6 +2,7 @@
 
 mod check;
 mod export;
+mod generate;
 mod import;
 
 use std::path::PathBuf;
@@ -15,6 +16,7 @@ use crate::cli::support::simulate::unknown_kind;
 use crate::cli::support::world_source::{find_world, read_world};
 use crate::cli::{Data, Failure, Outcome, say};
 use export::Export;
+use generate::Generate;
 use import::Import;
 
 /// Check world files; list and print worlds; read them from other formats and write them in others.
@@ -51,7 +53,11 @@ enum WorldCommand {
     },
     Import(Box<Import>),
     Export(Export),
+    Generate(Generate),
 }
+
+/// From this many robots on, a summary in words says how many there are, not their names.
+const MANY: usize = 20;
 
 /// The summary of a world.
 #[derive(Serialize)]
@@ -83,6 +89,7 @@ impl WorldArgs {
             }
             WorldCommand::Import(import) => import.run(data),
             WorldCommand::Export(export) => export.run(),
+            WorldCommand::Generate(generate) => generate.run(data),
         }
     }
 }
@@ -124,7 +131,11 @@ fn summarise(source: &str, world: &World, json: bool, data: &mut Data) -> Result
         return data.json(&summary);
     }
     let Summary { name, content_hash, obstacles, places, marks, .. } = &summary;
-    let robots = if summary.robots.is_empty() { "none".to_owned() } else { summary.robots.join(", ") };
+    let robots = match summary.robots.len() {
+        0 => "none".to_owned(),
+        many @ MANY.. => many.to_string(),
+        _ => summary.robots.join(", "),
+    };
     data.line(format!(
         "{source}: {name}, content {content_hash}, {obstacles} obstacles, {places} places, {marks} marks, robots: {robots}"
     ))
