@@ -16,6 +16,8 @@ mod chapter;
 #[cfg(feature = "cli")]
 mod cli;
 #[cfg(feature = "sim")]
+mod coded_sensors;
+#[cfg(feature = "sim")]
 mod controls;
 mod edges;
 #[cfg(feature = "sim")]

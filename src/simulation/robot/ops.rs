@@ -22,6 +22,8 @@ pub struct RobotOps {
     pub(crate) footprint: fn(&World, Entity) -> Option<Footprint>,
     /// The pose of the frame that the robot's sensors are mounted in.
     pub(crate) mount_pose: fn(&World, Entity) -> Option<Pose2>,
+    /// Whether a run that has a sensor of its own gives the robot one.
+    pub(crate) senses: fn(&World, Entity) -> bool,
     /// The robot's state.
     pub(crate) encode: fn(&World, Entity) -> Option<RobotState>,
     /// Overwrites the robot's components by a state. `None`, with nothing changed, when the state does not fit the
@@ -37,6 +39,7 @@ impl RobotOps {
             apply: apply::<R>,
             footprint: footprint::<R>,
             mount_pose: mount_pose::<R>,
+            senses: senses::<R>,
             encode: encode::<R>,
             decode: decode::<R>,
             view: view::<R>,
@@ -51,6 +54,11 @@ fn footprint<R: SimulatedRobot>(world: &World, e: Entity) -> Option<Footprint> {
 
 fn mount_pose<R: SimulatedRobot>(world: &World, e: Entity) -> Option<Pose2> {
     Some(world.get::<RobotModel<R>>(e)?.0.mount_pose(&world.get::<Configuration<R>>(e)?.0))
+}
+
+fn senses<R: SimulatedRobot>(world: &World, e: Entity) -> bool {
+    let (robot, q) = (world.get::<RobotModel<R>>(e), world.get::<Configuration<R>>(e));
+    robot.zip(q).is_some_and(|(robot, q)| robot.0.sensor_pose(&q.0).is_some())
 }
 
 /// The driver's new state after an accepted input, and the configuration that the robot is put in, if any. `None`
