@@ -140,20 +140,36 @@ fn an_obstacle_before_the_limit_is_hit_first_and_one_behind_it_is_not() {
         let edge = car.edge(&a, &b).unwrap();
         let EdgeVerdict::Hit { free_until, contact_at, part: 1, by } = verdict else { panic!("{verdict:?}") };
         assert_eq!(verify_certificate(checker.scene(), &edge, &certificate), Ok(free_until));
-        assert!(free_until > 0.0 && free_until < contact_at);
+        assert!(free_until > 0.0 && free_until < contact_at && contact_at - free_until < 1e-6, "{verdict:?}");
         // the public march agrees
         let marched = march(checker.scene(), &edge, MarchOptions::default(), Some(&mut certificate));
-        let EdgeVerdict::Hit { free_until: until, by: same, .. } = marched else { panic!("{marched:?}") };
+        let EdgeVerdict::Hit { free_until: until, contact_at: met, by: same, .. } = marched else {
+            panic!("{marched:?}")
+        };
+        assert!(until < met && met - until < 1e-6, "{marched:?}");
         assert_eq!((by, verify_certificate(checker.scene(), &edge, &certificate)), (same, Ok(until)));
         assert!((until - free_until).abs() < 1e-6, "{marched:?} {verdict:?}");
         // a proof that goes on beyond the limit is refused, however free of obstacles the way is
         if by == HitBy::Limit {
             let steps = certificate.steps().to_vec();
-            let (from, beyond) = (steps[steps.len() - 1].to, contact_at + 1e-3);
-            let longer = steps.into_iter().chain([ProvenStep { from, to: beyond, clearance: 1e-6 }]).collect();
-            let forged = verify_certificate(checker.scene(), &edge, &Certificate::from_steps(0.0, longer));
-            assert!(matches!(forged, Err(CertificateError::BeyondLimit { .. })), "{forged:?}");
+            let from = steps[steps.len() - 1].to;
+            for beyond in [contact_at + 1e-3, contact_at, until.next_up()] {
+                let longer = steps.iter().copied().chain([ProvenStep { from, to: beyond, clearance: 1e-6 }]).collect();
+                let forged = verify_certificate(checker.scene(), &edge, &Certificate::from_steps(0.0, longer));
+                assert!(matches!(forged, Err(CertificateError::BeyondLimit { .. })), "{forged:?}");
+            }
         }
+        // one that gives up on its way to the limit has proven what its certificate proves
+        let mut gave_up = 0;
+        for budget in 1..12 {
+            let options = MarchOptions { budget, ..MarchOptions::default() };
+            let marched = march(checker.scene(), &edge, options, Some(&mut certificate));
+            if let EdgeVerdict::Unresolved { free_until, .. } = marched {
+                gave_up += u32::from(free_until > 0.0);
+                assert_eq!(verify_certificate(checker.scene(), &edge, &certificate), Ok(free_until));
+            }
+        }
+        assert!(gave_up > 0 || by == HitBy::Limit, "near the pin it needs more");
         (by, free_until)
     };
     let (by, until) = ask(pin(1.0));
@@ -162,6 +178,11 @@ fn an_obstacle_before_the_limit_is_hit_first_and_one_behind_it_is_not() {
         let (by, until) = ask(scene);
         assert!(by == HitBy::Limit && (until - 0.5).abs() < 1e-12, "{by:?} {until}");
     }
+    // a start beyond the limit hits the limit, in contact or not
+    let on_the_car = Scene::empty(PLANE).with_obstacle_at("pin", Pose2::IDENTITY, Shape::Disc { radius: 0.1 });
+    let outside = Checker::new(on_the_car, car).edge(&at(0.0, 1.5), &at(0.0, 2.5)).unwrap();
+    let at_once = EdgeVerdict::Hit { free_until: 0.0, contact_at: 0.0, part: 1, by: HitBy::Limit };
+    assert!(outside == at_once, "{outside:?}");
     // a start in contact, at the limit, is not free for that
     let folded = Checker::new(pin(1.25), car.with_jackknife(1.3));
     let (touching, on) = (at(0.0, 1.3), at(0.0, 1.6));

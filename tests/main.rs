@@ -16,6 +16,8 @@ mod chapter;
 #[cfg(feature = "cli")]
 mod cli;
 #[cfg(feature = "sim")]
+mod coded_sensors;
+#[cfg(feature = "sim")]
 mod controls;
 #[cfg(feature = "sim")]
 mod crowds;

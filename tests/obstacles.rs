@@ -1,6 +1,7 @@
 //! Obstacles and doors: entities are what robots meet, and a run's script changes them.
 
 mod before_tick_0;
+mod captures;
 mod doors;
 mod live;
 mod logs;

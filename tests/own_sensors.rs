@@ -17,7 +17,7 @@ use motion_lab::tour::{BOOK_SEED, ConfigError, TourConfig};
 use motion_lab::worlds::{ResidentSensor, World};
 
 /// A square room from -5 to 5 with these robots.
-fn room(robots: &str) -> World {
+pub fn room(robots: &str) -> World {
     let text = format!(
         "World(version: 1, name: \"room\", bounds: (min: (-5, -5), max: (5, 5)),
         walls: [(name: \"wall\", points: [(-5, -5), (5, -5), (5, 5), (-5, 5)], closed: true)], robots: [{robots}])"
@@ -25,16 +25,16 @@ fn room(robots: &str) -> World {
     World::parse("room.ron", &text).unwrap()
 }
 
-fn config(robots: &str, ticks: u64) -> TourConfig {
+pub fn config(robots: &str, ticks: u64) -> TourConfig {
     TourConfig { worlds: vec![room(robots)], ticks, sensor: None }
 }
 
-const AHEAD: &str = "(name: \"ahead\", rays: 1, range: 9, mount: (x: 0.5, y: 0, theta: 0))";
-const LEFT: &str = "(name: \"left\", rays: 3, range: 9, field_of_view: 1.5707963267948966, \
+pub const AHEAD: &str = "(name: \"ahead\", rays: 1, range: 9, mount: (x: 0.5, y: 0, theta: 0))";
+pub const LEFT: &str = "(name: \"left\", rays: 3, range: 9, field_of_view: 1.5707963267948966, \
                     mount: (x: 0, y: 0.5, theta: 1.5707963267948966), noise: (sigma_hit: 0.02))";
 
 /// A car with these sensors.
-fn car(sensors: &str) -> String {
+pub fn car(sensors: &str) -> String {
     format!("(name: \"car\", kind: \"hitch\", start: [1, 0.5, 0], sensors: [{sensors}])")
 }
 
@@ -82,23 +82,23 @@ fn an_arm_sees_from_its_tip_along_its_last_link_and_not_itself() {
 }
 
 /// The frames of a run, from tick 0 on.
-fn frames(log: &Log) -> Vec<Frame> {
+pub fn frames(log: &Log) -> Vec<Frame> {
     std::iter::once(&log.initial).chain(&log.frames).cloned().collect()
 }
 
-fn app(config: TourConfig) -> App {
+pub fn app(config: TourConfig) -> App {
     let mut app = App::new();
     app.add_plugins(SimulationPlugin);
     start_run(app.world_mut(), config, BOOK_SEED).unwrap();
     app
 }
 
-fn latest(app: &App) -> Frame {
+pub fn latest(app: &App) -> Frame {
     app.world().resource::<LatestFrame>().0.clone()
 }
 
 /// Steps to a tick, and returns the frames from the next one on.
-fn run_to(app: &mut App, tick: u64) -> Vec<Frame> {
+pub fn run_to(app: &mut App, tick: u64) -> Vec<Frame> {
     let mut frames = Vec::new();
     while app.world().resource::<Transport>().tick < tick {
         step(app.world_mut());
@@ -217,15 +217,16 @@ fn sensors_that_cannot_be_are_refused_and_the_others_stay() {
     world.spawn((SensorModel::from(good), named("on a stone"), MountedOn(stone)));
     world.spawn((SensorModel::from(good), named("twice"), MountedOn(car)));
     world.spawn((SensorModel::from(good), named("twice"), MountedOn(car)));
-    world.spawn((SensorModel::from(good), MountedOn(car))); // without a name it has the empty one
+    world.spawn((SensorModel::from(good), MountedOn(car))); // without a name, on a robot to which no run gives one
     take_sensors_at_start(world);
     let names: Vec<String> = sensors(world).into_iter().map(|view| view.name).collect();
-    assert_eq!(names, ["", "ahead"]);
+    assert_eq!(names, ["ahead"]);
     let refused = world.resource::<SensorRoster>().refused();
     let reasons: Vec<String> = refused.iter().map(ToString::to_string).collect();
-    assert_eq!(refused.len(), 7, "{reasons:#?}");
-    assert_eq!(refused[1].reason, SensorRefusal::Numbers(SensorError::Rays(0)));
+    assert_eq!(refused.len(), 8, "{reasons:#?}");
+    assert_eq!(refused[2].reason, SensorRefusal::Numbers(SensorError::Rays(0)));
     let begins = [
+        "robot \"car\", sensor \"\": without a name it must be the run's own sensor",
         "robot \"car\", sensor \" blank\": its name must be",
         "robot \"car\", sensor \"blind\": 0 rays: ",
         "robot \"car\", sensor \"noisy\": noise: z_short",

@@ -78,7 +78,9 @@ impl Anatomy {
         if put.step().len() == self.step().len() && put.q().is_angle(0) == self.q().is_angle(0) {
             (0..self.step().len()).for_each(|i| put.set_step(i, self.step()[i]));
         }
-        Anatomy { tab: self.tab, show_annulus: self.show_annulus, ..put }
+        // the same arm keeps its own radius, bare or not
+        let thickness = if robot == *self.checker().robot() { self.thickness } else { put.thickness };
+        Anatomy { tab: self.tab, show_annulus: self.show_annulus, thickness, ..put }
     }
 }
 

@@ -22,6 +22,7 @@ mod prompt;
 mod readout;
 mod snippet;
 mod sweep;
+mod thickness;
 mod words;
 
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI};
@@ -38,7 +39,7 @@ use crate::geometry::{Aabb, Footprint, Point2, Shape};
 use crate::robots::{AnyRobot, ConfigurationError, Reach, Robot};
 use crate::worlds::{Obstacle, ObstacleKind, World};
 
-/// The radius of thick links, metres: the Workbench's.
+/// The radius of the thick links of an arm that has none of its own, metres: the Workbench's.
 pub const THICK_LINKS: f64 = 0.03;
 
 /// The four questions, a tab each.
@@ -77,6 +78,8 @@ pub struct Anatomy {
     q: AnyConfiguration,
     step: Coordinates,
     elbow_down: bool,
+    /// The radius of the links when they are thick, metres.
+    thickness: f64,
     /// The question.
     pub tab: Tab,
     /// Whether the annulus of points that an arm's tip can reach is drawn.
@@ -159,7 +162,8 @@ impl Anatomy {
         step.resize(q.coordinates().len(), 0.0);
         let elbow_down = elbow(&q).is_none_or(|angle| angle >= 0.0);
         let (tab, show_annulus) = (Tab::default(), false);
-        Anatomy { world: Arc::new(world), source, checker, q, step, elbow_down, tab, show_annulus }
+        let thickness = thickness::of_links(&world, checker.robot()).unwrap_or(THICK_LINKS);
+        Anatomy { world: Arc::new(world), source, checker, q, step, elbow_down, thickness, tab, show_annulus }
     }
 
     /// The same anatomy with another tab in front.
@@ -201,10 +205,17 @@ impl Anatomy {
         }
     }
 
-    /// Sets the link radius of a two-link arm to [`THICK_LINKS`] or to 0; other robots stay as they are.
+    /// The radius that a two-link arm's links have when they are thick, metres: its own; of an arm with bare links that
+    /// of the world's resident with the same base and lengths, else [`THICK_LINKS`]. `None` for another robot.
+    pub fn thickness(&self) -> Option<f64> {
+        self.thick_links().map(|_| self.thickness)
+    }
+
+    /// Sets the link radius of a two-link arm to its [`thickness`](Self::thickness) or to 0; other robots stay as they
+    /// are.
     pub fn set_thick_links(&mut self, thick: bool) {
         if let AnyRobot::Reach(arm) = *self.checker.robot() {
-            let arm = Reach { link_radius: if thick { THICK_LINKS } else { 0.0 }, ..arm };
+            let arm = Reach { link_radius: if thick { self.thickness } else { 0.0 }, ..arm };
             self.checker = Checker::new(self.checker.shared_scene(), AnyRobot::Reach(arm));
         }
     }

@@ -35,7 +35,8 @@ pub enum Subject {
         /// Whether the scans are drawn.
         scan: bool,
     },
-    /// A robot's workspace, and beside it its configuration space with its path since tick 0.
+    /// A robot's workspace, and beside it its configuration space with its path since tick 0; both with the world as it
+    /// stands, doors open or closed and obstacles where they are.
     Cspace {
         /// The world it lives in; any when left out.
         world: Option<World>,
@@ -238,20 +239,19 @@ impl<'a> Moving<'a> {
     /// Shows it the next tick.
     pub fn see(&mut self, run: &Recorder) -> Result<(), CaptureError> {
         let Subject::Cspace { finest, annulus, .. } = &self.subject else { return Ok(()) };
-        let views = run.view();
+        let (views, standing) = (run.view(), run.standing_worlds());
         if self.space.is_none() {
             let fits = |v: &&RobotView| {
                 self.subject.wants(&v.name, &v.kind) && self.backdrops.iter().any(|b| b.number == v.world)
             };
             let nobody = || CaptureError::NotInRun("such robot".into());
             let view = views.iter().find(fits).ok_or_else(nobody)?;
-            let world = self.log.config.worlds.get(view.world as usize).ok_or_else(nobody)?;
-            self.space = Some(Space::new(world, view, *finest, *annulus)?);
+            let world = standing.get(view.world as usize).ok_or_else(nobody)?;
+            self.space = Some(Space::new(Arc::clone(world), view, *finest, *annulus)?);
         }
-        match &mut self.space {
-            Some(space) => views.iter().find(|v| v.id == space.robot).map_or(Ok(()), |view| space.see(view)),
-            None => Ok(()),
-        }
+        let Some(space) = &mut self.space else { return Ok(()) };
+        let view = views.iter().find(|view| view.id == space.robot);
+        view.zip(standing.get(space.world as usize)).map_or(Ok(()), |(view, world)| space.see(world, view))
     }
 
     /// The figure of the last tick seen. Without `drawn` it has only words and sizes.
@@ -337,4 +337,36 @@ fn drawing(view: &RobotView) -> Vec<Item> {
         heading: view.coordinates.get(2).copied().filter(|_| is_disc),
         in_contact: view.flash > 0,
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::random::Seed;
+    use crate::run::{Script, WorldChange, WorldEvent};
+
+    #[test]
+    fn every_picture_of_a_run_is_the_one_of_its_tick() {
+        let door = || "door A".to_owned();
+        let change = |tick, change| WorldEvent { tick, world: "Apartment".into(), change };
+        let changes = vec![change(2, WorldChange::Close(door())), change(3, WorldChange::Open(door()))];
+        let config = TourConfig { worlds: vec![World::apartment()], ticks: 3, sensor: None };
+        let log = Run::record(config, (Seed(3), Script::new(vec![], changes))).unwrap();
+        let space = Subject::Cspace { world: None, robot: None, kind: None, finest: 3, annulus: false };
+        for subject in [space, Subject::Dashboard { names: true, scan: false }] {
+            let mut moving = Moving::new(&log, subject.clone(), 640.0).unwrap();
+            let mut pictures = Vec::new();
+            let see = |run: &Recorder| {
+                moving.see(run)?;
+                pictures.push(moving.captured(run, true)?.figure);
+                Ok::<_, CaptureError>(())
+            };
+            Run::show(&log, see).unwrap();
+            for (tick, picture) in (0..).zip(&pictures) {
+                assert!(*picture == at_tick(&log, &subject, tick, 640.0).unwrap().figure, "tick {tick}");
+                let open = picture.panels[0].picture.items.iter().any(|item| item.id == "door/door A/leaf");
+                assert_eq!(open, tick != 2, "tick {tick}");
+            }
+        }
+    }
 }

@@ -7,8 +7,8 @@ use bevy::ecs::world::World;
 
 use crate::run::{Frame, Script};
 use crate::simulation::{
-    LatestFrame, PendingInput, RestoreError, RobotView, Roster, RunInput, SensorView, SimulationPlugin, SpawnError,
-    StandingWorld, Transport, restore, seek, sensors, start_run, step, view,
+    LatestFrame, PendingInput, RestoreError, RobotView, Roster, RunConfig, RunInput, SensorView, SimulationPlugin,
+    SpawnError, StandingWorld, Transport, restore, seek, sensors, start_run, step, view,
 };
 use crate::tour::TourConfig;
 use crate::worlds::World as WorldModel;
@@ -59,6 +59,12 @@ impl Recorder {
         let ticks = config.ticks;
         start_run(&mut world, config, input)?;
         Ok(Recorder { world, ticks })
+    }
+
+    /// The run's configuration. It says the sensors and the obstacles that the run has, whoever spawned, changed or
+    /// removed them before its first tick.
+    pub fn config(&self) -> &TourConfig {
+        &self.world.resource::<RunConfig>().0
     }
 
     /// The frame of the last tick; at first the frame of tick 0.

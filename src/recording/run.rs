@@ -19,7 +19,8 @@ impl Run {
         Self::record_with_robots(config, input, |_| {})
     }
 
-    /// [`record`](Self::record) with further kinds of robots.
+    /// [`record`](Self::record) with further kinds of robots. Sensors that `add`'s observers spawn on robots are in the
+    /// log's configuration, so the run needs no program to be run again.
     ///
     /// # Errors
     /// [`RunError`] names the invalid part of the configuration or the script.
@@ -29,7 +30,8 @@ impl Run {
         add: impl FnOnce(&mut App),
     ) -> Result<Log, RunError> {
         let RunInput { seed, script } = input.into();
-        let mut recorder = Recorder::with_robots(config.clone(), (seed, script.clone()), add)?;
+        let mut recorder = Recorder::with_robots(config, (seed, script.clone()), add)?;
+        let config = recorder.config().clone();
         let initial = recorder.frame().clone();
         let frames = Self::frames(&mut recorder, config.ticks);
         let digests = frames.iter().map(Frame::digest).collect();

@@ -109,14 +109,18 @@ pub struct Sensors(Vec<Entity>);
 
 /// A range sensor: its rays, its greatest range and its field of view. Spawn it with a [`SensorName`] and a
 /// [`MountedOn`] before the run's first tick, and it is in the run; a [`SensorMount`] and a [`SensorNoise`] may come
-/// with it.
+/// with it. The run's configuration then says it too, and so do logs: any program runs them again.
 #[derive(Component, Clone, Copy, Debug, PartialEq)]
 #[component(immutable)]
 #[require(SensorName, SensorMount, Scan)]
 pub struct SensorModel(pub FanSensor);
 
-/// The name of a sensor, unique on its robot. A robot's sensors are ordered by the bytes of their names. The sensor
-/// that the run gives to its rovers has the empty name, which is the default, so it is the first.
+/// The name of a sensor, unique on its robot. A robot's sensors are ordered by the bytes of their names.
+///
+/// The empty name, which is the default, is that of the sensor that the run gives to its rovers, so that one is the
+/// first. It may be changed or removed before the first tick, on all of them alike: it is one sensor of the
+/// configuration, over a full turn in the middle of the robot's frame, with noise of each robot's own. Where the robots
+/// that sense do not agree, no unnamed sensor is taken; one on any other robot is never taken. Either is refused aloud.
 #[derive(Component, Clone, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
 #[component(immutable)]
 pub struct SensorName(pub String);

@@ -60,3 +60,23 @@ fn the_residents_of_the_world_are_to_be_chosen() {
     let anatomy = &harness.state().app.world().resource::<Interface>().0.anatomy.anatomy;
     assert_eq!(anatomy.resident().map(|r| r.name.as_str()), Some("Short"));
 }
+
+#[test]
+fn an_arms_links_are_bare_or_as_thick_as_its_own() {
+    let mut harness = lab(WIDE);
+    let shown = Anatomy::of_world(yard(), WorldSource::Unsaved).unwrap();
+    let short = shown.residents().into_iter().find(|(name, _)| name == "Short").unwrap().1;
+    let mut interface = harness.state_mut().app.world_mut().resource_mut::<Interface>();
+    interface.0.widget = Widget::Anatomy;
+    interface.0.anatomy.set(shown.with_robot(short));
+    harness.run_steps(3);
+    let radius = |harness: &Harness<'_, Lab>| {
+        let anatomy = &harness.state().app.world().resource::<Interface>().0.anatomy.anatomy;
+        let AnyRobot::Reach(arm) = *anatomy.checker().robot() else { panic!("an arm") };
+        arm.link_radius
+    };
+    for expected in [0.0, 0.02] {
+        click(&mut harness, "2 cm capsule links");
+        assert_eq!(radius(&harness), expected);
+    }
+}

@@ -54,3 +54,24 @@ pub(crate) fn keeps<M: Motion>(
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::collision::Scene;
+    use crate::configuration::HitchCfg;
+    use crate::geometry::{Aabb, Point2, Pose2};
+    use crate::robots::{HITCH, Robot};
+
+    #[test]
+    fn a_motion_beyond_its_robots_limit_is_not_free_however_empty_the_scene() {
+        let scene = Scene::empty(Aabb { min: Point2::new(-9.0, -9.0), max: Point2::new(9.0, 9.0) });
+        let folded = |psi| HitchCfg { body: Pose2::IDENTITY, trailer: Some(psi) };
+        let is_free = |limit: Option<f64>, to: f64| {
+            let car = limit.map_or(HITCH.with_trailer(), |limit| HITCH.with_trailer().with_jackknife(limit));
+            is_free_among(&scene, &car.edge(&folded(0.0), &folded(to)).unwrap())
+        };
+        assert_eq!([1.0, 1.25, 1.5].map(|to| is_free(Some(1.25), to)), [true, true, false]);
+        assert!(is_free(None, 1.5));
+    }
+}

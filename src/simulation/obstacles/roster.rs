@@ -9,7 +9,8 @@ use crate::collision::Scene;
 use crate::geometry::Pose2;
 use crate::run::{ObstacleState, WorldChange, WorldEvent};
 use crate::simulation::{
-    Door, ObstacleOf, ObstacleShape, Placement, RestoreError, Roster, SceneRevision, StandingWorld, WorldScene,
+    Door, ObstacleOf, ObstacleShape, Placement, RestoreError, Roster, SceneRevision, SimulatedWorld, StandingWorld,
+    WorldScene,
 };
 use crate::worlds::{Obstacle, World as WorldModel};
 
@@ -285,6 +286,21 @@ pub(crate) fn restore(world: &mut World, tick: u64, states: &[ObstacleState]) ->
         refresh(world, roster);
         Ok(())
     })
+}
+
+/// Gives every world of the run its residents, at its start and as it stands. Obstacles and scenes stay.
+pub(crate) fn set_residents(world: &mut World, models: &[WorldModel]) {
+    at_work(world, |world, roster| {
+        for (ground, model) in roster.grounds.iter_mut().zip(models).filter(|(g, m)| g.start.robots != m.robots) {
+            let robots = model.robots.clone();
+            ground.start = Arc::new(WorldModel { robots, ..WorldModel::clone(&ground.start) });
+            let index = world.get::<SimulatedWorld>(ground.entity).map_or(0, |w| w.index);
+            if let Ok(mut entity) = world.get_entity_mut(ground.entity) {
+                let model = Arc::clone(&ground.start);
+                entity.insert((SimulatedWorld { index, model }, StandingWorld(ground.standing())));
+            }
+        }
+    });
 }
 
 /// The placement that a change asks for, of the obstacle with which number.

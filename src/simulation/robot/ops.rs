@@ -32,6 +32,8 @@ pub struct RobotOps {
     /// Calls the last argument with the sweep of the robot's cut motion in this tick, and the parameter at which it is
     /// cut. Without a motion it does nothing.
     pub(crate) with_sweep: fn(&World, Entity, &mut dyn FnMut(&dyn Sweep, f64)),
+    /// Whether a run that has a sensor of its own gives the robot one.
+    pub(crate) senses: fn(&World, Entity) -> bool,
     /// The robot's state.
     pub(crate) encode: fn(&World, Entity) -> Option<RobotState>,
     /// Overwrites the robot's components by a state. `None`, with nothing changed, when the state does not fit the
@@ -49,6 +51,7 @@ impl RobotOps {
             gauges: gauges::<R>,
             mount_pose: mount_pose::<R>,
             with_sweep: with_sweep::<R>,
+            senses: senses::<R>,
             encode: encode::<R>,
             decode: decode::<R>,
             view: view::<R>,
@@ -77,6 +80,11 @@ fn with_sweep<R: SimulatedRobot>(world: &World, e: Entity, visit: &mut dyn FnMut
     if let (Some(TickMotion(Some(motion))), Some(cut)) = (world.get::<TickMotion<R>>(e), world.get::<Cut<R>>(e)) {
         visit(&CutMotion { motion, until: cut.until }, cut.until);
     }
+}
+
+fn senses<R: SimulatedRobot>(world: &World, e: Entity) -> bool {
+    let (robot, q) = (world.get::<RobotModel<R>>(e), world.get::<Configuration<R>>(e));
+    robot.zip(q).is_some_and(|(robot, q)| robot.0.sensor_pose(&q.0).is_some())
 }
 
 fn apply<R: SimulatedRobot>(world: &mut World, e: Entity, input: &RobotInput, others: &dyn Fn(&World) -> Vec<Placed>) {

@@ -6,6 +6,7 @@ use super::simulated::canonical;
 use crate::configuration::{Configuration as _, RobotKind, SizesError};
 use crate::random::{Seed, Stream};
 use crate::sensors::{BeamModel, RangeSensor};
+use crate::simulation::sensors::OfConfiguration;
 use crate::simulation::{
     Configuration, MountedOn, OwnState, PreviousConfiguration, ResidesIn, RobotId, RobotModel, RobotName, RobotOps,
     Route, SensorModel, SensorMount, SensorName, SensorNoise, SimulatedRobot, Slip, SpawnError,
@@ -130,12 +131,13 @@ pub(crate) fn spawn_robot<R: SimulatedRobot>(
         ))
         .id();
     if let Some(sensor) = sensor {
-        let mut spawned = world.spawn((SensorModel::from(sensor), MountedOn(entity)));
+        let mut spawned = world.spawn((SensorModel::from(sensor), OfConfiguration, MountedOn(entity)));
         noise.into_iter().for_each(|noise| _ = spawned.insert(SensorNoise(noise)));
     }
     for sensor in &resident.sensors {
         let name = SensorName(sensor.name.clone());
-        let mut spawned = world.spawn((SensorModel(sensor.rays), name, SensorMount(sensor.mount), MountedOn(entity)));
+        let mount = SensorMount(sensor.mount);
+        let mut spawned = world.spawn((SensorModel(sensor.rays), name, mount, OfConfiguration, MountedOn(entity)));
         sensor.noise.into_iter().for_each(|noise| _ = spawned.insert(SensorNoise(noise)));
     }
     Ok(entity)

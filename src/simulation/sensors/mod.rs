@@ -1,10 +1,13 @@
 //! The sensors of a run: which are in it, in which order, and what they read.
 
 mod changes;
+mod named;
 pub(super) mod refusal;
 pub(super) mod roster;
 pub(crate) mod scanners;
 pub(super) mod start;
 pub(super) mod view;
+mod write;
 
 pub(super) use changes::{changed, removed};
+pub(super) use named::OfConfiguration;

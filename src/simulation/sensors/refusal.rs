@@ -5,6 +5,7 @@ use std::fmt;
 use bevy::prelude::*;
 
 use crate::sensors::SensorError;
+use crate::worlds::MAX_SENSORS;
 
 /// A sensor that is not taken into the run, or a change of one that has no effect: a message to whoever shows the run,
 /// and kept in [`SensorRoster::refused`](crate::simulation::SensorRoster::refused).
@@ -30,6 +31,16 @@ pub enum SensorRefusal {
     /// Two sensors of a robot with one name. Which of them to take would depend on the order of entities.
     #[error("another sensor of the robot has the same name: none of them is taken")]
     NameTaken,
+    /// Another sensor than the one of this name that the run's configuration has on the robot.
+    #[error("the run's configuration has another sensor of this name on the robot: that one is taken")]
+    NameOfConfiguration,
+    /// A sensor without a name that is not the run's own: on a robot to which a run gives none, or one of which the
+    /// robots that sense do not all have the same, in the middle of their frames and over a full turn.
+    #[error("without a name it must be the run's own sensor, which all robots that sense have alike: give it a name")]
+    Unnamed,
+    /// One sensor too many.
+    #[error("a robot has at most {MAX_SENSORS} sensors with names")]
+    TooMany,
     /// A number out of range.
     #[error(transparent)]
     Numbers(#[from] SensorError),

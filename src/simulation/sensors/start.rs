@@ -2,19 +2,21 @@
 
 use bevy::prelude::*;
 
+use super::named::{are_alike, by_name, chosen, own_sensor, senses};
 use super::refusal::{SensorRefusal, SensorRefused};
 use super::roster::{RunSensor, SensorRoster};
+use super::write::write;
 use crate::random::Stream;
 use crate::sensors::SensorError;
 use crate::simulation::tick::sense::sense_now;
 use crate::simulation::{
-    MountedOn, RobotId, RobotName, Roster, Scan, SensorModel, SensorMount, SensorName, SensorNoise, Sensors, Transport,
-    state,
+    MountedOn, RobotId, RobotName, Roster, Scan, SensorModel, SensorMount, SensorName, SensorNoise, Transport, state,
 };
-use crate::worlds::{check_mount, check_name};
+use crate::worlds::{MAX_SENSORS, check_mount, check_name};
 
-/// Takes the sensor entities anew at tick 0, and with them the scans and frame 0, if one was spawned, changed or
-/// removed since. Before a run has left tick 0 its sensor entities are the truth; after it this does nothing.
+/// Takes the sensor entities anew at tick 0, and with them the run's configuration, the scans and frame 0, if one was
+/// spawned, changed or removed since. Before a run has left tick 0 its sensor entities are the truth; after it this
+/// does nothing.
 ///
 /// [`step`](crate::simulation::step) calls it; whoever reads frame 0 after spawning sensors calls it first.
 pub fn take_sensors_at_start(world: &mut World) {
@@ -34,13 +36,17 @@ pub(crate) fn fix_sensors(world: &mut World) {
     }
 }
 
-/// Makes the roster of the sensors that there are.
+/// Makes the roster of the sensors that there are, and writes them into the run's configuration.
 pub(crate) fn take_sensors(world: &mut World) {
     let mut roster = SensorRoster::default();
     let mut refusals = Vec::new();
-    for &robot in world.get_resource::<Roster>().map_or(&[][..], Roster::robots) {
-        take_sensors_of(world, robot, &mut roster.sensors, &mut refusals);
+    let robots = world.get_resource::<Roster>().map_or_else(Vec::new, |roster| roster.robots().to_vec());
+    let own = own_sensor(world, &robots);
+    for &robot in &robots {
+        let is_given = own.is_some() && senses(world, robot);
+        take_sensors_of(world, robot, is_given, &mut roster, &mut refusals);
     }
+    write(world, &roster.sensors, robots.iter().any(|&robot| senses(world, robot)).then_some(own));
     let mut strays: Vec<String> = Vec::new();
     let mut all = world.query_filtered::<(Option<&SensorName>, Option<&MountedOn>), With<SensorModel>>();
     for (name, mounted) in all.iter(world) {
@@ -72,28 +78,36 @@ pub(super) fn robot_of(world: &World, entity: Entity) -> Option<&str> {
     world.get::<RobotName>(entity).filter(|_| is_in_run).map(|name| name.name.as_str())
 }
 
-/// Takes the sensors of a robot, in the order of their names.
-fn take_sensors_of(world: &World, robot: Entity, taken: &mut Vec<RunSensor>, refusals: &mut Vec<SensorRefused>) {
-    let (Some(on_robot), Some(name)) = (world.get::<Sensors>(robot), world.get::<RobotName>(robot)) else { return };
-    let named = |entity: Entity| Some((world.get::<SensorName>(entity)?.0.as_str(), entity));
-    let mut sensors: Vec<(&str, Entity)> =
-        on_robot.iter().filter(|&e| world.get::<SensorModel>(e).is_some()).filter_map(named).collect();
-    sensors.sort_by_key(|(name, _)| *name);
-    let first = taken.len();
-    for (i, &(sensor, entity)) in sensors.iter().enumerate() {
-        let has_name = |other: Option<&(&str, Entity)>| other.is_some_and(|(other, _)| *other == sensor);
-        let is_taken =
-            has_name(i.checked_sub(1).and_then(|before| sensors.get(before))) || has_name(sensors.get(i + 1));
+/// Takes the sensors of a robot, in the order of their names. `is_given` says whether the run gives it its own, which
+/// is the one without a name.
+fn take_sensors_of(
+    world: &World,
+    robot: Entity,
+    is_given: bool,
+    roster: &mut SensorRoster,
+    refusals: &mut Vec<SensorRefused>,
+) {
+    let Some(name) = world.get::<RobotName>(robot) else { return };
+    let first = roster.sensors.len();
+    for (sensor, entities) in by_name(world, robot) {
+        let refuse = |reason| SensorRefused { robot: Some(name.name.clone()), sensor: sensor.to_owned(), reason };
+        let Some(entity) = chosen(world, &entities) else {
+            refusals.push(refuse(SensorRefusal::NameTaken));
+            continue;
+        };
+        if entities.iter().any(|&other| other != entity && !are_alike(world, entity, other)) {
+            refusals.push(refuse(SensorRefusal::NameOfConfiguration));
+        }
+        let taken = &mut roster.sensors;
+        let named = taken[first..].iter().filter(|sensor| !sensor.name.is_empty()).count();
         // a robot's first sensor has the stream of a robot with one sensor
         let beam = beam(&name.name);
         let stream = if taken.len() == first { beam } else { format!("{beam}/{sensor}") };
-        let request = Request { robot, entity, name: sensor, stream: &stream };
-        let made = if is_taken { Err(SensorRefusal::NameTaken) } else { make(world, &request) };
-        match made {
+        match make(world, &Request { robot, entity, name: sensor, stream: &stream }) {
+            Ok(_) if sensor.is_empty() && !is_given => refusals.push(refuse(SensorRefusal::Unnamed)),
+            Ok(_) if named == MAX_SENSORS => refusals.push(refuse(SensorRefusal::TooMany)),
             Ok(sensor) => taken.push(sensor),
-            Err(reason) => {
-                refusals.push(SensorRefused { robot: Some(name.name.clone()), sensor: sensor.to_owned(), reason });
-            }
+            Err(reason) => refusals.push(refuse(reason)),
         }
     }
 }

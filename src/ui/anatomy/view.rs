@@ -55,9 +55,9 @@ fn beside_the_paper(ui: &mut Ui, narrow: bool, look: &Look, state: &mut UiState)
     }
     ui.add_space(4.0);
     sliders(ui, anatomy);
-    if let Some(thick) = anatomy.thick_links() {
+    if let Some((thick, radius)) = anatomy.thick_links().zip(anatomy.thickness()) {
         let mut on = thick;
-        if ui.checkbox(&mut on, "3 cm capsule links").changed() {
+        if ui.checkbox(&mut on, format!("{} cm capsule links", (1e5 * radius).round() / 1e3)).changed() {
             anatomy.set_thick_links(on);
         }
     }
