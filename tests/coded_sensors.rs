@@ -159,7 +159,8 @@ fn the_runs_own_sensor_is_what_the_robots_that_sense_agree_on() {
     assert_eq!(removed.world().resource::<SensorRoster>().refused(), []);
     // one where there was none
     let mut added = app(two(None));
-    for robot in added.world().resource::<Roster>().robots()[..2].to_vec() {
+    let robots = added.world().resource::<Roster>().robots().to_vec();
+    for &robot in &robots[..2] {
         added.world_mut().spawn((SensorModel::from(SIX), MountedOn(robot)));
     }
     runs_as(&mut added, &two(Some(SIX)));
