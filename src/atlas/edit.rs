@@ -141,8 +141,8 @@ impl Editor {
         shape_of(self.world(), name)
     }
 
-    /// The handles of a wall, an obstacle, a mark or a place; empty for anything else. A place has two: its position
-    /// and its heading.
+    /// The handles of a wall, an obstacle, a door, a mark or a place; empty for anything else. A place has two: its
+    /// position and its heading. A door has its two ends, the hinge first.
     pub fn handles(&self, name: &str) -> Vec<Handle> {
         if let Some(place) = self.world().place(name) {
             let Aabb { min, max } = self.world().bounds;
@@ -150,6 +150,9 @@ impl Editor {
             let ahead = Vector2::new(c, s) * (HEADING * lesser(max.x - min.x, max.y - min.y));
             let at = place.pose.position();
             return [(0, at), (1, at + ahead)].map(|(index, at)| Handle { index, at, makes_corner: false }).to_vec();
+        }
+        if let Some(door) = self.world().door(name) {
+            return [(0, door.a), (1, door.b)].map(|(index, at)| Handle { index, at, makes_corner: false }).to_vec();
         }
         self.shape(name).map_or_else(Vec::new, |shape| shape.handles())
     }

@@ -199,6 +199,13 @@ pub(super) fn changed(world: &World, op: &Op, kinds: &Kinds) -> Result<World, Ed
                 } else {
                     pose.theta = atan2(to.y - pose.y, to.x - pose.x);
                 }
+            } else if let Found::Door(i) = at {
+                let door = &mut world.doors[i];
+                match handle {
+                    0 => door.a = *to,
+                    1 => door.b = *to,
+                    _ => {}
+                }
             } else {
                 let shape = shape_at(&world, at).ok_or_else(|| EditError::NoShape(name.to_owned()))?;
                 reshape(&mut world, at, name, &shape.with_handle(*handle, *to))?;

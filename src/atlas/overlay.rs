@@ -85,13 +85,14 @@ impl GridLayer {
 
 impl Editor {
     /// The selected thing of this name: its outline in the focus colour, and its handles. Handles that make a corner
-    /// are rings. Empty for a name that no wall, obstacle, mark or place has.
+    /// are rings. Empty for a name that no wall, obstacle, door, mark or place has.
     pub fn selected_items(&self, name: &str) -> Vec<Item> {
         let world = self.world();
         let mark = world.marks.iter().find(|mark| mark.name == name).map(|mark| vec![mark.points.clone()]);
         let heading =
             world.place(name).map(|_| self.handles(name).iter().map(|h| vec![h.at]).collect::<Vec<_>>().concat());
-        let lines = world.obstacle(name).map(around).or(mark).or(heading.map(|line| vec![line]));
+        let door = world.door(name).map(|door| vec![vec![door.a, door.b]]);
+        let lines = world.obstacle(name).map(around).or(door).or(mark).or(heading.map(|line| vec![line]));
         let Some(outline) = lines else { return Vec::new() };
         let region = Drawing::Region { pieces: Vec::new(), outline };
         let mut items = vec![Item::new("selected", name, Role::Focus, region).stroked(Line::solid(2.0))];

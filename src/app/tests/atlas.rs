@@ -168,3 +168,38 @@ fn a_world_dropped_on_the_window_is_opened_in_the_atlas() {
     harness.get_by_label_contains("mine.ron: not opened: mine.ron:1:");
     assert_eq!(atlas(&harness).world().name, "Lot", "the present one stays");
 }
+
+#[test]
+fn a_click_selects_a_door_which_is_dragged_whole_and_by_its_ends() {
+    let mut harness = lab(WIDE);
+    click(&mut harness, "Atlas");
+    click(&mut harness, "Edit");
+    let selected = |h: &Harness<'_, Lab>| atlas(h).selected.clone();
+    // by its leaf, which is open upwards from its hinge, and by its gap
+    for place in [[5.5625, 5.25], [5.85, 4.75]] {
+        let floor = at(&harness, [5.0, 4.375]);
+        click_at(&mut harness, floor);
+        assert_eq!(selected(&harness), None);
+        let on_door = at(&harness, place);
+        click_at(&mut harness, on_door);
+        assert_eq!(selected(&harness).as_deref(), Some("door B"));
+    }
+    let shown = atlas(&harness).over();
+    for id in ["selected", "handle/0", "handle/1"] {
+        assert!(shown.items.iter().any(|item| item.id == id), "{id}");
+    }
+    let door = |h: &Harness<'_, Lab>| atlas(h).world().door("door B").map(|d| [d.a.x, d.a.y, d.b.x, d.b.y]);
+    drag_on(&mut harness, [5.85, 4.75], [5.85, 5.25]);
+    assert_eq!(door(&harness), Some([5.5625, 5.25, 6.4375, 5.25]));
+    assert_eq!(selected(&harness).as_deref(), Some("door B"));
+    drag_on(&mut harness, [6.4375, 5.25], [6.5, 5.75]);
+    drag_on(&mut harness, [5.5625, 5.25], [5.75, 5.5]);
+    assert_eq!(door(&harness), Some([5.75, 5.5, 6.5, 5.75]));
+    click(&mut harness, "Delete");
+    assert_eq!((door(&harness), selected(&harness)), (None, None));
+    for _ in 0..4 {
+        harness.key_press_modifiers(Modifiers::COMMAND, Key::Z);
+        harness.run_steps(3);
+    }
+    assert_eq!(*atlas(&harness).world(), crate::worlds::World::apartment());
+}

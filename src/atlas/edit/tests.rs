@@ -3,6 +3,7 @@
 use super::*;
 use crate::configuration::RobotKind;
 use crate::geometry::{Footprint, Pose2};
+use crate::picture::Drawing;
 use crate::worlds::Resident;
 
 fn p(x: f64, y: f64) -> Point2 {
@@ -301,4 +302,32 @@ fn starts_of_kinds_that_the_editor_knows_are_warned_of() {
     let Resident { start, .. } = &World::lot().robots[0];
     let both = warned([start[0], start[1], 0.0], sleds());
     assert_eq!(both, ["Hitch would overlap Sled at its start", "Sled would overlap Hitch at its start"]);
+}
+
+#[test]
+fn a_door_is_moved_by_itself_and_by_its_ends() {
+    let mut editor = Editor::new(World::apartment());
+    let door = |editor: &Editor| editor.world().door("door B").unwrap().clone();
+    let handles = |editor: &Editor| editor.handles("door B").iter().map(|h| (h.index, h.at)).collect::<Vec<_>>();
+    // the gap of door B
+    assert_eq!(handles(&editor), [(0, p(5.5625, 4.75)), (1, p(6.4375, 4.75))]);
+    assert!(editor.handles("door B").iter().all(|h| !h.makes_corner));
+    editor.apply(&Op::Move { name: name("door B"), by: Vector2::new(0.0, 0.25) }).unwrap();
+    editor.apply(&Op::Drag { name: name("door B"), handle: 1, to: p(6.5, 5.5) }).unwrap();
+    assert_eq!(handles(&editor), [(0, p(5.5625, 5.0)), (1, p(6.5, 5.5))]);
+    editor.apply(&Op::Drag { name: name("door B"), handle: 0, to: p(5.5, 5.25) }).unwrap();
+    editor.apply(&Op::Drag { name: name("door B"), handle: 2, to: p(1.0, 1.0) }).unwrap();
+    assert_eq!((door(&editor).a, door(&editor).b, door(&editor).open), (p(5.5, 5.25), p(6.5, 5.5), true));
+    // a door without a length is no door, and it has no other shape
+    let before = editor.world().clone();
+    assert!(editor.apply(&Op::Drag { name: name("door B"), handle: 1, to: p(5.5, 5.25) }).is_err());
+    assert!(editor.apply(&Op::Reshape { name: name("door B"), shape: boxed(0.0, 0.0, 1.0, 1.0) }).is_err());
+    assert_eq!(*editor.world(), before);
+    // what is selected is its gap, open or not, with a handle at each end
+    let items = editor.selected_items("door B");
+    assert_eq!(items.iter().map(|i| i.id.as_str()).collect::<Vec<_>>(), ["selected", "handle/0", "handle/1"]);
+    let Drawing::Region { outline, .. } = &items[0].drawing else { panic!("a region") };
+    assert_eq!(*outline, [vec![p(5.5, 5.25), p(6.5, 5.5)]]);
+    (0..3).for_each(|_| assert!(editor.undo()));
+    assert_eq!(*editor.world(), World::apartment());
 }

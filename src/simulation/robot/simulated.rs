@@ -26,8 +26,8 @@ pub trait SimulatedRobot: Drivable<Drive: Clone + Send + Sync + 'static> {
     /// The tour of the robot named `name` in `world`.
     fn tour(&self, seed: Seed, name: &str, world: &World, start: &Self::Configuration) -> Self::Tour;
 
-    /// The tour of a robot whose world gives it this route, its reference to be put where the robot starts. `None` for a
-    /// robot that follows no routes, or none as fast as this one; a run with it does not start then.
+    /// The tour of a robot whose world gives it this route, its reference to be put where the robot starts. `None` for
+    /// a robot that follows no routes, or none as fast as this one; a run with it does not start then.
     fn route_tour(&self, _route: &RouteTour, _start: &Self::Configuration) -> Option<Self::Tour> {
         None
     }

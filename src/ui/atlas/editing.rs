@@ -39,7 +39,7 @@ impl AtlasState {
 
     /// Selects a thing by name, or nothing.
     pub fn select(&mut self, name: Option<&str>) {
-        let known = |n: &&str| self.editor.shape(n).is_some() || self.world().place(n).is_some();
+        let known = |n: &&str| !self.editor.handles(n).is_empty();
         self.selected = name.filter(known).map(str::to_owned);
         self.name_text = self.selected.clone().unwrap_or_default();
         self.message = None;

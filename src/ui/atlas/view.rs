@@ -6,7 +6,7 @@ use super::state::{AtlasState, Mode};
 use crate::atlas::{EditShape, Op};
 use crate::geometry::{Point2, Pose2};
 use crate::manifest::Widget;
-use crate::picture::{Picture, Role, ScreenPoint, pick};
+use crate::picture::{Item, Picture, Role, ScreenPoint, pick};
 use crate::ui::keys::{Action, hint};
 use crate::ui::paint::button::LabButton;
 use crate::ui::paint::sheet::{Sheet, sheet, split};
@@ -100,7 +100,7 @@ fn edit(on: &Sheet, moving: &Picture, still: &Picture, atlas: &mut AtlasState) {
         if handle.is_none() {
             let item = pick(moving, &on.fit, from, 4.0).filter(|i| i.id.starts_with("place/"));
             let item = item.or_else(|| pick(still, &on.fit, from, 5.0));
-            atlas.select(item.and_then(|i| thing(&i.id)));
+            atlas.select(item.and_then(thing));
         }
         atlas.begin_drag(origin, handle);
     }
@@ -113,7 +113,12 @@ fn edit(on: &Sheet, moving: &Picture, still: &Picture, atlas: &mut AtlasState) {
 }
 
 /// The name of the thing that an item is drawn for.
-fn thing(id: &str) -> Option<&str> {
+fn thing(item: &Item) -> Option<&str> {
+    let id = &item.id;
+    if id.starts_with("door/") {
+        // of its gap or its leaf
+        return Some(&item.name);
+    }
     if let Some(name) = id.strip_prefix("obstacle/").or(id.strip_prefix("mark/")) {
         return Some(name);
     }
@@ -221,7 +226,7 @@ fn measure_panel(ui: &mut Ui, state: &mut UiState) {
 
 fn edit_panel(ui: &mut Ui, look: &Look, state: &mut UiState) {
     let atlas = &mut state.atlas;
-    ui.label("Click a wall, an obstacle, a place or a painted mark, and drag it or its handles. A ring on an edge makes a corner; a corner dragged onto the next goes away.");
+    ui.label("Click a wall, an obstacle, a door, a place or a painted mark, and drag it or its handles. A ring on an edge makes a corner; a corner dragged onto the next goes away.");
     ui.horizontal_wrapped(|ui| {
         let (middle, u) = (atlas.middle(), atlas.unit());
         let corner = |x: f64, y: f64| Point2::new(middle.x + x * u, middle.y + y * u);
