@@ -91,7 +91,7 @@ mod tests {
     use super::*;
     use crate::geometry::Aabb;
     use crate::geometry::{Pose2, Shape};
-    use crate::worlds::Mark;
+    use crate::worlds::{Mark, Route};
 
     #[test]
     fn everything_named_is_drawn_once_under_its_name() {
@@ -127,5 +127,21 @@ mod tests {
         let Drawing::Region { pieces, .. } = &picture.items[1].drawing else { panic!("a region") };
         assert_eq!(pieces[0].len(), 4);
         assert!(places(&model.places).iter().all(|i| i.name == "the gate"));
+    }
+
+    #[test]
+    fn a_route_is_drawn_closed_and_rounded_below_everything() {
+        let p = Point2::new;
+        let points = vec![p(0.0, 0.0), p(4.0, 0.0), p(4.0, 4.0), p(0.0, 4.0)];
+        let route = Route { name: "round".into(), points: points.clone(), radius: 1.0, speed: 1.0 };
+        let line = Mark { name: "the line".into(), points: points.clone() };
+        let empty = World::empty("Yard", Aabb { min: points[0], max: points[2] });
+        let picture = world(&World { routes: vec![route], marks: vec![line], ..empty });
+        let ids: Vec<&str> = picture.items.iter().map(|i| i.id.as_str()).collect();
+        assert_eq!(ids, ["route/round", "mark/the line"]);
+        let Drawing::Polyline(drawn) = &picture.items[0].drawing else { panic!("a line") };
+        assert_eq!(drawn.first(), drawn.last());
+        // a quarter circle of radius 1 strays by 1 cm or less from 6 chords or more
+        assert!(drawn.len() > 4 * 6 && drawn.iter().all(|q| points.iter().all(|c| (q - c).norm() > 0.41)), "{drawn:?}");
     }
 }
