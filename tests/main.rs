@@ -19,6 +19,8 @@ mod cli;
 mod controls;
 #[cfg(feature = "sim")]
 mod crowds;
+#[cfg(feature = "sim")]
+mod digest_logs;
 mod edges;
 #[cfg(feature = "sim")]
 mod examples;

@@ -5,6 +5,7 @@ pub(crate) mod end;
 pub(crate) mod input;
 pub(crate) mod interrupt;
 pub(crate) mod json_number;
+pub(crate) mod log_kind;
 pub(crate) mod log_source;
 pub(crate) mod numbers;
 pub(crate) mod output;
