@@ -131,7 +131,7 @@ fn the_memory_of_keyframes_and_of_a_history_is_counted_honestly() {
     let world = |k: u32| {
         let (kind, start) = if k.is_multiple_of(3) { ("reach3", [0.1, 0.2, 0.3]) } else { ("rusty", [0.0; 3]) };
         let robots = vec![Resident::new(format!("robot {k}"), kind, start)];
-        World { robots, ..World::empty(&format!("world {k}"), bounds) }
+        World { robots, ..World::empty(format!("world {k}"), bounds) }
     };
     let config = TourConfig { worlds: (0..150).map(world).collect(), ticks: 200, sensor: None };
     let mut app = headless_app();
@@ -153,5 +153,10 @@ fn the_memory_of_keyframes_and_of_a_history_is_counted_honestly() {
     counted(keyframes, keyframes.bytes());
     let history = app.world().resource::<History>();
     assert_eq!(history.samples(), 11, "one a second of more than a hundred robots");
+    let arm = [0, 200].map(|tick| history.at(tick, 0).unwrap());
+    assert!(
+        arm[0].coordinates != arm[1].coordinates && arm[1].travelled == 0.0,
+        "an arm of three joints drives no way"
+    );
     counted(history, history.bytes());
 }

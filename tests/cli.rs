@@ -4,6 +4,7 @@ mod capture;
 mod certificates;
 mod columns;
 mod diff;
+mod digests;
 mod driving;
 mod export;
 mod files;

@@ -21,6 +21,8 @@ mod coded_sensors;
 mod controls;
 #[cfg(feature = "sim")]
 mod crowds;
+#[cfg(feature = "sim")]
+mod digest_logs;
 mod edges;
 #[cfg(feature = "sim")]
 mod examples;

@@ -11,6 +11,7 @@
 //! # Ok::<(), motion_lab::recording::RunError>(())
 //! ```
 
+mod digests;
 mod final_lines;
 mod grade;
 mod identity;
@@ -19,6 +20,7 @@ mod run;
 mod verification;
 
 pub use crate::simulation::RunInput;
+pub use digests::{DigestVerification, verify_digests, verify_digests_with_robots};
 pub use final_lines::{final_lines, final_lines_with, printed_as, printed_configuration};
 pub use grade::{
     Assignment, AssignmentError, AssignmentFile, AssignmentProblem, Attempt, Goal, Grade, Limits, MAX_SEEDS, Refusal,

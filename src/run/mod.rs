@@ -3,6 +3,7 @@
 mod comparison;
 mod difference;
 mod digest;
+mod digest_comparison;
 mod divergence;
 mod field;
 #[cfg(test)]
@@ -20,13 +21,15 @@ mod world_change;
 pub use comparison::Comparison;
 pub use difference::SetupDifference;
 pub use digest::{Digest, RunDigest};
+pub use digest_comparison::{DifferingSecond, DigestComparison};
 pub use divergence::{Divergence, DivergingScan, first_divergence};
 pub use field::Value;
 pub use frame::{DT, Frame, ObstacleState, RobotScan, RobotState};
 pub use log::Log;
 pub use mcap::{
-    DamageKind, DamagedLog, EXPORT_PROFILE, FORMAT_VERSION, FORMAT_VERSION_WITH_CHANGES, GENERATOR, LogError,
-    LogWriter, ReadLog, TICK_NANOSECONDS,
+    DIGEST_FORMAT_VERSION, DIGEST_TICKS, DamageKind, DamagedDigestLog, DamagedLog, DigestLog, DigestLogWriter,
+    EXPORT_PROFILE, FORMAT_VERSION, FORMAT_VERSION_WITH_CHANGES, GENERATOR, LogError, LogWriter, ReadDigestLog,
+    ReadLog, TICK_NANOSECONDS,
 };
 pub use quantized::Quantized;
 pub use script::{Event, RobotInput, SCRIPT_VERSION, SCRIPT_VERSION_WITH_CHANGES, Script};

@@ -8,7 +8,8 @@ use motion_lab::run::DT;
 use motion_lab::tour::TourConfig;
 use serde::Serialize;
 
-use crate::cli::support::log_source::{LogSource, read_log};
+use crate::cli::support::log_kind::{AnyLog, LogKind};
+use crate::cli::support::log_source::{AnySource, read_any_log};
 use crate::cli::support::script_words::{changes_in_words, none};
 use crate::cli::support::summary::RunSummary;
 use crate::cli::{Data, Failure, Outcome, say};
@@ -36,6 +37,9 @@ struct Contents<'a> {
     #[serde(skip_serializing_if = "none")]
     script_changes: usize,
     program: &'a str,
+    /// `digest` for a log without frames; left out for one with frames.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    log: Option<&'a str>,
     damage: Option<&'a str>,
 }
 
@@ -66,16 +70,20 @@ fn robots_sensors(config: &TourConfig) -> Vec<RobotSensors<'_>> {
 impl Info {
     /// Runs the command.
     pub fn run(self, data: &mut Data) -> Result<Outcome, Failure> {
-        let LogSource { read, damage } = read_log(&self.file)?;
-        let log = &read.log;
-        let last = log.frames.last().unwrap_or(&log.initial);
+        let AnySource { log, program, damage } = read_any_log(&self.file)?;
+        let (seed, config, script) = log.parts();
+        let run = match &log {
+            AnyLog::Full(log) => RunSummary::new(seed, config, log.frames.last().unwrap_or(&log.initial), log.digest()),
+            AnyLog::Digest(log) => RunSummary::of_digests(log),
+        };
         let contents = Contents {
-            run: RunSummary::new(log.seed, &log.config, last, log.digest()),
-            sensor: log.config.sensor.map(|s| Sensor { rays: s.n_rays, range: JsonNumber(s.max_range) }),
-            robots_sensors: robots_sensors(&log.config),
-            script_events: log.script.events.len(),
-            script_changes: log.script.changes.len(),
-            program: &read.program,
+            run,
+            sensor: config.sensor.map(|s| Sensor { rays: s.n_rays, range: JsonNumber(s.max_range) }),
+            robots_sensors: robots_sensors(config),
+            script_events: script.events.len(),
+            script_changes: script.changes.len(),
+            program: &program,
+            log: (log.kind() == LogKind::Digest).then_some("digest"),
             damage: damage.as_deref(),
         };
         if self.json {
@@ -95,7 +103,7 @@ impl Info {
 
 impl Contents<'_> {
     fn print(&self, data: &mut Data) -> Result<(), Failure> {
-        let Contents { run, sensor, robots_sensors, script_events, script_changes, program, .. } = self;
+        let Contents { run, sensor, robots_sensors, script_events, script_changes, program, log, .. } = self;
         data.line(format!("seed     {}", run.seed))?;
         data.line(format!("ticks    {} of {} ({:.2} s)", run.recorded, run.ticks, DT * run.recorded as f64))?;
         for world in &run.worlds {
@@ -111,6 +119,9 @@ impl Contents<'_> {
         let changes = changes_in_words(*script_changes);
         data.line(format!("script   {script_events} events{changes}"))?;
         data.line(format!("program  {program}"))?;
+        if log.is_some() {
+            data.line("log      a digest of each second; `motion-lab replay --log full -o FILE` makes the frames")?;
+        }
         data.line(format!("digest   {}", run.digest))?;
         run.print_robots(data)
     }

@@ -4,11 +4,12 @@ use std::path::PathBuf;
 
 use clap::Args;
 use indicatif::{ProgressBar, ProgressStyle};
-use motion_lab::run::{Comparison, Digest, Divergence, Frame, Log, LogError, LogWriter, RunDigest};
+use motion_lab::run::{Digest, Frame, LogError, RunDigest};
 use serde::Serialize;
 
 use crate::cli::support::interrupt;
-use crate::cli::support::log_source::{LogSource, read_log};
+use crate::cli::support::log_kind::{AnyComparison, AnyLog, AnyWriter, LogKind};
+use crate::cli::support::log_source::{AnySource, read_any_log};
 use crate::cli::support::output::PendingFile;
 use crate::cli::support::simulate::begin;
 use crate::cli::support::summary::RunSummary;
@@ -18,8 +19,8 @@ use crate::cli::{Data, Failure, Outcome, say};
 /// say how many of the recorded ticks it equals to the last bit.
 ///
 /// Unlike `verify` it does not stop where the recording ends: with -o the whole replayed run is kept, for
-/// `diff` to compare. The exit code is 4 when a recorded tick differs, else 5 when the recording is damaged or
-/// unfinished.
+/// `diff` to compare; of a digest log, `--log full` makes the frames. The exit code is 4 when a recorded tick differs,
+/// else 5 when the recording is damaged or unfinished.
 #[derive(Debug, Args)]
 pub struct Replay {
     /// The log.
@@ -27,6 +28,9 @@ pub struct Replay {
     /// Write the replayed run's log to this file.
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
+    /// What that log keeps: `full`, every frame, or `digest`, a digest of each second. [default: as FILE does]
+    #[arg(long, value_name = "KIND", value_enum, requires = "output", hide_possible_values = true)]
+    log: Option<LogKind>,
     /// One line of JSON.
     #[arg(long)]
     json: bool,
@@ -46,8 +50,7 @@ struct Replayed<'a> {
 impl Replay {
     /// Runs the command.
     pub fn run(self, data: &mut Data) -> Result<Outcome, Failure> {
-        let LogSource { read, damage } = read_log(&self.file)?;
-        let log = read.log;
+        let AnySource { log, damage, .. } = read_any_log(&self.file)?;
         if let Some(damage) = &damage {
             say(format!("{damage}\nThis much is compared; the run is replayed to its end."));
         }
@@ -56,12 +59,12 @@ impl Replay {
             say("stopped; nothing was written. Replay it again.");
             return Ok(Outcome::Stopped);
         };
-        let divergence = comparison.divergence();
+        let (seed, config, _) = log.parts();
         let replayed = Replayed {
-            run: RunSummary::new(log.seed, &log.config, &last, digest),
+            run: RunSummary::new(seed, config, &last, digest),
             sealed: comparison.recorded(),
             identical: comparison.identical(),
-            divergence: divergence.map(Divergence::to_string),
+            divergence: comparison.difference(config),
         };
         if self.json {
             data.json(&replayed)?;
@@ -71,7 +74,7 @@ impl Replay {
         if let Some(output) = &self.output {
             say(format!("wrote {}", output.display()));
         }
-        Ok(match (divergence, damage) {
+        Ok(match (replayed.divergence, damage) {
             (Some(_), _) => Outcome::Differs,
             (None, Some(_)) => Outcome::Recovered,
             (None, None) => Outcome::Done,
@@ -79,36 +82,44 @@ impl Replay {
     }
 
     /// Runs the log's run to its end; `None` when somebody asked to stop.
-    fn replay<'a>(&self, log: &'a Log) -> Result<Option<Ended<'a>>, Failure> {
-        let mut run = begin(log.seed, &log.config, &log.script)?;
-        let mut digest = RunDigest::new(log.seed, &log.config, &log.script, run.frame());
-        let mut comparison = Comparison::with(log);
-        comparison.frame(run.frame());
-        let mut writer = self.writer(log, run.frame())?;
-        let bar = progress(log.config.ticks);
+    fn replay<'a>(&self, log: &'a AnyLog) -> Result<Option<Ended<'a>>, Failure> {
+        let (seed, config, script) = log.parts();
+        let mut run = begin(seed, config, script)?;
+        let mut digest = RunDigest::new(seed, config, script, run.frame());
+        let mut comparison = AnyComparison::with(log);
+        comparison.frame(run.frame(), &digest);
+        let mut writer = self.writer(log, run.frame(), &digest)?;
+        let bar = progress(config.ticks);
         while !run.is_complete() {
             if interrupt::asked_to_stop() {
                 return Ok(None);
             }
             let frame = run.step();
-            comparison.frame(frame);
             digest.tick(frame);
+            comparison.frame(frame, &digest);
             if let Some(writer) = &mut writer {
-                writer.tick(frame).map_err(|error| self.failed(error))?;
+                writer.tick(frame, &digest).map_err(|error| self.failed(error))?;
             }
             bar.set_position(frame.tick);
         }
         bar.finish_and_clear();
-        if let Some(writer) = writer {
-            writer.finish().map_err(|error| self.failed(error))?.commit()?;
+        let digest = digest.digest();
+        if let Some(mut writer) = writer {
+            writer.end(digest).map_err(|error| self.failed(error))?;
+            writer.into_inner().commit()?;
         }
-        Ok(Some(Ended { last: run.frame().clone(), digest: digest.digest(), comparison }))
+        Ok(Some(Ended { last: run.frame().clone(), digest, comparison }))
     }
 
-    fn writer(&self, log: &Log, initial: &Frame) -> Result<Option<LogWriter<PendingFile>>, Failure> {
+    fn writer(
+        &self,
+        log: &AnyLog,
+        initial: &Frame,
+        run: &RunDigest,
+    ) -> Result<Option<AnyWriter<PendingFile>>, Failure> {
         let Some(output) = &self.output else { return Ok(None) };
         let file = PendingFile::create(output)?;
-        let writer = LogWriter::new(file, log.seed, &log.config, &log.script, initial);
+        let writer = AnyWriter::new(file, self.log.unwrap_or(log.kind()), log.parts(), initial, run);
         writer.map(Some).map_err(|error| self.failed(error))
     }
 
@@ -124,7 +135,7 @@ impl Replay {
 struct Ended<'a> {
     last: Frame,
     digest: Digest,
-    comparison: Comparison<'a>,
+    comparison: AnyComparison<'a>,
 }
 
 /// A progress bar on standard error; none where that is no terminal.

@@ -11,6 +11,7 @@ use motion_lab::tour::{BOOK_SEED, TourConfig};
 
 use super::record::{Ended, Plan, Stop, write_run};
 use crate::cli::support::interrupt;
+use crate::cli::support::log_kind::LogKind;
 use crate::cli::support::log_source::read_log;
 use crate::cli::support::output::write_file;
 use crate::cli::support::simulate::verify;
@@ -26,9 +27,9 @@ pub fn tour(data: &mut Data) -> Result<Outcome, Failure> {
     let folder = Path::new(FOLDER);
     fs::create_dir_all(folder).map_err(|error| Failure::output(folder, &error))?;
     let file = folder.join(format!("tour-{BOOK_SEED}.mcap"));
-    let plan = Plan { seed: BOOK_SEED, config: TourConfig::default(), script: Script::empty() };
+    let plan = Plan { seed: BOOK_SEED, config: TourConfig::default(), script: Script::empty(), kind: LogKind::Full };
     interrupt::listen()?;
-    if let Ended::Stopped(tick) = write_run(&plan, &[], Stop::default(), &file)? {
+    if let Ended::Stopped(tick) = write_run(&plan, None, Stop::default(), &file)? {
         say(format!("stopped after tick {tick}; run it again"));
         return Ok(Outcome::Stopped);
     }

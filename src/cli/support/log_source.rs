@@ -2,9 +2,10 @@
 
 use std::path::Path;
 
-use motion_lab::run::{Log, LogError, ReadLog};
+use motion_lab::run::{DigestLog, Log, LogError, ReadDigestLog, ReadLog};
 
 use super::input::read_bytes_if;
+use super::log_kind::AnyLog;
 use crate::cli::Failure;
 
 /// Largest size of a log file, bytes.
@@ -18,28 +19,74 @@ pub struct LogSource {
     pub damage: Option<String>,
 }
 
+/// A log of either kind from a file, or its sealed beginning.
+pub struct AnySource {
+    /// The log.
+    pub log: AnyLog,
+    /// The program that wrote it, with its version.
+    pub program: String,
+    /// The damage to the file, if it is not whole.
+    pub damage: Option<String>,
+}
+
 /// Whether a file may be a log, by its first eight bytes. Any other file is read no farther, however long it is.
 pub fn begins_as_one(beginning: &[u8]) -> bool {
     !matches!(Log::read_mcap(beginning), Err(LogError::NotALog))
 }
 
-/// Reads a log; of a damaged or unfinished file, its sealed beginning. Fails when not even that can be used.
+/// Reads a log with frames; of a damaged or unfinished file, its sealed beginning. Fails when not even that can be
+/// used.
 pub fn read_log(path: &Path) -> Result<LogSource, Failure> {
-    let bytes = read_bytes_if(path, MAX_LOG, begins_as_one)?;
-    let refused =
-        |error: &dyn std::fmt::Display, next| Err(Failure::input(format!("{}: {error}", path.display()), next));
-    match Log::read_mcap(&bytes) {
+    with_frames(path, &read_bytes_if(path, MAX_LOG, begins_as_one)?)
+}
+
+fn with_frames(path: &Path, bytes: &[u8]) -> Result<LogSource, Failure> {
+    match Log::read_mcap(bytes) {
         Ok(read) => Ok(LogSource { read, damage: None }),
         Err(LogError::Damaged(damaged)) => {
             let message = damaged.to_string();
             match damaged.recovered {
                 Some(read) => Ok(LogSource { read, damage: Some(format!("{}: {message}", path.display())) }),
-                None => refused(&message, "Record the run again."),
+                None => Err(beyond_use(path, &message)),
             }
         }
-        Err(error @ LogError::NotALog) => refused(&error, "Name a file that `motion-lab record -o` wrote."),
-        Err(error @ LogError::Export) => refused(&error, "Name the log that it was exported from."),
-        Err(error @ LogError::Version(_)) => refused(&error, "Read it with the motion-lab that wrote it."),
-        Err(error) => refused(&error, "Record the run again."),
+        Err(error) => Err(refused(path, &error)),
     }
+}
+
+/// As [`read_log`], of a log with frames or of digests.
+pub fn read_any_log(path: &Path) -> Result<AnySource, Failure> {
+    let bytes = read_bytes_if(path, MAX_LOG, begins_as_one)?;
+    match DigestLog::read_mcap(&bytes) {
+        Ok(ReadDigestLog { log, program }) => Ok(AnySource { log: AnyLog::Digest(log), program, damage: None }),
+        Err(LogError::DamagedDigests(damaged)) if damaged.recovered.is_some() => {
+            let message = format!("{}: {damaged}", path.display());
+            let Some(ReadDigestLog { log, program }) = damaged.recovered else {
+                return Err(beyond_use(path, &message));
+            };
+            Ok(AnySource { log: AnyLog::Digest(log), program, damage: Some(message) })
+        }
+        // a log with frames, or what can't be read as either
+        Err(LogError::HasFrames | LogError::DamagedDigests(_)) => {
+            let LogSource { read, damage } = with_frames(path, &bytes)?;
+            Ok(AnySource { log: AnyLog::Full(read.log), program: read.program, damage })
+        }
+        Err(error) => Err(refused(path, &error)),
+    }
+}
+
+fn beyond_use(path: &Path, message: &str) -> Failure {
+    Failure::input(format!("{}: {message}", path.display()), "Record the run again.")
+}
+
+fn refused(path: &Path, error: &LogError) -> Failure {
+    let file = path.display();
+    let next = match error {
+        LogError::NotALog => "Name a file that `motion-lab record -o` wrote.".to_owned(),
+        LogError::Export => "Name the log that it was exported from.".to_owned(),
+        LogError::Version(_) => "Read it with the motion-lab that wrote it.".to_owned(),
+        LogError::NoFrames => format!("Make the frames from it: motion-lab replay {file} --log full -o FULL.mcap"),
+        _ => "Record the run again.".to_owned(),
+    };
+    Failure::input(format!("{file}: {error}"), next)
 }

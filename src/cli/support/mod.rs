@@ -4,6 +4,7 @@ pub(crate) mod console;
 pub(crate) mod end;
 pub(crate) mod input;
 pub(crate) mod interrupt;
+pub(crate) mod log_kind;
 pub(crate) mod log_source;
 pub(crate) mod numbers;
 pub(crate) mod output;

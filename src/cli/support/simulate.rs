@@ -4,8 +4,8 @@ use std::path::Path;
 
 use motion_lab::configuration::RobotKind;
 use motion_lab::random::Seed;
-use motion_lab::recording::{Recorder, Run, RunError, Verification};
-use motion_lab::run::{Frame, Log, Script};
+use motion_lab::recording::{DigestVerification, Recorder, Run, RunError, Verification};
+use motion_lab::run::{DigestLog, Frame, Log, Script};
 use motion_lab::simulation::SpawnError;
 use motion_lab::tour::TourConfig;
 
@@ -41,6 +41,11 @@ pub fn begin(seed: Seed, config: &TourConfig, script: &Script) -> Result<Recorde
 /// Simulates a log's run again and compares it: see [`motion_lab::recording::verify`].
 pub fn verify(log: &Log, on_tick: impl FnMut(&Recorder)) -> Result<Verification, Failure> {
     motion_lab::recording::verify(log, on_tick).map_err(|error| refused(&error))
+}
+
+/// Simulates the run of a digest log again and compares it: see [`motion_lab::recording::verify_digests`].
+pub fn verify_digests(log: &DigestLog) -> Result<DigestVerification, Failure> {
+    motion_lab::recording::verify_digests(log, |_| {}).map_err(|error| refused(&error))
 }
 
 /// The reason to stop showing a run.

@@ -3,7 +3,7 @@
 use motion_lab::export::JsonNumber;
 use motion_lab::random::Seed;
 use motion_lab::recording::printed_configuration;
-use motion_lab::run::{Digest, Frame, RobotState};
+use motion_lab::run::{Digest, DigestLog, Frame, RobotState};
 use motion_lab::tour::TourConfig;
 use motion_lab::worlds::{Resident, World};
 use serde::Serialize;
@@ -56,18 +56,35 @@ pub struct RobotSummary<'a> {
     pub printed: String,
 }
 
+/// The worlds of a run.
+fn worlds(config: &TourConfig) -> Vec<WorldSummary<'_>> {
+    let hash = |w: &World| format!("{:032x}", w.content_hash());
+    config.worlds.iter().map(|w| WorldSummary { name: &w.name, content_hash: hash(w) }).collect()
+}
+
 impl<'a> RunSummary<'a> {
+    /// The summary of a digest log, which knows no robot's state. The digest of a log that ends early is known by its
+    /// last 16 digits only.
+    pub fn of_digests(log: &'a DigestLog) -> Self {
+        let kept = log.after(log.ticks).unwrap_or(log.start);
+        RunSummary {
+            seed: log.seed.0,
+            ticks: log.config.ticks,
+            recorded: log.ticks,
+            digest: log.digest.map_or_else(|| format!("{kept:016x}"), |digest| digest.to_string()),
+            worlds: worlds(&log.config),
+            robots: Vec::new(),
+        }
+    }
+
     /// The summary of a run that has come to `last`.
     pub fn new(seed: Seed, config: &'a TourConfig, last: &Frame, digest: Digest) -> Self {
-        let worlds = config.worlds.iter();
         RunSummary {
             seed: seed.0,
             ticks: config.ticks,
             recorded: last.tick,
             digest: digest.to_string(),
-            worlds: worlds
-                .map(|w| WorldSummary { name: &w.name, content_hash: format!("{:032x}", w.content_hash()) })
-                .collect(),
+            worlds: worlds(config),
             robots: robots(config, last),
         }
     }

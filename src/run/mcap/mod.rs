@@ -10,8 +10,24 @@
 //! | each tick | its messages on `/input`, `/frame`, `/scan`, `/digest`; seal |
 //! | the end | data end; summary: schemas, channels, statistics, indexes; footer; magic |
 //!
+//! A digest log is such a file without frames: its format is [`DIGEST_FORMAT_VERSION`], and its pieces are
+//!
+//! | piece | records |
+//! |---|---|
+//! | before the first tick | header, metadata and attachments as above; a digest record with the digest of tick 0; seal |
+//! | each minute | a digest record: the digests of up to 60 seconds; seal |
+//! | the end | the run's digest; seal; data end, summary, footer, magic |
+//!
+//! A digest record has opcode 0x81. It holds the tick of its last digest, 64 bits, then 64 bits a second, the lower
+//! half of the run's digest so far. The record of the run's digest has opcode 0x82 and holds its 128 bits. A digest
+//! record before the last of a log has 60 digests.
+//!
 //! A message's times are tick * 50 ms from zero. No clock is read, so the same run gives the same bytes.
 
+mod digest_encoder;
+mod digest_log;
+mod digest_reader;
+mod digest_writer;
 mod encoder;
 mod error;
 mod message;
@@ -24,7 +40,9 @@ mod record_writer;
 mod tests;
 mod writer;
 
-pub use error::{DamageKind, DamagedLog, LogError};
+pub use digest_log::{DIGEST_TICKS, DigestLog, ReadDigestLog};
+pub use digest_writer::DigestLogWriter;
+pub use error::{DamageKind, DamagedDigestLog, DamagedLog, LogError};
 pub use read_log::ReadLog;
 pub use writer::LogWriter;
 
@@ -32,6 +50,8 @@ pub use writer::LogWriter;
 pub const FORMAT_VERSION: &str = "1";
 /// The version of the log format for a run whose script changes worlds: frames hold obstacles, inputs name worlds.
 pub const FORMAT_VERSION_WITH_CHANGES: &str = "2";
+/// The version of the log format for a log without frames, a [`DigestLog`].
+pub const DIGEST_FORMAT_VERSION: &str = "digest 1";
 /// The generator of a run's random numbers: see [`Stream`](crate::random::Stream).
 pub const GENERATOR: &str = "chacha8, a stream per name, keyed by xxh3-128";
 /// A tick's length in nanoseconds: [`DT`](crate::run::DT).

@@ -6,7 +6,7 @@ use serde::Deserialize;
 
 use super::record::{self, Cursor, Record, opcode};
 use super::record_writer::RecordWriter;
-use super::{FORMAT_VERSION, FORMAT_VERSION_WITH_CHANGES, GENERATOR, LogError, ReadLog};
+use super::{DIGEST_FORMAT_VERSION, FORMAT_VERSION, FORMAT_VERSION_WITH_CHANGES, GENERATOR, LogError, ReadLog};
 use crate::random::Seed;
 use crate::run::{DT, Frame, Log, ObstacleState, Script};
 use crate::sensors::RangeSensor;
@@ -18,12 +18,23 @@ const METADATA: &str = "motion-lab";
 const CONFIG: &str = "config.ron";
 const SCRIPT: &str = "script.ron";
 
+/// What a log keeps of its run.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum LogKind {
+    /// Every frame.
+    Frames,
+    /// A digest of each second.
+    Digests,
+}
+
 /// A run before its first tick, with its texts in the file.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Preamble {
+    pub kind: LogKind,
     pub seed: Seed,
     pub config: TourConfig,
     pub script: Script,
+    /// The initial frame; in a digest log a frame without robots.
     pub initial: Frame,
     /// The program that wrote the log.
     pub program: String,
@@ -52,6 +63,10 @@ fn content(item: &str, reason: &str) -> LogError {
     LogError::Content { item: item.to_owned(), reason: reason.to_owned() }
 }
 
+fn no_frame() -> Frame {
+    Frame { tick: 0, robots: Vec::new(), scans: Vec::new(), obstacles: Vec::new() }
+}
+
 fn world_file(index: usize) -> String {
     format!("worlds/{index}.ron")
 }
@@ -60,18 +75,32 @@ impl ReadLog {
     pub(super) fn preamble(&self) -> Preamble {
         let Log { seed, config, script, initial, .. } = self.log.clone();
         let (program, world_texts) = (self.program.clone(), self.world_texts.clone());
-        Preamble { seed, config, script, initial, program, world_texts }
+        Preamble { kind: LogKind::Frames, seed, config, script, initial, program, world_texts }
     }
 }
 
 impl Preamble {
     /// Creates the preamble of a run that this program records.
     pub fn new(seed: Seed, config: &TourConfig, script: &Script, initial: &Frame) -> Result<Self, LogError> {
+        Self::of_run(LogKind::Frames, (seed, config, script), initial.clone())
+    }
+
+    /// Creates the preamble of a run of which this program keeps digests.
+    pub fn of_digests(seed: Seed, config: &TourConfig, script: &Script) -> Result<Self, LogError> {
+        Self::of_run(LogKind::Digests, (seed, config, script), no_frame())
+    }
+
+    fn of_run(
+        kind: LogKind,
+        (seed, config, script): (Seed, &TourConfig, &Script),
+        initial: Frame,
+    ) -> Result<Self, LogError> {
         let preamble = Preamble {
+            kind,
             seed,
             config: config.clone(),
             script: script.clone(),
-            initial: initial.clone(),
+            initial,
             program: concat!("motion-lab ", env!("CARGO_PKG_VERSION")).to_owned(),
             world_texts: config.worlds.iter().map(World::to_ron).collect(),
         };
@@ -95,7 +124,7 @@ impl Preamble {
         let names: Vec<&str> = self.config.robot_names().collect();
         self.script.check_robots(&names)?;
         self.script.check_worlds(&self.config.worlds)?;
-        self.check_frame(&self.initial, 0)
+        if self.kind == LogKind::Digests { Ok(()) } else { self.check_frame(&self.initial, 0) }
     }
 
     /// Checks that `frame` can be this run's frame of tick `expected`.
@@ -130,15 +159,20 @@ impl Preamble {
 
     /// The version of the log's format.
     pub fn format(&self) -> &'static str {
-        if self.script.changes.is_empty() { FORMAT_VERSION } else { FORMAT_VERSION_WITH_CHANGES }
+        match self.kind {
+            LogKind::Digests => DIGEST_FORMAT_VERSION,
+            LogKind::Frames if self.script.changes.is_empty() => FORMAT_VERSION,
+            LogKind::Frames => FORMAT_VERSION_WITH_CHANGES,
+        }
     }
 
     /// The greatest range of each scan of the initial frame, metres; `None` for one of a sensor that is not the
     /// configuration's.
     pub fn max_ranges(&self) -> Vec<Option<f64>> {
+        let residents: Vec<_> = self.config.residents().collect();
         let scans = self.initial.scans.chunk_by(|a, b| a.robot == b.robot);
         let ranges = scans.flat_map(|scans| {
-            let resident = scans.first().and_then(|scan| self.config.residents().nth(scan.robot as usize));
+            let resident = scans.first().and_then(|scan| residents.get(scan.robot as usize));
             let sensors = resident.and_then(|resident| self.config.sensors_of(resident, scans.len()));
             let range = |i: usize| sensors.as_ref()?.get(i).map(|sensor| sensor.rays.sensor.max_range);
             (0..scans.len()).map(range).collect::<Vec<_>>()
@@ -184,7 +218,8 @@ impl Preamble {
     }
 
     /// Reads the preamble from sealed records. `initial` is the frame in their messages.
-    pub fn read(records: &[Record<'_>], initial: Option<Frame>) -> Result<Self, LogError> {
+    /// A log of another kind is refused.
+    pub fn read(records: &[Record<'_>], kind: LogKind, initial: Option<Frame>) -> Result<Self, LogError> {
         let mut files: BTreeMap<&str, &str> = BTreeMap::new();
         let mut metadata = BTreeMap::new();
         for record in records {
@@ -204,9 +239,14 @@ impl Preamble {
         }
         let entry = |key: &str| metadata.get(key).ok_or_else(|| content(key, "the metadata lacks it"));
         let version = entry("format")?;
-        if ![FORMAT_VERSION, FORMAT_VERSION_WITH_CHANGES].contains(&version.as_str()) {
-            return Err(LogError::Version(version.clone()));
+        match (version.as_str(), kind) {
+            (FORMAT_VERSION | FORMAT_VERSION_WITH_CHANGES, LogKind::Frames) => {}
+            (DIGEST_FORMAT_VERSION, LogKind::Digests) => {}
+            (FORMAT_VERSION | FORMAT_VERSION_WITH_CHANGES, LogKind::Digests) => return Err(LogError::HasFrames),
+            (DIGEST_FORMAT_VERSION, LogKind::Frames) => return Err(LogError::NoFrames),
+            _ => return Err(LogError::Version(version.clone())),
         }
+        let initial = if kind == LogKind::Digests { Some(no_frame()) } else { initial };
         let file = |name: &str| files.get(name).copied().ok_or_else(|| content(name, "the attachment is missing"));
         let config: ConfigText = ron::from_str(file(CONFIG)?).map_err(|e| content(CONFIG, &e.to_string()))?;
         let mut worlds = Vec::new();
@@ -226,6 +266,7 @@ impl Preamble {
         }
         let sensor = config.sensor.map(|s| RangeSensor { n_rays: s.n_rays, max_range: s.max_range });
         let preamble = Preamble {
+            kind,
             seed: Seed(entry("seed")?.parse().map_err(|_| content("seed", "it is not a whole number below 2^64"))?),
             config: TourConfig { worlds, ticks: config.ticks, sensor },
             script: Script::parse(SCRIPT, file(SCRIPT)?)?,

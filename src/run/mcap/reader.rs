@@ -5,7 +5,7 @@ use xxhash_rust::xxh3::xxh3_128;
 
 use super::encoder::Encoder;
 use super::message::{FrameMessage, ScanMessage};
-use super::preamble::Preamble;
+use super::preamble::{LogKind, Preamble};
 use super::record::{Cursor, MAGIC, Record, SEAL, message, opcode, record_at};
 use super::record_writer::put_seal;
 use super::{DamageKind, DamagedLog, EXPORT_PROFILE, LogError, ReadLog, channel};
@@ -20,22 +20,11 @@ impl Log {
     ///
     /// # Errors
     /// [`LogError::Damaged`] with everything that is sealed; [`LogError::NotALog`], [`LogError::Export`],
-    /// [`LogError::Version`]; if the part before the first tick is sealed but not valid, [`LogError::Content`],
-    /// [`LogError::Config`], [`LogError::Script`] or [`LogError::Foreign`].
+    /// [`LogError::NoFrames`] for a digest log, [`LogError::Version`]; if the part before the first tick is sealed but
+    /// not valid, [`LogError::Content`], [`LogError::Config`], [`LogError::Script`] or [`LogError::Foreign`].
     pub fn read_mcap(file: &[u8]) -> Result<ReadLog, LogError> {
-        if !file.starts_with(MAGIC) {
-            let cut = MAGIC.starts_with(file);
-            return Err(if cut { damaged(None, 0, DamageKind::Cut) } else { LogError::NotALog });
-        }
-        if is_export(file) {
-            return Err(LogError::Export);
-        }
-        // The seal is checked before anything it covers is read, so that damage is never reported as invalid content.
-        let records = piece(file, MAGIC.len()).map_err(|kind| damaged(None, 0, kind))?;
-        if !is_sealed(file, &records, 0) {
-            return Err(damaged(None, 0, DamageKind::Changed));
-        }
-        let preamble = Preamble::read(&records, frame_of(&records))?;
+        let records = first_piece(file)?.map_err(|kind| damaged(None, 0, kind))?;
+        let preamble = Preamble::read(&records, LogKind::Frames, frame_of(&records))?;
         let mut read = ReadLog {
             program: preamble.program.clone(),
             world_texts: preamble.world_texts.clone(),
@@ -73,6 +62,22 @@ impl Log {
     }
 }
 
+/// The records of the piece before the first tick. Its seal is checked before anything it covers is read, so that
+/// damage is never reported as invalid content.
+///
+/// # Errors
+/// [`LogError::NotALog`] and [`LogError::Export`]; within, what probably happened to a damaged piece.
+pub fn first_piece(file: &[u8]) -> Result<Result<Vec<Record<'_>>, DamageKind>, LogError> {
+    if !file.starts_with(MAGIC) {
+        return if MAGIC.starts_with(file) { Ok(Err(DamageKind::Cut)) } else { Err(LogError::NotALog) };
+    }
+    if is_export(file) {
+        return Err(LogError::Export);
+    }
+    let sealed = |records: Vec<_>| if is_sealed(file, &records, 0) { Ok(records) } else { Err(DamageKind::Changed) };
+    Ok(piece(file, MAGIC.len()).and_then(sealed))
+}
+
 /// Whether the header marks the file as an export for viewers.
 fn is_export(file: &[u8]) -> bool {
     record_at(file, MAGIC.len())
@@ -98,7 +103,7 @@ fn next_tick(file: &[u8], at: usize, encoder: &mut Encoder) -> Result<(Frame, cr
 }
 
 /// Checks that the file continues at `at` with `expected`.
-fn compare(file: &[u8], at: usize, expected: &[u8]) -> Result<(), DamageKind> {
+pub fn compare(file: &[u8], at: usize, expected: &[u8]) -> Result<(), DamageKind> {
     let rest = file.get(at..).unwrap_or_default();
     if rest.starts_with(expected) {
         Ok(())
@@ -110,7 +115,7 @@ fn compare(file: &[u8], at: usize, expected: &[u8]) -> Result<(), DamageKind> {
 }
 
 /// The records from `start` up to and including the next seal.
-fn piece(file: &[u8], start: usize) -> Result<Vec<Record<'_>>, DamageKind> {
+pub fn piece(file: &[u8], start: usize) -> Result<Vec<Record<'_>>, DamageKind> {
     let mut records = Vec::new();
     let mut at = start;
     loop {

@@ -7,6 +7,10 @@ pub use mcap::records::op as opcode;
 
 /// The opcode of a seal, in the range reserved for applications: other readers skip it.
 pub const SEAL: u8 = 0x80;
+/// The opcode of a record of a digest log that holds digests of seconds.
+pub const DIGESTS: u8 = 0x81;
+/// The opcode of the record of a digest log that holds the whole run's digest.
+pub const RUN_DIGEST: u8 = 0x82;
 
 /// Reads values from the front of a slice; `None` if there are too few bytes. A length that was read never causes an
 /// allocation by itself.

@@ -102,6 +102,11 @@ impl RecordWriter {
         self.to.write_private_record(SEAL, content, Default::default()).map_err(failed)
     }
 
+    /// Writes a private record, which other readers skip.
+    pub fn private(&mut self, opcode: u8, content: &[u8]) -> Result<(), LogError> {
+        self.to.write_private_record(opcode, content, Default::default()).map_err(failed)
+    }
+
     /// Writes the end of the data, the summary and the footer.
     pub fn finish(&mut self) -> Result<(), LogError> {
         self.to.finish().map(|_| ()).map_err(failed)

@@ -25,6 +25,7 @@ pub fn record(
     data: &mut Data,
 ) -> Result<Outcome, Failure> {
     let output = template(options)?;
+    let kind = options.kind(config);
     let pool = rayon::ThreadPoolBuilder::new().num_threads(usize::from(options.threads.unwrap_or(0))).build();
     let pool = pool.map_err(Failure::internal)?;
     let batch = AHEAD * pool.current_num_threads() as u64;
@@ -32,10 +33,10 @@ pub fn record(
     while first < seeds.end && !data.is_closed() {
         let end = seeds.end.min(first.saturating_add(batch));
         let one = |seed: u64| {
-            let plan = Plan { seed: Seed(seed), config: config.clone(), script: script.clone() };
+            let plan = Plan { seed: Seed(seed), config: config.clone(), script: script.clone(), kind };
             match &output {
                 Some(template) => write_run_whole(&plan, &template.replace("{seed}", &seed.to_string())),
-                None => run(&plan, &[], Stop::default(), |_| Ok(())),
+                None => run(&plan, None, Stop::default(), |_, _| Ok(())),
             }
         };
         let ended: Vec<_> = pool.install(|| (first..end).into_par_iter().map(one).collect());
@@ -70,5 +71,5 @@ fn template(options: &Record) -> Result<Option<String>, Failure> {
 }
 
 fn write_run_whole(plan: &Plan, output: &str) -> Result<Ended, Failure> {
-    write_run(plan, &[], Stop::default(), &PathBuf::from(output))
+    write_run(plan, None, Stop::default(), &PathBuf::from(output))
 }

@@ -10,9 +10,11 @@ mod setup;
 use std::path::PathBuf;
 
 use clap::Args;
+use motion_lab::tour::TourConfig;
 
 use crate::cli::support::interrupt;
-use crate::cli::{Data, Failure, Outcome};
+use crate::cli::support::log_kind::LogKind;
+use crate::cli::{Data, Failure, Outcome, say};
 use choice::RobotChoice;
 use seeds::SeedRange;
 
@@ -62,6 +64,11 @@ pub struct Record {
     /// Write the log to this file; with --seeds {seed} in its name stands for the seed.
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
+    /// What the log keeps: `full`, every frame, or `digest`, a digest of each second, which `verify` compares. A digest
+    /// log takes some 11 bytes a second; `replay --log full -o FILE` makes the frames from it. [default: full, but
+    /// digest above 100 robots]
+    #[arg(long, value_name = "KIND", value_enum, conflicts_with = "resume", hide_possible_values = true)]
+    log: Option<LogKind>,
     /// Go on with a recording that stopped early: run it again from its seed and script, check it against what is
     /// there, and write the whole. The output is named as FILE is, without .partial.
     #[arg(long, value_name = "FILE", conflicts_with_all = [
@@ -94,8 +101,21 @@ impl Record {
         if let Some(seeds) = self.seeds {
             return many::record(&self, seeds, &config, &script, data);
         }
-        let plan = Plan { seed: setup::seed(&self), config, script };
-        one::record(&plan, &[], self.output.as_deref(), self.stop(), self.json, data)
+        let kind = self.kind(&config);
+        let plan = Plan { seed: setup::seed(&self), config, script, kind };
+        one::record(&plan, None, self.output.as_deref(), self.stop(), self.json, data)
+    }
+
+    /// What the log keeps. Where nobody said it, and it is not every frame, this is said.
+    fn kind(&self, config: &TourConfig) -> LogKind {
+        let kind = self.log.unwrap_or_else(|| LogKind::of(config));
+        if self.log.is_none() && kind == LogKind::Digest && self.output.is_some() {
+            let robots = config.robot_names().count();
+            say(format!(
+                "{robots} robots: the log keeps a digest of each second and no frames; --log full keeps every frame"
+            ));
+        }
+        kind
     }
 
     fn stop(&self) -> Stop {

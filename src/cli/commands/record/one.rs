@@ -4,10 +4,11 @@ use std::io;
 use std::path::{Path, PathBuf};
 
 use motion_lab::random::Seed;
-use motion_lab::run::{Comparison, DT, Digest, Divergence, Frame, LogError, LogWriter, RunDigest, Script};
+use motion_lab::run::{DT, Digest, Frame, LogError, RunDigest, Script};
 use motion_lab::tour::TourConfig;
 
 use crate::cli::support::interrupt;
+use crate::cli::support::log_kind::{AnyComparison, AnyLog, AnyWriter, LogKind};
 use crate::cli::support::output::PendingFile;
 use crate::cli::support::simulate::begin;
 use crate::cli::support::summary::RunSummary;
@@ -28,6 +29,8 @@ pub struct Plan {
     pub config: TourConfig,
     /// The script.
     pub script: Script,
+    /// What its log keeps.
+    pub kind: LogKind,
 }
 
 /// When to stop early.
@@ -54,36 +57,37 @@ pub enum Ended {
     },
     /// Early, after this tick.
     Stopped(u64),
-    /// At the first value that differs from the expected one.
-    Differs(Divergence),
+    /// At the first value or second that differs from the expected one, in words.
+    Differs(String),
 }
 
-/// Runs `plan` and hands every frame to `sink`, that of tick 0 first. Ends early when `stop` says so, or at the first
-/// frame that differs from that of `expected` for its tick.
+/// Runs `plan` and hands every frame to `sink`, that of tick 0 first, with the run's digest up to it. Ends early when
+/// `stop` says so, or at the first difference from `expected`.
 pub fn run(
     plan: &Plan,
-    expected: &[Frame],
+    expected: Option<&AnyLog>,
     stop: Stop,
-    mut sink: impl FnMut(&Frame) -> Result<(), Failure>,
+    mut sink: impl FnMut(&Frame, &RunDigest) -> Result<(), Failure>,
 ) -> Result<Ended, Failure> {
-    let Plan { seed, config, script } = plan;
+    let Plan { seed, config, script, .. } = plan;
     let mut run = begin(*seed, config, script)?;
     let mut digest = RunDigest::new(*seed, config, script, run.frame());
-    sink(run.frame())?;
-    let mut comparison = Comparison::with_frames(expected);
+    sink(run.frame(), &digest)?;
+    let mut comparison = expected.map(AnyComparison::with);
+    if let Some(difference) = differs(&mut comparison, config, run.frame(), &digest) {
+        return Ok(Ended::Differs(difference));
+    }
     while !run.is_complete() {
         let tick = run.frame().tick;
         if stop.now(tick) {
             return Ok(Ended::Stopped(tick));
         }
         let frame = run.step();
-        if !comparison.frame(frame)
-            && let Some(divergence) = comparison.divergence()
-        {
-            return Ok(Ended::Differs(divergence.clone().named(config)));
-        }
         digest.tick(frame);
-        sink(frame)?;
+        if let Some(difference) = differs(&mut comparison, config, frame, &digest) {
+            return Ok(Ended::Differs(difference));
+        }
+        sink(frame, &digest)?;
         if config.ticks >= LONG && frame.tick % (config.ticks / 10) == 0 {
             say(format!("tick {} of {}", frame.tick, config.ticks));
         }
@@ -91,22 +95,35 @@ pub fn run(
     Ok(Ended::Whole { last: run.frame().clone(), digest: digest.digest() })
 }
 
+/// What differs of a frame from the expected one, in words.
+fn differs(
+    comparison: &mut Option<AnyComparison>,
+    config: &TourConfig,
+    frame: &Frame,
+    digest: &RunDigest,
+) -> Option<String> {
+    let comparison = comparison.as_mut()?;
+    if comparison.frame(frame, digest) { None } else { comparison.difference(config) }
+}
+
 /// As [`run`], and writes the log to `output`.
 ///
 /// Where the run stops early or the disk takes no more, what was done is kept in the file that [`partial_name`] names,
 /// unless all of it is in `expected` already.
-pub fn write_run(plan: &Plan, expected: &[Frame], stop: Stop, output: &Path) -> Result<Ended, Failure> {
+pub fn write_run(plan: &Plan, expected: Option<&AnyLog>, stop: Stop, output: &Path) -> Result<Ended, Failure> {
     let failed = |error: LogError| match error {
         LogError::Io(error) => Failure::output(output, &error),
         error => Failure::internal(error),
     };
     let mut file = Some(PendingFile::create(output)?);
-    let mut writer: Option<LogWriter<PendingFile>> = None;
+    let mut writer: Option<AnyWriter<PendingFile>> = None;
+    let mut last = None;
     // the last tick that the operating system took
     let mut taken = 0;
-    let ended = run(plan, expected, stop, |frame| match &mut writer {
+    let ended = run(plan, expected, stop, |frame, digest| match &mut writer {
         Some(writer) => {
-            writer.tick(frame).map_err(failed)?;
+            writer.tick(frame, digest).map_err(failed)?;
+            last = Some(digest.digest());
             // a killed process loses at most a second of the run
             if frame.tick % SECOND == 0 {
                 writer.flush().map_err(failed)?;
@@ -116,15 +133,19 @@ pub fn write_run(plan: &Plan, expected: &[Frame], stop: Stop, output: &Path) -> 
         }
         None => {
             let Some(file) = file.take() else { return Err(failed(io::Error::other("begun twice").into())) };
-            writer = Some(LogWriter::new(file, plan.seed, &plan.config, &plan.script, frame).map_err(failed)?);
+            let parts = (plan.seed, &plan.config, &plan.script);
+            writer = Some(AnyWriter::new(file, plan.kind, parts, frame, digest).map_err(failed)?);
+            last = Some(digest.digest());
             Ok(())
         }
     });
-    let Some(mut writer) = writer else { return ended };
-    let before = expected.len() as u64;
+    let (Some(mut writer), Some(last)) = (writer, last) else { return ended };
+    let before = expected.map_or(0, AnyLog::recorded);
     let finished = match &ended {
-        Ok(Ended::Whole { .. }) => writer.end().map_err(failed).map(|()| Some(output.to_owned())),
-        Ok(Ended::Stopped(tick)) if *tick > before || before == 0 => Ok(Some(partial_name(output))),
+        Ok(Ended::Whole { .. }) => writer.end(last).map_err(failed).map(|()| Some(output.to_owned())),
+        Ok(Ended::Stopped(tick)) if *tick > before || before == 0 => {
+            writer.stop(last).map_err(failed).map(|()| Some(partial_name(output)))
+        }
         _ => Ok(None),
     };
     let mut file = writer.into_inner();
@@ -169,7 +190,7 @@ pub fn partial_name(output: &Path) -> PathBuf {
 /// Records one run and says what came of it.
 pub fn record(
     plan: &Plan,
-    expected: &[Frame],
+    expected: Option<&AnyLog>,
     output: Option<&Path>,
     stop: Stop,
     json: bool,
@@ -177,7 +198,7 @@ pub fn record(
 ) -> Result<Outcome, Failure> {
     let ended = match output {
         Some(output) => write_run(plan, expected, stop, output)?,
-        None => run(plan, expected, stop, |_| Ok(()))?,
+        None => run(plan, expected, stop, |_, _| Ok(()))?,
     };
     match ended {
         Ended::Whole { last, digest } => {
@@ -193,7 +214,7 @@ pub fn record(
             }
             Ok(Outcome::Done)
         }
-        Ended::Stopped(tick) if tick <= expected.len() as u64 && !expected.is_empty() => {
+        Ended::Stopped(tick) if expected.is_some_and(|log| tick <= log.recorded() && log.recorded() > 0) => {
             say(format!("stopped after tick {tick}, before the end of the existing recording, which is unchanged"));
             Ok(Outcome::Stopped)
         }
@@ -210,9 +231,9 @@ pub fn record(
             }
             Ok(Outcome::Stopped)
         }
-        Ended::Differs(divergence) => {
+        Ended::Differs(difference) => {
             say(format!(
-                "the run does not repeat its recording: {divergence}\nNothing was written. Was it recorded by another version?"
+                "the run does not repeat its recording: {difference}\nNothing was written. Was it recorded by another version?"
             ));
             Ok(Outcome::Differs)
         }

@@ -8,7 +8,7 @@ use motion_lab::output::{is_left, is_temporary, unfinished, whole_name};
 use super::Plan;
 use super::one::{Stop, record};
 use crate::cli::support::input::read_bytes_if;
-use crate::cli::support::log_source::{begins_as_one, read_log};
+use crate::cli::support::log_source::{begins_as_one, read_any_log};
 use crate::cli::{Data, Failure, Outcome, say};
 
 /// Largest number of files left by killed processes that are named.
@@ -23,8 +23,8 @@ pub fn resume(file: &Path, output: Option<&Path>, stop: Stop, json: bool, data: 
             "Wait until it ends, or stop it with Ctrl-C.",
         ));
     }
-    let source = read_log(file)?;
-    let log = source.read.log;
+    let source = read_any_log(file)?;
+    let log = source.log;
     // FILE.partial, or an unfinished file of FILE, becomes FILE
     let whole_name = whole_name(file);
     let output = output.or(whole_name.as_deref()).unwrap_or(file);
@@ -37,8 +37,9 @@ pub fn resume(file: &Path, output: Option<&Path>, stop: Stop, json: bool, data: 
     if source.damage.is_none() {
         say(format!("{} is whole already; it is run again all the same", file.display()));
     }
-    let plan = Plan { seed: log.seed, config: log.config, script: log.script };
-    let outcome = record(&plan, &log.frames, Some(output), stop, json, data)?;
+    let (seed, config, script) = log.parts();
+    let plan = Plan { seed, config: config.clone(), script: script.clone(), kind: log.kind() };
+    let outcome = record(&plan, Some(&log), Some(output), stop, json, data)?;
     if outcome == Outcome::Done && Some(output) == whole_name.as_deref() {
         // all of it is in the output now
         let _ = fs::remove_file(file);

@@ -11,7 +11,7 @@ use motion_lab::run::{Script, ScriptError};
 use serde::Serialize;
 
 use crate::cli::support::input::{for_each_file, open, read_text, unreadable};
-use crate::cli::support::log_source::read_log;
+use crate::cli::support::log_source::read_any_log;
 use crate::cli::support::output::write_file;
 use crate::cli::support::script_words::{changes_in_words, none};
 use crate::cli::support::world_source::find_world;
@@ -116,8 +116,8 @@ fn print(file: &Path, data: &mut Data) -> Result<Outcome, Failure> {
         data.text(&read_script(file)?.to_ron())?;
         return Ok(Outcome::Done);
     }
-    let source = read_log(file)?;
-    data.text(&source.read.log.script.to_ron())?;
+    let source = read_any_log(file)?;
+    data.text(&source.log.parts().2.to_ron())?;
     Ok(match source.damage {
         None => Outcome::Done,
         Some(damage) => {
