@@ -1,4 +1,5 @@
-//! Generated warehouses in runs: everybody moves, and nobody comes near anybody, by shapes and distances of the tests' own.
+//! Generated warehouses in runs: everybody moves, and nobody comes near anybody, by shapes and distances of the tests'
+//! own.
 
 use motion_lab::configuration::{ArmSizes, Sizes};
 use motion_lab::geometry::{Placed, Vertices};
@@ -86,7 +87,7 @@ fn least_distances(world: &World, frame: &Frame, obstacles: &[Placed]) -> [f64; 
 
 #[test]
 fn nobody_comes_near_anybody_and_everybody_moves() {
-    for (robots, trailers, ticks) in [(80, true, 260), (66, false, 120)] {
+    for (robots, trailers, ticks) in [(80, true, 260), (150, false, 120)] {
         let world = warehouse(robots, trailers);
         let obstacles: Vec<Placed> = world.obstacles.iter().flat_map(|o| o.placed()).collect();
         let log = record(world.clone(), ticks);

@@ -35,15 +35,14 @@ pub(super) fn raise_circle(circle: &Circle, view: &View, fan: &mut Fan) {
     let begin = forward(forward(middle) - half);
     let end = begin + 2.0 * half;
     let disc = Disc { cx, cy, r2, outside };
-    let mut raise = |from: f64, to: f64| {
-        let block = |turns: f64| (turns * view.rays) as usize / LANES;
+    let block = |turns: f64| (turns * view.rays) as usize / LANES;
+    // beyond a full turn the rays begin again; one loop for both stretches, because a function of its own would not be
+    // compiled for the instructions of this one
+    let stretches = [(begin, end), (0.0, end - 1.0)];
+    for (from, to) in stretches.into_iter().take(if end >= 1.0 { 2 } else { 1 }) {
         for block in some(&mut fan.blocks, block(from)..block(to) + 1) {
             meet(block, disc, view.nothing);
         }
-    };
-    raise(begin, end);
-    if end >= 1.0 {
-        raise(0.0, end - 1.0);
     }
 }
 

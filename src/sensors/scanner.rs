@@ -147,6 +147,11 @@ impl Scanner {
 
 /// Whether a shape may hold a point; false only where it certainly does not.
 fn may_hold(shape: &Placed, p: Point2) -> bool {
+    if let (&[centre], radius) = (shape.core(), shape.radius()) {
+        // what is not finite may hold it
+        let is_outside = (p - centre).norm_squared() > radius * radius * (1.0 + 1e-9) + 1e-18;
+        return !(is_outside && shape.is_valid());
+    }
     let Aabb { min, max } = shape.padded_bounds();
     (min.x..=max.x).contains(&p.x) && (min.y..=max.y).contains(&p.y)
 }

@@ -38,8 +38,9 @@ pub(super) enum KindSystems {
     Encode(usize),
 }
 
-/// The finer order within [`SimulationSystems::Step`] and [`SimulationSystems::Collide`]: every motion is planned, every
-/// motion is cut, those that meet are found, and only then do robots advance. Last come the robots' states in the frame.
+/// The finer order within [`SimulationSystems::Step`] and [`SimulationSystems::Collide`]: every motion is planned,
+/// every motion is cut, those that meet are found, and only then do robots advance. Last come the robots' states in the
+/// frame.
 #[derive(SystemSet, Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(super) enum Phase {
     Begin,

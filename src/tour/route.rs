@@ -97,10 +97,11 @@ impl RouteTour {
     /// returns to the line: an error falls by the factor e in about `1 / stiffness` metres.
     ///
     /// The tracking law of Kanayama, Kimura, Miyazaki and Noguchi, "A stable tracking control method for an autonomous
-    /// mobile robot" (ICRA 1990): with the reference at `(x, y, theta)` in the robot's frame, moving at `v` and `omega`,
-    /// the robot's speed is `v cos theta + K_x x` and its turn rate `omega + v (K_y y + K_theta sin theta)`. Here
-    /// `K_theta = 2 sqrt(K_y)`, so that the robot swings into the line without overshoot; the speed is never negative;
-    /// and `omega` is the reference's mean over the step, with which an exact robot stays on a line and on an arc.
+    /// mobile robot" (ICRA 1990): with the reference at `(x, y, theta)` in the robot's frame, moving at `v` and
+    /// `omega`, the robot's speed is `v cos theta + K_x x` and its turn rate `omega + v (K_y y + K_theta sin theta)`.
+    /// Here `K_theta = 2 sqrt(K_y)`, so that the robot swings into the line without overshoot; the speed is never
+    /// negative; and `omega` is the reference's mean over the step, with which an exact robot stays on a line and on an
+    /// arc.
     pub fn track(&self, q: &Pose2, step: Step, stiffness: f64) -> Tracking {
         let Step { time, dt } = step;
         let (now, next) = (self.reference(time), self.reference(time + dt));

@@ -165,3 +165,22 @@ fn a_hundred_thousand_residents_in_a_row_are_checked_at_once() {
         assert!(error.contains("\"0\" and \"1\" touch"), "along {axis}: {error}");
     }
 }
+
+#[test]
+fn a_warehouse_is_generated_checked_and_recorded() {
+    let folder = tempfile::tempdir().unwrap();
+    let generate = ["world", "generate", "warehouse", "--seed", "3", "--robots", "30"];
+    let made = run_in(folder.path(), &[&generate[..], &["-o", "hall.ron"]].concat());
+    assert!(made.err.contains("wrote hall.ron with 30 robots, "), "{}", made.err);
+    let text = fs::read_to_string(folder.path().join("hall.ron")).unwrap();
+    assert_eq!(run(&generate).done(), text, "the same on standard output");
+    assert_ne!(run(&[&generate[..], &["--trailers"]].concat()).done(), text);
+    let checked = run_in(folder.path(), &["world", "check", "hall.ron"]).done();
+    assert!(checked.starts_with("hall.ron: Warehouse of 30, seed 3, content ") && checked.ends_with("robots: 30\n"));
+    let record = ["record", "--world", "hall.ron", "--seconds", "1", "--no-sensor", "-o", "run.mcap"];
+    run_in(folder.path(), &record).done();
+    run_in(folder.path(), &["verify", "run.mcap"]).done();
+    let few = run(&["world", "generate", "warehouse", "--robots", "9"]);
+    assert_eq!(few.code, Some(2), "{}", few.err);
+    assert!(few.err.contains("--robots: 9 robots: a warehouse has 10 to 100000"), "{}", few.err);
+}

@@ -5,8 +5,8 @@ use std::io::Write;
 use clap::ValueEnum;
 use motion_lab::random::Seed;
 use motion_lab::run::{
-    Comparison, Digest, DigestComparison, DigestLog, DigestLogWriter, Frame, Log, LogError, LogWriter,
-    RunDigest, Script,
+    Comparison, Digest, DigestComparison, DigestLog, DigestLogWriter, Frame, Log, LogError, LogWriter, RunDigest,
+    Script,
 };
 use motion_lab::tour::TourConfig;
 

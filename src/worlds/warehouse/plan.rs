@@ -75,7 +75,8 @@ impl Plan {
         Crew { rovers: share(self.rovers), arms: share(self.arms), cars: share(self.cars) }
     }
 
-    /// The lower left corner of what the road of bay number `bay` goes about. Bays stand row by row from the south-west.
+    /// The lower left corner of what the road of bay number `bay` goes about. Bays stand row by row from the
+    /// south-west.
     pub(super) fn corner(&self, bay: usize) -> Point2 {
         let (column, row) = (bay % self.columns, bay / self.columns);
         point(TO_ROAD + TO_WALL + column as f64 * PITCH[0], TO_ROAD + TO_SOUTH_WALL + row as f64 * PITCH[1])
@@ -89,7 +90,8 @@ impl Plan {
     }
 }
 
-/// The number of columns for this many bays: few places are left empty, and the hall is about 1.4 times as wide as high.
+/// The number of columns for this many bays: few places are left empty, and the hall is about 1.4 times as wide as
+/// high.
 fn columns(bays: usize) -> usize {
     let cost = |columns: usize| {
         let rows = bays.div_ceil(columns);
