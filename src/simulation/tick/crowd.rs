@@ -47,7 +47,9 @@ impl Crowd {
 
     /// Begins a tick: no robot has a body.
     pub fn begin(&mut self) {
-        (self.reaches.clear(), self.members.clear(), self.everywhere.clear());
+        self.reaches.clear();
+        self.members.clear();
+        self.everywhere.clear();
         self.index = None;
     }
 
