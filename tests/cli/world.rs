@@ -184,3 +184,16 @@ fn a_warehouse_is_generated_checked_and_recorded() {
     assert_eq!(few.code, Some(2), "{}", few.err);
     assert!(few.err.contains("--robots: 9 robots: a warehouse has 10 to 100000"), "{}", few.err);
 }
+
+#[test]
+fn robots_of_a_crowd_are_printed_in_one_line() {
+    let folder = tempfile::tempdir().unwrap();
+    for (robots, lines) in [("100", 101), ("101", 2)] {
+        let generate = ["world", "generate", "warehouse", "--robots", robots, "-o", "hall.ron"];
+        run_in(folder.path(), &generate).done();
+        let record = ["record", "--world", "hall.ron", "--ticks", "2", "--no-sensor", "-o", "run.mcap"];
+        let out = run_in(folder.path(), &record).done();
+        assert_eq!(out.lines().count(), lines, "{out}");
+        assert_eq!(out.starts_with("101 robots  contacts: 0\ndigest "), robots == "101", "{out}");
+    }
+}

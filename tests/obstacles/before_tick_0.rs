@@ -1,11 +1,11 @@
 //! Before tick 0 the obstacle entities are the truth, whoever spawned them; in a run they are not.
 
-use bevy::prelude::RelationshipTarget;
+use bevy::prelude::{Add, Commands, On, Query, RelationshipTarget};
 use motion_lab::geometry::Shape;
 use motion_lab::recording::Run;
 use motion_lab::simulation::{
     App, CommandError, CommandRefused, LatestFrame, ObstacleOf, ObstacleShape, Obstacles, Placement, Roster, RunConfig,
-    SimulationPlugin, start_run, step,
+    SimulatedWorld, SimulationPlugin, start_run, step,
 };
 use motion_lab::worlds::{Obstacle, ObstacleKind};
 
@@ -48,6 +48,35 @@ fn recorded(edit: impl FnOnce(&mut World), ticks: u64) -> Log {
     let mut config = apartment(ticks);
     edit(&mut config.worlds[0]);
     Run::record(config, Seed(2005)).unwrap()
+}
+
+/// The observer runs within `start_run`, when the world's own obstacles are being spawned.
+#[test]
+fn what_an_observer_spawns_and_moves_as_the_run_starts_is_met() {
+    let mut app = App::new();
+    app.add_plugins((bevy::time::TimePlugin, SimulationPlugin));
+    app.add_observer(|on: On<Add, SimulatedWorld>, worlds: Query<&SimulatedWorld>, mut commands: Commands| {
+        if worlds.get(on.entity).unwrap().model.name == "Apartment" {
+            commands.spawn((bar("bar 1", 5.3), ObstacleOf(on.entity)));
+        }
+    });
+    app.add_observer(|on: On<Add, ObstacleShape>, shapes: Query<&ObstacleShape>, mut commands: Commands| {
+        if shapes.get(on.entity).unwrap().name == "A's bed" {
+            commands.entity(on.entity).insert(Placement { present: false, ..Placement::default() });
+        }
+    });
+    start_run(app.world_mut(), apartment(400), Seed(2005)).unwrap();
+    let found = frames(app.world_mut(), 400);
+    let expected = recorded(
+        |world| {
+            world.obstacles.retain(|o| o.name != "A's bed");
+            world.obstacles.push(Obstacle::new("bar 1", ObstacleKind::Wall, bar("bar 1", 5.3).pieces));
+        },
+        400,
+    );
+    assert!(found == expected.frames);
+    let plain = recorded(|_| {}, 400);
+    assert!(found != plain.frames, "the bar is met, or the scans see it");
 }
 
 #[test]

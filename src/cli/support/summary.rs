@@ -10,6 +10,9 @@ use serde::Serialize;
 
 use crate::cli::{Data, Failure};
 
+/// From more robots on they are printed in one line; JSON has them all.
+const MOST_PRINTED: usize = 100;
+
 /// A run as JSON.
 #[derive(Debug, Serialize)]
 pub struct RunSummary<'a> {
@@ -89,8 +92,15 @@ impl<'a> RunSummary<'a> {
         }
     }
 
-    /// Prints one line for each robot: `Rusty  Pose2 { x: 2.250, y: 6.250 }  contacts: 0`.
+    /// Prints one line for each robot: `Rusty  Pose2 { x: 2.250, y: 6.250 }  contacts: 0`; of a crowd one line for all,
+    /// `1000 robots  contacts: 12, of 7 of them`.
     pub fn print_robots(&self, data: &mut Data) -> Result<(), Failure> {
+        if self.robots.len() > MOST_PRINTED {
+            let contacts: u64 = self.robots.iter().map(|robot| u64::from(robot.contacts)).sum();
+            let touching = self.robots.iter().filter(|robot| robot.contacts > 0).count();
+            let of = if contacts > 0 { format!(", of {touching} of them") } else { String::new() };
+            return data.line(format!("{} robots  contacts: {contacts}{of}", self.robots.len()));
+        }
         for RobotSummary { name, printed, contacts, .. } in &self.robots {
             data.line(format!("{name}  {printed}  contacts: {contacts}"))?;
         }

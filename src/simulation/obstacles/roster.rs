@@ -9,8 +9,8 @@ use crate::collision::Scene;
 use crate::geometry::Pose2;
 use crate::run::{ObstacleState, WorldChange, WorldEvent};
 use crate::simulation::{
-    Door, ObstacleOf, ObstacleShape, Placement, RestoreError, Roster, SceneRevision, SimulatedWorld, StandingWorld,
-    WorldScene,
+    Door, ObstacleOf, ObstacleShape, Obstacles, Placement, RestoreError, Roster, SceneRevision, SimulatedWorld,
+    StandingWorld, WorldScene,
 };
 use crate::worlds::{Obstacle, World as WorldModel};
 
@@ -60,6 +60,13 @@ pub struct ObstacleRoster {
 }
 
 impl Ground {
+    /// Whether the world's entities are the ground's own, each where it is by the ground.
+    fn is_as_spawned(&self, world: &World) -> bool {
+        let there = world.get::<Obstacles>(self.entity()).map_or(0, |obstacles| obstacles.len());
+        let is_placed = |(number, entity)| world.get::<Placement>(entity).copied() == self.placement(number);
+        there == self.entities().count() && self.entities().enumerate().all(is_placed)
+    }
+
     /// Spawns the obstacles and the doors of a world, as children of its entity.
     pub(crate) fn spawn(world: &mut World, entity: Entity, start: Arc<WorldModel>) -> Self {
         let mut ground = Ground {
@@ -318,5 +325,7 @@ pub(crate) fn wanted(ground: &Ground, change: &WorldChange) -> Option<(usize, Pl
 pub(crate) fn begin(world: &mut World, grounds: Vec<Ground>) {
     let next_revision = world.resource::<ObstacleRoster>().next_revision;
     debug_assert_eq!(grounds.len(), world.resource::<Roster>().worlds().len());
-    world.insert_resource(ObstacleRoster { grounds, next_revision, is_at_work: false, is_unsettled: false });
+    // observers of what the start spawned may have changed it already
+    let is_unsettled = grounds.iter().any(|ground| !ground.is_as_spawned(world));
+    world.insert_resource(ObstacleRoster { grounds, next_revision, is_at_work: false, is_unsettled });
 }

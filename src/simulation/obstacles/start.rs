@@ -47,7 +47,7 @@ pub(crate) fn settle_start(world: &mut World) {
         world.insert_resource(History::default());
     }
     world.resource_mut::<Transport>().frontier = 0;
-    tick::sense::sense(world);
+    tick::sense::sense_now(world);
     state::record(world);
 }
 
