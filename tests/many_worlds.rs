@@ -146,3 +146,22 @@ fn every_robot_counts_its_own_contacts() {
     let touching = log.frames[159].robots.iter().map(|r| r.in_contact);
     assert!(touching.eq([true, false, true, false, true, true]));
 }
+
+/// Cars, because they drive exactly as far as they are told. Two stand bumper to bumper; the third is alone in its
+/// world, where the first of them stands in the other.
+#[test]
+fn who_is_near_a_robot_is_not_near_the_next_one_in_another_world() {
+    let pair = open("pair", &[("first", "hitch", &[0.0; 3]), ("second", "hitch", &[3.95, 0.0, 0.0])]);
+    let alone = open("alone", &[("third", "hitch", &[0.0; 3])]);
+    // whichever is cut first
+    for worlds in [vec![pair.clone(), alone.clone()], vec![alone, pair]] {
+        let config = TourConfig { worlds: worlds.clone(), ticks: 10, sensor: None };
+        let events = vec![drive(1, "first", 64), drive(1, "second", -64), drive(1, "third", 128)];
+        let log = Run::record(config, (Seed(1), script(events))).unwrap();
+        let last = log.frames.last().unwrap();
+        let state = |name| of(last, &worlds, name).0;
+        assert!(state("first").contacts > 0 && state("second").contacts > 0, "5 cm apart, they meet");
+        assert!((state("third").configuration[0] - 10.0 * FULL).abs() < 1e-11, "{:?}", state("third").configuration);
+        assert_eq!(state("third").contacts, 0);
+    }
+}

@@ -3,6 +3,7 @@
 use bevy::prelude::{Add, Commands, On, Query, RelationshipTarget};
 use motion_lab::geometry::Shape;
 use motion_lab::recording::Run;
+use motion_lab::sensors::RangeSensor;
 use motion_lab::simulation::{
     App, CommandError, CommandRefused, LatestFrame, ObstacleOf, ObstacleShape, Obstacles, Placement, Roster, RunConfig,
     SimulatedWorld, SimulationPlugin, start_run, step,
@@ -50,33 +51,44 @@ fn recorded(edit: impl FnOnce(&mut World), ticks: u64) -> Log {
     Run::record(config, Seed(2005)).unwrap()
 }
 
-/// The observer runs within `start_run`, when the world's own obstacles are being spawned.
-#[test]
-fn what_an_observer_spawns_and_moves_as_the_run_starts_is_met() {
+/// The run of an app whose observers spawn a bar or take a bed away within `start_run`, when the world's own obstacles
+/// are being spawned.
+fn observed(spawns: bool, removes: bool) -> Vec<Frame> {
     let mut app = App::new();
     app.add_plugins((bevy::time::TimePlugin, SimulationPlugin));
-    app.add_observer(|on: On<Add, SimulatedWorld>, worlds: Query<&SimulatedWorld>, mut commands: Commands| {
-        if worlds.get(on.entity).unwrap().model.name == "Apartment" {
+    app.add_observer(move |on: On<Add, SimulatedWorld>, worlds: Query<&SimulatedWorld>, mut commands: Commands| {
+        if spawns && worlds.get(on.entity).unwrap().model.name == "Apartment" {
             commands.spawn((bar("bar 1", 5.3), ObstacleOf(on.entity)));
         }
     });
-    app.add_observer(|on: On<Add, ObstacleShape>, shapes: Query<&ObstacleShape>, mut commands: Commands| {
-        if shapes.get(on.entity).unwrap().name == "A's bed" {
+    app.add_observer(move |on: On<Add, ObstacleShape>, shapes: Query<&ObstacleShape>, mut commands: Commands| {
+        if removes && shapes.get(on.entity).unwrap().name == "A's bed" {
             commands.entity(on.entity).insert(Placement { present: false, ..Placement::default() });
         }
     });
-    start_run(app.world_mut(), apartment(400), Seed(2005)).unwrap();
-    let found = frames(app.world_mut(), 400);
-    let expected = recorded(
-        |world| {
-            world.obstacles.retain(|o| o.name != "A's bed");
-            world.obstacles.push(Obstacle::new("bar 1", ObstacleKind::Wall, bar("bar 1", 5.3).pieces));
-        },
-        400,
-    );
-    assert!(found == expected.frames);
-    let plain = recorded(|_| {}, 400);
-    assert!(found != plain.frames, "the bar is met, or the scans see it");
+    start_run(app.world_mut(), seeing(400), Seed(2005)).unwrap();
+    frames(app.world_mut(), 400)
+}
+
+/// The Apartment with a sensor on its rover.
+fn seeing(ticks: u64) -> TourConfig {
+    TourConfig { sensor: Some(RangeSensor { n_rays: 36, max_range: 20.0 }), ..apartment(ticks) }
+}
+
+#[test]
+fn what_observers_spawn_and_move_as_the_run_starts_is_met() {
+    let expected = |spawns: bool, removes: bool| {
+        let mut config = seeing(400);
+        config.worlds[0].obstacles.retain(|o| !removes || o.name != "A's bed");
+        let bar = Obstacle::new("bar 1", ObstacleKind::Wall, bar("bar 1", 5.3).pieces);
+        config.worlds[0].obstacles.extend(spawns.then_some(bar));
+        Run::record(config, Seed(2005)).unwrap().frames
+    };
+    for (spawns, removes) in [(true, false), (false, true), (true, true)] {
+        assert!(observed(spawns, removes) == expected(spawns, removes), "{spawns} {removes}");
+    }
+    assert!(expected(true, false) != expected(false, false), "the bar is met");
+    assert!(expected(false, true) != expected(false, false), "the bed is seen");
 }
 
 #[test]
