@@ -6,7 +6,7 @@ use bevy::prelude::*;
 use super::obstacles::change::RefusedChanges;
 use super::obstacles::roster::ObstacleRoster;
 use super::obstacles::watch::watch;
-use super::schedule::{Phase, simulation_schedule};
+use super::schedule::{CrowdSystems, Phase, simulation_schedule};
 use super::tick::crowds::Crowds;
 use super::tick::{crowds, input, sense};
 use super::{
@@ -50,9 +50,9 @@ impl Plugin for SimulationPlugin {
                 SimulationSchedule,
                 (
                     (input::advance_tick, input::apply_inputs).chain().in_set(SimulationSystems::Input),
-                    crowds::begin.in_set(Phase::Begin),
-                    crowds::index.in_set(Phase::Index),
-                    crowds::meet.in_set(Phase::Meet),
+                    crowds::begin.in_set(Phase::Begin).in_set(CrowdSystems),
+                    crowds::index.in_set(Phase::Index).in_set(CrowdSystems),
+                    crowds::meet.in_set(Phase::Meet).in_set(CrowdSystems),
                     sense::sense.in_set(SimulationSystems::Sense),
                     state::record.in_set(Phase::Keep),
                 ),

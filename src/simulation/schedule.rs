@@ -3,6 +3,8 @@
 use bevy::ecs::schedule::{LogLevel, ScheduleBuildSettings, ScheduleLabel, SingleThreadedExecutor};
 use bevy::prelude::*;
 
+use super::tick::crowds::Crowds;
+
 /// One tick of the simulation, whoever runs it: the fixed loop of a window, the recorder, a replay, the step button, a
 /// seek.
 ///
@@ -53,6 +55,10 @@ pub(super) enum Phase {
     Keep,
 }
 
+/// What a tick does only where some world has more than one robot.
+#[derive(SystemSet, Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub(super) struct CrowdSystems;
+
 /// The empty schedule with its sets in order.
 pub(super) fn simulation_schedule() -> Schedule {
     let mut schedule = Schedule::new(SimulationSchedule);
@@ -71,6 +77,7 @@ pub(super) fn simulation_schedule() -> Schedule {
     );
     schedule.configure_sets((Phase::Begin, Phase::Plan, Phase::Index).chain().in_set(SimulationSystems::Step));
     schedule.configure_sets((Phase::Cut, Phase::Meet, Phase::Settle).chain().in_set(SimulationSystems::Collide));
+    schedule.configure_sets(CrowdSystems.run_if(Crowds::are_there));
     schedule.configure_sets((Phase::Encode, Phase::Keep).chain().in_set(SimulationSystems::Record));
     schedule
 }

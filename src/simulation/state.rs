@@ -41,7 +41,8 @@ type Encoded<R> =
 #[derive(Resource, Default)]
 pub(super) struct Taken(usize);
 
-/// Writes the states of the robots of a kind into the frame, in the places of their ids.
+/// Writes the states of the robots of a kind into the frame, in the places of their ids. It runs for crowds; of few
+/// robots [`record`] takes the states itself.
 pub(crate) fn encode<R: SimulatedRobot>(
     mut frame: ResMut<LatestFrame>,
     mut taken: ResMut<Taken>,

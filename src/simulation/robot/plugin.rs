@@ -8,7 +8,7 @@ use bevy::prelude::*;
 use super::spawn::{SpawnRequest, spawn_robot};
 use crate::configuration::{Configuration as _, Kinds, RobotKind};
 use crate::geometry::Footprint;
-use crate::simulation::schedule::{KindSystems, Phase};
+use crate::simulation::schedule::{CrowdSystems, KindSystems, Phase};
 use crate::simulation::state;
 use crate::simulation::tick::{drive, settle};
 use crate::simulation::{RobotOps, SimulatedRobot, SimulationSchedule, SimulationSystems, SpawnError};
@@ -131,7 +131,7 @@ fn install<R: SimulatedRobot>(world: &mut World) {
             drive::plan::<R>.in_set(KindSystems::Plan(number)).in_set(Phase::Plan),
             settle::cut::<R>.in_set(KindSystems::Cut(number)).in_set(Phase::Cut),
             settle::settle::<R>.in_set(KindSystems::Settle(number)).in_set(Phase::Settle),
-            state::encode::<R>.in_set(KindSystems::Encode(number)).in_set(Phase::Encode),
+            state::encode::<R>.in_set(KindSystems::Encode(number)).in_set(Phase::Encode).in_set(CrowdSystems),
         ),
     );
 }

@@ -35,6 +35,11 @@ impl Crowds {
         all
     }
 
+    /// Whether there are any; a run condition.
+    pub(crate) fn are_there(crowds: Res<Crowds>) -> bool {
+        !crowds.crowds.is_empty()
+    }
+
     /// The crowd of a robot; `None` for one that is alone in its world.
     pub fn of(&self, RobotId(id): RobotId) -> Option<&Crowd> {
         self.crowds.get((*self.of.get(id as usize)?)? as usize)

@@ -6,7 +6,7 @@ use super::crowds::{Crowds, stand};
 use super::parallel::each;
 use crate::run::RobotScan;
 use crate::simulation::sensors::roster::RunSensor;
-use crate::simulation::sensors::scanners::Desk;
+use crate::simulation::sensors::scanners::{Desk, Scanners};
 use crate::simulation::{LatestFrame, ResidesIn, RobotId, Scan, SensorRoster, Transport, WorldScene};
 
 /// Scans from where the robots are now, outside a tick.
@@ -18,12 +18,18 @@ pub(crate) fn sense_now(world: &mut World) {
 /// Scans from where the robots are at the end of the tick, into the frame. A sensor sees the obstacles and the other
 /// robots of its world, not its own robot. A noisy sensor's readings are drawn anew for the tick, from its own stream.
 pub(crate) fn sense(world: &mut World) {
+    let Some(mut roster) = world.get_resource_mut::<SensorRoster>() else { return };
+    let mut roster = std::mem::take(&mut *roster);
+    let SensorRoster { sensors, scanners, copies, .. } = &mut roster;
     let mut scans = std::mem::take(&mut world.resource_mut::<LatestFrame>().0.scans);
-    let mut copies = take_copies(world);
-    let now: &World = world;
-    let SensorRoster { sensors, scanners, .. } = now.resource::<SensorRoster>();
     scans.resize_with(sensors.len(), || RobotScan { robot: 0, ranges: Vec::new() });
-    let work = sensors.iter().zip(scans.iter_mut().zip(&mut copies));
+    // the memory of the sensors' components, so that each is filled while its scan is at hand
+    copies.clear();
+    copies.extend(sensors.iter().map(|sensor| {
+        world.get_mut::<Scan>(sensor.entity).map_or_else(Vec::new, |mut scan| std::mem::take(&mut scan.0))
+    }));
+    let (now, scanners): (&World, &Scanners) = (world, scanners);
+    let work = sensors.iter().zip(scans.iter_mut().zip(copies.iter_mut()));
     each(
         work,
         || scanners.desk(),
@@ -32,27 +38,13 @@ pub(crate) fn sense(world: &mut World) {
             copy.clone_from(&kept.ranges);
         },
     );
-    world.resource_scope(|world, mut roster: Mut<SensorRoster>| {
-        for (sensor, copy) in roster.sensors.iter().zip(&mut copies) {
-            if let Some(mut scan) = world.get_mut::<Scan>(sensor.entity) {
-                scan.0 = std::mem::take(copy);
-            }
+    for (sensor, copy) in sensors.iter().zip(copies) {
+        if let Some(mut scan) = world.get_mut::<Scan>(sensor.entity) {
+            scan.0 = std::mem::take(copy);
         }
-        roster.copies = copies;
-    });
+    }
     world.resource_mut::<LatestFrame>().0.scans = scans;
-}
-
-/// Takes the memory of the sensors' components, so that each is filled while its scan is at hand.
-fn take_copies(world: &mut World) -> Vec<Vec<f64>> {
-    world.resource_scope(|world, mut roster: Mut<SensorRoster>| {
-        let mut copies = std::mem::take(&mut roster.copies);
-        copies.clear();
-        copies.extend(roster.sensors.iter().map(|sensor| {
-            world.get_mut::<Scan>(sensor.entity).map_or_else(Vec::new, |mut scan| std::mem::take(&mut scan.0))
-        }));
-        copies
-    })
+    *world.resource_mut::<SensorRoster>() = roster;
 }
 
 /// Runs one sensor's scan, into the memory of its last one. `None` where its robot is gone, which changes nothing.
