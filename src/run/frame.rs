@@ -237,10 +237,10 @@ impl Visit for Words<'_> {
 /// The bytes of a piece, whole words.
 const PIECE: usize = 8192;
 
-/// Takes down the values as words, and passes them on whenever there is no room for another.
+/// Collects the values as words, and passes them on when the room is full.
 struct Pieces<'a, F> {
     room: &'a mut [[u8; 8]],
-    /// The number of words taken down.
+    /// The number of words in `room`.
     count: usize,
     take: F,
 }

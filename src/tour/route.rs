@@ -228,7 +228,7 @@ mod tests {
         lesser(way, round - way)
     }
 
-    /// A robot that does exactly what it is told, from `q` on, for so many ticks: its distances from its reference.
+    /// The distances from its reference of a robot without slip that starts at `q`, tick by tick.
     fn driven(tour: &RouteTour, mut q: Pose2, stiffness: f64, ticks: u64) -> Vec<f64> {
         let dt = 0.05;
         let mut off = Vec::new();

@@ -75,6 +75,7 @@ pub(crate) fn slip(seed: Seed, robot: &str) -> Stream {
     Stream::new(seed, &format!("{robot}/slip"))
 }
 
+/// The routes of a world, at the speeds of a seed.
 pub(crate) fn routes(world: &WorldModel, seed: Seed) -> Result<RouteTours, ConfigError> {
     let refused = |(route, source)| ConfigError::Route { route, world: world.name.clone(), source };
     RouteTours::of_world(world, seed).map_err(refused)

@@ -6,15 +6,15 @@ use crate::collision::{Index, distance};
 use crate::geometry::{Aabb, Footprint, Placed, Point2};
 use crate::num::lesser;
 
-/// How much farther than a tick can bring a robot its surroundings are looked at, metres. It is far above the
-/// clearances at which motions are held, and above all rounding.
+/// How far beyond a robot's reach in a tick its neighbours are still considered, metres. It is far above the clearances
+/// at which motions are held, and above all rounding.
 const APRON: f64 = 1e-3;
 
 /// The robots of a world with more than one, by ascending id.
 ///
-/// A robot takes in a tick no notice of one that it cannot reach: such a robot is farther off at every place of the
-/// motion than what is left of the motion, so no step of a proof fails at it and no clearance near a contact is its. So
-/// what is left out changes no bit of a tick; `tests/crowds.rs` compares.
+/// In a tick a robot considers only neighbours that it can reach. Any other is farther away, at every place of the
+/// motion, than the rest of the motion is long. So no step of a proof fails because of it, and near a contact it is never
+/// the nearest. Leaving it out changes no bit of a tick, as `tick/tests.rs` checks.
 #[derive(Default)]
 pub struct Crowd {
     /// The id of the first robot.

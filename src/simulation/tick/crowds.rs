@@ -20,7 +20,7 @@ pub struct Crowds {
 }
 
 impl Crowds {
-    /// The crowds of a run whose worlds have so many robots each.
+    /// The crowds of a run, by the number of robots in each of its worlds.
     pub fn new(robots: impl IntoIterator<Item = usize>) -> Self {
         let mut all = Crowds::default();
         for count in robots {
