@@ -13,8 +13,8 @@ const APRON: f64 = 1e-3;
 /// The robots of a world with more than one, by ascending id.
 ///
 /// In a tick a robot considers only neighbours that it can reach. Any other is farther away, at every place of the
-/// motion, than the rest of the motion is long. So no step of a proof fails because of it, and near a contact it is never
-/// the nearest. Leaving it out changes no bit of a tick, as `tick/tests.rs` checks.
+/// motion, than the rest of the motion is long. So no step of a proof fails because of it, and near a contact it is
+/// never the nearest. Leaving it out changes no bit of a tick, as `tick/tests.rs` checks.
 #[derive(Default)]
 pub struct Crowd {
     /// The id of the first robot.
