@@ -4,6 +4,7 @@ use std::io::Write;
 
 use super::digest_encoder::DigestEncoder;
 use super::preamble::Preamble;
+use super::sealed_output::SealedOutput;
 use super::{DigestLog, LogError};
 use crate::random::Seed;
 use crate::run::{Digest, Frame, RunDigest, Script};
@@ -32,9 +33,8 @@ use crate::tour::TourConfig;
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub struct DigestLogWriter<W: Write> {
-    out: W,
+    out: SealedOutput<W>,
     encoder: DigestEncoder,
-    failed: bool,
 }
 
 impl<W: Write> DigestLogWriter<W> {
@@ -44,7 +44,7 @@ impl<W: Write> DigestLogWriter<W> {
     /// [`LogError`] if the settings or the script are not valid for a run, or the output fails.
     pub fn new(out: W, seed: Seed, config: &TourConfig, script: &Script, run: &RunDigest) -> Result<Self, LogError> {
         let encoder = DigestEncoder::begin(Preamble::of_digests(seed, config, script)?, DigestLog::kept(run.digest()))?;
-        let mut writer = DigestLogWriter { out, encoder, failed: false };
+        let mut writer = DigestLogWriter { out: SealedOutput::new(out), encoder };
         writer.write_piece()?;
         Ok(writer)
     }
@@ -76,7 +76,7 @@ impl<W: Write> DigestLogWriter<W> {
     /// [`LogError::Incomplete`] before the last configured tick; any other [`LogError`] if the output fails.
     pub fn finish(mut self, run: Digest) -> Result<W, LogError> {
         self.end(run)?;
-        Ok(self.out)
+        Ok(self.out.into_inner())
     }
 
     /// As [`finish`](Self::finish), but keeps the output if that fails. What was sealed before stays sealed.
@@ -99,7 +99,7 @@ impl<W: Write> DigestLogWriter<W> {
 
     /// Returns the output without writing an end.
     pub fn into_inner(self) -> W {
-        self.out
+        self.out.into_inner()
     }
 
     /// Number of ticks taken.
@@ -113,12 +113,6 @@ impl<W: Write> DigestLogWriter<W> {
     }
 
     fn write_piece(&mut self) -> Result<(), LogError> {
-        if self.failed {
-            return Err(std::io::Error::other("an earlier write failed").into());
-        }
-        self.failed = true;
-        self.out.write_all(self.encoder.piece())?;
-        self.failed = false;
-        Ok(())
+        Ok(self.out.put(self.encoder.piece())?)
     }
 }

@@ -36,6 +36,7 @@ mod read_log;
 mod reader;
 mod record;
 mod record_writer;
+mod sealed_output;
 #[cfg(test)]
 mod tests;
 mod writer;

@@ -4,6 +4,7 @@ use std::io::Write;
 
 use super::encoder::Encoder;
 use super::preamble::Preamble;
+use super::sealed_output::SealedOutput;
 use super::{LogError, ReadLog};
 use crate::random::Seed;
 use crate::run::{Digest, Frame, Log, Script};
@@ -14,9 +15,8 @@ use crate::tour::TourConfig;
 ///
 /// Each piece is one `write_all`. After a failed write nothing more is written.
 pub struct LogWriter<W: Write> {
-    out: W,
+    out: SealedOutput<W>,
     encoder: Encoder,
-    failed: bool,
 }
 
 impl<W: Write> LogWriter<W> {
@@ -26,7 +26,7 @@ impl<W: Write> LogWriter<W> {
     /// [`LogError`] if the settings, the script or the initial frame are not valid for a run, or the output fails.
     pub fn new(out: W, seed: Seed, config: &TourConfig, script: &Script, initial: &Frame) -> Result<Self, LogError> {
         let encoder = Encoder::begin(Preamble::new(seed, config, script, initial)?)?;
-        let mut writer = LogWriter { out, encoder, failed: false };
+        let mut writer = LogWriter { out: SealedOutput::new(out), encoder };
         writer.write_piece()?;
         Ok(writer)
     }
@@ -41,7 +41,7 @@ impl<W: Write> LogWriter<W> {
         for frame in &read.log.frames {
             encoder.tick(frame)?;
         }
-        Ok(LogWriter { out, encoder, failed: false })
+        Ok(LogWriter { out: SealedOutput::new(out), encoder })
     }
 
     /// Writes the next tick with its seal. Returns the frame's digest.
@@ -61,7 +61,7 @@ impl<W: Write> LogWriter<W> {
     /// [`LogError::Incomplete`] before the last configured tick; any other [`LogError`] if the output fails.
     pub fn finish(mut self) -> Result<W, LogError> {
         self.end()?;
-        Ok(self.out)
+        Ok(self.out.into_inner())
     }
 
     /// Writes the end and flushes the output, as [`finish`](Self::finish) does, but keeps the output if that fails.
@@ -85,7 +85,7 @@ impl<W: Write> LogWriter<W> {
 
     /// Returns the output without writing an end. The log can be resumed.
     pub fn into_inner(self) -> W {
-        self.out
+        self.out.into_inner()
     }
 
     /// Number of ticks written.
@@ -99,13 +99,7 @@ impl<W: Write> LogWriter<W> {
     }
 
     fn write_piece(&mut self) -> Result<(), LogError> {
-        if self.failed {
-            return Err(std::io::Error::other("an earlier write failed").into());
-        }
-        self.failed = true;
-        self.out.write_all(self.encoder.piece())?;
-        self.failed = false;
-        Ok(())
+        Ok(self.out.put(self.encoder.piece())?)
     }
 }
 
