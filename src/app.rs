@@ -1,8 +1,10 @@
 //! The lab in a window: the session, a camera, and egui painting what is in front.
 
+mod aside;
 #[cfg(feature = "window")]
 mod capture;
 mod captured;
+mod crowds;
 #[cfg(feature = "window")]
 mod dialogs;
 mod error;
@@ -31,17 +33,22 @@ use bevy_egui::{EguiContext, EguiGlobalSettings, EguiPlugin, EguiPrimaryContextP
 
 pub(crate) use session::SessionPlugin;
 #[cfg(feature = "window")]
-pub use window::{WindowError, run_window, run_window_with};
+pub use window::{WindowError, open_log_in_window, open_world_in_window, run_window, run_window_with};
 
 use crate::picture::Theme;
 use crate::simulation::History;
 use crate::ui::{self, SessionCommand};
+use aside::Aside;
+#[cfg(all(target_family = "wasm", feature = "web"))]
+pub(crate) use aside::seek_aside;
 #[cfg(all(target_family = "wasm", feature = "web"))]
 pub(crate) use captured::captured;
 #[cfg(all(target_family = "wasm", feature = "web"))]
 pub(crate) use error::SessionError;
 #[cfg(all(target_family = "wasm", feature = "web"))]
-pub(crate) use runs::{log_up_to, open_log, open_world_text, recorded, shown_run};
+pub(crate) use pace::limit;
+#[cfg(all(target_family = "wasm", feature = "web"))]
+pub(crate) use runs::{log_up_to, open_log, open_world_text, recorded, save, shown_run};
 use session::carry_out;
 #[cfg(all(target_family = "wasm", feature = "web"))]
 pub(crate) use session::new_run;
@@ -106,10 +113,11 @@ fn system_theme(windows: Query<&Window, Changed<Window>>, mut interface: ResMut<
     }
 }
 
-/// Draws frame after frame while the run plays. Paused, the window sleeps until something happens, a second at most.
-fn wake(shown: Res<Shown>, mut settings: ResMut<WinitSettings>) {
+/// Draws frame after frame while the run plays or work goes on. Else the window sleeps until something happens, a second at most.
+fn wake(shown: Res<Shown>, aside: Res<Aside>, mut settings: ResMut<WinitSettings>) {
     let idle = std::time::Duration::from_secs(1);
-    let mode = if shown.0.playing { UpdateMode::Continuous } else { UpdateMode::reactive(idle) };
+    let mode =
+        if shown.0.playing || aside.is_under_way() { UpdateMode::Continuous } else { UpdateMode::reactive(idle) };
     if settings.focused_mode != mode {
         *settings = WinitSettings { focused_mode: mode, unfocused_mode: mode };
     }

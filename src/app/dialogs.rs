@@ -114,11 +114,13 @@ pub fn dropped(world: &mut World) {
         world.resource_mut::<Dialogs>().hovered = hovered;
         if let FileDragAndDrop::DroppedFile { path_buf, .. } = event {
             let notice = if path_buf.extension().is_some_and(|e| e == WORLD) {
-                open_world(world, &path_buf)
+                Some(open_world(world, &path_buf))
             } else {
                 open_run(world, &path_buf)
             };
-            world.resource_mut::<Interface>().0.notice = Some(notice);
+            if notice.is_some() {
+                world.resource_mut::<Interface>().0.notice = notice;
+            }
         }
     }
 }
@@ -139,7 +141,7 @@ pub fn show(world: &mut World, ctx: &egui::Context) {
         capture(world, &order, &path);
         ctx.request_repaint();
     }
-    let of_run = run.map(|(save, path)| if save { save_run(world, &path) } else { open_run(world, &path) });
+    let of_run = run.and_then(|(save, path)| if save { save_run(world, &path) } else { open_run(world, &path) });
     let of_world = model.map(|(save, path)| if save { save_world(world, &path) } else { open_world(world, &path) });
     if let Some(notice) = of_run.or(of_world) {
         world.resource_mut::<Interface>().0.notice = Some(notice);

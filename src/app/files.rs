@@ -6,7 +6,7 @@ use std::path::Path;
 use bevy::ecs::world::World;
 
 use super::error::SessionError;
-use super::runs::{open_log, open_world_text, recorded};
+use super::runs::{open_log, open_world_text, save};
 use super::session::Interface;
 use crate::output::write_file;
 use crate::ui::Notice;
@@ -18,31 +18,27 @@ const MOST_BYTES: u64 = 1 << 30;
 const MOST_WORLD: u64 = 32 << 20;
 
 /// Saves the run as far as it has come: its log, recorded from seed, configuration and script, whole or not at all.
-pub fn save_run(world: &World, path: &Path) -> Notice {
-    match save(world, path) {
-        Ok(text) => Notice { text, is_error: false },
-        Err(error) => Notice { text: format!("{}: not saved: {error}", path.display()), is_error: true },
-    }
-}
-
-fn save(world: &World, path: &Path) -> Result<String, SessionError> {
-    let (log, bytes) = recorded(world)?;
-    write_file(path, &bytes)?;
-    Ok(format!("{}: saved, {} ticks, digest {}", name(path), log.frames.len(), log.digest()))
+/// Returns what came of it; nothing yet where it takes long and goes on aside.
+pub fn save_run(world: &mut World, path: &Path) -> Option<Notice> {
+    let to = path.to_owned();
+    let write = move |bytes: &[u8], words: String| {
+        write_file(&to, bytes)?;
+        Ok(Notice { text: format!("{}: {words}", name(&to)), is_error: false })
+    };
+    let refused = |error| Notice { text: format!("{}: not saved: {error}", path.display()), is_error: true };
+    save(world, Box::new(write)).unwrap_or_else(|error| Some(refused(error)))
 }
 
 /// Opens a run in place of the present one: simulates it again from its seed and script and compares every frame.
 ///
 /// The run is shown paused, at its start or at the first tick that differs. Where the file can't be read, the present
-/// run stays.
-pub fn open_run(world: &mut World, path: &Path) -> Notice {
-    match open(world, path) {
-        Ok(notice) => notice,
-        Err(error) => Notice { text: format!("{}: not opened: {error}", path.display()), is_error: true },
-    }
+/// run stays. Returns what came of it; nothing yet where it takes long and goes on aside.
+pub fn open_run(world: &mut World, path: &Path) -> Option<Notice> {
+    let refused = |error| Notice { text: format!("{}: not opened: {error}", path.display()), is_error: true };
+    open(world, path).unwrap_or_else(|error| Some(refused(error)))
 }
 
-fn open(world: &mut World, path: &Path) -> Result<Notice, SessionError> {
+fn open(world: &mut World, path: &Path) -> Result<Option<Notice>, SessionError> {
     let length = fs::metadata(path)?.len();
     if length > MOST_BYTES {
         return Err(SessionError::TooLarge { found: length, most: MOST_BYTES });

@@ -7,10 +7,19 @@ use bevy::platform::time::Instant;
 use bevy::prelude::*;
 
 use crate::run::DT;
-use crate::simulation::{Playback, Transport, play_tick};
+use crate::simulation::{LatestFrame, Playback, Transport, play_tick};
 
 /// Time that each frame gives to ticks when the run plays as fast as possible.
 const BUDGET: Duration = Duration::from_millis(12);
+
+/// Time of a frame that the ticks of many robots may take, unless one tick takes more.
+const TICKS_BUDGET: Duration = Duration::from_millis(30);
+
+/// Largest number of robots whose ticks are not limited.
+const MANY: usize = 100;
+
+/// Longest time that a frame lets pass, as Bevy has it.
+const MOST_DELTA: Duration = Duration::from_millis(250);
 
 /// Length of the measurement, seconds of the clock.
 const WINDOW: f64 = 1.5;
@@ -24,6 +33,10 @@ pub struct Pace {
     /// Seconds of the clock, and ticks, of the last frames.
     frames: VecDeque<(f64, u64)>,
     last: Option<(u64, f64)>,
+    /// Where the fixed loop of this frame began: when, and at which tick.
+    began: Option<(Instant, u64)>,
+    /// Seconds of the clock that a tick takes, smoothed; `None` before the first.
+    tick_seconds: Option<f64>,
 }
 
 impl Pace {
@@ -47,6 +60,14 @@ impl Pace {
 
     fn seconds(&self) -> f64 {
         self.frames.iter().map(|f| f.0).sum()
+    }
+
+    /// Longest time that the next frame may let pass, so that the ticks of a run of many robots leave room for drawing.
+    /// The run then falls behind its speed, and the window says so.
+    pub fn most_delta(&self, robots: usize, speed: f64) -> Duration {
+        let Some(tick) = self.tick_seconds.filter(|_| robots > MANY && speed.is_finite()) else { return MOST_DELTA };
+        let ticks = (TICKS_BUDGET.as_secs_f64() / tick).floor().clamp(1.0, 1e6);
+        MOST_DELTA.min(Duration::try_from_secs_f64(ticks * DT / speed).unwrap_or(MOST_DELTA))
     }
 
     /// Simulated seconds per second of the clock; `None` before enough is known.
@@ -88,6 +109,28 @@ pub fn play_flat_out(world: &mut World) {
     }
 }
 
+/// Lets no more time pass in this frame than its ticks may take.
+pub fn limit(world: &mut World) {
+    let robots = world.resource::<LatestFrame>().0.robots.len();
+    let most = world.resource::<Pace>().most_delta(robots, world.resource::<Transport>().speed);
+    world.resource_mut::<Time<Virtual>>().set_max_delta(most);
+}
+
+/// Notes where the fixed loop begins.
+pub fn begin_ticks(mut pace: ResMut<Pace>, transport: Res<Transport>) {
+    pace.began = Some((Instant::now(), transport.tick));
+}
+
+/// Measures what a tick took.
+pub fn end_ticks(mut pace: ResMut<Pace>, transport: Res<Transport>) {
+    let Some((began, tick)) = pace.began.take() else { return };
+    let ticks = transport.tick.saturating_sub(tick);
+    if ticks > 0 && transport.speed.is_finite() {
+        let took = began.elapsed().as_secs_f64() / ticks as f64;
+        pace.tick_seconds = Some(pace.tick_seconds.map_or(took, |before| before + 0.3 * (took - before)));
+    }
+}
+
 /// Measures the frame.
 pub fn measure(world: &mut World) {
     let seconds = world.resource::<Time<Real>>().delta_secs_f64();
@@ -125,6 +168,21 @@ mod tests {
         assert_eq!(said(1.0, 0.5, 5.0).as_deref(), Some("slower than real time: 0.5 x"));
         assert_eq!(said(64.0, 0.1, 82.0).as_deref(), Some("slower than asked: 41 x"));
         assert_eq!(said(f64::INFINITY, 0.02, 40.0).as_deref(), Some("100 x"));
+    }
+
+    #[test]
+    fn the_ticks_of_many_robots_leave_room_for_drawing() {
+        let pace = |seconds| Pace { tick_seconds: Some(seconds), ..Pace::default() };
+        let millis = |pace: &Pace, robots, speed| pace.most_delta(robots, speed).as_millis();
+        // a tick of 45 ms: one a frame, which is 50 ms of the clock at normal speed and 12.5 ms at four times it
+        assert_eq!(millis(&pace(0.045), 10_000, 1.0), 50);
+        assert_eq!(millis(&pace(0.045), 10_000, 4.0), 12);
+        // one of 7 ms: four fit into 30 ms
+        assert_eq!(millis(&pace(0.007), 1_000, 1.0), 200);
+        assert_eq!(millis(&pace(0.007), 1_000, 8.0), 25);
+        // what is quick, few, or not yet measured, is not limited
+        assert_eq!([millis(&pace(0.001), 1_000, 1.0), millis(&pace(0.045), 3, 1.0)], [250, 250]);
+        assert_eq!(millis(&Pace::default(), 10_000, 1.0), 250);
     }
 
     #[test]

@@ -2,15 +2,14 @@
 
 use bevy::ecs::world::World;
 
+use super::aside::{self, Check, Done, Recorded};
 use super::error::SessionError;
 use super::session::Interface;
 use crate::atlas::Editor;
 use crate::random::Seed;
 use crate::recording::{Run, RunError};
-use crate::run::{Comparison, Log, LogError, ReadLog, Script};
-use crate::simulation::{
-    LatestFrame, PendingInput, Playback, RobotKinds, RunConfig, Transport, checkpoint, seek, start_run,
-};
+use crate::run::{DigestLog, Log, LogError, MOST_ROBOTS_IN_FULL, ReadLog, RunDigest, Script};
+use crate::simulation::{LatestFrame, PendingInput, Playback, RobotKinds, RunConfig, Transport, checkpoint, start_run};
 use crate::tour::TourConfig;
 use crate::ui::{AtlasState, Notice, Widget};
 
@@ -59,47 +58,78 @@ pub fn recorded(world: &World) -> Result<(Log, Vec<u8>), SessionError> {
     Ok((log, bytes))
 }
 
-/// Opens a log in place of the present run: simulates it again from its seed and script and compares every frame.
+/// Saves the run as far as it has come, as a log whose bytes `done` takes: with its frames up to 100 robots, with a
+/// digest of each second above. Returns what came of it; nothing yet where it takes long and goes on aside.
+pub fn save(world: &mut World, done: Done) -> Result<Option<Notice>, SessionError> {
+    aside::stop(world);
+    let Transport { frontier, .. } = *world.resource::<Transport>();
+    if world.resource::<LatestFrame>().0.robots.len() > MOST_ROBOTS_IN_FULL && frontier > 0 {
+        let save = aside::Save::begin(shown_run(world, frontier), done)?;
+        return aside::save(world, save);
+    }
+    let (log, bytes) = recorded(world)?;
+    done(&bytes, format!("saved, {} ticks, digest {}", log.frames.len(), log.digest())).map(Some)
+}
+
+/// Opens a log in place of the present run: simulates it again from its seed and script and compares every frame, or
+/// the digest of every second.
 ///
 /// The run is shown paused, at its start or at the first tick that differs. Where the log can't be read, the present
-/// run stays.
-pub fn open_log(world: &mut World, name: &str, bytes: &[u8]) -> Result<Notice, SessionError> {
-    let (log, damage) = match Log::read_mcap(bytes) {
-        Ok(ReadLog { log, .. }) => (log, None),
-        Err(LogError::Damaged(mut damaged)) => {
-            // said before the recovered part is taken out: the message names it
-            let message = damaged.to_string();
-            match damaged.recovered.take() {
-                Some(read) => (read.log, Some(message)),
-                None => return Err(LogError::Damaged(damaged).into()),
-            }
-        }
-        Err(error) => return Err(error.into()),
-    };
+/// run stays. Returns what came of it; nothing yet where it takes long and goes on aside.
+pub fn open_log(world: &mut World, name: &str, bytes: &[u8]) -> Result<Option<Notice>, SessionError> {
+    let (log, damage) = read_log(bytes)?;
+    aside::stop(world);
     checkpoint(world);
     let speed = world.resource::<Transport>().speed;
-    start_run(world, log.config.clone(), (log.seed, log.script.clone()))?;
-    let mut comparison = Comparison::with(&log);
-    comparison.frame(&world.resource::<LatestFrame>().0);
-    for _ in &log.frames {
-        // a seek, so that observers of contacts hear nothing of the comparison
-        let next = world.resource::<Transport>().tick + 1;
-        seek(world, next)?;
-        comparison.frame(&world.resource::<LatestFrame>().0);
-    }
-    let divergence = comparison.divergence();
-    let tick = divergence.map_or(0, |d| d.tick);
-    seek(world, tick)?;
+    let (seed, config, script) = match &log {
+        EitherLog::Frames(log) => (log.seed, &log.config, &log.script),
+        EitherLog::Digests(log) => (log.seed, &log.config, &log.script),
+    };
+    start_run(world, config.clone(), (seed, script.clone()))?;
     let mut transport = world.resource_mut::<Transport>();
     (transport.playback, transport.speed) = (Playback::Paused, speed);
-    let mut text = match divergence {
-        None => format!("{name}: bit-identical, {} of {}", comparison.identical(), log.config.ticks),
-        Some(divergence) => format!("{name}: {divergence}"),
+    let recorded = match log {
+        EitherLog::Frames(log) => Recorded::Frames(log, None),
+        EitherLog::Digests(log) => {
+            let digest = RunDigest::new(seed, &log.config, &log.script, &world.resource::<LatestFrame>().0);
+            Recorded::Digests(log, Box::new(digest), None)
+        }
     };
-    if let Some(damage) = &damage {
-        text += &format!(" (its sealed beginning: {damage})");
+    let check = Check::begin(world, name, recorded, damage);
+    aside::check(world, check)
+}
+
+/// A log of either kind.
+enum EitherLog {
+    Frames(Box<Log>),
+    Digests(Box<DigestLog>),
+}
+
+/// The log in these bytes, or its sealed beginning and words on the damage.
+fn read_log(bytes: &[u8]) -> Result<(EitherLog, Option<String>), LogError> {
+    let frames = |log| EitherLog::Frames(Box::new(log));
+    let digests = |log| EitherLog::Digests(Box::new(log));
+    let error = match Log::read_mcap(bytes) {
+        Ok(ReadLog { log, .. }) => return Ok((frames(log), None)),
+        Err(LogError::NoFrames) => match DigestLog::read_mcap(bytes) {
+            Ok(read) => return Ok((digests(read.log), None)),
+            Err(error) => error,
+        },
+        Err(error) => error,
+    };
+    // said before the recovered part is taken out: the message names it
+    let message = Some(error.to_string());
+    match error {
+        LogError::Damaged(mut damaged) => match damaged.recovered.take() {
+            Some(read) => Ok((frames(read.log), message)),
+            None => Err(LogError::Damaged(damaged)),
+        },
+        LogError::DamagedDigests(mut damaged) => match damaged.recovered.take() {
+            Some(read) => Ok((digests(read.log), message)),
+            None => Err(LogError::DamagedDigests(damaged)),
+        },
+        error => Err(error),
     }
-    Ok(Notice { text, is_error: divergence.is_some() || damage.is_some() })
 }
 
 /// Opens a world file's text in the atlas. Where it is refused, the present one stays.

@@ -2,10 +2,14 @@
 
 use std::sync::Arc;
 
+use bevy::app::{RunFixedMainLoop, RunFixedMainLoopSystems};
 use bevy::prelude::*;
+use bevy::time::TimeSystems;
 
+use super::aside::{self, Aside};
+use super::crowds::{Crowds, crowd, update_crowds};
 use super::error::SessionError;
-use super::pace::{Pace, measure, play_flat_out};
+use super::pace::{Pace, begin_ticks, end_ticks, limit, measure, play_flat_out};
 use super::put_robot::put_robot;
 use crate::atlas::Atlas;
 use crate::configuration::{Configuration as _, Coordinates, HitchCfg, RobotKind, Sizes};
@@ -14,9 +18,9 @@ use crate::picture::{Picture, world as picture_of};
 use crate::robots::{AnyRobot, Robot};
 use crate::run::{Event, RobotInput};
 use crate::simulation::{
-    CommandRefused, History, HistoryPlugin, PendingInput, Playback, RobotKinds, RobotView, Roster, RunConfig, RunInput,
-    SensorRefused, SimulationPlugin, StandingWorld, Transport, Undo, WorldScene, checkpoint, sensors, start_run,
-    take_sensors_at_start, view,
+    CommandRefused, History, HistoryPlugin, PendingInput, Playback, RobotKinds, RobotView, Roster, RunCommand,
+    RunConfig, RunInput, SensorRefused, SimulationPlugin, StandingWorld, Transport, Undo, WorldScene, checkpoint,
+    sensors_of, start_run, take_sensors_at_start, view_of,
 };
 use crate::tour::{BOOK_SEED, TourConfig};
 use crate::ui::{Cockpit, CockpitRobot, Command, Dashboard, Notice, SessionCommand, UiState, Widget, blend};
@@ -33,6 +37,8 @@ impl Plugin for SessionPlugin {
         app.add_plugins((SimulationPlugin, HistoryPlugin))
             .init_resource::<Interface>()
             .init_resource::<Worlds>()
+            .init_resource::<Crowds>()
+            .init_resource::<Aside>()
             .init_resource::<Pace>()
             .insert_resource(Shown(Dashboard {
                 cockpits: Vec::new(),
@@ -48,7 +54,10 @@ impl Plugin for SessionPlugin {
                 can_redo: false,
             }))
             .add_systems(Startup, start)
-            .add_systems(Update, (play_flat_out, measure, note_refusals, gather).chain());
+            .add_systems(First, limit.before(TimeSystems))
+            .add_systems(RunFixedMainLoop, begin_ticks.in_set(RunFixedMainLoopSystems::BeforeFixedMainLoop))
+            .add_systems(RunFixedMainLoop, end_ticks.in_set(RunFixedMainLoopSystems::AfterFixedMainLoop))
+            .add_systems(Update, (aside::go_on, play_flat_out, measure, note_refusals, gather).chain());
     }
 }
 
@@ -65,6 +74,8 @@ struct DrawnWorld {
     standing: Arc<WorldModel>,
     picture: Arc<Picture>,
     atlas: Arc<Atlas>,
+    /// The number of its robots.
+    robots: u32,
 }
 
 impl DrawnWorld {
@@ -72,7 +83,7 @@ impl DrawnWorld {
         // the run's robots move, so only still things are named
         let still = WorldModel { robots: vec![], ..WorldModel::clone(standing) };
         let (picture, atlas) = (Arc::new(picture_of(standing)), Arc::new(Atlas::new(still)));
-        DrawnWorld { standing: Arc::clone(standing), picture, atlas }
+        DrawnWorld { standing: Arc::clone(standing), picture, atlas, robots: standing.robots.len() as u32 }
     }
 }
 
@@ -127,20 +138,23 @@ pub fn gather(world: &mut World) {
     // while it plays, the view is one tick behind and moves smoothly; paused or as fast as possible, it shows the tick
     let smooth = playing && speed.is_finite();
     let between = if smooth { world.resource::<Time<Fixed>>().overstep_fraction_f64() } else { 1.0 };
-    let mut sees = sensors(world).into_iter().peekable();
-    let mut robots: Vec<(u32, CockpitRobot)> = Vec::new();
-    for robot in view(world) {
-        let sees = std::iter::from_fn(|| sees.next_if(|sensor| sensor.robot == robot.id)).collect();
-        robots.push((robot.world, CockpitRobot { sees, ..shown(world, &robot, between) }));
+    let picked = world.resource::<Interface>().0.crowd.picked.as_ref().map(|p| p.id);
+    update_crowds(world);
+    let mut first = 0;
+    let mut cockpits = Vec::new();
+    for (number, drawn) in world.resource::<Worlds>().0.iter().enumerate() {
+        let ids = first..first + drawn.robots;
+        first = ids.end;
+        let crowd = crowd(world, number, between);
+        let is_shown = |id: &u32| crowd.is_none() || picked == Some(*id);
+        let robots =
+            ids.filter(is_shown).filter_map(|id| view_of(world, id)).map(|robot| shown(world, &robot, between));
+        let robots = robots.collect();
+        cockpits.push(Cockpit { world: Arc::clone(&drawn.picture), atlas: Arc::clone(&drawn.atlas), robots, crowd });
     }
-    let cockpits = world.resource::<Worlds>().0.iter().zip(0..).map(|(drawn, number)| Cockpit {
-        world: Arc::clone(&drawn.picture),
-        atlas: Arc::clone(&drawn.atlas),
-        robots: robots.iter().filter(|(w, _)| *w == number).map(|(_, r)| r.clone()).collect(),
-    });
     let (undo, history) = (world.resource::<Undo>(), world.resource::<History>());
     let dashboard = Dashboard {
-        cockpits: cockpits.collect(),
+        cockpits,
         seed,
         tick,
         frontier,
@@ -164,6 +178,7 @@ fn shown(world: &World, robot: &RobotView, between: f64) -> CockpitRobot {
     };
     let trail = world.resource::<History>().at(tick, robot.id);
     CockpitRobot {
+        id: robot.id,
         name: robot.name.clone(),
         kind: robot.kind.clone(),
         about: robot.about,
@@ -182,7 +197,7 @@ fn shown(world: &World, robot: &RobotView, between: f64) -> CockpitRobot {
         drivable: !is_arm,
         is_arm,
         trailer: (robot.kind == RobotKind::HITCH.name).then_some(robot.coordinates.len() == 4),
-        sees: Vec::new(),
+        sees: sensors_of(world, robot.id),
         tip: robot.tip,
         reversals: trail.map_or(0, |t| t.reversals),
         no_room: pose
@@ -226,7 +241,12 @@ fn target(world: &World, robot: &RobotView) -> Option<Coordinates> {
 pub fn carry_out(world: &mut World, commands: Vec<Command>) {
     for command in commands {
         match command {
-            Command::Run(command) => _ = world.write_message(command),
+            Command::Run(RunCommand::Transport(command)) if aside::seek_aside(world, &command) => {}
+            Command::Run(command) => {
+                // what else is asked of the run ends the work under way
+                aside::stop(world);
+                world.write_message(command);
+            }
             Command::Session(SessionCommand::Links { robot, links }) => {
                 if let Err(error) = change_links(world, &robot, links) {
                     let notice = Notice { text: error.to_string(), is_error: true };
@@ -279,6 +299,7 @@ fn change_links(world: &mut World, robot: &str, links: usize) -> Result<(), Sess
 
 /// Starts a new run in place of the present one, which an undo brings back. Playback, speed and looping stay.
 pub fn new_run(world: &mut World, config: TourConfig, input: impl Into<RunInput>) -> Result<(), SessionError> {
+    aside::stop(world);
     checkpoint(world);
     let Transport { playback, speed, looping, .. } = *world.resource::<Transport>();
     start_run(world, config, input)?;

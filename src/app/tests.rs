@@ -4,6 +4,7 @@ mod anatomy;
 mod arm;
 mod atlas;
 mod capture;
+mod crowd;
 mod cspace;
 mod doors;
 mod drive;

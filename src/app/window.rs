@@ -3,10 +3,18 @@
 use std::any::Any;
 use std::ffi::OsString;
 use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind, set_hook, take_hook};
+use std::path::PathBuf;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use bevy::prelude::*;
+
+use super::files::open_run;
+use super::session::Interface;
+use crate::simulation::{Playback, Transport, start_run};
+use crate::tour::{BOOK_SEED, TourConfig};
+use crate::ui::Notice;
+use crate::worlds::World as WorldModel;
 
 /// Why there is no window. Each prints as one line; where no window opened, the line names the command that needs none.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -63,6 +71,40 @@ pub fn run_window_with(add: impl FnOnce(&mut App)) -> Result<(), WindowError> {
         Err(panic) if opened.load(Ordering::Relaxed) => resume_unwind(panic),
         Err(panic) => Err(WindowError::NotOpened(first_sentence(panic.as_ref()))),
     }
+}
+
+/// [`run_window`] with a run of this world, from the book's seed, in place of the three worlds' tour.
+///
+/// # Errors
+/// As [`run_window`].
+pub fn open_world_in_window(model: WorldModel) -> Result<(), WindowError> {
+    open_with(move |world| {
+        let config = TourConfig { worlds: vec![model], ..TourConfig::default() };
+        let started = start_run(world, config, BOOK_SEED);
+        world.resource_mut::<Transport>().playback = Playback::Playing;
+        Some(Notice { text: format!("the world does not run: {}", started.err()?), is_error: true })
+    })
+}
+
+/// [`run_window`] with a recorded run: it is simulated again and compared with what was recorded, and shown paused. The
+/// window says what came of it, also where the file can't be read.
+///
+/// # Errors
+/// As [`run_window`].
+pub fn open_log_in_window(path: PathBuf) -> Result<(), WindowError> {
+    open_with(move |world| open_run(world, &path))
+}
+
+/// Opens the window with what `open` opens, and with the notice that comes of it.
+fn open_with(open: impl FnOnce(&mut World) -> Option<Notice> + Send + Sync + 'static) -> Result<(), WindowError> {
+    run_window_with(move |app| {
+        let mut open = Some(open);
+        let once = move |world: &mut World| {
+            let notice = open.take().and_then(|open| open(world));
+            world.resource_mut::<Interface>().0.notice = notice;
+        };
+        app.add_systems(PostStartup, once);
+    })
 }
 
 /// Checks that there is a display. On Linux one of two variables must name it; other systems always have one.

@@ -8,6 +8,8 @@ pub use support::end::{Failure, Outcome};
 
 use clap::{Parser, Subcommand};
 
+#[cfg(feature = "window")]
+use commands::open;
 use commands::{
     bare, capture, completions, describe, diff, export, grade, info, query, record, replay, script, verify, world,
 };
@@ -53,6 +55,8 @@ enum Command {
     Man(completions::ManPages),
     Grade(grade::GradeArgs),
     Describe(describe::Describe),
+    #[cfg(feature = "window")]
+    Open(open::Open),
 }
 
 impl Cli {
@@ -73,6 +77,8 @@ impl Cli {
             Some(Command::Man(man)) => man.run(data),
             Some(Command::Grade(grade)) => grade.run(data),
             Some(Command::Describe(describe)) => describe.run(data),
+            #[cfg(feature = "window")]
+            Some(Command::Open(open)) => open.run(),
             None => bare::bare(data),
         }
     }

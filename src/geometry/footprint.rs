@@ -2,7 +2,7 @@
 
 use smallvec::SmallVec;
 
-use super::{Placed, Point2, Pose2, Segment, Shape, ShapeError, SinCos};
+use super::{Aabb, Placed, Point2, Pose2, Segment, Shape, ShapeError, SinCos};
 use crate::num;
 
 /// One rigid part of a footprint: a shape, the pose of its frame, and the shape placed there.
@@ -92,6 +92,11 @@ impl Footprint {
     /// One rectangle per item, given by its frame and its corners (least, greatest) in that frame.
     pub fn rects(rects: impl IntoIterator<Item = (Pose2, Point2, Point2)>) -> Self {
         Self::new(rects.into_iter().map(|(pose, min, max)| Part::new(pose, Shape::Rectangle { min, max })))
+    }
+
+    /// The smallest box around all parts, metres; `None` without parts.
+    pub fn bounds(&self) -> Option<Aabb> {
+        self.parts.iter().map(|part| part.placed().bounds()).reduce(|a, b| a.merged(&b))
     }
 
     /// As [`disc`](Self::disc), checked.

@@ -37,6 +37,29 @@ impl Fit {
         }
     }
 
+    /// The same rectangle of the screen with `centre`, a point of the world, in its middle, at `zoom` times the scale.
+    #[must_use]
+    pub fn magnified(self, centre: Point2, zoom: f64) -> Self {
+        Fit { px_per_metre: self.px_per_metre * zoom, centre, ..self }
+    }
+
+    /// Moved by half a pixel at most in x and in y, so that the world's origin lies on a corner between pixels, of which
+    /// `scale` make a unit of the screen.
+    #[must_use]
+    pub fn on_pixels(self, scale: f64) -> Self {
+        let origin = self.screen_from_world(Point2::origin());
+        let [dx, dy] = origin.map(|v| (v * scale).round() / scale - v);
+        let [x, y] = self.center_on_screen;
+        Fit { center_on_screen: [x + dx, y + dy], ..self }
+    }
+
+    /// The piece of the world that a rectangle of the screen shows.
+    pub fn shown_in(&self, rect: ScreenRect) -> Aabb {
+        let [x, y] = rect.min;
+        let low = self.world_from_screen([x, y + rect.size[1]]);
+        Aabb { min: low, max: self.world_from_screen([x + rect.size[0], y]) }
+    }
+
     /// The scale, pixels per metre.
     pub fn px_per_metre(&self) -> f64 {
         self.px_per_metre
@@ -108,6 +131,26 @@ mod tests {
         assert!((back - Point2::new(3.25, 2.5)).norm() < 1e-12);
         let none = Fit::new(&bounds(0.0, 0.0), rect, 10.0);
         assert!(none.screen_from_world(Point2::new(1.0, 2.0)).iter().all(|v| v.is_finite()));
+    }
+
+    #[test]
+    fn a_magnified_fit_has_its_centre_in_the_middle_and_shows_less() {
+        let rect = ScreenRect { min: [100.0, 50.0], size: [320.0, 220.0] };
+        let fit = Fit::new(&bounds(12.0, 8.0), rect, 10.0).magnified(Point2::new(3.0, 4.0), 4.0);
+        assert_eq!(fit.px_per_metre(), 100.0, "four times 25");
+        assert_eq!(fit.screen_from_world(Point2::new(3.0, 4.0)), [260.0, 160.0]);
+        let shown = fit.shown_in(rect);
+        assert_eq!((shown.min, shown.max), (Point2::new(1.4, 2.9), Point2::new(4.6, 5.1)), "3.2 m by 2.2 m around it");
+        let at = fit.screen_from_world(Point2::origin());
+        assert_eq!(at, [-40.0, 560.0]);
+        let odd = fit.magnified(Point2::new(3.003, 4.001), 1.0);
+        let near = |fit: &Fit, at: [f64; 2]| {
+            let origin = fit.screen_from_world(Point2::origin());
+            (origin[0] - at[0]).abs() < 1e-9 && (origin[1] - at[1]).abs() < 1e-9
+        };
+        assert!(near(&odd, [-40.3, 560.1]));
+        assert!(near(&odd.on_pixels(1.0), [-40.0, 560.0]));
+        assert!(near(&odd.on_pixels(2.0), [-40.5, 560.0]), "two pixels a unit");
     }
 
     #[test]

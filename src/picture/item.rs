@@ -1,7 +1,7 @@
 //! `Item`, one thing on a picture: its name, its role, its geometry, its fill and its stroke.
 
 use super::{Role, ScreenPoint};
-use crate::geometry::{Point2, Vector2};
+use crate::geometry::{Aabb, Point2, Vector2};
 
 /// One thing on a picture.
 #[derive(Clone, Debug, PartialEq)]
@@ -67,7 +67,7 @@ pub enum Drawing {
         /// Its least length on the screen.
         min_px: f64,
     },
-    /// A pointed nose on a disc: the triangle between its sides and a tip ahead, of at least `min_px` from the centre.
+    /// A pointer on a disc, inside it: a triangle with its tip near the edge ahead.
     Nose {
         /// The disc's centre.
         centre: Point2,
@@ -75,8 +75,6 @@ pub enum Drawing {
         radius: f64,
         /// Which way it points, radians.
         heading: f64,
-        /// The least distance of the tip on the screen.
-        min_px: f64,
     },
     /// A mark that keeps its size.
     Mark {
@@ -102,6 +100,28 @@ pub enum Drawing {
         /// Whether they stand on a small plate of paper.
         plate: bool,
     },
+}
+
+impl Drawing {
+    /// A box around it in metres. Sizes in pixels count as nothing: a mark and a label are the point where they are.
+    /// `None` for a drawing without points.
+    pub fn bounds(&self) -> Option<Aabb> {
+        match self {
+            Drawing::Polyline(points) | Drawing::Polygon(points) => Aabb::around(points),
+            Drawing::Region { pieces, outline } => {
+                pieces.iter().chain(outline).filter_map(|points| Aabb::around(points)).reduce(|a, b| a.merged(&b))
+            }
+            Drawing::Disc { centre, radius } | Drawing::Nose { centre, radius, .. } => {
+                Aabb::around(&[*centre]).map(|b| b.grown(*radius))
+            }
+            Drawing::Capsule { a, b, radius } => Aabb::around(&[*a, *b]).map(|b| b.grown(*radius)),
+            Drawing::Rays { from, ends } => {
+                Aabb::around(&[*from]).into_iter().chain(Aabb::around(ends)).reduce(|a, b| a.merged(&b))
+            }
+            Drawing::Arrow { from, along, .. } => Aabb::around(&[*from, *from + *along]),
+            Drawing::Mark { at, .. } | Drawing::Label { at, .. } => Aabb::around(&[*at]),
+        }
+    }
 }
 
 /// How the inside of an item is filled.

@@ -2,6 +2,7 @@
 
 use super::hatch::{dots, hatch};
 use super::outline::polygon_of;
+use super::robot::nose;
 use super::{Anchor, Drawing, Face, Fill, Fit, Glyph, Item, Line, Role, ScreenPoint};
 use crate::geometry::{Point2, Pose2, Shape};
 use crate::num;
@@ -136,14 +137,8 @@ pub fn resolve(item: &Item, fit: &Fit) -> Vec<Primitive> {
             let head = vec![point(length - barb, barb), tip, point(length - barb, -barb)];
             stroke(&mut out, *role, *line, vec![vec![from, tip], head]);
         }
-        Drawing::Nose { centre, radius, heading, min_px } => {
-            let (s, c) = num::sin_cos(*heading);
-            let (centre, r) = (px(centre), radius * fit.px_per_metre());
-            let point = |ahead: f64, left: f64| [centre[0] + c * ahead - s * left, centre[1] - s * ahead - c * left];
-            // the tangents from the tip touch the disc where cos = r / tip
-            let tip = num::greater(2.2 * r, *min_px);
-            let (cos, sin) = (r / tip, num::sqrt(1.0 - r * r / (tip * tip)));
-            let corners = [point(tip, 0.0), point(r * cos, r * sin), point(r * cos, -r * sin)];
+        Drawing::Nose { centre, radius, heading } => {
+            let corners: Vec<_> = nose(*centre, *radius, *heading).iter().map(px).collect();
             area(&mut out, *role, *fill, &corners);
         }
         Drawing::Mark { at, glyph, radius_px } => mark(&mut out, *role, px(at), *glyph, *radius_px),
@@ -253,16 +248,16 @@ mod tests {
     }
 
     #[test]
-    fn a_nose_points_ahead_and_touches_its_disc() {
+    fn a_nose_points_ahead_and_stays_inside_its_disc() {
         let heading = std::f64::consts::FRAC_PI_2;
-        let drawing = Drawing::Nose { centre: Point2::new(5.0, 5.0), radius: 1.0, heading, min_px: 1.0 };
-        let item = Item::new("a", "a", Role::Robot, drawing).filled(Fill::Tint(1.0));
-        let [Primitive::Area { corners, .. }] = &resolve(&item, &fit())[..] else { panic!("one triangle") };
-        assert!((corners[0][0] - 50.0).abs() < 1e-9 && (corners[0][1] - 28.0).abs() < 1e-9, "up, 2.2 radii");
-        for c in &corners[1..] {
-            let (radial, along) = ([c[0] - 50.0, c[1] - 50.0], [c[0] - corners[0][0], c[1] - corners[0][1]]);
-            assert!((num::hypot(radial[0], radial[1]) - 10.0).abs() < 1e-9, "on the circle");
-            assert!((radial[0] * along[0] + radial[1] * along[1]).abs() < 1e-9, "as a tangent");
+        for (radius, px) in [(1.0, 10.0), (0.1, 1.0)] {
+            let drawing = Drawing::Nose { centre: Point2::new(5.0, 5.0), radius, heading };
+            let item = Item::new("a", "a", Role::Robot, drawing).filled(Fill::Tint(1.0));
+            let [Primitive::Area { corners, .. }] = &resolve(&item, &fit())[..] else { panic!("one triangle") };
+            assert!(corners.iter().all(|c| num::hypot(c[0] - 50.0, c[1] - 50.0) < px), "at any scale");
+            let [tip, left, right] = corners[..] else { panic!("three corners") };
+            assert!((tip[0] - 50.0).abs() < 1e-9 && tip[1] < 50.0 - 0.8 * px, "up, near the edge");
+            assert!((left[0] + right[0] - 100.0).abs() < 1e-9 && left[1] == right[1] && left[1] > 50.0, "symmetric");
         }
     }
 
@@ -276,7 +271,7 @@ mod tests {
             Drawing::Capsule { a: nan, b: nan, radius: 1.0 },
             Drawing::Rays { from: nan, ends: vec![nan] },
             Drawing::Arrow { from: Point2::origin(), along: Vector2::zeros(), min_px: 1.0 },
-            Drawing::Nose { centre: nan, radius: 1.0, heading: 0.0, min_px: 1.0 },
+            Drawing::Nose { centre: nan, radius: 1.0, heading: 0.0 },
             Drawing::Mark { at: nan, glyph: Glyph::Cross, radius_px: 1.0 },
         ];
         for drawing in drawings {

@@ -50,11 +50,11 @@ pub fn robot(drawing: &RobotDrawing<'_>) -> Vec<Item> {
     let item = |part: &str, role, drawn| Item::new(format!("{id}/{part}"), drawing.name, role, drawn);
     if let ([part], Some(heading)) = (parts, drawing.heading) {
         let (centre, radius) = (part.pose().position(), part.placed().radius());
-        let nose = Drawing::Nose { centre, radius, heading, min_px: 11.0 };
-        items.push(item("heading", role, nose).filled(Fill::Tint(0.85)));
+        let nose = Drawing::Nose { centre, radius, heading };
+        items.push(item("heading", Role::Paper, nose).filled(Fill::Tint(0.9)));
     }
     if let Some((pose, Shape::Rectangle { min, max })) = parts.first().map(|p| (p.pose(), p.shape())) {
-        let chevron = Drawing::Polyline(chevron(pose, *min, *max));
+        let chevron = Drawing::Polyline(chevron(pose, *min, *max).to_vec());
         items.push(item("heading", Role::Paper, chevron).stroked(Line::solid(1.5)));
         if parts.len() > 1 {
             let mark = Drawing::Mark { at: pose.position(), glyph: Glyph::Ring, radius_px: 2.5 };
@@ -72,14 +72,21 @@ pub fn robot(drawing: &RobotDrawing<'_>) -> Vec<Item> {
     items
 }
 
+/// The corners of the pointer on a disc: the tip ahead, then left and right behind. They lie inside the disc, so that
+/// a heading scales with its robot and is in the world where the robot is.
+pub(crate) fn nose(centre: Point2, radius: f64, heading: f64) -> [Point2; 3] {
+    let (s, c) = num::sin_cos(heading);
+    let (ahead, left) = (Vector2::new(c, s) * radius, Vector2::new(-s, c) * radius);
+    [centre + ahead * 0.9, centre - ahead * 0.5 + left * 0.6, centre - ahead * 0.5 - left * 0.6]
+}
+
 /// A chevron near the front of a rectangle, pointing along its x axis.
-fn chevron(pose: &Pose2, min: Point2, max: Point2) -> Vec<Point2> {
+pub(crate) fn chevron(pose: &Pose2, min: Point2, max: Point2) -> [Point2; 3] {
     let half = 0.28 * (max.y - min.y);
     let middle = 0.5 * (max.y + min.y);
     let tip = max.x - 0.12 * (max.x - min.x);
     [(tip - half, middle + half), (tip, middle), (tip - half, middle - half)]
         .map(|(x, y)| pose.transform(Point2::new(x, y)))
-        .to_vec()
 }
 
 /// The path that a robot took, as a line.
@@ -153,7 +160,8 @@ mod tests {
         let footprint = Footprint::disc(Point2::new(1.0, 2.0), 0.11);
         for (in_contact, role) in [(false, Role::Robot), (true, Role::Goal)] {
             let drawing = RobotDrawing { name: "R", footprint: &footprint, heading: Some(0.0), in_contact };
-            assert!(robot(&drawing).iter().all(|i| i.role == role));
+            let roles: Vec<Role> = robot(&drawing).iter().map(|i| i.role).collect();
+            assert_eq!(roles, [role, Role::Paper], "the body, and on it the heading");
         }
     }
 

@@ -28,8 +28,8 @@ pub use frame::{DT, Frame, ObstacleState, RobotScan, RobotState};
 pub use log::Log;
 pub use mcap::{
     DIGEST_FORMAT_VERSION, DIGEST_TICKS, DamageKind, DamagedDigestLog, DamagedLog, DigestLog, DigestLogWriter,
-    EXPORT_PROFILE, FORMAT_VERSION, FORMAT_VERSION_WITH_CHANGES, GENERATOR, LogError, LogWriter, ReadDigestLog,
-    ReadLog, TICK_NANOSECONDS,
+    EXPORT_PROFILE, FORMAT_VERSION, FORMAT_VERSION_WITH_CHANGES, GENERATOR, LogError, LogWriter, MOST_ROBOTS_IN_FULL,
+    ReadDigestLog, ReadLog, TICK_NANOSECONDS,
 };
 pub use quantized::Quantized;
 pub use script::{Event, RobotInput, SCRIPT_VERSION, SCRIPT_VERSION_WITH_CHANGES, Script};

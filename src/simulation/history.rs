@@ -3,8 +3,10 @@
 use bevy::prelude::*;
 
 use super::past::trail::Trail;
+use super::roster::footprint_of;
 use super::{LatestFrame, ResidesIn, RobotOps, Roster, Transport, WorldScene};
 use crate::collision::Collision;
+use crate::geometry::Point2;
 
 /// Largest number of samples; beyond it every second one is dropped. Half an hour at 20 Hz is kept in full.
 const MOST_SAMPLES: usize = 36_000;
@@ -39,7 +41,7 @@ pub enum Happening {
 }
 
 /// A tick to be marked on a time line.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct TickMark {
     /// The tick.
@@ -48,6 +50,8 @@ pub struct TickMark {
     pub robot: u32,
     /// The event.
     pub what: Happening,
+    /// Where the robot was: the middle of the box around its footprint, metres.
+    pub at: Point2,
 }
 
 /// The run's history, tick by tick. It is filled as the run goes on, and kept when the run is taken back, so that the
@@ -100,7 +104,8 @@ impl History {
 
     /// The tick of the first known contact that begins after `tick`.
     pub fn next_contact(&self, tick: u64) -> Option<u64> {
-        self.marks.iter().find(|m| m.tick > tick && m.what == Happening::Contact).map(|m| m.tick)
+        let after = self.marks.partition_point(|m| m.tick <= tick);
+        self.marks.get(after..)?.iter().find(|m| m.what == Happening::Contact).map(|m| m.tick)
     }
 
     /// At most about `most` samples of one robot, evenly spread over the run: each sample's tick and its `value`.
@@ -155,7 +160,7 @@ impl History {
                 let happened =
                     [(trail.contacts > contacts, Happening::Contact), (trail.manual && !manual, Happening::Takeover)];
                 let new = happened.into_iter().filter(|(is, _)| *is);
-                self.marks.extend(new.map(|(_, what)| TickMark { tick, robot, what }));
+                self.marks.extend(new.map(|(_, what)| TickMark { tick, robot, what, at: middle(world, robot) }));
             }
             if !are_many || is_kept || !follows {
                 measure(world, robot as usize, trail);
@@ -199,6 +204,11 @@ impl History {
             });
         }
     }
+}
+
+/// The middle of the box around the robot with this id; the origin for one without a footprint.
+fn middle(world: &World, robot: u32) -> Point2 {
+    footprint_of(world, robot).and_then(|f| f.bounds()).map_or(Point2::origin(), |b| b.centre())
 }
 
 /// Reads the gauges of the robot with this id. An unknown robot has none.

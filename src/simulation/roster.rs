@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use bevy::prelude::*;
 
 use super::{RobotOps, RobotView};
+use crate::geometry::Footprint;
 
 /// The robots and worlds of the run by their numbers; fixed from tick 0 on.
 #[derive(Resource, Clone, Debug, Default)]
@@ -35,4 +36,20 @@ impl Roster {
 pub fn view(world: &World) -> Vec<RobotView> {
     let robots = world.get_resource::<Roster>().map_or(&[][..], Roster::robots);
     robots.iter().filter_map(|&e| (world.get::<RobotOps>(e)?.view)(world, e)).collect()
+}
+
+/// The robot of the run with this id; `None` for an id that no robot has.
+pub fn view_of(world: &World, id: u32) -> Option<RobotView> {
+    let entity = entity_of(world, id)?;
+    (world.get::<RobotOps>(entity)?.view)(world, entity)
+}
+
+/// The footprint of the robot with this id, as it is now; `None` for an id that no robot has.
+pub fn footprint_of(world: &World, id: u32) -> Option<Footprint> {
+    let entity = entity_of(world, id)?;
+    (world.get::<RobotOps>(entity)?.footprint)(world, entity)
+}
+
+fn entity_of(world: &World, id: u32) -> Option<Entity> {
+    world.get_resource::<Roster>()?.robots().get(id as usize).copied()
 }

@@ -6,6 +6,7 @@ mod anatomy;
 mod atlas;
 mod capture_form;
 mod capture_state;
+mod crowd;
 mod cspace;
 mod dashboard;
 mod help;
@@ -19,6 +20,8 @@ mod tools;
 pub(crate) use anatomy::AnatomyState;
 pub(crate) use atlas::AtlasState;
 pub(crate) use capture_state::{CaptureOrder, CaptureState};
+pub(crate) use crowd::state::CrowdState;
+pub(crate) use crowd::values::{Crowd, CrowdRobot, MOST_SHOWN_EACH};
 pub(crate) use cspace::CspaceState;
 pub(crate) use dashboard::blend::blend;
 pub(crate) use dashboard::goal::ParkingGoal;
@@ -26,9 +29,7 @@ pub(crate) use dashboard::values::{Cockpit, CockpitRobot, Dashboard};
 pub(crate) use lab::lab;
 pub(crate) use paint::look::Look;
 pub(crate) use settings::Settings;
-#[cfg(feature = "window")]
-pub(crate) use state::Working;
-pub(crate) use state::{Notice, UiState};
+pub(crate) use state::{Notice, UiState, Working};
 
 use crate::simulation::{RobotCommand, RunCommand, TransportCommand};
 

@@ -18,6 +18,8 @@ pub struct UiState {
     pub cspace: super::CspaceState,
     /// The state of the atlas.
     pub atlas: super::AtlasState,
+    /// The robot picked in a crowd, and how crowds are shown.
+    pub crowd: super::CrowdState,
     /// The state of the capture form.
     pub capture: super::CaptureState,
     /// The system's theme.

@@ -13,7 +13,7 @@ use super::link::MAX_LINK_TICK;
 use super::listener::tell;
 use super::message::{Action, Message};
 use super::run_link::link_of;
-use crate::app::{Interface, open_log, open_world_text};
+use crate::app::{Interface, open_log, open_world_text, seek_aside};
 use crate::manifest::ThemeChoice;
 use crate::picture::{Role, Theme};
 use crate::random::Seed;
@@ -53,20 +53,23 @@ pub fn receive(world: &mut World) {
     }
 }
 
-fn open(world: &mut World, name: &str, bytes: &[u8]) -> Notice {
+/// Returns what came of it; nothing yet where it takes long and goes on aside.
+fn open(world: &mut World, name: &str, bytes: &[u8]) -> Option<Notice> {
     let refused = |error: String| Notice { text: format!("{name}: not opened: {error}"), is_error: true };
     if name.ends_with(".ron") {
-        return match std::str::from_utf8(bytes) {
+        return Some(match std::str::from_utf8(bytes) {
             Ok(text) => open_world_text(world, name, text),
             Err(_) => refused("it is not text".into()),
-        };
+        });
     }
-    open_log(world, name, bytes).unwrap_or_else(|error| refused(error.to_string()))
+    open_log(world, name, bytes).unwrap_or_else(|error| Some(refused(error.to_string())))
 }
 
 fn take(world: &mut World, message: Message) -> Result<(), PageError> {
     let transport = |world: &mut World, command: TransportCommand| {
-        world.write_message(RunCommand::from(command));
+        if !seek_aside(world, &command) {
+            world.write_message(RunCommand::from(command));
+        }
         Ok(())
     };
     let ui = |world: &mut World, change: &dyn Fn(&mut UiState)| {

@@ -4,9 +4,8 @@ use bevy::prelude::*;
 use serde_json::json;
 
 use super::listener::{tell, tell_with};
-use crate::app::{Interface, SessionError, captured, recorded, shown_run};
+use crate::app::{Interface, SessionError, captured, save, shown_run};
 use crate::capture::Paper;
-use crate::run::Log;
 use crate::simulation::Transport;
 use crate::ui::{CaptureOrder, Notice, SessionCommand};
 
@@ -16,10 +15,17 @@ pub fn files(world: &mut World) {
     let asked: Vec<SessionCommand> = world.resource_mut::<Messages<SessionCommand>>().drain().collect();
     for command in asked {
         let notice = match command {
-            SessionCommand::Save => recorded(world).map(|(log, bytes)| {
-                tell_with(&json!({ "kind": "file", "name": "run.mcap" }), Some(&bytes));
-                saved(&log)
-            }),
+            SessionCommand::Save => {
+                let give = |bytes: &[u8], words: String| {
+                    tell_with(&json!({ "kind": "file", "name": "run.mcap" }), Some(bytes));
+                    Ok(Notice { text: format!("run.mcap: {words}"), is_error: false })
+                };
+                match save(world, Box::new(give)) {
+                    Ok(Some(notice)) => Ok(notice.text),
+                    Ok(None) => continue,
+                    Err(error) => Err(error),
+                }
+            }
             SessionCommand::SaveWorld => {
                 let atlas = &mut world.resource_mut::<Interface>().into_inner().0.atlas;
                 tell_with(&json!({ "kind": "file", "name": "world.ron" }), Some(atlas.text().as_bytes()));
@@ -58,8 +64,4 @@ fn picture(world: &World, order: &CaptureOrder) -> Result<String, SessionError> 
     let name = format!("{}.svg", ui.widget.id());
     tell_with(&json!({ "kind": "file", "name": name }), Some(figure.svg(&paper).as_bytes()));
     Ok(format!("{name}: saved"))
-}
-
-fn saved(log: &Log) -> String {
-    format!("run.mcap: saved, {} ticks, digest {}", log.frames.len(), log.digest())
 }

@@ -18,15 +18,12 @@ use super::listener::{listen, tell};
 use super::message::Message;
 use super::report::{Sent, report};
 use super::run_link::open_link;
-use crate::app::{Interface, windowed_app};
+use crate::app::{Interface, limit, windowed_app};
 use crate::simulation::{Playback, Transport};
 use crate::ui::{Notice, Settings, Widget};
 
 /// Value of `STILL` while the page is hidden. `STILL` is the number of frames to come in which no time passes.
 const AWAY: u32 = u32::MAX;
-
-/// Longest time that a frame lets pass, as Bevy has it.
-const MOST: Duration = Duration::from_millis(250);
 
 thread_local! {
     static STILL: Cell<u32> = const { Cell::new(0) };
@@ -55,7 +52,7 @@ pub fn lab_start(query: &str, embedded: bool, settings: &str, listener: js_sys::
         .init_resource::<Sent>()
         .init_resource::<Staged>()
         .add_systems(PostStartup, start)
-        .add_systems(First, stand_still.before(TimeSystems))
+        .add_systems(First, stand_still.after(limit).before(TimeSystems))
         .add_systems(PreUpdate, before)
         .add_systems(Update, files)
         .add_systems(Last, report)
@@ -128,7 +125,9 @@ fn start(world: &mut World) {
 /// Lets no time pass while the page is hidden, and skips the time that passed meanwhile.
 fn stand_still(mut time: ResMut<Time<Virtual>>) {
     let frames = STILL.get();
-    time.set_max_delta(if frames > 0 { Duration::from_nanos(1) } else { MOST });
+    if frames > 0 {
+        time.set_max_delta(Duration::from_nanos(1));
+    }
     if frames != AWAY {
         STILL.set(frames.saturating_sub(1));
     }

@@ -55,7 +55,7 @@ fn the_dashboard_is_captured_with_seed_and_digest() {
     assert!(!said.is_error && said.text == "d.png: captured", "{said:?}");
     // the same digest as the run that is saved
     let log = folder.path().join("d.mcap");
-    save_run(harness.state().app.world(), &log);
+    save_run(harness.state_mut().app.world_mut(), &log);
     let digest = Log::read_mcap(&std::fs::read(&log).unwrap()).unwrap().log.digest().to_string();
     let tick = harness.state().transport().tick;
     let notes = png_notes(&path);

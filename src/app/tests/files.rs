@@ -18,7 +18,7 @@ fn what_was_driven_is_saved_and_verifies_to_the_same_digest() {
     harness.key_press(Key::End);
     harness.run_steps(2);
     let last = harness.state().app.world().resource::<LatestFrame>().0.clone();
-    let notice = save_run(harness.state().app.world(), &path);
+    let notice = save_run(harness.state_mut().app.world_mut(), &path).unwrap();
     assert!(!notice.is_error, "{notice:?}");
     let bytes = std::fs::read(&path).unwrap();
     let log = Log::read_mcap(&bytes).unwrap().log;
@@ -27,7 +27,7 @@ fn what_was_driven_is_saved_and_verifies_to_the_same_digest() {
     assert_eq!(Run::replay(&log).unwrap(), log.frames, "headless, to the last bit");
     assert!(notice.text.contains(&log.digest().to_string()));
     // opened again it says so, and stands at its start
-    let opened = open_run(harness.state_mut().app.world_mut(), &path);
+    let opened = open_run(harness.state_mut().app.world_mut(), &path).unwrap();
     let ticks = log.frames.len();
     assert_eq!(opened.text, format!("driven.mcap: bit-identical, {ticks} of {ticks}"));
     let transport = harness.state().transport();
@@ -39,12 +39,12 @@ fn what_was_driven_is_saved_and_verifies_to_the_same_digest() {
     forged.digests = forged.frames.iter().map(crate::run::Frame::digest).collect();
     let mut file = std::fs::File::create(&path).unwrap();
     forged.write_mcap(&mut file).unwrap();
-    let opened = open_run(harness.state_mut().app.world_mut(), &path);
+    let opened = open_run(harness.state_mut().app.world_mut(), &path).unwrap();
     assert!(opened.is_error && opened.text.contains("71"), "{opened:?}");
     assert_eq!(harness.state().transport().tick, 71);
     // of a cut file the sealed beginning is opened, and the notice says how much that is
     std::fs::write(&path, &bytes[..bytes.len() / 2]).unwrap();
-    let opened = open_run(harness.state_mut().app.world_mut(), &path);
+    let opened = open_run(harness.state_mut().app.world_mut(), &path).unwrap();
     let sealed = harness.state().transport().frontier;
     assert!(sealed > 10 && sealed < ticks as u64 && opened.is_error, "{opened:?}");
     let [whole, cut] = [format!("bit-identical, {sealed} of {ticks}"), format!("{sealed} of {ticks} ticks are whole")];
@@ -52,6 +52,6 @@ fn what_was_driven_is_saved_and_verifies_to_the_same_digest() {
     // what is no log leaves the run as it is
     let stands = harness.state().transport().tick;
     std::fs::write(&path, b"a cat").unwrap();
-    let opened = open_run(harness.state_mut().app.world_mut(), &path);
+    let opened = open_run(harness.state_mut().app.world_mut(), &path).unwrap();
     assert!(opened.is_error && harness.state().transport().tick == stands, "{opened:?}");
 }

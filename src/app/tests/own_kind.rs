@@ -61,9 +61,9 @@ fn its_run_is_saved_opened_and_captured() {
     let path = folder.path().join("tug.mcap");
     let mut harness = lab_with_tugs();
     pause(&mut harness);
-    let saved = save_run(harness.state().app.world(), &path);
+    let saved = save_run(harness.state_mut().app.world_mut(), &path).unwrap();
     assert!(!saved.is_error, "{saved:?}");
-    let opened = open_run(harness.state_mut().app.world_mut(), &path);
+    let opened = open_run(harness.state_mut().app.world_mut(), &path).unwrap();
     assert!(!opened.is_error && opened.text.contains("bit-identical"), "{opened:?}");
     let world = harness.state().app.world();
     let run = crate::app::runs::shown_run(world, 10);

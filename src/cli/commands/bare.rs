@@ -11,8 +11,14 @@ pub fn bare(data: &mut Data) -> Result<Outcome, Failure> {
 /// The lab in a window.
 #[cfg(all(feature = "window", not(feature = "headless")))]
 pub fn bare(_data: &mut Data) -> Result<Outcome, Failure> {
-    use motion_lab::app::{WindowError, run_window};
-    match run_window() {
+    ended(motion_lab::app::run_window())
+}
+
+/// What came of the window.
+#[cfg(feature = "window")]
+pub fn ended(window: Result<(), motion_lab::app::WindowError>) -> Result<Outcome, Failure> {
+    use motion_lab::app::WindowError;
+    match window {
         Ok(()) => Ok(Outcome::Done),
         Err(error @ WindowError::Closed(_)) => Err(Failure::internal(error)),
         Err(error) => Err(Failure::NoDisplay(error.to_string())),

@@ -8,6 +8,8 @@ pub(crate) mod diff;
 pub(crate) mod export;
 pub(crate) mod grade;
 pub(crate) mod info;
+#[cfg(feature = "window")]
+pub(crate) mod open;
 pub(crate) mod query;
 pub(crate) mod record;
 pub(crate) mod replay;

@@ -55,10 +55,7 @@ pub enum Failure {
     },
     /// No display for the window.
     #[error("{0}")]
-    #[cfg_attr(
-        any(not(feature = "window"), feature = "headless"),
-        expect(dead_code, reason = "only the window needs a display")
-    )]
+    #[cfg_attr(not(feature = "window"), expect(dead_code, reason = "only the window needs a display"))]
     NoDisplay(String),
 }
 

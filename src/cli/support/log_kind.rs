@@ -5,13 +5,10 @@ use std::io::Write;
 use clap::ValueEnum;
 use motion_lab::random::Seed;
 use motion_lab::run::{
-    Comparison, Digest, DigestComparison, DigestLog, DigestLogWriter, Frame, Log, LogError, LogWriter, RunDigest,
-    Script,
+    Comparison, Digest, DigestComparison, DigestLog, DigestLogWriter, Frame, Log, LogError, LogWriter,
+    MOST_ROBOTS_IN_FULL, RunDigest, Script,
 };
 use motion_lab::tour::TourConfig;
-
-/// Largest number of robots whose log has every frame unless something else is asked for.
-const MOST_IN_FULL: usize = 100;
 
 /// What a log keeps of its run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -25,7 +22,7 @@ pub enum LogKind {
 impl LogKind {
     /// The kind for a run of which nobody said it.
     pub fn of(config: &TourConfig) -> Self {
-        if config.robot_names().count() > MOST_IN_FULL { LogKind::Digest } else { LogKind::Full }
+        if config.robot_names().count() > MOST_ROBOTS_IN_FULL { LogKind::Digest } else { LogKind::Full }
     }
 }
 

@@ -7,6 +7,9 @@ use crate::tour::TourConfig;
 /// Number of ticks between two digests of a [`DigestLog`]: a second.
 pub const DIGEST_TICKS: u64 = 20;
 
+/// Largest number of robots whose run is logged with every frame unless something else is asked for.
+pub const MOST_ROBOTS_IN_FULL: usize = 100;
+
 /// A recorded run without its frames: everything that determines it, and a digest of each second.
 ///
 /// Each digest is the lower half of the [`RunDigest`](crate::run::RunDigest) so far: it covers every frame from the

@@ -41,7 +41,7 @@ mod sealed_output;
 mod tests;
 mod writer;
 
-pub use digest_log::{DIGEST_TICKS, DigestLog, ReadDigestLog};
+pub use digest_log::{DIGEST_TICKS, DigestLog, MOST_ROBOTS_IN_FULL, ReadDigestLog};
 pub use digest_writer::DigestLogWriter;
 pub use error::{DamageKind, DamagedDigestLog, DamagedLog, LogError};
 pub use read_log::ReadLog;

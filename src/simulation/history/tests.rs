@@ -165,7 +165,7 @@ fn more_than_a_hundred_robots_are_measured_once_a_second_and_counted_every_tick(
 #[test]
 fn marks_are_thinned_by_halves_and_the_last_one_stays() {
     for count in [MOST_MARKS + 1, MOST_MARKS + 2] {
-        let mark = |tick| TickMark { tick, robot: 0, what: Happening::Contact };
+        let mark = |tick| TickMark { tick, robot: 0, what: Happening::Contact, at: Point2::origin() };
         let mut history = History { marks: (1..=count as u64).map(mark).collect(), ..History::default() };
         history.thin_marks();
         assert_eq!(history.marks.len(), count.div_ceil(2));

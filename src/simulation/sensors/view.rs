@@ -25,6 +25,18 @@ pub struct SensorView {
 
 /// The sensors of the run, ordered by robot, then name: one for each scan of a frame, in the same order.
 pub fn sensors(world: &World) -> Vec<SensorView> {
+    between(world, 0, usize::MAX)
+}
+
+/// The sensors of the robot with this id, in the order of their names.
+pub fn sensors_of(world: &World, robot: u32) -> Vec<SensorView> {
+    let sensors = world.get_resource::<SensorRoster>().map_or(&[][..], |roster| &roster.sensors);
+    let before = |id: u32| sensors.partition_point(|sensor| sensor.id < id);
+    between(world, before(robot), before(robot.saturating_add(1)))
+}
+
+/// The sensors from one place in the run's list up to another, which is left out.
+fn between(world: &World, from: usize, to: usize) -> Vec<SensorView> {
     let sensors = world.get_resource::<SensorRoster>().map_or(&[][..], |roster| &roster.sensors);
     let scans = world.get_resource::<LatestFrame>().map_or(&[][..], |frame| &frame.0.scans);
     let view = |(sensor, scan): (&super::roster::RunSensor, &RobotScan)| SensorView {
@@ -34,5 +46,5 @@ pub fn sensors(world: &World) -> Vec<SensorView> {
         pose: sensor.pose(world).unwrap_or_default(),
         ranges: scan.ranges.clone(),
     };
-    sensors.iter().zip(scans).map(view).collect()
+    sensors.iter().zip(scans).take(to).skip(from).map(view).collect()
 }

@@ -196,7 +196,7 @@ fn put_panel(ui: &mut Ui, look: &Look, state: &mut UiState) {
 fn into_the_run(ui: &mut Ui, model: &Dashboard, look: &Look, state: &UiState, commands: &mut Vec<Command>) {
     let atlas = state.atlas.atlas();
     let Some(robot) = atlas.robots().get(state.atlas.robot) else { return };
-    let lives_there = |c: &Cockpit| c.world.name == atlas.world().name && c.robots.iter().any(|r| r.name == robot.name);
+    let lives_there = |c: &Cockpit| c.world.name == atlas.world().name && c.has(&robot.name);
     ui.add_space(8.0);
     ui.horizontal_wrapped(|ui| {
         let is_there = model.cockpits.iter().any(lives_there);

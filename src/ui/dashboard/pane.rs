@@ -42,33 +42,12 @@ pub fn pane(ui: &mut Ui, cockpit: &Cockpit, rect: Rect, look: &Look, state: &mut
     let response = ui.allocate_rect(paper, Sense::click());
     response.widget_info(|| WidgetInfo::labeled(WidgetType::Button, true, cockpit.described()));
     let painter = ui.painter_at(paper.expand(1.0));
-    canvas::paint_kept(&painter, &cockpit.world, paper, look);
+    canvas::paint_kept(&painter, &cockpit.world, paper, &fit, look);
     let mut over = Picture::new(&cockpit.world.name, cockpit.world.bounds);
     if state.settings.labels {
         over = over.with(names(ui, cockpit, &fit));
     }
-    if state.settings.scan {
-        over = over.with(cockpit.robots.iter().flat_map(|robot| {
-            robot.sees.iter().map(move |sensor| {
-                let SensorView { pose, rays, ranges, .. } = sensor;
-                let drawing = ScanDrawing { pose: *pose, field_of_view: rays.field_of_view, ranges };
-                fan_scan(&scan_id(&robot.name, &sensor.name), "scan", &drawing)
-            })
-        }));
-    }
-    for robot in &cockpit.robots {
-        if let Some((_, goal)) = state.goal.as_ref().filter(|(name, _)| *name == robot.name) {
-            over = over.with(goal.items(&robot.footprint));
-        }
-    }
-    let now = ui.input(|i| i.time);
-    over = over.with(cockpit.robots_picture(|robot| {
-        let red = state.flash(&robot.name, robot.flash, now);
-        if state.flash_lags(&robot.name, robot.flash) {
-            ui.ctx().request_repaint_after_secs(0.34);
-        }
-        red
-    }));
+    let over = over.with(robots(ui, cockpit, state));
     canvas::paint(&painter, &over, &fit, look);
     point_out(&response, &over, cockpit, &fit, state);
     let driven = cockpit.robots.iter().find(|r| r.drivable);
@@ -99,8 +78,42 @@ pub fn pane(ui: &mut Ui, cockpit: &Cockpit, rect: Rect, look: &Look, state: &mut
     words(&mut ui, cockpit, &fit, look, state, commands);
 }
 
+/// The cockpit's robots one by one: their scans, their goals, and over them their bodies.
+pub fn robots(ui: &Ui, cockpit: &Cockpit, state: &mut UiState) -> Vec<Item> {
+    let mut items = Vec::new();
+    if state.settings.scan {
+        items.extend(cockpit.robots.iter().flat_map(|robot| {
+            robot.sees.iter().map(move |sensor| {
+                let SensorView { pose, rays, ranges, .. } = sensor;
+                let drawing = ScanDrawing { pose: *pose, field_of_view: rays.field_of_view, ranges };
+                fan_scan(&scan_id(&robot.name, &sensor.name), "scan", &drawing)
+            })
+        }));
+    }
+    for robot in &cockpit.robots {
+        if let Some((_, goal)) = state.goal.as_ref().filter(|(name, _)| *name == robot.name) {
+            items.extend(goal.items(&robot.footprint));
+        }
+    }
+    let now = ui.input(|i| i.time);
+    items.extend(cockpit.robots_picture(|robot| {
+        let red = state.flash(&robot.name, robot.flash, now);
+        if state.flash_lags(&robot.name, robot.flash) {
+            ui.ctx().request_repaint_after_secs(0.34);
+        }
+        red
+    }));
+    items
+}
+
 /// Whether the pointer is at a door. A click there opens or closes it.
-fn door_clicked(response: &Response, cockpit: &Cockpit, fit: &Fit, touch: bool, commands: &mut Vec<Command>) -> bool {
+pub fn door_clicked(
+    response: &Response,
+    cockpit: &Cockpit,
+    fit: &Fit,
+    touch: bool,
+    commands: &mut Vec<Command>,
+) -> bool {
     let Some(at) = response.interact_pointer_pos().or_else(|| response.hover_pos()) else { return false };
     let reach = if touch { TOUCH } else { DOOR_REACH };
     let Some(door) = doors::door_at(cockpit, fit, [f64::from(at.x), f64::from(at.y)], reach) else { return false };
@@ -144,12 +157,12 @@ pub fn take_in_hand(robot: Option<&CockpitRobot>, state: &mut UiState, commands:
 }
 
 /// Whether the lab is used by touch: a finger is on the screen, or controls are as large as a fingertip.
-fn touched(ui: &Ui) -> bool {
+pub fn touched(ui: &Ui) -> bool {
     ui.input(|i| i.any_touches()) || ui.spacing().interact_size.y > 40.0
 }
 
 /// Shows on the paper of the robot in hand how to drive it, and for a finger the pad.
-fn in_hand(ui: &mut Ui, robot: &CockpitRobot, paper: Rect, look: &Look, state: &mut UiState) {
+pub fn in_hand(ui: &mut Ui, robot: &CockpitRobot, paper: Rect, look: &Look, state: &mut UiState) {
     let sideways = robot.trailer.is_some() && state.held.0 == 0 && state.held.1 != 0;
     let touched = touched(ui);
     let words = if sideways {
@@ -170,7 +183,7 @@ fn in_hand(ui: &mut Ui, robot: &CockpitRobot, paper: Rect, look: &Look, state: &
 }
 
 /// Lights the role of the drawn thing that is pointed at, and names an obstacle.
-fn point_out(response: &Response, over: &Picture, cockpit: &Cockpit, fit: &Fit, state: &mut UiState) {
+pub fn point_out(response: &Response, over: &Picture, cockpit: &Cockpit, fit: &Fit, state: &mut UiState) {
     let Some(at) = response.hover_pos().filter(|_| response.hovered() && frame::rests(response)) else { return };
     let at = [f64::from(at.x), f64::from(at.y)];
     let item = pick(over, fit, at, REACH).or_else(|| pick(&cockpit.world, fit, at, REACH));
@@ -189,17 +202,22 @@ fn words(ui: &mut Ui, cockpit: &Cockpit, fit: &Fit, look: &Look, state: &mut UiS
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| scale_bar(ui, fit.px_per_metre(), look));
     });
     for robot in &cockpit.robots {
-        if let Some(space) = robot.about.and_then(|about| about.space(robot.coordinates.len())) {
-            frame::formula(ui, &Formula::of(space), space.words, look, state);
-        }
-        readouts(ui, robot, look, state);
-        counts(ui, robot, look, state);
-        if robot.is_arm {
-            handles::numbers(ui, robot, look, state, commands);
-        }
-        links(ui, robot, state, commands);
+        robot_words(ui, robot, look, state, commands);
     }
     doors::links(ui, cockpit, commands);
+}
+
+/// Shows a robot's space, its configuration, what was counted of it, and links for what can be done with it.
+pub fn robot_words(ui: &mut Ui, robot: &CockpitRobot, look: &Look, state: &mut UiState, commands: &mut Vec<Command>) {
+    if let Some(space) = robot.about.and_then(|about| about.space(robot.coordinates.len())) {
+        frame::formula(ui, &Formula::of(space), space.words, look, state);
+    }
+    readouts(ui, robot, look, state);
+    counts(ui, robot, look, state);
+    if robot.is_arm {
+        handles::numbers(ui, robot, look, state, commands);
+    }
+    links(ui, robot, state, commands);
 }
 
 /// Shows the configuration as its type prints it. Pointing lights the robot; a click copies every digit.
@@ -294,7 +312,7 @@ fn links(ui: &mut Ui, robot: &CockpitRobot, state: &mut UiState, commands: &mut 
     }
 }
 
-fn scale_bar(ui: &mut Ui, px_per_metre: f64, look: &Look) {
+pub fn scale_bar(ui: &mut Ui, px_per_metre: f64, look: &Look) {
     let bar = ScaleBar::new(px_per_metre, 80.0);
     let (rect, _) = ui.allocate_exact_size(Vec2::new(bar.length_px as f32, 7.0), Sense::hover());
     let stroke = Stroke::new(1.0, look.colour(Role::Muted));

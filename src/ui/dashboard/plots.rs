@@ -121,7 +121,7 @@ pub fn plots(
 
 /// The lines of a plot: the id of the robot, its name with the channel's or the coordinate's, and the value.
 fn lines<'a>(graph: &'a Graph, model: &'a Dashboard) -> impl Iterator<Item = (u32, String, Value)> {
-    let robots = || (0_u32..).zip(model.cockpits.iter().flat_map(|c| &c.robots));
+    let robots = || model.cockpits.iter().flat_map(|c| &c.robots).map(|r| (r.id, r));
     let channels = graph.channels.iter().flat_map(move |channel| {
         // a kind without a description has the lines of every robot
         let of = robots().filter(move |(_, r)| r.about.map_or(channel.name.is_empty(), channel.shows));

@@ -21,6 +21,7 @@ const PHONE: Vec2 = Vec2::new(390.0, 844.0);
 
 fn robot<R: Robot>(name: &str, kind: &str, robot: &R, q: R::Configuration) -> CockpitRobot {
     CockpitRobot {
+        id: 0,
         name: name.into(),
         kind: kind.into(),
         about: RobotKind::of(kind),
@@ -49,7 +50,7 @@ fn cockpit(world: &str, width: f64, height: f64, robot: CockpitRobot) -> Cockpit
     let bounds = Aabb { min: Point2::new(0.0, 0.0), max: Point2::new(width, height) };
     let model = World::empty(world, bounds);
     let atlas = Arc::new(Atlas::new(model));
-    Cockpit { world: Arc::new(Picture::new(world, bounds)), atlas, robots: vec![robot] }
+    Cockpit { world: Arc::new(Picture::new(world, bounds)), atlas, robots: vec![robot], crowd: None }
 }
 
 fn model() -> Dashboard {

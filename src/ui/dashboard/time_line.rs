@@ -71,8 +71,7 @@ fn marks(
         marks.iter().min_by(|a, b| off(a).total_cmp(&off(b))).filter(|m| off(m) < 6.0)
     });
     if let Some(mark) = nearest {
-        let names: Vec<&str> = model.cockpits.iter().flat_map(|c| &c.robots).map(|r| r.name.as_str()).collect();
-        let name = names.get(mark.robot as usize).copied().unwrap_or("a robot");
+        let name = model.name_of(mark.robot).unwrap_or("a robot");
         let words = match mark.what {
             Happening::Contact => format!("tick {}: {name} touches something", mark.tick),
             Happening::Takeover => format!("tick {}: {name} is taken over", mark.tick),

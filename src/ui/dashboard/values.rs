@@ -9,10 +9,13 @@ use crate::picture::{Item, Picture, RobotDrawing, robot};
 use crate::random::Seed;
 use crate::robots::AnyRobot;
 use crate::simulation::SensorView;
+use crate::ui::Crowd;
 
 /// One robot in its cockpit.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CockpitRobot {
+    /// Its id.
+    pub id: u32,
     /// Its unique name.
     pub name: String,
     /// Its configuration as its type prints it.
@@ -64,8 +67,10 @@ pub struct Cockpit {
     pub world: Arc<Picture>,
     /// The world with its names, shown on demand.
     pub atlas: Arc<Atlas>,
-    /// Its robots.
+    /// Its robots; in a world with a crowd, the one that is picked.
     pub robots: Vec<CockpitRobot>,
+    /// All its robots, where they are many.
+    pub crowd: Option<Crowd>,
 }
 
 /// The whole dashboard.
@@ -95,21 +100,41 @@ pub struct Dashboard {
     pub can_redo: bool,
 }
 
+impl Dashboard {
+    /// The name of the robot with this id, if it is shown.
+    pub fn name_of(&self, id: u32) -> Option<&str> {
+        self.cockpits.iter().find_map(|cockpit| match &cockpit.crowd {
+            Some(crowd) => crowd.name(id),
+            None => cockpit.robots.iter().find(|r| r.id == id).map(|r| r.name.as_str()),
+        })
+    }
+}
+
 impl Cockpit {
+    /// Whether a robot of this name lives in it.
+    pub fn has(&self, robot: &str) -> bool {
+        match &self.crowd {
+            Some(crowd) => crowd.names.iter().any(|name| name == robot),
+            None => self.robots.iter().any(|r| r.name == robot),
+        }
+    }
+
     /// The heading over the readout: the robots and their world.
     pub fn heading(&self) -> String {
+        if let Some(crowd) = &self.crowd {
+            return format!("{} robots \u{b7} {}", thousands(crowd.names.len() as u64), self.world.name);
+        }
         let names: Vec<&str> = self.robots.iter().map(|r| r.name.as_str()).collect();
         match names.len() {
             0 => self.world.name.clone(),
-            1..=3 => format!("{} \u{b7} {}", names.join(", "), self.world.name),
-            n => format!("{n} robots \u{b7} {}", self.world.name),
+            _ => format!("{} \u{b7} {}", names.join(", "), self.world.name),
         }
     }
 
     /// The short name on a tab.
     pub fn tab(&self) -> &str {
         match &self.robots[..] {
-            [one] => &one.name,
+            [one] if self.crowd.is_none() => &one.name,
             _ => &self.world.name,
         }
     }
@@ -125,8 +150,30 @@ impl Cockpit {
 
     /// The pane in words, for screen readers.
     pub fn described(&self) -> String {
+        if let Some(crowd) = &self.crowd {
+            return format!("{} robots in {}", thousands(crowd.names.len() as u64), self.world.name);
+        }
         let robots: Vec<String> =
             self.robots.iter().map(|r| format!("{}: {}, contacts: {}", r.name, r.readout, r.contacts)).collect();
         format!("{}. {}", self.world.name, robots.join("; "))
+    }
+}
+
+/// A number with a comma between its thousands: `10,000`.
+pub fn thousands(n: u64) -> String {
+    let digits = n.to_string();
+    let groups: Vec<&str> =
+        digits.as_bytes().rchunks(3).rev().filter_map(|group| std::str::from_utf8(group).ok()).collect();
+    groups.join(",")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn thousands_are_parted_by_commas() {
+        let said = [0, 999, 1_000, 10_000, 100_000, 1_234_567].map(thousands);
+        assert_eq!(said, ["0", "999", "1,000", "10,000", "100,000", "1,234,567"]);
     }
 }

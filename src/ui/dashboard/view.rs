@@ -3,14 +3,15 @@
 use bevy_egui::egui::{CentralPanel, Frame, Margin, Panel, Rect, ScrollArea, Sense, Ui, pos2, vec2};
 
 use super::drive;
-use super::pane::{pane, take_in_hand, text_height};
+use super::pane::{self, take_in_hand, text_height};
 use super::plots::plots;
 use super::transport_bar::{self, transport_bar};
 use crate::manifest::Widget;
 use crate::simulation::History;
+use crate::ui::crowd::pane::{CrowdPane, crowd_pane};
 use crate::ui::keys::Action;
 use crate::ui::paint::frame;
-use crate::ui::{Command, Dashboard, Look, UiState, tools};
+use crate::ui::{Cockpit, Command, Dashboard, Look, UiState, tools};
 
 /// Gap between panes, and between the panes and the window's border, points.
 const GAP: f32 = 20.0;
@@ -47,10 +48,10 @@ pub fn dashboard(
             if state.settings.plots {
                 ScrollArea::vertical().show(ui, |ui| plots(ui, model, history, look, state, commands));
             } else {
-                one_pane(ui, model, look, state, commands);
+                one_pane(ui, &Panes { model, history }, look, state, commands);
             }
         } else {
-            all_panes(ui, model, look, state, commands);
+            all_panes(ui, &Panes { model, history }, look, state, commands);
         }
     });
 }
@@ -62,6 +63,9 @@ pub fn act(action: Action, model: &Dashboard, state: &mut UiState, commands: &mu
         Action::Arm(pane) => {
             if let Some(cockpit) = model.cockpits.get(pane) {
                 state.settings.world = pane as u32;
+                if let Some(crowd) = cockpit.crowd.as_ref().filter(|crowd| state.crowd.picked_in(crowd).is_none()) {
+                    state.crowd.pick(crowd, Some(crowd.first));
+                }
                 take_in_hand(cockpit.robots.iter().find(|r| r.drivable), state, commands);
             }
         }
@@ -80,23 +84,50 @@ fn header(ui: &mut Ui, model: &Dashboard, look: &Look, state: &mut UiState, comm
     tools::notice(ui, state);
 }
 
-fn one_pane(ui: &mut Ui, model: &Dashboard, look: &Look, state: &mut UiState, commands: &mut Vec<Command>) {
+fn one_pane(ui: &mut Ui, panes: &Panes, look: &Look, state: &mut UiState, commands: &mut Vec<Command>) {
     ui.horizontal_wrapped(|ui| {
-        for (i, cockpit) in model.cockpits.iter().enumerate() {
+        for (i, cockpit) in panes.model.cockpits.iter().enumerate() {
             if ui.selectable_label(state.settings.world as usize == i, cockpit.tab()).clicked() {
                 state.settings.world = i as u32;
             }
         }
     });
     ui.add_space(4.0);
-    if let Some(cockpit) = model.cockpits.get(state.settings.world as usize).or(model.cockpits.first()) {
+    if let Some(cockpit) = panes.model.cockpits.get(state.settings.world as usize).or(panes.model.cockpits.first()) {
         let rect = ui.available_rect_before_wrap();
-        pane(ui, cockpit, rect, look, state, commands);
+        panes.pane(ui, cockpit, rect, look, state, commands);
     }
 }
 
-fn all_panes(ui: &mut Ui, model: &Dashboard, look: &Look, state: &mut UiState, commands: &mut Vec<Command>) {
-    let count = model.cockpits.len();
+/// What the panes show.
+struct Panes<'a> {
+    model: &'a Dashboard,
+    history: &'a History,
+}
+
+impl Panes<'_> {
+    /// Shows a cockpit in `rect`, its robots one by one or as a crowd.
+    fn pane(
+        &self,
+        ui: &mut Ui,
+        cockpit: &Cockpit,
+        rect: Rect,
+        look: &Look,
+        state: &mut UiState,
+        commands: &mut Vec<Command>,
+    ) {
+        match &cockpit.crowd {
+            Some(crowd) => {
+                let shown = CrowdPane { cockpit, crowd, history: self.history, tick: self.model.tick };
+                crowd_pane(ui, &shown, rect, look, state, commands);
+            }
+            None => pane::pane(ui, cockpit, rect, look, state, commands),
+        }
+    }
+}
+
+fn all_panes(ui: &mut Ui, panes: &Panes, look: &Look, state: &mut UiState, commands: &mut Vec<Command>) {
+    let count = panes.model.cockpits.len();
     if count == 0 {
         ui.weak("No world is loaded.");
         return;
@@ -105,12 +136,12 @@ fn all_panes(ui: &mut Ui, model: &Dashboard, look: &Look, state: &mut UiState, c
     let room = ui.available_rect_before_wrap();
     let width = (room.width() - GAP * (columns as f32 - 1.0)) / columns as f32;
     let mut rows = |ui: &mut Ui, height: f32| {
-        for row in model.cockpits.chunks(columns) {
+        for row in panes.model.cockpits.chunks(columns) {
             let (rect, _) = ui.allocate_exact_size(vec2(room.width(), height), Sense::hover());
             for (i, cockpit) in row.iter().enumerate() {
                 let left = rect.left() + i as f32 * (width + GAP);
                 let rect = Rect::from_min_size(pos2(left, rect.top()), vec2(width, height));
-                pane(ui, cockpit, rect, look, state, commands);
+                panes.pane(ui, cockpit, rect, look, state, commands);
             }
         }
     };

@@ -3,13 +3,14 @@
 use std::sync::Arc;
 
 use bevy_egui::egui::{
-    Align2, Color32, FontFamily, FontId, Id, LayerId, Mesh, Order, Painter, Pos2, Rect, Shape, Stroke,
+    Align2, Color32, FontFamily, FontId, Id, LayerId, Mesh, Order, Painter, Pos2, Rect, Shape, Stroke, Vec2,
     epaint::{ClippedShape, PathShape, Primitive as Primitive2},
     pos2,
 };
 
+use crate::geometry::Point2;
 use crate::picture::{
-    Anchor, Dash, Face, Fit, Line, Picture, Primitive, Role, ScreenPoint, ScreenRect, Theme, resolve,
+    Anchor, Dash, Face, Fit, Item, Line, Picture, Primitive, Role, ScreenPoint, ScreenRect, Theme, resolve,
 };
 use crate::ui::Look;
 
@@ -18,12 +19,7 @@ pub const MARGIN: f32 = 8.0;
 
 /// How a picture lies in a rectangle of the screen.
 pub fn fit(picture: &Picture, rect: Rect) -> Fit {
-    let size = rect.size();
-    let rect = ScreenRect {
-        min: [f64::from(rect.min.x), f64::from(rect.min.y)],
-        size: [f64::from(size.x), f64::from(size.y)],
-    };
-    Fit::new(&picture.bounds, rect, f64::from(MARGIN))
+    Fit::new(&picture.bounds, screen_rect(rect), f64::from(MARGIN))
 }
 
 /// Paints the picture's items, the first below all others.
@@ -77,19 +73,30 @@ fn snap(points: &mut [ScreenPoint], scale: f64, offset: f64) {
     }
 }
 
-/// As [`paint_still`], fitted to `rect`, with a mesh kept from frame to frame.
+/// As [`paint_still`], into `rect`, with a mesh kept from frame to frame.
 ///
-/// The picture is resolved and tessellated again only when the picture, its place, the look or the scale changes.
-pub fn paint_kept(painter: &Painter, picture: &Arc<Picture>, rect: Rect, look: &Look) {
+/// The picture is resolved and tessellated again only when the picture, the look or the scale changes, or when the view
+/// leaves what the mesh covers: the view and half as much again on each side.
+pub fn paint_kept(painter: &Painter, picture: &Arc<Picture>, rect: Rect, fit: &Fit, look: &Look) {
     let ctx = painter.ctx();
     // the rounded corners and dots of a mesh lie in the font's texture
     let atlas = ctx.fonts(|f| f.font_image_size());
-    let key = (rect.to_string(), look.key(), ctx.pixels_per_point().to_bits(), atlas);
+    let key = (fit.px_per_metre().to_bits(), look.key(), ctx.pixels_per_point().to_bits(), atlas);
     let id = Id::new(("kept", &picture.name, rect.min.x as i32, rect.min.y as i32));
+    let origin = pos(&fit.screen_from_world(Point2::origin()));
     let kept: Option<Kept> = ctx.data(|d| d.get_temp(id));
-    let kept = kept.filter(|k| k.key == key && Arc::ptr_eq(&k.picture, picture)).unwrap_or_else(|| {
-        let aside = painter.with_clip_rect(rect).with_layer_id(LayerId::new(Order::Background, id));
-        paint_still(&aside, picture, &fit(picture, rect), look);
+    let serves = |k: &Kept| {
+        k.key == key && Arc::ptr_eq(&k.picture, picture) && k.covers.contains_rect(rect.translate(k.origin - origin))
+    };
+    let mut kept = kept.filter(serves).unwrap_or_else(|| {
+        let covers = rect.expand2(0.5 * rect.size());
+        let aside = painter.with_clip_rect(covers).with_layer_id(LayerId::new(Order::Background, id));
+        // lines and marks reach a few points farther than what they show
+        let covered = fit.shown_in(screen_rect(covers)).grown(16.0 / fit.px_per_metre());
+        let is_near = |item: &&Item| item.drawing.bounds().is_none_or(|b| !b.is_apart(&covered));
+        let items: Vec<Item> = picture.items.iter().filter(is_near).cloned().collect();
+        let near = Picture::new(&picture.name, picture.bounds).with(items);
+        paint_still(&aside, &near, fit, look);
         let shapes = ctx.graphics_mut(|layers| layers.get_mut(aside.layer_id()).map(std::mem::take));
         let shapes: Vec<ClippedShape> = shapes.iter().flat_map(|list| list.all_entries().cloned()).collect();
         let mut mesh = Mesh::default();
@@ -98,20 +105,35 @@ pub fn paint_kept(painter: &Painter, picture: &Arc<Picture>, rect: Rect, look: &
                 mesh.append(piece);
             }
         }
-        let kept = Kept { key, picture: Arc::clone(picture), mesh: Arc::new(mesh) };
-        ctx.data_mut(|d| d.insert_temp(id, kept.clone()));
-        kept
+        Kept { key, picture: Arc::clone(picture), covers, origin, mesh: Arc::new(mesh) }
     });
-    painter.add(Shape::Mesh(kept.mesh));
+    let moved = origin - kept.origin;
+    if moved != Vec2::ZERO {
+        // the vertices are moved in place: only this frame's shapes and the kept mesh hold them
+        Arc::make_mut(&mut kept.mesh).translate(moved);
+        (kept.covers, kept.origin) = (kept.covers.translate(moved), origin);
+    }
+    painter.add(Shape::Mesh(Arc::clone(&kept.mesh)));
+    ctx.data_mut(|d| d.insert_temp(id, kept));
 }
 
-/// What a kept mesh depends on beside its picture: where, how it looks, at which scale, and the texture it refers to.
-type KeptKey = (String, (Theme, Option<Role>, u32), u32, [usize; 2]);
+fn screen_rect(rect: Rect) -> ScreenRect {
+    let (min, size) = (rect.min, rect.size());
+    ScreenRect { min: [f64::from(min.x), f64::from(min.y)], size: [f64::from(size.x), f64::from(size.y)] }
+}
+
+/// What a kept mesh depends on beside its picture and its place: the scale, how it looks, the pixels of a point, and
+/// the texture it refers to.
+type KeptKey = (u64, (Theme, Option<Role>, u32), u32, [usize; 2]);
 
 #[derive(Clone)]
 struct Kept {
     key: KeptKey,
     picture: Arc<Picture>,
+    /// The part of the screen that the mesh covers.
+    covers: Rect,
+    /// Where the world's origin lies on the screen.
+    origin: Pos2,
     mesh: Arc<Mesh>,
 }
 

@@ -4,5 +4,6 @@ pub(crate) mod button;
 pub(crate) mod canvas;
 pub(crate) mod frame;
 pub(crate) mod look;
+pub(crate) mod polygons;
 pub(crate) mod sheet;
 pub(crate) mod style;

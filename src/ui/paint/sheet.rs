@@ -59,7 +59,7 @@ pub fn sheet(
     response.widget_info(|| WidgetInfo::labeled(WidgetType::Other, true, &spoken));
     let fit = canvas::fit(still, paper);
     let painter = ui.painter_at(paper.expand(1.0));
-    canvas::paint_kept(&painter, still, paper, look);
+    canvas::paint_kept(&painter, still, paper, &fit, look);
     canvas::paint(&ui.painter_at(paper), moving, &fit, look);
     let role = if response.has_focus() { Role::Focus } else { Role::Hairline };
     painter.rect_stroke(paper, 0.0, Stroke::new(1.0, look.colour(role)), StrokeKind::Inside);

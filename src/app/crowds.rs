@@ -1,0 +1,85 @@
+//! `Crowds`, the robots of worlds of many as the view shows them, read from the simulation once a tick.
+
+use std::sync::Arc;
+
+use bevy::ecs::change_detection::Tick;
+use bevy::prelude::*;
+
+use crate::geometry::{Aabb, Point2};
+use crate::run::RobotState;
+use crate::simulation::{LatestFrame, RunConfig, footprint_of};
+use crate::tour::TourConfig;
+use crate::ui::{Crowd, CrowdRobot, MOST_SHOWN_EACH};
+
+/// The crowds of the run.
+#[derive(Resource, Default)]
+pub struct Crowds {
+    config: Option<Arc<TourConfig>>,
+    /// The tick of the frame that was read last, and when it was written.
+    read: Option<(u64, Tick)>,
+    /// By the number of the world; `None` where its robots are few.
+    crowds: Vec<Option<Crowd>>,
+}
+
+/// The crowd of the world with this number, a part `between` of the way from the tick before to the last one.
+pub fn crowd(world: &World, number: usize, between: f64) -> Option<Crowd> {
+    let crowd = world.resource::<Crowds>().crowds.get(number)?.as_ref()?;
+    Some(Crowd { between, ..crowd.clone() })
+}
+
+/// Reads the crowds again if there was a tick, or another run began, since they were read last.
+pub fn update_crowds(world: &mut World) {
+    let Some(RunConfig(config)) = world.get_resource::<RunConfig>().cloned() else { return };
+    let Some(written) = world.get_resource_change_ticks::<LatestFrame>() else { return };
+    let read = (world.resource::<LatestFrame>().0.tick, written.changed);
+    let kept = world.resource_mut::<Crowds>().into_inner();
+    let is_same_run = kept.config.as_ref().is_some_and(|c| Arc::ptr_eq(c, &config));
+    if !is_same_run {
+        *kept = Crowds { crowds: named(&config), config: Some(config), read: None };
+    } else if kept.read == Some(read) {
+        return;
+    }
+    let follows = kept.read.is_some_and(|(tick, _)| tick + 1 == read.0);
+    kept.read = Some(read);
+    let mut crowds = std::mem::take(&mut kept.crowds);
+    for crowd in crowds.iter_mut().flatten() {
+        let now = Arc::new(robots(world, crowd));
+        crowd.before = if follows { Arc::clone(&crowd.now) } else { Arc::clone(&now) };
+        crowd.now = now;
+    }
+    world.resource_mut::<Crowds>().crowds = crowds;
+}
+
+/// The crowds of a run by the names of their robots.
+fn named(config: &TourConfig) -> Vec<Option<Crowd>> {
+    let mut first = 0;
+    let worlds = config.worlds.iter().map(|world| {
+        let ids = first..first + world.robots.len() as u32;
+        first = ids.end;
+        let nobody = Arc::new(Vec::new());
+        (world.robots.len() > MOST_SHOWN_EACH).then(|| Crowd {
+            first: ids.start,
+            names: world.robots.iter().map(|robot| robot.name.clone()).collect(),
+            now: Arc::clone(&nobody),
+            before: nobody,
+            between: 1.0,
+        })
+    });
+    worlds.collect()
+}
+
+/// The robots of a crowd as they are now.
+fn robots(world: &World, crowd: &Crowd) -> Vec<CrowdRobot> {
+    let states = &world.resource::<LatestFrame>().0.robots;
+    let ids = crowd.first..crowd.first + crowd.names.len() as u32;
+    ids.map(|id| robot(world, id, states.get(id as usize))).collect()
+}
+
+fn robot(world: &World, id: u32, state: Option<&RobotState>) -> CrowdRobot {
+    let footprint = footprint_of(world, id).unwrap_or_default();
+    let bounds = footprint.bounds().unwrap_or(Aabb::new(Point2::origin(), Point2::origin()));
+    let is_disc = footprint.parts().len() == 1 && footprint.parts().iter().all(|p| p.placed().core().len() == 1);
+    let heading = state.filter(|_| is_disc).and_then(|s| s.configuration.get(2).copied());
+    let (flash, contacts) = state.map_or((false, 0), |s| (s.flash > 0, s.contacts));
+    CrowdRobot { footprint, bounds, heading, flash, contacts }
+}

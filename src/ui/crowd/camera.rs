@@ -1,0 +1,62 @@
+//! `Camera`, what part of a world is shown, and how large.
+
+use crate::geometry::{Aabb, Point2};
+use crate::num::{greater, lesser};
+use crate::picture::Fit;
+
+/// Largest scale, points per metre.
+const LARGEST: f64 = 400.0;
+
+/// Length of what is shown across when a robot is followed at first, metres.
+const AROUND: f64 = 16.0;
+
+/// What part of a world is shown. By default all of it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Camera {
+    /// The point of the world in the middle of the paper; `None` for the middle of the world.
+    pub centre: Option<Point2>,
+    /// The scale, as a multiple of that at which the world just fits; at least 1.
+    pub zoom: f64,
+}
+
+impl Default for Camera {
+    fn default() -> Self {
+        Camera { centre: None, zoom: 1.0 }
+    }
+}
+
+impl Camera {
+    /// How the world lies on paper on which it lies whole as `whole` says. `scale` pixels are a point.
+    pub fn fit(&self, whole: &Fit, bounds: &Aabb, scale: f64) -> Fit {
+        match self.centre {
+            Some(centre) => whole.magnified(centre, self.zoom).on_pixels(scale),
+            None => whole.magnified(bounds.centre(), self.zoom),
+        }
+    }
+
+    /// Magnifies by `factor` so that the point `at` of the world stays where it is on the screen. The scale stays in
+    /// its range, and the whole world is centred.
+    pub fn zoom_at(&mut self, at: Point2, factor: f64, whole: &Fit, bounds: &Aabb) {
+        let most = greater(1.0, LARGEST / whole.px_per_metre());
+        let zoom = greater(1.0, lesser(most, self.zoom * factor));
+        let centre = self.centre.unwrap_or_else(|| bounds.centre());
+        if zoom <= 1.0 {
+            *self = Camera::default();
+        } else if zoom != self.zoom {
+            self.look_at(at + (centre - at) * (self.zoom / zoom), bounds);
+            self.zoom = zoom;
+        }
+    }
+
+    /// Puts a point of the world into the middle, or the nearest one that is in the world.
+    pub fn look_at(&mut self, centre: Point2, bounds: &Aabb) {
+        let within = |v, min, max| greater(min, lesser(max, v));
+        let Aabb { min, max } = bounds;
+        self.centre = Some(Point2::new(within(centre.x, min.x, max.x), within(centre.y, min.y, max.y)));
+    }
+
+    /// Comes so near that some metres are seen, for a paper `across` points across; does nothing if it is nearer.
+    pub fn approach(&mut self, across: f64, whole: &Fit) {
+        self.zoom = greater(self.zoom, across / (AROUND * whole.px_per_metre()));
+    }
+}

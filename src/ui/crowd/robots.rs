@@ -1,0 +1,164 @@
+//! Paints the robots of a crowd as one mesh, each as small or as fine as it is on the screen.
+
+use std::f64::consts::{PI, TAU};
+
+use bevy_egui::egui::{Pos2, Rect, Vec2, pos2};
+
+use super::values::{Crowd, CrowdRobot};
+use crate::geometry::{Aabb, Part, Placed, Point2, Pose2, Shape};
+use crate::num::{sin_cos, wrap};
+use crate::picture::{Fit, Role, chevron, nose};
+use crate::ui::Look;
+use crate::ui::paint::polygons::Polygons;
+
+/// Size on the screen below which a robot is a square, points.
+const SMALL: f64 = 4.0;
+
+/// Size on the screen from which on a robot shows its heading, points.
+const SHOWS_HEADING: f64 = 9.0;
+
+/// Least side of such a square, points.
+const LEAST: f32 = 2.0;
+
+/// Farthest that a robot moves in a tick, metres. One that moved farther was put there.
+const LEAP: f64 = 0.5;
+
+/// The opacity of a body, as of a robot that is drawn by itself.
+const BODY: f64 = 0.85;
+
+/// The robots that the paper shows, as polygons. `red` says by a robot's id and its flash whether it is drawn red.
+pub fn robots(
+    crowd: &Crowd,
+    paper: Rect,
+    fit: &Fit,
+    look: &Look,
+    mut red: impl FnMut(u32, &CrowdRobot) -> bool,
+) -> Polygons {
+    let mut out = Polygons::default();
+    let mut pen = Pen { fit, corners: Vec::new() };
+    let (scale, s) = (fit.px_per_metre(), crowd.between);
+    let before = crowd.before.iter().map(Some).chain(std::iter::repeat(None));
+    for ((robot, before), id) in crowd.now.iter().zip(before).zip(crowd.first..) {
+        let before = before.filter(|b| s < 1.0 && is_a_step(b, robot));
+        let shift = before.map_or(Vec2::ZERO, |b| {
+            let back = (b.bounds.centre() - robot.bounds.centre()) * ((1.0 - s) * scale);
+            Vec2::new(back.x as f32, -back.y as f32)
+        });
+        let on_screen = pen.rect(&robot.bounds).translate(shift);
+        if !on_screen.intersects(paper) {
+            continue;
+        }
+        let role = if red(id, robot) { Role::Goal } else { Role::Robot };
+        let size = f64::from(on_screen.size().max_elem());
+        if size < SMALL {
+            let side = if on_screen.size().max_elem() > LEAST { on_screen.size().max_elem() } else { LEAST };
+            let square = Rect::from_center_size(on_screen.center(), Vec2::splat(side));
+            out.rect(square, look.colour(role));
+            continue;
+        }
+        let colour = look.tint(role, BODY);
+        let parts = robot.footprint.parts();
+        for (i, part) in parts.iter().enumerate() {
+            let from = before.and_then(|b| b.footprint.parts().get(i)).map(Part::placed);
+            pen.outline(part.placed(), from, s);
+            out.polygon(&pen.corners, colour);
+        }
+        if size >= SHOWS_HEADING
+            && let Some(corners) = heading(robot, before, s)
+        {
+            out.polygon(&corners.map(|p| pen.at(p)), look.tint(Role::Paper, 0.9));
+        }
+    }
+    out
+}
+
+/// Whether a robot moved from one to the other in a tick: it was not put there, and has the parts that it had.
+fn is_a_step(before: &CrowdRobot, now: &CrowdRobot) -> bool {
+    let (a, b) = (before.footprint.parts(), now.footprint.parts());
+    let is_near = |(a, b): (&Part, &Part)| {
+        a.placed().core().len() == b.placed().core().len() && (b.pose().position() - a.pose().position()).norm() <= LEAP
+    };
+    a.len() == b.len() && a.iter().zip(b).all(is_near)
+}
+
+/// The mark that shows a robot's heading: the pointer on a disc, the chevron on a rectangle.
+fn heading(robot: &CrowdRobot, before: Option<&CrowdRobot>, s: f64) -> Option<[Point2; 3]> {
+    let (part, from) = (robot.footprint.parts().first()?, before.and_then(|b| b.footprint.parts().first()));
+    let turn = |from: f64, to: f64| from + s * wrap(to - from);
+    let pose = from.map_or(*part.pose(), |from| {
+        let (a, b) = (from.pose(), part.pose());
+        Pose2::new(a.x + s * (b.x - a.x), a.y + s * (b.y - a.y), turn(a.theta, b.theta))
+    });
+    match (part.shape(), robot.heading) {
+        (Shape::Rectangle { min, max }, _) => Some(chevron(&pose, *min, *max)),
+        (_, Some(heading)) => {
+            let heading = before.and_then(|b| b.heading).map_or(heading, |from| turn(from, heading));
+            Some(nose(pose.position(), part.placed().radius(), heading))
+        }
+        _ => None,
+    }
+}
+
+/// Puts outlines on the screen.
+struct Pen<'a> {
+    fit: &'a Fit,
+    /// The corners of the last outline.
+    corners: Vec<Pos2>,
+}
+
+impl Pen<'_> {
+    fn at(&self, p: Point2) -> Pos2 {
+        let [x, y] = self.fit.screen_from_world(p);
+        pos2(x as f32, y as f32)
+    }
+
+    fn rect(&self, bounds: &Aabb) -> Rect {
+        Rect::from_two_pos(self.at(bounds.min), self.at(bounds.max))
+    }
+
+    /// The outline of a part a fraction `s` of the way from where it was: of a disc a polygon of as many corners as its
+    /// size asks for, of a capsule two halves of one, of any other part its core's corners.
+    fn outline(&mut self, now: &Placed, from: Option<&Placed>, s: f64) {
+        self.corners.clear();
+        let fit = self.fit;
+        let core = now.core().iter().enumerate().map(|(i, p)| match from.and_then(|f| f.core().get(i)) {
+            Some(from) => from + (p - from) * s,
+            None => *p,
+        });
+        let screen = core.map(|p| {
+            let [x, y] = fit.screen_from_world(p);
+            pos2(x as f32, y as f32)
+        });
+        self.corners.extend(screen);
+        let radius = (now.radius() * fit.px_per_metre()) as f32;
+        // an arc strays from its circle by less than a tenth of a point
+        let steps = (1.2 * radius.sqrt()).ceil().clamp(2.0, 24.0) as usize;
+        match self.corners[..] {
+            [centre] => {
+                self.corners.clear();
+                self.arc(centre, Vec2::new(radius, 0.0), TAU, 4 * steps);
+            }
+            [a, b] => {
+                self.corners.clear();
+                let along = (b - a).normalized() * if radius > 0.75 { radius } else { 0.75 };
+                let right = Vec2::new(along.y, -along.x);
+                self.arc(b, right, PI, 2 * steps);
+                self.corners.push(b - right);
+                self.arc(a, -right, PI, 2 * steps);
+                self.corners.push(a + right);
+            }
+            _ => {}
+        }
+    }
+
+    /// Adds so many points of an arc about `centre`, from `arm` on; the point at its end is not one of them.
+    fn arc(&mut self, centre: Pos2, mut arm: Vec2, angle: f64, points: usize) {
+        let (s, c) = sin_cos(angle / points as f64);
+        let (s, c) = (s as f32, c as f32);
+        for _ in 0..points {
+            self.corners.push(centre + arm);
+            // each point is the one before, turned on
+            arm = Vec2::new(c * arm.x - s * arm.y, s * arm.x + c * arm.y);
+        }
+    }
+}

@@ -1,0 +1,168 @@
+use std::sync::Arc;
+
+use bevy_egui::egui::{Rect, pos2};
+
+use super::camera::Camera;
+use super::heat::Heat;
+use super::robots::robots;
+use super::state::CrowdState;
+use super::values::{Crowd, CrowdRobot};
+use crate::geometry::{Aabb, Footprint, Point2, Pose2};
+use crate::picture::{Fit, Role, ScreenRect, Theme};
+use crate::simulation::{Happening, TickMark};
+use crate::ui::Look;
+
+const YARD: Aabb = Aabb::new(Point2::new(0.0, 0.0), Point2::new(40.0, 20.0));
+
+/// Ten points a metre: the yard on 400 by 200 points.
+fn whole() -> Fit {
+    Fit::new(&YARD, ScreenRect { min: [0.0, 0.0], size: [400.0, 200.0] }, 0.0)
+}
+
+fn paper() -> Rect {
+    Rect::from_min_max(pos2(0.0, 0.0), pos2(400.0, 200.0))
+}
+
+fn rover(x: f64, y: f64, radius: f64) -> CrowdRobot {
+    let footprint = Footprint::disc(Point2::new(x, y), radius);
+    let bounds = footprint.bounds().unwrap();
+    CrowdRobot { footprint, bounds, heading: Some(0.0), flash: false, contacts: 0 }
+}
+
+fn crowd(before: Vec<CrowdRobot>, now: Vec<CrowdRobot>, between: f64) -> Crowd {
+    let names = (0..now.len()).map(|i| format!("Rover {}", i + 7)).collect();
+    Crowd { first: 7, names, now: Arc::new(now), before: Arc::new(before), between }
+}
+
+fn still(robots: Vec<CrowdRobot>) -> Crowd {
+    crowd(robots.clone(), robots, 1.0)
+}
+
+#[test]
+fn what_is_under_the_pointer_stays_there_while_it_is_magnified() {
+    let (whole, at) = (whole(), Point2::new(31.0, 4.0));
+    let mut camera = Camera::default();
+    let on_screen = |camera: &Camera| camera.fit(&whole, &YARD, 1.0).screen_from_world(at);
+    let before = on_screen(&camera);
+    for factor in [1.7, 2.5, 0.6, 3.0] {
+        camera.zoom_at(at, factor, &whole, &YARD);
+        let [x, y] = on_screen(&camera);
+        assert!((x - before[0]).abs() <= 0.51 && (y - before[1]).abs() <= 0.51, "to the pixel: {x} {y} {before:?}");
+    }
+    assert!((camera.zoom - 1.7 * 2.5 * 0.6 * 3.0).abs() < 1e-9);
+    camera.zoom_at(at, 1e9, &whole, &YARD);
+    assert_eq!(camera.zoom * whole.px_per_metre(), 400.0, "no larger than 400 points a metre");
+    camera.zoom_at(at, 1e-9, &whole, &YARD);
+    assert_eq!(camera, Camera::default(), "no smaller than the whole world, which is centred again");
+    camera.look_at(Point2::new(55.0, -3.0), &YARD);
+    assert_eq!(camera.centre, Some(Point2::new(40.0, 0.0)), "the middle of the view is in the world");
+}
+
+#[test]
+fn the_nearest_robot_is_that_whose_box_is_nearest() {
+    let crowd = still(vec![rover(5.0, 5.0, 2.0), rover(6.0, 5.0, 0.2), rover(20.0, 5.0, 0.2)]);
+    let at = |x, y, reach| crowd.nearest(Point2::new(x, y), reach);
+    assert_eq!(at(6.1, 5.0, 0.1), Some(8), "both boxes hold the point, and the middle of this one is nearer");
+    assert_eq!(at(4.0, 5.0, 0.1), Some(7));
+    assert_eq!(at(20.5, 5.0, 0.31), Some(9), "0.3 m from its box");
+    assert_eq!(at(20.5, 5.0, 0.29), None);
+    assert_eq!(crowd.name(8), Some("Rover 8"));
+    assert_eq!([crowd.name(6), crowd.name(10)], [None, None], "ids of other crowds");
+}
+
+#[test]
+fn a_crowd_is_one_mesh_of_what_the_paper_shows() {
+    // 0.1 m are a point: too small for an outline
+    let dots = still(vec![rover(5.0, 5.0, 0.1), rover(39.0, 19.0, 0.1), rover(60.0, 5.0, 0.1)]);
+    let look = Look::from(Theme::Light);
+    let mesh = robots(&dots, paper(), &whole(), &look, |_, _| false).0;
+    assert_eq!(mesh.vertices.len(), 8, "two squares; the third is beside the paper");
+    assert!(mesh.vertices.iter().all(|v| v.color == look.colour(Role::Robot)));
+    let corners = Rect::from_points(&mesh.vertices.iter().take(4).map(|v| v.pos).collect::<Vec<_>>());
+    assert_eq!(
+        corners,
+        Rect::from_center_size(pos2(50.0, 150.0), bevy_egui::egui::Vec2::splat(2.0)),
+        "2 m across is 2"
+    );
+
+    // a disc of ten points: within a tenth of a point of its circle, and the pointer on it
+    let disc = still(vec![rover(5.0, 5.0, 1.0)]);
+    let mesh = robots(&disc, paper(), &whole(), &look, |id, _| id == 7).0;
+    let body: Vec<f32> = mesh
+        .vertices
+        .iter()
+        .filter(|v| v.color == look.tint(Role::Goal, 0.85))
+        .map(|v| (v.pos - pos2(50.0, 150.0)).length())
+        .collect();
+    assert!(body.len() >= 12 && body.iter().all(|r| (r - 9.5).abs() < 0.15), "half a point inside: {body:?}");
+    assert!(mesh.vertices.iter().any(|v| v.color == look.tint(Role::Paper, 0.9)), "its heading");
+}
+
+#[test]
+fn robots_are_drawn_on_their_way_and_not_while_they_leap() {
+    let middle = |crowd: &Crowd| {
+        let mesh = robots(crowd, paper(), &whole(), &Look::from(Theme::Dark), |_, _| false).0;
+        mesh.calc_bounds().center()
+    };
+    let on_the_way = crowd(vec![rover(5.0, 5.0, 1.0)], vec![rover(5.4, 5.2, 1.0)], 0.25);
+    let at = middle(&on_the_way);
+    assert!((at - pos2(51.0, 149.5)).length() < 1e-3, "a quarter of 0.4 m and 0.2 m: {at}");
+    let leap = crowd(vec![rover(5.0, 5.0, 1.0)], vec![rover(9.0, 5.0, 1.0)], 0.25);
+    assert!((middle(&leap) - pos2(90.0, 150.0)).length() < 1e-3, "it was put there");
+    // a car turning: its corners are on the way too
+    let car = |theta| {
+        let at = Pose2::new(5.0, 5.0, theta);
+        let footprint = Footprint::rects([(at, Point2::new(-1.0, -0.5), Point2::new(1.0, 0.5))]);
+        let bounds = footprint.bounds().unwrap();
+        CrowdRobot { footprint, bounds, heading: None, flash: false, contacts: 0 }
+    };
+    let turning = crowd(vec![car(0.0)], vec![car(0.2)], 0.5);
+    let mesh = robots(&turning, paper(), &whole(), &Look::from(Theme::Dark), |_, _| false).0;
+    // the corner (1, 0.5) turned by 0.1, half of 0.2, is at (0.9451, 0.5973)
+    let near = |v: &bevy_egui::egui::epaint::Vertex| (v.pos - pos2(59.45, 144.03)).length();
+    assert!(mesh.vertices.iter().map(near).any(|gap| gap < 0.75));
+}
+
+#[test]
+fn contacts_are_counted_where_they_began() {
+    let mark = |tick, robot, x, what| TickMark { tick, robot, what, at: Point2::new(x, 1.0) };
+    let marks = [
+        mark(1, 7, 1.0, Happening::Contact),
+        mark(2, 8, 1.1, Happening::Contact),
+        mark(3, 7, 30.0, Happening::Contact),
+        mark(3, 3, 30.0, Happening::Contact),
+        mark(3, 7, 30.0, Happening::Takeover),
+        mark(9, 7, 30.0, Happening::Contact),
+    ];
+    let heat = Heat::of(&marks, 3, 7..10, &YARD);
+    assert_eq!(heat.counts.iter().sum::<u32>(), 3, "not those of others, of other kinds, or later ones");
+    // 96 squares along 40 m, 4.17 points each
+    let mesh = heat.squares(&whole(), &Look::from(Theme::Light)).0;
+    assert_eq!(mesh.vertices.len(), 8, "two squares");
+    let square =
+        |i: usize| Rect::from_points(&mesh.vertices[4 * i..4 * i + 4].iter().map(|v| v.pos).collect::<Vec<_>>());
+    assert!(square(0).contains(pos2(10.0, 190.0)) && square(1).contains(pos2(300.0, 190.0)), "{:?}", square(0));
+    let opacity = |i: usize| mesh.vertices[4 * i].color.a();
+    assert!(opacity(0) > opacity(1) && opacity(1) > 60, "two contacts are fuller than one, which is seen");
+}
+
+#[test]
+fn the_list_finds_by_name_and_by_contacts() {
+    let mut robots = vec![rover(1.0, 1.0, 0.1); 12];
+    robots[4].contacts = 2;
+    robots[5].contacts = 1;
+    let crowd = still(robots);
+    let mut state = CrowdState::default();
+    assert_eq!(state.found(&crowd).len(), 12);
+    state.search = " rOVER 1 ".into();
+    assert_eq!(&state.found(&crowd)[..], [10, 11, 12, 13, 14, 15, 16, 17, 18]);
+    state.with_contacts = true;
+    assert_eq!(&state.found(&crowd)[..], [11, 12]);
+    let mut other = still(vec![rover(1.0, 1.0, 0.1)]);
+    other.names = vec!["Rover 10 of another run".to_owned()].into();
+    state.with_contacts = false;
+    assert_eq!(&state.found(&other)[..], [7], "another run's names are searched again");
+    state.pick(&crowd, Some(9));
+    assert_eq!(state.picked_in(&crowd).map(|p| p.id), Some(9));
+    assert_eq!(state.picked_in(&other), None, "it has no such robot");
+}
