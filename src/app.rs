@@ -10,6 +10,8 @@ mod dialogs;
 mod error;
 #[cfg(feature = "window")]
 mod files;
+#[cfg(feature = "window")]
+mod frames;
 mod pace;
 mod put_robot;
 mod rest;
@@ -31,9 +33,11 @@ use bevy::window::{RequestRedraw, WindowResolution};
 use bevy::winit::{UpdateMode, WinitSettings};
 use bevy_egui::{EguiContext, EguiGlobalSettings, EguiPlugin, EguiPrimaryContextPass, PrimaryEguiContext, egui};
 
+#[cfg(feature = "window")]
+pub use frames::FrameTimes;
 pub(crate) use session::SessionPlugin;
 #[cfg(feature = "window")]
-pub use window::{WindowError, open_log_in_window, open_world_in_window, run_window, run_window_with};
+pub use window::{Opened, WindowError, open_in_window, run_window, run_window_with};
 
 use crate::picture::Theme;
 use crate::simulation::History;

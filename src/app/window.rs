@@ -4,12 +4,13 @@ use std::any::Any;
 use std::ffi::OsString;
 use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind, set_hook, take_hook};
 use std::path::PathBuf;
-use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Arc, Mutex};
 
 use bevy::prelude::*;
 
 use super::files::open_run;
+use super::frames::{FrameTimes, MeasurePlugin};
 use super::session::Interface;
 use crate::simulation::{Playback, Transport, start_run};
 use crate::tour::{BOOK_SEED, TourConfig};
@@ -73,38 +74,49 @@ pub fn run_window_with(add: impl FnOnce(&mut App)) -> Result<(), WindowError> {
     }
 }
 
-/// [`run_window`] with a run of this world, from the book's seed, in place of the three worlds' tour.
+/// What [`open_in_window`] begins with.
+#[derive(Clone, Debug)]
+#[non_exhaustive]
+pub enum Opened {
+    /// A run of this world, from the book's seed, in place of the three worlds' tour. It plays.
+    World(Box<WorldModel>),
+    /// A recorded run: simulated again and compared with what was recorded, and shown paused. The window says what came
+    /// of it, also where the file can't be read.
+    Log(PathBuf),
+}
+
+/// [`run_window`] with a world or a recorded run. With `frames` it closes after so many frames, and what these took is
+/// returned; else the times are empty.
 ///
 /// # Errors
 /// As [`run_window`].
-pub fn open_world_in_window(model: WorldModel) -> Result<(), WindowError> {
-    open_with(move |world| {
-        let config = TourConfig { worlds: vec![model], ..TourConfig::default() };
-        let started = start_run(world, config, BOOK_SEED);
-        world.resource_mut::<Transport>().playback = Playback::Playing;
-        Some(Notice { text: format!("the world does not run: {}", started.err()?), is_error: true })
-    })
-}
-
-/// [`run_window`] with a recorded run: it is simulated again and compared with what was recorded, and shown paused. The
-/// window says what came of it, also where the file can't be read.
-///
-/// # Errors
-/// As [`run_window`].
-pub fn open_log_in_window(path: PathBuf) -> Result<(), WindowError> {
-    open_with(move |world| open_run(world, &path))
-}
-
-/// Opens the window with what `open` opens, and with the notice that comes of it.
-fn open_with(open: impl FnOnce(&mut World) -> Option<Notice> + Send + Sync + 'static) -> Result<(), WindowError> {
+pub fn open_in_window(what: Opened, frames: Option<u32>) -> Result<FrameTimes, WindowError> {
+    let times = Arc::new(Mutex::new(FrameTimes::default()));
+    let shared = Arc::clone(&times);
     run_window_with(move |app| {
-        let mut open = Some(open);
-        let once = move |world: &mut World| {
-            let notice = open.take().and_then(|open| open(world));
+        let mut what = Some(what);
+        app.add_systems(PostStartup, move |world: &mut World| {
+            let notice = what.take().and_then(|what| open(world, what));
             world.resource_mut::<Interface>().0.notice = notice;
-        };
-        app.add_systems(PostStartup, once);
-    })
+        });
+        if let Some(frames) = frames {
+            app.add_plugins(MeasurePlugin { frames, times: shared });
+        }
+    })?;
+    Ok(times.lock().map(|mut times| std::mem::take(&mut *times)).unwrap_or_default())
+}
+
+/// Begins with a world or a recorded run. Returns what to say of it.
+fn open(world: &mut World, what: Opened) -> Option<Notice> {
+    match what {
+        Opened::World(model) => {
+            let config = TourConfig { worlds: vec![*model], ..TourConfig::default() };
+            let started = start_run(world, config, BOOK_SEED);
+            world.resource_mut::<Transport>().playback = Playback::Playing;
+            Some(Notice { text: format!("the world does not run: {}", started.err()?), is_error: true })
+        }
+        Opened::Log(path) => open_run(world, &path),
+    }
 }
 
 /// Checks that there is a display. On Linux one of two variables must name it; other systems always have one.

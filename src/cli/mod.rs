@@ -78,7 +78,7 @@ impl Cli {
             Some(Command::Grade(grade)) => grade.run(data),
             Some(Command::Describe(describe)) => describe.run(data),
             #[cfg(feature = "window")]
-            Some(Command::Open(open)) => open.run(),
+            Some(Command::Open(open)) => open.run(data),
             None => bare::bare(data),
         }
     }

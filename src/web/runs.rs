@@ -7,8 +7,8 @@ use super::link::Link;
 use crate::capture::RunFigure;
 use crate::picture::Theme;
 use crate::random::Seed;
-use crate::recording::{Recorder, Run, RunError, Verification, verify};
-use crate::run::{Log, Script, ScriptError};
+use crate::recording::{DigestVerification, Recorder, Run, RunError, Verification, verify, verify_digests};
+use crate::run::{DigestLog, DigestLogWriter, Log, LogError, MOST_ROBOTS_IN_FULL, RunDigest, Script, ScriptError};
 use crate::sensors::RangeSensor;
 use crate::tour::TourConfig;
 use crate::worlds::{World, WorldError};
@@ -41,7 +41,8 @@ impl RunParts {
         }
     }
 
-    fn log(&self) -> Result<Log, PartsError> {
+    /// The log's bytes: with all frames up to 100 robots, above with a digest of each second.
+    fn written(&self) -> Result<Vec<u8>, PartsError> {
         let seed = self.seed.parse().map_err(|_| PartsError::Seed(self.seed.clone()))?;
         let parse = |text: &String| World::parse("the world", text);
         let worlds = self.worlds.iter().map(parse).collect::<Result<_, _>>()?;
@@ -49,7 +50,7 @@ impl RunParts {
         script.truncate_after(self.ticks);
         let sensor = self.sensor.map(|(n_rays, max_range)| RangeSensor { n_rays, max_range });
         let config = TourConfig { worlds, ticks: self.ticks, sensor };
-        Ok(Run::record(config, (Seed(seed), script))?)
+        written(config, Seed(seed), script)
     }
 }
 
@@ -68,6 +69,9 @@ enum PartsError {
     /// The run cannot start.
     #[error(transparent)]
     Run(#[from] RunError),
+    /// The log cannot be written.
+    #[error(transparent)]
+    Log(#[from] LogError),
 }
 
 /// The result of simulating a log again.
@@ -86,10 +90,22 @@ struct Verdict {
     text: String,
 }
 
-fn written(log: &Log) -> Result<Vec<u8>, JsError> {
+/// The bytes of a run's log: with all frames up to 100 robots, above with a digest of each second.
+fn written(config: TourConfig, seed: Seed, script: Script) -> Result<Vec<u8>, PartsError> {
     let mut bytes = Vec::new();
-    log.write_mcap(&mut bytes).map_err(error)?;
-    Ok(bytes)
+    if config.robot_names().count() <= MOST_ROBOTS_IN_FULL {
+        Run::record(config, (seed, script))?.write_mcap(&mut bytes)?;
+        return Ok(bytes);
+    }
+    let mut run = Recorder::new(config.clone(), (seed, script.clone()))?;
+    let mut digest = RunDigest::new(seed, &config, &script, run.frame());
+    let mut writer = DigestLogWriter::new(bytes, seed, &config, &script, &digest)?;
+    for _ in 0..config.ticks {
+        let frame = run.step();
+        digest.tick(frame);
+        writer.tick(frame, &digest)?;
+    }
+    Ok(writer.finish(digest.digest())?)
 }
 
 fn error(text: impl ToString) -> JsError {
@@ -103,7 +119,7 @@ fn error(text: impl ToString) -> JsError {
 #[wasm_bindgen]
 pub fn record_log(parts: &str) -> Result<Vec<u8>, JsError> {
     let parts: RunParts = serde_json::from_str(parts).map_err(error)?;
-    written(&parts.log().map_err(error)?)
+    parts.written().map_err(error)
 }
 
 /// The bytes of the log of the run that the query of an address stands for.
@@ -113,18 +129,21 @@ pub fn record_log(parts: &str) -> Result<Vec<u8>, JsError> {
 #[wasm_bindgen]
 pub fn record_link(query: &str) -> Result<Vec<u8>, JsError> {
     let link = Link::parse(query).map_err(error)?;
-    let log = Run::record(link.config(), (link.seed, link.script.clone())).map_err(error)?;
-    written(&log)
+    written(link.config(), link.seed, link.script.clone()).map_err(error)
 }
 
-/// Simulates a log's run again from its seed, configuration and script, and compares every frame to the last bit. JSON:
-/// `{ "verified", "ticks", "diverging_tick", "digest", "seed", "text" }`.
+/// Simulates a log's run again from its seed, configuration and script, and compares every frame to the last bit, or the
+/// digest of every second. JSON: `{ "verified", "ticks", "diverging_tick", "digest", "seed", "text" }`.
 ///
 /// # Errors
 /// The reason, when the bytes are no log, or one that was cut or damaged.
 #[wasm_bindgen]
 pub fn verify_log(bytes: &[u8]) -> Result<String, JsError> {
-    let log = Log::read_mcap(bytes).map_err(error)?.log;
+    let log = match Log::read_mcap(bytes) {
+        Ok(read) => read.log,
+        Err(LogError::NoFrames) => return verify_digest_log(bytes),
+        Err(other) => return Err(error(other)),
+    };
     let Verification { recorded, digest, divergence, .. } = verify(&log, |_| {}).map_err(error)?;
     let verdict = Verdict {
         verified: divergence.is_none(),
@@ -135,6 +154,23 @@ pub fn verify_log(bytes: &[u8]) -> Result<String, JsError> {
         text: match divergence {
             None => format!("bit-identical, {recorded} of {recorded}"),
             Some(divergence) => divergence.to_string(),
+        },
+    };
+    serde_json::to_string(&verdict).map_err(error)
+}
+
+fn verify_digest_log(bytes: &[u8]) -> Result<String, JsError> {
+    let log = DigestLog::read_mcap(bytes).map_err(error)?.log;
+    let DigestVerification { recorded, digest, difference, .. } = verify_digests(&log, |_| {}).map_err(error)?;
+    let verdict = Verdict {
+        verified: difference.is_none(),
+        ticks: recorded,
+        diverging_tick: difference.map(|d| d.first_tick),
+        digest: digest.to_string(),
+        seed: log.seed.to_string(),
+        text: match difference {
+            None => format!("bit-identical, {recorded} of {recorded}"),
+            Some(difference) => difference.to_string(),
         },
     };
     serde_json::to_string(&verdict).map_err(error)

@@ -71,13 +71,18 @@ pub fn crowd_pane(
     let mut row = ui.new_child(UiBuilder::new().max_rect(foot).layout(Layout::left_to_right(Align::Center)));
     row.spacing_mut().interact_size.y = FOOT - 6.0;
     row.label(RichText::new(shown.cockpit.heading()).color(look.colour(Role::Text)));
-    heat_link(&mut row, shown, look, state);
+    if !look.narrow {
+        heat_link(&mut row, shown, look, state);
+    }
     row.with_layout(Layout::right_to_left(Align::Center), |ui| scale_bar(ui, fit.px_per_metre(), look));
     let mut ui = ui.new_child(UiBuilder::new().max_rect(words).layout(Layout::top_down(Align::Min)));
     let is_picked = !shown.cockpit.robots.is_empty();
     if rect.width() < BESIDE {
         ScrollArea::vertical().id_salt("words").show(&mut ui, |ui| {
             picked(ui, shown, paper, look, state, commands);
+            if look.narrow {
+                ui.horizontal(|ui| heat_link(ui, shown, look, state));
+            }
             doors::links(ui, shown.cockpit, commands);
             list(ui, shown.crowd, 0.9 * words.height(), look, state, commands);
         });
@@ -211,11 +216,12 @@ fn middle(of: Option<Point2>, bounds: &crate::geometry::Aabb) -> Point2 {
 
 /// Shows the buttons that magnify, in the paper's upper right corner.
 fn magnifier(ui: &mut Ui, paper: Rect, whole: &Fit, camera: &mut Camera, cockpit: &Cockpit, look: &Look) {
-    let corner = Rect::from_min_max(pos2(paper.left(), paper.top() + 8.0), paper.right_bottom() - vec2(8.0, 8.0));
-    let mut ui = ui.new_child(UiBuilder::new().max_rect(corner).layout(Layout::right_to_left(Align::Min)));
+    let side = ui.spacing().interact_size.y;
+    let corner =
+        Rect::from_min_max(paper.left_top() + vec2(8.0, 8.0), pos2(paper.right() - 8.0, paper.top() + 8.0 + side));
+    let mut ui = ui.new_child(UiBuilder::new().max_rect(corner).layout(Layout::right_to_left(Align::Center)));
     let bounds = &cockpit.world.bounds;
     let centre = camera.centre.unwrap_or_else(|| bounds.centre());
-    let side = ui.spacing().interact_size.y;
     let mut button = |label: &str, words: &str, width: f32| {
         let shown = LabButton::new(label).width(width).show(&mut ui, look);
         shown.widget_info(|| WidgetInfo::labeled(WidgetType::Button, true, words));

@@ -8,9 +8,11 @@ use bevy_egui::egui::{
     pos2,
 };
 
-use crate::geometry::Point2;
+use crate::geometry::{Aabb, Point2};
+use crate::num::greater;
 use crate::picture::{
-    Anchor, Dash, Face, Fit, Item, Line, Picture, Primitive, Role, ScreenPoint, ScreenRect, Theme, resolve,
+    Anchor, Dash, Drawing, Face, Fill, Fit, Item, Line, Picture, Primitive, Role, ScreenPoint, ScreenRect, Theme,
+    resolve,
 };
 use crate::ui::Look;
 
@@ -94,7 +96,7 @@ pub fn paint_kept(painter: &Painter, picture: &Arc<Picture>, rect: Rect, fit: &F
         // lines and marks reach a few points farther than what they show
         let covered = fit.shown_in(screen_rect(covers)).grown(16.0 / fit.px_per_metre());
         let is_near = |item: &&Item| item.drawing.bounds().is_none_or(|b| !b.is_apart(&covered));
-        let items: Vec<Item> = picture.items.iter().filter(is_near).cloned().collect();
+        let items: Vec<Item> = picture.items.iter().filter(is_near).cloned().map(|item| coarse(item, fit)).collect();
         let near = Picture::new(&picture.name, picture.bounds).with(items);
         paint_still(&aside, &near, fit, look);
         let shapes = ctx.graphics_mut(|layers| layers.get_mut(aside.layer_id()).map(std::mem::take));
@@ -115,6 +117,33 @@ pub fn paint_kept(painter: &Painter, picture: &Arc<Picture>, rect: Rect, fit: &F
     }
     painter.add(Shape::Mesh(Arc::clone(&kept.mesh)));
     ctx.data_mut(|d| d.insert_temp(id, kept));
+}
+
+/// Size on the screen below which a hatched area is tinted instead, without an edge, points.
+const HATCHED: f64 = 14.0;
+
+/// Scale below which dashed lines are solid and thin, points per metre: their dashes are as long whatever the scale.
+const DASHED: f64 = 8.0;
+
+/// Distance on the screen below which a point of such a line is left out, points.
+const FINE: f64 = 2.5;
+
+/// The item without what is too fine to be seen.
+fn coarse(mut item: Item, fit: &Fit) -> Item {
+    let scale = fit.px_per_metre();
+    let size = |b: Aabb| greater(b.max.x - b.min.x, b.max.y - b.min.y) * scale;
+    if item.fill == Fill::Hatch && item.drawing.bounds().is_some_and(|b| size(b) < HATCHED) {
+        (item.fill, item.line) = (Fill::Tint(0.6), None);
+    }
+    if let Some(line) = item.line.as_mut().filter(|line| line.dash != Dash::Solid && scale < DASHED) {
+        (line.dash, line.opacity) = (Dash::Solid, 0.5 * line.opacity);
+        if let Drawing::Polyline(points) = &mut item.drawing {
+            let last = points.last().copied();
+            points.dedup_by(|b, a| (*b - *a).norm() * scale < FINE);
+            points.extend(last.filter(|last| points.last() != Some(last)));
+        }
+    }
+    item
 }
 
 fn screen_rect(rect: Rect) -> ScreenRect {
@@ -241,6 +270,28 @@ fn paint_line(painter: &Painter, points: &[ScreenPoint], stroke: Stroke, dash: D
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn what_is_too_fine_to_be_seen_is_left_out() {
+        let p = Point2::new;
+        let bounds = Aabb::new(p(0.0, 0.0), p(100.0, 100.0));
+        let fit = |points| Fit::new(&bounds, ScreenRect { min: [0.0, 0.0], size: [points, points] }, 0.0);
+        let square = Drawing::Polygon(vec![p(0.0, 0.0), p(2.0, 0.0), p(2.0, 2.0), p(0.0, 2.0)]);
+        let rack = Item::new("a", "a", Role::Obstacle, square).filled(Fill::Hatch).stroked(Line::solid(1.5));
+        // 2 m are 13.8 points, then 14
+        let small = coarse(rack.clone(), &fit(690.0));
+        assert_eq!((small.fill, small.line), (Fill::Tint(0.6), None));
+        assert_eq!(coarse(rack.clone(), &fit(700.0)), rack);
+        let points: Vec<Point2> = (0..=30).map(|i| p(0.1 * f64::from(i), 0.0)).collect();
+        let dashed = Line::solid(1.0).dashed(Dash::Dashed);
+        let route = Item::new("b", "b", Role::Muted, Drawing::Polyline(points)).stroked(dashed);
+        // 0.1 m are 0.5 points: every fifth point is 2.5 points from the one before, and the last one stays
+        let thin = coarse(route.clone(), &fit(501.0));
+        let Drawing::Polyline(left) = &thin.drawing else { panic!("a line") };
+        assert_eq!(left.iter().map(|p| (10.0 * p.x).round() as i32).collect::<Vec<_>>(), [0, 5, 10, 15, 20, 25, 30]);
+        assert_eq!(thin.line.map(|l| (l.dash, l.opacity)), Some((Dash::Solid, 0.5)));
+        assert_eq!(coarse(route.clone(), &fit(800.0)), route);
+    }
 
     #[test]
     fn level_and_upright_edges_go_to_the_pixels_and_slanted_ones_stay() {
