@@ -12,7 +12,7 @@ use super::heat::Heat;
 use super::list::list;
 use super::robots::robots;
 use super::values::{Crowd, CrowdRobot};
-use crate::geometry::Point2;
+use crate::geometry::{Aabb, Point2};
 use crate::num::exp;
 use crate::picture::{Anchor, Drawing, Face, Fit, Item, Picture, Role};
 use crate::simulation::History;
@@ -115,8 +115,9 @@ fn world(
     let mut camera = state.crowd.cameras.get(&cockpit.world.name).copied().unwrap_or_default();
     let scale = f64::from(ui.pixels_per_point());
     moved(ui, &response, &mut camera, &whole, cockpit, state);
-    if let Some(robot) = cockpit.robots.first().filter(|_| state.crowd.follows) {
-        camera.look_at(middle(robot.footprint.parts().first().map(|p| p.pose().position()), &bounds), &bounds);
+    let followed = cockpit.robots.first().filter(|_| state.crowd.follows);
+    if let Some(part) = followed.and_then(|robot| robot.footprint.parts().first()) {
+        camera.look_at(part.pose().position(), &bounds);
     }
     let fit = camera.fit(&whole, &bounds, scale);
     let painter = ui.painter_at(paper);
@@ -143,16 +144,11 @@ fn world(
     }
     let over = over.with(pane::robots(ui, cockpit, state));
     canvas::paint(&painter, &over, &fit, look);
-    for robot in &cockpit.robots {
-        // a ring around who is picked, wide enough to be found where robots are dots
-        let box_of = |b: &crate::geometry::Aabb| (b.centre(), 0.5 * (b.max - b.min).norm() * fit.px_per_metre());
-        if let Some((centre, radius)) = picked.and_then(|id| crowd.now.get(crowd.place(id)?)).map(|r| box_of(&r.bounds))
-        {
-            let at = robot.footprint.parts().first().map_or(centre, |p| p.pose().position());
-            let [x, y] = fit.screen_from_world(if robot.is_arm { centre } else { at });
-            let radius = (radius as f32 + 4.0).max(9.0);
-            painter.circle_stroke(pos2(x as f32, y as f32), radius, Stroke::new(2.0, look.colour(Role::Focus)));
-        }
+    // a ring around who is picked, wide enough to be found where robots are dots
+    for b in cockpit.robots.iter().filter_map(|robot| robot.footprint.bounds()) {
+        let [x, y] = fit.screen_from_world(b.centre());
+        let radius = (0.5 * (b.max - b.min).norm() * fit.px_per_metre()) as f32 + 4.0;
+        painter.circle_stroke(pos2(x as f32, y as f32), radius.max(9.0), Stroke::new(2.0, look.colour(Role::Focus)));
     }
     point_out(&response, &over, cockpit, &fit, state);
     let armed = cockpit.robots.iter().find(|r| state.armed.as_ref() == Some(&r.name));
@@ -208,10 +204,6 @@ fn moved(ui: &Ui, response: &Response, camera: &mut Camera, whole: &Fit, cockpit
         let fit = camera.fit(whole, bounds, f64::from(ui.pixels_per_point()));
         camera.zoom_at(fit.world_from_screen([f64::from(at.x), f64::from(at.y)]), factor, whole, bounds);
     }
-}
-
-fn middle(of: Option<Point2>, bounds: &crate::geometry::Aabb) -> Point2 {
-    of.unwrap_or_else(|| bounds.centre())
 }
 
 /// Shows the buttons that magnify, in the paper's upper right corner.
@@ -274,7 +266,7 @@ fn heat(ui: &Ui, shown: &CrowdPane) -> Arc<Heat> {
 }
 
 /// What kept counts of contacts depend on: how many marks there are up to now and in all, and the world's box.
-type KeptHeat = (usize, usize, crate::geometry::Aabb);
+type KeptHeat = (usize, usize, Aabb);
 
 /// Shows how many contacts there were, and a link that shows where they began.
 fn heat_link(ui: &mut Ui, shown: &CrowdPane, look: &Look, state: &mut UiState) {

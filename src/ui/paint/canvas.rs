@@ -269,7 +269,49 @@ fn paint_line(painter: &Painter, points: &[ScreenPoint], stroke: Stroke, dash: D
 
 #[cfg(test)]
 mod tests {
+    use bevy_egui::egui::{Context, RawInput};
+
     use super::*;
+
+    /// The corners of the mesh that a picture is painted with, those in `rect`, to a hundredth of a point.
+    fn painted(ctx: &Context, picture: &Arc<Picture>, rect: Rect, fit: &Fit) -> Vec<[i32; 2]> {
+        let output = ctx.run_ui(RawInput::default(), |ui| {
+            paint_kept(ui.painter(), picture, rect, fit, &Look::from(Theme::Light));
+        });
+        let meshes = output.shapes.iter().filter_map(|clipped| match &clipped.shape {
+            Shape::Mesh(mesh) => Some(Arc::clone(mesh)),
+            _ => None,
+        });
+        let corners = meshes.flat_map(|mesh| mesh.vertices.iter().map(|v| v.pos).collect::<Vec<_>>());
+        let in_view = corners.filter(|p| rect.contains(*p));
+        let mut found: Vec<[i32; 2]> = in_view.map(|p| [p.x, p.y].map(|v| (100.0 * v).round() as i32)).collect();
+        found.sort_unstable();
+        found
+    }
+
+    #[test]
+    fn a_kept_picture_is_where_a_new_one_would_be() {
+        let p = Point2::new;
+        let boxes = (0..40).map(|i| {
+            let (x, y) = (f64::from(i % 8) * 10.0, f64::from(i / 8) * 10.0);
+            let corners = vec![p(x, y), p(x + 4.0, y), p(x + 4.0, y + 3.0), p(x, y + 3.0)];
+            Item::new(format!("{i}"), "a box", Role::Obstacle, Drawing::Polygon(corners)).filled(Fill::Tint(1.0))
+        });
+        let picture = Arc::new(Picture::new("Yard", Aabb::new(p(0.0, 0.0), p(80.0, 50.0))).with(boxes));
+        let rect = Rect::from_min_size(pos2(10.0, 20.0), Vec2::new(200.0, 100.0));
+        let whole = fit(&picture, rect);
+        let kept = Context::default();
+        let mut seen = 0;
+        // a step within what is kept, one out of it, and back; then larger, and another picture
+        let views = [(40.0, 25.0, 4.0), (45.0, 22.0, 4.0), (70.0, 40.0, 4.0), (40.0, 25.0, 4.0), (40.0, 25.0, 6.0)];
+        for (x, y, zoom) in views {
+            let fit = whole.magnified(p(x, y), zoom).on_pixels(1.0);
+            let now = painted(&kept, &picture, rect, &fit);
+            assert_eq!(now, painted(&Context::default(), &picture, rect, &fit), "{x} {y} {zoom}");
+            seen += now.len();
+        }
+        assert!(seen > 100, "{seen}");
+    }
 
     #[test]
     fn what_is_too_fine_to_be_seen_is_left_out() {
