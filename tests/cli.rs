@@ -9,6 +9,7 @@ mod driving;
 mod export;
 mod files;
 mod grade;
+mod habits;
 mod import;
 mod kinds;
 mod library_exports;
@@ -18,6 +19,7 @@ mod queries;
 mod record;
 mod replay;
 mod scripts;
+mod shells;
 mod sizes;
 mod stills;
 mod verify;
@@ -157,20 +159,25 @@ fn a_missing_or_wrong_input_is_3_and_names_the_file() {
 #[test]
 fn the_tour_is_recorded_replayed_and_drawn() {
     let folder = tempfile::tempdir().unwrap();
-    let printed = run_in(folder.path(), &[]).done();
-    let lines: Vec<&str> = printed.lines().collect();
-    for (line, start) in lines.iter().zip(["Rusty  Pose2 { x: ", "Reach  T2 { th1: ", "Hitch  Pose2 { x: ", "digest "])
-    {
+    let tour = run_in(folder.path(), &[]);
+    assert_eq!(tour.code, Some(0), "{}", tour.err);
+    let lines: Vec<&str> = tour.out.lines().collect();
+    for (line, start) in lines.iter().zip(["robot ", "Rusty  x ", "Reach  theta1 ", "Hitch  x ", "digest "]) {
         assert!(line.starts_with(start), "{line}");
     }
-    assert_eq!(lines[4..], ["1200 of 1200 ticks bit-identical"]);
+    assert_eq!(lines[5..], ["1200 of 1200 ticks bit-identical"]);
+    for said in
+        ["wrote runs/tour-2005.mcap\n", "wrote runs/tour-2005.svg\n", "motion-lab --help", "verify, export, draw"]
+    {
+        assert!(tour.err.contains(said), "{said}: {}", tour.err);
+    }
     let recorded = run(&["record"]).done();
-    assert_eq!(recorded.lines().collect::<Vec<_>>(), lines[..4], "the tour is what `record` records by itself");
+    assert_eq!(recorded.lines().collect::<Vec<_>>(), lines[..5], "the tour is what `record` records by itself");
     let log = folder.path().join("runs/tour-2005.mcap");
-    assert!(run(&["verify", log.to_str().unwrap()]).done().contains(lines[3]));
+    assert!(run(&["verify", log.to_str().unwrap()]).done().contains(lines[4]));
     let figure = std::fs::read_to_string(folder.path().join("runs/tour-2005.svg")).unwrap();
     assert!(figure.starts_with("<svg") && figure.trim_end().ends_with("</svg>"));
-    assert!(figure.contains(lines[3].trim_start_matches("digest ")), "the figure tells the digest");
+    assert!(figure.contains(lines[4].trim_start_matches("digest ")), "the figure tells the digest");
 }
 
 #[cfg(all(feature = "window", not(feature = "headless"), target_os = "linux"))]

@@ -36,7 +36,7 @@ pub use paper::{film, film_with_robots, write};
 #[cfg(feature = "cli")]
 #[doc(hidden)]
 pub use raster::{GifWriter, Image, Raster, Size, write_png};
-pub use run_figure::{RunFigure, run_svg};
+pub use run_figure::{RunFigure, run_svg, with_names};
 pub use scenes::{AtlasSheet, anatomy, atlas, cspace};
 
 use crate::picture::{Figure, Palette, Sheet};

@@ -4,13 +4,15 @@ use bevy::app::App;
 
 use super::CaptureError;
 use super::tour_figure::{RobotTour, TourPanel, tour_figure};
+use crate::atlas::{Atlas, names};
 use crate::geometry::{Point2, Shape};
-use crate::picture::Theme;
+use crate::picture::{Drawing, Figure, Theme, places};
 use crate::random::Seed;
 use crate::recording::{Run, printed_as};
 use crate::run::{Digest, Log};
 use crate::simulation::RobotView;
 use crate::tour::TourConfig;
+use crate::worlds::World;
 
 /// The data of a run's figure: each robot's trace, present footprint and contacts.
 #[derive(Default)]
@@ -37,6 +39,11 @@ impl RunFigure {
 
     /// The figure as SVG after `ticks` of the run with this digest.
     pub fn svg(&self, seed: Seed, config: &TourConfig, ticks: u64, digest: Digest, theme: Theme) -> String {
+        self.figure(seed, config, ticks, digest).svg(theme.palette())
+    }
+
+    /// The figure after `ticks` of the run with this digest, a panel for each world.
+    pub fn figure(&self, seed: Seed, config: &TourConfig, ticks: u64, digest: Digest) -> Figure {
         let panels: Vec<TourPanel> = (0_u32..)
             .zip(&config.worlds)
             .map(|(number, world)| TourPanel {
@@ -44,8 +51,20 @@ impl RunFigure {
                 robots: self.robots.iter().filter(|r| r.world == number).map(|r| r.tour.clone()).collect(),
             })
             .collect();
-        tour_figure(seed, ticks, config.ticks, digest, &panels).svg(theme.palette())
+        tour_figure(seed, ticks, config.ticks, digest, &panels)
     }
+}
+
+/// The figure with the names of obstacles, places and marks, for a sheet of this width, pixels. Its panels are those of
+/// the worlds, in their order. Robots are not named; a name without room is left out.
+pub fn with_names(mut figure: Figure, worlds: &[World], width_px: f64) -> Figure {
+    let scales = figure.px_per_metre(width_px);
+    for ((panel, world), scale) in figure.panels.iter_mut().zip(worlds).zip(scales) {
+        let standing = Atlas::new(World { robots: Vec::new(), ..world.clone() });
+        let dots = places(&world.places).into_iter().filter(|item| !matches!(item.drawing, Drawing::Label { .. }));
+        panel.picture.items.extend(dots.chain(names(&standing, scale)));
+    }
+    figure
 }
 
 /// The figure of a log's run after `tick`, as SVG: traces, ends and contacts in its worlds. Nothing is simulated. `add`

@@ -7,6 +7,7 @@ pub use support::console::{Data, say};
 pub use support::end::{Failure, Outcome};
 
 use clap::{Parser, Subcommand};
+use support::console::be_quiet;
 
 #[cfg(feature = "window")]
 use commands::open;
@@ -14,8 +15,14 @@ use commands::{
     bare, capture, completions, describe, diff, export, grade, info, query, record, replay, script, verify, world,
 };
 
-/// The exit codes, as `--help` and `docs/cli.md` list them.
+/// Examples and the exit codes, as `--help` and `docs/cli.md` list them.
 const EXIT_CODES: &str = "\
+Examples:
+  motion-lab record --seed 7 --seconds 10 -o seven.mcap
+  motion-lab verify seven.mcap
+  motion-lab export seven.mcap -o seven.png
+  motion-lab query distance --robot rusty 3,5.5
+
 Exit codes:
    0  done
    1  internal error, or an output that could not be written
@@ -30,13 +37,16 @@ Data goes to standard output, messages to standard error.";
 
 /// A deterministic laboratory of robot motion: three robots, three worlds, one collision checker, one simulator.
 ///
-/// Without a command it opens the lab in a window; built with the feature `headless` it records the 60 s tour, replays
-/// it and compares every bit.
+/// Without a command it opens the lab in a window; built with the feature `headless` it records the 60 s tour into the
+/// folder `runs`, replays it and compares every bit.
 #[derive(Debug, Parser)]
 #[command(version, after_help = EXIT_CODES, after_long_help = EXIT_CODES)]
 pub struct Cli {
     #[command(subcommand)]
     command: Option<Command>,
+    /// Say only what is wrong: no notes on what was written, no progress.
+    #[arg(long, short, global = true)]
+    quiet: bool,
 }
 
 #[derive(Debug, Subcommand)]
@@ -62,6 +72,9 @@ enum Command {
 impl Cli {
     /// Runs the command.
     pub fn run(self, data: &mut Data) -> Result<Outcome, Failure> {
+        if self.quiet {
+            be_quiet();
+        }
         match self.command {
             Some(Command::Record(record)) => record.run(data),
             Some(Command::Verify(verify)) => verify.run(data),
@@ -70,7 +83,7 @@ impl Cli {
             Some(Command::Export(export)) => export.run(data),
             Some(Command::Info(info)) => info.run(data),
             Some(Command::Query(query)) => query.run(data),
-            Some(Command::Capture(capture)) => capture.run(),
+            Some(Command::Capture(capture)) => capture.run(data),
             Some(Command::World(world)) => world.run(data),
             Some(Command::Script(script)) => script.run(data),
             Some(Command::Completions(completions)) => completions.run(data),
@@ -81,5 +94,47 @@ impl Cli {
             Some(Command::Open(open)) => open.run(data),
             None => bare::bare(data),
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use clap::CommandFactory;
+
+    use super::*;
+
+    /// The command lines of the examples in a command's help, each from the program's name on.
+    fn examples(command: &clap::Command) -> Vec<String> {
+        let help = command.get_after_help().map(ToString::to_string).unwrap_or_default();
+        let listed = help.split("\n\n").find_map(|part| part.strip_prefix("Examples:\n").map(str::to_owned));
+        let lines: Vec<String> = listed.unwrap_or_default().lines().map(str::to_owned).collect();
+        let own = |line: &String| {
+            let from = line.find("motion-lab ").unwrap_or_else(|| panic!("{line} is of another program"));
+            line[from..].split(['|', '<', '>']).next().unwrap_or_default().trim().to_owned()
+        };
+        lines.iter().map(own).collect()
+    }
+
+    fn walk(command: &clap::Command, seen: &mut usize) {
+        for below in command.get_subcommands().filter(|c| c.get_name() != "help") {
+            let examples = examples(below);
+            assert!(!examples.is_empty(), "the help of `{}` has no example", below.get_name());
+            for line in examples {
+                *seen += 1;
+                assert!(line.contains(below.get_name()), "{line} is no example of `{}`", below.get_name());
+                let parsed = Cli::try_parse_from(line.split_whitespace());
+                assert!(parsed.is_ok(), "{line}: {}", parsed.err().map_or(String::new(), |e| e.to_string()));
+            }
+            walk(below, seen);
+        }
+    }
+
+    #[test]
+    fn every_command_has_examples_that_it_accepts() {
+        let (mut seen, mut program) = (0, Cli::command());
+        program.build();
+        assert_eq!(examples(&program).len(), 4);
+        walk(&program, &mut seen);
+        assert!(seen > 40, "{seen} examples");
     }
 }

@@ -103,6 +103,16 @@ pub enum WorldProblem {
     /// A shape, position or bounds with bad numbers.
     #[error(transparent)]
     Shape(#[from] ShapeError),
+    /// A box, or the bounds, with a greatest corner that is left of the least one or below it.
+    #[error(
+        "the box's corners are swapped: min ({}, {}) must lie left of and below max ({}, {})", min[0], min[1], max[0], max[1]
+    )]
+    SwappedBox {
+        /// The corner that the file calls `min`, metres.
+        min: [f64; 2],
+        /// The corner that the file calls `max`, metres.
+        max: [f64; 2],
+    },
     /// A polygon with an invalid outline.
     #[error("polygon: {0}")]
     Outline(#[from] OutlineError),

@@ -194,7 +194,7 @@ fn a_wrong_assignment_is_3_and_names_line_and_item() {
         graded(folder.path(), &["ahead.ron"]).failed(3)
     };
     let unknown = refuse("contacts: 0,", "contacts: 0, mood: 3,");
-    assert!(unknown.contains("exam.ron:7: ") && unknown.contains("mood") && unknown.contains("Limits"), "{unknown}");
+    assert!(unknown.contains("exam.ron:7: ") && unknown.contains("mood") && unknown.contains("reversals"), "{unknown}");
     assert!(refuse("    seeds:", "    grade: 3,\n    seeds:").contains("exam.ron:8: "));
     assert!(refuse("version: 1", "version: 2").contains("exam.ron:2: version: version 2"));
     assert!(

@@ -68,12 +68,21 @@ fn the_text_and_the_json_tell_the_same() {
     let text = run(&["record", "--ticks", "40"]).done();
     let summary = json(&run(&["record", "--ticks", "40", "--json"]).done());
     let lines: Vec<&str> = text.lines().collect();
-    for (line, (name, kind)) in lines.iter().zip([("Rusty", "Pose2"), ("Reach", "T2"), ("Hitch", "Pose2")]) {
-        assert!(line.starts_with(&format!("{name}  {kind} {{ ")) && line.contains("  contacts: "), "{line}");
+    assert_eq!(lines[0].split_whitespace().collect::<Vec<_>>(), ["robot", "where", "contacts"]);
+    let names = [&["x", "y", "heading"][..], &["theta1", "theta2"], &["x", "y", "heading"]];
+    for (id, names) in names.into_iter().enumerate() {
+        let robot = &summary["robots"][id];
+        let coordinate = |(i, name): (usize, &&str)| {
+            let unit = if i < 2 && id != 1 { "m" } else { "rad" };
+            format!("{name} {:.3} {unit}", robot["configuration"][i].as_f64().unwrap())
+        };
+        let place: Vec<String> = names.iter().enumerate().map(coordinate).collect();
+        let line = format!("{}  {}", robot["name"].as_str().unwrap(), place.join(", "));
+        let rest = lines[id + 1].strip_prefix(&line).unwrap_or_else(|| panic!("{}, not {line}", lines[id + 1]));
+        assert_eq!(rest.trim(), robot["contacts"].to_string());
+        assert_eq!(lines[id + 1].len(), lines[0].len(), "the columns stand below their headings");
     }
-    assert_eq!(lines[3..], [format!("digest {}", summary["digest"].as_str().unwrap())]);
-    let x = summary["robots"][0]["configuration"][0].as_f64().unwrap();
-    assert!(lines[0].contains(&format!("x: {x:.3}")), "{}", lines[0]);
+    assert_eq!(lines[4..], [format!("digest {}", summary["digest"].as_str().unwrap())]);
     assert_eq!(summary["recorded"], 40);
 }
 

@@ -21,7 +21,7 @@ fn a_whole_recording_is_identical() {
     assert_eq!((&verified["identical"], &verified["ticks"]), (&30.into(), &30.into()));
     assert!(verified["divergence"].is_null());
     let info = run(&["info", file.to_str().unwrap()]).done();
-    for line in ["seed     2005", "ticks    30 of 30 (1.50 s)", "  Apartment", "script   0 events", "Rusty  Pose2 {"] {
+    for line in ["seed     2005", "ticks    30 of 30 (1.50 s)", "  Apartment", "script   0 events", "Rusty  x "] {
         assert!(info.contains(line), "{line} is missing from\n{info}");
     }
     assert!(info.contains(verified["digest"].as_str().unwrap()));

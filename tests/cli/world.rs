@@ -188,7 +188,7 @@ fn a_warehouse_is_generated_checked_and_recorded() {
 #[test]
 fn robots_of_a_crowd_are_printed_in_one_line() {
     let folder = tempfile::tempdir().unwrap();
-    for (robots, lines) in [("100", 101), ("101", 2)] {
+    for (robots, lines) in [("100", 102), ("101", 2)] {
         let generate = ["world", "generate", "warehouse", "--robots", robots, "-o", "hall.ron"];
         run_in(folder.path(), &generate).done();
         let record = ["record", "--world", "hall.ron", "--ticks", "2", "--no-sensor", "-o", "run.mcap"];

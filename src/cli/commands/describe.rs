@@ -11,6 +11,9 @@ use motion_lab::picture::{Rgb, Role, Theme};
 /// Print what a page about the lab needs, as JSON: each widget's words, the formulas of the configuration spaces in
 /// MathML, and the colours of the roles on light and on dark paper.
 #[derive(Debug, Args)]
+#[command(after_help = "\
+Examples:
+  motion-lab describe > words.json")]
 pub struct Describe {}
 
 impl Describe {

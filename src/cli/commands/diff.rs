@@ -17,8 +17,12 @@ use crate::cli::{Data, Failure, Outcome, say};
 /// files don't count. The exit code is 4 when the logs differ. Of a damaged or unfinished file the sealed beginning is
 /// compared; when all of that is equal, the exit code is 5.
 #[derive(Debug, Args)]
+#[command(after_help = "\
+Examples:
+  motion-lab diff mine.mcap yours.mcap
+  motion-lab diff --json run.mcap replayed.mcap")]
 pub struct Diff {
-    /// The first log.
+    /// The first log; `-` is standard input.
     a: PathBuf,
     /// The second log.
     b: PathBuf,

@@ -29,7 +29,13 @@ use crate::cli::{Data, Failure, Outcome, say};
 ///     goal: (at: [7.5, 2.5, 0], within: [0.1, 0.1, 0.1]),
 ///     limits: (ticks: 200, contacts: 0, reversals: 3), seeds: [1, 2])
 #[derive(Debug, Args)]
-#[command(verbatim_doc_comment)]
+#[command(
+    verbatim_doc_comment,
+    after_help = "\
+Examples:
+  motion-lab grade exam.ron ann.ron ben.mcap
+  motion-lab grade --json exam.ron submissions/*.ron"
+)]
 pub struct GradeArgs {
     /// The assignment, RON.
     assignment: PathBuf,

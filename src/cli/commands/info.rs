@@ -1,6 +1,6 @@
 //! `info`: what is in a log.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::Args;
 use motion_lab::export::JsonNumber;
@@ -8,24 +8,39 @@ use motion_lab::run::DT;
 use motion_lab::tour::TourConfig;
 use serde::Serialize;
 
+use crate::cli::support::input::{shown, title, worst_of_each};
 use crate::cli::support::log_kind::{AnyLog, LogKind};
 use crate::cli::support::log_source::{AnySource, read_any_log};
 use crate::cli::support::script_words::{changes_in_words, none};
 use crate::cli::support::summary::RunSummary;
 use crate::cli::{Data, Failure, Outcome, say};
 
-/// Say what is in a log, without running it again.
+/// Say what is in logs, without running them again.
+///
+/// Of several files each has its turn, and the exit code is 3 if any can't be read, else 5 if any is damaged.
 #[derive(Debug, Args)]
+#[command(after_help = "\
+Examples:
+  motion-lab info run.mcap
+  motion-lab info --json runs/*.mcap
+  zstd -dc run.mcap.zst | motion-lab info -")]
 pub struct Info {
-    /// The log.
-    file: PathBuf,
-    /// One line of JSON.
+    /// The logs; `-` is standard input.
+    #[arg(required = true, value_name = "FILE")]
+    files: Vec<PathBuf>,
+    /// One line of JSON for each; with several, `file` is its name.
     #[arg(long)]
     json: bool,
+    /// Configurations as Rust prints them.
+    #[arg(long)]
+    debug: bool,
 }
 
 #[derive(Serialize)]
 struct Contents<'a> {
+    /// The file; left out where there is one alone.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    file: Option<String>,
     #[serde(flatten)]
     run: RunSummary<'a>,
     sensor: Option<Sensor>,
@@ -70,13 +85,19 @@ fn robots_sensors(config: &TourConfig) -> Vec<RobotSensors<'_>> {
 impl Info {
     /// Runs the command.
     pub fn run(self, data: &mut Data) -> Result<Outcome, Failure> {
-        let AnySource { log, program, damage } = read_any_log(&self.file)?;
+        let several = self.files.len() > 1;
+        worst_of_each(&self.files, data, |file, data| self.one(file, several, data))
+    }
+
+    fn one(&self, file: &Path, several: bool, data: &mut Data) -> Result<Outcome, Failure> {
+        let AnySource { log, program, damage } = read_any_log(file)?;
         let (seed, config, script) = log.parts();
         let run = match &log {
             AnyLog::Full(log) => RunSummary::new(seed, config, log.frames.last().unwrap_or(&log.initial), log.digest()),
             AnyLog::Digest(log) => RunSummary::of_digests(log),
         };
         let contents = Contents {
+            file: several.then(|| shown(file)),
             run,
             sensor: config.sensor.map(|s| Sensor { rays: s.n_rays, range: JsonNumber(s.max_range) }),
             robots_sensors: robots_sensors(config),
@@ -89,7 +110,8 @@ impl Info {
         if self.json {
             data.json(&contents)?;
         } else {
-            contents.print(data)?;
+            title(file, several, data)?;
+            contents.print(self.debug, data)?;
         }
         Ok(match &damage {
             None => Outcome::Done,
@@ -102,7 +124,7 @@ impl Info {
 }
 
 impl Contents<'_> {
-    fn print(&self, data: &mut Data) -> Result<(), Failure> {
+    fn print(&self, debug: bool, data: &mut Data) -> Result<(), Failure> {
         let Contents { run, sensor, robots_sensors, script_events, script_changes, program, log, .. } = self;
         data.line(format!("seed     {}", run.seed))?;
         data.line(format!("ticks    {} of {} ({:.2} s)", run.recorded, run.ticks, DT * run.recorded as f64))?;
@@ -123,6 +145,6 @@ impl Contents<'_> {
             data.line("log      a digest of each second; `motion-lab replay --log full -o FILE` makes the frames")?;
         }
         data.line(format!("digest   {}", run.digest))?;
-        run.print_robots(data)
+        run.print_robots(debug, data)
     }
 }

@@ -7,6 +7,7 @@ use clap::Args;
 use motion_lab::app::{FrameTimes, Opened, open_in_window};
 
 use super::bare::ended;
+use crate::cli::support::choices::WorldNames;
 use crate::cli::support::input::read_bytes_if;
 use crate::cli::support::world_source::find_world;
 use crate::cli::{Data, Failure, Outcome};
@@ -22,6 +23,7 @@ use crate::cli::{Data, Failure, Outcome};
   motion-lab open run.mcap")]
 pub struct Open {
     /// A built-in world, a world file, or a log.
+    #[arg(value_parser = WorldNames)]
     what: String,
     /// Close after N frames, and print what they took of the program's own time, ticks apart.
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=100_000))]

@@ -3,7 +3,6 @@
 use std::path::PathBuf;
 
 use clap::Args;
-use indicatif::{ProgressBar, ProgressStyle};
 use motion_lab::run::{Digest, Frame, LogError, RunDigest};
 use serde::Serialize;
 
@@ -11,8 +10,10 @@ use crate::cli::support::interrupt;
 use crate::cli::support::log_kind::{AnyComparison, AnyLog, AnyWriter, LogKind};
 use crate::cli::support::log_source::{AnySource, read_any_log};
 use crate::cli::support::output::PendingFile;
+use crate::cli::support::progress::Progress;
 use crate::cli::support::simulate::begin;
 use crate::cli::support::summary::RunSummary;
+use crate::cli::support::target::Target;
 use crate::cli::{Data, Failure, Outcome, say};
 
 /// Simulate a recorded run again, from its seed and script alone and to its last tick, print where its robots end, and
@@ -22,8 +23,13 @@ use crate::cli::{Data, Failure, Outcome, say};
 /// `diff` to compare; of a digest log, `--log full` makes the frames. The exit code is 4 when a recorded tick differs,
 /// else 5 when the recording is damaged or unfinished.
 #[derive(Debug, Args)]
+#[command(after_help = "\
+Examples:
+  motion-lab replay run.mcap
+  motion-lab replay cut.mcap -o whole.mcap
+  motion-lab replay digests.mcap --log full -o full.mcap")]
 pub struct Replay {
-    /// The log.
+    /// The log; `-` is standard input.
     file: PathBuf,
     /// Write the replayed run's log to this file.
     #[arg(short, long, value_name = "FILE")]
@@ -34,6 +40,9 @@ pub struct Replay {
     /// One line of JSON.
     #[arg(long)]
     json: bool,
+    /// Configurations as Rust prints them.
+    #[arg(long)]
+    debug: bool,
 }
 
 #[derive(Serialize)]
@@ -54,6 +63,7 @@ impl Replay {
         if let Some(damage) = &damage {
             say(format!("{damage}\nThis much is compared; the run is replayed to its end."));
         }
+        let target = self.output.as_deref().map(Target::file).transpose()?;
         interrupt::listen()?;
         let Some(Ended { last, digest, comparison }) = self.replay(&log)? else {
             say("stopped; nothing was written. Replay it again.");
@@ -69,10 +79,10 @@ impl Replay {
         if self.json {
             data.json(&replayed)?;
         } else {
-            replayed.print(data)?;
+            replayed.print(self.debug, data)?;
         }
-        if let Some(output) = &self.output {
-            say(format!("wrote {}", output.display()));
+        if let Some(target) = target {
+            target.wrote();
         }
         Ok(match (replayed.divergence, damage) {
             (Some(_), _) => Outcome::Differs,
@@ -89,7 +99,7 @@ impl Replay {
         let mut comparison = AnyComparison::with(log);
         comparison.frame(run.frame(), &digest);
         let mut writer = self.writer(log, run.frame(), &digest)?;
-        let bar = progress(config.ticks);
+        let progress = Progress::of(config.ticks, "ticks");
         while !run.is_complete() {
             if interrupt::asked_to_stop() {
                 return Ok(None);
@@ -100,9 +110,8 @@ impl Replay {
             if let Some(writer) = &mut writer {
                 writer.tick(frame, &digest).map_err(|error| self.failed(error))?;
             }
-            bar.set_position(frame.tick);
+            progress.at(frame.tick);
         }
-        bar.finish_and_clear();
         let digest = digest.digest();
         if let Some(mut writer) = writer {
             writer.end(digest).map_err(|error| self.failed(error))?;
@@ -138,19 +147,10 @@ struct Ended<'a> {
     comparison: AnyComparison<'a>,
 }
 
-/// A progress bar on standard error; none where that is no terminal.
-fn progress(ticks: u64) -> ProgressBar {
-    let bar = ProgressBar::new(ticks);
-    match ProgressStyle::with_template("{bar:40} tick {pos} of {len}, {eta} left") {
-        Ok(style) => bar.with_style(style),
-        Err(_) => bar,
-    }
-}
-
 impl Replayed<'_> {
-    fn print(&self, data: &mut Data) -> Result<(), Failure> {
+    fn print(&self, debug: bool, data: &mut Data) -> Result<(), Failure> {
         let Replayed { run, sealed, identical, divergence } = self;
-        run.print_robots(data)?;
+        run.print_robots(debug, data)?;
         data.line(format!("digest {}", run.digest))?;
         if let Some(divergence) = divergence {
             data.line(divergence)?;

@@ -10,12 +10,15 @@ use motion_lab::run::Script;
 use motion_lab::tour::{BOOK_SEED, TourConfig};
 
 use super::record::{Ended, Plan, Stop, write_run};
+use crate::cli::support::console::note;
 use crate::cli::support::interrupt;
 use crate::cli::support::log_kind::LogKind;
 use crate::cli::support::log_source::read_log;
 use crate::cli::support::output::write_file;
+use crate::cli::support::progress::Progress;
 use crate::cli::support::simulate::verify;
 use crate::cli::support::summary::RunSummary;
+use crate::cli::support::target::Target;
 use crate::cli::{Data, Failure, Outcome, say};
 
 /// The folder of the recording and its figure.
@@ -28,6 +31,7 @@ pub fn tour(data: &mut Data) -> Result<Outcome, Failure> {
     fs::create_dir_all(folder).map_err(|error| Failure::output(folder, &error))?;
     let file = folder.join(format!("tour-{BOOK_SEED}.mcap"));
     let plan = Plan { seed: BOOK_SEED, config: TourConfig::default(), script: Script::empty(), kind: LogKind::Full };
+    let recorded = Target::of(&file)?;
     interrupt::listen()?;
     if let Ended::Stopped(tick) = write_run(&plan, None, Stop::default(), &file)? {
         say(format!("stopped after tick {tick}; run it again"));
@@ -36,10 +40,16 @@ pub fn tour(data: &mut Data) -> Result<Outcome, Failure> {
 
     let log = read_log(&file)?.read.log;
     let mut figure = RunFigure::default();
-    let Verification { identical, divergence, .. } = verify(&log, |run| figure.watch(run.view()))?;
+    let Verification { identical, divergence, .. } = {
+        let progress = Progress::of(log.config.ticks, "ticks replayed");
+        verify(&log, |run| {
+            figure.watch(run.view());
+            progress.at(run.frame().tick);
+        })?
+    };
     let digest = log.digest();
     let last = log.frames.last().unwrap_or(&log.initial);
-    RunSummary::new(log.seed, &log.config, last, digest).print_robots(data)?;
+    RunSummary::new(log.seed, &log.config, last, digest).print_robots(false, data)?;
     data.line(format!("digest {digest}"))?;
     let ticks = log.config.ticks;
     data.line(format!("{identical} of {ticks} ticks bit-identical"))?;
@@ -49,7 +59,13 @@ pub fn tour(data: &mut Data) -> Result<Outcome, Failure> {
     }
 
     let drawing = folder.join(format!("tour-{BOOK_SEED}.svg"));
+    let drawn = Target::of(&drawing)?;
     write_file(&drawing, figure.svg(log.seed, &log.config, ticks, digest, Theme::Light).as_bytes())?;
-    say(format!("wrote {} and {}", file.display(), drawing.display()));
+    recorded.wrote();
+    drawn.wrote();
+    note(
+        "`motion-lab --help` lists what else there is: record other runs, verify, export, draw and ask; \
+          `cargo run` without `headless` opens the window",
+    );
     Ok(Outcome::Done)
 }

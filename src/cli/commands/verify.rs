@@ -1,34 +1,46 @@
-//! `verify`: simulate a recorded run again and compare every bit.
+//! `verify`: simulate recorded runs again and compare every bit.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::Args;
 use motion_lab::recording::{DigestVerification, Verification};
 use motion_lab::run::Divergence;
 use serde::Serialize;
 
+use crate::cli::support::input::{shown, title, worst_of_each};
 use crate::cli::support::log_kind::AnyLog;
 use crate::cli::support::log_source::{AnySource, read_any_log};
+use crate::cli::support::progress::Progress;
 use crate::cli::support::simulate::{verify, verify_digests};
 use crate::cli::{Data, Failure, Outcome, say};
 
-/// Simulate a recorded run again, from its seed and script alone, and compare every frame to the last bit.
+/// Simulate recorded runs again, from their seeds and scripts alone, and compare every frame to the last bit.
 ///
 /// Of a digest log the digest of every second is compared, and a difference is named by its second.
 ///
 /// Of a damaged or unfinished file its sealed beginning is verified, and the exit code is 5. Where the run differs, the
-/// first value that does is printed, and the exit code is 4.
+/// first value that does is printed, and the exit code is 4. Of several files each has its turn, and the exit code is 4
+/// if any differs, else 3 if any can't be read, else 5 if any is damaged.
 #[derive(Debug, Args)]
+#[command(after_help = "\
+Examples:
+  motion-lab verify run.mcap
+  motion-lab verify --json runs/*.mcap
+  zstd -dc run.mcap.zst | motion-lab verify -")]
 pub struct Verify {
-    /// The log.
-    file: PathBuf,
-    /// One line of JSON.
+    /// The logs; `-` is standard input.
+    #[arg(required = true, value_name = "FILE")]
+    files: Vec<PathBuf>,
+    /// One line of JSON for each; with several, `file` is its name.
     #[arg(long)]
     json: bool,
 }
 
 #[derive(Serialize)]
 struct Verdict {
+    /// The file; left out where there is one alone.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    file: Option<String>,
     ticks: u64,
     sealed: u64,
     identical: u64,
@@ -39,14 +51,20 @@ struct Verdict {
 impl Verify {
     /// Runs the command.
     pub fn run(self, data: &mut Data) -> Result<Outcome, Failure> {
-        let AnySource { log, damage, .. } = read_any_log(&self.file)?;
+        let several = self.files.len() > 1;
+        worst_of_each(&self.files, data, |file, data| self.one(file, several, data))
+    }
+
+    fn one(&self, file: &Path, several: bool, data: &mut Data) -> Result<Outcome, Failure> {
+        let AnySource { log, damage, .. } = read_any_log(file)?;
         if let Some(damage) = &damage {
             say(format!("{damage}\nThis much is verified; `motion-lab record --resume` makes it whole."));
         }
-        let verdict = Verdict::of(&log)?;
+        let verdict = Verdict { file: several.then(|| shown(file)), ..Verdict::of(&log)? };
         if self.json {
             data.json(&verdict)?;
         } else {
+            title(file, several, data)?;
             verdict.print(damage.is_some(), data)?;
         }
         Ok(match (verdict.divergence, damage) {
@@ -61,22 +79,25 @@ impl Verdict {
     /// Simulates the run of a log again and compares it.
     fn of(log: &AnyLog) -> Result<Self, Failure> {
         let ticks = log.parts().1.ticks;
+        let progress = Progress::of(log.recorded(), "ticks");
         Ok(match log {
             AnyLog::Full(log) => {
-                let Verification { recorded: sealed, identical, divergence, .. } = verify(log, |_| {})?;
+                let Verification { recorded: sealed, identical, divergence, .. } =
+                    verify(log, |run| progress.at(run.frame().tick))?;
                 let divergence = divergence.as_ref().map(Divergence::to_string);
-                Verdict { ticks, sealed, identical, digest: log.digest().to_string(), divergence }
+                Verdict { file: None, ticks, sealed, identical, digest: log.digest().to_string(), divergence }
             }
             AnyLog::Digest(log) => {
-                let DigestVerification { recorded: sealed, identical, digest, difference, .. } = verify_digests(log)?;
+                let DigestVerification { recorded: sealed, identical, digest, difference, .. } =
+                    verify_digests(log, |run| progress.at(run.frame().tick))?;
                 let divergence = difference.map(|difference| difference.to_string());
-                Verdict { ticks, sealed, identical, digest: digest.to_string(), divergence }
+                Verdict { file: None, ticks, sealed, identical, digest: digest.to_string(), divergence }
             }
         })
     }
 
     fn print(&self, damaged: bool, data: &mut Data) -> Result<(), Failure> {
-        let Verdict { ticks, sealed, identical, digest, divergence } = self;
+        let Verdict { ticks, sealed, identical, digest, divergence, .. } = self;
         if let Some(divergence) = divergence {
             data.line(divergence)?;
         }

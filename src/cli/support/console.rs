@@ -2,7 +2,8 @@
 
 use std::borrow::Cow;
 use std::fmt::Display;
-use std::io::{self, BufWriter, ErrorKind, StdoutLock, Write};
+use std::io::{self, BufWriter, ErrorKind, IsTerminal, StdoutLock, Write};
+use std::sync::atomic::{AtomicBool, Ordering};
 
 use serde::Serialize;
 
@@ -42,6 +43,18 @@ impl Data {
     /// Writes a value as one line of JSON.
     pub fn json(&mut self, value: &impl Serialize) -> Result<(), Failure> {
         self.data_line(serde_json::to_string(value).map_err(Failure::internal)?)
+    }
+
+    /// Writes a file's bytes. A terminal, which would show them as nonsense, gets none.
+    pub fn bytes(&mut self, bytes: &[u8]) -> Result<(), Failure> {
+        if io::stdout().is_terminal() && std::str::from_utf8(bytes).is_err() {
+            return Err(Failure::usage(
+                "this form is not for a terminal",
+                "Name a file with -o FILE, or a pipe's end.",
+            ));
+        }
+        let written = self.out.write_all(bytes);
+        self.after(written)
     }
 
     /// Flushes what was written so far.
@@ -86,6 +99,26 @@ impl Write for Data {
 
     fn flush(&mut self) -> io::Result<()> {
         self.out.flush()
+    }
+}
+
+/// Whether notes are left out.
+static QUIET: AtomicBool = AtomicBool::new(false);
+
+/// Leaves out all further notes and progress; messages of what is wrong are still written.
+pub fn be_quiet() {
+    QUIET.store(true, Ordering::Relaxed);
+}
+
+/// Whether notes and progress are left out.
+pub fn is_quiet() -> bool {
+    QUIET.load(Ordering::Relaxed)
+}
+
+/// Writes a note, which says what was done, as [`say`] does, unless nobody wants to read it.
+pub fn note(message: impl Display) {
+    if !is_quiet() {
+        say(message);
     }
 }
 

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use motion_lab::run::{DigestLog, Log, LogError, ReadDigestLog, ReadLog};
 
-use super::input::read_bytes_if;
+use super::input::{read_bytes_if, shown};
 use super::log_kind::AnyLog;
 use crate::cli::Failure;
 
@@ -46,7 +46,7 @@ fn with_frames(path: &Path, bytes: &[u8]) -> Result<LogSource, Failure> {
         Err(LogError::Damaged(damaged)) => {
             let message = damaged.to_string();
             match damaged.recovered {
-                Some(read) => Ok(LogSource { read, damage: Some(format!("{}: {message}", path.display())) }),
+                Some(read) => Ok(LogSource { read, damage: Some(format!("{}: {message}", shown(path))) }),
                 None => Err(beyond_use(path, &message)),
             }
         }
@@ -60,7 +60,7 @@ pub fn read_any_log(path: &Path) -> Result<AnySource, Failure> {
     match DigestLog::read_mcap(&bytes) {
         Ok(ReadDigestLog { log, program }) => Ok(AnySource { log: AnyLog::Digest(log), program, damage: None }),
         Err(LogError::DamagedDigests(damaged)) if damaged.recovered.is_some() => {
-            let message = format!("{}: {damaged}", path.display());
+            let message = format!("{}: {damaged}", shown(path));
             let Some(ReadDigestLog { log, program }) = damaged.recovered else {
                 return Err(beyond_use(path, &message));
             };
@@ -76,11 +76,11 @@ pub fn read_any_log(path: &Path) -> Result<AnySource, Failure> {
 }
 
 fn beyond_use(path: &Path, message: &str) -> Failure {
-    Failure::input(format!("{}: {message}", path.display()), "Record the run again.")
+    Failure::input(format!("{}: {message}", shown(path)), "Record the run again.")
 }
 
 fn refused(path: &Path, error: &LogError) -> Failure {
-    let file = path.display();
+    let file = shown(path);
     let next = match error {
         LogError::NotALog => "Name a file that `motion-lab record -o` wrote.".to_owned(),
         LogError::Export => "Name the log that it was exported from.".to_owned(),

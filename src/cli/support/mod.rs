@@ -1,5 +1,6 @@
 //! Helpers that several commands share.
 
+pub(crate) mod choices;
 pub(crate) mod console;
 pub(crate) mod end;
 pub(crate) mod input;
@@ -8,7 +9,9 @@ pub(crate) mod log_kind;
 pub(crate) mod log_source;
 pub(crate) mod numbers;
 pub(crate) mod output;
+pub(crate) mod progress;
 pub(crate) mod script_words;
 pub(crate) mod simulate;
 pub(crate) mod summary;
+pub(crate) mod target;
 pub(crate) mod world_source;

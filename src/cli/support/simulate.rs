@@ -44,8 +44,8 @@ pub fn verify(log: &Log, on_tick: impl FnMut(&Recorder)) -> Result<Verification,
 }
 
 /// Simulates the run of a digest log again and compares it: see [`motion_lab::recording::verify_digests`].
-pub fn verify_digests(log: &DigestLog) -> Result<DigestVerification, Failure> {
-    motion_lab::recording::verify_digests(log, |_| {}).map_err(|error| refused(&error))
+pub fn verify_digests(log: &DigestLog, on_tick: impl FnMut(&Recorder)) -> Result<DigestVerification, Failure> {
+    motion_lab::recording::verify_digests(log, on_tick).map_err(|error| refused(&error))
 }
 
 /// The reason to stop showing a run.

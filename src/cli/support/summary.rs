@@ -1,5 +1,6 @@
 //! The summary of a run: its robots' last states, its worlds, its digest.
 
+use motion_lab::configuration::RobotKind;
 use motion_lab::export::JsonNumber;
 use motion_lab::random::Seed;
 use motion_lab::recording::printed_configuration;
@@ -54,7 +55,10 @@ pub struct RobotSummary<'a> {
     pub contacts: u32,
     /// The inputs it refused.
     pub refusals: u32,
-    /// The configuration as it is printed.
+    /// The coordinates as numbers.
+    #[serde(skip)]
+    pub numbers: Vec<f64>,
+    /// The configuration in Rust's spelling.
     #[serde(skip)]
     pub printed: String,
 }
@@ -92,20 +96,67 @@ impl<'a> RunSummary<'a> {
         }
     }
 
-    /// Prints one line for each robot: `Rusty  Pose2 { x: 2.250, y: 6.250 }  contacts: 0`; of a crowd one line for all,
-    /// `1000 robots  contacts: 12, of 7 of them`.
-    pub fn print_robots(&self, data: &mut Data) -> Result<(), Failure> {
+    /// Prints a table with a line for each robot, under a heading; in Rust's spelling with `debug`, without one: `Rusty
+    /// Pose2 { x: 2.250, y: 6.250 }  contacts: 0`. Of a crowd it prints one line, `1000 robots  contacts: 12, of 7 of
+    /// them`.
+    pub fn print_robots(&self, debug: bool, data: &mut Data) -> Result<(), Failure> {
         if self.robots.len() > MOST_PRINTED {
             let contacts: u64 = self.robots.iter().map(|robot| u64::from(robot.contacts)).sum();
             let touching = self.robots.iter().filter(|robot| robot.contacts > 0).count();
             let of = if contacts > 0 { format!(", of {touching} of them") } else { String::new() };
             return data.line(format!("{} robots  contacts: {contacts}{of}", self.robots.len()));
         }
-        for RobotSummary { name, printed, contacts, .. } in &self.robots {
-            data.line(format!("{name}  {printed}  contacts: {contacts}"))?;
+        if debug {
+            for RobotSummary { name, printed, contacts, .. } in &self.robots {
+                data.line(format!("{name}  {printed}  contacts: {contacts}"))?;
+            }
+            return Ok(());
+        }
+        let rows: Vec<[String; 3]> = self.robots.iter().map(RobotSummary::row).collect();
+        let heading = ["robot", "where", "contacts"].map(str::to_owned);
+        let width = |column: usize| {
+            let widths = rows.iter().chain([&heading]).map(|row| row[column].chars().count());
+            widths.max().unwrap_or(0)
+        };
+        let (names, places) = (width(0), width(1));
+        let table = if rows.is_empty() { &[][..] } else { std::slice::from_ref(&heading) };
+        for [name, place, contacts] in table.iter().chain(&rows) {
+            data.line(format!("{name:names$}  {place:places$}  {contacts:>8}"))?;
         }
         Ok(())
     }
+}
+
+impl RobotSummary<'_> {
+    /// The robot's line: its name, its coordinates with names and units, its contacts.
+    fn row(&self) -> [String; 3] {
+        [self.name.to_owned(), in_words(RobotKind::of(self.kind), &self.numbers), self.contacts.to_string()]
+    }
+}
+
+/// A number with three decimals, never `-0.000`.
+fn decimals(x: f64) -> String {
+    let text = format!("{x:.3}");
+    if text == "-0.000" { "0.000".to_owned() } else { text }
+}
+
+/// A configuration with the names of its coordinates and their units: `x 2.250 m, y 6.250 m, heading 1.571 rad`. The
+/// coordinates alone of a kind that the lab does not have.
+fn in_words(kind: Option<&RobotKind>, q: &[f64]) -> String {
+    let coordinate = |(i, x): (usize, &f64)| match kind {
+        Some(kind) => {
+            let unit = if i < kind.lengths { "m" } else { "rad" };
+            let name = kind.coordinates.get(i).copied().unwrap_or("");
+            let name = match (name, kind.drives) {
+                ("theta", true) => "heading",
+                ("psi", true) => "trailer's heading",
+                (name, _) => name,
+            };
+            format!("{name} {} {unit}", decimals(*x))
+        }
+        None => decimals(*x),
+    };
+    q.iter().enumerate().map(coordinate).collect::<Vec<_>>().join(", ")
 }
 
 fn robots<'a>(config: &'a TourConfig, frame: &Frame) -> Vec<RobotSummary<'a>> {
@@ -117,6 +168,7 @@ fn robots<'a>(config: &'a TourConfig, frame: &Frame) -> Vec<RobotSummary<'a>> {
         configuration: state.configuration.iter().copied().map(JsonNumber).collect(),
         contacts: state.contacts,
         refusals: state.refusals,
+        numbers: state.configuration.to_vec(),
         printed: printed_configuration(&resident.kind, &state.configuration),
     };
     residents.zip(&frame.robots).map(summary).collect()

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use motion_lab::worlds::World;
 
-use super::input::{MAX_WORLD, read_text_of};
+use super::input::{MAX_WORLD, is_dash, read_text_of, shown};
 use crate::cli::Failure;
 
 /// The world that `name` names: the built-in one of that name, else the file at that path.
@@ -13,7 +13,7 @@ pub fn find_world(name: &str) -> Result<World, Failure> {
         return Ok(world);
     }
     let path = PathBuf::from(name);
-    if !path.exists() {
+    if !path.exists() && !is_dash(&path) {
         return Err(Failure::input(
             format!("{name}: no built-in world has this name, and there is no such file"),
             format!("The built-in worlds are {}; anything else is the path of a world file.", built_in_list()),
@@ -25,7 +25,7 @@ pub fn find_world(name: &str) -> Result<World, Failure> {
 /// The world in a file.
 pub fn read_world(path: &Path) -> Result<World, Failure> {
     let text = read_text_of(path, MAX_WORLD)?;
-    World::parse(&path.display().to_string(), &text).map_err(|error| {
+    World::parse(&shown(path), &text).map_err(|error| {
         Failure::input(error, "Correct it there. `motion-lab world show apartment` prints a world file to go by.")
     })
 }

@@ -13,7 +13,7 @@ use crate::recording::{Recorder, RunError, Verification, verify_with_robots};
 use crate::run::{Log, Script};
 use crate::text_position::{line_at, offset_of};
 use crate::tour::{MAX_TICKS, TourConfig};
-use crate::worlds::{Resident, World};
+use crate::worlds::{Resident, World, ron_in_words};
 
 /// The configuration to reach, with tolerances.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
@@ -110,7 +110,7 @@ impl AssignmentFile {
         if version != 1 {
             return Err(error(line_of(text, "version"), "version", AssignmentProblem::Version(version)));
         }
-        let read = read.map_err(|e| error(e.span.start.line, "", AssignmentProblem::Syntax(e.code.to_string())))?;
+        let read = read.map_err(|e| error(e.span.start.line, "", AssignmentProblem::Syntax(ron_in_words(&e.code))))?;
         Ok(AssignmentFile { file: file.to_owned(), source: text.to_owned(), text: read })
     }
 

@@ -11,7 +11,7 @@ use crate::random::Seed;
 use crate::run::{DT, Frame, Log, ObstacleState, Script};
 use crate::sensors::RangeSensor;
 use crate::tour::TourConfig;
-use crate::worlds::World;
+use crate::worlds::{World, ron_in_words};
 
 /// The name of the metadata record.
 const METADATA: &str = "motion-lab";
@@ -248,7 +248,8 @@ impl Preamble {
         }
         let initial = if kind == LogKind::Digests { Some(no_frame()) } else { initial };
         let file = |name: &str| files.get(name).copied().ok_or_else(|| content(name, "the attachment is missing"));
-        let config: ConfigText = ron::from_str(file(CONFIG)?).map_err(|e| content(CONFIG, &e.to_string()))?;
+        let config: ConfigText = ron::from_str(file(CONFIG)?)
+            .map_err(|e| content(CONFIG, &format!("{}: {}", e.span, ron_in_words(&e.code))))?;
         let mut worlds = Vec::new();
         let mut world_texts = Vec::new();
         for (i, name) in config.worlds.iter().enumerate() {

@@ -57,13 +57,11 @@ pub(crate) fn make_bounds(text: &BoundsText) -> Result<Aabb, WorldProblem> {
 }
 
 /// Makes a box; refuses corners in the wrong order.
-fn make_box(min: Point2, max: Point2) -> Result<Shape, ShapeError> {
-    for side in [max.x - min.x, max.y - min.y] {
-        if side < 0.0 {
-            return Err(ShapeError::TooShort(side));
-        }
+fn make_box(min: Point2, max: Point2) -> Result<Shape, WorldProblem> {
+    if max.x < min.x || max.y < min.y {
+        return Err(WorldProblem::SwappedBox { min: [min.x, min.y], max: [max.x, max.y] });
     }
-    Shape::try_rectangle(min, max)
+    Ok(Shape::try_rectangle(min, max)?)
 }
 
 /// Returns the points of a polyline and its segments. A closed polyline repeats its first point at the end.

@@ -7,6 +7,7 @@ use ron::value::RawValue;
 use serde::Deserialize;
 
 use super::description::WorldText;
+use super::ron_words::ron_in_words;
 use crate::text_position::{Position, offset_of, position_at};
 use crate::worlds::{WORLD_VERSION, WorldError, WorldItem, WorldProblem};
 
@@ -99,7 +100,7 @@ impl<'a> Source<'a> {
         }
         file.map_err(|error| {
             let at = Position { line: error.span.start.line, column: error.span.start.col };
-            self.error_at(at, self.item_around(at), WorldProblem::Syntax(error.code.to_string()))
+            self.error_at(at, self.item_around(at), WorldProblem::Syntax(ron_in_words(&error.code)))
         })
     }
 

@@ -45,7 +45,11 @@ fn features_too_small() {
     assert!(shape("Disc(center: (0, 0), radius: 0.0009)").starts_with("radius 0.0009 m"));
     assert!(shape("Disc(center: (0, 0), radius: -1)").starts_with("radius -1 m"));
     assert!(shape("Box(min: (0, 0), max: (1, 0.0005))").starts_with("length 0.0005 m"));
-    assert!(shape("Box(min: (0, 0), max: (-1, 1))").starts_with("length -1 m"), "corners the wrong way round");
+    let swapped = "the box's corners are swapped: min (0, 2) must lie left of and below max (1, -1.5)";
+    assert_eq!(shape("Box(min: (0, 2), max: (1, -1.5))"), swapped);
+    assert!(shape("Box(min: (0, 0), max: (-1, 1))").starts_with("the box's corners are swapped: min (0, 0)"));
+    let bounds = World::parse("w", "World(version: 1, name: \"a\", bounds: (min: (4, 0), max: (0, 3)))").unwrap_err();
+    assert!(bounds.to_string().starts_with("w:1:38: the box's corners are swapped: min (4, 0)"), "{bounds}");
     assert!(shape("Rounded(points: [(0, 0), (0, 0)], radius: 1)").starts_with("1 points: it needs at least 2"));
     assert!(shape("Rounded(points: [(0, 0), (1, 0)], radius: 1e-4)").starts_with("radius 0.0001 m"));
     assert!(shape("Rounded(points: [(0, 0), (1, 0), (0, 1)], radius: -1)").starts_with("radius -1 m"));

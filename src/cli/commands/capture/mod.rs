@@ -7,32 +7,45 @@ use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
 use motion_lab::capture::{CaptureError, Form, Paper};
-use motion_lab::picture::Theme;
 
+use crate::cli::support::choices::{RobotsAndKinds, ThemeName, WorldNames};
+use crate::cli::support::input::is_dash;
 use crate::cli::support::numbers::Numbers;
 use crate::cli::support::simulate::not_shown;
-use crate::cli::{Failure, Outcome, say};
+use crate::cli::support::target::Target;
+use crate::cli::{Data, Failure, Outcome};
 
 /// Draw what a widget shows, without a display: a figure for a page, as SVG or PNG; a run over a span of ticks as GIF.
 ///
-/// The file's name tells the form. Seed and digest, or the world's content hash and the configuration, are in the file:
-/// in the notes of a PNG, the metadata of an SVG, the comment of a GIF.
+/// The file's name tells the form, or --format. Seed and digest, or the world's content hash and the configuration, are
+/// in the file: in the notes of a PNG, the metadata of an SVG, the comment of a GIF.
 ///
 /// dashboard  the run of a log, or of --seed, at --tick
 /// anatomy    the queries at a configuration: --tab, --robot, --q, --step
-/// atlas      worlds with their names: --world, --grid, --teleport; of a run: --seed or --log, its robots where they
+/// atlas      worlds with their names: --world, --grid, --teleport; of a run: --seed or --run, its robots where they
 ///            are
 /// cspace     the workspace and beside it the configuration space: --robot, --q, --cells, --step; of a run: --seed or
-///            --log, a robot of it with its way
+///            --run, a robot of it with its way
 #[derive(Debug, Args)]
-#[command(verbatim_doc_comment)]
+#[command(
+    verbatim_doc_comment,
+    after_help = "\
+Examples:
+  motion-lab capture --widget anatomy --tab witness -o witness.png
+  motion-lab capture --widget dashboard --run run.mcap --tick 300 --names -o run.svg
+  motion-lab capture --widget cspace --robot reach --theme dark -o - > space.svg
+  motion-lab capture --widget dashboard --from 0 --to 200 -o start.gif"
+)]
 pub struct Capture {
     /// The widget.
     #[arg(long, value_enum)]
     widget: Widget,
-    /// The file to write: .svg, .png or .gif.
-    #[arg(short, long, visible_alias = "out", value_name = "FILE")]
+    /// The file to write: .svg, .png or .gif. `-` is standard output.
+    #[arg(short, long, alias = "out", value_name = "FILE")]
     output: PathBuf,
+    /// The form. [default: by the output's name; svg for `-`]
+    #[arg(long)]
+    format: Option<FormName>,
     /// The paper's colours.
     #[arg(long, value_enum, default_value = "light")]
     theme: ThemeName,
@@ -51,9 +64,9 @@ pub struct Capture {
 /// Which run is shown, and when.
 #[derive(Debug, Args)]
 pub struct RunArgs {
-    /// The run of this log, instead of that of --seed.
-    #[arg(long, value_name = "FILE", conflicts_with = "seed")]
-    log: Option<PathBuf>,
+    /// The run of this log, instead of that of --seed; `-` is standard input.
+    #[arg(long, alias = "log", value_name = "FILE", conflicts_with = "seed")]
+    run: Option<PathBuf>,
     /// The tour of this seed. [default: 2005, where a run is shown]
     #[arg(long, value_name = "SEED")]
     seed: Option<u64>,
@@ -80,7 +93,7 @@ pub struct RunArgs {
 impl RunArgs {
     /// Whether a run is asked for, of a widget that need not show one.
     fn asked(&self, form: Form) -> bool {
-        form == Form::Gif || self.log.is_some() || self.seed.is_some() || self.tick.is_some()
+        form == Form::Gif || self.run.is_some() || self.seed.is_some() || self.tick.is_some()
     }
 }
 
@@ -92,11 +105,11 @@ pub struct SceneArgs {
     tab: Option<TabName>,
     /// Anatomy and cspace: the robot, a resident of the world by its name, or one of a kind: rusty, reach, choset,
     /// reach3, hitch. [default: choset; of a run its first]
-    #[arg(long, value_name = "NAME|KIND")]
+    #[arg(long, value_name = "NAME|KIND", value_parser = RobotsAndKinds, hide_possible_values = true)]
     robot: Option<String>,
     /// Anatomy, atlas and cspace: a built-in world or the path of a world file. [default: the robot's home; atlas: all
     /// three]
-    #[arg(long, value_name = "NAME|FILE")]
+    #[arg(long, value_name = "NAME|FILE", value_parser = WorldNames, hide_possible_values = true)]
     world: Option<String>,
     /// Anatomy and cspace: the configuration, numbers joined by commas. [default: where the robot starts; choset: pi/4,
     /// pi/2]
@@ -131,10 +144,12 @@ enum Widget {
     Cspace,
 }
 
+/// The form of a capture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum ThemeName {
-    Light,
-    Dark,
+enum FormName {
+    Svg,
+    Png,
+    Gif,
 }
 
 /// The anatomy's tabs.
@@ -155,16 +170,10 @@ fn parse_scale(text: &str) -> Result<f32, String> {
 
 impl Capture {
     /// Runs the command.
-    pub fn run(self) -> Result<Outcome, Failure> {
-        let theme = match self.theme {
-            ThemeName::Light => Theme::Light,
-            ThemeName::Dark => Theme::Dark,
-        };
+    pub fn run(self, data: &mut Data) -> Result<Outcome, Failure> {
+        let theme = self.theme.theme();
         let paper = Paper { palette: theme.palette(), width: self.width, scale: self.scale };
-        let form = Form::of(&self.output).ok_or_else(|| {
-            let reason = format!("{}: its name does not tell the form", self.output.display());
-            Failure::usage(reason, "Let it end in .svg, .png or .gif.")
-        })?;
+        let form = self.form()?;
         let of_run = self.widget == Widget::Dashboard || self.run.asked(form);
         if self.widget == Widget::Anatomy && form == Form::Gif {
             return Err(self.failure(CaptureError::Frozen));
@@ -172,18 +181,33 @@ impl Capture {
         if let Some((option, place)) = self.astray(form, of_run) {
             return Err(Failure::usage(format!("{option} is only valid for {place}"), "Leave it out."));
         }
+        let target = Target::of(&self.output)?;
         if of_run {
-            self.of_run(form, &paper)?;
+            self.of_run(form, &paper, target.path())?;
         } else {
             let captured = match self.widget {
                 Widget::Atlas => widgets::atlas(&self.scene, &paper)?,
                 Widget::Cspace => widgets::cspace(&self.scene)?,
                 Widget::Anatomy | Widget::Dashboard => widgets::anatomy(&self.scene)?,
             };
-            motion_lab::capture::write(&captured, &paper, form, &self.output).map_err(|e| self.failure(e))?;
+            motion_lab::capture::write(&captured, &paper, form, target.path()).map_err(|e| self.failure(e))?;
         }
-        say(format!("wrote {}", self.output.display()));
+        target.finish(data)?;
         Ok(Outcome::Done)
+    }
+
+    /// The form: what was said, else what the output's name tells.
+    fn form(&self) -> Result<Form, Failure> {
+        let said = self.format.map(|form| match form {
+            FormName::Svg => Form::Svg,
+            FormName::Png => Form::Png,
+            FormName::Gif => Form::Gif,
+        });
+        let named = || if is_dash(&self.output) { Some(Form::Svg) } else { Form::of(&self.output) };
+        said.or_else(named).ok_or_else(|| {
+            let reason = format!("{}: its name does not tell the form", self.output.display());
+            Failure::usage(reason, "Let it end in .svg, .png or .gif, or say --format.")
+        })
     }
 
     /// A failure of the library as one of this program.
@@ -191,7 +215,7 @@ impl Capture {
         match error {
             CaptureError::Write(error) => Failure::output(&self.output, &error),
             CaptureError::Fault(reason) => Failure::internal(anyhow::anyhow!(reason)),
-            CaptureError::Run(error) => not_shown(self.run.log.as_deref().unwrap_or(Path::new("the run")), &error),
+            CaptureError::Run(error) => not_shown(self.run.run.as_deref().unwrap_or(Path::new("the run")), &error),
             error => Failure::usage(&error, next(&error)),
         }
     }
@@ -202,7 +226,7 @@ impl Capture {
         let (run, scene) = (&self.run, &self.scene);
         let runs: &[Widget] = &[Dashboard, Atlas, Cspace];
         let options: [(&str, bool, &[Widget], &str); 17] = [
-            ("--log", run.log.is_some(), runs, "dashboard, atlas and cspace"),
+            ("--run", run.run.is_some(), runs, "dashboard, atlas and cspace"),
             ("--seed", run.seed.is_some(), runs, "dashboard, atlas and cspace"),
             ("--tick", run.tick.is_some(), runs, "dashboard, atlas and cspace"),
             ("--from", run.from.is_some(), runs, "dashboard, atlas and cspace"),
@@ -248,7 +272,7 @@ fn next(error: &CaptureError) -> &'static str {
     match error {
         CaptureError::NoTick { .. } => "Choose one of them.",
         CaptureError::Frozen => "Name an .svg or .png file, or --widget cspace to see a robot move beside its point.",
-        CaptureError::NotInRun(_) => "Name a --log with it, or another --robot or --world.",
+        CaptureError::NotInRun(_) => "Name a --run with it, or another --robot or --world.",
         _ => "Choose a smaller --width or --scale.",
     }
 }

@@ -1,5 +1,7 @@
 //! Widgets that show a run: at a tick, and over a span of them.
 
+use std::path::Path;
+
 use clap::ValueEnum;
 use motion_lab::capture::{Form, Paper, Span, Subject, at_tick, film, write};
 use motion_lab::random::Seed;
@@ -10,22 +12,29 @@ use motion_lab::tour::{BOOK_SEED, TourConfig};
 use super::{Capture, RunArgs, Widget};
 use crate::cli::commands::query::RobotName;
 use crate::cli::support::log_source::{LogSource, read_log};
+use crate::cli::support::progress::Progress;
 use crate::cli::support::world_source::find_world;
 use crate::cli::{Failure, say};
 
 impl Capture {
     /// Writes what the widget shows of the run.
-    pub(crate) fn of_run(&self, form: Form, paper: &Paper) -> Result<(), Failure> {
+    pub(crate) fn of_run(&self, form: Form, paper: &Paper, output: &Path) -> Result<(), Failure> {
         let log = log(&self.run)?;
         let subject = self.subject(&log)?;
         let last = log.frames.len() as u64;
         let RunArgs { tick, from, to, every, .. } = self.run;
         let written = if form == Form::Gif {
             let span = Span { from: from.unwrap_or(0), to: to.unwrap_or(last), every: every.unwrap_or(4) };
-            film(&log, &subject, span, paper, &self.output, |_, _| true)
+            let pictures = (span.to.saturating_sub(span.from)) / span.every + 1;
+            let progress = Progress::of(pictures, "pictures");
+            film(&log, &subject, span, paper, output, |done, _| {
+                progress.at(done);
+                true
+            })
         } else {
+            let _progress = Progress::unknown("drawing");
             at_tick(&log, &subject, tick.unwrap_or(last), paper.width_px())
-                .and_then(|captured| write(&captured, paper, form, &self.output))
+                .and_then(|captured| write(&captured, paper, form, output))
         };
         written.map_err(|error| self.failure(error))
     }
@@ -60,7 +69,7 @@ fn kind_of(name: &str, log: &Log) -> Result<String, Failure> {
 
 /// The log asked for: of a file, or of the tour at a seed.
 fn log(args: &RunArgs) -> Result<Log, Failure> {
-    if let Some(path) = &args.log {
+    if let Some(path) = &args.run {
         let LogSource { read, damage } = read_log(path)?;
         if let Some(damage) = damage {
             say(damage);

@@ -12,6 +12,7 @@ use super::{SceneArgs, TabName};
 use crate::cli::Failure;
 use crate::cli::commands::query::{Chosen, RobotName};
 use crate::cli::support::numbers::Numbers;
+use crate::cli::support::progress::Progress;
 use crate::cli::support::world_source::find_world;
 
 /// The query anatomy: the tab with a close view, or all four.
@@ -30,6 +31,7 @@ pub fn cspace(args: &SceneArgs) -> Result<Captured, Failure> {
     let anatomy = frozen(args)?.with_tab(Tab::Swept);
     let slice = Slice::through(anatomy.checker(), &anatomy.q()).map_err(|e| Failure::usage(e, "Change --q."))?;
     let mut map = CellMap::new(slice, args.cells.unwrap_or(9));
+    let _progress = Progress::unknown("judging cells");
     map.refine(args.budget.unwrap_or(u32::MAX));
     Ok(capture::cspace(&anatomy, &map, Vec::new()))
 }

@@ -9,10 +9,12 @@ use clap::{Args, ValueEnum};
 use motion_lab::export::{ExportError, write_csv, write_foxglove_of_file, write_jsonl};
 use motion_lab::run::Log;
 
-use crate::cli::support::input::read_bytes;
+use crate::cli::support::input::{is_dash, read_bytes};
 use crate::cli::support::log_source::{LogSource, MAX_LOG, read_log};
 use crate::cli::support::output::PendingFile;
+use crate::cli::support::progress::{Counted, Progress};
 use crate::cli::support::simulate::not_shown;
+use crate::cli::support::target::Target;
 use crate::cli::{Data, Failure, Outcome, say};
 use sink::Sink;
 use stills::StillArgs;
@@ -23,13 +25,19 @@ use stills::StillArgs;
 /// reach) is `inf` in CSV and the text "inf" in JSON, which has no infinity; -0.0 keeps its sign. Of a damaged or
 /// unfinished file the sealed beginning is written, and the exit code is 5.
 #[derive(Debug, Args)]
+#[command(after_help = "\
+Examples:
+  motion-lab export run.mcap -o run.csv
+  motion-lab export run.mcap --tick 300 --theme dark --names -o run.png
+  motion-lab export run.mcap --format gif --every 10 -o - > run.gif
+  motion-lab export run.mcap --format jsonl | head -1")]
 pub struct Export {
-    /// The log.
+    /// The log; `-` is standard input.
     file: PathBuf,
-    /// The form.
+    /// The form. [default: by the output's name: .jsonl, .csv, .svg, .png, .gif; .mcap is foxglove]
     #[arg(long)]
-    format: Format,
-    /// Write to this file; standard output when there is none.
+    format: Option<Format>,
+    /// Write to this file; `-`, or none, is standard output.
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
     /// CSV: a column for each ray of the range sensors as well.
@@ -56,16 +64,41 @@ enum Format {
     Foxglove,
 }
 
+impl Format {
+    /// The form that a file's name tells.
+    fn by_name(path: &Path) -> Option<Format> {
+        Some(match path.extension()?.to_str()? {
+            "jsonl" => Format::Jsonl,
+            "csv" => Format::Csv,
+            "svg" => Format::Svg,
+            "png" => Format::Png,
+            "gif" => Format::Gif,
+            "mcap" => Format::Foxglove,
+            _ => return None,
+        })
+    }
+}
+
 impl Export {
     /// Runs the command.
     pub fn run(self, data: &mut Data) -> Result<Outcome, Failure> {
-        if self.ranges && self.format != Format::Csv {
+        let output = self.output.as_deref().filter(|path| !is_dash(path));
+        let Some(format) = self.format.or_else(|| Format::by_name(output?)) else {
+            return Err(match output {
+                Some(path) => Failure::usage(
+                    format!("{}: its name does not tell the form", path.display()),
+                    "Say it with --format: jsonl, csv, svg, png, gif or foxglove.",
+                ),
+                None => Failure::usage("no form is named", "Name a file with -o FILE, or say the form with --format."),
+            });
+        };
+        if self.ranges && format != Format::Csv {
             return Err(Failure::usage(
                 "--ranges is only valid with --format csv",
                 "Leave it out: jsonl and foxglove always hold the ranges.",
             ));
         }
-        if matches!(self.format, Format::Foxglove | Format::Png | Format::Gif) && self.output.is_none() {
+        if format == Format::Foxglove && output.is_none() {
             return Err(Failure::usage("this form is not for standard output", "Name a file: -o FILE."));
         }
         let LogSource { read, damage } = read_log(&self.file)?;
@@ -73,25 +106,33 @@ impl Export {
             say(format!("{damage}\nThis much is exported; `motion-lab record --resume` makes it whole."));
         }
         let (file, log) = (&self.file, &read.log);
-        match (self.format, &self.output) {
-            (Format::Foxglove, Some(output)) => foxglove(file, log, output)?,
-            (Format::Png, Some(output)) => stills::png(&self.stills, file, log, output)?,
-            (Format::Gif, Some(output)) => stills::gif(&self.stills, file, log, output)?,
+        let target = Target::of(output.unwrap_or(Path::new("-")))?;
+        match (format, output) {
+            (Format::Foxglove, _) => foxglove(file, log, target.path())?,
+            (Format::Png, _) => stills::png(&self.stills, file, log, target.path())?,
+            (Format::Gif, _) => stills::gif(&self.stills, file, log, target.path())?,
             (format, output) => {
-                let mut sink = Sink::new(output.as_deref(), data)?;
+                let mut sink = Sink::new(output, data)?;
+                let ticks = log.frames.len() as u64 + 1;
                 match format {
-                    Format::Jsonl => sink.take(|out| write_jsonl(log, out))?,
-                    Format::Csv => sink.take(|out| write_csv(log, self.ranges, out))?,
+                    Format::Jsonl => {
+                        let progress = Progress::of(ticks, "lines");
+                        sink.take(|out| write_jsonl(log, Counted(out, &progress)))?;
+                    }
+                    Format::Csv => {
+                        let progress = Progress::of(ticks * log.config.robot_names().count() as u64, "lines");
+                        sink.take(|out| write_csv(log, self.ranges, Counted(out, &progress)))?;
+                    }
                     _ => {
                         let tick = self.stills.tick.unwrap_or(log.frames.len() as u64);
-                        sink.text(&stills::svg_at(file, log, tick)?)?;
+                        sink.text(&stills::svg_at(&self.stills, file, log, tick)?)?;
                     }
                 }
                 sink.finish()?;
             }
         }
-        if let Some(output) = &self.output {
-            say(format!("wrote {}", output.display()));
+        if output.is_some() || matches!(format, Format::Png | Format::Gif) {
+            target.finish(data)?;
         }
         Ok(if damage.is_some() { Outcome::Recovered } else { Outcome::Done })
     }
@@ -101,6 +142,7 @@ impl Export {
 fn foxglove(file: &Path, log: &Log, output: &Path) -> Result<(), Failure> {
     let bytes = read_bytes(file, MAX_LOG)?;
     let mut pending = PendingFile::create(output)?;
+    let _progress = Progress::unknown("exporting");
     write_foxglove_of_file(&bytes, log, &mut pending, |_| {}).map_err(|error| match error {
         ExportError::Write(error) => Failure::output(output, &error),
         ExportError::Run(error) => not_shown(file, &error),

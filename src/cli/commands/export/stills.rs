@@ -3,12 +3,16 @@
 use std::path::Path;
 
 use clap::Args;
-use motion_lab::capture::{CaptureError, GifWriter, Image, Raster, RunFigure, Size, TICK_HUNDREDTHS, write_png};
-use motion_lab::picture::Theme;
+use motion_lab::capture::{
+    CaptureError, GifWriter, Image, Raster, RunFigure, Size, TICK_HUNDREDTHS, with_names, write_png,
+};
+use motion_lab::picture::{Role, Sheet};
 use motion_lab::run::Log;
 
 use crate::cli::Failure;
+use crate::cli::support::choices::ThemeName;
 use crate::cli::support::output::PendingFile;
+use crate::cli::support::progress::Progress;
 use crate::cli::support::simulate::show;
 
 /// Which ticks are drawn, and how large.
@@ -26,18 +30,37 @@ pub struct StillArgs {
     /// GIF: a picture for every N ticks.
     #[arg(long, value_name = "N", default_value_t = 4, value_parser = clap::value_parser!(u64).range(1..=1000))]
     every: u64,
-    /// PNG and GIF: pixels from left to right.
+    /// PNG and GIF: pixels from left to right. SVG: the sheet's greatest width, pixels; letters keep their size.
     #[arg(long, value_name = "PIXELS", default_value_t = 1280, value_parser = clap::value_parser!(u32).range(64..=8192))]
     width: u32,
+    /// SVG, PNG and GIF: the paper's colours.
+    #[arg(long, value_enum, default_value = "light")]
+    theme: ThemeName,
+    /// SVG, PNG and GIF: the names of obstacles, places and marks.
+    #[arg(long)]
+    names: bool,
 }
 
+/// The greatest width of a sheet that is painted, pixels of the sheet.
+const SHEET: u32 = 1280;
+
 /// The SVG of the run after `tick`.
-pub fn svg_at(file: &Path, log: &Log, tick: u64) -> Result<String, Failure> {
+pub fn svg_at(args: &StillArgs, file: &Path, log: &Log, tick: u64) -> Result<String, Failure> {
+    sheet_at(args, args.width, file, log, tick)
+}
+
+/// The SVG of the run after `tick`, on a sheet of this width.
+fn sheet_at(args: &StillArgs, width: u32, file: &Path, log: &Log, tick: u64) -> Result<String, Failure> {
     let mut drawn = None;
+    let progress = Progress::of(tick, "ticks");
     each_svg(
+        (args, width),
         file,
         log,
-        |at| at == tick,
+        |at| {
+            progress.at(at);
+            at == tick
+        },
         |svg| {
             drawn = Some(svg);
             Ok(())
@@ -49,7 +72,7 @@ pub fn svg_at(file: &Path, log: &Log, tick: u64) -> Result<String, Failure> {
 /// Writes a PNG of the run at one tick.
 pub fn png(args: &StillArgs, file: &Path, log: &Log, output: &Path) -> Result<(), Failure> {
     let tick = args.tick.unwrap_or(log.frames.len() as u64);
-    let image = paint(&Raster::new(Size::Wide(args.width)), &svg_at(file, log, tick)?, None)?;
+    let image = paint(&args.raster(), &sheet_at(args, SHEET, file, log, tick)?, None)?;
     let mut pending = PendingFile::create(output)?;
     let notes = [
         ("Software", format!("motion-lab {}", env!("CARGO_PKG_VERSION"))),
@@ -72,19 +95,21 @@ pub fn gif(args: &StillArgs, file: &Path, log: &Log, output: &Path) -> Result<()
         return Err(beyond(log, if from > to { from } else { to }));
     }
     let failed = |error| Failure::output(output, &error);
-    let raster = Raster::new(Size::Wide(args.width));
+    let raster = args.raster();
     let comment = format!("motion-lab, seed {}, digest {}, ticks {from} to {to}", log.seed.0, log.digest());
     let hundredths = (TICK_HUNDREDTHS * args.every) as u16;
     let mut pending = Some(PendingFile::create(output)?);
     let mut writer: Option<(GifWriter<PendingFile>, u32)> = None;
     let wanted = |tick: u64| (from..=to).contains(&tick) && (tick - from).is_multiple_of(args.every);
-    each_svg(file, log, wanted, |svg| {
+    let progress = Progress::of((to - from) / args.every + 1, "pictures");
+    each_svg((args, SHEET), file, log, wanted, |svg| {
+        progress.step();
         let image = paint(&raster, &svg, writer.as_ref().map(|(_, height)| *height))?;
         if let Some(pending) = pending.take() {
             let too_large = |_| Failure::usage("the pictures are too large for a GIF", "Choose a smaller --width.");
             let size = [image.width.try_into().map_err(too_large)?, image.height.try_into().map_err(too_large)?];
             writer = Some((
-                GifWriter::new(pending, size, hundredths, Theme::Light.palette(), &comment).map_err(failed)?,
+                GifWriter::new(pending, size, hundredths, args.theme.theme().palette(), &comment).map_err(failed)?,
                 image.height,
             ));
         }
@@ -99,6 +124,12 @@ pub fn gif(args: &StillArgs, file: &Path, log: &Log, output: &Path) -> Result<()
     }
 }
 
+impl StillArgs {
+    fn raster(&self) -> Raster {
+        Raster::new(Size::Wide(self.width)).on(self.theme.theme().palette().colour(Role::Paper))
+    }
+}
+
 fn paint(raster: &Raster, svg: &str, height: Option<u32>) -> Result<Image, Failure> {
     raster.paint(svg, height).map_err(|error| match error {
         error @ CaptureError::TooLarge(_) => Failure::usage(error, "Choose a smaller --width."),
@@ -108,6 +139,7 @@ fn paint(raster: &Raster, svg: &str, height: Option<u32>) -> Result<Image, Failu
 
 /// Gives `take` the SVG of the run after each tick that is wanted.
 fn each_svg(
+    (args, width): (&StillArgs, u32),
     file: &Path,
     log: &Log,
     wanted: impl Fn(u64) -> bool,
@@ -117,7 +149,11 @@ fn each_svg(
     show(file, log, |run, frame| {
         figure.watch(run.view());
         if wanted(frame.tick) {
-            take(figure.svg(log.seed, &log.config, frame.tick, digest, Theme::Light))?;
+            let figure = figure.figure(log.seed, &log.config, frame.tick, digest);
+            let width_px = f64::from(width);
+            let figure = if args.names { with_names(figure, &log.config.worlds, width_px) } else { figure };
+            let palette = args.theme.theme().palette();
+            take(figure.svg_on(&Sheet { palette, width_px, notes: &[] }))?;
         }
         Ok(())
     })

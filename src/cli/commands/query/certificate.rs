@@ -11,8 +11,9 @@ use serde::Serialize;
 use super::answer::{EdgeAnswer, edge, name, point};
 use super::dimensions::{Dimensions, Measured};
 use super::inquiry::Inquiry;
+use crate::cli::Failure;
 use crate::cli::support::output::write_file;
-use crate::cli::{Failure, say};
+use crate::cli::support::target::Target;
 
 /// The version of the format. Readers refuse versions that they don't know.
 const VERSION: u32 = 1;
@@ -70,13 +71,14 @@ impl EdgeCertificate {
     pub fn write(&self, path: &Path) -> Result<(), Failure> {
         let mut text = serde_json::to_string(self).map_err(Failure::internal)?;
         text.push('\n');
+        let target = Target::file(path)?;
         write_file(path, text.as_bytes())?;
         let proven = match self.steps.len() {
             0 => "no step; nothing is proven".to_owned(),
             1 => format!("1 step, free to s = {}", self.proven_until.0),
             n => format!("{n} steps, free to s = {}", self.proven_until.0),
         };
-        say(format!("wrote {}: {proven}", path.display()));
+        target.wrote_with(&format!(": {proven}"));
         Ok(())
     }
 }

@@ -25,8 +25,32 @@ pub fn parse_line(text: &str) -> Result<Asked, String> {
         // serde_json counts lines too; here there is only the one
         let message = error.to_string();
         let reason = message.split(" at line ").next().unwrap_or(&message);
+        let reason = in_words(reason);
         format!("column {}: {reason}; expected [numbers] or {{\"q\": [numbers], \"to\": [numbers]}}", error.column())
     })
+}
+
+/// What a JSON reader found wrong, in the words of its readers.
+fn in_words(reason: &str) -> String {
+    let named = |before: &str| reason.strip_prefix(before)?.split('`').next();
+    if let Some(field) = named("missing field `") {
+        return format!("the field `{field}` is missing");
+    }
+    if let Some(field) = named("unknown field `") {
+        return format!("there is no field `{field}`");
+    }
+    if let Some(field) = named("duplicate field `") {
+        return format!("the field `{field}` is there twice");
+    }
+    if let Some((found, _)) = reason.strip_prefix("invalid type: ").and_then(|rest| rest.split_once(", expected")) {
+        return format!("{} does not belong here", found.replace("floating point ", ""));
+    }
+    match reason {
+        "expected value" | "expected ident" => "no value of JSON".to_owned(),
+        "trailing characters" => "the line goes on after its last bracket".to_owned(),
+        reason if reason.starts_with("EOF") => "the line ends too early".to_owned(),
+        reason => reason.to_owned(),
+    }
 }
 
 /// Checks that the numbers are finite, and that the first two, a place, are within the coordinates the lab computes
@@ -62,13 +86,15 @@ mod tests {
     #[test]
     fn what_is_wrong_is_named() {
         for (text, reason) in [
-            ("[1, x]", "column 5: expected value"),
-            ("[1, null]", "column 8: invalid type: null"),
+            ("[1, x]", "column 5: no value of JSON; "),
+            ("[1, null]", "column 8: null does not belong here; "),
             ("[1e999]", "number out of range"),
-            (r#"{"q": [1], "two": [1]}"#, "unknown field `two`"),
-            (r#"{"to": [1]}"#, "missing field `q`"),
-            ("[1] [2]", "column 5: trailing characters"),
-            ("nonsense", "column 2: expected ident"),
+            (r#"{"q": [1], "two": [1]}"#, "there is no field `two`; "),
+            (r#"{"to": [1]}"#, "the field `q` is missing; "),
+            (r#"{"q": [1], "q": [1]}"#, "the field `q` is there twice; "),
+            ("[1] [2]", "column 5: the line goes on after its last bracket; "),
+            ("[1, ", "column 4: the line ends too early; "),
+            ("nonsense", "column 2: no value of JSON; "),
         ] {
             let error = parse_line(text).unwrap_err();
             assert!(error.contains(reason), "{text}: {error}");

@@ -25,6 +25,7 @@ use line::{Asked, parse_line};
 use lines::Lines;
 pub use robot::RobotName;
 
+use crate::cli::support::choices::{RobotsAndKinds, WorldNames};
 use crate::cli::support::input::open;
 use crate::cli::support::numbers::Numbers;
 use crate::cli::support::world_source::find_world;
@@ -54,7 +55,16 @@ const MESSAGES: u64 = 10;
 /// steps [from, to, clearance] in which it is free, for other programs to check. Of a motion that hits it proves what
 /// comes before.
 #[derive(Debug, Args)]
-#[command(verbatim_doc_comment)]
+#[command(
+    verbatim_doc_comment,
+    after_help = "\
+Examples:
+  motion-lab query distance --robot rusty 3,5.5
+  motion-lab query edge --robot reach 2.0,0 3.1,0 --certificate edge.json
+  motion-lab query witness --robot Rusty --world apartment
+  motion-lab query scan 3,5.5,0 --rays 8
+  motion-lab query intersects --robot hitch --input poses.jsonl"
+)]
 pub struct Query {
     /// The question.
     question: Question,
@@ -68,10 +78,10 @@ pub struct Query {
     /// (the disc of radius 0.11 m: x,y or x,y,theta), reach (the two-link arm with 3 cm capsule links: th1,th2), choset
     /// (the same arm without thickness), reach3 (the three-link arm: th1,th2,th3), hitch (the car: x,y,theta; with the
     /// trailer x,y,theta,psi). `scan` needs none, its configuration is where the sensor is: x,y or x,y,theta.
-    #[arg(long, value_name = "NAME|KIND")]
+    #[arg(long, value_name = "NAME|KIND", value_parser = RobotsAndKinds, hide_possible_values = true)]
     robot: Option<String>,
     /// A built-in world or the path of a world file; the robot's home when left out.
-    #[arg(long, value_name = "NAME|FILE")]
+    #[arg(long, value_name = "NAME|FILE", value_parser = WorldNames, hide_possible_values = true)]
     world: Option<String>,
     /// Read the configurations from this file, `-` for standard input.
     #[arg(long, value_name = "FILE")]
@@ -87,8 +97,9 @@ pub struct Query {
     range: f64,
 }
 
+/// A question that can be asked.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum Question {
+pub enum Question {
     /// Whether the robot touches anything.
     Intersects,
     /// How far it is from the nearest obstacle.

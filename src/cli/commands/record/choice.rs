@@ -1,4 +1,4 @@
-//! Which robots take part, and what stands in for one of them.
+//! Which robots take part, and where and as what some of them start.
 
 use std::str::FromStr;
 
@@ -6,54 +6,88 @@ use motion_lab::worlds::{Resident, World};
 
 use crate::cli::Failure;
 
-/// A robot to keep: as the world has it, or another robot under its name.
+/// A robot's place: where it starts, and its kind if that is not the world's.
 #[derive(Clone, Debug, PartialEq)]
-pub struct RobotChoice {
+pub struct Placement {
     name: String,
-    stand_in: Option<(String, Vec<f64>)>,
+    kind: Option<String>,
+    start: Vec<f64>,
 }
 
-impl FromStr for RobotChoice {
+impl FromStr for Placement {
     type Err = String;
 
     fn from_str(text: &str) -> Result<Self, String> {
-        let Some((name, stand_in)) = text.split_once('=') else {
-            return Ok(RobotChoice { name: text.to_owned(), stand_in: None });
+        let form = "write NAME=NUMBERS or NAME=KIND:NUMBERS, as Rusty=1,2,0 or Reach=reach3:0.1,0.2,0.3";
+        let (name, place) = text.split_once('=').ok_or(form)?;
+        let (kind, numbers) = match place.split_once(':') {
+            Some((kind, numbers)) => (Some(kind.to_owned()), numbers),
+            None => (None, place),
         };
-        let (kind, numbers) = stand_in.split_once(':').ok_or("write NAME=KIND:NUMBERS, as Reach=reach3:0.1,0.2,0.3")?;
-        let number = |n: &str| n.trim().parse::<f64>().map_err(|_| format!("{n:?} is no number"));
+        let number = |n: &str| n.trim().parse::<f64>().map_err(|_| format!("{n:?} is no number: {form}"));
         let start = numbers.split(',').map(number).collect::<Result<_, _>>()?;
-        Ok(RobotChoice { name: name.to_owned(), stand_in: Some((kind.to_owned(), start)) })
+        Ok(Placement { name: name.to_owned(), kind, start })
     }
 }
 
-/// Keeps the chosen robots of the worlds; all of them when none is chosen.
-pub fn choose(worlds: &mut [World], choices: &[RobotChoice]) -> Result<(), Failure> {
-    if choices.is_empty() {
-        return Ok(());
+/// Keeps the robots of these names, or all of them when none is named, and puts those that have a place there.
+///
+/// `NAME=KIND:NUMBERS` as a name, the earlier spelling, both keeps a robot and puts it there.
+pub fn choose(worlds: &mut [World], names: &[String], places: &[Placement]) -> Result<(), Failure> {
+    let mut places: Vec<(&str, Placement)> = places.iter().map(|place| ("--place", place.clone())).collect();
+    let mut kept: Vec<&str> = Vec::new();
+    for text in names {
+        let known = |name: &str| worlds.iter().any(|w| w.robots.iter().any(|r| r.name == name));
+        match text.split_once('=').filter(|_| !known(text)) {
+            None => kept.push(text),
+            Some((name, _)) => {
+                let place = text.parse().map_err(|reason| Failure::usage(format!("--robot {text}: {reason}"), HELP))?;
+                places.push(("--robot", place));
+                kept.push(name);
+            }
+        }
     }
-    for choice in choices {
-        if !worlds.iter().any(|w| w.robots.iter().any(|r| r.name == choice.name)) {
-            let names: Vec<&str> = worlds.iter().flat_map(|w| &w.robots).map(|r| r.name.as_str()).collect();
+    let all = kept.iter().map(|name| ("--robot", *name)).chain(places.iter().map(|(o, p)| (*o, p.name.as_str())));
+    for (option, name) in all {
+        if !worlds.iter().any(|w| w.robots.iter().any(|r| r.name == name)) {
+            let there: Vec<&str> = worlds.iter().flat_map(|w| &w.robots).map(|r| r.name.as_str()).collect();
             return Err(Failure::usage(
-                format!("--robot {}: no such robot lives in these worlds", choice.name),
-                format!("They have {}.", if names.is_empty() { "none".into() } else { names.join(", ") }),
+                format!("{option} {name}: no such robot lives in these worlds"),
+                format!("They have {}.", if there.is_empty() { "none".into() } else { there.join(", ") }),
             ));
         }
     }
     for world in worlds {
-        let keep = |r: &Resident| {
-            let choice = choices.iter().find(|c| c.name == r.name)?;
-            Some(match choice.stand_in.clone() {
-                Some((kind, start)) => Resident::try_new(r.name.clone(), kind, start, None)
-                    .map(|stand_in| Resident { sizes: r.sizes.clone().filter(|_| stand_in.kind == r.kind), ..stand_in })
-                    .map_err(|problem| {
-                        Failure::usage(format!("--robot {}: {problem}", r.name), "See `motion-lab record --help`.")
-                    }),
-                None => Ok(r.clone()),
-            })
-        };
-        world.robots = world.robots.iter().filter_map(keep).collect::<Result<_, _>>()?;
+        world.robots.retain(|r| kept.is_empty() || kept.contains(&r.name.as_str()));
+        for robot in &mut world.robots {
+            for (option, place) in &places {
+                if place.name != robot.name {
+                    continue;
+                }
+                let put = if *option == "--place" { place.put(robot) } else { place.replace(robot) };
+                *robot = put.map_err(|problem| Failure::usage(format!("{option} {problem}"), HELP))?;
+            }
+        }
     }
     Ok(())
+}
+
+/// What to do about a wrong choice.
+const HELP: &str = "See `motion-lab record --help`.";
+
+impl Placement {
+    /// The robot as this placement has it. One of the same kind keeps all else that the world says of it.
+    fn put(&self, robot: &Resident) -> Result<Resident, String> {
+        let placed = self.replace(robot)?;
+        Ok(if placed.kind == robot.kind { Resident { start: placed.start, ..robot.clone() } } else { placed })
+    }
+
+    /// A new robot in place of this one, as `--robot NAME=KIND:NUMBERS` makes it. One of the same kind has its sizes.
+    fn replace(&self, robot: &Resident) -> Result<Resident, String> {
+        let Placement { name, kind, start } = self;
+        let kind = kind.clone().unwrap_or_else(|| robot.kind.clone());
+        let placed = Resident::try_new(name.clone(), kind, start.clone(), None);
+        let placed = placed.map_err(|problem| format!("{name}: {problem}"))?;
+        Ok(Resident { sizes: robot.sizes.clone().filter(|_| placed.kind == robot.kind), ..placed })
+    }
 }

@@ -1,6 +1,6 @@
 //! Many seeds at once, their lines in order.
 
-use std::path::PathBuf;
+use std::path::Path;
 
 use motion_lab::random::Seed;
 use motion_lab::run::Script;
@@ -10,6 +10,7 @@ use rayon::prelude::*;
 use super::one::{Ended, Plan, Stop, run, write_run};
 use super::seeds::SeedRange;
 use super::{Outcome, Record};
+use crate::cli::support::progress::Progress;
 use crate::cli::support::summary::RunSummary;
 use crate::cli::{Data, Failure, say};
 
@@ -29,15 +30,21 @@ pub fn record(
     let pool = rayon::ThreadPoolBuilder::new().num_threads(usize::from(options.threads.unwrap_or(0))).build();
     let pool = pool.map_err(Failure::internal)?;
     let batch = AHEAD * pool.current_num_threads() as u64;
+    let progress = Progress::of(seeds.end - seeds.first, "seeds");
+    let stop = Stop { unwatched: true, ..Stop::default() };
     let mut first = seeds.first;
     while first < seeds.end && !data.is_closed() {
         let end = seeds.end.min(first.saturating_add(batch));
         let one = |seed: u64| {
             let plan = Plan { seed: Seed(seed), config: config.clone(), script: script.clone(), kind };
-            match &output {
-                Some(template) => write_run_whole(&plan, &template.replace("{seed}", &seed.to_string())),
-                None => run(&plan, None, Stop::default(), |_, _| Ok(())),
-            }
+            let ended = match &output {
+                Some(template) => {
+                    write_run(&plan, None, stop, Path::new(&template.replace("{seed}", &seed.to_string())))
+                }
+                None => run(&plan, None, stop, |_, _| Ok(())),
+            };
+            progress.step();
+            ended
         };
         let ended: Vec<_> = pool.install(|| (first..end).into_par_iter().map(one).collect());
         for (seed, ended) in (first..end).zip(ended) {
@@ -68,8 +75,4 @@ fn template(options: &Record) -> Result<Option<String>, Failure> {
             "Put {seed} in it, as in -o runs/{seed}.mcap.",
         )),
     }
-}
-
-fn write_run_whole(plan: &Plan, output: &str) -> Result<Ended, Failure> {
-    write_run(plan, None, Stop::default(), &PathBuf::from(output))
 }

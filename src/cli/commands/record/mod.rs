@@ -12,12 +12,15 @@ use std::path::PathBuf;
 use clap::Args;
 use motion_lab::tour::TourConfig;
 
+use crate::cli::support::choices::{RobotNames, WorldNames};
+use crate::cli::support::console::note;
 use crate::cli::support::interrupt;
 use crate::cli::support::log_kind::LogKind;
-use crate::cli::{Data, Failure, Outcome, say};
-use choice::RobotChoice;
+use crate::cli::{Data, Failure, Outcome};
+use choice::Placement;
 use seeds::SeedRange;
 
+use one::Printed;
 #[cfg(feature = "headless")]
 pub use one::{Ended, write_run};
 pub use one::{Plan, Stop};
@@ -28,15 +31,25 @@ pub use one::{Plan, Stop};
 /// after the tick under way: with -o FILE what was done is kept in FILE.partial, and `record --resume FILE.partial`
 /// goes on from there.
 #[derive(Debug, Args)]
+#[command(after_help = "\
+Examples:
+  motion-lab record --seed 7 --seconds 10 -o seven.mcap
+  motion-lab record --world apartment --robot Rusty --script drive.ron
+  motion-lab record --place Reach=reach3:0.1,0.2,0.3
+  motion-lab record --seeds 0..100 --threads 4
+  motion-lab record --resume seven.mcap.partial")]
 pub struct Record {
     /// A built-in world or the path of a world file; may be given several times. [default: apartment, workbench, lot]
-    #[arg(long, value_name = "NAME|FILE")]
+    #[arg(long, value_name = "NAME|FILE", value_parser = WorldNames, hide_possible_values = true)]
     world: Vec<String>,
-    /// Keep only the robots named so; may be given several times. NAME=KIND:NUMBERS puts a robot of that kind (rusty,
-    /// reach, reach3, hitch) there in its place, starting at these coordinates: "Reach=reach3:0.1,0.2,0.3". One of the
-    /// same kind keeps the sizes that the world says.
-    #[arg(long, value_name = "NAME[=KIND:NUMBERS]")]
-    robot: Vec<RobotChoice>,
+    /// Keep only the robots named so; may be given several times. [default: all]
+    #[arg(long, value_name = "NAME", value_parser = RobotNames, hide_possible_values = true)]
+    robot: Vec<String>,
+    /// Start the robot of this name at these coordinates, as another kind if one is given (rusty, reach, reach3,
+    /// hitch): "Rusty=1,2,0", "Reach=reach3:0.1,0.2,0.3". The other robots stay. It keeps the sizes that the world says
+    /// unless it becomes of another kind. May be given several times.
+    #[arg(long, value_name = "NAME=[KIND:]NUMBERS")]
+    place: Vec<Placement>,
     /// The seed. [default: 2005]
     #[arg(long, conflicts_with = "seeds")]
     seed: Option<u64>,
@@ -72,7 +85,7 @@ pub struct Record {
     /// Go on with a recording that stopped early: run it again from its seed and script, check it against what is
     /// there, and write the whole. The output is named as FILE is, without .partial.
     #[arg(long, value_name = "FILE", conflicts_with_all = [
-        "world", "robot", "seed", "ticks", "seconds", "script", "rays", "range", "no_sensor",
+        "world", "robot", "place", "seed", "ticks", "seconds", "script", "rays", "range", "no_sensor",
     ])]
     resume: Option<PathBuf>,
     /// Stop after this tick as if by Ctrl-C.
@@ -84,6 +97,9 @@ pub struct Record {
     /// One line of JSON for each run.
     #[arg(long)]
     json: bool,
+    /// Configurations as Rust prints them.
+    #[arg(long, conflicts_with_all = ["seeds", "json"])]
+    debug: bool,
 }
 
 impl Record {
@@ -94,7 +110,7 @@ impl Record {
             resume::name_unfinished(output);
         }
         if let Some(file) = &self.resume {
-            return resume::resume(file, self.output.as_deref(), self.stop(), self.json, data);
+            return resume::resume(file, self.output.as_deref(), self.stop(), self.printed(), data);
         }
         let (config, script) = (setup::config(&self)?, setup::script(&self)?);
         setup::check(&self, &config, &script)?;
@@ -103,7 +119,7 @@ impl Record {
         }
         let kind = self.kind(&config);
         let plan = Plan { seed: setup::seed(&self), config, script, kind };
-        one::record(&plan, None, self.output.as_deref(), self.stop(), self.json, data)
+        one::record(&plan, None, self.output.as_deref(), self.stop(), self.printed(), data)
     }
 
     /// What the log keeps. Where nobody said it, and it is not every frame, this is said.
@@ -111,7 +127,7 @@ impl Record {
         let kind = self.log.unwrap_or_else(|| LogKind::of(config));
         if self.log.is_none() && kind == LogKind::Digest && self.output.is_some() {
             let robots = config.robot_names().count();
-            say(format!(
+            note(format!(
                 "{robots} robots: the log keeps a digest of each second and no frames; --log full keeps every frame"
             ));
         }
@@ -119,6 +135,14 @@ impl Record {
     }
 
     fn stop(&self) -> Stop {
-        Stop { after: self.stop_after }
+        Stop { after: self.stop_after, unwatched: false }
+    }
+
+    fn printed(&self) -> Printed {
+        match (self.json, self.debug) {
+            (true, _) => Printed::Json,
+            (false, true) => Printed::Debug,
+            (false, false) => Printed::Words,
+        }
     }
 }

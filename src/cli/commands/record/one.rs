@@ -10,12 +10,11 @@ use motion_lab::tour::TourConfig;
 use crate::cli::support::interrupt;
 use crate::cli::support::log_kind::{AnyComparison, AnyLog, AnyWriter, LogKind};
 use crate::cli::support::output::PendingFile;
+use crate::cli::support::progress::Progress;
 use crate::cli::support::simulate::begin;
 use crate::cli::support::summary::RunSummary;
+use crate::cli::support::target::Target;
 use crate::cli::{Data, Failure, Outcome, say};
-
-/// Number of ticks from which a run reports its progress.
-const LONG: u64 = 100_000;
 
 /// Number of ticks in a second of simulated time.
 const SECOND: u64 = (1.0 / DT) as u64;
@@ -38,9 +37,16 @@ pub struct Plan {
 pub struct Stop {
     /// After this tick.
     pub after: Option<u64>,
+    /// Whether somebody else says how far the run has come.
+    pub unwatched: bool,
 }
 
 impl Stop {
+    /// The progress of a run of so many ticks.
+    fn progress(self, ticks: u64) -> Progress {
+        if self.unwatched { Progress::none() } else { Progress::of(ticks, "ticks") }
+    }
+
     fn now(self, tick: u64) -> bool {
         self.after.is_some_and(|after| tick >= after) || interrupt::asked_to_stop()
     }
@@ -70,6 +76,7 @@ pub fn run(
     mut sink: impl FnMut(&Frame, &RunDigest) -> Result<(), Failure>,
 ) -> Result<Ended, Failure> {
     let Plan { seed, config, script, .. } = plan;
+    let watched = stop.progress(config.ticks);
     let mut run = begin(*seed, config, script)?;
     let mut digest = RunDigest::new(*seed, config, script, run.frame());
     sink(run.frame(), &digest)?;
@@ -88,9 +95,7 @@ pub fn run(
             return Ok(Ended::Differs(difference));
         }
         sink(frame, &digest)?;
-        if config.ticks >= LONG && frame.tick % (config.ticks / 10) == 0 {
-            say(format!("tick {} of {}", frame.tick, config.ticks));
-        }
+        watched.at(frame.tick);
     }
     Ok(Ended::Whole { last: run.frame().clone(), digest: digest.digest() })
 }
@@ -187,15 +192,27 @@ pub fn partial_name(output: &Path) -> PathBuf {
     name.into()
 }
 
+/// The form in which a run's end is printed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Printed {
+    /// A table with names and units.
+    Words,
+    /// Configurations in Rust's spelling.
+    Debug,
+    /// A line of JSON.
+    Json,
+}
+
 /// Records one run and says what came of it.
 pub fn record(
     plan: &Plan,
     expected: Option<&AnyLog>,
     output: Option<&Path>,
     stop: Stop,
-    json: bool,
+    form: Printed,
     data: &mut Data,
 ) -> Result<Outcome, Failure> {
+    let target = output.map(Target::file).transpose()?;
     let ended = match output {
         Some(output) => write_run(plan, expected, stop, output)?,
         None => run(plan, expected, stop, |_, _| Ok(()))?,
@@ -203,14 +220,14 @@ pub fn record(
     match ended {
         Ended::Whole { last, digest } => {
             let summary = RunSummary::new(plan.seed, &plan.config, &last, digest);
-            if json {
+            if form == Printed::Json {
                 data.json(&summary)?;
             } else {
-                summary.print_robots(data)?;
+                summary.print_robots(form == Printed::Debug, data)?;
                 data.line(format!("digest {digest}"))?;
             }
-            if let Some(output) = output {
-                say(format!("wrote {}", output.display()));
+            if let Some(target) = target {
+                target.wrote();
             }
             Ok(Outcome::Done)
         }

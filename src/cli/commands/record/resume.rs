@@ -6,7 +6,7 @@ use std::path::Path;
 use motion_lab::output::{is_left, is_temporary, unfinished, whole_name};
 
 use super::Plan;
-use super::one::{Stop, record};
+use super::one::{Printed, Stop, record};
 use crate::cli::support::input::read_bytes_if;
 use crate::cli::support::log_source::{begins_as_one, read_any_log};
 use crate::cli::{Data, Failure, Outcome, say};
@@ -16,7 +16,13 @@ const MAX_NAMED: usize = 10;
 
 /// Runs the recording in `file` again from its seed and script, compares with what is sealed in it, and goes on to the
 /// end.
-pub fn resume(file: &Path, output: Option<&Path>, stop: Stop, json: bool, data: &mut Data) -> Result<Outcome, Failure> {
+pub fn resume(
+    file: &Path,
+    output: Option<&Path>,
+    stop: Stop,
+    form: Printed,
+    data: &mut Data,
+) -> Result<Outcome, Failure> {
     if is_temporary(file) && !is_left(file).unwrap_or(true) {
         return Err(Failure::input(
             format!("{}: another process is writing it", file.display()),
@@ -39,7 +45,7 @@ pub fn resume(file: &Path, output: Option<&Path>, stop: Stop, json: bool, data: 
     }
     let (seed, config, script) = log.parts();
     let plan = Plan { seed, config: config.clone(), script: script.clone(), kind: log.kind() };
-    let outcome = record(&plan, Some(&log), Some(output), stop, json, data)?;
+    let outcome = record(&plan, Some(&log), Some(output), stop, form, data)?;
     if outcome == Outcome::Done && Some(output) == whole_name.as_deref() {
         // all of it is in the output now
         let _ = fs::remove_file(file);

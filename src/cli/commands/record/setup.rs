@@ -22,7 +22,7 @@ pub fn config(options: &Record) -> Result<TourConfig, Failure> {
     if !options.world.is_empty() {
         config.worlds = options.world.iter().map(|name| find_world(name)).collect::<Result<_, _>>()?;
     }
-    choose(&mut config.worlds, &options.robot)?;
+    choose(&mut config.worlds, &options.robot, &options.place)?;
     config.ticks = ticks(options)?.unwrap_or(config.ticks);
     let RangeSensor { n_rays, max_range } = config.sensor.unwrap_or(RangeSensor { n_rays: 360, max_range: 4.0 });
     config.sensor = (!options.no_sensor).then_some(RangeSensor {

@@ -3,22 +3,28 @@
 mod table;
 
 use std::collections::BTreeSet;
-use std::io::Read;
 use std::path::{Path, PathBuf};
 
 use clap::{Args, Subcommand};
 use motion_lab::run::{Script, ScriptError};
 use serde::Serialize;
 
-use crate::cli::support::input::{for_each_file, open, read_text, unreadable};
+use crate::cli::support::choices::WorldNames;
+use crate::cli::support::input::{for_each_file, read_bytes_if, read_text, shown};
 use crate::cli::support::log_source::read_any_log;
 use crate::cli::support::output::write_file;
 use crate::cli::support::script_words::{changes_in_words, none};
+use crate::cli::support::target::Target;
 use crate::cli::support::world_source::find_world;
 use crate::cli::{Data, Failure, Outcome, say};
 
 /// Check and print input scripts; make one from a table.
 #[derive(Debug, Args)]
+#[command(after_help = "\
+Examples:
+  motion-lab script check drive.ron --world apartment
+  motion-lab script print run.mcap > drive.ron
+  motion-lab script convert drive.csv -o drive.ron")]
 pub struct ScriptArgs {
     #[command(subcommand)]
     command: ScriptCommand,
@@ -28,19 +34,27 @@ pub struct ScriptArgs {
 enum ScriptCommand {
     /// Read scripts and say what is in them, or what is wrong with them. Every file is read; one that is wrong makes
     /// the exit code 3.
+    #[command(after_help = "\
+Examples:
+  motion-lab script check drive.ron
+  motion-lab script check --world apartment --json scripts/*.ron")]
     Check {
         /// The scripts.
         #[arg(required = true, value_name = "FILE")]
         files: Vec<PathBuf>,
         /// Check the robots' names as well: a built-in world or a world file that they live in; may be given several
         /// times.
-        #[arg(long, value_name = "NAME|FILE")]
+        #[arg(long, value_name = "NAME|FILE", value_parser = WorldNames, hide_possible_values = true)]
         world: Vec<String>,
         /// One line of JSON for each file that is right.
         #[arg(long)]
         json: bool,
     },
     /// Print a script in its canonical form: an event a line.
+    #[command(after_help = "\
+Examples:
+  motion-lab script print run.mcap > drive.ron
+  motion-lab script print - < run.mcap")]
     Print {
         /// A script, or a log with one.
         file: PathBuf,
@@ -51,6 +65,9 @@ enum ScriptCommand {
     /// `5,Reach,MoveTo,0.785,1.571` and `7,Rusty,Teleport,2.25,6.25,0` (metres and radians, rounded to 2^-20),
     /// `9,Hitch,SetTrailer,on`, `12,Rusty,Release`. Ticks ascend. A first row that begins with `tick` is a heading;
     /// empty rows and rows that begin with # are left out.
+    #[command(after_help = "\
+Examples:
+  motion-lab script convert drive.csv -o drive.ron")]
     Convert {
         /// The table.
         #[arg(value_name = "FILE.csv")]
@@ -90,13 +107,9 @@ impl ScriptArgs {
                         "Correct it there; `motion-lab script convert --help` tells the form.",
                     )
                 })?;
-                match &output {
-                    None => data.text(&script.to_ron())?,
-                    Some(output) => {
-                        write_file(output, script.to_ron().as_bytes())?;
-                        say(format!("wrote {}", output.display()));
-                    }
-                }
+                let target = Target::of(output.as_deref().unwrap_or(Path::new("-")))?;
+                write_file(target.path(), script.to_ron().as_bytes())?;
+                target.finish(data)?;
                 Ok(Outcome::Done)
             }
         }
@@ -104,15 +117,12 @@ impl ScriptArgs {
 }
 
 fn read_script(file: &Path) -> Result<Script, Failure> {
-    Script::parse(&file.display().to_string(), &read_text(file)?)
-        .map_err(|error| Failure::input(error, "Correct the script there."))
+    Script::parse(&shown(file), &read_text(file)?).map_err(|error| Failure::input(error, "Correct the script there."))
 }
 
 fn print(file: &Path, data: &mut Data) -> Result<Outcome, Failure> {
-    let mut first = Vec::new();
-    open(file)?.take(1).read_to_end(&mut first).map_err(|error| unreadable(file, &error))?;
     // a log begins with a byte that begins no text
-    if first != [0x89] {
+    if read_bytes_if(file, 0, |_| false)?.first() != Some(&0x89) {
         data.text(&read_script(file)?.to_ron())?;
         return Ok(Outcome::Done);
     }

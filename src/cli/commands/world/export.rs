@@ -1,33 +1,51 @@
 //! `world export`: a world in the format of another program.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
-use motion_lab::picture::Theme;
+use motion_lab::capture::{self, CaptureError, Captured, Form, Paper, with_names};
 use motion_lab::picture::{Figure, places, world as draw};
 use motion_lab::worlds::{Grid, World};
 
+use crate::cli::support::choices::{ThemeName, WorldNames};
+use crate::cli::support::console::note;
+use crate::cli::support::input::is_dash;
 use crate::cli::support::output::write_file;
+use crate::cli::support::target::Target;
 use crate::cli::support::world_source::find_world;
-use crate::cli::{Failure, Outcome, say};
+use crate::cli::{Data, Failure, Outcome};
 
-/// Write a world as a ROS map (a yaml file and beside it its image, a PGM) or as a picture (SVG).
+/// Write a world as a ROS map (a yaml file and beside it its image, a PGM) or as a picture (SVG or PNG).
 ///
 /// A cell of the ROS map is occupied when an obstacle meets or touches its closed square.
 #[derive(Debug, Args)]
+#[command(after_help = "\
+Examples:
+  motion-lab world export lot --resolution 0.05 -o lot.yaml
+  motion-lab world export apartment --names --theme dark -o apartment.png
+  motion-lab world export yard.ron -o - > yard.svg")]
 pub struct Export {
     /// A built-in world's name, or the path of a world file.
-    #[arg(value_name = "NAME|FILE")]
+    #[arg(value_name = "NAME|FILE", value_parser = WorldNames, hide_possible_values = true)]
     world: String,
     /// The format. [default: by the output's name]
     #[arg(long)]
     format: Option<Format>,
-    /// The file to write: the yaml of a ROS map, or the SVG.
+    /// The file to write: the yaml of a ROS map, or the picture. `-` is standard output, for a picture.
     #[arg(short, long, value_name = "FILE")]
     output: PathBuf,
     /// The size of a ROS map's cells, metres.
     #[arg(long, value_name = "METRES", default_value_t = 0.05)]
     resolution: f64,
+    /// SVG and PNG: the paper's colours.
+    #[arg(long, value_enum, default_value = "light")]
+    theme: ThemeName,
+    /// SVG and PNG: the sheet's greatest width, pixels. Letters keep their size.
+    #[arg(long, value_name = "PIXELS", default_value_t = 1280, value_parser = clap::value_parser!(u32).range(200..=4096))]
+    width: u32,
+    /// SVG and PNG: the names of obstacles, places and marks, not of places alone.
+    #[arg(long)]
+    names: bool,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -36,33 +54,52 @@ enum Format {
     Ros,
     /// A picture.
     Svg,
+    /// The same, painted.
+    Png,
 }
 
 impl Export {
     /// Runs the command.
-    pub fn run(self) -> Result<Outcome, Failure> {
+    pub fn run(self, data: &mut Data) -> Result<Outcome, Failure> {
         let world = find_world(&self.world)?;
-        let format = self.format.or_else(|| match self.output.extension()?.to_str()? {
-            "yaml" | "yml" => Some(Format::Ros),
-            "svg" => Some(Format::Svg),
-            _ => None,
+        let format = self.format.or_else(|| match self.output.extension().and_then(|e| e.to_str()) {
+            Some("yaml" | "yml") => Some(Format::Ros),
+            Some("png") => Some(Format::Png),
+            Some("svg") => Some(Format::Svg),
+            _ => is_dash(&self.output).then_some(Format::Svg),
         });
         match format {
             Some(Format::Ros) => self.ros(&world)?,
-            Some(Format::Svg) => {
-                let mut picture = draw(&world);
-                picture.items.extend(places(&world.places));
-                write_file(&self.output, Figure::of(picture).svg(Theme::Light.palette()).as_bytes())?;
-                say(format!("wrote {}", self.output.display()));
+            Some(form) => {
+                let target = Target::of(&self.output)?;
+                self.picture(&world, if form == Format::Png { Form::Png } else { Form::Svg }, target.path())?;
+                target.finish(data)?;
             }
             None => {
                 return Err(Failure::usage(
                     format!("{}: its name does not tell the format", self.output.display()),
-                    "Say it with --format: ros or svg.",
+                    "Say it with --format: ros, svg or png.",
                 ));
             }
         }
         Ok(Outcome::Done)
+    }
+
+    /// Draws the world.
+    fn picture(&self, world: &World, form: Form, path: &Path) -> Result<(), Failure> {
+        let paper = Paper { palette: self.theme.theme().palette(), width: self.width, scale: 1.0 };
+        let mut picture = draw(world);
+        if !self.names {
+            picture.items.extend(places(&world.places));
+        }
+        let figure = Figure::of(picture);
+        let worlds = std::slice::from_ref(world);
+        let figure = if self.names { with_names(figure, worlds, paper.width_px()) } else { figure };
+        let notes = vec![("World", format!("{} {:032x}", world.name, world.content_hash()))];
+        capture::write(&Captured { figure, notes }, &paper, form, path).map_err(|error| match error {
+            CaptureError::Write(error) => Failure::output(path, &error),
+            error => Failure::usage(error, "Choose a smaller --width."),
+        })
     }
 
     /// Writes the image first: a yaml without its image would be of no use.
@@ -76,15 +113,17 @@ impl Export {
                 "Name the yaml file; the image is put beside it.",
             ));
         }
+        let target = Target::file(&self.output)?;
         let files = grid.ros_map(&image.file_name().unwrap_or_default().to_string_lossy());
         write_file(&image, &files.image)?;
         write_file(&self.output, files.yaml.as_bytes())?;
-        say(format!(
-            "wrote {} and {}, {} x {} cells",
+        note(format!(
+            "wrote {} and {}, {} x {} cells{}",
             self.output.display(),
             image.display(),
             grid.columns(),
-            grid.rows()
+            grid.rows(),
+            target.replacing()
         ));
         Ok(())
     }

@@ -6,8 +6,11 @@ use clap::{Args, ValueEnum};
 use motion_lab::random::Seed;
 use motion_lab::worlds::Warehouse;
 
+use crate::cli::support::input::is_dash;
 use crate::cli::support::output::write_file;
-use crate::cli::{Data, Failure, Outcome, say};
+use crate::cli::support::progress::Progress;
+use crate::cli::support::target::Target;
+use crate::cli::{Data, Failure, Outcome};
 
 /// Generate a world with many robots, the same for the same numbers on every machine.
 ///
@@ -15,6 +18,10 @@ use crate::cli::{Data, Failure, Outcome, say};
 /// rovers, an arm and a car. Rovers and cars follow routes, the drive mode `route`, and never meet; drive one yourself,
 /// and they do.
 #[derive(Debug, Args)]
+#[command(after_help = "\
+Examples:
+  motion-lab world generate warehouse --robots 1000 -o warehouse.ron
+  motion-lab world generate warehouse --seed 7 --robots 100 --trailers > yard.ron")]
 pub struct Generate {
     /// What to generate.
     #[arg(value_name = "WHAT")]
@@ -44,17 +51,20 @@ impl Generate {
     pub fn run(self, data: &mut Data) -> Result<Outcome, Failure> {
         let What::Warehouse = self.what;
         let warehouse = Warehouse { seed: Seed(self.seed), robots: self.robots, trailers: self.trailers };
+        let progress = Progress::unknown("generating");
         let world = warehouse
             .world()
             .map_err(|error| Failure::usage(format!("--robots: {error}"), "Give another number of robots."))?;
         let text = world.to_ron();
-        let Some(output) = &self.output else {
+        drop(progress);
+        let Some(output) = self.output.as_deref().filter(|output| !is_dash(output)) else {
             data.text(&text)?;
             return Ok(Outcome::Done);
         };
+        let target = Target::of(output)?;
         write_file(output, text.as_bytes())?;
         let (robots, obstacles, routes) = (world.robots.len(), world.obstacles.len(), world.routes.len());
-        say(format!("wrote {} with {robots} robots, {obstacles} obstacles and {routes} routes", output.display()));
+        target.wrote_with(&format!(" with {robots} robots, {obstacles} obstacles and {routes} routes"));
         Ok(Outcome::Done)
     }
 }

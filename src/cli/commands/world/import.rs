@@ -12,9 +12,10 @@ use motion_lab::worlds::import::{
     CellStyle, ImportError, Imported, RosMap, SvgOptions, Unknown, irsim, is_ros_map, movingai, svg,
 };
 
-use crate::cli::support::input::{MAX_FOREIGN, MAX_TEXT, read_bytes, read_text_of};
+use crate::cli::support::input::{MAX_FOREIGN, MAX_TEXT, is_dash, read_bytes, read_text_of};
 use crate::cli::support::output::write_file;
 use crate::cli::support::simulate::begin;
+use crate::cli::support::target::Target;
 use crate::cli::{Data, Failure, Outcome, say};
 
 /// Read a map or drawing of another program and write it as a world file.
@@ -24,6 +25,11 @@ use crate::cli::{Data, Failure, Outcome, say};
 /// only stroked a wall, called by their ids. Of an IR-SIM world the static obstacles are read, and its robots as Rusty
 /// (diff) and Hitch (acker).
 #[derive(Debug, Args)]
+#[command(after_help = "\
+Examples:
+  motion-lab world import map.yaml --robot rusty --start 1,2,0 -o map.ron
+  motion-lab world import drawing.svg --metres-per-unit 0.01 -o drawing.ron
+  motion-lab world import arena.map --format movingai --metres-per-cell 0.25 -o arena.ron")]
 pub struct Import {
     /// The map or drawing.
     file: PathBuf,
@@ -31,8 +37,8 @@ pub struct Import {
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
     /// What FILE is. [default: by its name and content]
-    #[arg(long, value_name = "KIND")]
-    from: Option<Kind>,
+    #[arg(long, alias = "from")]
+    format: Option<Kind>,
     /// The world's name. [default: FILE without folder and extension]
     #[arg(long)]
     name: Option<String>,
@@ -83,7 +89,7 @@ enum UnknownCells {
 impl Import {
     /// Runs the command.
     pub fn run(self, data: &mut Data) -> Result<Outcome, Failure> {
-        let kind = self.from.map_or_else(|| kind_of(&self.file), Ok)?;
+        let kind = self.format.map_or_else(|| kind_of(&self.file), Ok)?;
         let mut imported = self.read(kind)?;
         if let Some(kind) = &self.robot {
             imported.put_robot(kind, &self.start).map_err(|problem| {
@@ -94,12 +100,13 @@ impl Import {
         notes.iter().for_each(say);
         contacts(&world)?.iter().for_each(say);
         let text = world.to_ron();
-        let Some(output) = &self.output else {
+        let Some(output) = self.output.as_deref().filter(|output| !is_dash(output)) else {
             data.text(&text)?;
             return Ok(Outcome::Done);
         };
+        let target = Target::of(output)?;
         write_file(output, text.as_bytes())?;
-        say(format!("wrote {} with {} obstacles", output.display(), world.obstacles.len()));
+        target.wrote_with(&format!(" with {} obstacles", world.obstacles.len()));
         Ok(Outcome::Done)
     }
 
@@ -152,7 +159,7 @@ fn kind_of(file: &Path) -> Result<Kind, Failure> {
         )),
         _ => Err(Failure::usage(
             format!("{}: its name does not tell what it is", file.display()),
-            "Say it with --from: ros, movingai, irsim or svg.",
+            "Say it with --format: ros, movingai, irsim or svg.",
         )),
     }
 }

@@ -11,6 +11,7 @@ use clap::{Args, Subcommand};
 use motion_lab::worlds::World;
 use serde::Serialize;
 
+use crate::cli::support::choices::WorldNames;
 use crate::cli::support::input::for_each_file;
 use crate::cli::support::simulate::unknown_kind;
 use crate::cli::support::world_source::{find_world, read_world};
@@ -21,6 +22,11 @@ use import::Import;
 
 /// Check world files; list and print worlds; read them from other formats and write them in others.
 #[derive(Debug, Args)]
+#[command(after_help = "\
+Examples:
+  motion-lab world list
+  motion-lab world show lot > yard.ron
+  motion-lab world check yard.ron")]
 pub struct WorldArgs {
     #[command(subcommand)]
     command: WorldCommand,
@@ -31,6 +37,10 @@ enum WorldCommand {
     /// Read world files and say what is in them, or what is wrong with them: what they are written like, robots that
     /// start in contact with something or with one another, obstacles outside the bounds. Every file is read; one that
     /// is wrong makes the exit code 3.
+    #[command(after_help = "\
+Examples:
+  motion-lab world check yard.ron
+  motion-lab world check --json worlds/*.ron")]
     Check {
         /// The world files.
         #[arg(required = true, value_name = "FILE")]
@@ -40,15 +50,22 @@ enum WorldCommand {
         json: bool,
     },
     /// List the built-in worlds.
+    #[command(after_help = "\
+Examples:
+  motion-lab world list
+  motion-lab world list --json")]
     List {
         /// One line of JSON for each.
         #[arg(long)]
         json: bool,
     },
     /// Print a world as a world file: a start for one of your own.
+    #[command(after_help = "\
+Examples:
+  motion-lab world show apartment > mine.ron")]
     Show {
         /// A built-in world's name, or the path of a world file.
-        #[arg(value_name = "NAME|FILE")]
+        #[arg(value_name = "NAME|FILE", value_parser = WorldNames, hide_possible_values = true)]
         world: String,
     },
     Import(Box<Import>),
@@ -88,7 +105,7 @@ impl WorldArgs {
                 Ok(Outcome::Done)
             }
             WorldCommand::Import(import) => import.run(data),
-            WorldCommand::Export(export) => export.run(),
+            WorldCommand::Export(export) => export.run(data),
             WorldCommand::Generate(generate) => generate.run(data),
         }
     }
