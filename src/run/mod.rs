@@ -33,5 +33,5 @@ pub use mcap::{
 };
 pub use quantized::Quantized;
 pub use script::{Event, RobotInput, SCRIPT_VERSION, SCRIPT_VERSION_WITH_CHANGES, Script};
-pub use script_error::{MAX_CHANNEL, MAX_COORDINATES, MAX_EVENTS, ScriptError, ScriptProblem};
+pub use script_error::{MAX_CHANNEL, MAX_COORDINATES, MAX_EVENTS, ScriptError, ScriptProblem, UnfitInput};
 pub use world_change::{WorldChange, WorldEvent};

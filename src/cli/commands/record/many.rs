@@ -7,7 +7,7 @@ use motion_lab::run::Script;
 use motion_lab::tour::TourConfig;
 use rayon::prelude::*;
 
-use super::one::{Ended, Plan, Stop, run, write_run};
+use super::one::{Ended, Plan, Stop, refused_in_words, run, write_run};
 use super::seeds::SeedRange;
 use super::{Outcome, Record};
 use crate::cli::support::summary::RunSummary;
@@ -28,6 +28,8 @@ pub fn record(
     let kind = options.kind(config);
     let pool = rayon::ThreadPoolBuilder::new().num_threads(usize::from(options.threads.unwrap_or(0))).build();
     let pool = pool.map_err(Failure::internal)?;
+    let stop = Stop { at_refusal: options.strict, ..Stop::default() };
+    let mut refused: Option<(u64, u64, String)> = None;
     let batch = AHEAD * pool.current_num_threads() as u64;
     let mut first = seeds.first;
     while first < seeds.end && !data.is_closed() {
@@ -35,14 +37,24 @@ pub fn record(
         let one = |seed: u64| {
             let plan = Plan { seed: Seed(seed), config: config.clone(), script: script.clone(), kind };
             match &output {
-                Some(template) => write_run_whole(&plan, &template.replace("{seed}", &seed.to_string())),
-                None => run(&plan, None, Stop::default(), |_, _| Ok(())),
+                Some(template) => {
+                    let output = PathBuf::from(template.replace("{seed}", &seed.to_string()));
+                    write_run(&plan, None, stop, &output)
+                }
+                None => run(&plan, None, stop, |_, _| Ok(())),
             }
         };
         let ended: Vec<_> = pool.install(|| (first..end).into_par_iter().map(one).collect());
         for (seed, ended) in (first..end).zip(ended) {
-            match ended? {
-                Ended::Whole { last, digest } if options.json => {
+            let ended = ended?;
+            if let Ended::Whole { refusals, .. } = &ended
+                && let Some(event) = refusals.first()
+            {
+                let (runs, count, _) = refused.get_or_insert_with(|| (0, 0, format!("{event} (seed {seed})")));
+                (*runs, *count) = (*runs + 1, *count + refusals.count());
+            }
+            match ended {
+                Ended::Whole { last, digest, .. } if options.json => {
                     data.json(&RunSummary::new(Seed(seed), config, &last, digest))?;
                 }
                 Ended::Whole { digest, .. } => data.line(format!("{seed} {digest}"))?,
@@ -54,6 +66,9 @@ pub fn record(
         }
         data.flush()?;
         first = end;
+    }
+    if let Some((runs, count, event)) = refused {
+        say(format!("in {runs} runs {}", refused_in_words(count, &event)));
     }
     Ok(Outcome::Done)
 }
@@ -68,8 +83,4 @@ fn template(options: &Record) -> Result<Option<String>, Failure> {
             "Put {seed} in it, as in -o runs/{seed}.mcap.",
         )),
     }
-}
-
-fn write_run_whole(plan: &Plan, output: &str) -> Result<Ended, Failure> {
-    write_run(plan, None, Stop::default(), &PathBuf::from(output))
 }
