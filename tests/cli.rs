@@ -9,6 +9,7 @@ mod driving;
 mod export;
 mod files;
 mod grade;
+mod gradebook;
 mod import;
 mod kinds;
 mod library_exports;
