@@ -20,6 +20,7 @@ mod record;
 mod replay;
 mod scripts;
 mod sizes;
+mod stats;
 mod stills;
 mod verify;
 mod viewer;

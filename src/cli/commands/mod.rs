@@ -8,10 +8,12 @@ pub(crate) mod diff;
 pub(crate) mod export;
 pub(crate) mod grade;
 pub(crate) mod info;
+pub(crate) mod plot;
 pub(crate) mod query;
 pub(crate) mod record;
 pub(crate) mod replay;
 pub(crate) mod script;
+pub(crate) mod stats;
 #[cfg(feature = "headless")]
 pub(crate) mod tour;
 pub(crate) mod verify;

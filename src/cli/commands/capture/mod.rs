@@ -132,9 +132,19 @@ enum Widget {
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum ThemeName {
+pub(crate) enum ThemeName {
     Light,
     Dark,
+}
+
+impl ThemeName {
+    /// The theme of this name.
+    pub(crate) fn theme(self) -> Theme {
+        match self {
+            ThemeName::Light => Theme::Light,
+            ThemeName::Dark => Theme::Dark,
+        }
+    }
 }
 
 /// The anatomy's tabs.
@@ -146,7 +156,7 @@ enum TabName {
     Swept,
 }
 
-fn parse_scale(text: &str) -> Result<f32, String> {
+pub(crate) fn parse_scale(text: &str) -> Result<f32, String> {
     match text.parse::<f32>() {
         Ok(scale) if (0.1..=8.0).contains(&scale) => Ok(scale),
         _ => Err("it must be a number from 0.1 to 8".into()),
@@ -156,11 +166,7 @@ fn parse_scale(text: &str) -> Result<f32, String> {
 impl Capture {
     /// Runs the command.
     pub fn run(self) -> Result<Outcome, Failure> {
-        let theme = match self.theme {
-            ThemeName::Light => Theme::Light,
-            ThemeName::Dark => Theme::Dark,
-        };
-        let paper = Paper { palette: theme.palette(), width: self.width, scale: self.scale };
+        let paper = Paper { palette: self.theme.theme().palette(), width: self.width, scale: self.scale };
         let form = Form::of(&self.output).ok_or_else(|| {
             let reason = format!("{}: its name does not tell the form", self.output.display());
             Failure::usage(reason, "Let it end in .svg, .png or .gif.")
