@@ -43,8 +43,8 @@ pub struct RobotStats {
     /// The number of ticks that ended in contact.
     pub contact_ticks: u64,
     /// The length of its path, metres: of a body that drives, forward and backward, the arc from tick to tick; of an
-    /// arm the way of its tip, in straight lines from tick to tick. A tick in which it was put somewhere counts nothing.
-    /// `None` for a robot whose kind nobody described.
+    /// arm the way of its tip, in straight lines from tick to tick. A tick in which it was put somewhere counts
+    /// nothing. `None` for a robot whose kind nobody described.
     pub path_length: Option<f64>,
     /// The least clearance that it had at the end of a tick, or at tick 0; `None` in a world without obstacles, and for
     /// a robot whose kind nobody described.
