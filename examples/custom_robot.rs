@@ -11,7 +11,7 @@ use std::error::Error;
 use std::f64::consts::PI;
 use std::fmt;
 
-use motion_lab::configuration::{ChartMismatch, Coordinates, Kinds, RobotKind, Space};
+use motion_lab::configuration::{ChartMismatch, Coordinates, InputKind, Kinds, RobotKind, Space};
 use motion_lab::geometry::Tangent2;
 use motion_lab::num::{atan2, cos, hypot, in_range, sin, sin_cos, tan, wrap};
 use motion_lab::prelude::*;
@@ -279,6 +279,7 @@ pub static ABOUT: RobotKind = RobotKind {
         words: "Position and heading of the car, and the heading of each trailer.",
     }],
     drives: true,
+    takes: &[InputKind::Drive, InputKind::Teleport, InputKind::Release],
     senses: false,
     has_encoders: false,
     difference: |from, to| TrainCfg::from_coordinates(from)?.difference(&TrainCfg::from_coordinates(to)?).ok(),

@@ -1,4 +1,5 @@
-//! The chapter's worked example as a program: the numbers of the worked example, then the 60 s tour at the book's seed.
+//! The chapter's worked example as a program: the numbers of the worked example, then the 60 s tour at the book's seed,
+//! whose figure it writes to `figures/ch02_tour.svg`.
 //!
 //! `cargo run --example lab_tour`
 #![allow(clippy::print_stdout, dead_code)]
@@ -6,15 +7,19 @@
 use std::error::Error;
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4};
 use std::fmt::Write;
+use std::fs;
+use std::path::Path;
 
+use motion_lab::capture::run_svg;
 use motion_lab::collision::{Collision, Scene};
+use motion_lab::picture::Theme;
 use motion_lab::prelude::*;
 use motion_lab::recording::Run;
 use motion_lab::tour::{BOOK_SEED, TourConfig};
 use motion_lab::worlds::World;
 
-/// The program's output.
-pub fn report() -> Result<String, Box<dyn Error>> {
+/// The program's output. The figure of its run is written to `figure`, in a folder that is made if there is none.
+pub fn report(figure: &Path) -> Result<String, Box<dyn Error>> {
     let mut text = String::new();
     // Choset's arm at his configuration
     let arm = Reach::<2>::choset();
@@ -44,10 +49,14 @@ pub fn report() -> Result<String, Box<dyn Error>> {
     for line in motion_lab::recording::final_lines(&log) {
         writeln!(text, "{line}")?;
     }
+    if let Some(folder) = figure.parent() {
+        fs::create_dir_all(folder)?;
+    }
+    fs::write(figure, run_svg(&log, log.config.ticks, Theme::Light, |_| {})?)?;
     Ok(text)
 }
 
 fn main() -> Result<(), Box<dyn Error>> {
-    print!("{}", report()?);
+    print!("{}", report(Path::new("figures/ch02_tour.svg"))?);
     Ok(())
 }

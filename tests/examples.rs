@@ -1,6 +1,7 @@
 //! The example programs: their output is pinned, and their claims are checked by other means than theirs.
 
 use std::f64::consts::TAU;
+use std::path::Path;
 
 use motion_lab::collision::{Checker, Scene};
 use motion_lab::num::{cos, sin};
@@ -35,7 +36,19 @@ macro_rules! assert_prints {
 
 #[test]
 fn the_lab_tour() {
-    assert_prints!("lab_tour", lab_tour::report().unwrap());
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("lab_tour-{}", std::process::id()));
+    let figure = folder.join("figures/ch02_tour.svg");
+    assert_prints!("lab_tour", lab_tour::report(&figure).unwrap());
+    let svg = std::fs::read_to_string(&figure).unwrap();
+    std::fs::remove_dir_all(&folder).unwrap();
+    assert!(svg.starts_with("<svg") && svg.trim_end().ends_with("</svg>"));
+    // the pinned run, whole: its digest and its length stand under the figure
+    let pins = include_str!("pins.rs");
+    let digest = svg.split("Digest ").nth(1).and_then(|rest| rest.get(..32)).unwrap();
+    assert!(pins.contains(digest) && svg.contains("Seed 2005, 1200 ticks (60.00 s)"), "{digest}");
+    for robot in ["Rusty", "Reach", "Hitch"] {
+        assert!(svg.contains(&format!("the way of {robot}")), "{robot}");
+    }
 }
 
 #[test]

@@ -76,6 +76,8 @@ mod sightings;
 mod simulation;
 #[cfg(feature = "sim")]
 mod sizes;
+#[cfg(feature = "sim")]
+mod stats;
 mod sweeps;
 mod tangents;
 #[cfg(feature = "sim")]

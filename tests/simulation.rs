@@ -2,10 +2,11 @@
 
 mod app;
 mod contacts;
-mod crowd;
+pub mod crowd;
 mod driving;
 mod grading;
 mod kinds;
+mod refusals;
 mod state;
 mod tour;
 

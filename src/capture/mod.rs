@@ -14,12 +14,14 @@
 //! assert!(svg.contains("Configuration: T2(")); // its metadata
 //! ```
 
+mod chart;
 mod error;
 #[cfg(feature = "cli")]
 mod few_colours;
 mod moving;
 #[cfg(feature = "cli")]
 mod paper;
+mod plot;
 #[cfg(feature = "cli")]
 mod raster;
 mod run_figure;
@@ -29,10 +31,12 @@ mod tour_figure;
 
 use std::path::Path;
 
+pub use chart::MOST_LINES;
 pub use error::CaptureError;
 pub use moving::{Span, Subject, at_tick, at_tick_with_robots};
 #[cfg(feature = "cli")]
 pub use paper::{film, film_with_robots, write};
+pub use plot::{RunPlot, plot};
 #[cfg(feature = "cli")]
 #[doc(hidden)]
 pub use raster::{GifWriter, Image, Raster, Size, write_png};

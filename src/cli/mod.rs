@@ -12,7 +12,8 @@ use support::console::be_quiet;
 #[cfg(feature = "window")]
 use commands::open;
 use commands::{
-    bare, capture, completions, describe, diff, export, grade, info, query, record, replay, script, verify, world,
+    bare, capture, completions, describe, diff, export, grade, info, plot, query, record, replay, script, stats,
+    verify, world,
 };
 
 /// Examples and the exit codes, as `--help` and `docs/cli.md` list them.
@@ -57,6 +58,8 @@ enum Command {
     Diff(diff::Diff),
     Export(export::Export),
     Info(info::Info),
+    Stats(stats::StatsArgs),
+    Plot(plot::PlotArgs),
     Query(query::Query),
     Capture(Box<capture::Capture>),
     World(world::WorldArgs),
@@ -82,6 +85,8 @@ impl Cli {
             Some(Command::Diff(diff)) => diff.run(data),
             Some(Command::Export(export)) => export.run(data),
             Some(Command::Info(info)) => info.run(data),
+            Some(Command::Stats(stats)) => stats.run(data),
+            Some(Command::Plot(plot)) => plot.run(data),
             Some(Command::Query(query)) => query.run(data),
             Some(Command::Capture(capture)) => capture.run(data),
             Some(Command::World(world)) => world.run(data),

@@ -1,6 +1,7 @@
 //! `RobotKind`, the kinds of robots that worlds name: one table for files, figures, plots and the window.
 
-use super::{Configuration, Coordinates, HitchCfg, R2, T2, Tn};
+use super::InputKind::{Drive, MoveTo, Release, SetTrailer, Teleport};
+use super::{Configuration, Coordinates, HitchCfg, InputKind, R2, T2, Tn};
 use crate::geometry::Pose2;
 
 /// A kind of robot, as worlds name it, and all that is not of its type: names, coordinates, formulas.
@@ -30,6 +31,8 @@ pub struct RobotKind {
     pub spaces: &'static [Space],
     /// Whether the first three coordinates are the pose of a body that drives forward and back.
     pub drives: bool,
+    /// The inputs of a script that its robots take; any other is refused wherever the robot is.
+    pub takes: &'static [InputKind],
     /// Whether it may carry a range sensor.
     pub senses: bool,
     /// Whether its wheels have encoders.
@@ -78,6 +81,7 @@ impl RobotKind {
             words: "A point of the plane: a disc looks the same whichever way it faces. The simulator keeps the heading too.",
         }],
         drives: true,
+        takes: &[Drive, Teleport, Release],
         senses: true,
         has_encoders: true,
         difference: difference::<Pose2>,
@@ -96,6 +100,7 @@ impl RobotKind {
             words: "Two angles: a point of the torus, not the place of the tip.",
         }],
         drives: false,
+        takes: &[MoveTo, Teleport, Release],
         senses: false,
         has_encoders: false,
         difference: difference::<T2>,
@@ -136,6 +141,7 @@ impl RobotKind {
             },
         ],
         drives: true,
+        takes: &[Drive, Teleport, SetTrailer, Release],
         senses: false,
         has_encoders: false,
         difference: difference::<HitchCfg>,

@@ -44,6 +44,7 @@
 
 mod any;
 mod hitch;
+mod input_kind;
 mod kind;
 mod kinds;
 mod pose;
@@ -55,6 +56,7 @@ use std::fmt::{Debug, Display};
 
 pub use any::AnyConfiguration;
 pub use hitch::HitchCfg;
+pub use input_kind::InputKind;
 pub use kind::{RobotKind, Space};
 pub use kinds::Kinds;
 pub use r2::R2;

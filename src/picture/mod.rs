@@ -29,6 +29,7 @@ pub use pick::pick;
 pub use readout::{readout, readout_lines};
 pub use resolve::{Primitive, resolve};
 pub use robot::{RobotDrawing, ScanDrawing, fan_scan, footprint, robot, scan, scan_id, trace};
+#[cfg(feature = "screen")]
 pub(crate) use robot::{chevron, nose};
 pub use role::{Palette, Rgb, Role};
 pub use theme::Theme;

@@ -23,8 +23,8 @@ pub use crate::simulation::RunInput;
 pub use digests::{DigestVerification, verify_digests, verify_digests_with_robots};
 pub use final_lines::{final_lines, final_lines_with, printed_as, printed_configuration};
 pub use grade::{
-    Assignment, AssignmentError, AssignmentFile, AssignmentProblem, Attempt, Goal, Grade, Limits, MAX_SEEDS, Refusal,
-    Submission, Verdict,
+    Assignment, AssignmentError, AssignmentFile, AssignmentProblem, Attempt, Criterion, Goal, GoalDistance, Grade,
+    Limits, MAX_SEEDS, Met, Points, Refusal, Score, Stay, Submission, Verdict, When,
 };
 pub use identity::identity_line;
 pub use recorder::{Recorder, RunError};

@@ -7,8 +7,8 @@ use bevy::ecs::world::World;
 
 use crate::run::{Frame, Script};
 use crate::simulation::{
-    LatestFrame, PendingInput, RestoreError, RobotView, Roster, RunConfig, RunInput, SensorView, SimulationPlugin,
-    SpawnError, StandingWorld, Transport, restore, seek, sensors, start_run, step, view,
+    LatestFrame, PendingInput, Refusals, RestoreError, RobotView, Roster, RunConfig, RunInput, SensorView,
+    SimulationPlugin, SpawnError, StandingWorld, Transport, restore, seek, sensors, start_run, step, view,
 };
 use crate::tour::TourConfig;
 use crate::worlds::World as WorldModel;
@@ -108,6 +108,26 @@ impl Recorder {
     /// The sensors as a view shows them: one for each scan of the frame, in the same order.
     pub fn sensors(&self) -> Vec<SensorView> {
         sensors(&self.world)
+    }
+
+    /// The inputs of the script that were refused so far, to robots and to worlds: how many, and why the first.
+    ///
+    /// ```
+    /// use motion_lab::configuration::T2;
+    /// use motion_lab::recording::Recorder;
+    /// use motion_lab::run::Script;
+    /// use motion_lab::tour::{BOOK_SEED, TourConfig};
+    ///
+    /// let script = Script::of_moves("Hitch", [T2::new(0.0, 0.0), T2::new(0.0, 0.1)]).unwrap();
+    /// let mut run = Recorder::new(TourConfig::default(), (BOOK_SEED, script))?;
+    /// run.seek(2)?;
+    /// let first = run.refusals().first().unwrap();
+    /// assert_eq!(run.refusals().count(), 2);
+    /// assert!(first.to_string().starts_with("tick 1: robot \"Hitch\" refused MoveTo: "));
+    /// # Ok::<(), motion_lab::recording::RunError>(())
+    /// ```
+    pub fn refusals(&self) -> &Refusals {
+        self.world.resource::<Refusals>()
     }
 
     /// The tick at which the run stands, and how it plays.

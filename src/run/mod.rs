@@ -16,6 +16,7 @@ mod script;
 mod script_check;
 mod script_error;
 mod script_text;
+mod stats;
 mod world_change;
 
 pub use comparison::Comparison;
@@ -33,5 +34,6 @@ pub use mcap::{
 };
 pub use quantized::Quantized;
 pub use script::{Event, RobotInput, SCRIPT_VERSION, SCRIPT_VERSION_WITH_CHANGES, Script};
-pub use script_error::{MAX_CHANNEL, MAX_COORDINATES, MAX_EVENTS, ScriptError, ScriptProblem};
+pub use script_error::{MAX_CHANNEL, MAX_COORDINATES, MAX_EVENTS, ScriptError, ScriptProblem, UnfitInput};
+pub use stats::{LeastClearance, Quantity, RobotStats, RunStats, Series, SeriesGatherer, StatsGatherer};
 pub use world_change::{WorldChange, WorldEvent};

@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::{Quantized, WorldEvent};
-use crate::configuration::Configuration;
+use crate::configuration::{Configuration, InputKind};
 
 /// The version of the script format for a script of events alone.
 pub const SCRIPT_VERSION: u32 = 1;
@@ -53,6 +53,19 @@ pub enum RobotInput {
     SetTrailer(bool),
     /// Back to the tour.
     Release,
+}
+
+impl RobotInput {
+    /// Its kind.
+    pub const fn kind(&self) -> InputKind {
+        match self {
+            RobotInput::Drive(..) => InputKind::Drive,
+            RobotInput::MoveTo(_) => InputKind::MoveTo,
+            RobotInput::Teleport(_) => InputKind::Teleport,
+            RobotInput::SetTrailer(_) => InputKind::SetTrailer,
+            RobotInput::Release => InputKind::Release,
+        }
+    }
 }
 
 impl Script {

@@ -3,10 +3,11 @@
 use std::collections::btree_map::Entry;
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::script_error::{MAX_CHANNEL, MAX_COORDINATES, MAX_EVENTS, ScriptError, ScriptProblem};
+use super::script_error::{MAX_CHANNEL, MAX_COORDINATES, MAX_EVENTS, ScriptError, ScriptProblem, UnfitInput};
 use super::{Event, Quantized, RobotInput, Script, WorldChange, WorldEvent};
+use crate::configuration::{Kinds, RobotKind};
 use crate::geometry::MAX_COORDINATE;
-use crate::tour::MAX_TICKS;
+use crate::tour::{MAX_TICKS, TourConfig};
 use crate::worlds::{World, check_name};
 
 impl Script {
@@ -33,6 +34,55 @@ impl Script {
             before = change.tick;
         }
         Ok(())
+    }
+
+    /// Checks that a run of this configuration could apply every event: [`check`](Self::check),
+    /// [`check_robots`](Self::check_robots) and [`check_worlds`](Self::check_worlds), and that robots get only inputs
+    /// that their kinds [take](RobotKind::takes), with as many coordinates as a configuration has.
+    ///
+    /// A run starts without this check, so that logs recorded before it still replay; there such an input is refused
+    /// and counted. What depends on where robots are, such as a teleport onto an obstacle, shows only in the run.
+    ///
+    /// # Errors
+    /// [`ScriptError`] without file and line, for the first of these that fails; [`located`](ScriptError::located) adds
+    /// them. [`ScriptProblem::NotTaken`] names tick, robot, kind, input, and what the kind takes.
+    ///
+    /// ```
+    /// use motion_lab::configuration::{RobotKind, T2};
+    /// use motion_lab::run::Script;
+    /// use motion_lab::tour::TourConfig;
+    ///
+    /// let config = TourConfig::default();
+    /// assert_eq!(Script::of_moves("Reach", [T2::new(0.5, 0.0)]).unwrap().check_for(&config), Ok(()));
+    /// let script = Script::of_moves("Hitch", [T2::new(0.5, 0.0)]).unwrap();
+    /// assert_eq!(
+    ///     script.check_for(&config).unwrap_err().to_string(),
+    ///     "events[0]: tick 1: robot \"Hitch\" is a hitch and takes no MoveTo: \
+    ///      it takes Drive, Teleport, SetTrailer and Release"
+    /// );
+    /// ```
+    pub fn check_for(&self, config: &TourConfig) -> Result<(), ScriptError> {
+        self.check_for_kinds(config, &Kinds::default())
+    }
+
+    /// [`check_for`](Self::check_for) with kinds of robots that a program added. Inputs to a robot of a kind without a
+    /// description are not checked.
+    ///
+    /// # Errors
+    /// As [`check_for`](Self::check_for).
+    pub fn check_for_kinds(&self, config: &TourConfig, kinds: &Kinds) -> Result<(), ScriptError> {
+        self.check()?;
+        let kind_of: BTreeMap<&str, &str> =
+            config.worlds.iter().flat_map(|w| &w.robots).map(|r| (r.name.as_str(), r.kind.as_str())).collect();
+        for (i, event) in self.events.iter().enumerate() {
+            let Some(kind) = kind_of.get(event.robot.as_str()) else {
+                return Err(ScriptProblem::Robot(event.robot.clone()).at("events", i));
+            };
+            if let Some(about) = kinds.of(kind) {
+                event.check_kind(kind, about).map_err(|problem| problem.at("events", i))?;
+            }
+        }
+        self.check_worlds(&config.worlds)
     }
 
     /// Checks that every event's robot is among `names`.
@@ -129,6 +179,28 @@ impl Event {
                 check_coordinates(q.iter().copied())
             }
             RobotInput::SetTrailer(_) | RobotInput::Release => Ok(()),
+        }
+    }
+}
+
+impl Event {
+    /// Checks whether robots of a kind with this name and description could ever apply the input.
+    fn check_kind(&self, kind: &str, about: &'static RobotKind) -> Result<(), ScriptProblem> {
+        let (input, coordinates) = match &self.input {
+            RobotInput::MoveTo(q) | RobotInput::Teleport(q) => (self.input.kind(), Some(q.len())),
+            _ => (self.input.kind(), None),
+        };
+        let unfit = || {
+            let (tick, robot, kind, coordinates) =
+                (self.tick, self.robot.clone(), kind.to_owned(), coordinates.unwrap_or(0));
+            Box::new(UnfitInput { tick, robot, kind, input, coordinates, about })
+        };
+        if !about.takes.contains(&input) {
+            return Err(ScriptProblem::NotTaken(unfit()));
+        }
+        match coordinates {
+            Some(count) if about.space(count).is_none() => Err(ScriptProblem::NoConfiguration(unfit())),
+            _ => Ok(()),
         }
     }
 }

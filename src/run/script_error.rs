@@ -1,6 +1,7 @@
 //! `ScriptError`, why a script is refused, and the limits of scripts.
 
 use super::script::{SCRIPT_VERSION, SCRIPT_VERSION_WITH_CHANGES};
+use crate::configuration::{InputKind, RobotKind, Space};
 use crate::geometry::MAX_COORDINATE;
 use crate::tour::MAX_TICKS;
 
@@ -81,6 +82,18 @@ pub enum ScriptProblem {
     /// A robot that the run does not have.
     #[error("there is no robot {0:?}")]
     Robot(String),
+    /// An input that no robot of this kind takes.
+    #[error(
+        "tick {}: robot {:?} is a {} and takes no {}: it takes {}",
+        .0.tick, .0.robot, .0.kind, .0.input, InputKind::listed(.0.about.takes)
+    )]
+    NotTaken(Box<UnfitInput>),
+    /// A `MoveTo` or `Teleport` with a number of coordinates that no configuration of the robot has.
+    #[error(
+        "tick {}: {} of robot {:?} has {} coordinates: a {} has {}",
+        .0.tick, .0.input, .0.robot, .0.coordinates, .0.kind, counts(.0.about.spaces)
+    )]
+    NoConfiguration(Box<UnfitInput>),
     /// A world that the run does not have.
     #[error("there is no world {0:?}")]
     World(String),
@@ -117,6 +130,29 @@ pub enum ScriptProblem {
     /// A new obstacle whose points and radius make no shape.
     #[error("no shape: {0}")]
     Shape(String),
+}
+
+/// An input that robots of a kind can never apply.
+#[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct UnfitInput {
+    /// The event's tick.
+    pub tick: u64,
+    /// The robot.
+    pub robot: String,
+    /// The name of its kind, as its world says it.
+    pub kind: String,
+    /// The kind of input.
+    pub input: InputKind,
+    /// The number of the input's coordinates; 0 for one without any.
+    pub coordinates: usize,
+    /// What is known of the kind: which inputs it takes, and its spaces.
+    pub about: &'static RobotKind,
+}
+
+/// The numbers of coordinates of configurations, as a sentence names them: `3 or 4`.
+fn counts(spaces: &[Space]) -> String {
+    spaces.iter().map(|space| space.coordinates.to_string()).collect::<Vec<_>>().join(" or ")
 }
 
 impl ScriptProblem {

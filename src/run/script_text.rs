@@ -117,6 +117,25 @@ impl Script {
     }
 }
 
+impl ScriptError {
+    /// The error with the file's name, and with the line on which its event or change begins in `text`, the text that
+    /// the script was read from. Line 1 where the error lies outside the lists.
+    #[must_use]
+    pub fn located(self, source_name: &str, text: &str) -> Self {
+        let line = || {
+            let file: ScriptText = ron::from_str(text).ok()?;
+            let items = match self.list {
+                "events" => &file.events,
+                "changes" => &file.changes,
+                _ => return None,
+            };
+            Some(line_at(text, offset_of(text, items.get(self.event?)?.trim().get_ron())))
+        };
+        let line = line().unwrap_or(1);
+        ScriptError { file: source_name.to_owned(), line, ..self }
+    }
+}
+
 /// A list of a script's text.
 struct List<'a> {
     source_name: &'a str,
@@ -279,6 +298,62 @@ mod tests {
         let all = ["Hitch", "Reach", "Rusty", "a \"b\" é\t\\"];
         assert_eq!(script.check_robots(&all), Ok(()));
         assert_eq!(script.check_robots(&all[1..]).unwrap_err().to_string(), "events[3]: there is no robot \"Hitch\"");
+    }
+
+    #[test]
+    fn a_check_against_a_world_names_line_event_tick_robot_and_kind() {
+        let config = crate::tour::TourConfig::default();
+        let check = |input: &str| {
+            let text = format!(
+                "Script(version: 1, events: [\n  (tick: 4, robot: \"Rusty\", input: Release),\n\n  {input}\n])"
+            );
+            let script = Script::parse("s.ron", &text).unwrap();
+            script.check_for(&config).map_err(|error| error.located("s.ron", &text).to_string())
+        };
+        for (input, refused) in [
+            (
+                "(tick: 7, robot: \"Rusty\", input: MoveTo([0, 0, 0])),",
+                "\"Rusty\" is a rusty and takes no MoveTo: it takes Drive, Teleport and Release",
+            ),
+            (
+                "(tick: 7, robot: \"Rusty\", input: SetTrailer(true)),",
+                "\"Rusty\" is a rusty and takes no SetTrailer: it takes Drive, Teleport and Release",
+            ),
+            (
+                "(tick: 7, robot: \"Hitch\", input: MoveTo([0, 0, 0])),",
+                "\"Hitch\" is a hitch and takes no MoveTo: it takes Drive, Teleport, SetTrailer and Release",
+            ),
+            (
+                "(tick: 7, robot: \"Reach\", input: Drive(1, 1)),",
+                "\"Reach\" is a reach and takes no Drive: it takes MoveTo, Teleport and Release",
+            ),
+            (
+                "(tick: 7, robot: \"Reach\", input: SetTrailer(false)),",
+                "\"Reach\" is a reach and takes no SetTrailer: it takes MoveTo, Teleport and Release",
+            ),
+        ] {
+            assert_eq!(check(input), Err(format!("s.ron:4: events[1]: tick 7: robot {refused}")));
+        }
+        for (robot, input, refused) in [
+            ("Reach", "MoveTo([0, 0, 0])", "MoveTo of robot \"Reach\" has 3 coordinates: a reach has 2"),
+            ("Rusty", "Teleport([0, 0])", "Teleport of robot \"Rusty\" has 2 coordinates: a rusty has 3"),
+            ("Hitch", "Teleport([0, 0])", "Teleport of robot \"Hitch\" has 2 coordinates: a hitch has 3 or 4"),
+        ] {
+            let event = format!("(tick: 9, robot: \"{robot}\", input: {input}),");
+            assert_eq!(check(&event), Err(format!("s.ron:4: events[1]: tick 9: {refused}")));
+        }
+        for (robot, input) in [
+            ("Rusty", "Drive(1, 1)"),
+            ("Rusty", "Teleport([0, 0, 0])"),
+            ("Reach", "MoveTo([0, 0])"),
+            ("Reach", "Release"),
+            ("Hitch", "SetTrailer(true)"),
+            ("Hitch", "Teleport([0, 0, 0, 0])"),
+        ] {
+            assert_eq!(check(&format!("(tick: 9, robot: \"{robot}\", input: {input}),")), Ok(()), "{robot} {input}");
+        }
+        let unknown = check("(tick: 9, robot: \"Anna\", input: Release),").unwrap_err();
+        assert_eq!(unknown, "s.ron:4: events[1]: there is no robot \"Anna\"");
     }
 
     /// Pairwise this would take ten thousand million comparisons.

@@ -10,8 +10,9 @@ use super::schedule::{CrowdSystems, Phase, simulation_schedule};
 use super::tick::crowds::Crowds;
 use super::tick::{crowds, input, sense};
 use super::{
-    CommandRefused, Keyframes, LatestFrame, PendingInput, Playback, RobotKinds, RobotPlugin, RunCommand, SensorRefused,
-    SensorRoster, SimulationSchedule, SimulationSystems, Transport, Undo, command, play_tick, sensors, state,
+    CommandRefused, Keyframes, LatestFrame, PendingInput, Playback, Refusals, RobotKinds, RobotPlugin, RunCommand,
+    SensorRefused, SensorRoster, SimulationSchedule, SimulationSystems, Transport, Undo, command, play_tick, sensors,
+    state,
 };
 use crate::configuration::RobotKind;
 use crate::random::Seed;
@@ -38,6 +39,7 @@ impl Plugin for SimulationPlugin {
             .init_resource::<Undo>()
             .init_resource::<ObstacleRoster>()
             .init_resource::<RefusedChanges>()
+            .init_resource::<Refusals>()
             .init_resource::<SensorRoster>()
             .insert_resource(Transport::new(Seed(0)))
             .insert_resource(Time::<Fixed>::from_seconds(DT))

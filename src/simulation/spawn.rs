@@ -8,8 +8,8 @@ use super::obstacles::roster::{self, Ground, at_work};
 use super::robot::spawn::{SpawnRequest, routes};
 use super::tick::crowds::Crowds;
 use super::{
-    History, Keyframes, LatestFrame, PendingInput, RobotId, RobotKinds, Roster, SceneRevision, SimulatedWorld,
-    SpawnError, StandingWorld, Transport, WorldScene, sensors, state, tick,
+    History, Keyframes, LatestFrame, PendingInput, Refusals, RobotId, RobotKinds, Roster, SceneRevision,
+    SimulatedWorld, SpawnError, StandingWorld, Transport, WorldScene, sensors, state, tick,
 };
 use crate::collision::Scene;
 use crate::random::Seed;
@@ -133,6 +133,7 @@ pub(super) fn start_run_in_order(
     world.insert_resource(Transport::new(input.seed));
     world.insert_resource(PendingInput::new(input.script));
     world.insert_resource(Keyframes::default());
+    world.insert_resource(Refusals::default());
     world.insert_resource(LatestFrame::default());
     if world.contains_resource::<History>() {
         world.insert_resource(History::default());

@@ -159,6 +159,7 @@ fn a_log_passes_when_its_script_does_and_a_forged_one_never() {
     let mut forged = log.clone();
     let x = &mut forged.frames[40].robots[0].configuration[0];
     *x = f64::from_bits(x.to_bits() + 1);
+    let x = *x;
     fs::write(folder.path().join("forged.mcap"), seal(&forged)).unwrap();
     let refused = graded(folder.path(), &["forged.mcap", "run.mcap"]);
     assert_eq!(refused.code, Some(4));
@@ -170,6 +171,12 @@ fn a_log_passes_when_its_script_does_and_a_forged_one_never() {
             && reason.ends_with("1 ulp apart")
     );
     assert!(row["attempts"].as_array().unwrap().is_empty());
+    // what is expected and what is found is said as `verify` says it
+    let verified = run_in(folder.path(), &["verify", "forged.mcap"]);
+    assert_eq!(verified.code, Some(4));
+    let said = verified.out.lines().next().unwrap();
+    assert!(said.contains(&format!("expected {x:?}")), "{said}");
+    assert_eq!(reason, format!("forged at {said}"));
 
     // cut, and not sealed
     let bytes = seal(&log);

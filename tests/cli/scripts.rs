@@ -29,7 +29,7 @@ fn scripts_are_checked_one_by_one() {
     run_in(folder.path(), &worlds).done();
     let error = run_in(folder.path(), &worlds[..5]).failed(3);
     assert!(
-        error.contains("drive.ron: events[1]: there is no robot \"Hitch\"") && error.contains("are Rusty"),
+        error.contains("drive.ron:3: events[1]: there is no robot \"Hitch\"") && error.contains("are Rusty"),
         "{error}"
     );
 }
@@ -58,6 +58,10 @@ fn a_table_is_converted_and_drives_the_same_run() {
     let table = "tick,robot,input,first,second\n4,Rusty,Drive,128,-3\n9,Hitch,Release,,\n";
     fs::write(folder.path().join("drive.csv"), table).unwrap();
     assert_eq!(run_in(folder.path(), &["script", "convert", "drive.csv"]).done(), CANONICAL);
+    for command in [&["script", "check"][..], &["record", "--script"]] {
+        let error = run_in(folder.path(), &[command, &["drive.csv"]].concat()).failed(3);
+        assert!(error.contains("motion-lab script convert drive.csv"), "{error}");
+    }
     run_in(folder.path(), &["script", "convert", "drive.csv", "-o", "drive.ron"]).done();
     assert_eq!(fs::read_to_string(folder.path().join("drive.ron")).unwrap(), CANONICAL);
     run_in(folder.path(), &["record", "--ticks", "12", "--script", "drive.ron"]).done();
@@ -73,4 +77,54 @@ fn a_table_is_converted_and_drives_the_same_run() {
     fs::write(folder.path().join("drive.csv"), table).unwrap();
     let error = run_in(folder.path(), &["script", "convert", "drive.csv", "-o", "nowhere/drive.ron"]).failed(1);
     assert!(error.contains("Make its folder first"), "{error}");
+}
+
+#[test]
+fn an_input_that_a_robot_never_takes_is_refused_against_its_world_alone() {
+    let folder = tempfile::tempdir().unwrap();
+    for (robot, world, input, cell, reason) in [
+        (
+            "Rusty",
+            "apartment",
+            "MoveTo([0, 0, 0])",
+            "MoveTo,0,0,0",
+            "is a rusty and takes no MoveTo: it takes Drive, Teleport and Release",
+        ),
+        (
+            "Rusty",
+            "apartment",
+            "SetTrailer(true)",
+            "SetTrailer,on",
+            "is a rusty and takes no SetTrailer: it takes Drive, Teleport and Release",
+        ),
+        (
+            "Reach",
+            "workbench",
+            "Drive(1, 1)",
+            "Drive,1,1",
+            "is a reach and takes no Drive: it takes MoveTo, Teleport and Release",
+        ),
+        (
+            "Hitch",
+            "lot",
+            "MoveTo([0, 0, 0])",
+            "MoveTo,0,0,0",
+            "is a hitch and takes no MoveTo: it takes Drive, Teleport, SetTrailer and Release",
+        ),
+        ("Hitch", "lot", "Teleport([0, 0])", "Teleport,0,0", "has 2 coordinates: a hitch has 3 or 4"),
+    ] {
+        let text = format!("Script(version: 1, events: [\n\n(tick: 4, robot: \"{robot}\", input: {input})])");
+        fs::write(folder.path().join("s.ron"), text).unwrap();
+        run_in(folder.path(), &["script", "check", "s.ron"]).done();
+        let error = run_in(folder.path(), &["script", "check", "s.ron", "--world", world]).failed(3);
+        assert!(
+            error.contains("s.ron:3: events[0]: tick 4: ") && error.contains(robot) && error.contains(reason),
+            "{error}"
+        );
+        // the same from a table
+        fs::write(folder.path().join("s.csv"), format!("tick,robot,input\n4,{robot},{cell}\n")).unwrap();
+        run_in(folder.path(), &["script", "convert", "s.csv"]).done();
+        let error = run_in(folder.path(), &["script", "convert", "s.csv", "--world", world]).failed(3);
+        assert!(error.contains("s.csv:2:") && error.contains(reason), "{error}");
+    }
 }

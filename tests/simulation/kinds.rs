@@ -5,7 +5,7 @@ use bevy::prelude::MinimalPlugins;
 use motion_lab::atlas::{Atlas, names};
 use motion_lab::capture::{CaptureError, Subject, at_tick_with_robots, run_svg};
 use motion_lab::collision::{Collision, Scene};
-use motion_lab::configuration::{DiscSizes, Kinds, RobotKind, Sizes, Space};
+use motion_lab::configuration::{DiscSizes, InputKind, Kinds, RobotKind, Sizes, Space};
 use motion_lab::geometry::Aabb;
 use motion_lab::manifest::{Formula, Level};
 use motion_lab::picture::Theme;
@@ -172,6 +172,7 @@ static PUCK: RobotKind = RobotKind {
     spaces: &[Space { coordinates: 2, formula: "q = (x, y) \u{2208} R^2", words: "A point of the plane." }],
     lengths: 2,
     drives: false,
+    takes: &[InputKind::Drive, InputKind::MoveTo, InputKind::Teleport, InputKind::Release],
     senses: false,
     has_encoders: false,
     difference: |from, to| R2::from_coordinates(from)?.difference(&R2::from_coordinates(to)?).ok(),

@@ -15,6 +15,7 @@ static TUG: RobotKind = RobotKind {
     start: "three: x, y, course",
     spaces: &[Space { coordinates: 4, formula: "q = (x, y, c, t)", words: "A tug's course, and its tow's." }],
     drives: true,
+    takes: RobotKind::HITCH.takes,
     senses: false,
     has_encoders: false,
     difference: |from, to| HitchCfg::from_coordinates(from)?.difference(&HitchCfg::from_coordinates(to)?).ok(),

@@ -10,10 +10,12 @@ pub(crate) mod grade;
 pub(crate) mod info;
 #[cfg(feature = "window")]
 pub(crate) mod open;
+pub(crate) mod plot;
 pub(crate) mod query;
 pub(crate) mod record;
 pub(crate) mod replay;
 pub(crate) mod script;
+pub(crate) mod stats;
 #[cfg(feature = "headless")]
 pub(crate) mod tour;
 pub(crate) mod verify;

@@ -5,10 +5,11 @@ use std::path::Path;
 use motion_lab::configuration::RobotKind;
 use motion_lab::random::Seed;
 use motion_lab::recording::{DigestVerification, Recorder, Run, RunError, Verification};
-use motion_lab::run::{DigestLog, Frame, Log, Script};
+use motion_lab::run::{DigestLog, Frame, Log, RunDigest, Script};
 use motion_lab::simulation::SpawnError;
 use motion_lab::tour::TourConfig;
 
+use super::log_kind::{AnyComparison, AnyLog};
 use crate::cli::Failure;
 
 /// Advice about a run that can't start.
@@ -46,6 +47,28 @@ pub fn verify(log: &Log, on_tick: impl FnMut(&Recorder)) -> Result<Verification,
 /// Simulates the run of a digest log again and compares it: see [`motion_lab::recording::verify_digests`].
 pub fn verify_digests(log: &DigestLog, on_tick: impl FnMut(&Recorder)) -> Result<DigestVerification, Failure> {
     motion_lab::recording::verify_digests(log, on_tick).map_err(|error| refused(&error))
+}
+
+/// Calls `see` with every frame of a log, from tick 0 on. Those of a digest log are made by simulating its run again;
+/// what then differs from its digests is returned, in words.
+pub fn each_frame(log: &AnyLog, mut see: impl FnMut(&Frame)) -> Result<Option<String>, Failure> {
+    let (seed, config, script) = log.parts();
+    if let AnyLog::Full(log) = log {
+        std::iter::once(&log.initial).chain(&log.frames).for_each(see);
+        return Ok(None);
+    }
+    let mut run = begin(seed, config, script)?;
+    let mut digest = RunDigest::new(seed, config, script, run.frame());
+    let mut comparison = AnyComparison::with(log);
+    comparison.frame(run.frame(), &digest);
+    see(run.frame());
+    for _ in 0..log.recorded() {
+        let frame = run.step();
+        digest.tick(frame);
+        comparison.frame(frame, &digest);
+        see(frame);
+    }
+    Ok(comparison.difference(config))
 }
 
 /// The reason to stop showing a run.

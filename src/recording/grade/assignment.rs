@@ -5,7 +5,8 @@ use ron::value::RawValue;
 use serde::Deserialize;
 
 use super::added_kinds::AddedKinds;
-use super::{AssignmentError, AssignmentProblem, MAX_SEEDS};
+use super::seeds::Seeds;
+use super::{AssignmentError, AssignmentProblem, MAX_SEEDS, Points, Stay, When};
 use crate::collision::{Collision, Scene};
 use crate::configuration::RobotKind;
 use crate::random::Seed;
@@ -23,7 +24,7 @@ pub struct Goal {
     pub at: Vec<f64>,
     /// The tolerance of each coordinate, 0 or more; angles compare the short way round.
     pub within: Vec<f64>,
-    /// Number of ticks in a row that the robot has to be there; 1 when left out.
+    /// Number of ticks in a row that the robot has to be there; 1 when left out. The older way to say [`Stay::hold`].
     #[serde(default = "one")]
     pub ticks: u64,
 }
@@ -64,8 +65,12 @@ struct AssignmentText {
     #[serde(default)]
     start: Option<Vec<f64>>,
     goal: Goal,
+    #[serde(default)]
+    stay: Option<Stay>,
     limits: Limits,
-    seeds: Vec<u64>,
+    #[serde(default)]
+    points: Option<Points>,
+    seeds: Seeds,
 }
 
 /// The version alone, for files of other versions.
@@ -88,7 +93,11 @@ struct Places<'a> {
     #[serde(borrow, default)]
     goal: Option<&'a RawValue>,
     #[serde(borrow, default)]
+    stay: Option<&'a RawValue>,
+    #[serde(borrow, default)]
     limits: Option<&'a RawValue>,
+    #[serde(borrow, default)]
+    points: Option<&'a RawValue>,
     #[serde(borrow, default)]
     seeds: Option<&'a RawValue>,
 }
@@ -143,7 +152,7 @@ impl AssignmentFile {
     }
 
     fn with_kinds(&self, mut world: World, added: AddedKinds) -> Result<Assignment, AssignmentError> {
-        let AssignmentText { robot, start, goal, limits, seeds, .. } = &self.text;
+        let AssignmentText { robot, start, goal, stay, limits, points, seeds: Seeds(seeds), .. } = &self.text;
         let error = |item: &'static str, problem: AssignmentProblem| AssignmentError {
             file: self.file.clone(),
             line: line_of(&self.source, item),
@@ -174,6 +183,15 @@ impl AssignmentFile {
                 return Err(error(item, AssignmentProblem::Ticks(ticks)));
             }
         }
+        let stay = stay.unwrap_or(Stay { hold: None, at: When::Any });
+        if let Some(hold) = stay.hold {
+            if !(1..=limits.ticks).contains(&hold) {
+                return Err(error("stay", AssignmentProblem::Hold { hold, ticks: limits.ticks }));
+            }
+            if goal.ticks != 1 {
+                return Err(error("stay", AssignmentProblem::HeldTwice));
+            }
+        }
         let kind = world.robots[number].kind.clone();
         if limits.reversals.is_some() && about.is_none_or(|known| !known.drives) {
             return Err(error("limits", AssignmentProblem::Reversals));
@@ -181,8 +199,14 @@ impl AssignmentFile {
         if !(1..=MAX_SEEDS).contains(&seeds.len()) {
             return Err(error("seeds", AssignmentProblem::Seeds(seeds.len())));
         }
+        if let Some(points) = points {
+            points
+                .check([limits.contacts.is_some(), limits.reversals.is_some()])
+                .map_err(|problem| error("points", problem))?;
+        }
         let seeds = seeds.iter().copied().map(Seed).collect();
-        Ok(Assignment { world, number, kind, goal: goal.clone(), limits: *limits, seeds, added, about })
+        let (goal, limits, points) = (goal.clone(), *limits, *points);
+        Ok(Assignment { world, number, kind, goal, stay, limits, points, seeds, added, about })
     }
 }
 
@@ -220,7 +244,9 @@ fn line_of(text: &str, item: &str) -> usize {
         "robot" => places.robot,
         "start" => places.start,
         "goal" => places.goal,
+        "stay" => places.stay,
         "limits" => places.limits,
+        "points" => places.points,
         _ => places.seeds,
     });
     part.map_or(1, |part| line_at(text, offset_of(text, part.trim().get_ron())))
@@ -236,7 +262,9 @@ pub struct Assignment {
     number: usize,
     kind: String,
     goal: Goal,
+    stay: Stay,
     limits: Limits,
+    points: Option<Points>,
     seeds: Vec<Seed>,
     added: AddedKinds,
     about: Option<&'static RobotKind>,
@@ -266,6 +294,21 @@ impl Assignment {
     /// The goal.
     pub fn goal(&self) -> &Goal {
         &self.goal
+    }
+
+    /// When and for how long the robot has to be at the goal.
+    pub fn stay(&self) -> Stay {
+        self.stay
+    }
+
+    /// Number of ticks in a row that the robot has to be there, at least 1.
+    pub fn hold(&self) -> u64 {
+        self.stay.hold.unwrap_or(self.goal.ticks)
+    }
+
+    /// The points for each criterion; `None` for one point for passing.
+    pub fn points(&self) -> Option<Points> {
+        self.points
     }
 
     /// The limits.

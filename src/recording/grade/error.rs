@@ -76,6 +76,26 @@ pub enum AssignmentProblem {
     /// A number of ticks out of range.
     #[error("{0} ticks: there must be 1 to {MAX_TICKS}")]
     Ticks(u64),
+    /// A number of ticks to stay that is 0, or longer than the attempt.
+    #[error("hold {hold}: it must be 1 to {ticks}, the ticks of the limits")]
+    Hold {
+        /// The ticks to stay.
+        hold: u64,
+        /// The ticks of the limits.
+        ticks: u64,
+    },
+    /// Both the goal and `stay` say for how long.
+    #[error("hold, and the goal's ticks: leave one of them out")]
+    HeldTwice,
+    /// Points that are negative, too many or not a number.
+    #[error("{0} points: there must be 0 to 1000000 for a criterion")]
+    Points(f64),
+    /// No points for anything.
+    #[error("no points for anything: give some for the goal")]
+    NoPoints,
+    /// Points for a limit that is not there.
+    #[error("points for {0}, which the limits do not limit")]
+    Unlimited(&'static str),
     /// A limit of reversals for a robot that has no forward direction, or of a kind that nobody described.
     #[error("only a robot that drives has a direction to reverse")]
     Reversals,

@@ -4,7 +4,7 @@
 //! frames are not trusted: its run is simulated again, and a log whose frames differ is refused as forged.
 //!
 //! ```
-//! use motion_lab::recording::{AssignmentFile, Submission, Verdict};
+//! use motion_lab::recording::{AssignmentFile, Submission};
 //! use motion_lab::run::Script;
 //! use motion_lab::worlds::World;
 //!
@@ -13,17 +13,21 @@
 //!     world: "lot",                                     // a built-in world, or a world file
 //!     robot: "Hitch",
 //!     start: [6.5, 2.5, 0],                             // left out: where the world has it
-//!     goal: (at: [7.5, 2.5, 0], within: [0.1, 0.1, 0.1], ticks: 1),
+//!     goal: (at: [7.5, 2.5, 0], within: [0.1, 0.1, 0.1]),
+//!     stay: (hold: 20, at: end),                        // left out: once there, however shortly, it has passed
 //!     limits: (ticks: 200, contacts: 0, reversals: 0),  // the last two may be left out
-//!     seeds: [1, 2005],
+//!     points: (goal: 6, contacts: 2, reversals: 2),     // left out: 1 point for passing
+//!     seeds: "0..10",                                   // or a list: [1, 2005]
 //! )"#;
 //! let file = AssignmentFile::parse("forward.ron", text)?;
 //! let assignment = file.in_world(World::lot())?;
 //! let script = Script::parse("mine.ron", r#"Script(version: 1, events: [
 //!     (tick: 1, robot: "Hitch", input: Drive(128, 0)),
+//!     (tick: 14, robot: "Hitch", input: Drive(0, 0)),
 //! ])"#)?;
 //! let grade = assignment.grade(&Submission::Script(script));
 //! assert!(grade.passed(), "{grade:?}");
+//! assert_eq!((grade.score.points, grade.score.of), (10.0, 10.0));
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
@@ -31,10 +35,17 @@ mod added_kinds;
 mod assignment;
 mod attempt;
 mod error;
+mod points;
+mod score;
+mod seeds;
+mod stay;
 
 pub use assignment::{Assignment, AssignmentFile, Goal, Limits};
-pub use attempt::{Attempt, Verdict};
+pub use attempt::{Attempt, GoalDistance, Met, Verdict};
 pub use error::{AssignmentError, AssignmentProblem, MAX_SEEDS};
+pub use points::Points;
+pub use score::{Criterion, Score};
+pub use stay::{Stay, When};
 
 use super::RunError;
 use crate::run::{Divergence, Log, RobotInput, Script, ScriptError};
@@ -81,12 +92,14 @@ pub struct Grade {
     pub refusal: Option<Refusal>,
     /// One attempt for each of the assignment's seeds, in order; empty when it was refused.
     pub attempts: Vec<Attempt>,
+    /// Its points; none of them when it was refused.
+    pub score: Score,
 }
 
 impl Grade {
     /// Whether the submission does what the assignment asks for, at every seed.
     pub fn passed(&self) -> bool {
-        self.refusal.is_none() && self.attempts.iter().all(|attempt| attempt.verdict == Verdict::Passed)
+        self.refusal.is_none() && self.attempts.iter().all(Attempt::passed)
     }
 }
 
@@ -101,10 +114,17 @@ impl Assignment {
         let attempts = self.accept(submission).and_then(|()| {
             self.seeds().iter().map(|&seed| Ok(Attempt::run(self, seed, script)?)).collect::<Result<Vec<_>, Refusal>>()
         });
-        match attempts {
-            Ok(attempts) => Grade { refusal: None, attempts },
-            Err(refusal) => Grade { refusal: Some(refusal), attempts: Vec::new() },
-        }
+        let (refusal, attempts) = match attempts {
+            Ok(attempts) => (None, attempts),
+            Err(refusal) => (Some(refusal), Vec::new()),
+        };
+        let score = self.score(&attempts);
+        Grade { refusal, attempts, score }
+    }
+
+    /// The points of a submission with these attempts; without any, of one that could not be graded.
+    pub fn score(&self, attempts: &[Attempt]) -> Score {
+        Score::of(self.points(), attempts, self.seeds().len())
     }
 
     fn accept(&self, submission: &Submission) -> Result<(), Refusal> {
@@ -133,10 +153,9 @@ impl Assignment {
         }
     }
 
-    /// The first value in a log's frames that differs from the run of its seed, configuration and script: `found` in
-    /// the log, `expected` by the run.
+    /// The first value in a log's frames that differs from the run of its seed, configuration and script: `expected` by
+    /// the log, `found` in the run, as [`verify`](crate::recording::verify) says it.
     fn forgery(&self, log: &Log) -> Result<Option<Divergence>, RunError> {
-        let divergence = self.verify(log)?.divergence;
-        Ok(divergence.map(|d| Divergence { expected: d.found, found: d.expected, ..d }))
+        Ok(self.verify(log)?.divergence)
     }
 }

@@ -3,8 +3,27 @@
 use super::simulated::canonical;
 use crate::collision::{Collision, Surroundings};
 use crate::configuration::Coordinates;
+use crate::robots::Robot;
 use crate::run::{Quantized, RobotInput};
 use crate::simulation::{DriveMode, Extra, SimulatedRobot};
+
+/// Why an input is refused, of a robot with configurations `C`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Refused<C> {
+    /// Its kind takes no such input.
+    NotTaken,
+    /// A channel is out of range.
+    Channel,
+    /// There is no configuration with this number of coordinates that it can be put in.
+    Coordinates(usize),
+    /// It would be beyond its own limits.
+    Limits,
+    /// It would touch something there.
+    Touches(C),
+}
+
+/// The driver's new state after an accepted input, and the configuration that the robot is put in, if any.
+type Accepted<R> = (DriveMode<R>, Option<<R as Robot>::Configuration>);
 
 /// What an input may change about a robot.
 #[derive(Clone, Debug)]
@@ -16,57 +35,70 @@ pub(crate) struct Driven<R: SimulatedRobot> {
 }
 
 impl<R: SimulatedRobot> Driven<R> {
-    /// The robot after an input, which is counted if it is refused.
+    /// The robot after an input, and why the input was refused, if it was. A refused one is counted.
     pub(crate) fn after<'a>(
         self,
         robot: &R,
         tour: &R::Tour,
         input: &RobotInput,
         surroundings: impl Fn() -> Surroundings<'a>,
-    ) -> Self {
+    ) -> (Self, Option<Refused<R::Configuration>>) {
         let Driven { q, mode, mut extra } = self;
-        let is_free = |q: &R::Configuration| {
+        let fits = |q: &R::Configuration| {
             let robot = robot.fitted(q);
-            robot.is_within_limits(q) && !surroundings().intersects(&robot.footprint(q))
+            if !robot.is_within_limits(q) {
+                return Err(Refused::Limits);
+            }
+            if surroundings().intersects(&robot.footprint(q)) { Err(Refused::Touches(*q)) } else { Ok(()) }
         };
-        let (after, put) = accepted(robot, &q, &mode, input, is_free)
-            .unwrap_or((DriveMode { refusals: mode.refusals.saturating_add(1), ..mode }, None));
+        let (after, put, refused) = match accepted(robot, &q, &mode, input, fits) {
+            Ok((after, put)) => (after, put, None),
+            Err(why) => (DriveMode { refusals: mode.refusals.saturating_add(1), ..mode }, None, Some(why)),
+        };
         if mode.manual && !after.manual {
             robot.resume(tour, &q, &surroundings(), &mut extra);
         }
-        Driven { q: put.unwrap_or(q), mode: after, extra }
+        (Driven { q: put.unwrap_or(q), mode: after, extra }, refused)
     }
 }
 
-/// The driver's new state after an accepted input, and the configuration that the robot is put in, if any. `None`
-/// for a refused input.
+/// What an accepted input makes of the driver and of the robot.
 fn accepted<R: SimulatedRobot>(
     robot: &R,
     q: &R::Configuration,
     mode: &DriveMode<R>,
     input: &RobotInput,
-    is_free: impl Fn(&R::Configuration) -> bool,
-) -> Option<(DriveMode<R>, Option<R::Configuration>)> {
+    fits: impl Fn(&R::Configuration) -> Result<(), Refused<R::Configuration>>,
+) -> Result<Accepted<R>, Refused<R::Configuration>> {
     let values = |c: &[Quantized]| c.iter().map(|c| c.value()).collect::<Coordinates>();
+    let configuration_at = |c: &[Quantized]| {
+        let there = robot.configuration_at(q, &values(c)).ok_or(Refused::Coordinates(c.len()))?;
+        Ok(canonical(&there))
+    };
     let taken_over = DriveMode { manual: true, ..*mode };
-    let put = |q: R::Configuration| is_free(&q).then_some((DriveMode { target: None, ..taken_over }, Some(q)));
+    let put = |q: R::Configuration| {
+        fits(&q)?;
+        Ok((DriveMode { target: None, ..taken_over }, Some(q)))
+    };
     match input {
         RobotInput::Drive(a, b) => {
             let channels = [*a, *b];
-            let in_range = channels.iter().all(|c| (-128..=128).contains(c));
-            (in_range && robot.driven([0.0; 2]).is_some())
-                .then_some((DriveMode { channels, target: None, ..taken_over }, None))
+            if channels.iter().any(|c| !(-128..=128).contains(c)) {
+                return Err(Refused::Channel);
+            }
+            robot.driven([0.0; 2]).ok_or(Refused::NotTaken)?;
+            Ok((DriveMode { channels, target: None, ..taken_over }, None))
         }
         RobotInput::MoveTo(target) => {
-            let target = canonical(&robot.configuration_at(q, &values(target))?);
-            robot.toward(q, &target)?;
-            Some((DriveMode { target: Some(target), ..taken_over }, None))
+            let target = configuration_at(target)?;
+            robot.toward(q, &target).ok_or(Refused::NotTaken)?;
+            Ok((DriveMode { target: Some(target), ..taken_over }, None))
         }
-        RobotInput::Teleport(to) => put(canonical(&robot.configuration_at(q, &values(to))?)),
+        RobotInput::Teleport(to) => put(configuration_at(to)?),
         RobotInput::SetTrailer(on) => {
-            let to = canonical(&robot.with_trailer_set(q, *on)?);
-            if to == *q { Some((taken_over, None)) } else { put(to) }
+            let to = canonical(&robot.with_trailer_set(q, *on).ok_or(Refused::NotTaken)?);
+            if to == *q { Ok((taken_over, None)) } else { put(to) }
         }
-        RobotInput::Release => Some((DriveMode { refusals: mode.refusals, ..DriveMode::default() }, None)),
+        RobotInput::Release => Ok((DriveMode { refusals: mode.refusals, ..DriveMode::default() }, None)),
     }
 }

@@ -5,6 +5,7 @@ pub(crate) mod driven;
 pub(crate) mod kinds;
 pub(crate) mod ops;
 pub(crate) mod plugin;
+pub(crate) mod refusal;
 pub(crate) mod replicas;
 pub(crate) mod simulated;
 pub(crate) mod spawn;

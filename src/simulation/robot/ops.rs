@@ -5,6 +5,7 @@ use std::cell::OnceCell;
 use bevy::prelude::*;
 
 use super::driven::Driven;
+use super::refusal::InputRefusal;
 use super::simulated::canonical;
 use crate::collision::Surroundings;
 use crate::configuration::{Configuration as _, Coordinates};
@@ -21,8 +22,9 @@ use crate::simulation::{
 #[derive(Component, Clone, Copy, Debug)]
 #[component(immutable)]
 pub struct RobotOps {
-    /// Applies an input, or counts it as refused. The last argument gives the parts of the other robots of its world.
-    pub(crate) apply: fn(&mut World, Entity, &RobotInput, &dyn Fn(&World) -> Vec<Placed>),
+    /// Applies an input, or counts it as refused and says why. The last argument gives the parts of the other robots of
+    /// its world.
+    pub(crate) apply: fn(&mut World, Entity, &RobotInput, &dyn Fn(&World) -> Vec<Placed>) -> Option<InputRefusal>,
     /// The robot's present footprint.
     pub(crate) footprint: fn(&World, Entity) -> Option<Footprint>,
     /// What a history keeps of the robot beside its state.
@@ -87,8 +89,13 @@ fn senses<R: SimulatedRobot>(world: &World, e: Entity) -> bool {
     robot.zip(q).is_some_and(|(robot, q)| robot.0.sensor_pose(&q.0).is_some())
 }
 
-fn apply<R: SimulatedRobot>(world: &mut World, e: Entity, input: &RobotInput, others: &dyn Fn(&World) -> Vec<Placed>) {
-    let Some(after) = (|| {
+fn apply<R: SimulatedRobot>(
+    world: &mut World,
+    e: Entity,
+    input: &RobotInput,
+    others: &dyn Fn(&World) -> Vec<Placed>,
+) -> Option<InputRefusal> {
+    let (after, refused) = (|| {
         let (model, route) = (world.get::<RobotModel<R>>(e)?, world.get::<Route<R>>(e)?);
         let (q, mode) = (world.get::<Configuration<R>>(e)?.0, *world.get::<DriveMode<R>>(e)?);
         let extra = world.get::<OwnState<R>>(e)?.extra.clone();
@@ -96,10 +103,9 @@ fn apply<R: SimulatedRobot>(world: &mut World, e: Entity, input: &RobotInput, ot
         // most inputs need no others
         let parts = OnceCell::new();
         let surroundings = || Surroundings { scene, others: parts.get_or_init(|| others(world)) };
-        Some(Driven { q, mode, extra }.after(&model.0, &route.0, input, surroundings))
-    })() else {
-        return;
-    };
+        let (after, refused) = Driven { q, mode, extra }.after(&model.0, &route.0, input, surroundings);
+        Some((after, refused.map(|why| InputRefusal::of(why, input.kind(), &model.0, &surroundings()))))
+    })()?;
     let mut robot = world.entity_mut(e);
     if let Some(mut mode) = robot.get_mut::<DriveMode<R>>() {
         *mode = after.mode;
@@ -110,6 +116,7 @@ fn apply<R: SimulatedRobot>(world: &mut World, e: Entity, input: &RobotInput, ot
     if let Some(mut own) = robot.get_mut::<OwnState<R>>() {
         own.extra = after.extra;
     }
+    refused
 }
 
 fn encode<R: SimulatedRobot>(world: &World, e: Entity) -> Option<RobotState> {

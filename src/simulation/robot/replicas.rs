@@ -124,10 +124,10 @@ impl<R: SimulatedRobot> Replicas<R> {
     /// Without such a replica.
     pub fn input(&mut self, replica: usize, input: &RobotInput) -> bool {
         let (stage, replica) = (&self.stage, &mut self.replicas[replica]);
-        let before = replica.robot.mode.refusals;
         let surroundings = || Surroundings { scene: &stage.scene, others: &[] };
-        replica.robot = replica.robot.clone().after(&stage.robot, &replica.tour, input, surroundings);
-        replica.robot.mode.refusals == before
+        let (robot, refused) = replica.robot.clone().after(&stage.robot, &replica.tour, input, surroundings);
+        replica.robot = robot;
+        refused.is_none()
     }
 
     /// Begins a replica anew at tick 0 with this seed; the others stay as they are.

@@ -4,8 +4,8 @@ use bevy::prelude::*;
 
 use super::crowds::others_now;
 use crate::run::{Event, RobotInput, Script, WorldChange, WorldEvent};
-use crate::simulation::obstacles::change;
-use crate::simulation::{ResidesIn, RobotId, RobotOps, Roster, Transport};
+use crate::simulation::obstacles::change::{self, RefusedChanges};
+use crate::simulation::{Refusals, RefusedEvent, RefusedInput, ResidesIn, RobotId, RobotOps, Roster, Transport};
 
 /// An input to a robot from its driver, sent as a [`RunCommand`](crate::simulation::RunCommand). It applies before the
 /// next tick's step.
@@ -158,7 +158,16 @@ pub(crate) fn apply_inputs(world: &mut World) {
         return;
     }
     world.resource_scope(|world, pending: Mut<PendingInput>| {
+        let is_new = world.resource_mut::<Refusals>().begin(tick);
+        let before = world.resource::<RefusedChanges>().0.len();
         change::make(world, pending.due_changes(tick));
+        if is_new {
+            world.resource_scope(|world, mut refusals: Mut<Refusals>| {
+                for refused in world.resource::<RefusedChanges>().0.iter().skip(before) {
+                    refusals.note(|| RefusedEvent::Change(refused.clone()));
+                }
+            });
+        }
         for event in pending.due(tick) {
             let Some(robot) = world.resource::<Roster>().named(&event.robot) else { continue };
             let others = |world: &World| {
@@ -166,7 +175,12 @@ pub(crate) fn apply_inputs(world: &mut World) {
                 place.map_or_else(Vec::new, |(inhabited, id)| others_now(world, inhabited.0, *id))
             };
             if let Some(RobotOps { apply, .. }) = world.get::<RobotOps>(robot).copied() {
-                apply(world, robot, &event.input, &others);
+                let refused = apply(world, robot, &event.input, &others);
+                if let Some(reason) = refused.filter(|_| is_new) {
+                    let (robot, input) = (event.robot.clone(), event.input.kind());
+                    let refused = RefusedInput { tick, robot, input, reason };
+                    world.resource_mut::<Refusals>().note(|| RefusedEvent::Input(refused));
+                }
             }
         }
     });

@@ -6,6 +6,7 @@ pub(crate) mod drive;
 pub(crate) mod hold;
 pub(crate) mod input;
 pub(crate) mod parallel;
+pub(crate) mod refusals;
 pub(crate) mod sense;
 pub(crate) mod settle;
 pub(crate) mod sweep;

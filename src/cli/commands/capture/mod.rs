@@ -161,7 +161,7 @@ enum TabName {
     Swept,
 }
 
-fn parse_scale(text: &str) -> Result<f32, String> {
+pub(crate) fn parse_scale(text: &str) -> Result<f32, String> {
     match text.parse::<f32>() {
         Ok(scale) if (0.1..=8.0).contains(&scale) => Ok(scale),
         _ => Err("it must be a number from 0.1 to 8".into()),

@@ -7,7 +7,7 @@ use motion_lab::run::Script;
 use motion_lab::tour::TourConfig;
 use rayon::prelude::*;
 
-use super::one::{Ended, Plan, Stop, run, write_run};
+use super::one::{Ended, Plan, Stop, refused_in_words, run, write_run};
 use super::seeds::SeedRange;
 use super::{Outcome, Record};
 use crate::cli::support::progress::Progress;
@@ -29,9 +29,10 @@ pub fn record(
     let kind = options.kind(config);
     let pool = rayon::ThreadPoolBuilder::new().num_threads(usize::from(options.threads.unwrap_or(0))).build();
     let pool = pool.map_err(Failure::internal)?;
+    let mut refused: Option<(u64, u64, String)> = None;
     let batch = AHEAD * pool.current_num_threads() as u64;
     let progress = Progress::of(seeds.end - seeds.first, "seeds");
-    let stop = Stop { unwatched: true, ..Stop::default() };
+    let stop = Stop { unwatched: true, at_refusal: options.strict, ..Stop::default() };
     let mut first = seeds.first;
     while first < seeds.end && !data.is_closed() {
         let end = seeds.end.min(first.saturating_add(batch));
@@ -48,8 +49,15 @@ pub fn record(
         };
         let ended: Vec<_> = pool.install(|| (first..end).into_par_iter().map(one).collect());
         for (seed, ended) in (first..end).zip(ended) {
-            match ended? {
-                Ended::Whole { last, digest } if options.json => {
+            let ended = ended?;
+            if let Ended::Whole { refusals, .. } = &ended
+                && let Some(event) = refusals.first()
+            {
+                let (runs, count, _) = refused.get_or_insert_with(|| (0, 0, format!("{event} (seed {seed})")));
+                (*runs, *count) = (*runs + 1, *count + refusals.count());
+            }
+            match ended {
+                Ended::Whole { last, digest, .. } if options.json => {
                     data.json(&RunSummary::new(Seed(seed), config, &last, digest))?;
                 }
                 Ended::Whole { digest, .. } => data.line(format!("{seed} {digest}"))?,
@@ -61,6 +69,9 @@ pub fn record(
         }
         data.flush()?;
         first = end;
+    }
+    if let Some((runs, count, event)) = refused {
+        say(format!("in {runs} runs {}", refused_in_words(count, &event)));
     }
     Ok(Outcome::Done)
 }

@@ -65,6 +65,10 @@ pub struct Record {
     /// The input script.
     #[arg(long, value_name = "FILE")]
     script: Option<PathBuf>,
+    /// Fail at the first input of the script that is refused, and write nothing. Without it refused inputs are counted,
+    /// and the first one's reason is said.
+    #[arg(long)]
+    strict: bool,
     /// The range sensor's number of rays, 1 to 100000.
     #[arg(long)]
     rays: Option<u32>,
@@ -112,8 +116,8 @@ impl Record {
         if let Some(file) = &self.resume {
             return resume::resume(file, self.output.as_deref(), self.stop(), self.printed(), data);
         }
-        let (config, script) = (setup::config(&self)?, setup::script(&self)?);
-        setup::check(&self, &config, &script)?;
+        let config = setup::config(&self)?;
+        let script = setup::script(&self, &config)?;
         if let Some(seeds) = self.seeds {
             return many::record(&self, seeds, &config, &script, data);
         }
@@ -135,7 +139,7 @@ impl Record {
     }
 
     fn stop(&self) -> Stop {
-        Stop { after: self.stop_after, unwatched: false }
+        Stop { after: self.stop_after, unwatched: false, at_refusal: self.strict }
     }
 
     fn printed(&self) -> Printed {

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 
 use motion_lab::random::Seed;
 use motion_lab::run::{DT, Digest, Frame, LogError, RunDigest, Script};
+use motion_lab::simulation::Refusals;
 use motion_lab::tour::TourConfig;
 
 use crate::cli::support::interrupt;
@@ -39,6 +40,8 @@ pub struct Stop {
     pub after: Option<u64>,
     /// Whether somebody else says how far the run has come.
     pub unwatched: bool,
+    /// With a failure at the first input that is refused.
+    pub at_refusal: bool,
 }
 
 impl Stop {
@@ -60,6 +63,8 @@ pub enum Ended {
         last: Frame,
         /// The run's digest.
         digest: Digest,
+        /// The inputs that were refused.
+        refusals: Refusals,
     },
     /// Early, after this tick.
     Stopped(u64),
@@ -89,7 +94,12 @@ pub fn run(
         if stop.now(tick) {
             return Ok(Ended::Stopped(tick));
         }
-        let frame = run.step();
+        run.step();
+        if let Some(refused) = run.refusals().first().filter(|_| stop.at_refusal) {
+            let next = "Nothing was written. Correct the script, or leave out --strict.";
+            return Err(Failure::input(format!("seed {seed}, {refused}"), next));
+        }
+        let frame = run.frame();
         digest.tick(frame);
         if let Some(difference) = differs(&mut comparison, config, frame, &digest) {
             return Ok(Ended::Differs(difference));
@@ -97,7 +107,7 @@ pub fn run(
         sink(frame, &digest)?;
         watched.at(frame.tick);
     }
-    Ok(Ended::Whole { last: run.frame().clone(), digest: digest.digest() })
+    Ok(Ended::Whole { last: run.frame().clone(), digest: digest.digest(), refusals: run.refusals().clone() })
 }
 
 /// What differs of a frame from the expected one, in words.
@@ -192,6 +202,14 @@ pub fn partial_name(output: &Path) -> PathBuf {
     name.into()
 }
 
+/// `3 inputs of the script were refused, the first at tick 260: ...`.
+pub fn refused_in_words(count: u64, first: &str) -> String {
+    match count {
+        1 => format!("1 input of the script was refused, at {first}"),
+        _ => format!("{count} inputs of the script were refused, the first at {first}"),
+    }
+}
+
 /// The form in which a run's end is printed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Printed {
@@ -218,7 +236,7 @@ pub fn record(
         None => run(plan, expected, stop, |_, _| Ok(()))?,
     };
     match ended {
-        Ended::Whole { last, digest } => {
+        Ended::Whole { last, digest, refusals } => {
             let summary = RunSummary::new(plan.seed, &plan.config, &last, digest);
             if form == Printed::Json {
                 data.json(&summary)?;
@@ -228,6 +246,9 @@ pub fn record(
             }
             if let Some(target) = target {
                 target.wrote();
+            }
+            if let Some(first) = refusals.first() {
+                say(refused_in_words(refusals.count(), &first.to_string()));
             }
             Ok(Outcome::Done)
         }

@@ -9,6 +9,7 @@ use super::Record;
 use super::choice::choose;
 use crate::cli::Failure;
 use crate::cli::support::input::read_text;
+use crate::cli::support::script_words::{parse_script, unfit};
 use crate::cli::support::world_source::find_world;
 
 /// The seed.
@@ -45,19 +46,14 @@ fn ticks(options: &Record) -> Result<Option<u64>, Failure> {
     Ok(Some(ticks as u64))
 }
 
-/// The script.
-pub fn script(options: &Record) -> Result<Script, Failure> {
-    let Some(path) = &options.script else { return Ok(Script::empty()) };
-    Script::parse(&path.display().to_string(), &read_text(path)?)
-        .map_err(|error| Failure::input(error, "Correct the script there."))
-}
-
-/// Checks that the configuration can be run and that the script names its robots only.
-pub fn check(options: &Record, config: &TourConfig, script: &Script) -> Result<(), Failure> {
+/// The script, checked against the run: its robots, and where --strict is given, that they take their inputs.
+pub fn script(options: &Record, config: &TourConfig) -> Result<Script, Failure> {
     config.validate().map_err(|error| Failure::usage(error, "See `motion-lab record --help`."))?;
+    let Some(path) = &options.script else { return Ok(Script::empty()) };
+    let (name, text) = (path.display().to_string(), read_text(path)?);
+    let script = parse_script(path, &text)?;
     let names: Vec<&str> = config.robot_names().collect();
-    script.check_robots(&names).map_err(|error| {
-        let file = options.script.as_deref().map_or(String::new(), |path| format!("{}: ", path.display()));
-        Failure::input(format!("{file}{error}"), format!("The robots of this run are {}.", names.join(", ")))
-    })
+    let checked = if options.strict { script.check_for(config) } else { script.check_robots(&names) };
+    checked.map_err(|error| unfit(error.located(&name, &text), config))?;
+    Ok(script)
 }

@@ -6,14 +6,15 @@ use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
 use clap::{Args, Subcommand};
-use motion_lab::run::{Script, ScriptError};
+use motion_lab::run::Script;
+use motion_lab::tour::TourConfig;
 use serde::Serialize;
 
 use crate::cli::support::choices::WorldNames;
-use crate::cli::support::input::{for_each_file, read_bytes_if, read_text, shown};
+use crate::cli::support::input::{for_each_file, read_bytes_if, read_text};
 use crate::cli::support::log_source::read_any_log;
 use crate::cli::support::output::write_file;
-use crate::cli::support::script_words::{changes_in_words, none};
+use crate::cli::support::script_words::{changes_in_words, none, parse_script, unfit};
 use crate::cli::support::target::Target;
 use crate::cli::support::world_source::find_world;
 use crate::cli::{Data, Failure, Outcome, say};
@@ -42,8 +43,9 @@ Examples:
         /// The scripts.
         #[arg(required = true, value_name = "FILE")]
         files: Vec<PathBuf>,
-        /// Check the robots' names as well: a built-in world or a world file that they live in; may be given several
-        /// times.
+        /// Check the inputs against their world as well: a built-in world or a world file that the robots live in; may
+        /// be given several times. A robot must be there and take the input: a rover or a car takes no MoveTo, an arm
+        /// no Drive, only a car SetTrailer.
         #[arg(long, value_name = "NAME|FILE", value_parser = WorldNames, hide_possible_values = true)]
         world: Vec<String>,
         /// One line of JSON for each file that is right.
@@ -72,6 +74,9 @@ Examples:
         /// The table.
         #[arg(value_name = "FILE.csv")]
         file: PathBuf,
+        /// Check the inputs against their world, as `script check` does; may be given several times.
+        #[arg(long, value_name = "NAME|FILE")]
+        world: Vec<String>,
         /// Write to this file; standard output when there is none.
         #[arg(short, long, value_name = "FILE")]
         output: Option<PathBuf>,
@@ -99,9 +104,10 @@ impl ScriptArgs {
         match self.command {
             ScriptCommand::Check { files, world, json } => check(&files, &world, json, data),
             ScriptCommand::Print { file } => print(&file, data),
-            ScriptCommand::Convert { file, output } => {
+            ScriptCommand::Convert { file, world, output } => {
+                let config = config(&world)?;
                 let text = read_text(&file)?;
-                let script = table::script(&text).map_err(|error| {
+                let script = table::script(&text, config.as_ref()).map_err(|error| {
                     Failure::input(
                         format!("{}:{error}", file.display()),
                         "Correct it there; `motion-lab script convert --help` tells the form.",
@@ -117,7 +123,7 @@ impl ScriptArgs {
 }
 
 fn read_script(file: &Path) -> Result<Script, Failure> {
-    Script::parse(&shown(file), &read_text(file)?).map_err(|error| Failure::input(error, "Correct the script there."))
+    parse_script(file, &read_text(file)?)
 }
 
 fn print(file: &Path, data: &mut Data) -> Result<Outcome, Failure> {
@@ -137,22 +143,20 @@ fn print(file: &Path, data: &mut Data) -> Result<Outcome, Failure> {
     })
 }
 
-fn check(files: &[PathBuf], worlds: &[String], json: bool, data: &mut Data) -> Result<Outcome, Failure> {
+/// A run of these worlds; `None` without any.
+fn config(worlds: &[String]) -> Result<Option<TourConfig>, Failure> {
     let worlds = worlds.iter().map(|name| find_world(name)).collect::<Result<Vec<_>, _>>()?;
-    let names: Vec<&str> = worlds.iter().flat_map(|w| &w.robots).map(|r| r.name.as_str()).collect();
+    Ok((!worlds.is_empty()).then_some(TourConfig { worlds, ticks: 0, sensor: None }))
+}
+
+fn check(files: &[PathBuf], worlds: &[String], json: bool, data: &mut Data) -> Result<Outcome, Failure> {
+    let config = config(worlds)?;
     for_each_file(files, data, |file, data| {
-        let script = read_script(file)?;
-        if worlds.is_empty() {
-            return summarise(file, &script, json, data);
+        let (name, text) = (file.display().to_string(), read_text(file)?);
+        let script = parse_script(file, &text)?;
+        if let Some(config) = &config {
+            script.check_for(config).map_err(|error| unfit(error.located(&name, &text), config))?;
         }
-        let refused = |error: ScriptError| format!("{}: {error}", file.display());
-        script.check_robots(&names).map_err(|error| {
-            Failure::input(refused(error), format!("The robots of these worlds are {}.", names.join(", ")))
-        })?;
-        script.check_worlds(&worlds).map_err(|error| {
-            let named: Vec<&str> = worlds.iter().map(|w| w.name.as_str()).collect();
-            Failure::input(refused(error), format!("The worlds are {}.", named.join(", ")))
-        })?;
         summarise(file, &script, json, data)
     })
 }

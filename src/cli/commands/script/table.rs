@@ -1,6 +1,7 @@
 //! A script as a table of comma-separated values.
 
 use motion_lab::run::{Event, Quantized, RobotInput, Script, ScriptProblem};
+use motion_lab::tour::TourConfig;
 
 /// What is wrong with a table, and where. Prints as `7:12: "fast" is no whole number`.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -20,11 +21,11 @@ const MAX_CELLS: usize = 1000;
 /// A cell and the column where it begins, from 1.
 type Cell = (usize, String);
 
-/// The script that a table describes.
-pub fn script(text: &str) -> Result<Script, TableError> {
+/// The script that a table describes, checked against a run's worlds and robots where they are given.
+pub fn script(text: &str, config: Option<&TourConfig>) -> Result<Script, TableError> {
     let mut script = Script::new(Vec::new(), vec![]);
-    // of each event the line, and the columns of its tick and of its input's first value
-    let mut rows: Vec<(usize, [usize; 2])> = Vec::new();
+    // of each event the line, and the columns of its tick, its robot, its input and that input's first value
+    let mut rows: Vec<(usize, [usize; 4])> = Vec::new();
     let text = text.trim_start_matches('\u{feff}'); // spreadsheets put a mark in front
     for (line, row) in (1..).zip(text.lines()) {
         if row.trim().is_empty() || row.starts_with('#') {
@@ -36,13 +37,16 @@ pub fn script(text: &str) -> Result<Script, TableError> {
             continue;
         }
         script.events.push(event(&cells, row.chars().count() + 1).map_err(at)?);
-        rows.push((line, [0, 3].map(|i| cells.get(i).map_or(1, |cell: &Cell| cell.0))));
+        rows.push((line, [0, 1, 2, 3].map(|i| cells.get(i).map_or(1, |cell: &Cell| cell.0))));
     }
     // the script's own checks: ticks in order, sizes
-    script.check().map_err(|error| {
-        let (line, [tick, value]) = error.event.and_then(|i| rows.get(i)).copied().unwrap_or((1, [1, 1]));
+    let checked = config.map_or_else(|| script.check(), |config| script.check_for(config));
+    checked.map_err(|error| {
+        let (line, [tick, robot, input, value]) = error.event.and_then(|i| rows.get(i)).copied().unwrap_or((1, [1; 4]));
         let column = match error.problem {
             ScriptProblem::Tick(_) | ScriptProblem::Order { .. } => tick,
+            ScriptProblem::Robot(_) => robot,
+            ScriptProblem::NotTaken(_) => input,
             _ => value,
         };
         TableError { line, column, reason: error.problem.to_string() }
@@ -162,7 +166,7 @@ mod tests {
     fn a_table_becomes_the_script_it_describes() {
         let table = "\u{feff}tick,robot,input,first,second\n# a drive\n1,Rusty,Drive,64,-20\n\n 5 , Reach , MoveTo , 0.5 , -1e-6 \r\n\
                      7,\"a \"\"b\"\", c\",Teleport,2,,\n9,Hitch,SetTrailer,on\n9,Hitch,SetTrailer,off,,\n12,Rusty,Release,,";
-        let script = script(table).unwrap();
+        let script = super::script(table, None).unwrap();
         let event = |tick, robot: &str, input| Event { tick, robot: robot.into(), input };
         let expected = [
             event(1, "Rusty", RobotInput::Drive(64, -20)),
@@ -173,14 +177,15 @@ mod tests {
             event(12, "Rusty", RobotInput::Release),
         ];
         assert_eq!(script.events, expected);
-        assert_eq!(super::script("").unwrap(), Script::empty());
+        assert_eq!(super::script("", None).unwrap(), Script::empty());
     }
 
     /// Without the limit, each cell of a row of 36 MB of commas took 60 bytes and more.
     #[test]
     fn a_row_has_at_most_a_thousand_cells() {
         // the first value stands in column 16, and a further one two columns on
-        let row = |values: usize| script(&format!("5,Reach,MoveTo{},x", ",1".repeat(values))).unwrap_err().to_string();
+        let row =
+            |values: usize| script(&format!("5,Reach,MoveTo{},x", ",1".repeat(values)), None).unwrap_err().to_string();
         assert_eq!(row(996), "1:2008: \"x\" is no number");
         assert_eq!(row(997), "1:2010: more than 1000 cells in a row");
         assert_eq!(row(1_000_000), "1:2010: more than 1000 cells in a row");
@@ -218,7 +223,20 @@ mod tests {
                 "1:7: \"Fly\" is no input: it must be Drive, MoveTo, Teleport, SetTrailer or Release",
             ),
         ] {
-            assert_eq!(script(table).unwrap_err().to_string(), error, "{table}");
+            assert_eq!(script(table, None).unwrap_err().to_string(), error, "{table}");
         }
+    }
+
+    #[test]
+    fn a_table_is_checked_against_its_world_cell_by_cell() {
+        let config = TourConfig::default();
+        let refused =
+            |row: &str| script(&format!("tick\n4,Rusty,Release\n{row}"), Some(&config)).unwrap_err().to_string();
+        assert_eq!(refused("5,Anna,Release"), "3:3: there is no robot \"Anna\"");
+        let car =
+            "tick 5: robot \"Hitch\" is a hitch and takes no MoveTo: it takes Drive, Teleport, SetTrailer and Release";
+        assert_eq!(refused("5,Hitch,MoveTo,1,2,3"), format!("3:9: {car}"));
+        assert!(refused("5,Reach,MoveTo,1,2,3").starts_with("3:16: tick 5: MoveTo of robot \"Reach\" has 3"));
+        assert!(script("5,Reach,MoveTo,1,2", Some(&config)).is_ok() && script("5,Anna,Release", None).is_ok());
     }
 }

@@ -1,0 +1,162 @@
+//! A submission's grade, as JSON and as lines for people.
+
+use motion_lab::export::JsonNumber;
+use motion_lab::recording::{Assignment, Attempt, Criterion, Grade, Refusal};
+use serde::Serialize;
+
+use crate::cli::{Data, Failure};
+
+/// A submission's grade as JSON.
+#[derive(Serialize)]
+pub struct Graded {
+    pub submission: String,
+    pub passed: bool,
+    /// The points earned.
+    pub points: JsonNumber,
+    /// The points that could be earned.
+    pub max_points: JsonNumber,
+    /// The criteria that are worth points.
+    pub criteria: Vec<Part>,
+    /// The number of the assignment's seeds.
+    pub seeds: usize,
+    /// The tick of the first forged frame.
+    pub forged_at: Option<u64>,
+    /// The reason why it was refused.
+    pub refused: Option<String>,
+    pub attempts: Vec<Tried>,
+}
+
+/// A criterion as JSON.
+#[derive(Serialize)]
+pub struct Part {
+    pub name: &'static str,
+    pub points: JsonNumber,
+    pub max_points: JsonNumber,
+    /// The number of seeds at which it is met.
+    pub met: usize,
+}
+
+/// An attempt as JSON.
+#[derive(Serialize)]
+pub struct Tried {
+    pub seed: u64,
+    pub verdict: String,
+    #[serde(skip)]
+    pub passed: bool,
+    pub tick: u64,
+    pub contacts: u32,
+    pub reversals: u32,
+    pub configuration: Vec<JsonNumber>,
+    /// The distance to the goal; null for a configuration of another space.
+    pub metres: Option<JsonNumber>,
+    /// The greatest difference of an angle to the goal's; null for a configuration of another space.
+    pub radians: Option<JsonNumber>,
+}
+
+impl Graded {
+    /// The grade of a submission.
+    pub fn new(submission: String, assignment: &Assignment, grade: &Grade) -> Self {
+        let tried = |attempt: &Attempt| Tried {
+            seed: attempt.seed.0,
+            verdict: attempt.verdict.to_string(),
+            passed: attempt.passed(),
+            tick: attempt.tick,
+            contacts: attempt.contacts,
+            reversals: attempt.reversals,
+            configuration: attempt.configuration.iter().copied().map(JsonNumber).collect(),
+            metres: attempt.distance.map(|d| JsonNumber(d.metres)),
+            radians: attempt.distance.map(|d| JsonNumber(d.radians)),
+        };
+        let part = |criterion: &Criterion| Part {
+            name: criterion.name,
+            points: JsonNumber(criterion.points),
+            max_points: JsonNumber(criterion.of),
+            met: criterion.met,
+        };
+        let forged_at = match &grade.refusal {
+            Some(Refusal::Forged(divergence)) => Some(divergence.tick),
+            _ => None,
+        };
+        Graded {
+            submission,
+            passed: grade.passed(),
+            points: JsonNumber(grade.score.points),
+            max_points: JsonNumber(grade.score.of),
+            criteria: grade.score.criteria.iter().map(part).collect(),
+            seeds: assignment.seeds().len(),
+            forged_at,
+            refused: grade.refusal.as_ref().map(Refusal::to_string),
+            attempts: grade.attempts.iter().map(tried).collect(),
+        }
+    }
+
+    /// A submission that could not be graded.
+    pub fn refused(submission: String, assignment: &Assignment, reason: String) -> Self {
+        let none = assignment.score(&[]);
+        let criteria = none.criteria.iter();
+        let criteria =
+            criteria.map(|c| Part { name: c.name, points: JsonNumber(0.0), max_points: JsonNumber(c.of), met: 0 });
+        Graded {
+            submission,
+            passed: false,
+            points: JsonNumber(0.0),
+            max_points: JsonNumber(none.of),
+            criteria: criteria.collect(),
+            seeds: assignment.seeds().len(),
+            forged_at: None,
+            refused: Some(reason),
+            attempts: Vec::new(),
+        }
+    }
+
+    /// The heading of the table for people.
+    pub fn head(width: usize) -> String {
+        let columns = "tick  contacts  reversals  to the goal";
+        format!("{:width$}  {:>6}  {:18}  {columns}", "submission", "seed", "verdict")
+    }
+
+    /// Prints a line for each attempt, or the reason why there are none.
+    pub fn print(&self, width: usize, data: &mut Data) -> Result<(), Failure> {
+        let name = &self.submission;
+        if let Some(reason) = &self.refused {
+            data.line(format!("{name:width$}  {:>6}  {reason}", "-"))?;
+        }
+        for tried in &self.attempts {
+            let Tried { seed, verdict, tick, contacts, reversals, .. } = tried;
+            let far = far(tried);
+            data.line(format!(
+                "{name:width$}  {seed:>6}  {verdict:18}  {tick:>4}  {contacts:>8}  {reversals:>9}  {far}"
+            ))?;
+        }
+        if self.criteria.iter().any(|c| c.name != "all") {
+            let part = |c: &Part| format!("{} {} of {}", c.name, rounded(c.points.0), rounded(c.max_points.0));
+            let parts: Vec<String> = self.criteria.iter().map(part).collect();
+            let (points, of) = (rounded(self.points.0), rounded(self.max_points.0));
+            data.line(format!("{name:width$}  {:>6}  {points} of {of} points: {}", "", parts.join(", ")))?;
+        }
+        Ok(())
+    }
+}
+
+/// Points with two decimals at most.
+pub fn rounded(points: f64) -> String {
+    let text = format!("{points:.2}");
+    text.trim_end_matches('0').trim_end_matches('.').to_owned()
+}
+
+/// `0.350 m, 0.120 rad`: how far an attempt's configuration is from the goal.
+fn far(tried: &Tried) -> String {
+    match (&tried.metres, &tried.radians) {
+        (Some(metres), Some(radians)) => format!("{:.3} m, {:.3} rad", metres.0, radians.0),
+        _ => "another space".into(),
+    }
+}
+
+/// An attempt as a line of text.
+pub fn in_words(tried: &Tried) -> String {
+    let Tried { seed, verdict, tick, contacts, reversals, .. } = tried;
+    format!(
+        "seed {seed}: {verdict} at tick {tick}, contacts {contacts}, reversals {reversals}, to the goal {}",
+        far(tried)
+    )
+}

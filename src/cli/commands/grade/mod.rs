@@ -1,0 +1,197 @@
+//! `grade`: submissions against an assignment.
+
+mod gradebook;
+mod graded;
+mod submissions;
+
+use std::path::{Path, PathBuf};
+
+use clap::{Args, ValueEnum};
+use motion_lab::recording::{
+    Assignment, AssignmentError, AssignmentFile, AssignmentProblem, Refusal, RunError, Submission,
+};
+use motion_lab::run::{Log, Script};
+use motion_lab::simulation::SpawnError;
+use motion_lab::worlds::World;
+
+use crate::cli::support::input::{MAX_TEXT, read_bytes, read_text};
+use crate::cli::support::log_source::MAX_LOG;
+use crate::cli::support::simulate::unknown_kind;
+use crate::cli::support::world_source::{find_world, read_world};
+use crate::cli::{Data, Failure, Outcome, say};
+use gradebook::Results;
+use graded::Graded;
+
+/// Grade scripts and logs by running them again at every seed of an assignment.
+///
+/// A log's frames are simulated again first: a log that claims others is forged. A submission passes when its robot is
+/// at the goal within every limit, at every seed. The exit code is 0 when all pass, 3 when a file is missing or can't
+/// be read, else 4.
+///
+/// An assignment, in which the car has to park: it passes only when it stays there for the last 20 ticks.
+///
+/// Assignment(version: 1, world: "lot", robot: "Hitch", start: [6.5, 2.5, 0],
+///     goal: (at: [7.5, 2.5, 0], within: [0.1, 0.1, 0.1]),
+///     stay: (hold: 20, at: end),
+///     limits: (ticks: 200, contacts: 0, reversals: 3),
+///     points: (goal: 6, contacts: 2, reversals: 2),
+///     seeds: "0..10")
+///
+/// A submission that passes:
+///
+/// Script(version: 1, events: [
+///     (tick: 1, robot: "Hitch", input: Drive(128, 0)),
+///     (tick: 14, robot: "Hitch", input: Drive(0, 0))])
+#[derive(Debug, Args)]
+#[command(
+    verbatim_doc_comment,
+    after_help = "\
+Examples:
+  motion-lab grade exam.ron ann.ron ben.mcap
+  motion-lab grade --json exam.ron submissions/*.ron
+  motion-lab grade --csv exam.ron submissions > grades.csv
+  motion-lab grade --format gradescope exam.ron ann.ron > results.json"
+)]
+pub struct GradeArgs {
+    /// The assignment, RON.
+    assignment: PathBuf,
+    /// The submissions: scripts, and logs named .mcap; a folder stands for those in it, and a pattern in quotes, as
+    /// "week3/*.ron", for the files that match.
+    #[arg(required = true, value_name = "SUBMISSION")]
+    submissions: Vec<PathBuf>,
+    /// How the grades are written. [default: table]
+    #[arg(long, value_enum, value_name = "FORM", conflicts_with_all = ["json", "csv"])]
+    format: Option<Form>,
+    /// One line of JSON for each submission; the same as --format json.
+    #[arg(long, conflicts_with = "csv")]
+    json: bool,
+    /// A gradebook: a row of comma-separated values for each submission; the same as --format csv.
+    #[arg(long)]
+    csv: bool,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum Form {
+    /// A line for people for each seed.
+    Table,
+    /// A line of JSON for each submission.
+    Json,
+    /// A row for each submission.
+    Csv,
+    /// Gradescope's results.json, of one submission.
+    Gradescope,
+}
+
+impl GradeArgs {
+    fn form(&self) -> Form {
+        match self.format {
+            Some(form) => form,
+            None if self.json => Form::Json,
+            None if self.csv => Form::Csv,
+            None => Form::Table,
+        }
+    }
+
+    /// Runs the command.
+    pub fn run(self, data: &mut Data) -> Result<Outcome, Failure> {
+        let form = self.form();
+        let assignment = read_assignment(&self.assignment)?;
+        let files = submissions::find(&self.submissions, &self.assignment)?;
+        if form == Form::Gradescope && files.len() != 1 {
+            return Err(Failure::usage(
+                format!("{} submissions: Gradescope's results.json is of one", files.len()),
+                "Name one submission, or use --csv for many.",
+            ));
+        }
+        let names: Vec<String> = files.iter().map(|path| path.display().to_string()).collect();
+        let width = names.iter().map(|name| name.chars().count()).max().unwrap_or(0).max("submission".len());
+        let (mut passed, mut is_missing) = (0, false);
+        match form {
+            Form::Table => data.line(Graded::head(width))?,
+            Form::Csv => data.data_line(gradebook::HEAD)?,
+            Form::Json | Form::Gradescope => {}
+        }
+        for (path, name) in files.iter().zip(&names) {
+            let graded = match read_submission(path) {
+                Ok(Ok(submission)) => {
+                    let grade = assignment.grade(&submission);
+                    if let Some(Refusal::Run(RunError::Spawn(SpawnError::UnknownKind { .. }))) = grade.refusal {
+                        say(format!("{name}: {}", unknown_kind()));
+                    }
+                    Graded::new(name.clone(), &assignment, &grade)
+                }
+                Ok(Err(reason)) => Graded::refused(name.clone(), &assignment, reason),
+                Err(failure @ Failure::Input { .. }) => {
+                    is_missing = true;
+                    let reason = reason_of(&failure, name);
+                    data.flush()?;
+                    say(failure);
+                    Graded::refused(name.clone(), &assignment, reason)
+                }
+                Err(failure) => return Err(failure),
+            };
+            passed += usize::from(graded.passed);
+            match form {
+                Form::Table => graded.print(width, data)?,
+                Form::Json => data.json(&graded)?,
+                Form::Csv => data.data_line(gradebook::row(&graded))?,
+                Form::Gradescope => data.json(&Results::new(&graded))?,
+            }
+            data.flush()?;
+        }
+        if form == Form::Table {
+            data.line(format!("{passed} of {} pass", names.len()))?;
+        }
+        Ok(match (passed == names.len(), is_missing) {
+            (true, _) => Outcome::Done,
+            (false, true) => Outcome::BadInput,
+            (false, false) => Outcome::NotPassed,
+        })
+    }
+}
+
+/// The reason of a file that can't be read, without the file's name and what to do.
+fn reason_of(failure: &Failure, name: &str) -> String {
+    let text = failure.to_string();
+    let line = text.lines().next().unwrap_or_default();
+    line.strip_prefix(name).and_then(|rest| rest.strip_prefix(": ")).unwrap_or(line).to_owned()
+}
+
+fn read_assignment(path: &Path) -> Result<Assignment, Failure> {
+    let refused = |error: AssignmentError| {
+        let next = match &*error.problem {
+            AssignmentProblem::Configuration(RunError::Spawn(SpawnError::UnknownKind { .. })) => unknown_kind(),
+            _ => "Correct it there. `motion-lab grade --help` shows an assignment.".into(),
+        };
+        Failure::input(error, next)
+    };
+    let file = AssignmentFile::parse(&path.display().to_string(), &read_text(path)?).map_err(refused)?;
+    // a world file lies where the assignment says, seen from the assignment's own folder
+    let name = file.world_name();
+    let beside = path.parent().unwrap_or(Path::new("")).join(name);
+    let world =
+        if World::built_in(name).is_none() && beside.exists() { read_world(&beside)? } else { find_world(name)? };
+    file.in_world(world).map_err(refused)
+}
+
+/// A submission, or why it is none. Only a file that can't be read at all is a failure.
+fn read_submission(path: &Path) -> Result<Result<Submission, String>, Failure> {
+    if path.is_dir() {
+        return Ok(Err("no script, log or table is in this folder".into()));
+    }
+    if path.extension().is_some_and(|extension| extension == "mcap") {
+        let log = Log::read_mcap(&read_bytes(path, MAX_LOG)?);
+        return Ok(log.map(|read| Submission::Log(Box::new(read.log))).map_err(|error| error.to_string()));
+    }
+    let bytes = read_bytes(path, MAX_TEXT)?;
+    if path.extension().is_some_and(|extension| extension == "csv") {
+        let (file, ron) = (path.display(), path.with_extension("ron"));
+        let ron = ron.display();
+        return Ok(Err(format!("a table is no script; make one of it: motion-lab script convert {file} -o {ron}")));
+    }
+    let file = path.file_name().unwrap_or_default().to_string_lossy();
+    Ok(String::from_utf8(bytes)
+        .map_err(|_| "no script: it is not UTF-8".to_owned())
+        .and_then(|text| Script::parse(&file, &text).map_err(|error| error.to_string()))
+        .map(Submission::Script))
+}

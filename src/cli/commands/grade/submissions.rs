@@ -1,0 +1,159 @@
+//! The submissions named on the command line: files, folders, and patterns that a shell did not resolve.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use crate::cli::Failure;
+use crate::cli::support::input::unreadable;
+
+/// How deep folders are looked into.
+const DEEPEST: usize = 8;
+
+/// Largest number of files in the folders and patterns of one command.
+const MOST: usize = 100_000;
+
+/// The files that `names` name, in their order. A folder stands for the scripts, logs and tables in it and in its
+/// folders, by name, but for the file `assignment`. A pattern with `*` or `?` that is no file's name stands for the
+/// files that match it. A folder or a pattern without any stays itself. Any other name is taken as it is, whether there
+/// is such a file or not.
+pub fn find(names: &[PathBuf], assignment: &Path) -> Result<Vec<PathBuf>, Failure> {
+    let own = fs::canonicalize(assignment).ok();
+    let is_assignment = |file: &PathBuf| own.is_some() && fs::canonicalize(file).ok() == own;
+    let mut found = Vec::new();
+    for name in names {
+        let before = found.len();
+        if name.is_dir() {
+            walk(name, 0, &mut found)?;
+        } else if !name.exists() && is_pattern(name) {
+            matching(name, &mut found)?;
+        } else {
+            found.push(name.clone());
+            continue;
+        }
+        let mut new = found.split_off(before);
+        new.retain(|file| !is_assignment(file));
+        if new.is_empty() {
+            // it gets a row that says so
+            new.push(name.clone());
+        }
+        found.append(&mut new);
+    }
+    Ok(found)
+}
+
+/// The files and folders in a folder, by name.
+fn entries(folder: &Path) -> Result<Vec<PathBuf>, Failure> {
+    let read =
+        fs::read_dir(folder).and_then(|all| all.map(|entry| entry.map(|e| e.path())).collect::<Result<Vec<_>, _>>());
+    let mut all = read.map_err(|error| unreadable(folder, &error))?;
+    all.sort();
+    Ok(all)
+}
+
+/// Adds the submissions in a folder and its folders. Links to folders are not followed.
+fn walk(folder: &Path, depth: usize, found: &mut Vec<PathBuf>) -> Result<(), Failure> {
+    for path in entries(folder)? {
+        if path.is_dir() {
+            if depth < DEEPEST && !path.is_symlink() {
+                walk(&path, depth + 1, found)?;
+            }
+        } else if path.extension().is_some_and(|e| ["ron", "mcap", "csv"].iter().any(|known| e == *known)) {
+            push(path, found)?;
+        }
+    }
+    Ok(())
+}
+
+fn push(path: PathBuf, found: &mut Vec<PathBuf>) -> Result<(), Failure> {
+    if found.len() == MOST {
+        return Err(Failure::input(format!("more than {MOST} submissions"), "Grade them in several parts."));
+    }
+    found.push(path);
+    Ok(())
+}
+
+fn is_pattern(name: &Path) -> bool {
+    name.to_str().is_some_and(|name| name.contains(['*', '?']))
+}
+
+/// Adds the files that a pattern matches.
+fn matching(pattern: &Path, found: &mut Vec<PathBuf>) -> Result<(), Failure> {
+    let mut places = vec![PathBuf::new()];
+    for part in pattern.components() {
+        let part = part.as_os_str();
+        let mut next = Vec::new();
+        for place in places {
+            if !is_pattern(Path::new(part)) {
+                next.push(place.join(part));
+                continue;
+            }
+            let folder = if place.as_os_str().is_empty() { Path::new(".") } else { &place };
+            if !folder.is_dir() {
+                continue;
+            }
+            for entry in entries(folder)? {
+                let Some(name) = entry.file_name() else { continue };
+                if name.to_str().zip(part.to_str()).is_some_and(|(name, pattern)| matches(pattern, name)) {
+                    next.push(place.join(name));
+                }
+            }
+        }
+        places = next;
+    }
+    places.into_iter().filter(|place| place.is_file()).try_for_each(|place| push(place, found))
+}
+
+/// Whether a name matches a pattern, in which `*` stands for any characters and `?` for one. A hidden file matches a
+/// pattern that begins with its dot only.
+fn matches(pattern: &str, name: &str) -> bool {
+    if name.starts_with('.') && !pattern.starts_with('.') {
+        return false;
+    }
+    let (pattern, name): (Vec<char>, Vec<char>) = (pattern.chars().collect(), name.chars().collect());
+    // the last star, and how much of the name it stands for
+    let (mut p, mut n, mut star) = (0, 0, None);
+    while n < name.len() {
+        match pattern.get(p) {
+            Some('*') => {
+                star = Some((p, n));
+                p += 1;
+            }
+            Some(c) if *c == '?' || *c == name[n] => (p, n) = (p + 1, n + 1),
+            _ => match star {
+                Some((at, taken)) => {
+                    star = Some((at, taken + 1));
+                    (p, n) = (at + 1, taken + 1);
+                }
+                None => return false,
+            },
+        }
+    }
+    pattern[p..].iter().all(|c| *c == '*')
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn stars_and_question_marks_stand_for_what_shells_let_them_stand_for() {
+        for (pattern, name, is) in [
+            ("*.ron", "anna.ron", true),
+            ("*.ron", "anna.mcap", false),
+            ("*.ron", ".anna.ron", false),
+            (".*", ".anna", true),
+            ("a*a*b", "aaab", true),
+            ("a*a*b", "ab", false),
+            ("?nna", "anna", true),
+            ("?nna", "nna", false),
+            ("*", "", true),
+            ("a*", "a", true),
+            ("anna", "annab", false),
+            ("\u{fc}?.ron", "\u{fc}\u{e9}.ron", true),
+        ] {
+            assert_eq!(matches(pattern, name), is, "{pattern} {name}");
+        }
+        // without going back only to the last star, this would not end
+        assert!(!matches(&"a*".repeat(50), &format!("{}b", "a".repeat(40))));
+    }
+}

@@ -1,0 +1,136 @@
+//! `stats`: what runs were like for each of their robots.
+
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+use motion_lab::configuration::Kinds;
+use motion_lab::export::JsonNumber;
+use motion_lab::run::{DT, RobotStats, RunStats, StatsGatherer};
+use serde::Serialize;
+
+use crate::cli::support::input::for_each_file;
+use crate::cli::support::log_source::{AnySource, read_any_log};
+use crate::cli::support::simulate::each_frame;
+use crate::cli::{Data, Failure, Outcome, say};
+
+/// Say what runs were like for each of their robots: contacts, time in contact, length of the path, least clearance.
+///
+/// The clearance is the distance from the nearest obstacle at the end of a tick; other robots are no obstacles. An
+/// arm's path is that of its tip. Of a log with frames nothing is simulated; the run of a digest log is simulated again
+/// first.
+#[derive(Debug, Args)]
+#[command(after_help = "\
+Examples:
+  motion-lab stats run.mcap
+  motion-lab stats --json runs/*.mcap")]
+pub struct StatsArgs {
+    /// The logs.
+    #[arg(required = true, value_name = "FILE")]
+    files: Vec<PathBuf>,
+    /// One line of JSON for each log.
+    #[arg(long)]
+    json: bool,
+}
+
+/// The stats of a log as JSON.
+#[derive(Serialize)]
+struct LogStats<'a> {
+    file: String,
+    seed: u64,
+    ticks: u64,
+    seconds: JsonNumber,
+    robots: Vec<RobotLine<'a>>,
+}
+
+/// A robot's stats as JSON.
+#[derive(Serialize)]
+struct RobotLine<'a> {
+    name: &'a str,
+    kind: &'a str,
+    world: &'a str,
+    contacts: u32,
+    contact_ticks: u64,
+    contact_s: JsonNumber,
+    /// Null where it is not known.
+    path_m: Option<JsonNumber>,
+    /// Null in a world without obstacles.
+    least_clearance_m: Option<JsonNumber>,
+    /// The tick of the least clearance.
+    least_clearance_tick: Option<u64>,
+    refusals: u32,
+}
+
+impl StatsArgs {
+    /// Runs the command.
+    pub fn run(self, data: &mut Data) -> Result<Outcome, Failure> {
+        let (mut is_damaged, mut differs) = (false, false);
+        let mut is_first = true;
+        let outcome = for_each_file(&self.files, data, |file, data| {
+            let AnySource { log, damage, .. } = read_any_log(file)?;
+            if let Some(damage) = &damage {
+                is_damaged = true;
+                say(format!("{damage}\nThis much is counted; `motion-lab record --resume` makes it whole."));
+            }
+            let (seed, config, script) = log.parts();
+            let kinds = Kinds::default();
+            let mut gatherer = StatsGatherer::new(config, script, &kinds);
+            if let Some(difference) = each_frame(&log, |frame| gatherer.see(frame))? {
+                differs = true;
+                say(format!("{}: the run does not repeat its recording: {difference}", file.display()));
+            }
+            let stats = gatherer.stats();
+            if self.json {
+                return data.json(&LogStats::new(file, seed.0, &stats));
+            }
+            if !std::mem::replace(&mut is_first, false) {
+                data.line("")?;
+            }
+            print(file, &stats, data)
+        })?;
+        Ok(match outcome {
+            Outcome::Done if differs => Outcome::Differs,
+            Outcome::Done if is_damaged => Outcome::Recovered,
+            outcome => outcome,
+        })
+    }
+}
+
+impl<'a> LogStats<'a> {
+    fn new(file: &Path, seed: u64, stats: &'a RunStats) -> Self {
+        let robot = |robot: &'a RobotStats| RobotLine {
+            name: &robot.name,
+            kind: &robot.kind,
+            world: &robot.world,
+            contacts: robot.contacts,
+            contact_ticks: robot.contact_ticks,
+            contact_s: JsonNumber(robot.contact_seconds()),
+            path_m: robot.path_length.map(JsonNumber),
+            least_clearance_m: robot.least_clearance.map(|least| JsonNumber(least.metres)),
+            least_clearance_tick: robot.least_clearance.map(|least| least.tick),
+            refusals: robot.refusals,
+        };
+        let seconds = JsonNumber(DT * stats.ticks as f64);
+        let robots = stats.robots.iter().map(robot).collect();
+        LogStats { file: file.display().to_string(), seed, ticks: stats.ticks, seconds, robots }
+    }
+}
+
+/// Prints a table, a row for each robot.
+fn print(file: &Path, stats: &RunStats, data: &mut Data) -> Result<(), Failure> {
+    let width = |of: fn(&RobotStats) -> &str, least: usize| {
+        stats.robots.iter().map(|robot| of(robot).chars().count()).max().unwrap_or(0).max(least)
+    };
+    let (names, worlds) = (width(|robot| &robot.name, "robot".len()), width(|robot| &robot.world, "world".len()));
+    data.line(format!("{}: {} ticks ({:.2} s)", file.display(), stats.ticks, DT * stats.ticks as f64))?;
+    data.line(format!("{:names$}  {:worlds$}  contacts  in contact         path  least clearance", "robot", "world"))?;
+    for robot in &stats.robots {
+        let RobotStats { name, world, contacts, .. } = robot;
+        let path = robot.path_length.map_or_else(|| "unknown".into(), |length| format!("{length:.3} m"));
+        let clearance = robot
+            .least_clearance
+            .map_or_else(|| "none".into(), |least| format!("{:.4} m at {:.2} s", least.metres, DT * least.tick as f64));
+        let seconds = format!("{:.2} s", robot.contact_seconds());
+        data.line(format!("{name:names$}  {world:worlds$}  {contacts:>8}  {seconds:>10}  {path:>11}  {clearance}"))?;
+    }
+    Ok(())
+}
