@@ -6,7 +6,7 @@ mod stills;
 use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
-use motion_lab::export::{ExportError, write_csv, write_foxglove_of_file, write_jsonl};
+use motion_lab::export::{ExportError, write_csv, write_foxglove_of_file, write_jsonl, write_rerun_of_file};
 use motion_lab::run::Log;
 
 use crate::cli::support::input::read_bytes;
@@ -51,9 +51,11 @@ enum Format {
     Png,
     /// The run as it goes: the same figure at tick after tick.
     Gif,
-    /// An MCAP file for Foxglove, Lichtblick and Rerun: the log's own channels, and transforms, scans, scenes and log
-    /// messages by Foxglove's schemas. It is not a log that `verify` reads.
+    /// An MCAP file for Foxglove and Lichtblick: the log's own channels, and transforms, scans, scenes and log messages
+    /// by Foxglove's schemas. It is not a log that `verify` reads.
     Foxglove,
+    /// The same for Rerun, which draws clouds of points: worlds, robots, paths and scans are clouds.
+    Rerun,
 }
 
 impl Export {
@@ -62,10 +64,11 @@ impl Export {
         if self.ranges && self.format != Format::Csv {
             return Err(Failure::usage(
                 "--ranges is only valid with --format csv",
-                "Leave it out: jsonl and foxglove always hold the ranges.",
+                "Leave it out: jsonl, foxglove and rerun always hold them.",
             ));
         }
-        if matches!(self.format, Format::Foxglove | Format::Png | Format::Gif) && self.output.is_none() {
+        if matches!(self.format, Format::Foxglove | Format::Rerun | Format::Png | Format::Gif) && self.output.is_none()
+        {
             return Err(Failure::usage("this form is not for standard output", "Name a file: -o FILE."));
         }
         let LogSource { read, damage } = read_log(&self.file)?;
@@ -74,7 +77,7 @@ impl Export {
         }
         let (file, log) = (&self.file, &read.log);
         match (self.format, &self.output) {
-            (Format::Foxglove, Some(output)) => foxglove(file, log, output)?,
+            (Format::Foxglove | Format::Rerun, Some(output)) => self.viewer(log, output)?,
             (Format::Png, Some(output)) => stills::png(&self.stills, file, log, output)?,
             (Format::Gif, Some(output)) => stills::gif(&self.stills, file, log, output)?,
             (format, output) => {
@@ -95,16 +98,20 @@ impl Export {
         }
         Ok(if damage.is_some() { Outcome::Recovered } else { Outcome::Done })
     }
-}
 
-/// Writes the log that was read from `file` for viewers.
-fn foxglove(file: &Path, log: &Log, output: &Path) -> Result<(), Failure> {
-    let bytes = read_bytes(file, MAX_LOG)?;
-    let mut pending = PendingFile::create(output)?;
-    write_foxglove_of_file(&bytes, log, &mut pending, |_| {}).map_err(|error| match error {
-        ExportError::Write(error) => Failure::output(output, &error),
-        ExportError::Run(error) => not_shown(file, &error),
-        error => Failure::internal(error),
-    })?;
-    pending.commit()
+    /// Writes the log for a viewer.
+    fn viewer(&self, log: &Log, output: &Path) -> Result<(), Failure> {
+        let bytes = read_bytes(&self.file, MAX_LOG)?;
+        let mut pending = PendingFile::create(output)?;
+        let written = match self.format {
+            Format::Rerun => write_rerun_of_file(&bytes, log, &mut pending, |_| {}),
+            _ => write_foxglove_of_file(&bytes, log, &mut pending, |_| {}),
+        };
+        written.map_err(|error| match error {
+            ExportError::Write(error) => Failure::output(output, &error),
+            ExportError::Run(error) => not_shown(&self.file, &error),
+            error => Failure::internal(error),
+        })?;
+        pending.commit()
+    }
 }
