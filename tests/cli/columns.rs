@@ -55,16 +55,11 @@ fn rows(file: &Path) -> Vec<Row> {
     let text = run(&["export", file.to_str().unwrap(), "--format", "csv", "--ranges"]).done();
     let mut lines = text.lines();
     let head: Vec<&str> = lines.next().unwrap().split(',').collect();
-    let lists = |name: &str, count: u32| (0..count).map(|i| format!("{name}{i}")).collect::<Vec<_>>().join(",");
-    let expected = [
-        "tick,time,id,robot".to_owned(),
-        lists("configuration", 4),
-        lists("extra", 3),
-        lists("channel", 2),
-        "manual,in_contact,contacts,flash,refusals".to_owned(),
-        lists("range", 8),
-    ];
-    assert_eq!(head.join(","), expected.join(","));
+    let ranges: Vec<String> = (0..8).map(|i| format!("range{i}_m")).collect();
+    let expected = "tick,time_s,id,robot,x_m,y_m,theta_rad,theta1_rad,theta2_rad,psi_rad,\
+        left_wheel_rad,right_wheel_rad,waypoint,channel0,channel1,target_theta1_rad,target_theta2_rad,\
+        manual,in_contact,contacts,flash,refusals";
+    assert_eq!(head.join(","), format!("{expected},{}", ranges.join(",")));
     let row = |line: &str| -> Row {
         assert_eq!(line.split(',').count(), head.len(), "{line}");
         head.iter().zip(line.split(',')).map(|(name, cell)| ((*name).to_owned(), cell.to_owned())).collect()
@@ -76,11 +71,23 @@ fn number(row: &Row, column: &str) -> f64 {
     row[column].parse().unwrap_or_else(|_| panic!("{column}: {:?}", row[column]))
 }
 
-/// The numbers of the columns of this name from 0 on, up to the first empty one.
+/// The columns of a list of a robot's numbers.
+fn columns_of(robot: &str, list: &str) -> Vec<String> {
+    let names = match (list, robot) {
+        ("configuration", "Rusty") => "x_m y_m theta_rad",
+        ("configuration", "Reach") => "theta1_rad theta2_rad",
+        ("configuration", _) => "x_m y_m theta_rad psi_rad",
+        ("extra", "Rusty") => "left_wheel_rad right_wheel_rad waypoint",
+        ("range", _) => "range0_m range1_m range2_m range3_m range4_m range5_m range6_m range7_m",
+        _ => "",
+    };
+    names.split_whitespace().map(str::to_owned).collect()
+}
+
+/// The numbers of a list, up to the first empty one.
 fn list(row: &Row, name: &str) -> Vec<f64> {
-    let columns =
-        (0..).map(|i| format!("{name}{i}")).take_while(|column| row.get(column).is_some_and(|c| !c.is_empty()));
-    columns.map(|column| number(row, &column)).collect()
+    let columns = columns_of(&row["robot"], name);
+    columns.iter().take_while(|column| !row[*column].is_empty()).map(|column| number(row, column)).collect()
 }
 
 /// The channels that a driver holds at a tick by the script; `None` before the first event.
@@ -103,7 +110,7 @@ fn check_rover(before: &Row, after: &Row, [speed, turn]: [i16; 2]) {
     let chord = (b[0] - a[0]) * cos(mean) + (b[1] - a[1]) * sin(mean);
     let ahead = if half == 0.0 { chord } else { chord * half / sin(half) };
     for (wheel, ground) in [ahead - 0.08 * turned, ahead + 0.08 * turned].into_iter().enumerate() {
-        let turned = number(after, &format!("extra{wheel}")) - number(before, &format!("extra{wheel}"));
+        let turned = list(after, "extra")[wheel] - list(before, "extra")[wheel];
         assert!((turned - rolled[wheel] / 0.033).abs() < 1e-12, "wheel {wheel}: {after:?}");
         if after["in_contact"] == "false" {
             assert!((ground / rolled[wheel] - 1.0).abs() < 0.05 + 1e-9, "wheel {wheel}: {after:?}");
@@ -149,10 +156,13 @@ fn the_columns_of_a_driven_run_are_what_its_script_and_the_kinematics_make_them(
         let robot = ["Rusty", "Reach", "Hitch"][id];
         let named = ["tick", "id", "robot"].map(|column| after[column].as_str());
         assert_eq!(named, [tick.to_string().as_str(), id.to_string().as_str(), robot]);
-        assert!((number(after, "time") - tick as f64 / 20.0).abs() < 1e-12, "20 ticks a second: {after:?}");
+        assert!((number(after, "time_s") - tick as f64 / 20.0).abs() < 1e-12, "20 ticks a second: {after:?}");
+        let filled =
+            after.iter().filter(|(name, cell)| (name.ends_with("_rad") || name.ends_with("_m")) && !cell.is_empty());
         let widths = [list(after, "configuration").len(), list(after, "extra").len(), list(after, "range").len()];
         let towing = usize::from(robot == "Hitch" && tick > 230);
         assert_eq!(widths, [[3, 3, 8], [2, 0, 0], [3 + towing, 0, 0]][id], "{after:?}");
+        assert_eq!(filled.count(), [3 + 2 + 8, 2, 3 + towing][id], "a number in another robot's column: {after:?}");
         if id == 0 {
             let q = list(after, "configuration");
             let pose = Pose2 { x: q[0], y: q[1], theta: q[2] };
@@ -199,27 +209,35 @@ fn float(value: &Value) -> f64 {
     value.as_f64().unwrap_or_else(|| value.as_str().unwrap().parse().unwrap())
 }
 
+/// The numbers of a list of a robot of a line, in the order of its kind's coordinates.
+fn numbers(robot: &Value, list: &str) -> Vec<f64> {
+    if list == "range" {
+        return robot["ranges_m"].as_array().map_or(Vec::new(), |all| all.iter().map(float).collect());
+    }
+    let columns = columns_of(robot["name"].as_str().unwrap(), list);
+    columns.iter().map(|column| &robot[list][column]).take_while(|x| !x.is_null()).map(float).collect()
+}
+
 /// The encoding documented at `Frame::encode`, from a line of JSON: 64-bit words, little-endian.
 fn words(line: &Value) -> Vec<u8> {
     let (mut words, mut scans) = (vec![line["tick"].as_u64().unwrap()], Vec::new());
-    let list = |words: &mut Vec<u64>, list: &Value| {
-        let list = list.as_array().unwrap();
+    let push = |words: &mut Vec<u64>, list: &[f64]| {
         words.push(list.len() as u64);
-        words.extend(list.iter().map(|x| float(x).to_bits()));
+        words.extend(list.iter().map(|x| x.to_bits()));
     };
     let robots = line["robots"].as_array().unwrap();
     words.push(robots.len() as u64);
     for robot in robots {
         words.push(robot["id"].as_u64().unwrap());
-        list(&mut words, &robot["configuration"]);
-        list(&mut words, &robot["extra"]);
+        push(&mut words, &numbers(robot, "configuration"));
+        push(&mut words, &numbers(robot, "extra"));
         words.extend(robot["channels"].as_array().unwrap().iter().map(|c| c.as_i64().unwrap() as u64));
-        list(&mut words, &robot["target"]);
+        push(&mut words, &numbers(robot, "target"));
         words.extend(["manual", "in_contact"].map(|flag| u64::from(robot[flag].as_bool().unwrap())));
         words.extend(["contacts", "flash", "refusals"].map(|count| robot[count].as_u64().unwrap()));
-        if !robot["ranges"].is_null() {
+        if !robot["ranges_m"].is_null() {
             scans.push(robot["id"].as_u64().unwrap());
-            list(&mut scans, &robot["ranges"]);
+            push(&mut scans, &numbers(robot, "range"));
         }
     }
     words.push(1); // scan
@@ -246,16 +264,15 @@ fn a_line_of_json_has_what_the_rows_of_csv_have_and_the_digest_of_its_words() {
                 [["Rusty", "rusty", "Apartment"], ["Reach", "reach", "Workbench"], ["Hitch", "hitch", "Lot"]];
             assert_eq!((names, row["robot"].as_str()), (expected[id], names[0]));
             for name in ["configuration", "extra", "range"] {
-                let listed = &robot[if name == "range" { "ranges" } else { name }];
-                let found: Vec<u64> =
-                    listed.as_array().map_or(Vec::new(), |all| all.iter().map(|x| float(x).to_bits()).collect());
+                let found: Vec<u64> = numbers(robot, name).iter().map(|x| x.to_bits()).collect();
                 let cells: Vec<u64> = list(row, name).iter().map(|x| x.to_bits()).collect();
                 assert_eq!(found, cells, "{name} of {} at tick {tick}", names[0]);
             }
-            assert_eq!((&line["time"], &line["tick"]), (&number(row, "time").into(), &tick.into()));
+            assert_eq!((&line["time_s"], &line["tick"]), (&number(row, "time_s").into(), &tick.into()));
             let channels = ["channel0", "channel1"].map(|column| Value::from(number(row, column) as i64));
             assert_eq!(robot["channels"], Value::from(channels.to_vec()));
-            assert_eq!(robot["target"], Value::from(Vec::<Value>::new()));
+            let target = robot["target"].as_object().unwrap();
+            assert!(target.len() == [0, 2, 0][id] && target.values().all(Value::is_null), "{target:?}");
             for name in ["id", "manual", "in_contact", "contacts", "flash", "refusals"] {
                 assert_eq!(robot[name].to_string(), row[name], "{name} of {} at tick {tick}", names[0]);
             }

@@ -3,7 +3,9 @@
 use std::fs;
 use std::io::{self, Write};
 
-use motion_lab::export::{ExportError, write_csv, write_foxglove, write_foxglove_of_file, write_jsonl};
+use motion_lab::export::{
+    ExportError, write_csv, write_foxglove, write_foxglove_of_file, write_jsonl, write_rerun, write_rerun_of_file,
+};
 use motion_lab::prelude::*;
 use motion_lab::recording::RunError;
 use motion_lab::run::Log;
@@ -51,6 +53,9 @@ fn the_library_writes_what_the_command_writes() {
         assert!(viewer == written(|out| write_foxglove_of_file(&bytes, &log, out, |_| {})), "{file}");
         // a log that was never in a file has the records that this program gives it
         assert!(!is_new || viewer == written(|out| write_foxglove(&log, out, |_| {})), "{file}");
+        let rerun = command(&["rerun"]);
+        assert!(rerun == written(|out| write_rerun_of_file(&bytes, &log, out, |_| {})) && rerun != viewer, "{file}");
+        assert!(!is_new || rerun == written(|out| write_rerun(&log, out, |_| {})), "{file}");
     }
 }
 
@@ -67,16 +72,17 @@ fn a_kind_of_a_program_s_own_is_exported_with_its_own_footprint() {
     let near = |a: f64, b: f64| (a - b).abs() < 1e-12;
     // by the example's numbers: 0.3 m beyond the car's axles, 1.2 m apart, and beyond a trailer's, 1 m behind its hitch
     let boxes = [[-0.3, 1.5], [-1.3, -0.7], [-1.3, -0.7]];
+    let [(0, scene)] = &topics["/viewer/robots"][..] else { panic!("the train is written once") };
+    let entities = scene.messages(2);
+    assert_eq!(entities.len(), 3);
+    for (part, (entity, [back, front])) in entities.iter().zip(boxes).enumerate() {
+        assert_eq!(entity.text(3), format!("part/{part}/Train"));
+        let expected = [[back, -0.3], [front, -0.3], [front, 0.3], [back, 0.3]];
+        let same = corners(entity).iter().zip(expected).all(|(p, q)| near(p[0], q[0]) && near(p[1], q[1]));
+        assert!(same && corners(entity).len() == 4, "part {part}: {:?}", corners(entity));
+    }
     for (k, frame) in frames(&log).enumerate() {
-        let (tick, scene) = &topics["/viewer/robots"][k];
-        let entities = scene.messages(2);
-        assert_eq!((*tick, entities.len()), (frame.tick, 3));
-        for (part, (entity, [back, front])) in entities.iter().zip(boxes).enumerate() {
-            assert_eq!(entity.text(3), format!("part/{part}/Train"));
-            let expected = [[back, -0.3], [front, -0.3], [front, 0.3], [back, 0.3]];
-            let same = corners(entity).iter().zip(expected).all(|(p, q)| near(p[0], q[0]) && near(p[1], q[1]));
-            assert!(same && corners(entity).len() == 4, "tick {tick}, part {part}: {:?}", corners(entity));
-        }
+        let tick = frame.tick;
         let q = &frame.robots[0].configuration;
         let axle = [q[0] - motion_lab::num::cos(q[3]), q[1] - motion_lab::num::sin(q[3])];
         let places = [("part/0/Train", [q[0], q[1]]), ("part/1/Train", [q[0], q[1]]), ("part/2/Train", axle)];
@@ -97,15 +103,15 @@ fn a_kind_of_a_program_s_own_is_exported_as_data() {
     let table = String::from_utf8(written(|out| write_csv(&log, true, out))).unwrap();
     let mut rows = table.lines().map(|row| row.split(',').map(str::to_owned).collect::<Vec<_>>());
     let head = rows.next().unwrap();
-    assert!(table.starts_with("tick,time,id,robot,configuration0,") && !table.contains("range0"), "{head:?}");
+    assert!(table.starts_with("tick,time_s,id,robot,configuration0,") && !table.contains("range0"), "{head:?}");
     assert_eq!(head.iter().filter(|name| name.starts_with("configuration")).count(), 5);
     assert_eq!((lines.lines().count(), table.lines().count()), (61, 62));
     for ((line, row), frame) in lines.lines().map(json).zip(rows).zip(frames(&log)) {
         let train = &line["robots"][0];
         assert_eq!((&train["name"], &train["kind"]), (&"Train".into(), &"x-train".into()));
-        assert!(train["ranges"].is_null() && train.get("further_scans").is_none());
+        assert!(train["ranges_m"].is_null() && train.get("further_scans").is_none());
         for (k, x) in frame.robots[0].configuration.iter().enumerate() {
-            assert_eq!(train["configuration"][k].as_f64().unwrap().to_bits(), x.to_bits());
+            assert_eq!(train["configuration"][format!("configuration{k}")].as_f64().unwrap().to_bits(), x.to_bits());
             assert_eq!(row[4 + k].parse::<f64>().unwrap().to_bits(), x.to_bits());
         }
     }

@@ -101,6 +101,11 @@ impl Wire {
         self.messages(number).pop().unwrap_or(Wire(Vec::new()))
     }
 
+    /// Bytes; none where they are left out.
+    pub fn bytes(&self, number: u64) -> &[u8] {
+        self.all(number).last().unwrap_or(&[])
+    }
+
     /// A packed list of doubles.
     pub fn doubles(&self, number: u64) -> Vec<f64> {
         let bytes = self.all(number).collect::<Vec<_>>().concat();

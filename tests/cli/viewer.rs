@@ -17,13 +17,16 @@ use super::columns::{driven, frames, write};
 use super::messages::{Wire, messages};
 use super::run;
 
-type Topics = BTreeMap<String, Vec<(u64, Wire)>>;
+pub type Topics = BTreeMap<String, Vec<(u64, Wire)>>;
 
-const NAMES: [&str; 3] = ["Rusty", "Reach", "Hitch"];
+pub const NAMES: [&str; 3] = ["Rusty", "Reach", "Hitch"];
 
 /// The driven run, with the trailer taken off and a rover given back to its tour near the end, and the messages of its
 /// export.
-static EXPORTED: LazyLock<(Log, Topics)> = LazyLock::new(|| {
+static EXPORTED: LazyLock<(Log, Topics)> = LazyLock::new(|| exported("foxglove"));
+
+/// That run, and its messages in one of the forms for viewers.
+pub fn exported(form: &str) -> (Log, Topics) {
     let folder = tempfile::tempdir().unwrap();
     let (_, mut log) = driven(folder.path());
     // the export shows the frames
@@ -33,10 +36,10 @@ static EXPORTED: LazyLock<(Log, Topics)> = LazyLock::new(|| {
         frame.robots[0].manual = false;
     }
     let (file, viewer) = (write(folder.path(), &log), folder.path().join("viewer.mcap"));
-    run(&["export", file.to_str().unwrap(), "--format", "foxglove", "-o", viewer.to_str().unwrap()]).done();
+    run(&["export", file.to_str().unwrap(), "--format", form, "-o", viewer.to_str().unwrap()]).done();
     let topics = messages(&fs::read(viewer).unwrap());
     (log, topics)
-});
+}
 
 /// A coordinate frame in its parent: position and heading.
 type Place = ([f64; 2], f64);
@@ -172,7 +175,7 @@ fn surface(points: &[[f64; 2]]) -> f64 {
 }
 
 /// The distance of a point from a segment on the x axis.
-fn off_axis([x, y]: [f64; 2], [from, to]: [f64; 2]) -> f64 {
+pub fn off_axis([x, y]: [f64; 2], [from, to]: [f64; 2]) -> f64 {
     let beyond = if x < from {
         from - x
     } else if x > to {
@@ -183,54 +186,123 @@ fn off_axis([x, y]: [f64; 2], [from, to]: [f64; 2]) -> f64 {
     (beyond * beyond + y * y).sqrt()
 }
 
-#[test]
-fn every_part_of_a_robot_has_its_own_shape_and_is_red_while_a_contact_flashes() {
+/// The frames of a robot's parts after a tick.
+fn parts_of(frame: &Frame, robot: Option<&str>) -> BTreeSet<String> {
+    let all = expected_frames(frame).into_iter().map(|(child, ..)| child);
+    all.filter(|child| child.starts_with("part/") && robot.is_none_or(|name| child.ends_with(name))).collect()
+}
+
+/// Checks that an entity is a part of a robot in the part's frame, with its own shape.
+fn assert_part(entity: &Wire, part: &str, role: Role, above: f64) {
+    assert_eq!((entity.text(2), entity.number(5)), (part.to_owned(), 1), "it moves with its own frame");
+    let edge = area(entity, role, 0.85, above);
+    // straight sides are exact; round ones lie inside, by at most a four-hundredth of their radius
+    let round = |axis: [f64; 2], radius: f64| {
+        let whole = PI * radius * radius + 2.0 * radius * (axis[1] - axis[0]);
+        let on = edge.iter().all(|p| near(off_axis(*p, axis), radius));
+        on && surface(&edge) < whole && surface(&edge) > whole * 0.99
+    };
+    let rectangle = |[back, front]: [f64; 2], half: f64| {
+        let corners = [[back, -half], [front, -half], [front, half], [back, half]];
+        edge.len() == 4 && edge.iter().zip(corners).all(|(p, q)| near(p[0], q[0]) && near(p[1], q[1]))
+    };
+    assert!(
+        match part {
+            "part/0/Rusty" => round([0.0, 0.0], 0.11),
+            "part/0/Hitch" => rectangle([-0.7, 3.2], 0.85),
+            "part/1/Hitch" => rectangle([-2.8, -1.0], 0.75),
+            _ => round([0.0, 1.0], 0.03),
+        },
+        "{part}: {edge:?}"
+    );
+}
+
+/// Checks the messages of a topic that holds entities in the parts' frames: whenever `expected` changes there is one
+/// with all of it, which deletes what is gone, and otherwise none. Returns the numbers of messages and of deletions.
+fn assert_whole(topic: &str, prefix: &str, expected: impl Fn(&Frame) -> BTreeSet<String>) -> [usize; 2] {
     let (log, topics) = &*EXPORTED;
-    let (mut red, mut shown, mut deleted) = (0, BTreeSet::new(), 0);
-    for (frame, (tick, message)) in frames(log).zip(&topics["/viewer/robots"]) {
-        assert_eq!(frame.tick, *tick);
+    let mut messages = topics[topic].iter();
+    let (mut shown, mut deleted) = (BTreeSet::new(), 0);
+    for frame in frames(log) {
+        let parts = expected(frame);
+        if parts == shown {
+            continue;
+        }
+        let (tick, message) = messages.next().unwrap();
+        assert_eq!(*tick, frame.tick, "{topic}");
         let entities = message.messages(2);
         let ids: BTreeSet<String> = entities.iter().map(|entity| entity.text(3)).collect();
-        let parts = expected_frames(frame).into_iter().map(|(child, ..)| child);
-        let parts: BTreeSet<String> = parts.filter(|child| child.starts_with("part/")).collect();
-        assert_eq!((entities.len(), &ids), (parts.len(), &parts), "tick {tick}");
+        let prefixed =
+            |parts: &BTreeSet<String>| parts.iter().map(|part| format!("{prefix}{part}")).collect::<Vec<_>>();
+        assert!(entities.len() == parts.len() && ids.iter().eq(&prefixed(&parts)), "{topic} at tick {tick}: {ids:?}");
         for entity in &entities {
-            let id = entity.text(3);
             assert_time(&entity.message(1), *tick);
             assert_time(&entity.message(4), 0);
-            assert_eq!((entity.text(2), entity.number(5)), (id.clone(), 1), "it moves with its own frame");
-            let robot = NAMES.iter().position(|name| id.ends_with(name)).unwrap();
-            let flashes = frame.robots[robot].flash > 0;
-            red += usize::from(flashes);
-            let edge = area(entity, if flashes { Role::Goal } else { Role::Robot }, 0.85, 0.01);
-            // straight sides are exact; round ones lie inside, by at most a four-hundredth of their radius
-            let round = |axis: [f64; 2], radius: f64| {
-                let whole = PI * radius * radius + 2.0 * radius * (axis[1] - axis[0]);
-                let on = edge.iter().all(|p| near(off_axis(*p, axis), radius));
-                on && surface(&edge) < whole && surface(&edge) > whole * 0.99
-            };
-            let rectangle = |[back, front]: [f64; 2], half: f64| {
-                let corners = [[back, -half], [front, -half], [front, half], [back, half]];
-                edge.len() == 4 && edge.iter().zip(corners).all(|(p, q)| near(p[0], q[0]) && near(p[1], q[1]))
-            };
-            assert!(
-                match &id[..] {
-                    "part/0/Rusty" => round([0.0, 0.0], 0.11),
-                    "part/0/Hitch" => rectangle([-0.7, 3.2], 0.85),
-                    "part/1/Hitch" => rectangle([-2.8, -1.0], 0.75),
-                    _ => round([0.0, 1.0], 0.03),
-                },
-                "{id}: {edge:?}"
-            );
+            let (role, above) = if prefix.is_empty() { (Role::Robot, 0.01) } else { (Role::Goal, 0.02) };
+            assert_part(entity, entity.text(3).strip_prefix(prefix).unwrap(), role, above);
         }
-        // entities that have gone are deleted
         let gone: Vec<String> = message.messages(1).iter().map(|deletion| deletion.text(3)).collect();
         message.messages(1).iter().for_each(|deletion| assert_time(&deletion.message(1), *tick));
-        assert_eq!(gone, shown.difference(&ids).cloned().collect::<Vec<_>>(), "tick {tick}");
+        assert_eq!(gone, prefixed(&shown.difference(&parts).cloned().collect()), "{topic} at tick {tick}");
         deleted += gone.len();
-        shown.extend(ids);
+        shown = parts;
     }
-    assert!(red > 100 && deleted > 0, "{red} red parts, {deleted} deletions");
+    assert!(messages.next().is_none(), "{topic}: a message without a change");
+    [topics[topic].len(), deleted]
+}
+
+#[test]
+fn the_robots_are_written_once_and_again_when_a_trailer_comes_or_goes() {
+    assert_eq!(assert_whole("/viewer/robots", "", |frame| parts_of(frame, None)), [3, 1]);
+}
+
+#[test]
+fn what_flashes_is_red() {
+    let flashing = |frame: &Frame| {
+        let red = NAMES.iter().zip(&frame.robots).filter(|(_, robot)| robot.flash > 0);
+        red.flat_map(|(name, _)| parts_of(frame, Some(name))).collect()
+    };
+    let [messages, deleted] = assert_whole("/viewer/contacts", "contact/", flashing);
+    assert!(messages > 10 && deleted > 5, "{messages} messages, {deleted} deletions");
+}
+
+#[test]
+fn the_paths_of_the_whole_run_are_written_once_with_a_cross_at_each_contact() {
+    let (log, topics) = &*EXPORTED;
+    let [(0, message)] = &topics["/viewer/paths"][..] else { panic!("the paths are written once") };
+    let entities = message.messages(2);
+    let mut crosses = 0;
+    for (id, name) in NAMES.iter().enumerate() {
+        let (mut path, mut hits, mut counted): (Vec<[f64; 2]>, Vec<[f64; 2]>, u32) = (Vec::new(), Vec::new(), 0);
+        for frame in frames(log) {
+            let (q, contacts) = (&frame.robots[id].configuration, frame.robots[id].contacts);
+            let turned = q[0] + q[1];
+            let at = if id == 1 { [cos(q[0]) + cos(turned), sin(q[0]) + sin(turned)] } else { [q[0], q[1]] };
+            if path.last().is_none_or(|[x, y]| (at[0] - x) * (at[0] - x) + (at[1] - y) * (at[1] - y) >= 1e-4) {
+                path.push(at);
+            }
+            if contacts > counted {
+                (counted, crosses) = (contacts, crosses + 1);
+                hits.extend(
+                    [[-0.05, -0.05], [0.05, 0.05], [-0.05, 0.05], [0.05, -0.05]].map(|d| [at[0] + d[0], at[1] + d[1]]),
+                );
+            }
+        }
+        let entity = |kind: &str| entities.iter().find(|entity| entity.text(3) == format!("{kind}/{name}")).unwrap();
+        let near_all = |found: &[[f64; 2]], expected: &[[f64; 2]]| {
+            found.len() == expected.len()
+                && found.iter().zip(expected).all(|(p, q)| near(p[0], q[0]) && near(p[1], q[1]))
+        };
+        let line = area(entity("path"), Role::Path, 1.0, 0.01);
+        assert!(near_all(&line, &path), "{name}: {} points, not {}", line.len(), path.len());
+        let world = ["world/Apartment", "world/Workbench", "world/Lot"][id];
+        assert_eq!((entity("path").text(2), entity("contacts").text(2)), (world.to_owned(), world.to_owned()));
+        let [cross] = &entity("contacts").messages(11)[..] else { panic!("one list of lines") };
+        assert_eq!((cross.number(1), [1, 2, 3, 4].map(|c| cross.message(6).double(c))), (2, colour(Role::Goal, 1.0)));
+        let ends: Vec<[f64; 2]> = cross.messages(5).iter().map(|p| [p.double(1), p.double(2)]).collect();
+        assert!(near_all(&ends, &hits), "{name}: {ends:?}, not {hits:?}");
+    }
+    assert!(entities.len() == 6 && crosses > 5, "{crosses} contacts");
 }
 
 #[test]

@@ -47,6 +47,12 @@ pub fn robot(tick: u64, world: &World, robot: &RobotView) -> Vec<FrameTransform>
     base.into_iter().chain(parts_frames).collect()
 }
 
+/// Whether a robot has the parts that it had, wherever they are.
+pub fn same_parts(before: &RobotView, now: &RobotView) -> bool {
+    let (before, now) = (before.footprint.parts(), now.footprint.parts());
+    before.len() == now.len() && before.iter().zip(now).all(|(old, new)| old.shape() == new.shape())
+}
+
 /// The pose of a robot's body: that of its first part. A disc looks the same from all sides, so its heading is taken
 /// from the configuration.
 fn base(robot: &RobotView) -> Option<Pose2> {

@@ -103,6 +103,39 @@ pub struct LaserScan {
     pub ranges: Vec<f64>,
 }
 
+/// How a number of a [`PackedElementField`] is written.
+pub mod numeric {
+    pub const UINT8: i32 = 1;
+    pub const FLOAT32: i32 = 7;
+}
+
+#[derive(Clone, PartialEq, Message)]
+pub struct PointCloud {
+    #[prost(message, optional, tag = "1")]
+    pub timestamp: Option<Timestamp>,
+    #[prost(string, tag = "2")]
+    pub frame_id: String,
+    #[prost(message, optional, tag = "3")]
+    pub pose: Option<Pose>,
+    #[prost(fixed32, tag = "4")]
+    pub point_stride: u32,
+    #[prost(message, repeated, tag = "5")]
+    pub fields: Vec<PackedElementField>,
+    #[prost(bytes = "vec", tag = "6")]
+    pub data: Vec<u8>,
+}
+
+#[derive(Clone, PartialEq, Message)]
+pub struct PackedElementField {
+    #[prost(string, tag = "1")]
+    pub name: String,
+    #[prost(fixed32, tag = "2")]
+    pub offset: u32,
+    /// An enumeration in the schema.
+    #[prost(int32, tag = "3")]
+    pub r#type: i32,
+}
+
 /// The levels of a [`Log`].
 pub mod level {
     pub const INFO: i32 = 2;
@@ -161,6 +194,7 @@ pub struct SceneEntity {
 pub mod line {
     pub const STRIP: i32 = 0;
     pub const LOOP: i32 = 1;
+    pub const LIST: i32 = 2;
 }
 
 #[derive(Clone, PartialEq, Message)]

@@ -1,12 +1,15 @@
-//! `write_foxglove`, an MCAP file that viewers show by themselves: the log's own channels, and beside them Foxglove's.
+//! `write_foxglove` and `write_rerun`, MCAP files that viewers show by themselves: the log's own channels, and beside
+//! them Foxglove's.
 
+mod cloud;
 mod events;
 mod frames;
 mod message;
+mod moment;
+mod paths;
 mod scene;
 mod writer;
 
-use std::collections::BTreeSet;
 use std::io::{self, Write};
 use std::sync::Arc;
 
@@ -14,28 +17,44 @@ use bevy::app::App;
 use mcap::read::{LinearReader, Options};
 use mcap::records::Record;
 
-use super::ExportError;
-use crate::recording::{Recorder, Run};
-use crate::run::{Frame, Log};
-use crate::simulation::{RobotView, SensorView};
+use super::{ExportError, frames as frames_of};
+use crate::recording::Recorder;
+use crate::run::Log;
+use crate::simulation::RobotView;
 use crate::worlds::World;
-use message::{FrameTransforms, LaserScan, Pose, Timestamp, level};
+use message::{FrameTransforms, level};
+use moment::Moment;
+use paths::RunPath;
 use writer::ViewerFile;
 
-/// Writes a log for Foxglove, Lichtblick and Rerun: an MCAP file with the log's own messages and, by Foxglove's
-/// schemas, the messages below. It is not a log that [`Log::read_mcap`] reads. Nothing is simulated.
+/// The programs that files are written for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Viewer {
+    Foxglove,
+    Rerun,
+}
+
+/// Writes a log for Foxglove and Lichtblick: an MCAP file with the log's own messages and, by Foxglove's schemas, the
+/// messages below. It is not a log that [`Log::read_mcap`] reads. Nothing is simulated.
 ///
 /// | topic | schema | when |
 /// |---|---|---|
 /// | `/viewer/transforms` | `foxglove.FrameTransforms` | each tick: worlds in `lab`, robots and parts in their worlds |
-/// | `/viewer/worlds` | `foxglove.SceneUpdate` | at the start, and a world again when obstacles or doors change |
-/// | `/viewer/robots` | `foxglove.SceneUpdate` | each tick, all of it, so that a viewer may begin anywhere |
+/// | `/viewer/worlds` | `foxglove.SceneUpdate` | at the start, and again when obstacles or doors change |
+/// | `/viewer/robots` | `foxglove.SceneUpdate` | at the start, in the parts' frames; again when a part comes or goes |
+/// | `/viewer/paths` | `foxglove.SceneUpdate` | at the start: the whole run's paths, a cross where a contact began |
+/// | `/viewer/contacts` | `foxglove.SceneUpdate` | when a contact begins or ceases to flash: what flashes, in red |
 /// | `/viewer/scan/NAME` | `foxglove.LaserScan` | each tick of a robot with the run's range sensor |
 /// | `/viewer/scan/NAME/SENSOR` | `foxglove.LaserScan` | each tick, for a sensor of the robot's own |
 /// | `/viewer/log` | `foxglove.Log` | contacts, takeovers, refusals |
 ///
+/// A message is whole: it shows all of its topic, so that a viewer may begin anywhere. The messages lie in chunks with
+/// an index. With the feature `cli` the chunks are compressed by LZ4.
+///
 /// `add` adds the kinds of robots that the log names and the lab does not have, as with [`Run::show_with_robots`];
 /// `|_| {}` adds none.
+///
+/// [`Run::show_with_robots`]: crate::recording::Run::show_with_robots
 ///
 /// # Errors
 /// [`ExportError`]: `out` fails, a kind is missing, or a frame is none of this run.
@@ -51,9 +70,7 @@ use writer::ViewerFile;
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub fn write_foxglove(log: &Log, out: impl Write, add: impl FnOnce(&mut App)) -> Result<(), ExportError> {
-    let mut file = Vec::new();
-    log.write_mcap(&mut file)?;
-    write_foxglove_of_file(&file, log, out, add)
+    write_foxglove_of_file(&file_of(log)?, log, out, add)
 }
 
 /// [`write_foxglove`] of a log that was read from a file with the bytes `file`, whose records are copied as they are:
@@ -67,14 +84,83 @@ pub fn write_foxglove_of_file(
     out: impl Write,
     add: impl FnOnce(&mut App),
 ) -> Result<(), ExportError> {
+    write(Viewer::Foxglove, Source { file, log }, out, add)
+}
+
+/// Writes a log for Rerun, as [`write_foxglove`] does for Foxglove. Rerun draws no scene entities and no laser scans,
+/// so worlds, robots, paths and scans are clouds of coloured points, each in its frame.
+///
+/// | topic | schema | when |
+/// |---|---|---|
+/// | `/viewer/transforms` | `foxglove.FrameTransforms` | each tick: worlds in `lab`, robots and parts in their worlds |
+/// | `/viewer/worlds/WORLD` | `foxglove.PointCloud` | at the start, and again when obstacles or doors change |
+/// | `/viewer/robots/NAME/PART` | `foxglove.PointCloud` | as for Foxglove, a part each, red while a contact flashes |
+/// | `/viewer/paths/NAME` | `foxglove.PointCloud` | at the start: the whole run's path |
+/// | `/viewer/contacts/NAME` | `foxglove.PointCloud` | at the start: where the run's contacts begin |
+/// | `/viewer/scan/NAME` | `foxglove.PointCloud` | each tick: what the run's range sensor hits |
+/// | `/viewer/scan/NAME/SENSOR` | `foxglove.PointCloud` | each tick, for a sensor of the robot's own |
+/// | `/viewer/log` | `foxglove.Log` | contacts, takeovers, refusals |
+///
+/// # Errors
+/// As [`write_foxglove`].
+///
+/// ```
+/// use motion_lab::export::write_rerun;
+/// use motion_lab::recording::Run;
+/// use motion_lab::tour::{BOOK_SEED, TourConfig};
+/// let log = Run::record(TourConfig { ticks: 2, ..TourConfig::default() }, BOOK_SEED)?;
+/// let mut file = Vec::new();
+/// write_rerun(&log, &mut file, |_| {})?;
+/// assert!(file.starts_with(b"\x89MCAP0\r\n"));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub fn write_rerun(log: &Log, out: impl Write, add: impl FnOnce(&mut App)) -> Result<(), ExportError> {
+    write_rerun_of_file(&file_of(log)?, log, out, add)
+}
+
+/// [`write_rerun`] of a log that was read from a file with the bytes `file`, as [`write_foxglove_of_file`] takes it.
+///
+/// # Errors
+/// As [`write_foxglove_of_file`].
+pub fn write_rerun_of_file(
+    file: &[u8],
+    log: &Log,
+    out: impl Write,
+    add: impl FnOnce(&mut App),
+) -> Result<(), ExportError> {
+    write(Viewer::Rerun, Source { file, log }, out, add)
+}
+
+/// The bytes of the file that a log is written as.
+fn file_of(log: &Log) -> Result<Vec<u8>, ExportError> {
+    let mut file = Vec::new();
+    log.write_mcap(&mut file)?;
+    Ok(file)
+}
+
+/// A log with the bytes of its file.
+struct Source<'a> {
+    file: &'a [u8],
+    log: &'a Log,
+}
+
+/// Writes a log for a viewer.
+fn write(
+    viewer: Viewer,
+    Source { file, log }: Source<'_>,
+    out: impl Write,
+    add: impl FnOnce(&mut App),
+) -> Result<(), ExportError> {
     let mut original = Original { records: LinearReader::new_with_options(file, Options::IgnoreEndMagic.into()).ok() };
     let mut out = ViewerFile::begin(out)?;
-    let mut run = Viewed { log, before: Vec::new(), parts: BTreeSet::new(), shown: Vec::new() };
-    Run::show_with_robots(log, add, |recorder| {
-        let frame = recorder.frame();
+    let mut run = Recorder::with_robots(log.config.clone(), (log.seed, log.script.clone()), add)?;
+    let paths = RunPath::of_run(log, &mut run, frames_of(log))?;
+    let mut viewed = Viewed { viewer, log, paths, before: Vec::new(), shown: Vec::new() };
+    for frame in frames_of(log) {
+        run.restore(frame)?;
         original.copy_tick(frame.tick, &mut out)?;
-        run.tick(frame, recorder, &mut out)
-    })?;
+        viewed.tick(frame.tick, &run, &mut out)?;
+    }
     out.finish()
 }
 
@@ -98,72 +184,49 @@ impl Original<'_> {
     }
 }
 
-/// A run as viewers see it.
+/// A run as a viewer sees it.
 struct Viewed<'a> {
+    viewer: Viewer,
     log: &'a Log,
+    /// The paths of the whole run.
+    paths: Vec<RunPath>,
     /// The robots after the previous tick.
     before: Vec<RobotView>,
-    /// The parts shown so far.
-    parts: BTreeSet<String>,
     /// The worlds as they were shown last.
     shown: Vec<Arc<World>>,
 }
 
 impl Viewed<'_> {
-    fn tick(
-        &mut self,
-        frame: &Frame,
-        recorder: &Recorder,
-        out: &mut ViewerFile<impl Write>,
-    ) -> Result<(), ExportError> {
-        let (tick, worlds, robots) = (frame.tick, &self.log.config.worlds, recorder.view());
-        let standing = recorder.standing_worlds();
-        if let Some(update) = scene::changed_worlds(tick, &self.shown, &standing) {
-            out.message("/viewer/worlds", "foxglove.SceneUpdate", tick, &update)?;
-        }
-        self.shown = standing;
+    fn tick(&mut self, tick: u64, run: &Recorder, out: &mut ViewerFile<impl Write>) -> Result<(), ExportError> {
+        let (worlds, robots, standing) = (&self.log.config.worlds, run.view(), run.standing_worlds());
         if tick == 0 {
             let run = format!("seed {}, {} ticks, digest {}", self.log.seed, self.log.frames.len(), self.log.digest());
             out.message("/viewer/log", "foxglove.Log", 0, &events::message_of(0, level::INFO, "motion-lab", run))?;
         }
-        let world_of = |robot: &RobotView| -> Option<&World> { worlds.get(robot.world as usize) };
         let mut transforms = frames::worlds(tick, worlds);
         for robot in &robots {
-            transforms.extend(world_of(robot).map(|world| frames::robot(tick, world, robot)).into_iter().flatten());
+            let world = worlds.get(robot.world as usize);
+            transforms.extend(world.map(|world| frames::robot(tick, world, robot)).into_iter().flatten());
         }
         out.message("/viewer/transforms", "foxglove.FrameTransforms", tick, &FrameTransforms { transforms })?;
-        let scene = scene::robots(tick, &robots, &mut self.parts);
-        out.message("/viewer/robots", "foxglove.SceneUpdate", tick, &scene)?;
-        for sensor in &recorder.sensors() {
-            let Some(robot) = robots.iter().find(|robot| robot.id == sensor.robot) else { continue };
-            let Some(world) = world_of(robot) else { continue };
-            let mut topic = format!("/viewer/scan/{}", robot.name);
-            let mut scan = laser_scan(tick, sensor);
-            if sensor.name.is_empty() {
-                scan.frame_id = frames::of_robot(&robot.name);
-            } else {
-                topic = format!("{topic}/{}", sensor.name);
-                (scan.frame_id, scan.pose) = (frames::of_world(world), Some(Pose::of(&sensor.pose)));
-            }
-            out.message(&topic, "foxglove.LaserScan", tick, &scan)?;
+        let moment = Moment {
+            tick,
+            worlds,
+            standing: &standing,
+            shown: &self.shown,
+            robots: &robots,
+            before: &self.before,
+            paths: &self.paths,
+            sensors: &run.sensors(),
+        };
+        match self.viewer {
+            Viewer::Foxglove => moment.write_scene(out)?,
+            Viewer::Rerun => moment.write_clouds(out)?,
         }
         for message in events::news(tick, &self.before, &robots) {
             out.message("/viewer/log", "foxglove.Log", tick, &message)?;
         }
-        self.before = robots;
+        (self.before, self.shown) = (robots, standing);
         Ok(())
-    }
-}
-
-/// The scan of a sensor, from the middle of a frame that is still to be named.
-fn laser_scan(tick: u64, sensor: &SensorView) -> LaserScan {
-    let SensorView { rays, ranges, .. } = sensor;
-    LaserScan {
-        timestamp: Some(Timestamp::of_tick(tick)),
-        frame_id: String::new(),
-        pose: Some(Pose::raised(0.0)),
-        start_angle: rays.bearing(0),
-        end_angle: rays.bearing(rays.sensor.n_rays.saturating_sub(1)),
-        ranges: ranges.clone(),
     }
 }

@@ -1,4 +1,4 @@
-//! Worlds and robots as scene entities: flat areas with an edge, in the colours of their roles.
+//! Worlds, robots and their paths as scene entities: flat areas with an edge and lines, in the colours of their roles.
 
 use std::collections::BTreeSet;
 use std::sync::Arc;
@@ -13,31 +13,37 @@ use super::message::{
     Color, Duration, LinePrimitive, Pose, SceneEntity, SceneEntityDeletion, SceneUpdate, Timestamp,
     TriangleListPrimitive, Vector3, line,
 };
+use super::paths::RunPath;
 
 /// Height of the robots above their world, so that neither hides in the other, metres.
 const ABOVE: f64 = 0.01;
+/// Half the width of the cross at a contact, metres.
+const CROSS: f64 = 0.05;
 /// The width of a line on the screen, pixels.
 const LINE_PX: f64 = 2.0;
 
-/// The marks, obstacles, walls and closed doors of those worlds that are not as they were shown: an entity for each.
-/// What is gone is deleted. `None` where nothing has changed.
+/// The marks, obstacles, walls and closed doors of all worlds, an entity for each; `None` where nothing has changed
+/// since they were shown. What is gone is deleted. All of it is written whenever a part changes: a viewer that goes to
+/// another time takes the last message only.
 pub fn changed_worlds(tick: u64, shown: &[Arc<World>], now: &[Arc<World>]) -> Option<SceneUpdate> {
-    let is_shown = |i: usize, world: &Arc<World>| shown.get(i).is_some_and(|old| Arc::ptr_eq(old, world));
-    let changed: Vec<usize> = (0..now.len()).filter(|&i| !is_shown(i, &now[i])).collect();
-    if changed.is_empty() {
+    let same = shown.len() == now.len() && shown.iter().zip(now).all(|(old, new)| Arc::ptr_eq(old, new));
+    if same {
         return None;
     }
-    let mut update = worlds(tick, changed.iter().map(|&i| &*now[i]));
-    let there: BTreeSet<&str> = update.entities.iter().map(|e| e.id.as_str()).collect();
-    let before = worlds(tick, changed.iter().filter_map(|&i| Some(&**shown.get(i)?)));
-    let timestamp = Some(Timestamp::of_tick(tick));
-    let gone = before.entities.into_iter().filter(|e| !there.contains(e.id.as_str()));
-    let deletions = gone.map(|e| SceneEntityDeletion { timestamp, id: e.id }).collect();
-    update.deletions = deletions;
-    Some(update)
+    let entities = worlds(tick, now);
+    let deletions = gone(tick, &worlds(tick, shown), &entities);
+    Some(SceneUpdate { deletions, entities })
 }
 
-fn worlds<'a>(tick: u64, worlds: impl Iterator<Item = &'a World>) -> SceneUpdate {
+/// The deletions of the entities of `before` that are not in `now`.
+fn gone(tick: u64, before: &[SceneEntity], now: &[SceneEntity]) -> Vec<SceneEntityDeletion> {
+    let there: BTreeSet<&str> = now.iter().map(|e| e.id.as_str()).collect();
+    let timestamp = Some(Timestamp::of_tick(tick));
+    let gone = before.iter().filter(|e| !there.contains(e.id.as_str()));
+    gone.map(|e| SceneEntityDeletion { timestamp, id: e.id.clone() }).collect()
+}
+
+fn worlds(tick: u64, worlds: &[Arc<World>]) -> Vec<SceneEntity> {
     let mut entities = Vec::new();
     for world in worlds {
         let entity = |kind: &str, name: &str| {
@@ -57,28 +63,79 @@ fn worlds<'a>(tick: u64, worlds: impl Iterator<Item = &'a World>) -> SceneUpdate
             entities.push(entity);
         }
     }
-    SceneUpdate { deletions: Vec::new(), entities }
+    entities
 }
 
-/// The robots after a tick: an entity for each part, red while a contact flashes. `seen` are the parts shown so far.
-/// Those of them that are gone, as a detached trailer is, are deleted.
-pub fn robots(tick: u64, robots: &[RobotView], seen: &mut BTreeSet<String>) -> SceneUpdate {
+/// The robots' parts, an entity for each in its part's frame; `None` where all parts are those of the tick before. What
+/// is gone, as a detached trailer is, is deleted.
+pub fn changed_robots(tick: u64, before: &[RobotView], now: &[RobotView]) -> Option<SceneUpdate> {
+    let same = before.len() == now.len() && before.iter().zip(now).all(|(old, new)| frames::same_parts(old, new));
+    if same {
+        return None;
+    }
+    let part = |id: &String| Look { id: id.clone(), role: Role::Robot, z: ABOVE };
+    let entities = parts(tick, now, part);
+    let deletions = gone(tick, &parts(tick, before, part), &entities);
+    Some(SceneUpdate { deletions, entities })
+}
+
+/// The robots of which a contact flashes, in red, above themselves; `None` where they are those of the tick before.
+pub fn changed_flashes(tick: u64, before: &[RobotView], now: &[RobotView]) -> Option<SceneUpdate> {
+    let flashing =
+        |robots: &[RobotView]| -> Vec<RobotView> { robots.iter().filter(|robot| robot.flash > 0).cloned().collect() };
+    let part = |id: &String| Look { id: format!("contact/{id}"), role: Role::Goal, z: 2.0 * ABOVE };
+    let entities = parts(tick, &flashing(now), part);
+    let old = parts(tick, &flashing(before), part);
+    let ids = |entities: &[SceneEntity]| entities.iter().map(|e| e.id.clone()).collect::<Vec<_>>();
+    if ids(&old) == ids(&entities) {
+        return None;
+    }
+    Some(SceneUpdate { deletions: gone(tick, &old, &entities), entities })
+}
+
+/// How a part is drawn.
+struct Look {
+    id: String,
+    role: Role,
+    z: f64,
+}
+
+/// An entity for each part of the robots, as `look` says for the part's frame.
+fn parts(tick: u64, robots: &[RobotView], look: impl Fn(&String) -> Look) -> Vec<SceneEntity> {
     let mut entities = Vec::new();
     for robot in robots {
-        let role = if robot.flash > 0 { Role::Goal } else { Role::Robot };
         for (k, part) in robot.footprint.parts().iter().enumerate() {
-            let id = frames::of_part(&robot.name, k);
-            let mut entity = SceneEntity { frame_id: id.clone(), id, frame_locked: true, ..empty(tick) };
-            draw(&mut entity, &polygon_of(&part.shape().place(&Pose2::IDENTITY)), role, 0.85, ABOVE);
+            let frame_id = frames::of_part(&robot.name, k);
+            let Look { id, role, z } = look(&frame_id);
+            let mut entity = SceneEntity { frame_id, id, frame_locked: true, ..empty(tick) };
+            draw(&mut entity, &polygon_of(&part.shape().place(&Pose2::IDENTITY)), role, 0.85, z);
             entities.push(entity);
         }
     }
-    let there: BTreeSet<String> = entities.iter().map(|e| e.id.clone()).collect();
-    let timestamp = Some(Timestamp::of_tick(tick));
-    let gone = seen.difference(&there).map(|id| SceneEntityDeletion { timestamp, id: id.clone() });
-    let deletions = gone.collect();
-    seen.extend(there);
-    SceneUpdate { deletions, entities }
+    entities
+}
+
+/// The paths of the whole run, a line for each robot, with a cross where each contact began.
+pub fn paths(paths: &[RunPath]) -> SceneUpdate {
+    let mut entities = Vec::new();
+    for path in paths {
+        let entity = |kind: &str| {
+            let id = format!("{kind}/{}", path.robot);
+            SceneEntity { id, frame_id: path.frame.clone(), ..empty(0) }
+        };
+        entities
+            .push(SceneEntity { lines: vec![edge(&path.points, line::STRIP, Role::Path, ABOVE)], ..entity("path") });
+        if !path.contacts.is_empty() {
+            let ends = path.contacts.iter().flat_map(|&p| {
+                [[-CROSS, -CROSS], [CROSS, CROSS], [-CROSS, CROSS], [CROSS, -CROSS]]
+                    .map(|[x, y]| Point2::new(p.x + x, p.y + y))
+            });
+            let ends: Vec<Point2> = ends.collect();
+            entities
+                .push(SceneEntity { lines: vec![edge(&ends, line::LIST, Role::Goal, ABOVE)], ..entity("contacts") });
+        }
+    }
+    SceneUpdate { deletions: Vec::new(), entities }
 }
 
 /// An empty entity, which stays until it is replaced.
@@ -117,7 +174,7 @@ fn edge(points: &[Point2], kind: i32, role: Role, z: f64) -> LinePrimitive {
 }
 
 /// The role's colour on dark paper, as viewers have a dark background.
-fn colour(role: Role, opacity: f64) -> Color {
+pub fn colour(role: Role, opacity: f64) -> Color {
     let [r, g, b] = Theme::Dark.palette().colour(role).0.map(|c| f64::from(c) / 255.0);
     Color { r, g, b, a: opacity }
 }

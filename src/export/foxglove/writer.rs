@@ -27,7 +27,11 @@ pub struct ViewerFile<W: Write> {
 impl<W: Write> ViewerFile<W> {
     /// Begins the file.
     pub fn begin(out: W) -> Result<Self, ExportError> {
-        let options = WriteOptions::new().compression(None).profile(EXPORT_PROFILE).library("motion-lab");
+        #[cfg(feature = "cli")]
+        const COMPRESSION: Option<mcap::Compression> = Some(mcap::Compression::Lz4);
+        #[cfg(not(feature = "cli"))]
+        const COMPRESSION: Option<mcap::Compression> = None;
+        let options = WriteOptions::new().compression(COMPRESSION).profile(EXPORT_PROFILE).library("motion-lab");
         let writer = options.disable_seeking(true).create(NoSeek::new(out)).map_err(failed)?;
         Ok(ViewerFile {
             writer,

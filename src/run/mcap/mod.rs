@@ -1,4 +1,4 @@
-//! The log as a file: MCAP, unchunked and uncompressed, which Foxglove, Lichtblick, Rerun and PlotJuggler open.
+//! The log as a file: MCAP, unchunked and uncompressed. Programs that need chunks, as Rerun, take an export of it.
 //!
 //! The file is a sequence of pieces, each ended by a *seal*, a record with opcode 0x80, which other readers skip. It
 //! holds the tick (64 bits), the offset of the seal itself (64 bits) and the xxh3-128 of every byte before it, all

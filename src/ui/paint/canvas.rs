@@ -275,9 +275,10 @@ mod tests {
 
     /// The corners of the mesh that a picture is painted with, those in `rect`, to a hundredth of a point.
     fn painted(ctx: &Context, picture: &Arc<Picture>, rect: Rect, fit: &Fit) -> Vec<[i32; 2]> {
-        let output = ctx.run_ui(RawInput::default(), |ui| {
+        let mut output = ctx.run_ui(RawInput::default(), |ui| {
             paint_kept(ui.painter(), picture, rect, fit, &Look::from(Theme::Light));
         });
+        output.textures_delta.clear();
         let meshes = output.shapes.iter().filter_map(|clipped| match &clipped.shape {
             Shape::Mesh(mesh) => Some(Arc::clone(mesh)),
             _ => None,

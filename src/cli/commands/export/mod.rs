@@ -6,7 +6,7 @@ mod stills;
 use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
-use motion_lab::export::{ExportError, write_csv, write_foxglove_of_file, write_jsonl};
+use motion_lab::export::{ExportError, write_csv, write_foxglove_of_file, write_jsonl, write_rerun_of_file};
 use motion_lab::run::Log;
 
 use crate::cli::support::input::{is_dash, read_bytes};
@@ -59,9 +59,11 @@ enum Format {
     Png,
     /// The run as it goes: the same figure at tick after tick.
     Gif,
-    /// An MCAP file for Foxglove, Lichtblick and Rerun: the log's own channels, and transforms, scans, scenes and log
-    /// messages by Foxglove's schemas. It is not a log that `verify` reads.
+    /// An MCAP file for Foxglove and Lichtblick: the log's own channels, and transforms, scans, scenes and log messages
+    /// by Foxglove's schemas. It is not a log that `verify` reads.
     Foxglove,
+    /// The same for Rerun, which draws clouds of points: worlds, robots, paths and scans are clouds.
+    Rerun,
 }
 
 impl Format {
@@ -95,10 +97,10 @@ impl Export {
         if self.ranges && format != Format::Csv {
             return Err(Failure::usage(
                 "--ranges is only valid with --format csv",
-                "Leave it out: jsonl and foxglove always hold the ranges.",
+                "Leave it out: jsonl, foxglove and rerun always hold them.",
             ));
         }
-        if format == Format::Foxglove && output.is_none() {
+        if matches!(format, Format::Foxglove | Format::Rerun) && output.is_none() {
             return Err(Failure::usage("this form is not for standard output", "Name a file: -o FILE."));
         }
         let LogSource { read, damage } = read_log(&self.file)?;
@@ -108,7 +110,7 @@ impl Export {
         let (file, log) = (&self.file, &read.log);
         let target = Target::of(output.unwrap_or(Path::new("-")))?;
         match (format, output) {
-            (Format::Foxglove, _) => foxglove(file, log, target.path())?,
+            (Format::Foxglove | Format::Rerun, _) => viewer(format, file, log, target.path())?,
             (Format::Png, _) => stills::png(&self.stills, file, log, target.path())?,
             (Format::Gif, _) => stills::gif(&self.stills, file, log, target.path())?,
             (format, output) => {
@@ -138,12 +140,16 @@ impl Export {
     }
 }
 
-/// Writes the log that was read from `file` for viewers.
-fn foxglove(file: &Path, log: &Log, output: &Path) -> Result<(), Failure> {
+/// Writes the log that was read from `file` for a viewer.
+fn viewer(format: Format, file: &Path, log: &Log, output: &Path) -> Result<(), Failure> {
     let bytes = read_bytes(file, MAX_LOG)?;
     let mut pending = PendingFile::create(output)?;
     let _progress = Progress::unknown("exporting");
-    write_foxglove_of_file(&bytes, log, &mut pending, |_| {}).map_err(|error| match error {
+    let written = match format {
+        Format::Rerun => write_rerun_of_file(&bytes, log, &mut pending, |_| {}),
+        _ => write_foxglove_of_file(&bytes, log, &mut pending, |_| {}),
+    };
+    written.map_err(|error| match error {
         ExportError::Write(error) => Failure::output(output, &error),
         ExportError::Run(error) => not_shown(file, &error),
         error => Failure::internal(error),
