@@ -1,6 +1,7 @@
 //! Long work of the session, a piece in every frame: going to another tick, opening a run, saving one.
 
 use std::slice::from_ref;
+use std::sync::{Mutex, PoisonError};
 use std::time::Duration;
 
 use bevy::platform::time::Instant;
@@ -61,7 +62,8 @@ pub enum Recorded {
 pub struct Save {
     recorder: Recorder,
     digest: RunDigest,
-    writer: DigestLogWriter<Vec<u8>>,
+    /// In a mutex because a writer may be used by one thread at a time only.
+    writer: Mutex<DigestLogWriter<Vec<u8>>>,
     ticks: u64,
     done: Done,
 }
@@ -146,18 +148,21 @@ impl Save {
         let recorder = Recorder::with_robots(config.clone(), (seed, script.clone()), |app| kinds.add_to(app))?;
         let digest = RunDigest::new(seed, &config, &script, recorder.frame());
         let writer = DigestLogWriter::new(Vec::new(), seed, &config, &script, &digest)?;
+        let writer = Mutex::new(writer);
         Ok(Save { recorder, digest, writer, ticks: config.ticks, done })
     }
 
     fn tick(&mut self) -> Result<(), SessionError> {
         let frame = self.recorder.step();
         self.digest.tick(frame);
-        Ok(self.writer.tick(frame, &self.digest)?)
+        let writer = self.writer.get_mut().unwrap_or_else(PoisonError::into_inner);
+        Ok(writer.tick(frame, &self.digest)?)
     }
 
     fn ended(self) -> Result<Notice, SessionError> {
         let digest = self.digest.digest();
-        let bytes = self.writer.finish(digest)?;
+        let writer = self.writer.into_inner().unwrap_or_else(PoisonError::into_inner);
+        let bytes = writer.finish(digest)?;
         (self.done)(&bytes, format!("saved without its frames, {} ticks, digest {digest}", self.ticks))
     }
 }
