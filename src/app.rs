@@ -41,6 +41,7 @@ pub use window::{Opened, WindowError, open_in_window, run_window, run_window_wit
 
 use crate::picture::Theme;
 use crate::simulation::History;
+pub(crate) use crate::ui::Interface;
 use crate::ui::{self, SessionCommand};
 use aside::Aside;
 #[cfg(all(target_family = "wasm", feature = "web"))]
@@ -53,10 +54,10 @@ pub(crate) use error::SessionError;
 pub(crate) use pace::limit;
 #[cfg(all(target_family = "wasm", feature = "web"))]
 pub(crate) use runs::{log_up_to, open_log, open_world_text, recorded, save, shown_run};
+pub(crate) use session::Shown;
 use session::carry_out;
 #[cfg(all(target_family = "wasm", feature = "web"))]
 pub(crate) use session::new_run;
-pub(crate) use session::{Interface, Shown};
 
 /// The lab in a window, with the tour of the three worlds from the book's seed. A run already under way is kept.
 pub(crate) fn windowed_app() -> App {
@@ -117,7 +118,8 @@ fn system_theme(windows: Query<&Window, Changed<Window>>, mut interface: ResMut<
     }
 }
 
-/// Draws frame after frame while the run plays or work goes on. Else the window sleeps until something happens, a second at most.
+/// Draws frame after frame while the run plays or work goes on.
+/// Else the window sleeps until something happens, a second at most.
 fn wake(shown: Res<Shown>, aside: Res<Aside>, mut settings: ResMut<WinitSettings>) {
     let idle = std::time::Duration::from_secs(1);
     let mode =

@@ -8,13 +8,12 @@ use bevy::platform::time::Instant;
 use bevy::prelude::*;
 
 use super::error::SessionError;
-use super::runs::ShownRun;
-use super::session::Interface;
 use crate::recording::Recorder;
 use crate::run::{
     DifferingSecond, DigestComparison, DigestLog, DigestLogWriter, Divergence, Log, RunDigest, first_divergence,
 };
 use crate::simulation::{Keyframes, LatestFrame, Playback, Transport, TransportCommand, seek};
+use crate::ui::Interface;
 use crate::ui::{Notice, Working};
 
 /// Time that each frame gives to the work.
@@ -142,14 +141,16 @@ impl Check {
 }
 
 impl Save {
-    /// The recording of a run again, without frames; `done` takes the log's bytes.
-    pub fn begin(run: ShownRun, done: Done) -> Result<Self, SessionError> {
-        let ShownRun { seed, config, script, kinds } = run;
-        let recorder = Recorder::with_robots(config.clone(), (seed, script.clone()), |app| kinds.add_to(app))?;
-        let digest = RunDigest::new(seed, &config, &script, recorder.frame());
-        let writer = DigestLogWriter::new(Vec::new(), seed, &config, &script, &digest)?;
-        let writer = Mutex::new(writer);
-        Ok(Save { recorder, digest, writer, ticks: config.ticks, done })
+    /// The recording of a run again, without frames, by a recorder at its start and a writer that has begun with the
+    /// run's digest. `done` takes the log's bytes.
+    pub fn begin(
+        recorder: Recorder,
+        digest: RunDigest,
+        writer: DigestLogWriter<Vec<u8>>,
+        ticks: u64,
+        done: Done,
+    ) -> Self {
+        Save { recorder, digest, writer: Mutex::new(writer), ticks, done }
     }
 
     fn tick(&mut self) -> Result<(), SessionError> {

@@ -10,10 +10,10 @@ use bevy::prelude::*;
 use super::captured::{captured, subject};
 use super::files::name;
 use super::runs::shown_run;
-use super::session::Interface;
 use crate::capture::{CaptureError, Form, Paper, film_with_robots, write};
 use crate::simulation::Transport;
 use crate::tour::TourConfig;
+use crate::ui::Interface;
 use crate::ui::{CaptureOrder, Notice, UiState, Working};
 
 /// The capture under way.

@@ -9,8 +9,8 @@ use egui_file_dialog::{DialogMode, FileDialog, FileDialogLabels};
 
 use super::capture::{capture, check, not_captured};
 use super::files::{open_run, open_world, save_run, save_world};
-use super::session::Interface;
 use crate::simulation::{Playback, RunConfig, Transport};
+use crate::ui::Interface;
 use crate::ui::{CaptureOrder, SessionCommand, UiState, Widget};
 
 /// File extension of the lab's logs.

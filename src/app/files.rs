@@ -7,8 +7,8 @@ use bevy::ecs::world::World;
 
 use super::error::SessionError;
 use super::runs::{open_log, open_world_text, save};
-use super::session::Interface;
 use crate::output::write_file;
+use crate::ui::Interface;
 use crate::ui::Notice;
 
 /// Largest size of a log that the window opens, bytes.

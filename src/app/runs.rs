@@ -2,15 +2,15 @@
 
 use bevy::ecs::world::World;
 
-use super::aside::{self, Check, Done, Recorded};
+use super::aside::{self, Check, Done, Recorded, Save};
 use super::error::SessionError;
-use super::session::Interface;
 use crate::atlas::Editor;
 use crate::random::Seed;
-use crate::recording::{Run, RunError};
-use crate::run::{DigestLog, Log, LogError, MOST_ROBOTS_IN_FULL, ReadLog, RunDigest, Script};
+use crate::recording::{Recorder, Run, RunError};
+use crate::run::{DigestLog, DigestLogWriter, Log, LogError, MOST_ROBOTS_IN_FULL, ReadLog, RunDigest, Script};
 use crate::simulation::{LatestFrame, PendingInput, Playback, RobotKinds, RunConfig, Transport, checkpoint, start_run};
 use crate::tour::TourConfig;
+use crate::ui::Interface;
 use crate::ui::{AtlasState, Notice, Widget};
 
 /// All that determines a run.
@@ -64,8 +64,11 @@ pub fn save(world: &mut World, done: Done) -> Result<Option<Notice>, SessionErro
     aside::stop(world);
     let Transport { frontier, .. } = *world.resource::<Transport>();
     if world.resource::<LatestFrame>().0.robots.len() > MOST_ROBOTS_IN_FULL && frontier > 0 {
-        let save = aside::Save::begin(shown_run(world, frontier), done)?;
-        return aside::save(world, save);
+        let ShownRun { seed, config, script, kinds } = shown_run(world, frontier);
+        let recorder = Recorder::with_robots(config.clone(), (seed, script.clone()), |app| kinds.add_to(app))?;
+        let digest = RunDigest::new(seed, &config, &script, recorder.frame());
+        let writer = DigestLogWriter::new(Vec::new(), seed, &config, &script, &digest)?;
+        return aside::save(world, Save::begin(recorder, digest, writer, config.ticks, done));
     }
     let (log, bytes) = recorded(world)?;
     done(&bytes, format!("saved, {} ticks, digest {}", log.frames.len(), log.digest())).map(Some)

@@ -23,7 +23,7 @@ use crate::simulation::{
     sensors_of, start_run, take_sensors_at_start, view_of,
 };
 use crate::tour::{BOOK_SEED, TourConfig};
-use crate::ui::{Cockpit, CockpitRobot, Command, Dashboard, Notice, SessionCommand, UiState, Widget, blend};
+use crate::ui::{Cockpit, CockpitRobot, Command, Dashboard, Interface, Notice, SessionCommand, Widget, blend};
 use crate::worlds::World as WorldModel;
 
 /// Farthest that a part moves from tick to tick, metres. A part that moved farther was put there.
@@ -60,10 +60,6 @@ impl Plugin for SessionPlugin {
             .add_systems(Update, (aside::go_on, play_flat_out, measure, note_refusals, gather).chain());
     }
 }
-
-/// The state of the user interface. It is no part of a run.
-#[derive(Resource, Default)]
-pub struct Interface(pub UiState);
 
 /// The run's worlds as they stand.
 #[derive(Resource, Default)]

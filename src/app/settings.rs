@@ -5,8 +5,8 @@ use std::time::Duration;
 use bevy::prelude::*;
 use bevy::settings::{ReflectSettingsGroup, SaveSettingsDeferred, SaveSettingsSync, SettingsGroup, SettingsPlugin};
 
-use super::session::Interface;
 use crate::ui;
+use crate::ui::Interface;
 
 /// The name of the folder that the system keeps the settings in.
 const PROGRAM: &str = "motion-lab";

@@ -24,13 +24,14 @@ use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT, Queryable};
 
 use super::files::{open_run, save_run};
-use super::session::{Interface, SessionPlugin, Shown, carry_out};
+use super::session::{SessionPlugin, Shown, carry_out};
 use crate::configuration::Coordinates;
 use crate::recording::Run;
 use crate::run::{Log, RobotInput, Script};
 use crate::simulation::{
     History, LatestFrame, PendingInput, Playback, RobotView, RunCommand, RunConfig, Transport, view,
 };
+use crate::ui::Interface;
 use crate::ui::SessionCommand;
 
 /// The lab, run frame by frame. A frame takes a fortieth of a second: half a tick at normal speed.

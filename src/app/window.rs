@@ -11,9 +11,9 @@ use bevy::prelude::*;
 
 use super::files::open_run;
 use super::frames::{FrameTimes, MeasurePlugin};
-use super::session::Interface;
 use crate::simulation::{Playback, Transport, start_run};
 use crate::tour::{BOOK_SEED, TourConfig};
+use crate::ui::Interface;
 use crate::ui::Notice;
 use crate::worlds::World as WorldModel;
 

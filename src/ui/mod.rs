@@ -29,7 +29,7 @@ pub(crate) use dashboard::values::{Cockpit, CockpitRobot, Dashboard};
 pub(crate) use lab::lab;
 pub(crate) use paint::look::Look;
 pub(crate) use settings::Settings;
-pub(crate) use state::{Notice, UiState, Working};
+pub(crate) use state::{Interface, Notice, UiState, Working};
 
 use crate::simulation::{RobotCommand, RunCommand, TransportCommand};
 

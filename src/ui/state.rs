@@ -5,6 +5,10 @@ use std::collections::BTreeMap;
 use super::{ParkingGoal, Settings, Widget};
 use crate::picture::{Role, Theme};
 
+/// The state of the user interface, as a resource of the app.
+#[derive(bevy::prelude::Resource, Default)]
+pub struct Interface(pub UiState);
+
 /// The state of the user interface. It is no part of a run.
 #[derive(Clone, Debug, Default)]
 pub struct UiState {

@@ -133,7 +133,8 @@ pub fn record_link(query: &str) -> Result<Vec<u8>, JsError> {
 }
 
 /// Simulates a log's run again from its seed, configuration and script, and compares every frame to the last bit, or the
-/// digest of every second. JSON: `{ "verified", "ticks", "diverging_tick", "digest", "seed", "text" }`.
+/// digest of every second. JSON:
+/// `{ "verified", "ticks", "diverging_tick", "digest", "seed", "text" }`.
 ///
 /// # Errors
 /// The reason, when the bytes are no log, or one that was cut or damaged.

@@ -147,6 +147,13 @@ fn the_view_follows_who_is_picked() {
     let (camera, robot) = (crowd(&harness).cameras[&name], harness.state().robot(0));
     let at = robot.footprint.parts()[0].pose().position();
     assert!((camera.centre.unwrap() - at).norm() < 1e-9 && camera.zoom > 1.0, "{camera:?} {at}");
+    // dragged, the view is one's own again
+    assert!(crowd(&harness).follows);
+    let from = paper(&harness, "30 robots").center() + egui::vec2(0.0, 30.0);
+    pointer(&mut harness, from, Some(true));
+    pointer(&mut harness, from + egui::vec2(30.0, 0.0), None);
+    pointer(&mut harness, from + egui::vec2(30.0, 0.0), Some(false));
+    assert!(!crowd(&harness).follows && crowd(&harness).picked.is_some());
 }
 
 #[test]

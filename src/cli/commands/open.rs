@@ -19,7 +19,7 @@ use crate::cli::{Data, Failure, Outcome};
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:
   motion-lab open lot
-  motion-lab world generate warehouse --robots 1000 -o warehouse.ron && motion-lab open warehouse.ron
+  motion-lab open warehouse.ron
   motion-lab open run.mcap")]
 pub struct Open {
     /// A built-in world, a world file, or a log.

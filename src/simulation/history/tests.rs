@@ -1,6 +1,7 @@
 //! What a history keeps of runs, and how it is thinned.
 
 use super::*;
+use crate::num::{greater, lesser};
 use crate::run::{RobotInput, Script};
 use crate::simulation::command::obey;
 use crate::simulation::{SimulationPlugin, TransportCommand, seek, start_run, step};
@@ -29,15 +30,24 @@ fn it_counts_what_the_robots_themselves_count_and_survives_being_taken_back() {
         assert_eq!(marked, *count as usize, "robot {id}");
         assert_eq!(history.at(400, id).unwrap().contacts, *count);
     }
-    assert!(contacts.iter().any(|c| *c > 0), "or nothing is tested");
+    assert!(contacts[1] > 0, "or nothing is tested");
     seek(world, 130).unwrap();
     assert_eq!(world.resource::<History>().samples(), 401, "what lies ahead is kept");
     seek(world, 400).unwrap();
     assert_eq!(*world.resource::<History>(), history);
     // continuing from a tick keeps the marks of that tick
     let ticks: Vec<u64> = history.marks().iter().map(|m| m.tick).collect();
-    for tick in ticks.iter().rev().copied() {
+    for (tick, mark) in ticks.iter().rev().copied().zip(history.marks().iter().rev()) {
         seek(world, tick).unwrap();
+        // the arm's parts are capsules: the box around it is that around their ends, wider by their radius
+        let arm = crate::simulation::view(world).swap_remove(mark.robot as usize).footprint;
+        let ends = || arm.parts().iter().flat_map(|part| part.placed().core());
+        let middle = |of: fn(&Point2) -> f64| {
+            let (least, most) = ends().map(of).fold((9e9, -9e9), |(a, b), v| (lesser(a, v), greater(b, v)));
+            0.5 * (least + most)
+        };
+        let expected = Point2::new(middle(|p| p.x), middle(|p| p.y));
+        assert!(mark.robot == 1 && (mark.at - expected).norm() < 1e-12, "{mark:?} {expected}");
         obey(world, TransportCommand::ContinueFromHere).unwrap();
         let kept: Vec<u64> = world.resource::<History>().marks().iter().map(|m| m.tick).collect();
         assert_eq!(kept, ticks.iter().copied().filter(|t| *t <= tick).collect::<Vec<_>>());

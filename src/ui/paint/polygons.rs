@@ -65,6 +65,11 @@ mod tests {
     use bevy_egui::egui::pos2;
 
     use super::*;
+    use crate::picture::{Role, Theme};
+
+    fn ink() -> Color32 {
+        Theme::Light.colour(Role::Robot)
+    }
 
     /// The area of the triangles, each times the mean opacity of its corners, whatever their order.
     fn weight(mesh: &Mesh) -> f32 {
@@ -85,7 +90,7 @@ mod tests {
         back.reverse();
         for corners in [square, back] {
             let mut polygons = Polygons::default();
-            polygons.polygon(&corners, Color32::WHITE);
+            polygons.polygon(&corners, ink());
             let bounds = polygons.0.calc_bounds();
             assert_eq!(bounds, Rect::from_min_max(pos2(0.5, 0.5), pos2(11.5, 11.5)));
             // 9 x 9 in full; on each side a triangle over 11 with one full corner of three, and one over 9 with two
@@ -97,9 +102,9 @@ mod tests {
     #[test]
     fn what_has_no_area_adds_nothing() {
         let mut polygons = Polygons::default();
-        polygons.polygon(&[pos2(0.0, 0.0), pos2(1.0, 0.0)], Color32::WHITE);
-        polygons.polygon(&[pos2(0.0, 0.0), pos2(1.0, 1.0), pos2(2.0, 2.0)], Color32::WHITE);
-        polygons.polygon(&[pos2(f32::NAN, 0.0), pos2(1.0, 0.0), pos2(0.0, 1.0)], Color32::WHITE);
+        polygons.polygon(&[pos2(0.0, 0.0), pos2(1.0, 0.0)], ink());
+        polygons.polygon(&[pos2(0.0, 0.0), pos2(1.0, 1.0), pos2(2.0, 2.0)], ink());
+        polygons.polygon(&[pos2(f32::NAN, 0.0), pos2(1.0, 0.0), pos2(0.0, 1.0)], ink());
         assert!(polygons.0.vertices.is_empty());
     }
 }
