@@ -44,7 +44,7 @@ pub fn run_window() -> Result<(), WindowError> {
 
 /// [`run_window`] in an app that `add` has added to: kinds of robots of a program's own by
 /// [`RobotPlugin`](crate::simulation::RobotPlugin), systems, and the run to begin with by
-/// [`start_run`](crate::simulation::start_run).
+/// [`start_run`].
 ///
 /// # Errors
 /// As [`run_window`].

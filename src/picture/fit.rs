@@ -43,7 +43,7 @@ impl Fit {
         Fit { px_per_metre: self.px_per_metre * zoom, centre, ..self }
     }
 
-    /// Moved by half a pixel at most in x and in y, so that the world's origin lies on a corner between pixels, of which
+    /// Moved by half a pixel at most in x and in y, so that the world's origin lies on a corner of pixels, of which
     /// `scale` make a unit of the screen.
     #[must_use]
     pub fn on_pixels(self, scale: f64) -> Self {

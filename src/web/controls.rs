@@ -29,8 +29,9 @@ pub fn receive(world: &mut World) {
     for incoming in take_all() {
         let done = match incoming {
             Incoming::File { name, bytes } => {
-                let notice = open(world, &name, &bytes);
-                world.resource_mut::<Interface>().0.notice = Some(notice);
+                if let Some(notice) = open(world, &name, &bytes) {
+                    world.resource_mut::<Interface>().0.notice = Some(notice);
+                }
                 Ok(())
             }
             Incoming::Message(message) => take(world, message),

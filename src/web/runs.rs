@@ -132,8 +132,8 @@ pub fn record_link(query: &str) -> Result<Vec<u8>, JsError> {
     written(link.config(), link.seed, link.script.clone()).map_err(error)
 }
 
-/// Simulates a log's run again from its seed, configuration and script, and compares every frame to the last bit, or the
-/// digest of every second. JSON:
+/// Simulates a log's run again from its seed, configuration and script, and compares every frame to the last bit, or
+/// the digest of every second. JSON:
 /// `{ "verified", "ticks", "diverging_tick", "digest", "seed", "text" }`.
 ///
 /// # Errors

@@ -103,8 +103,9 @@ mod tests {
     }
 
     /// Words that are RON's, serde's or the names of this program's types, and that no reader of a world file knows.
-    const NOT_OURS: [&str; 14] = [
-        "dentifier",
+    const NOT_OURS: [&str; 15] = [
+        "identifier",
+        "Identifier",
         "std",
         "xpected",
         "issing field",
@@ -124,8 +125,7 @@ mod tests {
     fn what_is_wrong_is_said_in_a_readers_words() {
         let robot = |fields: &str| with(&format!(", robots: [({fields})])"));
         let shape = |shape: &str| with(&format!(", obstacles: [(name: \"x\", shape: {shape})])"));
-        let fields =
-            "there is no field `nam` here: the fields are name, kind, start, disc, arm, car, sensor, sensors or route";
+        let fields = "there is no field `title` here: the fields are name, kind, start, disc, arm, car, sensor, sensors or route";
         let cases = [
             (said("(3"), "\"3\" stands where a name belongs"),
             (said(""), "`World(` belongs here"),
@@ -139,7 +139,7 @@ mod tests {
             (said("World(version: 1, name: \"a\", name: \"b\")"), "the field `name` is there twice"),
             (with(") x"), "the text goes on after its last bracket"),
             (with(""), "a comma or a closing bracket belongs here"),
-            (robot("nam: 3"), fields),
+            (robot("title: 3"), fields),
             (shape("Foo(2)"), "there is no `Foo` here: write Disc, Box, Polygon, Rounded or Union"),
             (shape("Disc(center: (2, 2), radius: \"a\")"), "a number belongs here"),
         ];
