@@ -45,7 +45,7 @@ pub(crate) use crate::ui::Interface;
 use crate::ui::{self, SessionCommand};
 use aside::Aside;
 #[cfg(all(target_family = "wasm", feature = "web"))]
-pub(crate) use aside::seek_aside;
+pub(crate) use aside::{seek_aside, stop as stop_aside};
 #[cfg(all(target_family = "wasm", feature = "web"))]
 pub(crate) use captured::captured;
 #[cfg(all(target_family = "wasm", feature = "web"))]

@@ -128,10 +128,13 @@ impl Check {
         Check { name: name.to_owned(), recorded, damage }
     }
 
-    /// Goes to the first tick that differs, or to the start, and says what came of it.
+    /// Goes to the first tick that differs, or to the start, aside if that takes long; says what came of it.
     fn ended(self, world: &mut World) -> Result<Notice, SessionError> {
         let differs = self.recorded.differs_at();
-        seek(world, differs.unwrap_or(0))?;
+        let to = differs.unwrap_or(0);
+        if !seek_aside(world, &TransportCommand::Seek(to)) {
+            seek(world, to)?;
+        }
         let mut text = format!("{}: {}", self.name, self.recorded.words());
         if let Some(damage) = &self.damage {
             text += &format!(" (its sealed beginning: {damage})");
@@ -240,8 +243,11 @@ fn is_long(world: &World, ticks: u64) -> bool {
 /// Goes to another tick aside if that takes long. Returns whether it does; if not, the command is left to the run.
 pub fn seek_aside(world: &mut World, command: &TransportCommand) -> bool {
     let Transport { tick: now, playback, .. } = *world.resource::<Transport>();
+    // a run that stands only for a seek goes on playing after the seek that takes its place
+    let under_way = world.resource::<Aside>().0.as_ref();
+    let held = under_way.filter(|work| matches!(work.what, What::Seek { .. })).map(|work| work.playback);
     let (to, playback) = match command {
-        TransportCommand::Seek(to) => (*to, playback),
+        TransportCommand::Seek(to) => (*to, held.unwrap_or(playback)),
         TransportCommand::StepBack => (now.saturating_sub(1), Playback::Paused),
         _ => return false,
     };
@@ -250,6 +256,7 @@ pub fn seek_aside(world: &mut World, command: &TransportCommand) -> bool {
     if !is_long(world, to - from) {
         return false;
     }
+    stop(world);
     begin(world, What::Seek { from, to }, playback);
     true
 }
@@ -258,31 +265,26 @@ pub fn seek_aside(world: &mut World, command: &TransportCommand) -> bool {
 /// nothing yet.
 pub fn check(world: &mut World, check: Check) -> Result<Option<Notice>, SessionError> {
     let ticks = check.recorded.ticks();
-    work(world, What::Check(check), ticks)
+    work(world, What::Check(check), ticks, Playback::Paused)
 }
 
 /// Records a run again to save it: at once, or aside if that takes long. Returns what came of it, or nothing yet.
 pub fn save(world: &mut World, save: Save) -> Result<Option<Notice>, SessionError> {
-    let ticks = save.ticks;
-    work(world, What::Save(Box::new(save)), ticks)
+    let (ticks, playback) = (save.ticks, world.resource::<Transport>().playback);
+    work(world, What::Save(Box::new(save)), ticks, playback)
 }
 
-fn work(world: &mut World, mut what: What, ticks: u64) -> Result<Option<Notice>, SessionError> {
+fn work(world: &mut World, mut what: What, ticks: u64, playback: Playback) -> Result<Option<Notice>, SessionError> {
     if is_long(world, ticks) {
-        begin(world, what, Playback::Paused);
+        begin(world, what, playback);
         return Ok(None);
     }
     while what.go_on(world)? {}
     what.end(world, false)
 }
 
-/// Begins some work in place of the work under way. The run stands while it goes on.
+/// Begins some work, while there is none under way. The run stands while it goes on, and then has this playback.
 fn begin(world: &mut World, what: What, playback: Playback) {
-    // one that a seek holds goes on playing after the seek that takes its place
-    let playback = world.resource::<Aside>().0.as_ref().map_or(playback, |work| match playback {
-        Playback::Paused if matches!(what, What::Seek { .. }) => work.playback,
-        _ => playback,
-    });
     world.resource_mut::<Transport>().playback = Playback::Paused;
     world.resource_mut::<Interface>().0.working = Some(Working { text: what.words(world), stop: false });
     world.resource_mut::<Aside>().0 = Some(Work { what, playback });
@@ -295,11 +297,11 @@ impl Aside {
     }
 }
 
-/// Ends the work under way where it stands, as its Stop does.
+/// Ends the work under way where it stands. A run that stood only for it plays again.
 pub fn stop(world: &mut World) {
     if let Some(work) = world.resource_mut::<Aside>().0.take() {
         let ended = work.what.end(world, true);
-        settle(world, ended, Playback::Paused);
+        settle(world, ended, work.playback);
     }
 }
 

@@ -99,7 +99,9 @@ pub fn follow(world: &mut World) {
     }
     let (done, all) = (job.progress.done.load(Ordering::Relaxed), job.progress.all.load(Ordering::Relaxed));
     let stop = state.working.as_ref().is_some_and(|w| w.stop);
-    job.progress.stop.store(stop, Ordering::Relaxed);
+    if stop {
+        job.progress.stop.store(true, Ordering::Relaxed);
+    }
     let text = match all {
         0 => format!("{}: drawing", name(&job.path)),
         _ => format!("{}: picture {} of {all}", name(&job.path), done + 1),

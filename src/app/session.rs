@@ -134,7 +134,6 @@ pub fn gather(world: &mut World) {
     // while it plays, the view is one tick behind and moves smoothly; paused or as fast as possible, it shows the tick
     let smooth = playing && speed.is_finite();
     let between = if smooth { world.resource::<Time<Fixed>>().overstep_fraction_f64() } else { 1.0 };
-    let picked = world.resource::<Interface>().0.crowd.picked.as_ref().map(|p| p.id);
     update_crowds(world);
     let mut first = 0;
     let mut cockpits = Vec::new();
@@ -142,6 +141,8 @@ pub fn gather(world: &mut World) {
         let ids = first..first + drawn.robots;
         first = ids.end;
         let crowd = crowd(world, number, between);
+        let state = &world.resource::<Interface>().0.crowd;
+        let picked = crowd.as_ref().and_then(|crowd| state.picked_in(crowd)).map(|p| p.id);
         let is_shown = |id: &u32| crowd.is_none() || picked == Some(*id);
         let robots =
             ids.filter(is_shown).filter_map(|id| view_of(world, id)).map(|robot| shown(world, &robot, between));
@@ -250,6 +251,7 @@ pub fn carry_out(world: &mut World, commands: Vec<Command>) {
                 }
             }
             Command::Session(SessionCommand::PutRobot { robot }) => {
+                aside::stop(world);
                 let atlas = world.resource::<Interface>().0.atlas.atlas();
                 let (of, there) = (atlas.world().name.clone(), atlas.robots().iter().find(|r| r.name == robot));
                 let Some(coordinates) = there.map(|r| r.q.coordinates()) else { continue };

@@ -13,7 +13,7 @@ use super::link::MAX_LINK_TICK;
 use super::listener::tell;
 use super::message::{Action, Message};
 use super::run_link::link_of;
-use crate::app::{Interface, open_log, open_world_text, seek_aside};
+use crate::app::{Interface, open_log, open_world_text, seek_aside, stop_aside};
 use crate::manifest::ThemeChoice;
 use crate::picture::{Role, Theme};
 use crate::random::Seed;
@@ -69,6 +69,8 @@ fn open(world: &mut World, name: &str, bytes: &[u8]) -> Option<Notice> {
 fn take(world: &mut World, message: Message) -> Result<(), PageError> {
     let transport = |world: &mut World, command: TransportCommand| {
         if !seek_aside(world, &command) {
+            // what else is asked of the run ends the work under way
+            stop_aside(world);
             world.write_message(RunCommand::from(command));
         }
         Ok(())

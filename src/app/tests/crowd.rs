@@ -47,7 +47,7 @@ fn on_screen(harness: &Harness<'_, Lab>, at: Point2) -> Pos2 {
 
 #[test]
 fn a_robot_is_found_by_its_name_and_only_who_is_picked_has_words_and_a_scan() {
-    let (mut harness, _) = warehouse(30, WIDE);
+    let (mut harness, config) = warehouse(30, WIDE);
     let shown = |harness: &Harness<'_, Lab>| harness.state().app.world().resource::<Shown>().0.cockpits[0].clone();
     assert!(shown(&harness).robots.is_empty(), "nobody is picked");
     assert_eq!(shown(&harness).crowd.unwrap().names.len(), 30);
@@ -63,6 +63,16 @@ fn a_robot_is_found_by_its_name_and_only_who_is_picked_has_words_and_a_scan() {
     assert!(own.len() == 1 && one[0].sees == own, "its scan and no other");
     assert_eq!(sensors_of(harness.state().app.world(), one[0].id), own);
     harness.get_by_label("Follow");
+    // another run, in which that one has another name
+    let mut other = config.clone();
+    let id = config.worlds[0].robots.iter().position(|r| r.name == "rover 00003").unwrap();
+    other.worlds[0].robots[id].name = "another".into();
+    new_run(harness.state_mut().app.world_mut(), other, BOOK_SEED).unwrap();
+    harness.run_steps(2);
+    assert!(shown(&harness).robots.is_empty(), "nobody is picked there");
+    new_run(harness.state_mut().app.world_mut(), config, BOOK_SEED).unwrap();
+    harness.run_steps(2);
+    assert_eq!(shown(&harness).robots.len(), 1);
     // another click on its row, and nobody is
     harness.get_all_by_label("rover 00003").next().unwrap().click();
     harness.run_steps(3);
@@ -177,8 +187,23 @@ fn a_long_way_to_another_tick_goes_on_aside_and_ends_on_the_same_bits() {
     let mut straight = Recorder::new(config, BOOK_SEED).unwrap();
     (0..30).for_each(|_| _ = straight.step());
     assert_eq!(&harness.state().app.world().resource::<LatestFrame>().0, straight.frame());
-    // stopped, it stands where it came to, and says so
+    // it played before the way there, and plays again when something else is asked of it meanwhile
+    let app = harness.state_mut().app.world_mut();
+    app.resource_mut::<Transport>().playback = Playback::Playing;
     seek(&mut harness, 75);
+    assert_eq!(harness.state().transport().playback, Playback::Paused, "it stands meanwhile");
+    let faster = vec![Command::from(TransportCommand::SetSpeed(2.0))];
+    carry_out(harness.state_mut().app.world_mut(), faster);
+    assert_eq!((working(&harness), harness.state().transport().playback), (None, Playback::Playing));
+    harness.state_mut().app.world_mut().resource_mut::<Transport>().playback = Playback::Paused;
+    // a save gives way to it, and says so
+    let folder = tempfile::tempdir().unwrap();
+    assert_eq!(save_run(harness.state_mut().app.world_mut(), &folder.path().join("a.mcap")), None, "it goes on aside");
+    assert!(working(&harness).is_some_and(|w| w.text.starts_with("saving: tick")));
+    seek(&mut harness, 75);
+    let notice = harness.state().app.world().resource::<Interface>().0.notice.clone();
+    assert_eq!(notice.map(|n| n.text).as_deref(), Some("not saved: stopped"));
+    // stopped, it stands where it came to, and says so
     harness.step();
     click(&mut harness, "Stop");
     harness.run_steps(2);

@@ -8,7 +8,7 @@ use motion_lab::export::JsonNumber;
 use motion_lab::run::{DT, RobotStats, RunStats, StatsGatherer};
 use serde::Serialize;
 
-use crate::cli::support::input::for_each_file;
+use crate::cli::support::input::worst_of_each;
 use crate::cli::support::log_source::{AnySource, read_any_log};
 use crate::cli::support::simulate::each_frame;
 use crate::cli::{Data, Failure, Outcome, say};
@@ -63,34 +63,33 @@ struct RobotLine<'a> {
 impl StatsArgs {
     /// Runs the command.
     pub fn run(self, data: &mut Data) -> Result<Outcome, Failure> {
-        let (mut is_damaged, mut differs) = (false, false);
         let mut is_first = true;
-        let outcome = for_each_file(&self.files, data, |file, data| {
+        worst_of_each(&self.files, data, |file, data| {
             let AnySource { log, damage, .. } = read_any_log(file)?;
             if let Some(damage) = &damage {
-                is_damaged = true;
                 say(format!("{damage}\nThis much is counted; `motion-lab record --resume` makes it whole."));
             }
             let (seed, config, script) = log.parts();
             let kinds = Kinds::default();
             let mut gatherer = StatsGatherer::new(config, script, &kinds);
-            if let Some(difference) = each_frame(&log, |frame| gatherer.see(frame))? {
-                differs = true;
+            let difference = each_frame(&log, |frame| gatherer.see(frame))?;
+            if let Some(difference) = &difference {
                 say(format!("{}: the run does not repeat its recording: {difference}", file.display()));
             }
             let stats = gatherer.stats();
             if self.json {
-                return data.json(&LogStats::new(file, seed.0, &stats));
+                data.json(&LogStats::new(file, seed.0, &stats))?;
+            } else {
+                if !std::mem::replace(&mut is_first, false) {
+                    data.line("")?;
+                }
+                print(file, &stats, data)?;
             }
-            if !std::mem::replace(&mut is_first, false) {
-                data.line("")?;
-            }
-            print(file, &stats, data)
-        })?;
-        Ok(match outcome {
-            Outcome::Done if differs => Outcome::Differs,
-            Outcome::Done if is_damaged => Outcome::Recovered,
-            outcome => outcome,
+            Ok(match (difference, damage) {
+                (Some(_), _) => Outcome::Differs,
+                (None, Some(_)) => Outcome::Recovered,
+                (None, None) => Outcome::Done,
+            })
         })
     }
 }

@@ -26,11 +26,12 @@ impl Default for Camera {
 }
 
 impl Camera {
-    /// How the world lies on paper on which it lies whole as `whole` says. `scale` pixels are a point.
+    /// How the world lies on paper on which it lies whole as `whole` says. `scale` pixels are a point. Shown whole, it is
+    /// centred; otherwise the middle is in the world, also in one that has become smaller since.
     pub fn fit(&self, whole: &Fit, bounds: &Aabb, scale: f64) -> Fit {
         match self.centre {
-            Some(centre) => whole.magnified(centre, self.zoom).on_pixels(scale),
-            None => whole.magnified(bounds.centre(), self.zoom),
+            Some(centre) if self.zoom > 1.0 => whole.magnified(inside(centre, bounds), self.zoom).on_pixels(scale),
+            _ => whole.magnified(bounds.centre(), 1.0),
         }
     }
 
@@ -50,13 +51,18 @@ impl Camera {
 
     /// Puts a point of the world into the middle, or the nearest one that is in the world.
     pub fn look_at(&mut self, centre: Point2, bounds: &Aabb) {
-        let within = |v, min, max| greater(min, lesser(max, v));
-        let Aabb { min, max } = bounds;
-        self.centre = Some(Point2::new(within(centre.x, min.x, max.x), within(centre.y, min.y, max.y)));
+        self.centre = Some(inside(centre, bounds));
     }
 
     /// Comes so near that some metres are seen, for a paper `across` points across; does nothing if it is nearer.
     pub fn approach(&mut self, across: f64, whole: &Fit) {
         self.zoom = greater(self.zoom, across / (AROUND * whole.px_per_metre()));
     }
+}
+
+/// The point of a box that is nearest to a point.
+fn inside(p: Point2, bounds: &Aabb) -> Point2 {
+    let within = |v, min, max| greater(min, lesser(max, v));
+    let Aabb { min, max } = bounds;
+    Point2::new(within(p.x, min.x, max.x), within(p.y, min.y, max.y))
 }

@@ -15,7 +15,7 @@ use super::values::{Crowd, CrowdRobot};
 use crate::geometry::{Aabb, Point2};
 use crate::num::exp;
 use crate::picture::{Anchor, Drawing, Face, Fit, Item, Picture, Role};
-use crate::simulation::History;
+use crate::simulation::{History, TickMark};
 use crate::ui::dashboard::pane::{door_clicked, in_hand, point_out, robot_words, scale_bar, take_in_hand, touched};
 use crate::ui::dashboard::values::thousands;
 use crate::ui::dashboard::{doors, drive, handles, pane};
@@ -127,16 +127,18 @@ fn world(
     }
     let now = ui.input(|i| i.time);
     let picked = state.crowd.picked_in(crowd).map(|p| p.id);
-    let mut red = |id: u32, robot: &CrowdRobot| {
-        let Some(name) = crowd.name(id).filter(|name| robot.flash || state.flashes.contains_key(*name)) else {
-            return false;
-        };
+    let role = |id: u32, robot: &CrowdRobot| {
+        // who is picked is drawn by itself
+        let name = crowd.name(id).filter(|_| picked != Some(id))?;
+        if !robot.flash && !state.flashes.contains_key(name) {
+            return Some(Role::Robot);
+        }
         if state.flash_lags(name, robot.flash) {
             ui.ctx().request_repaint_after_secs(0.34);
         }
-        state.flash(name, robot.flash, now)
+        Some(if state.flash(name, robot.flash, now) { Role::Goal } else { Role::Robot })
     };
-    let mesh = robots(crowd, paper, &fit, look, &mut red);
+    let mesh = robots(crowd, paper, &fit, look, role);
     painter.add(Shape::mesh(mesh.0));
     let mut over = Picture::new(&cockpit.world.name, bounds);
     if state.settings.labels {
@@ -163,6 +165,11 @@ fn world(
     }
     let touch = touched(ui);
     let at_door = door_clicked(&response, cockpit, &fit, touch, commands);
+    if response.clicked() && response.interact_pointer_pos().is_none() {
+        // by a key: there is no place that was clicked
+        take_in_hand(cockpit.robots.iter().find(|r| r.drivable), state, commands);
+        response.surrender_focus();
+    }
     if let Some(at) = response.interact_pointer_pos().filter(|_| response.clicked() && !at_door) {
         let at = fit.world_from_screen([f64::from(at.x), f64::from(at.y)]);
         let near = crowd.nearest(at, if touch { TOUCH } else { REACH } / fit.px_per_metre());
@@ -253,7 +260,8 @@ fn names(crowd: &Crowd, paper: Rect, fit: &Fit) -> Vec<Item> {
 fn heat(ui: &Ui, shown: &CrowdPane) -> Arc<Heat> {
     let (marks, crowd) = (shown.history.marks(), shown.crowd);
     let tick = marks.partition_point(|m| m.tick <= shown.tick);
-    let key = (tick, marks.len(), shown.cockpit.world.bounds);
+    let last = tick.checked_sub(1).and_then(|i| marks.get(i)).copied();
+    let key = (tick, last, shown.cockpit.world.bounds);
     let id = Id::new(("heat", crowd.first));
     let kept: Option<(KeptHeat, Arc<Heat>)> = ui.data(|d| d.get_temp(id));
     if let Some((_, heat)) = kept.filter(|(k, _)| *k == key) {
@@ -265,8 +273,8 @@ fn heat(ui: &Ui, shown: &CrowdPane) -> Arc<Heat> {
     heat
 }
 
-/// What kept counts of contacts depend on: how many marks there are up to now and in all, and the world's box.
-type KeptHeat = (usize, usize, Aabb);
+/// What kept counts of contacts depend on: how many marks there are up to now, the last of them, and the world's box.
+type KeptHeat = (usize, Option<TickMark>, Aabb);
 
 /// Shows how many contacts there were, and a link that shows where they began.
 fn heat_link(ui: &mut Ui, shown: &CrowdPane, look: &Look, state: &mut UiState) {

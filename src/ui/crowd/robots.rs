@@ -26,13 +26,14 @@ const LEAP: f64 = 0.5;
 /// The opacity of a body, as of a robot that is drawn by itself.
 const BODY: f64 = 0.85;
 
-/// The robots that the paper shows, as polygons. `red` says by a robot's id and its flash whether it is drawn red.
+/// The robots that the paper shows, as polygons. `role` says by a robot's id and its state in which colour it is drawn;
+/// `None` leaves it out.
 pub fn robots(
     crowd: &Crowd,
     paper: Rect,
     fit: &Fit,
     look: &Look,
-    mut red: impl FnMut(u32, &CrowdRobot) -> bool,
+    mut role: impl FnMut(u32, &CrowdRobot) -> Option<Role>,
 ) -> Polygons {
     let mut out = Polygons::default();
     let mut pen = Pen { fit, corners: Vec::new() };
@@ -48,7 +49,7 @@ pub fn robots(
         if !on_screen.intersects(paper) {
             continue;
         }
-        let role = if red(id, robot) { Role::Goal } else { Role::Robot };
+        let Some(role) = role(id, robot) else { continue };
         let size = f64::from(on_screen.size().max_elem());
         if size < SMALL {
             let side = if on_screen.size().max_elem() > LEAST { on_screen.size().max_elem() } else { LEAST };

@@ -54,6 +54,17 @@ fn what_is_under_the_pointer_stays_there_while_it_is_magnified() {
     assert_eq!(camera.zoom * whole.px_per_metre(), 400.0, "no larger than 400 points a metre");
     camera.zoom_at(at, 1e-9, &whole, &YARD);
     assert_eq!(camera, Camera::default(), "no smaller than the whole world, which is centred again");
+    // following in a world that is seen whole does not move it; in one that became smaller the middle is still in it
+    camera.look_at(Point2::new(1.0, 1.0), &YARD);
+    assert_eq!(camera.fit(&whole, &YARD, 1.0), whole);
+    let mut near = Camera { zoom: 4.0, ..camera };
+    near.look_at(Point2::new(39.0, 19.0), &YARD);
+    let smaller = Aabb::new(Point2::new(0.0, 0.0), Point2::new(10.0, 5.0));
+    assert_eq!(
+        near.fit(&whole, &smaller, 1.0).screen_from_world(Point2::new(10.0, 5.0)),
+        [200.0, 100.0],
+        "on the paper"
+    );
     camera.look_at(Point2::new(55.0, -3.0), &YARD);
     assert_eq!(camera.centre, Some(Point2::new(40.0, 0.0)), "the middle of the view is in the world");
 }
@@ -75,7 +86,7 @@ fn a_crowd_is_one_mesh_of_what_the_paper_shows() {
     // 0.1 m are a point: too small for an outline
     let dots = still(vec![rover(5.0, 5.0, 0.1), rover(39.0, 19.0, 0.1), rover(60.0, 5.0, 0.1)]);
     let look = Look::from(Theme::Light);
-    let mesh = robots(&dots, paper(), &whole(), &look, |_, _| false).0;
+    let mesh = robots(&dots, paper(), &whole(), &look, |_, _| Some(Role::Robot)).0;
     assert_eq!(mesh.vertices.len(), 8, "two squares; the third is beside the paper");
     assert!(mesh.vertices.iter().all(|v| v.color == look.colour(Role::Robot)));
     let corners = Rect::from_points(&mesh.vertices.iter().take(4).map(|v| v.pos).collect::<Vec<_>>());
@@ -85,9 +96,12 @@ fn a_crowd_is_one_mesh_of_what_the_paper_shows() {
         "2 m across is 2"
     );
 
+    let without = robots(&dots, paper(), &whole(), &look, |id, _| (id != 8).then_some(Role::Robot)).0;
+    assert_eq!(without.vertices.len(), 4, "one is left out");
+
     // a disc of ten points: within a tenth of a point of its circle, and the pointer on it
     let disc = still(vec![rover(5.0, 5.0, 1.0)]);
-    let mesh = robots(&disc, paper(), &whole(), &look, |id, _| id == 7).0;
+    let mesh = robots(&disc, paper(), &whole(), &look, |id, _| (id == 7).then_some(Role::Goal)).0;
     let body: Vec<f32> = mesh
         .vertices
         .iter()
@@ -101,7 +115,7 @@ fn a_crowd_is_one_mesh_of_what_the_paper_shows() {
 #[test]
 fn robots_are_drawn_on_their_way_and_not_while_they_leap() {
     let middle = |crowd: &Crowd| {
-        let mesh = robots(crowd, paper(), &whole(), &Look::from(Theme::Dark), |_, _| false).0;
+        let mesh = robots(crowd, paper(), &whole(), &Look::from(Theme::Dark), |_, _| Some(Role::Robot)).0;
         mesh.calc_bounds().center()
     };
     let on_the_way = crowd(vec![rover(5.0, 5.0, 1.0)], vec![rover(5.4, 5.2, 1.0)], 0.25);
@@ -117,7 +131,7 @@ fn robots_are_drawn_on_their_way_and_not_while_they_leap() {
         CrowdRobot { footprint, bounds, heading: None, flash: false, contacts: 0 }
     };
     let turning = crowd(vec![car(0.0)], vec![car(0.2)], 0.5);
-    let mesh = robots(&turning, paper(), &whole(), &Look::from(Theme::Dark), |_, _| false).0;
+    let mesh = robots(&turning, paper(), &whole(), &Look::from(Theme::Dark), |_, _| Some(Role::Robot)).0;
     // the corner (1, 0.5) turned by 0.1, half of 0.2, is at (0.9451, 0.5973)
     let near = |v: &bevy_egui::egui::epaint::Vertex| (v.pos - pos2(59.45, 144.03)).length();
     assert!(mesh.vertices.iter().map(near).any(|gap| gap < 0.75));

@@ -48,8 +48,16 @@ pub fn record(
             ended
         };
         let ended: Vec<_> = pool.install(|| (first..end).into_par_iter().map(one).collect());
+        let mut failure = None;
         for (seed, ended) in (first..end).zip(ended) {
-            let ended = ended?;
+            let ended = match ended {
+                Ok(ended) => ended,
+                // the others of these runs are whole, and their logs are written
+                Err(error) => {
+                    failure = failure.or(Some(error));
+                    continue;
+                }
+            };
             if let Ended::Whole { refusals, .. } = &ended
                 && let Some(event) = refusals.first()
             {
@@ -68,6 +76,9 @@ pub fn record(
             }
         }
         data.flush()?;
+        if let Some(failure) = failure {
+            return Err(failure);
+        }
         first = end;
     }
     if let Some((runs, count, event)) = refused {
