@@ -26,8 +26,8 @@ impl Default for Camera {
 }
 
 impl Camera {
-    /// How the world lies on paper on which it lies whole as `whole` says. `scale` pixels are a point. Shown whole, it is
-    /// centred; otherwise the middle is in the world, also in one that has become smaller since.
+    /// How the world lies on paper on which it lies whole as `whole` says. `scale` pixels are a point. Shown whole, it
+    /// is centred; otherwise the middle is in the world, also in one that has become smaller since.
     pub fn fit(&self, whole: &Fit, bounds: &Aabb, scale: f64) -> Fit {
         match self.centre {
             Some(centre) if self.zoom > 1.0 => whole.magnified(inside(centre, bounds), self.zoom).on_pixels(scale),
