@@ -256,8 +256,15 @@ pub fn seek_aside(world: &mut World, command: &TransportCommand) -> bool {
     if !is_long(world, to - from) {
         return false;
     }
-    stop(world);
-    begin(world, What::Seek { from, to }, playback);
+    // a handle that is held asks for its tick in every frame; other work than a seek gives way aloud
+    match &world.resource::<Aside>().0 {
+        Some(Work { what: What::Seek { to: same, .. }, playback: kept }) if *same == to && *kept == playback => {}
+        Some(Work { what: What::Seek { .. }, .. }) => begin(world, What::Seek { from, to }, playback),
+        _ => {
+            stop(world);
+            begin(world, What::Seek { from, to }, playback);
+        }
+    }
     true
 }
 
