@@ -9,7 +9,7 @@ use bevy::time::TimeUpdateStrategy;
 use motion_lab::num::{sin, tan, wrap};
 use motion_lab::prelude::*;
 use motion_lab::random::DRAWS_PER_INDEX;
-use motion_lab::recording::Run;
+use motion_lab::recording::{Recorder, Run};
 use motion_lab::run::{Event, Frame, Log, LogWriter, RobotInput};
 use motion_lab::simulation::{
     History, HistoryPlugin, Keyframes, LatestFrame, PendingInput, RobotCommand, RunCommand, SimulationPlugin,
@@ -227,6 +227,23 @@ fn keyframes_thinned_by_their_size_hold_no_scans_and_lead_back_to_the_same_bits(
         send(&mut app, TransportCommand::Undo);
         assert_is(&mut app, &run, &[200, 400, 33]);
     }
+}
+
+#[test]
+fn a_recorder_without_keyframes_takes_the_same_memory_however_long_it_goes_on_and_still_goes_back() {
+    let run = fresh(inputs(), 300);
+    let mut recorder = Recorder::new(config(300), (SEED, script(inputs()))).unwrap();
+    assert_same(recorder.seek(300).unwrap(), &run[300]);
+    let all = recorder.world().resource::<Keyframes>().bytes();
+    let mut recorder = recorder.without_keyframes();
+    let first = recorder.world().resource::<Keyframes>().bytes();
+    assert!(first > 0 && 4 * first == all, "of the ticks 0, 100, 200 and 300 the first stays: {first} and {all} bytes");
+    for _ in 0..200 {
+        recorder.step();
+    }
+    assert_eq!(recorder.world().resource::<Keyframes>().bytes(), first);
+    assert_same(recorder.seek(299).unwrap(), &run[299]);
+    assert_same(recorder.seek(0).unwrap(), &run[0]);
 }
 
 /// Gives the rover another input and goes on for a second.

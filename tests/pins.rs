@@ -229,7 +229,7 @@ fn a_change_of_one_bit_anywhere_changes_both_digests() {
             }
         }
         let mut changed = log.clone();
-        let range = &mut changed.frames[tick].scans[0].ranges[17];
+        let range = &mut changed.frames[tick].scans[0].ranges_mut()[17];
         *range = f64::from_bits(range.to_bits() - 1);
         assert!(frames_digest(&changed) != frames && changed.digest() != whole, "a ray at {tick}");
     }

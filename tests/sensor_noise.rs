@@ -144,7 +144,7 @@ fn the_sensor_has_a_stream_of_its_own() {
     // random reading is R times a draw, and a wheel's slip is 1 - s + 2 s times a draw: no draw of the one may be among
     // those of the other.
     let (random, _) = twins("z_rand: 1", Seed(9), 80);
-    let scans = std::iter::once(&random.initial).chain(&random.frames).flat_map(|frame| &frame.scans[0].ranges);
+    let scans = std::iter::once(&random.initial).chain(&random.frames).flat_map(|frame| frame.scans[0].ranges.iter());
     let mut drawn: Vec<f64> = scans.map(|reading| reading / R).collect();
     drawn.sort_by(f64::total_cmp);
     let slips = slips(&random, 0).into_iter().flatten().filter(|slip| slip.is_finite());

@@ -131,7 +131,7 @@ fn frames_that_are_not_quite_right_are_refused() {
             }
             if let Some(range) = after.scans.first().and_then(|scan| scan.ranges.first()).filter(|r| r.is_finite()) {
                 let mut changed = after.clone();
-                changed.scans[0].ranges[0] = range + 1e-6;
+                changed.scans[0].ranges_mut()[0] = range + 1e-6;
                 assert!(judge(&case, before, &changed, &mut Tally::default()).is_err(), "a range a micrometre off");
             }
         }

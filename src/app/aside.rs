@@ -231,11 +231,19 @@ impl What {
 /// The next tick on the way to `to` that costs at most one tick of simulation: a keyframe's, or the one that follows.
 fn next_on_the_way(world: &World, to: u64) -> u64 {
     let now = world.resource::<Transport>().tick;
-    let keyframe = world.resource::<Keyframes>().before(to).map_or(0, |frame| frame.tick);
-    if to < now || keyframe > now { keyframe } else { now + 1 }
+    let begins = way_begins(world, to);
+    if begins == now { now + 1 } else { begins }
 }
 
-/// Whether so many ticks of the run under way are done aside.
+/// The tick from which on the way to `to` is simulated: the present one, or that of the last keyframe where it is nearer
+/// or `to` lies behind.
+fn way_begins(world: &World, to: u64) -> u64 {
+    let now = world.resource::<Transport>().tick;
+    let keyframe = world.resource::<Keyframes>().before(to).map_or(0, |frame| frame.tick);
+    if to < now || keyframe > now { keyframe } else { now }
+}
+
+/// Whether this number of ticks of the run under way takes so long that it is done aside.
 fn is_long(world: &World, ticks: u64) -> bool {
     ticks.saturating_mul(world.resource::<LatestFrame>().0.robots.len() as u64) > AT_ONCE
 }
@@ -251,8 +259,7 @@ pub fn seek_aside(world: &mut World, command: &TransportCommand) -> bool {
         TransportCommand::StepBack => (now.saturating_sub(1), Playback::Paused),
         _ => return false,
     };
-    let keyframe = world.resource::<Keyframes>().before(to).map_or(0, |frame| frame.tick);
-    let from = if to < now || keyframe > now { keyframe } else { now };
+    let from = way_begins(world, to);
     if !is_long(world, to - from) {
         return false;
     }

@@ -38,7 +38,7 @@ impl FrameTimes {
     }
 }
 
-/// Measures so many frames and then closes the window.
+/// Measures a number of frames and then closes the window.
 pub struct MeasurePlugin {
     /// The number of frames.
     pub frames: u32,

@@ -85,8 +85,8 @@ pub enum Opened {
     Log(PathBuf),
 }
 
-/// [`run_window`] with a world or a recorded run. With `frames` it closes after so many frames, and what these took is
-/// returned; else the times are empty.
+/// [`run_window`] with a world or a recorded run. With `frames` it closes after that number of frames, and
+/// returns what they took; else the times are empty.
 ///
 /// # Errors
 /// As [`run_window`].

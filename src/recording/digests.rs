@@ -28,7 +28,7 @@ impl Run {
     /// [`RunError`] names the invalid part of the configuration or the script.
     pub fn record_digests(config: TourConfig, input: impl Into<RunInput>) -> Result<DigestLog, RunError> {
         let RunInput { seed, script } = input.into();
-        let mut run = Recorder::new(config.clone(), (seed, script.clone()))?;
+        let mut run = Recorder::new(config.clone(), (seed, script.clone()))?.without_keyframes();
         let mut so_far = RunDigest::new(seed, &config, &script, run.frame());
         let (start, mut digests, ticks) = (DigestLog::kept(so_far.digest()), Vec::new(), config.ticks);
         for tick in 1..=ticks {
@@ -60,7 +60,7 @@ pub fn verify_digests_with_robots(
     add: impl FnOnce(&mut App),
     mut on_tick: impl FnMut(&Recorder),
 ) -> Result<DigestVerification, RunError> {
-    let mut run = Recorder::with_robots(log.config.clone(), (log.seed, log.script.clone()), add)?;
+    let mut run = Recorder::with_robots(log.config.clone(), (log.seed, log.script.clone()), add)?.without_keyframes();
     let mut digest = RunDigest::new(log.seed, &log.config, &log.script, run.frame());
     let mut comparison = DigestComparison::with(log);
     comparison.tick(0, &digest);

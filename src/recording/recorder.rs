@@ -7,7 +7,7 @@ use bevy::ecs::world::World;
 
 use crate::run::{Frame, Script};
 use crate::simulation::{
-    LatestFrame, PendingInput, Refusals, RestoreError, RobotView, Roster, RunConfig, RunInput, SensorView,
+    Keyframes, LatestFrame, PendingInput, Refusals, RestoreError, RobotView, Roster, RunConfig, RunInput, SensorView,
     SimulationPlugin, SpawnError, StandingWorld, Transport, restore, seek, sensors, start_run, step, view,
 };
 use crate::tour::TourConfig;
@@ -59,6 +59,14 @@ impl Recorder {
         let ticks = config.ticks;
         start_run(&mut world, config, input)?;
         Ok(Recorder { world, ticks })
+    }
+
+    /// The same run with no keyframe but that of tick 0: however long it goes on, it takes the same memory. Moving it
+    /// back simulates from tick 0.
+    #[must_use]
+    pub fn without_keyframes(mut self) -> Self {
+        self.world.resource_mut::<Keyframes>().set_budget(0);
+        self
     }
 
     /// The run's configuration. It says the sensors and the obstacles that the run has, whoever spawned, changed or

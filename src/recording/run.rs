@@ -30,7 +30,7 @@ impl Run {
         add: impl FnOnce(&mut App),
     ) -> Result<Log, RunError> {
         let RunInput { seed, script } = input.into();
-        let mut recorder = Recorder::with_robots(config, (seed, script.clone()), add)?;
+        let mut recorder = Recorder::with_robots(config, (seed, script.clone()), add)?.without_keyframes();
         let config = recorder.config().clone();
         let initial = recorder.frame().clone();
         let frames = Self::frames(&mut recorder, config.ticks);
@@ -52,7 +52,8 @@ impl Run {
     /// # Errors
     /// [`RunError`] when the log's configuration or script cannot be run.
     pub fn replay_with_robots(log: &Log, add: impl FnOnce(&mut App)) -> Result<Vec<Frame>, RunError> {
-        let mut recorder = Recorder::with_robots(log.config.clone(), (log.seed, log.script.clone()), add)?;
+        let mut recorder =
+            Recorder::with_robots(log.config.clone(), (log.seed, log.script.clone()), add)?.without_keyframes();
         Ok(Self::frames(&mut recorder, log.config.ticks))
     }
 
@@ -74,7 +75,8 @@ impl Run {
         add: impl FnOnce(&mut App),
         mut watch: impl FnMut(&Recorder) -> Result<(), E>,
     ) -> Result<(), E> {
-        let mut run = Recorder::with_robots(log.config.clone(), (log.seed, log.script.clone()), add)?;
+        let mut run =
+            Recorder::with_robots(log.config.clone(), (log.seed, log.script.clone()), add)?.without_keyframes();
         for frame in std::iter::once(&log.initial).chain(&log.frames) {
             run.restore(frame)?;
             watch(&run)?;

@@ -48,7 +48,7 @@ pub fn verify_with_robots(
     add: impl FnOnce(&mut App),
     mut on_tick: impl FnMut(&Recorder),
 ) -> Result<Verification, RunError> {
-    let mut run = Recorder::with_robots(log.config.clone(), (log.seed, log.script.clone()), add)?;
+    let mut run = Recorder::with_robots(log.config.clone(), (log.seed, log.script.clone()), add)?.without_keyframes();
     let mut digest = RunDigest::new(log.seed, &log.config, &log.script, run.frame());
     let mut comparison = Comparison::with(log);
     comparison.frame(run.frame());

@@ -185,7 +185,7 @@ mod tests {
             ("flash", |f| f.robots[1].flash += 1),
             ("refusals", |f| f.robots[1].refusals += 1),
             ("scans.len", |f| f.scans.clear()),
-            ("ranges[2]", |f| f.scans[0].ranges[2] = 1.0),
+            ("ranges[2]", |f| f.scans[0].ranges_mut()[2] = 1.0),
         ];
         let frames: Vec<Frame> = (1..=3).map(fixture::frame).collect();
         assert_eq!(first_divergence(&frames, &frames), None);
@@ -247,7 +247,7 @@ mod tests {
 
     /// Robot 0 has three scans and robot 1 has one, of as many ranges as their numbers say.
     fn scanned() -> Vec<Frame> {
-        let scan = |robot, rays| RobotScan { robot, ranges: vec![1.0; rays] };
+        let scan = |robot, rays| RobotScan { robot, ranges: vec![1.0; rays].into() };
         let scans = vec![scan(0, 2), scan(0, 4), scan(0, 3), scan(1, 2)];
         (1..=2).map(|tick| Frame { scans: scans.clone(), ..fixture::frame(tick) }).collect()
     }
@@ -264,12 +264,12 @@ mod tests {
             let printed = differing(change).to_string();
             assert!(printed.starts_with(words), "{printed}");
         };
-        begins(|f| f.scans[0].ranges[1] = 2.0, "tick 2, robot 0, scan 1, ranges[1]: expected 1.0 ");
-        begins(|f| f.scans[1].ranges[3] = 2.0, "tick 2, robot 0, scan 2, ranges[3]: expected 1.0 ");
-        begins(|f| _ = f.scans[2].ranges.pop(), "tick 2, robot 0, scan 3, ranges.len: expected 3 ");
+        begins(|f| f.scans[0].ranges_mut()[1] = 2.0, "tick 2, robot 0, scan 1, ranges[1]: expected 1.0 ");
+        begins(|f| f.scans[1].ranges_mut()[3] = 2.0, "tick 2, robot 0, scan 2, ranges[3]: expected 1.0 ");
+        begins(|f| f.scans[2].ranges = [1.0; 2].into(), "tick 2, robot 0, scan 3, ranges.len: expected 3 ");
         begins(|f| f.scans[2].robot = 1, "tick 2, robot 0, scan 3, scan.robot: expected 0 ");
         // of a robot with one scan, and of values in none, nothing more is said
-        begins(|f| f.scans[3].ranges[0] = 2.0, "tick 2, robot 1, ranges[0]: expected 1.0 ");
+        begins(|f| f.scans[3].ranges_mut()[0] = 2.0, "tick 2, robot 1, ranges[0]: expected 1.0 ");
         begins(|f| f.robots[0].contacts += 1, "tick 2, robot 0, contacts: expected ");
         begins(|f| _ = f.scans.pop(), "tick 2, scans.len: expected 4 ");
         let obstacle = |f: &mut Frame| {
@@ -277,7 +277,7 @@ mod tests {
             f.obstacles.push(crate::run::ObstacleState { world: 0, obstacle: 0, present: false, pose });
         };
         begins(obstacle, "tick 2, obstacles.len: expected 0 ");
-        let found = differing(|f| f.scans[1].ranges[3] = 2.0);
+        let found = differing(|f| f.scans[1].ranges_mut()[3] = 2.0);
         assert_eq!(found.scan, Some(DivergingScan { number: 2, of: 3, robot: None, sensor: None }));
     }
 
@@ -289,7 +289,7 @@ mod tests {
         config.worlds[0].robots[0].sensors = ["left", "aft"].map(|name| ResidentSensor::new(name, rays)).to_vec();
         let printed = |config: &TourConfig, scan: usize| {
             let mut other = frames.clone();
-            other[0].scans[scan].ranges[1] = 2.0;
+            other[0].scans[scan].ranges_mut()[1] = 2.0;
             let printed = first_divergence(&frames, &other).unwrap().named(config).to_string();
             printed.split(": expected").next().unwrap().to_owned()
         };

@@ -36,7 +36,7 @@ pub fn frame(tick: u64) -> Frame {
         flash: 0,
         refusals: 1,
     };
-    let scan = RobotScan { robot: 0, ranges: vec![0.0, 1.0 + time, f64::INFINITY] };
+    let scan = RobotScan { robot: 0, ranges: [0.0, 1.0 + time, f64::INFINITY].into() };
     Frame { tick, robots: vec![car, arm], scans: vec![scan], obstacles: vec![] }
 }
 

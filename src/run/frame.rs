@@ -1,5 +1,7 @@
 //! `Frame`, the state of the whole simulation after a tick, in its one canonical form.
 
+use std::sync::Arc;
+
 use super::field::{Field, Value};
 use crate::configuration::Coordinates;
 use crate::geometry::Pose2;
@@ -69,8 +71,15 @@ pub struct ObstacleState {
 pub struct RobotScan {
     /// The robot's id.
     pub robot: u32,
-    /// The range of each ray, metres; infinity where nothing is in range.
-    pub ranges: Vec<f64>,
+    /// The range of each ray, metres; infinity where nothing is in range. Copies of a frame share them.
+    pub ranges: Arc<[f64]>,
+}
+
+impl RobotScan {
+    /// The ranges, to be changed. Copies of the frame keep what they have.
+    pub fn ranges_mut(&mut self) -> &mut [f64] {
+        Arc::make_mut(&mut self.ranges)
+    }
 }
 
 impl Frame {
@@ -309,7 +318,7 @@ mod tests {
         let frame = Frame {
             tick: 9,
             robots: vec![state],
-            scans: vec![RobotScan { robot: 7, ranges: vec![2.5] }],
+            scans: vec![RobotScan { robot: 7, ranges: [2.5].into() }],
             obstacles: vec![],
         };
         let mut bytes = Vec::new();
@@ -348,7 +357,7 @@ mod tests {
     fn a_nan_is_found_wherever_it_hides() {
         let mut frame = fixture::frame(3);
         assert_eq!(frame.first_nan(), None);
-        frame.scans[0].ranges[1] = f64::NAN;
+        frame.scans[0].ranges_mut()[1] = f64::NAN;
         assert_eq!(frame.first_nan(), Some((0, "ranges[1]".into())));
         frame.robots[1].extra.push(f64::NAN);
         assert_eq!(frame.first_nan(), Some((1, "extra[0]".into())), "robots come before scans");

@@ -140,9 +140,9 @@ pub struct SensorMount(pub Pose2);
 pub struct SensorNoise(pub BeamModel);
 
 /// The ranges that a sensor of the run read at the end of the last tick, metres, one per ray; empty before the first
-/// scan.
+/// scan. They are those of the frame, shared with it.
 #[derive(Component, Clone, Debug, Default, PartialEq)]
-pub struct Scan(pub Vec<f64>);
+pub struct Scan(pub Arc<[f64]>);
 
 /// A robot's id: its place in the run's list of robots. Wherever robots have an order, it is this one.
 #[derive(Component, Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]

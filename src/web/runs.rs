@@ -97,7 +97,7 @@ fn written(config: TourConfig, seed: Seed, script: Script) -> Result<Vec<u8>, Pa
         Run::record(config, (seed, script))?.write_mcap(&mut bytes)?;
         return Ok(bytes);
     }
-    let mut run = Recorder::new(config.clone(), (seed, script.clone()))?;
+    let mut run = Recorder::new(config.clone(), (seed, script.clone()))?.without_keyframes();
     let mut digest = RunDigest::new(seed, &config, &script, run.frame());
     let mut writer = DigestLogWriter::new(bytes, seed, &config, &script, &digest)?;
     for _ in 0..config.ticks {
@@ -185,7 +185,8 @@ fn verify_digest_log(bytes: &[u8]) -> Result<String, JsError> {
 pub fn figure_of_log(bytes: &[u8], dark: bool) -> Result<String, JsError> {
     let log = Log::read_mcap(bytes).map_err(error)?.log;
     let theme = if dark { Theme::Dark } else { Theme::Light };
-    let mut recorder = Recorder::new(log.config.clone(), (log.seed, log.script.clone())).map_err(error)?;
+    let mut recorder =
+        Recorder::new(log.config.clone(), (log.seed, log.script.clone())).map_err(error)?.without_keyframes();
     let mut figure = RunFigure::default();
     figure.watch(recorder.view());
     for _ in &log.frames {

@@ -47,7 +47,7 @@ fn one_planted_ulp_is_found_in_its_tick_and_field() {
     let a = recording(folder.path(), "a.mcap", &[]);
     let mut values = (0.0, 0.0);
     let b = changed(&a, |log| {
-        let range = &mut log.frames[11].scans[0].ranges[77];
+        let range = &mut log.frames[11].scans[0].ranges_mut()[77];
         values = (*range, range.next_up());
         *range = values.1;
     });
@@ -85,7 +85,7 @@ fn of_several_scans_the_one_that_differs_is_named() {
     let world = folder.path().join("room.ron");
     fs::write(&world, SENSORS).unwrap();
     let a = recording(folder.path(), "a.mcap", &["--world", world.to_str().unwrap(), "--rays", "4"]);
-    let planted = |scan: usize| changed(&a, |log| log.frames[4].scans[scan].ranges[1] += 0.5);
+    let planted = |scan: usize| changed(&a, |log| log.frames[4].scans[scan].ranges_mut()[1] += 0.5);
     for (scan, number, sensor, words) in [
         (0, 1, "", "robot 0 (rover), the run's sensor, ranges[1]: "),
         (1, 2, "aft", "robot 0 (rover), sensor \"aft\", ranges[1]: "),

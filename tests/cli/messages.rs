@@ -158,7 +158,7 @@ fn planted() -> Log {
     robot.target = [0.25, -0.0].into_iter().collect();
     robot.extra = [1.0 / 3.0].into_iter().collect();
     (log.frames[7].robots[1].manual, log.frames[7].robots[1].in_contact) = (false, true);
-    log.frames[7].scans[0].ranges = vec![0.0, f64::INFINITY, 5e-324, 1.0 / 7.0];
+    log.frames[7].scans[0].ranges = [0.0, f64::INFINITY, 5e-324, 1.0 / 7.0].into();
     log
 }
 

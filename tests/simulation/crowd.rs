@@ -146,7 +146,7 @@ fn an_arm_is_never_held_and_holds_what_it_lies_on() {
     assert!(state(9, 1).in_contact);
     assert_eq!(state(9, 1).configuration, log.initial.robots[1].configuration, "pinned, though it drives");
     assert!(state(9, 1).extra[0] > state(5, 1).extra[0], "its wheels turn");
-    assert_eq!(log.frames[8].scans[0].ranges, [0.0; 4], "its sensor sits inside the arm");
+    assert_eq!(*log.frames[8].scans[0].ranges, [0.0; 4], "its sensor sits inside the arm");
     assert!(log.frames[19].scans[0].ranges.iter().all(|r| *r > RUSTY.body_radius));
     assert!(!state(20, 0).in_contact && !state(20, 1).in_contact);
     assert!(state(20, 1).configuration[0] > 0.2, "and when the arm has left it drives on");

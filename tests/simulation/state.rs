@@ -10,7 +10,7 @@ use super::{assert_same, tour, wild_script};
 
 fn numbers(frame: &Frame) -> impl Iterator<Item = f64> {
     let robots = frame.robots.iter().flat_map(|r| r.configuration.iter().chain(&r.extra).chain(&r.target));
-    robots.chain(frame.scans.iter().flat_map(|s| &s.ranges)).copied()
+    robots.chain(frame.scans.iter().flat_map(|s| s.ranges.iter())).copied()
 }
 
 #[test]

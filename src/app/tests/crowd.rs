@@ -11,7 +11,7 @@ use crate::tour::{BOOK_SEED, TourConfig};
 use crate::ui::{Command, CrowdState};
 use crate::worlds::Warehouse;
 
-/// The lab with a warehouse of so many robots, paused at its start.
+/// The lab with a warehouse of this number of robots, paused at its start.
 fn warehouse(robots: usize, size: [f32; 2]) -> (Harness<'static, Lab>, TourConfig) {
     let mut harness = lab(size);
     let world = Warehouse { seed: Seed(1), robots, trailers: false }.world().unwrap();

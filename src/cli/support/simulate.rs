@@ -34,9 +34,10 @@ fn refused(error: &RunError) -> Failure {
     Failure::input(error, advice(error))
 }
 
-/// A run at tick 0.
+/// A run at tick 0, which only goes ahead.
 pub fn begin(seed: Seed, config: &TourConfig, script: &Script) -> Result<Recorder, Failure> {
-    Recorder::new(config.clone(), (seed, script.clone())).map_err(|error| refused(&error))
+    let run = Recorder::new(config.clone(), (seed, script.clone())).map_err(|error| refused(&error))?;
+    Ok(run.without_keyframes())
 }
 
 /// Simulates a log's run again and compares it: see [`motion_lab::recording::verify`].

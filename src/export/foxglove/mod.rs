@@ -153,7 +153,7 @@ fn write(
 ) -> Result<(), ExportError> {
     let mut original = Original { records: LinearReader::new_with_options(file, Options::IgnoreEndMagic.into()).ok() };
     let mut out = ViewerFile::begin(out)?;
-    let mut run = Recorder::with_robots(log.config.clone(), (log.seed, log.script.clone()), add)?;
+    let mut run = Recorder::with_robots(log.config.clone(), (log.seed, log.script.clone()), add)?.without_keyframes();
     let paths = RunPath::of_run(log, &mut run, frames_of(log))?;
     let mut viewed = Viewed { viewer, log, paths, before: Vec::new(), shown: Vec::new() };
     for frame in frames_of(log) {

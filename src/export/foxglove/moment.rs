@@ -117,6 +117,6 @@ fn laser_scan(tick: u64, sensor: &SensorView) -> LaserScan {
         pose: Some(Pose::raised(0.0)),
         start_angle: rays.bearing(0),
         end_angle: rays.bearing(rays.sensor.n_rays.saturating_sub(1)),
-        ranges: ranges.clone(),
+        ranges: ranges.to_vec(),
     }
 }

@@ -230,11 +230,12 @@ impl ScanMessage {
     /// Overwrites this message with that of a scan, reusing its buffers.
     pub fn take(&mut self, tick: u64, max_range: Option<f64>, scan: &RobotScan) {
         (self.tick, self.robot, self.max_range) = (tick, scan.robot, max_range);
-        self.ranges.clone_from(&scan.ranges);
+        self.ranges.clear();
+        self.ranges.extend_from_slice(&scan.ranges);
     }
 
     pub fn into_scan(self) -> RobotScan {
-        RobotScan { robot: self.robot, ranges: self.ranges }
+        RobotScan { robot: self.robot, ranges: self.ranges.into() }
     }
 }
 

@@ -292,10 +292,10 @@ mod tests {
         let sensor = |name: &str, max_range: f64| ResidentSensor::new(name, RangeSensor { n_rays: 1, max_range });
         log.config.worlds[0].robots[0].sensors = vec![sensor("far", 9.0)];
         log.config.worlds[0].robots[1].sensors = vec![sensor("b", 7.0), sensor("a", 5.0)];
-        log.initial.scans = [0, 0, 1, 1].map(|robot| RobotScan { robot, ranges: vec![1.0] }).to_vec();
+        log.initial.scans = [0, 0, 1, 1].map(|robot| RobotScan { robot, ranges: [1.0].into() }).to_vec();
         let ranges = |log: &Log| Preamble::new(log.seed, &log.config, &log.script, &log.initial).unwrap().max_ranges();
         assert_eq!(ranges(&log), [Some(4.0), Some(9.0), Some(5.0), Some(7.0)]);
-        log.initial.scans.insert(4, RobotScan { robot: 1, ranges: vec![1.0] });
+        log.initial.scans.insert(4, RobotScan { robot: 1, ranges: [1.0].into() });
         assert_eq!(ranges(&log), [Some(4.0), Some(9.0), None, None, None], "one from code, whichever it is");
         log.initial.scans.swap(0, 4);
         let refused = Preamble::new(log.seed, &log.config, &log.script, &log.initial).unwrap_err();

@@ -42,7 +42,7 @@ pub(crate) fn settle_start(world: &mut World) {
     world.insert_resource(RunConfig(Arc::new(config)));
     let changes = world.resource::<PendingInput>().script().changes.clone();
     super::roster::sync_added(world, &changes);
-    world.insert_resource(Keyframes::default());
+    world.resource_mut::<Keyframes>().clear();
     if world.contains_resource::<History>() {
         world.insert_resource(History::default());
     }

@@ -56,6 +56,14 @@ impl Keyframes {
         Keyframes { budget: bytes, ..self }
     }
 
+    /// Bounds the size of the frames to `bytes` from now on; those that are too many are dropped.
+    pub(crate) fn set_budget(&mut self, bytes: usize) {
+        self.budget = bytes;
+        while self.bytes > bytes && self.frames.len() > 1 {
+            self.thin();
+        }
+    }
+
     /// The last frame kept at or before `tick`. Its list of scans is empty.
     pub fn before(&self, tick: u64) -> Option<&Frame> {
         self.frames.range(..=tick).next_back().map(|(_, f)| f)
@@ -78,8 +86,7 @@ impl Keyframes {
         let has_room =
             |kept: &Self| kept.frames.len() < MOST_KEYFRAMES && kept.bytes.saturating_add(size) <= kept.budget;
         while !has_room(self) && self.frames.len() > 1 {
-            self.every = self.every.saturating_mul(2);
-            self.retain(|tick, every| tick.is_multiple_of(every));
+            self.thin();
         }
         if frame.tick == 0 || (has_room(self) && frame.tick.is_multiple_of(self.every)) {
             let Frame { tick, robots, obstacles, .. } = frame;
@@ -87,6 +94,17 @@ impl Keyframes {
             self.frames.insert(*tick, kept);
             self.bytes += size;
         }
+    }
+
+    /// Drops every second frame.
+    fn thin(&mut self) {
+        self.every = self.every.saturating_mul(2);
+        self.retain(|tick, every| tick.is_multiple_of(every));
+    }
+
+    /// Forgets all frames and keeps the bounds.
+    pub(crate) fn clear(&mut self) {
+        self.retain(|_, _| false);
     }
 
     /// Forgets every frame after `tick`.
@@ -125,7 +143,7 @@ mod tests {
             flash: 0,
             refusals: 0,
         };
-        let scans = vec![RobotScan { robot: 0, ranges: vec![1.0; 360] }];
+        let scans = vec![RobotScan { robot: 0, ranges: vec![1.0; 360].into() }];
         Frame { tick, robots: (0..robots).map(state).collect(), scans, obstacles: vec![] }
     }
 

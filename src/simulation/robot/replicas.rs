@@ -173,7 +173,7 @@ impl<R: SimulatedRobot> Replicas<R> {
     pub fn frame(&self, replica: usize) -> Frame {
         let Replica { tick, robot: Driven { q, mode, extra }, contacts, .. } = &self.replicas[replica];
         let state = state_of(RobotId(0), q, &OwnState::new(extra.clone()), mode, contacts);
-        let scan = self.stage.rays.map(|_| RobotScan { robot: 0, ranges: self.ranges(replica).to_vec() });
+        let scan = self.stage.rays.map(|_| RobotScan { robot: 0, ranges: self.ranges(replica).into() });
         Frame { tick: *tick, robots: vec![state], scans: scan.into_iter().collect(), obstacles: Vec::new() }
     }
 

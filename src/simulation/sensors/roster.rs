@@ -21,8 +21,6 @@ pub struct SensorRoster {
     pub(crate) sensors: Vec<RunSensor>,
     /// Scanners for the sensors, which many of them share.
     pub(crate) scanners: Scanners,
-    /// Room for the scans' copies in the sensors' components.
-    pub(crate) copies: Vec<Vec<f64>>,
     refused: Vec<SensorRefused>,
     /// Whether a sensor entity was spawned, changed or removed since the sensors were taken.
     pub(super) stale: bool,

@@ -1,5 +1,7 @@
 //! `SensorView`, a sensor of the run with what it reads, for views.
 
+use std::sync::Arc;
+
 use bevy::prelude::*;
 
 use super::roster::SensorRoster;
@@ -20,7 +22,7 @@ pub struct SensorView {
     /// Its pose in the world now.
     pub pose: Pose2,
     /// The range of each ray at the end of the last tick, metres; infinity where nothing is in range.
-    pub ranges: Vec<f64>,
+    pub ranges: Arc<[f64]>,
 }
 
 /// The sensors of the run, ordered by robot, then name: one for each scan of a frame, in the same order.

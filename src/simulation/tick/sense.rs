@@ -1,5 +1,7 @@
 //! The system that runs every range sensor's scan.
 
+use std::sync::Arc;
+
 use bevy::prelude::*;
 
 use super::crowds::{Crowds, stand};
@@ -20,40 +22,47 @@ pub(crate) fn sense_now(world: &mut World) {
 pub(crate) fn sense(world: &mut World) {
     let Some(mut roster) = world.get_resource_mut::<SensorRoster>() else { return };
     let mut roster = std::mem::take(&mut *roster);
-    let SensorRoster { sensors, scanners, copies, .. } = &mut roster;
+    let SensorRoster { sensors, scanners, .. } = &mut roster;
     let mut scans = std::mem::take(&mut world.resource_mut::<LatestFrame>().0.scans);
-    scans.resize_with(sensors.len(), || RobotScan { robot: 0, ranges: Vec::new() });
-    // the memory of the sensors' components, so that each is filled while its scan is at hand
-    copies.clear();
-    copies.extend(sensors.iter().map(|sensor| {
-        world.get_mut::<Scan>(sensor.entity).map_or_else(Vec::new, |mut scan| std::mem::take(&mut scan.0))
-    }));
+    scans.resize_with(sensors.len(), || RobotScan { robot: 0, ranges: Arc::default() });
+    // the components let go of the ranges that they share with the frame, which are then overwritten in place
+    for sensor in &*sensors {
+        hand_over(world, sensor, Arc::default());
+    }
     let (now, scanners): (&World, &Scanners) = (world, scanners);
-    let work = sensors.iter().zip(scans.iter_mut().zip(copies.iter_mut()));
     each(
-        work,
+        sensors.iter().zip(&mut scans),
         || scanners.desk(),
-        |borrowed, (sensor, (kept, copy))| {
-            _ = scan(now, sensor, &mut borrowed.desk, kept);
-            copy.clone_from(&kept.ranges);
-        },
+        |borrowed, (sensor, kept)| _ = scan(now, sensor, &mut borrowed.desk, kept),
     );
-    for (sensor, copy) in sensors.iter().zip(copies) {
-        if let Some(mut scan) = world.get_mut::<Scan>(sensor.entity) {
-            scan.0 = std::mem::take(copy);
-        }
+    for (sensor, kept) in sensors.iter().zip(&scans) {
+        hand_over(world, sensor, kept.ranges.clone());
     }
     world.resource_mut::<LatestFrame>().0.scans = scans;
     *world.resource_mut::<SensorRoster>() = roster;
 }
 
-/// Runs one sensor's scan, into the memory of its last one. `None` where its robot is gone, which changes nothing.
+/// Gives a sensor's component its ranges.
+fn hand_over(world: &mut World, sensor: &RunSensor, ranges: Arc<[f64]>) {
+    if let Some(mut scan) = world.get_mut::<Scan>(sensor.entity) {
+        scan.0 = ranges;
+    }
+}
+
+/// Runs one sensor's scan, into the memory of its last one unless another frame holds it. `None` where its robot is
+/// gone, which changes nothing.
 fn scan(world: &World, sensor: &RunSensor, desk: &mut Desk, RobotScan { robot, ranges }: &mut RobotScan) -> Option<()> {
     let rays = sensor.rays.sensor;
     *robot = sensor.id;
-    ranges.resize(rays.n_rays as usize, 0.0);
+    if ranges.len() != rays.n_rays as usize {
+        *ranges = vec![0.0; rays.n_rays as usize].into();
+    }
     let pose = sensor.pose(world)?;
     let scene = &world.get::<WorldScene>(world.get::<ResidesIn>(sensor.robot)?.0)?.0;
+    if Arc::get_mut(ranges).is_none() {
+        *ranges = vec![0.0; ranges.len()].into();
+    }
+    let ranges = Arc::make_mut(ranges);
     let (scanner, room) = desk.at(sensor.fan, sensor.rays);
     match world.resource::<Crowds>().of(RobotId(sensor.id)) {
         Some(crowd) => {

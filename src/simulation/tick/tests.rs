@@ -121,7 +121,7 @@ fn compare(world: &World) -> (usize, usize) {
             let mut ranges = vec![0.0; 40];
             let pose = Pose2 { theta: frame.robots[i].configuration[2], ..*now[i].parts()[0].pose() };
             Scanner::new(SENSOR).scan_into(&scene.0, &others, &pose, &mut ranges);
-            assert_eq!(scan.ranges, ranges, "robot {i} at tick {}", frame.tick);
+            assert_eq!(*scan.ranges, ranges, "robot {i} at tick {}", frame.tick);
         }
     }
     (cut_by_others, meeting)

@@ -5,10 +5,11 @@ use std::f64::consts::{PI, TAU};
 use bevy_egui::egui::{Pos2, Rect, Vec2, pos2};
 
 use super::values::{Crowd, CrowdRobot};
-use crate::geometry::{Aabb, Part, Placed, Point2, Pose2, Shape};
-use crate::num::{sin_cos, wrap};
+use crate::geometry::{Aabb, Part, Placed, Point2, Shape};
+use crate::num::sin_cos;
 use crate::picture::{Fit, Role, chevron, nose};
 use crate::ui::Look;
+use crate::ui::dashboard::blend::{angle_between, pose_between};
 use crate::ui::paint::polygons::Polygons;
 
 /// Size on the screen below which a robot is a square, points.
@@ -85,15 +86,11 @@ fn is_a_step(before: &CrowdRobot, now: &CrowdRobot) -> bool {
 /// The mark that shows a robot's heading: the pointer on a disc, the chevron on a rectangle.
 fn heading(robot: &CrowdRobot, before: Option<&CrowdRobot>, s: f64) -> Option<[Point2; 3]> {
     let (part, from) = (robot.footprint.parts().first()?, before.and_then(|b| b.footprint.parts().first()));
-    let turn = |from: f64, to: f64| from + s * wrap(to - from);
-    let pose = from.map_or(*part.pose(), |from| {
-        let (a, b) = (from.pose(), part.pose());
-        Pose2::new(a.x + s * (b.x - a.x), a.y + s * (b.y - a.y), turn(a.theta, b.theta))
-    });
+    let pose = from.map_or(*part.pose(), |from| pose_between(from.pose(), part.pose(), s));
     match (part.shape(), robot.heading) {
         (Shape::Rectangle { min, max }, _) => Some(chevron(&pose, *min, *max)),
         (_, Some(heading)) => {
-            let heading = before.and_then(|b| b.heading).map_or(heading, |from| turn(from, heading));
+            let heading = before.and_then(|b| b.heading).map_or(heading, |from| angle_between(from, heading, s));
             Some(nose(pose.position(), part.placed().radius(), heading))
         }
         _ => None,
@@ -152,7 +149,7 @@ impl Pen<'_> {
         }
     }
 
-    /// Adds so many points of an arc about `centre`, from `arm` on; the point at its end is not one of them.
+    /// Adds this number of points of an arc about `centre`, from `arm` on; the point at its end is not one of them.
     fn arc(&mut self, centre: Pos2, mut arm: Vec2, angle: f64, points: usize) {
         let (s, c) = sin_cos(angle / points as f64);
         let (s, c) = (s as f32, c as f32);

@@ -15,15 +15,16 @@ pub fn blend(from: &Footprint, to: &Footprint, s: f64, leap: f64) -> Footprint {
     if !matches || !pairs().all(near) {
         return to.clone();
     }
-    Footprint::new(pairs().map(|(a, b)| Part::new(between(a.pose(), b.pose(), s), b.shape().clone())))
+    Footprint::new(pairs().map(|(a, b)| Part::new(pose_between(a.pose(), b.pose(), s), b.shape().clone())))
 }
 
-fn between(a: &Pose2, b: &Pose2, s: f64) -> Pose2 {
-    Pose2::new(a.x + s * (b.x - a.x), a.y + s * (b.y - a.y), heading(a.theta, b.theta, s))
+/// The pose a fraction `s` of the way from one to another, turned the short way.
+pub fn pose_between(a: &Pose2, b: &Pose2, s: f64) -> Pose2 {
+    Pose2::new(a.x + s * (b.x - a.x), a.y + s * (b.y - a.y), angle_between(a.theta, b.theta, s))
 }
 
 /// The angle a fraction `s` of the short way from one to another, radians.
-pub fn heading(from: f64, to: f64, s: f64) -> f64 {
+pub fn angle_between(from: f64, to: f64, s: f64) -> f64 {
     from + s * wrap(to - from)
 }
 

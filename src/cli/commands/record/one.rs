@@ -45,7 +45,7 @@ pub struct Stop {
 }
 
 impl Stop {
-    /// The progress of a run of so many ticks.
+    /// The progress of a run of this number of ticks.
     fn progress(self, ticks: u64) -> Progress {
         if self.unwatched { Progress::none() } else { Progress::of(ticks, "ticks") }
     }
