@@ -68,6 +68,8 @@ pub(crate) fn windowed_app() -> App {
         // the page decides which keys and touches are its own
         prevent_default_event_handling: false,
         canvas: Some("#lab".into()),
+        // a focused canvas would scroll the page around a frame to itself; the lab's own page gives it the focus
+        focused: cfg!(not(target_family = "wasm")),
         ..default()
     };
     let mut app = App::new();

@@ -9,14 +9,17 @@ const files = JSON.parse($("files").textContent);
 const embedded = root.dataset.page === "embed";
 const canvas = $("lab");
 const RESTART = "motion-lab/restart";
+const LOST = "motion-lab/lost";
 const SETTINGS = "motion-lab/settings";
 const MOST_BYTES = 256 * 1024 * 1024;
+const MOST_QUERY = 8000;
 
 let lab = null; // the lab's exports once it runs
 let wasm = null; // the memory and functions under them
 let state = null; // its last state
 let parts = null; // the run's parts, with which the simulator alone can record it again
 let failed = false;
+const waiting = []; // files that were opened before the lab ran
 
 /** Does something with the browser's storage; a page that may not use it does without. */
 function store(act) {
@@ -35,8 +38,13 @@ const warn = (text) => ($("alert").textContent = text);
 /** Tells the lab something; see src/web/message.rs. */
 function send(message) {
   if (!lab || failed) return;
+  attempt(() => lab.lab_send(JSON.stringify(message)));
+}
+
+/** Calls the lab; says what it refuses. */
+function attempt(act) {
   try {
-    lab.lab_send(JSON.stringify(message));
+    act();
   } catch (error) {
     if (error instanceof WebAssembly.RuntimeError) stop(String(error));
     else {
@@ -55,7 +63,11 @@ function tellAll(message) {
 /** Opens a run or a world in the lab. */
 async function open(file) {
   if (file.size > MOST_BYTES) return warn(`${file.name}: ${file.size} bytes; the page opens at most ${MOST_BYTES}`);
-  lab?.lab_open(file.name, new Uint8Array(await file.arrayBuffer()));
+  const bytes = new Uint8Array(await file.arrayBuffer());
+  if (failed) return warn(`${file.name}: not opened: the lab has stopped`);
+  if (root.dataset.lab === "running") return attempt(() => lab.lab_open(file.name, bytes));
+  waiting.push([file.name, bytes]);
+  say(`${file.name} is opened as soon as the lab is there`);
 }
 
 function save(name, bytes, type = "application/octet-stream") {
@@ -74,9 +86,10 @@ function alone() {
     const script = document.createElement("script");
     script.src = files.light;
     script.onload = () => wasm_bindgen({ module_or_path: files.lightWasm }).then(() => done(wasm_bindgen), fail);
-    script.onerror = () => fail(new Error("the simulator could not be loaded"));
+    script.onerror = () => fail(new Error("the simulator could not be loaded; try again"));
     document.head.append(script);
   });
+  simulator.catch(() => (simulator = null)); // the next one who asks tries again
   return simulator;
 }
 
@@ -97,7 +110,11 @@ async function savedPage() {
   const log = await runLog();
   const light = await alone();
   const found = JSON.parse(light.verify_log(log));
-  const fetched = async (name) => (await fetch(name)).arrayBuffer();
+  const fetched = async (name) => {
+    const response = await fetch(name);
+    if (!response.ok) throw new Error(`${name}: ${response.status} ${response.statusText}`);
+    return response.arrayBuffer();
+  };
   const template = new TextDecoder().decode(await fetched(files.saved));
   const wasm = new Uint8Array(await fetched(files.lightWasm));
   const figure = (dark) => base64(new TextEncoder().encode(light.figure_of_log(log, dark)));
@@ -117,8 +134,12 @@ const hear = {
     const kept = store(() => sessionStorage.getItem(RESTART));
     if (kept) {
       store(() => sessionStorage.removeItem(RESTART));
+      const { at, ...run } = JSON.parse(kept);
       alone()
-        .then((light) => lab.lab_open("the run before", light.record_log(kept)))
+        .then((light) => {
+          lab.lab_open("the run before", light.record_log(JSON.stringify(run)));
+          send({ do: "seek", tick: at });
+        })
         .catch((error) => warn(`The run before could not be restored: ${error.message ?? error}`));
     }
   },
@@ -149,7 +170,8 @@ const hear = {
   async link({ query, digest, error }) {
     warn(error ?? "");
     if (error) return;
-    const address = `${location.origin}${location.pathname}?${query}`;
+    // what is behind a # is not sent, so servers need not take a long one
+    const address = `${location.origin}${location.pathname}${query.length > MOST_QUERY ? "#" : "?"}${query}`;
     try {
       const late = new Promise((_, fail) => setTimeout(fail, 1000));
       await Promise.race([navigator.clipboard.writeText(address), late]);
@@ -182,6 +204,32 @@ function stop(reason) {
   $("loading").hidden = true;
   $("overlay").hidden = false;
   $("overlay-restart").focus();
+}
+
+/** Starts again with the run as far as it has come, at the tick that is shown. */
+function restart() {
+  if (parts && state?.frontier) {
+    store(() => sessionStorage.setItem(RESTART, JSON.stringify({ ...parts, ticks: state.frontier, at: state.tick })));
+  }
+  location.reload();
+}
+
+/** The browser took the graphics away: the lab starts again, paused at its tick. One that fails at once is not tried again. */
+function lost() {
+  const before = Number(store(() => sessionStorage.getItem(LOST)) ?? 0);
+  store(() => sessionStorage.setItem(LOST, Date.now()));
+  if (Date.now() - before < 10000) return stop("The browser took the graphics context away (WebGL context lost).");
+  failed = true;
+  restart();
+}
+
+/** Shows why the lab could not be loaded, above the pictures of its widgets, which stay. */
+function notLoaded(reason) {
+  failed = true;
+  delete root.dataset.lab;
+  $("loading").hidden = true;
+  $("unloaded-text").textContent = `The lab could not be loaded (${reason}). Below are its widgets as pictures.`;
+  $("unloaded").hidden = false;
 }
 
 // ---- the controls of the canvas as elements of the page ----
@@ -277,7 +325,7 @@ function mirror(widgets) {
   }
   for (const [id, own] of elements) {
     if (!seen.has(id)) {
-      if (own.element.contains(document.activeElement)) canvas.focus();
+      if (own.element.contains(document.activeElement)) canvas.focus({ preventScroll: true });
       own.element.remove();
       elements.delete(id);
     }
@@ -344,12 +392,13 @@ $("overlay-save").addEventListener("click", async () => {
     $("overlay-text").textContent = `Not saved: ${error.message ?? error}`;
   }
 });
-$("overlay-restart").addEventListener("click", () => {
-  if (parts && state?.frontier) {
-    store(() => sessionStorage.setItem(RESTART, JSON.stringify({ ...parts, ticks: state.frontier })));
-  }
-  location.reload();
+$("overlay-restart").addEventListener("click", restart);
+$("retry").addEventListener("click", () => location.reload());
+$("asked-save").addEventListener("click", () => {
+  $("asked").hidden = true;
+  send({ do: "save" });
 });
+$("asked-no").addEventListener("click", () => ($("asked").hidden = true));
 
 // keys that the lab uses do not scroll the page; Tab and the browser's own stay
 canvas.addEventListener("keydown", (event) => {
@@ -362,7 +411,7 @@ document.addEventListener("paste", (event) => {
 });
 canvas.addEventListener("pointerdown", () => canvas.focus({ preventScroll: true }));
 canvas.addEventListener("contextmenu", (event) => event.preventDefault());
-canvas.addEventListener("webglcontextlost", () => stop("The browser took the graphics context away (WebGL context lost)."));
+canvas.addEventListener("webglcontextlost", lost);
 document.addEventListener("visibilitychange", () => send({ do: "visible", visible: !document.hidden }));
 
 const dark = matchMedia("(prefers-color-scheme: dark)");
@@ -372,7 +421,10 @@ dark.addEventListener("change", tellSystem);
 calm.addEventListener("change", tellSystem);
 
 window.addEventListener("message", ({ data, source }) => {
-  if (source === parent && data?.motionLab?.do) send(data.motionLab);
+  if (source !== parent || !data?.motionLab?.do) return;
+  // a file is saved for the reader, not for the page around: the reader is asked
+  if (source !== window && data.motionLab.do === "save") $("asked").hidden = false;
+  else send(data.motionLab);
 });
 window.motionLab = { send, open, savedPage, memory: () => wasm?.memory.buffer.byteLength, get state() { return state; } };
 
@@ -410,9 +462,14 @@ async function start() {
     if (!response.ok) throw new Error(`${files.labWasm}: ${response.status} ${response.statusText}`);
     wasm = await module.default({ module_or_path: counted(response) });
     lab = module;
-    lab.lab_start(location.search, embedded, store(() => localStorage.getItem(SETTINGS)) ?? "", listen);
+  } catch (error) {
+    return notLoaded(error.message ?? String(error));
+  }
+  try {
+    lab.lab_start(location.search || location.hash, embedded, store(() => localStorage.getItem(SETTINGS)) ?? "", listen);
     root.dataset.lab = "running";
     tellSystem();
+    for (const [name, bytes] of waiting.splice(0)) attempt(() => lab.lab_open(name, bytes));
   } catch (error) {
     stop(error.message ?? String(error));
   }

@@ -1,8 +1,9 @@
 // A small static server for the site: types, the compressed copies, and the policy as a header too. For trying and for tests.
 import { createServer } from "node:http";
 import { createReadStream, existsSync, statSync } from "node:fs";
-import { join, normalize, extname } from "node:path";
+import { join, normalize, extname, sep } from "node:path";
 import { fileURLToPath } from "node:url";
+import { POLICY } from "./policy.mjs";
 
 const TYPES = {
   ".html": "text/html; charset=utf-8",
@@ -14,13 +15,26 @@ const TYPES = {
   ".txt": "text/plain; charset=utf-8",
 };
 
+/** The file in `folder` that an address names; nothing for one that names none, leaves the folder or makes no sense. */
+function fileOf(folder, address) {
+  let path;
+  try {
+    path = decodeURIComponent(address.replace(/[?#].*$/s, ""));
+  } catch {
+    return null;
+  }
+  if (path.includes("\0")) return null;
+  const file = join(folder, normalize(path));
+  if (file !== join(folder) && !file.startsWith(join(folder, sep))) return null;
+  const named = existsSync(file) && statSync(file).isDirectory() ? join(file, "index.html") : file;
+  return existsSync(named) ? named : null;
+}
+
 /** Serves `folder` on `port` (0: any that is free) of the loopback interface; gives the server once it listens. */
 export function serve(folder, port) {
   const server = createServer((request, response) => {
-    const path = decodeURIComponent(new URL(request.url, "http://localhost").pathname);
-    let file = join(folder, normalize(path));
-    if (existsSync(file) && statSync(file).isDirectory()) file = join(file, "index.html");
-    if (!file.startsWith(folder) || !existsSync(file)) {
+    let file = fileOf(folder, request.url);
+    if (!file) {
       response.writeHead(404, { "content-type": "text/plain" }).end("There is no such page.\n");
       return;
     }
@@ -28,6 +42,8 @@ export function serve(folder, port) {
       "content-type": TYPES[extname(file)] ?? "application/octet-stream",
       "cache-control": /\.[0-9a-f]{12}\./.test(file) ? "public, max-age=31536000, immutable" : "no-cache",
       "x-content-type-options": "nosniff",
+      // pages that hold a run bring a policy of their own
+      ...(extname(file) === ".html" && !/saved\.[0-9a-f]{12}\./.test(file) && { "content-security-policy": POLICY }),
       "referrer-policy": "no-referrer",
     };
     const compressed = `${file}.br`;

@@ -4,12 +4,10 @@ import { mkdirSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { dirname, extname, join } from "node:path";
 import { fileURLToPath } from "node:url";
 import { brotliCompressSync, constants } from "node:zlib";
+import { POLICY } from "./policy.mjs";
 
 /** The most that the whole site may weigh, compressed. */
 const BUDGET = 4 * 1000 * 1000;
-const POLICY =
-  "default-src 'none'; script-src 'self' 'wasm-unsafe-eval'; style-src 'self'; img-src 'self' data: blob:; " +
-  "connect-src 'self'; frame-src 'self'; base-uri 'none'; form-action 'none'";
 
 const [parts, out, budget] = process.argv.slice(2);
 const here = dirname(fileURLToPath(import.meta.url));

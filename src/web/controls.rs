@@ -24,6 +24,9 @@ use crate::ui::{Notice, SessionCommand, UiState, Widget};
 #[derive(Resource, Default)]
 pub struct Staged(VecDeque<Vec<egui::Event>>);
 
+/// Largest number of frames that events are kept for: what comes then is refused.
+const MOST_STAGED: usize = 1000;
+
 /// Carries out the messages and opens the files that have come in, and gives egui the events of this frame.
 pub fn receive(world: &mut World) {
     for incoming in take_all() {
@@ -35,6 +38,7 @@ pub fn receive(world: &mut World) {
                 Ok(())
             }
             Incoming::Message(message) => take(world, message),
+            Incoming::Fail => panic!("the page asked the lab to fail"),
         };
         if let Err(error) = done {
             let text = error.to_string();
@@ -79,6 +83,11 @@ fn take(world: &mut World, message: Message) -> Result<(), PageError> {
         change(&mut world.resource_mut::<Interface>().into_inner().0);
         Ok(())
     };
+    if world.resource::<Staged>().0.len() >= MOST_STAGED
+        && matches!(message, Message::Act { .. } | Message::Key { .. } | Message::Paste { .. })
+    {
+        return Err(PageError::Busy);
+    }
     match message {
         Message::Act { id, action, value } => act(world, &id, action, value),
         Message::Key { key, pressed, shift } => {
@@ -142,8 +151,6 @@ fn take(world: &mut World, message: Message) -> Result<(), PageError> {
             Ok(())
         }
         Message::Visible { .. } => Ok(()),
-        // wanted by tests of the page, which see what it does then
-        Message::Fail => panic!("a page asked the lab to fail"),
     }
 }
 

@@ -36,6 +36,9 @@ pub enum PageError {
     /// Not a finite number.
     #[error("{0}: not a number")]
     Number(String),
+    /// More was asked than frames were drawn.
+    #[error("the lab is still busy with what was asked before: this is lost")]
+    Busy,
     /// A value is missing.
     #[error("there is nothing to set it to")]
     NoValue,

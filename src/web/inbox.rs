@@ -15,7 +15,12 @@ pub enum Incoming {
         /// Its content.
         bytes: Vec<u8>,
     },
+    /// Panic.
+    Fail,
 }
+
+/// Largest number of items that wait. A page sends a few in a frame, and a frame takes them all.
+const MOST_WAITING: usize = 1000;
 
 thread_local! {
     static INBOX: RefCell<Vec<Incoming>> = const { RefCell::new(Vec::new()) };
@@ -32,10 +37,15 @@ pub fn take_all() -> Vec<Incoming> {
     INBOX.take()
 }
 
-/// Puts something in.
-pub fn put(incoming: Incoming) {
-    INBOX.with_borrow_mut(|inbox| inbox.push(incoming));
+/// Puts something in. Returns whether there was room.
+pub fn put(incoming: Incoming) -> bool {
+    let has_room = INBOX.with_borrow_mut(|inbox| {
+        let has_room = inbox.len() < MOST_WAITING;
+        inbox.extend(has_room.then_some(incoming));
+        has_room
+    });
     wake();
+    has_room
 }
 
 /// Asks for another frame: a paused lab sleeps.

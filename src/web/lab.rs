@@ -16,11 +16,14 @@ use super::inbox::{Incoming, put, wake_by};
 use super::link::{Link, LinkError};
 use super::listener::{listen, tell};
 use super::message::Message;
-use super::report::{Sent, report};
+use super::report::{LinkedTheme, Sent, report};
 use super::run_link::open_link;
 use crate::app::{Interface, limit, windowed_app};
 use crate::simulation::{Playback, Transport};
 use crate::ui::{Notice, Settings, Widget};
+
+/// Largest message, bytes.
+const MOST_BYTES: usize = 65_536;
 
 /// Value of `STILL` while the page is hidden. `STILL` is the number of frames to come in which no time passes.
 const AWAY: u32 = u32::MAX;
@@ -62,22 +65,41 @@ pub fn lab_start(query: &str, embedded: bool, settings: &str, listener: js_sys::
 /// Sends the lab a message: JSON of a [`Message`].
 ///
 /// # Errors
-/// The reason, when it is no message.
+/// The reason, when it is no message, is too long, or too many wait.
 #[wasm_bindgen]
 pub fn lab_send(message: &str) -> Result<(), JsError> {
+    if message.len() > MOST_BYTES {
+        return Err(JsError::new(&format!("a message of {} bytes; the lab takes up to {MOST_BYTES}", message.len())));
+    }
     let message: Message = serde_json::from_str(message).map_err(|e| JsError::new(&e.to_string()))?;
     match message {
         // no frame may come until the page is seen again
         Message::Visible { visible } => STILL.set(if visible { 2 } else { AWAY }),
-        message => put(Incoming::Message(message)),
+        message => take_in(Incoming::Message(message))?,
     }
     Ok(())
 }
 
 /// Opens a file: a run's log, or a world when its name ends in `.ron`. A notice in the lab says what came of it.
+///
+/// # Errors
+/// The reason, when too many wait.
 #[wasm_bindgen]
-pub fn lab_open(name: &str, bytes: Vec<u8>) {
-    put(Incoming::File { name: name.to_owned(), bytes });
+pub fn lab_open(name: &str, bytes: Vec<u8>) -> Result<(), JsError> {
+    take_in(Incoming::File { name: name.to_owned(), bytes })
+}
+
+/// Panics in the next frame. No message does: this is for tests of the page, which see what it does then.
+///
+/// # Errors
+/// The reason, when too many wait.
+#[wasm_bindgen]
+pub fn lab_fail() -> Result<(), JsError> {
+    take_in(Incoming::Fail)
+}
+
+fn take_in(incoming: Incoming) -> Result<(), JsError> {
+    if put(incoming) { Ok(()) } else { Err(JsError::new("the lab has not read what came before: this is lost")) }
 }
 
 /// The arguments of `lab_start`, kept for the start of the app.
@@ -104,7 +126,10 @@ fn start(world: &mut World) {
         ui.embedded = embedded;
         ui.settings = settings;
         ui.widget = link.widget.unwrap_or_default();
-        ui.settings.theme = link.theme.unwrap_or(ui.settings.theme);
+        let own = ui.settings.theme;
+        ui.settings.theme = link.theme.unwrap_or(own);
+        let linked = link.theme.map(|theme| LinkedTheme { theme, own });
+        linked.into_iter().for_each(|linked| world.insert_resource(linked));
     }
     // an address without a run plays the book's
     if link != (Link { widget: link.widget, theme: link.theme, ..Link::default() }) {

@@ -5,17 +5,28 @@ use std::fmt::Write;
 
 use percent_encoding::{AsciiSet, CONTROLS, percent_decode_str, utf8_percent_encode};
 
+use super::inputs;
 use crate::manifest::{ThemeChoice, Widget};
 use crate::random::Seed;
 use crate::run::{Script, ScriptError};
 use crate::tour::{BOOK_SEED, TourConfig};
 use crate::worlds::World;
 
-/// The version of the address format that this program writes and reads.
+/// The version of the address format in which inputs are in the script.
 pub const LINK_VERSION: u32 = 1;
 
-/// Largest length of a query, bytes: every browser and mail program carries this much.
-pub const MAX_LINK: usize = 8000;
+/// The version of the address format with the field `inputs`.
+pub const LINK_VERSION_WITH_INPUTS: u32 = 2;
+
+/// Largest length of a link, bytes. Beyond 8000, which servers take in a query, the page puts it behind a `#`: what is
+/// there is never sent.
+pub const MAX_LINK: usize = 32_000;
+
+/// Length of a link, bytes, from which the inputs are written in few bytes rather than to be read.
+const LONG: usize = 2000;
+
+/// The fields that a link has.
+const FIELDS: [&str; 9] = ["v", "seed", "world", "widget", "theme", "script", "inputs", "tick", "digest"];
 
 /// Largest tick of a link: an hour. Opening a link simulates its run up to that tick.
 pub const MAX_LINK_TICK: u64 = 72_000;
@@ -53,10 +64,10 @@ pub struct Link {
 #[non_exhaustive]
 pub enum LinkError {
     /// The link has another version.
-    #[error("v={0}: this lab reads links of version {LINK_VERSION}")]
+    #[error("v: this lab reads links of version {LINK_VERSION} and {LINK_VERSION_WITH_INPUTS}, not {}", cited(.0))]
     Version(String),
     /// A field that is no whole number, or too large.
-    #[error("{field}={text}: it must be a whole number up to {most}")]
+    #[error("{field}: it must be a whole number up to {most}, not {}", cited(.text))]
     Number {
         /// The field.
         field: &'static str,
@@ -66,7 +77,7 @@ pub enum LinkError {
         most: u64,
     },
     /// A field that holds none of its known words.
-    #[error("{field}={text}: it must be one of {known}")]
+    #[error("{field}: it must be one of {known}, not {}", cited(.text))]
     Word {
         /// The field.
         field: &'static str,
@@ -76,14 +87,17 @@ pub enum LinkError {
         known: String,
     },
     /// A digest that is not 32 hexadecimal digits.
-    #[error("digest={0}: it must be 32 hexadecimal digits")]
+    #[error("digest: it must be 32 hexadecimal digits, not {}", cited(.0))]
     Digest(String),
     /// Text that is not UTF-8 once its escapes are undone.
     #[error("{0}: not valid UTF-8")]
-    Text(String),
+    Text(&'static str),
     /// A script that is refused.
-    #[error(transparent)]
+    #[error("script: {}", cut(&.0.to_string(), MOST_OF_SCRIPT))]
     Script(#[from] ScriptError),
+    /// Inputs that make no sense from this byte on.
+    #[error("inputs: they make no sense at byte {0}")]
+    Inputs(usize),
     /// Too long for an address.
     #[error("the link would have {0} characters; the limit is {MAX_LINK}: save the run as a file instead")]
     TooLong(usize),
@@ -93,6 +107,23 @@ pub enum LinkError {
     /// A sensor that is not the lab's.
     #[error("the run has a range sensor of its own: save the run as a file instead")]
     Sensor,
+}
+
+/// Largest number of characters of a link that its refusal repeats: too few for a sentence of the link's maker.
+const MOST_CITED: usize = 12;
+
+/// Largest number of characters of what is said about a script.
+const MOST_OF_SCRIPT: usize = 100;
+
+/// Words of the link, so that nobody takes them for the lab's: between quotes and cut short.
+fn cited(text: &str) -> String {
+    format!("{:?}", cut(text, MOST_CITED))
+}
+
+/// The text up to a number of characters; dots stand for the rest.
+fn cut(text: &str, most: usize) -> String {
+    let end = text.char_indices().nth(most).map_or(text.len(), |(at, _)| at);
+    format!("{}{}", &text[..end], if end < text.len() { "..." } else { "" })
 }
 
 impl Default for Link {
@@ -130,7 +161,7 @@ impl Link {
         Ok(Link { seed, worlds, tick: config.ticks, script, ..Link::default() })
     }
 
-    /// The link that the query of an address holds, with or without its question mark.
+    /// The link that the query of an address holds, with or without its question mark; likewise that of a fragment.
     ///
     /// # Errors
     /// [`LinkError`] names the first field that is not right; a script is checked as one in a file is.
@@ -139,12 +170,14 @@ impl Link {
             return Err(LinkError::TooLong(query.len()));
         }
         let mut fields = BTreeMap::new();
-        for pair in query.trim_start_matches('?').split('&').filter(|p| !p.is_empty()) {
+        for pair in query.trim_start_matches(['?', '#']).split('&').filter(|p| !p.is_empty()) {
             let (name, value) = pair.split_once('=').unwrap_or((pair, ""));
-            let value = percent_decode_str(value).decode_utf8().map_err(|_| LinkError::Text(name.to_owned()))?;
+            let Some(name) = FIELDS.into_iter().find(|known| *known == name) else { continue };
+            let value = percent_decode_str(value).decode_utf8().map_err(|_| LinkError::Text(name))?;
             fields.entry(name).or_insert_with(|| value.into_owned());
         }
-        if let Some(version) = fields.remove("v").filter(|v| *v != LINK_VERSION.to_string()) {
+        let known = [LINK_VERSION, LINK_VERSION_WITH_INPUTS].map(|version| version.to_string());
+        if let Some(version) = fields.remove("v").filter(|v| !known.contains(v)) {
             return Err(LinkError::Version(version));
         }
         let mut link = Link::default();
@@ -177,7 +210,13 @@ impl Link {
             }
         }
         if let Some(text) = fields.remove("script") {
-            link.script = Script::parse("the link's script", &text)?;
+            link.script = Script::parse("line", &text)?;
+        }
+        if let Some(text) = fields.remove("inputs") {
+            let Script { mut events, changes, .. } = link.script;
+            events.extend(inputs::decode(&text).map_err(LinkError::Inputs)?);
+            // as text, the inputs are checked as those of a file
+            link.script = Script::parse("line", &Script::new(events, changes).to_line())?;
         }
         if let Some(text) = fields.remove("digest") {
             if text.len() != 32 || !text.bytes().all(|b| b.is_ascii_hexdigit()) {
@@ -188,12 +227,25 @@ impl Link {
         Ok(link)
     }
 
-    /// The query, without its question mark. Parsing it gives the link back.
+    /// The query, without its question mark. Parsing it gives the link back. Where it would be long, its inputs are in
+    /// few bytes.
     ///
     /// # Errors
     /// [`LinkError::TooLong`].
     pub fn query(&self) -> Result<String, LinkError> {
-        let mut query = format!("v={LINK_VERSION}&seed={}", self.seed);
+        let mut query = self.with(&self.script, None);
+        if query.len() > LONG
+            && let Some(inputs) = inputs::encode(&self.script.events)
+        {
+            query = self.with(&Script::new(vec![], self.script.changes.clone()), Some(&inputs));
+        }
+        if query.len() > MAX_LINK { Err(LinkError::TooLong(query.len())) } else { Ok(query) }
+    }
+
+    /// The query with this script and inputs.
+    fn with(&self, script: &Script, inputs: Option<&str>) -> String {
+        let version = if inputs.is_some() { LINK_VERSION_WITH_INPUTS } else { LINK_VERSION };
+        let mut query = format!("v={version}&seed={}", self.seed);
         let mut field = |name: &str, value: &str| {
             // writing into a string can't fail
             let _ = write!(query, "&{name}={}", utf8_percent_encode(value, ESCAPED));
@@ -207,8 +259,11 @@ impl Link {
         if let Some(theme) = self.theme {
             field("theme", &theme.name().to_lowercase());
         }
-        if !self.script.is_empty() {
-            field("script", &self.script.to_line());
+        if !script.is_empty() {
+            field("script", &script.to_line());
+        }
+        if let Some(inputs) = inputs {
+            field("inputs", inputs);
         }
         if self.tick > 0 {
             field("tick", &self.tick.to_string());
@@ -216,7 +271,7 @@ impl Link {
         if let Some(digest) = &self.digest {
             field("digest", digest);
         }
-        if query.len() > MAX_LINK { Err(LinkError::TooLong(query.len())) } else { Ok(query) }
+        query
     }
 
     /// The configuration of the run: as long as the link's tick, and at least one tick.
@@ -298,25 +353,67 @@ mod tests {
     }
 
     #[test]
+    fn long_links_hold_a_thousand_inputs_and_short_ones_are_read_by_every_version() {
+        let drive = |tick: u64| RobotInput::Drive((tick % 257) as i16 - 128, 128 - (tick * 31 % 257) as i16);
+        let events = (1..=1000).map(|tick| Event { tick, robot: "Rusty".into(), input: drive(tick) });
+        let change = WorldChange::Close("door A".into());
+        let changes = vec![WorldEvent { tick: 3, world: "Apartment".into(), change }];
+        let driven = Link { script: Script::new(events.collect(), changes), tick: 1000, ..Link::default() };
+        let query = driven.query().unwrap();
+        assert!(query.starts_with("v=2&") && query.len() < 8000, "{} bytes, which servers take", query.len());
+        assert_eq!(Link::parse(&query).unwrap(), driven);
+        // an arm that is dragged about, at every tick for fifty seconds
+        let at =
+            |tick: u64| vec![Quantized((tick * tick * 1999 % 3_000_017) as i64), Quantized(-(tick as i64) * 40_000)];
+        let events = (1..=1000).map(|tick| Event { tick, robot: "Reach".into(), input: RobotInput::MoveTo(at(tick)) });
+        let dragged = Link { script: Script::new(events.collect(), vec![]), tick: 1000, ..Link::default() };
+        assert_eq!(Link::parse(&format!("#{}", dragged.query().unwrap())).unwrap(), dragged);
+        let few = Link { script: self::driven(), ..Link::default() };
+        assert!(few.query().unwrap().starts_with("v=1&") && few.query().unwrap().contains("script=Script(version:1"));
+    }
+
+    #[test]
     fn hostile_values_are_refused_by_name() {
         let said = |query: &str| Link::parse(query).unwrap_err().to_string();
-        assert_eq!(said("v=2&seed=x"), "v=2: this lab reads links of version 1");
-        assert!(said("seed=-1").starts_with("seed=-1: it must be a whole number up to 1844"));
-        assert!(said("seed=18446744073709551616").starts_with("seed="));
-        assert_eq!(said("tick=72001"), "tick=72001: it must be a whole number up to 72000");
-        assert_eq!(said("tick=%2B1"), "tick=+1: it must be a whole number up to 72000");
-        assert_eq!(said("world=moon"), "world=moon: it must be one of apartment, workbench, lot");
+        assert_eq!(said("v=3&seed=x"), "v: this lab reads links of version 1 and 2, not \"3\"");
+        assert!(said("seed=-1").starts_with("seed: it must be a whole number up to 1844"));
+        assert!(said("seed=18446744073709551616").ends_with("not \"184467440737...\""));
+        assert_eq!(said("tick=72001"), "tick: it must be a whole number up to 72000, not \"72001\"");
+        assert_eq!(said("tick=%2B1"), "tick: it must be a whole number up to 72000, not \"+1\"");
+        assert_eq!(said("world=moon"), "world: it must be one of apartment, workbench, lot, not \"moon\"");
         assert!(said("world=lot,lot").contains("one of"), "a world comes once");
-        assert!(said("widget=%3Cscript%3E").starts_with("widget=<script>: it must be one of dashboard"));
-        assert_eq!(said("theme=pink"), "theme=pink: it must be one of system, light, dark");
-        assert!(said("digest=12").contains("32 hexadecimal"));
+        assert!(said("widget=%3Cscript%3E").starts_with("widget: it must be one of dashboard"));
+        assert_eq!(said("theme=pink"), "theme: it must be one of system, light, dark, not \"pink\"");
+        assert_eq!(said("digest=12"), "digest: it must be 32 hexadecimal digits, not \"12\"");
         assert_eq!(said("script=%FF"), "script: not valid UTF-8");
+        assert_eq!(Link::parse("other=%FF").unwrap(), Link::default(), "a page's own field");
+        assert_eq!(said("inputs=%21"), "inputs: they make no sense at byte 0");
+        assert_eq!(said("inputs=AQFSAQc"), "inputs: they make no sense at byte 5");
         let script = "Script(version:1,events:[(tick:1,robot:\"Rusty\",input:Drive(129,0))])";
         let query = format!("script={}", utf8_percent_encode(script, ESCAPED));
-        assert_eq!(said(&query), "the link's script:1: events[0]: channel 129: it must be in -128 to 128");
+        assert_eq!(said(&query), "script: line:1: events[0]: channel 129: it must be in -128 to 128");
+        let drive = Event { tick: 1, robot: "Rusty".into(), input: RobotInput::Drive(129, 0) };
+        let query = format!("v=2&inputs={}", inputs::encode(&[drive]).unwrap());
+        assert_eq!(said(&query), "script: line:1: events[0]: channel 129: it must be in -128 to 128");
         assert!(matches!(Link::parse(&"x".repeat(MAX_LINK + 1)), Err(LinkError::TooLong(_))));
-        let events = (1..400).map(|tick| Event { tick, robot: "Rusty".into(), input: RobotInput::Release });
+        let events = (1..12_000).map(|tick| Event { tick, robot: "Rusty".into(), input: RobotInput::Release });
         let long = Link { script: Script::new(events.collect(), vec![]), ..Link::default() };
         assert!(long.query().unwrap_err().to_string().ends_with("save the run as a file instead"));
+    }
+
+    /// A link is written by whoever wants to be believed.
+    #[test]
+    fn a_refusal_says_nothing_in_the_words_of_the_link() {
+        let scam = "Your session has expired, sign in at evil.example";
+        for field in ["v", "seed", "tick", "world", "widget", "theme", "script", "inputs", "digest"] {
+            let query = format!("{field}={}", utf8_percent_encode(scam, ESCAPED));
+            let said = Link::parse(&query).unwrap_err().to_string();
+            assert!(said.starts_with(&format!("{field}: ")), "{said}");
+            assert!(!said.contains("expired") && said.chars().count() < 140, "{said}");
+        }
+        let rows = format!("v={}", utf8_percent_encode("a\nb\u{202e}c", ESCAPED));
+        assert!(Link::parse(&rows).unwrap_err().to_string().ends_with(r#"not "a\nb\u{202e}c""#));
+        let long = format!("script={}", "Your(session)".repeat(99));
+        assert!(Link::parse(&long).unwrap_err().to_string().chars().count() < 140);
     }
 }

@@ -84,8 +84,6 @@ pub enum Message {
         /// Whether it is visible.
         visible: bool,
     },
-    /// Panic. Tests of the page see what it does then.
-    Fail,
 }
 
 /// An action on a widget.

@@ -7,6 +7,8 @@
 mod identity;
 // the light build only reads links
 #[cfg_attr(not(feature = "web"), allow(dead_code))]
+mod inputs;
+#[cfg_attr(not(feature = "web"), allow(dead_code))]
 mod link;
 #[cfg(feature = "screen")]
 mod mirror;

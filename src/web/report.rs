@@ -10,6 +10,7 @@ use super::listener::tell;
 use super::mirror::mirror;
 use super::runs::RunParts;
 use crate::app::{Interface, Shown};
+use crate::manifest::ThemeChoice;
 use crate::picture::{Role, Theme};
 use crate::random::Seed;
 use crate::run::Script;
@@ -27,6 +28,25 @@ pub struct Sent {
     run: Option<(Arc<TourConfig>, Seed, Script)>,
     /// Time of the last report, seconds since the start.
     at: f64,
+}
+
+/// The paper that a link chose for this visit.
+#[derive(Resource)]
+pub struct LinkedTheme {
+    /// The link's choice.
+    pub theme: ThemeChoice,
+    /// The reader's own, which the page keeps.
+    pub own: ThemeChoice,
+}
+
+/// The settings that the page keeps. A link's paper is not among them until the reader chooses another.
+fn kept_settings(world: &mut World) -> Settings {
+    let mut settings = world.resource::<Interface>().0.settings.clone();
+    match world.get_resource::<LinkedTheme>() {
+        Some(linked) if linked.theme == settings.theme => settings.theme = linked.own,
+        _ => _ = world.remove_resource::<LinkedTheme>(),
+    }
+    settings
 }
 
 /// Sends the page what has changed: at most ten times a second while the run plays, in every frame while it is paused.
@@ -52,10 +72,10 @@ pub fn report(world: &mut World) {
             tell(&state);
             sent.state = state;
         }
-        let settings = &world.resource::<Interface>().0.settings;
-        if sent.settings.as_ref() != Some(settings) {
+        let settings = kept_settings(world);
+        if sent.settings.as_ref() != Some(&settings) {
             tell(&json!({ "kind": "settings", "settings": settings }));
-            sent.settings = Some(settings.clone());
+            sent.settings = Some(settings);
         }
         if let Some(tree) = tree(world)
             && tree != sent.tree

@@ -1,5 +1,6 @@
 // The lab in a browser, as readers use it.
 import assert from "node:assert/strict";
+import { request } from "node:http";
 import { readFileSync, rmSync, writeFileSync } from "node:fs";
 import { after, before, test } from "node:test";
 import { join } from "node:path";
@@ -423,31 +424,183 @@ lab(
   { options: { viewport: { width: 853, height: 480 } } },
 );
 
-for (const [name, fail] of [
-  ["a failure", (lab) => lab.send({ do: "fail" })],
-  ["a lost graphics context", (lab) => lab.page.evaluate(() => document.getElementById("lab").getContext("webgl2").getExtension("WEBGL_lose_context").loseContext())],
-]) {
-  test(`${name} is shown with its reason, keeps the run, and starts again`, { timeout: 120000 }, async () => {
-    const lab = await Lab.open("/?seed=5");
-    await lab.until((s) => s.tick > 30);
-    await lab.send({ do: "pause" });
-    const { frontier } = await lab.until((s) => !s.playing);
-    await lab.page.waitForTimeout(300);
-    await fail(lab);
-    await lab.page.waitForSelector("#overlay:not([hidden])");
-    console.log(`# ${await lab.page.textContent("#overlay-text")}`);
-    await lab.shot(`overlay-${name.replace(/\W/g, "-")}`);
-    const { path } = await download(lab.page, () => lab.page.click("#overlay-save"));
-    const log = join(shots, "kept.mcap");
-    writeFileSync(log, readFileSync(path));
-    assert.ok(new RegExp(`${frontier} of ${frontier}`).test(native("verify", log)));
-    await lab.page.click("#overlay-restart");
-    await lab.page.waitForFunction(() => window.received.kinds.includes("ready"), null, { timeout: 60000 });
-    const again = await lab.until((s) => s.notice && s.notice.text.startsWith("the run before"));
-    assert.equal(again.frontier, frontier);
-    await lab.close();
+const failNow = () => import(new URL(JSON.parse(document.getElementById("files").textContent).lab, location.href)).then((lab) => lab.lab_fail());
+const loseContext = () => document.getElementById("lab").getContext("webgl2").getExtension("WEBGL_lose_context").loseContext();
+
+test("a failure is shown with its reason, keeps the run, and starts again", { timeout: 120000 }, async () => {
+  const lab = await Lab.open("/?seed=5");
+  await lab.until((s) => s.tick > 30);
+  await lab.send({ do: "pause" });
+  const { frontier } = await lab.until((s) => !s.playing);
+  await lab.page.waitForTimeout(300);
+  await lab.page.evaluate(failNow);
+  await lab.page.waitForSelector("#overlay:not([hidden])");
+  console.log(`# ${await lab.page.textContent("#overlay-text")}`);
+  await lab.shot("overlay-a-failure");
+  const { path } = await download(lab.page, () => lab.page.click("#overlay-save"));
+  const log = join(shots, "kept.mcap");
+  writeFileSync(log, readFileSync(path));
+  assert.ok(new RegExp(`${frontier} of ${frontier}`).test(native("verify", log)));
+  await lab.page.click("#overlay-restart");
+  await lab.page.waitForFunction(() => window.received.kinds.includes("ready"), null, { timeout: 60000 });
+  const again = await lab.until((s) => s.notice && s.notice.text.startsWith("the run before"));
+  assert.equal(again.frontier, frontier);
+  await lab.close();
+});
+
+test("after a lost graphics context the run is back, paused at its tick; one lost again at once says so", { timeout: 120000 }, async () => {
+  const lab = await Lab.open("/?seed=5");
+  await lab.until((s) => s.tick > 40);
+  await lab.send({ do: "pause" });
+  const { frontier } = await lab.until((s) => !s.playing);
+  await lab.send({ do: "seek", tick: 17 });
+  await lab.until((s) => s.tick === 17);
+  await lab.page.waitForTimeout(300);
+  await Promise.all([lab.page.waitForEvent("load"), lab.page.evaluate(loseContext)]);
+  await lab.page.waitForFunction(() => window.received.kinds.includes("ready"), null, { timeout: 60000 });
+  const again = await lab.until((s) => s.frontier === frontier && s.tick === 17);
+  assert.equal(again.playing, false);
+  // as if it had happened a moment ago
+  await lab.page.evaluate(() => sessionStorage.setItem("motion-lab/lost", Date.now()));
+  await lab.page.evaluate(loseContext);
+  await lab.page.waitForSelector("#overlay:not([hidden])");
+  assert.match(await lab.page.textContent("#overlay-text"), /context/);
+  await lab.close();
+});
+
+lab("no message makes the lab fail, and what is no message loses nothing", "/", async (lab) => {
+  await lab.send({ do: "fail" });
+  await lab.page.waitForFunction(() => /unknown variant .fail/.test(document.getElementById("alert").textContent));
+  await lab.send({ do: "paste", text: "x".repeat(70000) });
+  await lab.page.waitForFunction(() => /takes up to 65536/.test(document.getElementById("alert").textContent));
+  // more than the lab reads in a frame is refused aloud, and it goes on
+  await lab.page.evaluate(() => {
+    for (let i = 0; i < 3000; i++) window.motionLab.send({ do: "light", role: null });
   });
-}
+  assert.match(await lab.page.textContent("#alert"), /has not read what came before/);
+  const { tick } = await lab.state();
+  await lab.until((s) => s.tick > tick + 5);
+});
+
+lab("frames below the fold take neither the focus nor the page's place; saving for the page around asks first", "/widgets.html", async ({ page }) => {
+  await page.route(`${origin()}/host.html`, (route) =>
+    route.fulfill({
+      contentType: "text/html",
+      body: '<p style="height:2500px">Text</p><iframe src="embed.html?widget=anatomy" width="600" height="640"></iframe><iframe src="embed.html" width="600" height="640"></iframe>',
+    }),
+  );
+  await page.goto(`${origin()}/host.html`);
+  for (const frame of page.frames().slice(1)) {
+    await frame.waitForFunction(() => window.received?.kinds.includes("ready"), null, { timeout: 60000 });
+  }
+  await page.waitForTimeout(500);
+  assert.deepEqual(await page.evaluate(() => [scrollY, document.activeElement.tagName]), [0, "BODY"]);
+  const dashboard = page.frames()[2];
+  await dashboard.waitForFunction(() => window.received.state?.tick > 20);
+  await page.evaluate(() => frames[1].postMessage({ motionLab: { do: "save" } }, "*"));
+  await dashboard.waitForSelector("#asked:not([hidden])");
+  await page.evaluate(() => scrollTo(0, 9999));
+  await page.screenshot({ path: join(shots, "asked.png") });
+  const file = await download(page, () => dashboard.click("#asked-save"));
+  assert.match(native("verify", file.path), /bit-identical/);
+  assert.equal(await dashboard.locator("#asked").isVisible(), false);
+}, { wait: false });
+
+lab("a refused link names its field and says nothing in the link's words; a link's paper is not kept", "/?v=Your%20session%20has%20expired&theme=dark", async (lab) => {
+  const { notice } = await lab.until((s) => s.notice);
+  assert.equal(notice.text, 'the link: v: this lab reads links of version 1 and 2, not "Your session..."');
+  const kept = () => lab.page.evaluate(() => JSON.parse(localStorage.getItem("motion-lab/settings") ?? "{}").theme);
+  await lab.page.goto(`${origin()}/?theme=dark`);
+  await lab.until((s) => s.theme === "dark");
+  await lab.page.waitForTimeout(500);
+  assert.notEqual(await kept(), "Dark");
+  await lab.send({ do: "theme", name: "light" });
+  await lab.until((s) => s.theme === "light");
+  await lab.page.waitForFunction(() => JSON.parse(localStorage.getItem("motion-lab/settings")).theme === "Light");
+  await lab.page.goto(`${origin()}/`);
+  await lab.until((s) => s.theme === "light");
+});
+
+lab("a link carries a thousand inputs", "/", async (lab) => {
+  const drives = Array.from({ length: 1100 }, (_, i) => `(tick: ${i + 1}, robot: "Rusty", input: Drive(${((i * 37) % 257) - 128}, ${128 - ((i * 11) % 257)})),`);
+  const script = join(shots, "thousand.ron");
+  writeFileSync(script, `Script(version: 1, events: [${drives.join("\n")}])`);
+  const log = join(shots, "thousand.mcap");
+  rmSync(log, { force: true });
+  native("record", "--seconds", "55", "--script", script, "-o", log);
+  const bytes = readFileSync(log).toString("base64");
+  await lab.page.evaluate((text) => window.motionLab.open(new File([Uint8Array.from(atob(text), (c) => c.charCodeAt(0))], "thousand.mcap")), bytes);
+  await lab.until((s) => s.notice?.text.startsWith("thousand.mcap"));
+  await lab.send({ do: "seek", tick: 1100 });
+  await lab.until((s) => s.tick === 1100);
+  await lab.context.grantPermissions(["clipboard-read", "clipboard-write"]);
+  await lab.page.click("#copy-link");
+  await lab.page.waitForFunction(() => /digest/.test(document.getElementById("said").textContent));
+  const address = await lab.page.evaluate(() => navigator.clipboard.readText());
+  console.log(`# ${address.length} characters`);
+  assert.match(native("info", log), new RegExp(digestOf(await lab.page.textContent("#said"))));
+  await lab.page.goto("about:blank");
+  await lab.page.goto(address);
+  const { notice } = await lab.until((s) => s.notice, 60000);
+  assert.match(notice.text, /^the same run to the last bit: tick 1100/);
+  // behind a #, where longer ones go
+  await lab.page.goto("about:blank");
+  await lab.page.goto(address.replace("?", "#"));
+  assert.equal((await lab.until((s) => s.notice, 60000)).notice.text, notice.text);
+});
+
+lab(
+  "a file that is opened while the lab loads is opened when it is there",
+  "/",
+  async (lab) => {
+    const log = join(shots, "early.mcap");
+    rmSync(log, { force: true });
+    native("record", "--seconds", "1", "-o", log);
+    const bytes = readFileSync(log).toString("base64");
+    await lab.page.evaluate((text) => window.motionLab.open(new File([Uint8Array.from(atob(text), (c) => c.charCodeAt(0))], "early.mcap")), bytes);
+    assert.match(await lab.page.textContent("#said"), /as soon as the lab is there/);
+    const { notice } = await lab.until((s) => s.notice?.text.startsWith("early.mcap"), 60000);
+    assert.match(notice.text, /bit-identical/);
+  },
+  { wait: false, before: (page) => page.route("**/lab.*.wasm", async (route) => (await new Promise((done) => setTimeout(done, 4000)), route.continue())) },
+);
+
+test("a page that could not load the lab says why, keeps the pictures and tries again", { timeout: 120000 }, async () => {
+  let fails = true;
+  const lab = await Lab.open("/", { wait: false, before: (page) => page.route("**/lab.*.wasm", (route) => (fails ? route.fulfill({ status: 503 }) : route.continue())) });
+  await lab.page.waitForSelector("#unloaded:not([hidden])");
+  assert.match(await lab.page.textContent("#unloaded-text"), /503/);
+  assert.ok(await lab.page.locator("#still img").first().isVisible());
+  await lab.shot("unloaded");
+  fails = false;
+  await lab.page.click("#retry");
+  await lab.page.waitForFunction(() => window.received.kinds.includes("ready"), null, { timeout: 60000 });
+  await lab.close();
+});
+
+test("saving as a page works after the simulator could not be fetched", { timeout: 120000 }, async () => {
+  let fails = true;
+  const lab = await Lab.open("/", { before: (page) => page.route("**/light.*", (route) => (fails ? route.abort() : route.continue())) });
+  await lab.until((s) => s.tick > 10);
+  await lab.page.click("#save-page");
+  await lab.page.waitForFunction(() => /^Not saved/.test(document.getElementById("alert").textContent));
+  fails = false;
+  const file = await download(lab.page, () => lab.page.click("#save-page"));
+  assert.equal(file.name, "run.html");
+  await lab.close();
+});
+
+test("the server answers what makes no sense, and sends the policy", async () => {
+  const { port } = new URL(origin());
+  const asked = (path) =>
+    new Promise((done, failed) => request({ host: "127.0.0.1", port, path, agent: false }, (response) => (response.resume(), done(response))).on("error", failed).end());
+  for (const path of ["/%ff", "/%00", "/..%2f..%2fpasswd", "/no-such-page", "http://[/"]) assert.equal((await asked(path)).statusCode, 404, path);
+  for (const path of ["//", "/", "/index.html", "/?q=%ff"]) {
+    const { statusCode, headers } = await asked(path);
+    assert.equal(statusCode, 200, path);
+    assert.match(headers["content-security-policy"], /^default-src 'none'; script-src 'self'/);
+  }
+});
 
 lab("a hidden page stands still, and goes on without a burst", "/", async (lab) => {
   await lab.until((s) => s.tick > 10);
