@@ -34,6 +34,13 @@ pub(crate) fn position_at(text: &str, offset: usize) -> Position {
     Position { line: line_at(text, offset), column: column_at(text, offset) }
 }
 
+/// The byte at a position: the end of its line for a column beyond it, the end of the text for a line beyond it.
+pub(crate) fn byte_at(text: &str, at: Position) -> usize {
+    let before: usize = text.split_inclusive('\n').take(at.line.saturating_sub(1)).map(str::len).sum();
+    let line = text[before..].split('\n').next().unwrap_or("");
+    before + line.chars().take(at.column.saturating_sub(1)).map(char::len_utf8).sum::<usize>()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -45,6 +52,11 @@ mod tests {
         assert_eq!(offset_of(text, part), 13);
         assert_eq!(position_at(text, 13), Position { line: 2, column: 6 });
         assert_eq!(position_at(text, 0), Position { line: 1, column: 1 });
+        for (byte, _) in text.char_indices() {
+            assert_eq!(byte_at(text, position_at(text, byte)), byte);
+        }
+        let byte = |line, column| byte_at(text, Position { line, column });
+        assert_eq!([byte(1, 99), byte(9, 1), byte(3, 2)], [6, text.len(), text.len()]);
         assert_eq!(line_ends(text, 7, text.len()), 1);
         let far = String::from("elsewhere");
         assert!(offset_of(text, &far) <= text.len());

@@ -90,4 +90,6 @@ mod trailer;
 mod verdicts;
 #[cfg(feature = "sim")]
 mod warehouse;
+#[cfg(feature = "sim")]
+mod words;
 mod wrappers;

@@ -2,9 +2,10 @@
 
 use std::f64::consts::PI;
 
+use super::marks::{Mark, angle_marks, marks};
 use crate::geometry::{Aabb, Point2};
 use crate::num::{greater, lesser};
-use crate::picture::{Anchor, Dash, Drawing, Face, Item, Line, Picture, Role};
+use crate::picture::{Anchor, Dash, Drawing, Face, Fill, Item, Line, Picture, Role};
 
 /// A line of a chart.
 pub(super) struct ChartLine {
@@ -12,6 +13,8 @@ pub(super) struct ChartLine {
     pub(super) name: String,
     /// Its pieces, left to right: between two of them the line is broken.
     pub(super) pieces: Vec<Vec<[f64; 2]>>,
+    /// The stretches across in which its robot was in contact, left to right.
+    pub(super) contacts: Vec<[f64; 2]>,
 }
 
 /// Lines over axes.
@@ -40,6 +43,13 @@ const LOOKS: [(Role, Dash); 8] = [
     (Role::Unknown, Dash::Dashed),
 ];
 
+/// The role of contacts: behind all lines where any robot was in contact, and beneath the lines of those that were.
+const CONTACT: Role = Role::Goal;
+/// The name of contacts in the legend.
+const IN_CONTACT: &str = "in contact";
+/// The opacity of the shade of contacts.
+const SHADE: f64 = 0.22;
+
 /// Largest number of lines in a chart: more could not be told apart.
 pub const MOST_LINES: usize = LOOKS.len();
 
@@ -58,13 +68,6 @@ const TICK: f64 = 4.0;
 /// The length of a line's sample in the legend, pixels.
 const SAMPLE: f64 = 24.0;
 
-/// A mark of an axis, with its figure.
-#[derive(Clone, Debug, PartialEq)]
-struct Mark {
-    at: f64,
-    text: String,
-}
-
 impl Chart {
     /// The picture of the chart, `width` pixels wide on its sheet. Its plane is in pixels, x right, y up.
     pub(super) fn picture(&self, width: f64) -> Picture {
@@ -81,7 +84,8 @@ impl Chart {
             up: self.range(),
         };
         let picture = Picture { in_metres: false, ..Picture::new(self.up, bounds) };
-        picture.with(self.axes(&area)).with(self.curves(&area)).with(self.words(&area, height, &legend))
+        let (axes, shade) = (self.axes(&area), self.shade(&area));
+        picture.with(shade).with(axes).with(self.curves(&area)).with(self.words(&area, height, &legend))
     }
 
     /// Both ends of the axis that goes up: the values and 0, and a little room.
@@ -121,19 +125,48 @@ impl Chart {
         items
     }
 
-    /// The lines, thinned to what the pixels show.
+    /// The lines, each above a broad one where its robot was in contact.
     fn curves(&self, area: &Area) -> Vec<Item> {
-        let lines = self.lines.iter().zip(LOOKS).map(|(ChartLine { name, pieces }, (role, dash))| {
-            let drawn = pieces.iter().map(|piece| {
-                let points: Vec<Point2> = piece.iter().map(|p| area.at(*p)).collect();
-                let thin = thinned(&points);
-                // a value alone is drawn as a dot
-                if let [only] = thin[..] { vec![only, only] } else { thin }
-            });
-            let region = Drawing::Region { pieces: Vec::new(), outline: drawn.collect() };
-            Item::new(format!("line/{name}"), name, role, region).stroked(Line::solid(1.5).dashed(dash))
+        let contacts = self.lines.iter().filter(|line| !line.contacts.is_empty()).map(|line| {
+            let name = format!("{}, {IN_CONTACT}", line.name);
+            let within = area.drawn(&line.within_contacts());
+            Item::new(format!("contact/{}", line.name), name, CONTACT, within).stroked(Line::solid(6.0).at_opacity(0.5))
         });
-        lines.collect()
+        let lines = self.lines.iter().zip(LOOKS).map(|(ChartLine { name, pieces, .. }, (role, dash))| {
+            Item::new(format!("line/{name}"), name, role, area.drawn(pieces)).stroked(Line::solid(1.5).dashed(dash))
+        });
+        contacts.chain(lines).collect()
+    }
+
+    /// The stretches in which any robot was in contact, from the bottom to the top.
+    fn shade(&self, area: &Area) -> Option<Item> {
+        let mut stretches: Vec<[f64; 2]> = self.lines.iter().flat_map(|line| &line.contacts).copied().collect();
+        stretches.sort_by(|a, b| a[0].total_cmp(&b[0]));
+        let mut drawn: Vec<[f64; 2]> = Vec::new();
+        for [from, to] in stretches {
+            let [left, right] = [from, to].map(|x| lesser(area.at([x, 0.0]).x, area.right));
+            // the shortest contact is seen too
+            let left = lesser(left, area.right - 1.0);
+            let right = greater(right, left + 1.0);
+            match drawn.last_mut().filter(|last| last[1] >= left) {
+                Some(last) => last[1] = greater(last[1], right),
+                None => drawn.push([left, right]),
+            }
+        }
+        let column = |[left, right]: [f64; 2]| area.column(left, right);
+        let pieces: Vec<Vec<Point2>> = drawn.into_iter().map(column).collect();
+        let region = Drawing::Region { pieces, outline: Vec::new() };
+        self.touches().then(|| Item::new("contacts", IN_CONTACT, CONTACT, region).filled(Fill::Tint(SHADE)))
+    }
+
+    /// Whether any robot was in contact.
+    fn touches(&self) -> bool {
+        self.lines.iter().any(|line| !line.contacts.is_empty())
+    }
+
+    /// The names in the legend: those of the lines, and what the shade is.
+    fn names(&self) -> impl Iterator<Item = &str> {
+        self.lines.iter().map(|line| line.name.as_str()).chain(self.touches().then_some(IN_CONTACT))
     }
 
     /// The names of the axes and the legend.
@@ -149,17 +182,25 @@ impl Chart {
                 Item::new(format!("legend/{}", line.name), &line.name, role, sample)
                     .stroked(Line::solid(1.5).dashed(dash)),
             );
-            let at = Point2::new(left + SAMPLE, y);
-            items.push(label(format!("legend/{}/name", line.name), at, &line.name, Anchor::Right));
+        }
+        if let Some(Entry { row, left }) = legend.get(self.lines.len()) {
+            let y = height - LEADING * (*row as f64 + 1.5);
+            let corners = [[*left, y - 5.0], [left + SAMPLE, y - 5.0], [left + SAMPLE, y + 5.0], [*left, y + 5.0]];
+            let sample = Drawing::Polygon(corners.map(|[x, y]| Point2::new(x, y)).into());
+            items.push(Item::new("legend/contacts", IN_CONTACT, CONTACT, sample).filled(Fill::Tint(SHADE)));
+        }
+        for (name, Entry { row, left }) in self.names().zip(legend) {
+            let at = Point2::new(left + SAMPLE, height - LEADING * (*row as f64 + 1.5));
+            items.push(label(format!("legend/{name}/name"), at, name, Anchor::Right));
         }
         items
     }
 
-    /// Where each line's entry in the legend stands: as many in a row as have room.
+    /// Where each entry of the legend stands: as many in a row as have room.
     fn legend(&self, width: f64) -> Vec<Entry> {
         let (mut row, mut left) = (0, 0.0);
-        let entries = self.lines.iter().map(|line| {
-            let room = SAMPLE + 24.0 + 0.55 * SMALL * line.name.chars().count() as f64;
+        let entries = self.names().map(|name| {
+            let room = SAMPLE + 24.0 + 0.55 * SMALL * name.chars().count() as f64;
             if left > 0.0 && left + room > width {
                 (row, left) = (row + 1, 0.0);
             }
@@ -196,56 +237,52 @@ impl Area {
             self.bottom + part(y, self.up) * (self.top - self.bottom),
         )
     }
+
+    /// Lines through these values, thinned to what the pixels show.
+    fn drawn(&self, pieces: &[Vec<[f64; 2]>]) -> Drawing {
+        let drawn = pieces.iter().map(|piece| {
+            let points: Vec<Point2> = piece.iter().map(|p| self.at(*p)).collect();
+            let thin = thinned(&points);
+            // a value alone is drawn as a dot
+            if let [only] = thin[..] { vec![only, only] } else { thin }
+        });
+        Drawing::Region { pieces: Vec::new(), outline: drawn.collect() }
+    }
+
+    /// The corners of a column between two places across, pixels.
+    fn column(&self, left: f64, right: f64) -> Vec<Point2> {
+        let (bottom, top) = (self.bottom, self.top);
+        [[left, bottom], [right, bottom], [right, top], [left, top]].map(|[x, y]| Point2::new(x, y)).into()
+    }
+}
+
+impl ChartLine {
+    /// The parts of its pieces in which its robot was in contact.
+    fn within_contacts(&self) -> Vec<Vec<[f64; 2]>> {
+        let mut contacts = self.contacts.iter().copied().peekable();
+        let mut parts = Vec::new();
+        for piece in &self.pieces {
+            // by the number of the contact that holds each value: values and contacts both ascend
+            let mut part: Vec<[f64; 2]> = Vec::new();
+            for &value in piece {
+                while contacts.next_if(|[_, to]| *to <= value[0]).is_some() {
+                    parts.push(std::mem::take(&mut part));
+                }
+                if contacts.peek().is_some_and(|[from, _]| *from <= value[0]) {
+                    part.push(value);
+                }
+            }
+            parts.push(part);
+        }
+        parts.retain(|part| !part.is_empty());
+        parts
+    }
 }
 
 fn label(id: String, at: Point2, text: &str, anchor: Anchor) -> Item {
     let text = text.to_owned();
     let drawing = Drawing::Label { at, text: text.clone(), anchor, face: Face::Sans, size_px: SMALL, plate: false };
     Item::new(id, text, Role::Muted, drawing)
-}
-
-/// Round marks between both ends, about `most` of them and at least two where there is room for two: multiples of 1, 2
-/// or 5 times a power of ten.
-fn marks([low, high]: [f64; 2], most: usize) -> Vec<Mark> {
-    const DECADES: [(f64, usize); 16] = [
-        (1e-6, 6),
-        (1e-5, 5),
-        (1e-4, 4),
-        (1e-3, 3),
-        (1e-2, 2),
-        (1e-1, 1),
-        (1.0, 0),
-        (1e1, 0),
-        (1e2, 0),
-        (1e3, 0),
-        (1e4, 0),
-        (1e5, 0),
-        (1e6, 0),
-        (1e7, 0),
-        (1e8, 0),
-        (1e9, 0),
-    ];
-    let steps = DECADES.into_iter().flat_map(|(decade, places)| [1.0, 2.0, 5.0].map(|digit| (digit * decade, places)));
-    let fits = |step: f64| (high - low) / step <= std::cmp::max(most, 2) as f64;
-    let Some((step, places)) = steps.into_iter().find(|(step, _)| fits(*step)) else { return Vec::new() };
-    let (first, last) = ((low / step).ceil() as i64, (high / step).floor() as i64);
-    let mark = |k: i64| {
-        let at = k as f64 * step;
-        Mark { at, text: format!("{at:.places$}").replace('-', "\u{2212}") }
-    };
-    (first..=last).map(mark).collect()
-}
-
-/// The marks of an axis of angles.
-fn angle_marks() -> Vec<Mark> {
-    let marks = [
-        (-PI, "\u{2212}\u{3c0}"),
-        (-0.5 * PI, "\u{2212}\u{3c0}/2"),
-        (0.0, "0"),
-        (0.5 * PI, "\u{3c0}/2"),
-        (PI, "\u{3c0}"),
-    ];
-    marks.map(|(at, text)| Mark { at, text: text.into() }).into()
 }
 
 /// Of the points in each column of pixels the first, the lowest, the highest and the last: what is drawn stays the same
@@ -269,18 +306,6 @@ fn thinned(points: &[Point2]) -> Vec<Point2> {
 mod tests {
     use super::*;
 
-    fn texts(marks: &[Mark]) -> Vec<&str> {
-        marks.iter().map(|mark| mark.text.as_str()).collect()
-    }
-
-    #[test]
-    fn marks_are_round_and_few() {
-        assert_eq!(texts(&marks([0.0, 60.0], 6)), ["0", "10", "20", "30", "40", "50", "60"]);
-        assert_eq!(texts(&marks([-0.31, 0.52], 5)), ["\u{2212}0.2", "0.0", "0.2", "0.4"]);
-        assert_eq!(texts(&marks([0.0, 0.0007], 4)), ["0.0000", "0.0002", "0.0004", "0.0006"]);
-        assert_eq!(texts(&marks([0.0, 1e12], 4)), [""; 0], "beyond all axes");
-    }
-
     #[test]
     fn a_dip_of_one_tick_is_drawn_among_a_million() {
         let mut points: Vec<Point2> =
@@ -300,6 +325,7 @@ mod tests {
         let line = |name: &str, pieces: &[&[[f64; 2]]]| ChartLine {
             name: name.into(),
             pieces: pieces.iter().map(|piece| piece.to_vec()).collect(),
+            contacts: Vec::new(),
         };
         let lines = vec![line("a", &[&[[0.0, 0.0], [5.0, 10.0]], &[[10.0, 5.0]]]), line("b", &[])];
         let chart = Chart { up: "height, m", across: "time, s", span: [0.0, 10.0], angles: false, lines };
@@ -319,5 +345,43 @@ mod tests {
             let low = picture.items.iter().filter(|i| i.id.starts_with("grid/")).count();
             assert!(low >= 2, "{low} marks");
         }
+    }
+
+    #[test]
+    fn contacts_are_shaded_from_their_beginning_to_their_end_and_belong_to_their_lines() {
+        let line = |name: &str, contacts: &[[f64; 2]]| ChartLine {
+            name: name.into(),
+            pieces: vec![(0..=4).map(|x| [f64::from(x), 1.0]).collect(), vec![[8.0, 2.0]]],
+            contacts: contacts.to_vec(),
+        };
+        let chart = |lines| Chart { up: "u", across: "t", span: [0.0, 10.0], angles: false, lines }.picture(640.0);
+        let picture = chart(vec![line("a", &[[1.0, 3.0], [8.0, 9.0]]), line("b", &[[2.0, 4.0], [10.0, 10.5]])]);
+        let find = |id: &str| picture.items.iter().find(|i| i.id == id);
+        let Drawing::Region { pieces, .. } = &find("contacts").unwrap().drawing else { panic!("columns") };
+        let Drawing::Polyline(axes) = &find("axes").unwrap().drawing else { panic!("a line") };
+        let (left, right, bottom, top) = (axes[1].x, axes[2].x, axes[1].y, axes[0].y);
+        let at = |x: f64| left + 0.1 * x * (right - left);
+        let ends: Vec<[f64; 2]> = pieces.iter().map(|column| [column[0].x, column[1].x]).collect();
+        // 1 to 4 is one column of two robots; what begins at the end keeps a pixel
+        let expected = [[at(1.0), at(4.0)], [at(8.0), at(9.0)], [right - 1.0, right]];
+        let apart = ends.iter().flatten().zip(expected.iter().flatten()).map(|(a, b)| (a - b).abs());
+        assert!(ends.len() == 3 && apart.fold(0.0, greater) < 1e-9, "{ends:?}, not {expected:?}");
+        assert!(pieces.iter().all(|column| column[0].y == bottom && column[2].y == top), "as high as the axes");
+        let beneath = |id: &str| match &find(id).unwrap().drawing {
+            Drawing::Region { outline, .. } => outline.iter().map(|l| [l[0].x, l[l.len() - 1].x]).collect::<Vec<_>>(),
+            _ => panic!("lines"),
+        };
+        let near = |found: Vec<[f64; 2]>, expected: &[[f64; 2]]| {
+            let apart = found.iter().flatten().zip(expected.iter().flatten()).map(|(x, e)| (x - at(*e)).abs());
+            assert!(found.len() == expected.len() && apart.fold(0.0, greater) < 1e-9, "{found:?}");
+        };
+        // a value at the end of a contact is out of it
+        near(beneath("contact/a"), &[[1.0, 2.0], [8.0, 8.0]]);
+        near(beneath("contact/b"), &[[2.0, 3.0]]);
+        let order = |id: &str| picture.items.iter().position(|i| i.id == id);
+        assert!(order("contacts") < order("line/a") && order("contact/b") < order("line/a"), "lines are above");
+        assert!(find("legend/contacts").is_some() && find("legend/in contact/name").is_some());
+        let free = chart(vec![line("a", &[])]);
+        assert!(free.items.iter().all(|i| i.role != CONTACT && !i.id.contains("contact")), "none without any");
     }
 }

@@ -18,6 +18,7 @@ mod chart;
 mod error;
 #[cfg(feature = "cli")]
 mod few_colours;
+mod marks;
 mod moving;
 #[cfg(feature = "cli")]
 mod paper;

@@ -1,6 +1,6 @@
 //! What the numbers of a robot are called in an export: by its kind's coordinates, with units.
 
-use crate::configuration::RobotKind;
+use crate::configuration::{InputKind, Kinds, RobotKind};
 use crate::run::{Log, RobotState};
 use crate::worlds::Resident;
 
@@ -37,24 +37,24 @@ impl List {
         }
     }
 
-    /// The name of number `i` of a robot of this kind: its column in CSV, its key in JSON.
-    ///
-    /// A number that the lab's table of kinds does not name, as those of a program's own kinds, is called by its list
-    /// and its place.
-    pub fn name(self, kind: &str, i: usize) -> String {
-        self.named(kind).into_iter().nth(i).unwrap_or_else(|| format!("{}{i}", self.plain()))
+    /// The name of number `i` where its kind has none for it: its list and its place.
+    pub fn numbered(self, i: usize) -> String {
+        format!("{}{i}", self.plain())
     }
 
-    /// The names that a kind's numbers have whatever the run. A heading that is not there, as a trailer's, has one too.
-    pub fn named(self, kind: &str) -> Vec<String> {
-        let Some(kind) = RobotKind::of(kind) else { return Vec::new() };
+    /// The names that the numbers of a kind with this description have whatever the run: columns in CSV, keys in JSON.
+    /// A heading that is not there, as a trailer's, has one too.
+    pub fn named(self, about: Option<&RobotKind>) -> Vec<String> {
+        let Some(kind) = about else { return Vec::new() };
         let coordinates = kind.coordinates.iter().enumerate();
         let coordinates = coordinates.map(|(i, name)| format!("{name}_{}", if i < kind.lengths { "m" } else { "rad" }));
         match self {
             List::Configuration => coordinates.collect(),
-            List::Extra if kind.has_encoders => ROVER.map(str::to_owned).into(),
-            // only arms move to a configuration
-            List::Target if kind.is_arm() => coordinates.map(|name| format!("target_{name}")).collect(),
+            // what a program's own robots keep beside their configurations, nobody described
+            List::Extra if *kind == RobotKind::RUSTY => ROVER.map(str::to_owned).into(),
+            List::Target if kind.takes.contains(&InputKind::MoveTo) => {
+                coordinates.map(|name| format!("target_{name}")).collect()
+            }
             List::Extra | List::Target => Vec::new(),
         }
     }
@@ -70,11 +70,13 @@ pub struct Columns {
 }
 
 impl Columns {
-    /// The columns of a log. `widths` are the largest numbers of items of each robot's list in it.
-    pub fn new(list: List, log: &Log, widths: &[usize]) -> Self {
-        let kinds: Vec<&str> = residents(log).map(|resident| resident.kind.as_str()).collect();
-        let there = |name: &str| kinds.contains(&name);
-        let own = RobotKind::ALL.into_iter().filter(|kind| there(kind.name)).flat_map(|kind| list.named(kind.name));
+    /// The columns of a log with these kinds of robots. `widths` are the largest numbers of items of each robot's list
+    /// in it.
+    pub fn new(list: List, log: &Log, kinds: &Kinds, widths: &[usize]) -> Self {
+        let there: Vec<Option<&RobotKind>> = residents(log).map(|resident| kinds.of(&resident.kind)).collect();
+        // the lab's kinds come first, in their order, whatever the order of the robots
+        let lab = RobotKind::ALL.into_iter().map(Some).filter(|kind| there.contains(kind));
+        let own = lab.chain(there.iter().copied()).flat_map(|about| list.named(about));
         let mut names: Vec<String> = Vec::new();
         let mut add = |name: String| {
             if !names.contains(&name) {
@@ -82,14 +84,14 @@ impl Columns {
             }
         };
         own.for_each(&mut add);
-        let mut by_place: Vec<Vec<String>> = Vec::with_capacity(kinds.len());
-        for (kind, &width) in kinds.iter().zip(widths) {
-            let named = list.named(kind);
-            let rest = (named.len()..width).map(|i| list.name(kind, i));
+        let mut by_place: Vec<Vec<String>> = Vec::with_capacity(there.len());
+        for (about, &width) in there.iter().zip(widths) {
+            let named = list.named(*about);
+            let rest = (named.len()..width).map(|i| list.numbered(i));
             by_place.push(named.iter().cloned().chain(rest).collect());
         }
         let largest = by_place.iter().map(Vec::len).fold(0, usize::max);
-        let plain = |i: usize| format!("{}{i}", list.plain());
+        let plain = |i: usize| list.numbered(i);
         (0..largest).filter(|i| by_place.iter().any(|all| all.get(*i) == Some(&plain(*i)))).map(plain).for_each(add);
         let place = |all: &Vec<String>| names.iter().map(|name| all.iter().position(|own| own == name)).collect();
         let places = by_place.iter().map(place).collect();
@@ -115,13 +117,18 @@ mod tests {
 
     #[test]
     fn every_number_of_the_lab_s_kinds_has_a_name_with_its_unit() {
-        let all = |kind| [List::Configuration, List::Extra, List::Target].map(|list| list.named(kind).join(" "));
+        let of = |about| [List::Configuration, List::Extra, List::Target].map(|list| list.named(about).join(" "));
+        let all = |kind| of(RobotKind::of(kind));
         assert_eq!(all("rusty"), ["x_m y_m theta_rad", "left_wheel_rad right_wheel_rad waypoint", ""]);
         assert_eq!(all("reach"), ["theta1_rad theta2_rad", "", "target_theta1_rad target_theta2_rad"]);
         assert_eq!(all("hitch"), ["x_m y_m theta_rad psi_rad", "", ""]);
         assert_eq!(all("reach3")[0], "theta1_rad theta2_rad theta3_rad");
         assert_eq!(all("x-train"), ["", "", ""]);
-        assert_eq!([0, 3].map(|i| List::Configuration.name("rusty", i)), ["x_m", "configuration3"]);
-        assert_eq!(List::Extra.name("x-train", 1), "extra1");
+        assert_eq!(List::Extra.numbered(1), "extra1");
+        // a program's own kind: its coordinates are described, what its robots keep beside them is not
+        let sled = RobotKind { name: "x-sled", coordinates: &["x", "y", "tilt"], ..RobotKind::RUSTY };
+        assert_eq!(of(Some(&sled)), ["x_m y_m tilt_rad", "", ""]);
+        let crane = RobotKind { name: "x-crane", coordinates: &["trolley", "boom"], lengths: 1, ..RobotKind::REACH };
+        assert_eq!(of(Some(&crane)), ["trolley_m boom_rad", "", "target_trolley_m target_boom_rad"]);
     }
 }

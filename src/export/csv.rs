@@ -5,6 +5,7 @@ use std::io;
 
 use super::columns::{Columns, List, residents};
 use super::{ExportError, frames};
+use crate::configuration::Kinds;
 use crate::run::{DT, Frame, Log, RobotState};
 
 /// The columns of a log.
@@ -21,15 +22,25 @@ struct Head {
 ///
 /// A robot's numbers are called as its kind's coordinates, `x_m` or `theta1_rad`. A kind has the same columns in every
 /// run; robots of several kinds share those that have one name. Numbers of a program's own kinds are `configuration0`,
-/// `extra0`, `target0` and so on.
+/// `extra0`, `target0` and so on; [`write_csv_of_kinds`] has names for them.
 ///
 /// With `ranges` there is a column for each ray too: those of a robot's first sensor are `range0_m` and so on, those of
 /// its second one `scan2_range0_m`. `inf` is the range of a ray that meets nothing within reach.
 ///
 /// # Errors
 /// [`ExportError::Write`] when `out` fails.
-pub fn write_csv(log: &Log, ranges: bool, mut out: impl io::Write) -> Result<(), ExportError> {
-    let head = Head::of(log, ranges);
+pub fn write_csv(log: &Log, ranges: bool, out: impl io::Write) -> Result<(), ExportError> {
+    write_csv_of_kinds(log, &Kinds::default(), ranges, out)
+}
+
+/// [`write_csv`] with kinds of robots that a program added: their configurations, and the targets of those that take
+/// `MoveTo`, are called by the coordinates of their [descriptions](crate::configuration::RobotKind). The lab's kinds
+/// have their columns before them.
+///
+/// # Errors
+/// As [`write_csv`].
+pub fn write_csv_of_kinds(log: &Log, kinds: &Kinds, ranges: bool, mut out: impl io::Write) -> Result<(), ExportError> {
+    let head = Head::of(log, kinds, ranges);
     writeln!(out, "{}", head.names())?;
     let names: Vec<String> = log.config.robot_names().map(cell).collect();
     let mut row = String::new();
@@ -52,7 +63,7 @@ struct Named<'a> {
 }
 
 impl Head {
-    fn of(log: &Log, ranges: bool) -> Self {
+    fn of(log: &Log, kinds: &Kinds, ranges: bool) -> Self {
         let mut widths =
             [List::Configuration, List::Extra, List::Target].map(|list| (list, vec![0; residents(log).count()]));
         let mut of_sensors: Vec<usize> = Vec::new();
@@ -69,7 +80,7 @@ impl Head {
                 }
             }
         }
-        let [configuration, extra, target] = widths.map(|(list, widths)| Columns::new(list, log, &widths));
+        let [configuration, extra, target] = widths.map(|(list, widths)| Columns::new(list, log, kinds, &widths));
         Head { configuration, extra, target, ranges: of_sensors }
     }
 

@@ -6,6 +6,7 @@ use serde::{Serialize, Serializer};
 
 use super::columns::List;
 use super::{ExportError, JsonNumber, frames};
+use crate::configuration::Kinds;
 use crate::run::{DT, Frame, Log, RobotScan, RobotState};
 use crate::worlds::{Resident, World};
 
@@ -22,17 +23,16 @@ struct Tick<'a> {
 /// The numbers of a list by their names. One that is named and not there is null.
 struct Numbers<'a> {
     list: List,
-    kind: &'a str,
     names: &'a [String],
     numbers: &'a [f64],
 }
 
 impl Serialize for Numbers<'_> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        let Numbers { list, kind, names, numbers } = self;
+        let Numbers { list, names, numbers } = self;
         let named = names.iter().enumerate().map(|(i, name)| (name.clone(), numbers.get(i).copied().map(JsonNumber)));
         let rest = numbers.iter().enumerate().skip(names.len());
-        let rest = rest.map(|(i, x)| (list.name(kind, i), Some(JsonNumber(*x))));
+        let rest = rest.map(|(i, x)| (list.numbered(i), Some(JsonNumber(*x))));
         serializer.collect_map(named.chain(rest))
     }
 }
@@ -48,9 +48,9 @@ struct Still<'a> {
 }
 
 impl<'a> Still<'a> {
-    fn of(world: &'a World, resident: &'a Resident) -> Self {
+    fn of(world: &'a World, resident: &'a Resident, kinds: &Kinds) -> Self {
         let [configuration, extra, target] =
-            [List::Configuration, List::Extra, List::Target].map(|list| list.named(&resident.kind));
+            [List::Configuration, List::Extra, List::Target].map(|list| list.named(kinds.of(&resident.kind)));
         Still { world, resident, configuration, extra, target }
     }
 }
@@ -91,14 +91,24 @@ struct FurtherScan {
 ///
 /// `configuration`, `extra` and `target` are objects whose keys are those of [`write_csv`](super::write_csv)'s columns:
 /// `x_m`, `theta1_rad`. A kind has the same keys in every run; a number that is not there, as a trailer's heading, is
-/// null. Those of a program's own kinds are `configuration0`, `extra0`, `target0` and so on. The text `"inf"` is the
+/// null. Those of a program's own kinds are `configuration0`, `extra0`, `target0` and so on;
+/// [`write_jsonl_of_kinds`] has names for them. The text `"inf"` is the
 /// range of a ray that meets nothing within reach.
 ///
 /// # Errors
 /// [`ExportError::Write`] when `out` fails.
-pub fn write_jsonl(log: &Log, mut out: impl Write) -> Result<(), ExportError> {
+pub fn write_jsonl(log: &Log, out: impl Write) -> Result<(), ExportError> {
+    write_jsonl_of_kinds(log, &Kinds::default(), out)
+}
+
+/// [`write_jsonl`] with kinds of robots that a program added, whose numbers are called as
+/// [`write_csv_of_kinds`](super::write_csv_of_kinds) calls them.
+///
+/// # Errors
+/// As [`write_jsonl`].
+pub fn write_jsonl_of_kinds(log: &Log, kinds: &Kinds, mut out: impl Write) -> Result<(), ExportError> {
     let robots: Vec<Still<'_>> =
-        log.config.worlds.iter().flat_map(|w| w.robots.iter().map(move |r| Still::of(w, r))).collect();
+        log.config.worlds.iter().flat_map(|w| w.robots.iter().map(move |r| Still::of(w, r, kinds))).collect();
     let mut line = Vec::new();
     for frame in frames(log) {
         let robots = robots.iter().zip(&frame.robots).map(|(still, state)| {
@@ -136,16 +146,15 @@ fn robot<'a>(still: &'a Still<'a>, state: &'a RobotState) -> Robot<'a> {
     // taken apart by name, so that a field added later can't be forgotten here
     let RobotState { id, configuration, extra, channels, target, manual, in_contact, contacts, flash, refusals } =
         state;
-    let kind = &still.resident.kind;
     Robot {
         id: *id,
         name: &still.resident.name,
-        kind,
+        kind: &still.resident.kind,
         world: &still.world.name,
-        configuration: Numbers { list: List::Configuration, kind, names: &still.configuration, numbers: configuration },
-        extra: Numbers { list: List::Extra, kind, names: &still.extra, numbers: extra },
+        configuration: Numbers { list: List::Configuration, names: &still.configuration, numbers: configuration },
+        extra: Numbers { list: List::Extra, names: &still.extra, numbers: extra },
         channels: *channels,
-        target: Numbers { list: List::Target, kind, names: &still.target, numbers: target },
+        target: Numbers { list: List::Target, names: &still.target, numbers: target },
         manual: *manual,
         in_contact: *in_contact,
         contacts: *contacts,

@@ -26,11 +26,11 @@ mod foxglove;
 mod json_number;
 mod jsonl;
 
-pub use csv::write_csv;
+pub use csv::{write_csv, write_csv_of_kinds};
 pub use error::ExportError;
 pub use foxglove::{write_foxglove, write_foxglove_of_file, write_rerun, write_rerun_of_file};
 pub use json_number::JsonNumber;
-pub use jsonl::write_jsonl;
+pub use jsonl::{write_jsonl, write_jsonl_of_kinds};
 
 use crate::run::{Frame, Log};
 

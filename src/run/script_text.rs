@@ -11,7 +11,7 @@ use super::{
     Event, Quantized, RobotInput, SCRIPT_VERSION, SCRIPT_VERSION_WITH_CHANGES, Script, WorldChange, WorldEvent,
 };
 use crate::text_position::{line_at, line_ends, offset_of};
-use crate::worlds::ron_in_words;
+use crate::worlds::{begin_of, ron_in_words};
 
 /// The file as written. The events stay text here and are parsed one by one, so that an error knows its event and line.
 #[derive(Deserialize)]
@@ -59,7 +59,7 @@ impl Script {
             return Err(error(line_of("version"), ScriptProblem::Version(version).anywhere()));
         }
         let file =
-            read.map_err(|e| error(e.span.start.line, ScriptProblem::Syntax(ron_in_words(&e.code)).anywhere()))?;
+            read.map_err(|e| error(begin_of(&e).line, ScriptProblem::Syntax(ron_in_words(text, &e)).anywhere()))?;
         if version == u64::from(SCRIPT_VERSION) && !file.changes.is_empty() {
             return Err(error(line_of("changes"), ScriptProblem::Changes.anywhere()));
         }
@@ -164,7 +164,7 @@ impl List<'_> {
                 ..problem.at(self.name, i)
             };
             let item: T = ron::from_str(item)
-                .map_err(|e| error(line + e.span.start.line - 1, ScriptProblem::Syntax(ron_in_words(&e.code))))?;
+                .map_err(|e| error(line + begin_of(&e).line - 1, ScriptProblem::Syntax(ron_in_words(item, &e))))?;
             before = check(&item, before).map_err(|problem| error(line, problem))?;
             read.push(item);
         }

@@ -88,7 +88,7 @@ pub(crate) use file::name::check_name;
 #[cfg(feature = "sim")]
 pub(crate) use file::resident::check_sensors;
 #[cfg(feature = "sim")]
-pub(crate) use file::ron_words::ron_in_words;
+pub(crate) use file::ron_words::{begin_of, ron_in_words};
 pub use grid::cells::{Grid, GridError, MAX_CELLS};
 pub use grid::distance_transform::DistanceTransform;
 pub use grid::ros_export::RosFiles;

@@ -343,6 +343,14 @@ fn progress_with_rate_and_time_left_is_shown_on_a_terminal() {
         return;
     }
     let folder = folder();
+    fs::write(folder.path().join("poses.jsonl"), "[3,5.5]\n".repeat(500)).unwrap();
+    fs::write(folder.path().join("wait.ron"), "Script(version: 1, events: [])").unwrap();
+    let exam = "Assignment(version: 1, world: \"lot\", robot: \"Hitch\", goal: (at: [7.5, 2.5, 0], within: [9, 9, 9]), \
+                stay: (at: end), limits: (ticks: 60), seeds: \"0..9\")";
+    fs::write(folder.path().join("exam.ron"), exam).unwrap();
+    for i in 0..12 {
+        fs::copy(folder.path().join("run.mcap"), folder.path().join(format!("copy{i}.mcap"))).unwrap();
+    }
     let at_terminal = |arguments: &str| {
         let line = format!("stty cols 120; {} {arguments}", env!("CARGO_BIN_EXE_motion-lab"));
         let mut script = std::process::Command::new("script");
@@ -357,10 +365,34 @@ fn progress_with_rate_and_time_left_is_shown_on_a_terminal() {
         ("replay run.mcap", "40 ticks, "),
         ("export run.mcap -o run.gif", "11 pictures, "),
         ("capture --widget dashboard --run run.mcap -o film.gif", "11 pictures, "),
+        ("stats run.mcap", "40 ticks, "),
+        ("plot run.mcap --what speed -o speed.svg", "40 ticks, "),
+        ("grade exam.ron wait.ron", "540 ticks, "),
+        ("query distance --robot rusty --input poses.jsonl", "3.91 KiB, "),
+        ("stats copy*.mcap", "12 files, "),
+        ("verify copy*.mcap", "12 files, "),
     ] {
         let shown = at_terminal(arguments);
         assert!(shown.contains(unit) && shown.contains("/s, ") && shown.contains(" left"), "{arguments}: {shown:?}");
+        // not its beginning and its end alone
+        if let Ok(all) = unit.split(' ').next().unwrap().parse::<u64>() {
+            let parts: Vec<&str> = shown.split(&format!(" of {unit}")).collect();
+            let mut done = parts.iter().filter_map(|part| part.rsplit(' ').next().unwrap().parse::<u64>().ok());
+            assert!(done.any(|done| (1..all).contains(&done)), "{arguments}: {shown:?}");
+        }
         let quiet = at_terminal(&format!("{arguments} --quiet"));
         assert!(!quiet.contains(unit) && !quiet.contains(" left"), "{arguments}: {quiet:?}");
     }
+    // no line of the output stands behind what is left of the bar, and none is lost
+    let shown = at_terminal("grade exam.ron wait.ron");
+    let rows: Vec<&str> = shown.split('\n').filter(|line| line.contains("passed")).collect();
+    // the bar's line is cleared, and the cursor goes back up to it
+    let begins = |row: &&str| {
+        let before = row.split("wait.ron ").next().unwrap();
+        before.rsplit("\u{1b}[2K").next().unwrap().replace("\u{1b}[1A", "").is_empty()
+    };
+    assert!(rows.len() == 9 && rows.iter().all(begins), "{rows:?}");
+    // and what goes to a pipe has no bar in it
+    let piped = run_in(folder.path(), &["query", "distance", "--robot", "rusty", "--input", "poses.jsonl"]);
+    assert_eq!((piped.err.as_str(), piped.out.lines().count()), ("", 500));
 }

@@ -3,8 +3,10 @@
 use std::fs;
 use std::io::{self, Write};
 
+use motion_lab::configuration::{Kinds, RobotKind};
 use motion_lab::export::{
-    ExportError, write_csv, write_foxglove, write_foxglove_of_file, write_jsonl, write_rerun, write_rerun_of_file,
+    ExportError, write_csv, write_csv_of_kinds, write_foxglove, write_foxglove_of_file, write_jsonl,
+    write_jsonl_of_kinds, write_rerun, write_rerun_of_file,
 };
 use motion_lab::prelude::*;
 use motion_lab::recording::RunError;
@@ -113,6 +115,28 @@ fn a_kind_of_a_program_s_own_is_exported_as_data() {
         for (k, x) in frame.robots[0].configuration.iter().enumerate() {
             assert_eq!(train["configuration"][format!("configuration{k}")].as_f64().unwrap().to_bits(), x.to_bits());
             assert_eq!(row[4 + k].parse::<f64>().unwrap().to_bits(), x.to_bits());
+        }
+    }
+}
+
+#[test]
+fn a_described_kind_of_a_program_s_own_has_named_columns() {
+    static TRAIN: RobotKind =
+        RobotKind { name: "x-train", coordinates: &["x", "y", "theta", "first", "second"], ..RobotKind::HITCH };
+    let (log, kinds) = (trains(), Kinds::default().with("x-train", &TRAIN));
+    let names = ["x_m", "y_m", "theta_rad", "first_rad", "second_rad"];
+    let table = String::from_utf8(written(|out| write_csv_of_kinds(&log, &kinds, false, out))).unwrap();
+    let head = table.lines().next().unwrap();
+    assert!(head.starts_with(&format!("tick,time_s,id,robot,{},", names.join(","))), "{head}");
+    assert!(!head.contains("configuration"), "{head}");
+    let plain = String::from_utf8(written(|out| write_csv(&log, false, out))).unwrap();
+    assert!(table.lines().skip(1).eq(plain.lines().skip(1)), "the same numbers");
+    let lines = String::from_utf8(written(|out| write_jsonl_of_kinds(&log, &kinds, out))).unwrap();
+    for (line, frame) in lines.lines().map(json).zip(frames(&log)) {
+        let q = line["robots"][0]["configuration"].as_object().unwrap();
+        assert_eq!(q.len(), names.len());
+        for (name, x) in names.iter().zip(&frame.robots[0].configuration) {
+            assert_eq!(q[*name].as_f64().unwrap().to_bits(), x.to_bits(), "{name}");
         }
     }
 }

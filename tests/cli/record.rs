@@ -21,6 +21,24 @@ fn the_seed_decides_and_a_second_process_agrees() {
 }
 
 #[test]
+fn a_recording_of_many_seeds_says_which_logs_it_replaced() {
+    let folder = tempfile::tempdir().unwrap();
+    let record = |seeds: &str, more: &[&str]| {
+        let arguments = ["record", "--ticks", "2", "--seeds", seeds, "-o", "run-{seed}.mcap"];
+        run_in(folder.path(), &[&arguments[..], more].concat())
+    };
+    let first = record("3..6", &[]);
+    assert_eq!((first.err.as_str(), first.out.lines().count()), ("motion-lab: wrote 3 logs\n", 3));
+    let size = |seed: u64| fs::metadata(folder.path().join(format!("run-{seed}.mcap"))).unwrap().len();
+    let older = size(4) + size(5);
+    let said = format!("wrote 4 logs, replacing 2 older files of {older} bytes in all, those of the seeds 4..6\n");
+    assert_eq!(record("4..8", &[]).err, format!("motion-lab: {said}"));
+    assert_eq!(record("3..8", &["--quiet"]).err, "");
+    // without logs nothing is written and nothing replaced
+    assert_eq!(run_in(folder.path(), &["record", "--ticks", "2", "--seeds", "3..6"]).err, "");
+}
+
+#[test]
 fn options_that_change_the_run_change_its_digest() {
     let mut digests = vec![digest(&["--ticks", "20"])];
     for more in [

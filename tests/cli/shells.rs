@@ -1,5 +1,6 @@
 //! Completions, asked of the shells themselves. A shell that is not installed is named and left out.
 
+use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::Path;
 use std::process::Command;
@@ -128,5 +129,102 @@ fn powershell_completes_commands_and_options() {
         let asked = Command::new("pwsh").args(arguments).current_dir(folder.path()).output().unwrap();
         let answers = String::from_utf8(asked.stdout).unwrap();
         assert!(answers.split_whitespace().any(|answer| answer == word), "{word} after {line}: {answers}");
+    }
+}
+
+/// The text of the string that a text begins with, as PowerShell and Elvish write it: in single quotes, which are
+/// doubled within; and what comes after it.
+fn quoted(text: &str) -> (String, &str) {
+    let mut rest = text.strip_prefix('\'').unwrap_or_else(|| panic!("no string: {text}"));
+    let mut string = String::new();
+    loop {
+        let end = rest.find('\'').unwrap_or_else(|| panic!("a string without an end: {text}"));
+        string.push_str(&rest[..end]);
+        rest = &rest[end + 1..];
+        match rest.strip_prefix('\'') {
+            Some(after) => {
+                string.push('\'');
+                rest = after;
+            }
+            None => return (string, rest),
+        }
+    }
+}
+
+/// What completions offer after each command, `motion-lab;world;export`. Every line between the first command and the
+/// end of the last has to be of the language.
+fn offered(shell: &str, text: &str) -> BTreeMap<String, BTreeSet<String>> {
+    let is_powershell = shell == "powershell";
+    let (before, after) = if is_powershell { ("", " {") } else { ("&", "= {") };
+    let mut offered: BTreeMap<String, BTreeSet<String>> = BTreeMap::new();
+    let mut command: Option<String> = None;
+    let begin = text.lines().skip_while(|line| line.trim() != format!("{before}'motion-lab'{after}"));
+    for line in begin.map(str::trim) {
+        match &command {
+            None if line == "]" || line == "})" => return offered,
+            None => {
+                let (path, rest) = quoted(line.strip_prefix(before).unwrap());
+                assert_eq!(rest, after, "{line}");
+                assert!(offered.insert(path.clone(), BTreeSet::new()).is_none(), "{path} twice");
+                command = Some(path);
+            }
+            Some(_) if line == "}" => command = None,
+            Some(_) if line == "break" && is_powershell => {}
+            Some(path) => {
+                let word = if is_powershell {
+                    let (word, rest) = quoted(line.strip_prefix("[CompletionResult]::new(").unwrap());
+                    let (_, rest) = quoted(rest.strip_prefix(", ").unwrap());
+                    let (kind, rest) =
+                        rest.strip_prefix(", [CompletionResultType]::").unwrap().split_once(", ").unwrap();
+                    assert_eq!(kind, if word.starts_with('-') { "ParameterName" } else { "ParameterValue" }, "{line}");
+                    assert_eq!(quoted(rest).1, ")", "{line}");
+                    word
+                } else {
+                    let (word, rest) = line.strip_prefix("cand ").unwrap().split_once(' ').unwrap();
+                    assert_eq!(quoted(rest).1, "", "{line}");
+                    word.to_owned()
+                };
+                assert!(offered.get_mut(path).unwrap().insert(word), "{line} twice");
+            }
+        }
+    }
+    panic!("no end")
+}
+
+/// The options and the commands that the help of a command lists.
+fn listed(command: &[&str]) -> BTreeSet<String> {
+    let help = run(&[command, &["--help"]].concat()).done();
+    let mut listed = BTreeSet::new();
+    let mut among_commands = false;
+    for line in help.lines() {
+        let (indent, word) = (line.len() - line.trim_start().len(), line.trim_start());
+        if indent == 0 {
+            among_commands = line == "Commands:";
+        } else if among_commands && indent == 2 {
+            listed.extend(word.split(' ').next().map(str::to_owned));
+        } else if (2..=6).contains(&indent) && word.starts_with('-') {
+            let words = word.split([' ', ',']).filter(|word| word.starts_with('-'));
+            listed.extend(words.map(|word| word.trim_end_matches("...").to_owned()));
+        }
+    }
+    listed
+}
+
+/// Shells that few machines have: what their completions offer after each command is what its help lists, and every
+/// line is of the shell's language. The shells themselves are not asked here.
+#[test]
+fn completions_of_powershell_and_elvish_offer_what_the_help_lists() {
+    for shell in ["powershell", "elvish"] {
+        let offered = offered(shell, &run(&["completions", shell]).done());
+        let mut commands = 0;
+        for (path, words) in offered.iter().filter(|(path, _)| !path.contains(";help")) {
+            let command: Vec<&str> = path.split(';').skip(1).collect();
+            assert_eq!(*words, listed(&command), "{shell}: {path}");
+            commands += 1;
+            for below in words.iter().filter(|word| !word.starts_with('-') && *word != "help") {
+                assert!(offered.contains_key(&format!("{path};{below}")), "{shell}: {path} {below}");
+            }
+        }
+        assert!(commands > 20, "{commands}");
     }
 }

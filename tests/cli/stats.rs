@@ -2,7 +2,7 @@
 
 use std::fs;
 
-use super::{json, run_in};
+use super::{command, json, run_in};
 
 /// A car that drives straight ahead for two seconds in the Lot, whose aisle has 5 m of room before it.
 fn recorded(folder: &std::path::Path, log: &str, name: &str) {
@@ -84,11 +84,98 @@ fn every_quantity_is_plotted_in_both_forms_and_themes() {
         let file = fs::File::open(folder.path().join(name)).unwrap();
         png::Decoder::new(std::io::BufReader::new(file)).read_info().unwrap().info().width
     };
+    // to a pipe, in either form
+    let piped = |more: &[&str]| {
+        let arguments = [&["plot", "full.mcap", "--what", "speed", "-o", "-"], more].concat();
+        command(&arguments).current_dir(folder.path()).output().unwrap().stdout
+    };
+    assert_eq!(piped(&[]), svg(&["full.mcap", "--what", "speed"]).into_bytes());
+    assert!(piped(&["--format", "png"]).starts_with(b"\x89PNG"));
     for (scale, name) in [("1", "one.png"), ("2", "two.png")] {
         let plot = ["plot", "full.mcap", "--what", "speed", "--width", "420", "--scale", scale, "-o", name];
         run_in(folder.path(), &plot).done();
     }
     assert_eq!((width("one.png"), width("two.png")), (420, 840));
+}
+
+/// The times at which a robot's contacts begin and end, by the table of `export`: the first row in contact, and the
+/// first after it that is not.
+fn contacts(folder: &std::path::Path, log: &str, robot: &str) -> Vec<[f64; 2]> {
+    let table = run_in(folder, &["export", log, "--format", "csv"]).done();
+    let mut rows = table.lines().map(|row| row.split(',').collect::<Vec<_>>());
+    let head = rows.next().unwrap();
+    let column = |name: &str| head.iter().position(|n| *n == name).unwrap();
+    let (time, name, touches) = (column("time_s"), column("robot"), column("in_contact"));
+    let mut found: Vec<[f64; 2]> = Vec::new();
+    let mut was = false;
+    for row in rows.filter(|row| row[name] == robot) {
+        let (t, is) = (row[time].parse().unwrap(), row[touches] == "true");
+        match (was, is) {
+            (false, true) => found.push([t, f64::NAN]),
+            (true, false) => found.last_mut().unwrap()[1] = t,
+            _ => {}
+        }
+        was = is;
+    }
+    found
+}
+
+#[test]
+fn contacts_are_shaded_in_plots_of_both_forms_and_themes() {
+    let folder = tempfile::tempdir().unwrap();
+    // at this seed the arm of the tour touches its post, and the car nothing
+    for (kind, name) in [("full", "full.mcap"), ("digest", "digest.mcap")] {
+        run_in(folder.path(), &["record", "--seed", "7", "--ticks", "200", "--log", kind, "-o", name]).done();
+    }
+    let touched = contacts(folder.path(), "full.mcap", "Reach");
+    assert!(touched.iter().any(|[_, to]| to.is_nan()) && touched.iter().any(|[_, to]| !to.is_nan()), "{touched:?}");
+    let [first, .., last] = &touched[..] else { panic!("{touched:?}") };
+    let times = |[from, to]: &[f64; 2]| match to.is_nan() {
+        true => format!("from {from:.2} s to the end"),
+        false => format!("from {from:.2} s to {to:.2} s"),
+    };
+    let count = touched.len();
+    let said = format!("Reach is in contact {count} times, first {}, last {}.", times(first), times(last));
+    assert!(contacts(folder.path(), "full.mcap", "Hitch").is_empty());
+    let words = json(&run_in(folder.path(), &["describe"]).done());
+    for log in ["full.mcap", "digest.mcap"] {
+        for what in ["clearance", "speed", "joints"] {
+            let plot = |robot: &str| {
+                let arguments = ["plot", log, "--what", what, "--robot", robot, "-o", "-"];
+                run_in(folder.path(), &arguments)
+            };
+            let drawn = plot("Reach").done();
+            assert!(drawn.contains(&said), "{log} {what}: no {said:?}");
+            assert_eq!(drawn.matches("<title>in contact</title>").count(), 3, "{log} {what}: shade, sample, words");
+            assert!(drawn.contains(">in contact</text>"), "{log} {what}: the legend");
+            let free = if what == "joints" { continue } else { plot("Hitch").done() };
+            assert!(!free.contains("in contact"), "{log} {what}");
+        }
+    }
+    for theme in ["light", "dark"] {
+        let channels = |role: &str| {
+            let colour = words["colours"][theme][role].as_str().unwrap().trim_start_matches('#').to_owned();
+            [0, 2, 4].map(|i| i32::from_str_radix(&colour[i..i + 2], 16).unwrap())
+        };
+        // somewhere between paper and contact, nearer to the paper
+        let (paper, contact) = (channels("paper"), channels("goal"));
+        let shaded = |robot: &str| {
+            let arguments = ["plot", "full.mcap", "--what", "speed", "--robot", robot, "--theme", theme, "-o", "p.png"];
+            run_in(folder.path(), &arguments).done();
+            let file = fs::File::open(folder.path().join("p.png")).unwrap();
+            let mut reader = png::Decoder::new(std::io::BufReader::new(file)).read_info().unwrap();
+            let mut pixels = vec![0; reader.output_buffer_size().unwrap()];
+            let info = reader.next_frame(&mut pixels).unwrap();
+            let mix = |pixel: &[u8]| {
+                let parts =
+                    [0, 1, 2].map(|i| f64::from(i32::from(pixel[i]) - paper[i]) / f64::from(contact[i] - paper[i]));
+                (0.1..0.5).contains(&parts[0]) && parts.iter().all(|part| (part - parts[0]).abs() < 0.05)
+            };
+            pixels.chunks(info.line_size / info.width as usize).filter(|pixel| mix(pixel)).count()
+        };
+        let (reach, hitch) = (shaded("Reach"), shaded("Hitch"));
+        assert!(reach > 10_000 && hitch < reach / 20, "{theme}: {reach} and {hitch} pixels");
+    }
 }
 
 #[test]
@@ -99,7 +186,7 @@ fn what_cannot_be_plotted_is_refused_and_no_file_is_left() {
         (&["car.mcap", "--what", "joints", "-o", "a.svg"][..], 2, "no robot asked for has joints"),
         (&["car.mcap", "--what", "encoders", "-o", "a.svg"], 2, "no robot asked for has encoders"),
         (&["car.mcap", "--what", "speed", "--robot", "Anna", "-o", "a.svg"], 2, "It has Hitch."),
-        (&["car.mcap", "--what", "speed", "-o", "a.gif"], 2, "Let it end in .svg or .png."),
+        (&["car.mcap", "--what", "speed", "-o", "a.gif"], 2, "Let it end in .svg or .png, or say --format."),
         (&["car.mcap", "--what", "mood", "-o", "a.svg"], 2, "clearance, speed, joints, encoders"),
         (&["nowhere.mcap", "--what", "speed", "-o", "a.svg"], 3, "nowhere.mcap: there is no such file"),
         (&["car.mcap", "--what", "speed", "-o", "no/a.svg"], 1, "Make its folder first"),

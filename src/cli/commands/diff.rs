@@ -8,8 +8,8 @@ use motion_lab::export::JsonNumber;
 use motion_lab::run::{Divergence, DivergingScan, Log, SetupDifference, Value, first_divergence};
 use serde::Serialize;
 
-use crate::cli::support::log_source::read_log;
-use crate::cli::{Data, Failure, Outcome, say};
+use crate::cli::support::log_source::{read_log, say_damage};
+use crate::cli::{Data, Failure, Outcome};
 
 /// Compare two logs to the last bit, and name the first value that differs.
 ///
@@ -24,7 +24,7 @@ Examples:
 pub struct Diff {
     /// The first log; `-` is standard input.
     a: PathBuf,
-    /// The second log.
+    /// The second log; one of the two may be `-`.
     b: PathBuf,
     /// One line of JSON.
     #[arg(long)]
@@ -93,11 +93,10 @@ impl Diff {
     /// Runs the command.
     pub fn run(self, data: &mut Data) -> Result<Outcome, Failure> {
         let (a, b) = (read_log(&self.a)?, read_log(&self.b)?);
-        let mut damaged = false;
-        for damage in [&a.damage, &b.damage].into_iter().flatten() {
-            damaged = true;
-            say(format!("{damage}\nThis much is compared; `motion-lab record --resume` makes it whole."));
+        for damage in [&a.damage, &b.damage] {
+            say_damage(damage.as_ref(), "compared");
         }
+        let damaged = a.damage.or(b.damage).is_some();
         let comparison = Comparison::of(&a.read.log, &b.read.log, damaged);
         if self.json {
             data.json(&comparison)?;

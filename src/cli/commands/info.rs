@@ -11,8 +11,8 @@ use serde::Serialize;
 use crate::cli::support::input::{shown, title, worst_of_each};
 use crate::cli::support::log_kind::{AnyLog, LogKind};
 use crate::cli::support::log_source::{AnySource, read_any_log};
-use crate::cli::support::script_words::{changes_in_words, none};
 use crate::cli::support::summary::RunSummary;
+use crate::cli::support::words::{changes_in_words, counted, none};
 use crate::cli::{Data, Failure, Outcome, say};
 
 /// Say what is in logs, without running them again.
@@ -139,7 +139,7 @@ impl Contents<'_> {
             data.line(format!("sensors  {robot}: {}", sensors.join(", ")))?;
         }
         let changes = changes_in_words(*script_changes);
-        data.line(format!("script   {script_events} events{changes}"))?;
+        data.line(format!("script   {}{changes}", counted(*script_events, "event")))?;
         data.line(format!("program  {program}"))?;
         if log.is_some() {
             data.line("log      a digest of each second; `motion-lab replay --log full -o FILE` makes the frames")?;

@@ -3,19 +3,22 @@
 use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
-use motion_lab::capture::{self, CaptureError, Form, MOST_LINES, Paper, RunPlot};
+use motion_lab::capture::{Form, MOST_LINES, RunPlot, plot};
 use motion_lab::configuration::Kinds;
 use motion_lab::run::{Quantity, Series, SeriesGatherer};
 
-use crate::cli::commands::capture::parse_scale;
-use crate::cli::support::choices::{RobotNames, ThemeName};
+use crate::cli::support::choices::RobotNames;
+use crate::cli::support::input::{is_dash, shown};
 use crate::cli::support::log_kind::AnyLog;
-use crate::cli::support::log_source::{AnySource, read_any_log};
+use crate::cli::support::log_source::{AnySource, read_any_log, say_damage};
+use crate::cli::support::paper::{PaperArgs, write_picture};
 use crate::cli::support::simulate::each_frame;
 use crate::cli::support::target::Target;
 use crate::cli::{Data, Failure, Outcome, say};
 
 /// Plot a quantity of a run's robots over its time, as SVG or PNG.
+///
+/// Where a robot was in contact, the time is shaded, and its line is broad in the colour of contacts.
 ///
 /// Seed and digest are in the file. Of a log with frames nothing is simulated; the run of a digest log is simulated
 /// again first.
@@ -23,29 +26,26 @@ use crate::cli::{Data, Failure, Outcome, say};
 #[command(after_help = "\
 Examples:
   motion-lab plot run.mcap --what clearance -o clearance.svg
+  motion-lab plot run.mcap --what speed --format png -o - > speed.png
   motion-lab plot run.mcap --what joints --robot Reach --theme dark -o joints.png")]
 pub struct PlotArgs {
-    /// The log.
+    /// The log; `-` is standard input.
     file: PathBuf,
     /// What is plotted.
     #[arg(long, value_enum, value_name = "QUANTITY")]
     what: What,
-    /// The file to write: .svg or .png.
+    /// The file to write: .svg or .png. `-` is standard output.
     #[arg(short, long, value_name = "FILE")]
     output: PathBuf,
+    /// The form. [default: by the output's name; svg for `-`]
+    #[arg(long)]
+    format: Option<FormName>,
     /// Plot the robots named so only; may be given several times. [default: every robot that has the quantity, up to 8
     /// lines]
     #[arg(long, value_name = "NAME", value_parser = RobotNames, hide_possible_values = true)]
     robot: Vec<String>,
-    /// The paper's colours.
-    #[arg(long, value_enum, default_value = "light")]
-    theme: ThemeName,
-    /// The sheet's greatest width, pixels: 420 to 640 for a column, 1280 for a page. Letters keep their size.
-    #[arg(long, value_name = "PIXELS", default_value_t = 1280, value_parser = clap::value_parser!(u32).range(200..=4096))]
-    width: u32,
-    /// PNG: dots for each pixel of the sheet; 2 or 3 for print.
-    #[arg(long, value_name = "TIMES", default_value_t = 1.0, value_parser = parse_scale)]
-    scale: f32,
+    #[command(flatten)]
+    paper: PaperArgs,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -60,40 +60,52 @@ enum What {
     Encoders,
 }
 
+/// The form of a plot.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum FormName {
+    Svg,
+    Png,
+}
+
 impl PlotArgs {
     /// Runs the command.
     pub fn run(self, data: &mut Data) -> Result<Outcome, Failure> {
-        let form = Form::of(&self.output).filter(|form| *form != Form::Gif).ok_or_else(|| {
-            let reason = format!("{}: its name does not tell the form of a plot", self.output.display());
-            Failure::usage(reason, "Let it end in .svg or .png.")
-        })?;
+        let form = self.form()?;
         let AnySource { log, damage, .. } = read_any_log(&self.file)?;
-        if let Some(damage) = &damage {
-            say(format!("{damage}\nThis much is plotted; `motion-lab record --resume` makes it whole."));
-        }
+        say_damage(damage.as_ref(), "plotted");
         let (series, difference) = self.series(&log)?;
         if let Some(difference) = &difference {
-            say(format!("{}: the run does not repeat its recording: {difference}", self.file.display()));
+            say(format!("{}: the run does not repeat its recording: {difference}", shown(&self.file)));
         }
         let digest = match &log {
             AnyLog::Full(log) => log.digest().to_string(),
             AnyLog::Digest(log) => log.digest.map_or_else(|| "of an unfinished log".into(), |d| d.to_string()),
         };
-        let plot =
-            RunPlot { quantity: self.quantity(), series: &series, ticks: log.recorded(), seed: log.parts().0, digest };
-        let paper = Paper { palette: self.theme.theme().palette(), width: self.width, scale: self.scale };
-        let captured = capture::plot(&plot, paper.width_px());
+        let (seed, ..) = log.parts();
+        let run = RunPlot { quantity: self.quantity(), series: &series, ticks: log.recorded(), seed, digest };
+        let paper = self.paper.paper();
+        let captured = plot(&run, paper.width_px());
         let target = Target::of(&self.output)?;
-        capture::write(&captured, &paper, form, target.path()).map_err(|error| match error {
-            CaptureError::Write(error) => Failure::output(&self.output, &error),
-            CaptureError::Fault(reason) => Failure::internal(anyhow::anyhow!(reason)),
-            error => Failure::usage(error, "Choose a smaller --width or --scale."),
-        })?;
+        write_picture(&captured, &paper, form, target.path())?;
         target.finish(data)?;
         Ok(match (difference, damage) {
             (Some(_), _) => Outcome::Differs,
             (None, Some(_)) => Outcome::Recovered,
             (None, None) => Outcome::Done,
+        })
+    }
+
+    /// The form: what was said, else what the output's name tells.
+    fn form(&self) -> Result<Form, Failure> {
+        let named = match self.format {
+            Some(FormName::Svg) => Some(Form::Svg),
+            Some(FormName::Png) => Some(Form::Png),
+            None if is_dash(&self.output) => Some(Form::Svg),
+            None => Form::of(&self.output).filter(|form| *form != Form::Gif),
+        };
+        named.ok_or_else(|| {
+            let reason = format!("{}: its name does not tell the form of a plot", self.output.display());
+            Failure::usage(reason, "Let it end in .svg or .png, or say --format.")
         })
     }
 
@@ -123,7 +135,7 @@ impl PlotArgs {
                     What::Joints => ("joints", "Name a run with an arm, or another --what."),
                     _ => ("encoders", "Name a run with a rover, or another --what."),
                 };
-                let file = self.file.display();
+                let file = shown(&self.file);
                 return Err(Failure::usage(format!("{file}: no robot asked for has {what}"), next));
             }
             lines if lines > MOST_LINES => {

@@ -8,8 +8,8 @@ use motion_lab::export::JsonNumber;
 use motion_lab::run::{DT, RobotStats, RunStats, StatsGatherer};
 use serde::Serialize;
 
-use crate::cli::support::input::worst_of_each;
-use crate::cli::support::log_source::{AnySource, read_any_log};
+use crate::cli::support::input::{shown, worst_of_each};
+use crate::cli::support::log_source::{AnySource, read_any_log, say_damage};
 use crate::cli::support::simulate::each_frame;
 use crate::cli::{Data, Failure, Outcome, say};
 
@@ -24,7 +24,7 @@ Examples:
   motion-lab stats run.mcap
   motion-lab stats --json runs/*.mcap")]
 pub struct StatsArgs {
-    /// The logs.
+    /// The logs; `-` is standard input.
     #[arg(required = true, value_name = "FILE")]
     files: Vec<PathBuf>,
     /// One line of JSON for each log.
@@ -66,15 +66,13 @@ impl StatsArgs {
         let mut is_first = true;
         worst_of_each(&self.files, data, |file, data| {
             let AnySource { log, damage, .. } = read_any_log(file)?;
-            if let Some(damage) = &damage {
-                say(format!("{damage}\nThis much is counted; `motion-lab record --resume` makes it whole."));
-            }
+            say_damage(damage.as_ref(), "counted");
             let (seed, config, script) = log.parts();
             let kinds = Kinds::default();
             let mut gatherer = StatsGatherer::new(config, script, &kinds);
             let difference = each_frame(&log, |frame| gatherer.see(frame))?;
             if let Some(difference) = &difference {
-                say(format!("{}: the run does not repeat its recording: {difference}", file.display()));
+                say(format!("{}: the run does not repeat its recording: {difference}", shown(file)));
             }
             let stats = gatherer.stats();
             if self.json {
@@ -110,7 +108,7 @@ impl<'a> LogStats<'a> {
         };
         let seconds = JsonNumber(DT * stats.ticks as f64);
         let robots = stats.robots.iter().map(robot).collect();
-        LogStats { file: file.display().to_string(), seed, ticks: stats.ticks, seconds, robots }
+        LogStats { file: shown(file), seed, ticks: stats.ticks, seconds, robots }
     }
 }
 
@@ -120,7 +118,7 @@ fn print(file: &Path, stats: &RunStats, data: &mut Data) -> Result<(), Failure> 
         stats.robots.iter().map(|robot| of(robot).chars().count()).max().unwrap_or(0).max(least)
     };
     let (names, worlds) = (width(|robot| &robot.name, "robot".len()), width(|robot| &robot.world, "world".len()));
-    data.line(format!("{}: {} ticks ({:.2} s)", file.display(), stats.ticks, DT * stats.ticks as f64))?;
+    data.line(format!("{}: {} ticks ({:.2} s)", shown(file), stats.ticks, DT * stats.ticks as f64))?;
     data.line(format!("{:names$}  {:worlds$}  contacts  in contact         path  least clearance", "robot", "world"))?;
     for robot in &stats.robots {
         let RobotStats { name, world, contacts, .. } = robot;

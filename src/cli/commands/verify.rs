@@ -9,10 +9,10 @@ use serde::Serialize;
 
 use crate::cli::support::input::{shown, title, worst_of_each};
 use crate::cli::support::log_kind::AnyLog;
-use crate::cli::support::log_source::{AnySource, read_any_log};
+use crate::cli::support::log_source::{AnySource, read_any_log, say_damage};
 use crate::cli::support::progress::Progress;
 use crate::cli::support::simulate::{verify, verify_digests};
-use crate::cli::{Data, Failure, Outcome, say};
+use crate::cli::{Data, Failure, Outcome};
 
 /// Simulate recorded runs again, from their seeds and scripts alone, and compare every frame to the last bit.
 ///
@@ -57,9 +57,7 @@ impl Verify {
 
     fn one(&self, file: &Path, several: bool, data: &mut Data) -> Result<Outcome, Failure> {
         let AnySource { log, damage, .. } = read_any_log(file)?;
-        if let Some(damage) = &damage {
-            say(format!("{damage}\nThis much is verified; `motion-lab record --resume` makes it whole."));
-        }
+        say_damage(damage.as_ref(), "verified");
         let verdict = Verdict { file: several.then(|| shown(file)), ..Verdict::of(&log)? };
         if self.json {
             data.json(&verdict)?;

@@ -1,6 +1,8 @@
-//! What shells offer as values: the names of worlds and robots. Any other text is a value too.
+//! Values of arguments: names of worlds and robots, which shells offer though any other text is a value too; themes;
+//! numbers.
 
 use std::ffi::OsStr;
+use std::str::FromStr;
 
 use clap::builder::{PossibleValue, StringValueParser, TypedValueParser};
 use clap::{Arg, Command, Error, ValueEnum};
@@ -41,6 +43,20 @@ impl ThemeName {
             ThemeName::Light => Theme::Light,
             ThemeName::Dark => Theme::Dark,
         }
+    }
+}
+
+/// Numbers joined by commas.
+#[derive(Clone, Debug)]
+pub struct Numbers(pub Vec<f64>);
+
+impl FromStr for Numbers {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let number =
+            |n: &str| n.trim().parse().map_err(|_| format!("{n:?} is no number; join numbers by commas: 0.785,1.571"));
+        text.split(',').map(number).collect::<Result<_, _>>().map(Numbers)
     }
 }
 

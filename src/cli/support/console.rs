@@ -4,7 +4,9 @@ use std::borrow::Cow;
 use std::fmt::Display;
 use std::io::{self, BufWriter, ErrorKind, IsTerminal, StdoutLock, Write};
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Mutex, PoisonError};
 
+use indicatif::ProgressBar;
 use serde::Serialize;
 
 use crate::cli::Failure;
@@ -14,29 +16,34 @@ use crate::cli::Failure;
 pub struct Data {
     out: BufWriter<StdoutLock<'static>>,
     closed: bool,
+    is_terminal: bool,
 }
 
 impl Data {
     /// The standard output of this process.
     pub fn stdout() -> Self {
-        Data { out: BufWriter::new(io::stdout().lock()), closed: false }
+        let is_terminal = io::stdout().is_terminal();
+        Data { out: BufWriter::new(io::stdout().lock()), closed: false, is_terminal }
     }
 
     /// Writes a line for people, [spelled out](spelled_out) where it would steer a terminal.
     pub fn line(&mut self, line: impl Display) -> Result<(), Failure> {
-        let written = writeln!(self.out, "{}", spelled_out(&line.to_string()));
-        self.after(written)
+        self.text(&format!("{}\n", spelled_out(&line.to_string())))
     }
 
     /// Writes a line of data for other programs, as it is.
     pub fn data_line(&mut self, line: impl Display) -> Result<(), Failure> {
-        let written = writeln!(self.out, "{line}");
-        self.after(written)
+        self.text(&format!("{line}\n"))
     }
 
-    /// Writes a text as it is.
+    /// Writes a text as it is: whole lines, which on a terminal stand above the bar of [`show_bar`].
     pub fn text(&mut self, text: &str) -> Result<(), Failure> {
-        let written = self.out.write_all(text.as_bytes());
+        let out = &mut self.out;
+        let written = if self.is_terminal {
+            above_bar(|| out.write_all(text.as_bytes()).and_then(|()| out.flush()))
+        } else {
+            out.write_all(text.as_bytes())
+        };
         self.after(written)
     }
 
@@ -47,7 +54,7 @@ impl Data {
 
     /// Writes a file's bytes. A terminal, which would show them as nonsense, gets none.
     pub fn bytes(&mut self, bytes: &[u8]) -> Result<(), Failure> {
-        if io::stdout().is_terminal() && std::str::from_utf8(bytes).is_err() {
+        if self.is_terminal && std::str::from_utf8(bytes).is_err() {
             return Err(Failure::usage(
                 "this form is not for a terminal",
                 "Name a file with -o FILE, or a pipe's end.",
@@ -61,6 +68,11 @@ impl Data {
     pub fn flush(&mut self) -> Result<(), Failure> {
         let written = self.out.flush();
         self.after(written)
+    }
+
+    /// Whether standard output is a terminal.
+    pub fn is_terminal(&self) -> bool {
+        self.is_terminal
     }
 
     /// Whether the reader has gone away.
@@ -102,6 +114,34 @@ impl Write for Data {
     }
 }
 
+/// The bar of the work under way.
+static BAR: Mutex<Option<ProgressBar>> = Mutex::new(None);
+
+/// Makes this the bar of the work under way, above which lines are written. Returns whether it is: there is one bar at
+/// a time, that of the whole work rather than those of its parts.
+pub fn show_bar(bar: &ProgressBar) -> bool {
+    let mut shown = BAR.lock().unwrap_or_else(PoisonError::into_inner);
+    let is_free = shown.is_none();
+    shown.get_or_insert_with(|| bar.clone());
+    is_free
+}
+
+/// Takes the bar away.
+pub fn take_bar() {
+    if let Some(bar) = BAR.lock().unwrap_or_else(PoisonError::into_inner).take() {
+        bar.finish_and_clear();
+    }
+}
+
+/// Writes above the bar, if there is one.
+fn above_bar<T>(write: impl FnOnce() -> T) -> T {
+    let bar = BAR.lock().unwrap_or_else(PoisonError::into_inner).clone();
+    match bar {
+        Some(bar) => bar.suspend(write),
+        None => write(),
+    }
+}
+
 /// Whether notes are left out.
 static QUIET: AtomicBool = AtomicBool::new(false);
 
@@ -125,7 +165,7 @@ pub fn note(message: impl Display) {
 /// Writes a message to standard error after the program's name, [spelled out](spelled_out) where it would steer a
 /// terminal. A standard error that is closed is no error.
 pub fn say(message: impl Display) {
-    let _ = writeln!(io::stderr().lock(), "motion-lab: {}", spelled_out(&message.to_string()));
+    let _ = above_bar(|| writeln!(io::stderr().lock(), "motion-lab: {}", spelled_out(&message.to_string())));
 }
 
 /// The text with every character that could steer a terminal or turn a line round written as its number, as in

@@ -5,6 +5,7 @@ use std::io::{self, ErrorKind, Read};
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 
+use super::progress::Progress;
 use crate::cli::{Data, Failure, Outcome, say};
 
 /// Largest size of a script, a map or another text, bytes.
@@ -15,6 +16,9 @@ pub const MAX_WORLD: u64 = 32 << 20;
 
 /// Largest size of a map or a drawing of another program, bytes.
 pub const MAX_FOREIGN: u64 = 16 << 20;
+
+/// Least number of files of which the files done are counted; of fewer, the work on each is.
+const MANY: usize = 10;
 
 /// Whether a path is `-`, which names standard input or standard output.
 pub fn is_dash(path: &Path) -> bool {
@@ -106,6 +110,7 @@ pub fn worst_of_each(
     let order = [Outcome::Done, Outcome::Recovered, Outcome::BadInput, Outcome::Differs];
     let rank = |outcome: Outcome| order.iter().position(|o| *o == outcome);
     let mut worst = Outcome::Done;
+    let progress = if files.len() < MANY { Progress::none() } else { Progress::of(files.len() as u64, "files") };
     for file in files {
         let outcome = match with(file, data) {
             Err(failure @ Failure::Input { .. }) => {
@@ -118,6 +123,7 @@ pub fn worst_of_each(
         worst = if rank(outcome) > rank(worst) { outcome } else { worst };
         // the next file's messages come after the output for this one
         data.flush()?;
+        progress.step();
     }
     Ok(worst)
 }

@@ -6,7 +6,8 @@ use motion_lab::run::{DigestLog, Log, LogError, ReadDigestLog, ReadLog};
 
 use super::input::{read_bytes_if, shown};
 use super::log_kind::AnyLog;
-use crate::cli::Failure;
+use super::progress::Progress;
+use crate::cli::{Failure, say};
 
 /// Largest size of a log file, bytes.
 pub const MAX_LOG: u64 = 4 << 30;
@@ -29,6 +30,20 @@ pub struct AnySource {
     pub damage: Option<String>,
 }
 
+/// Least size of a log whose reading is said to be under way, bytes.
+const LONG: usize = 16 << 20;
+
+/// Says what is wrong with a log that is not whole, and what was done with its sealed beginning: `compared`.
+pub fn say_damage(damage: Option<&String>, done: &str) {
+    if let Some(damage) = damage {
+        say(format!("{damage}\nThis much is {done}; `motion-lab record --resume` makes it whole."));
+    }
+}
+
+fn progress(bytes: &[u8]) -> Progress {
+    if bytes.len() < LONG { Progress::none() } else { Progress::unknown("reading the log") }
+}
+
 /// Whether a file may be a log, by its first eight bytes. Any other file is read no farther, however long it is.
 pub fn begins_as_one(beginning: &[u8]) -> bool {
     !matches!(Log::read_mcap(beginning), Err(LogError::NotALog))
@@ -37,7 +52,9 @@ pub fn begins_as_one(beginning: &[u8]) -> bool {
 /// Reads a log with frames; of a damaged or unfinished file, its sealed beginning. Fails when not even that can be
 /// used.
 pub fn read_log(path: &Path) -> Result<LogSource, Failure> {
-    with_frames(path, &read_bytes_if(path, MAX_LOG, begins_as_one)?)
+    let bytes = read_bytes_if(path, MAX_LOG, begins_as_one)?;
+    let _progress = progress(&bytes);
+    with_frames(path, &bytes)
 }
 
 fn with_frames(path: &Path, bytes: &[u8]) -> Result<LogSource, Failure> {
@@ -57,6 +74,7 @@ fn with_frames(path: &Path, bytes: &[u8]) -> Result<LogSource, Failure> {
 /// As [`read_log`], of a log with frames or of digests.
 pub fn read_any_log(path: &Path) -> Result<AnySource, Failure> {
     let bytes = read_bytes_if(path, MAX_LOG, begins_as_one)?;
+    let _progress = progress(&bytes);
     match DigestLog::read_mcap(&bytes) {
         Ok(ReadDigestLog { log, program }) => Ok(AnySource { log: AnyLog::Digest(log), program, damage: None }),
         Err(LogError::DamagedDigests(damaged)) if damaged.recovered.is_some() => {

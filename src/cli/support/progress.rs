@@ -1,51 +1,89 @@
 //! How far a command has come, on standard error where that is a terminal.
 
+use std::fmt;
 use std::io::{self, Write};
 use std::time::Duration;
 
-use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
 
-use super::console::is_quiet;
+use super::console::{is_quiet, show_bar, take_bar};
 
 /// How far a command has come: a bar with the rate and the time left, which disappears when the work has ended. Nothing
-/// is written where standard error is no terminal, or with `--quiet`.
-pub struct Progress(ProgressBar);
+/// is written where standard error is no terminal, or with `--quiet`, or where the bar of a larger work is there.
+pub struct Progress {
+    bar: ProgressBar,
+    is_shown: bool,
+}
 
 impl Progress {
     /// The beginning of `count` pieces of work called `what`: ticks, pictures, seeds.
     pub fn of(count: u64, what: &str) -> Self {
-        let template = format!("{{bar:40}} {{pos}} of {{len}} {what}, {{per_sec}}, {{eta}} left");
+        let template = format!("{{bar:40}} {{pos}} of {{len}} {what}, {{rate}}, {{eta}} left");
         Self::begin(ProgressBar::with_draw_target(Some(count), target()), &template)
+    }
+
+    /// The beginning of reading `count` bytes.
+    pub fn of_bytes(count: u64) -> Self {
+        let template = "{bar:40} {bytes} of {total_bytes}, {bytes_per_sec}, {eta} left";
+        Self::begin(ProgressBar::with_draw_target(Some(count), target()), template)
+    }
+
+    /// The beginning of pieces of work whose number nobody knows, called `what`.
+    pub fn uncounted(what: &str) -> Self {
+        let template = format!("{{spinner}} {{pos}} {what}, {{rate}}, {{elapsed}}");
+        Self::begin(ProgressBar::with_draw_target(None, target()), &template)
     }
 
     /// The progress of work that nobody watches.
     pub fn none() -> Self {
-        Progress(ProgressBar::hidden())
+        Progress { bar: ProgressBar::hidden(), is_shown: false }
     }
 
     /// The beginning of work whose amount nobody knows, in words.
     pub fn unknown(what: &str) -> Self {
-        let bar =
+        let progress =
             Self::begin(ProgressBar::with_draw_target(None, target()), &format!("{{spinner}} {what}, {{elapsed}}"));
-        bar.0.enable_steady_tick(Duration::from_millis(200));
-        bar
+        progress.bar.enable_steady_tick(Duration::from_millis(200));
+        progress
     }
 
     fn begin(bar: ProgressBar, template: &str) -> Self {
-        Progress(match ProgressStyle::with_template(template) {
-            Ok(style) => bar.with_style(style),
+        let rate = |state: &ProgressState, out: &mut dyn fmt::Write| {
+            let rate = state.per_sec();
+            // writing into a string can't fail
+            let _ = if rate < 10.0 { write!(out, "{rate:.1}/s") } else { write!(out, "{rate:.0}/s") };
+        };
+        let bar = match ProgressStyle::with_template(template) {
+            Ok(style) => bar.with_style(style.with_key("rate", rate)),
             Err(_) => bar,
-        })
+        };
+        if show_bar(&bar) { Progress { bar, is_shown: true } } else { Progress::none() }
     }
 
     /// So many pieces are done.
     pub fn at(&self, done: u64) {
-        self.0.set_position(done);
+        self.bar.set_position(done);
     }
 
     /// One more piece is done.
     pub fn step(&self) {
-        self.0.inc(1);
+        self.add(1);
+    }
+
+    /// `pieces` more are done.
+    pub fn add(&self, pieces: u64) {
+        self.bar.inc(pieces);
+    }
+}
+
+/// An input that counts the bytes read from it.
+pub struct Read<'a, R>(pub R, pub &'a Progress);
+
+impl<R: io::Read> io::Read for Read<'_, R> {
+    fn read(&mut self, bytes: &mut [u8]) -> io::Result<usize> {
+        let read = self.0.read(bytes)?;
+        self.1.add(read as u64);
+        Ok(read)
     }
 }
 
@@ -55,7 +93,7 @@ pub struct Counted<'a, W>(pub &'a mut W, pub &'a Progress);
 impl<W: Write> Write for Counted<'_, W> {
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
         let taken = self.0.write(bytes)?;
-        self.1.0.inc(bytes[..taken].iter().filter(|&&b| b == b'\n').count() as u64);
+        self.1.add(bytes[..taken].iter().filter(|&&b| b == b'\n').count() as u64);
         Ok(taken)
     }
 
@@ -66,7 +104,9 @@ impl<W: Write> Write for Counted<'_, W> {
 
 impl Drop for Progress {
     fn drop(&mut self) {
-        self.0.finish_and_clear();
+        if self.is_shown {
+            take_bar();
+        }
     }
 }
 

@@ -10,6 +10,7 @@ use motion_lab::simulation::SpawnError;
 use motion_lab::tour::TourConfig;
 
 use super::log_kind::{AnyComparison, AnyLog};
+use super::progress::Progress;
 use crate::cli::Failure;
 
 /// Advice about a run that can't start.
@@ -50,10 +51,15 @@ pub fn verify_digests(log: &DigestLog, on_tick: impl FnMut(&Recorder)) -> Result
     motion_lab::recording::verify_digests(log, on_tick).map_err(|error| refused(&error))
 }
 
-/// Calls `see` with every frame of a log, from tick 0 on. Those of a digest log are made by simulating its run again;
-/// what then differs from its digests is returned, in words.
+/// Calls `see` with every frame of a log, from tick 0 on, and shows how far it has come. The frames of a digest log are
+/// made by simulating its run again; what then differs from its digests is returned, in words.
 pub fn each_frame(log: &AnyLog, mut see: impl FnMut(&Frame)) -> Result<Option<String>, Failure> {
     let (seed, config, script) = log.parts();
+    let progress = Progress::of(log.recorded(), "ticks");
+    let mut see = |frame: &Frame| {
+        see(frame);
+        progress.at(frame.tick);
+    };
     if let AnyLog::Full(log) = log {
         std::iter::once(&log.initial).chain(&log.frames).for_each(see);
         return Ok(None);

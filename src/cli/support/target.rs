@@ -38,6 +38,11 @@ impl Target {
         Self::of(output)
     }
 
+    /// The size of the file that is replaced, bytes; `None` where there is none.
+    pub fn older(&self) -> Option<u64> {
+        self.older
+    }
+
     /// The file to write.
     pub fn path(&self) -> &Path {
         &self.path

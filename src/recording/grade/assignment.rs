@@ -1,6 +1,7 @@
 //! `Assignment`, a robot's goal and limits: read from a file, checked within its world.
 
 use bevy::app::App;
+use ron::error::SpannedError;
 use ron::value::RawValue;
 use serde::Deserialize;
 
@@ -12,9 +13,9 @@ use crate::configuration::RobotKind;
 use crate::random::Seed;
 use crate::recording::{Recorder, RunError, Verification, verify_with_robots};
 use crate::run::{Log, Script};
-use crate::text_position::{line_at, offset_of};
+use crate::text_position::{byte_at, line_at, offset_of};
 use crate::tour::{MAX_TICKS, TourConfig};
-use crate::worlds::{Resident, World, ron_in_words};
+use crate::worlds::{Resident, World, begin_of, ron_in_words};
 
 /// The configuration to reach, with tolerances.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
@@ -84,8 +85,10 @@ struct Version {
 #[derive(Deserialize)]
 #[serde(rename = "Assignment")]
 struct Places<'a> {
-    #[serde(borrow)]
-    version: &'a RawValue,
+    #[serde(borrow, default)]
+    version: Option<&'a RawValue>,
+    #[serde(borrow, default)]
+    world: Option<&'a RawValue>,
     #[serde(borrow, default)]
     robot: Option<&'a RawValue>,
     #[serde(borrow, default)]
@@ -119,7 +122,10 @@ impl AssignmentFile {
         if version != 1 {
             return Err(error(line_of(text, "version"), "version", AssignmentProblem::Version(version)));
         }
-        let read = read.map_err(|e| error(e.span.start.line, "", AssignmentProblem::Syntax(ron_in_words(&e.code))))?;
+        let read = read.map_err(|e| {
+            let problem = AssignmentProblem::Syntax(ron_in_words(text, &e));
+            error(begin_of(&e).line, item_of(text, &e), problem)
+        })?;
         Ok(AssignmentFile { file: file.to_owned(), source: text.to_owned(), text: read })
     }
 
@@ -237,19 +243,45 @@ fn options() -> ron::Options {
     ron::Options::default().with_default_extension(ron::extensions::Extensions::IMPLICIT_SOME)
 }
 
+/// The texts of the items of a file, with the blanks and comments around them; none of a text that is not RON.
+fn items(text: &str) -> impl Iterator<Item = (&'static str, &RawValue)> {
+    let places: Option<Places> = options().from_str(text).ok();
+    let items = places.map(|Places { version, world, robot, start, goal, stay, limits, points, seeds }| {
+        [
+            ("version", version),
+            ("world", world),
+            ("robot", robot),
+            ("start", start),
+            ("goal", goal),
+            ("stay", stay),
+            ("limits", limits),
+            ("points", points),
+            ("seeds", seeds),
+        ]
+    });
+    items.into_iter().flatten().filter_map(|(item, part)| Some((item, part?)))
+}
+
 /// The line in which an item begins, from 1; line 1 for a missing item.
 fn line_of(text: &str, item: &str) -> usize {
-    let part = options().from_str(text).ok().and_then(|places: Places| match item {
-        "version" => Some(places.version),
-        "robot" => places.robot,
-        "start" => places.start,
-        "goal" => places.goal,
-        "stay" => places.stay,
-        "limits" => places.limits,
-        "points" => places.points,
-        _ => places.seeds,
-    });
-    part.map_or(1, |part| line_at(text, offset_of(text, part.trim().get_ron())))
+    let part = items(text).find(|(name, _)| *name == item);
+    part.map_or(1, |(_, part)| line_at(text, offset_of(text, part.trim().get_ron())))
+}
+
+/// The item in which the reader found an error; empty where it is in none.
+fn item_of(text: &str, error: &SpannedError) -> &'static str {
+    let byte = byte_at(text, begin_of(error));
+    let holds = |part: &RawValue| {
+        let begin = offset_of(text, part.get_ron());
+        // an error in an item's first word begins at the colon before it, one of its whole may begin at its end
+        (begin.saturating_sub(1)..=begin + part.get_ron().len()).contains(&byte)
+    };
+    let found = items(text).find(|(_, part)| holds(part)).map_or("", |(item, _)| item);
+    match &error.code {
+        // what is missing of the whole is noticed at its end, which may be in the last item's blanks
+        ron::Error::MissingStructField { outer: Some(outer), .. } if outer == "Assignment" => "",
+        _ => found,
+    }
 }
 
 /// A task: lead a robot from its start to a goal, within limits, at each of several seeds.

@@ -110,8 +110,13 @@ impl Attempt {
         self.verdict == Verdict::Passed
     }
 
-    /// Runs the script at a seed until it is decided.
-    pub(super) fn run(assignment: &Assignment, seed: Seed, script: &Script) -> Result<Attempt, RunError> {
+    /// Runs the script at a seed until it is decided. Calls `on_tick` after each tick.
+    pub(super) fn run(
+        assignment: &Assignment,
+        seed: Seed,
+        script: &Script,
+        mut on_tick: impl FnMut(u64),
+    ) -> Result<Attempt, RunError> {
         let (limits, hold) = (assignment.limits(), assignment.hold());
         let (robot, about, goal) = (assignment.robot(), assignment.about(), assignment.goal());
         let mut run = assignment.begin(seed, script)?;
@@ -121,6 +126,7 @@ impl Attempt {
         loop {
             let frame = run.step();
             let (tick, state) = (frame.tick, &frame.robots[robot]);
+            on_tick(tick);
             if let Some(way) = way(about, &before, &state.configuration) {
                 reversals = reversals.saturating_add(u32::from(ahead.is_some_and(|a| a != way)));
                 ahead = Some(way);

@@ -17,7 +17,7 @@ pub struct AssignmentError {
     pub file: String,
     /// The line, from 1: where the item begins, or where reading stopped.
     pub line: usize,
-    /// The item; empty when the file is not of the format's form.
+    /// The item; empty where the error is in none of them.
     pub item: &'static str,
     /// The reason.
     pub problem: Box<AssignmentProblem>,

@@ -107,12 +107,20 @@ impl Assignment {
     /// Grades a submission: the same grade on every machine. Kinds of robots that the assignment does not know are
     /// refused: [`AssignmentFile::in_world_with_robots`] makes one that knows a program's own.
     pub fn grade(&self, submission: &Submission) -> Grade {
+        self.grade_watched(submission, |_, _| {})
+    }
+
+    /// [`grade`](Self::grade), which calls `on_tick` after each tick with the number of the attempt, from 0, and the
+    /// tick.
+    pub fn grade_watched(&self, submission: &Submission, mut on_tick: impl FnMut(usize, u64)) -> Grade {
         let script = match submission {
             Submission::Script(script) => script,
             Submission::Log(log) => &log.script,
         };
         let attempts = self.accept(submission).and_then(|()| {
-            self.seeds().iter().map(|&seed| Ok(Attempt::run(self, seed, script)?)).collect::<Result<Vec<_>, Refusal>>()
+            let seeds = self.seeds().iter().enumerate();
+            let attempt = |(i, &seed)| Ok(Attempt::run(self, seed, script, |tick| on_tick(i, tick))?);
+            seeds.map(attempt).collect::<Result<Vec<_>, Refusal>>()
         });
         let (refusal, attempts) = match attempts {
             Ok(attempts) => (None, attempts),

@@ -24,7 +24,7 @@ impl<'de> Visitor<'de> for ListOrRanges {
     type Value = Seeds;
 
     fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str("a list of seeds, as [1, 2005], or ranges in quotes, as \"0..100\"")
+        f.write_str("a list of seeds, as [1, 2005], or of ranges in quotes, as \"0..100\",")
     }
 
     fn visit_seq<A: SeqAccess<'de>>(self, mut list: A) -> Result<Seeds, A::Error> {

@@ -248,8 +248,9 @@ impl Preamble {
         }
         let initial = if kind == LogKind::Digests { Some(no_frame()) } else { initial };
         let file = |name: &str| files.get(name).copied().ok_or_else(|| content(name, "the attachment is missing"));
-        let config: ConfigText = ron::from_str(file(CONFIG)?)
-            .map_err(|e| content(CONFIG, &format!("{}: {}", e.span, ron_in_words(&e.code))))?;
+        let text = file(CONFIG)?;
+        let config: ConfigText =
+            ron::from_str(text).map_err(|e| content(CONFIG, &format!("{}: {}", e.span, ron_in_words(text, &e))))?;
         let mut worlds = Vec::new();
         let mut world_texts = Vec::new();
         for (i, name) in config.worlds.iter().enumerate() {

@@ -1,5 +1,7 @@
 //! `Series`, a quantity of a robot over the ticks of a run.
 
+use std::ops::Range;
+
 use super::gauge::{Gauge, Reading};
 use crate::configuration::{Kinds, RobotKind};
 use crate::run::{DT, Frame, RobotState, Script};
@@ -56,12 +58,21 @@ pub struct Series {
     pub line: &'static str,
     /// The ticks and the values, by ascending tick; ticks without a value are left out.
     pub points: Vec<(u64, f64)>,
+    /// When the robot was in contact, by ascending tick: from the first tick that ended in contact to the first one
+    /// after it that did not.
+    pub contacts: Vec<Range<u64>>,
 }
 
 impl Series {
-    /// A series of these points, by ascending tick.
+    /// A series of these points, by ascending tick, of a robot that touches nothing.
     pub fn new(robot: impl Into<String>, line: &'static str, points: Vec<(u64, f64)>) -> Self {
-        Series { robot: robot.into(), line, points }
+        Series { robot: robot.into(), line, points, contacts: Vec::new() }
+    }
+
+    /// The series with these contacts, by ascending tick.
+    #[must_use]
+    pub fn with_contacts(self, contacts: Vec<Range<u64>>) -> Self {
+        Series { contacts, ..self }
     }
 
     /// The name of the line: the robot's, and which of its lines it is.
@@ -118,6 +129,12 @@ impl<'a> SeriesGatherer<'a> {
         }
         for (robot, line, series) in &mut self.series {
             let (Some(reading), Some(state)) = (readings.get(*robot), frame.robots.get(*robot)) else { continue };
+            if state.in_contact {
+                match series.contacts.last_mut().filter(|contact| contact.end == frame.tick) {
+                    Some(contact) => contact.end += 1,
+                    None => series.contacts.push(frame.tick..frame.tick + 1),
+                }
+            }
             let travelled = self.travelled.get(*robot).copied();
             if let Some(value) = value(self.quantity, *line, reading, state, travelled).filter(|v| v.is_finite()) {
                 series.points.push((frame.tick, value));

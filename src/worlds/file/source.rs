@@ -7,8 +7,8 @@ use ron::value::RawValue;
 use serde::Deserialize;
 
 use super::description::WorldText;
-use super::ron_words::ron_in_words;
-use crate::text_position::{Position, offset_of, position_at};
+use super::ron_words::{begin_of, ron_in_words};
+use crate::text_position::{Position, byte_at, offset_of, position_at};
 use crate::worlds::{WORLD_VERSION, WorldError, WorldItem, WorldProblem};
 
 /// The text of a world file, and the file's name in errors.
@@ -99,8 +99,8 @@ impl<'a> Source<'a> {
             return Err(self.error_at(at, None, WorldProblem::Version(other)));
         }
         file.map_err(|error| {
-            let at = Position { line: error.span.start.line, column: error.span.start.col };
-            self.error_at(at, self.item_around(at), WorldProblem::Syntax(ron_in_words(&error.code)))
+            let at = begin_of(&error);
+            self.error_at(at, self.item_around(at), WorldProblem::Syntax(ron_in_words(self.text, &error)))
         })
     }
 
@@ -153,12 +153,11 @@ impl<'a> Source<'a> {
 
     /// The item whose text holds a position; `None` outside the items, or if the file is not RON.
     fn item_around(&self, at: Position) -> Option<WorldItem> {
-        let before: usize = self.text.split_inclusive('\n').take(at.line - 1).map(str::len).sum();
-        let within: usize = self.text[before..].chars().take(at.column - 1).map(char::len_utf8).sum();
+        let byte = byte_at(self.text, at);
         for (list, raws) in self.lists()?.each() {
             for (index, raw) in raws.iter().enumerate() {
                 let start = self.offset(raw);
-                if (start..start + raw.trim().get_ron().len()).contains(&(before + within)) {
+                if (start..start + raw.trim().get_ron().len()).contains(&byte) {
                     let name = raw.into_rust().map_or(String::new(), |n: Name| n.name);
                     return Some(WorldItem { list, index, name });
                 }

@@ -6,11 +6,11 @@ mod widgets;
 use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
-use motion_lab::capture::{CaptureError, Form, Paper};
+use motion_lab::capture::{CaptureError, Form};
 
-use crate::cli::support::choices::{RobotsAndKinds, ThemeName, WorldNames};
+use crate::cli::support::choices::{Numbers, RobotsAndKinds, WorldNames};
 use crate::cli::support::input::is_dash;
-use crate::cli::support::numbers::Numbers;
+use crate::cli::support::paper::{PaperArgs, not_written, write_picture};
 use crate::cli::support::simulate::not_shown;
 use crate::cli::support::target::Target;
 use crate::cli::{Data, Failure, Outcome};
@@ -46,15 +46,8 @@ pub struct Capture {
     /// The form. [default: by the output's name; svg for `-`]
     #[arg(long)]
     format: Option<FormName>,
-    /// The paper's colours.
-    #[arg(long, value_enum, default_value = "light")]
-    theme: ThemeName,
-    /// The sheet's greatest width, pixels: 420 to 640 for a column, 1280 for a page. Letters keep their size.
-    #[arg(long, value_name = "PIXELS", default_value_t = 1280, value_parser = clap::value_parser!(u32).range(200..=4096))]
-    width: u32,
-    /// PNG and GIF: dots for each pixel of the sheet; 2 or 3 for print.
-    #[arg(long, value_name = "TIMES", default_value_t = 1.0, value_parser = parse_scale)]
-    scale: f32,
+    #[command(flatten)]
+    paper: PaperArgs,
     #[command(flatten)]
     run: RunArgs,
     #[command(flatten)]
@@ -161,18 +154,10 @@ enum TabName {
     Swept,
 }
 
-pub(crate) fn parse_scale(text: &str) -> Result<f32, String> {
-    match text.parse::<f32>() {
-        Ok(scale) if (0.1..=8.0).contains(&scale) => Ok(scale),
-        _ => Err("it must be a number from 0.1 to 8".into()),
-    }
-}
-
 impl Capture {
     /// Runs the command.
     pub fn run(self, data: &mut Data) -> Result<Outcome, Failure> {
-        let theme = self.theme.theme();
-        let paper = Paper { palette: theme.palette(), width: self.width, scale: self.scale };
+        let paper = self.paper.paper();
         let form = self.form()?;
         let of_run = self.widget == Widget::Dashboard || self.run.asked(form);
         if self.widget == Widget::Anatomy && form == Form::Gif {
@@ -190,7 +175,7 @@ impl Capture {
                 Widget::Cspace => widgets::cspace(&self.scene)?,
                 Widget::Anatomy | Widget::Dashboard => widgets::anatomy(&self.scene)?,
             };
-            motion_lab::capture::write(&captured, &paper, form, target.path()).map_err(|e| self.failure(e))?;
+            write_picture(&captured, &paper, form, target.path())?;
         }
         target.finish(data)?;
         Ok(Outcome::Done)
@@ -213,10 +198,11 @@ impl Capture {
     /// A failure of the library as one of this program.
     fn failure(&self, error: CaptureError) -> Failure {
         match error {
-            CaptureError::Write(error) => Failure::output(&self.output, &error),
-            CaptureError::Fault(reason) => Failure::internal(anyhow::anyhow!(reason)),
             CaptureError::Run(error) => not_shown(self.run.run.as_deref().unwrap_or(Path::new("the run")), &error),
-            error => Failure::usage(&error, next(&error)),
+            error => match next(&error) {
+                Some(next) => Failure::usage(&error, next),
+                None => not_written(&self.output, error),
+            },
         }
     }
 
@@ -267,12 +253,12 @@ impl Capture {
     }
 }
 
-/// Advice about an error.
-fn next(error: &CaptureError) -> &'static str {
-    match error {
+/// Advice about an error of what was asked for; `None` for one of writing it.
+fn next(error: &CaptureError) -> Option<&'static str> {
+    Some(match error {
         CaptureError::NoTick { .. } => "Choose one of them.",
         CaptureError::Frozen => "Name an .svg or .png file, or --widget cspace to see a robot move beside its point.",
         CaptureError::NotInRun(_) => "Name a --run with it, or another --robot or --world.",
-        _ => "Choose a smaller --width or --scale.",
-    }
+        _ => return None,
+    })
 }

@@ -11,7 +11,7 @@ use motion_lab::worlds::World;
 use super::{SceneArgs, TabName};
 use crate::cli::Failure;
 use crate::cli::commands::query::{Chosen, RobotName};
-use crate::cli::support::numbers::Numbers;
+use crate::cli::support::choices::Numbers;
 use crate::cli::support::progress::Progress;
 use crate::cli::support::world_source::find_world;
 

@@ -16,7 +16,8 @@ use crate::cli::{Cli, Data, Failure, Outcome};
 Examples:
   motion-lab completions bash > ~/.local/share/bash-completion/completions/motion-lab
   motion-lab completions zsh > ~/.zfunc/_motion-lab
-  motion-lab completions fish > ~/.config/fish/completions/motion-lab.fish")]
+  motion-lab completions fish > ~/.config/fish/completions/motion-lab.fish
+  motion-lab completions powershell >> $PROFILE")]
 pub struct Completions {
     /// The shell.
     shell: Shell,

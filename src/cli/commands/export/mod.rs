@@ -10,12 +10,12 @@ use motion_lab::export::{ExportError, write_csv, write_foxglove_of_file, write_j
 use motion_lab::run::Log;
 
 use crate::cli::support::input::{is_dash, read_bytes};
-use crate::cli::support::log_source::{LogSource, MAX_LOG, read_log};
+use crate::cli::support::log_source::{LogSource, MAX_LOG, read_log, say_damage};
 use crate::cli::support::output::PendingFile;
 use crate::cli::support::progress::{Counted, Progress};
 use crate::cli::support::simulate::not_shown;
 use crate::cli::support::target::Target;
-use crate::cli::{Data, Failure, Outcome, say};
+use crate::cli::{Data, Failure, Outcome};
 use sink::Sink;
 use stills::StillArgs;
 
@@ -89,7 +89,7 @@ impl Export {
             return Err(match output {
                 Some(path) => Failure::usage(
                     format!("{}: its name does not tell the form", path.display()),
-                    "Say it with --format: jsonl, csv, svg, png, gif or foxglove.",
+                    "Say it with --format: jsonl, csv, svg, png, gif, foxglove or rerun.",
                 ),
                 None => Failure::usage("no form is named", "Name a file with -o FILE, or say the form with --format."),
             });
@@ -104,9 +104,7 @@ impl Export {
             return Err(Failure::usage("this form is not for standard output", "Name a file: -o FILE."));
         }
         let LogSource { read, damage } = read_log(&self.file)?;
-        if let Some(damage) = &damage {
-            say(format!("{damage}\nThis much is exported; `motion-lab record --resume` makes it whole."));
-        }
+        say_damage(damage.as_ref(), "exported");
         let (file, log) = (&self.file, &read.log);
         let target = Target::of(output.unwrap_or(Path::new("-")))?;
         match (format, output) {
@@ -114,15 +112,19 @@ impl Export {
             (Format::Png, _) => stills::png(&self.stills, file, log, target.path())?,
             (Format::Gif, _) => stills::gif(&self.stills, file, log, target.path())?,
             (format, output) => {
+                let is_terminal = data.is_terminal();
                 let mut sink = Sink::new(output, data)?;
+                // a terminal that shows the lines needs no bar among them
+                let is_shown = output.is_none() && is_terminal;
+                let progress = |lines| if is_shown { Progress::none() } else { Progress::of(lines, "lines") };
                 let ticks = log.frames.len() as u64 + 1;
                 match format {
                     Format::Jsonl => {
-                        let progress = Progress::of(ticks, "lines");
+                        let progress = progress(ticks);
                         sink.take(|out| write_jsonl(log, Counted(out, &progress)))?;
                     }
                     Format::Csv => {
-                        let progress = Progress::of(ticks * log.config.robot_names().count() as u64, "lines");
+                        let progress = progress(ticks * log.config.robot_names().count() as u64);
                         sink.take(|out| write_csv(log, self.ranges, Counted(out, &progress)))?;
                     }
                     _ => {

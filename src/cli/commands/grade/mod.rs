@@ -16,6 +16,7 @@ use motion_lab::worlds::World;
 
 use crate::cli::support::input::{MAX_TEXT, read_bytes, read_text};
 use crate::cli::support::log_source::MAX_LOG;
+use crate::cli::support::progress::Progress;
 use crate::cli::support::simulate::unknown_kind;
 use crate::cli::support::world_source::{find_world, read_world};
 use crate::cli::{Data, Failure, Outcome, say};
@@ -111,10 +112,15 @@ impl GradeArgs {
             Form::Csv => data.data_line(gradebook::HEAD)?,
             Form::Json | Form::Gradescope => {}
         }
-        for (path, name) in files.iter().zip(&names) {
+        let (ticks, seeds) = (assignment.limits().ticks, assignment.seeds().len() as u64);
+        let progress = Progress::of(names.len() as u64 * seeds * ticks, "ticks");
+        for ((path, name), number) in files.iter().zip(&names).zip(0_u64..) {
+            let before = number * seeds * ticks;
             let graded = match read_submission(path) {
                 Ok(Ok(submission)) => {
-                    let grade = assignment.grade(&submission);
+                    let grade = assignment.grade_watched(&submission, |attempt, tick| {
+                        progress.at(before + attempt as u64 * ticks + tick)
+                    });
                     if let Some(Refusal::Run(RunError::Spawn(SpawnError::UnknownKind { .. }))) = grade.refusal {
                         say(format!("{name}: {}", unknown_kind()));
                     }
@@ -138,7 +144,9 @@ impl GradeArgs {
                 Form::Gradescope => data.json(&Results::new(&graded))?,
             }
             data.flush()?;
+            progress.at(before + seeds * ticks);
         }
+        drop(progress);
         if form == Form::Table {
             data.line(format!("{passed} of {} pass", names.len()))?;
         }

@@ -26,7 +26,7 @@ pub fn parse_line(text: &str) -> Result<Asked, String> {
         let message = error.to_string();
         let reason = message.split(" at line ").next().unwrap_or(&message);
         let reason = in_words(reason);
-        format!("column {}: {reason}; expected [numbers] or {{\"q\": [numbers], \"to\": [numbers]}}", error.column())
+        format!("column {}: {reason}; write [numbers] or {{\"q\": [numbers], \"to\": [numbers]}}", error.column())
     })
 }
 
@@ -43,12 +43,14 @@ fn in_words(reason: &str) -> String {
         return format!("the field `{field}` is there twice");
     }
     if let Some((found, _)) = reason.strip_prefix("invalid type: ").and_then(|rest| rest.split_once(", expected")) {
-        return format!("{} does not belong here", found.replace("floating point ", ""));
+        let found = found.replace("floating point ", "").replace("sequence", "a list").replace("map", "an object");
+        return format!("{found} does not belong here");
     }
     match reason {
         "expected value" | "expected ident" => "no value of JSON".to_owned(),
         "trailing characters" => "the line goes on after its last bracket".to_owned(),
         reason if reason.starts_with("EOF") => "the line ends too early".to_owned(),
+        reason if reason.starts_with("expected ") => format!("{} belongs here", &reason["expected ".len()..]),
         reason => reason.to_owned(),
     }
 }

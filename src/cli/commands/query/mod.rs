@@ -9,8 +9,9 @@ mod line;
 mod lines;
 mod robot;
 
-use std::io::{self, Read};
-use std::path::{Path, PathBuf};
+use std::fs::Metadata;
+use std::io;
+use std::path::PathBuf;
 use std::sync::Arc;
 
 use clap::{Args, ValueEnum};
@@ -25,9 +26,9 @@ use line::{Asked, parse_line};
 use lines::Lines;
 pub use robot::RobotName;
 
-use crate::cli::support::choices::{RobotsAndKinds, WorldNames};
-use crate::cli::support::input::open;
-use crate::cli::support::numbers::Numbers;
+use crate::cli::support::choices::{Numbers, RobotsAndKinds, WorldNames};
+use crate::cli::support::input::{is_dash, open, shown};
+use crate::cli::support::progress::{self, Progress};
 use crate::cli::support::world_source::find_world;
 use crate::cli::{Data, Failure, Outcome, say};
 
@@ -133,8 +134,12 @@ impl Query {
                 }
                 Ok(Outcome::Done)
             }
-            (None, Some(path)) if path == Path::new("-") => desk.answer_all("standard input", io::stdin(), data),
-            (None, Some(path)) => desk.answer_all(&path.display().to_string(), open(path)?, data),
+            (None, Some(path)) if is_dash(path) => desk.answer_all(&shown(path), io::stdin(), None, data),
+            (None, Some(path)) => {
+                let file = open(path)?;
+                let length = file.metadata().ok().filter(Metadata::is_file).map(|about| about.len());
+                desk.answer_all(&shown(path), file, length, data)
+            }
             (None, None) => Err(Failure::usage("no configuration", "Give its numbers, or --input FILE.")),
         }
     }
@@ -201,8 +206,17 @@ impl Desk {
         }
     }
 
-    fn answer_all(&self, name: &str, reader: impl Read, data: &mut Data) -> Result<Outcome, Failure> {
-        let mut lines = Lines::new(reader);
+    /// Answers every line of `reader`, whose `length` is in bytes; `None` where it is not known.
+    fn answer_all(
+        &self,
+        name: &str,
+        reader: impl io::Read,
+        length: Option<u64>,
+        data: &mut Data,
+    ) -> Result<Outcome, Failure> {
+        let progress = length.map_or_else(|| Progress::uncounted("lines"), Progress::of_bytes);
+        let nothing = Progress::none();
+        let mut lines = Lines::new(progress::Read(reader, if length.is_some() { &progress } else { &nothing }));
         let mut wrong = 0_u64;
         while !data.is_closed() {
             // the other side may wait for the answers so far before it asks on
@@ -213,6 +227,9 @@ impl Desk {
             else {
                 break;
             };
+            if length.is_none() {
+                progress.step();
+            }
             let answer = line.text.and_then(|text| match text.trim() {
                 "" => Ok(None),
                 text => self.answer(&parse_line(text)?).map(Some),

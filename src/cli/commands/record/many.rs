@@ -9,9 +9,11 @@ use rayon::prelude::*;
 
 use super::one::{Ended, Plan, Stop, refused_in_words, run, write_run};
 use super::seeds::SeedRange;
+use super::written::Written;
 use super::{Outcome, Record};
 use crate::cli::support::progress::Progress;
 use crate::cli::support::summary::RunSummary;
+use crate::cli::support::target::Target;
 use crate::cli::{Data, Failure, say};
 
 /// Number of runs per thread in a batch. The lines of a batch are printed when all its runs have ended.
@@ -23,6 +25,19 @@ pub fn record(
     seeds: SeedRange,
     config: &TourConfig,
     script: &Script,
+    data: &mut Data,
+) -> Result<Outcome, Failure> {
+    let mut written = Written::default();
+    let outcome = record_each(options, seeds, (config, script), &mut written, data);
+    written.say();
+    outcome
+}
+
+fn record_each(
+    options: &Record,
+    seeds: SeedRange,
+    (config, script): (&TourConfig, &Script),
+    written: &mut Written,
     data: &mut Data,
 ) -> Result<Outcome, Failure> {
     let output = template(options)?;
@@ -38,11 +53,11 @@ pub fn record(
         let end = seeds.end.min(first.saturating_add(batch));
         let one = |seed: u64| {
             let plan = Plan { seed: Seed(seed), config: config.clone(), script: script.clone(), kind };
-            let ended = match &output {
-                Some(template) => {
-                    write_run(&plan, None, stop, Path::new(&template.replace("{seed}", &seed.to_string())))
-                }
-                None => run(&plan, None, stop, |_, _| Ok(())),
+            let log = output.as_ref().map(|template| template.replace("{seed}", &seed.to_string()));
+            let ended = match log.as_deref().map(Path::new) {
+                Some(log) => Target::file(log)
+                    .and_then(|target| write_run(&plan, None, stop, log).map(|ended| (ended, Some(target.older())))),
+                None => run(&plan, None, stop, |_, _| Ok(())).map(|ended| (ended, None)),
             };
             progress.step();
             ended
@@ -50,7 +65,7 @@ pub fn record(
         let ended: Vec<_> = pool.install(|| (first..end).into_par_iter().map(one).collect());
         let mut failure = None;
         for (seed, ended) in (first..end).zip(ended) {
-            let ended = match ended {
+            let (ended, log) = match ended {
                 Ok(ended) => ended,
                 // the others of these runs are whole, and their logs are written
                 Err(error) => {
@@ -63,6 +78,9 @@ pub fn record(
             {
                 let (runs, count, _) = refused.get_or_insert_with(|| (0, 0, format!("{event} (seed {seed})")));
                 (*runs, *count) = (*runs + 1, *count + refusals.count());
+            }
+            if let (Ended::Whole { .. }, Some(older)) = (&ended, log) {
+                written.add(seed, older);
             }
             match ended {
                 Ended::Whole { last, digest, .. } if options.json => {

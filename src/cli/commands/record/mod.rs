@@ -6,6 +6,7 @@ mod one;
 mod resume;
 mod seeds;
 mod setup;
+mod written;
 
 use std::path::PathBuf;
 

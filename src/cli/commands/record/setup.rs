@@ -9,7 +9,7 @@ use super::Record;
 use super::choice::choose;
 use crate::cli::Failure;
 use crate::cli::support::input::read_text;
-use crate::cli::support::script_words::{parse_script, unfit};
+use crate::cli::support::words::{parse_script, unfit};
 use crate::cli::support::world_source::find_world;
 
 /// The seed.

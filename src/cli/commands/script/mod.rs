@@ -14,8 +14,8 @@ use crate::cli::support::choices::WorldNames;
 use crate::cli::support::input::{for_each_file, read_bytes_if, read_text};
 use crate::cli::support::log_source::read_any_log;
 use crate::cli::support::output::write_file;
-use crate::cli::support::script_words::{changes_in_words, none, parse_script, unfit};
 use crate::cli::support::target::Target;
+use crate::cli::support::words::{changes_in_words, counted, none, parse_script, unfit};
 use crate::cli::support::world_source::find_world;
 use crate::cli::{Data, Failure, Outcome, say};
 
@@ -182,7 +182,10 @@ fn summarise(file: &Path, script: &Script, json: bool, data: &mut Data) -> Resul
     match (summary.first, summary.last) {
         (Some(first), Some(last)) => {
             let robots = robots.join(", ");
-            data.line(format!("{source}: {events} events{changes}, ticks {first} to {last}, robots: {robots}"))
+            data.line(format!(
+                "{source}: {}{changes}, ticks {first} to {last}, robots: {robots}",
+                counted(*events, "event")
+            ))
         }
         _ => data.line(format!("{source}: no events")),
     }

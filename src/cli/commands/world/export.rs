@@ -3,14 +3,15 @@
 use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
-use motion_lab::capture::{self, CaptureError, Captured, Form, Paper, with_names};
+use motion_lab::capture::{Captured, Form, with_names};
 use motion_lab::picture::{Figure, places, world as draw};
 use motion_lab::worlds::{Grid, World};
 
-use crate::cli::support::choices::{ThemeName, WorldNames};
+use crate::cli::support::choices::WorldNames;
 use crate::cli::support::console::note;
 use crate::cli::support::input::is_dash;
 use crate::cli::support::output::write_file;
+use crate::cli::support::paper::{PaperArgs, write_picture};
 use crate::cli::support::target::Target;
 use crate::cli::support::world_source::find_world;
 use crate::cli::{Data, Failure, Outcome};
@@ -37,12 +38,8 @@ pub struct Export {
     /// The size of a ROS map's cells, metres.
     #[arg(long, value_name = "METRES", default_value_t = 0.05)]
     resolution: f64,
-    /// SVG and PNG: the paper's colours.
-    #[arg(long, value_enum, default_value = "light")]
-    theme: ThemeName,
-    /// SVG and PNG: the sheet's greatest width, pixels. Letters keep their size.
-    #[arg(long, value_name = "PIXELS", default_value_t = 1280, value_parser = clap::value_parser!(u32).range(200..=4096))]
-    width: u32,
+    #[command(flatten)]
+    paper: PaperArgs,
     /// SVG and PNG: the names of obstacles, places and marks, not of places alone.
     #[arg(long)]
     names: bool,
@@ -87,7 +84,7 @@ impl Export {
 
     /// Draws the world.
     fn picture(&self, world: &World, form: Form, path: &Path) -> Result<(), Failure> {
-        let paper = Paper { palette: self.theme.theme().palette(), width: self.width, scale: 1.0 };
+        let paper = self.paper.paper();
         let mut picture = draw(world);
         if !self.names {
             picture.items.extend(places(&world.places));
@@ -96,10 +93,7 @@ impl Export {
         let worlds = std::slice::from_ref(world);
         let figure = if self.names { with_names(figure, worlds, paper.width_px()) } else { figure };
         let notes = vec![("World", format!("{} {:032x}", world.name, world.content_hash()))];
-        capture::write(&Captured { figure, notes }, &paper, form, path).map_err(|error| match error {
-            CaptureError::Write(error) => Failure::output(path, &error),
-            error => Failure::usage(error, "Choose a smaller --width."),
-        })
+        write_picture(&Captured { figure, notes }, &paper, form, path)
     }
 
     /// Writes the image first: a yaml without its image would be of no use.

@@ -10,6 +10,7 @@ use crate::cli::support::input::is_dash;
 use crate::cli::support::output::write_file;
 use crate::cli::support::progress::Progress;
 use crate::cli::support::target::Target;
+use crate::cli::support::words::counted;
 use crate::cli::{Data, Failure, Outcome};
 
 /// Generate a world with many robots, the same for the same numbers on every machine.
@@ -64,7 +65,12 @@ impl Generate {
         let target = Target::of(output)?;
         write_file(output, text.as_bytes())?;
         let (robots, obstacles, routes) = (world.robots.len(), world.obstacles.len(), world.routes.len());
-        target.wrote_with(&format!(" with {robots} robots, {obstacles} obstacles and {routes} routes"));
+        target.wrote_with(&format!(
+            " with {}, {} and {}",
+            counted(robots, "robot"),
+            counted(obstacles, "obstacle"),
+            counted(routes, "route")
+        ));
         Ok(Outcome::Done)
     }
 }

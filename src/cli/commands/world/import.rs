@@ -16,6 +16,7 @@ use crate::cli::support::input::{MAX_FOREIGN, MAX_TEXT, is_dash, read_bytes, rea
 use crate::cli::support::output::write_file;
 use crate::cli::support::simulate::begin;
 use crate::cli::support::target::Target;
+use crate::cli::support::words::counted;
 use crate::cli::{Data, Failure, Outcome, say};
 
 /// Read a map or drawing of another program and write it as a world file.
@@ -106,7 +107,7 @@ impl Import {
         };
         let target = Target::of(output)?;
         write_file(output, text.as_bytes())?;
-        target.wrote_with(&format!(" with {} obstacles", world.obstacles.len()));
+        target.wrote_with(&format!(" with {}", counted(world.obstacles.len(), "obstacle")));
         Ok(Outcome::Done)
     }
 

@@ -14,6 +14,7 @@ use serde::Serialize;
 use crate::cli::support::choices::WorldNames;
 use crate::cli::support::input::for_each_file;
 use crate::cli::support::simulate::unknown_kind;
+use crate::cli::support::words::counted;
 use crate::cli::support::world_source::{find_world, read_world};
 use crate::cli::{Data, Failure, Outcome, say};
 use export::Export;
@@ -153,7 +154,7 @@ fn summarise(source: &str, world: &World, json: bool, data: &mut Data) -> Result
         many @ MANY.. => many.to_string(),
         _ => summary.robots.join(", "),
     };
-    data.line(format!(
-        "{source}: {name}, content {content_hash}, {obstacles} obstacles, {places} places, {marks} marks, robots: {robots}"
-    ))
+    let [obstacles, places, marks] =
+        [(obstacles, "obstacle"), (places, "place"), (marks, "mark")].map(|(count, what)| counted(*count, what));
+    data.line(format!("{source}: {name}, content {content_hash}, {obstacles}, {places}, {marks}, robots: {robots}"))
 }

@@ -1,4 +1,4 @@
-//! Scripts in words: how many changes of worlds one has, and why one does not fit a run.
+//! Counts in words, and scripts: how many changes of worlds one has, and why one does not fit a run.
 
 use std::path::Path;
 
@@ -31,6 +31,11 @@ pub fn parse_script(path: &Path, text: &str) -> Result<Script, Failure> {
         }
         _ => Failure::input(error, "Correct the script there."),
     })
+}
+
+/// `1 event`, `3 events`: a count with what it counts.
+pub fn counted(count: usize, what: &str) -> String {
+    if count == 1 { format!("1 {what}") } else { format!("{count} {what}s") }
 }
 
 /// `, 2 changes of worlds`; nothing where there are none.
