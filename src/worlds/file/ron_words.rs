@@ -61,7 +61,7 @@ const OTHER: &str = "list of fields in `(` and `)`";
 /// The name of a form as files have it. The others, which end in `Text`, are this program's own.
 fn readers_name(name: &str) -> &str {
     match name {
-        "World" | "Script" | "Assignment" => name,
+        "World" | "Script" | "Assignment" | "Sweep" => name,
         _ => OTHER,
     }
 }
