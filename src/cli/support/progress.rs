@@ -18,6 +18,20 @@ impl Progress {
         Self::begin(ProgressBar::with_draw_target(Some(count), target()), &template)
     }
 
+    /// The beginning of `count` runs, `done` of which were made before and do not count for the rate.
+    pub fn of_runs(count: u64, done: u64) -> Self {
+        let template = "{bar:40} {pos} of {len} runs, {per_sec}, {eta} left{msg}";
+        let progress = Self::begin(ProgressBar::with_draw_target(Some(count), target()), template);
+        progress.0.set_position(done);
+        progress.0.reset_eta();
+        progress
+    }
+
+    /// So many runs have failed.
+    pub fn failed(&self, runs: u64) {
+        self.0.set_message(format!(", {runs} failed"));
+    }
+
     /// The progress of work that nobody watches.
     pub fn none() -> Self {
         Progress(ProgressBar::hidden())
