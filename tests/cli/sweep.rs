@@ -112,6 +112,44 @@ fn a_row_is_the_run_that_record_records_and_reproduce_repeats() {
 }
 
 #[test]
+fn a_report_shows_distributions_worst_runs_and_failures() {
+    let folder = folder_with(PLAN);
+    let at = folder.path();
+    run_in(at, &["sweep", "plan.ron", "-o", "parts"]).done();
+    merged(at, &["parts"]);
+    run_in(at, &["sweep", "report", "all.parquet", "-o", "all.html"]).done();
+    run_in(at, &["sweep", "report", "all.parquet", "-o", "all.svg"]).done();
+    let (page, figure) = ["all.html", "all.svg"].map(|name| fs::read_to_string(at.join(name)).unwrap()).into();
+    assert!(page.contains("<p>60 runs, 40 of them failed. Plan ") && page.contains(&figure) && !page.contains("NaN"));
+    assert!(page.contains("Varied: seed (10 values), Rusty.start.x (3 values), Rusty.noise.sigma_hit (2 values)."));
+    // forty runs have a path; twenty reach their goal, at once
+    for (name, count) in [("path, m", 40), ("least clearance, m", 40), ("first at goal, s", 20)] {
+        assert!(figure.contains(&format!("{name} of {count} runs goes from ")), "{name}");
+    }
+    let failures = &page[page.find("Failures, the first").unwrap()..];
+    assert_eq!(failures.matches("<tr><td>").count(), 20);
+    assert!(failures.contains("reproduce 'all.parquet' --row 2 &amp;&amp; motion-lab open 2.mcap"));
+    assert!(failures.contains("<td>4</td>") && failures.contains("it could not be run"));
+    let worst = &page[page.find("Worst runs").unwrap()..page.find("Failures, the first").unwrap()];
+    let clearance = |line: &str| line.split("<td>").nth(9).and_then(|cell| cell.split('<').next()?.parse::<f64>().ok());
+    let listed: Vec<f64> = worst.lines().filter(|line| line.starts_with("<tr><td>")).filter_map(clearance).collect();
+    let table = fs::read_to_string(at.join("all.csv")).unwrap();
+    let column = table.lines().next().unwrap().split(',').position(|name| name == "least_clearance_m").unwrap();
+    let cells =
+        table.lines().skip(1).filter(|line| !line.contains('"')).map(|line| line.split(',').nth(column).unwrap());
+    let mut all: Vec<f64> = cells.map(|cell| cell.parse().unwrap()).collect();
+    all.sort_by(f64::total_cmp);
+    assert_eq!(listed.len(), 20);
+    assert!(listed.iter().zip(&all).all(|(shown, least)| (shown - least).abs() < 1e-6), "{listed:?} {all:?}");
+    assert!(
+        run_in(at, &["sweep", "report", "all.parquet", "-o", "all.pdf"])
+            .failed(2)
+            .contains("no report has this ending")
+    );
+    assert!(run_in(at, &["sweep", "report", "all.csv", "-o", "all.html"]).failed(3).contains("all.csv: "));
+}
+
+#[test]
 fn a_merge_proves_that_every_row_is_there_once_and_of_one_plan() {
     let folder = folder_with(PLAN);
     let at = folder.path();

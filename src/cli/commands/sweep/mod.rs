@@ -6,6 +6,7 @@ mod list;
 mod load;
 mod merge;
 mod one;
+mod report;
 mod reproduce;
 mod shard;
 mod shards;
@@ -16,6 +17,7 @@ use clap::{Args, Subcommand, ValueEnum};
 
 use crate::cli::{Data, Failure, Outcome};
 use merge::Merge;
+use report::Report;
 use reproduce::Reproduce;
 use shards::ShardChoice;
 
@@ -79,6 +81,7 @@ pub enum Keep {
 #[derive(Debug, Subcommand)]
 enum SweepCommand {
     Merge(Merge),
+    Report(Report),
     Reproduce(Reproduce),
 }
 
@@ -87,6 +90,7 @@ impl SweepArgs {
     pub fn run(self, data: &mut Data) -> Result<Outcome, Failure> {
         match (self.command, self.plan) {
             (Some(SweepCommand::Merge(merge)), _) => merge.run(data),
+            (Some(SweepCommand::Report(report)), _) => report.run(data),
             (Some(SweepCommand::Reproduce(reproduce)), _) => reproduce.run(data),
             (None, None) => Err(Failure::usage("no plan", "Name a plan: motion-lab sweep PLAN.")),
             (None, Some(file)) => {
