@@ -116,7 +116,10 @@ pub mod export;
 #[cfg(feature = "cli")]
 pub mod output;
 
-// likewise
+#[cfg(feature = "cli")]
+pub mod sweep;
+
+// the program's own likewise
 #[doc(hidden)]
 #[cfg(feature = "sim")]
 pub mod manifest;

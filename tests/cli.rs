@@ -26,6 +26,7 @@ mod shells;
 mod sizes;
 mod stats;
 mod stills;
+mod sweep;
 mod verify;
 mod viewer;
 mod viewer_files;

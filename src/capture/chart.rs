@@ -18,11 +18,11 @@ pub(super) struct ChartLine {
 }
 
 /// Lines over axes.
-pub(super) struct Chart {
+pub(super) struct Chart<'a> {
     /// What goes up, with its unit; it names the picture too.
-    pub(super) up: &'static str,
+    pub(super) up: &'a str,
     /// What goes across, with its unit.
-    pub(super) across: &'static str,
+    pub(super) across: &'a str,
     /// Both ends of the axis across.
     pub(super) span: [f64; 2],
     /// Whether the values are angles in (-pi, pi]; the axis then shows them all.
@@ -68,7 +68,7 @@ const TICK: f64 = 4.0;
 /// The length of a line's sample in the legend, pixels.
 const SAMPLE: f64 = 24.0;
 
-impl Chart {
+impl Chart<'_> {
     /// The picture of the chart, `width` pixels wide on its sheet. Its plane is in pixels, x right, y up.
     pub(super) fn picture(&self, width: f64) -> Picture {
         let legend = self.legend(width);

@@ -18,6 +18,7 @@ mod chart;
 mod error;
 #[cfg(feature = "cli")]
 mod few_colours;
+mod histogram;
 mod marks;
 mod moving;
 #[cfg(feature = "cli")]
@@ -34,6 +35,7 @@ use std::path::Path;
 
 pub use chart::MOST_LINES;
 pub use error::CaptureError;
+pub use histogram::{Distribution, histograms};
 pub use moving::{Span, Subject, at_tick, at_tick_with_robots};
 #[cfg(feature = "cli")]
 pub use paper::{film, film_with_robots, write};

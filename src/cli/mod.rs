@@ -12,7 +12,7 @@ use support::console::be_quiet;
 #[cfg(feature = "window")]
 use commands::open;
 use commands::{
-    bare, capture, completions, describe, diff, export, grade, info, plot, query, record, replay, script, stats,
+    bare, capture, completions, describe, diff, export, grade, info, plot, query, record, replay, script, stats, sweep,
     verify, world,
 };
 
@@ -32,7 +32,7 @@ Exit codes:
    4  the replay differs from the recording or one log from the other, or a graded submission does not pass
    5  the file is damaged or unfinished; its sealed beginning was used
    6  there is no display for the window
-  75  stopped early; `record --resume` goes on
+  75  stopped early; `record --resume`, or the same `sweep` again, goes on
 
 Data goes to standard output, messages to standard error.";
 
@@ -64,6 +64,7 @@ enum Command {
     Capture(Box<capture::Capture>),
     World(world::WorldArgs),
     Script(script::ScriptArgs),
+    Sweep(Box<sweep::SweepArgs>),
     Completions(completions::Completions),
     Man(completions::ManPages),
     Grade(grade::GradeArgs),
@@ -91,6 +92,7 @@ impl Cli {
             Some(Command::Capture(capture)) => capture.run(data),
             Some(Command::World(world)) => world.run(data),
             Some(Command::Script(script)) => script.run(data),
+            Some(Command::Sweep(sweep)) => sweep.run(data),
             Some(Command::Completions(completions)) => completions.run(data),
             Some(Command::Man(man)) => man.run(data),
             Some(Command::Grade(grade)) => grade.run(data),

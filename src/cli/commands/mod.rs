@@ -16,6 +16,7 @@ pub(crate) mod record;
 pub(crate) mod replay;
 pub(crate) mod script;
 pub(crate) mod stats;
+pub(crate) mod sweep;
 #[cfg(feature = "headless")]
 pub(crate) mod tour;
 pub(crate) mod verify;

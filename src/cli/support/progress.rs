@@ -34,6 +34,20 @@ impl Progress {
         Self::begin(ProgressBar::with_draw_target(None, target()), &template)
     }
 
+    /// The beginning of `count` runs, `done` of which were made before and do not count for the rate.
+    pub fn of_runs(count: u64, done: u64) -> Self {
+        let template = "{bar:40} {pos} of {len} runs, {rate}, {eta} left{msg}";
+        let progress = Self::begin(ProgressBar::with_draw_target(Some(count), target()), template);
+        progress.bar.set_position(done);
+        progress.bar.reset_eta();
+        progress
+    }
+
+    /// This number of runs has failed.
+    pub fn failed(&self, runs: u64) {
+        self.bar.set_message(format!(", {runs} failed"));
+    }
+
     /// The progress of work that nobody watches.
     pub fn none() -> Self {
         Progress { bar: ProgressBar::hidden(), is_shown: false }

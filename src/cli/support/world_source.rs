@@ -22,6 +22,12 @@ pub fn find_world(name: &str) -> Result<World, Failure> {
     read_world(&path)
 }
 
+/// The world that a file names: the built-in one, else a file seen from that file's own folder, else one at that path.
+pub fn find_world_beside(file: &Path, name: &str) -> Result<World, Failure> {
+    let beside = file.parent().unwrap_or(Path::new("")).join(name);
+    if World::built_in(name).is_none() && beside.exists() { read_world(&beside) } else { find_world(name) }
+}
+
 /// The world in a file.
 pub fn read_world(path: &Path) -> Result<World, Failure> {
     let text = read_text_of(path, MAX_WORLD)?;

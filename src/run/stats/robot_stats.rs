@@ -42,6 +42,8 @@ pub struct RobotStats {
     pub contacts: u32,
     /// The number of ticks that ended in contact.
     pub contact_ticks: u64,
+    /// The first tick that ended in contact, or in which a contact began; `None` if there was none.
+    pub first_contact: Option<u64>,
     /// The length of its path, metres: of a body that drives, forward and backward, the arc from tick to tick; of an
     /// arm the way of its tip, in straight lines from tick to tick. A tick in which it was put somewhere counts
     /// nothing. `None` for a robot whose kind nobody described.
@@ -100,6 +102,7 @@ impl<'a> StatsGatherer<'a> {
             world: world.name.clone(),
             contacts: 0,
             contact_ticks: 0,
+            first_contact: None,
             path_length: None,
             least_clearance: None,
             refusals: 0,
@@ -115,6 +118,9 @@ impl<'a> StatsGatherer<'a> {
         for ((stats, state), reading) in self.stats.robots.iter_mut().zip(&frame.robots).zip(readings) {
             (stats.contacts, stats.refusals) = (state.contacts, state.refusals);
             stats.contact_ticks += u64::from(state.in_contact);
+            if stats.first_contact.is_none() && (state.in_contact || state.contacts > 0) {
+                stats.first_contact = Some(frame.tick);
+            }
             if let Some(step) = reading.step {
                 stats.path_length = Some(stats.path_length.unwrap_or(0.0) + step.abs());
             }

@@ -93,6 +93,7 @@ fn called(name: &str) -> &str {
         "World" => "`World`",
         "Script" => "`Script`",
         "Assignment" => "`Assignment`",
+        "Sweep" => "`Sweep`",
         _ => OTHER,
     }
 }

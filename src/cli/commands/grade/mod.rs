@@ -12,13 +12,12 @@ use motion_lab::recording::{
 };
 use motion_lab::run::{Log, Script};
 use motion_lab::simulation::SpawnError;
-use motion_lab::worlds::World;
 
 use crate::cli::support::input::{MAX_TEXT, read_bytes, read_text};
 use crate::cli::support::log_source::MAX_LOG;
 use crate::cli::support::progress::Progress;
 use crate::cli::support::simulate::unknown_kind;
-use crate::cli::support::world_source::{find_world, read_world};
+use crate::cli::support::world_source::find_world_beside;
 use crate::cli::{Data, Failure, Outcome, say};
 use gradebook::Results;
 use graded::Graded;
@@ -174,11 +173,7 @@ fn read_assignment(path: &Path) -> Result<Assignment, Failure> {
         Failure::input(error, next)
     };
     let file = AssignmentFile::parse(&path.display().to_string(), &read_text(path)?).map_err(refused)?;
-    // a world file lies where the assignment says, seen from the assignment's own folder
-    let name = file.world_name();
-    let beside = path.parent().unwrap_or(Path::new("")).join(name);
-    let world =
-        if World::built_in(name).is_none() && beside.exists() { read_world(&beside)? } else { find_world(name)? };
+    let world = find_world_beside(path, file.world_name())?;
     file.in_world(world).map_err(refused)
 }
 

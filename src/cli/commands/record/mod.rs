@@ -22,9 +22,7 @@ use choice::Placement;
 use seeds::SeedRange;
 
 use one::Printed;
-#[cfg(feature = "headless")]
-pub use one::{Ended, write_run};
-pub use one::{Plan, Stop};
+pub use one::{Ended, Plan, Stop, partial_name, run, write_run, write_run_watched};
 
 /// Record a run, and print where its robots end, their contacts and its digest.
 ///

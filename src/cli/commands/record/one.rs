@@ -126,6 +126,17 @@ fn differs(
 /// Where the run stops early or the disk takes no more, what was done is kept in the file that [`partial_name`] names,
 /// unless all of it is in `expected` already.
 pub fn write_run(plan: &Plan, expected: Option<&AnyLog>, stop: Stop, output: &Path) -> Result<Ended, Failure> {
+    write_run_watched(plan, expected, stop, output, |_| {})
+}
+
+/// As [`write_run`], and calls `see` with every frame, that of tick 0 first.
+pub fn write_run_watched(
+    plan: &Plan,
+    expected: Option<&AnyLog>,
+    stop: Stop,
+    output: &Path,
+    mut see: impl FnMut(&Frame),
+) -> Result<Ended, Failure> {
     let failed = |error: LogError| match error {
         LogError::Io(error) => Failure::output(output, &error),
         error => Failure::internal(error),
@@ -135,23 +146,26 @@ pub fn write_run(plan: &Plan, expected: Option<&AnyLog>, stop: Stop, output: &Pa
     let mut last = None;
     // the last tick that the operating system took
     let mut taken = 0;
-    let ended = run(plan, expected, stop, |frame, digest| match &mut writer {
-        Some(writer) => {
-            writer.tick(frame, digest).map_err(failed)?;
-            last = Some(digest.digest());
-            // a killed process loses at most a second of the run
-            if frame.tick % SECOND == 0 {
-                writer.flush().map_err(failed)?;
-                taken = frame.tick;
+    let ended = run(plan, expected, stop, |frame, digest| {
+        see(frame);
+        match &mut writer {
+            Some(writer) => {
+                writer.tick(frame, digest).map_err(failed)?;
+                last = Some(digest.digest());
+                // a killed process loses at most a second of the run
+                if frame.tick % SECOND == 0 {
+                    writer.flush().map_err(failed)?;
+                    taken = frame.tick;
+                }
+                Ok(())
             }
-            Ok(())
-        }
-        None => {
-            let Some(file) = file.take() else { return Err(failed(io::Error::other("begun twice").into())) };
-            let parts = (plan.seed, &plan.config, &plan.script);
-            writer = Some(AnyWriter::new(file, plan.kind, parts, frame, digest).map_err(failed)?);
-            last = Some(digest.digest());
-            Ok(())
+            None => {
+                let Some(file) = file.take() else { return Err(failed(io::Error::other("begun twice").into())) };
+                let parts = (plan.seed, &plan.config, &plan.script);
+                writer = Some(AnyWriter::new(file, plan.kind, parts, frame, digest).map_err(failed)?);
+                last = Some(digest.digest());
+                Ok(())
+            }
         }
     });
     let (Some(mut writer), Some(last)) = (writer, last) else { return ended };

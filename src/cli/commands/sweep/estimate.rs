@@ -1,0 +1,55 @@
+//! What a sweep will take, from a few of its runs.
+
+use std::fs;
+use std::time::Instant;
+
+use motion_lab::sweep::SweepPlan;
+use tempfile::TempDir;
+
+use super::Keep;
+use super::one::{self, Ran};
+use crate::cli::support::interrupt;
+use crate::cli::support::progress::Progress;
+use crate::cli::{Data, Failure, Outcome};
+
+/// Most runs that are measured.
+const MOST: u64 = 32;
+/// No further run is measured after this time, seconds.
+const ENOUGH: f64 = 5.0;
+/// The time of one shard, seconds.
+const SHARD: f64 = 600.0;
+
+/// Measures a few runs, evenly spread over the sweep, one after the other, and says what all of them take.
+pub fn estimate(plan: &SweepPlan, jobs: Option<usize>, keep: Keep, data: &mut Data) -> Result<Outcome, Failure> {
+    interrupt::listen()?;
+    let folder = TempDir::new().map_err(|error| Failure::output(&std::env::temp_dir(), &error))?;
+    let (runs, jobs) = (plan.runs(), super::shard::pool(jobs)?.current_num_threads());
+    let samples = runs.min(MOST);
+    let progress = Progress::of(samples, "runs");
+    let (mut measured, mut bytes, mut logs) = (0_u64, 0_u64, 0_u64);
+    let begin = Instant::now();
+    for i in 0..samples {
+        // the first, then further and further apart, so that an early end leaves no part of the sweep out
+        let row = (i * 2_654_435_761) % samples * runs / samples;
+        let Ran::Row(row) = one::run(plan, row, keep, folder.path())? else { return Ok(Outcome::Stopped) };
+        let log = one::log_name(folder.path(), row.row);
+        logs += fs::metadata(&log).map_or(0, |about| about.len());
+        let _ = fs::remove_file(log);
+        bytes += row.to_line().len() as u64 + 1;
+        measured += 1;
+        progress.step();
+        if begin.elapsed().as_secs_f64() > ENOUGH {
+            break;
+        }
+    }
+    drop(progress);
+    let one = begin.elapsed().as_secs_f64() / measured as f64;
+    let all = one * runs as f64;
+    let of_all = |bytes: u64| bytes as f64 / measured as f64 * runs as f64;
+    data.line(format!("{runs} runs, {measured} of them measured: {:.2} ms each", 1e3 * one))?;
+    data.line(format!("{all:.0} s of one processor, {:.0} s with {jobs} jobs", all / jobs as f64))?;
+    let logs = if keep == Keep::None { String::new() } else { format!(", and {:.0} bytes of logs", of_all(logs)) };
+    data.line(format!("{:.0} bytes of rows{logs}", of_all(bytes)))?;
+    data.line(format!("{:.0} shards of ten minutes with one job each", (all / SHARD).ceil()))?;
+    Ok(Outcome::Done)
+}

@@ -1,0 +1,221 @@
+//! `sweep merge`: the parts of a sweep as one table, proven complete.
+
+use std::fs::{self, File};
+use std::io::{BufReader, Write};
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+use motion_lab::sweep::{PartError, PartReader, RunRow, SweepPlan, TableError, TableWriter};
+
+use crate::cli::support::input::{open, unreadable};
+use crate::cli::support::output::PendingFile;
+use crate::cli::support::progress::Progress;
+use crate::cli::support::target::Target;
+use crate::cli::{Data, Failure, Outcome};
+
+/// Make one table of a sweep's parts, if they hold every row.
+///
+/// Parts of any sharding go together; a row that several hold must be the same in all. Nothing is written where rows
+/// are missing, which are listed, or where parts are of different plans. Without an output it only checks.
+#[derive(Debug, Args)]
+#[command(after_help = "\
+Examples:
+  motion-lab sweep merge runs/noise -o noise.parquet -o noise.csv
+  motion-lab sweep merge node1 node2 node3")]
+pub struct Merge {
+    /// Parts, or folders of parts.
+    #[arg(required = true, value_name = "PART|FOLDER")]
+    parts: Vec<PathBuf>,
+    /// The table to write: .parquet, which holds its plan and units, or .csv. May be given for each.
+    #[arg(short, long, value_name = "FILE")]
+    output: Vec<PathBuf>,
+}
+
+/// The failure of a part that can't be read.
+pub fn refused(part: &Path, error: &PartError) -> Failure {
+    let next = match error {
+        PartError::Plan(_) => "Use the version of motion-lab that wrote it.",
+        PartError::NotAPart => "Name a part, or a folder of parts.",
+        _ => "Take it away and run its shard again.",
+    };
+    Failure::input(format!("{}: {error}", part.display()), next)
+}
+
+/// The parts in these files and folders.
+fn found(paths: &[PathBuf]) -> Result<Vec<PathBuf>, Failure> {
+    let mut parts = Vec::new();
+    for path in paths {
+        if !path.is_dir() {
+            parts.push(path.clone());
+            continue;
+        }
+        let entries = fs::read_dir(path).map_err(|error| unreadable(path, &error))?;
+        let mut names = Vec::new();
+        for entry in entries {
+            let name = entry.map_err(|error| unreadable(path, &error))?.path();
+            if name.extension().is_some_and(|ending| ending == "sweep") && name.is_file() {
+                names.push(name);
+            }
+        }
+        names.sort();
+        parts.extend(names);
+    }
+    Ok(parts)
+}
+
+/// A part, opened.
+struct Opened {
+    path: PathBuf,
+    reader: PartReader<BufReader<File>>,
+    /// The next row.
+    row: Option<(RunRow, String)>,
+}
+
+impl Opened {
+    fn open(path: &Path) -> Result<Self, Failure> {
+        let reader = PartReader::new(BufReader::new(open(path)?)).map_err(|error| refused(path, &error))?;
+        Ok(Opened { path: path.to_owned(), reader, row: None })
+    }
+
+    fn advance(&mut self) -> Result<(), Failure> {
+        self.row = self.reader.row().map_err(|error| refused(&self.path, &error))?;
+        Ok(())
+    }
+}
+
+/// An output.
+enum Output {
+    Csv(PendingFile, PathBuf),
+    Parquet(Box<TableWriter<PendingFile>>, PathBuf),
+}
+
+impl Output {
+    fn begin(path: &Path, plan: &SweepPlan) -> Result<Self, Failure> {
+        match path.extension().and_then(|ending| ending.to_str()) {
+            Some("csv") => {
+                let mut file = PendingFile::create(path)?;
+                writeln!(file, "{}", plan.heading()).map_err(|error| Failure::output(path, &error))?;
+                Ok(Output::Csv(file, path.to_owned()))
+            }
+            Some("parquet") => {
+                let table = TableWriter::new(PendingFile::create(path)?, plan);
+                Ok(Output::Parquet(Box::new(table.map_err(|error| unwritten(path, error))?), path.to_owned()))
+            }
+            _ => Err(Failure::usage(
+                format!("{}: no table has this ending", path.display()),
+                "Name a file that ends in .parquet or .csv.",
+            )),
+        }
+    }
+
+    fn row(&mut self, row: &RunRow, line: &str) -> Result<(), Failure> {
+        match self {
+            Output::Csv(file, path) => writeln!(file, "{line}").map_err(|error| Failure::output(path, &error)),
+            Output::Parquet(table, path) => table.row(row.clone()).map_err(|error| unwritten(path, error)),
+        }
+    }
+
+    fn finish(self) -> Result<(), Failure> {
+        match self {
+            Output::Csv(file, _) => file.commit(),
+            Output::Parquet(table, path) => table.finish().map_err(|error| unwritten(&path, error))?.commit(),
+        }
+    }
+}
+
+fn unwritten(path: &Path, error: TableError) -> Failure {
+    Failure::output(path, &std::io::Error::other(error))
+}
+
+impl Merge {
+    /// Runs the command.
+    pub fn run(self, data: &mut Data) -> Result<Outcome, Failure> {
+        let paths = found(&self.parts)?;
+        let mut parts = Vec::with_capacity(paths.len());
+        let mut plan: Option<(SweepPlan, PathBuf)> = None;
+        for path in paths {
+            let reader = Opened::open(&path)?.reader;
+            let (plan, first) = plan.get_or_insert_with(|| (reader.plan().clone(), path.clone()));
+            if plan.line() != reader.head().plan {
+                return Err(Failure::input(
+                    format!(
+                        "{}: it is of another plan ({}) than {} ({})",
+                        path.display(),
+                        reader.plan().digest(),
+                        first.display(),
+                        plan.digest()
+                    ),
+                    "Merge the parts of one plan only.",
+                ));
+            }
+            parts.push((reader.head().rows.clone(), path));
+        }
+        let Some((plan, _)) = plan else {
+            return Err(Failure::input("there are no parts", "Name parts, or folders with files that end in .sweep."));
+        };
+        parts.sort_by(|(a, pa), (b, pb)| (a.start, b.end, pa).cmp(&(b.start, a.end, pb)));
+        let targets = self.output.iter().map(|path| Target::file(path)).collect::<Result<Vec<_>, _>>()?;
+        let mut outputs = self.output.iter().map(|path| Output::begin(path, &plan)).collect::<Result<Vec<_>, _>>()?;
+        let progress = Progress::of(plan.runs(), "rows");
+        let mut waiting = parts.into_iter().peekable();
+        let mut at_work: Vec<Opened> = Vec::new();
+        let (mut missing, mut failures) = (Vec::new(), 0_u64);
+        for next in 0..plan.runs() {
+            while let Some((_, path)) = waiting.next_if(|(rows, _)| rows.start <= next) {
+                let mut opened = Opened::open(&path)?;
+                opened.advance()?;
+                at_work.push(opened);
+            }
+            let mut taken: Option<(RunRow, String, PathBuf)> = None;
+            for part in &mut at_work {
+                let Some((row, line)) = part.row.take_if(|(row, _)| row.row == next) else { continue };
+                match &taken {
+                    None => taken = Some((row, line, part.path.clone())),
+                    Some((_, first, _)) if *first == line => {}
+                    Some((.., first)) => {
+                        return Err(Failure::input(
+                            format!("row {next} is not the same in {} and {}", first.display(), part.path.display()),
+                            "One of them was made by another version or a machine at fault: see `sweep reproduce`.",
+                        ));
+                    }
+                }
+                part.advance()?;
+            }
+            at_work.retain(|part| part.row.is_some());
+            match taken {
+                None => missing.push(next),
+                Some((row, line, _)) => {
+                    failures += u64::from(row.is_failure(plan.columns()));
+                    outputs.iter_mut().try_for_each(|output| output.row(&row, &line))?;
+                }
+            }
+            progress.at(next + 1);
+        }
+        drop(progress);
+        if !missing.is_empty() {
+            let ranges = ranges(&missing);
+            ranges.iter().try_for_each(|(from, to)| data.line(format!("{from}..{to}")))?;
+            data.flush()?;
+            return Err(Failure::input(
+                format!("{} of {} rows are missing: the ranges above, without their ends", missing.len(), plan.runs()),
+                "Run the shards that are not finished; nothing was written.",
+            ));
+        }
+        data.line(format!("{} rows, {failures} failed, plan {}", plan.runs(), plan.digest()))?;
+        outputs.into_iter().try_for_each(Output::finish)?;
+        targets.iter().for_each(Target::wrote);
+        Ok(Outcome::Done)
+    }
+}
+
+/// Ascending numbers as ranges without their ends.
+fn ranges(numbers: &[u64]) -> Vec<(u64, u64)> {
+    let mut ranges: Vec<(u64, u64)> = Vec::new();
+    for &n in numbers {
+        match ranges.last_mut() {
+            Some((_, end)) if *end == n => *end += 1,
+            _ => ranges.push((n, n + 1)),
+        }
+    }
+    ranges
+}

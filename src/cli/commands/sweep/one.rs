@@ -1,0 +1,73 @@
+//! One run of a sweep, and its row.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use motion_lab::sweep::{RowGatherer, RunRow, RunSetup, SweepPlan};
+
+use super::Keep;
+use crate::cli::Failure;
+use crate::cli::commands::record::{self, Ended, Stop, partial_name, write_run, write_run_watched};
+use crate::cli::support::log_kind::LogKind;
+
+/// How a run of a sweep ended.
+pub enum Ran {
+    /// With this row.
+    Row(RunRow),
+    /// Early, because somebody asked for that.
+    Stopped,
+}
+
+/// Nobody watches the ticks of one run among many.
+const STOP: Stop = Stop { after: None, unwatched: true, at_refusal: false };
+
+/// The log of a row in a folder.
+pub fn log_name(logs: &Path, row: u64) -> PathBuf {
+    logs.join(format!("{row}.mcap"))
+}
+
+/// The run of a row as `record` records one, with a full log.
+pub fn recorded(setup: RunSetup) -> record::Plan {
+    let RunSetup { seed, config, script } = setup;
+    record::Plan { seed, config, script, kind: LogKind::Full }
+}
+
+/// Runs a row. Its full log goes into the folder `logs` if it is one of those to keep.
+pub fn run(plan: &SweepPlan, row: u64, keep: Keep, logs: &Path) -> Result<Ran, Failure> {
+    let planned = match plan.setup(row) {
+        Ok(setup) => recorded(setup),
+        Err(reason) => return Ok(Ran::Row(plan.failed(row, &reason))),
+    };
+    let log = log_name(logs, row);
+    let mut gatherer = RowGatherer::new(plan, row, &planned.config, &planned.script);
+    let ended = match keep {
+        Keep::All => write_run_watched(&planned, None, STOP, &log, |frame| gatherer.see(frame)),
+        _ => record::run(&planned, None, STOP, |frame, _| {
+            gatherer.see(frame);
+            Ok(())
+        }),
+    };
+    let row = match ended {
+        Ok(Ended::Whole { last, digest, refusals }) => gatherer.row(&last, digest, &refusals),
+        Ok(Ended::Stopped(_) | Ended::Differs(_)) => return Ok(stopped(&log)),
+        // a script or a start that the run does not take
+        Err(Failure::Input { reason, .. }) => return Ok(Ran::Row(plan.failed(row, &reason))),
+        Err(failure) => return Err(failure),
+    };
+    let is_kept = match keep {
+        Keep::None | Keep::All => false,
+        Keep::Contacts => row.has_contacts(plan.columns()),
+        Keep::Failures => row.is_failure(plan.columns()),
+    };
+    // few runs are kept, and only their rows say which: these are run once more
+    if is_kept && !matches!(write_run(&planned, None, STOP, &log)?, Ended::Whole { .. }) {
+        return Ok(stopped(&log));
+    }
+    Ok(Ran::Row(row))
+}
+
+/// The same command runs a stopped row again, so that the beginning of its log is of no use.
+fn stopped(log: &Path) -> Ran {
+    let _ = fs::remove_file(partial_name(log));
+    Ran::Stopped
+}

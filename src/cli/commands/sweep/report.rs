@@ -1,0 +1,217 @@
+//! `sweep report`: what became of a sweep's runs, as one page or one figure.
+
+use std::fmt::Write as _;
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+use motion_lab::capture::{Captured, Distribution, Paper, histograms};
+use motion_lab::sweep::{Cell, CellKind, Column, RunRow, SweepPlan, TableError, TableFile};
+
+use crate::cli::support::choices::ThemeName;
+use crate::cli::support::input::open;
+use crate::cli::support::output::write_file;
+use crate::cli::support::target::Target;
+use crate::cli::{Data, Failure, Outcome};
+
+/// Show what became of a sweep's runs: distributions, the worst runs, the failures.
+///
+/// A page (.html) stands alone and has the command that shows each run it names; a figure (.svg) has the distributions
+/// only.
+#[derive(Debug, Args)]
+#[command(after_help = "\
+Examples:
+  motion-lab sweep report noise.parquet -o noise.html
+  motion-lab sweep report noise.parquet --theme dark -o noise.svg")]
+pub struct Report {
+    /// The table that `sweep merge` wrote, .parquet.
+    #[arg(value_name = "TABLE")]
+    table: PathBuf,
+    /// The page (.html) or figure (.svg) to write.
+    #[arg(short, long, value_name = "FILE")]
+    output: PathBuf,
+    /// The colours of the figure.
+    #[arg(long, value_enum, default_value_t = ThemeName::Light)]
+    theme: ThemeName,
+}
+
+/// Runs that are listed of each sort.
+const LISTED: usize = 20;
+
+/// The results of a whole run that have a distribution.
+const SHOWN: [&str; 6] = ["contacts", "first_contact_s", "least_clearance_m", "path_m", "at_goal_s", "first_at_goal_s"];
+
+/// What a report is made of.
+struct Gathered {
+    plan: SweepPlan,
+    rows: u64,
+    failed: u64,
+    distributions: Vec<Distribution>,
+    /// The runs with the most contacts, then the least clearance; worst first.
+    worst: Vec<RunRow>,
+    /// The first runs that failed.
+    failures: Vec<RunRow>,
+}
+
+/// The number in a cell.
+fn number(cell: Option<&Cell>) -> Option<f64> {
+    match cell {
+        Some(Cell::Whole(n)) => Some(*n as f64),
+        Some(Cell::Number(x)) => Some(*x),
+        _ => None,
+    }
+}
+
+/// What a column is, with its unit, as an axis has it.
+fn title(column: &Column) -> String {
+    let name = column.name.strip_suffix(&format!("_{}", column.unit)).unwrap_or(&column.name).replace('_', " ");
+    if column.unit.is_empty() { name } else { format!("{name}, {}", column.unit) }
+}
+
+impl Gathered {
+    fn of(file: &Path) -> Result<Self, Failure> {
+        let refused = |error: TableError| {
+            Failure::input(format!("{}: {error}", file.display()), "Name a table that `sweep merge` wrote.")
+        };
+        let table = TableFile::open(open(file)?).map_err(refused)?;
+        let plan = table.plan().clone();
+        let columns = plan.columns();
+        let shown: Vec<&Column> = columns.iter().filter(|column| SHOWN.contains(&column.name.as_str())).collect();
+        let mut distributions: Vec<Distribution> =
+            shown.iter().map(|column| Distribution { name: title(column), values: Vec::new() }).collect();
+        let (mut rows, mut failed) = (0, 0);
+        let (mut worst, mut failures): (Vec<RunRow>, Vec<RunRow>) = (Vec::new(), Vec::new());
+        // worst first; of equals the one of the lesser number
+        let badness = |row: &RunRow| {
+            let contacts = number(row.cell(columns, "contacts")).unwrap_or(0.0);
+            (contacts, number(row.cell(columns, "least_clearance_m")).unwrap_or(f64::INFINITY))
+        };
+        let order = |a: &RunRow, b: &RunRow| {
+            let ((contacts, clearance), (others, other)) = (badness(a), badness(b));
+            others.total_cmp(&contacts).then(clearance.total_cmp(&other)).then(a.row.cmp(&b.row))
+        };
+        table
+            .each(|row| {
+                rows += 1;
+                for (distribution, column) in distributions.iter_mut().zip(&shown) {
+                    distribution.values.extend(number(row.cell(columns, &column.name)));
+                }
+                if row.is_failure(columns) {
+                    failed += 1;
+                    if failures.len() < LISTED {
+                        failures.push(row.clone());
+                    }
+                }
+                if row.has_contacts(columns) || number(row.cell(columns, "least_clearance_m")).is_some() {
+                    let at = worst.partition_point(|known| order(known, &row).is_lt());
+                    if at < LISTED {
+                        worst.insert(at, row);
+                        worst.truncate(LISTED);
+                    }
+                }
+            })
+            .map_err(refused)?;
+        Ok(Gathered { plan, rows, failed, distributions, worst, failures })
+    }
+
+    fn figure(&self) -> Captured {
+        let digest = self.plan.digest().to_string();
+        histograms(&format!("{} runs of a sweep", self.rows), &self.distributions, vec![("Plan", digest)])
+    }
+
+    /// The page. It has no colours of its own but those of its figure.
+    fn page(&self, file: &Path, figure: &str) -> String {
+        let Gathered { plan, rows, failed, worst, failures, .. } = self;
+        let name = escaped(&file.display().to_string());
+        let mut page = format!(
+            "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<title>{name}: {rows} runs</title>\n\
+             <meta name=\"viewport\" content=\"width=device-width\">\n<style>\n\
+             :root {{ color-scheme: light dark; font-family: sans-serif; }}\nbody {{ margin: 1rem auto; max-width: 80rem; }}\n\
+             svg {{ max-width: 100%; height: auto; }}\n.wide {{ overflow-x: auto; }}\n\
+             td, th {{ padding: 0.2rem 0.6rem; text-align: left; vertical-align: top; }}\n</style>\n</head>\n<body>\n\
+             <h1>{name}</h1>\n<p>{rows} runs, {failed} of them failed. Plan {}.</p>\n",
+            plan.digest()
+        );
+        let axes = plan.axes().map(|(axis, len)| match len {
+            Some(len) => format!("{} ({len} values)", escaped(&axis)),
+            None => escaped(&axis),
+        });
+        let axes = axes.collect::<Vec<_>>().join(", ");
+        // writing into a string can't fail
+        let _ = writeln!(page, "<p>Varied: {}.</p>", if axes.is_empty() { "nothing" } else { axes.as_str() });
+        let _ = writeln!(page, "<h2>Distributions</h2>\n{figure}");
+        self.list(&mut page, "Worst runs: most contacts, then least clearance", worst, file);
+        self.list(&mut page, "Failures, the first", failures, file);
+        page + "</body>\n</html>\n"
+    }
+
+    /// A table of runs: their parameters, results of the whole run, and the command that shows each.
+    fn list(&self, page: &mut String, heading: &str, rows: &[RunRow], file: &Path) {
+        let columns = self.plan.columns();
+        let shown = columns.iter().position(|column| column.name == "digest").unwrap_or(columns.len());
+        let _ = writeln!(page, "<h2>{heading}</h2>");
+        if rows.is_empty() {
+            page.push_str("<p>None.</p>\n");
+            return;
+        }
+        page.push_str("<div class=\"wide\"><table>\n<tr>");
+        for column in &columns[..shown] {
+            let _ = write!(page, "<th title=\"{}\">{}</th>", escaped(&column.about), escaped(&title(column)));
+        }
+        page.push_str("<th>to see it</th></tr>\n");
+        for row in rows {
+            page.push_str("<tr>");
+            for (cell, column) in row.cells.iter().zip(&columns[..shown]) {
+                let text = match (cell, column.kind) {
+                    (Cell::Empty, _) => String::new(),
+                    (Cell::Whole(n), _) => n.to_string(),
+                    (Cell::Number(x), CellKind::Number) => rounded(*x),
+                    (Cell::Number(x), _) => x.to_string(),
+                    (Cell::Text(text), _) => escaped(text),
+                };
+                let _ = write!(page, "<td>{text}</td>");
+            }
+            let see = match row.cell(columns, "digest") {
+                Some(Cell::Text(_)) => format!(
+                    "<code>motion-lab sweep reproduce '{}' --row {n} &amp;&amp; motion-lab open {n}.mcap</code>",
+                    escaped(&file.display().to_string().replace('\'', "'\\''")),
+                    n = row.row
+                ),
+                _ => "it could not be run".into(),
+            };
+            let _ = writeln!(page, "<td>{see}</td></tr>");
+        }
+        page.push_str("</table></div>\n");
+    }
+}
+
+/// A number with six decimals at most.
+fn rounded(x: f64) -> String {
+    let text = format!("{x:.6}");
+    text.trim_end_matches('0').trim_end_matches('.').to_owned()
+}
+
+/// A text as HTML has it.
+fn escaped(text: &str) -> String {
+    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
+}
+
+impl Report {
+    /// Runs the command.
+    pub fn run(self, data: &mut Data) -> Result<Outcome, Failure> {
+        let ending = self.output.extension().and_then(|ending| ending.to_str());
+        if !matches!(ending, Some("html" | "svg")) {
+            return Err(Failure::usage(
+                format!("{}: no report has this ending", self.output.display()),
+                "Name a file that ends in .html or .svg.",
+            ));
+        }
+        let gathered = Gathered::of(&self.table)?;
+        let paper = Paper { palette: self.theme.theme().palette(), width: 1280, scale: 1.0 };
+        let figure = gathered.figure().svg(&paper);
+        let text = if ending == Some("svg") { figure } else { gathered.page(&self.table, &figure) };
+        let target = Target::of(&self.output)?;
+        write_file(target.path(), text.as_bytes())?;
+        target.finish(data)?;
+        Ok(Outcome::Done)
+    }
+}

@@ -1,0 +1,114 @@
+//! The errors of a sweep's plan, with file, line, column and item.
+
+use std::fmt;
+
+/// The version of the plan format that is read.
+pub const PLAN_VERSION: u64 = 1;
+
+/// Largest number of runs of a sweep.
+pub const MAX_RUNS: u64 = 10_000_000;
+
+/// Why a plan is refused, with its place.
+///
+/// Prints as `plan.ron:5:9: axes[1] "Rusty.start.z": there is no such parameter: ...`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SweepPlanError {
+    /// The file, as the caller named it.
+    pub file: String,
+    /// The line, from 1: where the item begins, or where reading stopped.
+    pub line: usize,
+    /// The column, from 1, in characters.
+    pub column: usize,
+    /// The item; empty when the file is not of the format's form.
+    pub item: String,
+    /// The reason.
+    pub problem: SweepProblem,
+}
+
+impl fmt::Display for SweepPlanError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}:{}:{}: ", self.file, self.line, self.column)?;
+        if !self.item.is_empty() {
+            write!(f, "{}: ", self.item)?;
+        }
+        write!(f, "{}", self.problem)
+    }
+}
+
+impl std::error::Error for SweepPlanError {}
+
+/// Why a plan is refused.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum SweepProblem {
+    /// Not RON, or not of the expected form.
+    #[error("{0}")]
+    Syntax(String),
+    /// A version of the format that this program does not read.
+    #[error("version {0}: this program reads version {PLAN_VERSION}")]
+    Version(u64),
+    /// A robot that lives in none of the worlds.
+    #[error("there is no robot {robot:?} in the worlds; they have {there}")]
+    Robot {
+        /// The robot asked for.
+        robot: String,
+        /// The robots that are there.
+        there: String,
+    },
+    /// A run that cannot be as the plan has it, whatever the axes.
+    #[error("{0}")]
+    Run(String),
+    /// The goal's numbers of coordinates and tolerances are not those of its robot.
+    #[error("{coordinates} coordinates and {tolerances} tolerances: the robot starts with {expected} coordinates")]
+    Goal {
+        /// The coordinates.
+        coordinates: usize,
+        /// The tolerances.
+        tolerances: usize,
+        /// The coordinates of the robot's start.
+        expected: usize,
+    },
+    /// A tolerance that is negative.
+    #[error("tolerance {0}: it must be 0 or more")]
+    Tolerance(f64),
+    /// A parameter that nothing has.
+    #[error("there is no such parameter: vary {0}")]
+    Parameter(String),
+    /// Two axes that vary the same.
+    #[error("axes[{0}] varies the same")]
+    Twice(usize),
+    /// Values of another form than the parameter's.
+    #[error("{found} do not fit: it takes {expected}")]
+    Values {
+        /// The form that was found.
+        found: &'static str,
+        /// What the parameter takes.
+        expected: &'static str,
+    },
+    /// A value that the parameter cannot have.
+    #[error("{0} does not fit: it takes whole numbers from 0 to 2^53")]
+    NotWhole(f64),
+    /// A number that is infinite or none at all.
+    #[error("{0} is no finite number")]
+    NotFinite(f64),
+    /// An axis without values.
+    #[error("it has no values")]
+    Empty,
+    /// Steps between two ends, fewer than two.
+    #[error("{0} steps: there must be at least 2, the two ends")]
+    Steps(u64),
+    /// A range without points where every value is wanted.
+    #[error("a range without steps has no list of values: use it with points: Sample(...), or write Steps")]
+    Continuous,
+    /// Axes of different lengths where they are gone through side by side.
+    #[error("{found} values, where axes[0] has {expected}: the axes of a list are equally long")]
+    Lengths {
+        /// The axis's own number of values.
+        found: u64,
+        /// That of the first axis.
+        expected: u64,
+    },
+    /// No run, or too many.
+    #[error("{0} runs: there must be 1 to {MAX_RUNS}")]
+    Runs(u64),
+}

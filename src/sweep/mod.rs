@@ -1,0 +1,47 @@
+//! Parameter sweeps as values: a plan, its axes, the run of each row, the rows as tables, and shards of them.
+//!
+//! A row is a function of the plan and its number alone, so that any number of jobs, shards and machines makes the same
+//! bytes. A plan file is RON:
+//!
+//! ```ron
+//! Sweep(
+//!     version: 1,
+//!     worlds: ["apartment"],
+//!     robots: ["Rusty"],
+//!     ticks: 600,
+//!     goal: (robot: "Rusty", at: [2.25, 6.25, 0], within: [0.5, 0.5, 3.2]),
+//!     axes: [
+//!         (vary: "seed", over: Range(0, 100)),
+//!         (vary: "Rusty.start.x", over: Steps(2.5, 3.5, 5)),
+//!         (vary: "Rusty.noise.sigma_hit", over: Values([0, 0.02, 0.1])),
+//!     ],
+//! )
+//! ```
+
+mod axis;
+mod columns;
+mod csv;
+mod error;
+mod gatherer;
+mod parameter;
+mod part;
+mod plan;
+mod plan_file;
+mod plan_text;
+mod points;
+mod row;
+mod shard;
+mod table;
+#[cfg(test)]
+mod tests;
+mod values;
+
+pub use columns::{CellKind, Column};
+pub use error::{MAX_RUNS, PLAN_VERSION, SweepPlanError, SweepProblem};
+pub use gatherer::RowGatherer;
+pub use part::{PartError, PartHead, PartReader, PartWriter, sealed_line, unsealed_line};
+pub use plan::{MAX_ROBOT_COLUMNS, RunSetup, SweepPlan};
+pub use plan_file::PlanFile;
+pub use row::{Cell, RunRow};
+pub use shard::{Shard, ShardError};
+pub use table::{TableError, TableFile, TableWriter};

@@ -1,0 +1,84 @@
+//! `RunRow`, what is known of a run: one row of a table.
+
+use super::columns::{CellKind, Column};
+use super::csv;
+
+/// A value of a row.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Cell {
+    /// Nothing: not known, or not there.
+    Empty,
+    /// A whole number.
+    Whole(u64),
+    /// A finite number.
+    Number(f64),
+    /// A text of one line, not empty.
+    Text(String),
+}
+
+/// A row: its number in the sweep, and a cell for each further column.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RunRow {
+    /// Its number, from 0.
+    pub row: u64,
+    /// The cells of all columns, the first of which is that number.
+    pub cells: Vec<Cell>,
+}
+
+impl Cell {
+    /// A number; nothing where it is not finite.
+    pub(super) fn finite(x: Option<f64>) -> Cell {
+        x.filter(|x| x.is_finite()).map_or(Cell::Empty, |x| Cell::Number(x + 0.0))
+    }
+
+    /// A text, its line ends as blanks; nothing for an empty one.
+    pub(super) fn text(text: impl Into<String>) -> Cell {
+        let text: String = text.into().chars().map(|c| if c.is_control() { ' ' } else { c }).collect();
+        if text.is_empty() { Cell::Empty } else { Cell::Text(text) }
+    }
+
+    fn read(text: String, kind: CellKind) -> Option<Cell> {
+        if text.is_empty() {
+            return Some(Cell::Empty);
+        }
+        Some(match kind {
+            CellKind::Whole => Cell::Whole(text.parse().ok()?),
+            CellKind::Number => Cell::Number(text.parse().ok().filter(|x: &f64| x.is_finite())?),
+            CellKind::Text => Cell::Text(text),
+        })
+    }
+}
+
+impl RunRow {
+    /// The row as a line of comma-separated values, without its end. Numbers have the fewest digits that read back to
+    /// the same bits.
+    pub fn to_line(&self) -> String {
+        let texts = self.cells.iter().map(|cell| match cell {
+            Cell::Empty => String::new(),
+            Cell::Whole(n) => n.to_string(),
+            Cell::Number(x) => x.to_string(),
+            Cell::Text(text) => text.clone(),
+        });
+        csv::line(texts)
+    }
+
+    /// The row of a line of a table with these columns; `None` where they do not fit.
+    pub fn of_line(line: &str, columns: &[Column]) -> Option<Self> {
+        let texts = csv::cells(line)?;
+        if texts.len() != columns.len() {
+            return None;
+        }
+        let cells: Vec<Cell> = texts
+            .into_iter()
+            .zip(columns)
+            .map(|(text, column)| Cell::read(text, column.kind))
+            .collect::<Option<_>>()?;
+        let Some(Cell::Whole(row)) = cells.first() else { return None };
+        Some(RunRow { row: *row, cells })
+    }
+
+    /// The cell of the column of this name.
+    pub fn cell(&self, columns: &[Column], name: &str) -> Option<&Cell> {
+        self.cells.get(columns.iter().position(|column| column.name == name)?)
+    }
+}

@@ -1,0 +1,80 @@
+//! Parts, journals and tables: they come back, and damaged ones do not.
+
+use super::super::*;
+use super::plan;
+
+/// A part of rows 2 to 4 of five failed runs.
+fn part(plan: &SweepPlan) -> Vec<u8> {
+    let mut writer = PartWriter::new(Vec::new(), &PartHead::new(plan, 2..5), plan.columns()).unwrap();
+    (2..5).for_each(|row| writer.row(&plan.failed(row, "a, \"b\"").to_line()).unwrap());
+    writer.finish().unwrap()
+}
+
+fn read(bytes: &[u8]) -> Result<Vec<RunRow>, PartError> {
+    let mut reader = PartReader::new(bytes)?;
+    let mut rows = Vec::new();
+    while let Some((row, _)) = reader.row()? {
+        rows.push(row);
+    }
+    Ok(rows)
+}
+
+#[test]
+fn a_part_comes_back_and_no_damaged_one_is_taken_for_whole() {
+    let plan = plan("Sweep(version: 1, worlds: [\"lot\"], axes: [(vary: \"seed\", over: Range(0, 5))])");
+    let whole = part(&plan);
+    assert_eq!(read(&whole).unwrap(), (2..5).map(|row| plan.failed(row, "a, \"b\"")).collect::<Vec<_>>());
+    let text = String::from_utf8(whole.clone()).unwrap();
+    assert!(text.contains("\nrows 2..5 of 5\n"));
+    let rows = text.rfind("rows 2..5").unwrap();
+    // every byte from the rows on, cut off there or changed
+    for at in rows..whole.len() {
+        assert!(read(&whole[..at]).is_err(), "cut at {at}");
+        let mut changed = whole.clone();
+        changed[at] ^= 1;
+        assert!(read(&changed).is_err(), "changed at {at}");
+    }
+    assert!(read(&[&whole[..], b"\n"].concat()).is_err(), "something behind its seal");
+    assert!(matches!(read(b"Sweep(version: 1)"), Err(PartError::NotAPart)));
+}
+
+#[test]
+fn a_journals_line_is_known_whole() {
+    let plan = plan("Sweep(version: 1, worlds: [\"lot\"], axes: [(vary: \"seed\", over: Range(0, 5))])");
+    let line = plan.failed(3, "b").to_line();
+    let sealed = sealed_line(&line);
+    let sealed = sealed.strip_suffix('\n').unwrap();
+    assert_eq!(unsealed_line(sealed, plan.columns()), Some((3, line.as_str())));
+    for at in 0..sealed.len() {
+        assert_eq!(unsealed_line(&sealed[..at], plan.columns()), None, "cut at {at}");
+    }
+    assert_eq!(unsealed_line(&sealed.replace(",b,", ",c,"), plan.columns()), None);
+}
+
+#[test]
+fn a_table_comes_back_row_by_row() {
+    let plan = plan(
+        "Sweep(version: 1, worlds: [\"lot\"], axes: [(vary: \"seed\", over: Range(18446744073709551000, 18446744073709551500))])",
+    );
+    let rows: Vec<RunRow> = (0..plan.runs())
+        .map(|row| {
+            let mut made = plan.failed(row, if row % 3 == 0 { "l'\u{e9}t\u{e9}" } else { "" });
+            let x = plan.columns().iter().position(|column| column.name == "path_m").unwrap();
+            made.cells[x] = Cell::Number(row as f64 / 7.0);
+            made
+        })
+        .collect();
+    let mut writer = TableWriter::new(Vec::new(), &plan).unwrap();
+    rows.iter().for_each(|row| writer.row(row.clone()).unwrap());
+    let file = tempfile::NamedTempFile::new().unwrap();
+    std::fs::write(file.path(), writer.finish().unwrap()).unwrap();
+    let table = TableFile::open(file.reopen().unwrap()).unwrap();
+    assert_eq!(table.plan().line(), plan.line());
+    let mut seen = Vec::new();
+    table.each(|row| seen.push(row)).unwrap();
+    assert_eq!(seen, rows);
+    assert_eq!(table.row(499).unwrap(), rows[499]);
+    assert!(matches!(table.row(500), Err(TableError::NoRow { row: 500, rows: 500 })));
+    std::fs::write(file.path(), b"PAR1 and nothing else").unwrap();
+    assert!(TableFile::open(file.reopen().unwrap()).is_err());
+}
