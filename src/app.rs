@@ -29,7 +29,7 @@ mod window;
 use bevy::prelude::*;
 #[cfg(feature = "window")]
 use bevy::window::WindowTheme;
-use bevy::window::{RequestRedraw, WindowResolution};
+use bevy::window::{RequestRedraw, WindowResizeConstraints, WindowResolution};
 use bevy::winit::{UpdateMode, WinitSettings};
 use bevy_egui::{EguiContext, EguiGlobalSettings, EguiPlugin, EguiPrimaryContextPass, PrimaryEguiContext, egui};
 
@@ -59,11 +59,15 @@ use session::carry_out;
 #[cfg(all(target_family = "wasm", feature = "web"))]
 pub(crate) use session::new_run;
 
+/// Least width and height of the window, points.
+const LEAST: f32 = 360.0;
+
 /// The lab in a window, with the tour of the three worlds from the book's seed. A run already under way is kept.
 pub(crate) fn windowed_app() -> App {
     let window = Window {
         title: "Motion Lab".into(),
         resolution: WindowResolution::new(1280, 800),
+        resize_constraints: WindowResizeConstraints { min_width: LEAST, min_height: LEAST, ..default() },
         fit_canvas_to_parent: true,
         // the page decides which keys and touches are its own
         prevent_default_event_handling: false,
@@ -73,7 +77,9 @@ pub(crate) fn windowed_app() -> App {
         ..default()
     };
     let mut app = App::new();
-    let plugins = DefaultPlugins.set(WindowPlugin { primary_window: Some(window), ..default() });
+    // on the web a page closes without asking
+    let close_when_requested = cfg!(not(feature = "window"));
+    let plugins = DefaultPlugins.set(WindowPlugin { primary_window: Some(window), close_when_requested, ..default() });
     // on the web, the page keeps the settings and the browser has a console
     #[cfg(feature = "window")]
     let plugins = plugins.set(quiet_log());
@@ -90,6 +96,7 @@ pub(crate) fn windowed_app() -> App {
     app.add_systems(Update, system_theme)
         .init_resource::<dialogs::Dialogs>()
         .init_resource::<capture::Capturing>()
+        .add_systems(Update, window::close)
         .add_systems(Update, (dialogs::ask, dialogs::dropped, capture::follow).chain().before(session::gather));
     app
 }

@@ -13,7 +13,7 @@ use crate::run::{
     DifferingSecond, DigestComparison, DigestLog, DigestLogWriter, Divergence, Log, RunDigest, first_divergence,
 };
 use crate::simulation::{Keyframes, LatestFrame, Playback, Transport, TransportCommand, seek};
-use crate::ui::Interface;
+use crate::ui::{Interface, Widget};
 use crate::ui::{Notice, Working};
 
 /// Time that each frame gives to the work.
@@ -350,6 +350,9 @@ fn settle(world: &mut World, ended: Result<Option<Notice>, SessionError>, playba
     let notice = ended.unwrap_or_else(failed);
     let ui = &mut world.resource_mut::<Interface>().into_inner().0;
     ui.working = None;
-    ui.notice = notice.or(ui.notice.take());
+    if let Some(notice) = notice {
+        // the work is the run's, whatever is in front meanwhile
+        ui.say_in(Widget::Dashboard, notice);
+    }
     world.resource_mut::<Transport>().playback = playback;
 }

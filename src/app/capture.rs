@@ -13,8 +13,8 @@ use super::runs::shown_run;
 use crate::capture::{CaptureError, Form, Paper, film_with_robots, write};
 use crate::simulation::Transport;
 use crate::tour::TourConfig;
-use crate::ui::Interface;
 use crate::ui::{CaptureOrder, Notice, UiState, Working};
+use crate::ui::{Interface, Widget};
 
 /// The capture under way.
 #[derive(Resource, Default)]
@@ -22,6 +22,8 @@ pub struct Capturing(Option<Job>);
 
 struct Job {
     path: PathBuf,
+    /// The widget that is captured.
+    widget: Widget,
     progress: Arc<Progress>,
     work: JoinHandle<Result<(), CaptureError>>,
 }
@@ -47,6 +49,7 @@ pub fn not_captured(error: &CaptureError) -> Notice {
 /// Begins a capture of the widget in front, and stops the one under way. [`follow`] reports progress and outcome.
 pub fn capture(world: &mut World, order: &CaptureOrder, path: &Path) {
     let state = world.resource::<Interface>().0.clone();
+    let widget = state.widget;
     // the file name's extension decides the format, where it names one
     let form = Form::of(path).unwrap_or(order.form);
     let paper = Paper { palette: state.theme().palette(), width: order.width, scale: order.scale as f32 };
@@ -73,9 +76,10 @@ pub fn capture(world: &mut World, order: &CaptureOrder, path: &Path) {
     if let Some(before) = &world.resource::<Capturing>().0 {
         before.progress.stop.store(true, Ordering::Relaxed);
     }
-    world.resource_mut::<Capturing>().0 = Some(Job { path: path.to_owned(), progress, work });
+    world.resource_mut::<Capturing>().0 = Some(Job { path: path.to_owned(), widget, progress, work });
     let state = &mut world.resource_mut::<Interface>().into_inner().0;
-    (state.notice, state.working) = (None, Some(Working::default()));
+    state.hush();
+    state.working = Some(Working::default());
     follow(world);
 }
 
@@ -94,7 +98,7 @@ pub fn follow(world: &mut World) {
     let state = &mut world.resource_mut::<Interface>().into_inner().0;
     if job.work.is_finished() {
         state.working = None;
-        state.notice = Some(ended(&job.path, job.work.join().unwrap_or(Err(fault()))));
+        state.say_in(job.widget, ended(&job.path, job.work.join().unwrap_or(Err(fault()))));
         return;
     }
     let (done, all) = (job.progress.done.load(Ordering::Relaxed), job.progress.all.load(Ordering::Relaxed));

@@ -7,7 +7,7 @@ use bevy::prelude::*;
 
 use crate::geometry::{Aabb, Point2};
 use crate::run::RobotState;
-use crate::simulation::{LatestFrame, RunConfig, footprint_of};
+use crate::simulation::{LatestFrame, Playback, RunConfig, Transport, footprint_of};
 use crate::tour::TourConfig;
 use crate::ui::{Crowd, CrowdRobot, MOST_SHOWN_EACH};
 
@@ -16,7 +16,7 @@ use crate::ui::{Crowd, CrowdRobot, MOST_SHOWN_EACH};
 pub struct Crowds {
     config: Option<Arc<TourConfig>>,
     /// The tick of the frame that was read last, and when it was written.
-    read: Option<(u64, Tick)>,
+    read: Option<(u64, Tick, bool)>,
     /// By the number of the world; `None` where its robots are few.
     crowds: Vec<Option<Crowd>>,
 }
@@ -31,7 +31,8 @@ pub fn crowd(world: &World, number: usize, between: f64) -> Option<Crowd> {
 pub fn update_crowds(world: &mut World) {
     let Some(RunConfig(config)) = world.get_resource::<RunConfig>().cloned() else { return };
     let Some(written) = world.get_resource_change_ticks::<LatestFrame>() else { return };
-    let read = (world.resource::<LatestFrame>().0.tick, written.changed);
+    let playing = world.resource::<Transport>().playback == Playback::Playing;
+    let read = (world.resource::<LatestFrame>().0.tick, written.changed, playing);
     let kept = world.resource_mut::<Crowds>().into_inner();
     let is_same_run = kept.config.as_ref().is_some_and(|c| Arc::ptr_eq(c, &config));
     if !is_same_run {
@@ -39,7 +40,7 @@ pub fn update_crowds(world: &mut World) {
     } else if kept.read == Some(read) {
         return;
     }
-    let follows = kept.read.is_some_and(|(tick, _)| tick + 1 == read.0);
+    let follows = kept.read.is_some_and(|(tick, ..)| tick + 1 == read.0);
     kept.read = Some(read);
     let mut crowds = std::mem::take(&mut kept.crowds);
     for crowd in crowds.iter_mut().flatten() {
@@ -80,6 +81,8 @@ fn robot(world: &World, id: u32, state: Option<&RobotState>) -> CrowdRobot {
     let bounds = footprint.bounds().unwrap_or(Aabb::new(Point2::origin(), Point2::origin()));
     let is_disc = footprint.parts().len() == 1 && footprint.parts().iter().all(|p| p.placed().core().len() == 1);
     let heading = state.filter(|_| is_disc).and_then(|s| s.configuration.get(2).copied());
-    let (flash, contacts) = state.map_or((false, 0), |s| (s.flash > 0, s.contacts));
+    let playing = world.resource::<Transport>().playback == Playback::Playing;
+    let is_red = |s: &RobotState| if playing { s.flash > 0 } else { s.in_contact };
+    let (flash, contacts) = state.map_or((false, 0), |s| (is_red(s), s.contacts));
     CrowdRobot { footprint, bounds, heading, flash, contacts }
 }

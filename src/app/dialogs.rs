@@ -5,10 +5,11 @@ use std::path::PathBuf;
 use bevy::prelude::*;
 use bevy::window::FileDragAndDrop;
 use bevy_egui::egui;
-use egui_file_dialog::{DialogMode, FileDialog, FileDialogLabels};
+use egui_file_dialog::{DialogMode, DialogState, FileDialog, FileDialogLabels};
 
 use super::capture::{capture, check, not_captured};
 use super::files::{open_run, open_world, save_run, save_world};
+use crate::random::Seed;
 use crate::simulation::{Playback, RunConfig, Transport};
 use crate::ui::Interface;
 use crate::ui::{CaptureOrder, SessionCommand, UiState, Widget};
@@ -41,12 +42,20 @@ impl Default for Dialogs {
     }
 }
 
+impl Dialogs {
+    /// Whether one of them is open.
+    fn are_open(&self) -> bool {
+        let picture = self.picture.iter().map(|(dialog, _)| dialog);
+        [&self.runs, &self.worlds].into_iter().chain(picture).any(|dialog| *dialog.state() == DialogState::Open)
+    }
+}
+
 /// The dialog for a capture of the widget in front.
-fn picture_dialog(state: &UiState, order: &CaptureOrder, tick: u64) -> FileDialog {
+fn picture_dialog(state: &UiState, order: &CaptureOrder, seed: Seed, tick: u64) -> FileDialog {
     let (extension, name) = (order.form.extension(), order.form.name());
     let widget = state.widget.id();
     let file = if state.widget == Widget::Dashboard {
-        format!("{widget}-{tick}.{extension}")
+        format!("{widget}-{seed}-{tick}.{extension}")
     } else {
         format!("{widget}.{extension}")
     };
@@ -84,16 +93,22 @@ pub fn ask(
     let Some(config) = config else { return };
     for command in asked.read() {
         match command {
-            SessionCommand::Save => dialogs.runs.save_file(),
+            SessionCommand::Save => {
+                dialogs.runs.config_mut().default_file_name = format!("run-{}.{EXTENSION}", transport.seed);
+                dialogs.runs.save_file();
+            }
             SessionCommand::Open => dialogs.runs.pick_file(),
-            SessionCommand::SaveWorld => dialogs.worlds.save_file(),
+            SessionCommand::SaveWorld => {
+                dialogs.worlds.config_mut().default_file_name = interface.0.atlas.file_name();
+                dialogs.worlds.save_file();
+            }
             SessionCommand::OpenWorld => dialogs.worlds.pick_file(),
             SessionCommand::Capture(order) => {
                 if let Err(error) = check(&config.0, &interface.0, order) {
-                    interface.0.notice = Some(not_captured(&error));
+                    interface.0.say(not_captured(&error));
                     continue;
                 }
-                let mut dialog = picture_dialog(&interface.0, order, transport.tick);
+                let mut dialog = picture_dialog(&interface.0, order, transport.seed, transport.tick);
                 dialog.save_file();
                 dialogs.picture = Some((dialog, *order));
             }
@@ -104,6 +119,7 @@ pub fn ask(
         }
         transport.playback = Playback::Paused;
     }
+    interface.0.dialog = dialogs.are_open();
 }
 
 /// Opens what was dropped: a world in the atlas, any other file as a run.
@@ -118,8 +134,8 @@ pub fn dropped(world: &mut World) {
             } else {
                 open_run(world, &path_buf)
             };
-            if notice.is_some() {
-                world.resource_mut::<Interface>().0.notice = notice;
+            if let Some(notice) = notice {
+                world.resource_mut::<Interface>().0.say(notice);
             }
         }
     }
@@ -141,10 +157,12 @@ pub fn show(world: &mut World, ctx: &egui::Context) {
         capture(world, &order, &path);
         ctx.request_repaint();
     }
+    let are_open = world.resource::<Dialogs>().are_open();
+    world.resource_mut::<Interface>().0.dialog = are_open;
     let of_run = run.and_then(|(save, path)| if save { save_run(world, &path) } else { open_run(world, &path) });
     let of_world = model.map(|(save, path)| if save { save_world(world, &path) } else { open_world(world, &path) });
     if let Some(notice) = of_run.or(of_world) {
-        world.resource_mut::<Interface>().0.notice = Some(notice);
+        world.resource_mut::<Interface>().0.say(notice);
         ctx.request_repaint();
     }
 }

@@ -140,7 +140,7 @@ pub fn open_world_text(world: &mut World, name: &str, text: &str) -> Notice {
     match Editor::open(name, text) {
         Ok(editor) => {
             let ui = &mut world.resource_mut::<Interface>().into_inner().0;
-            ui.atlas = AtlasState::edited(editor).like(&ui.atlas);
+            ui.open_world(AtlasState::edited(editor));
             ui.widget = Widget::Atlas;
             Notice { text: format!("{name}: opened"), is_error: false }
         }

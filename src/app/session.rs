@@ -12,8 +12,8 @@ use super::error::SessionError;
 use super::pace::{Pace, begin_ticks, end_ticks, limit, measure, play_flat_out};
 use super::put_robot::put_robot;
 use crate::atlas::Atlas;
-use crate::configuration::{Configuration as _, Coordinates, HitchCfg, RobotKind, Sizes};
-use crate::geometry::{Footprint, Pose2, Segment};
+use crate::configuration::{AnyConfiguration, Configuration as _, Coordinates, HitchCfg, RobotKind, Sizes};
+use crate::geometry::{Footprint, Point2, Pose2, Segment};
 use crate::picture::{Picture, world as picture_of};
 use crate::robots::{AnyRobot, Robot};
 use crate::run::{Event, RobotInput};
@@ -23,7 +23,9 @@ use crate::simulation::{
     sensors_of, start_run, take_sensors_at_start, view_of,
 };
 use crate::tour::{BOOK_SEED, TourConfig};
-use crate::ui::{Cockpit, CockpitRobot, Command, Dashboard, Interface, Notice, SessionCommand, Widget, blend};
+use crate::ui::{
+    Cockpit, CockpitRobot, Command, Dashboard, Interface, Notice, SessionCommand, Widget, blend, joints, turned,
+};
 use crate::worlds::World as WorldModel;
 
 /// Farthest that a part moves from tick to tick, metres. A part that moved farther was put there.
@@ -121,7 +123,7 @@ fn note_refusals(
 ) {
     let commands = commands.read().map(|CommandRefused(error)| error.to_string());
     for text in commands.chain(sensors.read().map(ToString::to_string)) {
-        interface.0.notice = Some(Notice { text, is_error: true });
+        interface.0.say(Notice { text, is_error: true });
     }
 }
 
@@ -174,20 +176,28 @@ fn shown(world: &World, robot: &RobotView, between: f64) -> CockpitRobot {
         _ => None,
     };
     let trail = world.resource::<History>().at(tick, robot.id);
+    let playing = world.resource::<Transport>().playback == Playback::Playing;
+    let target = target(world, robot);
+    // paused, an arm says where it will be, as its ghost and its fields do
+    let next = target.as_ref().filter(|_| !playing).and_then(|to| next(robot, to));
+    let now =
+        || Said { readout: robot.configuration.clone(), in_full: robot.configuration_in_full.clone(), tip: robot.tip };
+    let Said { readout, in_full, tip } = next.unwrap_or_else(now);
     CockpitRobot {
         id: robot.id,
         name: robot.name.clone(),
         kind: robot.kind.clone(),
         about: robot.about,
         model: robot.model,
-        readout: robot.configuration.clone(),
-        in_full: robot.configuration_in_full.clone(),
+        readout,
+        in_full,
         coordinates: robot.coordinates.clone(),
-        target: target(world, robot),
+        target,
         footprint: blend(&robot.previous_footprint, &robot.footprint, between, LEAP),
         // a disc does not show which way it faces; its third coordinate does
         heading: pose.filter(|_| robot.footprint.parts().len() == 1 && !is_arm).map(|p| p.theta),
-        flash: robot.flash > 0,
+        // a flash is shown while the run plays; at rest, red is this very tick's contact
+        flash: if playing { robot.flash > 0 } else { robot.in_contact },
         contacts: robot.contacts,
         manual: robot.manual,
         // an arm is moved by its joints
@@ -195,7 +205,7 @@ fn shown(world: &World, robot: &RobotView, between: f64) -> CockpitRobot {
         is_arm,
         trailer: (robot.kind == RobotKind::HITCH.name).then_some(robot.coordinates.len() == 4),
         sees: sensors_of(world, robot.id),
-        tip: robot.tip,
+        tip,
         reversals: trail.map_or(0, |t| t.reversals),
         no_room: pose
             .filter(|_| robot.kind == RobotKind::HITCH.name && robot.coordinates.len() == 3)
@@ -204,12 +214,28 @@ fn shown(world: &World, robot: &RobotView, between: f64) -> CockpitRobot {
     }
 }
 
-/// Whether the run is paused with an input to the robot due at the next tick, an arm's target apart.
+/// A configuration as a pane says it.
+struct Said {
+    readout: String,
+    in_full: String,
+    tip: Option<Point2>,
+}
+
+/// One of the lab's arms at these joint angles.
+fn next(robot: &RobotView, to: &[f64]) -> Option<Said> {
+    let (in_full, q) = match AnyRobot::of_kind(&robot.kind, to)?.1 {
+        AnyConfiguration::T2(q) => (format!("{q:?}"), q.to_string()),
+        AnyConfiguration::T3(q) => (format!("{q:?}"), q.to_string()),
+        _ => return None,
+    };
+    Some(Said { readout: q, in_full, tip: joints(&turned(&robot.footprint, to)).last().copied() })
+}
+
+/// Whether the run is paused with an input to the robot due at the next tick.
 fn waiting(world: &World, robot: &RobotView) -> bool {
     let Transport { tick, playback, .. } = *world.resource::<Transport>();
     let due = world.resource::<PendingInput>().due(tick + 1);
-    let own = |e: &Event| e.robot == robot.name && !matches!(e.input, RobotInput::MoveTo(_));
-    playback == Playback::Paused && due.iter().any(own)
+    playback == Playback::Paused && due.iter().any(|e: &Event| e.robot == robot.name)
 }
 
 /// The first obstacle that a trailer put on behind the car at `body`, or the bar between them, would overlap, in words.
@@ -247,7 +273,7 @@ pub fn carry_out(world: &mut World, commands: Vec<Command>) {
             Command::Session(SessionCommand::Links { robot, links }) => {
                 if let Err(error) = change_links(world, &robot, links) {
                     let notice = Notice { text: error.to_string(), is_error: true };
-                    world.resource_mut::<Interface>().0.notice = Some(notice);
+                    world.resource_mut::<Interface>().0.say(notice);
                 }
             }
             Command::Session(SessionCommand::PutRobot { robot }) => {
@@ -260,7 +286,7 @@ pub fn carry_out(world: &mut World, commands: Vec<Command>) {
                     Ok(()) => Notice { text: format!("{robot} is put there at the next tick"), is_error: false },
                     Err(error) => Notice { text: error.to_string(), is_error: true },
                 };
-                world.resource_mut::<Interface>().0.notice = Some(notice);
+                world.resource_mut::<Interface>().0.say(notice);
             }
             Command::Session(command @ (SessionCommand::RunWorld | SessionCommand::RunFromHere)) => {
                 let atlas = &world.resource::<Interface>().0.atlas;
@@ -272,7 +298,7 @@ pub fn carry_out(world: &mut World, commands: Vec<Command>) {
                 let ui = &mut world.resource_mut::<Interface>().into_inner().0;
                 match ran {
                     Ok(()) => ui.widget = Widget::Dashboard,
-                    Err(error) => ui.notice = Some(Notice { text: error.to_string(), is_error: true }),
+                    Err(error) => ui.say(Notice { text: error.to_string(), is_error: true }),
                 }
             }
             Command::Session(command) => _ = world.write_message(command),

@@ -1,9 +1,11 @@
 //! Settings kept in a file from one start to the next.
 
+use std::ops::RangeInclusive;
 use std::time::Duration;
 
 use bevy::prelude::*;
 use bevy::settings::{ReflectSettingsGroup, SaveSettingsDeferred, SaveSettingsSync, SettingsGroup, SettingsPlugin};
+use bevy::window::PrimaryWindow;
 
 use crate::ui;
 use crate::ui::Interface;
@@ -31,15 +33,35 @@ impl Plugin for KeepSettingsPlugin {
 #[settings_group(group = "window")]
 struct Kept {
     settings: ui::Settings,
+    /// Width and height of the window, points; 0 where none is kept yet.
+    size: UVec2,
 }
 
-fn restore(kept: Res<Kept>, mut interface: ResMut<Interface>) {
+/// Least and largest width and height of a window that is kept, points. A screen is no larger.
+const SIZES: RangeInclusive<u32> = 360..=16_384;
+
+/// Whether a window of this size can be made again. A window put away as an icon has none.
+fn is_kept(size: UVec2) -> bool {
+    SIZES.contains(&size.x) && SIZES.contains(&size.y)
+}
+
+fn restore(kept: Res<Kept>, mut interface: ResMut<Interface>, mut windows: Query<&mut Window, With<PrimaryWindow>>) {
     interface.0.settings = kept.settings.clone();
+    for mut window in windows.iter_mut().filter(|_| is_kept(kept.size)) {
+        window.resolution.set(kept.size.x as f32, kept.size.y as f32);
+    }
 }
 
-fn keep(interface: Res<Interface>, mut kept: ResMut<Kept>, mut commands: Commands) {
-    if interface.0.settings != kept.settings {
-        kept.settings = interface.0.settings.clone();
+fn keep(
+    interface: Res<Interface>,
+    windows: Query<&Window, With<PrimaryWindow>>,
+    mut kept: ResMut<Kept>,
+    mut commands: Commands,
+) {
+    let size = windows.iter().map(|window| window.resolution.size().round().as_uvec2()).find(|size| is_kept(*size));
+    let new = Kept { settings: interface.0.settings.clone(), size: size.unwrap_or(kept.size) };
+    if new != *kept {
+        *kept = new;
         commands.queue(SaveSettingsDeferred(Duration::from_secs(1)));
     }
 }
@@ -47,5 +69,42 @@ fn keep(interface: Res<Interface>, mut kept: ResMut<Kept>, mut commands: Command
 fn keep_at_the_end(mut exits: MessageReader<AppExit>, mut commands: Commands) {
     if exits.read().count() > 0 {
         commands.queue(SaveSettingsSync::IfChanged);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// An app with one window of this size, to which settings are restored.
+    fn restored(size: UVec2) -> App {
+        let mut app = App::new();
+        app.init_resource::<Interface>().add_systems(PreStartup, restore).add_systems(PostUpdate, keep);
+        app.insert_resource(Kept { size, ..default() });
+        app.world_mut().spawn((Window::default(), PrimaryWindow));
+        app.update();
+        app
+    }
+
+    fn window(app: &mut App) -> Mut<'_, Window> {
+        app.world_mut().query::<&mut Window>().single_mut(app.world_mut()).unwrap()
+    }
+
+    #[test]
+    fn the_window_has_the_size_it_had() {
+        let mut app = restored(uvec2(900, 700));
+        assert_eq!(window(&mut app).resolution.size(), vec2(900.0, 700.0));
+        window(&mut app).resolution.set(1000.0, 640.0);
+        app.update();
+        assert_eq!(app.world().resource::<Kept>().size, uvec2(1000, 640));
+        // put away as an icon it has no size, and the last one stays
+        window(&mut app).resolution.set(1.0, 1.0);
+        app.update();
+        assert_eq!(app.world().resource::<Kept>().size, uvec2(1000, 640));
+        // what no screen has is not restored
+        let usual = Window::default().resolution.size();
+        for size in [UVec2::ZERO, uvec2(100, 700), uvec2(900, 1_000_000)] {
+            assert_eq!(window(&mut restored(size)).resolution.size(), usual, "{size}");
+        }
     }
 }

@@ -10,10 +10,12 @@ mod doors;
 mod drive;
 mod files;
 mod own_kind;
+mod safe;
 mod screen;
 mod sizes;
 mod time;
 mod widgets;
+mod work;
 
 use std::time::Duration;
 
@@ -48,6 +50,9 @@ impl Lab {
             let (shown, history) = (world.resource::<Shown>(), world.resource::<History>());
             crate::ui::lab(ui, &shown.0, history, &mut interface.0, &mut commands);
         });
+        if world.contains_resource::<super::dialogs::Dialogs>() {
+            super::dialogs::show(world, ui.ctx());
+        }
         carry_out(world, commands);
     }
 
@@ -69,7 +74,8 @@ fn app(frame: Duration) -> App {
     app.add_plugins((bevy::time::TimePlugin, SessionPlugin))
         .add_message::<SessionCommand>()
         .insert_resource(TimeUpdateStrategy::ManualDuration(frame));
-    app.world_mut().resource_mut::<Interface>().0.settings.hints_seen = true;
+    let settings = &mut app.world_mut().resource_mut::<Interface>().into_inner().0.settings;
+    crate::ui::Widget::ALL.into_iter().for_each(|widget| settings.put_hints_away(widget));
     app
 }
 

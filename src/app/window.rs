@@ -8,13 +8,13 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex};
 
 use bevy::prelude::*;
+use bevy::window::WindowCloseRequested;
 
 use super::files::open_run;
 use super::frames::{FrameTimes, MeasurePlugin};
 use crate::simulation::{Playback, Transport, start_run};
 use crate::tour::{BOOK_SEED, TourConfig};
-use crate::ui::Interface;
-use crate::ui::Notice;
+use crate::ui::{Closing, Interface, Notice};
 use crate::worlds::World as WorldModel;
 
 /// Why there is no window. Each prints as one line; where no window opened, the line names the command that needs none.
@@ -96,8 +96,9 @@ pub fn open_in_window(what: Opened, frames: Option<u32>) -> Result<FrameTimes, W
     run_window_with(move |app| {
         let mut what = Some(what);
         app.add_systems(PostStartup, move |world: &mut World| {
-            let notice = what.take().and_then(|what| open(world, what));
-            world.resource_mut::<Interface>().0.notice = notice;
+            if let Some(notice) = what.take().and_then(|what| open(world, what)) {
+                world.resource_mut::<Interface>().0.say(notice);
+            }
         });
         if let Some(frames) = frames {
             app.add_plugins(MeasurePlugin { frames, times: shared });
@@ -116,6 +117,21 @@ fn open(world: &mut World, what: Opened) -> Option<Notice> {
             Some(Notice { text: format!("the world does not run: {}", started.err()?), is_error: true })
         }
         Opened::Log(path) => open_run(world, &path),
+    }
+}
+
+/// Ends the program when the window is to close. Where edits of worlds are in no file, asks first.
+pub fn close(
+    mut asked: MessageReader<WindowCloseRequested>,
+    mut interface: ResMut<Interface>,
+    mut exits: MessageWriter<AppExit>,
+) {
+    if asked.read().count() > 0 {
+        let is_safe = interface.0.unsaved().is_empty();
+        interface.0.closing = Some(if is_safe { Closing::Agreed } else { Closing::Asking });
+    }
+    if interface.0.closing == Some(Closing::Agreed) {
+        exits.write(AppExit::Success);
     }
 }
 

@@ -3,7 +3,7 @@
 use super::{WidgetText, texts};
 
 /// A widget of the lab. The order is that of the rail.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
 #[non_exhaustive]
 pub enum Widget {
     /// The robots of a run, driven and plotted.

@@ -6,6 +6,7 @@ use bevy_egui::egui::{
 
 use super::capture_state::FORMS;
 use super::paint::button::LabButton;
+use super::paint::plate::refusal as refusal_words;
 use super::{CaptureOrder, Command, Dashboard, Look, SessionCommand, UiState};
 use crate::capture::{CaptureError, Form, Span};
 use crate::manifest::Widget;
@@ -36,15 +37,15 @@ pub fn capture_form(ctx: &Context, model: &Dashboard, look: &Look, state: &mut U
     let order = &mut state.capture.order;
     let refusal = refusal(state.widget, order, model);
     let modal = Modal::new(Id::new("capture")).show(ctx, |ui| {
-        ui.set_max_width(400.0);
+        ui.set_max_width((ctx.content_rect().width() - 48.0).clamp(40.0, 400.0));
         ui.label(RichText::new(format!("Capture: {title}")).text_style(TextStyle::Heading));
         ui.add_space(6.0);
         Grid::new("capture").num_columns(2).spacing([16.0, 8.0]).show(ui, |ui| choices(ui, model, look, order));
         ui.add_space(4.0);
         match &refusal {
-            Some(words) => ui.label(RichText::new(words).color(look.colour(Role::Goal))),
-            None => ui.label(RichText::new(holds(state.widget, order)).color(look.colour(Role::Muted))),
-        };
+            Some(words) => refusal_words(ui, words, look),
+            None => drop(ui.label(RichText::new(holds(state.widget, order)).color(look.colour(Role::Muted)))),
+        }
         ui.add_space(8.0);
         ui.horizontal(|ui| {
             let chosen = LabButton::new(SAVE).enabled(refusal.is_none()).show(ui, look).clicked();

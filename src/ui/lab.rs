@@ -7,7 +7,7 @@ use bevy_egui::egui::{CentralPanel, Frame, Margin, Panel, Ui, vec2};
 use super::dashboard::{self, drive};
 use super::keys::{Action, pressed};
 use super::paint::button::LabButton;
-use super::{Command, Dashboard, Look, UiState, anatomy, atlas, capture_form, cspace, help, tools};
+use super::{Command, Dashboard, Grasp, Look, UiState, anatomy, atlas, capture_form, cspace, help, tools};
 use crate::manifest::Widget;
 use crate::simulation::{History, TransportCommand};
 
@@ -20,6 +20,7 @@ const RAIL: f32 = 76.0;
 /// Shows the lab over the whole of `ui`; what is pressed is pushed onto `commands`.
 pub fn lab(ui: &mut Ui, model: &Dashboard, history: &History, state: &mut UiState, commands: &mut Vec<Command>) {
     let narrow = ui.max_rect().width() < NARROW;
+    state.is_narrow = narrow;
     let look = Look::of(ui, state, narrow);
     let mut style = look.theme.style(narrow);
     if state.settings.reduced_motion {
@@ -31,8 +32,11 @@ pub fn lab(ui: &mut Ui, model: &Dashboard, history: &History, state: &mut UiStat
         ui.ctx().set_global_style(Arc::clone(&style));
     }
     ui.set_style(style);
-    let nudged = std::mem::take(&mut state.nudging);
-    let actions = if state.help || state.capture.open { vec![] } else { pressed(ui, state.armed.is_some(), nudged) };
+    if state.dialog {
+        // nothing behind a dialog keeps the focus, and with it the keys
+        ui.disable();
+    }
+    let actions = if state.is_covered() { vec![] } else { pressed(ui, state.armed.is_some(), state.nudged.is_some()) };
     for action in actions {
         match action {
             Action::Widget(widget) => choose(widget, model, state, commands),
@@ -43,6 +47,8 @@ pub fn lab(ui: &mut Ui, model: &Dashboard, history: &History, state: &mut UiStat
             },
         }
     }
+    state.nudged = None;
+    state.grasp = state.next_grasp.take();
     // no fill: the window is cleared to the paper's colour already, and a fill would cost as much as all that is drawn
     let margin = Margin::symmetric(if narrow { 8 } else { 6 }, if narrow { 4 } else { 14 });
     if state.embedded {
@@ -57,22 +63,26 @@ pub fn lab(ui: &mut Ui, model: &Dashboard, history: &History, state: &mut UiStat
             ui.vertical_centered(|ui| rail(ui, model, &look, 44.0, state, commands));
         });
     }
-    if state.widget == Widget::Dashboard {
-        if !state.help && !state.capture.open {
+    let stage = if state.widget == Widget::Dashboard {
+        if !state.is_covered() {
             drive::drive(ui, model, state, commands);
         }
-        dashboard::view::dashboard(ui, model, history, &look, state, commands);
+        dashboard::view::dashboard(ui, model, history, &look, state, commands)
     } else {
         let side = if narrow { 12 } else { 20 };
         let frame = Frame::NONE.inner_margin(Margin::symmetric(side, 14));
-        CentralPanel::default().frame(frame).show(ui, |ui| match state.widget {
+        let panel = CentralPanel::default().frame(frame).show(ui, |ui| match state.widget {
             Widget::Anatomy => anatomy::view::anatomy_view(ui, model, &look, state, commands),
             Widget::Cspace => cspace::view::cspace_view(ui, model, &look, state, commands),
             Widget::Atlas | Widget::Dashboard => atlas::view::atlas_view(ui, model, &look, state, commands),
         });
-    }
+        panel.response.rect
+    };
+    tools::notice(ui.ctx(), stage, &look, state);
     help::help(ui.ctx(), state);
     capture_form::capture_form(ui.ctx(), model, &look, state, commands);
+    #[cfg(feature = "window")]
+    super::closing::closing(ui.ctx(), &look, state);
     if state.pointed.is_some() || state.lit.is_some() {
         // the fade goes on without further input
         ui.ctx().request_repaint();
@@ -98,5 +108,6 @@ fn choose(widget: Widget, model: &Dashboard, state: &mut UiState, commands: &mut
         commands.push(Command::from(TransportCommand::Pause));
     }
     drive::let_go(state, commands);
+    state.next_grasp = Some(Grasp::Leave);
     state.widget = widget;
 }

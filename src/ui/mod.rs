@@ -6,6 +6,8 @@ mod anatomy;
 mod atlas;
 mod capture_form;
 mod capture_state;
+#[cfg(feature = "window")]
+mod closing;
 mod crowd;
 mod cspace;
 mod dashboard;
@@ -23,13 +25,16 @@ pub(crate) use capture_state::{CaptureOrder, CaptureState};
 pub(crate) use crowd::state::CrowdState;
 pub(crate) use crowd::values::{Crowd, CrowdRobot, MOST_SHOWN_EACH};
 pub(crate) use cspace::CspaceState;
+pub(crate) use dashboard::arm::{joints, turned};
 pub(crate) use dashboard::blend::blend;
 pub(crate) use dashboard::goal::ParkingGoal;
 pub(crate) use dashboard::values::{Cockpit, CockpitRobot, Dashboard};
 pub(crate) use lab::lab;
 pub(crate) use paint::look::Look;
 pub(crate) use settings::Settings;
-pub(crate) use state::{Interface, Notice, UiState, Working};
+#[cfg(feature = "window")]
+pub(crate) use state::Closing;
+pub(crate) use state::{Grasp, Interface, Notice, SeedDraft, UiState, Working};
 
 use crate::simulation::{RobotCommand, RunCommand, TransportCommand};
 

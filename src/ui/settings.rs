@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::manifest::ThemeChoice;
+use crate::manifest::{ThemeChoice, Widget};
 
 /// The user's settings. They are no part of a run.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -19,10 +19,24 @@ pub struct Settings {
     pub plots: bool,
     /// Index of the world that a narrow screen shows.
     pub world: u32,
-    /// Whether the first hints were dismissed.
-    pub hints_seen: bool,
+    /// The ids of the widgets whose first hints were put away.
+    pub hints_away: Vec<String>,
     /// Whether fades and other animations are off.
     pub reduced_motion: bool,
+}
+
+impl Settings {
+    /// Whether the first hints of this widget were put away.
+    pub fn are_hints_away(&self, widget: Widget) -> bool {
+        self.hints_away.iter().any(|id| id == widget.id())
+    }
+
+    /// Puts the first hints of this widget away.
+    pub fn put_hints_away(&mut self, widget: Widget) {
+        if !self.are_hints_away(widget) {
+            self.hints_away.push(widget.id().to_owned());
+        }
+    }
 }
 
 impl Default for Settings {
@@ -33,7 +47,7 @@ impl Default for Settings {
             scan: false,
             plots: false,
             world: 0,
-            hints_seen: false,
+            hints_away: Vec::new(),
             reduced_motion: false,
         }
     }

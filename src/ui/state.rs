@@ -2,8 +2,9 @@
 
 use std::collections::BTreeMap;
 
-use super::{ParkingGoal, Settings, Widget};
+use super::{AtlasState, ParkingGoal, Settings, Widget};
 use crate::picture::{Role, Theme};
+use crate::random::Seed;
 
 /// The state of the user interface, as a resource of the app.
 #[derive(bevy::prelude::Resource, Default)]
@@ -21,23 +22,31 @@ pub struct UiState {
     /// The state of the configuration space.
     pub cspace: super::CspaceState,
     /// The state of the atlas.
-    pub atlas: super::AtlasState,
+    pub atlas: AtlasState,
+    /// Other worlds of the atlas with their edits and what can be undone of them, in the order they were left.
+    pub shelf: Vec<AtlasState>,
     /// The robot picked in a crowd, and how crowds are shown.
     pub crowd: super::CrowdState,
     /// The state of the capture form.
     pub capture: super::CaptureState,
     /// The system's theme.
     pub system_theme: Theme,
-    /// The seed field's text while it is edited.
-    pub seed_text: Option<String>,
+    /// What is typed into the seed's field and is not yet the run's seed.
+    pub seed: Option<SeedDraft>,
     /// The name of the robot that the arrow keys drive.
     pub armed: Option<String>,
     /// The channels last sent to that robot, from -128 to 128, the maximum.
     pub held: (i16, i16),
     /// The channels of the pad on the screen, from -128 to 128, the maximum.
     pub pad: (i16, i16),
-    /// Whether a handle of an arm had the focus in the last frame. Such a handle keeps the arrow keys and no others.
-    pub nudging: bool,
+    /// The arm whose handle had the focus in the last frame. Such a handle keeps the arrow keys and no others.
+    pub nudged: Option<String>,
+    /// A change of which handle has the focus, for this frame.
+    pub grasp: Option<Grasp>,
+    /// The same, for the next frame.
+    pub next_grasp: Option<Grasp>,
+    /// Whether a dialog for a file is open: all keys are the dialog's.
+    pub dialog: bool,
     /// The role that is lit: all others fade.
     pub lit: Option<Role>,
     /// The role that the surrounding page asks to light. It counts only while nothing here is pointed at.
@@ -46,6 +55,8 @@ pub struct UiState {
     pub embedded: bool,
     /// The role that is pointed at in this frame.
     pub pointed: Option<Role>,
+    /// Whether the screen is so narrow that a widget shows one thing at a time.
+    pub is_narrow: bool,
     /// Whether the list of keys is open.
     pub help: bool,
     /// The name of a car and its parking exercise.
@@ -54,8 +65,11 @@ pub struct UiState {
     pub hidden_plots: Vec<usize>,
     /// The flash shown for each robot, by name.
     pub flashes: BTreeMap<String, Flash>,
-    /// The last message to the user, until it is dismissed.
-    pub notice: Option<Notice>,
+    /// The last message of each widget, until it is dismissed.
+    notices: BTreeMap<Widget, Notice>,
+    /// How far closing the window has come, if it is to close.
+    #[cfg(feature = "window")]
+    pub closing: Option<Closing>,
     /// The work in the background, if any.
     pub working: Option<Working>,
 }
@@ -67,6 +81,36 @@ pub struct Working {
     pub text: String,
     /// Whether it was asked to stop.
     pub stop: bool,
+}
+
+/// How far closing the window has come.
+#[cfg(feature = "window")]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Closing {
+    /// The window is to close, and edits would be lost: the question is shown.
+    Asking,
+    /// It closes.
+    Agreed,
+}
+
+/// A change of which handle has the focus.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Grasp {
+    /// The first handle of the arm with this name takes it.
+    Take(String),
+    /// No handle has it.
+    Leave,
+}
+
+/// Text typed into the seed's field.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct SeedDraft {
+    /// The text.
+    pub text: String,
+    /// The run's seed while it was typed. A draft for another seed is dropped.
+    pub of: Seed,
+    /// Whether it was entered and is no seed.
+    pub is_refused: bool,
 }
 
 /// A robot's contact flash, as shown on the screen.
@@ -94,6 +138,65 @@ impl UiState {
     /// The theme in use: the chosen one, or the system's.
     pub fn theme(&self) -> Theme {
         self.settings.theme.theme(self.system_theme)
+    }
+
+    /// Whether something goes on that must not fade: a robot in hand, a refusal, a dialog.
+    pub fn is_busy(&self) -> bool {
+        let refused = self.widget == Widget::Atlas && self.atlas.refusal().is_some();
+        self.armed.is_some() || self.nudged.is_some() || refused || self.dialog
+    }
+
+    /// Whether a dialog or a form stands before the lab, so that no key is the lab's.
+    pub fn is_covered(&self) -> bool {
+        #[cfg(feature = "window")]
+        if self.closing.is_some() {
+            return true;
+        }
+        self.help || self.capture.open || self.dialog
+    }
+
+    /// The last message of the widget in front.
+    pub fn notice(&self) -> Option<&Notice> {
+        self.notices.get(&self.widget)
+    }
+
+    /// Shows a message in the widget in front, until it is dismissed or another comes there.
+    pub fn say(&mut self, notice: Notice) {
+        self.say_in(self.widget, notice);
+    }
+
+    /// Shows a message in this widget.
+    pub fn say_in(&mut self, widget: Widget, notice: Notice) {
+        self.notices.insert(widget, notice);
+    }
+
+    /// Dismisses the message of the widget in front.
+    pub fn hush(&mut self) {
+        self.notices.remove(&self.widget);
+    }
+
+    /// Puts another world into the atlas. The present one is put on the shelf if something of it would be lost.
+    pub fn open_world(&mut self, new: AtlasState) {
+        let new = new.like(&self.atlas);
+        let old = std::mem::replace(&mut self.atlas, new);
+        if old.has_history() {
+            self.shelf.push(old);
+        }
+    }
+
+    /// The worlds of the atlas whose edits are in no file, by their names in the list of worlds.
+    #[cfg(feature = "window")]
+    pub fn unsaved(&self) -> Vec<String> {
+        let worlds = self.shelf.iter().chain([&self.atlas]);
+        worlds.filter(|world| world.is_unsaved()).map(AtlasState::label).collect()
+    }
+
+    /// Puts the world with this index on the shelf back into the atlas.
+    pub fn take_from_shelf(&mut self, index: usize) {
+        if index < self.shelf.len() {
+            let kept = self.shelf.remove(index);
+            self.open_world(kept);
+        }
     }
 
     /// Whether to draw a robot red at `now`, seconds, when the run says `red`.

@@ -1,10 +1,11 @@
 //! The buttons above every widget: theme, keys and capture; on the dashboard also names, plots, undo, save and open.
 
-use bevy_egui::egui::{Align, Layout, RichText, Ui};
+use bevy_egui::egui::{Align, Align2, Context, Label, Layout, Rect, Ui, vec2};
 
 use super::keys::{Action, hint};
 use super::paint::button::LabButton;
 use super::paint::frame;
+use super::paint::plate::{Place, plate, refusal};
 use super::{Command, Dashboard, Look, SessionCommand, UiState, Widget, WidgetText};
 use crate::simulation::TransportCommand;
 
@@ -26,6 +27,9 @@ pub fn act(action: Action, model: &Dashboard, state: &mut UiState, commands: &mu
     }
 }
 
+/// Largest width of a notice, points.
+const MOST_NOTICE: f32 = 560.0;
+
 /// Smallest width of a title that has buttons beside it, points.
 const TITLE: f32 = 300.0;
 
@@ -45,7 +49,7 @@ pub fn header(
     let room = if narrow { 76.0 } else { buttons };
     ui.horizontal(|ui| {
         ui.vertical(|ui| {
-            ui.set_max_width(ui.available_width() - room);
+            ui.set_max_width((ui.available_width() - room).max(0.0));
             frame::title(ui, words, look);
         });
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
@@ -59,7 +63,7 @@ pub fn header(
     });
 }
 
-/// Shows the head of a widget other than the dashboard: title and buttons, colour key, hints and the last notice.
+/// Shows the head of a widget other than the dashboard: title and buttons, colour key and hints.
 pub fn head(
     ui: &mut Ui,
     words: &WidgetText,
@@ -74,7 +78,6 @@ pub fn head(
     if !narrow {
         frame::hints(ui, words, look, state);
     }
-    notice(ui, state);
     ui.add_space(6.0);
 }
 
@@ -114,24 +117,34 @@ pub fn tools(
     }
 }
 
-/// Shows the work in the background and the last notice, with links to stop the one and dismiss the other.
-pub fn notice(ui: &mut Ui, state: &mut UiState) {
-    if let Some(working) = &mut state.working {
-        frame::rows_of_words(ui, |ui| {
-            ui.label(&working.text);
-            working.stop |= ui.link("Stop").clicked();
-        });
-        // the work goes on without further input
-        ui.ctx().request_repaint_after_secs(0.2);
+/// Shows the work in the background and the last notice of the widget in front, with links to stop the one and dismiss
+/// the other. They lie over the foot of the `stage`, so that nothing moves when they come and go.
+pub fn notice(ctx: &Context, stage: Rect, look: &Look, state: &mut UiState) {
+    if state.working.is_none() && state.notice().is_none() {
+        return;
     }
-    let Some(notice) = &state.notice else { return };
-    let colour = if notice.is_error { ui.visuals().error_fg_color } else { ui.visuals().text_color() };
-    let text = RichText::new(&notice.text).color(colour);
-    let put_away = frame::rows_of_words(ui, |ui| {
-        ui.label(text);
-        ui.link("Dismiss").clicked()
+    let width = (stage.width() - 24.0).min(MOST_NOTICE);
+    let place = Place { at: stage.center_bottom() - vec2(0.0, 6.0), pivot: Align2::CENTER_BOTTOM, width };
+    let put_away = plate(ctx, "notice", place, true, look, |ui| {
+        if let Some(working) = &mut state.working {
+            frame::rows_of_words(ui, |ui| {
+                ui.label(&working.text);
+                working.stop |= ui.link("Stop").clicked();
+            });
+        }
+        let Some(notice) = state.notice() else { return false };
+        if notice.is_error {
+            refusal(ui, &notice.text, look);
+        } else {
+            ui.add(Label::new(&notice.text).wrap());
+        }
+        frame::rows_of_words(ui, |ui| ui.link("Dismiss").clicked())
     });
+    if state.working.is_some() {
+        // the work goes on without further input
+        ctx.request_repaint_after_secs(0.2);
+    }
     if put_away {
-        state.notice = None;
+        state.hush();
     }
 }

@@ -33,7 +33,7 @@ pub fn receive(world: &mut World) {
         let done = match incoming {
             Incoming::File { name, bytes } => {
                 if let Some(notice) = open(world, &name, &bytes) {
-                    world.resource_mut::<Interface>().0.notice = Some(notice);
+                    world.resource_mut::<Interface>().0.say(notice);
                 }
                 Ok(())
             }
@@ -43,7 +43,7 @@ pub fn receive(world: &mut World) {
         if let Err(error) = done {
             let text = error.to_string();
             tell(&json!({ "kind": "error", "text": text }));
-            world.resource_mut::<Interface>().0.notice = Some(Notice { text, is_error: true });
+            world.resource_mut::<Interface>().0.say(Notice { text, is_error: true });
         }
     }
     let events = world.resource_mut::<Staged>().0.pop_front().unwrap_or_default();

@@ -50,7 +50,7 @@ pub fn files(world: &mut World) {
             Ok(text) => Notice { text, is_error: false },
             Err(error) => Notice { text: format!("not saved: {error}"), is_error: true },
         };
-        world.resource_mut::<Interface>().0.notice = Some(notice);
+        world.resource_mut::<Interface>().0.say(notice);
     }
 }
 

@@ -137,10 +137,12 @@ fn start(world: &mut World) {
             Ok(notice) => notice,
             Err(error) => Some(Notice { text: error.to_string(), is_error: true }),
         };
-        world.resource_mut::<Interface>().0.notice = notice;
+        if let Some(notice) = notice {
+            world.resource_mut::<Interface>().0.say(notice);
+        }
     }
-    if refused.is_some() {
-        world.resource_mut::<Interface>().0.notice = refused;
+    if let Some(refused) = refused {
+        world.resource_mut::<Interface>().0.say(refused);
     }
     if world.resource::<Interface>().0.widget != Widget::Dashboard {
         world.resource_mut::<Transport>().playback = Playback::Paused;

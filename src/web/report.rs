@@ -123,7 +123,7 @@ fn state(world: &World) -> Value {
         "theme": if ui.theme() == Theme::Dark { "dark" } else { "light" },
         "lit": ui.lit.map(Role::name),
         "armed": ui.armed,
-        "notice": ui.notice.as_ref().map(|n| json!({ "text": n.text, "error": n.is_error })),
+        "notice": ui.notice().map(|n| json!({ "text": n.text, "error": n.is_error })),
         "robots": robots.collect::<Vec<_>>(),
     })
 }

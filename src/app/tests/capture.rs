@@ -29,7 +29,7 @@ fn done(harness: &mut Harness<'_, Lab>, order: &CaptureOrder, path: &Path) -> No
         std::thread::sleep(Duration::from_millis(5));
         follow(harness.state_mut().app.world_mut());
     }
-    ui(harness).notice.expect("something is said")
+    ui(harness).notice().cloned().expect("something is said")
 }
 
 fn png_notes(path: &Path) -> Vec<(String, String)> {

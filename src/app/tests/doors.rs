@@ -16,7 +16,7 @@ fn changes(harness: &Harness<'_, Lab>) -> Vec<WorldEvent> {
 }
 
 fn notice(harness: &Harness<'_, Lab>) -> String {
-    harness.state().app.world().resource::<Interface>().0.notice.as_ref().map_or_else(String::new, |n| n.text.clone())
+    harness.state().app.world().resource::<Interface>().0.notice().map_or_else(String::new, |n| n.text.clone())
 }
 
 #[test]

@@ -5,12 +5,13 @@ use super::*;
 #[test]
 fn the_first_hints_are_put_away_for_good() {
     let mut harness = lab(WIDE);
-    harness.state_mut().app.world_mut().resource_mut::<Interface>().0.settings.hints_seen = false;
+    harness.state_mut().app.world_mut().resource_mut::<Interface>().0.settings.hints_away.clear();
     harness.run_steps(2);
     harness.get_by_label("Drag the arm's elbow or tip.");
     click(&mut harness, "Got it");
     assert!(harness.query_by_label("Drag the arm's elbow or tip.").is_none());
-    assert!(harness.state().app.world().resource::<Interface>().0.settings.hints_seen, "the settings keep it");
+    let kept = harness.state().app.world().resource::<Interface>().0.settings.hints_away.clone();
+    assert_eq!(kept, ["dashboard"], "the settings keep it");
 }
 
 #[test]

@@ -29,7 +29,7 @@ pub fn anatomy_view(ui: &mut Ui, model: &Dashboard, look: &Look, state: &mut UiS
     let shown = &state.anatomy;
     let (backdrop, overlay) = (Arc::clone(&shown.backdrop), shown.anatomy.overlay());
     let spoken = shown.anatomy.described();
-    let on = sheet(ui, paper, spoken, &backdrop, &overlay, look, state);
+    let on = sheet(ui, paper, spoken, &backdrop, &overlay, look);
     if let Some(to) = on.held().filter(|_| on.response.dragged() || on.response.clicked()) {
         state.anatomy.anatomy.drag(to);
     }

@@ -8,7 +8,7 @@ use crate::atlas::{Atlas, Editor, GridLayer, Op, Refusal, names};
 use crate::capture::{self, AtlasSheet, Captured};
 use crate::configuration::{AnyConfiguration, Kinds};
 use crate::geometry::Point2;
-use crate::picture::{Item, Picture, Role, footprint, world as picture_of};
+use crate::picture::{Drawing, Item, Picture, Role, footprint, world as picture_of};
 use crate::recording::printed_as;
 use crate::robots::Robot;
 use crate::ui::readout;
@@ -40,6 +40,8 @@ pub struct AtlasState {
     pub(crate) editor: Editor,
     /// The file it was read from or saved in.
     path: Option<PathBuf>,
+    /// The built-in world that it began as, by the name that `World::built_in` knows.
+    built_in: Option<&'static str>,
     atlas: Atlas,
     /// The picture of the world; during a drag, with its last accepted change.
     pub(crate) still: Arc<Picture>,
@@ -76,7 +78,43 @@ impl Default for AtlasState {
 impl AtlasState {
     /// The state for a world that is in no file.
     pub fn of(world: World) -> Self {
-        AtlasState::edited(Editor::new(world))
+        let built_in = World::built_in_names().into_iter().find(|n| World::built_in(n).as_ref() == Some(&world));
+        AtlasState { built_in, ..AtlasState::edited(Editor::new(world)) }
+    }
+
+    /// The built-in world that it began as, by the name that `World::built_in` knows.
+    pub fn built_in(&self) -> Option<&'static str> {
+        self.built_in
+    }
+
+    /// Its name in the list of worlds: of the world, or of the file that it was opened from, and whether it has edits.
+    pub fn label(&self) -> String {
+        let name = if self.built_in.is_some() || self.path.is_none() { &self.world().name } else { self.editor.file() };
+        let edited = if self.has_history() { ", edited" } else { "" };
+        format!("{name}{edited}")
+    }
+
+    /// A name for its file: the one that it is in, or its own in small letters.
+    #[cfg(feature = "window")]
+    pub fn file_name(&self) -> String {
+        let in_file = self.path.as_ref().and_then(|path| path.file_name());
+        let own = || {
+            let small = self.world().name.to_lowercase();
+            let words: Vec<&str> = small.split(|c: char| !c.is_alphanumeric()).filter(|w| !w.is_empty()).collect();
+            format!("{}.ron", words.join("-"))
+        };
+        in_file.map_or_else(own, |name| name.to_string_lossy().into_owned())
+    }
+
+    /// Whether it has edits, be they undone.
+    pub fn has_history(&self) -> bool {
+        self.editor.can_undo() || self.editor.can_redo()
+    }
+
+    /// Whether it has edits that are in no file.
+    #[cfg(feature = "window")]
+    pub fn is_unsaved(&self) -> bool {
+        self.editor.can_undo() && !self.is_saved()
     }
 
     /// The state for an editor and its world.
@@ -88,6 +126,7 @@ impl AtlasState {
             warnings: editor.warnings(),
             editor,
             path: None,
+            built_in: None,
             labels: None,
             grid: None,
             mode: Mode::default(),
@@ -204,7 +243,9 @@ impl AtlasState {
         over.items.extend(picture.items.into_iter().skip(ours));
         let put = self.mode == Mode::Put;
         if let Some((q, refusal)) = self.refused.as_ref().filter(|_| put) {
-            over.items.extend(self.atlas.refusal_items(self.robot, q, refusal));
+            // its words stand on a plate, which no edge cuts
+            let items = self.atlas.refusal_items(self.robot, q, refusal);
+            over.items.extend(items.into_iter().filter(|item| !matches!(item.drawing, Drawing::Label { .. })));
         } else if let Some((q, robot)) = self.wanted.as_ref().filter(|_| put).zip(self.atlas.robots().get(self.robot)) {
             let ghost = footprint("wanted", "where it would be", &robot.robot.footprint(q), Role::Robot, 0.3);
             over.items.extend(ghost);
@@ -259,6 +300,24 @@ impl AtlasState {
         let robots: Vec<String> = lab.iter().map(|r| format!("{}: {}", r.name, r.q)).chain(others).collect();
         let refusal = self.refusal().map_or_else(String::new, |r| format!(" {r}."));
         format!("World {}. {}.{refusal}", self.world().name, robots.join("; "))
+    }
+
+    /// What was refused on the paper in this mode, in words, and where: a robot that was to be put, or an edit.
+    pub fn refused_on_paper(&self) -> Option<(String, Option<Point2>)> {
+        match self.mode {
+            Mode::Put => {
+                let robot = self.atlas.robots().get(self.robot);
+                let at = self.refused.as_ref().zip(robot).map(|((q, _), robot)| robot.robot.reference(q));
+                Some((self.refusal()?, at))
+            }
+            Mode::Edit => Some((self.message.clone()?, None)),
+            Mode::Measure => None,
+        }
+    }
+
+    /// Forgets where a robot that is not yet put was wanted.
+    pub fn forget_wanted(&mut self) {
+        self.wanted = None;
     }
 
     /// Why the robot was not put where it was wanted, and whether a free place is offered.

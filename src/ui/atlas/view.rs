@@ -1,6 +1,8 @@
 //! World atlas: worlds with their names, robots put by a click, the derived grid, and the editor.
 
-use bevy_egui::egui::{ComboBox, Key, RichText, ScrollArea, Slider, TextEdit, Ui, UiBuilder, WidgetInfo, WidgetType};
+use bevy_egui::egui::{
+    Align2, ComboBox, Key, RichText, ScrollArea, Slider, TextEdit, Ui, UiBuilder, WidgetInfo, WidgetType, vec2,
+};
 
 use super::state::{AtlasState, Mode};
 use crate::atlas::{EditShape, Op};
@@ -9,6 +11,7 @@ use crate::manifest::Widget;
 use crate::picture::{Item, Picture, Role, ScreenPoint, pick};
 use crate::ui::keys::{Action, hint};
 use crate::ui::paint::button::LabButton;
+use crate::ui::paint::plate::{Place, plate, refusal};
 use crate::ui::paint::sheet::{Sheet, sheet, split};
 use crate::ui::{Cockpit, Command, Dashboard, Look, SessionCommand, UiState, readout};
 use crate::worlds::World;
@@ -36,11 +39,19 @@ pub fn atlas_view(ui: &mut Ui, model: &Dashboard, look: &Look, state: &mut UiSta
     let at = hover.map(|p| fit.world_from_screen([f64::from(p.x), f64::from(p.y)]));
     moving.items.extend(state.atlas.probe_items(at));
     let spoken = state.atlas.described();
-    let pointed = state.pointed;
-    let on = sheet(ui, paper, spoken, &still, &moving, look, state);
-    if state.atlas.mode == Mode::Measure {
-        // the pointer is always on the thing measured, which must not light a role
-        state.pointed = pointed;
+    let on = sheet(ui, paper, spoken, &still, &moving, look);
+    // where the robot is drawn low, the words stand above it
+    let refused = state.atlas.refused_on_paper();
+    if let Some((words, at)) = &refused {
+        let low =
+            at.is_some_and(|at| on.fit.screen_from_world(at)[1] > f64::from(paper.bottom() - 0.4 * paper.height()));
+        let (at, pivot) = if low {
+            (paper.center_top() + vec2(0.0, 8.0), Align2::CENTER_TOP)
+        } else {
+            (paper.center_bottom() - vec2(0.0, 8.0), Align2::CENTER_BOTTOM)
+        };
+        let place = Place { at, pivot, width: (paper.width() - 32.0).min(440.0) };
+        plate(ui.ctx(), "refused", place, false, look, |ui| refusal(ui, words, look));
     }
     match state.atlas.mode {
         Mode::Put => put(&on, &mut state.atlas),
@@ -66,14 +77,13 @@ pub fn act(action: Action, model: &Dashboard, state: &mut UiState, commands: &mu
 
 /// Handles the pointer in put mode: a click puts the robot there, a drag turns it, a click on an offer takes it.
 fn put(on: &Sheet, atlas: &mut AtlasState) {
-    let Some(at) = on.held() else {
+    let Some(at) = on.held_anywhere() else {
         atlas.pressed = None;
+        atlas.forget_wanted();
         return;
     };
-    if on.response.drag_started() || on.response.clicked() || atlas.pressed.is_none() {
-        atlas.pressed = Some(at);
-    }
-    let from = atlas.pressed.unwrap_or(at);
+    // where the button went down, however far the pointer went before it was taken for a drag
+    let from = *atlas.pressed.get_or_insert(at);
     let way = at - from;
     let turned = way.norm() * on.fit.px_per_metre() > DRAGGED;
     let heading = turned.then(|| crate::num::atan2(way.y, way.x));
@@ -90,7 +100,13 @@ fn put(on: &Sheet, atlas: &mut AtlasState) {
 
 /// Handles the pointer in edit mode: a press selects the thing there, a drag moves it or one of its handles.
 fn edit(on: &Sheet, moving: &Picture, still: &Picture, atlas: &mut AtlasState) {
-    let Some(at) = on.held() else { return };
+    let Some(at) = on.held_anywhere() else {
+        if atlas.drag.is_some() {
+            // the button came up where no one saw it
+            atlas.end_drag();
+        }
+        return;
+    };
     let screen: ScreenPoint = on.fit.screen_from_world(at);
     if on.response.drag_started() || on.response.clicked() {
         let from =
@@ -104,7 +120,8 @@ fn edit(on: &Sheet, moving: &Picture, still: &Picture, atlas: &mut AtlasState) {
         }
         atlas.begin_drag(origin, handle);
     }
-    if on.response.dragged() {
+    // off the paper a thing stays where it was last
+    if on.response.dragged() && on.held().is_some() {
         atlas.drag_to(at, 10.0 / on.fit.px_per_metre());
     }
     if on.response.drag_stopped() || on.response.clicked() {
@@ -127,15 +144,9 @@ fn thing(item: &Item) -> Option<&str> {
 
 fn beside_the_paper(ui: &mut Ui, model: &Dashboard, look: &Look, state: &mut UiState, commands: &mut Vec<Command>) {
     ui.horizontal(|ui| {
-        let present = state.atlas.world().name.clone();
-        let choice = ComboBox::from_id_salt("world").selected_text(present.as_str()).show_ui(ui, |ui| {
-            for name in World::built_in_names() {
-                let Some(world) = World::built_in(name) else { continue };
-                if ui.selectable_label(present == world.name, &world.name).clicked() {
-                    state.atlas = AtlasState::of(world).like(&state.atlas);
-                }
-            }
-        });
+        let present = state.atlas.label();
+        let choice =
+            ComboBox::from_id_salt("world").selected_text(present.as_str()).show_ui(ui, |ui| worlds(ui, state));
         choice.response.widget_info(|| WidgetInfo {
             current_text_value: Some(present.clone()),
             ..WidgetInfo::labeled(WidgetType::ComboBox, true, "world")
@@ -157,7 +168,7 @@ fn beside_the_paper(ui: &mut Ui, model: &Dashboard, look: &Look, state: &mut UiS
     ui.checkbox(&mut state.settings.labels, "names of everything");
     match state.atlas.mode {
         Mode::Put => {
-            put_panel(ui, look, state);
+            put_panel(ui, state);
             into_the_run(ui, model, look, state, commands);
         }
         Mode::Measure => measure_panel(ui, state),
@@ -169,7 +180,36 @@ fn beside_the_paper(ui: &mut Ui, model: &Dashboard, look: &Look, state: &mut UiS
     }
 }
 
-fn put_panel(ui: &mut Ui, look: &Look, state: &mut UiState) {
+/// Shows the list of worlds: the built-in ones, each as it was left, and opened ones that have edits.
+fn worlds(ui: &mut Ui, state: &mut UiState) {
+    for name in World::built_in_names() {
+        let on_shelf = state.shelf.iter().position(|kept| kept.built_in() == Some(name));
+        if state.atlas.built_in() == Some(name) {
+            _ = ui.selectable_label(true, state.atlas.label());
+        } else if let Some(i) = on_shelf {
+            if ui.selectable_label(false, state.shelf[i].label()).clicked() {
+                state.take_from_shelf(i);
+            }
+        } else if let Some(world) = World::built_in(name)
+            && ui.selectable_label(false, &world.name).clicked()
+        {
+            state.open_world(AtlasState::of(world));
+        }
+    }
+    if state.atlas.built_in().is_none() {
+        _ = ui.selectable_label(true, state.atlas.label());
+    }
+    let opened: Vec<usize> = (0..state.shelf.len()).filter(|i| state.shelf[*i].built_in().is_none()).collect();
+    for i in opened {
+        if let Some(kept) = state.shelf.get(i)
+            && ui.selectable_label(false, kept.label()).clicked()
+        {
+            state.take_from_shelf(i);
+        }
+    }
+}
+
+fn put_panel(ui: &mut Ui, state: &mut UiState) {
     let atlas = &mut state.atlas;
     let names: Vec<String> = atlas.atlas().robots().iter().map(|r| r.name.clone()).collect();
     if names.is_empty() {
@@ -186,9 +226,6 @@ fn put_panel(ui: &mut Ui, look: &Look, state: &mut UiState) {
         for line in crate::picture::readout_lines(&readout(&robot.q.to_string()), 40) {
             ui.label(RichText::new(line).monospace());
         }
-    }
-    if let Some(words) = atlas.refusal() {
-        ui.label(RichText::new(words).color(look.colour(Role::Goal)));
     }
 }
 
@@ -272,11 +309,8 @@ fn edit_panel(ui: &mut Ui, look: &Look, state: &mut UiState) {
             atlas.undo(false);
         }
     });
-    if let Some(error) = &atlas.message {
-        ui.label(RichText::new(error).color(look.colour(Role::Goal)));
-    }
     for warning in atlas.warnings() {
-        ui.label(RichText::new(warning).color(look.colour(Role::Goal)));
+        refusal(ui, warning, look);
     }
     ui.label(if atlas.is_saved() { "saved" } else { "not saved in a file" });
     if let Some(words) = atlas.drops() {

@@ -152,8 +152,8 @@ fn world(
         let radius = (0.5 * (b.max - b.min).norm() * fit.px_per_metre()) as f32 + 4.0;
         painter.circle_stroke(pos2(x as f32, y as f32), radius.max(9.0), Stroke::new(2.0, look.colour(Role::Focus)));
     }
-    point_out(&response, &over, cockpit, &fit, state);
-    let armed = cockpit.robots.iter().find(|r| state.armed.as_ref() == Some(&r.name));
+    point_out(&response, &over, cockpit, &fit);
+    let armed = cockpit.robots.iter().find(|r| state.armed.as_ref() == Some(&r.name) || handles::have_focus(ui, r));
     let role = if armed.is_some() || response.has_focus() { Role::Focus } else { Role::Hairline };
     let width = if armed.is_some() { 2.0 } else { 1.0 };
     painter.rect_stroke(paper, 0.0, Stroke::new(width, look.colour(role)), StrokeKind::Inside);
@@ -167,7 +167,7 @@ fn world(
     let at_door = door_clicked(&response, cockpit, &fit, touch, commands);
     if response.clicked() && response.interact_pointer_pos().is_none() {
         // by a key: there is no place that was clicked
-        take_in_hand(cockpit.robots.iter().find(|r| r.drivable), state, commands);
+        take_in_hand(cockpit, state, commands);
         response.surrender_focus();
     }
     if let Some(at) = response.interact_pointer_pos().filter(|_| response.clicked() && !at_door) {
@@ -183,9 +183,8 @@ fn world(
 /// Picks the robot that was clicked; one that is picked already is taken in hand. A click on the floor lets go of it,
 /// or picks nobody.
 fn pick(shown: &CrowdPane, near: Option<u32>, picked: Option<u32>, state: &mut UiState, commands: &mut Vec<Command>) {
-    let driven = shown.cockpit.robots.iter().find(|r| r.drivable);
     if near.is_some() && near == picked {
-        take_in_hand(driven, state, commands);
+        take_in_hand(shown.cockpit, state, commands);
     } else if near.is_none() && state.armed.is_some() {
         drive::let_go(state, commands);
     } else {
@@ -301,10 +300,10 @@ fn picked(ui: &mut Ui, shown: &CrowdPane, paper: Rect, look: &Look, state: &mut 
                 camera.approach(f64::from(paper.width()), &canvas::fit(&shown.cockpit.world, paper));
             }
             if robot.drivable {
-                let is_driven = state.armed.as_ref() == Some(&robot.name);
+                let is_driven = state.armed.as_ref() == Some(&robot.name) || handles::have_focus(ui, robot);
                 let drive = LabButton::new("Drive").selected(is_driven).show(ui, look);
                 if drive.on_hover_text("Drive it with the arrow keys").clicked() {
-                    take_in_hand(Some(robot), state, commands);
+                    take_in_hand(shown.cockpit, state, commands);
                 }
             }
         });

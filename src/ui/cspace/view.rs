@@ -92,7 +92,7 @@ fn workspace(ui: &mut Ui, paper: Rect, look: &Look, state: &mut UiState) {
         overlay.items.extend(footprint("other", "the other arm with this tip", &shape, Role::Robot, 0.3));
     }
     let spoken = format!("workspace. {}", state.anatomy.anatomy.described());
-    let on = sheet(ui, paper, spoken, &still, &overlay, look, state);
+    let on = sheet(ui, paper, spoken, &still, &overlay, look);
     if let Some(to) = on.held().filter(|_| on.response.dragged() || on.response.clicked()) {
         state.anatomy.anatomy.drag(to);
         remember(state);
@@ -113,7 +113,7 @@ fn space(ui: &mut Ui, paper: Rect, look: &Look, state: &mut UiState) {
     };
     let moving = Picture::new(still.name.clone(), still.bounds).with(overlay_items(&slice, &overlay));
     let spoken = format!("configuration space. The robot is the point {}", anatomy.q());
-    let on = sheet(ui, paper, spoken, &still, &moving, look, state);
+    let on = sheet(ui, paper, spoken, &still, &moving, look);
     if let Some(to) = on.held().filter(|_| on.response.dragged() || on.response.clicked()) {
         let (min, max) = (slice.min(), slice.max());
         // on a torus the way beyond an edge goes on at the opposite one

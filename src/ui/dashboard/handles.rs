@@ -16,7 +16,7 @@ use crate::robots::{AnyRobot, Reach};
 use crate::run::{Quantized, RobotInput};
 use crate::simulation::{RobotCommand, TransportCommand};
 use crate::ui::paint::canvas;
-use crate::ui::{CockpitRobot, Command, Look, UiState, keys};
+use crate::ui::{CockpitRobot, Command, Grasp, Look, UiState, keys};
 
 /// Diameter of a handle, points.
 const DOT: f32 = 10.0;
@@ -62,8 +62,25 @@ pub fn handles(
     }
     let on = Paper { painter, fit };
     for link in 0..points.len().saturating_sub(1) {
-        state.nudging |= handle(ui, robot, link, &points, &on, look, commands);
+        let id = handle_id(robot, link);
+        match &state.grasp {
+            Some(Grasp::Take(arm)) if *arm == robot.name && link == 0 => ui.memory_mut(|m| m.request_focus(id)),
+            Some(Grasp::Leave) => ui.memory_mut(|m| m.surrender_focus(id)),
+            _ => {}
+        }
+        if handle(ui, robot, link, &points, &on, look, commands) {
+            state.nudged = Some(robot.name.clone());
+        }
     }
+}
+
+fn handle_id(robot: &CockpitRobot, link: usize) -> Id {
+    Id::new((&robot.name, "handle", link))
+}
+
+/// Whether a handle of this arm has the focus.
+pub fn have_focus(ui: &Ui, robot: &CockpitRobot) -> bool {
+    robot.is_arm && (0..robot.coordinates.len()).any(|link| ui.memory(|m| m.has_focus(handle_id(robot, link))))
 }
 
 fn over(items: Vec<Item>) -> Picture {
@@ -92,7 +109,7 @@ fn handle(
     let [x, y] = fit.screen_from_world(points[link + 1]);
     let at = pos2(x as f32, y as f32);
     let size = if ui.spacing().interact_size.y > HIT { ui.spacing().interact_size.y } else { HIT };
-    let id = Id::new((&robot.name, "handle", link));
+    let id = handle_id(robot, link);
     let response = ui.interact(Rect::from_center_size(at, Vec2::splat(size)), id, Sense::click_and_drag());
     let angle = angles(robot).get(link).copied().unwrap_or_default();
     let label = format!("{}: {name}, theta{} in radians", robot.name, link + 1);
@@ -155,7 +172,7 @@ fn nudge(ui: &Ui, id: Id, robot: &CockpitRobot, link: usize, commands: &mut Vec<
 
 /// Shows the joint angles as numbers to type or drag; for an arm of three links also the slider that keeps its tip in
 /// place.
-pub fn numbers(ui: &mut Ui, robot: &CockpitRobot, look: &Look, state: &mut UiState, commands: &mut Vec<Command>) {
+pub fn numbers(ui: &mut Ui, robot: &CockpitRobot, look: &Look, commands: &mut Vec<Command>) {
     let mut to = angles(robot).clone();
     let mut changed = false;
     ui.horizontal(|ui| {
@@ -170,9 +187,6 @@ pub fn numbers(ui: &mut Ui, robot: &CockpitRobot, look: &Look, state: &mut UiSta
             });
             if response.drag_started() || response.gained_focus() {
                 checkpoint(commands);
-            }
-            if response.hovered() {
-                state.pointed = Some(Role::Robot);
             }
             changed |= response.changed();
         }

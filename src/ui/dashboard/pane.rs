@@ -3,8 +3,8 @@
 use std::sync::Arc;
 
 use bevy_egui::egui::{
-    Align, CursorIcon, Id, Label, Layout, Rect, Response, RichText, Sense, Stroke, StrokeKind, TextStyle, TextWrapMode,
-    Ui, UiBuilder, Vec2, WidgetInfo, WidgetType, pos2, vec2,
+    Align, CursorIcon, Id, Label, Layout, Rect, Response, RichText, ScrollArea, Sense, Stroke, StrokeKind, TextStyle,
+    TextWrapMode, Ui, UiBuilder, Vec2, WidgetInfo, WidgetType, pos2, vec2,
 };
 
 use super::goal::trailer_of;
@@ -16,7 +16,9 @@ use crate::picture::{Drawing, Fit, Item, Picture, Role, ScaleBar, ScanDrawing, f
 use crate::run::RobotInput;
 use crate::simulation::{RobotCommand, SensorView, TransportCommand};
 use crate::ui::paint::{canvas, frame};
-use crate::ui::{Cockpit, CockpitRobot, Command, Look, ParkingGoal, SessionCommand, UiState, readout, readout_lines};
+use crate::ui::{
+    Cockpit, CockpitRobot, Command, Grasp, Look, Notice, ParkingGoal, SessionCommand, UiState, readout, readout_lines,
+};
 
 /// Rows of text kept free under a pane for each robot, so that panes do not jump when a trailer is put on.
 const ROWS: f32 = 8.0;
@@ -31,7 +33,7 @@ const TOUCH: f64 = 18.0;
 /// Height of the text under the paper of a pane of `robots` robots, points. More than three count as three.
 pub fn text_height(ui: &Ui, robots: usize) -> f32 {
     let row = ui.text_style_height(&TextStyle::Monospace) + 4.0;
-    8.0 + row * ROWS * robots.clamp(1, 3) as f32
+    16.0 + row * ROWS * robots.clamp(1, 3) as f32
 }
 
 /// Shows one cockpit: its paper, as square as fits, and name, space, readout and counts under it.
@@ -49,9 +51,9 @@ pub fn pane(ui: &mut Ui, cockpit: &Cockpit, rect: Rect, look: &Look, state: &mut
     }
     let over = over.with(robots(ui, cockpit, state));
     canvas::paint(&painter, &over, &fit, look);
-    point_out(&response, &over, cockpit, &fit, state);
-    let driven = cockpit.robots.iter().find(|r| r.drivable);
-    let armed = driven.filter(|r| state.armed.as_ref() == Some(&r.name));
+    point_out(&response, &over, cockpit, &fit);
+    let driven = in_reach(cockpit);
+    let armed = driven.filter(|r| state.armed.as_ref() == Some(&r.name) || handles::have_focus(ui, r));
     let role = if armed.is_some() || response.has_focus() { Role::Focus } else { Role::Hairline };
     let width = if armed.is_some() { 2.0 } else { 1.0 };
     painter.rect_stroke(paper, 0.0, Stroke::new(width, look.colour(role)), StrokeKind::Inside);
@@ -65,17 +67,27 @@ pub fn pane(ui: &mut Ui, cockpit: &Cockpit, rect: Rect, look: &Look, state: &mut
     let at_door = door_clicked(&response, cockpit, &fit, touched(ui), commands);
     // with a mouse, Esc lets go; a finger has no Esc, so a second tap does
     if response.clicked() && !at_door && (armed.is_none() || touched(ui)) {
-        take_in_hand(driven, state, commands);
+        take_in_hand(cockpit, state, commands);
+        ui.ctx().request_repaint();
         // the arrow keys drive the robot from now on, also when Tab led here
         response.surrender_focus();
     }
     if let Some(robot) = driven.filter(|_| armed.is_none() && !at_door) {
-        response.on_hover_text_at_pointer(format!("Click to drive {}", robot.name));
+        let words = if robot.is_arm {
+            format!("{} is moved by its joints: {}", robot.name, joints_to_drag(robot))
+        } else {
+            format!("Click to drive {}", robot.name)
+        };
+        response.on_hover_text_at_pointer(words);
     }
     let below = Rect::from_min_max(pos2(rect.left(), paper.bottom() + 6.0), rect.max);
     let mut ui = ui.new_child(UiBuilder::new().max_rect(below).layout(Layout::top_down(Align::Min)));
     ui.spacing_mut().interact_size.y = 0.0; // no row of words is as high as a button
-    words(&mut ui, cockpit, &fit, look, state, commands);
+    // where the words need more room than there is, none is cut
+    let words_of = Id::new(("words", &cockpit.world.name));
+    ScrollArea::vertical().id_salt(words_of).auto_shrink(false).show(&mut ui, |ui| {
+        words(ui, cockpit, &fit, look, state, commands);
+    });
 }
 
 /// The cockpit's robots one by one: their scans, their goals, and over them their bodies.
@@ -149,11 +161,33 @@ struct KeptNames {
     items: Vec<Item>,
 }
 
-/// Takes a robot in hand; lets go of it if it was in hand already.
-pub fn take_in_hand(robot: Option<&CockpitRobot>, state: &mut UiState, commands: &mut Vec<Command>) {
-    let again = robot.is_some_and(|r| state.armed.as_ref() == Some(&r.name));
+/// The robot of a pane that can be taken in hand: the first that is driven by channels, else the first arm.
+pub fn in_reach(cockpit: &Cockpit) -> Option<&CockpitRobot> {
+    let robots = || cockpit.robots.iter();
+    robots().find(|r| r.drivable).or_else(|| robots().find(|r| r.is_arm))
+}
+
+/// Takes a pane's robot in hand, of an arm its first handle; lets go of it if it was in hand already. Says so where
+/// there is nothing to take.
+pub fn take_in_hand(cockpit: &Cockpit, state: &mut UiState, commands: &mut Vec<Command>) {
+    let robot = in_reach(cockpit);
+    let again = robot.is_some_and(|r| [&state.armed, &state.nudged].contains(&&Some(r.name.clone())));
     drive::let_go(state, commands);
-    state.armed = robot.filter(|_| !again).map(|r| r.name.clone());
+    state.next_grasp = Some(Grasp::Leave);
+    match robot {
+        Some(_) if again => {}
+        Some(robot) if robot.is_arm => state.next_grasp = Some(Grasp::Take(robot.name.clone())),
+        Some(robot) => state.armed = Some(robot.name.clone()),
+        None => {
+            let text = format!("no robot of {} can be driven", cockpit.world.name);
+            state.say(Notice { text, is_error: false });
+        }
+    }
+}
+
+/// What of an arm is dragged: `drag its elbow or tip`.
+fn joints_to_drag(arm: &CockpitRobot) -> &'static str {
+    if arm.coordinates.len() == 2 { "drag its elbow or tip" } else { "drag its joints or tip" }
 }
 
 /// Whether the lab is used by touch: a finger is on the screen, or controls are as large as a fingertip.
@@ -165,34 +199,34 @@ pub fn touched(ui: &Ui) -> bool {
 pub fn in_hand(ui: &mut Ui, robot: &CockpitRobot, paper: Rect, look: &Look, state: &mut UiState) {
     let sideways = robot.trailer.is_some() && state.held.0 == 0 && state.held.1 != 0;
     let touched = touched(ui);
-    let words = if sideways {
-        "steering alone moves nothing: no input moves a car sideways"
+    let words = if robot.is_arm {
+        let finely = if touched { "" } else { "; arrows turn the joint, with Shift finely, Esc lets go" };
+        format!("{}{finely}", joints_to_drag(robot))
+    } else if sideways {
+        "steering alone moves nothing: no input moves a car sideways".to_owned()
     } else if touched {
-        "the pad drives, a tap beside it lets go"
+        "the pad drives, a tap beside it lets go".to_owned()
     } else {
-        "arrows drive, Esc lets go"
+        "arrows drive, Esc lets go".to_owned()
     };
     let font = TextStyle::Body.resolve(ui.style());
-    let galley = ui.painter().layout(words.into(), font, look.colour(Role::Text), paper.width() - 24.0);
+    let galley = ui.painter().layout(words, font, look.colour(Role::Text), paper.width() - 24.0);
     let rect = Rect::from_min_size(paper.min + vec2(8.0, 8.0), galley.size()).expand2(vec2(4.0, 2.0));
-    ui.painter().rect_filled(rect, 2.0, look.tint(Role::Paper, 0.9));
+    // opaque and square: rounded corners of a tint leave dots
+    ui.painter().rect_filled(rect, 0.0, look.theme.colour(Role::Paper));
     ui.painter().galley(paper.min + vec2(8.0, 8.0), galley, look.colour(Role::Text));
-    if touched {
+    if touched && robot.drivable {
         pad::pad(ui, &robot.name, paper, look, state);
     }
 }
 
-/// Lights the role of the drawn thing that is pointed at, and names an obstacle.
-pub fn point_out(response: &Response, over: &Picture, cockpit: &Cockpit, fit: &Fit, state: &mut UiState) {
+/// Names the obstacle that is pointed at.
+pub fn point_out(response: &Response, over: &Picture, cockpit: &Cockpit, fit: &Fit) {
     let Some(at) = response.hover_pos().filter(|_| response.hovered() && frame::rests(response)) else { return };
     let at = [f64::from(at.x), f64::from(at.y)];
     let item = pick(over, fit, at, REACH).or_else(|| pick(&cockpit.world, fit, at, REACH));
-    if let Some(item) = item.filter(|i| i.role != Role::Muted && i.role != Role::Paper) {
-        state.pointed = Some(item.role);
-        if item.role == Role::Obstacle {
-            let name = item.name.clone();
-            response.clone().on_hover_text_at_pointer(name);
-        }
+    if let Some(item) = item.filter(|i| i.role == Role::Obstacle) {
+        response.clone().on_hover_text_at_pointer(item.name.as_str());
     }
 }
 
@@ -212,22 +246,21 @@ pub fn robot_words(ui: &mut Ui, robot: &CockpitRobot, look: &Look, state: &mut U
     if let Some(space) = robot.about.and_then(|about| about.space(robot.coordinates.len())) {
         frame::formula(ui, &Formula::of(space), space.words, look, state);
     }
-    readouts(ui, robot, look, state);
-    counts(ui, robot, look, state);
+    readouts(ui, robot, look);
+    counts(ui, robot, look);
     if robot.is_arm {
-        handles::numbers(ui, robot, look, state, commands);
+        handles::numbers(ui, robot, look, commands);
     }
-    links(ui, robot, state, commands);
+    links(ui, robot, look, state, commands);
 }
 
-/// Shows the configuration as its type prints it. Pointing lights the robot; a click copies every digit.
-fn readouts(ui: &mut Ui, robot: &CockpitRobot, look: &Look, state: &mut UiState) {
+/// Shows the configuration as its type prints it. A click copies every digit.
+fn readouts(ui: &mut Ui, robot: &CockpitRobot, look: &Look) {
     let figure = TextStyle::Monospace.resolve(ui.style());
     let width = ui.ctx().fonts_mut(|f| f.glyph_width(&figure, '0'));
     for line in readout_lines(&readout(&robot.readout), (ui.available_width() / width) as usize) {
         let text = RichText::new(line).monospace().color(look.colour(Role::Text));
         let response = ui.add(Label::new(text).sense(Sense::click()));
-        frame::points_at(state, &response, Role::Robot);
         if response.clicked() {
             ui.ctx().copy_text(robot.in_full.clone());
         }
@@ -235,7 +268,7 @@ fn readouts(ui: &mut Ui, robot: &CockpitRobot, look: &Look, state: &mut UiState)
     }
 }
 
-fn counts(ui: &mut Ui, robot: &CockpitRobot, look: &Look, state: &mut UiState) {
+fn counts(ui: &mut Ui, robot: &CockpitRobot, look: &Look) {
     let mut text = format!("contacts: {}", robot.contacts);
     if let Some(tip) = robot.tip {
         text += &readout(&format!("  tip: ({:.3}, {:.3})", tip.x, tip.y));
@@ -247,13 +280,16 @@ fn counts(ui: &mut Ui, robot: &CockpitRobot, look: &Look, state: &mut UiState) {
         text += "  driven by hand";
     }
     let text = RichText::new(text).monospace().color(look.colour(Role::Muted));
-    let response = ui.add(Label::new(text).sense(Sense::hover()));
-    frame::points_at(state, &response, Role::Goal);
+    ui.label(text);
 }
 
 /// Shows links for what can be done with a robot besides driving it.
-fn links(ui: &mut Ui, robot: &CockpitRobot, state: &mut UiState, commands: &mut Vec<Command>) {
+fn links(ui: &mut Ui, robot: &CockpitRobot, look: &Look, state: &mut UiState, commands: &mut Vec<Command>) {
     let goal = state.goal.clone().filter(|(name, _)| *name == robot.name);
+    if let Some(why) = &robot.no_room {
+        let words = format!("no room for a trailer: {why}");
+        ui.add(Label::new(RichText::new(words).color(look.colour(Role::Muted))).wrap());
+    }
     // rows that wrap are as high as their words
     ui.spacing_mut().interact_size.y = ui.text_style_height(&TextStyle::Body);
     ui.horizontal_wrapped(|ui| {
@@ -262,16 +298,11 @@ fn links(ui: &mut Ui, robot: &CockpitRobot, state: &mut UiState, commands: &mut 
             commands.push(Command::from(TransportCommand::Checkpoint));
             commands.push(Command::from(RobotCommand { robot: robot.name.clone(), input }));
         };
-        if let Some(why) = &robot.no_room {
-            ui.weak(format!("no room for a trailer: {why}"));
-        } else if let Some(on) = robot.trailer {
+        if let Some(on) = robot.trailer.filter(|_| robot.no_room.is_none()) {
             let words = if on { "take the trailer off" } else { "put a trailer on" };
             if ui.link(words).clicked() {
                 put_in(RobotInput::SetTrailer(!on));
             }
-        }
-        if robot.waiting {
-            ui.weak("comes with the next tick");
         }
         if robot.manual && ui.link("resume tour").clicked() {
             put_in(RobotInput::Release);
@@ -305,10 +336,13 @@ fn links(ui: &mut Ui, robot: &CockpitRobot, state: &mut UiState, commands: &mut 
             }
             (None, None) => {}
         }
+        // at the end of the row, where it moves no link when it comes
+        if robot.waiting {
+            ui.weak("comes with the next tick");
+        }
     });
     if let Some((_, goal)) = goal {
-        let text = RichText::new(goal.words(&robot.footprint, robot.reversals)).strong();
-        frame::points_at(state, &ui.add(Label::new(text).sense(Sense::hover())), Role::Goal);
+        ui.label(RichText::new(goal.words(&robot.footprint, robot.reversals)).strong());
     }
 }
 

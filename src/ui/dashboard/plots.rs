@@ -1,7 +1,7 @@
 //! Plots of the run's history, with a cursor at the present tick.
 
-use bevy_egui::egui::{RichText, TextStyle, Ui};
-use egui_plot::{Line, LineStyle, Plot, PlotPoints, VLine};
+use bevy_egui::egui::{FontId, Rangef, RichText, ScrollArea, TextStyle, TextWrapMode, Ui};
+use egui_plot::{AxisHints, GridMark, Line, LineStyle, Plot, PlotPoints, VLine};
 
 use crate::configuration::RobotKind;
 use crate::picture::Role;
@@ -11,6 +11,12 @@ use crate::ui::{Command, Dashboard, Look, UiState};
 
 /// Largest number of points of a line.
 const POINTS: usize = 400;
+
+/// Least height of a plot with its axis, points: three numbers fit beside it.
+const LEAST_HEIGHT: f32 = 96.0;
+
+/// Size of the numbers at the axes, points.
+const TICK_SIZE: f32 = 10.0;
 
 /// A line of a plot: which robots it is drawn for, its name, its value.
 struct Channel {
@@ -111,12 +117,16 @@ pub fn plots(
         ui.weak("Choose a plot.");
         return;
     }
-    let title = 2.0 * ui.text_style_height(&TextStyle::Small) + 12.0;
-    let height = (ui.available_height() / shown.len() as f32 - title).clamp(70.0, 260.0);
-    for graph in shown {
-        legend(ui, graph, model, look);
-        plot(ui, graph, height, model, history, look, commands);
-    }
+    let words = 3.0 * ui.text_style_height(&TextStyle::Small) + 12.0;
+    let room = ui.max_rect().bottom() - ui.cursor().top();
+    let height = (room / shown.len() as f32 - words).clamp(LEAST_HEIGHT, 260.0);
+    // where not all fit, none is cut
+    ScrollArea::vertical().id_salt("plots").auto_shrink(false).show(ui, |ui| {
+        for graph in shown {
+            legend(ui, graph, model, look);
+            plot(ui, graph, height, model, history, look, commands);
+        }
+    });
 }
 
 /// The lines of a plot: the id of the robot, its name with the channel's or the coordinate's, and the value.
@@ -138,12 +148,14 @@ fn lines<'a>(graph: &'a Graph, model: &'a Dashboard) -> impl Iterator<Item = (u3
     channels.chain(angles)
 }
 
-/// Shows the title of a plot and the names of its lines, each with its colour and dash.
+/// Shows the title of a plot and under it the names of its lines, each with its colour and dash.
 fn legend(ui: &mut Ui, graph: &Graph, model: &Dashboard, look: &Look) {
+    ui.label(RichText::new(graph.title).small().color(look.colour(Role::Text)));
     ui.horizontal_wrapped(|ui| {
         ui.spacing_mut().interact_size.y = ui.text_style_height(&TextStyle::Small);
         ui.spacing_mut().item_spacing.x = 6.0;
-        ui.label(RichText::new(graph.title).small().color(look.colour(Role::Text)));
+        // a name goes to the next row as a whole
+        ui.style_mut().wrap_mode = Some(TextWrapMode::Extend);
         for (number, (_, name, _)) in lines(graph, model).enumerate() {
             let (colour, style) = line_of(number, look);
             let dash = match style {
@@ -156,6 +168,32 @@ fn legend(ui: &mut Ui, graph: &Graph, model: &Dashboard, look: &Look) {
     });
 }
 
+/// Marks of an axis from `least` to `most`: at least three and at most six, at multiples of 1, 2, 2.5 or 5 times a
+/// power of ten.
+fn marks(least: f64, most: f64) -> Vec<GridMark> {
+    let multiples = |step: f64| ((least / step).ceil(), (most / step).floor());
+    let powers = [1e6, 1e5, 1e4, 1e3, 100.0, 10.0, 1.0, 0.1, 0.01, 1e-3, 1e-4, 1e-5, 1e-6];
+    let mut steps = powers.into_iter().flat_map(|power| [5.0, 2.5, 2.0, 1.0].map(|times| times * power));
+    let is_fine = |step: &f64| {
+        let (first, last) = multiples(*step);
+        last - first >= 2.0 && last - first < 100.0
+    };
+    let Some(step_size) = steps.find(is_fine) else { return vec![] };
+    let (first, last) = multiples(step_size);
+    let count = (last - first) as usize;
+    (0..=count).map(|i| GridMark { value: (first + i as f64) * step_size, step_size }).collect()
+}
+
+/// The number at a mark, with the decimals that its step needs.
+fn number(mark: &GridMark) -> String {
+    let is_whole = |decimals: &usize| {
+        let scaled = [1.0, 10.0, 100.0, 1e3, 1e4, 1e5, 1e6][*decimals] * mark.step_size;
+        (scaled - scaled.round()).abs() < 1e-6 * scaled
+    };
+    let decimals = (0..6).find(is_whole).unwrap_or(6);
+    format!("{:.decimals$}", mark.value + 0.0).replace('-', "\u{2212}")
+}
+
 fn plot(
     ui: &mut Ui,
     graph: &Graph,
@@ -166,7 +204,18 @@ fn plot(
     commands: &mut Vec<Command>,
 ) {
     let end = DT * model.frontier.max(1) as f64;
+    let axis = |hints: AxisHints<'static>, least: f32, unit: &'static str| {
+        hints
+            .formatter(move |mark, _| number(&mark) + unit)
+            .label_spacing(Rangef::new(least, least + 1.0))
+            .tick_label_font(FontId::proportional(TICK_SIZE))
+            .tick_label_color(look.colour(Role::Muted))
+    };
     let response = Plot::new(graph.title)
+        .custom_x_axes(vec![axis(AxisHints::new_x(), 24.0, " s")])
+        .custom_y_axes(vec![axis(AxisHints::new_y(), 6.0, "")])
+        .x_grid_spacer(|input| marks(input.bounds.0, input.bounds.1))
+        .y_grid_spacer(|input| marks(input.bounds.0, input.bounds.1))
         .height(height)
         .allow_drag(false)
         .allow_zoom(false)
@@ -210,5 +259,23 @@ mod tests {
         let lengths = |wraps| unbroken(&points, wraps).map(<[_]>::len).collect::<Vec<_>>();
         assert_eq!(lengths(true), [2, 2, 1]);
         assert_eq!(lengths(false), [5]);
+    }
+    #[test]
+    fn an_axis_has_three_to_six_round_numbers() {
+        let said = |least, most| marks(least, most).iter().map(number).collect::<Vec<_>>();
+        assert_eq!(said(-0.1, 1.05), ["0.0", "0.5", "1.0"]);
+        assert_eq!(said(-3.3, 3.3), ["\u{2212}2.5", "0.0", "2.5"]);
+        assert_eq!(said(0.0, 60.0), ["0", "25", "50"]);
+        assert_eq!(said(1.001, 1.0042), ["1.001", "1.002", "1.003", "1.004"]);
+        assert!(said(0.0, 0.0).is_empty() && said(f64::NAN, 1.0).is_empty() && said(0.0, f64::INFINITY).is_empty());
+        let mut width = 1e-4;
+        while width < 1e5 {
+            for least in [-0.37 * width, 0.0, 0.81 * width, 17.3 * width] {
+                let found = marks(least, least + width);
+                assert!((3..=6).contains(&found.len()), "{least} and {width} on: {found:?}");
+                assert!(found.iter().all(|m| (least..=least + width).contains(&m.value)));
+            }
+            width *= 1.13;
+        }
     }
 }

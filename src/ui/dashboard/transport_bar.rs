@@ -1,6 +1,8 @@
 //! The transport bar: the time line, play and pause, steps, loop, reset, re-roll, the speed, the seed, the time.
 
-use bevy_egui::egui::{Align, ComboBox, Key, Layout, RichText, TextEdit, TextStyle, Ui, WidgetInfo, WidgetType, vec2};
+use bevy_egui::egui::{
+    Align, Align2, ComboBox, Key, Layout, RichText, TextEdit, TextStyle, Ui, WidgetInfo, WidgetType, vec2,
+};
 
 use super::time_line::time_line;
 use crate::picture::Role;
@@ -9,7 +11,8 @@ use crate::run::DT;
 use crate::simulation::{History, TransportCommand};
 use crate::ui::keys::{Action, hint};
 use crate::ui::paint::button::LabButton;
-use crate::ui::{Command, Dashboard, Look, Notice, UiState};
+use crate::ui::paint::plate::{Place, plate, refusal};
+use crate::ui::{Command, Dashboard, Look, SeedDraft, UiState};
 
 /// The speeds to choose from, simulated seconds per second of the clock.
 const SPEEDS: [(f64, &str); 11] = [
@@ -150,7 +153,7 @@ fn speed_choice(ui: &mut Ui, model: &Dashboard, commands: &mut Vec<Command>) {
 
 /// Shows the seed, and at the right end the time.
 fn seed_and_time(ui: &mut Ui, model: &Dashboard, look: &Look, state: &mut UiState, commands: &mut Vec<Command>) {
-    if let Some(seed) = seed_field(ui, model.seed, state) {
+    if let Some(seed) = seed_field(ui, model.seed, look, state) {
         commands.push(Command::from(TransportCommand::SetSeed(seed)));
     }
     ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
@@ -163,27 +166,27 @@ fn seed_and_time(ui: &mut Ui, model: &Dashboard, look: &Look, state: &mut UiStat
     });
 }
 
-/// Shows the seed as an editable field and returns a new one when Enter is pressed. Text that is no seed gives way to
-/// the present seed, and a notice says so.
-fn seed_field(ui: &mut Ui, seed: Seed, state: &mut UiState) -> Option<Seed> {
+/// Shows the seed as an editable field and returns a new one when Enter is pressed. Text that is no seed stays for
+/// mending, with the reason at the field, until it is a seed or Escape puts the present one back.
+fn seed_field(ui: &mut Ui, seed: Seed, look: &Look, state: &mut UiState) -> Option<Seed> {
     let label = ui.label("seed");
-    let mut text = state.seed_text.take().unwrap_or_else(|| seed.0.to_string());
+    let draft = state.seed.take().filter(|draft| draft.of == seed);
+    let was_refused = draft.as_ref().is_some_and(|draft| draft.is_refused);
+    let mut text = draft.map_or_else(|| seed.0.to_string(), |draft| draft.text);
     let field = TextEdit::singleline(&mut text).desired_width(56.0).font(TextStyle::Monospace);
     let field = field.vertical_align(Align::Center).min_size(vec2(0.0, ui.spacing().interact_size.y));
     let response = ui.add(field).labelled_by(label.id);
-    if response.has_focus() {
-        state.seed_text = Some(text);
-        return None;
+    let typed: Option<Seed> = text.trim().parse().map(Seed).ok();
+    let left_by = |key| response.lost_focus() && ui.input(|i| i.key_pressed(key));
+    let is_refused = typed.is_none() && (was_refused || left_by(Key::Enter)) && !left_by(Key::Escape);
+    if is_refused {
+        let place = Place { at: label.rect.left_top() - vec2(0.0, 6.0), pivot: Align2::LEFT_BOTTOM, width: 340.0 };
+        let words = format!("{}: a seed is a whole number from 0 to {}", text.trim(), u64::MAX);
+        plate(ui.ctx(), "seed", place, false, look, |ui| refusal(ui, &words, look));
     }
-    if !(response.lost_focus() && ui.input(|i| i.key_pressed(Key::Enter))) {
-        return None;
+    let entered = left_by(Key::Enter);
+    if is_refused || response.has_focus() {
+        state.seed = Some(SeedDraft { text, of: seed, is_refused });
     }
-    match text.trim().parse().map(Seed) {
-        Ok(new) => Some(new).filter(|new| *new != seed),
-        Err(_) => {
-            let text = format!("seed {}: it must be a whole number, at most {}", text.trim(), u64::MAX);
-            state.notice = Some(Notice { text, is_error: true });
-            None
-        }
-    }
+    typed.filter(|new| entered && *new != seed)
 }

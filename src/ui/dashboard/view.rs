@@ -11,7 +11,7 @@ use crate::simulation::History;
 use crate::ui::crowd::pane::{CrowdPane, crowd_pane};
 use crate::ui::keys::Action;
 use crate::ui::paint::frame;
-use crate::ui::{Cockpit, Command, Dashboard, Look, UiState, tools};
+use crate::ui::{Cockpit, Command, Dashboard, Look, Notice, UiState, tools};
 
 /// Gap between panes, and between the panes and the window's border, points.
 const GAP: f32 = 20.0;
@@ -19,7 +19,8 @@ const GAP: f32 = 20.0;
 /// Width of the panel of plots at the side, points.
 const SHEET: f32 = 320.0;
 
-/// Shows the dashboard over what is left of `ui`; what is pressed is pushed onto `commands`.
+/// Shows the dashboard over what is left of `ui`; what is pressed is pushed onto `commands`. Returns the rectangle of
+/// the panes.
 pub fn dashboard(
     ui: &mut Ui,
     model: &Dashboard,
@@ -27,7 +28,7 @@ pub fn dashboard(
     look: &Look,
     state: &mut UiState,
     commands: &mut Vec<Command>,
-) {
+) -> Rect {
     let narrow = look.narrow;
     let side = if narrow { 12 } else { GAP as i8 };
     Panel::bottom("transport")
@@ -41,12 +42,12 @@ pub fn dashboard(
             .frame(Frame::NONE.inner_margin(margin))
             .show(ui, |ui| plots(ui, model, history, look, state, commands));
     }
-    CentralPanel::default().frame(Frame::NONE.inner_margin(Margin::symmetric(side, 14))).show(ui, |ui| {
+    let panel = CentralPanel::default().frame(Frame::NONE.inner_margin(Margin::symmetric(side, 14))).show(ui, |ui| {
         header(ui, model, look, state, commands);
         ui.add_space(8.0);
         if narrow {
             if state.settings.plots {
-                ScrollArea::vertical().show(ui, |ui| plots(ui, model, history, look, state, commands));
+                plots(ui, model, history, look, state, commands);
             } else {
                 one_pane(ui, &Panes { model, history }, look, state, commands);
             }
@@ -54,6 +55,7 @@ pub fn dashboard(
             all_panes(ui, &Panes { model, history }, look, state, commands);
         }
     });
+    panel.response.rect
 }
 
 /// Carries out the action of a key while the dashboard is in front.
@@ -63,10 +65,15 @@ pub fn act(action: Action, model: &Dashboard, state: &mut UiState, commands: &mu
         Action::Arm(pane) => {
             if let Some(cockpit) = model.cockpits.get(pane) {
                 state.settings.world = pane as u32;
+                // a narrow screen shows either the plots or a pane
+                state.settings.plots &= !state.is_narrow;
                 if let Some(crowd) = cockpit.crowd.as_ref().filter(|crowd| state.crowd.picked_in(crowd).is_none()) {
                     state.crowd.pick(crowd, Some(crowd.first));
                 }
-                take_in_hand(cockpit.robots.iter().find(|r| r.drivable), state, commands);
+                take_in_hand(cockpit, state, commands);
+            } else {
+                let text = format!("the run has no world number {}", pane + 1);
+                state.say(Notice { text, is_error: false });
             }
         }
         action => {
@@ -81,7 +88,6 @@ fn header(ui: &mut Ui, model: &Dashboard, look: &Look, state: &mut UiState, comm
     tools::header(ui, words, model, look, state, commands);
     frame::key_row(ui, words, look, state);
     frame::hints(ui, words, look, state);
-    tools::notice(ui, state);
 }
 
 fn one_pane(ui: &mut Ui, panes: &Panes, look: &Look, state: &mut UiState, commands: &mut Vec<Command>) {

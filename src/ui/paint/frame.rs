@@ -138,9 +138,9 @@ pub fn formula(ui: &mut Ui, formula: &Formula, spoken: &str, look: &Look, state:
     response.on_hover_text(spoken);
 }
 
-/// Shows what a new reader may try first, until the hints are dismissed.
+/// Shows what a new reader may try first in the widget in front, until its hints are put away.
 pub fn hints(ui: &mut Ui, widget: &WidgetText, look: &Look, state: &mut UiState) {
-    if state.settings.hints_seen {
+    if state.settings.are_hints_away(state.widget) {
         return;
     }
     rows_of_words(ui, |ui| {
@@ -151,7 +151,7 @@ pub fn hints(ui: &mut Ui, widget: &WidgetText, look: &Look, state: &mut UiState)
             ui.label(RichText::new(hint).color(look.theme.colour(Role::Text)));
         }
         if ui.link("Got it").on_hover_text("Put these hints away").clicked() {
-            state.settings.hints_seen = true;
+            state.settings.put_hints_away(state.widget);
         }
     });
 }

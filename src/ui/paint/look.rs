@@ -5,9 +5,6 @@ use bevy_egui::egui::{Color32, Id, Ui};
 use crate::picture::{Role, Theme};
 use crate::ui::UiState;
 
-/// Opacity of a role while another is fully lit, from 0 to 1.
-const FADED: f64 = 0.3;
-
 /// Duration of a fade, seconds.
 const FADE_SECONDS: f32 = 0.12;
 
@@ -31,15 +28,18 @@ impl From<Theme> for Look {
 
 impl Look {
     /// The look of this frame, which lights the role that was pointed at in the last one.
+    ///
+    /// While a robot is in hand, a drag or a refusal is on, or a dialog is open, nothing is lit and nothing fades.
     pub fn of(ui: &Ui, state: &mut UiState, narrow: bool) -> Self {
-        let pointed = state.pointed.take().or(state.page_lit);
+        let is_busy = state.is_busy() || ui.ctx().dragged_id().is_some();
+        let pointed = state.pointed.take().or(state.page_lit).filter(|_| !is_busy);
         if pointed != state.lit && pointed.is_some() {
             state.lit = pointed;
         }
         let id = Id::new("lit role");
-        let seconds = if state.settings.reduced_motion { 0.0 } else { FADE_SECONDS };
+        let seconds = if state.settings.reduced_motion || is_busy { 0.0 } else { FADE_SECONDS };
         let strength = ui.ctx().animate_bool_with_time(id, pointed.is_some(), seconds);
-        if strength == 0.0 && pointed.is_none() {
+        if is_busy || strength == 0.0 && pointed.is_none() {
             state.lit = None;
         }
         Look { theme: state.theme(), narrow, lit: state.lit, strength: f64::from(strength) }
@@ -47,8 +47,8 @@ impl Look {
 
     /// The opacity of a role, from 0 to 1.
     fn left(&self, role: Role) -> f64 {
-        let stays = matches!(role, Role::Paper | Role::Hairline) || self.lit.is_none_or(|lit| lit == role);
-        if stays { 1.0 } else { 1.0 - self.strength * (1.0 - FADED) }
+        let stays = self.lit.is_none_or(|lit| lit == role);
+        if stays { 1.0 } else { 1.0 - self.strength * (1.0 - self.theme.faintest(role)) }
     }
 
     /// The colour of a role.
@@ -70,6 +70,7 @@ impl Look {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::num::{exp, ln};
 
     #[test]
     fn one_role_is_lit_and_all_others_stand_back() {
@@ -77,9 +78,38 @@ mod tests {
             let look = Look { theme, narrow: false, lit: Some(Role::Robot), strength: 1.0 };
             assert_eq!(look.colour(Role::Robot), theme.colour(Role::Robot));
             assert_eq!(look.colour(Role::Paper), theme.colour(Role::Paper));
-            for role in [Role::Obstacle, Role::Goal, Role::Sensor, Role::Text, Role::Muted, Role::Focus] {
-                assert_eq!(look.colour(role), theme.tint(role, FADED), "{role:?}");
+            for role in [Role::Obstacle, Role::Goal, Role::Sensor, Role::Focus] {
+                assert_ne!(look.colour(role), theme.colour(role), "{role:?}");
                 assert_eq!(Look::from(theme).colour(role), theme.colour(role));
+            }
+            for role in [Role::Text, Role::Muted] {
+                assert_eq!(look.colour(role), theme.colour(role), "words are read at any time");
+            }
+        }
+    }
+    /// The relative luminance of WCAG 2, of a colour of the screen laid over the paper in linear light.
+    fn luminance(colour: Color32, paper: Color32) -> f64 {
+        let light = |byte: u8| {
+            let c = f64::from(byte) / 255.0;
+            if c <= 0.04045 { c / 12.92 } else { exp(2.4 * ln((c + 0.055) / 1.055)) }
+        };
+        let ([r, g, b, a], under) = (colour.to_array(), paper.to_array());
+        let seen = |ink: u8, i: usize| light(ink) + (1.0 - f64::from(a) / 255.0) * light(under[i]);
+        0.2126 * seen(r, 0) + 0.7152 * seen(g, 1) + 0.0722 * seen(b, 2)
+    }
+
+    #[test]
+    fn what_has_faded_still_stands_out_from_the_paper() {
+        for theme in [Theme::Light, Theme::Dark] {
+            let paper = theme.colour(Role::Paper);
+            let ground = luminance(paper, paper) + 0.05;
+            for lit in [Role::Robot, Role::Obstacle] {
+                let look = Look { theme, narrow: false, lit: Some(lit), strength: 1.0 };
+                for role in Role::ALL.into_iter().filter(|r| !matches!(r, Role::Paper | Role::Hairline)) {
+                    let ink = luminance(look.colour(role), paper) + 0.05;
+                    let contrast = if ink > ground { ink / ground } else { ground / ink };
+                    assert!(contrast >= 3.0, "{theme:?}: {role:?} at {contrast:.2} to 1");
+                }
             }
         }
     }

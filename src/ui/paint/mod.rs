@@ -4,6 +4,7 @@ pub(crate) mod button;
 pub(crate) mod canvas;
 pub(crate) mod frame;
 pub(crate) mod look;
+pub(crate) mod plate;
 pub(crate) mod polygons;
 pub(crate) mod sheet;
 pub(crate) mod style;

@@ -2,13 +2,10 @@
 
 use bevy_egui::egui::{Rect, Response, Sense, Stroke, StrokeKind, Ui, WidgetInfo, WidgetType};
 
-use super::{canvas, frame};
+use super::canvas;
 use crate::geometry::Point2;
-use crate::picture::{Fit, Picture, Role, pick};
-use crate::ui::{Look, UiState};
-
-/// Distance within which the pointer points at a drawn thing, points.
-const REACH: f64 = 4.0;
+use crate::picture::{Fit, Picture, Role};
+use crate::ui::Look;
 
 /// A sheet as shown in this frame.
 pub struct Sheet {
@@ -23,11 +20,15 @@ pub struct Sheet {
 impl Sheet {
     /// The point of the picture's plane where the pointer is held down; `None` where it is not, or is off the paper.
     pub fn held(&self) -> Option<Point2> {
-        self.at(self.response.interact_pointer_pos()?)
+        let pos = self.response.interact_pointer_pos()?;
+        self.held_anywhere().filter(|_| self.paper.contains(pos))
     }
 
-    fn at(&self, pos: bevy_egui::egui::Pos2) -> Option<Point2> {
-        self.paper.contains(pos).then(|| self.fit.world_from_screen([f64::from(pos.x), f64::from(pos.y)]))
+    /// The point of the picture's plane where the pointer is held down since it was pressed on the paper, even where it
+    /// has left the paper since; also where it was let go in this frame.
+    pub fn held_anywhere(&self) -> Option<Point2> {
+        let pos = self.response.interact_pointer_pos()?;
+        Some(self.fit.world_from_screen([f64::from(pos.x), f64::from(pos.y)]))
     }
 }
 
@@ -43,7 +44,7 @@ pub fn split(room: Rect, narrow: bool, width: f32) -> (Rect, Rect) {
     }
 }
 
-/// Shows `still`, which is kept from frame to frame, and `moving` over it. Pointing at a drawn thing lights its role.
+/// Shows `still`, which is kept from frame to frame, and `moving` over it.
 ///
 /// `spoken` describes both for screen readers.
 pub fn sheet(
@@ -53,7 +54,6 @@ pub fn sheet(
     still: &std::sync::Arc<Picture>,
     moving: &Picture,
     look: &Look,
-    state: &mut UiState,
 ) -> Sheet {
     let response = ui.allocate_rect(paper, Sense::click_and_drag());
     response.widget_info(|| WidgetInfo::labeled(WidgetType::Other, true, &spoken));
@@ -63,13 +63,5 @@ pub fn sheet(
     canvas::paint(&ui.painter_at(paper), moving, &fit, look);
     let role = if response.has_focus() { Role::Focus } else { Role::Hairline };
     painter.rect_stroke(paper, 0.0, Stroke::new(1.0, look.colour(role)), StrokeKind::Inside);
-    if let Some(at) =
-        response.hover_pos().filter(|_| response.hovered() && !response.dragged() && frame::rests(&response))
-    {
-        let at = [f64::from(at.x), f64::from(at.y)];
-        let item = pick(moving, &fit, at, REACH).or_else(|| pick(still, &fit, at, REACH));
-        state.pointed =
-            item.map(|i| i.role).filter(|r| !matches!(r, Role::Muted | Role::Paper | Role::Text)).or(state.pointed);
-    }
     Sheet { response, paper, fit }
 }

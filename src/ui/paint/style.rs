@@ -1,13 +1,13 @@
 //! The theme in the window: egui's colours and sizes, and the clear colour behind everything.
 
-use std::sync::Arc;
+use std::sync::{Arc, LazyLock};
 
 use bevy_egui::egui::style::{Selection, WidgetVisuals, Widgets};
 use bevy_egui::egui::{
     Color32, CornerRadius, FontData, FontDefinitions, FontFamily, FontId, Shadow, Stroke, Style, TextStyle, Visuals,
 };
 
-use crate::num::{exp, greater, ln};
+use crate::num::{exp, greater, lesser, ln};
 use crate::picture::{FACES, Rgb, Role, Theme};
 
 /// The linear light of a stored sRGB byte, from 0 to 1.
@@ -22,7 +22,43 @@ fn stored(light: f64) -> u8 {
     (255.0 * c).round() as u8
 }
 
+/// Least contrast with the paper of what has faded: that of graphics, and a little for rounding.
+const LEAST_CONTRAST: f64 = 3.05;
+
+/// Least opacity of what has faded.
+const FADED: f64 = 0.3;
+
+/// For each theme the opacity that each role fades to.
+static FAINTEST: LazyLock<[[f64; Role::ALL.len()]; 2]> =
+    LazyLock::new(|| [Theme::Light, Theme::Dark].map(|theme| Role::ALL.map(|role| theme.fades_to(role))));
+
+/// The relative luminance of a colour, after WCAG 2.
+fn luminance([r, g, b]: [u8; 3]) -> f64 {
+    0.2126 * linear(r) + 0.7152 * linear(g) + 0.0722 * linear(b)
+}
+
 impl Theme {
+    /// The opacity that a role fades to while another is lit, from 0 to 1: the least at which it still has a contrast
+    /// of 3:1 with the paper. Words, frames and the paper do not fade.
+    pub(crate) fn faintest(self, role: Role) -> f64 {
+        let place = Role::ALL.iter().position(|other| *other == role);
+        place.map_or(1.0, |i| FAINTEST[usize::from(self == Theme::Dark)][i])
+    }
+
+    fn fades_to(self, role: Role) -> f64 {
+        if matches!(role, Role::Paper | Role::Hairline | Role::Text | Role::Muted) {
+            return 1.0;
+        }
+        let Rgb(paper) = self.palette().colour(Role::Paper);
+        let stands_out = |opacity: &f64| {
+            let [r, g, b, _] = self.washed(role, *opacity).to_array();
+            let (ink, paper) = (luminance([r, g, b]) + 0.05, luminance(paper) + 0.05);
+            greater(ink, paper) >= LEAST_CONTRAST * lesser(ink, paper)
+        };
+        let steps = (0..=64).map(|i| FADED + (1.0 - FADED) * f64::from(i) / 64.0);
+        steps.into_iter().find(stands_out).unwrap_or(1.0)
+    }
+
     /// The colour of a role on the screen.
     pub(crate) fn colour(self, role: Role) -> Color32 {
         let Rgb([r, g, b]) = self.palette().colour(role);
@@ -127,7 +163,8 @@ impl Theme {
             text_edit_bg_color: Some(paper),
             code_bg_color: self.washed(Role::Text, 0.05),
             warn_fg_color: self.colour(Role::Text),
-            error_fg_color: self.colour(Role::Goal),
+            // red is contact, and nothing else
+            error_fg_color: self.colour(Role::Text),
             window_fill: paper,
             window_stroke: Stroke::new(1.0, self.colour(Role::Hairline)),
             window_shadow: Shadow::NONE,

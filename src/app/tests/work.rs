@@ -1,0 +1,214 @@
+//! Work that is not lost: edits of worlds, keys behind dialogs, drags that end off the paper.
+
+use super::*;
+use crate::app::dialogs::{self, Dialogs};
+use crate::atlas::Op;
+use crate::ui::AtlasState;
+
+fn atlas(harness: &Harness<'_, Lab>) -> AtlasState {
+    harness.state().app.world().resource::<Interface>().0.atlas.clone()
+}
+
+/// Where a point of the atlas's world is on the screen.
+fn at(harness: &Harness<'_, Lab>, [x, y]: [f64; 2]) -> Pos2 {
+    let world = atlas(harness).world().clone();
+    let paper = harness.get_by_label_contains(&format!("World {}", world.name)).rect();
+    let fit = crate::ui::paint::canvas::fit(&crate::picture::world(&world), paper);
+    let [x, y] = fit.screen_from_world(crate::geometry::Point2::new(x, y));
+    pos2(x as f32, y as f32)
+}
+
+/// Chooses a world from the atlas's list.
+fn choose(harness: &mut Harness<'_, Lab>, name: &str) {
+    harness.get_by_role_and_label(egui::accesskit::Role::ComboBox, "world").click();
+    harness.run_steps(3);
+    harness.get_by_role_and_label(egui::accesskit::Role::Button, name).click();
+    harness.run_steps(3);
+}
+
+#[test]
+fn the_edits_of_a_world_and_their_undo_survive_a_look_at_another() {
+    let mut harness = lab(WIDE);
+    click(&mut harness, "Atlas");
+    click(&mut harness, "Edit");
+    click(&mut harness, "Add box");
+    click(&mut harness, "Add disc");
+    choose(&mut harness, "Lot");
+    assert_eq!(atlas(&harness).world().name, "Lot");
+    click(&mut harness, "Add box");
+    choose(&mut harness, "Apartment, edited");
+    let kept = atlas(&harness);
+    assert!(kept.world().obstacle("box").is_some() && kept.world().obstacle("disc").is_some());
+    assert_eq!(kept.can_undo(), [true, false]);
+    click(&mut harness, "Undo");
+    click(&mut harness, "Undo");
+    assert_eq!(*atlas(&harness).world(), crate::worlds::World::apartment());
+    assert_eq!(atlas(&harness).can_undo(), [false, true]);
+    choose(&mut harness, "Lot, edited");
+    assert!(atlas(&harness).world().obstacle("box").is_some());
+    // a file that is opened takes nobody's place
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("bench.ron");
+    std::fs::write(&path, crate::worlds::World::workbench().to_ron()).unwrap();
+    crate::app::files::open_world(harness.state_mut().app.world_mut(), &path);
+    harness.run_steps(3);
+    assert_eq!(atlas(&harness).world().name, "Workbench");
+    choose(&mut harness, "Lot, edited");
+    assert!(atlas(&harness).world().obstacle("box").is_some());
+    assert_eq!(atlas(&harness).can_undo(), [true, false]);
+}
+
+/// The lab with its dialogs.
+fn with_dialogs() -> Harness<'static, Lab> {
+    let mut harness = lab(WIDE);
+    let app = &mut harness.state_mut().app;
+    app.init_resource::<Dialogs>().add_systems(Update, dialogs::ask.before(super::super::session::gather));
+    harness.run_steps(2);
+    harness
+}
+
+#[test]
+fn no_key_reaches_the_lab_behind_a_dialog() {
+    let mut harness = with_dialogs();
+    harness.run_steps(40);
+    arm_rusty(&mut harness);
+    harness.get_by_label("Reach: tip, theta2 in radians").focus();
+    harness.run_steps(2);
+    harness.key_press_modifiers(Modifiers::COMMAND, Key::O);
+    harness.run_steps(4);
+    harness.get_by_label("Open a run");
+    let before = (harness.state().transport(), harness.state().script().clone());
+    for key in [Key::G, Key::R, Key::Space, Key::ArrowLeft, Key::ArrowUp, Key::N, Key::P, Key::Home, Key::Num3] {
+        harness.key_down(key);
+        harness.run_steps(2);
+        harness.key_up(key);
+        harness.run_steps(2);
+    }
+    assert_eq!((harness.state().transport(), harness.state().script().clone()), before);
+    let ui = &harness.state().app.world().resource::<Interface>().0;
+    assert!(!ui.settings.plots && ui.armed.as_deref() == Some("Rusty"));
+    // with the dialog gone, the keys are the lab's again
+    harness.get_by_label_contains("Cancel").click();
+    harness.run_steps(4);
+    assert!(harness.query_by_label("Open a run").is_none());
+    harness.key_press(Key::G);
+    harness.run_steps(3);
+    assert_ne!(harness.state().transport().seed.0, 2005);
+}
+
+#[test]
+fn a_drag_that_ends_off_the_paper_ends() {
+    let mut harness = lab(WIDE);
+    click(&mut harness, "Atlas");
+    click(&mut harness, "Edit");
+    let (table, beside) = (at(&harness, [6.0, 6.75]), at(&harness, [6.5, 6.75]));
+    let paper = harness.get_by_label_contains("World Apartment").rect();
+    let off = pos2(beside.x, paper.top() - 12.0);
+    pointer(&mut harness, table, Some(true));
+    pointer(&mut harness, table.lerp(beside, 0.5), None);
+    pointer(&mut harness, beside, None);
+    pointer(&mut harness, off, None);
+    pointer(&mut harness, off, Some(false));
+    harness.run_steps(2);
+    assert_eq!(atlas(&harness).drag, None, "the button is up");
+    let moved = atlas(&harness).world().clone();
+    assert_eq!(atlas(&harness).can_undo(), [true, false], "it stays where it was last shown");
+    // the pointer comes back without its button
+    let below = at(&harness, [6.0, 4.0]);
+    pointer(&mut harness, below, None);
+    harness.run_steps(2);
+    assert_eq!(*atlas(&harness).world(), moved);
+    harness.state_mut().app.world_mut().resource_mut::<Interface>().0.atlas.undo(true);
+    assert_eq!(*atlas(&harness).world(), crate::worlds::World::apartment());
+    // a robot that is turned while it is put: the heading is that of the way to where the button came up
+    click(&mut harness, "Put the robot");
+    let floor = at(&harness, [6.0, 4.0]);
+    let east = pos2(paper.right() + 10.0, floor.y);
+    pointer(&mut harness, floor, Some(true));
+    pointer(&mut harness, floor.lerp(east, 0.3), None);
+    pointer(&mut harness, east, None);
+    pointer(&mut harness, east, Some(false));
+    harness.run_steps(2);
+    assert!(atlas(&harness).over().items.iter().all(|item| !item.id.starts_with("wanted")), "no ghost is left");
+    let q = crate::configuration::Configuration::coordinates(&atlas(&harness).atlas().robots()[0].q);
+    assert!((q[0] - 6.0).abs() < 0.05 && (q[1] - 4.0).abs() < 0.05 && q[2].abs() < 0.05, "{q:?}");
+    assert_eq!(atlas(&harness).pressed, None);
+}
+
+#[test]
+fn a_rename_is_kept_with_the_world_it_was_made_in() {
+    let mut harness = lab(WIDE);
+    click(&mut harness, "Atlas");
+    let rename = Op::Rename { name: "B's round table".into(), to: "the hearth".into() };
+    harness.state_mut().app.world_mut().resource_mut::<Interface>().0.atlas.change(&rename, None);
+    harness.run_steps(2);
+    choose(&mut harness, "Workbench");
+    choose(&mut harness, "Lot");
+    choose(&mut harness, "Apartment, edited");
+    assert!(atlas(&harness).world().obstacle("the hearth").is_some());
+}
+
+#[test]
+fn the_names_of_files_say_what_is_in_them() {
+    let mut harness = with_dialogs();
+    let proposed = |harness: &mut Harness<'_, Lab>, command: SessionCommand| {
+        carry_out(harness.state_mut().app.world_mut(), vec![crate::ui::Command::Session(command)]);
+        harness.run_steps(4);
+        let fields: Vec<String> = harness
+            .get_all_by_role(egui::accesskit::Role::TextInput)
+            .filter_map(|n| n.accesskit_node().value())
+            .collect();
+        harness.get_by_label_contains("Cancel").click();
+        harness.run_steps(4);
+        fields
+    };
+    let fields = proposed(&mut harness, SessionCommand::Save);
+    assert!(fields.iter().any(|f| f == "run-2005.mcap"), "{fields:?}");
+    let fields = proposed(&mut harness, SessionCommand::SaveWorld);
+    assert!(fields.iter().any(|f| f == "apartment.ron"), "{fields:?}");
+    let order = crate::ui::CaptureState::default().order;
+    let tick = harness.state().transport().tick;
+    let fields = proposed(&mut harness, SessionCommand::Capture(order));
+    let name = format!("dashboard-2005-{tick}.{}", order.form.extension());
+    assert!(fields.contains(&name), "{fields:?}, not {name}");
+}
+
+#[test]
+fn closing_asks_where_edits_would_be_lost() {
+    use bevy::window::WindowCloseRequested;
+    let closing = |harness: &mut Harness<'_, Lab>| {
+        let window = Entity::PLACEHOLDER;
+        harness.state_mut().app.world_mut().write_message(WindowCloseRequested { window });
+        harness.run_steps(3);
+        harness.state().app.should_exit()
+    };
+    let lab_to_close = || {
+        let mut harness = lab(WIDE);
+        let app = &mut harness.state_mut().app;
+        app.add_message::<WindowCloseRequested>().add_systems(Update, crate::app::window::close);
+        harness
+    };
+    assert!(closing(&mut lab_to_close()).is_some(), "nothing is lost");
+    let mut harness = lab_to_close();
+    click(&mut harness, "Atlas");
+    click(&mut harness, "Edit");
+    click(&mut harness, "Add box");
+    choose(&mut harness, "Lot");
+    assert_eq!(closing(&mut harness), None, "the Apartment on the shelf has an edit");
+    harness.get_by_label("Apartment, edited");
+    harness.key_press(Key::Num1);
+    harness.run_steps(2);
+    click(&mut harness, "Keep the window");
+    assert!(harness.query_by_label("Close without saving?").is_none());
+    assert!(harness.state().app.world().resource::<Interface>().0.armed.is_none(), "keys were the question's");
+    assert_eq!(closing(&mut harness), None);
+    click(&mut harness, "Close and lose the edits");
+    assert!(harness.state().app.should_exit().is_some());
+    // undone, there is nothing to lose
+    let mut harness = lab_to_close();
+    click(&mut harness, "Atlas");
+    click(&mut harness, "Edit");
+    click(&mut harness, "Add box");
+    click(&mut harness, "Undo");
+    assert!(closing(&mut harness).is_some());
+}
