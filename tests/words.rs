@@ -104,7 +104,7 @@ fn mistakes_in_assignments_and_scripts_are_named_with_their_item() {
         ("ticks: 200", "ticks: 2.5", "6: limits: a whole number belongs here"),
         ("\"lot\"", "lot", "3: world: a text in quotes belongs here"),
         ("start: [6.5, 2.5, 0]", "start: 3", "3: start: a list in `[` and `]` belongs here"),
-        ("at: end", "at: ende", "5: stay: there is no `ende` here: write any or end"),
+        ("at: end", "at: never", "5: stay: there is no `never` here: write any or end"),
         ("at: end", "at: \"end\"", "5: stay: a name without quotes belongs here"),
         ("(hold: 20, at: end)", "end", "5: stay: \"end\" stands where a list of fields in `(` and `)` belongs"),
         ("(goal: 6, contacts: 2, reversals: 2)", "10", "7: points: a list of fields in `(` and `)` belongs here"),

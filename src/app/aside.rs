@@ -235,8 +235,8 @@ fn next_on_the_way(world: &World, to: u64) -> u64 {
     if begins == now { now + 1 } else { begins }
 }
 
-/// The tick from which on the way to `to` is simulated: the present one, or that of the last keyframe where it is nearer
-/// or `to` lies behind.
+/// The tick from which on the way to `to` is simulated: the present one, or the last keyframe's where that is nearer or
+/// `to` lies behind.
 fn way_begins(world: &World, to: u64) -> u64 {
     let now = world.resource::<Transport>().tick;
     let keyframe = world.resource::<Keyframes>().before(to).map_or(0, |frame| frame.tick);

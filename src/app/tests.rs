@@ -8,7 +8,6 @@ mod crowd;
 mod cspace;
 mod doors;
 mod drive;
-mod files;
 mod own_kind;
 mod safe;
 mod screen;

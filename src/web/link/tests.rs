@@ -1,0 +1,122 @@
+//! Links read back as written, whatever is in them; hostile ones are refused by name.
+
+use super::*;
+use crate::run::{Event, Quantized, RobotInput, WorldChange, WorldEvent};
+
+fn driven() -> Script {
+    let event = |tick, robot: &str, input| Event { tick, robot: robot.into(), input };
+    let events = vec![
+        event(1, "Rusty", RobotInput::Drive(128, -64)),
+        event(9, "Reach", RobotInput::MoveTo(vec![Quantized(1 << 20), Quantized(-7)])),
+        event(9, "Hitch", RobotInput::SetTrailer(true)),
+        event(30, "Rusty", RobotInput::Release),
+    ];
+    Script::new(events, vec![])
+}
+
+#[test]
+fn a_link_reads_back_as_it_was_written() {
+    let link = Link {
+        seed: Seed(u64::MAX),
+        worlds: vec!["lot".into(), "workbench".into()],
+        tick: 600,
+        widget: Some(Widget::Atlas),
+        theme: Some(ThemeChoice::Dark),
+        script: driven(),
+        digest: Some("0123456789abcdef0123456789abcdef".into()),
+    };
+    let query = link.query().unwrap();
+    assert!(query.bytes().all(|b| b.is_ascii_graphic() && !b"\"<>[]{}|\\^`#".contains(&b)), "{query}");
+    assert_eq!(Link::parse(&query).unwrap(), link);
+    assert_eq!(Link::parse(&format!("?{query}&utm=mail&x")).unwrap(), link, "other fields are ignored");
+    assert_eq!(Link::parse("").unwrap(), Link::default());
+    assert_eq!(Link::parse(&Link::default().query().unwrap()).unwrap(), Link::default());
+    assert_eq!(link.config().worlds.iter().map(|w| w.name.as_str()).collect::<Vec<_>>(), ["Lot", "Workbench"]);
+}
+
+#[test]
+fn a_link_holds_the_doors_that_were_closed() {
+    let change = WorldChange::Close("door A".into());
+    let script = Script::new(vec![], vec![WorldEvent { tick: 3, world: "Apartment".into(), change }]);
+    let link = Link { script: script.clone(), tick: 9, ..Link::default() };
+    assert_eq!(Link::parse(&link.query().unwrap()).unwrap().script, script);
+}
+
+#[test]
+fn a_run_becomes_the_link_that_runs_it_again() {
+    let config = TourConfig { ticks: 77, ..TourConfig::default() };
+    let link = Link::of(Seed(3), &config, driven()).unwrap();
+    assert_eq!((link.config(), link.seed, &link.script), (config.clone(), Seed(3), &driven()));
+    let lot = Link { worlds: vec!["lot".into()], tick: 5, ..Link::default() };
+    assert_eq!(Link::of(BOOK_SEED, &lot.config(), Script::empty()).unwrap(), lot);
+    let mut edited = config.clone();
+    edited.worlds[1].robots.clear();
+    let refused = Link::of(Seed(3), &edited, Script::empty()).unwrap_err();
+    assert_eq!(refused, LinkError::World("Workbench".into()));
+    let long = TourConfig { ticks: MAX_LINK_TICK + 1, ..config };
+    assert!(matches!(Link::of(Seed(3), &long, Script::empty()), Err(LinkError::Number { field: "tick", .. })));
+}
+
+#[test]
+fn long_links_hold_a_thousand_inputs_and_short_ones_are_read_by_every_version() {
+    let drive = |tick: u64| RobotInput::Drive((tick % 257) as i16 - 128, 128 - (tick * 31 % 257) as i16);
+    let events = (1..=1000).map(|tick| Event { tick, robot: "Rusty".into(), input: drive(tick) });
+    let change = WorldChange::Close("door A".into());
+    let changes = vec![WorldEvent { tick: 3, world: "Apartment".into(), change }];
+    let driven = Link { script: Script::new(events.collect(), changes), tick: 1000, ..Link::default() };
+    let query = driven.query().unwrap();
+    assert!(query.starts_with("v=2&") && query.len() < 8000, "{} bytes, which servers take", query.len());
+    assert_eq!(Link::parse(&query).unwrap(), driven);
+    // an arm that is dragged about, at every tick for fifty seconds
+    let at = |tick: u64| vec![Quantized((tick * tick * 1999 % 3_000_017) as i64), Quantized(-(tick as i64) * 40_000)];
+    let events = (1..=1000).map(|tick| Event { tick, robot: "Reach".into(), input: RobotInput::MoveTo(at(tick)) });
+    let dragged = Link { script: Script::new(events.collect(), vec![]), tick: 1000, ..Link::default() };
+    assert_eq!(Link::parse(&format!("#{}", dragged.query().unwrap())).unwrap(), dragged);
+    let few = Link { script: self::driven(), ..Link::default() };
+    assert!(few.query().unwrap().starts_with("v=1&") && few.query().unwrap().contains("script=Script(version:1"));
+}
+
+#[test]
+fn hostile_values_are_refused_by_name() {
+    let said = |query: &str| Link::parse(query).unwrap_err().to_string();
+    assert_eq!(said("v=3&seed=x"), "v: this lab reads links of version 1 and 2, not \"3\"");
+    assert!(said("seed=-1").starts_with("seed: it must be a whole number up to 1844"));
+    assert!(said("seed=18446744073709551616").ends_with("not \"184467440737...\""));
+    assert_eq!(said("tick=72001"), "tick: it must be a whole number up to 72000, not \"72001\"");
+    assert_eq!(said("tick=%2B1"), "tick: it must be a whole number up to 72000, not \"+1\"");
+    assert_eq!(said("world=moon"), "world: it must be one of apartment, workbench, lot, not \"moon\"");
+    assert!(said("world=lot,lot").contains("one of"), "a world comes once");
+    assert!(said("widget=%3Cscript%3E").starts_with("widget: it must be one of dashboard"));
+    assert_eq!(said("theme=pink"), "theme: it must be one of system, light, dark, not \"pink\"");
+    assert_eq!(said("digest=12"), "digest: it must be 32 hexadecimal digits, not \"12\"");
+    assert_eq!(said("script=%FF"), "script: not valid UTF-8");
+    assert_eq!(Link::parse("other=%FF").unwrap(), Link::default(), "a page's own field");
+    assert_eq!(said("inputs=%21"), "inputs: they make no sense at byte 0");
+    assert_eq!(said("inputs=AQFSAQc"), "inputs: they make no sense at byte 5");
+    let script = "Script(version:1,events:[(tick:1,robot:\"Rusty\",input:Drive(129,0))])";
+    let query = format!("script={}", utf8_percent_encode(script, ESCAPED));
+    assert_eq!(said(&query), "script: line:1: events[0]: channel 129: it must be in -128 to 128");
+    let drive = Event { tick: 1, robot: "Rusty".into(), input: RobotInput::Drive(129, 0) };
+    let query = format!("v=2&inputs={}", inputs::encode(&[drive]).unwrap());
+    assert_eq!(said(&query), "script: line:1: events[0]: channel 129: it must be in -128 to 128");
+    assert!(matches!(Link::parse(&"x".repeat(MAX_LINK + 1)), Err(LinkError::TooLong(_))));
+    let events = (1..12_000).map(|tick| Event { tick, robot: "Rusty".into(), input: RobotInput::Release });
+    let long = Link { script: Script::new(events.collect(), vec![]), ..Link::default() };
+    assert!(long.query().unwrap_err().to_string().ends_with("save the run as a file instead"));
+}
+
+/// A link is written by whoever wants to be believed.
+#[test]
+fn a_refusal_says_nothing_in_the_words_of_the_link() {
+    let scam = "Your session has expired, sign in at evil.example";
+    for field in ["v", "seed", "tick", "world", "widget", "theme", "script", "inputs", "digest"] {
+        let query = format!("{field}={}", utf8_percent_encode(scam, ESCAPED));
+        let said = Link::parse(&query).unwrap_err().to_string();
+        assert!(said.starts_with(&format!("{field}: ")), "{said}");
+        assert!(!said.contains("expired") && said.chars().count() < 140, "{said}");
+    }
+    let rows = format!("v={}", utf8_percent_encode("a\nb\u{202e}c", ESCAPED));
+    assert!(Link::parse(&rows).unwrap_err().to_string().ends_with(r#"not "a\nb\u{202e}c""#));
+    let long = format!("script={}", "Your(session)".repeat(99));
+    assert!(Link::parse(&long).unwrap_err().to_string().chars().count() < 140);
+}
