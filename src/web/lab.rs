@@ -13,7 +13,7 @@ use wasm_bindgen::prelude::*;
 use super::controls::{Staged, receive};
 use super::downloads::files;
 use super::inbox::{Incoming, put, wake_by};
-use super::link::{Link, LinkError};
+use super::link::{Link, LinkError, retold};
 use super::listener::{listen, tell};
 use super::message::Message;
 use super::report::{LinkedTheme, Sent, report};
@@ -135,7 +135,7 @@ fn start(world: &mut World) {
     if link != (Link { widget: link.widget, theme: link.theme, ..Link::default() }) {
         let notice = match open_link(world, &link) {
             Ok(notice) => notice,
-            Err(error) => Some(Notice { text: error.to_string(), is_error: true }),
+            Err(error) => Some(Notice { text: format!("the link: {}", retold(&error)), is_error: true }),
         };
         if let Some(notice) = notice {
             world.resource_mut::<Interface>().0.say(notice);

@@ -93,7 +93,7 @@ pub enum LinkError {
     #[error("{0}: not valid UTF-8")]
     Text(&'static str),
     /// A script that is refused.
-    #[error("script: {}", cut(&.0.to_string(), MOST_OF_SCRIPT))]
+    #[error("script: {}", retold(.0))]
     Script(#[from] ScriptError),
     /// Inputs that make no sense from this byte on.
     #[error("inputs: they make no sense at byte {0}")]
@@ -118,6 +118,14 @@ const MOST_OF_SCRIPT: usize = 100;
 /// Words of the link, so that nobody takes them for the lab's: between quotes and cut short.
 fn cited(text: &str) -> String {
     format!("{:?}", cut(text, MOST_CITED))
+}
+
+/// What is said about the link's run, without long names that the link gives: those are between quotes.
+pub fn retold(error: &impl ToString) -> String {
+    let text = error.to_string();
+    let pieces = text.split('"').enumerate();
+    let pieces = pieces.map(|(i, piece)| if i % 2 == 1 { cut(piece, MOST_CITED) } else { piece.to_owned() });
+    cut(&pieces.collect::<Vec<_>>().join("\""), MOST_OF_SCRIPT)
 }
 
 /// The text up to a number of characters; dots stand for the rest.

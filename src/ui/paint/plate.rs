@@ -30,6 +30,8 @@ pub fn plate<R>(
 ) -> R {
     let (width, margin) = (place.width.max(40.0), Margin::symmetric(8, 4));
     let area = Area::new(Id::new(("plate", name))).order(Order::Middle).pivot(place.pivot).fixed_pos(place.at);
+    // words are read at once
+    let area = area.fade_in(false);
     let frame = Frame::NONE.fill(look.theme.colour(Role::Paper)).inner_margin(margin).corner_radius(3);
     let edge = Stroke::new(1.0, look.theme.colour(Role::Muted));
     let shown = area.interactable(takes).show(ctx, |ui| {

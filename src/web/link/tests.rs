@@ -115,6 +115,12 @@ fn a_refusal_says_nothing_in_the_words_of_the_link() {
         assert!(said.starts_with(&format!("{field}: ")), "{said}");
         assert!(!said.contains("expired") && said.chars().count() < 140, "{said}");
     }
+    let script = format!(
+        "Script(version:1,events:[(tick:1,robot:\"Rusty\",input:MoveTo([])),(tick:0,robot:{scam:?},input:Release)])"
+    );
+    let said = Link::parse(&format!("script={}", utf8_percent_encode(&script, ESCAPED))).unwrap_err().to_string();
+    assert!(said.starts_with("script: line:1: ") && !said.contains("expired"), "{said}");
+    assert_eq!(retold(&format!("robot {scam:?} and \"Reach\"")), "robot \"Your session...\" and \"Reach\"");
     let rows = format!("v={}", utf8_percent_encode("a\nb\u{202e}c", ESCAPED));
     assert!(Link::parse(&rows).unwrap_err().to_string().ends_with(r#"not "a\nb\u{202e}c""#));
     let long = format!("script={}", "Your(session)".repeat(99));
