@@ -63,8 +63,13 @@ function tellAll(message) {
 /** Opens a run or a world in the lab. */
 async function open(file) {
   if (file.size > MOST_BYTES) return warn(`${file.name}: ${file.size} bytes; the page opens at most ${MOST_BYTES}`);
-  const bytes = new Uint8Array(await file.arrayBuffer());
-  if (failed) return warn(`${file.name}: not opened: the lab has stopped`);
+  let bytes;
+  try {
+    bytes = new Uint8Array(await file.arrayBuffer());
+  } catch (error) {
+    return warn(`${file.name}: not opened: ${error.message ?? error}`);
+  }
+  if (failed || !("lab" in root.dataset)) return warn(`${file.name}: not opened: the lab is not running`);
   if (root.dataset.lab === "running") return attempt(() => lab.lab_open(file.name, bytes));
   waiting.push([file.name, bytes]);
   say(`${file.name} is opened as soon as the lab is there`);
@@ -133,11 +138,11 @@ const hear = {
     if (calm.matches) send({ do: "pause" }); // what moves by itself waits until it is asked to
     const kept = store(() => sessionStorage.getItem(RESTART));
     if (kept) {
-      store(() => sessionStorage.removeItem(RESTART));
       const { at, ...run } = JSON.parse(kept);
       alone()
         .then((light) => {
           lab.lab_open("the run before", light.record_log(JSON.stringify(run)));
+          store(() => sessionStorage.removeItem(RESTART));
           send({ do: "seek", tick: at });
         })
         .catch((error) => warn(`The run before could not be restored: ${error.message ?? error}`));
@@ -180,7 +185,13 @@ const hear = {
       say(address);
     }
   },
-  copy: ({ text }) => navigator.clipboard.writeText(text).catch(() => warn("The browser does not let the page copy.")),
+  async copy({ text }) {
+    try {
+      await navigator.clipboard.writeText(text);
+    } catch {
+      warn("The browser does not let the page copy.");
+    }
+  },
   file: ({ name }, bytes) => save(name, bytes),
   ask({ accept }) {
     $("file").accept = accept;
@@ -209,17 +220,25 @@ function stop(reason) {
 /** Starts again with the run as far as it has come, at the tick that is shown. */
 function restart() {
   if (parts && state?.frontier) {
-    store(() => sessionStorage.setItem(RESTART, JSON.stringify({ ...parts, ticks: state.frontier, at: state.tick })));
+    const run = JSON.stringify({ ...parts, ticks: state.frontier, at: state.tick });
+    const kept = store(() => (sessionStorage.setItem(RESTART, run), true));
+    // who has been told so starts without it
+    if (!kept && !$("overlay").dataset.told) {
+      stop("The graphics were lost.");
+      $("overlay").dataset.told = "yes";
+      $("overlay-text").textContent += " The run is too large to be kept over a new start: save it first.";
+      return;
+    }
   }
   location.reload();
 }
 
 /** The browser took the graphics away: the lab starts again, paused at its tick. One that fails at once is not tried again. */
 function lost() {
+  if (failed) return;
   const before = Number(store(() => sessionStorage.getItem(LOST)) ?? 0);
   store(() => sessionStorage.setItem(LOST, Date.now()));
   if (Date.now() - before < 10000) return stop("The browser took the graphics context away (WebGL context lost).");
-  failed = true;
   restart();
 }
 
@@ -412,6 +431,8 @@ document.addEventListener("paste", (event) => {
 canvas.addEventListener("pointerdown", () => canvas.focus({ preventScroll: true }));
 canvas.addEventListener("contextmenu", (event) => event.preventDefault());
 canvas.addEventListener("webglcontextlost", lost);
+// a long link is behind the #: put into the address of this very page, it loads nothing by itself
+window.addEventListener("hashchange", () => location.reload());
 document.addEventListener("visibilitychange", () => send({ do: "visible", visible: !document.hidden }));
 
 const dark = matchMedia("(prefers-color-scheme: dark)");

@@ -27,7 +27,7 @@ function fileOf(folder, address) {
   const file = join(folder, normalize(path));
   if (file !== join(folder) && !file.startsWith(join(folder, sep))) return null;
   const named = existsSync(file) && statSync(file).isDirectory() ? join(file, "index.html") : file;
-  return existsSync(named) ? named : null;
+  return existsSync(named) && statSync(named).isFile() ? named : null;
 }
 
 /** Serves `folder` on `port` (0: any that is free) of the loopback interface; gives the server once it listens. */
@@ -53,7 +53,7 @@ export function serve(folder, port) {
     }
     response.writeHead(200, { ...headers, "content-length": statSync(file).size });
     if (request.method === "HEAD") response.end();
-    else createReadStream(file).pipe(response);
+    else createReadStream(file).on("error", () => response.destroy()).pipe(response);
   });
   return new Promise((done, failed) => {
     server.on("error", failed);

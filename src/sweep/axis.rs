@@ -38,6 +38,9 @@ impl Axis {
         }
         match over {
             Over::Steps(_, _, count @ 0..2) => Err(SweepProblem::Steps(count)),
+            Over::Steps(from, to, _) | Over::Uniform(from, to) if !(to - from).is_finite() => {
+                Err(SweepProblem::Span(from, to))
+            }
             _ if over.len() == Some(0) => Err(SweepProblem::Empty),
             over => Ok(Axis { parameter, over }),
         }

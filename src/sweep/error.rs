@@ -68,6 +68,9 @@ pub enum SweepProblem {
         /// The coordinates of the robot's start.
         expected: usize,
     },
+    /// An axis whose ends are too far apart for a number.
+    #[error("from {0:?} to {1:?}: the ends are too far apart")]
+    Span(f64, f64),
     /// A tolerance that is negative.
     #[error("tolerance {0}: it must be 0 or more")]
     Tolerance(f64),

@@ -69,6 +69,7 @@ impl<'a> RowGatherer<'a> {
         let failure = match (refusals.first(), &goal) {
             (Some(first), _) => format!("{} inputs were refused, the first at {first}", refusals.count()),
             (None, Some(goal)) if goal.first.is_none() => "the goal was not reached".into(),
+            (None, None) if plan.goal().is_some() => "the goal's robot is not in this run".into(),
             _ => String::new(),
         };
         let first = stats.iter().filter_map(|robot| robot.first_contact).min();

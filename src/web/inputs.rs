@@ -19,10 +19,16 @@ use base64::prelude::{BASE64_URL_SAFE_NO_PAD, Engine};
 
 use crate::run::{Event, Quantized, RobotInput};
 
-/// The inputs as text; `None` where their ticks go back, which no script that runs has.
+/// Largest length of a robot's name, bytes: every input has it again once it is read.
+const MOST_NAME: u64 = 200;
+
+/// The inputs as text; `None` where their ticks go back, which no script that runs has, or a robot's name is too long.
 pub fn encode(events: &[Event]) -> Option<String> {
     let mut names: Vec<&str> = Vec::new();
     for event in events {
+        if event.robot.len() as u64 > MOST_NAME {
+            return None;
+        }
         if !names.contains(&event.robot.as_str()) {
             names.push(&event.robot);
         }
@@ -105,7 +111,7 @@ struct Reader<'a> {
 impl<'a> Reader<'a> {
     fn events(&mut self) -> Option<Vec<Event>> {
         let names: Vec<&str> = self.list(|rest| {
-            let length = rest.number()?;
+            let length = rest.number().filter(|length| *length <= MOST_NAME)?;
             std::str::from_utf8(rest.take(length)?).ok()
         })?;
         let (mut tick, mut last, mut events) = (0_u64, vec![Vec::new(); names.len()], Vec::new());
@@ -224,6 +230,8 @@ mod tests {
         assert_eq!(decode(&encode(&events).unwrap()).unwrap(), events);
         assert_eq!(decode(&encode(&[]).unwrap()).unwrap(), []);
         assert_eq!(encode(&[event(2, "", RobotInput::Release), event(1, "", RobotInput::Release)]), None);
+        let named = |length| [event(1, &"R".repeat(length), RobotInput::Release)];
+        assert_eq!((decode(&encode(&named(200)).unwrap()).unwrap(), encode(&named(201))), (named(200).into(), None));
     }
 
     #[test]
@@ -234,6 +242,7 @@ mod tests {
         assert_eq!(at(&[1]), 1, "a name is missing");
         assert_eq!(at(&[1, 2, b'R']), 2, "it is cut");
         assert_eq!(at(&[1, 1, 0xff]), 3, "no UTF-8");
+        assert_eq!(at(&[&[1, 201, 1][..], &[b'R'; 201]].concat()), 3, "a name too long");
         assert_eq!(at(&[1, 1, b'R', 1, 7]), 5, "no kind");
         assert_eq!(at(&[1, 1, b'R', 1, 8]), 5, "no second robot");
         assert_eq!(at(&[1, 1, b'R', 1, 0, 9]), 6, "one channel");

@@ -120,12 +120,31 @@ fn cited(text: &str) -> String {
     format!("{:?}", cut(text, MOST_CITED))
 }
 
-/// What is said about the link's run, without long names that the link gives: those are between quotes.
+/// What is said about the link's run, without long names that the link gives: those are between quotes or backticks,
+/// where a quote within is escaped.
 pub fn retold(error: &impl ToString) -> String {
+    let (mut said, mut name) = (String::new(), None::<(char, String)>);
     let text = error.to_string();
-    let pieces = text.split('"').enumerate();
-    let pieces = pieces.map(|(i, piece)| if i % 2 == 1 { cut(piece, MOST_CITED) } else { piece.to_owned() });
-    cut(&pieces.collect::<Vec<_>>().join("\""), MOST_OF_SCRIPT)
+    let mut letters = text.chars();
+    while let Some(letter) = letters.next() {
+        match &mut name {
+            Some((mark, inner)) if letter == *mark => {
+                said.extend([cut(inner, MOST_CITED), letter.to_string()]);
+                name = None;
+            }
+            Some((_, inner)) => {
+                inner.push(letter);
+                inner.extend((letter == '\\').then(|| letters.next()).flatten());
+            }
+            None => {
+                said.push(letter);
+                name = matches!(letter, '"' | '`').then(|| (letter, String::new()));
+            }
+        }
+    }
+    // a name without an end
+    said.extend(name.map(|(_, inner)| cut(&inner, MOST_CITED)));
+    cut(&said, MOST_OF_SCRIPT)
 }
 
 /// The text up to a number of characters; dots stand for the rest.

@@ -98,6 +98,10 @@ fn a_row_is_the_run_that_record_records_and_reproduce_repeats() {
     let text = fs::read_to_string(&part).unwrap();
     let (rows, _) = text.rsplit_once("seal ").unwrap();
     let forged = rows.replace(digest, "00112233445566778899aabbccddeeff");
+    // where the seal is not that of the rows, the part is at fault and not the run
+    fs::write(at.join("damaged.sweep"), text.replace(digest, "00112233445566778899aabbccddeeff")).unwrap();
+    let damaged = run_in(at, &["sweep", "reproduce", "damaged.sweep", "--row", "42", "-o", "none.mcap"]).failed(3);
+    assert!(damaged.contains("damaged.sweep") && !at.join("none.mcap").exists(), "{damaged}");
     let seal = xxhash_rust::xxh3::xxh3_128(forged.as_bytes());
     fs::write(at.join("forged.sweep"), format!("{forged}seal {seal:032x}\n")).unwrap();
     let differs = run_in(at, &["sweep", "reproduce", "forged.sweep", "--row", "42"]);

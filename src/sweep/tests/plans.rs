@@ -163,6 +163,10 @@ fn a_plan_that_cannot_be_names_its_place() {
         (axes("(vary: \"seed\", over: Range(5, 5))"), "it has no values"),
         (axes("(vary: \"sensor.range\", over: Values([inf]))"), "inf is no finite number"),
         (axes("(vary: \"sensor.range\", over: Steps(1, 2, 1))"), "1 steps: there must be at least 2"),
+        (
+            axes("(vary: \"sensor.range\", over: Steps(-1.7e308, 1.7e308, 3))"),
+            "from -1.7e308 to 1.7e308: the ends are too far apart",
+        ),
         (axes("(vary: \"sensor.range\", over: Uniform(1, 2))"), "use it with points: Sample"),
         (axes("(vary: \"sensor.range\", over: Names([\"a\"]))"), "names do not fit: it takes Values"),
         (

@@ -123,6 +123,18 @@ fn columns_have_names_of_their_own_and_end_with_their_units() {
 }
 
 #[test]
+fn a_goal_whose_robot_is_elsewhere_is_not_reached() {
+    let plan = plan(
+        "Sweep(version: 1, ticks: 2, goal: (robot: \"Rusty\", at: [2, 2, 0], within: [99, 99, 4]), \
+         axes: [(vary: \"world\", over: Names([\"apartment\", \"lot\"]))])",
+    );
+    let [apartment, lot] = [0, 1].map(|row| run(&plan, row));
+    assert_eq!(cell(&plan, &apartment, "failure"), Cell::Empty);
+    assert_eq!(cell(&plan, &lot, "failure"), Cell::Text("the goal's robot is not in this run".into()));
+    assert_eq!(cell(&plan, &lot, "at_goal_s"), Cell::Empty);
+}
+
+#[test]
 fn the_docs_list_every_column_with_its_unit_and_kind() {
     let docs = include_str!("../../../docs/formats.md");
     let section = docs.split("\n## ").find(|part| part.starts_with("The tables of sweeps")).unwrap();

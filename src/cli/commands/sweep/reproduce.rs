@@ -56,10 +56,13 @@ fn find(file: &Path, number: u64) -> Result<(SweepPlan, RunRow), Failure> {
         _ => {
             let refused = |error: PartError| merge::refused(file, &error);
             let mut reader = PartReader::new(BufReader::new(open(file)?)).map_err(refused)?;
+            // to the end, where the seal proves every row
+            let mut found = None;
             while let Some((row, _)) = reader.row().map_err(refused)? {
-                if row.row == number {
-                    return Ok((reader.plan().clone(), row));
-                }
+                found = found.or((row.row == number).then_some(row));
+            }
+            if let Some(row) = found {
+                return Ok((reader.plan().clone(), row));
             }
             Err(Failure::input(
                 format!("{}: it has rows {:?} and no row {number}", file.display(), reader.head().rows),

@@ -46,7 +46,8 @@ pub fn run(
     let missing = journal.missing();
     let before = count - missing.len() as u64;
     if before > 0 {
-        note(format!("{before} of {count} rows are there already"));
+        let logs = if keep == Keep::None { "" } else { "; their logs are not made again: `sweep reproduce` does" };
+        note(format!("{before} of {count} rows are there already{logs}"));
     }
     let pool = pool(jobs)?;
     let progress = Progress::of_runs(count, before);
