@@ -541,6 +541,7 @@ lab("a link carries a thousand inputs", "/", async (lab) => {
   await lab.page.waitForFunction(() => /digest/.test(document.getElementById("said").textContent));
   const address = await lab.page.evaluate(() => navigator.clipboard.readText());
   console.log(`# ${address.length} characters`);
+  assert.match(address, /\?v=2&/, "in the query as long as servers take it");
   assert.match(native("info", log), new RegExp(digestOf(await lab.page.textContent("#said"))));
   await lab.page.goto("about:blank");
   await lab.page.goto(address);
