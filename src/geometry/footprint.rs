@@ -75,10 +75,7 @@ impl Footprint {
 
     /// One disc, such as Rusty.
     pub fn disc(centre: Point2, radius: f64) -> Self {
-        // pushed, a part is made in its place: collecting would move it twice
-        let mut parts = SmallVec::new();
-        parts.push(Part::new(Pose2 { x: centre.x, y: centre.y, theta: 0.0 }, Shape::Disc { radius }));
-        Footprint { parts }
+        Self::new([Part::new(Pose2 { x: centre.x, y: centre.y, theta: 0.0 }, Shape::Disc { radius })])
     }
 
     /// One capsule per segment, each with its frame at the segment's first end and its x axis along the segment. The

@@ -15,7 +15,7 @@ pub(super) enum Points {
     Grid,
     /// The first values of all axes, then the second ones, and so on.
     List,
-    /// So many combinations, each axis drawn by itself.
+    /// This many combinations, each axis drawn by itself.
     Sample {
         /// How many.
         count: u64,

@@ -97,7 +97,7 @@ impl Shard {
         shard.ok_or(ShardError::Beyond { name, value: task, of, first })
     }
 
-    /// The rows of this shard, of so many in all. Shards differ by one row at most, and together have each row once.
+    /// The rows of this shard, of `runs` in all. Shards differ by one row at most, and together have each row once.
     pub fn rows(self, runs: u64) -> Range<u64> {
         let cut = |k: u64| (u128::from(runs) * u128::from(k) / u128::from(self.of)) as u64;
         cut(self.number - 1)..cut(self.number)

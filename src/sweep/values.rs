@@ -9,7 +9,7 @@ pub(super) enum Over {
     Range(u64, u64),
     /// These numbers.
     Values(Vec<f64>),
-    /// So many numbers evenly from the first to the second, both included.
+    /// This many numbers evenly from the first to the second, both included.
     Steps(f64, f64, u64),
     /// Drawn uniformly from the first to the second, without it.
     Uniform(f64, f64),

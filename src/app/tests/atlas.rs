@@ -4,20 +4,6 @@ use bevy::window::FileDragAndDrop;
 
 use super::*;
 use crate::configuration::Configuration;
-use crate::ui::AtlasState;
-
-fn atlas(harness: &Harness<'_, Lab>) -> AtlasState {
-    harness.state().app.world().resource::<Interface>().0.atlas.clone()
-}
-
-/// Where a point of the atlas's world is on the screen.
-fn at(harness: &Harness<'_, Lab>, [x, y]: [f64; 2]) -> Pos2 {
-    let world = atlas(harness).world().clone();
-    let paper = harness.get_by_label_contains(&format!("World {}", world.name)).rect();
-    let fit = crate::ui::paint::canvas::fit(&crate::picture::world(&world), paper);
-    let [x, y] = fit.screen_from_world(crate::geometry::Point2::new(x, y));
-    pos2(x as f32, y as f32)
-}
 
 /// Drags on the atlas's paper from one point of its world to another.
 fn drag_on(harness: &mut Harness<'_, Lab>, from: [f64; 2], to: [f64; 2]) {

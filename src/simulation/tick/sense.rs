@@ -59,9 +59,6 @@ fn scan(world: &World, sensor: &RunSensor, desk: &mut Desk, RobotScan { robot, r
     }
     let pose = sensor.pose(world)?;
     let scene = &world.get::<WorldScene>(world.get::<ResidesIn>(sensor.robot)?.0)?.0;
-    if Arc::get_mut(ranges).is_none() {
-        *ranges = vec![0.0; ranges.len()].into();
-    }
     let ranges = Arc::make_mut(ranges);
     let (scanner, room) = desk.at(sensor.fan, sensor.rays);
     match world.resource::<Crowds>().of(RobotId(sensor.id)) {

@@ -18,7 +18,7 @@ use crate::cli::support::interrupt;
 use crate::cli::support::progress::Progress;
 use crate::cli::{Data, Failure, Outcome, say};
 
-/// Threads for so many jobs; one for each processor where nobody says.
+/// A thread for each of the jobs; one for each processor where nobody says.
 pub fn pool(jobs: Option<usize>) -> Result<rayon::ThreadPool, Failure> {
     rayon::ThreadPoolBuilder::new().num_threads(jobs.unwrap_or(0)).build().map_err(Failure::internal)
 }

@@ -11,7 +11,7 @@ use crate::cli::Failure;
 pub enum ShardChoice {
     /// This one.
     This(Shard),
-    /// The one that a cluster's engine asks for, of so many if that is said.
+    /// The one that a cluster's engine asks for, of this number if it is said.
     Engine(Option<u64>),
 }
 
