@@ -17,6 +17,8 @@ mod kinds;
 mod library_exports;
 mod manual;
 mod messages;
+#[cfg(target_os = "linux")]
+mod progress;
 mod queries;
 mod record;
 mod replay;

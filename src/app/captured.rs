@@ -14,7 +14,7 @@ pub fn captured(state: &UiState, run: ShownRun, tick: u64, width_px: f64) -> Res
         None => scene(state, width_px),
         Some(subject) => {
             let kinds = run.kinds.clone();
-            at_tick_with_robots(&run.record()?, &subject, tick, width_px, |app| kinds.add_to(app))
+            at_tick_with_robots(&run.record()?, &subject, tick, width_px, |app| kinds.add_to(app), |_| {})
         }
     }
 }

@@ -150,10 +150,11 @@ impl Span {
 /// # Errors
 /// [`CaptureError`] names what the run does not have.
 pub fn at_tick(log: &Log, subject: &Subject, tick: u64, width_px: f64) -> Result<Captured, CaptureError> {
-    at_tick_with_robots(log, subject, tick, width_px, |_| {})
+    at_tick_with_robots(log, subject, tick, width_px, |_| {}, |_| {})
 }
 
-/// [`at_tick`] of a run with kinds of robots that a program added: `add` adds them.
+/// [`at_tick`] of a run with kinds of robots that a program added: `add` adds them. `on_tick` is called with each tick
+/// of the log that has been shown.
 ///
 /// # Errors
 /// [`CaptureError`] names what the run does not have.
@@ -163,6 +164,7 @@ pub fn at_tick_with_robots(
     tick: u64,
     width_px: f64,
     add: impl FnOnce(&mut App),
+    mut on_tick: impl FnMut(u64),
 ) -> Result<Captured, CaptureError> {
     let mut drawn = None;
     let mut moving = Moving::new(log, subject.clone(), width_px)?;
@@ -171,6 +173,7 @@ pub fn at_tick_with_robots(
         if run.frame().tick == tick {
             drawn = Some(moving.captured(run, true)?);
         }
+        on_tick(run.frame().tick);
         Ok::<_, CaptureError>(())
     })?;
     let last = log.frames.len() as u64;
@@ -335,6 +338,8 @@ fn drawing(view: &RobotView) -> Vec<Item> {
         name: &view.name,
         footprint: &view.footprint,
         heading: view.coordinates.get(2).copied().filter(|_| is_disc),
+        model: view.model,
+        gait: view.gait(),
         in_contact: view.flash > 0,
     })
 }

@@ -128,6 +128,13 @@ impl CellMap {
         Progress { judged: self.judged, free, blocked, unknown, done: self.waiting.is_empty() }
     }
 
+    /// The number of cells that there are to judge in all, estimated: a line between free and blocked crosses half of
+    /// the four parts of a cell. It is exact when no cell is left.
+    pub fn expected(&self) -> u64 {
+        let below = |number: &u32| (2_u64 << (self.finest - self.nodes[*number as usize].cell.level)) - 1;
+        self.judged + self.waiting.iter().map(below).sum::<u64>()
+    }
+
     /// The state of the cell in which a point of the slice lies; unknown beyond the slice.
     pub fn state(&self, p: [f64; 2]) -> CellState {
         let (min, max) = (self.slice.min(), self.slice.max());
@@ -252,6 +259,24 @@ mod tests {
             let (s, c) = crate::num::sin_cos(f64::from(k) * PI / 32.0);
             assert_eq!(map.state([(grown - cell) * c, (grown - cell) * s]), CellState::Blocked, "{k}");
             assert_eq!(map.state([(grown + cell) * c, (grown + cell) * s]), CellState::Free, "{k}");
+        }
+    }
+
+    #[test]
+    fn the_number_of_cells_is_estimated_within_a_factor_of_three_from_half_of_the_levels_on() {
+        for thick in [false, true] {
+            let mut whole = map(thick, 9);
+            whole.refine(u32::MAX);
+            let all = whole.progress().judged;
+            assert_eq!(whole.expected(), all, "nothing is left to estimate");
+            let mut map = map(thick, 9);
+            while map.refine(100) {
+                let Progress { judged, .. } = map.progress();
+                assert!(map.expected() > judged, "cells are left");
+                if judged > 1000 {
+                    assert!((all / 3..=3 * all).contains(&map.expected()), "{} of {all} at {judged}", map.expected());
+                }
+            }
         }
     }
 

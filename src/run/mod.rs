@@ -25,7 +25,7 @@ pub use digest::{Digest, RunDigest};
 pub use digest_comparison::{DifferingSecond, DigestComparison};
 pub use divergence::{Divergence, DivergingScan, first_divergence};
 pub use field::Value;
-pub use frame::{DT, Frame, ObstacleState, RobotScan, RobotState};
+pub use frame::{DT, Frame, ObstacleState, RobotScan, RobotState, seconds};
 pub use log::Log;
 pub use mcap::{
     DIGEST_FORMAT_VERSION, DIGEST_TICKS, DamageKind, DamagedDigestLog, DamagedLog, DigestLog, DigestLogWriter,

@@ -5,7 +5,7 @@ use super::plan::SweepPlan;
 use super::row::{Cell, RunRow};
 use crate::configuration::RobotKind;
 use crate::num::lesser;
-use crate::run::{DT, Digest, Frame, RobotState, RobotStats, Script, StatsGatherer};
+use crate::run::{Digest, Frame, RobotState, RobotStats, Script, StatsGatherer, seconds};
 use crate::simulation::Refusals;
 use crate::tour::TourConfig;
 use crate::worlds::Resident;
@@ -30,11 +30,6 @@ pub struct RowGatherer<'a> {
     residents: Vec<&'a Resident>,
     stats: StatsGatherer<'a>,
     goal: Option<GoalWatch<'a>>,
-}
-
-/// A time of a run, seconds.
-fn seconds(ticks: u64) -> f64 {
-    DT * ticks as f64
 }
 
 impl<'a> RowGatherer<'a> {

@@ -52,11 +52,16 @@ fn the_library_writes_what_the_command_writes() {
         assert!(command(&["csv"]) == written(|out| write_csv(&log, false, out)), "{file}");
         assert!(command(&["csv", "--ranges"]) == written(|out| write_csv(&log, true, out)), "{file}");
         let viewer = command(&["foxglove"]);
-        assert!(viewer == written(|out| write_foxglove_of_file(&bytes, &log, out, |_| {})), "{file}");
+        let mut frames = 0;
+        assert!(viewer == written(|out| write_foxglove_of_file(&bytes, &log, out, |_| {}, || frames += 1)), "{file}");
+        assert_eq!(frames, 2 * (log.frames.len() + 1), "each frame is drawn and written");
         // a log that was never in a file has the records that this program gives it
         assert!(!is_new || viewer == written(|out| write_foxglove(&log, out, |_| {})), "{file}");
         let rerun = command(&["rerun"]);
-        assert!(rerun == written(|out| write_rerun_of_file(&bytes, &log, out, |_| {})) && rerun != viewer, "{file}");
+        assert!(
+            rerun == written(|out| write_rerun_of_file(&bytes, &log, out, |_| {}, || {})) && rerun != viewer,
+            "{file}"
+        );
         assert!(!is_new || rerun == written(|out| write_rerun(&log, out, |_| {})), "{file}");
     }
 }
@@ -168,7 +173,7 @@ fn what_cannot_be_exported_is_a_typed_error() {
         assert!(full(write_foxglove(&log, Full(room), with_trains).unwrap_err()));
     }
     // a kind that nobody added, and another robot under its name
-    let viewer = |file: &[u8], log: &Log, add: fn(&mut App)| write_foxglove_of_file(file, log, io::sink(), add);
+    let viewer = |file: &[u8], log: &Log, add: fn(&mut App)| write_foxglove_of_file(file, log, io::sink(), add, || {});
     let error = viewer(&file, &log, |_| {}).unwrap_err();
     assert!(error.to_string().contains("there is no kind \"x-train\""), "{error}");
     let ExportError::Run(unknown) = error else { panic!("{error:?}") };

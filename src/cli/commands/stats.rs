@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 use motion_lab::configuration::Kinds;
 use motion_lab::export::JsonNumber;
-use motion_lab::run::{DT, RobotStats, RunStats, StatsGatherer};
+use motion_lab::run::{RobotStats, RunStats, StatsGatherer, seconds};
 use serde::Serialize;
 
 use crate::cli::support::input::{shown, worst_of_each};
@@ -106,9 +106,9 @@ impl<'a> LogStats<'a> {
             least_clearance_tick: robot.least_clearance.map(|least| least.tick),
             refusals: robot.refusals,
         };
-        let seconds = JsonNumber(DT * stats.ticks as f64);
+        let time = JsonNumber(seconds(stats.ticks));
         let robots = stats.robots.iter().map(robot).collect();
-        LogStats { file: shown(file), seed, ticks: stats.ticks, seconds, robots }
+        LogStats { file: shown(file), seed, ticks: stats.ticks, seconds: time, robots }
     }
 }
 
@@ -118,16 +118,16 @@ fn print(file: &Path, stats: &RunStats, data: &mut Data) -> Result<(), Failure> 
         stats.robots.iter().map(|robot| of(robot).chars().count()).max().unwrap_or(0).max(least)
     };
     let (names, worlds) = (width(|robot| &robot.name, "robot".len()), width(|robot| &robot.world, "world".len()));
-    data.line(format!("{}: {} ticks ({:.2} s)", shown(file), stats.ticks, DT * stats.ticks as f64))?;
+    data.line(format!("{}: {} ticks ({:.2} s)", shown(file), stats.ticks, seconds(stats.ticks)))?;
     data.line(format!("{:names$}  {:worlds$}  contacts  in contact         path  least clearance", "robot", "world"))?;
     for robot in &stats.robots {
         let RobotStats { name, world, contacts, .. } = robot;
         let path = robot.path_length.map_or_else(|| "unknown".into(), |length| format!("{length:.3} m"));
         let clearance = robot
             .least_clearance
-            .map_or_else(|| "none".into(), |least| format!("{:.4} m at {:.2} s", least.metres, DT * least.tick as f64));
-        let seconds = format!("{:.2} s", robot.contact_seconds());
-        data.line(format!("{name:names$}  {world:worlds$}  {contacts:>8}  {seconds:>10}  {path:>11}  {clearance}"))?;
+            .map_or_else(|| "none".into(), |least| format!("{:.4} m at {:.2} s", least.metres, seconds(least.tick)));
+        let in_contact = format!("{:.2} s", robot.contact_seconds());
+        data.line(format!("{name:names$}  {world:worlds$}  {contacts:>8}  {in_contact:>10}  {path:>11}  {clearance}"))?;
     }
     Ok(())
 }

@@ -30,18 +30,14 @@ pub struct AnySource {
     pub damage: Option<String>,
 }
 
-/// Least size of a log whose reading is said to be under way, bytes.
-const LONG: usize = 16 << 20;
+/// Least size of a log whose reading shows how far it has come, bytes.
+const LONG: usize = 2 << 20;
 
 /// Says what is wrong with a log that is not whole, and what was done with its sealed beginning: `compared`.
 pub fn say_damage(damage: Option<&String>, done: &str) {
     if let Some(damage) = damage {
         say(format!("{damage}\nThis much is {done}; `motion-lab record --resume` makes it whole."));
     }
-}
-
-fn progress(bytes: &[u8]) -> Progress {
-    if bytes.len() < LONG { Progress::none() } else { Progress::unknown("reading the log") }
 }
 
 /// Whether a file may be a log, by its first eight bytes. Any other file is read no farther, however long it is.
@@ -53,12 +49,12 @@ pub fn begins_as_one(beginning: &[u8]) -> bool {
 /// used.
 pub fn read_log(path: &Path) -> Result<LogSource, Failure> {
     let bytes = read_bytes_if(path, MAX_LOG, begins_as_one)?;
-    let _progress = progress(&bytes);
     with_frames(path, &bytes)
 }
 
 fn with_frames(path: &Path, bytes: &[u8]) -> Result<LogSource, Failure> {
-    match Log::read_mcap(bytes) {
+    let progress = if bytes.len() < LONG { Progress::none() } else { Progress::of_bytes(bytes.len() as u64) };
+    match Log::read_mcap_with(bytes, |checked| progress.at(checked)) {
         Ok(read) => Ok(LogSource { read, damage: None }),
         Err(LogError::Damaged(damaged)) => {
             let message = damaged.to_string();
@@ -74,7 +70,6 @@ fn with_frames(path: &Path, bytes: &[u8]) -> Result<LogSource, Failure> {
 /// As [`read_log`], of a log with frames or of digests.
 pub fn read_any_log(path: &Path) -> Result<AnySource, Failure> {
     let bytes = read_bytes_if(path, MAX_LOG, begins_as_one)?;
-    let _progress = progress(&bytes);
     match DigestLog::read_mcap(&bytes) {
         Ok(ReadDigestLog { log, program }) => Ok(AnySource { log: AnyLog::Digest(log), program, damage: None }),
         Err(LogError::DamagedDigests(damaged)) if damaged.recovered.is_some() => {

@@ -2,7 +2,6 @@
 
 use std::fmt;
 use std::io::{self, Write};
-use std::time::Duration;
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
 
@@ -53,14 +52,6 @@ impl Progress {
         Progress { bar: ProgressBar::hidden(), is_shown: false }
     }
 
-    /// The beginning of work whose amount nobody knows, in words.
-    pub fn unknown(what: &str) -> Self {
-        let progress =
-            Self::begin(ProgressBar::with_draw_target(None, target()), &format!("{{spinner}} {what}, {{elapsed}}"));
-        progress.bar.enable_steady_tick(Duration::from_millis(200));
-        progress
-    }
-
     fn begin(bar: ProgressBar, template: &str) -> Self {
         let rate = |state: &ProgressState, out: &mut dyn fmt::Write| {
             let rate = state.per_sec();
@@ -74,9 +65,14 @@ impl Progress {
         if show_bar(&bar) { Progress { bar, is_shown: true } } else { Progress::none() }
     }
 
-    /// So many pieces are done.
+    /// This number of pieces is done.
     pub fn at(&self, done: u64) {
         self.bar.set_position(done);
+    }
+
+    /// There are this many pieces in all, as far as is known now.
+    pub fn expect(&self, count: u64) {
+        self.bar.set_length(count);
     }
 
     /// One more piece is done.

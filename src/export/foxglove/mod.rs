@@ -70,11 +70,14 @@ enum Viewer {
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub fn write_foxglove(log: &Log, out: impl Write, add: impl FnOnce(&mut App)) -> Result<(), ExportError> {
-    write_foxglove_of_file(&file_of(log)?, log, out, add)
+    write_foxglove_of_file(&file_of(log)?, log, out, add, || {})
 }
 
 /// [`write_foxglove`] of a log that was read from a file with the bytes `file`, whose records are copied as they are:
 /// another version of this program may have written them. The file may be cut off after the log's last tick.
+///
+/// `on_frame` is called twice for each frame of the log, tick 0 among them: once for the paths, which are drawn first,
+/// and once when it is written.
 ///
 /// # Errors
 /// As [`write_foxglove`], and when the file ends before the log or its records cannot be copied.
@@ -83,8 +86,9 @@ pub fn write_foxglove_of_file(
     log: &Log,
     out: impl Write,
     add: impl FnOnce(&mut App),
+    on_frame: impl FnMut(),
 ) -> Result<(), ExportError> {
-    write(Viewer::Foxglove, Source { file, log }, out, add)
+    write(Viewer::Foxglove, Source { file, log }, out, add, on_frame)
 }
 
 /// Writes a log for Rerun, as [`write_foxglove`] does for Foxglove. Rerun draws no scene entities and no laser scans,
@@ -115,7 +119,7 @@ pub fn write_foxglove_of_file(
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub fn write_rerun(log: &Log, out: impl Write, add: impl FnOnce(&mut App)) -> Result<(), ExportError> {
-    write_rerun_of_file(&file_of(log)?, log, out, add)
+    write_rerun_of_file(&file_of(log)?, log, out, add, || {})
 }
 
 /// [`write_rerun`] of a log that was read from a file with the bytes `file`, as [`write_foxglove_of_file`] takes it.
@@ -127,8 +131,9 @@ pub fn write_rerun_of_file(
     log: &Log,
     out: impl Write,
     add: impl FnOnce(&mut App),
+    on_frame: impl FnMut(),
 ) -> Result<(), ExportError> {
-    write(Viewer::Rerun, Source { file, log }, out, add)
+    write(Viewer::Rerun, Source { file, log }, out, add, on_frame)
 }
 
 /// The bytes of the file that a log is written as.
@@ -150,16 +155,18 @@ fn write(
     Source { file, log }: Source<'_>,
     out: impl Write,
     add: impl FnOnce(&mut App),
+    mut on_frame: impl FnMut(),
 ) -> Result<(), ExportError> {
     let mut original = Original { records: LinearReader::new_with_options(file, Options::IgnoreEndMagic.into()).ok() };
     let mut out = ViewerFile::begin(out)?;
     let mut run = Recorder::with_robots(log.config.clone(), (log.seed, log.script.clone()), add)?.without_keyframes();
-    let paths = RunPath::of_run(log, &mut run, frames_of(log))?;
+    let paths = RunPath::of_run(log, &mut run, frames_of(log), &mut on_frame)?;
     let mut viewed = Viewed { viewer, log, paths, before: Vec::new(), shown: Vec::new() };
     for frame in frames_of(log) {
         run.restore(frame)?;
         original.copy_tick(frame.tick, &mut out)?;
         viewed.tick(frame.tick, &run, &mut out)?;
+        on_frame();
     }
     out.finish()
 }

@@ -23,11 +23,13 @@ pub struct RunPath {
 }
 
 impl RunPath {
-    /// The paths of all robots of a log. `run` is its run, and is restored to each of its frames.
+    /// The paths of all robots of a log. `run` is its run, and is restored to each of its frames; `on_frame` is called
+    /// after each.
     pub fn of_run<'a>(
         log: &Log,
         run: &mut Recorder,
         frames: impl Iterator<Item = &'a Frame>,
+        mut on_frame: impl FnMut(),
     ) -> Result<Vec<RunPath>, RunError> {
         let mut paths: Vec<RunPath> = Vec::new();
         for frame in frames {
@@ -39,6 +41,7 @@ impl RunPath {
             for (path, robot) in paths.iter_mut().zip(&robots) {
                 path.see(robot);
             }
+            on_frame();
         }
         Ok(paths)
     }

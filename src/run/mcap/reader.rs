@@ -23,6 +23,14 @@ impl Log {
     /// [`LogError::NoFrames`] for a digest log, [`LogError::Version`]; if the part before the first tick is sealed but
     /// not valid, [`LogError::Content`], [`LogError::Config`], [`LogError::Script`] or [`LogError::Foreign`].
     pub fn read_mcap(file: &[u8]) -> Result<ReadLog, LogError> {
+        Self::read_mcap_with(file, |_| {})
+    }
+
+    /// [`read_mcap`](Self::read_mcap), which calls `on_tick` after each tick with the number of bytes checked so far.
+    ///
+    /// # Errors
+    /// As [`read_mcap`](Self::read_mcap).
+    pub fn read_mcap_with(file: &[u8], mut on_tick: impl FnMut(u64)) -> Result<ReadLog, LogError> {
         let records = first_piece(file)?.map_err(|kind| damaged(None, 0, kind))?;
         let preamble = Preamble::read(&records, LogKind::Frames, frame_of(&records))?;
         let mut read = ReadLog {
@@ -49,6 +57,7 @@ impl Log {
                     read.log.frames.push(frame);
                     read.log.digests.push(digest);
                     at += encoder.piece().len();
+                    on_tick(at as u64);
                 }
                 Err(kind) => return Err(damaged(Some(read), at, kind)),
             }

@@ -2,7 +2,7 @@
 
 use super::gauge::Gauge;
 use crate::configuration::Kinds;
-use crate::run::{DT, Frame, Log, Script};
+use crate::run::{Frame, Log, Script, seconds};
 use crate::tour::TourConfig;
 
 /// What a run was like for each of its robots, from tick 0 to the last frame that was seen.
@@ -67,7 +67,7 @@ pub struct LeastClearance {
 impl RobotStats {
     /// The time at which ticks ended in contact, seconds.
     pub fn contact_seconds(&self) -> f64 {
-        DT * self.contact_ticks as f64
+        seconds(self.contact_ticks)
     }
 }
 

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use clap::ValueEnum;
-use motion_lab::capture::{Form, Paper, Span, Subject, at_tick, film, write};
+use motion_lab::capture::{Form, Paper, Span, Subject, at_tick_with_robots, film, write};
 use motion_lab::random::Seed;
 use motion_lab::recording::Run;
 use motion_lab::run::{Log, Script};
@@ -32,8 +32,9 @@ impl Capture {
                 true
             })
         } else {
-            let _progress = Progress::unknown("drawing");
-            at_tick(&log, &subject, tick.unwrap_or(last), paper.width_px())
+            let progress = Progress::of(last, "ticks");
+            let shown = |tick| progress.at(tick);
+            at_tick_with_robots(&log, &subject, tick.unwrap_or(last), paper.width_px(), |_| {}, shown)
                 .and_then(|captured| write(&captured, paper, form, output))
         };
         written.map_err(|error| self.failure(error))

@@ -31,10 +31,23 @@ pub fn cspace(args: &SceneArgs) -> Result<Captured, Failure> {
     let anatomy = frozen(args)?.with_tab(Tab::Swept);
     let slice = Slice::through(anatomy.checker(), &anatomy.q()).map_err(|e| Failure::usage(e, "Change --q."))?;
     let mut map = CellMap::new(slice, args.cells.unwrap_or(9));
-    let _progress = Progress::unknown("judging cells");
-    map.refine(args.budget.unwrap_or(u32::MAX));
+    judge(&mut map, args.budget.unwrap_or(u32::MAX));
     Ok(capture::cspace(&anatomy, &map, Vec::new()))
 }
+
+/// Judges up to `budget` cells, and shows how far it has come.
+fn judge(map: &mut CellMap, budget: u32) {
+    let progress = Progress::of(0, "cells, as far as is known");
+    let mut left = budget;
+    while left > 0 && map.refine(left.min(PIECE)) {
+        left -= left.min(PIECE);
+        progress.expect(map.expected().min(u64::from(budget)));
+        progress.at(u64::from(budget - left));
+    }
+}
+
+/// Number of cells judged between two looks at the progress.
+const PIECE: u32 = 1000;
 
 /// Worlds with the names of everything in them.
 pub fn atlas(args: &SceneArgs, paper: &Paper) -> Result<Captured, Failure> {

@@ -146,10 +146,10 @@ impl Export {
 fn viewer(format: Format, file: &Path, log: &Log, output: &Path) -> Result<(), Failure> {
     let bytes = read_bytes(file, MAX_LOG)?;
     let mut pending = PendingFile::create(output)?;
-    let _progress = Progress::unknown("exporting");
+    let progress = Progress::of(2 * (log.frames.len() as u64 + 1), "frames, each drawn and written");
     let written = match format {
-        Format::Rerun => write_rerun_of_file(&bytes, log, &mut pending, |_| {}),
-        _ => write_foxglove_of_file(&bytes, log, &mut pending, |_| {}),
+        Format::Rerun => write_rerun_of_file(&bytes, log, &mut pending, |_| {}, || progress.step()),
+        _ => write_foxglove_of_file(&bytes, log, &mut pending, |_| {}, || progress.step()),
     };
     written.map_err(|error| match error {
         ExportError::Write(error) => Failure::output(output, &error),

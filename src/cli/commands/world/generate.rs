@@ -8,7 +8,6 @@ use motion_lab::worlds::Warehouse;
 
 use crate::cli::support::input::is_dash;
 use crate::cli::support::output::write_file;
-use crate::cli::support::progress::Progress;
 use crate::cli::support::target::Target;
 use crate::cli::support::words::counted;
 use crate::cli::{Data, Failure, Outcome};
@@ -52,12 +51,10 @@ impl Generate {
     pub fn run(self, data: &mut Data) -> Result<Outcome, Failure> {
         let What::Warehouse = self.what;
         let warehouse = Warehouse { seed: Seed(self.seed), robots: self.robots, trailers: self.trailers };
-        let progress = Progress::unknown("generating");
         let world = warehouse
             .world()
             .map_err(|error| Failure::usage(format!("--robots: {error}"), "Give another number of robots."))?;
         let text = world.to_ron();
-        drop(progress);
         let Some(output) = self.output.as_deref().filter(|output| !is_dash(output)) else {
             data.text(&text)?;
             return Ok(Outcome::Done);

@@ -52,6 +52,9 @@ fn a_file_cut_anywhere_gives_its_sealed_beginning() {
     let file = written(&log);
     let seals = seals(&file);
     assert_eq!(seals.len(), 4, "the part before the first tick, and three ticks");
+    let mut checked = Vec::new();
+    Log::read_mcap_with(&file, |bytes| checked.push(bytes as usize)).unwrap();
+    assert_eq!(checked, seals[1..], "a reader is watched from tick to tick");
     for cut in 0..file.len() {
         assert_eq!(check_damaged(&file[..cut], cut, &log, &seals), DamageKind::Cut, "cut at {cut}");
     }
