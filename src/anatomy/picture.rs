@@ -6,8 +6,8 @@ use crate::collision::{Collision, EdgeVerdict, Scene};
 use crate::geometry::{Aabb, Footprint, Part, Point2, Pose2, Shape, Vector2};
 use crate::num::{self, lesser};
 use crate::picture::{
-    Anchor, Dash, Drawing, Face, Fill, Glyph, Item, Line, Picture, RobotDrawing, Role, footprint, polygon_of, robot,
-    trace, world,
+    Anchor, Dash, Drawing, Face, Fill, Gait, Glyph, Item, Line, Picture, RobotDrawing, Role, footprint, polygon_of,
+    robot, trace, world,
 };
 use crate::robots::Robot;
 
@@ -48,6 +48,8 @@ impl Anatomy {
             name: robot_model.name(),
             footprint: &footprint,
             heading: robot_model.heading(&q),
+            model: Some(*robot_model),
+            gait: Gait::default(),
             in_contact: touches,
         }));
         let role = if touches { Role::Goal } else { Role::Robot };

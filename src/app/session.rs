@@ -196,6 +196,7 @@ fn shown(world: &World, robot: &RobotView, between: f64) -> CockpitRobot {
         footprint: blend(&robot.previous_footprint, &robot.footprint, between, LEAP),
         // a disc does not show which way it faces; its third coordinate does
         heading: pose.filter(|_| robot.footprint.parts().len() == 1 && !is_arm).map(|p| p.theta),
+        gait: robot.gait(),
         // a flash is shown while the run plays; at rest, red is this very tick's contact
         flash: if playing { robot.flash > 0 } else { robot.in_contact },
         contacts: robot.contacts,

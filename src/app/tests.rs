@@ -33,7 +33,7 @@ use crate::simulation::{
     History, LatestFrame, PendingInput, Playback, RobotView, RunCommand, RunConfig, Transport, view,
 };
 use crate::ui::Interface;
-use crate::ui::SessionCommand;
+use crate::ui::{AtlasState, SessionCommand};
 
 /// The lab, run frame by frame. A frame takes a fortieth of a second: half a tick at normal speed.
 struct Lab {
@@ -89,9 +89,19 @@ fn lab(size: [f32; 2]) -> Harness<'static, Lab> {
     harness
 }
 
-/// Clicks the control of this name.
+/// Clicks the control of this name; what is in the menu, there.
 fn click(harness: &mut Harness<'_, Lab>, name: &str) {
+    if harness.query_by_label(name).is_none() {
+        harness.get_by_label("Menu").click();
+        harness.run_steps(3);
+    }
     harness.get_by_label(name).click();
+    harness.run_steps(3);
+}
+
+/// Brings the cockpit of this robot to the front.
+fn bring(harness: &mut Harness<'_, Lab>, robot: &str) {
+    harness.get_by_label_contains(&format!("Bring {robot}")).click();
     harness.run_steps(3);
 }
 
@@ -142,4 +152,18 @@ fn drag(harness: &mut Harness<'_, Lab>, handle: &str, to: [f64; 2]) {
     harness.run_steps(3);
     pointer(harness, to, Some(false));
     harness.run_steps(3);
+}
+
+/// The atlas as it is shown.
+fn atlas(harness: &Harness<'_, Lab>) -> AtlasState {
+    harness.state().app.world().resource::<Interface>().0.atlas.clone()
+}
+
+/// Where a point of the atlas's world is on the screen.
+fn at(harness: &Harness<'_, Lab>, [x, y]: [f64; 2]) -> Pos2 {
+    let world = atlas(harness).world().clone();
+    let paper = harness.get_by_label_contains(&format!("World {}", world.name)).rect();
+    let fit = crate::ui::paint::canvas::fit(&crate::picture::world(&world), paper);
+    let [x, y] = fit.screen_from_world(crate::geometry::Point2::new(x, y));
+    pos2(x as f32, y as f32)
 }

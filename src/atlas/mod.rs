@@ -22,7 +22,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use crate::collision::{Checker, ObstacleId};
 use crate::configuration::{AnyConfiguration, Configuration, Kinds};
 use crate::geometry::Footprint;
-use crate::picture::{Drawing, Picture, RobotDrawing, places, robot, world};
+use crate::picture::{Drawing, Gait, Picture, RobotDrawing, places, robot, world};
 use crate::robots::{AnyRobot, Robot};
 use crate::worlds::World;
 
@@ -157,11 +157,14 @@ impl Atlas {
                 name: &r.name,
                 footprint: &r.robot.footprint(&r.q),
                 heading: r.robot.heading(&r.q),
+                model: Some(r.robot),
+                gait: Gait::default(),
                 in_contact: false,
             })
         });
         let others = self.others().flat_map(|(name, footprint)| {
-            robot(&RobotDrawing { name, footprint: &footprint, heading: None, in_contact: false })
+            let (model, gait) = (None, Gait::default());
+            robot(&RobotDrawing { name, footprint: &footprint, heading: None, model, gait, in_contact: false })
         });
         world(&self.world).with(dots).with(drawn).with(others)
     }

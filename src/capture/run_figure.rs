@@ -95,6 +95,8 @@ impl Watched {
             start: robot.footprint.clone(),
             end: robot.footprint.clone(),
             end_heading: None,
+            model: robot.model,
+            gait: robot.gait(),
             contacts: Vec::new(),
             readout: String::new(),
         };
@@ -112,6 +114,7 @@ impl Watched {
         let is_disc = robot.footprint.parts().iter().all(|p| matches!(p.shape(), Shape::Disc { .. }));
         self.tour.end_heading = robot.coordinates.get(2).copied().filter(|_| is_disc);
         self.tour.readout = printed_as(robot.about, &robot.coordinates);
+        (self.tour.model, self.tour.gait) = (robot.model, robot.gait());
         self.tour.end = robot.footprint;
     }
 }

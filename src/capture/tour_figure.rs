@@ -1,8 +1,9 @@
 //! A run's tour as a figure: each robot's path, its start and end, and its contacts.
 
 use crate::geometry::{Footprint, Point2};
-use crate::picture::{Drawing, Figure, Glyph, Item, Panel, RobotDrawing, Role, footprint, robot, trace, world};
+use crate::picture::{Drawing, Figure, Gait, Glyph, Item, Panel, RobotDrawing, Role, footprint, robot, trace, world};
 use crate::random::Seed;
+use crate::robots::AnyRobot;
 use crate::run::Digest;
 use crate::worlds::World;
 
@@ -28,6 +29,10 @@ pub struct RobotTour {
     pub end: Footprint,
     /// The heading at the end, radians, where the footprint does not show it (a disc).
     pub end_heading: Option<f64>,
+    /// The robot with its own sizes, if it is one of the lab's.
+    pub model: Option<AnyRobot>,
+    /// How its wheels stand at the end.
+    pub gait: Gait,
     /// The reference point at the first tick of each contact.
     pub contacts: Vec<Point2>,
     /// Its final configuration as it prints.
@@ -72,7 +77,15 @@ fn panel(tour: &TourPanel<'_>) -> Panel {
 fn stations(tour: &RobotTour) -> Vec<Item> {
     let name = &tour.name;
     let mut items = footprint(&format!("start/{name}"), &format!("the start of {name}"), &tour.start, Role::Robot, 0.0);
-    items.extend(robot(&RobotDrawing { name, footprint: &tour.end, heading: tour.end_heading, in_contact: false }));
+    let RobotTour { end, end_heading, model, gait, .. } = tour;
+    items.extend(robot(&RobotDrawing {
+        name,
+        footprint: end,
+        heading: *end_heading,
+        model: *model,
+        gait: *gait,
+        in_contact: false,
+    }));
     items.extend(tour.contacts.iter().enumerate().map(|(i, &at)| {
         let mark = Drawing::Mark { at, glyph: Glyph::Cross, radius_px: 3.5 };
         Item::new(format!("contact/{name}/{}", i + 1), format!("contact {} of {name}", i + 1), Role::Goal, mark)
@@ -122,6 +135,8 @@ mod tests {
             start: Footprint::disc(p(1.0, 1.0), 0.11),
             end: Footprint::disc(p(3.0, 1.0), 0.11),
             end_heading: Some(0.5),
+            model: None,
+            gait: Gait::default(),
             contacts: vec![p(2.0, 2.0)],
             readout: "Pose2 { x: 3.000, y: 1.000, theta: 0.500 }".into(),
         };

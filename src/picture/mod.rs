@@ -28,7 +28,7 @@ pub use outline::{chains, outline, polygon_of};
 pub use pick::pick;
 pub use readout::{readout, readout_lines};
 pub use resolve::{Primitive, resolve};
-pub use robot::{RobotDrawing, ScanDrawing, fan_scan, footprint, robot, scan, scan_id, trace};
+pub use robot::{Gait, RobotDrawing, ScanDrawing, fan_scan, footprint, robot, scan, scan_id, trace};
 #[cfg(feature = "screen")]
 pub(crate) use robot::{chevron, nose};
 pub use role::{Palette, Rgb, Role};

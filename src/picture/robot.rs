@@ -1,10 +1,19 @@
 //! Draws robots, their traces and their sensors' scans, as items.
 
+mod arm;
+mod car;
+mod frame;
+mod gait;
+mod rover;
+
 use super::outline::polygon_of;
 use super::{Drawing, Fill, Glyph, Item, Line, Role};
 use crate::geometry::{Footprint, Part, Point2, Pose2, Shape, Vector2};
 use crate::num;
+use crate::robots::AnyRobot;
 use crate::sensors::{FanSensor, RangeSensor};
+
+pub use gait::Gait;
 
 /// A robot to be drawn.
 #[derive(Clone, Debug)]
@@ -15,6 +24,11 @@ pub struct RobotDrawing<'a> {
     pub footprint: &'a Footprint,
     /// Its heading, radians, if the footprint does not show it (a disc).
     pub heading: Option<f64>,
+    /// The robot with its own sizes, if it is one of the lab's: it is drawn with wheels and all. Any other is drawn by
+    /// its footprint.
+    pub model: Option<AnyRobot>,
+    /// How its wheels stand.
+    pub gait: Gait,
     /// Whether it is drawn in contact.
     pub in_contact: bool,
 }
@@ -40,18 +54,32 @@ fn part_item(id: String, name: &str, part: &Part, role: Role, opacity: f64) -> I
     Item::new(id, name, role, drawing).filled(Fill::Tint(opacity)).stroked(edge)
 }
 
-/// The items of a robot: its footprint at 85 % opacity, in the goal's colour while in contact, and marks that show its
-/// pose: a nose on a disc, a chevron on a car's chassis, the joints and the tip of an arm.
+/// The items of a robot, in the goal's colour while in contact.
+///
+/// The footprint, which is what counts, has a thin edge; what is drawn in it is filled at 85 %. A disc has a nose, one of
+/// the lab's rovers wheels as well; a car rounded corners, a windscreen, wheels and with a trailer a drawbar; an arm a
+/// base plate, joints and a gripper.
 pub fn robot(drawing: &RobotDrawing<'_>) -> Vec<Item> {
     let role = if drawing.in_contact { Role::Goal } else { Role::Robot };
-    let id = format!("robot/{}", drawing.name);
-    let mut items = footprint(&id, drawing.name, drawing.footprint, role, 0.85);
-    let parts = drawing.footprint.parts();
-    let item = |part: &str, role, drawn| Item::new(format!("{id}/{part}"), drawing.name, role, drawn);
-    if let ([part], Some(heading)) = (parts, drawing.heading) {
+    let RobotDrawing { name, footprint: covered, heading, model, gait, .. } = drawing;
+    let id = format!("robot/{name}");
+    let parts = covered.parts();
+    let item = |part: &str, role, drawn| Item::new(format!("{id}/{part}"), *name, role, drawn);
+    let is_car = matches!(model, Some(AnyRobot::Hitch(_)));
+    let mut items: Vec<Item> = arm::plate(&id, name, covered).into_iter().collect();
+    items.extend(footprint(&id, name, covered, role, if is_car { 0.2 } else { 0.85 }));
+    if let ([part], Some(heading)) = (parts, *heading) {
         let (centre, radius) = (part.pose().position(), part.placed().radius());
+        if let Some(AnyRobot::Rusty(rover)) = model {
+            let pose = Pose2 { x: centre.x, y: centre.y, theta: heading };
+            items.extend(rover::wheels(&id, name, rover, &pose, gait));
+        }
         let nose = Drawing::Nose { centre, radius, heading };
         items.push(item("heading", Role::Paper, nose).filled(Fill::Tint(0.9)));
+    }
+    if let Some(AnyRobot::Hitch(car)) = model {
+        items.extend(car::bodies(&id, name, covered, role));
+        items.extend(car::marks(&id, name, car, covered, role, gait));
     }
     if let Some((pose, Shape::Rectangle { min, max })) = parts.first().map(|p| (p.pose(), p.shape())) {
         let chevron = Drawing::Polyline(chevron(pose, *min, *max).to_vec());
@@ -61,14 +89,7 @@ pub fn robot(drawing: &RobotDrawing<'_>) -> Vec<Item> {
             items.push(item("hitch", role, mark));
         }
     }
-    let links = parts.iter().filter(|p| p.placed().core().len() == 2);
-    for (i, link) in links.enumerate() {
-        let mark = Drawing::Mark { at: link.pose().position(), glyph: Glyph::Ring, radius_px: 3.5 };
-        items.push(item(&format!("joint {}", i + 1), role, mark));
-    }
-    if let Some([_, tip]) = parts.last().map(|p| p.placed().core()) {
-        items.push(item("tip", role, Drawing::Mark { at: *tip, glyph: Glyph::Dot, radius_px: 3.5 }));
-    }
+    items.extend(arm::marks(&id, name, covered, role));
     items
 }
 
@@ -137,7 +158,7 @@ pub fn fan_scan(id: &str, name: &str, drawing: &ScanDrawing<'_>) -> Item {
 mod tests {
     use super::*;
     use crate::configuration::{HitchCfg, T2};
-    use crate::robots::{HITCH, Reach, Robot};
+    use crate::robots::{HITCH, RUSTY, Reach, Robot};
 
     fn ids(drawing: &RobotDrawing<'_>) -> Vec<String> {
         robot(drawing).into_iter().map(|i| i.id).collect()
@@ -148,18 +169,34 @@ mod tests {
         let rusty = Footprint::disc(Point2::new(1.0, 2.0), 0.11);
         let towing = HITCH.with_trailer().footprint(&HitchCfg { body: Pose2::IDENTITY, trailer: Some(0.0) });
         let arm = Reach::<2>::choset().footprint(&T2::new(0.3, 0.4));
-        let show = |name, footprint, heading| ids(&RobotDrawing { name, footprint, heading, in_contact: false });
-        assert_eq!(show("R", &rusty, Some(0.1)), ["robot/R/0", "robot/R/heading"]);
-        assert_eq!(show("H", &towing, None), ["robot/H/0", "robot/H/1", "robot/H/heading", "robot/H/hitch"]);
-        let joints = ["robot/A/0", "robot/A/1", "robot/A/joint 1", "robot/A/joint 2", "robot/A/tip"];
-        assert_eq!(show("A", &arm, None), joints);
+        let show = |name, footprint, heading, model| {
+            ids(&RobotDrawing { name, footprint, heading, model, gait: Gait::default(), in_contact: false })
+        };
+        // of a robot that the lab does not know
+        assert_eq!(show("R", &rusty, Some(0.1), None), ["robot/R/0", "robot/R/heading"]);
+        assert_eq!(show("H", &towing, None, None), ["robot/H/0", "robot/H/1", "robot/H/heading", "robot/H/hitch"]);
+        let own = |kind: &str, all: &[&str]| {
+            let found = match kind {
+                "R" => show("R", &rusty, Some(0.1), Some(AnyRobot::Rusty(RUSTY))),
+                "H" => show("H", &towing, None, Some(AnyRobot::Hitch(HITCH.with_trailer()))),
+                _ => show("A", &arm, None, None),
+            };
+            for part in all {
+                assert!(found.contains(&format!("robot/{kind}/{part}")), "{part} of {found:?}");
+            }
+        };
+        own("R", &["0", "left wheel", "right wheel", "heading"]);
+        own("H", &["0", "1", "body 0", "body 1", "windscreen", "left front wheel", "right trailer wheel", "drawbar"]);
+        own("A", &["plate", "0", "1", "joint 1", "joint 2", "gripper", "tip"]);
     }
 
     #[test]
     fn contact_borrows_the_goals_colour() {
         let footprint = Footprint::disc(Point2::new(1.0, 2.0), 0.11);
         for (in_contact, role) in [(false, Role::Robot), (true, Role::Goal)] {
-            let drawing = RobotDrawing { name: "R", footprint: &footprint, heading: Some(0.0), in_contact };
+            let (gait, model) = (Gait::default(), None);
+            let drawing =
+                RobotDrawing { name: "R", footprint: &footprint, heading: Some(0.0), model, gait, in_contact };
             let roles: Vec<Role> = robot(&drawing).iter().map(|i| i.role).collect();
             assert_eq!(roles, [role, Role::Paper], "the body, and on it the heading");
         }

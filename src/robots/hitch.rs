@@ -88,7 +88,7 @@ impl CarBody {
     }
 
     /// The rectangle in the rear axle's frame.
-    pub(super) fn rectangle(&self) -> Aabb {
+    pub(crate) fn rectangle(&self) -> Aabb {
         let half = 0.5 * self.width;
         let min = Point2::new(-self.rear_overhang, -half);
         Aabb { min, max: Point2::new(self.length - self.rear_overhang, half) }
@@ -97,7 +97,7 @@ impl CarBody {
 
 impl TrailerBody {
     /// The rectangle in the hitch's frame, x axis along the trailer's heading.
-    pub(super) fn rectangle(&self, hitch_len: f64) -> Aabb {
+    pub(crate) fn rectangle(&self, hitch_len: f64) -> Aabb {
         let half = 0.5 * self.width;
         let min = Point2::new(-hitch_len - self.rear_overhang, -half);
         Aabb { min, max: Point2::new(-hitch_len + self.front_overhang, half) }

@@ -115,6 +115,13 @@ impl History {
         self.samples.iter().step_by(every).filter_map(pick).collect()
     }
 
+    /// The samples of one robot in a span of ticks, oldest first.
+    pub fn span(&self, robot: u32, ticks: std::ops::RangeInclusive<u64>) -> impl Iterator<Item = &Trail> {
+        let first = self.samples.partition_point(|s| s.tick < *ticks.start());
+        let in_span = self.samples[first..].iter().take_while(move |s| s.tick <= *ticks.end());
+        in_span.filter_map(move |s| s.robots.get(robot as usize))
+    }
+
     /// The number of samples kept.
     pub fn samples(&self) -> usize {
         self.samples.len()

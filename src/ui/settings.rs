@@ -17,8 +17,10 @@ pub struct Settings {
     pub scan: bool,
     /// Whether the plots are open.
     pub plots: bool,
-    /// Index of the world that a narrow screen shows.
+    /// Index of the world in front.
     pub world: u32,
+    /// Whether a wide window shows all worlds side by side.
+    pub side_by_side: bool,
     /// The ids of the widgets whose first hints were put away.
     pub hints_away: Vec<String>,
     /// Whether fades and other animations are off.
@@ -47,6 +49,7 @@ impl Default for Settings {
             scan: false,
             plots: false,
             world: 0,
+            side_by_side: false,
             hints_away: Vec::new(),
             reduced_motion: false,
         }

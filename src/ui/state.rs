@@ -21,6 +21,8 @@ pub struct UiState {
     pub anatomy: super::AnatomyState,
     /// The state of the configuration space.
     pub cspace: super::CspaceState,
+    /// The configuration beside the cockpit in front.
+    pub linked: super::LinkedState,
     /// The state of the atlas.
     pub atlas: AtlasState,
     /// Other worlds of the atlas with their edits and what can be undone of them, in the order they were left.

@@ -1,12 +1,14 @@
-//! The buttons above every widget: theme, keys and capture; on the dashboard also names, plots, undo, save and open.
+//! The menu above every widget: capture, keys and theme; on the dashboard also open, save, undo, plots and names.
 
 use bevy_egui::egui::{Align, Align2, Context, Label, Layout, Rect, Ui, vec2};
 
 use super::keys::{Action, hint};
 use super::paint::button::LabButton;
 use super::paint::frame;
+use super::paint::icon::Icon;
 use super::paint::plate::{Place, plate, refusal};
 use super::{Command, Dashboard, Look, SessionCommand, UiState, Widget, WidgetText};
+use crate::manifest::ThemeChoice;
 use crate::simulation::TransportCommand;
 
 /// Carries out the actions that concern the session, and ignores all others.
@@ -30,10 +32,7 @@ pub fn act(action: Action, model: &Dashboard, state: &mut UiState, commands: &mu
 /// Largest width of a notice, points.
 const MOST_NOTICE: f32 = 560.0;
 
-/// Smallest width of a title that has buttons beside it, points.
-const TITLE: f32 = 300.0;
-
-/// Shows a widget's title, and the buttons beside it: in a menu on a narrow screen.
+/// Shows a widget's title, and at the right end its menu; on the dashboard with undo, redo and the plots beside it.
 pub fn header(
     ui: &mut Ui,
     words: &WidgetText,
@@ -42,22 +41,19 @@ pub fn header(
     state: &mut UiState,
     commands: &mut Vec<Command>,
 ) {
-    let narrow = look.narrow;
-    let buttons = if state.widget == Widget::Dashboard { 650.0 } else { 280.0 };
-    // without room for the title and the buttons side by side, the buttons go into a menu
-    let narrow = narrow || ui.available_width() < buttons + TITLE;
-    let room = if narrow { 76.0 } else { buttons };
+    // without room for the title and the buttons side by side, the menu holds them all
+    let is_small = look.narrow || ui.available_width() < 480.0;
+    let beside: &[Tool] = if is_small || state.widget != Widget::Dashboard { &[] } else { &[PLOTS, REDO, UNDO] };
+    let room = 90.0 + 60.0 * beside.len() as f32;
     ui.horizontal(|ui| {
         ui.vertical(|ui| {
             ui.set_max_width((ui.available_width() - room).max(0.0));
             frame::title(ui, words, look);
         });
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-            if narrow {
-                ui.menu_button("Menu", |ui| tools(ui, model, true, look, state, commands));
-            } else {
-                ui.spacing_mut().button_padding.x = 10.0;
-                tools(ui, model, false, look, state, commands);
+            ui.menu_button("Menu", |ui| menu(ui, model, beside, look, state, commands));
+            for tool in beside {
+                show(ui, tool, model, look, state, commands);
             }
         });
     });
@@ -81,39 +77,61 @@ pub fn head(
     ui.add_space(6.0);
 }
 
-/// Shows the buttons: in a row from right to left, or as a list `in_menu`.
-pub fn tools(
+/// A button above a widget.
+#[derive(Clone, Copy, PartialEq, Eq)]
+struct Tool {
+    label: &'static str,
+    icon: Option<Icon>,
+    action: Action,
+}
+
+const fn worded(label: &'static str, action: Action) -> Tool {
+    Tool { label, icon: None, action }
+}
+
+const UNDO: Tool = Tool { label: "Undo", icon: Some(Icon::Undo), action: Action::Undo };
+const REDO: Tool = Tool { label: "Redo", icon: Some(Icon::Redo), action: Action::Redo };
+const PLOTS: Tool = worded("Plots", Action::Plots);
+
+/// What acts on the run. Only the dashboard shows it, so only the dashboard has them.
+const OF_THE_RUN: [Tool; 6] =
+    [worded("Open", Action::Open), worded("Save", Action::Save), UNDO, REDO, PLOTS, worded("Names", Action::Labels)];
+
+fn menu(
     ui: &mut Ui,
     model: &Dashboard,
-    in_menu: bool,
+    elsewhere: &[Tool],
     look: &Look,
     state: &mut UiState,
     commands: &mut Vec<Command>,
 ) {
-    let theme = format!("{} theme", state.settings.theme.name());
-    let mut buttons = vec![
-        (theme.as_str(), Action::Theme, true, false),
-        ("Keys", Action::Help, true, state.help),
-        ("Capture", Action::Capture, true, state.capture.open),
-    ];
-    // only the dashboard shows the run, so only the dashboard has the buttons that act on it
-    if state.widget == Widget::Dashboard {
-        buttons.extend([
-            ("Names", Action::Labels, true, state.settings.labels),
-            ("Plots", Action::Plots, true, state.settings.plots),
-            ("Redo", Action::Redo, model.can_redo, false),
-            ("Undo", Action::Undo, model.can_undo, false),
-            ("Save", Action::Save, true, false),
-            ("Open", Action::Open, true, false),
-        ]);
+    let of_the_run: &[Tool] = if state.widget == Widget::Dashboard { &OF_THE_RUN } else { &[] };
+    let all = of_the_run.iter().filter(|tool| !elsewhere.contains(tool)).copied();
+    for tool in all.chain([worded("Capture", Action::Capture), worded("Keys", Action::Help)]) {
+        show(ui, &Tool { icon: None, ..tool }, model, look, state, commands);
     }
-    if in_menu {
-        buttons.reverse();
-    }
-    for (label, action, enabled, on) in buttons {
-        if LabButton::new(label).enabled(enabled).selected(on).show(ui, look).on_hover_text(hint(action)).clicked() {
-            act(action, model, state, commands);
+    ui.separator();
+    for theme in ThemeChoice::ALL {
+        let label = format!("{} theme", theme.name());
+        if LabButton::new(&label).selected(state.settings.theme == theme).show(ui, look).clicked() {
+            state.settings.theme = theme;
         }
+    }
+}
+
+fn show(ui: &mut Ui, tool: &Tool, model: &Dashboard, look: &Look, state: &mut UiState, commands: &mut Vec<Command>) {
+    let Tool { label, icon, action } = *tool;
+    let button = LabButton::new(label);
+    let button = icon.map_or(button, |icon| button.icon(icon));
+    let button = match action {
+        Action::Undo => button.enabled(model.can_undo),
+        Action::Redo => button.enabled(model.can_redo),
+        Action::Plots => button.selected(state.settings.plots),
+        Action::Labels => button.selected(state.settings.labels),
+        _ => button,
+    };
+    if button.show(ui, look).on_hover_text(hint(action)).clicked() {
+        act(action, model, state, commands);
     }
 }
 

@@ -6,6 +6,7 @@ use super::*;
 fn dragging_the_elbow_keeps_theta2_and_dragging_the_tip_keeps_theta1() {
     let mut harness = lab(WIDE);
     let held = |q: &Coordinates, i: usize| (q[i] * 1e5).round();
+    bring(&mut harness, "Reach");
     drag(&mut harness, "Reach: elbow, theta1 in radians", [-0.6, 0.9]);
     let first = harness.state().robot(1);
     let bearing = crate::num::atan2(0.9, -0.6);
@@ -38,6 +39,7 @@ fn dragging_the_elbow_keeps_theta2_and_dragging_the_tip_keeps_theta1() {
 fn a_focused_handle_is_nudged_and_numbers_are_typed() {
     let mut harness = lab(WIDE);
     pause(&mut harness);
+    bring(&mut harness, "Reach");
     let before = harness.state().robot(1).coordinates;
     harness.get_by_label("Reach: tip, theta2 in radians").focus();
     harness.run_steps(2);
@@ -74,6 +76,7 @@ fn a_focused_handle_is_nudged_and_numbers_are_typed() {
 fn an_arm_of_three_links_walks_while_its_tip_stays() {
     let mut harness = lab(WIDE);
     pause(&mut harness);
+    bring(&mut harness, "Reach");
     click(&mut harness, "three links");
     let robot = harness.state().robot(1);
     assert_eq!((robot.kind.as_str(), robot.coordinates.len()), ("reach3", 3));
@@ -92,4 +95,30 @@ fn an_arm_of_three_links_walks_while_its_tip_stays() {
     click(&mut harness, "Undo");
     click(&mut harness, "two links");
     assert_eq!(harness.state().robot(1).coordinates.len(), 2);
+}
+
+#[test]
+fn the_point_on_the_torus_is_dragged_and_the_arm_follows() {
+    let mut harness = lab(WIDE);
+    harness.run_steps(10);
+    pause(&mut harness);
+    assert!(harness.query_by_label_contains("Configuration of Rusty").is_some(), "a rover is a point as well");
+    bring(&mut harness, "Reach");
+    harness.run_steps(5);
+    let point = "Reach: its configuration as a point, to be dragged";
+    for (along, across) in [(egui::vec2(14.0, 0.0), 0), (egui::vec2(0.0, -14.0), 1)] {
+        let before = harness.state().robot(1).coordinates;
+        let from = harness.get_by_label(point).rect().center();
+        pointer(&mut harness, from, Some(true));
+        (1..=5).for_each(|i| pointer(&mut harness, from + along * (i as f32 / 5.0), None));
+        harness.run_steps(2);
+        pointer(&mut harness, from + along, Some(false));
+        click(&mut harness, "Step");
+        let after = harness.state().robot(1).coordinates;
+        // right is theta1 and up theta2; both grow
+        assert!(after[across] > before[across] + 0.1, "{before:?} {after:?}");
+        assert!((after[1 - across] - before[1 - across]).abs() < 0.02, "{before:?} {after:?}");
+        let now = harness.get_by_label(point).rect().center();
+        assert!((now - from - along).length() < 1.5, "the point is where it was let go");
+    }
 }

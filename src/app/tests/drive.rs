@@ -65,6 +65,7 @@ fn a_car_that_only_steers_does_not_slide_sideways() {
 fn the_trailer_goes_on_and_a_goal_is_set_for_it() {
     let mut harness = lab(WIDE);
     pause(&mut harness);
+    bring(&mut harness, "Hitch");
     click(&mut harness, "put a trailer on");
     click(&mut harness, "Step");
     assert_eq!(harness.state().robot(2).coordinates.len(), 4);
@@ -81,6 +82,7 @@ fn the_trailer_goes_on_and_a_goal_is_set_for_it() {
 fn where_there_is_no_room_for_a_trailer_it_is_said() {
     let mut harness = lab(WIDE);
     pause(&mut harness);
+    bring(&mut harness, "Hitch");
     // the rear axle 1.2 m or 2.5 m from the west curb, facing away from it: the trailer would stand across the curb
     for x in [1.2, 2.5] {
         let to = [x, 2.5, 0.0].map(|v| crate::run::Quantized::try_new(v).unwrap()).to_vec();
@@ -107,4 +109,24 @@ fn the_pad_drives_like_the_keys() {
     pointer(&mut harness, pad.center_top(), Some(false));
     harness.run_steps(6);
     assert_eq!(harness.state().robot(0).channels, [0, 0]);
+}
+
+#[test]
+fn a_cockpit_comes_to_the_front_and_the_robot_in_hand_is_let_go() {
+    let mut harness = lab(WIDE);
+    arm_rusty(&mut harness);
+    harness.key_down(Key::ArrowUp);
+    harness.run_steps(10);
+    assert_ne!(harness.state().robot(0).channels, [0, 0]);
+    bring(&mut harness, "Hitch");
+    harness.key_up(Key::ArrowUp);
+    harness.run_steps(4);
+    let armed = |h: &Harness<'_, Lab>| h.state().app.world().resource::<Interface>().0.armed.clone();
+    assert_eq!((armed(&harness), harness.state().robot(0).channels), (None, [0, 0]), "it does not drive on");
+    assert!(paper(&harness, "Lot").width() > 500.0);
+    // its key takes it in hand where it stands, at the front or not
+    harness.key_press(Key::Num1);
+    harness.run_steps(4);
+    assert_eq!(armed(&harness).as_deref(), Some("Rusty"));
+    assert!(paper(&harness, "Apartment").width() > 500.0);
 }

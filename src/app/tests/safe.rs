@@ -91,6 +91,7 @@ fn nothing_fades_while_a_robot_is_in_hand_a_drag_or_a_refusal_is_on() {
     harness.key_press(Key::Escape);
     harness.run_steps(10);
     assert_eq!(lit(&harness), Some(Role::Obstacle));
+    bring(&mut harness, "Reach");
     let handle = harness.get_by_label("Reach: elbow, theta1 in radians").rect().center();
     pointer(&mut harness, handle, Some(true));
     pointer(&mut harness, handle + egui::vec2(20.0, 5.0), None);
@@ -284,6 +285,7 @@ fn a_paused_drag_shows_one_configuration_everywhere() {
     let mut harness = lab(WIDE);
     harness.run_steps(30);
     pause(&mut harness);
+    bring(&mut harness, "Reach");
     let said = |harness: &Harness<'_, Lab>| {
         let of_arm = |text: &String| text.starts_with("T2 {") || text.contains("tip: (");
         let lines: Vec<String> = words(harness).into_iter().map(|(text, ..)| text).filter(of_arm).collect();

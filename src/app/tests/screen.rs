@@ -39,7 +39,7 @@ fn the_colour_key_lights_its_role_and_the_list_of_keys_opens() {
     harness.run_steps(3);
     let lit = |h: &Harness<'_, Lab>| h.state().app.world().resource::<Interface>().0.lit;
     assert_eq!(lit(&harness), Some(crate::picture::Role::Obstacle));
-    harness.get_by_label("Keys").focus();
+    harness.get_by_label("Menu").focus();
     harness.run_steps(12);
     assert_eq!(lit(&harness), None, "the fade ends");
     harness.key_press(Key::Questionmark);

@@ -147,3 +147,24 @@ fn frame_rates_and_stalls_change_no_bit_of_a_run() {
         assert_eq!(played(rate, stall), smooth, "{rate} frames a second, stall: {stall}");
     }
 }
+
+#[test]
+fn each_robot_has_a_lane_and_a_click_goes_to_what_happened_to_it() {
+    let mut harness = lab(WIDE);
+    harness.run_steps(400);
+    pause(&mut harness);
+    let end = harness.state().transport().frontier;
+    let history = harness.state().app.world().resource::<History>();
+    let of = |robot| history.marks().iter().filter(move |mark| mark.robot == robot).map(|mark| mark.tick);
+    let contact = of(1).next().expect("the arm meets obstacles");
+    assert!(of(0).all(|tick| tick.abs_diff(contact) > 10), "the rover met nothing then");
+    let lanes = harness.get_by_label_contains("takeovers so far").rect();
+    let x = lanes.left() + lanes.width() * contact as f32 / end as f32;
+    // four points beside the mark: a click on the arm's lane means it, one on the rover's the time
+    for (lane, tick) in [(1.0, contact), (0.0, contact + (4.0 * end as f32 / lanes.width()).round() as u64)] {
+        let at = egui::pos2(x + 4.0, lanes.top() + (lane + 0.5) * lanes.height() / 3.0);
+        click_at(&mut harness, at);
+        let found = harness.state().transport().tick;
+        assert!(found == tick || lane == 0.0 && found.abs_diff(tick) <= 1 && found != contact, "{found}, not {tick}");
+    }
+}

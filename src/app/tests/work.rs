@@ -3,20 +3,6 @@
 use super::*;
 use crate::app::dialogs::{self, Dialogs};
 use crate::atlas::Op;
-use crate::ui::AtlasState;
-
-fn atlas(harness: &Harness<'_, Lab>) -> AtlasState {
-    harness.state().app.world().resource::<Interface>().0.atlas.clone()
-}
-
-/// Where a point of the atlas's world is on the screen.
-fn at(harness: &Harness<'_, Lab>, [x, y]: [f64; 2]) -> Pos2 {
-    let world = atlas(harness).world().clone();
-    let paper = harness.get_by_label_contains(&format!("World {}", world.name)).rect();
-    let fit = crate::ui::paint::canvas::fit(&crate::picture::world(&world), paper);
-    let [x, y] = fit.screen_from_world(crate::geometry::Point2::new(x, y));
-    pos2(x as f32, y as f32)
-}
 
 /// Chooses a world from the atlas's list.
 fn choose(harness: &mut Harness<'_, Lab>, name: &str) {
@@ -69,31 +55,37 @@ fn with_dialogs() -> Harness<'static, Lab> {
 
 #[test]
 fn no_key_reaches_the_lab_behind_a_dialog() {
-    let mut harness = with_dialogs();
-    harness.run_steps(40);
-    arm_rusty(&mut harness);
-    harness.get_by_label("Reach: tip, theta2 in radians").focus();
-    harness.run_steps(2);
-    harness.key_press_modifiers(Modifiers::COMMAND, Key::O);
-    harness.run_steps(4);
-    harness.get_by_label("Open a run");
-    let before = (harness.state().transport(), harness.state().script().clone());
-    for key in [Key::G, Key::R, Key::Space, Key::ArrowLeft, Key::ArrowUp, Key::N, Key::P, Key::Home, Key::Num3] {
-        harness.key_down(key);
+    for driven in ["Rusty", "Reach"] {
+        let mut harness = with_dialogs();
+        harness.run_steps(40);
+        if driven == "Rusty" {
+            arm_rusty(&mut harness);
+        } else {
+            bring(&mut harness, "Reach");
+            harness.get_by_label("Reach: tip, theta2 in radians").focus();
+        }
         harness.run_steps(2);
-        harness.key_up(key);
-        harness.run_steps(2);
+        harness.key_press_modifiers(Modifiers::COMMAND, Key::O);
+        harness.run_steps(4);
+        harness.get_by_label("Open a run");
+        let before = (harness.state().transport(), harness.state().script().clone());
+        for key in [Key::G, Key::R, Key::Space, Key::ArrowLeft, Key::ArrowUp, Key::N, Key::P, Key::Home, Key::Num3] {
+            harness.key_down(key);
+            harness.run_steps(2);
+            harness.key_up(key);
+            harness.run_steps(2);
+        }
+        assert_eq!((harness.state().transport(), harness.state().script().clone()), before, "{driven}");
+        let ui = &harness.state().app.world().resource::<Interface>().0;
+        assert!(!ui.settings.plots && ui.armed.is_some() == (driven == "Rusty"));
+        // with the dialog gone, the keys are the lab's again
+        harness.get_by_label_contains("Cancel").click();
+        harness.run_steps(4);
+        assert!(harness.query_by_label("Open a run").is_none());
+        harness.key_press(Key::G);
+        harness.run_steps(3);
+        assert_ne!(harness.state().transport().seed.0, 2005);
     }
-    assert_eq!((harness.state().transport(), harness.state().script().clone()), before);
-    let ui = &harness.state().app.world().resource::<Interface>().0;
-    assert!(!ui.settings.plots && ui.armed.as_deref() == Some("Rusty"));
-    // with the dialog gone, the keys are the lab's again
-    harness.get_by_label_contains("Cancel").click();
-    harness.run_steps(4);
-    assert!(harness.query_by_label("Open a run").is_none());
-    harness.key_press(Key::G);
-    harness.run_steps(3);
-    assert_ne!(harness.state().transport().seed.0, 2005);
 }
 
 #[test]
@@ -222,7 +214,9 @@ fn what_was_driven_is_saved_and_verifies_to_the_same_digest() {
     harness.key_down(Key::ArrowUp);
     harness.run_steps(60);
     harness.key_up(Key::ArrowUp);
+    bring(&mut harness, "Reach");
     drag(&mut harness, "Reach: elbow, theta1 in radians", [-0.6, 0.9]);
+    bring(&mut harness, "Hitch");
     click(&mut harness, "put a trailer on");
     harness.run_steps(60);
     pause(&mut harness);

@@ -55,6 +55,22 @@ fn it_counts_what_the_robots_themselves_count_and_survives_being_taken_back() {
 }
 
 #[test]
+fn a_span_has_its_ticks_and_no_others() {
+    let mut app = app(Script::empty());
+    let world = app.world_mut();
+    let mut seen = vec![crate::simulation::view(world)[0].coordinates.clone()];
+    for _ in 0..30 {
+        step(world);
+        seen.push(crate::simulation::view(world)[0].coordinates.clone());
+    }
+    let history = world.resource::<History>();
+    let span = |ticks| history.span(0, ticks).map(|trail| trail.coordinates.clone()).collect::<Vec<_>>();
+    assert_eq!(span(4..=9), seen[4..=9]);
+    assert_eq!(span(25..=99), seen[25..]);
+    assert!(span(31..=40).is_empty() && history.span(99, 0..=30).next().is_none());
+}
+
+#[test]
 fn reversals_are_changes_of_the_way_that_was_gone() {
     let drive = |tick, v| event(tick, "Hitch", RobotInput::Drive(v, 0));
     // forward, stand, forward again (none), backward (1), forward (2)

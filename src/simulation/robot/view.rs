@@ -1,8 +1,10 @@
 //! `RobotView`, a robot's state for views that do not know its type.
 
 use crate::configuration::{Coordinates, RobotKind};
-use crate::geometry::{Footprint, Point2};
-use crate::robots::{AnyRobot, EncoderCounts};
+use crate::geometry::{Footprint, Point2, Pose2, Vector2};
+use crate::num;
+use crate::picture::Gait;
+use crate::robots::{AnyRobot, EncoderCounts, Hitch};
 
 /// A robot as a view shows it.
 #[derive(Clone, Debug, PartialEq)]
@@ -48,4 +50,57 @@ pub struct RobotView {
     pub encoders: Option<EncoderCounts>,
     /// The distance travelled according to the encoders, metres; `None` without encoders.
     pub odometer: Option<f64>,
+}
+
+/// Way in a tick below which it does not tell the steering angle, metres.
+const STILL: f64 = 1e-6;
+
+impl RobotView {
+    /// How the robot's wheels stand: a rover's by its encoders, a car's by the arc of the last tick, or where it stood
+    /// still, by what its driver holds.
+    pub fn gait(&self) -> Gait {
+        match (&self.model, self.encoders) {
+            (Some(AnyRobot::Rusty(rover)), Some(EncoderCounts { left, right })) => {
+                let rolled = |counts: i64| std::f64::consts::TAU * (counts as f64 / rover.counts_per_turn);
+                Gait { rolled: [left, right].map(rolled), steering: 0.0 }
+            }
+            (Some(AnyRobot::Hitch(car)), _) => {
+                let body = |footprint: &Footprint| footprint.parts().first().map(|part| *part.pose());
+                let arc = body(&self.previous_footprint).zip(body(&self.footprint));
+                let held = f64::from(self.channels[1]) / 128.0 * car.max_steer;
+                let steering = arc.and_then(|(from, to)| steering(car, &from, &to)).unwrap_or(held);
+                Gait { rolled: [0.0; 2], steering }
+            }
+            _ => Gait::default(),
+        }
+    }
+}
+
+/// The steering angle with which a car went from one pose to another: `tan(phi) = wheelbase * turn / way`. `None` where
+/// it went no way.
+fn steering(car: &Hitch, from: &Pose2, to: &Pose2) -> Option<f64> {
+    let turn = num::wrap(to.theta - from.theta);
+    let (s, c) = num::sin_cos(from.theta + 0.5 * turn);
+    let way = (to.position() - from.position()).dot(&Vector2::new(c, s));
+    let angle = num::atan2(car.wheelbase * turn * way.signum(), way.abs());
+    (way.abs() > STILL).then(|| angle.clamp(-car.max_steer, car.max_steer))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::configuration::HitchCfg;
+    use crate::robots::{CarCmd, HITCH};
+
+    #[test]
+    fn the_arc_of_a_tick_tells_the_steering_angle() {
+        for (v, phi) in [(1.0, 0.4), (-1.0, 0.4), (0.5, -0.6), (-1.5, -0.2), (1.0, 0.0)] {
+            let from = Pose2::new(1.0, 2.0, 3.1);
+            let q = HitchCfg { body: from, trailer: None };
+            let to = HITCH.step(&q, &CarCmd { v, phi }, 0.05).unwrap().body;
+            let found = steering(&HITCH, &from, &to).unwrap();
+            assert!((found - phi).abs() < 1e-3, "{found} for {phi} at {v} m/s");
+        }
+        assert_eq!(steering(&HITCH, &Pose2::IDENTITY, &Pose2::IDENTITY), None, "standing still tells nothing");
+    }
 }

@@ -2,48 +2,35 @@
 
 use std::sync::Arc;
 
+use super::cells::Cells;
 use crate::anatomy::Anatomy;
 use crate::capture::{self, Captured};
 use crate::configuration::AnyConfiguration;
-use crate::cspace::{CellMap, Overlay, Slice, cspace_picture};
-use crate::picture::Picture;
+use crate::cspace::{CellMap, Slice};
 use crate::robots::ConfigurationError;
 
 /// Level of the finest cells: a 256th of the sides.
 const FINEST: u32 = 8;
-/// Largest number of cells judged in a frame.
-const BUDGET: u32 = 1500;
 
 /// The state of the configuration space.
 #[derive(Clone, Debug, Default)]
 pub struct CspaceState {
-    pub(super) map: Option<Map>,
+    pub(super) cells: Option<Cells>,
     /// The configurations visited, oldest first.
     pub(super) trace: Vec<AnyConfiguration>,
 }
 
-/// The cells judged so far, and the last picture of them.
-#[derive(Clone, Debug)]
-pub(super) struct Map {
-    pub(super) cells: CellMap,
-    pub(super) picture: Arc<Picture>,
-    /// Number of cells judged when the picture was drawn.
-    drawn: u64,
-}
-
-impl Map {
-    /// Whether its cells are those of this robot, in this scene, with the same coordinates held.
-    fn is_of(&self, anatomy: &Anatomy) -> bool {
-        let (ours, its) = (self.cells.slice(), anatomy.checker());
-        let same_scene = Arc::ptr_eq(&ours.checker().shared_scene(), &its.shared_scene());
-        same_scene && ours.checker().robot() == its.robot() && ours.holds(&anatomy.q())
-    }
+/// Whether the cells are those of this robot, in this scene, with the same coordinates held.
+fn are_of(cells: &Cells, anatomy: &Anatomy) -> bool {
+    let (ours, its) = (cells.map().slice(), anatomy.checker());
+    let same_scene = Arc::ptr_eq(&ours.checker().shared_scene(), &its.shared_scene());
+    same_scene && ours.checker().robot() == its.robot() && ours.holds(&anatomy.q())
 }
 
 impl CspaceState {
     /// The figure of workspace and configuration space, with every cell judged down to the finest level.
     pub fn captured(&self, anatomy: &Anatomy) -> Result<Captured, ConfigurationError> {
-        let kept = self.map.as_ref().filter(|map| map.is_of(anatomy)).map(|map| map.cells.clone());
+        let kept = self.cells.as_ref().filter(|cells| are_of(cells, anatomy)).map(|cells| cells.map().clone());
         let mut cells = match kept {
             Some(cells) => cells,
             None => CellMap::new(Slice::through(anatomy.checker(), &anatomy.q())?, FINEST),
@@ -54,21 +41,11 @@ impl CspaceState {
 
     /// Judges more cells, from the start for another robot or scene. Returns whether any remain.
     pub(super) fn refine(&mut self, anatomy: &Anatomy) -> bool {
-        if !self.map.as_ref().is_some_and(|map| map.is_of(anatomy)) {
-            let Ok(slice) = Slice::through(anatomy.checker(), &anatomy.q()) else { return false };
-            let cells = CellMap::new(slice, FINEST);
-            let picture = Arc::new(cspace_picture(&cells, &Overlay::default()));
-            self.map = Some(Map { cells, picture, drawn: 0 });
+        if !self.cells.as_ref().is_some_and(|cells| are_of(cells, anatomy)) {
+            let Some(cells) = Cells::through(anatomy.checker(), &anatomy.q(), FINEST) else { return false };
+            self.cells = Some(cells);
             self.trace.clear();
         }
-        let Some(map) = &mut self.map else { return false };
-        let more = map.cells.refine(BUDGET);
-        let judged = map.cells.progress().judged;
-        // what is drawn lags a little behind what is known: merging the cells costs more than judging them
-        if judged != map.drawn && (!more || judged > map.drawn + map.drawn / 3) {
-            map.picture = Arc::new(cspace_picture(&map.cells, &Overlay::default()));
-            map.drawn = judged;
-        }
-        more
+        self.cells.as_mut().is_some_and(Cells::refine)
     }
 }

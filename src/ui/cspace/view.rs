@@ -51,8 +51,8 @@ pub fn cspace_view(ui: &mut Ui, model: &Dashboard, look: &Look, state: &mut UiSt
 /// Shows the readouts, the choices, and sliders for the coordinates that the slice holds.
 fn below_the_papers(ui: &mut Ui, look: &Look, state: &mut UiState) {
     ui.label(RichText::new(readout(&state.anatomy.anatomy.q().to_string())).monospace());
-    if let Some(map) = &state.cspace.map {
-        let p = map.cells.progress();
+    if let Some(cells) = &state.cspace.cells {
+        let p = cells.map().progress();
         let percent = |x: f64| format!("{:5.1} %", 100.0 * x);
         let text = format!(
             "proven free {}  proven blocked {}  not known {}  ({} cells judged)",
@@ -63,7 +63,7 @@ fn below_the_papers(ui: &mut Ui, look: &Look, state: &mut UiState) {
         );
         let muted = |text: String| RichText::new(text).monospace().color(look.colour(Role::Muted));
         ui.label(muted(text));
-        ui.label(muted(map.cells.slice().described()));
+        ui.label(muted(cells.map().slice().described()));
     }
     ui.horizontal_wrapped(|ui| {
         robot_choice(ui, state);
@@ -75,7 +75,8 @@ fn below_the_papers(ui: &mut Ui, look: &Look, state: &mut UiState) {
         }
         // the coordinates that the slice holds
         ui.spacing_mut().slider_width = 180.0;
-        let held: Vec<(usize, String)> = state.cspace.map.as_ref().map_or_else(Vec::new, |m| m.cells.slice().held());
+        let held: Vec<(usize, String)> =
+            state.cspace.cells.as_ref().map_or_else(Vec::new, |cells| cells.map().slice().held());
         for (index, name) in held {
             coordinate(ui, &mut state.anatomy.anatomy, index, &name);
         }
@@ -101,9 +102,9 @@ fn workspace(ui: &mut Ui, paper: Rect, look: &Look, state: &mut UiState) {
 
 /// Shows the configuration space, where the robot's point can be dragged.
 fn space(ui: &mut Ui, paper: Rect, look: &Look, state: &mut UiState) {
-    let Some(map) = &state.cspace.map else { return };
+    let Some(cells) = &state.cspace.cells else { return };
     let anatomy = &state.anatomy.anatomy;
-    let (slice, still) = (map.cells.slice().clone(), Arc::clone(&map.picture));
+    let (slice, still) = (cells.map().slice().clone(), Arc::clone(cells.picture()));
     let overlay = Overlay {
         now: Some(anatomy.q()),
         in_contact: anatomy.intersects(),

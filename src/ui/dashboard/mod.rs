@@ -9,6 +9,7 @@ pub(crate) mod handles;
 pub(crate) mod pad;
 pub(crate) mod pane;
 pub(crate) mod plots;
+pub(crate) mod stage;
 #[cfg(test)]
 mod tests;
 pub(crate) mod time_line;

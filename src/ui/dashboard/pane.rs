@@ -36,10 +36,26 @@ pub fn text_height(ui: &Ui, robots: usize) -> f32 {
     16.0 + row * ROWS * robots.clamp(1, 3) as f32
 }
 
-/// Shows one cockpit: its paper, as square as fits, and name, space, readout and counts under it.
+/// Shows one cockpit: its paper, and name, space, readout and counts under it.
 pub fn pane(ui: &mut Ui, cockpit: &Cockpit, rect: Rect, look: &Look, state: &mut UiState, commands: &mut Vec<Command>) {
-    let height = (rect.height() - text_height(ui, cockpit.robots.len())).min(rect.width()).max(60.0);
-    let paper = Rect::from_min_size(rect.min, vec2(rect.width(), height));
+    let height = (rect.height() - text_height(ui, cockpit.robots.len())).max(60.0);
+    let sheet = canvas::proportioned(&cockpit.world, Rect::from_min_size(rect.min, vec2(rect.width(), height)));
+    let fit = paper(ui, cockpit, sheet, Vec::new(), look, state, commands);
+    let below = Rect::from_min_max(pos2(rect.left(), sheet.bottom() + 6.0), rect.max);
+    words_in(ui, below, cockpit, &fit, look, state, commands);
+}
+
+/// Shows a cockpit's world with its robots over the items `under` them, and what is done there with the pointer.
+/// Returns how it lies in `paper`.
+pub fn paper(
+    ui: &mut Ui,
+    cockpit: &Cockpit,
+    paper: Rect,
+    under: Vec<Item>,
+    look: &Look,
+    state: &mut UiState,
+    commands: &mut Vec<Command>,
+) -> Fit {
     let fit = canvas::fit(&cockpit.world, paper);
     let response = ui.allocate_rect(paper, Sense::click());
     response.widget_info(|| WidgetInfo::labeled(WidgetType::Button, true, cockpit.described()));
@@ -49,7 +65,7 @@ pub fn pane(ui: &mut Ui, cockpit: &Cockpit, rect: Rect, look: &Look, state: &mut
     if state.settings.labels {
         over = over.with(names(ui, cockpit, &fit));
     }
-    let over = over.with(robots(ui, cockpit, state));
+    let over = over.with(under).with(robots(ui, cockpit, state));
     canvas::paint(&painter, &over, &fit, look);
     point_out(&response, &over, cockpit, &fit);
     let driven = in_reach(cockpit);
@@ -80,13 +96,25 @@ pub fn pane(ui: &mut Ui, cockpit: &Cockpit, rect: Rect, look: &Look, state: &mut
         };
         response.on_hover_text_at_pointer(words);
     }
-    let below = Rect::from_min_max(pos2(rect.left(), paper.bottom() + 6.0), rect.max);
-    let mut ui = ui.new_child(UiBuilder::new().max_rect(below).layout(Layout::top_down(Align::Min)));
+    fit
+}
+
+/// Shows in `rect` what there is to say of a cockpit, whose world lies on the screen as `fit` says.
+pub fn words_in(
+    ui: &mut Ui,
+    rect: Rect,
+    cockpit: &Cockpit,
+    fit: &Fit,
+    look: &Look,
+    state: &mut UiState,
+    commands: &mut Vec<Command>,
+) {
+    let mut ui = ui.new_child(UiBuilder::new().max_rect(rect).layout(Layout::top_down(Align::Min)));
     ui.spacing_mut().interact_size.y = 0.0; // no row of words is as high as a button
     // where the words need more room than there is, none is cut
     let words_of = Id::new(("words", &cockpit.world.name));
     ScrollArea::vertical().id_salt(words_of).auto_shrink(false).show(&mut ui, |ui| {
-        words(ui, cockpit, &fit, look, state, commands);
+        words(ui, cockpit, fit, look, state, commands);
     });
 }
 
@@ -249,6 +277,8 @@ pub fn robot_words(ui: &mut Ui, robot: &CockpitRobot, look: &Look, state: &mut U
     readouts(ui, robot, look);
     counts(ui, robot, look);
     if robot.is_arm {
+        let words = "An arm is not held by what it touches: its contacts are counted.";
+        ui.add(Label::new(RichText::new(words).color(look.colour(Role::Muted))).wrap());
         handles::numbers(ui, robot, look, commands);
     }
     links(ui, robot, look, state, commands);

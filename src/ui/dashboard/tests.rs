@@ -2,13 +2,13 @@
 
 use std::sync::Arc;
 
-use bevy_egui::egui::{Context, Event, Key, Modifiers, PointerButton, RawInput, Rect, Shape, Vec2, pos2, vec2};
+use bevy_egui::egui::{self, Context, Event, Key, Modifiers, PointerButton, RawInput, Rect, Shape, Vec2, pos2, vec2};
 
 use crate::atlas::Atlas;
 use crate::configuration::{Configuration, HitchCfg, RobotKind, T2};
 use crate::geometry::{Aabb, Point2, Pose2};
 use crate::manifest::ThemeChoice;
-use crate::picture::{Picture, Role, Theme};
+use crate::picture::{Gait, Picture, Role, Theme};
 use crate::random::Seed;
 use crate::robots::{AnyRobot, HITCH, RUSTY, Reach, Robot};
 use crate::run::RobotInput;
@@ -32,6 +32,7 @@ fn robot<R: Robot>(name: &str, kind: &str, robot: &R, q: R::Configuration) -> Co
         target: None,
         footprint: robot.footprint(&q),
         heading: None,
+        gait: Gait::default(),
         flash: false,
         contacts: 3,
         manual: false,
@@ -83,13 +84,16 @@ struct Screen {
     size: Vec2,
     state: UiState,
     shapes: Vec<Shape>,
+    /// The names of all controls, with their rectangles.
+    controls: Vec<(String, Rect)>,
 }
 
 impl Screen {
     fn new(size: Vec2, model: &Dashboard) -> Self {
         let mut state = UiState::default();
         crate::manifest::Widget::ALL.into_iter().for_each(|widget| state.settings.put_hints_away(widget));
-        let mut screen = Screen { ctx: Context::default(), size, state, shapes: Vec::new() };
+        let mut screen = Screen { ctx: Context::default(), size, state, shapes: Vec::new(), controls: Vec::new() };
+        screen.ctx.enable_accesskit();
         for _ in 0..3 {
             screen.frame(model, vec![]); // egui learns sizes from the frame before
         }
@@ -103,12 +107,20 @@ impl Screen {
         let mut output =
             self.ctx.run_ui(input, |ui| lab(ui, model, &History::default(), &mut self.state, &mut commands));
         output.textures_delta.clear(); // no one uploads them
+        let tree = output.platform_output.accesskit_update.take();
+        let named = |(_, node): (_, egui::accesskit::Node)| {
+            let bounds = node.bounds()?;
+            let rect = Rect::from_x_y_ranges(bounds.x0 as f32..=bounds.x1 as f32, bounds.y0 as f32..=bounds.y1 as f32);
+            Some((node.label()?.to_owned(), rect))
+        };
+        self.controls = tree.into_iter().flat_map(|tree| tree.nodes).filter_map(named).collect();
         self.shapes = output.shapes.into_iter().map(|clipped| clipped.shape).collect();
         commands
     }
 
     fn click(&mut self, model: &Dashboard, words: &str) -> Vec<Command> {
-        let (_, rect) = self.texts().into_iter().find(|(text, _)| text == words).expect("a button with these words");
+        let texts = self.texts();
+        let (_, rect) = texts.iter().find(|(text, _)| text == words).unwrap_or_else(|| self.control(words));
         let pos = rect.center();
         let button =
             |pressed| Event::PointerButton { pos, button: PointerButton::Primary, pressed, modifiers: Modifiers::NONE };
@@ -117,11 +129,24 @@ impl Screen {
         commands
     }
 
+    /// The first control whose name begins so.
+    fn control(&self, begins: &str) -> &(String, Rect) {
+        let found = self.controls.iter().find(|(name, _)| name.starts_with(begins));
+        found.unwrap_or_else(|| panic!("{begins:?} among {:?}", self.controls))
+    }
+
+    /// Clicks the control whose name begins so.
+    fn press(&mut self, model: &Dashboard, begins: &str) {
+        let name = self.control(begins).0.clone();
+        self.click(model, &name);
+        self.frame(model, vec![]);
+    }
+
     /// All words with the rectangles of their ink.
     fn texts(&self) -> Vec<(String, Rect)> {
         fn collect(shape: &Shape, out: &mut Vec<(String, Rect)>) {
             match shape {
-                Shape::Text(text) => {
+                Shape::Text(text) if !text.galley.text().is_empty() => {
                     // where the ink is: the first line of words in a row is indented within its own rectangle
                     let rect = text.galley.mesh_bounds.translate(text.pos.to_vec2());
                     out.push((text.galley.text().to_owned(), rect));
@@ -156,12 +181,26 @@ fn all_words_stay_on_the_screen_and_apart() {
 }
 
 #[test]
-fn a_wide_screen_shows_all_cockpits_and_a_narrow_one_the_chosen() {
+fn a_wide_screen_shows_one_cockpit_in_front_and_the_others_small_and_a_narrow_one_the_chosen() {
     let headings = |screen: &Screen| {
         screen.texts().into_iter().map(|(text, _)| text).filter(|t| t.contains(" \u{b7} ")).collect::<Vec<_>>()
     };
     let all = ["Rusty \u{b7} Apartment", "Reach \u{b7} Workbench", "Hitch \u{b7} Lot"];
-    assert_eq!(headings(&Screen::new(WIDE, &model())), all);
+    let mut wide = Screen::new(WIDE, &model());
+    // the small ones stand above the words of the one in front
+    assert_eq!(headings(&wide), [all[1], all[2], all[0]]);
+    let paper = |screen: &Screen, begins: &str| screen.control(begins).1.area();
+    assert!(paper(&wide, "Apartment.") > 4.0 * paper(&wide, "Bring Reach"));
+    wide.press(&model(), "Bring Hitch");
+    assert_eq!(headings(&wide), [all[0], all[1], all[2]]);
+    assert!(paper(&wide, "Lot.") > 4.0 * paper(&wide, "Bring Rusty"));
+    // where there is room for three, they may stand side by side
+    let mut roomy = Screen::new(Vec2::new(1920.0, 1080.0), &model());
+    assert_eq!(headings(&roomy), [all[1], all[2], all[0]]);
+    roomy.press(&model(), "All side by side");
+    assert_eq!(headings(&roomy), all);
+    roomy.press(&model(), "One in front");
+    assert_eq!(headings(&roomy), [all[1], all[2], all[0]]);
     let mut phone = Screen::new(PHONE, &model());
     assert_eq!(headings(&phone), all[..1]);
     phone.click(&model(), "Hitch");
@@ -183,8 +222,12 @@ fn buttons_and_the_space_bar_send_what_they_say() {
     assert_eq!(screen.click(&playing, "Step"), sent(TransportCommand::Step));
     assert_eq!(screen.click(&playing, "Reset"), sent(TransportCommand::Reset));
     assert_eq!(screen.click(&playing, "Re-roll"), sent(TransportCommand::ReRoll));
-    assert_eq!(screen.click(&playing, "System theme"), []);
+    screen.press(&playing, "Menu");
+    screen.press(&playing, "Light theme");
     assert_eq!(screen.state.settings.theme, ThemeChoice::Light);
+    screen.press(&playing, "Menu");
+    screen.press(&playing, "Dark theme");
+    assert_eq!(screen.state.settings.theme, ThemeChoice::Dark, "chosen by name, not in turn");
 }
 
 #[test]
@@ -213,7 +256,7 @@ fn on_no_width_do_the_words_of_the_bar_lie_on_one_another() {
     for width in (320..=1400).step_by(20) {
         let screen = Screen::new(vec2(width as f32, 800.0), &late);
         let texts = screen.texts();
-        let top = texts.iter().find(|(t, _)| t == "Pause").expect("the bar").1.top() - 4.0;
+        let top = screen.control("Pause").1.top() - 4.0;
         let bar: Vec<_> = texts.iter().filter(|(_, at)| at.top() >= top && (width < 720 || at.left() > 76.0)).collect();
         for (i, (a, at)) in bar.iter().enumerate() {
             for (b, there) in &bar[i + 1..] {
@@ -251,11 +294,7 @@ fn the_time_line_goes_to_the_tick_that_is_pointed_at() {
     let paused = Dashboard { playing: false, tick: 1200, ..model() };
     for size in [WIDE, PHONE] {
         let mut screen = Screen::new(size, &paused);
-        // the line stands above the row of buttons
-        let (_, play) = screen.texts().into_iter().find(|(text, _)| text == "Play").expect("the bar");
-        let height = if size == PHONE { 44.0 } else { 28.0 };
-        let rail = if size == PHONE { 0.0 } else { 76.0 };
-        let pos = pos2(0.5 * (size.x + rail), play.center().y - height - 4.0);
+        let pos = screen.control("time line").1.center();
         let button =
             |pressed| Event::PointerButton { pos, button: PointerButton::Primary, pressed, modifiers: Modifiers::NONE };
         let mut commands = screen.frame(&paused, vec![Event::PointerMoved(pos), button(true)]);
@@ -268,7 +307,7 @@ fn the_time_line_goes_to_the_tick_that_is_pointed_at() {
     // before the first tick there is nowhere to go
     let fresh = Dashboard { playing: false, tick: 0, frontier: 0, ..model() };
     let mut screen = Screen::new(WIDE, &fresh);
-    let pos = pos2(1000.0, 800.0 - 10.0 - 28.0 - 4.0 - 14.0);
+    let pos = screen.control("time line").1.center();
     let button =
         |pressed| Event::PointerButton { pos, button: PointerButton::Primary, pressed, modifiers: Modifiers::NONE };
     let mut commands = screen.frame(&fresh, vec![Event::PointerMoved(pos), button(true)]);
@@ -333,7 +372,9 @@ fn an_arm_is_not_armed_and_links_release_and_couple() {
     screen.frame(&model, vec![Event::PointerMoved(pos), button(true)]);
     screen.frame(&model, vec![button(false)]);
     assert_eq!(screen.state.armed, None);
+    screen.press(&model, "Bring Reach");
     assert_eq!(screen.click(&model, "resume tour"), sent("Reach", RobotInput::Release));
+    screen.press(&model, "Bring Hitch");
     assert_eq!(screen.click(&model, "take the trailer off"), sent("Hitch", RobotInput::SetTrailer(false)));
     model.cockpits[2].robots[0].trailer = Some(false);
     screen.frame(&model, vec![]);

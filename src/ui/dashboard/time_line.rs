@@ -1,84 +1,250 @@
-//! The time line: where the run stands, a handle to any tick it has reached, and marks where something happened.
+//! The time line: where the run stands, a handle to any tick it has reached, and above it lanes of what happened.
 
-use bevy_egui::egui::{Rect, Sense, Shape, Slider, Stroke, Ui, WidgetInfo, WidgetType, pos2, vec2};
+use bevy_egui::egui::{
+    Align2, Rect, Response, Sense, Shape, Slider, Stroke, TextStyle, Ui, WidgetInfo, WidgetType, pos2, vec2,
+};
 
 use crate::picture::Role;
+use crate::run::seconds;
 use crate::simulation::{Happening, History, TickMark, TransportCommand};
 use crate::ui::{Command, Dashboard, Look};
 
-/// Height of the strip of marks, points.
-const STRIP: f32 = 10.0;
+/// Height of a lane, of a lane that is alone, and of the axis, points.
+const LANE: f32 = 12.0;
+const ONLY: f32 = 11.0;
+const AXIS: f32 = 15.0;
+
+/// Width of the names before the lanes, points.
+const NAMES: f32 = 52.0;
+
+/// Number of robots up to which each has a lane.
+const MOST_LANES: usize = 3;
+
+/// Width of the strip of time in which contacts are counted together, points.
+const BIN: f32 = 3.0;
+
+/// Least distance between two labels of the axis, points.
+const APART: f32 = 64.0;
+
+/// The span of time that the line shows, and where.
+struct Scale {
+    /// The lanes' rectangle, as wide as the way of the slider's handle.
+    lanes: Rect,
+    /// The last tick.
+    end: u64,
+}
+
+impl Scale {
+    fn x(&self, tick: u64) -> f32 {
+        self.lanes.left() + self.lanes.width() * (tick as f32 / self.end.max(1) as f32)
+    }
+
+    fn tick(&self, x: f32) -> u64 {
+        let share = ((x - self.lanes.left()) / self.lanes.width()).clamp(0.0, 1.0);
+        (f64::from(share) * self.end as f64).round() as u64
+    }
+}
+
+/// A row of marks.
+struct Lane<'a> {
+    /// The robot whose marks it has, if not those of all.
+    robot: Option<u32>,
+    name: &'a str,
+}
+
+/// A lane for each robot; one for all where they are many.
+fn lanes(model: &Dashboard) -> Vec<Lane<'_>> {
+    let robots = || model.cockpits.iter().flat_map(|cockpit| &cockpit.robots);
+    let has_crowd = model.cockpits.iter().any(|cockpit| cockpit.crowd.is_some());
+    if has_crowd || robots().count() > MOST_LANES {
+        return vec![Lane { robot: None, name: "" }];
+    }
+    robots().map(|robot| Lane { robot: Some(robot.id), name: &robot.name }).collect()
+}
 
 /// Shows the line over the whole width. Clicking and dragging seek; so do the arrow keys while it has the focus.
 pub fn time_line(ui: &mut Ui, model: &Dashboard, history: &History, look: &Look, commands: &mut Vec<Command>) {
     let end = model.frontier.max(model.tick);
-    let (strip, _) = ui.allocate_exact_size(vec2(ui.available_width(), STRIP), Sense::hover());
+    let lanes = lanes(model);
+    let height = if lanes.len() == 1 { ONLY } else { LANE } * lanes.len() as f32;
+    let names = if lanes.len() > 1 && !look.narrow { NAMES } else { 0.0 };
+    let (strip, _) = ui.allocate_exact_size(vec2(ui.available_width(), height), Sense::hover());
     let mut tick = model.tick;
-    ui.spacing_mut().slider_width = ui.available_width();
-    let line = Slider::new(&mut tick, 0..=end.max(1)).show_value(false).trailing_fill(true).step_by(1.0);
-    let response = ui.add_enabled(end > 0, line);
+    let response = ui
+        .horizontal(|ui| {
+            ui.add_space(names);
+            ui.spacing_mut().slider_width = ui.available_width();
+            let line = Slider::new(&mut tick, 0..=end.max(1)).show_value(false).trailing_fill(true).step_by(1.0);
+            ui.add_enabled(end > 0, line)
+        })
+        .inner;
     response.widget_info(|| WidgetInfo::slider(end > 0, model.tick as f64, "time line, in ticks"));
     // the slider's handle keeps off the ends by its radius
-    let radius = response.rect.height() / 2.5;
-    let across = Rect::from_x_y_ranges(strip.x_range().shrink(radius), strip.y_range());
-    marks(ui, model, history.marks(), across, end, look, commands);
+    let across = response.rect.x_range().shrink(response.rect.height() / 2.5);
+    let scale = Scale { lanes: Rect::from_x_y_ranges(across, strip.y_range()), end };
+    show_lanes(ui, model, history.marks(), &lanes, &scale, look, commands);
+    axis(ui, &scale, look);
     if response.changed() && tick != model.tick {
         commands.push(Command::from(TransportCommand::Seek(tick.min(end))));
     }
 }
 
-/// Shows contacts as crosses and takeovers as diamonds, at least three points apart for each kind. A click on a mark
-/// goes to its tick.
-fn marks(
+/// Shows the lanes with their names. A click goes to the mark that is pointed at, else to the time.
+fn show_lanes(
     ui: &mut Ui,
     model: &Dashboard,
     marks: &[TickMark],
-    strip: Rect,
-    end: u64,
+    lanes: &[Lane<'_>],
+    scale: &Scale,
     look: &Look,
     commands: &mut Vec<Command>,
 ) {
-    let x = |tick: u64| strip.left() + strip.width() * (tick as f32 / end.max(1) as f32);
-    let mut last = [f32::NEG_INFINITY; 2];
-    for mark in marks {
-        let (kind, role) = match mark.what {
-            Happening::Contact => (0, Role::Goal),
-            Happening::Takeover => (1, Role::Focus),
-        };
-        let at = pos2(x(mark.tick), strip.center().y);
-        if at.x - last[kind] < 3.0 {
-            continue;
+    let height = scale.lanes.height() / lanes.len().max(1) as f32;
+    let rect_of = |k: usize| {
+        let top = scale.lanes.top() + k as f32 * height;
+        Rect::from_x_y_ranges(scale.lanes.x_range(), top..=top + height)
+    };
+    let font = TextStyle::Small.resolve(ui.style());
+    for (k, lane) in lanes.iter().enumerate() {
+        let rect = rect_of(k);
+        if !look.narrow && lanes.len() > 1 {
+            let at = pos2(rect.left() - 12.0, rect.center().y);
+            ui.painter().text(at, Align2::RIGHT_CENTER, lane.name, font.clone(), look.colour(Role::Muted));
         }
-        last[kind] = at.x;
-        let stroke = Stroke::new(1.5, look.colour(role));
-        if mark.what == Happening::Contact {
-            ui.painter().line_segment([at - vec2(3.0, 3.0), at + vec2(3.0, 3.0)], stroke);
-            ui.painter().line_segment([at + vec2(-3.0, 3.0), at + vec2(3.0, -3.0)], stroke);
-        } else {
-            let corners = [vec2(0.0, -4.5), vec2(4.5, 0.0), vec2(0.0, 4.5), vec2(-4.5, 0.0)].map(|d| at + d);
-            ui.painter().add(Shape::convex_polygon(corners.to_vec(), look.colour(role), Stroke::NONE));
-        }
+        ui.painter().hline(rect.x_range(), rect.center().y, Stroke::new(1.0, look.colour(Role::Hairline)));
+        let own: Vec<&TickMark> = marks.iter().filter(|mark| lane.robot.is_none_or(|id| id == mark.robot)).collect();
+        contacts(ui, &own, rect, scale, look);
+        takeovers(ui, &own, rect, scale, look);
     }
     // one response for all marks, whatever their number
-    let response = ui.interact(strip, ui.id().with("marks"), Sense::click());
+    let response = ui.interact(scale.lanes, ui.id().with("marks"), Sense::click());
     response.widget_info(|| {
         let contacts = marks.iter().filter(|m| m.what == Happening::Contact).count();
         let words = format!("{contacts} contacts and {} takeovers so far", marks.len() - contacts);
         WidgetInfo::labeled(WidgetType::Button, true, words)
     });
-    let nearest = response.hover_pos().and_then(|pointer| {
-        let off = |m: &&TickMark| (x(m.tick) - pointer.x).abs();
-        marks.iter().min_by(|a, b| off(a).total_cmp(&off(b))).filter(|m| off(m) < 6.0)
-    });
-    if let Some(mark) = nearest {
-        let name = model.name_of(mark.robot).unwrap_or("a robot");
-        let words = match mark.what {
-            Happening::Contact => format!("tick {}: {name} touches something", mark.tick),
-            Happening::Takeover => format!("tick {}: {name} is taken over", mark.tick),
-        };
-        if response.clicked() {
-            commands.push(Command::from(TransportCommand::Seek(mark.tick)));
+    let Some(pointer) = response.hover_pos() else { return };
+    let lane = lanes.get(((pointer.y - scale.lanes.top()) / height) as usize);
+    let own = marks.iter().filter(|mark| lane.and_then(|lane| lane.robot).is_none_or(|id| id == mark.robot));
+    let off = |mark: &&TickMark| (scale.x(mark.tick) - pointer.x).abs();
+    let nearest = own.min_by(|a, b| off(a).total_cmp(&off(b))).filter(|mark| off(mark) < 6.0);
+    let to = nearest.map_or_else(|| scale.tick(pointer.x), |mark| mark.tick);
+    if response.clicked() && scale.end > 0 {
+        commands.push(Command::from(TransportCommand::Seek(to)));
+    }
+    say(response, model, nearest, to);
+}
+
+/// Says what happened at a mark, or only when it is.
+fn say(response: Response, model: &Dashboard, mark: Option<&TickMark>, tick: u64) {
+    let when = format!("{:.2} s, tick {tick}", seconds(tick));
+    let words = match mark {
+        None => when,
+        Some(mark) => {
+            let name = model.name_of(mark.robot).unwrap_or("a robot");
+            match mark.what {
+                Happening::Contact => format!("{when}: {name} touches something"),
+                Happening::Takeover => format!("{when}: {name} is taken over"),
+            }
         }
-        response.on_hover_text(words);
+    };
+    response.on_hover_text_at_pointer(words);
+}
+
+/// Shows contacts as ticks where they are few; where several fall together, the more there are, the stronger.
+fn contacts(ui: &Ui, marks: &[&TickMark], lane: Rect, scale: &Scale, look: &Look) {
+    let counts = binned(marks.iter().filter(|m| m.what == Happening::Contact).map(|m| scale.x(m.tick) - lane.left()));
+    let most = counts.iter().map(|(_, count)| *count).max().unwrap_or(1);
+    for (bin, count) in counts {
+        let x = lane.left() + BIN * bin as f32;
+        let bar = Rect::from_x_y_ranges(x..=x + 2.0, lane.shrink2(vec2(0.0, 1.0)).y_range());
+        let strength = if most == 1 { 1.0 } else { 0.35 + 0.65 * f64::from(count) / f64::from(most) };
+        ui.painter().rect_filled(bar, 0.0, look.tint(Role::Goal, strength));
+    }
+}
+
+/// The bins of a row in which something falls, in ascending order, and how much.
+fn binned(xs: impl Iterator<Item = f32>) -> Vec<(u32, u32)> {
+    let mut bins: Vec<u32> = xs.map(|x| (x / BIN).max(0.0) as u32).collect();
+    bins.sort_unstable();
+    bins.chunk_by(|a, b| a == b).map(|bin| (bin[0], bin.len() as u32)).collect()
+}
+
+/// Shows takeovers as diamonds, at least five points apart.
+fn takeovers(ui: &Ui, marks: &[&TickMark], lane: Rect, scale: &Scale, look: &Look) {
+    let mut last = f32::NEG_INFINITY;
+    for mark in marks.iter().filter(|m| m.what == Happening::Takeover) {
+        let at = pos2(scale.x(mark.tick), lane.center().y);
+        if at.x - last < 5.0 {
+            continue;
+        }
+        last = at.x;
+        let corners = [vec2(0.0, -4.5), vec2(4.5, 0.0), vec2(0.0, 4.5), vec2(-4.5, 0.0)].map(|d| at + d);
+        ui.painter().add(Shape::convex_polygon(corners.to_vec(), look.colour(Role::Focus), Stroke::NONE));
+    }
+}
+
+/// Shows the axis in seconds.
+fn axis(ui: &mut Ui, scale: &Scale, look: &Look) {
+    let (rect, _) = ui.allocate_exact_size(vec2(ui.available_width(), AXIS), Sense::hover());
+    let font = TextStyle::Small.resolve(ui.style());
+    let (whole, width) = (seconds(scale.end), scale.lanes.width());
+    let step = step_of(whole, width);
+    for k in 0..=(whole / step).floor() as u64 {
+        let x = scale.lanes.left() + width * (k as f64 * step / whole) as f32;
+        let colour = look.colour(Role::Muted);
+        ui.painter().vline(x, rect.top()..=rect.top() + 3.0, Stroke::new(1.0, colour));
+        let unit = if k == 0 { " s" } else { "" };
+        let label = format!("{}{unit}", shortest(k as f64 * step));
+        ui.painter().text(pos2(x, rect.top() + 3.0), Align2::CENTER_TOP, label, font.clone(), colour);
+    }
+}
+
+/// The distance of the axis's labels, seconds: 1, 2 or 5 times a power of ten, or 15, 30 and 60 s and their multiples,
+/// such that they stand apart.
+fn step_of(whole: f64, width: f32) -> f64 {
+    const STEPS: [f64; 19] = [
+        0.05, 0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0, 15.0, 30.0, 60.0, 120.0, 300.0, 600.0, 1200.0, 1800.0, 3600.0,
+        7200.0, 18000.0,
+    ];
+    let is_apart = |step: &f64| *step / whole * f64::from(width) >= f64::from(APART);
+    STEPS.into_iter().find(is_apart).unwrap_or(whole)
+}
+
+/// A number of seconds without needless digits.
+fn shortest(seconds: f64) -> String {
+    let text = format!("{seconds:.2}");
+    text.trim_end_matches('0').trim_end_matches('.').to_owned()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_falls_together_is_counted_together() {
+        // bins of three points: 0 to 3, 3 to 6, and so on
+        assert_eq!(binned([7.0, 0.0, 2.9, 3.0, 8.9].into_iter()), [(0, 2), (1, 1), (2, 2)]);
+        assert_eq!(binned(std::iter::empty()), []);
+    }
+
+    #[test]
+    fn the_axis_has_labels_apart_at_round_seconds() {
+        // a minute over 1,200 points: 64 points are 3.2 s, so every 5 s
+        assert_eq!(step_of(60.0, 1200.0), 5.0);
+        assert_eq!(step_of(60.0, 300.0), 15.0);
+        assert_eq!(step_of(0.05, 1200.0), 0.05);
+        assert_eq!(step_of(3600.0, 600.0), 600.0);
+        assert_eq!([0.05, 0.1, 5.0, 60.0, 1800.0].map(shortest), ["0.05", "0.1", "5", "60", "1800"]);
+    }
+
+    #[test]
+    fn a_place_on_the_line_is_the_tick_that_is_drawn_there() {
+        let lanes = Rect::from_min_max(pos2(100.0, 0.0), pos2(1300.0, 27.0));
+        let scale = Scale { lanes, end: 1200 };
+        assert_eq!([0, 600, 1200].map(|tick| scale.x(tick)), [100.0, 700.0, 1300.0]);
+        assert_eq!([0.0, 100.0, 701.0, 1300.0, 2000.0].map(|x| scale.tick(x)), [0, 0, 601, 1200, 1200]);
+        let unstarted = Scale { lanes, end: 0 };
+        assert_eq!((unstarted.x(0), unstarted.tick(900.0)), (100.0, 0));
     }
 }

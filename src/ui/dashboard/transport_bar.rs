@@ -11,6 +11,7 @@ use crate::run::DT;
 use crate::simulation::{History, TransportCommand};
 use crate::ui::keys::{Action, hint};
 use crate::ui::paint::button::LabButton;
+use crate::ui::paint::icon::Icon;
 use crate::ui::paint::plate::{Place, plate, refusal};
 use crate::ui::{Command, Dashboard, Look, SeedDraft, UiState};
 
@@ -69,63 +70,82 @@ pub fn transport_bar(
 ) {
     let narrow = look.narrow;
     time_line(ui, model, history, look, commands);
+    ui.spacing_mut().item_spacing.x = if narrow { 5.0 } else { 6.0 };
     if narrow || ui.available_width() < ONE_ROW {
-        ui.spacing_mut().button_padding.x = 7.0;
-        ui.spacing_mut().item_spacing.x = 5.0;
         ui.horizontal(|ui| {
-            buttons(ui, model, look, &PLAY, commands);
+            buttons(ui, model, look, &ESSENTIAL, commands);
             ui.menu_button("More", |ui| {
-                buttons(ui, model, look, &MORE, commands);
+                for (label, action) in MORE {
+                    button(ui, model, (LabButton::new(label), action), look, commands);
+                }
                 speed_choice(ui, model, commands);
             });
         });
         ui.horizontal(|ui| seed_and_time(ui, model, look, state, commands));
     } else {
         ui.horizontal(|ui| {
-            ui.spacing_mut().button_padding.x = 9.0;
-            ui.spacing_mut().item_spacing.x = 6.0;
-            buttons(ui, model, look, &PLAY, commands);
-            buttons(ui, model, look, &MORE, commands);
+            for group in GROUPS {
+                buttons(ui, model, look, group, commands);
+                ui.add_space(10.0);
+            }
+            let (label, action) = MORE[2];
+            button(ui, model, (LabButton::new(label), action), look, commands);
+            ui.add_space(10.0);
             speed_choice(ui, model, commands);
             seed_and_time(ui, model, look, state, commands);
         });
     }
 }
 
-/// The buttons that a narrow screen shows at once. It keeps those of `MORE` in a menu.
-const PLAY: [(&str, Action); 5] = [
-    ("Play", Action::PlayPause),
-    ("Back", Action::StepBack),
-    ("Step", Action::Step),
-    ("Reset", Action::Reset),
-    ("Re-roll", Action::ReRoll),
-];
-const MORE: [(&str, Action); 3] =
-    [("Next contact", Action::NextContact), ("Loop", Action::Loop), ("Continue from here", Action::Continue)];
+/// A button with its name and its sign.
+type Signed = (&'static str, Icon, Action);
 
-fn buttons(ui: &mut Ui, model: &Dashboard, look: &Look, buttons: &[(&str, Action)], commands: &mut Vec<Command>) {
-    for &(label, action) in buttons {
-        let (label, width) = match action {
-            Action::PlayPause if model.playing => ("Pause", 60.0),
-            Action::PlayPause => (label, 60.0),
-            _ => (label, 0.0),
+const START: Signed = ("To the start", Icon::ToStart, Action::Start);
+const BACK: Signed = ("Back", Icon::Back, Action::StepBack);
+const PLAY: Signed = ("Play", Icon::Play, Action::PlayPause);
+const STEP: Signed = ("Step", Icon::Step, Action::Step);
+const NEXT: Signed = ("Next contact", Icon::NextContact, Action::NextContact);
+const LOOP: Signed = ("Loop", Icon::Loop, Action::Loop);
+const RESET: Signed = ("Reset", Icon::Reset, Action::Reset);
+const RE_ROLL: Signed = ("Re-roll", Icon::Die, Action::ReRoll);
+
+/// The signs of a wide screen, group after group.
+const GROUPS: [&[Signed]; 2] = [&[START, BACK, PLAY, STEP, NEXT, LOOP], &[RESET, RE_ROLL]];
+
+/// The signs that a narrow screen shows at once. It keeps the others, as words, in a menu.
+const ESSENTIAL: [Signed; 6] = [BACK, PLAY, STEP, NEXT, RESET, RE_ROLL];
+const MORE: [(&str, Action); 3] =
+    [("To the start", Action::Start), ("Loop", Action::Loop), ("Continue from here", Action::Continue)];
+
+fn buttons(ui: &mut Ui, model: &Dashboard, look: &Look, signs: &[Signed], commands: &mut Vec<Command>) {
+    for &(label, icon, action) in signs {
+        let shown = match action {
+            Action::PlayPause if model.playing => LabButton::new("Pause").icon(Icon::Pause).width(PLAY_WIDTH),
+            Action::PlayPause => LabButton::new(label).icon(icon).width(PLAY_WIDTH),
+            _ => LabButton::new(label).icon(icon),
         };
-        let enabled = match action {
-            Action::NextContact => model.next_contact.is_some(),
-            Action::Continue => model.tick < model.frontier,
-            _ => true,
-        };
-        let on = action == Action::Loop && model.looping;
-        if LabButton::new(label)
-            .width(width)
-            .enabled(enabled)
-            .selected(on)
-            .show(ui, look)
-            .on_hover_text(hint(action))
-            .clicked()
-        {
-            act(action, model, commands);
-        }
+        button(ui, model, (shown, action), look, commands);
+    }
+}
+
+/// Width of the button that plays, points.
+const PLAY_WIDTH: f32 = 56.0;
+
+fn button(
+    ui: &mut Ui,
+    model: &Dashboard,
+    (shown, action): (LabButton<'_>, Action),
+    look: &Look,
+    commands: &mut Vec<Command>,
+) {
+    let shown = match action {
+        Action::NextContact => shown.enabled(model.next_contact.is_some()),
+        Action::Continue => shown.enabled(model.tick < model.frontier),
+        Action::Loop => shown.selected(model.looping),
+        _ => shown,
+    };
+    if shown.show(ui, look).on_hover_text(hint(action)).clicked() {
+        act(action, model, commands);
     }
 }
 

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use crate::atlas::Atlas;
 use crate::configuration::{Coordinates, RobotKind};
 use crate::geometry::{Footprint, Point2};
-use crate::picture::{Item, Picture, RobotDrawing, robot};
+use crate::picture::{Gait, Item, Picture, RobotDrawing, robot};
 use crate::random::Seed;
 use crate::robots::AnyRobot;
 use crate::simulation::SensorView;
@@ -24,6 +24,8 @@ pub struct CockpitRobot {
     pub footprint: Footprint,
     /// Its heading, radians, for a robot of one part that is no arm; otherwise `None`.
     pub heading: Option<f64>,
+    /// How its wheels stand.
+    pub gait: Gait,
     /// Whether its contact flash is on.
     pub flash: bool,
     /// Contact episodes since the start.
@@ -143,7 +145,14 @@ impl Cockpit {
     pub fn robots_picture(&self, mut red: impl FnMut(&CockpitRobot) -> bool) -> Vec<Item> {
         let drawn = |r: &CockpitRobot| {
             let in_contact = red(r);
-            robot(&RobotDrawing { name: &r.name, footprint: &r.footprint, heading: r.heading, in_contact })
+            robot(&RobotDrawing {
+                name: &r.name,
+                footprint: &r.footprint,
+                heading: r.heading,
+                model: r.model,
+                gait: r.gait,
+                in_contact,
+            })
         };
         self.robots.iter().flat_map(drawn).collect()
     }

@@ -24,6 +24,16 @@ pub fn fit(picture: &Picture, rect: Rect) -> Fit {
     Fit::new(&picture.bounds, screen_rect(rect), f64::from(MARGIN))
 }
 
+/// The part of `room`, from its upper left corner on, that has the picture's proportions.
+pub fn proportioned(picture: &Picture, room: Rect) -> Rect {
+    let Aabb { min, max } = picture.bounds;
+    let own = Vec2::new((max.x - min.x) as f32, (max.y - min.y) as f32);
+    let inner = (room.size() - Vec2::splat(2.0 * MARGIN)).max(Vec2::splat(1.0));
+    let scale = (inner.x / own.x).min(inner.y / own.y);
+    let size = if scale.is_finite() { own * scale } else { inner };
+    Rect::from_min_size(room.min, size + Vec2::splat(2.0 * MARGIN))
+}
+
 /// Paints the picture's items, the first below all others.
 pub fn paint(painter: &Painter, picture: &Picture, fit: &Fit, look: &Look) {
     for primitive in picture.items.iter().flat_map(|item| resolve(item, fit)) {
@@ -312,6 +322,19 @@ mod tests {
             seen += now.len();
         }
         assert!(seen > 100, "{seen}");
+    }
+
+    #[test]
+    fn a_paper_has_its_worlds_proportions() {
+        let p = Point2::new;
+        let picture = |w, h| Picture::new("a", Aabb::new(p(1.0, 2.0), p(1.0 + w, 2.0 + h)));
+        let room = Rect::from_min_size(pos2(10.0, 20.0), Vec2::new(416.0, 216.0));
+        // 400 by 200 points within the margin of 8: a square is as high as the room, a strip as wide
+        assert_eq!(proportioned(&picture(5.0, 5.0), room).size(), Vec2::new(216.0, 216.0));
+        assert_eq!(proportioned(&picture(8.0, 1.0), room).size(), Vec2::new(416.0, 66.0));
+        assert_eq!(proportioned(&picture(8.0, 1.0), room).min, room.min);
+        let tiny = proportioned(&picture(8.0, 1.0), Rect::from_min_size(pos2(0.0, 0.0), Vec2::splat(1.0)));
+        assert!(tiny.width() > 0.0 && tiny.height() > 0.0, "{tiny:?}");
     }
 
     #[test]

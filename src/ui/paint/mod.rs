@@ -3,6 +3,7 @@
 pub(crate) mod button;
 pub(crate) mod canvas;
 pub(crate) mod frame;
+pub(crate) mod icon;
 pub(crate) mod look;
 pub(crate) mod plate;
 pub(crate) mod polygons;

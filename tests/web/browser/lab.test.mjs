@@ -65,6 +65,7 @@ lab("Rusty and Hitch are driven by keys, Reach by dragging", "/?seed=7", async (
   await lab.page.keyboard.up("ArrowUp");
   await lab.page.keyboard.press("Escape");
   await lab.until((s) => s.armed === null);
+  await lab.click(/^Bring Hitch/);
   await lab.click(/^Lot\. Hitch/, [0.1, 0.1]);
   await lab.until((s) => s.armed === "Hitch");
   await lab.page.keyboard.down("ArrowDown");
@@ -72,6 +73,7 @@ lab("Rusty and Hitch are driven by keys, Reach by dragging", "/?seed=7", async (
   await lab.page.keyboard.up("ArrowDown");
   await lab.send({ do: "pause" });
   const before = (await lab.until((s) => !s.playing)).robots.find((r) => r.name === "Reach").configuration;
+  await lab.click(/^Bring Reach/);
   const from = await lab.at("Reach: tip, theta2 in radians");
   await lab.drag(from, [from[0] - 60, from[1] + 50]);
   await lab.send({ do: "step" });
@@ -310,6 +312,7 @@ lab("everything is done by keyboard alone, and Tab is not trapped", "/", async (
   await keyboard.up("ArrowUp");
   await keyboard.press("Escape");
   await lab.until((s) => s.armed === null);
+  await press(/^Bring Reach/);
   const theta = lab.page.getByLabel("Reach: theta1");
   await theta.focus();
   await theta.fill("0.5");
@@ -318,6 +321,8 @@ lab("everything is done by keyboard alone, and Tab is not trapped", "/", async (
 
 lab("the accessibility tree tells what the canvas shows", "/?tick=200", async (lab) => {
   await lab.find("Play");
+  await lab.click(/^Bring Reach/);
+  await lab.find("Reach: theta1");
   const session = await lab.context.newCDPSession(lab.page);
   const { nodes } = await session.send("Accessibility.getFullAXTree");
   const named = (role) => nodes.filter((n) => n.role?.value === role && !n.ignored).map((n) => n.name?.value);

@@ -1,0 +1,233 @@
+//! The configuration beside the position: a robot of the dashboard as a point of its configuration space.
+
+use std::sync::Arc;
+
+use bevy_egui::egui::{
+    Align2, CursorIcon, Id, Pos2, Rect, Sense, Shape, Stroke, StrokeKind, TextStyle, Ui, Vec2, WidgetInfo, WidgetType,
+    pos2, vec2,
+};
+
+use super::cells::Cells;
+use crate::atlas::Atlas;
+use crate::collision::{Checker, Scene};
+use crate::configuration::{AnyConfiguration, Coordinates};
+use crate::cspace::{Overlay, overlay_items};
+use crate::geometry::Point2;
+use crate::num::wrap;
+use crate::picture::{Drawing, Fit, Glyph, Item, Line, Picture, Role};
+use crate::robots::AnyRobot;
+use crate::run::{Quantized, RobotInput};
+use crate::simulation::{History, RobotCommand, TransportCommand};
+use crate::ui::paint::canvas;
+use crate::ui::{Cockpit, CockpitRobot, Command, Look};
+
+/// Level of the finest cells: a 64th of the sides.
+const FINEST: u32 = 6;
+
+/// Length of the trail, ticks: ten seconds.
+const TRAIL: u64 = 200;
+
+/// Radius of the dial of headings, points.
+const DIAL: f32 = 24.0;
+
+/// Diameter of the area that takes the pointer on the point, points.
+const HIT: f32 = 28.0;
+
+/// The cells behind a point, kept from frame to frame.
+#[derive(Clone, Debug, Default)]
+pub struct LinkedState {
+    kept: Option<(Arc<Atlas>, Cells)>,
+}
+
+/// A robot of a cockpit at a tick.
+pub struct Linked<'a> {
+    /// Its cockpit.
+    pub cockpit: &'a Cockpit,
+    /// The robot.
+    pub robot: &'a CockpitRobot,
+    /// The tick.
+    pub tick: u64,
+    /// What is known of the run.
+    pub history: &'a History,
+}
+
+impl Linked<'_> {
+    /// The robot and its configuration, if it is one of the lab's.
+    fn configuration(&self, coordinates: &Coordinates) -> Option<AnyConfiguration> {
+        Some(AnyRobot::of_kind(&self.robot.kind, coordinates)?.1)
+    }
+
+    /// Where it was in the last ten seconds, oldest first.
+    fn trail(&self) -> Vec<AnyConfiguration> {
+        let span = self.tick.saturating_sub(TRAIL)..=self.tick;
+        self.history.span(self.robot.id, span).filter_map(|trail| self.configuration(&trail.coordinates)).collect()
+    }
+
+    /// The way of its reference point in these seconds: of an arm its tip.
+    pub fn way(&self) -> Vec<Item> {
+        let Some(model) = self.robot.model else { return Vec::new() };
+        let points: Vec<Point2> = self.trail().iter().map(|q| model.reference(q)).collect();
+        if points.len() < 2 {
+            return Vec::new();
+        }
+        let line = Line::solid(1.5).at_opacity(0.7);
+        let id = format!("trail/{}", self.robot.name);
+        vec![Item::new(id, "the last ten seconds", Role::Path, Drawing::Polyline(points)).stroked(line)]
+    }
+
+    /// Shows the point in `room`, and behind it the cells that are proven, or the world for a car. An arm's is dragged.
+    /// Shows nothing of a robot that is not the lab's.
+    pub fn show(
+        &self,
+        ui: &mut Ui,
+        room: Rect,
+        look: &Look,
+        state: &mut LinkedState,
+        commands: &mut Vec<Command>,
+    ) -> Option<()> {
+        let q = self.configuration(&self.robot.coordinates)?;
+        let line = ui.text_style_height(&TextStyle::Small);
+        let place = Rect::from_min_max(room.min + vec2(0.0, line + 4.0), room.max);
+        let (paper, words) = match q {
+            AnyConfiguration::Hitch(_) => {
+                (self.among_obstacles(ui, place, look), "x and y, and beside them the headings")
+            }
+            _ => {
+                let is_rover = matches!(q, AnyConfiguration::Pose(_));
+                let paper = self.among_cells(ui, place, q, look, state, commands)?;
+                (
+                    paper,
+                    if is_rover {
+                        "x and y: obstacles grown by its radius"
+                    } else {
+                        "the torus of its angles: edges are one"
+                    },
+                )
+            }
+        };
+        let font = TextStyle::Small.resolve(ui.style());
+        let title = format!("Its configuration: {words}");
+        ui.painter().text(room.min, Align2::LEFT_TOP, title, font, look.colour(Role::Muted));
+        let frame = Stroke::new(1.0, look.colour(Role::Hairline));
+        ui.painter().rect_stroke(paper, 0.0, frame, StrokeKind::Inside);
+        Some(())
+    }
+
+    /// Shows the cells of the robot's slice, and over them its trail and its point.
+    fn among_cells(
+        &self,
+        ui: &mut Ui,
+        room: Rect,
+        q: AnyConfiguration,
+        look: &Look,
+        state: &mut LinkedState,
+        commands: &mut Vec<Command>,
+    ) -> Option<Rect> {
+        let atlas = &self.cockpit.atlas;
+        let serves = |(of, cells): &(Arc<Atlas>, Cells)| {
+            let slice = cells.map().slice();
+            Arc::ptr_eq(of, atlas) && slice.holds(&q) && Some(*slice.checker().robot()) == self.robot.model
+        };
+        if !state.kept.as_ref().is_some_and(serves) {
+            let checker = Checker::new(Scene::of_world(atlas.world()), self.robot.model?);
+            state.kept = Some((Arc::clone(atlas), Cells::through(&checker, &q, FINEST)?));
+        }
+        let (_, cells) = state.kept.as_mut()?;
+        if cells.refine() {
+            ui.ctx().request_repaint();
+        }
+        let still = cells.picture();
+        let paper = canvas::proportioned(still, room);
+        let fit = canvas::fit(still, paper);
+        let slice = cells.map().slice();
+        let overlay = Overlay { now: Some(q), in_contact: self.robot.flash, trace: self.trail(), ..Overlay::default() };
+        let over = Picture::new("configuration", still.bounds).with(overlay_items(slice, &overlay));
+        let painter = ui.painter_at(paper);
+        canvas::paint_kept(&painter, still, paper, &fit, look);
+        canvas::paint(&painter, &over, &fit, look);
+        if self.robot.is_arm {
+            self.handle(ui, Point2::from(slice.point(&q)), &fit, commands);
+        } else {
+            self.described(ui, paper);
+        }
+        Some(paper)
+    }
+
+    /// Lets the point of an arm be dragged: the arm follows.
+    fn handle(&self, ui: &mut Ui, at: Point2, fit: &Fit, commands: &mut Vec<Command>) {
+        let [x, y] = fit.screen_from_world(at);
+        let hit = Rect::from_center_size(pos2(x as f32, y as f32), Vec2::splat(HIT));
+        let response = ui.interact(hit, Id::new((&self.robot.name, "configuration")), Sense::drag());
+        let words = format!("{}: its configuration as a point, to be dragged", self.robot.name);
+        response.widget_info(|| WidgetInfo::labeled(WidgetType::Other, true, &words));
+        if response.drag_started() {
+            commands.push(Command::from(TransportCommand::Checkpoint));
+        }
+        if let Some(pointer) = response.interact_pointer_pos().filter(|_| response.dragged()) {
+            let to = fit.world_from_screen([f64::from(pointer.x), f64::from(pointer.y)]);
+            let mut angles = self.robot.target.clone().unwrap_or_else(|| self.robot.coordinates.clone());
+            // the plane is that of the last two angles
+            let first = angles.len().saturating_sub(2);
+            for (angle, to) in angles.iter_mut().skip(first).zip([to.x, to.y]) {
+                *angle = wrap(to);
+            }
+            let target: Option<Vec<Quantized>> = angles.iter().map(|angle| Quantized::try_new(*angle)).collect();
+            let moved = target.map(RobotInput::MoveTo);
+            let robot = || self.robot.name.clone();
+            commands.extend(moved.map(|input| Command::from(RobotCommand { robot: robot(), input })));
+        }
+        response.on_hover_cursor(CursorIcon::Grab).on_hover_text("Drag it: the arm follows");
+    }
+
+    fn described(&self, ui: &mut Ui, paper: Rect) {
+        let response = ui.allocate_rect(paper, Sense::hover());
+        let words = format!("Configuration of {}: {}", self.robot.name, self.robot.readout);
+        response.widget_info(|| WidgetInfo::labeled(WidgetType::Label, true, &words));
+    }
+
+    /// Shows a car's place in its world with its trail, and its headings on a dial.
+    fn among_obstacles(&self, ui: &mut Ui, room: Rect, look: &Look) -> Rect {
+        let world = &self.cockpit.world;
+        let paper = canvas::proportioned(world, room);
+        let fit = canvas::fit(world, paper);
+        let painter = ui.painter_at(paper);
+        canvas::paint_kept(&painter, world, paper, &fit, look);
+        let mut items = self.way();
+        if let [x, y, ..] = self.robot.coordinates[..] {
+            let role = if self.robot.flash { Role::Goal } else { Role::Robot };
+            let dot = Drawing::Mark { at: Point2::new(x, y), glyph: Glyph::Handle, radius_px: 5.0 };
+            items.push(Item::new("now", self.robot.readout.as_str(), role, dot));
+        }
+        canvas::paint(&painter, &Picture::new("configuration", world.bounds).with(items), &fit, look);
+        self.dial(ui, paper, look);
+        self.described(ui, paper);
+        paper
+    }
+
+    /// Shows the car's heading and its trailer's as needles, and how far the hitch may fold.
+    fn dial(&self, ui: &Ui, paper: Rect, look: &Look) {
+        let painter = ui.painter_at(paper);
+        let centre = paper.right_top() + vec2(-DIAL - 10.0, DIAL + 10.0);
+        painter.circle(centre, DIAL, look.theme.colour(Role::Paper), Stroke::new(1.0, look.colour(Role::Muted)));
+        let at = |angle: f64, radius: f32| centre + radius * vec2(angle.cos() as f32, -angle.sin() as f32);
+        for quarter in 0..4 {
+            let angle = f64::from(quarter) * std::f64::consts::FRAC_PI_2;
+            let line = [at(angle, DIAL - 3.0), at(angle, DIAL)];
+            painter.line_segment(line, Stroke::new(1.0, look.colour(Role::Muted)));
+        }
+        let Some(theta) = self.robot.coordinates.get(2).copied() else { return };
+        if let Some(psi) = self.robot.coordinates.get(3).copied() {
+            if let Some(AnyRobot::Hitch(car)) = self.robot.model
+                && let Some(limit) = car.jackknife
+            {
+                let arc: Vec<Pos2> =
+                    (0..=24).map(|k| at(theta + limit * (f64::from(k) / 12.0 - 1.0), DIAL - 1.5)).collect();
+                painter.add(Shape::line(arc, Stroke::new(3.0, look.tint(Role::Free, 0.8))));
+            }
+            painter.line_segment([centre, at(psi, DIAL - 5.0)], Stroke::new(1.5, look.colour(Role::Path)));
+            painter.circle_filled(at(psi, DIAL - 5.0), 2.5, look.colour(Role::Path));
+        }
+        painter.line_segment([centre, at(theta, DIAL - 4.0)], Stroke::new(2.5, look.colour(Role::Robot)));
+        painter.circle_filled(centre, 2.5, look.colour(Role::Robot));
+    }
+}

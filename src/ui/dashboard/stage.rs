@@ -1,0 +1,229 @@
+//! The stage: one cockpit in front and the others small beside it, all side by side, or one alone on a narrow screen.
+
+use bevy_egui::egui::{
+    Align2, CursorIcon, Pos2, Rect, ScrollArea, Sense, Stroke, StrokeKind, TextStyle, Ui, WidgetInfo, WidgetType, pos2,
+    vec2,
+};
+
+use super::drive;
+use super::pane::{self, text_height};
+use crate::picture::{Picture, Role};
+use crate::simulation::History;
+use crate::ui::crowd::pane::{CrowdPane, crowd_pane};
+use crate::ui::cspace::linked::Linked;
+use crate::ui::paint::canvas;
+use crate::ui::{Cockpit, Command, Dashboard, Grasp, Look, UiState};
+
+/// Gap between panes, and between the panes and the window's border, points.
+pub const GAP: f32 = 20.0;
+
+/// Share of the stage's width for what stands beside the cockpit in front, and its bounds, points.
+const BESIDE: f32 = 0.34;
+const LEAST_BESIDE: f32 = 280.0;
+const MOST_BESIDE: f32 = 420.0;
+
+/// Largest height of a small cockpit's paper, points.
+const SMALL: f32 = 190.0;
+
+/// Least side of the configuration beside the cockpit in front, points.
+const LEAST_SPACE: f32 = 130.0;
+
+/// Width of the window from which three equal panes are offered, points.
+const ROOMY: f32 = 1600.0;
+
+/// What the stage shows.
+pub struct Stage<'a> {
+    /// The dashboard.
+    pub model: &'a Dashboard,
+    /// The run's history.
+    pub history: &'a History,
+    /// The look.
+    pub look: &'a Look,
+}
+
+impl Stage<'_> {
+    /// Shows the cockpits in what is left of `ui`.
+    pub fn show(&self, ui: &mut Ui, state: &mut UiState, commands: &mut Vec<Command>) {
+        let cockpits = &self.model.cockpits;
+        let has_crowd = cockpits.iter().any(|cockpit| cockpit.crowd.is_some());
+        if cockpits.is_empty() {
+            ui.weak("No world is loaded.");
+        } else if self.look.narrow {
+            self.alone(ui, state, commands);
+        } else if has_crowd || cockpits.len() > 3 {
+            self.side_by_side(ui, state, commands);
+        } else {
+            self.in_front(ui, state, commands);
+        }
+    }
+
+    /// The cockpit in front, and its index.
+    fn front(&self, state: &UiState) -> Option<(usize, &Cockpit)> {
+        let chosen = state.settings.world as usize;
+        let cockpits = &self.model.cockpits;
+        cockpits.get(chosen).map(|cockpit| (chosen, cockpit)).or(cockpits.first().map(|first| (0, first)))
+    }
+
+    /// Shows the cockpit in front on the left, and on the right the others, small, over what there is to say of it.
+    fn in_front(&self, ui: &mut Ui, state: &mut UiState, commands: &mut Vec<Command>) {
+        let is_roomy = ui.ctx().content_rect().width() >= ROOMY;
+        if is_roomy && state.settings.side_by_side {
+            if ui.link("One in front").clicked() {
+                state.settings.side_by_side = false;
+            }
+            return self.side_by_side(ui, state, commands);
+        }
+        let Some((chosen, cockpit)) = self.front(state) else { return };
+        let room = ui.available_rect_before_wrap();
+        let width = (BESIDE * room.width()).clamp(LEAST_BESIDE, MOST_BESIDE).min(0.6 * room.width());
+        let (left, mut beside) = room.split_left_right_at_x(room.right() - width);
+        let left = left.with_max_x(left.right() - GAP);
+        let linked = pane::in_reach(cockpit).map(|robot| {
+            let (tick, history) = (self.model.tick, self.history);
+            Linked { cockpit, robot, tick, history }
+        });
+        let way = linked.as_ref().map_or_else(Vec::new, Linked::way);
+        let sheet = canvas::proportioned(&cockpit.world, left);
+        let fit = pane::paper(ui, cockpit, sheet, way, self.look, state, commands);
+        let others: Vec<(usize, &Cockpit)> =
+            self.model.cockpits.iter().enumerate().filter(|(i, _)| *i != chosen).collect();
+        if !others.is_empty() {
+            let bottom = self.small_ones(ui, &others, beside, state, commands);
+            beside = beside.with_min_y(bottom);
+            if is_roomy {
+                let at = Rect::from_min_size(beside.min, vec2(beside.width(), 20.0));
+                let mut row = ui.new_child(bevy_egui::egui::UiBuilder::new().max_rect(at));
+                state.settings.side_by_side |= row.link("All side by side").clicked();
+                beside = beside.with_min_y(at.bottom());
+            }
+            beside = beside.with_min_y(beside.top() + 12.0);
+        }
+        // the configuration stands below the words, where there is room for both
+        let side = beside.width().min(0.5 * beside.height());
+        let (words, space) =
+            beside.split_top_bottom_at_y(beside.bottom() - if side < LEAST_SPACE { 0.0 } else { side });
+        pane::words_in(ui, words, cockpit, &fit, self.look, state, commands);
+        if let Some(linked) = linked.filter(|_| side >= LEAST_SPACE) {
+            linked.show(ui, space.with_min_y(space.top() + 6.0), self.look, &mut state.linked, commands);
+        }
+    }
+
+    /// Shows cockpits small in a row at the top of `room`. Returns where the row ends.
+    fn small_ones(
+        &self,
+        ui: &mut Ui,
+        cockpits: &[(usize, &Cockpit)],
+        room: Rect,
+        state: &mut UiState,
+        commands: &mut Vec<Command>,
+    ) -> f32 {
+        let gap = 0.6 * GAP;
+        let width = (room.width() - gap * (cockpits.len() as f32 - 1.0)) / cockpits.len() as f32;
+        let place = |k: usize| pos2(room.left() + k as f32 * (width + gap), room.top());
+        let papers: Vec<Rect> = (0..)
+            .zip(cockpits)
+            .map(|(k, (_, cockpit))| {
+                let most = vec2(width, SMALL.min(0.4 * room.height()));
+                canvas::proportioned(&cockpit.world, Rect::from_min_size(place(k), most))
+            })
+            .collect();
+        let line = ui.text_style_height(&TextStyle::Small);
+        let bottom = papers.iter().fold(room.top(), |low, paper| low.max(paper.bottom())) + 4.0 + line;
+        for ((k, (index, cockpit)), paper) in (0..).zip(cockpits).zip(papers) {
+            let whole = Rect::from_min_max(place(k), pos2(place(k).x + width, bottom));
+            if self.small(ui, cockpit, Placed { index: *index, whole, paper }, state) {
+                drive::let_go(state, commands);
+                state.next_grasp = Some(Grasp::Leave);
+                state.settings.world = *index as u32;
+            }
+        }
+        bottom
+    }
+
+    /// Shows a cockpit small: its world, its robots, its name. Returns whether it was clicked.
+    fn small(&self, ui: &mut Ui, cockpit: &Cockpit, place: Placed, state: &mut UiState) -> bool {
+        let Placed { index, whole, paper } = place;
+        let look = self.look;
+        let response = ui.allocate_rect(whole, Sense::click());
+        let words = format!("Bring {} to the front ({})", cockpit.heading(), index + 1);
+        response
+            .widget_info(|| WidgetInfo::labeled(WidgetType::Button, true, format!("{words}. {}", cockpit.described())));
+        let painter = ui.painter_at(whole.expand(1.0));
+        let fit = canvas::fit(&cockpit.world, paper);
+        canvas::paint_kept(&painter, &cockpit.world, paper, &fit, look);
+        let robots = pane::robots(ui, cockpit, state);
+        let over = Picture::new(&cockpit.world.name, cockpit.world.bounds).with(robots);
+        canvas::paint(&ui.painter_at(paper), &over, &fit, look);
+        let is_marked = response.hovered() || response.has_focus();
+        let role = if is_marked { Role::Focus } else { Role::Hairline };
+        painter.rect_stroke(paper, 0.0, Stroke::new(1.0, look.colour(role)), StrokeKind::Inside);
+        let at = Pos2::new(paper.left(), paper.bottom() + 4.0);
+        let colour = look.colour(if is_marked { Role::Text } else { Role::Muted });
+        painter.text(at, Align2::LEFT_TOP, cockpit.heading(), TextStyle::Small.resolve(ui.style()), colour);
+        let response = response.on_hover_cursor(CursorIcon::PointingHand).on_hover_text(words);
+        response.clicked()
+    }
+
+    /// Shows one cockpit, and tabs to choose another.
+    fn alone(&self, ui: &mut Ui, state: &mut UiState, commands: &mut Vec<Command>) {
+        ui.horizontal_wrapped(|ui| {
+            for (i, cockpit) in self.model.cockpits.iter().enumerate() {
+                if ui.selectable_label(state.settings.world as usize == i, cockpit.tab()).clicked() {
+                    state.settings.world = i as u32;
+                }
+            }
+        });
+        ui.add_space(4.0);
+        if let Some((_, cockpit)) = self.front(state) {
+            let rect = ui.available_rect_before_wrap();
+            self.pane(ui, cockpit, rect, state, commands);
+        }
+    }
+
+    /// Shows all cockpits, three in a row.
+    fn side_by_side(&self, ui: &mut Ui, state: &mut UiState, commands: &mut Vec<Command>) {
+        let count = self.model.cockpits.len();
+        let columns = count.min(3);
+        let room = ui.available_rect_before_wrap();
+        let width = (room.width() - GAP * (columns as f32 - 1.0)) / columns as f32;
+        let mut rows = |ui: &mut Ui, height: f32| {
+            for row in self.model.cockpits.chunks(columns) {
+                let (rect, _) = ui.allocate_exact_size(vec2(room.width(), height), Sense::hover());
+                for (i, cockpit) in row.iter().enumerate() {
+                    let left = rect.left() + i as f32 * (width + GAP);
+                    let rect = Rect::from_min_size(pos2(left, rect.top()), vec2(width, height));
+                    self.pane(ui, cockpit, rect, state, commands);
+                }
+            }
+        };
+        if count == columns {
+            rows(ui, room.height());
+        } else {
+            // more than three worlds do not fit a screen: only then is there something to scroll
+            let height = (width + text_height(ui, 1)).min(room.height());
+            ScrollArea::vertical().show(ui, |ui| rows(ui, height));
+        }
+    }
+
+    /// Shows a cockpit in `rect`, its robots one by one or as a crowd.
+    fn pane(&self, ui: &mut Ui, cockpit: &Cockpit, rect: Rect, state: &mut UiState, commands: &mut Vec<Command>) {
+        match &cockpit.crowd {
+            Some(crowd) => {
+                let shown = CrowdPane { cockpit, crowd, history: self.history, tick: self.model.tick };
+                crowd_pane(ui, &shown, rect, self.look, state, commands);
+            }
+            None => pane::pane(ui, cockpit, rect, self.look, state, commands),
+        }
+    }
+}
+
+/// Where a small cockpit is.
+#[derive(Clone, Copy)]
+struct Placed {
+    /// The cockpit's index.
+    index: usize,
+    /// The rectangle that takes clicks.
+    whole: Rect,
+    /// The rectangle of its world.
+    paper: Rect,
+}
