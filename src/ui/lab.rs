@@ -23,7 +23,7 @@ pub fn lab(ui: &mut Ui, model: &Dashboard, history: &History, state: &mut UiStat
     state.is_narrow = narrow;
     let look = Look::of(ui, state, narrow);
     let mut style = look.theme.style(narrow);
-    if state.settings.reduced_motion {
+    if state.has_reduced_motion() {
         style.animation_time = 0.0;
     }
     let style = Arc::new(style);

@@ -33,6 +33,8 @@ pub struct UiState {
     pub capture: super::CaptureState,
     /// The system's theme.
     pub system_theme: Theme,
+    /// Whether the system asks for less motion.
+    pub system_reduced_motion: bool,
     /// What is typed into the seed's field and is not yet the run's seed.
     pub seed: Option<SeedDraft>,
     /// The name of the robot that the arrow keys drive.
@@ -184,6 +186,11 @@ impl UiState {
         if old.has_history() {
             self.shelf.push(old);
         }
+    }
+
+    /// Whether nothing eases: the system or the reader asks for it.
+    pub fn has_reduced_motion(&self) -> bool {
+        self.settings.reduced_motion || self.system_reduced_motion
     }
 
     /// The worlds of the atlas whose edits are in no file, by their names in the list of worlds.

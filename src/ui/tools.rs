@@ -59,6 +59,11 @@ pub fn header(
     });
 }
 
+/// Shows the menu with everything in it.
+pub fn menu_button(ui: &mut Ui, model: &Dashboard, look: &Look, state: &mut UiState, commands: &mut Vec<Command>) {
+    ui.menu_button("Menu", |ui| menu(ui, model, &[], look, state, commands));
+}
+
 /// Shows the head of a widget other than the dashboard: title and buttons, colour key and hints.
 pub fn head(
     ui: &mut Ui,

@@ -136,7 +136,7 @@ fn take(world: &mut World, message: Message) -> Result<(), PageError> {
         }
         Message::System { dark, reduced_motion } => ui(world, &|ui| {
             ui.system_theme = if dark { Theme::Dark } else { Theme::Light };
-            ui.settings.reduced_motion |= reduced_motion;
+            ui.system_reduced_motion = reduced_motion;
         }),
         Message::Link => {
             let said = link_of(world).and_then(|l| Ok((l.query()?, l.digest)));

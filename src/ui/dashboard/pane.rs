@@ -11,7 +11,7 @@ use super::goal::trailer_of;
 use super::{doors, drive, handles, pad};
 use crate::atlas::{self, Atlas};
 use crate::configuration::RobotKind;
-use crate::manifest::Formula;
+use crate::manifest::{Formula, Widget};
 use crate::picture::{Drawing, Fit, Item, Picture, Role, ScaleBar, ScanDrawing, fan_scan, pick, places, scan_id};
 use crate::run::RobotInput;
 use crate::simulation::{RobotCommand, SensorView, TransportCommand};
@@ -22,6 +22,9 @@ use crate::ui::{
 
 /// Rows of text kept free under a pane for each robot, so that panes do not jump when a trailer is put on.
 const ROWS: f32 = 8.0;
+
+/// Height kept free for words under a pane on a narrow screen, where they scroll, points.
+const NARROW_TEXT: f32 = 130.0;
 
 /// Distance within which the pointer points at a drawn thing, points.
 const REACH: f64 = 4.0;
@@ -38,7 +41,8 @@ pub fn text_height(ui: &Ui, robots: usize) -> f32 {
 
 /// Shows one cockpit: its paper, and name, space, readout and counts under it.
 pub fn pane(ui: &mut Ui, cockpit: &Cockpit, rect: Rect, look: &Look, state: &mut UiState, commands: &mut Vec<Command>) {
-    let height = (rect.height() - text_height(ui, cockpit.robots.len())).max(60.0);
+    let text = if look.narrow { NARROW_TEXT } else { text_height(ui, cockpit.robots.len()) };
+    let height = (rect.height() - text).max(60.0);
     let sheet = canvas::proportioned(&cockpit.world, Rect::from_min_size(rect.min, vec2(rect.width(), height)));
     let fit = paper(ui, cockpit, sheet, Vec::new(), look, state, commands);
     let below = Rect::from_min_max(pos2(rect.left(), sheet.bottom() + 6.0), rect.max);
@@ -267,6 +271,13 @@ fn words(ui: &mut Ui, cockpit: &Cockpit, fit: &Fit, look: &Look, state: &mut UiS
         robot_words(ui, robot, look, state, commands);
     }
     doors::links(ui, cockpit, commands);
+    if look.narrow {
+        let words = Widget::Dashboard.text();
+        ui.add_space(10.0);
+        frame::title(ui, words, look);
+        frame::key_row(ui, words, look, state);
+        frame::hints(ui, words, look, state);
+    }
 }
 
 /// Shows a robot's space, its configuration, what was counted of it, and links for what can be done with it.
@@ -299,18 +310,19 @@ fn readouts(ui: &mut Ui, robot: &CockpitRobot, look: &Look) {
 }
 
 fn counts(ui: &mut Ui, robot: &CockpitRobot, look: &Look) {
-    let mut text = format!("contacts: {}", robot.contacts);
+    let muted = |text: String| RichText::new(text).monospace().color(look.colour(Role::Muted));
+    // in a row of its own, so that no row wraps when the other grows
     if let Some(tip) = robot.tip {
-        text += &readout(&format!("  tip: ({:.3}, {:.3})", tip.x, tip.y));
+        ui.label(muted(readout(&format!("tip: ({:.3}, {:.3})", tip.x, tip.y))));
     }
+    let mut text = format!("contacts: {}", robot.contacts);
     if robot.trailer.is_some() {
         text += &format!("  reversals: {}", robot.reversals);
     }
     if robot.manual {
         text += "  driven by hand";
     }
-    let text = RichText::new(text).monospace().color(look.colour(Role::Muted));
-    ui.label(text);
+    ui.label(muted(text));
 }
 
 /// Shows links for what can be done with a robot besides driving it.

@@ -25,6 +25,9 @@ const MOST_BESIDE: f32 = 420.0;
 /// Largest height of a small cockpit's paper, points.
 const SMALL: f32 = 190.0;
 
+/// Width from which words and configuration stand side by side, points.
+const WIDE: f32 = 560.0;
+
 /// Least side of the configuration beside the cockpit in front, points.
 const LEAST_SPACE: f32 = 130.0;
 
@@ -76,14 +79,13 @@ impl Stage<'_> {
         let Some((chosen, cockpit)) = self.front(state) else { return };
         let room = ui.available_rect_before_wrap();
         let width = (BESIDE * room.width()).clamp(LEAST_BESIDE, MOST_BESIDE).min(0.6 * room.width());
-        let (left, mut beside) = room.split_left_right_at_x(room.right() - width);
-        let left = left.with_max_x(left.right() - GAP);
+        let sheet = canvas::proportioned(&cockpit.world, room.with_max_x(room.right() - width - GAP));
+        let mut beside = room.with_min_x(sheet.right() + GAP);
         let linked = pane::in_reach(cockpit).map(|robot| {
             let (tick, history) = (self.model.tick, self.history);
             Linked { cockpit, robot, tick, history }
         });
         let way = linked.as_ref().map_or_else(Vec::new, Linked::way);
-        let sheet = canvas::proportioned(&cockpit.world, left);
         let fit = pane::paper(ui, cockpit, sheet, way, self.look, state, commands);
         let others: Vec<(usize, &Cockpit)> =
             self.model.cockpits.iter().enumerate().filter(|(i, _)| *i != chosen).collect();
@@ -98,13 +100,10 @@ impl Stage<'_> {
             }
             beside = beside.with_min_y(beside.top() + 12.0);
         }
-        // the configuration stands below the words, where there is room for both
-        let side = beside.width().min(0.5 * beside.height());
-        let (words, space) =
-            beside.split_top_bottom_at_y(beside.bottom() - if side < LEAST_SPACE { 0.0 } else { side });
+        let (words, space) = share(beside);
         pane::words_in(ui, words, cockpit, &fit, self.look, state, commands);
-        if let Some(linked) = linked.filter(|_| side >= LEAST_SPACE) {
-            linked.show(ui, space.with_min_y(space.top() + 6.0), self.look, &mut state.linked, commands);
+        if let (Some(linked), Some(space)) = (linked, space) {
+            linked.show(ui, space, self.look, &mut state.linked, commands);
         }
     }
 
@@ -164,16 +163,8 @@ impl Stage<'_> {
         response.clicked()
     }
 
-    /// Shows one cockpit, and tabs to choose another.
+    /// Shows one cockpit.
     fn alone(&self, ui: &mut Ui, state: &mut UiState, commands: &mut Vec<Command>) {
-        ui.horizontal_wrapped(|ui| {
-            for (i, cockpit) in self.model.cockpits.iter().enumerate() {
-                if ui.selectable_label(state.settings.world as usize == i, cockpit.tab()).clicked() {
-                    state.settings.world = i as u32;
-                }
-            }
-        });
-        ui.add_space(4.0);
         if let Some((_, cockpit)) = self.front(state) {
             let rect = ui.available_rect_before_wrap();
             self.pane(ui, cockpit, rect, state, commands);
@@ -217,6 +208,32 @@ impl Stage<'_> {
     }
 }
 
+/// Shows tabs to choose the cockpit in front, where only one is seen.
+pub fn tabs(ui: &mut Ui, model: &Dashboard, state: &mut UiState) {
+    for (i, cockpit) in model.cockpits.iter().enumerate() {
+        if ui.selectable_label(state.settings.world as usize == i, cockpit.tab()).clicked() {
+            state.settings.world = i as u32;
+            // a narrow screen shows either the plots or a pane
+            state.settings.plots = false;
+        }
+    }
+}
+
+/// Shares a room between the words and the configuration: side by side where it is wide, else one below the other.
+/// Without room for both, the words have it all.
+fn share(room: Rect) -> (Rect, Option<Rect>) {
+    if room.width() >= WIDE && room.height() >= LEAST_SPACE {
+        let (words, space) = room.split_left_right_at_fraction(0.5);
+        return (words.with_max_x(words.right() - GAP), Some(space));
+    }
+    let side = room.width().min(0.5 * room.height());
+    if side < LEAST_SPACE {
+        return (room, None);
+    }
+    let (words, space) = room.split_top_bottom_at_y(room.bottom() - side);
+    (words, Some(space.with_min_y(space.top() + 6.0)))
+}
+
 /// Where a small cockpit is.
 #[derive(Clone, Copy)]
 struct Placed {
@@ -226,4 +243,22 @@ struct Placed {
     whole: Rect,
     /// The rectangle of its world.
     paper: Rect,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn words_and_configuration_share_what_room_there_is() {
+        let room = |w: f32, h: f32| Rect::from_min_size(pos2(100.0, 50.0), vec2(w, h));
+        for (w, h) in [(600.0, 300.0), (400.0, 500.0), (300.0, 900.0)] {
+            let room = room(w, h);
+            let (words, space) = share(room);
+            let space = space.unwrap_or_else(|| panic!("{w} by {h} has room for both"));
+            assert!(room.contains_rect(words) && room.contains_rect(space) && !words.shrink(0.1).intersects(space));
+            assert!(space.width().min(space.height()) >= 120.0 && words.height() >= 0.5 * h, "{w} by {h}");
+        }
+        assert_eq!(share(room(400.0, 240.0)), (room(400.0, 240.0), None));
+    }
 }

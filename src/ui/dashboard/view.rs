@@ -5,7 +5,7 @@ use bevy_egui::egui::{CentralPanel, Frame, Margin, Panel, Rect, Ui};
 use super::drive;
 use super::pane::take_in_hand;
 use super::plots::plots;
-use super::stage::{GAP, Stage};
+use super::stage::{self, GAP, Stage};
 use super::transport_bar::{self, transport_bar};
 use crate::manifest::Widget;
 use crate::simulation::History;
@@ -78,6 +78,14 @@ pub fn act(action: Action, model: &Dashboard, state: &mut UiState, commands: &mu
 
 fn header(ui: &mut Ui, model: &Dashboard, look: &Look, state: &mut UiState, commands: &mut Vec<Command>) {
     let words = Widget::Dashboard.text();
+    if look.narrow {
+        // the picture comes first: title, key and hints stand below it
+        ui.horizontal_wrapped(|ui| {
+            stage::tabs(ui, model, state);
+            tools::menu_button(ui, model, look, state, commands);
+        });
+        return;
+    }
     tools::header(ui, words, model, look, state, commands);
     frame::key_row(ui, words, look, state);
     frame::hints(ui, words, look, state);

@@ -37,7 +37,7 @@ impl Look {
             state.lit = pointed;
         }
         let id = Id::new("lit role");
-        let seconds = if state.settings.reduced_motion || is_busy { 0.0 } else { FADE_SECONDS };
+        let seconds = if state.has_reduced_motion() || is_busy { 0.0 } else { FADE_SECONDS };
         let strength = ui.ctx().animate_bool_with_time(id, pointed.is_some(), seconds);
         if is_busy || strength == 0.0 && pointed.is_none() {
             state.lit = None;

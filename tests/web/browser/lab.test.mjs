@@ -413,6 +413,11 @@ lab(
     assert.equal((await lab.state()).tick, tick);
     await lab.click("Play");
     await lab.until((s) => s.tick > tick + 5);
+    // what the system asks for is not kept as the reader's own wish
+    await lab.send({ do: "theme", name: "light" });
+    const kept = () => JSON.parse(localStorage.getItem("motion-lab/settings") ?? "{}");
+    await lab.page.waitForFunction(() => JSON.parse(localStorage.getItem("motion-lab/settings") ?? "{}").theme === "Light");
+    assert.equal((await lab.page.evaluate(kept)).reduced_motion, false);
   },
   { options: { reducedMotion: "reduce" } },
 );
