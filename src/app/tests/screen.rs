@@ -7,9 +7,9 @@ fn the_first_hints_are_put_away_for_good() {
     let mut harness = lab(WIDE);
     harness.state_mut().app.world_mut().resource_mut::<Interface>().0.settings.hints_away.clear();
     harness.run_steps(2);
-    harness.get_by_label("Drag the arm's elbow or tip.");
+    harness.get_by_label("Bring the arm to the front, and drag it.");
     click(&mut harness, "Got it");
-    assert!(harness.query_by_label("Drag the arm's elbow or tip.").is_none());
+    assert!(harness.query_by_label("Bring the arm to the front, and drag it.").is_none());
     let kept = harness.state().app.world().resource::<Interface>().0.settings.hints_away.clone();
     assert_eq!(kept, ["dashboard"], "the settings keep it");
 }
