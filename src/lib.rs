@@ -133,8 +133,10 @@ mod ui;
 #[cfg(feature = "screen")]
 pub mod app;
 
-#[cfg(all(feature = "sim", any(target_family = "wasm", test)))]
-mod web;
+// the program's own likewise: it writes links
+#[doc(hidden)]
+#[cfg(all(feature = "sim", any(target_family = "wasm", feature = "cli", test)))]
+pub mod web;
 
 #[cfg(feature = "sim")]
 pub mod guide;

@@ -2,7 +2,7 @@
 
 use super::error::SweepProblem;
 use super::parameter::{Form, Parameter};
-use super::values::{AxisValue, Over};
+use super::values::{AxisValue, Over, Written};
 use crate::random::{Seed, Stream};
 
 /// An axis whose values fit its parameter.
@@ -11,9 +11,6 @@ pub(super) struct Axis {
     pub parameter: Parameter,
     over: Over,
 }
-
-/// Largest whole number that a list of numbers may hold.
-const MOST_EXACT: f64 = 9_007_199_254_740_992.0;
 
 impl Axis {
     /// The axis, if its values fit its parameter.
@@ -32,9 +29,10 @@ impl Axis {
         if let Some(wrong) = over.numbers().into_iter().find(|x| !x.is_finite()) {
             return Err(SweepProblem::NotFinite(wrong));
         }
-        let is_whole = |x: &f64| (0.0..=MOST_EXACT).contains(x) && x.fract() == 0.0;
-        if let (Form::Whole(_), Some(wrong)) = (form, over.numbers().into_iter().find(|x| !is_whole(x))) {
-            return Err(SweepProblem::NotWhole(wrong));
+        if let (Form::Whole(_), Over::Values(values)) = (form, &over)
+            && let Some(wrong) = values.iter().find(|value| value.whole().is_none())
+        {
+            return Err(SweepProblem::NotWhole(wrong.real()));
         }
         match over {
             Over::Steps(_, _, count @ 0..2) => Err(SweepProblem::Steps(count)),
@@ -56,7 +54,7 @@ impl Axis {
         let at = |len: usize| usize::try_from(i).unwrap_or(usize::MAX).min(len.saturating_sub(1));
         match &self.over {
             Over::Range(from, _) => self.whole(from.saturating_add(i)),
-            Over::Values(values) => self.number(values[at(values.len())]),
+            Over::Values(values) => self.written(values[at(values.len())]),
             // the last one exactly, whatever the rounding
             Over::Steps(_, to, count) if i + 1 >= *count => self.number(*to),
             Over::Steps(from, to, count) => self.number(from + (to - from) * (i as f64 / (count - 1) as f64)),
@@ -75,12 +73,16 @@ impl Axis {
         }
     }
 
-    fn number(&self, x: f64) -> AxisValue {
-        match self.parameter.form() {
-            Form::Whole(_) => AxisValue::Whole(x as u64),
-            // a negative zero is a zero
-            _ => AxisValue::Number(x + 0.0),
+    fn written(&self, value: Written) -> AxisValue {
+        match (self.parameter.form(), value.whole()) {
+            (Form::Whole(_), Some(n)) => AxisValue::Whole(n),
+            _ => self.number(value.real()),
         }
+    }
+
+    fn number(&self, x: f64) -> AxisValue {
+        // a negative zero is a zero
+        AxisValue::Number(x + 0.0)
     }
 
     fn whole(&self, n: u64) -> AxisValue {

@@ -77,6 +77,25 @@ pub enum SweepProblem {
     /// A parameter that nothing has.
     #[error("there is no such parameter: vary {0}")]
     Parameter(String),
+    /// A parameter that changes nothing in any run of the plan.
+    #[error("it would change nothing: {0}")]
+    Idle(String),
+    /// A start with other coordinates than any robot of its name has.
+    #[error("start {index}: {reason}")]
+    Start {
+        /// Its number in the list, from 0.
+        index: usize,
+        /// What is wrong with it.
+        reason: String,
+    },
+    /// A plan none of whose runs can be.
+    #[error("none of its {runs} runs can be; the first one, because: {reason}")]
+    NoRun {
+        /// The number of runs.
+        runs: u64,
+        /// The reason against the first one.
+        reason: String,
+    },
     /// Two axes that vary the same.
     #[error("axes[{0}] varies the same")]
     Twice(usize),
@@ -89,7 +108,7 @@ pub enum SweepProblem {
         expected: &'static str,
     },
     /// A value that the parameter cannot have.
-    #[error("{0} does not fit: it takes whole numbers from 0 to 2^53")]
+    #[error("{0} does not fit: it takes whole numbers from 0 on, without a point from 2^53 on")]
     NotWhole(f64),
     /// A number that is infinite or none at all.
     #[error("{0} is no finite number")]

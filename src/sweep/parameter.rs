@@ -157,6 +157,33 @@ impl Parameter {
         }
     }
 
+    /// Why it changes nothing in any run with these robots; `None` where it may.
+    pub fn idle(&self, robots: &[&Resident], has_sensor: bool, has_warehouse: bool) -> Option<String> {
+        let no_sensor = || "the plan has no range sensor for the run".to_owned();
+        match self {
+            Parameter::Run(RunParameter::Rays | RunParameter::Range) if !has_sensor => Some(no_sensor()),
+            Parameter::Run(RunParameter::Rays | RunParameter::Range) => {
+                let is_carried = robots.iter().any(|robot| carries_run_sensor(robot));
+                (!is_carried).then(|| "no robot carries the run's sensor".to_owned())
+            }
+            Parameter::Run(RunParameter::WarehouseSeed | RunParameter::WarehouseRobots) => {
+                (!has_warehouse).then(|| "the plan has no warehouse".to_owned())
+            }
+            Parameter::Run(_) => None,
+            Parameter::Robot { robot, kind, of } => {
+                let mut named = robots.iter().filter(|known| known.name == *robot).peekable();
+                match of {
+                    _ if named.peek().is_none() => Some(format!("robots leaves {robot:?} out")),
+                    RobotParameter::Noise(_) if !has_sensor => Some(no_sensor()),
+                    RobotParameter::Noise(_) if !named.any(|known| carries_run_sensor(known)) => {
+                        Some(format!("a {kind} does not carry the run's sensor"))
+                    }
+                    _ => None,
+                }
+            }
+        }
+    }
+
     /// The form of its values.
     pub fn form(&self) -> Form {
         let noise = |number: &str| NOISE.iter().find(|(name, _)| *name == number).map(|(_, unit)| Form::Number(unit));
@@ -244,6 +271,9 @@ impl RobotParameter {
                 Ok(())
             }
             RobotParameter::Noise(name) => {
+                if !carries_run_sensor(resident) {
+                    return Err(format!("a {} does not carry the run's sensor", resident.kind));
+                }
                 let noise = with_noise(resident.sensor, name, number)?;
                 resident.sensor = Some(noise);
                 Ok(())
@@ -257,10 +287,16 @@ impl RobotParameter {
                     "field_of_view" => own.rays.field_of_view = number,
                     name => own.noise = Some(with_noise(own.noise, name, number)?),
                 }
-                own.clone().try_numbers().map(|_| ()).map_err(|error| error.to_string())
+                // checked with the whole configuration, when all axes have their values
+                Ok(())
             }
         }
     }
+}
+
+/// Whether the run's range sensor is given to a robot of this kind; a program's own kind may take it.
+fn carries_run_sensor(resident: &Resident) -> bool {
+    RobotKind::of(&resident.kind).is_none_or(|kind| kind.senses)
 }
 
 /// Checks the start and wraps its angles.

@@ -32,6 +32,9 @@ pub enum PartError {
     /// It can't be read at all.
     #[error(transparent)]
     Io(#[from] io::Error),
+    /// A file without a byte.
+    #[error("it is empty")]
+    Empty,
     /// Another file.
     #[error("it is no part of a sweep")]
     NotAPart,
@@ -145,13 +148,29 @@ fn read_line(input: &mut impl BufRead, hasher: &mut Xxh3) -> io::Result<Option<S
     Ok(Some(text))
 }
 
+/// Reads to the end: whether the last line is the seal of all bytes before it.
+fn is_sealed(input: &mut impl BufRead, hasher: &mut Xxh3) -> io::Result<bool> {
+    let mut before = hasher.digest128();
+    let mut last = None;
+    while let Some(line) = read_line(input, hasher)? {
+        let after = hasher.digest128();
+        last = Some(line == format!("seal {before:032x}"));
+        before = after;
+    }
+    Ok(last == Some(true) && input.fill_buf()?.is_empty())
+}
+
 impl<R: BufRead> PartReader<R> {
     /// Reads the head of a part.
     ///
     /// # Errors
-    /// [`PartError`] for another file, or a plan that this program can't read.
+    /// [`PartError`] for another file, a damaged head, or a plan that this program can't read in a part whose seal is
+    /// right.
     pub fn new(mut input: R) -> Result<Self, PartError> {
         let mut hasher = Xxh3::new();
+        if input.fill_buf()?.is_empty() {
+            return Err(PartError::Empty);
+        }
         let mut magic = vec![0; MAGIC.len() + 1];
         match input.read_exact(&mut magic) {
             Err(error) if error.kind() != io::ErrorKind::UnexpectedEof => return Err(error.into()),
@@ -162,7 +181,11 @@ impl<R: BufRead> PartReader<R> {
         }
         hasher.update(&magic);
         let plan_line = read_line(&mut input, &mut hasher)?.ok_or(PartError::Line(2))?;
-        let plan = SweepPlan::of_line(&plan_line).map_err(PartError::Plan)?;
+        let plan = match SweepPlan::of_line(&plan_line) {
+            Ok(plan) => plan,
+            Err(reason) if is_sealed(&mut input, &mut hasher)? => return Err(PartError::Plan(reason)),
+            Err(_) => return Err(PartError::Seal),
+        };
         let rows = read_line(&mut input, &mut hasher)?.and_then(|line| PartHead::read_rows(&line));
         let (rows, runs) = rows.filter(|(_, runs)| *runs == plan.runs()).ok_or(PartError::Line(3))?;
         if read_line(&mut input, &mut hasher)? != Some(plan.heading()) {
@@ -203,6 +226,15 @@ impl<R: BufRead> PartReader<R> {
         self.next += 1;
         Ok(Some((row, line)))
     }
+
+    /// Reads it to its end, which proves its bytes, and returns the number of its rows.
+    ///
+    /// # Errors
+    /// [`PartError`] where the part is damaged.
+    pub fn prove(mut self) -> Result<u64, PartError> {
+        while self.row()?.is_some() {}
+        Ok(self.head.rows.end - self.head.rows.start)
+    }
 }
 
 /// A row's line as a journal keeps it: after its hash, so that a line cut short is known.
@@ -221,6 +253,11 @@ impl RunRow {
     /// Whether the run failed: it could not be run, or something failed in it.
     pub fn is_failure(&self, columns: &[Column]) -> bool {
         self.cell(columns, "failure").is_some_and(|cell| *cell != Cell::Empty)
+    }
+
+    /// Whether there was a run at all: a row without a digest only says why not.
+    pub fn could_run(&self, columns: &[Column]) -> bool {
+        self.cell(columns, "digest").is_some_and(|cell| *cell != Cell::Empty)
     }
 
     /// Whether a robot was in contact in the run.

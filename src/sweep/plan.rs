@@ -8,16 +8,19 @@ use super::error::{PLAN_VERSION, SweepProblem};
 use super::parameter::{Parameter, RobotParameter, RunParameter};
 use super::plan_text::{Bundle, FORMAT, GoalText, Item, PlanText, WarehouseText, digest_of};
 use super::row::{Cell, RunRow};
-use super::values::AxisValue;
+use super::values::{AxisValue, Over};
 use crate::configuration::{Kinds, RobotKind};
 use crate::random::Seed;
 use crate::run::{Digest, Script};
 use crate::sensors::RangeSensor;
 use crate::tour::{BOOK_SEED, TourConfig};
-use crate::worlds::{BeamModel, Warehouse, World};
+use crate::worlds::{BeamModel, Resident, Warehouse, World, WorldProblem};
 
 /// Largest number of robots that have columns of their own. With more, rows hold what is known of all robots together.
 pub const MAX_ROBOT_COLUMNS: usize = 32;
+
+/// Largest number of runs of a plan that is refused where none of them can be; in a longer one every row says so.
+const MOST_TRIED: u64 = 1000;
 
 /// A run of a sweep: all that decides it.
 #[derive(Clone, Debug, PartialEq)]
@@ -158,8 +161,9 @@ impl SweepPlan {
             worlds.push(self.worlds.get(name).ok_or_else(|| format!("there is no world {name:?}"))?.clone());
         }
         worlds.extend(draft.warehouse.map(generated).transpose()?);
-        if !self.text.robots.is_empty() {
-            worlds.iter_mut().for_each(|world| world.robots.retain(|r| self.text.robots.contains(&r.name)));
+        worlds.iter_mut().for_each(|world| world.robots.retain(|robot| self.text.keeps(&robot.name)));
+        if worlds.iter().all(|world| world.robots.is_empty()) {
+            return Err("no robot takes part in this run".into());
         }
         for (axis, value) in self.axes.iter().zip(&values) {
             if let Parameter::Robot { robot, of, .. } = &axis.parameter {
@@ -179,6 +183,21 @@ impl SweepPlan {
         let config = TourConfig { worlds, ticks: draft.ticks, sensor: draft.sensor };
         config.validate().map_err(|error| error.to_string())?;
         Ok(RunSetup { seed: Seed(draft.seed), config, script })
+    }
+
+    /// Checks that there is a run that can be, in plans of at most [`MOST_TRIED`] runs.
+    pub(super) fn check_runs(&self) -> Result<(), SweepProblem> {
+        let mut first = None;
+        for row in 0..self.runs.min(MOST_TRIED) {
+            match self.setup(row) {
+                Ok(_) => return Ok(()),
+                Err(reason) => first = first.or(Some(reason)),
+            }
+        }
+        match first {
+            Some(reason) if self.runs <= MOST_TRIED => Err(SweepProblem::NoRun { runs: self.runs, reason }),
+            _ => Ok(()),
+        }
     }
 
     /// The cells that say what is run in a row: its number, seed and length, and the values of the axes.
@@ -287,7 +306,6 @@ fn check(kind: &str, sizes: Option<&crate::configuration::Sizes>, noise: Option<
 }
 
 fn check_robots(plan: &PlanText, worlds: &[&World]) -> Result<(), (Item, SweepProblem)> {
-    let kept = |name: &str| plan.robots.is_empty() || plan.robots.iter().any(|kept| kept == name);
     let find = |name: &str| worlds.iter().flat_map(|w| &w.robots).find(|r| r.name == name);
     let unknown = |robot: &str| {
         let names: Vec<&str> = worlds.iter().flat_map(|w| &w.robots).map(|r| r.name.as_str()).take(20).collect();
@@ -298,7 +316,7 @@ fn check_robots(plan: &PlanText, worlds: &[&World]) -> Result<(), (Item, SweepPr
         return Err((Item::Robots, unknown(robot)));
     }
     let Some(GoalText { robot, at, within }) = &plan.goal else { return Ok(()) };
-    let Some(resident) = find(robot).filter(|_| kept(robot)) else { return Err((Item::Goal, unknown(robot))) };
+    let Some(resident) = find(robot).filter(|_| plan.keeps(robot)) else { return Err((Item::Goal, unknown(robot))) };
     let (coordinates, tolerances, expected) = (at.len(), within.len(), resident.start.len());
     if coordinates != expected || tolerances != expected {
         return Err((Item::Goal, SweepProblem::Goal { coordinates, tolerances, expected }));
@@ -314,6 +332,8 @@ fn check_robots(plan: &PlanText, worlds: &[&World]) -> Result<(), (Item, SweepPr
 
 fn make_axes(plan: &PlanText, worlds: &[&World]) -> Result<Vec<Axis>, (Item, SweepProblem)> {
     let mut axes: Vec<Axis> = Vec::with_capacity(plan.axes.len());
+    let robots: Vec<&Resident> =
+        worlds.iter().flat_map(|world| &world.robots).filter(|robot| plan.keeps(&robot.name)).collect();
     for (i, text) in plan.axes.iter().enumerate() {
         let refused = |problem| (Item::Axis(i), problem);
         let parameter =
@@ -321,17 +341,41 @@ fn make_axes(plan: &PlanText, worlds: &[&World]) -> Result<Vec<Axis>, (Item, Swe
         if let Some(before) = axes.iter().position(|axis| axis.parameter.overlaps(&parameter)) {
             return Err(refused(SweepProblem::Twice(before)));
         }
-        axes.push(Axis::try_new(parameter, text.over.clone()).map_err(refused)?);
+        let axis = Axis::try_new(parameter, text.over.clone()).map_err(refused)?;
+        if let Some(reason) = axis.parameter.idle(&robots, !plan.no_sensor, plan.warehouse.is_some()) {
+            return Err(refused(SweepProblem::Idle(reason)));
+        }
+        if let (Parameter::Robot { robot, of: RobotParameter::Start, .. }, Over::Starts(starts)) =
+            (&axis.parameter, &text.over)
+        {
+            check_starts(starts, &robots, robot).map_err(refused)?;
+        }
+        axes.push(axis);
     }
     Ok(axes)
+}
+
+/// Checks that each start has the number of coordinates of some robot of this name.
+fn check_starts(starts: &[Vec<f64>], robots: &[&Resident], robot: &str) -> Result<(), SweepProblem> {
+    for (index, start) in starts.iter().enumerate() {
+        let reason = |known: &&Resident| match Resident::try_new(robot, known.kind.clone(), start.clone(), None) {
+            Err(problem @ WorldProblem::Start { .. }) => Some(problem.to_string()),
+            // a start elsewhere, as beyond the lab, is for the row to say
+            _ => None,
+        };
+        let reasons: Option<Vec<String>> = robots.iter().filter(|known| known.name == robot).map(reason).collect();
+        if let Some(reason) = reasons.and_then(|reasons| reasons.into_iter().next()) {
+            return Err(SweepProblem::Start { index, reason });
+        }
+    }
+    Ok(())
 }
 
 /// The robots with columns of their own: all that are kept, of all worlds, unless they are many.
 fn robot_columns(plan: &PlanText, worlds: &[&World]) -> Vec<RobotColumns> {
     let mut robots: Vec<RobotColumns> = Vec::new();
     for resident in worlds.iter().flat_map(|w| &w.robots) {
-        let kept = plan.robots.is_empty() || plan.robots.contains(&resident.name);
-        if kept && !robots.iter().any(|known| known.name == resident.name) {
+        if plan.keeps(&resident.name) && !robots.iter().any(|known| known.name == resident.name) {
             if robots.len() == MAX_ROBOT_COLUMNS {
                 return Vec::new();
             }

@@ -27,6 +27,10 @@ struct Places<'a> {
     #[serde(borrow)]
     version: &'a RawValue,
     #[serde(borrow, default)]
+    worlds: Vec<&'a RawValue>,
+    #[serde(borrow, default)]
+    script: Option<&'a RawValue>,
+    #[serde(borrow, default)]
     robots: Option<&'a RawValue>,
     #[serde(borrow, default)]
     goal: Option<&'a RawValue>,
@@ -100,10 +104,29 @@ impl PlanFile {
         self.text.script.iter().map(String::as_str).chain(self.named("script")).collect()
     }
 
+    /// Where the plan names this world or script, as messages have it: `plan.ron:3:14`.
+    pub fn place_of(&self, name: &str) -> String {
+        let places: Option<Places> = options().from_str(&self.source).ok();
+        let offset = places.and_then(|places| {
+            let names = |raw: &RawValue| options().from_str::<String>(raw.get_ron()).is_ok_and(|named| named == name);
+            let alone = places.worlds.iter().copied().chain(places.script).find(|raw| names(raw));
+            let alone = alone.map(|raw| offset_of(&self.source, raw.trim().get_ron()));
+            let quoted = format!("{name:?}");
+            let among = || {
+                let mut axes = places.axes.iter().map(|raw| raw.get_ron());
+                axes.find_map(|axis| Some(offset_of(&self.source, axis) + axis.find(&quoted)?))
+            };
+            alone.or_else(among)
+        });
+        let Position { line, column } = position_at(&self.source, offset.unwrap_or(0));
+        format!("{}:{line}:{column}", self.file)
+    }
+
     /// The plan with the worlds and scripts it names.
     ///
     /// # Errors
-    /// [`SweepPlanError`] names the item that can't be: a robot, a goal, an axis, the number of runs.
+    /// [`SweepPlanError`] names the item that can't be: a robot, a goal, an axis, the number of runs. A plan of at most a
+    /// thousand runs is refused, too, when none of them can be.
     pub fn with(
         &self,
         worlds: &BTreeMap<String, World>,
@@ -115,7 +138,9 @@ impl PlanFile {
             worlds: worlds.iter().map(|(name, world)| (name.clone(), world.to_ron())).collect(),
             scripts: scripts.iter().map(|(name, script)| (name.clone(), script.to_ron())).collect(),
         };
-        SweepPlan::of_bundle(bundle).map_err(|(item, problem)| {
+        let plan = SweepPlan::of_bundle(bundle);
+        let plan = plan.and_then(|plan| plan.check_runs().map(|()| plan).map_err(|problem| (Item::Whole, problem)));
+        plan.map_err(|(item, problem)| {
             let Position { line, column } = place(&self.source, item);
             let item = match item {
                 Item::Version => "version".into(),

@@ -42,6 +42,13 @@ pub(super) struct PlanText {
     pub points: Points,
 }
 
+impl PlanText {
+    /// Whether a robot of this name takes part.
+    pub fn keeps(&self, robot: &str) -> bool {
+        self.robots.is_empty() || self.robots.iter().any(|kept| kept == robot)
+    }
+}
+
 /// A generated world.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]

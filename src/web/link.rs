@@ -18,8 +18,10 @@ pub const LINK_VERSION: u32 = 1;
 /// The version of the address format with the field `inputs`.
 pub const LINK_VERSION_WITH_INPUTS: u32 = 2;
 
-/// Largest length of a link, bytes. Beyond 8000, which servers take in a query, the page puts it behind a `#`: what is
-/// there is never sent.
+/// Largest length of a query that servers take, bytes. A longer one stands behind a `#`: what is there is never sent.
+const MOST_QUERY: usize = 8000;
+
+/// Largest length of a link, bytes.
 pub const MAX_LINK: usize = 32_000;
 
 /// Length of a link, bytes, from which the inputs are written in few bytes rather than to be read.
@@ -267,6 +269,16 @@ impl Link {
             query = self.with(&Script::new(vec![], self.script.changes.clone()), Some(&inputs));
         }
         if query.len() > MAX_LINK { Err(LinkError::TooLong(query.len())) } else { Ok(query) }
+    }
+
+    /// The address that shows it at a page of the lab, whose own address has neither a query nor a fragment.
+    ///
+    /// # Errors
+    /// [`LinkError::TooLong`].
+    pub fn address(&self, page: &str) -> Result<String, LinkError> {
+        let query = self.query()?;
+        let mark = if query.len() > MOST_QUERY { '#' } else { '?' };
+        Ok(format!("{page}{mark}{query}"))
     }
 
     /// The query with this script and inputs.

@@ -10,7 +10,7 @@ mod identity;
 mod inputs;
 #[cfg_attr(not(feature = "web"), allow(dead_code))]
 mod link;
-#[cfg(feature = "screen")]
+#[cfg(all(feature = "screen", any(target_family = "wasm", test)))]
 mod mirror;
 #[cfg(target_family = "wasm")]
 mod runs;
@@ -33,3 +33,5 @@ mod message;
 mod report;
 #[cfg(all(target_family = "wasm", feature = "web"))]
 mod run_link;
+
+pub use link::{LINK_VERSION, LINK_VERSION_WITH_INPUTS, Link, LinkError, MAX_LINK, MAX_LINK_TICK};

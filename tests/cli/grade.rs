@@ -226,6 +226,7 @@ fn a_wrong_assignment_is_3_and_names_line_and_item() {
     }
     assert!(refuse("ticks: 200", "ticks: 0").contains("exam.ron:7: limits: 0 ticks"));
     assert!(refuse("[1, 2005]", "[]").contains("exam.ron:8: seeds: 0 seeds"));
+    assert!(refuse("[1, 2005]", "(0, 10)").contains("exam.ron:8: seeds: in parentheses they are neither a list"));
     assert!(refuse("\"lot\"", "\"nowhere.ron\"").contains("nowhere.ron: no built-in world"));
     fs::write(folder.path().join("exam.ron"), ASSIGNMENT).unwrap();
     assert!(graded(folder.path(), &["nobody.ron"]).failed(3).contains("nobody.ron: there is no such file"));

@@ -253,7 +253,7 @@ fn a_signal_ends_it_with_75_and_what_was_done_is_kept() {
 #[test]
 fn full_logs_are_kept_of_the_runs_asked_for() {
     let plan = "Sweep(version: 1, worlds: [\"lot\"], script: \"drive.ron\", ticks: 100,
-        axes: [(vary: \"Hitch.start\", over: Starts([[6.5, 2.5, 0], [6.5, 2.5, 1.57], [1, 1], [7.5, 2.5, 0]]))])";
+        axes: [(vary: \"Hitch.start\", over: Starts([[6.5, 2.5, 0], [6.5, 2.5, 1.57], [20000, 1, 0], [7.5, 2.5, 0]]))])";
     let folder = folder_with(plan);
     let at = folder.path();
     let drive = "Script(version: 1, events: [(tick: 1, robot: \"Hitch\", input: Drive(128, 0)), \

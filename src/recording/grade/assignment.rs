@@ -202,6 +202,10 @@ impl AssignmentFile {
         if limits.reversals.is_some() && about.is_none_or(|known| !known.drives) {
             return Err(error("limits", AssignmentProblem::Reversals));
         }
+        let is_pair = |part: &RawValue| part.trim().get_ron().starts_with('(');
+        if items(&self.source).any(|(item, part)| item == "seeds" && is_pair(part)) {
+            return Err(error("seeds", AssignmentProblem::SeedsInParentheses));
+        }
         if !(1..=MAX_SEEDS).contains(&seeds.len()) {
             return Err(error("seeds", AssignmentProblem::Seeds(seeds.len())));
         }

@@ -99,6 +99,9 @@ pub enum AssignmentProblem {
     /// A limit of reversals for a robot that has no forward direction, or of a kind that nobody described.
     #[error("only a robot that drives has a direction to reverse")]
     Reversals,
+    /// Seeds in parentheses, which could stand for a list or for a range.
+    #[error("in parentheses they are neither a list, as [0, 10], nor a range, as \"0..10\"")]
+    SeedsInParentheses,
     /// No seed, or too many.
     #[error("{0} seeds: there must be 1 to {MAX_SEEDS}")]
     Seeds(usize),

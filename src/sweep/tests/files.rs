@@ -36,6 +36,18 @@ fn a_part_comes_back_and_no_damaged_one_is_taken_for_whole() {
     }
     assert!(read(&[&whole[..], b"\n"].concat()).is_err(), "something behind its seal");
     assert!(matches!(read(b"Sweep(version: 1)"), Err(PartError::NotAPart)));
+    assert!(matches!(read(b""), Err(PartError::Empty)));
+    // a damaged plan is damage, not the plan of another version
+    let line = text.find("motion-lab sweep 1").unwrap();
+    for (at, byte) in [(line + 17, b'2'), (text.find("worlds").unwrap(), b'W'), (text.find("{").unwrap(), b'(')] {
+        let mut changed = whole.clone();
+        changed[at] = byte;
+        assert!(matches!(read(&changed), Err(PartError::Seal)), "byte {at}");
+    }
+    let later = text[..text.rfind("seal ").unwrap()].replace("motion-lab sweep 1", "motion-lab sweep 2");
+    let sealed = format!("{later}seal {:032x}\n", xxhash_rust::xxh3::xxh3_128(later.as_bytes()));
+    assert!(matches!(read(sealed.as_bytes()), Err(PartError::Plan(reason)) if reason.contains("sweep 2")));
+    assert!(matches!(read(format!("{sealed}\n").as_bytes()), Err(PartError::Seal)));
 }
 
 #[test]

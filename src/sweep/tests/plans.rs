@@ -2,7 +2,8 @@
 
 use super::super::*;
 use super::{plan, try_plan};
-use crate::worlds::World;
+use crate::sensors::RangeSensor;
+use crate::worlds::{BeamModel, ResidentSensor, World};
 
 /// The starts x and theta of the car in each row.
 fn starts(plan: &SweepPlan) -> Vec<(f64, f64)> {
@@ -167,7 +168,38 @@ fn a_plan_that_cannot_be_names_its_place() {
             axes("(vary: \"sensor.range\", over: Steps(-1.7e308, 1.7e308, 3))"),
             "from -1.7e308 to 1.7e308: the ends are too far apart",
         ),
-        (axes("(vary: \"sensor.range\", over: Uniform(1, 2))"), "use it with points: Sample"),
+        (axes("(vary: \"Hitch.start.x\", over: Uniform(1, 2))"), "use it with points: Sample"),
+        (
+            axes("(vary: \"Hitch.noise.sigma_hit\", over: Values([0.1]))"),
+            "2:12: axes[0] \"Hitch.noise.sigma_hit\": it would change nothing: a hitch does not carry the run's sensor",
+        ),
+        (
+            axes("(vary: \"sensor.range\", over: Values([1]))"),
+            "axes[0] \"sensor.range\": it would change nothing: no robot carries the run's sensor",
+        ),
+        (
+            axes("(vary: \"warehouse.seed\", over: Values([1]))"),
+            "axes[0] \"warehouse.seed\": it would change nothing: the plan has no warehouse",
+        ),
+        (
+            "Sweep(version: 1, no_sensor: true, axes: [(vary: \"Rusty.noise.z_rand\", over: Values([0.1]))])"
+                .to_owned(),
+            "axes[0] \"Rusty.noise.z_rand\": it would change nothing: the plan has no range sensor",
+        ),
+        (
+            "Sweep(version: 1, robots: [\"Hitch\"], axes: [(vary: \"Rusty.start.x\", over: Values([3]))])".to_owned(),
+            "axes[0] \"Rusty.start.x\": it would change nothing: robots leaves \"Rusty\" out",
+        ),
+        (
+            axes("(vary: \"Hitch.start\", over: Starts([[6.5, 2.5, 0], [1, 2]]))"),
+            "2:12: axes[0] \"Hitch.start\": start 1: ",
+        ),
+        (
+            axes("(vary: \"Hitch.start.x\", over: Steps(20000, 30000, 1000))"),
+            "1:1: none of its 1000 runs can be; the first one, because: Hitch.start.x: ",
+        ),
+        (axes("(vary: \"seed\", over: Values([9007199254740993.0]))"), "without a point from 2^53 on"),
+        (axes("(vary: \"seed\", over: Values([-1]))"), "-1 does not fit: it takes whole numbers"),
         (axes("(vary: \"sensor.range\", over: Names([\"a\"]))"), "names do not fit: it takes Values"),
         (
             axes("(vary: \"seed\", over: Range(0, 5000)), (vary: \"ticks\", over: Range(0, 5000))"),
@@ -195,8 +227,85 @@ fn a_plan_that_cannot_be_names_its_place() {
         ),
         ("Sweep(version: 1, sensor: (rays: 0, range: 1))".to_owned(), "1:1: 0 rays"),
     ];
+    let mut wrong = Vec::new();
     for (text, expected) in cases {
-        let error = try_plan(&text).map(|plan| plan.runs()).unwrap_err().to_string();
-        assert!(error.starts_with("plan.ron:") && error.contains(expected), "{error}\nexpected: {expected}");
+        let error = try_plan(&text).map_or_else(|error| error.to_string(), |plan| format!("{} runs", plan.runs()));
+        if !(error.starts_with("plan.ron:") && error.contains(expected)) {
+            wrong.push(format!("{error}\nexpected: {expected}"));
+        }
     }
+    assert!(wrong.is_empty(), "{}", wrong.join("\n\n"));
+}
+
+#[test]
+fn a_world_or_a_script_is_found_where_the_plan_names_it() {
+    let text = "Sweep(version: 1, worlds: [\"lot\",\n  \"lott\"], script: \"a.ron\",\n\
+                axes: [(vary: \"seed\", over: Range(0, 1)),\n    (vary: \"world\", over: Names([\"lot\", \"b.ron\"]))])";
+    let file = PlanFile::parse("plan.ron", text).unwrap();
+    for (name, place) in [("lot", "1:28"), ("lott", "2:3"), ("a.ron", "2:20"), ("b.ron", "4:41")] {
+        assert_eq!(file.place_of(name), format!("plan.ron:{place}"));
+    }
+}
+
+/// The noise of a sensor holds at most one in all, so that a number by itself may be too much for what was there before.
+#[test]
+fn the_order_of_axes_decides_nothing() {
+    let mut world = World::lot();
+    let rays = RangeSensor::try_new(8, 2.0).unwrap();
+    let noise = Some(BeamModel { z_short: 0.5, z_rand: 0.5, ..BeamModel::EXACT });
+    world.robots[0].sensors = vec![ResidentSensor { noise, ..ResidentSensor::new("front", rays) }];
+    let axes = ["z_short\", over: Values([0.9])", "z_rand\", over: Values([0.05])", "rays\", over: Values([3])"];
+    let noise_of = |order: [usize; 3]| {
+        let axes: String = order.iter().map(|i| format!("(vary: \"Hitch.sensors.front.{}),", axes[*i])).collect();
+        let text = format!("Sweep(version: 1, worlds: [\"lot\"], axes: [{axes}])");
+        let worlds = [("lot".to_owned(), world.clone())].into();
+        let plan = PlanFile::parse("plan.ron", &text).unwrap().with(&worlds, &[].into()).unwrap();
+        let sensor = plan.setup(0).unwrap().config.worlds[0].robots[0].sensors[0].clone();
+        (sensor.noise.unwrap().z_short, sensor.noise.unwrap().z_rand, sensor.rays.sensor.n_rays)
+    };
+    for order in [[0, 1, 2], [1, 0, 2], [2, 0, 1], [2, 1, 0]] {
+        assert_eq!(noise_of(order), (0.9, 0.05, 3));
+    }
+}
+
+#[test]
+fn a_sensor_of_a_robots_own_that_cannot_be_is_the_rows_failure() {
+    let mut world = World::lot();
+    world.robots[0].sensors = vec![ResidentSensor::new("front", RangeSensor::try_new(8, 2.0).unwrap())];
+    let text =
+        "Sweep(version: 1, worlds: [\"lot\"], axes: [(vary: \"Hitch.sensors.front.z_max\", over: Values([0.5, 2]))])";
+    let worlds = [("lot".to_owned(), world)].into();
+    let plan = PlanFile::parse("plan.ron", text).unwrap().with(&worlds, &[].into()).unwrap();
+    assert!(plan.setup(0).is_ok());
+    let reason = plan.setup(1).unwrap_err();
+    assert!(reason.contains("front") && reason.contains('2'), "{reason}");
+}
+
+#[test]
+fn whole_numbers_are_exact_however_large() {
+    let text = "Sweep(version: 1, worlds: [\"lot\"], axes: [(vary: \"seed\", over: Values([7, 9007199254740992, \
+                9007199254740993, 18446744073709551615])), (vary: \"Hitch.start.x\", over: Values([7, 6.5]))])";
+    let first = plan(text);
+    let seeds = [7, 9_007_199_254_740_992, 9_007_199_254_740_993, u64::MAX];
+    for plan in [&first, &SweepPlan::of_line(first.line()).unwrap()] {
+        let found: Vec<u64> = (0..8).step_by(2).map(|row| plan.setup(row).unwrap().seed.0).collect();
+        assert_eq!(found, seeds);
+        assert_eq!(plan.failed(4, "").cells[1], Cell::Whole(seeds[2]));
+    }
+    // small ones stay as parts hold them that were written before
+    assert!(first.line().contains("[7.0,6.5]"), "{}", first.line());
+}
+
+#[test]
+fn a_run_without_robots_is_none() {
+    let text =
+        "Sweep(version: 1, robots: [\"Rusty\"], axes: [(vary: \"world\", over: Names([\"apartment\", \"lot\"]))])";
+    let plan = plan(text);
+    assert!(plan.setup(0).is_ok());
+    assert_eq!(plan.setup(1), Err("no robot takes part in this run".into()));
+    let long = text
+        .replace("Names([\"apartment\", \"lot\"])", "Names([\"lot\"])")
+        .replace("axes: [", "axes: [(vary: \"seed\", over: Range(0, 1001)), ");
+    assert!(try_plan(&long).is_ok(), "too long to be tried as a whole");
+    assert!(try_plan(&long.replace("1001", "1000")).is_err());
 }

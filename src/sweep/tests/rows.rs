@@ -35,9 +35,9 @@ fn a_row_says_what_became_of_its_run() {
     // straight ahead at 1.5 m/s for 2 s, in an aisle with room before it
     let text = "Sweep(version: 1, worlds: [\"lot\"], script: \"a.ron\", ticks: 40, \
                 goal: (robot: \"Hitch\", at: [9, 2.5, 0], within: [0.5, 0.1, 0.1]), \
-                axes: [(vary: \"Hitch.start\", over: Starts([[6.5, 2.5, 0], [9000, 9000, 0], [6.5, 2.5, 3.14159], [1, 2]]))])";
+                axes: [(vary: \"Hitch.start\", over: Starts([[6.5, 2.5, 0], [9000, 9000, 0], [6.5, 2.5, 3.14159], [20000, 2, 0]]))])";
     let plan = plan(text);
-    let [ahead, away, back, short] = [0, 1, 2, 3].map(|row| run(&plan, row));
+    let [ahead, away, back, beyond] = [0, 1, 2, 3].map(|row| run(&plan, row));
     let number = |row: &RunRow, name| match cell(&plan, row, name) {
         Cell::Number(x) => x,
         other => panic!("{name}: {other:?}"),
@@ -54,10 +54,10 @@ fn a_row_says_what_became_of_its_run() {
     assert_eq!(cell(&plan, &back, "first_at_goal_s"), Cell::Empty);
     assert!(back.is_failure(plan.columns()));
     assert_eq!(cell(&plan, &away, "digest"), cell(&plan, &run(&plan, 1), "digest"));
-    let reason = cell(&plan, &short, "failure");
+    let reason = cell(&plan, &beyond, "failure");
     assert!(matches!(&reason, Cell::Text(reason) if reason.starts_with("Hitch.start: ")), "{reason:?}");
-    assert_eq!((cell(&plan, &short, "digest"), cell(&plan, &short, "contacts")), (Cell::Empty, Cell::Empty));
-    for row in [ahead, away, back, short] {
+    assert_eq!((cell(&plan, &beyond, "digest"), cell(&plan, &beyond, "contacts")), (Cell::Empty, Cell::Empty));
+    for row in [ahead, away, back, beyond] {
         assert_eq!(row.cells.len(), plan.columns().len());
         assert_eq!(RunRow::of_line(&row.to_line(), plan.columns()), Some(row));
     }

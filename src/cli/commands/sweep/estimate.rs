@@ -3,14 +3,14 @@
 use std::fs;
 use std::time::Instant;
 
-use motion_lab::sweep::SweepPlan;
+use motion_lab::sweep::{Shard, SweepPlan};
 use tempfile::TempDir;
 
 use super::Keep;
 use super::one::{self, Ran};
 use crate::cli::support::interrupt;
 use crate::cli::support::progress::Progress;
-use crate::cli::{Data, Failure, Outcome};
+use crate::cli::{Data, Failure, Outcome, say};
 
 /// Most runs that are measured.
 const MOST: u64 = 32;
@@ -19,19 +19,34 @@ const ENOUGH: f64 = 5.0;
 /// The time of one shard, seconds.
 const SHARD: f64 = 600.0;
 
-/// Measures a few runs, evenly spread over the sweep, one after the other, and says what all of them take.
-pub fn estimate(plan: &SweepPlan, jobs: Option<usize>, keep: Keep, data: &mut Data) -> Result<Outcome, Failure> {
+/// Measures a few runs, evenly spread over a shard, one after the other, and says what all of its runs take.
+pub fn estimate(
+    plan: &SweepPlan,
+    shard: Shard,
+    jobs: Option<usize>,
+    keep: Keep,
+    data: &mut Data,
+) -> Result<Outcome, Failure> {
     interrupt::listen()?;
     let folder = TempDir::new().map_err(|error| Failure::output(&std::env::temp_dir(), &error))?;
-    let (runs, jobs) = (plan.runs(), super::shard::pool(jobs)?.current_num_threads());
+    let (rows, jobs) = (shard.rows(plan.runs()), super::shard::pool(jobs)?.current_num_threads());
+    let runs = rows.end - rows.start;
+    if runs == 0 {
+        data.line(format!("0 runs: the sweep has {} in all", plan.runs()))?;
+        return Ok(Outcome::Done);
+    }
     let samples = runs.min(MOST);
     let progress = Progress::of(samples, "runs");
     let (mut measured, mut bytes, mut logs) = (0_u64, 0_u64, 0_u64);
     let begin = Instant::now();
     for i in 0..samples {
         // the first, then further and further apart, so that an early end leaves no part of the sweep out
-        let row = (i * 2_654_435_761) % samples * runs / samples;
-        let Ran::Row(row) = one::run(plan, row, keep, folder.path())? else { return Ok(Outcome::Stopped) };
+        let row = rows.start + (i * 2_654_435_761) % samples * runs / samples;
+        let Ran::Row(row) = one::run(plan, row, keep, folder.path())? else {
+            drop(progress);
+            say(format!("stopped with {measured} of {samples} runs measured\nNothing is kept; start again."));
+            return Ok(Outcome::Stopped);
+        };
         let log = one::log_name(folder.path(), row.row);
         logs += fs::metadata(&log).map_or(0, |about| about.len());
         let _ = fs::remove_file(log);
@@ -50,6 +65,8 @@ pub fn estimate(plan: &SweepPlan, jobs: Option<usize>, keep: Keep, data: &mut Da
     data.line(format!("{all:.0} s of one processor, {:.0} s with {jobs} jobs", all / jobs as f64))?;
     let logs = if keep == Keep::None { String::new() } else { format!(", and {:.0} bytes of logs", of_all(logs)) };
     data.line(format!("{:.0} bytes of rows{logs}", of_all(bytes)))?;
-    data.line(format!("{:.0} shards of ten minutes with one job each", (all / SHARD).ceil()))?;
+    let whole = one * plan.runs() as f64;
+    let of = if shard == Shard::WHOLE { String::new() } else { format!(" of all {} runs", plan.runs()) };
+    data.line(format!("{:.0} shards{of} of ten minutes with one job each", (whole / SHARD).ceil()))?;
     Ok(Outcome::Done)
 }

@@ -10,9 +10,6 @@ use motion_lab::sweep::{Column, PartHead, PartWriter, sealed_line, unsealed_line
 use crate::cli::Failure;
 use crate::cli::support::output::PendingFile;
 
-/// Where a row's line stands in the journal: its first byte, and its length.
-type Place = (u64, u32);
-
 /// The journal of a shard. A row that it holds need not be run again, also after a crash.
 pub struct Journal {
     path: PathBuf,
@@ -20,8 +17,8 @@ pub struct Journal {
     head: PartHead,
     /// The bytes that the journal has.
     end: u64,
-    /// For each row of the shard, where its line is.
-    places: Vec<Option<Place>>,
+    /// For each row of the shard, the first byte of its line; 0 for one that is not there.
+    places: Vec<u64>,
 }
 
 /// The length of a seal before a row's line, bytes: the hash and a blank.
@@ -40,7 +37,7 @@ impl Journal {
             ));
         }
         let count = usize::try_from(head.rows.end - head.rows.start).unwrap_or(usize::MAX);
-        let mut journal = Journal { path: path.to_owned(), file, head, end: 0, places: vec![None; count] };
+        let mut journal = Journal { path: path.to_owned(), file, head, end: 0, places: vec![0; count] };
         journal.read(columns).map_err(failed)?.map_err(|()| {
             Failure::input(
                 format!("{}: it is of another plan", path.display()),
@@ -72,9 +69,9 @@ impl Journal {
             bytes.clear();
             input.read_until(b'\n', &mut bytes)?;
             let sealed = bytes.strip_suffix(b"\n").and_then(|sealed| std::str::from_utf8(sealed).ok());
-            let Some((row, line)) = sealed.and_then(|sealed| unsealed_line(sealed, columns)) else { break };
+            let Some((row, _)) = sealed.and_then(|sealed| unsealed_line(sealed, columns)) else { break };
             let Some(i) = self.index(row) else { break };
-            self.places[i] = u32::try_from(line.len()).ok().map(|length| (self.end + SEAL, length));
+            self.places[i] = self.end + SEAL;
             self.end += bytes.len() as u64;
         }
         self.file.set_len(self.end)?;
@@ -90,7 +87,23 @@ impl Journal {
     /// The rows that it does not hold yet.
     pub fn missing(&self) -> Vec<u64> {
         let rows = self.head.rows.clone().zip(&self.places);
-        rows.filter(|(_, place)| place.is_none()).map(|(row, _)| row).collect()
+        rows.filter(|(_, place)| **place == 0).map(|(row, _)| row).collect()
+    }
+
+    /// Calls `see` with the line of every row that it holds, in the order of the rows.
+    pub fn each(&self, mut see: impl FnMut(&str)) -> Result<(), Failure> {
+        let failed = |error: io::Error| Failure::output(&self.path, &error);
+        let mut input = BufReader::new(&self.file);
+        let (mut at, mut line) = (input.stream_position().map_err(failed)?, String::new());
+        for &place in self.places.iter().filter(|place| **place > 0) {
+            // rows are near each other, so that most of them are in the buffer
+            input.seek_relative(place.wrapping_sub(at).cast_signed()).map_err(failed)?;
+            line.clear();
+            at = place + input.read_line(&mut line).map_err(failed)? as u64;
+            see(line.trim_end_matches('\n'));
+        }
+        (&self.file).seek(SeekFrom::Start(self.end)).map_err(failed)?;
+        Ok(())
     }
 
     /// Adds a row with its line.
@@ -98,8 +111,8 @@ impl Journal {
         let failed = |error: io::Error| Failure::output(&self.path, &error);
         let sealed = sealed_line(line);
         self.file.write_all(sealed.as_bytes()).map_err(failed)?;
-        let (Some(i), Ok(length)) = (self.index(row), u32::try_from(line.len())) else { return Ok(()) };
-        self.places[i] = Some((self.end + SEAL, length));
+        let Some(i) = self.index(row) else { return Ok(()) };
+        self.places[i] = self.end + SEAL;
         self.end += sealed.len() as u64;
         Ok(())
     }
@@ -110,17 +123,19 @@ impl Journal {
     }
 
     /// Writes the part, whole or not at all, and takes the journal away. All rows must be there.
-    pub fn finish(mut self, part: &Path, columns: &[Column]) -> Result<(), Failure> {
+    pub fn finish(self, part: &Path, columns: &[Column]) -> Result<(), Failure> {
         let failed = |error: io::Error| Failure::output(part, &error);
-        let mut writer = PartWriter::new(PendingFile::create(part)?, &self.head, columns).map_err(failed)?;
-        let mut line = Vec::new();
-        for place in &self.places {
-            let Some((at, length)) = *place else { return Err(failed(ErrorKind::UnexpectedEof.into())) };
-            self.file.seek(SeekFrom::Start(at)).map_err(failed)?;
-            line.resize(length as usize, 0);
-            self.file.read_exact(&mut line).map_err(failed)?;
-            writer.row(&String::from_utf8_lossy(&line)).map_err(failed)?;
+        if self.places.contains(&0) {
+            return Err(failed(ErrorKind::UnexpectedEof.into()));
         }
+        let mut writer = PartWriter::new(PendingFile::create(part)?, &self.head, columns).map_err(failed)?;
+        let mut written = Ok(());
+        self.each(|line| {
+            if written.is_ok() {
+                written = writer.row(line);
+            }
+        })?;
+        written.map_err(failed)?;
         writer.finish().map_err(failed)?.commit()?;
         // the part holds all of it; a journal that stays is of no harm
         let _ = remove_file(&self.path);

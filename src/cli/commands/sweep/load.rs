@@ -15,14 +15,22 @@ pub fn plan(path: &Path) -> Result<SweepPlan, Failure> {
     let refused =
         |error: SweepPlanError| Failure::input(error, "Correct it there. docs/sweeps.md says what a plan may hold.");
     let file = PlanFile::parse(&shown(path), &read_text(path)?).map_err(refused)?;
+    let named_at = |name: &str, failure| match failure {
+        Failure::Input { reason, next } => {
+            Failure::Input { reason: format!("{}: {reason}", file.place_of(name)), next }
+        }
+        failure => failure,
+    };
     let mut worlds = BTreeMap::new();
     for name in file.world_names() {
-        worlds.insert(name.to_owned(), find_world_beside(path, name)?);
+        let world = find_world_beside(path, name).map_err(|failure| named_at(name, failure))?;
+        worlds.insert(name.to_owned(), world);
     }
     let mut scripts = BTreeMap::new();
     for name in file.script_names() {
-        let script = path.parent().unwrap_or(Path::new("")).join(name);
-        scripts.insert(name.to_owned(), parse_script(&script, &read_text(&script)?)?);
+        let from = path.parent().unwrap_or(Path::new("")).join(name);
+        let script = read_text(&from).and_then(|text| parse_script(&from, &text));
+        scripts.insert(name.to_owned(), script.map_err(|failure| named_at(name, failure))?);
     }
     file.with(&worlds, &scripts).map_err(refused)
 }

@@ -2,6 +2,7 @@
 
 use std::fs::{self, File};
 use std::io::{BufReader, Write};
+use std::ops::Range;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
@@ -35,7 +36,9 @@ pub struct Merge {
 pub fn refused(part: &Path, error: &PartError) -> Failure {
     let next = match error {
         PartError::Plan(_) => "Use the version of motion-lab that wrote it.",
-        PartError::NotAPart => "Name a part, or a folder of parts.",
+        PartError::NotAPart => {
+            "Name a part, or a folder of parts. A damaged part is taken away and its shard run again."
+        }
         _ => "Take it away and run its shard again.",
     };
     Failure::input(format!("{}: {error}", part.display()), next)
@@ -75,6 +78,11 @@ impl Opened {
     fn open(path: &Path) -> Result<Self, Failure> {
         let reader = PartReader::new(BufReader::new(open(path)?)).map_err(|error| refused(path, &error))?;
         Ok(Opened { path: path.to_owned(), reader, row: None })
+    }
+
+    /// Reads it to its end, which proves its bytes.
+    fn prove(self) -> Result<u64, Failure> {
+        self.reader.prove().map_err(|error| refused(&self.path, &error))
     }
 
     fn advance(&mut self) -> Result<(), Failure> {
@@ -137,6 +145,10 @@ impl Merge {
             let reader = Opened::open(&path)?.reader;
             let (plan, first) = plan.get_or_insert_with(|| (reader.plan().clone(), path.clone()));
             if plan.line() != reader.head().plan {
+                // a damaged plan looks like another one
+                for path in [&*first, &path] {
+                    Opened::open(path)?.prove()?;
+                }
                 return Err(Failure::input(
                     format!(
                         "{}: it is of another plan ({}) than {} ({})",
@@ -154,12 +166,13 @@ impl Merge {
             return Err(Failure::input("there are no parts", "Name parts, or folders with files that end in .sweep."));
         };
         parts.sort_by(|(a, pa), (b, pb)| (a.start, b.end, pa).cmp(&(b.start, a.end, pb)));
+        check_outputs(&self.output)?;
         let targets = self.output.iter().map(|path| Target::file(path)).collect::<Result<Vec<_>, _>>()?;
         let mut outputs = self.output.iter().map(|path| Output::begin(path, &plan)).collect::<Result<Vec<_>, _>>()?;
         let progress = Progress::of(plan.runs(), "rows");
         let mut waiting = parts.into_iter().peekable();
         let mut at_work: Vec<Opened> = Vec::new();
-        let (mut missing, mut failures) = (Vec::new(), 0_u64);
+        let (mut missing, mut failures): (Vec<Range<u64>>, u64) = (Vec::new(), 0);
         for next in 0..plan.runs() {
             while let Some((_, path)) = waiting.next_if(|(rows, _)| rows.start <= next) {
                 let mut opened = Opened::open(&path)?;
@@ -183,7 +196,10 @@ impl Merge {
             }
             at_work.retain(|part| part.row.is_some());
             match taken {
-                None => missing.push(next),
+                None => match missing.last_mut() {
+                    Some(range) if range.end == next => range.end += 1,
+                    _ => missing.push(next..next + 1),
+                },
                 Some((row, line, _)) => {
                     failures += u64::from(row.is_failure(plan.columns()));
                     outputs.iter_mut().try_for_each(|output| output.row(&row, &line))?;
@@ -193,11 +209,11 @@ impl Merge {
         }
         drop(progress);
         if !missing.is_empty() {
-            let ranges = ranges(&missing);
-            ranges.iter().try_for_each(|(from, to)| data.line(format!("{from}..{to}")))?;
+            missing.iter().try_for_each(|range| data.line(format!("{range:?}")))?;
             data.flush()?;
+            let count: u64 = missing.iter().map(|range| range.end - range.start).sum();
             return Err(Failure::input(
-                format!("{} of {} rows are missing: the ranges above, without their ends", missing.len(), plan.runs()),
+                format!("{count} of {} rows are missing: the ranges above, without their ends", plan.runs()),
                 "Run the shards that are not finished; nothing was written.",
             ));
         }
@@ -208,14 +224,19 @@ impl Merge {
     }
 }
 
-/// Ascending numbers as ranges without their ends.
-fn ranges(numbers: &[u64]) -> Vec<(u64, u64)> {
-    let mut ranges: Vec<(u64, u64)> = Vec::new();
-    for &n in numbers {
-        match ranges.last_mut() {
-            Some((_, end)) if *end == n => *end += 1,
-            _ => ranges.push((n, n + 1)),
-        }
+/// Checks that no two outputs are one file, of which only the last would stay.
+fn check_outputs(outputs: &[PathBuf]) -> Result<(), Failure> {
+    let real = |path: &PathBuf| {
+        let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+        fs::canonicalize(folder)
+            .map_or_else(|_| path.clone(), |folder| folder.join(path.file_name().unwrap_or_default()))
+    };
+    let files: Vec<PathBuf> = outputs.iter().map(real).collect();
+    match (1..files.len()).find(|i| files[..*i].contains(&files[*i])) {
+        Some(i) => Err(Failure::usage(
+            format!("{}: it is named twice", outputs[i].display()),
+            "Give each -o a file of its own.",
+        )),
+        None => Ok(()),
     }
-    ranges
 }

@@ -101,7 +101,7 @@ impl SweepArgs {
                 }
                 let jobs = self.jobs.map(usize::from);
                 if self.estimate {
-                    return estimate::estimate(&plan, jobs, self.keep, data);
+                    return estimate::estimate(&plan, shard, jobs, self.keep, data);
                 }
                 let folder = self.output.unwrap_or_else(|| default_folder(&file));
                 shard::run(&plan, shard, &folder, jobs, self.keep, data)

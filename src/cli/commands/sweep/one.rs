@@ -54,20 +54,44 @@ pub fn run(plan: &SweepPlan, row: u64, keep: Keep, logs: &Path) -> Result<Ran, F
         Err(Failure::Input { reason, .. }) => return Ok(Ran::Row(plan.failed(row, &reason))),
         Err(failure) => return Err(failure),
     };
-    let is_kept = match keep {
-        Keep::None | Keep::All => false,
-        Keep::Contacts => row.has_contacts(plan.columns()),
-        Keep::Failures => row.is_failure(plan.columns()),
-    };
     // few runs are kept, and only their rows say which: these are run once more
-    if is_kept && !matches!(write_run(&planned, None, STOP, &log)?, Ended::Whole { .. }) {
-        return Ok(stopped(&log));
+    if lacks_log(plan, &row, keep, logs) && !log_again(plan, row.row, logs)? {
+        return Ok(Ran::Stopped);
     }
     Ok(Ran::Row(row))
 }
 
+/// Writes the full log of a row that was run before, if it is one of those to keep and not there yet. `false` where
+/// somebody asked to stop.
+pub fn log_again(plan: &SweepPlan, row: u64, logs: &Path) -> Result<bool, Failure> {
+    let log = log_name(logs, row);
+    // a row that could be run once can be again
+    let Ok(setup) = plan.setup(row) else { return Ok(true) };
+    let is_whole = matches!(write_run(&recorded(setup), None, STOP, &log)?, Ended::Whole { .. });
+    if !is_whole {
+        remove_partial(&log);
+    }
+    Ok(is_whole)
+}
+
+/// Whether the full log of this row is to be kept and is not there.
+pub fn lacks_log(plan: &SweepPlan, row: &RunRow, keep: Keep, logs: &Path) -> bool {
+    let is_kept = match keep {
+        Keep::None => false,
+        Keep::Contacts => row.has_contacts(plan.columns()),
+        Keep::Failures => row.is_failure(plan.columns()),
+        Keep::All => true,
+    };
+    row.could_run(plan.columns()) && is_kept && !log_name(logs, row.row).exists()
+}
+
 /// The same command runs a stopped row again, so that the beginning of its log is of no use.
 fn stopped(log: &Path) -> Ran {
-    let _ = fs::remove_file(partial_name(log));
+    remove_partial(log);
     Ran::Stopped
+}
+
+/// Removes the beginning of a log, if there is one.
+pub fn remove_partial(log: &Path) {
+    let _ = fs::remove_file(partial_name(log));
 }

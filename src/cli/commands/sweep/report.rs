@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 use motion_lab::capture::{Captured, Distribution, Paper, histograms};
 use motion_lab::sweep::{Cell, CellKind, Column, RunRow, SweepPlan, TableError, TableFile};
+use motion_lab::web::Link;
 
 use crate::cli::support::choices::ThemeName;
 use crate::cli::support::input::open;
@@ -15,8 +16,8 @@ use crate::cli::{Data, Failure, Outcome};
 
 /// Show what became of a sweep's runs: distributions, the worst runs, the failures.
 ///
-/// A page (.html) stands alone and has the command that shows each run it names; a figure (.svg) has the distributions
-/// only.
+/// A page (.html) stands alone. For each run it names it has the command that shows it in the window, and the link that
+/// shows it in a browser or why no link can. A figure (.svg) has the distributions only.
 #[derive(Debug, Args)]
 #[command(after_help = "\
 Examples:
@@ -29,6 +30,10 @@ pub struct Report {
     /// The page (.html) or figure (.svg) to write.
     #[arg(short, long, value_name = "FILE")]
     output: PathBuf,
+    /// The address of the lab's page, for links: where `assets/web/build` was put. By default where `assets/web/serve`
+    /// shows it.
+    #[arg(long, value_name = "URL", default_value = "http://localhost:8000/", value_parser = page_address)]
+    site: String,
     /// The colours of the figure.
     #[arg(long, value_enum, default_value_t = ThemeName::Light)]
     theme: ThemeName,
@@ -61,16 +66,56 @@ fn number(cell: Option<&Cell>) -> Option<f64> {
     }
 }
 
-/// What a column is, with its unit, as an axis has it.
+/// The address of a page, to which a query can be added.
+fn page_address(text: &str) -> Result<String, String> {
+    let rest = text.strip_prefix("http://").or_else(|| text.strip_prefix("https://"));
+    match rest {
+        Some(rest) if !rest.is_empty() && !rest.contains(['?', '#']) => Ok(text.to_owned()),
+        _ => Err("write http:// or https:// and the rest, without ? and #".into()),
+    }
+}
+
+/// The name of a column without its unit, and the unit where the name does not say it.
+fn parts_of(column: &Column) -> (&str, Option<&str>) {
+    let unit = Some(column.unit.as_str()).filter(|unit| !unit.is_empty() && *unit != column.name);
+    let name = unit.and_then(|unit| column.name.strip_suffix(unit)?.strip_suffix('_'));
+    (name.unwrap_or(&column.name), unit)
+}
+
+/// What a parameter is, called as the plan calls it, with its unit.
+fn parameter_title(column: &Column) -> String {
+    let (name, unit) = parts_of(column);
+    unit.map_or_else(|| name.to_owned(), |unit| format!("{name}, {unit}"))
+}
+
+/// What a result is, in words, with its unit.
 fn title(column: &Column) -> String {
-    let name = column.name.strip_suffix(&format!("_{}", column.unit)).unwrap_or(&column.name).replace('_', " ");
-    if column.unit.is_empty() { name } else { format!("{name}, {}", column.unit) }
+    let (name, unit) = parts_of(column);
+    let name = name.replace('_', " ");
+    unit.map_or_else(|| name.clone(), |unit| format!("{name}, {unit}"))
+}
+
+/// The link that shows the run of a row in a browser and compares its digest; else why none can.
+fn link(plan: &SweepPlan, row: u64, digest: &str, site: &str) -> Result<String, String> {
+    let setup = plan.setup(row)?;
+    let link = Link::of(setup.seed, &setup.config, setup.script).map_err(|error| error.to_string())?;
+    let link = Link { digest: Some(digest.to_owned()), ..link };
+    link.address(site).map_err(|error| error.to_string())
 }
 
 impl Gathered {
     fn of(file: &Path) -> Result<Self, Failure> {
+        if file.extension().is_some_and(|ending| ending == "csv") {
+            return Err(Failure::input(
+                format!("{}: a table of comma-separated values does not hold its plan", file.display()),
+                "Name the table that ends in .parquet; `sweep merge` writes both.",
+            ));
+        }
         let refused = |error: TableError| {
-            Failure::input(format!("{}: {error}", file.display()), "Name a table that `sweep merge` wrote.")
+            Failure::input(
+                format!("{}: {error}", file.display()),
+                "Name a table that ends in .parquet and that `sweep merge` wrote.",
+            )
         };
         let table = TableFile::open(open(file)?).map_err(refused)?;
         let plan = table.plan().clone();
@@ -119,7 +164,7 @@ impl Gathered {
     }
 
     /// The page. It has no colours of its own but those of its figure.
-    fn page(&self, file: &Path, figure: &str) -> String {
+    fn page(&self, file: &Path, figure: &str, site: &str) -> String {
         let Gathered { plan, rows, failed, worst, failures, .. } = self;
         let name = escaped(&file.display().to_string());
         let mut page = format!(
@@ -139,13 +184,13 @@ impl Gathered {
         // writing into a string can't fail
         let _ = writeln!(page, "<p>Varied: {}.</p>", if axes.is_empty() { "nothing" } else { axes.as_str() });
         let _ = writeln!(page, "<h2>Distributions</h2>\n{figure}");
-        self.list(&mut page, "Worst runs: most contacts, then least clearance", worst, file);
-        self.list(&mut page, "Failures, the first", failures, file);
+        self.list(&mut page, "Worst runs: most contacts, then least clearance", worst, (file, site));
+        self.list(&mut page, "Failures, the first", failures, (file, site));
         page + "</body>\n</html>\n"
     }
 
-    /// A table of runs: their parameters, results of the whole run, and the command that shows each.
-    fn list(&self, page: &mut String, heading: &str, rows: &[RunRow], file: &Path) {
+    /// A table of runs: their parameters, results of the whole run, and the command and the link that show each.
+    fn list(&self, page: &mut String, heading: &str, rows: &[RunRow], (file, site): (&Path, &str)) {
         let columns = self.plan.columns();
         let shown = columns.iter().position(|column| column.name == "digest").unwrap_or(columns.len());
         let _ = writeln!(page, "<h2>{heading}</h2>");
@@ -154,10 +199,12 @@ impl Gathered {
             return;
         }
         page.push_str("<div class=\"wide\"><table>\n<tr>");
-        for column in &columns[..shown] {
-            let _ = write!(page, "<th title=\"{}\">{}</th>", escaped(&column.about), escaped(&title(column)));
+        let results = columns.iter().position(|column| column.name == "failure").unwrap_or(0);
+        for (i, column) in columns[..shown].iter().enumerate() {
+            let title = if i < results { parameter_title(column) } else { title(column) };
+            let _ = write!(page, "<th title=\"{}\">{}</th>", escaped(&column.about), escaped(&title));
         }
-        page.push_str("<th>to see it</th></tr>\n");
+        page.push_str("<th>in the window</th><th>in a browser</th></tr>\n");
         for row in rows {
             page.push_str("<tr>");
             for (cell, column) in row.cells.iter().zip(&columns[..shown]) {
@@ -171,12 +218,18 @@ impl Gathered {
                 let _ = write!(page, "<td>{text}</td>");
             }
             let see = match row.cell(columns, "digest") {
-                Some(Cell::Text(_)) => format!(
-                    "<code>motion-lab sweep reproduce '{}' --row {n} &amp;&amp; motion-lab open {n}.mcap</code>",
-                    escaped(&file.display().to_string().replace('\'', "'\\''")),
-                    n = row.row
-                ),
-                _ => "it could not be run".into(),
+                Some(Cell::Text(digest)) => {
+                    let link = match link(&self.plan, row.row, digest, site) {
+                        Ok(link) => format!("<a href=\"{}\">run {}</a>", escaped(&link), row.row),
+                        Err(reason) => format!("no link: {}", escaped(&reason)),
+                    };
+                    format!(
+                        "<code>motion-lab sweep reproduce '{}' --row {n} &amp;&amp; motion-lab open {n}.mcap</code></td><td>{link}",
+                        escaped(&file.display().to_string().replace('\'', "'\\''")),
+                        n = row.row
+                    )
+                }
+                _ => "it could not be run</td><td>".into(),
             };
             let _ = writeln!(page, "<td>{see}</td></tr>");
         }
@@ -208,7 +261,7 @@ impl Report {
         let gathered = Gathered::of(&self.table)?;
         let paper = Paper { palette: self.theme.theme().palette(), width: 1280, scale: 1.0 };
         let figure = gathered.figure().svg(&paper);
-        let text = if ending == Some("svg") { figure } else { gathered.page(&self.table, &figure) };
+        let text = if ending == Some("svg") { figure } else { gathered.page(&self.table, &figure, &self.site) };
         let target = Target::of(&self.output)?;
         write_file(target.path(), text.as_bytes())?;
         target.finish(data)?;

@@ -7,7 +7,7 @@ use clap::Args;
 use motion_lab::sweep::{Cell, PartError, PartReader, RunRow, SweepPlan, TableError, TableFile};
 
 use super::merge;
-use super::one::{log_name, recorded};
+use super::one::{log_name, recorded, remove_partial};
 use crate::cli::commands::record::{Ended, Stop, write_run};
 use crate::cli::support::input::open;
 use crate::cli::support::interrupt;
@@ -97,7 +97,8 @@ impl Reproduce {
         let output = self.output.unwrap_or_else(|| log_name(Path::new(""), self.row));
         let target = Target::file(&output)?;
         let Ended::Whole { digest, .. } = write_run(&recorded(setup), None, Stop::default(), &output)? else {
-            say("stopped; start again");
+            remove_partial(&output);
+            say("stopped; nothing is kept, start again");
             return Ok(Outcome::Stopped);
         };
         target.wrote();

@@ -6,7 +6,7 @@ use std::path::Path;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Mutex, PoisonError};
 
-use motion_lab::sweep::{PartHead, PartReader, Shard, SweepPlan};
+use motion_lab::sweep::{PartHead, PartReader, RunRow, Shard, SweepPlan};
 use rayon::prelude::*;
 
 use super::journal::Journal;
@@ -16,6 +16,7 @@ use crate::cli::support::console::note;
 use crate::cli::support::input::open;
 use crate::cli::support::interrupt;
 use crate::cli::support::progress::Progress;
+use crate::cli::support::words::counted;
 use crate::cli::{Data, Failure, Outcome, say};
 
 /// A thread for each of the jobs; one for each processor where nobody says.
@@ -38,20 +39,30 @@ pub fn run(
     fs::create_dir_all(needed).map_err(|error| Failure::output(needed, &error))?;
     let part = folder.join(format!("part-{shard}.sweep"));
     if part.exists() {
-        return finished(plan, &part, data);
+        return finished(plan, &part, jobs, (keep, &logs), data);
     }
     let head = PartHead::new(plan, shard.rows(plan.runs()));
     let count = head.rows.end - head.rows.start;
     let journal = Journal::open(&folder.join(format!("part-{shard}.journal")), head, plan.columns())?;
     let missing = journal.missing();
     let before = count - missing.len() as u64;
-    if before > 0 {
-        let logs = if keep == Keep::None { "" } else { "; their logs are not made again: `sweep reproduce` does" };
-        note(format!("{before} of {count} rows are there already{logs}"));
-    }
     let pool = pool(jobs)?;
+    if before > 0 {
+        note(format!("{before} of {count} rows are there already"));
+    }
+    let mut without = Vec::new();
+    if keep != Keep::None {
+        journal.each(|line| {
+            let row = RunRow::of_line(line, plan.columns());
+            without.extend(row.filter(|row| one::lacks_log(plan, row, keep, &logs)).map(|row| row.row));
+        })?;
+    }
+    if !make_logs(plan, &without, &logs, &pool)? {
+        say(format!("stopped with {before} of {count} rows done\nThe same command goes on."));
+        return Ok(Outcome::Stopped);
+    }
     let progress = Progress::of_runs(count, before);
-    let (journal, failures) = (Mutex::new(journal), AtomicU64::new(0));
+    let (journal, failures, without_run) = (Mutex::new(journal), AtomicU64::new(0), AtomicU64::new(0));
     let one = |&row: &u64| {
         if interrupt::asked_to_stop() {
             return Ok(());
@@ -61,6 +72,7 @@ pub fn run(
         journal.lock().unwrap_or_else(PoisonError::into_inner).add(row.row, &line)?;
         if row.is_failure(plan.columns()) {
             progress.failed(failures.fetch_add(1, Ordering::Relaxed) + 1);
+            without_run.fetch_add(u64::from(!row.could_run(plan.columns())), Ordering::Relaxed);
         }
         progress.step();
         Ok(())
@@ -77,26 +89,67 @@ pub fn run(
     }
     journal.finish(&part, plan.columns())?;
     note(format!("wrote {}", part.display()));
-    let failures = failures.into_inner();
-    data.line(format!("{count} runs; of the {} made now {failures} failed", count - before))?;
+    let (failures, without_run) = (failures.into_inner(), without_run.into_inner());
+    let made = count - before;
+    data.line(format!(
+        "{count} runs; of the {made} made now {failures} failed, {without_run} of which could not be run"
+    ))?;
     if shard == Shard::WHOLE {
         note(format!("For one table: motion-lab sweep merge {} -o table.parquet", folder.display()));
     }
     Ok(Outcome::Done)
 }
 
-/// A part that is there: it must be whole and of this plan.
-fn finished(plan: &SweepPlan, part: &Path, data: &mut Data) -> Result<Outcome, Failure> {
-    let mut reader = PartReader::new(BufReader::new(open(part)?)).map_err(|error| merge::refused(part, &error))?;
-    if reader.head().plan != plan.line() {
+/// Writes the full logs of rows that were run before. `false` where somebody asked to stop.
+fn make_logs(plan: &SweepPlan, rows: &[u64], logs: &Path, pool: &rayon::ThreadPool) -> Result<bool, Failure> {
+    if rows.is_empty() {
+        return Ok(true);
+    }
+    let progress = Progress::of(rows.len() as u64, "logs");
+    let one = |&row: &u64| {
+        if !interrupt::asked_to_stop() && one::log_again(plan, row, logs)? {
+            progress.step();
+        }
+        Ok(())
+    };
+    let made: Result<(), Failure> = pool.install(|| rows.par_iter().with_max_len(1).try_for_each(one));
+    drop(progress);
+    made?;
+    if interrupt::asked_to_stop() {
+        return Ok(false);
+    }
+    note(format!("wrote the full logs of {} made before", counted(rows.len(), "run")));
+    Ok(true)
+}
+
+/// A part that is there: it must be whole and of this plan. Full logs to keep that are not there are written.
+fn finished(
+    plan: &SweepPlan,
+    part: &Path,
+    jobs: Option<usize>,
+    (keep, logs): (Keep, &Path),
+    data: &mut Data,
+) -> Result<Outcome, Failure> {
+    let refused = |error| merge::refused(part, &error);
+    let mut reader = PartReader::new(BufReader::new(open(part)?)).map_err(refused)?;
+    let is_ours = reader.head().plan == plan.line();
+    let (mut count, mut without) = (0_u64, Vec::new());
+    // to the end, where the seal proves the rows and the plan
+    while let Some((row, _)) = reader.row().map_err(refused)? {
+        count += 1;
+        if is_ours && one::lacks_log(plan, &row, keep, logs) {
+            without.push(row.row);
+        }
+    }
+    if !is_ours {
         return Err(Failure::input(
             format!("{}: it is of another plan", part.display()),
             "Name another folder with -o, or take the part away.",
         ));
     }
-    let mut count = 0_u64;
-    while reader.row().map_err(|error| merge::refused(part, &error))?.is_some() {
-        count += 1;
+    if !make_logs(plan, &without, logs, &pool(jobs)?)? {
+        say("stopped; the same command goes on");
+        return Ok(Outcome::Stopped);
     }
     data.line(format!("{count} runs, finished before"))?;
     Ok(Outcome::Done)
