@@ -5,7 +5,7 @@
 //!
 //! - Ask a scene: [`collision::Collision`] has the four questions, [`collision::Scene`] the answers.
 //! - Prove an edge: [`collision::Checker::edge`] gives a verdict, [`collision::Certificate`] holds its proof.
-//! - Plan: [`collision::Problem`] has a start, a goal and seeded samples.
+//! - Plan: [`collision::Problem`] has a start, a goal and seeded samples, [`planning`] planners whose paths are proven.
 //! - Draw: [`picture::Figure`] makes SVG of pictures in metres.
 #![cfg_attr(feature = "sim", doc = "- Record and verify a run: [`recording::Run`] and [`recording::verify`].")]
 #![cfg_attr(feature = "sim", doc = "- Write a planner, chapter by chapter: [`guide::write_a_planner`].")]
@@ -89,6 +89,8 @@ pub mod sensors;
 pub mod picture;
 
 pub mod cspace;
+
+pub mod planning;
 
 #[cfg(feature = "sim")]
 pub mod tour;

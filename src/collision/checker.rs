@@ -127,7 +127,7 @@ impl<R: Robot> Checker<R> {
     /// Whether the edge is proven free: true wherever [`edge`](Self::edge) says `Free`, false wherever it says `Hit`.
     /// Several times as fast, because it computes neither the clearance along the edge nor the first contact.
     pub fn edge_free(&self, a: &R::Configuration, b: &R::Configuration) -> bool {
-        self.robot.edge(a, b).is_ok_and(|edge| is_free(&self.scene, &edge, MarchOptions::default().budget))
+        self.robot.edge(a, b).is_ok_and(|edge| self.motion_free(&edge))
     }
 
     /// As [`edge`](Self::edge), and fills `certificate` with the steps that prove it as far as it is free.
@@ -140,7 +140,24 @@ impl<R: Robot> Checker<R> {
         b: &R::Configuration,
         certificate: &mut Certificate,
     ) -> Result<EdgeVerdict, ConfigurationError> {
-        Ok(verdict(&self.scene, &self.robot.edge(a, b)?, MarchOptions::default().budget, Some(certificate)))
+        Ok(self.motion_certified(&self.robot.edge(a, b)?, certificate))
+    }
+
+    /// Whether any motion of this robot is proven free, an edge or the arc of a drive: true wherever
+    /// [`motion_verdict`](Self::motion_verdict) says `Free`, false wherever it says `Hit`. Faster than the verdict,
+    /// because it computes neither the clearance nor the first contact.
+    pub fn motion_free(&self, motion: &impl Motion<Configuration = R::Configuration>) -> bool {
+        is_free(&self.scene, motion, MarchOptions::default().budget)
+    }
+
+    /// As [`motion_verdict`](Self::motion_verdict), and fills `certificate` with the steps that prove the motion as far
+    /// as it is free.
+    pub fn motion_certified(
+        &self,
+        motion: &impl Motion<Configuration = R::Configuration>,
+        certificate: &mut Certificate,
+    ) -> EdgeVerdict {
+        verdict(&self.scene, motion, MarchOptions::default().budget, Some(certificate))
     }
 
     /// The verdict on any motion of this robot: an edge, or the arc of a drive.

@@ -28,7 +28,7 @@ pub(crate) use motion::keeps::{Blocked, is_free_among, keeps};
 pub use motion::verdict::{EdgeVerdict, MarchOptions, UnresolvedReason};
 pub use motion::verifier::verify_certificate;
 pub use narrow::pair::{distance, footprint_distance, touch};
-pub use problem::{Problem, ProblemError};
+pub use problem::{GoalRegion, Problem, ProblemError};
 pub use scene::Scene;
 pub use surroundings::Surroundings;
 pub use witness::{HitBy, ObstacleId, Witness};
