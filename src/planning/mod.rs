@@ -18,6 +18,7 @@
 //! A planner of one's own implements [`Planner`]; it then runs, is bounded and is checked as those here.
 
 mod bounds;
+mod goal;
 mod growth;
 mod metric;
 mod nearest;
@@ -25,14 +26,22 @@ mod no_path;
 mod path;
 mod planner;
 pub mod planners;
+mod queue;
+mod sampling;
 mod settings;
+mod shortcut;
 
 pub use bounds::{Bound, Bounds, Effort};
+pub use goal::{Ball, TipDisc};
 pub use growth::{Growth, Node, Rejection};
 pub use metric::{Metric, MetricError};
 pub use nearest::{Nearest, Neighbour};
 pub use no_path::NoPath;
 pub use path::{CertifiedPath, Leg, LinePath, PathError};
 pub use planner::{Planner, Progress, solve};
-pub use planners::RrtConnect;
+pub use planners::{
+    Bug1, Bug2, CellDecomposition, GridSearch, PotentialField, Prm, Rrt, RrtConnect, RrtStar, VisibilityGraph,
+};
+pub use queue::Queue;
+pub use sampling::{sample_near, sample_toward_goal};
 pub use settings::Settings;
