@@ -5,7 +5,7 @@
 //!
 //! - Ask a scene: [`collision::Collision`] has the four questions, [`collision::Scene`] the answers.
 //! - Prove an edge: [`collision::Checker::edge`] gives a verdict, [`collision::Certificate`] holds its proof.
-//! - Plan: [`collision::Problem`] has a start, a goal and seeded samples.
+//! - Plan: [`collision::Problem`] has a start, a goal and seeded samples, [`planning`] planners whose paths are proven.
 //! - Draw: [`picture::Figure`] makes SVG of pictures in metres.
 #![cfg_attr(feature = "sim", doc = "- Record and verify a run: [`recording::Run`] and [`recording::verify`].")]
 #![cfg_attr(feature = "sim", doc = "- Write a planner, chapter by chapter: [`guide::write_a_planner`].")]
@@ -90,6 +90,8 @@ pub mod picture;
 
 pub mod cspace;
 
+pub mod planning;
+
 #[cfg(feature = "sim")]
 pub mod tour;
 
@@ -148,8 +150,9 @@ pub mod prelude {
     pub use crate::collision::{
         CarChecker, ChainChecker, Checker, Collision, DiscChecker, EdgeVerdict, Problem, Scene, Witness,
     };
-    pub use crate::configuration::{Configuration, HitchCfg, R2, T2, Tn};
+    pub use crate::configuration::{Chart, Configuration, HitchCfg, R2, T2, Tn};
     pub use crate::geometry::{Footprint, Part, Point2, Pose2, Segment, Shape, Vector2};
+    pub use crate::planning::{LinePath, NoPath, Planner, Progress, solve};
     pub use crate::random::{Seed, Stream};
     pub use crate::robots::{CarCmd, Drivable, HITCH, Hitch, Motion, RUSTY, Reach, Robot, Rusty, RustyCmd, RustyDisc};
     pub use crate::worlds::World;

@@ -13,7 +13,7 @@ use sources::{Source, sources};
 
 /// The modules in reading order: each may use those before it. The first [`CORE`] of them are the library without
 /// features.
-const ORDER: [&str; 28] = [
+const ORDER: [&str; 29] = [
     "num",
     "short_list",
     "text_position",
@@ -26,6 +26,7 @@ const ORDER: [&str; 28] = [
     "sensors",
     "picture",
     "cspace",
+    "planning",
     "tour",
     "run",
     "anatomy",
@@ -45,7 +46,7 @@ const ORDER: [&str; 28] = [
 ];
 
 /// Number of modules in the core.
-const CORE: usize = 12;
+const CORE: usize = 13;
 
 /// The modules beyond the core that don't use Bevy either.
 const PURE: [&str; 4] = ["tour", "run", "anatomy", "atlas"];

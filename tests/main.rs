@@ -58,6 +58,7 @@ mod penetration;
 #[cfg(feature = "sim")]
 mod pins;
 mod planner;
+mod planning;
 mod polygons;
 mod rates;
 mod rays;

@@ -33,6 +33,10 @@ fn a_batch_gives_the_answers_one_by_one_at_any_number_of_threads() {
             assert_eq!(checker.are_free(&qs), one_by_one.0);
             assert_eq!(checker.distances(&qs), one_by_one.1);
             assert_eq!(checker.edges(&pairs), verdicts);
+            let free = checker.edges_free(&pairs);
+            assert!(
+                verdicts.iter().zip(free).all(|(verdict, free)| verdict.as_ref().is_ok_and(|v| v.is_free()) == free)
+            );
         });
     }
 }

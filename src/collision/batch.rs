@@ -36,6 +36,11 @@ impl<R: Robot> Checker<R> {
         map(configurations, |q| self.distance(q))
     }
 
+    /// [`edge_free`](Self::edge_free) of every pair, in their order.
+    pub fn edges_free(&self, pairs: &[(R::Configuration, R::Configuration)]) -> Vec<bool> {
+        map(pairs, |(a, b)| self.edge_free(a, b))
+    }
+
     /// [`edge`](Self::edge) of every pair, in their order.
     pub fn edges(
         &self,

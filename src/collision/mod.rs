@@ -13,6 +13,7 @@ mod queries;
 mod resident;
 mod scene;
 mod surroundings;
+mod ties;
 mod witness;
 
 pub(crate) use boundary::grid::{Cells, Place};
@@ -28,7 +29,7 @@ pub(crate) use motion::keeps::{Blocked, is_free_among, keeps};
 pub use motion::verdict::{EdgeVerdict, MarchOptions, UnresolvedReason};
 pub use motion::verifier::verify_certificate;
 pub use narrow::pair::{distance, footprint_distance, touch};
-pub use problem::{Problem, ProblemError};
+pub use problem::{GoalRegion, Problem, ProblemError};
 pub use scene::Scene;
 pub use surroundings::Surroundings;
 pub use witness::{HitBy, ObstacleId, Witness};

@@ -1,8 +1,18 @@
 //! `Problem`, what a planner is given.
 
+use std::fmt::Debug;
+use std::sync::Arc;
+
 use super::Checker;
+use crate::configuration::Configuration;
 use crate::random::{Seed, Stream};
 use crate::robots::{ConfigurationError, Robot};
+
+/// A set of configurations, any of which is good enough as a goal.
+pub trait GoalRegion<C>: Debug + Send + Sync {
+    /// Whether `q` lies in it.
+    fn contains(&self, q: &C) -> bool;
+}
 
 /// A planning problem: a robot in a scene, from a start to a goal, with a seeded stream of samples.
 #[derive(Clone, Debug)]
@@ -10,6 +20,7 @@ pub struct Problem<R: Robot> {
     checker: Checker<R>,
     start: R::Configuration,
     goal: R::Configuration,
+    region: Option<Arc<dyn GoalRegion<R::Configuration>>>,
     samples: Stream,
 }
 
@@ -31,6 +42,9 @@ pub enum ProblemError {
         /// `start` or `goal`.
         end: &'static str,
     },
+    /// The goal does not lie in its own region.
+    #[error("the goal does not lie in its own region")]
+    OutsideRegion,
     /// The start or the goal overlaps or touches an obstacle.
     #[error("the {end} would overlap {obstacle}")]
     Overlap {
@@ -62,7 +76,28 @@ impl<R: Robot> Problem<R> {
                 return Err(ProblemError::Limit { end });
             }
         }
-        Ok(Problem { checker, start, goal, samples: Stream::new(seed, "planner") })
+        Ok(Problem { checker, start, goal, region: None, samples: Stream::new(seed, "planner") })
+    }
+
+    /// The same problem, solved by reaching any configuration of a region. The goal stays the one to head for.
+    ///
+    /// # Errors
+    /// [`ProblemError::OutsideRegion`] when the goal does not lie in the region.
+    pub fn try_with_region(self, region: Arc<dyn GoalRegion<R::Configuration>>) -> Result<Self, ProblemError> {
+        if !region.contains(&self.goal) {
+            return Err(ProblemError::OutsideRegion);
+        }
+        Ok(Problem { region: Some(region), ..self })
+    }
+
+    /// Whether reaching `q` solves the problem: it is the goal, its angles in range, or lies in the goal's region.
+    pub fn is_goal(&self, q: &R::Configuration) -> bool {
+        q.in_chart() == self.goal.in_chart() || self.region.as_ref().is_some_and(|region| region.contains(q))
+    }
+
+    /// The region around the goal, where there is one.
+    pub fn region(&self) -> Option<&dyn GoalRegion<R::Configuration>> {
+        self.region.as_deref()
     }
 
     /// The robot in its scene.
@@ -78,6 +113,11 @@ impl<R: Robot> Problem<R> {
     /// The goal configuration.
     pub fn goal(&self) -> R::Configuration {
         self.goal
+    }
+
+    /// The stream that the samples come from, for samples of a planner's own: near a configuration, toward the goal.
+    pub fn stream(&mut self) -> &mut Stream {
+        &mut self.samples
     }
 
     /// The next configuration of the stream, uniform over the scene's bounds and the circle; not necessarily free.

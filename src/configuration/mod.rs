@@ -43,6 +43,7 @@
 //! ```
 
 mod any;
+mod chart;
 mod hitch;
 mod input_kind;
 mod kind;
@@ -55,6 +56,8 @@ mod torus;
 use std::fmt::{Debug, Display};
 
 pub use any::AnyConfiguration;
+pub use chart::Chart;
+pub(crate) use chart::gap;
 pub use hitch::HitchCfg;
 pub use input_kind::InputKind;
 pub use kind::{RobotKind, Space};

@@ -5,7 +5,6 @@
 //! Both take placed shapes, each a list of core vertices and a radius, and nothing else from the library. [`arm`] gives
 //! them the kinematics of the Workbench's arm, written out.
 
-#[cfg(feature = "sim")]
 pub mod arm;
 pub mod exact;
 pub mod plain;

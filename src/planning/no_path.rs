@@ -1,0 +1,54 @@
+//! `NoPath`, why a planner returned no path.
+
+use super::{Bound, Effort, PathError};
+use crate::collision::ProblemError;
+
+/// Why a planner returned no path.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum NoPath {
+    /// The start or the goal is in contact, outside the robot's limits, or none of its configurations.
+    #[error(transparent)]
+    Problem(#[from] ProblemError),
+    /// A bound was reached first. There may be a path.
+    #[error("no path within the bound on {bound}: {effort}")]
+    Exhausted {
+        /// The bound.
+        bound: Bound,
+        /// What the planner had done by then.
+        effort: Effort,
+    },
+    /// The planner has searched all of its finite graph, a grid or a roadmap. There may be a path beside it.
+    #[error("no path in the planner's own graph of {nodes} configurations")]
+    NoneInGraph {
+        /// The number of the graph's nodes.
+        nodes: usize,
+    },
+    /// No path leads to the goal, whatever the planner: configurations that are proven to be in contact part it from
+    /// the start, within the scene's bounds.
+    #[error("the goal can't be reached: {cells} cells prove that obstacles part it from the start")]
+    Unreachable {
+        /// The number of cells that were judged.
+        cells: u64,
+    },
+    /// The planner went all the way round an obstacle, and the goal lies behind it. Whoever keeps less clearance may
+    /// pass through a gap.
+    #[error("the goal lies behind an obstacle without a gap for one that keeps {kept} m from it")]
+    Enclosed {
+        /// The clearance that the planner keeps, metres.
+        kept: f64,
+    },
+    /// The planner is stuck where nothing near is better: a local minimum of a potential.
+    #[error("stuck in a local minimum at configuration {node} of its growth")]
+    LocalMinimum {
+        /// The number of the node.
+        node: usize,
+    },
+    /// The planner does not work for this robot or this space.
+    #[error("this planner does not work here: {0}")]
+    Unsuited(&'static str),
+    /// The planner said that it had solved the problem, but its path does not stand the check of
+    /// [`solve`](super::solve).
+    #[error("the planner's path is refused: {0}")]
+    Refused(#[from] PathError),
+}

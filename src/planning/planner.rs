@@ -1,0 +1,84 @@
+//! `Planner`, the one interface of planners, and `solve`, which runs one.
+
+use super::path::is_same;
+use super::{Bounds, CertifiedPath, Effort, Growth, NoPath, PathError};
+use crate::collision::Problem;
+use crate::robots::{ChartLine, Motion, Robot};
+
+/// What an iteration came to.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Progress {
+    /// There is no path yet, and further iterations may find one.
+    Growing,
+    /// There is a path. Further iterations improve it if the planner is one that goes on; otherwise they do nothing.
+    Solved,
+    /// There will be no path: further iterations do nothing.
+    Ended(NoPath),
+}
+
+/// A planner: it works on one problem, an iteration at a time, and shows what it has grown.
+///
+/// All that it does is a function of the problem, whose samples are seeded, and of its settings. So a window that steps
+/// it, a recording and a count see the same planner. `M` is the type of motions that its paths consist of.
+///
+/// Many planners are compared as `dyn Planner<R>`.
+pub trait Planner<R: Robot, M: Motion<Configuration = R::Configuration> = ChartLine<R>> {
+    /// Its name, as the command line has it: `rrt-connect`.
+    fn name(&self) -> &'static str;
+
+    /// The problem.
+    fn problem(&self) -> &Problem<R>;
+
+    /// Does one iteration, a bounded amount of work. After an end it does nothing and says the same again.
+    fn step(&mut self) -> Progress;
+
+    /// What it has grown so far.
+    fn growth(&self) -> &Growth<R::Configuration, M>;
+
+    /// The motion of an edge of its growth, to be drawn: from node number `from` to node number `to`. `None` where the
+    /// growth has no such edge.
+    fn motion(&self, from: usize, to: usize) -> Option<M>;
+
+    /// The best path so far.
+    fn path(&self) -> Option<&CertifiedPath<M>>;
+}
+
+/// Runs a planner until it has a path, has ended or has reached a bound.
+///
+/// The path is checked once more before it is returned, whoever wrote the planner: it leads from the problem's start to
+/// its goal, and the verifier accepts its certificates in the problem's scene. The iterations are counted here too, so
+/// a planner that counts nothing is bounded as well.
+///
+/// # Errors
+/// [`NoPath`] says why there is none.
+pub fn solve<R: Robot, M: Motion<Configuration = R::Configuration> + Clone>(
+    planner: &mut (impl Planner<R, M> + ?Sized),
+    bounds: &Bounds,
+) -> Result<CertifiedPath<M>, NoPath> {
+    let mut steps = 0;
+    loop {
+        let counted = planner.growth().effort();
+        let effort = Effort { iterations: counted.iterations.max(steps), ..counted };
+        if let Some(bound) = bounds.reached(&effort) {
+            return Err(NoPath::Exhausted { bound, effort });
+        }
+        steps += 1;
+        match planner.step() {
+            Progress::Growing => {}
+            Progress::Ended(reason) => return Err(reason),
+            Progress::Solved => return Ok(checked(planner)?),
+        }
+    }
+}
+
+/// The planner's path, if it stands the check.
+fn checked<R: Robot, M: Motion<Configuration = R::Configuration> + Clone>(
+    planner: &(impl Planner<R, M> + ?Sized),
+) -> Result<CertifiedPath<M>, PathError> {
+    let (path, problem) = (planner.path().ok_or(PathError::Missing)?, planner.problem());
+    if !is_same(&path.start(), &problem.start()) || !problem.is_goal(&path.goal()) {
+        return Err(PathError::OtherEnds);
+    }
+    path.verify(problem.checker().scene())?;
+    Ok(path.clone())
+}
