@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 use std::time::Instant;
 
-use motion_lab::planning::{Bounds, Effort};
+use motion_lab::planning::Effort;
 use motion_lab::random::Seed;
 use serde::Serialize;
 
@@ -88,7 +88,7 @@ fn row(
         Ok(attempt) => attempt,
         Err(reason) => return Ok(Err(reason)),
     };
-    let solved = attempt.solve(&Bounds::of_iterations(args.iterations));
+    let solved = attempt.solve(&args.bounds(planner));
     let seconds = begun.elapsed().as_secs_f64();
     let path = solved.map(|()| [attempt.length(), attempt.clearance()]).map_err(|reason| reason.to_string());
     Ok(Ok(Row { planner, seed, effort: attempt.effort(), seconds, path }))

@@ -67,9 +67,9 @@ pub struct PlanArgs {
     /// The seed of the planner's samples, and of the run that plays the path.
     #[arg(long, default_value_t = 2005, conflicts_with = "compare")]
     seed: u64,
-    /// The greatest number of iterations.
-    #[arg(long, value_name = "N", default_value_t = 100_000)]
-    iterations: u64,
+    /// The greatest number of iterations. [default: 20000 for hybrid-a-star, 100000 for any other planner]
+    #[arg(long, value_name = "N")]
+    iterations: Option<u64>,
     /// A rover is planned this much larger, metres, so that its script may stray from the path by as much: 0 to 1.
     #[arg(long, value_name = "METRES", default_value_t = 0.02)]
     tube: f64,
@@ -123,7 +123,7 @@ impl PlanArgs {
             Err(reason) => return self.none(&Answer::of_none(&task, name, self.seed, &reason), data),
         };
         let progress = Progress::unknown("planning");
-        let solved = attempt.solve(&Bounds::of_iterations(self.iterations));
+        let solved = attempt.solve(&self.bounds(name));
         drop(progress);
         let seconds = begun.elapsed().as_secs_f64();
         match solved {
@@ -134,6 +134,11 @@ impl PlanArgs {
                 self.none(&answer.after(attempt.effort()), data)
             }
         }
+    }
+
+    /// How much a planner may do.
+    fn bounds(&self, planner: PlannerName) -> Bounds {
+        Bounds::of_iterations(self.iterations.unwrap_or(planner.iterations()))
     }
 
     /// Says that there is no path.

@@ -21,6 +21,11 @@ impl PlannerName {
         }
     }
 
+    /// The number of iterations that it does unless more are allowed: some seconds' work.
+    pub fn iterations(self) -> u64 {
+        if self == PlannerName::HybridAStar { 20_000 } else { 100_000 }
+    }
+
     /// Its name.
     pub fn name(self) -> String {
         self.to_possible_value().map_or(String::new(), |value| value.get_name().to_owned())
