@@ -15,7 +15,7 @@ fn main() -> ExitCode {
     ExitCode::from(match ended {
         Ok(Outcome::Done) => 0,
         Ok(Outcome::BadInput) => 3,
-        Ok(Outcome::Differs | Outcome::NotPassed) => 4,
+        Ok(Outcome::Differs | Outcome::NotPassed | Outcome::NoPath) => 4,
         Ok(Outcome::Recovered) => 5,
         Ok(Outcome::Stopped) => 75,
         Err(failure) => {

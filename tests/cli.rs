@@ -17,6 +17,7 @@ mod kinds;
 mod library_exports;
 mod manual;
 mod messages;
+mod plan;
 #[cfg(target_os = "linux")]
 mod progress;
 mod queries;

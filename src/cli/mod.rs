@@ -12,8 +12,8 @@ use support::console::be_quiet;
 #[cfg(feature = "window")]
 use commands::open;
 use commands::{
-    bare, capture, completions, describe, diff, export, grade, info, plot, query, record, replay, script, stats, sweep,
-    verify, world,
+    bare, capture, completions, describe, diff, export, grade, info, plan, plot, query, record, replay, script, stats,
+    sweep, verify, world,
 };
 
 /// Examples and the exit codes, as `--help` and `docs/cli.md` list them.
@@ -29,7 +29,8 @@ Exit codes:
    1  internal error, or an output that could not be written
    2  the command line is wrong
    3  an input file is missing or wrong
-   4  the replay differs from the recording or one log from the other, or a graded submission does not pass
+   4  the replay differs from the recording or one log from the other, a graded submission does not pass, or a planner
+      has no path
    5  the file is damaged or unfinished; its sealed beginning was used
    6  there is no display for the window
   75  stopped early; `record --resume`, or the same `sweep` again, goes on
@@ -59,6 +60,7 @@ enum Command {
     Export(export::Export),
     Info(info::Info),
     Stats(stats::StatsArgs),
+    Plan(Box<plan::PlanArgs>),
     Plot(plot::PlotArgs),
     Query(query::Query),
     Capture(Box<capture::Capture>),
@@ -87,6 +89,7 @@ impl Cli {
             Some(Command::Export(export)) => export.run(data),
             Some(Command::Info(info)) => info.run(data),
             Some(Command::Stats(stats)) => stats.run(data),
+            Some(Command::Plan(plan)) => plan.run(data),
             Some(Command::Plot(plot)) => plot.run(data),
             Some(Command::Query(query)) => query.run(data),
             Some(Command::Capture(capture)) => capture.run(data),

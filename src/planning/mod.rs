@@ -18,8 +18,10 @@
 //! A planner of one's own implements [`Planner`]; it then runs, is bounded and is checked as those here.
 
 mod bounds;
+pub mod curves;
 mod goal;
 mod growth;
+pub mod hybrid;
 mod metric;
 mod nearest;
 mod no_path;

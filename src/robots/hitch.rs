@@ -138,6 +138,11 @@ impl Hitch {
         num::tan(phi.clamp(-self.max_steer, self.max_steer)) / self.wheelbase
     }
 
+    /// The least radius of the rear axle's path, metres: infinity for a car that cannot steer.
+    pub fn tightest(&self) -> f64 {
+        1.0 / self.curvature(self.max_steer)
+    }
+
     /// The configuration after `dt` seconds of the constant control `u`: a pure function, and the end of
     /// [`drive`](Drivable::drive). In each tick the body moves on its exact arc, the trailer's heading by a fixed-step
     /// Runge-Kutta integration against the closed form of the body's heading.

@@ -89,6 +89,8 @@ impl TickArc {
 #[derive(Clone, Debug, PartialEq)]
 pub struct HitchArc {
     first: TickArc,
+    control: CarCmd,
+    seconds: f64,
     /// The configurations at which the later ticks start.
     later: Vec<HitchCfg>,
     /// The length in ticks, the last one perhaps a part of a tick; 1 for a motion of one piece.
@@ -106,13 +108,23 @@ impl HitchArc {
         self.ticks
     }
 
+    /// The control that drives it.
+    pub fn control(&self) -> CarCmd {
+        self.control
+    }
+
+    /// How long it is driven, seconds; negative back in time.
+    pub fn seconds(&self) -> f64 {
+        self.seconds
+    }
+
     /// A motion of one piece.
-    fn one(first: TickArc) -> Self {
-        HitchArc { first, later: Vec::new(), ticks: 1.0, rounding: 0.0, leaving: None }
+    fn one(first: TickArc, control: CarCmd, seconds: f64) -> Self {
+        HitchArc { first, control, seconds, later: Vec::new(), ticks: 1.0, rounding: 0.0, leaving: None }
     }
 
     /// The chain of this many ticks, more than one.
-    fn chain(first: TickArc, ticks: f64) -> Self {
+    fn chain(first: TickArc, control: CarCmd, seconds: f64, ticks: f64) -> Self {
         let mut later = Vec::with_capacity(ticks.ceil() as usize - 1);
         let mut at = first.start;
         let mut size = greater(at.body.x.abs(), at.body.y.abs());
@@ -125,7 +137,8 @@ impl HitchArc {
         // by the f64 nearest 2 pi.
         let trailer = first.car.hitch_len.map_or(0.0, |length| farthest(first.car.trailer_body.rectangle(length)));
         let reach = greater(farthest(first.car.body.rectangle()), trailer);
-        HitchArc { first, later, ticks, rounding: 16.0 * ulp(4.0 + size + reach), leaving: None }
+        let rounding = 16.0 * ulp(4.0 + size + reach);
+        HitchArc { first, control, seconds, later, ticks, rounding, leaving: None }
     }
 
     /// The arc with the place where it leaves its car's jackknife limit.
@@ -266,7 +279,7 @@ impl Drivable for Hitch {
         };
         let whole = arc(dt).ok_or(ConfigurationError::ControlNotFinite)?;
         if dt.abs() <= TICK {
-            return Ok(HitchArc::one(whole).limited());
+            return Ok(HitchArc::one(whole, *u, dt).limited());
         }
         let ticks = dt.abs() / TICK;
         if ticks > MOST_TICKS {
@@ -275,7 +288,7 @@ impl Drivable for Hitch {
         let tick = arc(if dt > 0.0 { TICK } else { -TICK }).ok_or(ConfigurationError::ControlNotFinite)?;
         let nearest = ticks.round();
         let ticks = if (ticks - nearest).abs() <= WHOLE { nearest } else { ticks };
-        let arc = if ticks == 1.0 { HitchArc::one(tick) } else { HitchArc::chain(tick, ticks) };
+        let arc = if ticks == 1.0 { HitchArc::one(tick, *u, dt) } else { HitchArc::chain(tick, *u, dt, ticks) };
         Ok(arc.limited())
     }
 }

@@ -10,6 +10,7 @@ pub(crate) mod grade;
 pub(crate) mod info;
 #[cfg(feature = "window")]
 pub(crate) mod open;
+pub(crate) mod plan;
 pub(crate) mod plot;
 pub(crate) mod query;
 pub(crate) mod record;

@@ -15,6 +15,8 @@ pub enum Outcome {
     Differs,
     /// A submission does not do what its assignment asks for.
     NotPassed,
+    /// A planner has no path, or its path can't be played.
+    NoPath,
     /// A damaged or unfinished file was used as far as it is sealed.
     Recovered,
     /// Stopped early, and resumable.

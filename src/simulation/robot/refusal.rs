@@ -28,7 +28,7 @@ pub enum InputRefusal {
 
 impl InputRefusal {
     /// The reason, with the name of what the robot would touch among its surroundings.
-    pub(super) fn of<R: SimulatedRobot>(
+    pub(crate) fn of<R: SimulatedRobot>(
         why: Refused<R::Configuration>,
         input: InputKind,
         robot: &R,

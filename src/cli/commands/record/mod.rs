@@ -19,10 +19,10 @@ use crate::cli::support::interrupt;
 use crate::cli::support::log_kind::LogKind;
 use crate::cli::{Data, Failure, Outcome};
 use choice::Placement;
-use seeds::SeedRange;
 
 use one::Printed;
 pub use one::{Ended, Plan, Stop, partial_name, run, write_run, write_run_watched};
+pub use seeds::SeedRange;
 
 /// Record a run, and print where its robots end, their contacts and its digest.
 ///

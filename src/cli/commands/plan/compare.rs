@@ -1,0 +1,155 @@
+//! Several planners on one problem, at several seeds.
+
+use std::fmt::Write as _;
+use std::time::Instant;
+
+use motion_lab::planning::Effort;
+use motion_lab::random::Seed;
+use serde::Serialize;
+
+use super::PlanArgs;
+use super::answer::unit;
+use super::named::PlannerName;
+use super::task::Task;
+use crate::cli::commands::record::SeedRange;
+use crate::cli::support::output::write_file;
+use crate::cli::support::progress::Progress;
+use crate::cli::support::target::Target;
+use crate::cli::{Data, Failure, Outcome, say};
+
+/// The seeds of a comparison without `--seeds`.
+const SEEDS: SeedRange = SeedRange { first: 0, end: 100 };
+
+/// What came of one planner at one seed.
+struct Row {
+    planner: PlannerName,
+    seed: u64,
+    effort: Effort,
+    seconds: f64,
+    /// Length and clearance of the path, or why there is none.
+    path: Result<[f64; 2], String>,
+}
+
+/// What came of one planner at all seeds: medians over the attempts that have a path.
+#[derive(Debug, Serialize)]
+struct Line {
+    planner: String,
+    solved: usize,
+    attempts: usize,
+    milliseconds: Option<f64>,
+    edges: Option<f64>,
+    length: Option<f64>,
+    clearance: Option<f64>,
+}
+
+/// Compares planners: prints a table, and writes a row for each attempt where that is asked for.
+pub fn compare(args: &PlanArgs, task: &Task, data: &mut Data) -> Result<Outcome, Failure> {
+    let seeds = args.seeds.unwrap_or(SEEDS);
+    let target = args.csv.as_deref().map(Target::of).transpose()?;
+    let count = (seeds.end - seeds.first).saturating_mul(args.compare.len() as u64);
+    let progress = Progress::of(count, "attempts");
+    let mut rows = Vec::new();
+    for &planner in &args.compare {
+        for seed in seeds.first..seeds.end {
+            match row(args, task, planner, seed)? {
+                Ok(row) => rows.push(row),
+                // an end in contact is so for every planner and every seed
+                Err(reason) => {
+                    drop(progress);
+                    say(format!("{}\n{}", super::in_words(&reason.to_string()), super::next(&reason)));
+                    return Ok(Outcome::NoPath);
+                }
+            }
+            progress.at(rows.len() as u64);
+        }
+    }
+    drop(progress);
+    let lines: Vec<Line> = args.compare.iter().map(|planner| line(*planner, &rows)).collect();
+    if args.json {
+        data.json(&lines)?;
+    } else {
+        print(&lines, unit(&task.robot), data)?;
+    }
+    if let Some(target) = target {
+        write_file(target.path(), csv(&rows).as_bytes())?;
+        target.finish(data)?;
+    }
+    Ok(if lines.iter().all(|line| line.solved == 0) { Outcome::NoPath } else { Outcome::Done })
+}
+
+fn row(
+    args: &PlanArgs,
+    task: &Task,
+    planner: PlannerName,
+    seed: u64,
+) -> Result<Result<Row, motion_lab::planning::NoPath>, Failure> {
+    let begun = Instant::now();
+    let mut attempt = match task.attempt(planner, Seed(seed))? {
+        Ok(attempt) => attempt,
+        Err(reason) => return Ok(Err(reason)),
+    };
+    let solved = attempt.solve(&args.bounds(planner));
+    let seconds = begun.elapsed().as_secs_f64();
+    let path = solved.map(|()| [attempt.length(), attempt.clearance()]).map_err(|reason| reason.to_string());
+    Ok(Ok(Row { planner, seed, effort: attempt.effort(), seconds, path }))
+}
+
+/// The middle of some numbers; the mean of the two middle ones of an even count. `None` without any.
+fn median(mut numbers: Vec<f64>) -> Option<f64> {
+    numbers.sort_by(f64::total_cmp);
+    let n = numbers.len();
+    (n > 0).then(|| 0.5 * (numbers[(n - 1) / 2] + numbers[n / 2]))
+}
+
+fn line(planner: PlannerName, rows: &[Row]) -> Line {
+    let own: Vec<&Row> = rows.iter().filter(|row| row.planner == planner).collect();
+    let solved: Vec<(&Row, [f64; 2])> = own.iter().filter_map(|row| Some((*row, *row.path.as_ref().ok()?))).collect();
+    let of = |number: fn(&Row, [f64; 2]) -> f64| median(solved.iter().map(|(row, path)| number(row, *path)).collect());
+    Line {
+        planner: planner.name(),
+        solved: solved.len(),
+        attempts: own.len(),
+        milliseconds: of(|row, _| 1000.0 * row.seconds),
+        edges: of(|row, _| row.effort.edges as f64),
+        length: of(|_, path| path[0]),
+        clearance: of(|_, path| path[1]),
+    }
+}
+
+fn print(lines: &[Line], unit: &str, data: &mut Data) -> Result<(), Failure> {
+    let width = lines.iter().map(|line| line.planner.len()).max().unwrap_or(0).max(7);
+    let length = format!("length {unit}");
+    data.line(format!(
+        "{:width$}  {:>11}  {:>9}  {:>8}  {length:>10}  {:>11}",
+        "planner", "solved", "time ms", "edges", "clearance m"
+    ))?;
+    let number = |x: Option<f64>, digits: usize| x.map_or("-".to_owned(), |x| format!("{x:.digits$}"));
+    for line in lines {
+        let solved = format!("{} of {}", line.solved, line.attempts);
+        data.line(format!(
+            "{:width$}  {solved:>11}  {:>9}  {:>8}  {:>10}  {:>11}",
+            line.planner,
+            number(line.milliseconds, 2),
+            number(line.edges, 0),
+            number(line.length, 3),
+            number(line.clearance, 4)
+        ))?;
+    }
+    data.line("medians over the attempts that have a path")
+}
+
+/// A row for each attempt; a path's columns are empty where there is none.
+fn csv(rows: &[Row]) -> String {
+    let mut text = String::from("planner,seed,solved,seconds,iterations,samples,edges,free,length,clearance,reason\n");
+    for Row { planner, seed, effort, seconds, path } in rows {
+        let Effort { iterations, samples, edges, free } = effort;
+        let name = planner.name();
+        let (solved, length, clearance, reason) = match path {
+            Ok([length, clearance]) => (true, length.to_string(), clearance.to_string(), String::new()),
+            Err(reason) => (false, String::new(), String::new(), format!("\"{}\"", reason.replace('"', "\"\""))),
+        };
+        let counts = format!("{iterations},{samples},{edges},{free}");
+        _ = writeln!(text, "{name},{seed},{solved},{seconds},{counts},{length},{clearance},{reason}");
+    }
+    text
+}

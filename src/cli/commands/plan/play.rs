@@ -1,0 +1,95 @@
+//! Playing a path: its script, and the log of the run that it drives.
+
+use std::path::Path;
+
+use motion_lab::configuration::Configuration;
+use motion_lab::random::Seed;
+use motion_lab::simulation::{PlayError, PlayStage, PlayedPath};
+use motion_lab::tour::TourConfig;
+use motion_lab::worlds::{Resident, World};
+
+use super::attempt::Attempt;
+use super::task::Task;
+use crate::cli::commands::record::{Ended, Plan, Stop, write_run};
+use crate::cli::support::log_kind::LogKind;
+use crate::cli::support::output::write_file;
+use crate::cli::support::target::Target;
+use crate::cli::{Data, Failure};
+
+/// The ticks that a run goes on for after the path's end.
+const AFTER: u64 = 20;
+
+/// A path that can be played, and where.
+pub struct Played {
+    /// The world with the robot alone.
+    world: World,
+    seed: Seed,
+    played: PlayedPath,
+}
+
+/// The script of the path that an attempt has found, or why it can't be played.
+pub fn play(task: &Task, attempt: &dyn Attempt, seed: Seed, tube: f64) -> Result<Result<Played, PlayError>, Failure> {
+    let resident = resident(task)?;
+    let world = World { robots: vec![resident.clone()], ..task.world.clone() };
+    let stage =
+        PlayStage { tube: motion_lab::num::greater(tube, 1e-3), ..PlayStage::new(&world, &resident.name, seed) };
+    match attempt.play(&stage) {
+        Some(Ok(played)) => Ok(Ok(Played { world, seed, played })),
+        Some(Err(reason)) => Ok(Err(reason)),
+        None => Err(Failure::internal(anyhow::anyhow!("no path is to be played"))),
+    }
+}
+
+/// The resident that plays: the one that was named, else the world's first of the kind, else a new one at the start.
+fn resident(task: &Task) -> Result<Resident, Failure> {
+    let kind = task.robot.kind();
+    if task.name == "choset" {
+        let reason = "an arm without thickness lives in no world, so it can't play its path";
+        return Err(Failure::usage(reason, "Plan for --robot reach."));
+    }
+    let robots = &task.world.robots;
+    let of_kind = || robots.iter().find(|r| r.kind == kind && r.sizes.is_none());
+    let named = robots.iter().find(|r| r.name == task.name).or_else(of_kind);
+    let new = || Resident::new(task.robot.name(), kind, task.start.coordinates().to_vec());
+    Ok(named.cloned().unwrap_or_else(new))
+}
+
+/// What to do about a path that can't be played.
+pub fn next(reason: &PlayError) -> &'static str {
+    match reason {
+        PlayError::LeavesTube { .. } | PlayError::NotFree { .. } | PlayError::Held { .. } => {
+            "Try another --seed or a wider --tube."
+        }
+        _ => "Leave out --script and --record to have the path alone.",
+    }
+}
+
+impl Played {
+    /// Writes the script and the log, and says what they are.
+    pub fn write(&self, script: Option<&Path>, log: Option<&Path>, data: &mut Data) -> Result<(), Failure> {
+        let Played { world, seed, played } = self;
+        let seconds = played.ticks as f64 * motion_lab::run::DT;
+        let strayed = 1000.0 * played.strayed;
+        data.line(format!("played     {} ticks, {seconds} s, at most {strayed:.3} mm off the path", played.ticks))?;
+        if let Some(path) = script {
+            let target = Target::of(path)?;
+            write_file(target.path(), played.script.to_ron().as_bytes())?;
+            target.finish(data)?;
+        }
+        if let Some(path) = log {
+            let config = TourConfig { worlds: vec![world.clone()], ticks: played.ticks + AFTER, sensor: None };
+            let target = Target::file(path)?;
+            let plan = Plan { seed: *seed, config, script: played.script.clone(), kind: LogKind::Full };
+            let stop = Stop { at_refusal: true, ..Stop::default() };
+            match write_run(&plan, None, stop, path)? {
+                Ended::Whole { digest, last, .. } => {
+                    let contacts: u32 = last.robots.iter().map(|robot| robot.contacts).sum();
+                    data.line(format!("recorded   {contacts} contacts, digest {digest}"))?;
+                    target.wrote();
+                }
+                Ended::Stopped(_) | Ended::Differs(_) => {}
+            }
+        }
+        Ok(())
+    }
+}

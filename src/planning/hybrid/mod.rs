@@ -1,0 +1,13 @@
+//! Hybrid A* for the car, with a trailer or without.
+
+mod car_move;
+mod planner;
+mod remaining;
+mod settings;
+mod shots;
+#[cfg(test)]
+mod tests;
+
+pub use car_move::{CHANNEL_UNITS, CarMove};
+pub use planner::HybridAStar;
+pub use settings::{HybridSettings, NearGoal};
