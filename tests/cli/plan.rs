@@ -124,6 +124,33 @@ fn a_wrong_command_line_is_code_2() {
     }
 }
 
+/// Every planner finds its way, or says why it is none for this robot; each path is as long as the straight line at
+/// least, and none is much shorter than the visibility graph's.
+#[test]
+fn every_planner_is_there_by_its_name() {
+    let from_to = ["--robot", "rusty", "--from", "1.5,5.75", "--to", "9.75,6.25"];
+    let names = ["rrt-connect", "rrt", "rrt-star", "prm", "a-star", "dijkstra", "visibility-graph", "bug1", "bug2"];
+    let straight = f64::hypot(9.75 - 1.5, 0.5);
+    let length = |name: &str| {
+        let found = run(&[&["plan", "--planner", name], &from_to[..], &["--json"]].concat()).done();
+        json(&found)["length"].as_f64().unwrap()
+    };
+    let lengths: Vec<f64> = names.map(length).to_vec();
+    let shortest = lengths[6];
+    for (name, length) in names.iter().zip(&lengths) {
+        assert!(*length > straight && *length >= 0.97 * shortest, "{name}: {length}, {shortest}");
+    }
+    // the rooms are joined by doors, so a field that only pulls straight on ends in a minimum
+    let field = run(&[&["plan", "--planner", "potential-field"], &from_to[..]].concat());
+    assert!(field.code == Some(4) && field.err.contains("local minimum"), "{} {}", field.out, field.err);
+    // the arm is no disc
+    let arm = run(&["plan", "--planner", "bug1", "--robot", "reach", "--from", "2,0", "--to", "3.1,0"]);
+    assert!(arm.code == Some(4) && arm.err.contains("discs"), "{} {}", arm.out, arm.err);
+    // and no car drives a straight line of the chart
+    let car = run(&["plan", "--planner", "rrt", "--robot", "hitch", "--to", "6.75,7,-1.57"]);
+    assert!(car.code == Some(2) && car.err.contains("hybrid-a-star"), "{}", car.err);
+}
+
 #[test]
 fn planners_are_compared_in_a_table_and_in_rows() {
     let folder = tempfile::tempdir().unwrap();

@@ -2,6 +2,7 @@
 
 use std::fmt;
 use std::io::{self, Write};
+use std::time::Duration;
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
 
@@ -50,6 +51,14 @@ impl Progress {
     /// The progress of work that nobody watches.
     pub fn none() -> Self {
         Progress { bar: ProgressBar::hidden(), is_shown: false }
+    }
+
+    /// The beginning of work whose amount nobody knows, in words.
+    pub fn unknown(what: &str) -> Self {
+        let progress =
+            Self::begin(ProgressBar::with_draw_target(None, target()), &format!("{{spinner}} {what}, {{elapsed}}"));
+        progress.bar.enable_steady_tick(Duration::from_millis(200));
+        progress
     }
 
     fn begin(bar: ProgressBar, template: &str) -> Self {

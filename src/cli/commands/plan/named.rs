@@ -8,6 +8,24 @@ use motion_lab::robots::AnyRobot;
 pub enum PlannerName {
     /// Two trees that grow toward each other.
     RrtConnect,
+    /// One tree that grows into the free space.
+    Rrt,
+    /// A tree that is wired anew as it grows: the first path that it has.
+    RrtStar,
+    /// A road map of samples, grown until start and goal are joined.
+    Prm,
+    /// A* on a grid of configurations.
+    AStar,
+    /// Dijkstra's algorithm on the same grid.
+    Dijkstra,
+    /// The shortest way by the corners of the obstacles, for a rover.
+    VisibilityGraph,
+    /// Downhill in a field that the goal attracts and obstacles repel; it may end in a local minimum.
+    PotentialField,
+    /// Bug1, for a rover: it goes round an obstacle once, and leaves where it was nearest to the goal.
+    Bug1,
+    /// Bug2, for a rover: it follows the line to the goal, and boundaries between.
+    Bug2,
     /// A search over what a car can drive, with a trailer or without.
     HybridAStar,
 }
