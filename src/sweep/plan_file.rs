@@ -125,8 +125,8 @@ impl PlanFile {
     /// The plan with the worlds and scripts it names.
     ///
     /// # Errors
-    /// [`SweepPlanError`] names the item that can't be: a robot, a goal, an axis, the number of runs. A plan of at most a
-    /// thousand runs is refused, too, when none of them can be.
+    /// [`SweepPlanError`] names the item that can't be: a robot, a goal, an axis, the number of runs. A plan of at most
+    /// a thousand runs is refused, too, when none of them can be.
     pub fn with(
         &self,
         worlds: &BTreeMap<String, World>,

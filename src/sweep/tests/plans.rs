@@ -247,7 +247,7 @@ fn a_world_or_a_script_is_found_where_the_plan_names_it() {
     }
 }
 
-/// The noise of a sensor holds at most one in all, so that a number by itself may be too much for what was there before.
+/// The noise of a sensor holds at most one in all, so a number by itself may be too much for what was there before.
 #[test]
 fn the_order_of_axes_decides_nothing() {
     let mut world = World::lot();
