@@ -14,8 +14,12 @@ use motion_lab::planning::{
 };
 use motion_lab::prelude::*;
 
+use crate::fixtures::count_from_env;
 use crate::oracle::arm::{arm_clearance, obstacles};
 use crate::oracle::sweep;
+
+/// The variable that says how many seeds every planner solves.
+const PLANS: &str = "MOTION_LAB_PLANS";
 
 /// Reach round the post of the Workbench: both ends are free, the line between them hits the post.
 fn round_the_post(seed: u64) -> Problem<Reach<2>> {
@@ -110,7 +114,7 @@ fn rrt_connect_goes_round_the_post_whatever_the_seed() {
 
 #[test]
 fn every_planner_goes_round_the_post() {
-    for seed in 0..40 {
+    for seed in 0..count_from_env(PLANS, 40) {
         for mut planner in planners(&round_the_post(seed)) {
             solved(planner.as_mut(), seed, arm_clearance);
         }
@@ -121,14 +125,15 @@ fn every_planner_goes_round_the_post() {
 fn every_planner_crosses_the_apartment() {
     let scene = Scene::apartment();
     let mut detours = 0;
-    for seed in 0..25 {
+    let count = count_from_env(PLANS, 25);
+    for seed in 0..count {
         let problem = across_the_apartment(seed);
-        detours += usize::from(!problem.checker().edge_free(&problem.start(), &problem.goal()));
+        detours += u64::from(!problem.checker().edge_free(&problem.start(), &problem.goal()));
         for mut planner in planners_of_discs(&problem) {
             solved(planner.as_mut(), seed, |corners| disc_clearance(&scene, 0.11, corners));
         }
     }
-    assert!(detours > 15, "{detours}: for the others the straight line would do");
+    assert!(5 * detours > 3 * count, "{detours}: for the others the straight line would do");
 }
 
 #[test]

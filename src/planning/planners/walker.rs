@@ -1,14 +1,25 @@
 //! `Walker`, what Bug1 and Bug2 share: a disc that heads for its goal and follows boundaries.
 
+use std::f64::consts::{PI, TAU};
+
 use crate::collision::Problem;
 use crate::configuration::{Chart, Configuration, Coordinates};
 use crate::geometry::{Point2, Vector2};
-use crate::num::{greater, hypot, lesser};
+use crate::num::{greater, hypot, lesser, sin_cos};
 use crate::planning::{Growth, LinePath};
 use crate::robots::{ChartLine, Robot};
 
-/// How often a step along a boundary is halved before the walker is stuck.
-const HALVINGS: u32 = 12;
+/// The first direction that a step along a boundary tries, from the heading: back and to the right, radians.
+const RIGHT: f64 = -0.75 * PI;
+
+/// The number of directions that it tries, a whole turn.
+const DIRECTIONS: u32 = 48;
+
+/// The angle between two of them, radians.
+const TURN: f64 = TAU / 48.0;
+
+/// How often the angle between a direction that keeps the clearance and one that does not is halved.
+const HALVINGS: u32 = 6;
 
 /// The clearance that the usual walker keeps from a boundary, as a share of its radius.
 const KEEP: f64 = 0.5;
@@ -20,6 +31,8 @@ pub(super) struct Walker<R: Robot> {
     pub(super) growth: Growth<R::Configuration, ChartLine<R>>,
     /// The clearance that it keeps from a boundary that it follows, metres.
     pub(super) keep: f64,
+    /// The direction in which it follows a boundary, a unit vector.
+    heading: Vector2,
 }
 
 /// The result of a step toward the goal.
@@ -28,14 +41,6 @@ pub(super) enum Headed {
     Moved,
     Arrived,
     Blocked,
-}
-
-/// The nearest boundary.
-#[derive(Clone, Copy, Debug)]
-struct Wall {
-    clearance: f64,
-    /// The unit vector from the walker's centre to it.
-    toward: Vector2,
 }
 
 impl<R: Robot<Configuration: Chart>> Walker<R> {
@@ -49,7 +54,7 @@ impl<R: Robot<Configuration: Chart>> Walker<R> {
         }
         let mut growth = Growth::new();
         growth.add_root(start);
-        Some(Walker { problem: problem.clone(), growth, keep: KEEP * part.placed().radius() })
+        Some(Walker { problem: problem.clone(), growth, keep: KEEP * part.placed().radius(), heading: Vector2::x() })
     }
 
     /// The number of the node at which it is.
@@ -89,36 +94,46 @@ impl<R: Robot<Configuration: Chart>> Walker<R> {
         free
     }
 
-    fn step(&mut self, by: Vector2) -> bool {
+    fn moved(&self, by: Vector2) -> Option<R::Configuration> {
         let here = self.growth.at(self.node());
         let mut tangent: Coordinates = here.coordinates().iter().map(|_| 0.0).collect();
         (tangent[0], tangent[1]) = (by.x, by.y);
-        here.exp(&tangent).is_some_and(|to| self.go(to))
+        here.exp(&tangent)
     }
 
-    fn wall(&self) -> Option<Wall> {
-        let witness = self.problem.checker().witness(&self.growth.at(self.node())).ok()??;
-        let toward = witness.on_obstacle - self.here();
-        let apart = hypot(toward.x, toward.y);
-        (apart > 0.0).then(|| Wall { clearance: witness.dist, toward: toward / apart })
+    fn step(&mut self, by: Vector2) -> bool {
+        self.moved(by).is_some_and(|to| self.go(to))
     }
 
-    /// Takes a step toward the goal, as long as the clearance allows. It is blocked at a boundary that lies ahead.
+    /// The clearance that it would have after moving by a vector, metres.
+    fn clearance(&self, by: Vector2) -> f64 {
+        self.moved(by).map_or(0.0, |q| self.problem.checker().distance(&q))
+    }
+
+    /// Takes a step toward the goal, as long as the clearance allows. It is blocked where that would come nearer to a
+    /// boundary than it keeps.
     pub(super) fn head(&mut self) -> Headed {
-        let way = self.goal() - self.here();
-        let distance = hypot(way.x, way.y);
         if self.arrive() {
             return Headed::Arrived;
         }
-        let Some(wall) = self.wall() else {
-            return if self.go(self.problem.goal().in_chart()) { Headed::Arrived } else { Headed::Blocked };
-        };
-        let is_at_wall = wall.clearance <= 1.05 * self.keep;
-        if is_at_wall && wall.toward.dot(&way) > 0.0 {
-            return Headed::Blocked;
+        let way = self.goal() - self.here();
+        let (distance, clearance) = (hypot(way.x, way.y), self.clearance(Vector2::zeros()));
+        let length = lesser(greater(clearance - self.keep, self.stride()), distance);
+        let by = way * (length / distance);
+        if self.clearance(by) >= lesser(self.keep, clearance) && self.step(by) {
+            return Headed::Moved;
         }
-        let length = lesser(greater(wall.clearance - self.keep, self.stride()), distance);
-        if self.step(way * (length / distance)) { Headed::Moved } else { Headed::Blocked }
+        self.face();
+        Headed::Blocked
+    }
+
+    /// Turns so that the nearest boundary is at its right hand.
+    fn face(&mut self) {
+        let witness = self.problem.checker().witness(&self.growth.at(self.node())).ok().flatten();
+        if let Some(toward) = witness.map(|w| w.on_obstacle - self.here()) {
+            let apart = greater(hypot(toward.x, toward.y), f64::MIN_POSITIVE);
+            self.heading = Vector2::new(-toward.y, toward.x) / apart;
+        }
     }
 
     /// Goes to the goal where that is near and in sight: it may lie nearer to a boundary than the walker keeps.
@@ -127,20 +142,30 @@ impl<R: Robot<Configuration: Chart>> Walker<R> {
         hypot(way.x, way.y) <= 4.0 * self.keep && self.go(self.problem.goal().in_chart())
     }
 
-    /// Takes a step along the nearest boundary, which is at its right hand. False where it is stuck.
+    /// Takes a step along the boundary at its right hand: in the first direction from the right on, turning left, that
+    /// keeps the clearance. False where there is none.
     pub(super) fn follow(&mut self) -> bool {
-        let Some(wall) = self.wall() else { return false };
-        let along = Vector2::new(-wall.toward.y, wall.toward.x);
-        let correction = (4.0 * (wall.clearance - self.keep) / self.keep).clamp(-1.0, 1.0);
-        let direction = along + wall.toward * correction;
-        let mut length = self.stride() / hypot(direction.x, direction.y);
-        for _ in 0..HALVINGS {
-            if self.step(direction * length) {
-                return true;
+        let least = lesser(self.keep, self.clearance(Vector2::zeros()));
+        let keeps = |walker: &Self, turn: f64| walker.clearance(walker.turned(turn) * walker.stride()) >= least;
+        let Some(first) = (0..DIRECTIONS).find(|k| keeps(self, RIGHT + TURN * f64::from(*k))) else { return false };
+        // between the last direction that does not and the first that does
+        let [mut less, mut more] = [RIGHT + TURN * (f64::from(first) - 1.0), RIGHT + TURN * f64::from(first)];
+        for _ in 0..if first == 0 { 0 } else { HALVINGS } {
+            let middle = 0.5 * (less + more);
+            if keeps(self, middle) {
+                more = middle;
+            } else {
+                less = middle;
             }
-            length *= 0.5;
         }
-        false
+        self.heading = self.turned(more);
+        self.step(self.heading * self.stride())
+    }
+
+    /// Its heading turned by an angle, radians to the left.
+    fn turned(&self, angle: f64) -> Vector2 {
+        let ((sin, cos), v) = (sin_cos(angle), self.heading);
+        Vector2::new(cos * v.x - sin * v.y, sin * v.x + cos * v.y)
     }
 
     /// The certified path from the start to where it is.
