@@ -148,8 +148,9 @@ pub mod prelude {
     pub use crate::collision::{
         CarChecker, ChainChecker, Checker, Collision, DiscChecker, EdgeVerdict, Problem, Scene, Witness,
     };
-    pub use crate::configuration::{Configuration, HitchCfg, R2, T2, Tn};
+    pub use crate::configuration::{Chart, Configuration, HitchCfg, R2, T2, Tn};
     pub use crate::geometry::{Footprint, Part, Point2, Pose2, Segment, Shape, Vector2};
+    pub use crate::planning::{LinePath, NoPath, Planner, Progress, solve};
     pub use crate::random::{Seed, Stream};
     pub use crate::robots::{CarCmd, Drivable, HITCH, Hitch, Motion, RUSTY, Reach, Robot, Rusty, RustyCmd, RustyDisc};
     pub use crate::worlds::World;

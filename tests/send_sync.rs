@@ -8,6 +8,7 @@ use motion_lab::collision::{
 use motion_lab::configuration::{ChartMismatch, Coordinates};
 use motion_lab::geometry::{Aabb, ConvexPolygon, Placed, ShapeError};
 use motion_lab::picture::{Figure, Item, Picture};
+use motion_lab::planning::{Bounds, Metric, Nearest, Prm, RrtConnect, RrtStar, VisibilityGraph};
 use motion_lab::prelude::*;
 use motion_lab::robots::{ChartLine, ConfigurationError, HitchArc, PartRates, RustyArc};
 use motion_lab::sensors::{BeamModel, RangeSensor};
@@ -29,6 +30,8 @@ const _: () = {
     shared::<Problem<RustyDisc>>();
     shared::<Problem<Reach<2>>>();
     shared::<Problem<Hitch>>();
+    shared::<(LinePath<Reach<2>>, RrtConnect<Reach<2>>, RrtStar<Hitch>, Prm<Rusty>, VisibilityGraph<RustyDisc>)>();
+    shared::<(Bounds, NoPath, Metric, Nearest)>();
     shared::<(Witness, ObstacleId, EdgeVerdict, MarchOptions, Certificate, ProvenStep, QueryCounts)>();
     shared::<(Rusty, RustyDisc, Reach<2>, Reach<3>, Hitch)>();
     shared::<(R2, Pose2, T2, Tn<3>, HitchCfg, Coordinates)>();

@@ -12,6 +12,7 @@ mod crowd;
 mod edges;
 mod measure;
 mod peer;
+mod plans;
 mod queries;
 mod readme;
 mod rectangles;
@@ -92,6 +93,7 @@ fn main() {
     }
     queries::rows(&mut table);
     edges::rows(&mut table);
+    plans::rows(&mut table);
     runs::rows(&mut table);
     crowd::rows(&mut table);
     crowd::replicas(&mut table);

@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use super::motion::decide::{is_free, verdict};
 use super::{Certificate, Collision, EdgeVerdict, MarchOptions, Scene, Witness};
+use crate::configuration::Coordinates;
 use crate::geometry::{Footprint, Shape, Vector2};
 use crate::robots::{ConfigurationError, Hitch, Motion, Reach, Robot, RustyDisc};
 
@@ -122,6 +123,22 @@ impl<R: Robot> Checker<R> {
                 (w.dist, (length > 0.0).then(|| away / length))
             }
         })
+    }
+
+    /// The clearance at `q`, metres, and its gradient in the chart: by how much it grows per unit of each coordinate,
+    /// metres per metre and per radian. It is the transposed Jacobian of the nearest point times
+    /// [`clearance_gradient`](Self::clearance_gradient). No gradient in contact, in an empty scene, or for a robot
+    /// without [`Robot::jacobian`]. Where several points are nearest, it is that of one of them.
+    ///
+    /// # Errors
+    /// [`ConfigurationError`] when `q` is not a configuration of this robot.
+    pub fn chart_gradient(&self, q: &R::Configuration) -> Result<(f64, Option<Coordinates>), ConfigurationError> {
+        let (clearance, away) = self.clearance_gradient(q)?;
+        let nearest = if away.is_some() { self.witness(q)? } else { None };
+        let columns = nearest.and_then(|w| self.robot.jacobian(q, w.part, w.on_robot));
+        let gradient =
+            away.zip(columns).map(|(away, columns)| columns.iter().map(|column| column.dot(&away)).collect());
+        Ok((clearance, gradient))
     }
 
     /// Whether the edge is proven free: true wherever [`edge`](Self::edge) says `Free`, false wherever it says `Hit`.

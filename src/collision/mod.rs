@@ -13,6 +13,7 @@ mod queries;
 mod resident;
 mod scene;
 mod surroundings;
+mod ties;
 mod witness;
 
 pub(crate) use boundary::grid::{Cells, Place};

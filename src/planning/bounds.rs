@@ -15,6 +15,13 @@ pub struct Effort {
     pub free: u64,
 }
 
+impl fmt::Display for Effort {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Effort { iterations, samples, edges, .. } = self;
+        write!(f, "{iterations} iterations, {samples} samples, {edges} edges asked about")
+    }
+}
+
 /// One of the bounds of a planner.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Bound {
@@ -36,7 +43,7 @@ impl fmt::Display for Bound {
     }
 }
 
-/// How much a planner may do. The bounds are looked at before each iteration, and an iteration that has begun is
+/// How much a planner may do. The bounds are checked before each iteration, and an iteration that has begun is
 /// finished: so samples and edges may exceed their bounds by those of one iteration.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Bounds {

@@ -56,8 +56,8 @@ impl Metric {
         Metric { axes: (0..like.coordinates().len()).map(axis).collect() }
     }
 
-    /// The metric of the space of `like` with these weights: of an angle in metres per radian, say. A weight of 0 leaves
-    /// a coordinate out.
+    /// The metric of the space of `like` with these weights: of an angle in metres per radian, say. A weight of 0
+    /// leaves a coordinate out.
     ///
     /// # Errors
     /// [`MetricError`]: another number of weights, or one that is negative or not finite.

@@ -19,6 +19,7 @@
 
 mod bounds;
 pub mod curves;
+mod goal;
 mod growth;
 pub mod hybrid;
 mod metric;
@@ -27,14 +28,22 @@ mod no_path;
 mod path;
 mod planner;
 pub mod planners;
+mod queue;
+mod sampling;
 mod settings;
+mod shortcut;
 
 pub use bounds::{Bound, Bounds, Effort};
+pub use goal::{Ball, TipDisc};
 pub use growth::{Growth, Node, Rejection};
 pub use metric::{Metric, MetricError};
 pub use nearest::{Nearest, Neighbour};
 pub use no_path::NoPath;
 pub use path::{CertifiedPath, Leg, LinePath, PathError};
 pub use planner::{Planner, Progress, solve};
-pub use planners::RrtConnect;
+pub use planners::{
+    Bug1, Bug2, CellDecomposition, GridSearch, PotentialField, Prm, Rrt, RrtConnect, RrtStar, VisibilityGraph,
+};
+pub use queue::Queue;
+pub use sampling::{sample_near, sample_toward_goal};
 pub use settings::Settings;

@@ -11,7 +11,7 @@ pub enum NoPath {
     #[error(transparent)]
     Problem(#[from] ProblemError),
     /// A bound was reached first. There may be a path.
-    #[error("no path within the bound on {bound}: {} iterations, {} samples, {} edges asked", effort.iterations, effort.samples, effort.edges)]
+    #[error("no path within the bound on {bound}: {effort}")]
     Exhausted {
         /// The bound.
         bound: Bound,
@@ -24,11 +24,19 @@ pub enum NoPath {
         /// The number of the graph's nodes.
         nodes: usize,
     },
-    /// The goal can't be reached, whatever the planner: the reason is a proof.
-    #[error("the goal can't be reached: {reason}")]
+    /// No path leads to the goal, whatever the planner: configurations that are proven to be in contact part it from
+    /// the start, within the scene's bounds.
+    #[error("the goal can't be reached: {cells} cells prove that obstacles part it from the start")]
     Unreachable {
-        /// The proof in words.
-        reason: &'static str,
+        /// The number of cells that were judged.
+        cells: u64,
+    },
+    /// The planner went all the way round an obstacle, and the goal lies behind it. Whoever keeps less clearance may
+    /// pass through a gap.
+    #[error("the goal lies behind an obstacle without a gap for one that keeps {kept} m from it")]
+    Enclosed {
+        /// The clearance that the planner keeps, metres.
+        kept: f64,
     },
     /// The planner is stuck where nothing near is better: a local minimum of a potential.
     #[error("stuck in a local minimum at configuration {node} of its growth")]
@@ -39,7 +47,8 @@ pub enum NoPath {
     /// The planner does not work for this robot or this space.
     #[error("this planner does not work here: {0}")]
     Unsuited(&'static str),
-    /// The planner said that it had solved the problem, but its path does not stand the check of [`solve`](super::solve).
+    /// The planner said that it had solved the problem, but its path does not stand the check of
+    /// [`solve`](super::solve).
     #[error("the planner's path is refused: {0}")]
     Refused(#[from] PathError),
 }

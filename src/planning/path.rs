@@ -111,6 +111,15 @@ impl<M: Motion> CertifiedPath<M> {
         if legs.is_empty() { Err(PathError::Empty) } else { Ok(CertifiedPath { legs }) }
     }
 
+    /// The path of these legs, at least one, which join.
+    pub(super) fn of_legs(legs: Vec<Leg<M>>) -> Self {
+        CertifiedPath { legs }
+    }
+
+    pub(super) fn into_legs(self) -> Vec<Leg<M>> {
+        self.legs
+    }
+
     /// The legs, at least one.
     pub fn legs(&self) -> &[Leg<M>] {
         &self.legs

@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use super::{ConfigurationError, HITCH, Hitch, Leaving, PartRates, RUSTY, Reach, Robot, Rusty};
+use super::{ConfigurationError, HITCH, Hitch, Leaving, PartRates, PointJacobian, RUSTY, Reach, Robot, Rusty};
 use crate::configuration::{AnyConfiguration, Configuration, HitchCfg, RobotKind, Tn};
 use crate::geometry::{Footprint, Part, Point2, Pose2, Shape};
 use crate::num::{greater, hypot, lesser};
@@ -223,6 +223,16 @@ impl Robot for AnyRobot {
             (AnyRobot::Reach3(r), AnyConfiguration::T3(a), AnyConfiguration::T3(b)) => r.edge_rates(a, b),
             (AnyRobot::Hitch(r), AnyConfiguration::Hitch(a), AnyConfiguration::Hitch(b)) => r.edge_rates(a, b),
             _ => Err(ConfigurationError::OtherRobot),
+        }
+    }
+
+    fn jacobian(&self, q: &AnyConfiguration, part: usize, point: Point2) -> Option<PointJacobian> {
+        match (self, q) {
+            (AnyRobot::Rusty(r), AnyConfiguration::Pose(q)) => r.jacobian(q, part, point),
+            (AnyRobot::Reach(r), AnyConfiguration::T2(q)) => r.jacobian(q, part, point),
+            (AnyRobot::Reach3(r), AnyConfiguration::T3(q)) => r.jacobian(q, part, point),
+            (AnyRobot::Hitch(r), AnyConfiguration::Hitch(q)) => r.jacobian(q, part, point),
+            _ => None,
         }
     }
 

@@ -1,9 +1,11 @@
 //! Hitch, a kinematic car that may pull a trailer.
 
 use super::jackknife::leaves_along_line;
-use super::{ConfigurationError, Drivable, Leaving, Motion, PartRates, Rates, Robot, sample_angle};
+use super::{
+    ConfigurationError, Drivable, Leaving, Motion, PartRates, PointJacobian, Rates, Robot, sample_angle, turning,
+};
 use crate::configuration::{Configuration, HitchCfg};
-use crate::geometry::{Aabb, Footprint, Point2, Pose2};
+use crate::geometry::{Aabb, Footprint, Point2, Pose2, Vector2};
 use crate::num;
 use crate::random::Stream;
 use crate::short_list::ShortList;
@@ -203,6 +205,19 @@ impl Robot for Hitch {
         let body =
             Pose2 { x: stream.uniform(min.x, max.x), y: stream.uniform(min.y, max.y), theta: sample_angle(stream) };
         HitchCfg { body, trailer: self.hitch_len.map(|_| sample_angle(stream)) }
+    }
+
+    /// Either part turns about the rear axle's middle, where the hitch is.
+    fn jacobian(&self, q: &HitchCfg, part: usize, point: Point2) -> Option<PointJacobian> {
+        let (turn, still) = (turning(point, q.body.position()), Vector2::zeros());
+        let moves = [Vector2::x(), Vector2::y()];
+        let turns: &[Vector2] = match (part, q.trailer) {
+            (0, None) => &[turn],
+            (0, Some(_)) => &[turn, still],
+            (1, Some(_)) => &[still, turn],
+            _ => return None,
+        };
+        Some(moves.into_iter().chain(turns.iter().copied()).collect())
     }
 
     /// Chassis: the translation plus the farthest chassis point from the rear axle times the turn. Trailer: the

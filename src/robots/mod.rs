@@ -57,7 +57,7 @@ pub use reach::{JointPoints, Reach, ReachError};
 pub use rusty::{EncoderCounts, RUSTY, Rusty, RustyArc, RustyCmd, RustyDisc, WheelSlip, WheelTurns};
 
 use crate::configuration::{ChartMismatch, Configuration};
-use crate::geometry::{Footprint, Point2, Segment};
+use crate::geometry::{Footprint, Point2, Segment, Vector2};
 use crate::random::Stream;
 use crate::short_list::ShortList;
 
@@ -66,6 +66,10 @@ pub const TICK: f64 = 0.05;
 
 /// The rates of a footprint's parts, in the parts' order.
 pub type PartRates = ShortList<Rates, 3>;
+
+/// The velocity of a point of the robot per unit of each coordinate's rate, in the coordinates' order: metres per metre
+/// and metres per radian. The columns of the point's Jacobian.
+pub type PointJacobian = ShortList<Vector2, 4>;
 
 /// Why a configuration or a control is not one of this robot's.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
@@ -129,6 +133,12 @@ pub trait Robot: Clone + std::fmt::Debug + PartialEq + Send + Sync + 'static {
         None
     }
 
+    /// The Jacobian of the point that is at `point` in the world, metres, and moves with part number `part`, at `q`.
+    /// `None` for a part that the robot does not have, and for a robot that does not say.
+    fn jacobian(&self, _q: &Self::Configuration, _part: usize, _point: Point2) -> Option<PointJacobian> {
+        None
+    }
+
     /// Whether `q` lies within the robot's own limits, which no obstacle sets, such as the angle of a hitch. A
     /// configuration outside is not free. The limit itself lies within.
     ///
@@ -165,6 +175,11 @@ pub trait Drivable: Robot {
     /// # Errors
     /// [`ConfigurationError`] when `q` is not a configuration of this robot, or `u` or `dt` is not finite.
     fn drive(&self, q: &Self::Configuration, u: &Self::Control, dt: f64) -> Result<Self::Drive, ConfigurationError>;
+}
+
+/// The velocity of a point that turns about another at a radian per second, counter-clockwise.
+fn turning(point: Point2, about: Point2) -> Vector2 {
+    Vector2::new(about.y - point.y, point.x - about.x)
 }
 
 /// An angle drawn uniformly from `(-pi, pi]`.

@@ -2,9 +2,9 @@
 
 use std::f64::consts::PI;
 
-use super::{ConfigurationError, Drivable, PartRates, Rates, Robot, sample_angle};
+use super::{ConfigurationError, Drivable, PartRates, PointJacobian, Rates, Robot, sample_angle, turning};
 use crate::configuration::{Configuration, T2, Tn};
-use crate::geometry::{Footprint, Part, Point2, Pose2, Shape, ShapeError, SinCos};
+use crate::geometry::{Footprint, Part, Point2, Pose2, Shape, ShapeError, SinCos, Vector2};
 use crate::num::{self, greater, in_range, wrap};
 use crate::random::Stream;
 use crate::short_list::ShortList;
@@ -159,6 +159,20 @@ impl<const N: usize> Reach<N> {
         self.links(q).last().map_or(self.base, |link| link.end())
     }
 
+    /// The Jacobian of the tip: its velocity per unit of each joint's rate, metres per radian.
+    ///
+    /// Joint k turns all beyond it, so the column is the vector from joint k to the tip, turned a quarter of a turn.
+    ///
+    /// ```
+    /// use motion_lab::prelude::*;
+    /// let columns = Reach::<2>::choset().tip_jacobian(&T2::new(0.0, 0.0)); // stretched out along x
+    /// assert_eq!(columns, [Vector2::new(0.0, 2.0), Vector2::new(0.0, 1.0)]);
+    /// ```
+    pub fn tip_jacobian(&self, q: &Tn<N>) -> [Vector2; N] {
+        let (joints, tip) = (self.fk(q), self.tip(q));
+        std::array::from_fn(|joint| turning(tip, joints[joint]))
+    }
+
     /// The absolute heading of the last link, radians: with [`tip`](Self::tip) the position-and-orientation map.
     pub fn heading(&self, q: &Tn<N>) -> f64 {
         self.links(q).last().map_or(0.0, |link| link.pose.theta)
@@ -190,6 +204,13 @@ impl<const N: usize> Robot for Reach<N> {
             let shape = Shape::Capsule { a: Point2::origin(), b: Point2::new(length, 0.0), radius: self.link_radius };
             Part::new_by(pose, sin_cos, shape)
         }))
+    }
+
+    /// The joints up to a link's own turn its points; those beyond do not move them.
+    fn jacobian(&self, q: &Tn<N>, part: usize, point: Point2) -> Option<PointJacobian> {
+        let joints = self.fk(q);
+        let column = |joint| if joint <= part { turning(point, joints[joint]) } else { Vector2::zeros() };
+        (part < N).then(|| (0..N).map(column).collect())
     }
 
     fn sample(&self, _min: Point2, _max: Point2, stream: &mut Stream) -> Tn<N> {

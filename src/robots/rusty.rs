@@ -2,9 +2,9 @@
 
 use std::f64::consts::{FRAC_PI_2, TAU};
 
-use super::{ConfigurationError, Drivable, Motion, PartRates, Rates, Robot, sample_angle};
+use super::{ConfigurationError, Drivable, Motion, PartRates, PointJacobian, Rates, Robot, sample_angle};
 use crate::configuration::{Configuration, R2};
-use crate::geometry::{CircularArc, Footprint, Point2, Pose2, Segment, Shape, ShapeError, Tangent2};
+use crate::geometry::{CircularArc, Footprint, Point2, Pose2, Segment, Shape, ShapeError, Tangent2, Vector2};
 use crate::num;
 use crate::random::Stream;
 
@@ -144,6 +144,11 @@ impl Robot for Rusty {
         Ok(PartRates::from([Rates { speed: num::hypot(b.x - a.x, b.y - a.y), acceleration: 0.0 }]))
     }
 
+    /// The point moves as the centre does: the contact point of a turning disc slides along it.
+    fn jacobian(&self, _q: &Pose2, part: usize, _point: Point2) -> Option<PointJacobian> {
+        (part == 0).then(|| PointJacobian::from([Vector2::x(), Vector2::y(), Vector2::zeros()]))
+    }
+
     fn disc_line(&self, a: &Pose2, b: &Pose2) -> Option<(Segment, f64)> {
         Some((Segment::new(a.position(), b.position()), self.body_radius))
     }
@@ -246,6 +251,10 @@ impl Robot for RustyDisc {
 
     fn edge_rates(&self, a: &R2, b: &R2) -> Result<PartRates, ConfigurationError> {
         Ok(PartRates::from([Rates { speed: num::hypot(b.0.x - a.0.x, b.0.y - a.0.y), acceleration: 0.0 }]))
+    }
+
+    fn jacobian(&self, _q: &R2, part: usize, _point: Point2) -> Option<PointJacobian> {
+        (part == 0).then(|| PointJacobian::from([Vector2::x(), Vector2::y()]))
     }
 
     fn disc_line(&self, a: &R2, b: &R2) -> Option<(Segment, f64)> {

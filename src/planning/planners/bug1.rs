@@ -1,0 +1,163 @@
+//! `Bug1`, which goes all the way round an obstacle before it leaves it.
+
+use super::walker::{Headed, Walker};
+use crate::collision::Problem;
+use crate::configuration::Chart;
+use crate::geometry::Point2;
+use crate::num::hypot;
+use crate::planning::{Growth, LinePath, NoPath, Planner, Progress};
+use crate::robots::{ChartLine, Robot};
+
+/// The number of steps along a boundary in which the walker comes to the clearance that it keeps.
+const SETTLE: u64 = 16;
+
+/// What the next iteration does.
+#[derive(Clone, Debug)]
+enum Phase {
+    /// Goes straight to the goal.
+    Head,
+    /// Comes to the clearance that it keeps from the boundary.
+    Settle { steps: u64 },
+    /// Follows the boundary, which is at the right hand, from this node on.
+    Round { from: usize },
+    /// Goes back along these nodes, the next one last.
+    Return { nodes: Vec<usize> },
+    /// Leaves for the goal.
+    Leave,
+}
+
+/// Bug1 (Lumelsky and Stepanov, 1987) for a disc that knows where it is and feels the boundary nearest to it.
+///
+/// It heads for the goal. At an obstacle it goes all the way round, with the boundary at the right hand, returns by the
+/// shorter way to where it was nearest to the goal, and leaves for the goal. If the goal then lies behind the obstacle,
+/// it can't be reached: [`NoPath::Enclosed`]. "The obstacle" is all that has no gap wider than what it keeps. The
+/// example `bug1` does the same by a range sensor.
+///
+/// An iteration is one step. A robot that is not a disc gets [`NoPath::Unsuited`] from [`Bug1::try_new`].
+#[derive(Clone, Debug)]
+pub struct Bug1<R: Robot> {
+    walker: Walker<R>,
+    phase: Phase,
+    end: Option<Progress>,
+    path: Option<LinePath<R>>,
+}
+
+impl<R: Robot<Configuration: Chart>> Bug1<R> {
+    /// The planner; it keeps half its radius from a boundary that it follows.
+    ///
+    /// # Errors
+    /// [`NoPath::Unsuited`] for a robot that is not a disc.
+    pub fn try_new(problem: &Problem<R>) -> Result<Self, NoPath> {
+        let walker = Walker::try_new(problem).ok_or(NoPath::Unsuited("Bug1 is for robots that are discs"))?;
+        Ok(Bug1 { walker, phase: Phase::Head, end: None, path: None })
+    }
+
+    fn advance(&mut self) -> Option<Progress> {
+        let leaves = matches!(self.phase, Phase::Leave);
+        match std::mem::replace(&mut self.phase, Phase::Head) {
+            Phase::Head | Phase::Leave => match self.walker.head() {
+                Headed::Moved => None,
+                Headed::Arrived => self.arrived(),
+                Headed::Blocked if leaves => Some(Progress::Ended(NoPath::Enclosed { kept: self.walker.keep })),
+                Headed::Blocked => {
+                    self.phase = Phase::Settle { steps: 0 };
+                    None
+                }
+            },
+            Phase::Settle { steps } => {
+                let node = self.walker.node();
+                self.phase =
+                    if steps < SETTLE { Phase::Settle { steps: steps + 1 } } else { Phase::Round { from: node } };
+                self.follow()
+            }
+            Phase::Round { from } => {
+                let node = self.walker.node();
+                let is_back = node > from + SETTLE as usize
+                    && apart(self.walker.place(node), self.walker.place(from)) < self.walker.stride();
+                if is_back {
+                    self.phase = Phase::Return { nodes: self.way_back(from, node) };
+                    return None;
+                }
+                self.phase = Phase::Round { from };
+                self.follow()
+            }
+            Phase::Return { mut nodes } => match nodes.pop() {
+                None => {
+                    self.phase = Phase::Leave;
+                    None
+                }
+                Some(next) => {
+                    let to = self.walker.growth.at(next);
+                    self.phase = Phase::Return { nodes };
+                    if self.walker.go(to) { None } else { self.stuck() }
+                }
+            },
+        }
+    }
+
+    /// A step along the boundary, or the goal if that is near.
+    fn follow(&mut self) -> Option<Progress> {
+        if self.walker.arrive() {
+            return self.arrived();
+        }
+        if self.walker.follow() { None } else { self.stuck() }
+    }
+
+    /// The nodes of the shorter way from the end of a round to the place nearest to the goal, the first one last.
+    fn way_back(&self, from: usize, end: usize) -> Vec<usize> {
+        let far = |node: usize| apart(self.walker.place(node), self.walker.goal());
+        let leave = (from..=end).fold(from, |best, node| if far(node) < far(best) { node } else { best });
+        let length = |a: usize, b: usize| -> f64 {
+            (a..b).map(|node| apart(self.walker.place(node), self.walker.place(node + 1))).sum()
+        };
+        if length(from, leave) <= length(leave, end) {
+            // once more the way that it went round
+            (from..=leave).rev().collect()
+        } else {
+            (leave..end).collect()
+        }
+    }
+
+    fn arrived(&mut self) -> Option<Progress> {
+        self.path = self.walker.path();
+        if self.path.is_some() { Some(Progress::Solved) } else { self.stuck() }
+    }
+
+    fn stuck(&self) -> Option<Progress> {
+        Some(Progress::Ended(NoPath::LocalMinimum { node: self.walker.node() }))
+    }
+}
+
+fn apart(a: Point2, b: Point2) -> f64 {
+    hypot(a.x - b.x, a.y - b.y)
+}
+
+impl<R: Robot<Configuration: Chart>> Planner<R> for Bug1<R> {
+    fn name(&self) -> &'static str {
+        "bug1"
+    }
+
+    fn problem(&self) -> &Problem<R> {
+        &self.walker.problem
+    }
+
+    fn step(&mut self) -> Progress {
+        if self.end.is_none() {
+            self.walker.growth.begin_iteration();
+            self.end = self.advance();
+        }
+        self.end.clone().unwrap_or(Progress::Growing)
+    }
+
+    fn growth(&self) -> &Growth<R::Configuration, ChartLine<R>> {
+        &self.walker.growth
+    }
+
+    fn motion(&self, from: usize, to: usize) -> Option<ChartLine<R>> {
+        self.walker.growth.line(self.walker.problem.checker().robot(), from, to)
+    }
+
+    fn path(&self) -> Option<&LinePath<R>> {
+        self.path.as_ref()
+    }
+}

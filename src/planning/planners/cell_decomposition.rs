@@ -1,0 +1,180 @@
+//! `CellDecomposition`, a planner that may prove that there is no path.
+
+use crate::collision::Problem;
+use crate::configuration::{AnyConfiguration, Configuration};
+use crate::cspace::{CellMap, CellState, Slice};
+use crate::planning::{Growth, LinePath, NoPath, Planner, Progress, Queue};
+use crate::robots::{AnyRobot, ChartLine};
+
+/// The level of the finest cells: a 128th of the space's sides.
+const FINEST: u32 = 7;
+
+/// The number of cells that an iteration judges.
+const CELLS: u32 = 256;
+
+/// Approximate cell decomposition (Brooks and Lozano-Perez, 1985): the cells of the configuration space are cut until
+/// cells proven free join the start to the goal, or cells proven blocked part them.
+///
+/// The first gives a path through the middles of cells, the second a proof: [`NoPath::Unreachable`]. It is for spaces
+/// of two dimensions: a disc's positions within the scene's bounds, and an arm of two links. Any other robot ends it
+/// with [`NoPath::Unsuited`]. Where the finest cells decide neither it ends with [`NoPath::NoneInGraph`].
+///
+/// An iteration judges 256 cells.
+#[derive(Clone, Debug)]
+pub struct CellDecomposition {
+    problem: Problem<AnyRobot>,
+    map: Option<CellMap>,
+    growth: Growth<AnyConfiguration, ChartLine<AnyRobot>>,
+    end: Option<Progress>,
+    path: Option<LinePath<AnyRobot>>,
+}
+
+impl CellDecomposition {
+    /// The planner, with nothing known of any cell.
+    pub fn new(problem: Problem<AnyRobot>) -> Self {
+        let slice = Slice::through(problem.checker(), &problem.start()).ok();
+        // where other coordinates matter too, parting the start from the goal in the slice proves nothing
+        let slice = slice.filter(|slice| slice.held().is_empty());
+        let reason = "cells are for discs and for arms of two links";
+        let end = slice.is_none().then_some(Progress::Ended(NoPath::Unsuited(reason)));
+        let mut growth = Growth::new();
+        growth.add_root(problem.start().in_chart());
+        CellDecomposition { problem, map: slice.map(|slice| CellMap::new(slice, FINEST)), growth, end, path: None }
+    }
+
+    /// The cells, to be drawn; `None` for a robot that the planner is not for.
+    pub fn map(&self) -> Option<&CellMap> {
+        self.map.as_ref()
+    }
+
+    fn advance(&mut self) -> Option<Progress> {
+        let map = self.map.as_mut()?;
+        let is_done = !map.refine(CELLS);
+        let raster = Raster::of(map);
+        let [start, goal] = [self.problem.start(), self.problem.goal()].map(|q| raster.cell(map.slice().point(&q)));
+        if let Some(cells) = raster.way(start, goal, |state| state == CellState::Free) {
+            let middles: Vec<AnyConfiguration> =
+                cells.iter().map(|cell| map.slice().at(raster.middle(*cell))).collect();
+            let goal = self.problem.goal().in_chart();
+            let mut node = 0;
+            for q in middles.into_iter().chain([goal]) {
+                if !self.growth.ask_edge(self.problem.checker(), &self.growth.at(node), &q) {
+                    return Some(self.undecided());
+                }
+                node = self.growth.add(q, node);
+            }
+            self.path = self.growth.certified(self.problem.checker(), &self.growth.branch(node));
+            return Some(if self.path.is_some() { Progress::Solved } else { self.undecided() });
+        }
+        if raster.way(start, goal, |state| state != CellState::Blocked).is_none() {
+            return Some(Progress::Ended(NoPath::Unreachable { cells: map.progress().judged }));
+        }
+        is_done.then(|| self.undecided())
+    }
+
+    fn undecided(&self) -> Progress {
+        let nodes = self.map.as_ref().map_or(0, |map| map.leaves().count());
+        Progress::Ended(NoPath::NoneInGraph { nodes })
+    }
+}
+
+/// The states of the finest cells, row after row.
+struct Raster {
+    states: Vec<CellState>,
+    side: usize,
+    min: [f64; 2],
+    /// The sides of a cell.
+    steps: [f64; 2],
+    wraps: bool,
+}
+
+impl Raster {
+    fn of(map: &CellMap) -> Self {
+        let (min, max, side) = (map.slice().min(), map.slice().max(), 1 << map.finest());
+        let steps = [0, 1].map(|i| (max[i] - min[i]) / side as f64);
+        Raster { states: map.raster(map.finest()), side, min, steps, wraps: map.slice().wraps() }
+    }
+
+    /// The number of the cell in which a point lies; beyond the slice, of the nearest.
+    fn cell(&self, p: [f64; 2]) -> usize {
+        let last = (self.side - 1) as f64;
+        let [column, row] = [0, 1].map(|i| ((p[i] - self.min[i]) / self.steps[i]).floor().clamp(0.0, last) as usize);
+        row * self.side + column
+    }
+
+    fn middle(&self, cell: usize) -> [f64; 2] {
+        let place = [cell % self.side, cell / self.side];
+        [0, 1].map(|i| self.min[i] + (place[i] as f64 + 0.5) * self.steps[i])
+    }
+
+    /// The cells that share a side with a cell, with the distance to them. A way through a corner alone would touch the
+    /// cells on both sides of it, so those decide.
+    fn beside(&self, cell: usize) -> impl Iterator<Item = (usize, f64)> + '_ {
+        let (place, side) = ([cell % self.side, cell / self.side], self.side);
+        [(0, side - 1), (0, 1), (1, side - 1), (1, 1)].into_iter().filter_map(move |(i, step)| {
+            let mut other = place;
+            other[i] = (place[i] + step) % side;
+            let across = place[i].abs_diff(other[i]) > 1;
+            (self.wraps || !across).then(|| (other[1] * side + other[0], self.steps[i]))
+        })
+    }
+
+    /// The shortest way from cell to cell through those whose state `passes`, both ends too.
+    fn way(&self, start: usize, goal: usize, passes: impl Fn(CellState) -> bool) -> Option<Vec<usize>> {
+        let mut costs = vec![f64::INFINITY; self.states.len()];
+        let mut before = vec![start; self.states.len()];
+        let mut open = Queue::new();
+        if passes(self.states[start]) {
+            costs[start] = 0.0;
+            open.push(0.0, start);
+        }
+        while let Some(cell) = open.pop().filter(|cell| *cell != goal) {
+            for (other, length) in self.beside(cell) {
+                let cost = costs[cell] + length;
+                if cost < costs[other] && passes(self.states[other]) {
+                    (costs[other], before[other]) = (cost, cell);
+                    open.push(cost, other);
+                }
+            }
+        }
+        if costs[goal] == f64::INFINITY {
+            return None;
+        }
+        let mut cells = vec![goal];
+        while cells[cells.len() - 1] != start {
+            cells.push(before[cells[cells.len() - 1]]);
+        }
+        cells.reverse();
+        Some(cells)
+    }
+}
+
+impl Planner<AnyRobot> for CellDecomposition {
+    fn name(&self) -> &'static str {
+        "cell-decomposition"
+    }
+
+    fn problem(&self) -> &Problem<AnyRobot> {
+        &self.problem
+    }
+
+    fn step(&mut self) -> Progress {
+        if self.end.is_none() {
+            self.growth.begin_iteration();
+            self.end = self.advance();
+        }
+        self.end.clone().unwrap_or(Progress::Growing)
+    }
+
+    fn growth(&self) -> &Growth<AnyConfiguration, ChartLine<AnyRobot>> {
+        &self.growth
+    }
+
+    fn motion(&self, from: usize, to: usize) -> Option<ChartLine<AnyRobot>> {
+        self.growth.line(self.problem.checker().robot(), from, to)
+    }
+
+    fn path(&self) -> Option<&LinePath<AnyRobot>> {
+        self.path.as_ref()
+    }
+}

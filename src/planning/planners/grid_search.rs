@@ -1,0 +1,231 @@
+//! `GridSearch`: A* and Dijkstra's algorithm on a grid of configurations.
+
+use std::collections::BTreeMap;
+use std::f64::consts::TAU;
+
+use crate::collision::Problem;
+use crate::configuration::{Chart, Configuration, Coordinates};
+use crate::planning::{Growth, LinePath, Metric, NoPath, Planner, Progress, Queue, Settings};
+use crate::robots::{ChartLine, Robot};
+use crate::short_list::ShortList;
+
+/// The number of steps of the grid to a step of the sampling planners.
+const FINER: f64 = 4.0;
+
+/// A place on the grid: the number of steps from the start along each coordinate, angles from 0 to a turn.
+type Place = ShortList<i32, 4>;
+
+/// Along a coordinate of the grid.
+#[derive(Clone, Copy, Debug)]
+struct Axis {
+    /// The length of a step, metres or radians.
+    step: f64,
+    /// The number of steps of a whole turn; `None` for a length.
+    turn: Option<i32>,
+    /// The range of a length.
+    range: [f64; 2],
+}
+
+/// A best-first search of a grid that is laid through the start: A* (Hart, Nilsson and Raphael, 1968), whose heuristic
+/// is the distance to the goal by the metric, or Dijkstra's algorithm (1959), which has none.
+///
+/// A place is joined to its neighbours along the coordinates and diagonally, and to the goal where that is at most a
+/// diagonal away. Positions lie within the scene's bounds and angles wrap, so the grid is finite, and the search ends
+/// with [`NoPath::NoneInGraph`] where it holds no path. That depends on the grid's step: a finer one may hold a path.
+///
+/// An iteration expands one place and asks about at most `3^d` edges in d dimensions, each when it would shorten a way.
+#[derive(Clone, Debug)]
+pub struct GridSearch<R: Robot> {
+    problem: Problem<R>,
+    metric: Metric,
+    has_heuristic: bool,
+    axes: ShortList<Axis, 4>,
+    growth: Growth<R::Configuration, ChartLine<R>>,
+    /// The nodes of the places reached.
+    nodes: BTreeMap<[i32; 4], usize>,
+    /// The place of each node; `None` for the goal beside the grid.
+    places: Vec<Option<Place>>,
+    costs: Vec<f64>,
+    is_closed: Vec<bool>,
+    open: Queue,
+    end: Option<Progress>,
+    path: Option<LinePath<R>>,
+}
+
+impl<R: Robot<Configuration: Chart>> GridSearch<R> {
+    /// A* on the usual grid.
+    pub fn a_star(problem: Problem<R>) -> Self {
+        let step = Settings::of(&problem).step / FINER;
+        Self::of(problem, step, true)
+    }
+
+    /// Dijkstra's algorithm on the usual grid.
+    pub fn dijkstra(problem: Problem<R>) -> Self {
+        let step = Settings::of(&problem).step / FINER;
+        Self::of(problem, step, false)
+    }
+
+    /// A search of the grid with this step, metres and radians; for angles the next lower part of a turn. The goal
+    /// attracts it if `has_heuristic`.
+    ///
+    /// A step that is not above 0 gives a search that ends with [`NoPath::Unsuited`].
+    pub fn of(problem: Problem<R>, step: f64, has_heuristic: bool) -> Self {
+        let (start, bounds) = (problem.start().in_chart(), problem.checker().scene().bounds());
+        let axis = |i: usize| {
+            if start.is_angle(i) {
+                let turn = (TAU / step).ceil().clamp(1.0, 1e6);
+                return Axis { step: TAU / turn, turn: Some(turn as i32), range: [0.0; 2] };
+            }
+            let range = if i == 0 { [bounds.min.x, bounds.max.x] } else { [bounds.min.y, bounds.max.y] };
+            Axis { step, turn: None, range }
+        };
+        let dimensions = start.coordinates().len();
+        let axes: ShortList<Axis, 4> = (0..dimensions).map(axis).collect();
+        let fits = dimensions <= 4 && step > 0.0 && step.is_finite();
+        let reason = "a grid has at most four coordinates and a step above 0";
+        let mut search = GridSearch {
+            metric: Metric::unit(&start),
+            problem,
+            has_heuristic,
+            axes,
+            growth: Growth::new(),
+            nodes: BTreeMap::new(),
+            places: Vec::new(),
+            costs: Vec::new(),
+            is_closed: Vec::new(),
+            open: Queue::new(),
+            end: (!fits).then_some(Progress::Ended(NoPath::Unsuited(reason))),
+            path: None,
+        };
+        if fits {
+            let root = search.growth.add_root(start);
+            search.enlist(root, Some((0..dimensions).map(|_| 0).collect()), 0.0);
+        }
+        search
+    }
+
+    fn enlist(&mut self, node: usize, place: Option<Place>, cost: f64) {
+        if let Some(place) = &place {
+            self.nodes.insert(key(place), node);
+        }
+        self.places.push(place);
+        self.costs.push(cost);
+        self.is_closed.push(false);
+        self.queue(node);
+    }
+
+    fn queue(&mut self, node: usize) {
+        let rest = self.metric.distance(&self.growth.at(node), &self.problem.goal());
+        self.open.push(self.costs[node] + if self.has_heuristic { rest } else { 0.0 }, node);
+    }
+
+    /// The configuration at a place; `None` outside the scene's bounds.
+    fn at(&self, place: &Place) -> Option<R::Configuration> {
+        let tangent: Coordinates = self.axes.iter().zip(place).map(|(axis, k)| axis.step * f64::from(*k)).collect();
+        let q = self.problem.start().in_chart().exp(&tangent)?;
+        let holds = |(axis, c): (&Axis, &f64)| axis.turn.is_some() || (*c >= axis.range[0] && *c <= axis.range[1]);
+        self.axes.iter().zip(&q.coordinates()).all(holds).then_some(q)
+    }
+
+    /// The places beside a place, diagonals too.
+    fn beside(&self, place: &Place) -> Vec<Place> {
+        let count = 3_usize.pow(place.len() as u32);
+        let neighbour = |mut number: usize| -> Place {
+            let along = |(k, axis): (&i32, &Axis)| {
+                let moved = k + (number % 3) as i32 - 1;
+                number /= 3;
+                axis.turn.map_or(moved, |turn| moved.rem_euclid(turn))
+            };
+            place.iter().zip(&self.axes).map(along).collect()
+        };
+        (0..count).map(neighbour).filter(|other| key(other) != key(place)).collect()
+    }
+
+    /// Reaches a place from a node, or the goal where there is no place, if that is a shorter way and free.
+    fn relax(&mut self, from: usize, place: Option<Place>, q: R::Configuration, known: Option<usize>) {
+        let cost = self.costs[from] + self.metric.distance(&self.growth.at(from), &q);
+        if known.is_some_and(|node| self.is_closed[node] || self.costs[node] <= cost)
+            || !self.growth.ask_edge(self.problem.checker(), &self.growth.at(from), &q)
+        {
+            return;
+        }
+        if let Some(node) = known {
+            self.growth.set_parent(node, from);
+            self.costs[node] = cost;
+            self.queue(node);
+        } else {
+            let node = self.growth.add(q, from);
+            self.enlist(node, place, cost);
+        }
+    }
+
+    fn expand(&mut self, node: usize) -> Option<Progress> {
+        self.is_closed[node] = true;
+        if self.problem.is_goal(&self.growth.at(node)) {
+            self.path = self.growth.certified(self.problem.checker(), &self.growth.branch(node));
+            return self.path.is_some().then_some(Progress::Solved);
+        }
+        let place = self.places[node].clone()?;
+        let goal = self.problem.goal().in_chart();
+        let diagonal = crate::num::sqrt(self.axes.iter().map(|axis| axis.step * axis.step).sum());
+        if self.metric.distance(&self.growth.at(node), &goal) <= diagonal {
+            let known = (0..self.places.len()).find(|i| self.places[*i].is_none());
+            self.relax(node, None, goal, known);
+        }
+        for other in self.beside(&place) {
+            if let Some(q) = self.at(&other) {
+                let known = self.nodes.get(&key(&other)).copied();
+                self.relax(node, Some(other), q, known);
+            }
+        }
+        None
+    }
+}
+
+/// A place as a key of a map.
+fn key(place: &Place) -> [i32; 4] {
+    let mut key = [0; 4];
+    for (k, at) in key.iter_mut().zip(place) {
+        *k = *at;
+    }
+    key
+}
+
+impl<R: Robot<Configuration: Chart>> Planner<R> for GridSearch<R> {
+    fn name(&self) -> &'static str {
+        if self.has_heuristic { "a-star" } else { "dijkstra" }
+    }
+
+    fn problem(&self) -> &Problem<R> {
+        &self.problem
+    }
+
+    fn step(&mut self) -> Progress {
+        if let Some(end) = &self.end {
+            return end.clone();
+        }
+        self.growth.begin_iteration();
+        // a place that was reached by a shorter way since is in the queue twice
+        let mut next = self.open.pop();
+        while next.is_some_and(|node| self.is_closed[node]) {
+            next = self.open.pop();
+        }
+        self.end = match next {
+            Some(node) => self.expand(node),
+            None => Some(Progress::Ended(NoPath::NoneInGraph { nodes: self.growth.nodes().len() })),
+        };
+        self.end.clone().unwrap_or(Progress::Growing)
+    }
+
+    fn growth(&self) -> &Growth<R::Configuration, ChartLine<R>> {
+        &self.growth
+    }
+
+    fn motion(&self, from: usize, to: usize) -> Option<ChartLine<R>> {
+        self.growth.line(self.problem.checker().robot(), from, to)
+    }
+
+    fn path(&self) -> Option<&LinePath<R>> {
+        self.path.as_ref()
+    }
+}

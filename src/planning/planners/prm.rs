@@ -1,0 +1,134 @@
+//! `Prm`, a roadmap of samples.
+
+use crate::collision::Problem;
+use crate::configuration::{Chart, Configuration};
+use crate::planning::{Growth, LinePath, Metric, Nearest, Neighbour, Planner, Progress, Queue};
+use crate::robots::{ChartLine, Robot};
+
+/// The number of neighbours that a new node is joined to, where the edges are free.
+const NEIGHBOURS: usize = 10;
+
+/// A probabilistic roadmap (Kavraki, Svestka, Latombe and Overmars, 1996) that is built until it joins the start to the
+/// goal: each free sample is joined to its nearest neighbours. The path is the roadmap's shortest.
+///
+/// An iteration draws a sample and asks about at most ten edges. The start and the goal are nodes 0 and 1.
+#[derive(Clone, Debug)]
+pub struct Prm<R: Robot> {
+    problem: Problem<R>,
+    growth: Growth<R::Configuration, ChartLine<R>>,
+    near: Nearest,
+    /// The edges of each node, with their lengths.
+    roads: Vec<Vec<Neighbour>>,
+    /// A node of the same component with a lower number, or itself.
+    components: Vec<usize>,
+    path: Option<LinePath<R>>,
+}
+
+impl<R: Robot<Configuration: Chart>> Prm<R> {
+    /// The planner by the metric in which a metre counts as much as a radian.
+    pub fn new(problem: Problem<R>) -> Self {
+        let metric = Metric::unit(&problem.start());
+        Self::with_metric(problem, metric)
+    }
+
+    /// The planner by this metric.
+    pub fn with_metric(problem: Problem<R>, metric: Metric) -> Self {
+        let near = Nearest::new(metric);
+        let (growth, roads, components) = (Growth::new(), Vec::new(), Vec::new());
+        let ends = [problem.start(), problem.goal()].map(|q| q.in_chart());
+        let mut planner = Prm { problem, growth, near, roads, components, path: None };
+        for end in ends {
+            planner.place(end);
+        }
+        planner
+    }
+
+    /// Adds a node and joins it to its neighbours.
+    fn place(&mut self, q: R::Configuration) {
+        let node = self.growth.add_root(q);
+        let neighbours = self.near.nearest_few(&q, NEIGHBOURS);
+        self.near.add(&q, node);
+        self.roads.push(Vec::new());
+        self.components.push(node);
+        for Neighbour { number, distance } in neighbours {
+            if self.growth.ask_edge(self.problem.checker(), &self.growth.at(number), &q) {
+                self.growth.link(number, node);
+                self.roads[node].push(Neighbour { number, distance });
+                self.roads[number].push(Neighbour { number: node, distance });
+                let (a, b) = (self.component(number), self.component(node));
+                self.components[a.max(b)] = a.min(b);
+            }
+        }
+    }
+
+    fn component(&self, mut node: usize) -> usize {
+        while self.components[node] != node {
+            node = self.components[node];
+        }
+        node
+    }
+
+    /// The nodes of the roadmap's shortest way from the start to the goal (Dijkstra, 1959).
+    fn shortest(&self) -> Vec<usize> {
+        let mut costs = vec![f64::INFINITY; self.roads.len()];
+        let mut before = vec![0; self.roads.len()];
+        let mut open = Queue::new();
+        costs[0] = 0.0;
+        open.push(0.0, 0);
+        while let Some(node) = open.pop().filter(|node| *node != 1) {
+            for road in &self.roads[node] {
+                let cost = costs[node] + road.distance;
+                if cost < costs[road.number] {
+                    (costs[road.number], before[road.number]) = (cost, node);
+                    open.push(cost, road.number);
+                }
+            }
+        }
+        let mut nodes = vec![1];
+        while nodes[nodes.len() - 1] != 0 {
+            nodes.push(before[nodes[nodes.len() - 1]]);
+        }
+        nodes.reverse();
+        nodes
+    }
+}
+
+impl<R: Robot<Configuration: Chart>> Planner<R> for Prm<R> {
+    fn name(&self) -> &'static str {
+        "prm"
+    }
+
+    fn problem(&self) -> &Problem<R> {
+        &self.problem
+    }
+
+    fn step(&mut self) -> Progress {
+        if self.path.is_none() {
+            self.growth.begin_iteration();
+            // at first the straight line may have joined them
+            if self.component(0) != self.component(1) || self.growth.effort().iterations > 1 {
+                let sample = self.problem.sample();
+                self.growth.count_sample();
+                if self.problem.checker().is_free(&sample) {
+                    self.place(sample);
+                }
+            }
+            if self.component(0) == self.component(1) {
+                self.path = self.growth.certified(self.problem.checker(), &self.shortest());
+            }
+        }
+        if self.path.is_some() { Progress::Solved } else { Progress::Growing }
+    }
+
+    fn growth(&self) -> &Growth<R::Configuration, ChartLine<R>> {
+        &self.growth
+    }
+
+    fn motion(&self, from: usize, to: usize) -> Option<ChartLine<R>> {
+        self.growth.line(self.problem.checker().robot(), from, to)
+    }
+
+    fn path(&self) -> Option<&LinePath<R>> {
+        self.path.as_ref()
+    }
+}

@@ -1,0 +1,194 @@
+//! `VisibilityGraph`, for a disc: the corners of the grown obstacles that see one another.
+
+use std::f64::consts::TAU;
+
+use crate::collision::{Problem, Scene};
+use crate::configuration::{Chart, Configuration, Coordinates};
+use crate::geometry::{Footprint, Placed, Point2, Vector2};
+use crate::num::{cos, sin_cos, sqrt};
+use crate::planning::{Growth, LinePath, NoPath, Planner, Progress, Queue};
+use crate::robots::{ChartLine, Robot};
+
+/// The number of directions about a vertex in which the grown obstacle has corners. A path about a corner is longer
+/// than the arc by at most two per cent.
+const DIRECTIONS: u32 = 16;
+
+/// How far the corners keep from the obstacles beyond the robot's radius, metres.
+const MARGIN: f64 = 1e-6;
+
+/// The visibility graph (Lozano-Perez and Wesley, 1979) of a robot that is a disc, searched by A*.
+///
+/// Every obstacle is grown by the radius: about each vertex stands a polygon of sixteen corners that circumscribes the
+/// rounded corner. Two corners see one another where the edge between them is proven free. The edges are asked about
+/// when the search comes to them. Headings turn on the way to the goal.
+///
+/// An iteration expands one corner and asks about at most as many edges as there are corners. A robot that is not a
+/// disc ends it with [`NoPath::Unsuited`]. [`NoPath::NoneInGraph`] is no proof where the way is hardly wider than the
+/// robot.
+#[derive(Clone, Debug)]
+pub struct VisibilityGraph<R: Robot> {
+    problem: Problem<R>,
+    growth: Growth<R::Configuration, ChartLine<R>>,
+    /// The corners, after the goal and before the start; with the node of each that was reached.
+    corners: Vec<(R::Configuration, Option<usize>)>,
+    /// The corner of each node.
+    of_node: Vec<usize>,
+    costs: Vec<f64>,
+    is_closed: Vec<bool>,
+    open: Queue,
+    end: Option<Progress>,
+    path: Option<LinePath<R>>,
+}
+
+impl<R: Robot<Configuration: Chart>> VisibilityGraph<R> {
+    /// The planner, with the corners of all obstacles.
+    pub fn new(problem: Problem<R>) -> Self {
+        let (start, goal) = (problem.start().in_chart(), problem.goal().in_chart());
+        let radius = radius_of(&problem.checker().robot().footprint(&start));
+        let at = |p: Point2| {
+            let mut tangent: Coordinates = start.coordinates().iter().map(|_| 0.0).collect();
+            (tangent[0], tangent[1]) = (p.x - start.coordinates()[0], p.y - start.coordinates()[1]);
+            start.exp(&tangent)
+        };
+        let mut corners = vec![goal];
+        if let Some(radius) = radius {
+            let grown = corners_of(problem.checker().scene(), radius);
+            corners.extend(grown.into_iter().filter_map(at).filter(|q| problem.checker().is_free(q)));
+        }
+        corners.push(start);
+        let reason = "a visibility graph is for robots that are discs";
+        let mut planner = VisibilityGraph {
+            problem,
+            growth: Growth::new(),
+            of_node: Vec::new(),
+            costs: Vec::new(),
+            is_closed: Vec::new(),
+            open: Queue::new(),
+            end: radius.is_none().then_some(Progress::Ended(NoPath::Unsuited(reason))),
+            path: None,
+            corners: corners.into_iter().map(|q| (q, None)).collect(),
+        };
+        let root = planner.growth.add_root(start);
+        planner.enlist(root, planner.corners.len() - 1, 0.0);
+        planner
+    }
+
+    fn enlist(&mut self, node: usize, corner: usize, cost: f64) {
+        self.corners[corner].1 = Some(node);
+        self.of_node.push(corner);
+        self.costs.push(cost);
+        self.is_closed.push(false);
+        self.open.push(cost + apart(&self.growth.at(node), &self.problem.goal()), node);
+    }
+
+    fn expand(&mut self, node: usize) -> Option<Progress> {
+        self.is_closed[node] = true;
+        let (from, goal) = (self.growth.at(node), self.problem.goal());
+        if self.of_node[node] == 0 {
+            self.path = self.growth.certified(self.problem.checker(), &self.growth.branch(node));
+            return self.path.is_some().then_some(Progress::Solved);
+        }
+        for corner in 0..self.corners.len() {
+            let (to, known) = self.corners[corner];
+            let cost = self.costs[node] + apart(&from, &to);
+            if known.is_some_and(|known| self.is_closed[known] || self.costs[known] <= cost)
+                || !self.growth.ask_edge(self.problem.checker(), &from, &to)
+            {
+                continue;
+            }
+            match known {
+                Some(known) => {
+                    self.growth.set_parent(known, node);
+                    self.costs[known] = cost;
+                    self.open.push(cost + apart(&to, &goal), known);
+                }
+                None => {
+                    let reached = self.growth.add(to, node);
+                    self.enlist(reached, corner, cost);
+                }
+            }
+        }
+        None
+    }
+}
+
+/// The radius of a footprint that is a disc, metres.
+fn radius_of(footprint: &Footprint) -> Option<f64> {
+    match footprint.parts() {
+        [part] if part.placed().core().len() == 1 => Some(part.placed().radius()),
+        _ => None,
+    }
+}
+
+/// The distance of two positions, metres.
+fn apart<C: Configuration>(a: &C, b: &C) -> f64 {
+    let (a, b) = (a.coordinates(), b.coordinates());
+    sqrt((a[0] - b[0]) * (a[0] - b[0]) + (a[1] - b[1]) * (a[1] - b[1]))
+}
+
+/// The corners of every obstacle grown by a radius, in file order.
+fn corners_of(scene: &Scene, radius: f64) -> Vec<Point2> {
+    scene.pieces().flat_map(|(_, piece)| around(piece, radius)).collect()
+}
+
+/// The corners about each vertex of a placed shape, in the directions that lead outward.
+fn around(piece: &Placed, radius: f64) -> Vec<Point2> {
+    let core = piece.core();
+    let part = TAU / f64::from(DIRECTIONS);
+    let reach = (piece.radius() + radius + MARGIN) / cos(0.5 * part);
+    let mut corners = Vec::new();
+    for &vertex in core {
+        for k in 0..DIRECTIONS {
+            let (sin, cos_k) = sin_cos(part * f64::from(k));
+            let direction = Vector2::new(cos_k, sin);
+            // at most one direction beyond those in which no other vertex lies farther out
+            let is_outward = core.iter().all(|other| {
+                let side = other - vertex;
+                direction.dot(&side) <= sqrt(side.dot(&side)) * sin_cos(part).0
+            });
+            if is_outward {
+                corners.push(vertex + direction * reach);
+            }
+        }
+    }
+    corners
+}
+
+impl<R: Robot<Configuration: Chart>> Planner<R> for VisibilityGraph<R> {
+    fn name(&self) -> &'static str {
+        "visibility-graph"
+    }
+
+    fn problem(&self) -> &Problem<R> {
+        &self.problem
+    }
+
+    fn step(&mut self) -> Progress {
+        if let Some(end) = &self.end {
+            return end.clone();
+        }
+        self.growth.begin_iteration();
+        // a corner that was reached by a shorter way since is in the queue twice
+        let mut next = self.open.pop();
+        while next.is_some_and(|node| self.is_closed[node]) {
+            next = self.open.pop();
+        }
+        self.end = match next {
+            Some(node) => self.expand(node),
+            None => Some(Progress::Ended(NoPath::NoneInGraph { nodes: self.corners.len() })),
+        };
+        self.end.clone().unwrap_or(Progress::Growing)
+    }
+
+    fn growth(&self) -> &Growth<R::Configuration, ChartLine<R>> {
+        &self.growth
+    }
+
+    fn motion(&self, from: usize, to: usize) -> Option<ChartLine<R>> {
+        self.growth.line(self.problem.checker().robot(), from, to)
+    }
+
+    fn path(&self) -> Option<&LinePath<R>> {
+        self.path.as_ref()
+    }
+}
