@@ -45,7 +45,7 @@ Examples:
   motion-lab plan --robot reach --from 2.0,0 --to 3.1,0 --svg path.svg
   motion-lab plan --planner rrt-connect --robot reach --from 2.0,0 --to 3.1,0 --seed 7 -o path.json --script out.ron
   motion-lab plan --robot hitch --from 6.5,2.5,0,0 --to 6.75,7,-1.5707963,-1.5707963 --record parked.mcap
-  motion-lab plan --compare rrt-connect --robot rusty --to 9.75,6.25 --seeds 0..100 --csv planners.csv")]
+  motion-lab plan --compare rrt-connect,prm,bug2 --robot rusty --to 9.75,6.25 --seeds 0..100 --csv planners.csv")]
 pub struct PlanArgs {
     /// The planner. [default: hybrid-a-star for a car, rrt-connect for any other robot]
     #[arg(long, value_enum, conflicts_with = "compare")]

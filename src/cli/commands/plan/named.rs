@@ -8,6 +8,24 @@ use motion_lab::robots::AnyRobot;
 pub enum PlannerName {
     /// Two trees that grow toward each other.
     RrtConnect,
+    /// A tree from the start.
+    Rrt,
+    /// A tree from the start whose branches become shorter.
+    RrtStar,
+    /// A roadmap of samples.
+    Prm,
+    /// The shortest way on a grid, the goal's side first.
+    AStar,
+    /// The shortest way on a grid.
+    Dijkstra,
+    /// The corners of the obstacles that see one another; a rover's.
+    VisibilityGraph,
+    /// Downhill to the goal, away from obstacles; it may be stuck.
+    PotentialField,
+    /// All around an obstacle, then on from where the goal was nearest; a rover's.
+    Bug1,
+    /// Around an obstacle until the line to the goal is met again; a rover's.
+    Bug2,
     /// A search over what a car can drive, with a trailer or without.
     HybridAStar,
 }

@@ -5,7 +5,9 @@ use std::sync::Arc;
 use motion_lab::collision::{Checker, Problem, Scene};
 use motion_lab::configuration::{AnyConfiguration, Configuration, R2};
 use motion_lab::planning::hybrid::HybridAStar;
-use motion_lab::planning::{NoPath, Planner, RrtConnect};
+use motion_lab::planning::{
+    Bug1, Bug2, GridSearch, NoPath, Planner, PotentialField, Prm, Rrt, RrtConnect, RrtStar, VisibilityGraph,
+};
 use motion_lab::random::Seed;
 use motion_lab::robots::{AnyRobot, ChartLine, Hitch, HitchArc, Reach, RustyDisc};
 use motion_lab::worlds::World;
@@ -98,6 +100,21 @@ impl Task {
         };
         let planner: Box<dyn Planner<R, ChartLine<R>>> = match name {
             PlannerName::RrtConnect => Box::new(RrtConnect::new(problem)),
+            PlannerName::Rrt => Box::new(Rrt::new(problem)),
+            PlannerName::RrtStar => Box::new(RrtStar::new(problem)),
+            PlannerName::Prm => Box::new(Prm::new(problem)),
+            PlannerName::AStar => Box::new(GridSearch::a_star(problem)),
+            PlannerName::Dijkstra => Box::new(GridSearch::dijkstra(problem)),
+            PlannerName::VisibilityGraph => Box::new(VisibilityGraph::new(problem)),
+            PlannerName::PotentialField => Box::new(PotentialField::new(problem)),
+            PlannerName::Bug1 => match Bug1::try_new(&problem) {
+                Ok(planner) => Box::new(planner),
+                Err(reason) => return Ok(Err(reason)),
+            },
+            PlannerName::Bug2 => match Bug2::try_new(&problem) {
+                Ok(planner) => Box::new(planner),
+                Err(reason) => return Ok(Err(reason)),
+            },
             PlannerName::HybridAStar => {
                 let reason = "hybrid-a-star plans for a car only";
                 return Err(Failure::usage(reason, "Use --planner rrt-connect."));
