@@ -91,6 +91,19 @@ fn a_rover_follows_its_path_at_any_seed() {
 }
 
 #[test]
+fn every_planner_of_a_rover_leads_it_out_of_room_a() {
+    let names = ["rrt-connect", "rrt", "rrt-star", "prm", "a-star", "dijkstra", "visibility-graph", "bug1", "bug2"];
+    for planner in names {
+        let out = run(&["plan", "--planner", planner, "--robot", "Rusty", "--to", "4.5,4", "--json"]).done();
+        let answer = json(&out);
+        assert_eq!(answer["planner"], planner);
+        let length = answer["length"].as_f64().unwrap();
+        // the straight line's length is 3.2 m
+        assert!(length > 3.1 && answer["clearance"].as_f64().unwrap() > 0.0, "{planner}: {out}");
+    }
+}
+
+#[test]
 fn what_has_no_path_is_said_and_is_code_4() {
     let none = |arguments: &[&str]| run(&[&["plan"][..], arguments].concat()).failed(4);
     let in_the_block = none(&["--robot", "reach", "--from", "0.785,0.785", "--to", "3.1,0"]);
@@ -169,6 +182,12 @@ fn planners_are_compared_in_a_table_and_in_rows() {
         assert_eq!(cells[8].parse::<f64>().unwrap(), single["length"].as_f64().unwrap());
         assert_eq!(cells[6].parse::<u64>().unwrap(), single["effort"]["edges"].as_u64().unwrap());
     }
+    // a planner of discs has no path for an arm, and the others go on
+    let more = ["--compare", "bug2,prm,rrt", "--seeds", "1..3"];
+    let table = run_in(folder.path(), &[&ROUND_THE_POST[..], &more].concat()).done();
+    let line = |planner: &str| table.lines().find(|line| line.starts_with(planner)).unwrap().to_owned();
+    assert!(line("bug2").contains("0 of 2") && line("prm").contains("2 of 2"), "{table}");
+    assert!(line("rrt ").contains("2 of 2"), "{table}");
     let none = ["plan", "--robot", "rusty", "--to", "-3,6", "--iterations", "20", "--compare", "rrt-connect"];
     let none = run(&[&none[..], &["--seeds", "0..2"]].concat());
     assert!(none.code == Some(4) && none.out.contains("0 of 2"), "{} {}", none.out, none.err);

@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 use std::time::Instant;
 
-use motion_lab::planning::Effort;
+use motion_lab::planning::{Effort, NoPath};
 use motion_lab::random::Seed;
 use serde::Serialize;
 
@@ -77,16 +77,15 @@ pub fn compare(args: &PlanArgs, task: &Task, data: &mut Data) -> Result<Outcome,
     Ok(if lines.iter().all(|line| line.solved == 0) { Outcome::NoPath } else { Outcome::Done })
 }
 
-fn row(
-    args: &PlanArgs,
-    task: &Task,
-    planner: PlannerName,
-    seed: u64,
-) -> Result<Result<Row, motion_lab::planning::NoPath>, Failure> {
+fn row(args: &PlanArgs, task: &Task, planner: PlannerName, seed: u64) -> Result<Result<Row, NoPath>, Failure> {
     let begun = Instant::now();
     let mut attempt = match task.attempt(planner, Seed(seed))? {
         Ok(attempt) => attempt,
-        Err(reason) => return Ok(Err(reason)),
+        Err(reason @ NoPath::Problem(_)) => return Ok(Err(reason)),
+        Err(reason) => {
+            let (effort, path) = (Effort::default(), Err(reason.to_string()));
+            return Ok(Ok(Row { planner, seed, effort, seconds: 0.0, path }));
+        }
     };
     let solved = attempt.solve(&args.bounds(planner));
     let seconds = begun.elapsed().as_secs_f64();
