@@ -56,9 +56,9 @@ fn part_item(id: String, name: &str, part: &Part, role: Role, opacity: f64) -> I
 
 /// The items of a robot, in the goal's colour while in contact.
 ///
-/// The footprint, which is what counts, has a thin edge; what is drawn in it is filled at 85 %. A disc has a nose, one of
-/// the lab's rovers wheels as well; a car rounded corners, a windscreen, wheels and with a trailer a drawbar; an arm a
-/// base plate, joints and a gripper.
+/// The footprint, which is what counts, has a thin edge; what is drawn in it is filled at 85 %. A disc has a nose, one
+/// of the lab's rovers wheels as well; a car rounded corners, a windscreen, wheels and with a trailer a drawbar; an arm
+/// a base plate, joints and a gripper.
 pub fn robot(drawing: &RobotDrawing<'_>) -> Vec<Item> {
     let role = if drawing.in_contact { Role::Goal } else { Role::Robot };
     let RobotDrawing { name, footprint: covered, heading, model, gait, .. } = drawing;

@@ -143,7 +143,7 @@ fn a_wrong_command_line_is_code_2() {
 fn every_planner_is_there_by_its_name() {
     let from_to = ["--robot", "rusty", "--from", "1.5,5.75", "--to", "9.75,6.25"];
     let names = ["rrt-connect", "rrt", "rrt-star", "prm", "a-star", "dijkstra", "visibility-graph", "bug1", "bug2"];
-    let straight = f64::hypot(9.75 - 1.5, 0.5);
+    let straight = motion_lab::num::hypot(9.75 - 1.5, 0.5);
     let length = |name: &str| {
         let found = run(&[&["plan", "--planner", name], &from_to[..], &["--json"]].concat()).done();
         json(&found)["length"].as_f64().unwrap()

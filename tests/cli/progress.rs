@@ -40,7 +40,7 @@ fn progress_with_rate_and_time_left_is_shown_on_a_terminal() {
         ("capture --widget cspace --cells 7 -o cells.svg", " cells, as far as is known, "),
         ("export run.mcap -o viewer.mcap", "82 frames, each drawn and written, "),
         ("export run.mcap --format rerun -o rerun.mcap", "82 frames, each drawn and written, "),
-        ("record --ticks 600 -o long.mcap", "600 ticks, "),
+        ("record --ticks 900 -o long.mcap", "900 ticks, "),
         ("diff long.mcap long.mcap", " MiB, "),
         ("stats run.mcap", "40 ticks, "),
         ("plot run.mcap --what speed -o speed.svg", "40 ticks, "),

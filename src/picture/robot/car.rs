@@ -127,7 +127,7 @@ mod tests {
             assert!(own.iter().all(within));
             // all four sides are reached, no corner is
             assert!(own.iter().any(|p| p.x > max.x - 1e-6) && own.iter().any(|p| p.y < min.y + 1e-6));
-            assert!(own.iter().all(|p| (p.x - max.x).hypot(p.y - max.y) > 0.05));
+            assert!(own.iter().all(|p| num::hypot(p.x - max.x, p.y - max.y) > 0.05));
         }
     }
 }

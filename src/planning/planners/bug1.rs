@@ -22,7 +22,7 @@ enum Phase {
     Round { from: usize },
     /// Goes back along these nodes, the next one last.
     Return { nodes: Vec<usize> },
-    /// Leaves for the goal.
+    /// Leaves for the goal, until it is clear of the boundary.
     Leave,
 }
 
@@ -53,12 +53,18 @@ impl<R: Robot<Configuration: Chart>> Bug1<R> {
     }
 
     fn advance(&mut self) -> Option<Progress> {
-        let leaves = matches!(self.phase, Phase::Leave);
         match std::mem::replace(&mut self.phase, Phase::Head) {
-            Phase::Head | Phase::Leave => match self.walker.head() {
+            Phase::Leave => match self.walker.leave() {
+                Headed::Moved => {
+                    self.phase = if self.walker.is_clear() { Phase::Head } else { Phase::Leave };
+                    None
+                }
+                Headed::Arrived => self.arrived(),
+                Headed::Blocked => Some(Progress::Ended(NoPath::Enclosed { kept: self.walker.keep })),
+            },
+            Phase::Head => match self.walker.head() {
                 Headed::Moved => None,
                 Headed::Arrived => self.arrived(),
-                Headed::Blocked if leaves => Some(Progress::Ended(NoPath::Enclosed { kept: self.walker.keep })),
                 Headed::Blocked => {
                     self.phase = Phase::Settle { steps: 0 };
                     None

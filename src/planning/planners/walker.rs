@@ -113,6 +113,21 @@ impl<R: Robot<Configuration: Chart>> Walker<R> {
     /// Takes a step toward the goal, as long as the clearance allows. It is blocked where that would come nearer to a
     /// boundary than it keeps.
     pub(super) fn head(&mut self) -> Headed {
+        self.head_keeping(self.keep)
+    }
+
+    /// As [`head`](Self::head), keeping this clearance, metres. Whoever leaves a boundary that runs almost along its way
+    /// comes nearer to it at first by a hair, so it keeps less than one who follows it.
+    pub(super) fn leave(&mut self) -> Headed {
+        self.head_keeping(0.5 * self.keep)
+    }
+
+    /// Whether it has the clearance that it keeps.
+    pub(super) fn is_clear(&self) -> bool {
+        self.clearance(Vector2::zeros()) >= self.keep
+    }
+
+    fn head_keeping(&mut self, least: f64) -> Headed {
         if self.arrive() {
             return Headed::Arrived;
         }
@@ -120,7 +135,7 @@ impl<R: Robot<Configuration: Chart>> Walker<R> {
         let (distance, clearance) = (hypot(way.x, way.y), self.clearance(Vector2::zeros()));
         let length = lesser(greater(clearance - self.keep, self.stride()), distance);
         let by = way * (length / distance);
-        if self.clearance(by) >= lesser(self.keep, clearance) && self.step(by) {
+        if self.clearance(by) >= lesser(least, clearance) && self.step(by) {
             return Headed::Moved;
         }
         self.face();

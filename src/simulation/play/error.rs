@@ -37,7 +37,7 @@ pub enum PlayError {
     },
     /// The robot can't be spawned.
     #[error(transparent)]
-    Spawn(#[from] SpawnError),
+    Spawn(Box<SpawnError>),
     /// The robot can't be put where the path begins.
     #[error("the robot can't be put where the path begins: {input} is refused, {reason}")]
     Start {
@@ -104,5 +104,18 @@ pub enum PlayError {
     TooLong(u64),
     /// The script itself would not be accepted.
     #[error(transparent)]
-    Script(#[from] ScriptError),
+    Script(Box<ScriptError>),
+}
+
+// boxed, so that a result is not as large as the rarest of its reasons
+impl From<SpawnError> for PlayError {
+    fn from(error: SpawnError) -> Self {
+        PlayError::Spawn(Box::new(error))
+    }
+}
+
+impl From<ScriptError> for PlayError {
+    fn from(error: ScriptError) -> Self {
+        PlayError::Script(Box::new(error))
+    }
 }

@@ -1,28 +1,21 @@
 //! The configuration beside the position: a robot of the dashboard as a point of its configuration space.
 
-use std::sync::Arc;
-
 use bevy_egui::egui::{
     Align2, CursorIcon, Id, Pos2, Rect, Sense, Shape, Stroke, StrokeKind, TextStyle, Ui, Vec2, WidgetInfo, WidgetType,
     pos2, vec2,
 };
 
-use super::cells::Cells;
-use crate::atlas::Atlas;
-use crate::collision::{Checker, Scene};
+use super::linked_state::LinkedState;
 use crate::configuration::{AnyConfiguration, Coordinates};
 use crate::cspace::{Overlay, overlay_items};
 use crate::geometry::Point2;
-use crate::num::wrap;
+use crate::num::{sin_cos, wrap};
 use crate::picture::{Drawing, Fit, Glyph, Item, Line, Picture, Role};
 use crate::robots::AnyRobot;
 use crate::run::{Quantized, RobotInput};
 use crate::simulation::{History, RobotCommand, TransportCommand};
 use crate::ui::paint::canvas;
 use crate::ui::{Cockpit, CockpitRobot, Command, Look};
-
-/// Level of the finest cells: a 64th of the sides.
-const FINEST: u32 = 6;
 
 /// Length of the trail, ticks: ten seconds.
 const TRAIL: u64 = 200;
@@ -32,12 +25,6 @@ const DIAL: f32 = 24.0;
 
 /// Diameter of the area that takes the pointer on the point, points.
 const HIT: f32 = 28.0;
-
-/// The cells behind a point, kept from frame to frame.
-#[derive(Clone, Debug, Default)]
-pub struct LinkedState {
-    kept: Option<(Arc<Atlas>, Cells)>,
-}
 
 /// A robot of a cockpit at a tick.
 pub struct Linked<'a> {
@@ -123,16 +110,7 @@ impl Linked<'_> {
         state: &mut LinkedState,
         commands: &mut Vec<Command>,
     ) -> Option<Rect> {
-        let atlas = &self.cockpit.atlas;
-        let serves = |(of, cells): &(Arc<Atlas>, Cells)| {
-            let slice = cells.map().slice();
-            Arc::ptr_eq(of, atlas) && slice.holds(&q) && Some(*slice.checker().robot()) == self.robot.model
-        };
-        if !state.kept.as_ref().is_some_and(serves) {
-            let checker = Checker::new(Scene::of_world(atlas.world()), self.robot.model?);
-            state.kept = Some((Arc::clone(atlas), Cells::through(&checker, &q, FINEST)?));
-        }
-        let (_, cells) = state.kept.as_mut()?;
+        let cells = state.cells_of(&self.cockpit.atlas, &self.robot.model?, &q)?;
         if cells.refine() {
             ui.ctx().request_repaint();
         }
@@ -209,7 +187,10 @@ impl Linked<'_> {
         let painter = ui.painter_at(paper);
         let centre = paper.right_top() + vec2(-DIAL - 10.0, DIAL + 10.0);
         painter.circle(centre, DIAL, look.theme.colour(Role::Paper), Stroke::new(1.0, look.colour(Role::Muted)));
-        let at = |angle: f64, radius: f32| centre + radius * vec2(angle.cos() as f32, -angle.sin() as f32);
+        let at = |angle: f64, radius: f32| {
+            let (s, c) = sin_cos(angle);
+            centre + radius * vec2(c as f32, -s as f32)
+        };
         for quarter in 0..4 {
             let angle = f64::from(quarter) * std::f64::consts::FRAC_PI_2;
             let line = [at(angle, DIAL - 3.0), at(angle, DIAL)];

@@ -2,8 +2,9 @@
 
 mod cells;
 pub(crate) mod linked;
+mod linked_state;
 mod state;
 pub(crate) mod view;
 
-pub use linked::LinkedState;
+pub use linked_state::LinkedState;
 pub use state::CspaceState;
