@@ -116,8 +116,8 @@ impl<R: Robot<Configuration: Chart>> Walker<R> {
         self.head_keeping(self.keep)
     }
 
-    /// As [`head`](Self::head), keeping this clearance, metres. Whoever leaves a boundary that runs almost along its way
-    /// comes nearer to it at first by a hair, so it keeps less than one who follows it.
+    /// As [`head`](Self::head), keeping half the clearance. Whoever leaves a boundary that runs almost along its way
+    /// comes nearer to it at first by a hair.
     pub(super) fn leave(&mut self) -> Headed {
         self.head_keeping(0.5 * self.keep)
     }
