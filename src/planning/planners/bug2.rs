@@ -24,8 +24,8 @@ enum Phase {
 /// Bug2 (Lumelsky and Stepanov, 1987) for a disc that knows where it is and feels the boundary nearest to it.
 ///
 /// It heads for the goal along the line from the start. At an obstacle it follows the boundary, with it at the right
-/// hand, until it meets that line nearer to the goal than where it hit. If it comes back to where it hit, the goal lies
-/// behind the obstacle: [`NoPath::Enclosed`]. "The obstacle" is all that has no gap wider than what it keeps.
+/// hand, until it meets that line nearer to the goal than where it hit. If it comes back to where it hit, it ends without
+/// a path, [`NoPath::NoneInGraph`]: the goal lies behind the obstacle, or its steps went past a place to leave from.
 ///
 /// An iteration is one step. A robot that is not a disc gets [`NoPath::Unsuited`] from [`Bug2::try_new`].
 #[derive(Clone, Debug)]
@@ -76,7 +76,8 @@ impl<R: Robot<Configuration: Chart>> Bug2<R> {
                 {
                     self.phase = Phase::Head;
                 } else if steps > AWAY && apart(here, hit) < 1.5 * self.walker.stride() {
-                    return Some(Progress::Ended(NoPath::Enclosed { kept: self.walker.keep }));
+                    let nodes = self.walker.growth.nodes().len();
+                    return Some(Progress::Ended(NoPath::NoneInGraph { nodes }));
                 }
                 None
             }

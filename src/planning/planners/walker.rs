@@ -163,6 +163,10 @@ impl<R: Robot<Configuration: Chart>> Walker<R> {
         let least = lesser(self.keep, self.clearance(Vector2::zeros()));
         let keeps = |walker: &Self, turn: f64| walker.clearance(walker.turned(turn) * walker.stride()) >= least;
         let Some(first) = (0..DIRECTIONS).find(|k| keeps(self, RIGHT + TURN * f64::from(*k))) else { return false };
+        if first == 0 && self.clearance(Vector2::zeros()) > self.keep {
+            // nothing is at the right hand: it would go in circles
+            return self.approach();
+        }
         // between the last direction that does not and the first that does
         let [mut less, mut more] = [RIGHT + TURN * (f64::from(first) - 1.0), RIGHT + TURN * f64::from(first)];
         for _ in 0..if first == 0 { 0 } else { HALVINGS } {
@@ -175,6 +179,17 @@ impl<R: Robot<Configuration: Chart>> Walker<R> {
         }
         self.heading = self.turned(more);
         self.step(self.heading * self.stride())
+    }
+
+    /// Takes a step to the nearest boundary, up to the clearance that it keeps, and turns along it.
+    fn approach(&mut self) -> bool {
+        let witness = self.problem.checker().witness(&self.growth.at(self.node())).ok().flatten();
+        let Some(witness) = witness else { return false };
+        let toward = witness.on_obstacle - self.here();
+        let length = lesser(witness.dist - self.keep, self.stride());
+        let is_there = self.step(toward * (length / hypot(toward.x, toward.y)));
+        self.face();
+        is_there
     }
 
     /// Its heading turned by an angle, radians to the left.
