@@ -24,8 +24,9 @@ enum Phase {
 /// Bug2 (Lumelsky and Stepanov, 1987) for a disc that knows where it is and feels the boundary nearest to it.
 ///
 /// It heads for the goal along the line from the start. At an obstacle it follows the boundary, with it at the right
-/// hand, until it meets that line nearer to the goal than where it hit. If it comes back to where it hit, it ends without
-/// a path, [`NoPath::NoneInGraph`]: the goal lies behind the obstacle, or its steps went past a place to leave from.
+/// hand, until it meets that line nearer to the goal than where it hit. If it comes back to where it hit, it ends
+/// without a path, [`NoPath::NoneInGraph`]: the goal lies behind the obstacle, or its steps went past a place to leave
+/// from.
 ///
 /// An iteration is one step. A robot that is not a disc gets [`NoPath::Unsuited`] from [`Bug2::try_new`].
 #[derive(Clone, Debug)]
