@@ -53,7 +53,7 @@ pub(crate) use error::SessionError;
 #[cfg(all(target_family = "wasm", feature = "web"))]
 pub(crate) use pace::limit;
 #[cfg(all(target_family = "wasm", feature = "web"))]
-pub(crate) use runs::{log_up_to, open_log, open_world_text, save, shown_run};
+pub(crate) use runs::{log_up_to, open_log, open_path_text, open_world_text, path_text, save, shown_run};
 pub(crate) use session::Shown;
 use session::carry_out;
 #[cfg(all(target_family = "wasm", feature = "web"))]

@@ -113,6 +113,9 @@ pub mod recording;
 #[cfg(feature = "sim")]
 pub mod export;
 
+#[cfg(feature = "sim")]
+pub mod plans;
+
 // the program's own; public because the program is a crate of its own
 #[doc(hidden)]
 #[cfg(feature = "cli")]

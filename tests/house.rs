@@ -13,7 +13,7 @@ use sources::{Source, sources};
 
 /// The modules in reading order: each may use those before it. The first [`CORE`] of them are the library without
 /// features.
-const ORDER: [&str; 29] = [
+const ORDER: [&str; 30] = [
     "num",
     "short_list",
     "text_position",
@@ -34,6 +34,7 @@ const ORDER: [&str; 29] = [
     "simulation",
     "recording",
     "export",
+    "plans",
     "output",
     "sweep",
     "manifest",

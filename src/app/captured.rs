@@ -34,7 +34,8 @@ pub fn subject(state: &UiState, form: Form) -> Result<Option<Subject>, CaptureEr
             Some(Subject::Cspace { world, robot, kind, finest: 7, annulus: anatomy.show_annulus })
         }
         Widget::Atlas if moves => Some(Subject::Atlas { world: Some(state.atlas.world().clone()), names }),
-        Widget::Anatomy | Widget::Cspace | Widget::Atlas => None,
+        Widget::Plan if moves => return Err(CaptureError::Frozen),
+        Widget::Anatomy | Widget::Cspace | Widget::Atlas | Widget::Plan => None,
     })
 }
 
@@ -43,6 +44,7 @@ fn scene(state: &UiState, width_px: f64) -> Result<Captured, CaptureError> {
     let shown = &state.anatomy.anatomy;
     match state.widget {
         Widget::Cspace => state.cspace.captured(shown).map_err(|error| CaptureError::Fault(error.to_string())),
+        Widget::Plan => Ok(state.plan.captured()),
         Widget::Atlas => Ok(state.atlas.captured(state.settings.labels, width_px)),
         Widget::Anatomy | Widget::Dashboard => Ok(anatomy(shown, &[shown.tab])),
     }

@@ -8,7 +8,7 @@ use bevy_egui::egui;
 use egui_file_dialog::{DialogMode, DialogState, FileDialog, FileDialogLabels};
 
 use super::capture::{capture, check, not_captured};
-use super::files::{open_run, open_world, save_run, save_world};
+use super::files::{open_path, open_run, open_world, save_path, save_run, save_world};
 use crate::random::Seed;
 use crate::simulation::{Playback, RunConfig, Transport};
 use crate::ui::Interface;
@@ -20,11 +20,15 @@ const EXTENSION: &str = "mcap";
 /// File extension of the lab's worlds.
 const WORLD: &str = "ron";
 
+/// File extension of the lab's paths.
+const PATH: &str = "json";
+
 /// The dialogs, and whether a file hovers over the window.
 #[derive(Resource)]
 pub struct Dialogs {
     runs: FileDialog,
     worlds: FileDialog,
+    paths: FileDialog,
     /// The dialog for a capture's file, and the order.
     picture: Option<(FileDialog, CaptureOrder)>,
     /// Whether a file hovers over the window, on its way to be dropped.
@@ -36,6 +40,7 @@ impl Default for Dialogs {
         Dialogs {
             runs: dialog("run", "Runs (*.mcap)", EXTENSION, "run.mcap"),
             worlds: dialog("world", "Worlds (*.ron)", WORLD, "world.ron"),
+            paths: dialog("path", "Paths (*.json)", PATH, "path.json"),
             picture: None,
             hovered: false,
         }
@@ -46,7 +51,10 @@ impl Dialogs {
     /// Whether one of them is open.
     fn are_open(&self) -> bool {
         let picture = self.picture.iter().map(|(dialog, _)| dialog);
-        [&self.runs, &self.worlds].into_iter().chain(picture).any(|dialog| *dialog.state() == DialogState::Open)
+        [&self.runs, &self.worlds, &self.paths]
+            .into_iter()
+            .chain(picture)
+            .any(|dialog| *dialog.state() == DialogState::Open)
     }
 }
 
@@ -103,6 +111,8 @@ pub fn ask(
                 dialogs.worlds.save_file();
             }
             SessionCommand::OpenWorld => dialogs.worlds.pick_file(),
+            SessionCommand::SavePath => dialogs.paths.save_file(),
+            SessionCommand::OpenPath => dialogs.paths.pick_file(),
             SessionCommand::Capture(order) => {
                 if let Err(error) = check(&config.0, &interface.0, order) {
                     interface.0.say(not_captured(&error));
@@ -112,7 +122,8 @@ pub fn ask(
                 dialog.save_file();
                 dialogs.picture = Some((dialog, *order));
             }
-            SessionCommand::RunWorld
+            SessionCommand::PlayPath
+            | SessionCommand::RunWorld
             | SessionCommand::RunFromHere
             | SessionCommand::PutRobot { .. }
             | SessionCommand::Links { .. } => continue,
@@ -122,7 +133,7 @@ pub fn ask(
     interface.0.dialog = dialogs.are_open();
 }
 
-/// Opens what was dropped: a world in the atlas, any other file as a run.
+/// Opens what was dropped: a world in the atlas, a path in the plan, any other file as a run.
 pub fn dropped(world: &mut World) {
     let events: Vec<FileDragAndDrop> = world.resource_mut::<Messages<FileDragAndDrop>>().drain().collect();
     for event in events {
@@ -131,6 +142,8 @@ pub fn dropped(world: &mut World) {
         if let FileDragAndDrop::DroppedFile { path_buf, .. } = event {
             let notice = if path_buf.extension().is_some_and(|e| e == WORLD) {
                 Some(open_world(world, &path_buf))
+            } else if path_buf.extension().is_some_and(|e| e == PATH) {
+                Some(open_path(world, &path_buf))
             } else {
                 open_run(world, &path_buf)
             };
@@ -143,15 +156,15 @@ pub fn dropped(world: &mut World) {
 
 /// Shows the dialogs while they are open, and carries out what was chosen in them.
 pub fn show(world: &mut World, ctx: &egui::Context) {
-    let (run, model, picture) = {
+    let (run, model, plan, picture) = {
         let dialogs = world.resource_mut::<Dialogs>().into_inner();
         if dialogs.hovered {
             egui::Area::new("drop".into()).anchor(egui::Align2::CENTER_CENTER, [0.0, 0.0]).show(ctx, |ui| {
-                egui::Frame::popup(ui.style()).show(ui, |ui| ui.heading("Drop a run or a world to open it"));
+                egui::Frame::popup(ui.style()).show(ui, |ui| ui.heading("Drop a run, a world or a path to open it"));
             });
         }
         let picture = dialogs.picture.as_mut().and_then(|(dialog, order)| Some((picked(dialog, ctx)?.1, *order)));
-        (picked(&mut dialogs.runs, ctx), picked(&mut dialogs.worlds, ctx), picture)
+        (picked(&mut dialogs.runs, ctx), picked(&mut dialogs.worlds, ctx), picked(&mut dialogs.paths, ctx), picture)
     };
     if let Some((path, order)) = picture {
         capture(world, &order, &path);
@@ -161,7 +174,9 @@ pub fn show(world: &mut World, ctx: &egui::Context) {
     world.resource_mut::<Interface>().0.dialog = are_open;
     let of_run = run.and_then(|(save, path)| if save { save_run(world, &path) } else { open_run(world, &path) });
     let of_world = model.map(|(save, path)| if save { save_world(world, &path) } else { open_world(world, &path) });
-    if let Some(notice) = of_run.or(of_world) {
+    let of_plan =
+        plan.and_then(|(save, path)| if save { save_path(world, &path) } else { Some(open_path(world, &path)) });
+    if let Some(notice) = of_run.or(of_world).or(of_plan) {
         world.resource_mut::<Interface>().0.say(notice);
         ctx.request_repaint();
     }

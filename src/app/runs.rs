@@ -135,6 +135,24 @@ fn read_log(bytes: &[u8]) -> Result<(EitherLog, Option<String>), LogError> {
     }
 }
 
+/// The text of the plan's path as a file; `None` without a path of the planner's own.
+pub fn path_text(world: &World) -> Option<String> {
+    world.resource::<Interface>().0.plan.file()?.to_json().ok()
+}
+
+/// Opens the text of a path's file in the plan. Where it is refused, the present plan stays.
+pub fn open_path_text(world: &mut World, name: &str, text: &str) -> Notice {
+    let ui = &mut world.resource_mut::<Interface>().into_inner().0;
+    let atlas = ui.atlas.world().clone();
+    match ui.plan.read(name, text, &atlas) {
+        Ok(()) => {
+            ui.widget = Widget::Plan;
+            Notice { text: format!("{name}: opened"), is_error: false }
+        }
+        Err(error) => Notice { text: format!("{name}: not opened: {error}"), is_error: true },
+    }
+}
+
 /// Opens a world file's text in the atlas. Where it is refused, the present one stays.
 pub fn open_world_text(world: &mut World, name: &str, text: &str) -> Notice {
     match Editor::open(name, text) {

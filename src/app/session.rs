@@ -302,8 +302,35 @@ pub fn carry_out(world: &mut World, commands: Vec<Command>) {
                     Err(error) => ui.say(Notice { text: error.to_string(), is_error: true }),
                 }
             }
+            Command::Session(SessionCommand::PlayPath) => play_path(world),
             Command::Session(command) => _ = world.write_message(command),
         }
+    }
+}
+
+/// Starts a run in which the plan's robot plays its path alone in its world, and shows it. Where it can't be played,
+/// says why.
+fn play_path(world: &mut World) {
+    let ui = &mut world.resource_mut::<Interface>().into_inner().0;
+    let Some((model, played)) = ui.plan.played() else { return };
+    let played = match played {
+        Ok(played) => played,
+        Err(error) => {
+            return ui.say(Notice { text: format!("the path can't be played: {error}"), is_error: true });
+        }
+    };
+    let (seed, config) = (ui.plan.seed(), TourConfig { worlds: vec![model], sensor: None, ..TourConfig::default() });
+    let ran = new_run(world, config, (seed, played.script));
+    if ran.is_ok() {
+        world.resource_mut::<Transport>().playback = Playback::Playing;
+    }
+    let ui = &mut world.resource_mut::<Interface>().into_inner().0;
+    match ran {
+        Ok(()) => {
+            ui.plan.over_drive = true;
+            ui.widget = Widget::Dashboard;
+        }
+        Err(error) => ui.say(Notice { text: error.to_string(), is_error: true }),
     }
 }
 

@@ -23,6 +23,7 @@ mod marks;
 mod moving;
 #[cfg(feature = "cli")]
 mod paper;
+mod plan;
 mod plot;
 #[cfg(feature = "cli")]
 mod raster;
@@ -39,6 +40,7 @@ pub use histogram::{Distribution, histograms};
 pub use moving::{Span, Subject, at_tick, at_tick_with_robots};
 #[cfg(feature = "cli")]
 pub use paper::{film, film_with_robots, write};
+pub use plan::{PlanSheet, plan, unit};
 pub use plot::{RunPlot, plot};
 #[cfg(feature = "cli")]
 #[doc(hidden)]

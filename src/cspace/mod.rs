@@ -25,7 +25,7 @@ mod wrapping;
 
 pub use cells::{Cell, CellMap, MAX_LEVEL, Progress};
 pub use nearest::{NearestFree, nearest_free};
-pub use picture::{Overlay, cspace_picture, overlay_items};
+pub use picture::{Overlay, cspace_picture, lines_through, overlay_items};
 pub use slice::{CellState, Slice};
 pub use wrapping::wrapped_pieces;
 

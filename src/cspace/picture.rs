@@ -104,7 +104,7 @@ fn frame_items(slice: &Slice) -> Vec<Item> {
 /// The items over the cells. They change with the robot, the cells do not.
 pub fn overlay_items(slice: &Slice, overlay: &Overlay) -> Vec<Item> {
     let mut items = Vec::new();
-    if let Some(lines) = trace_lines(slice, &overlay.trace) {
+    if let Some(lines) = lines_through(slice, &overlay.trace) {
         let region = Drawing::Region { pieces: Vec::new(), outline: lines };
         items.push(Item::new("trace", "where it was", Role::Path, region).stroked(Line::solid(1.5).at_opacity(0.9)));
     }
@@ -142,8 +142,8 @@ fn line(slice: &Slice, from: &AnyConfiguration, to: &AnyConfiguration) -> Vec<Ve
     wrapped_pieces(a, step).into_iter().map(|piece| piece.map(Point2::from).to_vec()).collect()
 }
 
-/// A trace as lines; `None` when there is nothing to join.
-fn trace_lines(slice: &Slice, trace: &[AnyConfiguration]) -> Option<Vec<Vec<Point2>>> {
+/// The chart lines through these configurations, cut at the edges of a torus; `None` when there is nothing to join.
+pub fn lines_through(slice: &Slice, trace: &[AnyConfiguration]) -> Option<Vec<Vec<Point2>>> {
     let mut lines: Vec<Vec<Point2>> = Vec::new();
     for pair in trace.windows(2) {
         for piece in line(slice, &pair[0], &pair[1]) {

@@ -61,6 +61,11 @@ impl Slice {
         &self.checker
     }
 
+    /// The numbers of the two coordinates that vary.
+    pub fn axes(&self) -> [usize; 2] {
+        self.axes
+    }
+
     /// The least coordinates.
     pub fn min(&self) -> [f64; 2] {
         self.min

@@ -15,11 +15,13 @@ pub enum Widget {
     Cspace,
     /// Worlds with their names, grids and the editor.
     Atlas,
+    /// A planner at work.
+    Plan,
 }
 
 impl Widget {
     /// All widgets, in the order of the rail.
-    pub const ALL: [Widget; 4] = [Widget::Dashboard, Widget::Anatomy, Widget::Cspace, Widget::Atlas];
+    pub const ALL: [Widget; 5] = [Widget::Dashboard, Widget::Anatomy, Widget::Cspace, Widget::Atlas, Widget::Plan];
 
     /// The id by which links, pages, files and the command line name it.
     pub const fn id(self) -> &'static str {
@@ -28,6 +30,7 @@ impl Widget {
             Widget::Anatomy => "anatomy",
             Widget::Cspace => "cspace",
             Widget::Atlas => "atlas",
+            Widget::Plan => "plan",
         }
     }
 

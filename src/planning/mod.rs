@@ -40,7 +40,7 @@ pub use metric::{Metric, MetricError};
 pub use nearest::{Nearest, Neighbour};
 pub use no_path::NoPath;
 pub use path::{CertifiedPath, Leg, LinePath, PathError};
-pub use planner::{Planner, Progress, solve};
+pub use planner::{Planner, Progress, accepted, solve};
 pub use planners::{
     Bug1, Bug2, CellDecomposition, GridSearch, PotentialField, Prm, Rrt, RrtConnect, RrtStar, VisibilityGraph,
 };

@@ -66,13 +66,16 @@ pub fn solve<R: Robot, M: Motion<Configuration = R::Configuration> + Clone>(
         match planner.step() {
             Progress::Growing => {}
             Progress::Ended(reason) => return Err(reason),
-            Progress::Solved => return Ok(checked(planner)?),
+            Progress::Solved => return Ok(accepted(planner)?),
         }
     }
 }
 
-/// The planner's path, if it stands the check.
-fn checked<R: Robot, M: Motion<Configuration = R::Configuration> + Clone>(
+/// The planner's path, if it stands the check of [`solve`].
+///
+/// # Errors
+/// [`PathError`]: there is none, it leads elsewhere, or the verifier refuses it.
+pub fn accepted<R: Robot, M: Motion<Configuration = R::Configuration> + Clone>(
     planner: &(impl Planner<R, M> + ?Sized),
 ) -> Result<CertifiedPath<M>, PathError> {
     let (path, problem) = (planner.path().ok_or(PathError::Missing)?, planner.problem());

@@ -118,10 +118,10 @@ const fn with(action: Action, modifiers: Modifiers, key: Key, words: &'static st
 }
 
 /// All keys.
-pub const BINDINGS: [Binding; 41] = [
-    plain(Action::PlayPause, Key::Space, Scope::Always, "play or pause"),
+pub const BINDINGS: [Binding; 42] = [
+    plain(Action::PlayPause, Key::Space, Scope::Always, "play or pause; in plan the planner"),
     plain(Action::StepBack, Key::ArrowLeft, Scope::Unarmed, "one tick back, and pause"),
-    plain(Action::Step, Key::ArrowRight, Scope::Unarmed, "one tick, and pause"),
+    plain(Action::Step, Key::ArrowRight, Scope::Unarmed, "one tick, and pause; in plan one iteration"),
     plain(Action::Start, Key::Home, Scope::Always, "to the start"),
     plain(Action::End, Key::End, Scope::Always, "as far as the run has come"),
     plain(Action::NextContact, Key::N, Scope::Always, "to the next contact"),
@@ -129,13 +129,13 @@ pub const BINDINGS: [Binding; 41] = [
     plain(Action::Slower, Key::Comma, Scope::Always, "slower"),
     plain(Action::Faster, Key::Period, Scope::Always, "faster"),
     plain(Action::Continue, Key::C, Scope::Always, "continue from here: forget what comes later"),
-    plain(Action::Reset, Key::R, Scope::Always, "reset: the same seed, no input"),
+    plain(Action::Reset, Key::R, Scope::Always, "reset: the same seed, no input; in plan begin anew"),
     plain(Action::ReRoll, Key::G, Scope::Always, "re-roll: another seed"),
     with(Action::Undo, Modifiers::COMMAND, Key::Z, "undo; in the atlas an edit"),
     with(Action::Redo, Modifiers::COMMAND.plus(Modifiers::SHIFT), Key::Z, "redo"),
     with(Action::Redo, Modifiers::COMMAND, Key::Y, "redo"),
-    with(Action::Save, Modifiers::COMMAND, Key::S, "save the run; in the atlas its world"),
-    with(Action::Open, Modifiers::COMMAND, Key::O, "open a run; in the atlas a world"),
+    with(Action::Save, Modifiers::COMMAND, Key::S, "save the run; in the atlas its world, in plan its path"),
+    with(Action::Open, Modifiers::COMMAND, Key::O, "open a run; in the atlas a world, in plan a path"),
     plain(Action::Capture, Key::I, Scope::Always, "capture: the picture in front as a file"),
     plain(Action::Arm(0), Key::Num1, Scope::Always, "take the first pane's robot in hand, or let go"),
     plain(Action::Arm(1), Key::Num2, Scope::Always, "take the second pane's robot in hand, or let go"),
@@ -160,6 +160,7 @@ pub const BINDINGS: [Binding; 41] = [
     with(Action::Widget(Widget::Anatomy), Modifiers::COMMAND, Key::Num2, "query anatomy"),
     with(Action::Widget(Widget::Cspace), Modifiers::COMMAND, Key::Num3, "configuration space"),
     with(Action::Widget(Widget::Atlas), Modifiers::COMMAND, Key::Num4, "world atlas"),
+    with(Action::Widget(Widget::Plan), Modifiers::COMMAND, Key::Num5, "plan"),
 ];
 
 impl Binding {

@@ -7,7 +7,7 @@ use bevy_egui::egui::{CentralPanel, Frame, Margin, Panel, Ui, vec2};
 use super::dashboard::{self, drive};
 use super::keys::{Action, pressed};
 use super::paint::button::LabButton;
-use super::{Command, Dashboard, Grasp, Look, UiState, anatomy, atlas, capture_form, cspace, help, tools};
+use super::{Command, Dashboard, Grasp, Look, UiState, anatomy, atlas, capture_form, cspace, help, plan, tools};
 use crate::manifest::Widget;
 use crate::simulation::{History, TransportCommand};
 
@@ -43,6 +43,7 @@ pub fn lab(ui: &mut Ui, model: &Dashboard, history: &History, state: &mut UiStat
             action => match state.widget {
                 Widget::Dashboard => dashboard::view::act(action, model, state, commands),
                 Widget::Atlas => atlas::view::act(action, model, state, commands),
+                Widget::Plan => plan::view::act(action, model, state, commands),
                 Widget::Anatomy | Widget::Cspace => tools::act(action, model, state, commands),
             },
         }
@@ -74,6 +75,7 @@ pub fn lab(ui: &mut Ui, model: &Dashboard, history: &History, state: &mut UiStat
         let panel = CentralPanel::default().frame(frame).show(ui, |ui| match state.widget {
             Widget::Anatomy => anatomy::view::anatomy_view(ui, model, &look, state, commands),
             Widget::Cspace => cspace::view::cspace_view(ui, model, &look, state, commands),
+            Widget::Plan => plan::view::plan_view(ui, model, &look, state, commands),
             Widget::Atlas | Widget::Dashboard => atlas::view::atlas_view(ui, model, &look, state, commands),
         });
         panel.response.rect

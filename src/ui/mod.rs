@@ -1,4 +1,4 @@
-//! The user interface: the four widgets, their settings and their commands.
+//! The user interface: the widgets, their settings and their commands.
 //!
 //! Colours are named by [`Theme`](crate::picture::Theme) alone.
 
@@ -15,6 +15,7 @@ mod help;
 pub(crate) mod keys;
 mod lab;
 pub(crate) mod paint;
+mod plan;
 mod settings;
 mod state;
 mod tools;
@@ -31,6 +32,7 @@ pub(crate) use dashboard::goal::ParkingGoal;
 pub(crate) use dashboard::values::{Cockpit, CockpitRobot, Dashboard};
 pub(crate) use lab::lab;
 pub(crate) use paint::look::Look;
+pub(crate) use plan::{PlanStage, PlanState};
 pub(crate) use settings::Settings;
 #[cfg(feature = "window")]
 pub(crate) use state::Closing;
@@ -84,6 +86,12 @@ pub(crate) enum SessionCommand {
         /// The robot's name.
         robot: String,
     },
+    /// A new run in which a robot plays the plan's path.
+    PlayPath,
+    /// Save the plan's path: ask for a file first.
+    SavePath,
+    /// Open a path in the plan: ask for a file first.
+    OpenPath,
     /// A new run in which an arm has this number of links.
     Links {
         /// The arm's name.

@@ -25,6 +25,8 @@ pub struct UiState {
     pub linked: super::LinkedState,
     /// The state of the atlas.
     pub atlas: AtlasState,
+    /// The state of the widget that plans.
+    pub plan: super::PlanState,
     /// Other worlds of the atlas with their edits and what can be undone of them, in the order they were left.
     pub shelf: Vec<AtlasState>,
     /// The robot picked in a crowd, and how crowds are shown.

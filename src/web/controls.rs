@@ -13,7 +13,7 @@ use super::link::MAX_LINK_TICK;
 use super::listener::tell;
 use super::message::{Action, Message};
 use super::run_link::link_of;
-use crate::app::{Interface, open_log, open_world_text, seek_aside, stop_aside};
+use crate::app::{Interface, open_log, open_path_text, open_world_text, seek_aside, stop_aside};
 use crate::manifest::ThemeChoice;
 use crate::picture::{Role, Theme};
 use crate::random::Seed;
@@ -64,6 +64,12 @@ fn open(world: &mut World, name: &str, bytes: &[u8]) -> Option<Notice> {
     if name.ends_with(".ron") {
         return Some(match std::str::from_utf8(bytes) {
             Ok(text) => open_world_text(world, name, text),
+            Err(_) => refused("it is not text".into()),
+        });
+    }
+    if name.ends_with(".json") {
+        return Some(match std::str::from_utf8(bytes) {
+            Ok(text) => open_path_text(world, name, text),
             Err(_) => refused("it is not text".into()),
         });
     }

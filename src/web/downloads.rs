@@ -4,7 +4,7 @@ use bevy::prelude::*;
 use serde_json::json;
 
 use super::listener::{tell, tell_with};
-use crate::app::{Interface, SessionError, captured, save, shown_run};
+use crate::app::{Interface, SessionError, captured, path_text, save, shown_run};
 use crate::capture::Paper;
 use crate::simulation::Transport;
 use crate::ui::{CaptureOrder, Notice, SessionCommand};
@@ -40,8 +40,20 @@ pub fn files(world: &mut World) {
                 tell(&json!({ "kind": "ask", "accept": ".ron" }));
                 continue;
             }
+            SessionCommand::SavePath => match path_text(world) {
+                Some(text) => {
+                    tell_with(&json!({ "kind": "file", "name": "path.json" }), Some(text.as_bytes()));
+                    Ok("path.json: saved".into())
+                }
+                None => continue,
+            },
+            SessionCommand::OpenPath => {
+                tell(&json!({ "kind": "ask", "accept": ".json" }));
+                continue;
+            }
             SessionCommand::Capture(order) => picture(world, &order),
-            SessionCommand::RunWorld
+            SessionCommand::PlayPath
+            | SessionCommand::RunWorld
             | SessionCommand::RunFromHere
             | SessionCommand::PutRobot { .. }
             | SessionCommand::Links { .. } => continue,

@@ -1,5 +1,7 @@
 //! A kind of robot that the program added: what the window shows of it.
 
+mod sizes;
+
 use super::*;
 use crate::atlas::Op;
 use crate::configuration::{Configuration as _, HitchCfg, RobotKind, Space};

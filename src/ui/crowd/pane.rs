@@ -16,11 +16,12 @@ use crate::geometry::{Aabb, Point2};
 use crate::num::exp;
 use crate::picture::{Anchor, Drawing, Face, Fit, Item, Picture, Role};
 use crate::simulation::{History, TickMark};
-use crate::ui::dashboard::pane::{door_clicked, in_hand, point_out, robot_words, scale_bar, take_in_hand, touched};
+use crate::ui::dashboard::pane::{door_clicked, in_hand, point_out, robot_words, take_in_hand, touched};
 use crate::ui::dashboard::values::thousands;
 use crate::ui::dashboard::{doors, drive, handles, pane};
 use crate::ui::paint::button::LabButton;
 use crate::ui::paint::canvas;
+use crate::ui::paint::scale_bar::scale_bar;
 use crate::ui::{Cockpit, Command, Look, UiState};
 
 /// Width of the list, points.

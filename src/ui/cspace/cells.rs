@@ -8,9 +8,6 @@ use crate::cspace::{CellMap, Overlay, Slice, cspace_picture};
 use crate::picture::Picture;
 use crate::robots::AnyRobot;
 
-/// Largest number of cells judged in a frame.
-const BUDGET: u32 = 1500;
-
 /// The cells judged so far, and the last picture of them.
 #[derive(Clone, Debug)]
 pub struct Cells {
@@ -38,9 +35,9 @@ impl Cells {
         &self.picture
     }
 
-    /// Judges more cells. Returns whether any remain.
-    pub fn refine(&mut self) -> bool {
-        let more = self.map.refine(BUDGET);
+    /// Judges `budget` more cells. Returns whether any remain.
+    pub fn refine(&mut self, budget: u32) -> bool {
+        let more = self.map.refine(budget);
         let judged = self.map.progress().judged;
         // merging the cells costs more than judging them
         if judged != self.drawn && (!more || judged > self.drawn + self.drawn / 3) {

@@ -20,6 +20,10 @@ use crate::ui::{Cockpit, CockpitRobot, Command, Look};
 /// Length of the trail, ticks: ten seconds.
 const TRAIL: u64 = 200;
 
+/// Largest number of cells judged in a frame: fewer than in a widget of its own, for the run goes on beside it, and an
+/// arm of three links has another slice at each tick.
+const BUDGET: u32 = 400;
+
 /// Radius of the dial of headings, points.
 const DIAL: f32 = 24.0;
 
@@ -111,7 +115,7 @@ impl Linked<'_> {
         commands: &mut Vec<Command>,
     ) -> Option<Rect> {
         let cells = state.cells_of(&self.cockpit.atlas, &self.robot.model?, &q)?;
-        if cells.refine() {
+        if cells.refine(BUDGET) {
             ui.ctx().request_repaint();
         }
         let still = cells.picture();

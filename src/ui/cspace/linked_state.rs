@@ -26,7 +26,13 @@ impl LinkedState {
             Arc::ptr_eq(of, world) && slice.checker().robot() == robot && slice.holds(q)
         };
         if !self.kept.as_ref().is_some_and(serves) {
-            let checker = Checker::new(Scene::of_world(world.world()), *robot);
+            // another slice of the same robot's configurations has the same checker
+            let own = |(of, cells): (Arc<Atlas>, Cells)| {
+                let checker = cells.map().slice().checker();
+                (Arc::ptr_eq(&of, world) && checker.robot() == robot).then(|| checker.clone())
+            };
+            let checker = self.kept.take().and_then(own);
+            let checker = checker.unwrap_or_else(|| Checker::new(Scene::of_world(world.world()), *robot));
             self.kept = Some((Arc::clone(world), Cells::through(&checker, q, FINEST)?));
         }
         self.kept.as_mut().map(|(_, cells)| cells)

@@ -6,5 +6,6 @@ mod linked_state;
 mod state;
 pub(crate) mod view;
 
+pub use cells::Cells;
 pub use linked_state::LinkedState;
 pub use state::CspaceState;

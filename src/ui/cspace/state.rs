@@ -12,6 +12,9 @@ use crate::robots::ConfigurationError;
 /// Level of the finest cells: a 256th of the sides.
 const FINEST: u32 = 8;
 
+/// Largest number of cells judged in a frame.
+const BUDGET: u32 = 1500;
+
 /// The state of the configuration space.
 #[derive(Clone, Debug, Default)]
 pub struct CspaceState {
@@ -46,6 +49,6 @@ impl CspaceState {
             self.cells = Some(cells);
             self.trace.clear();
         }
-        self.cells.as_mut().is_some_and(Cells::refine)
+        self.cells.as_mut().is_some_and(|cells| cells.refine(BUDGET))
     }
 }

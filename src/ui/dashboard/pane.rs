@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use bevy_egui::egui::{
     Align, CursorIcon, Id, Label, Layout, Rect, Response, RichText, ScrollArea, Sense, Stroke, StrokeKind, TextStyle,
-    TextWrapMode, Ui, UiBuilder, Vec2, WidgetInfo, WidgetType, pos2, vec2,
+    TextWrapMode, Ui, UiBuilder, WidgetInfo, WidgetType, pos2, vec2,
 };
 
 use super::goal::trailer_of;
@@ -12,9 +12,10 @@ use super::{doors, drive, handles, pad};
 use crate::atlas::{self, Atlas};
 use crate::configuration::RobotKind;
 use crate::manifest::{Formula, Widget};
-use crate::picture::{Drawing, Fit, Item, Picture, Role, ScaleBar, ScanDrawing, fan_scan, pick, places, scan_id};
+use crate::picture::{Drawing, Fit, Item, Picture, Role, ScanDrawing, fan_scan, pick, places, scan_id};
 use crate::run::RobotInput;
 use crate::simulation::{RobotCommand, SensorView, TransportCommand};
+use crate::ui::paint::scale_bar::scale_bar;
 use crate::ui::paint::{canvas, frame};
 use crate::ui::{
     Cockpit, CockpitRobot, Command, Grasp, Look, Notice, ParkingGoal, SessionCommand, UiState, readout, readout_lines,
@@ -65,6 +66,9 @@ pub fn paper(
     response.widget_info(|| WidgetInfo::labeled(WidgetType::Button, true, cockpit.described()));
     let painter = ui.painter_at(paper.expand(1.0));
     canvas::paint_kept(&painter, &cockpit.world, paper, &fit, look);
+    if let Some(plan) = state.plan.over_world(&cockpit.world.name) {
+        canvas::paint_kept(&painter, plan, paper, &fit, look);
+    }
     let mut over = Picture::new(&cockpit.world.name, cockpit.world.bounds);
     if state.settings.labels {
         over = over.with(names(ui, cockpit, &fit));
@@ -386,15 +390,4 @@ fn links(ui: &mut Ui, robot: &CockpitRobot, look: &Look, state: &mut UiState, co
     if let Some((_, goal)) = goal {
         ui.label(RichText::new(goal.words(&robot.footprint, robot.reversals)).strong());
     }
-}
-
-pub fn scale_bar(ui: &mut Ui, px_per_metre: f64, look: &Look) {
-    let bar = ScaleBar::new(px_per_metre, 80.0);
-    let (rect, _) = ui.allocate_exact_size(Vec2::new(bar.length_px as f32, 7.0), Sense::hover());
-    let stroke = Stroke::new(1.0, look.colour(Role::Muted));
-    let rect = rect.translate(vec2(-0.5, 0.0));
-    ui.painter().hline(rect.x_range(), rect.center().y, stroke);
-    ui.painter().vline(rect.left(), rect.y_range(), stroke);
-    ui.painter().vline(rect.right(), rect.y_range(), stroke);
-    ui.label(RichText::new(bar.label).small().color(look.colour(Role::Muted)));
 }

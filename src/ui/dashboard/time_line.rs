@@ -52,6 +52,15 @@ struct Lane<'a> {
     name: &'a str,
 }
 
+impl Lane<'_> {
+    /// The ticks at which something happened to its robots, in ascending order.
+    fn of(&self, marks: &[TickMark], what: Happening) -> impl Iterator<Item = u64> {
+        let robot = self.robot;
+        let is_own = move |mark: &&TickMark| mark.what == what && robot.is_none_or(|id| id == mark.robot);
+        marks.iter().filter(is_own).map(|mark| mark.tick)
+    }
+}
+
 /// A lane for each robot; one for all where they are many.
 fn lanes(model: &Dashboard) -> Vec<Lane<'_>> {
     let robots = || model.cockpits.iter().flat_map(|cockpit| &cockpit.robots);
@@ -112,9 +121,8 @@ fn show_lanes(
             ui.painter().text(at, Align2::RIGHT_CENTER, lane.name, font.clone(), look.colour(Role::Muted));
         }
         ui.painter().hline(rect.x_range(), rect.center().y, Stroke::new(1.0, look.colour(Role::Hairline)));
-        let own: Vec<&TickMark> = marks.iter().filter(|mark| lane.robot.is_none_or(|id| id == mark.robot)).collect();
-        contacts(ui, &own, rect, scale, look);
-        takeovers(ui, &own, rect, scale, look);
+        contacts(ui, lane.of(marks, Happening::Contact), rect, scale, look);
+        takeovers(ui, lane.of(marks, Happening::Takeover), rect, scale, look);
     }
     // one response for all marks, whatever their number
     let response = ui.interact(scale.lanes, ui.id().with("marks"), Sense::click());
@@ -152,10 +160,10 @@ fn say(response: Response, model: &Dashboard, mark: Option<&TickMark>, tick: u64
 }
 
 /// Shows contacts as ticks where they are few; where several fall together, the more there are, the stronger.
-fn contacts(ui: &Ui, marks: &[&TickMark], lane: Rect, scale: &Scale, look: &Look) {
-    let counts = binned(marks.iter().filter(|m| m.what == Happening::Contact).map(|m| scale.x(m.tick) - lane.left()));
-    let most = counts.iter().map(|(_, count)| *count).max().unwrap_or(1);
-    for (bin, count) in counts {
+fn contacts(ui: &Ui, ticks: impl Iterator<Item = u64>, lane: Rect, scale: &Scale, look: &Look) {
+    let counts = binned(ticks.map(|tick| scale.x(tick) - lane.left()), lane.width());
+    let most = counts.iter().copied().max().unwrap_or(1);
+    for (bin, count) in counts.into_iter().enumerate().filter(|(_, count)| *count > 0) {
         let x = lane.left() + BIN * bin as f32;
         let bar = Rect::from_x_y_ranges(x..=x + 2.0, lane.shrink2(vec2(0.0, 1.0)).y_range());
         let strength = if most == 1 { 1.0 } else { 0.35 + 0.65 * f64::from(count) / f64::from(most) };
@@ -163,18 +171,21 @@ fn contacts(ui: &Ui, marks: &[&TickMark], lane: Rect, scale: &Scale, look: &Look
     }
 }
 
-/// The bins of a row in which something falls, in ascending order, and how much.
-fn binned(xs: impl Iterator<Item = f32>) -> Vec<(u32, u32)> {
-    let mut bins: Vec<u32> = xs.map(|x| (x / BIN).max(0.0) as u32).collect();
-    bins.sort_unstable();
-    bins.chunk_by(|a, b| a == b).map(|bin| (bin[0], bin.len() as u32)).collect()
+/// How much falls into each bin of a row of some width.
+fn binned(xs: impl Iterator<Item = f32>, width: f32) -> Vec<u32> {
+    let mut counts = vec![0; (width / BIN).max(0.0) as usize + 1];
+    let last = counts.len() - 1;
+    for x in xs {
+        counts[((x / BIN).max(0.0) as usize).min(last)] += 1;
+    }
+    counts
 }
 
 /// Shows takeovers as diamonds, at least five points apart.
-fn takeovers(ui: &Ui, marks: &[&TickMark], lane: Rect, scale: &Scale, look: &Look) {
+fn takeovers(ui: &Ui, ticks: impl Iterator<Item = u64>, lane: Rect, scale: &Scale, look: &Look) {
     let mut last = f32::NEG_INFINITY;
-    for mark in marks.iter().filter(|m| m.what == Happening::Takeover) {
-        let at = pos2(scale.x(mark.tick), lane.center().y);
+    for tick in ticks {
+        let at = pos2(scale.x(tick), lane.center().y);
         if at.x - last < 5.0 {
             continue;
         }
@@ -223,9 +234,10 @@ mod tests {
 
     #[test]
     fn what_falls_together_is_counted_together() {
-        // bins of three points: 0 to 3, 3 to 6, and so on
-        assert_eq!(binned([7.0, 0.0, 2.9, 3.0, 8.9].into_iter()), [(0, 2), (1, 1), (2, 2)]);
-        assert_eq!(binned(std::iter::empty()), []);
+        // bins of three points: 0 to 3, 3 to 6, and so on; the end of the line is in the last
+        assert_eq!(binned([7.0, 0.0, 2.9, 3.0, 8.9, 11.9].into_iter(), 11.0), [2, 1, 2, 1]);
+        assert_eq!(binned([12.5, -1.0].into_iter(), 11.0), [1, 0, 0, 1]);
+        assert_eq!(binned(std::iter::empty(), 2.0), [0]);
     }
 
     #[test]

@@ -7,5 +7,6 @@ pub(crate) mod icon;
 pub(crate) mod look;
 pub(crate) mod plate;
 pub(crate) mod polygons;
+pub(crate) mod scale_bar;
 pub(crate) mod sheet;
 pub(crate) mod style;

@@ -247,7 +247,7 @@ for (const [name, scheme, viewport] of [
     "/?tick=300",
     async (lab) => {
       assert.equal((await lab.state()).theme, scheme);
-      for (const id of ["dashboard", "anatomy", "cspace", "atlas"]) {
+      for (const id of ["dashboard", "anatomy", "cspace", "atlas", "plan"]) {
         await lab.send({ do: "widget", id });
         await lab.until((s) => s.widget === id);
         await lab.page.waitForTimeout(700);
@@ -670,8 +670,8 @@ test("without WebGL 2 the page says so and shows its pictures", { timeout: 60000
 test("without script the page shows its pictures and words", { timeout: 60000 }, async () => {
   const lab = await Lab.open("/", { wait: false, options: { javaScriptEnabled: false } });
   const text = await lab.page.locator("#still").innerText();
-  for (const title of ["Dashboard", "Query anatomy", "Configuration space", "World atlas"]) assert.ok(text.includes(title), title);
-  assert.equal(await lab.page.locator("#still figure img").count(), 4);
+  for (const title of ["Dashboard", "Query anatomy", "Configuration space", "World atlas", "Plan"]) assert.ok(text.includes(title), title);
+  assert.equal(await lab.page.locator("#still figure img").count(), 5);
   await lab.shot("without-script");
   assert.deepEqual(await lab.close(), []);
 });

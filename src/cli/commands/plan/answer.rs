@@ -1,19 +1,14 @@
-//! `Answer`, what came of planning, and `PathFile`, a path as JSON.
+//! `Answer`, what came of planning.
 
 use motion_lab::export::JsonNumber;
 use motion_lab::planning::{Effort, NoPath};
+use motion_lab::plans::{Attempt, Counts, PlannerName, Task};
 use motion_lab::robots::AnyRobot;
 use serde::Serialize;
 
-use super::attempt::{Attempt, Driven, Leg};
-use super::named::PlannerName;
 use super::next;
-use super::task::Task;
 use crate::cli::support::words::counted;
 use crate::cli::{Data, Failure};
-
-/// The version of the format. Readers refuse versions that they don't know.
-const VERSION: u32 = 1;
 
 /// What came of planning.
 #[derive(Clone, Debug, Serialize)]
@@ -43,26 +38,6 @@ pub struct Answer {
     unit: &'static str,
 }
 
-/// What a planner has done.
-#[derive(Clone, Copy, Debug, Serialize)]
-pub struct Counts {
-    /// The iterations.
-    pub iterations: u64,
-    /// The samples drawn.
-    pub samples: u64,
-    /// The edges asked about.
-    pub edges: u64,
-    /// Those of them that were proven free.
-    pub free: u64,
-}
-
-impl From<Effort> for Counts {
-    fn from(effort: Effort) -> Self {
-        let Effort { iterations, samples, edges, free } = effort;
-        Counts { iterations, samples, edges, free }
-    }
-}
-
 /// The unit in which a robot's paths are measured.
 pub fn unit(robot: &AnyRobot) -> &'static str {
     if matches!(robot, AnyRobot::Reach(_) | AnyRobot::Reach3(_)) { "rad" } else { "m" }
@@ -72,7 +47,7 @@ impl Answer {
     fn new(task: &Task, planner: PlannerName, seed: u64) -> Self {
         Answer {
             solved: false,
-            planner: planner.name(),
+            planner: planner.id().to_owned(),
             robot: task.name.clone(),
             world: task.world.name.clone(),
             seed,
@@ -125,109 +100,5 @@ impl Answer {
             data.line(format!("work       {work}, {:.1} ms", 1000.0 * seconds))?;
         }
         Ok(())
-    }
-}
-
-/// A path as JSON.
-#[derive(Debug, Serialize)]
-pub struct PathFile {
-    version: u32,
-    program: &'static str,
-    world: WorldLine,
-    robot: RobotLine,
-    planner: String,
-    seed: u64,
-    effort: Option<Counts>,
-    start: Vec<JsonNumber>,
-    goal: Vec<JsonNumber>,
-    length: Option<JsonNumber>,
-    clearance: Option<JsonNumber>,
-    legs: Vec<LegLine>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    growth: Option<GrowthLines>,
-}
-
-#[derive(Debug, Serialize)]
-struct WorldLine {
-    name: String,
-    content_hash: String,
-}
-
-#[derive(Debug, Serialize)]
-struct RobotLine {
-    name: String,
-    kind: &'static str,
-}
-
-#[derive(Debug, Serialize)]
-struct LegLine {
-    kind: &'static str,
-    from: Vec<JsonNumber>,
-    to: Vec<JsonNumber>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    control: Option<ControlLine>,
-    /// `[from, to, clearance]`
-    steps: Vec<[JsonNumber; 3]>,
-}
-
-#[derive(Debug, Serialize)]
-struct ControlLine {
-    v: JsonNumber,
-    phi: JsonNumber,
-    seconds: JsonNumber,
-}
-
-#[derive(Debug, Serialize)]
-struct GrowthLines {
-    nodes: Vec<Vec<JsonNumber>>,
-    edges: Vec<[usize; 2]>,
-}
-
-fn numbers(numbers: &[f64]) -> Vec<JsonNumber> {
-    numbers.iter().copied().map(JsonNumber).collect()
-}
-
-impl LegLine {
-    fn of(leg: &Leg) -> Self {
-        let control = |Driven { v, phi, seconds }: Driven| ControlLine {
-            v: JsonNumber(v),
-            phi: JsonNumber(phi),
-            seconds: JsonNumber(seconds),
-        };
-        LegLine {
-            kind: if leg.driven.is_some() { "drive" } else { "chart line" },
-            from: numbers(&leg.from),
-            to: numbers(&leg.to),
-            control: leg.driven.map(control),
-            steps: leg.steps.iter().map(|step| [step.from, step.to, step.clearance].map(JsonNumber)).collect(),
-        }
-    }
-}
-
-impl PathFile {
-    /// The path that an attempt has found, with what it has grown if that is asked for.
-    pub fn new(answer: &Answer, task: &Task, attempt: &dyn Attempt, with_growth: bool) -> Self {
-        let growth = || {
-            let (nodes, edges) = attempt.growth();
-            GrowthLines { nodes: nodes.iter().map(|node| numbers(node)).collect(), edges }
-        };
-        PathFile {
-            version: VERSION,
-            program: concat!("motion-lab ", env!("CARGO_PKG_VERSION")),
-            world: WorldLine {
-                name: task.world.name.clone(),
-                content_hash: format!("{:032x}", task.world.content_hash()),
-            },
-            robot: RobotLine { name: task.name.clone(), kind: task.robot.kind() },
-            planner: answer.planner.clone(),
-            seed: answer.seed,
-            effort: answer.effort,
-            start: numbers(&Task::coordinates(&task.start)),
-            goal: numbers(&Task::coordinates(&task.goal)),
-            length: answer.length,
-            clearance: answer.clearance,
-            legs: attempt.legs().iter().map(LegLine::of).collect(),
-            growth: with_growth.then(growth),
-        }
     }
 }

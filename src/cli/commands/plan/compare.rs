@@ -4,13 +4,12 @@ use std::fmt::Write as _;
 use std::time::Instant;
 
 use motion_lab::planning::{Effort, NoPath};
+use motion_lab::plans::{PlannerName, Task};
 use motion_lab::random::Seed;
 use serde::Serialize;
 
 use super::PlanArgs;
 use super::answer::unit;
-use super::named::PlannerName;
-use super::task::Task;
 use crate::cli::commands::record::SeedRange;
 use crate::cli::support::output::write_file;
 use crate::cli::support::progress::Progress;
@@ -79,7 +78,7 @@ pub fn compare(args: &PlanArgs, task: &Task, data: &mut Data) -> Result<Outcome,
 
 fn row(args: &PlanArgs, task: &Task, planner: PlannerName, seed: u64) -> Result<Result<Row, NoPath>, Failure> {
     let begun = Instant::now();
-    let mut attempt = match task.attempt(planner, Seed(seed))? {
+    let mut attempt = match super::task::attempt(task, planner, Seed(seed))? {
         Ok(attempt) => attempt,
         Err(reason @ NoPath::Problem(_)) => return Ok(Err(reason)),
         Err(reason) => {
@@ -105,7 +104,7 @@ fn line(planner: PlannerName, rows: &[Row]) -> Line {
     let solved: Vec<(&Row, [f64; 2])> = own.iter().filter_map(|row| Some((*row, *row.path.as_ref().ok()?))).collect();
     let of = |number: fn(&Row, [f64; 2]) -> f64| median(solved.iter().map(|(row, path)| number(row, *path)).collect());
     Line {
-        planner: planner.name(),
+        planner: planner.id().to_owned(),
         solved: solved.len(),
         attempts: own.len(),
         milliseconds: of(|row, _| 1000.0 * row.seconds),
@@ -142,7 +141,7 @@ fn csv(rows: &[Row]) -> String {
     let mut text = String::from("planner,seed,solved,seconds,iterations,samples,edges,free,length,clearance,reason\n");
     for Row { planner, seed, effort, seconds, path } in rows {
         let Effort { iterations, samples, edges, free } = effort;
-        let name = planner.name();
+        let name = planner.id();
         let (solved, length, clearance, reason) = match path {
             Ok([length, clearance]) => (true, length.to_string(), clearance.to_string(), String::new()),
             Err(reason) => (false, String::new(), String::new(), format!("\"{}\"", reason.replace('"', "\"\""))),

@@ -4,11 +4,9 @@ use std::path::Path;
 
 use motion_lab::capture::{Captured, Form, Paper};
 use motion_lab::picture::{Drawing, Figure, Item, Line, Panel, Role, footprint, trace, world};
+use motion_lab::plans::{Attempt, PlannerName, Task};
 
 use super::answer::unit;
-use super::attempt::Attempt;
-use super::named::PlannerName;
-use super::task::Task;
 use crate::cli::Failure;
 use crate::cli::support::paper::write_picture;
 use crate::cli::support::target::Target;
@@ -30,7 +28,7 @@ pub fn write(
 }
 
 fn captured(task: &Task, planner: PlannerName, seed: u64, attempt: &dyn Attempt) -> Captured {
-    let (way, planner) = (attempt.way(), planner.name());
+    let (way, planner) = (attempt.way(), planner.id().to_owned());
     let ways = attempt.ways();
     let effort = attempt.effort();
     let mut items = Vec::new();

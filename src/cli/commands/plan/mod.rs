@@ -2,10 +2,8 @@
 //! compared.
 
 mod answer;
-mod attempt;
 mod compare;
 mod drawing;
-mod named;
 mod play;
 mod task;
 
@@ -14,6 +12,7 @@ use std::time::Instant;
 
 use clap::Args;
 use motion_lab::planning::{Bounds, NoPath};
+use motion_lab::plans::{Attempt, PathFile, PlannerName, Task};
 use motion_lab::random::Seed;
 
 use crate::cli::commands::record::SeedRange;
@@ -23,10 +22,7 @@ use crate::cli::support::paper::PaperArgs;
 use crate::cli::support::progress::Progress;
 use crate::cli::support::target::Target;
 use crate::cli::{Data, Failure, Outcome, say};
-use answer::{Answer, PathFile};
-use attempt::Attempt;
-use named::PlannerName;
-use task::Task;
+use answer::Answer;
 
 /// Plan a path that is proven free along its whole length, or say why there is none.
 ///
@@ -48,7 +44,7 @@ Examples:
   motion-lab plan --compare rrt-connect,prm,a-star --robot rusty --to 9.75,6.25 --seeds 0..20 --csv planners.csv")]
 pub struct PlanArgs {
     /// The planner. [default: hybrid-a-star for a car, rrt-connect for any other robot]
-    #[arg(long, value_enum, conflicts_with = "compare")]
+    #[arg(long, value_name = "PLANNER", value_parser = task::planner_name(), conflicts_with = "compare")]
     planner: Option<PlannerName>,
     /// The robot: a resident of the world by its name, with the sizes that the world says; else one of a kind: rusty
     /// (x,y), reach (th1,th2), choset (the same arm without thickness), reach3 (th1,th2,th3), hitch (x,y,theta;
@@ -93,7 +89,7 @@ pub struct PlanArgs {
     #[arg(long)]
     json: bool,
     /// Compare these planners, joined by commas.
-    #[arg(long, value_enum, value_delimiter = ',', value_name = "PLANNERS")]
+    #[arg(long, value_parser = task::planner_name(), value_delimiter = ',', value_name = "PLANNERS")]
     compare: Vec<PlannerName>,
     /// The seeds of a comparison, without the last.
     #[arg(long, value_name = "A..B", requires = "compare")]
@@ -112,13 +108,13 @@ impl PlanArgs {
             return Err(Failure::usage(format!("--tube {}: it must be from 0 to 1 m", self.tube), "Change --tube."));
         }
         let from = self.from.as_ref().map(|Numbers(from)| from.as_slice());
-        let task = Task::find(&self.robot, self.world.as_deref(), from, &self.to.0, self.tube)?;
+        let task = task::find(&self.robot, self.world.as_deref(), from, &self.to.0, self.tube)?;
         if !self.compare.is_empty() {
             return compare::compare(&self, &task, data);
         }
         let name = self.planner.unwrap_or(PlannerName::default_for(&task.robot));
         let begun = Instant::now();
-        let mut attempt = match task.attempt(name, Seed(self.seed))? {
+        let mut attempt = match task::attempt(&task, name, Seed(self.seed))? {
             Ok(attempt) => attempt,
             Err(reason) => return self.none(&Answer::of_none(&task, name, self.seed, &reason), data),
         };
@@ -179,9 +175,8 @@ impl PlanArgs {
         }
         if let Some(output) = &self.output {
             let target = Target::of(output)?;
-            let mut text = serde_json::to_string(&PathFile::new(&answer, task, attempt, self.growth))
-                .map_err(Failure::internal)?;
-            text.push('\n');
+            let file = PathFile::new(name.id(), self.seed, task, attempt, self.growth);
+            let text = file.to_json().map_err(Failure::internal)?;
             write_file(target.path(), text.as_bytes())?;
             target.finish(data)?;
         }

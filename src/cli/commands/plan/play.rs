@@ -2,14 +2,12 @@
 
 use std::path::Path;
 
-use motion_lab::configuration::Configuration;
+use motion_lab::plans::{Attempt, Task};
 use motion_lab::random::Seed;
 use motion_lab::simulation::{PlayError, PlayStage, PlayedPath};
 use motion_lab::tour::TourConfig;
-use motion_lab::worlds::{Resident, World};
+use motion_lab::worlds::World;
 
-use super::attempt::Attempt;
-use super::task::Task;
 use crate::cli::commands::record::{Ended, Plan, Stop, write_run};
 use crate::cli::support::log_kind::LogKind;
 use crate::cli::support::output::write_file;
@@ -29,29 +27,17 @@ pub struct Played {
 
 /// The script of the path that an attempt has found, or why it can't be played.
 pub fn play(task: &Task, attempt: &dyn Attempt, seed: Seed, tube: f64) -> Result<Result<Played, PlayError>, Failure> {
-    let resident = resident(task)?;
-    let world = World { robots: vec![resident.clone()], ..task.world.clone() };
-    let stage =
-        PlayStage { tube: motion_lab::num::greater(tube, 1e-3), ..PlayStage::new(&world, &resident.name, seed) };
+    if task.name == "choset" {
+        let reason = "an arm without thickness lives in no world, so it can't play its path";
+        return Err(Failure::usage(reason, "Plan for --robot reach."));
+    }
+    let (world, robot) = task.alone();
+    let stage = PlayStage { tube: motion_lab::num::greater(tube, 1e-3), ..PlayStage::new(&world, &robot, seed) };
     match attempt.play(&stage) {
         Some(Ok(played)) => Ok(Ok(Played { world, seed, played })),
         Some(Err(reason)) => Ok(Err(reason)),
         None => Err(Failure::internal(anyhow::anyhow!("no path is to be played"))),
     }
-}
-
-/// The resident that plays: the one that was named, else the world's first of the kind, else a new one at the start.
-fn resident(task: &Task) -> Result<Resident, Failure> {
-    let kind = task.robot.kind();
-    if task.name == "choset" {
-        let reason = "an arm without thickness lives in no world, so it can't play its path";
-        return Err(Failure::usage(reason, "Plan for --robot reach."));
-    }
-    let robots = &task.world.robots;
-    let of_kind = || robots.iter().find(|r| r.kind == kind && r.sizes.is_none());
-    let named = robots.iter().find(|r| r.name == task.name).or_else(of_kind);
-    let new = || Resident::new(task.robot.name(), kind, task.start.coordinates().to_vec());
-    Ok(named.cloned().unwrap_or_else(new))
 }
 
 /// What to do about a path that can't be played.

@@ -1,12 +1,14 @@
 //! `Attempt`, a planner at work on its problem, whatever the robot.
 
-use motion_lab::collision::ProvenStep;
-use motion_lab::configuration::{Configuration, HitchCfg, R2, T2, Tn};
-use motion_lab::geometry::{Footprint, Point2};
-use motion_lab::planning::{Bounds, CertifiedPath, Effort, NoPath, Planner, solve};
-use motion_lab::robots::{ChartLine, Hitch, HitchArc, Motion, Reach, Robot, RustyDisc};
-use motion_lab::run::Script;
-use motion_lab::simulation::{PlayError, PlayStage, PlayablePath, PlayedPath};
+use crate::collision::ProvenStep;
+use crate::configuration::{AnyConfiguration, Configuration, HitchCfg, R2, T2, Tn};
+use crate::geometry::{Footprint, Point2, Pose2};
+use crate::planning::{Bounds, CertifiedPath, Effort, NoPath, Planner, Progress, accepted, solve};
+use crate::robots::{ChartLine, Hitch, HitchArc, Motion, Reach, Robot, RustyDisc};
+use crate::run::Script;
+use crate::simulation::{PlayError, PlayStage, PlayablePath, PlayedPath};
+
+use super::drawn::{Drawn, Rejected};
 
 /// The number of straight pieces in which a driven motion is drawn.
 const DRAWN: u32 = 6;
@@ -15,11 +17,18 @@ const DRAWN: u32 = 6;
 pub trait Planned: Robot {
     /// The point that stands for the robot: a disc's centre, an arm's tip, a car's rear axle.
     fn reference(&self, q: &Self::Configuration) -> Point2;
+
+    /// The configuration as one of the lab's robots has it; a disc's heading is 0.
+    fn any(&self, q: &Self::Configuration) -> AnyConfiguration;
 }
 
 impl Planned for RustyDisc {
     fn reference(&self, q: &R2) -> Point2 {
         q.0
+    }
+
+    fn any(&self, q: &R2) -> AnyConfiguration {
+        AnyConfiguration::Pose(Pose2::new(q.0.x, q.0.y, 0.0))
     }
 }
 
@@ -27,17 +36,29 @@ impl Planned for Reach<2> {
     fn reference(&self, q: &T2) -> Point2 {
         self.tip(q)
     }
+
+    fn any(&self, q: &T2) -> AnyConfiguration {
+        AnyConfiguration::T2(*q)
+    }
 }
 
 impl Planned for Reach<3> {
     fn reference(&self, q: &Tn<3>) -> Point2 {
         self.tip(q)
     }
+
+    fn any(&self, q: &Tn<3>) -> AnyConfiguration {
+        AnyConfiguration::T3(*q)
+    }
 }
 
 impl Planned for Hitch {
     fn reference(&self, q: &HitchCfg) -> Point2 {
         q.body.position()
+    }
+
+    fn any(&self, q: &HitchCfg) -> AnyConfiguration {
+        AnyConfiguration::Hitch(*q)
     }
 }
 
@@ -53,7 +74,7 @@ pub struct Driven {
 }
 
 /// A motion that a path may consist of.
-pub trait LegMotion: Motion + Clone {
+pub trait LegMotion: Motion + Clone + Send {
     /// What drives it.
     fn driven(&self) -> Option<Driven>;
 
@@ -71,7 +92,7 @@ impl<R: Robot> LegMotion for ChartLine<R> {
 
     fn length(&self) -> f64 {
         let d = self.at(0.0).difference(&self.at(1.0));
-        d.map_or(0.0, |d| motion_lab::num::sqrt(d.iter().map(|x| x * x).sum()))
+        d.map_or(0.0, |d| crate::num::sqrt(d.iter().map(|x| x * x).sum()))
     }
 
     fn pieces(&self) -> u32 {
@@ -109,9 +130,18 @@ pub struct Leg {
 }
 
 /// A planner at work.
-pub trait Attempt {
+pub trait Attempt: Send {
     /// Works until there is a path.
+    ///
+    /// # Errors
+    /// [`NoPath`] says why there is none.
     fn solve(&mut self, bounds: &Bounds) -> Result<(), NoPath>;
+
+    /// Does one iteration. A path is checked before it counts, as by [`solve`](crate::planning::solve).
+    fn step(&mut self) -> Progress;
+
+    /// What there is to draw: the growth, the path, and what the last motion that was rejected hits.
+    fn drawn(&self) -> Drawn;
 
     /// What the planner has done.
     fn effort(&self) -> Effort;
@@ -146,21 +176,46 @@ pub trait Attempt {
 
 /// A planner of one robot at work.
 pub struct Trial<R: Robot, M> {
-    planner: Box<dyn Planner<R, M>>,
+    planner: Box<dyn Planner<R, M> + Send>,
     path: Option<CertifiedPath<M>>,
+    /// The number of motions that were rejected before the last iteration.
+    rejected_before: u64,
 }
 
 impl<R: Robot, M> Trial<R, M> {
     /// The planner before its first iteration.
-    pub fn new(planner: Box<dyn Planner<R, M>>) -> Self {
-        Trial { planner, path: None }
+    pub fn new(planner: Box<dyn Planner<R, M> + Send>) -> Self {
+        Trial { planner, path: None, rejected_before: 0 }
     }
 }
 
 impl<R: Planned, M: LegMotion<Configuration = R::Configuration>> Trial<R, M> {
-    fn drawn(&self, motion: &M) -> Vec<Point2> {
-        let (robot, pieces) = (self.planner.problem().checker().robot(), motion.pieces());
-        (0..=pieces).map(|i| robot.reference(&motion.at(f64::from(i) / f64::from(pieces)))).collect()
+    fn sampled(motion: &M) -> impl Iterator<Item = R::Configuration> {
+        let pieces = motion.pieces();
+        (0..=pieces).map(move |i| motion.at(f64::from(i) / f64::from(pieces)))
+    }
+
+    fn way_of(&self, motion: &M) -> Vec<Point2> {
+        let robot = self.planner.problem().checker().robot();
+        Self::sampled(motion).map(|q| robot.reference(&q)).collect()
+    }
+
+    fn among_any(&self, motion: &M) -> Vec<AnyConfiguration> {
+        let robot = self.planner.problem().checker().robot();
+        Self::sampled(motion).map(|q| robot.any(&q)).collect()
+    }
+
+    /// The motion that was rejected last, if it was in the last iteration.
+    fn rejected(&self) -> Option<Rejected> {
+        let (growth, checker) = (self.planner.growth(), self.planner.problem().checker());
+        let effort = growth.effort();
+        let is_new = effort.edges - effort.free > self.rejected_before;
+        let rejection = growth.rejection(checker).filter(|_| is_new)?;
+        Some(Rejected {
+            way: self.among_any(growth.rejected()?),
+            at: checker.robot().any(&rejection.at),
+            witness: rejection.witness,
+        })
     }
 }
 
@@ -171,6 +226,36 @@ where
     fn solve(&mut self, bounds: &Bounds) -> Result<(), NoPath> {
         self.path = Some(solve(self.planner.as_mut(), bounds)?);
         Ok(())
+    }
+
+    fn step(&mut self) -> Progress {
+        let before = self.planner.growth().effort();
+        self.rejected_before = before.edges - before.free;
+        match self.planner.step() {
+            Progress::Solved => match accepted(self.planner.as_ref()) {
+                Ok(path) => {
+                    self.path = Some(path);
+                    Progress::Solved
+                }
+                Err(refused) => Progress::Ended(refused.into()),
+            },
+            progress => progress,
+        }
+    }
+
+    fn drawn(&self) -> Drawn {
+        let (growth, problem) = (self.planner.growth(), self.planner.problem());
+        let robot = problem.checker().robot();
+        let edges = growth.edges().filter_map(|[a, b]| Some(self.among_any(&self.planner.motion(a, b)?)));
+        let path = self.path.iter().flat_map(|path| path.legs());
+        let corners = self.path.iter().flat_map(CertifiedPath::corners);
+        Drawn {
+            ends: [problem.start(), problem.goal()].map(|q| robot.any(&q)),
+            edges: edges.collect(),
+            path: path.flat_map(|leg| self.among_any(leg.motion())).collect(),
+            corners: corners.map(|q| robot.any(&q)).collect(),
+            rejected: self.rejected().filter(|_| self.path.is_none()),
+        }
     }
 
     fn effort(&self) -> Effort {
@@ -203,11 +288,11 @@ where
 
     fn ways(&self) -> Vec<Vec<Point2>> {
         let edges = self.planner.growth().edges();
-        edges.filter_map(|[a, b]| Some(self.drawn(&self.planner.motion(a, b)?))).collect()
+        edges.filter_map(|[a, b]| Some(self.way_of(&self.planner.motion(a, b)?))).collect()
     }
 
     fn way(&self) -> Vec<Point2> {
-        self.path.iter().flat_map(|path| path.legs()).flat_map(|leg| self.drawn(leg.motion())).collect()
+        self.path.iter().flat_map(|path| path.legs()).flat_map(|leg| self.way_of(leg.motion())).collect()
     }
 
     fn places(&self) -> Vec<Footprint> {

@@ -1,8 +1,8 @@
 //! Residents with sizes of their own in the window.
 
-use super::super::session::new_run;
-use super::*;
+use super::super::*;
 use crate::anatomy::{Anatomy, WorldSource};
+use crate::app::session::new_run;
 use crate::random::Seed;
 use crate::robots::AnyRobot;
 use crate::tour::TourConfig;

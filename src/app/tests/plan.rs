@@ -1,0 +1,186 @@
+//! Planning in the window, behaviour by behaviour.
+
+use super::*;
+use crate::configuration::Configuration;
+use crate::picture::Role;
+use crate::planning::NoPath;
+use crate::plans::PathFile;
+use crate::ui::PlanState;
+
+fn plan(harness: &Harness<'_, Lab>) -> PlanState {
+    harness.state().app.world().resource::<Interface>().0.plan.clone()
+}
+
+fn planned(size: [f32; 2]) -> Harness<'static, Lab> {
+    let mut harness = lab(size);
+    click(&mut harness, "Plan");
+    harness
+}
+
+/// Plays until the planner has its path or has ended.
+fn play(harness: &mut Harness<'_, Lab>) {
+    click(harness, "Play");
+    for _ in 0..4000 {
+        if !plan(harness).playing {
+            return;
+        }
+        harness.run_steps(1);
+    }
+    panic!("it goes on and on");
+}
+
+#[test]
+fn a_step_is_an_iteration_and_play_goes_on_to_the_path_that_the_library_finds() {
+    let mut harness = planned(WIDE);
+    assert_eq!(plan(&harness).effort().iterations, 0);
+    click(&mut harness, "Step");
+    click(&mut harness, "Step");
+    assert_eq!(plan(&harness).effort().iterations, 2);
+    harness.get_by_label_contains("2 iterations");
+    play(&mut harness);
+    // the library's own loop, on the same problem and seed
+    let checker =
+        crate::prelude::ChainChecker::new(crate::prelude::Scene::workbench(), crate::prelude::Reach::<2>::workbench());
+    let [start, goal] = [[2.0, 0.0], [3.1, 0.0]].map(crate::configuration::Tn);
+    let problem = crate::collision::Problem::try_new(checker, start, goal, crate::tour::BOOK_SEED).unwrap();
+    let mut planner = crate::planning::RrtConnect::new(problem);
+    let path = crate::planning::solve(&mut planner, &crate::planning::Bounds::default()).unwrap();
+    use crate::planning::Planner;
+    let shown = plan(&harness);
+    assert_eq!(shown.effort(), planner.growth().effort());
+    let corners: Vec<Coordinates> = shown.drawn().corners.iter().map(|q| q.coordinates()).collect();
+    assert_eq!(corners, path.corners().iter().map(|q| q.coordinates()).collect::<Vec<_>>());
+    assert_eq!(shown.lengths().unwrap().clearance.to_bits(), path.clearance().to_bits());
+    harness.get_by_label_contains("proven");
+    // what is drawn has the growth's edges, the path and both ends
+    let ids: Vec<&str> = shown.over.items.iter().map(|item| item.id.as_str()).collect();
+    for id in ["growth", "path", "start/0", "goal/0", "goal/1"] {
+        assert!(ids.contains(&id), "{id} of {ids:?}");
+    }
+    assert!(shown.over.items.iter().all(|item| item.role != Role::Goal), "red is kept for what hits");
+    // another seed is another tree
+    click(&mut harness, "Next seed");
+    assert_eq!((plan(&harness).effort().iterations, plan(&harness).seed().0), (0, 2006));
+}
+
+#[test]
+fn keys_move_the_planner_and_not_the_run() {
+    let mut harness = planned(WIDE);
+    let tick = harness.state().transport().tick;
+    harness.key_press(Key::ArrowRight);
+    harness.run_steps(2);
+    assert_eq!((plan(&harness).effort().iterations, harness.state().transport().tick), (1, tick));
+    harness.key_press(Key::Home);
+    harness.run_steps(2);
+    assert_eq!(plan(&harness).effort().iterations, 0);
+    harness.key_press(Key::Space);
+    harness.run_steps(2);
+    assert!(plan(&harness).playing && harness.state().transport().playback == Playback::Paused);
+}
+
+#[test]
+fn the_ends_are_dragged_in_both_papers_and_an_end_in_contact_is_said() {
+    let mut harness = planned(WIDE);
+    click(&mut harness, "Step");
+    // the goal's tip, from (-2, 0) or so, to a point above
+    let before = plan(&harness);
+    let [start, goal] = [0, 1].map(|end| before.task().robot.reference(&before.end_at(end)));
+    let rect = harness.get_by_label_contains("workspace. RRT-Connect").rect();
+    let fit = crate::ui::paint::canvas::fit(before.backdrop(), rect);
+    let on_screen = |p: crate::geometry::Point2| {
+        let [x, y] = fit.screen_from_world(p);
+        pos2(x as f32, y as f32)
+    };
+    let to = crate::geometry::Point2::new(-1.2, 1.0);
+    pointer(&mut harness, on_screen(goal), Some(true));
+    for i in 1..=8 {
+        pointer(&mut harness, on_screen(goal).lerp(on_screen(to), i as f32 / 8.0), None);
+    }
+    pointer(&mut harness, on_screen(to), Some(false));
+    harness.run_steps(2);
+    let after = plan(&harness);
+    let moved = [0, 1].map(|end| after.task().robot.reference(&after.end_at(end)));
+    assert!((moved[1] - to).norm() < 0.02 && moved[0] == start, "{moved:?}");
+    assert_eq!(after.effort().iterations, 0, "it begins anew");
+    // into the block, where the chapter's arm overlaps it: pi/4, pi/4
+    harness
+        .state_mut()
+        .app
+        .world_mut()
+        .resource_mut::<Interface>()
+        .0
+        .plan
+        .move_end(1, crate::configuration::AnyConfiguration::T2(crate::configuration::T2::new(0.785, 0.785)));
+    harness.run_steps(2);
+    harness.get_by_label_contains("No path: the goal would overlap the block");
+    let shown = plan(&harness);
+    assert!(matches!(shown.stage(), crate::ui::PlanStage::Ended(NoPath::Problem(_))));
+    harness.get_by_label_contains("configuration space. ");
+}
+
+#[test]
+fn a_path_is_played_as_a_run_and_drawn_over_it() {
+    let mut harness = planned(WIDE);
+    play(&mut harness);
+    click(&mut harness, "Play it");
+    harness.run_steps(4);
+    let world = harness.state().app.world();
+    assert_eq!(world.resource::<Interface>().0.widget, crate::ui::Widget::Dashboard);
+    assert_eq!(harness.state().transport().playback, Playback::Playing);
+    assert!(plan(&harness).over_world("Workbench").is_some() && plan(&harness).over_world("Lot").is_none());
+    let goal = plan(&harness).task().goal.coordinates();
+    for _ in 0..4000 {
+        harness.run_steps(1);
+        let off: f64 = harness.state().robot(0).coordinates.iter().zip(&goal).map(|(a, b)| (a - b).abs()).sum();
+        if off < 1e-4 {
+            assert_eq!(harness.state().robot(0).contacts, 0);
+            return;
+        }
+    }
+    panic!("it never arrives");
+}
+
+#[test]
+fn a_path_goes_to_a_file_and_comes_back_and_a_wrong_file_changes_nothing() {
+    let mut harness = planned(WIDE);
+    play(&mut harness);
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("path.json");
+    let world = harness.state_mut().app.world_mut();
+    assert!(!super::super::files::save_path(world, &path).unwrap().is_error);
+    let drawn = world.resource::<Interface>().0.plan.drawn().clone();
+    let notice = super::super::files::open_path(world, &path);
+    assert!(!notice.is_error, "{notice:?}");
+    harness.run_steps(2);
+    let read = plan(&harness);
+    assert_eq!((&read.drawn().corners, &read.drawn().ends), (&drawn.corners, &drawn.ends));
+    assert_eq!(read.drawn().edges.len(), drawn.edges.len());
+    harness.get_by_label_contains("nothing of it is proven here");
+    let text = std::fs::read_to_string(&path).unwrap();
+    assert_eq!(PathFile::read(&text).unwrap().names(), ["Workbench", "Reach"]);
+    std::fs::write(&path, text.replacen("\"version\":1", "\"version\":9", 1)).unwrap();
+    let notice = super::super::files::open_path(harness.state_mut().app.world_mut(), &path);
+    assert!(notice.is_error && notice.text.contains("version 9: this program reads version 1"), "{notice:?}");
+    assert_eq!(plan(&harness).drawn(), read.drawn());
+}
+
+#[test]
+fn a_trailer_is_planned_for_by_choice_and_each_robot_has_its_planners() {
+    let mut harness = planned(PHONE);
+    harness.get_by_label_contains("workspace. RRT-Connect for Reach");
+    let mut harness2 = planned(WIDE);
+    harness2.get_all_by_role(egui::accesskit::Role::ComboBox).next().unwrap().click();
+    harness2.run_steps(3);
+    harness2.get_by_label("Hitch with its trailer, Lot").click();
+    harness2.run_steps(3);
+    let shown = plan(&harness2);
+    assert_eq!((shown.planner().id(), shown.task().start.coordinates().len()), ("hybrid-a-star", 4));
+    click(&mut harness2, "Step");
+    assert!(plan(&harness2).effort().edges > 0);
+    let command = plan(&harness2).command().unwrap();
+    assert!(
+        command.starts_with("motion-lab plan --planner hybrid-a-star --robot Hitch --world lot --from "),
+        "{command}"
+    );
+    harness.run_steps(1);
+}

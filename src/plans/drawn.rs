@@ -1,0 +1,59 @@
+//! `Drawn`, what there is to draw of a plan.
+
+use crate::collision::Witness;
+use crate::configuration::AnyConfiguration;
+
+/// What there is to draw of a plan, whoever made it: a planner at work, or a file. Motions are lists of configurations
+/// along them, so close together that a chart line between two of them is the motion as far as one can see.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Drawn {
+    /// The start and the goal.
+    pub ends: [AnyConfiguration; 2],
+    /// The edges of the tree or the roadmap.
+    pub edges: Vec<Vec<AnyConfiguration>>,
+    /// The path, from the start on; empty without one.
+    pub path: Vec<AnyConfiguration>,
+    /// The path's start and the ends of its legs; empty without a path.
+    pub corners: Vec<AnyConfiguration>,
+    /// The motion that was rejected in the last iteration, if one was.
+    pub rejected: Option<Rejected>,
+}
+
+/// A motion that was rejected, and what it hits.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Rejected {
+    /// The motion.
+    pub way: Vec<AnyConfiguration>,
+    /// The configuration in contact.
+    pub at: AnyConfiguration,
+    /// The nearest points there; `None` in an empty scene.
+    pub witness: Option<Witness>,
+}
+
+impl Drawn {
+    /// The robot's places along the path: corners, at most fifteen of them, from the start on and the goal the last.
+    pub fn places(&self) -> Vec<AnyConfiguration> {
+        let every = self.corners.len().div_ceil(14).max(1);
+        let some = self.corners.iter().step_by(every).copied();
+        let last = self.corners.last().copied().filter(|_| self.corners.len() % every != 1 % every);
+        some.chain(last).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::robots::AnyRobot;
+
+    #[test]
+    fn the_places_are_few_and_end_at_the_goal() {
+        let at = |i: usize| AnyRobot::of_kind("rusty", &[i as f64, 0.0, 0.0]).map(|(_, q)| q).unwrap();
+        for count in [1, 2, 13, 14, 15, 16, 28, 29, 30, 1000] {
+            let corners: Vec<AnyConfiguration> = (0..count).map(at).collect();
+            let drawn = Drawn { ends: [at(0), at(count - 1)], edges: vec![], path: vec![], corners, rejected: None };
+            let places = drawn.places();
+            assert!(places.len() <= 15 && places[0] == at(0), "{count}");
+            assert_eq!(places.iter().filter(|q| **q == at(count - 1)).count(), 1, "{count}: the goal once");
+        }
+    }
+}

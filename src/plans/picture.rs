@@ -1,0 +1,72 @@
+//! The pictures of a plan: in the workspace, and in a slice of the configuration space.
+
+use super::drawn::Drawn;
+use crate::configuration::AnyConfiguration;
+use crate::cspace::{Slice, lines_through};
+use crate::geometry::Point2;
+use crate::picture::{Dash, Drawing, Glyph, Item, Line, Role, footprint};
+use crate::robots::{AnyRobot, Robot};
+
+/// The items of a plan over a world: the growth as the ways of the robot's [reference
+/// point](AnyRobot::reference), the robot along the path, at the goal and at the start, and what the last rejected
+/// motion hits.
+pub fn workspace_items(robot: &AnyRobot, drawn: &Drawn) -> Vec<Item> {
+    let way = |motion: &Vec<AnyConfiguration>| motion.iter().map(|q| robot.reference(q)).collect::<Vec<Point2>>();
+    let mut items = vec![growth(drawn.edges.iter().map(way).collect())];
+    for (i, q) in drawn.places().iter().enumerate() {
+        items.extend(footprint(&format!("place/{i}"), "on the way", &robot.footprint(q), Role::Path, 0.12));
+    }
+    let [start, goal] = drawn.ends.map(|q| robot.footprint(&q));
+    items.extend(footprint("goal", "the goal", &goal, Role::Free, 0.4));
+    items.extend(footprint("start", "the start", &start, Role::Robot, 0.85));
+    if !drawn.path.is_empty() {
+        items.push(path(vec![way(&drawn.path)]));
+    }
+    if let Some(rejected) = &drawn.rejected {
+        items.push(refused(vec![way(&rejected.way)]));
+        items.extend(footprint("rejected", "where it hits", &robot.footprint(&rejected.at), Role::Goal, 0.25));
+        let cross = rejected.witness.map(|w| Drawing::Mark { at: w.on_obstacle, glyph: Glyph::Cross, radius_px: 5.0 });
+        items.extend(cross.map(|cross| Item::new("rejected/witness", "what it hits", Role::Goal, cross)));
+    }
+    items
+}
+
+/// The items of a plan over the cells of a slice: each configuration is its point.
+pub fn space_items(slice: &Slice, drawn: &Drawn) -> Vec<Item> {
+    let lines = |motion: &Vec<AnyConfiguration>| lines_through(slice, motion).unwrap_or_default();
+    let mut items = vec![growth(drawn.edges.iter().flat_map(lines).collect())];
+    if !drawn.path.is_empty() {
+        items.push(path(lines(&drawn.path)));
+    }
+    if let Some(rejected) = &drawn.rejected {
+        items.push(refused(lines(&rejected.way)));
+        let cross = Drawing::Mark { at: point(slice, &rejected.at), glyph: Glyph::Cross, radius_px: 5.0 };
+        items.push(Item::new("rejected/at", "where it hits", Role::Goal, cross));
+    }
+    let ends = [("goal", "the goal", Role::Free), ("start", "the start", Role::Robot)];
+    for ((id, name, role), q) in ends.into_iter().zip([&drawn.ends[1], &drawn.ends[0]]) {
+        let dot = Drawing::Mark { at: point(slice, q), glyph: Glyph::Handle, radius_px: 5.5 };
+        items.push(Item::new(id, format!("{name}: {q}"), role, dot));
+    }
+    items
+}
+
+fn point(slice: &Slice, q: &AnyConfiguration) -> Point2 {
+    Point2::from(slice.point(q))
+}
+
+fn growth(lines: Vec<Vec<Point2>>) -> Item {
+    let drawing = Drawing::Region { pieces: Vec::new(), outline: lines };
+    Item::new("growth", "what the planner has grown", Role::Muted, drawing).stroked(Line::solid(0.8))
+}
+
+fn path(lines: Vec<Vec<Point2>>) -> Item {
+    let drawing = Drawing::Region { pieces: Vec::new(), outline: lines };
+    Item::new("path", "the path", Role::Path, drawing).stroked(Line::solid(2.5))
+}
+
+fn refused(lines: Vec<Vec<Point2>>) -> Item {
+    let drawing = Drawing::Region { pieces: Vec::new(), outline: lines };
+    Item::new("rejected/way", "a motion that is not free", Role::Goal, drawing)
+        .stroked(Line::solid(1.5).dashed(Dash::Dashed))
+}

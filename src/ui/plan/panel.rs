@@ -1,0 +1,199 @@
+//! The panel beside the papers: what is planned, by whom, and what came of it.
+
+use bevy_egui::egui::{CollapsingHeader, ComboBox, DragValue, RichText, Slider, Ui, WidgetInfo};
+
+use super::state::{PlanState, Stage};
+use crate::capture::unit;
+use crate::collision::{Collision, Scene};
+use crate::configuration::{AnyConfiguration, Configuration, HitchCfg};
+use crate::picture::Role;
+use crate::plans::{PathLengths, PlannerName, Task};
+use crate::random::Seed;
+use crate::robots::{AnyRobot, Robot};
+use crate::ui::paint::button::LabButton;
+use crate::ui::paint::plate::refusal;
+use crate::ui::{Command, Look, SessionCommand, UiState};
+use crate::worlds::World;
+
+/// Shows the panel.
+pub fn panel(ui: &mut Ui, look: &Look, state: &mut UiState, commands: &mut Vec<Command>) {
+    task_choice(ui, state);
+    let plan = &mut state.plan;
+    planner_choice(ui, plan);
+    seed(ui, plan);
+    ui.add_space(4.0);
+    result(ui, look, plan);
+    ui.add_space(4.0);
+    let has_path = matches!(plan.stage(), Stage::Solved);
+    ui.horizontal_wrapped(|ui| {
+        let play = LabButton::new("Play it").enabled(has_path).show(ui, look);
+        if play.on_hover_text("A new run in which the robot drives the path").clicked() {
+            commands.push(Command::Session(SessionCommand::PlayPath));
+        }
+        if LabButton::new("Save the path").enabled(has_path).show(ui, look).clicked() {
+            commands.push(Command::Session(SessionCommand::SavePath));
+        }
+        let open = LabButton::new("Open a path").show(ui, look);
+        if open.on_hover_text("A path, a tree or a roadmap of any planner, as JSON").clicked() {
+            commands.push(Command::Session(SessionCommand::OpenPath));
+        }
+        if let Some(command) = plan.command()
+            && LabButton::new("Copy as command").show(ui, look).clicked()
+        {
+            ui.ctx().copy_text(command);
+        }
+    });
+    ui.checkbox(&mut plan.over_drive, "draw it over the dashboard too");
+    ui.add_space(4.0);
+    for (end, name) in ["Start", "Goal"].into_iter().enumerate() {
+        CollapsingHeader::new(name).default_open(false).show(ui, |ui| coordinates(ui, plan, end));
+    }
+}
+
+/// The robots to plan for: the residents of the built-in worlds and of the atlas's, a car with its trailer and without.
+fn choices(atlas: &World) -> Vec<(String, AnyRobot, AnyConfiguration, World)> {
+    let mut worlds: Vec<World> = World::built_in_names().into_iter().filter_map(World::built_in).collect();
+    if !worlds.contains(atlas) {
+        worlds.push(atlas.clone());
+    }
+    let mut choices = Vec::new();
+    for world in worlds {
+        for resident in &world.robots {
+            let Some((robot, q)) = AnyRobot::of_resident(resident) else { continue };
+            choices.push((resident.name.clone(), robot, q, world.clone()));
+            if let (AnyRobot::Hitch(car), AnyConfiguration::Hitch(at)) = (robot, q) {
+                let (car, trailer) = match at.trailer {
+                    None => (car.with_trailer(), Some(at.body.theta)),
+                    Some(_) => (car.without_trailer(), None),
+                };
+                let q = AnyConfiguration::Hitch(HitchCfg { body: at.body, trailer });
+                choices.push((resident.name.clone(), AnyRobot::Hitch(car), q, world.clone()));
+            }
+        }
+    }
+    choices
+}
+
+/// A choice in words: `Hitch with its trailer, Lot`.
+fn named(name: &str, robot: &AnyRobot, world: &World) -> String {
+    let trailer =
+        if matches!(robot, AnyRobot::Hitch(car) if car.hitch_len.is_some()) { " with its trailer" } else { "" };
+    format!("{name}{trailer}, {}", world.name)
+}
+
+fn task_choice(ui: &mut Ui, state: &mut UiState) {
+    let atlas = state.atlas.world().clone();
+    let present = state.plan.task();
+    let shown = named(&present.name, &present.robot, &present.world);
+    ComboBox::from_label("robot").width(190.0).selected_text(shown.as_str()).show_ui(ui, |ui| {
+        for (name, robot, q, world) in choices(&atlas) {
+            let words = named(&name, &robot, &world);
+            if ui.selectable_label(words == shown, words).clicked() {
+                let goal = goal_for(&robot, &world, q);
+                state.plan.take(Task::new(name, robot, world, [q, goal]));
+            }
+        }
+    });
+}
+
+/// A goal to begin with: the chapter's round the post, another room, bay 2; elsewhere a place of the world's, or the
+/// start itself.
+fn goal_for(robot: &AnyRobot, world: &World, start: AnyConfiguration) -> AnyConfiguration {
+    use std::f64::consts::FRAC_PI_2;
+    let at = |coordinates: &[f64]| start.with_coordinates(coordinates);
+    let own = match (robot, &*world.name) {
+        (AnyRobot::Rusty(_), "Apartment") => at(&[9.75, 6.25, 0.0]),
+        (AnyRobot::Reach(_), "Workbench") => at(&[3.1, 0.0]),
+        (AnyRobot::Hitch(car), "Lot") if car.hitch_len.is_some() => at(&[6.75, 7.0, -FRAC_PI_2, -FRAC_PI_2]),
+        (AnyRobot::Hitch(_), "Lot") => at(&[6.75, 7.0, -FRAC_PI_2]),
+        _ => None,
+    };
+    let scene = Scene::of_world(world);
+    let is_free = |q: &AnyConfiguration| !scene.intersects(&robot.footprint(q)) && *q != start;
+    let places = world.places.iter().map(|place| start.with(0, place.pose.x).with(1, place.pose.y));
+    let turned = (1..8).map(|eighth| start.with(0, f64::from(eighth) * 0.5 * FRAC_PI_2));
+    let others: Vec<_> = if start.is_angle(0) { turned.collect() } else { places.collect() };
+    own.into_iter().chain(others).find(is_free).unwrap_or(start)
+}
+
+fn planner_choice(ui: &mut Ui, plan: &mut PlanState) {
+    let robot = plan.task().robot;
+    let suits = PlannerName::ALL.into_iter().filter(|name| name.suits(&robot).is_ok());
+    let present = plan.planner();
+    ComboBox::from_label("planner").width(190.0).height(320.0).selected_text(present.title()).show_ui(ui, |ui| {
+        for name in suits {
+            if ui.selectable_label(name == present, name.title()).on_hover_text(name.words()).clicked() {
+                plan.set_planner(name);
+            }
+        }
+    });
+    ui.label(RichText::new(present.words()).small());
+}
+
+fn seed(ui: &mut Ui, plan: &mut PlanState) {
+    ui.horizontal(|ui| {
+        let label = ui.label("seed");
+        let mut seed = plan.seed().0;
+        if ui.add(DragValue::new(&mut seed).range(0..=u64::from(u32::MAX))).labelled_by(label.id).changed() {
+            plan.set_seed(Seed(seed));
+        }
+    });
+}
+
+/// Shows what the planner has done, and its path or why there is none.
+fn result(ui: &mut Ui, look: &Look, plan: &PlanState) {
+    let effort = plan.effort();
+    let monospace = |text: String| RichText::new(text).monospace();
+    if !matches!(plan.stage(), Stage::Read(_)) {
+        ui.label(monospace(format!("{:>7} iterations  {:>7} samples", effort.iterations, effort.samples)));
+        ui.label(monospace(format!("{:>7} edges asked {:>7} free", effort.edges, effort.free)));
+    }
+    match plan.stage() {
+        Stage::Growing if effort.iterations == 0 => {
+            _ = ui.label("Drag the start or the goal; play, or go step by step.")
+        }
+        Stage::Growing => _ = ui.label("It grows."),
+        Stage::Solved => {
+            if let Some(PathLengths { length, clearance }) = plan.lengths() {
+                let legs = plan.drawn().corners.len().saturating_sub(1);
+                let unit = unit(&plan.task().robot);
+                ui.label(monospace(format!("path: {legs} legs, {length:.3} {unit}")));
+                ui.label(monospace(format!("clearance {clearance:.4} m, proven")));
+            }
+            if plan.improves() {
+                ui.label("Play on, and it improves its path.");
+            }
+        }
+        Stage::Ended(reason) => refusal(ui, &format!("No path: {reason}"), look),
+        Stage::Read(name) => {
+            let drawn = plan.drawn();
+            let legs = drawn.corners.len().saturating_sub(1);
+            ui.label(format!("{name}: {legs} legs, {} edges", drawn.edges.len()));
+            let words = "Drawn as the file says; nothing of it is proven here.";
+            ui.label(RichText::new(words).color(look.colour(Role::Muted)));
+        }
+    }
+}
+
+/// Shows the coordinates of an end as sliders.
+fn coordinates(ui: &mut Ui, plan: &mut PlanState, end: usize) {
+    let q = plan.end_at(end);
+    let bounds = plan.task().world.bounds;
+    ui.spacing_mut().slider_width = 150.0;
+    for (i, (name, mut value)) in q.coordinate_names().into_iter().zip(q.coordinates()).enumerate() {
+        let pi = std::f64::consts::PI;
+        let [least, most] = match i {
+            _ if q.is_angle(i) => [-pi, pi],
+            0 => [bounds.min.x, bounds.max.x],
+            _ => [bounds.min.y, bounds.max.y],
+        };
+        let slider = Slider::new(&mut value, least..=most).custom_formatter(|value, _| format!("{value:.3}"));
+        let response = ui.add(slider.text(name.as_str()));
+        let spoken = format!("{name} of the {}", ["start", "goal"][end.min(1)]);
+        response.widget_info(|| WidgetInfo::slider(true, value, &spoken));
+        if response.changed() {
+            plan.end = end;
+            plan.move_end(end, q.with(i, value));
+        }
+    }
+}

@@ -1,0 +1,401 @@
+//! `PlanState`, the state of the widget that plans.
+
+use std::fmt;
+use std::sync::{Arc, Mutex, PoisonError};
+
+use bevy::platform::time::Instant;
+
+use crate::capture::{self, Captured, PlanSheet};
+use crate::collision::Checker;
+use crate::configuration::{AnyConfiguration, Configuration};
+use crate::num::greater;
+use crate::picture::{Picture, world as picture_of};
+use crate::planning::{Bound, Effort, NoPath, Progress};
+use crate::plans::{
+    Attempt, Drawn, PathFile, PathFileError, PathLengths, PlannerName, Task, space_items, workspace_items,
+};
+use crate::random::Seed;
+use crate::robots::AnyRobot;
+use crate::simulation::{PlayError, PlayStage, PlayedPath};
+use crate::tour::BOOK_SEED;
+use crate::ui::cspace::Cells;
+use crate::worlds::World;
+
+/// Level of the finest cells: a 128th of the sides.
+const FINEST: u32 = 7;
+
+/// Largest part of a frame spent on iterations, seconds.
+const BUDGET: f64 = 0.008;
+
+/// The paces to choose from: iterations a second.
+pub const PACES: [(f64, &str); 7] = [
+    (1.0, "1 a second"),
+    (3.0, "3 a second"),
+    (10.0, "10 a second"),
+    (30.0, "30 a second"),
+    (100.0, "100 a second"),
+    (1000.0, "1,000 a second"),
+    (f64::INFINITY, "as fast as possible"),
+];
+
+/// The fastest pace at which the last rejected motion is shown: what flashes does so at most three times a second.
+const SHOWS_REJECTED: f64 = 3.0;
+
+/// How far the planner has come.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Stage {
+    /// It has not begun, or has no path yet.
+    Growing,
+    /// It has a path.
+    Solved,
+    /// There is no path, for this reason.
+    Ended(NoPath),
+    /// The path is a file's, of this name.
+    Read(String),
+}
+
+/// A planner at work, shared by copies of the state.
+#[derive(Clone)]
+struct Work(Arc<Mutex<Box<dyn Attempt>>>);
+
+impl fmt::Debug for Work {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("Work")
+    }
+}
+
+impl Work {
+    fn with<T>(&self, ask: impl FnOnce(&mut dyn Attempt) -> T) -> T {
+        ask(self.0.lock().unwrap_or_else(PoisonError::into_inner).as_mut())
+    }
+}
+
+/// The state of the widget that plans.
+#[derive(Clone, Debug)]
+pub struct PlanState {
+    task: Task,
+    planner: PlannerName,
+    seed: Seed,
+    work: Option<Work>,
+    stage: Stage,
+    /// Whether it goes on by itself.
+    pub playing: bool,
+    /// The number of its pace among [`PACES`].
+    pub pace: usize,
+    /// The iterations that are due: less than one after a frame.
+    due: f64,
+    effort: Effort,
+    file: Option<PathFile>,
+    drawn: Drawn,
+    backdrop: Arc<Picture>,
+    /// The plan over the workspace.
+    pub over: Arc<Picture>,
+    cells: Option<Cells>,
+    /// The end whose numbers are shown, and that is being dragged: 0 the start, 1 the goal.
+    pub end: usize,
+    /// Whether it is drawn over the dashboard's panes too.
+    pub over_drive: bool,
+}
+
+impl Default for PlanState {
+    /// The chapter's question: round the post on the Workbench.
+    fn default() -> Self {
+        let ends = [[2.0, 0.0], [3.1, 0.0]].map(|q| AnyConfiguration::T2(crate::configuration::Tn(q)));
+        let arm = AnyRobot::Reach(crate::robots::Reach::workbench());
+        Self::of(Task::new("Reach", arm, World::workbench(), ends))
+    }
+}
+
+impl PlanState {
+    /// A task, with the planner that suits its robot.
+    pub fn of(task: Task) -> Self {
+        let drawn = nothing(&task);
+        let mut state = PlanState {
+            planner: PlannerName::default_for(&task.robot),
+            seed: BOOK_SEED,
+            work: None,
+            stage: Stage::Growing,
+            playing: false,
+            pace: 3,
+            due: 0.0,
+            effort: Effort::default(),
+            file: None,
+            drawn,
+            backdrop: Arc::new(picture_of(&task.world)),
+            over: Arc::new(Picture::new("plan", task.world.bounds)),
+            cells: None,
+            end: 1,
+            over_drive: false,
+            task,
+        };
+        state.restart();
+        state
+    }
+
+    /// Another task. The planner stays if it suits the robot, pace and seed stay.
+    pub fn take(&mut self, task: Task) {
+        let planner = if self.planner.suits(&task.robot).is_ok() { Some(self.planner) } else { None };
+        let (seed, pace, over_drive) = (self.seed, self.pace, self.over_drive);
+        *self = PlanState { seed, pace, over_drive, ..Self::of(task) };
+        self.planner = planner.unwrap_or(self.planner);
+        self.restart();
+    }
+
+    /// The task.
+    pub fn task(&self) -> &Task {
+        &self.task
+    }
+
+    /// The planner.
+    pub fn planner(&self) -> PlannerName {
+        self.planner
+    }
+
+    /// Chooses another planner, which begins anew.
+    pub fn set_planner(&mut self, planner: PlannerName) {
+        self.planner = planner;
+        self.restart();
+    }
+
+    /// The seed of the samples.
+    pub fn seed(&self) -> Seed {
+        self.seed
+    }
+
+    /// Chooses another seed, with which the planner begins anew.
+    pub fn set_seed(&mut self, seed: Seed) {
+        self.seed = seed;
+        self.restart();
+    }
+
+    /// Moves the start, 0, or the goal, 1. The planner begins anew.
+    pub fn move_end(&mut self, end: usize, q: AnyConfiguration) {
+        let moved = if end == 0 { &mut self.task.start } else { &mut self.task.goal };
+        if *moved != q {
+            *moved = q;
+            self.restart();
+        }
+    }
+
+    /// The start, 0, or the goal, 1.
+    pub fn end_at(&self, end: usize) -> AnyConfiguration {
+        if end == 0 { self.task.start } else { self.task.goal }
+    }
+
+    /// Whether its planner goes on to improve a path that it has.
+    pub fn improves(&self) -> bool {
+        self.planner == PlannerName::RrtStar && self.effort.iterations < self.planner.iterations()
+    }
+
+    /// The plan in a sentence, for readers who do not see it.
+    pub fn described(&self) -> String {
+        let Task { name, start, goal, .. } = &self.task;
+        let found = match &self.stage {
+            Stage::Growing => format!("{} nodes so far", self.drawn.edges.len()),
+            Stage::Solved => format!("a path of {} legs", self.drawn.corners.len().saturating_sub(1)),
+            Stage::Ended(reason) => reason.to_string(),
+            Stage::Read(file) => format!("from the file {file}"),
+        };
+        format!("{} for {name}, from {start} to {goal}: {found}", self.planner.title())
+    }
+
+    /// The command line that plans this; `None` in a world that no command knows by name.
+    pub fn command(&self) -> Option<String> {
+        let Task { name, world, start, goal, .. } = &self.task;
+        let known = |name: &&str| World::built_in(name).as_ref() == Some(world);
+        let world = World::built_in_names().into_iter().find(known)?;
+        let numbers = |q: &AnyConfiguration| q.coordinates().iter().map(f64::to_string).collect::<Vec<_>>().join(",");
+        let (planner, seed) = (self.planner.id(), self.seed);
+        let ends = format!("--from {} --to {}", numbers(start), numbers(goal));
+        Some(format!("motion-lab plan --planner {planner} --robot {name} --world {world} {ends} --seed {seed}"))
+    }
+
+    /// How far the planner has come.
+    pub fn stage(&self) -> &Stage {
+        &self.stage
+    }
+
+    /// What the planner has done.
+    pub fn effort(&self) -> Effort {
+        self.effort
+    }
+
+    /// What there is to draw.
+    pub fn drawn(&self) -> &Drawn {
+        &self.drawn
+    }
+
+    /// The length and the clearance of the planner's own path, if it has one.
+    pub fn lengths(&self) -> Option<PathLengths> {
+        let work = self.work.as_ref().filter(|_| self.stage == Stage::Solved)?;
+        Some(work.with(|attempt| PathLengths { length: attempt.length(), clearance: attempt.clearance() }))
+    }
+
+    /// The picture of the world alone.
+    pub fn backdrop(&self) -> &Arc<Picture> {
+        &self.backdrop
+    }
+
+    /// Begins anew: nothing is grown. Says at once where there is no problem to solve.
+    pub fn restart(&mut self) {
+        self.playing = false;
+        self.file = None;
+        self.due = 0.0;
+        (self.work, self.stage) = match self.task.attempt(self.planner, self.seed) {
+            Ok(attempt) => (Some(Work(Arc::new(Mutex::new(attempt)))), Stage::Growing),
+            Err(reason) => (None, Stage::Ended(reason)),
+        };
+        self.look();
+    }
+
+    /// Does one iteration.
+    pub fn step(&mut self) {
+        self.step_unseen();
+        self.look();
+    }
+
+    /// Does one iteration without looking at what came of it. What ends the planner, or is its first path, ends its
+    /// going on by itself.
+    fn step_unseen(&mut self) {
+        let Some(work) = &self.work else { return };
+        if matches!(self.stage, Stage::Ended(_)) {
+            return self.playing = false;
+        }
+        let effort = work.with(|attempt| attempt.effort());
+        let next = if effort.iterations >= self.planner.iterations() {
+            let exhausted = NoPath::Exhausted { bound: Bound::Iterations, effort };
+            if self.stage == Stage::Solved { Stage::Solved } else { Stage::Ended(exhausted) }
+        } else {
+            match work.with(|attempt| attempt.step()) {
+                Progress::Growing => return,
+                Progress::Solved if self.stage == Stage::Solved && self.improves() => return,
+                Progress::Solved => Stage::Solved,
+                Progress::Ended(reason) => Stage::Ended(reason),
+            }
+        };
+        (self.stage, self.playing) = (next, false);
+    }
+
+    /// Goes on by itself for a frame that took `seconds`.
+    pub fn play(&mut self, seconds: f64) {
+        let (rate, _) = PACES[self.pace.min(PACES.len() - 1)];
+        // after a pause of the window it does not hurry to make up for it
+        self.due = if rate.is_finite() { self.due + rate * seconds.clamp(0.0, 0.1) } else { f64::INFINITY };
+        let begun = Instant::now();
+        if self.due < 1.0 {
+            return;
+        }
+        while self.playing && self.due >= 1.0 && begun.elapsed().as_secs_f64() < BUDGET {
+            self.step_unseen();
+            self.due -= 1.0;
+        }
+        // what the budget had no room for is let go
+        self.due = if self.due < 1.0 { self.due } else { 0.0 };
+        self.look();
+    }
+
+    /// The planner's path, played in its world by its robot alone; `None` without a path of the planner's own.
+    pub fn played(&self) -> Option<(World, Result<PlayedPath, PlayError>)> {
+        let work = self.work.as_ref().filter(|_| self.stage == Stage::Solved)?;
+        let (world, robot) = self.task.alone();
+        let stage = PlayStage { tube: greater(self.task.tube, 1e-3), ..PlayStage::new(&world, &robot, self.seed) };
+        let played = work.with(|attempt| attempt.play(&stage))?;
+        Some((world, played))
+    }
+
+    /// The path as a file, with what the planner has grown; `None` without a path of the planner's own.
+    pub fn file(&self) -> Option<PathFile> {
+        let work = self.work.as_ref().filter(|_| self.stage == Stage::Solved)?;
+        Some(work.with(|attempt| PathFile::new(self.planner.id(), self.seed.0, &self.task, attempt, true)))
+    }
+
+    /// Shows a plan from a file: in the built-in world that it names, else in `world` if it has that name, else in the
+    /// present one.
+    ///
+    /// # Errors
+    /// [`PathFileError`]: the present plan stays.
+    pub fn read(&mut self, name: &str, text: &str, world: &World) -> Result<(), PathFileError> {
+        let file = PathFile::read(text)?;
+        let (kind, [start, goal]) = file.robot()?;
+        let [of, robot_name] = file.names();
+        let built_in = || World::built_in_names().into_iter().filter_map(World::built_in).find(|w| w.name == of);
+        let world =
+            if world.name == of { world.clone() } else { built_in().unwrap_or_else(|| self.task.world.clone()) };
+        let resident = world.robots.iter().find(|r| r.name == robot_name).and_then(AnyRobot::of_resident);
+        let robot = resident.map(|(robot, _)| robot).filter(|robot| robot.like(&start).is_some()).unwrap_or(kind);
+        let drawn = file.drawn(&robot)?;
+        let robot_name = if robot_name.is_empty() { robot.name() } else { robot_name }.to_owned();
+        self.take(Task::new(robot_name, robot, world, [start, goal]));
+        (self.work, self.stage, self.drawn, self.file) = (None, Stage::Read(name.to_owned()), drawn, Some(file));
+        self.over = Arc::new(self.picture(&self.drawn));
+        Ok(())
+    }
+
+    /// The picture of the plan for a pane that shows the world of this name, where it is to be drawn there too.
+    pub fn over_world(&self, name: &str) -> Option<&Arc<Picture>> {
+        Some(&self.over).filter(|_| self.over_drive && self.task.world.name == name)
+    }
+
+    /// The slice of the configuration space behind the plan, through the end in hand, a little better known with each
+    /// call.
+    pub fn cells(&mut self, budget: u32) -> Option<(&Cells, bool)> {
+        let through = self.end_at(self.end);
+        let slice_of = |cells: &Cells| {
+            let checker = cells.map().slice().checker();
+            Arc::ptr_eq(&checker.shared_scene(), &self.task.scene) && *checker.robot() == self.task.robot
+        };
+        let serves = |cells: &Cells| slice_of(cells) && cells.map().slice().holds(&through);
+        if !self.cells.as_ref().is_some_and(serves) {
+            let checker = Checker::new(Arc::clone(&self.task.scene), self.task.robot);
+            self.cells = Cells::through(&checker, &through, FINEST);
+        }
+        let cells = self.cells.as_mut()?;
+        let more = cells.refine(budget);
+        Some((cells, more))
+    }
+
+    /// The widget as a figure.
+    pub fn captured(&self) -> Captured {
+        capture::plan(&PlanSheet {
+            task: &self.task,
+            planner: self.planner,
+            seed: self.seed,
+            drawn: &self.drawn,
+            effort: self.effort,
+            lengths: self.lengths(),
+            cells: self.cells.as_ref().map(Cells::map),
+        })
+    }
+
+    /// Looks at what the planner has grown.
+    fn look(&mut self) {
+        let (effort, mut drawn) = match &self.work {
+            Some(work) => work.with(|attempt| (attempt.effort(), attempt.drawn())),
+            None => (Effort::default(), nothing(&self.task)),
+        };
+        if self.playing && PACES[self.pace.min(PACES.len() - 1)].0 > SHOWS_REJECTED {
+            drawn.rejected = None;
+        }
+        // a disc has no heading: the ends keep the robot's own
+        drawn.ends = [self.task.start, self.task.goal];
+        (self.effort, self.drawn) = (effort, drawn);
+        self.over = Arc::new(self.picture(&self.drawn));
+    }
+
+    fn picture(&self, drawn: &Drawn) -> Picture {
+        Picture::new("plan", self.task.world.bounds).with(workspace_items(&self.task.robot, drawn))
+    }
+
+    /// The plan over the cells of the slice.
+    pub fn over_cells(&self) -> Option<Picture> {
+        let cells = self.cells.as_ref()?;
+        let items = space_items(cells.map().slice(), &self.drawn);
+        Some(Picture::new("plan in its space", cells.picture().bounds).with(items))
+    }
+}
+
+/// The ends of a task, before anything is grown.
+fn nothing(task: &Task) -> Drawn {
+    let ends = [task.start, task.goal];
+    Drawn { ends, edges: Vec::new(), path: Vec::new(), corners: Vec::new(), rejected: None }
+}
