@@ -5,8 +5,8 @@ use super::{PlayError, PlayStage, PlayablePath, PlayedPath};
 use crate::configuration::{Configuration, HitchCfg, RobotKind};
 use crate::num::{greater, lesser};
 use crate::planning::CertifiedPath;
-use crate::planning::hybrid::{CHANNEL_UNITS, CarMove};
-use crate::robots::{HITCH, Hitch, HitchArc, Motion, TICK};
+use crate::planning::hybrid::CarMove;
+use crate::robots::{CHANNEL_UNITS, HITCH, Hitch, HitchArc, Motion, TICK};
 use crate::run::RobotInput;
 
 /// How much faster than it can a leg may ask the car to go: what rounding makes of the greatest speed.

@@ -6,11 +6,8 @@ use crate::configuration::RobotKind;
 use crate::geometry::{Point2, Pose2, Vector2};
 use crate::num::{atan2, greater, hypot, lesser, wrap};
 use crate::planning::LinePath;
-use crate::robots::{Motion, RUSTY, Rusty, RustyArc, RustyDisc};
+use crate::robots::{CHANNEL_UNITS, Motion, RUSTY, Rusty, RustyArc, RustyDisc};
 use crate::run::{DT, RobotInput};
-
-/// The channel value that stands for the maximum.
-const CHANNEL_UNITS: f64 = 128.0;
 
 /// How near a corner the rover turns to the next, metres.
 const NEAR: f64 = 1e-3;
