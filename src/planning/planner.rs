@@ -1,7 +1,6 @@
 //! `Planner`, the one interface of planners, and `solve`, which runs one.
 
-use super::path::is_same;
-use super::{Bounds, CertifiedPath, Effort, Growth, NoPath, PathError};
+use super::{Bounds, CertifiedPath, Effort, Growth, NoPath, PathError, is_same};
 use crate::collision::Problem;
 use crate::robots::{ChartLine, Motion, Robot};
 

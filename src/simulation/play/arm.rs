@@ -1,10 +1,10 @@
 //! An arm along a path: a target in every tick.
 
-use super::rehearsal::{Rehearsal, is_same, quantized};
+use super::rehearsal::{Rehearsal, quantized};
 use super::{PlayError, PlayStage, PlayablePath, PlayedPath};
 use crate::configuration::{Configuration, RobotKind, Tn};
 use crate::num::greater;
-use crate::planning::LinePath;
+use crate::planning::{LinePath, is_same};
 use crate::robots::Reach;
 use crate::run::{DT, RobotInput};
 
