@@ -4,8 +4,8 @@ use super::rehearsal::Rehearsal;
 use super::{PlayError, PlayStage, PlayablePath, PlayedPath};
 use crate::configuration::{Configuration, HitchCfg, RobotKind};
 use crate::num::{greater, lesser};
-use crate::planning::{CertifiedPath, is_same};
 use crate::planning::hybrid::CarMove;
+use crate::planning::{CertifiedPath, is_same};
 use crate::robots::{CHANNEL_UNITS, HITCH, Hitch, HitchArc, Motion, TICK};
 use crate::run::RobotInput;
 
