@@ -92,8 +92,8 @@ fn a_rover_follows_its_path_at_any_seed() {
 
 #[test]
 fn every_planner_of_a_rover_leads_it_out_of_room_a() {
-    let names = ["rrt-connect", "rrt", "rrt-star", "prm", "a-star", "dijkstra", "visibility-graph", "bug1", "bug2"];
-    for planner in names {
+    let of_any = ["rrt-connect", "rrt", "rrt-star", "prm", "a-star", "dijkstra", "cell-decomposition"];
+    for planner in of_any.into_iter().chain(["visibility-graph", "bug1", "bug2"]) {
         let out = run(&["plan", "--planner", planner, "--robot", "Rusty", "--to", "4.5,4", "--json"]).done();
         let answer = json(&out);
         assert_eq!(answer["planner"], planner);
@@ -101,6 +101,24 @@ fn every_planner_of_a_rover_leads_it_out_of_room_a() {
         // the straight line's length is 3.2 m
         assert!(length > 3.1 && answer["clearance"].as_f64().unwrap() > 0.0, "{planner}: {out}");
     }
+}
+
+#[test]
+fn a_path_by_cells_is_played_by_rover_and_arm() {
+    let folder = tempfile::tempdir().unwrap();
+    let by_cells = ["plan", "--planner", "cell-decomposition", "--record", "run.mcap", "--quiet"];
+    for ends in [&["--robot", "Rusty", "--to", "4.5,2"][..], &ROUND_THE_POST[1..]] {
+        let out = run_in(folder.path(), &[&by_cells[..], ends].concat()).done();
+        assert!(out.contains("recorded   0 contacts") && out.contains(" s, at most "), "{out}");
+        run_in(folder.path(), &["verify", "run.mcap"]).done();
+        // a number of ticks of a 20th of a second has two decimals at most
+        let seconds = out.split(" ticks, ").nth(1).and_then(|rest| rest.split(" s,").next()).unwrap();
+        assert!(seconds.split('.').nth(1).is_none_or(|decimals| decimals.len() <= 2), "{seconds}");
+    }
+    // an arm of three links has more than a plane of configurations, and a car's chart is no road
+    let arm =
+        run(&["plan", "--planner", "cell-decomposition", "--robot", "reach3", "--from", "0,0,0", "--to", "0.1,0,0"]);
+    assert!(arm.code == Some(4) && arm.err.contains("cells are for discs"), "{} {}", arm.out, arm.err);
 }
 
 #[test]

@@ -64,7 +64,7 @@ impl Line {
 }
 
 /// Turns the rover on the spot at each corner, and drives it along each line with its heading corrected.
-fn play(corners: Vec<Point2>, stage: &PlayStage<'_>) -> Result<PlayedPath, PlayError> {
+pub(super) fn play(corners: Vec<Point2>, stage: &PlayStage<'_>) -> Result<PlayedPath, PlayError> {
     let mut rehearsal = Rehearsal::new(&RUSTY, RobotKind::RUSTY.name, stage)?;
     let lines: Vec<Line> = corners.windows(2).filter_map(|ends| Line::new(ends[0], ends[1])).collect();
     let (Some(first), Some(last)) = (corners.first(), corners.last()) else {

@@ -68,6 +68,16 @@ pub fn unit(robot: &AnyRobot) -> &'static str {
     if matches!(robot, AnyRobot::Reach(_) | AnyRobot::Reach3(_)) { "rad" } else { "m" }
 }
 
+/// A proven clearance in metres, in words: rounded down, so that no more is claimed than is proven, with the digits that
+/// show that it is above 0.
+pub fn proven(clearance: f64) -> String {
+    let (mut digits, mut scale) = (4, 1e4);
+    while clearance * scale < 1.0 && digits < 12 {
+        (digits, scale) = (digits + 1, 10.0 * scale);
+    }
+    format!("{:.digits$}", (clearance * scale).floor() / scale)
+}
+
 impl Answer {
     fn new(task: &Task, planner: PlannerName, seed: u64) -> Self {
         Answer {
@@ -117,7 +127,7 @@ impl Answer {
         let seconds = self.seconds.unwrap_or(0.0);
         data.line(format!("{} at seed {}: {} in {}", self.planner, self.seed, self.robot, self.world))?;
         data.line(format!("path       {}, {length:.3} {}", counted(legs, "leg"), self.unit))?;
-        data.line(format!("clearance  {clearance:.4} m, proven along the whole path"))?;
+        data.line(format!("clearance  {} m, proven along the whole path", proven(clearance)))?;
         if let Some(Counts { iterations, samples, edges, free }) = self.effort {
             let count = |n: u64, what: &str| counted(usize::try_from(n).unwrap_or(usize::MAX), what);
             let (rounds, draws) = (count(iterations, "iteration"), count(samples, "sample"));
@@ -228,6 +238,20 @@ impl PathFile {
             clearance: answer.clearance,
             legs: attempt.legs().iter().map(LegLine::of).collect(),
             growth: with_growth.then(growth),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::proven;
+
+    #[test]
+    fn a_clearance_is_never_shown_larger_than_it_is_proven_nor_as_none() {
+        for (clearance, shown) in
+            [(0.25, "0.2500"), (0.00996, "0.0099"), (1.98e-5, "0.00001"), (4e-9, "0.000000004"), (f64::INFINITY, "inf")]
+        {
+            assert_eq!(proven(clearance), shown);
         }
     }
 }

@@ -1,10 +1,10 @@
 //! `Attempt`, a planner at work on its problem, whatever the robot.
 
 use motion_lab::collision::ProvenStep;
-use motion_lab::configuration::{Configuration, HitchCfg, R2, T2, Tn};
+use motion_lab::configuration::{AnyConfiguration, Configuration, HitchCfg, R2, T2, Tn};
 use motion_lab::geometry::{Footprint, Point2};
 use motion_lab::planning::{Bounds, CertifiedPath, Effort, NoPath, Planner, solve};
-use motion_lab::robots::{ChartLine, Hitch, HitchArc, Motion, Reach, Robot, RustyDisc};
+use motion_lab::robots::{AnyRobot, ChartLine, Hitch, HitchArc, Motion, Reach, Robot, RustyDisc};
 use motion_lab::run::Script;
 use motion_lab::simulation::{PlayError, PlayStage, PlayablePath, PlayedPath};
 
@@ -32,6 +32,12 @@ impl Planned for Reach<2> {
 impl Planned for Reach<3> {
     fn reference(&self, q: &Tn<3>) -> Point2 {
         self.tip(q)
+    }
+}
+
+impl Planned for AnyRobot {
+    fn reference(&self, q: &AnyConfiguration) -> Point2 {
+        AnyRobot::reference(self, q)
     }
 }
 

@@ -8,7 +8,7 @@ use motion_lab::random::Seed;
 use serde::Serialize;
 
 use super::PlanArgs;
-use super::answer::unit;
+use super::answer::{proven, unit};
 use super::named::PlannerName;
 use super::task::Task;
 use crate::cli::commands::record::SeedRange;
@@ -131,7 +131,7 @@ fn print(lines: &[Line], unit: &str, data: &mut Data) -> Result<(), Failure> {
             number(line.milliseconds, 2),
             number(line.edges, 0),
             number(line.length, 3),
-            number(line.clearance, 4)
+            line.clearance.map_or("-".to_owned(), proven)
         ))?;
     }
     data.line("medians over the attempts that have a path")

@@ -5,7 +5,7 @@ use std::path::Path;
 use motion_lab::capture::{Captured, Form, Paper};
 use motion_lab::picture::{Drawing, Figure, Item, Line, Panel, Role, footprint, trace, world};
 
-use super::answer::unit;
+use super::answer::{proven, unit};
 use super::attempt::Attempt;
 use super::named::PlannerName;
 use super::task::Task;
@@ -49,8 +49,9 @@ fn captured(task: &Task, planner: PlannerName, seed: u64, attempt: &dyn Attempt)
     } else {
         items.push(trace("path", "the path", &way));
         let (length, clearance) = (attempt.length(), attempt.clearance());
-        readout.push(format!("length {length:.3} {}, clearance {clearance:.4} m", unit(&task.robot)));
-        format!("a path whose clearance is proven to be at least {clearance:.4} m")
+        let clearance = proven(clearance);
+        readout.push(format!("length {length:.3} {}, clearance {clearance} m", unit(&task.robot)));
+        format!("a path whose clearance is proven to be at least {clearance} m")
     };
     let title = format!("A path for {} in the world {}", task.name, task.world.name);
     let description = format!("{planner} at seed {seed}: {found}.");

@@ -26,6 +26,9 @@ pub enum PlannerName {
     Bug1,
     /// Bug2, for a rover: it follows the line to the goal, and boundaries between.
     Bug2,
+    /// Cells of the configuration space proven free or blocked, for a rover and an arm of two links; it may prove that
+    /// there is no path.
+    CellDecomposition,
     /// A search over what a car can drive, with a trailer or without.
     HybridAStar,
 }

@@ -4,12 +4,14 @@ use std::sync::Arc;
 
 use motion_lab::collision::{Checker, Problem, Scene};
 use motion_lab::configuration::{AnyConfiguration, Configuration, R2};
+use motion_lab::geometry::Pose2;
 use motion_lab::planning::hybrid::HybridAStar;
 use motion_lab::planning::{
-    Bug1, Bug2, GridSearch, NoPath, Planner, PotentialField, Prm, Rrt, RrtConnect, RrtStar, VisibilityGraph,
+    Bug1, Bug2, CellDecomposition, GridSearch, NoPath, Planner, PotentialField, Prm, Rrt, RrtConnect, RrtStar,
+    VisibilityGraph,
 };
 use motion_lab::random::Seed;
-use motion_lab::robots::{AnyRobot, ChartLine, Hitch, HitchArc, Reach, RustyDisc};
+use motion_lab::robots::{AnyRobot, ChartLine, Hitch, HitchArc, Reach, Rusty, RustyDisc};
 use motion_lab::worlds::World;
 
 use super::attempt::{Attempt, Planned, Trial};
@@ -82,6 +84,21 @@ impl Task {
         }
     }
 
+    /// The planner by cells, which plans for a robot of any kind.
+    fn by_cells(&self, seed: Seed) -> Result<Box<dyn Attempt>, NoPath> {
+        let robot = match self.robot {
+            AnyRobot::Rusty(rover) => AnyRobot::Rusty(Rusty { body_radius: rover.body_radius + self.tube, ..rover }),
+            robot => robot,
+        };
+        // a rover's heading does not matter
+        let [start, goal] = [self.start, self.goal].map(|q| match q {
+            AnyConfiguration::Pose(pose) => AnyConfiguration::Pose(Pose2::new(pose.x, pose.y, 0.0)),
+            q => q,
+        });
+        let problem = Problem::try_new(Checker::new(Arc::clone(&self.scene), robot), start, goal, seed)?;
+        Ok(Box::new(Trial::new(Box::new(CellDecomposition::new(problem)))))
+    }
+
     /// A planner whose edges are the chart's straight lines.
     fn by_lines<R>(
         &self,
@@ -115,6 +132,7 @@ impl Task {
                 Ok(bug) => Box::new(bug),
                 Err(reason) => return Ok(Err(reason)),
             },
+            PlannerName::CellDecomposition => return Ok(self.by_cells(seed)),
             PlannerName::HybridAStar => {
                 let reason = "hybrid-a-star plans for a car only";
                 return Err(Failure::usage(reason, "Use --planner rrt-connect."));
