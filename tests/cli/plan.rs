@@ -5,6 +5,7 @@ use std::fs;
 use motion_lab::collision::Scene;
 use motion_lab::geometry::Footprint;
 use motion_lab::num::{cos, sin};
+use motion_lab::picture::{Rgb, Role, Theme};
 use motion_lab::prelude::*;
 
 use super::{json, run, run_in};
@@ -119,6 +120,43 @@ fn a_path_by_cells_is_played_by_rover_and_arm() {
     let arm =
         run(&["plan", "--planner", "cell-decomposition", "--robot", "reach3", "--from", "0,0,0", "--to", "0.1,0,0"]);
     assert!(arm.code == Some(4) && arm.err.contains("cells are for discs"), "{} {}", arm.out, arm.err);
+}
+
+/// The pictures of a film: how long each is shown, hundredths of a second, and how many of its pixels have the path's
+/// colour.
+fn film(file: &std::path::Path) -> Vec<(u16, usize)> {
+    let bytes = fs::read(file).unwrap();
+    let mut options = gif::DecodeOptions::new();
+    options.set_color_output(gif::ColorOutput::RGBA);
+    let mut decoder = options.read_info(&bytes[..]).unwrap();
+    let Rgb(path) = Theme::Light.palette().colour(Role::Path);
+    let mut pictures = Vec::new();
+    while let Some(frame) = decoder.read_next_frame().unwrap() {
+        let of_path = frame.buffer.chunks(4).filter(|pixel| pixel[..3] == path).count();
+        pictures.push((frame.delay, of_path));
+    }
+    pictures
+}
+
+#[test]
+fn a_film_shows_every_iteration_and_ends_with_the_path() {
+    let folder = tempfile::tempdir().unwrap();
+    let gif = ["--gif", "growth.gif", "--width", "640", "--seed", "7", "--json"];
+    let answer = json(&run_in(folder.path(), &[&ROUND_THE_POST[..], &gif].concat()).done());
+    let iterations = answer["effort"]["iterations"].as_u64().unwrap() as usize;
+    let pictures = film(&folder.path().join("growth.gif"));
+    // the last stays for two seconds
+    let last = 200_usize.div_ceil(usize::from(pictures[0].0));
+    assert!(iterations > 5 && pictures.len() == iterations - 1 + last, "{iterations}: {}", pictures.len());
+    let (growing, found) = pictures.split_at(iterations - 1);
+    assert!(growing.iter().all(|(_, of_path)| *of_path == 0), "{growing:?}");
+    assert!(found.iter().all(|(_, of_path)| *of_path > 50), "{found:?}");
+    // without a path the growth is filmed too
+    let trap = ["plan", "--planner", "potential-field", "--robot", "rusty", "--from", "1.5,5.75", "--to", "9.75,6.25"];
+    let none = run_in(folder.path(), &[&trap[..], &["--gif", "trap.gif", "--width", "480"]].concat());
+    assert!(none.code == Some(4) && none.err.contains("wrote trap.gif"), "{}", none.err);
+    let pictures = film(&folder.path().join("trap.gif"));
+    assert!(pictures.len() > 10 && pictures.iter().all(|(_, of_path)| *of_path == 0));
 }
 
 #[test]

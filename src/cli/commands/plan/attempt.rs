@@ -1,9 +1,10 @@
 //! `Attempt`, a planner at work on its problem, whatever the robot.
 
-use motion_lab::collision::ProvenStep;
-use motion_lab::configuration::{AnyConfiguration, Configuration, HitchCfg, R2, T2, Tn};
+use motion_lab::collision::{ProvenStep, Witness};
+use motion_lab::configuration::{AnyConfiguration, Configuration, Coordinates, HitchCfg, R2, T2, Tn};
+use motion_lab::cspace::CellMap;
 use motion_lab::geometry::{Footprint, Point2};
-use motion_lab::planning::{Bounds, CertifiedPath, Effort, NoPath, Planner, solve};
+use motion_lab::planning::{Bounds, CertifiedPath, Effort, NoPath, Planner, Progress, solve};
 use motion_lab::robots::{AnyRobot, ChartLine, Hitch, HitchArc, Motion, Reach, Robot, RustyDisc};
 use motion_lab::run::Script;
 use motion_lab::simulation::{PlayError, PlayStage, PlayablePath, PlayedPath};
@@ -114,10 +115,26 @@ pub struct Leg {
     pub steps: Vec<ProvenStep>,
 }
 
+/// A motion that was rejected, to be drawn.
+#[derive(Clone, Debug)]
+pub struct Rejected {
+    /// The way of the robot's reference point along it.
+    pub way: Vec<Point2>,
+    /// Its coordinates along the way.
+    pub line: Vec<Coordinates>,
+    /// The robot in contact, or where the proof ends.
+    pub at: Footprint,
+    /// The nearest points there.
+    pub witness: Option<Witness>,
+}
+
 /// A planner at work.
 pub trait Attempt {
     /// Works until there is a path.
     fn solve(&mut self, bounds: &Bounds) -> Result<(), NoPath>;
+
+    /// Does one iteration. Returns whether there are more to do.
+    fn step(&mut self) -> bool;
 
     /// What the planner has done.
     fn effort(&self) -> Effort;
@@ -136,6 +153,21 @@ pub trait Attempt {
 
     /// The way of the robot's reference point along each edge of the growth.
     fn ways(&self) -> Vec<Vec<Point2>>;
+
+    /// The coordinates along each edge of the growth.
+    fn lines(&self) -> Vec<Vec<Coordinates>>;
+
+    /// The coordinates along the path.
+    fn line(&self) -> Vec<Coordinates>;
+
+    /// The coordinates of the start and the goal.
+    fn end_coordinates(&self) -> [Coordinates; 2];
+
+    /// The motion that was rejected last.
+    fn rejected(&self) -> Option<Rejected>;
+
+    /// The cells of the configuration space that the planner has judged, if it judges any.
+    fn cells(&self) -> Option<&CellMap>;
 
     /// The way of the robot's reference point along the path.
     fn way(&self) -> Vec<Point2>;
@@ -168,6 +200,16 @@ impl<R: Planned, M: LegMotion<Configuration = R::Configuration>> Trial<R, M> {
         let (robot, pieces) = (self.planner.problem().checker().robot(), motion.pieces());
         (0..=pieces).map(|i| robot.reference(&motion.at(f64::from(i) / f64::from(pieces)))).collect()
     }
+
+    /// The coordinates along a motion: both ends of the chart's lines, which are straight.
+    fn charted(motion: &M) -> Vec<Coordinates> {
+        let pieces = if motion.driven().is_some() { DRAWN } else { 1 };
+        (0..=pieces).map(|i| motion.at(f64::from(i) / f64::from(pieces)).coordinates()).collect()
+    }
+
+    fn motions(&self) -> impl Iterator<Item = M> + '_ {
+        self.planner.growth().edges().filter_map(|[a, b]| self.planner.motion(a, b))
+    }
 }
 
 impl<R: Planned, M: LegMotion<Configuration = R::Configuration>> Attempt for Trial<R, M>
@@ -177,6 +219,14 @@ where
     fn solve(&mut self, bounds: &Bounds) -> Result<(), NoPath> {
         self.path = Some(solve(self.planner.as_mut(), bounds)?);
         Ok(())
+    }
+
+    fn step(&mut self) -> bool {
+        let is_growing = self.planner.step() == Progress::Growing;
+        if !is_growing {
+            self.path = self.planner.path().cloned();
+        }
+        is_growing
     }
 
     fn effort(&self) -> Effort {
@@ -208,8 +258,31 @@ where
     }
 
     fn ways(&self) -> Vec<Vec<Point2>> {
-        let edges = self.planner.growth().edges();
-        edges.filter_map(|[a, b]| Some(self.drawn(&self.planner.motion(a, b)?))).collect()
+        self.motions().map(|motion| self.drawn(&motion)).collect()
+    }
+
+    fn lines(&self) -> Vec<Vec<Coordinates>> {
+        self.motions().map(|motion| Self::charted(&motion)).collect()
+    }
+
+    fn line(&self) -> Vec<Coordinates> {
+        self.path.iter().flat_map(|path| path.legs()).flat_map(|leg| Self::charted(leg.motion())).collect()
+    }
+
+    fn end_coordinates(&self) -> [Coordinates; 2] {
+        let problem = self.planner.problem();
+        [problem.start().in_chart().coordinates(), problem.goal().in_chart().coordinates()]
+    }
+
+    fn rejected(&self) -> Option<Rejected> {
+        let (growth, checker) = (self.planner.growth(), self.planner.problem().checker());
+        let (motion, rejection) = (growth.rejected()?, growth.rejection(checker)?);
+        let at = checker.robot().footprint(&rejection.at);
+        Some(Rejected { way: self.drawn(motion), line: Self::charted(motion), at, witness: rejection.witness })
+    }
+
+    fn cells(&self) -> Option<&CellMap> {
+        self.planner.cells()
     }
 
     fn way(&self) -> Vec<Point2> {

@@ -24,18 +24,21 @@ pub fn write(
 ) -> Result<(), Failure> {
     let target = Target::file(output)?;
     let form = if Form::of(output) == Some(Form::Png) { Form::Png } else { Form::Svg };
-    write_picture(&captured(task, planner, seed, attempt), paper, form, target.path())?;
+    let captured = of_workspace(task, planner, seed, attempt, Vec::new());
+    write_picture(&captured, paper, form, target.path())?;
     target.wrote();
     Ok(())
 }
 
-fn captured(task: &Task, planner: PlannerName, seed: u64, attempt: &dyn Attempt) -> Captured {
+/// The workspace with the growth, the path and the robot along it, and more over what has grown.
+pub fn of_workspace(task: &Task, planner: PlannerName, seed: u64, attempt: &dyn Attempt, more: Vec<Item>) -> Captured {
     let (way, planner) = (attempt.way(), planner.name());
     let ways = attempt.ways();
     let effort = attempt.effort();
     let mut items = Vec::new();
     let grown = Drawing::Region { pieces: Vec::new(), outline: ways };
     items.push(Item::new("growth", "what the planner has grown", Role::Muted, grown).stroked(Line::solid(0.6)));
+    items.extend(more);
     for (i, place) in attempt.places().iter().enumerate() {
         items.extend(footprint(&format!("place/{i}"), "on the way", place, Role::Path, 0.12));
     }

@@ -84,12 +84,17 @@ impl Task {
         }
     }
 
-    /// The planner by cells, which plans for a robot of any kind.
-    fn by_cells(&self, seed: Seed) -> Result<Box<dyn Attempt>, NoPath> {
-        let robot = match self.robot {
+    /// The robot as it is planned for: a rover is larger by the tube.
+    pub fn planned(&self) -> AnyRobot {
+        match self.robot {
             AnyRobot::Rusty(rover) => AnyRobot::Rusty(Rusty { body_radius: rover.body_radius + self.tube, ..rover }),
             robot => robot,
-        };
+        }
+    }
+
+    /// The planner by cells, which plans for a robot of any kind.
+    fn by_cells(&self, seed: Seed) -> Result<Box<dyn Attempt>, NoPath> {
+        let robot = self.planned();
         // a rover's heading does not matter
         let [start, goal] = [self.start, self.goal].map(|q| match q {
             AnyConfiguration::Pose(pose) => AnyConfiguration::Pose(Pose2::new(pose.x, pose.y, 0.0)),
