@@ -117,7 +117,16 @@ fn the_encoders_count_each_wheel_forward_positive_and_round_down() {
         let input = script(vec![event(1, "it", RobotInput::Drive(a, b))]);
         let mut run = Recorder::new(config, input).unwrap();
         run.seek(7).unwrap();
-        assert_eq!(run.view()[0].encoders, Some(EncoderCounts { left, right }), "Drive({a}, {b})");
+        let view = &run.view()[0];
+        assert_eq!(view.encoders, Some(EncoderCounts { left, right }), "Drive({a}, {b})");
+        // what is drawn of the wheels: each has rolled its own way to a count, and the middle of both the odometer's
+        let rolled = |side: f64| 0.35 * (0.3 * f64::from(a) / 64.0 + side * 0.08 * 2.5 * f64::from(b) / 128.0) / 0.033;
+        let (gait, count) = (view.gait(), std::f64::consts::TAU / 360.0);
+        for (drawn, expected) in gait.rolled.into_iter().zip([rolled(-1.0), rolled(1.0)]) {
+            assert!((drawn - expected).abs() <= count + 1e-9, "Drive({a}, {b}): {drawn} rad for {expected}");
+        }
+        let middle = 0.5 * (gait.rolled[0] + gait.rolled[1]) * 0.033;
+        assert!((middle - view.odometer.unwrap()).abs() < 1e-12, "Drive({a}, {b}): {middle} m");
     }
     assert_eq!(RUSTY.counts(&WheelTurns { left: -1e-9, right: 1e-9 }), EncoderCounts { left: -1, right: 0 });
 }

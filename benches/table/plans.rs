@@ -1,13 +1,16 @@
-//! Planners: from the start to the certified path, beside one edge of the same scene.
+//! Planners: from the start to the certified path, beside one edge of the same scene; what cars drive, beside an edge.
 
+use std::f64::consts::FRAC_PI_2;
 use std::hint::black_box;
 use std::time::Instant;
 
-use motion_lab::collision::ChainChecker;
+use motion_lab::collision::{CarChecker, ChainChecker};
+use motion_lab::planning::hybrid::HybridAStar;
 use motion_lab::planning::{Bounds, RrtConnect, solve};
 use motion_lab::prelude::*;
 
-use crate::measure::{Timing, is_timed};
+use crate::measure::{Contender, Timing, is_timed, race};
+use crate::worlds::CASES;
 use crate::{Row, Table, readme};
 
 /// The number of seeds.
@@ -42,8 +45,48 @@ fn plan_and_edge(seeds: u64) -> [Timing; 2] {
     [Timing::of("", plans), Timing::of("one edge_free", edges)]
 }
 
+/// The car with its trailer, to be parked in bay 2 of the Lot from where its resident starts.
+fn into_bay_2() -> Problem<Hitch> {
+    let at = |x, y, heading| HitchCfg { body: Pose2::new(x, y, heading), trailer: Some(heading) };
+    let checker = CarChecker::new(Scene::lot(), HITCH.with_trailer());
+    Problem::try_new(checker, at(6.5, 2.5, 0.0), at(6.75, 7.0, -FRAC_PI_2), Seed(2005)).expect("both ends are free")
+}
+
+/// Arcs of a second from free configurations in the Lot, free or not, beside the straight edges to their ends.
+fn arcs(car: Hitch) -> Vec<Timing> {
+    let lot = CarChecker::new(Scene::lot(), car);
+    let (min, max) = (lot.scene().bounds().min, lot.scene().bounds().max);
+    let mut draws = Stream::new(Seed(1), "arcs");
+    let mut cases = Vec::new();
+    while cases.len() < CASES {
+        let mut q = car.sample(min, max, &mut draws);
+        if let Some(psi) = &mut q.trailer {
+            *psi = q.body.theta + draws.uniform(-0.5, 0.5);
+        }
+        let u = CarCmd { v: if draws.unit() < 0.5 { -1.0 } else { 1.0 }, phi: draws.uniform(-0.6, 0.6) };
+        if lot.is_free(&q) {
+            cases.push((q, u, car.drive(&q, &u, 1.0).expect("of this car").at(1.0)));
+        }
+    }
+    race(vec![
+        Contender::new("", |i| {
+            let (q, u, _) = &cases[i % CASES];
+            car.drive(q, u, 1.0).is_ok_and(|arc| lot.motion_free(&arc))
+        }),
+        Contender::new("edge_free", |i| lot.edge_free(&cases[i % CASES].0, &cases[i % CASES].2)),
+        Contender::new("driven, not asked", |i| car.drive(&cases[i % CASES].0, &cases[i % CASES].1, 1.0)),
+    ])
+}
+
 pub fn rows(table: &mut Table) {
-    let work = "RRT-Connect, Reach round the post, start to certified path, median of 1,000 seeds";
+    table.row("car's arc of 1 s, integrated, free or not", ">= 0.5x", || arcs(HITCH));
+    table.row("car and trailer's arc of 1 s, integrated, free or not", ">= 0.25x", || arcs(HITCH.with_trailer()));
+    table.row("plans: hybrid A* parks the trailer in bay 2, start to certified path", "<= 1 s", || {
+        race(vec![Contender::new("", |_| {
+            solve(&mut HybridAStar::new(into_bay_2()), &Bounds::default()).expect("there is a way")
+        })])
+    });
+    let work = "plans: RRT-Connect, Reach round the post, start to certified path, median of 1,000 seeds";
     if table.wants(work) {
         let [plan, edge] = plan_and_edge(if is_timed() { SEEDS } else { 3 });
         table.push(Row {

@@ -39,8 +39,8 @@ pub use error::CaptureError;
 pub use histogram::{Distribution, histograms};
 pub use moving::{Span, Subject, at_tick, at_tick_with_robots};
 #[cfg(feature = "cli")]
-pub use paper::{film, film_with_robots, write};
-pub use plan::{PlanSheet, plan, unit};
+pub use paper::{film, film_with_robots, slides, write};
+pub use plan::{PlanSheet, plan, proven, unit};
 pub use plot::{RunPlot, plot};
 #[cfg(feature = "cli")]
 #[doc(hidden)]

@@ -99,6 +99,35 @@ pub fn film_with_robots(
     }
 }
 
+/// How long the last of [`slides`] is shown, hundredths of a second.
+const LAST: u16 = 200;
+
+/// Writes a GIF of these captures, each shown for `hundredths` of a second, at least one, and the last for two
+/// seconds. Their notes are those of the last.
+///
+/// # Errors
+/// [`CaptureError`] names what is too large or can't be written. No file is left then.
+pub fn slides(captures: &[Captured], hundredths: u16, paper: &Paper, path: &Path) -> Result<(), CaptureError> {
+    let Some(last) = captures.last() else { return Ok(()) };
+    let hundredths = std::cmp::max(hundredths, 1);
+    let pending = PendingFile::create(path)?;
+    let raster = paper.raster();
+    // all pictures are as high as the highest
+    let heights: Result<Vec<u32>, _> = captures.iter().map(|captured| raster.height(&captured.svg(paper))).collect();
+    let height = heights?.into_iter().max();
+    let paint = |captured: &Captured| raster.paint(&captured.svg(paper), height);
+    let end = paint(last)?;
+    let comment: Vec<String> = with_program(&last.notes).iter().map(|(key, text)| format!("{key}: {text}")).collect();
+    let mut writer = GifWriter::new(pending, gif_size(&end)?, hundredths, paper.palette, &comment.join("; "))?;
+    for captured in &captures[..captures.len() - 1] {
+        writer.write(&paint(captured)?)?;
+    }
+    for _ in 0..LAST.div_ceil(hundredths) {
+        writer.write(&end)?;
+    }
+    Ok(writer.finish()?.commit()?)
+}
+
 /// Calls `take` with the capture of each tick of the span that has a picture.
 fn each(
     log: &Log,

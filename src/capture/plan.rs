@@ -33,8 +33,9 @@ pub fn plan(sheet: &PlanSheet<'_>) -> Captured {
     let PlanSheet { task, planner, seed, drawn, effort, lengths, cells } = *sheet;
     let mut readout = vec![format!("{} iterations, {} edges asked", effort.iterations, effort.edges)];
     let found = if let Some(PathLengths { length, clearance }) = lengths {
-        readout.push(format!("length {length:.3} {}, clearance {clearance:.4} m", unit(&task.robot)));
-        format!("a path whose clearance is proven to be at least {clearance:.4} m")
+        let clearance = proven(clearance);
+        readout.push(format!("length {length:.3} {}, clearance {clearance} m", unit(&task.robot)));
+        format!("a path whose clearance is proven to be at least {clearance} m")
     } else {
         readout.push("no path".to_owned());
         "no path was found".to_owned()
@@ -61,7 +62,31 @@ pub fn plan(sheet: &PlanSheet<'_>) -> Captured {
     Captured { figure, notes }
 }
 
+/// A proven clearance in metres, in words: rounded down, so that no more is claimed than is proven, with the digits that
+/// show that it is above 0.
+pub fn proven(clearance: f64) -> String {
+    let (mut digits, mut scale) = (4, 1e4);
+    while clearance * scale < 1.0 && digits < 12 {
+        (digits, scale) = (digits + 1, 10.0 * scale);
+    }
+    format!("{:.digits$}", (clearance * scale).floor() / scale)
+}
+
 /// The unit in which a robot's paths are measured.
 pub fn unit(robot: &AnyRobot) -> &'static str {
     if matches!(robot, AnyRobot::Reach(_) | AnyRobot::Reach3(_)) { "rad" } else { "m" }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::proven;
+
+    #[test]
+    fn a_clearance_is_never_shown_larger_than_it_is_proven_nor_as_none() {
+        for (clearance, shown) in
+            [(0.25, "0.2500"), (0.00996, "0.0099"), (1.98e-5, "0.00001"), (4e-9, "0.000000004"), (f64::INFINITY, "inf")]
+        {
+            assert_eq!(proven(clearance), shown);
+        }
+    }
 }

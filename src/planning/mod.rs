@@ -39,6 +39,7 @@ pub use growth::{Growth, Node, Rejection};
 pub use metric::{Metric, MetricError};
 pub use nearest::{Nearest, Neighbour};
 pub use no_path::NoPath;
+pub(crate) use path::is_same;
 pub use path::{CertifiedPath, Leg, LinePath, PathError};
 pub use planner::{Planner, Progress, accepted, solve};
 pub use planners::{

@@ -192,6 +192,6 @@ impl<R: Robot> CertifiedPath<ChartLine<R>> {
 }
 
 /// Whether two configurations are one, their angles in range.
-pub(super) fn is_same<C: Configuration>(a: &C, b: &C) -> bool {
+pub(crate) fn is_same<C: Configuration>(a: &C, b: &C) -> bool {
     a.in_chart() == b.in_chart()
 }

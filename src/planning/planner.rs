@@ -1,8 +1,8 @@
 //! `Planner`, the one interface of planners, and `solve`, which runs one.
 
-use super::path::is_same;
-use super::{Bounds, CertifiedPath, Effort, Growth, NoPath, PathError};
+use super::{Bounds, CertifiedPath, Effort, Growth, NoPath, PathError, is_same};
 use crate::collision::Problem;
+use crate::cspace::CellMap;
 use crate::robots::{ChartLine, Motion, Robot};
 
 /// What an iteration came to.
@@ -41,6 +41,11 @@ pub trait Planner<R: Robot, M: Motion<Configuration = R::Configuration> = ChartL
 
     /// The best path so far.
     fn path(&self) -> Option<&CertifiedPath<M>>;
+
+    /// The cells of the configuration space that it has judged, to be drawn; `None` for a planner without.
+    fn cells(&self) -> Option<&CellMap> {
+        None
+    }
 }
 
 /// Runs a planner until it has a path, has ended or has reached a bound.

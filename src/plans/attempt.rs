@@ -2,9 +2,10 @@
 
 use crate::collision::ProvenStep;
 use crate::configuration::{AnyConfiguration, Configuration, HitchCfg, R2, T2, Tn};
-use crate::geometry::{Footprint, Point2, Pose2};
+use crate::cspace::CellMap;
+use crate::geometry::Pose2;
 use crate::planning::{Bounds, CertifiedPath, Effort, NoPath, Planner, Progress, accepted, solve};
-use crate::robots::{ChartLine, Hitch, HitchArc, Motion, Reach, Robot, RustyDisc};
+use crate::robots::{AnyRobot, ChartLine, Hitch, HitchArc, Motion, Reach, Robot, RustyDisc};
 use crate::run::Script;
 use crate::simulation::{PlayError, PlayStage, PlayablePath, PlayedPath};
 
@@ -15,48 +16,35 @@ const DRAWN: u32 = 6;
 
 /// A robot that paths are planned for.
 pub trait Planned: Robot {
-    /// The point that stands for the robot: a disc's centre, an arm's tip, a car's rear axle.
-    fn reference(&self, q: &Self::Configuration) -> Point2;
-
     /// The configuration as one of the lab's robots has it; a disc's heading is 0.
     fn any(&self, q: &Self::Configuration) -> AnyConfiguration;
 }
 
 impl Planned for RustyDisc {
-    fn reference(&self, q: &R2) -> Point2 {
-        q.0
-    }
-
     fn any(&self, q: &R2) -> AnyConfiguration {
         AnyConfiguration::Pose(Pose2::new(q.0.x, q.0.y, 0.0))
     }
 }
 
 impl Planned for Reach<2> {
-    fn reference(&self, q: &T2) -> Point2 {
-        self.tip(q)
-    }
-
     fn any(&self, q: &T2) -> AnyConfiguration {
         AnyConfiguration::T2(*q)
     }
 }
 
 impl Planned for Reach<3> {
-    fn reference(&self, q: &Tn<3>) -> Point2 {
-        self.tip(q)
-    }
-
     fn any(&self, q: &Tn<3>) -> AnyConfiguration {
         AnyConfiguration::T3(*q)
     }
 }
 
-impl Planned for Hitch {
-    fn reference(&self, q: &HitchCfg) -> Point2 {
-        q.body.position()
+impl Planned for AnyRobot {
+    fn any(&self, q: &AnyConfiguration) -> AnyConfiguration {
+        *q
     }
+}
 
+impl Planned for Hitch {
     fn any(&self, q: &HitchCfg) -> AnyConfiguration {
         AnyConfiguration::Hitch(*q)
     }
@@ -143,6 +131,9 @@ pub trait Attempt: Send {
     /// What there is to draw: the growth, the path, and what the last motion that was rejected hits.
     fn drawn(&self) -> Drawn;
 
+    /// The cells of the configuration space that the planner has judged, if it judges any.
+    fn cells(&self) -> Option<&CellMap>;
+
     /// What the planner has done.
     fn effort(&self) -> Effort;
 
@@ -157,18 +148,6 @@ pub trait Attempt: Send {
 
     /// What the planner has grown: the nodes' coordinates, and the edges by the numbers of their ends.
     fn growth(&self) -> (Vec<Vec<f64>>, Vec<[usize; 2]>);
-
-    /// The way of the robot's reference point along each edge of the growth.
-    fn ways(&self) -> Vec<Vec<Point2>>;
-
-    /// The way of the robot's reference point along the path.
-    fn way(&self) -> Vec<Point2>;
-
-    /// The robot at the ends of some of the path's legs, the start and the goal among them.
-    fn places(&self) -> Vec<Footprint>;
-
-    /// The robot at the start and at the goal.
-    fn ends(&self) -> [Footprint; 2];
 
     /// The script that plays the path; `None` without a path.
     fn play(&self, stage: &PlayStage<'_>) -> Option<Result<PlayedPath, PlayError>>;
@@ -193,11 +172,6 @@ impl<R: Planned, M: LegMotion<Configuration = R::Configuration>> Trial<R, M> {
     fn sampled(motion: &M) -> impl Iterator<Item = R::Configuration> {
         let pieces = motion.pieces();
         (0..=pieces).map(move |i| motion.at(f64::from(i) / f64::from(pieces)))
-    }
-
-    fn way_of(&self, motion: &M) -> Vec<Point2> {
-        let robot = self.planner.problem().checker().robot();
-        Self::sampled(motion).map(|q| robot.reference(&q)).collect()
     }
 
     fn among_any(&self, motion: &M) -> Vec<AnyConfiguration> {
@@ -258,6 +232,10 @@ where
         }
     }
 
+    fn cells(&self) -> Option<&CellMap> {
+        self.planner.cells()
+    }
+
     fn effort(&self) -> Effort {
         self.planner.growth().effort()
     }
@@ -284,27 +262,6 @@ where
     fn growth(&self) -> (Vec<Vec<f64>>, Vec<[usize; 2]>) {
         let growth = self.planner.growth();
         (growth.nodes().iter().map(|node| node.at.coordinates().to_vec()).collect(), growth.edges().collect())
-    }
-
-    fn ways(&self) -> Vec<Vec<Point2>> {
-        let edges = self.planner.growth().edges();
-        edges.filter_map(|[a, b]| Some(self.way_of(&self.planner.motion(a, b)?))).collect()
-    }
-
-    fn way(&self) -> Vec<Point2> {
-        self.path.iter().flat_map(|path| path.legs()).flat_map(|leg| self.way_of(leg.motion())).collect()
-    }
-
-    fn places(&self) -> Vec<Footprint> {
-        let Some(path) = &self.path else { return Vec::new() };
-        let (robot, corners) = (self.planner.problem().checker().robot(), path.corners());
-        let every = corners.len().div_ceil(14);
-        corners.iter().step_by(every.max(1)).map(|q| robot.footprint(q)).collect()
-    }
-
-    fn ends(&self) -> [Footprint; 2] {
-        let problem = self.planner.problem();
-        [problem.start(), problem.goal()].map(|q| problem.checker().robot().footprint(&q))
     }
 
     fn play(&self, stage: &PlayStage<'_>) -> Option<Result<PlayedPath, PlayError>> {

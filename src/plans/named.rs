@@ -25,13 +25,15 @@ pub enum PlannerName {
     Bug1,
     /// Bug2.
     Bug2,
+    /// Cells of the configuration space proven free or blocked.
+    CellDecomposition,
     /// A search over what a car can drive.
     HybridAStar,
 }
 
 impl PlannerName {
     /// All planners, in the order of the lists.
-    pub const ALL: [PlannerName; 11] = [
+    pub const ALL: [PlannerName; 12] = [
         PlannerName::RrtConnect,
         PlannerName::Rrt,
         PlannerName::RrtStar,
@@ -42,6 +44,7 @@ impl PlannerName {
         PlannerName::PotentialField,
         PlannerName::Bug1,
         PlannerName::Bug2,
+        PlannerName::CellDecomposition,
         PlannerName::HybridAStar,
     ];
 
@@ -58,6 +61,7 @@ impl PlannerName {
             PlannerName::PotentialField => "potential-field",
             PlannerName::Bug1 => "bug1",
             PlannerName::Bug2 => "bug2",
+            PlannerName::CellDecomposition => "cell-decomposition",
             PlannerName::HybridAStar => "hybrid-a-star",
         }
     }
@@ -75,6 +79,7 @@ impl PlannerName {
             PlannerName::PotentialField => "Potential field",
             PlannerName::Bug1 => "Bug1",
             PlannerName::Bug2 => "Bug2",
+            PlannerName::CellDecomposition => "Cell decomposition",
             PlannerName::HybridAStar => "Hybrid A*",
         }
     }
@@ -96,6 +101,9 @@ impl PlannerName {
                 "Bug1, for a rover: it goes round an obstacle once, and leaves where it was nearest to the goal"
             }
             PlannerName::Bug2 => "Bug2, for a rover: it follows the line to the goal, and boundaries between",
+            PlannerName::CellDecomposition => {
+                "Cells proven free or blocked, for a rover and an arm of two links; it may prove that there is no path"
+            }
             PlannerName::HybridAStar => "A search over what a car can drive, with a trailer or without",
         }
     }
@@ -118,7 +126,7 @@ impl PlannerName {
     /// # Errors
     /// The reason in words.
     pub const fn suits(self, robot: &AnyRobot) -> Result<(), &'static str> {
-        use PlannerName::{Bug1, Bug2, HybridAStar, VisibilityGraph};
+        use PlannerName::{Bug1, Bug2, CellDecomposition, HybridAStar, VisibilityGraph};
         match (self, robot) {
             (HybridAStar, AnyRobot::Hitch(_)) => Ok(()),
             (HybridAStar, _) => Err("it plans for a car only"),
@@ -126,6 +134,7 @@ impl PlannerName {
             (Bug1 | Bug2 | VisibilityGraph, AnyRobot::Reach(_) | AnyRobot::Reach3(_)) => {
                 Err("it plans for a disc in the plane only")
             }
+            (CellDecomposition, AnyRobot::Reach3(_)) => Err("its cells are those of a plane or a torus"),
             _ => Ok(()),
         }
     }

@@ -4,12 +4,14 @@ use std::sync::Arc;
 
 use crate::collision::{Checker, Problem, Scene};
 use crate::configuration::{AnyConfiguration, Chart, Configuration, R2};
+use crate::geometry::Pose2;
 use crate::planning::hybrid::HybridAStar;
 use crate::planning::{
-    Bug1, Bug2, GridSearch, LinePath, NoPath, Planner, PotentialField, Prm, Rrt, RrtConnect, RrtStar, VisibilityGraph,
+    Bug1, Bug2, CellDecomposition, GridSearch, LinePath, NoPath, Planner, PotentialField, Prm, Rrt, RrtConnect,
+    RrtStar, VisibilityGraph,
 };
 use crate::random::Seed;
-use crate::robots::{AnyRobot, ChartLine, Hitch, HitchArc, Reach, RustyDisc};
+use crate::robots::{AnyRobot, ChartLine, Hitch, HitchArc, Reach, Rusty, RustyDisc};
 use crate::simulation::PlayablePath;
 use crate::worlds::{Resident, World};
 
@@ -84,6 +86,25 @@ impl Task {
         }
     }
 
+    /// The robot as it is planned for: a rover is larger by the tube.
+    pub fn planned(&self) -> AnyRobot {
+        match self.robot {
+            AnyRobot::Rusty(rover) => AnyRobot::Rusty(Rusty { body_radius: rover.body_radius + self.tube, ..rover }),
+            robot => robot,
+        }
+    }
+
+    /// The planner by cells, which plans for a robot of any kind.
+    fn by_cells(&self, seed: Seed) -> Result<Box<dyn Attempt>, NoPath> {
+        // a rover's heading does not matter
+        let [start, goal] = [self.start, self.goal].map(|q| match q {
+            AnyConfiguration::Pose(pose) => AnyConfiguration::Pose(Pose2::new(pose.x, pose.y, 0.0)),
+            q => q,
+        });
+        let problem = Problem::try_new(Checker::new(Arc::clone(&self.scene), self.planned()), start, goal, seed)?;
+        Ok(Box::new(Trial::new(Box::new(CellDecomposition::new(problem)))))
+    }
+
     /// A planner whose edges are the chart's straight lines.
     fn by_lines<R>(
         &self,
@@ -108,6 +129,7 @@ impl Task {
             PlannerName::PotentialField => Box::new(PotentialField::new(problem)),
             PlannerName::Bug1 => Box::new(Bug1::try_new(&problem)?),
             PlannerName::Bug2 => Box::new(Bug2::try_new(&problem)?),
+            PlannerName::CellDecomposition => return self.by_cells(seed),
             PlannerName::HybridAStar => return Err(NoPath::Unsuited("it plans for a car only")),
         };
         Ok(Box::new(Trial::new(planner)))

@@ -7,7 +7,7 @@ use super::jackknife::TRAILER;
 use super::{CarCmd, ConfigurationError, Drivable, Hitch, Leaving, Motion, Rates, Robot, TICK};
 use crate::configuration::{Configuration, HitchCfg};
 use crate::geometry::{Footprint, Tangent2};
-use crate::num::{greater, lesser, rk4, sin, ulp, wrap};
+use crate::num::{greater, lesser, rk4, sin, sinc, ulp, wrap};
 
 /// The number of Runge-Kutta steps for the trailer's heading in a motion of one tick.
 const TRAILER_SUBSTEPS: u32 = 4;
@@ -28,6 +28,8 @@ struct TickArc {
     start: HitchCfg,
     ahead: f64,
     turn: f64,
+    /// `sinc` of half the turn.
+    chord: f64,
 }
 
 impl TickArc {
@@ -36,10 +38,13 @@ impl TickArc {
             return self.start;
         }
         let theta = self.start.body.theta;
-        let body = self.start.body.boxplus(&Tangent2::new(s * self.ahead, 0.0, s * self.turn));
+        let tangent = Tangent2::new(s * self.ahead, 0.0, s * self.turn);
+        let chord = if s == 1.0 { self.chord } else { sinc(0.5 * tangent.dtheta) };
+        let body = self.start.body.boxplus_along(&tangent, chord);
         // Per unit of s: psi' = (ds / d_h) sin(theta(s) - psi) with theta(s) = theta + s dtheta in closed form.
         let trailer = self.start.trailer.zip(self.car.hitch_len).map(|(psi, hitch_len)| {
-            let slope = |t: f64, psi: f64| self.ahead / hitch_len * sin(theta + t * self.turn - psi);
+            let spin = self.ahead / hitch_len;
+            let slope = |t: f64, psi: f64| spin * sin(theta + t * self.turn - psi);
             wrap(rk4(slope, psi, 0.0, s, TRAILER_SUBSTEPS))
         });
         HitchCfg { body, trailer }
@@ -93,6 +98,8 @@ pub struct HitchArc {
     seconds: f64,
     /// The configurations at which the later ticks start.
     later: Vec<HitchCfg>,
+    /// The configuration at which the last tick ends. It is asked for again and again: a trailer's costs 16 sines.
+    end: HitchCfg,
     /// The length in ticks, the last one perhaps a part of a tick; 1 for a motion of one piece.
     ticks: f64,
     /// By how much rounding may move a point of the footprint from the end of a tick to the start of the next, metres.
@@ -120,7 +127,8 @@ impl HitchArc {
 
     /// A motion of one piece.
     fn one(first: TickArc, control: CarCmd, seconds: f64) -> Self {
-        HitchArc { first, control, seconds, later: Vec::new(), ticks: 1.0, rounding: 0.0, leaving: None }
+        let (later, end) = (Vec::new(), first.at(1.0));
+        HitchArc { first, control, seconds, later, end, ticks: 1.0, rounding: 0.0, leaving: None }
     }
 
     /// The chain of this many ticks, more than one.
@@ -138,7 +146,8 @@ impl HitchArc {
         let trailer = first.car.hitch_len.map_or(0.0, |length| farthest(first.car.trailer_body.rectangle(length)));
         let reach = greater(farthest(first.car.body.rectangle()), trailer);
         let rounding = 16.0 * ulp(4.0 + size + reach);
-        HitchArc { first, control, seconds, later, ticks, rounding, leaving: None }
+        let arc = HitchArc { first, control, seconds, later, end: at, ticks, rounding, leaving: None };
+        HitchArc { end: arc.integrated(1.0), ..arc }
     }
 
     /// The arc with the place where it leaves its car's jackknife limit.
@@ -154,7 +163,7 @@ impl HitchArc {
     /// known which way round it went are divided. The numerical solution departs from that by less than its own error,
     /// which for the lab's car and trailer is below 1e-9 rad.
     fn find_leaving(&self) -> Option<Leaving> {
-        let TickArc { car, start, ahead, turn } = &self.first;
+        let TickArc { car, start, ahead, turn, .. } = &self.first;
         let (limit, hitch_len) = (car.jackknife?, car.hitch_len?);
         let is_within = |q: &HitchCfg| car.is_within_limits(q);
         let leaving = |within_until: f64, outside_at: f64| Leaving { within_until, outside_at, part: TRAILER };
@@ -192,6 +201,13 @@ impl HitchArc {
         None
     }
 
+    /// The configuration at `s`, from the start of its tick on.
+    fn integrated(&self, s: f64) -> HitchCfg {
+        let (tick, within) = self.tick_at(s);
+        let start = tick.checked_sub(1).map_or(self.first.start, |i| self.later[i]);
+        TickArc { start, ..self.first }.at(within)
+    }
+
     /// The number of the tick at `s`, from 0, and the parameter within its motion.
     fn tick_at(&self, s: f64) -> (usize, f64) {
         if self.later.is_empty() {
@@ -219,9 +235,7 @@ impl Motion for HitchArc {
     type Configuration = HitchCfg;
 
     fn at(&self, s: f64) -> HitchCfg {
-        let (tick, within) = self.tick_at(s);
-        let start = tick.checked_sub(1).map_or(self.first.start, |i| self.later[i]);
-        TickArc { start, ..self.first }.at(within)
+        if s == 1.0 { self.end } else { self.integrated(s) }
     }
 
     fn footprint_at(&self, s: f64) -> Footprint {
@@ -275,7 +289,8 @@ impl Drivable for Hitch {
             let ahead = u.v * dt;
             let turn = self.curvature(u.phi) * ahead;
             let finite = ahead.is_finite() && turn.is_finite();
-            finite.then(|| TickArc { car: *self, start: q.in_chart(), ahead, turn })
+            let chord = sinc(0.5 * turn);
+            finite.then(|| TickArc { car: *self, start: q.in_chart(), ahead, turn, chord })
         };
         let whole = arc(dt).ok_or(ConfigurationError::ControlNotFinite)?;
         if dt.abs() <= TICK {

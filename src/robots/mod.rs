@@ -64,6 +64,9 @@ use crate::short_list::ShortList;
 /// The length of a tick, seconds: the simulator's time step, and that of the integration of a car's trailer.
 pub const TICK: f64 = 0.05;
 
+/// The units of a driver's channel, as scripts hold it, that stand for the maximum: a channel goes from -128 to 128.
+pub const CHANNEL_UNITS: f64 = 128.0;
+
 /// The rates of a footprint's parts, in the parts' order.
 pub type PartRates = ShortList<Rates, 3>;
 

@@ -10,7 +10,7 @@ pub const MAX_EVENTS: usize = 1_000_000;
 /// Largest number of coordinates in a `MoveTo` or `Teleport`.
 pub const MAX_COORDINATES: usize = 64;
 /// The greatest absolute value of a control channel: the robot's maximum.
-pub const MAX_CHANNEL: i16 = 128;
+pub const MAX_CHANNEL: i16 = crate::robots::CHANNEL_UNITS as i16;
 
 /// A script that is refused: where, which event, and why.
 ///

@@ -92,6 +92,7 @@ pub(crate) use file::ron_words::{begin_of, ron_in_words};
 pub use grid::cells::{Grid, GridError, MAX_CELLS};
 pub use grid::distance_transform::DistanceTransform;
 pub use grid::ros_export::RosFiles;
+pub use grid::voronoi::VoronoiDiagram;
 pub use model::{Door, Mark, Obstacle, ObstacleKind, Outline, Place, Resident, World, Written};
 pub use route::{MAX_ROUTE_POINTS, ROUTE_RADII, ROUTE_SPEEDS, Route, RouteError, RoutePath};
 #[cfg(feature = "sim")]

@@ -5,6 +5,7 @@ use std::fs;
 use motion_lab::collision::Scene;
 use motion_lab::geometry::Footprint;
 use motion_lab::num::{cos, sin};
+use motion_lab::picture::{Rgb, Role, Theme};
 use motion_lab::prelude::*;
 
 use super::{json, run, run_in};
@@ -92,8 +93,8 @@ fn a_rover_follows_its_path_at_any_seed() {
 
 #[test]
 fn every_planner_of_a_rover_leads_it_out_of_room_a() {
-    let names = ["rrt-connect", "rrt", "rrt-star", "prm", "a-star", "dijkstra", "visibility-graph", "bug1", "bug2"];
-    for planner in names {
+    let of_any = ["rrt-connect", "rrt", "rrt-star", "prm", "a-star", "dijkstra", "cell-decomposition"];
+    for planner in of_any.into_iter().chain(["visibility-graph", "bug1", "bug2"]) {
         let out = run(&["plan", "--planner", planner, "--robot", "Rusty", "--to", "4.5,4", "--json"]).done();
         let answer = json(&out);
         assert_eq!(answer["planner"], planner);
@@ -101,6 +102,61 @@ fn every_planner_of_a_rover_leads_it_out_of_room_a() {
         // the straight line's length is 3.2 m
         assert!(length > 3.1 && answer["clearance"].as_f64().unwrap() > 0.0, "{planner}: {out}");
     }
+}
+
+#[test]
+fn a_path_by_cells_is_played_by_rover_and_arm() {
+    let folder = tempfile::tempdir().unwrap();
+    let by_cells = ["plan", "--planner", "cell-decomposition", "--record", "run.mcap", "--quiet"];
+    for ends in [&["--robot", "Rusty", "--to", "4.5,2"][..], &ROUND_THE_POST[1..]] {
+        let out = run_in(folder.path(), &[&by_cells[..], ends].concat()).done();
+        assert!(out.contains("recorded   0 contacts") && out.contains(" s, at most "), "{out}");
+        run_in(folder.path(), &["verify", "run.mcap"]).done();
+        // a number of ticks of a 20th of a second has two decimals at most
+        let seconds = out.split(" ticks, ").nth(1).and_then(|rest| rest.split(" s,").next()).unwrap();
+        assert!(seconds.split('.').nth(1).is_none_or(|decimals| decimals.len() <= 2), "{seconds}");
+    }
+    // an arm of three links has more than a plane of configurations, and a car's chart is no road
+    let arm =
+        run(&["plan", "--planner", "cell-decomposition", "--robot", "reach3", "--from", "0,0,0", "--to", "0.1,0,0"]);
+    assert!(arm.code == Some(4) && arm.err.contains("cells are for discs"), "{} {}", arm.out, arm.err);
+}
+
+/// The pictures of a film: how long each is shown, hundredths of a second, and how many of its pixels have the path's
+/// colour.
+fn film(file: &std::path::Path) -> Vec<(u16, usize)> {
+    let bytes = fs::read(file).unwrap();
+    let mut options = gif::DecodeOptions::new();
+    options.set_color_output(gif::ColorOutput::RGBA);
+    let mut decoder = options.read_info(&bytes[..]).unwrap();
+    let Rgb(path) = Theme::Light.palette().colour(Role::Path);
+    let mut pictures = Vec::new();
+    while let Some(frame) = decoder.read_next_frame().unwrap() {
+        let of_path = frame.buffer.chunks(4).filter(|pixel| pixel[..3] == path).count();
+        pictures.push((frame.delay, of_path));
+    }
+    pictures
+}
+
+#[test]
+fn a_film_shows_every_iteration_and_ends_with_the_path() {
+    let folder = tempfile::tempdir().unwrap();
+    let gif = ["--gif", "growth.gif", "--width", "640", "--seed", "7", "--json"];
+    let answer = json(&run_in(folder.path(), &[&ROUND_THE_POST[..], &gif].concat()).done());
+    let iterations = answer["effort"]["iterations"].as_u64().unwrap() as usize;
+    let pictures = film(&folder.path().join("growth.gif"));
+    // the last stays for two seconds
+    let last = 200_usize.div_ceil(usize::from(pictures[0].0));
+    assert!(iterations > 5 && pictures.len() == iterations - 1 + last, "{iterations}: {}", pictures.len());
+    let (growing, found) = pictures.split_at(iterations - 1);
+    assert!(growing.iter().all(|(_, of_path)| *of_path == 0), "{growing:?}");
+    assert!(found.iter().all(|(_, of_path)| *of_path > 50), "{found:?}");
+    // without a path the growth is filmed too
+    let trap = ["plan", "--planner", "potential-field", "--robot", "rusty", "--from", "1.5,5.75", "--to", "9.75,6.25"];
+    let none = run_in(folder.path(), &[&trap[..], &["--gif", "trap.gif", "--width", "480"]].concat());
+    assert!(none.code == Some(4) && none.err.contains("wrote trap.gif"), "{}", none.err);
+    let pictures = film(&folder.path().join("trap.gif"));
+    assert!(pictures.len() > 10 && pictures.iter().all(|(_, of_path)| *of_path == 0));
 }
 
 #[test]

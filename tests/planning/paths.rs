@@ -80,6 +80,22 @@ fn shortcuts_are_never_longer_and_always_certified() {
 }
 
 #[test]
+fn a_straight_way_has_no_corner_to_cut() {
+    let checker = room(&[]);
+    let straight = [R2::new(-1.0, 0.25), R2::new(-0.5, 0.25), R2::new(1.0, 0.25)];
+    let path = LinePath::through(&checker, &straight).unwrap();
+    let metric = Metric::unit(&straight[0]);
+    // nothing is shorter than half a metre and one and a half, so nothing is replaced
+    for same in [path.smoothed(&checker, &metric, 3), path.pruned(&checker, &metric)] {
+        assert_eq!(same.corners(), straight);
+    }
+    // with a corner there is: a cut leaves two
+    let bent = LinePath::through(&checker, &[straight[0], R2::new(0.0, 1.0), straight[2]]).unwrap();
+    assert_eq!(bent.smoothed(&checker, &metric, 1).corners().len(), 4);
+    assert_eq!(bent.pruned(&checker, &metric).corners(), [straight[0], straight[2]]);
+}
+
+#[test]
 fn a_goal_region_is_reached_where_its_centre_need_not_be() {
     let mut beside = 0;
     for seed in 0..20 {

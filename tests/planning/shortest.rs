@@ -29,6 +29,11 @@ fn the_visibility_graph_takes_the_shortest_way() {
     let path = solve(&mut VisibilityGraph::new(round_an_end()), &Bounds::default()).unwrap();
     let (found, shortest) = (length(&path), by_hand());
     assert!(found >= shortest && found < 1.005 * shortest, "{found} {shortest}");
+    // it goes about the wall's end at the millimetre that the planner keeps, and that is what is proven
+    let seen = disc_clearance(round_an_end().checker().scene(), 0.1, &path.corners());
+    for clearance in [path.clearance(), seen] {
+        assert!((clearance - 1e-3).abs() < 1e-5, "{clearance}");
+    }
 }
 
 #[test]

@@ -3,12 +3,9 @@
 use crate::configuration::HitchCfg;
 use crate::num::lesser;
 use crate::planning::curves::{Curve, Turn};
-use crate::robots::{CarCmd, ConfigurationError, Drivable, Hitch, HitchArc, TICK};
+use crate::robots::{CHANNEL_UNITS, CarCmd, ConfigurationError, Drivable, Hitch, HitchArc, TICK};
 
-/// The channel value that stands for the maximum, in scripts and in [`CarMove`].
-pub const CHANNEL_UNITS: f64 = 128.0;
-
-/// A constant control of the car for whole ticks: its two channels as scripts hold them, from -128 to 128, the maximum.
+/// A constant control of the car for whole ticks: its two channels as scripts hold them, in [`CHANNEL_UNITS`].
 /// What a chain of moves leads to is what the simulator does with them, bit for bit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct CarMove {

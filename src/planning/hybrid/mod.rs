@@ -8,6 +8,6 @@ mod shots;
 #[cfg(test)]
 mod tests;
 
-pub use car_move::{CHANNEL_UNITS, CarMove};
+pub use car_move::CarMove;
 pub use planner::HybridAStar;
 pub use settings::{HybridSettings, NearGoal};

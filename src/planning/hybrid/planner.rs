@@ -7,12 +7,12 @@ use std::sync::Arc;
 
 use super::remaining::Remaining;
 use super::shots::shots;
-use super::{CHANNEL_UNITS, CarMove, HybridSettings};
+use super::{CarMove, HybridSettings};
 use crate::collision::Problem;
 use crate::configuration::HitchCfg;
 use crate::num::{lesser, wrap};
 use crate::planning::{CertifiedPath, Growth, NoPath, Planner, Progress};
-use crate::robots::{Hitch, HitchArc, Motion};
+use crate::robots::{CHANNEL_UNITS, Hitch, HitchArc, Motion};
 
 /// Hybrid A* (Dolgov, Thrun, Montemerlo and Diebel, 2008) for the car, with a trailer or without: A* over what the car
 /// drives in a few ticks under each of a few controls, one configuration kept for each cell of the space. From each

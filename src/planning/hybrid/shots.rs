@@ -1,11 +1,11 @@
 //! Shots: moves that lead straight to a goal where nothing is in the way.
 
-use super::{CHANNEL_UNITS, CarMove, HybridSettings};
+use super::{CarMove, HybridSettings};
 use crate::collision::Problem;
 use crate::configuration::HitchCfg;
 use crate::num::{atan2, cos, lesser, sin, wrap};
 use crate::planning::curves::reeds_shepp;
-use crate::robots::{Hitch, Motion, TICK};
+use crate::robots::{CHANNEL_UNITS, Hitch, Motion, TICK};
 
 /// The greatest number of moves of a shot that follows a line.
 const MOST: usize = 100;

@@ -1,10 +1,8 @@
 //! `Bug1`, which goes all the way round an obstacle before it leaves it.
 
-use super::walker::{Headed, Walker};
+use super::walker::{Headed, Walker, apart};
 use crate::collision::Problem;
 use crate::configuration::Chart;
-use crate::geometry::Point2;
-use crate::num::hypot;
 use crate::planning::{Growth, LinePath, NoPath, Planner, Progress};
 use crate::robots::{ChartLine, Robot};
 
@@ -132,10 +130,6 @@ impl<R: Robot<Configuration: Chart>> Bug1<R> {
     fn stuck(&self) -> Option<Progress> {
         Some(Progress::Ended(NoPath::LocalMinimum { node: self.walker.node() }))
     }
-}
-
-fn apart(a: Point2, b: Point2) -> f64 {
-    hypot(a.x - b.x, a.y - b.y)
 }
 
 impl<R: Robot<Configuration: Chart>> Planner<R> for Bug1<R> {

@@ -1,10 +1,9 @@
 //! `Bug2`, which follows boundaries until it meets the line from the start to the goal.
 
-use super::walker::{Headed, Walker};
+use super::walker::{Headed, Walker, apart};
 use crate::collision::Problem;
 use crate::configuration::Chart;
 use crate::geometry::Point2;
-use crate::num::hypot;
 use crate::planning::{Growth, LinePath, NoPath, Planner, Progress};
 use crate::robots::{ChartLine, Robot};
 
@@ -97,10 +96,6 @@ impl<R: Robot<Configuration: Chart>> Bug2<R> {
         let side = |p: Point2| line.x * (p.y - self.start.y) - line.y * (p.x - self.start.x);
         (side(a) <= 0.0) != (side(b) <= 0.0)
     }
-}
-
-fn apart(a: Point2, b: Point2) -> f64 {
-    hypot(a.x - b.x, a.y - b.y)
 }
 
 impl<R: Robot<Configuration: Chart>> Planner<R> for Bug2<R> {

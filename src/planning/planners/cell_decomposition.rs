@@ -42,11 +42,6 @@ impl CellDecomposition {
         CellDecomposition { problem, map: slice.map(|slice| CellMap::new(slice, FINEST)), growth, end, path: None }
     }
 
-    /// The cells, to be drawn; `None` for a robot that the planner is not for.
-    pub fn map(&self) -> Option<&CellMap> {
-        self.map.as_ref()
-    }
-
     fn advance(&mut self) -> Option<Progress> {
         let map = self.map.as_mut()?;
         let is_done = !map.refine(CELLS);
@@ -176,5 +171,9 @@ impl Planner<AnyRobot> for CellDecomposition {
 
     fn path(&self) -> Option<&LinePath<AnyRobot>> {
         self.path.as_ref()
+    }
+
+    fn cells(&self) -> Option<&CellMap> {
+        self.map.as_ref()
     }
 }

@@ -3,9 +3,10 @@
 use std::collections::BTreeMap;
 use std::f64::consts::TAU;
 
+use super::frontier::Frontier;
 use crate::collision::Problem;
 use crate::configuration::{Chart, Configuration, Coordinates};
-use crate::planning::{Growth, LinePath, Metric, NoPath, Planner, Progress, Queue, Settings};
+use crate::planning::{Growth, LinePath, Metric, NoPath, Planner, Progress, Settings};
 use crate::robots::{ChartLine, Robot};
 use crate::short_list::ShortList;
 
@@ -45,9 +46,9 @@ pub struct GridSearch<R: Robot> {
     nodes: BTreeMap<[i32; 4], usize>,
     /// The place of each node; `None` for the goal beside the grid.
     places: Vec<Option<Place>>,
-    costs: Vec<f64>,
-    is_closed: Vec<bool>,
-    open: Queue,
+    /// The node of the goal beside the grid.
+    goal: Option<usize>,
+    frontier: Frontier,
     end: Option<Progress>,
     path: Option<LinePath<R>>,
 }
@@ -91,9 +92,8 @@ impl<R: Robot<Configuration: Chart>> GridSearch<R> {
             growth: Growth::new(),
             nodes: BTreeMap::new(),
             places: Vec::new(),
-            costs: Vec::new(),
-            is_closed: Vec::new(),
-            open: Queue::new(),
+            goal: None,
+            frontier: Frontier::default(),
             end: (!fits).then_some(Progress::Ended(NoPath::Unsuited(reason))),
             path: None,
         };
@@ -105,18 +105,17 @@ impl<R: Robot<Configuration: Chart>> GridSearch<R> {
     }
 
     fn enlist(&mut self, node: usize, place: Option<Place>, cost: f64) {
-        if let Some(place) = &place {
-            self.nodes.insert(key(place), node);
+        match &place {
+            Some(place) => _ = self.nodes.insert(key(place), node),
+            None => self.goal = Some(node),
         }
         self.places.push(place);
-        self.costs.push(cost);
-        self.is_closed.push(false);
-        self.queue(node);
+        self.frontier.add(cost, self.rest(node));
     }
 
-    fn queue(&mut self, node: usize) {
-        let rest = self.metric.distance(&self.growth.at(node), &self.problem.goal());
-        self.open.push(self.costs[node] + if self.has_heuristic { rest } else { 0.0 }, node);
+    /// The least that the way from a node to the goal costs, as far as the search uses it.
+    fn rest(&self, node: usize) -> f64 {
+        if self.has_heuristic { self.metric.distance(&self.growth.at(node), &self.problem.goal()) } else { 0.0 }
     }
 
     /// The configuration at a place; `None` outside the scene's bounds.
@@ -143,16 +142,15 @@ impl<R: Robot<Configuration: Chart>> GridSearch<R> {
 
     /// Reaches a place from a node, or the goal where there is no place, if that is a shorter way and free.
     fn relax(&mut self, from: usize, place: Option<Place>, q: R::Configuration, known: Option<usize>) {
-        let cost = self.costs[from] + self.metric.distance(&self.growth.at(from), &q);
-        if known.is_some_and(|node| self.is_closed[node] || self.costs[node] <= cost)
+        let cost = self.frontier.cost(from) + self.metric.distance(&self.growth.at(from), &q);
+        if !self.frontier.is_of_use(known, cost)
             || !self.growth.ask_edge(self.problem.checker(), &self.growth.at(from), &q)
         {
             return;
         }
         if let Some(node) = known {
             self.growth.set_parent(node, from);
-            self.costs[node] = cost;
-            self.queue(node);
+            self.frontier.improve(node, cost, self.rest(node));
         } else {
             let node = self.growth.add(q, from);
             self.enlist(node, place, cost);
@@ -160,7 +158,6 @@ impl<R: Robot<Configuration: Chart>> GridSearch<R> {
     }
 
     fn expand(&mut self, node: usize) -> Option<Progress> {
-        self.is_closed[node] = true;
         if self.problem.is_goal(&self.growth.at(node)) {
             self.path = self.growth.certified(self.problem.checker(), &self.growth.branch(node));
             return self.path.is_some().then_some(Progress::Solved);
@@ -169,8 +166,7 @@ impl<R: Robot<Configuration: Chart>> GridSearch<R> {
         let goal = self.problem.goal().in_chart();
         let diagonal = crate::num::sqrt(self.axes.iter().map(|axis| axis.step * axis.step).sum());
         if self.metric.distance(&self.growth.at(node), &goal) <= diagonal {
-            let known = (0..self.places.len()).find(|i| self.places[*i].is_none());
-            self.relax(node, None, goal, known);
+            self.relax(node, None, goal, self.goal);
         }
         for other in self.beside(&place) {
             if let Some(q) = self.at(&other) {
@@ -205,12 +201,7 @@ impl<R: Robot<Configuration: Chart>> Planner<R> for GridSearch<R> {
             return end.clone();
         }
         self.growth.begin_iteration();
-        // a place that was reached by a shorter way since is in the queue twice
-        let mut next = self.open.pop();
-        while next.is_some_and(|node| self.is_closed[node]) {
-            next = self.open.pop();
-        }
-        self.end = match next {
+        self.end = match self.frontier.close_next() {
             Some(node) => self.expand(node),
             None => Some(Progress::Ended(NoPath::NoneInGraph { nodes: self.growth.nodes().len() })),
         };

@@ -3,6 +3,7 @@
 mod bug1;
 mod bug2;
 mod cell_decomposition;
+mod frontier;
 mod grid_search;
 mod potential_field;
 mod prm;

@@ -55,9 +55,7 @@ impl<R: Robot<Configuration: Chart>> RrtConnect<R> {
     /// way; it is where `far` allows it.
     fn grow(&mut self, tree: usize, from: usize, to: &R::Configuration, far: bool) -> Option<usize> {
         let start = self.growth.at(from);
-        let length = self.settings.metric.distance(&start, to);
-        let share = self.settings.step / length;
-        let end = if far || share >= 1.0 { *to } else { start.interpolate(to, share).ok()? };
+        let end = if far { *to } else { self.settings.toward(&start, to)? };
         let (a, b) = if tree == 0 { (start, end) } else { (end, start) };
         if !self.growth.ask_edge(self.problem.checker(), &a, &b) {
             return None;

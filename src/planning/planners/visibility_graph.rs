@@ -2,29 +2,31 @@
 
 use std::f64::consts::TAU;
 
+use super::frontier::Frontier;
 use crate::collision::{Problem, Scene};
 use crate::configuration::{Chart, Configuration, Coordinates};
 use crate::geometry::{Footprint, Placed, Point2, Vector2};
 use crate::num::{cos, sin_cos, sqrt};
-use crate::planning::{Growth, LinePath, NoPath, Planner, Progress, Queue};
+use crate::planning::{Growth, LinePath, NoPath, Planner, Progress};
 use crate::robots::{ChartLine, Robot};
 
 /// The number of directions about a vertex in which the grown obstacle has corners. A path about a corner is longer
 /// than the arc by at most two per cent.
 const DIRECTIONS: u32 = 16;
 
-/// How far the corners keep from the obstacles beyond the robot's radius, metres.
-const MARGIN: f64 = 1e-6;
+/// How far the robot keeps from an obstacle on its way about a corner, metres: far above the rounding of a clearance,
+/// so what is proven of the way is a number that a table shows.
+const MARGIN: f64 = 1e-3;
 
 /// The visibility graph (Lozano-Perez and Wesley, 1979) of a robot that is a disc, searched by A*.
 ///
 /// Every obstacle is grown by the radius: about each vertex stands a polygon of sixteen corners that circumscribes the
-/// rounded corner. Two corners see one another where the edge between them is proven free. The edges are asked about
+/// rounded corner and leaves a clearance of 1 mm. Two corners see one another where the edge between them is proven free. The edges are asked about
 /// when the search comes to them. Headings turn on the way to the goal.
 ///
 /// An iteration expands one corner and asks about at most as many edges as there are corners. A robot that is not a
 /// disc ends it with [`NoPath::Unsuited`]. [`NoPath::NoneInGraph`] is no proof where the way is hardly wider than the
-/// robot.
+/// robot: by less than 2 mm and four per cent of its radius.
 #[derive(Clone, Debug)]
 pub struct VisibilityGraph<R: Robot> {
     problem: Problem<R>,
@@ -33,9 +35,7 @@ pub struct VisibilityGraph<R: Robot> {
     corners: Vec<(R::Configuration, Option<usize>)>,
     /// The corner of each node.
     of_node: Vec<usize>,
-    costs: Vec<f64>,
-    is_closed: Vec<bool>,
-    open: Queue,
+    frontier: Frontier,
     end: Option<Progress>,
     path: Option<LinePath<R>>,
 }
@@ -61,9 +61,7 @@ impl<R: Robot<Configuration: Chart>> VisibilityGraph<R> {
             problem,
             growth: Growth::new(),
             of_node: Vec::new(),
-            costs: Vec::new(),
-            is_closed: Vec::new(),
-            open: Queue::new(),
+            frontier: Frontier::default(),
             end: radius.is_none().then_some(Progress::Ended(NoPath::Unsuited(reason))),
             path: None,
             corners: corners.into_iter().map(|q| (q, None)).collect(),
@@ -76,13 +74,10 @@ impl<R: Robot<Configuration: Chart>> VisibilityGraph<R> {
     fn enlist(&mut self, node: usize, corner: usize, cost: f64) {
         self.corners[corner].1 = Some(node);
         self.of_node.push(corner);
-        self.costs.push(cost);
-        self.is_closed.push(false);
-        self.open.push(cost + apart(&self.growth.at(node), &self.problem.goal()), node);
+        self.frontier.add(cost, apart(&self.growth.at(node), &self.problem.goal()));
     }
 
     fn expand(&mut self, node: usize) -> Option<Progress> {
-        self.is_closed[node] = true;
         let (from, goal) = (self.growth.at(node), self.problem.goal());
         if self.of_node[node] == 0 {
             self.path = self.growth.certified(self.problem.checker(), &self.growth.branch(node));
@@ -90,17 +85,14 @@ impl<R: Robot<Configuration: Chart>> VisibilityGraph<R> {
         }
         for corner in 0..self.corners.len() {
             let (to, known) = self.corners[corner];
-            let cost = self.costs[node] + apart(&from, &to);
-            if known.is_some_and(|known| self.is_closed[known] || self.costs[known] <= cost)
-                || !self.growth.ask_edge(self.problem.checker(), &from, &to)
-            {
+            let cost = self.frontier.cost(node) + apart(&from, &to);
+            if !self.frontier.is_of_use(known, cost) || !self.growth.ask_edge(self.problem.checker(), &from, &to) {
                 continue;
             }
             match known {
                 Some(known) => {
                     self.growth.set_parent(known, node);
-                    self.costs[known] = cost;
-                    self.open.push(cost + apart(&to, &goal), known);
+                    self.frontier.improve(known, cost, apart(&to, &goal));
                 }
                 None => {
                     let reached = self.growth.add(to, node);
@@ -168,12 +160,7 @@ impl<R: Robot<Configuration: Chart>> Planner<R> for VisibilityGraph<R> {
             return end.clone();
         }
         self.growth.begin_iteration();
-        // a corner that was reached by a shorter way since is in the queue twice
-        let mut next = self.open.pop();
-        while next.is_some_and(|node| self.is_closed[node]) {
-            next = self.open.pop();
-        }
-        self.end = match next {
+        self.end = match self.frontier.close_next() {
             Some(node) => self.expand(node),
             None => Some(Progress::Ended(NoPath::NoneInGraph { nodes: self.corners.len() })),
         };

@@ -35,6 +35,11 @@ pub(super) struct Walker<R: Robot> {
     heading: Vector2,
 }
 
+/// The distance of two points, metres.
+pub(super) fn apart(a: Point2, b: Point2) -> f64 {
+    hypot(a.x - b.x, a.y - b.y)
+}
+
 /// The result of a step toward the goal.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Headed {
@@ -142,12 +147,17 @@ impl<R: Robot<Configuration: Chart>> Walker<R> {
         Headed::Blocked
     }
 
+    /// Its clearance where it is, metres, and the unit vector to the nearest boundary; `None` in an empty scene.
+    fn nearest(&self) -> Option<(f64, Vector2)> {
+        let witness = self.problem.checker().witness(&self.growth.at(self.node())).ok().flatten()?;
+        let toward = witness.on_obstacle - self.here();
+        Some((witness.dist, toward / greater(hypot(toward.x, toward.y), f64::MIN_POSITIVE)))
+    }
+
     /// Turns so that the nearest boundary is at its right hand.
     fn face(&mut self) {
-        let witness = self.problem.checker().witness(&self.growth.at(self.node())).ok().flatten();
-        if let Some(toward) = witness.map(|w| w.on_obstacle - self.here()) {
-            let apart = greater(hypot(toward.x, toward.y), f64::MIN_POSITIVE);
-            self.heading = Vector2::new(-toward.y, toward.x) / apart;
+        if let Some((_, toward)) = self.nearest() {
+            self.heading = Vector2::new(-toward.y, toward.x);
         }
     }
 
@@ -183,11 +193,8 @@ impl<R: Robot<Configuration: Chart>> Walker<R> {
 
     /// Takes a step to the nearest boundary, up to the clearance that it keeps, and turns along it.
     fn approach(&mut self) -> bool {
-        let witness = self.problem.checker().witness(&self.growth.at(self.node())).ok().flatten();
-        let Some(witness) = witness else { return false };
-        let toward = witness.on_obstacle - self.here();
-        let length = lesser(witness.dist - self.keep, self.stride());
-        let is_there = self.step(toward * (length / hypot(toward.x, toward.y)));
+        let Some((clearance, toward)) = self.nearest() else { return false };
+        let is_there = self.step(toward * lesser(clearance - self.keep, self.stride()));
         self.face();
         is_there
     }

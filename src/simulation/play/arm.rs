@@ -1,10 +1,10 @@
 //! An arm along a path: a target in every tick.
 
-use super::rehearsal::{Rehearsal, is_same, quantized};
+use super::rehearsal::{Rehearsal, quantized};
 use super::{PlayError, PlayStage, PlayablePath, PlayedPath};
 use crate::configuration::{Configuration, RobotKind, Tn};
 use crate::num::greater;
-use crate::planning::LinePath;
+use crate::planning::{LinePath, is_same};
 use crate::robots::Reach;
 use crate::run::{DT, RobotInput};
 
@@ -13,28 +13,37 @@ const JOINT_RATE: f64 = 2.0;
 
 impl PlayablePath for LinePath<Reach<2>> {
     fn play(&self, stage: &PlayStage<'_>) -> Result<PlayedPath, PlayError> {
-        play(self, Rehearsal::new(&Reach::<2>::workbench(), RobotKind::REACH.name, stage)?)
+        play_two(&self.corners(), stage)
     }
 }
 
 impl PlayablePath for LinePath<Reach<3>> {
     fn play(&self, stage: &PlayStage<'_>) -> Result<PlayedPath, PlayError> {
-        play(self, Rehearsal::new(&Reach::<3>::redundant(), RobotKind::REACH3.name, stage)?)
+        play_three(&self.corners(), stage)
     }
+}
+
+/// Plays the path of an arm with two links through these corners.
+pub(super) fn play_two(corners: &[Tn<2>], stage: &PlayStage<'_>) -> Result<PlayedPath, PlayError> {
+    play(corners, Rehearsal::new(&Reach::<2>::workbench(), RobotKind::REACH.name, stage)?)
+}
+
+/// Plays the path of an arm with three links through these corners.
+pub(super) fn play_three(corners: &[Tn<3>], stage: &PlayStage<'_>) -> Result<PlayedPath, PlayError> {
+    play(corners, Rehearsal::new(&Reach::<3>::redundant(), RobotKind::REACH3.name, stage)?)
 }
 
 /// Moves the arm along each line in ticks of one length, so that no joint turns faster than [`JOINT_RATE`]. The targets
 /// are rounded to the script's units; that is how far the arm strays.
-fn play<const N: usize>(
-    path: &LinePath<Reach<N>>,
-    mut rehearsal: Rehearsal<Reach<N>>,
-) -> Result<PlayedPath, PlayError> {
-    let mut at = path.start();
+fn play<const N: usize>(corners: &[Tn<N>], mut rehearsal: Rehearsal<Reach<N>>) -> Result<PlayedPath, PlayError> {
+    let Some(mut at) = corners.first().copied() else {
+        return rehearsal.end(0.0);
+    };
     if !is_same(&at, &rehearsal.q()) {
         rehearsal.teleport(&at.coordinates())?;
     }
     rehearsal.stray(rehearsal.off(&at)?)?;
-    for corner in &path.corners()[1..] {
+    for corner in &corners[1..] {
         let source = |source: crate::configuration::ChartMismatch| source.into();
         let refused = |source| PlayError::Configuration { tick: rehearsal.tick() + 1, source };
         let turns = at.difference(corner).map_err(source).map_err(refused)?;

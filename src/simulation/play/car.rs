@@ -1,12 +1,12 @@
 //! A car along a path: its channels, held for whole ticks.
 
-use super::rehearsal::{Rehearsal, is_same};
+use super::rehearsal::Rehearsal;
 use super::{PlayError, PlayStage, PlayablePath, PlayedPath};
 use crate::configuration::{Configuration, HitchCfg, RobotKind};
 use crate::num::{greater, lesser};
-use crate::planning::CertifiedPath;
-use crate::planning::hybrid::{CHANNEL_UNITS, CarMove};
-use crate::robots::{HITCH, Hitch, HitchArc, Motion, TICK};
+use crate::planning::hybrid::CarMove;
+use crate::planning::{CertifiedPath, is_same};
+use crate::robots::{CHANNEL_UNITS, HITCH, Hitch, HitchArc, Motion, TICK};
 use crate::run::RobotInput;
 
 /// How much faster than it can a leg may ask the car to go: what rounding makes of the greatest speed.

@@ -77,6 +77,9 @@ pub enum PlayError {
         /// The car's greatest speed, metres per second.
         most: f64,
     },
+    /// A car's path of straight lines in its chart, whatever the headings.
+    #[error("the path consists of straight lines of the chart, which no car drives")]
+    Undriven,
     /// The motion of a tick is not proven free.
     #[error("the motion of tick {tick} is not proven free")]
     NotFree {

@@ -173,8 +173,3 @@ fn off<R: Drivable>(
 pub(super) fn quantized(coordinates: &[f64]) -> Result<Vec<Quantized>, PlayError> {
     coordinates.iter().map(|x| Quantized::try_new(*x).ok_or(PlayError::Coordinate(*x))).collect()
 }
-
-/// Whether two configurations are one, their angles in range.
-pub(super) fn is_same<C: Configuration>(a: &C, b: &C) -> bool {
-    a.in_chart() == b.in_chart()
-}

@@ -6,11 +6,8 @@ use crate::configuration::RobotKind;
 use crate::geometry::{Point2, Pose2, Vector2};
 use crate::num::{atan2, greater, hypot, lesser, wrap};
 use crate::planning::LinePath;
-use crate::robots::{Motion, RUSTY, Rusty, RustyArc, RustyDisc};
+use crate::robots::{CHANNEL_UNITS, Motion, RUSTY, Rusty, RustyArc, RustyDisc};
 use crate::run::{DT, RobotInput};
-
-/// The channel value that stands for the maximum.
-const CHANNEL_UNITS: f64 = 128.0;
 
 /// How near a corner the rover turns to the next, metres.
 const NEAR: f64 = 1e-3;
@@ -67,7 +64,7 @@ impl Line {
 }
 
 /// Turns the rover on the spot at each corner, and drives it along each line with its heading corrected.
-fn play(corners: Vec<Point2>, stage: &PlayStage<'_>) -> Result<PlayedPath, PlayError> {
+pub(super) fn play(corners: Vec<Point2>, stage: &PlayStage<'_>) -> Result<PlayedPath, PlayError> {
     let mut rehearsal = Rehearsal::new(&RUSTY, RobotKind::RUSTY.name, stage)?;
     let lines: Vec<Line> = corners.windows(2).filter_map(|ends| Line::new(ends[0], ends[1])).collect();
     let (Some(first), Some(last)) = (corners.first(), corners.last()) else {

@@ -10,7 +10,7 @@ use crate::num::{greater, hypot, lesser, wrap};
 use crate::planning::curves::reeds_shepp;
 use crate::planning::hybrid::HybridAStar;
 use crate::planning::{Bounds, CertifiedPath, LinePath, RrtConnect, solve};
-use crate::robots::{CarCmd, Drivable, HITCH, Reach, RustyDisc};
+use crate::robots::{AnyRobot, CarCmd, Drivable, HITCH, Reach, RustyDisc};
 use crate::run::{Frame, RobotInput};
 use crate::simulation::tick::refusals::Refusals;
 use crate::simulation::{LatestFrame, SimulationPlugin, start_run, step};
@@ -175,4 +175,29 @@ fn what_cant_be_played_is_an_error_of_its_own_kind() {
     let fast = CertifiedPath::try_new(&car, [fast]).unwrap();
     let fast = Script::of_path(&fast, &PlayStage { world: &lot, robot: "Hitch", ..stage });
     assert!(matches!(fast, Err(PlayError::Speed { leg: 0, .. })), "{fast:?}");
+    // sideways, by a straight line of its chart
+    let (hitch, from) = AnyRobot::of_kind("hitch", &[6.5, 2.5, 0.0]).unwrap();
+    let beside = AnyRobot::of_kind("hitch", &[6.5, 2.8, 0.0]).unwrap().1;
+    let sideways = LinePath::through(&Checker::new(Scene::lot(), hitch), &[from, beside]).unwrap();
+    let sideways = Script::of_path(&sideways, &PlayStage { world: &lot, robot: "Hitch", ..stage });
+    assert_eq!(sideways, Err(PlayError::Undriven));
+}
+
+#[test]
+fn a_path_of_any_robot_is_played_as_the_robot_s_own() {
+    let (world, seed) = (World::apartment(), Seed(4));
+    let (rover, from) = AnyRobot::of_kind("rusty", &[2.25, 6.25, 0.0]).unwrap();
+    let to = AnyRobot::of_kind("rusty", &[2.6, 5.9, 0.0]).unwrap().1;
+    let stage = PlayStage::new(&world, "Rusty", seed);
+    let any = LinePath::through(&Checker::new(Scene::apartment(), rover), &[from, to]).unwrap();
+    let disc = Checker::new(Scene::apartment(), RustyDisc::default());
+    let own = LinePath::through(&disc, &[R2::new(2.25, 6.25), R2::new(2.6, 5.9)]).unwrap();
+    assert_eq!(Script::of_path(&any, &stage).unwrap(), Script::of_path(&own, &stage).unwrap());
+    let (world, at) = (World::workbench(), |q: [f64; 2]| AnyRobot::of_kind("reach", &q).unwrap());
+    let stage = PlayStage::new(&world, "Reach", seed);
+    let (arm, from) = at([-0.5, 0.3]);
+    let any = LinePath::through(&Checker::new(Scene::workbench(), arm), &[from, at([-0.2, -0.4]).1]).unwrap();
+    let reach = Checker::new(Scene::workbench(), Reach::<2>::workbench());
+    let own = LinePath::through(&reach, &[T2::new(-0.5, 0.3), T2::new(-0.2, -0.4)]).unwrap();
+    assert_eq!(Script::of_path(&any, &stage).unwrap(), Script::of_path(&own, &stage).unwrap());
 }

@@ -4,7 +4,7 @@ use crate::configuration::{Coordinates, RobotKind};
 use crate::geometry::{Footprint, Point2, Pose2, Vector2};
 use crate::num;
 use crate::picture::Gait;
-use crate::robots::{AnyRobot, EncoderCounts, Hitch};
+use crate::robots::{AnyRobot, CHANNEL_UNITS, EncoderCounts, Hitch};
 
 /// A robot as a view shows it.
 #[derive(Clone, Debug, PartialEq)]
@@ -67,7 +67,7 @@ impl RobotView {
             (Some(AnyRobot::Hitch(car)), _) => {
                 let body = |footprint: &Footprint| footprint.parts().first().map(|part| *part.pose());
                 let arc = body(&self.previous_footprint).zip(body(&self.footprint));
-                let held = f64::from(self.channels[1]) / 128.0 * car.max_steer;
+                let held = f64::from(self.channels[1]) / CHANNEL_UNITS * car.max_steer;
                 let steering = arc.and_then(|(from, to)| steering(car, &from, &to)).unwrap_or(held);
                 Gait { rolled: [0.0; 2], steering }
             }

@@ -6,15 +6,12 @@ use super::crowds::Crowds;
 use super::parallel::each;
 use crate::num::greater;
 use crate::random::Stream;
-use crate::robots::Motion;
+use crate::robots::{CHANNEL_UNITS, Motion};
 use crate::run::DT;
 use crate::simulation::{
     Configuration, Control, DriveMode, Extra, OwnState, PreviousConfiguration, RobotId, RobotModel, Route,
     SimulatedRobot, Slip, TickMotion, Transport,
 };
-
-/// The channel value that stands for the maximum.
-const CHANNEL_UNITS: f64 = 128.0;
 
 /// What does not change about a robot in a run, and its driver.
 pub(crate) struct Driver<'a, R: SimulatedRobot> {

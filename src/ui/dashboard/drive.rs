@@ -8,7 +8,7 @@ use crate::ui::keys::{Push, pushed};
 use crate::ui::{Command, Dashboard, UiState};
 
 /// Channel value of a key held down: the maximum.
-const FULL: i16 = 128;
+const FULL: i16 = crate::robots::CHANNEL_UNITS as i16;
 
 /// The channels that the keys held down ask for: forward and backward, left and right.
 fn channels(input: &InputState) -> (i16, i16) {

@@ -3,6 +3,7 @@
 use bevy_egui::egui::{CursorIcon, Id, Rect, Sense, Stroke, Ui, Vec2, WidgetInfo, WidgetType, pos2, vec2};
 
 use crate::picture::Role;
+use crate::robots::CHANNEL_UNITS;
 use crate::ui::{Look, UiState};
 
 /// Diameter, points.
@@ -14,7 +15,7 @@ const DEAD: f32 = 0.12;
 pub fn channels(right: f32, up: f32) -> (i16, i16) {
     let channel = |part: f32| {
         let part = if part.abs() < DEAD { 0.0 } else { part.clamp(-1.0, 1.0) };
-        (part * 128.0).round() as i16
+        (part * CHANNEL_UNITS as f32).round() as i16
     };
     (channel(up), channel(-right))
 }

@@ -19,7 +19,7 @@ pub struct DistanceTransform {
 }
 
 /// Stands for no occupied cell. Squared distances are far smaller: at most (2^24)^2 * 2.
-const NONE: u64 = u64::MAX;
+pub(super) const NONE: u64 = u64::MAX;
 
 impl DistanceTransform {
     /// The distance transform of a grid.
@@ -32,13 +32,13 @@ impl DistanceTransform {
         for column in 0..columns {
             line.clear();
             line.extend((0..rows).map(|row| if grid.is_occupied(column, row) { 0 } else { NONE }));
-            envelope.transform(&mut line);
+            envelope.transform(&mut line, |_, _| {});
             for (row, d) in line.iter().enumerate() {
                 squared[row * width + column as usize] = *d;
             }
         }
         for row in squared.chunks_exact_mut(width) {
-            envelope.transform(row);
+            envelope.transform(row, |_, _| {});
         }
         DistanceTransform { resolution: grid.resolution(), columns, rows, squared }
     }
@@ -63,14 +63,14 @@ impl DistanceTransform {
 
 /// The lower envelope of the parabolas `f(q) + (x - q)^2` over whole numbers x.
 #[derive(Default)]
-struct Envelope {
+pub(super) struct Envelope {
     /// Each parabola's vertex and height, and the first x at which it is the lowest, from left to right.
     parabolas: Vec<(u64, u64, u64)>,
 }
 
 impl Envelope {
-    /// Replaces every `f(x)` by the least `f(q) + (x - q)^2` over all q.
-    fn transform(&mut self, f: &mut [u64]) {
+    /// Replaces every `f(x)` by the least `f(q) + (x - q)^2` over all q. `found` gets each x with such a q.
+    pub(super) fn transform(&mut self, f: &mut [u64], mut found: impl FnMut(usize, usize)) {
         let n = f.len() as u64;
         self.parabolas.clear();
         let value = |q: u64, height: u64, x: u64| height + x.abs_diff(q) * x.abs_diff(q);
@@ -99,6 +99,7 @@ impl Envelope {
             }
             if let Some(&(q, height, _)) = self.parabolas.get(at) {
                 *out = value(q, height, x);
+                found(x as usize, q as usize);
             }
         }
     }

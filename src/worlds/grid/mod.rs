@@ -4,3 +4,4 @@ pub(crate) mod cells;
 pub(crate) mod distance_transform;
 pub(crate) mod rasterize;
 pub(crate) mod ros_export;
+pub(crate) mod voronoi;

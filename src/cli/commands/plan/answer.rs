@@ -1,9 +1,9 @@
 //! `Answer`, what came of planning.
 
+use motion_lab::capture::{proven, unit};
 use motion_lab::export::JsonNumber;
 use motion_lab::planning::{Effort, NoPath};
 use motion_lab::plans::{Attempt, Counts, PlannerName, Task};
-use motion_lab::robots::AnyRobot;
 use serde::Serialize;
 
 use super::next;
@@ -36,11 +36,6 @@ pub struct Answer {
     /// The unit of the length.
     #[serde(skip)]
     unit: &'static str,
-}
-
-/// The unit in which a robot's paths are measured.
-pub fn unit(robot: &AnyRobot) -> &'static str {
-    if matches!(robot, AnyRobot::Reach(_) | AnyRobot::Reach3(_)) { "rad" } else { "m" }
 }
 
 impl Answer {
@@ -92,7 +87,7 @@ impl Answer {
         let seconds = self.seconds.unwrap_or(0.0);
         data.line(format!("{} at seed {}: {} in {}", self.planner, self.seed, self.robot, self.world))?;
         data.line(format!("path       {}, {length:.3} {}", counted(legs, "leg"), self.unit))?;
-        data.line(format!("clearance  {clearance:.4} m, proven along the whole path"))?;
+        data.line(format!("clearance  {} m, proven along the whole path", proven(clearance)))?;
         if let Some(Counts { iterations, samples, edges, free }) = self.effort {
             let count = |n: u64, what: &str| counted(usize::try_from(n).unwrap_or(usize::MAX), what);
             let (rounds, draws) = (count(iterations, "iteration"), count(samples, "sample"));

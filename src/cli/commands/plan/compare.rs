@@ -3,13 +3,13 @@
 use std::fmt::Write as _;
 use std::time::Instant;
 
+use motion_lab::capture::{proven, unit};
 use motion_lab::planning::{Effort, NoPath};
 use motion_lab::plans::{PlannerName, Task};
 use motion_lab::random::Seed;
 use serde::Serialize;
 
 use super::PlanArgs;
-use super::answer::unit;
 use crate::cli::commands::record::SeedRange;
 use crate::cli::support::output::write_file;
 use crate::cli::support::progress::Progress;
@@ -130,7 +130,7 @@ fn print(lines: &[Line], unit: &str, data: &mut Data) -> Result<(), Failure> {
             number(line.milliseconds, 2),
             number(line.edges, 0),
             number(line.length, 3),
-            number(line.clearance, 4)
+            line.clearance.map_or("-".to_owned(), proven)
         ))?;
     }
     data.line("medians over the attempts that have a path")

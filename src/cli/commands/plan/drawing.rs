@@ -2,11 +2,11 @@
 
 use std::path::Path;
 
-use motion_lab::capture::{Captured, Form, Paper};
-use motion_lab::picture::{Drawing, Figure, Item, Line, Panel, Role, footprint, trace, world};
-use motion_lab::plans::{Attempt, PlannerName, Task};
+use motion_lab::capture::{Captured, Form, Paper, PlanSheet, plan};
+use motion_lab::cspace::CellMap;
+use motion_lab::plans::{Attempt, Drawn, PathLengths, PlannerName, Task};
+use motion_lab::random::Seed;
 
-use super::answer::unit;
 use crate::cli::Failure;
 use crate::cli::support::paper::write_picture;
 use crate::cli::support::target::Target;
@@ -22,42 +22,22 @@ pub fn write(
 ) -> Result<(), Failure> {
     let target = Target::file(output)?;
     let form = if Form::of(output) == Some(Form::Png) { Form::Png } else { Form::Svg };
-    write_picture(&captured(task, planner, seed, attempt), paper, form, target.path())?;
+    let captured = captured(task, planner, seed, attempt, &attempt.drawn(), None);
+    write_picture(&captured, paper, form, target.path())?;
     target.wrote();
     Ok(())
 }
 
-fn captured(task: &Task, planner: PlannerName, seed: u64, attempt: &dyn Attempt) -> Captured {
-    let (way, planner) = (attempt.way(), planner.id().to_owned());
-    let ways = attempt.ways();
-    let effort = attempt.effort();
-    let mut items = Vec::new();
-    let grown = Drawing::Region { pieces: Vec::new(), outline: ways };
-    items.push(Item::new("growth", "what the planner has grown", Role::Muted, grown).stroked(Line::solid(0.6)));
-    for (i, place) in attempt.places().iter().enumerate() {
-        items.extend(footprint(&format!("place/{i}"), "on the way", place, Role::Path, 0.12));
-    }
-    let [start, goal] = attempt.ends();
-    items.extend(footprint("goal", "the goal", &goal, Role::Goal, 0.4));
-    items.extend(footprint("start", "the start", &start, Role::Robot, 0.85));
-    let mut readout = vec![format!("{} iterations, {} edges asked", effort.iterations, effort.edges)];
-    let found = if way.is_empty() {
-        readout.push("no path".into());
-        "no path was found".to_owned()
-    } else {
-        items.push(trace("path", "the path", &way));
-        let (length, clearance) = (attempt.length(), attempt.clearance());
-        readout.push(format!("length {length:.3} {}, clearance {clearance:.4} m", unit(&task.robot)));
-        format!("a path whose clearance is proven to be at least {clearance:.4} m")
-    };
-    let title = format!("A path for {} in the world {}", task.name, task.world.name);
-    let description = format!("{planner} at seed {seed}: {found}.");
-    let panel = Panel { picture: world(&task.world).with(items), heading: planner.clone(), readout };
-    let notes = vec![
-        ("Planner", planner),
-        ("Seed", seed.to_string()),
-        ("Robot", task.name.clone()),
-        ("World", format!("{} {:032x}", task.world.name, task.world.content_hash())),
-    ];
-    Captured { figure: Figure { title, description, panels: vec![panel], caption: Vec::new() }, notes }
+/// The figure of an attempt, with the configuration space beside the workspace where `cells` has it.
+pub fn captured(
+    task: &Task,
+    planner: PlannerName,
+    seed: u64,
+    attempt: &dyn Attempt,
+    drawn: &Drawn,
+    cells: Option<&CellMap>,
+) -> Captured {
+    let lengths =
+        (!drawn.path.is_empty()).then(|| PathLengths { length: attempt.length(), clearance: attempt.clearance() });
+    plan(&PlanSheet { task, planner, seed: Seed(seed), drawn, effort: attempt.effort(), lengths, cells })
 }

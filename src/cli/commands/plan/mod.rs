@@ -4,6 +4,7 @@
 mod answer;
 mod compare;
 mod drawing;
+mod film;
 mod play;
 mod task;
 
@@ -31,14 +32,14 @@ use answer::Answer;
 /// contact, or where a planner has searched all that it looks at, that is said, and the exit code is 4.
 ///
 /// With -o the path goes to a file as JSON, with --script to an input script that plays it, with --record to the log of
-/// the run in which the script plays it, with --svg to a picture. What can't be played is refused when the script is
-/// made.
+/// the run in which the script plays it, with --svg to a picture, with --gif to a film of the
+/// planner's growth. What can't be played is refused when the script is made.
 ///
 /// With --compare several planners work on the same problem at several seeds; --csv has a row for each attempt.
 #[derive(Debug, Args)]
 #[command(after_help = "\
 Examples:
-  motion-lab plan --robot reach --from 2.0,0 --to 3.1,0 --svg path.svg
+  motion-lab plan --robot reach --from 2.0,0 --to 3.1,0 --svg path.svg --gif growth.gif
   motion-lab plan --planner rrt-connect --robot reach --from 2.0,0 --to 3.1,0 --seed 7 -o path.json --script out.ron
   motion-lab plan --robot hitch --from 6.5,2.5,0,0 --to 6.75,7,-1.5707963,-1.5707963 --record parked.mcap
   motion-lab plan --compare rrt-connect,prm,a-star --robot rusty --to 9.75,6.25 --seeds 0..20 --csv planners.csv")]
@@ -85,6 +86,9 @@ pub struct PlanArgs {
     /// name ends so.
     #[arg(long, value_name = "FILE", conflicts_with = "compare")]
     svg: Option<PathBuf>,
+    /// Write how the planner grows, in the workspace and in the configuration space, to this file as GIF.
+    #[arg(long, value_name = "FILE", conflicts_with = "compare")]
+    gif: Option<PathBuf>,
     /// Print the result as JSON.
     #[arg(long)]
     json: bool,
@@ -188,8 +192,14 @@ impl PlanArgs {
     }
 
     fn draw(&self, task: &Task, name: PlannerName, attempt: &dyn Attempt) -> Result<(), Failure> {
-        let Some(svg) = &self.svg else { return Ok(()) };
-        drawing::write(task, name, self.seed, attempt, &self.paper.paper(), svg)
+        let paper = self.paper.paper();
+        if let Some(svg) = &self.svg {
+            drawing::write(task, name, self.seed, attempt, &paper, svg)?;
+        }
+        if let Some(gif) = &self.gif {
+            film::write(task, name, self.seed, attempt.effort().iterations, &paper, gif)?;
+        }
+        Ok(())
     }
 }
 

@@ -54,7 +54,7 @@ impl Played {
     /// Writes the script and the log, and says what they are.
     pub fn write(&self, script: Option<&Path>, log: Option<&Path>, data: &mut Data) -> Result<(), Failure> {
         let Played { world, seed, played } = self;
-        let seconds = played.ticks as f64 * motion_lab::run::DT;
+        let seconds = motion_lab::run::seconds(played.ticks);
         let strayed = 1000.0 * played.strayed;
         data.line(format!("played     {} ticks, {seconds} s, at most {strayed:.3} mm off the path", played.ticks))?;
         if let Some(path) = script {
