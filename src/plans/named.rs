@@ -132,7 +132,7 @@ impl PlannerName {
             (HybridAStar, _) => Err("it plans for a car only"),
             (_, AnyRobot::Hitch(_)) => Err("it plans straight lines, which no car can drive"),
             (Bug1 | Bug2 | VisibilityGraph, AnyRobot::Reach(_) | AnyRobot::Reach3(_)) => {
-                Err("it plans for a disc in the plane only")
+                Err("it plans for discs in the plane")
             }
             (CellDecomposition, AnyRobot::Reach3(_)) => Err("its cells are those of a plane or a torus"),
             _ => Ok(()),
