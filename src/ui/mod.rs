@@ -32,7 +32,7 @@ pub(crate) use dashboard::goal::ParkingGoal;
 pub(crate) use dashboard::values::{Cockpit, CockpitRobot, Dashboard};
 pub(crate) use lab::lab;
 pub(crate) use paint::look::Look;
-pub(crate) use plan::{PlanStage, PlanState};
+pub(crate) use plan::PlanState;
 pub(crate) use settings::Settings;
 #[cfg(feature = "window")]
 pub(crate) use state::Closing;

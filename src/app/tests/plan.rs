@@ -3,7 +3,6 @@
 use super::*;
 use crate::configuration::Configuration;
 use crate::picture::Role;
-use crate::planning::NoPath;
 use crate::plans::PathFile;
 use crate::ui::PlanState;
 
@@ -113,8 +112,7 @@ fn the_ends_are_dragged_in_both_papers_and_an_end_in_contact_is_said() {
         .move_end(1, crate::configuration::AnyConfiguration::T2(crate::configuration::T2::new(0.785, 0.785)));
     harness.run_steps(2);
     harness.get_by_label_contains("No path: the goal would overlap the block");
-    let shown = plan(&harness);
-    assert!(matches!(shown.stage(), crate::ui::PlanStage::Ended(NoPath::Problem(_))));
+    assert!(plan(&harness).lengths().is_none());
     harness.get_by_label_contains("configuration space. ");
 }
 

@@ -5,4 +5,4 @@ mod panel;
 mod state;
 pub(super) mod view;
 
-pub use state::{PlanState, Stage as PlanStage};
+pub use state::PlanState;
