@@ -183,15 +183,19 @@ mod tests {
         for task in tasks() {
             let mut attempt = task.attempt(PlannerName::default_for(&task.robot), Seed(3)).unwrap();
             let mut rejected = 0;
+            let refused = |attempt: &dyn Attempt| attempt.effort().edges - attempt.effort().free;
+            let mut before = 0;
             while attempt.step() == Progress::Growing {
                 let drawn = attempt.drawn();
+                let now = refused(attempt.as_ref());
+                assert!(now > before || drawn.rejected.is_none(), "{}: an old one is shown again", task.name);
+                before = now;
                 assert!(drawn.path.is_empty() && drawn.corners.is_empty());
                 if let Some(refused) = drawn.rejected.as_ref().filter(|_| rejected < 20) {
                     rejected += 1;
                     let touches = refused.witness.is_some_and(|w| w.dist == 0.0);
                     let within = task.robot.is_within_limits(&refused.at);
                     assert!(touches || !within, "{}: {refused:?}", task.name);
-                    assert!(attempt.effort().edges > attempt.effort().free);
                 }
                 assert!(attempt.effort().iterations < 20_000, "{}", task.name);
             }

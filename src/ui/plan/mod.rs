@@ -3,6 +3,9 @@
 mod controls;
 mod panel;
 mod state;
+#[cfg(test)]
+mod tests;
 pub(super) mod view;
+mod work;
 
 pub use state::PlanState;

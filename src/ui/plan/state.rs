@@ -1,19 +1,17 @@
 //! `PlanState`, the state of the widget that plans.
 
-use std::fmt;
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::Arc;
 
 use bevy::platform::time::Instant;
 
+use super::work::Work;
 use crate::capture::{self, Captured, PlanSheet};
 use crate::collision::Checker;
 use crate::configuration::{AnyConfiguration, Configuration};
 use crate::num::greater;
 use crate::picture::{Picture, world as picture_of};
 use crate::planning::{Bound, Effort, NoPath, Progress};
-use crate::plans::{
-    Attempt, Drawn, PathFile, PathFileError, PathLengths, PlannerName, Task, space_items, workspace_items,
-};
+use crate::plans::{Drawn, PathFile, PathFileError, PathLengths, PlannerName, Task, space_items, workspace_items};
 use crate::random::Seed;
 use crate::robots::AnyRobot;
 use crate::simulation::{PlayError, PlayStage, PlayedPath};
@@ -54,22 +52,6 @@ pub enum Stage {
     Read(String),
 }
 
-/// A planner at work, shared by copies of the state.
-#[derive(Clone)]
-struct Work(Arc<Mutex<Box<dyn Attempt>>>);
-
-impl fmt::Debug for Work {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str("Work")
-    }
-}
-
-impl Work {
-    fn with<T>(&self, ask: impl FnOnce(&mut dyn Attempt) -> T) -> T {
-        ask(self.0.lock().unwrap_or_else(PoisonError::into_inner).as_mut())
-    }
-}
-
 /// The state of the widget that plans.
 #[derive(Clone, Debug)]
 pub struct PlanState {
@@ -85,7 +67,6 @@ pub struct PlanState {
     /// The iterations that are due: less than one after a frame.
     due: f64,
     effort: Effort,
-    file: Option<PathFile>,
     drawn: Drawn,
     backdrop: Arc<Picture>,
     /// The plan over the workspace.
@@ -119,7 +100,6 @@ impl PlanState {
             pace: 3,
             due: 0.0,
             effort: Effort::default(),
-            file: None,
             drawn,
             backdrop: Arc::new(picture_of(&task.world)),
             over: Arc::new(Picture::new("plan", task.world.bounds)),
@@ -239,10 +219,9 @@ impl PlanState {
     /// Begins anew: nothing is grown. Says at once where there is no problem to solve.
     pub fn restart(&mut self) {
         self.playing = false;
-        self.file = None;
         self.due = 0.0;
         (self.work, self.stage) = match self.task.attempt(self.planner, self.seed) {
-            Ok(attempt) => (Some(Work(Arc::new(Mutex::new(attempt)))), Stage::Growing),
+            Ok(attempt) => (Some(Work::new(attempt)), Stage::Growing),
             Err(reason) => (None, Stage::Ended(reason)),
         };
         self.look();
@@ -326,7 +305,7 @@ impl PlanState {
         let drawn = file.drawn(&robot)?;
         let robot_name = if robot_name.is_empty() { robot.name() } else { robot_name }.to_owned();
         self.take(Task::new(robot_name, robot, world, [start, goal]));
-        (self.work, self.stage, self.drawn, self.file) = (None, Stage::Read(name.to_owned()), drawn, Some(file));
+        (self.work, self.stage, self.drawn) = (None, Stage::Read(name.to_owned()), drawn);
         self.over = Arc::new(self.picture(&self.drawn));
         Ok(())
     }

@@ -1,0 +1,98 @@
+//! The planner at work, without its widget.
+
+use super::PlanState;
+use super::state::{PACES, Stage};
+use crate::configuration::{AnyConfiguration, T2};
+use crate::planning::NoPath;
+use crate::plans::{PlannerName, Task};
+use crate::robots::AnyRobot;
+use crate::worlds::World;
+
+/// The number of its pace of this many iterations a second.
+fn pace(rate: f64) -> usize {
+    PACES.iter().position(|(each, _)| *each == rate).unwrap()
+}
+
+#[test]
+fn a_pace_is_so_many_iterations_a_second_whatever_the_frames() {
+    for frames in [10_u32, 40, 60] {
+        let mut plan = PlanState::default();
+        // one whose first second finds no path: Dijkstra looks at the whole grid
+        plan.set_planner(PlannerName::Dijkstra);
+        plan.pace = pace(10.0);
+        plan.playing = true;
+        (0..frames).for_each(|_| plan.play(1.0 / f64::from(frames)));
+        // the last may fall due a little after the second
+        assert!((9..=10).contains(&plan.effort().iterations), "{frames}: {}", plan.effort().iterations);
+    }
+    let mut plan = PlanState::default();
+    plan.pace = pace(1000.0);
+    plan.set_planner(PlannerName::Dijkstra);
+    plan.playing = true;
+    plan.play(3600.0);
+    assert!(plan.effort().iterations <= 100, "an hour's pause is not made up for");
+}
+
+#[test]
+fn rrt_star_goes_on_to_improve_its_path_and_others_stop_at_theirs() {
+    let mut plan = PlanState::default();
+    plan.set_planner(PlannerName::RrtStar);
+    while *plan.stage() == Stage::Growing {
+        plan.step();
+    }
+    let (first, iterations) = (plan.lengths().unwrap().length, plan.effort().iterations);
+    assert!(plan.improves());
+    (0..300).for_each(|_| plan.step());
+    let better = plan.lengths().unwrap().length;
+    assert_eq!(plan.effort().iterations, iterations + 300);
+    assert!(better < first, "{better} {first}");
+    plan.set_planner(PlannerName::RrtConnect);
+    while *plan.stage() == Stage::Growing {
+        plan.step();
+    }
+    assert!(!plan.improves() && *plan.stage() == Stage::Solved);
+}
+
+#[test]
+fn a_rejected_motion_is_seen_at_a_slow_pace_and_never_flickers_at_a_fast_one() {
+    let mut plan = PlanState::default();
+    plan.set_planner(PlannerName::Rrt);
+    let mut seen = 0;
+    while *plan.stage() == Stage::Growing {
+        plan.step();
+        seen += u32::from(plan.drawn().rejected.is_some());
+    }
+    assert!(seen > 0, "step by step");
+    plan.restart();
+    (plan.playing, plan.pace) = (true, pace(30.0));
+    while plan.playing {
+        plan.play(1.0 / 30.0);
+        assert!(plan.drawn().rejected.is_none() || !plan.playing);
+    }
+}
+
+#[test]
+fn what_is_no_problem_is_said_and_mended_by_another_end() {
+    let mut plan = PlanState::default();
+    let in_the_block = AnyConfiguration::T2(T2::new(0.785, 0.785));
+    plan.move_end(0, in_the_block);
+    assert!(matches!(plan.stage(), Stage::Ended(NoPath::Problem(_))), "{:?}", plan.stage());
+    plan.step();
+    assert_eq!(plan.effort().iterations, 0);
+    plan.move_end(0, AnyConfiguration::T2(T2::new(2.0, 0.0)));
+    assert_eq!(*plan.stage(), Stage::Growing);
+    // a robot in a world where it can't go anywhere but has room: every planner ends within its bound
+    let shut = r#"World(version: 1, name: "Cell", bounds: (min: (0, 0), max: (4, 2)),
+        walls: [(name: "the wall", points: [(2, 0), (2, 2)]),
+            (name: "the rest", points: [(0, 0), (4, 0), (4, 2), (0, 2)], closed: true)],
+        robots: [(name: "Rusty", kind: "rusty", start: [1, 1, 0])])"#;
+    let world = World::parse("cell.ron", shut).unwrap();
+    let (robot, start) = AnyRobot::of_resident(&world.robots[0]).unwrap();
+    plan.take(Task::new("Rusty", robot, world, [start, start.with(0, 3.0)]));
+    plan.set_planner(PlannerName::CellDecomposition);
+    while *plan.stage() == Stage::Growing {
+        plan.step();
+    }
+    assert!(matches!(plan.stage(), Stage::Ended(NoPath::Unreachable { .. })), "{:?}", plan.stage());
+    assert!(plan.command().is_none() && plan.file().is_none() && plan.played().is_none());
+}
