@@ -50,7 +50,7 @@ fn a_step_is_an_iteration_and_play_goes_on_to_the_path_that_the_library_finds() 
     let corners: Vec<Coordinates> = shown.drawn().corners.iter().map(|q| q.coordinates()).collect();
     assert_eq!(corners, path.corners().iter().map(|q| q.coordinates()).collect::<Vec<_>>());
     assert_eq!(shown.lengths().unwrap().clearance.to_bits(), path.clearance().to_bits());
-    harness.get_by_label_contains("proven");
+    harness.get_by_label_contains(" m, proven");
     // what is drawn has the growth's edges, the path and both ends
     let ids: Vec<&str> = shown.over.items.iter().map(|item| item.id.as_str()).collect();
     for id in ["growth", "path", "start/0", "goal/0", "goal/1"] {
@@ -101,6 +101,29 @@ fn the_ends_are_dragged_in_both_papers_and_an_end_in_contact_is_said() {
     let moved = [0, 1].map(|end| after.task().robot.reference(&after.end_at(end)));
     assert!((moved[1] - to).norm() < 0.02 && moved[0] == start, "{moved:?}");
     assert_eq!(after.effort().iterations, 0, "it begins anew");
+    // the start's point on the torus, across and up
+    let slice = crate::cspace::Slice::through(
+        &crate::collision::Checker::new(std::sync::Arc::clone(&after.task().scene), after.task().robot),
+        &after.end_at(1),
+    )
+    .unwrap();
+    let rect = harness.get_by_label_contains("configuration space. ").rect();
+    let cells = crate::cspace::cspace_picture(&crate::cspace::CellMap::new(slice, 1), &Default::default());
+    let fit = crate::ui::paint::canvas::fit(&cells, rect);
+    let on_torus = |[x, y]: [f64; 2]| {
+        let [x, y] = fit.screen_from_world(crate::geometry::Point2::new(x, y));
+        pos2(x as f32, y as f32)
+    };
+    let (from, to) = (on_torus([2.0, 0.0]), on_torus([1.2, 1.6]));
+    pointer(&mut harness, from, Some(true));
+    for i in 1..=8 {
+        pointer(&mut harness, from.lerp(to, i as f32 / 8.0), None);
+    }
+    pointer(&mut harness, to, Some(false));
+    harness.run_steps(2);
+    let start = plan(&harness).end_at(0).coordinates();
+    assert!((start[0] - 1.2).abs() < 0.03 && (start[1] - 1.6).abs() < 0.03, "{start:?}");
+    assert_eq!(plan(&harness).end_at(1), after.end_at(1));
     // into the block, where the chapter's arm overlaps it: pi/4, pi/4
     harness
         .state_mut()
@@ -119,9 +142,11 @@ fn the_ends_are_dragged_in_both_papers_and_an_end_in_contact_is_said() {
 #[test]
 fn a_path_is_played_as_a_run_and_drawn_over_it() {
     let mut harness = planned(WIDE);
+    click(&mut harness, "Next seed");
     play(&mut harness);
     click(&mut harness, "Play it");
     harness.run_steps(4);
+    assert_eq!(harness.state().transport().seed.0, 2006, "the seed that the script was made for");
     let world = harness.state().app.world();
     assert_eq!(world.resource::<Interface>().0.widget, crate::ui::Widget::Dashboard);
     assert_eq!(harness.state().transport().playback, Playback::Playing);
@@ -164,21 +189,20 @@ fn a_path_goes_to_a_file_and_comes_back_and_a_wrong_file_changes_nothing() {
 
 #[test]
 fn a_trailer_is_planned_for_by_choice_and_each_robot_has_its_planners() {
-    let mut harness = planned(PHONE);
-    harness.get_by_label_contains("workspace. RRT-Connect for Reach");
-    let mut harness2 = planned(WIDE);
-    harness2.get_all_by_role(egui::accesskit::Role::ComboBox).next().unwrap().click();
-    harness2.run_steps(3);
-    harness2.get_by_label("Hitch with its trailer, Lot").click();
-    harness2.run_steps(3);
-    let shown = plan(&harness2);
+    planned(PHONE).get_by_label_contains("workspace. RRT-Connect for Reach");
+    let mut wide = planned(WIDE);
+    // the pace under the papers is the first
+    wide.get_all_by_role(egui::accesskit::Role::ComboBox).nth(1).unwrap().click();
+    wide.run_steps(3);
+    wide.get_by_label("Hitch with its trailer, Lot").click();
+    wide.run_steps(3);
+    let shown = plan(&wide);
     assert_eq!((shown.planner().id(), shown.task().start.coordinates().len()), ("hybrid-a-star", 4));
-    click(&mut harness2, "Step");
-    assert!(plan(&harness2).effort().edges > 0);
-    let command = plan(&harness2).command().unwrap();
+    click(&mut wide, "Step");
+    assert!(plan(&wide).effort().edges > 0);
+    let command = plan(&wide).command().unwrap();
     assert!(
         command.starts_with("motion-lab plan --planner hybrid-a-star --robot Hitch --world lot --from "),
         "{command}"
     );
-    harness.run_steps(1);
 }

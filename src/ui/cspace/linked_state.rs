@@ -38,3 +38,32 @@ impl LinkedState {
         self.kept.as_mut().map(|(_, cells)| cells)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::configuration::Tn;
+    use crate::worlds::World;
+
+    #[test]
+    fn the_cells_are_those_of_the_robots_own_world_and_sizes() {
+        let [bench, empty] = [World::workbench(), World { obstacles: vec![], ..World::workbench() }];
+        let [bench, empty] = [bench, empty].map(|world| Arc::new(Atlas::new(world)));
+        let three = |th1: f64| AnyConfiguration::T3(Tn([th1, 0.2, 0.3]));
+        let (arm, bare) = (AnyRobot::Reach3(crate::robots::Reach::redundant()), |radius: f64| {
+            AnyRobot::Reach3(crate::robots::Reach { link_radius: radius, ..crate::robots::Reach::redundant() })
+        });
+        let mut state = LinkedState::default();
+        let mut asked = |world: &Arc<Atlas>, robot: &AnyRobot, q: &AnyConfiguration| {
+            let slice = state.cells_of(world, robot, q).unwrap().map().slice().clone();
+            assert!(slice.holds(q));
+            (slice.checker().scene().obstacle_count(), *slice.checker().robot(), slice.checker().shared_scene())
+        };
+        let (pieces, robot, scene) = asked(&bench, &arm, &three(0.1));
+        assert!(pieces > 0 && robot == arm);
+        // another slice of the same robot in the same world: the scene is kept
+        assert!(Arc::ptr_eq(&asked(&bench, &arm, &three(0.4)).2, &scene));
+        assert_eq!(asked(&empty, &arm, &three(0.4)).0, 0);
+        assert_eq!(asked(&empty, &bare(0.5), &three(0.4)).1, bare(0.5));
+    }
+}

@@ -241,6 +241,16 @@ mod tests {
     }
 
     #[test]
+    fn a_lane_has_what_happened_to_its_robot() {
+        let mark = |tick, robot, what| TickMark { tick, robot, what, at: Default::default() };
+        use Happening::{Contact, Takeover};
+        let marks = [mark(3, 0, Contact), mark(5, 1, Contact), mark(5, 0, Takeover), mark(9, 0, Contact)];
+        let of = |robot, what| Lane { robot, name: "" }.of(&marks, what).collect::<Vec<u64>>();
+        assert_eq!((of(Some(0), Contact), of(Some(0), Takeover), of(Some(1), Takeover)), (vec![3, 9], vec![5], vec![]));
+        assert_eq!(of(None, Contact), [3, 5, 9]);
+    }
+
+    #[test]
     fn the_axis_has_labels_apart_at_round_seconds() {
         // a minute over 1,200 points: 64 points are 3.2 s, so every 5 s
         assert_eq!(step_of(60.0, 1200.0), 5.0);

@@ -184,10 +184,10 @@ fn same(a: Pos2, b: Pos2) -> bool {
     (a - b).length() < SAME
 }
 
-/// Whether a line through these points turns straight back at the second. egui has no direction for such a corner
-/// either.
+/// Whether a line through these points turns so far back at the second, by more than 151 degrees, that the mitre of its
+/// corner would be a spike. Straight back, egui has no direction for the corner at all.
 fn turns_back(a: Pos2, b: Pos2, c: Pos2) -> bool {
-    ((b - a).normalized() + (c - b).normalized()).length() < 1e-3
+    ((b - a).normalized() + (c - b).normalized()).length() < 0.5
 }
 
 /// The points without those that repeat the one before.
@@ -266,7 +266,7 @@ fn paint_line(painter: &Painter, points: &[ScreenPoint], stroke: Stroke, dash: D
         painter.add(PathShape::closed_line(path, stroke));
         return;
     }
-    // where the line turns straight back, a new one begins
+    // where the line turns back, a new one begins
     let mut from = 0;
     for i in 1..path.len().saturating_sub(1) {
         if turns_back(path[i - 1], path[i], path[i + 1]) {
@@ -357,6 +357,23 @@ mod tests {
         assert_eq!(left.iter().map(|p| (10.0 * p.x).round() as i32).collect::<Vec<_>>(), [0, 5, 10, 15, 20, 25, 30]);
         assert_eq!(thin.line.map(|l| (l.dash, l.opacity)), Some((Dash::Solid, 0.5)));
         assert_eq!(coarse(route.clone(), &fit(800.0)), route);
+    }
+
+    #[test]
+    fn a_line_that_turns_back_has_no_spike() {
+        let ctx = Context::default();
+        for off in [0.0, 0.01, 0.1, 1.0, 3.0, 10.0] {
+            let line = [[10.0, 50.0], [60.0, 50.0], [10.0, 50.0 + off]];
+            let stroke = Stroke::new(2.0, Color32::BLACK);
+            let output = ctx.run_ui(RawInput::default(), |ui| paint_line(ui.painter(), &line, stroke, Dash::Solid));
+            let drawn = ctx.tessellate(output.shapes, 1.0).into_iter().flat_map(|clipped| match clipped.primitive {
+                bevy_egui::egui::epaint::Primitive::Mesh(mesh) => mesh.vertices,
+                bevy_egui::egui::epaint::Primitive::Callback(_) => Vec::new(),
+            });
+            let farthest = drawn.map(|v| v.pos.x).fold(0.0, f32::max);
+            // half the width and the feathering are 1.5 points, and a mitre may be some times as long
+            assert!((60.0..75.0).contains(&farthest), "{off}: {farthest}");
+        }
     }
 
     #[test]

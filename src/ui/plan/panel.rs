@@ -3,7 +3,7 @@
 use bevy_egui::egui::{CollapsingHeader, ComboBox, DragValue, RichText, Slider, Ui, WidgetInfo};
 
 use super::state::{PlanState, Stage};
-use crate::capture::unit;
+use crate::capture::{proven, unit};
 use crate::collision::{Collision, Scene};
 use crate::configuration::{AnyConfiguration, Configuration, HitchCfg};
 use crate::picture::Role;
@@ -158,7 +158,7 @@ fn result(ui: &mut Ui, look: &Look, plan: &PlanState) {
                 let legs = plan.drawn().corners.len().saturating_sub(1);
                 let unit = unit(&plan.task().robot);
                 ui.label(monospace(format!("path: {legs} legs, {length:.3} {unit}")));
-                ui.label(monospace(format!("clearance {clearance:.4} m, proven")));
+                ui.label(monospace(format!("clearance {} m, proven", proven(clearance))));
             }
             if plan.improves() {
                 ui.label("Play on, and it improves its path.");

@@ -64,6 +64,8 @@ pub struct PlanState {
     pub playing: bool,
     /// The number of its pace among [`PACES`].
     pub pace: usize,
+    /// The greatest number of iterations.
+    pub(super) bound: u64,
     /// The iterations that are due: less than one after a frame.
     due: f64,
     effort: Effort,
@@ -98,6 +100,7 @@ impl PlanState {
             stage: Stage::Growing,
             playing: false,
             pace: 3,
+            bound: 0,
             due: 0.0,
             effort: Effort::default(),
             drawn,
@@ -164,7 +167,7 @@ impl PlanState {
 
     /// Whether its planner goes on to improve a path that it has.
     pub fn improves(&self) -> bool {
-        self.planner == PlannerName::RrtStar && self.effort.iterations < self.planner.iterations()
+        self.planner == PlannerName::RrtStar && self.effort.iterations < self.bound
     }
 
     /// The plan in a sentence, for readers who do not see it.
@@ -220,6 +223,7 @@ impl PlanState {
     pub fn restart(&mut self) {
         self.playing = false;
         self.due = 0.0;
+        self.bound = self.planner.iterations();
         (self.work, self.stage) = match self.task.attempt(self.planner, self.seed) {
             Ok(attempt) => (Some(Work::new(attempt)), Stage::Growing),
             Err(reason) => (None, Stage::Ended(reason)),
@@ -241,7 +245,7 @@ impl PlanState {
             return self.playing = false;
         }
         let effort = work.with(|attempt| attempt.effort());
-        let next = if effort.iterations >= self.planner.iterations() {
+        let next = if effort.iterations >= self.bound {
             let exhausted = NoPath::Exhausted { bound: Bound::Iterations, effort };
             if self.stage == Stage::Solved { Stage::Solved } else { Stage::Ended(exhausted) }
         } else {

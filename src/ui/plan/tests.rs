@@ -3,6 +3,7 @@
 use super::PlanState;
 use super::state::{PACES, Stage};
 use crate::configuration::{AnyConfiguration, T2};
+use crate::picture::Drawing;
 use crate::planning::NoPath;
 use crate::plans::{PlannerName, Task};
 use crate::robots::AnyRobot;
@@ -51,6 +52,37 @@ fn rrt_star_goes_on_to_improve_its_path_and_others_stop_at_theirs() {
         plan.step();
     }
     assert!(!plan.improves() && *plan.stage() == Stage::Solved);
+}
+
+#[test]
+fn a_planner_ends_at_its_bound_with_the_path_that_it_has_or_with_the_reason() {
+    let mut plan = PlanState::default();
+    assert_eq!(plan.bound, 100_000);
+    plan.set_planner(PlannerName::Dijkstra);
+    plan.bound = 40;
+    (0..60).for_each(|_| plan.step());
+    assert_eq!(plan.effort().iterations, 40);
+    let Stage::Ended(reason) = plan.stage() else { panic!("{:?}", plan.stage()) };
+    assert!(reason.to_string().starts_with("no path within the bound on iterations: 40 iterations"), "{reason}");
+    plan.set_planner(PlannerName::RrtStar);
+    while *plan.stage() == Stage::Growing {
+        plan.step();
+    }
+    plan.bound = plan.effort().iterations + 5;
+    (0..20).for_each(|_| plan.step());
+    assert!(*plan.stage() == Stage::Solved && plan.effort().iterations == plan.bound && !plan.improves());
+}
+
+#[test]
+fn the_ends_are_points_of_the_slice() {
+    let mut plan = PlanState::default();
+    assert!(plan.cells(1).is_some());
+    let over = plan.over_cells().unwrap();
+    let at = |id: &str| match over.items.iter().find(|item| item.id == id).unwrap().drawing {
+        Drawing::Mark { at, .. } => [at.x, at.y],
+        _ => panic!("a mark"),
+    };
+    assert_eq!((at("start"), at("goal")), ([2.0, 0.0], [3.1, 0.0]));
 }
 
 #[test]

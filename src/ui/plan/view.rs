@@ -51,15 +51,8 @@ pub fn plan_view(ui: &mut Ui, model: &Dashboard, look: &Look, state: &mut UiStat
         let (left, beside) = split(room, false, SIDE);
         (left.with_max_y(left.bottom() - bar), beside)
     };
-    let (left, right) = if narrow {
-        let middle = papers.center().y;
-        (papers.with_max_y(middle - 4.0), papers.with_min_y(middle + 4.0))
-    } else {
-        let middle = papers.center().x;
-        (papers.with_max_x(middle - 8.0), papers.with_min_x(middle + 8.0))
-    };
-    workspace(ui, left, look, &mut state.plan);
-    space(ui, right, look, &mut state.plan);
+    let (left, right) = halves(papers, !narrow && is_larger_beside(&state.plan, papers));
+    let seen = workspace(ui, left, look, &mut state.plan).union(space(ui, right, look, &mut state.plan));
     if narrow {
         ui.scope_builder(UiBuilder::new().max_rect(beside.with_min_y(beside.top() + 6.0)), |ui| {
             ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
@@ -68,7 +61,7 @@ pub fn plan_view(ui: &mut Ui, model: &Dashboard, look: &Look, state: &mut UiStat
             });
         });
     } else {
-        let under = Rect::from_min_max(pos2(room.left(), papers.bottom() + 8.0), pos2(papers.right(), room.bottom()));
+        let under = Rect::from_min_max(pos2(room.left(), seen.bottom() + 10.0), pos2(papers.right(), room.bottom()));
         ui.scope_builder(UiBuilder::new().max_rect(under), |ui| {
             ui.horizontal(|ui| controls(ui, look, &mut state.plan));
         });
@@ -78,8 +71,25 @@ pub fn plan_view(ui: &mut Ui, model: &Dashboard, look: &Look, state: &mut UiStat
     }
 }
 
-/// Shows the workspace, where start and goal can be dragged.
-fn workspace(ui: &mut Ui, room: Rect, look: &Look, plan: &mut PlanState) {
+/// The two halves of the room for the papers: `beside` one another, or one above the other.
+fn halves(papers: Rect, beside: bool) -> (Rect, Rect) {
+    let middle = papers.center();
+    if beside {
+        (papers.with_max_x(middle.x - 8.0), papers.with_min_x(middle.x + 8.0))
+    } else {
+        (papers.with_max_y(middle.y - 4.0), papers.with_min_y(middle.y + 4.0))
+    }
+}
+
+/// Whether the world is larger where the papers lie beside one another.
+fn is_larger_beside(plan: &PlanState, papers: Rect) -> bool {
+    let [beside, above] =
+        [true, false].map(|beside| canvas::proportioned(plan.backdrop(), halves(papers, beside).0).area());
+    beside >= above
+}
+
+/// Shows the workspace, where start and goal can be dragged. Returns what it covers.
+fn workspace(ui: &mut Ui, room: Rect, look: &Look, plan: &mut PlanState) -> Rect {
     let still = Arc::clone(plan.backdrop());
     let paper = canvas::proportioned(&still, room);
     let spoken = format!("workspace. {}", plan.described());
@@ -94,21 +104,22 @@ fn workspace(ui: &mut Ui, room: Rect, look: &Look, plan: &mut PlanState) {
         plan.move_end(end, robot.dragged(&q, to, bends_down));
     }
     on.response.on_hover_text_at_pointer("Drag the start or the goal");
+    paper
 }
 
-/// Shows the configuration space, where both are points.
-fn space(ui: &mut Ui, room: Rect, look: &Look, plan: &mut PlanState) {
+/// Shows the configuration space, where both are points. Returns what it covers with the words under it.
+fn space(ui: &mut Ui, room: Rect, look: &Look, plan: &mut PlanState) -> Rect {
     let Some((still, slice)) = plan.cells(CELLS).map(|(cells, more)| {
         if more {
             ui.ctx().request_repaint();
         }
         (Arc::clone(cells.picture()), cells.map().slice().clone())
     }) else {
-        return;
+        return Rect::from_min_size(room.min, vec2(0.0, 0.0));
     };
     let line = ui.text_style_height(&TextStyle::Small) + 4.0;
     let paper = canvas::proportioned(&still, room.with_max_y(room.bottom() - line));
-    let Some(over) = plan.over_cells() else { return };
+    let over = plan.over_cells().unwrap_or_else(|| Picture::new("nothing", still.bounds));
     let spoken = format!("configuration space. {}", slice.described());
     let on = sheet(ui, paper, spoken, &still, &over, look);
     let words = RichText::new(readout(&slice.described())).small().color(look.colour(Role::Muted));
@@ -130,6 +141,7 @@ fn space(ui: &mut Ui, room: Rect, look: &Look, plan: &mut PlanState) {
         plan.move_end(end, axes.into_iter().fold(q, |q, axis| q.with(axis, to[axis])));
     }
     on.response.on_hover_text_at_pointer("Drag a point: it is the start or the goal");
+    paper.with_max_y(paper.bottom() + line)
 }
 
 /// Which end is dragged, the start or the goal, and where to: that which was nearer where the pointer was pressed.
