@@ -68,8 +68,8 @@ pub fn unit(robot: &AnyRobot) -> &'static str {
     if matches!(robot, AnyRobot::Reach(_) | AnyRobot::Reach3(_)) { "rad" } else { "m" }
 }
 
-/// A proven clearance in metres, in words: rounded down, so that no more is claimed than is proven, with the digits that
-/// show that it is above 0.
+/// A proven clearance in metres, in words: rounded down, so that no more is claimed than is proven, with the digits
+/// that show that it is above 0.
 pub fn proven(clearance: f64) -> String {
     let (mut digits, mut scale) = (4, 1e4);
     while clearance * scale < 1.0 && digits < 12 {
