@@ -34,8 +34,9 @@ fn bug1_goes_all_round_and_leaves_where_it_was_nearest() {
     for (x, y) in [(-0.15, 0.0), (0.0, 0.95), (0.15, 0.0), (0.0, -0.65)] {
         assert!(nearest(&corners, x, y) < STEP, "({x}, {y}): {}", nearest(&corners, x, y));
     }
-    // once round is 2 * 1.3 m and the two ends' half circles; it walks that and a part of it back, at most half
+    // once round is 2 * 1.3 m and the two ends' half circles; it walks that, a part of it back, at most half, and the
+    // way on which it comes to its clearance, 16 steps
     let round = 2.6 + std::f64::consts::TAU * 0.15;
     let length = corners.windows(2).map(|ends| (ends[1].0 - ends[0].0).norm()).sum::<f64>();
-    assert!(length > 1.7 + 0.95 * round && length < 1.7 + 1.55 * round, "{length} m, {round} m round");
+    assert!(length > 1.7 + 0.95 * round && length < 2.2 + 1.5 * round, "{length} m, {round} m round");
 }

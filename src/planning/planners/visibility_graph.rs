@@ -21,8 +21,8 @@ const MARGIN: f64 = 1e-3;
 /// The visibility graph (Lozano-Perez and Wesley, 1979) of a robot that is a disc, searched by A*.
 ///
 /// Every obstacle is grown by the radius: about each vertex stands a polygon of sixteen corners that circumscribes the
-/// rounded corner and leaves a clearance of 1 mm. Two corners see one another where the edge between them is proven free. The edges are asked about
-/// when the search comes to them. Headings turn on the way to the goal.
+/// rounded corner and leaves a clearance of 1 mm. Two corners see one another where the edge between them is proven
+/// free. The edges are asked about when the search comes to them. Headings turn on the way to the goal.
 ///
 /// An iteration expands one corner and asks about at most as many edges as there are corners. A robot that is not a
 /// disc ends it with [`NoPath::Unsuited`]. [`NoPath::NoneInGraph`] is no proof where the way is hardly wider than the

@@ -22,9 +22,9 @@ pub struct VoronoiDiagram {
 }
 
 impl VoronoiDiagram {
-    /// The diagram of a grid. Two obstacle points count as two where their cells are more than `apart` metres apart, and
-    /// more than one cell: with 0 every bend of a wall has its branch, with a robot's diameter only room on both sides
-    /// of the robot has.
+    /// The diagram of a grid. Two obstacle points count as two where their cells are more than `apart` metres apart,
+    /// and more than one cell. With 0 every bend of a wall has its branch; with a robot's diameter only ways on which
+    /// it fits between two points have.
     pub fn of(grid: &Grid, apart: f64) -> Self {
         let (columns, rows) = (grid.columns(), grid.rows());
         let nearest = nearest(grid);

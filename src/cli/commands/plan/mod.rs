@@ -32,8 +32,8 @@ use answer::Answer;
 /// contact, or where a planner has searched all that it looks at, that is said, and the exit code is 4.
 ///
 /// With -o the path goes to a file as JSON, with --script to an input script that plays it, with --record to the log of
-/// the run in which the script plays it, with --svg to a picture, with --gif to a film of the
-/// planner's growth. What can't be played is refused when the script is made.
+/// the run in which the script plays it, with --svg to a picture, with --gif to a film of the planner's growth. What
+/// can't be played is refused when the script is made.
 ///
 /// With --compare several planners work on the same problem at several seeds; --csv has a row for each attempt.
 #[derive(Debug, Args)]
