@@ -25,7 +25,7 @@ pub(super) struct Chart<'a> {
     pub(super) across: &'a str,
     /// Both ends of the axis across.
     pub(super) span: [f64; 2],
-    /// The one value that the middle of the axis across stands for, in place of its figures; `None` for an axis of many.
+    /// The only value, which the middle of the axis across then stands for; `None` for an axis of many.
     pub(super) only: Option<String>,
     /// Whether the values are angles in (-pi, pi]; the axis then shows them all.
     pub(super) angles: bool,

@@ -32,6 +32,9 @@ pub struct Column {
     pub about: String,
 }
 
+/// Largest number of robots that have columns of their own. With more, rows hold what is known of all robots together.
+pub const MAX_ROBOT_COLUMNS: usize = 32;
+
 /// A robot that has columns of its own.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct RobotColumns {

@@ -37,11 +37,11 @@ mod table;
 mod tests;
 mod values;
 
-pub use columns::{CellKind, Column};
+pub use columns::{CellKind, Column, MAX_ROBOT_COLUMNS};
 pub use error::{MAX_RUNS, PLAN_VERSION, SweepPlanError, SweepProblem};
 pub use gatherer::RowGatherer;
 pub use part::{PartError, PartHead, PartReader, PartWriter, sealed_line, unsealed_line};
-pub use plan::{MAX_ROBOT_COLUMNS, RunInputs, RunSetup, SweepPlan};
+pub use plan::{RunInputs, RunSetup, SweepPlan};
 pub use plan_file::PlanFile;
 pub use planning::{Planned, PlannedPath, Planning};
 pub use row::{Cell, RunRow};

@@ -2,10 +2,9 @@
 
 use crate::configuration::{RobotKind, Sizes};
 use crate::sweep::axis::Axis;
-use crate::sweep::columns::RobotColumns;
+use crate::sweep::columns::{MAX_ROBOT_COLUMNS, RobotColumns};
 use crate::sweep::error::SweepProblem;
 use crate::sweep::parameter::{Parameter, RobotParameter, Sources, unit_of};
-use crate::sweep::plan::MAX_ROBOT_COLUMNS;
 use crate::sweep::plan_text::{GoalText, Item, PlanText};
 use crate::sweep::values::Over;
 use crate::worlds::{BeamModel, Resident, World, WorldProblem};

@@ -22,9 +22,6 @@ use crate::worlds::World;
 use checks::{check, check_planner, check_robots, make_axes, planned_unit, robot_columns};
 use draft::{Draft, generated};
 
-/// Largest number of robots that have columns of their own. With more, rows hold what is known of all robots together.
-pub const MAX_ROBOT_COLUMNS: usize = 32;
-
 /// Largest number of runs of a plan that is refused where none of them can be; in a longer one every row says so.
 const MOST_TRIED: u64 = 1000;
 

@@ -92,9 +92,9 @@ fn a_row_is_the_path_that_plan_finds_and_the_run_that_its_script_drives() {
 
 #[test]
 fn a_rover_and_a_car_are_planned_for_and_driven() {
-    for (world, robot, at, within, unit) in [
-        ("apartment", "Rusty", "[4.5, 2, 0]", "[0.03, 0.03, 4]", "m"),
-        ("lot", "Hitch", "[6.75, 7, -1.5707963]", "[0.1, 0.1, 0.05]", "m"),
+    for (world, robot, at, within) in [
+        ("apartment", "Rusty", "[4.5, 2, 0]", "[0.03, 0.03, 4]"),
+        ("lot", "Hitch", "[6.75, 7, -1.5707963]", "[0.1, 0.1, 0.05]"),
     ] {
         let plan = format!(
             "Sweep(version: 1, worlds: [\"{world}\"], planner: (), ticks: 600, \
@@ -109,7 +109,7 @@ fn a_rover_and_a_car_are_planned_for_and_driven() {
             assert_eq!((row("solved").as_str(), row("failure").as_str()), ("1", ""), "{robot}: {table}");
             assert_eq!(row(&format!("{robot}.contacts")), "0");
             // the robot drives about as far as its path is long: a rover turns on the spot, and slips
-            let [planned, driven] = [&format!("planned_path_{unit}"), "path_m"].map(|name| row(name).parse::<f64>());
+            let [planned, driven] = ["planned_path_m", "path_m"].map(|name| row(name).parse::<f64>());
             let (planned, driven) = (planned.unwrap(), driven.unwrap());
             assert!(planned > 3.0 && (planned - driven).abs() < 0.02 * planned, "{robot}: {planned} {driven}");
         }
@@ -120,7 +120,7 @@ fn a_rover_and_a_car_are_planned_for_and_driven() {
 fn a_planner_without_anything_to_do_is_refused_where_the_plan_names_it() {
     let goal = "goal: (robot: \"Rusty\", at: [4.5, 2, 0], within: [1, 1, 4])";
     for (plan, place, reason) in [
-        ("planner: (name: \"rrt-conect\")", ":2:", "there is no planner \"rrt-conect\"; there are rrt-connect, rrt, "),
+        ("planner: (name: \"rrt-3\")", ":2:", "there is no planner \"rrt-3\"; there are rrt-connect, rrt, "),
         ("planner: ()", ":2:", "it needs a goal"),
         (&format!("planner: (), {goal}, script: \"s.ron\""), ":2:", "planner: the plan has a script too"),
         (&format!("{goal}, axes: [(vary: \"planner\", over: Names([\"rrt\"]))]"), ":2:", "the plan has no planner"),

@@ -120,7 +120,7 @@ fn solve(attempt: &mut dyn Attempt, iterations: u64) -> Result<(), Why> {
                     return Err(Why::Stopped);
                 }
             }
-            solved => return Ok(solved?),
+            solved => return solved.map_err(Why::from),
         }
     }
 }
