@@ -25,6 +25,8 @@ pub(super) struct Chart<'a> {
     pub(super) across: &'a str,
     /// Both ends of the axis across.
     pub(super) span: [f64; 2],
+    /// The only value, which the middle of the axis across then stands for; `None` for an axis of many.
+    pub(super) only: Option<String>,
     /// Whether the values are angles in (-pi, pi]; the axis then shows them all.
     pub(super) angles: bool,
     /// The lines, at most [`MOST_LINES`].
@@ -116,7 +118,11 @@ impl Chart<'_> {
             items.push(Item::new(format!("grid/{text}"), &text, Role::Hairline, line).stroked(Line::solid(1.0)));
             items.push(label(format!("up/{text}"), corner(left, y), &text, Anchor::Left));
         }
-        for Mark { at, text } in marks(self.span, ((right - left) / 70.0) as usize) {
+        let across = match &self.only {
+            Some(text) => vec![Mark { at: 0.5 * (self.span[0] + self.span[1]), text: text.clone() }],
+            None => marks(self.span, ((right - left) / 70.0) as usize),
+        };
+        for Mark { at, text } in across {
             let x = area.at([at, 0.0]).x;
             let line = Drawing::segment(corner(x, bottom), corner(x, bottom - TICK));
             items.push(Item::new(format!("tick/{text}"), &text, Role::Muted, line).stroked(Line::solid(1.0)));
@@ -164,9 +170,14 @@ impl Chart<'_> {
         self.lines.iter().any(|line| !line.contacts.is_empty())
     }
 
+    /// The lines in the legend: none where the only one is called as the axis that goes up.
+    fn listed(&self) -> &[ChartLine] {
+        if matches!(&self.lines[..], [only] if only.name == self.up) { &[] } else { &self.lines }
+    }
+
     /// The names in the legend: those of the lines, and what the shade is.
     fn names(&self) -> impl Iterator<Item = &str> {
-        self.lines.iter().map(|line| line.name.as_str()).chain(self.touches().then_some(IN_CONTACT))
+        self.listed().iter().map(|line| line.name.as_str()).chain(self.touches().then_some(IN_CONTACT))
     }
 
     /// The names of the axes and the legend.
@@ -175,7 +186,7 @@ impl Chart<'_> {
             label("up/name".into(), Point2::new(-6.0, height - 0.5 * LEADING), self.up, Anchor::Right),
             label("across/name".into(), Point2::new(area.right + 6.0, 0.5 * LEADING - 3.0), self.across, Anchor::Left),
         ];
-        for ((line, (role, dash)), Entry { row, left }) in self.lines.iter().zip(LOOKS).zip(legend) {
+        for ((line, (role, dash)), Entry { row, left }) in self.listed().iter().zip(LOOKS).zip(legend) {
             let y = height - LEADING * (*row as f64 + 1.5);
             let sample = Drawing::segment(Point2::new(*left, y), Point2::new(left + SAMPLE, y));
             items.push(
@@ -183,7 +194,7 @@ impl Chart<'_> {
                     .stroked(Line::solid(1.5).dashed(dash)),
             );
         }
-        if let Some(Entry { row, left }) = legend.get(self.lines.len()) {
+        if let Some(Entry { row, left }) = legend.get(self.listed().len()) {
             let y = height - LEADING * (*row as f64 + 1.5);
             let corners = [[*left, y - 5.0], [left + SAMPLE, y - 5.0], [left + SAMPLE, y + 5.0], [*left, y + 5.0]];
             let sample = Drawing::Polygon(corners.map(|[x, y]| Point2::new(x, y)).into());
@@ -328,7 +339,7 @@ mod tests {
             contacts: Vec::new(),
         };
         let lines = vec![line("a", &[&[[0.0, 0.0], [5.0, 10.0]], &[[10.0, 5.0]]]), line("b", &[])];
-        let chart = Chart { up: "height, m", across: "time, s", span: [0.0, 10.0], angles: false, lines };
+        let chart = Chart { up: "height, m", across: "time, s", span: [0.0, 10.0], only: None, angles: false, lines };
         for width in [200.0, 640.0, 1280.0] {
             let picture = chart.picture(width - 56.0);
             assert_eq!(crate::picture::Figure::of(picture.clone()).px_per_metre(width), [1.0], "{width}");
@@ -354,7 +365,8 @@ mod tests {
             pieces: vec![(0..=4).map(|x| [f64::from(x), 1.0]).collect(), vec![[8.0, 2.0]]],
             contacts: contacts.to_vec(),
         };
-        let chart = |lines| Chart { up: "u", across: "t", span: [0.0, 10.0], angles: false, lines }.picture(640.0);
+        let chart =
+            |lines| Chart { up: "u", across: "t", span: [0.0, 10.0], only: None, angles: false, lines }.picture(640.0);
         let picture = chart(vec![line("a", &[[1.0, 3.0], [8.0, 9.0]]), line("b", &[[2.0, 4.0], [10.0, 10.5]])]);
         let find = |id: &str| picture.items.iter().find(|i| i.id == id);
         let Drawing::Region { pieces, .. } = &find("contacts").unwrap().drawing else { panic!("columns") };

@@ -39,6 +39,7 @@ pub fn plot(plot: &RunPlot<'_>, width_px: f64) -> Captured {
         up: quantity.title(),
         across: "time, s",
         span: [0.0, if *ticks == 0 { DT } else { seconds }],
+        only: None,
         angles: quantity.wraps(),
         lines: series.iter().take(MOST_LINES).map(line).collect(),
     };
