@@ -30,7 +30,6 @@ mod sizes;
 mod stats;
 mod stills;
 mod sweep;
-mod sweep_care;
 mod verify;
 mod viewer;
 mod viewer_files;

@@ -32,6 +32,9 @@ pub struct Column {
     pub about: String,
 }
 
+/// Largest number of robots that have columns of their own. With more, rows hold what is known of all robots together.
+pub const MAX_ROBOT_COLUMNS: usize = 32;
+
 /// A robot that has columns of its own.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct RobotColumns {
@@ -86,7 +89,13 @@ pub(super) fn heading(columns: &[Column]) -> String {
 }
 
 /// The columns of a table: the row's number, seed and length, the axes, the run as a whole, then each robot.
-pub(super) fn columns(axes: &[Axis], has_goal: bool, robots: &[RobotColumns]) -> Vec<Column> {
+/// A planner's are there where its paths have a unit.
+pub(super) fn columns(
+    axes: &[Axis],
+    has_goal: bool,
+    planned: Option<&'static str>,
+    robots: &[RobotColumns],
+) -> Vec<Column> {
     use CellKind::{Number, Text, Whole};
     let mut columns = vec![
         column("row", Whole, "", "number of the run in the sweep, from 0"),
@@ -110,6 +119,16 @@ pub(super) fn columns(axes: &[Axis], has_goal: bool, robots: &[RobotColumns]) ->
         columns.extend([
             column("at_goal", Number, "s", "time at the goal"),
             column("first_at_goal", Number, "s", "when the robot was first at the goal; empty if never"),
+        ]);
+    }
+    if let Some(unit) = planned {
+        columns.extend([
+            column("solved", Whole, "", "1 if the planner has found a path, 0 if not"),
+            column("iterations", Whole, "", "iterations of the planner"),
+            column("edges", Whole, "", "edges that the planner asked about"),
+            column("planned_path", Number, unit, "length of the planned path; empty without any"),
+            column("planned_clearance", Number, "m", "clearance proven along it; empty without an obstacle"),
+            column("planned_time", Number, "s", "when the robot stands at its end; empty if it can't be played"),
         ]);
     }
     columns.push(column("digest", Text, "", "digest of the run, 32 hexadecimal digits"));

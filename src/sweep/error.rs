@@ -68,6 +68,9 @@ pub enum SweepProblem {
         /// The coordinates of the robot's start.
         expected: usize,
     },
+    /// A planner in a plan that gives it nothing to do, with the reason.
+    #[error("{0}")]
+    Planner(&'static str),
     /// An axis whose ends are too far apart for a number.
     #[error("from {0:?} to {1:?}: the ends are too far apart")]
     Span(f64, f64),

@@ -85,6 +85,9 @@ impl<'a> RowGatherer<'a> {
                 Cell::finite(times.and_then(|(_, first)| first)),
             ]);
         }
+        // what comes of planning is known before the run: `SweepPlan::with_planned`
+        let results = plan.columns().iter().position(|column| column.name == "digest").unwrap_or(cells.len());
+        cells.resize(results, Cell::Empty);
         cells.push(Cell::text(digest.to_string()));
         for columns in &plan.robots {
             let robot = residents.iter().position(|resident| resident.name == columns.name);

@@ -26,6 +26,9 @@ pub(super) enum RunParameter {
     Seed,
     Ticks,
     Script,
+    Planner,
+    PlannerIterations,
+    PlannerTube,
     World,
     Rays,
     Range,
@@ -77,11 +80,25 @@ impl Form {
     }
 }
 
+/// What a plan has beside its worlds.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Sources {
+    /// A range sensor of the run.
+    pub sensor: bool,
+    /// A generated world.
+    pub warehouse: bool,
+    /// A planner.
+    pub planner: bool,
+}
+
 /// The parameters of a run by name.
-const OF_RUN: [(&str, RunParameter, Form); 8] = [
+const OF_RUN: [(&str, RunParameter, Form); 11] = [
     ("seed", RunParameter::Seed, Form::Whole("")),
     ("ticks", RunParameter::Ticks, Form::Whole("ticks")),
     ("script", RunParameter::Script, Form::Name),
+    ("planner", RunParameter::Planner, Form::Name),
+    ("planner.iterations", RunParameter::PlannerIterations, Form::Whole("")),
+    ("planner.tube", RunParameter::PlannerTube, Form::Number("m")),
     ("world", RunParameter::World, Form::Name),
     ("sensor.rays", RunParameter::Rays, Form::Whole("")),
     ("sensor.range", RunParameter::Range, Form::Number("m")),
@@ -158,23 +175,28 @@ impl Parameter {
     }
 
     /// Why it changes nothing in any run with these robots; `None` where it may.
-    pub fn idle(&self, robots: &[&Resident], has_sensor: bool, has_warehouse: bool) -> Option<String> {
+    pub fn idle(&self, robots: &[&Resident], there: Sources) -> Option<String> {
+        use RunParameter::{Planner, PlannerIterations, PlannerTube};
         let no_sensor = || "the plan has no range sensor for the run".to_owned();
         match self {
-            Parameter::Run(RunParameter::Rays | RunParameter::Range) if !has_sensor => Some(no_sensor()),
+            Parameter::Run(RunParameter::Rays | RunParameter::Range) if !there.sensor => Some(no_sensor()),
             Parameter::Run(RunParameter::Rays | RunParameter::Range) => {
                 let is_carried = robots.iter().any(|robot| carries_run_sensor(robot));
                 (!is_carried).then(|| "no robot carries the run's sensor".to_owned())
             }
             Parameter::Run(RunParameter::WarehouseSeed | RunParameter::WarehouseRobots) => {
-                (!has_warehouse).then(|| "the plan has no warehouse".to_owned())
+                (!there.warehouse).then(|| "the plan has no warehouse".to_owned())
             }
+            Parameter::Run(Planner | PlannerIterations | PlannerTube) => {
+                (!there.planner).then(|| "the plan has no planner".to_owned())
+            }
+            Parameter::Run(RunParameter::Script) if there.planner => Some("the planner makes the script".to_owned()),
             Parameter::Run(_) => None,
             Parameter::Robot { robot, kind, of } => {
                 let mut named = robots.iter().filter(|known| known.name == *robot).peekable();
                 match of {
                     _ if named.peek().is_none() => Some(format!("robots leaves {robot:?} out")),
-                    RobotParameter::Noise(_) if !has_sensor => Some(no_sensor()),
+                    RobotParameter::Noise(_) if !there.sensor => Some(no_sensor()),
                     RobotParameter::Noise(_) if !named.any(|known| carries_run_sensor(known)) => {
                         Some(format!("a {kind} does not carry the run's sensor"))
                     }

@@ -35,6 +35,8 @@ struct Places<'a> {
     #[serde(borrow, default)]
     goal: Option<&'a RawValue>,
     #[serde(borrow, default)]
+    planner: Option<&'a RawValue>,
+    #[serde(borrow, default)]
     points: Option<&'a RawValue>,
     #[serde(borrow, default)]
     axes: Vec<&'a RawValue>,
@@ -104,7 +106,13 @@ impl PlanFile {
         self.text.script.iter().map(String::as_str).chain(self.named("script")).collect()
     }
 
-    /// Where the plan names this world or script, as messages have it: `plan.ron:3:14`.
+    /// The names of its planners. Each once.
+    pub fn planner_names(&self) -> BTreeSet<&str> {
+        let alone = self.text.planner.iter().filter_map(|planner| planner.name.as_deref());
+        alone.chain(self.named("planner")).collect()
+    }
+
+    /// Where the plan names this world, script or planner, as messages have it: `plan.ron:3:14`.
     pub fn place_of(&self, name: &str) -> String {
         let places: Option<Places> = options().from_str(&self.source).ok();
         let offset = places.and_then(|places| {
@@ -113,8 +121,8 @@ impl PlanFile {
             let alone = alone.map(|raw| offset_of(&self.source, raw.trim().get_ron()));
             let quoted = format!("{name:?}");
             let among = || {
-                let mut axes = places.axes.iter().map(|raw| raw.get_ron());
-                axes.find_map(|axis| Some(offset_of(&self.source, axis) + axis.find(&quoted)?))
+                let mut items = places.planner.iter().chain(&places.axes).map(|raw| raw.get_ron());
+                items.find_map(|item| Some(offset_of(&self.source, item) + item.find(&quoted)?))
             };
             alone.or_else(among)
         });
@@ -146,6 +154,7 @@ impl PlanFile {
                 Item::Version => "version".into(),
                 Item::Robots => "robots".into(),
                 Item::Goal => "goal".into(),
+                Item::Planner => "planner".into(),
                 Item::Points => "points".into(),
                 Item::Axis(i) => format!("axes[{i}] {:?}", self.text.axes.get(i).map_or("", |axis| &axis.vary)),
                 Item::Whole => String::new(),
@@ -162,6 +171,7 @@ fn place(text: &str, item: Item) -> Position {
         Item::Version => Some(places.version),
         Item::Robots => places.robots,
         Item::Goal => places.goal,
+        Item::Planner => places.planner,
         Item::Points => places.points,
         Item::Axis(i) => places.axes.get(i).copied(),
         Item::Whole => None,

@@ -25,6 +25,9 @@ pub(super) struct PlanText {
     /// The input script's file, relative to the plan's folder; without one every robot tours.
     #[serde(default)]
     pub script: Option<String>,
+    /// Who plans the way of the goal's robot, which then follows it; without one there is a script, or a tour.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub planner: Option<PlannerText>,
     #[serde(default)]
     pub seed: Option<u64>,
     #[serde(default)]
@@ -47,6 +50,25 @@ impl PlanText {
     pub fn keeps(&self, robot: &str) -> bool {
         self.robots.is_empty() || self.robots.iter().any(|kept| kept == robot)
     }
+}
+
+/// A planner of `motion-lab plan`, and what it may do.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct PlannerText {
+    /// Its name; the usual one of the robot where it is left out.
+    #[serde(default)]
+    pub name: Option<String>,
+    /// The greatest number of iterations.
+    #[serde(default)]
+    pub iterations: Option<u64>,
+    /// How much larger a rover is planned, metres.
+    #[serde(default = "two_centimetres")]
+    pub tube: f64,
+}
+
+fn two_centimetres() -> f64 {
+    0.02
 }
 
 /// A generated world.
@@ -97,6 +119,7 @@ pub(super) enum Item {
     Version,
     Robots,
     Goal,
+    Planner,
     Points,
     Axis(usize),
     Whole,

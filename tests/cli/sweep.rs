@@ -1,11 +1,14 @@
 //! `sweep`: the same bytes from any number of jobs and shards, stops and goes on, merges and repeats.
 
+mod care;
+mod planner;
+
 use std::fs;
 use std::path::Path;
 use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 
-use super::{command, ended, json, run_in};
+use super::{Run, command, ended, json, run_in};
 
 /// Sixty short runs, ten of them with a start that is none.
 const PLAN: &str = "Sweep(version: 1, worlds: [\"apartment\", \"lot\"], ticks: 20, sensor: (rays: 8, range: 2),
@@ -28,6 +31,31 @@ fn folder_with(plan: &str) -> tempfile::TempDir {
     let folder = tempfile::tempdir().unwrap();
     fs::write(folder.path().join("plan.ron"), plan).unwrap();
     folder
+}
+
+/// A folder with a plan of four runs of a car that drives for two seconds: the second meets a wall, the third can't be.
+fn folder_with_a_drive() -> tempfile::TempDir {
+    let folder = folder_with(
+        "Sweep(version: 1, worlds: [\"lot\"], script: \"drive.ron\", ticks: 100,
+        axes: [(vary: \"Hitch.start\", over: Starts([[6.5, 2.5, 0], [6.5, 2.5, 1.57], [20000, 1, 0], [7.5, 2.5, 0]]))])",
+    );
+    let drive = "Script(version: 1, events: [(tick: 1, robot: \"Hitch\", input: Drive(128, 0)), \
+                 (tick: 41, robot: \"Hitch\", input: Drive(0, 0))])";
+    fs::write(folder.path().join("drive.ron"), drive).unwrap();
+    folder
+}
+
+/// Starts the program, and interrupts it by a signal as soon as `begun` says so, or after 100 s.
+#[cfg(unix)]
+fn interrupted(at: &Path, arguments: &[&str], signal: &str, mut begun: impl FnMut() -> bool) -> Run {
+    let mut program = command(arguments);
+    let child = program.current_dir(at).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
+    let begin = Instant::now();
+    while !begun() && begin.elapsed() < Duration::from_secs(100) {
+        std::thread::sleep(Duration::from_millis(5));
+    }
+    assert!(Command::new("kill").args([signal, &child.id().to_string()]).status().unwrap().success());
+    ended(child.wait_with_output().unwrap())
 }
 
 /// Both tables of the parts in these folders.
@@ -127,9 +155,10 @@ fn a_report_shows_distributions_worst_runs_and_failures() {
     assert!(page.contains("<p>60 runs, 40 of them failed. Plan ") && page.contains(&figure) && !page.contains("NaN"));
     assert!(page.contains("Varied: seed (10 values), Rusty.start.x (3 values), Rusty.noise.sigma_hit (2 values)."));
     // forty runs have a path; twenty reach their goal, at once
-    for (name, count) in [("path, m", 40), ("least clearance, m", 40), ("first at goal, s", 20)] {
-        assert!(figure.contains(&format!("{name} of {count} runs goes from ")), "{name}");
+    for said in ["path, m of 40 runs goes from ", "least clearance, m of 40 runs goes from "] {
+        assert!(figure.contains(said), "{said}");
     }
+    assert!(figure.contains("first at goal, s is 0 in all of 20 runs."));
     let failures = &page[page.find("Failures, the first").unwrap()..];
     assert_eq!(failures.matches("<tr><td>").count(), 20);
     assert!(failures.contains("reproduce 'all.parquet' --row 2 &amp;&amp; motion-lab open 2.mcap"));
@@ -231,18 +260,11 @@ fn a_signal_ends_it_with_75_and_what_was_done_is_kept() {
     let folder = folder_with(&long);
     let at = folder.path();
     for (round, signal) in [(1, "-INT"), (2, "-TERM")] {
-        let mut sweep = command(&["sweep", "plan.ron", "--jobs", "2", "-o", "parts"]);
-        let child = sweep.current_dir(at).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
         let journal = at.join("parts/part-1-of-1.journal");
         let lines = || fs::read_to_string(&journal).map_or(0, |text| text.lines().count());
-        let (begin, before) = (Instant::now(), lines().max(4));
+        let before = lines().max(4);
         // until a row is there; the runs of this many ticks take a good part of a second
-        while lines() <= before && begin.elapsed() < Duration::from_secs(100) {
-            std::thread::sleep(Duration::from_millis(5));
-        }
-        let kill = Command::new("kill").args([signal, &child.id().to_string()]).status().unwrap();
-        assert!(kill.success());
-        let run = ended(child.wait_with_output().unwrap());
+        let run = interrupted(at, &["sweep", "plan.ron", "--jobs", "2", "-o", "parts"], signal, || lines() > before);
         assert_eq!(run.code, Some(75), "{}", run.err);
         assert!(run.err.contains("of 40 rows done\nThe same command goes on."), "{}", run.err);
         assert!(lines() >= 4 + round, "{} lines", lines());
@@ -252,13 +274,8 @@ fn a_signal_ends_it_with_75_and_what_was_done_is_kept() {
 
 #[test]
 fn full_logs_are_kept_of_the_runs_asked_for() {
-    let plan = "Sweep(version: 1, worlds: [\"lot\"], script: \"drive.ron\", ticks: 100,
-        axes: [(vary: \"Hitch.start\", over: Starts([[6.5, 2.5, 0], [6.5, 2.5, 1.57], [20000, 1, 0], [7.5, 2.5, 0]]))])";
-    let folder = folder_with(plan);
+    let folder = folder_with_a_drive();
     let at = folder.path();
-    let drive = "Script(version: 1, events: [(tick: 1, robot: \"Hitch\", input: Drive(128, 0)), \
-                 (tick: 41, robot: \"Hitch\", input: Drive(0, 0))])";
-    fs::write(at.join("drive.ron"), drive).unwrap();
     let kept = |keep: &str| {
         run_in(at, &["sweep", "plan.ron", "--keep", keep, "-o", keep]).done();
         let logs = at.join(keep).join("logs");
@@ -297,7 +314,7 @@ fn check_lists_estimate_measures_and_engines_name_their_shard() {
         " s of one processor, ",
         " with 2 jobs",
         " bytes of logs",
-        "1 shards of ten minutes",
+        "1 shard of ten minutes",
     ] {
         assert!(estimate.contains(part), "{part}: {estimate}");
     }

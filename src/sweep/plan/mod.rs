@@ -1,23 +1,26 @@
 //! `SweepPlan`, a checked plan with all it names: how many runs it has, and what each of them is.
 
+mod checks;
+mod draft;
+
 use std::collections::BTreeMap;
 
 use super::axis::Axis;
 use super::columns::{Column, RobotColumns, columns, heading};
 use super::error::{PLAN_VERSION, SweepProblem};
 use super::parameter::{Parameter, RobotParameter, RunParameter};
-use super::plan_text::{Bundle, FORMAT, GoalText, Item, PlanText, WarehouseText, digest_of};
+use super::plan_text::{Bundle, FORMAT, GoalText, Item, PlanText, digest_of};
+use super::planning::{Planned, Planning};
 use super::row::{Cell, RunRow};
-use super::values::{AxisValue, Over};
+use super::values::AxisValue;
 use crate::configuration::{Kinds, RobotKind};
 use crate::random::Seed;
 use crate::run::{Digest, Script};
 use crate::sensors::RangeSensor;
-use crate::tour::{BOOK_SEED, TourConfig};
-use crate::worlds::{BeamModel, Resident, Warehouse, World, WorldProblem};
-
-/// Largest number of robots that have columns of their own. With more, rows hold what is known of all robots together.
-pub const MAX_ROBOT_COLUMNS: usize = 32;
+use crate::tour::TourConfig;
+use crate::worlds::World;
+use checks::{check, check_planner, check_robots, make_axes, planned_unit, robot_columns};
+use draft::{Draft, generated};
 
 /// Largest number of runs of a plan that is refused where none of them can be; in a longer one every row says so.
 const MOST_TRIED: u64 = 1000;
@@ -29,8 +32,17 @@ pub struct RunSetup {
     pub seed: Seed,
     /// The configuration.
     pub config: TourConfig,
-    /// The script.
-    pub script: Script,
+    /// What drives it.
+    pub inputs: RunInputs,
+}
+
+/// What drives a run of a sweep.
+#[derive(Clone, Debug, PartialEq)]
+pub enum RunInputs {
+    /// A script; the robots that it leaves alone tour.
+    Script(Script),
+    /// The path of a planner, which is to be planned and played.
+    Planner(Planning),
 }
 
 /// A checked plan with the worlds and scripts it names.
@@ -94,13 +106,14 @@ impl SweepPlan {
         let yard = bundle.plan.warehouse.map(|text| generated(text).map_err(whole)).transpose()?;
         let there: Vec<&World> = worlds.values().chain(&yard).collect();
         check_robots(&bundle.plan, &there)?;
+        check_planner(&bundle.plan)?;
         let axes = make_axes(&bundle.plan, &there)?;
         let runs = bundle.plan.points.count(&axes).map_err(|(axis, problem)| {
             let item = axis.map_or(Item::Points, Item::Axis);
             (item, problem)
         })?;
         let robots = robot_columns(&bundle.plan, &there);
-        let columns = columns(&axes, bundle.plan.goal.is_some(), &robots);
+        let columns = columns(&axes, bundle.plan.goal.is_some(), planned_unit(&bundle.plan, &there), &robots);
         let line = serde_json::to_string(&bundle).map_err(|error| whole(error.to_string()))?;
         let (digest, text, kinds) = (digest_of(&line), bundle.plan, Kinds::default());
         Ok(SweepPlan { line, digest, text, worlds, scripts, axes, runs, robots, columns, kinds })
@@ -176,13 +189,17 @@ impl SweepPlan {
             let Some(reason) = check(&resident.kind, resident.sizes.as_ref(), resident.sensor) else { continue };
             return Err(format!("{}: {reason}", resident.name));
         }
-        let script = match &draft.script {
-            None => Script::empty(),
-            Some(name) => self.scripts.get(name).ok_or_else(|| format!("there is no script {name:?}"))?.clone(),
+        let inputs = match (&draft.planner, &draft.script) {
+            (Some(planner), _) => RunInputs::Planner(planner.planning(self.goal(), &worlds)?),
+            (None, None) => RunInputs::Script(Script::empty()),
+            (None, Some(name)) => {
+                let script = self.scripts.get(name).ok_or_else(|| format!("there is no script {name:?}"))?;
+                RunInputs::Script(script.clone())
+            }
         };
         let config = TourConfig { worlds, ticks: draft.ticks, sensor: draft.sensor };
         config.validate().map_err(|error| error.to_string())?;
-        Ok(RunSetup { seed: Seed(draft.seed), config, script })
+        Ok(RunSetup { seed: Seed(draft.seed), config, inputs })
     }
 
     /// Checks that there is a run that can be, in plans of at most [`MOST_TRIED`] runs.
@@ -236,151 +253,12 @@ impl SweepPlan {
         cells.resize(self.columns.len(), Cell::Empty);
         RunRow { row, cells }
     }
-}
 
-/// What the parameters of a whole run change.
-struct Draft {
-    seed: u64,
-    ticks: u64,
-    script: Option<String>,
-    worlds: Vec<String>,
-    sensor: Option<RangeSensor>,
-    warehouse: Option<WarehouseText>,
-}
-
-impl Draft {
-    fn of(text: &PlanText) -> Self {
-        // the book's own sensor and length, without making its worlds
-        let sensor = text.sensor.map_or(RangeSensor { n_rays: 360, max_range: 4.0 }, |sensor| RangeSensor {
-            n_rays: sensor.rays,
-            max_range: sensor.range,
-        });
-        Draft {
-            seed: text.seed.unwrap_or(BOOK_SEED.0),
-            ticks: text.ticks.unwrap_or(1200),
-            script: text.script.clone(),
-            worlds: text.worlds.clone(),
-            sensor: (!text.no_sensor).then_some(sensor),
-            warehouse: text.warehouse,
+    /// The row with what came of planning its path. In a plan without a planner nothing is changed.
+    pub fn with_planned(&self, mut row: RunRow, planned: &Planned) -> RunRow {
+        if let Some(first) = self.columns.iter().position(|column| column.name == "solved") {
+            row.cells.iter_mut().skip(first).zip(planned.cells()).for_each(|(cell, known)| *cell = known);
         }
+        row
     }
-
-    fn set(&mut self, of: RunParameter, value: &AxisValue) -> Result<(), String> {
-        let no_warehouse = || "the plan has no warehouse".to_owned();
-        let no_sensor = || "the plan has no sensor".to_owned();
-        match (of, value) {
-            (RunParameter::Seed, AxisValue::Whole(n)) => self.seed = *n,
-            (RunParameter::Ticks, AxisValue::Whole(n)) => self.ticks = *n,
-            (RunParameter::Script, AxisValue::Name(name)) => self.script = Some(name.clone()),
-            (RunParameter::World, AxisValue::Name(name)) => self.worlds = vec![name.clone()],
-            (RunParameter::Rays, AxisValue::Whole(n)) => {
-                let sensor = self.sensor.as_mut().ok_or_else(no_sensor)?;
-                sensor.n_rays = u32::try_from(*n).map_err(|_| format!("{n} rays: too many"))?;
-            }
-            (RunParameter::Range, AxisValue::Number(x)) => {
-                self.sensor.as_mut().ok_or_else(no_sensor)?.max_range = *x;
-            }
-            (RunParameter::WarehouseSeed, AxisValue::Whole(n)) => {
-                self.warehouse.as_mut().ok_or_else(no_warehouse)?.seed = *n;
-            }
-            (RunParameter::WarehouseRobots, AxisValue::Whole(n)) => {
-                self.warehouse.as_mut().ok_or_else(no_warehouse)?.robots = *n;
-            }
-            // an axis has only values of its parameter's form
-            _ => {}
-        }
-        Ok(())
-    }
-}
-
-fn generated(text: WarehouseText) -> Result<World, String> {
-    let WarehouseText { robots, seed, trailers } = text;
-    let robots = usize::try_from(robots).unwrap_or(usize::MAX);
-    Warehouse { seed: Seed(seed), robots, trailers }.world().map_err(|error| error.to_string())
-}
-
-/// What is wrong with a robot's sizes or noise, when all axes have their values.
-fn check(kind: &str, sizes: Option<&crate::configuration::Sizes>, noise: Option<BeamModel>) -> Option<String> {
-    let sizes = sizes.and_then(|sizes| sizes.check_for(kind).err()).map(|error| error.to_string());
-    sizes.or_else(|| noise.and_then(|noise| noise.try_new().err()).map(|error| error.to_string()))
-}
-
-fn check_robots(plan: &PlanText, worlds: &[&World]) -> Result<(), (Item, SweepProblem)> {
-    let find = |name: &str| worlds.iter().flat_map(|w| &w.robots).find(|r| r.name == name);
-    let unknown = |robot: &str| {
-        let names: Vec<&str> = worlds.iter().flat_map(|w| &w.robots).map(|r| r.name.as_str()).take(20).collect();
-        let there = if names.is_empty() { "none".into() } else { names.join(", ") };
-        SweepProblem::Robot { robot: robot.to_owned(), there }
-    };
-    if let Some(robot) = plan.robots.iter().find(|name| find(name).is_none()) {
-        return Err((Item::Robots, unknown(robot)));
-    }
-    let Some(GoalText { robot, at, within }) = &plan.goal else { return Ok(()) };
-    let Some(resident) = find(robot).filter(|_| plan.keeps(robot)) else { return Err((Item::Goal, unknown(robot))) };
-    let (coordinates, tolerances, expected) = (at.len(), within.len(), resident.start.len());
-    if coordinates != expected || tolerances != expected {
-        return Err((Item::Goal, SweepProblem::Goal { coordinates, tolerances, expected }));
-    }
-    if let Some(wrong) = at.iter().chain(within).find(|x| !x.is_finite()) {
-        return Err((Item::Goal, SweepProblem::NotFinite(*wrong)));
-    }
-    match within.iter().find(|tolerance| **tolerance < 0.0) {
-        Some(wrong) => Err((Item::Goal, SweepProblem::Tolerance(*wrong))),
-        None => Ok(()),
-    }
-}
-
-fn make_axes(plan: &PlanText, worlds: &[&World]) -> Result<Vec<Axis>, (Item, SweepProblem)> {
-    let mut axes: Vec<Axis> = Vec::with_capacity(plan.axes.len());
-    let robots: Vec<&Resident> =
-        worlds.iter().flat_map(|world| &world.robots).filter(|robot| plan.keeps(&robot.name)).collect();
-    for (i, text) in plan.axes.iter().enumerate() {
-        let refused = |problem| (Item::Axis(i), problem);
-        let parameter =
-            Parameter::named(&text.vary, worlds).map_err(|there| refused(SweepProblem::Parameter(there)))?;
-        if let Some(before) = axes.iter().position(|axis| axis.parameter.overlaps(&parameter)) {
-            return Err(refused(SweepProblem::Twice(before)));
-        }
-        let axis = Axis::try_new(parameter, text.over.clone()).map_err(refused)?;
-        if let Some(reason) = axis.parameter.idle(&robots, !plan.no_sensor, plan.warehouse.is_some()) {
-            return Err(refused(SweepProblem::Idle(reason)));
-        }
-        if let (Parameter::Robot { robot, of: RobotParameter::Start, .. }, Over::Starts(starts)) =
-            (&axis.parameter, &text.over)
-        {
-            check_starts(starts, &robots, robot).map_err(refused)?;
-        }
-        axes.push(axis);
-    }
-    Ok(axes)
-}
-
-/// Checks that each start has the number of coordinates of some robot of this name.
-fn check_starts(starts: &[Vec<f64>], robots: &[&Resident], robot: &str) -> Result<(), SweepProblem> {
-    for (index, start) in starts.iter().enumerate() {
-        let reason = |known: &&Resident| match Resident::try_new(robot, known.kind.clone(), start.clone(), None) {
-            Err(problem @ WorldProblem::Start { .. }) => Some(problem.to_string()),
-            // a start elsewhere, as beyond the lab, is for the row to say
-            _ => None,
-        };
-        let reasons: Option<Vec<String>> = robots.iter().filter(|known| known.name == robot).map(reason).collect();
-        if let Some(reason) = reasons.and_then(|reasons| reasons.into_iter().next()) {
-            return Err(SweepProblem::Start { index, reason });
-        }
-    }
-    Ok(())
-}
-
-/// The robots with columns of their own: all that are kept, of all worlds, unless they are many.
-fn robot_columns(plan: &PlanText, worlds: &[&World]) -> Vec<RobotColumns> {
-    let mut robots: Vec<RobotColumns> = Vec::new();
-    for resident in worlds.iter().flat_map(|w| &w.robots) {
-        if plan.keeps(&resident.name) && !robots.iter().any(|known| known.name == resident.name) {
-            if robots.len() == MAX_ROBOT_COLUMNS {
-                return Vec::new();
-            }
-            robots.push(RobotColumns { name: resident.name.clone(), kind: resident.kind.clone() });
-        }
-    }
-    robots
 }

@@ -13,7 +13,7 @@ fn run(plan: &SweepPlan, row: u64) -> RunRow {
         Ok(setup) => setup,
         Err(reason) => return plan.failed(row, &reason),
     };
-    let RunSetup { seed, config, script } = setup;
+    let RunSetup { seed, config, inputs: RunInputs::Script(script) } = setup else { panic!("no planner here") };
     let mut run = Recorder::new(config.clone(), (seed, script.clone())).unwrap();
     let mut digest = RunDigest::new(seed, &config, &script, run.frame());
     let mut gatherer = RowGatherer::new(plan, row, &config, &script);
@@ -143,8 +143,11 @@ fn the_docs_list_every_column_with_its_unit_and_kind() {
         let cells: Vec<&str> = line.split('|').map(str::trim).collect();
         listed.extend(cells[1].split(", ").map(|name| (name.trim_matches('`').to_owned(), cells[2], cells[3])));
     }
-    let arm = "Sweep(version: 1, worlds: [\"apartment\", \"workbench\", \"lot\"], goal: (robot: \"Rusty\", at: [1, 1, 1], within: [1, 1, 1]))";
-    let plan = plan(arm);
+    let all = "Sweep(version: 1, worlds: [\"apartment\", \"workbench\", \"lot\"], goal: (robot: \"Rusty\", at: [1, 1, 1], within: [1, 1, 1]))";
+    let planned = |robot: &str, at: &str| {
+        format!("Sweep(version: 1, robots: [{robot:?}], planner: (), goal: (robot: {robot:?}, at: {at}, within: {at}))")
+    };
+    let plans = [plan(all), plan(&planned("Rusty", "[1, 1, 1]")), plan(&planned("Reach", "[1, 1]"))];
     let robots = ["Rusty.", "Reach.", "Hitch."];
     let general = |name: &str| match robots.iter().find_map(|robot| name.strip_prefix(robot)) {
         Some(of_robot) => format!("ROBOT.{of_robot}"),
@@ -155,9 +158,41 @@ fn the_docs_list_every_column_with_its_unit_and_kind() {
         CellKind::Number => "number",
         CellKind::Text => "text",
     };
+    let columns = plans.iter().flat_map(SweepPlan::columns);
     let mut written: BTreeSet<_> =
-        plan.columns().iter().map(|column| (general(&column.name), column.unit.as_str(), kind(column.kind))).collect();
+        columns.map(|column| (general(&column.name), column.unit.as_str(), kind(column.kind))).collect();
     // the built-in worlds have no arm of three links
     written.insert(("ROBOT.end.theta3_rad".into(), "rad", "number"));
     assert_eq!(listed, written);
+}
+
+#[test]
+fn what_came_of_planning_stands_before_the_digest() {
+    let text = "Sweep(version: 1, robots: [\"Rusty\"], planner: (iterations: 7), ticks: 3, \
+                goal: (robot: \"Rusty\", at: [4.5, 2, 1], within: [1, 1, 4]), \
+                axes: [(vary: \"planner\", over: Names([\"rrt\", \"prm\"])), (vary: \"planner.tube\", over: Values([0, 2]))])";
+    let plan = plan(text);
+    let planning = |row| plan.setup(row).map(|setup| setup.inputs);
+    let expected = Planning { planner: Some("prm".into()), goal: vec![4.5, 2.0, 1.0], iterations: Some(7), tube: 0.0 };
+    assert_eq!(planning(2), Ok(RunInputs::Planner(expected)));
+    assert_eq!(planning(1), Err("planner.tube: 2 m: it must be from 0 to 1 m".into()));
+    let path = PlannedPath { length: 4.5, clearance: f64::INFINITY, time: Some(8.05) };
+    let planned = Planned { iterations: 3, edges: 12, path: Some(path) };
+    let row = plan.with_planned(plan.failed(2, "why"), &planned);
+    let names = ["solved", "iterations", "edges", "planned_path_m", "planned_clearance_m", "planned_time_s", "digest"];
+    let cells = [
+        Cell::Whole(1),
+        Cell::Whole(3),
+        Cell::Whole(12),
+        Cell::Number(4.5),
+        Cell::Empty,
+        Cell::Number(8.05),
+        Cell::Empty,
+    ];
+    assert_eq!(names.map(|name| cell(&plan, &row, name)), cells);
+    assert_eq!(RunRow::of_line(&row.to_line(), plan.columns()), Some(row));
+    // a plan without a planner is the line that it was, and its rows have no such cells
+    let other = super::plan("Sweep(version: 1, worlds: [\"lot\"])");
+    assert!(!other.line().contains("planner"));
+    assert_eq!(other.with_planned(other.failed(0, "why"), &planned), other.failed(0, "why"));
 }

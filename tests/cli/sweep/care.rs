@@ -1,28 +1,14 @@
 //! `sweep`: what it refuses and where that is, what a stop leaves behind, logs asked for later, links of a report.
 
 use std::fs;
-use std::path::Path;
-use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 
-use super::{Run, command, ended, run_in};
+use super::{folder_with, folder_with_a_drive, interrupted, names};
+use crate::cli::{json, run_in};
 
 /// Six short runs, whose rows have no contact.
 const PLAN: &str = "Sweep(version: 1, worlds: [\"lot\"], ticks: 20,\n\
                     axes: [(vary: \"seed\", over: Range(0, 3)), (vary: \"ticks\", over: Values([20, 30]))])";
-
-fn folder_with(plan: &str) -> tempfile::TempDir {
-    let folder = tempfile::tempdir().unwrap();
-    fs::write(folder.path().join("plan.ron"), plan).unwrap();
-    folder
-}
-
-fn names(folder: &Path) -> Vec<String> {
-    let entries = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().file_name().into_string().unwrap());
-    let mut names: Vec<String> = entries.collect();
-    names.sort();
-    names
-}
 
 #[test]
 fn an_advice_leads_on() {
@@ -89,13 +75,8 @@ fn a_name_that_is_wrong_has_its_place_in_the_plan() {
 
 #[test]
 fn logs_asked_for_later_are_written() {
-    let plan = "Sweep(version: 1, worlds: [\"lot\"], script: \"drive.ron\", ticks: 100,
-        axes: [(vary: \"Hitch.start\", over: Starts([[6.5, 2.5, 0], [6.5, 2.5, 1.57], [20000, 1, 0], [7.5, 2.5, 0]]))])";
-    let folder = folder_with(plan);
+    let folder = folder_with_a_drive();
     let at = folder.path();
-    let drive = "Script(version: 1, events: [(tick: 1, robot: \"Hitch\", input: Drive(128, 0)), \
-                 (tick: 41, robot: \"Hitch\", input: Drive(0, 0))])";
-    fs::write(at.join("drive.ron"), drive).unwrap();
     let logs = || names(&at.join("parts/logs"));
     let sweep = |keep: &str| run_in(at, &["sweep", "plan.ron", "-o", "parts", "--keep", keep]);
     sweep("none").done();
@@ -129,19 +110,6 @@ fn logs_asked_for_later_are_written() {
     run_in(at, &[&["verify"], &logs.each_ref().map(String::as_str)[..]].concat()).done();
 }
 
-/// Starts the program, and interrupts it as soon as `begun` says so.
-#[cfg(unix)]
-fn interrupted(at: &Path, arguments: &[&str], mut begun: impl FnMut() -> bool) -> Run {
-    let mut program = command(arguments);
-    let child = program.current_dir(at).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
-    let begin = Instant::now();
-    while !begun() && begin.elapsed() < Duration::from_secs(100) {
-        std::thread::sleep(Duration::from_millis(5));
-    }
-    assert!(Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap().success());
-    ended(child.wait_with_output().unwrap())
-}
-
 #[cfg(unix)]
 #[test]
 fn a_stop_leaves_nothing_that_is_of_no_use() {
@@ -157,7 +125,7 @@ fn a_stop_leaves_nothing_that_is_of_no_use() {
     fs::write(at.join("long.sweep"), format!("{long}seal {seal:032x}\n")).unwrap();
     let before = names(at);
     let under_way = || names(at).iter().any(|name| name.contains("unfinished"));
-    let stopped = interrupted(at, &["sweep", "reproduce", "long.sweep", "--row", "0"], || {
+    let stopped = interrupted(at, &["sweep", "reproduce", "long.sweep", "--row", "0"], "-INT", || {
         let begun = under_way();
         // its first seconds are with the operating system then
         begun.then(|| std::thread::sleep(Duration::from_millis(300)));
@@ -168,7 +136,7 @@ fn a_stop_leaves_nothing_that_is_of_no_use() {
     assert_eq!(names(at), before, "neither 0.mcap nor 0.mcap.partial");
     fs::write(at.join("plan.ron"), "Sweep(version: 1, worlds: [\"apartment\"], ticks: 9000000)").unwrap();
     let begin = Instant::now();
-    let stopped = interrupted(at, &["sweep", "plan.ron", "--estimate"], || begin.elapsed().as_millis() > 700);
+    let stopped = interrupted(at, &["sweep", "plan.ron", "--estimate"], "-INT", || begin.elapsed().as_millis() > 700);
     assert_eq!(stopped.code, Some(75), "{}", stopped.err);
     assert!(stopped.err.contains("stopped with 0 of 1 runs measured\nNothing is kept"), "{}", stopped.err);
     assert_eq!((stopped.out.as_str(), names(at)), ("", before));
@@ -182,10 +150,7 @@ fn an_estimate_is_of_its_shard() {
     let folder = folder_with(&format!("Sweep(version: 1, worlds: [\"lot\"], {axes})"));
     let estimate = |shard: &str| run_in(folder.path(), &["sweep", "plan.ron", "--estimate", "--shard", shard]).done();
     let second = estimate("2/2");
-    assert!(
-        second.contains("20 runs, 20 of them measured: ") && second.contains("1 shards of all 40 runs"),
-        "{second}"
-    );
+    assert!(second.contains("20 runs, 20 of them measured: ") && second.contains("1 shard of all 40 runs"), "{second}");
     assert!(estimate("1/50").contains("0 runs: the sweep has 40 in all"));
 }
 
@@ -209,7 +174,7 @@ fn a_report_links_to_the_runs_that_a_link_can_hold() {
         // the digest is that of the run that `record` records
         let name = format!("{seed}.mcap");
         run_in(at, &["record", "--world", "lot", "--seed", seed, "--ticks", "30", "-o", &name]).done();
-        let about = super::json(&run_in(at, &["info", "--json", &name]).done());
+        let about = json(&run_in(at, &["info", "--json", &name]).done());
         let digest = about["digest"].as_str().unwrap();
         let link =
             format!("https://lab.example/book/?v=1&amp;seed={seed}&amp;world=lot&amp;tick=30&amp;digest={digest}");
@@ -217,6 +182,7 @@ fn a_report_links_to_the_runs_that_a_link_can_hold() {
     }
     assert_eq!(worst.matches("no link: ").count(), 2, "{worst}");
     assert!(worst.contains("is not an unmodified built-in world"), "{worst}");
+    assert!(shown.contains("Varied: world (2 values), seed (2 values), ticks (1 value)."));
     assert!(page(&[]).contains("<a href=\"http://localhost:8000/?v=1&amp;"));
     // parameters are called as the plan calls them, and `ticks` are no unit of `ticks`
     for title in

@@ -24,9 +24,9 @@ use crate::cli::support::progress::Progress;
 use crate::cli::support::target::Target;
 use crate::cli::{Data, Failure, Outcome, say};
 use answer::{Answer, PathFile};
-use attempt::Attempt;
-use named::PlannerName;
-use task::Task;
+pub use attempt::Attempt;
+pub use named::PlannerName;
+pub use task::Task;
 
 /// Plan a path that is proven free along its whole length, or say why there is none.
 ///

@@ -65,8 +65,9 @@ pub fn estimate(
     data.line(format!("{all:.0} s of one processor, {:.0} s with {jobs} jobs", all / jobs as f64))?;
     let logs = if keep == Keep::None { String::new() } else { format!(", and {:.0} bytes of logs", of_all(logs)) };
     data.line(format!("{:.0} bytes of rows{logs}", of_all(bytes)))?;
-    let whole = one * plan.runs() as f64;
+    let shards = (one * plan.runs() as f64 / SHARD).ceil();
+    let name = if shards == 1.0 { "shard" } else { "shards" };
     let of = if shard == Shard::WHOLE { String::new() } else { format!(" of all {} runs", plan.runs()) };
-    data.line(format!("{:.0} shards{of} of ten minutes with one job each", (whole / SHARD).ceil()))?;
+    data.line(format!("{shards:.0} {name}{of} of ten minutes with one job each"))?;
     Ok(Outcome::Done)
 }

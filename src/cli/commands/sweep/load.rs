@@ -5,6 +5,7 @@ use std::path::Path;
 
 use motion_lab::sweep::{PlanFile, SweepPlan, SweepPlanError};
 
+use super::planned::named;
 use crate::cli::Failure;
 use crate::cli::support::input::{read_text, shown};
 use crate::cli::support::words::parse_script;
@@ -31,6 +32,11 @@ pub fn plan(path: &Path) -> Result<SweepPlan, Failure> {
         let from = path.parent().unwrap_or(Path::new("")).join(name);
         let script = read_text(&from).and_then(|text| parse_script(&from, &text));
         scripts.insert(name.to_owned(), script.map_err(|failure| named_at(name, failure))?);
+    }
+    for name in file.planner_names() {
+        let unknown =
+            |reason| Failure::input(reason, "Correct it there. `motion-lab plan --help` says what each does.");
+        named(name).map_err(|reason| named_at(name, unknown(reason)))?;
     }
     file.with(&worlds, &scripts).map_err(refused)
 }

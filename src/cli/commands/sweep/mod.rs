@@ -6,6 +6,7 @@ mod list;
 mod load;
 mod merge;
 mod one;
+mod planned;
 mod report;
 mod reproduce;
 mod shard;
@@ -23,9 +24,10 @@ use shards::ShardChoice;
 
 /// Run a plan's runs, a row for each: what was varied, where robots ended, contacts, clearance, path, digest.
 ///
-/// A plan names worlds, scripts or tours, and the axes to vary: seeds, starts, sizes, sensors, noise, generated worlds,
-/// ticks. A row depends on the plan and its number alone, so any number of jobs and shards gives the same bytes. Rows
-/// are kept as they are made: after Ctrl-C or a crash the same command goes on. `sweep merge` makes one table of them.
+/// A plan names worlds, scripts, tours or a planner, and the axes to vary: seeds, starts, sizes, sensors, noise,
+/// generated worlds, ticks. A row depends on the plan and its number alone, so any number of jobs and shards gives the
+/// same bytes. Rows are kept as they are made: after Ctrl-C or a crash the same command goes on. `sweep merge` makes
+/// one table of them.
 #[derive(Debug, Args)]
 #[command(
     args_conflicts_with_subcommands = true,

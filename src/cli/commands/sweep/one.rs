@@ -3,12 +3,12 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use motion_lab::sweep::{RowGatherer, RunRow, RunSetup, SweepPlan};
+use motion_lab::sweep::{RowGatherer, RunRow, SweepPlan};
 
 use super::Keep;
+use super::planned::{Made, made};
 use crate::cli::Failure;
 use crate::cli::commands::record::{self, Ended, Stop, partial_name, write_run, write_run_watched};
-use crate::cli::support::log_kind::LogKind;
 
 /// How a run of a sweep ended.
 pub enum Ran {
@@ -26,32 +26,35 @@ pub fn log_name(logs: &Path, row: u64) -> PathBuf {
     logs.join(format!("{row}.mcap"))
 }
 
-/// The run of a row as `record` records one, with a full log.
-pub fn recorded(setup: RunSetup) -> record::Plan {
-    let RunSetup { seed, config, script } = setup;
-    record::Plan { seed, config, script, kind: LogKind::Full }
-}
-
 /// Runs a row. Its full log goes into the folder `logs` if it is one of those to keep.
 pub fn run(plan: &SweepPlan, row: u64, keep: Keep, logs: &Path) -> Result<Ran, Failure> {
-    let planned = match plan.setup(row) {
-        Ok(setup) => recorded(setup),
+    let made = match plan.setup(row) {
+        Ok(setup) => made(setup)?,
         Err(reason) => return Ok(Ran::Row(plan.failed(row, &reason))),
     };
+    let (run, planned) = match made {
+        Made::Run(run, planned) => (run, planned),
+        Made::None(reason, planned) => return Ok(Ran::Row(plan.with_planned(plan.failed(row, &reason), &planned))),
+        Made::Stopped => return Ok(Ran::Stopped),
+    };
+    let with_planned = |row| match &planned {
+        Some(planned) => plan.with_planned(row, planned),
+        None => row,
+    };
     let log = log_name(logs, row);
-    let mut gatherer = RowGatherer::new(plan, row, &planned.config, &planned.script);
+    let mut gatherer = RowGatherer::new(plan, row, &run.config, &run.script);
     let ended = match keep {
-        Keep::All => write_run_watched(&planned, None, STOP, &log, |frame| gatherer.see(frame)),
-        _ => record::run(&planned, None, STOP, |frame, _| {
+        Keep::All => write_run_watched(&run, None, STOP, &log, |frame| gatherer.see(frame)),
+        _ => record::run(&run, None, STOP, |frame, _| {
             gatherer.see(frame);
             Ok(())
         }),
     };
     let row = match ended {
-        Ok(Ended::Whole { last, digest, refusals }) => gatherer.row(&last, digest, &refusals),
+        Ok(Ended::Whole { last, digest, refusals }) => with_planned(gatherer.row(&last, digest, &refusals)),
         Ok(Ended::Stopped(_) | Ended::Differs(_)) => return Ok(stopped(&log)),
         // a script or a start that the run does not take
-        Err(Failure::Input { reason, .. }) => return Ok(Ran::Row(plan.failed(row, &reason))),
+        Err(Failure::Input { reason, .. }) => return Ok(Ran::Row(with_planned(plan.failed(row, &reason)))),
         Err(failure) => return Err(failure),
     };
     // few runs are kept, and only their rows say which: these are run once more
@@ -67,7 +70,12 @@ pub fn log_again(plan: &SweepPlan, row: u64, logs: &Path) -> Result<bool, Failur
     let log = log_name(logs, row);
     // a row that could be run once can be again
     let Ok(setup) = plan.setup(row) else { return Ok(true) };
-    let is_whole = matches!(write_run(&recorded(setup), None, STOP, &log)?, Ended::Whole { .. });
+    let run = match made(setup)? {
+        Made::Run(run, _) => run,
+        Made::None(..) => return Ok(true),
+        Made::Stopped => return Ok(false),
+    };
+    let is_whole = matches!(write_run(&run, None, STOP, &log)?, Ended::Whole { .. });
     if !is_whole {
         remove_partial(&log);
     }

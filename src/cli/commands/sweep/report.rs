@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 use motion_lab::capture::{Captured, Distribution, Paper, histograms};
-use motion_lab::sweep::{Cell, CellKind, Column, RunRow, SweepPlan, TableError, TableFile};
+use motion_lab::sweep::{Cell, CellKind, Column, RunInputs, RunRow, SweepPlan, TableError, TableFile};
 use motion_lab::web::Link;
 
 use crate::cli::support::choices::ThemeName;
@@ -43,7 +43,20 @@ pub struct Report {
 const LISTED: usize = 20;
 
 /// The results of a whole run that have a distribution.
-const SHOWN: [&str; 6] = ["contacts", "first_contact_s", "least_clearance_m", "path_m", "at_goal_s", "first_at_goal_s"];
+const SHOWN: [&str; 12] = [
+    "contacts",
+    "first_contact_s",
+    "least_clearance_m",
+    "path_m",
+    "at_goal_s",
+    "first_at_goal_s",
+    "iterations",
+    "edges",
+    "planned_path_m",
+    "planned_path_rad",
+    "planned_clearance_m",
+    "planned_time_s",
+];
 
 /// What a report is made of.
 struct Gathered {
@@ -98,7 +111,8 @@ fn title(column: &Column) -> String {
 /// The link that shows the run of a row in a browser and compares its digest; else why none can.
 fn link(plan: &SweepPlan, row: u64, digest: &str, site: &str) -> Result<String, String> {
     let setup = plan.setup(row)?;
-    let link = Link::of(setup.seed, &setup.config, setup.script).map_err(|error| error.to_string())?;
+    let RunInputs::Script(script) = setup.inputs else { return Err("a planner makes its script".into()) };
+    let link = Link::of(setup.seed, &setup.config, script).map_err(|error| error.to_string())?;
     let link = Link { digest: Some(digest.to_owned()), ..link };
     link.address(site).map_err(|error| error.to_string())
 }
@@ -177,6 +191,7 @@ impl Gathered {
             plan.digest()
         );
         let axes = plan.axes().map(|(axis, len)| match len {
+            Some(1) => format!("{} (1 value)", escaped(&axis)),
             Some(len) => format!("{} ({len} values)", escaped(&axis)),
             None => escaped(&axis),
         });

@@ -7,7 +7,8 @@ use clap::Args;
 use motion_lab::sweep::{Cell, PartError, PartReader, RunRow, SweepPlan, TableError, TableFile};
 
 use super::merge;
-use super::one::{log_name, recorded, remove_partial};
+use super::one::{log_name, remove_partial};
+use super::planned::{Made, made};
 use crate::cli::commands::record::{Ended, Stop, write_run};
 use crate::cli::support::input::open;
 use crate::cli::support::interrupt;
@@ -88,18 +89,26 @@ impl Reproduce {
             data.line(format!("row {} could not be run, and there is no log: {reason}", self.row))?;
             return Ok(Outcome::Done);
         };
-        let setup = plan.setup(self.row).map_err(|reason| {
+        let cannot = |reason: String| {
             Failure::input(
                 format!("{}: row {} can't be run: {reason}", self.file.display(), self.row),
                 "Use the version of motion-lab that made it.",
             )
-        })?;
+        };
+        let stopped = || {
+            say("stopped; nothing is kept, start again");
+            Outcome::Stopped
+        };
+        let run = match made(plan.setup(self.row).map_err(cannot)?)? {
+            Made::Run(run, _) => run,
+            Made::None(reason, _) => return Err(cannot(reason)),
+            Made::Stopped => return Ok(stopped()),
+        };
         let output = self.output.unwrap_or_else(|| log_name(Path::new(""), self.row));
         let target = Target::file(&output)?;
-        let Ended::Whole { digest, .. } = write_run(&recorded(setup), None, Stop::default(), &output)? else {
+        let Ended::Whole { digest, .. } = write_run(&run, None, Stop::default(), &output)? else {
             remove_partial(&output);
-            say("stopped; nothing is kept, start again");
-            return Ok(Outcome::Stopped);
+            return Ok(stopped());
         };
         target.wrote();
         if digest.to_string() == expected {

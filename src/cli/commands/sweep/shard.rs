@@ -91,9 +91,11 @@ pub fn run(
     note(format!("wrote {}", part.display()));
     let (failures, without_run) = (failures.into_inner(), without_run.into_inner());
     let made = count - before;
-    data.line(format!(
-        "{count} runs; of the {made} made now {failures} failed, {without_run} of which could not be run"
-    ))?;
+    let failed = match failures {
+        0 => "none failed".to_owned(),
+        _ => format!("{failures} failed, of which {without_run} could not be run"),
+    };
+    data.line(format!("{}, {made} of them made now; {failed}", counted(usize::try_from(count).unwrap_or(0), "run")))?;
     if shard == Shard::WHOLE {
         note(format!("For one table: motion-lab sweep merge {} -o table.parquet", folder.display()));
     }

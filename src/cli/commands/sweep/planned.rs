@@ -1,0 +1,153 @@
+//! A run whose inputs are made: by its script, or by a planner's path that is planned and played.
+
+use std::sync::Arc;
+
+use clap::ValueEnum;
+use motion_lab::collision::Scene;
+use motion_lab::num::greater;
+use motion_lab::planning::{Bounds, Effort, NoPath};
+use motion_lab::random::Seed;
+use motion_lab::robots::AnyRobot;
+use motion_lab::run::{Script, seconds};
+use motion_lab::simulation::{PlayStage, PlayedPath};
+use motion_lab::sweep::{Planned, PlannedPath, Planning, RunInputs, RunSetup};
+use motion_lab::tour::TourConfig;
+use motion_lab::worlds::World;
+
+use crate::cli::Failure;
+use crate::cli::commands::plan::{Attempt, PlannerName, Task};
+use crate::cli::commands::record;
+use crate::cli::support::interrupt;
+use crate::cli::support::log_kind::LogKind;
+
+/// The iterations after which a planner is asked whether to stop.
+const ROUND: u64 = 500;
+
+/// What became of a run's inputs.
+pub enum Made {
+    /// They are there; with what came of planning, where a planner made them.
+    Run(Box<record::Plan>, Option<Planned>),
+    /// There are none, for this reason.
+    None(String, Planned),
+    /// Somebody asked to stop.
+    Stopped,
+}
+
+/// Why there is no script.
+enum Why {
+    /// There is no path, or none that can be played, for this reason.
+    NoPath(String),
+    /// Somebody asked to stop.
+    Stopped,
+    /// A fault of the program.
+    Fault(Failure),
+}
+
+impl From<String> for Why {
+    fn from(reason: String) -> Self {
+        Why::NoPath(reason)
+    }
+}
+
+impl From<NoPath> for Why {
+    fn from(reason: NoPath) -> Self {
+        Why::NoPath(reason.to_string())
+    }
+}
+
+impl From<Failure> for Why {
+    fn from(failure: Failure) -> Self {
+        match failure {
+            // a planner that is none for this robot
+            Failure::Usage { reason, .. } => Why::NoPath(reason),
+            failure => Why::Fault(failure),
+        }
+    }
+}
+
+/// The run of a row as `record` records one, with a full log.
+pub fn made(setup: RunSetup) -> Result<Made, Failure> {
+    let RunSetup { seed, config, inputs } = setup;
+    let (script, planned) = match inputs {
+        RunInputs::Script(script) => (script, None),
+        RunInputs::Planner(planning) => {
+            let mut planned = Planned::default();
+            match planned_script(&config, seed, &planning, &mut planned) {
+                Ok(script) => (script, Some(planned)),
+                Err(Why::NoPath(reason)) => return Ok(Made::None(reason, planned)),
+                Err(Why::Stopped) => return Ok(Made::Stopped),
+                Err(Why::Fault(failure)) => return Err(failure),
+            }
+        }
+    };
+    Ok(Made::Run(Box::new(record::Plan { seed, config, script, kind: LogKind::Full }), planned))
+}
+
+/// The script that plays the path of the run's only robot. What comes of planning goes to `planned`, as far as it gets.
+fn planned_script(config: &TourConfig, seed: Seed, planning: &Planning, planned: &mut Planned) -> Result<Script, Why> {
+    let world = config.worlds.iter().find(|world| !world.robots.is_empty());
+    let world = world.ok_or_else(|| "no robot takes part in this run".to_owned())?;
+    let (task, name) = task(world, planning)?;
+    let mut attempt = task.attempt(name, seed)??;
+    let solved = solve(attempt.as_mut(), planning.iterations.unwrap_or(name.iterations()));
+    let Effort { iterations, edges, .. } = attempt.effort();
+    *planned = Planned { iterations, edges, path: None };
+    solved?;
+    let path = PlannedPath { length: attempt.length(), clearance: attempt.clearance(), time: None };
+    planned.path = Some(path);
+    let played = play(attempt.as_ref(), world, seed, planning.tube)?;
+    planned.path = Some(PlannedPath { time: Some(seconds(played.ticks)), ..path });
+    Ok(played.script)
+}
+
+/// The task of a world's only robot, and its planner; else the reason against it.
+fn task(world: &World, planning: &Planning) -> Result<(Task, PlannerName), String> {
+    let resident = &world.robots[0];
+    let at = |q: &[f64]| {
+        let placed = AnyRobot::sized(&resident.kind, q, resident.sizes.as_ref());
+        placed.ok_or_else(|| format!("{q:?} is no configuration of {}, a {}", resident.name, resident.kind))
+    };
+    let ((robot, start), (other, goal)) = (at(&resident.start)?, at(&planning.goal)?);
+    if other != robot {
+        return Err("one of start and goal has a trailer's heading, the other has none".into());
+    }
+    let name = match &planning.planner {
+        Some(name) => named(name)?,
+        None => PlannerName::default_for(&robot),
+    };
+    let scene = Arc::new(Scene::of_world(world));
+    let task =
+        Task { name: resident.name.clone(), robot, world: world.clone(), scene, start, goal, tube: planning.tube };
+    Ok((task, name))
+}
+
+/// The planner of this name; else what there is.
+pub fn named(name: &str) -> Result<PlannerName, String> {
+    PlannerName::from_str(name, false).map_err(|_| {
+        let names: Vec<String> = PlannerName::value_variants().iter().map(|planner| planner.name()).collect();
+        format!("there is no planner {name:?}; there are {}", names.join(", "))
+    })
+}
+
+/// Works on a path until it is there, there will be none, or somebody asks to stop.
+fn solve(attempt: &mut dyn Attempt, iterations: u64) -> Result<(), Why> {
+    let mut bound = 0;
+    loop {
+        bound = iterations.min(bound + ROUND);
+        match attempt.solve(&Bounds::of_iterations(bound)) {
+            Err(NoPath::Exhausted { .. }) if bound < iterations => {
+                if interrupt::asked_to_stop() {
+                    return Err(Why::Stopped);
+                }
+            }
+            solved => return solved.map_err(Why::from),
+        }
+    }
+}
+
+/// The script that plays the path; else why it can't be played.
+fn play(attempt: &dyn Attempt, world: &World, seed: Seed, tube: f64) -> Result<PlayedPath, String> {
+    let stage = PlayStage { tube: greater(tube, 1e-3), ..PlayStage::new(world, &world.robots[0].name, seed) };
+    let played = attempt.play(&stage).ok_or("there is no path to play")?;
+    played.map_err(|reason| format!("the path can't be played: {reason}"))
+}
