@@ -58,21 +58,21 @@ enum Command {
     Replay(replay::Replay),
     Diff(diff::Diff),
     Export(export::Export),
-    Info(info::Info),
     Stats(stats::StatsArgs),
-    Plan(Box<plan::PlanArgs>),
     Plot(plot::PlotArgs),
+    Info(info::Info),
     Query(query::Query),
+    Plan(Box<plan::PlanArgs>),
     Capture(Box<capture::Capture>),
     World(world::WorldArgs),
     Script(script::ScriptArgs),
-    Sweep(Box<sweep::SweepArgs>),
-    Completions(completions::Completions),
-    Man(completions::ManPages),
     Grade(grade::GradeArgs),
-    Describe(describe::Describe),
+    Sweep(Box<sweep::SweepArgs>),
     #[cfg(feature = "window")]
     Open(open::Open),
+    Describe(describe::Describe),
+    Completions(completions::Completions),
+    Man(completions::ManPages),
 }
 
 impl Cli {
@@ -127,6 +127,8 @@ mod tests {
 
     fn walk(command: &clap::Command, seen: &mut usize) {
         for below in command.get_subcommands().filter(|c| c.get_name() != "help") {
+            let about = below.get_about().map(ToString::to_string).unwrap_or_default();
+            assert!(!about.is_empty() && !about.ends_with('.'), "{}: {about}", below.get_name());
             let examples = examples(below);
             assert!(!examples.is_empty(), "the help of `{}` has no example", below.get_name());
             for line in examples {

@@ -52,6 +52,54 @@ fn a_file_s_name_tells_the_form() {
 }
 
 #[test]
+fn what_is_printed_goes_to_a_file_too() {
+    let folder = folder();
+    for (arguments, name) in [(&["world", "show", "lot"][..], "lot.ron"), (&["script", "print", "run.mcap"], "run.ron")]
+    {
+        let printed = run_in(folder.path(), arguments).done();
+        for said in
+            [format!("wrote {name}\n"), format!("wrote {name}, replacing an older file of {} bytes", printed.len())]
+        {
+            let written = run_in(folder.path(), &[arguments, &["-o", name]].concat());
+            assert!(written.out.is_empty() && written.err.contains(&said), "{}", written.err);
+            assert_eq!(fs::read_to_string(folder.path().join(name)).unwrap(), printed);
+        }
+        assert_eq!(run_in(folder.path(), &[arguments, &["-o", "-"]].concat()).done(), printed);
+    }
+}
+
+/// The script in a text, from `Script(` to the line that ends it.
+fn script_in(text: &str) -> String {
+    let text = &text[text.find("Script(").unwrap()..];
+    let end = text.find("\n\n").into_iter().chain(text.find("```")).min().unwrap();
+    text[..end].to_owned()
+}
+
+#[test]
+fn the_scripts_in_help_and_docs_are_scripts_of_every_kind_of_robot() {
+    let docs = fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/docs/formats.md")).unwrap();
+    let docs = docs.split("\n## Scripts\n").nth(1).unwrap();
+    let folder = tempfile::tempdir().unwrap();
+    for text in [docs, &run(&["script", "--help"]).done()] {
+        fs::write(folder.path().join("a.ron"), script_in(text)).unwrap();
+        let worlds = ["--world", "apartment", "--world", "workbench", "--world", "lot"];
+        let said = run_in(folder.path(), &[&["script", "check", "a.ron"], &worlds[..]].concat()).done();
+        assert_eq!(said, "a.ron: 5 events, ticks 1 to 90, robots: Hitch, Reach, Rusty\n");
+    }
+    // whoever writes metres is led to the form
+    fs::write(
+        folder.path().join("a.ron"),
+        "Script(version: 1, events: [(tick: 1, robot: \"Rusty\", input: Teleport([2.25, 6.25, 0]))])",
+    )
+    .unwrap();
+    let error = run_in(folder.path(), &["script", "check", "a.ron"]).failed(3);
+    assert!(
+        error.contains("a whole number belongs here") && error.contains("`motion-lab script --help` has"),
+        "{error}"
+    );
+}
+
+#[test]
 fn a_dash_is_standard_input_for_logs() {
     let folder = folder();
     let log = fs::read(folder.path().join("run.mcap")).unwrap();

@@ -87,8 +87,11 @@ fn the_first_refusal_says_tick_robot_input_and_reason() {
     let said = "tick 4: robot \"it\" refused Teleport: it would touch";
     assert_eq!(first(put("it", 10.0)), format!("{said} the wall there"));
     assert_eq!(first(put("it", 2.1)), format!("{said} another robot there"));
-    let moved = event(4, "car", RobotInput::MoveTo(quantized(&[0.0, 0.0, 0.0])));
-    assert_eq!(first(moved), "tick 4: robot \"car\" refused MoveTo: it takes no MoveTo");
+    // also with coordinates that it could not be put at
+    for coordinates in [&[0.0; 3][..], &[0.0; 2]] {
+        let moved = event(4, "car", RobotInput::MoveTo(quantized(coordinates)));
+        assert_eq!(first(moved), "tick 4: robot \"car\" refused MoveTo: it takes no MoveTo");
+    }
     let flat = event(4, "car", RobotInput::Teleport(quantized(&[0.0, 0.0])));
     assert_eq!(
         first(flat),

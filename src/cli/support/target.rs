@@ -8,7 +8,16 @@ use tempfile::TempDir;
 use super::console::note;
 use super::input::{is_dash, read_bytes};
 use super::log_source::MAX_LOG;
+use super::output::write_file;
 use crate::cli::{Data, Failure};
+
+/// Writes a text to a file, and says so; to standard output when there is none.
+pub fn write_text(output: Option<&Path>, text: &str, data: &mut Data) -> Result<(), Failure> {
+    let Some(output) = output.filter(|output| !is_dash(output)) else { return data.text(text) };
+    let target = Target::of(output)?;
+    write_file(target.path(), text.as_bytes())?;
+    target.finish(data)
+}
 
 /// The target of an output: a file, or for `-` standard output, which gets the whole file when it is done.
 pub struct Target {

@@ -29,7 +29,7 @@ pub fn parse_script(path: &Path, text: &str) -> Result<Script, Failure> {
             let next = format!("A table is no script; make one of it: motion-lab script convert {}", path.display());
             Failure::input(error, next)
         }
-        _ => Failure::input(error, "Correct the script there."),
+        _ => Failure::input(error, "Correct the script there; `motion-lab script --help` has the form of each input."),
     })
 }
 

@@ -90,6 +90,8 @@ fn accepted<R: SimulatedRobot>(
             Ok((DriveMode { channels, target: None, ..taken_over }, None))
         }
         RobotInput::MoveTo(target) => {
+            // one that goes nowhere says so, whatever the coordinates
+            robot.toward(q, q).ok_or(Refused::NotTaken)?;
             let target = configuration_at(target)?;
             robot.toward(q, &target).ok_or(Refused::NotTaken)?;
             Ok((DriveMode { target: Some(target), ..taken_over }, None))

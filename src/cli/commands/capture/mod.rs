@@ -15,7 +15,7 @@ use crate::cli::support::simulate::not_shown;
 use crate::cli::support::target::Target;
 use crate::cli::{Data, Failure, Outcome};
 
-/// Draw what a widget shows, without a display: a figure for a page, as SVG or PNG; a run over a span of ticks as GIF.
+/// Draw what a widget shows, without a display: a figure for a page, as SVG or PNG; a run over a span of ticks as GIF
 ///
 /// The file's name tells the form, or --format. Seed and digest, or the world's content hash and the configuration, are
 /// in the file: in the notes of a PNG, the metadata of an SVG, the comment of a GIF.

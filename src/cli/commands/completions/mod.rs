@@ -17,7 +17,8 @@ Examples:
   motion-lab completions bash > ~/.local/share/bash-completion/completions/motion-lab
   motion-lab completions zsh > ~/.zfunc/_motion-lab
   motion-lab completions fish > ~/.config/fish/completions/motion-lab.fish
-  motion-lab completions powershell >> $PROFILE")]
+  motion-lab completions powershell >> $PROFILE
+  motion-lab completions elvish >> ~/.config/elvish/rc.elv")]
 pub struct Completions {
     /// The shell.
     shell: Shell,

@@ -22,7 +22,7 @@ use crate::cli::{Data, Failure, Outcome, say};
 use gradebook::Results;
 use graded::Graded;
 
-/// Grade scripts and logs by running them again at every seed of an assignment.
+/// Grade scripts and logs by running them again at every seed of an assignment
 ///
 /// A log's frames are simulated again first: a log that claims others is forged. A submission passes when its robot is
 /// at the goal within every limit, at every seed. The exit code is 0 when all pass, 3 when a file is missing or can't

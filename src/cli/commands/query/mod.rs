@@ -35,7 +35,7 @@ use crate::cli::{Data, Failure, Outcome, say};
 /// Largest number of wrong lines that get a message of their own.
 const MESSAGES: u64 = 10;
 
-/// Ask about a robot's configurations in a world.
+/// Ask about a robot's configurations in a world
 ///
 /// Every answer is one line of JSON with full precision: each number has the fewest digits that read back to the same
 /// bits, and infinity is the text "inf".

@@ -13,18 +13,31 @@ use serde::Serialize;
 use crate::cli::support::choices::WorldNames;
 use crate::cli::support::input::{for_each_file, read_bytes_if, read_text};
 use crate::cli::support::log_source::read_any_log;
-use crate::cli::support::output::write_file;
-use crate::cli::support::target::Target;
+use crate::cli::support::target::write_text;
 use crate::cli::support::words::{changes_in_words, counted, none, parse_script, unfit};
 use crate::cli::support::world_source::find_world;
 use crate::cli::{Data, Failure, Outcome, say};
 
-/// Check and print input scripts; make one from a table.
+/// Check and print input scripts; make one from a table
+///
+/// A script, with each input once; ticks ascend, and 20 of them are a second:
+///
+/// Script(version: 1, events: [
+///     (tick: 1, robot: "Hitch", input: Drive(128, -64)),
+///     (tick: 1, robot: "Reach", input: MoveTo([1048576, 524288])),
+///     (tick: 9, robot: "Rusty", input: Teleport([2359296, 6553600, 0])),
+///     (tick: 20, robot: "Hitch", input: SetTrailer(true)),
+///     (tick: 90, robot: "Hitch", input: Release)])
+///
+/// Drive holds two channels, from -128 to 128, the maximum: a rover's speed and turn rate, a car's speed and steering
+/// angle. The coordinates of MoveTo and Teleport are whole numbers in units of 2^-20 m or rad: 1048576 is 1, 524288 a
+/// half. `script convert` makes them of a table in metres and radians. Release gives the robot back to its tour.
 #[derive(Debug, Args)]
+#[command(verbatim_doc_comment)]
 #[command(after_help = "\
 Examples:
   motion-lab script check drive.ron --world apartment
-  motion-lab script print run.mcap > drive.ron
+  motion-lab script print run.mcap -o drive.ron
   motion-lab script convert drive.csv -o drive.ron")]
 pub struct ScriptArgs {
     #[command(subcommand)]
@@ -55,11 +68,14 @@ Examples:
     /// Print a script in its canonical form: an event a line.
     #[command(after_help = "\
 Examples:
-  motion-lab script print run.mcap > drive.ron
+  motion-lab script print run.mcap -o drive.ron
   motion-lab script print - < run.mcap")]
     Print {
         /// A script, or a log with one.
         file: PathBuf,
+        /// Write to this file; standard output when there is none.
+        #[arg(short, long, value_name = "FILE")]
+        output: Option<PathBuf>,
     },
     /// Make a script from a table of comma-separated values.
     ///
@@ -103,7 +119,7 @@ impl ScriptArgs {
     pub fn run(self, data: &mut Data) -> Result<Outcome, Failure> {
         match self.command {
             ScriptCommand::Check { files, world, json } => check(&files, &world, json, data),
-            ScriptCommand::Print { file } => print(&file, data),
+            ScriptCommand::Print { file, output } => print(&file, output.as_deref(), data),
             ScriptCommand::Convert { file, world, output } => {
                 let config = config(&world)?;
                 let text = read_text(&file)?;
@@ -113,9 +129,7 @@ impl ScriptArgs {
                         "Correct it there; `motion-lab script convert --help` tells the form.",
                     )
                 })?;
-                let target = Target::of(output.as_deref().unwrap_or(Path::new("-")))?;
-                write_file(target.path(), script.to_ron().as_bytes())?;
-                target.finish(data)?;
+                write_text(output.as_deref(), &script.to_ron(), data)?;
                 Ok(Outcome::Done)
             }
         }
@@ -126,14 +140,14 @@ fn read_script(file: &Path) -> Result<Script, Failure> {
     parse_script(file, &read_text(file)?)
 }
 
-fn print(file: &Path, data: &mut Data) -> Result<Outcome, Failure> {
+fn print(file: &Path, output: Option<&Path>, data: &mut Data) -> Result<Outcome, Failure> {
     // a log begins with a byte that begins no text
     if read_bytes_if(file, 0, |_| false)?.first() != Some(&0x89) {
-        data.text(&read_script(file)?.to_ron())?;
+        write_text(output, &read_script(file)?.to_ron(), data)?;
         return Ok(Outcome::Done);
     }
     let source = read_any_log(file)?;
-    data.text(&source.log.parts().2.to_ron())?;
+    write_text(output, &source.log.parts().2.to_ron(), data)?;
     Ok(match source.damage {
         None => Outcome::Done,
         Some(damage) => {
@@ -182,10 +196,8 @@ fn summarise(file: &Path, script: &Script, json: bool, data: &mut Data) -> Resul
     match (summary.first, summary.last) {
         (Some(first), Some(last)) => {
             let robots = robots.join(", ");
-            data.line(format!(
-                "{source}: {}{changes}, ticks {first} to {last}, robots: {robots}",
-                counted(*events, "event")
-            ))
+            let ticks = if first == last { format!("tick {first}") } else { format!("ticks {first} to {last}") };
+            data.line(format!("{source}: {}{changes}, {ticks}, robots: {robots}", counted(*events, "event")))
         }
         _ => data.line(format!("{source}: no events")),
     }

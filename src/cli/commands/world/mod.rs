@@ -14,6 +14,7 @@ use serde::Serialize;
 use crate::cli::support::choices::WorldNames;
 use crate::cli::support::input::for_each_file;
 use crate::cli::support::simulate::unknown_kind;
+use crate::cli::support::target::write_text;
 use crate::cli::support::words::counted;
 use crate::cli::support::world_source::{find_world, read_world};
 use crate::cli::{Data, Failure, Outcome, say};
@@ -26,7 +27,7 @@ use import::Import;
 #[command(after_help = "\
 Examples:
   motion-lab world list
-  motion-lab world show lot > yard.ron
+  motion-lab world show lot -o yard.ron
   motion-lab world check yard.ron")]
 pub struct WorldArgs {
     #[command(subcommand)]
@@ -63,11 +64,15 @@ Examples:
     /// Print a world as a world file: a start for one of your own.
     #[command(after_help = "\
 Examples:
-  motion-lab world show apartment > mine.ron")]
+  motion-lab world show apartment
+  motion-lab world show apartment -o mine.ron")]
     Show {
         /// A built-in world's name, or the path of a world file.
         #[arg(value_name = "NAME|FILE", value_parser = WorldNames, hide_possible_values = true)]
         world: String,
+        /// Write to this file; standard output when there is none.
+        #[arg(short, long, value_name = "FILE")]
+        output: Option<PathBuf>,
     },
     Import(Box<Import>),
     Export(Export),
@@ -101,8 +106,8 @@ impl WorldArgs {
                 }
                 Ok(Outcome::Done)
             }
-            WorldCommand::Show { world } => {
-                data.text(&find_world(&world)?.to_ron())?;
+            WorldCommand::Show { world, output } => {
+                write_text(output.as_deref(), &find_world(&world)?.to_ron(), data)?;
                 Ok(Outcome::Done)
             }
             WorldCommand::Import(import) => import.run(data),
