@@ -5,32 +5,12 @@ import { readFileSync, rmSync, writeFileSync } from "node:fs";
 import { after, before, test } from "node:test";
 import { join } from "node:path";
 import { Lab, begin, end, native, newBrowser, origin, shots } from "./harness.mjs";
+import { digestOf, download, lab } from "./on_page.mjs";
 
 before(begin);
 after(end);
 
-/** A test on a page of its own, at the end of which nothing that must not happen may have happened. */
-function lab(name, path, body, options = {}) {
-  test(name, { timeout: options.timeout ?? 180000 }, async () => {
-    const page = await Lab.open(path, options);
-    try {
-      await body(page);
-    } catch (error) {
-      await page.shot(`failed-${name.replace(/\W+/g, "-")}`).catch(() => {});
-      console.error(`# what happened on the page: ${page.faults.join("; ") || "no fault"}`);
-      throw error;
-    }
-    assert.deepEqual(await page.close(), [], "no errors, no policy violations, no foreign requests");
-  });
-}
-
-const digestOf = (text) => /digest ([0-9a-f]{32})/.exec(text)[1];
 const rusty = (s) => s.robots.find((r) => r.name === "Rusty");
-
-async function download(page, act) {
-  const [file] = await Promise.all([page.waitForEvent("download"), act()]);
-  return { name: file.suggestedFilename(), path: await file.path() };
-}
 
 lab("loads, plays, and its first frame is soon there", "/", async (lab) => {
   const first = await lab.page.evaluate(() => performance.getEntriesByName("first-frame")[0].startTime);
