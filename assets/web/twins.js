@@ -202,14 +202,24 @@ export function fingers({ canvas, at, embedded }) {
     const { left, top } = canvas.getBoundingClientRect();
     return [clientX - left, clientY - top];
   };
+  /** What a finger drags that comes down there; `undefined` where it scrolls, `null` on a drawing not in use. */
+  const dragged = ([x, y]) => {
+    const own = at(x, y, ["handle", "slider", "number"]);
+    const [, , width, height] = own?.widget.place ?? [0, 0, 0, 0];
+    const isDrawing = width * height > 0.1 * canvas.clientWidth * canvas.clientHeight;
+    return isDrawing && !isHeld ? null : own;
+  };
+  // a drawing that nobody uses yet does not move before it is known whether the finger scrolls
+  canvas.parentElement.addEventListener(
+    "pointerdown",
+    (event) => event.pointerType === "touch" && event.target === canvas && dragged(point(event)) === null && event.stopPropagation(),
+    { capture: true },
+  );
   canvas.addEventListener(
     "touchstart",
     (event) => {
       tap = event.touches.length === 1 ? point(event.touches[0]) : null;
-      const own = tap && at(...tap, ["handle", "slider", "number"]);
-      const [, , width, height] = own?.widget.place ?? [0, 0, 0, 0];
-      const isDrawing = width * height > 0.1 * canvas.clientWidth * canvas.clientHeight;
-      if (own && (isHeld || !isDrawing)) event.preventDefault();
+      if (tap && dragged(tap)) event.preventDefault();
     },
     { passive: false },
   );

@@ -307,11 +307,12 @@ lab("the accessibility tree tells what the canvas shows", "/?tick=200", async (l
   const { nodes } = await session.send("Accessibility.getFullAXTree");
   const named = (role) => nodes.filter((n) => n.role?.value === role && !n.ignored).map((n) => n.name?.value);
   const buttons = named("button");
-  assert.ok(buttons.includes("speed: 1 x"), `${buttons}`);
+  assert.ok(named("popUpButton").concat(named("combobox")).concat(buttons).includes("speed: 1 x"), `${buttons}`);
   for (const name of ["Play", "Step", "Reset", "Re-roll", "Copy link", "Save run", "Drive", "Atlas"]) assert.ok(buttons.includes(name), `${name} among ${buttons}`);
   assert.ok(named("textbox").includes("seed"), named("textbox").join());
   assert.ok(named("spinbutton").includes("Reach: theta1"), named("spinbutton").join());
-  assert.ok(nodes.some((n) => /Pose2 \{ x: /.test(n.name?.value ?? "")), "the readouts are named");
+  const rusty = nodes.find((n) => n.role?.value === "button" && n.name?.value === "Bring Rusty · Apartment to the front (1). Apartment. Rusty");
+  assert.match(rusty.description.value, /^Pose2 \{ x: /, "the readouts are beside the names");
   assert.ok(nodes.some((n) => n.role?.value === "status"), "a live region");
   assert.ok(nodes.some((n) => n.role?.value === "alert"), "and one for what went wrong");
 });
