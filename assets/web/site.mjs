@@ -44,7 +44,7 @@ function hashed(name, contents, part) {
 }
 
 const colours = (theme) => Object.entries(lab.colours[theme]).map(([role, colour]) => `--${role}:${colour};`).join("");
-const roles = Object.keys(lab.colours.light).map((role) => `.role-${role}{color:var(--${role})}`).join("\n");
+const roles = Object.keys(lab.colours.light).map((role) => `.role-${role}{--own:var(--${role});color:var(--${role})}`).join("\n");
 const style =
   `:root{color-scheme:light;${colours("light")}}\n` +
   `@media (prefers-color-scheme:dark){:root:not([data-theme=light]){color-scheme:dark;${colours("dark")}}}\n` +

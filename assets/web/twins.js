@@ -7,6 +7,9 @@ const CHANGING = /(?:: | at )?\b(?:Pose2|HitchCfg|T\d|R2) \{/;
 /** Keys that a twin needs itself; a kind that is not here keeps all. */
 const OWN_KEYS = { button: "Enter Space Tab", combo: "Enter Space Tab", check: "Enter Space Tab", handle: "Tab" };
 
+/** Kinds that are typed into the twin, which is seen meanwhile. */
+const TYPED = ["number", "field"];
+
 /** Kinds that are drawn as one button. */
 const PRESSED = ["button", "combo", "handle"];
 
@@ -15,7 +18,7 @@ const PRESSED = ["button", "combo", "handle"];
  * `leave` takes the focus when the twin that has it goes.
  */
 export function twins({ container, send, titles, leave }) {
-  const all = new Map();
+  let all = []; // the twins, in the order of the screen
   let asked = null; // the twin whose focus the lab has yet to take over
   let follows = false; // whether the focus moves because the lab's has
 
@@ -34,6 +37,7 @@ export function twins({ container, send, titles, leave }) {
       control.type = { check: "checkbox", slider: "range", number: "number", field: "text" }[widget.kind];
       control.autocomplete = "off";
       element.append(document.createElement("span"), control);
+      element.classList.toggle("typed", TYPED.includes(widget.kind));
     }
     const own = { element, control, widget };
     if (control !== element) listen(own);
@@ -42,9 +46,15 @@ export function twins({ container, send, titles, leave }) {
 
   function listen(own) {
     const { control, element, widget } = own;
-    const act = (action, value) => send({ do: "act", id: own.widget.id, action, value });
+    const act = (action, value) => {
+      const { id } = own.widget;
+      if (action === "set") own.wanted = { id, value, until: performance.now() + 2000 };
+      send({ do: "act", id, action, value });
+    };
+    own.act = act;
     control.addEventListener("focus", () => {
-      if (follows) return;
+      // in the lab a number that has the focus becomes a text to type: here the twin is that, and is seen
+      if (follows || TYPED.includes(widget.kind)) return;
       asked = { id: own.widget.id, until: performance.now() + 1000 };
       act("focus");
     });
@@ -68,8 +78,8 @@ export function twins({ container, send, titles, leave }) {
   }
 
   /** A number's arrow keys go in the lab's steps: those of an element would call every other number invalid. */
-  function step(event, { control, widget }, act) {
-    if (event.key === "Enter") control.blur();
+  function step(event, { control, element, widget }, act) {
+    if (event.key === "Enter" && element.classList.contains("typing")) control.blur();
     const by = { ArrowUp: 1, ArrowDown: -1 }[event.key];
     if (!by || !widget.range) return;
     event.preventDefault();
@@ -97,6 +107,10 @@ export function twins({ container, send, titles, leave }) {
     const name = widget.name ?? "";
     if (widget.kind === "text") return words(element, name);
     if (widget.kind === "image") return element.setAttribute("aria-label", name);
+    // what was set under a number that the lab no longer uses is set again under the new one
+    const { wanted } = own;
+    if (wanted && (performance.now() > wanted.until || Number(wanted.value) === Number(widget.value))) own.wanted = null;
+    else if (wanted && wanted.id !== widget.id) own.act("set", wanted.value);
     // a name does not change while it is read
     const isRead = control === document.activeElement;
     if (PRESSED.includes(widget.kind)) {
@@ -108,7 +122,9 @@ export function twins({ container, send, titles, leave }) {
     control.disabled = widget.off_limits ?? false;
     if (widget.kind === "check") control.checked = widget.on;
     else if (widget.kind === "button" && widget.on !== undefined) control.setAttribute("aria-pressed", widget.on);
-    if (widget.range) {
+    // what stays is not set again: that would take half a number from under the reader's fingers
+    if (widget.range && own.range !== String(widget.range) && !isRead) {
+      own.range = String(widget.range);
       [control.min, control.max] = widget.range;
       control.step = "any";
     }
@@ -141,30 +157,53 @@ export function twins({ container, send, titles, leave }) {
     return ordered;
   }
 
+  /** A widget's kind and name, and which of those that share them it is. */
+  function keys(widgets) {
+    const count = new Map();
+    return widgets.map(({ kind, name }) => {
+      const key = `${kind} ${kind === "text" ? "" : name}`;
+      count.set(key, (count.get(key) ?? 0) + 1);
+      return `${key} ${count.get(key)}`;
+    });
+  }
+
+  /**
+   * The twin that each widget had before. The lab's numbers move on when words come or go above, and a twin that went with its number
+   * would take the focus along; so a name counts first, and a number where the name is new, as Pause's is that was Play.
+   */
+  function known(widgets) {
+    const found = new Map();
+    const free = new Set(all);
+    const match = (is) => {
+      for (const own of free) {
+        const widget = widgets.find((w, i) => !found.has(w) && is(own, w, i));
+        if (widget) found.set(widget, own) && free.delete(own);
+      }
+    };
+    const named = keys(widgets);
+    match((own, w, i) => own.widget.id === w.id && own.key === named[i]);
+    match((own, w, i) => own.key === named[i]);
+    match((own, w) => own.widget.id === w.id && own.widget.kind === w.kind);
+    for (const own of free) {
+      if (own.element.contains(document.activeElement)) leave();
+      own.element.remove();
+    }
+    return found;
+  }
+
   /** Makes the twins those of `widgets`. */
   function mirror(widgets) {
-    const seen = new Set();
+    const ordered = inOrder(widgets);
+    const found = known(ordered);
+    all = ordered.map((widget) => found.get(widget) ?? make(widget));
+    keys(ordered).forEach((key, i) => (all[i].key = key));
     let last = null;
-    for (const widget of inOrder(widgets)) {
-      seen.add(widget.id);
-      let own = all.get(widget.id);
-      if (own && own.widget.kind !== widget.kind) {
-        own.element.remove();
-        own = null;
-      }
-      if (!own) all.set(widget.id, (own = make(widget)));
-      update(own, widget);
+    for (const [i, own] of all.entries()) {
+      update(own, ordered[i]);
       const place = last ? last.nextSibling : container.firstChild;
       // moving an element would take its focus away
       if (own.element !== place && !own.element.contains(document.activeElement)) container.insertBefore(own.element, place);
       last = own.element;
-    }
-    for (const [id, own] of all) {
-      if (!seen.has(id)) {
-        if (own.element.contains(document.activeElement)) leave();
-        own.element.remove();
-        all.delete(id);
-      }
     }
     follow(widgets.find((w) => w.focus)?.id);
   }
@@ -172,9 +211,9 @@ export function twins({ container, send, titles, leave }) {
   /** There is one focus: where the lab moves its own, by an arrow key say, the page's goes along. */
   function follow(id) {
     if (asked && (id === asked.id || performance.now() > asked.until)) asked = null;
-    const own = all.get(id);
+    const own = all.find((own) => own.widget.id === id);
     if (asked || !own || own.control === own.element || !container.contains(document.activeElement)) return;
-    if (own.control === document.activeElement || document.activeElement.closest(".typing")) return;
+    if (own.control === document.activeElement || document.activeElement.closest(".typed")) return;
     follows = true;
     own.control.focus({ preventScroll: true });
     follows = false;
@@ -185,7 +224,7 @@ export function twins({ container, send, titles, leave }) {
     const holds = ({ widget: { kind, place, off_limits } }) =>
       kinds.includes(kind) && !off_limits && place && x >= place[0] && y >= place[1] && x <= place[0] + place[2] && y <= place[1] + place[3];
     const area = ({ widget: { place } }) => place[2] * place[3];
-    return [...all.values()].filter(holds).sort((a, b) => area(a) - area(b))[0];
+    return all.filter(holds).sort((a, b) => area(a) - area(b))[0];
   }
 
   return { mirror, at };
@@ -204,15 +243,16 @@ export function fingers({ canvas, at, embedded }) {
   };
   /** What a finger drags that comes down there; `undefined` where it scrolls, `null` on a drawing not in use. */
   const dragged = ([x, y]) => {
-    const own = at(x, y, ["handle", "slider", "number"]);
+    const own = at(x, y, ["handle", "slider"]);
     const [, , width, height] = own?.widget.place ?? [0, 0, 0, 0];
     const isDrawing = width * height > 0.1 * canvas.clientWidth * canvas.clientHeight;
     return isDrawing && !isHeld ? null : own;
   };
-  // a drawing that nobody uses yet does not move before it is known whether the finger scrolls
+  // a drawing that nobody uses yet does not move before it is known whether the finger scrolls; what is typed is typed into the twin
+  const isOurs = (event) => dragged(point(event)) === null || at(...point(event), TYPED);
   canvas.parentElement.addEventListener(
     "pointerdown",
-    (event) => event.pointerType === "touch" && event.target === canvas && dragged(point(event)) === null && event.stopPropagation(),
+    (event) => event.pointerType === "touch" && event.target === canvas && isOurs(event) && event.stopPropagation(),
     { capture: true },
   );
   canvas.addEventListener(
@@ -227,7 +267,7 @@ export function fingers({ canvas, at, embedded }) {
     const [x, y] = point(event.changedTouches[0]);
     if (!tap || Math.hypot(x - tap[0], y - tap[1]) > 10) return;
     isHeld = true;
-    const own = at(x, y, ["number", "field"]);
+    const own = at(x, y, TYPED);
     if (!own) return;
     event.preventDefault(); // what a mouse would do next would take the focus again
     own.element.classList.add("typing");
