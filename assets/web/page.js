@@ -398,6 +398,21 @@ function counted(response) {
   return new Response(response.body.pipeThrough(count), { headers: { "content-type": "application/wasm" } });
 }
 
+/**
+ * Where a pixel ratio is emulated, by developer tools say, Chromium gives elements' sizes in the screen's own pixels, and the lab would draw
+ * at a fraction of its size. Without that way to ask it multiplies by the ratio.
+ */
+async function measurePixels() {
+  const measured = new Promise((done) => {
+    const observer = new ResizeObserver(([entry]) => (observer.disconnect(), done(entry)));
+    observer.observe($("stage"));
+  });
+  // a hidden page measures nothing
+  const entry = await Promise.race([measured, new Promise((done) => setTimeout(done, 300))]);
+  const said = entry?.devicePixelContentBoxSize?.[0].inlineSize;
+  if (said && Math.abs(said - entry.contentRect.width * devicePixelRatio) > 2) delete ResizeObserverEntry.prototype.devicePixelContentBoxSize;
+}
+
 /** What there is without WebGL 2: the pictures, in a frame that of its own widget; and a link's run, which the simulator alone plays. */
 async function withoutGraphics() {
   warn("This browser has no WebGL 2, which the lab draws with. Below are its widgets as pictures; a browser with hardware acceleration switched on shows the lab.");
@@ -436,7 +451,7 @@ async function start() {
   root.dataset.lab = "loading";
   $("loading").hidden = false;
   try {
-    const [module, response] = await pieces;
+    const [[module, response]] = await Promise.all([pieces, measurePixels()]);
     if (!response.ok) throw new Error(`${files.labWasm}: ${response.status} ${response.statusText}`);
     wasm = await module.default({ module_or_path: counted(response) });
     lab = module;

@@ -20,8 +20,8 @@ after(async () => {
 
 /** Opens a page of another origin around frames of the lab, text above and below; gives its frames. */
 async function around(page, frames) {
-  const frame = (query) => `<iframe src="${origin()}/embed.html${query}" style="width:100%;height:420px;border:0"></iframe>`;
-  body = `<meta name="viewport" content="width=device-width"><p style="height:300px">Text</p>${frames.map(frame).join("")}<p style="height:2000px">Text</p>`;
+  const frame = (query) => `<iframe src="${origin()}/embed.html${query}" style="width:100%;height:740px;border:0"></iframe>`;
+  body = `<meta name="viewport" content="width=device-width"><p>Text</p>${frames.map(frame).join("")}<p style="height:2000px">Text</p>`;
   await page.goto(`http://localhost:${hosts.address().port}/`);
   const inner = page.frames().slice(1);
   for (const frame of inner) await frame.waitForFunction(() => window.received?.kinds.includes("ready") && window.received.state, null, { timeout: 60000 });
@@ -150,7 +150,7 @@ lab("a page around asks Query, drives, puts and lets go robots, and closes doors
   await post({ do: "tab", id: "distance" });
   // theta1 = 0 and theta2 = pi/2: the chapter's arm, whose second link touches the square
   await post({ do: "configuration", coordinates: [0, Math.PI / 2] });
-  const { query } = await until('(m) => m.query && m.query.tab === "distance" && m.query.configuration.includes("th1: 0.000")');
+  const { query } = await until('(m) => m.query && m.query.tab === "distance" && /th1:\\s+0.000/.test(m.query.configuration)');
   assert.deepEqual([query.intersects, query.distance], [true, 0]);
   await post({ do: "configuration", coordinates: [1] });
   await refused("configuration: it has 2 coordinates");
@@ -160,3 +160,43 @@ lab("a page around asks Query, drives, puts and lets go robots, and closes doors
   const figure = await page.waitForFunction(() => window.heard.find((m) => m.kind === "figure"), null, { timeout: 60000 }).then((m) => m.jsonValue());
   assert.match(figure.svg, /^<svg[^>]*>[^]*<\/svg>\s*$/);
 }, elsewhere);
+
+/** The largest of the drawings that the lab shows, as left, top, width and height on the canvas. */
+const largest = () => {
+  const drawn = (w) => w.place && (w.kind === "handle" || (w.kind === "button" && / \{ /.test(w.name ?? "")));
+  const places = window.received.tree.filter(drawn).map((w) => w.place);
+  return places.sort((a, b) => b[2] * b[3] - a[2] * a[3])[0];
+};
+
+for (const [path, width, height, more] of [
+  ["/embed.html", 600, 400, {}],
+  ["/embed.html", 480, 300, {}],
+  ["/embed.html?widget=anatomy", 480, 300, {}],
+  ["/embed.html?widget=cspace", 600, 400, {}],
+  ["/embed.html?widget=atlas", 480, 300, {}],
+  ["/", 844, 390, { hasTouch: true, isMobile: true, deviceScaleFactor: 3 }],
+  ["/", 640, 400, { deviceScaleFactor: 2 }],
+  ["/", 360, 640, { hasTouch: true, isMobile: true, deviceScaleFactor: 3 }],
+]) {
+  lab(`the picture has its share: ${path} at ${width} x ${height}`, path, async (lab) => {
+    await lab.page.waitForTimeout(1200);
+    const [, , wide, high] = await lab.page.evaluate(largest);
+    console.log(`# ${wide} x ${high}`);
+    // half the height, or all of the width
+    assert.ok(high >= 0.5 * height || wide >= 0.85 * width, `${wide} x ${high}`);
+    assert.equal(await lab.page.evaluate(() => document.documentElement.scrollWidth - innerWidth), 0, "nothing is cut off");
+    await lab.shot(`share-${path.replace(/\W+/g, "-")}-${width}`);
+  }, { options: { viewport: { width, height }, ...more } });
+}
+
+lab("at 400 % nothing is cut off: all is reached by scrolling down", "/", async (lab) => {
+  await lab.page.waitForTimeout(1200);
+  const wider = await lab.page.evaluate(() => {
+    const canvas = document.getElementById("lab").getBoundingClientRect();
+    const right = Math.max(...window.received.tree.filter((w) => w.place).map((w) => w.place[0] + w.place[2]));
+    return [document.documentElement.scrollWidth - innerWidth, canvas.right - innerWidth, right - canvas.width];
+  });
+  console.log(`# ${wider}`);
+  assert.ok(wider.every((x) => x <= 0), `${wider}`);
+  await lab.shot("at-400");
+}, { options: { viewport: { width: 320, height: 256 }, deviceScaleFactor: 4 } });
