@@ -232,3 +232,15 @@ lab("a paused lab takes at most a hundredth of a core", "/?tick=200", async (lab
   await lab.send({ do: "play" });
   await lab.until((s) => s.tick > 205);
 });
+
+test("nothing is loaded twice, and the lab is asked for by the page itself, before its script has run", { timeout: 120000 }, async () => {
+  const asked = [];
+  const lab = await Lab.open("/", { before: async (page) => page.on("request", (r) => asked.push(r.url())) });
+  const twice = asked.filter((url, i) => asked.indexOf(url) !== i && !/favicon/.test(url));
+  assert.deepEqual(twice, []);
+  const started = (name) => lab.page.evaluate((n) => performance.getEntriesByType("resource").find((e) => e.name.includes(n)), name);
+  const [wasm, script] = [await started("/lab.") && (await started(".wasm")), await started("/page.")];
+  assert.equal(wasm.initiatorType, "link");
+  assert.ok(wasm.startTime < script.responseEnd, `${wasm.startTime} ${script.responseEnd}`);
+  assert.deepEqual(await lab.close(), []);
+});
