@@ -71,11 +71,23 @@ function tellAll(message) {
   tellAround(message);
 }
 
+/** Moves Query's robot, which is the configuration space's point, by an arrow key: its first two coordinates, with Shift a tenth as far. */
+function nudge({ key, shiftKey, ctrlKey, metaKey, altKey }) {
+  const by = { ArrowLeft: [0, -1], ArrowRight: [0, 1], ArrowDown: [1, -1], ArrowUp: [1, 1] }[key];
+  if (!by || !state?.query || ctrlKey || metaKey || altKey) return false;
+  const printed = state.query.configuration.replace(/\u2212/g, "-").matchAll(/:\s*(-?[\d.]+)/g);
+  const coordinates = Array.from(printed, ([, number]) => Number(number));
+  coordinates[by[0]] += by[1] * (shiftKey ? 0.005 : 0.05);
+  send({ do: "configuration", coordinates });
+  return true;
+}
+
 const { mirror, at } = twins({
   container: $("controls"),
   send,
   titles: () => Object.values(files.widgets).map((widget) => widget.title),
   leave: () => canvas.focus({ preventScroll: true }),
+  nudge,
 });
 fingers({ canvas, at, embedded });
 

@@ -14,10 +14,10 @@ const TYPED = ["number", "field"];
 const PRESSED = ["button", "combo", "handle"];
 
 /**
- * The twins in `container` of the canvas's controls. `send` sends the lab a message, `titles` gives the titles of its widgets, and
- * `leave` takes the focus when the twin that has it goes.
+ * The twins in `container` of the canvas's controls. `send` sends the lab a message, `titles` gives the titles of its widgets,
+ * `leave` takes the focus when the twin that has it goes, and `nudge` may take a key on a drawing: it returns whether it has.
  */
-export function twins({ container, send, titles, leave }) {
+export function twins({ container, send, titles, leave, nudge }) {
   let all = []; // the twins, in the order of the screen
   let asked = null; // the twin whose focus the lab has yet to take over
   let follows = false; // whether the focus moves because the lab's has
@@ -74,6 +74,7 @@ export function twins({ container, send, titles, leave }) {
     }
     // the lab's keys work here too, where the control does not need them itself
     const needed = OWN_KEYS[widget.kind];
+    if (widget.kind === "handle") control.addEventListener("keydown", (event) => nudge(event) && (event.preventDefault(), event.stopImmediatePropagation()));
     if (needed !== undefined) for (const type of ["keydown", "keyup"]) control.addEventListener(type, (event) => forward(event, needed));
   }
 

@@ -108,6 +108,16 @@ lab("names stay while they are read, numbers are valid, lists and headings are s
   assert.notEqual(await paper.getAttribute("aria-description"), said, "and what changes is beside it");
 });
 
+lab("the configuration space's point moves by arrow keys", "/?widget=cspace", async (lab) => {
+  const point = lab.page.locator("#controls button", { hasText: /^configuration space/ });
+  await point.focus();
+  await point.press("ArrowRight");
+  await lab.find(/th1: 0\.835, th2: 1\.571/);
+  await point.press("Shift+ArrowDown");
+  await lab.find(/th1: 0\.835, th2: 1\.566/);
+  assert.match(await lab.page.evaluate(() => document.activeElement.textContent), /^configuration space/);
+});
+
 lab("paper gets a figure instead of a canvas", "/?tick=200", async (lab) => {
   const { page } = lab;
   await page.evaluate(() => {
