@@ -1,8 +1,11 @@
 // The page around the lab: loads it, mirrors its controls as elements of the page, and speaks with it by messages.
 //
-// For who embeds it: `window.motionLab.send({ do: "seek", tick: 600 })` does what src/web/message.rs lists; the page gets events
-// `motionlab` on `window` with what the lab tells in `detail`. An embedding page posts the same as
-// `frame.contentWindow.postMessage({ motionLab: { do: "light", role: "robot" } }, origin)` and hears `{ motionLab: ... }`.
+// `window.motionLab.send({ do: "seek", tick: 600 })` does what src/web/message.rs lists; the page gets events `motionlab` on `window` with
+// what the lab tells in `detail`. docs/web/messages.md has what a page around a frame may ask.
+import { around } from "./around.js";
+import { savedPage, logOfSavedPage } from "./pages.js";
+import { fingers, twins } from "./twins.js";
+
 const $ = (id) => document.getElementById(id);
 const root = document.documentElement;
 const files = JSON.parse($("files").textContent);
@@ -13,12 +16,14 @@ const LOST = "motion-lab/lost";
 const SETTINGS = "motion-lab/settings";
 const MOST_BYTES = 256 * 1024 * 1024;
 const MOST_QUERY = 8000;
+const BEFORE = "the run before";
 
 let lab = null; // the lab's exports once it runs
 let wasm = null; // the memory and functions under them
 let state = null; // its last state
 let parts = null; // the run's parts, with which the simulator alone can record it again
 let failed = false;
+let toSeek = null; // the tick of the run before, while it is checked
 const waiting = []; // files that were opened before the lab ran
 
 /** Does something with the browser's storage; a page that may not use it does without. */
@@ -54,18 +59,44 @@ function attempt(act) {
   }
 }
 
+const tellAround = around({
+  ask: send,
+  askReader: () => ($("asked").hidden = false),
+  refuse: (text) => (warn(text), tellAll({ kind: "error", text })),
+});
+
 /** Tells whoever listens on this page, and the page around it. */
 function tellAll(message) {
   window.dispatchEvent(new CustomEvent("motionlab", { detail: message }));
-  if (parent !== window && message.kind !== "tree") parent.postMessage({ motionLab: message }, "*");
+  tellAround(message);
 }
 
-/** Opens a run or a world in the lab. */
+/** Moves Query's robot, which is the configuration space's point, by an arrow key: its first two coordinates, with Shift a tenth as far. */
+function nudge({ key, shiftKey, ctrlKey, metaKey, altKey }) {
+  const by = { ArrowLeft: [0, -1], ArrowRight: [0, 1], ArrowDown: [1, -1], ArrowUp: [1, 1] }[key];
+  if (!by || !state?.query || ctrlKey || metaKey || altKey) return false;
+  const printed = state.query.configuration.replace(/\u2212/g, "-").matchAll(/:\s*(-?[\d.]+)/g);
+  const coordinates = Array.from(printed, ([, number]) => Number(number));
+  coordinates[by[0]] += by[1] * (shiftKey ? 0.005 : 0.05);
+  send({ do: "configuration", coordinates });
+  return true;
+}
+
+const { mirror, at } = twins({
+  container: $("controls"),
+  send,
+  titles: () => Object.values(files.widgets).map((widget) => widget.title),
+  leave: () => canvas.focus({ preventScroll: true }),
+  nudge,
+});
+fingers({ canvas, at, embedded });
+
+/** Opens a run, also one saved as a page, or a world in the lab. */
 async function open(file) {
   if (file.size > MOST_BYTES) return warn(`${file.name}: ${file.size} bytes; the page opens at most ${MOST_BYTES}`);
   let bytes;
   try {
-    bytes = new Uint8Array(await file.arrayBuffer());
+    bytes = /\.html?$/i.test(file.name) ? await logOfSavedPage(await file.text()) : new Uint8Array(await file.arrayBuffer());
   } catch (error) {
     return warn(`${file.name}: not opened: ${error.message ?? error}`);
   }
@@ -98,33 +129,19 @@ function alone() {
   return simulator;
 }
 
-/** The log of the run as far as it has come. */
-async function runLog() {
+/** The parts of the run as far as it has come, as JSON. */
+function runParts() {
   if (!parts || !state?.frontier) throw new Error("nothing has been run yet; press Play first");
-  return (await alone()).record_log(JSON.stringify({ ...parts, ticks: state.frontier }));
+  return JSON.stringify({ ...parts, ticks: state.frontier });
 }
 
-const base64 = (bytes) => {
-  let text = "";
-  for (let i = 0; i < bytes.length; i += 32768) text += String.fromCharCode(...bytes.subarray(i, i + 32768));
-  return btoa(text);
-};
+/** The log of the run as far as it has come. */
+const runLog = async () => (await alone()).record_log(runParts());
 
-/** A page that holds the run and simulates it again in whatever browser opens it. */
-async function savedPage() {
-  const log = await runLog();
-  const light = await alone();
-  const found = JSON.parse(light.verify_log(log));
-  const fetched = async (name) => {
-    const response = await fetch(name);
-    if (!response.ok) throw new Error(`${name}: ${response.status} ${response.statusText}`);
-    return response.arrayBuffer();
-  };
-  const template = new TextDecoder().decode(await fetched(files.saved));
-  const wasm = new Uint8Array(await fetched(files.lightWasm));
-  const figure = (dark) => base64(new TextEncoder().encode(light.figure_of_log(log, dark)));
-  const values = { SEED: found.seed, TICKS: found.ticks, DIGEST: found.digest, FIGURE: figure(false), DARK: figure(true), WASM: base64(wasm), LOG: base64(log) };
-  return template.replace(/%(SEED|TICKS|DIGEST|FIGURE|DARK|WASM|LOG)%/g, (_, name) => values[name]);
+/** A page that holds the run as far as it has come. */
+async function runPage() {
+  const run = runParts();
+  return savedPage(await alone(), run, files);
 }
 
 // ---- what the lab tells ----
@@ -141,9 +158,9 @@ const hear = {
       const { at, ...run } = JSON.parse(kept);
       alone()
         .then((light) => {
-          lab.lab_open("the run before", light.record_log(JSON.stringify(run)));
+          lab.lab_open(BEFORE, light.record_log(JSON.stringify(run)));
           store(() => sessionStorage.removeItem(RESTART));
-          send({ do: "seek", tick: at });
+          toSeek = at; // once it is checked: going to a tick would end the check
         })
         .catch((error) => warn(`The run before could not be restored: ${error.message ?? error}`));
     }
@@ -152,6 +169,10 @@ const hear = {
     const before = state;
     state = message;
     root.dataset.theme = message.theme;
+    if (toSeek !== null && message.notice?.text.startsWith(`${BEFORE}:`)) {
+      send({ do: "seek", tick: toSeek });
+      toSeek = null;
+    }
     if (message.notice?.text !== before?.notice?.text) {
       alarm(message.notice?.error ? message.notice.text : "");
       announce(message.notice?.error ? "" : (message.notice?.text ?? ""));
@@ -188,6 +209,7 @@ const hear = {
   async copy({ text }) {
     try {
       await navigator.clipboard.writeText(text);
+      say(`Copied: ${text.length} characters`);
     } catch {
       warn("The browser does not let the page copy.");
     }
@@ -197,6 +219,7 @@ const hear = {
     $("file").accept = accept;
     $("file").click();
   },
+  figure: ({ svg }) => print(svg),
   failed: ({ text }) => stop(text),
 };
 
@@ -251,106 +274,6 @@ function notLoaded(reason) {
   $("unloaded").hidden = false;
 }
 
-// ---- the controls of the canvas as elements of the page ----
-
-const elements = new Map();
-const OWN_KEYS = { text: "", button: "Enter Space Tab", check: "Enter Space Tab", handle: "Tab" };
-
-function make(widget) {
-  const element = document.createElement({ text: "p", button: "div", handle: "div" }[widget.kind] ?? "label");
-  let control = element;
-  if (widget.kind === "button" || widget.kind === "handle") {
-    element.append((control = document.createElement("button")));
-    control.type = "button";
-  } else if (widget.kind !== "text") {
-    control = document.createElement("input");
-    control.type = { check: "checkbox", slider: "range", number: "number", field: "text" }[widget.kind];
-    element.append(document.createElement("span"), control);
-  }
-  const own = { element, control, widget };
-  if (control !== element) {
-    control.addEventListener("focus", () => send({ do: "act", id: own.widget.id, action: "focus" }));
-    const click = () => send({ do: "act", id: own.widget.id, action: "click" });
-    if (widget.kind === "button" || widget.kind === "handle") control.addEventListener("click", click);
-    else if (widget.kind === "check") control.addEventListener("change", click);
-    else if (widget.kind === "field") {
-      const commit = () => {
-        if (control.value !== own.widget.value) send({ do: "act", id: own.widget.id, action: "type", value: control.value });
-      };
-      control.addEventListener("blur", commit);
-      control.addEventListener("keydown", ({ key }) => key === "Enter" && commit());
-    } else {
-      control.addEventListener("input", () => {
-        if (control.value !== "") send({ do: "act", id: own.widget.id, action: "set", value: control.value });
-      });
-    }
-    // the lab's keys work here too, where the control does not need them itself
-    const needed = OWN_KEYS[widget.kind];
-    if (needed !== undefined) for (const type of ["keydown", "keyup"]) control.addEventListener(type, (event) => forward(event, needed));
-  }
-  return own;
-}
-
-function forward(event, needed) {
-  const name = event.key === " " ? "Space" : event.key;
-  if (event.ctrlKey || event.metaKey || event.altKey || needed.split(" ").includes(name) || event.isComposing) return;
-  event.preventDefault();
-  if (!event.repeat) send({ do: "key", key: event.key, pressed: event.type === "keydown", shift: event.shiftKey });
-}
-
-function update(own, widget) {
-  const before = own.widget;
-  own.widget = widget;
-  const { control, element } = own;
-  if (widget.place && String(widget.place) !== own.place) {
-    own.place = String(widget.place);
-    const [left, top, width, height] = widget.place;
-    Object.assign(element.style, { left: `${left}px`, top: `${top}px`, width: `${width}px`, height: `${height}px` });
-  }
-  if (widget.kind === "text") {
-    if (element.textContent !== widget.name) element.textContent = widget.name;
-    return;
-  }
-  const both = widget.value !== undefined && (widget.kind === "button" || widget.kind === "handle");
-  const label = both ? `${widget.name ?? ""}: ${widget.value}` : (widget.name ?? "");
-  const words = widget.kind === "button" || widget.kind === "handle" ? control : element.firstChild;
-  if (words.textContent !== label) words.textContent = label;
-  control.disabled = widget.off_limits ?? false;
-  if (widget.kind === "check") control.checked = widget.on;
-  else if (widget.kind === "button" && widget.on !== undefined) control.setAttribute("aria-pressed", widget.on);
-  if (widget.range && (before !== widget || !control.step)) {
-    [control.min, control.max] = widget.range;
-    control.step = widget.range[2] || "any";
-  }
-  if (widget.value !== undefined && control !== document.activeElement && "value" in control && control.type !== "checkbox") control.value = widget.value;
-}
-
-function mirror(widgets) {
-  const seen = new Set();
-  let last = null;
-  for (const widget of widgets) {
-    seen.add(widget.id);
-    let own = elements.get(widget.id);
-    if (own && own.widget.kind !== widget.kind) {
-      own.element.remove();
-      own = null;
-    }
-    if (!own) elements.set(widget.id, (own = make(widget)));
-    update(own, widget);
-    const place = last ? last.nextSibling : $("controls").firstChild;
-    // moving an element would take its focus away
-    if (own.element !== place && !own.element.contains(document.activeElement)) $("controls").insertBefore(own.element, place);
-    last = own.element;
-  }
-  for (const [id, own] of elements) {
-    if (!seen.has(id)) {
-      if (own.element.contains(document.activeElement)) canvas.focus({ preventScroll: true });
-      own.element.remove();
-      elements.delete(id);
-    }
-  }
-}
-
 // ---- roles: lit in the page and in the canvas alike ----
 
 function light(role) {
@@ -380,16 +303,42 @@ for (const [type, on] of [["pointerover", true], ["focusin", true], ["pointerout
   });
 }
 
+// ---- on paper: a figure of the widget in front instead of its canvas ----
+
+let prints = false; // whether the figure to come is for the printer
+
+async function print(svg) {
+  if (!prints) return;
+  prints = false;
+  $("figure").src = `data:image/svg+xml,${encodeURIComponent(svg)}`;
+  await $("figure").decode().catch(() => {});
+  window.print();
+}
+
+document.addEventListener("keydown", (event) => {
+  if (!(event.ctrlKey || event.metaKey) || event.key.toLowerCase() !== "p" || root.dataset.lab !== "running" || failed) return;
+  event.preventDefault();
+  prints = true;
+  send({ do: "figure" });
+});
+addEventListener("beforeprint", () => {
+  const shown = files.widgets[state?.widget];
+  root.dataset.paper = $("figure").src ? "figure" : "still";
+  for (const figure of document.querySelectorAll("#still figure")) figure.toggleAttribute("data-front", figure.id === state?.widget);
+  $("caption").textContent = state && shown ? `${shown.title}: seed ${state.seed}, tick ${state.tick}. ${shown.misconception}` : "";
+});
+addEventListener("afterprint", () => $("figure").removeAttribute("src"));
+
 // ---- the page's own controls ----
 
 // what an earlier one said is no more
 document.querySelector("header").addEventListener("click", () => (say(""), warn("")), { capture: true });
 $("copy-link").addEventListener("click", () => send({ do: "link" }));
 $("save-run").addEventListener("click", () => send({ do: "save" }));
-$("open-file").addEventListener("click", () => hear.ask({ accept: ".mcap,.ron" }));
+$("open-file").addEventListener("click", () => hear.ask({ accept: ".mcap,.ron,.html" }));
 $("save-page").addEventListener("click", async () => {
   try {
-    save("run.html", await savedPage(), "text/html");
+    save("run.html", await runPage(), "text/html");
     say("The page is saved: it holds the run and simulates it again wherever it is opened");
   } catch (error) {
     warn(`Not saved: ${error.message ?? error}`);
@@ -441,13 +390,7 @@ const tellSystem = () => send({ do: "system", dark: dark.matches, reduced_motion
 dark.addEventListener("change", tellSystem);
 calm.addEventListener("change", tellSystem);
 
-window.addEventListener("message", ({ data, source }) => {
-  if (source !== parent || !data?.motionLab?.do) return;
-  // a file is saved for the reader, not for the page around: the reader is asked
-  if (source !== window && data.motionLab.do === "save") $("asked").hidden = false;
-  else send(data.motionLab);
-});
-window.motionLab = { send, open, savedPage, memory: () => wasm?.memory.buffer.byteLength, get state() { return state; } };
+window.motionLab = { send, open, savedPage: runPage, memory: () => wasm?.memory.buffer.byteLength, get state() { return state; } };
 
 // ---- loading ----
 
@@ -467,6 +410,47 @@ function counted(response) {
   return new Response(response.body.pipeThrough(count), { headers: { "content-type": "application/wasm" } });
 }
 
+/**
+ * Where a pixel ratio is emulated, by developer tools say, Chromium gives elements' sizes in the screen's own pixels, and the lab would draw
+ * at a fraction of its size. Without that way to ask it multiplies by the ratio.
+ */
+async function measurePixels() {
+  const measured = new Promise((done) => {
+    const observer = new ResizeObserver(([entry]) => (observer.disconnect(), done(entry)));
+    observer.observe($("stage"));
+  });
+  // a hidden page measures nothing
+  const entry = await Promise.race([measured, new Promise((done) => setTimeout(done, 300))]);
+  const said = entry?.devicePixelContentBoxSize?.[0].inlineSize;
+  if (said && Math.abs(said - entry.contentRect.width * devicePixelRatio) > 2) delete ResizeObserverEntry.prototype.devicePixelContentBoxSize;
+}
+
+/** What there is without WebGL 2: the pictures, in a frame that of its own widget; and a link's run, which the simulator alone plays. */
+async function withoutGraphics() {
+  warn("This browser has no WebGL 2, which the lab draws with. Below are its widgets as pictures; a browser with hardware acceleration switched on shows the lab.");
+  const query = location.search || location.hash;
+  const fields = new URLSearchParams(query.replace(/^[?#]/, ""));
+  if (embedded) {
+    const own = document.getElementById(fields.get("widget") in files.widgets ? fields.get("widget") : "dashboard");
+    for (const figure of document.querySelectorAll("#still figure")) figure.hidden = figure !== own;
+  }
+  if (!Number(fields.get("tick"))) return;
+  try {
+    const light = await alone();
+    const log = light.record_link(query);
+    const found = JSON.parse(light.verify_log(log));
+    const theme = root.dataset.theme ?? (dark.matches ? "dark" : "light");
+    $("run-figure").src = `data:image/svg+xml,${encodeURIComponent(new light.Replay(log).at(BigInt(found.ticks), theme === "dark"))}`;
+    const expected = fields.get("digest");
+    const verdict = !expected ? "" : found.digest === expected ? ": the same run to the last bit" : `, but the link's is ${expected.slice(0, 32)}: another run`;
+    $("run-text").textContent = `The link's run, simulated by this browser: seed ${found.seed}, tick ${found.ticks}, digest ${found.digest}${verdict}.`;
+    root.dataset.verdict = !expected ? "run" : found.digest === expected ? "verified" : "differs";
+    $("linked-run").hidden = false;
+  } catch (error) {
+    warn(`The link's run could not be simulated: ${error.message ?? error}`);
+  }
+}
+
 async function start() {
   // asked for first: a browser takes a while to say whether it has WebGL 2
   const unwanted = new AbortController();
@@ -474,12 +458,12 @@ async function start() {
   if (!document.createElement("canvas").getContext("webgl2")) {
     pieces.catch(() => {});
     unwanted.abort();
-    return warn("This browser has no WebGL 2, which the lab draws with. Below are its widgets as pictures; a browser with hardware acceleration switched on shows the lab.");
+    return withoutGraphics();
   }
   root.dataset.lab = "loading";
   $("loading").hidden = false;
   try {
-    const [module, response] = await pieces;
+    const [[module, response]] = await Promise.all([pieces, measurePixels()]);
     if (!response.ok) throw new Error(`${files.labWasm}: ${response.status} ${response.statusText}`);
     wasm = await module.default({ module_or_path: counted(response) });
     lab = module;

@@ -1,22 +1,56 @@
-// Simulates the page's run again and says whether every frame came out the same. `wasm_bindgen` stands above.
+// Simulates the page's run again, says whether every second came out the same, and plays it. `wasm_bindgen` stands above.
 (async () => {
-  const verdict = document.getElementById("verdict");
-  const bytes = (id) => Uint8Array.from(atob(document.getElementById(id).textContent), (c) => c.charCodeAt(0));
+  const $ = (id) => document.getElementById(id);
+  const root = document.documentElement;
+  const verdict = $("verdict");
+  const held = async (id) => {
+    const bytes = Uint8Array.from(atob($(id).textContent), (c) => c.charCodeAt(0));
+    return new Uint8Array(await new Response(new Blob([bytes]).stream().pipeThrough(new DecompressionStream("gzip"))).arrayBuffer());
+  };
   try {
     verdict.textContent = "Simulating the run again in this browser\u2026";
-    const log = bytes("bytes");
-    const save = document.getElementById("log");
-    save.addEventListener("click", () => {
-      save.href = URL.createObjectURL(new Blob([log]));
-    });
-    await wasm_bindgen({ module_or_path: bytes("wasm") });
+    const log = await held("bytes");
+    $("log").addEventListener("click", () => ($("log").href = URL.createObjectURL(new Blob([log]))));
+    await wasm_bindgen({ module_or_path: await held("wasm") });
     const found = JSON.parse(wasm_bindgen.verify_log(log));
-    verdict.textContent = found.verified
-      ? `Verified: ${found.text}, digest ${found.digest}.`
-      : `Another run: ${found.text}.`;
-    document.documentElement.dataset.verdict = found.verified ? "verified" : "differs";
+    verdict.textContent = found.verified ? `Verified: ${found.text}, digest ${found.digest}.` : `Another run: ${found.text}.`;
+    root.dataset.verdict = found.verified ? "verified" : "differs";
+    replay(new wasm_bindgen.Replay(log), found.ticks);
   } catch (error) {
     verdict.textContent = `Not verified: ${error.message ?? error}`;
-    document.documentElement.dataset.verdict = "failed";
+    root.dataset.verdict = "failed";
+  }
+
+  function replay(run, ticks) {
+    const [line, play, shown, picture] = ["line", "play", "shown", "picture"].map($);
+    const dark = matchMedia("(prefers-color-scheme: dark)");
+    let timer = null;
+    const show = (tick) => {
+      line.value = tick;
+      picture.querySelector("source")?.remove();
+      picture.querySelector("img").src = `data:image/svg+xml,${encodeURIComponent(run.at(BigInt(tick), dark.matches))}`;
+      shown.textContent = `tick ${tick}, ${(tick * 0.05).toFixed(2)} s`;
+      root.dataset.tick = tick;
+    };
+    const pause = () => {
+      clearInterval(timer);
+      timer = null;
+      play.textContent = "Play";
+    };
+    line.max = ticks;
+    line.value = ticks;
+    line.addEventListener("input", () => (pause(), show(Number(line.value))));
+    play.addEventListener("click", () => {
+      if (timer) return pause();
+      if (Number(line.value) >= ticks) show(0);
+      play.textContent = "Pause";
+      // two ticks of 50 ms each tenth of a second
+      timer = setInterval(() => {
+        show(Math.min(ticks, Number(line.value) + 2));
+        if (Number(line.value) >= ticks) pause();
+      }, 100);
+    });
+    dark.addEventListener("change", () => show(Number(line.value)));
+    $("replay").hidden = false;
   }
 })();

@@ -44,7 +44,7 @@ function hashed(name, contents, part) {
 }
 
 const colours = (theme) => Object.entries(lab.colours[theme]).map(([role, colour]) => `--${role}:${colour};`).join("");
-const roles = Object.keys(lab.colours.light).map((role) => `.role-${role}{color:var(--${role})}`).join("\n");
+const roles = Object.keys(lab.colours.light).map((role) => `.role-${role}{--own:var(--${role});color:var(--${role})}`).join("\n");
 const style =
   `:root{color-scheme:light;${colours("light")}}\n` +
   `@media (prefers-color-scheme:dark){:root:not([data-theme=light]){color-scheme:dark;${colours("dark")}}}\n` +
@@ -72,29 +72,40 @@ if (script.includes("</script")) throw new Error("the script would end itself");
 const css = source("saved.css");
 const saved = fill(source("saved.html"), { script, style: css, "script-hash": hash(script), "style-hash": hash(css) });
 files.saved = hashed("saved.html", saved, "the simulator alone");
-files.widgets = Object.fromEntries(lab.widgets.map((w) => [w.id, { title: w.title, key: w.key, description: w.description }]));
+files.widgets = Object.fromEntries(lab.widgets.map((w) => [w.id, { title: w.title, key: w.key, description: w.description, misconception: w.misconception }]));
 
 const picture = (w) =>
   `<picture><source srcset="${pictures[`${w.id}-dark.svg`]}" media="(prefers-color-scheme: dark)">` +
   `<img src="${pictures[`${w.id}-light.svg`]}" loading="lazy" alt="${escape(w.description)}"></picture>`;
+// the modules that a script imports have hashes in their names, too
+const modules = {};
+for (const name of ["around.js", "pages.js", "twins.js"]) modules[name] = hashed(name, source(name), "the page");
+const page = source("page.js").replace(/from "\.\/([\w-]+\.js)"/g, (_, name) => `from "./${modules[name]}"`);
+const preloads = [
+  ...Object.values(modules).map((name) => `<link rel="modulepreload" href="${name}">`),
+  `<link rel="modulepreload" href="${files.lab}">`,
+  `<link rel="preload" href="${files.labWasm}" as="fetch" type="application/wasm" crossorigin>`,
+].join("\n");
+
 const values = {
+  preloads,
   policy: POLICY,
   "style.css": hashed("style.css", style, "the page"),
-  "page.js": hashed("page.js", source("page.js"), "the page"),
+  "page.js": hashed("page.js", page, "the page"),
   "icon.svg": hashed("icon.svg", source("icon.svg"), "the page"),
   files: JSON.stringify(files).replace(/</g, "\\u003c"),
   formulas: lab.formulas.map((f) => `<li title="${escape(f.spoken)}">${f.mathml}</li>`).join("\n"),
   widgets: lab.widgets
     .map(
       (w) =>
-        `<figure id="${w.id}"><h2>${escape(w.title)}</h2>${picture(w)}` +
+        `<figure id="${w.id}"><h3>${escape(w.title)}</h3>${picture(w)}` +
         `<figcaption><p><strong>${escape(w.misconception)}</strong></p><p>${escape(w.description)}</p></figcaption></figure>`,
     )
     .join("\n"),
   frames: lab.widgets
     .map(
       (w) =>
-        `<figure class="frame"><h2>${escape(w.title)}</h2><iframe src="embed.html?widget=${w.id}" title="${escape(w.title)}" loading="lazy"></iframe>` +
+        `<figure class="frame"><h2>${escape(w.title)}</h2><iframe src="embed.html?widget=${w.id}#${w.id}" allow="clipboard-write" title="${escape(w.title)}" loading="lazy"></iframe>` +
         `<figcaption>${escape(w.misconception)}</figcaption></figure>`,
     )
     .join("\n"),

@@ -7,29 +7,42 @@ use bevy_egui::egui::accesskit::{self, ActionData, ActionRequest, NodeId, TreeId
 use bevy_egui::{EguiInput, egui};
 use serde_json::json;
 
+use super::downloads::picture;
 use super::error::PageError;
 use super::inbox::{Incoming, take_all, wake};
 use super::link::MAX_LINK_TICK;
 use super::listener::tell;
-use super::message::{Action, Message};
+use super::message::{Action, Input, Message};
 use super::run_link::link_of;
+use crate::anatomy::Tab;
 use crate::app::{Interface, open_log, open_path_text, open_world_text, seek_aside, stop_aside};
+use crate::configuration::Configuration as _;
 use crate::manifest::ThemeChoice;
 use crate::picture::{Role, Theme};
 use crate::random::Seed;
-use crate::simulation::{RunCommand, TransportCommand};
+use crate::run::{Event, Script, WorldChange};
+use crate::simulation::{RobotCommand, RobotKinds, RunCommand, RunConfig, Transport, TransportCommand, WorldCommand};
 use crate::ui::{Notice, SessionCommand, UiState, Widget};
 
 /// Events for egui, a list for each frame to come: a field must have the focus before it takes letters.
 #[derive(Resource, Default)]
 pub struct Staged(VecDeque<Vec<egui::Event>>);
 
+/// Whether something was asked of the lab or done with it in this frame.
+#[derive(Resource, Default)]
+pub struct Touched(pub bool);
+
 /// Largest number of frames that events are kept for: what comes then is refused.
 const MOST_STAGED: usize = 1000;
 
+/// Width of the sheet of a figure that the page asks for, pixels.
+const FIGURE_WIDTH: u32 = 1280;
+
 /// Carries out the messages and opens the files that have come in, and gives egui the events of this frame.
 pub fn receive(world: &mut World) {
-    for incoming in take_all() {
+    let all = take_all();
+    let mut is_touched = !all.is_empty();
+    for incoming in all {
         let done = match incoming {
             Incoming::File { name, bytes } => {
                 if let Some(notice) = open(world, &name, &bytes) {
@@ -52,7 +65,9 @@ pub fn receive(world: &mut World) {
         // while a control of the page has the focus, the canvas has not, and egui would let its fields rest
         input.focused = true;
         input.events.extend(events.iter().cloned());
+        is_touched |= input.events.iter().any(|event| !matches!(event, egui::Event::ModifiersChanged(_)));
     }
+    world.resource_mut::<Touched>().0 |= is_touched;
     if !world.resource::<Staged>().0.is_empty() {
         wake();
     }
@@ -135,6 +150,29 @@ fn take(world: &mut World, message: Message) -> Result<(), PageError> {
             }
             ui(world, &|ui| ui.widget = widget)
         }
+        Message::Tab { id } => {
+            let tab = Tab::ALL.into_iter().find(|tab| tab.name() == id).ok_or(PageError::Tab(id))?;
+            ui(world, &|ui| ui.anatomy.anatomy.tab = tab)
+        }
+        Message::Configuration { coordinates } => {
+            let anatomy = &mut world.resource_mut::<Interface>().into_inner().0.anatomy.anatomy;
+            let known = anatomy.q().with_coordinates(&coordinates);
+            let count = anatomy.q().coordinates().len();
+            let q = known.ok_or_else(|| PageError::Configuration(format!("it has {count} coordinates")))?;
+            anatomy.set_q(q).map_err(|error| PageError::Configuration(error.to_string()))
+        }
+        Message::Robot { robot, input } => give(world, robot, input),
+        Message::Door { world: of, name, open } => {
+            let change = if open { WorldChange::Open } else { WorldChange::Close }(name);
+            transport(world, TransportCommand::Checkpoint)?;
+            world.write_message(RunCommand::from(WorldCommand { world: of, change }));
+            Ok(())
+        }
+        Message::Figure => {
+            let (_, svg) = picture(world, FIGURE_WIDTH)?;
+            tell(&json!({ "kind": "figure", "svg": svg }));
+            Ok(())
+        }
         Message::Theme { name } => {
             let choice = ThemeChoice::ALL.into_iter().find(|t| t.name().eq_ignore_ascii_case(&name));
             let choice = choice.ok_or(PageError::Theme(name))?;
@@ -158,6 +196,17 @@ fn take(world: &mut World, message: Message) -> Result<(), PageError> {
         }
         Message::Visible { .. } => Ok(()),
     }
+}
+
+/// Gives a robot of the run an input that its kind takes.
+fn give(world: &mut World, robot: String, input: Input) -> Result<(), PageError> {
+    let input = input.robot_input().ok_or_else(|| PageError::Coordinate(robot.clone()))?;
+    let event = Event { tick: world.resource::<Transport>().tick + 1, robot: robot.clone(), input: input.clone() };
+    let kinds = world.resource::<RobotKinds>().known();
+    let config = world.resource::<RunConfig>().0.clone();
+    Script::new(vec![event], vec![]).check_for_kinds(&config, &kinds)?;
+    world.write_message(RunCommand::from(RobotCommand { robot, input }));
+    Ok(())
 }
 
 /// Acts on a widget by AccessKit's requests, as assistive technology does.

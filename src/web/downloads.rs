@@ -7,7 +7,7 @@ use super::listener::{tell, tell_with};
 use crate::app::{Interface, SessionError, captured, path_text, save, shown_run};
 use crate::capture::Paper;
 use crate::simulation::Transport;
-use crate::ui::{CaptureOrder, Notice, SessionCommand};
+use crate::ui::{Notice, SessionCommand};
 
 /// Carries out the commands that need a dialog in a window: gives the page the file to save, or asks it for one to
 /// open.
@@ -51,7 +51,10 @@ pub fn files(world: &mut World) {
                 tell(&json!({ "kind": "ask", "accept": ".json" }));
                 continue;
             }
-            SessionCommand::Capture(order) => picture(world, &order),
+            SessionCommand::Capture(order) => picture(world, order.width).map(|(name, svg)| {
+                tell_with(&json!({ "kind": "file", "name": name }), Some(svg.as_bytes()));
+                format!("{name}: saved")
+            }),
             SessionCommand::PlayPath
             | SessionCommand::RunWorld
             | SessionCommand::RunFromHere
@@ -66,14 +69,12 @@ pub fn files(world: &mut World) {
     }
 }
 
-/// Gives the page a picture of the widget in front.
-fn picture(world: &World, order: &CaptureOrder) -> Result<String, SessionError> {
+/// A picture of the widget in front as SVG, on a sheet of at most this width, pixels, and a name for its file.
+pub fn picture(world: &World, width: u32) -> Result<(String, String), SessionError> {
     let Transport { tick, frontier, .. } = *world.resource::<Transport>();
     let run = shown_run(world, frontier);
     let ui = &world.resource::<Interface>().0;
-    let paper = Paper { palette: ui.theme().palette(), width: order.width, scale: 1.0 };
+    let paper = Paper { palette: ui.theme().palette(), width, scale: 1.0 };
     let figure = captured(ui, run, tick, paper.width_px())?;
-    let name = format!("{}.svg", ui.widget.id());
-    tell_with(&json!({ "kind": "file", "name": name }), Some(figure.svg(&paper).as_bytes()));
-    Ok(format!("{name}: saved"))
+    Ok((format!("{}.svg", ui.widget.id()), figure.svg(&paper)))
 }

@@ -2,6 +2,7 @@
 
 use super::link::{LinkError, MAX_LINK_TICK};
 use crate::app::SessionError;
+use crate::run::ScriptError;
 
 /// Why the lab could not do what the page asked. The lab goes on as it was.
 #[derive(Debug, thiserror::Error)]
@@ -27,6 +28,18 @@ pub enum PageError {
     /// No widget has this id.
     #[error("{0} is no widget")]
     Widget(String),
+    /// No question of Query has this name.
+    #[error("{0} is no tab: it is one of intersects, distance, witness and swept")]
+    Tab(String),
+    /// Not a configuration of Query's robot.
+    #[error("configuration: {0}")]
+    Configuration(String),
+    /// An input that no robot of the run takes.
+    #[error(transparent)]
+    Input(#[from] ScriptError),
+    /// A coordinate that no script holds.
+    #[error("{0}: a coordinate is beyond what an input holds")]
+    Coordinate(String),
     /// No theme has this name.
     #[error("{0} is no theme")]
     Theme(String),

@@ -5,12 +5,12 @@ use std::time::Duration;
 
 use bevy::prelude::*;
 use bevy::time::TimeSystems;
-use bevy::winit::{EventLoopProxyWrapper, WinitUserEvent};
+use bevy::winit::{EventLoopProxyWrapper, UpdateMode, WinitSettings, WinitUserEvent};
 use bevy_egui::EguiPreUpdateSet;
 use serde_json::json;
 use wasm_bindgen::prelude::*;
 
-use super::controls::{Staged, receive};
+use super::controls::{Staged, Touched, receive};
 use super::downloads::files;
 use super::inbox::{Incoming, put, wake_by};
 use super::link::{Link, LinkError, retold};
@@ -54,11 +54,12 @@ pub fn lab_start(query: &str, embedded: bool, settings: &str, listener: js_sys::
     app.insert_resource(Start { link, embedded, settings })
         .init_resource::<Sent>()
         .init_resource::<Staged>()
+        .init_resource::<Touched>()
         .add_systems(PostStartup, start)
         .add_systems(First, stand_still.after(limit).before(TimeSystems))
         .add_systems(PreUpdate, before)
         .add_systems(Update, files)
-        .add_systems(Last, report)
+        .add_systems(Last, (report, rest))
         .run();
 }
 
@@ -146,6 +147,27 @@ fn start(world: &mut World) {
     }
     if world.resource::<Interface>().0.widget != Widget::Dashboard {
         world.resource_mut::<Transport>().playback = Playback::Paused;
+    }
+}
+
+/// Number of frames, a second apart, after which a paused lab that nobody touches sleeps for good.
+const FRAMES_TO_REST: u32 = 4;
+
+/// The longest sleep. What the reader or the page does ends it.
+const REST: Duration = Duration::from_secs(3600);
+
+/// Lets a paused lab sleep once nothing has happened in some frames. A frame a second would keep the processor busy
+/// where it draws.
+fn rest(mut settings: ResMut<WinitSettings>, mut touched: ResMut<Touched>, mut frames: Local<u32>) {
+    let is_touched = std::mem::take(&mut touched.0);
+    let UpdateMode::Reactive { wait, .. } = &mut settings.focused_mode else {
+        *frames = 0;
+        return;
+    };
+    *frames = if is_touched { 0 } else { frames.saturating_add(1) };
+    if *frames >= FRAMES_TO_REST {
+        *wait = REST;
+        settings.unfocused_mode = settings.focused_mode;
     }
 }
 

@@ -2,6 +2,8 @@
 
 use serde::Deserialize;
 
+use crate::run::{Quantized, RobotInput};
+
 /// A request of a page: a JSON object with its name under `do`.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(tag = "do", rename_all = "snake_case")]
@@ -63,6 +65,35 @@ pub enum Message {
         /// Its id.
         id: String,
     },
+    /// Choose Query's question.
+    Tab {
+        /// `intersects`, `distance`, `witness` or `swept`.
+        id: String,
+    },
+    /// Put Query's robot, which is the configuration space's too, at this configuration.
+    Configuration {
+        /// Its chart coordinates: metres and radians.
+        coordinates: Vec<f64>,
+    },
+    /// Give a robot of the run an input, which applies at the next tick.
+    Robot {
+        /// The robot's name.
+        robot: String,
+        /// The input.
+        #[serde(flatten)]
+        input: Input,
+    },
+    /// Open or close a door of the run, before the next tick.
+    Door {
+        /// The world's name.
+        world: String,
+        /// The door's name.
+        name: String,
+        /// Whether it is to be open.
+        open: bool,
+    },
+    /// Send the widget in front as a picture.
+    Figure,
     /// Choose the paper.
     Theme {
         /// `system`, `light` or `dark`.
@@ -84,6 +115,36 @@ pub enum Message {
         /// Whether it is visible.
         visible: bool,
     },
+}
+
+/// An input to a robot, by the one field that it has.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Input {
+    /// Hold these control channels, from -128 to 128.
+    Drive(i16, i16),
+    /// Go to these chart coordinates by the end of the tick.
+    MoveTo(Vec<f64>),
+    /// Be put at these chart coordinates, unless something is there.
+    Teleport(Vec<f64>),
+    /// Attach the trailer, or detach it.
+    Trailer(bool),
+    /// Back to the tour, by `true`.
+    Release(bool),
+}
+
+impl Input {
+    /// The run's input; `None` for a coordinate that is not finite or beyond what a script holds.
+    pub fn robot_input(self) -> Option<RobotInput> {
+        let place = |q: Vec<f64>| q.into_iter().map(Quantized::try_new).collect::<Option<Vec<_>>>();
+        Some(match self {
+            Input::Drive(a, b) => RobotInput::Drive(a, b),
+            Input::MoveTo(q) => RobotInput::MoveTo(place(q)?),
+            Input::Teleport(q) => RobotInput::Teleport(place(q)?),
+            Input::Trailer(on) => RobotInput::SetTrailer(on),
+            Input::Release(_) => RobotInput::Release,
+        })
+    }
 }
 
 /// An action on a widget.

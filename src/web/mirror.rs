@@ -43,8 +43,12 @@ pub enum Kind {
     /// Words.
     #[default]
     Text,
-    /// A button, a link or a list.
+    /// A picture that is only looked at.
+    Image,
+    /// A button or a link.
     Button,
+    /// A button that opens a list; its value is what is chosen.
+    Combo,
     /// A check box or a radio button.
     Check,
     /// A number on a scale.
@@ -77,8 +81,10 @@ pub fn mirror(update: &TreeUpdate) -> Vec<Mirrored> {
 
 fn mirrored(id: NodeId, node: &Node, labels: String, focus: bool) -> Option<Mirrored> {
     let kind = match node.role() {
-        Role::Label | Role::Image | Role::ProgressIndicator => Kind::Text,
-        Role::Button | Role::Link | Role::ComboBox | Role::ColorWell => Kind::Button,
+        Role::Image => Kind::Image,
+        Role::Label | Role::ProgressIndicator => Kind::Text,
+        Role::Button | Role::Link | Role::ColorWell => Kind::Button,
+        Role::ComboBox => Kind::Combo,
         Role::CheckBox | Role::RadioButton => Kind::Check,
         // a number that can't be set is a handle, which takes the arrow keys
         Role::Slider | Role::SpinButton if !node.supports_action(Action::SetValue) => Kind::Handle,
@@ -137,7 +143,7 @@ mod tests {
     fn widgets_come_in_reading_order_with_what_a_control_needs() {
         let nodes = [
             (0, node(Role::Window, |n| n.set_children([4, 1].map(NodeId::from)))),
-            (1, node(Role::GenericContainer, |n| n.set_children([2, 3, 9, 11].map(NodeId::from)))),
+            (1, node(Role::GenericContainer, |n| n.set_children([2, 3, 9, 11, 12, 13].map(NodeId::from)))),
             (
                 2,
                 node(Role::Button, |n| {
@@ -172,6 +178,14 @@ mod tests {
                     n.set_numeric_value(1.5);
                 }),
             ),
+            (
+                12,
+                node(Role::ComboBox, |n| {
+                    n.set_label("world");
+                    n.set_value("Lot");
+                }),
+            ),
+            (13, node(Role::Image, |n| n.set_label("the configuration"))),
             (10, node(Role::TextRun, |n| n.set_value("2005"))),
         ];
         let update = TreeUpdate {
@@ -189,12 +203,14 @@ mod tests {
                 ("Play", Kind::Button),
                 ("speed", Kind::Slider),
                 ("Dashboard", Kind::Field),
-                ("elbow", Kind::Handle)
+                ("elbow", Kind::Handle),
+                ("world", Kind::Combo),
+                ("the configuration", Kind::Image),
             ]
         );
         assert!(found[1].focus && !found[0].focus);
         assert_eq!((found[2].range, found[2].off_limits), (Some([0.125, 1e9, 0.0]), true));
-        assert_eq!(found[3].value.as_deref(), Some("2005"));
+        assert_eq!([3, 5].map(|i| found[i].value.as_deref()), [Some("2005"), Some("Lot")]);
         assert_eq!(
             serde_json::to_string(&found[1]).unwrap(),
             r#"{"id":"2","kind":"button","name":"Play","place":[1,2,40,28],"focus":true}"#

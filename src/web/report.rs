@@ -11,12 +11,12 @@ use super::mirror::mirror;
 use super::runs::RunParts;
 use crate::app::{Interface, Shown};
 use crate::manifest::ThemeChoice;
-use crate::picture::{Role, Theme};
+use crate::picture::{Role, Theme, readout};
 use crate::random::Seed;
 use crate::run::Script;
 use crate::simulation::{PendingInput, Playback, RunConfig, Transport};
 use crate::tour::TourConfig;
-use crate::ui::Settings;
+use crate::ui::{Settings, Widget};
 
 /// The last values sent to the page.
 #[derive(Resource, Default)]
@@ -111,8 +111,17 @@ fn state(world: &World) -> Value {
     let shown = &world.resource::<Shown>().0;
     let ui = &world.resource::<Interface>().0;
     let robots = shown.cockpits.iter().flat_map(|c| &c.robots).map(|r| {
-        json!({ "name": r.name, "configuration": r.readout, "contacts": r.contacts, "touching": r.flash, "driven": r.manual })
+        let coordinates: &[f64] = &r.coordinates;
+        json!({
+            "name": r.name, "configuration": r.readout, "coordinates": coordinates, "trailer": r.trailer,
+            "contacts": r.contacts, "touching": r.flash, "driven": r.manual,
+        })
     });
+    let doors = shown.cockpits.iter().map(|c| c.atlas.world()).flat_map(|world| {
+        world.doors.iter().map(|door| json!({ "world": world.name, "name": door.name, "open": door.open }))
+    });
+    let query = &ui.anatomy.anatomy;
+    let is_asked = matches!(ui.widget, Widget::Anatomy | Widget::Cspace);
     json!({
         "kind": "state",
         "tick": shown.tick,
@@ -125,6 +134,11 @@ fn state(world: &World) -> Value {
         "armed": ui.armed,
         "notice": ui.notice().map(|n| json!({ "text": n.text, "error": n.is_error })),
         "robots": robots.collect::<Vec<_>>(),
+        "doors": doors.collect::<Vec<_>>(),
+        "query": is_asked.then(|| json!({
+            "tab": query.tab.name(), "configuration": readout(&query.q().to_string()),
+            "intersects": query.intersects(), "distance": query.distance(),
+        })),
     })
 }
 

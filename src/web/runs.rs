@@ -41,8 +41,8 @@ impl RunParts {
         }
     }
 
-    /// The log's bytes: with all frames up to 100 robots, above with a digest of each second.
-    fn written(&self) -> Result<Vec<u8>, PartsError> {
+    /// The log's bytes, with all frames where there is `room` for as many robots, else with a digest of each second.
+    fn written(&self, room: usize) -> Result<Vec<u8>, PartsError> {
         let seed = self.seed.parse().map_err(|_| PartsError::Seed(self.seed.clone()))?;
         let parse = |text: &String| World::parse("the world", text);
         let worlds = self.worlds.iter().map(parse).collect::<Result<_, _>>()?;
@@ -50,7 +50,7 @@ impl RunParts {
         script.truncate_after(self.ticks);
         let sensor = self.sensor.map(|(n_rays, max_range)| RangeSensor { n_rays, max_range });
         let config = TourConfig { worlds, ticks: self.ticks, sensor };
-        written(config, Seed(seed), script)
+        written(config, Seed(seed), script, room)
     }
 }
 
@@ -90,10 +90,10 @@ struct Verdict {
     text: String,
 }
 
-/// The bytes of a run's log: with all frames up to 100 robots, above with a digest of each second.
-fn written(config: TourConfig, seed: Seed, script: Script) -> Result<Vec<u8>, PartsError> {
+/// The bytes of a run's log: with all frames up to `room` robots, above with a digest of each second.
+fn written(config: TourConfig, seed: Seed, script: Script, room: usize) -> Result<Vec<u8>, PartsError> {
     let mut bytes = Vec::new();
-    if config.robot_names().count() <= MOST_ROBOTS_IN_FULL {
+    if config.robot_names().count() <= room {
         Run::record(config, (seed, script))?.write_mcap(&mut bytes)?;
         return Ok(bytes);
     }
@@ -119,17 +119,27 @@ fn error(text: impl ToString) -> JsError {
 #[wasm_bindgen]
 pub fn record_log(parts: &str) -> Result<Vec<u8>, JsError> {
     let parts: RunParts = serde_json::from_str(parts).map_err(error)?;
-    parts.written().map_err(error)
+    parts.written(MOST_ROBOTS_IN_FULL).map_err(error)
 }
 
-/// The bytes of the log of the run that the query of an address stands for.
+/// The bytes of the log of such a run with a digest of each second instead of its frames: a fiftieth of them.
+///
+/// # Errors
+/// The reason, when a part is refused.
+#[wasm_bindgen]
+pub fn record_digests(parts: &str) -> Result<Vec<u8>, JsError> {
+    let parts: RunParts = serde_json::from_str(parts).map_err(error)?;
+    parts.written(0).map_err(error)
+}
+
+/// The bytes of the log of the run that the query of an address stands for, with a digest of each second.
 ///
 /// # Errors
 /// The reason, when a field is refused.
 #[wasm_bindgen]
 pub fn record_link(query: &str) -> Result<Vec<u8>, JsError> {
     let link = Link::parse(query).map_err(error)?;
-    written(link.config(), link.seed, link.script.clone()).map_err(error)
+    written(link.config(), link.seed, link.script.clone(), 0).map_err(error)
 }
 
 /// Simulates a log's run again from its seed, configuration and script, and compares every frame to the last bit, or
@@ -177,21 +187,59 @@ fn verify_digest_log(bytes: &[u8]) -> Result<String, JsError> {
     serde_json::to_string(&verdict).map_err(error)
 }
 
-/// The tour of a log's run as an SVG figure, on light or dark paper.
-///
-/// # Errors
-/// The reason, when the bytes are no log, or one that was cut or damaged.
+/// A log's run, simulated again to be looked at: what its figure shows at a tick.
 #[wasm_bindgen]
-pub fn figure_of_log(bytes: &[u8], dark: bool) -> Result<String, JsError> {
-    let log = Log::read_mcap(bytes).map_err(error)?.log;
-    let theme = if dark { Theme::Dark } else { Theme::Light };
-    let mut recorder =
-        Recorder::new(log.config.clone(), (log.seed, log.script.clone())).map_err(error)?.without_keyframes();
-    let mut figure = RunFigure::default();
-    figure.watch(recorder.view());
-    for _ in &log.frames {
-        recorder.step();
-        figure.watch(recorder.view());
+pub struct Replay {
+    seed: Seed,
+    config: TourConfig,
+    script: Script,
+    recorder: Recorder,
+    figure: RunFigure,
+    digest: RunDigest,
+}
+
+#[wasm_bindgen]
+impl Replay {
+    /// The run of a log of either kind, at tick 0.
+    ///
+    /// # Errors
+    /// The reason, when the bytes are no log, or one that was cut or damaged.
+    #[wasm_bindgen(constructor)]
+    pub fn new(bytes: &[u8]) -> Result<Self, JsError> {
+        let (seed, config, script) = match Log::read_mcap(bytes) {
+            Ok(read) => (read.log.seed, read.log.config, read.log.script),
+            Err(LogError::NoFrames) => {
+                let log = DigestLog::read_mcap(bytes).map_err(error)?.log;
+                (log.seed, log.config, log.script)
+            }
+            Err(other) => return Err(error(other)),
+        };
+        Replay::begin(seed, config, script)
     }
-    Ok(figure.svg(log.seed, &log.config, log.frames.len() as u64, log.digest(), theme))
+
+    fn begin(seed: Seed, config: TourConfig, script: Script) -> Result<Self, JsError> {
+        let recorder = Recorder::new(config.clone(), (seed, script.clone())).map_err(error)?.without_keyframes();
+        let mut figure = RunFigure::default();
+        figure.watch(recorder.view());
+        let digest = RunDigest::new(seed, &config, &script, recorder.frame());
+        Ok(Replay { seed, config, script, recorder, figure, digest })
+    }
+
+    /// The figure of the run up to a tick, at most its last, as SVG on light or dark paper. A tick before the one
+    /// shown last begins anew.
+    ///
+    /// # Errors
+    /// The reason, when the run does not start again.
+    pub fn at(&mut self, tick: u64, dark: bool) -> Result<String, JsError> {
+        if tick < self.recorder.frame().tick {
+            *self = Replay::begin(self.seed, self.config.clone(), self.script.clone())?;
+        }
+        while self.recorder.frame().tick < tick.min(self.config.ticks) {
+            self.digest.tick(self.recorder.step());
+            self.figure.watch(self.recorder.view());
+        }
+        let theme = if dark { Theme::Dark } else { Theme::Light };
+        let shown = self.recorder.frame().tick;
+        Ok(self.figure.svg(self.seed, &self.config, shown, self.digest.digest(), theme))
+    }
 }

@@ -5,32 +5,12 @@ import { readFileSync, rmSync, writeFileSync } from "node:fs";
 import { after, before, test } from "node:test";
 import { join } from "node:path";
 import { Lab, begin, end, native, newBrowser, origin, shots } from "./harness.mjs";
+import { digestOf, download, lab } from "./on_page.mjs";
 
 before(begin);
 after(end);
 
-/** A test on a page of its own, at the end of which nothing that must not happen may have happened. */
-function lab(name, path, body, options = {}) {
-  test(name, { timeout: options.timeout ?? 180000 }, async () => {
-    const page = await Lab.open(path, options);
-    try {
-      await body(page);
-    } catch (error) {
-      await page.shot(`failed-${name.replace(/\W+/g, "-")}`).catch(() => {});
-      console.error(`# what happened on the page: ${page.faults.join("; ") || "no fault"}`);
-      throw error;
-    }
-    assert.deepEqual(await page.close(), [], "no errors, no policy violations, no foreign requests");
-  });
-}
-
-const digestOf = (text) => /digest ([0-9a-f]{32})/.exec(text)[1];
 const rusty = (s) => s.robots.find((r) => r.name === "Rusty");
-
-async function download(page, act) {
-  const [file] = await Promise.all([page.waitForEvent("download"), act()]);
-  return { name: file.suggestedFilename(), path: await file.path() };
-}
 
 lab("loads, plays, and its first frame is soon there", "/", async (lab) => {
   const first = await lab.page.evaluate(() => performance.getEntriesByName("first-frame")[0].startTime);
@@ -327,11 +307,12 @@ lab("the accessibility tree tells what the canvas shows", "/?tick=200", async (l
   const { nodes } = await session.send("Accessibility.getFullAXTree");
   const named = (role) => nodes.filter((n) => n.role?.value === role && !n.ignored).map((n) => n.name?.value);
   const buttons = named("button");
-  assert.ok(buttons.includes("speed: 1 x"), `${buttons}`);
+  assert.ok(named("popUpButton").concat(named("combobox")).concat(buttons).includes("speed: 1 x"), `${buttons}`);
   for (const name of ["Play", "Step", "Reset", "Re-roll", "Copy link", "Save run", "Drive", "Atlas"]) assert.ok(buttons.includes(name), `${name} among ${buttons}`);
   assert.ok(named("textbox").includes("seed"), named("textbox").join());
   assert.ok(named("spinbutton").includes("Reach: theta1"), named("spinbutton").join());
-  assert.ok(nodes.some((n) => /Pose2 \{ x: /.test(n.name?.value ?? "")), "the readouts are named");
+  const rusty = nodes.find((n) => n.role?.value === "button" && n.name?.value === "Bring Rusty · Apartment to the front (1). Apartment. Rusty");
+  assert.match(rusty.description.value, /^Pose2 \{ x: /, "the readouts are beside the names");
   assert.ok(nodes.some((n) => n.role?.value === "status"), "a live region");
   assert.ok(nodes.some((n) => n.role?.value === "alert"), "and one for what went wrong");
 });

@@ -1,0 +1,44 @@
+// The page around a frame: what it may ask of the lab, and what it hears.
+
+/** What a page around may ask. A control's own number, keys and text are the reader's. */
+const ASKED = "light play pause step step_back reset reroll seek seed widget tab configuration robot door theme figure link save".split(" ");
+
+/** What a page around hears. The run, the settings and what is copied are the reader's. */
+const HEARD = "ready state figure link error failed".split(" ");
+
+/**
+ * Speaks with the page around, if there is one. `ask` carries out a message, `askReader` asks whether the run may be saved. Returns the
+ * function that tells that page something.
+ *
+ * It speaks with one origin: the browser's word for the page around or, where the browser has none, that of the first message.
+ */
+export function around({ ask, askReader, refuse }) {
+  const isFramed = parent !== window;
+  let origin = !isFramed ? location.origin : (location.ancestorOrigins?.[0] ?? originOf(document.referrer));
+  const missed = []; // what was said before the origin was known
+  const tell = (message) => {
+    if (!isFramed || !HEARD.includes(message.kind)) return;
+    if (origin) parent.postMessage({ motionLab: message }, origin === "null" ? "*" : origin);
+    else if (message.kind === "ready") missed.push(message);
+  };
+  window.addEventListener("message", (event) => {
+    const message = event.data?.motionLab;
+    if (event.source !== parent || !isFramed || typeof message?.do !== "string") return;
+    origin ??= event.origin;
+    if (event.origin !== origin) return;
+    missed.splice(0).forEach(tell);
+    if (!ASKED.includes(message.do)) return refuse(`${message.do.slice(0, 20)}: not for the page around`);
+    // a file is saved for the reader, not for the page around: the reader is asked
+    if (message.do === "save") askReader();
+    else ask(message);
+  });
+  return tell;
+}
+
+function originOf(address) {
+  try {
+    return new URL(address).origin;
+  } catch {
+    return null;
+  }
+}

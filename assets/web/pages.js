@@ -1,0 +1,46 @@
+// Pages that hold a run: written by this one, and read back.
+
+const base64 = (bytes) => {
+  let text = "";
+  for (let i = 0; i < bytes.length; i += 32768) text += String.fromCharCode(...bytes.subarray(i, i + 32768));
+  return btoa(text);
+};
+
+const through = async (bytes, stream) => new Uint8Array(await new Response(new Blob([bytes]).stream().pipeThrough(stream)).arrayBuffer());
+
+/**
+ * A page that holds the run of these parts, as the simulator alone (`light`) takes them, and simulates it again in whatever browser opens
+ * it. It holds a digest of each second instead of the frames, and all of it compressed: a twentieth of the log.
+ */
+export async function savedPage(light, parts, files) {
+  const log = light.record_digests(parts);
+  const found = JSON.parse(light.verify_log(log));
+  const fetched = async (name) => {
+    const response = await fetch(name);
+    if (!response.ok) throw new Error(`${name}: ${response.status} ${response.statusText}`);
+    return new Uint8Array(await response.arrayBuffer());
+  };
+  const template = new TextDecoder().decode(await fetched(files.saved));
+  const packed = async (bytes) => base64(await through(bytes, new CompressionStream("gzip")));
+  const run = new light.Replay(log);
+  const figure = (dark) => base64(new TextEncoder().encode(run.at(BigInt(found.ticks), dark)));
+  const values = {
+    SEED: found.seed,
+    TICKS: found.ticks,
+    DIGEST: found.digest,
+    FIGURE: figure(false),
+    DARK: figure(true),
+    WASM: await packed(await fetched(files.lightWasm)),
+    LOG: await packed(log),
+  };
+  run.free();
+  return template.replace(/%(SEED|TICKS|DIGEST|FIGURE|DARK|WASM|LOG)%/g, (_, name) => values[name]);
+}
+
+/** The log in the text of such a page; an earlier one's was not compressed. */
+export async function logOfSavedPage(text) {
+  const held = /<script type="text\/plain" id="bytes">([^<]*)</.exec(text)?.[1];
+  if (!held) throw new Error("it is no page that holds a run");
+  const bytes = Uint8Array.from(atob(held), (c) => c.charCodeAt(0));
+  return bytes[0] === 0x1f && bytes[1] === 0x8b ? through(bytes, new DecompressionStream("gzip")) : bytes;
+}

@@ -1,0 +1,279 @@
+// The controls of the canvas as elements of the page, their twins: in the same places, for keyboard, screen reader and a
+// phone's own keyboard.
+
+/** What a name says besides: a robot's configuration and what follows it, which changes while the run plays. */
+const CHANGING = /(?:: | at )?\b(?:Pose2|HitchCfg|T\d|R2) \{/;
+
+/** Keys that a twin needs itself; a kind that is not here keeps all. */
+const OWN_KEYS = { button: "Enter Space Tab", combo: "Enter Space Tab", check: "Enter Space Tab", handle: "Tab" };
+
+/** Kinds that are typed into the twin, which is seen meanwhile. */
+const TYPED = ["number", "field"];
+
+/** Kinds that are drawn as one button. */
+const PRESSED = ["button", "combo", "handle"];
+
+/**
+ * The twins in `container` of the canvas's controls. `send` sends the lab a message, `titles` gives the titles of its widgets,
+ * `leave` takes the focus when the twin that has it goes, and `nudge` may take a key on a drawing: it returns whether it has.
+ */
+export function twins({ container, send, titles, leave, nudge }) {
+  let all = []; // the twins, in the order of the screen
+  let asked = null; // the twin whose focus the lab has yet to take over
+  let follows = false; // whether the focus moves because the lab's has
+
+  function make(widget) {
+    const tag = { text: "div", image: "div" }[widget.kind] ?? (PRESSED.includes(widget.kind) ? "div" : "label");
+    const element = document.createElement(tag);
+    let control = element;
+    if (PRESSED.includes(widget.kind)) {
+      element.append((control = document.createElement("button")));
+      control.type = "button";
+      if (widget.kind === "combo") control.setAttribute("aria-haspopup", "listbox");
+    } else if (widget.kind === "image") {
+      element.setAttribute("role", "img");
+    } else if (widget.kind !== "text") {
+      control = document.createElement("input");
+      control.type = { check: "checkbox", slider: "range", number: "number", field: "text" }[widget.kind];
+      control.autocomplete = "off";
+      element.append(document.createElement("span"), control);
+      element.classList.toggle("typed", TYPED.includes(widget.kind));
+    }
+    const own = { element, control, widget };
+    if (control !== element) listen(own);
+    return own;
+  }
+
+  function listen(own) {
+    const { control, element, widget } = own;
+    const act = (action, value) => {
+      const { id } = own.widget;
+      if (action === "set") own.wanted = { id, value, until: performance.now() + 2000 };
+      send({ do: "act", id, action, value });
+    };
+    own.act = act;
+    control.addEventListener("focus", () => {
+      // in the lab a number that has the focus becomes a text to type: here the twin is that, and is seen
+      if (follows || TYPED.includes(widget.kind)) return;
+      asked = { id: own.widget.id, until: performance.now() + 1000 };
+      act("focus");
+    });
+    control.addEventListener("blur", () => {
+      element.classList.remove("typing");
+      setTimeout(() => update(own, own.widget)); // what waited for the end of reading
+    });
+    if (PRESSED.includes(widget.kind)) control.addEventListener("click", () => act("click"));
+    else if (widget.kind === "check") control.addEventListener("change", () => act("click"));
+    else if (widget.kind === "field") {
+      const commit = () => control.value !== own.widget.value && act("type", control.value);
+      control.addEventListener("blur", commit);
+      control.addEventListener("keydown", ({ key }) => key === "Enter" && commit());
+    } else {
+      control.addEventListener("input", () => control.value !== "" && act("set", control.value));
+      if (widget.kind === "number") control.addEventListener("keydown", (event) => step(event, own, act));
+    }
+    // the lab's keys work here too, where the control does not need them itself
+    const needed = OWN_KEYS[widget.kind];
+    if (widget.kind === "handle") control.addEventListener("keydown", (event) => nudge(event) && (event.preventDefault(), event.stopImmediatePropagation()));
+    if (needed !== undefined) for (const type of ["keydown", "keyup"]) control.addEventListener(type, (event) => forward(event, needed));
+  }
+
+  /** A number's arrow keys go in the lab's steps: those of an element would call every other number invalid. */
+  function step(event, { control, element, widget }, act) {
+    if (event.key === "Enter" && element.classList.contains("typing")) control.blur();
+    const by = { ArrowUp: 1, ArrowDown: -1 }[event.key];
+    if (!by || !widget.range) return;
+    event.preventDefault();
+    const [least, most, size] = widget.range;
+    const to = Math.min(most, Math.max(least, Number(control.value) + by * (size || 0.01)));
+    control.value = Number(to.toPrecision(12));
+    act("set", control.value);
+  }
+
+  function forward(event, needed) {
+    const name = event.key === " " ? "Space" : event.key;
+    if (event.ctrlKey || event.metaKey || event.altKey || needed.split(" ").includes(name) || event.isComposing) return;
+    event.preventDefault();
+    if (!event.repeat) send({ do: "key", key: event.key, pressed: event.type === "keydown", shift: event.shiftKey });
+  }
+
+  function update(own, widget) {
+    own.widget = widget;
+    const { control, element } = own;
+    if (widget.place && String(widget.place) !== own.place) {
+      own.place = String(widget.place);
+      const [left, top, width, height] = widget.place;
+      Object.assign(element.style, { left: `${left}px`, top: `${top}px`, width: `${width}px`, height: `${height}px` });
+    }
+    const name = widget.name ?? "";
+    if (widget.kind === "text") return words(element, name);
+    if (widget.kind === "image") return element.setAttribute("aria-label", name);
+    // what was set under a number that the lab no longer uses is set again under the new one
+    const { wanted } = own;
+    if (wanted && (performance.now() > wanted.until || Number(wanted.value) === Number(widget.value))) own.wanted = null;
+    else if (wanted && wanted.id !== widget.id) own.act("set", wanted.value);
+    // a name does not change while it is read
+    const isRead = control === document.activeElement;
+    if (PRESSED.includes(widget.kind)) {
+      const at = name.search(CHANGING);
+      const label = [at > 0 ? name.slice(0, at) : name, widget.value].filter((part) => part !== undefined).join(": ");
+      if (control.textContent !== label && !(isRead && widget.kind === "handle")) control.textContent = label;
+      if (at > 0 && !isRead) control.setAttribute("aria-description", name.slice(at).replace(/^(: | at )/, ""));
+    } else if (element.firstChild.textContent !== name) element.firstChild.textContent = name;
+    control.disabled = widget.off_limits ?? false;
+    if (widget.kind === "check") control.checked = widget.on;
+    else if (widget.kind === "button" && widget.on !== undefined) control.setAttribute("aria-pressed", widget.on);
+    // what stays is not set again: that would take half a number from under the reader's fingers
+    if (widget.range && own.range !== String(widget.range) && !isRead) {
+      own.range = String(widget.range);
+      [control.min, control.max] = widget.range;
+      control.step = "any";
+    }
+    if (widget.value !== undefined && !isRead && control.type !== "checkbox" && control.localName === "input") control.value = widget.value;
+  }
+
+  /** Words; the widget's title, which its description follows, is a heading. */
+  function words(element, text) {
+    if (element.dataset.words === text) return;
+    element.dataset.words = text;
+    const title = titles().find((title) => text.startsWith(`${title}. `));
+    if (!title) return (element.textContent = text);
+    const heading = document.createElement("h2");
+    heading.textContent = title;
+    element.replaceChildren(heading, text.slice(title.length + 2));
+  }
+
+  /** The widgets in the order of the screen: what lies at its foot is made first, and what keeps to the right comes from there. */
+  function inOrder(widgets) {
+    const foot = widgets.findIndex((w) => w.kind === "slider" && /^time line/.test(w.name ?? ""));
+    const head = widgets.findIndex((w) => w.kind === "text" && titles().some((title) => w.name.startsWith(`${title}. `)));
+    const ordered = foot >= 0 && foot < head ? [...widgets.slice(0, foot), ...widgets.slice(head), ...widgets.slice(foot, head)] : [...widgets];
+    for (let from = 0; from < ordered.length; ) {
+      let to = from + 1;
+      const row = (w) => w.place && `${w.place[1]} ${w.place[3]}`;
+      while (to < ordered.length && row(ordered[to]) && row(ordered[to]) === row(ordered[from])) to++;
+      ordered.splice(from, to - from, ...ordered.slice(from, to).sort((a, b) => (a.place?.[0] ?? 0) - (b.place?.[0] ?? 0)));
+      from = to;
+    }
+    return ordered;
+  }
+
+  /** A widget's kind and name, and which of those that share them it is. */
+  function keys(widgets) {
+    const count = new Map();
+    return widgets.map(({ kind, name }) => {
+      const key = `${kind} ${kind === "text" ? "" : name}`;
+      count.set(key, (count.get(key) ?? 0) + 1);
+      return `${key} ${count.get(key)}`;
+    });
+  }
+
+  /**
+   * The twin that each widget had before. The lab's numbers move on when words come or go above, and a twin that went with its number
+   * would take the focus along; so a name counts first, and a number where the name is new, as Pause's is that was Play.
+   */
+  function known(widgets) {
+    const found = new Map();
+    const free = new Set(all);
+    const match = (is) => {
+      for (const own of free) {
+        const widget = widgets.find((w, i) => !found.has(w) && is(own, w, i));
+        if (widget) found.set(widget, own) && free.delete(own);
+      }
+    };
+    const named = keys(widgets);
+    match((own, w, i) => own.widget.id === w.id && own.key === named[i]);
+    match((own, w, i) => own.key === named[i]);
+    match((own, w) => own.widget.id === w.id && own.widget.kind === w.kind);
+    for (const own of free) {
+      if (own.element.contains(document.activeElement)) leave();
+      own.element.remove();
+    }
+    return found;
+  }
+
+  /** Makes the twins those of `widgets`. */
+  function mirror(widgets) {
+    const ordered = inOrder(widgets);
+    const found = known(ordered);
+    all = ordered.map((widget) => found.get(widget) ?? make(widget));
+    keys(ordered).forEach((key, i) => (all[i].key = key));
+    let last = null;
+    for (const [i, own] of all.entries()) {
+      update(own, ordered[i]);
+      const place = last ? last.nextSibling : container.firstChild;
+      // moving an element would take its focus away
+      if (own.element !== place && !own.element.contains(document.activeElement)) container.insertBefore(own.element, place);
+      last = own.element;
+    }
+    follow(widgets.find((w) => w.focus)?.id);
+  }
+
+  /** There is one focus: where the lab moves its own, by an arrow key say, the page's goes along. */
+  function follow(id) {
+    if (asked && (id === asked.id || performance.now() > asked.until)) asked = null;
+    const own = all.find((own) => own.widget.id === id);
+    if (asked || !own || own.control === own.element || !container.contains(document.activeElement)) return;
+    if (own.control === document.activeElement || document.activeElement.closest(".typed")) return;
+    follows = true;
+    own.control.focus({ preventScroll: true });
+    follows = false;
+  }
+
+  /** The twin of a control that is at a point of the canvas; the smallest where they overlap. */
+  function at(x, y, kinds) {
+    const holds = ({ widget: { kind, place, off_limits } }) =>
+      kinds.includes(kind) && !off_limits && place && x >= place[0] && y >= place[1] && x <= place[0] + place[2] && y <= place[1] + place[3];
+    const area = ({ widget: { place } }) => place[2] * place[3];
+    return all.filter(holds).sort((a, b) => area(a) - area(b))[0];
+  }
+
+  return { mirror, at };
+}
+
+/**
+ * Fingers on the canvas. A swipe scrolls the page, and that around a frame, unless it begins on a control that is dragged. In a frame
+ * a whole drawing is dragged only once the frame has been tapped. A tap on a number or a text brings the phone's keyboard.
+ */
+export function fingers({ canvas, at, embedded }) {
+  let tap = null;
+  let isHeld = !embedded;
+  const point = ({ clientX, clientY }) => {
+    const { left, top } = canvas.getBoundingClientRect();
+    return [clientX - left, clientY - top];
+  };
+  /** What a finger drags that comes down there; `undefined` where it scrolls, `null` on a drawing not in use. */
+  const dragged = ([x, y]) => {
+    const own = at(x, y, ["handle", "slider"]);
+    const [, , width, height] = own?.widget.place ?? [0, 0, 0, 0];
+    const isDrawing = width * height > 0.1 * canvas.clientWidth * canvas.clientHeight;
+    return isDrawing && !isHeld ? null : own;
+  };
+  // a drawing that nobody uses yet does not move before it is known whether the finger scrolls; what is typed is typed into the twin
+  const isOurs = (event) => dragged(point(event)) === null || at(...point(event), TYPED);
+  canvas.parentElement.addEventListener(
+    "pointerdown",
+    (event) => event.pointerType === "touch" && event.target === canvas && isOurs(event) && event.stopPropagation(),
+    { capture: true },
+  );
+  canvas.addEventListener(
+    "touchstart",
+    (event) => {
+      tap = event.touches.length === 1 ? point(event.touches[0]) : null;
+      if (tap && dragged(tap)) event.preventDefault();
+    },
+    { passive: false },
+  );
+  canvas.addEventListener("touchend", (event) => {
+    const [x, y] = point(event.changedTouches[0]);
+    if (!tap || Math.hypot(x - tap[0], y - tap[1]) > 10) return;
+    isHeld = true;
+    const own = at(x, y, TYPED);
+    if (!own) return;
+    event.preventDefault(); // what a mouse would do next would take the focus again
+    own.element.classList.add("typing");
+    own.control.focus({ preventScroll: true });
+    own.control.select();
+  });
+  window.addEventListener("blur", () => (isHeld = !embedded));
+}

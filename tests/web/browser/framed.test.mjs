@@ -1,0 +1,206 @@
+// The lab in a frame of another page: a teacher's course, a reader's phone.
+import assert from "node:assert/strict";
+import { createServer } from "node:http";
+import { after, before } from "node:test";
+import { begin, end, origin } from "./harness.mjs";
+import { lab } from "./on_page.mjs";
+
+let hosts = null;
+let body = "";
+
+before(async () => {
+  await begin();
+  hosts = createServer((_, response) => response.writeHead(200, { "content-type": "text/html" }).end(body));
+  await new Promise((done) => hosts.listen(0, "127.0.0.1", done));
+});
+after(async () => {
+  await end();
+  hosts.close();
+});
+
+/** Opens a page of another origin around frames of the lab, text above and below; gives its frames. */
+async function around(page, frames) {
+  const frame = (query) => `<iframe src="${origin()}/embed.html${query}" style="width:100%;height:740px;border:0"></iframe>`;
+  body = `<meta name="viewport" content="width=device-width"><p>Text</p>${frames.map(frame).join("")}<p style="height:2000px">Text</p>`;
+  await page.goto(`http://localhost:${hosts.address().port}/`);
+  const inner = page.frames().slice(1);
+  for (const frame of inner) await frame.waitForFunction(() => window.received?.kinds.includes("ready") && window.received.state, null, { timeout: 60000 });
+  return inner;
+}
+
+const PHONE = { viewport: { width: 390, height: 844 }, hasTouch: true, isMobile: true };
+const elsewhere = { wait: false };
+
+lab("a swipe on a frame scrolls the page around it; a drag on a slider or on a drawing in use does not", "/widgets.html", async ({ page, context }) => {
+  const [frame] = await around(page, ["?widget=anatomy"]);
+  const session = await context.newCDPSession(page);
+  const touch = (type, at) => session.send("Input.dispatchTouchEvent", { type, touchPoints: at ? [{ x: at[0], y: at[1] }] : [] });
+  const swipe = async ([x, y]) => {
+    await page.evaluate(() => scrollTo(0, 0));
+    await page.waitForTimeout(300);
+    await touch("touchStart", [x, y]);
+    for (let i = 1; i <= 10; i++) {
+      await touch("touchMove", [x, y - 20 * i]);
+      await page.waitForTimeout(30);
+    }
+    await touch("touchEnd");
+    await page.waitForTimeout(600);
+    return page.evaluate(() => scrollY);
+  };
+  const { width, height, x: left, y: top } = await (await frame.frameElement()).boundingBox();
+  const place = (name) => frame.evaluate((n) => window.received.tree.find((w) => w.name.includes(n)).place, name);
+  const middle = async (name) => {
+    const [x, y, w, h] = await place(name);
+    return [left + x + w / 2, top + y + h / 2];
+  };
+  const pose = () => frame.evaluate(() => window.received.tree.find((w) => w.kind === "handle").name);
+  const drawing = await middle("Does the robot touch anything? Touching counts. intersects");
+  const before = await pose();
+  assert.ok((await swipe(drawing)) > 100, "over the drawing of a frame that nobody uses");
+  assert.equal(await pose(), before, "which does not change");
+  assert.ok((await swipe([left + width / 2, top + 20])) > 100, "over its words");
+  const slider = await frame.evaluate(() => window.received.tree.find((w) => w.kind === "slider").place);
+  assert.ok(slider[1] + slider[3] < height, "the slider is in sight");
+  assert.equal(await swipe([left + slider[0] + slider[2] / 4, top + slider[1] + slider[3] / 2]), 0, "on a slider");
+  await page.touchscreen.tap(...drawing);
+  await page.waitForTimeout(400);
+  assert.equal(await swipe(drawing), 0, "a drawing in use is dragged");
+}, { ...elsewhere, options: PHONE });
+
+lab("a page around presses nothing, hears nothing of the reader's, and one origin is spoken with", "/widgets.html", async ({ page }) => {
+  const [frame] = await around(page, ["?seed=9"]);
+  await page.evaluate(() => {
+    window.heard = [];
+    addEventListener("message", ({ data }) => data.motionLab && window.heard.push(data.motionLab));
+  });
+  const post = (message) => page.evaluate((m) => frames[0].postMessage({ motionLab: m }, "*"), message);
+  const answer = (kind) => page.waitForFunction((k) => window.heard.find((m) => m.kind === k), kind).then((m) => m.jsonValue());
+  const { id } = await frame.evaluate(() => window.received.tree.find((w) => w.name === "Pause" || w.name === "Play"));
+  const playing = () => frame.evaluate(() => window.received.state.playing);
+  const before = await playing();
+  await post({ do: "act", id, action: "click" });
+  assert.equal((await answer("error")).text, "act: not for the page around");
+  await page.waitForTimeout(500);
+  assert.equal(await playing(), before, "the button is not pressed");
+  for (const message of [{ do: "key", key: "s", pressed: true }, { do: "paste", text: "x" }, { do: "system", dark: true, reduced_motion: true }]) {
+    await page.evaluate(() => (window.heard = []));
+    await post(message);
+    assert.equal((await answer("error")).text, `${message.do}: not for the page around`);
+  }
+  // what is the reader's stays in the frame
+  await frame.evaluate(() => window.motionLab.send({ do: "theme", name: "dark" }));
+  await frame.waitForFunction(() => window.received.state.theme === "dark" && window.received.kinds.includes("settings"));
+  await post({ do: "seed", seed: "11" });
+  await page.waitForFunction(() => window.heard.some((m) => m.kind === "state" && m.seed === "11"));
+  const kinds = await page.evaluate(() => [...new Set(window.heard.map((m) => m.kind))]);
+  assert.deepEqual(kinds.filter((k) => !["ready", "state", "error"].includes(k)), []);
+  assert.ok(await frame.evaluate(() => window.received.kinds.includes("run")), "the frame itself has heard of the run");
+  // a page that lies about who it is to the frame hears nothing: what is posted goes to the origin around only
+  const targets = await frame.evaluate(() => {
+    const seen = [];
+    const real = parent.postMessage.bind(parent);
+    try {
+      window.dispatchEvent(new MessageEvent("message", { data: { motionLab: { do: "seed", seed: "12" } }, origin: "https://elsewhere.example", source: parent }));
+    } catch (error) {
+      seen.push(String(error));
+    }
+    return seen;
+  });
+  assert.deepEqual(targets, []);
+  await page.waitForTimeout(500);
+  assert.equal(await frame.evaluate(() => window.received.state.seed), "11", "another origin's message is not heard");
+}, elsewhere);
+
+lab("a page around asks Query, drives, puts and lets go robots, and closes doors", "/widgets.html", async ({ page }) => {
+  const [frame] = await around(page, [""]);
+  await page.evaluate(() => {
+    window.heard = [];
+    addEventListener("message", ({ data }) => data.motionLab && window.heard.push(data.motionLab));
+  });
+  const post = (message) => page.evaluate((m) => frames[0].postMessage({ motionLab: m }, "*"), message);
+  const until = (body, value) => page.waitForFunction(`window.heard.findLast((m) => m.kind === "state" && (${body})(m, ${JSON.stringify(value ?? null)}))`, null, { timeout: 30000 }).then((m) => m.jsonValue());
+  const refused = (text) => page.waitForFunction((t) => window.heard.some((m) => m.kind === "error" && m.text.includes(t)), text, { timeout: 20000 });
+  await until("(m) => m.tick > 2");
+  await post({ do: "robot", robot: "Rusty", drive: [0, 0] });
+  const driven = await until('(m) => m.robots.find((r) => r.name === "Rusty").driven');
+  assert.equal(driven.robots.find((r) => r.name === "Rusty").coordinates.length, 3);
+  await post({ do: "robot", robot: "Rusty", release: true });
+  await until('(m) => !m.robots.find((r) => r.name === "Rusty").driven');
+  await post({ do: "robot", robot: "Hitch", trailer: true });
+  await until('(m) => m.robots.find((r) => r.name === "Hitch").trailer === true');
+  await post({ do: "pause" });
+  await until("(m) => !m.playing");
+  await post({ do: "robot", robot: "Reach", move_to: [0.5, 0.25] });
+  await post({ do: "step" });
+  await until('(m) => m.robots.find((r) => r.name === "Reach").coordinates[1] !== 0 && m.robots.find((r) => r.name === "Reach").driven');
+  await post({ do: "door", world: "Apartment", name: "door B", open: false });
+  await post({ do: "step" });
+  const { doors } = await until('(m) => m.doors.some((d) => d.name === "door B" && !d.open)');
+  assert.deepEqual(doors.filter((d) => !d.open), [{ world: "Apartment", name: "door B", open: false }]);
+  // what no robot takes is refused by name
+  await post({ do: "robot", robot: "Nobody", drive: [0, 0] });
+  await refused("Nobody");
+  await post({ do: "robot", robot: "Reach", drive: [0, 0] });
+  await refused('"Reach" is a reach and takes no Drive');
+  await post({ do: "robot", robot: "Rusty", drive: [500, 0] });
+  await refused("channel 500");
+  await post({ do: "robot", robot: "Rusty", teleport: [1e300, 0, 0] });
+  await refused("Rusty: a coordinate is beyond");
+  await post({ do: "widget", id: "anatomy" });
+  await post({ do: "tab", id: "distance" });
+  // theta1 = 0 and theta2 = pi/2: the chapter's arm, whose second link touches the square
+  await post({ do: "configuration", coordinates: [0, Math.PI / 2] });
+  const { query } = await until('(m) => m.query && m.query.tab === "distance" && /th1:\\s+0.000/.test(m.query.configuration)');
+  assert.deepEqual([query.intersects, query.distance], [true, 0]);
+  await post({ do: "configuration", coordinates: [1] });
+  await refused("configuration: it has 2 coordinates");
+  await post({ do: "tab", id: "nonsense" });
+  await refused("nonsense is no tab");
+  await post({ do: "figure" });
+  const figure = await page.waitForFunction(() => window.heard.find((m) => m.kind === "figure"), null, { timeout: 60000 }).then((m) => m.jsonValue());
+  assert.match(figure.svg, /^<svg[^>]*>[^]*<\/svg>\s*$/);
+}, elsewhere);
+
+/** The largest of the drawings that the lab shows, as left, top, width and height on the canvas. */
+const largest = () => {
+  const drawn = (w) => w.place && (w.kind === "handle" || (w.kind === "button" && / \{ /.test(w.name ?? "")));
+  const places = window.received.tree.filter(drawn).map((w) => w.place);
+  return places.sort((a, b) => b[2] * b[3] - a[2] * a[3])[0];
+};
+
+for (const [path, width, height, more] of [
+  ["/embed.html", 600, 400, {}],
+  ["/embed.html", 480, 300, {}],
+  ["/embed.html?widget=anatomy", 480, 300, {}],
+  ["/embed.html?widget=cspace", 600, 400, {}],
+  ["/embed.html?widget=atlas", 480, 300, {}],
+  ["/", 844, 390, { hasTouch: true, isMobile: true, deviceScaleFactor: 3 }],
+  ["/", 640, 400, { deviceScaleFactor: 2 }],
+  ["/", 360, 640, { hasTouch: true, isMobile: true, deviceScaleFactor: 3 }],
+]) {
+  lab(`the picture has its share: ${path} at ${width} x ${height}`, path, async (lab) => {
+    await lab.page.waitForTimeout(1200);
+    const [, , wide, high] = await lab.page.evaluate(largest);
+    console.log(`# ${wide} x ${high}`);
+    // half the height, or all of the width
+    assert.ok(high >= 0.5 * height || wide >= 0.85 * width, `${wide} x ${high}`);
+    assert.equal(await lab.page.evaluate(() => document.documentElement.scrollWidth - innerWidth), 0, "nothing is cut off");
+    await lab.shot(`share-${path.replace(/\W+/g, "-")}-${width}`);
+  }, { options: { viewport: { width, height }, ...more } });
+}
+
+lab("at 400 % nothing is cut off: the page scrolls, sideways by 32 points at most", "/", async (lab) => {
+  for (const id of ["dashboard", "anatomy", "cspace", "atlas"]) {
+    await lab.send({ do: "widget", id });
+    await lab.until((s) => s.widget === id);
+    await lab.page.waitForTimeout(1200);
+    const [right, wide, whole] = await lab.page.evaluate(() => {
+      const right = Math.max(...window.received.tree.filter((w) => w.place).map((w) => w.place[0] + w.place[2]));
+      return [right, document.getElementById("lab").clientWidth, document.documentElement.scrollWidth];
+    });
+    assert.ok(right <= wide && wide <= whole && whole <= innerWidth(lab) + 32, `${id}: ${right} ${wide} ${whole}`);
+  }
+  await lab.shot("at-400");
+}, { options: { viewport: { width: 320, height: 256 }, deviceScaleFactor: 4 } });
+
+const innerWidth = (lab) => lab.page.viewportSize().width;
