@@ -7,8 +7,9 @@ use motion_lab::collision::ChainChecker;
 use motion_lab::planning::{Bounds, RrtConnect, solve};
 use motion_lab::prelude::*;
 
+use crate::Table;
 use crate::measure::{Timing, is_timed};
-use crate::{Row, Table, readme};
+use crate::row::{Mark, Row};
 
 /// The number of seeds.
 const SEEDS: u64 = 1000;
@@ -46,13 +47,6 @@ pub fn rows(table: &mut Table) {
     let work = "RRT-Connect, Reach round the post, start to certified path, median of 1,000 seeds";
     if table.wants(work) {
         let [plan, edge] = plan_and_edge(if is_timed() { SEEDS } else { 3 });
-        table.push(Row {
-            work: work.into(),
-            ours: readme::time(plan.median),
-            peer: format!("{} {}", edge.name, readme::time(edge.median)),
-            ratio: format!("{:.0} times one edge", plan.median / edge.median),
-            spread: [&plan, &edge].map(|t| format!("{:.0} %", 100.0 * t.spread)).join(", "),
-            must: "<= 250 times",
-        });
+        table.push(Row::new(work.into(), Mark::at_most(250.0, " edges"), &plan, &[edge]));
     }
 }
