@@ -25,7 +25,7 @@ pub fn beat() {
 pub fn say() -> String {
     let times = TIMES.lock().expect("one thread");
     if times.len() < 4 {
-        return "too few rounds to tell the machine's pace".into();
+        return "Too few rounds to tell the machine's pace".into();
     }
     let quarter = times.len() / 4;
     let [first, last] = [&times[..quarter], &times[times.len() - quarter..]].map(|part| quantile(part, 0.5));
