@@ -1,12 +1,12 @@
-//! The contest of the table's scans: the lab and parry scan the same world from the same poses, natively and in
+//! The contest of the table's scans: the lab and its peers scan the same world from the same poses, natively and in
 //! WebAssembly.
 
 use motion_lab::collision::Scene;
-use motion_lab::geometry::Pose2;
+use motion_lab::geometry::{Placed, Pose2};
 use motion_lab::num;
 use motion_lab::sensors::{Instructions, RangeSensor, Scanner};
 
-use crate::peer::Peer;
+use crate::rivals::Task;
 use crate::worlds::{CASES, free_points, pieces, walls};
 
 /// A world of walls, and the range of the sensor in it.
@@ -17,19 +17,19 @@ pub struct Case {
     pub longest: f64,
     pub range: f64,
     /// The ratio that the best instructions must reach.
-    pub must: &'static str,
+    pub must: Option<f64>,
 }
 
-const fn case(count: usize, side: f64, longest: f64, range: f64, must: &'static str) -> Case {
+const fn case(count: usize, side: f64, longest: f64, range: f64, must: Option<f64>) -> Case {
     Case { count, side, longest, range, must }
 }
 
 /// A hall; crowded yards with six things per square metre; and the same number of things spread out.
 pub const WORLDS: [Case; 4] = [
-    case(40, 8.0, 2.0, 4.0, ">= 30x"),
-    case(1_000, 12.6, 1.0, 12.0, ">= 25x"),
-    case(10_000, 40.0, 1.0, 12.0, ">= 20x"),
-    case(1_000, 40.0, 1.0, 12.0, ""),
+    case(40, 8.0, 2.0, 4.0, Some(30.0)),
+    case(1_000, 12.6, 1.0, 12.0, Some(25.0)),
+    case(10_000, 40.0, 1.0, 12.0, Some(20.0)),
+    case(1_000, 40.0, 1.0, 12.0, None),
 ];
 
 impl Case {
@@ -75,45 +75,51 @@ impl Ours {
     }
 }
 
-/// The same by parry.
-pub struct Parry {
-    peer: Peer,
-    places: Vec<(f64, f64)>,
-    directions: Vec<Vec<(f64, f64)>>,
-    range: f64,
-    ranges: Vec<f64>,
-}
-
-impl Parry {
-    pub fn new(case: &Case) -> Self {
-        let scene = case.scene();
-        let sensor = RangeSensor { n_rays: 360, max_range: case.range };
-        let poses = case.poses(&scene);
-        let directions = |p: &Pose2| {
-            let (s, c) = num::sin_cos(p.theta);
-            (0..sensor.n_rays).map(|k| sensor.direction(k)).map(|(x, y)| (c * x - s * y, s * x + c * y)).collect()
-        };
-        Parry {
-            peer: Peer::new(pieces(&scene)),
-            places: poses.iter().map(|p| (p.x, p.y)).collect(),
-            directions: poses.iter().map(directions).collect(),
-            range: case.range,
-            ranges: vec![0.0; 360],
-        }
-    }
-
-    pub fn scan(&mut self, i: usize) -> &[f64] {
-        let i = i % CASES;
-        self.peer.scan(self.places[i], &self.directions[i], self.range, &mut self.ranges);
-        &self.ranges
+/// The same as a task for the peers.
+pub fn task(case: &Case) -> Task {
+    let scene = case.scene();
+    let sensor = RangeSensor { n_rays: 360, max_range: case.range };
+    let rays = |p: &Pose2| {
+        let (s, c) = num::sin_cos(p.theta);
+        let directions = (0..sensor.n_rays).map(|k| sensor.direction(k));
+        let turned = directions.flat_map(|(x, y)| [c * x - s * y, s * x + c * y]);
+        [p.x, p.y].into_iter().chain(turned).collect()
+    };
+    Task {
+        kind: "scan".into(),
+        settings: vec![case.range],
+        obstacles: pieces(&scene).map(numbers).collect(),
+        cases: case.poses(&scene).iter().map(rays).collect(),
     }
 }
 
-/// Checks that the two agree before they race.
-pub fn agree(ours: &mut Ours, parry: &mut Parry) {
-    for i in 0..CASES {
-        let pairs = ours.scan(i).iter().zip(parry.scan(i));
-        let differ = pairs.filter(|(a, b)| a != b && (*a - *b).abs() > 1e-9).count();
-        assert!(differ <= 2, "{differ} rays differ from parry's in scan {i}");
+/// A placed shape as a task's obstacle.
+pub fn numbers(placed: &Placed) -> Vec<f64> {
+    std::iter::once(placed.radius()).chain(placed.core().iter().flat_map(|p| [p.x, p.y])).collect()
+}
+
+/// Checks that a peer agrees before the race: to 1e-9 m but for two rays of a scan, or to a millimetre but for eight
+/// where the peer has single precision. Simulators choose other bearings for their rays: of nine scans in ten their
+/// least range is ours to 5 cm.
+pub fn agree(ours: &mut Ours, name: &str, answers: &[Vec<f64>]) {
+    assert!(answers.iter().all(|ranges| ranges.len() == 360), "{name}");
+    if matches!(name, "ir-sim" | "navground") {
+        let differ = answers.iter().enumerate().filter(|(i, theirs)| {
+            let mine = ours.scan(*i).to_vec();
+            (least_of(&mine) - least_of(theirs)).abs() > 0.05
+        });
+        let differ = differ.count();
+        assert!(10 * differ <= answers.len(), "{name}: {differ} scans differ");
+        return;
     }
+    let (near, most) = if name.starts_with("parry") { (1e-9, 2) } else { (1e-3, 8) };
+    for (i, theirs) in answers.iter().enumerate() {
+        let differ = ours.scan(i).iter().zip(theirs).filter(|(a, b)| a != b && (*a - *b).abs() > near).count();
+        assert!(differ <= most, "{differ} rays differ from those of {name} in scan {i}");
+    }
+}
+
+/// The least of some ranges; a simulator says its greatest range where a ray meets nothing.
+fn least_of(ranges: &[f64]) -> f64 {
+    ranges.iter().copied().fold(f64::INFINITY, num::lesser)
 }

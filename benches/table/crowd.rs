@@ -5,14 +5,15 @@ use motion_lab::geometry::Pose2;
 use motion_lab::random::Seed;
 use motion_lab::recording::Recorder;
 use motion_lab::robots::RUSTY;
-use motion_lab::run::{DT, RunDigest, Script};
+use motion_lab::run::{RunDigest, Script};
 use motion_lab::sensors::{RangeSensor, Scanner};
 use motion_lab::simulation::Replicas;
 use motion_lab::tour::{BOOK_SEED, TourConfig};
 use motion_lab::worlds::{Warehouse, World};
 
-use crate::measure::{Contender, Timing, is_timed, race};
-use crate::{Row, Table, readme};
+use crate::Table;
+use crate::measure::Entrant;
+use crate::row::Mark;
 
 const SENSOR: RangeSensor = RangeSensor { n_rays: 360, max_range: 4.0 };
 
@@ -67,32 +68,31 @@ fn scans<'a>(world: &World, poses: &'a [Pose2]) -> impl FnMut(usize) -> f64 + 'a
     }
 }
 
+/// The steps of a round, so that small crowds take about as long as large ones.
+fn steps(robots: usize) -> usize {
+    (2_000 / robots).max(1)
+}
+
 pub fn rows(table: &mut Table) {
     for robots in [10, 100, 1_000, 10_000, 100_000] {
         let work = format!("a robot-step in a warehouse of {robots} robots, one thread");
         if !table.wants(&work) {
             continue;
         }
+        let mark = if matches!(robots, 1_000 | 10_000) { Mark::at_most(2.5, " scans") } else { Mark::cost(" scans") };
         let world = warehouse(robots);
         let mut crowd = Crowd::begin(world.clone());
         let poses = crowd.poses.clone();
-        let timings = on(1, || {
-            race(vec![Contender::new("", |_| crowd.step()), Contender::new("scan alone", scans(&world, &poses))])
+        on(1, || {
+            let (sensed, all) = (poses.len() as f64, robots as f64);
+            // a robot's scan is a share of all scans as its step is of all steps
+            let mut scan = Entrant::new("its scan alone", steps(robots), scans(&world, &poses));
+            scan.scale(all / sensed);
+            let entrants = vec![Entrant::new("", steps(robots), |_| crowd.step()), scan];
+            table.race_per(all, &[(work, mark)], |_| entrants);
         });
-        let (step, scan) = (timings[0].per(robots as f64), timings[1].per(poses.len() as f64));
         let contacts: u32 = crowd.recorder.frame().robots.iter().map(|r| r.contacts).sum();
         assert_eq!(contacts, 0, "nobody meets anybody");
-        if is_timed() {
-            println!("  {:.1}x real time on one thread", DT * 1e9 / timings[0].median);
-        }
-        table.push(Row {
-            work,
-            ours: readme::time(step.median),
-            peer: format!("scan alone {}", readme::time(scan.median)),
-            ratio: format!("{:.2} scans", scan.times_faster_than(&step)),
-            spread: spread(&[&step, &scan]),
-            must: if matches!(robots, 1_000 | 10_000) { "<= 2.5 scans" } else { "" },
-        });
     }
     let work = "a robot-step in a warehouse of 10000 robots, two threads";
     if table.wants(work) {
@@ -100,30 +100,19 @@ pub fn rows(table: &mut Table) {
         let [mut one, mut two] = [1, 2].map(|_| Crowd::begin(world.clone()));
         let pool = |threads| rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads");
         let (single, pair) = (pool(1), pool(2));
-        let timings = race(vec![
-            Contender::new("", |_| pair.install(|| two.step())),
-            Contender::new("one thread", |_| single.install(|| one.step())),
-        ]);
+        table.race_per(10_000.0, &[(work.into(), Mark::at_most(0.8, " of one"))], |_| {
+            vec![
+                Entrant::new("", 1, |_| pair.install(|| two.step())),
+                Entrant::new("one thread", 1, |_| single.install(|| one.step())),
+            ]
+        });
         // both at one tick
         while one.recorder.frame().tick != two.recorder.frame().tick {
             let behind = if one.recorder.frame().tick < two.recorder.frame().tick { &mut one } else { &mut two };
             behind.step();
         }
         assert_eq!(one.digest.digest(), two.digest.digest(), "threads change nothing");
-        let timings: Vec<Timing> = timings.iter().map(|t| t.per(10_000.0)).collect();
-        table.push(Row {
-            work: work.into(),
-            ours: readme::time(timings[0].median),
-            peer: format!("one thread {}", readme::time(timings[1].median)),
-            ratio: format!("{:.2} of one", 1.0 / timings[0].times_faster_than(&timings[1])),
-            spread: spread(&[&timings[0], &timings[1]]),
-            must: "<= 0.8 of one",
-        });
     }
-}
-
-fn spread(timings: &[&Timing]) -> String {
-    timings.iter().map(|t| format!("{:.0} %", 100.0 * t.spread)).collect::<Vec<_>>().join(", ")
 }
 
 /// Many runs of one robot, stepped together, beside their scans alone.
@@ -137,15 +126,9 @@ pub fn replicas(table: &mut Table) {
     let mut replicas = Replicas::new(&RUSTY, &world, &world.robots[0], Some(SENSOR), seeds).expect("they start");
     (0..200).for_each(|_| replicas.step());
     let poses: Vec<Pose2> = (0..replicas.len()).map(|i| *replicas.configuration(i)).collect();
-    let timings = on(1, || {
-        race(vec![Contender::new("", |_| replicas.step()), Contender::new("scans alone", scans(&world, &poses))])
-    });
-    table.push(Row {
-        work: work.into(),
-        ours: readme::time(timings[0].median),
-        peer: format!("scans alone {}", readme::time(timings[1].median)),
-        ratio: format!("{:.2} times", timings[1].times_faster_than(&timings[0])),
-        spread: spread(&[&timings[0], &timings[1]]),
-        must: "<= 3 times",
+    on(1, || {
+        let scans = Entrant::new("its scans alone", 1, scans(&world, &poses));
+        let entrants = vec![Entrant::new("", 1, |_| replicas.step()), scans];
+        table.race(&[(work.into(), Mark::at_most(3.0, " times"))], |_| entrants);
     });
 }

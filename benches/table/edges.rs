@@ -1,133 +1,196 @@
-//! Edges: exact for the disc, certified for arm and car, compared with the usual ways with parry.
+//! Edges: exact for the disc, certified for arm and car, beside parry's casts and samples.
 
-use motion_lab::collision::{Checker, Scene};
+use motion_lab::collision::{Certificate, Checker, EdgeVerdict, Scene};
+use motion_lab::num::wrap;
 use motion_lab::prelude::*;
 
 use crate::Table;
-use crate::measure::{Contender, Timing, race};
-use crate::peer::Peer;
+use crate::contest::numbers;
+use crate::measure::Entrant;
 use crate::queries::arm_scenes;
+use crate::rivals::Task;
+use crate::row::Mark;
 use crate::worlds::{CASES, boxes, draws, free_points, pieces, walls};
 
-/// A disc's edges, and parry's cast along them, which finds whether and when it hits.
-fn disc<T>(scene: &Scene, side: f64, ask: impl Fn(&Checker<RustyDisc>, &R2, &R2) -> T) -> Vec<Timing> {
-    let checker = Checker::new(scene.clone(), RustyDisc::default());
-    let (peer, radius) = (Peer::new(pieces(scene)), RustyDisc::default().radius);
-    let mut s = draws("disc edges");
-    let mut pairs = Vec::new();
-    for p in free_points(scene, 0.1 * side, 0.9 * side).iter().cycle() {
-        let a = R2::new(p.x, p.y);
-        let b = R2::new(p.x + s.uniform(-2.0, 2.0), p.y + s.uniform(-2.0, 2.0));
-        if checker.is_free(&a) {
-            let hit = peer.disc_line(radius, (a.0.x, a.0.y), (b.0.x - a.0.x, b.0.y - a.0.y)).is_some();
-            assert_eq!(hit, !checker.edge_free(&a, &b), "{a} to {b}");
-            assert_eq!(hit, !checker.edge(&a, &b).is_ok_and(|verdict| verdict.is_free()), "{a} to {b}");
-            pairs.push((a, b));
-        }
-        if pairs.len() == CASES {
-            break;
-        }
-    }
-    race(vec![
-        Contender::new("", |i| ask(&checker, &pairs[i % CASES].0, &pairs[i % CASES].1)),
-        Contender::new("parry cast", |i| {
-            let (a, b) = &pairs[i % CASES];
-            peer.disc_line(radius, (a.0.x, a.0.y), (b.0.x - a.0.x, b.0.y - a.0.y))
-        }),
-    ])
-}
-
-/// Edges of a robot in a scene, from free to free.
+/// Edges of a robot in a scene, and what the peers need to know of them.
 struct Edges<R: Robot> {
+    robot: &'static str,
     checker: Checker<R>,
     pairs: Vec<[R::Configuration; 2]>,
+    settings: Vec<f64>,
+    cases: Vec<Vec<f64>>,
+}
+
+/// A range of the parameter within which an edge first meets something; `None` where it is free.
+fn contact(verdict: EdgeVerdict) -> Option<[f64; 2]> {
+    match verdict {
+        EdgeVerdict::Free { .. } => None,
+        EdgeVerdict::Hit { free_until, contact_at, .. } => Some([free_until, contact_at]),
+        EdgeVerdict::Unresolved { free_until, .. } => Some([free_until, 1.0]),
+    }
 }
 
 impl<R: Robot> Edges<R> {
-    fn new(checker: Checker<R>, mut draw: impl FnMut(&mut Stream, &R) -> [R::Configuration; 2]) -> Self {
-        let mut s = draws("certified edges");
-        let mut pairs = Vec::new();
-        while pairs.len() < CASES {
-            let [a, b] = draw(&mut s, checker.robot());
-            if checker.is_free(&a) && checker.is_free(&b) {
-                pairs.push([a, b]);
-            }
+    fn task(&self, kind: &str) -> Task {
+        Task {
+            kind: kind.into(),
+            settings: self.settings.clone(),
+            obstacles: pieces(self.checker.scene()).map(numbers).collect(),
+            cases: self.cases.clone(),
         }
-        let edges = Edges { checker, pairs };
-        edges.tell();
-        edges
     }
 
-    /// Prints the number of steps of the proofs and the number of free edges, and checks that both queries agree.
-    fn tell(&self) {
-        let mut certificate = motion_lab::collision::Certificate::new();
-        let (mut steps, mut free) = (0, 0);
-        for [a, b] in &self.pairs {
-            let verdict = self.checker.edge_certified(a, b, &mut certificate).expect("of this robot");
-            steps += certificate.steps().len();
-            free += usize::from(verdict.is_free());
+    fn verdicts(&self) -> Vec<Option<[f64; 2]>> {
+        let mut certificate = Certificate::new();
+        let verdict = |[a, b]: &[R::Configuration; 2]| {
+            let verdict = self.checker.edge(a, b).expect("of this robot");
             assert_eq!(self.checker.edge_free(a, b), verdict.is_free(), "{a} to {b}");
-        }
-        println!("  {:.1} proven steps an edge, {free} of {CASES} edges free", steps as f64 / CASES as f64);
+            let certified = self.checker.edge_certified(a, b, &mut certificate).expect("of this robot");
+            assert_eq!(certified.is_free(), verdict.is_free(), "{a} to {b}");
+            contact(verdict)
+        };
+        self.pairs.iter().map(verdict).collect()
     }
 
-    /// Times a query of edges and parry's contact test at every 2 mm.
-    fn beside_samples<T>(&self, ask: impl Fn(&Checker<R>, &R::Configuration, &R::Configuration) -> T) -> Vec<Timing> {
-        let peer = Peer::new(pieces(self.checker.scene()));
-        race(vec![
-            Contender::new("", |i| ask(&self.checker, &self.pairs[i % CASES][0], &self.pairs[i % CASES][1])),
-            Contender::new("2 mm samples", |i| {
-                let [a, b] = &self.pairs[i % CASES];
-                let edge = self.checker.robot().edge(a, b).expect("of this robot");
-                let parts = edge.footprint_at(0.0).parts().len();
-                let way = (0..parts).map(|k| edge.bound(k, 0.0, 1.0)).fold(0.0, f64::max);
-                let samples = (way / 0.002).ceil() as u32;
-                (0..=samples).any(|i| peer.intersects(&edge.footprint_at(f64::from(i) / f64::from(samples.max(1)))))
-            }),
-        ])
+    /// Checks that a peer agrees before the race on which edges are free, and where the others first meet something.
+    /// Samples may miss what is touched for less than 2 mm, and parry's nonlinear cast misses some: as many edges as
+    /// `allowed` may differ.
+    fn agree(&self, name: &str, is_free: impl Fn(f64) -> bool, answers: &[Vec<f64>], allowed: usize) {
+        let verdicts = self.verdicts();
+        let differ = verdicts.iter().zip(answers).filter(|(ours, theirs)| ours.is_none() != is_free(theirs[0])).count();
+        println!("  {name}: {differ} of {} verdicts differ", answers.len());
+        assert!(differ <= allowed, "{name}: {differ} verdicts differ, more than {allowed}");
+    }
+
+    /// The two works of a robot in a scene: free or not, and with the clearance or the first contact.
+    fn rows(&self, table: &mut Table, kinds: [&str; 2], names: [String; 2], marks: [f64; 2], allowed: usize) {
+        let [free, hit] = kinds;
+        let [free_name, hit_name] = names;
+        let (checker, pairs) = (&self.checker, &self.pairs);
+        table.race(&[(free_name, Mark::faster_by(marks[0]))], |peers| {
+            // the disc answers 1 for free; arm and car when they meet something, or infinity
+            let is_free = |answer: f64| if self.robot == "disc" { answer > 0.0 } else { answer > 1.0 };
+            let peers = peers.entrants(&self.task(free), |name, answers| self.agree(name, is_free, answers, allowed));
+            let ours = Entrant::new("", CASES, move |i| checker.edge_free(&pairs[i][0], &pairs[i][1]));
+            std::iter::once(ours).chain(peers).collect()
+        });
+        table.race(&[(hit_name, Mark::faster_by(marks[1]))], |peers| {
+            // a clearance is answered negative
+            let is_free = |answer: f64| !(0.0..=1.0).contains(&answer);
+            let peers = peers.entrants(&self.task(hit), |name, answers| {
+                self.agree(name, is_free, answers, allowed);
+                self.agree_on_contacts(name, answers, allowed);
+            });
+            let ours = Entrant::new("", CASES, move |i| checker.edge(&pairs[i][0], &pairs[i][1]));
+            std::iter::once(ours).chain(peers).collect()
+        });
+    }
+
+    /// Checks that a first contact is not before what is proven free, to 1e-3 of an edge. A cast whose elbow goes along
+    /// chords may be earlier where a link comes near a wall slowly.
+    fn agree_on_contacts(&self, name: &str, answers: &[Vec<f64>], allowed: usize) {
+        let early = |(ours, theirs): &(Option<[f64; 2]>, &Vec<f64>)| {
+            ours.is_some_and(|[free_until, _]| theirs[0] >= 0.0 && theirs[0] < free_until - 1e-3)
+        };
+        let early = self.verdicts().into_iter().zip(answers).filter(early).count();
+        println!("  {name}: {early} contacts are early");
+        assert!(early <= allowed, "{name}: {early} contacts where the edge is proven free, more than {allowed}");
     }
 }
 
-/// Two rows for the same edges: whether they are free, which samples answer too, and their clearance or hit.
-fn certified<R: Robot>(table: &mut Table, robot: &str, count: usize, edges: impl Fn() -> Edges<R>) {
-    let free = format!("{robot} edge, certified free or not, {count} obstacles");
-    table.row(&free, ">= 50x", || edges().beside_samples(Checker::edge_free));
-    let verdict = format!("{robot} edge, certified, with its clearance or hit, {count} obstacles");
-    table.row(&verdict, ">= 50x", || edges().beside_samples(Checker::edge));
+/// Edges of up to 2 m each way that begin free.
+fn disc(scene: &Scene, side: f64) -> Edges<RustyDisc> {
+    let disc = RustyDisc::default();
+    let checker = Checker::new(scene.clone(), disc);
+    let mut s = draws("disc edges");
+    let starts = free_points(scene, 0.1 * side, 0.9 * side);
+    let edges = starts.iter().cycle().map(|p| {
+        let a = R2::new(p.x, p.y);
+        [a, R2::new(p.x + s.uniform(-2.0, 2.0), p.y + s.uniform(-2.0, 2.0))]
+    });
+    let pairs: Vec<_> = edges.filter(|[a, _]| checker.is_free(a)).take(CASES).collect();
+    let cases = pairs.iter().map(|[a, b]| vec![a.0.x, a.0.y, b.0.x, b.0.y]).collect();
+    Edges { robot: "disc", checker, settings: vec![disc.radius], pairs, cases }
+}
+
+/// Edges from free to free, and for the peers the number of the last sample, so that no point moves 2 mm between two.
+fn certified<R: Robot>(
+    robot: &'static str,
+    checker: Checker<R>,
+    settings: Vec<f64>,
+    mut draw: impl FnMut(&mut Stream, &R) -> [R::Configuration; 2],
+    case: impl Fn(&R::Configuration, &R::Configuration) -> Vec<f64>,
+) -> Edges<R> {
+    let mut s = draws("certified edges");
+    let (mut pairs, mut cases) = (Vec::new(), Vec::new());
+    while pairs.len() < CASES {
+        let [a, b] = draw(&mut s, checker.robot());
+        if checker.is_free(&a) && checker.is_free(&b) {
+            let edge = checker.robot().edge(&a, &b).expect("of this robot");
+            let parts = edge.footprint_at(0.0).parts().len();
+            let way = (0..parts).map(|k| edge.bound(k, 0.0, 1.0)).fold(0.0, f64::max);
+            let samples = (way / 0.002).ceil().max(1.0);
+            cases.push(case(&a, &b).into_iter().chain([samples]).collect());
+            pairs.push([a, b]);
+        }
+    }
+    Edges { robot, checker, pairs, settings, cases }
+}
+
+fn arm(scene: Scene) -> Edges<Reach<2>> {
+    let arm = Reach::<2>::workbench();
+    let settings = vec![arm.base.x, arm.base.y, arm.lengths[0], arm.lengths[1], arm.link_radius];
+    let draw = |s: &mut Stream, arm: &Reach<2>| {
+        let o = Point2::origin();
+        let a = arm.sample(o, o, s);
+        [a, T2::new(a.0[0] + s.uniform(-0.5, 0.5), a.0[1] + s.uniform(-0.5, 0.5))]
+    };
+    certified("arm", Checker::new(scene, arm), settings, draw, |a, b| {
+        vec![a.0[0], a.0[1], wrap(b.0[0] - a.0[0]), wrap(b.0[1] - a.0[1])]
+    })
+}
+
+fn car(scene: Scene) -> Edges<Hitch> {
+    let (min, max) = (scene.bounds().min, scene.bounds().max);
+    let body = HITCH.body;
+    let settings = vec![0.5 * body.length - body.rear_overhang, 0.0, 0.5 * body.length, 0.5 * body.width];
+    let draw = |s: &mut Stream, car: &Hitch| {
+        let a = car.sample(min, max, s);
+        let mut b = a;
+        b.body = Pose2::new(
+            a.body.x + s.uniform(-1.0, 1.0),
+            a.body.y + s.uniform(-1.0, 1.0),
+            a.body.theta + s.uniform(-0.5, 0.5),
+        );
+        [a, b]
+    };
+    certified("car", Checker::new(scene, HITCH), settings, draw, |a, b| {
+        let (a, b) = (a.body, b.body);
+        vec![a.x, a.y, a.theta, b.x - a.x, b.y - a.y, wrap(b.theta - a.theta)]
+    })
+}
+
+fn names(robot: &str, how: &str, count: usize, what: &str) -> [String; 2] {
+    ["free or not", "with its clearance or hit"].map(|asked| format!("{robot} edge, {how}, {asked}, {count} {what}"))
 }
 
 pub fn rows(table: &mut Table) {
-    for (count, side, longest, must) in [(40, 8.0, 2.0, ">= 5x"), (10_000, 100.0, 1.0, ">= 2x")] {
-        let scene = walls(count, side, longest);
-        table.row(&format!("disc edge, exact, free or not, {count} segments"), must, || {
-            disc(&scene, side, Checker::edge_free)
-        });
-        table.row(&format!("disc edge, exact, with its clearance or hit, {count} segments"), must, || {
-            disc(&scene, side, Checker::edge)
-        });
+    for (count, side, longest) in [(40, 8.0, 2.0), (10_000, 100.0, 1.0)] {
+        let names = names("disc", "exact", count, "segments");
+        if names.iter().any(|name| table.wants(name)) {
+            disc(&walls(count, side, longest), side).rows(table, ["disc_free", "disc_hit"], names, [4.0, 2.0], 0);
+        }
     }
     for (count, scene) in arm_scenes() {
-        certified(table, "arm", count, || {
-            Edges::new(Checker::new(scene.clone(), Reach::<2>::workbench()), |s, arm| {
-                let o = Point2::origin();
-                let a = arm.sample(o, o, s);
-                [a, T2::new(a.0[0] + s.uniform(-0.5, 0.5), a.0[1] + s.uniform(-0.5, 0.5))]
-            })
-        });
+        let names = names("arm", "certified", count, "obstacles");
+        if names.iter().any(|name| table.wants(name)) {
+            arm(scene).rows(table, ["arm_free", "arm_hit"], names, [40.0, 15.0], 8);
+        }
     }
-    for (count, scene) in [(3, boxes(3, 0.0)), (100, boxes(100, 0.0)), (10_000, boxes(10_000, 0.0))] {
-        let (min, max) = (scene.bounds().min, scene.bounds().max);
-        certified(table, "car", count, || {
-            Edges::new(Checker::new(scene.clone(), HITCH), |s, car| {
-                let a = car.sample(min, max, s);
-                let mut b = a;
-                b.body = Pose2::new(
-                    a.body.x + s.uniform(-1.0, 1.0),
-                    a.body.y + s.uniform(-1.0, 1.0),
-                    a.body.theta + s.uniform(-0.5, 0.5),
-                );
-                [a, b]
-            })
-        });
+    for count in [3, 100, 10_000] {
+        let names = names("car", "certified", count, "obstacles");
+        if names.iter().any(|name| table.wants(name)) {
+            car(boxes(count, 0.0)).rows(table, ["car_free", "car_hit"], names, [40.0, 15.0], 8);
+        }
     }
 }

@@ -1,20 +1,27 @@
-//! Interleaved measurements: every round times every contender, so that disturbances by the machine affect all alike.
+//! Races: every round, every contender does every case once, forward in even rounds and backward in odd ones, so that
+//! disturbances by the machine affect all alike.
 
 use std::hint::black_box;
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::time::{Duration, Instant};
+use std::sync::{Arc, Mutex};
+use std::time::Instant;
 
-/// Number of rounds of a row.
+use crate::interval::quantile;
+use crate::pace;
+use crate::process::Process;
+use crate::rivals::lap;
+
+/// Greatest number of rounds.
 const ROUNDS: usize = 101;
-/// Working time of one contender in one round: less than a system's time slice.
-const SLICE: Duration = Duration::from_millis(1);
-/// Number of rounds for work that takes longer than that.
-const FEW_ROUNDS: usize = 15;
+/// Least number of rounds.
+const FEW_ROUNDS: usize = 7;
+/// About how long one contender runs in all its rounds, nanoseconds. Rounds are left out for slow ones only.
+const BUDGET: f64 = 1.5e9;
 
-/// Set when every contender does its work once and nothing is timed.
+/// Set when every contender does one case and nothing is timed.
 static UNTIMED: AtomicBool = AtomicBool::new(false);
 
-/// Switches timing off: from now on every contender does its work once.
+/// Switches timing off: from now on every contender does one case.
 pub fn time_nothing() {
     UNTIMED.store(true, Ordering::Relaxed);
 }
@@ -24,89 +31,100 @@ pub fn is_timed() -> bool {
     !UNTIMED.load(Ordering::Relaxed)
 }
 
-/// A way to do the row's work. It is called again and again with a rising count.
-pub struct Contender<'a> {
-    pub name: &'static str,
-    work: Box<dyn FnMut(usize) + 'a>,
+/// A contender's way to do all cases of a row.
+pub struct Entrant<'a> {
+    pub name: String,
+    /// Does all cases and returns the time of one, nanoseconds.
+    round: Box<dyn FnMut() -> f64 + 'a>,
+    factor: f64,
 }
 
-impl<'a> Contender<'a> {
-    pub fn new<T>(name: &'static str, mut work: impl FnMut(usize) -> T + 'a) -> Self {
-        Contender { name, work: Box::new(move |i| _ = black_box(work(i))) }
+impl<'a> Entrant<'a> {
+    /// Work in this program, which is called with the number of each case.
+    pub fn new<T>(name: impl Into<String>, cases: usize, mut work: impl FnMut(usize) -> T + 'a) -> Self {
+        let cases = if is_timed() { cases } else { 1 };
+        let round = move || {
+            lap(cases, |case| {
+                black_box(work(case));
+            })
+        };
+        Entrant { name: name.into(), round: Box::new(round), factor: 1.0 }
+    }
+
+    /// Work that prepares something and then returns the time of one case by its own clock, nanoseconds.
+    pub fn by_own_clock(name: impl Into<String>, round: impl FnMut() -> f64 + 'a) -> Self {
+        Entrant { name: name.into(), round: Box::new(round), factor: 1.0 }
+    }
+
+    /// Multiplies its times from now on.
+    pub fn scale(&mut self, factor: f64) {
+        self.factor = factor;
+    }
+
+    /// Way number `way` of a program of its own to do the task that it was given.
+    pub fn remote(name: String, process: Arc<Mutex<Process>>, way: usize) -> Self {
+        Entrant { name, round: Box::new(move || process.lock().expect("one at a time").round(way)), factor: 1.0 }
     }
 }
 
-/// The times of one contender, nanoseconds per call.
+/// The times of one contender, nanoseconds a case.
+#[derive(Clone, Debug)]
 pub struct Timing {
-    pub name: &'static str,
+    pub name: String,
     pub median: f64,
-    /// Half the distance between the quartiles, as a share of the median.
-    pub spread: f64,
     rounds: Vec<f64>,
 }
 
 impl Timing {
     /// The timing of these rounds, nanoseconds.
-    pub fn of(name: &'static str, rounds: Vec<f64>) -> Self {
-        let (low, median, high) = (quantile(&rounds, 0.25), quantile(&rounds, 0.5), quantile(&rounds, 0.75));
-        Timing { name, median, spread: 0.5 * (high - low) / median, rounds }
+    pub fn of(name: impl Into<String>, rounds: Vec<f64>) -> Self {
+        Timing { name: name.into(), median: quantile(&rounds, 0.5), rounds }
     }
 
     /// The time of one of the work's `parts`.
     pub fn per(&self, parts: f64) -> Self {
-        Self::of(self.name, self.rounds.iter().map(|t| t / parts).collect())
+        Self::of(self.name.clone(), self.rounds.iter().map(|t| t / parts).collect())
     }
 
-    /// The median over the rounds of the ratio of `other`'s time to this one's.
-    pub fn times_faster_than(&self, other: &Timing) -> f64 {
-        let ratios: Vec<f64> = self.rounds.iter().zip(&other.rounds).map(|(a, b)| b / a).collect();
-        quantile(&ratios, 0.5)
+    /// The ratio of this one's time to the other's in each round that both ran.
+    pub fn over(&self, other: &Timing) -> Vec<f64> {
+        self.rounds.iter().zip(&other.rounds).map(|(a, b)| a / b).collect()
+    }
+
+    pub fn rounds(&self) -> &[f64] {
+        &self.rounds
     }
 }
 
-fn quantile(values: &[f64], share: f64) -> f64 {
-    let mut sorted = values.to_vec();
-    sorted.sort_by(f64::total_cmp);
-    sorted[((sorted.len() - 1) as f64 * share).round() as usize]
+/// How many rounds something joins whose round takes so long, nanoseconds.
+fn rounds_of(took: f64) -> usize {
+    ((BUDGET / took) as usize).clamp(FEW_ROUNDS, ROUNDS)
 }
 
-/// Times the contenders, of which the first is ours.
-pub fn race(contenders: Vec<Contender>) -> Vec<Timing> {
-    if !is_timed() {
-        let once = |mut c: Contender| {
-            (c.work)(0);
-            Timing::of(c.name, vec![1.0])
-        };
-        return contenders.into_iter().map(once).collect();
-    }
-    let mut contenders: Vec<(Contender, usize, usize, Vec<f64>)> = contenders
+/// Times all entrants, after a first round that does not count. The slow ones join the first rounds only.
+pub fn race(entrants: Vec<Entrant>) -> Vec<Timing> {
+    let mut runners: Vec<(Entrant, usize, Vec<f64>)> = entrants
         .into_iter()
-        .map(|mut c| {
-            let (mut calls, mut done) = (1, 0);
-            // as many calls as fill a slice
-            loop {
-                let start = Instant::now();
-                (done..done + calls).for_each(|i| (c.work)(i));
-                done += calls;
-                let took = start.elapsed();
-                if took >= SLICE / 2 || calls >= 1 << 28 {
-                    let per_call = took.as_secs_f64() / calls as f64;
-                    calls = ((SLICE.as_secs_f64() / per_call) as usize).max(1);
-                    break;
-                }
-                calls *= 2;
-            }
-            (c, calls, done, Vec::new())
+        .map(|mut entrant| {
+            let start = Instant::now();
+            let once = entrant.factor * (entrant.round)();
+            let rounds = rounds_of(start.elapsed().as_secs_f64() * 1e9);
+            (entrant, rounds, if is_timed() { Vec::new() } else { vec![once] })
         })
         .collect();
-    let slow = contenders.iter().any(|(_, calls, _, _)| *calls == 1);
-    for _ in 0..if slow { FEW_ROUNDS } else { ROUNDS } {
-        for (c, calls, done, rounds) in &mut contenders {
-            let start = Instant::now();
-            (*done..*done + *calls).for_each(|i| (c.work)(i));
-            rounds.push(start.elapsed().as_secs_f64() * 1e9 / *calls as f64);
-            *done += *calls;
+    let rounds = if is_timed() { runners.iter().map(|(_, rounds, _)| *rounds).max().unwrap_or(0) } else { 0 };
+    for round in 0..rounds {
+        pace::beat();
+        let mut turn = |(entrant, rounds, times): &mut (Entrant, usize, Vec<f64>)| {
+            if round < *rounds {
+                times.push(entrant.factor * (entrant.round)());
+            }
+        };
+        if round % 2 == 0 {
+            runners.iter_mut().for_each(&mut turn);
+        } else {
+            runners.iter_mut().rev().for_each(&mut turn);
         }
     }
-    contenders.into_iter().map(|(c, _, _, rounds)| Timing::of(c.name, rounds)).collect()
+    runners.into_iter().map(|(entrant, _, times)| Timing::of(entrant.name, times)).collect()
 }

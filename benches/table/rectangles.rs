@@ -22,7 +22,11 @@ pub struct Rectangles {
     arrays: [Vec<f64>; 6],
     /// An upper bound on the size of the coordinates, metres.
     size: f64,
+    decide: Decide,
 }
+
+/// [`decide`] for some instructions.
+type Decide = fn([&[f64]; 6], &Frame, f64, &mut [bool]) -> bool;
 
 /// The centre of a rectangle and the two vectors from it to the middles of its sides.
 type Frame = [f64; 6];
@@ -53,7 +57,12 @@ impl Rectangles {
             array.resize(frames.len().next_multiple_of(LANES), 0.0);
         }
         let size = largest_coordinate(&placed);
-        Rectangles { placed, arrays, size }
+        Rectangles { placed, arrays, size, decide: decide_widely }
+    }
+
+    /// The same for the instructions that Rust compiles for by default.
+    pub fn with_baseline(rects: impl IntoIterator<Item = (Pose2, Point2, Point2)>) -> Self {
+        Rectangles { decide, ..Self::new(rects) }
     }
 
     /// Writes whether each rectangle touches `rect`, in order; `touched` is cleared first.
@@ -65,7 +74,7 @@ impl Rectangles {
         let doubt = 256.0 * f64::EPSILON * size * size;
         touched.clear();
         touched.resize(self.placed.len().next_multiple_of(LANES), false);
-        let undecided = decide(self.arrays.each_ref().map(Vec::as_slice), &frame(&other), doubt, touched);
+        let undecided = (self.decide)(self.arrays.each_ref().map(Vec::as_slice), &frame(&other), doubt, touched);
         touched.truncate(self.placed.len());
         if undecided {
             for (touched, placed) in touched.iter_mut().zip(&self.placed) {
@@ -79,7 +88,7 @@ impl Rectangles {
 ///
 /// Projected on a half-side `u` of one rectangle, with `d` from centre to centre: the centres are `|d . u|` apart, that
 /// rectangle reaches `u . u`, and the other the sum of `|u . w|` over its half-sides w.
-#[multiversion(targets("x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl", "x86_64+avx2"))]
+#[inline(always)]
 fn decide(arrays: [&[f64]; 6], other: &Frame, doubt: f64, touched: &mut [bool]) -> bool {
     let [cx, cy, ux, uy, vx, vy] = arrays.map(|array| array.as_chunks::<LANES>().0);
     let [ox, oy, px, py, qx, qy] = *other;
@@ -107,4 +116,10 @@ fn decide(arrays: [&[f64]; 6], other: &Frame, doubt: f64, touched: &mut [bool]) 
         }
     }
     undecided.contains(&true)
+}
+
+/// [`decide`] with the widest instructions of the processor.
+#[multiversion(targets("x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl", "x86_64+avx2"))]
+fn decide_widely(arrays: [&[f64]; 6], other: &Frame, doubt: f64, touched: &mut [bool]) -> bool {
+    decide(arrays, other, doubt, touched)
 }

@@ -1,105 +1,172 @@
-//! Whole runs, and the start of a run.
+//! Whole runs: the tour beside the scans in it, and the same minute by other simulators.
 
-use std::process::Command;
 use std::time::Instant;
 
+use motion_lab::collision::Scene;
+use motion_lab::geometry::Pose2;
+use motion_lab::num::{hypot, wrap};
+use motion_lab::prelude::RustyDisc;
 use motion_lab::recording::{Recorder, Run};
-use motion_lab::run::LogWriter;
+use motion_lab::run::{DT, Frame, Log, LogWriter, RunDigest};
+use motion_lab::sensors::Scanner;
 use motion_lab::tour::{BOOK_SEED, TourConfig};
 use motion_lab::worlds::World;
 
-use crate::measure::{Contender, Timing, race};
-use crate::{Row, Table, readme};
+use crate::Table;
+use crate::contest::numbers;
+use crate::measure::{Entrant, race};
+use crate::rivals::Task;
+use crate::row::{Mark, Row};
+use crate::worlds::pieces;
 
-/// The environment variable of the child process that runs only its first step.
-pub const CHILD: &str = "MOTION_LAB_FIRST_STEP";
-
-/// The child's work: one tick, and a print of its peak memory, kilobytes.
-pub fn first_step() {
-    let mut recorder = Recorder::new(TourConfig::default(), BOOK_SEED).expect("the tour runs");
-    std::hint::black_box(recorder.step());
-    let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
-    let peak = status.lines().find_map(|l| l.strip_prefix("VmHWM:")).unwrap_or("0 kB");
-    println!("{}", peak.trim().trim_end_matches(" kB"));
+fn recorded() -> Log {
+    Run::record(TourConfig::default(), BOOK_SEED).expect("the tour runs")
 }
 
-fn minute() -> Vec<Timing> {
-    println!("  digest {}", Run::record(TourConfig::default(), BOOK_SEED).expect("the tour runs").digest());
-    race(vec![
-        Contender::new("", |_| {
-            let log = Run::record(TourConfig::default(), BOOK_SEED).expect("the tour runs");
-            let frames = Run::replay(&log).expect("it replays");
-            let same = frames.iter().map(motion_lab::run::Frame::digest).eq(log.digests.iter().copied());
-            assert!(same, "the replay differs");
-            log.digest()
-        }),
-        Contender::new("recorded only", |_| Run::record(TourConfig::default(), BOOK_SEED).expect("the tour runs")),
-    ])
+/// Times some work on every tick of a minute; returns the time of one, nanoseconds.
+fn ticks(count: usize, work: impl FnMut(usize)) -> f64 {
+    let start = Instant::now();
+    (0..count).for_each(work);
+    start.elapsed().as_secs_f64() * 1e9 / count as f64
+}
+
+fn begin(config: TourConfig) -> Recorder {
+    Recorder::new(config, BOOK_SEED).expect("the tour runs")
+}
+
+/// A log that begins in memory that has been used before, as a file's pages have.
+fn write(log: &Log, mut room: Vec<u8>) -> LogWriter<Vec<u8>> {
+    room.clear();
+    LogWriter::new(room, BOOK_SEED, &log.config, &log.script, &log.initial).expect("a log")
+}
+
+/// The poses from which the rover scans, tick by tick.
+fn poses(log: &Log) -> Vec<Pose2> {
+    let pose = |frame: &Frame| {
+        let q = &frame.robots[frame.scans[0].robot as usize].configuration;
+        Pose2::new(q[0], q[1], q[2])
+    };
+    log.frames.iter().map(pose).collect()
+}
+
+/// A tick of the tour and its parts, in units of the one scan in it.
+fn tick(table: &mut Table) {
+    let works = [
+        ("a tick of the tour: three robots, a scan, frame, digest, written and sealed", Mark::at_most(5.0, " scans")),
+        ("the tour recorded and re-simulated with digests, a tick", Mark::at_most(12.0, " scans")),
+        ("of a tick the step: three robots, a scan, frame", Mark::cost(" scans")),
+        ("of a tick the schedule: a world without a robot", Mark::cost(" scans")),
+        ("of a tick what is written and sealed, to memory", Mark::cost(" scans")),
+    ];
+    let works = works.map(|(work, mark)| (work.to_owned(), mark));
+    let log = recorded();
+    let count = log.frames.len();
+    table.race(&works, |_| {
+        let log = &log;
+        let scene = Scene::of_world(&log.config.worlds[0]);
+        let mut scanner = Scanner::new(log.config.sensor.expect("the tour has a sensor"));
+        let (poses, mut ranges) = (poses(log), vec![0.0; 360]);
+        for (pose, frame) in poses.iter().zip(&log.frames) {
+            scanner.scan_into(&scene, &[], pose, &mut ranges);
+            assert!(frame.scans[0].ranges.iter().eq(&ranges), "the scan alone is that of tick {}", frame.tick);
+        }
+        let mut room = Vec::new();
+        let whole = move || {
+            let (mut recorder, mut writer) = (begin(TourConfig::default()), write(log, std::mem::take(&mut room)));
+            let mut digest = RunDigest::new(BOOK_SEED, &log.config, &log.script, &log.initial);
+            let took = ticks(count, |_| {
+                let frame = recorder.step();
+                digest.tick(frame);
+                writer.tick(frame).expect("the next tick");
+            });
+            assert_eq!(digest.digest(), log.digest(), "the same minute");
+            room = writer.into_inner();
+            took
+        };
+        let twice = move || {
+            ticks(1, |_| {
+                let log = recorded();
+                let frames = Run::replay(&log).expect("it replays");
+                assert!(frames.iter().map(Frame::digest).eq(log.digests.iter().copied()), "the replay differs");
+            }) / count as f64
+        };
+        let step = move || {
+            let mut recorder = begin(TourConfig::default());
+            ticks(count, |_| _ = std::hint::black_box(recorder.step().tick))
+        };
+        let schedule = move || {
+            let mut world = World::workbench();
+            world.robots.clear();
+            let mut recorder = begin(TourConfig { worlds: vec![world], ..TourConfig::default() });
+            ticks(count, |_| _ = std::hint::black_box(recorder.step().tick))
+        };
+        let mut room = Vec::new();
+        let written = move || {
+            let mut writer = write(log, std::mem::take(&mut room));
+            let took = ticks(count, |i| _ = writer.tick(&log.frames[i]).expect("the next tick"));
+            room = writer.into_inner();
+            took
+        };
+        let scan = move || {
+            ticks(count, |i| {
+                scanner.scan_into(&scene, &[], &poses[i], &mut ranges);
+                std::hint::black_box(&ranges);
+            })
+        };
+        vec![
+            Entrant::by_own_clock("", whole),
+            Entrant::by_own_clock("", twice),
+            Entrant::by_own_clock("", step),
+            Entrant::by_own_clock("", schedule),
+            Entrant::by_own_clock("", written),
+            Entrant::by_own_clock("its scan alone", scan),
+        ]
+    });
+}
+
+/// The rover's minute as a task: its world, its start, and its speeds tick by tick. The other simulators do without arm
+/// and car.
+fn minute(log: &Log) -> Task {
+    let scene = Scene::of_world(&log.config.worlds[0]);
+    let sides = pieces(&scene).flat_map(|piece| {
+        let (core, line) = (piece.core(), numbers(piece));
+        let next = |k: usize| (k + 1) % core.len();
+        let sides = if core.len() > 2 { core.len() } else { 1 };
+        (0..sides)
+            .map(move |k| vec![line[0], core[k].x, core[k].y, core[next(k)].x, core[next(k)].y])
+            .collect::<Vec<_>>()
+    });
+    let poses = poses(log);
+    let speeds = poses
+        .windows(2)
+        .flat_map(|w| [hypot(w[1].x - w[0].x, w[1].y - w[0].y) / DT, wrap(w[1].theta - w[0].theta) / DT]);
+    let sensor = log.config.sensor.expect("the tour has a sensor");
+    Task {
+        kind: "minute".into(),
+        settings: vec![sensor.max_range, DT, RustyDisc::default().radius],
+        obstacles: sides.collect(),
+        cases: vec![[poses[0].x, poses[0].y, poses[0].theta].into_iter().chain(speeds).collect()],
+    }
 }
 
 pub fn rows(table: &mut Table) {
-    let tour = "the 60 s tour, recorded and re-simulated with digests";
-    if table.wants(tour) {
-        let timings = minute();
-        let times = 60e9 / timings[0].median;
-        table.push(Row {
-            work: tour.into(),
-            ours: readme::time(timings[0].median),
-            peer: format!("recorded only {}", readme::time(timings[1].median)),
-            ratio: format!("{times:.0}x real time"),
-            spread: format!("{:.0} %", 100.0 * timings[0].spread),
-            must: ">= 4,000x",
-        });
+    tick(table);
+    let work = "the 60 s tour recorded with digests";
+    if !table.wants(work) {
+        return;
     }
-    let mut recorder = Recorder::new(TourConfig::default(), BOOK_SEED).expect("the tour runs");
-    table.row("a tick of the tour: three robots, 360 rays", "", || {
-        race(vec![Contender::new("", |i| {
-            if i % 1200 == 1199 {
-                recorder = Recorder::new(TourConfig::default(), BOOK_SEED).expect("the tour runs");
-            }
-            recorder.step().tick
-        })])
-    });
-    table.row("of it the schedule: a tick without a robot", "", || {
-        let mut world = World::workbench();
-        world.robots.clear();
-        let config = TourConfig { worlds: vec![world], ..TourConfig::default() };
-        let mut recorder = Recorder::new(config, BOOK_SEED).expect("it runs without robots");
-        race(vec![Contender::new("", |_| recorder.step().tick)])
-    });
-    table.row("a tick of the tour written and sealed, to memory", "", || {
-        let log = Run::record(TourConfig::default(), BOOK_SEED).expect("the tour runs");
-        let begin = || {
-            let room = Vec::with_capacity(16 << 20);
-            LogWriter::new(room, BOOK_SEED, &log.config, &log.script, &log.initial).expect("a log of the tour")
-        };
-        let mut writer = begin();
-        race(vec![Contender::new("", |i| {
-            if i % log.frames.len() == 0 {
-                writer = begin();
-            }
-            writer.tick(&log.frames[i % log.frames.len()]).expect("the next tick")
-        })])
-    });
-    let start = "start to first step, peak memory";
-    if table.wants(start) {
-        let me = std::env::current_exe().expect("this program");
-        let (mut took, mut peak) = (Vec::new(), 0.0_f64);
-        for _ in 0..21 {
-            let begin = Instant::now();
-            let child = Command::new(&me).env(CHILD, "1").output().expect("the child runs");
-            took.push(begin.elapsed().as_secs_f64() * 1e9);
-            let kilobytes: f64 = String::from_utf8_lossy(&child.stdout).trim().parse().unwrap_or(f64::NAN);
-            peak = if kilobytes > peak { kilobytes } else { peak };
-        }
-        let took = Timing::of("", took);
-        table.push(Row {
-            work: start.into(),
-            ours: format!("{}, {:.1} MB", readme::time(took.median), peak / 1024.0),
-            peer: String::new(),
-            ratio: String::new(),
-            spread: format!("{:.0} %", 100.0 * took.spread),
-            must: "<= 20 ms / 20 MB",
-        });
+    let log = recorded();
+    println!("  digest {}", log.digest());
+    let peers = table.peers.entrants(&minute(&log), |_, _| ());
+    let ours = Entrant::new("", 1, |_| recorded());
+    let timings = race(std::iter::once(ours).chain(peers).collect());
+    let (ours, peers) = (&timings[0], &timings[1..]);
+    for peer in peers {
+        let mark = if peer.name == "ir-sim" { 150.0 } else { 10.0 };
+        let work = format!("{work}, the rover's minute by {}", peer.name);
+        table.push(Row::new(work, Mark::faster_by(mark), ours, std::slice::from_ref(peer)));
+    }
+    if peers.is_empty() {
+        table.push(Row::note(work.into(), crate::row::time(ours.median)));
     }
 }

@@ -3,26 +3,28 @@
 use motion_lab::sensors::Instructions;
 
 use crate::Table;
-use crate::contest::{Case, Ours, Parry, WORLDS, agree};
-use crate::measure::{Contender, Timing, race};
-
-fn against(case: &Case, set: Instructions) -> Vec<Timing> {
-    let (mut ours, mut parry) = (Ours::new(case, set), Parry::new(case));
-    agree(&mut ours, &mut parry);
-    race(vec![Contender::new("", move |i| ours.scan(i)[0]), Contender::new("parry", move |i| parry.scan(i)[0])])
-}
+use crate::contest::{Ours, WORLDS, agree, task};
+use crate::measure::Entrant;
+use crate::row::Mark;
+use crate::worlds::CASES;
 
 pub fn rows(table: &mut Table) {
     let best = Instructions::best();
+    let mut sets = vec![best];
+    sets.extend(Instructions::available().into_iter().filter(|set| *set != best));
     for case in WORLDS {
-        let work = case.work();
-        table.row(&format!("{work} ({best:?})"), case.must, || against(&case, best));
-        for set in Instructions::available() {
-            if set != best {
-                let must = if case.must.is_empty() { "" } else { ">= 15x" };
-                table.row(&format!("{work} ({set:?})"), must, || against(&case, set));
-            }
-        }
+        let mark = |set| match case.must {
+            Some(must) if set == best => Mark::faster_by(must),
+            Some(_) => Mark::faster_by(15.0),
+            None => Mark::FASTER,
+        };
+        let works: Vec<_> = sets.iter().map(|set| (format!("{} ({set:?})", case.work()), mark(*set))).collect();
+        table.race(&works, |peers| {
+            let ours = sets.iter().map(|set| Ours::new(&case, *set)).collect::<Vec<_>>();
+            let peers = peers.entrants(&task(&case), |name, answers| agree(&mut Ours::new(&case, best), name, answers));
+            let ours = ours.into_iter().map(|mut ours| Entrant::new("", CASES, move |i| ours.scan(i)[0]));
+            ours.chain(peers).collect()
+        });
     }
 }
 

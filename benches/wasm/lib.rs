@@ -1,15 +1,16 @@
 //! The table's scans, ours and parry's, for a script that has the clock and times them in turn.
-#![allow(missing_docs, dead_code, clippy::expect_used, clippy::disallowed_methods)]
+#![allow(missing_docs, dead_code, unused_imports, clippy::expect_used, clippy::disallowed_methods)]
 
 #[path = "../table/contest.rs"]
 mod contest;
-#[path = "../table/peer.rs"]
-mod peer;
+#[path = "../table/rivals/mod.rs"]
+mod rivals;
 #[path = "../table/worlds.rs"]
 mod worlds;
 
-use contest::{Case, Ours, Parry, WORLDS, agree};
+use contest::{Case, Ours, WORLDS, agree, task};
 use motion_lab::sensors::Instructions;
+use rivals::Contender;
 use wasm_bindgen::prelude::*;
 
 #[wasm_bindgen]
@@ -22,7 +23,7 @@ pub fn worlds() -> usize {
 pub struct Contest {
     case: Case,
     ours: Ours,
-    parry: Parry,
+    parry: Box<dyn Contender>,
 }
 
 #[wasm_bindgen]
@@ -31,18 +32,15 @@ impl Contest {
     #[wasm_bindgen(constructor)]
     pub fn new(number: usize) -> Contest {
         let case = WORLDS[number];
-        let (mut ours, mut parry) = (Ours::new(&case, Instructions::best()), Parry::new(&case));
-        agree(&mut ours, &mut parry);
+        let mut ours = Ours::new(&case, Instructions::best());
+        let mut parry = rivals::contenders(&task(&case)).swap_remove(0);
+        let answers: Vec<Vec<f64>> = (0..worlds::CASES).map(|i| parry.answers(i)).collect();
+        agree(&mut ours, parry.name(), &answers);
         Contest { case, ours, parry }
     }
 
     pub fn work(&self) -> String {
         self.case.work()
-    }
-
-    /// Whether the world has a ratio to reach.
-    pub fn marked(&self) -> bool {
-        !self.case.must.is_empty()
     }
 
     pub fn digest(&mut self) -> String {
@@ -56,6 +54,6 @@ impl Contest {
 
     /// Does this number of parry's scans.
     pub fn parry(&mut self, from: usize, calls: usize) -> f64 {
-        (from..from + calls).fold(0.0, |last, i| self.parry.scan(i)[0] + 0.0 * last)
+        (from..from + calls).fold(0.0, |last, i| self.parry.work(i) + 0.0 * last)
     }
 }

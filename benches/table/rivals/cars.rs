@@ -1,0 +1,76 @@
+//! Edges of a car: one rectangle, whose reference point goes along a line while it turns.
+
+use std::rc::Rc;
+
+use parry2d_f64::math::{Pose, Vector};
+use parry2d_f64::query::NonlinearRigidMotion;
+use parry2d_f64::shape::Cuboid;
+
+use super::obstacles::Obstacles;
+use super::samples::{bisected, first_contact};
+use super::{By, Contender, Task};
+
+struct Car {
+    /// From the reference point to the rectangle's middle, in the car's frame.
+    middle: Vector,
+    body: Cuboid,
+    obstacles: Obstacles,
+}
+
+/// A motion from a place and heading, and its number of samples.
+#[derive(Clone, Copy)]
+struct Edge {
+    from: Vector,
+    heading: f64,
+    by: Vector,
+    turn: f64,
+    samples: usize,
+}
+
+impl Car {
+    fn pose(&self, edge: &Edge, s: f64) -> Pose {
+        Pose::new(edge.from + edge.by * s, edge.heading + edge.turn * s) * Pose::from_translation(self.middle)
+    }
+
+    fn meets(&self, edge: &Edge, s: f64) -> bool {
+        self.obstacles.meet(&self.pose(edge, s), &self.body)
+    }
+
+    fn cast(&self, edge: &Edge, any: bool) -> Option<f64> {
+        let motion = NonlinearRigidMotion::new(self.pose(edge, 0.0), -self.middle, edge.by, edge.turn);
+        first_contact(&self.obstacles, &self.body, &motion, 1.0, any)
+    }
+}
+
+/// Settings: the rectangle's middle in the car's frame, and its half sides. A case: x, y and heading, by how much each
+/// changes, the last sample's number. The answer is as for the arm.
+pub fn contenders(task: &Task) -> Vec<Box<dyn Contender>> {
+    let [x, y, half_length, half_width] = task.settings[..] else { return Vec::new() };
+    let any = task.kind.ends_with("free");
+    let body = Cuboid::new(Vector::new(half_length, half_width));
+    let car = Rc::new(Car { middle: Vector::new(x, y), body, obstacles: Obstacles::new(task) });
+    let edge = |c: &Vec<f64>| Edge {
+        from: Vector::new(c[0], c[1]),
+        heading: c[2],
+        by: Vector::new(c[3], c[4]),
+        turn: c[5],
+        samples: c[6] as usize,
+    };
+    let edges: Rc<Vec<Edge>> = Rc::new(task.cases.iter().map(edge).collect());
+    let (a, e) = (car.clone(), edges.clone());
+    vec![
+        Box::new(By {
+            name: "parry, 2 mm samples",
+            ask: move |case: usize| {
+                let edge = &e[case];
+                let last = edge.samples as f64;
+                let first = bisected(edge.samples, any, |i| a.meets(edge, i as f64 / last));
+                first.map_or(f64::INFINITY, |i| i as f64 / last)
+            },
+        }),
+        Box::new(By {
+            name: "parry, nonlinear cast",
+            ask: move |case: usize| car.cast(&edges[case], any).unwrap_or(f64::INFINITY),
+        }),
+    ]
+}

@@ -1,0 +1,92 @@
+//! The distance of an arm, with its witnesses: one query, whose limit is the best so far over both links.
+//!
+//! <https://docs.rs/parry2d-f64/0.31.1/parry2d_f64/query/fn.closest_points.html>: a small limit lets far pairs end
+//! early.
+
+use std::rc::Rc;
+
+use parry2d_f64::bounding_volume::Aabb;
+use parry2d_f64::math::{Pose, Vector};
+use parry2d_f64::partitioning::BvhNode;
+use parry2d_f64::query::{self, ClosestPoints};
+use parry2d_f64::shape::{Capsule, Segment, Shape};
+
+use super::obstacles::Obstacles;
+use super::{By, Contender, Task};
+
+/// The distance of two boxes.
+fn gap(around: &Aabb, node: &BvhNode) -> f64 {
+    let (below, above) = (node.mins() - around.maxs, around.mins - node.maxs());
+    below.max(above).max(Vector::ZERO).length()
+}
+
+/// The least distance of some shapes in world coordinates, and the witnesses.
+pub fn nearest<'a>(
+    obstacles: &Obstacles,
+    shapes: impl Iterator<Item = &'a dyn Shape>,
+    limit: f64,
+) -> (f64, Option<(Vector, Vector)>) {
+    let mut nearest = (limit, None);
+    for shape in shapes {
+        let around = shape.compute_local_aabb();
+        let mut points = std::cell::Cell::new(None);
+        let found = obstacles.tree.find_best(
+            nearest.0,
+            |node, _| gap(&around, node),
+            |i, best| {
+                let (at, obstacle) = &obstacles.shapes[i as usize];
+                match query::closest_points(&Pose::IDENTITY, shape, at, &**obstacle, best).ok()? {
+                    ClosestPoints::Intersecting => Some(0.0),
+                    ClosestPoints::Disjoint => None,
+                    ClosestPoints::WithinMargin(a, b) => {
+                        let distance = a.distance(b);
+                        if distance < best {
+                            points.set(Some((a, b)));
+                        }
+                        Some(distance)
+                    }
+                }
+            },
+        );
+        if let Some((_, distance)) = found {
+            nearest = (distance, points.get_mut().take());
+        }
+        if nearest.0 <= 0.0 {
+            break;
+        }
+    }
+    nearest
+}
+
+/// Settings: the links' radius. A case: the ends of each link. The second way leaves the radius out and subtracts it,
+/// which spares parry's iteration the round ends.
+pub fn contenders(task: &Task) -> Vec<Box<dyn Contender>> {
+    let radius = task.settings[0];
+    let points = |link: &[f64]| [Vector::new(link[0], link[1]), Vector::new(link[2], link[3])];
+    let links: Vec<Vec<[Vector; 2]>> = task.cases.iter().map(|case| case.chunks(4).map(points).collect()).collect();
+    let capsules: Vec<Vec<Capsule>> =
+        links.iter().map(|arm| arm.iter().map(|[a, b]| Capsule::new(*a, *b, radius)).collect()).collect();
+    let segments: Vec<Vec<Segment>> =
+        links.iter().map(|arm| arm.iter().map(|[a, b]| Segment::new(*a, *b)).collect()).collect();
+    let obstacles = Rc::new(Obstacles::new(task));
+    let same = obstacles.clone();
+    vec![
+        Box::new(By {
+            name: "parry",
+            ask: move |case: usize| {
+                let (distance, points) =
+                    nearest(&obstacles, capsules[case].iter().map(|c| c as &dyn Shape), f64::INFINITY);
+                std::hint::black_box(points);
+                distance
+            },
+        }),
+        Box::new(By {
+            name: "parry, radius subtracted",
+            ask: move |case: usize| {
+                let (distance, points) = nearest(&same, segments[case].iter().map(|s| s as &dyn Shape), f64::INFINITY);
+                std::hint::black_box(points);
+                if distance > radius { distance - radius } else { 0.0 }
+            },
+        }),
+    ]
+}

@@ -1,0 +1,61 @@
+//! Ways to decide an edge of a robot whose parts turn.
+//!
+//! <https://docs.rs/parry2d-f64/0.31.1/parry2d_f64/query/fn.cast_shapes_nonlinear.html> for motions that turn, and
+//! <https://docs.rs/parry2d-f64/0.31.1/parry2d_f64/query/fn.intersection_test.html> for samples.
+
+use parry2d_f64::bounding_volume::BoundingVolume;
+use parry2d_f64::math::Pose;
+use parry2d_f64::query::{self, NonlinearRigidMotion};
+use parry2d_f64::shape::Shape;
+
+use super::obstacles::Obstacles;
+
+/// The least number of a sample that meets something, of 0 to `last`; `None` if none does. Samples are visited by
+/// bisection, ends first, so that contacts are found early. With `any`, the first one found ends the search.
+pub fn bisected(last: usize, any: bool, mut meets: impl FnMut(usize) -> bool) -> Option<usize> {
+    if meets(0) {
+        return Some(0);
+    }
+    let mut first = meets(last).then_some(last);
+    let mut stride = last.next_power_of_two();
+    while stride > 1 && !(any && first.is_some()) {
+        for i in (stride / 2..first.unwrap_or(last)).step_by(stride) {
+            if meets(i) {
+                first = Some(i);
+                break;
+            }
+        }
+        stride /= 2;
+    }
+    first
+}
+
+/// The time of the first contact of a shape within a motion from 0 to `limit`; with `any`, of some contact.
+pub fn first_contact(
+    obstacles: &Obstacles,
+    shape: &dyn Shape,
+    motion: &NonlinearRigidMotion,
+    limit: f64,
+    any: bool,
+) -> Option<f64> {
+    let (begin, end): (Pose, Pose) = (motion.start, motion.position_at_time(limit));
+    // a point's way lies within the sagitta of its arc from the two places
+    let reach =
+        shape.compute_local_aabb().vertices().iter().map(|v| v.distance(motion.local_center)).fold(0.0, f64::max);
+    let sagitta = 0.125 * reach * (motion.angvel * limit) * (motion.angvel * limit);
+    let around = shape.compute_aabb(&begin).merged(&shape.compute_aabb(&end)).loosened(sagitta);
+    let mut first = None;
+    for i in obstacles.tree.intersect_aabb(&around) {
+        let (at, obstacle) = &obstacles.shapes[i as usize];
+        let still = NonlinearRigidMotion::constant_position(*at);
+        let until = first.unwrap_or(limit);
+        let hit = query::cast_shapes_nonlinear(motion, shape, &still, &**obstacle, 0.0, until, true);
+        if let Ok(Some(hit)) = hit {
+            first = Some(hit.time_of_impact);
+            if any {
+                break;
+            }
+        }
+    }
+    first
+}
