@@ -11,7 +11,7 @@ use motion_lab::prelude::*;
 
 use crate::Table;
 use crate::measure::{Entrant, Timing, is_timed, race};
-use crate::row::{Mark, Row, Verdict, time};
+use crate::row::{self, Mark, Row, Verdict};
 use crate::worlds::CASES;
 
 /// The number of seeds.
@@ -88,7 +88,7 @@ pub fn rows(table: &mut Table) {
             let [arc, edge, driven] = &arcs(car)[..] else { return };
             // an arc counts as so many straight edges to its end
             table.push(Row::new(work.into(), Mark::at_most(most, " edges"), arc, std::slice::from_ref(edge)));
-            table.push(Row::note(format!("{work}: driving alone"), time(driven.median)));
+            table.push(Row::note(format!("{work}: driving alone"), row::time(driven.median)));
         }
     }
     let work = "plans: hybrid A* parks the trailer in bay 2, start to certified path";
@@ -98,7 +98,7 @@ pub fn rows(table: &mut Table) {
         })]);
         let median = parked[0].median;
         let verdict = if median <= 1e9 { Verdict::Met } else { Verdict::Missed };
-        table.push(Row::note(work.into(), time(median)).held_to("<= 1 s", verdict));
+        table.push(Row::note(work.into(), row::time(median)).held_to("<= 1 s", verdict));
     }
     let work = "plans: RRT-Connect, Reach round the post, start to certified path, median of 1,000 seeds";
     if table.wants(work) {
