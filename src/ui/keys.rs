@@ -119,9 +119,9 @@ const fn with(action: Action, modifiers: Modifiers, key: Key, words: &'static st
 
 /// All keys.
 pub const BINDINGS: [Binding; 42] = [
-    plain(Action::PlayPause, Key::Space, Scope::Always, "play or pause; in plan the planner"),
+    plain(Action::PlayPause, Key::Space, Scope::Always, "play or pause"),
     plain(Action::StepBack, Key::ArrowLeft, Scope::Unarmed, "one tick back, and pause"),
-    plain(Action::Step, Key::ArrowRight, Scope::Unarmed, "one tick, and pause; in plan one iteration"),
+    plain(Action::Step, Key::ArrowRight, Scope::Unarmed, "one tick, and pause"),
     plain(Action::Start, Key::Home, Scope::Always, "to the start"),
     plain(Action::End, Key::End, Scope::Always, "as far as the run has come"),
     plain(Action::NextContact, Key::N, Scope::Always, "to the next contact"),
@@ -129,7 +129,7 @@ pub const BINDINGS: [Binding; 42] = [
     plain(Action::Slower, Key::Comma, Scope::Always, "slower"),
     plain(Action::Faster, Key::Period, Scope::Always, "faster"),
     plain(Action::Continue, Key::C, Scope::Always, "continue from here: forget what comes later"),
-    plain(Action::Reset, Key::R, Scope::Always, "reset: the same seed, no input; in plan begin anew"),
+    plain(Action::Reset, Key::R, Scope::Always, "reset: the same seed, no input"),
     plain(Action::ReRoll, Key::G, Scope::Always, "re-roll: another seed"),
     with(Action::Undo, Modifiers::COMMAND, Key::Z, "undo; in the atlas an edit"),
     with(Action::Redo, Modifiers::COMMAND.plus(Modifiers::SHIFT), Key::Z, "redo"),

@@ -365,7 +365,8 @@ mod tests {
         for off in [0.0, 0.01, 0.1, 1.0, 3.0, 10.0] {
             let line = [[10.0, 50.0], [60.0, 50.0], [10.0, 50.0 + off]];
             let stroke = Stroke::new(2.0, Color32::BLACK);
-            let output = ctx.run_ui(RawInput::default(), |ui| paint_line(ui.painter(), &line, stroke, Dash::Solid));
+            let mut output = ctx.run_ui(RawInput::default(), |ui| paint_line(ui.painter(), &line, stroke, Dash::Solid));
+            output.textures_delta.clear();
             let drawn = ctx.tessellate(output.shapes, 1.0).into_iter().flat_map(|clipped| match clipped.primitive {
                 bevy_egui::egui::epaint::Primitive::Mesh(mesh) => mesh.vertices,
                 bevy_egui::egui::epaint::Primitive::Callback(_) => Vec::new(),
