@@ -62,8 +62,8 @@ pub fn plan(sheet: &PlanSheet<'_>) -> Captured {
     Captured { figure, notes }
 }
 
-/// A proven clearance in metres, in words: rounded down, so that no more is claimed than is proven, with the digits that
-/// show that it is above 0.
+/// A proven clearance in metres, in words: rounded down, so that no more is claimed than is proven, with the digits
+/// that show that it is above 0.
 pub fn proven(clearance: f64) -> String {
     let (mut digits, mut scale) = (4, 1e4);
     while clearance * scale < 1.0 && digits < 12 {

@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 use super::attempt::{Attempt, Driven, Leg};
 use super::drawn::Drawn;
 use super::task::Task;
-use crate::configuration::{AnyConfiguration, Configuration};
+use crate::configuration::{AnyConfiguration, Configuration, RobotKind};
 use crate::export::JsonNumber;
 use crate::planning::Effort;
 use crate::robots::{AnyRobot, CarCmd, Drivable, Motion};
@@ -279,7 +279,7 @@ impl PathFile {
     pub fn robot(&self) -> Result<(AnyRobot, [AnyConfiguration; 2]), PathFileError> {
         let kind = &self.robot.kind;
         let mut start: Vec<f64> = self.start.iter().map(|number| number.0).collect();
-        if *kind == "rusty" && start.len() == 2 {
+        if *kind == RobotKind::RUSTY.name && start.len() == 2 {
             start.push(0.0);
         }
         let (robot, start) = AnyRobot::of_kind(kind, &start).ok_or_else(|| PathFileError::Kind(kind.clone()))?;

@@ -47,8 +47,8 @@ impl Task {
         Task { name: name.into(), robot, world, scene, start, goal, tube: TUBE }
     }
 
-    /// The world with the robot that plays alone in it, and that robot's name: the resident of the task's name, else the
-    /// first of its kind and of the kind's own sizes, else a new one at the start.
+    /// The world with the robot that plays alone in it, and that robot's name: the resident of the task's name, else
+    /// the first of its kind and of the kind's own sizes, else a new one at the start.
     pub fn alone(&self) -> (World, String) {
         let (robots, kind) = (&self.world.robots, self.robot.kind());
         let of_kind = || robots.iter().find(|r| r.kind == kind && r.sizes.is_none());

@@ -364,7 +364,7 @@ mod tests {
         let ctx = Context::default();
         for off in [0.0, 0.01, 0.1, 1.0, 3.0, 10.0] {
             let line = [[10.0, 50.0], [60.0, 50.0], [10.0, 50.0 + off]];
-            let stroke = Stroke::new(2.0, Color32::BLACK);
+            let stroke = Stroke::new(2.0, Look::from(Theme::Light).colour(Role::Text));
             let mut output = ctx.run_ui(RawInput::default(), |ui| paint_line(ui.painter(), &line, stroke, Dash::Solid));
             output.textures_delta.clear();
             let drawn = ctx.tessellate(output.shapes, 1.0).into_iter().flat_map(|clipped| match clipped.primitive {
