@@ -125,7 +125,7 @@ pub trait Attempt: Send {
     /// [`NoPath`] says why there is none.
     fn solve(&mut self, bounds: &Bounds) -> Result<(), NoPath>;
 
-    /// Does one iteration. A path is checked before it counts, as by [`solve`](crate::planning::solve).
+    /// Does one iteration. A path is checked before it counts, as by [`solve`].
     fn step(&mut self) -> Progress;
 
     /// What there is to draw: the growth, the path, and what the last motion that was rejected hits.
