@@ -25,7 +25,7 @@ for (const scheme of ["light", "dark"]) {
     const options = { colorScheme: scheme };
     const inner = await Lab.open("/?tick=200", { options });
     const found = {};
-    for (const id of ["dashboard", "anatomy", "cspace", "atlas"]) {
+    for (const id of ["dashboard", "anatomy", "cspace", "atlas", "plan"]) {
       await inner.send({ do: "widget", id });
       await inner.until((s) => s.widget === id);
       await inner.page.waitForTimeout(500);
@@ -46,7 +46,7 @@ for (const scheme of ["light", "dark"]) {
       found[name] = (await wrong(still.page)).filter((text) => !/ iframe/.test(text));
       await still.close();
     }
-    assert.deepEqual(found, { dashboard: [], anatomy: [], cspace: [], atlas: [], embed: [], widgets: [], "not loaded": [] });
+    assert.deepEqual(found, { dashboard: [], anatomy: [], cspace: [], atlas: [], plan: [], embed: [], widgets: [], "not loaded": [] });
   });
 }
 
