@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use bevy_egui::egui::{Rect, RichText, ScrollArea, TextStyle, Ui, UiBuilder, pos2, vec2};
+use bevy_egui::egui::{Align2, Rect, ScrollArea, TextStyle, Ui, UiBuilder, pos2, vec2};
 
 use super::controls::{act as act_on_planner, controls};
 use super::panel::panel;
@@ -122,10 +122,9 @@ fn space(ui: &mut Ui, room: Rect, look: &Look, plan: &mut PlanState) -> Rect {
     let over = plan.over_cells().unwrap_or_else(|| Picture::new("nothing", still.bounds));
     let spoken = format!("configuration space. {}", slice.described());
     let on = sheet(ui, paper, spoken, &still, &over, look);
-    let words = RichText::new(readout(&slice.described())).small().color(look.colour(Role::Muted));
-    ui.put(Rect::from_min_size(paper.left_bottom() + vec2(0.0, 2.0), vec2(room.width(), line)), |ui: &mut Ui| {
-        ui.horizontal(|ui| ui.label(words)).inner
-    });
+    let font = TextStyle::Small.resolve(ui.style());
+    let under = paper.left_bottom() + vec2(0.0, 3.0);
+    ui.painter().text(under, Align2::LEFT_TOP, readout(&slice.described()), font, look.colour(Role::Muted));
     let places = [0, 1].map(|end| Point2::from(slice.point(&plan.end_at(end))));
     if let Some((end, to)) = moved(&on, places, plan) {
         let (min, max) = (slice.min(), slice.max());
