@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use bevy_egui::egui::{CentralPanel, Frame, Margin, Panel, Ui, vec2};
+use bevy_egui::egui::{CentralPanel, Frame, Margin, Panel, Ui, Vec2, vec2};
 
 use super::dashboard::{self, drive};
 use super::keys::{Action, pressed};
@@ -56,12 +56,16 @@ pub fn lab(ui: &mut Ui, model: &Dashboard, history: &History, state: &mut UiStat
         // the page chose the widget
     } else if narrow {
         Panel::top("rail").frame(Frame::NONE.inner_margin(margin)).show_separator_line(false).show(ui, |ui| {
-            ui.horizontal(|ui| rail(ui, model, &look, 40.0, state, commands));
+            // all of them fit, however narrow the screen
+            let gaps = ui.spacing().item_spacing.x * (Widget::ALL.len() - 1) as f32;
+            let width = (ui.available_width() - gaps) / Widget::ALL.len() as f32;
+            let size = vec2(width.clamp(0.0, RAIL - 12.0), 40.0);
+            ui.horizontal(|ui| rail(ui, model, &look, size, state, commands));
         });
     } else {
         let frame = Frame::NONE.inner_margin(margin);
         Panel::left("rail").exact_size(RAIL).resizable(false).frame(frame).show(ui, |ui| {
-            ui.vertical_centered(|ui| rail(ui, model, &look, 44.0, state, commands));
+            ui.vertical_centered(|ui| rail(ui, model, &look, vec2(RAIL - 12.0, 44.0), state, commands));
         });
     }
     let stage = if state.widget == Widget::Dashboard {
@@ -91,13 +95,13 @@ pub fn lab(ui: &mut Ui, model: &Dashboard, history: &History, state: &mut UiStat
     }
 }
 
-/// Shows a button for each widget.
-fn rail(ui: &mut Ui, model: &Dashboard, look: &Look, height: f32, state: &mut UiState, commands: &mut Vec<Command>) {
+/// Shows a button of this size for each widget.
+fn rail(ui: &mut Ui, model: &Dashboard, look: &Look, size: Vec2, state: &mut UiState, commands: &mut Vec<Command>) {
     ui.spacing_mut().button_padding = vec2(4.0, 2.0);
-    ui.spacing_mut().interact_size.y = height;
+    ui.spacing_mut().interact_size.y = size.y;
     for widget in Widget::ALL {
         let words = widget.text();
-        let button = LabButton::new(words.short()).width(RAIL - 12.0).selected(state.widget == widget);
+        let button = LabButton::new(words.short()).width(size.x).selected(state.widget == widget);
         if button.show(ui, look).on_hover_text(&words.title).clicked() {
             choose(widget, model, state, commands);
         }
