@@ -8,6 +8,7 @@ use bevy::ecs::world::World;
 use super::error::SessionError;
 use super::runs::{open_log, open_path_text, open_world_text, path_text, save};
 use crate::output::write_file;
+use crate::plans::MOST_PATH_BYTES;
 use crate::ui::Interface;
 use crate::ui::Notice;
 
@@ -16,9 +17,6 @@ const MOST_BYTES: u64 = 1 << 30;
 
 /// Largest size of a world file that the window opens, bytes.
 const MOST_WORLD: u64 = 32 << 20;
-
-/// Largest size of a path's file that the window opens, bytes.
-const MOST_PATH: u64 = 64 << 20;
 
 /// Saves the run as far as it has come: its log, recorded from seed, configuration and script, whole or not at all.
 /// Returns what came of it; nothing yet where it takes long and goes on aside.
@@ -95,8 +93,8 @@ pub fn save_path(world: &mut World, path: &Path) -> Option<Notice> {
 pub fn open_path(world: &mut World, path: &Path) -> Notice {
     let refused = |error: String| Notice { text: format!("{}: not opened: {error}", path.display()), is_error: true };
     match fs::metadata(path) {
-        Ok(about) if about.len() > MOST_PATH => {
-            refused(format!("{} bytes: a path's file has at most {MOST_PATH}", about.len()))
+        Ok(about) if about.len() > MOST_PATH_BYTES as u64 => {
+            refused(format!("{} bytes: a path's file has at most {MOST_PATH_BYTES}", about.len()))
         }
         Ok(_) => match fs::read_to_string(path) {
             Ok(text) => open_path_text(world, &name(path), &text),

@@ -117,6 +117,15 @@ pub struct Leg {
     pub steps: Vec<ProvenStep>,
 }
 
+/// The length and the clearance of a path.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PathLengths {
+    /// The length, metres driven or by the chart's coordinates.
+    pub length: f64,
+    /// The clearance proven along the whole path, metres.
+    pub clearance: f64,
+}
+
 /// A planner at work.
 pub trait Attempt: Send {
     /// Works until there is a path.
@@ -140,11 +149,8 @@ pub trait Attempt: Send {
     /// The path's legs; none without a path.
     fn legs(&self) -> Vec<Leg>;
 
-    /// The path's length, metres driven or by the chart's coordinates.
-    fn length(&self) -> f64;
-
-    /// The clearance proven along the path, metres.
-    fn clearance(&self) -> f64;
+    /// The path's length and the clearance proven along it; zeros without a path.
+    fn lengths(&self) -> PathLengths;
 
     /// What the planner has grown: the nodes' coordinates, and the edges by the numbers of their ends.
     fn growth(&self) -> (Vec<Vec<f64>>, Vec<[usize; 2]>);
@@ -251,12 +257,12 @@ where
         .collect()
     }
 
-    fn length(&self) -> f64 {
-        self.path.iter().flat_map(|path| path.legs()).map(|leg| leg.motion().length()).sum()
-    }
-
-    fn clearance(&self) -> f64 {
-        self.path.as_ref().map_or(0.0, CertifiedPath::clearance)
+    fn lengths(&self) -> PathLengths {
+        let legs = self.path.iter().flat_map(|path| path.legs());
+        PathLengths {
+            length: legs.map(|leg| leg.motion().length()).sum(),
+            clearance: self.path.as_ref().map_or(0.0, CertifiedPath::clearance),
+        }
     }
 
     fn growth(&self) -> (Vec<Vec<f64>>, Vec<[usize; 2]>) {

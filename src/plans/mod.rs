@@ -23,9 +23,9 @@ mod path_file;
 mod picture;
 mod task;
 
-pub use attempt::{Attempt, Driven, Leg, LegMotion, Planned, Trial};
+pub use attempt::{Attempt, Driven, Leg, LegMotion, PathLengths, Planned, Trial};
 pub use drawn::{Drawn, Rejected};
 pub use named::PlannerName;
-pub use path_file::{Counts, PathFile, PathFileError, PathLengths};
+pub use path_file::{Counts, MOST_PATH_BYTES, PathFile, PathFileError};
 pub use picture::{space_items, workspace_items};
 pub use task::{TUBE, Task};

@@ -14,7 +14,7 @@ use crate::robots::{AnyRobot, CarCmd, Drivable, Motion};
 const VERSION: u32 = 1;
 
 /// Largest size of a path's file that is read, bytes.
-const MOST_BYTES: usize = 64 << 20;
+pub const MOST_PATH_BYTES: usize = 64 << 20;
 
 /// The number of straight pieces in which a motion is drawn.
 const DRAWN: u32 = 6;
@@ -40,15 +40,6 @@ impl From<Effort> for Counts {
         let Effort { iterations, samples, edges, free } = effort;
         Counts { iterations, samples, edges, free }
     }
-}
-
-/// The length and the clearance of a path.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct PathLengths {
-    /// The length, metres driven or by the chart's coordinates.
-    pub length: f64,
-    /// The clearance proven along the whole path, metres.
-    pub clearance: f64,
 }
 
 /// A path as JSON. A reader needs `version`, `robot.kind`, `start` and `goal`; all else may be left out.
@@ -122,7 +113,7 @@ struct GrowthLines {
 #[non_exhaustive]
 pub enum PathFileError {
     /// A file beyond the limit.
-    #[error("{found} bytes: a path's file has at most {MOST_BYTES}")]
+    #[error("{found} bytes: a path's file has at most {MOST_PATH_BYTES}")]
     TooLarge {
         /// Its size, bytes.
         found: usize,
@@ -224,6 +215,7 @@ impl PathFile {
             let (nodes, edges) = attempt.growth();
             GrowthLines { nodes: nodes.iter().map(|node| numbers(node)).collect(), edges }
         };
+        let lengths = attempt.lengths();
         PathFile {
             version: VERSION,
             program: concat!("motion-lab ", env!("CARGO_PKG_VERSION")).to_owned(),
@@ -237,8 +229,8 @@ impl PathFile {
             effort: Some(attempt.effort().into()),
             start: numbers(&task.start.coordinates()),
             goal: numbers(&task.goal.coordinates()),
-            length: Some(JsonNumber(attempt.length())),
-            clearance: Some(JsonNumber(attempt.clearance())),
+            length: Some(JsonNumber(lengths.length)),
+            clearance: Some(JsonNumber(lengths.clearance)),
             legs: attempt.legs().iter().map(LegLine::of).collect(),
             growth: with_growth.then(growth),
         }
@@ -257,7 +249,7 @@ impl PathFile {
     /// # Errors
     /// [`PathFileError`] names the field.
     pub fn read(text: &str) -> Result<Self, PathFileError> {
-        if text.len() > MOST_BYTES {
+        if text.len() > MOST_PATH_BYTES {
             return Err(PathFileError::TooLarge { found: text.len() });
         }
         let file: PathFile = serde_json::from_str(text)?;
@@ -377,7 +369,7 @@ mod tests {
         ] {
             assert!(refused(from, to).contains(words), "{}", refused(from, to));
         }
-        let large = PathFile::read(&" ".repeat(MOST_BYTES + 1)).unwrap_err().to_string();
+        let large = PathFile::read(&" ".repeat(MOST_PATH_BYTES + 1)).unwrap_err().to_string();
         assert!(large.starts_with("67108865 bytes"), "{large}");
     }
 }

@@ -5,6 +5,7 @@ use std::sync::Arc;
 use crate::collision::{Checker, Problem, Scene};
 use crate::configuration::{AnyConfiguration, Chart, Configuration, R2};
 use crate::geometry::Pose2;
+use crate::num::greater;
 use crate::planning::hybrid::HybridAStar;
 use crate::planning::{
     Bug1, Bug2, CellDecomposition, GridSearch, LinePath, NoPath, Planner, PotentialField, Prm, Rrt, RrtConnect,
@@ -12,7 +13,7 @@ use crate::planning::{
 };
 use crate::random::Seed;
 use crate::robots::{AnyRobot, ChartLine, Hitch, HitchArc, Reach, Rusty, RustyDisc};
-use crate::simulation::PlayablePath;
+use crate::simulation::{PlayError, PlayStage, PlayablePath, PlayedPath};
 use crate::worlds::{Resident, World};
 
 use super::attempt::{Attempt, Planned, Trial};
@@ -20,6 +21,9 @@ use super::named::PlannerName;
 
 /// How much larger a rover is planned unless somebody says otherwise, metres.
 pub const TUBE: f64 = 0.02;
+
+/// The least tube in which a path is played, metres: no follower stays on a line without any width.
+const LEAST_TUBE: f64 = 1e-3;
 
 /// What is to be planned.
 #[derive(Clone, Debug)]
@@ -57,6 +61,15 @@ impl Task {
         let resident = named.cloned().unwrap_or_else(new);
         let name = resident.name.clone();
         (World { robots: vec![resident], ..self.world.clone() }, name)
+    }
+
+    /// The path of an attempt at this task, played by the robot alone in the world, which is returned too; no path
+    /// without one of the attempt's.
+    pub fn played(&self, attempt: &dyn Attempt, seed: Seed) -> (World, Option<Result<PlayedPath, PlayError>>) {
+        let (world, robot) = self.alone();
+        let stage = PlayStage { tube: greater(self.tube, LEAST_TUBE), ..PlayStage::new(&world, &robot, seed) };
+        let played = attempt.play(&stage);
+        (world, played)
     }
 
     /// The planner of this name with the problem, ready to begin.

@@ -43,7 +43,7 @@ pub enum Kind {
     /// Words.
     #[default]
     Text,
-    /// A picture that is only looked at.
+    /// A picture that nothing can be done with.
     Image,
     /// A button or a link.
     Button,

@@ -187,7 +187,7 @@ fn verify_digest_log(bytes: &[u8]) -> Result<String, JsError> {
     serde_json::to_string(&verdict).map_err(error)
 }
 
-/// A log's run, simulated again to be looked at: what its figure shows at a tick.
+/// A log's run, simulated again to be watched: what its figure shows at a tick.
 #[wasm_bindgen]
 pub struct Replay {
     seed: Seed,

@@ -1,14 +1,12 @@
 //! Edges of an arm of two links.
 
-use std::rc::Rc;
-
 use parry2d_f64::math::{Pose, Vector};
 use parry2d_f64::query::NonlinearRigidMotion;
 use parry2d_f64::shape::Capsule;
 
 use super::obstacles::Obstacles;
-use super::samples::{bisected, first_contact};
-use super::{By, Contender, Task};
+use super::samples::{Mover, contenders_of, first_contact};
+use super::{Contender, Task};
 
 /// How far the elbow may be from the line that a cast takes it along, metres: half of what samples leave out.
 const ELBOW: f64 = 0.001;
@@ -21,7 +19,6 @@ struct Arm {
 }
 
 /// A motion of the joints from `from` by `by`, and its number of samples.
-#[derive(Clone, Copy)]
 struct Edge {
     from: [f64; 2],
     by: [f64; 2],
@@ -34,6 +31,14 @@ impl Arm {
         let first = Pose::new(self.base, one);
         let elbow = first * Vector::new(self.lengths[0], 0.0);
         [first, Pose::new(elbow, one + two)]
+    }
+}
+
+impl Mover for Arm {
+    type Edge = Edge;
+
+    fn samples(edge: &Edge) -> usize {
+        edge.samples
     }
 
     fn meets(&self, edge: &Edge, s: f64) -> bool {
@@ -72,23 +77,7 @@ pub fn contenders(task: &Task) -> Vec<Box<dyn Contender>> {
     let any = task.kind.ends_with("free");
     let link = |length: f64| Capsule::new(Vector::ZERO, Vector::new(length, 0.0), radius);
     let (base, obstacles) = (Vector::new(x, y), Obstacles::new(task));
-    let arm = Rc::new(Arm { base, lengths: [one, two], links: [link(one), link(two)], obstacles });
+    let arm = Arm { base, lengths: [one, two], links: [link(one), link(two)], obstacles };
     let edge = |c: &Vec<f64>| Edge { from: [c[0], c[1]], by: [c[2], c[3]], samples: c[4] as usize };
-    let edges: Rc<Vec<Edge>> = Rc::new(task.cases.iter().map(edge).collect());
-    let (a, e) = (arm.clone(), edges.clone());
-    vec![
-        Box::new(By {
-            name: "parry, 2 mm samples",
-            ask: move |case: usize| {
-                let edge = &e[case];
-                let last = edge.samples as f64;
-                let first = bisected(edge.samples, any, |i| a.meets(edge, i as f64 / last));
-                first.map_or(f64::INFINITY, |i| i as f64 / last)
-            },
-        }),
-        Box::new(By {
-            name: "parry, nonlinear cast",
-            ask: move |case: usize| arm.cast(&edges[case], any).unwrap_or(f64::INFINITY),
-        }),
-    ]
+    contenders_of(arm, task.cases.iter().map(edge).collect(), any)
 }

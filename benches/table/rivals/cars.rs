@@ -1,14 +1,12 @@
 //! Edges of a car: one rectangle, whose reference point goes along a line while it turns.
 
-use std::rc::Rc;
-
 use parry2d_f64::math::{Pose, Vector};
 use parry2d_f64::query::NonlinearRigidMotion;
 use parry2d_f64::shape::Cuboid;
 
 use super::obstacles::Obstacles;
-use super::samples::{bisected, first_contact};
-use super::{By, Contender, Task};
+use super::samples::{Mover, contenders_of, first_contact};
+use super::{Contender, Task};
 
 struct Car {
     /// From the reference point to the rectangle's middle, in the car's frame.
@@ -18,7 +16,6 @@ struct Car {
 }
 
 /// A motion from a place and heading, and its number of samples.
-#[derive(Clone, Copy)]
 struct Edge {
     from: Vector,
     heading: f64,
@@ -30,6 +27,14 @@ struct Edge {
 impl Car {
     fn pose(&self, edge: &Edge, s: f64) -> Pose {
         Pose::new(edge.from + edge.by * s, edge.heading + edge.turn * s) * Pose::from_translation(self.middle)
+    }
+}
+
+impl Mover for Car {
+    type Edge = Edge;
+
+    fn samples(edge: &Edge) -> usize {
+        edge.samples
     }
 
     fn meets(&self, edge: &Edge, s: f64) -> bool {
@@ -48,7 +53,7 @@ pub fn contenders(task: &Task) -> Vec<Box<dyn Contender>> {
     let [x, y, half_length, half_width] = task.settings[..] else { return Vec::new() };
     let any = task.kind.ends_with("free");
     let body = Cuboid::new(Vector::new(half_length, half_width));
-    let car = Rc::new(Car { middle: Vector::new(x, y), body, obstacles: Obstacles::new(task) });
+    let car = Car { middle: Vector::new(x, y), body, obstacles: Obstacles::new(task) };
     let edge = |c: &Vec<f64>| Edge {
         from: Vector::new(c[0], c[1]),
         heading: c[2],
@@ -56,21 +61,5 @@ pub fn contenders(task: &Task) -> Vec<Box<dyn Contender>> {
         turn: c[5],
         samples: c[6] as usize,
     };
-    let edges: Rc<Vec<Edge>> = Rc::new(task.cases.iter().map(edge).collect());
-    let (a, e) = (car.clone(), edges.clone());
-    vec![
-        Box::new(By {
-            name: "parry, 2 mm samples",
-            ask: move |case: usize| {
-                let edge = &e[case];
-                let last = edge.samples as f64;
-                let first = bisected(edge.samples, any, |i| a.meets(edge, i as f64 / last));
-                first.map_or(f64::INFINITY, |i| i as f64 / last)
-            },
-        }),
-        Box::new(By {
-            name: "parry, nonlinear cast",
-            ask: move |case: usize| car.cast(&edges[case], any).unwrap_or(f64::INFINITY),
-        }),
-    ]
+    contenders_of(car, task.cases.iter().map(edge).collect(), any)
 }

@@ -3,12 +3,15 @@
 //! <https://docs.rs/parry2d-f64/0.31.1/parry2d_f64/query/fn.cast_shapes_nonlinear.html> for motions that turn, and
 //! <https://docs.rs/parry2d-f64/0.31.1/parry2d_f64/query/fn.intersection_test.html> for samples.
 
+use std::rc::Rc;
+
 use parry2d_f64::bounding_volume::BoundingVolume;
 use parry2d_f64::math::Pose;
 use parry2d_f64::query::{self, NonlinearRigidMotion};
 use parry2d_f64::shape::Shape;
 
 use super::obstacles::Obstacles;
+use super::{By, Contender};
 
 /// The least number of a sample that meets something, of 0 to `last`; `None` if none does. Samples are visited by
 /// bisection, ends first, so that contacts are found early. With `any`, the first one found ends the search.
@@ -58,4 +61,40 @@ pub fn first_contact(
         }
     }
     first
+}
+
+/// A robot, its obstacles, and its ways to decide an edge.
+pub trait Mover {
+    /// An edge as the robot takes it.
+    type Edge;
+
+    /// The number of the last sample of an edge.
+    fn samples(edge: &Self::Edge) -> usize;
+
+    /// Whether the robot meets something at a parameter of an edge.
+    fn meets(&self, edge: &Self::Edge, s: f64) -> bool;
+
+    /// The parameter of the first contact by casts; with `any`, of some contact.
+    fn cast(&self, edge: &Self::Edge, any: bool) -> Option<f64>;
+}
+
+/// Both ways to decide the edges of a robot.
+pub fn contenders_of<M: Mover + 'static>(mover: M, edges: Vec<M::Edge>, any: bool) -> Vec<Box<dyn Contender>> {
+    let sampled = Rc::new((mover, edges));
+    let cast = Rc::clone(&sampled);
+    vec![
+        Box::new(By {
+            name: "parry, 2 mm samples",
+            ask: move |case: usize| {
+                let (mover, edge) = (&sampled.0, &sampled.1[case]);
+                let last = M::samples(edge);
+                let first = bisected(last, any, |i| mover.meets(edge, i as f64 / last as f64));
+                first.map_or(f64::INFINITY, |i| i as f64 / last as f64)
+            },
+        }),
+        Box::new(By {
+            name: "parry, nonlinear cast",
+            ask: move |case: usize| cast.0.cast(&cast.1[case], any).unwrap_or(f64::INFINITY),
+        }),
+    ]
 }

@@ -82,11 +82,10 @@ fn named(name: &str, robot: &AnyRobot, world: &World) -> String {
 }
 
 fn task_choice(ui: &mut Ui, state: &mut UiState) {
-    let atlas = state.atlas.world().clone();
     let present = state.plan.task();
     let shown = named(&present.name, &present.robot, &present.world);
     ComboBox::from_label("robot").width(190.0).selected_text(shown.as_str()).show_ui(ui, |ui| {
-        for (name, robot, q, world) in choices(&atlas) {
+        for (name, robot, q, world) in choices(state.atlas.world()) {
             let words = named(&name, &robot, &world);
             if ui.selectable_label(words == shown, words).clicked() {
                 let goal = goal_for(&robot, &world, q);

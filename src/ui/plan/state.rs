@@ -8,13 +8,12 @@ use super::work::Work;
 use crate::capture::{self, Captured, PlanSheet};
 use crate::collision::Checker;
 use crate::configuration::{AnyConfiguration, Configuration};
-use crate::num::greater;
 use crate::picture::{Picture, world as picture_of};
 use crate::planning::{Bound, Effort, NoPath, Progress};
 use crate::plans::{Drawn, PathFile, PathFileError, PathLengths, PlannerName, Task, space_items, workspace_items};
 use crate::random::Seed;
 use crate::robots::AnyRobot;
-use crate::simulation::{PlayError, PlayStage, PlayedPath};
+use crate::simulation::{PlayError, PlayedPath};
 use crate::tour::BOOK_SEED;
 use crate::ui::cspace::Cells;
 use crate::worlds::World;
@@ -70,10 +69,14 @@ pub struct PlanState {
     due: f64,
     effort: Effort,
     drawn: Drawn,
+    /// The name by which commands know the world, if they do.
+    known_as: Option<&'static str>,
     backdrop: Arc<Picture>,
     /// The plan over the workspace.
     pub over: Arc<Picture>,
     cells: Option<Cells>,
+    /// The plan over the cells, once it has been asked for.
+    over_cells: Option<Arc<Picture>>,
     /// The end whose numbers are shown, and that is being dragged: 0 the start, 1 the goal.
     pub end: usize,
     /// Whether it is drawn over the dashboard's panes too.
@@ -93,7 +96,9 @@ impl PlanState {
     /// A task, with the planner that suits its robot.
     pub fn of(task: Task) -> Self {
         let drawn = nothing(&task);
+        let known = |name: &&str| World::built_in(name).as_ref() == Some(&task.world);
         let mut state = PlanState {
+            known_as: World::built_in_names().into_iter().find(known),
             planner: PlannerName::default_for(&task.robot),
             seed: BOOK_SEED,
             work: None,
@@ -107,6 +112,7 @@ impl PlanState {
             backdrop: Arc::new(picture_of(&task.world)),
             over: Arc::new(Picture::new("plan", task.world.bounds)),
             cells: None,
+            over_cells: None,
             end: 1,
             over_drive: false,
             task,
@@ -184,9 +190,7 @@ impl PlanState {
 
     /// The command line that plans this; `None` in a world that no command knows by name.
     pub fn command(&self) -> Option<String> {
-        let Task { name, world, start, goal, .. } = &self.task;
-        let known = |name: &&str| World::built_in(name).as_ref() == Some(world);
-        let world = World::built_in_names().into_iter().find(known)?;
+        let (Task { name, start, goal, .. }, world) = (&self.task, self.known_as?);
         let numbers = |q: &AnyConfiguration| q.coordinates().iter().map(f64::to_string).collect::<Vec<_>>().join(",");
         let (planner, seed) = (self.planner.id(), self.seed);
         let ends = format!("--from {} --to {}", numbers(start), numbers(goal));
@@ -211,7 +215,7 @@ impl PlanState {
     /// The length and the clearance of the planner's own path, if it has one.
     pub fn lengths(&self) -> Option<PathLengths> {
         let work = self.work.as_ref().filter(|_| self.stage == Stage::Solved)?;
-        Some(work.with(|attempt| PathLengths { length: attempt.length(), clearance: attempt.clearance() }))
+        Some(work.with(|attempt| attempt.lengths()))
     }
 
     /// The picture of the world alone.
@@ -280,10 +284,8 @@ impl PlanState {
     /// The planner's path, played in its world by its robot alone; `None` without a path of the planner's own.
     pub fn played(&self) -> Option<(World, Result<PlayedPath, PlayError>)> {
         let work = self.work.as_ref().filter(|_| self.stage == Stage::Solved)?;
-        let (world, robot) = self.task.alone();
-        let stage = PlayStage { tube: greater(self.task.tube, 1e-3), ..PlayStage::new(&world, &robot, self.seed) };
-        let played = work.with(|attempt| attempt.play(&stage))?;
-        Some((world, played))
+        let (world, played) = work.with(|attempt| self.task.played(attempt, self.seed));
+        Some((world, played?))
     }
 
     /// The path as a file, with what the planner has grown; `None` without a path of the planner's own.
@@ -309,8 +311,8 @@ impl PlanState {
         let drawn = file.drawn(&robot)?;
         let robot_name = if robot_name.is_empty() { robot.name() } else { robot_name }.to_owned();
         self.take(Task::new(robot_name, robot, world, [start, goal]));
-        (self.work, self.stage, self.drawn) = (None, Stage::Read(name.to_owned()), drawn);
-        self.over = Arc::new(self.picture(&self.drawn));
+        (self.work, self.stage) = (None, Stage::Read(name.to_owned()));
+        self.draw(drawn);
         Ok(())
     }
 
@@ -325,12 +327,13 @@ impl PlanState {
         let through = self.end_at(self.end);
         let slice_of = |cells: &Cells| {
             let checker = cells.map().slice().checker();
-            Arc::ptr_eq(&checker.shared_scene(), &self.task.scene) && *checker.robot() == self.task.robot
+            Arc::ptr_eq(&checker.shared_scene(), &self.task.scene) && *checker.robot() == self.task.planned()
         };
         let serves = |cells: &Cells| slice_of(cells) && cells.map().slice().holds(&through);
         if !self.cells.as_ref().is_some_and(serves) {
-            let checker = Checker::new(Arc::clone(&self.task.scene), self.task.robot);
+            let checker = Checker::new(Arc::clone(&self.task.scene), self.task.planned());
             self.cells = Cells::through(&checker, &through, FINEST);
+            self.over_cells = None;
         }
         let cells = self.cells.as_mut()?;
         let more = cells.refine(budget);
@@ -361,19 +364,25 @@ impl PlanState {
         }
         // a disc has no heading: the ends keep the robot's own
         drawn.ends = [self.task.start, self.task.goal];
-        (self.effort, self.drawn) = (effort, drawn);
-        self.over = Arc::new(self.picture(&self.drawn));
+        self.effort = effort;
+        self.draw(drawn);
     }
 
-    fn picture(&self, drawn: &Drawn) -> Picture {
-        Picture::new("plan", self.task.world.bounds).with(workspace_items(&self.task.robot, drawn))
+    /// Draws this from now on.
+    fn draw(&mut self, drawn: Drawn) {
+        let items = workspace_items(&self.task.robot, &drawn);
+        self.over = Arc::new(Picture::new("plan", self.task.world.bounds).with(items));
+        (self.drawn, self.over_cells) = (drawn, None);
     }
 
-    /// The plan over the cells of the slice.
-    pub fn over_cells(&self) -> Option<Picture> {
+    /// The plan over the cells of the slice, drawn where something has changed.
+    pub fn over_cells(&mut self) -> Option<Arc<Picture>> {
         let cells = self.cells.as_ref()?;
-        let items = space_items(cells.map().slice(), &self.drawn);
-        Some(Picture::new("plan in its space", cells.picture().bounds).with(items))
+        let drawn = || {
+            let items = space_items(cells.map().slice(), &self.drawn);
+            Arc::new(Picture::new("plan in its space", cells.picture().bounds).with(items))
+        };
+        Some(Arc::clone(self.over_cells.get_or_insert_with(drawn)))
     }
 }
 

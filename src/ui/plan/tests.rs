@@ -1,9 +1,12 @@
 //! The planner at work, without its widget.
 
+use std::sync::Arc;
+
 use super::PlanState;
 use super::state::{PACES, Stage};
 use crate::configuration::{AnyConfiguration, T2};
-use crate::picture::Drawing;
+use crate::cspace::CellState;
+use crate::picture::{Drawing, Picture};
 use crate::planning::NoPath;
 use crate::plans::{PlannerName, Task};
 use crate::robots::AnyRobot;
@@ -77,12 +80,36 @@ fn a_planner_ends_at_its_bound_with_the_path_that_it_has_or_with_the_reason() {
 fn the_ends_are_points_of_the_slice() {
     let mut plan = PlanState::default();
     assert!(plan.cells(1).is_some());
-    let over = plan.over_cells().unwrap();
-    let at = |id: &str| match over.items.iter().find(|item| item.id == id).unwrap().drawing {
+    let at = |over: &Picture, id: &str| match over.items.iter().find(|item| item.id == id).unwrap().drawing {
         Drawing::Mark { at, .. } => [at.x, at.y],
         _ => panic!("a mark"),
     };
-    assert_eq!((at("start"), at("goal")), ([2.0, 0.0], [3.1, 0.0]));
+    let over = plan.over_cells().unwrap();
+    assert_eq!((at(&over, "start"), at(&over, "goal")), ([2.0, 0.0], [3.1, 0.0]));
+    assert!(Arc::ptr_eq(&over, &plan.over_cells().unwrap()), "where nothing happens nothing is drawn");
+    plan.move_end(1, AnyConfiguration::T2(T2::new(2.9, 0.0)));
+    assert_eq!(at(&plan.over_cells().unwrap(), "goal"), [2.9, 0.0]);
+}
+
+#[test]
+fn the_cells_are_those_of_the_robot_as_it_is_planned_for() {
+    let mut plan = PlanState::default();
+    let (robot, start) = AnyRobot::of_kind("rusty", &[1.0, 1.0, 0.0]).unwrap();
+    plan.take(Task::new("Rusty", robot, cell(), [start, start.with(1, 0.8)]));
+    let (cells, _) = plan.cells(1).unwrap();
+    let slice = cells.map().slice();
+    // a rover of 11 cm is planned 2 cm larger
+    let judged = [0.115, 0.125, 0.135].map(|from_the_wall| slice.judge([2.0 - from_the_wall, 1.0], [1e-6; 2]));
+    assert_eq!(judged, [CellState::Blocked, CellState::Blocked, CellState::Free]);
+}
+
+/// A world of two rooms without a door.
+fn cell() -> World {
+    let shut = r#"World(version: 1, name: "Cell", bounds: (min: (0, 0), max: (4, 2)),
+        walls: [(name: "the wall", points: [(2, 0), (2, 2)]),
+            (name: "the rest", points: [(0, 0), (4, 0), (4, 2), (0, 2)], closed: true)],
+        robots: [(name: "Rusty", kind: "rusty", start: [1, 1, 0])])"#;
+    World::parse("cell.ron", shut).unwrap()
 }
 
 #[test]
@@ -114,11 +141,7 @@ fn what_is_no_problem_is_said_and_mended_by_another_end() {
     plan.move_end(0, AnyConfiguration::T2(T2::new(2.0, 0.0)));
     assert_eq!(*plan.stage(), Stage::Growing);
     // a robot in a world where it can't go anywhere but has room: every planner ends within its bound
-    let shut = r#"World(version: 1, name: "Cell", bounds: (min: (0, 0), max: (4, 2)),
-        walls: [(name: "the wall", points: [(2, 0), (2, 2)]),
-            (name: "the rest", points: [(0, 0), (4, 0), (4, 2), (0, 2)], closed: true)],
-        robots: [(name: "Rusty", kind: "rusty", start: [1, 1, 0])])"#;
-    let world = World::parse("cell.ron", shut).unwrap();
+    let world = cell();
     let (robot, start) = AnyRobot::of_resident(&world.robots[0]).unwrap();
     plan.take(Task::new("Rusty", robot, world, [start, start.with(0, 3.0)]));
     plan.set_planner(PlannerName::CellDecomposition);

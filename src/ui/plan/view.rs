@@ -119,9 +119,11 @@ fn space(ui: &mut Ui, room: Rect, look: &Look, plan: &mut PlanState) -> Rect {
     };
     let line = ui.text_style_height(&TextStyle::Small) + 4.0;
     let paper = canvas::proportioned(&still, room.with_max_y(room.bottom() - line));
-    let over = plan.over_cells().unwrap_or_else(|| Picture::new("nothing", still.bounds));
     let spoken = format!("configuration space. {}", slice.described());
-    let on = sheet(ui, paper, spoken, &still, &over, look);
+    let on = sheet(ui, paper, spoken, &still, &Picture::new("nothing", still.bounds), look);
+    if let Some(over) = plan.over_cells() {
+        canvas::paint_kept(&ui.painter_at(paper), &over, paper, &on.fit, look);
+    }
     let font = TextStyle::Small.resolve(ui.style());
     let under = paper.left_bottom() + vec2(0.0, 3.0);
     ui.painter().text(under, Align2::LEFT_TOP, readout(&slice.described()), font, look.colour(Role::Muted));

@@ -190,7 +190,7 @@ for (const [path, width, height, more] of [
 }
 
 lab("at 400 % nothing is cut off: the page scrolls, sideways by 32 points at most", "/", async (lab) => {
-  for (const id of ["dashboard", "anatomy", "cspace", "atlas"]) {
+  for (const id of ["dashboard", "anatomy", "cspace", "atlas", "plan"]) {
     await lab.send({ do: "widget", id });
     await lab.until((s) => s.widget === id);
     await lab.page.waitForTimeout(1200);

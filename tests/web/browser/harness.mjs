@@ -1,4 +1,4 @@
-// A browser on the site, with all that must not happen taken down.
+// A browser on the site, which keeps account of all that must not happen.
 import { createRequire } from "node:module";
 import { execFileSync } from "node:child_process";
 import { join } from "node:path";

@@ -3,7 +3,7 @@
 use motion_lab::capture::{proven, unit};
 use motion_lab::export::JsonNumber;
 use motion_lab::planning::{Effort, NoPath};
-use motion_lab::plans::{Attempt, Counts, PlannerName, Task};
+use motion_lab::plans::{Attempt, Counts, PathLengths, PlannerName, Task};
 use serde::Serialize;
 
 use super::next;
@@ -69,13 +69,14 @@ impl Answer {
 
     /// There is a path.
     pub fn of_path(task: &Task, planner: PlannerName, seed: u64, attempt: &dyn Attempt, seconds: f64) -> Self {
+        let PathLengths { length, clearance } = attempt.lengths();
         Answer {
             solved: true,
             effort: Some(attempt.effort().into()),
             seconds: Some(seconds),
             legs: Some(attempt.legs().len()),
-            length: Some(JsonNumber(attempt.length())),
-            clearance: Some(JsonNumber(attempt.clearance())),
+            length: Some(JsonNumber(length)),
+            clearance: Some(JsonNumber(clearance)),
             ..Self::new(task, planner, seed)
         }
     }

@@ -5,7 +5,7 @@ use std::time::Instant;
 
 use motion_lab::capture::{proven, unit};
 use motion_lab::planning::{Effort, NoPath};
-use motion_lab::plans::{PlannerName, Task};
+use motion_lab::plans::{PathLengths, PlannerName, Task};
 use motion_lab::random::Seed;
 use serde::Serialize;
 
@@ -26,7 +26,7 @@ struct Row {
     effort: Effort,
     seconds: f64,
     /// Length and clearance of the path, or why there is none.
-    path: Result<[f64; 2], String>,
+    path: Result<PathLengths, String>,
 }
 
 /// What came of one planner at all seeds: medians over the attempts that have a path.
@@ -88,7 +88,7 @@ fn row(args: &PlanArgs, task: &Task, planner: PlannerName, seed: u64) -> Result<
     };
     let solved = attempt.solve(&args.bounds(planner));
     let seconds = begun.elapsed().as_secs_f64();
-    let path = solved.map(|()| [attempt.length(), attempt.clearance()]).map_err(|reason| reason.to_string());
+    let path = solved.map(|()| attempt.lengths()).map_err(|reason| reason.to_string());
     Ok(Ok(Row { planner, seed, effort: attempt.effort(), seconds, path }))
 }
 
@@ -101,16 +101,18 @@ fn median(mut numbers: Vec<f64>) -> Option<f64> {
 
 fn line(planner: PlannerName, rows: &[Row]) -> Line {
     let own: Vec<&Row> = rows.iter().filter(|row| row.planner == planner).collect();
-    let solved: Vec<(&Row, [f64; 2])> = own.iter().filter_map(|row| Some((*row, *row.path.as_ref().ok()?))).collect();
-    let of = |number: fn(&Row, [f64; 2]) -> f64| median(solved.iter().map(|(row, path)| number(row, *path)).collect());
+    let solved: Vec<(&Row, PathLengths)> =
+        own.iter().filter_map(|row| Some((*row, *row.path.as_ref().ok()?))).collect();
+    let of =
+        |number: fn(&Row, PathLengths) -> f64| median(solved.iter().map(|(row, path)| number(row, *path)).collect());
     Line {
         planner: planner.id().to_owned(),
         solved: solved.len(),
         attempts: own.len(),
         milliseconds: of(|row, _| 1000.0 * row.seconds),
         edges: of(|row, _| row.effort.edges as f64),
-        length: of(|_, path| path[0]),
-        clearance: of(|_, path| path[1]),
+        length: of(|_, path| path.length),
+        clearance: of(|_, path| path.clearance),
     }
 }
 
@@ -143,7 +145,7 @@ fn csv(rows: &[Row]) -> String {
         let Effort { iterations, samples, edges, free } = effort;
         let name = planner.id();
         let (solved, length, clearance, reason) = match path {
-            Ok([length, clearance]) => (true, length.to_string(), clearance.to_string(), String::new()),
+            Ok(PathLengths { length, clearance }) => (true, length.to_string(), clearance.to_string(), String::new()),
             Err(reason) => (false, String::new(), String::new(), format!("\"{}\"", reason.replace('"', "\"\""))),
         };
         let counts = format!("{iterations},{samples},{edges},{free}");

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use motion_lab::capture::{Captured, Form, Paper, PlanSheet, plan};
 use motion_lab::cspace::CellMap;
-use motion_lab::plans::{Attempt, Drawn, PathLengths, PlannerName, Task};
+use motion_lab::plans::{Attempt, Drawn, PlannerName, Task};
 use motion_lab::random::Seed;
 
 use crate::cli::Failure;
@@ -37,7 +37,6 @@ pub fn captured(
     drawn: &Drawn,
     cells: Option<&CellMap>,
 ) -> Captured {
-    let lengths =
-        (!drawn.path.is_empty()).then(|| PathLengths { length: attempt.length(), clearance: attempt.clearance() });
+    let lengths = (!drawn.path.is_empty()).then(|| attempt.lengths());
     plan(&PlanSheet { task, planner, seed: Seed(seed), drawn, effort: attempt.effort(), lengths, cells })
 }

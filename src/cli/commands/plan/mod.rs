@@ -162,7 +162,7 @@ impl PlanArgs {
         let answer = Answer::of_path(task, name, self.seed, attempt, seconds);
         // what can't be played is refused before anything is written
         let played = if self.script.is_some() || self.record.is_some() {
-            match play::play(task, attempt, Seed(self.seed), self.tube)? {
+            match play::play(task, attempt, Seed(self.seed))? {
                 Ok(played) => Some(played),
                 Err(reason) => {
                     say(format!("the path can't be played: {reason}\nNothing was written. {}", play::next(&reason)));

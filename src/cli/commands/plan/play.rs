@@ -4,7 +4,7 @@ use std::path::Path;
 
 use motion_lab::plans::{Attempt, Task};
 use motion_lab::random::Seed;
-use motion_lab::simulation::{PlayError, PlayStage, PlayedPath};
+use motion_lab::simulation::{PlayError, PlayedPath};
 use motion_lab::tour::TourConfig;
 use motion_lab::worlds::World;
 
@@ -26,14 +26,13 @@ pub struct Played {
 }
 
 /// The script of the path that an attempt has found, or why it can't be played.
-pub fn play(task: &Task, attempt: &dyn Attempt, seed: Seed, tube: f64) -> Result<Result<Played, PlayError>, Failure> {
+pub fn play(task: &Task, attempt: &dyn Attempt, seed: Seed) -> Result<Result<Played, PlayError>, Failure> {
     if task.name == "choset" {
         let reason = "an arm without thickness lives in no world, so it can't play its path";
         return Err(Failure::usage(reason, "Plan for --robot reach."));
     }
-    let (world, robot) = task.alone();
-    let stage = PlayStage { tube: motion_lab::num::greater(tube, 1e-3), ..PlayStage::new(&world, &robot, seed) };
-    match attempt.play(&stage) {
+    let (world, played) = task.played(attempt, seed);
+    match played {
         Some(Ok(played)) => Ok(Ok(Played { world, seed, played })),
         Some(Err(reason)) => Ok(Err(reason)),
         None => Err(Failure::internal(anyhow::anyhow!("no path is to be played"))),

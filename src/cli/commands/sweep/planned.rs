@@ -1,12 +1,10 @@
 //! A run whose inputs are made: by its script, or by a planner's path that is planned and played.
 
-use motion_lab::num::greater;
 use motion_lab::planning::{Bounds, Effort, NoPath};
-use motion_lab::plans::{Attempt, PlannerName, Task};
+use motion_lab::plans::{Attempt, PathLengths, PlannerName, Task};
 use motion_lab::random::Seed;
 use motion_lab::robots::AnyRobot;
 use motion_lab::run::{Script, seconds};
-use motion_lab::simulation::{PlayStage, PlayedPath};
 use motion_lab::sweep::{Planned, PlannedPath, Planning, RunInputs, RunSetup};
 use motion_lab::tour::TourConfig;
 use motion_lab::worlds::World;
@@ -75,9 +73,12 @@ fn planned_script(config: &TourConfig, seed: Seed, planning: &Planning, planned:
     let Effort { iterations, edges, .. } = attempt.effort();
     *planned = Planned { iterations, edges, path: None };
     solved?;
-    let path = PlannedPath { length: attempt.length(), clearance: attempt.clearance(), time: None };
+    let PathLengths { length, clearance } = attempt.lengths();
+    let path = PlannedPath { length, clearance, time: None };
     planned.path = Some(path);
-    let played = play(attempt.as_ref(), world, seed, planning.tube)?;
+    let (_, played) = task.played(attempt.as_ref(), seed);
+    let played = played.ok_or_else(|| "there is no path to play".to_owned())?;
+    let played = played.map_err(|reason| format!("the path can't be played: {reason}"))?;
     planned.path = Some(PlannedPath { time: Some(seconds(played.ticks)), ..path });
     Ok(played.script)
 }
@@ -123,11 +124,4 @@ fn solve(attempt: &mut dyn Attempt, iterations: u64) -> Result<(), Why> {
             solved => return solved.map_err(Why::from),
         }
     }
-}
-
-/// The script that plays the path; else why it can't be played.
-fn play(attempt: &dyn Attempt, world: &World, seed: Seed, tube: f64) -> Result<PlayedPath, String> {
-    let stage = PlayStage { tube: greater(tube, 1e-3), ..PlayStage::new(world, &world.robots[0].name, seed) };
-    let played = attempt.play(&stage).ok_or("there is no path to play")?;
-    played.map_err(|reason| format!("the path can't be played: {reason}"))
 }
