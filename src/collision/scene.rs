@@ -5,6 +5,7 @@ use std::sync::Arc;
 use super::ObstacleId;
 use super::boundary::grid::Cells;
 use super::boundary::segments::SegmentSoup;
+use super::broad::frames::Frames;
 use super::broad::index::Index;
 use super::narrow::convex::Nearest;
 use super::narrow::distance::depth;
@@ -37,6 +38,8 @@ pub struct Scene {
     /// The grid over the boundary; `None` in a small scene.
     cells: Option<Cells>,
     pub(super) index: Index,
+    /// The pieces' turned boxes; `None` in a large scene.
+    pub(super) frames: Option<Frames>,
     /// An upper bound on the size of the pieces' coordinates, metres; infinite where a piece is not valid.
     pub(super) size: f64,
 }
@@ -124,7 +127,8 @@ impl Scene {
         let cells = if many { Cells::new(&soup) } else { None };
         let valid = pieces.iter().all(Placed::is_valid);
         let size = if valid { largest_coordinate(&pieces) } else { f64::INFINITY };
-        Scene { bounds, names, pieces, owners, soup, cells, index: Index::new(&extents), size }
+        let (index, frames) = (Index::new(&extents), Frames::new(&pieces));
+        Scene { bounds, names, pieces, owners, soup, cells, index, frames, size }
     }
 
     /// The part of the plane the scene shows; not an obstacle.

@@ -11,6 +11,7 @@ use super::local_march::march_nearby;
 use super::place::Ends;
 use super::separation::{halve, is_separated, open_parts};
 use crate::collision::{Certificate, Collision, EdgeVerdict, Scene};
+use crate::geometry::Segment;
 use crate::robots::Motion;
 
 /// The verdict on a motion in a scene: in closed form where one decides, otherwise by the march with at most `budget`
@@ -70,9 +71,7 @@ pub(crate) fn is_free<M: Motion>(scene: &Scene, motion: &M, budget: u32) -> bool
     if motion.leaves_limits().is_some() {
         return false;
     }
-    if let Some((way, radius)) = motion.disc_line()
-        && let Some(free) = DiscLine::new(way, radius, scene).and_then(|disc| disc.is_free(scene))
-    {
+    if let Some(free) = motion.disc_line().and_then(|(way, radius)| is_line_free(scene, way, radius)) {
         return free;
     }
     if budget == 0 || motion.disc_arc().is_some() {
@@ -86,6 +85,11 @@ pub(crate) fn is_free<M: Motion>(scene: &Scene, motion: &M, budget: u32) -> bool
         let decided = halve(scene, motion, ends, &open, HALVINGS);
         decided.unwrap_or_else(|| verdict(scene, motion, budget, None).is_free())
     })
+}
+
+/// As [`is_free`], for a disc of this radius whose centre runs along `way`; `None` where rounding could decide.
+pub(crate) fn is_line_free(scene: &Scene, way: Segment, radius: f64) -> Option<bool> {
+    DiscLine::new(way, radius, scene)?.is_free(scene)
 }
 
 /// Whether a motion is proven free by more than a margin, in any checker; `judge` decides what the separation test and

@@ -3,6 +3,7 @@
 use smallvec::SmallVec;
 
 use super::time_of_impact::point_meets;
+use crate::collision::broad::frames::Line;
 use crate::collision::motion::conservative_advancement::BRACKET;
 use crate::collision::narrow::convex::edges;
 use crate::collision::{EdgeVerdict, HitBy, ObstacleId, ProvenStep, Scene};
@@ -140,15 +141,26 @@ impl DiscLine {
     pub(crate) fn is_free(&self, scene: &Scene) -> Option<bool> {
         // more than a verdict subtracts, see `slack`
         let slack = 1e-12 * (self.size + scene.size + self.radius);
-        let (a, b) = (self.way.a, self.way.b);
+        let Leg { a, b, u, square, inverse } = self.way;
         let (mut free, mut clear) = (true, true);
-        let way = Aabb { min: a, max: a }.merged(&Aabb { min: b, max: b });
-        scene.index.each_near(&way, self.radius + slack, |piece| {
-            let apart = gap(&self.way, &scene.pieces[piece]).0 - self.radius;
-            free = apart >= -slack;
-            clear &= apart > slack;
+        let mut look = |piece: usize| {
+            let piece = &scene.pieces[piece];
+            let (reach, square) = (self.radius + piece.radius(), squared_gap(&self.way, piece));
+            free = square >= (reach - slack) * (reach - slack);
+            clear &= square > (reach + slack) * (reach + slack);
             !free
-        });
+        };
+        if let Some(frames) = &scene.frames {
+            let length = sqrt(square);
+            let line = Line { middle: a + u * 0.5, direction: u * (length * inverse), half: 0.5 * length };
+            let mut near = frames.near(line, self.radius, self.size + scene.size);
+            while near != 0 && !look(near.trailing_zeros() as usize) {
+                near &= near - 1;
+            }
+        } else {
+            let way = Aabb { min: a, max: a }.merged(&Aabb { min: b, max: b });
+            scene.index.each_near(&way, self.radius + slack, look);
+        }
         if clear || !free { Some(free) } else { None }
     }
 
@@ -189,10 +201,22 @@ impl DiscLine {
 /// The distance of a leg from a piece's core, less the piece's radius, metres, and the square of the length of the
 /// core's longest edge. The core's distance is 0 where they cross or the core holds the leg's beginning. Rounded.
 fn gap(leg: &Leg, piece: &Placed) -> (f64, f64) {
+    let (square, longest) = squares(leg, piece);
+    (sqrt(square) - piece.radius(), longest)
+}
+
+/// The square of the distance of a leg from a piece's core, as [`gap`] has it.
+fn squared_gap(leg: &Leg, piece: &Placed) -> f64 {
+    squares(leg, piece).0
+}
+
+/// The squares of both of a [`gap`]'s lengths.
+#[inline]
+fn squares(leg: &Leg, piece: &Placed) -> (f64, f64) {
     let core = piece.core();
     if let [a, b] = core {
         let edge = Leg::new(*a, *b);
-        return (sqrt(edge.squared_distance_to(leg)) - piece.radius(), edge.square);
+        return (edge.squared_distance_to(leg), edge.square);
     }
     let (mut least, mut longest) = (f64::INFINITY, 0.0);
     let mut inside = core.len() > 2;
@@ -202,7 +226,7 @@ fn gap(leg: &Leg, piece: &Placed) -> (f64, f64) {
         longest = greater(edge.square, longest);
         inside &= cross(edge.u, leg.a - a) >= 0.0;
     }
-    (if inside { 0.0 } else { sqrt(least) } - piece.radius(), longest)
+    (if inside { 0.0 } else { least }, longest)
 }
 
 /// The distance of a point from the boundary of a piece's core, less the piece's radius, metres. Rounded.
