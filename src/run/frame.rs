@@ -162,15 +162,9 @@ impl Frame {
 
     /// The first NaN in canonical order: its robot and the field's name.
     pub fn first_nan(&self) -> Option<(u32, String)> {
-        let mut found = None;
-        self.visit(&mut |robot: Option<u32>, field: Field, value: Value| {
-            if let (None, Some(robot), Value::Float(x)) = (&found, robot, value)
-                && x.is_nan()
-            {
-                found = Some((robot, field.to_string()));
-            }
-        });
-        found
+        let mut first = FirstNan(None);
+        self.visit(&mut first);
+        first.0
     }
 }
 
@@ -225,6 +219,26 @@ impl<F: FnMut(Option<u32>, Field, Value)> Visit for F {
 
 /// What the number of obstacles that are not as at the start is marked with.
 const CHANGED: u64 = 1 << 63;
+
+/// The first NaN of a robot.
+struct FirstNan(Option<(u32, String)>);
+
+impl Visit for FirstNan {
+    fn value(&mut self, robot: Option<u32>, field: Field, value: Value) {
+        if let (None, Some(robot), Value::Float(x)) = (&self.0, robot, value)
+            && x.is_nan()
+        {
+            self.0 = Some((robot, field.to_string()));
+        }
+    }
+
+    fn floats(&mut self, robot: Option<u32>, name: &'static str, list: &[f64]) {
+        // the whole list at once, because nearly none holds a NaN
+        if list.iter().fold(false, |any, x| any | x.is_nan()) {
+            (0..).zip(list).for_each(|(i, x)| self.value(robot, Field::item(name, i), Value::Float(*x)));
+        }
+    }
+}
 
 /// Appends the values as words. Lists are appended in one go, because scans are most of a frame.
 struct Words<'a>(&'a mut Vec<u8>);

@@ -17,10 +17,14 @@ use super::{CHANNELS, LogError, PROFILE, TICK_NANOSECONDS};
 struct Written(Arc<Mutex<Vec<u8>>>);
 
 impl Written {
-    /// Moves the bytes to the end of `piece`.
+    /// Moves the bytes to the end of `piece`, to an empty one without copying them.
     fn move_to(&self, piece: &mut Vec<u8>) {
         let mut bytes = self.0.lock().unwrap_or_else(PoisonError::into_inner);
-        piece.extend_from_slice(&bytes);
+        if piece.is_empty() {
+            std::mem::swap(piece, &mut bytes);
+        } else {
+            piece.extend_from_slice(&bytes);
+        }
         bytes.clear();
     }
 }
