@@ -11,8 +11,10 @@ const root = document.documentElement;
 const files = JSON.parse($("files").textContent);
 const embedded = root.dataset.page === "embed";
 const canvas = $("lab");
-const RESTART = "motion-lab/restart";
-const LOST = "motion-lab/lost";
+// the frames of one page share its storage
+const here = location.pathname + location.search + location.hash;
+const RESTART = `motion-lab/restart ${here}`;
+const LOST = `motion-lab/lost ${here}`;
 const SETTINGS = "motion-lab/settings";
 const MOST_BYTES = 256 * 1024 * 1024;
 const MOST_QUERY = 8000;
@@ -23,6 +25,7 @@ let wasm = null; // the memory and functions under them
 let state = null; // its last state
 let parts = null; // the run's parts, with which the simulator alone can record it again
 let failed = false;
+let copies = false; // whether the reader asked for the link that the lab tells next
 let toSeek = null; // the tick of the run before, while it is checked
 const waiting = []; // files that were opened before the lab ran
 
@@ -61,7 +64,10 @@ function attempt(act) {
 
 const tellAround = around({
   ask: send,
-  askReader: () => ($("asked").hidden = false),
+  askReader: () => {
+    $("asked").hidden = false;
+    alarm("The page around asks to save this run: Save run, or No");
+  },
   refuse: (text) => (warn(text), tellAll({ kind: "error", text })),
 });
 
@@ -75,8 +81,7 @@ function tellAll(message) {
 function nudge({ key, shiftKey, ctrlKey, metaKey, altKey }) {
   const by = { ArrowLeft: [0, -1], ArrowRight: [0, 1], ArrowDown: [1, -1], ArrowUp: [1, 1] }[key];
   if (!by || !state?.query || ctrlKey || metaKey || altKey) return false;
-  const printed = state.query.configuration.replace(/\u2212/g, "-").matchAll(/:\s*(-?[\d.]+)/g);
-  const coordinates = Array.from(printed, ([, number]) => Number(number));
+  const coordinates = [...state.query.coordinates];
   coordinates[by[0]] += by[1] * (shiftKey ? 0.005 : 0.05);
   send({ do: "configuration", coordinates });
   return true;
@@ -198,6 +203,9 @@ const hear = {
     if (error) return;
     // what is behind a # is not sent, so servers need not take a long one
     const address = `${location.origin}${location.pathname}${query.length > MOST_QUERY ? "#" : "?"}${query}`;
+    // the reader's clipboard is the reader's: the page around is told the address
+    if (!copies) return;
+    copies = false;
     try {
       const late = new Promise((_, fail) => setTimeout(fail, 1000));
       await Promise.race([navigator.clipboard.writeText(address), late]);
@@ -333,9 +341,12 @@ addEventListener("afterprint", () => $("figure").removeAttribute("src"));
 
 // what an earlier one said is no more
 document.querySelector("header").addEventListener("click", () => (say(""), warn("")), { capture: true });
-$("copy-link").addEventListener("click", () => send({ do: "link" }));
+$("copy-link").addEventListener("click", () => {
+  copies = true;
+  send({ do: "link" });
+});
 $("save-run").addEventListener("click", () => send({ do: "save" }));
-$("open-file").addEventListener("click", () => hear.ask({ accept: ".mcap,.ron,.html" }));
+$("open-file").addEventListener("click", () => hear.ask({ accept: ".mcap,.ron,.json,.html" }));
 $("save-page").addEventListener("click", async () => {
   try {
     save("run.html", await runPage(), "text/html");
@@ -431,7 +442,7 @@ async function withoutGraphics() {
   const query = location.search || location.hash;
   const fields = new URLSearchParams(query.replace(/^[?#]/, ""));
   if (embedded) {
-    const own = document.getElementById(fields.get("widget") in files.widgets ? fields.get("widget") : "dashboard");
+    const own = document.getElementById(Object.hasOwn(files.widgets, fields.get("widget") ?? "") ? fields.get("widget") : "dashboard");
     for (const figure of document.querySelectorAll("#still figure")) figure.hidden = figure !== own;
   }
   if (!Number(fields.get("tick"))) return;
@@ -441,7 +452,7 @@ async function withoutGraphics() {
     const found = JSON.parse(light.verify_log(log));
     const theme = root.dataset.theme ?? (dark.matches ? "dark" : "light");
     $("run-figure").src = `data:image/svg+xml,${encodeURIComponent(new light.Replay(log).at(BigInt(found.ticks), theme === "dark"))}`;
-    const expected = fields.get("digest");
+    const expected = fields.get("digest")?.toLowerCase();
     const verdict = !expected ? "" : found.digest === expected ? ": the same run to the last bit" : `, but the link's is ${expected.slice(0, 32)}: another run`;
     $("run-text").textContent = `The link's run, simulated by this browser: seed ${found.seed}, tick ${found.ticks}, digest ${found.digest}${verdict}.`;
     root.dataset.verdict = !expected ? "run" : found.digest === expected ? "verified" : "differs";

@@ -6,7 +6,24 @@ const base64 = (bytes) => {
   return btoa(text);
 };
 
-const through = async (bytes, stream) => new Uint8Array(await new Response(new Blob([bytes]).stream().pipeThrough(stream)).arrayBuffer());
+// a log of any run that a page can hold is far smaller
+const MOST_BYTES = 256 * 1024 * 1024;
+
+/** What comes out of a stream, bounded: a few bytes may stand for any number of others. */
+async function through(bytes, stream) {
+  const chunks = [];
+  let size = 0;
+  for (const reader = new Blob([bytes]).stream().pipeThrough(stream).getReader(); ; ) {
+    const { done, value } = await reader.read();
+    if (done) return new Uint8Array(await new Blob(chunks).arrayBuffer());
+    size += value.length;
+    if (size > MOST_BYTES) {
+      reader.cancel();
+      throw new Error(`it unpacks to more than ${MOST_BYTES} bytes`);
+    }
+    chunks.push(value);
+  }
+}
 
 /**
  * A page that holds the run of these parts, as the simulator alone (`light`) takes them, and simulates it again in whatever browser opens

@@ -10,7 +10,7 @@
   try {
     verdict.textContent = "Simulating the run again in this browser\u2026";
     const log = await held("bytes");
-    $("log").addEventListener("click", () => ($("log").href = URL.createObjectURL(new Blob([log]))));
+    $("log").href = URL.createObjectURL(new Blob([log]));
     await wasm_bindgen({ module_or_path: await held("wasm") });
     const found = JSON.parse(wasm_bindgen.verify_log(log));
     verdict.textContent = found.verified ? `Verified: ${found.text}, digest ${found.digest}.` : `Another run: ${found.text}.`;

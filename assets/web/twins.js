@@ -120,7 +120,10 @@ export function twins({ container, send, titles, leave, nudge }) {
       if (control.textContent !== label && !(isRead && widget.kind === "handle")) control.textContent = label;
       if (at > 0 && !isRead) control.setAttribute("aria-description", name.slice(at).replace(/^(: | at )/, ""));
     } else if (element.firstChild.textContent !== name) element.firstChild.textContent = name;
-    control.disabled = widget.off_limits ?? false;
+    // who has the focus would lose it, and the keys with it
+    const off = widget.off_limits ?? false;
+    control.disabled = off && !isRead;
+    control.ariaDisabled = off ? "true" : null;
     if (widget.kind === "check") control.checked = widget.on;
     else if (widget.kind === "button" && widget.on !== undefined) control.setAttribute("aria-pressed", widget.on);
     // what stays is not set again: that would take half a number from under the reader's fingers

@@ -40,7 +40,7 @@ pub use histogram::{Distribution, histograms};
 pub use moving::{Span, Subject, at_tick, at_tick_with_robots};
 #[cfg(feature = "cli")]
 pub use paper::{film, film_with_robots, slides, write};
-pub use plan::{PlanSheet, plan, proven, unit};
+pub use plan::{Found, PlanSheet, plan, proven, unit};
 pub use plot::{RunPlot, plot};
 #[cfg(feature = "cli")]
 #[doc(hidden)]

@@ -9,6 +9,19 @@ use crate::plans::{Drawn, PathLengths, PlannerName, Task, space_items, workspace
 use crate::random::Seed;
 use crate::robots::AnyRobot;
 
+/// What came of a plan.
+#[derive(Clone, Copy, Debug)]
+pub enum Found<'a> {
+    /// Nothing yet.
+    Growing,
+    /// A path of the planner's.
+    Path(PathLengths),
+    /// No path: the planner has ended.
+    None,
+    /// What is drawn is that of a file of this name, whoever planned it.
+    File(&'a str),
+}
+
 /// A plan to be captured.
 #[derive(Clone, Copy, Debug)]
 pub struct PlanSheet<'a> {
@@ -22,40 +35,52 @@ pub struct PlanSheet<'a> {
     pub drawn: &'a Drawn,
     /// What the planner has done.
     pub effort: Effort,
-    /// The length and the clearance of its path, if it has one.
-    pub lengths: Option<PathLengths>,
+    /// What came of it.
+    pub found: Found<'a>,
     /// The slice of the configuration space beside the workspace, if it is shown.
     pub cells: Option<&'a CellMap>,
 }
 
 /// The workspace with the growth, the path and the robot along it, and beside it the configuration space.
 pub fn plan(sheet: &PlanSheet<'_>) -> Captured {
-    let PlanSheet { task, planner, seed, drawn, effort, lengths, cells } = *sheet;
+    let PlanSheet { task, planner, seed, drawn, effort, found, cells } = *sheet;
     let mut readout = vec![format!("{} iterations, {} edges asked", effort.iterations, effort.edges)];
-    let found = if let Some(PathLengths { length, clearance }) = lengths {
-        let clearance = proven(clearance);
-        readout.push(format!("length {length:.3} {}, clearance {clearance} m", unit(&task.robot)));
-        format!("a path whose clearance is proven to be at least {clearance} m")
-    } else {
-        readout.push("no path".to_owned());
-        "no path was found".to_owned()
+    let by = format!("{} at seed {seed}", planner.title());
+    let description = match found {
+        Found::Path(PathLengths { length, clearance }) => {
+            let clearance = proven(clearance);
+            readout.push(format!("length {length:.3} {}, clearance {clearance} m", unit(&task.robot)));
+            format!("{by}: a path whose clearance is proven to be at least {clearance} m.")
+        }
+        Found::None => {
+            readout.push("no path".to_owned());
+            format!("{by}: no path was found.")
+        }
+        Found::Growing => {
+            readout.push("no path yet".to_owned());
+            format!("{by}: no path so far.")
+        }
+        Found::File(_) => {
+            readout = vec!["as the file says; nothing of it is proven here".to_owned()];
+            "A path from a file; nothing of it is proven here.".to_owned()
+        }
+    };
+    let (heading, source) = match found {
+        Found::File(name) => (name, vec![("File", name.to_owned())]),
+        _ => (planner.title(), vec![("Planner", planner.id().to_owned()), ("Seed", seed.to_string())]),
     };
     let workspace = world(&task.world).with(workspace_items(&task.robot, drawn));
-    let mut panels = vec![Panel { picture: workspace, heading: planner.title().to_owned(), readout }];
+    let mut panels = vec![Panel { picture: workspace, heading: heading.to_owned(), readout }];
     if let Some(map) = cells {
         let picture = cspace_picture(map, &Default::default()).with(space_items(map.slice(), drawn));
         let readout = vec![map.slice().described()];
         panels.push(Panel { picture, heading: "configuration space".to_owned(), readout });
     }
-    let notes = vec![
-        ("Planner", planner.id().to_owned()),
-        ("Seed", seed.to_string()),
-        ("Robot", task.name.clone()),
-        ("World", format!("{} {:032x}", task.world.name, task.world.content_hash())),
-    ];
+    let world = format!("{} {:032x}", task.world.name, task.world.content_hash());
+    let notes = source.into_iter().chain([("Robot", task.name.clone()), ("World", world)]).collect();
     let figure = Figure {
         title: format!("A path for {} in the world {}", task.name, task.world.name),
-        description: format!("{} at seed {seed}: {found}.", planner.title()),
+        description,
         panels,
         caption: vec![Widget::Plan.text().misconception.clone()],
     };

@@ -26,7 +26,9 @@ pub enum NoPath {
     },
     /// No path leads to the goal, whatever the planner: configurations that are proven to be in contact part it from
     /// the start, within the scene's bounds.
-    #[error("the goal can't be reached: {cells} cells prove that obstacles part it from the start")]
+    #[error(
+        "the goal can't be reached: {cells} cells prove that obstacles part it from the start within the world's bounds"
+    )]
     Unreachable {
         /// The number of cells that were judged.
         cells: u64,

@@ -16,6 +16,9 @@ const VERSION: u32 = 1;
 /// Largest size of a path's file that is read, bytes.
 pub const MOST_PATH_BYTES: usize = 64 << 20;
 
+/// Largest number of legs, of nodes and of edges that are read: each line becomes some hundred bytes of a picture.
+const MOST_LINES: usize = 300_000;
+
 /// The number of straight pieces in which a motion is drawn.
 const DRAWN: u32 = 6;
 
@@ -132,6 +135,14 @@ pub enum PathFileError {
     Configuration {
         /// Where they stand: `legs[3].to`.
         field: String,
+    },
+    /// More to draw than fits a window's or a page's memory.
+    #[error("{what}: {found}; at most {MOST_LINES} are drawn")]
+    TooMany {
+        /// The list: `growth.edges`.
+        what: &'static str,
+        /// Its length.
+        found: usize,
     },
     /// An edge of the growth between nodes that are not there.
     #[error("growth.edges[{0}]: there is no such node")]
@@ -256,6 +267,11 @@ impl PathFile {
         if file.version != VERSION {
             return Err(PathFileError::Version(file.version));
         }
+        let [nodes, edges] = file.growth.as_ref().map_or([0; 2], |growth| [growth.nodes.len(), growth.edges.len()]);
+        let lists = [("legs", file.legs.len()), ("growth.nodes", nodes), ("growth.edges", edges)];
+        if let Some((what, found)) = lists.into_iter().find(|(_, length)| *length > MOST_LINES) {
+            return Err(PathFileError::TooMany { what, found });
+        }
         file.drawn(&file.robot()?.0).map(|_| file)
     }
 
@@ -369,6 +385,12 @@ mod tests {
         ] {
             assert!(refused(from, to).contains(words), "{}", refused(from, to));
         }
+        let edges =
+            format!(r#""legs": [], "growth": {{"nodes": [[2, 0]], "edges": [{}[0, 0]]}}"#, "[0,0],".repeat(300_000));
+        let many =
+            format!(r#"{{"version": 1, "robot": {{"kind": "reach"}}, "start": [2, 0], "goal": [3, 0], {edges}}}"#);
+        let many = PathFile::read(&many).unwrap_err().to_string();
+        assert_eq!(many, "growth.edges: 300001; at most 300000 are drawn");
         let large = PathFile::read(&" ".repeat(MOST_PATH_BYTES + 1)).unwrap_err().to_string();
         assert!(large.starts_with("67108865 bytes"), "{large}");
     }

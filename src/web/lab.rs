@@ -81,7 +81,8 @@ pub fn lab_send(message: &str) -> Result<(), JsError> {
     Ok(())
 }
 
-/// Opens a file: a run's log, or a world when its name ends in `.ron`. A notice in the lab says what came of it.
+/// Opens a file: a run's log, a world when its name ends in `.ron`, or a path when it ends in `.json`. A notice in the
+/// lab says what came of it.
 ///
 /// # Errors
 /// The reason, when too many wait.

@@ -1,4 +1,4 @@
-//! `Message`, a request of a page to the lab. `docs/web.md` names this file to those who embed the lab.
+//! `Message`, a request of a page to the lab. docs/web/messages.md has those that a page around a frame may make.
 
 use serde::Deserialize;
 

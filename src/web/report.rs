@@ -10,6 +10,7 @@ use super::listener::tell;
 use super::mirror::mirror;
 use super::runs::RunParts;
 use crate::app::{Interface, Shown};
+use crate::configuration::Configuration;
 use crate::manifest::ThemeChoice;
 use crate::picture::{Role, Theme, readout};
 use crate::random::Seed;
@@ -137,6 +138,7 @@ fn state(world: &World) -> Value {
         "doors": doors.collect::<Vec<_>>(),
         "query": is_asked.then(|| json!({
             "tab": query.tab.name(), "configuration": readout(&query.q().to_string()),
+            "coordinates": &query.q().coordinates()[..],
             "intersects": query.intersects(), "distance": query.distance(),
         })),
     })

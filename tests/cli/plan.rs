@@ -58,6 +58,13 @@ fn a_path_goes_to_a_file_a_script_a_picture_and_a_run() {
     let (nodes, edges) = (path["growth"]["nodes"].as_array().unwrap(), path["growth"]["edges"].as_array().unwrap());
     assert!(nodes.len() > legs.len() && !edges.is_empty());
     run_in(folder.path(), &["verify", "run.mcap"]).done();
+    // for programs the same is one object, with the run's digest
+    let again = ["--record", "again.mcap", "--seed", "7", "--json"];
+    let answer = json(&run_in(folder.path(), &[&ROUND_THE_POST[..], &again].concat()).done());
+    let digest = answer["digest"].as_str().unwrap();
+    assert!(said.out.contains(&format!("digest {digest}")), "{digest} {}", said.out);
+    assert!(said.out.contains(&format!("played     {} ticks", answer["ticks"])), "{answer} {}", said.out);
+    assert_eq!(answer["contacts"], 0);
     run_in(folder.path(), &["script", "check", "out.ron", "--world", "workbench"]).done();
     let again = run_in(folder.path(), &["script", "print", "run.mcap"]).done();
     assert_eq!(again, fs::read_to_string(folder.path().join("out.ron")).unwrap());
@@ -229,6 +236,14 @@ fn planners_are_compared_in_a_table_and_in_rows() {
         assert_eq!(cells[8].parse::<f64>().unwrap(), single["length"].as_f64().unwrap());
         assert_eq!(cells[6].parse::<u64>().unwrap(), single["effort"]["edges"].as_u64().unwrap());
     }
+    // one that is named twice is asked once
+    let more = ["--compare", "rrt,rrt", "--seeds", "3..5", "--json"];
+    let table = json(&run_in(folder.path(), &[&ROUND_THE_POST[..], &more].concat()).done());
+    assert_eq!((table.as_array().unwrap().len(), &table[0]["attempts"]), (1, &2.into()));
+    // an end in contact is an answer for programs too
+    let more = ["plan", "--robot", "reach", "--from", "0.785,0.785", "--to", "3.1,0", "--compare", "rrt", "--json"];
+    let none = run(&more);
+    assert_eq!((none.code, &json(&none.out)["solved"]), (Some(4), &false.into()), "{}", none.out);
     // a planner of discs has no path for an arm, and the others go on
     let more = ["--compare", "bug2,prm,rrt", "--seeds", "1..3"];
     let table = run_in(folder.path(), &[&ROUND_THE_POST[..], &more].concat()).done();

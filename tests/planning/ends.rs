@@ -88,6 +88,14 @@ fn cells_prove_that_a_goal_is_out_of_reach_or_find_the_way() {
         let refused = solve(&mut CellDecomposition::new(problem), &Bounds::default()).unwrap_err();
         assert!(matches!(refused, NoPath::Unreachable { cells } if cells > 0), "{refused}");
     }
+    // a way beyond the world's bounds leads to a goal beyond them, past a block that fills its last cells
+    let world = Aabb::new(Point2::new(0.0, 0.0), Point2::new(4.0, 2.0));
+    let block = Shape::try_rectangle(Point2::new(3.5, 0.5), Point2::new(4.0, 1.5)).unwrap();
+    let open = Checker::new(Scene::empty(world).with_obstacle("block", block), robot);
+    let (start, goal) = (rover([1.0, 1.0, 0.0]).1, rover([4.5, 1.0, 0.0]).1);
+    let beyond = Problem::try_new(open, start, goal, Seed(1)).unwrap();
+    let refused = solve(&mut CellDecomposition::new(beyond), &Bounds::default()).unwrap_err();
+    assert!(matches!(refused, NoPath::NoneInGraph { .. }), "{refused}");
     // both outside: there is a way, which every planner finds
     let round = problem(outside, rover([-1.0, 1.0, 2.0]).1);
     let path = solve(&mut CellDecomposition::new(round), &Bounds::default()).unwrap();

@@ -78,6 +78,14 @@ fn keys_move_the_planner_and_not_the_run() {
 }
 
 #[test]
+fn saving_without_a_path_says_that_there_is_none() {
+    let mut harness = planned(WIDE);
+    harness.key_press_modifiers(Modifiers::COMMAND, Key::S);
+    harness.run_steps(2);
+    harness.get_by_label_contains("there is no path to save");
+}
+
+#[test]
 fn the_ends_are_dragged_in_both_papers_and_an_end_in_contact_is_said() {
     let mut harness = planned(WIDE);
     click(&mut harness, "Step");
@@ -101,6 +109,14 @@ fn the_ends_are_dragged_in_both_papers_and_an_end_in_contact_is_said() {
     let moved = [0, 1].map(|end| after.task().robot.reference(&after.end_at(end)));
     assert!((moved[1] - to).norm() < 0.02 && moved[0] == start, "{moved:?}");
     assert_eq!(after.effort().iterations, 0, "it begins anew");
+    // a click is enough
+    let at = crate::geometry::Point2::new(-1.0, 1.2);
+    pointer(&mut harness, on_screen(at), Some(true));
+    pointer(&mut harness, on_screen(at), Some(false));
+    harness.run_steps(2);
+    let clicked = plan(&harness);
+    assert!((clicked.task().robot.reference(&clicked.end_at(1)) - at).norm() < 0.02);
+    let after = clicked;
     // the start's point on the torus, across and up
     let slice = crate::cspace::Slice::through(
         &crate::collision::Checker::new(std::sync::Arc::clone(&after.task().scene), after.task().robot),

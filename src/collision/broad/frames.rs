@@ -7,8 +7,8 @@ use crate::collision::boundary::segments::LANES;
 use crate::geometry::{Aabb, Placed, Point2, Vector2};
 use crate::num::sqrt;
 
-/// The roundings of a test in single precision, in parts of the largest coordinate: each of its some twenty roundings is
-/// at most 2^-24 of it.
+/// The roundings of a test in single precision, in parts of the largest coordinate: some twenty, each at most 2^-24 of
+/// it.
 const ROUNDING: f64 = 4e-6;
 
 /// Eight vectors, by x and y.

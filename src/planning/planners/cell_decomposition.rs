@@ -62,6 +62,11 @@ impl CellDecomposition {
             return Some(if self.path.is_some() { Progress::Solved } else { self.undecided() });
         }
         if raster.way(start, goal, |state| state != CellState::Blocked).is_none() {
+            let ends = [self.problem.start(), self.problem.goal()];
+            // a way to an end beyond the cells may lead around all of them
+            if !ends.iter().all(|q| raster.holds(map.slice().point(q))) {
+                return Some(self.undecided());
+            }
             return Some(Progress::Ended(NoPath::Unreachable { cells: map.progress().judged }));
         }
         is_done.then(|| self.undecided())
@@ -88,6 +93,12 @@ impl Raster {
         let (min, max, side) = (map.slice().min(), map.slice().max(), 1 << map.finest());
         let steps = [0, 1].map(|i| (max[i] - min[i]) / side as f64);
         Raster { states: map.raster(map.finest()), side, min, steps, wraps: map.slice().wraps() }
+    }
+
+    /// Whether a point lies in the slice; on a torus every point does.
+    fn holds(&self, p: [f64; 2]) -> bool {
+        let within = |i: usize| (0.0..=self.side as f64).contains(&((p[i] - self.min[i]) / self.steps[i]));
+        self.wraps || (within(0) && within(1))
     }
 
     /// The number of the cell in which a point lies; beyond the slice, of the nearest.

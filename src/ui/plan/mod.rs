@@ -1,6 +1,7 @@
 //! Plan: a planner at work, in the workspace and in the configuration space.
 
 mod controls;
+mod exchange;
 mod panel;
 mod state;
 #[cfg(test)]

@@ -51,42 +51,43 @@ pub fn panel(ui: &mut Ui, look: &Look, state: &mut UiState, commands: &mut Vec<C
 }
 
 /// The robots to plan for: the residents of the built-in worlds and of the atlas's, a car with its trailer and without.
-fn choices(atlas: &World) -> Vec<(String, AnyRobot, AnyConfiguration, World)> {
-    let mut worlds: Vec<World> = World::built_in_names().into_iter().filter_map(World::built_in).collect();
-    if !worlds.contains(atlas) {
-        worlds.push(atlas.clone());
+fn choices(atlas: &World) -> Vec<(String, AnyRobot, AnyConfiguration, World, bool)> {
+    let books = World::built_in_names().into_iter().filter_map(World::built_in);
+    let mut worlds: Vec<(World, bool)> = books.map(|world| (world, true)).collect();
+    if worlds.iter().all(|(world, _)| world != atlas) {
+        worlds.push((atlas.clone(), false));
     }
     let mut choices = Vec::new();
-    for world in worlds {
+    for (world, is_books) in worlds {
         for resident in &world.robots {
             let Some((robot, q)) = AnyRobot::of_resident(resident) else { continue };
-            choices.push((resident.name.clone(), robot, q, world.clone()));
+            choices.push((resident.name.clone(), robot, q, world.clone(), is_books));
             if let (AnyRobot::Hitch(car), AnyConfiguration::Hitch(at)) = (robot, q) {
                 let (car, trailer) = match at.trailer {
                     None => (car.with_trailer(), Some(at.body.theta)),
                     Some(_) => (car.without_trailer(), None),
                 };
                 let q = AnyConfiguration::Hitch(HitchCfg { body: at.body, trailer });
-                choices.push((resident.name.clone(), AnyRobot::Hitch(car), q, world.clone()));
+                choices.push((resident.name.clone(), AnyRobot::Hitch(car), q, world.clone(), is_books));
             }
         }
     }
     choices
 }
 
-/// A choice in words: `Hitch with its trailer, Lot`.
-fn named(name: &str, robot: &AnyRobot, world: &World) -> String {
+/// A choice in words: `Hitch with its trailer, Lot`; the atlas's world may have a book's name.
+fn named(name: &str, robot: &AnyRobot, world: &World, is_books: bool) -> String {
     let trailer =
         if matches!(robot, AnyRobot::Hitch(car) if car.hitch_len.is_some()) { " with its trailer" } else { "" };
-    format!("{name}{trailer}, {}", world.name)
+    format!("{name}{trailer}, {}{}", world.name, if is_books { "" } else { ", in the atlas" })
 }
 
 fn task_choice(ui: &mut Ui, state: &mut UiState) {
     let present = state.plan.task();
-    let shown = named(&present.name, &present.robot, &present.world);
+    let shown = named(&present.name, &present.robot, &present.world, state.plan.is_in_books_world());
     ComboBox::from_label("robot").width(190.0).selected_text(shown.as_str()).show_ui(ui, |ui| {
-        for (name, robot, q, world) in choices(state.atlas.world()) {
-            let words = named(&name, &robot, &world);
+        for (name, robot, q, world, is_books) in choices(state.atlas.world()) {
+            let words = named(&name, &robot, &world, is_books);
             if ui.selectable_label(words == shown, words).clicked() {
                 let goal = goal_for(&robot, &world, q);
                 state.plan.take(Task::new(name, robot, world, [q, goal]));

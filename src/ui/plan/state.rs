@@ -5,15 +5,13 @@ use std::sync::Arc;
 use bevy::platform::time::Instant;
 
 use super::work::Work;
-use crate::capture::{self, Captured, PlanSheet};
 use crate::collision::Checker;
-use crate::configuration::{AnyConfiguration, Configuration};
+use crate::configuration::AnyConfiguration;
 use crate::picture::{Picture, world as picture_of};
 use crate::planning::{Bound, Effort, NoPath, Progress};
-use crate::plans::{Drawn, PathFile, PathFileError, PathLengths, PlannerName, Task, space_items, workspace_items};
+use crate::plans::{Drawn, PathLengths, PlannerName, Task, space_items, workspace_items};
 use crate::random::Seed;
 use crate::robots::AnyRobot;
-use crate::simulation::{PlayError, PlayedPath};
 use crate::tour::BOOK_SEED;
 use crate::ui::cspace::Cells;
 use crate::worlds::World;
@@ -54,11 +52,11 @@ pub enum Stage {
 /// The state of the widget that plans.
 #[derive(Clone, Debug)]
 pub struct PlanState {
-    task: Task,
-    planner: PlannerName,
-    seed: Seed,
-    work: Option<Work>,
-    stage: Stage,
+    pub(super) task: Task,
+    pub(super) planner: PlannerName,
+    pub(super) seed: Seed,
+    pub(super) work: Option<Work>,
+    pub(super) stage: Stage,
     /// Whether it goes on by itself.
     pub playing: bool,
     /// The number of its pace among [`PACES`].
@@ -67,14 +65,14 @@ pub struct PlanState {
     pub(super) bound: u64,
     /// The iterations that are due: less than one after a frame.
     due: f64,
-    effort: Effort,
-    drawn: Drawn,
+    pub(super) effort: Effort,
+    pub(super) drawn: Drawn,
     /// The name by which commands know the world, if they do.
-    known_as: Option<&'static str>,
+    pub(super) known_as: Option<&'static str>,
     backdrop: Arc<Picture>,
     /// The plan over the workspace.
     pub over: Arc<Picture>,
-    cells: Option<Cells>,
+    pub(super) cells: Option<Cells>,
     /// The plan over the cells, once it has been asked for.
     over_cells: Option<Arc<Picture>>,
     /// The end whose numbers are shown, and that is being dragged: 0 the start, 1 the goal.
@@ -135,6 +133,11 @@ impl PlanState {
         &self.task
     }
 
+    /// Whether its world is one of the built-in ones.
+    pub fn is_in_books_world(&self) -> bool {
+        self.known_as.is_some()
+    }
+
     /// The planner.
     pub fn planner(&self) -> PlannerName {
         self.planner
@@ -180,21 +183,12 @@ impl PlanState {
     pub fn described(&self) -> String {
         let Task { name, start, goal, .. } = &self.task;
         let found = match &self.stage {
-            Stage::Growing => format!("{} nodes so far", self.drawn.edges.len()),
+            Stage::Growing => format!("{} edges so far", self.drawn.edges.len()),
             Stage::Solved => format!("a path of {} legs", self.drawn.corners.len().saturating_sub(1)),
             Stage::Ended(reason) => reason.to_string(),
-            Stage::Read(file) => format!("from the file {file}"),
+            Stage::Read(file) => return format!("the file {file} for {name}, from {start} to {goal}"),
         };
         format!("{} for {name}, from {start} to {goal}: {found}", self.planner.title())
-    }
-
-    /// The command line that plans this; `None` in a world that no command knows by name.
-    pub fn command(&self) -> Option<String> {
-        let (Task { name, start, goal, .. }, world) = (&self.task, self.known_as?);
-        let numbers = |q: &AnyConfiguration| q.coordinates().iter().map(f64::to_string).collect::<Vec<_>>().join(",");
-        let (planner, seed) = (self.planner.id(), self.seed);
-        let ends = format!("--from {} --to {}", numbers(start), numbers(goal));
-        Some(format!("motion-lab plan --planner {planner} --robot {name} --world {world} {ends} --seed {seed}"))
     }
 
     /// How far the planner has come.
@@ -235,8 +229,11 @@ impl PlanState {
         self.look();
     }
 
-    /// Does one iteration.
+    /// Does one iteration; nothing where no planner is at work, as for a file's path.
     pub fn step(&mut self) {
+        if self.work.is_none() {
+            return;
+        }
         self.step_unseen();
         self.look();
     }
@@ -281,41 +278,6 @@ impl PlanState {
         self.look();
     }
 
-    /// The planner's path, played in its world by its robot alone; `None` without a path of the planner's own.
-    pub fn played(&self) -> Option<(World, Result<PlayedPath, PlayError>)> {
-        let work = self.work.as_ref().filter(|_| self.stage == Stage::Solved)?;
-        let (world, played) = work.with(|attempt| self.task.played(attempt, self.seed));
-        Some((world, played?))
-    }
-
-    /// The path as a file, with what the planner has grown; `None` without a path of the planner's own.
-    pub fn file(&self) -> Option<PathFile> {
-        let work = self.work.as_ref().filter(|_| self.stage == Stage::Solved)?;
-        Some(work.with(|attempt| PathFile::new(self.planner.id(), self.seed.0, &self.task, attempt, true)))
-    }
-
-    /// Shows a plan from a file: in the built-in world that it names, else in `world` if it has that name, else in the
-    /// present one.
-    ///
-    /// # Errors
-    /// [`PathFileError`]: the present plan stays.
-    pub fn read(&mut self, name: &str, text: &str, world: &World) -> Result<(), PathFileError> {
-        let file = PathFile::read(text)?;
-        let (kind, [start, goal]) = file.robot()?;
-        let [of, robot_name] = file.names();
-        let built_in = || World::built_in_names().into_iter().filter_map(World::built_in).find(|w| w.name == of);
-        let world =
-            if world.name == of { world.clone() } else { built_in().unwrap_or_else(|| self.task.world.clone()) };
-        let resident = world.robots.iter().find(|r| r.name == robot_name).and_then(AnyRobot::of_resident);
-        let robot = resident.map(|(robot, _)| robot).filter(|robot| robot.like(&start).is_some()).unwrap_or(kind);
-        let drawn = file.drawn(&robot)?;
-        let robot_name = if robot_name.is_empty() { robot.name() } else { robot_name }.to_owned();
-        self.take(Task::new(robot_name, robot, world, [start, goal]));
-        (self.work, self.stage) = (None, Stage::Read(name.to_owned()));
-        self.draw(drawn);
-        Ok(())
-    }
-
     /// The picture of the plan for a pane that shows the world of this name, where it is to be drawn there too.
     pub fn over_world(&self, name: &str) -> Option<&Arc<Picture>> {
         Some(&self.over).filter(|_| self.over_drive && self.task.world.name == name)
@@ -340,19 +302,6 @@ impl PlanState {
         Some((cells, more))
     }
 
-    /// The widget as a figure.
-    pub fn captured(&self) -> Captured {
-        capture::plan(&PlanSheet {
-            task: &self.task,
-            planner: self.planner,
-            seed: self.seed,
-            drawn: &self.drawn,
-            effort: self.effort,
-            lengths: self.lengths(),
-            cells: self.cells.as_ref().map(Cells::map),
-        })
-    }
-
     /// Looks at what the planner has grown.
     fn look(&mut self) {
         let (effort, mut drawn) = match &self.work {
@@ -369,7 +318,7 @@ impl PlanState {
     }
 
     /// Draws this from now on.
-    fn draw(&mut self, drawn: Drawn) {
+    pub(super) fn draw(&mut self, drawn: Drawn) {
         let items = workspace_items(&self.task.robot, &drawn);
         self.over = Arc::new(Picture::new("plan", self.task.world.bounds).with(items));
         (self.drawn, self.over_cells) = (drawn, None);

@@ -151,3 +151,25 @@ fn what_is_no_problem_is_said_and_mended_by_another_end() {
     assert!(matches!(plan.stage(), Stage::Ended(NoPath::Unreachable { .. })), "{:?}", plan.stage());
     assert!(plan.command().is_none() && plan.file().is_none() && plan.played().is_none());
 }
+
+#[test]
+fn a_files_plan_says_what_it_is_and_its_words_go_nowhere() {
+    let mut plan = PlanState::default();
+    let file = r#"{"version": 1, "world": {"name": "Workbench"}, "robot": {"kind": "reach", "name": "x; rm #"},
+        "start": [2, 0], "goal": [3.1, 0], "legs": [{"kind": "chart line", "from": [2, 0], "to": [3.1, 0]}]}"#;
+    plan.read("own.json", file, &World::workbench()).unwrap();
+    assert_eq!((plan.task().name.as_str(), plan.command()), ("Reach", None));
+    let drawn = plan.drawn().path.len();
+    plan.step();
+    assert!(drawn > 1 && plan.drawn().path.len() == drawn, "no planner is at work here");
+    let captured = plan.captured();
+    assert_eq!(captured.figure.description, "A path from a file; nothing of it is proven here.");
+    let notes: Vec<_> = captured.notes.iter().map(|(name, _)| *name).collect();
+    assert_eq!(notes, ["File", "Robot", "World"]);
+    assert!(!plan.described().contains("RRT"), "{}", plan.described());
+    // moved ends make it a task again, of a robot that commands know
+    plan.move_end(1, AnyConfiguration::T2(T2::new(3.0, 0.0)));
+    assert!(plan.command().unwrap().contains("--robot Reach --world workbench --from 2,0 --to 3,0"));
+    let growing = plan.captured().figure.description;
+    assert_eq!(growing, "RRT-Connect at seed 2005: no path so far.");
+}

@@ -15,7 +15,7 @@ use crate::picture::{Picture, Role};
 use crate::ui::keys::Action;
 use crate::ui::paint::canvas;
 use crate::ui::paint::sheet::{Sheet, sheet, split};
-use crate::ui::{Command, Dashboard, Look, SessionCommand, UiState, readout};
+use crate::ui::{Command, Dashboard, Look, Notice, SessionCommand, UiState, readout};
 
 /// Width of the panel beside the papers, points.
 const SIDE: f32 = 300.0;
@@ -26,6 +26,10 @@ const CELLS: u32 = 1500;
 /// Carries out the action of a key while the widget is in front. Save and open act on paths.
 pub fn act(action: Action, model: &Dashboard, state: &mut UiState, commands: &mut Vec<Command>) {
     match action {
+        Action::Save if state.plan.lengths().is_none() => {
+            let text = "there is no path to save: the planner here has found none";
+            state.say(Notice { text: text.to_owned(), is_error: true });
+        }
         Action::Save => commands.push(Command::Session(SessionCommand::SavePath)),
         Action::Open => commands.push(Command::Session(SessionCommand::OpenPath)),
         action if act_on_planner(action, &mut state.plan) => {}
@@ -149,7 +153,9 @@ fn space(ui: &mut Ui, room: Rect, look: &Look, plan: &mut PlanState) -> Rect {
 fn moved(on: &Sheet, places: [Point2; 2], plan: &mut PlanState) -> Option<(usize, Point2)> {
     let to = on.held().filter(|_| on.response.dragged() || on.response.clicked())?;
     if on.response.drag_started() || on.response.clicked() {
-        let origin = on.response.ctx.input(|i| i.pointer.press_origin())?;
+        // egui forgets where the pointer was pressed once it is let go
+        let pressed = on.response.ctx.input(|i| i.pointer.press_origin());
+        let origin = pressed.or(on.response.interact_pointer_pos())?;
         let from = on.fit.world_from_screen([f64::from(origin.x), f64::from(origin.y)]);
         let [start, goal] = places.map(|place| (place - from).norm());
         plan.end = usize::from(goal <= start);

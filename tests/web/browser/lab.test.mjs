@@ -455,7 +455,7 @@ test("after a lost graphics context the run is back, paused at its tick; one los
   const again = await lab.until((s) => s.frontier === frontier && s.tick === 17);
   assert.equal(again.playing, false);
   // as if it had happened a moment ago
-  await lab.page.evaluate(() => sessionStorage.setItem("motion-lab/lost", Date.now()));
+  await lab.page.evaluate(() => sessionStorage.setItem(`motion-lab/lost ${location.pathname}${location.search}${location.hash}`, Date.now()));
   await lab.page.evaluate(loseContext);
   await lab.page.waitForSelector("#overlay:not([hidden])");
   assert.match(await lab.page.textContent("#overlay-text"), /context/);

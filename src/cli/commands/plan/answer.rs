@@ -27,6 +27,16 @@ pub struct Answer {
     length: Option<JsonNumber>,
     #[serde(skip_serializing_if = "Option::is_none")]
     clearance: Option<JsonNumber>,
+    /// The run that plays it, where one was asked for: its ticks, and how far it strays from the path, metres.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub ticks: Option<u64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub strayed: Option<JsonNumber>,
+    /// The log's contacts and its digest, where one was written.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub contacts: Option<u32>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub digest: Option<String>,
     /// Why there is no path.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub reason: Option<String>,
@@ -51,6 +61,10 @@ impl Answer {
             legs: None,
             length: None,
             clearance: None,
+            ticks: None,
+            strayed: None,
+            contacts: None,
+            digest: None,
             reason: None,
             next: "",
             unit: unit(&task.robot),
@@ -79,6 +93,18 @@ impl Answer {
             clearance: Some(JsonNumber(clearance)),
             ..Self::new(task, planner, seed)
         }
+    }
+
+    /// Prints the run that plays the path in words.
+    pub fn print_run(&self, data: &mut Data) -> Result<(), Failure> {
+        if let (Some(ticks), Some(strayed)) = (self.ticks, self.strayed) {
+            let (seconds, strayed) = (motion_lab::run::seconds(ticks), 1000.0 * strayed.0);
+            data.line(format!("played     {ticks} ticks, {seconds} s, at most {strayed:.3} mm off the path"))?;
+        }
+        if let (Some(contacts), Some(digest)) = (self.contacts, &self.digest) {
+            data.line(format!("recorded   {contacts} contacts, digest {digest}"))?;
+        }
+        Ok(())
     }
 
     /// Prints the path in words.

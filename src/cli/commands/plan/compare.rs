@@ -4,12 +4,14 @@ use std::fmt::Write as _;
 use std::time::Instant;
 
 use motion_lab::capture::{proven, unit};
+use motion_lab::export::JsonNumber;
 use motion_lab::planning::{Effort, NoPath};
 use motion_lab::plans::{PathLengths, PlannerName, Task};
 use motion_lab::random::Seed;
 use serde::Serialize;
 
 use super::PlanArgs;
+use super::answer::Answer;
 use crate::cli::commands::record::SeedRange;
 use crate::cli::support::output::write_file;
 use crate::cli::support::progress::Progress;
@@ -37,24 +39,31 @@ struct Line {
     attempts: usize,
     milliseconds: Option<f64>,
     edges: Option<f64>,
-    length: Option<f64>,
-    clearance: Option<f64>,
+    length: Option<JsonNumber>,
+    clearance: Option<JsonNumber>,
 }
 
 /// Compares planners: prints a table, and writes a row for each attempt where that is asked for.
 pub fn compare(args: &PlanArgs, task: &Task, data: &mut Data) -> Result<Outcome, Failure> {
     let seeds = args.seeds.unwrap_or(SEEDS);
     let target = args.csv.as_deref().map(Target::of).transpose()?;
-    let count = (seeds.end - seeds.first).saturating_mul(args.compare.len() as u64);
+    // each once, whatever the command line repeats
+    let is_first = |(i, planner): &(usize, &PlannerName)| !args.compare[..*i].contains(planner);
+    let planners: Vec<_> = args.compare.iter().enumerate().filter(is_first).map(|(_, planner)| *planner).collect();
+    let count = (seeds.end - seeds.first).saturating_mul(planners.len() as u64);
     let progress = Progress::of(count, "attempts");
     let mut rows = Vec::new();
-    for &planner in &args.compare {
+    for &planner in &planners {
         for seed in seeds.first..seeds.end {
             match row(args, task, planner, seed)? {
                 Ok(row) => rows.push(row),
                 // an end in contact is so for every planner and every seed
                 Err(reason) => {
                     drop(progress);
+                    if args.json {
+                        data.json(&Answer::of_none(task, planner, seed, &reason))?;
+                        return Ok(Outcome::NoPath);
+                    }
                     say(format!("{}\n{}", super::in_words(&reason.to_string()), super::next(&reason)));
                     return Ok(Outcome::NoPath);
                 }
@@ -63,7 +72,7 @@ pub fn compare(args: &PlanArgs, task: &Task, data: &mut Data) -> Result<Outcome,
         }
     }
     drop(progress);
-    let lines: Vec<Line> = args.compare.iter().map(|planner| line(*planner, &rows)).collect();
+    let lines: Vec<Line> = planners.iter().map(|planner| line(*planner, &rows)).collect();
     if args.json {
         data.json(&lines)?;
     } else {
@@ -111,8 +120,8 @@ fn line(planner: PlannerName, rows: &[Row]) -> Line {
         attempts: own.len(),
         milliseconds: of(|row, _| 1000.0 * row.seconds),
         edges: of(|row, _| row.effort.edges as f64),
-        length: of(|_, path| path.length),
-        clearance: of(|_, path| path.clearance),
+        length: of(|_, path| path.length).map(JsonNumber),
+        clearance: of(|_, path| path.clearance).map(JsonNumber),
     }
 }
 
@@ -131,8 +140,8 @@ fn print(lines: &[Line], unit: &str, data: &mut Data) -> Result<(), Failure> {
             line.planner,
             number(line.milliseconds, 2),
             number(line.edges, 0),
-            number(line.length, 3),
-            line.clearance.map_or("-".to_owned(), proven)
+            number(line.length.map(|length| length.0), 3),
+            line.clearance.map_or("-".to_owned(), |clearance| proven(clearance.0))
         ))?;
     }
     data.line("medians over the attempts that have a path")

@@ -2,9 +2,9 @@
 
 use std::path::Path;
 
-use motion_lab::capture::{Captured, Form, Paper, PlanSheet, plan};
+use motion_lab::capture::{Captured, Form, Found, Paper, PlanSheet, plan};
 use motion_lab::cspace::CellMap;
-use motion_lab::plans::{Attempt, Drawn, PlannerName, Task};
+use motion_lab::plans::{Attempt, PlannerName, Task};
 use motion_lab::random::Seed;
 
 use crate::cli::Failure;
@@ -22,21 +22,23 @@ pub fn write(
 ) -> Result<(), Failure> {
     let target = Target::file(output)?;
     let form = if Form::of(output) == Some(Form::Png) { Form::Png } else { Form::Svg };
-    let captured = captured(task, planner, seed, attempt, &attempt.drawn(), None);
+    let captured = captured(task, planner, seed, attempt, Found::None, None);
     write_picture(&captured, paper, form, target.path())?;
     target.wrote();
     Ok(())
 }
 
-/// The figure of an attempt, with the configuration space beside the workspace where `cells` has it.
+/// The figure of an attempt, of which `without` is said where it has no path, with the configuration space beside the
+/// workspace where `cells` has it.
 pub fn captured(
     task: &Task,
     planner: PlannerName,
     seed: u64,
     attempt: &dyn Attempt,
-    drawn: &Drawn,
+    without: Found<'_>,
     cells: Option<&CellMap>,
 ) -> Captured {
-    let lengths = (!drawn.path.is_empty()).then(|| attempt.lengths());
-    plan(&PlanSheet { task, planner, seed: Seed(seed), drawn, effort: attempt.effort(), lengths, cells })
+    let drawn = attempt.drawn();
+    let found = if drawn.path.is_empty() { without } else { Found::Path(attempt.lengths()) };
+    plan(&PlanSheet { task, planner, seed: Seed(seed), drawn: &drawn, effort: attempt.effort(), found, cells })
 }

@@ -3,7 +3,7 @@
 use std::path::Path;
 use std::sync::Arc;
 
-use motion_lab::capture::{Paper, slides};
+use motion_lab::capture::{Found, Paper, slides};
 use motion_lab::collision::Checker;
 use motion_lab::cspace::{CellMap, Slice};
 use motion_lab::planning::Progress as Grown;
@@ -48,7 +48,7 @@ pub fn write(
         }
         done = until;
         let cells = attempt.cells().or(background.as_ref());
-        captures.push(captured(task, name, seed, attempt.as_ref(), &attempt.drawn(), cells));
+        captures.push(captured(task, name, seed, attempt.as_ref(), Found::Growing, cells));
         progress.at(picture);
     }
     drop(progress);

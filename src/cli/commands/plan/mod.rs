@@ -159,23 +159,29 @@ impl PlanArgs {
         seconds: f64,
         data: &mut Data,
     ) -> Result<Outcome, Failure> {
-        let answer = Answer::of_path(task, name, self.seed, attempt, seconds);
+        let mut answer = Answer::of_path(task, name, self.seed, attempt, seconds);
         // what can't be played is refused before anything is written
         let played = if self.script.is_some() || self.record.is_some() {
             match play::play(task, attempt, Seed(self.seed))? {
                 Ok(played) => Some(played),
                 Err(reason) => {
-                    say(format!("the path can't be played: {reason}\nNothing was written. {}", play::next(&reason)));
+                    let unplayed = format!("the path can't be played: {reason}");
+                    if self.json {
+                        answer.reason = Some(unplayed);
+                        data.json(&answer)?;
+                    } else {
+                        say(format!("{unplayed}\nNothing was written. {}", play::next(&reason)));
+                    }
                     return Ok(Outcome::NoPath);
                 }
             }
         } else {
             None
         };
-        if self.json {
-            data.json(&answer)?;
-        } else {
+        if !self.json {
             answer.print(data)?;
+        } else if played.is_none() {
+            data.json(&answer)?;
         }
         if let Some(output) = &self.output {
             let target = Target::of(output)?;
@@ -186,7 +192,12 @@ impl PlanArgs {
         }
         self.draw(task, name, attempt)?;
         if let Some(played) = &played {
-            played.write(self.script.as_deref(), self.record.as_deref(), data)?;
+            played.write(self.script.as_deref(), self.record.as_deref(), &mut answer, data)?;
+            if self.json {
+                data.json(&answer)?;
+            } else {
+                answer.print_run(data)?;
+            }
         }
         Ok(Outcome::Done)
     }

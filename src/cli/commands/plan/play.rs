@@ -2,12 +2,14 @@
 
 use std::path::Path;
 
+use motion_lab::export::JsonNumber;
 use motion_lab::plans::{Attempt, Task};
 use motion_lab::random::Seed;
 use motion_lab::simulation::{PlayError, PlayedPath};
 use motion_lab::tour::TourConfig;
 use motion_lab::worlds::World;
 
+use super::answer::Answer;
 use crate::cli::commands::record::{Ended, Plan, Stop, write_run};
 use crate::cli::support::log_kind::LogKind;
 use crate::cli::support::output::write_file;
@@ -50,12 +52,16 @@ pub fn next(reason: &PlayError) -> &'static str {
 }
 
 impl Played {
-    /// Writes the script and the log, and says what they are.
-    pub fn write(&self, script: Option<&Path>, log: Option<&Path>, data: &mut Data) -> Result<(), Failure> {
+    /// Writes the script and the log, and puts what they are into the answer.
+    pub fn write(
+        &self,
+        script: Option<&Path>,
+        log: Option<&Path>,
+        answer: &mut Answer,
+        data: &mut Data,
+    ) -> Result<(), Failure> {
         let Played { world, seed, played } = self;
-        let seconds = motion_lab::run::seconds(played.ticks);
-        let strayed = 1000.0 * played.strayed;
-        data.line(format!("played     {} ticks, {seconds} s, at most {strayed:.3} mm off the path", played.ticks))?;
+        (answer.ticks, answer.strayed) = (Some(played.ticks), Some(JsonNumber(played.strayed)));
         if let Some(path) = script {
             let target = Target::of(path)?;
             write_file(target.path(), played.script.to_ron().as_bytes())?;
@@ -69,7 +75,7 @@ impl Played {
             match write_run(&plan, None, stop, path)? {
                 Ended::Whole { digest, last, .. } => {
                     let contacts: u32 = last.robots.iter().map(|robot| robot.contacts).sum();
-                    data.line(format!("recorded   {contacts} contacts, digest {digest}"))?;
+                    (answer.contacts, answer.digest) = (Some(contacts), Some(digest.to_string()));
                     target.wrote();
                 }
                 Ended::Stopped(_) | Ended::Differs(_) => {}
