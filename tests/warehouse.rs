@@ -2,14 +2,15 @@
 //! own.
 
 use motion_lab::configuration::{ArmSizes, Sizes};
-use motion_lab::geometry::{Placed, Vertices};
+use motion_lab::geometry::{Aabb, Placed, Vertices};
 use motion_lab::num;
 use motion_lab::prelude::*;
-use motion_lab::recording::{Run, verify};
+use motion_lab::recording::{Recorder, Run, verify};
 use motion_lab::run::{Frame, Log};
 use motion_lab::tour::TourConfig;
 use motion_lab::worlds::{Resident, Route, Warehouse, World};
 
+use crate::fixtures::count_from_env;
 use crate::oracle::plain;
 
 /// What everybody keeps from everything, metres.
@@ -61,25 +62,29 @@ fn middle(part: &Placed) -> Point2 {
     Point2::new(sum.0 / part.core().len() as f64, sum.1 / part.core().len() as f64)
 }
 
-/// The least distance between two robots, and between a robot and an obstacle. No part reaches 4 m from its middle but
-/// the walls, so what is farther than that is not asked.
+/// The least distance between two robots, and between a robot and an obstacle, where it is below 1 m. No part reaches
+/// 1.5 m from its middle, so what is 4 m from there is not asked.
 fn least_distances(world: &World, frame: &Frame, obstacles: &[Placed]) -> [f64; 2] {
-    let parts: Vec<(usize, Placed, Point2)> = frame
+    let mut parts: Vec<(usize, Placed, Point2)> = frame
         .robots
         .iter()
         .enumerate()
         .flat_map(|(id, state)| covered(world, id, &state.configuration).into_iter().map(move |part| (id, part)))
         .map(|(id, part)| (id, part.clone(), middle(&part)))
         .collect();
+    parts.sort_by(|(_, _, a), (_, _, b)| a.x.total_cmp(&b.x));
     let mut least = [f64::INFINITY; 2];
     for (i, (id, part, at)) in parts.iter().enumerate() {
-        for (other_id, other, other_at) in &parts[..i] {
+        for (other_id, other, other_at) in parts[..i].iter().rev().take_while(|(_, _, other)| at.x - other.x < 4.0) {
             if id != other_id && (other_at - at).norm() < 4.0 {
                 least[0] = num::lesser(least[0], plain::distance(part, other));
             }
         }
         for obstacle in obstacles {
-            least[1] = num::lesser(least[1], plain::distance(part, obstacle));
+            let Aabb { min, max } = obstacle.bounds();
+            if min.x - 4.0 < at.x && at.x < max.x + 4.0 && min.y - 4.0 < at.y && at.y < max.y + 4.0 {
+                least[1] = num::lesser(least[1], plain::distance(part, obstacle));
+            }
         }
     }
     least
@@ -119,6 +124,29 @@ fn nobody_comes_near_anybody_and_everybody_moves() {
             assert!((low..high).contains(&way), "{} goes {way} m in {time} s at {}", robot.name, route.speed);
         }
     }
+}
+
+/// A thousand robots, for a second, or for an hour with MOTION_LAB_TICKS=72000.
+#[test]
+fn a_thousand_robots_go_on_without_an_overlap() {
+    let ticks = count_from_env("MOTION_LAB_TICKS", 20);
+    let world = warehouse(1000, true);
+    let obstacles: Vec<Placed> = world.obstacles.iter().flat_map(|o| o.placed()).collect();
+    let config = TourConfig { worlds: vec![world.clone()], ticks, sensor: None };
+    let mut run = Recorder::new(config, Seed(3)).unwrap().without_keyframes();
+    let mut least = least_distances(&world, run.frame(), &obstacles);
+    while !run.is_complete() {
+        let frame = run.step();
+        let found = least_distances(&world, frame, &obstacles);
+        assert!(found.iter().all(|d| *d >= APART), "tick {}: {found:?}", frame.tick);
+        assert!(frame.robots.iter().all(|robot| robot.contacts == 0), "tick {}: somebody was held", frame.tick);
+        least = [num::lesser(least[0], found[0]), num::lesser(least[1], found[1])];
+    }
+    println!(
+        "{ticks} ticks: no two robots nearer than {} m, none nearer than {} m to anything else",
+        least[0], least[1]
+    );
+    assert!(least.iter().all(|d| *d < 1.0), "{least:?}: this test no longer sees who is next to whom");
 }
 
 /// Ten minutes of a small one: wheels slip by up to 5 % in every tick, and the rovers keep to their lines all the same.

@@ -98,6 +98,17 @@ pub fn numbers(placed: &Placed) -> Vec<f64> {
     std::iter::once(placed.radius()).chain(placed.core().iter().flat_map(|p| [p.x, p.y])).collect()
 }
 
+/// A scene's shapes by their sides, each a task's obstacle.
+pub fn sides(scene: &Scene) -> Vec<Vec<f64>> {
+    let sides = pieces(scene).flat_map(|piece| {
+        let core = piece.core();
+        let sides = if core.len() > 2 { core.len() } else { 1 };
+        let side = move |k: usize| [core[k], core[(k + 1) % core.len()]];
+        (0..sides).map(move |k| numbers(&Placed::new(side(k), piece.radius())))
+    });
+    sides.collect()
+}
+
 /// Checks that a peer agrees before the race: to 1e-9 m but for two rays of a scan, or to a millimetre but for eight
 /// where the peer has single precision. Simulators choose other bearings for their rays: of nine scans in ten their
 /// least range is ours to 5 cm.

@@ -1,19 +1,22 @@
 //! Crowds: a robot-step in a generated warehouse beside the static scan of the same rovers, and replicas.
 
 use motion_lab::collision::Scene;
+use motion_lab::configuration::AnyConfiguration;
 use motion_lab::geometry::Pose2;
 use motion_lab::random::Seed;
 use motion_lab::recording::Recorder;
-use motion_lab::robots::RUSTY;
-use motion_lab::run::{RunDigest, Script};
+use motion_lab::robots::{AnyRobot, RUSTY};
+use motion_lab::run::{DT, RunDigest, Script};
 use motion_lab::sensors::{RangeSensor, Scanner};
 use motion_lab::simulation::Replicas;
 use motion_lab::tour::{BOOK_SEED, TourConfig};
-use motion_lab::worlds::{Warehouse, World};
+use motion_lab::worlds::{Resident, Warehouse, World};
 
 use crate::Table;
-use crate::measure::Entrant;
-use crate::row::Mark;
+use crate::contest::sides;
+use crate::measure::{Entrant, race};
+use crate::rivals::Task;
+use crate::row::{Mark, Row};
 
 const SENSOR: RangeSensor = RangeSensor { n_rays: 360, max_range: 4.0 };
 
@@ -112,6 +115,48 @@ pub fn rows(table: &mut Table) {
             behind.step();
         }
         assert_eq!(one.digest.digest(), two.digest.digest(), "threads change nothing");
+    }
+}
+
+/// The same crowd by simulators that others use, a robot-step each: agents that drive straight on with the same scans.
+pub fn rivals(table: &mut Table) {
+    for (robots, mark) in [(100, 50.0), (1_000, 250.0)] {
+        let work = format!("a robot-step in a warehouse of {robots} robots");
+        if !table.wants(&format!("{work} by others")) {
+            continue;
+        }
+        let world = warehouse(robots);
+        let task = Task {
+            kind: "crowd".into(),
+            settings: vec![SENSOR.max_range, DT, RUSTY.body_radius],
+            obstacles: sides(&Scene::of_world(&world)),
+            cases: world.robots.iter().map(|resident| at(resident).to_vec()).collect(),
+        };
+        let peers = table.peers.entrants(&task, |_, _| ());
+        if peers.is_empty() {
+            continue;
+        }
+        let mut crowd = Crowd::begin(world);
+        let one = rayon::ThreadPoolBuilder::new().num_threads(1).build().expect("a thread");
+        let mut ours = Entrant::new("", steps(robots), |_| one.install(|| crowd.step()));
+        ours.scale(1.0 / robots as f64);
+        let timings = race(std::iter::once(ours).chain(peers).collect());
+        for peer in &timings[1..] {
+            let mark = if peer.name == "navground" { Mark::faster_by(mark) } else { Mark::FASTER };
+            let work = format!("{work}, by {}", peer.name);
+            table.push(Row::new(work, mark, &timings[0], std::slice::from_ref(peer)));
+        }
+    }
+}
+
+/// Where a resident begins: x, y and heading; an arm at its base.
+fn at(resident: &Resident) -> [f64; 3] {
+    match AnyRobot::of_resident(resident).expect("a robot of the lab") {
+        (_, AnyConfiguration::Pose(pose)) => [pose.x, pose.y, pose.theta],
+        (_, AnyConfiguration::Hitch(car)) => [car.body.x, car.body.y, car.body.theta],
+        (AnyRobot::Reach(arm), _) => [arm.base.x, arm.base.y, 0.0],
+        (AnyRobot::Reach3(arm), _) => [arm.base.x, arm.base.y, 0.0],
+        (robot, _) => panic!("{robot:?} is nowhere"),
     }
 }
 

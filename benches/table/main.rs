@@ -105,6 +105,7 @@ fn main() {
     runs::rows(&mut table);
     start::rows(&mut table);
     crowd::rows(&mut table);
+    crowd::rivals(&mut table);
     crowd::replicas(&mut table);
     if agree {
         assert!(table.rows.len() > 25, "only {} rows", table.rows.len());

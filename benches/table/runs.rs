@@ -13,11 +13,10 @@ use motion_lab::tour::{BOOK_SEED, TourConfig};
 use motion_lab::worlds::World;
 
 use crate::Table;
-use crate::contest::numbers;
+use crate::contest::sides;
 use crate::measure::{Entrant, race};
 use crate::rivals::Task;
 use crate::row::{Mark, Row};
-use crate::worlds::pieces;
 
 fn recorded() -> Log {
     Run::record(TourConfig::default(), BOOK_SEED).expect("the tour runs")
@@ -127,15 +126,6 @@ fn tick(table: &mut Table) {
 /// The rover's minute as a task: its world, its start, and its speeds tick by tick. The other simulators do without arm
 /// and car.
 fn minute(log: &Log) -> Task {
-    let scene = Scene::of_world(&log.config.worlds[0]);
-    let sides = pieces(&scene).flat_map(|piece| {
-        let (core, line) = (piece.core(), numbers(piece));
-        let next = |k: usize| (k + 1) % core.len();
-        let sides = if core.len() > 2 { core.len() } else { 1 };
-        (0..sides)
-            .map(move |k| vec![line[0], core[k].x, core[k].y, core[next(k)].x, core[next(k)].y])
-            .collect::<Vec<_>>()
-    });
     let poses = poses(log);
     let speeds = poses
         .windows(2)
@@ -144,7 +134,7 @@ fn minute(log: &Log) -> Task {
     Task {
         kind: "minute".into(),
         settings: vec![sensor.max_range, DT, RustyDisc::default().radius],
-        obstacles: sides.collect(),
+        obstacles: sides(&Scene::of_world(&log.config.worlds[0])),
         cases: vec![[poses[0].x, poses[0].y, poses[0].theta].into_iter().chain(speeds).collect()],
     }
 }

@@ -1,7 +1,5 @@
 //! `PieceGrid`, a uniform grid over the boxes of many pieces that are spread evenly.
 
-use smallvec::SmallVec;
-
 use crate::geometry::{Aabb, Point2, square};
 use crate::num::{lesser, sqrt};
 
@@ -158,14 +156,16 @@ impl PieceGrid {
         let mut least = within;
         let block = self.block(&from.grown(lesser(within, 0.25 * self.size)));
         // the piece of the nearest box first: most others can then be passed over
-        let (mut found, mut first) = (SmallVec::<[(f64, u32); SOME]>::new(), (f64::INFINITY, 0));
+        // two arrays of zeros, which cost less than one of pairs
+        let (mut distances, mut pieces, mut count, mut first) = ([0.0; SOME], [0; SOME], 0, (f64::INFINITY, 0));
         self.each_in(&block, None, |item| {
             let distance = from.squared_distance(&item.extent);
             if distance < first.0 {
                 first = (distance, item.piece);
             }
-            if found.len() < SOME {
-                found.push((distance, item.piece));
+            if count < SOME {
+                (distances[count], pieces[count]) = (distance, item.piece);
+                count += 1;
             } else if distance <= square(least) {
                 least = look(item.piece as usize);
             }
@@ -174,7 +174,7 @@ impl PieceGrid {
         if first.0 <= square(least) {
             least = look(first.1 as usize);
         }
-        for (distance, piece) in found {
+        for (&distance, &piece) in distances.iter().zip(&pieces).take(count) {
             if piece != first.1 && distance <= square(least) {
                 least = look(piece as usize);
             }
