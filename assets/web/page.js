@@ -77,12 +77,18 @@ function tellAll(message) {
   tellAround(message);
 }
 
+let nudged = null; // where arrow keys have sent Query's robot, until the lab tells it or a second has passed
+
 /** Moves Query's robot, which is the configuration space's point, by an arrow key: its first two coordinates, with Shift a tenth as far. */
 function nudge({ key, shiftKey, ctrlKey, metaKey, altKey }) {
   const by = { ArrowLeft: [0, -1], ArrowRight: [0, 1], ArrowDown: [1, -1], ArrowUp: [1, 1] }[key];
   if (!by || !state?.query || ctrlKey || metaKey || altKey) return false;
-  const coordinates = [...state.query.coordinates];
+  const [kind] = state.query.configuration.split(" ");
+  // the lab tells its state ten times a second: a key may come sooner
+  const from = nudged?.kind === kind && performance.now() < nudged.until ? nudged : state.query;
+  const coordinates = [...from.coordinates];
   coordinates[by[0]] += by[1] * (shiftKey ? 0.005 : 0.05);
+  nudged = { kind, coordinates, until: performance.now() + 1000 };
   send({ do: "configuration", coordinates });
   return true;
 }
@@ -174,6 +180,7 @@ const hear = {
     const before = state;
     state = message;
     root.dataset.theme = message.theme;
+    if (String(message.query?.coordinates) === String(nudged?.coordinates)) nudged = null;
     if (toSeek !== null && message.notice?.text.startsWith(`${BEFORE}:`)) {
       send({ do: "seek", tick: toSeek });
       toSeek = null;

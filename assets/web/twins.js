@@ -7,6 +7,9 @@ const CHANGING = /(?:: | at )?\b(?:Pose2|HitchCfg|T\d|R2) \{/;
 /** Keys that a twin needs itself; a kind that is not here keeps all. */
 const OWN_KEYS = { button: "Enter Space Tab", combo: "Enter Space Tab", check: "Enter Space Tab", handle: "Tab" };
 
+/** Keys that only change others. */
+const MODIFIERS = ["Shift", "Control", "Alt", "AltGraph", "Meta", "CapsLock"];
+
 /** Kinds that are typed into the twin, which is seen meanwhile. */
 const TYPED = ["number", "field"];
 
@@ -92,7 +95,7 @@ export function twins({ container, send, titles, leave, nudge }) {
 
   function forward(event, needed) {
     const name = event.key === " " ? "Space" : event.key;
-    if (event.ctrlKey || event.metaKey || event.altKey || needed.split(" ").includes(name) || event.isComposing) return;
+    if (event.ctrlKey || event.metaKey || event.altKey || MODIFIERS.includes(event.key) || needed.split(" ").includes(name) || event.isComposing) return;
     event.preventDefault();
     if (!event.repeat) send({ do: "key", key: event.key, pressed: event.type === "keydown", shift: event.shiftKey });
   }

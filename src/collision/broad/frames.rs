@@ -92,16 +92,13 @@ fn turned_box(piece: &Placed) -> (Point2, [Vector2; 2]) {
 /// A box around the core, a segment's without width.
 fn core_box(core: &[Point2]) -> (Point2, [Vector2; 2]) {
     match core {
-        [] => (Point2::origin(), [Vector2::zeros(); 2]),
-        [a] => (*a, [Vector2::zeros(); 2]),
         [a, b] => (a + (b - a) * 0.5, [(b - a) * 0.5, Vector2::zeros()]),
         // a parallelogram as it is
         [a, b, c, d] if (a - b + (c - d)).norm() <= 1e-12 * ((b - a).norm() + (c - b).norm()) => {
             (a + (c - a) * 0.5, [(b - a) * 0.5, (c - b) * 0.5])
         }
-        [first, rest @ ..] => {
-            let one = |p: &Point2| Aabb { min: *p, max: *p };
-            let Aabb { min, max } = rest.iter().fold(one(first), |all, p| all.merged(&one(p)));
+        _ => {
+            let Aabb { min, max } = Aabb::around(core).unwrap_or(Aabb { min: Point2::origin(), max: Point2::origin() });
             let half = (max - min) * 0.5;
             (min + half, [Vector2::new(half.x, 0.0), Vector2::new(0.0, half.y)])
         }

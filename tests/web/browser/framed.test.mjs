@@ -87,6 +87,12 @@ lab("a page around presses nothing, hears nothing of the reader's, and one origi
     await post(message);
     assert.equal((await answer("error")).text, `${message.do}: not for the page around`);
   }
+  // it is told a link, and the reader neither loses what was copied nor reads an address
+  await post({ do: "link" });
+  assert.match((await answer("link")).query, /^v=1&seed=/);
+  await page.waitForTimeout(1500);
+  assert.equal(await frame.evaluate(() => document.getElementById("said").textContent), "");
+  await page.evaluate(() => (window.heard = window.heard.filter((m) => m.kind !== "link")));
   // what is the reader's stays in the frame
   await frame.evaluate(() => window.motionLab.send({ do: "theme", name: "dark" }));
   await frame.waitForFunction(() => window.received.state.theme === "dark" && window.received.kinds.includes("settings"));

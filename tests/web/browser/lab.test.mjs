@@ -342,6 +342,7 @@ lab("a saved page verifies from disk, without a server, and tells a forged run",
     await page.page.waitForFunction(() => document.documentElement.dataset.verdict, null, { timeout: 30000 });
     const said = await page.page.textContent("#verdict");
     await page.shot(`saved-${said.slice(0, 8)}`);
+    if (/^Verified/.test(said)) assert.match(await page.page.getAttribute("#log", "href"), /^blob:/, "a link that keys reach");
     assert.deepEqual(await page.close(), []);
     return said;
   };
@@ -493,6 +494,7 @@ lab("frames below the fold take neither the focus nor the page's place; saving f
   await dashboard.waitForFunction(() => window.received.state?.tick > 20);
   await page.evaluate(() => frames[1].postMessage({ motionLab: { do: "save" } }, "*"));
   await dashboard.waitForSelector("#asked:not([hidden])");
+  assert.match(await dashboard.textContent("#urgent"), /asks to save this run/);
   await page.evaluate(() => scrollTo(0, 9999));
   await page.screenshot({ path: join(shots, "asked.png") });
   const file = await download(page, () => dashboard.click("#asked-save"));

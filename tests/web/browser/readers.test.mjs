@@ -110,12 +110,18 @@ lab("names stay while they are read, numbers are valid, lists and headings are s
 
 lab("the configuration space's point moves by arrow keys", "/?widget=cspace", async (lab) => {
   const point = lab.page.locator("#controls button", { hasText: /^configuration space/ });
+  const { coordinates } = (await lab.until((s) => s.query)).query;
   await point.focus();
   await point.press("ArrowRight");
   await lab.find(/th1: 0\.835, th2: 1\.571/);
   await point.press("Shift+ArrowDown");
   await lab.find(/th1: 0\.835, th2: 1\.566/);
+  // there and back again: nothing is rounded on the way
+  await point.press("Shift+ArrowUp");
+  await point.press("ArrowLeft");
+  await lab.until((s) => s.query.coordinates.every((x, i) => Math.abs(x - coordinates[i]) < 1e-9));
   assert.match(await lab.page.evaluate(() => document.activeElement.textContent), /^configuration space/);
+  assert.equal(await lab.page.textContent("#alert"), "", "Shift alone is no key of the lab's");
 });
 
 lab("paper gets a figure instead of a canvas", "/?tick=200", async (lab) => {

@@ -96,7 +96,7 @@ pub fn run(
         }
         run.step();
         if let Some(refused) = run.refusals().first().filter(|_| stop.at_refusal) {
-            let next = "Its log was not written. Correct the script; without --strict a run goes on.";
+            let next = "Its log was not written. Correct the script; `record` without --strict goes on.";
             return Err(Failure::input(format!("seed {seed}, {refused}"), next));
         }
         let frame = run.frame();

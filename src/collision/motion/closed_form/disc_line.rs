@@ -145,7 +145,7 @@ impl DiscLine {
         let (mut free, mut clear) = (true, true);
         let mut look = |piece: usize| {
             let piece = &scene.pieces[piece];
-            let (reach, square) = (self.radius + piece.radius(), squared_gap(&self.way, piece));
+            let (reach, square) = (self.radius + piece.radius(), squares(&self.way, piece).0);
             free = square >= (reach - slack) * (reach - slack);
             clear &= square > (reach + slack) * (reach + slack);
             !free
@@ -205,12 +205,7 @@ fn gap(leg: &Leg, piece: &Placed) -> (f64, f64) {
     (sqrt(square) - piece.radius(), longest)
 }
 
-/// The square of the distance of a leg from a piece's core, as [`gap`] has it.
-fn squared_gap(leg: &Leg, piece: &Placed) -> f64 {
-    squares(leg, piece).0
-}
-
-/// The squares of both of a [`gap`]'s lengths.
+/// The squares of a leg's distance from a piece's core, as [`gap`] has it, and of the core's longest edge.
 #[inline]
 fn squares(leg: &Leg, piece: &Placed) -> (f64, f64) {
     let core = piece.core();
