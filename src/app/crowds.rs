@@ -44,9 +44,15 @@ pub fn update_crowds(world: &mut World) {
     kept.read = Some(read);
     let mut crowds = std::mem::take(&mut kept.crowds);
     for crowd in crowds.iter_mut().flatten() {
-        let now = Arc::new(robots(world, crowd));
-        crowd.before = if follows { Arc::clone(&crowd.now) } else { Arc::clone(&now) };
-        crowd.now = now;
+        // the list of two ticks ago, which nobody needs now, is written anew: megabytes of new memory are slow to come
+        let oldest = std::mem::replace(&mut crowd.before, Arc::clone(&crowd.now));
+        let mut robots = Arc::try_unwrap(oldest).unwrap_or_default();
+        robots.clear();
+        robots.extend(robots_of(world, crowd));
+        crowd.now = Arc::new(robots);
+        if !follows {
+            crowd.before = Arc::clone(&crowd.now);
+        }
     }
     world.resource_mut::<Crowds>().crowds = crowds;
 }
@@ -70,10 +76,10 @@ fn named(config: &TourConfig) -> Vec<Option<Crowd>> {
 }
 
 /// The robots of a crowd as they are now.
-fn robots(world: &World, crowd: &Crowd) -> Vec<CrowdRobot> {
+fn robots_of(world: &World, crowd: &Crowd) -> impl Iterator<Item = CrowdRobot> {
     let states = &world.resource::<LatestFrame>().0.robots;
     let ids = crowd.first..crowd.first + crowd.names.len() as u32;
-    ids.map(|id| robot(world, id, states.get(id as usize))).collect()
+    ids.map(|id| robot(world, id, states.get(id as usize)))
 }
 
 fn robot(world: &World, id: u32, state: Option<&RobotState>) -> CrowdRobot {

@@ -136,6 +136,8 @@ pub fn gather(world: &mut World) {
     // while it plays, the view is one tick behind and moves smoothly; paused or as fast as possible, it shows the tick
     let smooth = playing && speed.is_finite();
     let between = if smooth { world.resource::<Time<Fixed>>().overstep_fraction_f64() } else { 1.0 };
+    // the last frame's view lets go of its lists of robots, which the next ones are written into
+    world.resource_mut::<Shown>().0.cockpits.clear();
     update_crowds(world);
     let mut first = 0;
     let mut cockpits = Vec::new();

@@ -33,7 +33,7 @@ use crate::simulation::{
     History, LatestFrame, PendingInput, Playback, RobotView, RunCommand, RunConfig, Transport, view,
 };
 use crate::ui::Interface;
-use crate::ui::{AtlasState, SessionCommand};
+use crate::ui::{AtlasState, SessionCommand, UiState};
 
 /// The lab, run frame by frame. A frame takes a fortieth of a second: half a tick at normal speed.
 struct Lab {
@@ -87,6 +87,10 @@ fn lab(size: [f32; 2]) -> Harness<'static, Lab> {
         Harness::builder().with_size(size).with_step_dt(0.025).build_ui_state(|ui, lab: &mut Lab| lab.frame(ui), lab);
     harness.run_steps(3);
     harness
+}
+
+fn interface<'a>(harness: &'a Harness<'_, Lab>) -> &'a UiState {
+    &harness.state().app.world().resource::<Interface>().0
 }
 
 /// Clicks the control of this name; what is in the menu, there.

@@ -1,9 +1,11 @@
 //! `WidgetText`, the words around a widget, read from the manifest `assets/widgets.ron`.
 
+mod deed;
 mod formula;
 mod theme_choice;
 mod widget;
 
+pub use deed::Deed;
 pub use formula::{Formula, Level, Term};
 pub use theme_choice::ThemeChoice;
 pub use widget::Widget;
@@ -31,7 +33,17 @@ pub struct WidgetText {
     /// The colour key.
     pub key: Vec<KeyText>,
     /// First things for a new reader to try.
-    pub hints: Vec<String>,
+    pub hints: Vec<Hint>,
+}
+
+/// A first thing to try.
+#[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Hint {
+    /// What it asks for.
+    pub deed: Deed,
+    /// Its words.
+    pub text: String,
 }
 
 /// An entry of a colour key.

@@ -60,6 +60,16 @@ pub enum Action {
     Labels,
     /// The scan on or off.
     Scan,
+    /// The picture in front over the whole window, or not.
+    Fill,
+    /// Magnify the world in front.
+    Magnify,
+    /// Show more of it.
+    ShowMore,
+    /// Show the whole of it.
+    Fit,
+    /// The hints, or none.
+    Hints,
     /// The next theme.
     Theme,
     /// The list of keys.
@@ -118,7 +128,7 @@ const fn with(action: Action, modifiers: Modifiers, key: Key, words: &'static st
 }
 
 /// All keys.
-pub const BINDINGS: [Binding; 42] = [
+pub const BINDINGS: [Binding; 48] = [
     plain(Action::PlayPause, Key::Space, Scope::Always, "play or pause"),
     plain(Action::StepBack, Key::ArrowLeft, Scope::Unarmed, "one tick back, and pause"),
     plain(Action::Step, Key::ArrowRight, Scope::Unarmed, "one tick, and pause"),
@@ -153,6 +163,12 @@ pub const BINDINGS: [Binding; 42] = [
     plain(Action::Plots, Key::P, Scope::Always, "plots"),
     plain(Action::Labels, Key::T, Scope::Always, "names of things"),
     plain(Action::Scan, Key::F, Scope::Always, "what the range sensor sees"),
+    plain(Action::Fill, Key::M, Scope::Always, "fill the window with the picture in front, or not"),
+    plain(Action::Magnify, Key::Plus, Scope::Always, "magnify the world in front"),
+    plain(Action::Magnify, Key::Equals, Scope::Always, "magnify the world in front"),
+    plain(Action::ShowMore, Key::Minus, Scope::Always, "show more of the world in front"),
+    plain(Action::Fit, Key::Num0, Scope::Always, "show the whole world"),
+    plain(Action::Hints, Key::H, Scope::Always, "hints on or off"),
     plain(Action::Theme, Key::D, Scope::Always, "system, light or dark paper"),
     plain(Action::Help, Key::Questionmark, Scope::Always, "this list"),
     plain(Action::Help, Key::F1, Scope::Always, "this list"),
@@ -180,6 +196,9 @@ impl Binding {
             Key::Questionmark => "?",
             Key::Comma => ",",
             Key::Period => ".",
+            Key::Plus => "+",
+            Key::Equals => "=",
+            Key::Minus => "\u{2212}",
             key => key.name(),
         };
         keys + name

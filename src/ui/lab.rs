@@ -7,7 +7,7 @@ use bevy_egui::egui::{CentralPanel, Frame, Margin, Panel, Ui, Vec2, vec2};
 use super::dashboard::{self, drive};
 use super::keys::{Action, pressed};
 use super::paint::button::LabButton;
-use super::{Command, Dashboard, Grasp, Look, UiState, anatomy, atlas, capture_form, cspace, help, plan, tools};
+use super::{Command, Dashboard, Grasp, Look, UiState, anatomy, atlas, capture_form, cspace, deeds, help, plan, tools};
 use crate::manifest::Widget;
 use crate::simulation::{History, TransportCommand};
 
@@ -52,8 +52,9 @@ pub fn lab(ui: &mut Ui, model: &Dashboard, history: &History, state: &mut UiStat
     state.grasp = state.next_grasp.take();
     // no fill: the window is cleared to the paper's colour already, and a fill would cost as much as all that is drawn
     let margin = Margin::symmetric(if narrow { 8 } else { 6 }, if narrow { 4 } else { 14 });
-    if state.embedded {
-        // the page chose the widget
+    state.fills &= !model.cockpits.is_empty();
+    if state.embedded || state.fills && state.widget == Widget::Dashboard {
+        // the page chose the widget, or the picture has all the room
     } else if narrow {
         Panel::top("rail").frame(Frame::NONE.inner_margin(margin)).show_separator_line(false).show(ui, |ui| {
             // all of them fit, however narrow the screen
@@ -84,6 +85,7 @@ pub fn lab(ui: &mut Ui, model: &Dashboard, history: &History, state: &mut UiStat
         });
         panel.response.rect
     };
+    deeds::tick_off(model, state, commands);
     tools::notice(ui.ctx(), stage, &look, state);
     help::help(ui.ctx(), state);
     capture_form::capture_form(ui.ctx(), model, &look, state, commands);

@@ -11,6 +11,7 @@ mod closing;
 mod crowd;
 mod cspace;
 mod dashboard;
+mod deeds;
 mod help;
 pub(crate) mod keys;
 mod lab;
@@ -18,6 +19,7 @@ pub(crate) mod paint;
 mod plan;
 mod settings;
 mod state;
+mod time;
 mod tools;
 
 pub(crate) use anatomy::AnatomyState;

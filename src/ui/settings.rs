@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::manifest::{ThemeChoice, Widget};
+use crate::manifest::{Deed, ThemeChoice, Widget};
 
 /// The user's settings. They are no part of a run.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -23,6 +23,8 @@ pub struct Settings {
     pub side_by_side: bool,
     /// The ids of the widgets whose first hints were put away.
     pub hints_away: Vec<String>,
+    /// The ids of what hints ask for and the reader has done.
+    pub done: Vec<String>,
     /// Whether fades and other animations are off.
     pub reduced_motion: bool,
 }
@@ -39,6 +41,32 @@ impl Settings {
             self.hints_away.push(widget.id().to_owned());
         }
     }
+
+    /// Puts the hints of this widget away, or brings them back.
+    pub fn toggle_hints(&mut self, widget: Widget) {
+        if self.are_hints_away(widget) {
+            self.show_hints(widget);
+        } else {
+            self.put_hints_away(widget);
+        }
+    }
+
+    /// Brings the hints of this widget back.
+    pub fn show_hints(&mut self, widget: Widget) {
+        self.hints_away.retain(|id| id != widget.id());
+    }
+
+    /// Whether the reader has done this.
+    pub fn is_ticked_off(&self, deed: Deed) -> bool {
+        self.done.contains(&deed.id())
+    }
+
+    /// Keeps that the reader has done this.
+    pub fn tick_off(&mut self, deed: Deed) {
+        if !self.is_ticked_off(deed) {
+            self.done.push(deed.id());
+        }
+    }
 }
 
 impl Default for Settings {
@@ -51,6 +79,7 @@ impl Default for Settings {
             world: 0,
             side_by_side: false,
             hints_away: Vec::new(),
+            done: Vec::new(),
             reduced_motion: false,
         }
     }

@@ -2,6 +2,8 @@
 
 use std::collections::BTreeMap;
 
+use super::paint::camera::Camera;
+use super::time::span::Span;
 use super::{AtlasState, ParkingGoal, Settings, Widget};
 use crate::picture::{Role, Theme};
 use crate::random::Seed;
@@ -31,6 +33,14 @@ pub struct UiState {
     pub shelf: Vec<AtlasState>,
     /// The robot picked in a crowd, and how crowds are shown.
     pub crowd: super::CrowdState,
+    /// What part of each world the dashboard shows, by the world's name.
+    pub cameras: BTreeMap<String, Camera>,
+    /// The part of the run that the time line shows; `None` for all of it.
+    pub span: Option<Span>,
+    /// Whether the dashboard's panes are more than fit the window, so that the wheel scrolls them.
+    pub scrolls: bool,
+    /// Whether the picture in front fills the window.
+    pub fills: bool,
     /// The state of the capture form.
     pub capture: super::CaptureState,
     /// The system's theme.
@@ -150,6 +160,11 @@ impl UiState {
     pub fn is_busy(&self) -> bool {
         let refused = self.widget == Widget::Atlas && self.atlas.refusal().is_some();
         self.armed.is_some() || self.nudged.is_some() || refused || self.dialog
+    }
+
+    /// Whether the wheel alone magnifies a world: it is not needed to scroll the page around or the panes.
+    pub fn takes_wheel(&self) -> bool {
+        !self.embedded && !self.scrolls
     }
 
     /// Whether a dialog or a form stands before the lab, so that no key is the lab's.

@@ -13,6 +13,7 @@ use crate::simulation::TransportCommand;
 
 /// Carries out the actions that concern the session, and ignores all others.
 pub fn act(action: Action, model: &Dashboard, state: &mut UiState, commands: &mut Vec<Command>) {
+    let in_dashboard = state.widget == Widget::Dashboard;
     let settings = &mut state.settings;
     match action {
         Action::Undo => commands.push(Command::from(TransportCommand::Undo)),
@@ -20,9 +21,13 @@ pub fn act(action: Action, model: &Dashboard, state: &mut UiState, commands: &mu
         Action::Save => commands.push(Command::Session(SessionCommand::Save)),
         Action::Open => commands.push(Command::Session(SessionCommand::Open)),
         Action::Capture => state.ask_for_capture(model),
-        Action::Plots => settings.plots = !settings.plots,
+        // neither plots nor hints are seen beside a picture that fills the window
+        Action::Plots => settings.plots = in_dashboard && std::mem::take(&mut state.fills) || !settings.plots,
         Action::Labels => settings.labels = !settings.labels,
         Action::Scan => settings.scan = !settings.scan,
+        Action::Hints if in_dashboard && std::mem::take(&mut state.fills) => settings.show_hints(state.widget),
+        Action::Hints => settings.toggle_hints(state.widget),
+        Action::Fill => state.fills = in_dashboard && !state.fills,
         Action::Theme => settings.theme = settings.theme.next(),
         Action::Help => state.help = !state.help,
         _ => {}
@@ -96,11 +101,21 @@ const fn worded(label: &'static str, action: Action) -> Tool {
 
 const UNDO: Tool = Tool { label: "Undo", icon: Some(Icon::Undo), action: Action::Undo };
 const REDO: Tool = Tool { label: "Redo", icon: Some(Icon::Redo), action: Action::Redo };
+const CAPTURE: Tool = worded("Capture", Action::Capture);
+const HINTS: Tool = worded("Hints", Action::Hints);
+const KEYS: Tool = worded("Keys", Action::Help);
 const PLOTS: Tool = worded("Plots", Action::Plots);
 
 /// What acts on the run. Only the dashboard shows it, so only the dashboard has them.
-const OF_THE_RUN: [Tool; 6] =
-    [worded("Open", Action::Open), worded("Save", Action::Save), UNDO, REDO, PLOTS, worded("Names", Action::Labels)];
+const OF_THE_RUN: [Tool; 7] = [
+    worded("Open", Action::Open),
+    worded("Save", Action::Save),
+    UNDO,
+    REDO,
+    PLOTS,
+    worded("Names", Action::Labels),
+    worded("Fill the window", Action::Fill),
+];
 
 fn menu(
     ui: &mut Ui,
@@ -112,7 +127,11 @@ fn menu(
 ) {
     let of_the_run: &[Tool] = if state.widget == Widget::Dashboard { &OF_THE_RUN } else { &[] };
     let all = of_the_run.iter().filter(|tool| !elsewhere.contains(tool)).copied();
-    for tool in all.chain([worded("Capture", Action::Capture), worded("Keys", Action::Help)]) {
+    // on a narrow screen only the dashboard has room for hints
+    let always = [CAPTURE, HINTS, KEYS].into_iter();
+    let has_hints = !look.narrow || state.widget == Widget::Dashboard;
+    let always = always.filter(|tool| *tool != HINTS || has_hints);
+    for tool in all.chain(always) {
         show(ui, &Tool { icon: None, ..tool }, model, look, state, commands);
     }
     ui.separator();
@@ -133,6 +152,7 @@ fn show(ui: &mut Ui, tool: &Tool, model: &Dashboard, look: &Look, state: &mut Ui
         Action::Redo => button.enabled(model.can_redo),
         Action::Plots => button.selected(state.settings.plots),
         Action::Labels => button.selected(state.settings.labels),
+        Action::Hints => button.selected(!state.settings.are_hints_away(state.widget)),
         _ => button,
     };
     if button.show(ui, look).on_hover_text(hint(action)).clicked() {

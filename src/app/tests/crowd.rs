@@ -24,7 +24,7 @@ fn warehouse(robots: usize, size: [f32; 2]) -> (Harness<'static, Lab>, TourConfi
 }
 
 fn crowd<'a>(harness: &'a Harness<'_, Lab>) -> &'a CrowdState {
-    &harness.state().app.world().resource::<Interface>().0.crowd
+    &interface(harness).crowd
 }
 
 fn picked(harness: &Harness<'_, Lab>) -> Option<String> {
@@ -128,7 +128,7 @@ fn a_click_picks_another_drives_and_a_drag_looks_elsewhere() {
     // magnified, the paper is dragged with what is under the pointer
     click(&mut harness, "magnify");
     let name = harness.state().app.world().resource::<Shown>().0.cockpits[0].world.name.clone();
-    let camera = |h: &Harness<'_, Lab>| crowd(h).cameras[&name];
+    let camera = |h: &Harness<'_, Lab>| interface(h).cameras[&name];
     let before = camera(&harness);
     assert!((before.zoom - 1.5).abs() < 1e-9);
     let from = paper(&harness, "30 robots").center();
@@ -154,7 +154,7 @@ fn the_view_follows_who_is_picked() {
     step(&mut harness, 20);
     harness.step();
     let name = harness.state().app.world().resource::<Shown>().0.cockpits[0].world.name.clone();
-    let (camera, robot) = (crowd(&harness).cameras[&name], harness.state().robot(0));
+    let (camera, robot) = (interface(&harness).cameras[&name], harness.state().robot(0));
     let at = robot.footprint.parts()[0].pose().position();
     assert!((camera.centre.unwrap() - at).norm() < 1e-9 && camera.zoom > 1.0, "{camera:?} {at}");
     // dragged, the view is one's own again

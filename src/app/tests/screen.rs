@@ -89,3 +89,269 @@ fn all_widgets_are_on_the_rail_of_the_narrowest_screen() {
         assert!(rect.right() <= 352.0 && rect.width() > 44.0, "{}: {rect:?}", widget.id());
     }
 }
+
+#[test]
+fn the_transport_bar_fits_the_narrowest_phone() {
+    let mut harness = lab([320.0, 640.0]);
+    for name in ["Pause", "Step", "Reset", "More"] {
+        let rect = harness.get_by_label(name).rect();
+        assert!(rect.right() <= 320.0 - 12.0 && rect.left() >= 12.0, "{name}: {rect:?}");
+    }
+    harness.get_by_label("More").click();
+    harness.run_steps(3);
+    click(&mut harness, "Re-roll");
+    assert_ne!(harness.state().transport().seed, crate::tour::BOOK_SEED);
+    assert!(lab(PHONE).query_by_label("Re-roll").is_some(), "where there is room it is at hand");
+}
+
+/// How much the world in front is magnified, and where the middle of its paper is.
+fn magnified(harness: &Harness<'_, Lab>) -> (f64, Option<crate::geometry::Point2>) {
+    interface(harness).cameras.get("Apartment").map_or((1.0, None), |camera| (camera.zoom, camera.centre))
+}
+
+fn wheel(harness: &mut Harness<'_, Lab>, at: Pos2, points: f32) {
+    pointer(harness, at, None);
+    let (unit, phase, modifiers) = (egui::MouseWheelUnit::Point, egui::TouchPhase::Move, Modifiers::NONE);
+    harness.event(Event::MouseWheel { unit, delta: egui::vec2(0.0, points), phase, modifiers });
+    // egui smooths the wheel
+    harness.run_steps(20);
+}
+
+fn keys(harness: &mut Harness<'_, Lab>, key: Key, times: usize) {
+    for _ in 0..times {
+        harness.key_press(key);
+        harness.run_steps(2);
+    }
+}
+
+#[test]
+fn the_world_in_front_is_magnified_moved_and_fitted() {
+    let mut harness = lab(WIDE);
+    pause(&mut harness);
+    let paper_of = |h: &Harness<'_, Lab>| paper(h, "Apartment");
+    let (rect, at) = (paper_of(&harness), paper_of(&harness).center() + egui::vec2(120.0, 60.0));
+    // seen whole, the paper does not move under the pointer
+    let drag = |h: &mut Harness<'_, Lab>, by: egui::Vec2| {
+        pointer(h, at, Some(true));
+        (1..=4).for_each(|i| pointer(h, at + by * (i as f32 / 4.0), None));
+        pointer(h, at + by, Some(false));
+    };
+    drag(&mut harness, egui::vec2(80.0, 0.0));
+    assert_eq!(magnified(&harness).0, 1.0);
+    assert!(harness.query_by_label("show the whole world").is_none(), "nothing to fit");
+    wheel(&mut harness, at, 240.0);
+    let (zoom, centre) = magnified(&harness);
+    assert!((zoom - std::f64::consts::E).abs() < 0.05, "240 points are e times: {zoom}");
+    // what is under the pointer has stayed: the middle has gone toward it by (1 - 1/e) of the way
+    let scale = f64::from(rect.width() - 16.0) / 12.0;
+    let toward = (1.0 - 1.0 / zoom) * 120.0 / scale;
+    assert!((centre.unwrap().x - (6.0 + toward)).abs() < 0.02, "{centre:?}");
+    // dragged by 80 points to the right, the middle goes as far to the left
+    drag(&mut harness, egui::vec2(80.0, 0.0));
+    let moved = magnified(&harness).1.unwrap().x - centre.unwrap().x;
+    assert!((moved + 80.0 / (scale * zoom)).abs() < 0.2 * 80.0 / (scale * zoom), "{moved}");
+    assert_eq!(interface(&harness).armed, None, "a drag is no click");
+    click(&mut harness, "show the whole world");
+    assert_eq!(magnified(&harness).0, 1.0);
+    // by keys, and by a double click
+    keys(&mut harness, Key::Plus, 2);
+    assert!((magnified(&harness).0 - 2.25).abs() < 1e-9);
+    keys(&mut harness, Key::Minus, 1);
+    assert!((magnified(&harness).0 - 1.5).abs() < 1e-9);
+    keys(&mut harness, Key::Num0, 1);
+    assert_eq!(magnified(&harness).0, 1.0);
+    keys(&mut harness, Key::Equals, 30);
+    let largest = magnified(&harness).0 * scale;
+    assert!((largest - 400.0).abs() < 0.1, "no larger than 400 points a metre: {largest}");
+    let corner = rect.left_bottom() + egui::vec2(30.0, -30.0);
+    (0..2).for_each(|_| {
+        pointer(&mut harness, corner, Some(true));
+        pointer(&mut harness, corner, Some(false));
+    });
+    harness.run_steps(2);
+    assert_eq!(magnified(&harness).0, 1.0, "a double click fits");
+    assert_eq!(interface(&harness).armed, None, "and takes nobody in hand");
+}
+
+#[test]
+fn a_handle_off_the_magnified_paper_takes_no_click_beside_it() {
+    let mut harness = lab(WIDE);
+    bring(&mut harness, "Reach");
+    pause(&mut harness);
+    keys(&mut harness, Key::Plus, 5);
+    let sheet = paper(&harness, "Workbench");
+    for handle in ["Reach: elbow, theta1 in radians", "Reach: tip, theta2 in radians"] {
+        let rect = harness.get_by_label(handle).rect();
+        assert!(sheet.expand(0.5).contains_rect(rect), "{handle}: {rect:?} on {sheet:?}");
+    }
+    // the tip, two metres from the base, is far off the paper: nothing of it can be hit
+    let tip = harness.get_by_label("Reach: tip, theta2 in radians").rect();
+    assert_eq!(tip.area(), 0.0, "{tip:?}");
+}
+
+#[test]
+fn an_embedded_lab_leaves_the_wheel_to_the_page() {
+    let mut harness = lab(WIDE);
+    harness.state_mut().app.world_mut().resource_mut::<Interface>().0.embedded = true;
+    harness.run_steps(2);
+    let at = paper(&harness, "Apartment").center();
+    wheel(&mut harness, at, 240.0);
+    assert_eq!(magnified(&harness).0, 1.0);
+    harness.event(Event::Zoom(2.0));
+    harness.run_steps(3);
+    assert!((magnified(&harness).0 - 2.0).abs() < 0.01, "two fingers are the lab's");
+}
+
+#[test]
+fn one_key_fills_the_window_with_the_world_in_front() {
+    for size in [WIDE, PHONE] {
+        let mut harness = lab(size);
+        let before = paper(&harness, "Apartment").area();
+        keys(&mut harness, Key::M, 1);
+        let filled = paper(&harness, "Apartment");
+        assert!(filled.area() > 1.05 * before || size == PHONE && filled.area() >= before, "{before} {filled:?}");
+        assert!(harness.query_by_label("Query").is_none() && harness.query_by_label("Menu").is_none(), "{size:?}");
+        assert!(harness.query_by_label_contains("Bring Reach").is_none());
+        harness.get_by_label("Pause");
+        click(&mut harness, "Show all");
+        harness.get_by_label("Query");
+    }
+    let mut harness = lab(WIDE);
+    // another world by its key; plots bring all back; elsewhere the key does nothing
+    keys(&mut harness, Key::M, 1);
+    keys(&mut harness, Key::Num2, 1);
+    paper(&harness, "Workbench");
+    keys(&mut harness, Key::Escape, 1);
+    keys(&mut harness, Key::P, 1);
+    assert!(!interface(&harness).fills && interface(&harness).settings.plots);
+    click(&mut harness, "Query");
+    keys(&mut harness, Key::M, 1);
+    assert!(!interface(&harness).fills);
+}
+
+#[test]
+fn hints_are_ticked_off_as_they_are_done_and_come_back_by_a_key() {
+    let mut harness = lab(WIDE);
+    let hint = "Reset: the same seed is the same run, to the last bit.";
+    assert!(harness.query_by_label(hint).is_none(), "put away");
+    keys(&mut harness, Key::H, 1);
+    harness.get_by_label(hint);
+    let done = |h: &Harness<'_, Lab>| interface(h).settings.done.clone();
+    harness.run_steps(20);
+    assert_eq!(done(&harness), Vec::<String>::new(), "nothing is done by itself");
+    keys(&mut harness, Key::R, 1);
+    harness.get_by_label(&format!("{hint} Done."));
+    // driven at the end of what the run has reached, and then from an earlier tick
+    harness.run_steps(80);
+    arm_rusty(&mut harness);
+    keys(&mut harness, Key::ArrowUp, 1);
+    assert_eq!(done(&harness), ["Reset", "Drive"]);
+    keys(&mut harness, Key::Escape, 1);
+    keys(&mut harness, Key::Space, 1);
+    keys(&mut harness, Key::Home, 1);
+    assert!(harness.state().transport().tick == 0);
+    arm_rusty(&mut harness);
+    keys(&mut harness, Key::ArrowUp, 1);
+    assert_eq!(done(&harness), ["Reset", "Drive", "DriveOn"]);
+    keys(&mut harness, Key::Escape, 1);
+    bring(&mut harness, "Reach");
+    drag(&mut harness, "Reach: tip, theta2 in radians", [0.9, 0.9]);
+    assert_eq!(done(&harness), ["Reset", "Drive", "DriveOn", "MoveArm"]);
+    keys(&mut harness, Key::H, 1);
+    assert!(harness.query_by_label_contains(hint).is_none());
+}
+
+/// Guesses the distance with links of 3 cm.
+fn guess(harness: &mut Harness<'_, Lab>, text: &str) {
+    harness.get_by_label_contains("the links are given a radius of 3 cm").focus();
+    harness.run_steps(2);
+    harness.event(Event::Text(text.into()));
+    harness.step();
+    harness.key_press(Key::Enter);
+    harness.run_steps(3);
+}
+
+#[test]
+fn what_is_no_number_is_no_guess() {
+    let mut harness = lab(WIDE);
+    click(&mut harness, "Query");
+    guess(&mut harness, "a lot");
+    harness.get_by_label_contains("is no length in metres");
+    assert_eq!(interface(&harness).settings.done, Vec::<String>::new());
+}
+
+#[test]
+fn each_widget_ticks_off_its_own() {
+    let mut harness = lab(WIDE);
+    let done = |h: &Harness<'_, Lab>| interface(h).settings.done.clone();
+    let change = |h: &mut Harness<'_, Lab>, of: &dyn Fn(&mut UiState)| {
+        of(&mut h.state_mut().app.world_mut().resource_mut::<Interface>().into_inner().0);
+        h.run_steps(3);
+    };
+    click(&mut harness, "Query");
+    click(&mut harness, "swept");
+    assert_eq!(done(&harness), Vec::<String>::new(), "the chapter's motion hits the block: nobody made it");
+    click(&mut harness, "distance");
+    guess(&mut harness, "0.05");
+    assert_eq!(done(&harness), ["Guess"]);
+    // the tip is dragged into the block, whose corner is at (0.9, 0.9) of the chapter's exercise
+    click(&mut harness, "distance");
+    let sheet = harness.get_by_label_contains("Reach at T2").rect();
+    let fit = crate::ui::paint::canvas::fit(interface(&harness).anatomy.backdrop(), sheet);
+    let at = |x: f64, y: f64| {
+        let [x, y] = fit.screen_from_world(crate::geometry::Point2::new(x, y));
+        pos2(x as f32, y as f32)
+    };
+    let (from, to) = (at(0.0, std::f64::consts::SQRT_2), at(0.7, 1.2));
+    pointer(&mut harness, from, Some(true));
+    (1..=8).for_each(|i| pointer(&mut harness, from.lerp(to, i as f32 / 8.0), None));
+    pointer(&mut harness, to, Some(false));
+    assert!(interface(&harness).anatomy.anatomy.intersects(), "{}", interface(&harness).anatomy.anatomy.q());
+    assert_eq!(done(&harness), ["Guess", "Touch"]);
+    click(&mut harness, "Space");
+    assert_eq!(done(&harness).len(), 2);
+    let at = harness.get_by_label_contains("configuration space. The robot").rect().center() + egui::vec2(40.0, 30.0);
+    click_at(&mut harness, at);
+    assert_eq!(done(&harness)[2..], ["MovePoint"]);
+    click(&mut harness, "Atlas");
+    assert_eq!(done(&harness).len(), 3);
+    change(&mut harness, &|state| state.atlas.ask(crate::geometry::Point2::new(8.0, 2.5), None, true));
+    change(&mut harness, &|state| state.atlas.set_resolution(0.5));
+    assert_eq!(done(&harness)[3..], ["Put", "Coarsen"]);
+    click(&mut harness, "Plan");
+    keys(&mut harness, Key::ArrowRight, 1);
+    assert_eq!(done(&harness)[5..], ["StepPlanner"]);
+    change(&mut harness, &|state| {
+        let goal = state.plan.end_at(1);
+        state.plan.move_end(1, goal.with(0, 3.0));
+        (0..500).for_each(|_| state.plan.step());
+    });
+    assert_eq!(done(&harness)[6..], ["FindPath", "MoveGoal"]);
+    click(&mut harness, "Play it");
+    assert_eq!(done(&harness)[8..], ["PlayPath"]);
+}
+
+#[test]
+fn the_wheel_shows_less_of_the_time() {
+    let mut harness = lab(WIDE);
+    keys(&mut harness, Key::Period, 6);
+    harness.run_steps(60);
+    pause(&mut harness);
+    let end = harness.state().transport().tick;
+    assert!(end > 200, "{end}");
+    keys(&mut harness, Key::ArrowLeft, 1);
+    let lanes = harness.get_by_label_contains("contacts and").rect();
+    assert_eq!(interface(&harness).span, None);
+    // at the right end, so that the last tick stays
+    wheel(&mut harness, lanes.right_center(), 240.0);
+    let span = interface(&harness).span.unwrap();
+    assert_eq!(span.to, end);
+    let share = (span.to - span.from) as f64 * std::f64::consts::E / end as f64;
+    assert!((share - 1.0).abs() < 0.05, "240 points are e times less: {span:?} of {end}");
+    // a click goes to the tick that is shown there
+    click_at(&mut harness, lanes.left_center() + egui::vec2(1.0, 0.0));
+    let tick = harness.state().transport().tick;
+    assert!(tick.abs_diff(span.from) <= 8, "{tick} {span:?}");
+    wheel(&mut harness, lanes.center(), -600.0);
+    assert_eq!(interface(&harness).span, None);
+}

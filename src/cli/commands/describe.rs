@@ -27,7 +27,7 @@ impl Describe {
                     w.key.iter().map(|k| json!({ "role": k.role().name(), "text": k.text })).collect();
                 json!({
                     "id": w.id, "title": w.title, "misconception": w.misconception, "description": w.description,
-                    "key": key, "hints": w.hints,
+                    "key": key, "hints": w.hints.iter().map(|h| &h.text).collect::<Vec<_>>(),
                 })
             })
             .collect();

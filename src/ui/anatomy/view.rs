@@ -6,8 +6,9 @@ use bevy_egui::egui::{CollapsingHeader, ComboBox, RichText, ScrollArea, Slider, 
 
 use crate::anatomy::{Anatomy, Guess, Prompt, Tab, WorldSource};
 use crate::configuration::Configuration;
-use crate::manifest::Widget;
+use crate::manifest::{Deed, Widget};
 use crate::picture::Role;
+use crate::ui::deeds::of_anatomy;
 use crate::ui::paint::button::LabButton;
 use crate::ui::paint::sheet::{sheet, split};
 use crate::ui::{AnatomyState, Command, Dashboard, Look, UiState};
@@ -24,6 +25,7 @@ pub fn anatomy_view(ui: &mut Ui, model: &Dashboard, look: &Look, state: &mut UiS
     let narrow = look.narrow;
     let words = Widget::Anatomy.text();
     crate::ui::tools::head(ui, words, model, look, state, commands);
+    let before = state.anatomy.anatomy.clone();
     let room = ui.available_rect_before_wrap();
     let (paper, beside) = split(room, narrow, SIDE);
     let shown = &state.anatomy;
@@ -37,6 +39,7 @@ pub fn anatomy_view(ui: &mut Ui, model: &Dashboard, look: &Look, state: &mut UiS
     ui.scope_builder(bevy_egui::egui::UiBuilder::new().max_rect(beside), |ui| {
         ScrollArea::vertical().auto_shrink(false).show(ui, |ui| beside_the_paper(ui, narrow, look, state));
     });
+    of_anatomy(&before, &state.anatomy.anatomy).into_iter().for_each(|deed| state.settings.tick_off(deed));
 }
 
 fn beside_the_paper(ui: &mut Ui, narrow: bool, look: &Look, state: &mut UiState) {
@@ -122,7 +125,11 @@ fn prompts(ui: &mut Ui, state: &mut UiState) {
                 ui.add(TextEdit::singleline(guess).desired_width(80.0).hint_text("metres")).labelled_by(label.id);
             let entered = field.lost_focus() && ui.input(|i| i.key_pressed(bevy_egui::egui::Key::Enter));
             if ui.button("Check").clicked() || entered {
-                state.anatomy.answers[i] = Some(match prompt.check_text(guess) {
+                let checked = prompt.check_text(guess);
+                if i == 0 && checked.is_ok() {
+                    state.settings.tick_off(Deed::Guess);
+                }
+                state.anatomy.answers[i] = Some(match checked {
                     Ok(Guess::Right { answer }) => format!("Right: {answer:.6} m. {}", prompt.moral),
                     Ok(Guess::Off { answer, by }) => {
                         format!("Off by {by:+.4} m: it is {answer:.6} m. {}", prompt.moral)

@@ -4,4 +4,4 @@ mod editing;
 mod state;
 pub(crate) mod view;
 
-pub use state::AtlasState;
+pub use state::{AtlasState, GRID};

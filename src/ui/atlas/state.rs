@@ -34,6 +34,9 @@ pub(crate) struct Drag {
     pub op: Option<Op>,
 }
 
+/// The side of a grid cell at first, metres.
+pub const GRID: f64 = 0.25;
+
 /// The state of the atlas.
 #[derive(Clone, Debug)]
 pub struct AtlasState {
@@ -67,6 +70,8 @@ pub struct AtlasState {
     /// The reason why the last change was refused.
     pub message: Option<String>,
     pub(crate) drag: Option<Drag>,
+    /// Whether the reader has put the robot somewhere.
+    pub has_put: bool,
 }
 
 impl Default for AtlasState {
@@ -134,11 +139,12 @@ impl AtlasState {
             pressed: None,
             refused: None,
             wanted: None,
-            resolution: 0.25,
+            resolution: GRID,
             selected: None,
             name_text: String::new(),
             message: None,
             drag: None,
+            has_put: false,
         }
     }
 
@@ -336,8 +342,10 @@ impl AtlasState {
         self.wanted = None;
         match self.atlas.target(self.robot, at, heading) {
             Some(Ok(q)) if done => {
-                if let Some(Err(refusal)) = self.atlas.teleport(self.robot, q) {
-                    self.refused = Some((q, refusal));
+                match self.atlas.teleport(self.robot, q) {
+                    Some(Ok(())) => self.has_put = true,
+                    Some(Err(refusal)) => self.refused = Some((q, refusal)),
+                    None => {}
                 }
                 self.labels = None;
             }
@@ -358,7 +366,9 @@ impl AtlasState {
             return false;
         }
         self.refused = None;
-        matches!(self.atlas.teleport(self.robot, q), Some(Ok(())))
+        let is_there = matches!(self.atlas.teleport(self.robot, q), Some(Ok(())));
+        self.has_put |= is_there;
+        is_there
     }
 
     /// Draws the world again, with its robots at their starts.

@@ -1,6 +1,5 @@
 //! A crowd: a world of many robots. Its robots are drawn as one mesh, and one of them is picked at a time.
 
-pub(crate) mod camera;
 pub(crate) mod heat;
 pub(crate) mod list;
 pub(crate) mod pane;

@@ -3,24 +3,25 @@
 use std::sync::Arc;
 
 use bevy_egui::egui::{
-    Align, Id, Layout, Rect, Response, RichText, ScrollArea, Sense, Shape, Stroke, StrokeKind, TextStyle, Ui,
-    UiBuilder, WidgetInfo, WidgetType, pos2, vec2,
+    Align, Id, Layout, Rect, RichText, ScrollArea, Sense, Shape, Stroke, StrokeKind, TextStyle, Ui, UiBuilder,
+    WidgetInfo, WidgetType, pos2,
 };
 
-use super::camera::Camera;
 use super::heat::Heat;
 use super::list::list;
 use super::robots::robots;
 use super::values::{Crowd, CrowdRobot};
 use crate::geometry::{Aabb, Point2};
-use crate::num::exp;
 use crate::picture::{Anchor, Drawing, Face, Fit, Item, Picture, Role};
 use crate::simulation::{History, TickMark};
-use crate::ui::dashboard::pane::{door_clicked, in_hand, point_out, robot_words, take_in_hand, touched};
+use crate::ui::dashboard::pane::{door_clicked, in_hand, point_out, take_in_hand, touched};
 use crate::ui::dashboard::values::thousands;
+use crate::ui::dashboard::words::robot_words;
 use crate::ui::dashboard::{doors, drive, handles, pane};
 use crate::ui::paint::button::LabButton;
+use crate::ui::paint::camera::Camera;
 use crate::ui::paint::canvas;
+use crate::ui::paint::magnifier::{BUTTONS, magnified, magnifier};
 use crate::ui::paint::scale_bar::scale_bar;
 use crate::ui::{Cockpit, Command, Look, UiState};
 
@@ -113,14 +114,14 @@ fn world(
     let whole = canvas::fit(&cockpit.world, paper);
     let response = ui.allocate_rect(paper, Sense::click_and_drag());
     response.widget_info(|| WidgetInfo::labeled(WidgetType::Button, true, cockpit.described()));
-    let mut camera = state.crowd.cameras.get(&cockpit.world.name).copied().unwrap_or_default();
-    let scale = f64::from(ui.pixels_per_point());
-    moved(ui, &response, &mut camera, &whole, cockpit, state);
+    let mut camera = state.cameras.get(&cockpit.world.name).copied().unwrap_or_default();
+    let (mut fit, moved) = magnified(ui, &response, &mut camera, &whole, &bounds, state.takes_wheel());
+    state.crowd.follows &= !moved;
     let followed = cockpit.robots.first().filter(|_| state.crowd.follows);
     if let Some(part) = followed.and_then(|robot| robot.footprint.parts().first()) {
         camera.look_at(part.pose().position(), &bounds);
+        fit = camera.fit(&whole, &bounds, f64::from(ui.pixels_per_point()));
     }
-    let fit = camera.fit(&whole, &bounds, scale);
     let painter = ui.painter_at(paper);
     canvas::paint_kept(&painter, &cockpit.world, paper, &fit, look);
     if state.crowd.heat {
@@ -159,7 +160,7 @@ fn world(
     let width = if armed.is_some() { 2.0 } else { 1.0 };
     painter.rect_stroke(paper, 0.0, Stroke::new(width, look.colour(role)), StrokeKind::Inside);
     if let Some(robot) = armed {
-        in_hand(ui, robot, paper, look, state);
+        in_hand(ui, robot, paper, BUTTONS, look, state);
     }
     for robot in cockpit.robots.iter().filter(|r| r.is_arm) {
         handles::handles(ui, robot, paper, &fit, look, state, commands);
@@ -175,9 +176,12 @@ fn world(
         let at = fit.world_from_screen([f64::from(at.x), f64::from(at.y)]);
         let near = crowd.nearest(at, if touch { TOUCH } else { REACH } / fit.px_per_metre());
         pick(shown, near, picked, state, commands);
+        if near.is_none() && response.double_clicked() {
+            camera = Camera::default();
+        }
     }
-    magnifier(ui, paper, &whole, &mut camera, cockpit, look);
-    state.crowd.cameras.insert(cockpit.world.name.clone(), camera);
+    magnifier(ui, paper, true, &mut camera, &whole, &bounds, look);
+    state.cameras.insert(cockpit.world.name.clone(), camera);
     fit
 }
 
@@ -191,49 +195,6 @@ fn pick(shown: &CrowdPane, near: Option<u32>, picked: Option<u32>, state: &mut U
     } else {
         drive::let_go(state, commands);
         state.crowd.pick(shown.crowd, near);
-    }
-}
-
-/// Moves the camera as the pointer asks.
-fn moved(ui: &Ui, response: &Response, camera: &mut Camera, whole: &Fit, cockpit: &Cockpit, state: &mut UiState) {
-    let bounds = &cockpit.world.bounds;
-    let scale = whole.px_per_metre() * camera.zoom;
-    if response.dragged() && camera.zoom > 1.0 {
-        let by = response.drag_delta();
-        let centre = camera.centre.unwrap_or_else(|| bounds.centre());
-        camera.look_at(Point2::new(centre.x - f64::from(by.x) / scale, centre.y + f64::from(by.y) / scale), bounds);
-        state.crowd.follows &= by == bevy_egui::egui::Vec2::ZERO;
-    }
-    let Some(at) = response.hover_pos().filter(|_| response.contains_pointer()) else { return };
-    let (wheel, fingers) = ui.input(|i| (f64::from(i.smooth_scroll_delta().y), f64::from(i.zoom_delta())));
-    let factor = fingers * exp(wheel / 240.0);
-    if factor != 1.0 {
-        let fit = camera.fit(whole, bounds, f64::from(ui.pixels_per_point()));
-        camera.zoom_at(fit.world_from_screen([f64::from(at.x), f64::from(at.y)]), factor, whole, bounds);
-    }
-}
-
-/// Shows the buttons that magnify, in the paper's upper right corner.
-fn magnifier(ui: &mut Ui, paper: Rect, whole: &Fit, camera: &mut Camera, cockpit: &Cockpit, look: &Look) {
-    let side = ui.spacing().interact_size.y;
-    let corner =
-        Rect::from_min_max(paper.left_top() + vec2(8.0, 8.0), pos2(paper.right() - 8.0, paper.top() + 8.0 + side));
-    let mut ui = ui.new_child(UiBuilder::new().max_rect(corner).layout(Layout::right_to_left(Align::Center)));
-    let bounds = &cockpit.world.bounds;
-    let centre = camera.centre.unwrap_or_else(|| bounds.centre());
-    let mut button = |label: &str, words: &str, width: f32| {
-        let shown = LabButton::new(label).width(width).show(&mut ui, look);
-        shown.widget_info(|| WidgetInfo::labeled(WidgetType::Button, true, words));
-        shown.on_hover_text(words).clicked()
-    };
-    if button("Fit", "show the whole world", 0.0) {
-        *camera = Camera::default();
-    }
-    if button("\u{2212}", "show more of the world", side) {
-        camera.zoom_at(centre, 1.0 / 1.5, whole, bounds);
-    }
-    if button("+", "magnify", side) {
-        camera.zoom_at(centre, 1.5, whole, bounds);
     }
 }
 
@@ -297,7 +258,7 @@ fn picked(ui: &mut Ui, shown: &CrowdPane, paper: Rect, look: &Look, state: &mut 
             let follow = LabButton::new("Follow").selected(state.crowd.follows).show(ui, look);
             if follow.on_hover_text("Keep it in the middle").clicked() {
                 state.crowd.follows = !state.crowd.follows;
-                let camera = state.crowd.cameras.entry(shown.cockpit.world.name.clone()).or_default();
+                let camera = state.cameras.entry(shown.cockpit.world.name.clone()).or_default();
                 camera.approach(f64::from(paper.width()), &canvas::fit(&shown.cockpit.world, paper));
             }
             if robot.drivable {

@@ -1,9 +1,7 @@
 //! `CrowdState`, which robot of a crowd is picked, and how its world is shown.
 
-use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use super::camera::Camera;
 use super::values::Crowd;
 
 /// The state of the panes that show crowds.
@@ -19,8 +17,6 @@ pub struct CrowdState {
     pub search: String,
     /// Whether the list holds only robots with contacts.
     pub with_contacts: bool,
-    /// What part of each world is shown, by the world's name.
-    pub cameras: BTreeMap<String, Camera>,
     /// The robots found last.
     pub found: Option<Found>,
 }

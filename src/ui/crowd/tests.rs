@@ -1,8 +1,8 @@
+use crate::ui::paint::camera::Camera;
 use std::sync::Arc;
 
 use bevy_egui::egui::{Rect, pos2};
 
-use super::camera::Camera;
 use super::heat::Heat;
 use super::robots::robots;
 use super::state::CrowdState;

@@ -20,7 +20,7 @@ const BUDGET: u32 = 1500;
 pub struct CspaceState {
     pub(super) cells: Option<Cells>,
     /// The configurations visited, oldest first.
-    pub(super) trace: Vec<AnyConfiguration>,
+    pub trace: Vec<AnyConfiguration>,
 }
 
 /// Whether the cells are those of this robot, in this scene, with the same coordinates held.

@@ -6,7 +6,7 @@ use bevy_egui::egui::{Rect, RichText, ScrollArea, Ui, pos2, vec2};
 
 use crate::anatomy::Tab;
 use crate::cspace::{Overlay, overlay_items};
-use crate::manifest::Widget;
+use crate::manifest::{Deed, Widget};
 use crate::num::wrap;
 use crate::picture::{Picture, Role, footprint};
 use crate::robots::Robot;
@@ -126,6 +126,7 @@ fn space(ui: &mut Ui, paper: Rect, look: &Look, state: &mut UiState) {
         // a point of the slice is a configuration of the robot
         if state.anatomy.anatomy.set_q(slice.at(p)).is_ok() {
             remember(state);
+            state.settings.tick_off(Deed::MovePoint);
         }
     }
 }

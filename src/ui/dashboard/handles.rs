@@ -110,7 +110,11 @@ fn handle(
     let at = pos2(x as f32, y as f32);
     let size = if ui.spacing().interact_size.y > HIT { ui.spacing().interact_size.y } else { HIT };
     let id = handle_id(robot, link);
-    let response = ui.interact(Rect::from_center_size(at, Vec2::splat(size)), id, Sense::click_and_drag());
+    // magnified, a joint may lie off the paper: keys still turn it
+    let clip = painter.clip_rect();
+    let hit = Rect::from_center_size(at, Vec2::splat(size)).intersect(clip);
+    let hit = if hit.is_positive() { hit } else { Rect::from_min_size(at.max(clip.min).min(clip.max), Vec2::ZERO) };
+    let response = ui.interact(hit, id, Sense::click_and_drag());
     let angle = angles(robot).get(link).copied().unwrap_or_default();
     let label = format!("{}: {name}, theta{} in radians", robot.name, link + 1);
     response.widget_info(|| WidgetInfo::slider(true, angle, &label));

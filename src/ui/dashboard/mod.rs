@@ -12,7 +12,6 @@ pub(crate) mod plots;
 pub(crate) mod stage;
 #[cfg(test)]
 mod tests;
-pub(crate) mod time_line;
-pub(crate) mod transport_bar;
 pub(crate) mod values;
 pub(crate) mod view;
+pub(crate) mod words;

@@ -1,25 +1,20 @@
-//! A pane of the dashboard: a world with its robots on paper, and under it readouts and controls.
+//! A pane of the dashboard: a world with its robots on paper, and what is done there with the pointer.
 
 use std::sync::Arc;
 
 use bevy_egui::egui::{
-    Align, CursorIcon, Id, Label, Layout, Rect, Response, RichText, ScrollArea, Sense, Stroke, StrokeKind, TextStyle,
-    TextWrapMode, Ui, UiBuilder, WidgetInfo, WidgetType, pos2, vec2,
+    CursorIcon, Id, Rect, Response, Sense, Stroke, StrokeKind, TextStyle, Ui, WidgetInfo, WidgetType, pos2, vec2,
 };
 
-use super::goal::trailer_of;
+use super::words::words_in;
 use super::{doors, drive, handles, pad};
 use crate::atlas::{self, Atlas};
-use crate::configuration::RobotKind;
-use crate::manifest::{Formula, Widget};
 use crate::picture::{Drawing, Fit, Item, Picture, Role, ScanDrawing, fan_scan, pick, places, scan_id};
-use crate::run::RobotInput;
-use crate::simulation::{RobotCommand, SensorView, TransportCommand};
-use crate::ui::paint::scale_bar::scale_bar;
+use crate::simulation::SensorView;
+use crate::ui::paint::camera::Camera;
+use crate::ui::paint::magnifier::{BUTTONS, magnified, magnifier};
 use crate::ui::paint::{canvas, frame};
-use crate::ui::{
-    Cockpit, CockpitRobot, Command, Grasp, Look, Notice, ParkingGoal, SessionCommand, UiState, readout, readout_lines,
-};
+use crate::ui::{Cockpit, CockpitRobot, Command, Grasp, Look, Notice, UiState};
 
 /// Rows of text kept free under a pane for each robot, so that panes do not jump when a trailer is put on.
 const ROWS: f32 = 8.0;
@@ -61,8 +56,12 @@ pub fn paper(
     state: &mut UiState,
     commands: &mut Vec<Command>,
 ) -> Fit {
-    let fit = canvas::fit(&cockpit.world, paper);
-    let response = ui.allocate_rect(paper, Sense::click());
+    let (whole, bounds) = (canvas::fit(&cockpit.world, paper), &cockpit.world.bounds);
+    let mut camera = state.cameras.get(&cockpit.world.name).copied().unwrap_or_default();
+    // a paper that shows the whole world lets a finger scroll what it lies in
+    let sense = if camera.zoom > 1.0 { Sense::click_and_drag() } else { Sense::click() };
+    let response = ui.allocate_rect(paper, sense);
+    let (fit, _) = magnified(ui, &response, &mut camera, &whole, bounds, state.takes_wheel());
     response.widget_info(|| WidgetInfo::labeled(WidgetType::Button, true, cockpit.described()));
     let painter = ui.painter_at(paper.expand(1.0));
     canvas::paint_kept(&painter, &cockpit.world, paper, &fit, look);
@@ -82,7 +81,7 @@ pub fn paper(
     let width = if armed.is_some() { 2.0 } else { 1.0 };
     painter.rect_stroke(paper, 0.0, Stroke::new(width, look.colour(role)), StrokeKind::Inside);
     if let Some(robot) = armed {
-        in_hand(ui, robot, paper, look, state);
+        in_hand(ui, robot, paper, if camera.zoom > 1.0 { BUTTONS } else { 0.0 }, look, state);
     }
     for robot in cockpit.robots.iter().filter(|r| r.is_arm) {
         handles::handles(ui, robot, paper, &fit, look, state, commands);
@@ -96,7 +95,14 @@ pub fn paper(
         // the arrow keys drive the robot from now on, also when Tab led here
         response.surrender_focus();
     }
-    if let Some(robot) = driven.filter(|_| armed.is_none() && !at_door) {
+    if response.double_clicked() && camera.zoom > 1.0 && !at_door {
+        camera = Camera::default();
+        // the first of the two clicks has taken it in hand
+        drive::let_go(state, commands);
+    }
+    magnifier(ui, paper, camera.zoom > 1.0, &mut camera, &whole, bounds, look);
+    state.cameras.insert(cockpit.world.name.clone(), camera);
+    if let Some(robot) = driven.filter(|_| armed.is_none() && !at_door && !response.dragged()) {
         let words = if robot.is_arm {
             format!("{} is moved by its joints: {}", robot.name, joints_to_drag(robot))
         } else {
@@ -105,25 +111,6 @@ pub fn paper(
         response.on_hover_text_at_pointer(words);
     }
     fit
-}
-
-/// Shows in `rect` what there is to say of a cockpit, whose world lies on the screen as `fit` says.
-pub fn words_in(
-    ui: &mut Ui,
-    rect: Rect,
-    cockpit: &Cockpit,
-    fit: &Fit,
-    look: &Look,
-    state: &mut UiState,
-    commands: &mut Vec<Command>,
-) {
-    let mut ui = ui.new_child(UiBuilder::new().max_rect(rect).layout(Layout::top_down(Align::Min)));
-    ui.spacing_mut().interact_size.y = 0.0; // no row of words is as high as a button
-    // where the words need more room than there is, none is cut
-    let words_of = Id::new(("words", &cockpit.world.name));
-    ScrollArea::vertical().id_salt(words_of).auto_shrink(false).show(&mut ui, |ui| {
-        words(ui, cockpit, fit, look, state, commands);
-    });
 }
 
 /// The cockpit's robots one by one: their scans, their goals, and over them their bodies.
@@ -231,8 +218,8 @@ pub fn touched(ui: &Ui) -> bool {
     ui.input(|i| i.any_touches()) || ui.spacing().interact_size.y > 40.0
 }
 
-/// Shows on the paper of the robot in hand how to drive it, and for a finger the pad.
-pub fn in_hand(ui: &mut Ui, robot: &CockpitRobot, paper: Rect, look: &Look, state: &mut UiState) {
+/// Shows on the paper of the robot in hand how to drive it, beside what has the width `taken`, and for a finger the pad.
+pub fn in_hand(ui: &mut Ui, robot: &CockpitRobot, paper: Rect, taken: f32, look: &Look, state: &mut UiState) {
     let sideways = robot.trailer.is_some() && state.held.0 == 0 && state.held.1 != 0;
     let touched = touched(ui);
     let words = if robot.is_arm {
@@ -246,7 +233,7 @@ pub fn in_hand(ui: &mut Ui, robot: &CockpitRobot, paper: Rect, look: &Look, stat
         "arrows drive, Esc lets go".to_owned()
     };
     let font = TextStyle::Body.resolve(ui.style());
-    let galley = ui.painter().layout(words, font, look.colour(Role::Text), paper.width() - 24.0);
+    let galley = ui.painter().layout(words, font, look.colour(Role::Text), paper.width() - 24.0 - taken);
     let rect = Rect::from_min_size(paper.min + vec2(8.0, 8.0), galley.size()).expand2(vec2(4.0, 2.0));
     // opaque and square: rounded corners of a tint leave dots
     ui.painter().rect_filled(rect, 0.0, look.theme.colour(Role::Paper));
@@ -263,131 +250,5 @@ pub fn point_out(response: &Response, over: &Picture, cockpit: &Cockpit, fit: &F
     let item = pick(over, fit, at, REACH).or_else(|| pick(&cockpit.world, fit, at, REACH));
     if let Some(item) = item.filter(|i| i.role == Role::Obstacle) {
         response.clone().on_hover_text_at_pointer(item.name.as_str());
-    }
-}
-
-fn words(ui: &mut Ui, cockpit: &Cockpit, fit: &Fit, look: &Look, state: &mut UiState, commands: &mut Vec<Command>) {
-    ui.horizontal(|ui| {
-        ui.label(RichText::new(cockpit.heading()).color(look.colour(Role::Text)));
-        ui.with_layout(Layout::right_to_left(Align::Center), |ui| scale_bar(ui, fit.px_per_metre(), look));
-    });
-    for robot in &cockpit.robots {
-        robot_words(ui, robot, look, state, commands);
-    }
-    doors::links(ui, cockpit, commands);
-    if look.narrow {
-        let words = Widget::Dashboard.text();
-        ui.add_space(10.0);
-        frame::title(ui, words, look);
-        frame::key_row(ui, words, look, state);
-        frame::hints(ui, words, look, state);
-    }
-}
-
-/// Shows a robot's space, its configuration, what was counted of it, and links for what can be done with it.
-pub fn robot_words(ui: &mut Ui, robot: &CockpitRobot, look: &Look, state: &mut UiState, commands: &mut Vec<Command>) {
-    if let Some(space) = robot.about.and_then(|about| about.space(robot.coordinates.len())) {
-        frame::formula(ui, &Formula::of(space), space.words, look, state);
-    }
-    readouts(ui, robot, look);
-    counts(ui, robot, look);
-    if robot.is_arm {
-        let words = "An arm is not held by what it touches: its contacts are counted.";
-        ui.add(Label::new(RichText::new(words).color(look.colour(Role::Muted))).wrap());
-        handles::numbers(ui, robot, look, commands);
-    }
-    links(ui, robot, look, state, commands);
-}
-
-/// Shows the configuration as its type prints it. A click copies every digit.
-fn readouts(ui: &mut Ui, robot: &CockpitRobot, look: &Look) {
-    let figure = TextStyle::Monospace.resolve(ui.style());
-    let width = ui.ctx().fonts_mut(|f| f.glyph_width(&figure, '0'));
-    for line in readout_lines(&readout(&robot.readout), (ui.available_width() / width) as usize) {
-        let text = RichText::new(line).monospace().color(look.colour(Role::Text));
-        let response = ui.add(Label::new(text).sense(Sense::click()));
-        if response.clicked() {
-            ui.ctx().copy_text(robot.in_full.clone());
-        }
-        response.on_hover_text("Click to copy every digit");
-    }
-}
-
-fn counts(ui: &mut Ui, robot: &CockpitRobot, look: &Look) {
-    let muted = |text: String| RichText::new(text).monospace().color(look.colour(Role::Muted));
-    // in a row of its own, so that no row wraps when the other grows
-    if let Some(tip) = robot.tip {
-        ui.label(muted(readout(&format!("tip: ({:.3}, {:.3})", tip.x, tip.y))));
-    }
-    let mut text = format!("contacts: {}", robot.contacts);
-    if robot.trailer.is_some() {
-        text += &format!("  reversals: {}", robot.reversals);
-    }
-    if robot.manual {
-        text += "  driven by hand";
-    }
-    ui.label(muted(text));
-}
-
-/// Shows links for what can be done with a robot besides driving it.
-fn links(ui: &mut Ui, robot: &CockpitRobot, look: &Look, state: &mut UiState, commands: &mut Vec<Command>) {
-    let goal = state.goal.clone().filter(|(name, _)| *name == robot.name);
-    if let Some(why) = &robot.no_room {
-        let words = format!("no room for a trailer: {why}");
-        ui.add(Label::new(RichText::new(words).color(look.colour(Role::Muted))).wrap());
-    }
-    // rows that wrap are as high as their words
-    ui.spacing_mut().interact_size.y = ui.text_style_height(&TextStyle::Body);
-    ui.horizontal_wrapped(|ui| {
-        ui.style_mut().wrap_mode = Some(TextWrapMode::Extend);
-        let mut put_in = |input| {
-            commands.push(Command::from(TransportCommand::Checkpoint));
-            commands.push(Command::from(RobotCommand { robot: robot.name.clone(), input }));
-        };
-        if let Some(on) = robot.trailer.filter(|_| robot.no_room.is_none()) {
-            let words = if on { "take the trailer off" } else { "put a trailer on" };
-            if ui.link(words).clicked() {
-                put_in(RobotInput::SetTrailer(!on));
-            }
-        }
-        if robot.manual && ui.link("resume tour").clicked() {
-            put_in(RobotInput::Release);
-        }
-        if !robot.sees.is_empty() {
-            let words = if state.settings.scan { "hide the scan" } else { "show the scan" };
-            if ui.link(words).clicked() {
-                state.settings.scan = !state.settings.scan;
-            }
-        }
-        // a program's own arm has the links that it has
-        let own = [RobotKind::REACH.name, RobotKind::REACH3.name].contains(&robot.kind.as_str());
-        if robot.is_arm && own {
-            let (words, links) = if robot.coordinates.len() == 2 { ("three links", 3) } else { ("two links", 2) };
-            let link = ui.link(words).on_hover_text("Start a new run with this arm");
-            if link.clicked() {
-                commands.push(Command::Session(SessionCommand::Links { robot: robot.name.clone(), links }));
-            }
-        }
-        match (&goal, trailer_of(&robot.footprint).filter(|_| robot.trailer == Some(true))) {
-            (Some(_), _) => {
-                if ui.link("drop the goal").clicked() {
-                    state.goal = None;
-                }
-            }
-            (None, Some(trailer)) => {
-                let link = ui.link("goal: one metre to the left");
-                if link.on_hover_text("The trailer is to end one metre left of here, facing the same way").clicked() {
-                    state.goal = Some((robot.name.clone(), ParkingGoal::left_of(trailer, robot.reversals)));
-                }
-            }
-            (None, None) => {}
-        }
-        // at the end of the row, where it moves no link when it comes
-        if robot.waiting {
-            ui.weak("comes with the next tick");
-        }
-    });
-    if let Some((_, goal)) = goal {
-        ui.label(RichText::new(goal.words(&robot.footprint, robot.reversals)).strong());
     }
 }

@@ -1,17 +1,21 @@
-//! The stage: one cockpit in front and the others small beside it, all side by side, or one alone on a narrow screen.
+//! The stage: one cockpit in front and the others small beside it, all side by side, or one alone, on a narrow screen or
+//! over the whole window.
 
 use bevy_egui::egui::{
-    Align2, CursorIcon, Pos2, Rect, ScrollArea, Sense, Stroke, StrokeKind, TextStyle, Ui, WidgetInfo, WidgetType, pos2,
-    vec2,
+    Align, Align2, CursorIcon, Layout, Pos2, Rect, RichText, ScrollArea, Sense, Stroke, StrokeKind, TextStyle, Ui,
+    UiBuilder, WidgetInfo, WidgetType, pos2, vec2,
 };
 
 use super::drive;
 use super::pane::{self, text_height};
+use super::words::words_in;
 use crate::picture::{Picture, Role};
 use crate::simulation::History;
 use crate::ui::crowd::pane::{CrowdPane, crowd_pane};
 use crate::ui::cspace::linked::Linked;
+use crate::ui::keys::{Action, hint};
 use crate::ui::paint::canvas;
+use crate::ui::paint::scale_bar::scale_bar;
 use crate::ui::{Cockpit, Command, Dashboard, Grasp, Look, UiState};
 
 /// Gap between panes, and between the panes and the window's border, points.
@@ -48,9 +52,12 @@ impl Stage<'_> {
     /// Shows the cockpits in what is left of `ui`.
     pub fn show(&self, ui: &mut Ui, state: &mut UiState, commands: &mut Vec<Command>) {
         let cockpits = &self.model.cockpits;
+        state.scrolls = cockpits.len() > 3 && !self.look.narrow && !state.fills;
         let has_crowd = cockpits.iter().any(|cockpit| cockpit.crowd.is_some());
         if cockpits.is_empty() {
             ui.weak("No world is loaded.");
+        } else if state.fills {
+            self.filling(ui, state, commands);
         } else if self.look.narrow {
             self.alone(ui, state, commands);
         } else if has_crowd || cockpits.len() > 3 {
@@ -58,13 +65,6 @@ impl Stage<'_> {
         } else {
             self.in_front(ui, state, commands);
         }
-    }
-
-    /// The cockpit in front, and its index.
-    fn front(&self, state: &UiState) -> Option<(usize, &Cockpit)> {
-        let chosen = state.settings.world as usize;
-        let cockpits = &self.model.cockpits;
-        cockpits.get(chosen).map(|cockpit| (chosen, cockpit)).or(cockpits.first().map(|first| (0, first)))
     }
 
     /// Shows the cockpit in front on the left, and on the right the others, small, over what there is to say of it.
@@ -76,7 +76,7 @@ impl Stage<'_> {
             }
             return self.side_by_side(ui, state, commands);
         }
-        let Some((chosen, cockpit)) = self.front(state) else { return };
+        let Some((chosen, cockpit)) = front(&self.model.cockpits, state) else { return };
         let room = ui.available_rect_before_wrap();
         let width = (BESIDE * room.width()).clamp(LEAST_BESIDE, MOST_BESIDE).min(0.6 * room.width());
         let sheet = canvas::proportioned(&cockpit.world, room.with_max_x(room.right() - width - GAP));
@@ -94,14 +94,14 @@ impl Stage<'_> {
             beside = beside.with_min_y(bottom);
             if is_roomy {
                 let at = Rect::from_min_size(beside.min, vec2(beside.width(), 20.0));
-                let mut row = ui.new_child(bevy_egui::egui::UiBuilder::new().max_rect(at));
+                let mut row = ui.new_child(UiBuilder::new().max_rect(at));
                 state.settings.side_by_side |= row.link("All side by side").clicked();
                 beside = beside.with_min_y(at.bottom());
             }
             beside = beside.with_min_y(beside.top() + 12.0);
         }
         let (words, space) = share(beside);
-        pane::words_in(ui, words, cockpit, &fit, self.look, state, commands);
+        words_in(ui, words, cockpit, &fit, self.look, state, commands);
         if let (Some(linked), Some(space)) = (linked, space) {
             linked.show(ui, space, self.look, &mut state.linked, commands);
         }
@@ -165,9 +165,35 @@ impl Stage<'_> {
 
     /// Shows one cockpit.
     fn alone(&self, ui: &mut Ui, state: &mut UiState, commands: &mut Vec<Command>) {
-        if let Some((_, cockpit)) = self.front(state) {
+        if let Some((_, cockpit)) = front(&self.model.cockpits, state) {
             let rect = ui.available_rect_before_wrap();
             self.pane(ui, cockpit, rect, state, commands);
+        }
+    }
+
+    /// Shows the world in front over all the room, and under it a row: its name, the way back, the scale.
+    fn filling(&self, ui: &mut Ui, state: &mut UiState, commands: &mut Vec<Command>) {
+        let Some((_, cockpit)) = front(&self.model.cockpits, state) else { return };
+        let room = ui.available_rect_before_wrap();
+        let row = ui.spacing().interact_size.y;
+        let (above, foot) = room.split_top_bottom_at_y(room.bottom() - row);
+        let fit = if cockpit.crowd.is_some() {
+            self.pane(ui, cockpit, above, state, commands);
+            None
+        } else {
+            let sheet = canvas::proportioned(&cockpit.world, above.with_max_y(above.bottom() - 6.0));
+            let sheet = sheet.translate(vec2(0.5 * (above.width() - sheet.width()), 0.0));
+            Some(pane::paper(ui, cockpit, sheet, Vec::new(), self.look, state, commands))
+        };
+        let mut ui = ui.new_child(UiBuilder::new().max_rect(foot).layout(Layout::left_to_right(Align::Center)));
+        if cockpit.crowd.is_none() {
+            ui.label(RichText::new(cockpit.heading()).color(self.look.colour(Role::Text)));
+        }
+        if ui.link("Show all").on_hover_text(hint(Action::Fill)).clicked() {
+            state.fills = false;
+        }
+        if let Some(fit) = fit {
+            ui.with_layout(Layout::right_to_left(Align::Center), |ui| scale_bar(ui, fit.px_per_metre(), self.look));
         }
     }
 
@@ -206,6 +232,13 @@ impl Stage<'_> {
             None => pane::pane(ui, cockpit, rect, self.look, state, commands),
         }
     }
+}
+
+/// The cockpit in front, and its index: of panes side by side, the one with the robot in hand, else the one chosen last.
+pub fn front<'a>(cockpits: &'a [Cockpit], state: &UiState) -> Option<(usize, &'a Cockpit)> {
+    let is_armed = |cockpit: &Cockpit| cockpit.robots.iter().any(|robot| state.armed.as_ref() == Some(&robot.name));
+    let chosen = cockpits.iter().position(is_armed).unwrap_or(state.settings.world as usize);
+    cockpits.get(chosen).map(|cockpit| (chosen, cockpit)).or(cockpits.first().map(|first| (0, first)))
 }
 
 /// Shows tabs to choose the cockpit in front, where only one is seen.

@@ -6,11 +6,12 @@ use super::drive;
 use super::pane::take_in_hand;
 use super::plots::plots;
 use super::stage::{self, GAP, Stage};
-use super::transport_bar::{self, transport_bar};
 use crate::manifest::Widget;
 use crate::simulation::History;
 use crate::ui::keys::Action;
+use crate::ui::paint::camera::{Camera, STEP};
 use crate::ui::paint::frame;
+use crate::ui::time::transport_bar::{self, transport_bar};
 use crate::ui::{Command, Dashboard, Look, Notice, UiState, tools};
 
 /// Width of the panel of plots at the side, points.
@@ -31,7 +32,7 @@ pub fn dashboard(
     Panel::bottom("transport")
         .frame(Frame::NONE.inner_margin(Margin::symmetric(side, 8)))
         .show(ui, |ui| transport_bar(ui, model, history, look, state, commands));
-    if state.settings.plots && !narrow {
+    if state.settings.plots && !narrow && !state.fills {
         let margin = Margin { left: 12, right: side, top: 14, bottom: 0 };
         Panel::right("sheet")
             .exact_size(SHEET)
@@ -40,9 +41,11 @@ pub fn dashboard(
             .show(ui, |ui| plots(ui, model, history, look, state, commands));
     }
     let panel = CentralPanel::default().frame(Frame::NONE.inner_margin(Margin::symmetric(side, 14))).show(ui, |ui| {
-        header(ui, model, look, state, commands);
-        ui.add_space(8.0);
-        if narrow && state.settings.plots {
+        if !state.fills {
+            header(ui, model, look, state, commands);
+            ui.add_space(8.0);
+        }
+        if narrow && state.settings.plots && !state.fills {
             plots(ui, model, history, look, state, commands);
         } else {
             Stage { model, history, look }.show(ui, state, commands);
@@ -55,6 +58,16 @@ pub fn dashboard(
 pub fn act(action: Action, model: &Dashboard, state: &mut UiState, commands: &mut Vec<Command>) {
     match action {
         Action::LetGo => drive::let_go(state, commands),
+        Action::Magnify | Action::ShowMore | Action::Fit => {
+            if let Some((_, cockpit)) = stage::front(&model.cockpits, state) {
+                let camera = state.cameras.entry(cockpit.world.name.clone()).or_default();
+                match action {
+                    Action::Magnify => camera.magnify(STEP, &cockpit.world.bounds),
+                    Action::ShowMore => camera.magnify(1.0 / STEP, &cockpit.world.bounds),
+                    _ => *camera = Camera::default(),
+                }
+            }
+        }
         Action::Arm(pane) => {
             if let Some(cockpit) = model.cockpits.get(pane) {
                 state.settings.world = pane as u32;

@@ -1,13 +1,18 @@
 //! The frame of a widget: its title, the misconception it removes, its colour key and the first hints.
 
 use bevy_egui::egui::{
-    FontId, RichText, Sense, Stroke, StrokeKind, TextFormat, TextStyle, TextWrapMode, Ui, Vec2, WidgetInfo, WidgetType,
-    text::LayoutJob, vec2,
+    FontId, Rect, RichText, Sense, Shape, Stroke, StrokeKind, TextFormat, TextStyle, TextWrapMode, Ui, Vec2,
+    WidgetInfo, WidgetType, text::LayoutJob, vec2,
 };
 
 use crate::manifest::{Formula, Level};
 use crate::picture::Role;
+use crate::ui::keys::{self, Action};
 use crate::ui::{Look, UiState, WidgetText};
+
+/// Side of the box before a hint, points, and the gap after it.
+const BOX: f32 = 10.0;
+const AFTER: f32 = 5.0;
 
 /// Shows title and misconception. They do not fade when a role is lit.
 pub fn title(ui: &mut Ui, widget: &WidgetText, look: &Look) {
@@ -148,12 +153,30 @@ pub fn hints(ui: &mut Ui, widget: &WidgetText, look: &Look, state: &mut UiState)
         ui.style_mut().wrap_mode = Some(TextWrapMode::Extend);
         ui.label(RichText::new("Try:").color(look.theme.colour(Role::Focus)).strong());
         for hint in &widget.hints {
-            ui.label(RichText::new(hint).color(look.theme.colour(Role::Text)));
+            task(ui, &hint.text, state.settings.is_ticked_off(hint.deed), look);
         }
-        if ui.link("Got it").on_hover_text("Put these hints away").clicked() {
+        if ui.link("Got it").on_hover_text(format!("Put these hints away: {}", keys::hint(Action::Hints))).clicked() {
             state.settings.put_hints_away(state.widget);
         }
     });
+}
+
+/// Shows a hint with a box before it, which is ticked once it has been done.
+fn task(ui: &mut Ui, text: &str, done: bool, look: &Look) {
+    let colour = look.theme.colour(if done { Role::Muted } else { Role::Text });
+    let width = ui.max_rect().width() - BOX - AFTER;
+    let galley = ui.painter().layout(text.to_owned(), TextStyle::Body.resolve(ui.style()), colour, width);
+    let (rect, response) = ui.allocate_exact_size(galley.size() + vec2(BOX + AFTER, 0.0), Sense::hover());
+    let spoken = if done { format!("{text} Done.") } else { text.to_owned() };
+    response.widget_info(|| WidgetInfo::labeled(WidgetType::Label, true, &spoken));
+    let middle = 0.5 * ui.text_style_height(&TextStyle::Body) + 1.0;
+    let square = Rect::from_center_size(rect.min + vec2(0.5 * BOX, middle), Vec2::splat(BOX));
+    ui.painter().rect_stroke(square, 0.0, Stroke::new(1.0, look.theme.colour(Role::Muted)), StrokeKind::Inside);
+    if done {
+        let tick = [vec2(2.0, 5.0), vec2(4.0, 7.5), vec2(8.5, 2.0)].map(|corner| square.min + corner);
+        ui.painter().add(Shape::line(tick.to_vec(), Stroke::new(1.8, look.theme.colour(Role::Free))));
+    }
+    ui.painter().galley(rect.min + vec2(BOX + AFTER, 0.0), galley, colour);
 }
 
 fn small(ui: &Ui) -> FontId {

@@ -1,10 +1,12 @@
 //! Painting, for every widget: canvas, sheets, frame, buttons, colours and style.
 
 pub(crate) mod button;
+pub(crate) mod camera;
 pub(crate) mod canvas;
 pub(crate) mod frame;
 pub(crate) mod icon;
 pub(crate) mod look;
+pub(crate) mod magnifier;
 pub(crate) mod plate;
 pub(crate) mod polygons;
 pub(crate) mod scale_bar;

@@ -3,6 +3,7 @@
 use bevy_egui::egui::{ComboBox, Ui, WidgetInfo, WidgetType};
 
 use super::state::{PACES, PlanState, Stage};
+use crate::manifest::Deed;
 use crate::random::Seed;
 use crate::ui::Look;
 use crate::ui::keys::Action;
@@ -19,6 +20,7 @@ pub fn act(action: Action, plan: &mut PlanState) -> bool {
         Action::PlayPause => play(plan),
         Action::Step => {
             plan.playing = false;
+            plan.deeds.extend(goes_on(plan).then_some(Deed::StepPlanner));
             plan.step();
         }
         Action::Start | Action::Reset => plan.restart(),

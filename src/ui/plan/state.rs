@@ -7,6 +7,7 @@ use bevy::platform::time::Instant;
 use super::work::Work;
 use crate::collision::Checker;
 use crate::configuration::AnyConfiguration;
+use crate::manifest::Deed;
 use crate::picture::{Picture, world as picture_of};
 use crate::planning::{Bound, Effort, NoPath, Progress};
 use crate::plans::{Drawn, PathLengths, PlannerName, Task, space_items, workspace_items};
@@ -79,6 +80,8 @@ pub struct PlanState {
     pub end: usize,
     /// Whether it is drawn over the dashboard's panes too.
     pub over_drive: bool,
+    /// What the reader did that hints ask for, since it was last taken.
+    pub deeds: Vec<Deed>,
 }
 
 impl Default for PlanState {
@@ -113,6 +116,7 @@ impl PlanState {
             over_cells: None,
             end: 1,
             over_drive: false,
+            deeds: Vec::new(),
             task,
         };
         state.restart();
@@ -165,6 +169,7 @@ impl PlanState {
         let moved = if end == 0 { &mut self.task.start } else { &mut self.task.goal };
         if *moved != q {
             *moved = q;
+            self.deeds.extend((end == 1).then_some(Deed::MoveGoal));
             self.restart();
         }
     }

@@ -1,9 +1,12 @@
-//! The time line: where the run stands, a handle to any tick it has reached, and above it lanes of what happened.
+//! The time line: where the run stands, a handle to any tick it has reached, and above it lanes of what happened. The
+//! wheel shows less time or more; a thumb then says which part of the run it is.
 
 use bevy_egui::egui::{
     Align2, Rect, Response, Sense, Shape, Slider, Stroke, TextStyle, Ui, WidgetInfo, WidgetType, pos2, vec2,
 };
 
+use super::span::Span;
+use crate::num::exp;
 use crate::picture::Role;
 use crate::run::seconds;
 use crate::simulation::{Happening, History, TickMark, TransportCommand};
@@ -30,18 +33,21 @@ const APART: f32 = 64.0;
 struct Scale {
     /// The lanes' rectangle, as wide as the way of the slider's handle.
     lanes: Rect,
-    /// The last tick.
-    end: u64,
+    /// The ticks shown, the last included.
+    span: Span,
 }
 
 impl Scale {
     fn x(&self, tick: u64) -> f32 {
-        self.lanes.left() + self.lanes.width() * (tick as f32 / self.end.max(1) as f32)
+        let Span { from, to } = self.span;
+        let share = (tick as f64 - from as f64) / to.saturating_sub(from).max(1) as f64;
+        self.lanes.left() + self.lanes.width() * share as f32
     }
 
     fn tick(&self, x: f32) -> u64 {
+        let Span { from, to } = self.span;
         let share = ((x - self.lanes.left()) / self.lanes.width()).clamp(0.0, 1.0);
-        (f64::from(share) * self.end as f64).round() as u64
+        from + (f64::from(share) * to.saturating_sub(from) as f64).round() as u64
     }
 }
 
@@ -72,8 +78,17 @@ fn lanes(model: &Dashboard) -> Vec<Lane<'_>> {
 }
 
 /// Shows the line over the whole width. Clicking and dragging seek; so do the arrow keys while it has the focus.
-pub fn time_line(ui: &mut Ui, model: &Dashboard, history: &History, look: &Look, commands: &mut Vec<Command>) {
+pub fn time_line(
+    ui: &mut Ui,
+    model: &Dashboard,
+    history: &History,
+    look: &Look,
+    shown: &mut Option<Span>,
+    commands: &mut Vec<Command>,
+) {
     let end = model.frontier.max(model.tick);
+    *shown = shown.and_then(|span| span.with(model.tick, end));
+    let span = shown.unwrap_or(Span { from: 0, to: end });
     let lanes = lanes(model);
     let height = if lanes.len() == 1 { ONLY } else { LANE } * lanes.len() as f32;
     let names = if lanes.len() > 1 && !look.narrow { NAMES } else { 0.0 };
@@ -83,18 +98,42 @@ pub fn time_line(ui: &mut Ui, model: &Dashboard, history: &History, look: &Look,
         .horizontal(|ui| {
             ui.add_space(names);
             ui.spacing_mut().slider_width = ui.available_width();
-            let line = Slider::new(&mut tick, 0..=end.max(1)).show_value(false).trailing_fill(true).step_by(1.0);
+            let line = Slider::new(&mut tick, span.from..=span.to.max(span.from + 1))
+                .show_value(false)
+                .trailing_fill(true)
+                .step_by(1.0);
             ui.add_enabled(end > 0, line)
         })
         .inner;
     response.widget_info(|| WidgetInfo::slider(end > 0, model.tick as f64, "time line, in ticks"));
     // the slider's handle keeps off the ends by its radius
     let across = response.rect.x_range().shrink(response.rect.height() / 2.5);
-    let scale = Scale { lanes: Rect::from_x_y_ranges(across, strip.y_range()), end };
+    let scale = Scale { lanes: Rect::from_x_y_ranges(across, strip.y_range()), span };
+    zoom(ui, &scale, end, shown);
     show_lanes(ui, model, history.marks(), &lanes, &scale, look, commands);
     axis(ui, &scale, look);
     if response.changed() && tick != model.tick {
         commands.push(Command::from(TransportCommand::Seek(tick.min(end))));
+    }
+}
+
+/// Shows less time or more as the wheel turns over the lanes; what is under the pointer stays there. Where not all of
+/// the run is shown, a thumb over the lanes says which part of it is.
+fn zoom(ui: &mut Ui, scale: &Scale, end: u64, shown: &mut Option<Span>) {
+    let over = scale.lanes.expand2(vec2(0.0, 4.0));
+    if let Some(at) = ui.input(|i| i.pointer.hover_pos()).filter(|at| over.contains(*at)) {
+        let (wheel, fingers) = ui.input_mut(|i| (std::mem::take(&mut i.smooth_scroll_delta.y), i.zoom_delta()));
+        let factor = f64::from(fingers) * exp(f64::from(wheel) / 240.0);
+        if factor != 1.0 {
+            *shown = scale.span.zoomed(scale.tick(at.x), factor, end);
+        }
+    }
+    if scale.span != (Span { from: 0, to: end }) {
+        let whole = Scale { lanes: scale.lanes, span: Span { from: 0, to: end } };
+        let top = scale.lanes.top() - 3.0;
+        let thumb = Rect::from_x_y_ranges(whole.x(scale.span.from)..=whole.x(scale.span.to), top..=top + 3.0);
+        ui.painter().hline(scale.lanes.x_range(), top + 1.5, Stroke::new(1.0, ui.visuals().weak_text_color()));
+        ui.painter().rect_filled(thumb, 0.0, ui.visuals().text_color());
     }
 }
 
@@ -137,7 +176,7 @@ fn show_lanes(
     let off = |mark: &&TickMark| (scale.x(mark.tick) - pointer.x).abs();
     let nearest = own.min_by(|a, b| off(a).total_cmp(&off(b))).filter(|mark| off(mark) < 6.0);
     let to = nearest.map_or_else(|| scale.tick(pointer.x), |mark| mark.tick);
-    if response.clicked() && scale.end > 0 {
+    if response.clicked() && scale.span.to > 0 {
         commands.push(Command::from(TransportCommand::Seek(to)));
     }
     say(response, model, nearest, to);
@@ -161,6 +200,7 @@ fn say(response: Response, model: &Dashboard, mark: Option<&TickMark>, tick: u64
 
 /// Shows contacts as ticks where they are few; where several fall together, the more there are, the stronger.
 fn contacts(ui: &Ui, ticks: impl Iterator<Item = u64>, lane: Rect, scale: &Scale, look: &Look) {
+    let ticks = ticks.filter(|tick| scale.span.holds(*tick));
     let counts = binned(ticks.map(|tick| scale.x(tick) - lane.left()), lane.width());
     let most = counts.iter().copied().max().unwrap_or(1);
     for (bin, count) in counts.into_iter().enumerate().filter(|(_, count)| *count > 0) {
@@ -184,7 +224,7 @@ fn binned(xs: impl Iterator<Item = f32>, width: f32) -> Vec<u32> {
 /// Shows takeovers as diamonds, at least five points apart.
 fn takeovers(ui: &Ui, ticks: impl Iterator<Item = u64>, lane: Rect, scale: &Scale, look: &Look) {
     let mut last = f32::NEG_INFINITY;
-    for tick in ticks {
+    for tick in ticks.filter(|tick| scale.span.holds(*tick)) {
         let at = pos2(scale.x(tick), lane.center().y);
         if at.x - last < 5.0 {
             continue;
@@ -199,13 +239,14 @@ fn takeovers(ui: &Ui, ticks: impl Iterator<Item = u64>, lane: Rect, scale: &Scal
 fn axis(ui: &mut Ui, scale: &Scale, look: &Look) {
     let (rect, _) = ui.allocate_exact_size(vec2(ui.available_width(), AXIS), Sense::hover());
     let font = TextStyle::Small.resolve(ui.style());
-    let (whole, width) = (seconds(scale.end), scale.lanes.width());
-    let step = step_of(whole, width);
-    for k in 0..=(whole / step).floor() as u64 {
-        let x = scale.lanes.left() + width * (k as f64 * step / whole) as f32;
+    let (from, to, width) = (seconds(scale.span.from), seconds(scale.span.to), scale.lanes.width());
+    let step = step_of(to - from, width);
+    let first = (from / step).ceil() as u64;
+    for k in first..=(to / step).floor() as u64 {
+        let x = scale.lanes.left() + width * ((k as f64 * step - from) / (to - from)) as f32;
         let colour = look.colour(Role::Muted);
         ui.painter().vline(x, rect.top()..=rect.top() + 3.0, Stroke::new(1.0, colour));
-        let unit = if k == 0 { " s" } else { "" };
+        let unit = if k == first { " s" } else { "" };
         let label = format!("{}{unit}", shortest(k as f64 * step));
         ui.painter().text(pos2(x, rect.top() + 3.0), Align2::CENTER_TOP, label, font.clone(), colour);
     }
@@ -263,10 +304,13 @@ mod tests {
     #[test]
     fn a_place_on_the_line_is_the_tick_that_is_drawn_there() {
         let lanes = Rect::from_min_max(pos2(100.0, 0.0), pos2(1300.0, 27.0));
-        let scale = Scale { lanes, end: 1200 };
+        let scale = Scale { lanes, span: Span { from: 0, to: 1200 } };
         assert_eq!([0, 600, 1200].map(|tick| scale.x(tick)), [100.0, 700.0, 1300.0]);
         assert_eq!([0.0, 100.0, 701.0, 1300.0, 2000.0].map(|x| scale.tick(x)), [0, 0, 601, 1200, 1200]);
-        let unstarted = Scale { lanes, end: 0 };
+        let unstarted = Scale { lanes, span: Span { from: 0, to: 0 } };
         assert_eq!((unstarted.x(0), unstarted.tick(900.0)), (100.0, 0));
+        let near = Scale { lanes, span: Span { from: 600, to: 900 } };
+        assert_eq!([600, 750, 900].map(|tick| near.x(tick)), [100.0, 700.0, 1300.0]);
+        assert_eq!([0.0, 104.0, 700.0, 2000.0].map(|x| near.tick(x)), [600, 601, 750, 900]);
     }
 }

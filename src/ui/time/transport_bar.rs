@@ -59,6 +59,9 @@ const ONE_ROW: f32 = 960.0;
 /// Width of the note beside the time, points.
 const NOTE: f32 = 180.0;
 
+/// Width below which a narrow screen has one sign less, points.
+const NARROWEST: f32 = 320.0;
+
 /// Shows the time line and the bar under it, on a `narrow` screen in more rows.
 pub fn transport_bar(
     ui: &mut Ui,
@@ -69,13 +72,15 @@ pub fn transport_bar(
     commands: &mut Vec<Command>,
 ) {
     let narrow = look.narrow;
-    time_line(ui, model, history, look, commands);
+    time_line(ui, model, history, look, &mut state.span, commands);
     ui.spacing_mut().item_spacing.x = if narrow { 5.0 } else { 6.0 };
     if narrow || ui.available_width() < ONE_ROW {
         ui.horizontal(|ui| {
-            buttons(ui, model, look, &ESSENTIAL, commands);
+            let all = if ui.available_width() < NARROWEST { ESSENTIAL.len() - 1 } else { ESSENTIAL.len() };
+            let (seen, hidden) = ESSENTIAL.split_at(all);
+            buttons(ui, model, look, seen, commands);
             ui.menu_button("More", |ui| {
-                for (label, action) in MORE {
+                for (label, action) in hidden.iter().map(|(label, _, action)| (*label, *action)).chain(MORE) {
                     button(ui, model, (LabButton::new(label), action), look, commands);
                 }
                 speed_choice(ui, model, commands);

@@ -7,6 +7,9 @@ use crate::picture::Fit;
 /// Largest scale, points per metre.
 const LARGEST: f64 = 400.0;
 
+/// How much a key or a button magnifies.
+pub const STEP: f64 = 1.5;
+
 /// Length of what is shown across when a robot is followed at first, metres.
 const AROUND: f64 = 16.0;
 
@@ -38,15 +41,30 @@ impl Camera {
     /// Magnifies by `factor` so that the point `at` of the world stays where it is on the screen. The scale stays in
     /// its range, and the whole world is centred.
     pub fn zoom_at(&mut self, at: Point2, factor: f64, whole: &Fit, bounds: &Aabb) {
-        let most = greater(1.0, LARGEST / whole.px_per_metre());
-        let zoom = greater(1.0, lesser(most, self.zoom * factor));
-        let centre = self.centre.unwrap_or_else(|| bounds.centre());
+        let zoom = greater(1.0, lesser(most(whole), self.zoom * factor));
+        let centre = self.middle(bounds);
         if zoom <= 1.0 {
             *self = Camera::default();
         } else if zoom != self.zoom {
             self.look_at(at + (centre - at) * (self.zoom / zoom), bounds);
             self.zoom = zoom;
         }
+    }
+
+    /// Magnifies by `factor`; the middle stays.
+    pub fn magnify(&mut self, factor: f64, bounds: &Aabb) {
+        let zoom = self.zoom * factor;
+        *self = if zoom > 1.0 { Camera { centre: Some(self.middle(bounds)), zoom } } else { Camera::default() };
+    }
+
+    /// Keeps the scale in its range, for paper on which the world lies whole as `whole` says.
+    pub fn settle(&mut self, whole: &Fit) {
+        self.zoom = lesser(self.zoom, most(whole));
+    }
+
+    /// The point of the world in the middle of the paper.
+    pub fn middle(&self, bounds: &Aabb) -> Point2 {
+        self.centre.unwrap_or_else(|| bounds.centre())
     }
 
     /// Puts a point of the world into the middle, or the nearest one that is in the world.
@@ -58,6 +76,11 @@ impl Camera {
     pub fn approach(&mut self, across: f64, whole: &Fit) {
         self.zoom = greater(self.zoom, across / (AROUND * whole.px_per_metre()));
     }
+}
+
+/// The largest magnification of a world that lies whole as `whole` says.
+fn most(whole: &Fit) -> f64 {
+    greater(1.0, LARGEST / whole.px_per_metre())
 }
 
 /// The point of a box that is nearest to a point.

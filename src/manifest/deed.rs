@@ -1,0 +1,46 @@
+//! `Deed`, what a hint asks for.
+
+use serde::Deserialize;
+
+/// What a hint asks for. Once it has been done the hint is ticked off.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[non_exhaustive]
+pub enum Deed {
+    /// A robot was driven by hand.
+    Drive,
+    /// An arm was moved.
+    MoveArm,
+    /// A robot was driven on from an earlier tick.
+    DriveOn,
+    /// The run was begun anew.
+    Reset,
+    /// Query's robot touched something.
+    Touch,
+    /// A guess was checked.
+    Guess,
+    /// Query's motion hit something.
+    Hit,
+    /// The configuration space's point was moved.
+    MovePoint,
+    /// Two of its points with one tip were visited.
+    TwoPoints,
+    /// The atlas's robot was put somewhere.
+    Put,
+    /// The atlas's grid was made coarser.
+    Coarsen,
+    /// The planner found a path.
+    FindPath,
+    /// The planner took a single step.
+    StepPlanner,
+    /// The plan's goal was moved.
+    MoveGoal,
+    /// The plan's path was played.
+    PlayPath,
+}
+
+impl Deed {
+    /// The id by which settings keep it.
+    pub fn id(self) -> String {
+        format!("{self:?}")
+    }
+}

@@ -1,0 +1,161 @@
+//! The words of a pane: name, space, readout and counts of its robots, and links for what can be done with them.
+
+use bevy_egui::egui::{
+    Align, Id, Label, Layout, Rect, RichText, ScrollArea, Sense, TextStyle, TextWrapMode, Ui, UiBuilder,
+};
+
+use super::goal::trailer_of;
+use super::{doors, handles};
+use crate::configuration::RobotKind;
+use crate::manifest::{Formula, Widget};
+use crate::picture::{Fit, Role};
+use crate::run::RobotInput;
+use crate::simulation::{RobotCommand, TransportCommand};
+use crate::ui::paint::frame;
+use crate::ui::paint::scale_bar::scale_bar;
+use crate::ui::{Cockpit, CockpitRobot, Command, Look, ParkingGoal, SessionCommand, UiState, readout, readout_lines};
+
+/// Shows in `rect` what there is to say of a cockpit, whose world lies on the screen as `fit` says.
+pub fn words_in(
+    ui: &mut Ui,
+    rect: Rect,
+    cockpit: &Cockpit,
+    fit: &Fit,
+    look: &Look,
+    state: &mut UiState,
+    commands: &mut Vec<Command>,
+) {
+    let mut ui = ui.new_child(UiBuilder::new().max_rect(rect).layout(Layout::top_down(Align::Min)));
+    ui.spacing_mut().interact_size.y = 0.0; // no row of words is as high as a button
+    // where the words need more room than there is, none is cut
+    let words_of = Id::new(("words", &cockpit.world.name));
+    ScrollArea::vertical().id_salt(words_of).auto_shrink(false).show(&mut ui, |ui| {
+        words(ui, cockpit, fit, look, state, commands);
+    });
+}
+
+fn words(ui: &mut Ui, cockpit: &Cockpit, fit: &Fit, look: &Look, state: &mut UiState, commands: &mut Vec<Command>) {
+    ui.horizontal(|ui| {
+        ui.label(RichText::new(cockpit.heading()).color(look.colour(Role::Text)));
+        ui.with_layout(Layout::right_to_left(Align::Center), |ui| scale_bar(ui, fit.px_per_metre(), look));
+    });
+    for robot in &cockpit.robots {
+        robot_words(ui, robot, look, state, commands);
+    }
+    doors::links(ui, cockpit, commands);
+    if look.narrow {
+        let words = Widget::Dashboard.text();
+        ui.add_space(10.0);
+        frame::title(ui, words, look);
+        frame::key_row(ui, words, look, state);
+        frame::hints(ui, words, look, state);
+    }
+}
+
+/// Shows a robot's space, its configuration, what was counted of it, and links for what can be done with it.
+pub fn robot_words(ui: &mut Ui, robot: &CockpitRobot, look: &Look, state: &mut UiState, commands: &mut Vec<Command>) {
+    if let Some(space) = robot.about.and_then(|about| about.space(robot.coordinates.len())) {
+        frame::formula(ui, &Formula::of(space), space.words, look, state);
+    }
+    readouts(ui, robot, look);
+    counts(ui, robot, look);
+    if robot.is_arm {
+        let words = "An arm is not held by what it touches: its contacts are counted.";
+        ui.add(Label::new(RichText::new(words).color(look.colour(Role::Muted))).wrap());
+        handles::numbers(ui, robot, look, commands);
+    }
+    links(ui, robot, look, state, commands);
+}
+
+/// Shows the configuration as its type prints it. A click copies every digit.
+fn readouts(ui: &mut Ui, robot: &CockpitRobot, look: &Look) {
+    let figure = TextStyle::Monospace.resolve(ui.style());
+    let width = ui.ctx().fonts_mut(|f| f.glyph_width(&figure, '0'));
+    for line in readout_lines(&readout(&robot.readout), (ui.available_width() / width) as usize) {
+        let text = RichText::new(line).monospace().color(look.colour(Role::Text));
+        let response = ui.add(Label::new(text).sense(Sense::click()));
+        if response.clicked() {
+            ui.ctx().copy_text(robot.in_full.clone());
+        }
+        response.on_hover_text("Click to copy every digit");
+    }
+}
+
+fn counts(ui: &mut Ui, robot: &CockpitRobot, look: &Look) {
+    let muted = |text: String| RichText::new(text).monospace().color(look.colour(Role::Muted));
+    // in a row of its own, so that no row wraps when the other grows
+    if let Some(tip) = robot.tip {
+        ui.label(muted(readout(&format!("tip: ({:.3}, {:.3})", tip.x, tip.y))));
+    }
+    let mut text = format!("contacts: {}", robot.contacts);
+    if robot.trailer.is_some() {
+        text += &format!("  reversals: {}", robot.reversals);
+    }
+    if robot.manual {
+        text += "  driven by hand";
+    }
+    ui.label(muted(text));
+}
+
+/// Shows links for what can be done with a robot besides driving it.
+fn links(ui: &mut Ui, robot: &CockpitRobot, look: &Look, state: &mut UiState, commands: &mut Vec<Command>) {
+    let goal = state.goal.clone().filter(|(name, _)| *name == robot.name);
+    if let Some(why) = &robot.no_room {
+        let words = format!("no room for a trailer: {why}");
+        ui.add(Label::new(RichText::new(words).color(look.colour(Role::Muted))).wrap());
+    }
+    // rows that wrap are as high as their words
+    ui.spacing_mut().interact_size.y = ui.text_style_height(&TextStyle::Body);
+    ui.horizontal_wrapped(|ui| {
+        ui.style_mut().wrap_mode = Some(TextWrapMode::Extend);
+        let mut put_in = |input| {
+            commands.push(Command::from(TransportCommand::Checkpoint));
+            commands.push(Command::from(RobotCommand { robot: robot.name.clone(), input }));
+        };
+        if let Some(on) = robot.trailer.filter(|_| robot.no_room.is_none()) {
+            let words = if on { "take the trailer off" } else { "put a trailer on" };
+            if ui.link(words).clicked() {
+                put_in(RobotInput::SetTrailer(!on));
+            }
+        }
+        if robot.manual && ui.link("resume tour").clicked() {
+            put_in(RobotInput::Release);
+        }
+        if !robot.sees.is_empty() {
+            let words = if state.settings.scan { "hide the scan" } else { "show the scan" };
+            if ui.link(words).clicked() {
+                state.settings.scan = !state.settings.scan;
+            }
+        }
+        // a program's own arm has the links that it has
+        let own = [RobotKind::REACH.name, RobotKind::REACH3.name].contains(&robot.kind.as_str());
+        if robot.is_arm && own {
+            let (words, links) = if robot.coordinates.len() == 2 { ("three links", 3) } else { ("two links", 2) };
+            let link = ui.link(words).on_hover_text("Start a new run with this arm");
+            if link.clicked() {
+                commands.push(Command::Session(SessionCommand::Links { robot: robot.name.clone(), links }));
+            }
+        }
+        match (&goal, trailer_of(&robot.footprint).filter(|_| robot.trailer == Some(true))) {
+            (Some(_), _) => {
+                if ui.link("drop the goal").clicked() {
+                    state.goal = None;
+                }
+            }
+            (None, Some(trailer)) => {
+                let link = ui.link("goal: one metre to the left");
+                if link.on_hover_text("The trailer is to end one metre left of here, facing the same way").clicked() {
+                    state.goal = Some((robot.name.clone(), ParkingGoal::left_of(trailer, robot.reversals)));
+                }
+            }
+            (None, None) => {}
+        }
+        // at the end of the row, where it moves no link when it comes
+        if robot.waiting {
+            ui.weak("comes with the next tick");
+        }
+    });
+    if let Some((_, goal)) = goal {
+        ui.label(RichText::new(goal.words(&robot.footprint, robot.reversals)).strong());
+    }
+}

@@ -1,0 +1,126 @@
+//! Deeds: ticks off what hints ask for, once the reader has done it.
+
+use std::sync::Arc;
+
+use super::{Command, Dashboard, SessionCommand, UiState};
+use crate::anatomy::{Anatomy, Tab};
+use crate::collision::EdgeVerdict;
+use crate::configuration::{AnyConfiguration, Configuration};
+use crate::geometry::Point2;
+use crate::manifest::{Deed, Widget};
+use crate::num::sin;
+use crate::run::RobotInput;
+use crate::simulation::{RobotCommand, RunCommand, TransportCommand};
+use crate::ui::atlas::GRID;
+use crate::ui::plan::Stage;
+
+/// Distance within which two tips are one, metres.
+const ONE_TIP: f64 = 0.05;
+
+/// Sine of the elbow's angle from which on an arm is bent to a side.
+const LEAST_BEND: f64 = 0.15;
+
+/// Ticks off what the widget in front shows to have been done, and what was asked for in this frame.
+pub fn tick_off(model: &Dashboard, state: &mut UiState, commands: &[Command]) {
+    let asked = commands.iter().flat_map(|command| asked(command, model));
+    let shown = shown(state);
+    let stepped = std::mem::take(&mut state.plan.deeds);
+    for deed in asked.chain(shown).chain(stepped) {
+        state.settings.tick_off(deed);
+    }
+}
+
+/// The deeds that a command is.
+fn asked(command: &Command, model: &Dashboard) -> Vec<Deed> {
+    match command {
+        Command::Run(RunCommand::Robot(RobotCommand { input, .. })) => match input {
+            RobotInput::Drive(0, 0) => vec![],
+            RobotInput::Drive(..) if model.tick < model.frontier => vec![Deed::Drive, Deed::DriveOn],
+            RobotInput::Drive(..) => vec![Deed::Drive],
+            RobotInput::MoveTo(_) => vec![Deed::MoveArm],
+            _ => vec![],
+        },
+        Command::Run(RunCommand::Transport(TransportCommand::Reset)) => vec![Deed::Reset],
+        Command::Session(SessionCommand::PlayPath) => vec![Deed::PlayPath],
+        _ => vec![],
+    }
+}
+
+/// The deeds that the widget in front shows.
+fn shown(state: &UiState) -> Vec<Deed> {
+    let is_open = |deed| !state.settings.is_ticked_off(deed);
+    let anatomy = &state.anatomy.anatomy;
+    let of = |deeds: &[(Deed, &dyn Fn() -> bool)]| {
+        deeds.iter().filter(|(deed, is_done)| is_open(*deed) && is_done()).map(|(deed, _)| *deed).collect()
+    };
+    match state.widget {
+        Widget::Cspace => of(&[(Deed::TwoPoints, &|| have_one_tip(anatomy, &state.cspace.trace))]),
+        Widget::Atlas => {
+            of(&[(Deed::Put, &|| state.atlas.has_put), (Deed::Coarsen, &|| state.atlas.resolution > GRID)])
+        }
+        Widget::Plan => of(&[(Deed::FindPath, &|| *state.plan.stage() == Stage::Solved)]),
+        Widget::Dashboard | Widget::Anatomy => vec![],
+    }
+}
+
+/// What the reader has done in a frame of the query anatomy: the robot was moved until it touches, the motion changed
+/// until it hits. Another world, robot or tab is no deed.
+pub fn of_anatomy(before: &Anatomy, now: &Anatomy) -> Vec<Deed> {
+    let is_same = Arc::ptr_eq(before.world(), now.world()) && before.checker().robot() == now.checker().robot();
+    let hits = || now.sweep().is_ok_and(|sweep| matches!(sweep.verdict, EdgeVerdict::Hit { .. }));
+    let touch = is_same && before.q() != now.q() && now.intersects();
+    let is_swept = before.tab == Tab::Swept && now.tab == Tab::Swept;
+    let hit = is_same && is_swept && before.step() != now.step() && hits();
+    touch.then_some(Deed::Touch).into_iter().chain(hit.then_some(Deed::Hit)).collect()
+}
+
+/// Whether the last point of a trace has the tip of an earlier one that is another point of the torus.
+fn have_one_tip(anatomy: &Anatomy, trace: &[AnyConfiguration]) -> bool {
+    let robot = anatomy.checker().robot();
+    let tip = |q: &AnyConfiguration| -> Point2 { robot.reference(q) };
+    let Some((last, earlier)) = trace.split_last().filter(|(last, _)| matches!(last, AnyConfiguration::T2(_))) else {
+        return false;
+    };
+    // where the arm is straight or folded, a little to either side has nearly one tip
+    let bend = |q: &AnyConfiguration| q.coordinates().last().map_or(0.0, |angle| sin(*angle));
+    let are_two = |a: f64, b: f64| a * b < 0.0 && a.abs() > LEAST_BEND && b.abs() > LEAST_BEND;
+    earlier.iter().any(|q| are_two(bend(q), bend(last)) && (tip(q) - tip(last)).norm() < ONE_TIP)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::configuration::T2;
+
+    #[test]
+    fn two_points_with_one_tip_are_two_bends_of_the_elbow() {
+        let anatomy = Anatomy::default();
+        let at = |th1: f64, th2: f64| AnyConfiguration::T2(T2::new(th1, th2));
+        // for links of equal length the other elbow is (th1 + th2, -th2)
+        let (one, other) = (at(0.4, 0.9), at(1.3, -0.9));
+        assert!(have_one_tip(&anatomy, &[one, at(0.0, 0.1), other]));
+        assert!(!have_one_tip(&anatomy, &[other, at(0.0, 0.1), one, at(0.2, 0.9)]), "only where it has come to");
+        assert!(!have_one_tip(&anatomy, &[one, one]) && !have_one_tip(&anatomy, &[one, at(1.3, -0.7)]));
+        assert!(!have_one_tip(&anatomy, &[at(0.4, 0.02), at(0.4, -0.02)]), "it has only passed a straight arm");
+        assert!(!have_one_tip(&anatomy, &[]));
+    }
+
+    #[test]
+    fn a_deed_is_the_readers_and_not_a_scenes() {
+        // the chapter's motion hits the block, and its arm touches it where the elbow is bent less
+        let start = Anatomy::default();
+        let swept = start.clone().with_tab(Tab::Swept);
+        assert_eq!(of_anatomy(&start, &swept), [], "the tab was only opened");
+        let with = |of: &dyn Fn(&mut Anatomy)| {
+            let mut anatomy = swept.clone();
+            of(&mut anatomy);
+            anatomy
+        };
+        assert_eq!(of_anatomy(&swept, &with(&|a| a.set_step(0, -1.0))), [Deed::Hit]);
+        assert_eq!(of_anatomy(&swept, &with(&|a| a.set_step(0, 0.01))), [], "a step that is free");
+        assert_eq!(of_anatomy(&swept, &with(&|a| a.set_coordinate(1, 1.2))), [Deed::Touch]);
+        assert_eq!(of_anatomy(&swept, &with(&|a| a.set_coordinate(1, 2.0))), []);
+        let thick = with(&|a| a.set_thick_links(true));
+        assert_eq!(of_anatomy(&thick, &with(&|a| a.set_coordinate(1, 1.2))), [], "another robot");
+    }
+}

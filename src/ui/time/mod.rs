@@ -1,0 +1,5 @@
+//! Time: the transport bar and the time line under the dashboard.
+
+pub(crate) mod span;
+pub(crate) mod time_line;
+pub(crate) mod transport_bar;
