@@ -93,6 +93,10 @@ fn interface<'a>(harness: &'a Harness<'_, Lab>) -> &'a UiState {
     &harness.state().app.world().resource::<Interface>().0
 }
 
+fn interface_mut<'a>(harness: &'a mut Harness<'_, Lab>) -> &'a mut UiState {
+    &mut harness.state_mut().app.world_mut().resource_mut::<Interface>().into_inner().0
+}
+
 /// Clicks the control of this name; what is in the menu, there.
 fn click(harness: &mut Harness<'_, Lab>, name: &str) {
     if harness.query_by_label(name).is_none() {

@@ -11,7 +11,7 @@ use crate::manifest::{Deed, Widget};
 use crate::num::sin;
 use crate::run::RobotInput;
 use crate::simulation::{RobotCommand, RunCommand, TransportCommand};
-use crate::ui::atlas::GRID;
+use crate::ui::atlas::FIRST_CELL;
 use crate::ui::plan::Stage;
 
 /// Distance within which two tips are one, metres.
@@ -55,9 +55,7 @@ fn shown(state: &UiState) -> Vec<Deed> {
     };
     match state.widget {
         Widget::Cspace => of(&[(Deed::TwoPoints, &|| have_one_tip(anatomy, &state.cspace.trace))]),
-        Widget::Atlas => {
-            of(&[(Deed::Put, &|| state.atlas.has_put), (Deed::Coarsen, &|| state.atlas.resolution > GRID)])
-        }
+        Widget::Atlas => of(&[(Deed::Coarsen, &|| state.atlas.resolution > FIRST_CELL)]),
         Widget::Plan => of(&[(Deed::FindPath, &|| *state.plan.stage() == Stage::Solved)]),
         Widget::Dashboard | Widget::Anatomy => vec![],
     }

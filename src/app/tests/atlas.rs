@@ -65,10 +65,14 @@ fn a_drag_turns_the_robot_and_the_offer_is_taken_by_a_click() {
     let mut harness = lab(WIDE);
     click(&mut harness, "Atlas");
     let q = |h: &Harness<'_, Lab>| atlas(h).atlas().robots()[0].q.coordinates();
+    let is_ticked = |h: &Harness<'_, Lab>| interface(h).settings.done.iter().any(|deed| deed == "Put");
+    let on_table = at(&harness, [6.0, 6.75]);
+    click_at(&mut harness, on_table);
+    assert!(!is_ticked(&harness), "refused");
     drag_on(&mut harness, [6.0, 4.0], [6.0, 4.8]);
+    assert!(is_ticked(&harness));
     assert!((q(&harness)[2] - std::f64::consts::FRAC_PI_2).abs() < 0.05, "{:?}", q(&harness));
     // on the round table it is refused; the ring of the offer is at the nearest free place
-    let on_table = at(&harness, [6.0, 6.75]);
     click_at(&mut harness, on_table);
     let before = q(&harness);
     let items = atlas(&harness).over().items;

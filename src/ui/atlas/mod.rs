@@ -4,4 +4,7 @@ mod editing;
 mod state;
 pub(crate) mod view;
 
-pub use state::{AtlasState, GRID};
+pub use state::AtlasState;
+
+/// The side of a grid cell at first, metres.
+pub const FIRST_CELL: f64 = 0.25;

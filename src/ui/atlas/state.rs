@@ -34,9 +34,6 @@ pub(crate) struct Drag {
     pub op: Option<Op>,
 }
 
-/// The side of a grid cell at first, metres.
-pub const GRID: f64 = 0.25;
-
 /// The state of the atlas.
 #[derive(Clone, Debug)]
 pub struct AtlasState {
@@ -70,8 +67,6 @@ pub struct AtlasState {
     /// The reason why the last change was refused.
     pub message: Option<String>,
     pub(crate) drag: Option<Drag>,
-    /// Whether the reader has put the robot somewhere.
-    pub has_put: bool,
 }
 
 impl Default for AtlasState {
@@ -139,12 +134,11 @@ impl AtlasState {
             pressed: None,
             refused: None,
             wanted: None,
-            resolution: GRID,
+            resolution: super::FIRST_CELL,
             selected: None,
             name_text: String::new(),
             message: None,
             drag: None,
-            has_put: false,
         }
     }
 
@@ -342,10 +336,8 @@ impl AtlasState {
         self.wanted = None;
         match self.atlas.target(self.robot, at, heading) {
             Some(Ok(q)) if done => {
-                match self.atlas.teleport(self.robot, q) {
-                    Some(Ok(())) => self.has_put = true,
-                    Some(Err(refusal)) => self.refused = Some((q, refusal)),
-                    None => {}
+                if let Some(Err(refusal)) = self.atlas.teleport(self.robot, q) {
+                    self.refused = Some((q, refusal));
                 }
                 self.labels = None;
             }
@@ -366,9 +358,7 @@ impl AtlasState {
             return false;
         }
         self.refused = None;
-        let is_there = matches!(self.atlas.teleport(self.robot, q), Some(Ok(())));
-        self.has_put |= is_there;
-        is_there
+        matches!(self.atlas.teleport(self.robot, q), Some(Ok(())))
     }
 
     /// Draws the world again, with its robots at their starts.

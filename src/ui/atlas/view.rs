@@ -7,7 +7,7 @@ use bevy_egui::egui::{
 use super::state::{AtlasState, Mode};
 use crate::atlas::{EditShape, Op};
 use crate::geometry::{Point2, Pose2};
-use crate::manifest::Widget;
+use crate::manifest::{Deed, Widget};
 use crate::picture::{Item, Picture, Role, ScreenPoint, pick};
 use crate::ui::keys::{Action, hint};
 use crate::ui::paint::button::LabButton;
@@ -54,7 +54,11 @@ pub fn atlas_view(ui: &mut Ui, model: &Dashboard, look: &Look, state: &mut UiSta
         plate(ui.ctx(), "refused", place, false, look, |ui| refusal(ui, words, look));
     }
     match state.atlas.mode {
-        Mode::Put => put(&on, &mut state.atlas),
+        Mode::Put => {
+            if put(&on, &mut state.atlas) {
+                state.settings.tick_off(Deed::Put);
+            }
+        }
         Mode::Edit => edit(&on, &moving, &still, &mut state.atlas),
         Mode::Measure => {}
     }
@@ -76,11 +80,12 @@ pub fn act(action: Action, model: &Dashboard, state: &mut UiState, commands: &mu
 }
 
 /// Handles the pointer in put mode: a click puts the robot there, a drag turns it, a click on an offer takes it.
-fn put(on: &Sheet, atlas: &mut AtlasState) {
+/// Returns whether the robot was put somewhere.
+fn put(on: &Sheet, atlas: &mut AtlasState) -> bool {
     let Some(at) = on.held_anywhere() else {
         atlas.pressed = None;
         atlas.forget_wanted();
-        return;
+        return false;
     };
     // where the button went down, however far the pointer went before it was taken for a drag
     let from = *atlas.pressed.get_or_insert(at);
@@ -90,12 +95,13 @@ fn put(on: &Sheet, atlas: &mut AtlasState) {
     let done = on.response.clicked() || on.response.drag_stopped();
     if done && !turned && atlas.take_offer(from, 12.0 / on.fit.px_per_metre()) {
         atlas.pressed = None;
-        return;
+        return true;
     }
     atlas.ask(from, heading, done);
     if done {
         atlas.pressed = None;
     }
+    done && atlas.refusal().is_none()
 }
 
 /// Handles the pointer in edit mode: a press selects the thing there, a drag moves it or one of its handles.

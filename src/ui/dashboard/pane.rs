@@ -63,7 +63,8 @@ pub fn paper(
     let response = ui.allocate_rect(paper, sense);
     let (fit, _) = magnified(ui, &response, &mut camera, &whole, bounds, state.takes_wheel());
     response.widget_info(|| WidgetInfo::labeled(WidgetType::Button, true, cockpit.described()));
-    let painter = ui.painter_at(paper.expand(1.0));
+    // a wall on the border of a world that is shown whole is a point wider than the paper
+    let painter = ui.painter_at(if camera.zoom > 1.0 { paper } else { paper.expand(1.0) });
     canvas::paint_kept(&painter, &cockpit.world, paper, &fit, look);
     if let Some(plan) = state.plan.over_world(&cockpit.world.name) {
         canvas::paint_kept(&painter, plan, paper, &fit, look);
@@ -218,7 +219,7 @@ pub fn touched(ui: &Ui) -> bool {
     ui.input(|i| i.any_touches()) || ui.spacing().interact_size.y > 40.0
 }
 
-/// Shows on the paper of the robot in hand how to drive it, beside what has the width `taken`, and for a finger the pad.
+/// Shows on the paper of the robot in hand how to drive it, and for a finger the pad. Something has the width `taken`.
 pub fn in_hand(ui: &mut Ui, robot: &CockpitRobot, paper: Rect, taken: f32, look: &Look, state: &mut UiState) {
     let sideways = robot.trailer.is_some() && state.held.0 == 0 && state.held.1 != 0;
     let touched = touched(ui);

@@ -81,10 +81,7 @@ impl Stage<'_> {
         let width = (BESIDE * room.width()).clamp(LEAST_BESIDE, MOST_BESIDE).min(0.6 * room.width());
         let sheet = canvas::proportioned(&cockpit.world, room.with_max_x(room.right() - width - GAP));
         let mut beside = room.with_min_x(sheet.right() + GAP);
-        let linked = pane::in_reach(cockpit).map(|robot| {
-            let (tick, history) = (self.model.tick, self.history);
-            Linked { cockpit, robot, tick, history }
-        });
+        let linked = self.linked(cockpit);
         let way = linked.as_ref().map_or_else(Vec::new, Linked::way);
         let fit = pane::paper(ui, cockpit, sheet, way, self.look, state, commands);
         let others: Vec<(usize, &Cockpit)> =
@@ -105,6 +102,12 @@ impl Stage<'_> {
         if let (Some(linked), Some(space)) = (linked, space) {
             linked.show(ui, space, self.look, &mut state.linked, commands);
         }
+    }
+
+    /// The robot of a cockpit that can be taken in hand, with its past.
+    fn linked<'a>(&'a self, cockpit: &'a Cockpit) -> Option<Linked<'a>> {
+        let robot = pane::in_reach(cockpit)?;
+        Some(Linked { cockpit, robot, tick: self.model.tick, history: self.history })
     }
 
     /// Shows cockpits small in a row at the top of `room`. Returns where the row ends.
@@ -181,9 +184,13 @@ impl Stage<'_> {
             self.pane(ui, cockpit, above, state, commands);
             None
         } else {
-            let sheet = canvas::proportioned(&cockpit.world, above.with_max_y(above.bottom() - 6.0));
-            let sheet = sheet.translate(vec2(0.5 * (above.width() - sheet.width()), 0.0));
-            Some(pane::paper(ui, cockpit, sheet, Vec::new(), self.look, state, commands))
+            let above = above.with_max_y(above.bottom() - 6.0);
+            let sheet = canvas::proportioned(&cockpit.world, above);
+            // a world that is magnified has all the room
+            let is_whole = state.cameras.get(&cockpit.world.name).is_none_or(|camera| camera.zoom <= 1.0);
+            let centred = sheet.translate(vec2(0.5 * (above.width() - sheet.width()), 0.0));
+            let way = self.linked(cockpit).map_or_else(Vec::new, |linked| linked.way());
+            Some(pane::paper(ui, cockpit, if is_whole { centred } else { above }, way, self.look, state, commands))
         };
         let mut ui = ui.new_child(UiBuilder::new().max_rect(foot).layout(Layout::left_to_right(Align::Center)));
         if cockpit.crowd.is_none() {
