@@ -1,5 +1,5 @@
-//! The stage: one cockpit in front and the others small beside it, all side by side, or one alone, on a narrow screen or
-//! over the whole window.
+//! The stage: one cockpit in front and the others small beside it, all side by side, or one alone, on a narrow screen
+//! or over the whole window.
 
 use bevy_egui::egui::{
     Align, Align2, CursorIcon, Layout, Pos2, Rect, RichText, ScrollArea, Sense, Stroke, StrokeKind, TextStyle, Ui,
@@ -241,7 +241,8 @@ impl Stage<'_> {
     }
 }
 
-/// The cockpit in front, and its index: of panes side by side, the one with the robot in hand, else the one chosen last.
+/// The cockpit in front, and its index: where panes lie side by side the one with the robot in hand, else the one
+/// chosen last.
 pub fn front<'a>(cockpits: &'a [Cockpit], state: &UiState) -> Option<(usize, &'a Cockpit)> {
     let is_armed = |cockpit: &Cockpit| cockpit.robots.iter().any(|robot| state.armed.as_ref() == Some(&robot.name));
     let chosen = cockpits.iter().position(is_armed).unwrap_or(state.settings.world as usize);

@@ -33,7 +33,8 @@ impl Span {
         Some(Span { from, to: from + wanted as u64 })
     }
 
-    /// The span of the same length that holds `tick`: itself, or moved so that a quarter of it lies ahead; `None` where it is the whole of a run of `end` ticks.
+    /// The span of the same length that holds `tick`: itself, or moved so that a quarter of it lies ahead; `None` where
+    /// it is the whole of a run of `end` ticks.
     pub fn with(self, tick: u64, end: u64) -> Option<Self> {
         let long = self.to.saturating_sub(self.from);
         if long >= end {
