@@ -84,6 +84,7 @@ pub fn time_line(
     history: &History,
     look: &Look,
     shown: &mut Option<Span>,
+    wheel: bool,
     commands: &mut Vec<Command>,
 ) {
     let end = model.frontier.max(model.tick);
@@ -109,7 +110,7 @@ pub fn time_line(
     // the slider's handle keeps off the ends by its radius
     let across = response.rect.x_range().shrink(response.rect.height() / 2.5);
     let scale = Scale { lanes: Rect::from_x_y_ranges(across, strip.y_range()), span };
-    zoom(ui, &scale, end, shown);
+    zoom(ui, &scale, end, wheel, shown);
     show_lanes(ui, model, history.marks(), &lanes, &scale, look, commands);
     axis(ui, &scale, look);
     if response.changed() && tick != model.tick {
@@ -119,10 +120,12 @@ pub fn time_line(
 
 /// Shows less time or more as the wheel turns over the lanes; what is under the pointer stays there. Where not all of
 /// the run is shown, a thumb over the lanes says which part of it is.
-fn zoom(ui: &mut Ui, scale: &Scale, end: u64, shown: &mut Option<Span>) {
+fn zoom(ui: &mut Ui, scale: &Scale, end: u64, wheel: bool, shown: &mut Option<Span>) {
     let over = scale.lanes.expand2(vec2(0.0, 4.0));
-    if let Some(at) = ui.input(|i| i.pointer.hover_pos()).filter(|at| over.contains(*at)) {
-        let (wheel, fingers) = ui.input_mut(|i| (std::mem::take(&mut i.smooth_scroll_delta.y), i.zoom_delta()));
+    // a list that is open over the lanes keeps the wheel
+    if let Some(at) = ui.input(|i| i.pointer.hover_pos()).filter(|_| ui.rect_contains_pointer(over)) {
+        let fingers = ui.input(|i| i.zoom_delta());
+        let wheel = if wheel { ui.input_mut(|i| std::mem::take(&mut i.smooth_scroll_delta.y)) } else { 0.0 };
         let factor = f64::from(fingers) * exp(f64::from(wheel) / 240.0);
         if factor != 1.0 {
             *shown = scale.span.zoomed(scale.tick(at.x), factor, end);

@@ -72,7 +72,7 @@ pub fn transport_bar(
     commands: &mut Vec<Command>,
 ) {
     let narrow = look.narrow;
-    time_line(ui, model, history, look, &mut state.span, commands);
+    time_line(ui, model, history, look, &mut state.span, !state.embedded, commands);
     ui.spacing_mut().item_spacing.x = if narrow { 5.0 } else { 6.0 };
     if narrow || ui.available_width() < ONE_ROW {
         ui.horizontal(|ui| {
