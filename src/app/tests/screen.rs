@@ -200,6 +200,11 @@ fn an_embedded_lab_leaves_the_wheel_to_the_page() {
     harness.event(Event::Zoom(2.0));
     harness.run_steps(3);
     assert!((magnified(&harness).0 - 2.0).abs() < 0.01, "two fingers are the lab's");
+    keys(&mut harness, Key::Period, 6);
+    harness.run_steps(60);
+    let lanes = harness.get_by_label_contains("contacts and").rect();
+    wheel(&mut harness, lanes.center(), 240.0);
+    assert_eq!(interface(&harness).span, None, "nor is it the time line's");
 }
 
 #[test]
@@ -370,6 +375,8 @@ fn four_worlds_scroll_and_an_arm_that_scrolled_away_harms_nothing() {
     let after = paper(&harness, "Workbench");
     assert!(after.top() < before.top() - 100.0, "the wheel over a paper scrolls: {before:?} {after:?}");
     assert!(interface(&harness).cameras.values().all(|camera| camera.zoom == 1.0), "and magnifies nothing");
+    let tip = harness.get_by_label("Reach: tip, theta2 in radians").rect();
+    assert_eq!(tip.area(), 0.0, "nothing of the arm is seen: {tip:?} {after:?}");
     // what is in hand is in front: its world is magnified and fills the window
     interface_mut(&mut harness).armed = Some("Hitch".into());
     keys(&mut harness, Key::Plus, 1);
