@@ -39,7 +39,9 @@ fn machine() -> String {
         .find_map(|l| l.strip_prefix("model name"))
         .map_or("unknown processor", |m| m.trim_start_matches(['\t', ' ', ':']));
     let cores = std::thread::available_parallelism().map_or(1, usize::from);
-    format!("{model}, {cores} cores, {}", compiler())
+    let instructions =
+        if cfg!(feature = "baseline") { ", the collision checker with baseline instructions" } else { "" };
+    format!("{model}, {cores} cores, {}{instructions}", compiler())
 }
 
 /// What the compiler in this folder says of itself: cargo used the same one to build this.

@@ -1,15 +1,15 @@
 //! `Crowds`, the robots of worlds of many as the view shows them, read from the simulation once a tick.
 
+use std::iter::repeat;
 use std::sync::Arc;
 
 use bevy::ecs::change_detection::Tick;
 use bevy::prelude::*;
 
-use crate::geometry::{Aabb, Point2};
 use crate::run::RobotState;
 use crate::simulation::{LatestFrame, Playback, RunConfig, Transport, footprint_of};
 use crate::tour::TourConfig;
-use crate::ui::{Crowd, CrowdRobot, MOST_SHOWN_EACH};
+use crate::ui::{Bodies, Crowd, MOST_SHOWN_EACH};
 
 /// The crowds of the run.
 #[derive(Resource, Default)]
@@ -46,10 +46,9 @@ pub fn update_crowds(world: &mut World) {
     for crowd in crowds.iter_mut().flatten() {
         // the list of two ticks ago, which nobody needs now, is written anew: megabytes of new memory are slow to come
         let oldest = std::mem::replace(&mut crowd.before, Arc::clone(&crowd.now));
-        let mut robots = Arc::try_unwrap(oldest).unwrap_or_default();
-        robots.clear();
-        robots.extend(robots_of(world, crowd));
-        crowd.now = Arc::new(robots);
+        let mut bodies = Arc::try_unwrap(oldest).unwrap_or_default();
+        write(&mut bodies, world, crowd);
+        crowd.now = Arc::new(bodies);
         if !follows {
             crowd.before = Arc::clone(&crowd.now);
         }
@@ -63,7 +62,7 @@ fn named(config: &TourConfig) -> Vec<Option<Crowd>> {
     let worlds = config.worlds.iter().map(|world| {
         let ids = first..first + world.robots.len() as u32;
         first = ids.end;
-        let nobody = Arc::new(Vec::new());
+        let nobody = Arc::new(Bodies::default());
         (world.robots.len() > MOST_SHOWN_EACH).then(|| Crowd {
             first: ids.start,
             names: world.robots.iter().map(|robot| robot.name.clone()).collect(),
@@ -75,20 +74,17 @@ fn named(config: &TourConfig) -> Vec<Option<Crowd>> {
     worlds.collect()
 }
 
-/// The robots of a crowd as they are now.
-fn robots_of(world: &World, crowd: &Crowd) -> impl Iterator<Item = CrowdRobot> {
-    let states = &world.resource::<LatestFrame>().0.robots;
-    let ids = crowd.first..crowd.first + crowd.names.len() as u32;
-    ids.map(|id| robot(world, id, states.get(id as usize)))
-}
-
-fn robot(world: &World, id: u32, state: Option<&RobotState>) -> CrowdRobot {
-    let footprint = footprint_of(world, id).unwrap_or_default();
-    let bounds = footprint.bounds().unwrap_or(Aabb::new(Point2::origin(), Point2::origin()));
-    let is_disc = footprint.parts().len() == 1 && footprint.parts().iter().all(|p| p.placed().core().len() == 1);
-    let heading = state.filter(|_| is_disc).and_then(|s| s.configuration.get(2).copied());
+/// Writes the robots of a crowd as they are now.
+fn write(bodies: &mut Bodies, world: &World, crowd: &Crowd) {
+    bodies.clear();
     let playing = world.resource::<Transport>().playback == Playback::Playing;
-    let is_red = |s: &RobotState| if playing { s.flash > 0 } else { s.in_contact };
-    let (flash, contacts) = state.map_or((false, 0), |s| (is_red(s), s.contacts));
-    CrowdRobot { footprint, bounds, heading, flash, contacts }
+    let states = world.resource::<LatestFrame>().0.robots.get(crowd.first as usize..).unwrap_or_default();
+    for ((id, _), state) in (crowd.first..).zip(crowd.names.iter()).zip(states.iter().map(Some).chain(repeat(None))) {
+        let footprint = footprint_of(world, id).unwrap_or_default();
+        let is_disc = footprint.parts().len() == 1 && footprint.parts().iter().all(|p| p.placed().core().len() == 1);
+        let heading = state.filter(|_| is_disc).and_then(|s| s.configuration.get(2).copied());
+        let is_red = |s: &RobotState| if playing { s.flash > 0 } else { s.in_contact };
+        let (flash, contacts) = state.map_or((false, 0), |s| (is_red(s), s.contacts));
+        bodies.push(&footprint, heading, flash, contacts);
+    }
 }

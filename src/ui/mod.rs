@@ -26,7 +26,7 @@ pub(crate) use anatomy::AnatomyState;
 pub(crate) use atlas::AtlasState;
 pub(crate) use capture_state::{CaptureOrder, CaptureState};
 pub(crate) use crowd::state::CrowdState;
-pub(crate) use crowd::values::{Crowd, CrowdRobot, MOST_SHOWN_EACH};
+pub(crate) use crowd::values::{Bodies, Crowd, MOST_SHOWN_EACH};
 pub(crate) use cspace::{CspaceState, LinkedState};
 pub(crate) use dashboard::arm::{joints, turned};
 pub(crate) use dashboard::blend::blend;

@@ -1,7 +1,5 @@
 //! `Frames`, boxes turned with the pieces of a small scene: which of them a capsule may touch, all asked at once.
 
-use multiversion::multiversion;
-
 use super::linear::FEW;
 use crate::collision::boundary::segments::LANES;
 use crate::geometry::{Aabb, Placed, Point2, Vector2};
@@ -106,7 +104,10 @@ fn core_box(core: &[Point2]) -> (Point2, [Vector2; 2]) {
 }
 
 /// Bit `i` is set unless box `i` lies beside the way's own box, or before or behind it.
-#[multiversion(targets("x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl", "x86_64+avx2"))]
+#[cfg_attr(
+    not(feature = "baseline"),
+    multiversion::multiversion(targets("x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl", "x86_64+avx2"))
+)]
 fn near_bits(boxes: &[Boxes], way: Way) -> u64 {
     let Way { middle: [x, y], direction: [dx, dy], beside, along } = way;
     let mut bits = 0;

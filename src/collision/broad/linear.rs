@@ -1,7 +1,5 @@
 //! `Boxes`, the boxes around a few shapes in structure-of-arrays order: measured all at once.
 
-use multiversion::multiversion;
-
 use crate::collision::boundary::segments::LANES;
 use crate::geometry::{Aabb, square};
 use crate::num::{greater, lesser};
@@ -81,7 +79,10 @@ impl Boxes {
 }
 
 /// Writes the [`Aabb::squared_distance`] from a box to each of the others, and returns the least of them.
-#[multiversion(targets("x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl", "x86_64+avx2"))]
+#[cfg_attr(
+    not(feature = "baseline"),
+    multiversion::multiversion(targets("x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl", "x86_64+avx2"))
+)]
 fn squared_distances([x0, y0, x1, y1]: [&[f64]; 4], from: &Aabb, squares: &mut [f64]) -> f64 {
     let Aabb { min, max } = *from;
     let mut least = [f64::INFINITY; LANES];

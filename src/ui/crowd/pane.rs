@@ -130,8 +130,14 @@ fn world(
     let now = ui.input(|i| i.time);
     let picked = state.crowd.picked_in(crowd).map(|p| p.id);
     let role = |id: u32, robot: &CrowdRobot| {
-        // who is picked is drawn by itself
-        let name = crowd.name(id).filter(|_| picked != Some(id))?;
+        if picked == Some(id) {
+            // it is drawn by itself
+            return None;
+        }
+        if !robot.flash && state.flashes.is_empty() {
+            return Some(Role::Robot);
+        }
+        let name = crowd.name(id)?;
         if !robot.flash && !state.flashes.contains_key(name) {
             return Some(Role::Robot);
         }
@@ -204,10 +210,10 @@ fn names(crowd: &Crowd, paper: Rect, fit: &Fit) -> Vec<Item> {
         let [x, y] = fit.screen_from_world(robot.bounds.centre());
         paper.contains(pos2(x as f32, y as f32))
     };
-    if crowd.now.iter().filter(is_seen).take(MOST_NAMED + 1).count() > MOST_NAMED {
+    if crowd.now.robots().iter().filter(is_seen).take(MOST_NAMED + 1).count() > MOST_NAMED {
         return Vec::new();
     }
-    let seen = crowd.names.iter().zip(crowd.now.iter()).filter(|(_, robot)| is_seen(robot));
+    let seen = crowd.names.iter().zip(crowd.now.robots()).filter(|(_, robot)| is_seen(robot));
     let label = |(name, robot): (&String, &CrowdRobot)| {
         let at = Point2::new(robot.bounds.centre().x, robot.bounds.max.y);
         let (text, anchor, face) = (name.clone(), Anchor::Above, Face::Sans);

@@ -5,7 +5,7 @@ use std::f64::consts::{PI, TAU};
 use bevy_egui::egui::{Pos2, Rect, Vec2, pos2};
 
 use super::values::{Crowd, CrowdRobot};
-use crate::geometry::{Aabb, Part, Placed, Point2, Shape};
+use crate::geometry::{Aabb, Part, Placed, Point2, Shape, Vector2};
 use crate::num::sin_cos;
 use crate::picture::{Fit, Role, chevron, nose};
 use crate::ui::Look;
@@ -39,13 +39,11 @@ pub fn robots(
     let mut out = Polygons::default();
     let mut pen = Pen { fit, corners: Vec::new() };
     let (scale, s) = (fit.px_per_metre(), crowd.between);
-    let before = crowd.before.iter().map(Some).chain(std::iter::repeat(None));
-    for ((robot, before), id) in crowd.now.iter().zip(before).zip(crowd.first..) {
-        let before = before.filter(|b| s < 1.0 && is_a_step(b, robot));
-        let shift = before.map_or(Vec2::ZERO, |b| {
-            let back = (b.bounds.centre() - robot.bounds.centre()) * ((1.0 - s) * scale);
-            Vec2::new(back.x as f32, -back.y as f32)
-        });
+    for (place, (robot, id)) in crowd.now.robots().iter().zip(crowd.first..).enumerate() {
+        let before = crowd.before.robots().get(place).filter(|_| s < 1.0);
+        let back = before.map_or(Vector2::zeros(), |b| b.bounds.centre() - robot.bounds.centre());
+        let back = if back.norm_squared() <= LEAP * LEAP { back * ((1.0 - s) * scale) } else { Vector2::zeros() };
+        let shift = Vec2::new(back.x as f32, -back.y as f32);
         let on_screen = pen.rect(&robot.bounds).translate(shift);
         if !on_screen.intersects(paper) {
             continue;
@@ -59,14 +57,15 @@ pub fn robots(
             continue;
         }
         let colour = look.tint(role, BODY);
-        let parts = robot.footprint.parts();
+        let parts = crowd.now.parts(place);
+        let before = before.map(|b| (b, crowd.before.parts(place))).filter(|(_, from)| is_a_step(from, parts));
         for (i, part) in parts.iter().enumerate() {
-            let from = before.and_then(|b| b.footprint.parts().get(i)).map(Part::placed);
+            let from = before.and_then(|(_, from)| from.get(i)).map(Part::placed);
             pen.outline(part.placed(), from, s);
             out.polygon(&pen.corners, colour);
         }
         if size >= SHOWS_HEADING
-            && let Some(corners) = heading(robot, before, s)
+            && let Some(corners) = heading((robot, parts), before, s)
         {
             out.polygon(&corners.map(|p| pen.at(p)), look.tint(Role::Paper, 0.9));
         }
@@ -74,23 +73,25 @@ pub fn robots(
     out
 }
 
-/// Whether a robot moved from one to the other in a tick: it was not put there, and has the parts that it had.
-fn is_a_step(before: &CrowdRobot, now: &CrowdRobot) -> bool {
-    let (a, b) = (before.footprint.parts(), now.footprint.parts());
+/// Whether a robot's parts moved from `a` to `b` in a tick: it was not put there, and has the parts that it had.
+fn is_a_step(a: &[Part], b: &[Part]) -> bool {
     let is_near = |(a, b): (&Part, &Part)| {
         a.placed().core().len() == b.placed().core().len() && (b.pose().position() - a.pose().position()).norm() <= LEAP
     };
     a.len() == b.len() && a.iter().zip(b).all(is_near)
 }
 
+/// A robot and its parts.
+type Seen<'a> = (&'a CrowdRobot, &'a [Part]);
+
 /// The mark that shows a robot's heading: the pointer on a disc, the chevron on a rectangle.
-fn heading(robot: &CrowdRobot, before: Option<&CrowdRobot>, s: f64) -> Option<[Point2; 3]> {
-    let (part, from) = (robot.footprint.parts().first()?, before.and_then(|b| b.footprint.parts().first()));
+fn heading((robot, parts): Seen, before: Option<Seen>, s: f64) -> Option<[Point2; 3]> {
+    let (part, from) = (parts.first()?, before.and_then(|(_, parts)| parts.first()));
     let pose = from.map_or(*part.pose(), |from| pose_between(from.pose(), part.pose(), s));
     match (part.shape(), robot.heading) {
         (Shape::Rectangle { min, max }, _) => Some(chevron(&pose, *min, *max)),
         (_, Some(heading)) => {
-            let heading = before.and_then(|b| b.heading).map_or(heading, |from| angle_between(from, heading, s));
+            let heading = before.and_then(|(b, _)| b.heading).map_or(heading, |from| angle_between(from, heading, s));
             Some(nose(pose.position(), part.placed().radius(), heading))
         }
         _ => None,

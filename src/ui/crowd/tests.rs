@@ -6,7 +6,7 @@ use bevy_egui::egui::{Rect, pos2};
 use super::heat::Heat;
 use super::robots::robots;
 use super::state::CrowdState;
-use super::values::{Crowd, CrowdRobot};
+use super::values::{Bodies, Crowd};
 use crate::geometry::{Aabb, Footprint, Point2, Pose2};
 use crate::picture::{Fit, Role, ScreenRect, Theme};
 use crate::simulation::{Happening, TickMark};
@@ -23,19 +23,26 @@ fn paper() -> Rect {
     Rect::from_min_max(pos2(0.0, 0.0), pos2(400.0, 200.0))
 }
 
-fn rover(x: f64, y: f64, radius: f64) -> CrowdRobot {
-    let footprint = Footprint::disc(Point2::new(x, y), radius);
-    let bounds = footprint.bounds().unwrap();
-    CrowdRobot { footprint, bounds, heading: Some(0.0), flash: false, contacts: 0 }
+/// A robot: its footprint, its heading and its contacts.
+type Robot = (Footprint, Option<f64>, u32);
+
+fn rover(x: f64, y: f64, radius: f64) -> Robot {
+    (Footprint::disc(Point2::new(x, y), radius), Some(0.0), 0)
 }
 
-fn crowd(before: Vec<CrowdRobot>, now: Vec<CrowdRobot>, between: f64) -> Crowd {
+fn bodies(robots: &[Robot]) -> Arc<Bodies> {
+    let mut bodies = Bodies::default();
+    robots.iter().for_each(|(footprint, heading, contacts)| bodies.push(footprint, *heading, false, *contacts));
+    Arc::new(bodies)
+}
+
+fn crowd(before: &[Robot], now: &[Robot], between: f64) -> Crowd {
     let names = (0..now.len()).map(|i| format!("Rover {}", i + 7)).collect();
-    Crowd { first: 7, names, now: Arc::new(now), before: Arc::new(before), between }
+    Crowd { first: 7, names, now: bodies(now), before: bodies(before), between }
 }
 
-fn still(robots: Vec<CrowdRobot>) -> Crowd {
-    crowd(robots.clone(), robots, 1.0)
+fn still(robots: &[Robot]) -> Crowd {
+    crowd(robots, robots, 1.0)
 }
 
 #[test]
@@ -71,7 +78,7 @@ fn what_is_under_the_pointer_stays_there_while_it_is_magnified() {
 
 #[test]
 fn the_nearest_robot_is_that_whose_box_is_nearest() {
-    let crowd = still(vec![rover(5.0, 5.0, 2.0), rover(6.0, 5.0, 0.2), rover(20.0, 5.0, 0.2)]);
+    let crowd = still(&[rover(5.0, 5.0, 2.0), rover(6.0, 5.0, 0.2), rover(20.0, 5.0, 0.2)]);
     let at = |x, y, reach| crowd.nearest(Point2::new(x, y), reach);
     assert_eq!(at(6.1, 5.0, 0.1), Some(8), "both boxes hold the point, and the middle of this one is nearer");
     assert_eq!(at(4.0, 5.0, 0.1), Some(7));
@@ -84,7 +91,7 @@ fn the_nearest_robot_is_that_whose_box_is_nearest() {
 #[test]
 fn a_crowd_is_one_mesh_of_what_the_paper_shows() {
     // 0.1 m are a point: too small for an outline
-    let dots = still(vec![rover(5.0, 5.0, 0.1), rover(39.0, 19.0, 0.1), rover(60.0, 5.0, 0.1)]);
+    let dots = still(&[rover(5.0, 5.0, 0.1), rover(39.0, 19.0, 0.1), rover(60.0, 5.0, 0.1)]);
     let look = Look::from(Theme::Light);
     let mesh = robots(&dots, paper(), &whole(), &look, |_, _| Some(Role::Robot)).0;
     assert_eq!(mesh.vertices.len(), 8, "two squares; the third is beside the paper");
@@ -100,7 +107,7 @@ fn a_crowd_is_one_mesh_of_what_the_paper_shows() {
     assert_eq!(without.vertices.len(), 4, "one is left out");
 
     // a disc of ten points: within a tenth of a point of its circle, and the pointer on it
-    let disc = still(vec![rover(5.0, 5.0, 1.0)]);
+    let disc = still(&[rover(5.0, 5.0, 1.0)]);
     let mesh = robots(&disc, paper(), &whole(), &look, |id, _| (id == 7).then_some(Role::Goal)).0;
     let body: Vec<f32> = mesh
         .vertices
@@ -118,19 +125,17 @@ fn robots_are_drawn_on_their_way_and_not_while_they_leap() {
         let mesh = robots(crowd, paper(), &whole(), &Look::from(Theme::Dark), |_, _| Some(Role::Robot)).0;
         mesh.calc_bounds().center()
     };
-    let on_the_way = crowd(vec![rover(5.0, 5.0, 1.0)], vec![rover(5.4, 5.2, 1.0)], 0.25);
+    let on_the_way = crowd(&[rover(5.0, 5.0, 1.0)], &[rover(5.4, 5.2, 1.0)], 0.25);
     let at = middle(&on_the_way);
     assert!((at - pos2(51.0, 149.5)).length() < 1e-3, "a quarter of 0.4 m and 0.2 m: {at}");
-    let leap = crowd(vec![rover(5.0, 5.0, 1.0)], vec![rover(9.0, 5.0, 1.0)], 0.25);
+    let leap = crowd(&[rover(5.0, 5.0, 1.0)], &[rover(9.0, 5.0, 1.0)], 0.25);
     assert!((middle(&leap) - pos2(90.0, 150.0)).length() < 1e-3, "it was put there");
     // a car turning: its corners are on the way too
     let car = |theta| {
         let at = Pose2::new(5.0, 5.0, theta);
-        let footprint = Footprint::rects([(at, Point2::new(-1.0, -0.5), Point2::new(1.0, 0.5))]);
-        let bounds = footprint.bounds().unwrap();
-        CrowdRobot { footprint, bounds, heading: None, flash: false, contacts: 0 }
+        (Footprint::rects([(at, Point2::new(-1.0, -0.5), Point2::new(1.0, 0.5))]), None, 0)
     };
-    let turning = crowd(vec![car(0.0)], vec![car(0.2)], 0.5);
+    let turning = crowd(&[car(0.0)], &[car(0.2)], 0.5);
     let mesh = robots(&turning, paper(), &whole(), &Look::from(Theme::Dark), |_, _| Some(Role::Robot)).0;
     // the corner (1, 0.5) turned by 0.1, half of 0.2, is at (0.9451, 0.5973)
     let near = |v: &bevy_egui::egui::epaint::Vertex| (v.pos - pos2(59.45, 144.03)).length();
@@ -163,16 +168,16 @@ fn contacts_are_counted_where_they_began() {
 #[test]
 fn the_list_finds_by_name_and_by_contacts() {
     let mut robots = vec![rover(1.0, 1.0, 0.1); 12];
-    robots[4].contacts = 2;
-    robots[5].contacts = 1;
-    let crowd = still(robots);
+    robots[4].2 = 2;
+    robots[5].2 = 1;
+    let crowd = still(&robots);
     let mut state = CrowdState::default();
     assert_eq!(state.found(&crowd).len(), 12);
     state.search = " rOVER 1 ".into();
     assert_eq!(&state.found(&crowd)[..], [10, 11, 12, 13, 14, 15, 16, 17, 18]);
     state.with_contacts = true;
     assert_eq!(&state.found(&crowd)[..], [11, 12]);
-    let mut other = still(vec![rover(1.0, 1.0, 0.1)]);
+    let mut other = still(&[rover(1.0, 1.0, 0.1)]);
     other.names = vec!["Rover 10 of another run".to_owned()].into();
     state.with_contacts = false;
     assert_eq!(&state.found(&other)[..], [7], "another run's names are searched again");
