@@ -62,8 +62,9 @@ impl RobotOps {
 }
 
 fn footprint<R: SimulatedRobot>(world: &World, e: Entity) -> Option<Footprint> {
-    let q = world.get::<Configuration<R>>(e)?.0;
-    Some(world.get::<RobotModel<R>>(e)?.0.fitted(&q).footprint(&q))
+    let robot = world.get_entity(e).ok()?;
+    let q = robot.get::<Configuration<R>>()?.0;
+    Some(robot.get::<RobotModel<R>>()?.0.fitted(&q).footprint(&q))
 }
 
 fn gauges<R: SimulatedRobot>(world: &World, e: Entity) -> Option<Gauges> {

@@ -2,7 +2,7 @@
 
 use std::f64::consts::{PI, TAU};
 
-use bevy_egui::egui::{Pos2, Rect, Vec2, pos2};
+use bevy_egui::egui::{Color32, Pos2, Rect, Vec2, pos2};
 
 use super::values::{Crowd, CrowdRobot};
 use crate::geometry::{Aabb, Part, Placed, Point2, Shape, Vector2};
@@ -20,6 +20,9 @@ const SHOWS_HEADING: f64 = 9.0;
 
 /// Least side of such a square, points.
 const LEAST: f32 = 2.0;
+
+/// Radius on the screen below which a link has no round ends, points.
+const SQUARE: f32 = 1.0;
 
 /// Farthest that a robot moves in a tick, metres. One that moved farther was put there.
 const LEAP: f64 = 0.5;
@@ -39,6 +42,7 @@ pub fn robots(
     let mut out = Polygons::default();
     let mut pen = Pen { fit, corners: Vec::new() };
     let (scale, s) = (fit.px_per_metre(), crowd.between);
+    let (mut inks, mark) = (Inks { look, made: Vec::new() }, look.tint(Role::Paper, 0.9));
     for (place, (robot, id)) in crowd.now.robots().iter().zip(crowd.first..).enumerate() {
         let before = crowd.before.robots().get(place).filter(|_| s < 1.0);
         let back = before.map_or(Vector2::zeros(), |b| b.bounds.centre() - robot.bounds.centre());
@@ -49,25 +53,25 @@ pub fn robots(
             continue;
         }
         let Some(role) = role(id, robot) else { continue };
+        let [solid, body] = inks.of(role);
         let size = f64::from(on_screen.size().max_elem());
         if size < SMALL {
             let side = if on_screen.size().max_elem() > LEAST { on_screen.size().max_elem() } else { LEAST };
             let square = Rect::from_center_size(on_screen.center(), Vec2::splat(side));
-            out.rect(square, look.colour(role));
+            out.rect(square, solid);
             continue;
         }
-        let colour = look.tint(role, BODY);
         let parts = crowd.now.parts(place);
         let before = before.map(|b| (b, crowd.before.parts(place))).filter(|(_, from)| is_a_step(from, parts));
         for (i, part) in parts.iter().enumerate() {
             let from = before.and_then(|(_, from)| from.get(i)).map(Part::placed);
             pen.outline(part.placed(), from, s);
-            out.polygon(&pen.corners, colour);
+            out.polygon(&pen.corners, body);
         }
         if size >= SHOWS_HEADING
             && let Some(corners) = heading((robot, parts), before, s)
         {
-            out.polygon(&corners.map(|p| pen.at(p)), look.tint(Role::Paper, 0.9));
+            out.polygon(&corners.map(|p| pen.at(p)), mark);
         }
     }
     out
@@ -95,6 +99,24 @@ fn heading((robot, parts): Seen, before: Option<Seen>, s: f64) -> Option<[Point2
             Some(nose(pose.position(), part.placed().radius(), heading))
         }
         _ => None,
+    }
+}
+
+/// The colours of roles, each made once: blending in linear light takes powers.
+struct Inks<'a> {
+    look: &'a Look,
+    made: Vec<(Role, [Color32; 2])>,
+}
+
+impl Inks<'_> {
+    /// The colour of a dot, and that of a body.
+    fn of(&mut self, role: Role) -> [Color32; 2] {
+        if let Some((_, made)) = self.made.iter().find(|(known, _)| *known == role) {
+            return *made;
+        }
+        let made = [self.look.colour(role), self.look.tint(role, BODY)];
+        self.made.push((role, made));
+        made
     }
 }
 
@@ -141,6 +163,10 @@ impl Pen<'_> {
                 self.corners.clear();
                 let along = (b - a).normalized() * if radius > 0.75 { radius } else { 0.75 };
                 let right = Vec2::new(along.y, -along.x);
+                if radius < SQUARE {
+                    self.corners.extend([b + along - right, b + along + right, a - along + right, a - along - right]);
+                    return;
+                }
                 self.arc(b, right, PI, 2 * steps);
                 self.corners.push(b - right);
                 self.arc(a, -right, PI, 2 * steps);
