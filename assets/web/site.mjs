@@ -50,12 +50,16 @@ const style =
   `@media (prefers-color-scheme:dark){:root:not([data-theme=light]){color-scheme:dark;${colours("dark")}}}\n` +
   `:root[data-theme=dark]{color-scheme:dark;${colours("dark")}}\n${roles}\n${source("style.css")}`;
 
+/** The colours of a picture, which are lines of its style, and the picture without them. */
+const coloured = /^\.[\w-]+\.f\{fill:.*$\n/gm;
 const pictures = {};
 for (const { id } of lab.widgets) {
-  for (const theme of ["light", "dark"]) {
-    const name = `${id}-${theme}.svg`;
-    pictures[name] = hashed(name, readFileSync(join(parts, name)), "pictures for readers without script");
-  }
+  const [light, dark] = ["light", "dark"].map((theme) => readFileSync(join(parts, `${id}-${theme}.svg`), "utf8"));
+  const plain = (svg) => svg.replace(coloured, "").replace(/#[0-9a-f]{6}/g, "");
+  if (plain(light) !== plain(dark)) throw new Error(`${id} in light and in dark are two pictures`);
+  // one picture in both themes: it asks the reader's system itself
+  const media = `@media (prefers-color-scheme:dark){\n${dark.match(coloured).join("")}}\n</style>`;
+  pictures[id] = hashed(`${id}.svg`, light.replace("</style>", media), "pictures for readers without script");
 }
 const files = {
   lab: hashed("lab.js", readFileSync(join(parts, "lab.js")), "the lab"),
@@ -74,9 +78,7 @@ const saved = fill(source("saved.html"), { script, style: css, "script-hash": ha
 files.saved = hashed("saved.html", saved, "the simulator alone");
 files.widgets = Object.fromEntries(lab.widgets.map((w) => [w.id, { title: w.title, key: w.key, description: w.description, misconception: w.misconception }]));
 
-const picture = (w) =>
-  `<picture><source srcset="${pictures[`${w.id}-dark.svg`]}" media="(prefers-color-scheme: dark)">` +
-  `<img src="${pictures[`${w.id}-light.svg`]}" loading="lazy" alt="${escape(w.description)}"></picture>`;
+const picture = (w) => `<img src="${pictures[w.id]}" loading="lazy" alt="${escape(w.description)}">`;
 // the modules that a script imports have hashes in their names, too
 const modules = {};
 for (const name of ["around.js", "pages.js", "twins.js"]) modules[name] = hashed(name, source(name), "the page");
