@@ -50,7 +50,7 @@ const style =
   `@media (prefers-color-scheme:dark){:root:not([data-theme=light]){color-scheme:dark;${colours("dark")}}}\n` +
   `:root[data-theme=dark]{color-scheme:dark;${colours("dark")}}\n${roles}\n${source("style.css")}`;
 
-/** The colours of a picture, which are lines of its style, and the picture without them. */
+/** The lines of a picture's style that say its colours. */
 const coloured = /^\.[\w-]+\.f\{fill:.*$\n/gm;
 const pictures = {};
 for (const { id } of lab.widgets) {

@@ -655,6 +655,12 @@ test("without script the page shows its pictures and words", { timeout: 60000 },
   const text = await lab.page.locator("#still").innerText();
   for (const title of ["Dashboard", "Query anatomy", "Configuration space", "World atlas", "Plan"]) assert.ok(text.includes(title), title);
   assert.equal(await lab.page.locator("#still figure img").count(), 5);
+  // each picture has the light paper and the dark one, that for who asks for it
+  for (const image of await lab.page.locator("#still figure img").all()) {
+    const svg = await (await lab.page.request.get(new URL(await image.getAttribute("src"), lab.page.url()).href)).text();
+    const [light, dark] = svg.split("@media (prefers-color-scheme:dark){");
+    assert.ok(light.includes(".paper.f{fill:#fbfaf7}") && dark?.includes(".paper.f{fill:#15181c}"));
+  }
   await lab.shot("without-script");
   assert.deepEqual(await lab.close(), []);
 });
