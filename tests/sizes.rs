@@ -242,10 +242,13 @@ fn the_atlas_aims_moves_and_keeps_what_residents_are() {
         (arm.base, &arm.lengths[..], &now[0].start),
         (Point2::new(2.25, 1.0), &[0.5, 0.4][..], &before[0].start)
     );
+    // An arm without sizes of its own stands at the origin, with links of 1 m: its world says so once it is moved.
     let mut plain = yard();
     plain.robots[0].sizes = None;
-    let refused = Editor::new(plain).apply(&Op::Move { name: "Short".into(), by: by(1.0, 0.0) });
-    assert!(refused.is_err(), "without sizes there is no base to move");
+    let mut editor = Editor::new(plain);
+    editor.apply(&Op::Move { name: "Short".into(), by: by(1.0, 0.5) }).unwrap();
+    let Some(Sizes::Arm(arm)) = &editor.world().robots[0].sizes else { panic!("an arm") };
+    assert_eq!((arm.base, &arm.lengths[..]), (Point2::new(1.0, 0.5), &[1.0, 1.0][..]));
 }
 
 #[test]

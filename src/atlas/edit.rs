@@ -1,11 +1,13 @@
 //! `Editor`, a world under edit: every change is checked as world files are, and can be undone.
 
-use super::op::{all_names, changed, shape_of};
-use super::{Atlas, EditError, EditShape, Handle, Op, Refusal};
+use super::numbers::sides;
+use super::op::{all_names, changed, numbers_of, shape_of};
+use super::residents::{Stand, stand};
+use super::{Atlas, EditError, EditShape, Handle, Number, Op, Refusal};
 use crate::configuration::Kinds;
-use crate::geometry::{Aabb, Point2, Vector2};
+use crate::geometry::{Aabb, Point2, Pose2, Vector2};
 use crate::num::{hypot, lesser, sin_cos};
-use crate::worlds::{Resident, World, WorldError, comments};
+use crate::worlds::{ObstacleKind, Resident, World, WorldError, comments};
 
 /// A world under edit.
 ///
@@ -141,20 +143,72 @@ impl Editor {
         shape_of(self.world(), name)
     }
 
-    /// The handles of a wall, an obstacle, a door, a mark or a place; empty for anything else. A place has two: its
-    /// position and its heading. A door has its two ends, the hinge first.
+    /// Whether the world holds something of this name.
+    pub fn holds(&self, name: &str) -> bool {
+        all_names(self.world()).contains(name)
+    }
+
+    /// The numbers of the thing of this name, in the order in which [`Op::SetNumber`] counts them: coordinates and
+    /// sizes of a shape, the ends of a door, the pose of a place, the start of a robot and what it is like. Empty for a
+    /// name that nothing has.
+    pub fn numbers(&self, name: &str) -> Vec<Number> {
+        numbers_of(self.world(), name, &self.kinds)
+    }
+
+    /// The numbers of the part of the plane that the world shows, in the order in which [`Op::SetBounds`] counts them.
+    pub fn bounds(&self) -> Vec<Number> {
+        let mut numbers = Vec::new();
+        let Aabb { mut min, mut max } = self.world().bounds;
+        sides(&mut min, &mut max, &mut |name, unit, value| {
+            numbers.push(Number { name: name.to_owned(), value: *value, unit });
+        });
+        numbers
+    }
+
+    /// The pose of a place, or of a robot's start; `None` for anything else.
+    pub fn pose(&self, name: &str) -> Option<Pose2> {
+        let robot = || match self.stand(name)? {
+            Stand::Pose(pose) => Some(pose),
+            Stand::Base(_) | Stand::Place(_) => None,
+        };
+        self.world().place(name).map(|place| place.pose).or_else(robot)
+    }
+
+    fn stand(&self, name: &str) -> Option<Stand> {
+        stand(self.world().robots.iter().find(|robot| robot.name == name)?, &self.kinds)
+    }
+
+    /// The handles of a thing; empty for a robot of a kind that the editor does not know. A place has two: its position
+    /// and its heading. So has a robot that starts with a pose; other robots have the one where they stand. A door has
+    /// its two ends, the hinge first.
     pub fn handles(&self, name: &str) -> Vec<Handle> {
-        if let Some(place) = self.world().place(name) {
+        let handle = |(index, at)| Handle { index, at, makes_corner: false };
+        if let Some(pose) = self.pose(name) {
             let Aabb { min, max } = self.world().bounds;
-            let (s, c) = sin_cos(place.pose.theta);
+            let (s, c) = sin_cos(pose.theta);
             let ahead = Vector2::new(c, s) * (HEADING * lesser(max.x - min.x, max.y - min.y));
-            let at = place.pose.position();
-            return [(0, at), (1, at + ahead)].map(|(index, at)| Handle { index, at, makes_corner: false }).to_vec();
+            let at = pose.position();
+            return [(0, at), (1, at + ahead)].map(handle).to_vec();
         }
         if let Some(door) = self.world().door(name) {
-            return [(0, door.a), (1, door.b)].map(|(index, at)| Handle { index, at, makes_corner: false }).to_vec();
+            return [(0, door.a), (1, door.b)].map(handle).to_vec();
+        }
+        if let Some(stand) = self.stand(name) {
+            return vec![handle((0, stand.at()))];
         }
         self.shape(name).map_or_else(Vec::new, |shape| shape.handles())
+    }
+
+    /// Everything that the world holds, in the order of its file: what it is, and its name.
+    pub fn things(&self) -> Vec<(&'static str, &str)> {
+        let world = self.world();
+        let obstacle = |kind| if kind == ObstacleKind::Wall { "wall" } else { "obstacle" };
+        let obstacles = world.obstacles.iter().map(|o| (obstacle(o.kind), o.name.as_str()));
+        let doors = world.doors.iter().map(|d| ("door", d.name.as_str()));
+        let places = world.places.iter().map(|p| ("place", p.name.as_str()));
+        let marks = world.marks.iter().map(|m| ("mark", m.name.as_str()));
+        let robots = world.robots.iter().map(|r| ("robot", r.name.as_str()));
+        obstacles.chain(doors).chain(places).chain(marks).chain(robots).collect()
     }
 
     /// Warnings about robots that start in contact, or where a run would not start. A world file may have them.

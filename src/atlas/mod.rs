@@ -1,21 +1,28 @@
 //! The atlas as values: labelled worlds, teleports of their robots, grids beside the exact distance, and an editor.
 
 mod edit;
+mod edit_error;
 mod grid_layer;
 mod labels;
+mod numbers;
 mod op;
 mod outline;
 mod overlay;
+mod residents;
 mod taken;
 mod target;
 mod teleport;
+mod template;
 
 pub use edit::{Editor, snap};
+pub use edit_error::EditError;
 pub use grid_layer::{GridLayer, Probe};
 pub use labels::{Named, named, named_with, names};
-pub use op::{EditError, Op};
+pub use numbers::Number;
+pub use op::Op;
 pub use outline::{EditShape, Handle};
 pub use teleport::{Refusal, Teleport};
+pub use template::Template;
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -24,7 +31,7 @@ use crate::configuration::{AnyConfiguration, Configuration, Kinds};
 use crate::geometry::Footprint;
 use crate::picture::{Drawing, Gait, Picture, RobotDrawing, places, robot, world};
 use crate::robots::{AnyRobot, Robot};
-use crate::worlds::World;
+use crate::worlds::{Resident, World};
 
 /// A world and those of its residents that are robots of the lab. Robots of a program's own kinds stand at their starts
 /// when the atlas [knows](Atlas::knowing) the kinds.
@@ -61,6 +68,25 @@ impl Atlas {
     #[must_use]
     pub fn knowing(self, kinds: Kinds) -> Self {
         Atlas { kinds, ..self }
+    }
+
+    /// The same atlas with its robots where an earlier atlas has them: those of the same name, kind, sizes and start.
+    #[must_use]
+    pub fn keeping(mut self, earlier: &Atlas) -> Self {
+        let were: BTreeMap<&str, &Resident> = earlier.world.robots.iter().map(|r| (r.name.as_str(), r)).collect();
+        let are: BTreeMap<&str, &Resident> = self.world.robots.iter().map(|r| (r.name.as_str(), r)).collect();
+        let stood: BTreeMap<&str, &AtlasRobot> = earlier.residents.iter().map(|r| (r.name.as_str(), r)).collect();
+        let alike = |a: &Resident, b: &Resident| a.kind == b.kind && a.sizes == b.sizes && a.start == b.start;
+        for robot in &mut self.residents {
+            let name = robot.name.as_str();
+            let both = were.get(name).zip(are.get(name));
+            if let (Some((was, is)), Some(stood)) = (both, stood.get(name))
+                && alike(was, is)
+            {
+                robot.q = stood.q;
+            }
+        }
+        self
     }
 
     /// The kinds of robots that it knows.

@@ -2,12 +2,14 @@
 
 use std::collections::BTreeSet;
 
-use super::EditShape;
+use super::numbers::Visit;
 use super::outline::tidy;
-use crate::configuration::{Kinds, RobotKind, Sizes};
-use crate::geometry::{Point2, Pose2, Vector2};
+use super::residents::stand;
+use super::{EditError, EditShape, Number, numbers, residents};
+use crate::configuration::Kinds;
+use crate::geometry::{Aabb, Point2, Pose2, Vector2};
 use crate::num::atan2;
-use crate::worlds::{Mark, OutlineError, Place, Resident, World, WorldError};
+use crate::worlds::{Door, Mark, Place, Resident, World};
 
 /// A change of a world.
 #[derive(Clone, Debug, PartialEq)]
@@ -27,9 +29,18 @@ pub enum Op {
         /// Its pose.
         pose: Pose2,
     },
-    /// Move anything that has a name, its coordinates rounded to a nanometre. Arms whose sizes the world does not say
-    /// are refused, because their start holds no base. So are robots of kinds that the editor does not
-    /// [know](super::Editor::knowing), and moves to where a run would refuse to start one that has footprints.
+    /// Add a door, closed at the start.
+    AddDoor {
+        /// Its name.
+        name: String,
+        /// Its two ends, the hinge first.
+        ends: [Point2; 2],
+    },
+    /// Add a robot.
+    AddRobot(Resident),
+    /// Move anything that has a name, its coordinates rounded to a nanometre. An arm moves with its base. Robots of
+    /// kinds that the editor does not [know](super::Editor::knowing) are refused, and moves to where a run would refuse
+    /// to start one that has footprints.
     Move {
         /// Its name.
         name: String,
@@ -52,14 +63,39 @@ pub enum Op {
         /// The shape.
         shape: EditShape,
     },
-    /// Move or turn a place.
+    /// Move or turn a place, or a robot whose start is a pose. A trailer turns with its car.
     SetPose {
         /// Its name.
         name: String,
         /// Its pose.
         pose: Pose2,
     },
-    /// Rename anything.
+    /// Set one of a thing's [numbers](super::Editor::numbers).
+    SetNumber {
+        /// Its name.
+        name: String,
+        /// Which of its numbers, from 0.
+        number: usize,
+        /// The new value, metres or radians.
+        to: f64,
+    },
+    /// Open a door, or close it, at the start.
+    SetOpen {
+        /// Its name.
+        name: String,
+        /// Whether it is open.
+        open: bool,
+    },
+    /// Set one of the numbers of the part of the plane that the world [shows](super::Editor::bounds).
+    SetBounds {
+        /// Which of its numbers, from 0.
+        number: usize,
+        /// The new value, metres.
+        to: f64,
+    },
+    /// Rename the world.
+    RenameWorld(String),
+    /// Rename anything in it.
     Rename {
         /// Its name.
         name: String,
@@ -71,27 +107,6 @@ pub enum Op {
         /// Its name.
         name: String,
     },
-}
-
-/// Why a change is refused. The world stays as it was.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-#[non_exhaustive]
-pub enum EditError {
-    /// Nothing has this name.
-    #[error("nothing here is called {0:?}")]
-    NoSuchName(String),
-    /// The thing can't be changed in this way.
-    #[error("{0:?} has no shape to change")]
-    NoShape(String),
-    /// The robot's start would be no configuration of its kind.
-    #[error("{0:?} can't start there")]
-    NoConfiguration(String),
-    /// An invalid outline of a polygon.
-    #[error("polygon: {0}")]
-    Outline(#[from] OutlineError),
-    /// The world would be refused as a file.
-    #[error("{0}")]
-    World(#[from] WorldError),
 }
 
 /// The list of a world that holds a thing, and its place there.
@@ -146,22 +161,52 @@ fn reshape(world: &mut World, at: Found, name: &str, shape: &EditShape) -> Resul
     Ok(())
 }
 
-/// Moves a robot's start: an arm by the base that its sizes say, any other by the place that its start begins with.
-fn move_robot(robot: &mut Resident, by: Vector2, kinds: &Kinds) -> Result<(), EditError> {
-    if let Some(Sizes::Arm(arm)) = &mut robot.sizes {
-        arm.base = (arm.base + by).map(tidy);
-        return Ok(());
-    }
-    let has_place = kinds.of(&robot.kind).is_some_and(RobotKind::has_place);
-    let stood = kinds.footprint(&robot.kind, &robot.start).is_some();
-    let (true, [x, y, ..]) = (has_place, &mut robot.start[..]) else {
-        return Err(EditError::NoShape(robot.name.clone()));
-    };
-    (*x, *y) = (tidy(*x + by.x), tidy(*y + by.y));
-    if stood && kinds.footprint(&robot.kind, &robot.start).is_none() {
-        return Err(EditError::NoConfiguration(robot.name.clone()));
+/// Visits the numbers of a thing.
+fn visit(world: &mut World, at: Found, name: &str, kinds: &Kinds, visit: &mut Visit<'_>) -> Result<(), EditError> {
+    match at {
+        Found::Obstacle(_) | Found::Mark(_) => {
+            if let Some(was) = shape_at(world, at) {
+                let mut shape = was.clone();
+                numbers::of_shape(&mut shape, visit);
+                if shape != was {
+                    reshape(world, at, name, &shape)?;
+                }
+            }
+        }
+        Found::Door(i) => {
+            numbers::point(&mut world.doors[i].a, " of the hinge", visit);
+            numbers::point(&mut world.doors[i].b, " of the end", visit);
+        }
+        Found::Place(i) => numbers::pose(&mut world.places[i].pose, visit),
+        Found::Robot(i) => numbers::of_robot(&mut world.robots[i], kinds, visit),
     }
     Ok(())
+}
+
+/// The numbers of the thing of this name, in order.
+pub(super) fn numbers_of(world: &World, name: &str, kinds: &Kinds) -> Vec<Number> {
+    let mut numbers = Vec::new();
+    let mut keep = |name: &str, unit, value: &mut f64| {
+        numbers.push(Number { name: name.to_owned(), value: *value, unit });
+    };
+    if let Some(at) = find(world, name) {
+        // nothing is changed, so nothing is refused
+        let seen = visit(&mut world.clone(), at, name, kinds, &mut keep);
+        debug_assert!(seen.is_ok());
+    }
+    numbers
+}
+
+/// Sets the number with this index, and says whether there is one.
+fn setting(number: usize, to: f64, all: impl FnOnce(&mut Visit<'_>)) -> bool {
+    let mut count = 0;
+    all(&mut |_, _, value| {
+        if count == number {
+            *value = to;
+        }
+        count += 1;
+    });
+    number < count
 }
 
 /// The world after a change, not checked yet.
@@ -174,6 +219,10 @@ pub(super) fn changed(world: &World, op: &Op, kinds: &Kinds) -> Result<World, Ed
         }
         Op::Add { name, shape } => world.obstacles.push(shape.obstacle(name)?),
         Op::AddPlace { name, pose } => world.places.push(Place { name: name.clone(), pose: *pose }),
+        Op::AddDoor { name, ends: [a, b] } => {
+            world.doors.push(Door { name: name.clone(), a: *a, b: *b, open: false });
+        }
+        Op::AddRobot(robot) => world.robots.push(robot.clone()),
         Op::Move { name, by } => match found(&world, name)? {
             Found::Obstacle(i) => {
                 let moved = EditShape::of(&world.obstacles[i]).moved(*by);
@@ -188,7 +237,7 @@ pub(super) fn changed(world: &World, op: &Op, kinds: &Kinds) -> Result<World, Ed
                 (pose.x, pose.y) = (tidy(pose.x + by.x), tidy(pose.y + by.y));
             }
             Found::Mark(i) => world.marks[i].points.iter_mut().for_each(|p| *p = (*p + by).map(tidy)),
-            Found::Robot(i) => move_robot(&mut world.robots[i], *by, kinds)?,
+            Found::Robot(i) => residents::move_by(&mut world.robots[i], *by, kinds)?,
         },
         Op::Drag { name, handle, to } => {
             let at = found(&world, name)?;
@@ -206,6 +255,14 @@ pub(super) fn changed(world: &World, op: &Op, kinds: &Kinds) -> Result<World, Ed
                     1 => door.b = *to,
                     _ => {}
                 }
+            } else if let Found::Robot(i) = at {
+                let robot = &mut world.robots[i];
+                let from = stand(robot, kinds).ok_or_else(|| EditError::NoShape(name.clone()))?.at();
+                match handle {
+                    0 => residents::put(robot, *to, None, kinds)?,
+                    1 => residents::put(robot, from, Some(atan2(to.y - from.y, to.x - from.x)), kinds)?,
+                    _ => {}
+                }
             } else {
                 let shape = shape_at(&world, at).ok_or_else(|| EditError::NoShape(name.to_owned()))?;
                 reshape(&mut world, at, name, &shape.with_handle(*handle, *to))?;
@@ -217,8 +274,29 @@ pub(super) fn changed(world: &World, op: &Op, kinds: &Kinds) -> Result<World, Ed
         }
         Op::SetPose { name, pose } => match found(&world, name)? {
             Found::Place(i) => world.places[i].pose = *pose,
+            Found::Robot(i) => residents::put(&mut world.robots[i], pose.position(), Some(pose.theta), kinds)?,
             _ => return Err(EditError::NoShape(name.clone())),
         },
+        Op::SetNumber { name, number, to } => {
+            let at = found(&world, name)?;
+            let mut seen = Ok(());
+            let known = setting(*number, *to, |set| seen = visit(&mut world, at, name, kinds, set));
+            seen?;
+            if !known {
+                return Err(EditError::NoNumber(name.clone(), *number));
+            }
+        }
+        Op::SetOpen { name, open } => match found(&world, name)? {
+            Found::Door(i) => world.doors[i].open = *open,
+            _ => return Err(EditError::NoDoor(name.clone())),
+        },
+        Op::SetBounds { number, to } => {
+            let Aabb { min, max } = &mut world.bounds;
+            if !setting(*number, *to, |set| numbers::sides(min, max, set)) {
+                return Err(EditError::NoNumber(world.name, *number));
+            }
+        }
+        Op::RenameWorld(to) => to.clone_into(&mut world.name),
         Op::Rename { name, to } => {
             let slot = match found(&world, name)? {
                 Found::Obstacle(i) => &mut world.obstacles[i].name,

@@ -3,9 +3,9 @@
 use super::{Atlas, Editor, GridLayer, Handle, Refusal};
 use crate::collision::Collision;
 use crate::configuration::AnyConfiguration;
-use crate::geometry::{Aabb, Footprint, Point2};
+use crate::geometry::{Aabb, Footprint, Part, Placed, Point2};
 use crate::picture::{Anchor, Dash, Drawing, Face, Glyph, Item, Line, Role, footprint, outline, polygon_of};
-use crate::robots::Robot;
+use crate::robots::{AnyRobot, Robot};
 use crate::worlds::Obstacle;
 
 /// Words on a plate over or under a point.
@@ -85,14 +85,21 @@ impl GridLayer {
 
 impl Editor {
     /// The selected thing of this name: its outline in the focus colour, and its handles. Handles that make a corner
-    /// are rings. Empty for a name that no wall, obstacle, door, mark or place has.
+    /// are rings. A robot is outlined where it starts. Empty for a name that nothing has.
     pub fn selected_items(&self, name: &str) -> Vec<Item> {
         let world = self.world();
         let mark = world.marks.iter().find(|mark| mark.name == name).map(|mark| vec![mark.points.clone()]);
         let heading =
             world.place(name).map(|_| self.handles(name).iter().map(|h| vec![h.at]).collect::<Vec<_>>().concat());
         let door = world.door(name).map(|door| vec![vec![door.a, door.b]]);
-        let lines = world.obstacle(name).map(around).or(door).or(mark).or(heading.map(|line| vec![line]));
+        let robot = || {
+            let resident = world.robots.iter().find(|robot| robot.name == name)?;
+            let own = AnyRobot::of_resident(resident).map(|(robot, q)| robot.footprint(&q));
+            let footprint = own.or_else(|| self.kinds().footprint(&resident.kind, &resident.start));
+            Some(footprint.map_or_else(Vec::new, |f| lines_around(f.parts().iter().map(Part::placed))))
+        };
+        let lines =
+            world.obstacle(name).map(around).or(door).or(mark).or(heading.map(|line| vec![line])).or_else(robot);
         let Some(outline) = lines else { return Vec::new() };
         let region = Drawing::Region { pieces: Vec::new(), outline };
         let mut items = vec![Item::new("selected", name, Role::Focus, region).stroked(Line::solid(2.0))];
@@ -107,7 +114,13 @@ impl Editor {
 
 /// The outline of an obstacle, its pieces as one.
 fn around(obstacle: &Obstacle) -> Vec<Vec<Point2>> {
-    let (mut lines, pieces): (Vec<_>, Vec<_>) = obstacle.placed().map(|p| polygon_of(&p)).partition(|p| p.len() == 2);
+    let placed: Vec<Placed> = obstacle.placed().collect();
+    lines_around(placed.iter())
+}
+
+/// The outline of shapes, as one.
+fn lines_around<'a>(placed: impl Iterator<Item = &'a Placed>) -> Vec<Vec<Point2>> {
+    let (mut lines, pieces): (Vec<_>, Vec<_>) = placed.map(polygon_of).partition(|p| p.len() == 2);
     lines.extend(outline(&pieces));
     lines
 }

@@ -172,6 +172,11 @@ impl RobotKind {
         self.drives || self.coordinates.starts_with(&["x", "y"])
     }
 
+    /// The unit of a coordinate: `m` or `rad`.
+    pub fn unit_of(&self, coordinate: usize) -> &'static str {
+        if coordinate < self.lengths { "m" } else { "rad" }
+    }
+
     /// Whether it is an arm: every coordinate is a joint angle.
     pub fn is_arm(&self) -> bool {
         self.lengths == 0 && !self.drives

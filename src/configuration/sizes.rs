@@ -191,6 +191,45 @@ impl Sizes {
         }
     }
 
+    /// All numbers with their names: the field, then the place in it as sweeps name it, as in `car.trailer.width` and
+    /// `arm.lengths.0`. A limit of the hitch that isn't set is left out.
+    pub fn numbers_mut(&mut self) -> Vec<(String, &mut f64)> {
+        let named = |name: &str| name.to_owned();
+        match self {
+            Sizes::Disc(DiscSizes { radius, track, wheel_radius }) => vec![
+                (named("disc.radius"), radius),
+                (named("disc.track"), track),
+                (named("disc.wheel_radius"), wheel_radius),
+            ],
+            Sizes::Arm(ArmSizes { base, lengths, radius }) => {
+                let [[x, y]] = &mut base.coords.data.0;
+                let base = [(named("arm.base.x"), x), (named("arm.base.y"), y)];
+                let links = lengths.iter_mut().enumerate().map(|(i, length)| (format!("arm.lengths.{i}"), length));
+                base.into_iter().chain(links).chain([(named("arm.radius"), radius)]).collect()
+            }
+            Sizes::Car(CarSizes { wheelbase, length, width, rear_overhang, max_steer, trailer }) => {
+                let mut numbers = vec![
+                    (named("car.wheelbase"), wheelbase),
+                    (named("car.length"), length),
+                    (named("car.width"), width),
+                    (named("car.rear_overhang"), rear_overhang),
+                    (named("car.max_steer"), max_steer),
+                    (named("car.trailer.hitch_len"), &mut trailer.hitch_len),
+                    (named("car.trailer.width"), &mut trailer.width),
+                    (named("car.trailer.front_overhang"), &mut trailer.front_overhang),
+                    (named("car.trailer.rear_overhang"), &mut trailer.rear_overhang),
+                ];
+                numbers.extend(trailer.jackknife.as_mut().map(|limit| (named("car.trailer.jackknife"), limit)));
+                numbers
+            }
+        }
+    }
+
+    /// The unit of the number of this name: `rad` for angles, else `m`.
+    pub fn unit_of(number: &str) -> &'static str {
+        if ["car.max_steer", "car.trailer.jackknife"].contains(&number) { "rad" } else { "m" }
+    }
+
     /// Checks the numbers. The number of an arm's links is its kind's business: [`check_for`](Self::check_for).
     ///
     /// # Errors

@@ -24,10 +24,14 @@ pub enum Deed {
     MovePoint,
     /// Two of its points with one tip were visited.
     TwoPoints,
+    /// The configuration space's point was dragged over an edge of the torus's square.
+    OverEdge,
     /// The atlas's robot was put somewhere.
     Put,
     /// The atlas's grid was made coarser.
     Coarsen,
+    /// The atlas's world was edited.
+    EditWorld,
     /// The planner found a path.
     FindPath,
     /// The planner took a single step.

@@ -1,4 +1,8 @@
-//! `Formula`, a line of mathematics as a list of terms.
+//! `Formula`, a line of mathematics as a list of terms, and the chapter's formulas, read from `assets/formulas.ron`.
+
+use std::sync::LazyLock;
+
+use serde::Deserialize;
 
 use crate::configuration::Space;
 use crate::picture::Role;
@@ -29,32 +33,76 @@ pub struct Term {
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Formula(pub Vec<Term>);
 
+/// A formula of the chapter with what it says in words.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Told {
+    at: Vec<String>,
+    /// The formula.
+    pub formula: Formula,
+    /// What it says, in words.
+    pub spoken: String,
+}
+
+/// A formula as it is written in the manifest.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Written {
+    at: Vec<String>,
+    formula: &'static str,
+    spoken: String,
+}
+
+static FORMULAS: LazyLock<Vec<Told>> = LazyLock::new(|| {
+    let written: Vec<Written> = ron::from_str(include_str!("../../assets/formulas.ron")).unwrap_or_default();
+    let told = |Written { at, formula, spoken }| Told { at, formula: Formula::parse(formula), spoken };
+    written.into_iter().map(told).collect()
+});
+
+impl Told {
+    /// The formulas of this name, in order: of a tab of the query anatomy, or of a kind of robot as in `hitch.4`, with
+    /// the number of its coordinates. None for any other name.
+    pub fn of(name: &str) -> impl Iterator<Item = &'static Told> {
+        FORMULAS.iter().filter(move |told| told.at.iter().any(|at| at == name))
+    }
+
+    /// All formulas.
+    pub fn all() -> &'static [Told] {
+        &FORMULAS
+    }
+
+    /// The names that it stands at.
+    pub fn at(&self) -> &[String] {
+        &self.at
+    }
+}
+
 impl Formula {
+    /// Reads a formula. In `{role:term}` the term has that role; after `_` the next letter is a subscript, after `^` a
+    /// superscript. What has no such role stays without one.
+    pub fn parse(text: &'static str) -> Self {
+        let mut terms = Vec::new();
+        let mut rest = text;
+        while let Some((before, after)) = rest.split_once('{') {
+            add_terms(&mut terms, before, None);
+            let (inner, behind) = after.split_once('}').unwrap_or((after, ""));
+            let (role, term) = inner.split_once(':').unwrap_or(("", inner));
+            add_terms(&mut terms, term, Role::ALL.into_iter().find(|known| known.name() == role));
+            rest = behind;
+        }
+        add_terms(&mut terms, rest, None);
+        Formula(terms)
+    }
+
     /// The configuration of a robot and its space, as [`Space::formula`] writes them. The first `q` has the role of
     /// the robot.
     pub fn of(space: &Space) -> Self {
-        let term = |text, role, level| Term { text, role, level };
         let mut terms = Vec::new();
-        let (mut rest, mut level) = (space.formula, Level::Base);
-        while !rest.is_empty() {
-            // a script is one letter or digit, a piece of the line goes up to the next one
-            let first = rest.chars().next().map_or(0, char::len_utf8);
-            let end = if level == Level::Base { rest.find(['_', '^']).unwrap_or(rest.len()) } else { first };
-            let (text, after) = rest.split_at(end);
-            match text.strip_prefix('q').filter(|_| terms.is_empty()) {
-                Some(more) => {
-                    terms.push(term("q", Some(Role::Robot), Level::Base));
-                    terms.push(term(more, None, level));
-                }
-                None => terms.push(term(text, None, level)),
-            }
-            (level, rest) = match after.chars().next() {
-                Some('_') => (Level::Sub, &after[1..]),
-                Some('^') => (Level::Sup, &after[1..]),
-                _ => (Level::Base, after),
-            };
+        let mut rest = space.formula;
+        if let Some(after) = rest.strip_prefix('q') {
+            terms.push(Term { text: "q", role: Some(Role::Robot), level: Level::Base });
+            rest = after;
         }
-        terms.retain(|term| !term.text.is_empty());
+        add_terms(&mut terms, rest, None);
         Formula(terms)
     }
 
@@ -76,6 +124,25 @@ impl Formula {
             }
         }
         format!("<math>{}</math>", pieces.concat())
+    }
+}
+
+/// Adds the terms of a text without roles of its own: pieces of the line, and scripts of one letter or digit.
+fn add_terms(terms: &mut Vec<Term>, text: &'static str, role: Option<Role>) {
+    let (mut rest, mut level) = (text, Level::Base);
+    while !rest.is_empty() {
+        // a script is one letter or digit, a piece of the line goes up to the next one
+        let first = rest.chars().next().map_or(0, char::len_utf8);
+        let end = if level == Level::Base { rest.find(['_', '^']).unwrap_or(rest.len()) } else { first };
+        let (text, after) = rest.split_at(end);
+        if !text.is_empty() {
+            terms.push(Term { text, role, level });
+        }
+        (level, rest) = match after.chars().next() {
+            Some('_') => (Level::Sub, &after[1..]),
+            Some('^') => (Level::Sup, &after[1..]),
+            _ => (Level::Base, after),
+        };
     }
 }
 
@@ -106,6 +173,48 @@ fn tokens(text: &str, marks: &str) -> Vec<String> {
 mod tests {
     use super::*;
     use crate::configuration::RobotKind;
+
+    #[test]
+    fn the_chapters_formulas_are_whole_and_stand_at_tabs_and_robots_that_there_are() {
+        let text = include_str!("../../assets/formulas.ron");
+        let parsed: Vec<Written> = ron::from_str(text).unwrap();
+        assert_eq!(parsed.len(), Told::all().len());
+        let tabs = crate::anatomy::Tab::ALL.map(|tab| tab.name().to_owned());
+        let kinds = RobotKind::ALL.into_iter().flat_map(|kind| {
+            kind.spaces.iter().map(|space| format!("{}.{}", kind.name, space.coordinates)).collect::<Vec<_>>()
+        });
+        let places: Vec<String> = tabs.into_iter().chain(kinds).collect();
+        for place in &places {
+            assert!(Told::of(place).next().is_some(), "nothing is said of {place}");
+        }
+        for (told, Written { formula, .. }) in Told::all().iter().zip(&parsed) {
+            assert!(told.at().iter().all(|at| places.contains(at)) && told.spoken.ends_with('.'), "{:?}", told.at());
+            // every role is one: as many terms with a role as braces, or more by their scripts
+            let roles = told.formula.0.iter().filter(|term| term.role.is_some()).count();
+            assert!(roles > 0 && roles >= formula.matches('{').count(), "{formula}");
+            assert!(told.formula.0.iter().all(|term| !term.text.contains(['{', '}', '_', '^', ':'])), "{formula}");
+        }
+        assert_eq!(Told::of("hitch.4").count(), 2);
+        assert!(Told::of("a cat").next().is_none());
+    }
+
+    #[test]
+    fn a_term_has_its_role_with_its_scripts() {
+        let term = |text, role, level| Term { text, role, level };
+        let witness = Some(Role::Witness);
+        let expected = [
+            term("|", None, Level::Base),
+            term("a", witness, Level::Base),
+            term("*", witness, Level::Sup),
+            term(" - L", None, Level::Base),
+            term("1", None, Level::Sub),
+            term("2", None, Level::Sup),
+            term("|", None, Level::Base),
+        ];
+        assert_eq!(Formula::parse("|{witness:a^*} - L_1^2|").0, expected);
+        // a role that there is not is none
+        assert_eq!(Formula::parse("{cat:x}").0, [term("x", None, Level::Base)]);
+    }
 
     #[test]
     fn each_robot_has_the_space_of_its_type() {

@@ -6,7 +6,7 @@ mod theme_choice;
 mod widget;
 
 pub use deed::Deed;
-pub use formula::{Formula, Level, Term};
+pub use formula::{Formula, Level, Term, Told};
 pub use theme_choice::ThemeChoice;
 pub use widget::Widget;
 

@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use super::axis::Axis;
 use super::csv;
-use super::parameter::{Form, Parameter, RobotParameter, unit_of};
+use super::parameter::{Form, Parameter, RobotParameter};
 use crate::configuration::RobotKind;
 
 /// The kind of a column's values.
@@ -80,7 +80,7 @@ fn of_axis(axis: &Axis) -> Vec<Column> {
 /// The names of a kind's coordinates with their units.
 fn coordinates(kind: Option<&'static RobotKind>) -> impl Iterator<Item = (&'static str, &'static str)> {
     let names = kind.map_or(&[][..], |kind| kind.coordinates);
-    names.iter().enumerate().map(move |(i, name)| (*name, kind.map_or("", |kind| unit_of(kind, i))))
+    names.iter().enumerate().map(move |(i, name)| (*name, kind.map_or("", |kind| kind.unit_of(i))))
 }
 
 /// The names of columns as a line of comma-separated values.

@@ -114,14 +114,6 @@ const NOISE: [(&str, &str); 6] =
 const SENSOR: [(&str, Form); 3] =
     [("rays", Form::Whole("")), ("range", Form::Number("m")), ("field_of_view", Form::Number("rad"))];
 
-/// The numbers of sizes that are angles, radians; the others are lengths, metres.
-const ANGLES: [&str; 2] = ["car.max_steer", "car.trailer.jackknife"];
-
-/// The unit of a robot's coordinate.
-pub(super) fn unit_of(kind: &RobotKind, coordinate: usize) -> &'static str {
-    if coordinate < kind.lengths { "m" } else { "rad" }
-}
-
 impl Parameter {
     /// The parameter of this name; else what there is, in words.
     pub fn named(name: &str, worlds: &[&World]) -> Result<Self, String> {
@@ -215,10 +207,8 @@ impl Parameter {
             }
             Parameter::Robot { kind, of, .. } => match of {
                 RobotParameter::Start => Form::Start,
-                RobotParameter::Coordinate(i) => Form::Number(RobotKind::of(kind).map_or("", |kind| unit_of(kind, *i))),
-                RobotParameter::Size(number) => {
-                    Form::Number(if ANGLES.contains(&number.as_str()) { "rad" } else { "m" })
-                }
+                RobotParameter::Coordinate(i) => Form::Number(RobotKind::of(kind).map_or("", |kind| kind.unit_of(*i))),
+                RobotParameter::Size(number) => Form::Number(Sizes::unit_of(number)),
                 RobotParameter::Noise(number) => noise(number).unwrap_or(Form::Number("")),
                 RobotParameter::Sensor { number, .. } => {
                     let own = SENSOR.iter().find(|(name, _)| name == number).map(|(_, form)| *form);
@@ -343,34 +333,12 @@ fn with_noise(noise: Option<BeamModel>, name: &str, value: f64) -> Result<BeamMo
     Ok(noise)
 }
 
-/// Sets the number that world files call `name`. `false` if these sizes have no such number.
+/// Sets the number of this name. `false` if these sizes have no such number.
 fn set_size(sizes: &mut Sizes, name: &str, value: f64) -> bool {
-    let number = match (sizes, name) {
-        (Sizes::Disc(disc), "disc.radius") => &mut disc.radius,
-        (Sizes::Disc(disc), "disc.track") => &mut disc.track,
-        (Sizes::Disc(disc), "disc.wheel_radius") => &mut disc.wheel_radius,
-        (Sizes::Arm(arm), "arm.radius") => &mut arm.radius,
-        (Sizes::Arm(arm), "arm.base.x") => &mut arm.base.x,
-        (Sizes::Arm(arm), "arm.base.y") => &mut arm.base.y,
-        (Sizes::Arm(arm), name) => {
-            let link = name.strip_prefix("arm.lengths.").and_then(|i| i.parse::<usize>().ok());
-            match link.and_then(|i| arm.lengths.get_mut(i)) {
-                Some(length) => length,
-                None => return false,
-            }
-        }
-        (Sizes::Car(car), "car.wheelbase") => &mut car.wheelbase,
-        (Sizes::Car(car), "car.length") => &mut car.length,
-        (Sizes::Car(car), "car.width") => &mut car.width,
-        (Sizes::Car(car), "car.rear_overhang") => &mut car.rear_overhang,
-        (Sizes::Car(car), "car.max_steer") => &mut car.max_steer,
-        (Sizes::Car(car), "car.trailer.hitch_len") => &mut car.trailer.hitch_len,
-        (Sizes::Car(car), "car.trailer.width") => &mut car.trailer.width,
-        (Sizes::Car(car), "car.trailer.front_overhang") => &mut car.trailer.front_overhang,
-        (Sizes::Car(car), "car.trailer.rear_overhang") => &mut car.trailer.rear_overhang,
-        (Sizes::Car(car), "car.trailer.jackknife") => car.trailer.jackknife.get_or_insert(value),
-        _ => return false,
-    };
-    *number = value;
-    true
+    if let (Sizes::Car(car), "car.trailer.jackknife") = (&mut *sizes, name) {
+        // a hitch without a limit gets one
+        car.trailer.jackknife = Some(value);
+    }
+    let found = sizes.numbers_mut().into_iter().find(|(known, _)| known == name);
+    found.map(|(_, number)| *number = value).is_some()
 }

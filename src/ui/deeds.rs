@@ -55,7 +55,10 @@ fn shown(state: &UiState) -> Vec<Deed> {
     };
     match state.widget {
         Widget::Cspace => of(&[(Deed::TwoPoints, &|| have_one_tip(anatomy, &state.cspace.trace))]),
-        Widget::Atlas => of(&[(Deed::Coarsen, &|| state.atlas.resolution > FIRST_CELL)]),
+        Widget::Atlas => of(&[
+            (Deed::Coarsen, &|| state.atlas.resolution > FIRST_CELL),
+            (Deed::EditWorld, &|| state.atlas.can_undo()[0]),
+        ]),
         Widget::Plan => of(&[(Deed::FindPath, &|| *state.plan.stage() == Stage::Solved)]),
         Widget::Dashboard | Widget::Anatomy => vec![],
     }

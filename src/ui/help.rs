@@ -20,6 +20,7 @@ pub fn help(ctx: &Context, state: &mut UiState) {
                 (Scope::Armed, "With a robot in hand (click its paper)"),
                 (Scope::Unarmed, "With none in hand"),
                 (Scope::Handle, "With the focus on a dot of an arm (drag it, or click it)"),
+                (Scope::Atlas, "In the world atlas"),
                 (Scope::Always, "Always"),
             ] {
                 ui.label(RichText::new(title).strong());

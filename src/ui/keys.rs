@@ -1,6 +1,6 @@
 //! The keys: one table feeds the shortcuts, the list of them, the hints on buttons and a test against clashes.
 
-use bevy_egui::egui::{InputState, Key, Modifiers, Ui};
+use bevy_egui::egui::{EventFilter, FocusDirection, Id, InputState, Key, Modifiers, Popup, Ui};
 
 use crate::manifest::Widget;
 
@@ -54,6 +54,17 @@ pub enum Action {
     },
     /// Leave the handle with the focus.
     LeaveHandle,
+    /// Move the atlas's robot, its measured point or what is selected in it.
+    Move(Way),
+    /// Turn the atlas's robot, or what is selected in it.
+    TurnThing {
+        /// Whether counter-clockwise.
+        left: bool,
+    },
+    /// Remove what is selected in the atlas.
+    Delete,
+    /// Drop what is being added or dragged in the atlas, or select nothing.
+    Deselect,
     /// Open or fold the plots.
     Plots,
     /// Names on or off.
@@ -91,6 +102,31 @@ pub enum Push {
     Right,
 }
 
+/// A way on the paper.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Way {
+    /// Towards lesser x.
+    Left,
+    /// Towards greater x.
+    Right,
+    /// Towards greater y.
+    Up,
+    /// Towards lesser y.
+    Down,
+}
+
+impl Way {
+    /// One step along x and y.
+    pub fn steps(self) -> [f64; 2] {
+        match self {
+            Way::Left => [-1.0, 0.0],
+            Way::Right => [1.0, 0.0],
+            Way::Up => [0.0, 1.0],
+            Way::Down => [0.0, -1.0],
+        }
+    }
+}
+
 /// The states in which a key is active.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Scope {
@@ -102,6 +138,8 @@ pub enum Scope {
     Armed,
     /// While a handle of an arm has the focus, which then takes the key for itself.
     Handle,
+    /// While the atlas is in front, where the key means nothing else then.
+    Atlas,
 }
 
 /// A row of the table.
@@ -127,8 +165,12 @@ const fn with(action: Action, modifiers: Modifiers, key: Key, words: &'static st
     Binding { action, key, modifiers, scope: Scope::Always, words }
 }
 
+const fn shifted(action: Action, key: Key, words: &'static str) -> Binding {
+    Binding { action, key, modifiers: Modifiers::SHIFT, scope: Scope::Atlas, words }
+}
+
 /// All keys.
-pub const BINDINGS: [Binding; 48] = [
+pub const BINDINGS: [Binding; 57] = [
     plain(Action::PlayPause, Key::Space, Scope::Always, "play or pause"),
     plain(Action::StepBack, Key::ArrowLeft, Scope::Unarmed, "one tick back, and pause"),
     plain(Action::Step, Key::ArrowRight, Scope::Unarmed, "one tick, and pause"),
@@ -160,6 +202,15 @@ pub const BINDINGS: [Binding; 48] = [
     plain(Action::Turn { left: false }, Key::ArrowRight, Scope::Handle, "turn the joint right"),
     plain(Action::Turn { left: false }, Key::ArrowDown, Scope::Handle, "turn the joint right"),
     plain(Action::LeaveHandle, Key::Escape, Scope::Handle, "leave the handle"),
+    plain(Action::Move(Way::Left), Key::ArrowLeft, Scope::Atlas, "the robot, or what is selected, 5 cm to the left"),
+    plain(Action::Move(Way::Right), Key::ArrowRight, Scope::Atlas, "5 cm to the right"),
+    plain(Action::Move(Way::Up), Key::ArrowUp, Scope::Atlas, "5 cm up"),
+    plain(Action::Move(Way::Down), Key::ArrowDown, Scope::Atlas, "5 cm down"),
+    shifted(Action::TurnThing { left: true }, Key::ArrowLeft, "turn it left by 15\u{b0}"),
+    shifted(Action::TurnThing { left: false }, Key::ArrowRight, "turn it right by 15\u{b0}"),
+    plain(Action::Delete, Key::Delete, Scope::Atlas, "remove what is selected"),
+    plain(Action::Delete, Key::Backspace, Scope::Atlas, "remove what is selected"),
+    plain(Action::Deselect, Key::Escape, Scope::Atlas, "drop what is being added, or select nothing"),
     plain(Action::Plots, Key::P, Scope::Always, "plots"),
     plain(Action::Labels, Key::T, Scope::Always, "names of things"),
     plain(Action::Scan, Key::F, Scope::Always, "what the range sensor sees"),
@@ -180,6 +231,11 @@ pub const BINDINGS: [Binding; 48] = [
 ];
 
 impl Binding {
+    /// Whether its key means something in the atlas.
+    fn is_taken_by_the_atlas(&self) -> bool {
+        BINDINGS.iter().any(|b| b.scope == Scope::Atlas && b.key == self.key && b.modifiers == self.modifiers)
+    }
+
     /// The key with its modifiers, as printed on the keyboard.
     pub fn keys(&self) -> String {
         let mut keys = String::new();
@@ -210,26 +266,43 @@ pub fn hint(action: Action) -> String {
     BINDINGS.iter().find(|b| b.action == action).map_or_else(String::new, |b| format!("{} ({})", b.words, b.keys()))
 }
 
+/// What the meaning of a key depends on.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Situation {
+    /// Whether a robot is in hand.
+    pub armed: bool,
+    /// Whether a handle of an arm has the focus.
+    pub nudged: bool,
+    /// Whether the atlas is in front.
+    pub atlas: bool,
+    /// Whether the atlas's paper has the focus.
+    pub paper: bool,
+}
+
 /// The actions whose keys were pressed in this frame: keys with more modifiers first, else in the order of the table.
 ///
 /// None while text is typed. A control with the focus keeps its own keys: arrows, Space, Enter, Home and End. A handle
-/// that is `nudged` keeps only the arrows. The keys that drive and those of handles are not among the actions.
-pub fn pressed(ui: &Ui, armed: bool, nudged: bool) -> Vec<Action> {
+/// with the focus keeps only the arrows, the atlas's paper none. The keys that drive and those of handles are not among
+/// the actions.
+pub fn pressed(ui: &Ui, now: Situation) -> Vec<Action> {
     if ui.ctx().text_edit_focused() {
         return vec![];
     }
-    let focused = ui.memory(|m| m.focused().is_some());
+    let focused = ui.memory(|m| m.focused().is_some()) && !now.paper;
     let own = |key| {
         use Key::{ArrowDown, ArrowLeft, ArrowRight, ArrowUp, End, Enter, Home, Space};
         let arrows = matches!(key, ArrowLeft | ArrowRight | ArrowUp | ArrowDown);
-        focused && (arrows || !nudged && matches!(key, Space | Enter | Home | End))
+        focused && (arrows || !now.nudged && matches!(key, Space | Enter | Home | End))
     };
+    // an open list closes by Escape, and goes on by arrows
+    let in_atlas = now.atlas && !Popup::is_any_open(ui.ctx());
     let due = |b: &&Binding| {
         let scope = match b.scope {
             Scope::Always => true,
-            Scope::Unarmed => !armed,
-            Scope::Armed => armed,
+            Scope::Unarmed => !(now.armed || in_atlas && b.is_taken_by_the_atlas()),
+            Scope::Armed => now.armed,
             Scope::Handle => false,
+            Scope::Atlas => in_atlas,
         };
         scope && !own(b.key) && !matches!(b.action, Action::Drive(_))
     };
@@ -237,6 +310,16 @@ pub fn pressed(ui: &Ui, armed: bool, nudged: bool) -> Vec<Action> {
     let mut bindings: Vec<&Binding> = BINDINGS.iter().filter(due).collect();
     bindings.sort_by_key(|b| std::cmp::Reverse(u8::from(b.modifiers.command) + u8::from(b.modifiers.shift)));
     ui.input_mut(|i| bindings.iter().filter(|b| i.consume_key(b.modifiers, b.key)).map(|b| b.action).collect())
+}
+
+/// Leaves the arrow keys and Escape to a part that has the focus, from its first frame on.
+pub fn keep_arrows(ui: &Ui, id: Id) {
+    let own = EventFilter { horizontal_arrows: true, vertical_arrows: true, escape: true, ..EventFilter::default() };
+    ui.memory_mut(|m| {
+        m.set_focus_lock_filter(id, own);
+        // the filter is for later frames: an arrow of this one would still move the focus as the frame ends
+        m.move_focus(FocusDirection::None);
+    });
 }
 
 /// The directions whose keys are held down.

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use bevy_egui::egui::{CentralPanel, Frame, Margin, Panel, Ui, Vec2, vec2};
 
 use super::dashboard::{self, drive};
-use super::keys::{Action, pressed};
+use super::keys::{Action, Situation, pressed};
 use super::paint::button::LabButton;
 use super::{Command, Dashboard, Grasp, Look, UiState, anatomy, atlas, capture_form, cspace, deeds, help, plan, tools};
 use crate::manifest::Widget;
@@ -36,7 +36,13 @@ pub fn lab(ui: &mut Ui, model: &Dashboard, history: &History, state: &mut UiStat
         // nothing behind a dialog keeps the focus, and with it the keys
         ui.disable();
     }
-    let actions = if state.is_covered() { vec![] } else { pressed(ui, state.armed.is_some(), state.nudged.is_some()) };
+    let now = Situation {
+        armed: state.armed.is_some(),
+        nudged: state.nudged.is_some(),
+        atlas: state.widget == Widget::Atlas,
+        paper: std::mem::take(&mut state.paper),
+    };
+    let actions = if state.is_covered() { vec![] } else { pressed(ui, now) };
     for action in actions {
         match action {
             Action::Widget(widget) => choose(widget, model, state, commands),

@@ -2,11 +2,14 @@
 
 use std::collections::BTreeMap;
 
+use super::atlas::Mode;
 use super::paint::camera::Camera;
 use super::time::span::Span;
 use super::{AtlasState, ParkingGoal, Settings, Widget};
+use crate::geometry::{Aabb, Point2, Pose2, Shape};
 use crate::picture::{Role, Theme};
 use crate::random::Seed;
+use crate::worlds::{Obstacle, ObstacleKind, World};
 
 /// The state of the user interface, as a resource of the app.
 #[derive(bevy::prelude::Resource, Default)]
@@ -57,6 +60,10 @@ pub struct UiState {
     pub pad: (i16, i16),
     /// The arm whose handle had the focus in the last frame. Such a handle keeps the arrow keys and no others.
     pub nudged: Option<String>,
+    /// The role of what is pointed at in a picture, whose terms are underlined.
+    pub over: Option<Role>,
+    /// Whether the atlas's paper had the focus in the last frame. It leaves the keys to the atlas.
+    pub paper: bool,
     /// A change of which handle has the focus, for this frame.
     pub grasp: Option<Grasp>,
     /// The same, for the next frame.
@@ -203,6 +210,20 @@ impl UiState {
         if old.has_history() {
             self.shelf.push(old);
         }
+    }
+
+    /// Opens a new world in the editor: nothing but a wall around 12 x 8 m.
+    pub fn new_world(&mut self) {
+        let bounds = Aabb::new(Point2::origin(), Point2::new(12.0, 8.0));
+        let taken: Vec<String> = self.shelf.iter().chain([&self.atlas]).map(|kept| kept.world().name.clone()).collect();
+        let named = |n: u32| if n == 1 { "New world".to_owned() } else { format!("New world {n}") };
+        let name = (1..).map(named).find(|name| !taken.contains(name)).unwrap_or_default();
+        let mut world = World::empty(name, bounds);
+        let corners = [(0.0, 0.0), (12.0, 0.0), (12.0, 8.0), (0.0, 8.0), (0.0, 0.0)].map(|(x, y)| Point2::new(x, y));
+        let sides = corners.windows(2).map(|w| (Pose2::IDENTITY, Shape::Segment { a: w[0], b: w[1] }));
+        world.obstacles.push(Obstacle::new("the outer wall", ObstacleKind::Wall, sides.collect()));
+        self.open_world(AtlasState::of(world));
+        self.atlas.mode = Mode::Edit;
     }
 
     /// Whether nothing eases: the system or the reader asks for it.

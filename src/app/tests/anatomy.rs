@@ -3,6 +3,7 @@
 use super::*;
 use crate::anatomy::{Anatomy, Tab};
 use crate::geometry::Point2;
+use crate::picture::Role;
 
 fn anatomy(harness: &Harness<'_, Lab>) -> Anatomy {
     harness.state().app.world().resource::<Interface>().0.anatomy.anatomy.clone()
@@ -191,4 +192,48 @@ fn the_second_prompt_shows_its_scene_once_it_is_answered() {
     click(&mut harness, "Show");
     assert_eq!(anatomy(&harness).world().name, "Exercise 3");
     says(&harness, "b* = (0.900, 0.900) at a corner of the square");
+}
+
+#[test]
+fn a_term_lights_what_the_picture_draws_of_it_and_a_part_of_the_picture_its_terms() {
+    let mut harness = on("witness");
+    let spoken =
+        "The witnesses are a point a* of the robot and a point b* of the obstacles as far apart as the distance says.";
+    harness.get_by_label(spoken);
+    let lit = |h: &Harness<'_, Lab>| interface(h).lit;
+    assert_eq!(lit(&harness), None);
+    // by keyboard
+    for (term, role) in [("O: obstacle", Role::Obstacle), ("R(q): robot", Role::Robot), ("b*: witness", Role::Witness)]
+    {
+        harness.get_by_label(term).focus();
+        harness.run_steps(3);
+        assert_eq!(lit(&harness), Some(role), "{term}");
+    }
+    // by the pointer, where it rests
+    let at = harness.get_by_label("O: obstacle").rect().center();
+    pointer(&mut harness, at, None);
+    harness.run_steps(20);
+    assert_eq!(lit(&harness), Some(Role::Obstacle));
+    // on the block, the square from (0.5, 1) to (1, 1.5), the obstacles' terms are underlined, and on bare paper none
+    let paper = harness.get_by_label(&anatomy(&harness).described()).rect();
+    let fit = crate::ui::paint::canvas::fit(&crate::picture::world(anatomy(&harness).world()), paper);
+    for ([x, y], over) in [([0.75, 1.25], Some(Role::Obstacle)), ([-2.0, 2.0], None)] {
+        let [x, y] = fit.screen_from_world(Point2::new(x, y));
+        pointer(&mut harness, pos2(x as f32, y as f32), None);
+        harness.run_steps(2);
+        assert_eq!(interface(&harness).over, over);
+    }
+}
+
+#[test]
+fn each_tab_has_its_formula_and_each_robot_its_own() {
+    let mut harness = on("swept");
+    harness.get_by_label_contains("meets no obstacle at any moment");
+    click(&mut harness, "intersects");
+    harness.get_by_label_contains("The set that the robot covers");
+    assert!(harness.query_by_label_contains("meets no obstacle at any moment").is_none());
+    click(&mut harness, "Drive");
+    harness.get_by_label_contains("It rolls the way it faces with speed v, and turns with rate omega.");
+    bring(&mut harness, "Reach");
+    harness.get_by_label_contains("The tip, by forward kinematics");
 }

@@ -1,5 +1,7 @@
 //! The atlas and its editor, behaviour by behaviour.
 
+mod editor;
+
 use bevy::window::FileDragAndDrop;
 
 use super::*;
@@ -37,8 +39,11 @@ fn the_editor_draws_with_the_mouse_undoes_by_key_and_saves_the_same_bytes() {
     crate::app::files::save_world(harness.state_mut().app.world_mut(), &path);
     assert_eq!(std::fs::read_to_string(&path).unwrap(), text);
     harness.run_steps(2);
-    // a mark is added in the middle, moved by its line, and given a corner
+    // a mark is added where the paper is clicked, moved by its line, and given a corner
     click(&mut harness, "Add mark");
+    assert!(atlas(&harness).world().marks.iter().all(|m| m.name != "mark"), "not before it is put");
+    let middle = at(&harness, [0.0, 0.0]);
+    click_at(&mut harness, middle);
     drag_on(&mut harness, [0.2, 0.0], [0.2, -0.5]);
     drag_on(&mut harness, [0.0, -0.5], [0.0, -0.8]);
     drag_on(&mut harness, [0.5, -0.5], [0.9, -0.5]);
@@ -53,6 +58,7 @@ fn the_editor_draws_with_the_mouse_undoes_by_key_and_saves_the_same_bytes() {
     assert_eq!(harness.state().app.world().resource::<RunConfig>().0.worlds.len(), 3, "and nothing of the run");
     // a place is turned by its second handle, to a whole step
     click(&mut harness, "Add place");
+    click_at(&mut harness, middle);
     let place = atlas(&harness).world().places.last().unwrap().clone();
     let ahead = place.pose.x + 0.05 * 4.8;
     drag_on(&mut harness, [ahead, place.pose.y], [place.pose.x + 0.02, place.pose.y + 0.6]);

@@ -46,14 +46,13 @@ fn dragging_the_point_moves_the_arm_leaves_a_trace_and_goes_over_the_edge() {
     let (from, to) = (at(&harness, [2.6, 0.4]), at(&harness, [3.5, 0.4]));
     pointer(&mut harness, from, Some(true));
     for i in 1..=12 {
-        let edge = at(&harness, [3.1, 0.4]);
-        // as far as the paper reaches beyond the square, where the other edge begins
-        pointer(&mut harness, from.lerp(pos2(to.x.min(edge.x + 8.0), to.y), i as f32 / 12.0), None);
+        pointer(&mut harness, from.lerp(to, i as f32 / 12.0), None);
     }
     pointer(&mut harness, to, Some(false));
     harness.run_steps(3);
     let q = anatomy(&harness).q().coordinates();
-    assert!(q[0] < -2.9 && (q[1] - 0.4).abs() < 0.05, "on the other side: {q:?}");
+    // 3.5 less a whole turn
+    assert!((q[0] + 2.783).abs() < 0.02 && (q[1] - 0.4).abs() < 0.02, "on the other side: {q:?}");
     let picture = shown(&harness);
     assert!(lines(&picture, "trace") >= Some(2), "a trace in pieces, and none goes across the square");
     let trace = picture.items.iter().find(|i| i.id == "trace").unwrap();
@@ -63,6 +62,24 @@ fn dragging_the_point_moves_the_arm_leaves_a_trace_and_goes_over_the_edge() {
     let paper = harness.get_by_label_contains("workspace. Reach").rect();
     click_at(&mut harness, paper.center() + egui::vec2(40.0, -60.0));
     assert_ne!(anatomy(&harness).q().coordinates(), q);
+}
+
+#[test]
+fn far_off_the_edge_the_point_goes_on_from_the_other_one() {
+    let mut harness = lab(WIDE);
+    click(&mut harness, "Space");
+    harness.run_steps(3);
+    let is_ticked = |h: &Harness<'_, Lab>| interface(h).settings.done.iter().any(|deed| deed == "OverEdge");
+    let (from, to) = (at(&harness, [-2.6, 0.4]), at(&harness, [-4.5, 0.4]));
+    pointer(&mut harness, from, Some(true));
+    pointer(&mut harness, from.lerp(to, 0.2), None);
+    assert!(!is_ticked(&harness), "it is on the square still");
+    (1..=8).for_each(|i| pointer(&mut harness, from.lerp(to, 0.2 + 0.1 * i as f32), None));
+    // a whole turn on from -4.5
+    let q = anatomy(&harness).q().coordinates();
+    assert!((q[0] - (std::f64::consts::TAU - 4.5)).abs() < 0.02 && (q[1] - 0.4).abs() < 0.02, "{q:?}");
+    assert!(is_ticked(&harness));
+    pointer(&mut harness, to, Some(false));
 }
 
 #[test]

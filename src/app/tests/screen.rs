@@ -322,17 +322,20 @@ fn each_widget_ticks_off_its_own() {
     assert_eq!(done(&harness).len(), 3);
     change(&mut harness, &|state| state.atlas.set_resolution(0.5));
     assert_eq!(done(&harness)[3..], ["Coarsen"]);
+    let gone = crate::atlas::Op::Delete { name: "D's front wall".into() };
+    change(&mut harness, &|state| state.atlas.change(&gone, None));
+    assert_eq!(done(&harness)[4..], ["EditWorld"]);
     click(&mut harness, "Plan");
     keys(&mut harness, Key::ArrowRight, 1);
-    assert_eq!(done(&harness)[4..], ["StepPlanner"]);
+    assert_eq!(done(&harness)[5..], ["StepPlanner"]);
     change(&mut harness, &|state| {
         let goal = state.plan.end_at(1);
         state.plan.move_end(1, goal.with(0, 3.0));
         (0..500).for_each(|_| state.plan.step());
     });
-    assert_eq!(done(&harness)[5..], ["FindPath", "MoveGoal"]);
+    assert_eq!(done(&harness)[6..], ["FindPath", "MoveGoal"]);
     click(&mut harness, "Play it");
-    assert_eq!(done(&harness)[7..], ["PlayPath"]);
+    assert_eq!(done(&harness)[8..], ["PlayPath"]);
 }
 
 #[test]

@@ -100,6 +100,7 @@ fn the_atlas_puts_robots_refuses_and_edits() {
     // the editor
     click(&mut harness, "Edit");
     click(&mut harness, "Add box");
+    click_at(&mut harness, at(6.0, 4.0));
     assert!(atlas(&harness).world().obstacle("box").is_some());
     click(&mut harness, "Delete");
     assert!(atlas(&harness).world().obstacle("box").is_none());
@@ -118,6 +119,8 @@ fn the_atlas_puts_robots_refuses_and_edits() {
     std::fs::write(&path, "a cat").unwrap();
     let refused = crate::app::files::open_world(harness.state_mut().app.world_mut(), &path);
     assert!(refused.is_error && atlas(&harness).is_saved(), "{refused:?}");
+    // the buttons stand where the name of the file leaves them
+    harness.run_steps(2);
     click(&mut harness, "Run this world");
     let config = harness.state().app.world().resource::<RunConfig>().0.clone();
     assert!(config.worlds.len() == 1 && config.worlds[0].obstacle("box").is_some());
@@ -163,7 +166,8 @@ fn a_world_of_the_atlas_is_asked_about_in_the_anatomy() {
     let mut harness = lab(WIDE);
     front(&mut harness, "Atlas");
     click(&mut harness, "Edit");
-    click(&mut harness, "Add disc");
+    harness.get_by_label("Add disc").click_accesskit();
+    harness.run_steps(3);
     crate::app::files::save_world(harness.state_mut().app.world_mut(), &path);
     front(&mut harness, "Query");
     click(&mut harness, "Any robot, any world");

@@ -106,7 +106,7 @@ fn what_a_file_would_be_refused_for_is_refused_and_changes_nothing() {
         (Op::Rename { name: name("the block"), to: name("the post") }, "the name is taken"),
         (Op::Delete { name: name("nobody") }, "nothing here is called \"nobody\""),
         (Op::Reshape { name: name("the base"), shape: boxed(0.0, 0.0, 1.0, 1.0) }, "has no shape"),
-        (Op::Move { name: name("Reach"), by: Vector2::new(1.0, 0.0) }, "has no shape"),
+        (Op::SetPose { name: name("Reach"), pose: Pose2::IDENTITY }, "has no shape"),
     ];
     for (op, reason) in refused {
         let error = editor.apply(&op).unwrap_err().to_string();
@@ -261,6 +261,8 @@ fn robots_of_kinds_that_the_editor_knows_are_moved() {
     editor.apply(&by(1.1, -0.2)).unwrap();
     assert_eq!(start(&editor), [4.1, 2.3, 0.7], "the place moves, and nothing else");
     assert_eq!(World::parse("w.ron", &editor.text()).unwrap(), *editor.world());
+    assert_eq!(editor.handles("Sled").iter().map(|h| h.at).collect::<Vec<_>>(), [p(4.1, 2.3)], "a place, no heading");
+    assert!(editor.handles("Claw").is_empty() && editor.holds("Claw"));
     // to where no run would start it, it is not moved
     let refused = editor.apply(&by(5.0, 0.0)).unwrap_err();
     assert!(matches!(&refused, EditError::NoConfiguration(name) if name == "Sled"), "{refused:?}");
@@ -271,11 +273,8 @@ fn robots_of_kinds_that_the_editor_knows_are_moved() {
     // a kind without a place has no shape to move
     let claw = Op::Move { name: name("Claw"), by: Vector2::new(0.1, 0.0) };
     assert!(matches!(editor.apply(&claw), Err(EditError::NoShape(name)) if name == "Claw"));
-    // the lab's robots move as ever, and arms without sizes don't
+    // the lab's robots move as ever
     editor.apply(&Op::Move { name: name("Hitch"), by: Vector2::new(0.25, 0.0) }).unwrap();
-    let mut bench = Editor::new(World::workbench()).knowing(sleds());
-    let reach = Op::Move { name: name("Reach"), by: Vector2::new(0.1, 0.0) };
-    assert!(matches!(bench.apply(&reach), Err(EditError::NoShape(_))));
     assert!(editor.undo() && editor.undo() && editor.undo() && !editor.undo());
     assert_eq!(start(&editor), [3.0, 2.5, 0.7]);
     // opened from a file it is the same

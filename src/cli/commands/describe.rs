@@ -5,7 +5,7 @@ use serde_json::{Map, Value, json};
 
 use crate::cli::{Data, Failure, Outcome};
 use motion_lab::configuration::RobotKind;
-use motion_lab::manifest::{Formula, Widget};
+use motion_lab::manifest::{Formula, Told, Widget};
 use motion_lab::picture::{Rgb, Role, Theme};
 
 /// Print what a page about the lab needs, as JSON: each widget's words, the formulas of the configuration spaces in
@@ -40,9 +40,13 @@ impl Describe {
                 })
             })
             .collect();
+        let told = Told::all()
+            .iter()
+            .map(|told| json!({ "at": told.at(), "mathml": told.formula.mathml(), "spoken": told.spoken }));
         let all = json!({
             "widgets": widgets,
             "formulas": formulas,
+            "chapter": told.collect::<Vec<Value>>(),
             "colours": { "light": colours(Theme::Light), "dark": colours(Theme::Dark) },
         });
         data.data_line(serde_json::to_string_pretty(&all).map_err(Failure::internal)?)?;

@@ -4,7 +4,7 @@ use crate::configuration::{RobotKind, Sizes};
 use crate::sweep::axis::Axis;
 use crate::sweep::columns::{MAX_ROBOT_COLUMNS, RobotColumns};
 use crate::sweep::error::SweepProblem;
-use crate::sweep::parameter::{Parameter, RobotParameter, Sources, unit_of};
+use crate::sweep::parameter::{Parameter, RobotParameter, Sources};
 use crate::sweep::plan_text::{GoalText, Item, PlanText};
 use crate::sweep::values::Over;
 use crate::worlds::{BeamModel, Resident, World, WorldProblem};
@@ -55,7 +55,7 @@ pub fn check_planner(plan: &PlanText) -> Result<(), (Item, SweepProblem)> {
 pub fn planned_unit(plan: &PlanText, worlds: &[&World]) -> Option<&'static str> {
     let (_, GoalText { robot, .. }) = plan.planner.as_ref().zip(plan.goal.as_ref())?;
     let resident = worlds.iter().flat_map(|world| &world.robots).find(|resident| resident.name == *robot)?;
-    RobotKind::of(&resident.kind).map(|kind| unit_of(kind, 0))
+    RobotKind::of(&resident.kind).map(|kind| kind.unit_of(0))
 }
 
 /// The axes, each of which varies something.

@@ -10,6 +10,7 @@ use crate::manifest::{Deed, Widget};
 use crate::picture::Role;
 use crate::ui::deeds::of_anatomy;
 use crate::ui::paint::button::LabButton;
+use crate::ui::paint::frame::formulas;
 use crate::ui::paint::sheet::{sheet, split};
 use crate::ui::{AnatomyState, Command, Dashboard, Look, UiState};
 use crate::worlds::World;
@@ -18,7 +19,7 @@ use crate::worlds::World;
 const SIDE: f32 = 380.0;
 
 /// Side of the close view, points.
-const INSET: f32 = 230.0;
+const INSET: f32 = 208.0;
 
 /// Shows the widget.
 pub fn anatomy_view(ui: &mut Ui, model: &Dashboard, look: &Look, state: &mut UiState, commands: &mut Vec<Command>) {
@@ -35,6 +36,7 @@ pub fn anatomy_view(ui: &mut Ui, model: &Dashboard, look: &Look, state: &mut UiS
     if let Some(to) = on.held().filter(|_| on.response.dragged() || on.response.clicked()) {
         state.anatomy.anatomy.drag(to);
     }
+    state.over = on.pointed_at(&overlay).or_else(|| on.pointed_at(&backdrop));
     on.response.on_hover_text_at_pointer("Drag the robot: an arm by its tip");
     ui.scope_builder(bevy_egui::egui::UiBuilder::new().max_rect(beside), |ui| {
         ScrollArea::vertical().auto_shrink(false).show(ui, |ui| beside_the_paper(ui, narrow, look, state));
@@ -50,8 +52,9 @@ fn beside_the_paper(ui: &mut Ui, narrow: bool, look: &Look, state: &mut UiState)
             }
         }
     });
+    ui.label(state.anatomy.anatomy.question());
+    formulas(ui, state.anatomy.anatomy.tab.name(), look, state);
     let anatomy = &mut state.anatomy.anatomy;
-    ui.label(anatomy.question());
     for line in anatomy.readout() {
         let role = if anatomy.intersects() && anatomy.tab != Tab::Swept { Role::Goal } else { Role::Text };
         ui.label(RichText::new(line.replace('-', "\u{2212}")).monospace().color(look.colour(role)));

@@ -1,13 +1,13 @@
-//! Editing in the atlas: selecting, dragging and changing things.
+//! Editing in the atlas: adding, selecting, dragging and changing things.
 
-use std::sync::Arc;
-
-use super::state::Drag;
-use crate::atlas::{Op, snap};
-use crate::geometry::{Aabb, Point2, Pose2};
+use super::state::{Drag, Mode};
+use crate::atlas::{Editor, Op, Template, snap};
+use crate::configuration::Configuration;
+use crate::geometry::{Aabb, Point2, Pose2, Vector2};
 use crate::num::{atan2, greater, lesser};
-use crate::picture::world as picture_of;
+use crate::picture::Item;
 use crate::ui::AtlasState;
+use crate::worlds::World;
 
 /// Spacing of the grid that points snap to, metres.
 const GRID: f64 = 0.05;
@@ -39,10 +39,25 @@ impl AtlasState {
 
     /// Selects a thing by name, or nothing.
     pub fn select(&mut self, name: Option<&str>) {
-        let known = |n: &&str| !self.editor.handles(n).is_empty();
-        self.selected = name.filter(known).map(str::to_owned);
-        self.name_text = self.selected.clone().unwrap_or_default();
+        self.selected = name.filter(|name| self.editor.holds(name)).map(str::to_owned);
+        self.name_text = self.selected.clone().unwrap_or_else(|| self.world().name.clone());
         self.message = None;
+    }
+
+    /// Adds a thing there, snapped to the grid, and selects it.
+    pub fn add(&mut self, template: Template, at: Point2) {
+        let name = self.editor.free_name(&template.name());
+        let op = template.op(name.clone(), snap(at, &[], 0.0, GRID), self.unit());
+        self.placing = None;
+        self.change(&op, Some(name));
+    }
+
+    /// What adding the thing there would add: its outline, and its handles.
+    pub fn added_items(&self, template: Template, at: Point2) -> Vec<Item> {
+        let name = template.name();
+        let op = template.op(name.clone(), snap(at, &[], 0.0, GRID), self.unit());
+        let alone = Editor::new(World::empty("new", self.world().bounds)).preview(&op);
+        alone.map_or_else(|_| Vec::new(), |world| Editor::new(world).selected_items(&name))
     }
 
     /// The handle of the selected thing within `reach` metres of a point.
@@ -53,48 +68,117 @@ impl AtlasState {
 
     /// Begins a drag of the selected thing, or of its handle `handle`.
     pub fn begin_drag(&mut self, from: Point2, handle: Option<usize>) {
-        self.drag = self.selected.is_some().then_some(Drag { from, handle, op: None });
+        self.drag = self.selected.is_some().then_some(Drag { from, handle });
     }
 
     /// Continues a drag to a point. It snaps to corners within `reach` metres, else to a grid of 5 cm. Headings snap to
-    /// multiples of 15 degrees.
-    pub fn drag_to(&mut self, to: Point2, reach: f64) {
+    /// multiples of 15 degrees. Without a reach nothing snaps.
+    pub fn drag_to(&mut self, to: Point2, reach: Option<f64>) {
         let (Some(drag), Some(name)) = (self.drag.clone(), self.selected.clone()) else { return };
+        let grid = if reach.is_some() { GRID } else { 0.0 };
+        let snapped = reach.map_or(to, |reach| snap(to, &self.corners(&name, drag.handle), reach, grid));
+        let op = match (drag.handle, self.editor.pose(&name)) {
+            (Some(1), Some(pose)) => {
+                let way = to - pose.position();
+                let theta = atan2(way.y, way.x);
+                let theta = if reach.is_some() { (theta / TURN).round() * TURN } else { theta };
+                Op::SetPose { pose: Pose2 { theta, ..pose }, name }
+            }
+            (Some(handle), _) => Op::Drag { name, handle, to: snapped },
+            (None, _) => Op::Move { name, by: snapped - snap(drag.from, &[], 0.0, grid) },
+        };
+        self.try_out(op);
+    }
+
+    /// The points that a drag of the thing of this name snaps to.
+    fn corners(&self, name: &str, handle: Option<usize>) -> Vec<Point2> {
         let others = self.world().obstacles.iter().filter(|o| o.name != name);
         let mut corners: Vec<Point2> =
             others.flat_map(|o| o.placed().flat_map(|p| p.core().to_vec()).collect::<Vec<_>>()).collect();
-        let shape = self.editor.shape(&name);
+        let shape = self.editor.shape(name);
         // its own neighbours too: a corner dropped on one of them goes away
-        corners.extend(shape.iter().zip(drag.handle).flat_map(|(shape, handle)| shape.neighbours(handle)));
-        let snapped = snap(to, &corners, reach, GRID);
-        let op = match (drag.handle, self.world().place(&name)) {
-            (Some(1), Some(place)) => {
-                let way = to - place.pose.position();
-                let theta = (atan2(way.y, way.x) / TURN).round() * TURN;
-                Op::SetPose { pose: Pose2 { theta, ..place.pose }, name }
-            }
-            (Some(handle), _) => Op::Drag { name, handle, to: snapped },
-            (None, _) => Op::Move { name, by: snapped - snap(drag.from, &[], 0.0, GRID) },
-        };
+        corners.extend(shape.iter().zip(handle).flat_map(|(shape, handle)| shape.neighbours(handle)));
+        corners
+    }
+
+    /// Shows the world with a change, without making it. A refused one leaves its reason in `message`.
+    pub fn try_out(&mut self, op: Op) {
         match self.editor.preview(&op) {
             Ok(world) => {
-                self.still = Arc::new(picture_of(&world));
-                self.message = None;
-                self.drag = Some(Drag { op: Some(op), ..drag });
+                self.see(world.clone());
+                self.preview = Some(Editor::new(world).knowing(self.editor.kinds().clone()));
+                (self.tried, self.message) = (Some(op), None);
             }
-            Err(error) => {
-                self.message = Some(error.to_string());
-                self.drag = Some(Drag { op: None, ..drag });
-            }
+            Err(error) => (self.tried, self.message) = (None, Some(error.to_string())),
+        }
+    }
+
+    /// Makes the change that was tried out last, unless that was refused.
+    pub fn settle(&mut self) {
+        match self.tried.take() {
+            Some(op) => self.change(&op, self.selected.clone()),
+            None => self.redraw(),
         }
     }
 
     /// Ends a drag and makes its change, unless that was refused.
     pub fn end_drag(&mut self) {
-        let drag = self.drag.take();
-        match drag.and_then(|d| d.op) {
-            Some(op) => self.change(&op, self.selected.clone()),
-            None => self.redraw(),
+        self.drag = None;
+        self.settle();
+    }
+
+    /// Drops what is being added or dragged; where nothing is, selects nothing.
+    pub fn leave(&mut self) {
+        if self.placing.take().is_none() && self.drag.is_none() && self.tried.is_none() {
+            self.select(None);
+        }
+        self.drag = None;
+        self.redraw();
+    }
+
+    /// Removes what is selected.
+    pub fn delete(&mut self) {
+        if let Some(name) = self.selected.clone() {
+            self.change(&Op::Delete { name }, None);
+        }
+    }
+
+    /// Moves the robot, the point that is measured or what is selected by this many steps of 5 cm.
+    pub fn step(&mut self, steps: [f64; 2]) {
+        let by = Vector2::from(steps) * GRID;
+        match self.mode {
+            Mode::Put => {
+                if let Some(robot) = self.atlas.robots().get(self.robot) {
+                    self.ask(robot.robot.reference(&robot.q) + by, None, true);
+                }
+            }
+            Mode::Measure => self.probe = Some(self.probe.unwrap_or_else(|| self.middle()) + by),
+            Mode::Edit => {
+                if let Some(name) = self.selected.clone() {
+                    self.change(&Op::Move { name: name.clone(), by }, Some(name));
+                }
+            }
+        }
+    }
+
+    /// Turns the robot or what is selected by 15 degrees. What has no heading stays as it is.
+    pub fn turn(&mut self, left: bool) {
+        let turned = |theta: f64| (theta / TURN).round() * TURN + if left { TURN } else { -TURN };
+        match self.mode {
+            Mode::Put => {
+                let Some(robot) = self.atlas.robots().get(self.robot) else { return };
+                if let Some(theta) = robot.q.coordinates().get(2).filter(|_| robot.robot.annulus().is_none()) {
+                    self.ask(robot.robot.reference(&robot.q), Some(turned(*theta)), true);
+                }
+            }
+            Mode::Measure => {}
+            Mode::Edit => {
+                let pose = self.selected.as_ref().and_then(|name| Some((name.clone(), self.editor.pose(name)?)));
+                if let Some((name, pose)) = pose {
+                    let pose = Pose2 { theta: turned(pose.theta), ..pose };
+                    self.change(&Op::SetPose { name: name.clone(), pose }, Some(name));
+                }
+            }
         }
     }
 
@@ -128,14 +212,13 @@ impl AtlasState {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::worlds::World;
 
     #[test]
     fn a_thing_is_dragged_by_itself_and_by_its_handles_and_refused_changes_are_reported() {
         let mut atlas = AtlasState::of(World::workbench());
         atlas.select(Some("the block"));
         atlas.begin_drag(Point2::new(0.75, 1.25), None);
-        atlas.drag_to(Point2::new(-0.25, 1.25), 0.05);
+        atlas.drag_to(Point2::new(-0.25, 1.25), Some(0.05));
         assert_eq!(atlas.world(), &World::workbench(), "not before it is let go");
         atlas.end_drag();
         let x = |a: &AtlasState| a.world().obstacle("the block").unwrap().placed().next().unwrap().core()[0].x;

@@ -1,10 +1,12 @@
 //! The world atlas in the window.
 
 mod editing;
+mod panel;
+mod shown;
 mod state;
 pub(crate) mod view;
 
-pub use state::AtlasState;
+pub use state::{AtlasState, Mode};
 
 /// The side of a grid cell at first, metres.
 pub const FIRST_CELL: f64 = 0.25;

@@ -4,14 +4,10 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use crate::anatomy::WorldSource;
-use crate::atlas::{Atlas, Editor, GridLayer, Op, Refusal, names};
-use crate::capture::{self, AtlasSheet, Captured};
+use crate::atlas::{Atlas, Editor, GridLayer, Op, Refusal, Template};
 use crate::configuration::{AnyConfiguration, Kinds};
 use crate::geometry::Point2;
-use crate::picture::{Drawing, Item, Picture, Role, footprint, world as picture_of};
-use crate::recording::printed_as;
-use crate::robots::Robot;
-use crate::ui::readout;
+use crate::picture::{Item, Picture, world as picture_of};
 use crate::worlds::World;
 
 /// The effect of a click.
@@ -31,33 +27,40 @@ pub enum Mode {
 pub(crate) struct Drag {
     pub from: Point2,
     pub handle: Option<usize>,
-    pub op: Option<Op>,
 }
 
 /// The state of the atlas.
 #[derive(Clone, Debug)]
 pub struct AtlasState {
     pub(crate) editor: Editor,
+    /// The world with the change that is tried out.
+    pub(super) preview: Option<Editor>,
+    /// The change that is tried out and was not refused.
+    pub(super) tried: Option<Op>,
     /// The file it was read from or saved in.
     path: Option<PathBuf>,
     /// The built-in world that it began as, by the name that `World::built_in` knows.
     built_in: Option<&'static str>,
-    atlas: Atlas,
-    /// The picture of the world; during a drag, with its last accepted change.
+    pub(super) atlas: Atlas,
+    /// The world, with the change that is tried out, and its robots at their starts.
+    pub(super) starts: Atlas,
+    /// The picture of the world, with the change that is tried out.
     pub(crate) still: Arc<Picture>,
-    /// The name labels, with the scale that they were placed for, pixels per metre.
-    labels: Option<(f64, Vec<Item>)>,
+    /// The name labels, with the scale that they were placed for, pixels per metre, and whether the world is edited.
+    pub(super) labels: Option<((f64, bool), Vec<Item>)>,
     warnings: Vec<String>,
-    grid: Option<(GridLayer, Arc<Picture>)>,
+    pub(super) grid: Option<(GridLayer, Arc<Picture>)>,
+    /// The point that is measured while the pointer is elsewhere.
+    pub probe: Option<Point2>,
     /// The effect of a click.
     pub mode: Mode,
     /// Index of the robot that a click places.
     pub robot: usize,
     /// Where the pointer was pressed.
     pub pressed: Option<Point2>,
-    refused: Option<(AnyConfiguration, Refusal)>,
+    pub(super) refused: Option<(AnyConfiguration, Refusal)>,
     /// Where releasing the pointer puts the robot.
-    wanted: Option<AnyConfiguration>,
+    pub(super) wanted: Option<AnyConfiguration>,
     /// The side of a grid cell, metres.
     pub resolution: f64,
     /// The name of the selected thing.
@@ -67,6 +70,10 @@ pub struct AtlasState {
     /// The reason why the last change was refused.
     pub message: Option<String>,
     pub(crate) drag: Option<Drag>,
+    /// The thing that the next click on the paper adds.
+    pub placing: Option<Template>,
+    /// What is looked for in the list of everything.
+    pub search: String,
 }
 
 impl Default for AtlasState {
@@ -120,9 +127,17 @@ impl AtlasState {
     /// The state for an editor and its world.
     pub fn edited(editor: Editor) -> Self {
         let world = editor.world().clone();
+        let name_text = world.name.clone();
+        let atlas = Atlas::new(world.clone());
         AtlasState {
             still: Arc::new(picture_of(&world)),
-            atlas: Atlas::new(world),
+            starts: atlas.clone(),
+            atlas,
+            preview: None,
+            tried: None,
+            probe: None,
+            placing: None,
+            search: String::new(),
             warnings: editor.warnings(),
             editor,
             path: None,
@@ -136,7 +151,7 @@ impl AtlasState {
             wanted: None,
             resolution: super::FIRST_CELL,
             selected: None,
-            name_text: String::new(),
+            name_text,
             message: None,
             drag: None,
         }
@@ -159,6 +174,7 @@ impl AtlasState {
     /// Shows robots of these kinds too.
     pub fn know(&mut self, kinds: Kinds) {
         self.atlas = self.atlas.clone().knowing(kinds.clone());
+        self.starts = self.starts.clone().knowing(kinds.clone());
         self.editor = self.editor.clone().knowing(kinds);
         self.warnings = self.editor.warnings();
         self.labels = None;
@@ -209,110 +225,16 @@ impl AtlasState {
         &self.warnings
     }
 
-    /// A free name for a thing of this kind.
-    pub fn free_name(&self, kind: &str) -> String {
-        self.editor.free_name(kind)
-    }
-
     /// The middle of the world.
     pub fn middle(&self) -> Point2 {
         let bounds = self.world().bounds;
         bounds.min + (bounds.max - bounds.min) * 0.5
     }
 
-    /// The lower layer: the world, in measure mode on its grid.
-    pub fn still(&mut self) -> Arc<Picture> {
-        if self.mode != Mode::Measure {
-            return Arc::clone(&self.still);
-        }
-        if self.grid.is_none()
-            && let Ok(layer) = GridLayer::new(self.world(), self.resolution)
-        {
-            let picture = layer.picture().with(self.still.items.iter().cloned());
-            self.grid = Some((layer, Arc::new(picture)));
-        }
-        self.grid.as_ref().map_or_else(|| Arc::clone(&self.still), |(_, picture)| Arc::clone(picture))
-    }
-
-    /// The upper layer: robots, a refusal or the place wanted, and the selection.
-    pub fn over(&self) -> Picture {
-        let picture = self.atlas.picture();
-        let ours = self.still.items.len();
-        let mut over = Picture::new(picture.name.clone(), picture.bounds);
-        // the atlas draws the world first, which the lower layer shows already
-        over.items.extend(picture.items.into_iter().skip(ours));
-        let put = self.mode == Mode::Put;
-        if let Some((q, refusal)) = self.refused.as_ref().filter(|_| put) {
-            // its words stand on a plate, which no edge cuts
-            let items = self.atlas.refusal_items(self.robot, q, refusal);
-            over.items.extend(items.into_iter().filter(|item| !matches!(item.drawing, Drawing::Label { .. })));
-        } else if let Some((q, robot)) = self.wanted.as_ref().filter(|_| put).zip(self.atlas.robots().get(self.robot)) {
-            let ghost = footprint("wanted", "where it would be", &robot.robot.footprint(q), Role::Robot, 0.3);
-            over.items.extend(ghost);
-        }
-        if let Some(name) = self.selected.as_ref().filter(|_| self.mode == Mode::Edit) {
-            over.items.extend(self.editor.selected_items(name));
-        }
-        over
-    }
-
-    /// The name labels of everything, for a picture of this scale.
-    pub fn labels(&mut self, px_per_metre: f64) -> &[Item] {
-        if self.labels.as_ref().is_none_or(|(scale, _)| *scale != px_per_metre) {
-            self.labels = Some((px_per_metre, names(&self.atlas, px_per_metre)));
-        }
-        self.labels.as_ref().map_or(&[], |(_, items)| items)
-    }
-
-    /// The items that show the distances at a point; none outside measure mode.
-    pub fn probe_items(&self, at: Option<Point2>) -> Vec<Item> {
-        let layer = self.grid.as_ref().filter(|_| self.mode == Mode::Measure);
-        layer.zip(at).map_or_else(Vec::new, |((layer, _), at)| layer.probe_items(at))
-    }
-
     /// Sets the side of the grid's cells, metres.
     pub fn set_resolution(&mut self, resolution: f64) {
         self.resolution = resolution;
         self.grid = None;
-    }
-
-    /// The figure of the atlas, for a sheet of this width, pixels. `names` adds the name labels, but not to a refusal.
-    pub fn captured(&self, names: bool, width_px: f64) -> Captured {
-        let refused = self.refused.as_ref().filter(|_| self.mode == Mode::Put);
-        let over = refused.map_or_else(Vec::new, |(q, refusal)| self.atlas.refusal_items(self.robot, q, refusal));
-        let robots = self.atlas.robots().iter().map(|r| readout(&r.q.to_string()));
-        let mut readout: Vec<String> = robots.collect();
-        readout.extend(refused.map(|(_, refusal)| refusal.to_string()));
-        let grid = self.grid.as_ref().map(|(layer, _)| layer).filter(|_| self.mode == Mode::Measure);
-        // a refusal has labels of its own where names would be
-        let names = names && refused.is_none();
-        capture::atlas(&[AtlasSheet { atlas: &self.atlas, grid, over, readout, names }], width_px)
-    }
-
-    /// The widget in words, for screen readers.
-    pub fn described(&self) -> String {
-        let lab = self.atlas.robots();
-        let others = self.world().robots.iter().filter(|robot| lab.iter().all(|r| r.name != robot.name));
-        let others = others.filter_map(|robot| {
-            let about = self.atlas.kinds().of(&robot.kind)?;
-            Some(format!("{}: {}", robot.name, printed_as(Some(about), &robot.start)))
-        });
-        let robots: Vec<String> = lab.iter().map(|r| format!("{}: {}", r.name, r.q)).chain(others).collect();
-        let refusal = self.refusal().map_or_else(String::new, |r| format!(" {r}."));
-        format!("World {}. {}.{refusal}", self.world().name, robots.join("; "))
-    }
-
-    /// What was refused on the paper in this mode, in words, and where: a robot that was to be put, or an edit.
-    pub fn refused_on_paper(&self) -> Option<(String, Option<Point2>)> {
-        match self.mode {
-            Mode::Put => {
-                let robot = self.atlas.robots().get(self.robot);
-                let at = self.refused.as_ref().zip(robot).map(|((q, _), robot)| robot.robot.reference(q));
-                Some((self.refusal()?, at))
-            }
-            Mode::Edit => Some((self.message.clone()?, None)),
-            Mode::Measure => None,
-        }
     }
 
     /// Forgets where a robot that is not yet put was wanted.
@@ -361,13 +283,22 @@ impl AtlasState {
         matches!(self.atlas.teleport(self.robot, q), Some(Ok(())))
     }
 
-    /// Draws the world again, with its robots at their starts.
+    /// Draws the world again. Its robots stay where they were put, unless their starts or sizes have changed.
     pub(crate) fn redraw(&mut self) {
-        let world = self.editor.world().clone();
-        self.still = Arc::new(picture_of(&world));
-        self.atlas = Atlas::new(world).knowing(self.atlas.kinds().clone());
+        let chosen = self.atlas.robots().get(self.robot).map(|robot| robot.name.clone());
+        self.see(self.editor.world().clone());
+        (self.preview, self.tried) = (None, None);
+        self.atlas = self.starts.clone().keeping(&self.atlas);
+        self.robot = self.atlas.robots().iter().position(|robot| Some(&robot.name) == chosen.as_ref()).unwrap_or(0);
         self.warnings = self.editor.warnings();
-        (self.labels, self.grid, self.refused, self.wanted) = (None, None, None, None);
+        (self.grid, self.refused, self.wanted) = (None, None, None);
+    }
+
+    /// Draws this world, with its robots at their starts.
+    pub(super) fn see(&mut self, world: World) {
+        self.still = Arc::new(picture_of(&world));
+        self.starts = Atlas::new(world).knowing(self.atlas.kinds().clone());
+        self.labels = None;
     }
 }
 

@@ -1,15 +1,14 @@
 //! World atlas: worlds with their names, robots put by a click, the derived grid, and the editor.
 
 use bevy_egui::egui::{
-    Align2, ComboBox, Key, RichText, ScrollArea, Slider, TextEdit, Ui, UiBuilder, WidgetInfo, WidgetType, vec2,
+    Align2, ComboBox, RichText, ScrollArea, Slider, Ui, UiBuilder, Vec2, WidgetInfo, WidgetType, vec2,
 };
 
+use super::panel::edit_panel;
 use super::state::{AtlasState, Mode};
-use crate::atlas::{EditShape, Op};
-use crate::geometry::{Point2, Pose2};
 use crate::manifest::{Deed, Widget};
-use crate::picture::{Item, Picture, Role, ScreenPoint, pick};
-use crate::ui::keys::{Action, hint};
+use crate::picture::{Item, Picture, ScreenPoint, pick};
+use crate::ui::keys::{Action, keep_arrows};
 use crate::ui::paint::button::LabButton;
 use crate::ui::paint::plate::{Place, plate, refusal};
 use crate::ui::paint::sheet::{Sheet, sheet, split};
@@ -37,9 +36,26 @@ pub fn atlas_view(ui: &mut Ui, model: &Dashboard, look: &Look, state: &mut UiSta
     }
     let hover = ui.input(|i| i.pointer.latest_pos()).filter(|p| paper.contains(*p));
     let at = hover.map(|p| fit.world_from_screen([f64::from(p.x), f64::from(p.y)]));
-    moving.items.extend(state.atlas.probe_items(at));
+    if at.is_some() && ui.input(|i| i.pointer.delta() != Vec2::ZERO) {
+        state.atlas.probe = None;
+    }
+    moving.items.extend(state.atlas.probe_items(state.atlas.probe.or(at)));
+    let placing = state.atlas.placing.filter(|_| state.atlas.mode == Mode::Edit);
+    if let Some((template, at)) = placing.zip(at) {
+        moving.items.extend(state.atlas.added_items(template, at));
+    }
     let spoken = state.atlas.described();
     let on = sheet(ui, paper, spoken, &still, &moving, look);
+    state.paper = on.response.has_focus();
+    if state.paper {
+        keep_arrows(ui, on.response.id);
+    }
+    if let Some(template) = placing {
+        let place = Place { at: paper.center_top() + vec2(0.0, 8.0), pivot: Align2::CENTER_TOP, width: paper.width() };
+        plate(ui.ctx(), "placing", place, false, look, |ui| {
+            ui.label(format!("Click where the {} goes. Escape drops it.", template.title()))
+        });
+    }
     // where the robot is drawn low, the words stand above it
     let refused = state.atlas.refused_on_paper();
     if let Some((words, at)) = &refused {
@@ -59,7 +75,14 @@ pub fn atlas_view(ui: &mut Ui, model: &Dashboard, look: &Look, state: &mut UiSta
                 state.settings.tick_off(Deed::Put);
             }
         }
-        Mode::Edit => edit(&on, &moving, &still, &mut state.atlas),
+        Mode::Edit => match placing {
+            Some(template) => {
+                if let Some(at) = on.held().filter(|_| on.response.clicked()) {
+                    state.atlas.add(template, at);
+                }
+            }
+            None => edit(&on, &moving, &still, &mut state.atlas),
+        },
         Mode::Measure => {}
     }
     ui.scope_builder(UiBuilder::new().max_rect(beside), |ui| {
@@ -73,6 +96,11 @@ pub fn act(action: Action, model: &Dashboard, state: &mut UiState, commands: &mu
     match action {
         Action::Undo if state.atlas.mode == Mode::Edit => state.atlas.undo(true),
         Action::Redo if state.atlas.mode == Mode::Edit => state.atlas.undo(false),
+        Action::Move(way) => state.atlas.step(way.steps()),
+        Action::TurnThing { left } => state.atlas.turn(left),
+        Action::Delete if state.atlas.mode == Mode::Edit => state.atlas.delete(),
+        Action::Deselect if state.atlas.mode == Mode::Edit => state.atlas.leave(),
+        Action::Delete | Action::Deselect => {}
         Action::Save => commands.push(Command::Session(SessionCommand::SaveWorld)),
         Action::Open => commands.push(Command::Session(SessionCommand::OpenWorld)),
         action => crate::ui::tools::act(action, model, state, commands),
@@ -120,7 +148,8 @@ fn edit(on: &Sheet, moving: &Picture, still: &Picture, atlas: &mut AtlasState) {
         let origin = on.fit.world_from_screen(from);
         let handle = atlas.handle_at(origin, 14.0 / on.fit.px_per_metre());
         if handle.is_none() {
-            let item = pick(moving, &on.fit, from, 4.0).filter(|i| i.id.starts_with("place/"));
+            let things = |i: &&Item| i.id.starts_with("place/") || i.id.starts_with("robot/");
+            let item = pick(moving, &on.fit, from, 4.0).filter(things);
             let item = item.or_else(|| pick(still, &on.fit, from, 5.0));
             atlas.select(item.and_then(thing));
         }
@@ -128,7 +157,8 @@ fn edit(on: &Sheet, moving: &Picture, still: &Picture, atlas: &mut AtlasState) {
     }
     // off the paper a thing stays where it was last
     if on.response.dragged() && on.held().is_some() {
-        atlas.drag_to(at, 10.0 / on.fit.px_per_metre());
+        let snaps = !on.response.ctx.input(|i| i.modifiers.alt);
+        atlas.drag_to(at, snaps.then_some(10.0 / on.fit.px_per_metre()));
     }
     if on.response.drag_stopped() || on.response.clicked() {
         atlas.end_drag();
@@ -138,8 +168,8 @@ fn edit(on: &Sheet, moving: &Picture, still: &Picture, atlas: &mut AtlasState) {
 /// The name of the thing that an item is drawn for.
 fn thing(item: &Item) -> Option<&str> {
     let id = &item.id;
-    if id.starts_with("door/") {
-        // of its gap or its leaf
+    if id.starts_with("door/") || id.starts_with("robot/") {
+        // of its gap or its leaf, or of one of its parts
         return Some(&item.name);
     }
     if let Some(name) = id.strip_prefix("obstacle/").or(id.strip_prefix("mark/")) {
@@ -149,7 +179,7 @@ fn thing(item: &Item) -> Option<&str> {
 }
 
 fn beside_the_paper(ui: &mut Ui, model: &Dashboard, look: &Look, state: &mut UiState, commands: &mut Vec<Command>) {
-    ui.horizontal(|ui| {
+    ui.horizontal_wrapped(|ui| {
         let present = state.atlas.label();
         let choice =
             ComboBox::from_id_salt("world").selected_text(present.as_str()).show_ui(ui, |ui| worlds(ui, state));
@@ -157,13 +187,20 @@ fn beside_the_paper(ui: &mut Ui, model: &Dashboard, look: &Look, state: &mut UiS
             current_text_value: Some(present.clone()),
             ..WidgetInfo::labeled(WidgetType::ComboBox, true, "world")
         });
+        if LabButton::new("New").show(ui, look).on_hover_text("An empty world within a wall").clicked() {
+            state.new_world();
+        }
         if LabButton::new("Open").show(ui, look).clicked() {
             commands.push(Command::Session(SessionCommand::OpenWorld));
         }
         if LabButton::new("Save as").show(ui, look).clicked() {
             commands.push(Command::Session(SessionCommand::SaveWorld));
         }
+        if LabButton::new("Run this world").show(ui, look).on_hover_text("A new run in the dashboard").clicked() {
+            commands.push(Command::Session(SessionCommand::RunWorld));
+        }
     });
+    ui.add_space(8.0);
     ui.horizontal(|ui| {
         for (mode, name) in [(Mode::Put, "Put the robot"), (Mode::Measure, "Measure"), (Mode::Edit, "Edit")] {
             if LabButton::new(name).selected(state.atlas.mode == mode).show(ui, look).clicked() {
@@ -178,11 +215,7 @@ fn beside_the_paper(ui: &mut Ui, model: &Dashboard, look: &Look, state: &mut UiS
             into_the_run(ui, model, look, state, commands);
         }
         Mode::Measure => measure_panel(ui, state),
-        Mode::Edit => edit_panel(ui, look, state),
-    }
-    ui.add_space(8.0);
-    if LabButton::new("Run this world").show(ui, look).on_hover_text("A new run in the dashboard").clicked() {
-        commands.push(Command::Session(SessionCommand::RunWorld));
+        Mode::Edit => edit_panel(ui, look, &mut state.atlas),
     }
 }
 
@@ -265,61 +298,7 @@ fn measure_panel(ui: &mut Ui, state: &mut UiState) {
     if response.changed() {
         state.atlas.set_resolution(resolution);
     }
-}
-
-fn edit_panel(ui: &mut Ui, look: &Look, state: &mut UiState) {
-    let atlas = &mut state.atlas;
-    ui.label("Click a wall, an obstacle, a door, a place or a painted mark, and drag it or its handles. A ring on an edge makes a corner; a corner dragged onto the next goes away.");
-    ui.horizontal_wrapped(|ui| {
-        let (middle, u) = (atlas.middle(), atlas.unit());
-        let corner = |x: f64, y: f64| Point2::new(middle.x + x * u, middle.y + y * u);
-        let shapes = [
-            ("wall", EditShape::Wall(vec![corner(-2.0, 0.0), corner(2.0, 0.0)])),
-            ("box", EditShape::Box { min: corner(-1.0, -1.0), max: corner(1.0, 1.0) }),
-            ("disc", EditShape::Disc { centre: middle, radius: u }),
-            ("polygon", EditShape::Polygon(vec![corner(-2.0, -1.0), corner(2.0, -1.0), corner(0.0, 2.0)])),
-            ("mark", EditShape::Mark(vec![corner(-2.0, 0.0), corner(2.0, 0.0)])),
-        ];
-        for (kind, shape) in shapes {
-            if LabButton::new(&format!("Add {kind}")).show(ui, look).clicked() {
-                let name = atlas.free_name(kind);
-                atlas.change(&Op::Add { name: name.clone(), shape }, Some(name));
-            }
-        }
-        if LabButton::new("Add place").show(ui, look).clicked() {
-            let name = atlas.free_name("place");
-            let pose = Pose2 { x: middle.x, y: middle.y, theta: 0.0 };
-            atlas.change(&Op::AddPlace { name: name.clone(), pose }, Some(name));
-        }
-    });
-    if let Some(selected) = atlas.selected.clone() {
-        ui.horizontal(|ui| {
-            let label = ui.label("name");
-            let field = TextEdit::singleline(&mut atlas.name_text).desired_width(140.0);
-            let response = ui.add(field).labelled_by(label.id);
-            if response.lost_focus() && ui.input(|i| i.key_pressed(Key::Enter)) && atlas.name_text != selected {
-                let to = atlas.name_text.trim().to_owned();
-                atlas.change(&Op::Rename { name: selected.clone(), to: to.clone() }, Some(to));
-            }
-            if LabButton::new("Delete").show(ui, look).clicked() {
-                atlas.change(&Op::Delete { name: selected.clone() }, None);
-            }
-        });
-    }
-    ui.horizontal(|ui| {
-        let [back, again] = atlas.can_undo();
-        if LabButton::new("Undo").enabled(back).show(ui, look).on_hover_text(hint(Action::Undo)).clicked() {
-            atlas.undo(true);
-        }
-        if LabButton::new("Redo").enabled(again).show(ui, look).on_hover_text(hint(Action::Redo)).clicked() {
-            atlas.undo(false);
-        }
-    });
-    for warning in atlas.warnings() {
-        refusal(ui, warning, look);
-    }
-    ui.label(if atlas.is_saved() { "saved" } else { "not saved in a file" });
-    if let Some(words) = atlas.drops() {
-        ui.label(RichText::new(words).color(look.colour(Role::Muted)));
+    if let Some(words) = state.atlas.measured() {
+        ui.label(RichText::new(words).monospace());
     }
 }

@@ -8,11 +8,8 @@ use super::values::Crowd;
 use crate::picture::Role;
 use crate::ui::dashboard::drive;
 use crate::ui::dashboard::values::thousands;
+use crate::ui::paint::frame::row_height;
 use crate::ui::{Command, Look, UiState};
-
-/// Height of a row, points: with a mouse, and for a finger.
-const ROW: f32 = 22.0;
-const TOUCH: f32 = 44.0;
 
 /// Shows the search and the robots found, in `height` points. Only the rows that are seen are laid out.
 pub fn list(ui: &mut Ui, crowd: &Crowd, height: f32, look: &Look, state: &mut UiState, commands: &mut Vec<Command>) {
@@ -26,7 +23,7 @@ pub fn list(ui: &mut Ui, crowd: &Crowd, height: f32, look: &Look, state: &mut Ui
     let words =
         if found.len() == crowd.names.len() { format!("{all} robots") } else { format!("{some} of {all} robots") };
     ui.label(RichText::new(words).small().color(look.colour(Role::Muted)));
-    let row = if ui.spacing().interact_size.y > 40.0 { TOUCH } else { ROW };
+    let row = row_height(ui);
     let left = height - (ui.cursor().top() - top);
     let width = ui.available_width();
     ui.spacing_mut().item_spacing.y = 0.0;

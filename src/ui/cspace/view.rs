@@ -115,9 +115,10 @@ fn space(ui: &mut Ui, paper: Rect, look: &Look, state: &mut UiState) {
     let moving = Picture::new(still.name.clone(), still.bounds).with(overlay_items(&slice, &overlay));
     let spoken = format!("configuration space. The robot is the point {}", anatomy.q());
     let on = sheet(ui, paper, spoken, &still, &moving, look);
-    if let Some(to) = on.held().filter(|_| on.response.dragged() || on.response.clicked()) {
+    // on a torus the way beyond an edge goes on at the opposite one, however far
+    let held = if slice.wraps() { on.held_anywhere() } else { on.held() };
+    if let Some(to) = held.filter(|_| on.response.dragged() || on.response.clicked()) {
         let (min, max) = (slice.min(), slice.max());
-        // on a torus the way beyond an edge goes on at the opposite one
         let p = if slice.wraps() {
             [wrap(to.x), wrap(to.y)]
         } else {
@@ -127,6 +128,9 @@ fn space(ui: &mut Ui, paper: Rect, look: &Look, state: &mut UiState) {
         if state.anatomy.anatomy.set_q(slice.at(p)).is_ok() {
             remember(state);
             state.settings.tick_off(Deed::MovePoint);
+            if slice.wraps() && p != [to.x, to.y] {
+                state.settings.tick_off(Deed::OverEdge);
+            }
         }
     }
 }

@@ -3,8 +3,7 @@
 use std::ops::RangeInclusive;
 
 use bevy_egui::egui::{
-    CursorIcon, DragValue, EventFilter, Id, Painter, Rect, RichText, Sense, Slider, Stroke, Ui, Vec2, WidgetInfo,
-    WidgetType, pos2,
+    CursorIcon, DragValue, Id, Painter, Rect, RichText, Sense, Slider, Stroke, Ui, Vec2, WidgetInfo, WidgetType, pos2,
 };
 
 use super::arm::{dragged, handle_name, joints, turned};
@@ -159,8 +158,7 @@ fn circle(name: &str, centre: Point2, radius: f64) -> Item {
 
 /// Lets the arrow keys turn a focused handle's joint: left and up counter-clockwise; with Shift a tenth as far.
 fn nudge(ui: &Ui, id: Id, robot: &CockpitRobot, link: usize, commands: &mut Vec<Command>) {
-    let own = EventFilter { horizontal_arrows: true, vertical_arrows: true, escape: true, ..EventFilter::default() };
-    ui.memory_mut(|m| m.set_focus_lock_filter(id, own));
+    keys::keep_arrows(ui, id);
     let (turns, fine, lets_go) = ui.input(|i| (keys::turns(i), i.modifiers.shift, keys::leaves_handle(i)));
     if lets_go {
         ui.memory_mut(|m| m.surrender_focus(id));

@@ -41,6 +41,10 @@ fn words(ui: &mut Ui, cockpit: &Cockpit, fit: &Fit, look: &Look, state: &mut UiS
     });
     for robot in &cockpit.robots {
         robot_words(ui, robot, look, state, commands);
+        // where robots share the room, what can be done with each of them comes first
+        if let ([robot], Some(about)) = (&cockpit.robots[..], robot.about) {
+            frame::formulas(ui, &format!("{}.{}", about.name, robot.coordinates.len()), look, state);
+        }
     }
     doors::links(ui, cockpit, commands);
     if look.narrow {

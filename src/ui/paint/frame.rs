@@ -1,11 +1,16 @@
 //! The frame of a widget: its title, the misconception it removes, its colour key and the first hints.
 
+use std::ops::Range;
+use std::sync::Arc;
+
 use bevy_egui::egui::{
-    FontId, Rect, RichText, Sense, Shape, Stroke, StrokeKind, TextFormat, TextStyle, TextWrapMode, Ui, Vec2,
-    WidgetInfo, WidgetType, text::LayoutJob, vec2,
+    FontId, Galley, Rect, RichText, Sense, Shape, Stroke, StrokeKind, TextFormat, TextStyle, TextWrapMode, Ui, Vec2,
+    WidgetInfo, WidgetType,
+    text::{CCursor, LayoutJob},
+    vec2,
 };
 
-use crate::manifest::{Formula, Level};
+use crate::manifest::{Formula, Level, Told};
 use crate::picture::Role;
 use crate::ui::keys::{self, Action};
 use crate::ui::{Look, UiState, WidgetText};
@@ -118,11 +123,56 @@ pub fn rests(response: &bevy_egui::egui::Response) -> bool {
     still >= REST_SECONDS
 }
 
-/// Shows a formula in a line, its terms in the colours of their roles. Pointing at it lights the first of these roles.
+/// Shows a formula in rows that wrap, its terms in the colours of their roles. Pointing at a term lights its role, and
+/// so does the focus on it; pointing at a part of the picture underlines its terms.
 pub fn formula(ui: &mut Ui, formula: &Formula, spoken: &str, look: &Look, state: &mut UiState) {
     if formula.0.is_empty() {
         return;
     }
+    let mut job = job(ui, formula, look);
+    job.wrap.max_width = ui.available_width();
+    let galley = ui.fonts_mut(|fonts| fonts.layout_job(job));
+    let (rect, response) = ui.allocate_exact_size(galley.size(), Sense::hover());
+    response.widget_info(|| WidgetInfo::labeled(WidgetType::Label, true, spoken));
+    ui.painter().galley(rect.min, Arc::clone(&galley), look.colour(Role::Muted));
+    let mut end = 0;
+    // a term and its scripts are one
+    for (i, piece) in formula.0.chunk_by(|_, next| next.level != Level::Base).enumerate() {
+        let text: String = piece.iter().map(|term| term.text).collect();
+        let begin = end;
+        end += text.chars().count();
+        let Some(role) = piece.first().and_then(|term| term.role) else { continue };
+        let place = span(&galley, begin..end).translate(rect.min.to_vec2());
+        let term = ui.interact(place, response.id.with(i), Sense::click());
+        term.widget_info(|| WidgetInfo::labeled(WidgetType::Button, true, format!("{text}: {}", role.name())));
+        points_at(state, &term, role);
+        if state.over == Some(role) || term.has_focus() {
+            let stroke = Stroke::new(1.5, look.theme.colour(role));
+            ui.painter().hline(place.x_range(), place.bottom(), stroke);
+        }
+        term.on_hover_text(spoken);
+    }
+    response.on_hover_text(spoken);
+}
+
+/// Where these characters stand. Those of a later row than the first are left out.
+fn span(galley: &Galley, characters: Range<usize>) -> Rect {
+    let at = |character: usize| galley.pos_from_cursor(CCursor::new(character));
+    let first = at(characters.start);
+    let row =
+        characters.map(|character| at(character + 1)).filter(|end| end.center().y - first.center().y < first.height());
+    row.fold(first, Rect::union)
+}
+
+/// Shows the chapter's formulas of this name, each in rows of its own.
+pub fn formulas(ui: &mut Ui, name: &str, look: &Look, state: &mut UiState) {
+    for told in Told::of(name) {
+        formula(ui, &told.formula, &told.spoken, look, state);
+    }
+}
+
+/// The words of a formula.
+fn job(ui: &Ui, formula: &Formula, look: &Look) -> LayoutJob {
     let body = TextStyle::Body.resolve(ui.style());
     let mut job = LayoutJob::default();
     for term in &formula.0 {
@@ -135,12 +185,7 @@ pub fn formula(ui: &mut Ui, formula: &Formula, spoken: &str, look: &Look, state:
         let font_id = FontId::new(size, body.family.clone());
         job.append(term.text, 0.0, TextFormat { font_id, color, valign, ..TextFormat::default() });
     }
-    let response = ui.add(bevy_egui::egui::Label::new(job).sense(Sense::hover()));
-    response.widget_info(|| WidgetInfo::labeled(WidgetType::Label, true, spoken));
-    if let Some(role) = formula.0.iter().find_map(|t| t.role) {
-        points_at(state, &response, role);
-    }
-    response.on_hover_text(spoken);
+    job
 }
 
 /// Shows what a new reader may try first in the widget in front, until its hints are put away.
@@ -181,4 +226,9 @@ fn task(ui: &mut Ui, text: &str, done: bool, look: &Look) {
 
 fn small(ui: &Ui) -> FontId {
     TextStyle::Small.resolve(ui.style())
+}
+
+/// Height of a row of a list, points: for a mouse, or for a finger where controls are that high.
+pub fn row_height(ui: &Ui) -> f32 {
+    if ui.spacing().interact_size.y > 40.0 { 44.0 } else { 22.0 }
 }

@@ -4,7 +4,7 @@ use bevy_egui::egui::{Rect, Response, Sense, Stroke, StrokeKind, Ui, WidgetInfo,
 
 use super::canvas;
 use crate::geometry::Point2;
-use crate::picture::{Fit, Picture, Role};
+use crate::picture::{Fit, Picture, Role, pick};
 use crate::ui::Look;
 
 /// A sheet as shown in this frame.
@@ -29,6 +29,14 @@ impl Sheet {
     pub fn held_anywhere(&self) -> Option<Point2> {
         let pos = self.response.interact_pointer_pos()?;
         Some(self.fit.world_from_screen([f64::from(pos.x), f64::from(pos.y)]))
+    }
+}
+
+impl Sheet {
+    /// The role of the part of a picture that the pointer is on; `None` where it is on none, or off the paper.
+    pub fn pointed_at(&self, picture: &Picture) -> Option<Role> {
+        let at = self.response.hover_pos()?;
+        pick(picture, &self.fit, [f64::from(at.x), f64::from(at.y)], 3.0).map(|item| item.role)
     }
 }
 

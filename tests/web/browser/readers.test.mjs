@@ -124,6 +124,31 @@ lab("the configuration space's point moves by arrow keys", "/?widget=cspace", as
   assert.equal(await lab.page.textContent("#alert"), "", "Shift alone is no key of the lab's");
 });
 
+lab("the atlas's robot, the point that it measures and what is selected move by arrow keys", "/?widget=atlas", async (lab) => {
+  const paper = lab.page.locator("#controls button", { hasText: /^World Apartment/ });
+  const press = async (...keys) => {
+    await paper.focus();
+    for (const key of keys) await paper.press(key, { delay: 120 });
+  };
+  // Rusty starts at 2.25, 6.25; a step is 5 cm, a turn a 24th of a whole one
+  await press("ArrowRight", "ArrowDown", "Shift+ArrowLeft");
+  await lab.find(/x: {2}2\.300, y: {2}6\.200, theta: {2}0\.262/);
+  await lab.click("Measure");
+  await press("ArrowLeft", "ArrowLeft");
+  await lab.find(/^At x 5\.90, y 4\.00 m: exact 0\.\d+ m/);
+  await lab.click("Edit");
+  await lab.page.locator("#controls button", { hasText: "Add disc" }).press("Enter");
+  await lab.find("disc: radius");
+  await press("ArrowUp");
+  // from the middle of 8 m, where a key adds it
+  for (let i = 0; i < 100 && Number((await lab.find("disc: y")).value) !== 4.05; i++) await lab.page.waitForTimeout(50);
+  assert.equal(Number((await lab.find("disc: y")).value), 4.05);
+  await lab.find(/disc is selected/);
+  await press("Delete");
+  await lab.find("name of the world");
+  assert.equal(await lab.page.textContent("#alert"), "");
+});
+
 lab("paper gets a figure instead of a canvas", "/?tick=200", async (lab) => {
   const { page } = lab;
   await page.evaluate(() => {
