@@ -11,6 +11,9 @@ use crate::recording::printed_as;
 use crate::robots::Robot;
 use crate::ui::{AtlasState, readout};
 
+/// The most robots whose configurations are told in words.
+const TOLD: usize = 12;
+
 impl AtlasState {
     /// The world with its robots as shown: while it is edited where they start, else where they were put.
     pub fn shown(&self) -> &Atlas {
@@ -102,7 +105,12 @@ impl AtlasState {
             let about = self.atlas.kinds().of(&robot.kind)?;
             Some(format!("{}: {}", robot.name, printed_as(Some(about), &robot.start)))
         });
-        let robots: Vec<String> = lab.iter().map(|r| format!("{}: {}", r.name, r.q)).chain(others).collect();
+        let told = lab.iter().map(|r| format!("{}: {}", r.name, r.q)).chain(others);
+        let mut robots: Vec<String> = told.take(TOLD).collect();
+        let more = self.world().robots.len() - robots.len();
+        if robots.len() == TOLD && more > 0 {
+            robots.push(format!("and {more} more"));
+        }
         let refusal = self.refusal().map_or_else(String::new, |r| format!(" {r}."));
         let measured = self.measured().map_or_else(String::new, |words| format!(" {words}."));
         let selected = self.selected.as_ref().filter(|_| self.mode == Mode::Edit);
@@ -121,5 +129,27 @@ impl AtlasState {
             Mode::Edit => Some((self.message.clone()?, None)),
             Mode::Measure => None,
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::worlds::{Resident, World};
+
+    #[test]
+    fn a_crowd_is_told_by_its_first_robots_and_its_number() {
+        let with = |robots: usize| {
+            let mut world = World::lot();
+            world.robots = (1..=robots).map(|i| Resident::new(format!("Car {i}"), "hitch", [6.5, 2.5, 0.0])).collect();
+            AtlasState::of(world).described()
+        };
+        let words = with(12);
+        assert!(words.contains("Car 12: ") && !words.contains("more"), "{words}");
+        let words = with(40);
+        assert!(
+            words.contains("Car 12: ") && !words.contains("Car 13") && words.ends_with("; and 28 more."),
+            "{words}"
+        );
     }
 }
