@@ -196,6 +196,7 @@ const hear = {
       if (earlier && robot.contacts > earlier.contacts) announce(`${robot.name}: contact ${robot.contacts}`);
     }
     if (message.widget !== before?.widget) showKey(message.widget);
+    if (String(message.formulas) !== String(before?.formulas)) showFormulas(message.formulas);
     light(message.lit);
   },
   tree: ({ widgets }) => mirror(widgets),
@@ -309,6 +310,11 @@ function showKey(widget) {
     return item;
   };
   $("key").replaceChildren(...(files.widgets[widget]?.key ?? []).map(entry));
+}
+
+/** Shows the chapter's formulas of what is in front. */
+function showFormulas(names) {
+  for (const item of document.querySelectorAll("#formulas [data-at]")) item.hidden = !item.dataset.at.split(" ").some((at) => names.includes(at));
 }
 
 for (const [type, on] of [["pointerover", true], ["focusin", true], ["pointerout", false], ["focusout", false]]) {

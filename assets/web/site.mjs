@@ -96,7 +96,11 @@ const values = {
   "page.js": hashed("page.js", page, "the page"),
   "icon.svg": hashed("icon.svg", source("icon.svg"), "the page"),
   files: JSON.stringify(files).replace(/</g, "\\u003c"),
-  formulas: lab.formulas.map((f) => `<li title="${escape(f.spoken)}">${f.mathml}</li>`).join("\n"),
+  formulas: [
+    ...lab.formulas.map((f) => `<li title="${escape(f.spoken)}">${f.mathml}</li>`),
+    // a long one is scrolled on a phone, by keys too
+    ...lab.chapter.map((f) => `<li data-at="${f.at.join(" ")}" title="${escape(f.spoken)}" tabindex="0" hidden>${f.mathml}</li>`),
+  ].join("\n"),
   widgets: lab.widgets
     .map(
       (w) =>

@@ -1,5 +1,6 @@
 //! The report: the state of the lab, sent to the page.
 
+use std::collections::BTreeSet;
 use std::sync::Arc;
 
 use bevy::prelude::*;
@@ -123,6 +124,12 @@ fn state(world: &World) -> Value {
     });
     let query = &ui.anatomy.anatomy;
     let is_asked = matches!(ui.widget, Widget::Anatomy | Widget::Cspace);
+    let kinds = shown.cockpits.iter().flat_map(|c| &c.robots).filter_map(|r| Some((r.about?, r.coordinates.len())));
+    let formulas: BTreeSet<String> = match ui.widget {
+        Widget::Anatomy => BTreeSet::from([query.tab.name().to_owned()]),
+        Widget::Dashboard => kinds.map(|(about, coordinates)| format!("{}.{coordinates}", about.name)).collect(),
+        Widget::Cspace | Widget::Atlas | Widget::Plan => BTreeSet::new(),
+    };
     json!({
         "kind": "state",
         "tick": shown.tick,
@@ -132,6 +139,7 @@ fn state(world: &World) -> Value {
         "widget": ui.widget.id(),
         "theme": if ui.theme() == Theme::Dark { "dark" } else { "light" },
         "lit": ui.lit.map(Role::name),
+        "formulas": formulas,
         "armed": ui.armed,
         "notice": ui.notice().map(|n| json!({ "text": n.text, "error": n.is_error })),
         "robots": robots.collect::<Vec<_>>(),

@@ -328,6 +328,28 @@ lab("a role lights in page and canvas alike", "/", async (lab) => {
   await lab.until((s) => s.lit === "sensor");
 });
 
+lab("the page shows the chapter's formulas of what is in front, and their terms light its parts", "/?widget=anatomy", async (lab) => {
+  const shown = lab.page.locator("#formulas li[data-at]:visible");
+  const texts = async () => (await shown.allTextContents()).map((text) => text.replace(/\s/g, ""));
+  await lab.click("distance");
+  await lab.until((s) => s.query?.tab === "distance");
+  assert.deepEqual(await texts(), ["dist(R(q),O)=min|a−b|"]);
+  await shown.locator(".role-obstacle").first().hover();
+  await lab.until((s) => s.lit === "obstacle");
+  // one a robot: the car's and its trailer's are of who has them
+  await lab.send({ do: "widget", id: "dashboard" });
+  await lab.until((s) => s.widget === "dashboard");
+  const names = await shown.evaluateAll((items) => items.flatMap((item) => item.dataset.at.split(" ")));
+  assert.ok(names.includes("rusty.3") && names.includes("reach.2") && names.includes("hitch.3") && !names.includes("distance"), names.join(" "));
+  assert.ok((await shown.first().locator("math").boundingBox()).height > 8);
+  // on a phone a long one is scrolled, not the page
+  await lab.page.setViewportSize({ width: 390, height: 844 });
+  await lab.page.waitForTimeout(300);
+  assert.ok(await shown.evaluateAll((items) => items.some((item) => item.scrollWidth > item.clientWidth)));
+  assert.ok(await lab.page.evaluate(() => document.documentElement.scrollWidth <= innerWidth));
+  await lab.shot("formulas-phone");
+});
+
 lab("a saved page verifies from disk, without a server, and tells a forged run", "/?seed=42", async (lab) => {
   await lab.until((s) => s.tick > 60);
   await lab.send({ do: "pause" });
