@@ -155,24 +155,58 @@ fn tokens(text: &str, marks: &str) -> Vec<String> {
         _ => 'o',
     };
     let mut pieces: Vec<(char, String)> = Vec::new();
-    for c in text.chars().filter(|c| !c.is_whitespace()) {
-        match pieces.last_mut() {
-            Some((last, piece)) if *last == kind(c) && matches!(last, 'w' | 'n') => piece.push(c),
-            _ => pieces.push((kind(c), c.to_string())),
+    let mut spaced = false;
+    for c in text.chars() {
+        if c.is_whitespace() {
+            spaced = true;
+            continue;
         }
+        let now = kind(c);
+        // a space beside a word is seen; operators have their own
+        let beside_a_word = match pieces.last() {
+            Some((last, _)) => *last != 'o' && now != 'o',
+            None => now == 'w',
+        };
+        if spaced && beside_a_word {
+            pieces.push((' ', String::new()));
+        }
+        match pieces.last_mut() {
+            Some((last, piece)) if *last == now && matches!(now, 'w' | 'n') => piece.push(c),
+            _ => pieces.push((now, c.to_string())),
+        }
+        spaced = false;
+    }
+    if spaced && pieces.last().is_some_and(|(last, _)| *last == 'w') {
+        pieces.push((' ', String::new()));
     }
     let tag = |kind| match kind {
         'n' => "mn",
         'o' => "mo",
         _ => "mi",
     };
-    pieces.iter().map(|(k, p)| format!("<{0}{marks}>{p}</{0}>", tag(*k))).collect()
+    let element = |(kind, piece): &(char, String)| match kind {
+        ' ' => "<mspace width=\"0.2em\"/>".to_owned(),
+        kind => format!("<{0}{marks}>{piece}</{0}>", tag(*kind)),
+    };
+    pieces.iter().map(element).collect()
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::configuration::RobotKind;
+
+    #[test]
+    fn a_product_and_a_functions_argument_stand_apart_in_mathml() {
+        let space = "<mspace width=\"0.2em\"/>";
+        let words = Formula::parse("2 = v cos ω").mathml();
+        assert_eq!(words, format!("<math><mn>2</mn><mo>=</mo><mi>v</mi>{space}<mi>cos</mi>{space}<mi>ω</mi></math>"));
+        let scripts = Formula::parse("L_1 cos {robot:x_2}").mathml();
+        let robot = " class=\"role-robot\" data-role=\"robot\"";
+        let first = "<msub><mi>L</mi><mrow><mn>1</mn></mrow></msub>";
+        let last = format!("<msub><mi{robot}>x</mi><mrow><mn{robot}>2</mn></mrow></msub>");
+        assert_eq!(scripts, format!("<math>{first}{space}<mi>cos</mi>{space}{last}</math>"));
+    }
 
     #[test]
     fn the_chapters_formulas_are_whole_and_stand_at_tabs_and_robots_that_there_are() {
