@@ -110,7 +110,10 @@ fn thing(ui: &mut Ui, look: &Look, atlas: &mut AtlasState, selected: &str) {
         }
     }
     let numbers = atlas.seen().numbers(selected);
-    fields(ui, atlas, selected, &numbers, |number, to| Op::SetNumber { name: name.clone(), number, to });
+    // a field is its thing's own: what is typed into it is never another's
+    ui.push_id(selected, |ui| {
+        fields(ui, atlas, selected, &numbers, |number, to| Op::SetNumber { name: name.clone(), number, to });
+    });
 }
 
 /// Shows the name of the world and the part of the plane that it shows.

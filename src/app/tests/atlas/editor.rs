@@ -230,3 +230,25 @@ fn a_new_world_is_named_filled_and_run_and_the_old_ones_are_kept() {
     let shelf = &interface(&harness).shelf;
     assert!(shelf.iter().any(|kept| kept.label() == "Apartment, edited" && kept.can_undo() == [true, false]));
 }
+
+#[test]
+fn a_number_typed_for_one_thing_never_becomes_anothers() {
+    let mut harness = lab(WIDE);
+    click(&mut harness, "Atlas");
+    click(&mut harness, "Edit");
+    let starts = crate::worlds::World::apartment();
+    // two boxes of one height, which stands at one place of the panel
+    let [first, second] = ["A's bed", "C's bed"];
+    harness.state_mut().app.world_mut().resource_mut::<Interface>().0.atlas.select(Some(first));
+    harness.run_steps(2);
+    harness.get_by_label(&format!("{first}: height")).focus();
+    harness.run_steps(2);
+    harness.key_combination_modifiers(Modifiers::COMMAND, &[Key::A]);
+    harness.step();
+    harness.event(Event::Text("0.75".into()));
+    harness.step();
+    harness.state_mut().app.world_mut().resource_mut::<Interface>().0.atlas.select(Some(second));
+    harness.run_steps(3);
+    let of = |h: &Harness<'_, Lab>| atlas(h).world().obstacle(second).unwrap().clone();
+    assert_eq!(of(&harness), *starts.obstacle(second).unwrap());
+}
