@@ -232,7 +232,7 @@ fn a_new_world_is_named_filled_and_run_and_the_old_ones_are_kept() {
 }
 
 #[test]
-fn a_number_typed_for_one_thing_never_becomes_anothers() {
+fn a_number_typed_for_one_thing_is_never_the_next_ones() {
     let mut harness = lab(WIDE);
     click(&mut harness, "Atlas");
     click(&mut harness, "Edit");
