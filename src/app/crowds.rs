@@ -1,15 +1,15 @@
 //! `Crowds`, the robots of worlds of many as the view shows them, read from the simulation once a tick.
 
-use std::iter::repeat;
 use std::sync::Arc;
 
 use bevy::ecs::change_detection::Tick;
 use bevy::prelude::*;
 
+use crate::robots::AnyRobot;
 use crate::run::RobotState;
 use crate::simulation::{LatestFrame, Playback, RunConfig, Transport, footprint_of};
 use crate::tour::TourConfig;
-use crate::ui::{Bodies, Crowd, MOST_SHOWN_EACH};
+use crate::ui::{Crowd, CrowdRobot, MOST_SHOWN_EACH, Members, Stance};
 
 /// The crowds of the run.
 #[derive(Resource, Default)]
@@ -62,10 +62,15 @@ fn named(config: &TourConfig) -> Vec<Option<Crowd>> {
     let worlds = config.worlds.iter().map(|world| {
         let ids = first..first + world.robots.len() as u32;
         first = ids.end;
-        let nobody = Arc::new(Bodies::default());
+        let nobody = Arc::new(Vec::new());
+        let mut members = Members::default();
         (world.robots.len() > MOST_SHOWN_EACH).then(|| Crowd {
             first: ids.start,
             names: world.robots.iter().map(|robot| robot.name.clone()).collect(),
+            members: {
+                world.robots.iter().for_each(|robot| members.push(AnyRobot::of_resident(robot)));
+                Arc::new(members)
+            },
             now: Arc::clone(&nobody),
             before: nobody,
             between: 1.0,
@@ -74,17 +79,25 @@ fn named(config: &TourConfig) -> Vec<Option<Crowd>> {
     worlds.collect()
 }
 
-/// Writes the robots of a crowd as they are now.
-fn write(bodies: &mut Bodies, world: &World, crowd: &Crowd) {
-    bodies.clear();
+/// Writes the robots of a crowd as they are now. Nothing is asked of the entities of the lab's own kinds.
+fn write(robots: &mut Vec<CrowdRobot>, world: &World, crowd: &Crowd) {
+    robots.clear();
     let playing = world.resource::<Transport>().playback == Playback::Playing;
     let states = world.resource::<LatestFrame>().0.robots.get(crowd.first as usize..).unwrap_or_default();
-    for ((id, _), state) in (crowd.first..).zip(crowd.names.iter()).zip(states.iter().map(Some).chain(repeat(None))) {
-        let footprint = footprint_of(world, id).unwrap_or_default();
-        let is_disc = footprint.parts().len() == 1 && footprint.parts().iter().all(|p| p.placed().core().len() == 1);
-        let heading = state.filter(|_| is_disc).and_then(|s| s.configuration.get(2).copied());
-        let is_red = |s: &RobotState| if playing { s.flash > 0 } else { s.in_contact };
-        let (flash, contacts) = state.map_or((false, 0), |s| (is_red(s), s.contacts));
-        bodies.push(&footprint, heading, flash, contacts);
+    for (place, state) in states.iter().take(crowd.names.len()).enumerate() {
+        let stance = match crowd.members.circle(place) {
+            Some(_) => Stance::In(state.configuration.clone()),
+            None => own_stance(world, state),
+        };
+        let flash = if playing { state.flash > 0 } else { state.in_contact };
+        robots.push(CrowdRobot { stance, flash, contacts: state.contacts });
     }
+}
+
+/// How a robot of a kind of the program's own stands.
+fn own_stance(world: &World, state: &RobotState) -> Stance {
+    let footprint = footprint_of(world, state.id).unwrap_or_default();
+    let is_disc = footprint.parts().len() == 1 && footprint.parts().iter().all(|p| p.placed().core().len() == 1);
+    let heading = state.configuration.get(2).copied().filter(|_| is_disc);
+    Stance::Over(Arc::new(footprint), heading)
 }

@@ -8,7 +8,7 @@ use crate::recording::{Recorder, verify_digests};
 use crate::run::{DigestLog, DigestLogWriter, RunDigest};
 use crate::simulation::{TransportCommand, sensors, sensors_of, view_of};
 use crate::tour::{BOOK_SEED, TourConfig};
-use crate::ui::{Command, CrowdState};
+use crate::ui::{Command, Crowd, CrowdState};
 use crate::worlds::Warehouse;
 
 /// The lab with a warehouse of this number of robots, paused at its start.
@@ -86,12 +86,16 @@ fn the_crowd_that_is_shown_is_the_run_at_its_tick() {
     let app = harness.state().app.world();
     let crowd = app.resource::<Shown>().0.cockpits[0].crowd.clone().unwrap();
     let all = view(app);
-    assert_eq!((crowd.now.robots().len(), crowd.before.robots().len()), (30, 30));
+    assert_eq!((crowd.now.len(), crowd.before.len()), (30, 30));
+    let footprint = |crowd: &Crowd, place| crowd.footprint(place).unwrap().0;
+    let earlier = Crowd { now: crowd.before.clone(), ..crowd.clone() };
     for (place, robot) in all.iter().enumerate() {
-        assert_eq!(crowd.now.parts(place), robot.footprint.parts());
-        assert_eq!(crowd.before.parts(place), robot.previous_footprint.parts());
+        assert_eq!(footprint(&crowd, place), robot.footprint);
+        assert_eq!(footprint(&earlier, place), robot.previous_footprint);
+        let near = |p: Point2| (p - robot.footprint.bounds().unwrap().centre()).norm();
+        assert!(near(crowd.spot(place).unwrap().centre) <= crowd.spot(place).unwrap().radius);
     }
-    assert!(crowd.now != crowd.before && crowd.now.parts(30).is_empty());
+    assert!(crowd.now != crowd.before && crowd.footprint(30).is_none());
     assert_eq!(crowd.names.to_vec(), config.worlds[0].robots.iter().map(|r| r.name.clone()).collect::<Vec<_>>());
     assert_eq!((view_of(app, 29).unwrap(), view_of(app, 30)), (all[29].clone(), None));
     // a jump back is no way that they took
@@ -99,7 +103,7 @@ fn the_crowd_that_is_shown_is_the_run_at_its_tick() {
     harness.step();
     let crowd = harness.state().app.world().resource::<Shown>().0.cockpits[0].crowd.clone().unwrap();
     assert_eq!(crowd.before, crowd.now);
-    assert_eq!(crowd.now.parts(29), view(harness.state().app.world())[29].footprint.parts(), "lists are written anew");
+    assert_eq!(footprint(&crowd, 29), view(harness.state().app.world())[29].footprint, "lists are written anew");
 }
 
 #[test]

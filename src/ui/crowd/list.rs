@@ -42,8 +42,7 @@ pub fn list(ui: &mut Ui, crowd: &Crowd, height: f32, look: &Look, state: &mut Ui
 
 /// Shows a robot's row: its name, and at the right end how often it touched something.
 fn entry(ui: &mut Ui, crowd: &Crowd, id: u32, row: f32, look: &Look, state: &mut UiState, commands: &mut Vec<Command>) {
-    let (Some(name), Some(robot)) = (crowd.name(id), crowd.place(id).and_then(|place| crowd.now.robots().get(place)))
-    else {
+    let (Some(name), Some(robot)) = (crowd.name(id), crowd.place(id).and_then(|place| crowd.now.get(place))) else {
         return;
     };
     let is_picked = state.crowd.picked_in(crowd).is_some_and(|p| p.id == id);

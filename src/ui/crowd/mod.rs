@@ -2,6 +2,7 @@
 
 pub(crate) mod heat;
 pub(crate) mod list;
+pub(crate) mod members;
 pub(crate) mod pane;
 pub(crate) mod robots;
 pub(crate) mod state;

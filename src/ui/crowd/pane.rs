@@ -206,21 +206,24 @@ fn pick(shown: &CrowdPane, near: Option<u32>, picked: Option<u32>, state: &mut U
 
 /// The names of the robots in view, where these are few.
 fn names(crowd: &Crowd, paper: Rect, fit: &Fit) -> Vec<Item> {
-    let is_seen = |robot: &&CrowdRobot| {
-        let [x, y] = fit.screen_from_world(robot.bounds.centre());
-        paper.contains(pos2(x as f32, y as f32))
+    let is_seen = |place: &usize| {
+        crowd.spot(*place).is_some_and(|spot| {
+            let [x, y] = fit.screen_from_world(spot.centre);
+            paper.contains(pos2(x as f32, y as f32))
+        })
     };
-    if crowd.now.robots().iter().filter(is_seen).take(MOST_NAMED + 1).count() > MOST_NAMED {
+    let seen: Vec<usize> = (0..crowd.now.len()).filter(is_seen).take(MOST_NAMED + 1).collect();
+    if seen.len() > MOST_NAMED {
         return Vec::new();
     }
-    let seen = crowd.names.iter().zip(crowd.now.robots()).filter(|(_, robot)| is_seen(robot));
-    let label = |(name, robot): (&String, &CrowdRobot)| {
-        let at = Point2::new(robot.bounds.centre().x, robot.bounds.max.y);
+    let label = |place: usize| {
+        let (name, bounds) = (crowd.names.get(place)?, crowd.footprint(place)?.0.bounds()?);
+        let at = Point2::new(bounds.centre().x, bounds.max.y);
         let (text, anchor, face) = (name.clone(), Anchor::Above, Face::Sans);
         let drawing = Drawing::Label { at, text, anchor, face, size_px: 11.0, plate: true };
-        Item::new(format!("name/{name}"), name.clone(), Role::Muted, drawing)
+        Some(Item::new(format!("name/{name}"), name.clone(), Role::Muted, drawing))
     };
-    seen.map(label).collect()
+    seen.into_iter().filter_map(label).collect()
 }
 
 /// The contacts of the crowd up to now, counted again after each tick.

@@ -5,11 +5,10 @@ use std::f64::consts::{PI, TAU};
 use bevy_egui::egui::{Color32, Pos2, Rect, Vec2, pos2};
 
 use super::values::{Crowd, CrowdRobot};
-use crate::geometry::{Aabb, Part, Placed, Point2, Shape, Vector2};
+use crate::geometry::{Footprint, Placed, Point2, Shape};
 use crate::num::sin_cos;
 use crate::picture::{Fit, Role, chevron, nose};
 use crate::ui::Look;
-use crate::ui::dashboard::blend::{angle_between, pose_between};
 use crate::ui::paint::polygons::Polygons;
 
 /// Size on the screen below which a robot is a square, points.
@@ -23,9 +22,6 @@ const LEAST: f32 = 2.0;
 
 /// Radius on the screen below which a link has no round ends, points.
 const SQUARE: f32 = 1.0;
-
-/// Farthest that a robot moves in a tick, metres. One that moved farther was put there.
-const LEAP: f64 = 0.5;
 
 /// The opacity of a body, as of a robot that is drawn by itself.
 const BODY: f64 = 0.85;
@@ -41,35 +37,31 @@ pub fn robots(
 ) -> Polygons {
     let mut out = Polygons::default();
     let mut pen = Pen { fit, corners: Vec::new() };
-    let (scale, s) = (fit.px_per_metre(), crowd.between);
+    let scale = fit.px_per_metre();
     let (mut inks, mark) = (Inks { look, made: Vec::new() }, look.tint(Role::Paper, 0.9));
-    for (place, (robot, id)) in crowd.now.robots().iter().zip(crowd.first..).enumerate() {
-        let before = crowd.before.robots().get(place).filter(|_| s < 1.0);
-        let back = before.map_or(Vector2::zeros(), |b| b.bounds.centre() - robot.bounds.centre());
-        let back = if back.norm_squared() <= LEAP * LEAP { back * ((1.0 - s) * scale) } else { Vector2::zeros() };
-        let shift = Vec2::new(back.x as f32, -back.y as f32);
-        let on_screen = pen.rect(&robot.bounds).translate(shift);
-        if !on_screen.intersects(paper) {
+    for (place, (robot, id)) in crowd.now.iter().zip(crowd.first..).enumerate() {
+        let Some(spot) = crowd.spot(place) else { continue };
+        let centre = pen.at(spot.centre);
+        if !paper.expand((spot.radius * scale) as f32).contains(centre) {
             continue;
         }
         let Some(role) = role(id, robot) else { continue };
         let [solid, body] = inks.of(role);
-        let size = f64::from(on_screen.size().max_elem());
+        let size = spot.size * scale;
         if size < SMALL {
-            let side = if on_screen.size().max_elem() > LEAST { on_screen.size().max_elem() } else { LEAST };
-            let square = Rect::from_center_size(on_screen.center(), Vec2::splat(side));
-            out.rect(square, solid);
+            let middle = crowd.middle(place) * scale;
+            let side = if size as f32 > LEAST { size as f32 } else { LEAST };
+            let centre = centre + Vec2::new(middle.x as f32, -middle.y as f32);
+            out.rect(Rect::from_center_size(centre, Vec2::splat(side)), solid);
             continue;
         }
-        let parts = crowd.now.parts(place);
-        let before = before.map(|b| (b, crowd.before.parts(place))).filter(|(_, from)| is_a_step(from, parts));
-        for (i, part) in parts.iter().enumerate() {
-            let from = before.and_then(|(_, from)| from.get(i)).map(Part::placed);
-            pen.outline(part.placed(), from, s);
+        let Some((footprint, turned)) = crowd.drawn(place) else { continue };
+        for part in footprint.parts() {
+            pen.outline(part.placed());
             out.polygon(&pen.corners, body);
         }
         if size >= SHOWS_HEADING
-            && let Some(corners) = heading((robot, parts), before, s)
+            && let Some(corners) = heading(&footprint, turned)
         {
             out.polygon(&corners.map(|p| pen.at(p)), mark);
         }
@@ -77,27 +69,12 @@ pub fn robots(
     out
 }
 
-/// Whether a robot's parts moved from `a` to `b` in a tick: it was not put there, and has the parts that it had.
-fn is_a_step(a: &[Part], b: &[Part]) -> bool {
-    let is_near = |(a, b): (&Part, &Part)| {
-        a.placed().core().len() == b.placed().core().len() && (b.pose().position() - a.pose().position()).norm() <= LEAP
-    };
-    a.len() == b.len() && a.iter().zip(b).all(is_near)
-}
-
-/// A robot and its parts.
-type Seen<'a> = (&'a CrowdRobot, &'a [Part]);
-
 /// The mark that shows a robot's heading: the pointer on a disc, the chevron on a rectangle.
-fn heading((robot, parts): Seen, before: Option<Seen>, s: f64) -> Option<[Point2; 3]> {
-    let (part, from) = (parts.first()?, before.and_then(|(_, parts)| parts.first()));
-    let pose = from.map_or(*part.pose(), |from| pose_between(from.pose(), part.pose(), s));
-    match (part.shape(), robot.heading) {
-        (Shape::Rectangle { min, max }, _) => Some(chevron(&pose, *min, *max)),
-        (_, Some(heading)) => {
-            let heading = before.and_then(|(b, _)| b.heading).map_or(heading, |from| angle_between(from, heading, s));
-            Some(nose(pose.position(), part.placed().radius(), heading))
-        }
+fn heading(footprint: &Footprint, turned: Option<f64>) -> Option<[Point2; 3]> {
+    let part = footprint.parts().first()?;
+    match (part.shape(), turned) {
+        (Shape::Rectangle { min, max }, _) => Some(chevron(part.pose(), *min, *max)),
+        (_, Some(heading)) => Some(nose(part.pose().position(), part.placed().radius(), heading)),
         _ => None,
     }
 }
@@ -133,25 +110,15 @@ impl Pen<'_> {
         pos2(x as f32, y as f32)
     }
 
-    fn rect(&self, bounds: &Aabb) -> Rect {
-        Rect::from_two_pos(self.at(bounds.min), self.at(bounds.max))
-    }
-
-    /// The outline of a part a fraction `s` of the way from where it was: of a disc a polygon of as many corners as its
-    /// size asks for, of a capsule two halves of one, of any other part its core's corners.
-    fn outline(&mut self, now: &Placed, from: Option<&Placed>, s: f64) {
+    /// The outline of a part: of a disc a polygon of as many corners as its size asks for, of a capsule two halves of
+    /// one, of any other part its core's corners.
+    fn outline(&mut self, part: &Placed) {
         self.corners.clear();
-        let fit = self.fit;
-        let core = now.core().iter().enumerate().map(|(i, p)| match from.and_then(|f| f.core().get(i)) {
-            Some(from) => from + (p - from) * s,
-            None => *p,
-        });
-        let screen = core.map(|p| {
-            let [x, y] = fit.screen_from_world(p);
-            pos2(x as f32, y as f32)
-        });
-        self.corners.extend(screen);
-        let radius = (now.radius() * fit.px_per_metre()) as f32;
+        for p in part.core() {
+            let corner = self.at(*p);
+            self.corners.push(corner);
+        }
+        let radius = (part.radius() * self.fit.px_per_metre()) as f32;
         // an arc strays from its circle by less than a tenth of a point
         let steps = (1.2 * radius.sqrt()).ceil().clamp(2.0, 24.0) as usize;
         match self.corners[..] {

@@ -68,7 +68,7 @@ impl CrowdState {
             return found;
         }
         let has_contacts =
-            |id: &u32| crowd.place(*id).is_some_and(|i| crowd.now.robots().get(i).is_some_and(|r| r.contacts > 0));
+            |id: &u32| crowd.place(*id).is_some_and(|i| crowd.now.get(i).is_some_and(|r| r.contacts > 0));
         found.iter().copied().filter(has_contacts).collect()
     }
 }

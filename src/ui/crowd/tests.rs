@@ -1,16 +1,20 @@
-use crate::ui::paint::camera::Camera;
 use std::sync::Arc;
 
 use bevy_egui::egui::{Rect, pos2};
 
 use super::heat::Heat;
+use super::members::Members;
 use super::robots::robots;
 use super::state::CrowdState;
-use super::values::{Bodies, Crowd};
-use crate::geometry::{Aabb, Footprint, Point2, Pose2};
+use super::values::{Crowd, CrowdRobot, Stance};
+use crate::configuration::{Configuration as _, Coordinates};
+use crate::geometry::{Aabb, Footprint, Point2, Pose2, Vector2};
 use crate::picture::{Fit, Role, ScreenRect, Theme};
+use crate::random::{Seed, Stream};
+use crate::robots::{AnyRobot, Robot as _};
 use crate::simulation::{Happening, TickMark};
 use crate::ui::Look;
+use crate::ui::paint::camera::Camera;
 
 const YARD: Aabb = Aabb::new(Point2::new(0.0, 0.0), Point2::new(40.0, 20.0));
 
@@ -30,15 +34,32 @@ fn rover(x: f64, y: f64, radius: f64) -> Robot {
     (Footprint::disc(Point2::new(x, y), radius), Some(0.0), 0)
 }
 
-fn bodies(robots: &[Robot]) -> Arc<Bodies> {
-    let mut bodies = Bodies::default();
-    robots.iter().for_each(|(footprint, heading, contacts)| bodies.push(footprint, *heading, false, *contacts));
-    Arc::new(bodies)
+fn over(robots: &[Robot]) -> Arc<Vec<CrowdRobot>> {
+    let robot = |(footprint, heading, contacts): &Robot| {
+        let stance = Stance::Over(Arc::new(footprint.clone()), *heading);
+        CrowdRobot { stance, flash: false, contacts: *contacts }
+    };
+    Arc::new(robots.iter().map(robot).collect())
 }
 
+/// A crowd of robots of kinds that are not the lab's.
 fn crowd(before: &[Robot], now: &[Robot], between: f64) -> Crowd {
     let names = (0..now.len()).map(|i| format!("Rover {}", i + 7)).collect();
-    Crowd { first: 7, names, now: bodies(now), before: bodies(before), between }
+    let mut members = Members::default();
+    now.iter().for_each(|_| members.push(None));
+    Crowd { first: 7, names, members: Arc::new(members), now: over(now), before: over(before), between }
+}
+
+/// A crowd of one robot of a kind of the lab's, on its way from one configuration to another.
+fn one(kind: &str, before: &[f64], now: &[f64], between: f64) -> Crowd {
+    let mut members = Members::default();
+    members.push(AnyRobot::of_kind(kind, now));
+    let stands = |q: &[f64]| {
+        let stance = Stance::In(Coordinates::from_slice(q));
+        Arc::new(vec![CrowdRobot { stance, flash: false, contacts: 0 }])
+    };
+    let names = Arc::from(["one".to_owned()]);
+    Crowd { first: 0, names, members: Arc::new(members), now: stands(now), before: stands(before), between }
 }
 
 fn still(robots: &[Robot]) -> Crowd {
@@ -140,6 +161,59 @@ fn robots_are_drawn_on_their_way_and_not_while_they_leap() {
     // the corner (1, 0.5) turned by 0.1, half of 0.2, is at (0.9451, 0.5973)
     let near = |v: &bevy_egui::egui::epaint::Vertex| (v.pos - pos2(59.45, 144.03)).length();
     assert!(mesh.vertices.iter().map(near).any(|gap| gap < 0.75));
+}
+
+#[test]
+fn a_circle_holds_a_robot_of_the_labs_in_every_configuration() {
+    let mut s = Stream::new(Seed(11), "circles");
+    for (kind, start) in [
+        ("rusty", &[0.0; 3][..]),
+        ("reach", &[0.0; 2][..]),
+        ("reach3", &[0.0; 3][..]),
+        ("hitch", &[0.0; 3][..]),
+        ("hitch", &[0.0; 4][..]),
+    ] {
+        let (robot, _) = AnyRobot::of_kind(kind, start).unwrap();
+        let mut farthest: f64 = 0.0;
+        for _ in 0..200 {
+            let q = robot.sample(Point2::new(1.0, 2.0), Point2::new(9.0, 8.0), &mut s).coordinates();
+            let crowd = one(kind, &q, &q, 1.0);
+            let (spot, (footprint, _)) = (crowd.spot(0).unwrap(), crowd.footprint(0).unwrap());
+            for part in footprint.parts() {
+                for p in part.placed().core() {
+                    farthest = farthest.max((p - spot.centre).norm() + part.placed().radius());
+                }
+            }
+            assert!(farthest <= spot.radius + 1e-9, "{kind}: {farthest} of {}", spot.radius);
+        }
+        // it is no larger than it need be; a car's has room for a trailer
+        let spot = one(kind, start, start, 1.0).spot(0).unwrap();
+        assert!(farthest > 0.9 * spot.radius || start.len() == 3 && kind == "hitch", "{kind}: {farthest}");
+    }
+}
+
+#[test]
+fn a_robot_of_the_labs_is_drawn_on_its_way_in_its_chart() {
+    // a car that turns through pi: its heading goes the short way
+    let turning = one("hitch", &[3.0, 4.0, 3.1], &[3.2, 4.0, -3.1], 0.5);
+    let pose = *turning.drawn(0).unwrap().0.parts()[0].pose();
+    assert!((pose.x - 3.1).abs() < 1e-12 && (pose.theta.abs() - std::f64::consts::PI).abs() < 1e-12, "{pose:?}");
+    assert!((turning.spot(0).unwrap().centre - Point2::new(3.1, 4.0)).norm() < 1e-12);
+    // what was put there, or has a trailer since, is where it is
+    let there = |crowd: &Crowd| *crowd.drawn(0).unwrap().0.parts()[0].pose();
+    assert_eq!(there(&one("hitch", &[3.0, 4.0, 0.0], &[3.6, 4.0, 0.0], 0.5)).x, 3.6);
+    assert_eq!(there(&one("hitch", &[3.0, 4.0, 0.0], &[3.2, 4.0, 0.0, 0.0], 0.5)).x, 3.2);
+    assert_eq!(there(&one("reach", &[0.1, 0.0], &[1.9, 0.0], 0.5)).theta, 1.9);
+    assert!((there(&one("reach", &[0.1, 0.0], &[0.2, 0.0], 0.5)).theta - 0.15).abs() < 1e-12);
+    // a rover's pointer is no part of its footprint
+    assert_eq!(one("rusty", &[1.0, 1.0, 0.2], &[1.0, 1.0, 0.2], 1.0).drawn(0).unwrap().1, Some(0.2));
+    // the dot of a car is at its middle, and a trailer's length more behind
+    let middle = |q: &[f64]| one("hitch", q, q, 1.0).middle(0);
+    let ahead = middle(&[3.0, 4.0, 0.0]);
+    assert!(ahead.x > 0.5 && ahead.y == 0.0, "the rear axle is behind the middle: {ahead}");
+    let up = middle(&[3.0, 4.0, std::f64::consts::FRAC_PI_2]);
+    assert!((up - Vector2::new(0.0, ahead.x)).norm() < 1e-12);
+    assert!(middle(&[3.0, 4.0, 0.0, 0.0]).x < ahead.x);
 }
 
 #[test]
