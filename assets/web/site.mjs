@@ -99,7 +99,11 @@ const values = {
   formulas: [
     ...lab.formulas.map((f) => `<li title="${escape(f.spoken)}">${f.mathml}</li>`),
     // a long one is scrolled on a phone, by keys too
-    ...lab.chapter.map((f) => `<li data-at="${f.at.join(" ")}" title="${escape(f.spoken)}" tabindex="0" hidden>${f.mathml}</li>`),
+    ...lab.chapter.map(
+      (f) =>
+        `<li data-at="${f.at.join(" ")}" title="${escape(f.spoken)}" tabindex="0" hidden>${f.mathml}` +
+        `<details><summary>code</summary><code>${escape(f.code)}</code></details></li>`,
+    ),
   ].join("\n"),
   widgets: lab.widgets
     .map(
