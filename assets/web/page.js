@@ -164,6 +164,8 @@ const hear = {
     scrollTo(0, 0);
     performance.mark("first-frame");
     if (calm.matches) send({ do: "pause" }); // what moves by itself waits until it is asked to
+    // where the host wants it; after the first picture, so that it takes nothing from the load
+    if ("offline" in root.dataset) store(() => navigator.serviceWorker?.register("offline.js").catch(() => {}));
     const kept = store(() => sessionStorage.getItem(RESTART));
     if (kept) {
       const { at, ...run } = JSON.parse(kept);

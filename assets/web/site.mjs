@@ -1,4 +1,5 @@
-// Puts the site together: node site.mjs PARTS OUT [--budget]. Every file but the pages carries a hash of its contents in its name.
+// Puts the site together: node site.mjs PARTS OUT [--budget] [--offline]. Every file but the pages and the worker that
+// keeps them for a visit without a network carries a hash of its contents in its name.
 import { createHash } from "node:crypto";
 import { mkdirSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { dirname, extname, join } from "node:path";
@@ -9,7 +10,9 @@ import { POLICY } from "./policy.mjs";
 /** The most that the whole site may weigh, compressed. */
 const BUDGET = 4 * 1000 * 1000;
 
-const [parts, out, budget] = process.argv.slice(2);
+const [parts, out, ...options] = process.argv.slice(2);
+const budget = options.includes("--budget");
+const offline = options.includes("--offline");
 const here = dirname(fileURLToPath(import.meta.url));
 const lab = JSON.parse(readFileSync(join(parts, "lab.json"), "utf8"));
 const escape = (text) => text.replace(/[&<>"]/g, (c) => `&#${c.charCodeAt(0)};`);
@@ -91,6 +94,7 @@ const preloads = [
 
 const values = {
   preloads,
+  offline: offline ? " data-offline" : "",
   policy: POLICY,
   "style.css": hashed("style.css", style, "the page"),
   "page.js": hashed("page.js", page, "the page"),
@@ -125,8 +129,13 @@ for (const [name, template, page] of [
   ["embed.html", "index.html", "embed"],
   ["widgets.html", "widgets.html", "widgets"],
 ]) {
-  write(name, fill(source(template), { ...values, page }), "the page");
+  const text = fill(source(template), { ...values, page });
+  pages[name] = hash(text);
+  write(name, text, "the page");
 }
+const kept = { pages, files: weights.map((w) => w.name).filter((name) => !(name in pages)) };
+const version = createHash("sha256").update(JSON.stringify(kept)).digest("hex").slice(0, 12);
+write("offline.js", fill(source("offline.js"), { site: JSON.stringify(offline ? { version, ...kept } : null) }), "the page");
 
 const kb = (bytes) => (bytes / 1000).toFixed(0).padStart(7);
 const total = { raw: 0, compressed: 0 };
