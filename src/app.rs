@@ -49,7 +49,7 @@ use aside::Aside;
 #[cfg(all(target_family = "wasm", feature = "web"))]
 pub(crate) use aside::{seek_aside, stop as stop_aside};
 #[cfg(all(target_family = "wasm", feature = "web"))]
-pub(crate) use captured::captured;
+pub(crate) use captured::{captured, subject};
 #[cfg(all(target_family = "wasm", feature = "web"))]
 pub(crate) use error::SessionError;
 #[cfg(all(target_family = "wasm", feature = "web"))]

@@ -84,10 +84,13 @@ files.widgets = Object.fromEntries(lab.widgets.map((w) => [w.id, { title: w.titl
 const picture = (w) => `<img src="${pictures[w.id]}" loading="lazy" alt="${escape(w.description)}">`;
 // the modules that a script imports have hashes in their names, too
 const modules = {};
-for (const name of ["around.js", "pages.js", "twins.js"]) modules[name] = hashed(name, source(name), "the page");
-const page = source("page.js").replace(/from "\.\/([\w-]+\.js)"/g, (_, name) => `from "./${modules[name]}"`);
+const linked = (name) => source(name).replace(/(from |import\()"\.\/([\w-]+\.js)"/g, (_, how, other) => `${how}"./${modules[other]}"`);
+for (const name of ["pictures.js", "around.js", "pages.js", "twins.js", "captures.js"]) modules[name] = hashed(name, linked(name), "the page");
+const page = linked("page.js");
+// painting is loaded when it is asked for
+const { "pictures.js": _, ...first } = modules;
 const preloads = [
-  ...Object.values(modules).map((name) => `<link rel="modulepreload" href="${name}">`),
+  ...Object.values(first).map((name) => `<link rel="modulepreload" href="${name}">`),
   `<link rel="modulepreload" href="${files.lab}">`,
   `<link rel="preload" href="${files.labWasm}" as="fetch" type="application/wasm" crossorigin>`,
 ].join("\n");
@@ -124,6 +127,7 @@ const values = {
     )
     .join("\n"),
 };
+const pages = {};
 for (const [name, template, page] of [
   ["index.html", "index.html", "lab"],
   ["embed.html", "index.html", "embed"],
