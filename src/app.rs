@@ -26,7 +26,9 @@ mod tests;
 #[cfg(feature = "window")]
 mod window;
 
+use bevy::core_pipeline::Core2d;
 use bevy::prelude::*;
+use bevy::render::camera::CameraRenderGraph;
 #[cfg(feature = "window")]
 use bevy::window::WindowTheme;
 use bevy::window::{RequestRedraw, WindowResizeConstraints, WindowResolution};
@@ -47,7 +49,7 @@ use aside::Aside;
 #[cfg(all(target_family = "wasm", feature = "web"))]
 pub(crate) use aside::{seek_aside, stop as stop_aside};
 #[cfg(all(target_family = "wasm", feature = "web"))]
-pub(crate) use captured::captured;
+pub(crate) use captured::{captured, subject};
 #[cfg(all(target_family = "wasm", feature = "web"))]
 pub(crate) use error::SessionError;
 #[cfg(all(target_family = "wasm", feature = "web"))]
@@ -63,7 +65,7 @@ pub(crate) use session::new_run;
 const LEAST: f32 = 360.0;
 
 /// The lab in a window, with the tour of the three worlds from the book's seed. A run already under way is kept.
-pub(crate) fn windowed_app() -> App {
+pub(crate) fn windowed_app(add_plugins: impl FnOnce(&mut App, WindowPlugin)) -> App {
     let window = Window {
         title: "Motion Lab".into(),
         resolution: WindowResolution::new(1280, 800),
@@ -79,13 +81,11 @@ pub(crate) fn windowed_app() -> App {
     let mut app = App::new();
     // on the web a page closes without asking
     let close_when_requested = cfg!(not(feature = "window"));
-    let plugins = DefaultPlugins.set(WindowPlugin { primary_window: Some(window), close_when_requested, ..default() });
-    // on the web, the page keeps the settings and the browser has a console
-    #[cfg(feature = "window")]
-    let plugins = plugins.set(quiet_log());
+    let window = WindowPlugin { primary_window: Some(window), close_when_requested, ..default() };
     #[cfg(feature = "window")]
     app.add_plugins(settings::KeepSettingsPlugin);
-    app.add_plugins((plugins, EguiPlugin::default(), SessionPlugin, rest::RestPlugin))
+    add_plugins(&mut app, window);
+    app.add_plugins((EguiPlugin::default(), SessionPlugin, rest::RestPlugin))
         .insert_resource(EguiGlobalSettings { auto_create_primary_context: false, ..default() })
         .add_message::<SessionCommand>()
         .add_systems(Startup, add_camera)
@@ -101,6 +101,12 @@ pub(crate) fn windowed_app() -> App {
     app
 }
 
+/// Adds Bevy's own plugins, with this one for the window.
+#[cfg(feature = "window")]
+fn add_default_plugins(app: &mut App, window: WindowPlugin) {
+    app.add_plugins(DefaultPlugins.set(window).set(quiet_log()));
+}
+
 /// The log without the graphics layers, whose long messages `run_window` replaces by one line.
 #[cfg(feature = "window")]
 fn quiet_log() -> bevy::log::LogPlugin {
@@ -110,7 +116,7 @@ fn quiet_log() -> bevy::log::LogPlugin {
 
 /// Adds the camera, without multisampling: egui's painter smooths its own edges.
 fn add_camera(mut commands: Commands) {
-    commands.spawn((Camera2d, PrimaryEguiContext, Msaa::Off));
+    commands.spawn((Camera2d, CameraRenderGraph::new(Core2d), PrimaryEguiContext, Msaa::Off));
 }
 
 #[cfg(feature = "window")]

@@ -47,6 +47,7 @@ fn every_sign_on_screen_is_in_a_face() {
         signs_under(&root.join("src").join(module), &mut signs);
     }
     signs_of(&root.join("assets/widgets.ron"), &mut signs);
+    signs_of(&root.join("assets/formulas.ron"), &mut signs);
     for name in World::built_in_names() {
         signs.extend(World::built_in(name).unwrap().to_ron().chars());
     }
@@ -59,7 +60,7 @@ fn every_sign_on_screen_is_in_a_face() {
 #[test]
 fn names_in_european_scripts_and_the_signs_of_formulas_are_there() {
     let names = "Küche Łódź Ängström λάμδα Ωmega Москва";
-    let formulas = "φϕψθρωλμπΔ∈∉∞≤≥≠≈√±·×−∂∇∑∫ℝℕℂẋⁿ₀₁₂²³←→↑↓";
+    let formulas = "φϕψθρωλμπΔ∈∉∞≤≥≠≈√±·×−∂∇∑∫ℝℕℂẋⁿ₀₁₂₃²³←→↑↓";
     assert_eq!(missing(names.chars().chain(formulas.chars())), BTreeSet::new());
     assert_eq!(missing(['\u{4e2d}']), BTreeSet::from(['\u{4e2d}']), "a missing letter is reported");
 }

@@ -3,6 +3,7 @@
 // `window.motionLab.send({ do: "seek", tick: 600 })` does what src/web/message.rs lists; the page gets events `motionlab` on `window` with
 // what the lab tells in `detail`. docs/web/messages.md has what a page around a frame may ask.
 import { around } from "./around.js";
+import { captures } from "./captures.js";
 import { savedPage, logOfSavedPage } from "./pages.js";
 import { fingers, twins } from "./twins.js";
 
@@ -157,6 +158,8 @@ async function runPage() {
 
 // ---- what the lab tells ----
 
+const drawn = captures({ say, warn, save, tell: tellAll });
+
 const hear = {
   ready() {
     $("loading").hidden = true;
@@ -164,6 +167,8 @@ const hear = {
     scrollTo(0, 0);
     performance.mark("first-frame");
     if (calm.matches) send({ do: "pause" }); // what moves by itself waits until it is asked to
+    // where the host wants it; after the first picture, so that it takes nothing from the load
+    if ("offline" in root.dataset) store(() => navigator.serviceWorker?.register("offline.js").catch(() => {}));
     const kept = store(() => sessionStorage.getItem(RESTART));
     if (kept) {
       const { at, ...run } = JSON.parse(kept);
@@ -230,19 +235,22 @@ const hear = {
       warn("The browser does not let the page copy.");
     }
   },
-  file: ({ name }, bytes) => save(name, bytes),
+  file: drawn.file,
+  sheet: drawn.sheet,
+  film: drawn.film,
   ask({ accept }) {
     $("file").accept = accept;
     $("file").click();
   },
-  figure: ({ svg }) => print(svg),
+  figure: ({ svg, png }) => (png ? drawn.asked(svg, png) : print(svg)),
   failed: ({ text }) => stop(text),
 };
 
 function listen(json, bytes) {
   const message = JSON.parse(json);
   hear[message.kind]?.(message, bytes);
-  tellAll(message);
+  // a sheet that is asked for in pixels is told when it is painted
+  if (!message.png) tellAll(message);
 }
 
 /** Shows why the lab stopped. The run is kept: the simulator alone can record it again. */

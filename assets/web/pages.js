@@ -1,6 +1,7 @@
 // Pages that hold a run: written by this one, and read back.
 
-const base64 = (bytes) => {
+/** Bytes in letters. */
+export const base64 = (bytes) => {
   let text = "";
   for (let i = 0; i < bytes.length; i += 32768) text += String.fromCharCode(...bytes.subarray(i, i + 32768));
   return btoa(text);

@@ -1,4 +1,5 @@
-// Puts the site together: node site.mjs PARTS OUT [--budget]. Every file but the pages carries a hash of its contents in its name.
+// Puts the site together: node site.mjs PARTS OUT [--budget] [--offline]. Every file but the pages and the worker that
+// keeps them for a visit without a network carries a hash of its contents in its name.
 import { createHash } from "node:crypto";
 import { mkdirSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { dirname, extname, join } from "node:path";
@@ -9,7 +10,9 @@ import { POLICY } from "./policy.mjs";
 /** The most that the whole site may weigh, compressed. */
 const BUDGET = 4 * 1000 * 1000;
 
-const [parts, out, budget] = process.argv.slice(2);
+const [parts, out, ...options] = process.argv.slice(2);
+const budget = options.includes("--budget");
+const offline = options.includes("--offline");
 const here = dirname(fileURLToPath(import.meta.url));
 const lab = JSON.parse(readFileSync(join(parts, "lab.json"), "utf8"));
 const escape = (text) => text.replace(/[&<>"]/g, (c) => `&#${c.charCodeAt(0)};`);
@@ -81,16 +84,20 @@ files.widgets = Object.fromEntries(lab.widgets.map((w) => [w.id, { title: w.titl
 const picture = (w) => `<img src="${pictures[w.id]}" loading="lazy" alt="${escape(w.description)}">`;
 // the modules that a script imports have hashes in their names, too
 const modules = {};
-for (const name of ["around.js", "pages.js", "twins.js"]) modules[name] = hashed(name, source(name), "the page");
-const page = source("page.js").replace(/from "\.\/([\w-]+\.js)"/g, (_, name) => `from "./${modules[name]}"`);
+const linked = (name) => source(name).replace(/(from |import\()"\.\/([\w-]+\.js)"/g, (_, how, other) => `${how}"./${modules[other]}"`);
+for (const name of ["pictures.js", "around.js", "pages.js", "twins.js", "captures.js"]) modules[name] = hashed(name, linked(name), "the page");
+const page = linked("page.js");
+// painting is loaded when it is asked for
+const { "pictures.js": _, ...first } = modules;
 const preloads = [
-  ...Object.values(modules).map((name) => `<link rel="modulepreload" href="${name}">`),
+  ...Object.values(first).map((name) => `<link rel="modulepreload" href="${name}">`),
   `<link rel="modulepreload" href="${files.lab}">`,
   `<link rel="preload" href="${files.labWasm}" as="fetch" type="application/wasm" crossorigin>`,
 ].join("\n");
 
 const values = {
   preloads,
+  offline: offline ? " data-offline" : "",
   policy: POLICY,
   "style.css": hashed("style.css", style, "the page"),
   "page.js": hashed("page.js", page, "the page"),
@@ -99,7 +106,11 @@ const values = {
   formulas: [
     ...lab.formulas.map((f) => `<li title="${escape(f.spoken)}">${f.mathml}</li>`),
     // a long one is scrolled on a phone, by keys too
-    ...lab.chapter.map((f) => `<li data-at="${f.at.join(" ")}" title="${escape(f.spoken)}" tabindex="0" hidden>${f.mathml}</li>`),
+    ...lab.chapter.map(
+      (f) =>
+        `<li data-at="${f.at.join(" ")}" title="${escape(f.spoken)}" tabindex="0" hidden>${f.mathml}` +
+        `<details><summary>code</summary><code>${escape(f.code)}</code></details></li>`,
+    ),
   ].join("\n"),
   widgets: lab.widgets
     .map(
@@ -116,13 +127,19 @@ const values = {
     )
     .join("\n"),
 };
+const pages = {};
 for (const [name, template, page] of [
   ["index.html", "index.html", "lab"],
   ["embed.html", "index.html", "embed"],
   ["widgets.html", "widgets.html", "widgets"],
 ]) {
-  write(name, fill(source(template), { ...values, page }), "the page");
+  const text = fill(source(template), { ...values, page });
+  pages[name] = hash(text);
+  write(name, text, "the page");
 }
+const kept = { pages, files: weights.map((w) => w.name).filter((name) => !(name in pages)) };
+const version = createHash("sha256").update(JSON.stringify(kept)).digest("hex").slice(0, 12);
+write("offline.js", fill(source("offline.js"), { site: JSON.stringify(offline ? { version, ...kept } : null) }), "the page");
 
 const kb = (bytes) => (bytes / 1000).toFixed(0).padStart(7);
 const total = { raw: 0, compressed: 0 };

@@ -61,7 +61,7 @@ pub fn run_window_with(add: impl FnOnce(&mut App)) -> Result<(), WindowError> {
     }));
     let first_frame = Arc::clone(&opened);
     let outcome = catch_unwind(AssertUnwindSafe(move || {
-        let mut app = super::windowed_app();
+        let mut app = super::windowed_app(super::add_default_plugins);
         add(&mut app);
         app.add_systems(Last, move || first_frame.store(true, Ordering::Relaxed));
         app.run()

@@ -30,6 +30,14 @@ pub enum CaptureError {
     /// The images would be larger than any.
     #[error("the pictures are too large: {0} pixels wide")]
     TooLarge(u32),
+    /// The GIF would have more pictures than a page makes.
+    #[error("{pictures} pictures: a page makes at most {most}, motion-lab capture any number")]
+    TooMany {
+        /// Their number.
+        pictures: u64,
+        /// The largest number.
+        most: u64,
+    },
     /// Whoever asked for it stopped it.
     #[error("stopped")]
     Stopped,

@@ -3,7 +3,7 @@
 //!
 //! A [`Captured`] is a figure with its notes. [`anatomy`], [`cspace`] and [`atlas`] make one of a scene without a run,
 //! [`at_tick`] of a run at a tick. A [`Paper`] gives its size and colours. Natively a capture is written as SVG or PNG,
-//! or over a [`Span`] of ticks as GIF.
+//! or over a [`Span`] of ticks as GIF; a page paints both out of the sheets as SVG.
 //!
 //! ```
 //! use motion_lab::anatomy::{Anatomy, Tab};
@@ -37,7 +37,7 @@ use std::path::Path;
 pub use chart::MOST_LINES;
 pub use error::CaptureError;
 pub use histogram::{Distribution, histograms};
-pub use moving::{Span, Subject, at_tick, at_tick_with_robots};
+pub use moving::{Span, Subject, at_tick, at_tick_with_robots, sheets_with_robots};
 #[cfg(feature = "cli")]
 pub use paper::{film, film_with_robots, slides, write};
 pub use plan::{Found, PlanSheet, plan, proven, unit};

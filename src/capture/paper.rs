@@ -4,12 +4,11 @@ use std::path::Path;
 
 use bevy::app::App;
 
-use super::moving::Moving;
+use super::moving::{Moving, each_tick};
 use super::raster::{GifWriter, Image, Raster, Size, write_png};
-use super::{CaptureError, Captured, Form, Note, Paper, Span, Subject, TICK_HUNDREDTHS, with_program};
+use super::{CaptureError, Captured, Form, Paper, Span, Subject, TICK_HUNDREDTHS, with_program};
 use crate::output::{PendingFile, write_file};
 use crate::picture::Role;
-use crate::recording::Run;
 use crate::run::Log;
 
 impl Paper {
@@ -70,13 +69,13 @@ pub fn film_with_robots(
     let raster = paper.raster();
     let mut height = 0;
     // all pictures are as high as the highest
-    each(log, subject, span, paper, false, &add, |captured| {
+    each_tick(&mut Moving::new(log, subject.unnamed(), paper.width_px())?, span, false, &add, |captured| {
         height = std::cmp::max(height, raster.height(&captured.svg(paper))?);
         Ok(())
     })?;
-    let ticks: [Note; 1] = [("Tick", format!("{} to {}", span.from, span.to))];
+    let ticks = [span.note()];
     let (mut pending, mut writer, mut done) = (Some(pending), None, 0);
-    each(log, subject, span, paper, true, &add, |captured| {
+    each_tick(&mut Moving::new(log, subject.clone(), paper.width_px())?, span, true, &add, |captured| {
         if !go_on(done, span.pictures()) {
             return Err(CaptureError::Stopped);
         }
@@ -126,28 +125,6 @@ pub fn slides(captures: &[Captured], hundredths: u16, paper: &Paper, path: &Path
         writer.write(&end)?;
     }
     Ok(writer.finish()?.commit()?)
-}
-
-/// Calls `take` with the capture of each tick of the span that has a picture.
-fn each(
-    log: &Log,
-    subject: &Subject,
-    span: Span,
-    paper: &Paper,
-    drawn: bool,
-    add: impl FnOnce(&mut App),
-    mut take: impl FnMut(&Captured) -> Result<(), CaptureError>,
-) -> Result<(), CaptureError> {
-    let subject = if drawn { subject.clone() } else { subject.unnamed() };
-    let mut moving = Moving::new(log, subject, paper.width_px())?;
-    Run::show_with_robots(log, add, |run| {
-        let tick = run.frame().tick;
-        if tick > span.to {
-            return Ok(());
-        }
-        moving.see(run)?;
-        if span.has(tick) { take(&moving.captured(run, drawn)?) } else { Ok(()) }
-    })
 }
 
 /// The width and height of a GIF's pictures, pixels.

@@ -7,7 +7,7 @@ use super::{CellMap, CellState, Slice, wrapped_pieces};
 use crate::configuration::AnyConfiguration;
 use crate::geometry::{Aabb, Point2};
 use crate::num::wrap;
-use crate::picture::{Anchor, Dash, Drawing, Face, Fill, Glyph, Item, Line, Picture, Role};
+use crate::picture::{Anchor, Dash, Drawing, Face, Fill, Glyph, Item, Line, Picture, Role, in_signs};
 
 /// What is drawn over the cells.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -95,7 +95,7 @@ fn frame_items(slice: &Slice) -> Vec<Item> {
             items.push(Item::new(format!("tick/{way}/{text}"), text, Role::Muted, tick).stroked(Line::solid(1.0)));
         }
     }
-    let names = slice.names().map(|name| name.replace("th", "\u{3b8}"));
+    let names = slice.names().map(|name| in_signs(&name));
     items.push(label("axis/across/name".into(), p(0.25 * PI, -PI), &names[0], Anchor::Below));
     items.push(label("axis/up/name".into(), p(-PI - 0.06, 0.25 * PI), &names[1], Anchor::Left));
     items

@@ -6,6 +6,7 @@ use crate::collision::{Checker, Collision};
 use crate::configuration::{AnyConfiguration, Configuration};
 use crate::geometry::Footprint;
 use crate::num::{hypot, lesser, wrap};
+use crate::picture::in_signs;
 use crate::robots::{AnyRobot, ConfigurationError, Robot};
 
 /// Subtracted from every clearance and depth before it is compared with a bound, metres. It is far above the rounding
@@ -97,10 +98,10 @@ impl Slice {
 
     /// Describes the plane in a line: its two coordinates, and what is held.
     pub fn described(&self) -> String {
-        let [across, up] = self.names().map(|name| name.replace("th", "\u{3b8}"));
+        let [across, up] = self.names().map(|name| in_signs(&name));
         let at = |(i, name): &(usize, String)| {
             let value = format!("{:.3}", self.base.coordinates()[*i]).replace('-', "\u{2212}");
-            format!("{} = {value}", name.replace("th1", "\u{3b8}1"))
+            format!("{} = {value}", in_signs(name))
         };
         let held: Vec<String> = self.held().iter().map(at).collect();
         match self.checker.robot() {

@@ -41,6 +41,8 @@ pub struct Told {
     pub formula: Formula,
     /// What it says, in words.
     pub spoken: String,
+    /// The library's function that computes it, as in `Reach::tip`.
+    pub code: &'static str,
 }
 
 /// A formula as it is written in the manifest.
@@ -50,17 +52,18 @@ struct Written {
     at: Vec<String>,
     formula: &'static str,
     spoken: String,
+    code: &'static str,
 }
 
 static FORMULAS: LazyLock<Vec<Told>> = LazyLock::new(|| {
     let written: Vec<Written> = ron::from_str(include_str!("../../assets/formulas.ron")).unwrap_or_default();
-    let told = |Written { at, formula, spoken }| Told { at, formula: Formula::parse(formula), spoken };
+    let told = |Written { at, formula, spoken, code }| Told { at, formula: Formula::parse(formula), spoken, code };
     written.into_iter().map(told).collect()
 });
 
 impl Told {
-    /// The formulas of this name, in order: of a tab of the query anatomy, or of a kind of robot as in `hitch.4`, with
-    /// the number of its coordinates. None for any other name.
+    /// The formulas of this name, in order: of a tab of the query anatomy, of a kind of robot as in `hitch.4`, with the
+    /// number of its coordinates, or of the `annulus`. None for any other name.
     pub fn of(name: &str) -> impl Iterator<Item = &'static Told> {
         FORMULAS.iter().filter(move |told| told.at.iter().any(|at| at == name))
     }
@@ -194,7 +197,9 @@ fn tokens(text: &str, marks: &str) -> Vec<String> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::collision::{Checker, Collision, Scene};
     use crate::configuration::RobotKind;
+    use crate::robots::{AnyRobot, Drivable, Hitch, Reach, Rusty};
 
     #[test]
     fn a_product_and_a_functions_argument_stand_apart_in_mathml() {
@@ -217,7 +222,7 @@ mod tests {
         let kinds = RobotKind::ALL.into_iter().flat_map(|kind| {
             kind.spaces.iter().map(|space| format!("{}.{}", kind.name, space.coordinates)).collect::<Vec<_>>()
         });
-        let places: Vec<String> = tabs.into_iter().chain(kinds).collect();
+        let places: Vec<String> = tabs.into_iter().chain(kinds).chain(["annulus".to_owned()]).collect();
         for place in &places {
             assert!(Told::of(place).next().is_some(), "nothing is said of {place}");
         }
@@ -230,6 +235,55 @@ mod tests {
         }
         assert_eq!(Told::of("hitch.4").count(), 2);
         assert!(Told::of("a cat").next().is_none());
+    }
+
+    /// Whether a formula writes an angle otherwise than θ, or a joint's otherwise than θ with a subscript.
+    fn misspells_an_angle(formula: &str) -> bool {
+        let follows = |c: char| c.is_numeric() || ('\u{2080}'..='\u{2089}').contains(&c);
+        let letters: Vec<char> = formula.chars().collect();
+        letters.contains(&'\u{3d1}')
+            || formula.contains("theta")
+            || letters.windows(2).any(|pair| pair[0] == '\u{3b8}' && follows(pair[1]))
+    }
+
+    #[test]
+    fn an_angle_has_one_spelling() {
+        assert!(["\u{3d1}_1", "\u{3b8}1", "\u{3b8}\u{2081}", "theta_1"].into_iter().all(misspells_an_angle));
+        let written: Vec<Written> = ron::from_str(include_str!("../../assets/formulas.ron")).unwrap();
+        let spaces = RobotKind::ALL.into_iter().flat_map(|kind| kind.spaces.iter().map(|space| space.formula));
+        let formulas: Vec<&str> = written.iter().map(|written| written.formula).chain(spaces).collect();
+        assert!(formulas.iter().filter(|formula| formula.contains('\u{3b8}')).count() >= 8, "there are angles");
+        for formula in formulas {
+            assert!(!misspells_an_angle(formula), "{formula}");
+        }
+        // words are read aloud: the letter has its name there
+        let words = include_str!("../../assets/widgets.ron");
+        let spoken = written.iter().map(|written| written.spoken.as_str());
+        assert!(spoken.chain([words]).all(|words| !words.contains(['\u{3b8}', '\u{3d1}'])));
+    }
+
+    #[test]
+    fn the_code_of_a_formula_is_there() {
+        fn name_of<T>(_: T) -> &'static str {
+            std::any::type_name::<T>()
+        }
+        let functions = [
+            ("Scene::intersects", name_of(<Scene as Collision>::intersects)),
+            ("Scene::distance", name_of(<Scene as Collision>::distance)),
+            ("Scene::witness", name_of(<Scene as Collision>::witness)),
+            ("Checker::edge", name_of(Checker::<Reach<2>>::edge)),
+            ("Rusty::drive", name_of(<Rusty as Drivable>::drive)),
+            ("Reach::tip", name_of(Reach::<2>::tip)),
+            ("Reach::ik", name_of(Reach::<2>::ik)),
+            ("AnyRobot::annulus", name_of(AnyRobot::annulus)),
+            ("Hitch::step", name_of(Hitch::step)),
+        ];
+        for (code, function) in functions {
+            let (of, name) = code.split_once("::").unwrap();
+            assert!(function.contains(of) && function.ends_with(&format!("::{name}")), "{code} is {function}");
+            assert!(Told::all().iter().any(|told| told.code == code), "{code} computes no formula");
+        }
+        assert!(Told::all().iter().all(|told| functions.iter().any(|(code, _)| *code == told.code)));
     }
 
     #[test]

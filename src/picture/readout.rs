@@ -26,6 +26,20 @@ pub fn readout(printed: &str) -> String {
     out
 }
 
+/// The name of a coordinate in mathematical signs: a joint's angle `th1` is θ₁. Any other name stays.
+///
+/// ```
+/// # use motion_lab::picture::in_signs;
+/// assert_eq!([in_signs("th1"), in_signs("theta")], ["\u{3b8}\u{2081}", "theta"]);
+/// ```
+pub fn in_signs(name: &str) -> String {
+    let digit = name.strip_prefix("th").and_then(|rest| rest.parse::<u32>().ok()).filter(|joint| *joint < 10);
+    match digit.and_then(|joint| char::from_u32(0x2080 + joint)) {
+        Some(subscript) => format!("\u{3b8}{subscript}"),
+        None => name.to_owned(),
+    }
+}
+
 /// Byte offset of the next decimal number: a digit or minus after a space or an opening bracket. Digits in names (`T2`,
 /// `Tn<3>`) do not count.
 fn number_start(text: &str) -> Option<usize> {

@@ -4,7 +4,6 @@ use bevy_egui::egui::{
     Context, DragValue, Grid, Id, Key, Modal, Modifiers, RichText, TextStyle, Ui, WidgetInfo, WidgetType,
 };
 
-use super::capture_state::FORMS;
 use super::paint::button::LabButton;
 use super::paint::plate::refusal as refusal_words;
 use super::{CaptureOrder, Command, Dashboard, Look, SessionCommand, UiState};
@@ -66,7 +65,7 @@ pub fn capture_form(ctx: &Context, model: &Dashboard, look: &Look, state: &mut U
 fn choices(ui: &mut Ui, model: &Dashboard, look: &Look, order: &mut CaptureOrder) {
     ui.label("form");
     ui.horizontal(|ui| {
-        for &form in FORMS {
+        for form in Form::ALL {
             if LabButton::new(form.name()).selected(order.form == form).show(ui, look).clicked() {
                 order.form = form;
             }
@@ -139,6 +138,5 @@ fn holds(widget: Widget, order: &CaptureOrder) -> String {
     } else {
         "the world's content hash and the configuration"
     };
-    let others = if FORMS.len() == 1 { "; PNG and GIF are made by motion-lab capture" } else { "" };
-    format!("{what} in its metadata{others}")
+    format!("{what} in its metadata")
 }

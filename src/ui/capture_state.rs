@@ -2,8 +2,9 @@
 
 use crate::capture::{Form, Span};
 
-/// The file formats to choose from. On the web only the vector picture: the browser makes its fonts and pixels.
-pub(super) const FORMS: &[Form] = if cfg!(target_family = "wasm") { &[Form::Svg] } else { &Form::ALL };
+/// The most pictures of a GIF in a page, whose memory holds them all.
+#[cfg(target_family = "wasm")]
+pub(crate) const MOST_PICTURES: u64 = 400;
 
 /// An order to capture the widget in front.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -29,7 +30,7 @@ pub struct CaptureState {
 
 impl Default for CaptureState {
     fn default() -> Self {
-        let order = CaptureOrder { form: FORMS[0], width: 1280, scale: 2, span: Span { from: 0, to: 0, every: 4 } };
+        let order = CaptureOrder { form: Form::ALL[0], width: 1280, scale: 2, span: Span { from: 0, to: 0, every: 4 } };
         CaptureState { open: false, order }
     }
 }

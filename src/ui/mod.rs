@@ -24,6 +24,8 @@ mod tools;
 
 pub(crate) use anatomy::AnatomyState;
 pub(crate) use atlas::AtlasState;
+#[cfg(target_family = "wasm")]
+pub(crate) use capture_state::MOST_PICTURES;
 pub(crate) use capture_state::{CaptureOrder, CaptureState};
 pub(crate) use crowd::members::Members;
 pub(crate) use crowd::state::CrowdState;

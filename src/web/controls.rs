@@ -38,6 +38,9 @@ const MOST_STAGED: usize = 1000;
 /// Width of the sheet of a figure that the page asks for, pixels.
 const FIGURE_WIDTH: u32 = 1280;
 
+/// Most dots for each pixel of the sheet.
+const MOST_DOTS: u32 = 3;
+
 /// Carries out the messages and opens the files that have come in, and gives egui the events of this frame.
 pub fn receive(world: &mut World) {
     let all = take_all();
@@ -168,9 +171,10 @@ fn take(world: &mut World, message: Message) -> Result<(), PageError> {
             world.write_message(RunCommand::from(WorldCommand { world: of, change }));
             Ok(())
         }
-        Message::Figure => {
-            let (_, svg) = picture(world, FIGURE_WIDTH)?;
-            tell(&json!({ "kind": "figure", "svg": svg }));
+        Message::Figure { png } => {
+            let svg = picture(world, FIGURE_WIDTH)?;
+            let dots = png.map(|dots| dots.clamp(1, MOST_DOTS));
+            tell(&json!({ "kind": "figure", "svg": svg, "png": dots }));
             Ok(())
         }
         Message::Theme { name } => {

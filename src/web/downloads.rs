@@ -4,10 +4,10 @@ use bevy::prelude::*;
 use serde_json::json;
 
 use super::listener::{tell, tell_with};
-use crate::app::{Interface, SessionError, captured, path_text, save, shown_run};
-use crate::capture::Paper;
+use crate::app::{Interface, SessionError, captured, path_text, save, shown_run, subject};
+use crate::capture::{CaptureError, Form, Paper, TICK_HUNDREDTHS, sheets_with_robots};
 use crate::simulation::Transport;
-use crate::ui::{Notice, SessionCommand};
+use crate::ui::{CaptureOrder, MOST_PICTURES, Notice, SessionCommand};
 
 /// Carries out the commands that need a dialog in a window: gives the page the file to save, or asks it for one to
 /// open.
@@ -51,10 +51,7 @@ pub fn files(world: &mut World) {
                 tell(&json!({ "kind": "ask", "accept": ".json" }));
                 continue;
             }
-            SessionCommand::Capture(order) => picture(world, order.width).map(|(name, svg)| {
-                tell_with(&json!({ "kind": "file", "name": name }), Some(svg.as_bytes()));
-                format!("{name}: saved")
-            }),
+            SessionCommand::Capture(order) => capture(world, &order),
             SessionCommand::PlayPath
             | SessionCommand::RunWorld
             | SessionCommand::RunFromHere
@@ -69,12 +66,42 @@ pub fn files(world: &mut World) {
     }
 }
 
-/// A picture of the widget in front as SVG, on a sheet of at most this width, pixels, and a name for its file.
-pub fn picture(world: &World, width: u32) -> Result<(String, String), SessionError> {
+/// Gives the page the widget in front as ordered: as SVG, or as the sheets that it paints a PNG or a GIF from. Returns
+/// what is said of it.
+fn capture(world: &World, order: &CaptureOrder) -> Result<String, SessionError> {
+    let ui = &world.resource::<Interface>().0;
+    let CaptureOrder { form, width, scale, span } = *order;
+    let name = format!("{}.{}", ui.widget.id(), form.extension());
+    let Some(subject) = subject(ui, form)?.filter(|_| form == Form::Gif) else {
+        let svg = picture(world, width)?;
+        let dots = (form == Form::Png).then_some(scale);
+        tell_with(&json!({ "kind": "file", "name": name, "scale": dots }), Some(svg.as_bytes()));
+        return Ok(format!("{name}: captured"));
+    };
+    let pictures = span.pictures();
+    if pictures > MOST_PICTURES {
+        return Err(CaptureError::TooMany { pictures, most: MOST_PICTURES }.into());
+    }
+    let run = shown_run(world, world.resource::<Transport>().frontier);
+    let kinds = run.kinds.clone();
+    let give = |svg: String| tell_with(&json!({ "kind": "sheet" }), Some(svg.as_bytes()));
+    let paper = paper(world, width);
+    sheets_with_robots(&run.record()?, &subject, span, &paper, |app| kinds.add_to(app), give)?;
+    tell(&json!({
+        "kind": "film", "name": name, "scale": scale, "hundredths": TICK_HUNDREDTHS * span.every,
+    }));
+    Ok(format!("{name}: captured, {pictures} pictures"))
+}
+
+fn paper(world: &World, width: u32) -> Paper {
+    Paper { palette: world.resource::<Interface>().0.theme().palette(), width, scale: 1.0 }
+}
+
+/// A picture of the widget in front as SVG, on a sheet of at most this width, pixels.
+pub fn picture(world: &World, width: u32) -> Result<String, SessionError> {
     let Transport { tick, frontier, .. } = *world.resource::<Transport>();
     let run = shown_run(world, frontier);
-    let ui = &world.resource::<Interface>().0;
-    let paper = Paper { palette: ui.theme().palette(), width, scale: 1.0 };
-    let figure = captured(ui, run, tick, paper.width_px())?;
-    Ok((format!("{}.svg", ui.widget.id()), figure.svg(&paper)))
+    let paper = paper(world, width);
+    let figure = captured(&world.resource::<Interface>().0, run, tick, paper.width_px())?;
+    Ok(figure.svg(&paper))
 }

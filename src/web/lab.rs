@@ -10,6 +10,7 @@ use bevy_egui::EguiPreUpdateSet;
 use serde_json::json;
 use wasm_bindgen::prelude::*;
 
+use super::canvas::add_plugins;
 use super::controls::{Staged, Touched, receive};
 use super::downloads::files;
 use super::inbox::{Incoming, put, wake_by};
@@ -41,7 +42,7 @@ thread_local! {
 pub fn lab_start(query: &str, embedded: bool, settings: &str, listener: js_sys::Function) {
     let link = Link::parse(query);
     listen(listener);
-    let mut app = windowed_app();
+    let mut app = windowed_app(add_plugins);
     // Bevy has set a hook of its own by now
     let speak = std::panic::take_hook();
     std::panic::set_hook(Box::new(move |info| {

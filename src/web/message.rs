@@ -93,7 +93,11 @@ pub enum Message {
         open: bool,
     },
     /// Send the widget in front as a picture.
-    Figure,
+    Figure {
+        /// Dots for each pixel of the sheet, for a page that makes a PNG of it; SVG when left out.
+        #[serde(default)]
+        png: Option<u32>,
+    },
     /// Choose the paper.
     Theme {
         /// `system`, `light` or `dark`.

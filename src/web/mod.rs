@@ -16,6 +16,8 @@ mod mirror;
 mod runs;
 
 #[cfg(all(target_family = "wasm", feature = "web"))]
+mod canvas;
+#[cfg(all(target_family = "wasm", feature = "web"))]
 mod controls;
 #[cfg(all(target_family = "wasm", feature = "web"))]
 mod downloads;

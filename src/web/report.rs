@@ -15,6 +15,7 @@ use crate::configuration::Configuration;
 use crate::manifest::ThemeChoice;
 use crate::picture::{Role, Theme, readout};
 use crate::random::Seed;
+use crate::robots::AnyRobot;
 use crate::run::Script;
 use crate::simulation::{PendingInput, Playback, RunConfig, Transport};
 use crate::tour::TourConfig;
@@ -128,6 +129,9 @@ fn state(world: &World) -> Value {
     let formulas: BTreeSet<String> = match ui.widget {
         Widget::Anatomy => BTreeSet::from([query.tab.name().to_owned()]),
         Widget::Dashboard => kinds.map(|(about, coordinates)| format!("{}.{coordinates}", about.name)).collect(),
+        Widget::Cspace if matches!(query.checker().robot(), AnyRobot::Reach(_)) => {
+            BTreeSet::from(["annulus".to_owned()])
+        }
         Widget::Cspace | Widget::Atlas | Widget::Plan => BTreeSet::new(),
     };
     json!({

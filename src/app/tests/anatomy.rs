@@ -236,4 +236,7 @@ fn each_tab_has_its_formula_and_each_robot_its_own() {
     harness.get_by_label_contains("It rolls the way it faces with speed v, and turns with rate omega.");
     bring(&mut harness, "Reach");
     harness.get_by_label_contains("The tip, by forward kinematics");
+    // a joint's angle has its number as a subscript
+    assert!(harness.query_all_by_label("\u{3b8}\u{2081}: robot").next().is_some());
+    assert!(harness.query_all_by_label("\u{3b8}1: robot").next().is_none());
 }

@@ -133,7 +133,7 @@ fn the_three_robots_have_their_spaces_and_the_car_its_slice() {
     let mut harness = lab(WIDE);
     front(&mut harness, "Space");
     harness.run_steps(4);
-    harness.get_by_label("\u{3b8}1 and \u{3b8}2: opposite edges are one");
+    harness.get_by_label("\u{3b8}\u{2081} and \u{3b8}\u{2082}: opposite edges are one");
     let pick = |harness: &mut Harness<'_, Lab>, name: &str| {
         harness.get_by_role_and_label(egui::accesskit::Role::ComboBox, "robot").click();
         harness.run_steps(3);

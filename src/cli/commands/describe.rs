@@ -40,9 +40,11 @@ impl Describe {
                 })
             })
             .collect();
-        let told = Told::all()
-            .iter()
-            .map(|told| json!({ "at": told.at(), "mathml": told.formula.mathml(), "spoken": told.spoken }));
+        let told = Told::all().iter().map(|told| {
+            json!({
+                "at": told.at(), "mathml": told.formula.mathml(), "spoken": told.spoken, "code": told.code,
+            })
+        });
         let all = json!({
             "widgets": widgets,
             "formulas": formulas,

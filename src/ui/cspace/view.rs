@@ -9,8 +9,9 @@ use crate::cspace::{Overlay, overlay_items};
 use crate::manifest::{Deed, Widget};
 use crate::num::wrap;
 use crate::picture::{Picture, Role, footprint};
-use crate::robots::Robot;
+use crate::robots::{AnyRobot, Robot};
 use crate::ui::anatomy::view::{annulus, coordinate, robot_choice, world_choice};
+use crate::ui::paint::frame::formulas;
 use crate::ui::paint::sheet::sheet;
 use crate::ui::{Command, Dashboard, Look, UiState, readout};
 
@@ -26,7 +27,7 @@ pub fn cspace_view(ui: &mut Ui, model: &Dashboard, look: &Look, state: &mut UiSt
     if state.cspace.refine(&anatomy) {
         ui.ctx().request_repaint();
     }
-    let text = if narrow { 160.0 } else { 120.0 };
+    let text = if narrow { 160.0 } else { 140.0 };
     let room = ui.available_rect_before_wrap();
     let side = if narrow {
         room.width().min(0.5 * (room.height() - text))
@@ -64,6 +65,9 @@ fn below_the_papers(ui: &mut Ui, look: &Look, state: &mut UiState) {
         let muted = |text: String| RichText::new(text).monospace().color(look.colour(Role::Muted));
         ui.label(muted(text));
         ui.label(muted(cells.map().slice().described()));
+    }
+    if matches!(state.anatomy.anatomy.checker().robot(), AnyRobot::Reach(_)) {
+        formulas(ui, "annulus", look, state);
     }
     ui.horizontal_wrapped(|ui| {
         robot_choice(ui, state);

@@ -10,7 +10,7 @@ use super::arm::{dragged, handle_name, joints, turned};
 use crate::configuration::{Coordinates, Tn};
 use crate::geometry::Point2;
 use crate::num::wrap;
-use crate::picture::{Dash, Drawing, Fit, Item, Line, Picture, Role, footprint};
+use crate::picture::{Dash, Drawing, Fit, Item, Line, Picture, Role, footprint, in_signs};
 use crate::robots::{AnyRobot, Reach};
 use crate::run::{Quantized, RobotInput};
 use crate::simulation::{RobotCommand, TransportCommand};
@@ -180,7 +180,7 @@ pub fn numbers(ui: &mut Ui, robot: &CockpitRobot, look: &Look, commands: &mut Ve
     ui.horizontal(|ui| {
         ui.spacing_mut().button_padding = [4.0, 1.0].into();
         for (i, angle) in to.iter_mut().enumerate() {
-            let label = ui.label(RichText::new(format!("\u{3b8}{}", i + 1)).color(look.colour(Role::Text)));
+            let label = ui.label(RichText::new(in_signs(&format!("th{}", i + 1))).color(look.colour(Role::Text)));
             let field = DragValue::new(angle).speed(0.01).fixed_decimals(3).range(-3.2..=3.2);
             let response = ui.add(field).labelled_by(label.id);
             response.widget_info(|| WidgetInfo {

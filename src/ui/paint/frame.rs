@@ -4,13 +4,13 @@ use std::ops::Range;
 use std::sync::Arc;
 
 use bevy_egui::egui::{
-    FontId, Galley, Rect, RichText, Sense, Shape, Stroke, StrokeKind, TextFormat, TextStyle, TextWrapMode, Ui, Vec2,
-    WidgetInfo, WidgetType,
+    FontId, Galley, Rect, Response, RichText, Sense, Shape, Stroke, StrokeKind, TextFormat, TextStyle, TextWrapMode,
+    Ui, Vec2, WidgetInfo, WidgetType,
     text::{CCursor, LayoutJob},
     vec2,
 };
 
-use crate::manifest::{Formula, Level, Told};
+use crate::manifest::{Formula, Level, Term, Told};
 use crate::picture::Role;
 use crate::ui::keys::{self, Action};
 use crate::ui::{Look, UiState, WidgetText};
@@ -125,9 +125,9 @@ pub fn rests(response: &bevy_egui::egui::Response) -> bool {
 
 /// Shows a formula in rows that wrap, its terms in the colours of their roles. Pointing at a term lights its role, and
 /// so does the focus on it; pointing at a part of the picture underlines its terms.
-pub fn formula(ui: &mut Ui, formula: &Formula, spoken: &str, look: &Look, state: &mut UiState) {
+pub fn formula(ui: &mut Ui, formula: &Formula, spoken: &str, look: &Look, state: &mut UiState) -> Option<Response> {
     if formula.0.is_empty() {
-        return;
+        return None;
     }
     let mut job = job(ui, formula, look);
     job.wrap.max_width = ui.available_width();
@@ -138,9 +138,9 @@ pub fn formula(ui: &mut Ui, formula: &Formula, spoken: &str, look: &Look, state:
     let mut end = 0;
     // a term and its scripts are one
     for (i, piece) in formula.0.chunk_by(|_, next| next.level != Level::Base).enumerate() {
-        let text: String = piece.iter().map(|term| term.text).collect();
         let begin = end;
-        end += text.chars().count();
+        end += piece.iter().map(|term| term.text.chars().count()).sum::<usize>();
+        let text: String = piece.iter().map(spelled).collect();
         let Some(role) = piece.first().and_then(|term| term.role) else { continue };
         let place = span(&galley, begin..end).translate(rect.min.to_vec2());
         let term = ui.interact(place, response.id.with(i), Sense::click());
@@ -152,7 +152,13 @@ pub fn formula(ui: &mut Ui, formula: &Formula, spoken: &str, look: &Look, state:
         }
         term.on_hover_text(spoken);
     }
-    response.on_hover_text(spoken);
+    Some(response.on_hover_text(spoken))
+}
+
+/// The text of a term in a line of plain letters, where a subscript has its own digits.
+fn spelled(term: &Term) -> String {
+    let lowered = |c: char| c.to_digit(10).and_then(|digit| char::from_u32(0x2080 + digit)).unwrap_or(c);
+    if term.level == Level::Sub { term.text.chars().map(lowered).collect() } else { term.text.to_owned() }
 }
 
 /// Where these characters stand. Those of a later row than the first are left out.
@@ -164,10 +170,11 @@ fn span(galley: &Galley, characters: Range<usize>) -> Rect {
     row.fold(first, Rect::union)
 }
 
-/// Shows the chapter's formulas of this name, each in rows of its own.
+/// Shows the chapter's formulas of this name, each in rows of its own. Pointing at one names the code that computes it.
 pub fn formulas(ui: &mut Ui, name: &str, look: &Look, state: &mut UiState) {
     for told in Told::of(name) {
-        formula(ui, &told.formula, &told.spoken, look, state);
+        let shown = formula(ui, &told.formula, &told.spoken, look, state);
+        shown.map(|response| response.on_hover_text(RichText::new(told.code).monospace()));
     }
 }
 

@@ -5,7 +5,7 @@ import { join } from "node:path";
 import { serve } from "../../../assets/web/serve.mjs";
 
 const require = createRequire(import.meta.url);
-const { chromium } = require(process.env.MOTION_LAB_PLAYWRIGHT);
+export const { chromium } = require(process.env.MOTION_LAB_PLAYWRIGHT);
 export const target = process.env.CARGO_TARGET_DIR;
 export const shots = process.env.MOTION_LAB_SHOTS;
 
@@ -13,7 +13,7 @@ export const shots = process.env.MOTION_LAB_SHOTS;
 export const native = (...words) =>
   execFileSync(process.env.MOTION_LAB_NATIVE, words, { encoding: "utf8", stdio: ["ignore", "pipe", "pipe"] });
 
-const ARGS = [
+export const ARGS = [
   "--no-sandbox",
   "--use-angle=swiftshader",
   "--enable-unsafe-swiftshader",
