@@ -1,6 +1,6 @@
 //! `Editor`, a world under edit: every change is checked as world files are, and can be undone.
 
-use super::numbers::sides;
+use super::numbers::{listed, sides};
 use super::op::{all_names, changed, numbers_of, shape_of};
 use super::residents::{Stand, stand};
 use super::{Atlas, EditError, EditShape, Handle, Number, Op, Refusal};
@@ -157,12 +157,8 @@ impl Editor {
 
     /// The numbers of the part of the plane that the world shows, in the order in which [`Op::SetBounds`] counts them.
     pub fn bounds(&self) -> Vec<Number> {
-        let mut numbers = Vec::new();
         let Aabb { mut min, mut max } = self.world().bounds;
-        sides(&mut min, &mut max, &mut |name, unit, value| {
-            numbers.push(Number { name: name.to_owned(), value: *value, unit });
-        });
-        numbers
+        listed(|visit| sides(&mut min, &mut max, visit))
     }
 
     /// The pose of a place, or of a robot's start; `None` for anything else.

@@ -6,6 +6,7 @@ mod grid_layer;
 mod labels;
 mod numbers;
 mod op;
+mod order;
 mod outline;
 mod overlay;
 mod residents;

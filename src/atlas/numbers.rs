@@ -4,7 +4,7 @@ use super::EditShape;
 use super::outline::tidy;
 use crate::configuration::{Kinds, RobotKind, Sizes};
 use crate::geometry::{Point2, Pose2};
-use crate::worlds::Resident;
+use crate::worlds::{Door, Resident};
 
 /// A number of a thing.
 #[derive(Clone, Debug, PartialEq)]
@@ -20,11 +20,44 @@ pub struct Number {
 /// What is done with each number of a thing: its name, its unit, and itself.
 pub(super) type Visit<'a> = dyn FnMut(&str, &'static str, &mut f64) + 'a;
 
+/// The numbers that `all` visits.
+pub(super) fn listed(all: impl FnOnce(&mut Visit<'_>)) -> Vec<Number> {
+    let mut numbers = Vec::new();
+    all(&mut |name, unit, value| numbers.push(Number { name: name.to_owned(), value: *value, unit }));
+    numbers
+}
+
+/// Sets the number with this index of those that `all` visits, and says whether there is one.
+pub(super) fn setting(number: usize, to: f64, all: impl FnOnce(&mut Visit<'_>)) -> bool {
+    let mut count = 0;
+    all(&mut |_, _, value| {
+        if count == number {
+            *value = to;
+        }
+        count += 1;
+    });
+    number < count
+}
+
+impl EditShape {
+    /// The numbers of the shape: coordinates of its corners, and sizes.
+    pub fn numbers(&self) -> Vec<Number> {
+        listed(|visit| of_shape(&mut self.clone(), visit))
+    }
+
+    /// The shape with one of its [numbers](Self::numbers) set; `None` when it has fewer.
+    #[must_use]
+    pub fn with_number(&self, number: usize, to: f64) -> Option<EditShape> {
+        let mut shape = self.clone();
+        setting(number, to, |visit| of_shape(&mut shape, visit)).then_some(shape)
+    }
+}
+
 const METRES: &str = "m";
 const RADIANS: &str = "rad";
 
 /// Visits a point's coordinates, named with this behind them.
-pub(super) fn point(p: &mut Point2, which: &str, visit: &mut Visit<'_>) {
+fn point(p: &mut Point2, which: &str, visit: &mut Visit<'_>) {
     visit(&format!("x{which}"), METRES, &mut p.x);
     visit(&format!("y{which}"), METRES, &mut p.y);
 }
@@ -34,6 +67,12 @@ pub(super) fn pose(pose: &mut Pose2, visit: &mut Visit<'_>) {
     visit("x", METRES, &mut pose.x);
     visit("y", METRES, &mut pose.y);
     visit("heading", RADIANS, &mut pose.theta);
+}
+
+/// Visits the ends of a door.
+pub(super) fn of_door(door: &mut Door, visit: &mut Visit<'_>) {
+    point(&mut door.a, " of the hinge", visit);
+    point(&mut door.b, " of the end", visit);
 }
 
 /// Visits a corner and the way from it to the opposite one, so that a box that is moved keeps its size.

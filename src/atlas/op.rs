@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use super::numbers::Visit;
+use super::numbers::{Visit, setting};
 use super::outline::tidy;
 use super::residents::stand;
 use super::{EditError, EditShape, Number, numbers, residents};
@@ -173,40 +173,22 @@ fn visit(world: &mut World, at: Found, name: &str, kinds: &Kinds, visit: &mut Vi
                 }
             }
         }
-        Found::Door(i) => {
-            numbers::point(&mut world.doors[i].a, " of the hinge", visit);
-            numbers::point(&mut world.doors[i].b, " of the end", visit);
-        }
+        Found::Door(i) => numbers::of_door(&mut world.doors[i], visit),
         Found::Place(i) => numbers::pose(&mut world.places[i].pose, visit),
         Found::Robot(i) => numbers::of_robot(&mut world.robots[i], kinds, visit),
     }
     Ok(())
 }
 
-/// The numbers of the thing of this name, in order.
+/// The numbers of the thing of this name, in order. Only the thing is copied, however much else the world holds.
 pub(super) fn numbers_of(world: &World, name: &str, kinds: &Kinds) -> Vec<Number> {
-    let mut numbers = Vec::new();
-    let mut keep = |name: &str, unit, value: &mut f64| {
-        numbers.push(Number { name: name.to_owned(), value: *value, unit });
-    };
-    if let Some(at) = find(world, name) {
-        // nothing is changed, so nothing is refused
-        let seen = visit(&mut world.clone(), at, name, kinds, &mut keep);
-        debug_assert!(seen.is_ok());
+    let Some(at) = find(world, name) else { return Vec::new() };
+    match at {
+        Found::Obstacle(_) | Found::Mark(_) => shape_at(world, at).map_or_else(Vec::new, |shape| shape.numbers()),
+        Found::Door(i) => numbers::listed(|visit| numbers::of_door(&mut world.doors[i].clone(), visit)),
+        Found::Place(i) => numbers::listed(|visit| numbers::pose(&mut world.places[i].pose.clone(), visit)),
+        Found::Robot(i) => numbers::listed(|visit| numbers::of_robot(&mut world.robots[i].clone(), kinds, visit)),
     }
-    numbers
-}
-
-/// Sets the number with this index, and says whether there is one.
-fn setting(number: usize, to: f64, all: impl FnOnce(&mut Visit<'_>)) -> bool {
-    let mut count = 0;
-    all(&mut |_, _, value| {
-        if count == number {
-            *value = to;
-        }
-        count += 1;
-    });
-    number < count
 }
 
 /// The world after a change, not checked yet.

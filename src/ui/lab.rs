@@ -55,6 +55,8 @@ pub fn lab(ui: &mut Ui, model: &Dashboard, history: &History, state: &mut UiStat
         }
     }
     state.nudged = None;
+    // a picture in front says anew what of it is pointed at
+    state.over = None;
     state.grasp = state.next_grasp.take();
     // no fill: the window is cleared to the paper's colour already, and a fill would cost as much as all that is drawn
     let margin = Margin::symmetric(if narrow { 8 } else { 6 }, if narrow { 4 } else { 14 });

@@ -226,6 +226,28 @@ fn a_term_lights_what_the_picture_draws_of_it_and_a_part_of_the_picture_its_term
 }
 
 #[test]
+fn nothing_is_pointed_at_once_another_widget_is_in_front() {
+    let mut harness = on("witness");
+    let paper = harness.get_by_label(&anatomy(&harness).described()).rect();
+    let fit = crate::ui::paint::canvas::fit(&crate::picture::world(anatomy(&harness).world()), paper);
+    let [x, y] = fit.screen_from_world(Point2::new(0.75, 1.25));
+    pointer(&mut harness, pos2(x as f32, y as f32), None);
+    harness.run_steps(2);
+    assert_eq!(interface(&harness).over, Some(Role::Obstacle));
+    for (widget, over) in [(Key::Num1, None), (Key::Num2, Some(Role::Obstacle)), (Key::Num3, None)] {
+        harness.key_press_modifiers(Modifiers::COMMAND, widget);
+        harness.run_steps(3);
+        assert_eq!(interface(&harness).over, over, "{widget:?}");
+    }
+    // nor when the pointer has left the window
+    harness.key_press_modifiers(Modifiers::COMMAND, Key::Num2);
+    harness.run_steps(3);
+    harness.event(Event::PointerGone);
+    harness.run_steps(3);
+    assert_eq!(interface(&harness).over, None);
+}
+
+#[test]
 fn each_tab_has_its_formula_and_each_robot_its_own() {
     let mut harness = on("swept");
     harness.get_by_label_contains("meets no obstacle at any moment");

@@ -280,6 +280,7 @@ impl AtlasState {
             return false;
         }
         self.refused = None;
+        self.labels = None;
         matches!(self.atlas.teleport(self.robot, q), Some(Ok(())))
     }
 
@@ -319,8 +320,13 @@ mod tests {
         };
         let at = atlas.atlas().robots()[0].robot.reference(&offer.q);
         assert!(!atlas.take_offer(at + nalgebra::Vector2::new(1.0, 0.0), 0.1));
+        let name = atlas.atlas().robots()[0].name.clone();
+        let label = |a: &mut AtlasState| a.labels(60.0).iter().find(|item| item.name == name).cloned();
+        let label_before = label(&mut atlas);
+        assert!(label_before.is_some());
         assert!(atlas.take_offer(at, 0.1));
         assert_eq!(atlas.atlas().robots()[0].q, offer.q);
+        assert_ne!(label(&mut atlas), label_before, "its name goes with it");
         // while it is only dragged nothing is put
         atlas.ask(Point2::new(8.0, 2.5), None, false);
         assert_eq!(atlas.atlas().robots()[0].q, offer.q);
