@@ -34,7 +34,7 @@ use bevy::winit::{UpdateMode, WinitSettings};
 use bevy_egui::{EguiContext, EguiGlobalSettings, EguiPlugin, EguiPrimaryContextPass, PrimaryEguiContext, egui};
 
 #[cfg(feature = "window")]
-pub use frames::FrameTimes;
+pub use frames::{FrameTimes, Pause};
 pub(crate) use session::SessionPlugin;
 #[cfg(feature = "window")]
 pub use window::{Opened, WindowError, open_in_window, run_window, run_window_with};
