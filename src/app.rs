@@ -12,13 +12,13 @@ mod error;
 mod files;
 #[cfg(feature = "window")]
 mod frames;
+#[cfg(feature = "window")]
+mod kept;
 mod pace;
 mod put_robot;
 mod rest;
 mod runs;
 mod session;
-#[cfg(feature = "window")]
-mod settings;
 // two attributes, because the lints recognise only a bare `cfg(test)`
 #[cfg(test)]
 #[cfg(feature = "window")]
@@ -84,7 +84,7 @@ pub(crate) fn windowed_app() -> App {
     #[cfg(feature = "window")]
     let plugins = plugins.set(quiet_log());
     #[cfg(feature = "window")]
-    app.add_plugins(settings::KeepSettingsPlugin);
+    app.add_plugins(kept::settings::KeepSettingsPlugin);
     app.add_plugins((plugins, EguiPlugin::default(), SessionPlugin, rest::RestPlugin))
         .insert_resource(EguiGlobalSettings { auto_create_primary_context: false, ..default() })
         .add_message::<SessionCommand>()
@@ -96,6 +96,7 @@ pub(crate) fn windowed_app() -> App {
     app.add_systems(Update, system_theme)
         .init_resource::<dialogs::Dialogs>()
         .init_resource::<capture::Capturing>()
+        .add_plugins(kept::autosave::AutosavePlugin::default())
         .add_systems(Update, window::close)
         .add_systems(Update, (dialogs::ask, dialogs::dropped, capture::follow).chain().before(session::gather));
     app

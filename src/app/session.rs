@@ -305,6 +305,8 @@ pub fn carry_out(world: &mut World, commands: Vec<Command>) {
                 }
             }
             Command::Session(SessionCommand::PlayPath) => play_path(world),
+            #[cfg(feature = "window")]
+            Command::Session(SessionCommand::OpenRecent(path)) => super::files::open_recent(world, &path),
             Command::Session(command) => _ = world.write_message(command),
         }
     }
