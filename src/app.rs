@@ -4,6 +4,8 @@ mod aside;
 #[cfg(feature = "window")]
 mod capture;
 mod captured;
+#[cfg(feature = "window")]
+mod clipboard;
 mod crowds;
 #[cfg(feature = "window")]
 mod dialogs;
@@ -96,6 +98,7 @@ pub(crate) fn windowed_app() -> App {
     app.add_systems(Update, system_theme)
         .init_resource::<dialogs::Dialogs>()
         .init_resource::<capture::Capturing>()
+        .init_resource::<clipboard::Clipboard>()
         .add_plugins(kept::autosave::AutosavePlugin::default())
         .add_systems(Update, window::close)
         .add_systems(Update, (dialogs::ask, dialogs::dropped, capture::follow).chain().before(session::gather));

@@ -125,6 +125,7 @@ pub fn ask(
             | SessionCommand::RunFromHere
             | SessionCommand::PutRobot { .. }
             | SessionCommand::OpenRecent(_)
+            | SessionCommand::CopyPicture(_)
             | SessionCommand::Links { .. } => continue,
         }
         transport.playback = Playback::Paused;

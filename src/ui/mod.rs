@@ -86,6 +86,9 @@ pub(crate) enum SessionCommand {
     OpenRecent(std::path::PathBuf),
     /// Capture the widget in front: ask for a file first.
     Capture(CaptureOrder),
+    /// Put the picture of the widget in front on the clipboard.
+    #[cfg(feature = "window")]
+    CopyPicture(CaptureOrder),
     /// A new run in the atlas's world.
     RunWorld,
     /// A new run in the atlas's world, with its robots where the atlas has them.
