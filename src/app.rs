@@ -4,6 +4,8 @@ mod aside;
 #[cfg(feature = "window")]
 mod capture;
 mod captured;
+#[cfg(feature = "window")]
+mod clipboard;
 mod crowds;
 #[cfg(feature = "window")]
 mod dialogs;
@@ -12,13 +14,13 @@ mod error;
 mod files;
 #[cfg(feature = "window")]
 mod frames;
+#[cfg(feature = "window")]
+mod kept;
 mod pace;
 mod put_robot;
 mod rest;
 mod runs;
 mod session;
-#[cfg(feature = "window")]
-mod settings;
 // two attributes, because the lints recognise only a bare `cfg(test)`
 #[cfg(test)]
 #[cfg(feature = "window")]
@@ -36,7 +38,7 @@ use bevy::winit::{UpdateMode, WinitSettings};
 use bevy_egui::{EguiContext, EguiGlobalSettings, EguiPlugin, EguiPrimaryContextPass, PrimaryEguiContext, egui};
 
 #[cfg(feature = "window")]
-pub use frames::FrameTimes;
+pub use frames::{FrameTimes, Pause};
 pub(crate) use session::SessionPlugin;
 #[cfg(feature = "window")]
 pub use window::{Opened, WindowError, open_in_window, run_window, run_window_with};
@@ -83,9 +85,14 @@ pub(crate) fn windowed_app(add_plugins: impl FnOnce(&mut App, WindowPlugin)) -> 
     let close_when_requested = cfg!(not(feature = "window"));
     let window = WindowPlugin { primary_window: Some(window), close_when_requested, ..default() };
     #[cfg(feature = "window")]
+<<<<<<< HEAD
     app.add_plugins(settings::KeepSettingsPlugin);
     add_plugins(&mut app, window);
     app.add_plugins((EguiPlugin::default(), SessionPlugin, rest::RestPlugin))
+=======
+    app.add_plugins(kept::settings::KeepSettingsPlugin);
+    app.add_plugins((plugins, EguiPlugin::default(), SessionPlugin, rest::RestPlugin))
+>>>>>>> wt-b
         .insert_resource(EguiGlobalSettings { auto_create_primary_context: false, ..default() })
         .add_message::<SessionCommand>()
         .add_systems(Startup, add_camera)
@@ -96,6 +103,8 @@ pub(crate) fn windowed_app(add_plugins: impl FnOnce(&mut App, WindowPlugin)) -> 
     app.add_systems(Update, system_theme)
         .init_resource::<dialogs::Dialogs>()
         .init_resource::<capture::Capturing>()
+        .init_resource::<clipboard::Clipboard>()
+        .add_plugins(kept::autosave::AutosavePlugin::default())
         .add_systems(Update, window::close)
         .add_systems(Update, (dialogs::ask, dialogs::dropped, capture::follow).chain().before(session::gather));
     app

@@ -244,7 +244,7 @@ fn way_begins(world: &World, to: u64) -> u64 {
 }
 
 /// Whether this number of ticks of the run under way takes so long that it is done aside.
-fn is_long(world: &World, ticks: u64) -> bool {
+pub fn is_long(world: &World, ticks: u64) -> bool {
     ticks.saturating_mul(world.resource::<LatestFrame>().0.robots.len() as u64) > AT_ONCE
 }
 

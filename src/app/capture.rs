@@ -1,4 +1,5 @@
-//! Captures from the window: the widget in front as a file, drawn and written in a thread while the window goes on.
+//! Captures from the window: the widget in front as a file or on the clipboard, drawn in a thread while the window goes
+//! on.
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -8,9 +9,10 @@ use std::thread::{self, JoinHandle};
 use bevy::prelude::*;
 
 use super::captured::{captured, subject};
+use super::clipboard::Clipboard;
 use super::files::name;
 use super::runs::shown_run;
-use crate::capture::{CaptureError, Form, Paper, film_with_robots, write};
+use crate::capture::{CaptureError, Form, Paper, film_with_robots, paint, write};
 use crate::simulation::Transport;
 use crate::tour::TourConfig;
 use crate::ui::{CaptureOrder, Notice, UiState, Working};
@@ -21,11 +23,27 @@ use crate::ui::{Interface, Widget};
 pub struct Capturing(Option<Job>);
 
 struct Job {
-    path: PathBuf,
+    to: Destination,
     /// The widget that is captured.
     widget: Widget,
     progress: Arc<Progress>,
     work: JoinHandle<Result<(), CaptureError>>,
+}
+
+/// Where a capture goes.
+enum Destination {
+    File(PathBuf),
+    Clipboard,
+}
+
+impl Destination {
+    /// Its name in the words on the work under way.
+    fn name(&self) -> String {
+        match self {
+            Destination::File(path) => name(path),
+            Destination::Clipboard => "the clipboard".into(),
+        }
+    }
 }
 
 /// The progress of a capture: pictures done, pictures in all, and whether it is to stop.
@@ -73,10 +91,34 @@ pub fn capture(world: &mut World, order: &CaptureOrder, path: &Path) {
         let figure = captured(&state, run, tick, paper.width_px())?;
         write(&figure, &paper, form, &to)
     });
+    begin(world, Job { to: Destination::File(path.to_owned()), widget, progress, work });
+}
+
+/// Begins to copy the widget in front as it stands, and stops the capture under way. [`follow`] reports the outcome.
+pub fn copy_picture(world: &mut World, order: &CaptureOrder) {
+    let state = world.resource::<Interface>().0.clone();
+    let widget = state.widget;
+    let paper = Paper { palette: state.theme().palette(), width: order.width, scale: order.scale as f32 };
+    let Transport { tick, frontier, .. } = *world.resource::<Transport>();
+    let (run, clipboard) = (shown_run(world, frontier), world.resource::<Clipboard>().clone());
+    let progress = Arc::new(Progress::default());
+    let shared = Arc::clone(&progress);
+    let work = thread::spawn(move || {
+        let figure = captured(&state, run, tick, paper.width_px())?;
+        if shared.stop.load(Ordering::Relaxed) {
+            return Err(CaptureError::Stopped);
+        }
+        clipboard.put(&paint(&figure, &paper)?).map_err(CaptureError::Fault)
+    });
+    begin(world, Job { to: Destination::Clipboard, widget, progress, work });
+}
+
+/// Puts a job in place of the one under way, which is stopped.
+fn begin(world: &mut World, job: Job) {
     if let Some(before) = &world.resource::<Capturing>().0 {
         before.progress.stop.store(true, Ordering::Relaxed);
     }
-    world.resource_mut::<Capturing>().0 = Some(Job { path: path.to_owned(), widget, progress, work });
+    world.resource_mut::<Capturing>().0 = Some(job);
     let state = &mut world.resource_mut::<Interface>().into_inner().0;
     state.hush();
     state.working = Some(Working::default());
@@ -98,7 +140,7 @@ pub fn follow(world: &mut World) {
     let state = &mut world.resource_mut::<Interface>().into_inner().0;
     if job.work.is_finished() {
         state.working = None;
-        state.say_in(job.widget, ended(&job.path, job.work.join().unwrap_or(Err(fault()))));
+        state.say_in(job.widget, ended(&job.to, job.work.join().unwrap_or(Err(fault()))));
         return;
     }
     let (done, all) = (job.progress.done.load(Ordering::Relaxed), job.progress.all.load(Ordering::Relaxed));
@@ -107,8 +149,8 @@ pub fn follow(world: &mut World) {
         job.progress.stop.store(true, Ordering::Relaxed);
     }
     let text = match all {
-        0 => format!("{}: drawing", name(&job.path)),
-        _ => format!("{}: picture {} of {all}", name(&job.path), done + 1),
+        0 => format!("{}: drawing", job.to.name()),
+        _ => format!("{}: picture {} of {all}", job.to.name(), done + 1),
     };
     state.working = Some(Working { text, stop });
     world.resource_mut::<Capturing>().0 = Some(job);
@@ -118,11 +160,16 @@ fn fault() -> CaptureError {
     CaptureError::Fault("a fault of the lab".into())
 }
 
-fn ended(path: &Path, outcome: Result<(), CaptureError>) -> Notice {
-    let (text, is_error) = match outcome {
-        Ok(()) => (format!("{}: captured", name(path)), false),
-        Err(CaptureError::Stopped) => (format!("{}: stopped, no file was written", name(path)), false),
-        Err(error) => (format!("{}: not captured: {error}", path.display()), true),
+fn ended(to: &Destination, outcome: Result<(), CaptureError>) -> Notice {
+    let (text, is_error) = match (to, outcome) {
+        (Destination::Clipboard, Ok(())) => ("copied".into(), false),
+        (Destination::Clipboard, Err(CaptureError::Stopped)) => ("not copied: stopped".into(), false),
+        (Destination::Clipboard, Err(error)) => (format!("not copied: {error}"), true),
+        (Destination::File(path), Ok(())) => (format!("{}: captured", name(path)), false),
+        (Destination::File(path), Err(CaptureError::Stopped)) => {
+            (format!("{}: stopped, no file was written", name(path)), false)
+        }
+        (Destination::File(path), Err(error)) => (format!("{}: not captured: {error}", path.display()), true),
     };
     Notice { text, is_error }
 }

@@ -8,7 +8,7 @@ use bevy_egui::egui;
 use egui_file_dialog::{DialogMode, DialogState, FileDialog, FileDialogLabels};
 
 use super::capture::{capture, check, not_captured};
-use super::files::{open_path, open_run, open_world, save_path, save_run, save_world};
+use super::files::{PATH, WORLD, open_any, open_path, open_run, open_world, save_path, save_run, save_world};
 use crate::random::Seed;
 use crate::simulation::{Playback, RunConfig, Transport};
 use crate::ui::Interface;
@@ -17,11 +17,9 @@ use crate::ui::{CaptureOrder, SessionCommand, UiState, Widget};
 /// File extension of the lab's logs.
 const EXTENSION: &str = "mcap";
 
-/// File extension of the lab's worlds.
-const WORLD: &str = "ron";
-
-/// File extension of the lab's paths.
-const PATH: &str = "json";
+/// Width and height of a dialog, points: a name of thirty letters beside the choice of the form, and in a window of
+/// 800 x 600 all of it. A smaller window has a smaller one.
+const SIZE: [f32; 2] = [720.0, 420.0];
 
 /// The dialogs, and whether a file hovers over the window.
 #[derive(Resource)]
@@ -86,7 +84,7 @@ fn dialog(what: &'static str, filter: &str, extension: &'static str, file: &str)
         .default_file_name(file)
         .show_search(false)
         .show_menu_button(false)
-        .default_size([560.0, 380.0])
+        .default_size(SIZE)
         .anchor(egui::Align2::CENTER_CENTER, [0.0, 0.0])
 }
 
@@ -126,6 +124,8 @@ pub fn ask(
             | SessionCommand::RunWorld
             | SessionCommand::RunFromHere
             | SessionCommand::PutRobot { .. }
+            | SessionCommand::OpenRecent(_)
+            | SessionCommand::CopyPicture(_)
             | SessionCommand::Links { .. } => continue,
         }
         transport.playback = Playback::Paused;
@@ -140,14 +140,7 @@ pub fn dropped(world: &mut World) {
         let hovered = matches!(event, FileDragAndDrop::HoveredFile { .. });
         world.resource_mut::<Dialogs>().hovered = hovered;
         if let FileDragAndDrop::DroppedFile { path_buf, .. } = event {
-            let notice = if path_buf.extension().is_some_and(|e| e == WORLD) {
-                Some(open_world(world, &path_buf))
-            } else if path_buf.extension().is_some_and(|e| e == PATH) {
-                Some(open_path(world, &path_buf))
-            } else {
-                open_run(world, &path_buf)
-            };
-            if let Some(notice) = notice {
+            if let Some(notice) = open_any(world, &path_buf) {
                 world.resource_mut::<Interface>().0.say(notice);
             }
         }

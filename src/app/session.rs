@@ -305,6 +305,10 @@ pub fn carry_out(world: &mut World, commands: Vec<Command>) {
                 }
             }
             Command::Session(SessionCommand::PlayPath) => play_path(world),
+            #[cfg(feature = "window")]
+            Command::Session(SessionCommand::OpenRecent(path)) => super::files::open_recent(world, &path),
+            #[cfg(feature = "window")]
+            Command::Session(SessionCommand::CopyPicture(order)) => super::capture::copy_picture(world, &order),
             Command::Session(command) => _ = world.write_message(command),
         }
     }

@@ -8,6 +8,7 @@ mod crowd;
 mod cspace;
 mod doors;
 mod drive;
+mod kept;
 mod own_kind;
 mod plan;
 mod safe;
@@ -82,7 +83,11 @@ const WIDE: [f32; 2] = [1280.0, 800.0];
 const PHONE: [f32; 2] = [390.0, 844.0];
 
 fn lab(size: [f32; 2]) -> Harness<'static, Lab> {
-    let lab = Lab { app: app(Duration::from_millis(25)) };
+    lab_of(app(Duration::from_millis(25)), size)
+}
+
+fn lab_of(app: App, size: [f32; 2]) -> Harness<'static, Lab> {
+    let lab = Lab { app };
     let mut harness =
         Harness::builder().with_size(size).with_step_dt(0.025).build_ui_state(|ui, lab: &mut Lab| lab.frame(ui), lab);
     harness.run_steps(3);

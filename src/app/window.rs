@@ -78,6 +78,8 @@ pub fn run_window_with(add: impl FnOnce(&mut App)) -> Result<(), WindowError> {
 #[derive(Clone, Debug)]
 #[non_exhaustive]
 pub enum Opened {
+    /// The tour of the three worlds, from the book's seed. It plays.
+    Tour,
     /// A run of this world, from the book's seed, in place of the three worlds' tour. It plays.
     World(Box<WorldModel>),
     /// A recorded run: simulated again and compared with what was recorded, and shown paused. The window says what came
@@ -85,8 +87,8 @@ pub enum Opened {
     Log(PathBuf),
 }
 
-/// [`run_window`] with a world or a recorded run. With `frames` it closes after that number of frames, and
-/// returns what they took; else the times are empty.
+/// [`run_window`] with a world or a recorded run. With `frames` the run plays for that number of frames, is then paused
+/// for six seconds, and the window closes; what they took is returned. Without, the times are empty.
 ///
 /// # Errors
 /// As [`run_window`].
@@ -110,6 +112,7 @@ pub fn open_in_window(what: Opened, frames: Option<u32>) -> Result<FrameTimes, W
 /// Begins with a world or a recorded run. Returns what to say of it.
 fn open(world: &mut World, what: Opened) -> Option<Notice> {
     match what {
+        Opened::Tour => None,
         Opened::World(model) => {
             let config = TourConfig { worlds: vec![*model], ..TourConfig::default() };
             let started = start_run(world, config, BOOK_SEED);

@@ -39,6 +39,9 @@ pub use error::CaptureError;
 pub use histogram::{Distribution, histograms};
 pub use moving::{Span, Subject, at_tick, at_tick_with_robots, sheets_with_robots};
 #[cfg(feature = "cli")]
+#[doc(hidden)]
+pub use paper::paint;
+#[cfg(feature = "cli")]
 pub use paper::{film, film_with_robots, slides, write};
 pub use plan::{Found, PlanSheet, plan, proven, unit};
 pub use plot::{RunPlot, plot};

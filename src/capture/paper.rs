@@ -35,6 +35,15 @@ pub fn write(captured: &Captured, paper: &Paper, form: Form, path: &Path) -> Res
     }
 }
 
+/// Paints one figure.
+///
+/// # Errors
+/// [`CaptureError::TooLarge`]; [`CaptureError::Fault`] is a fault of the lab.
+#[doc(hidden)]
+pub fn paint(captured: &Captured, paper: &Paper) -> Result<Image, CaptureError> {
+    paper.raster().paint(&captured.svg(paper), None)
+}
+
 /// Writes a GIF of a run over a span of its ticks, which plays as fast as the run. Before each picture, `go_on` gets
 /// the number of pictures done and the number of all, and returns whether to go on.
 ///

@@ -48,18 +48,31 @@ pub fn capture_form(ctx: &Context, model: &Dashboard, look: &Look, state: &mut U
         ui.add_space(8.0);
         ui.horizontal(|ui| {
             let chosen = LabButton::new(SAVE).enabled(refusal.is_none()).show(ui, look).clicked();
+            if chosen {
+                commands.push(Command::Session(SessionCommand::Capture(*order)));
+            }
+            #[cfg(feature = "window")]
+            let chosen = chosen | copy(ui, look, order, commands);
             (chosen, LabButton::new("Cancel").show(ui, look).clicked())
         })
         .inner
     });
     let (chosen, cancelled) = modal.inner;
-    if chosen {
-        commands.push(Command::Session(SessionCommand::Capture(state.capture.order)));
-    }
     let escape = ctx.input_mut(|i| i.consume_key(Modifiers::NONE, Key::Escape));
     if chosen || cancelled || modal.backdrop_response.clicked() || escape {
         state.capture.open = false;
     }
+}
+
+/// Shows the button that copies the widget as it stands, whatever the form. Returns whether it was pressed.
+#[cfg(feature = "window")]
+fn copy(ui: &mut Ui, look: &Look, order: &CaptureOrder, commands: &mut Vec<Command>) -> bool {
+    let button = LabButton::new("Copy picture").show(ui, look);
+    let pressed = button.on_hover_text("puts the picture as it stands on the clipboard").clicked();
+    if pressed {
+        commands.push(Command::Session(SessionCommand::CopyPicture(*order)));
+    }
+    pressed
 }
 
 fn choices(ui: &mut Ui, model: &Dashboard, look: &Look, order: &mut CaptureOrder) {

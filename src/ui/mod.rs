@@ -17,6 +17,8 @@ pub(crate) mod keys;
 mod lab;
 pub(crate) mod paint;
 mod plan;
+#[cfg(feature = "window")]
+mod recent;
 mod settings;
 mod state;
 mod time;
@@ -38,9 +40,11 @@ pub(crate) use dashboard::values::{Cockpit, CockpitRobot, Dashboard};
 pub(crate) use lab::lab;
 pub(crate) use paint::look::Look;
 pub(crate) use plan::PlanState;
+#[cfg(feature = "window")]
+pub(crate) use recent::Recent;
 pub(crate) use settings::Settings;
 #[cfg(feature = "window")]
-pub(crate) use state::Closing;
+pub(crate) use state::{Closing, Offer};
 pub(crate) use state::{Grasp, Interface, Notice, SeedDraft, UiState, Working};
 
 use crate::simulation::{RobotCommand, RunCommand, TransportCommand};
@@ -80,8 +84,14 @@ pub(crate) enum SessionCommand {
     OpenWorld,
     /// Save the atlas's world: ask for a file first.
     SaveWorld,
+    /// Open one of the files opened or saved last.
+    #[cfg(feature = "window")]
+    OpenRecent(std::path::PathBuf),
     /// Capture the widget in front: ask for a file first.
     Capture(CaptureOrder),
+    /// Put the picture of the widget in front on the clipboard.
+    #[cfg(feature = "window")]
+    CopyPicture(CaptureOrder),
     /// A new run in the atlas's world.
     RunWorld,
     /// A new run in the atlas's world, with its robots where the atlas has them.

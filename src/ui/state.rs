@@ -93,6 +93,12 @@ pub struct UiState {
     /// How far closing the window has come, if it is to close.
     #[cfg(feature = "window")]
     pub closing: Option<Closing>,
+    /// The run that a window before left, while it is offered.
+    #[cfg(feature = "window")]
+    pub offer: Option<Offer>,
+    /// The files opened or saved last.
+    #[cfg(feature = "window")]
+    pub recent: super::Recent,
     /// The work in the background, if any.
     pub working: Option<Working>,
 }
@@ -114,6 +120,16 @@ pub enum Closing {
     Asking,
     /// It closes.
     Agreed,
+}
+
+/// A run that a window before left.
+#[cfg(feature = "window")]
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Offer {
+    /// Which run it is, in words.
+    pub text: String,
+    /// Whether the reader wants it back; `None` before they say.
+    pub answer: Option<bool>,
 }
 
 /// A change of which handle has the focus.

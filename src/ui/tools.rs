@@ -134,6 +134,8 @@ fn menu(
     for tool in all.chain(always) {
         show(ui, &Tool { icon: None, ..tool }, model, look, state, commands);
     }
+    #[cfg(feature = "window")]
+    super::recent::menu(ui, &state.recent, look, commands);
     ui.separator();
     for theme in ThemeChoice::ALL {
         let label = format!("{} theme", theme.name());
@@ -161,9 +163,14 @@ fn show(ui: &mut Ui, tool: &Tool, model: &Dashboard, look: &Look, state: &mut Ui
 }
 
 /// Shows the work in the background and the last notice of the widget in front, with links to stop the one and dismiss
-/// the other. They lie over the foot of the `stage`, so that nothing moves when they come and go.
+/// the other; over the run, also the offer of the run before. They lie over the foot of the `stage`, so that nothing
+/// moves when they come and go.
 pub fn notice(ctx: &Context, stage: Rect, look: &Look, state: &mut UiState) {
-    if state.working.is_none() && state.notice().is_none() {
+    #[cfg(feature = "window")]
+    let offers = state.widget == Widget::Dashboard && state.offer.is_some();
+    #[cfg(not(feature = "window"))]
+    let offers = false;
+    if state.working.is_none() && state.notice().is_none() && !offers {
         return;
     }
     let width = (stage.width() - 24.0).min(MOST_NOTICE);
@@ -173,6 +180,18 @@ pub fn notice(ctx: &Context, stage: Rect, look: &Look, state: &mut UiState) {
             frame::rows_of_words(ui, |ui| {
                 ui.label(&working.text);
                 working.stop |= ui.link("Stop").clicked();
+            });
+        }
+        #[cfg(feature = "window")]
+        if let Some(offer) = state.offer.as_mut().filter(|_| offers) {
+            ui.add(Label::new(&offer.text).wrap());
+            frame::rows_of_words(ui, |ui| {
+                if ui.link("Bring it back").clicked() {
+                    offer.answer = Some(true);
+                }
+                if ui.link("Forget it").clicked() {
+                    offer.answer = Some(false);
+                }
             });
         }
         let Some(notice) = state.notice() else { return false };

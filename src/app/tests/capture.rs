@@ -4,6 +4,7 @@ use std::path::Path;
 
 use super::*;
 use crate::app::capture::{Capturing, capture, check, follow};
+use crate::app::clipboard::Clipboard;
 use crate::ui::{CaptureOrder, Notice};
 
 fn ui(harness: &Harness<'_, Lab>) -> crate::ui::UiState {
@@ -115,6 +116,50 @@ fn every_widget_is_captured_as_it_is_shown() {
         };
         assert!(shown, "{word}");
     }
+}
+
+/// Copies the picture in front by the form, with a clipboard that takes pictures so.
+fn copied(harness: &mut Harness<'_, Lab>, clipboard: Clipboard) -> Notice {
+    harness.state_mut().app.world_mut().insert_resource(clipboard);
+    harness.state_mut().app.init_resource::<Capturing>();
+    click(harness, "Capture");
+    click(harness, "column, 640");
+    click(harness, "1\u{d7}");
+    click(harness, "Copy picture");
+    assert!(!ui(harness).capture.open);
+    while ui(harness).working.is_some() {
+        std::thread::sleep(Duration::from_millis(5));
+        follow(harness.state_mut().app.world_mut());
+    }
+    ui(harness).notice().cloned().expect("something is said")
+}
+
+#[test]
+fn the_picture_in_front_is_copied_as_it_would_be_captured() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut harness = lab(WIDE);
+    harness.run_steps(20);
+    pause(&mut harness);
+    for widget in ["Drive", "Atlas"] {
+        click(&mut harness, widget);
+        let (give, take) = std::sync::mpsc::channel();
+        let clipboard = Clipboard::by(move |image| give.send(image.clone()).map_err(|error| error.to_string()));
+        let said = copied(&mut harness, clipboard);
+        assert_eq!((said.text.as_str(), said.is_error), ("copied", false));
+        let image = take.try_recv().unwrap();
+        assert!(take.try_recv().is_err(), "one picture");
+        let path = folder.path().join(format!("{widget}.png"));
+        let order = ui(&harness).capture.order;
+        assert!(!done(&mut harness, &order, &path).is_error);
+        let file = std::io::BufReader::new(std::fs::File::open(&path).unwrap());
+        let mut reader = png::Decoder::new(file).read_info().unwrap();
+        let mut pixels = vec![0; reader.output_buffer_size().unwrap()];
+        reader.next_frame(&mut pixels).unwrap();
+        assert_eq!((image.width, image.height), (reader.info().width, reader.info().height));
+        assert!(image.width == 640 && image.rgb == pixels, "{widget}: the same pixels as in the file");
+    }
+    let said = copied(&mut harness, Clipboard::by(|_| Err("there is no clipboard".into())));
+    assert_eq!((said.text.as_str(), said.is_error), ("not copied: there is no clipboard", true));
 }
 
 #[test]

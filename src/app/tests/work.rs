@@ -52,7 +52,11 @@ fn the_edits_of_a_world_and_their_undo_survive_a_look_at_another() {
 
 /// The lab with its dialogs.
 fn with_dialogs() -> Harness<'static, Lab> {
-    let mut harness = lab(WIDE);
+    with_dialogs_at(WIDE)
+}
+
+fn with_dialogs_at(size: [f32; 2]) -> Harness<'static, Lab> {
+    let mut harness = lab(size);
     let app = &mut harness.state_mut().app;
     app.init_resource::<Dialogs>().add_systems(Update, dialogs::ask.before(super::super::session::gather));
     harness.run_steps(2);
@@ -169,6 +173,41 @@ fn the_names_of_files_say_what_is_in_them() {
     let fields = proposed(&mut harness, SessionCommand::Capture(order));
     let name = format!("dashboard-2005-{tick}.{}", order.form.extension());
     assert!(fields.contains(&name), "{fields:?}, not {name}");
+}
+
+#[test]
+fn a_dialog_has_its_folder_and_a_name_to_read_in_a_small_window() {
+    for (size, least) in [([800.0, 600.0], 200.0), ([600.0, 480.0], 80.0)] {
+        read_dialog(size, least);
+    }
+}
+
+/// Asserts that the dialog for saving a run is on a screen of this size in whole, with a name of this width at least.
+fn read_dialog(size: [f32; 2], least: f32) {
+    let screen = egui::Rect::from_min_size(Pos2::ZERO, size.into());
+    let mut harness = with_dialogs_at(size);
+    carry_out(harness.state_mut().app.world_mut(), vec![crate::ui::Command::Session(SessionCommand::Save)]);
+    harness.run_steps(4);
+    let is_name = |n: &egui_kittest::Node<'_>| n.accesskit_node().value().as_deref() == Some("run-2005.mcap");
+    let field = harness.get_all_by_role(egui::accesskit::Role::TextInput).find(is_name).expect("the name");
+    assert!(field.rect().width() >= least && screen.contains_rect(field.rect()), "{}", field.rect());
+    let buttons = ["Cancel", "Save"].map(|name| {
+        let found = harness.get_all_by_role(egui::accesskit::Role::Button).filter(|n| {
+            n.accesskit_node().label().is_some_and(|label| label.contains(name))
+                && n.rect().top() > field.rect().top() - 4.0
+        });
+        found.map(|n| n.rect()).find(|rect| screen.contains_rect(*rect))
+    });
+    assert!(buttons.iter().all(Option::is_some), "{buttons:?}");
+    // the folders on the way to the present one, each of which goes there
+    let here = std::env::current_dir().unwrap();
+    let folder = here.file_name().unwrap().to_str().unwrap();
+    let crumb = harness.get_all_by_role(egui::accesskit::Role::Button).find(|n| {
+        let is_above = n.rect().bottom() < field.rect().top() - 100.0;
+        is_above && n.accesskit_node().label().as_deref() == Some(folder)
+    });
+    let crumb = crumb.expect("the present folder").rect();
+    assert!(screen.contains_rect(crumb), "{crumb}");
 }
 
 #[test]

@@ -15,17 +15,19 @@ use crate::cli::{Data, Failure, Outcome};
 /// Open the window with a run of a world, or with a recorded run.
 ///
 /// A world, built in or a file ending in `.ron`, runs from the book's seed. Anything else is a log: it is simulated
-/// again and compared with what was recorded, and shown paused.
+/// again and compared with what was recorded, and shown paused. Without either, the three worlds are toured.
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:
   motion-lab open lot
   motion-lab open warehouse.ron
-  motion-lab open run.mcap")]
+  motion-lab open run.mcap
+  motion-lab open --measure 300")]
 pub struct Open {
     /// A built-in world, a world file, or a log.
     #[arg(value_parser = WorldNames)]
-    what: String,
-    /// Close after N frames, and print what they took of the program's own time, ticks apart.
+    what: Option<String>,
+    /// Play N frames, pause for six seconds and close. Prints what the frames took of the program's own time, ticks
+    /// apart, and the pause of a processor core.
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=100_000))]
     measure: Option<u32>,
 }
@@ -33,15 +35,7 @@ pub struct Open {
 impl Open {
     /// Runs the command.
     pub fn run(self, data: &mut Data) -> Result<Outcome, Failure> {
-        let path = PathBuf::from(&self.what);
-        let is_world = path.extension().is_some_and(|e| e == "ron") || !path.is_file();
-        let what = if is_world {
-            Opened::World(Box::new(find_world(&self.what)?))
-        } else {
-            // what can't be read is said here rather than in the window
-            read_bytes_if(&path, u64::MAX, |_| false)?;
-            Opened::Log(path)
-        };
+        let what = self.what.as_deref().map_or(Ok(Opened::Tour), found)?;
         match open_in_window(what, self.measure) {
             Ok(times) if self.measure.is_some() => data.line(words(&times))?,
             shown => return ended(shown.map(drop)),
@@ -50,13 +44,59 @@ impl Open {
     }
 }
 
-/// What the frames took, in words.
+/// The world or the log of this name.
+fn found(what: &str) -> Result<Opened, Failure> {
+    let path = PathBuf::from(what);
+    let is_world = path.extension().is_some_and(|e| e == "ron") || !path.is_file();
+    Ok(if is_world {
+        Opened::World(Box::new(find_world(what)?))
+    } else {
+        // what can't be read is said here rather than in the window
+        read_bytes_if(&path, u64::MAX, |_| false)?;
+        Opened::Log(path)
+    })
+}
+
+/// What the frames and the pause took, in words. A window that was closed before has no pause.
 fn words(times: &FrameTimes) -> String {
     let millis = |share| times.quantile(share).map_or(f64::NAN, |t| 1e3 * t.as_secs_f64());
     let (median, most) = (millis(0.5), millis(0.95));
     let rate = times.rate().unwrap_or(f64::NAN);
-    format!(
-        "{} frames, {rate:.1} a second; own time {median:.2} ms in the median, {most:.2} ms in 95 of 100",
-        times.own.len()
-    )
+    let frames = times.own.len();
+    let played = format!(
+        "{frames} frames, {rate:.1} a second; own time {median:.2} ms in the median, {most:.2} ms in 95 of 100"
+    );
+    let Some(pause) = &times.paused else { return played };
+    let seconds = pause.clock.as_secs_f64();
+    match pause.share() {
+        Some(share) => format!("{played}\npaused for {seconds:.1} s: {:.1} % of a core", 100.0 * share),
+        None => format!("{played}\npaused for {seconds:.1} s: the share of a core is not known here"),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::time::Duration;
+
+    use motion_lab::app::Pause;
+
+    use super::*;
+
+    #[test]
+    fn the_words_say_frames_own_time_and_the_share_of_a_core() {
+        let mut times = FrameTimes::default();
+        times.own = [2, 1, 9].map(Duration::from_millis).to_vec();
+        times.clock = Duration::from_millis(50);
+        let played = "3 frames, 60.0 a second; own time 2.00 ms in the median, 9.00 ms in 95 of 100";
+        assert_eq!(words(&times), played, "closed before the pause");
+        let mut pause = Pause::default();
+        (pause.clock, pause.processor) = (Duration::from_secs(5), Some(Duration::from_millis(40)));
+        times.paused = Some(pause);
+        assert_eq!(words(&times), format!("{played}\npaused for 5.0 s: 0.8 % of a core"));
+        times.paused = Some({
+            pause.processor = None;
+            pause
+        });
+        assert_eq!(words(&times), format!("{played}\npaused for 5.0 s: the share of a core is not known here"));
+    }
 }

@@ -7,11 +7,9 @@ use bevy::prelude::*;
 use bevy::settings::{ReflectSettingsGroup, SaveSettingsDeferred, SaveSettingsSync, SettingsGroup, SettingsPlugin};
 use bevy::window::PrimaryWindow;
 
+use super::PROGRAM;
 use crate::ui;
-use crate::ui::Interface;
-
-/// The name of the folder that the system keeps the settings in.
-const PROGRAM: &str = "motion-lab";
+use crate::ui::{Interface, Recent};
 
 /// Restores the settings at the start, and writes them a second after they change and at the end.
 pub struct KeepSettingsPlugin;
@@ -35,6 +33,8 @@ struct Kept {
     settings: ui::Settings,
     /// Width and height of the window, points; 0 where none is kept yet.
     size: UVec2,
+    /// The files opened or saved last, the newest first.
+    recent: Vec<String>,
 }
 
 /// Least and largest width and height of a window that is kept, points. A screen is no larger.
@@ -47,6 +47,7 @@ fn is_kept(size: UVec2) -> bool {
 
 fn restore(kept: Res<Kept>, mut interface: ResMut<Interface>, mut windows: Query<&mut Window, With<PrimaryWindow>>) {
     interface.0.settings = kept.settings.clone();
+    interface.0.recent = Recent::of(&kept.recent);
     for mut window in windows.iter_mut().filter(|_| is_kept(kept.size)) {
         window.resolution.set(kept.size.x as f32, kept.size.y as f32);
     }
@@ -59,7 +60,8 @@ fn keep(
     mut commands: Commands,
 ) {
     let size = windows.iter().map(|window| window.resolution.size().round().as_uvec2()).find(|size| is_kept(*size));
-    let new = Kept { settings: interface.0.settings.clone(), size: size.unwrap_or(kept.size) };
+    let (settings, recent) = (interface.0.settings.clone(), interface.0.recent.kept());
+    let new = Kept { settings, size: size.unwrap_or(kept.size), recent };
     if new != *kept {
         *kept = new;
         commands.queue(SaveSettingsDeferred(Duration::from_secs(1)));
@@ -84,6 +86,21 @@ mod tests {
         app.world_mut().spawn((Window::default(), PrimaryWindow));
         app.update();
         app
+    }
+
+    #[test]
+    fn recent_files_are_there_again_and_kept_as_they_change() {
+        let mut app = restored(UVec2::ZERO);
+        let interface = app.world_mut().resource_mut::<Interface>().into_inner();
+        interface.0.recent.put_first(std::path::Path::new("/runs/b.mcap"));
+        app.update();
+        assert_eq!(app.world().resource::<Kept>().recent, ["/runs/b.mcap"]);
+        let mut again = App::new();
+        again.init_resource::<Interface>().add_systems(PreStartup, restore).add_systems(PostUpdate, keep);
+        again.insert_resource(app.world().resource::<Kept>().clone());
+        again.update();
+        assert_eq!(again.world().resource::<Interface>().0.recent.kept(), ["/runs/b.mcap"]);
+        assert_eq!(again.world().resource::<Kept>().recent, ["/runs/b.mcap"]);
     }
 
     fn window(app: &mut App) -> Mut<'_, Window> {

@@ -1,0 +1,236 @@
+//! `FrameTimes`, what a window takes of the program's own time and, paused, of the processor, for `open --measure`.
+
+mod processor;
+
+use std::sync::{Arc, Mutex};
+use std::time::Duration;
+
+use bevy::platform::time::Instant;
+use bevy::prelude::*;
+use bevy_egui::{EguiPostUpdateSet, EguiPrimaryContextPass};
+
+use super::aside::Aside;
+use super::session::gather;
+use crate::simulation::{Playback, Transport};
+use processor::time_taken;
+
+/// Frames at the beginning that are not measured: pictures are painted for the first time in them.
+const UNMEASURED: u32 = 30;
+
+/// Time after the pause that is not measured: what was under way comes to rest.
+const SETTLES: Duration = Duration::from_secs(1);
+
+/// Length of the measured pause. The system counts hundredths of a second, which are a 500th of it.
+const RESTS: Duration = Duration::from_secs(5);
+
+/// What the frames of a window took.
+#[derive(Clone, Debug, Default, PartialEq)]
+#[non_exhaustive]
+pub struct FrameTimes {
+    /// The program's own time of each measured frame, in order: reading the run, laying out the widgets, turning all
+    /// that is drawn into triangles. Ticks of the run are no part of it, nor is what the graphics driver does.
+    pub own: Vec<Duration>,
+    /// The time of the clock that all measured frames took together.
+    pub clock: Duration,
+    /// The pause after them.
+    pub paused: Option<Pause>,
+}
+
+/// What a window takes while its run is paused and nobody touches it.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[non_exhaustive]
+pub struct Pause {
+    /// The length of the pause by the clock.
+    pub clock: Duration,
+    /// The processor's time in it, of all threads together; `None` where the system is not asked.
+    pub processor: Option<Duration>,
+}
+
+impl Pause {
+    /// The share of one core, 1 for all of it; `None` where the system is not asked.
+    pub fn share(&self) -> Option<f64> {
+        Some(self.processor?.as_secs_f64() / self.clock.as_secs_f64())
+    }
+}
+
+impl FrameTimes {
+    /// The own time that a `share` of the frames, from 0 to 1, does not exceed; none without frames.
+    pub fn quantile(&self, share: f64) -> Option<Duration> {
+        let mut sorted = self.own.clone();
+        sorted.sort_unstable();
+        let last = sorted.len().checked_sub(1)?;
+        sorted.get((share.clamp(0.0, 1.0) * last as f64).round() as usize).copied()
+    }
+
+    /// Frames per second of the clock; none without frames.
+    pub fn rate(&self) -> Option<f64> {
+        (!self.own.is_empty()).then(|| self.own.len() as f64 / self.clock.as_secs_f64())
+    }
+}
+
+/// Measures a number of frames while the run plays, then a pause, and closes the window.
+pub struct MeasurePlugin {
+    /// The number of frames.
+    pub frames: u32,
+    /// Where the times are put at the end.
+    pub times: Arc<Mutex<FrameTimes>>,
+}
+
+/// The measurement under way.
+#[derive(Resource)]
+struct Measuring {
+    left: u32,
+    unmeasured: u32,
+    began: Instant,
+    /// When the piece of work under way began, and what the pieces of this frame took.
+    piece: Instant,
+    frame: Duration,
+    times: FrameTimes,
+    out: Arc<Mutex<FrameTimes>>,
+    /// When the pause began, and the measured part of it with the processor's time before.
+    paused: Option<Instant>,
+    rests: Option<(Instant, Option<Duration>)>,
+}
+
+impl Plugin for MeasurePlugin {
+    fn build(&self, app: &mut App) {
+        let now = Instant::now();
+        let measuring = Measuring {
+            left: self.frames,
+            unmeasured: UNMEASURED,
+            began: now,
+            piece: now,
+            frame: Duration::ZERO,
+            times: FrameTimes::default(),
+            out: Arc::clone(&self.times),
+            paused: None,
+            rests: None,
+        };
+        app.insert_resource(measuring)
+            .add_systems(Update, (begin.before(gather), end.after(gather)))
+            .add_systems(EguiPrimaryContextPass, (begin.before(super::show), end.after(super::show)))
+            .add_systems(
+                PostUpdate,
+                (begin.before(EguiPostUpdateSet::EndPass), end.after(EguiPostUpdateSet::ProcessOutput)),
+            )
+            .add_systems(Last, frame_ended);
+    }
+}
+
+fn begin(mut measuring: ResMut<Measuring>) {
+    measuring.piece = Instant::now();
+}
+
+fn end(mut measuring: ResMut<Measuring>) {
+    let took = measuring.piece.elapsed();
+    measuring.frame += took;
+}
+
+fn frame_ended(
+    mut measuring: ResMut<Measuring>,
+    mut transport: ResMut<Transport>,
+    aside: Res<Aside>,
+    mut exits: MessageWriter<AppExit>,
+) {
+    let measuring = &mut *measuring;
+    let took = std::mem::take(&mut measuring.frame);
+    if let Some(paused) = measuring.paused {
+        if measuring.rest(paused, Instant::now(), time_taken()) {
+            exits.write(AppExit::Success);
+        }
+        return;
+    }
+    if aside.is_under_way() {
+        // what is opened is compared first
+        return;
+    }
+    if transport.playback != Playback::Playing {
+        transport.playback = Playback::Playing;
+    }
+    if measuring.unmeasured > 0 {
+        measuring.unmeasured -= 1;
+        measuring.began = Instant::now();
+        return;
+    }
+    measuring.times.own.push(took);
+    measuring.left = measuring.left.saturating_sub(1);
+    if measuring.left == 0 {
+        measuring.times.clock = measuring.began.elapsed();
+        measuring.paused = Some(Instant::now());
+        transport.playback = Playback::Paused;
+    }
+}
+
+impl Measuring {
+    /// Goes on with the pause that began at `paused`. Returns whether it is over, and then gives the times out.
+    fn rest(&mut self, paused: Instant, now: Instant, processor: Option<Duration>) -> bool {
+        let Some((began, before)) = self.rests else {
+            if now - paused >= SETTLES {
+                self.rests = Some((now, processor));
+            }
+            return false;
+        };
+        let clock = now - began;
+        if clock < RESTS {
+            return false;
+        }
+        let processor = processor.zip(before).map(|(now, before)| now.saturating_sub(before));
+        self.times.paused = Some(Pause { clock, processor });
+        if let Ok(mut out) = self.out.lock() {
+            *out = std::mem::take(&mut self.times);
+        }
+        true
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_quantile_is_a_time_that_was_measured() {
+        let own = [5, 1, 4, 2, 3].map(Duration::from_millis).to_vec();
+        let times = FrameTimes { own, clock: Duration::from_millis(100), paused: None };
+        let at = |share| times.quantile(share).unwrap().as_millis();
+        assert_eq!([at(0.0), at(0.5), at(0.95), at(1.0)], [1, 3, 5, 5]);
+        assert_eq!(times.rate(), Some(50.0));
+        assert_eq!((FrameTimes::default().quantile(0.5), FrameTimes::default().rate()), (None, None));
+    }
+
+    /// The app of a run that plays or is paused, in which `frames` are measured.
+    fn measured(playback: Playback, frames: u32) -> (App, Arc<Mutex<FrameTimes>>) {
+        let times = Arc::new(Mutex::new(FrameTimes::default()));
+        let mut app = App::new();
+        app.insert_resource(Transport { playback, ..Transport::new(crate::random::Seed(1)) })
+            .init_resource::<Aside>()
+            .add_plugins(MeasurePlugin { frames, times: Arc::clone(&times) });
+        (app, times)
+    }
+
+    #[test]
+    fn frames_are_measured_while_the_run_plays_and_the_pause_after_them() {
+        let (mut app, times) = measured(Playback::Paused, 4);
+        let playback = |app: &App| app.world().resource::<Transport>().playback;
+        for _ in 0..UNMEASURED + 3 {
+            app.update();
+            assert_eq!(playback(&app), Playback::Playing);
+        }
+        app.update();
+        assert_eq!((playback(&app), app.should_exit()), (Playback::Paused, None), "the pause is measured yet");
+        let measuring = app.world_mut().resource_mut::<Measuring>().into_inner();
+        assert_eq!(measuring.times.own.len(), 4);
+        let start = measuring.paused.unwrap();
+        let at = |seconds| start + Duration::from_millis((1000.0 * seconds) as u64);
+        let taken = |seconds| Some(Duration::from_millis((1000.0 * seconds) as u64));
+        // a second in which much is done is no part of it; 30 ms in 6 s are
+        assert!(!measuring.rest(start, at(0.5), taken(3.0)));
+        assert!(!measuring.rest(start, at(1.0), taken(4.0)));
+        assert!(!measuring.rest(start, at(5.5), taken(4.01)));
+        assert!(measuring.rest(start, at(7.0), taken(4.03)));
+        let pause = times.lock().unwrap().paused.unwrap();
+        assert_eq!((pause.clock, pause.processor), (Duration::from_secs(6), Some(Duration::from_millis(30))));
+        assert!((pause.share().unwrap() - 0.005).abs() < 1e-9);
+        assert_eq!(times.lock().unwrap().own.len(), 4);
+        assert_eq!(Pause { processor: None, ..pause }.share(), None);
+    }
+}

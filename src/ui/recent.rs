@@ -1,0 +1,93 @@
+//! `Recent`, the files opened or saved last, and their list in the menu.
+
+use std::path::{Path, PathBuf};
+
+use bevy_egui::egui::Ui;
+
+use super::paint::button::LabButton;
+use super::{Command, Look, SessionCommand};
+
+/// Largest number of files in the list.
+const MOST: usize = 8;
+
+/// The files opened or saved last, the newest first, each once.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Recent(Vec<PathBuf>);
+
+impl Recent {
+    /// The list as it was kept.
+    pub fn of(kept: &[String]) -> Self {
+        let mut recent = Recent::default();
+        kept.iter().rev().for_each(|path| recent.put_first(Path::new(path)));
+        recent
+    }
+
+    /// The list as it is kept. Paths that are no text are not.
+    pub fn kept(&self) -> Vec<String> {
+        self.0.iter().filter_map(|path| path.to_str().map(str::to_owned)).collect()
+    }
+
+    /// The files, the newest first.
+    pub fn files(&self) -> &[PathBuf] {
+        &self.0
+    }
+
+    /// Puts a file first.
+    pub fn put_first(&mut self, path: &Path) {
+        // the program may be started in another folder next time
+        let path = std::path::absolute(path).unwrap_or_else(|_| path.to_owned());
+        self.0.retain(|other| *other != path);
+        self.0.insert(0, path);
+        self.0.truncate(MOST);
+    }
+
+    /// Takes a file off the list.
+    pub fn remove(&mut self, path: &Path) {
+        self.0.retain(|other| other != path);
+    }
+}
+
+/// Shows the list as a menu of its own, by the names of the files, with their folders on hover. Without files there is
+/// none.
+pub fn menu(ui: &mut Ui, recent: &Recent, look: &Look, commands: &mut Vec<Command>) {
+    if recent.files().is_empty() {
+        return;
+    }
+    ui.menu_button("Recent files", |ui| {
+        for path in recent.files() {
+            let name = path.file_name().unwrap_or(path.as_os_str()).to_string_lossy();
+            let folder = path.parent().map(|folder| folder.display().to_string()).unwrap_or_default();
+            // two files of one name in two folders have their folders in the list
+            let is_alone = recent.files().iter().filter(|other| other.file_name() == path.file_name()).count() == 1;
+            let label = if is_alone { name.into_owned() } else { path.display().to_string() };
+            if LabButton::new(&label).show(ui, look).on_hover_text(folder).clicked() {
+                commands.push(Command::Session(SessionCommand::OpenRecent(path.clone())));
+            }
+        }
+    });
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_newest_stands_first_each_once_and_eight_at_most() {
+        let mut recent = Recent::default();
+        for i in 0..10 {
+            recent.put_first(Path::new(&format!("/runs/{i}.mcap")));
+        }
+        recent.put_first(Path::new("/runs/4.mcap"));
+        let names = |recent: &Recent| recent.kept().join(" ").replace("/runs/", "").replace(".mcap", "");
+        assert_eq!(names(&recent), "4 9 8 7 6 5 3 2");
+        assert_eq!(Recent::of(&recent.kept()), recent);
+        recent.remove(Path::new("/runs/8.mcap"));
+        assert_eq!(names(&recent), "4 9 7 6 5 3 2");
+        // another folder of the same name's file is another file
+        recent.put_first(Path::new("/else/9.mcap"));
+        assert_eq!(names(&recent), "/else/9 4 9 7 6 5 3 2");
+        let here = std::env::current_dir().unwrap().join("x.ron");
+        recent.put_first(Path::new("x.ron"));
+        assert_eq!(recent.files()[0], here);
+    }
+}
