@@ -281,7 +281,7 @@ fn what_is_no_number_is_no_guess() {
     let mut harness = lab(WIDE);
     click(&mut harness, "Query");
     guess(&mut harness, "a lot");
-    harness.get_by_label_contains("is no length in metres");
+    harness.get_by_label_contains("is no number");
     assert_eq!(interface(&harness).settings.done, Vec::<String>::new());
 }
 
