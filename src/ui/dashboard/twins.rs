@@ -19,6 +19,9 @@ use crate::ui::{Cockpit, CockpitRobot, Command, Dashboard, LinkedState, Look, Ui
 /// The greatest rate at which a joint turns on the way, radians per second: that of the arm's tour.
 const RATE: f64 = 2.0;
 
+/// Height of the button on a narrow screen, points.
+const FINGERTIP: f32 = 44.0;
+
 /// Difference of two angles that counts as none, radians: more than the rounding of inputs.
 const SAME: f64 = 1e-4;
 
@@ -68,7 +71,12 @@ pub fn offer(ui: &mut Ui, cockpit: &Cockpit, robot: &CockpitRobot, look: &Look, 
     let words = if robot.is_arm { "One tip, two elbows" } else { "One place, two headings" };
     let button = LabButton::new(words).enabled(other.is_some());
     let button = if robot.is_arm { button } else { button.selected(is_asked) };
-    let clicked = button.show(ui, look).clicked();
+    let show = |ui: &mut Ui| {
+        // among rows of words a fingertip finds a button of its own height
+        ui.spacing_mut().interact_size.y = if look.narrow { FINGERTIP } else { 0.0 };
+        button.show(ui, look).clicked()
+    };
+    let clicked = ui.scope(show).inner;
     let said = match (asked.and_then(|asked| asked.way.as_ref()), other) {
         (Some(way), _) if way.ticks == 0 => straight_way(&way.checker, &way.sweep),
         (Some(way), _) => format!("{}: it goes there", straight_way(&way.checker, &way.sweep)),
