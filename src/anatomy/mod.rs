@@ -23,6 +23,7 @@ mod readout;
 mod snippet;
 mod sweep;
 mod thickness;
+mod twin;
 mod words;
 
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI};
@@ -30,8 +31,9 @@ use std::sync::Arc;
 
 pub use feature::Feature;
 pub use nearest::{NearestPair, TIE, nearest_pairs};
-pub use prompt::{Guess, NoGuess, Prompt};
+pub use prompt::{Guess, NoGuess, Prompt, Series};
 pub use sweep::Sweep;
+pub use twin::{contact_items, in_the_way, straight_way, twin};
 
 use crate::collision::{Checker, Collision, Scene};
 use crate::configuration::{AnyConfiguration, Configuration, Coordinates, T2};
@@ -41,6 +43,9 @@ use crate::worlds::{Obstacle, ObstacleKind, World};
 
 /// The radius of the thick links of an arm that has none of its own, metres: the Workbench's.
 pub const THICK_LINKS: f64 = 0.03;
+
+/// The lengths that a two-link arm's links may be given, metres.
+pub const LENGTHS: std::ops::RangeInclusive<f64> = 0.1..=1.5;
 
 /// The four questions, a tab each.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -216,6 +221,25 @@ impl Anatomy {
     pub fn set_thick_links(&mut self, thick: bool) {
         if let AnyRobot::Reach(arm) = *self.checker.robot() {
             let arm = Reach { link_radius: if thick { self.thickness } else { 0.0 }, ..arm };
+            self.checker = Checker::new(self.checker.shared_scene(), AnyRobot::Reach(arm));
+        }
+    }
+
+    /// The lengths of the links, metres; `None` for a robot that is no two-link arm.
+    pub fn lengths(&self) -> Option<[f64; 2]> {
+        match self.checker.robot() {
+            AnyRobot::Reach(arm) => Some(arm.lengths),
+            _ => None,
+        }
+    }
+
+    /// Sets the length of a two-link arm's link, counted from 0, metres, clamped to [`LENGTHS`].
+    /// The arm keeps its angles; other robots, and a length that is not finite, change nothing.
+    pub fn set_length(&mut self, link: usize, length: f64) {
+        if let AnyRobot::Reach(mut arm) = *self.checker.robot()
+            && let Some(own) = arm.lengths.get_mut(link).filter(|_| length.is_finite())
+        {
+            *own = length.clamp(*LENGTHS.start(), *LENGTHS.end());
             self.checker = Checker::new(self.checker.shared_scene(), AnyRobot::Reach(arm));
         }
     }

@@ -353,3 +353,34 @@ fn a_robot_goes_where_it_lives() {
     let mine = home.in_world(own, WorldSource::Unsaved);
     assert_eq!(mine.at_home(robot("Rusty")).world().name, "Mine", "a world of one's own is kept");
 }
+
+#[test]
+fn links_of_any_length_have_their_annulus_and_their_two_elbows() {
+    let mut anatomy = Anatomy { show_annulus: true, ..Anatomy::default() };
+    anatomy.set_length(1, 0.4);
+    assert_eq!(anatomy.lengths(), Some([1.0, 0.4]));
+    let radius = |anatomy: &Anatomy, circle: &str| match item(&anatomy.picture().items, circle).drawing {
+        Drawing::Disc { radius, .. } => radius,
+        _ => panic!("a circle"),
+    };
+    let radii = ["annulus/inner circle", "annulus/outer circle"].map(|circle| radius(&anatomy, circle));
+    assert!((radii[0] - 0.6).abs() < 1e-15 && (radii[1] - 1.4).abs() < 1e-15, "{radii:?}");
+    // by the law of cosines: d^2 = 1 + 0.16 + 0.8 cos theta2
+    anatomy.drag(Point2::new(0.0, -0.9));
+    let AnyConfiguration::T2(q) = anatomy.q() else { panic!("an arm") };
+    assert!((1.16 + 0.8 * cos(q.th2()) - 0.81).abs() < 1e-12, "{q}");
+    assert_eq!(anatomy.solutions().len(), 2);
+    // too near the base: on the inner circle the arm is folded, and there is one
+    anatomy.drag(Point2::new(0.0, -0.2));
+    assert_eq!(anatomy.solutions().len(), 1);
+    for (link, length, expected) in [(0, 0.0, 0.1), (1, 7.0, 1.5)] {
+        anatomy.set_length(link, length);
+        assert_eq!(anatomy.lengths().map(|lengths| lengths[link]), Some(expected));
+    }
+    anatomy.set_length(0, f64::NAN);
+    anatomy.set_length(2, 1.0);
+    assert_eq!(anatomy.lengths(), Some([0.1, 1.5]));
+    let mut car = anatomy.at_home(AnyRobot::Hitch(crate::robots::HITCH));
+    car.set_length(0, 1.0);
+    assert_eq!(car.lengths(), None);
+}

@@ -202,6 +202,7 @@ fn shown(world: &World, robot: &RobotView, between: f64) -> CockpitRobot {
         // a flash is shown while the run plays; at rest, red is this very tick's contact
         flash: if playing { robot.flash > 0 } else { robot.in_contact },
         contacts: robot.contacts,
+        clearance: trail.map(|t| t.clearance).filter(|clearance| clearance.is_finite()),
         manual: robot.manual,
         // an arm is moved by its joints
         drivable: !is_arm,

@@ -12,6 +12,12 @@ pub enum Deed {
     MoveArm,
     /// A robot was driven on from an earlier tick.
     DriveOn,
+    /// An arm's other elbow was reached, or what blocks the straight way to it was seen.
+    TwoElbows,
+    /// A car's other heading was seen.
+    TwoHeadings,
+    /// A robot that was driven by hand was held by what it touches.
+    Held,
     /// The run was begun anew.
     Reset,
     /// Query's robot touched something.
@@ -20,6 +26,12 @@ pub enum Deed {
     Guess,
     /// Query's motion hit something.
     Hit,
+    /// Query's motion hit something though both its ends are free.
+    FreeEnds,
+    /// Query's robot was brought near something without touching it.
+    Near,
+    /// An arm was given links of unequal lengths.
+    UnequalLinks,
     /// The configuration space's point was moved.
     MovePoint,
     /// Two of its points with one tip were visited.
@@ -30,6 +42,8 @@ pub enum Deed {
     Put,
     /// The atlas's grid was made coarser.
     Coarsen,
+    /// A wall of the atlas's world was looked up: a list of points.
+    PickWall,
     /// The atlas's world was edited.
     EditWorld,
     /// The planner found a path.

@@ -17,27 +17,31 @@ use crate::ui::plan::Stage;
 /// Distance within which two tips are one, metres.
 const ONE_TIP: f64 = 0.05;
 
+/// Distance from which on a robot is near an obstacle, metres.
+const NEAR: f64 = 0.02;
+
 /// Sine of the elbow's angle from which on an arm is bent to a side.
 const LEAST_BEND: f64 = 0.15;
 
 /// Ticks off what the widget in front shows to have been done, and what was asked for in this frame.
 pub fn tick_off(model: &Dashboard, state: &mut UiState, commands: &[Command]) {
-    let asked = commands.iter().flat_map(|command| asked(command, model));
-    let shown = shown(state);
+    let is_sent = state.twin.as_ref().is_some_and(|asked| asked.way.is_some());
+    let asked = commands.iter().flat_map(|command| asked(command, model, is_sent)).collect::<Vec<_>>();
+    let shown = shown(model, state);
     let stepped = std::mem::take(&mut state.plan.deeds);
-    for deed in asked.chain(shown).chain(stepped) {
+    for deed in asked.into_iter().chain(shown).chain(stepped) {
         state.settings.tick_off(deed);
     }
 }
 
-/// The deeds that a command is.
-fn asked(command: &Command, model: &Dashboard) -> Vec<Deed> {
+/// The deeds that a command is; an arm may be moved `by_itself`, on its way to its other elbow.
+fn asked(command: &Command, model: &Dashboard, by_itself: bool) -> Vec<Deed> {
     match command {
         Command::Run(RunCommand::Robot(RobotCommand { input, .. })) => match input {
             RobotInput::Drive(0, 0) => vec![],
             RobotInput::Drive(..) if model.tick < model.frontier => vec![Deed::Drive, Deed::DriveOn],
             RobotInput::Drive(..) => vec![Deed::Drive],
-            RobotInput::MoveTo(_) => vec![Deed::MoveArm],
+            RobotInput::MoveTo(_) if !by_itself => vec![Deed::MoveArm],
             _ => vec![],
         },
         Command::Run(RunCommand::Transport(TransportCommand::Reset)) => vec![Deed::Reset],
@@ -47,7 +51,7 @@ fn asked(command: &Command, model: &Dashboard) -> Vec<Deed> {
 }
 
 /// The deeds that the widget in front shows.
-fn shown(state: &UiState) -> Vec<Deed> {
+fn shown(model: &Dashboard, state: &UiState) -> Vec<Deed> {
     let is_open = |deed| !state.settings.is_ticked_off(deed);
     let anatomy = &state.anatomy.anatomy;
     let of = |deeds: &[(Deed, &dyn Fn() -> bool)]| {
@@ -58,9 +62,14 @@ fn shown(state: &UiState) -> Vec<Deed> {
         Widget::Atlas => of(&[
             (Deed::Coarsen, &|| state.atlas.resolution > FIRST_CELL),
             (Deed::EditWorld, &|| state.atlas.can_undo()[0]),
+            (Deed::PickWall, &|| state.atlas.has_selected_wall()),
         ]),
         Widget::Plan => of(&[(Deed::FindPath, &|| *state.plan.stage() == Stage::Solved)]),
-        Widget::Dashboard | Widget::Anatomy => vec![],
+        Widget::Dashboard => of(&[(Deed::Held, &|| {
+            let mut robots = model.cockpits.iter().flat_map(|cockpit| &cockpit.robots);
+            robots.any(|robot| robot.drivable && robot.manual && robot.flash)
+        })]),
+        Widget::Anatomy => vec![],
     }
 }
 
@@ -69,10 +78,17 @@ fn shown(state: &UiState) -> Vec<Deed> {
 pub fn of_anatomy(before: &Anatomy, now: &Anatomy) -> Vec<Deed> {
     let is_same = Arc::ptr_eq(before.world(), now.world()) && before.checker().robot() == now.checker().robot();
     let hits = || now.sweep().is_ok_and(|sweep| matches!(sweep.verdict, EdgeVerdict::Hit { .. }));
-    let touch = is_same && before.q() != now.q() && now.intersects();
+    let is_moved = is_same && before.q() != now.q();
+    let touch = is_moved && now.intersects();
+    let is_near = || now.nearest().first().is_some_and(|pair| pair.witness.dist > 0.0 && pair.witness.dist <= NEAR);
+    let near = is_moved && before.tab == Tab::Witness && now.tab == Tab::Witness && is_near();
     let is_swept = before.tab == Tab::Swept && now.tab == Tab::Swept;
-    let hit = is_same && is_swept && before.step() != now.step() && hits();
-    touch.then_some(Deed::Touch).into_iter().chain(hit.then_some(Deed::Hit)).collect()
+    let is_stepped = is_same && before.step() != now.step();
+    let hit = is_swept && is_stepped && hits();
+    let has_free_ends = || now.sweep().is_ok_and(|sweep| sweep.from_free && sweep.to_free);
+    let free_ends = is_swept && (is_stepped || is_moved) && hits() && has_free_ends();
+    let done = [(touch, Deed::Touch), (near, Deed::Near), (hit, Deed::Hit), (free_ends, Deed::FreeEnds)];
+    done.into_iter().filter(|(is_done, _)| *is_done).map(|(_, deed)| deed).collect()
 }
 
 /// Whether the last point of a trace has the tip of an earlier one that is another point of the torus.
@@ -117,10 +133,21 @@ mod tests {
             of(&mut anatomy);
             anatomy
         };
-        assert_eq!(of_anatomy(&swept, &with(&|a| a.set_step(0, -1.0))), [Deed::Hit]);
+        assert_eq!(of_anatomy(&swept, &with(&|a| a.set_step(0, -1.0))), [Deed::Hit, Deed::FreeEnds]);
+        assert_eq!(of_anatomy(&swept, &with(&|a| a.set_step(0, -0.4))), [Deed::Hit], "it ends in contact");
         assert_eq!(of_anatomy(&swept, &with(&|a| a.set_step(0, 0.01))), [], "a step that is free");
         assert_eq!(of_anatomy(&swept, &with(&|a| a.set_coordinate(1, 1.2))), [Deed::Touch]);
-        assert_eq!(of_anatomy(&swept, &with(&|a| a.set_coordinate(1, 2.0))), []);
+        assert_eq!(of_anatomy(&start, &start.clone().with_tab(Tab::Witness)), []);
+        let witness = start.clone().with_tab(Tab::Witness);
+        let bent = |th2: f64| {
+            let mut anatomy = witness.clone();
+            anatomy.set_coordinate(1, th2);
+            anatomy
+        };
+        // it touches below 1.4009: at 1.42 it is 7 mm off, at pi/2 61 mm
+        assert_eq!(of_anatomy(&witness, &bent(1.42)), [Deed::Near]);
+        assert_eq!(of_anatomy(&witness, &bent(1.5)), []);
+        assert_eq!(of_anatomy(&witness, &bent(1.39)), [Deed::Touch]);
         let thick = with(&|a| a.set_thick_links(true));
         assert_eq!(of_anatomy(&thick, &with(&|a| a.set_coordinate(1, 1.2))), [], "another robot");
     }

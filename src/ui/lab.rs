@@ -81,6 +81,7 @@ pub fn lab(ui: &mut Ui, model: &Dashboard, history: &History, state: &mut UiStat
         if !state.is_covered() {
             drive::drive(ui, model, state, commands);
         }
+        dashboard::twins::go_on(model, state, commands);
         dashboard::view::dashboard(ui, model, history, &look, state, commands)
     } else {
         let side = if narrow { 12 } else { 20 };

@@ -36,6 +36,7 @@ pub(crate) use cspace::{CspaceState, LinkedState};
 pub(crate) use dashboard::arm::{joints, turned};
 pub(crate) use dashboard::blend::blend;
 pub(crate) use dashboard::goal::ParkingGoal;
+pub(crate) use dashboard::twin_state::AskedTwin;
 pub(crate) use dashboard::values::{Cockpit, CockpitRobot, Dashboard};
 pub(crate) use lab::lab;
 pub(crate) use paint::look::Look;

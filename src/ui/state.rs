@@ -28,6 +28,8 @@ pub struct UiState {
     pub cspace: super::CspaceState,
     /// The configuration beside the cockpit in front.
     pub linked: super::LinkedState,
+    /// What was asked for with a robot's twin on the dashboard.
+    pub twin: Option<super::AskedTwin>,
     /// The state of the atlas.
     pub atlas: AtlasState,
     /// The state of the widget that plans.

@@ -181,17 +181,84 @@ fn code_and_command_are_copied() {
 #[test]
 fn the_second_prompt_shows_its_scene_once_it_is_answered() {
     let mut harness = on("intersects");
-    assert!(harness.query_by_label("Show").is_none());
-    harness.get_by_label_contains("How far from it is link 2 at").focus();
-    harness.run_steps(2);
-    harness.event(Event::Text("0.17043".into()));
-    harness.step();
-    harness.key_press(Key::Enter);
-    harness.run_steps(3);
+    let guess = |harness: &mut Harness<'_, Lab>, question: &str, text: &str| {
+        assert!(["Show", "Next question"].iter().all(|name| harness.query_by_label(name).is_none()), "hidden");
+        harness.get_by_label_contains(question).focus();
+        harness.run_steps(2);
+        harness.event(Event::Text(text.into()));
+        harness.step();
+        harness.key_press(Key::Enter);
+        harness.run_steps(3);
+    };
+    // one after the other: what is no number answers nothing
+    guess(&mut harness, "the links are given a radius of 3 cm", "no idea");
+    guess(&mut harness, "the links are given a radius of 3 cm", "0.03");
+    click(&mut harness, "Next question");
+    assert!(harness.query_by_label_contains("0.170").is_none());
+    guess(&mut harness, "How far from it is link 2 at", "0.17043");
     harness.get_by_label_contains("Right: 0.170435 m. The nearest point is the square's corner");
     click(&mut harness, "Show");
     assert_eq!(anatomy(&harness).world().name, "Exercise 3");
     says(&harness, "b* = (0.900, 0.900) at a corner of the square");
+    for (question, text, answer) in [
+        (
+            "At which \u{3b8}2 does the arm first touch the block?",
+            "1.4",
+            "Off by \u{2212}0.0009 rad: it is 1.400878 rad.",
+        ),
+        ("How far is Rusty from it?", "0.89 m", "Right: 0.890000 m."),
+        ("the links are given a radius of 3 cm", "0", "it is 0.030660 m."),
+    ] {
+        click(&mut harness, "Next question");
+        guess(&mut harness, question, text);
+        harness.get_by_label_contains(answer);
+    }
+    // in Space the arms that reach a tip are counted
+    click(&mut harness, "Space");
+    click(&mut harness, "Guess first");
+    harness.run_steps(20);
+    guess(&mut harness, "2 m from the base", "2");
+    harness.get_by_label_contains("Off by +1: it is 1. On the circle around the annulus the arm is straight");
+    click(&mut harness, "Next question");
+    guess(&mut harness, "And 2.5 m from the base?", "0");
+    harness.get_by_label_contains("Right: 0. ");
+}
+
+#[test]
+fn links_of_unequal_lengths_leave_a_hole_that_the_tip_cannot_enter() {
+    let mut harness = on("distance");
+    click(&mut harness, "Any robot, any world");
+    harness.run_steps(20);
+    let enter = |harness: &mut Harness<'_, Lab>, link: &str, text: &str| {
+        harness.get_by_label(link).focus();
+        harness.run_steps(2);
+        harness.key_combination_modifiers(Modifiers::COMMAND, &[Key::A]);
+        harness.step();
+        harness.event(Event::Text(text.into()));
+        harness.step();
+        harness.key_press(Key::Enter);
+        harness.run_steps(3);
+    };
+    enter(&mut harness, "length of link 2", "0.4");
+    assert_eq!(anatomy(&harness).lengths(), Some([1.0, 0.4]));
+    let ids: Vec<String> = anatomy(&harness).picture().items.iter().map(|item| item.id.clone()).collect();
+    assert!(ids.contains(&"annulus/inner circle".to_owned()), "{ids:?}");
+    // dragged towards the base, the tip stops at the inner circle
+    let sheet = harness.get_by_label_contains("Reach at T2").rect();
+    let at = |harness: &Harness<'_, Lab>, p: Point2| {
+        let [x, y] = crate::ui::paint::canvas::fit(interface(harness).anatomy.backdrop(), sheet).screen_from_world(p);
+        pos2(x as f32, y as f32)
+    };
+    let tip = |harness: &Harness<'_, Lab>| anatomy(harness).checker().robot().reference(&anatomy(harness).q());
+    let (from, to) = (at(&harness, tip(&harness)), at(&harness, Point2::new(0.1, 0.1)));
+    pointer(&mut harness, from, Some(true));
+    (1..=8).for_each(|i| pointer(&mut harness, from.lerp(to, i as f32 / 8.0), None));
+    pointer(&mut harness, to, Some(false));
+    harness.run_steps(2);
+    assert!((tip(&harness).coords.norm() - 0.6).abs() < 1e-9, "{}", tip(&harness));
+    // no longer and no shorter than an arm of the lab may be
+    enter(&mut harness, "length of link 1", "9");
+    assert_eq!(anatomy(&harness).lengths(), Some([1.5, 0.4]));
 }
 
 #[test]

@@ -122,3 +122,99 @@ fn the_point_on_the_torus_is_dragged_and_the_arm_follows() {
         assert!((now - from - along).length() < 1.5, "the point is where it was let go");
     }
 }
+
+/// Puts the paused arm at these angles.
+fn put(harness: &mut Harness<'_, Lab>, angles: [f64; 2]) {
+    let to = angles.map(|v| crate::run::Quantized::try_new(v).unwrap()).to_vec();
+    let command = crate::simulation::RobotCommand { robot: "Reach".into(), input: RobotInput::MoveTo(to) };
+    harness.state_mut().app.world_mut().write_message(RunCommand::from(command));
+    harness.run_steps(3);
+    click(harness, "Step");
+}
+
+/// The events of the script that move the arm.
+fn moves(harness: &Harness<'_, Lab>) -> Vec<u64> {
+    let events = harness.state().script().events.iter();
+    events.filter(|e| matches!(e.input, RobotInput::MoveTo(_))).map(|e| e.tick).collect()
+}
+
+#[test]
+fn the_arm_goes_to_its_other_elbow_where_the_way_is_free() {
+    let mut harness = lab(WIDE);
+    pause(&mut harness);
+    bring(&mut harness, "Reach");
+    // links of one length: the other elbow is (th1 + th2, -th2), past the straight arm
+    put(&mut harness, [-0.5, 0.3]);
+    let (before, events) = (harness.state().robot(1), moves(&harness).len());
+    click(&mut harness, "One tip, two elbows");
+    harness.run_steps(40);
+    let after = harness.state().robot(1);
+    assert!((after.coordinates[0] + 0.2).abs() < 1e-4 && (after.coordinates[1] + 0.3).abs() < 1e-4, "{after:?}");
+    assert!((after.tip.unwrap() - before.tip.unwrap()).norm() < 1e-4, "one tip");
+    assert_eq!(after.contacts, before.contacts);
+    // 0.6 rad, and the rounding of inputs, at most 0.1 rad a tick, a target in each: input like any other
+    let ticks = moves(&harness).split_off(events);
+    assert!((6..=7).contains(&ticks.len()), "{ticks:?}");
+    assert!(ticks.windows(2).all(|pair| pair[1] == pair[0] + 1), "{ticks:?}");
+    assert!(interface(&harness).settings.done.iter().any(|deed| deed == "TwoElbows"));
+    assert!(!interface(&harness).settings.done.iter().any(|deed| deed == "MoveArm"), "nobody dragged it");
+    click(&mut harness, "Undo");
+    assert_eq!(harness.state().robot(1).coordinates, before.coordinates, "one thing to undo");
+}
+
+#[test]
+fn what_blocks_the_way_to_the_other_elbow_is_named_and_the_arm_stays() {
+    let mut harness = lab(WIDE);
+    pause(&mut harness);
+    bring(&mut harness, "Reach");
+    // halfway the arm is straight and points across the post
+    put(&mut harness, [1.85, 1.4]);
+    let before = harness.state().robot(1);
+    harness.get_by_label("the ghost has the same tip: send the arm there");
+    click(&mut harness, "One tip, two elbows");
+    harness.get_by_label_contains("the straight way hits the post at s = 0.");
+    assert!(interface(&harness).settings.done.iter().any(|deed| deed == "TwoElbows"));
+    click(&mut harness, "Play");
+    harness.run_steps(20);
+    harness.get_by_label_contains("the straight way hits the post at s = 0.");
+    let after = harness.state().robot(1);
+    assert_eq!((&after.coordinates, after.contacts), (&before.coordinates, before.contacts), "it stays");
+    // moved by somebody else, the arm is not the one that this was said of
+    drag(&mut harness, "Reach: elbow, theta1 in radians", [0.3, -1.0]);
+    assert!(harness.query_by_label_contains("the straight way").is_none());
+}
+
+#[test]
+fn a_straight_arm_has_no_other_elbow() {
+    let mut harness = lab(WIDE);
+    pause(&mut harness);
+    bring(&mut harness, "Reach");
+    put(&mut harness, [-0.3, 0.0]);
+    harness.get_by_label("straight or folded: no other arm has this tip");
+    let events = moves(&harness).len();
+    click(&mut harness, "One tip, two elbows");
+    assert_eq!(moves(&harness).len(), events, "nothing to go to");
+}
+
+#[test]
+fn a_way_ends_where_time_or_another_hand_takes_the_arm_elsewhere() {
+    for taken in ["Back", "number"] {
+        let mut harness = lab(WIDE);
+        pause(&mut harness);
+        bring(&mut harness, "Reach");
+        put(&mut harness, [-0.5, 0.3]);
+        click(&mut harness, "One tip, two elbows");
+        harness.run_steps(2);
+        pause(&mut harness);
+        assert!(interface(&harness).twin.is_some(), "on its way");
+        if taken == "number" {
+            put(&mut harness, [-1.0, 0.5]);
+        } else {
+            (0..2).for_each(|_| click(&mut harness, taken));
+        }
+        let events = moves(&harness).len();
+        click(&mut harness, "Play");
+        harness.run_steps(20);
+        assert!(interface(&harness).twin.is_none() && moves(&harness).len() == events, "{taken}");
+    }
+}

@@ -71,6 +71,7 @@ fn the_trailer_goes_on_and_a_goal_is_set_for_it() {
     assert_eq!(harness.state().robot(2).coordinates.len(), 4);
     click(&mut harness, "goal: one metre to the left");
     harness.get_by_label("goal: off by 1.00 m, 0.00 rad; 0 reversals");
+    harness.get_by_label_contains("straight back takes the car 0.89 m aside");
     click(&mut harness, "drop the goal");
     assert!(harness.query_by_label("drop the goal").is_none());
     click(&mut harness, "take the trailer off");
@@ -129,4 +130,84 @@ fn a_cockpit_comes_to_the_front_and_the_robot_in_hand_is_let_go() {
     harness.run_steps(4);
     assert_eq!(armed(&harness).as_deref(), Some("Rusty"));
     assert!(paper(&harness, "Apartment").width() > 500.0);
+}
+
+/// A solution of exercise 4: for how many ticks which channels are held. Found by a search over such lists with the
+/// equations of car and trailer.
+const ONE_METRE_LEFT: [(u32, i16, i16); 6] =
+    [(12, 128, 38), (35, 128, -47), (18, 128, 116), (15, -128, 9), (28, -128, 104), (27, -128, 127)];
+
+#[test]
+fn one_metre_to_the_left_is_driven_scored_and_tried_again() {
+    let mut harness = lab(WIDE);
+    pause(&mut harness);
+    bring(&mut harness, "Hitch");
+    let input = |harness: &mut Harness<'_, Lab>, input: RobotInput| {
+        let command = crate::simulation::RobotCommand { robot: "Hitch".into(), input };
+        harness.state_mut().app.world_mut().write_message(RunCommand::from(command));
+    };
+    let tick = |harness: &mut Harness<'_, Lab>| {
+        harness.state_mut().app.world_mut().write_message(RunCommand::from(crate::simulation::TransportCommand::Step));
+        harness.step();
+    };
+    // in the aisle, where the car begins
+    input(&mut harness, RobotInput::SetTrailer(true));
+    let start = [6.5, 2.5, 0.0, 0.0].map(|v| crate::run::Quantized::try_new(v).unwrap()).to_vec();
+    tick(&mut harness);
+    input(&mut harness, RobotInput::Teleport(start));
+    tick(&mut harness);
+    harness.run_steps(3);
+    let contacts = harness.state().robot(2).contacts;
+    click(&mut harness, "goal: one metre to the left");
+    for (ticks, ahead, left) in ONE_METRE_LEFT {
+        assert!(harness.query_by_label_contains("Reached").is_none());
+        input(&mut harness, RobotInput::Drive(ahead, left));
+        (0..ticks).for_each(|_| tick(&mut harness));
+    }
+    harness.run_steps(3);
+    let car = harness.state().robot(2);
+    let [x, y, _, psi] = car.coordinates[..] else { panic!("a trailer: {car:?}") };
+    assert!(crate::num::hypot(x - 6.5, y - 3.5) < 0.05 && psi.abs() < 0.05, "{car:?}");
+    assert_eq!(car.contacts, contacts);
+    let goal = interface(&harness).goal.clone().unwrap().1;
+    let score = goal.score.unwrap();
+    // at 0.075 m a tick
+    assert!(
+        score.reversals == 1 && score.seconds <= 6.75 && (score.metres - 1.5 * score.seconds).abs() < 0.1,
+        "{score:?}"
+    );
+    harness.get_by_label_contains("Reached: one metre to the left in 6.");
+    // again from where it began
+    click(&mut harness, "again");
+    assert!(harness.query_by_label_contains("Reached").is_none());
+    tick(&mut harness);
+    harness.run_steps(3);
+    assert_eq!(harness.state().robot(2).coordinates[..], [6.5, 2.5, 0.0, 0.0]);
+    harness.get_by_label("goal: off by 1.00 m, 0.00 rad; 0 reversals");
+}
+
+#[test]
+fn a_car_turned_about_is_a_ghost_that_no_input_leads_to() {
+    let mut harness = lab(WIDE);
+    pause(&mut harness);
+    bring(&mut harness, "Hitch");
+    let events = harness.state().script().events.len();
+    let put = |harness: &mut Harness<'_, Lab>, x: f64| {
+        let to = [x, 2.5, 0.0].map(|v| crate::run::Quantized::try_new(v).unwrap()).to_vec();
+        let command = crate::simulation::RobotCommand { robot: "Hitch".into(), input: RobotInput::Teleport(to) };
+        harness.state_mut().app.world_mut().write_message(RunCommand::from(command));
+        harness.run_steps(3);
+        click(harness, "Step");
+    };
+    put(&mut harness, 6.5);
+    assert!(harness.query_by_label_contains("no single input leads there").is_none(), "on demand");
+    click(&mut harness, "One place, two headings");
+    harness.get_by_label_contains("free there too; no single input leads there");
+    // 1.5 m from the west curb there is no room for it, the other way about
+    put(&mut harness, 1.5);
+    harness.get_by_label_contains("there it overlaps the west curb; no single input leads there");
+    assert!(interface(&harness).settings.done.iter().any(|deed| deed == "TwoHeadings"));
+    click(&mut harness, "One place, two headings");
+    assert!(harness.query_by_label_contains("no single input leads there").is_none());
+    assert_eq!(harness.state().script().events.len(), events + 2, "it is no input");
 }

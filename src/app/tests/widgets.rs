@@ -1,5 +1,7 @@
 //! Query anatomy, configuration space and atlas.
 
+mod lessons;
+
 use super::*;
 
 /// Puts the widget with this word on the rail in front.

@@ -5,6 +5,19 @@ use std::sync::Arc;
 use crate::anatomy::Anatomy;
 use crate::picture::Picture;
 
+/// How far a series of prompts has come.
+#[derive(Clone, Debug, Default)]
+pub struct Guesses {
+    /// The number of the prompt that is shown, from 0.
+    pub(super) number: usize,
+    /// The guess as typed.
+    pub(super) typed: String,
+    /// What came of the last guess, in words.
+    pub(super) said: Option<String>,
+    /// Whether the answer is known.
+    pub(super) is_answered: bool,
+}
+
 /// The state of the query anatomy.
 #[derive(Clone, Debug)]
 pub struct AnatomyState {
@@ -12,17 +25,15 @@ pub struct AnatomyState {
     pub anatomy: Anatomy,
     /// The picture of the world alone, made again when the world changes.
     pub(super) backdrop: Arc<Picture>,
-    /// The guesses as typed, by prompt.
-    pub(super) guesses: [String; 2],
-    /// The answers to the guesses, by prompt.
-    pub(super) answers: [Option<String>; 2],
+    /// How far each series of prompts has come.
+    pub(super) guesses: [Guesses; 2],
 }
 
 impl Default for AnatomyState {
     fn default() -> Self {
         let anatomy = Anatomy::default();
         let backdrop = Arc::new(anatomy.backdrop());
-        AnatomyState { anatomy, backdrop, guesses: Default::default(), answers: Default::default() }
+        AnatomyState { anatomy, backdrop, guesses: Default::default() }
     }
 }
 

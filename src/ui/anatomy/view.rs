@@ -2,9 +2,13 @@
 
 use std::sync::Arc;
 
-use bevy_egui::egui::{CollapsingHeader, ComboBox, RichText, ScrollArea, Slider, TextEdit, Ui, WidgetInfo, vec2};
+use bevy_egui::egui::{
+    CollapsingHeader, ComboBox, DragValue, Label, RichText, ScrollArea, Slider, TextEdit, Ui, WidgetInfo, WidgetType,
+    vec2,
+};
 
-use crate::anatomy::{Anatomy, Guess, Prompt, Tab, WorldSource};
+use super::state::Guesses;
+use crate::anatomy::{Anatomy, LENGTHS, Series, Tab, WorldSource};
 use crate::configuration::Configuration;
 use crate::manifest::{Deed, Widget};
 use crate::picture::Role;
@@ -17,6 +21,9 @@ use crate::worlds::World;
 
 /// Width of the panel beside the paper, points.
 const SIDE: f32 = 380.0;
+
+/// Difference of two lengths from which on they are unequal, metres.
+const UNEQUAL: f64 = 0.05;
 
 /// Side of the close view, points.
 const INSET: f32 = 208.0;
@@ -70,7 +77,9 @@ fn beside_the_paper(ui: &mut Ui, narrow: bool, look: &Look, state: &mut UiState)
     if !narrow {
         inset(ui, look, state);
     }
-    CollapsingHeader::new("Guess first").default_open(!narrow).show(ui, |ui| prompts(ui, state));
+    CollapsingHeader::new("Guess first").default_open(!narrow).show(ui, |ui| {
+        prompts(ui, Series::Queries, state);
+    });
     ui.horizontal(|ui| {
         if LabButton::new("Copy as Rust").show(ui, look).clicked() {
             ui.ctx().copy_text(state.anatomy.anatomy.copy_as_rust());
@@ -118,36 +127,35 @@ fn inset(ui: &mut Ui, look: &Look, state: &mut UiState) {
     painter.rect_stroke(rect, 0.0, frame, bevy_egui::egui::StrokeKind::Inside);
 }
 
-/// Shows the two prompts, which ask for a guess before they show the number.
-fn prompts(ui: &mut Ui, state: &mut UiState) {
-    for (i, prompt) in Prompt::all().iter().enumerate() {
-        let label = ui.label(prompt.question);
-        ui.horizontal(|ui| {
-            let guess = &mut state.anatomy.guesses[i];
-            let field =
-                ui.add(TextEdit::singleline(guess).desired_width(80.0).hint_text("metres")).labelled_by(label.id);
-            let entered = field.lost_focus() && ui.input(|i| i.key_pressed(bevy_egui::egui::Key::Enter));
-            if ui.button("Check").clicked() || entered {
-                let checked = prompt.check_text(guess);
-                if i == 0 && checked.is_ok() {
-                    state.settings.tick_off(Deed::Guess);
-                }
-                state.anatomy.answers[i] = Some(match checked {
-                    Ok(Guess::Right { answer }) => format!("Right: {answer:.6} m. {}", prompt.moral),
-                    Ok(Guess::Off { answer, by }) => {
-                        format!("Off by {by:+.4} m: it is {answer:.6} m. {}", prompt.moral)
-                    }
-                    Err(none) => none.to_string(),
-                });
+/// Shows a series of prompts one by one: each asks for a guess before it shows the number.
+pub(crate) fn prompts(ui: &mut Ui, series: Series, state: &mut UiState) {
+    let prompt = series.prompt(state.anatomy.guesses[series as usize].number);
+    let label = ui.label(prompt.question);
+    ui.horizontal(|ui| {
+        let guesses = &mut state.anatomy.guesses[series as usize];
+        let field = TextEdit::singleline(&mut guesses.typed).desired_width(80.0).hint_text(prompt.unit);
+        let field = ui.add(field).labelled_by(label.id);
+        let entered = field.lost_focus() && ui.input(|i| i.key_pressed(bevy_egui::egui::Key::Enter));
+        if ui.button("Check").clicked() || entered {
+            let checked = prompt.check_text(&guesses.typed);
+            if checked.is_ok() && prompt.id == "thick links" {
+                state.settings.tick_off(Deed::Guess);
             }
-            let answered = state.anatomy.answers[i].as_ref().is_some_and(|a| a.contains(prompt.moral));
-            if answered && ui.button("Show").clicked() {
+            guesses.is_answered = checked.is_ok();
+            guesses.said = Some(checked.map_or_else(|none| none.to_string(), |guess| prompt.words(guess)));
+        }
+        if guesses.is_answered {
+            let (show, next) = (ui.button("Show").clicked(), ui.button("Next question").clicked());
+            if next {
+                *guesses = Guesses { number: (guesses.number + 1) % series.count(), ..Guesses::default() };
+            }
+            if show {
                 state.anatomy.set(prompt.shown().clone());
             }
-        });
-        if let Some(answer) = &state.anatomy.answers[i] {
-            ui.label(RichText::new(answer).strong());
         }
+    });
+    if let Some(said) = &state.anatomy.guesses[series as usize].said {
+        ui.add(Label::new(RichText::new(said).strong()).wrap());
     }
 }
 
@@ -155,7 +163,7 @@ fn prompts(ui: &mut Ui, state: &mut UiState) {
 fn any(ui: &mut Ui, state: &mut UiState) {
     robot_choice(ui, state);
     world_choice(ui, state);
-    annulus(ui, state);
+    ui.horizontal_wrapped(|ui| annulus(ui, state));
 }
 
 /// Shows the choice of robot.
@@ -194,9 +202,26 @@ pub(crate) fn world_choice(ui: &mut Ui, state: &mut UiState) {
     });
 }
 
-/// Shows the check box of the annulus, the points that the tip of an arm can reach; nothing for other robots.
+/// Shows the check box of the annulus, the points that the tip of an arm can reach, and fields for the lengths of an
+/// arm's two links; nothing for other robots.
 pub(crate) fn annulus(ui: &mut Ui, state: &mut UiState) {
     let anatomy = &mut state.anatomy.anatomy;
+    for (link, mut length) in anatomy.lengths().into_iter().flatten().enumerate() {
+        let label = ui.label(format!("L{}", link + 1));
+        let field = DragValue::new(&mut length).range(LENGTHS).speed(0.01).fixed_decimals(2).suffix(" m");
+        let response = ui.add(field).labelled_by(label.id);
+        response.widget_info(|| WidgetInfo {
+            label: Some(format!("length of link {}", link + 1)),
+            ..WidgetInfo::new(WidgetType::DragValue)
+        });
+        if response.changed() {
+            anatomy.set_length(link, length);
+            anatomy.show_annulus = true;
+            if anatomy.lengths().is_some_and(|[one, two]| (one - two).abs() >= UNEQUAL) {
+                state.settings.tick_off(Deed::UnequalLinks);
+            }
+        }
+    }
     if anatomy.checker().robot().annulus().is_some() {
         ui.checkbox(&mut anatomy.show_annulus, "the points that the tip can reach");
     }

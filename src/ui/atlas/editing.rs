@@ -7,7 +7,7 @@ use crate::geometry::{Aabb, Point2, Pose2, Vector2};
 use crate::num::{atan2, greater, lesser};
 use crate::picture::Item;
 use crate::ui::AtlasState;
-use crate::worlds::World;
+use crate::worlds::{ObstacleKind, World};
 
 /// Spacing of the grid that points snap to, metres.
 const GRID: f64 = 0.05;
@@ -19,6 +19,13 @@ impl AtlasState {
     /// Whether a change can be undone, and whether one can be redone.
     pub fn can_undo(&self) -> [bool; 2] {
         [self.editor.can_undo(), self.editor.can_redo()]
+    }
+
+    /// Whether a wall is selected, so that the numbers of its points are seen.
+    pub fn has_selected_wall(&self) -> bool {
+        let selected = self.selected.as_ref().filter(|_| self.mode == Mode::Edit);
+        let thing = selected.and_then(|name| self.world().obstacle(name));
+        thing.is_some_and(|obstacle| obstacle.kind == ObstacleKind::Wall)
     }
 
     /// The unit that added things are sized by, metres: a 20th of the world's shorter side, rounded to the grid.

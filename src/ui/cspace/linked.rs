@@ -1,5 +1,7 @@
 //! The configuration beside the position: a robot of the dashboard as a point of its configuration space.
 
+use std::f64::consts::PI;
+
 use bevy_egui::egui::{
     Align2, CursorIcon, Id, Pos2, Rect, Sense, Shape, Stroke, StrokeKind, TextStyle, Ui, Vec2, WidgetInfo, WidgetType,
     pos2, vec2,
@@ -40,6 +42,10 @@ pub struct Linked<'a> {
     pub tick: u64,
     /// What is known of the run.
     pub history: &'a History,
+    /// Another configuration at its position, if one is shown.
+    pub twin: Option<AnyConfiguration>,
+    /// Whether the straight motion there is shown.
+    pub way: bool,
 }
 
 impl Linked<'_> {
@@ -122,7 +128,13 @@ impl Linked<'_> {
         let paper = canvas::proportioned(still, room);
         let fit = canvas::fit(still, paper);
         let slice = cells.map().slice();
-        let overlay = Overlay { now: Some(q), in_contact: self.robot.flash, trace: self.trail(), ..Overlay::default() };
+        let overlay = Overlay {
+            now: Some(q),
+            in_contact: self.robot.flash,
+            trace: self.trail(),
+            line: self.twin.filter(|_| self.way).map(|twin| [q, twin]),
+            solutions: self.twin.into_iter().collect(),
+        };
         let over = Picture::new("configuration", still.bounds).with(overlay_items(slice, &overlay));
         let painter = ui.painter_at(paper);
         canvas::paint_kept(&painter, still, paper, &fit, look);
@@ -211,6 +223,9 @@ impl Linked<'_> {
             }
             painter.line_segment([centre, at(psi, DIAL - 5.0)], Stroke::new(1.5, look.colour(Role::Path)));
             painter.circle_filled(at(psi, DIAL - 5.0), 2.5, look.colour(Role::Path));
+        }
+        if self.twin.is_some() {
+            painter.line_segment([centre, at(theta + PI, DIAL - 4.0)], Stroke::new(2.5, look.tint(Role::Robot, 0.3)));
         }
         painter.line_segment([centre, at(theta, DIAL - 4.0)], Stroke::new(2.5, look.colour(Role::Robot)));
         painter.circle_filled(centre, 2.5, look.colour(Role::Robot));

@@ -18,6 +18,13 @@ pub struct LinkedState {
 }
 
 impl LinkedState {
+    /// The checker of a robot in a world: that of the cells that are kept, or for another world or robot a new one.
+    pub fn checker_of(&self, world: &Arc<Atlas>, robot: &AnyRobot) -> Checker<AnyRobot> {
+        let kept = self.kept.as_ref().map(|(of, cells)| (of, cells.map().slice().checker()));
+        let own = kept.filter(|(of, checker)| Arc::ptr_eq(of, world) && checker.robot() == robot);
+        own.map_or_else(|| Checker::new(Scene::of_world(world.world()), *robot), |(_, checker)| checker.clone())
+    }
+
     /// The cells of the slice through `q`: those that are kept, or for another world, robot or slice new ones. `None`
     /// if `q` is not a configuration of the robot.
     pub fn cells_of(&mut self, world: &Arc<Atlas>, robot: &AnyRobot, q: &AnyConfiguration) -> Option<&mut Cells> {
@@ -26,13 +33,7 @@ impl LinkedState {
             Arc::ptr_eq(of, world) && slice.checker().robot() == robot && slice.holds(q)
         };
         if !self.kept.as_ref().is_some_and(serves) {
-            // another slice of the same robot's configurations has the same checker
-            let own = |(of, cells): (Arc<Atlas>, Cells)| {
-                let checker = cells.map().slice().checker();
-                (Arc::ptr_eq(&of, world) && checker.robot() == robot).then(|| checker.clone())
-            };
-            let checker = self.kept.take().and_then(own);
-            let checker = checker.unwrap_or_else(|| Checker::new(Scene::of_world(world.world()), *robot));
+            let checker = self.checker_of(world, robot);
             self.kept = Some((Arc::clone(world), Cells::through(&checker, q, FINEST)?));
         }
         self.kept.as_mut().map(|(_, cells)| cells)

@@ -2,16 +2,21 @@
 
 use std::sync::Arc;
 
-use bevy_egui::egui::{Rect, RichText, ScrollArea, Ui, pos2, vec2};
+use bevy_egui::egui::{CollapsingHeader, Rect, RichText, ScrollArea, Ui, pos2, vec2};
 
-use crate::anatomy::Tab;
+use crate::anatomy::{Series, Tab};
 use crate::cspace::{Overlay, overlay_items};
 use crate::manifest::{Deed, Widget};
 use crate::num::wrap;
 use crate::picture::{Picture, Role, footprint};
+<<<<<<< HEAD
 use crate::robots::{AnyRobot, Robot};
 use crate::ui::anatomy::view::{annulus, coordinate, robot_choice, world_choice};
 use crate::ui::paint::frame::formulas;
+=======
+use crate::robots::Robot;
+use crate::ui::anatomy::view::{annulus, coordinate, prompts, robot_choice, world_choice};
+>>>>>>> wt-c
 use crate::ui::paint::sheet::sheet;
 use crate::ui::{Command, Dashboard, Look, UiState, readout};
 
@@ -85,6 +90,7 @@ fn below_the_papers(ui: &mut Ui, look: &Look, state: &mut UiState) {
             coordinate(ui, &mut state.anatomy.anatomy, index, &name);
         }
     });
+    CollapsingHeader::new("Guess first").show(ui, |ui| prompts(ui, Series::Tips, state));
 }
 
 /// Shows the workspace, where the robot can be dragged.

@@ -12,6 +12,8 @@ pub(crate) mod plots;
 pub(crate) mod stage;
 #[cfg(test)]
 mod tests;
+pub(crate) mod twin_state;
+pub(crate) mod twins;
 pub(crate) mod values;
 pub(crate) mod view;
 pub(crate) mod words;

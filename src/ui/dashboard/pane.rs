@@ -6,6 +6,7 @@ use bevy_egui::egui::{
     CursorIcon, Id, Rect, Response, Sense, Stroke, StrokeKind, TextStyle, Ui, WidgetInfo, WidgetType, pos2, vec2,
 };
 
+use super::twins::twin_items;
 use super::words::words_in;
 use super::{doors, drive, handles, pad};
 use crate::atlas::{self, Atlas};
@@ -73,7 +74,7 @@ pub fn paper(
     if state.settings.labels {
         over = over.with(names(ui, cockpit, &fit));
     }
-    let over = over.with(under).with(robots(ui, cockpit, state));
+    let over = over.with(under).with(twin_items(cockpit, state)).with(robots(ui, cockpit, state));
     canvas::paint(&painter, &over, &fit, look);
     point_out(&response, &over, cockpit, &fit);
     let driven = in_reach(cockpit);

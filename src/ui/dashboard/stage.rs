@@ -8,6 +8,7 @@ use bevy_egui::egui::{
 
 use super::drive;
 use super::pane::{self, text_height};
+use super::twins::shown_twin;
 use super::words::words_in;
 use crate::picture::{Picture, Role};
 use crate::simulation::History;
@@ -81,7 +82,7 @@ impl Stage<'_> {
         let width = (BESIDE * room.width()).clamp(LEAST_BESIDE, MOST_BESIDE).min(0.6 * room.width());
         let sheet = canvas::proportioned(&cockpit.world, room.with_max_x(room.right() - width - GAP));
         let mut beside = room.with_min_x(sheet.right() + GAP);
-        let linked = self.linked(cockpit);
+        let linked = self.linked(cockpit, state);
         let way = linked.as_ref().map_or_else(Vec::new, Linked::way);
         let fit = pane::paper(ui, cockpit, sheet, way, self.look, state, commands);
         let others: Vec<(usize, &Cockpit)> =
@@ -105,9 +106,11 @@ impl Stage<'_> {
     }
 
     /// The robot of a cockpit that can be taken in hand, with its past.
-    fn linked<'a>(&'a self, cockpit: &'a Cockpit) -> Option<Linked<'a>> {
+    fn linked<'a>(&'a self, cockpit: &'a Cockpit, state: &UiState) -> Option<Linked<'a>> {
         let robot = pane::in_reach(cockpit)?;
-        Some(Linked { cockpit, robot, tick: self.model.tick, history: self.history })
+        let way = state.twin.as_ref().is_some_and(|asked| asked.is_way_of(&robot.name));
+        let twin = shown_twin(robot, state);
+        Some(Linked { cockpit, robot, tick: self.model.tick, history: self.history, twin, way })
     }
 
     /// Shows cockpits small in a row at the top of `room`. Returns where the row ends.
@@ -189,7 +192,7 @@ impl Stage<'_> {
             // a world that is magnified has all the room
             let is_whole = state.cameras.get(&cockpit.world.name).is_none_or(|camera| camera.zoom <= 1.0);
             let centred = sheet.translate(vec2(0.5 * (above.width() - sheet.width()), 0.0));
-            let way = self.linked(cockpit).map_or_else(Vec::new, |linked| linked.way());
+            let way = self.linked(cockpit, state).map_or_else(Vec::new, |linked| linked.way());
             Some(pane::paper(ui, cockpit, if is_whole { centred } else { above }, way, self.look, state, commands))
         };
         let mut ui = ui.new_child(UiBuilder::new().max_rect(foot).layout(Layout::left_to_right(Align::Center)));

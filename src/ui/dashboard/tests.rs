@@ -35,6 +35,7 @@ fn robot<R: Robot>(name: &str, kind: &str, robot: &R, q: R::Configuration) -> Co
         gait: Gait::default(),
         flash: false,
         contacts: 3,
+        clearance: None,
         manual: false,
         drivable: !kind.starts_with("reach"),
         is_arm: kind.starts_with("reach"),

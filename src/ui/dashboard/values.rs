@@ -30,6 +30,8 @@ pub struct CockpitRobot {
     pub flash: bool,
     /// Contact episodes since the start.
     pub contacts: u32,
+    /// Its distance from the nearest obstacle, metres; `None` where it is not known.
+    pub clearance: Option<f64>,
     /// Whether a person drives it.
     pub manual: bool,
     /// Whether it can be driven by channels.
@@ -103,6 +105,12 @@ pub struct Dashboard {
 }
 
 impl Dashboard {
+    /// The robot with this name, with its cockpit.
+    pub fn robot(&self, name: &str) -> Option<(&Cockpit, &CockpitRobot)> {
+        let mut all = self.cockpits.iter().flat_map(|c| c.robots.iter().map(move |robot| (c, robot)));
+        all.find(|(_, robot)| robot.name == name)
+    }
+
     /// The name of the robot with this id, if it is shown.
     pub fn name_of(&self, id: u32) -> Option<&str> {
         self.cockpits.iter().find_map(|cockpit| match &cockpit.crowd {

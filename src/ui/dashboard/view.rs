@@ -27,6 +27,11 @@ pub fn dashboard(
     state: &mut UiState,
     commands: &mut Vec<Command>,
 ) -> Rect {
+    if let Some((name, goal)) = &mut state.goal
+        && let Some((_, car)) = model.robot(name)
+    {
+        goal.watch(car, model.tick, history);
+    }
     let narrow = look.narrow;
     let side = if narrow { 12 } else { GAP as i8 };
     Panel::bottom("transport")

@@ -4,12 +4,13 @@ use bevy_egui::egui::{
     Align, Id, Label, Layout, Rect, RichText, ScrollArea, Sense, TextStyle, TextWrapMode, Ui, UiBuilder,
 };
 
-use super::goal::trailer_of;
-use super::{doors, handles};
+use super::goal::{sideways, trailer_of};
+use super::{doors, handles, twins};
 use crate::configuration::RobotKind;
 use crate::manifest::{Formula, Widget};
 use crate::picture::{Fit, Role};
-use crate::run::RobotInput;
+use crate::robots::AnyRobot;
+use crate::run::{Quantized, RobotInput};
 use crate::simulation::{RobotCommand, TransportCommand};
 use crate::ui::paint::frame;
 use crate::ui::paint::scale_bar::scale_bar;
@@ -40,6 +41,7 @@ fn words(ui: &mut Ui, cockpit: &Cockpit, fit: &Fit, look: &Look, state: &mut UiS
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| scale_bar(ui, fit.px_per_metre(), look));
     });
     for robot in &cockpit.robots {
+        twins::offer(ui, cockpit, robot, look, state);
         robot_words(ui, robot, look, state, commands);
         // where robots share the room, what can be done with each of them comes first
         if let ([robot], Some(about)) = (&cockpit.robots[..], robot.about) {
@@ -91,6 +93,10 @@ fn counts(ui: &mut Ui, robot: &CockpitRobot, look: &Look) {
     if let Some(tip) = robot.tip {
         ui.label(muted(readout(&format!("tip: ({:.3}, {:.3})", tip.x, tip.y))));
     }
+    if let (Some(clearance), Some(AnyRobot::Rusty(rusty))) = (robot.clearance, robot.model) {
+        let centre = clearance + rusty.body_radius;
+        ui.label(muted(format!("clearance: {clearance:.4} m, of its centre {centre:.4} m")));
+    }
     let mut text = format!("contacts: {}", robot.contacts);
     if robot.trailer.is_some() {
         text += &format!("  reversals: {}", robot.reversals);
@@ -112,18 +118,18 @@ fn links(ui: &mut Ui, robot: &CockpitRobot, look: &Look, state: &mut UiState, co
     ui.spacing_mut().interact_size.y = ui.text_style_height(&TextStyle::Body);
     ui.horizontal_wrapped(|ui| {
         ui.style_mut().wrap_mode = Some(TextWrapMode::Extend);
-        let mut put_in = |input| {
+        let put_in = |commands: &mut Vec<Command>, input| {
             commands.push(Command::from(TransportCommand::Checkpoint));
             commands.push(Command::from(RobotCommand { robot: robot.name.clone(), input }));
         };
         if let Some(on) = robot.trailer.filter(|_| robot.no_room.is_none()) {
             let words = if on { "take the trailer off" } else { "put a trailer on" };
             if ui.link(words).clicked() {
-                put_in(RobotInput::SetTrailer(!on));
+                put_in(commands, RobotInput::SetTrailer(!on));
             }
         }
         if robot.manual && ui.link("resume tour").clicked() {
-            put_in(RobotInput::Release);
+            put_in(commands, RobotInput::Release);
         }
         if !robot.sees.is_empty() {
             let words = if state.settings.scan { "hide the scan" } else { "show the scan" };
@@ -141,15 +147,26 @@ fn links(ui: &mut Ui, robot: &CockpitRobot, look: &Look, state: &mut UiState, co
             }
         }
         match (&goal, trailer_of(&robot.footprint).filter(|_| robot.trailer == Some(true))) {
-            (Some(_), _) => {
+            (Some((_, goal)), trailer) => {
                 if ui.link("drop the goal").clicked() {
                     state.goal = None;
                 }
+                let start: Option<Vec<Quantized>> = goal.start.iter().map(|x| Quantized::try_new(*x)).collect();
+                if let (Some(start), Some(_)) = (start, trailer)
+                    && ui.link("again").on_hover_text("Put the car back where the exercise began").clicked()
+                {
+                    put_in(commands, RobotInput::Teleport(start));
+                    // it does not drive on by itself
+                    let input = RobotInput::Drive(0, 0);
+                    commands.push(Command::from(RobotCommand { robot: robot.name.clone(), input }));
+                    state.goal = Some((robot.name.clone(), goal.again(robot.reversals)));
+                }
             }
-            (None, Some(trailer)) => {
+            (None, Some(_)) => {
                 let link = ui.link("goal: one metre to the left");
                 if link.on_hover_text("The trailer is to end one metre left of here, facing the same way").clicked() {
-                    state.goal = Some((robot.name.clone(), ParkingGoal::left_of(trailer, robot.reversals)));
+                    let set = ParkingGoal::left_of(&robot.footprint, &robot.coordinates, robot.reversals);
+                    state.goal = set.map(|goal| (robot.name.clone(), goal));
                 }
             }
             (None, None) => {}
@@ -160,6 +177,13 @@ fn links(ui: &mut Ui, robot: &CockpitRobot, look: &Look, state: &mut UiState, co
         }
     });
     if let Some((_, goal)) = goal {
-        ui.label(RichText::new(goal.words(&robot.footprint, robot.reversals)).strong());
+        ui.add(Label::new(RichText::new(goal.words(&robot.footprint, robot.reversals)).strong()).wrap());
+        if let Some(AnyRobot::Hitch(car)) = robot.model {
+            let far = sideways(car.tightest(), 0.5);
+            let words = format!(
+                "Ahead in two arcs of 0.5 rad, left and right, and straight back takes the car {far:.2} m aside."
+            );
+            ui.add(Label::new(RichText::new(words).color(look.colour(Role::Muted))).wrap());
+        }
     }
 }

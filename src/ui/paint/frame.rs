@@ -10,10 +10,17 @@ use bevy_egui::egui::{
     vec2,
 };
 
+<<<<<<< HEAD
 use crate::manifest::{Formula, Level, Term, Told};
+=======
+use crate::manifest::{Formula, Hint, Level, Told};
+>>>>>>> wt-c
 use crate::picture::Role;
 use crate::ui::keys::{self, Action};
 use crate::ui::{Look, UiState, WidgetText};
+
+/// Largest number of hints shown at once.
+const FEW: usize = 4;
 
 /// Side of the box before a hint, points, and the gap after it.
 const BOX: f32 = 10.0;
@@ -204,8 +211,20 @@ pub fn hints(ui: &mut Ui, widget: &WidgetText, look: &Look, state: &mut UiState)
         // a hint goes to the next row as a whole
         ui.style_mut().wrap_mode = Some(TextWrapMode::Extend);
         ui.label(RichText::new("Try:").color(look.theme.colour(Role::Focus)).strong());
+        let is_done = |hint: &&Hint| state.settings.is_ticked_off(hint.deed);
+        let (count, done) = (widget.hints.len(), widget.hints.iter().filter(is_done).count());
+        // of more than fit a row, the one done last and those that come next
+        let last = state.settings.done.iter().rev().find_map(|id| widget.hints.iter().find(|h| h.deed.id() == *id));
+        let mut open = 0;
         for hint in &widget.hints {
-            task(ui, &hint.text, state.settings.is_ticked_off(hint.deed), look);
+            let is_done = is_done(&hint);
+            open += usize::from(!is_done);
+            if count <= FEW || (if is_done { last == Some(hint) } else { open < FEW }) {
+                task(ui, &hint.text, is_done, look);
+            }
+        }
+        if count > FEW {
+            ui.weak(format!("{done} of {count}"));
         }
         if ui.link("Got it").on_hover_text(format!("Put these hints away: {}", keys::hint(Action::Hints))).clicked() {
             state.settings.put_hints_away(state.widget);

@@ -1,0 +1,182 @@
+//! The lessons, walked through as a reader would who clicks at once: the clicks and drags that each takes, and the
+//! seconds of the lab's clock until its task is ticked off.
+
+use super::*;
+use crate::robots::Reach;
+use crate::ui::paint::canvas::fit;
+
+/// Longest time from the first click until a task is ticked off, seconds.
+const LONGEST: f64 = 30.0;
+
+/// A reader in a new lab.
+struct Reader {
+    harness: Harness<'static, Lab>,
+    actions: u32,
+}
+
+impl Reader {
+    fn new() -> Self {
+        Reader { harness: lab(WIDE), actions: 0 }
+    }
+
+    /// Clicks the control of this name.
+    fn click(&mut self, name: &str) {
+        self.actions += 1;
+        self.harness.get_by_label(name).click();
+        self.harness.run_steps(3);
+    }
+
+    fn bring(&mut self, robot: &str) {
+        self.actions += 1;
+        bring(&mut self.harness, robot);
+    }
+
+    fn click_at(&mut self, at: Pos2) {
+        self.actions += 1;
+        click_at(&mut self.harness, at);
+    }
+
+    fn drag(&mut self, from: Pos2, to: Pos2) {
+        self.actions += 1;
+        pointer(&mut self.harness, from, Some(true));
+        (1..=10).for_each(|i| pointer(&mut self.harness, from.lerp(to, i as f32 / 10.0), None));
+        pointer(&mut self.harness, to, Some(false));
+        self.harness.run_steps(2);
+    }
+
+    /// Types into the field of this name.
+    fn enter(&mut self, name: &str, text: &str) {
+        self.actions += 2;
+        self.harness.get_by_label_contains(name).focus();
+        self.harness.run_steps(2);
+        self.harness.key_combination_modifiers(Modifiers::COMMAND, &[Key::A]);
+        self.harness.step();
+        self.harness.event(Event::Text(text.into()));
+        self.harness.step();
+        self.harness.key_press(Key::Enter);
+        self.harness.run_steps(3);
+    }
+
+    /// The sheet whose description holds these words.
+    fn sheet(&self, words: &str) -> egui::Rect {
+        self.harness.get_by_label_contains(words).rect()
+    }
+
+    /// Where the tip of the chapter's arm at these angles is on the sheet of Query.
+    fn tip(&self, th1: f64, th2: f64) -> Pos2 {
+        let tip = Reach::<2>::choset().tip(&crate::configuration::T2::new(th1, th2));
+        let [x, y] = fit(interface(&self.harness).anatomy.backdrop(), self.sheet("Reach at T2")).screen_from_world(tip);
+        pos2(x as f32, y as f32)
+    }
+
+    /// Where a point of the torus is on the sheet of Space.
+    fn on_torus(&self, th1: f64, th2: f64) -> Pos2 {
+        let anatomy = &interface(&self.harness).anatomy.anatomy;
+        let slice = crate::cspace::Slice::through(anatomy.checker(), &anatomy.q()).unwrap();
+        let still = crate::cspace::cspace_picture(&crate::cspace::CellMap::new(slice, 1), &Default::default());
+        let sheet = self.sheet("configuration space. The robot");
+        let [x, y] = fit(&still, sheet).screen_from_world(crate::geometry::Point2::new(th1, th2));
+        pos2(x as f32, y as f32)
+    }
+
+    fn has_done(&self, deed: &str) -> bool {
+        interface(&self.harness).settings.done.iter().any(|done| done == deed)
+    }
+
+    /// The clock of the lab, seconds.
+    fn now(&self) -> f64 {
+        self.harness.ctx.input(|i| i.time)
+    }
+}
+
+/// A lesson: its task's deed, the widget it is in, and what the reader does.
+type Lesson = (&'static str, &'static str, fn(&mut Reader));
+
+const LESSONS: [Lesson; 11] = [
+    ("TwoElbows", "Drive", |reader| {
+        reader.bring("Reach");
+        reader.click("One tip, two elbows");
+    }),
+    ("TwoHeadings", "Drive", |reader| {
+        reader.bring("Hitch");
+        reader.click("One place, two headings");
+    }),
+    ("Held", "Drive", |reader| {
+        let at = paper(&reader.harness, "Apartment").left_top() + egui::vec2(20.0, 60.0);
+        reader.click_at(at);
+        reader.actions += 1;
+        reader.harness.key_down(Key::ArrowUp);
+    }),
+    ("Guess", "Query", |reader| {
+        reader.click("Query");
+        reader.enter("the links are given a radius of 3 cm", "0.05");
+    }),
+    ("Near", "Query", |reader| {
+        reader.click("Query");
+        reader.click("witness");
+        // towards the block, and not as far as it
+        let (from, to) = (reader.tip(0.7854, 1.5708), reader.tip(0.7854, 1.43));
+        reader.drag(from, to);
+    }),
+    ("FreeEnds", "Query", |reader| {
+        reader.click("Query");
+        reader.click("swept");
+        let slider = reader.harness.get_by_role_and_label(egui::accesskit::Role::Slider, "step of th1").rect();
+        reader.click_at(slider.left_center() + egui::vec2(0.27 * 180.0, 0.0));
+    }),
+    ("TwoPoints", "Space", |reader| {
+        reader.click("Space");
+        let [here, other] = [(0.7854, 1.5708), (2.3562, -1.5708)].map(|(th1, th2)| reader.on_torus(th1, th2));
+        reader.drag(here, here);
+        reader.click_at(other);
+    }),
+    ("OverEdge", "Space", |reader| {
+        reader.click("Space");
+        let (here, edge) = (reader.on_torus(0.7854, 1.5708), reader.on_torus(3.1416, 1.5708));
+        reader.drag(here, edge + egui::vec2(12.0, 0.0));
+    }),
+    ("UnequalLinks", "Space", |reader| {
+        reader.click("Space");
+        reader.enter("length of link 2", "0.5");
+    }),
+    ("PickWall", "Atlas", |reader| {
+        reader.click("Atlas");
+        reader.click("Edit");
+        let wall = at(&reader.harness, [4.0, 6.0]);
+        reader.click_at(wall);
+    }),
+    ("EditWorld", "Atlas", |reader| {
+        reader.click("Atlas");
+        reader.click("Edit");
+        let wall = at(&reader.harness, [4.0, 6.0]);
+        reader.click_at(wall);
+        reader.click("Delete");
+    }),
+];
+
+#[test]
+fn each_lesson_is_done_within_half_a_minute_and_a_few_clicks() {
+    println!("| lesson | widget | clicks, drags and entries | seconds |\n|---|---|---|---|");
+    for (deed, widget, act) in LESSONS {
+        let mut reader = Reader::new();
+        let start = reader.now();
+        assert!(!reader.has_done(deed));
+        act(&mut reader);
+        while !reader.has_done(deed) {
+            reader.harness.step();
+            let late = reader.now() - start > LONGEST;
+            assert!(!late, "{deed}: {:?} after {} actions", interface(&reader.harness).settings.done, reader.actions);
+        }
+        println!("| {deed} | {widget} | {} | {:.1} |", reader.actions, reader.now() - start);
+        assert!(reader.actions <= 4, "{deed}");
+    }
+}
+
+#[test]
+fn every_lesson_has_a_hint() {
+    let hints: Vec<String> =
+        crate::ui::Widget::ALL.into_iter().flat_map(|widget| &widget.text().hints).map(|h| h.deed.id()).collect();
+    for (deed, ..) in LESSONS {
+        assert!(hints.iter().any(|hint| hint == deed), "{deed}");
+    }
+}
