@@ -85,14 +85,9 @@ pub(crate) fn windowed_app(add_plugins: impl FnOnce(&mut App, WindowPlugin)) -> 
     let close_when_requested = cfg!(not(feature = "window"));
     let window = WindowPlugin { primary_window: Some(window), close_when_requested, ..default() };
     #[cfg(feature = "window")]
-<<<<<<< HEAD
-    app.add_plugins(settings::KeepSettingsPlugin);
+    app.add_plugins(kept::settings::KeepSettingsPlugin);
     add_plugins(&mut app, window);
     app.add_plugins((EguiPlugin::default(), SessionPlugin, rest::RestPlugin))
-=======
-    app.add_plugins(kept::settings::KeepSettingsPlugin);
-    app.add_plugins((plugins, EguiPlugin::default(), SessionPlugin, rest::RestPlugin))
->>>>>>> wt-b
         .insert_resource(EguiGlobalSettings { auto_create_primary_context: false, ..default() })
         .add_message::<SessionCommand>()
         .add_systems(Startup, add_camera)

@@ -9,14 +9,9 @@ use crate::cspace::{Overlay, overlay_items};
 use crate::manifest::{Deed, Widget};
 use crate::num::wrap;
 use crate::picture::{Picture, Role, footprint};
-<<<<<<< HEAD
 use crate::robots::{AnyRobot, Robot};
-use crate::ui::anatomy::view::{annulus, coordinate, robot_choice, world_choice};
-use crate::ui::paint::frame::formulas;
-=======
-use crate::robots::Robot;
 use crate::ui::anatomy::view::{annulus, coordinate, prompts, robot_choice, world_choice};
->>>>>>> wt-c
+use crate::ui::paint::frame::formulas;
 use crate::ui::paint::sheet::sheet;
 use crate::ui::{Command, Dashboard, Look, UiState, readout};
 

@@ -10,11 +10,7 @@ use bevy_egui::egui::{
     vec2,
 };
 
-<<<<<<< HEAD
-use crate::manifest::{Formula, Level, Term, Told};
-=======
-use crate::manifest::{Formula, Hint, Level, Told};
->>>>>>> wt-c
+use crate::manifest::{Formula, Hint, Level, Term, Told};
 use crate::picture::Role;
 use crate::ui::keys::{self, Action};
 use crate::ui::{Look, UiState, WidgetText};
