@@ -39,8 +39,8 @@ const FRAMES_TO_REST: u32 = 4;
 #[cfg(feature = "window")]
 const REST: Duration = Duration::from_secs(10);
 
-/// Lets a paused window sleep longer once nothing has happened in some frames. A frame a second would keep the processor
-/// busy where it draws.
+/// Lets a paused window sleep longer once nothing has happened in some frames. A frame a second would keep the
+/// processor busy where it draws.
 #[cfg(feature = "window")]
 fn sleep(
     mut settings: ResMut<WinitSettings>,
