@@ -88,7 +88,7 @@ pub enum Opened {
 }
 
 /// [`run_window`] with a world or a recorded run. With `frames` the run plays for that number of frames, is then paused
-/// for six seconds, and the window closes; what they took is returned. Without, the times are empty.
+/// for some twenty seconds, and the window closes; what they took is returned. Without, the times are empty.
 ///
 /// # Errors
 /// As [`run_window`].

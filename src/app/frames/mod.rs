@@ -18,10 +18,10 @@ use processor::time_taken;
 const UNMEASURED: u32 = 30;
 
 /// Time after the pause that is not measured: what was under way comes to rest.
-const SETTLES: Duration = Duration::from_secs(1);
+const SETTLES: Duration = Duration::from_secs(5);
 
-/// Length of the measured pause. The system counts hundredths of a second, which are a 500th of it.
-const RESTS: Duration = Duration::from_secs(5);
+/// Least length of the measured pause. The system counts hundredths of a second, which are a 1000th of it.
+const RESTS: Duration = Duration::from_secs(10);
 
 /// What the frames of a window took.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -220,15 +220,15 @@ mod tests {
         let measuring = app.world_mut().resource_mut::<Measuring>().into_inner();
         assert_eq!(measuring.times.own.len(), 4);
         let start = measuring.paused.unwrap();
-        let at = |seconds| start + Duration::from_millis((1000.0 * seconds) as u64);
-        let taken = |seconds| Some(Duration::from_millis((1000.0 * seconds) as u64));
-        // a second in which much is done is no part of it; 30 ms in 6 s are
-        assert!(!measuring.rest(start, at(0.5), taken(3.0)));
-        assert!(!measuring.rest(start, at(1.0), taken(4.0)));
-        assert!(!measuring.rest(start, at(5.5), taken(4.01)));
-        assert!(measuring.rest(start, at(7.0), taken(4.03)));
+        let at = |millis| start + Duration::from_millis(millis);
+        let taken = |millis| Some(Duration::from_millis(millis));
+        // the first seconds, in which much is done, are no part of it; 60 ms in 12 s are
+        assert!(!measuring.rest(start, at(500), taken(3_000)));
+        assert!(!measuring.rest(start, at(5_000), taken(4_000)));
+        assert!(!measuring.rest(start, at(14_500), taken(4_010)));
+        assert!(measuring.rest(start, at(17_000), taken(4_060)));
         let pause = times.lock().unwrap().paused.unwrap();
-        assert_eq!((pause.clock, pause.processor), (Duration::from_secs(6), Some(Duration::from_millis(30))));
+        assert_eq!((pause.clock, pause.processor), (Duration::from_secs(12), Some(Duration::from_millis(60))));
         assert!((pause.share().unwrap() - 0.005).abs() < 1e-9);
         assert_eq!(times.lock().unwrap().own.len(), 4);
         assert_eq!(Pause { processor: None, ..pause }.share(), None);

@@ -25,7 +25,7 @@ fn ticks(stat: &str) -> Option<u64> {
     Some(field()? + field()?)
 }
 
-/// The number of clock ticks in a second, by the vector that the kernel gives each process: pairs of a name and a value.
+/// The number of clock ticks in a second, by the vector that the kernel gives a process: pairs of a name and a value.
 #[cfg(target_os = "linux")]
 fn ticks_a_second(vector: &[u8]) -> Option<usize> {
     const NAME: usize = 17;

@@ -10,7 +10,7 @@ use std::time::Duration;
 use bevy::prelude::*;
 
 use super::kept_run::{KeptRun, KeptRunError, MOST_BYTES, world_texts};
-use super::slot::{Slot, forget, left_behind, set_aside};
+use super::slot::{Slot, forget, left_behind, set_aside, sweep};
 use crate::app::aside::{self, Aside};
 use crate::app::error::SessionError;
 use crate::random::Seed;
@@ -262,7 +262,9 @@ fn keep_at_the_end(world: &mut World, mut exits: Local<bevy::ecs::message::Messa
 
 /// Offers the last run that was left. One that can't be read is put aside, with a notice.
 fn offer(world: &mut World) {
-    let mut left = left_behind(&world.resource::<Autosave>().folder).into_iter();
+    let folder = world.resource::<Autosave>().folder.clone();
+    sweep(&folder);
+    let mut left = left_behind(&folder).into_iter();
     for path in left.by_ref().take(MOST_LEFT) {
         match read(&path) {
             Ok(run) => {

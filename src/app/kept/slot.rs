@@ -3,7 +3,7 @@
 use std::fs::{self, File, OpenOptions};
 use std::io::{self, ErrorKind};
 use std::path::{Path, PathBuf};
-use std::time::SystemTime;
+use std::time::{Duration, SystemTime};
 
 use crate::output::{unfinished, write_file};
 
@@ -65,6 +65,22 @@ impl Slot {
         let lock = self.run.with_extension(LOCK);
         drop(self);
         let _ = fs::remove_file(lock);
+    }
+}
+
+/// Age from which on a lock without a run is taken away. A process that is about to lock one has made it a moment ago.
+const STALE: Duration = Duration::from_secs(3600);
+
+/// Takes away the locks of processes that ended without a word and without a run.
+pub fn sweep(folder: &Path) {
+    let Ok(entries) = fs::read_dir(folder) else { return };
+    for path in entries.filter_map(|entry| Some(entry.ok()?.path())) {
+        let made = fs::metadata(&path).and_then(|about| about.modified());
+        let is_old = made.is_ok_and(|made| made.elapsed().is_ok_and(|age| age > STALE));
+        let is_bare = path.extension().is_some_and(|e| e == LOCK) && !path.with_extension(RUN).exists();
+        if is_bare && is_old && !is_alive(&path) {
+            let _ = fs::remove_file(&path);
+        }
     }
 }
 
@@ -139,11 +155,31 @@ mod tests {
     }
 
     #[test]
+    fn only_old_locks_of_nobody_and_without_a_run_are_swept() {
+        let folder = tempfile::tempdir().unwrap();
+        let at = |name: &str| folder.path().join(name);
+        let aged = |name: &str, age: u64| {
+            let file = File::create(at(name)).unwrap();
+            file.set_modified(SystemTime::now() - Duration::from_secs(age)).unwrap();
+            file
+        };
+        for (name, age) in [("1-0.lock", 7200), ("2-0.lock", 60), ("3-0.lock", 7200), ("3-0.run", 7200)] {
+            aged(name, age);
+        }
+        let held = aged("4-0.lock", 7200);
+        held.lock().unwrap();
+        sweep(folder.path());
+        let left = ["1-0.lock", "2-0.lock", "3-0.lock", "3-0.run", "4-0.lock"].map(|name| at(name).exists());
+        assert_eq!(left, [false, true, true, true, true]);
+        drop(held);
+    }
+
+    #[test]
     fn what_was_left_is_listed_from_the_newest() {
         let folder = tempfile::tempdir().unwrap();
         for (age, name) in [(50, "1-0.run"), (10, "2-0.run"), (90, "3-0.run"), (0, "4-0.lock"), (0, "5-0.damaged")] {
             let file = File::create(folder.path().join(name)).unwrap();
-            file.set_modified(SystemTime::now() - std::time::Duration::from_secs(age)).unwrap();
+            file.set_modified(SystemTime::now() - Duration::from_secs(age)).unwrap();
         }
         let names: Vec<_> = left_behind(folder.path()).iter().map(|p| p.file_name().unwrap().to_owned()).collect();
         assert_eq!(names, ["2-0.run", "1-0.run", "3-0.run"]);

@@ -26,8 +26,8 @@ pub struct Open {
     /// A built-in world, a world file, or a log.
     #[arg(value_parser = WorldNames)]
     what: Option<String>,
-    /// Play N frames, pause for six seconds and close. Prints what the frames took of the program's own time, ticks
-    /// apart, and the pause of a processor core.
+    /// Play N frames, pause for some twenty seconds and close. Prints what the frames took of the program's own time,
+    /// ticks apart, and the pause of a processor core.
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=100_000))]
     measure: Option<u32>,
 }
