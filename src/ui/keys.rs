@@ -277,15 +277,18 @@ pub struct Situation {
     pub atlas: bool,
     /// Whether the atlas's paper has the focus.
     pub paper: bool,
+    /// Whether a field for text had the focus as the last frame ended.
+    pub typing: bool,
 }
 
 /// The actions whose keys were pressed in this frame: keys with more modifiers first, else in the order of the table.
 ///
-/// None while text is typed. A control with the focus keeps its own keys: arrows, Space, Enter, Home and End. A handle
-/// with the focus keeps only the arrows, the atlas's paper none. The keys that drive and those of handles are not among
-/// the actions.
+/// None while text is typed; the Escape that leaves a field is the field's. A control with the focus keeps its own
+/// keys: arrows, Space, Enter, Home and End. A handle with the focus keeps only the arrows, the atlas's paper none. The
+/// keys that drive and those of handles are not among the actions.
 pub fn pressed(ui: &Ui, now: Situation) -> Vec<Action> {
-    if ui.ctx().text_edit_focused() {
+    // by Escape a field loses the focus before the frame begins
+    if ui.ctx().text_edit_focused() || now.typing && ui.input(|i| i.key_pressed(Key::Escape)) {
         return vec![];
     }
     let focused = ui.memory(|m| m.focused().is_some()) && !now.paper;

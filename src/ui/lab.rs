@@ -41,6 +41,7 @@ pub fn lab(ui: &mut Ui, model: &Dashboard, history: &History, state: &mut UiStat
         nudged: state.nudged.is_some(),
         atlas: state.widget == Widget::Atlas,
         paper: std::mem::take(&mut state.paper),
+        typing: state.typing,
     };
     let actions = if state.is_covered() { vec![] } else { pressed(ui, now) };
     for action in actions {
@@ -57,6 +58,9 @@ pub fn lab(ui: &mut Ui, model: &Dashboard, history: &History, state: &mut UiStat
     state.nudged = None;
     // a picture in front says anew what of it is pointed at
     state.over = None;
+    if state.widget != Widget::Atlas {
+        state.atlas.put_down();
+    }
     state.grasp = state.next_grasp.take();
     // no fill: the window is cleared to the paper's colour already, and a fill would cost as much as all that is drawn
     let margin = Margin::symmetric(if narrow { 8 } else { 6 }, if narrow { 4 } else { 14 });
@@ -100,6 +104,7 @@ pub fn lab(ui: &mut Ui, model: &Dashboard, history: &History, state: &mut UiStat
     capture_form::capture_form(ui.ctx(), model, &look, state, commands);
     #[cfg(feature = "window")]
     super::closing::closing(ui.ctx(), &look, state);
+    state.typing = ui.ctx().text_edit_focused();
     if state.pointed.is_some() || state.lit.is_some() {
         // the fade goes on without further input
         ui.ctx().request_repaint();

@@ -64,6 +64,8 @@ pub struct UiState {
     pub nudged: Option<String>,
     /// The role of what is pointed at in a picture, whose terms are underlined.
     pub over: Option<Role>,
+    /// Whether text was typed in the last frame: a field had the focus as it ended.
+    pub typing: bool,
     /// Whether the atlas's paper had the focus in the last frame. It leaves the keys to the atlas.
     pub paper: bool,
     /// A change of which handle has the focus, for this frame.
@@ -224,7 +226,8 @@ impl UiState {
     /// Puts another world into the atlas. The present one is put on the shelf if something of it would be lost.
     pub fn open_world(&mut self, new: AtlasState) {
         let new = new.like(&self.atlas);
-        let old = std::mem::replace(&mut self.atlas, new);
+        let mut old = std::mem::replace(&mut self.atlas, new);
+        old.put_down();
         if old.has_history() {
             self.shelf.push(old);
         }

@@ -1,6 +1,7 @@
 //! The atlas and its editor, behaviour by behaviour.
 
 mod editor;
+mod fields;
 
 use bevy::window::FileDragAndDrop;
 
@@ -15,6 +16,12 @@ fn drag_on(harness: &mut Harness<'_, Lab>, from: [f64; 2], to: [f64; 2]) {
         pointer(harness, from.lerp(to, i as f32 / 6.0), None);
     }
     pointer(harness, to, Some(false));
+    harness.run_steps(3);
+}
+
+/// Presses a key, with these modifiers.
+fn press(harness: &mut Harness<'_, Lab>, modifiers: Modifiers, key: Key) {
+    harness.key_press_modifiers(modifiers, key);
     harness.run_steps(3);
 }
 

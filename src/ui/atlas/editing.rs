@@ -44,11 +44,18 @@ impl AtlasState {
         Some(format!("Saving drops the {words} of {}: worlds are saved in canonical form.", self.editor.file()))
     }
 
-    /// Selects a thing by name, or nothing.
+    /// Selects a thing by name, or nothing. What was typed for another thing is entered first. A reason in `message`
+    /// stays.
     pub fn select(&mut self, name: Option<&str>) {
+        let is_another = self.selected.as_deref() != name;
+        if is_another {
+            self.enter();
+        }
         self.selected = name.filter(|name| self.editor.holds(name)).map(str::to_owned);
-        self.name_text = self.selected.clone().unwrap_or_else(|| self.world().name.clone());
-        self.message = None;
+        let shape = self.selected.as_ref().and_then(|name| self.editor.shape(name));
+        let known = self.shape.take().filter(|_| !is_another);
+        self.shape = shape.map(|shape| known.map_or_else(|| shape.clone(), |known| shape.ordered_as(&known)));
+        self.forget_name();
     }
 
     /// Adds a thing there, snapped to the grid, and selects it.
@@ -56,6 +63,7 @@ impl AtlasState {
         let name = self.editor.free_name(&template.name());
         let op = template.op(name.clone(), snap(at, &[], 0.0, GRID), self.unit());
         self.placing = None;
+        self.enter();
         self.change(&op, Some(name));
     }
 
@@ -75,6 +83,7 @@ impl AtlasState {
 
     /// Begins a drag of the selected thing, or of its handle `handle`.
     pub fn begin_drag(&mut self, from: Point2, handle: Option<usize>) {
+        self.enter();
         self.drag = self.selected.is_some().then_some(Drag { from, handle });
     }
 
@@ -124,7 +133,9 @@ impl AtlasState {
     pub fn settle(&mut self) {
         match self.tried.take() {
             Some(op) => self.change(&op, self.selected.clone()),
-            None => self.redraw(),
+            None if self.preview.is_some() => self.redraw(),
+            // a click moved nothing, and the world is drawn as it is
+            None => (self.drag, self.held) = (None, None),
         }
     }
 
@@ -136,11 +147,11 @@ impl AtlasState {
 
     /// Drops what is being added or dragged; where nothing is, selects nothing.
     pub fn leave(&mut self) {
-        if self.placing.take().is_none() && self.drag.is_none() && self.tried.is_none() {
+        let is_placing = self.placing.take().is_some();
+        if !self.drop_drag() && !is_placing {
             self.select(None);
         }
-        self.drag = None;
-        self.redraw();
+        self.message = None;
     }
 
     /// Removes what is selected.
@@ -195,6 +206,12 @@ impl AtlasState {
             Ok(()) => {
                 self.message = None;
                 self.redraw();
+                if let Op::Rename { name, to } = op
+                    && self.selected.as_ref() == Some(name)
+                {
+                    // the same thing, whose corners keep their numbers
+                    self.selected = Some(to.clone());
+                }
                 self.select(select.as_deref());
             }
             Err(error) => {
@@ -204,8 +221,14 @@ impl AtlasState {
         }
     }
 
-    /// Undoes a change if `back`, else redoes one.
+    /// Undoes a change if `back`, else redoes one. What was typed is a change; a drag under way is dropped, and is all
+    /// that is undone then.
     pub fn undo(&mut self, back: bool) {
+        self.enter();
+        if self.drop_drag() && back {
+            return;
+        }
+        self.message = None;
         if back {
             self.editor.undo()
         } else {

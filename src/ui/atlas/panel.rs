@@ -1,10 +1,13 @@
 //! The editor's panel: what can be added, the numbers of what is selected, and the list of everything.
 
+use std::cell::RefCell;
+
 use bevy_egui::egui::{
     CollapsingHeader, ComboBox, DragValue, Grid, Key, PointerButton, Response, RichText, ScrollArea, TextEdit, Ui,
     WidgetInfo, WidgetType,
 };
 
+use super::field::{Field, Typed};
 use crate::atlas::{Number, Op, Template};
 use crate::picture::Role;
 use crate::ui::keys::{Action, hint};
@@ -43,9 +46,10 @@ pub(super) fn edit_panel(ui: &mut Ui, look: &Look, atlas: &mut AtlasState) {
     ui.label("Click a thing, and drag it or its handles; Alt leaves out the snapping. A ring on an edge makes a corner; a corner dragged onto the next goes away.");
     add_buttons(ui, look, atlas);
     ui.add_space(8.0);
-    match atlas.selected.clone() {
-        Some(selected) => thing(ui, look, atlas, &selected),
-        None => world(ui, atlas),
+    if atlas.selected.is_some() {
+        thing(ui, look, atlas);
+    } else {
+        world(ui, atlas);
     }
     if let Some(words) = atlas.drops() {
         ui.label(RichText::new(words).color(look.colour(Role::Muted)));
@@ -83,74 +87,65 @@ fn asked_for(response: &Response, template: Template, atlas: &mut AtlasState) {
     }
 }
 
-/// Shows a field for the name of what is selected, or of the world. Returns the name that it was given.
-fn name_field(ui: &mut Ui, atlas: &mut AtlasState, words: &str, present: &str) -> Option<String> {
+/// Whether a field was left by Escape in this frame.
+fn was_escaped(response: &Response) -> bool {
+    response.lost_focus() && response.ctx.input(|i| i.key_pressed(Key::Escape))
+}
+
+/// Shows a field for the name of what is selected, or of the world.
+fn name_field(ui: &mut Ui, atlas: &mut AtlasState, words: &str) {
     let label = ui.label(words);
     let field = TextEdit::singleline(&mut atlas.name_text).desired_width(140.0);
     let response = ui.add(field).labelled_by(label.id);
-    let done = response.lost_focus() && ui.input(|i| i.key_pressed(Key::Enter)) && atlas.name_text != present;
-    done.then(|| atlas.name_text.trim().to_owned())
+    atlas.is_naming |= response.changed();
+    if was_escaped(&response) {
+        atlas.forget_name();
+    } else if atlas.is_naming && !response.has_focus() {
+        atlas.enter();
+    }
 }
 
 /// Shows the name and the numbers of what is selected.
-fn thing(ui: &mut Ui, look: &Look, atlas: &mut AtlasState, selected: &str) {
-    let name = selected.to_owned();
+fn thing(ui: &mut Ui, look: &Look, atlas: &mut AtlasState) {
     ui.horizontal(|ui| {
-        if let Some(to) = name_field(ui, atlas, "name", selected) {
-            atlas.change(&Op::Rename { name: name.clone(), to: to.clone() }, Some(to));
-        }
+        name_field(ui, atlas, "name");
         if LabButton::new("Delete").show(ui, look).on_hover_text(hint(Action::Delete)).clicked() {
             atlas.delete();
         }
     });
-    if let Some(door) = atlas.world().door(selected) {
+    // it may have another name by now, or be gone
+    let Some(name) = atlas.selected.clone() else { return };
+    if let Some(door) = atlas.world().door(&name) {
         let mut open = door.open;
         if ui.checkbox(&mut open, "open at the start").changed() {
             atlas.change(&Op::SetOpen { name: name.clone(), open }, Some(name.clone()));
         }
     }
-    let numbers = atlas.seen().numbers(selected);
     // a field is its thing's own: what is typed into it is never another's
-    ui.push_id(selected, |ui| {
-        fields(ui, atlas, selected, &numbers, |number, to| Op::SetNumber { name: name.clone(), number, to });
-    });
+    ui.push_id(&name, |ui| fields(ui, atlas, &name));
 }
 
 /// Shows the name of the world and the part of the plane that it shows.
 fn world(ui: &mut Ui, atlas: &mut AtlasState) {
-    let present = atlas.world().name.clone();
-    ui.horizontal(|ui| {
-        if let Some(to) = name_field(ui, atlas, "name of the world", &present) {
-            atlas.change(&Op::RenameWorld(to), None);
-        }
-    });
-    let bounds = atlas.seen().bounds();
-    fields(ui, atlas, &present, &bounds, |number, to| Op::SetBounds { number, to });
+    ui.horizontal(|ui| name_field(ui, atlas, "name of the world"));
+    let name = atlas.world().name.clone();
+    fields(ui, atlas, &name);
 }
 
-/// Shows a field for each number. What is typed changes the world when it is done, what is dragged when it is let go.
-fn fields(ui: &mut Ui, atlas: &mut AtlasState, of: &str, numbers: &[Number], op: impl Fn(usize, f64) -> Op) {
+/// Shows a field for each number of what is selected, or of the world.
+fn fields(ui: &mut Ui, atlas: &mut AtlasState, of: &str) {
+    let numbers = atlas.numbers();
+    let thing = atlas.selected.clone();
     // short ones stand in pairs: x beside y
     let is_short = numbers.iter().all(|number| number.name.len() <= SHORT);
+    let mut is_held = false;
+    let mut is_typed = false;
     Grid::new("numbers").show(ui, |ui| {
         for (i, number) in numbers.iter().enumerate().take(MOST_FIELDS) {
-            let label = ui.label(&number.name);
-            let mut value = number.value;
-            let field = DragValue::new(&mut value).speed(0.01).max_decimals(9).update_while_editing(false);
-            let response = ui.add(field.suffix(format!(" {}", number.unit))).labelled_by(label.id);
-            response.widget_info(|| WidgetInfo {
-                label: Some(format!("{of}: {}", number.name)),
-                ..WidgetInfo::new(WidgetType::DragValue)
-            });
-            if response.changed() && response.dragged() {
-                // rounded to what a screen can show of it
-                atlas.try_out(op(i, (value * 1e3).round() / 1e3));
-            } else if response.changed() {
-                atlas.change(&op(i, value), atlas.selected.clone());
-            }
-            if response.drag_stopped() {
-                atlas.settle();
-            }
+            let own = Field { thing: thing.clone(), number: i };
+            field(ui, atlas, of, number, &own);
+            is_typed |= atlas.typed.as_ref().is_some_and(|typed| typed.field == own);
+            is_held |= atlas.held.as_ref() == Some(&own);
             if !is_short || i % 2 == 1 {
                 ui.end_row();
             }
@@ -159,15 +154,82 @@ fn fields(ui: &mut Ui, atlas: &mut AtlasState, of: &str, numbers: &[Number], op:
     if numbers.len() > MOST_FIELDS {
         ui.label(format!("{} more: drag its corners.", numbers.len() - MOST_FIELDS));
     }
+    // a field may have gone, and what was done in it goes on no longer
+    if !is_typed {
+        atlas.enter_number();
+    }
+    if !is_held && atlas.held.is_some() {
+        atlas.drop_drag();
+    }
+}
+
+/// Shows the field of a number. What is typed changes the world when it is done, what is dragged when it is let go.
+fn field(ui: &mut Ui, atlas: &mut AtlasState, of: &str, number: &Number, own: &Field) {
+    let label = ui.label(&number.name);
+    let (mut value, format) = (number.value, ui.style().number_formatter.clone());
+    let (shown, text) = (RefCell::new(String::new()), RefCell::new(None));
+    let show = |value, decimals| {
+        let words = format.format(value, decimals);
+        shown.replace(words.clone());
+        words
+    };
+    // egui would enter a text that was left untouched, and one after Escape: the text is kept here instead
+    let keep = |typed: &str| {
+        text.replace(Some(typed.to_owned()));
+        None
+    };
+    let drag = DragValue::new(&mut value).speed(0.01).max_decimals(9).custom_formatter(show).custom_parser(keep);
+    let response = ui.add(drag.suffix(format!(" {}", number.unit))).labelled_by(label.id);
+    response.widget_info(|| WidgetInfo {
+        label: Some(format!("{of}: {}", number.name)),
+        ..WidgetInfo::new(WidgetType::DragValue)
+    });
+    let (shown, text) = (shown.into_inner(), text.into_inner());
+    if atlas.typed.as_ref().is_some_and(|typed| typed.field == *own && typed.was != number.value) {
+        atlas.typed = None;
+    }
+    if let Some(text) = text.filter(|_| response.changed()) {
+        let typed = Typed { field: own.clone(), text, was: number.value };
+        // a text that was brought back to what is shown changes nothing
+        atlas.typed = Some(typed).filter(|typed| typed.text != shown);
+    }
+    if response.drag_started() {
+        atlas.hold(own.clone());
+    }
+    let is_held = atlas.held.as_ref() == Some(own);
+    if response.dragged() {
+        if is_held && value != number.value {
+            // rounded to what a screen can show of it
+            atlas.try_out(atlas.setting(own, (value * 1e3).round() / 1e3));
+        }
+    } else if value != number.value {
+        atlas.typed = None;
+        atlas.change(&atlas.setting(own, value), atlas.selected.clone());
+    }
+    if response.drag_stopped() && is_held {
+        atlas.settle();
+    }
+    if atlas.typed.as_ref().is_some_and(|typed| typed.field == *own) && !response.has_focus() {
+        if ui.input(|i| i.key_pressed(Key::Escape)) {
+            atlas.typed = None;
+        } else {
+            atlas.enter_number();
+        }
+    }
 }
 
 /// Shows the list of everything that the world holds. A click selects.
 fn everything(ui: &mut Ui, look: &Look, atlas: &mut AtlasState) {
     let count = atlas.editor.things().len();
     CollapsingHeader::new("Everything here").default_open(!look.narrow).show(ui, |ui| {
-        if count >= LONG {
+        // what is looked for stays in sight while it leaves things out
+        if count >= LONG || !atlas.search.is_empty() {
             let field = TextEdit::singleline(&mut atlas.search).hint_text("Find a thing").desired_width(f32::INFINITY);
-            ui.add(field).widget_info(|| WidgetInfo::labeled(WidgetType::TextEdit, true, "find a thing"));
+            let response = ui.add(field);
+            response.widget_info(|| WidgetInfo::labeled(WidgetType::TextEdit, true, "find a thing"));
+            if was_escaped(&response) {
+                atlas.search.clear();
+            }
         }
         let wanted = atlas.search.trim().to_lowercase();
         let things = atlas.editor.things();

@@ -3,8 +3,9 @@
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
+use super::field::{Field, Typed};
 use crate::anatomy::WorldSource;
-use crate::atlas::{Atlas, Editor, GridLayer, Op, Refusal, Template};
+use crate::atlas::{Atlas, EditShape, Editor, GridLayer, Op, Refusal, Template};
 use crate::configuration::{AnyConfiguration, Kinds};
 use crate::geometry::Point2;
 use crate::picture::{Item, Picture, world as picture_of};
@@ -65,8 +66,16 @@ pub struct AtlasState {
     pub resolution: f64,
     /// The name of the selected thing.
     pub selected: Option<String>,
+    /// Its shape, the corners in the order that they had when it was selected.
+    pub(super) shape: Option<EditShape>,
+    /// What is typed into a number field and not yet entered.
+    pub(super) typed: Option<Typed>,
+    /// The number field that is dragged.
+    pub(super) held: Option<Field>,
     /// The text of its name field.
     pub name_text: String,
+    /// Whether that text was typed and is not yet entered.
+    pub(super) is_naming: bool,
     /// The reason why the last change was refused.
     pub message: Option<String>,
     pub(crate) drag: Option<Drag>,
@@ -151,7 +160,11 @@ impl AtlasState {
             wanted: None,
             resolution: super::FIRST_CELL,
             selected: None,
+            shape: None,
+            typed: None,
+            held: None,
             name_text,
+            is_naming: false,
             message: None,
             drag: None,
         }
@@ -284,8 +297,10 @@ impl AtlasState {
         matches!(self.atlas.teleport(self.robot, q), Some(Ok(())))
     }
 
-    /// Draws the world again. Its robots stay where they were put, unless their starts or sizes have changed.
-    pub(crate) fn redraw(&mut self) {
+    /// Draws the world again, and ends a drag under way. Its robots stay where they were put, unless their starts or
+    /// sizes have changed.
+    pub(super) fn redraw(&mut self) {
+        (self.drag, self.held) = (None, None);
         let chosen = self.atlas.robots().get(self.robot).map(|robot| robot.name.clone());
         self.see(self.editor.world().clone());
         (self.preview, self.tried) = (None, None);

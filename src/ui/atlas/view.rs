@@ -45,7 +45,15 @@ pub fn atlas_view(ui: &mut Ui, model: &Dashboard, look: &Look, state: &mut UiSta
         moving.items.extend(state.atlas.added_items(template, at));
     }
     let spoken = state.atlas.described();
+    if ui.input(|i| i.pointer.any_pressed()) {
+        // its reason has been read; what this press enters may be refused in turn
+        state.atlas.message = None;
+    }
     let on = sheet(ui, paper, spoken, &still, &moving, look);
+    if on.response.is_pointer_button_down_on() || on.response.clicked() {
+        // before the paper is acted on
+        state.atlas.enter();
+    }
     state.paper = on.response.has_focus();
     if state.paper {
         keep_arrows(ui, on.response.id);
@@ -88,6 +96,9 @@ pub fn atlas_view(ui: &mut Ui, model: &Dashboard, look: &Look, state: &mut UiSta
     ui.scope_builder(UiBuilder::new().max_rect(beside), |ui| {
         ScrollArea::vertical().auto_shrink(false).show(ui, |ui| beside_the_paper(ui, model, look, state, commands));
     });
+    if state.atlas.mode != Mode::Edit {
+        state.atlas.put_down();
+    }
 }
 
 /// Carries out the action of a key while the atlas is in front. Save and open act on the world; in edit mode, undo and

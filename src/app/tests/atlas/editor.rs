@@ -2,12 +2,6 @@
 
 use super::*;
 
-/// Presses a key, with these modifiers.
-fn press(harness: &mut Harness<'_, Lab>, modifiers: Modifiers, key: Key) {
-    harness.key_press_modifiers(modifiers, key);
-    harness.run_steps(3);
-}
-
 #[test]
 fn what_is_added_goes_where_the_paper_is_clicked_and_by_keys_into_the_middle() {
     let mut harness = lab(WIDE);
