@@ -49,8 +49,23 @@ pub fn cspace_view(ui: &mut Ui, model: &Dashboard, look: &Look, state: &mut UiSt
     });
 }
 
-/// Shows the readouts, the choices, and sliders for the coordinates that the slice holds.
+/// Shows the readouts, the choices, and what is asked: beside the readouts, where there is room.
 fn below_the_papers(ui: &mut Ui, look: &Look, state: &mut UiState) {
+    if look.narrow {
+        readouts(ui, look, state);
+        choices(ui, state);
+        CollapsingHeader::new("Guess first").show(ui, |ui| prompts(ui, Series::Tips, state));
+    } else {
+        ui.columns_const(|[left, right]| {
+            readouts(left, look, state);
+            prompts(right, Series::Tips, state);
+        });
+        choices(ui, state);
+    }
+}
+
+/// Shows the configuration, and how much of the space is known.
+fn readouts(ui: &mut Ui, look: &Look, state: &mut UiState) {
     ui.label(RichText::new(readout(&state.anatomy.anatomy.q().to_string())).monospace());
     if let Some(cells) = &state.cspace.cells {
         let p = cells.map().progress();
@@ -69,6 +84,10 @@ fn below_the_papers(ui: &mut Ui, look: &Look, state: &mut UiState) {
     if matches!(state.anatomy.anatomy.checker().robot(), AnyRobot::Reach(_)) {
         formulas(ui, "annulus", look, state);
     }
+}
+
+/// Shows the choices, and sliders for the coordinates that the slice holds.
+fn choices(ui: &mut Ui, state: &mut UiState) {
     ui.horizontal_wrapped(|ui| {
         robot_choice(ui, state);
         world_choice(ui, state);
@@ -85,7 +104,6 @@ fn below_the_papers(ui: &mut Ui, look: &Look, state: &mut UiState) {
             coordinate(ui, &mut state.anatomy.anatomy, index, &name);
         }
     });
-    CollapsingHeader::new("Guess first").show(ui, |ui| prompts(ui, Series::Tips, state));
 }
 
 /// Shows the workspace, where the robot can be dragged.

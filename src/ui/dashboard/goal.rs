@@ -26,6 +26,8 @@ pub struct ParkingGoal {
     pub reversals: u32,
     /// The tick from which on the exercise counts, once it is known.
     pub tick: Option<u64>,
+    /// Whether the car is put back to the start by the tick that comes next, which does not count.
+    pub is_put: bool,
     /// What it took, once the goal has been reached.
     pub score: Option<Score>,
 }
@@ -75,20 +77,20 @@ impl ParkingGoal {
         let from = *trailer_of(car)?;
         let at = from.transform(Point2::new(0.0, 1.0));
         let trailer = Pose2 { x: at.x, y: at.y, theta: from.theta };
-        Some(ParkingGoal { trailer, from, start: start.clone(), reversals, tick: None, score: None })
+        Some(ParkingGoal { trailer, from, start: start.clone(), reversals, tick: None, is_put: false, score: None })
     }
 
     /// The same exercise from its start, for a car that is put back there.
-    pub fn again(&self, reversals: u32) -> Self {
-        ParkingGoal { reversals, tick: None, score: None, ..self.clone() }
+    pub fn again(&self) -> Self {
+        ParkingGoal { tick: None, is_put: true, score: None, ..self.clone() }
     }
 
     /// Keeps the score: it counts from the first tick after the goal was set, and is taken when the goal is reached.
     pub fn watch(&mut self, car: &CockpitRobot, tick: u64, history: &History) {
-        let from = *self.tick.get_or_insert(tick);
+        let from = *self.tick.get_or_insert(tick + u64::from(self.is_put));
         if tick <= from {
             // before its first tick nothing is reached, also where the run was taken back
-            self.score = None;
+            (self.score, self.reversals) = (None, car.reversals);
         } else if self.score.is_none() && trailer_of(&car.footprint).is_some_and(|at| self.off(at).is_reached()) {
             let travelled: Vec<f64> = history.span(car.id, from..=tick).map(|trail| trail.travelled).collect();
             self.score = Some(Score {
@@ -184,7 +186,7 @@ mod tests {
         assert_eq!(goal.words(&alone, 5), "goal: put the trailer back on");
         let scored = ParkingGoal { score: Some(Score { seconds: 12.34, reversals: 1, metres: 9.87 }), ..goal.clone() };
         let words = "Reached: one metre to the left in 12.3 s, 1 reversal, 9.9 m driven.";
-        assert_eq!((scored.words(&alone, 5).as_str(), scored.again(4).score), (words, None));
+        assert_eq!((scored.words(&alone, 5).as_str(), scored.again().score), (words, None));
         let items = goal.items(&start);
         assert!(items.iter().all(|item| item.role != Role::Goal), "red is contact alone");
         let ids: Vec<&str> = items.iter().map(|item| item.id.as_str()).collect();

@@ -109,7 +109,7 @@ impl Stage<'_> {
     fn linked<'a>(&'a self, cockpit: &'a Cockpit, state: &UiState) -> Option<Linked<'a>> {
         let robot = pane::in_reach(cockpit)?;
         let way = state.twin.as_ref().is_some_and(|asked| asked.is_way_of(&robot.name));
-        let twin = shown_twin(robot, state);
+        let twin = shown_twin(robot, state).filter(|_| cockpit.robots.len() == 1);
         Some(Linked { cockpit, robot, tick: self.model.tick, history: self.history, twin, way })
     }
 

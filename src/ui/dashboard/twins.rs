@@ -48,7 +48,8 @@ pub fn shown_twin(robot: &CockpitRobot, state: &UiState) -> Option<AnyConfigurat
 /// The twins of a cockpit's robots as ghosts, and where the way to one of them hits.
 pub fn twin_items(cockpit: &Cockpit, state: &UiState) -> Vec<Item> {
     let mut items = Vec::new();
-    for robot in &cockpit.robots {
+    // where robots share the room, none is offered
+    if let [robot] = &cockpit.robots[..] {
         if let Some((q, (model, _))) = shown_twin(robot, state).zip(modelled(robot)) {
             let name = if robot.is_arm { "the other elbow" } else { "the other heading" };
             items.extend(footprint("twin", name, &model.footprint(&q), Role::Robot, 0.3));
@@ -85,7 +86,7 @@ pub fn offer(ui: &mut Ui, cockpit: &Cockpit, robot: &CockpitRobot, look: &Look, 
         (None, Some(other)) if is_asked => {
             let there = in_the_way(&state.linked.checker_of(&cockpit.atlas, &fitted), &other);
             let there = there.map_or_else(|| "free there too".to_owned(), |name| format!("there it overlaps {name}"));
-            format!("{there}; no single input leads there: a car turns only as it drives")
+            format!("{there}; no single input leads there")
         }
         (None, Some(_)) => String::new(),
     };

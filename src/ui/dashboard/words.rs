@@ -41,9 +41,11 @@ fn words(ui: &mut Ui, cockpit: &Cockpit, fit: &Fit, look: &Look, state: &mut UiS
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| scale_bar(ui, fit.px_per_metre(), look));
     });
     for robot in &cockpit.robots {
-        twins::offer(ui, cockpit, robot, look, state);
-        robot_words(ui, robot, look, state, commands);
         // where robots share the room, what can be done with each of them comes first
+        if cockpit.robots.len() == 1 {
+            twins::offer(ui, cockpit, robot, look, state);
+        }
+        robot_words(ui, robot, look, state, commands);
         if let ([robot], Some(about)) = (&cockpit.robots[..], robot.about) {
             frame::formulas(ui, &format!("{}.{}", about.name, robot.coordinates.len()), look, state);
         }
@@ -60,6 +62,10 @@ fn words(ui: &mut Ui, cockpit: &Cockpit, fit: &Fit, look: &Look, state: &mut UiS
 
 /// Shows a robot's space, its configuration, what was counted of it, and links for what can be done with it.
 pub fn robot_words(ui: &mut Ui, robot: &CockpitRobot, look: &Look, state: &mut UiState, commands: &mut Vec<Command>) {
+    // the exercise under way comes first
+    if let Some((_, goal)) = state.goal.as_ref().filter(|(name, _)| *name == robot.name) {
+        ui.add(Label::new(RichText::new(goal.words(&robot.footprint, robot.reversals)).strong()).wrap());
+    }
     if let Some(space) = robot.about.and_then(|about| about.space(robot.coordinates.len())) {
         frame::formula(ui, &Formula::of(space), space.words, look, state);
     }
@@ -159,7 +165,7 @@ fn links(ui: &mut Ui, robot: &CockpitRobot, look: &Look, state: &mut UiState, co
                     // it does not drive on by itself
                     let input = RobotInput::Drive(0, 0);
                     commands.push(Command::from(RobotCommand { robot: robot.name.clone(), input }));
-                    state.goal = Some((robot.name.clone(), goal.again(robot.reversals)));
+                    state.goal = Some((robot.name.clone(), goal.again()));
                 }
             }
             (None, Some(_)) => {
@@ -176,14 +182,10 @@ fn links(ui: &mut Ui, robot: &CockpitRobot, look: &Look, state: &mut UiState, co
             ui.weak("comes with the next tick");
         }
     });
-    if let Some((_, goal)) = goal {
-        ui.add(Label::new(RichText::new(goal.words(&robot.footprint, robot.reversals)).strong()).wrap());
-        if let Some(AnyRobot::Hitch(car)) = robot.model {
-            let far = sideways(car.tightest(), 0.5);
-            let words = format!(
-                "Ahead in two arcs of 0.5 rad, left and right, and straight back takes the car {far:.2} m aside."
-            );
-            ui.add(Label::new(RichText::new(words).color(look.colour(Role::Muted))).wrap());
-        }
+    if let (Some(_), Some(AnyRobot::Hitch(car))) = (goal, robot.model) {
+        let far = sideways(car.tightest(), 0.5);
+        let words =
+            format!("Ahead in two arcs of 0.5 rad, left and right, and straight back takes the car {far:.2} m aside.");
+        ui.add(Label::new(RichText::new(words).color(look.colour(Role::Muted))).wrap());
     }
 }
