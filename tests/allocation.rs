@@ -82,6 +82,24 @@ fn footprints_queries_and_edges_of_the_three_robots_do_not_allocate() {
     check(&Checker::new(scene, HITCH.with_trailer()), towing(-4.0, 0.0), towing(2.0, 0.7));
 }
 
+/// Asking for the numbers of a thing copies the thing, and not its world.
+#[test]
+fn the_numbers_of_a_thing_cost_nothing_of_the_rest_of_the_world() {
+    use motion_lab::atlas::Editor;
+    use motion_lab::worlds::{Resident, World};
+
+    let mut world = World::apartment();
+    world.robots = (0..10_000).map(|i| Resident::new(format!("Rover {i}"), "rusty", [6.0, 4.0, 0.0])).collect();
+    assert!(allocations(|| drop(std::hint::black_box(world.clone()))) > 10_000, "a name for each robot");
+    let editor = Editor::new(world);
+    let things = editor.things();
+    for kind in ["wall", "obstacle", "door", "place", "mark", "robot"] {
+        let (_, name) = things.iter().find(|(of, _)| *of == kind).unwrap();
+        let counted = allocations(|| assert!(!std::hint::black_box(editor.numbers(name)).is_empty()));
+        assert!(counted < 100, "{name}: {counted} allocations");
+    }
+}
+
 /// A log's buffers are allocated in its first ticks.
 #[test]
 fn logging_a_tick_does_not_allocate() {

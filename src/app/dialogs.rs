@@ -139,10 +139,10 @@ pub fn dropped(world: &mut World) {
     for event in events {
         let hovered = matches!(event, FileDragAndDrop::HoveredFile { .. });
         world.resource_mut::<Dialogs>().hovered = hovered;
-        if let FileDragAndDrop::DroppedFile { path_buf, .. } = event {
-            if let Some(notice) = open_any(world, &path_buf) {
-                world.resource_mut::<Interface>().0.say(notice);
-            }
+        if let FileDragAndDrop::DroppedFile { path_buf, .. } = event
+            && let Some(notice) = open_any(world, &path_buf)
+        {
+            world.resource_mut::<Interface>().0.say(notice);
         }
     }
 }

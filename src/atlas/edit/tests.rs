@@ -330,26 +330,3 @@ fn a_door_is_moved_by_itself_and_by_its_ends() {
     (0..3).for_each(|_| assert!(editor.undo()));
     assert_eq!(*editor.world(), World::apartment());
 }
-
-#[test]
-fn the_numbers_of_a_thing_cost_nothing_of_the_rest_of_the_world() {
-    let mut world = World::apartment();
-    world.robots = (0..10_000).map(|i| Resident::new(format!("Rover {i}"), "rusty", [6.0, 4.0, 0.0])).collect();
-    let fastest = |work: &dyn Fn() -> usize| {
-        let times = (0..20).map(|_| {
-            let began = std::time::Instant::now();
-            assert!(std::hint::black_box(work()) > 0);
-            began.elapsed()
-        });
-        times.min().unwrap()
-    };
-    let copied = fastest(&|| world.clone().robots.len());
-    let editor = Editor::new(world.clone());
-    // one of each list of the world, the first robot among them
-    let things = editor.things();
-    for kind in ["wall", "obstacle", "door", "place", "mark", "robot"] {
-        let (_, name) = things.iter().find(|(of, _)| *of == kind).expect(kind);
-        let asked = fastest(&|| editor.numbers(name).len());
-        assert!(asked * 4 < copied, "{name}: {asked:?} beside {copied:?} for a copy of the world");
-    }
-}

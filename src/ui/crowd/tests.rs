@@ -9,6 +9,7 @@ use super::state::CrowdState;
 use super::values::{Crowd, CrowdRobot, Stance};
 use crate::configuration::{Configuration as _, Coordinates};
 use crate::geometry::{Aabb, Footprint, Point2, Pose2, Vector2};
+use crate::num::greater;
 use crate::picture::{Fit, Role, ScreenRect, Theme};
 use crate::random::{Seed, Stream};
 use crate::robots::{AnyRobot, Robot as _};
@@ -174,14 +175,14 @@ fn a_circle_holds_a_robot_of_the_labs_in_every_configuration() {
         ("hitch", &[0.0; 4][..]),
     ] {
         let (robot, _) = AnyRobot::of_kind(kind, start).unwrap();
-        let mut farthest: f64 = 0.0;
+        let mut farthest = 0.0;
         for _ in 0..200 {
             let q = robot.sample(Point2::new(1.0, 2.0), Point2::new(9.0, 8.0), &mut s).coordinates();
             let crowd = one(kind, &q, &q, 1.0);
             let (spot, (footprint, _)) = (crowd.spot(0).unwrap(), crowd.footprint(0).unwrap());
             for part in footprint.parts() {
                 for p in part.placed().core() {
-                    farthest = farthest.max((p - spot.centre).norm() + part.placed().radius());
+                    farthest = greater(farthest, (p - spot.centre).norm() + part.placed().radius());
                 }
             }
             assert!(farthest <= spot.radius + 1e-9, "{kind}: {farthest} of {}", spot.radius);

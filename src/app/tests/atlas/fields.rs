@@ -3,6 +3,7 @@
 use egui::accesskit::Role::TextInput;
 
 use super::*;
+use crate::atlas::{EditShape, Editor, Op};
 use crate::geometry::{Aabb, Point2, Pose2, Shape};
 use crate::worlds::{Obstacle, ObstacleKind, World};
 
@@ -185,6 +186,57 @@ fn a_field_that_is_left_untouched_changes_nothing() {
     assert_eq!(world(&harness).place("room B").unwrap().pose.theta, 1.5);
     press(&mut harness, Modifiers::COMMAND, Key::Z);
     assert_eq!((world(&harness), atlas(&harness).can_undo()), (World::apartment(), [false, true]));
+}
+
+#[test]
+fn the_corner_whose_number_is_edited_stays_the_one_that_is_edited() {
+    let points = |corners: [[f64; 2]; 3]| corners.map(|[x, y]| Point2::new(x, y)).to_vec();
+    let hull = EditShape::Rounded { points: points([[2.0, 3.0], [4.0, 3.0], [3.0, 4.5]]), radius: 0.1 };
+    let wedge = EditShape::Polygon(points([[6.0, 3.0], [8.0, 3.0], [7.0, 4.5]]));
+    let mut editor = Editor::new(World::empty("Yard", Aabb::new(Point2::origin(), Point2::new(12.0, 8.0))));
+    for (name, shape) in [("the hull", hull), ("the wedge", wedge)] {
+        editor.apply(&Op::Add { name: name.into(), shape }).unwrap();
+    }
+    let mut harness = editing(None);
+    interface_mut(&mut harness).open_world(AtlasState::edited(editor));
+    let corners = |h: &Harness<'_, Lab>, name: &str| {
+        let field = |axis: &str, i: usize| {
+            shown(h, &format!("{name}: {axis} {i}")).trim_end_matches(" m").parse::<f64>().expect("a number")
+        };
+        (1..=3).map(|i| [field("x", i), field("y", i)]).collect::<Vec<_>>()
+    };
+    // each corner crosses the line of the others, so that the ring turns over, and becomes the leftmost
+    for name in ["the hull", "the wedge"] {
+        interface_mut(&mut harness).atlas.select(Some(name));
+        harness.run_steps(2);
+        let mut expected = corners(&harness, name);
+        for (i, axis, to) in [(2, 1, 1.0), (2, 0, 0.5), (1, 1, 0.25), (0, 0, 9.0)] {
+            type_into(&mut harness, &format!("{name}: {} {}", ["x", "y"][axis], i + 1), &to.to_string());
+            press(&mut harness, Modifiers::NONE, Key::Enter);
+            expected[i][axis] = to;
+            assert_eq!(corners(&harness, name), expected, "{name}: corner {} to {to}", i + 1);
+        }
+    }
+    for _ in 0..8 {
+        press(&mut harness, Modifiers::COMMAND, Key::Z);
+    }
+    // dragged to the left of all others, it is the same one all the way
+    interface_mut(&mut harness).atlas.select(Some("the hull"));
+    harness.run_steps(2);
+    let before = corners(&harness, "the hull");
+    let field = harness.get_by_label("the hull: x 3").rect().center();
+    pointer(&mut harness, field, Some(true));
+    for step in 1..=30 {
+        pointer(&mut harness, field - egui::vec2(8.0 * step as f32, 0.0), None);
+        let now = corners(&harness, "the hull");
+        assert!(now[..2] == before[..2] && now[2][1] == before[2][1], "{now:?}");
+    }
+    harness.run_steps(2);
+    let dragged = corners(&harness, "the hull");
+    assert!(dragged[2][0] < 1.0, "{dragged:?}");
+    pointer(&mut harness, field - egui::vec2(240.0, 0.0), Some(false));
+    harness.run_steps(3);
+    assert_eq!(corners(&harness, "the hull"), dragged);
 }
 
 #[test]

@@ -1,6 +1,8 @@
 //! The lessons, walked through as a reader would who clicks at once: the clicks and drags that each takes, and the
 //! seconds of the lab's clock until its task is ticked off.
 
+use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI};
+
 use super::*;
 use crate::robots::Reach;
 use crate::ui::paint::canvas::fit;
@@ -115,7 +117,7 @@ const LESSONS: [Lesson; 11] = [
         reader.click("Query");
         reader.click("witness");
         // towards the block, and not as far as it
-        let (from, to) = (reader.tip(0.7854, 1.5708), reader.tip(0.7854, 1.43));
+        let (from, to) = (reader.tip(FRAC_PI_4, FRAC_PI_2), reader.tip(FRAC_PI_4, 1.43));
         reader.drag(from, to);
     }),
     ("FreeEnds", "Query", |reader| {
@@ -126,13 +128,13 @@ const LESSONS: [Lesson; 11] = [
     }),
     ("TwoPoints", "Space", |reader| {
         reader.click("Space");
-        let [here, other] = [(0.7854, 1.5708), (2.3562, -1.5708)].map(|(th1, th2)| reader.on_torus(th1, th2));
+        let [here, other] = [(FRAC_PI_4, FRAC_PI_2), (2.3562, -FRAC_PI_2)].map(|(th1, th2)| reader.on_torus(th1, th2));
         reader.drag(here, here);
         reader.click_at(other);
     }),
     ("OverEdge", "Space", |reader| {
         reader.click("Space");
-        let (here, edge) = (reader.on_torus(0.7854, 1.5708), reader.on_torus(3.1416, 1.5708));
+        let (here, edge) = (reader.on_torus(FRAC_PI_4, FRAC_PI_2), reader.on_torus(PI, FRAC_PI_2));
         reader.drag(here, edge + egui::vec2(12.0, 0.0));
     }),
     ("UnequalLinks", "Space", |reader| {
