@@ -140,7 +140,7 @@ fn rusty() -> Prompt {
     let checker = Checker::new(Scene::of_world(&world), AnyRobot::Rusty(RUSTY));
     let q = AnyConfiguration::Pose(Pose2::new(2.0, 1.0, 0.0));
     Prompt {
-        id: "rusty",
+        id: "the rover",
         question: "Rusty's centre is at (2, 1), a wall goes from (3, 0) to (3, 3). How far is Rusty from it?",
         unit: "m",
         tolerance: 0.5e-3,
@@ -221,7 +221,12 @@ impl Prompt {
             Guess::Off { answer, by } if unit.is_empty() => (signed(format!("Off by {by:+}: it is ")), answer),
             Guess::Off { answer, by } => (signed(format!("Off by {by:+.4} {unit}: it is ")), answer),
         };
-        let answer = if unit.is_empty() { answer.to_string() } else { format!("{answer:.6} {unit}") };
+        let answer = match unit {
+            "" => answer.to_string(),
+            // the bracket about a first contact is a micrometre wide
+            "rad" => format!("{answer:.4} {unit}"),
+            _ => format!("{answer:.6} {unit}"),
+        };
         format!("{before}{answer}. {}", self.moral)
     }
 }
@@ -255,7 +260,7 @@ mod tests {
             ("thick links", " 0.03066 m ", "0.0607"),
             ("exercise 3", "0.1704", "0.171"),
             ("first contact", "1.4009 rad", "1.4846"),
-            ("rusty", "0.89", "1"),
+            ("the rover", "0.89", "1"),
             ("stretched", "1", "2"),
             ("too far", "0", "1"),
             ("within", "2", "3"),
@@ -274,9 +279,9 @@ mod tests {
     #[test]
     fn the_other_answers_are_the_specifications() {
         assert!((prompt("first contact").answer() - 1.400_877_9).abs() < 1e-6);
-        assert!((prompt("rusty").answer() - 0.89).abs() < 1e-12);
+        assert!((prompt("the rover").answer() - 0.89).abs() < 1e-12);
         assert_eq!(["stretched", "too far", "within"].map(|id| prompt(id).answer()), [1.0, 0.0, 2.0]);
-        let (far, near) = (prompt("too far"), prompt("rusty"));
+        let (far, near) = (prompt("too far"), prompt("the rover"));
         assert_eq!(far.words(far.check(2.0)), "Off by +2: it is 0. Outside of the annulus no arm ends.");
         assert!(near.words(near.check(0.89)).starts_with("Right: 0.890000 m. "));
         assert_eq!(Series::Tips.prompt(3).id, "stretched", "they begin anew");

@@ -1,7 +1,6 @@
 //! The session with its widgets, without a window: every behaviour by the names that a screen reader reads.
 
 mod anatomy;
-mod arm;
 mod atlas;
 mod capture;
 mod crowd;

@@ -29,6 +29,7 @@ mod plot;
 mod raster;
 mod run_figure;
 mod scenes;
+mod sheets;
 mod space;
 mod tour_figure;
 
@@ -37,7 +38,7 @@ use std::path::Path;
 pub use chart::MOST_LINES;
 pub use error::CaptureError;
 pub use histogram::{Distribution, histograms};
-pub use moving::{Span, Subject, at_tick, at_tick_with_robots, sheets_with_robots};
+pub use moving::{Span, Subject, at_tick, at_tick_with_robots};
 #[cfg(feature = "cli")]
 #[doc(hidden)]
 pub use paper::paint;
@@ -50,6 +51,7 @@ pub use plot::{RunPlot, plot};
 pub use raster::{GifWriter, Image, Raster, Size, write_png};
 pub use run_figure::{RunFigure, run_svg, with_names};
 pub use scenes::{AtlasSheet, anatomy, atlas, cspace};
+pub use sheets::sheets_with_robots;
 
 use crate::picture::{Figure, Palette, Sheet};
 

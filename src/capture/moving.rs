@@ -5,7 +5,7 @@ use std::sync::Arc;
 use bevy::app::App;
 
 use super::space::Space;
-use super::{CaptureError, Captured, Note, Paper};
+use super::{CaptureError, Captured, Note};
 use crate::atlas::{Atlas, names};
 use crate::configuration::RobotKind;
 use crate::geometry::Shape;
@@ -187,46 +187,6 @@ pub fn at_tick_with_robots(
     Ok(Captured { figure, notes })
 }
 
-/// Calls `take` with the capture of each tick of the span that has a picture. Without `drawn` they have only words and
-/// sizes. `add` adds the kinds of robots that a program has.
-pub(super) fn each_tick(
-    moving: &mut Moving,
-    span: Span,
-    drawn: bool,
-    add: impl FnOnce(&mut App),
-    mut take: impl FnMut(Captured) -> Result<(), CaptureError>,
-) -> Result<(), CaptureError> {
-    Run::show_with_robots(moving.log, add, |run| {
-        let tick = run.frame().tick;
-        if tick > span.to {
-            return Ok(());
-        }
-        moving.see(run)?;
-        if span.has(tick) { take(moving.captured(run, drawn)?) } else { Ok(()) }
-    })
-}
-
-/// Calls `take` with the sheet of each picture of a GIF over a span of ticks, as SVG with its notes. `add` adds the
-/// kinds of robots that a program has.
-///
-/// # Errors
-/// [`CaptureError`] names what the run does not have.
-pub fn sheets_with_robots(
-    log: &Log,
-    subject: &Subject,
-    span: Span,
-    paper: &Paper,
-    add: impl FnOnce(&mut App),
-    mut take: impl FnMut(String),
-) -> Result<(), CaptureError> {
-    let span = span.within(log.frames.len() as u64)?;
-    each_tick(&mut Moving::new(log, subject.clone(), paper.width_px())?, span, true, add, |mut captured| {
-        captured.notes.push(span.note());
-        take(captured.svg(paper));
-        Ok(())
-    })
-}
-
 /// The parts of a world's picture that only a change of the world changes.
 struct Backdrop {
     number: u32,
@@ -249,7 +209,7 @@ impl Backdrop {
 
 /// A subject under way. It is shown the run tick by tick, and draws any of them.
 pub(super) struct Moving<'a> {
-    log: &'a Log,
+    pub(super) log: &'a Log,
     digest: String,
     subject: Subject,
     backdrops: Vec<Backdrop>,

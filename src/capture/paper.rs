@@ -4,8 +4,9 @@ use std::path::Path;
 
 use bevy::app::App;
 
-use super::moving::{Moving, each_tick};
+use super::moving::Moving;
 use super::raster::{GifWriter, Image, Raster, Size, write_png};
+use super::sheets::each_tick;
 use super::{CaptureError, Captured, Form, Paper, Span, Subject, TICK_HUNDREDTHS, with_program};
 use crate::output::{PendingFile, write_file};
 use crate::picture::Role;

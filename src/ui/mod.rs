@@ -19,6 +19,8 @@ pub(crate) mod paint;
 mod plan;
 #[cfg(feature = "window")]
 mod recent;
+#[cfg(feature = "window")]
+mod recent_menu;
 mod settings;
 mod state;
 mod time;

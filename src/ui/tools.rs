@@ -135,7 +135,7 @@ fn menu(
         show(ui, &Tool { icon: None, ..tool }, model, look, state, commands);
     }
     #[cfg(feature = "window")]
-    super::recent::menu(ui, &state.recent, look, commands);
+    super::recent_menu::recent_menu(ui, &state.recent, look, commands);
     ui.separator();
     for theme in ThemeChoice::ALL {
         let label = format!("{} theme", theme.name());

@@ -206,7 +206,7 @@ fn the_second_prompt_shows_its_scene_once_it_is_answered() {
         (
             "At which \u{3b8}2 does the arm first touch the block?",
             "1.4",
-            "Off by \u{2212}0.0009 rad: it is 1.400878 rad.",
+            "Off by \u{2212}0.0009 rad: it is 1.4009 rad.",
         ),
         ("How far is Rusty from it?", "0.89 m", "Right: 0.890000 m."),
         ("the links are given a radius of 3 cm", "0", "it is 0.030660 m."),

@@ -1,5 +1,7 @@
 //! Driving the rover and the car, by keys and by the pad.
 
+mod arm;
+
 use super::*;
 
 #[test]

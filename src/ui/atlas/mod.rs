@@ -1,6 +1,7 @@
 //! The world atlas in the window.
 
 mod editing;
+mod entering;
 mod field;
 mod panel;
 mod shown;
