@@ -30,6 +30,8 @@ pub struct FrameTimes {
     /// The program's own time of each measured frame, in order: reading the run, laying out the widgets, turning all
     /// that is drawn into triangles. Ticks of the run are no part of it, nor is what the graphics driver does.
     pub own: Vec<Duration>,
+    /// Of each of these frames what its three pieces took: reading, laying out, triangles.
+    pub pieces: Vec<[Duration; 3]>,
     /// The time of the clock that all measured frames took together.
     pub clock: Duration,
     /// The pause after them.
@@ -56,16 +58,26 @@ impl Pause {
 impl FrameTimes {
     /// The own time that a `share` of the frames, from 0 to 1, does not exceed; none without frames.
     pub fn quantile(&self, share: f64) -> Option<Duration> {
-        let mut sorted = self.own.clone();
-        sorted.sort_unstable();
-        let last = sorted.len().checked_sub(1)?;
-        sorted.get((share.clamp(0.0, 1.0) * last as f64).round() as usize).copied()
+        quantile(self.own.clone(), share)
+    }
+
+    /// What each piece takes in the median: reading, laying out, triangles; none without frames.
+    pub fn medians(&self) -> Option<[Duration; 3]> {
+        let median = |k: usize| quantile(self.pieces.iter().filter_map(|frame| frame.get(k).copied()).collect(), 0.5);
+        Some([median(0)?, median(1)?, median(2)?])
     }
 
     /// Frames per second of the clock; none without frames.
     pub fn rate(&self) -> Option<f64> {
         (!self.own.is_empty()).then(|| self.own.len() as f64 / self.clock.as_secs_f64())
     }
+}
+
+/// The time that a `share` of these does not exceed.
+fn quantile(mut times: Vec<Duration>, share: f64) -> Option<Duration> {
+    times.sort_unstable();
+    let last = times.len().checked_sub(1)?;
+    times.get((share.clamp(0.0, 1.0) * last as f64).round() as usize).copied()
 }
 
 /// Measures a number of frames while the run plays, then a pause, and closes the window.
@@ -84,7 +96,7 @@ struct Measuring {
     began: Instant,
     /// When the piece of work under way began, and what the pieces of this frame took.
     piece: Instant,
-    frame: Duration,
+    frame: [Duration; 3],
     times: FrameTimes,
     out: Arc<Mutex<FrameTimes>>,
     /// When the pause began, and the measured part of it with the processor's time before.
@@ -100,18 +112,18 @@ impl Plugin for MeasurePlugin {
             unmeasured: UNMEASURED,
             began: now,
             piece: now,
-            frame: Duration::ZERO,
+            frame: [Duration::ZERO; 3],
             times: FrameTimes::default(),
             out: Arc::clone(&self.times),
             paused: None,
             rests: None,
         };
         app.insert_resource(measuring)
-            .add_systems(Update, (begin.before(gather), end.after(gather)))
-            .add_systems(EguiPrimaryContextPass, (begin.before(super::show), end.after(super::show)))
+            .add_systems(Update, (begin.before(gather), end::<0>.after(gather)))
+            .add_systems(EguiPrimaryContextPass, (begin.before(super::show), end::<1>.after(super::show)))
             .add_systems(
                 PostUpdate,
-                (begin.before(EguiPostUpdateSet::EndPass), end.after(EguiPostUpdateSet::ProcessOutput)),
+                (begin.before(EguiPostUpdateSet::EndPass), end::<2>.after(EguiPostUpdateSet::ProcessOutput)),
             )
             .add_systems(Last, frame_ended);
     }
@@ -121,9 +133,9 @@ fn begin(mut measuring: ResMut<Measuring>) {
     measuring.piece = Instant::now();
 }
 
-fn end(mut measuring: ResMut<Measuring>) {
+fn end<const PIECE: usize>(mut measuring: ResMut<Measuring>) {
     let took = measuring.piece.elapsed();
-    measuring.frame += took;
+    measuring.frame[PIECE] += took;
 }
 
 fn frame_ended(
@@ -152,7 +164,8 @@ fn frame_ended(
         measuring.began = Instant::now();
         return;
     }
-    measuring.times.own.push(took);
+    measuring.times.own.push(took.iter().sum());
+    measuring.times.pieces.push(took);
     measuring.left = measuring.left.saturating_sub(1);
     if measuring.left == 0 {
         measuring.times.clock = measuring.began.elapsed();
@@ -190,7 +203,10 @@ mod tests {
     #[test]
     fn a_quantile_is_a_time_that_was_measured() {
         let own = [5, 1, 4, 2, 3].map(Duration::from_millis).to_vec();
-        let times = FrameTimes { own, clock: Duration::from_millis(100), paused: None };
+        let pieces = [[4, 1, 9], [2, 8, 3], [1, 7, 5]].map(|frame| frame.map(Duration::from_millis)).to_vec();
+        let times = FrameTimes { own, pieces, clock: Duration::from_millis(100), paused: None };
+        assert_eq!(times.medians(), Some([2, 7, 5].map(Duration::from_millis)));
+        assert_eq!(FrameTimes::default().medians(), None);
         let at = |share| times.quantile(share).unwrap().as_millis();
         assert_eq!([at(0.0), at(0.5), at(0.95), at(1.0)], [1, 3, 5, 5]);
         assert_eq!(times.rate(), Some(50.0));
@@ -218,7 +234,7 @@ mod tests {
         app.update();
         assert_eq!((playback(&app), app.should_exit()), (Playback::Paused, None), "the pause is measured yet");
         let measuring = app.world_mut().resource_mut::<Measuring>().into_inner();
-        assert_eq!(measuring.times.own.len(), 4);
+        assert_eq!((measuring.times.own.len(), measuring.times.pieces.len()), (4, 4));
         let start = measuring.paused.unwrap();
         let at = |millis| start + Duration::from_millis(millis);
         let taken = |millis| Some(Duration::from_millis(millis));
