@@ -206,6 +206,12 @@ fn a_robot_of_the_labs_is_drawn_on_its_way_in_its_chart() {
     assert_eq!(there(&one("hitch", &[3.0, 4.0, 0.0], &[3.2, 4.0, 0.0, 0.0], 0.5)).x, 3.2);
     assert_eq!(there(&one("reach", &[0.1, 0.0], &[1.9, 0.0], 0.5)).theta, 1.9);
     assert!((there(&one("reach", &[0.1, 0.0], &[0.2, 0.0], 0.5)).theta - 0.15).abs() < 1e-12);
+    // a car that was given its trailer in the run has it, although it began without
+    let alone = [3.0, 4.0, 0.0];
+    let towing = one("hitch", &[3.0, 4.0, 0.0, 0.2], &[3.0, 4.0, 0.0, 0.2], 1.0);
+    let given = Crowd { now: towing.now.clone(), ..one("hitch", &alone, &alone, 1.0) };
+    assert_eq!(given.footprint(0), towing.footprint(0));
+    assert!(given.footprint(0).unwrap().0.is_valid() && given.footprint(0).unwrap().0.parts().len() == 2);
     // a rover's pointer is no part of its footprint
     assert_eq!(one("rusty", &[1.0, 1.0, 0.2], &[1.0, 1.0, 0.2], 1.0).drawn(0).unwrap().1, Some(0.2));
     // the dot of a car is at its middle, and a trailer's length more behind
