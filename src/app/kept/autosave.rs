@@ -65,7 +65,7 @@ pub struct Autosave {
     /// The texts of the worlds of a configuration, which take long to make for large worlds.
     texts: Option<Texts>,
     in_file: Option<InFile>,
-    /// When the run was last looked at, by the window's clock.
+    /// When the run was last compared with what was written, by the window's clock.
     looked: Option<Duration>,
     /// The run that was left and is offered, and its file.
     offered: Option<(PathBuf, KeptRun)>,

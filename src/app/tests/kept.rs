@@ -15,7 +15,7 @@ fn window(folder: &Path) -> Harness<'static, Lab> {
     lab_of(app, WIDE)
 }
 
-/// The number of frames after which the run has been looked at once more.
+/// The number of frames after which the run has been compared with what was written once more.
 fn a_look() -> usize {
     EVERY.as_millis() as usize / 25 + 2
 }

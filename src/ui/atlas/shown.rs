@@ -11,7 +11,7 @@ use crate::recording::printed_as;
 use crate::robots::Robot;
 use crate::ui::{AtlasState, readout};
 
-/// The most robots whose configurations are told in words.
+/// Largest number of robots whose configurations are described in words.
 const TOLD: usize = 12;
 
 impl AtlasState {

@@ -35,7 +35,7 @@ pub enum Stance {
     Over(Arc<Footprint>, Option<f64>),
 }
 
-/// A circle on the floor that holds a robot, and where the robot's middle is.
+/// A circle on the floor that holds a robot, and how large the robot is.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Spot {
     /// The circle's centre.
@@ -83,7 +83,7 @@ impl Crowd {
         self.now.iter().map(|robot| u64::from(robot.contacts)).sum()
     }
 
-    /// Where a robot is on its way, by its place, with the vector from the circle's centre to its middle.
+    /// Where the robot at a place is on its way from the tick before.
     pub fn spot(&self, place: usize) -> Option<Spot> {
         let mut spot = self.spot_of(place, self.now.get(place)?)?;
         if let Some(before) = self.moving(place).and_then(|before| self.spot_of(place, before)) {
