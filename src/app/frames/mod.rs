@@ -118,9 +118,10 @@ impl Plugin for MeasurePlugin {
             paused: None,
             rests: None,
         };
+        // egui's pass, in which the widgets are laid out, runs within the set `EndPass`
         app.insert_resource(measuring)
             .add_systems(Update, (begin.before(gather), end::<0>.after(gather)))
-            .add_systems(EguiPrimaryContextPass, (begin.before(super::show), end::<1>.after(super::show)))
+            .add_systems(EguiPrimaryContextPass, end::<1>.after(super::show))
             .add_systems(
                 PostUpdate,
                 (begin.before(EguiPostUpdateSet::EndPass), end::<2>.after(EguiPostUpdateSet::ProcessOutput)),
@@ -133,9 +134,12 @@ fn begin(mut measuring: ResMut<Measuring>) {
     measuring.piece = Instant::now();
 }
 
+/// Ends a piece of work, and begins the next.
 fn end<const PIECE: usize>(mut measuring: ResMut<Measuring>) {
-    let took = measuring.piece.elapsed();
+    let now = Instant::now();
+    let took = now - measuring.piece;
     measuring.frame[PIECE] += took;
+    measuring.piece = now;
 }
 
 fn frame_ended(
@@ -221,6 +225,22 @@ mod tests {
             .init_resource::<Aside>()
             .add_plugins(MeasurePlugin { frames, times: Arc::clone(&times) });
         (app, times)
+    }
+
+    #[test]
+    fn the_pieces_of_a_frame_do_not_overlap() {
+        let (mut app, _) = measured(Playback::Playing, 3);
+        let pass = |world: &mut World| world.run_schedule(EguiPrimaryContextPass);
+        let lay_out = || std::thread::sleep(Duration::from_millis(20));
+        app.configure_sets(PostUpdate, (EguiPostUpdateSet::EndPass, EguiPostUpdateSet::ProcessOutput).chain())
+            .add_systems(EguiPrimaryContextPass, lay_out.before(end::<1>))
+            .add_systems(PostUpdate, pass.in_set(EguiPostUpdateSet::EndPass));
+        (0..UNMEASURED + 3).for_each(|_| app.update());
+        let measuring = app.world_mut().resource_mut::<Measuring>().into_inner();
+        let times = &measuring.times;
+        assert!(times.pieces.iter().all(|[_, laid_out, _]| *laid_out >= Duration::from_millis(20)), "{times:?}");
+        let own: Duration = times.own.iter().sum();
+        assert!(own <= times.clock, "{own:?} of {:?}", times.clock);
     }
 
     #[test]
