@@ -8,11 +8,10 @@ use bevy_egui::egui::{
     pos2,
 };
 
+use super::coarse::coarse;
 use crate::geometry::{Aabb, Point2};
-use crate::num::greater;
 use crate::picture::{
-    Anchor, Dash, Drawing, Face, Fill, Fit, Item, Line, Picture, Primitive, Role, ScreenPoint, ScreenRect, Theme,
-    resolve,
+    Anchor, Dash, Face, Fit, Item, Line, Picture, Primitive, Role, ScreenPoint, ScreenRect, Theme, resolve,
 };
 use crate::ui::Look;
 
@@ -47,10 +46,17 @@ pub fn paint_still(painter: &Painter, picture: &Picture, fit: &Fit, look: &Look)
     let scale = f64::from(painter.pixels_per_point());
     for mut primitive in picture.items.iter().flat_map(|item| resolve(item, fit)) {
         match &mut primitive {
-            Primitive::Area { corners, .. } => {
+            Primitive::Area { corners, role, opacity } => {
                 corners.extend(corners.first().copied());
                 snap(corners, scale, 0.0);
                 corners.pop();
+                if let Some(rect) = level(corners) {
+                    // its edges lie on the pixels, where a fade would have no pixel
+                    let mut mesh = Mesh::default();
+                    mesh.add_colored_rect(rect, look.tint(*role, *opacity));
+                    painter.add(mesh);
+                    continue;
+                }
             }
             Primitive::Lines { lines, line, .. } => {
                 // a line that is an odd number of pixels wide is centred on the middle of a pixel
@@ -129,31 +135,12 @@ pub fn paint_kept(painter: &Painter, picture: &Arc<Picture>, rect: Rect, fit: &F
     ctx.data_mut(|d| d.insert_temp(id, kept));
 }
 
-/// Size on the screen below which a hatched area is tinted instead, without an edge, points.
-const HATCHED: f64 = 14.0;
-
-/// Scale below which dashed lines are solid and thin, points per metre: their dashes are as long whatever the scale.
-const DASHED: f64 = 8.0;
-
-/// Distance on the screen below which a point of such a line is left out, points.
-const FINE: f64 = 2.5;
-
-/// The item without what is too fine to be seen.
-fn coarse(mut item: Item, fit: &Fit) -> Item {
-    let scale = fit.px_per_metre();
-    let size = |b: Aabb| greater(b.max.x - b.min.x, b.max.y - b.min.y) * scale;
-    if item.fill == Fill::Hatch && item.drawing.bounds().is_some_and(|b| size(b) < HATCHED) {
-        (item.fill, item.line) = (Fill::Tint(0.6), None);
-    }
-    if let Some(line) = item.line.as_mut().filter(|line| line.dash != Dash::Solid && scale < DASHED) {
-        (line.dash, line.opacity) = (Dash::Solid, 0.5 * line.opacity);
-        if let Drawing::Polyline(points) = &mut item.drawing {
-            let last = points.last().copied();
-            points.dedup_by(|b, a| (*b - *a).norm() * scale < FINE);
-            points.extend(last.filter(|last| points.last() != Some(last)));
-        }
-    }
-    item
+/// The rectangle with these four corners in order, if its sides are level and upright.
+fn level(corners: &[ScreenPoint]) -> Option<Rect> {
+    let [a, b, c, d] = corners else { return None };
+    let is_level = (a[1] == b[1] && b[0] == c[0] && c[1] == d[1] && d[0] == a[0])
+        || (a[0] == b[0] && b[1] == c[1] && c[0] == d[0] && d[1] == a[1]);
+    is_level.then(|| Rect::from_two_pos(pos(a), pos(c)))
 }
 
 fn screen_rect(rect: Rect) -> ScreenRect {
@@ -282,6 +269,7 @@ mod tests {
     use bevy_egui::egui::{Context, RawInput};
 
     use super::*;
+    use crate::picture::{Drawing, Fill};
 
     /// The corners of the mesh that a picture is painted with, those in `rect`, to a hundredth of a point.
     fn painted(ctx: &Context, picture: &Arc<Picture>, rect: Rect, fit: &Fit) -> Vec<[i32; 2]> {
@@ -338,25 +326,30 @@ mod tests {
     }
 
     #[test]
-    fn what_is_too_fine_to_be_seen_is_left_out() {
+    fn a_level_rectangle_is_four_corners_and_a_slanted_one_keeps_its_fade() {
         let p = Point2::new;
-        let bounds = Aabb::new(p(0.0, 0.0), p(100.0, 100.0));
-        let fit = |points| Fit::new(&bounds, ScreenRect { min: [0.0, 0.0], size: [points, points] }, 0.0);
-        let square = Drawing::Polygon(vec![p(0.0, 0.0), p(2.0, 0.0), p(2.0, 2.0), p(0.0, 2.0)]);
-        let rack = Item::new("a", "a", Role::Obstacle, square).filled(Fill::Hatch).stroked(Line::solid(1.5));
-        // 2 m are 13.8 points, then 14
-        let small = coarse(rack.clone(), &fit(690.0));
-        assert_eq!((small.fill, small.line), (Fill::Tint(0.6), None));
-        assert_eq!(coarse(rack.clone(), &fit(700.0)), rack);
-        let points: Vec<Point2> = (0..=30).map(|i| p(0.1 * f64::from(i), 0.0)).collect();
-        let dashed = Line::solid(1.0).dashed(Dash::Dashed);
-        let route = Item::new("b", "b", Role::Muted, Drawing::Polyline(points)).stroked(dashed);
-        // 0.1 m are 0.5 points: every fifth point is 2.5 points from the one before, and the last one stays
-        let thin = coarse(route.clone(), &fit(501.0));
-        let Drawing::Polyline(left) = &thin.drawing else { panic!("a line") };
-        assert_eq!(left.iter().map(|p| (10.0 * p.x).round() as i32).collect::<Vec<_>>(), [0, 5, 10, 15, 20, 25, 30]);
-        assert_eq!(thin.line.map(|l| (l.dash, l.opacity)), Some((Dash::Solid, 0.5)));
-        assert_eq!(coarse(route.clone(), &fit(800.0)), route);
+        let picture = |corners: Vec<Point2>| {
+            let item = Item::new("a", "a", Role::Obstacle, Drawing::Polygon(corners)).filled(Fill::Tint(0.6));
+            Arc::new(Picture::new("A", Aabb::new(p(0.0, 0.0), p(10.0, 10.0))).with([item]))
+        };
+        let rect = Rect::from_min_size(pos2(0.0, 0.0), Vec2::splat(116.0));
+        let corners = |picture: &Arc<Picture>| {
+            let mut all = painted(&Context::default(), picture, rect, &fit(picture, rect));
+            all.dedup();
+            all
+        };
+        // 10 m are 100 points within the margin of 8; upward on paper is downward on the screen
+        let level = [p(1.0, 2.0), p(4.0, 2.0), p(4.0, 7.0), p(1.0, 7.0)];
+        let found = [[1800, 3800], [1800, 8800], [4800, 3800], [4800, 8800]];
+        for turned in 0..4 {
+            let mut corners_of = level.to_vec();
+            corners_of.rotate_left(turned);
+            assert_eq!(corners(&picture(corners_of.clone())), found);
+            corners_of.reverse();
+            assert_eq!(corners(&picture(corners_of)), found);
+        }
+        let slanted = vec![p(1.0, 2.0), p(4.0, 2.5), p(4.0, 7.0), p(1.0, 7.0)];
+        assert_eq!(corners(&picture(slanted)).len(), 8);
     }
 
     #[test]
