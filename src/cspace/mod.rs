@@ -20,12 +20,14 @@ mod cells;
 mod nearest;
 mod picture;
 pub(crate) mod rectangles;
+mod regions;
 mod slice;
 mod wrapping;
 
 pub use cells::{Cell, CellMap, MAX_LEVEL, Progress};
 pub use nearest::{NearestFree, nearest_free};
 pub use picture::{Overlay, cspace_picture, lines_through, overlay_items};
+pub use regions::{Region, region_items, regions};
 pub use slice::{CellState, Slice};
 pub use wrapping::wrapped_pieces;
 
