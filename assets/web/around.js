@@ -1,10 +1,10 @@
 // The page around a frame: what it may ask of the lab, and what it hears.
 
 /** What a page around may ask. A control's own number, keys and text are the reader's. */
-const ASKED = "light play pause step step_back reset reroll seek seed widget tab configuration robot door theme figure link save".split(" ");
+const ASKED = "light play pause step step_back reset reroll seek seed widget tab lesson configuration robot door theme figure link save".split(" ");
 
 /** What a page around hears. The run, the settings and what is copied are the reader's. */
-const HEARD = "ready state figure link error failed".split(" ");
+const HEARD = "ready state lesson figure link error failed".split(" ");
 
 /**
  * Speaks with the page around, if there is one. `ask` carries out a message, `askReader` asks whether the run may be saved. Returns the

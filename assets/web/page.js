@@ -5,6 +5,7 @@
 import { around } from "./around.js";
 import { captures } from "./captures.js";
 import { savedPage, logOfSavedPage } from "./pages.js";
+import { stick } from "./stick.js";
 import { fingers, twins } from "./twins.js";
 
 const $ = (id) => document.getElementById(id);
@@ -414,6 +415,7 @@ canvas.addEventListener("contextmenu", (event) => event.preventDefault());
 canvas.addEventListener("webglcontextlost", lost);
 // a long link is behind the #: put into the address of this very page, it loads nothing by itself
 window.addEventListener("hashchange", () => location.reload());
+stick(send);
 document.addEventListener("visibilitychange", () => send({ do: "visible", visible: !document.hidden }));
 
 const dark = matchMedia("(prefers-color-scheme: dark)");
@@ -463,7 +465,8 @@ async function withoutGraphics() {
   const query = location.search || location.hash;
   const fields = new URLSearchParams(query.replace(/^[?#]/, ""));
   if (embedded) {
-    const own = document.getElementById(Object.hasOwn(files.widgets, fields.get("widget") ?? "") ? fields.get("widget") : "dashboard");
+    const ofLesson = Object.keys(files.widgets).find((id) => files.widgets[id].lessons.includes(fields.get("lesson")));
+    const own = document.getElementById(ofLesson ?? (Object.hasOwn(files.widgets, fields.get("widget") ?? "") ? fields.get("widget") : "dashboard"));
     for (const figure of document.querySelectorAll("#still figure")) figure.hidden = figure !== own;
   }
   if (!Number(fields.get("tick"))) return;

@@ -79,13 +79,13 @@ if (script.includes("</script")) throw new Error("the script would end itself");
 const css = source("saved.css");
 const saved = fill(source("saved.html"), { script, style: css, "script-hash": hash(script), "style-hash": hash(css) });
 files.saved = hashed("saved.html", saved, "the simulator alone");
-files.widgets = Object.fromEntries(lab.widgets.map((w) => [w.id, { title: w.title, key: w.key, description: w.description, misconception: w.misconception }]));
+files.widgets = Object.fromEntries(lab.widgets.map((w) => [w.id, { title: w.title, key: w.key, description: w.description, misconception: w.misconception, lessons: w.lessons }]));
 
 const picture = (w) => `<img src="${pictures[w.id]}" loading="lazy" alt="${escape(w.description)}">`;
 // the modules that a script imports have hashes in their names, too
 const modules = {};
 const linked = (name) => source(name).replace(/(from |import\()"\.\/([\w-]+\.js)"/g, (_, how, other) => `${how}"./${modules[other]}"`);
-for (const name of ["pictures.js", "around.js", "pages.js", "twins.js", "captures.js"]) modules[name] = hashed(name, linked(name), "the page");
+for (const name of ["pictures.js", "around.js", "pages.js", "twins.js", "captures.js", "stick.js"]) modules[name] = hashed(name, linked(name), "the page");
 const page = linked("page.js");
 // painting is loaded when it is asked for
 const { "pictures.js": _, ...first } = modules;

@@ -2,11 +2,13 @@
 
 mod deed;
 mod formula;
+mod lesson;
 mod theme_choice;
 mod widget;
 
 pub use deed::Deed;
 pub use formula::{Formula, Level, Term, Told};
+pub use lesson::Lesson;
 pub use theme_choice::ThemeChoice;
 pub use widget::Widget;
 

@@ -23,15 +23,18 @@ const NEAR: f64 = 0.02;
 /// Sine of the elbow's angle from which on an arm is bent to a side.
 const LEAST_BEND: f64 = 0.15;
 
-/// Ticks off what the widget in front shows to have been done, and what was asked for in this frame.
-pub fn tick_off(model: &Dashboard, state: &mut UiState, commands: &[Command]) {
+/// Ticks off what was done in this frame, by `now` in seconds: in a widget, as the widget in front shows it, and what
+/// was asked for.
+pub fn tick_off(model: &Dashboard, state: &mut UiState, commands: &[Command], now: f64) {
     let is_sent = state.twin.as_ref().is_some_and(|asked| asked.way.is_some());
-    let asked = commands.iter().flat_map(|command| asked(command, model, is_sent)).collect::<Vec<_>>();
-    let shown = shown(model, state);
-    let stepped = std::mem::take(&mut state.plan.deeds);
-    for deed in asked.into_iter().chain(shown).chain(stepped) {
-        state.settings.tick_off(deed);
+    let mut done = std::mem::take(&mut state.did);
+    done.extend(commands.iter().flat_map(|command| asked(command, model, is_sent)));
+    done.extend(shown(model, state));
+    done.append(&mut state.plan.deeds);
+    if let Some(lesson) = &mut state.lesson {
+        lesson.see(&done, now);
     }
+    done.into_iter().for_each(|deed| state.settings.tick_off(deed));
 }
 
 /// The deeds that a command is; an arm may be moved `by_itself`, on its way to its other elbow.
@@ -52,7 +55,8 @@ fn asked(command: &Command, model: &Dashboard, by_itself: bool) -> Vec<Deed> {
 
 /// The deeds that the widget in front shows.
 fn shown(model: &Dashboard, state: &UiState) -> Vec<Deed> {
-    let is_open = |deed| !state.settings.is_ticked_off(deed);
+    let is_asked = |deed| state.lesson.as_ref().is_some_and(|under_way| under_way.lesson.deed == deed);
+    let is_open = |deed| !state.settings.is_ticked_off(deed) || is_asked(deed);
     let anatomy = &state.anatomy.anatomy;
     let of = |deeds: &[(Deed, &dyn Fn() -> bool)]| {
         deeds.iter().filter(|(deed, is_done)| is_open(*deed) && is_done()).map(|(deed, _)| *deed).collect()

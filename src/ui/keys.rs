@@ -193,7 +193,7 @@ pub const BINDINGS: [Binding; 57] = [
     plain(Action::Arm(1), Key::Num2, Scope::Always, "take the second pane's robot in hand, or let go"),
     plain(Action::Arm(2), Key::Num3, Scope::Always, "take the third pane's robot in hand, or let go"),
     plain(Action::LetGo, Key::Escape, Scope::Armed, "let go"),
-    plain(Action::Drive(Push::Forward), Key::ArrowUp, Scope::Armed, "forward"),
+    plain(Action::Drive(Push::Forward), Key::ArrowUp, Scope::Armed, "forward; with Shift a quarter as fast"),
     plain(Action::Drive(Push::Backward), Key::ArrowDown, Scope::Armed, "backward"),
     plain(Action::Drive(Push::Left), Key::ArrowLeft, Scope::Armed, "turn or steer left"),
     plain(Action::Drive(Push::Right), Key::ArrowRight, Scope::Armed, "turn or steer right"),

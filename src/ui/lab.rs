@@ -7,7 +7,9 @@ use bevy_egui::egui::{CentralPanel, Frame, Margin, Panel, Ui, Vec2, vec2};
 use super::dashboard::{self, drive};
 use super::keys::{Action, Situation, pressed};
 use super::paint::button::LabButton;
-use super::{Command, Dashboard, Grasp, Look, UiState, anatomy, atlas, capture_form, cspace, deeds, help, plan, tools};
+use super::{
+    Command, Dashboard, Grasp, Look, UiState, anatomy, atlas, capture_form, cspace, deeds, help, lesson, plan, tools,
+};
 use crate::manifest::Widget;
 use crate::simulation::{History, TransportCommand};
 
@@ -55,6 +57,7 @@ pub fn lab(ui: &mut Ui, model: &Dashboard, history: &History, state: &mut UiStat
             },
         }
     }
+    lesson::make_ready(model, state, commands);
     state.nudged = None;
     // a picture in front says anew what of it is pointed at
     state.over = None;
@@ -98,7 +101,8 @@ pub fn lab(ui: &mut Ui, model: &Dashboard, history: &History, state: &mut UiStat
         });
         panel.response.rect
     };
-    deeds::tick_off(model, state, commands);
+    let now = ui.input(|i| i.time);
+    deeds::tick_off(model, state, commands, now);
     tools::notice(ui.ctx(), stage, &look, state);
     help::help(ui.ctx(), state);
     capture_form::capture_form(ui.ctx(), model, &look, state, commands);

@@ -15,6 +15,7 @@ mod deeds;
 mod help;
 pub(crate) mod keys;
 mod lab;
+mod lesson;
 pub(crate) mod paint;
 mod plan;
 #[cfg(feature = "window")]
@@ -41,6 +42,7 @@ pub(crate) use dashboard::goal::ParkingGoal;
 pub(crate) use dashboard::twin_state::AskedTwin;
 pub(crate) use dashboard::values::{Cockpit, CockpitRobot, Dashboard};
 pub(crate) use lab::lab;
+pub(crate) use lesson::LessonState;
 pub(crate) use paint::look::Look;
 pub(crate) use plan::PlanState;
 #[cfg(feature = "window")]

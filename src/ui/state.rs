@@ -7,6 +7,7 @@ use super::paint::camera::Camera;
 use super::time::span::Span;
 use super::{AtlasState, ParkingGoal, Settings, Widget};
 use crate::geometry::{Aabb, Point2, Pose2, Shape};
+use crate::manifest::Deed;
 use crate::picture::{Role, Theme};
 use crate::random::Seed;
 use crate::worlds::{Obstacle, ObstacleKind, World};
@@ -60,6 +61,8 @@ pub struct UiState {
     pub held: (i16, i16),
     /// The channels of the pad on the screen, from -128 to 128, the maximum.
     pub pad: (i16, i16),
+    /// The channels of a gamepad's stick, from -128 to 128, the maximum.
+    pub stick: (i16, i16),
     /// The arm whose handle had the focus in the last frame. Such a handle keeps the arrow keys and no others.
     pub nudged: Option<String>,
     /// The role of what is pointed at in a picture, whose terms are underlined.
@@ -105,6 +108,10 @@ pub struct UiState {
     pub recent: super::Recent,
     /// The work in the background, if any.
     pub working: Option<Working>,
+    /// The lesson under way.
+    pub lesson: Option<super::LessonState>,
+    /// What the reader did in this frame that hints ask for.
+    pub did: Vec<Deed>,
 }
 
 /// Work in the background.

@@ -81,7 +81,7 @@ pub fn head(
     let narrow = look.narrow;
     header(ui, words, model, look, state, commands);
     frame::key_row(ui, words, look, state);
-    if !narrow {
+    if !narrow || state.lesson.is_some() {
         frame::hints(ui, words, look, state);
     }
     ui.add_space(6.0);

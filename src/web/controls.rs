@@ -17,9 +17,10 @@ use super::run_link::link_of;
 use crate::anatomy::Tab;
 use crate::app::{Interface, open_log, open_path_text, open_world_text, seek_aside, stop_aside};
 use crate::configuration::Configuration as _;
-use crate::manifest::ThemeChoice;
+use crate::manifest::{Lesson, ThemeChoice};
 use crate::picture::{Role, Theme};
 use crate::random::Seed;
+use crate::robots::CHANNEL_UNITS;
 use crate::run::{Event, Script, WorldChange};
 use crate::simulation::{RobotCommand, RobotKinds, RunCommand, RunConfig, Transport, TransportCommand, WorldCommand};
 use crate::ui::{Notice, SessionCommand, UiState, Widget};
@@ -153,6 +154,14 @@ fn take(world: &mut World, message: Message) -> Result<(), PageError> {
             }
             ui(world, &|ui| ui.widget = widget)
         }
+        Message::Lesson { id } => {
+            let named = |id: String| Lesson::of(&id).ok_or(PageError::Lesson(id));
+            let lesson = id.map(named).transpose()?;
+            ui(world, &|ui| match lesson {
+                Some(lesson) => ui.begin(lesson),
+                None => ui.lesson = None,
+            })
+        }
         Message::Tab { id } => {
             let tab = Tab::ALL.into_iter().find(|tab| tab.name() == id).ok_or(PageError::Tab(id))?;
             ui(world, &|ui| ui.anatomy.anatomy.tab = tab)
@@ -170,6 +179,10 @@ fn take(world: &mut World, message: Message) -> Result<(), PageError> {
             transport(world, TransportCommand::Checkpoint)?;
             world.write_message(RunCommand::from(WorldCommand { world: of, change }));
             Ok(())
+        }
+        Message::Stick { channels: (ahead, left) } => {
+            let most = CHANNEL_UNITS as i16;
+            ui(world, &|ui| ui.stick = (ahead.clamp(-most, most), left.clamp(-most, most)))
         }
         Message::Figure { png } => {
             let svg = picture(world, FIGURE_WIDTH)?;

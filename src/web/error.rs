@@ -28,6 +28,9 @@ pub enum PageError {
     /// No widget has this id.
     #[error("{0} is no widget")]
     Widget(String),
+    /// No lesson has this id.
+    #[error("{0} is no lesson: docs/web/course.md lists them")]
+    Lesson(String),
     /// No question of Query has this name.
     #[error("{0} is no tab: it is one of intersects, distance, witness and swept")]
     Tab(String),

@@ -129,13 +129,16 @@ fn start(world: &mut World) {
         ui.embedded = embedded;
         ui.settings = settings;
         ui.widget = link.widget.unwrap_or_default();
+        if let Some(lesson) = link.lesson {
+            ui.begin(lesson);
+        }
         let own = ui.settings.theme;
         ui.settings.theme = link.theme.unwrap_or(own);
         let linked = link.theme.map(|theme| LinkedTheme { theme, own });
         linked.into_iter().for_each(|linked| world.insert_resource(linked));
     }
     // an address without a run plays the book's
-    if link != (Link { widget: link.widget, theme: link.theme, ..Link::default() }) {
+    if link != (Link { widget: link.widget, lesson: link.lesson, theme: link.theme, ..Link::default() }) {
         let notice = match open_link(world, &link) {
             Ok(notice) => notice,
             Err(error) => Some(Notice { text: format!("the link: {}", retold(&error)), is_error: true }),

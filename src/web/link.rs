@@ -6,7 +6,7 @@ use std::fmt::Write;
 use percent_encoding::{AsciiSet, CONTROLS, percent_decode_str, utf8_percent_encode};
 
 use super::inputs;
-use crate::manifest::{ThemeChoice, Widget};
+use crate::manifest::{Lesson, ThemeChoice, Widget};
 use crate::random::Seed;
 use crate::run::{Script, ScriptError};
 use crate::tour::{BOOK_SEED, TourConfig};
@@ -28,7 +28,7 @@ pub const MAX_LINK: usize = 32_000;
 const LONG: usize = 2000;
 
 /// The fields that a link has.
-const FIELDS: [&str; 9] = ["v", "seed", "world", "widget", "theme", "script", "inputs", "tick", "digest"];
+const FIELDS: [&str; 10] = ["v", "seed", "world", "widget", "lesson", "theme", "script", "inputs", "tick", "digest"];
 
 /// Largest tick of a link: an hour. Opening a link simulates its run up to that tick.
 pub const MAX_LINK_TICK: u64 = 72_000;
@@ -53,6 +53,8 @@ pub struct Link {
     pub tick: u64,
     /// The widget in front.
     pub widget: Option<Widget>,
+    /// The lesson that it begins, in its own widget.
+    pub lesson: Option<Lesson>,
     /// The paper.
     pub theme: Option<ThemeChoice>,
     /// The input.
@@ -88,6 +90,9 @@ pub enum LinkError {
         /// The words allowed.
         known: String,
     },
+    /// An id that no lesson has.
+    #[error("lesson: no lesson has the id {}", cited(.0))]
+    Lesson(String),
     /// A digest that is not 32 hexadecimal digits.
     #[error("digest: it must be 32 hexadecimal digits, not {}", cited(.0))]
     Digest(String),
@@ -162,6 +167,7 @@ impl Default for Link {
             worlds: vec![],
             tick: 0,
             widget: None,
+            lesson: None,
             theme: None,
             script: Script::empty(),
             digest: None,
@@ -232,6 +238,9 @@ impl Link {
                 return Err(LinkError::Word { field: "widget", text, known });
             }
         }
+        if let Some(text) = fields.remove("lesson") {
+            link.lesson = Some(Lesson::of(&text).ok_or(LinkError::Lesson(text))?);
+        }
         if let Some(text) = fields.remove("theme") {
             link.theme = ThemeChoice::ALL.into_iter().find(|t| t.name().to_lowercase() == text);
             if link.theme.is_none() {
@@ -294,6 +303,9 @@ impl Link {
         }
         if let Some(widget) = self.widget {
             field("widget", widget.id());
+        }
+        if let Some(lesson) = self.lesson {
+            field("lesson", &lesson.id());
         }
         if let Some(theme) = self.theme {
             field("theme", &theme.name().to_lowercase());

@@ -65,6 +65,11 @@ pub enum Message {
         /// Its id.
         id: String,
     },
+    /// Begin a lesson, or end the one under way.
+    Lesson {
+        /// Its id.
+        id: Option<String>,
+    },
     /// Choose Query's question.
     Tab {
         /// `intersects`, `distance`, `witness` or `swept`.
@@ -91,6 +96,11 @@ pub enum Message {
         name: String,
         /// Whether it is to be open.
         open: bool,
+    },
+    /// A gamepad's stick: it drives the robot in hand.
+    Stick {
+        /// Its channels: ahead and to the left, from -128 to 128.
+        channels: (i16, i16),
     },
     /// Send the widget in front as a picture.
     Figure {

@@ -19,7 +19,7 @@ use crate::robots::AnyRobot;
 use crate::run::Script;
 use crate::simulation::{PendingInput, Playback, RunConfig, Transport};
 use crate::tour::TourConfig;
-use crate::ui::{Settings, Widget};
+use crate::ui::{LessonState, Settings, Widget};
 
 /// The last values sent to the page.
 #[derive(Resource, Default)]
@@ -28,6 +28,7 @@ pub struct Sent {
     state: Value,
     settings: Option<Settings>,
     tree: Value,
+    lesson: Value,
     run: Option<(Arc<TourConfig>, Seed, Script)>,
     /// Time of the last report, seconds since the start.
     at: f64,
@@ -74,6 +75,11 @@ pub fn report(world: &mut World) {
         if state != sent.state {
             tell(&state);
             sent.state = state;
+        }
+        let lesson = lesson(world);
+        if lesson != sent.lesson {
+            tell(&lesson);
+            sent.lesson = lesson;
         }
         let settings = kept_settings(world);
         if sent.settings.as_ref() != Some(&settings) {
@@ -154,6 +160,16 @@ fn state(world: &World) -> Value {
             "intersects": query.intersects(), "distance": query.distance(),
         })),
     })
+}
+
+/// The lesson under way and what came of it; nothing to be told before there was one.
+fn lesson(world: &World) -> Value {
+    let under_way = world.resource::<Interface>().0.lesson.as_ref();
+    let told = |under_way: &LessonState| {
+        let LessonState { lesson, took, .. } = under_way;
+        json!({ "kind": "lesson", "id": lesson.id(), "done": took.is_some(), "seconds": took })
+    };
+    under_way.map_or_else(|| json!({ "kind": "lesson", "id": null }), told)
 }
 
 /// The widgets of the canvas; `None` where egui has nothing new of them.

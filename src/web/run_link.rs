@@ -41,6 +41,7 @@ pub fn link_of(world: &World) -> Result<Link, PageError> {
     }
     let ui = &world.resource::<Interface>().0;
     link.widget = Some(ui.widget).filter(|w| *w != Widget::Dashboard);
+    link.lesson = ui.lesson.as_ref().map(|under_way| under_way.lesson).filter(|lesson| lesson.widget == ui.widget);
     link.theme = Some(ui.settings.theme).filter(|t| *t != ThemeChoice::System);
     Ok(link)
 }

@@ -22,6 +22,44 @@ fn a_pane_is_taken_in_hand_by_keyboard_alone_and_driven() {
 }
 
 #[test]
+fn shift_drives_a_quarter_as_fast() {
+    let mut harness = lab(WIDE);
+    arm_rusty(&mut harness);
+    harness.key_down_modifiers(Modifiers::SHIFT, Key::ArrowUp);
+    harness.run_steps(2);
+    harness.key_down_modifiers(Modifiers::SHIFT, Key::ArrowLeft);
+    harness.run_steps(2);
+    harness.key_up(Key::ArrowUp);
+    harness.key_up(Key::ArrowLeft);
+    harness.run_steps(2);
+    let inputs: Vec<RobotInput> = harness.state().script().events.iter().map(|event| event.input.clone()).collect();
+    assert_eq!(inputs, [RobotInput::Drive(32, 0), RobotInput::Drive(32, 32), RobotInput::Drive(0, 0)]);
+}
+
+#[test]
+fn a_stick_drives_the_robot_in_hand_and_rests_when_it_is_let_go() {
+    let mut harness = lab(WIDE);
+    let push = |harness: &mut Harness<'_, Lab>, channels| {
+        harness.state_mut().app.world_mut().resource_mut::<Interface>().0.stick = channels;
+        harness.run_steps(3);
+    };
+    push(&mut harness, (100, 0));
+    assert!(harness.state().script().events.is_empty(), "no robot is in hand");
+    push(&mut harness, (0, 0));
+    arm_rusty(&mut harness);
+    push(&mut harness, (100, -20));
+    // keys stand above it
+    harness.key_down(Key::ArrowUp);
+    harness.run_steps(2);
+    harness.key_up(Key::ArrowUp);
+    harness.run_steps(2);
+    push(&mut harness, (0, 0));
+    let inputs: Vec<RobotInput> = harness.state().script().events.iter().map(|event| event.input.clone()).collect();
+    let driven = [(100, -20), (128, 0), (100, -20), (0, 0)].map(|(ahead, left)| RobotInput::Drive(ahead, left));
+    assert_eq!(inputs, driven);
+}
+
+#[test]
 fn rusty_is_driven_into_a_wall_and_stops_a_radius_short_of_it() {
     let mut harness = lab(WIDE);
     arm_rusty(&mut harness);

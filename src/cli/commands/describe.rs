@@ -5,7 +5,7 @@ use serde_json::{Map, Value, json};
 
 use crate::cli::{Data, Failure, Outcome};
 use motion_lab::configuration::RobotKind;
-use motion_lab::manifest::{Formula, Told, Widget};
+use motion_lab::manifest::{Formula, Lesson, Told, Widget};
 use motion_lab::picture::{Rgb, Role, Theme};
 
 /// Print what a page about the lab needs, as JSON: each widget's words, the formulas of the configuration spaces in
@@ -28,6 +28,7 @@ impl Describe {
                 json!({
                     "id": w.id, "title": w.title, "misconception": w.misconception, "description": w.description,
                     "key": key, "hints": w.hints.iter().map(|h| &h.text).collect::<Vec<_>>(),
+                    "lessons": Lesson::all().filter(|lesson| lesson.widget == widget).map(Lesson::id).collect::<Vec<_>>(),
                 })
             })
             .collect();

@@ -48,7 +48,7 @@ pub fn anatomy_view(ui: &mut Ui, model: &Dashboard, look: &Look, state: &mut UiS
     ui.scope_builder(bevy_egui::egui::UiBuilder::new().max_rect(beside), |ui| {
         ScrollArea::vertical().auto_shrink(false).show(ui, |ui| beside_the_paper(ui, narrow, look, state));
     });
-    of_anatomy(&before, &state.anatomy.anatomy).into_iter().for_each(|deed| state.settings.tick_off(deed));
+    state.did.extend(of_anatomy(&before, &state.anatomy.anatomy));
 }
 
 fn beside_the_paper(ui: &mut Ui, narrow: bool, look: &Look, state: &mut UiState) {
@@ -139,7 +139,7 @@ pub(crate) fn prompts(ui: &mut Ui, series: Series, state: &mut UiState) {
         if ui.button("Check").clicked() || entered {
             let checked = prompt.check_text(&guesses.typed);
             if checked.is_ok() && prompt.id == "thick links" {
-                state.settings.tick_off(Deed::Guess);
+                state.did.push(Deed::Guess);
             }
             guesses.is_answered = checked.is_ok();
             guesses.said = Some(checked.map_or_else(|none| none.to_string(), |guess| prompt.words(guess)));
@@ -218,7 +218,7 @@ pub(crate) fn annulus(ui: &mut Ui, state: &mut UiState) {
             anatomy.set_length(link, length);
             anatomy.show_annulus = true;
             if anatomy.lengths().is_some_and(|[one, two]| (one - two).abs() >= UNEQUAL) {
-                state.settings.tick_off(Deed::UnequalLinks);
+                state.did.push(Deed::UnequalLinks);
             }
         }
     }

@@ -80,7 +80,7 @@ pub fn atlas_view(ui: &mut Ui, model: &Dashboard, look: &Look, state: &mut UiSta
     match state.atlas.mode {
         Mode::Put => {
             if put(&on, &mut state.atlas) {
-                state.settings.tick_off(Deed::Put);
+                state.did.push(Deed::Put);
             }
         }
         Mode::Edit => match placing {

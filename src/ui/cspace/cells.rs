@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use crate::collision::Checker;
 use crate::configuration::AnyConfiguration;
-use crate::cspace::{CellMap, Overlay, Slice, cspace_picture};
+use crate::cspace::{CellMap, Overlay, Region, Slice, cspace_picture, region_items, regions};
 use crate::picture::Picture;
 use crate::robots::AnyRobot;
 
@@ -15,6 +15,8 @@ pub struct Cells {
     picture: Arc<Picture>,
     /// Number of cells judged when the picture was drawn.
     drawn: u64,
+    /// The regions of single obstacles, once they have been asked for.
+    regions: Option<Vec<Region>>,
 }
 
 impl Cells {
@@ -22,7 +24,7 @@ impl Cells {
     pub fn through(checker: &Checker<AnyRobot>, q: &AnyConfiguration, finest: u32) -> Option<Self> {
         let map = CellMap::new(Slice::through(checker, q).ok()?, finest);
         let picture = Arc::new(cspace_picture(&map, &Overlay::default()));
-        Some(Cells { map, picture, drawn: 0 })
+        Some(Cells { map, picture, drawn: 0, regions: None })
     }
 
     /// The cells.
@@ -33,6 +35,20 @@ impl Cells {
     /// The picture of them, a little behind what is known.
     pub fn picture(&self) -> &Arc<Picture> {
         &self.picture
+    }
+
+    /// The regions of single obstacles; none before [`name`](Self::name).
+    pub fn regions(&self) -> &[Region] {
+        self.regions.as_deref().unwrap_or_default()
+    }
+
+    /// Finds which obstacle each region is, once all cells are judged, and writes its name there.
+    pub fn name(&mut self) {
+        if self.regions.is_none() && self.map.progress().done {
+            let found = regions(self.map.slice());
+            let named = cspace_picture(&self.map, &Overlay::default()).with(region_items(&found));
+            (self.picture, self.regions) = (Arc::new(named), Some(found));
+        }
     }
 
     /// Judges `budget` more cells. Returns whether any remain.

@@ -49,6 +49,10 @@ impl CspaceState {
             self.cells = Some(cells);
             self.trace.clear();
         }
-        self.cells.as_mut().is_some_and(|cells| cells.refine(BUDGET))
+        self.cells.as_mut().is_some_and(|cells| {
+            let more = cells.refine(BUDGET);
+            cells.name();
+            more
+        })
     }
 }

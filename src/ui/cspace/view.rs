@@ -136,7 +136,9 @@ fn space(ui: &mut Ui, paper: Rect, look: &Look, state: &mut UiState) {
         solutions: anatomy.solutions(),
     };
     let moving = Picture::new(still.name.clone(), still.bounds).with(overlay_items(&slice, &overlay));
-    let spoken = format!("configuration space. The robot is the point {}", anatomy.q());
+    let names: Vec<&str> = cells.regions().iter().map(|region| region.name.as_str()).collect();
+    let blocked = if names.is_empty() { String::new() } else { format!(". Blocked regions: {}", names.join(", ")) };
+    let spoken = format!("configuration space. The robot is the point {}{blocked}", anatomy.q());
     let on = sheet(ui, paper, spoken, &still, &moving, look);
     // on a torus the way beyond an edge goes on at the opposite one, however far
     let held = if slice.wraps() { on.held_anywhere() } else { on.held() };
@@ -150,9 +152,9 @@ fn space(ui: &mut Ui, paper: Rect, look: &Look, state: &mut UiState) {
         // a point of the slice is a configuration of the robot
         if state.anatomy.anatomy.set_q(slice.at(p)).is_ok() {
             remember(state);
-            state.settings.tick_off(Deed::MovePoint);
+            state.did.push(Deed::MovePoint);
             if slice.wraps() && p != [to.x, to.y] {
-                state.settings.tick_off(Deed::OverEdge);
+                state.did.push(Deed::OverEdge);
             }
         }
     }

@@ -10,17 +10,21 @@ use crate::ui::{Command, Dashboard, UiState};
 /// Channel value of a key held down: the maximum.
 const FULL: i16 = crate::robots::CHANNEL_UNITS as i16;
 
+/// Channel value of a key held down with Shift.
+const FINE: i16 = FULL / 4;
+
 /// The channels that the keys held down ask for: forward and backward, left and right.
 fn channels(input: &InputState) -> (i16, i16) {
+    let value = if input.modifiers.shift { FINE } else { FULL };
     pushed(input).fold((0, 0), |(ahead, left), push| match push {
-        Push::Forward => (ahead + FULL, left),
-        Push::Backward => (ahead - FULL, left),
-        Push::Left => (ahead, left + FULL),
-        Push::Right => (ahead, left - FULL),
+        Push::Forward => (ahead + value, left),
+        Push::Backward => (ahead - value, left),
+        Push::Left => (ahead, left + value),
+        Push::Right => (ahead, left - value),
     })
 }
 
-/// Drives the robot in hand by the arrow keys, or by the pad while no arrow key is held.
+/// Drives the robot in hand by the arrow keys, by the pad while no arrow key is held, or by a gamepad's stick.
 ///
 /// Taking a robot in hand is no input: it goes on with its tour until the first key. A key pressed while the run is
 /// paused starts it, so that the robot is seen to move. Everything between two rests is undone at once.
@@ -33,7 +37,7 @@ pub fn drive(ui: &Ui, model: &Dashboard, state: &mut UiState, commands: &mut Vec
     };
     let elsewhere = ui.memory(|m| m.focused().is_some());
     let keys = if elsewhere { (0, 0) } else { ui.input(channels) };
-    let wanted = if keys == (0, 0) { state.pad } else { keys };
+    let wanted = [keys, state.pad, state.stick].into_iter().find(|channels| *channels != (0, 0)).unwrap_or_default();
     if wanted == state.held {
         return;
     }

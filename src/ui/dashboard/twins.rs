@@ -97,7 +97,7 @@ pub fn offer(ui: &mut Ui, cockpit: &Cockpit, robot: &CockpitRobot, look: &Look, 
         let is_off = is_asked && !robot.is_arm;
         state.twin = (!is_off).then(|| AskedTwin { robot: robot.name.clone(), way: None });
         if !robot.is_arm {
-            state.settings.tick_off(Deed::TwoHeadings);
+            state.did.push(Deed::TwoHeadings);
         }
     }
 }
@@ -111,7 +111,7 @@ pub fn go_on(model: &Dashboard, state: &mut UiState, commands: &mut Vec<Command>
         if robot.is_arm {
             let begun = begin(cockpit, robot, model, &state.linked, commands);
             if begun.as_ref().is_some_and(|way| way.ticks == 0) {
-                state.settings.tick_off(Deed::TwoElbows);
+                state.did.push(Deed::TwoElbows);
             }
             state.twin = begun.map(|way| AskedTwin { robot: robot.name.clone(), way: Some(way) });
         }
@@ -128,7 +128,7 @@ pub fn go_on(model: &Dashboard, state: &mut UiState, commands: &mut Vec<Command>
         way.done += 1;
         way.send(name, model.tick, commands);
     } else {
-        state.settings.tick_off(Deed::TwoElbows);
+        state.did.push(Deed::TwoElbows);
         state.twin = None;
     }
 }

@@ -102,6 +102,9 @@ fn header(ui: &mut Ui, model: &Dashboard, look: &Look, state: &mut UiState, comm
             stage::tabs(ui, model, state);
             tools::menu_button(ui, model, look, state, commands);
         });
+        if state.lesson.is_some() {
+            frame::hints(ui, words, look, state);
+        }
         return;
     }
     tools::header(ui, words, model, look, state, commands);

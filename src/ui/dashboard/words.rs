@@ -56,7 +56,10 @@ fn words(ui: &mut Ui, cockpit: &Cockpit, fit: &Fit, look: &Look, state: &mut UiS
         ui.add_space(10.0);
         frame::title(ui, words, look);
         frame::key_row(ui, words, look, state);
-        frame::hints(ui, words, look, state);
+        // a lesson's task stands above the picture
+        if state.lesson.is_none() {
+            frame::hints(ui, words, look, state);
+        }
     }
 }
 

@@ -4,13 +4,13 @@ use std::ops::Range;
 use std::sync::Arc;
 
 use bevy_egui::egui::{
-    FontId, Galley, Rect, Response, RichText, Sense, Shape, Stroke, StrokeKind, TextFormat, TextStyle, TextWrapMode,
-    Ui, Vec2, WidgetInfo, WidgetType,
+    FontId, Galley, Label, Rect, Response, RichText, Sense, Shape, Stroke, StrokeKind, TextFormat, TextStyle,
+    TextWrapMode, Ui, Vec2, WidgetInfo, WidgetType,
     text::{CCursor, LayoutJob},
     vec2,
 };
 
-use crate::manifest::{Formula, Hint, Level, Term, Told};
+use crate::manifest::{Formula, Hint, Lesson, Level, Term, Told};
 use crate::picture::Role;
 use crate::ui::keys::{self, Action};
 use crate::ui::{Look, UiState, WidgetText};
@@ -200,6 +200,9 @@ fn job(ui: &Ui, formula: &Formula, look: &Look) -> LayoutJob {
 
 /// Shows what a new reader may try first in the widget in front, until its hints are put away.
 pub fn hints(ui: &mut Ui, widget: &WidgetText, look: &Look, state: &mut UiState) {
+    if state.lesson.as_ref().is_some_and(|under_way| under_way.lesson.widget == state.widget) {
+        return lesson(ui, widget, look, state);
+    }
     if state.settings.are_hints_away(state.widget) {
         return;
     }
@@ -212,11 +215,13 @@ pub fn hints(ui: &mut Ui, widget: &WidgetText, look: &Look, state: &mut UiState)
         // of more than fit a row, the one done last and those that come next
         let last = state.settings.done.iter().rev().find_map(|id| widget.hints.iter().find(|h| h.deed.id() == *id));
         let mut open = 0;
+        let mut begun = None;
         for hint in &widget.hints {
             let is_done = is_done(&hint);
             open += usize::from(!is_done);
-            if count <= FEW || (if is_done { last == Some(hint) } else { open < FEW }) {
-                task(ui, &hint.text, is_done, look);
+            let is_shown = count <= FEW || (if is_done { last == Some(hint) } else { open < FEW });
+            if is_shown && task(ui, &hint.text, is_done, look).on_hover_text("Begin this task").clicked() {
+                begun = Some(Lesson { deed: hint.deed, widget: state.widget });
             }
         }
         if count > FEW {
@@ -225,17 +230,41 @@ pub fn hints(ui: &mut Ui, widget: &WidgetText, look: &Look, state: &mut UiState)
         if ui.link("Got it").on_hover_text(format!("Put these hints away: {}", keys::hint(Action::Hints))).clicked() {
             state.settings.put_hints_away(state.widget);
         }
+        if let Some(lesson) = begun {
+            state.begin(lesson);
+        }
+    });
+}
+
+/// Shows the task of the lesson under way in place of the hints, and once it is done what it removes.
+fn lesson(ui: &mut Ui, widget: &WidgetText, look: &Look, state: &mut UiState) {
+    let Some(under_way) = state.lesson.clone() else { return };
+    rows_of_words(ui, |ui| {
+        ui.label(RichText::new("Task:").color(look.theme.colour(Role::Focus)).strong());
+        let begin = |ui: &mut Ui| ui.link("Again").on_hover_text("Begin this task anew").clicked();
+        let mut is_begun = task(ui, under_way.lesson.text(), under_way.took.is_some(), look).clicked();
+        if let Some(took) = under_way.took {
+            ui.label(RichText::new(format!("Done in {took:.0} s.")).color(look.theme.colour(Role::Free)).strong());
+            ui.add(Label::new(RichText::new(&widget.misconception).color(look.theme.colour(Role::Muted))).wrap());
+            is_begun |= begin(ui);
+        }
+        if ui.link("All tasks").clicked() {
+            state.lesson = None;
+            state.settings.show_hints(state.widget);
+        } else if is_begun {
+            state.begin(under_way.lesson);
+        }
     });
 }
 
 /// Shows a hint with a box before it, which is ticked once it has been done.
-fn task(ui: &mut Ui, text: &str, done: bool, look: &Look) {
+fn task(ui: &mut Ui, text: &str, done: bool, look: &Look) -> Response {
     let colour = look.theme.colour(if done { Role::Muted } else { Role::Text });
     let width = ui.max_rect().width() - BOX - AFTER;
     let galley = ui.painter().layout(text.to_owned(), TextStyle::Body.resolve(ui.style()), colour, width);
-    let (rect, response) = ui.allocate_exact_size(galley.size() + vec2(BOX + AFTER, 0.0), Sense::hover());
+    let (rect, response) = ui.allocate_exact_size(galley.size() + vec2(BOX + AFTER, 0.0), Sense::click());
     let spoken = if done { format!("{text} Done.") } else { text.to_owned() };
-    response.widget_info(|| WidgetInfo::labeled(WidgetType::Label, true, &spoken));
+    response.widget_info(|| WidgetInfo::labeled(WidgetType::Link, true, &spoken));
     let middle = 0.5 * ui.text_style_height(&TextStyle::Body) + 1.0;
     let square = Rect::from_center_size(rect.min + vec2(0.5 * BOX, middle), Vec2::splat(BOX));
     ui.painter().rect_stroke(square, 0.0, Stroke::new(1.0, look.theme.colour(Role::Muted)), StrokeKind::Inside);
@@ -244,6 +273,11 @@ fn task(ui: &mut Ui, text: &str, done: bool, look: &Look) {
         ui.painter().add(Shape::line(tick.to_vec(), Stroke::new(1.8, look.theme.colour(Role::Free))));
     }
     ui.painter().galley(rect.min + vec2(BOX + AFTER, 0.0), galley, colour);
+    if response.hovered() || response.has_focus() {
+        let line = Stroke::new(1.0, look.theme.colour(Role::Focus));
+        ui.painter().hline(rect.left() + BOX + AFTER..=rect.right(), rect.bottom(), line);
+    }
+    response
 }
 
 fn small(ui: &Ui) -> FontId {

@@ -21,6 +21,7 @@ fn a_link_reads_back_as_it_was_written() {
         worlds: vec!["lot".into(), "workbench".into()],
         tick: 600,
         widget: Some(Widget::Atlas),
+        lesson: Lesson::of("pick_wall"),
         theme: Some(ThemeChoice::Dark),
         script: driven(),
         digest: Some("0123456789abcdef0123456789abcdef".into()),
@@ -87,6 +88,7 @@ fn hostile_values_are_refused_by_name() {
     assert_eq!(said("world=moon"), "world: it must be one of apartment, workbench, lot, not \"moon\"");
     assert!(said("world=lot,lot").contains("one of"), "a world comes once");
     assert!(said("widget=%3Cscript%3E").starts_with("widget: it must be one of dashboard"));
+    assert_eq!(said("lesson=Near"), "lesson: no lesson has the id \"Near\"");
     assert_eq!(said("theme=pink"), "theme: it must be one of system, light, dark, not \"pink\"");
     assert_eq!(said("digest=12"), "digest: it must be 32 hexadecimal digits, not \"12\"");
     assert_eq!(said("script=%FF"), "script: not valid UTF-8");
@@ -109,7 +111,7 @@ fn hostile_values_are_refused_by_name() {
 #[test]
 fn a_refusal_says_nothing_in_the_words_of_the_link() {
     let scam = "Your session has expired, sign in at evil.example";
-    for field in ["v", "seed", "tick", "world", "widget", "theme", "script", "inputs", "digest"] {
+    for field in ["v", "seed", "tick", "world", "widget", "lesson", "theme", "script", "inputs", "digest"] {
         let query = format!("{field}={}", utf8_percent_encode(scam, ESCAPED));
         let said = Link::parse(&query).unwrap_err().to_string();
         assert!(said.starts_with(&format!("{field}: ")), "{said}");

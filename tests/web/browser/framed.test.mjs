@@ -1,8 +1,9 @@
 // The lab in a frame of another page: a teacher's course, a reader's phone.
 import assert from "node:assert/strict";
 import { createServer } from "node:http";
+import { join } from "node:path";
 import { after, before } from "node:test";
-import { begin, end, origin } from "./harness.mjs";
+import { begin, end, origin, shots } from "./harness.mjs";
 import { lab } from "./on_page.mjs";
 
 let hosts = null;
@@ -165,6 +166,41 @@ lab("a page around asks Query, drives, puts and lets go robots, and closes doors
   await post({ do: "figure" });
   const figure = await page.waitForFunction(() => window.heard.find((m) => m.kind === "figure"), null, { timeout: 60000 }).then((m) => m.jsonValue());
   assert.match(figure.svg, /^<svg[^>]*>[^]*<\/svg>\s*$/);
+}, elsewhere);
+
+lab("a page around begins a lesson by an address or a message, and hears when it is done", "/widgets.html", async ({ page }) => {
+  const [frame] = await around(page, ["?lesson=free_ends"]);
+  const heard = await page.evaluateHandle(() => {
+    const heard = [];
+    addEventListener("message", ({ data }) => data.motionLab?.kind === "lesson" && heard.push(data.motionLab));
+    return heard;
+  });
+  const post = (message) => page.evaluate((m) => frames[0].postMessage({ motionLab: m }, "*"), message);
+  const last = (id, done) => page.waitForFunction(([all, i, d]) => all.at(-1)?.id === i && all.at(-1)?.done === d && all.at(-1), [heard, id, done], { timeout: 30000 }).then((m) => m.jsonValue());
+  // the address has begun its own
+  await frame.waitForFunction(() => window.received.state.widget === "anatomy" && window.received.state.query?.tab === "swept");
+  assert.ok(await frame.evaluate(() => window.received.tree.some((w) => w.name?.startsWith("Two free ends: find a motion"))), "its task stands there");
+  await post({ do: "lesson", id: "near" });
+  const begun = await last("near", false);
+  assert.equal(begun.seconds, null);
+  await frame.waitForFunction(() => window.received.state.query?.tab === "witness");
+  // the arm touches below 1.4009: at 1.42 it is 7 mm off, at pi/2 61 mm
+  await post({ do: "configuration", coordinates: [Math.PI / 4, 1.5] });
+  await page.waitForTimeout(700);
+  assert.equal(await page.evaluate((all) => all.at(-1).done, heard), false);
+  await frame.evaluate(() => {
+    const slider = window.received.tree.find((w) => w.kind === "slider" && w.name === "th2");
+    window.motionLab.send({ do: "act", id: slider.id, action: "set", value: "1.42" });
+  });
+  const { seconds } = await last("near", true);
+  assert.ok(seconds > 0 && seconds < 60, `${seconds}`);
+  await page.screenshot({ path: join(shots, "lesson-done.png") });
+  await post({ do: "lesson", id: null });
+  await last(null, undefined);
+  const refused = page.waitForFunction(() => window.refused?.text, null, { timeout: 20000 });
+  await page.evaluate(() => addEventListener("message", ({ data }) => data.motionLab?.kind === "error" && (window.refused = data.motionLab)));
+  await post({ do: "lesson", id: "Near" });
+  assert.match(await (await refused).jsonValue(), /^Near is no lesson/);
 }, elsewhere);
 
 /** The largest of the drawings that the lab shows, as left, top, width and height on the canvas. */

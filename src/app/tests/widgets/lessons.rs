@@ -91,78 +91,145 @@ impl Reader {
     }
 }
 
-/// A lesson: its task's deed, the widget it is in, and what the reader does.
-type Lesson = (&'static str, &'static str, fn(&mut Reader));
+/// A lesson: its task's deed, the widget it is in, how the reader makes that ready, and what the reader does then.
+type Lesson = (&'static str, &'static str, fn(&mut Reader), fn(&mut Reader));
 
 const LESSONS: [Lesson; 11] = [
-    ("TwoElbows", "Drive", |reader| {
-        reader.bring("Reach");
-        reader.click("One tip, two elbows");
-    }),
-    ("TwoHeadings", "Drive", |reader| {
-        reader.bring("Hitch");
-        reader.click("One place, two headings");
-    }),
-    ("Held", "Drive", |reader| {
-        let at = paper(&reader.harness, "Apartment").left_top() + egui::vec2(20.0, 60.0);
-        reader.click_at(at);
-        reader.actions += 1;
-        reader.harness.key_down(Key::ArrowUp);
-    }),
-    ("Guess", "Query", |reader| {
-        reader.click("Query");
-        reader.enter("the links are given a radius of 3 cm", "0.05");
-    }),
-    ("Near", "Query", |reader| {
-        reader.click("Query");
-        reader.click("witness");
-        // towards the block, and not as far as it
-        let (from, to) = (reader.tip(FRAC_PI_4, FRAC_PI_2), reader.tip(FRAC_PI_4, 1.43));
-        reader.drag(from, to);
-    }),
-    ("FreeEnds", "Query", |reader| {
-        reader.click("Query");
-        reader.click("swept");
-        let slider = reader.harness.get_by_role_and_label(egui::accesskit::Role::Slider, "step of th1").rect();
-        reader.click_at(slider.left_center() + egui::vec2(0.27 * 180.0, 0.0));
-    }),
-    ("TwoPoints", "Space", |reader| {
-        reader.click("Space");
-        let [here, other] = [(FRAC_PI_4, FRAC_PI_2), (2.3562, -FRAC_PI_2)].map(|(th1, th2)| reader.on_torus(th1, th2));
-        reader.drag(here, here);
-        reader.click_at(other);
-    }),
-    ("OverEdge", "Space", |reader| {
-        reader.click("Space");
-        let (here, edge) = (reader.on_torus(FRAC_PI_4, FRAC_PI_2), reader.on_torus(PI, FRAC_PI_2));
-        reader.drag(here, edge + egui::vec2(12.0, 0.0));
-    }),
-    ("UnequalLinks", "Space", |reader| {
-        reader.click("Space");
-        reader.enter("length of link 2", "0.5");
-    }),
-    ("PickWall", "Atlas", |reader| {
-        reader.click("Atlas");
-        reader.click("Edit");
-        let wall = at(&reader.harness, [4.0, 6.0]);
-        reader.click_at(wall);
-    }),
-    ("EditWorld", "Atlas", |reader| {
-        reader.click("Atlas");
-        reader.click("Edit");
-        let wall = at(&reader.harness, [4.0, 6.0]);
-        reader.click_at(wall);
-        reader.click("Delete");
-    }),
+    (
+        "TwoElbows",
+        "Drive",
+        |reader| {
+            reader.bring("Reach");
+        },
+        |reader| {
+            reader.click("One tip, two elbows");
+        },
+    ),
+    (
+        "TwoHeadings",
+        "Drive",
+        |reader| {
+            reader.bring("Hitch");
+        },
+        |reader| {
+            reader.click("One place, two headings");
+        },
+    ),
+    (
+        "Held",
+        "Drive",
+        |_| (),
+        |reader| {
+            let at = paper(&reader.harness, "Apartment").left_top() + egui::vec2(20.0, 60.0);
+            reader.click_at(at);
+            reader.actions += 1;
+            reader.harness.key_down(Key::ArrowUp);
+        },
+    ),
+    (
+        "Guess",
+        "Query",
+        |reader| {
+            reader.click("Query");
+        },
+        |reader| {
+            reader.enter("the links are given a radius of 3 cm", "0.05");
+        },
+    ),
+    (
+        "Near",
+        "Query",
+        |reader| {
+            reader.click("Query");
+            reader.click("witness");
+        },
+        |reader| {
+            // towards the block, and not as far as it
+            let (from, to) = (reader.tip(FRAC_PI_4, FRAC_PI_2), reader.tip(FRAC_PI_4, 1.43));
+            reader.drag(from, to);
+        },
+    ),
+    (
+        "FreeEnds",
+        "Query",
+        |reader| {
+            reader.click("Query");
+            reader.click("swept");
+        },
+        |reader| {
+            let slider = reader.harness.get_by_role_and_label(egui::accesskit::Role::Slider, "step of th1").rect();
+            reader.click_at(slider.left_center() + egui::vec2(0.27 * 180.0, 0.0));
+        },
+    ),
+    (
+        "TwoPoints",
+        "Space",
+        |reader| {
+            reader.click("Space");
+        },
+        |reader| {
+            let [here, other] =
+                [(FRAC_PI_4, FRAC_PI_2), (2.3562, -FRAC_PI_2)].map(|(th1, th2)| reader.on_torus(th1, th2));
+            reader.drag(here, here);
+            reader.click_at(other);
+        },
+    ),
+    (
+        "OverEdge",
+        "Space",
+        |reader| {
+            reader.click("Space");
+        },
+        |reader| {
+            let (here, edge) = (reader.on_torus(FRAC_PI_4, FRAC_PI_2), reader.on_torus(PI, FRAC_PI_2));
+            reader.drag(here, edge + egui::vec2(12.0, 0.0));
+        },
+    ),
+    (
+        "UnequalLinks",
+        "Space",
+        |reader| {
+            reader.click("Space");
+        },
+        |reader| {
+            reader.enter("length of link 2", "0.5");
+        },
+    ),
+    (
+        "PickWall",
+        "Atlas",
+        |reader| {
+            reader.click("Atlas");
+            reader.click("Edit");
+        },
+        |reader| {
+            let wall = at(&reader.harness, [4.0, 6.0]);
+            reader.click_at(wall);
+        },
+    ),
+    (
+        "EditWorld",
+        "Atlas",
+        |reader| {
+            reader.click("Atlas");
+            reader.click("Edit");
+        },
+        |reader| {
+            let wall = at(&reader.harness, [4.0, 6.0]);
+            reader.click_at(wall);
+            reader.click("Delete");
+        },
+    ),
 ];
 
 #[test]
 fn each_lesson_is_done_within_half_a_minute_and_a_few_clicks() {
     println!("| lesson | widget | clicks, drags and entries | seconds |\n|---|---|---|---|");
-    for (deed, widget, act) in LESSONS {
+    for (deed, widget, make_ready, act) in LESSONS {
         let mut reader = Reader::new();
         let start = reader.now();
         assert!(!reader.has_done(deed));
+        make_ready(&mut reader);
         act(&mut reader);
         while !reader.has_done(deed) {
             reader.harness.step();
@@ -181,4 +248,93 @@ fn every_lesson_has_a_hint() {
     for (deed, ..) in LESSONS {
         assert!(hints.iter().any(|hint| hint == deed), "{deed}");
     }
+}
+
+fn ui(harness: &mut Harness<'_, Lab>, change: impl FnOnce(&mut crate::ui::UiState)) {
+    change(&mut harness.state_mut().app.world_mut().resource_mut::<crate::app::Interface>().0);
+}
+
+/// The lesson under way.
+fn under_way(harness: &Harness<'_, Lab>) -> crate::ui::LessonState {
+    interface(harness).lesson.clone().unwrap()
+}
+
+#[test]
+fn a_lesson_that_is_begun_by_its_id_needs_nothing_made_ready_and_says_when_it_is_done() {
+    for (deed, ..) in LESSONS {
+        let lesson = crate::manifest::Lesson::all().find(|lesson| lesson.deed.id() == deed).unwrap();
+        let mut reader = Reader::new();
+        // the reader was elsewhere, and has done it before
+        reader.click("Plan");
+        ui(&mut reader.harness, |ui| {
+            ui.settings.tick_off(lesson.deed);
+            ui.settings.world = 1;
+            ui.begin(lesson);
+        });
+        reader.harness.run_steps(3);
+        assert_eq!(under_way(&reader.harness).took, None, "{deed}");
+        let start = reader.now();
+        LESSONS.iter().find(|known| known.0 == deed).unwrap().3(&mut reader);
+        while under_way(&reader.harness).took.is_none() {
+            reader.harness.step();
+            assert!(reader.now() - start < LONGEST, "{deed}: not done after {} actions", reader.actions);
+        }
+        reader.harness.run_steps(2);
+        let said = format!("Done in {:.0} s.", under_way(&reader.harness).took.unwrap());
+        assert!(reader.harness.query_by_label(&said).is_some(), "{deed}: {said}");
+        assert!(reader.harness.query_by_label(&lesson.widget.text().misconception).is_some(), "{deed}");
+    }
+}
+
+#[test]
+fn a_hint_begins_its_lesson_and_all_tasks_ends_it() {
+    let mut reader = Reader::new();
+    let held = crate::manifest::Lesson::of("held").unwrap();
+    ui(&mut reader.harness, |ui| ui.settings.world = 2);
+    reader.harness.run_steps(2);
+    reader.click(crate::manifest::Lesson::of("two_elbows").unwrap().text());
+    assert_eq!(
+        (under_way(&reader.harness).lesson.id().as_str(), interface(&reader.harness).settings.world),
+        ("two_elbows", 1)
+    );
+    assert!(reader.harness.query_by_label(held.text()).is_none(), "the other tasks are away");
+    reader.click("One tip, two elbows");
+    let start = reader.now();
+    while under_way(&reader.harness).took.is_none() {
+        reader.harness.step();
+        assert!(reader.now() - start < LONGEST);
+    }
+    reader.harness.run_steps(2);
+    reader.click("Again");
+    assert_eq!(under_way(&reader.harness).took, None);
+    reader.click("All tasks");
+    assert!(interface(&reader.harness).lesson.is_none() && reader.harness.query_by_label(held.text()).is_some());
+}
+
+#[test]
+fn on_a_phone_the_task_stands_above_the_picture_in_every_widget() {
+    for lesson in ["two_headings", "near", "over_edge", "pick_wall", "find_path"] {
+        let lesson = crate::manifest::Lesson::of(lesson).unwrap();
+        let mut harness = lab(PHONE);
+        ui(&mut harness, |ui| ui.begin(lesson));
+        harness.run_steps(3);
+        let place = harness.get_by_label(lesson.text()).rect();
+        assert!(place.top() > 0.0 && place.bottom() < 0.35 * PHONE[1] && place.right() <= PHONE[0], "{place:?}");
+    }
+}
+
+#[test]
+fn a_lesson_leaves_no_edit_of_a_world_behind() {
+    let mut reader = Reader::new();
+    reader.click("Atlas");
+    reader.click("Edit");
+    let wall = at(&reader.harness, [4.0, 6.0]);
+    reader.click_at(wall);
+    reader.click("Delete");
+    let edited = interface(&reader.harness).atlas.world().clone();
+    ui(&mut reader.harness, |ui| ui.begin(crate::manifest::Lesson::of("edit_world").unwrap()));
+    reader.harness.run_steps(3);
+    let state = interface(&reader.harness);
+    assert_eq!((state.atlas.world(), under_way(&reader.harness).took), (&crate::worlds::World::apartment(), None));
+    assert!(state.shelf.iter().any(|kept| *kept.world() == edited), "what was edited is on the shelf");
 }
