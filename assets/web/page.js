@@ -70,7 +70,7 @@ const tellAround = around({
     $("asked").hidden = false;
     alarm("The page around asks to save this run: Save run, or No");
   },
-  refuse: (text) => (warn(text), tellAll({ kind: "error", text })),
+  refuse: (text) => tellAll({ kind: "error", text }),
 });
 
 /** Tells whoever listens on this page, and the page around it. */
@@ -420,7 +420,8 @@ document.addEventListener("visibilitychange", () => send({ do: "visible", visibl
 
 const dark = matchMedia("(prefers-color-scheme: dark)");
 const calm = matchMedia("(prefers-reduced-motion: reduce)");
-const tellSystem = () => send({ do: "system", dark: dark.matches, reduced_motion: calm.matches });
+const finger = matchMedia("(pointer: coarse)");
+const tellSystem = () => send({ do: "system", dark: dark.matches, reduced_motion: calm.matches, touch: finger.matches });
 dark.addEventListener("change", tellSystem);
 calm.addEventListener("change", tellSystem);
 

@@ -15,6 +15,7 @@
 
 mod choice;
 mod close_up;
+mod contact;
 mod feature;
 mod nearest;
 mod picture;
@@ -29,6 +30,7 @@ mod words;
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI};
 use std::sync::Arc;
 
+pub use contact::touching_items;
 pub use feature::Feature;
 pub use nearest::{NearestPair, TIE, nearest_pairs};
 pub use prompt::{Guess, NoGuess, Prompt, Series};

@@ -131,6 +131,8 @@ fn note_refusals(
 pub fn gather(world: &mut World) {
     take_sensors_at_start(world);
     draw_worlds(world);
+    let config = Arc::clone(&world.resource::<RunConfig>().0);
+    world.resource_mut::<Interface>().0.plan.see_run(&config);
     let Transport { seed, tick, frontier, speed, looping, playback } = *world.resource::<Transport>();
     let playing = playback == Playback::Playing;
     // while it plays, the view is one tick behind and moves smoothly; paused or as fast as possible, it shows the tick
@@ -331,10 +333,11 @@ fn play_path(world: &mut World) {
     if ran.is_ok() {
         world.resource_mut::<Transport>().playback = Playback::Playing;
     }
+    let config = Arc::clone(&world.resource::<RunConfig>().0);
     let ui = &mut world.resource_mut::<Interface>().into_inner().0;
     match ran {
         Ok(()) => {
-            ui.plan.over_drive = true;
+            ui.plan.is_played_by(&config);
             ui.widget = Widget::Dashboard;
         }
         Err(error) => ui.say(Notice { text: error.to_string(), is_error: true }),

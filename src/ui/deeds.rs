@@ -27,8 +27,9 @@ const LEAST_BEND: f64 = 0.15;
 /// was asked for.
 pub fn tick_off(model: &Dashboard, state: &mut UiState, commands: &[Command], now: f64) {
     let is_sent = state.twin.as_ref().is_some_and(|asked| asked.way.is_some());
+    let is_edited = state.atlas.can_undo()[0];
     let mut done = std::mem::take(&mut state.did);
-    done.extend(commands.iter().flat_map(|command| asked(command, model, is_sent)));
+    done.extend(commands.iter().flat_map(|command| asked(command, model, is_sent, is_edited)));
     done.extend(shown(model, state));
     done.append(&mut state.plan.deeds);
     if let Some(lesson) = &mut state.lesson {
@@ -37,8 +38,9 @@ pub fn tick_off(model: &Dashboard, state: &mut UiState, commands: &[Command], no
     done.into_iter().for_each(|deed| state.settings.tick_off(deed));
 }
 
-/// The deeds that a command is; an arm may be moved `by_itself`, on its way to its other elbow.
-fn asked(command: &Command, model: &Dashboard, by_itself: bool) -> Vec<Deed> {
+/// The deeds that a command is; an arm may be moved `by_itself`, on its way to its other elbow, and the atlas's world
+/// may have been edited.
+fn asked(command: &Command, model: &Dashboard, by_itself: bool, is_edited: bool) -> Vec<Deed> {
     match command {
         Command::Run(RunCommand::Robot(RobotCommand { input, .. })) => match input {
             RobotInput::Drive(0, 0) => vec![],
@@ -49,6 +51,7 @@ fn asked(command: &Command, model: &Dashboard, by_itself: bool) -> Vec<Deed> {
         },
         Command::Run(RunCommand::Transport(TransportCommand::Reset)) => vec![Deed::Reset],
         Command::Session(SessionCommand::PlayPath) => vec![Deed::PlayPath],
+        Command::Session(SessionCommand::RunWorld | SessionCommand::RunFromHere) if is_edited => vec![Deed::EditWorld],
         _ => vec![],
     }
 }
@@ -65,7 +68,6 @@ fn shown(model: &Dashboard, state: &UiState) -> Vec<Deed> {
         Widget::Cspace => of(&[(Deed::TwoPoints, &|| have_one_tip(anatomy, &state.cspace.trace))]),
         Widget::Atlas => of(&[
             (Deed::Coarsen, &|| state.atlas.resolution > FIRST_CELL),
-            (Deed::EditWorld, &|| state.atlas.can_undo()[0]),
             (Deed::PickWall, &|| state.atlas.has_selected_wall()),
         ]),
         Widget::Plan => of(&[(Deed::FindPath, &|| *state.plan.stage() == Stage::Solved)]),

@@ -85,6 +85,8 @@ pub struct UiState {
     pub embedded: bool,
     /// The role that is pointed at in this frame.
     pub pointed: Option<Role>,
+    /// Whether fingers touch the screen, or may: controls are as large as a fingertip.
+    pub is_touched: bool,
     /// Whether the screen is so narrow that a widget shows one thing at a time.
     pub is_narrow: bool,
     /// Whether the list of keys is open.

@@ -13,6 +13,7 @@ use super::inbox::{Incoming, take_all, wake};
 use super::link::MAX_LINK_TICK;
 use super::listener::tell;
 use super::message::{Action, Input, Message};
+use super::report::Sent;
 use super::run_link::link_of;
 use crate::anatomy::Tab;
 use crate::app::{Interface, open_log, open_path_text, open_world_text, seek_aside, stop_aside};
@@ -195,10 +196,15 @@ fn take(world: &mut World, message: Message) -> Result<(), PageError> {
             let choice = choice.ok_or(PageError::Theme(name))?;
             ui(world, &|ui| ui.settings.theme = choice)
         }
-        Message::System { dark, reduced_motion } => ui(world, &|ui| {
+        Message::System { dark, reduced_motion, touch } => ui(world, &|ui| {
             ui.system_theme = if dark { Theme::Dark } else { Theme::Light };
             ui.system_reduced_motion = reduced_motion;
+            ui.is_touched |= touch;
         }),
+        Message::State => {
+            world.resource_mut::<Sent>().forget();
+            Ok(())
+        }
         Message::Link => {
             let said = link_of(world).and_then(|l| Ok((l.query()?, l.digest)));
             tell(&match said {

@@ -119,7 +119,12 @@ pub enum Message {
         dark: bool,
         /// Whether it prefers reduced motion.
         reduced_motion: bool,
+        /// Whether the pointer is a finger.
+        #[serde(default)]
+        touch: bool,
     },
+    /// Send the state and the lesson under way once more.
+    State,
     /// Send the link of what is shown.
     Link,
     /// Send the run's log.

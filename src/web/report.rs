@@ -34,6 +34,13 @@ pub struct Sent {
     at: f64,
 }
 
+impl Sent {
+    /// Lets the state and the lesson be told once more.
+    pub fn forget(&mut self) {
+        (self.state, self.lesson) = (Value::Null, Value::Null);
+    }
+}
+
 /// The paper that a link chose for this visit.
 #[derive(Resource)]
 pub struct LinkedTheme {

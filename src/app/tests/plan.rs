@@ -167,12 +167,22 @@ fn a_path_is_played_as_a_run_and_drawn_over_it() {
     assert_eq!(world.resource::<Interface>().0.widget, crate::ui::Widget::Dashboard);
     assert_eq!(harness.state().transport().playback, Playback::Playing);
     assert!(plan(&harness).over_world("Workbench").is_some() && plan(&harness).over_world("Lot").is_none());
+    let over = plan(&harness).over_world("Workbench").cloned().unwrap();
+    assert!(
+        over.items.iter().any(|item| item.id == "path") && !over.items.iter().any(|item| item.id.starts_with("start"))
+    );
     let goal = plan(&harness).task().goal.coordinates();
     for _ in 0..4000 {
         harness.run_steps(1);
         let off: f64 = harness.state().robot(0).coordinates.iter().zip(&goal).map(|(a, b)| (a - b).abs()).sum();
         if off < 1e-4 {
             assert_eq!(harness.state().robot(0).contacts, 0);
+            // another run of the same world does not play it
+            let config = crate::tour::TourConfig::default();
+            let app = harness.state_mut().app.world_mut();
+            super::super::session::new_run(app, config, crate::tour::BOOK_SEED).unwrap();
+            harness.run_steps(2);
+            assert!(plan(&harness).over_world("Workbench").is_none() && !plan(&harness).over_drive);
             return;
         }
     }

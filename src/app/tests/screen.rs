@@ -7,9 +7,9 @@ fn the_first_hints_are_put_away_for_good() {
     let mut harness = lab(WIDE);
     harness.state_mut().app.world_mut().resource_mut::<Interface>().0.settings.hints_away.clear();
     harness.run_steps(2);
-    harness.get_by_label("Click the paper, drive with the arrow keys.");
+    harness.get_by_label("Click or tap the paper, drive with the arrow keys or the pad.");
     click(&mut harness, "Got it");
-    assert!(harness.query_by_label("Click the paper, drive with the arrow keys.").is_none());
+    assert!(harness.query_by_label("Click or tap the paper, drive with the arrow keys or the pad.").is_none());
     let kept = harness.state().app.world().resource::<Interface>().0.settings.hints_away.clone();
     assert_eq!(kept, ["dashboard"], "the settings keep it");
 }
@@ -237,7 +237,8 @@ fn one_key_fills_the_window_with_the_world_in_front() {
 #[test]
 fn hints_are_ticked_off_as_they_are_done_and_come_back_by_a_key() {
     let mut harness = lab(WIDE);
-    let (first, hint) = ("Click the paper, drive with the arrow keys.", "Reset: the same seed, the same run.");
+    let (first, hint) =
+        ("Click or tap the paper, drive with the arrow keys or the pad.", "Reset: the same seed, the same run.");
     assert!(harness.query_by_label(first).is_none(), "put away");
     keys(&mut harness, Key::H, 1);
     harness.get_by_label(first);
@@ -328,6 +329,9 @@ fn each_widget_ticks_off_its_own() {
     assert_eq!(done(&harness)[3..], ["Coarsen"]);
     let gone = crate::atlas::Op::Delete { name: "D's front wall".into() };
     change(&mut harness, &|state| state.atlas.change(&gone, None));
+    assert_eq!(done(&harness).len(), 4, "the world without the wall is not run yet");
+    click(&mut harness, "Edit");
+    click(&mut harness, "Run this world");
     assert_eq!(done(&harness)[4..], ["EditWorld"]);
     click(&mut harness, "Plan");
     keys(&mut harness, Key::ArrowRight, 1);
@@ -335,6 +339,9 @@ fn each_widget_ticks_off_its_own() {
     change(&mut harness, &|state| {
         let goal = state.plan.end_at(1);
         state.plan.move_end(1, goal.with(0, 3.0));
+    });
+    assert_eq!(done(&harness).len(), 6, "it is not planned anew yet");
+    change(&mut harness, &|state| {
         (0..500).for_each(|_| state.plan.step());
     });
     assert_eq!(done(&harness)[6..], ["FindPath", "MoveGoal"]);

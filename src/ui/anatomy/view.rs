@@ -16,7 +16,7 @@ use crate::ui::deeds::of_anatomy;
 use crate::ui::paint::button::LabButton;
 use crate::ui::paint::frame::formulas;
 use crate::ui::paint::sheet::{sheet, split};
-use crate::ui::{AnatomyState, Command, Dashboard, Look, UiState};
+use crate::ui::{AnatomyState, Command, Dashboard, Look, Notice, UiState};
 use crate::worlds::World;
 
 /// Width of the panel beside the paper, points.
@@ -44,7 +44,10 @@ pub fn anatomy_view(ui: &mut Ui, model: &Dashboard, look: &Look, state: &mut UiS
         state.anatomy.anatomy.drag(to);
     }
     state.over = on.pointed_at(&overlay).or_else(|| on.pointed_at(&backdrop));
-    on.response.on_hover_text_at_pointer("Drag the robot: an arm by its tip");
+    // what has been done is known, and words at the pointer hide what is dragged
+    if !state.settings.is_ticked_off(Deed::Touch) && !on.response.dragged() {
+        on.response.on_hover_text_at_pointer("Drag the robot: an arm by its tip");
+    }
     ui.scope_builder(bevy_egui::egui::UiBuilder::new().max_rect(beside), |ui| {
         ScrollArea::vertical().auto_shrink(false).show(ui, |ui| beside_the_paper(ui, narrow, look, state));
     });
@@ -83,10 +86,12 @@ fn beside_the_paper(ui: &mut Ui, narrow: bool, look: &Look, state: &mut UiState)
     ui.horizontal(|ui| {
         if LabButton::new("Copy as Rust").show(ui, look).clicked() {
             ui.ctx().copy_text(state.anatomy.anatomy.copy_as_rust());
+            state.say(Notice { text: "copied: a program that asks the same".into(), is_error: false });
         }
         let command = state.anatomy.anatomy.copy_as_command();
         if LabButton::new("Copy as command").enabled(command.is_some()).show(ui, look).clicked() {
             ui.ctx().copy_text(command.unwrap_or_default());
+            state.say(Notice { text: "copied: a command that asks the same".into(), is_error: false });
         }
         if LabButton::new("Reset").show(ui, look).clicked() {
             state.anatomy = AnatomyState::default();

@@ -4,6 +4,7 @@ mod cells;
 pub(crate) mod linked;
 mod linked_state;
 mod state;
+mod torus;
 pub(crate) mod view;
 
 pub use cells::Cells;

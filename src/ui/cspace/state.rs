@@ -15,12 +15,25 @@ const FINEST: u32 = 8;
 /// Largest number of cells judged in a frame.
 const BUDGET: u32 = 1500;
 
+/// How a torus is turned at first: about its axis, and its axis towards the eye, radians.
+const TURNED: [f64; 2] = [-0.9, 0.85];
+
 /// The state of the configuration space.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug)]
 pub struct CspaceState {
     pub(super) cells: Option<Cells>,
     /// The configurations visited, oldest first.
     pub trace: Vec<AnyConfiguration>,
+    /// Whether a square whose edges are one is shown as a torus.
+    pub is_torus: bool,
+    /// How the torus is turned: about its axis, and its axis towards the eye, radians.
+    pub turned: [f64; 2],
+}
+
+impl Default for CspaceState {
+    fn default() -> Self {
+        CspaceState { cells: None, trace: Vec::new(), is_torus: false, turned: TURNED }
+    }
 }
 
 /// Whether the cells are those of this robot, in this scene, with the same coordinates held.

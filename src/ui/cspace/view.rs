@@ -4,7 +4,8 @@ use std::sync::Arc;
 
 use bevy_egui::egui::{CollapsingHeader, Rect, RichText, ScrollArea, Ui, pos2, vec2};
 
-use crate::anatomy::{Series, Tab};
+use super::torus::torus;
+use crate::anatomy::{Series, Tab, twin};
 use crate::cspace::{Overlay, overlay_items};
 use crate::manifest::{Deed, Widget};
 use crate::num::wrap;
@@ -38,7 +39,11 @@ pub fn cspace_view(ui: &mut Ui, model: &Dashboard, look: &Look, state: &mut UiSt
     let left = Rect::from_min_size(room.min + vec2(margin, 0.0), vec2(side, side));
     let right = if narrow { left.translate(vec2(0.0, side + 8.0)) } else { left.translate(vec2(side + 20.0, 0.0)) };
     workspace(ui, left, look, state);
-    space(ui, right, look, state);
+    if state.cspace.is_torus && state.cspace.cells.as_ref().is_some_and(|cells| cells.map().slice().wraps()) {
+        torus(ui, right, look, state);
+    } else {
+        space(ui, right, look, state);
+    }
     let below = Rect::from_min_max(pos2(room.left(), right.bottom() + 6.0), room.max);
     ui.scope_builder(bevy_egui::egui::UiBuilder::new().max_rect(below), |ui| {
         if narrow {
@@ -96,6 +101,9 @@ fn choices(ui: &mut Ui, state: &mut UiState) {
         if ui.checkbox(&mut line, "the swept tab's motion").changed() {
             state.anatomy.anatomy.tab = if line { Tab::Swept } else { Tab::Distance };
         }
+        if state.cspace.cells.as_ref().is_some_and(|cells| cells.map().slice().wraps()) {
+            ui.checkbox(&mut state.cspace.is_torus, "as a torus");
+        }
         // the coordinates that the slice holds
         ui.spacing_mut().slider_width = 180.0;
         let held: Vec<(usize, String)> =
@@ -111,7 +119,7 @@ fn workspace(ui: &mut Ui, paper: Rect, look: &Look, state: &mut UiState) {
     let still = Arc::clone(state.anatomy.backdrop());
     let mut overlay = state.anatomy.anatomy.overlay();
     let anatomy = &state.anatomy.anatomy;
-    for other in anatomy.solutions().into_iter().filter(|q| *q != anatomy.q()) {
+    if let Some(other) = twin(anatomy.checker().robot(), &anatomy.q()) {
         let shape = anatomy.checker().robot().footprint(&other);
         overlay.items.extend(footprint("other", "the other arm with this tip", &shape, Role::Robot, 0.3));
     }

@@ -9,7 +9,9 @@ use bevy_egui::egui::{
 use super::twins::twin_items;
 use super::words::words_in;
 use super::{doors, drive, handles, pad};
+use crate::anatomy::touching_items;
 use crate::atlas::{self, Atlas};
+use crate::collision::Scene;
 use crate::picture::{Drawing, Fit, Item, Picture, Role, ScanDrawing, fan_scan, pick, places, scan_id};
 use crate::simulation::SensorView;
 use crate::ui::paint::camera::Camera;
@@ -61,7 +63,9 @@ pub fn paper(
     let mut camera = state.cameras.get(&cockpit.world.name).copied().unwrap_or_default();
     // a paper that shows the whole world lets a finger scroll what it lies in
     let sense = if camera.zoom > 1.0 { Sense::click_and_drag() } else { Sense::click() };
-    let response = ui.allocate_rect(paper, sense);
+    ui.allocate_rect(paper, Sense::hover());
+    // the focus stays with the world where panes change places
+    let response = ui.interact(paper, Id::new(("pane", &cockpit.world.name)), sense);
     let (fit, _) = magnified(ui, &response, &mut camera, &whole, bounds, state.takes_wheel());
     response.widget_info(|| WidgetInfo::labeled(WidgetType::Button, true, cockpit.described()));
     // a wall on the border of a world that is shown whole is a point wider than the paper
@@ -75,6 +79,7 @@ pub fn paper(
         over = over.with(names(ui, cockpit, &fit));
     }
     let over = over.with(under).with(twin_items(cockpit, state)).with(robots(ui, cockpit, state));
+    let over = over.with(touched_by(cockpit));
     canvas::paint(&painter, &over, &fit, look);
     point_out(&response, &over, cockpit, &fit);
     let driven = in_reach(cockpit);
@@ -113,6 +118,16 @@ pub fn paper(
         response.on_hover_text_at_pointer(words);
     }
     fit
+}
+
+/// What the cockpit's robots touch in this tick.
+fn touched_by(cockpit: &Cockpit) -> Vec<Item> {
+    let mut touching = cockpit.robots.iter().filter(|robot| robot.flash).peekable();
+    if cockpit.crowd.is_some() || touching.peek().is_none() {
+        return Vec::new();
+    }
+    let scene = Scene::of_world(cockpit.atlas.world());
+    touching.flat_map(|robot| touching_items(&scene, &robot.footprint)).collect()
 }
 
 /// The cockpit's robots one by one: their scans, their goals, and over them their bodies.

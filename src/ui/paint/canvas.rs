@@ -226,7 +226,7 @@ fn paint_primitive(painter: &Painter, primitive: &Primitive, look: &Look) {
             };
             let rect = align.anchor_size(pos(at), galley.size());
             if *plate {
-                painter.rect_filled(rect.expand2([3.0, 1.0].into()), 2.0, look.tint(Role::Paper, 0.85));
+                painter.rect_filled(rect.expand2([3.0, 1.0].into()), 0.0, look.tint(Role::Paper, 0.85));
             }
             painter.galley(rect.min, galley, Color32::PLACEHOLDER);
         }
@@ -309,7 +309,7 @@ mod tests {
             assert_eq!(now, painted(&Context::default(), &picture, rect, &fit), "{x} {y} {zoom}");
             seen += now.len();
         }
-        assert!(seen > 100, "{seen}");
+        assert!(seen > 50, "{seen}");
     }
 
     #[test]

@@ -13,7 +13,7 @@ use bevy_egui::egui::{
 use crate::manifest::{Formula, Hint, Lesson, Level, Term, Told};
 use crate::picture::Role;
 use crate::ui::keys::{self, Action};
-use crate::ui::{Look, UiState, WidgetText};
+use crate::ui::{LessonState, Look, UiState, WidgetText};
 
 /// Largest number of hints shown at once.
 const FEW: usize = 4;
@@ -200,8 +200,10 @@ fn job(ui: &Ui, formula: &Formula, look: &Look) -> LayoutJob {
 
 /// Shows what a new reader may try first in the widget in front, until its hints are put away.
 pub fn hints(ui: &mut Ui, widget: &WidgetText, look: &Look, state: &mut UiState) {
-    if state.lesson.as_ref().is_some_and(|under_way| under_way.lesson.widget == state.widget) {
-        return lesson(ui, widget, look, state);
+    // what ends in another widget, such as a world that is run, says there that it is done
+    let is_here = |under_way: &LessonState| under_way.lesson.widget == state.widget || under_way.took.is_some();
+    if let Some(under_way) = state.lesson.clone().filter(is_here) {
+        return lesson(ui, &under_way, look, state);
     }
     if state.settings.are_hints_away(state.widget) {
         return;
@@ -237,15 +239,18 @@ pub fn hints(ui: &mut Ui, widget: &WidgetText, look: &Look, state: &mut UiState)
 }
 
 /// Shows the task of the lesson under way in place of the hints, and once it is done what it removes.
-fn lesson(ui: &mut Ui, widget: &WidgetText, look: &Look, state: &mut UiState) {
-    let Some(under_way) = state.lesson.clone() else { return };
+fn lesson(ui: &mut Ui, under_way: &LessonState, look: &Look, state: &mut UiState) {
+    let widget = under_way.lesson.widget.text();
     rows_of_words(ui, |ui| {
         ui.label(RichText::new("Task:").color(look.theme.colour(Role::Focus)).strong());
         let begin = |ui: &mut Ui| ui.link("Again").on_hover_text("Begin this task anew").clicked();
         let mut is_begun = task(ui, under_way.lesson.text(), under_way.took.is_some(), look).clicked();
         if let Some(took) = under_way.took {
             ui.label(RichText::new(format!("Done in {took:.0} s.")).color(look.theme.colour(Role::Free)).strong());
-            ui.add(Label::new(RichText::new(&widget.misconception).color(look.theme.colour(Role::Muted))).wrap());
+            // on a wide screen it stands above already
+            if look.narrow || under_way.lesson.widget != state.widget {
+                ui.add(Label::new(RichText::new(&widget.misconception).color(look.theme.colour(Role::Muted))).wrap());
+            }
             is_begun |= begin(ui);
         }
         if ui.link("All tasks").clicked() {

@@ -1,8 +1,9 @@
 //! A sheet: one picture on a paper that the pointer can act on.
 
-use bevy_egui::egui::{Rect, Response, Sense, Stroke, StrokeKind, Ui, WidgetInfo, WidgetType};
+use bevy_egui::egui::{Rect, Response, Sense, Stroke, StrokeKind, Ui, WidgetInfo, WidgetType, vec2};
 
 use super::canvas;
+use super::scale_bar::bar_at;
 use crate::geometry::Point2;
 use crate::picture::{Fit, Picture, Role, pick};
 use crate::ui::Look;
@@ -69,6 +70,9 @@ pub fn sheet(
     let painter = ui.painter_at(paper.expand(1.0));
     canvas::paint_kept(&painter, still, paper, &fit, look);
     canvas::paint(&ui.painter_at(paper), moving, &fit, look);
+    if still.in_metres {
+        bar_at(ui, &painter, paper.left_bottom() + vec2(10.0, -8.0), fit.px_per_metre(), look);
+    }
     let role = if response.has_focus() { Role::Focus } else { Role::Hairline };
     painter.rect_stroke(paper, 0.0, Stroke::new(1.0, look.colour(role)), StrokeKind::Inside);
     Sheet { response, paper, fit }

@@ -2,6 +2,7 @@
 
 use std::sync::{Arc, LazyLock};
 
+use bevy_egui::egui::epaint::{FontColorTransferFunction, TextOptions};
 use bevy_egui::egui::style::{Selection, WidgetVisuals, Widgets};
 use bevy_egui::egui::{
     Color32, CornerRadius, FontData, FontDefinitions, FontFamily, FontId, Shadow, Stroke, Style, TextStyle, Visuals,
@@ -170,6 +171,12 @@ impl Theme {
             window_shadow: Shadow::NONE,
             popup_shadow: Shadow::NONE,
             panel_fill: paper,
+            // the window's surface blends in linear light, in which half a coverage of dark ink is a light grey: with
+            // 1 - (1 - c)^2 letters come out as dark as blended between the stored bytes
+            text_options: TextOptions {
+                color_transfer_function: FontColorTransferFunction::TwoCoverageMinusCoverageSq,
+                ..base.text_options
+            },
             // disabled controls have fainter ink: a fade would be blended in linear light and come out grey
             disabled_alpha: 1.0,
             ..base
@@ -180,6 +187,24 @@ impl Theme {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn letters_are_as_dark_as_blended_between_stored_bytes() {
+        let function = Theme::Light.style(false).visuals.text_options.color_transfer_function;
+        let Rgb(paper) = Theme::Light.palette().colour(Role::Paper);
+        for role in [Role::Text, Role::Muted, Role::Focus] {
+            let Rgb(ink) = Theme::Light.palette().colour(role);
+            for coverage in [0.25_f32, 0.5, 0.75] {
+                let alpha = f64::from(function.alpha_from_coverage(coverage));
+                for (ink, paper) in ink.into_iter().zip(paper) {
+                    let shown = stored(linear(paper) + alpha * (linear(ink) - linear(paper)));
+                    let wanted = f64::from(paper) + f64::from(coverage) * (f64::from(ink) - f64::from(paper));
+                    let off = f64::from(shown) - wanted;
+                    assert!(off.abs() <= 25.0, "{role:?} at {coverage}: {shown} instead of {wanted}");
+                }
+            }
+        }
+    }
 
     #[test]
     fn a_tint_blends_on_paper_to_what_svg_shows() {

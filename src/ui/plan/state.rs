@@ -5,15 +5,15 @@ use std::sync::Arc;
 use bevy::platform::time::Instant;
 
 use super::work::Work;
-use crate::collision::Checker;
+use crate::collision::{Checker, Collision};
 use crate::configuration::AnyConfiguration;
 use crate::manifest::Deed;
-use crate::picture::{Picture, world as picture_of};
+use crate::picture::{Item, Picture, Role, world as picture_of};
 use crate::planning::{Bound, Effort, NoPath, Progress};
 use crate::plans::{Drawn, PathLengths, PlannerName, Task, space_items, workspace_items};
 use crate::random::Seed;
-use crate::robots::AnyRobot;
-use crate::tour::BOOK_SEED;
+use crate::robots::{AnyRobot, Robot};
+use crate::tour::{BOOK_SEED, TourConfig};
 use crate::ui::cspace::Cells;
 use crate::worlds::World;
 
@@ -80,6 +80,10 @@ pub struct PlanState {
     pub end: usize,
     /// Whether it is drawn over the dashboard's panes too.
     pub over_drive: bool,
+    /// The path that the run plays, with the run's configuration.
+    played: Option<(Arc<TourConfig>, Arc<Picture>)>,
+    /// Whether the goal was moved since the planner was last at work.
+    pub is_moved: bool,
     /// What the reader did that hints ask for, since it was last taken.
     pub deeds: Vec<Deed>,
 }
@@ -116,6 +120,8 @@ impl PlanState {
             over_cells: None,
             end: 1,
             over_drive: false,
+            played: None,
+            is_moved: false,
             deeds: Vec::new(),
             task,
         };
@@ -126,8 +132,8 @@ impl PlanState {
     /// Another task. The planner stays if it suits the robot, pace and seed stay.
     pub fn take(&mut self, task: Task) {
         let planner = if self.planner.suits(&task.robot).is_ok() { Some(self.planner) } else { None };
-        let (seed, pace, over_drive) = (self.seed, self.pace, self.over_drive);
-        *self = PlanState { seed, pace, over_drive, ..Self::of(task) };
+        let (seed, pace, over_drive, played) = (self.seed, self.pace, self.over_drive, self.played.take());
+        *self = PlanState { seed, pace, over_drive, played, ..Self::of(task) };
         self.planner = planner.unwrap_or(self.planner);
         self.restart();
     }
@@ -169,8 +175,8 @@ impl PlanState {
         let moved = if end == 0 { &mut self.task.start } else { &mut self.task.goal };
         if *moved != q {
             *moved = q;
-            self.deeds.extend((end == 1).then_some(Deed::MoveGoal));
             self.restart();
+            self.is_moved |= end == 1;
         }
     }
 
@@ -250,6 +256,7 @@ impl PlanState {
         if matches!(self.stage, Stage::Ended(_)) {
             return self.playing = false;
         }
+        self.deeds.extend(std::mem::take(&mut self.is_moved).then_some(Deed::MoveGoal));
         let effort = work.with(|attempt| attempt.effort());
         let next = if effort.iterations >= self.bound {
             let exhausted = NoPath::Exhausted { bound: Bound::Iterations, effort };
@@ -283,9 +290,24 @@ impl PlanState {
         self.look();
     }
 
-    /// The picture of the plan for a pane that shows the world of this name, where it is to be drawn there too.
+    /// The run with this configuration plays the path: it is drawn over its world, without the start, where the robot is.
+    pub fn is_played_by(&mut self, config: &Arc<TourConfig>) {
+        let shown = |item: &Item| !item.id.starts_with("start") && item.id != "growth";
+        let items = self.over.items.iter().filter(|item| shown(item)).cloned();
+        let picture = Picture::new("played path", self.over.bounds).with(items);
+        self.played = Some((Arc::clone(config), Arc::new(picture)));
+    }
+
+    /// Forgets the path that a run played, unless that run is still the one with this configuration.
+    pub fn see_run(&mut self, config: &Arc<TourConfig>) {
+        self.played.take_if(|(played, _)| !Arc::ptr_eq(played, config));
+    }
+
+    /// The picture of the path or the plan for a pane that shows the world of this name, where it is to be drawn there.
     pub fn over_world(&self, name: &str) -> Option<&Arc<Picture>> {
-        Some(&self.over).filter(|_| self.over_drive && self.task.world.name == name)
+        let is_there = |config: &TourConfig| config.worlds.iter().any(|world| world.name == name);
+        let played = self.played.as_ref().filter(|(config, _)| is_there(config)).map(|(_, picture)| picture);
+        played.or_else(|| Some(&self.over).filter(|_| self.over_drive && self.task.world.name == name))
     }
 
     /// The slice of the configuration space behind the plan, through the end in hand, a little better known with each
@@ -324,7 +346,11 @@ impl PlanState {
 
     /// Draws this from now on.
     pub(super) fn draw(&mut self, drawn: Drawn) {
-        let items = workspace_items(&self.task.robot, &drawn);
+        let mut items = workspace_items(&self.task.robot, &drawn);
+        if self.task.scene.intersects(&self.task.robot.footprint(&self.task.goal)) {
+            // what is in contact is red, whatever it is
+            items.iter_mut().filter(|item| item.id.starts_with("goal")).for_each(|item| item.role = Role::Goal);
+        }
         self.over = Arc::new(Picture::new("plan", self.task.world.bounds).with(items));
         (self.drawn, self.over_cells) = (drawn, None);
     }

@@ -107,7 +107,9 @@ fn workspace(ui: &mut Ui, room: Rect, look: &Look, plan: &mut PlanState) -> Rect
         let bends_down = q.coordinates().last().is_some_and(|angle| *angle >= 0.0);
         plan.move_end(end, robot.dragged(&q, to, bends_down));
     }
-    on.response.on_hover_text_at_pointer("Drag the start or the goal");
+    if !plan.is_moved && !on.response.dragged() {
+        on.response.on_hover_text_at_pointer("Drag the start or the goal");
+    }
     paper
 }
 
@@ -145,7 +147,9 @@ fn space(ui: &mut Ui, room: Rect, look: &Look, plan: &mut PlanState) -> Rect {
         let to = there.coordinates();
         plan.move_end(end, axes.into_iter().fold(q, |q, axis| q.with(axis, to[axis])));
     }
-    on.response.on_hover_text_at_pointer("Drag a point: it is the start or the goal");
+    if !plan.is_moved && !on.response.dragged() {
+        on.response.on_hover_text_at_pointer("Drag a point: it is the start or the goal");
+    }
     paper.with_max_y(paper.bottom() + line)
 }
 

@@ -83,6 +83,7 @@ lab("a page around presses nothing, hears nothing of the reader's, and one origi
   assert.equal((await answer("error")).text, "act: not for the page around");
   await page.waitForTimeout(500);
   assert.equal(await playing(), before, "the button is not pressed");
+  assert.equal(await frame.textContent("#alert"), "", "the reader is not told of the page's mistake");
   for (const message of [{ do: "key", key: "s", pressed: true }, { do: "paste", text: "x" }, { do: "system", dark: true, reduced_motion: true }]) {
     await page.evaluate(() => (window.heard = []));
     await post(message);
@@ -195,6 +196,13 @@ lab("a page around begins a lesson by an address or a message, and hears when it
   const { seconds } = await last("near", true);
   assert.ok(seconds > 0 && seconds < 60, `${seconds}`);
   await page.screenshot({ path: join(shots, "lesson-done.png") });
+  // who listens late asks for what was told
+  await page.evaluate(() => {
+    window.late = [];
+    addEventListener("message", ({ data }) => data.motionLab && window.late.push(data.motionLab));
+  });
+  await post({ do: "state" });
+  await page.waitForFunction(() => window.late.some((m) => m.kind === "lesson" && m.done) && window.late.some((m) => m.kind === "state"), null, { timeout: 20000 });
   await post({ do: "lesson", id: null });
   await last(null, undefined);
   const refused = page.waitForFunction(() => window.refused?.text, null, { timeout: 20000 });

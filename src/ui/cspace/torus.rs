@@ -1,0 +1,184 @@
+//! The configuration space of an arm as the torus that it is: its square bent until opposite edges meet.
+
+use bevy_egui::egui::{Color32, Mesh, Pos2, Rect, Sense, Shape, Stroke, Ui, Vec2, WidgetInfo, WidgetType, pos2, vec2};
+
+use crate::configuration::AnyConfiguration;
+use crate::cspace::{CellMap, CellState};
+use crate::num::sin_cos;
+use crate::picture::Role;
+use crate::ui::{Look, UiState};
+
+/// Radius of the tube; that of the circle in its middle is 1.
+const TUBE: f64 = 0.42;
+
+/// Level of the cells drawn: a 64th of the sides.
+const LEVEL: u32 = 6;
+
+/// Radians that a drag of one point turns it by.
+const PER_POINT: f32 = 0.01;
+
+/// Number of pieces in which a seam is drawn.
+const PIECES: u32 = 96;
+
+/// A point of the torus as the eye has it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Seen {
+    /// To the right and up, in radii of the circle in the tube's middle.
+    at: [f64; 2],
+    /// Towards the eye.
+    near: f64,
+    /// Cosine of the angle between the surface's normal and the way to the eye; negative on the far side.
+    facing: f64,
+}
+
+/// Where a point of the square of angles is seen: `th1` goes round the axis, `th2` round the tube.
+fn seen([th1, th2]: [f64; 2], [about, tilt]: [f64; 2]) -> Seen {
+    let ((s, c), (tube_up, tube_out), (st, ct)) = (sin_cos(th1 + about), sin_cos(th2), sin_cos(tilt));
+    let out = 1.0 + TUBE * tube_out;
+    // the axis is up; tilted by a quarter turn it points at the eye
+    let bent = |across: f64, back: f64, up: f64| ([across, up * ct + back * st], up * st - back * ct);
+    let (at, near) = bent(out * c, out * s, TUBE * tube_up);
+    let (_, facing) = bent(tube_out * c, tube_out * s, tube_up);
+    Seen { at, near, facing }
+}
+
+/// Shows the torus with the cells, the trace, the arms with this tip and the robot's point. A drag turns it.
+pub fn torus(ui: &mut Ui, paper: Rect, look: &Look, state: &mut UiState) {
+    let Some(cells) = &state.cspace.cells else { return };
+    let anatomy = &state.anatomy.anatomy;
+    let response = ui.allocate_rect(paper, Sense::drag());
+    let spoken = format!("configuration space as a torus. The robot is the point {}", anatomy.q());
+    response.widget_info(|| WidgetInfo::labeled(WidgetType::Other, true, &spoken));
+    let turned = &mut state.cspace.turned;
+    let by = response.drag_delta() * PER_POINT;
+    *turned = [turned[0] + f64::from(by.x), (turned[1] + f64::from(by.y)).clamp(0.0, std::f64::consts::FRAC_PI_2)];
+    let turned = *turned;
+    let scale = f64::from(0.5 * paper.width().min(paper.height()) - 14.0) / (1.0 + TUBE);
+    let on_paper = |[x, y]: [f64; 2]| paper.center() + vec2((x * scale) as f32, (-y * scale) as f32);
+    let painter = ui.painter_at(paper);
+    painter.add(surface(cells.map(), turned, look, &on_paper));
+    let point = |q: &AnyConfiguration| seen(cells.map().slice().point(q), turned);
+    // the two circles at which the square was cut
+    let pi = std::f64::consts::PI;
+    for seam in [|a: f64| [a, std::f64::consts::PI], |a: f64| [std::f64::consts::PI, a]] {
+        let round = (0..=PIECES).map(|i| seen(seam(pi * (2.0 * f64::from(i) / f64::from(PIECES) - 1.0)), turned));
+        line(&painter, &round.collect::<Vec<_>>(), Stroke::new(1.0, look.colour(Role::Muted)), &on_paper);
+    }
+    let trace: Vec<Seen> = state.cspace.trace.iter().map(point).collect();
+    line(&painter, &trace, Stroke::new(1.5, look.colour(Role::Path)), &on_paper);
+    for other in anatomy.solutions() {
+        let there = point(&other);
+        let ink = if there.facing >= 0.0 { 1.0 } else { 0.4 };
+        painter.circle_stroke(on_paper(there.at), 6.5, Stroke::new(1.5, look.tint(Role::Focus, ink)));
+    }
+    let (here, role) = (point(&anatomy.q()), if anatomy.intersects() { Role::Goal } else { Role::Robot });
+    let ink = if here.facing >= 0.0 { 1.0 } else { 0.5 };
+    painter.circle_filled(on_paper(here.at), 5.0, look.tint(role, ink));
+    response.on_hover_text("Drag it to turn it");
+}
+
+/// The side of the surface that faces the eye, what is farther below what is nearer. The more it faces the eye, the
+/// stronger its colour.
+fn surface(map: &CellMap, turned: [f64; 2], look: &Look, on_paper: &dyn Fn([f64; 2]) -> Pos2) -> Shape {
+    let (side, image) = (1_u32 << LEVEL.min(map.finest()), map.raster(LEVEL));
+    let angle = |k: u32| std::f64::consts::PI * (2.0 * f64::from(k) / f64::from(side) - 1.0);
+    let corner = |column: u32, row: u32| seen([angle(column), angle(row)], turned);
+    let cells = image.iter().enumerate().map(|(i, state)| (i as u32 % side, i as u32 / side, *state));
+    let mut faces: Vec<(f64, f64, CellState, [Pos2; 4])> = cells
+        .filter_map(|(column, row, state)| {
+            let corners = [(0, 0), (1, 0), (1, 1), (0, 1)].map(|(right, up)| corner(column + right, row + up));
+            let mean = |of: fn(&Seen) -> f64| corners.iter().map(of).sum::<f64>() / 4.0;
+            let facing = mean(|c| c.facing);
+            (facing > -0.1).then(|| (mean(|c| c.near), facing, state, corners.map(|c| on_paper(c.at))))
+        })
+        .collect();
+    faces.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let paper = look.colour(Role::Paper);
+    let ink = |facing: f64, state: CellState| -> Color32 {
+        let lit = facing.clamp(0.0, 1.0) as f32;
+        let (role, share) = match state {
+            CellState::Free => (Role::Free, 0.2 + 0.4 * lit),
+            CellState::Blocked => (Role::Obstacle, 0.45 + 0.4 * lit),
+            CellState::Unknown => (Role::Unknown, 0.3 + 0.4 * lit),
+        };
+        paper.lerp_to_gamma(look.colour(role), share)
+    };
+    let mut mesh = Mesh::default();
+    for (_, facing, state, corners) in faces {
+        let (first, colour) = (mesh.vertices.len() as u32, ink(facing, state));
+        corners.into_iter().for_each(|corner| mesh.colored_vertex(corner, colour));
+        mesh.add_triangle(first, first + 1, first + 2);
+        mesh.add_triangle(first, first + 2, first + 3);
+    }
+    Shape::mesh(mesh)
+}
+
+/// A line on the torus, in pieces: what is on its far side is left out, and so is a piece from edge to edge.
+fn line(painter: &bevy_egui::egui::Painter, points: &[Seen], stroke: Stroke, on_paper: &dyn Fn([f64; 2]) -> Pos2) {
+    let is_shown = |pair: &&[Seen]| pair.iter().all(|p| p.facing > 0.0);
+    for pair in points.windows(2).filter(is_shown) {
+        let [from, to] = [pair[0], pair[1]].map(|p| on_paper(p.at));
+        if (to - from) != Vec2::ZERO {
+            painter.line_segment([from, to], stroke);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::f64::consts::{FRAC_PI_2, PI};
+
+    use super::*;
+    use crate::ui::CspaceState;
+
+    fn is_near(seen: Seen, at: [f64; 2], near: f64, facing: f64) -> bool {
+        let off = [seen.at[0] - at[0], seen.at[1] - at[1], seen.near - near, seen.facing - facing];
+        off.into_iter().all(|d| d.abs() < 1e-12)
+    }
+
+    #[test]
+    fn opposite_edges_of_the_square_are_one_and_the_eye_sees_it_from_where_it_is_turned_to() {
+        for turned in [[0.0, 0.0], CspaceState::default().turned, [2.0, 1.2]] {
+            for angle in [-2.0, 0.3, 3.0] {
+                let (left, right) = (seen([-PI, angle], turned), seen([PI, angle], turned));
+                assert!(is_near(left, right.at, right.near, right.facing), "{turned:?} {angle}");
+                let (low, high) = (seen([angle, -PI], turned), seen([angle, PI], turned));
+                assert!(is_near(low, high.at, high.near, high.facing), "{turned:?} {angle}");
+            }
+        }
+        // from the side: th1 = 0 is the outermost point to the right, seen edge-on; a quarter turn back it is the nearest
+        assert!(is_near(seen([0.0, 0.0], [0.0, 0.0]), [1.0 + TUBE, 0.0], 0.0, 0.0));
+        assert!(is_near(seen([0.0, 0.0], [-FRAC_PI_2, 0.0]), [0.0, 0.0], 1.0 + TUBE, 1.0));
+        assert!(is_near(seen([0.0, PI], [-FRAC_PI_2, 0.0]), [0.0, 0.0], 1.0 - TUBE, -1.0), "the hole's side");
+        // from above: the top of the tube faces the eye
+        assert!(is_near(seen([0.0, FRAC_PI_2], [0.0, FRAC_PI_2]), [1.0, 0.0], TUBE, 1.0));
+        assert!(is_near(seen([FRAC_PI_2, 0.0], [0.0, FRAC_PI_2]), [0.0, 1.0 + TUBE], 0.0, 0.0), "th1 goes left round");
+    }
+
+    #[test]
+    fn each_cell_that_faces_the_eye_is_a_face_in_its_colour() {
+        use crate::collision::{Checker, Scene};
+        use crate::cspace::Slice;
+        use crate::picture::Theme;
+        let (arm, q) = crate::robots::AnyRobot::of_kind("reach", &[0.8, 1.5]).unwrap();
+        let mut map = CellMap::new(Slice::through(&Checker::new(Scene::workbench(), arm), &q).unwrap(), LEVEL);
+        map.refine(u32::MAX);
+        let look = Look::from(Theme::Light);
+        let Shape::Mesh(mesh) = surface(&map, [0.0, FRAC_PI_2], &look, &|[x, y]| pos2(x as f32, y as f32)) else {
+            panic!("a mesh")
+        };
+        // from above the upper half of the tube is seen, and a little beyond its edge
+        let faces = mesh.vertices.len() / 4;
+        assert!((2048..=2304).contains(&faces), "{faces}");
+        assert_eq!(mesh.indices.len(), 6 * faces);
+        let role_of = |colour: Color32| {
+            let [r, g, b, _] = colour.to_array().map(i32::from);
+            if g > r && g > b { Role::Free } else { Role::Obstacle }
+        };
+        let free = mesh.vertices.chunks(4).filter(|face| role_of(face[0].color) == Role::Free).count() as f64;
+        // the samples of the upper half itself
+        let upper: Vec<_> = map.raster(LEVEL).into_iter().skip(2048).collect();
+        let wanted = upper.iter().filter(|state| **state == CellState::Free).count() as f64 / upper.len() as f64;
+        assert!((free / faces as f64 - wanted).abs() < 0.08, "{free} of {faces}, {wanted}");
+    }
+}
