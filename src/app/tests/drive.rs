@@ -25,7 +25,7 @@ fn a_pane_is_taken_in_hand_by_keyboard_alone_and_driven() {
 fn shift_drives_a_quarter_as_fast() {
     let mut harness = lab(WIDE);
     arm_rusty(&mut harness);
-    harness.input_mut().modifiers = Modifiers::SHIFT;
+    harness.event(Event::ModifiersChanged(Modifiers::SHIFT));
     harness.key_down(Key::ArrowUp);
     harness.run_steps(2);
     harness.key_down(Key::ArrowLeft);

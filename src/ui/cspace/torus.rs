@@ -1,6 +1,6 @@
 //! The configuration space of an arm as the torus that it is: its square bent until opposite edges meet.
 
-use bevy_egui::egui::{Color32, Mesh, Pos2, Rect, Sense, Shape, Stroke, Ui, Vec2, WidgetInfo, WidgetType, pos2, vec2};
+use bevy_egui::egui::{Color32, Mesh, Pos2, Rect, Sense, Shape, Stroke, Ui, Vec2, WidgetInfo, WidgetType, vec2};
 
 use crate::configuration::AnyConfiguration;
 use crate::cspace::{CellMap, CellState};
@@ -127,6 +127,8 @@ fn line(painter: &bevy_egui::egui::Painter, points: &[Seen], stroke: Stroke, on_
 #[cfg(test)]
 mod tests {
     use std::f64::consts::{FRAC_PI_2, PI};
+
+    use bevy_egui::egui::pos2;
 
     use super::*;
     use crate::ui::CspaceState;
