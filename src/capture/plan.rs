@@ -65,6 +65,8 @@ pub fn plan(sheet: &PlanSheet<'_>) -> Captured {
             "A path from a file; nothing of it is proven here.".to_owned()
         }
     };
+    let rounds = drawn.sensed.iter().flat_map(|sensed| &sensed.leave_points).enumerate();
+    readout.extend(rounds.map(|(i, point)| format!("round {}: {point}", i + 1)));
     let (heading, source) = match found {
         Found::File(name) => (name, vec![("File", name.to_owned())]),
         _ => (planner.title(), vec![("Planner", planner.id().to_owned()), ("Seed", seed.to_string())]),

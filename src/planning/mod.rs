@@ -30,6 +30,7 @@ mod planner;
 pub mod planners;
 mod queue;
 mod sampling;
+mod sensed;
 mod settings;
 mod shortcut;
 
@@ -47,4 +48,5 @@ pub use planners::{
 };
 pub use queue::Queue;
 pub use sampling::{sample_near, sample_toward_goal};
+pub use sensed::{LeavePoint, Leaving, Sensed};
 pub use settings::Settings;

@@ -40,6 +40,9 @@ pub enum NoPath {
         /// The clearance that the planner keeps, metres.
         kept: f64,
     },
+    /// The planner's robot walks by a sensor, and gave up for this reason. There may be a path.
+    #[error("the robot gave up: {0}")]
+    GaveUp(&'static str),
     /// The planner is stuck where nothing near is better: a local minimum of a potential.
     #[error("stuck in a local minimum at configuration {node} of its growth")]
     LocalMinimum {

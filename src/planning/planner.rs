@@ -1,6 +1,6 @@
 //! `Planner`, the one interface of planners, and `solve`, which runs one.
 
-use super::{Bounds, CertifiedPath, Effort, Growth, NoPath, PathError, is_same};
+use super::{Bounds, CertifiedPath, Effort, Growth, NoPath, PathError, Sensed, is_same};
 use crate::collision::Problem;
 use crate::cspace::CellMap;
 use crate::robots::{ChartLine, Motion, Robot};
@@ -44,6 +44,11 @@ pub trait Planner<R: Robot, M: Motion<Configuration = R::Configuration> = ChartL
 
     /// The cells of the configuration space that it has judged, to be drawn; `None` for a planner without.
     fn cells(&self) -> Option<&CellMap> {
+        None
+    }
+
+    /// What its robot sees where it is, to be drawn; `None` for a planner whose robot does not walk by a sensor.
+    fn sensed(&self) -> Option<Sensed> {
         None
     }
 }

@@ -235,6 +235,7 @@ where
             path: path.flat_map(|leg| self.among_any(leg.motion())).collect(),
             corners: corners.map(|q| robot.any(&q)).collect(),
             rejected: self.rejected().filter(|_| self.path.is_none()),
+            sensed: self.planner.sensed(),
         }
     }
 

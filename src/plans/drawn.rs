@@ -2,6 +2,7 @@
 
 use crate::collision::Witness;
 use crate::configuration::AnyConfiguration;
+use crate::planning::Sensed;
 
 /// What there is to draw of a plan, whoever made it: a planner at work, or a file. Motions are lists of configurations
 /// along them, so close together that a chart line between two of them is the motion as far as one can see.
@@ -17,6 +18,8 @@ pub struct Drawn {
     pub corners: Vec<AnyConfiguration>,
     /// The motion that was rejected in the last iteration, if one was.
     pub rejected: Option<Rejected>,
+    /// What a robot that walks by its sensor sees where it is.
+    pub sensed: Option<Sensed>,
 }
 
 /// A motion that was rejected, and what it hits.
@@ -50,7 +53,8 @@ mod tests {
         let at = |i: usize| AnyRobot::of_kind("rusty", &[i as f64, 0.0, 0.0]).map(|(_, q)| q).unwrap();
         for count in [1, 2, 13, 14, 15, 16, 28, 29, 30, 1000] {
             let corners: Vec<AnyConfiguration> = (0..count).map(at).collect();
-            let drawn = Drawn { ends: [at(0), at(count - 1)], edges: vec![], path: vec![], corners, rejected: None };
+            let ends = [at(0), at(count - 1)];
+            let drawn = Drawn { ends, edges: vec![], path: vec![], corners, rejected: None, sensed: None };
             let places = drawn.places();
             assert!(places.len() <= 15 && places[0] == at(0), "{count}");
             assert_eq!(places.iter().filter(|q| **q == at(count - 1)).count(), 1, "{count}: the goal once");

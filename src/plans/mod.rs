@@ -17,6 +17,7 @@
 //! ```
 
 mod attempt;
+mod bug1_sensor;
 mod drawn;
 mod named;
 mod path_file;
@@ -24,6 +25,7 @@ mod picture;
 mod task;
 
 pub use attempt::{Attempt, Driven, Leg, LegMotion, PathLengths, Planned, Trial};
+pub use bug1_sensor::{Bug1Sensor, Bug1Walk, WalkEnd};
 pub use drawn::{Drawn, Rejected};
 pub use named::PlannerName;
 pub use path_file::{Counts, MOST_PATH_BYTES, PathFile, PathFileError};

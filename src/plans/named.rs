@@ -23,6 +23,8 @@ pub enum PlannerName {
     PotentialField,
     /// Bug1.
     Bug1,
+    /// Bug1 by a range sensor.
+    Bug1Sensor,
     /// Bug2.
     Bug2,
     /// Cells of the configuration space proven free or blocked.
@@ -33,7 +35,7 @@ pub enum PlannerName {
 
 impl PlannerName {
     /// All planners, in the order of the lists.
-    pub const ALL: [PlannerName; 12] = [
+    pub const ALL: [PlannerName; 13] = [
         PlannerName::RrtConnect,
         PlannerName::Rrt,
         PlannerName::RrtStar,
@@ -43,6 +45,7 @@ impl PlannerName {
         PlannerName::VisibilityGraph,
         PlannerName::PotentialField,
         PlannerName::Bug1,
+        PlannerName::Bug1Sensor,
         PlannerName::Bug2,
         PlannerName::CellDecomposition,
         PlannerName::HybridAStar,
@@ -60,6 +63,7 @@ impl PlannerName {
             PlannerName::VisibilityGraph => "visibility-graph",
             PlannerName::PotentialField => "potential-field",
             PlannerName::Bug1 => "bug1",
+            PlannerName::Bug1Sensor => "bug1-sensor",
             PlannerName::Bug2 => "bug2",
             PlannerName::CellDecomposition => "cell-decomposition",
             PlannerName::HybridAStar => "hybrid-a-star",
@@ -78,6 +82,7 @@ impl PlannerName {
             PlannerName::VisibilityGraph => "Visibility graph",
             PlannerName::PotentialField => "Potential field",
             PlannerName::Bug1 => "Bug1",
+            PlannerName::Bug1Sensor => "Bug1 by its sensor",
             PlannerName::Bug2 => "Bug2",
             PlannerName::CellDecomposition => "Cell decomposition",
             PlannerName::HybridAStar => "Hybrid A*",
@@ -99,6 +104,9 @@ impl PlannerName {
             }
             PlannerName::Bug1 => {
                 "Bug1, for a rover: it goes round an obstacle once, and leaves where it was nearest to the goal"
+            }
+            PlannerName::Bug1Sensor => {
+                "Bug1, for a rover that sees walls by its range sensor alone: it may misjudge where to leave them"
             }
             PlannerName::Bug2 => "Bug2, for a rover: it follows the line to the goal, and boundaries between",
             PlannerName::CellDecomposition => {
@@ -126,12 +134,12 @@ impl PlannerName {
     /// # Errors
     /// The reason in words.
     pub const fn suits(self, robot: &AnyRobot) -> Result<(), &'static str> {
-        use PlannerName::{Bug1, Bug2, CellDecomposition, HybridAStar, VisibilityGraph};
+        use PlannerName::{Bug1, Bug1Sensor, Bug2, CellDecomposition, HybridAStar, VisibilityGraph};
         match (self, robot) {
             (HybridAStar, AnyRobot::Hitch(_)) => Ok(()),
             (HybridAStar, _) => Err("it plans for a car only"),
             (_, AnyRobot::Hitch(_)) => Err("it plans straight lines, which no car can drive"),
-            (Bug1 | Bug2 | VisibilityGraph, AnyRobot::Reach(_) | AnyRobot::Reach3(_)) => {
+            (Bug1 | Bug1Sensor | Bug2 | VisibilityGraph, AnyRobot::Reach(_) | AnyRobot::Reach3(_)) => {
                 Err("it plans for discs in the plane")
             }
             (CellDecomposition, AnyRobot::Reach3(_)) => Err("its cells are those of a plane or a torus"),

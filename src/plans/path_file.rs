@@ -320,7 +320,7 @@ impl PathFile {
                 edges.push(chart_line(ends.0, ends.1));
             }
         }
-        Ok(Drawn { ends, edges, path, corners, rejected: None })
+        Ok(Drawn { ends, edges, path, corners, rejected: None, sensed: None })
     }
 }
 

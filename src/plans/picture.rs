@@ -3,13 +3,14 @@
 use super::drawn::Drawn;
 use crate::configuration::AnyConfiguration;
 use crate::cspace::{Slice, lines_through};
-use crate::geometry::Point2;
-use crate::picture::{Dash, Drawing, Glyph, Item, Line, Role, footprint};
+use crate::geometry::{Point2, Pose2};
+use crate::picture::{Anchor, Dash, Drawing, Face, Fill, Glyph, Item, Line, Role, footprint, scan};
+use crate::planning::{LeavePoint, Sensed};
 use crate::robots::{AnyRobot, Robot};
 
 /// The items of a plan over a world: the growth as the ways of the robot's [reference
-/// point](AnyRobot::reference), the robot along the path, at the goal and at the start, and what the last rejected
-/// motion hits.
+/// point](AnyRobot::reference), the robot along the path, at the goal and at the start, what the last rejected motion
+/// hits, and for a robot that walks by its sensor where it is and what it reads there.
 pub fn workspace_items(robot: &AnyRobot, drawn: &Drawn) -> Vec<Item> {
     let way = |motion: &Vec<AnyConfiguration>| motion.iter().map(|q| robot.reference(q)).collect::<Vec<Point2>>();
     let mut items = vec![growth(drawn.edges.iter().map(way).collect())];
@@ -28,6 +29,57 @@ pub fn workspace_items(robot: &AnyRobot, drawn: &Drawn) -> Vec<Item> {
         let cross = rejected.witness.map(|w| Drawing::Mark { at: w.on_obstacle, glyph: Glyph::Cross, radius_px: 5.0 });
         items.extend(cross.map(|cross| Item::new("rejected/witness", "what it hits", Role::Goal, cross)));
     }
+    if let Some(sensed) = &drawn.sensed {
+        items.extend(sensed_items(robot, &drawn.ends[0], sensed));
+    }
+    items
+}
+
+/// The robot where it is, what its sensor reads there, and where it left boundaries.
+fn sensed_items(robot: &AnyRobot, start: &AnyConfiguration, sensed: &Sensed) -> Vec<Item> {
+    let Sensed { at, ranges, leave_points } = sensed;
+    let mut items = vec![scan("readings", "what its sensor reads", &Pose2::new(at.x, at.y, 0.0), ranges)];
+    items.extend(footprint(
+        "present",
+        "where it is",
+        &robot.footprint(&start.with(0, at.x).with(1, at.y)),
+        Role::Robot,
+        0.85,
+    ));
+    for (i, point) in leave_points.iter().enumerate() {
+        items.extend(leave_point_items(i + 1, point));
+    }
+    items
+}
+
+/// A leave point, and where the boundary of its round truly comes nearest to the goal.
+fn leave_point_items(round: usize, point: &LeavePoint) -> Vec<Item> {
+    let mark = |at, glyph| Drawing::Mark { at, glyph, radius_px: 5.0 };
+    let label =
+        |at, text: String, anchor| Drawing::Label { at, text, anchor, face: Face::Sans, size_px: 12.0, plate: true };
+    let mut items = Vec::new();
+    if let Some(nearest) = point.nearest {
+        let words = format!("nearest to the goal in round {round}");
+        items.push(
+            Item::new(format!("nearest/{round}"), words, Role::Witness, mark(nearest, Glyph::Ring))
+                .filled(Fill::Tint(1.0)),
+        );
+        if point.is_too_far() {
+            let off = Drawing::segment(point.at, nearest);
+            let line = Line::solid(1.0).dashed(Dash::Dashed);
+            items.push(Item::new(format!("misjudged/{round}"), "how far off", Role::Witness, off).stroked(line));
+            let text = label(nearest, format!("nearest {round}"), Anchor::Above);
+            items.push(Item::new(format!("nearest/{round}/label"), "", Role::Witness, text));
+        }
+    }
+    items.push(Item::new(
+        format!("left/{round}"),
+        format!("round {round}: {point}"),
+        Role::Path,
+        mark(point.at, Glyph::Dot),
+    ));
+    let text = label(point.at, format!("left {round}"), Anchor::Below);
+    items.push(Item::new(format!("left/{round}/label"), "", Role::Path, text));
     items
 }
 

@@ -11,12 +11,14 @@ use crate::planning::{
     Bug1, Bug2, CellDecomposition, GridSearch, LinePath, NoPath, Planner, PotentialField, Prm, Rrt, RrtConnect,
     RrtStar, VisibilityGraph,
 };
-use crate::random::Seed;
+use crate::random::{Seed, Stream};
 use crate::robots::{AnyRobot, ChartLine, Hitch, HitchArc, Reach, Rusty, RustyDisc};
+use crate::sensors::BeamModel;
 use crate::simulation::{PlayError, PlayStage, PlayablePath, PlayedPath};
 use crate::worlds::{Resident, World};
 
 use super::attempt::{Attempt, Planned, Trial};
+use super::bug1_sensor::Bug1Sensor;
 use super::named::PlannerName;
 
 /// How much larger a rover is planned unless somebody says otherwise, metres.
@@ -42,13 +44,16 @@ pub struct Task {
     pub goal: AnyConfiguration,
     /// How much larger a rover is planned, metres, so that its script may stray from the path by as much.
     pub tube: f64,
+    /// The noise of the range sensor by which the robot walks, if its planner is such a one; `None` for an exact
+    /// sensor.
+    pub noise: Option<BeamModel>,
 }
 
 impl Task {
     /// The task of a robot in a world, from `start` to `goal`, both of its own configurations.
     pub fn new(name: impl Into<String>, robot: AnyRobot, world: World, ends: [AnyConfiguration; 2]) -> Self {
         let (scene, [start, goal]) = (Arc::new(Scene::of_world(&world)), ends);
-        Task { name: name.into(), robot, world, scene, start, goal, tube: TUBE }
+        Task { name: name.into(), robot, world, scene, start, goal, tube: TUBE, noise: None }
     }
 
     /// The world with the robot that plays alone in it, and that robot's name: the resident of the task's name, else
@@ -88,7 +93,11 @@ impl Task {
             (AnyRobot::Rusty(rover), AnyConfiguration::Pose(start), AnyConfiguration::Pose(goal)) => {
                 let too_large = |_| NoPath::Unsuited("the rover with its tube is too large");
                 let disc = RustyDisc::try_new(rover.body_radius + self.tube).map_err(too_large)?;
-                self.by_lines(disc, [start, goal].map(|q| R2::new(q.x, q.y)), name, seed)
+                let ends = [start, goal].map(|q| R2::new(q.x, q.y));
+                if name == PlannerName::Bug1Sensor {
+                    return self.by_sensor(disc, ends, seed);
+                }
+                self.by_lines(disc, ends, name, seed)
             }
             (AnyRobot::Hitch(car), AnyConfiguration::Hitch(start), AnyConfiguration::Hitch(goal)) => {
                 let car = if start.trailer.is_some() { car.with_trailer() } else { car.without_trailer() };
@@ -118,6 +127,13 @@ impl Task {
         Ok(Box::new(Trial::new(Box::new(CellDecomposition::new(problem)))))
     }
 
+    /// The planner whose rover walks by its range sensor.
+    fn by_sensor(&self, robot: RustyDisc, [start, goal]: [R2; 2], seed: Seed) -> Result<Box<dyn Attempt>, NoPath> {
+        let problem = Problem::try_new(Checker::new(Arc::clone(&self.scene), robot), start, goal, seed)?;
+        let noise = self.noise.map(|model| (model, Stream::new(seed, "bug1/beam")));
+        Ok(Box::new(Trial::new(Box::new(Bug1Sensor::new(problem, noise)))))
+    }
+
     /// A planner whose edges are the chart's straight lines.
     fn by_lines<R>(
         &self,
@@ -143,6 +159,7 @@ impl Task {
             PlannerName::Bug1 => Box::new(Bug1::try_new(&problem)?),
             PlannerName::Bug2 => Box::new(Bug2::try_new(&problem)?),
             PlannerName::CellDecomposition => return self.by_cells(seed),
+            PlannerName::Bug1Sensor => return Err(NoPath::Unsuited("it walks by the range sensor of a rover")),
             PlannerName::HybridAStar => return Err(NoPath::Unsuited("it plans for a car only")),
         };
         Ok(Box::new(Trial::new(planner)))

@@ -194,7 +194,7 @@ fn a_wrong_command_line_is_code_2() {
 fn every_planner_is_there_by_its_name() {
     let from_to = ["--robot", "rusty", "--from", "1.5,5.75", "--to", "9.75,6.25"];
     let of_any = ["rrt-connect", "rrt", "rrt-star", "prm", "a-star", "dijkstra"];
-    let names = [&of_any[..], &["visibility-graph", "bug1", "bug2", "cell-decomposition"]].concat();
+    let names = [&of_any[..], &["visibility-graph", "bug1", "bug1-sensor", "bug2", "cell-decomposition"]].concat();
     let straight = motion_lab::num::hypot(9.75 - 1.5, 0.5);
     let length = |name: &str| {
         let found = json(&run(&[&["plan", "--planner", name], &from_to[..], &["--json"]].concat()).done());

@@ -29,7 +29,7 @@ enum Phase {
 /// It heads for the goal. At an obstacle it goes all the way round, with the boundary at the right hand, returns by the
 /// shorter way to where it was nearest to the goal, and leaves for the goal. If the goal then lies behind the obstacle,
 /// it can't be reached: [`NoPath::Enclosed`]. "The obstacle" is all that has no gap wider than what it keeps. The
-/// example `bug1` does the same by a range sensor.
+/// lab's planner `bug1-sensor` does the same by a range sensor.
 ///
 /// An iteration is one step. A robot that is not a disc gets [`NoPath::Unsuited`] from [`Bug1::try_new`].
 #[derive(Clone, Debug)]

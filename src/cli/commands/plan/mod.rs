@@ -224,7 +224,9 @@ fn next(reason: &NoPath) -> &'static str {
     match reason {
         NoPath::Problem(_) => "Choose another --from or --to; `motion-lab query witness` says what is in the way.",
         NoPath::Exhausted { .. } => "There may be one: allow more --iterations, or try another --seed or --planner.",
-        NoPath::NoneInGraph { .. } | NoPath::LocalMinimum { .. } => "There may be one: try another --planner.",
+        NoPath::NoneInGraph { .. } | NoPath::LocalMinimum { .. } | NoPath::GaveUp(_) => {
+            "There may be one: try another --planner."
+        }
         NoPath::Unsuited(_) => "Try another --planner.",
         _ => "Choose another --to.",
     }
