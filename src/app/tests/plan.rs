@@ -232,3 +232,34 @@ fn a_trailer_is_planned_for_by_choice_and_each_robot_has_its_planners() {
         "{command}"
     );
 }
+
+#[test]
+fn bug1_by_its_sensor_has_a_switch_that_makes_the_sensor_lie_and_says_what_was_misjudged() {
+    use crate::plans::{PlannerName, Task};
+    let mut harness = planned(WIDE);
+    assert!(harness.query_by_label("the sensor lies").is_none(), "other planners see all");
+    let (robot, start) = crate::robots::AnyRobot::of_kind("rusty", &[1.5, 5.75, 0.0]).unwrap();
+    let goal = start.with(0, 9.75).with(1, 6.25);
+    let state = &mut interface_mut(&mut harness).plan;
+    state.take(Task::new("Rusty", robot, crate::worlds::World::apartment(), [start, goal]));
+    state.set_seed(crate::random::Seed(2034));
+    state.set_planner(PlannerName::Bug1Sensor);
+    state.pace = 6;
+    harness.run_steps(3);
+    play(&mut harness);
+    harness.get_by_label("Round 1: left where the boundary comes nearest.");
+    harness.get_by_label_contains(" m, proven");
+    click(&mut harness, "the sensor lies");
+    assert!(plan(&harness).sensor_lies() && plan(&harness).effort().iterations == 0);
+    assert!(harness.query_by_label_contains("Round 1").is_none(), "it begins anew");
+    play(&mut harness);
+    harness.get_by_label_contains("m farther from the goal than the boundary comes: misjudged.");
+    harness.get_by_label("Round 2: left where the boundary comes nearest.");
+    // at this seed it gives up
+    interface_mut(&mut harness).plan.set_seed(crate::random::Seed(2023));
+    harness.run_steps(3);
+    play(&mut harness);
+    harness.get_by_label_contains("No path: the robot gave up: it never came back to where the boundary had seemed");
+    click(&mut harness, "the sensor lies");
+    assert!(!plan(&harness).sensor_lies());
+}

@@ -10,9 +10,10 @@ use crate::ui::cspace::Cells;
 use crate::worlds::World;
 
 impl PlanState {
-    /// The command line that plans this; `None` in a world that no command knows by name, and for a file's path.
+    /// The command line that plans this; `None` in a world that no command knows by name, for a file's path, and for a
+    /// sensor that lies: the command's is exact.
     pub fn command(&self) -> Option<String> {
-        if matches!(self.stage, Stage::Read(_)) {
+        if matches!(self.stage, Stage::Read(_)) || self.is_by_sensor() && self.sensor_lies() {
             return None;
         }
         let (Task { name, start, goal, .. }, world) = (&self.task, self.known_as?);

@@ -20,9 +20,11 @@ pub fn panel(ui: &mut Ui, look: &Look, state: &mut UiState, commands: &mut Vec<C
     task_choice(ui, state);
     let plan = &mut state.plan;
     planner_choice(ui, plan);
+    sensor_choice(ui, plan);
     seed(ui, plan);
     ui.add_space(4.0);
     result(ui, look, plan);
+    leave_points(ui, plan);
     ui.add_space(4.0);
     let has_path = matches!(plan.stage(), Stage::Solved);
     ui.horizontal_wrapped(|ui| {
@@ -130,6 +132,14 @@ fn planner_choice(ui: &mut Ui, plan: &mut PlanState) {
     ui.label(RichText::new(present.words()).small());
 }
 
+/// Shows whether the sensor lies, where the planner's robot walks by one.
+fn sensor_choice(ui: &mut Ui, plan: &mut PlanState) {
+    let mut lies = plan.sensor_lies();
+    if plan.is_by_sensor() && ui.checkbox(&mut lies, "the sensor lies").changed() {
+        plan.set_sensor_lies(lies);
+    }
+}
+
 fn seed(ui: &mut Ui, plan: &mut PlanState) {
     ui.horizontal(|ui| {
         let label = ui.label("seed");
@@ -172,6 +182,20 @@ fn result(ui: &mut Ui, look: &Look, plan: &PlanState) {
             let words = "Drawn as the file says; nothing of it is proven here.";
             ui.label(RichText::new(words).color(look.colour(Role::Muted)));
         }
+    }
+}
+
+/// Shows in words where the robot has left boundaries, a line for each round.
+fn leave_points(ui: &mut Ui, plan: &PlanState) {
+    let Some(sensed) = &plan.drawn().sensed else { return };
+    for (i, point) in sensed.leave_points.iter().enumerate() {
+        let words = RichText::new(format!("Round {}: {point}.", i + 1));
+        ui.label(if point.is_too_far() { words.strong() } else { words });
+    }
+    if !sensed.leave_points.is_empty() {
+        let words =
+            "Dot: where it left. Ring: where the boundary truly comes nearest to the goal. Rays: what it reads.";
+        ui.label(RichText::new(words).small());
     }
 }
 

@@ -10,7 +10,7 @@ use crate::configuration::AnyConfiguration;
 use crate::manifest::Deed;
 use crate::picture::{Item, Picture, Role, world as picture_of};
 use crate::planning::{Bound, Effort, NoPath, Progress};
-use crate::plans::{Drawn, PathLengths, PlannerName, Task, space_items, workspace_items};
+use crate::plans::{Bug1Walk, Drawn, PathLengths, PlannerName, Task, space_items, workspace_items};
 use crate::random::Seed;
 use crate::robots::{AnyRobot, Robot};
 use crate::tour::{BOOK_SEED, TourConfig};
@@ -133,6 +133,7 @@ impl PlanState {
     pub fn take(&mut self, task: Task) {
         let planner = if self.planner.suits(&task.robot).is_ok() { Some(self.planner) } else { None };
         let (seed, pace, over_drive, played) = (self.seed, self.pace, self.over_drive, self.played.take());
+        let task = Task { noise: self.task.noise, ..task };
         *self = PlanState { seed, pace, over_drive, played, ..Self::of(task) };
         self.planner = planner.unwrap_or(self.planner);
         self.restart();
@@ -159,7 +160,23 @@ impl PlanState {
         self.restart();
     }
 
-    /// The seed of the samples.
+    /// Whether the planner's robot walks by a range sensor, which may lie.
+    pub fn is_by_sensor(&self) -> bool {
+        self.planner == PlannerName::Bug1Sensor
+    }
+
+    /// Whether the sensor lies: it is a cheap one with noise, not an exact one.
+    pub fn sensor_lies(&self) -> bool {
+        self.task.noise.is_some()
+    }
+
+    /// Chooses whether the sensor lies. The planner begins anew.
+    pub fn set_sensor_lies(&mut self, lies: bool) {
+        self.task.noise = lies.then_some(Bug1Walk::NOISE);
+        self.restart();
+    }
+
+    /// The seed of the samples, and of what a sensor reads that lies.
     pub fn seed(&self) -> Seed {
         self.seed
     }
@@ -199,7 +216,9 @@ impl PlanState {
             Stage::Ended(reason) => reason.to_string(),
             Stage::Read(file) => return format!("the file {file} for {name}, from {start} to {goal}"),
         };
-        format!("{} for {name}, from {start} to {goal}: {found}", self.planner.title())
+        let left = self.drawn.sensed.iter().flat_map(|sensed| &sensed.leave_points).enumerate();
+        let left: String = left.map(|(i, point)| format!("; round {}: {point}", i + 1)).collect();
+        format!("{} for {name}, from {start} to {goal}: {found}{left}", self.planner.title())
     }
 
     /// How far the planner has come.

@@ -4,11 +4,14 @@ use std::sync::Arc;
 
 use super::PlanState;
 use super::state::{PACES, Stage};
+use crate::collision::Collision;
 use crate::configuration::{AnyConfiguration, T2};
 use crate::cspace::CellState;
-use crate::picture::{Drawing, Picture};
-use crate::planning::NoPath;
+use crate::geometry::{Footprint, Point2};
+use crate::picture::{Drawing, Picture, Role};
+use crate::planning::{LeavePoint, NoPath};
 use crate::plans::{PlannerName, Task};
+use crate::random::Seed;
 use crate::robots::AnyRobot;
 use crate::worlds::World;
 
@@ -172,4 +175,79 @@ fn a_files_plan_says_what_it_is_and_its_words_go_nowhere() {
     assert!(plan.command().unwrap().contains("--robot Reach --world workbench --from 2,0 --to 3,0"));
     let growing = plan.captured().figure.description;
     assert_eq!(growing, "RRT-Connect at seed 2005: no path so far.");
+}
+
+/// Rusty's way across the Apartment by its sensor, at a seed at which a lying one misjudges a leave point.
+fn by_sensor() -> PlanState {
+    let mut plan = PlanState::default();
+    let (robot, start) = AnyRobot::of_kind("rusty", &[1.5, 5.75, 0.0]).unwrap();
+    let goal = start.with(0, 9.75).with(1, 6.25);
+    plan.take(Task::new("Rusty", robot, World::apartment(), [start, goal]));
+    plan.set_seed(Seed(2034));
+    plan.set_planner(PlannerName::Bug1Sensor);
+    plan
+}
+
+#[test]
+fn a_switch_makes_the_sensor_lie_and_a_misjudged_leave_point_is_drawn_and_said() {
+    let mut plan = by_sensor();
+    let mut walked = |lies: bool| -> (PlanState, Vec<LeavePoint>) {
+        plan.set_sensor_lies(lies);
+        assert_eq!(plan.effort().iterations, 0, "it begins anew");
+        (plan.playing, plan.pace) = (true, pace(f64::INFINITY));
+        while plan.playing {
+            plan.play(0.1);
+        }
+        let points = plan.drawn().sensed.as_ref().unwrap().leave_points.clone();
+        (plan.clone(), points)
+    };
+    let ids = |plan: &PlanState| plan.over.items.iter().map(|item| item.id.clone()).collect::<Vec<String>>();
+    let (exact, points) = walked(false);
+    assert!(*exact.stage() == Stage::Solved && points.iter().all(|point| !point.is_misjudged()), "{points:?}");
+    assert!(exact.described().ends_with("round 1: left where the boundary comes nearest"), "{}", exact.described());
+    assert!(!ids(&exact).iter().any(|id| id.starts_with("misjudged/")));
+    assert!(exact.command().unwrap().contains("--planner bug1-sensor --robot Rusty --world apartment"));
+
+    let (lying, points) = walked(true);
+    assert!(points[0].is_too_far() && lying.described().contains("farther from the goal"), "{}", lying.described());
+    let drawn = ids(&lying);
+    for id in ["readings", "present/0", "left/1", "nearest/1", "misjudged/1", "left/2"] {
+        assert!(drawn.iter().any(|each| each == id), "{id} of {drawn:?}");
+    }
+    let at = |id: &str| match lying.over.items.iter().find(|item| item.id == id).unwrap().drawing {
+        Drawing::Mark { at, .. } => at,
+        _ => panic!("a mark"),
+    };
+    assert_eq!((at("left/1"), Some(at("nearest/1"))), (points[0].at, points[0].nearest));
+    assert!(lying.command().is_none(), "the command's sensor is exact");
+    // the switch stays with another task, and asks nothing of other planners
+    let mut other = lying.clone();
+    other.take(Task::new("Rusty", other.task().robot, World::apartment(), [other.end_at(1), other.end_at(0)]));
+    assert!(other.sensor_lies() && other.is_by_sensor());
+    other.set_planner(PlannerName::Rrt);
+    assert!(other.command().is_some());
+}
+
+#[test]
+fn the_robot_and_its_readings_are_drawn_where_it_is() {
+    let mut plan = by_sensor();
+    (0..40).for_each(|_| plan.step());
+    let here = plan.drawn().edges.last().unwrap().last().copied().unwrap();
+    let here = plan.task().robot.reference(&here);
+    let readings = plan.over.items.iter().find(|item| item.id == "readings").unwrap();
+    let Drawing::Rays { from, ends } = &readings.drawing else { panic!("rays") };
+    assert_eq!((readings.role, *from), (Role::Sensor, here));
+    // an exact reading lies on a wall
+    assert!(ends.len() > 20 && ends.iter().all(|p| from_walls(&plan, *p) < 1e-9), "{ends:?}");
+    plan.set_sensor_lies(true);
+    (0..40).for_each(|_| plan.step());
+    let readings = plan.over.items.iter().find(|item| item.id == "readings").unwrap();
+    let Drawing::Rays { ends, .. } = &readings.drawing else { panic!("rays") };
+    let off = ends.iter().filter(|p| from_walls(&plan, **p) > 1e-3).count();
+    assert!(2 * off > ends.len(), "{off} of {}", ends.len());
+}
+
+/// The distance of a point from the world's walls, metres.
+fn from_walls(plan: &PlanState, p: Point2) -> f64 {
+    plan.task().scene.distance(&Footprint::disc(p, 0.0))
 }
