@@ -16,15 +16,21 @@ use crate::simulation::{History, TransportCommand};
 /// Width below which a widget shows one thing at a time, points.
 const NARROW: f32 = 720.0;
 
+/// Height below which a window that is wider than high has its words beside the picture, points.
+const LOW: f32 = 440.0;
+
 /// Width of the rail, points.
 const RAIL: f32 = 76.0;
 
 /// Shows the lab over the whole of `ui`; what is pressed is pushed onto `commands`.
 pub fn lab(ui: &mut Ui, model: &Dashboard, history: &History, state: &mut UiState, commands: &mut Vec<Command>) {
-    let narrow = ui.max_rect().width() < NARROW;
+    let size = ui.max_rect().size();
+    let low = size.y < LOW && size.x > size.y;
+    let narrow = size.x < NARROW || low;
     state.is_narrow = narrow;
-    let look = Look::of(ui, state, narrow);
-    let mut style = look.theme.style(narrow);
+    let look = Look::of(ui, state, narrow, low);
+    // where there is no height to spare, controls are as small as a mouse allows
+    let mut style = look.theme.style(narrow && !low);
     if state.has_reduced_motion() {
         style.animation_time = 0.0;
     }
@@ -66,11 +72,11 @@ pub fn lab(ui: &mut Ui, model: &Dashboard, history: &History, state: &mut UiStat
     }
     state.grasp = state.next_grasp.take();
     // no fill: the window is cleared to the paper's colour already, and a fill would cost as much as all that is drawn
-    let margin = Margin::symmetric(if narrow { 8 } else { 6 }, if narrow { 4 } else { 14 });
+    let margin = Margin::symmetric(if narrow && !low { 8 } else { 6 }, if narrow { 4 } else { 14 });
     state.fills &= !model.cockpits.is_empty();
     if state.embedded || state.fills && state.widget == Widget::Dashboard {
         // the page chose the widget, or the picture has all the room
-    } else if narrow {
+    } else if narrow && !low {
         Panel::top("rail").frame(Frame::NONE.inner_margin(margin)).show_separator_line(false).show(ui, |ui| {
             // all of them fit, however narrow the screen
             let gaps = ui.spacing().item_spacing.x * (Widget::ALL.len() - 1) as f32;
@@ -92,7 +98,7 @@ pub fn lab(ui: &mut Ui, model: &Dashboard, history: &History, state: &mut UiStat
         dashboard::view::dashboard(ui, model, history, &look, state, commands)
     } else {
         let side = if narrow { 12 } else { 20 };
-        let frame = Frame::NONE.inner_margin(Margin::symmetric(side, 14));
+        let frame = Frame::NONE.inner_margin(Margin::symmetric(side, if low { 6 } else { 14 }));
         let panel = CentralPanel::default().frame(frame).show(ui, |ui| match state.widget {
             Widget::Anatomy => anatomy::view::anatomy_view(ui, model, &look, state, commands),
             Widget::Cspace => cspace::view::cspace_view(ui, model, &look, state, commands),

@@ -85,13 +85,13 @@ pub fn crowd_pane(
             if look.narrow {
                 ui.horizontal(|ui| heat_link(ui, shown, look, state));
             }
-            doors::links(ui, shown.cockpit, commands);
+            doors::row(ui, shown.cockpit, commands);
             list(ui, shown.crowd, 0.9 * words.height(), look, state, commands);
         });
         return;
     }
     let room = if is_picked { 0.5 * words.height() } else { 0.0 };
-    doors::links(&mut ui, shown.cockpit, commands);
+    doors::row(&mut ui, shown.cockpit, commands);
     let height = words.bottom() - ui.cursor().top() - room;
     list(&mut ui, shown.crowd, height, look, state, commands);
     if is_picked {

@@ -35,19 +35,24 @@ pub fn toggle(world: &str, door: &Door, commands: &mut Vec<Command>) {
     commands.push(Command::Run(WorldCommand { world: world.to_owned(), change }.into()));
 }
 
-/// Shows a link for each door.
-pub fn links(ui: &mut Ui, cockpit: &Cockpit, commands: &mut Vec<Command>) {
-    let world = cockpit.atlas.world();
-    if world.doors.is_empty() {
+/// Shows a row with a link for each door.
+pub fn row(ui: &mut Ui, cockpit: &Cockpit, commands: &mut Vec<Command>) {
+    if cockpit.atlas.world().doors.is_empty() {
         return;
     }
     ui.spacing_mut().interact_size.y = ui.text_style_height(&TextStyle::Body);
     ui.horizontal_wrapped(|ui| {
         ui.style_mut().wrap_mode = Some(TextWrapMode::Extend);
-        for door in &world.doors {
-            if ui.link(words(door)).clicked() {
-                toggle(&world.name, door, commands);
-            }
-        }
+        links(ui, cockpit, commands);
     });
+}
+
+/// Shows a link for each door, in the row that is being laid out.
+pub fn links(ui: &mut Ui, cockpit: &Cockpit, commands: &mut Vec<Command>) {
+    let world = cockpit.atlas.world();
+    for door in &world.doors {
+        if ui.link(words(door)).clicked() {
+            toggle(&world.name, door, commands);
+        }
+    }
 }

@@ -22,8 +22,8 @@ use crate::ui::{Cockpit, CockpitRobot, Command, Grasp, Look, Notice, UiState};
 /// Rows of text kept free under a pane for each robot, so that panes do not jump when a trailer is put on.
 const ROWS: f32 = 8.0;
 
-/// Height kept free for words under a pane on a narrow screen, where they scroll, points.
-const NARROW_TEXT: f32 = 130.0;
+/// Height kept free for words under a pane on a narrow screen, where they scroll, points: the picture comes first.
+const NARROW_TEXT: f32 = 64.0;
 
 /// Distance within which the pointer points at a drawn thing, points.
 const REACH: f64 = 4.0;

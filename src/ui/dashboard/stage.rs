@@ -9,15 +9,16 @@ use bevy_egui::egui::{
 use super::drive;
 use super::pane::{self, text_height};
 use super::twins::shown_twin;
-use super::words::words_in;
+use super::words::{height_of, words_apart, words_in};
+use crate::manifest::Widget;
 use crate::picture::{Picture, Role};
 use crate::simulation::History;
 use crate::ui::crowd::pane::{CrowdPane, crowd_pane};
 use crate::ui::cspace::linked::Linked;
 use crate::ui::keys::{Action, hint};
-use crate::ui::paint::canvas;
 use crate::ui::paint::scale_bar::scale_bar;
-use crate::ui::{Cockpit, Command, Dashboard, Grasp, Look, UiState};
+use crate::ui::paint::{canvas, frame};
+use crate::ui::{Cockpit, Command, Dashboard, Grasp, Look, UiState, tools};
 
 /// Gap between panes, and between the panes and the window's border, points.
 pub const GAP: f32 = 20.0;
@@ -27,14 +28,25 @@ const BESIDE: f32 = 0.34;
 const LEAST_BESIDE: f32 = 280.0;
 const MOST_BESIDE: f32 = 420.0;
 
-/// Largest height of a small cockpit's paper, points.
+/// Largest height of a small cockpit's paper, points, and its share of the room.
 const SMALL: f32 = 190.0;
+const SHARE_OF_SMALL: f32 = 0.3;
+
+/// Share of a tall room's height for the cockpit in front, at most.
+const ABOVE: f32 = 0.62;
+
+/// Rows of words under the cockpit in front, and the height from which on the column beside it has room for all words.
+const FOOT: f32 = 3.0;
+const HIGH: f32 = 680.0;
+
+/// Least width for the words beside the cockpit in front in a low room, points.
+const LEAST_WORDS: f32 = 170.0;
 
 /// Width from which words and configuration stand side by side, points.
 const WIDE: f32 = 560.0;
 
-/// Least side of the configuration beside the cockpit in front, points.
-const LEAST_SPACE: f32 = 130.0;
+/// Least height of the configuration beside the cockpit in front, with its line of words, points.
+const LEAST_SPACE: f32 = 96.0;
 
 /// Width of the window from which three equal panes are offered, points.
 const ROOMY: f32 = 1600.0;
@@ -59,6 +71,8 @@ impl Stage<'_> {
             ui.weak("No world is loaded.");
         } else if state.fills {
             self.filling(ui, state, commands);
+        } else if self.look.low && !has_crowd {
+            self.lying(ui, state, commands);
         } else if self.look.narrow {
             self.alone(ui, state, commands);
         } else if has_crowd || cockpits.len() > 3 {
@@ -68,7 +82,8 @@ impl Stage<'_> {
         }
     }
 
-    /// Shows the cockpit in front on the left, and on the right the others, small, over what there is to say of it.
+    /// Shows the cockpit in front on the left, and on the right the others, small, over what there is to say of it; in a
+    /// room that is taller than wide, all this below it.
     fn in_front(&self, ui: &mut Ui, state: &mut UiState, commands: &mut Vec<Command>) {
         let is_roomy = ui.ctx().content_rect().width() >= ROOMY;
         if is_roomy && state.settings.side_by_side {
@@ -79,14 +94,20 @@ impl Stage<'_> {
         }
         let Some((chosen, cockpit)) = front(&self.model.cockpits, state) else { return };
         let room = ui.available_rect_before_wrap();
-        let width = (BESIDE * room.width()).clamp(LEAST_BESIDE, MOST_BESIDE).min(0.6 * room.width());
-        let sheet = canvas::proportioned(&cockpit.world, room.with_max_x(room.right() - width - GAP));
-        let mut beside = room.with_min_x(sheet.right() + GAP);
+        let row = ui.text_style_height(&TextStyle::Body) + ui.spacing().item_spacing.y;
+        let Places { sheet, foot, mut beside } = places(cockpit, room, FOOT * row + 6.0);
         let linked = self.linked(cockpit, state);
         let way = linked.as_ref().map_or_else(Vec::new, Linked::way);
         let fit = pane::paper(ui, cockpit, sheet, way, self.look, state, commands);
         let others: Vec<(usize, &Cockpit)> =
             self.model.cockpits.iter().enumerate().filter(|(i, _)| *i != chosen).collect();
+        let is_below = beside.top() > sheet.bottom() && beside.width() >= WIDE;
+        let mut apart = None;
+        if is_below {
+            // the words have the left half, the small ones and the configuration the right
+            let (words, rest) = beside.split_left_right_at_fraction(0.5);
+            (apart, beside) = (Some(words.with_max_x(words.right() - GAP)), rest);
+        }
         if !others.is_empty() {
             let bottom = self.small_ones(ui, &others, beside, state, commands);
             beside = beside.with_min_y(bottom);
@@ -98,8 +119,15 @@ impl Stage<'_> {
             }
             beside = beside.with_min_y(beside.top() + 12.0);
         }
-        let (words, space) = share(beside);
-        words_in(ui, words, cockpit, &fit, self.look, state, commands);
+        let needed = if foot.is_some() || apart.is_none() { height_of(ui, cockpit, beside.width()) } else { 0.0 };
+        let (words, space) = match apart {
+            Some(words) => (words, Some(beside)),
+            None => share(beside, needed),
+        };
+        match foot {
+            Some(foot) => words_apart(ui, [words, foot], cockpit, &fit, self.look, state, commands),
+            None => words_in(ui, words, cockpit, &fit, self.look, state, commands),
+        }
         if let (Some(linked), Some(space)) = (linked, space) {
             linked.show(ui, space, self.look, &mut state.linked, commands);
         }
@@ -128,7 +156,7 @@ impl Stage<'_> {
         let papers: Vec<Rect> = (0..)
             .zip(cockpits)
             .map(|(k, (_, cockpit))| {
-                let most = vec2(width, SMALL.min(0.4 * room.height()));
+                let most = vec2(width, SMALL.min(SHARE_OF_SMALL * room.height()));
                 canvas::proportioned(&cockpit.world, Rect::from_min_size(place(k), most))
             })
             .collect();
@@ -167,6 +195,19 @@ impl Stage<'_> {
         painter.text(at, Align2::LEFT_TOP, cockpit.heading(), TextStyle::Small.resolve(ui.style()), colour);
         let response = response.on_hover_cursor(CursorIcon::PointingHand).on_hover_text(words);
         response.clicked()
+    }
+
+    /// Shows one cockpit in a low room: its world as high as the room, and its words at the right of it.
+    fn lying(&self, ui: &mut Ui, state: &mut UiState, commands: &mut Vec<Command>) {
+        let Some((_, cockpit)) = front(&self.model.cockpits, state) else { return };
+        let room = ui.available_rect_before_wrap();
+        let sheet = canvas::proportioned(&cockpit.world, room.with_max_x(room.right() - LEAST_WORDS - 12.0));
+        let fit = pane::paper(ui, cockpit, sheet, Vec::new(), self.look, state, commands);
+        let beside = room.with_min_x(sheet.right() + 12.0);
+        let mut ui = ui.new_child(UiBuilder::new().max_rect(beside).layout(Layout::top_down(Align::Min)));
+        header(&mut ui, self.model, self.look, state, commands);
+        let words = beside.with_min_y(ui.cursor().top() + 4.0);
+        words_in(&mut ui, words, cockpit, &fit, self.look, state, commands);
     }
 
     /// Shows one cockpit.
@@ -252,8 +293,20 @@ pub fn front<'a>(cockpits: &'a [Cockpit], state: &UiState) -> Option<(usize, &'a
     cockpits.get(chosen).map(|cockpit| (chosen, cockpit)).or(cockpits.first().map(|first| (0, first)))
 }
 
-/// Shows tabs to choose the cockpit in front, where only one is seen.
-pub fn tabs(ui: &mut Ui, model: &Dashboard, state: &mut UiState) {
+/// Shows what stands above the picture where only one cockpit is seen: tabs and the menu. The picture comes first:
+/// title, key and hints stand below it.
+pub fn header(ui: &mut Ui, model: &Dashboard, look: &Look, state: &mut UiState, commands: &mut Vec<Command>) {
+    ui.horizontal_wrapped(|ui| {
+        tabs(ui, model, state);
+        tools::menu_button(ui, model, look, state, commands);
+    });
+    if state.lesson.is_some() {
+        frame::hints(ui, Widget::Dashboard.text(), look, state);
+    }
+}
+
+/// Shows tabs to choose the cockpit in front.
+fn tabs(ui: &mut Ui, model: &Dashboard, state: &mut UiState) {
     for (i, cockpit) in model.cockpits.iter().enumerate() {
         if ui.selectable_label(state.settings.world as usize == i, cockpit.tab()).clicked() {
             state.settings.world = i as u32;
@@ -263,14 +316,45 @@ pub fn tabs(ui: &mut Ui, model: &Dashboard, state: &mut UiState) {
     }
 }
 
-/// Shares a room between the words and the configuration: side by side where it is wide, else one below the other.
-/// Without room for both, the words have it all.
-fn share(room: Rect) -> (Rect, Option<Rect>) {
+/// Where the cockpit in front is, and what there is to say of it.
+struct Places {
+    /// Its world.
+    sheet: Rect,
+    /// The room under its world for a part of the words, if the room beside it is too low for all.
+    foot: Option<Rect>,
+    /// The room for the other cockpits, the words and the configuration.
+    beside: Rect,
+}
+
+/// The places in a room, whose foot is `foot` high where there is one.
+fn places(cockpit: &Cockpit, room: Rect, foot: f32) -> Places {
+    let world = &cockpit.world;
+    if room.height() > room.width() {
+        let sheet = canvas::proportioned(world, room.with_max_y(room.top() + ABOVE * room.height()));
+        return Places { sheet, foot: None, beside: room.with_min_y(sheet.bottom() + 12.0) };
+    }
+    let width = (BESIDE * room.width()).clamp(LEAST_BESIDE, MOST_BESIDE).min(0.6 * room.width());
+    let left = room.with_max_x(room.right() - width - GAP);
+    let whole = canvas::proportioned(world, left);
+    let is_free = room.bottom() - whole.bottom() >= foot;
+    let is_high = room.height() >= HIGH || room.right() - whole.right() - GAP >= WIDE;
+    // where robots share the room, what can be done with each stays with its words
+    if cockpit.robots.len() != 1 || is_high && !is_free {
+        return Places { sheet: whole, foot: None, beside: room.with_min_x(whole.right() + GAP) };
+    }
+    let sheet = canvas::proportioned(world, left.with_max_y((room.bottom() - foot).max(room.top())));
+    let under = Rect::from_min_max(pos2(sheet.left(), sheet.bottom() + 6.0), pos2(sheet.right(), room.bottom()));
+    Places { sheet, foot: Some(under), beside: room.with_min_x(sheet.right() + GAP) }
+}
+
+/// Shares a room between the words, which need a height, and the configuration: side by side where it is wide, else one
+/// below the other. Without room for both, the words have it all.
+fn share(room: Rect, words: f32) -> (Rect, Option<Rect>) {
     if room.width() >= WIDE && room.height() >= LEAST_SPACE {
         let (words, space) = room.split_left_right_at_fraction(0.5);
         return (words.with_max_x(words.right() - GAP), Some(space));
     }
-    let side = room.width().min(0.5 * room.height());
+    let side = (room.height() - words - 6.0).min(room.width()).min(0.5 * room.height());
     if side < LEAST_SPACE {
         return (room, None);
     }
@@ -298,11 +382,14 @@ mod tests {
         let room = |w: f32, h: f32| Rect::from_min_size(pos2(100.0, 50.0), vec2(w, h));
         for (w, h) in [(600.0, 300.0), (400.0, 500.0), (300.0, 900.0)] {
             let room = room(w, h);
-            let (words, space) = share(room);
+            let (words, space) = share(room, 150.0);
             let space = space.unwrap_or_else(|| panic!("{w} by {h} has room for both"));
             assert!(room.contains_rect(words) && room.contains_rect(space) && !words.shrink(0.1).intersects(space));
             assert!(space.width().min(space.height()) >= 120.0 && words.height() >= 0.5 * h, "{w} by {h}");
         }
-        assert_eq!(share(room(400.0, 240.0)), (room(400.0, 240.0), None));
+        // what the words need is theirs
+        let high = room(400.0, 330.0);
+        assert_eq!(share(high, 200.0).0.height(), 206.0);
+        assert_eq!(share(high, 240.0), (high, None));
     }
 }

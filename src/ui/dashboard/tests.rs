@@ -261,7 +261,9 @@ fn on_no_width_do_the_words_of_the_bar_lie_on_one_another() {
         let bar: Vec<_> = texts.iter().filter(|(_, at)| at.top() >= top && (width < 720 || at.left() > 76.0)).collect();
         for (i, (a, at)) in bar.iter().enumerate() {
             for (b, there) in &bar[i + 1..] {
-                assert!(!at.shrink(1.0).intersects(*there), "{width} wide: {a} at {at} on {b} at {there}");
+                // the note keeps off the time
+                let apart = if b.starts_with("slower") { 4.0 } else { -1.0 };
+                assert!(!at.expand(apart).intersects(*there), "{width} wide: {a} at {at} on {b} at {there}");
             }
         }
     }

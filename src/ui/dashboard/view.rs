@@ -34,8 +34,9 @@ pub fn dashboard(
     }
     let narrow = look.narrow;
     let side = if narrow { 12 } else { GAP as i8 };
+    let above = if look.low { 6 } else { 14 };
     Panel::bottom("transport")
-        .frame(Frame::NONE.inner_margin(Margin::symmetric(side, 8)))
+        .frame(Frame::NONE.inner_margin(Margin::symmetric(side, if look.low { 4 } else { 8 })))
         .show(ui, |ui| transport_bar(ui, model, history, look, state, commands));
     if state.settings.plots && !narrow && !state.fills {
         let margin = Margin { left: 12, right: side, top: 14, bottom: 0 };
@@ -45,17 +46,22 @@ pub fn dashboard(
             .frame(Frame::NONE.inner_margin(margin))
             .show(ui, |ui| plots(ui, model, history, look, state, commands));
     }
-    let panel = CentralPanel::default().frame(Frame::NONE.inner_margin(Margin::symmetric(side, 14))).show(ui, |ui| {
-        if !state.fills {
-            header(ui, model, look, state, commands);
-            ui.add_space(8.0);
-        }
-        if narrow && state.settings.plots && !state.fills {
-            plots(ui, model, history, look, state, commands);
-        } else {
-            Stage { model, history, look }.show(ui, state, commands);
-        }
-    });
+    let panel =
+        CentralPanel::default().frame(Frame::NONE.inner_margin(Margin::symmetric(side, above))).show(ui, |ui| {
+            let has_plots = narrow && state.settings.plots && !state.fills;
+            let has_crowd = model.cockpits.iter().any(|cockpit| cockpit.crowd.is_some());
+            // in a low room the head stands beside the picture
+            let is_beside = look.low && !has_plots && !has_crowd && !model.cockpits.is_empty();
+            if !state.fills && !is_beside {
+                header(ui, model, look, state, commands);
+                ui.add_space(8.0);
+            }
+            if has_plots {
+                plots(ui, model, history, look, state, commands);
+            } else {
+                Stage { model, history, look }.show(ui, state, commands);
+            }
+        });
     panel.response.rect
 }
 
@@ -97,15 +103,7 @@ pub fn act(action: Action, model: &Dashboard, state: &mut UiState, commands: &mu
 fn header(ui: &mut Ui, model: &Dashboard, look: &Look, state: &mut UiState, commands: &mut Vec<Command>) {
     let words = Widget::Dashboard.text();
     if look.narrow {
-        // the picture comes first: title, key and hints stand below it
-        ui.horizontal_wrapped(|ui| {
-            stage::tabs(ui, model, state);
-            tools::menu_button(ui, model, look, state, commands);
-        });
-        if state.lesson.is_some() {
-            frame::hints(ui, words, look, state);
-        }
-        return;
+        return stage::header(ui, model, look, state, commands);
     }
     tools::header(ui, words, model, look, state, commands);
     frame::key_row(ui, words, look, state);

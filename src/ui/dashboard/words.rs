@@ -16,6 +16,12 @@ use crate::ui::paint::frame;
 use crate::ui::paint::scale_bar::scale_bar;
 use crate::ui::{Cockpit, CockpitRobot, Command, Look, ParkingGoal, SessionCommand, UiState, readout, readout_lines};
 
+/// Height of a robot's words before they have been laid out, points.
+const USUAL: f32 = 150.0;
+
+/// Width of a row that has room for a reason beside its links, points.
+const ROOMY: f32 = 520.0;
+
 /// Shows in `rect` what there is to say of a cockpit, whose world lies on the screen as `fit` says.
 pub fn words_in(
     ui: &mut Ui,
@@ -26,31 +32,95 @@ pub fn words_in(
     state: &mut UiState,
     commands: &mut Vec<Command>,
 ) {
-    let mut ui = ui.new_child(UiBuilder::new().max_rect(rect).layout(Layout::top_down(Align::Min)));
-    ui.spacing_mut().interact_size.y = 0.0; // no row of words is as high as a button
-    // where the words need more room than there is, none is cut
-    let words_of = Id::new(("words", &cockpit.world.name));
-    ScrollArea::vertical().id_salt(words_of).auto_shrink(false).show(&mut ui, |ui| {
-        words(ui, cockpit, fit, look, state, commands);
-    });
+    let mut ui = rows(ui, rect);
+    heading(&mut ui, cockpit, fit, look);
+    scrolled(&mut ui, cockpit, |ui| words(ui, cockpit, look, state, commands));
 }
 
-fn words(ui: &mut Ui, cockpit: &Cockpit, fit: &Fit, look: &Look, state: &mut UiState, commands: &mut Vec<Command>) {
+/// As [`words_in`], in two rooms: what can be done with the one robot, its formulas and the scale in `foot`, under the
+/// world; the rest in `rect`.
+pub fn words_apart(
+    ui: &mut Ui,
+    [rect, foot]: [Rect; 2],
+    cockpit: &Cockpit,
+    fit: &Fit,
+    look: &Look,
+    state: &mut UiState,
+    commands: &mut Vec<Command>,
+) {
+    scrolled(&mut rows(ui, rect), cockpit, |ui| {
+        for robot in &cockpit.robots {
+            twins::offer(ui, cockpit, robot, look, state);
+            values(ui, robot, look, state, commands);
+        }
+    });
+    let mut ui = rows(ui, foot);
+    heading(&mut ui, cockpit, fit, look);
+    for robot in &cockpit.robots {
+        links(&mut ui, robot, Some(cockpit), look, state, commands);
+        ui.horizontal_wrapped(|ui| formulas(ui, robot, look, state));
+    }
+}
+
+/// The height that the words of a cockpit take in a room of this width, as far as it is known. It never shrinks, so
+/// that nothing moves to and fro as words come and go.
+pub fn height_of(ui: &Ui, cockpit: &Cockpit, width: f32) -> f32 {
+    let known: Option<(u32, f32)> = ui.data(|data| data.get_temp(room_of(cockpit)));
+    known.filter(|(of, _)| *of == width as u32).map_or(USUAL, |(_, height)| height)
+}
+
+/// The key by which the height of a cockpit's words is kept. A car with a trailer has other words than one without.
+fn room_of(cockpit: &Cockpit) -> Id {
+    let coordinates: usize = cockpit.robots.iter().map(|robot| robot.coordinates.len()).sum();
+    Id::new(("room of words", &cockpit.world.name, coordinates))
+}
+
+/// A column of words, whose rows are not as high as buttons.
+fn rows(ui: &mut Ui, rect: Rect) -> Ui {
+    let mut ui = ui.new_child(UiBuilder::new().max_rect(rect).layout(Layout::top_down(Align::Min)));
+    ui.spacing_mut().interact_size.y = 0.0;
+    ui
+}
+
+/// Shows words that scroll where they need more room than there is, so that none is lost, and notes their height.
+fn scrolled(ui: &mut Ui, cockpit: &Cockpit, add: impl FnOnce(&mut Ui)) {
+    let (top, width) = (ui.max_rect().top(), ui.max_rect().width());
+    let before = height_of(ui, cockpit, width);
+    let words_of = Id::new(("words", &cockpit.world.name));
+    let above = ui.cursor().top() - top;
+    let shown = ScrollArea::vertical().id_salt(words_of).auto_shrink(false).show(ui, add);
+    let height = above + shown.content_size.y;
+    if height > before + 0.5 {
+        ui.data_mut(|data| data.insert_temp(room_of(cockpit), (width as u32, height)));
+        ui.ctx().request_repaint();
+    }
+}
+
+/// Shows who is seen, and at the right end the scale.
+fn heading(ui: &mut Ui, cockpit: &Cockpit, fit: &Fit, look: &Look) {
     ui.horizontal(|ui| {
         ui.label(RichText::new(cockpit.heading()).color(look.colour(Role::Text)));
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| scale_bar(ui, fit.px_per_metre(), look));
     });
-    for robot in &cockpit.robots {
-        // where robots share the room, what can be done with each of them comes first
-        if cockpit.robots.len() == 1 {
-            twins::offer(ui, cockpit, robot, look, state);
-        }
-        robot_words(ui, robot, look, state, commands);
-        if let ([robot], Some(about)) = (&cockpit.robots[..], robot.about) {
-            frame::formulas(ui, &format!("{}.{}", about.name, robot.coordinates.len()), look, state);
-        }
+}
+
+fn formulas(ui: &mut Ui, robot: &CockpitRobot, look: &Look, state: &mut UiState) {
+    if let Some(about) = robot.about {
+        frame::formulas(ui, &format!("{}.{}", about.name, robot.coordinates.len()), look, state);
     }
-    doors::links(ui, cockpit, commands);
+}
+
+fn words(ui: &mut Ui, cockpit: &Cockpit, look: &Look, state: &mut UiState, commands: &mut Vec<Command>) {
+    if let [robot] = &cockpit.robots[..] {
+        twins::offer(ui, cockpit, robot, look, state);
+        values(ui, robot, look, state, commands);
+        links(ui, robot, Some(cockpit), look, state, commands);
+        formulas(ui, robot, look, state);
+    } else {
+        // where robots share the room, what can be done with each of them comes first
+        cockpit.robots.iter().for_each(|robot| robot_words(ui, robot, look, state, commands));
+        doors::row(ui, cockpit, commands);
+    }
     if look.narrow {
         let words = Widget::Dashboard.text();
         ui.add_space(10.0);
@@ -65,9 +135,22 @@ fn words(ui: &mut Ui, cockpit: &Cockpit, fit: &Fit, look: &Look, state: &mut UiS
 
 /// Shows a robot's space, its configuration, what was counted of it, and links for what can be done with it.
 pub fn robot_words(ui: &mut Ui, robot: &CockpitRobot, look: &Look, state: &mut UiState, commands: &mut Vec<Command>) {
+    values(ui, robot, look, state, commands);
+    links(ui, robot, None, look, state, commands);
+}
+
+/// Shows a robot's space, its configuration, and what was counted of it.
+fn values(ui: &mut Ui, robot: &CockpitRobot, look: &Look, state: &mut UiState, commands: &mut Vec<Command>) {
     // the exercise under way comes first
     if let Some((_, goal)) = state.goal.as_ref().filter(|(name, _)| *name == robot.name) {
         ui.add(Label::new(RichText::new(goal.words(&robot.footprint, robot.reversals)).strong()).wrap());
+        if let Some(AnyRobot::Hitch(car)) = robot.model {
+            let far = sideways(car.tightest(), 0.5);
+            let words = format!(
+                "Ahead in two arcs of 0.5 rad, left and right, and straight back takes the car {far:.2} m aside."
+            );
+            ui.add(Label::new(RichText::new(words).color(look.colour(Role::Muted))).wrap());
+        }
     }
     if let Some(space) = robot.about.and_then(|about| about.space(robot.coordinates.len())) {
         frame::formula(ui, &Formula::of(space), space.words, look, state);
@@ -79,7 +162,6 @@ pub fn robot_words(ui: &mut Ui, robot: &CockpitRobot, look: &Look, state: &mut U
         ui.add(Label::new(RichText::new(words).color(look.colour(Role::Muted))).wrap());
         handles::numbers(ui, robot, look, commands);
     }
-    links(ui, robot, look, state, commands);
 }
 
 /// Shows the configuration as its type prints it. A click copies every digit.
@@ -104,7 +186,7 @@ fn counts(ui: &mut Ui, robot: &CockpitRobot, look: &Look) {
     }
     if let (Some(clearance), Some(AnyRobot::Rusty(rusty))) = (robot.clearance, robot.model) {
         let centre = clearance + rusty.body_radius;
-        ui.label(muted(format!("clearance: {clearance:.4} m, of its centre {centre:.4} m")));
+        ui.label(muted(format!("clearance: {clearance:.4}\u{a0}m, of its centre {centre:.4}\u{a0}m")));
     }
     let mut text = format!("contacts: {}", robot.contacts);
     if robot.trailer.is_some() {
@@ -116,12 +198,25 @@ fn counts(ui: &mut Ui, robot: &CockpitRobot, look: &Look) {
     ui.label(muted(text));
 }
 
-/// Shows links for what can be done with a robot besides driving it.
-fn links(ui: &mut Ui, robot: &CockpitRobot, look: &Look, state: &mut UiState, commands: &mut Vec<Command>) {
+/// Shows links for what can be done with a robot besides driving it, and with the doors of the cockpit that it has to
+/// itself.
+fn links(
+    ui: &mut Ui,
+    robot: &CockpitRobot,
+    alone_in: Option<&Cockpit>,
+    look: &Look,
+    state: &mut UiState,
+    commands: &mut Vec<Command>,
+) {
     let goal = state.goal.clone().filter(|(name, _)| *name == robot.name);
-    if let Some(why) = &robot.no_room {
-        let words = format!("no room for a trailer: {why}");
-        ui.add(Label::new(RichText::new(words).color(look.colour(Role::Muted))).wrap());
+    let no_room = robot
+        .no_room
+        .as_ref()
+        .map(|why| Label::new(RichText::new(format!("no room for a trailer: {why}")).color(look.colour(Role::Muted))));
+    // where the row is wide the reason stands in it, else above it
+    let (in_row, above) = if ui.available_width() >= ROOMY { (no_room, None) } else { (None, no_room) };
+    if let Some(no_room) = above {
+        ui.add(no_room.wrap());
     }
     // rows that wrap are as high as their words
     ui.spacing_mut().interact_size.y = ui.text_style_height(&TextStyle::Body);
@@ -131,6 +226,9 @@ fn links(ui: &mut Ui, robot: &CockpitRobot, look: &Look, state: &mut UiState, co
             commands.push(Command::from(TransportCommand::Checkpoint));
             commands.push(Command::from(RobotCommand { robot: robot.name.clone(), input }));
         };
+        if let Some(no_room) = in_row {
+            ui.add(no_room);
+        }
         if let Some(on) = robot.trailer.filter(|_| robot.no_room.is_none()) {
             let words = if on { "take the trailer off" } else { "put a trailer on" };
             if ui.link(words).clicked() {
@@ -154,6 +252,9 @@ fn links(ui: &mut Ui, robot: &CockpitRobot, look: &Look, state: &mut UiState, co
             if link.clicked() {
                 commands.push(Command::Session(SessionCommand::Links { robot: robot.name.clone(), links }));
             }
+        }
+        if let Some(cockpit) = alone_in {
+            doors::links(ui, cockpit, commands);
         }
         match (&goal, trailer_of(&robot.footprint).filter(|_| robot.trailer == Some(true))) {
             (Some((_, goal)), trailer) => {
@@ -185,10 +286,4 @@ fn links(ui: &mut Ui, robot: &CockpitRobot, look: &Look, state: &mut UiState, co
             ui.weak("comes with the next tick");
         }
     });
-    if let (Some(_), Some(AnyRobot::Hitch(car))) = (goal, robot.model) {
-        let far = sideways(car.tightest(), 0.5);
-        let words =
-            format!("Ahead in two arcs of 0.5 rad, left and right, and straight back takes the car {far:.2} m aside.");
-        ui.add(Label::new(RichText::new(words).color(look.colour(Role::Muted))).wrap());
-    }
 }

@@ -15,6 +15,8 @@ pub struct Look {
     pub theme: Theme,
     /// Whether the screen is so narrow that a widget shows one thing at a time.
     pub narrow: bool,
+    /// Whether the room is low and wide, so that words stand beside the picture. Such a room counts as narrow too.
+    pub low: bool,
     lit: Option<Role>,
     /// How far the others have faded, from 0 to 1.
     strength: f64,
@@ -22,7 +24,7 @@ pub struct Look {
 
 impl From<Theme> for Look {
     fn from(theme: Theme) -> Self {
-        Look { theme, narrow: false, lit: None, strength: 0.0 }
+        Look { theme, narrow: false, low: false, lit: None, strength: 0.0 }
     }
 }
 
@@ -30,7 +32,7 @@ impl Look {
     /// The look of this frame, which lights the role that was pointed at in the last one.
     ///
     /// While a robot is in hand, a drag or a refusal is on, or a dialog is open, nothing is lit and nothing fades.
-    pub fn of(ui: &Ui, state: &mut UiState, narrow: bool) -> Self {
+    pub fn of(ui: &Ui, state: &mut UiState, narrow: bool, low: bool) -> Self {
         let is_busy = state.is_busy() || ui.ctx().dragged_id().is_some();
         let pointed = state.pointed.take().or(state.page_lit).filter(|_| !is_busy);
         if pointed != state.lit && pointed.is_some() {
@@ -42,7 +44,7 @@ impl Look {
         if is_busy || strength == 0.0 && pointed.is_none() {
             state.lit = None;
         }
-        Look { theme: state.theme(), narrow, lit: state.lit, strength: f64::from(strength) }
+        Look { theme: state.theme(), narrow, low, lit: state.lit, strength: f64::from(strength) }
     }
 
     /// The opacity of a role, from 0 to 1.
@@ -75,7 +77,7 @@ mod tests {
     #[test]
     fn one_role_is_lit_and_all_others_stand_back() {
         for theme in [Theme::Light, Theme::Dark] {
-            let look = Look { theme, narrow: false, lit: Some(Role::Robot), strength: 1.0 };
+            let look = Look { theme, narrow: false, low: false, lit: Some(Role::Robot), strength: 1.0 };
             assert_eq!(look.colour(Role::Robot), theme.colour(Role::Robot));
             assert_eq!(look.colour(Role::Paper), theme.colour(Role::Paper));
             for role in [Role::Obstacle, Role::Goal, Role::Sensor, Role::Focus] {
@@ -104,7 +106,7 @@ mod tests {
             let paper = theme.colour(Role::Paper);
             let ground = luminance(paper, paper) + 0.05;
             for lit in [Role::Robot, Role::Obstacle] {
-                let look = Look { theme, narrow: false, lit: Some(lit), strength: 1.0 };
+                let look = Look { theme, narrow: false, low: false, lit: Some(lit), strength: 1.0 };
                 for role in Role::ALL.into_iter().filter(|r| !matches!(r, Role::Paper | Role::Hairline)) {
                     let ink = luminance(look.colour(role), paper) + 0.05;
                     let contrast = if ink > ground { ink / ground } else { ground / ink };

@@ -17,6 +17,9 @@ const LANE: f32 = 12.0;
 const ONLY: f32 = 11.0;
 const AXIS: f32 = 15.0;
 
+/// Height of a narrow screen below which all robots share a lane, points.
+const SHORT: f32 = 700.0;
+
 /// Width of the names before the lanes, points.
 const NAMES: f32 = 52.0;
 
@@ -90,7 +93,9 @@ pub fn time_line(
     let end = model.frontier.max(model.tick);
     *shown = shown.and_then(|span| span.with(model.tick, end));
     let span = shown.unwrap_or(Span { from: 0, to: end });
-    let lanes = lanes(model);
+    // a low screen has one lane for all
+    let is_short = look.narrow && ui.ctx().content_rect().height() < SHORT;
+    let lanes = if is_short { vec![Lane { robot: None, name: "" }] } else { lanes(model) };
     let height = if lanes.len() == 1 { ONLY } else { LANE } * lanes.len() as f32;
     let names = if lanes.len() > 1 && !look.narrow { NAMES } else { 0.0 };
     let (strip, _) = ui.allocate_exact_size(vec2(ui.available_width(), height), Sense::hover());

@@ -62,6 +62,9 @@ const NOTE: f32 = 180.0;
 /// Width below which a narrow screen has one sign less, points.
 const NARROWEST: f32 = 320.0;
 
+/// Width below which the one row of a low window has two signs less, points.
+const ALL_IN_A_ROW: f32 = 640.0;
+
 /// Shows the time line and the bar under it, on a `narrow` screen in more rows.
 pub fn transport_bar(
     ui: &mut Ui,
@@ -74,17 +77,17 @@ pub fn transport_bar(
     let narrow = look.narrow;
     time_line(ui, model, history, look, &mut state.span, !state.embedded, commands);
     ui.spacing_mut().item_spacing.x = if narrow { 5.0 } else { 6.0 };
-    if narrow || ui.available_width() < ONE_ROW {
+    if look.low {
+        // a low window has no room for two rows
         ui.horizontal(|ui| {
-            let all = if ui.available_width() < NARROWEST { ESSENTIAL.len() - 1 } else { ESSENTIAL.len() };
-            let (seen, hidden) = ESSENTIAL.split_at(all);
-            buttons(ui, model, look, seen, commands);
-            ui.menu_button("More", |ui| {
-                for (label, action) in hidden.iter().map(|(label, _, action)| (*label, *action)).chain(MORE) {
-                    button(ui, model, (LabButton::new(label), action), look, commands);
-                }
-                speed_choice(ui, model, commands);
-            });
+            let less = if ui.available_width() < ALL_IN_A_ROW { 2 } else { 0 };
+            essential(ui, model, look, less, commands);
+            seed_and_time(ui, model, look, state, commands);
+        });
+    } else if narrow || ui.available_width() < ONE_ROW {
+        ui.horizontal(|ui| {
+            let less = usize::from(ui.available_width() < NARROWEST);
+            essential(ui, model, look, less, commands);
         });
         ui.horizontal(|ui| seed_and_time(ui, model, look, state, commands));
     } else {
@@ -100,6 +103,18 @@ pub fn transport_bar(
             seed_and_time(ui, model, look, state, commands);
         });
     }
+}
+
+/// Shows the signs of a narrow screen but for the last `less`, which its menu has with all the rest.
+fn essential(ui: &mut Ui, model: &Dashboard, look: &Look, less: usize, commands: &mut Vec<Command>) {
+    let (seen, hidden) = ESSENTIAL.split_at(ESSENTIAL.len() - less);
+    buttons(ui, model, look, seen, commands);
+    ui.menu_button("More", |ui| {
+        for (label, action) in hidden.iter().map(|(label, _, action)| (*label, *action)).chain(MORE) {
+            button(ui, model, (LabButton::new(label), action), look, commands);
+        }
+        speed_choice(ui, model, commands);
+    });
 }
 
 /// A button with its name and its sign.
@@ -186,7 +201,8 @@ fn seed_and_time(ui: &mut Ui, model: &Dashboard, look: &Look, state: &mut UiStat
         ui.label(RichText::new(time).monospace());
         // without room for both, the note is left out
         if let Some(behind) = model.behind.as_ref().filter(|_| ui.available_width() > NOTE) {
-            ui.label(RichText::new(behind).small().color(look.colour(Role::Focus)));
+            ui.add_space(12.0);
+            ui.label(RichText::new(behind).small().color(look.colour(Role::Text)));
         }
     });
 }
