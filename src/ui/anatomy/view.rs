@@ -15,12 +15,15 @@ use crate::picture::Role;
 use crate::ui::deeds::of_anatomy;
 use crate::ui::paint::button::LabButton;
 use crate::ui::paint::frame::formulas;
-use crate::ui::paint::sheet::{sheet, split};
+use crate::ui::paint::sheet::{sheet, split, two_columns};
 use crate::ui::{AnatomyState, Command, Dashboard, Look, Notice, UiState};
 use crate::worlds::World;
 
 /// Width of the panel beside the paper, points.
 const SIDE: f32 = 380.0;
+
+/// Width of the panel from which it has two columns, points.
+const TWO: f32 = 600.0;
 
 /// Difference of two lengths from which on they are unequal, metres.
 const UNEQUAL: f64 = 0.05;
@@ -30,12 +33,13 @@ const INSET: f32 = 208.0;
 
 /// Shows the widget.
 pub fn anatomy_view(ui: &mut Ui, model: &Dashboard, look: &Look, state: &mut UiState, commands: &mut Vec<Command>) {
-    let narrow = look.narrow;
     let words = Widget::Anatomy.text();
-    crate::ui::tools::head(ui, words, model, look, state, commands);
+    if !look.low {
+        crate::ui::tools::head(ui, words, model, look, state, commands);
+    }
     let before = state.anatomy.anatomy.clone();
     let room = ui.available_rect_before_wrap();
-    let (paper, beside) = split(room, narrow, SIDE);
+    let (paper, beside) = split(&state.anatomy.backdrop, room, look, SIDE);
     let shown = &state.anatomy;
     let (backdrop, overlay) = (Arc::clone(&shown.backdrop), shown.anatomy.overlay());
     let spoken = shown.anatomy.described();
@@ -49,13 +53,25 @@ pub fn anatomy_view(ui: &mut Ui, model: &Dashboard, look: &Look, state: &mut UiS
         on.response.on_hover_text_at_pointer("Drag the robot: an arm by its tip");
     }
     ui.scope_builder(bevy_egui::egui::UiBuilder::new().max_rect(beside), |ui| {
-        ScrollArea::vertical().auto_shrink(false).show(ui, |ui| beside_the_paper(ui, narrow, look, state));
+        ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
+            if look.low {
+                crate::ui::tools::head(ui, words, model, look, state, commands);
+            }
+            if ui.available_width() >= TWO {
+                let half = 0.5 * (ui.available_width() - 20.0);
+                two_columns(ui, half, |ui, i| if i == 0 { asked(ui, look, state) } else { more(ui, look, state) });
+            } else {
+                asked(ui, look, state);
+                more(ui, look, state);
+            }
+        });
     });
     state.did.extend(of_anatomy(&before, &state.anatomy.anatomy));
 }
 
-fn beside_the_paper(ui: &mut Ui, narrow: bool, look: &Look, state: &mut UiState) {
-    ui.horizontal(|ui| {
+/// Shows the question, its answer, and the configuration.
+fn asked(ui: &mut Ui, look: &Look, state: &mut UiState) {
+    ui.horizontal_wrapped(|ui| {
         for tab in Tab::ALL {
             if LabButton::new(tab.name()).selected(state.anatomy.anatomy.tab == tab).show(ui, look).clicked() {
                 state.anatomy.anatomy.tab = tab;
@@ -77,13 +93,17 @@ fn beside_the_paper(ui: &mut Ui, narrow: bool, look: &Look, state: &mut UiState)
             anatomy.set_thick_links(on);
         }
     }
-    if !narrow {
+}
+
+/// Shows the close view, a guess, and what can be copied or chosen.
+fn more(ui: &mut Ui, look: &Look, state: &mut UiState) {
+    if !look.narrow {
         inset(ui, look, state);
     }
-    CollapsingHeader::new("Guess first").default_open(!narrow).show(ui, |ui| {
+    CollapsingHeader::new("Guess first").default_open(!look.narrow).show(ui, |ui| {
         prompts(ui, Series::Queries, state);
     });
-    ui.horizontal(|ui| {
+    ui.horizontal_wrapped(|ui| {
         if LabButton::new("Copy as Rust").show(ui, look).clicked() {
             ui.ctx().copy_text(state.anatomy.anatomy.copy_as_rust());
             state.say(Notice { text: "copied: a program that asks the same".into(), is_error: false });
@@ -212,9 +232,9 @@ pub(crate) fn world_choice(ui: &mut Ui, state: &mut UiState) {
 pub(crate) fn annulus(ui: &mut Ui, state: &mut UiState) {
     let anatomy = &mut state.anatomy.anatomy;
     for (link, mut length) in anatomy.lengths().into_iter().flatten().enumerate() {
-        let label = ui.label(format!("L{}", link + 1));
-        let field = DragValue::new(&mut length).range(LENGTHS).speed(0.01).fixed_decimals(2).suffix(" m");
-        let response = ui.add(field).labelled_by(label.id);
+        // its name is in the field, so that no row parts them
+        let field = DragValue::new(&mut length).range(LENGTHS).speed(0.01).fixed_decimals(2);
+        let response = ui.add(field.prefix(format!("L{} ", link + 1)).suffix("\u{a0}m"));
         response.widget_info(|| WidgetInfo {
             label: Some(format!("length of link {}", link + 1)),
             ..WidgetInfo::new(WidgetType::DragValue)

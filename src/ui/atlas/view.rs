@@ -23,12 +23,13 @@ const DRAGGED: f64 = 8.0;
 
 /// Shows the widget.
 pub fn atlas_view(ui: &mut Ui, model: &Dashboard, look: &Look, state: &mut UiState, commands: &mut Vec<Command>) {
-    let narrow = look.narrow;
     let words = Widget::Atlas.text();
-    crate::ui::tools::head(ui, words, model, look, state, commands);
+    if !look.low {
+        crate::ui::tools::head(ui, words, model, look, state, commands);
+    }
     let room = ui.available_rect_before_wrap();
-    let (paper, beside) = split(room, narrow, SIDE);
     let still = state.atlas.still();
+    let (paper, beside) = split(&still, room, look, SIDE);
     let fit = crate::ui::paint::canvas::fit(&still, paper);
     let mut moving = state.atlas.over();
     if state.settings.labels {
@@ -94,7 +95,12 @@ pub fn atlas_view(ui: &mut Ui, model: &Dashboard, look: &Look, state: &mut UiSta
         Mode::Measure => {}
     }
     ui.scope_builder(UiBuilder::new().max_rect(beside), |ui| {
-        ScrollArea::vertical().auto_shrink(false).show(ui, |ui| beside_the_paper(ui, model, look, state, commands));
+        ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
+            if look.low {
+                crate::ui::tools::head(ui, words, model, look, state, commands);
+            }
+            beside_the_paper(ui, model, look, state, commands);
+        });
     });
     if state.atlas.mode != Mode::Edit {
         state.atlas.put_down();
@@ -212,7 +218,7 @@ fn beside_the_paper(ui: &mut Ui, model: &Dashboard, look: &Look, state: &mut UiS
         }
     });
     ui.add_space(8.0);
-    ui.horizontal(|ui| {
+    ui.horizontal_wrapped(|ui| {
         for (mode, name) in [(Mode::Put, "Put the robot"), (Mode::Measure, "Measure"), (Mode::Edit, "Edit")] {
             if LabButton::new(name).selected(state.atlas.mode == mode).show(ui, look).clicked() {
                 state.atlas.mode = mode;

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use bevy_egui::egui::{CollapsingHeader, Rect, RichText, ScrollArea, Ui, pos2, vec2};
+use bevy_egui::egui::{CollapsingHeader, Rect, RichText, ScrollArea, TextWrapMode, Ui, pos2, vec2};
 
 use super::torus::torus;
 use crate::anatomy::{Series, Tab, twin};
@@ -12,32 +12,43 @@ use crate::num::wrap;
 use crate::picture::{Picture, Role, footprint};
 use crate::robots::{AnyRobot, Robot};
 use crate::ui::anatomy::view::{annulus, coordinate, prompts, robot_choice, world_choice};
-use crate::ui::paint::frame::formulas;
-use crate::ui::paint::sheet::sheet;
+use crate::ui::paint::frame::{formulas, rows_of_words};
+use crate::ui::paint::sheet::{sheet, two_columns};
 use crate::ui::{Command, Dashboard, Look, UiState, readout};
 
 /// Largest number of points kept in the trace.
 const TRACE: usize = 2000;
 
+/// Height of the words under two papers that lie one above the other, points.
+const UNDER_TWO: f32 = 190.0;
+
 /// Shows the widget.
 pub fn cspace_view(ui: &mut Ui, model: &Dashboard, look: &Look, state: &mut UiState, commands: &mut Vec<Command>) {
     let narrow = look.narrow;
     let words = Widget::Cspace.text();
-    crate::ui::tools::head(ui, words, model, look, state, commands);
+    if !look.low {
+        crate::ui::tools::head(ui, words, model, look, state, commands);
+    }
     let anatomy = state.anatomy.anatomy.clone();
     if state.cspace.refine(&anatomy) {
         ui.ctx().request_repaint();
     }
-    let text = if narrow { 160.0 } else { 140.0 };
     let room = ui.available_rect_before_wrap();
-    let side = if narrow {
-        room.width().min(0.5 * (room.height() - text))
+    let text = if look.low {
+        0.3 * room.height()
+    } else if narrow {
+        160.0
     } else {
-        (0.5 * (room.width() - 20.0)).min(room.height() - text)
+        140.0
     };
-    let margin = if narrow { 0.5 * (room.width() - side) } else { 0.0 };
+    // one above the other where they are larger so, or where a finger scrolls
+    let above = room.width().min(0.5 * (room.height() - if narrow { text } else { UNDER_TWO }));
+    let beside = (0.5 * (room.width() - 20.0)).min(room.height() - text);
+    let is_above = !look.low && (narrow || above > beside);
+    let side = if is_above { above } else { beside };
+    let margin = if is_above { 0.5 * (room.width() - side) } else { 0.0 };
     let left = Rect::from_min_size(room.min + vec2(margin, 0.0), vec2(side, side));
-    let right = if narrow { left.translate(vec2(0.0, side + 8.0)) } else { left.translate(vec2(side + 20.0, 0.0)) };
+    let right = if is_above { left.translate(vec2(0.0, side + 8.0)) } else { left.translate(vec2(side + 20.0, 0.0)) };
     workspace(ui, left, look, state);
     if state.cspace.is_torus && state.cspace.cells.as_ref().is_some_and(|cells| cells.map().slice().wraps()) {
         torus(ui, right, look, state);
@@ -47,26 +58,28 @@ pub fn cspace_view(ui: &mut Ui, model: &Dashboard, look: &Look, state: &mut UiSt
     let below = Rect::from_min_max(pos2(room.left(), right.bottom() + 6.0), room.max);
     ui.scope_builder(bevy_egui::egui::UiBuilder::new().max_rect(below), |ui| {
         if narrow {
-            ScrollArea::vertical().auto_shrink(false).show(ui, |ui| below_the_papers(ui, look, state));
+            ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
+                if look.low {
+                    crate::ui::tools::head(ui, words, model, look, state, commands);
+                }
+                readouts(ui, look, state);
+                choices(ui, state);
+                CollapsingHeader::new("Guess first").show(ui, |ui| prompts(ui, Series::Tips, state));
+            });
         } else {
-            below_the_papers(ui, look, state);
+            // each column under its paper
+            let width = if is_above { 0.5 * (room.width() - 20.0) } else { side };
+            two_columns(ui, width, |ui, i| {
+                if i == 0 {
+                    readouts(ui, look, state);
+                } else {
+                    ui.set_max_width(width);
+                    prompts(ui, Series::Tips, state);
+                }
+            });
+            choices(ui, state);
         }
     });
-}
-
-/// Shows the readouts, the choices, and what is asked: beside the readouts, where there is room.
-fn below_the_papers(ui: &mut Ui, look: &Look, state: &mut UiState) {
-    if look.narrow {
-        readouts(ui, look, state);
-        choices(ui, state);
-        CollapsingHeader::new("Guess first").show(ui, |ui| prompts(ui, Series::Tips, state));
-    } else {
-        ui.columns_const(|[left, right]| {
-            readouts(left, look, state);
-            prompts(right, Series::Tips, state);
-        });
-        choices(ui, state);
-    }
 }
 
 /// Shows the configuration, and how much of the space is known.
@@ -75,15 +88,16 @@ fn readouts(ui: &mut Ui, look: &Look, state: &mut UiState) {
     if let Some(cells) = &state.cspace.cells {
         let p = cells.map().progress();
         let percent = |x: f64| format!("{:5.1} %", 100.0 * x);
-        let text = format!(
-            "proven free {}  proven blocked {}  not known {}  ({} cells judged)",
-            percent(p.free),
-            percent(p.blocked),
-            percent(p.unknown),
-            p.judged
-        );
         let muted = |text: String| RichText::new(text).monospace().color(look.colour(Role::Muted));
-        ui.label(muted(text));
+        // a row ends between two of them, never within one
+        rows_of_words(ui, |ui| {
+            ui.style_mut().wrap_mode = Some(TextWrapMode::Extend);
+            ui.spacing_mut().item_spacing = vec2(14.0, 0.0);
+            for (name, share) in [("proven free", p.free), ("proven blocked", p.blocked), ("not known", p.unknown)] {
+                ui.label(muted(format!("{name} {}", percent(share))));
+            }
+            ui.label(muted(format!("({} cells judged)", p.judged)));
+        });
         ui.label(muted(cells.map().slice().described()));
     }
     if matches!(state.anatomy.anatomy.checker().robot(), AnyRobot::Reach(_)) {

@@ -1,6 +1,8 @@
 //! A sheet: one picture on a paper that the pointer can act on.
 
-use bevy_egui::egui::{Rect, Response, Sense, Stroke, StrokeKind, Ui, WidgetInfo, WidgetType, vec2};
+use bevy_egui::egui::{
+    Align, Layout, Rect, Response, Sense, Stroke, StrokeKind, Ui, UiBuilder, WidgetInfo, WidgetType, vec2,
+};
 
 use super::canvas;
 use super::scale_bar::bar_at;
@@ -41,16 +43,45 @@ impl Sheet {
     }
 }
 
-/// Splits the room into a widget's paper and the panel beside it, `width` points wide. On a narrow screen the panel is
-/// under the paper.
-pub fn split(room: Rect, narrow: bool, width: f32) -> (Rect, Rect) {
-    if narrow {
-        let (paper, rest) = room.split_top_bottom_at_y(room.top() + (0.5 * room.height()).min(room.width()));
-        (paper, rest.with_min_y(rest.top() + 8.0))
-    } else {
-        let (paper, rest) = room.split_left_right_at_x(room.right() - width - 20.0);
-        (paper, rest.with_min_x(rest.left() + 20.0))
+/// Share of the height for the paper where its panel is under it.
+const ABOVE: f32 = 0.6;
+
+/// Width of the panel beside a paper in a low room, at least, points.
+const LEAST_BESIDE: f32 = 200.0;
+
+/// Splits the room into a widget's paper, on which `still` is shown, and the panel beside it, `width` points wide. On a
+/// narrow screen and in a room that is taller than wide the panel is under the paper.
+pub fn split(still: &Picture, room: Rect, look: &Look, width: f32) -> (Rect, Rect) {
+    if look.low {
+        let paper = canvas::proportioned(still, room.with_max_x(room.right() - LEAST_BESIDE - 12.0));
+        return (paper, room.with_min_x(paper.right() + 12.0));
     }
+    if look.narrow {
+        let (paper, rest) = room.split_top_bottom_at_y(room.top() + (0.5 * room.height()).min(room.width()));
+        return (paper, rest.with_min_y(rest.top() + 8.0));
+    }
+    if room.height() > room.width() {
+        // as wide as the room, and no higher than the picture
+        let most = room.with_max_y(room.top() + ABOVE * room.height());
+        let (paper, rest) = room.split_top_bottom_at_y(canvas::proportioned(still, most).bottom());
+        return (paper, rest.with_min_y(rest.top() + 12.0));
+    }
+    let (paper, rest) = room.split_left_right_at_x(room.right() - width - 20.0);
+    (paper, rest.with_min_x(rest.left() + 20.0))
+}
+
+/// Lays out two columns, the first of them `width` points wide; `add` is called for each.
+pub fn two_columns(ui: &mut Ui, width: f32, mut add: impl FnMut(&mut Ui, usize)) {
+    let room = ui.available_rect_before_wrap();
+    let middle = room.left() + width;
+    let mut used = Rect::from_min_size(room.min, vec2(room.width(), 0.0));
+    for (i, column) in [room.with_max_x(middle), room.with_min_x(middle + 20.0)].into_iter().enumerate() {
+        // a layout of its own: egui's columns justify their words
+        let mut ui = ui.new_child(UiBuilder::new().max_rect(column).layout(Layout::top_down(Align::Min)));
+        add(&mut ui, i);
+        used = used.union(ui.min_rect());
+    }
+    ui.advance_cursor_after_rect(used);
 }
 
 /// Shows `still`, which is kept from frame to frame, and `moving` over it.

@@ -2,23 +2,24 @@
 
 use std::sync::Arc;
 
-use bevy_egui::egui::{Align2, Rect, ScrollArea, TextStyle, Ui, UiBuilder, pos2, vec2};
+use bevy_egui::egui::{Align2, Rect, ScrollArea, TextStyle, Ui, UiBuilder, Vec2, pos2, vec2};
 
 use super::controls::{act as act_on_planner, controls};
 use super::panel::panel;
 use super::state::PlanState;
 use crate::configuration::Configuration;
+use crate::cspace::Slice;
 use crate::geometry::Point2;
 use crate::manifest::Widget;
 use crate::num::wrap;
 use crate::picture::{Picture, Role};
 use crate::ui::keys::Action;
-use crate::ui::paint::canvas;
-use crate::ui::paint::sheet::{Sheet, sheet, split};
+use crate::ui::paint::canvas::{self, MARGIN};
+use crate::ui::paint::sheet::{Sheet, sheet};
 use crate::ui::{Command, Dashboard, Look, Notice, SessionCommand, UiState, readout};
 
 /// Width of the panel beside the papers, points.
-const SIDE: f32 = 300.0;
+const SIDE: f32 = 240.0;
 
 /// Largest number of cells judged in a frame.
 const CELLS: u32 = 1500;
@@ -40,26 +41,51 @@ pub fn act(action: Action, model: &Dashboard, state: &mut UiState, commands: &mu
 /// Shows the widget.
 pub fn plan_view(ui: &mut Ui, model: &Dashboard, look: &Look, state: &mut UiState, commands: &mut Vec<Command>) {
     let narrow = look.narrow;
-    crate::ui::tools::head(ui, Widget::Plan.text(), model, look, state, commands);
+    let words = Widget::Plan.text();
+    if !look.low {
+        crate::ui::tools::head(ui, words, model, look, state, commands);
+    }
     if state.plan.playing {
         state.plan.play(f64::from(ui.input(|i| i.stable_dt)));
         ui.ctx().request_repaint();
     }
     let room = ui.available_rect_before_wrap();
     let bar = ui.spacing().interact_size.y + 12.0;
-    let (papers, beside) = if narrow {
+    let line = ui.text_style_height(&TextStyle::Small) + 4.0;
+    let (papers, beside) = if look.low {
+        room.split_top_bottom_at_y(room.top() + 0.68 * room.height())
+    } else if narrow {
         // the papers one above the other, and the rest under them
         let side = (0.5 * (room.height() - 180.0)).min(room.width()).max(120.0);
         room.split_top_bottom_at_y(room.top() + 2.0 * side + 8.0)
     } else {
-        let (left, beside) = split(room, false, SIDE);
-        (left.with_max_y(left.bottom() - bar), beside)
+        let (left, beside) = room.split_left_right_at_x(room.right() - SIDE - 20.0);
+        (left.with_max_y(left.bottom() - bar), beside.with_min_x(beside.left() + 20.0))
     };
-    let (left, right) = halves(papers, !narrow && is_larger_beside(&state.plan, papers));
-    let seen = workspace(ui, left, look, &mut state.plan).union(space(ui, right, look, &mut state.plan));
+    let cells = state.plan.cells(CELLS).map(|(cells, more)| {
+        if more {
+            ui.ctx().request_repaint();
+        }
+        (Arc::clone(cells.picture()), cells.map().slice().clone())
+    });
+    let aspects = [Some(&**state.plan.backdrop()), cells.as_ref().map(|(still, _)| &**still)].map(aspect);
+    let inner = papers.with_max_y(papers.bottom() - line);
+    let [left, right] = match (look.low, narrow) {
+        (true, _) => beside_one_another(inner, aspects),
+        (_, true) => one_above_the_other(inner, aspects),
+        _ => larger(inner, aspects),
+    };
+    workspace(ui, left, look, &mut state.plan);
+    if let Some((still, slice)) = cells {
+        space(ui, right, (&still, &slice), look, &mut state.plan);
+    }
+    let seen = left.union(right.with_max_y(right.bottom() + line));
     if narrow {
         ui.scope_builder(UiBuilder::new().max_rect(beside.with_min_y(beside.top() + 6.0)), |ui| {
             ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
+                if look.low {
+                    crate::ui::tools::head(ui, words, model, look, state, commands);
+                }
                 ui.horizontal_wrapped(|ui| controls(ui, look, &mut state.plan));
                 panel(ui, look, state, commands);
             });
@@ -75,27 +101,43 @@ pub fn plan_view(ui: &mut Ui, model: &Dashboard, look: &Look, state: &mut UiStat
     }
 }
 
-/// The two halves of the room for the papers: `beside` one another, or one above the other.
-fn halves(papers: Rect, beside: bool) -> (Rect, Rect) {
-    let middle = papers.center();
-    if beside {
-        (papers.with_max_x(middle.x - 8.0), papers.with_min_x(middle.x + 8.0))
-    } else {
-        (papers.with_max_y(middle.y - 4.0), papers.with_min_y(middle.y + 4.0))
-    }
+/// The width of a picture's drawing for each point of its height. One that is not there is a square.
+fn aspect(picture: Option<&Picture>) -> f32 {
+    let size = picture.map(|picture| picture.bounds.max - picture.bounds.min);
+    size.map_or(1.0, |size| (size.x / size.y) as f32).clamp(0.05, 20.0)
 }
 
-/// Whether the world is larger where the papers lie beside one another.
-fn is_larger_beside(plan: &PlanState, papers: Rect) -> bool {
-    let [beside, above] =
-        [true, false].map(|beside| canvas::proportioned(plan.backdrop(), halves(papers, beside).0).area());
-    beside >= above
+/// Papers beside one another, equally high, for drawings of these aspects.
+fn beside_one_another(room: Rect, [a, b]: [f32; 2]) -> [Rect; 2] {
+    const GAP: f32 = 16.0;
+    let height = (room.width() - GAP - 4.0 * MARGIN) / (a + b);
+    let height = height.min(room.height() - 2.0 * MARGIN).max(1.0);
+    let size = |aspect: f32| vec2(aspect * height, height) + Vec2::splat(2.0 * MARGIN);
+    let left = Rect::from_min_size(room.min, size(a));
+    [left, Rect::from_min_size(left.right_top() + vec2(GAP, 0.0), size(b))]
 }
 
-/// Shows the workspace, where start and goal can be dragged. Returns what it covers.
-fn workspace(ui: &mut Ui, room: Rect, look: &Look, plan: &mut PlanState) -> Rect {
+/// Papers one above the other, equally wide, in the middle of the room.
+fn one_above_the_other(room: Rect, [a, b]: [f32; 2]) -> [Rect; 2] {
+    const GAP: f32 = 8.0;
+    let width = (room.height() - GAP - 4.0 * MARGIN) / (1.0 / a + 1.0 / b);
+    let width = width.min(room.width() - 2.0 * MARGIN).max(1.0);
+    let size = |aspect: f32| vec2(width, width / aspect) + Vec2::splat(2.0 * MARGIN);
+    let left = room.center().x - 0.5 * width - MARGIN;
+    let above = Rect::from_min_size(pos2(left, room.top()), size(a));
+    [above, Rect::from_min_size(above.left_bottom() + vec2(0.0, GAP), size(b))]
+}
+
+/// The papers as they are larger, beside one another or one above the other.
+fn larger(room: Rect, aspects: [f32; 2]) -> [Rect; 2] {
+    let (beside, above) = (beside_one_another(room, aspects), one_above_the_other(room, aspects));
+    let area = |papers: &[Rect; 2]| papers[0].area() + papers[1].area();
+    if area(&beside) >= area(&above) { beside } else { above }
+}
+
+/// Shows the workspace, where start and goal can be dragged.
+fn workspace(ui: &mut Ui, paper: Rect, look: &Look, plan: &mut PlanState) {
     let still = Arc::clone(plan.backdrop());
-    let paper = canvas::proportioned(&still, room);
     let spoken = format!("workspace. {}", plan.described());
     let nothing = Picture::new("nothing", still.bounds);
     let on = sheet(ui, paper, spoken, &still, &nothing, look);
@@ -110,23 +152,12 @@ fn workspace(ui: &mut Ui, room: Rect, look: &Look, plan: &mut PlanState) -> Rect
     if !plan.is_moved && !on.response.dragged() {
         on.response.on_hover_text_at_pointer("Drag the start or the goal");
     }
-    paper
 }
 
-/// Shows the configuration space, where both are points. Returns what it covers with the words under it.
-fn space(ui: &mut Ui, room: Rect, look: &Look, plan: &mut PlanState) -> Rect {
-    let Some((still, slice)) = plan.cells(CELLS).map(|(cells, more)| {
-        if more {
-            ui.ctx().request_repaint();
-        }
-        (Arc::clone(cells.picture()), cells.map().slice().clone())
-    }) else {
-        return Rect::from_min_size(room.min, vec2(0.0, 0.0));
-    };
-    let line = ui.text_style_height(&TextStyle::Small) + 4.0;
-    let paper = canvas::proportioned(&still, room.with_max_y(room.bottom() - line));
+/// Shows the configuration space, where both are points, and under it what it is.
+fn space(ui: &mut Ui, paper: Rect, (still, slice): (&Arc<Picture>, &Slice), look: &Look, plan: &mut PlanState) {
     let spoken = format!("configuration space. {}", slice.described());
-    let on = sheet(ui, paper, spoken, &still, &Picture::new("nothing", still.bounds), look);
+    let on = sheet(ui, paper, spoken, still, &Picture::new("nothing", still.bounds), look);
     if let Some(over) = plan.over_cells() {
         canvas::paint_kept(&ui.painter_at(paper), &over, paper, &on.fit, look);
     }
@@ -150,7 +181,6 @@ fn space(ui: &mut Ui, room: Rect, look: &Look, plan: &mut PlanState) -> Rect {
     if !plan.is_moved && !on.response.dragged() {
         on.response.on_hover_text_at_pointer("Drag a point: it is the start or the goal");
     }
-    paper.with_max_y(paper.bottom() + line)
 }
 
 /// Which end is dragged, the start or the goal, and where to: that which was nearer where the pointer was pressed.
