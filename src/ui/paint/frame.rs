@@ -4,7 +4,7 @@ use std::ops::Range;
 use std::sync::Arc;
 
 use bevy_egui::egui::{
-    FontId, Galley, Label, Rect, Response, RichText, Sense, Shape, Stroke, StrokeKind, TextFormat, TextStyle,
+    Color32, FontId, Galley, Label, Rect, Response, RichText, Sense, Shape, Stroke, StrokeKind, TextFormat, TextStyle,
     TextWrapMode, Ui, Vec2, WidgetInfo, WidgetType,
     text::{CCursor, LayoutJob},
     vec2,
@@ -133,7 +133,8 @@ pub fn formula(ui: &mut Ui, formula: &Formula, spoken: &str, look: &Look, state:
         return None;
     }
     let mut job = job(ui, formula, look);
-    job.wrap.max_width = ui.available_width();
+    // in a row it goes to the next one as a whole
+    job.wrap.max_width = if ui.layout().main_wrap { ui.max_rect().width() } else { ui.available_width() };
     let galley = ui.fonts_mut(|fonts| fonts.layout_job(job));
     let (rect, response) = ui.allocate_exact_size(galley.size(), Sense::hover());
     response.widget_info(|| WidgetInfo::labeled(WidgetType::Label, true, spoken));
@@ -208,12 +209,19 @@ pub fn hints(ui: &mut Ui, widget: &WidgetText, look: &Look, state: &mut UiState)
     if state.settings.are_hints_away(state.widget) {
         return;
     }
+    let (top, least) = (ui.cursor().top(), rows_of_hints(ui, widget));
     rows_of_words(ui, |ui| {
         // a hint goes to the next row as a whole
         ui.style_mut().wrap_mode = Some(TextWrapMode::Extend);
         ui.label(RichText::new("Try:").color(look.theme.colour(Role::Focus)).strong());
         let is_done = |hint: &&Hint| state.settings.is_ticked_off(hint.deed);
         let (count, done) = (widget.hints.len(), widget.hints.iter().filter(is_done).count());
+        // before the hints, where no row leaves them alone
+        if count > FEW {
+            ui.weak(format!("{done} of {count}"));
+        }
+        let hover = format!("Put these hints away: {}", keys::hint(Action::Hints));
+        let is_put_away = ui.link("Got it").on_hover_text(hover).clicked();
         // of more than fit a row, the one done last and those that come next
         let last = state.settings.done.iter().rev().find_map(|id| widget.hints.iter().find(|h| h.deed.id() == *id));
         let mut open = 0;
@@ -226,16 +234,18 @@ pub fn hints(ui: &mut Ui, widget: &WidgetText, look: &Look, state: &mut UiState)
                 begun = Some(Lesson { deed: hint.deed, widget: state.widget });
             }
         }
-        if count > FEW {
-            ui.weak(format!("{done} of {count}"));
-        }
-        if ui.link("Got it").on_hover_text(format!("Put these hints away: {}", keys::hint(Action::Hints))).clicked() {
+        if is_put_away {
             state.settings.put_hints_away(state.widget);
         }
         if let Some(lesson) = begun {
             state.begin(lesson);
         }
     });
+    // what stands below does not move when a hint gives way to a shorter one
+    let missing = top + least + ui.spacing().item_spacing.y - ui.cursor().top();
+    if missing > 0.0 {
+        ui.add_space(missing);
+    }
 }
 
 /// Shows the task of the lesson under way in place of the hints, and once it is done what it removes.
@@ -260,6 +270,39 @@ fn lesson(ui: &mut Ui, under_way: &LessonState, look: &Look, state: &mut UiState
             state.begin(under_way.lesson);
         }
     });
+}
+
+/// The greatest height that the hints of a widget take at this width, whatever is done of them.
+fn rows_of_hints(ui: &Ui, widget: &WidgetText) -> f32 {
+    let font = TextStyle::Body.resolve(ui.style());
+    let width = |text: &str| ui.painter().layout_no_wrap(text.to_owned(), font.clone(), Color32::PLACEHOLDER).size().x;
+    let gap = ui.spacing().item_spacing;
+    // a point more, for rounding
+    let head = ["Try:", "0 of 0", "Got it"].map(|word| width(word) + gap.x + 1.0).iter().sum();
+    let hints: Vec<f32> = widget.hints.iter().map(|hint| width(&hint.text) + BOX + AFTER + gap.x + 1.0).collect();
+    let rows = most_rows(&hints, head, ui.available_width() + gap.x);
+    let row = ui.text_style_height(&TextStyle::Body) + 2.0;
+    rows as f32 * (row + gap.y) - gap.y
+}
+
+/// The largest number of rows for hints of these widths behind a head, over all that may be done and be done last.
+fn most_rows(hints: &[f32], head: f32, room: f32) -> u32 {
+    let sets = 1_u32 << hints.len().min(10);
+    let is_in = |set: u32, i: usize| set >> i & 1 == 1;
+    let rows = |done: u32, last: Option<usize>| {
+        let (mut rows, mut used, mut open) = (1, head, 0);
+        for (i, hint) in hints.iter().enumerate() {
+            open += usize::from(!is_in(done, i));
+            let is_shown = hints.len() <= FEW || (if is_in(done, i) { last == Some(i) } else { open < FEW });
+            if !is_shown {
+                continue;
+            }
+            (rows, used) = if used + hint > room { (rows + 1, *hint) } else { (rows, used + hint) };
+        }
+        rows
+    };
+    let states = (0..sets).flat_map(|done| (0..=hints.len()).map(move |last| (done, last)));
+    states.map(|(done, last)| rows(done, Some(last).filter(|i| is_in(done, *i)))).max().unwrap_or(1)
 }
 
 /// Shows a hint with a box before it, which is ticked once it has been done.
