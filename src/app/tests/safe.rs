@@ -14,7 +14,7 @@ fn lit(harness: &Harness<'_, Lab>) -> Option<Role> {
 }
 
 /// All words as painted, in this order: their text, where their ink is, and what of it the screen shows.
-fn words(harness: &Harness<'_, Lab>) -> Vec<(String, egui::Rect, egui::Rect)> {
+pub(super) fn words(harness: &Harness<'_, Lab>) -> Vec<(String, egui::Rect, egui::Rect)> {
     fn collect(shape: &egui::Shape, clip: egui::Rect, out: &mut Vec<(String, egui::Rect, egui::Rect)>) {
         match shape {
             egui::Shape::Text(text) => {
@@ -32,7 +32,7 @@ fn words(harness: &Harness<'_, Lab>) -> Vec<(String, egui::Rect, egui::Rect)> {
 }
 
 /// Asserts that words are on the screen in whole and that nothing is written over them. Returns where they are.
-fn read_whole(harness: &Harness<'_, Lab>, wanted: &str) -> egui::Rect {
+pub(super) fn read_whole(harness: &Harness<'_, Lab>, wanted: &str) -> egui::Rect {
     let words = words(harness);
     let i = words.iter().position(|(text, ..)| text.contains(wanted));
     let i = i.unwrap_or_else(|| panic!("{wanted:?} is not on the screen"));

@@ -1,0 +1,169 @@
+//! Where things are: pictures have their share of any window, no words are cut, nothing moves that nobody moved.
+
+use super::*;
+use crate::app::tests::safe::{read_whole, words};
+use crate::ui::{Settings, Widget};
+
+const TABLET: [f32; 2] = [820.0, 1180.0];
+const LOW: [[f32; 2]; 2] = [[640.0, 400.0], [844.0, 390.0]];
+
+/// Width of the rail and of the margins beside a picture, points.
+const RAIL: f32 = 132.0;
+
+/// A paused lab with a widget in front and its hints shown.
+fn fresh(size: [f32; 2], widget: Widget) -> Harness<'static, Lab> {
+    let mut harness = lab(size);
+    pause(&mut harness);
+    let state = interface_mut(&mut harness);
+    (state.settings, state.widget) = (Settings::default(), widget);
+    harness.run_steps(6);
+    harness
+}
+
+/// The papers of a widget: the world, or both pictures.
+fn papers(harness: &Harness<'_, Lab>, widget: Widget) -> Vec<egui::Rect> {
+    let described: &[&str] = match widget {
+        Widget::Dashboard => return vec![paper(harness, "Apartment")],
+        Widget::Anatomy => &["Reach at T2"],
+        Widget::Cspace => &["workspace. Reach", "configuration space. The robot"],
+        Widget::Atlas => &["World Apartment"],
+        Widget::Plan => &["workspace. RRT-Connect", "configuration space. "],
+    };
+    described.iter().map(|words| harness.get_by_label_contains(words).rect()).collect()
+}
+
+#[test]
+fn in_a_low_window_the_picture_has_half_the_height() {
+    for size in LOW {
+        for widget in Widget::ALL {
+            let harness = fresh(size, widget);
+            for paper in papers(&harness, widget) {
+                let window = egui::Rect::from_min_size(Pos2::ZERO, size.into());
+                assert!(paper.height() >= 0.5 * size[1], "{widget:?} at {size:?}: {paper}");
+                assert!(window.contains_rect(paper), "{widget:?} at {size:?}: {paper}");
+            }
+            // the way to all else
+            harness.get_by_label("Menu");
+            Widget::ALL.into_iter().for_each(|other| _ = harness.get_by_label(other.text().short()));
+        }
+        let harness = fresh(size, Widget::Dashboard);
+        for name in ["Rusty", "Reach", "Hitch", "Pause", "Step", "More", "seed"] {
+            let name = if name == "Pause" { "Play" } else { name };
+            let rect = harness.get_by_label(name).rect();
+            assert!(rect.right() <= size[0] && rect.bottom() <= size[1], "{name} at {size:?}: {rect}");
+        }
+        let time = words(&harness).into_iter().find(|(text, ..)| text.contains(" s  tick ")).expect("the time");
+        assert!(time.2.expand(0.5).contains_rect(time.1), "{time:?} at {size:?}");
+    }
+}
+
+#[test]
+fn upright_the_picture_is_as_wide_as_the_window() {
+    for (size, rail) in [(TABLET, RAIL), (PHONE, 40.0), ([360.0, 640.0], 40.0)] {
+        let harness = fresh(size, Widget::Dashboard);
+        let paper = paper(&harness, "Apartment");
+        assert!(paper.width() >= size[0] - rail - 2.0, "{size:?}: {paper}");
+    }
+    let wide = TABLET[0] - RAIL;
+    for widget in [Widget::Anatomy, Widget::Atlas] {
+        let harness = fresh(TABLET, widget);
+        let paper = papers(&harness, widget)[0];
+        assert!(paper.width() >= wide - 2.0 && paper.height() < 0.7 * TABLET[1], "{widget:?}: {paper}");
+    }
+    for widget in [Widget::Cspace, Widget::Plan] {
+        let harness = fresh(TABLET, widget);
+        let papers = papers(&harness, widget);
+        assert!(papers.iter().all(|paper| paper.width() >= 0.6 * wide), "{widget:?}: {papers:?}");
+        assert!((papers[1].top() - papers[0].bottom()).abs() < 12.0, "no hole between them: {papers:?}");
+    }
+}
+
+#[test]
+fn what_is_said_of_the_robot_in_front_is_read_whole() {
+    let mut harness = fresh(WIDE, Widget::Dashboard);
+    harness.run_steps(4);
+    for plots in [false, true] {
+        interface_mut(&mut harness).settings.plots = plots;
+        interface_mut(&mut harness).settings.world = 0;
+        harness.run_steps(6);
+        for said in
+            ["Rusty \u{b7} Apartment", "clearance: ", "show the scan", "close door A", "close door E", "d\u{3b8}/dt"]
+        {
+            read_whole(&harness, said);
+        }
+        bring(&mut harness, "Hitch");
+        harness.run_steps(6);
+        let links = ["One place, two headings", "contacts: ", "reversals", "put a trailer on", "dx/dt"];
+        links.into_iter().for_each(|said| _ = read_whole(&harness, said));
+        click(&mut harness, "One place, two headings");
+        harness.run_steps(6);
+        links.into_iter().for_each(|said| _ = read_whole(&harness, said));
+        click(&mut harness, "put a trailer on");
+        click(&mut harness, "Step");
+        harness.run_steps(6);
+        let links =
+            ["take the trailer off", "resume tour", "goal: one metre to the left", "trailer: Some", "d\u{3c8}/dt"];
+        links.into_iter().for_each(|said| _ = read_whole(&harness, said));
+        read_whole(&harness, "Its configuration: x and y");
+        click(&mut harness, "take the trailer off");
+        click(&mut harness, "Step");
+        click(&mut harness, "One place, two headings");
+        bring(&mut harness, "Reach");
+        harness.run_steps(6);
+        let links = ["An arm is not held by what it touches", "three links", "One tip, two elbows", "tip: ("];
+        links.into_iter().for_each(|said| _ = read_whole(&harness, said));
+        read_whole(&harness, "Its configuration: the torus");
+    }
+}
+
+#[test]
+fn ticking_off_a_hint_moves_nothing() {
+    for width in [820.0, 1000.0, 1280.0, 1920.0] {
+        for widget in Widget::ALL {
+            let mut harness = fresh([width, 800.0], widget);
+            let before = papers(&harness, widget);
+            let hints = &widget.text().hints;
+            for turned in 0..hints.len() {
+                for count in 1..=hints.len() {
+                    let done = hints.iter().cycle().skip(turned).take(count);
+                    interface_mut(&mut harness).settings.done = done.map(|hint| hint.deed.id().to_owned()).collect();
+                    harness.run_steps(2);
+                    assert_eq!(papers(&harness, widget), before, "{widget:?} at {width}: {count} from {turned}");
+                    let [first, last] = ["Try:", "Got it"].map(|name| harness.get_by_label(name).rect().center());
+                    assert!((first.y - last.y).abs() < 2.0, "they stay in a row");
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn the_papers_of_a_plan_are_equally_high_or_equally_wide() {
+    let harness = fresh(WIDE, Widget::Plan);
+    let [left, right] = papers(&harness, Widget::Plan)[..] else { panic!("two papers") };
+    assert!((left.height() - right.height()).abs() < 1.0 && left.top() == right.top(), "{left} {right}");
+    assert!(left.height() > 425.0, "{left}");
+    let harness = fresh(PHONE, Widget::Plan);
+    let [above, below] = papers(&harness, Widget::Plan)[..] else { panic!("two papers") };
+    assert!((above.width() - below.width()).abs() < 1.0, "{above} {below}");
+    assert!((above.center().x - 0.5 * PHONE[0]).abs() < 2.0, "in the middle: {above}");
+}
+
+#[test]
+fn numbers_of_the_space_stay_with_their_names() {
+    for size in [WIDE, TABLET, PHONE] {
+        let harness = fresh(size, Widget::Cspace);
+        for said in ["proven free ", "proven blocked ", "not known "] {
+            let ink = read_whole(&harness, said);
+            assert!(ink.height() < 14.0 && ink.width() < 160.0, "{said} at {size:?}: {ink}");
+        }
+    }
+    let harness = fresh(WIDE, Widget::Cspace);
+    let field = harness.get_by_label("length of link 1").rect();
+    let is_named =
+        |(text, ink, _): &(String, egui::Rect, egui::Rect)| text.starts_with("L1") && field.contains_rect(*ink);
+    assert!(words(&harness).iter().any(is_named), "a field has its name in it");
+    let right = papers(&harness, Widget::Cspace)[1];
+    let question = read_whole(&harness, "How many configurations");
+    assert!(right.x_range().contains(question.left()) && question.right() <= right.right(), "{question} under {right}");
+}
