@@ -29,8 +29,9 @@ pub fn lab(ui: &mut Ui, model: &Dashboard, history: &History, state: &mut UiStat
     let narrow = size.x < NARROW || low;
     state.is_narrow = narrow;
     let look = Look::of(ui, state, narrow, low);
+    state.is_touched |= ui.input(|i| i.any_touches());
     // where there is no height to spare, controls are as small as a mouse allows
-    let mut style = look.theme.style(narrow && !low);
+    let mut style = look.theme.style(narrow && !low || state.is_touched);
     if state.has_reduced_motion() {
         style.animation_time = 0.0;
     }
@@ -40,6 +41,8 @@ pub fn lab(ui: &mut Ui, model: &Dashboard, history: &History, state: &mut UiStat
         ui.ctx().set_global_style(Arc::clone(&style));
     }
     ui.set_style(style);
+    // a press is dated by the frame before it, which while nothing moves may be long ago: none is too long for a click
+    ui.ctx().options_mut(|options| options.input_options.max_click_duration = f64::INFINITY);
     if state.dialog {
         // nothing behind a dialog keeps the focus, and with it the keys
         ui.disable();

@@ -202,7 +202,7 @@ fn an_embedded_lab_leaves_the_wheel_to_the_page() {
     assert!((magnified(&harness).0 - 2.0).abs() < 0.01, "two fingers are the lab's");
     keys(&mut harness, Key::Period, 6);
     harness.run_steps(60);
-    let lanes = harness.get_by_label_contains("contacts and").rect();
+    let lanes = harness.get_by_label_contains(" so far: a click goes to one").rect();
     wheel(&mut harness, lanes.center(), 240.0);
     assert_eq!(interface(&harness).span, None, "nor is it the time line's");
 }
@@ -358,7 +358,7 @@ fn the_wheel_shows_less_of_the_time() {
     let end = harness.state().transport().tick;
     assert!(end > 200, "{end}");
     keys(&mut harness, Key::ArrowLeft, 1);
-    let lanes = harness.get_by_label_contains("contacts and").rect();
+    let lanes = harness.get_by_label_contains(" so far: a click goes to one").rect();
     assert_eq!(interface(&harness).span, None);
     // at the right end, so that the last tick stays
     wheel(&mut harness, lanes.right_center(), 240.0);

@@ -53,7 +53,7 @@ pub fn anatomy_view(ui: &mut Ui, model: &Dashboard, look: &Look, state: &mut UiS
         on.response.on_hover_text_at_pointer("Drag the robot: an arm by its tip");
     }
     ui.scope_builder(bevy_egui::egui::UiBuilder::new().max_rect(beside), |ui| {
-        ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
+        ScrollArea::vertical().id_salt("anatomy").auto_shrink(false).show(ui, |ui| {
             if look.low {
                 crate::ui::tools::head(ui, words, model, look, state, commands);
             }

@@ -95,7 +95,7 @@ pub fn atlas_view(ui: &mut Ui, model: &Dashboard, look: &Look, state: &mut UiSta
         Mode::Measure => {}
     }
     ui.scope_builder(UiBuilder::new().max_rect(beside), |ui| {
-        ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
+        ScrollArea::vertical().id_salt("atlas").auto_shrink(false).show(ui, |ui| {
             if look.low {
                 crate::ui::tools::head(ui, words, model, look, state, commands);
             }

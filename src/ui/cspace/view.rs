@@ -58,7 +58,7 @@ pub fn cspace_view(ui: &mut Ui, model: &Dashboard, look: &Look, state: &mut UiSt
     let below = Rect::from_min_max(pos2(room.left(), right.bottom() + 6.0), room.max);
     ui.scope_builder(bevy_egui::egui::UiBuilder::new().max_rect(below), |ui| {
         if narrow {
-            ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
+            ScrollArea::vertical().id_salt("cspace").auto_shrink(false).show(ui, |ui| {
                 if look.low {
                     crate::ui::tools::head(ui, words, model, look, state, commands);
                 }

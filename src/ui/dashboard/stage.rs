@@ -297,7 +297,7 @@ pub fn front<'a>(cockpits: &'a [Cockpit], state: &UiState) -> Option<(usize, &'a
 /// title, key and hints stand below it.
 pub fn header(ui: &mut Ui, model: &Dashboard, look: &Look, state: &mut UiState, commands: &mut Vec<Command>) {
     ui.horizontal_wrapped(|ui| {
-        tabs(ui, model, state);
+        tabs(ui, model, state, commands);
         tools::menu_button(ui, model, look, state, commands);
     });
     if state.lesson.is_some() {
@@ -306,9 +306,11 @@ pub fn header(ui: &mut Ui, model: &Dashboard, look: &Look, state: &mut UiState, 
 }
 
 /// Shows tabs to choose the cockpit in front.
-fn tabs(ui: &mut Ui, model: &Dashboard, state: &mut UiState) {
+fn tabs(ui: &mut Ui, model: &Dashboard, state: &mut UiState, commands: &mut Vec<Command>) {
     for (i, cockpit) in model.cockpits.iter().enumerate() {
         if ui.selectable_label(state.settings.world as usize == i, cockpit.tab()).clicked() {
+            // the robot in hand would keep its own world in front
+            drive::let_go(state, commands);
             state.settings.world = i as u32;
             // a narrow screen shows either the plots or a pane
             state.settings.plots = false;

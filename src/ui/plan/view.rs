@@ -82,7 +82,7 @@ pub fn plan_view(ui: &mut Ui, model: &Dashboard, look: &Look, state: &mut UiStat
     let seen = left.union(right.with_max_y(right.bottom() + line));
     if narrow {
         ui.scope_builder(UiBuilder::new().max_rect(beside.with_min_y(beside.top() + 6.0)), |ui| {
-            ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
+            ScrollArea::vertical().id_salt("plan").auto_shrink(false).show(ui, |ui| {
                 if look.low {
                     crate::ui::tools::head(ui, words, model, look, state, commands);
                 }
@@ -96,7 +96,7 @@ pub fn plan_view(ui: &mut Ui, model: &Dashboard, look: &Look, state: &mut UiStat
             ui.horizontal(|ui| controls(ui, look, &mut state.plan));
         });
         ui.scope_builder(UiBuilder::new().max_rect(beside), |ui| {
-            ScrollArea::vertical().auto_shrink(false).show(ui, |ui| panel(ui, look, state, commands));
+            ScrollArea::vertical().id_salt("plan").auto_shrink(false).show(ui, |ui| panel(ui, look, state, commands));
         });
     }
 }

@@ -29,6 +29,9 @@ const MOST_LANES: usize = 3;
 /// Width of the strip of time in which contacts are counted together, points.
 const BIN: f32 = 3.0;
 
+/// Way of a finger up to which it is a tap, points.
+const TAP: f32 = 6.0;
+
 /// Least distance between two labels of the axis, points.
 const APART: f32 = 64.0;
 
@@ -118,9 +121,20 @@ pub fn time_line(
     zoom(ui, &scale, end, wheel, shown);
     show_lanes(ui, model, history.marks(), &lanes, &scale, look, commands);
     axis(ui, &scale, look);
-    if response.changed() && tick != model.tick {
+    if response.changed() && tick != model.tick && is_meant(ui) {
         commands.push(Command::from(TransportCommand::Seek(tick.min(end))));
     }
+}
+
+/// Whether a change of the time line is to seek: a finger that goes up or down wants to scroll, and one that has not
+/// moved yet may still.
+fn is_meant(ui: &Ui) -> bool {
+    ui.input(|i| {
+        let moved = i.pointer.press_origin().zip(i.pointer.latest_pos()).map(|(from, to)| to - from);
+        let is_sideways = moved.is_some_and(|by| by.x.abs() > TAP && by.x.abs() > by.y.abs());
+        let is_by_finger = i.has_touch_screen() && (i.pointer.any_down() || i.pointer.any_released());
+        !is_by_finger || i.pointer.any_click() || is_sideways
+    })
 }
 
 /// Shows less time or more as the wheel turns over the lanes; what is under the pointer stays there. Where not all of
@@ -175,7 +189,9 @@ fn show_lanes(
     let response = ui.interact(scale.lanes, ui.id().with("marks"), Sense::click());
     response.widget_info(|| {
         let contacts = marks.iter().filter(|m| m.what == Happening::Contact).count();
-        let words = format!("{contacts} contacts and {} takeovers so far", marks.len() - contacts);
+        let counted = |n: usize, what: &str| format!("{n} {what}{}", if n == 1 { "" } else { "s" });
+        let (contacts, takeovers) = (counted(contacts, "contact"), counted(marks.len() - contacts, "takeover"));
+        let words = format!("{contacts} and {takeovers} so far: a click goes to one");
         WidgetInfo::labeled(WidgetType::Button, true, words)
     });
     let Some(pointer) = response.hover_pos() else { return };
