@@ -45,6 +45,9 @@ const LEAST_WORDS: f32 = 170.0;
 /// Width from which words and configuration stand side by side, points.
 const WIDE: f32 = 560.0;
 
+/// Height that words take in a wide room, points.
+const WORDS: f32 = 260.0;
+
 /// Least height of the configuration beside the cockpit in front, with its line of words, points.
 const LEAST_SPACE: f32 = 96.0;
 
@@ -349,10 +352,12 @@ fn places(cockpit: &Cockpit, room: Rect, foot: f32) -> Places {
     Places { sheet, foot: Some(under), beside: room.with_min_x(sheet.right() + GAP) }
 }
 
-/// Shares a room between the words, which need a height, and the configuration: side by side where it is wide, else one
-/// below the other. Without room for both, the words have it all.
+/// Shares a room between the words, which need a height, and the configuration: side by side where it is wide and not
+/// high, else one below the other. Without room for both, the words have it all.
 fn share(room: Rect, words: f32) -> (Rect, Option<Rect>) {
-    if room.width() >= WIDE && room.height() >= LEAST_SPACE {
+    // not by what the words need now, so that the two do not change places as words come and go
+    let is_high = room.height() - WORDS >= 0.5 * room.width();
+    if room.width() >= WIDE && room.height() >= LEAST_SPACE && !is_high {
         let (words, space) = room.split_left_right_at_fraction(0.5);
         return (words.with_max_x(words.right() - GAP), Some(space));
     }

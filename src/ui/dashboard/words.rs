@@ -19,6 +19,9 @@ use crate::ui::{Cockpit, CockpitRobot, Command, Look, ParkingGoal, SessionComman
 /// Height of a robot's words before they have been laid out, points.
 const USUAL: f32 = 150.0;
 
+/// Width of a row that has room for a name and the scale, points.
+const BOTH: f32 = 260.0;
+
 /// Width of a row that has room for a reason beside its links, points.
 const ROOMY: f32 = 520.0;
 
@@ -98,8 +101,14 @@ fn scrolled(ui: &mut Ui, cockpit: &Cockpit, add: impl FnOnce(&mut Ui)) {
 
 /// Shows who is seen, and at the right end the scale.
 fn heading(ui: &mut Ui, cockpit: &Cockpit, fit: &Fit, look: &Look) {
+    let name = RichText::new(cockpit.heading()).color(look.colour(Role::Text));
+    if ui.available_width() < BOTH {
+        ui.label(name);
+        ui.horizontal(|ui| scale_bar(ui, fit.px_per_metre(), look));
+        return;
+    }
     ui.horizontal(|ui| {
-        ui.label(RichText::new(cockpit.heading()).color(look.colour(Role::Text)));
+        ui.label(name);
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| scale_bar(ui, fit.px_per_metre(), look));
     });
 }

@@ -87,7 +87,7 @@ fn named(name: &str, robot: &AnyRobot, world: &World, is_books: bool) -> String 
 fn task_choice(ui: &mut Ui, state: &mut UiState) {
     let present = state.plan.task();
     let shown = named(&present.name, &present.robot, &present.world, state.plan.is_in_books_world());
-    ComboBox::from_label("robot").width(190.0).selected_text(shown.as_str()).show_ui(ui, |ui| {
+    ComboBox::from_label("robot").width(180.0).selected_text(shown.as_str()).show_ui(ui, |ui| {
         for (name, robot, q, world, is_books) in choices(state.atlas.world()) {
             let words = named(&name, &robot, &world, is_books);
             if ui.selectable_label(words == shown, words).clicked() {
@@ -122,7 +122,7 @@ fn planner_choice(ui: &mut Ui, plan: &mut PlanState) {
     let robot = plan.task().robot;
     let suits = PlannerName::ALL.into_iter().filter(|name| name.suits(&robot).is_ok());
     let present = plan.planner();
-    ComboBox::from_label("planner").width(190.0).height(320.0).selected_text(present.title()).show_ui(ui, |ui| {
+    ComboBox::from_label("planner").width(180.0).height(320.0).selected_text(present.title()).show_ui(ui, |ui| {
         for name in suits {
             if ui.selectable_label(name == present, name.title()).on_hover_text(name.words()).clicked() {
                 plan.set_planner(name);
