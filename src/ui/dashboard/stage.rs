@@ -122,10 +122,9 @@ impl Stage<'_> {
             }
             beside = beside.with_min_y(beside.top() + 12.0);
         }
-        let needed = if foot.is_some() || apart.is_none() { height_of(ui, cockpit, beside.width()) } else { 0.0 };
         let (words, space) = match apart {
             Some(words) => (words, Some(beside)),
-            None => share(beside, needed),
+            None => share(beside, height_of(ui, cockpit, beside.width())),
         };
         match foot {
             Some(foot) => words_apart(ui, [words, foot], cockpit, &fit, self.look, state, commands),
@@ -343,8 +342,8 @@ fn places(cockpit: &Cockpit, room: Rect, foot: f32) -> Places {
     let whole = canvas::proportioned(world, left);
     let is_free = room.bottom() - whole.bottom() >= foot;
     let is_high = room.height() >= HIGH || room.right() - whole.right() - GAP >= WIDE;
-    // where robots share the room, what can be done with each stays with its words
-    if cockpit.robots.len() != 1 || is_high && !is_free {
+    // where robots share the room, what can be done with each stays with its words; a small world has no foot to give
+    if cockpit.robots.len() != 1 || (is_high || left.width() < WIDE) && !is_free {
         return Places { sheet: whole, foot: None, beside: room.with_min_x(whole.right() + GAP) };
     }
     let sheet = canvas::proportioned(world, left.with_max_y((room.bottom() - foot).max(room.top())));

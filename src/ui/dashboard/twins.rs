@@ -74,7 +74,7 @@ pub fn offer(ui: &mut Ui, cockpit: &Cockpit, robot: &CockpitRobot, look: &Look, 
     let button = if robot.is_arm { button } else { button.selected(is_asked) };
     let show = |ui: &mut Ui| {
         // among rows of words a fingertip finds a button of its own height
-        ui.spacing_mut().interact_size.y = if look.narrow { FINGERTIP } else { 0.0 };
+        ui.spacing_mut().interact_size.y = if look.narrow && !look.low { FINGERTIP } else { 0.0 };
         button.show(ui, look).clicked()
     };
     let clicked = ui.scope(show).inner;
