@@ -11,12 +11,14 @@
 //! from the nearest reading, with the wall at its right hand. So "the obstacle" is everything that has no gap wider
 //! than twice that.
 //!
-//! A leave point is *misjudged* in three cases: it lies more than [`LeavePoint::TOLERANCE`](motion_lab::planning::LeavePoint::TOLERANCE) farther from the goal than
-//! the nearest place of the same round by exact nearest points; the sensor then shows the goal behind the obstacle,
-//! although every start here has a way to its goal; or the round is never closed. With the exact sensor that never
-//! happens. With the noisy one the nearest reading is wrong in range by centimetres, and so in bearing by tens of
-//! degrees. A place seems nearer to the goal than it is, or a free way seems blocked, and the guarantee is gone. A real
-//! robot keeps a belief about its own place and the walls' instead, over many readings.
+//! A leave point is *misjudged* in three cases: it lies more than [`TOLERANCE`] farther from the goal than the nearest
+//! place of the same round by exact nearest points; the sensor then shows the goal behind the obstacle, although every
+//! start here has a way to its goal; or the round is never closed. With the exact sensor that never happens. With the
+//! noisy one the nearest reading is wrong in range by centimetres, and so in bearing by tens of degrees. A place seems
+//! nearer to the goal than it is, or a free way seems blocked, and the guarantee is gone. A real robot keeps a belief
+//! about its own place and the walls' instead, over many readings.
+//!
+//! [`TOLERANCE`]: motion_lab::planning::LeavePoint::TOLERANCE
 //!
 //! The walk itself is the library's [`Bug1Walk`]; the window shows it as the planner *Bug1 by its sensor*.
 #![allow(clippy::print_stdout, dead_code)]

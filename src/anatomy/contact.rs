@@ -79,7 +79,7 @@ mod tests {
         let stone = touching_items(&scene, &Footprint::disc(Point2::new(7.0, 6.0), 0.6));
         assert_eq!(told(&stone).1, ["a stone"]);
         let Drawing::Polyline(edge) = &stone[0].drawing else { panic!("an outline") };
-        let off = edge.iter().map(|p| ((p - Point2::new(7.0, 7.0)).norm() - 0.5).abs()).fold(0.0, f64::max);
+        let off = edge.iter().map(|p| ((p - Point2::new(7.0, 7.0)).norm() - 0.5).abs()).fold(0.0, crate::num::greater);
         assert!(edge.first() == edge.last() && off < 0.02, "the stone's own edge: {off}");
     }
 }

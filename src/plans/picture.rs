@@ -54,14 +54,15 @@ fn sensed_items(robot: &AnyRobot, start: &AnyConfiguration, sensed: &Sensed) -> 
 
 /// A leave point, and where the boundary of its round truly comes nearest to the goal.
 fn leave_point_items(round: usize, point: &LeavePoint) -> Vec<Item> {
-    let mark = |at, glyph| Drawing::Mark { at, glyph, radius_px: 5.0 };
+    // the ring is larger, so that it is seen about a dot at the same place
+    let mark = |at, glyph, radius_px| Drawing::Mark { at, glyph, radius_px };
     let label =
         |at, text: String, anchor| Drawing::Label { at, text, anchor, face: Face::Sans, size_px: 12.0, plate: true };
     let mut items = Vec::new();
     if let Some(nearest) = point.nearest {
         let words = format!("nearest to the goal in round {round}");
         items.push(
-            Item::new(format!("nearest/{round}"), words, Role::Witness, mark(nearest, Glyph::Ring))
+            Item::new(format!("nearest/{round}"), words, Role::Witness, mark(nearest, Glyph::Ring, 7.5))
                 .filled(Fill::Tint(1.0)),
         );
         if point.is_too_far() {
@@ -76,7 +77,7 @@ fn leave_point_items(round: usize, point: &LeavePoint) -> Vec<Item> {
         format!("left/{round}"),
         format!("round {round}: {point}"),
         Role::Path,
-        mark(point.at, Glyph::Dot),
+        mark(point.at, Glyph::Dot, 4.0),
     ));
     let text = label(point.at, format!("left {round}"), Anchor::Below);
     items.push(Item::new(format!("left/{round}/label"), "", Role::Path, text));

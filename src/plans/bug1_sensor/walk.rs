@@ -86,8 +86,8 @@ pub struct Bug1Walk {
 }
 
 impl Bug1Walk {
-    /// Distance that the centre of a disc of Rusty's size keeps from the boundary it follows, metres. A larger disc keeps
-    /// the same clearance.
+    /// Distance that the centre of a disc of Rusty's size keeps from the boundary it follows, metres. A larger disc
+    /// keeps the same clearance.
     pub const KEEP: f64 = KEEP;
 
     /// The noise of a cheap range sensor.

@@ -85,8 +85,8 @@ impl Stage<'_> {
         }
     }
 
-    /// Shows the cockpit in front on the left, and on the right the others, small, over what there is to say of it; in a
-    /// room that is taller than wide, all this below it.
+    /// Shows the cockpit in front on the left, and on the right the others, small, over what there is to say of it; in
+    /// a room that is taller than wide, all this below it.
     fn in_front(&self, ui: &mut Ui, state: &mut UiState, commands: &mut Vec<Command>) {
         let is_roomy = ui.ctx().content_rect().width() >= ROOMY;
         if is_roomy && state.settings.side_by_side {
