@@ -1,44 +1,18 @@
-//! `LessonState`, the lesson under way.
+//! Begins lessons, and makes their widgets ready.
 
 use super::atlas::{FIRST_CELL, Mode};
 use super::dashboard::drive;
-use super::{AtlasState, Command, CspaceState, Dashboard, PlanState, UiState};
+use super::{AtlasState, Command, CspaceState, Dashboard, LessonState, PlanState, UiState};
 use crate::anatomy::Tab;
+use crate::configuration::RobotKind;
 use crate::manifest::{Deed, Lesson, Widget};
 use crate::simulation::TransportCommand;
-
-/// The lesson under way.
-#[derive(Clone, Debug, PartialEq)]
-pub struct LessonState {
-    /// Which one it is.
-    pub lesson: Lesson,
-    /// The seconds that it took, once it has been done.
-    pub took: Option<f64>,
-    /// The clock at its first frame, seconds.
-    began: Option<f64>,
-    /// Whether its widget has been made ready.
-    is_ready: bool,
-    /// Whether the frame before showed it done. What is so from the start is not the reader's doing.
-    was_done: bool,
-}
-
-impl LessonState {
-    /// Takes in what was done in a frame, by `now` in seconds.
-    pub fn see(&mut self, done: &[Deed], now: f64) {
-        let began = *self.began.get_or_insert(now);
-        let is_done = done.contains(&self.lesson.deed);
-        if is_done && !self.was_done && self.took.is_none() {
-            self.took = Some(now - began);
-        }
-        self.was_done = is_done;
-    }
-}
 
 impl UiState {
     /// Begins a lesson: its widget comes in front, as the next frame makes it ready.
     pub fn begin(&mut self, lesson: Lesson) {
         self.widget = lesson.widget;
-        self.lesson = Some(LessonState { lesson, took: None, began: None, is_ready: false, was_done: true });
+        self.lesson = Some(LessonState::begun(lesson));
     }
 }
 
@@ -83,9 +57,9 @@ pub fn make_ready(model: &Dashboard, state: &mut UiState, commands: &mut Vec<Com
 /// The kind of the robot that a lesson of the dashboard is about.
 fn kind_of(deed: Deed) -> Option<&'static str> {
     match deed {
-        Deed::TwoElbows | Deed::MoveArm => Some("reach"),
-        Deed::TwoHeadings => Some("hitch"),
-        Deed::Drive | Deed::DriveOn | Deed::Held => Some("rusty"),
+        Deed::TwoElbows | Deed::MoveArm => Some(RobotKind::REACH.name),
+        Deed::TwoHeadings => Some(RobotKind::HITCH.name),
+        Deed::Drive | Deed::DriveOn | Deed::Held => Some(RobotKind::RUSTY.name),
         _ => None,
     }
 }
@@ -105,28 +79,5 @@ fn mode_of(deed: Deed) -> Mode {
         Deed::Coarsen => Mode::Measure,
         Deed::PickWall | Deed::EditWorld => Mode::Edit,
         _ => Mode::Put,
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_lesson_is_done_by_what_comes_after_its_beginning_and_once() {
-        let mut state = UiState::default();
-        let near = Lesson::of("near").unwrap();
-        state.begin(near);
-        assert_eq!(state.widget, Widget::Anatomy);
-        let under_way = state.lesson.as_mut().unwrap();
-        under_way.see(&[Deed::Near], 10.0);
-        assert_eq!(under_way.took, None, "it was so from the start");
-        under_way.see(&[Deed::Touch], 12.0);
-        assert_eq!(under_way.took, None, "another task");
-        under_way.see(&[Deed::Touch, Deed::Near], 17.5);
-        assert_eq!(under_way.took, Some(7.5));
-        under_way.see(&[], 20.0);
-        under_way.see(&[Deed::Near], 30.0);
-        assert_eq!(under_way.took, Some(7.5), "the first time counts");
     }
 }

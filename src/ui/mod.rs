@@ -16,6 +16,7 @@ mod help;
 pub(crate) mod keys;
 mod lab;
 mod lesson;
+mod lesson_state;
 pub(crate) mod paint;
 mod plan;
 #[cfg(feature = "window")]
@@ -42,7 +43,7 @@ pub(crate) use dashboard::goal::ParkingGoal;
 pub(crate) use dashboard::twin_state::AskedTwin;
 pub(crate) use dashboard::values::{Cockpit, CockpitRobot, Dashboard};
 pub(crate) use lab::lab;
-pub(crate) use lesson::LessonState;
+pub(crate) use lesson_state::LessonState;
 pub(crate) use paint::look::Look;
 pub(crate) use plan::PlanState;
 #[cfg(feature = "window")]

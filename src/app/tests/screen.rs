@@ -237,8 +237,7 @@ fn one_key_fills_the_window_with_the_world_in_front() {
 #[test]
 fn hints_are_ticked_off_as_they_are_done_and_come_back_by_a_key() {
     let mut harness = lab(WIDE);
-    let (first, hint) =
-        ("Click the paper, drive by arrow keys or pad.", "Reset: the same seed, the same run.");
+    let (first, hint) = ("Click the paper, drive by arrow keys or pad.", "Reset: the same seed, the same run.");
     assert!(harness.query_by_label(first).is_none(), "put away");
     keys(&mut harness, Key::H, 1);
     harness.get_by_label(first);
@@ -330,8 +329,7 @@ fn each_widget_ticks_off_its_own() {
     let gone = crate::atlas::Op::Delete { name: "D's front wall".into() };
     change(&mut harness, &|state| state.atlas.change(&gone, None));
     assert_eq!(done(&harness).len(), 4, "the world without the wall is not run yet");
-    click(&mut harness, "Edit");
-    click(&mut harness, "Run this world");
+    ["Edit", "Run this world"].into_iter().for_each(|name| click(&mut harness, name));
     assert_eq!(done(&harness)[4..], ["EditWorld"]);
     click(&mut harness, "Plan");
     keys(&mut harness, Key::ArrowRight, 1);

@@ -1,5 +1,6 @@
 //! Query anatomy, configuration space and atlas.
 
+mod fingers;
 mod layout;
 mod lessons;
 

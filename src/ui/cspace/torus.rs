@@ -148,7 +148,7 @@ mod tests {
                 assert!(is_near(low, high.at, high.near, high.facing), "{turned:?} {angle}");
             }
         }
-        // from the side: th1 = 0 is the outermost point to the right, seen edge-on; a quarter turn back it is the nearest
+        // from the side: th1 = 0 is outermost to the right, seen edge-on, and a quarter turn back it is the nearest
         assert!(is_near(seen([0.0, 0.0], [0.0, 0.0]), [1.0 + TUBE, 0.0], 0.0, 0.0));
         assert!(is_near(seen([0.0, 0.0], [-FRAC_PI_2, 0.0]), [0.0, 0.0], 1.0 + TUBE, 1.0));
         assert!(is_near(seen([0.0, PI], [-FRAC_PI_2, 0.0]), [0.0, 0.0], 1.0 - TUBE, -1.0), "the hole's side");

@@ -307,11 +307,10 @@ pub fn header(ui: &mut Ui, model: &Dashboard, look: &Look, state: &mut UiState, 
     }
 }
 
-/// Shows tabs to choose the cockpit in front.
+/// Shows tabs to choose the cockpit in front. The robot in hand, which would keep its own there, is let go.
 fn tabs(ui: &mut Ui, model: &Dashboard, state: &mut UiState, commands: &mut Vec<Command>) {
     for (i, cockpit) in model.cockpits.iter().enumerate() {
         if ui.selectable_label(state.settings.world as usize == i, cockpit.tab()).clicked() {
-            // the robot in hand would keep its own world in front
             drive::let_go(state, commands);
             state.settings.world = i as u32;
             // a narrow screen shows either the plots or a pane

@@ -251,7 +251,7 @@ fn every_lesson_has_a_hint() {
     }
 }
 
-fn ui(harness: &mut Harness<'_, Lab>, change: impl FnOnce(&mut crate::ui::UiState)) {
+pub fn ui(harness: &mut Harness<'_, Lab>, change: impl FnOnce(&mut crate::ui::UiState)) {
     change(&mut harness.state_mut().app.world_mut().resource_mut::<crate::app::Interface>().0);
 }
 
