@@ -19,17 +19,20 @@ const NARROW: f32 = 720.0;
 /// Height below which a window that is wider than high has its words beside the picture, points.
 const LOW: f32 = 440.0;
 
+/// The same where controls are as large as a fingertip.
+const LOW_FOR_FINGERS: f32 = 600.0;
+
 /// Width of the rail, points.
 const RAIL: f32 = 76.0;
 
 /// Shows the lab over the whole of `ui`; what is pressed is pushed onto `commands`.
 pub fn lab(ui: &mut Ui, model: &Dashboard, history: &History, state: &mut UiState, commands: &mut Vec<Command>) {
     let size = ui.max_rect().size();
-    let low = size.y < LOW && size.x > size.y;
+    state.is_touched |= ui.input(|i| i.any_touches());
+    let low = size.y < if state.is_touched { LOW_FOR_FINGERS } else { LOW } && size.x > size.y;
     let narrow = size.x < NARROW || low;
     state.is_narrow = narrow;
     let look = Look::of(ui, state, narrow, low);
-    state.is_touched |= ui.input(|i| i.any_touches());
     // where there is no height to spare, controls are as small as a mouse allows
     let mut style = look.theme.style(narrow && !low || state.is_touched);
     if state.has_reduced_motion() {

@@ -317,6 +317,47 @@ lab("the accessibility tree tells what the canvas shows", "/?tick=200", async (l
   assert.ok(nodes.some((n) => n.role?.value === "alert"), "and one for what went wrong");
 });
 
+lab("a gamepad's stick drives the robot in hand, and lets it rest", "/", async (lab) => {
+  const axes = (...values) => lab.page.evaluate((v) => (window.pad.axes = v), values);
+  await lab.page.evaluate(() => {
+    window.pad = { connected: true, axes: [0, 0, 0, 0] };
+    navigator.getGamepads = () => [null, window.pad];
+    window.dispatchEvent(new Event("gamepadconnected"));
+  });
+  const rusty = (s) => s.robots.find((r) => r.name === "Rusty");
+  await axes(0, -1);
+  await lab.page.waitForTimeout(500);
+  assert.ok(!rusty(await lab.state()).driven, "no robot is in hand");
+  await axes(0, 0.1);
+  await lab.click(/^Apartment/, [0.3, 0.2]);
+  await lab.until((s) => s.armed === "Rusty");
+  await axes(0, -1);
+  const { tick, robots } = await lab.until((s) => rusty(s).driven);
+  const [x, y] = robots.find((r) => r.name === "Rusty").coordinates;
+  await lab.until((s) => s.tick > tick + 10);
+  const on = rusty(await lab.state()).coordinates;
+  assert.ok(Math.hypot(on[0] - x, on[1] - y) > 0.05 || rusty(await lab.state()).touching, "it drives");
+  // a stick that is let go wanders a little about its middle
+  await axes(0.1, -0.1);
+  await lab.page.waitForTimeout(1500);
+  const [rest, later] = [rusty(await lab.state()).coordinates, (await lab.page.waitForTimeout(700), rusty(await lab.state()).coordinates)];
+  assert.deepEqual(later, rest);
+});
+
+lab("a tap after a rest is a click", "/?widget=anatomy", async (lab) => {
+  await lab.until((s) => s.query?.tab === "intersects");
+  for (const name of ["swept", "distance"]) {
+    const at = await lab.at(name);
+    // the lab is paused: nothing moves for three seconds
+    await lab.page.waitForTimeout(3000);
+    const session = await lab.context.newCDPSession(lab.page);
+    await session.send("Input.dispatchTouchEvent", { type: "touchStart", touchPoints: [{ x: at[0], y: at[1] }] });
+    await lab.page.waitForTimeout(80);
+    await session.send("Input.dispatchTouchEvent", { type: "touchEnd", touchPoints: [] });
+    await lab.until((s) => s.query?.tab === name, 5000);
+  }
+}, { options: { viewport: { width: 390, height: 844 }, hasTouch: true, isMobile: true } });
+
 lab("a role lights in page and canvas alike", "/", async (lab) => {
   await lab.page.locator("#key button", { hasText: "obstacle" }).focus();
   await lab.until((s) => s.lit === "obstacle");

@@ -38,3 +38,13 @@ fn a_tab_lets_go_of_the_robot_in_hand() {
     let shown = &harness.state().app.world().resource::<Interface>().0;
     assert_eq!((shown.armed.as_deref(), shown.settings.world), (None, 1));
 }
+
+#[test]
+fn large_controls_leave_the_picture_half_of_a_phone_that_lies_down() {
+    // the page is 844 x 390 and scrolls; its canvas is this high
+    let mut harness = lab([844.0, 530.0]);
+    ui(&mut harness, |ui| ui.is_touched = true);
+    harness.run_steps(3);
+    let paper = paper(&harness, "Apartment");
+    assert!(paper.height() >= 0.5 * 390.0, "{paper}");
+}
