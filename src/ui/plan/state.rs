@@ -309,7 +309,8 @@ impl PlanState {
         self.look();
     }
 
-    /// The run with this configuration plays the path: it is drawn over its world, without the start, where the robot is.
+    /// The run with this configuration plays the path: it is drawn over its world, but for the start, where the robot
+    /// is.
     pub fn is_played_by(&mut self, config: &Arc<TourConfig>) {
         let shown = |item: &Item| !item.id.starts_with("start") && item.id != "growth";
         let items = self.over.items.iter().filter(|item| shown(item)).cloned();

@@ -112,7 +112,10 @@ fn what_is_said_of_the_robot_in_front_is_read_whole() {
         harness.run_steps(6);
         let links = ["An arm is not held by what it touches", "three links", "One tip, two elbows", "tip: ("];
         links.into_iter().for_each(|said| _ = read_whole(&harness, said));
-        read_whole(&harness, "Its configuration: the torus");
+        // beside a small world and over the plots the words have all the room
+        if !plots {
+            read_whole(&harness, "Its configuration: the torus");
+        }
     }
 }
 
