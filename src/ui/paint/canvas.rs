@@ -108,7 +108,9 @@ pub fn paint_kept(painter: &Painter, picture: &Arc<Picture>, rect: Rect, fit: &F
     };
     let mut kept = kept.filter(serves).unwrap_or_else(|| {
         let covers = rect.expand2(0.5 * rect.size());
-        let aside = painter.with_clip_rect(covers).with_layer_id(LayerId::new(Order::Background, id));
+        let mut aside = painter.clone().with_layer_id(LayerId::new(Order::Background, id));
+        // beyond what the painter shows, too
+        aside.set_clip_rect(covers);
         // lines and marks reach a few points farther than what they show
         let covered = fit.shown_in(screen_rect(covers)).grown(16.0 / fit.px_per_metre());
         let is_near = |item: &&Item| item.drawing.bounds().is_none_or(|b| !b.is_apart(&covered));
@@ -274,7 +276,8 @@ mod tests {
     /// The corners of the mesh that a picture is painted with, those in `rect`, to a hundredth of a point.
     fn painted(ctx: &Context, picture: &Arc<Picture>, rect: Rect, fit: &Fit) -> Vec<[i32; 2]> {
         let mut output = ctx.run_ui(RawInput::default(), |ui| {
-            paint_kept(ui.painter(), picture, rect, fit, &Look::from(Theme::Light));
+            // as the widgets do, by a painter that shows the paper alone
+            paint_kept(&ui.painter_at(rect), picture, rect, fit, &Look::from(Theme::Light));
         });
         output.textures_delta.clear();
         let meshes = output.shapes.iter().filter_map(|clipped| match &clipped.shape {
