@@ -3,8 +3,8 @@
 use std::sync::Arc;
 
 use bevy_egui::egui::{
-    CollapsingHeader, ComboBox, DragValue, Label, RichText, ScrollArea, Slider, TextEdit, Ui, WidgetInfo, WidgetType,
-    vec2,
+    CollapsingHeader, ComboBox, DragValue, Id, Label, RichText, ScrollArea, Slider, TextEdit, Ui, WidgetInfo,
+    WidgetType, vec2,
 };
 
 use super::state::Guesses;
@@ -48,8 +48,12 @@ pub fn anatomy_view(ui: &mut Ui, model: &Dashboard, look: &Look, state: &mut UiS
         state.anatomy.anatomy.drag(to);
     }
     state.over = on.pointed_at(&overlay).or_else(|| on.pointed_at(&backdrop));
-    // what has been done is known, and words at the pointer hide what is dragged
-    if !state.settings.is_ticked_off(Deed::Touch) && !on.response.dragged() {
+    // once it was dragged that is known, and words at the pointer hide what is looked at
+    let known = Id::new("the robot was dragged");
+    if on.response.dragged() {
+        ui.data_mut(|data| data.insert_temp(known, true));
+    }
+    if !ui.data(|data| data.get_temp(known).unwrap_or(false)) {
         on.response.on_hover_text_at_pointer("Drag the robot: an arm by its tip");
     }
     ui.scope_builder(bevy_egui::egui::UiBuilder::new().max_rect(beside), |ui| {

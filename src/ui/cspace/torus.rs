@@ -1,6 +1,9 @@
 //! The configuration space of an arm as the torus that it is: its square bent until opposite edges meet.
 
-use bevy_egui::egui::{Color32, Mesh, Pos2, Rect, Sense, Shape, Stroke, Ui, Vec2, WidgetInfo, WidgetType, vec2};
+use bevy_egui::egui::{
+    Align2, Color32, FontId, Mesh, Painter, Pos2, Rect, Sense, Shape, Stroke, TextStyle, Ui, Vec2, WidgetInfo,
+    WidgetType, vec2,
+};
 
 use crate::configuration::AnyConfiguration;
 use crate::cspace::{CellMap, CellState};
@@ -11,8 +14,11 @@ use crate::ui::{Look, UiState};
 /// Radius of the tube; that of the circle in its middle is 1.
 const TUBE: f64 = 0.42;
 
-/// Level of the cells drawn: a 64th of the sides.
-const LEVEL: u32 = 6;
+/// Number of faces along a side of the square.
+const SIDE: usize = 96;
+
+/// Cosine from which on a region faces the eye enough to bear its name.
+const NAMED: f64 = 0.25;
 
 /// Radians that a drag of one point turns it by.
 const PER_POINT: f32 = 0.01;
@@ -58,6 +64,12 @@ pub fn torus(ui: &mut Ui, paper: Rect, look: &Look, state: &mut UiState) {
     let painter = ui.painter_at(paper);
     painter.add(surface(cells.map(), turned, look, &on_paper));
     let point = |q: &AnyConfiguration| seen(cells.map().slice().point(q), turned);
+    for region in cells.regions() {
+        let there = seen(region.at, turned);
+        if there.facing > NAMED {
+            name(&painter, &region.name, on_paper(there.at), TextStyle::Small.resolve(ui.style()), look);
+        }
+    }
     // the two circles at which the square was cut
     let pi = std::f64::consts::PI;
     for seam in [|a: f64| [a, std::f64::consts::PI], |a: f64| [std::f64::consts::PI, a]] {
@@ -69,7 +81,7 @@ pub fn torus(ui: &mut Ui, paper: Rect, look: &Look, state: &mut UiState) {
     for other in anatomy.solutions() {
         let there = point(&other);
         let ink = if there.facing >= 0.0 { 1.0 } else { 0.4 };
-        painter.circle_stroke(on_paper(there.at), 6.5, Stroke::new(1.5, look.tint(Role::Focus, ink)));
+        painter.circle_stroke(on_paper(there.at), 6.5, Stroke::new(2.5, look.tint(Role::Focus, ink)));
     }
     let (here, role) = (point(&anatomy.q()), if anatomy.intersects() { Role::Goal } else { Role::Robot });
     let ink = if here.facing >= 0.0 { 1.0 } else { 0.5 };
@@ -80,18 +92,21 @@ pub fn torus(ui: &mut Ui, paper: Rect, look: &Look, state: &mut UiState) {
 /// The side of the surface that faces the eye, what is farther below what is nearer. The more it faces the eye, the
 /// stronger its colour.
 fn surface(map: &CellMap, turned: [f64; 2], look: &Look, on_paper: &dyn Fn([f64; 2]) -> Pos2) -> Shape {
-    let (side, image) = (1_u32 << LEVEL.min(map.finest()), map.raster(LEVEL));
-    let angle = |k: u32| std::f64::consts::PI * (2.0 * f64::from(k) / f64::from(side) - 1.0);
-    let corner = |column: u32, row: u32| seen([angle(column), angle(row)], turned);
-    let cells = image.iter().enumerate().map(|(i, state)| (i as u32 % side, i as u32 / side, *state));
-    let mut faces: Vec<(f64, f64, CellState, [Pos2; 4])> = cells
-        .filter_map(|(column, row, state)| {
-            let corners = [(0, 0), (1, 0), (1, 1), (0, 1)].map(|(right, up)| corner(column + right, row + up));
-            let mean = |of: fn(&Seen) -> f64| corners.iter().map(of).sum::<f64>() / 4.0;
-            let facing = mean(|c| c.facing);
-            (facing > -0.1).then(|| (mean(|c| c.near), facing, state, corners.map(|c| on_paper(c.at))))
-        })
+    let angle = |k: f64| std::f64::consts::PI * (2.0 * k / SIDE as f64 - 1.0);
+    let corners: Vec<Seen> = (0..=SIDE)
+        .flat_map(|row| (0..=SIDE).map(move |column| [column, row]))
+        .map(|at| seen(at.map(|k| angle(k as f64)), turned))
         .collect();
+    let face = |i: usize| {
+        let (column, row) = (i % SIDE, i / SIDE);
+        let corner = |right: usize, up: usize| corners[(row + up) * (SIDE + 1) + column + right];
+        let corners = [corner(0, 0), corner(1, 0), corner(1, 1), corner(0, 1)];
+        let mean = |of: fn(&Seen) -> f64| corners.iter().map(of).sum::<f64>() / 4.0;
+        let facing = mean(|c| c.facing);
+        let state = map.state([column, row].map(|k| angle(k as f64 + 0.5)));
+        (facing > -0.1).then(|| (mean(|c| c.near), facing, state, corners.map(|c| on_paper(c.at))))
+    };
+    let mut faces: Vec<(f64, f64, CellState, [Pos2; 4])> = (0..SIDE * SIDE).filter_map(face).collect();
     faces.sort_by(|a, b| a.0.total_cmp(&b.0));
     let paper = look.colour(Role::Paper);
     let ink = |facing: f64, state: CellState| -> Color32 {
@@ -113,8 +128,16 @@ fn surface(map: &CellMap, turned: [f64; 2], look: &Look, on_paper: &dyn Fn([f64;
     Shape::mesh(mesh)
 }
 
+/// Writes the name of a region on a plate.
+fn name(painter: &Painter, name: &str, at: Pos2, font: FontId, look: &Look) {
+    let galley = painter.layout_no_wrap(name.to_owned(), font, look.colour(Role::Text));
+    let rect = Align2::CENTER_CENTER.anchor_size(at, galley.size());
+    painter.rect_filled(rect.expand2(vec2(3.0, 1.0)), 0.0, look.tint(Role::Paper, 0.85));
+    painter.galley(rect.min, galley, Color32::PLACEHOLDER);
+}
+
 /// A line on the torus, in pieces: what is on its far side is left out, and so is a piece from edge to edge.
-fn line(painter: &bevy_egui::egui::Painter, points: &[Seen], stroke: Stroke, on_paper: &dyn Fn([f64; 2]) -> Pos2) {
+fn line(painter: &Painter, points: &[Seen], stroke: Stroke, on_paper: &dyn Fn([f64; 2]) -> Pos2) {
     let is_shown = |pair: &&[Seen]| pair.iter().all(|p| p.facing > 0.0);
     for pair in points.windows(2).filter(is_shown) {
         let [from, to] = [pair[0], pair[1]].map(|p| on_paper(p.at));
@@ -163,7 +186,8 @@ mod tests {
         use crate::cspace::Slice;
         use crate::picture::Theme;
         let (arm, q) = crate::robots::AnyRobot::of_kind("reach", &[0.8, 1.5]).unwrap();
-        let mut map = CellMap::new(Slice::through(&Checker::new(Scene::workbench(), arm), &q).unwrap(), LEVEL);
+        let slice = Slice::through(&Checker::new(Scene::workbench(), arm), &q).unwrap();
+        let mut map = CellMap::new(slice.clone(), 8);
         map.refine(u32::MAX);
         let look = Look::from(Theme::Light);
         let Shape::Mesh(mesh) = surface(&map, [0.0, FRAC_PI_2], &look, &|[x, y]| pos2(x as f32, y as f32)) else {
@@ -171,16 +195,18 @@ mod tests {
         };
         // from above the upper half of the tube is seen, and a little beyond its edge
         let faces = mesh.vertices.len() / 4;
-        assert!((2048..=2304).contains(&faces), "{faces}");
+        let half = SIDE * SIDE / 2;
+        assert!((half..=half + half / 8).contains(&faces), "{faces}");
         assert_eq!(mesh.indices.len(), 6 * faces);
         let role_of = |colour: Color32| {
             let [r, g, b, _] = colour.to_array().map(i32::from);
             if g > r && g > b { Role::Free } else { Role::Obstacle }
         };
         let free = mesh.vertices.chunks(4).filter(|face| role_of(face[0].color) == Role::Free).count() as f64;
-        // the samples of the upper half itself
-        let upper: Vec<_> = map.raster(LEVEL).into_iter().skip(2048).collect();
-        let wanted = upper.iter().filter(|state| **state == CellState::Free).count() as f64 / upper.len() as f64;
-        assert!((free / faces as f64 - wanted).abs() < 0.08, "{free} of {faces}, {wanted}");
+        // what the checker says of the upper half, at points of its own
+        let points = (0..50 * 50).map(|i| [(i % 50) as f64 + 0.5, (i / 50) as f64 + 0.5]);
+        let upper = points.map(|[u, v]| slice.at([PI * (u / 25.0 - 1.0), PI * v / 50.0]));
+        let wanted = upper.filter(|q| slice.checker().is_free(q)).count() as f64 / 2500.0;
+        assert!((free / faces as f64 - wanted).abs() < 0.05, "{free} of {faces}, {wanted}");
     }
 }

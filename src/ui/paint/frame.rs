@@ -10,7 +10,7 @@ use bevy_egui::egui::{
     vec2,
 };
 
-use crate::manifest::{Formula, Hint, Lesson, Level, Term, Told};
+use crate::manifest::{Deed, Formula, Hint, Lesson, Level, Term, Told, Widget};
 use crate::picture::Role;
 use crate::ui::keys::{self, Action};
 use crate::ui::{LessonState, Look, UiState, WidgetText};
@@ -201,8 +201,12 @@ fn job(ui: &Ui, formula: &Formula, look: &Look) -> LayoutJob {
 
 /// Shows what a new reader may try first in the widget in front, until its hints are put away.
 pub fn hints(ui: &mut Ui, widget: &WidgetText, look: &Look, state: &mut UiState) {
-    // what ends in another widget, such as a world that is run, says there that it is done
-    let is_here = |under_way: &LessonState| under_way.lesson.widget == state.widget || under_way.took.is_some();
+    // what ends on the dashboard, such as a world that is run, says there that it is done
+    let leads_on = |under_way: &LessonState| matches!(under_way.lesson.deed, Deed::EditWorld | Deed::PlayPath);
+    let is_here = |under_way: &LessonState| {
+        let ended = under_way.took.is_some() && state.widget == Widget::Dashboard && leads_on(under_way);
+        under_way.lesson.widget == state.widget || ended
+    };
     if let Some(under_way) = state.lesson.clone().filter(is_here) {
         return lesson(ui, &under_way, look, state);
     }

@@ -21,7 +21,7 @@ fn a_link_reads_back_as_it_was_written() {
         worlds: vec!["lot".into(), "workbench".into()],
         tick: 600,
         widget: Some(Widget::Atlas),
-        lesson: Lesson::of("pick_wall"),
+        lesson: Some(Lesson::of("pick_wall").unwrap()),
         theme: Some(ThemeChoice::Dark),
         script: driven(),
         digest: Some("0123456789abcdef0123456789abcdef".into()),
