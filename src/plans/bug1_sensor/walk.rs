@@ -31,7 +31,7 @@ pub enum WalkEnd {
 /// What the next step does.
 #[derive(Clone, Debug)]
 enum Phase {
-    /// Goes straight to the goal. At the beginning so many steps had been stopped by a wall.
+    /// Goes straight to the goal; `bumps` is the number of steps that a wall had stopped before.
     Head { bumps: u32 },
     /// Follows the boundary all the way round.
     Round(Lap),

@@ -48,7 +48,7 @@ pub fn anatomy_view(ui: &mut Ui, model: &Dashboard, look: &Look, state: &mut UiS
         state.anatomy.anatomy.drag(to);
     }
     state.over = on.pointed_at(&overlay).or_else(|| on.pointed_at(&backdrop));
-    // once it was dragged that is known, and words at the pointer hide what is looked at
+    // a hint for who has not dragged it yet: words at the pointer hide the contact
     let known = Id::new("the robot was dragged");
     if on.response.dragged() {
         ui.data_mut(|data| data.insert_temp(known, true));

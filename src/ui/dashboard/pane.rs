@@ -6,12 +6,11 @@ use bevy_egui::egui::{
     CursorIcon, Id, Rect, Response, Sense, Stroke, StrokeKind, TextStyle, Ui, WidgetInfo, WidgetType, pos2, vec2,
 };
 
-use super::twins::twin_items;
+use super::twins::{fitted, twin_items};
 use super::words::words_in;
 use super::{doors, drive, handles, pad};
 use crate::anatomy::touching_items;
 use crate::atlas::{self, Atlas};
-use crate::collision::Scene;
 use crate::picture::{Drawing, Fit, Item, Picture, Role, ScanDrawing, fan_scan, pick, places, scan_id};
 use crate::simulation::SensorView;
 use crate::ui::paint::camera::Camera;
@@ -79,7 +78,7 @@ pub fn paper(
         over = over.with(names(ui, cockpit, &fit));
     }
     let over = over.with(under).with(twin_items(cockpit, state)).with(robots(ui, cockpit, state));
-    let over = over.with(touched_by(cockpit));
+    let over = over.with(touched_by(cockpit, state));
     canvas::paint(&painter, &over, &fit, look);
     point_out(&response, &over, cockpit, &fit);
     let driven = in_reach(cockpit);
@@ -121,13 +120,14 @@ pub fn paper(
 }
 
 /// What the cockpit's robots touch in this tick.
-fn touched_by(cockpit: &Cockpit) -> Vec<Item> {
-    let mut touching = cockpit.robots.iter().filter(|robot| robot.flash).peekable();
-    if cockpit.crowd.is_some() || touching.peek().is_none() {
-        return Vec::new();
-    }
-    let scene = Scene::of_world(cockpit.atlas.world());
-    touching.flat_map(|robot| touching_items(&scene, &robot.footprint)).collect()
+fn touched_by(cockpit: &Cockpit, state: &UiState) -> Vec<Item> {
+    let touching = cockpit.robots.iter().filter(|robot| robot.flash && cockpit.crowd.is_none());
+    let items = touching.filter_map(|robot| {
+        // the scene of the configuration beside the cockpit in front is kept
+        let checker = state.linked.checker_of(&cockpit.atlas, &fitted(robot)?.0);
+        Some(touching_items(checker.scene(), &robot.footprint))
+    });
+    items.flatten().collect()
 }
 
 /// The cockpit's robots one by one: their scans, their goals, and over them their bodies.

@@ -1,4 +1,4 @@
-//! Presses and fingers.
+//! Presses, fingers, the focus, and what pictures say of a contact and of a space.
 
 use super::lessons::ui;
 use super::*;
@@ -47,4 +47,84 @@ fn large_controls_leave_the_picture_half_of_a_phone_that_lies_down() {
     harness.run_steps(3);
     let paper = paper(&harness, "Apartment");
     assert!(paper.height() >= 0.5 * 390.0, "{paper}");
+}
+
+/// A finger that is put down, moves and is lifted.
+fn swipe(harness: &mut Harness<'_, Lab>, from: Pos2, by: egui::Vec2) {
+    let touch = |harness: &mut Harness<'_, Lab>, phase, pos: Pos2, pressed: Option<bool>| {
+        let (device_id, id) = (egui::TouchDeviceId(1), egui::TouchId(1));
+        harness.event(Event::Touch { device_id, id, phase, pos, force: None });
+        pointer(harness, pos, pressed);
+    };
+    touch(harness, egui::TouchPhase::Start, from, Some(true));
+    (1..=8).for_each(|i| touch(harness, egui::TouchPhase::Move, from + by * (i as f32 / 8.0), None));
+    touch(harness, egui::TouchPhase::End, from + by, Some(false));
+    harness.run_steps(3);
+}
+
+#[test]
+fn a_finger_seeks_by_a_tap_or_sideways_and_not_on_its_way_up_or_down() {
+    let mut harness = lab(PHONE);
+    harness.run_steps(200);
+    pause(&mut harness);
+    let tick = |harness: &Harness<'_, Lab>| harness.state().transport().tick;
+    let line = harness.get_by_label("time line, in ticks").rect();
+    let (end, middle) = (tick(&harness), line.center());
+    assert!(end > 60, "{end}");
+    swipe(&mut harness, middle, egui::vec2(4.0, -120.0));
+    assert_eq!(tick(&harness), end, "upright");
+    swipe(&mut harness, middle, egui::vec2(-60.0, 10.0));
+    let sideways = tick(&harness);
+    assert!(sideways < end / 2 && sideways > 0, "{sideways} of {end}");
+    swipe(&mut harness, middle, egui::Vec2::ZERO);
+    assert!(tick(&harness).abs_diff(end / 2) < end / 10, "{} of {end}", tick(&harness));
+}
+
+#[test]
+fn the_focus_stays_with_its_world_where_panes_change_places() {
+    let mut harness = lab(WIDE);
+    let names = ["Apartment", "Workbench", "Lot"];
+    let focused = |h: &Harness<'_, Lab>| {
+        let has = |node: &egui_kittest::Node<'_>| node.accesskit_node().is_focused();
+        let panes = h.get_all_by_role(egui::accesskit::Role::Button).filter(has);
+        panes.filter_map(|node| node.accesskit_node().label()).find(|label| names.iter().any(|n| label.contains(n)))
+    };
+    harness.get_by_label_contains("Bring Hitch").focus();
+    harness.run_steps(2);
+    let before = focused(&harness).expect("a pane");
+    assert!(before.contains("Lot") || before.contains("Hitch"), "{before}");
+    ui(&mut harness, |ui| ui.settings.world = 1);
+    harness.run_steps(3);
+    let after = focused(&harness).expect("a pane still");
+    assert!(after.contains("Lot") || after.contains("Hitch"), "{after}");
+}
+
+#[test]
+fn a_wall_that_holds_the_robot_bears_its_name() {
+    let mut harness = lab(WIDE);
+    arm_rusty(&mut harness);
+    harness.key_down(Key::ArrowUp);
+    harness.run_steps(600);
+    let at = harness.state().robot(0).footprint;
+    let scene = crate::collision::Scene::apartment();
+    use crate::collision::Collision;
+    let wall = scene.obstacle_name(scene.witness(&at).unwrap().obstacle).unwrap();
+    crate::app::tests::safe::read_whole(&harness, wall);
+}
+
+#[test]
+fn space_names_its_regions_and_bends_to_a_torus_that_turns() {
+    let mut harness = lab(WIDE);
+    click(&mut harness, "Space");
+    harness.run_steps(60);
+    harness.get_by_label_contains("Blocked regions: the shelf");
+    click(&mut harness, "as a torus");
+    let sheet = harness.get_by_label_contains("configuration space as a torus").rect();
+    let turned = |h: &Harness<'_, Lab>| h.state().app.world().resource::<Interface>().0.cspace.turned;
+    let before = turned(&harness);
+    pointer(&mut harness, sheet.center(), Some(true));
+    (1..=8).for_each(|i| pointer(&mut harness, sheet.center() + egui::vec2(10.0 * i as f32, 0.0), None));
+    pointer(&mut harness, sheet.center() + egui::vec2(80.0, 0.0), Some(false));
+    let [about, tilt] = turned(&harness);
+    assert!(about - before[0] > 0.5 && tilt == before[1], "{about} {tilt}");
 }
