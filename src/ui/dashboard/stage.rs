@@ -2,7 +2,7 @@
 //! or over the whole window.
 
 use bevy_egui::egui::{
-    Align, Align2, CursorIcon, Layout, Pos2, Rect, RichText, ScrollArea, Sense, Stroke, StrokeKind, TextStyle, Ui,
+    Align, Align2, CursorIcon, Id, Layout, Pos2, Rect, RichText, ScrollArea, Sense, Stroke, StrokeKind, TextStyle, Ui,
     UiBuilder, WidgetInfo, WidgetType, pos2, vec2,
 };
 
@@ -179,7 +179,7 @@ impl Stage<'_> {
     fn small(&self, ui: &mut Ui, cockpit: &Cockpit, place: Placed, state: &mut UiState) -> bool {
         let Placed { index, whole, paper } = place;
         let look = self.look;
-        let response = ui.allocate_rect(whole, Sense::click());
+        let response = ui.interact(whole, Id::new(("small", &cockpit.world.name)), Sense::click());
         let words = format!("Bring {} to the front ({})", cockpit.heading(), index + 1);
         response
             .widget_info(|| WidgetInfo::labeled(WidgetType::Button, true, format!("{words}. {}", cockpit.described())));
