@@ -151,6 +151,12 @@ fn the_ends_are_dragged_in_both_papers_and_an_end_in_contact_is_said() {
         .move_end(1, crate::configuration::AnyConfiguration::T2(crate::configuration::T2::new(0.785, 0.785)));
     harness.run_steps(2);
     harness.get_by_label_contains("No path: the goal would overlap the block");
+    let roles = |harness: &Harness<'_, Lab>, id: &str| {
+        let over = plan(harness).over;
+        over.items.iter().filter(|item| item.id.starts_with(id)).map(|item| item.role).collect::<Vec<_>>()
+    };
+    assert!(roles(&harness, "goal").iter().all(|role| *role == Role::Goal) && !roles(&harness, "goal").is_empty());
+    assert!(roles(&harness, "start").iter().all(|role| *role == Role::Robot), "the start is free");
     assert!(plan(&harness).lengths().is_none());
     harness.get_by_label_contains("configuration space. ");
 }

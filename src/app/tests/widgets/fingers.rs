@@ -126,3 +126,15 @@ fn space_names_its_regions_and_bends_to_a_torus_that_turns() {
     let [about, tilt] = turned(&harness);
     assert!(about - before[0] > 0.5 && tilt == before[1], "{about} {tilt}");
 }
+
+#[test]
+fn what_was_copied_is_said() {
+    let mut harness = lab(WIDE);
+    click(&mut harness, "Query");
+    for (button, said) in [("Copy as Rust", "copied: a program"), ("Copy as command", "copied: a command")] {
+        assert!(harness.query_by_label_contains(said).is_none());
+        click(&mut harness, button);
+        harness.run_steps(2);
+        harness.get_by_label_contains(said);
+    }
+}
