@@ -95,6 +95,9 @@ const preloads = [
   `<link rel="preload" href="${files.labWasm}" as="fetch" type="application/wasm" crossorigin>`,
 ].join("\n");
 
+/** The name of the robot that a formula's configuration is of. */
+const robotOf = ({ robot, trailer }) => `${robot[0].toUpperCase()}${robot.slice(1).replace(/\d$/, ", $& joints")}${trailer ? ", trailer" : ""}:`;
+
 const values = {
   preloads,
   offline: offline ? " data-offline" : "",
@@ -104,7 +107,7 @@ const values = {
   "icon.svg": hashed("icon.svg", source("icon.svg"), "the page"),
   files: JSON.stringify(files).replace(/</g, "\\u003c"),
   formulas: [
-    ...lab.formulas.map((f) => `<li title="${escape(f.spoken)}">${f.mathml}</li>`),
+    ...lab.formulas.map((f) => `<li title="${escape(f.spoken)}" tabindex="0"><span>${escape(robotOf(f))}</span> ${f.mathml}</li>`),
     // a long one is scrolled on a phone, by keys too
     ...lab.chapter.map(
       (f) =>
