@@ -45,27 +45,29 @@ const announce = (text) => ($("heard").textContent = text); // for who does not 
 const alarm = (text) => ($("urgent").textContent = text); // likewise
 const warn = (text) => ($("alert").textContent = text);
 
-/** Tells the lab something; see src/web/message.rs. */
-function send(message) {
+/** Tells the lab something; see src/web/message.rs. What the page around asks has no words for the reader. */
+function send(message, isOfPageAround = false) {
   if (!lab || failed) return;
-  attempt(() => lab.lab_send(JSON.stringify(message)));
+  attempt(() => lab.lab_send(JSON.stringify(message)), isOfPageAround ? () => {} : warn);
 }
 
 /** Calls the lab; says what it refuses. */
-function attempt(act) {
+function attempt(act, refused = warn) {
   try {
     act();
   } catch (error) {
     if (error instanceof WebAssembly.RuntimeError) stop(String(error));
     else {
-      warn(error.message ?? String(error));
+      refused(error.message ?? String(error));
       tellAll({ kind: "error", text: error.message ?? String(error) });
     }
   }
 }
 
 const tellAround = around({
-  ask: send,
+  widgets: files.widgets,
+  state: () => state,
+  ask: (message) => send(message, true),
   askReader: () => {
     $("asked").hidden = false;
     alarm("The page around asks to save this run: Save run, or No");

@@ -257,3 +257,35 @@ for (const [path, width] of [["/", 320], ["/", 280], ["/embed.html", 320], ["/em
     await lab.shot(`narrow-${path.replace(/\W+/g, "-")}-${width}`);
   }, { options: { viewport: { width, height: 256 } } });
 }
+
+lab("the reader does not read words of the page around as the lab's own", "/widgets.html", async ({ page }) => {
+  const [frame] = await around(page, [""]);
+  await frame.waitForFunction(() => window.received.state?.robots.length > 0);
+  const heard = await page.evaluateHandle(() => {
+    const heard = [];
+    addEventListener("message", ({ data }) => data.motionLab?.kind === "error" && heard.push(data.motionLab.text));
+    return heard;
+  });
+  const lie = "Your session has expired";
+  const messages = [
+    { do: "widget", id: lie },
+    { do: "lesson", id: lie },
+    { do: "tab", id: lie },
+    { do: "light", role: lie },
+    { do: "theme", name: lie },
+    { do: "seed", seed: lie },
+    { do: "robot", robot: lie, release: true },
+    { do: "door", world: "Apartment", name: lie, open: true },
+    { do: "robot", robot: "Rusty", drive: lie },
+  ];
+  for (const message of messages) await page.evaluate((m) => frames[0].postMessage({ motionLab: m }, "*"), message);
+  await page.waitForFunction(([all, n]) => all.length >= n, [heard, messages.length], { timeout: 20000 });
+  await page.waitForTimeout(1500);
+  assert.ok((await page.evaluate((all) => all, heard)).every((text) => text.includes(lie)), "the page around hears why");
+  const shown = await frame.evaluate(() => [document.body.innerText, document.getElementById("controls").textContent, window.received.state.notice?.text ?? ""].join(" "));
+  assert.ok(!shown.includes(lie), shown.slice(Math.max(0, shown.indexOf(lie) - 80)));
+  assert.equal(await frame.textContent("#alert"), "");
+  // what it has is done
+  await page.evaluate(() => frames[0].postMessage({ motionLab: { do: "widget", id: "atlas" } }, "*"));
+  await frame.waitForFunction(() => window.received.state.widget === "atlas");
+}, elsewhere);
