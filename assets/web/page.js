@@ -3,10 +3,12 @@
 // `window.motionLab.send({ do: "seek", tick: 600 })` does what src/web/message.rs lists; the page gets events `motionlab` on `window` with
 // what the lab tells in `detail`. docs/web/messages.md has what a page around a frame may ask.
 import { around } from "./around.js";
+import { beside } from "./beside.js";
 import { captures } from "./captures.js";
+import { fingers } from "./fingers.js";
 import { savedPage, logOfSavedPage } from "./pages.js";
 import { stick } from "./stick.js";
-import { fingers, twins } from "./twins.js";
+import { twins } from "./twins.js";
 
 const $ = (id) => document.getElementById(id);
 const root = document.documentElement;
@@ -28,6 +30,7 @@ let state = null; // its last state
 let parts = null; // the run's parts, with which the simulator alone can record it again
 let failed = false;
 let copies = false; // whether the reader asked for the link that the lab tells next
+let noticed = -Infinity; // when the lab last told a notice
 let toSeek = null; // the tick of the run before, while it is checked
 const waiting = []; // files that were opened before the lab ran
 
@@ -97,14 +100,16 @@ function nudge({ key, shiftKey, ctrlKey, metaKey, altKey }) {
   return true;
 }
 
-const { mirror, at } = twins({
+const { mirror, at, widgets, twin } = twins({
   container: $("controls"),
   send,
   titles: () => Object.values(files.widgets).map((widget) => widget.title),
+  // the notice in #heard or #urgent, and the formulas, which a frame does not show
+  said: () => [state?.notice?.text ?? "", ...(embedded ? [] : [...document.querySelectorAll("#formulas li:not([hidden])")].map((item) => item.title))],
   leave: () => canvas.focus({ preventScroll: true }),
   nudge,
 });
-fingers({ canvas, at, embedded });
+const look = fingers({ canvas, container: $("controls"), at, widgets, twin, embedded, announce });
 
 /** Opens a run, also one saved as a page, or a world in the lab. */
 async function open(file) {
@@ -161,6 +166,7 @@ async function runPage() {
 
 // ---- what the lab tells ----
 
+const shown = beside({ element: $("beside"), key: $("key"), widgets: files.widgets, send });
 const drawn = captures({ say, warn, save, tell: tellAll });
 
 const hear = {
@@ -194,6 +200,7 @@ const hear = {
       toSeek = null;
     }
     if (message.notice?.text !== before?.notice?.text) {
+      noticed = performance.now();
       alarm(message.notice?.error ? message.notice.text : "");
       announce(message.notice?.error ? "" : (message.notice?.text ?? ""));
     }
@@ -203,11 +210,14 @@ const hear = {
       const earlier = before?.robots.find((r) => r.name === robot.name);
       if (earlier && robot.contacts > earlier.contacts) announce(`${robot.name}: contact ${robot.contacts}`);
     }
-    if (message.widget !== before?.widget) showKey(message.widget);
-    if (String(message.formulas) !== String(before?.formulas)) showFormulas(message.formulas);
-    light(message.lit);
+    if (message.widget !== before?.widget) shown.key(message.widget);
+    if (String(message.formulas) !== String(before?.formulas)) shown.formulas(message.formulas);
+    shown.light(message.lit);
   },
-  tree: ({ widgets }) => mirror(widgets),
+  tree(message) {
+    mirror(message.widgets);
+    look();
+  },
   settings({ settings }) {
     store(() => localStorage.setItem(SETTINGS, JSON.stringify(settings)));
   },
@@ -232,8 +242,10 @@ const hear = {
   },
   async copy({ text }) {
     try {
+      const at = performance.now();
       await navigator.clipboard.writeText(text);
-      say(`Copied: ${text.length} characters`);
+      // where the lab says so itself, in a notice, it is not said again
+      setTimeout(() => noticed < at && say(`Copied: ${text.length} characters`), 500);
     } catch {
       warn("The browser does not let the page copy.");
     }
@@ -301,40 +313,6 @@ function notLoaded(reason) {
   $("unloaded").hidden = false;
 }
 
-// ---- roles: lit in the page and in the canvas alike ----
-
-function light(role) {
-  if (role) root.dataset.lit = role;
-  else delete root.dataset.lit;
-  for (const element of document.querySelectorAll("#beside [data-role]")) element.toggleAttribute("data-lit", element.dataset.role === role);
-}
-
-function showKey(widget) {
-  const entry = ({ role, text }) => {
-    const item = document.createElement("li");
-    const button = document.createElement("button");
-    button.type = "button";
-    button.className = `role-${role}`;
-    button.dataset.role = role;
-    button.textContent = text;
-    item.append(button);
-    return item;
-  };
-  $("key").replaceChildren(...(files.widgets[widget]?.key ?? []).map(entry));
-}
-
-/** Shows the chapter's formulas of what is in front. */
-function showFormulas(names) {
-  for (const item of document.querySelectorAll("#formulas [data-at]")) item.hidden = !item.dataset.at.split(" ").some((at) => names.includes(at));
-}
-
-for (const [type, on] of [["pointerover", true], ["focusin", true], ["pointerout", false], ["focusout", false]]) {
-  $("beside").addEventListener(type, ({ target }) => {
-    const role = target.closest("[data-role]")?.dataset.role;
-    if (role) send({ do: "light", role: on ? role : null });
-  });
-}
-
 // ---- on paper: a figure of the widget in front instead of its canvas ----
 
 let prints = false; // whether the figure to come is for the printer
@@ -354,10 +332,10 @@ document.addEventListener("keydown", (event) => {
   send({ do: "figure" });
 });
 addEventListener("beforeprint", () => {
-  const shown = files.widgets[state?.widget];
+  const front = files.widgets[state?.widget];
   root.dataset.paper = $("figure").src ? "figure" : "still";
   for (const figure of document.querySelectorAll("#still figure")) figure.toggleAttribute("data-front", figure.id === state?.widget);
-  $("caption").textContent = state && shown ? `${shown.title}: seed ${state.seed}, tick ${state.tick}. ${shown.misconception}` : "";
+  $("caption").textContent = state && front ? `${front.title}: seed ${state.seed}, tick ${state.tick}. ${front.misconception}` : "";
 });
 addEventListener("afterprint", () => $("figure").removeAttribute("src"));
 

@@ -85,7 +85,7 @@ const picture = (w) => `<img src="${pictures[w.id]}" loading="lazy" alt="${escap
 // the modules that a script imports have hashes in their names, too
 const modules = {};
 const linked = (name) => source(name).replace(/(from |import\()"\.\/([\w-]+\.js)"/g, (_, how, other) => `${how}"./${modules[other]}"`);
-for (const name of ["pictures.js", "around.js", "pages.js", "twins.js", "captures.js", "stick.js"]) modules[name] = hashed(name, linked(name), "the page");
+for (const name of ["pictures.js", "around.js", "beside.js", "pages.js", "twins.js", "fingers.js", "captures.js", "stick.js"]) modules[name] = hashed(name, linked(name), "the page");
 const page = linked("page.js");
 // painting is loaded when it is asked for
 const { "pictures.js": _, ...first } = modules;

@@ -1,5 +1,5 @@
 // The controls of the canvas as elements of the page, their twins: in the same places, for keyboard, screen reader and a
-// phone's own keyboard.
+// phone's own keyboard. What fingers do on the canvas is in fingers.js.
 
 /** What a name says besides: a robot's configuration and what follows it, which changes while the run plays. */
 const CHANGING = /(?:: | at )?\b(?:Pose2|HitchCfg|T\d|R2) \{/;
@@ -11,17 +11,33 @@ const OWN_KEYS = { button: "Enter Space Tab", combo: "Enter Space Tab", check: "
 const MODIFIERS = ["Shift", "Control", "Alt", "AltGraph", "Meta", "CapsLock"];
 
 /** Kinds that are typed into the twin, which is seen meanwhile. */
-const TYPED = ["number", "field"];
+export const TYPED = ["number", "field"];
 
 /** Kinds that are drawn as one button. */
 const PRESSED = ["button", "combo", "handle"];
 
+/** Kinds that hold a value: their name is drawn beside them as words, too. */
+const HOLDING = ["check", "slider", "number", "field"];
+
+/** Headers that fold what is under them. The canvas does not tell which is open: what is under an open one is indented. */
+const FOLDS = ["Guess first", "Any robot, any world", "Everything here", "Start", "Goal"];
+const INDENT = 18;
+
+/** An entry of the menu that is there in every widget while the menu is open. */
+const OF_MENU = "Keys";
+
 /**
- * The twins in `container` of the canvas's controls. `send` sends the lab a message, `titles` gives the titles of its widgets,
- * `leave` takes the focus when the twin that has it goes, and `nudge` may take a key on a drawing: it returns whether it has.
+ * The twins in `container` of the canvas's controls. `send` sends the lab a message, `titles` gives the titles of its widgets, `said` what
+ * the page says in its own elements, `leave` takes the focus when the twin that has it goes, and `nudge` may take a key on a drawing: it
+ * returns whether it has.
  */
-export function twins({ container, send, titles, leave, nudge }) {
+export function twins({ container, send, titles, said, leave, nudge }) {
   let all = []; // the twins, in the order of the screen
+  let told = []; // the canvas's widgets, as it tells them
+  const rail = document.createElement("nav"); // the buttons that choose a widget
+  rail.setAttribute("aria-label", "Widgets");
+  rail.hidden = true;
+  container.append(rail);
   let asked = null; // the twin whose focus the lab has yet to take over
   let follows = false; // whether the focus moves because the lab's has
 
@@ -33,6 +49,7 @@ export function twins({ container, send, titles, leave, nudge }) {
       element.append((control = document.createElement("button")));
       control.type = "button";
       if (widget.kind === "combo") control.setAttribute("aria-haspopup", "listbox");
+      if (widget.kind === "button" && widget.name === "Menu") control.setAttribute("aria-haspopup", "true");
     } else if (widget.kind === "image") {
       element.setAttribute("role", "img");
     } else if (widget.kind !== "text") {
@@ -42,6 +59,7 @@ export function twins({ container, send, titles, leave, nudge }) {
       element.append(document.createElement("span"), control);
       element.classList.toggle("typed", TYPED.includes(widget.kind));
     }
+    element.classList.add("twin");
     const own = { element, control, widget };
     if (control !== element) listen(own);
     return own;
@@ -100,7 +118,7 @@ export function twins({ container, send, titles, leave, nudge }) {
     if (!event.repeat) send({ do: "key", key: event.key, pressed: event.type === "keydown", shift: event.shiftKey });
   }
 
-  function update(own, widget) {
+  function update(own, widget, isOpen) {
     own.widget = widget;
     const { control, element } = own;
     if (widget.place && String(widget.place) !== own.place) {
@@ -128,7 +146,9 @@ export function twins({ container, send, titles, leave, nudge }) {
     control.disabled = off && !isRead;
     control.ariaDisabled = off ? "true" : null;
     if (widget.kind === "check") control.checked = widget.on;
+    else if (own.element.parentNode === rail) control.ariaCurrent = widget.on ? "page" : null;
     else if (widget.kind === "button" && widget.on !== undefined) control.setAttribute("aria-pressed", widget.on);
+    if (isOpen !== undefined) control.ariaExpanded = String(isOpen);
     // what stays is not set again: that would take half a number from under the reader's fingers
     if (widget.range && own.range !== String(widget.range) && !isRead) {
       own.range = String(widget.range);
@@ -198,19 +218,45 @@ export function twins({ container, send, titles, leave, nudge }) {
     return found;
   }
 
-  /** Makes the twins those of `widgets`. */
-  function mirror(widgets) {
+  /** Whether a control that opens something has it open; `undefined` of all others. */
+  function isOpen(widget, i, widgets) {
+    if (widget.kind !== "button" || widget.on !== undefined) return undefined;
+    if (widget.name === "Menu") return widgets.some(({ kind, name }) => kind === "button" && name === OF_MENU);
+    if (!FOLDS.includes(widget.name)) return undefined;
+    return Boolean(widget.place) && widgets[i + 1]?.place?.[0] === widget.place[0] + INDENT;
+  }
+
+  /** The widgets without the words that are heard elsewhere: as the name of the control beside them, or from the page. */
+  function once(widgets) {
+    const names = new Set([...widgets.filter(({ kind }) => HOLDING.includes(kind)).map(({ name }) => name), ...said()]);
+    return widgets.filter(({ kind, name }) => kind !== "text" || !names.has(name));
+  }
+
+  /** How many of the widgets are on the rail: it comes first, and is toggles. */
+  function railed(widgets) {
+    const others = widgets.findIndex(({ kind, on }) => kind !== "button" || on === undefined);
+    return others > 2 ? others : 0;
+  }
+
+  /** Makes the twins those of the canvas's widgets. */
+  function mirror(tree) {
+    told = tree;
+    const open = new Map(tree.map((widget, i) => [widget, isOpen(widget, i, tree)]));
+    const widgets = once(tree);
     const ordered = inOrder(widgets);
+    const onRail = new Set(widgets.slice(0, railed(widgets)));
+    rail.hidden = onRail.size === 0;
     const found = known(ordered);
     all = ordered.map((widget) => found.get(widget) ?? make(widget));
     keys(ordered).forEach((key, i) => (all[i].key = key));
-    let last = null;
+    // where the next twin goes: the rail is the container's first
+    const next = new Map([[rail, rail.firstChild], [container, rail.nextSibling]]);
     for (const [i, own] of all.entries()) {
-      update(own, ordered[i]);
-      const place = last ? last.nextSibling : container.firstChild;
+      const parent = onRail.has(ordered[i]) ? rail : container;
       // moving an element would take its focus away
-      if (own.element !== place && !own.element.contains(document.activeElement)) container.insertBefore(own.element, place);
-      last = own.element;
+      if (own.element !== next.get(parent) && !own.element.contains(document.activeElement)) parent.insertBefore(own.element, next.get(parent));
+      if (own.element.parentNode === parent) next.set(parent, own.element.nextSibling);
+      update(own, ordered[i], open.get(ordered[i]));
     }
     follow(widgets.find((w) => w.focus)?.id);
   }
@@ -234,52 +280,5 @@ export function twins({ container, send, titles, leave, nudge }) {
     return all.filter(holds).sort((a, b) => area(a) - area(b))[0];
   }
 
-  return { mirror, at };
-}
-
-/**
- * Fingers on the canvas. A swipe scrolls the page, and that around a frame, unless it begins on a control that is dragged. In a frame
- * a whole drawing is dragged only once the frame has been tapped. A tap on a number or a text brings the phone's keyboard.
- */
-export function fingers({ canvas, at, embedded }) {
-  let tap = null;
-  let isHeld = !embedded;
-  const point = ({ clientX, clientY }) => {
-    const { left, top } = canvas.getBoundingClientRect();
-    return [clientX - left, clientY - top];
-  };
-  /** What a finger drags that comes down there; `undefined` where it scrolls, `null` on a drawing not in use. */
-  const dragged = ([x, y]) => {
-    const own = at(x, y, ["handle", "slider"]);
-    const [, , width, height] = own?.widget.place ?? [0, 0, 0, 0];
-    const isDrawing = width * height > 0.1 * canvas.clientWidth * canvas.clientHeight;
-    return isDrawing && !isHeld ? null : own;
-  };
-  // a drawing that nobody uses yet does not move before it is known whether the finger scrolls; what is typed is typed into the twin
-  const isOurs = (event) => dragged(point(event)) === null || at(...point(event), TYPED);
-  canvas.parentElement.addEventListener(
-    "pointerdown",
-    (event) => event.pointerType === "touch" && event.target === canvas && isOurs(event) && event.stopPropagation(),
-    { capture: true },
-  );
-  canvas.addEventListener(
-    "touchstart",
-    (event) => {
-      tap = event.touches.length === 1 ? point(event.touches[0]) : null;
-      if (tap && dragged(tap)) event.preventDefault();
-    },
-    { passive: false },
-  );
-  canvas.addEventListener("touchend", (event) => {
-    const [x, y] = point(event.changedTouches[0]);
-    if (!tap || Math.hypot(x - tap[0], y - tap[1]) > 10) return;
-    isHeld = true;
-    const own = at(x, y, TYPED);
-    if (!own) return;
-    event.preventDefault(); // what a mouse would do next would take the focus again
-    own.element.classList.add("typing");
-    own.control.focus({ preventScroll: true });
-    own.control.select();
-  });
-  window.addEventListener("blur", () => (isHeld = !embedded));
+  return { mirror, at, widgets: () => told, twin: (widget) => all.find((own) => own.widget === widget) };
 }

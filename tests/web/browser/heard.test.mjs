@@ -7,6 +7,73 @@ import { lab } from "./on_page.mjs";
 before(begin);
 after(end);
 
+/** The parts of the accessibility tree that are read: role, name, level and whether it is open. */
+async function read(lab) {
+  const session = await lab.context.newCDPSession(lab.page);
+  const { nodes } = await session.send("Accessibility.getFullAXTree");
+  const property = (node, name) => node.properties?.find((p) => p.name === name)?.value.value;
+  const told = nodes.filter((node) => !node.ignored && node.name?.value);
+  return told.map((node) => ({ role: node.role.value, name: node.name.value, level: property(node, "level"), expanded: property(node, "expanded") }));
+}
+
+lab("what is heard is heard once: notices, names, the colour key and formulas", "/?tick=200&widget=anatomy", async (lab) => {
+  const { page } = lab;
+  await lab.context.grantPermissions(["clipboard-read", "clipboard-write"]);
+  const times = async (text) => (await read(lab)).filter(({ role, name }) => role === "StaticText" && name === text).length;
+  const { notice } = await lab.until((s) => s.notice);
+  await page.waitForTimeout(500);
+  assert.equal(await times(notice.text), 1, notice.text);
+  await page.locator("#controls button", { hasText: "Copy as Rust" }).press("Enter");
+  const copied = await lab.until((s) => /^copied/.test(s.notice?.text ?? ""));
+  await page.waitForTimeout(1200);
+  assert.equal(await page.textContent("#said"), "", "the status says no more than the notice does");
+  assert.equal(await times(copied.notice.text), 1);
+  const all = await read(lab);
+  const named = (text) => all.filter(({ role, name }) => name === text && !["StaticText", "InlineTextBox"].includes(role)).map(({ role }) => role);
+  assert.deepEqual(named("robot"), [], "the page's own key is for pointers");
+  assert.deepEqual(named("colour key: robot"), ["button"], "the canvas's has twins");
+  assert.equal(await times("The set that the robot covers at q meets the obstacles."), 0, "the formula itself is there");
+  assert.equal(await page.locator("#formulas li[data-at]:visible math").count(), 1, "as such");
+  assert.equal(await times("th1"), 2, "a slider and its number, and no words besides");
+  // keys still reach what lights a role
+  await page.locator("#controls button", { hasText: "colour key: obstacle" }).focus();
+  await lab.until((s) => s.lit === "obstacle");
+});
+
+lab("the rail is navigation, headings skip no level, and what opens says whether it is open", "/", async (lab) => {
+  const { page } = lab;
+  const rail = page.getByRole("navigation", { name: "Widgets" });
+  assert.deepEqual(await rail.getByRole("button").allTextContents(), ["Drive", "Query", "Space", "Atlas", "Plan"]);
+  assert.equal(await rail.locator("[aria-current=page]").textContent(), "Drive");
+  assert.equal(await page.evaluate(() => document.querySelector("#controls > :first-child").localName), "nav", "first of all");
+  const expanded = async (name) => page.locator("#controls button", { hasText: name }).getAttribute("aria-expanded");
+  const until = async (name, wanted) => {
+    for (let i = 0; i < 60 && (await expanded(name)) !== wanted; i++) await page.waitForTimeout(100);
+    assert.equal(await expanded(name), wanted, `${name}`);
+  };
+  assert.equal(await page.locator("#controls button", { hasText: /^Menu$/ }).getAttribute("aria-haspopup"), "true");
+  await until(/^Menu$/, "false");
+  await lab.click("Menu");
+  await until(/^Menu$/, "true");
+  await lab.click("Menu");
+  await until(/^Menu$/, "false");
+  await lab.send({ do: "widget", id: "anatomy" });
+  await lab.until((s) => s.widget === "anatomy");
+  await until(/^Any robot, any world$/, "false");
+  await lab.click("Any robot, any world");
+  await until(/^Any robot, any world$/, "true");
+  await until(/^Guess first$/, "true");
+  for (const id of ["dashboard", "anatomy", "cspace", "atlas", "plan"]) {
+    await lab.send({ do: "widget", id });
+    await lab.until((s) => s.widget === id);
+    await page.waitForTimeout(600);
+    const levels = (await read(lab)).filter(({ role }) => role === "heading").map(({ level }) => level);
+    assert.ok(levels[0] === 1 && levels.length > 1 && levels.every((level, i) => i === 0 || level <= levels[i - 1] + 1), `${id}: ${levels}`);
+    const [current] = await rail.locator("[aria-current=page]").allTextContents();
+    assert.ok(current, `${id} is on the rail`);
+  }
+});
+
 lab("each formula is labelled, scrolls in its own box, and shows where it goes on", "/?tick=20", async (lab) => {
   const { page } = lab;
   const labels = await page.locator("#formulas li:not([data-at]) > span").allTextContents();
