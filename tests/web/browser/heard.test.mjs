@@ -90,7 +90,7 @@ lab("each formula is labelled, scrolls in its own box, and shows where it goes o
       const copy = Object.assign(document.createElement("canvas"), { width: image.width, height: image.height });
       const at = copy.getContext("2d", { willReadFrequently: true });
       at.drawImage(image, 0, 0);
-      const [r] = at.getImageData(image.width - 2, 1, 1, 1).data;
+      const [r] = at.getImageData(image.width - 4, 4, 1, 1).data;
       const [paper] = at.getImageData(Math.round(image.width / 2), 1, 1, 1).data;
       return paper - r;
     }, [...shot]);
