@@ -7,7 +7,7 @@ use bevy_egui::egui::{
 };
 
 use super::arm::{dragged, handle_name, joints, turned};
-use crate::configuration::{Coordinates, Tn};
+use crate::configuration::{Configuration, Coordinates, Tn};
 use crate::geometry::Point2;
 use crate::num::wrap;
 use crate::picture::{Dash, Drawing, Fit, Item, Line, Picture, Role, footprint, in_signs};
@@ -27,6 +27,13 @@ const NUDGE: f64 = 0.02;
 /// The joint angles that the arm is on its way to; otherwise its present ones.
 fn angles(robot: &CockpitRobot) -> &Coordinates {
     robot.target.as_ref().unwrap_or(&robot.coordinates)
+}
+
+/// The joint angles with which the last two joints of one of the lab's arms bring its tip to `to`, or as near as they
+/// reach; `None` for another arm.
+fn followed(robot: &CockpitRobot, to: Point2, bends_down: bool) -> Option<Coordinates> {
+    let q = AnyRobot::of_kind(&robot.kind, angles(robot))?.1;
+    Some(robot.model?.dragged(&q, to, bends_down).coordinates())
 }
 
 /// Asks for these joint angles by the end of the next tick.
@@ -120,14 +127,21 @@ fn handle(
     if response.drag_started() || response.clicked() {
         response.request_focus();
     }
+    let is_tip = link + 1 == links && links > 1;
     if response.drag_started() {
         checkpoint(commands);
+        // a straight or folded arm bends back to the side that it came from
+        let bends_down = angles(robot).last().is_some_and(|angle| *angle >= 0.0);
+        ui.data_mut(|data| data.insert_temp(id, bends_down));
     }
     if response.dragged()
         && let Some(pointer) = response.interact_pointer_pos()
     {
         let to = fit.world_from_screen([f64::from(pointer.x), f64::from(pointer.y)]);
-        move_to(robot, &dragged(angles(robot), points, link, to), commands);
+        let bends_down = ui.data(|data| data.get_temp(id)).unwrap_or(true);
+        let followed = if is_tip { followed(robot, to, bends_down) } else { None };
+        let to = followed.unwrap_or_else(|| dragged(angles(robot), points, link, to));
+        move_to(robot, &to, commands);
     }
     let focused = response.has_focus();
     if focused {
@@ -135,9 +149,15 @@ fn handle(
     }
     let held = response.dragged() || response.has_focus();
     if held || response.hovered() {
-        // the circle that this handle moves on
-        let radius = (points[link + 1] - points[link]).norm();
-        let mut circles = vec![circle("its circle", points[link], radius)];
+        // where this handle can go: by keys, and any but the tip by a drag, on a circle
+        let length = |link: usize| (points[link + 1] - points[link]).norm();
+        let mut circles = vec![circle("its circle", points[link], length(link))];
+        if is_tip && robot.model.is_some() && !(response.has_focus() && !response.dragged()) {
+            let (one, other) = (length(link - 1), length(link));
+            circles = vec![circle("its outer circle", points[link - 1], one + other)];
+            circles.push(circle("its inner circle", points[link - 1], (one - other).abs()));
+            circles.retain(|item| !matches!(item.drawing, Drawing::Disc { radius, .. } if radius < 1e-9));
+        }
         if link + 1 < links {
             let last = points[links];
             circles.push(circle("the circle of the tip", points[link], (last - points[link]).norm()));

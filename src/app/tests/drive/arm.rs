@@ -3,7 +3,7 @@
 use super::*;
 
 #[test]
-fn dragging_the_elbow_keeps_theta2_and_dragging_the_tip_keeps_theta1() {
+fn dragging_the_elbow_keeps_theta2_and_the_dragged_tip_follows_the_pointer() {
     let mut harness = lab(WIDE);
     let held = |q: &Coordinates, i: usize| (q[i] * 1e5).round();
     bring(&mut harness, "Reach");
@@ -20,8 +20,15 @@ fn dragging_the_elbow_keeps_theta2_and_dragging_the_tip_keeps_theta1() {
     assert!((radius(&second).unwrap() - radius(&first).unwrap()).abs() < 1e-5, "a circle about the base");
     drag(&mut harness, "Reach: tip, theta2 in radians", [1.5, 0.5]);
     let third = harness.state().robot(1);
-    assert_eq!(held(&third.coordinates, 0), held(&second.coordinates, 0), "theta1 is kept");
-    assert_ne!(held(&third.coordinates, 1), held(&second.coordinates, 1));
+    let is_at = |r: &RobotView, x: f64, y: f64| (r.tip.unwrap() - crate::geometry::Point2::new(x, y)).norm() < 0.01;
+    assert!(is_at(&third, 1.5, 0.5), "both joints follow: {:?}", third.tip);
+    assert_eq!(third.coordinates[1] > 0.0, second.coordinates[1] > 0.0, "on its side");
+    // beyond its reach the arm points at the pointer, straight, and comes back to the side where it was
+    drag(&mut harness, "Reach: tip, theta2 in radians", [1.8, 1.8]);
+    let straight = harness.state().robot(1);
+    let half = std::f64::consts::SQRT_2;
+    assert!(is_at(&straight, half, half), "{:?}", straight.tip);
+    click(&mut harness, "Undo");
     // each drag is one thing to undo
     let moves = |lab: &Lab| lab.script().events.len();
     let all = moves(harness.state());
@@ -92,6 +99,15 @@ fn an_arm_of_three_links_walks_while_its_tip_stays() {
         at.push(robot.coordinates[0]);
     }
     assert!(at.windows(2).all(|w| w[1] > w[0] + 0.05), "theta1 walks: {at:?}");
+    click(&mut harness, "Undo");
+    // a dragged tip keeps the first joint
+    let before = harness.state().robot(1);
+    let to = before.tip.unwrap() * 0.9;
+    drag(&mut harness, "Reach: tip, theta3 in radians", [to.x, to.y]);
+    click(&mut harness, "Step");
+    let after = harness.state().robot(1);
+    assert!((after.tip.unwrap() - to).norm() < 0.01, "{:?} {to}", after.tip);
+    assert!((after.coordinates[0] - before.coordinates[0]).abs() < 1e-5);
     click(&mut harness, "Undo");
     click(&mut harness, "two links");
     assert_eq!(harness.state().robot(1).coordinates.len(), 2);
