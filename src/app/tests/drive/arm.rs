@@ -190,6 +190,8 @@ fn what_blocks_the_way_to_the_other_elbow_is_named_and_the_arm_stays() {
     click(&mut harness, "One tip, two elbows");
     harness.get_by_label_contains("the straight way hits the post at s = 0.");
     assert!(interface(&harness).settings.done.iter().any(|deed| deed == "TwoElbows"));
+    let task = crate::manifest::Lesson::of("two_elbows").unwrap();
+    assert!(task.text().contains("or see what blocks it"), "which is the task, too");
     click(&mut harness, "Play");
     harness.run_steps(20);
     harness.get_by_label_contains("the straight way hits the post at s = 0.");
