@@ -134,8 +134,39 @@ fn where_there_is_no_room_for_a_trailer_it_is_said() {
         harness.get_by_label("comes with the next tick");
         click(&mut harness, "Step");
         assert!((harness.state().robot(2).coordinates[0] - x).abs() < 1e-6, "{:?}", harness.state().robot(2));
+        click(&mut harness, "put a trailer on");
         harness.get_by_label("no room for a trailer: would overlap the west curb");
-        assert!(harness.query_by_label("put a trailer on").is_none());
+        assert!(harness.query_by_label("comes with the next tick").is_none(), "nothing is asked of the run");
+        click(&mut harness, "Dismiss");
+    }
+}
+
+#[test]
+fn links_keep_their_places_while_the_run_plays() {
+    for size in [WIDE, [1000.0, 700.0], PHONE] {
+        let mut harness = lab(size);
+        for (world, last) in [(2, "resume tour"), (0, "close door E")] {
+            interface_mut(&mut harness).settings.world = world;
+            harness.run_steps(10);
+            let at = |harness: &Harness<'_, Lab>| harness.get_by_label(last).rect().min;
+            let before = at(&harness);
+            // the tour comes where there is no room for a trailer, and where there is
+            let mut rooms = std::collections::BTreeSet::new();
+            for _ in 0..40 {
+                harness.run_steps(10);
+                let shown = &harness.state().app.world().resource::<Shown>().0;
+                rooms.insert(shown.cockpits[2].robots[0].no_room.is_some());
+                assert_eq!(at(&harness), before, "{world} at {size:?}");
+            }
+            assert_eq!(rooms.len(), 2, "the test sees both");
+            let input = RobotInput::Drive(64, 0);
+            let robot = ["Rusty", "Reach", "Hitch"][world as usize].to_owned();
+            let command = crate::simulation::RobotCommand { robot, input };
+            harness.state_mut().app.world_mut().write_message(RunCommand::from(command));
+            harness.run_steps(6);
+            assert!(harness.state().robot(world as usize).manual);
+            assert_eq!(at(&harness), before, "driven by hand, {world} at {size:?}");
+        }
     }
 }
 

@@ -208,6 +208,7 @@ fn refusals_are_read_whole_on_any_screen() {
         harness.state_mut().app.world_mut().write_message(RunCommand::from(command));
         harness.run_steps(3);
         click(&mut harness, "Step");
+        click(&mut harness, "put a trailer on");
         read_whole(&harness, "no room for a trailer: would overlap the west curb");
         click(&mut harness, "Atlas");
         ui(&mut harness, |ui| ui.atlas.ask(crate::geometry::Point2::new(6.0, 6.75), None, true));

@@ -1,7 +1,7 @@
 //! The words of a pane: name, space, readout and counts of its robots, and links for what can be done with them.
 
 use bevy_egui::egui::{
-    Align, Id, Label, Layout, Rect, RichText, ScrollArea, Sense, TextStyle, TextWrapMode, Ui, UiBuilder,
+    Align, Id, Label, Layout, Link, Rect, RichText, ScrollArea, Sense, TextStyle, TextWrapMode, Ui, UiBuilder,
 };
 
 use super::goal::{sideways, trailer_of};
@@ -14,16 +14,15 @@ use crate::run::{Quantized, RobotInput};
 use crate::simulation::{RobotCommand, TransportCommand};
 use crate::ui::paint::frame;
 use crate::ui::paint::scale_bar::scale_bar;
-use crate::ui::{Cockpit, CockpitRobot, Command, Look, ParkingGoal, SessionCommand, UiState, readout, readout_lines};
+use crate::ui::{
+    Cockpit, CockpitRobot, Command, Look, Notice, ParkingGoal, SessionCommand, UiState, readout, readout_lines,
+};
 
 /// Height of a robot's words before they have been laid out, points.
 const USUAL: f32 = 150.0;
 
 /// Width of a row that has room for a name and the scale, points.
 const BOTH: f32 = 260.0;
-
-/// Width of a row that has room for a reason beside its links, points.
-const ROOMY: f32 = 520.0;
 
 /// Shows in `rect` what there is to say of a cockpit, whose world lies on the screen as `fit` says.
 pub fn words_in(
@@ -207,6 +206,17 @@ fn counts(ui: &mut Ui, robot: &CockpitRobot, look: &Look) {
     ui.label(muted(text));
 }
 
+/// Shows a link. Where there is a reason why it can't be used now it is grey, and the reason is said on hover and by a
+/// click. Returns whether it was clicked and can be used.
+fn link(ui: &mut Ui, words: &str, why_not: Option<String>, look: &Look, state: &mut UiState) -> bool {
+    let Some(text) = why_not else { return ui.link(words).clicked() };
+    let grey = Link::new(RichText::new(words).color(look.colour(Role::Muted)));
+    if ui.add(grey).on_hover_text(&text).clicked() {
+        state.say(Notice { text, is_error: false });
+    }
+    false
+}
+
 /// Shows links for what can be done with a robot besides driving it, and with the doors of the cockpit that it has to
 /// itself.
 fn links(
@@ -218,15 +228,6 @@ fn links(
     commands: &mut Vec<Command>,
 ) {
     let goal = state.goal.clone().filter(|(name, _)| *name == robot.name);
-    let no_room = robot
-        .no_room
-        .as_ref()
-        .map(|why| Label::new(RichText::new(format!("no room for a trailer: {why}")).color(look.colour(Role::Muted))));
-    // where the row is wide the reason stands in it, else above it
-    let (in_row, above) = if ui.available_width() >= ROOMY { (no_room, None) } else { (None, no_room) };
-    if let Some(no_room) = above {
-        ui.add(no_room.wrap());
-    }
     // rows that wrap are as high as their words
     ui.spacing_mut().interact_size.y = ui.text_style_height(&TextStyle::Body);
     ui.horizontal_wrapped(|ui| {
@@ -235,16 +236,16 @@ fn links(
             commands.push(Command::from(TransportCommand::Checkpoint));
             commands.push(Command::from(RobotCommand { robot: robot.name.clone(), input }));
         };
-        if let Some(no_room) = in_row {
-            ui.add(no_room);
-        }
-        if let Some(on) = robot.trailer.filter(|_| robot.no_room.is_none()) {
+        // what comes and goes while the run plays keeps its place, so that no link moves away from the pointer
+        if let Some(on) = robot.trailer {
             let words = if on { "take the trailer off" } else { "put a trailer on" };
-            if ui.link(words).clicked() {
+            let why_not = robot.no_room.as_ref().map(|why| format!("no room for a trailer: {why}"));
+            if link(ui, words, why_not, look, state) {
                 put_in(commands, RobotInput::SetTrailer(!on));
             }
         }
-        if robot.manual && ui.link("resume tour").clicked() {
+        let why_not = (!robot.manual).then(|| format!("{} is not driven by hand", robot.name));
+        if link(ui, "resume tour", why_not, look, state) {
             put_in(commands, RobotInput::Release);
         }
         if !robot.sees.is_empty() {

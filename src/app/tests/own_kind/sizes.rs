@@ -28,6 +28,7 @@ fn what_is_shown_and_asked_is_the_residents_own() {
     new_run(harness.state_mut().app.world_mut(), config, Seed(1)).unwrap();
     harness.run_steps(3);
     // the kind's own trailer would reach 2.8 m back and not touch it
+    click(&mut harness, "put a trailer on");
     harness.get_by_label("no room for a trailer: would overlap the wall");
     let tip = harness.state().robot(1).tip.unwrap();
     assert!((tip.x - 12.9).abs() < 1e-12 && (tip.y - 3.0).abs() < 1e-12, "{tip}");
