@@ -47,6 +47,25 @@ fn the_anatomy_answers_the_four_questions() {
 }
 
 #[test]
+fn the_name_of_a_chooser_stands_before_it() {
+    for (widget, names) in
+        [("Query", &["robot", "world"][..]), ("Space", &["robot", "world"]), ("Plan", &["robot", "planner"])]
+    {
+        let mut harness = lab(WIDE);
+        front(&mut harness, widget);
+        if widget == "Query" {
+            click(&mut harness, "Any robot, any world");
+        }
+        for name in names {
+            let label = harness.get_by_role_and_label(egui::accesskit::Role::Label, name).rect();
+            let list = harness.get_by_role_and_label(egui::accesskit::Role::ComboBox, name).rect();
+            let is_in_row = (label.center().y - list.center().y).abs() < 2.0;
+            assert!(is_in_row && label.right() <= list.left(), "{widget}: {name} at {label} and {list}");
+        }
+    }
+}
+
+#[test]
 fn a_number_is_asked_for_before_it_is_shown() {
     let mut harness = lab(WIDE);
     front(&mut harness, "Query");

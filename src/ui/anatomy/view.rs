@@ -195,6 +195,17 @@ fn any(ui: &mut Ui, state: &mut UiState) {
     ui.horizontal_wrapped(|ui| annulus(ui, state));
 }
 
+/// Shows a chooser behind its name.
+pub(crate) fn chooser(ui: &mut Ui, name: &str, list: ComboBox, choices: impl FnOnce(&mut Ui)) {
+    let show = |ui: &mut Ui| {
+        let label = ui.label(name);
+        let shown = list.show_ui(ui, choices).response.labelled_by(label.id);
+        shown.widget_info(|| WidgetInfo::labeled(WidgetType::ComboBox, true, name));
+    };
+    // in a row that wraps, a row within it would not
+    if ui.layout().main_wrap { show(ui) } else { _ = ui.horizontal(show) }
+}
+
 /// Shows the choice of robot.
 pub(crate) fn robot_choice(ui: &mut Ui, state: &mut UiState) {
     let anatomy = state.anatomy.anatomy.clone();
@@ -203,7 +214,7 @@ pub(crate) fn robot_choice(ui: &mut Ui, state: &mut UiState) {
     choices.extend(Anatomy::choices().map(|(name, robot)| (name.to_owned(), robot)));
     let name =
         choices.iter().find(|(_, robot)| *robot == present).map_or(present.name(), |(n, _)| n.as_str()).to_owned();
-    ComboBox::from_label("robot").selected_text(name).show_ui(ui, |ui| {
+    chooser(ui, "robot", ComboBox::from_id_salt("robot").selected_text(name), |ui| {
         for (name, robot) in choices {
             if ui.selectable_label(present == robot, name).clicked() {
                 state.anatomy.set(anatomy.at_home(robot));
@@ -222,7 +233,7 @@ pub(crate) fn world_choice(ui: &mut Ui, state: &mut UiState) {
     if worlds.iter().all(|(_, world, _)| world != atlas) {
         worlds.push((format!("{}, in the atlas", atlas.name), atlas.clone(), state.atlas.source()));
     }
-    ComboBox::from_label("world").selected_text(anatomy.world().name.as_str()).show_ui(ui, |ui| {
+    chooser(ui, "world", ComboBox::from_id_salt("world").selected_text(anatomy.world().name.as_str()), |ui| {
         for (name, world, source) in worlds {
             if ui.selectable_label(**anatomy.world() == world, name).clicked() {
                 state.anatomy.set(anatomy.in_world(world, source));

@@ -10,10 +10,14 @@ use crate::picture::Role;
 use crate::plans::{PathLengths, PlannerName, Task};
 use crate::random::Seed;
 use crate::robots::{AnyRobot, Robot};
+use crate::ui::anatomy::view::chooser;
 use crate::ui::paint::button::LabButton;
 use crate::ui::paint::plate::refusal;
 use crate::ui::{Command, Look, SessionCommand, UiState};
 use crate::worlds::World;
+
+/// Width of a chooser, points.
+const WIDTH: f32 = 180.0;
 
 /// Shows the panel.
 pub fn panel(ui: &mut Ui, look: &Look, state: &mut UiState, commands: &mut Vec<Command>) {
@@ -87,7 +91,7 @@ fn named(name: &str, robot: &AnyRobot, world: &World, is_books: bool) -> String 
 fn task_choice(ui: &mut Ui, state: &mut UiState) {
     let present = state.plan.task();
     let shown = named(&present.name, &present.robot, &present.world, state.plan.is_in_books_world());
-    ComboBox::from_label("robot").width(180.0).selected_text(shown.as_str()).show_ui(ui, |ui| {
+    chooser(ui, "robot", ComboBox::from_id_salt("robot").width(WIDTH).selected_text(shown.as_str()), |ui| {
         for (name, robot, q, world, is_books) in choices(state.atlas.world()) {
             let words = named(&name, &robot, &world, is_books);
             if ui.selectable_label(words == shown, words).clicked() {
@@ -122,7 +126,8 @@ fn planner_choice(ui: &mut Ui, plan: &mut PlanState) {
     let robot = plan.task().robot;
     let suits = PlannerName::ALL.into_iter().filter(|name| name.suits(&robot).is_ok());
     let present = plan.planner();
-    ComboBox::from_label("planner").width(180.0).height(320.0).selected_text(present.title()).show_ui(ui, |ui| {
+    let list = ComboBox::from_id_salt("planner").width(WIDTH).height(320.0).selected_text(present.title());
+    chooser(ui, "planner", list, |ui| {
         for name in suits {
             if ui.selectable_label(name == present, name.title()).on_hover_text(name.words()).clicked() {
                 plan.set_planner(name);
