@@ -89,6 +89,7 @@ pub fn open_log(world: &mut World, name: &str, bytes: &[u8]) -> Result<Option<No
         EitherLog::Digests(log) => (log.seed, &log.config, &log.script),
     };
     start_run(world, config.clone(), (seed, script.clone()))?;
+    world.resource_mut::<Interface>().0.played = false;
     let mut transport = world.resource_mut::<Transport>();
     (transport.playback, transport.speed) = (Playback::Paused, speed);
     let recorded = match log {

@@ -140,10 +140,21 @@ fn rail(ui: &mut Ui, model: &Dashboard, look: &Look, size: Vec2, state: &mut UiS
     }
 }
 
-/// Puts a widget in front and lets go of the robot in hand. The run pauses unless the widget is the dashboard.
+/// Puts a widget in front and lets go of the robot in hand. A run waits while the dashboard is not in front, and then
+/// plays on if it did before.
 fn choose(widget: Widget, model: &Dashboard, state: &mut UiState, commands: &mut Vec<Command>) {
-    if widget != Widget::Dashboard && model.playing {
-        commands.push(Command::from(TransportCommand::Pause));
+    let was_in_front = state.widget == Widget::Dashboard;
+    if widget == Widget::Dashboard {
+        if std::mem::take(&mut state.played) && !was_in_front && !model.playing {
+            commands.push(Command::from(TransportCommand::Play));
+        }
+    } else {
+        if was_in_front {
+            state.played = model.playing;
+        }
+        if model.playing {
+            commands.push(Command::from(TransportCommand::Pause));
+        }
     }
     drive::let_go(state, commands);
     state.next_grasp = Some(Grasp::Leave);

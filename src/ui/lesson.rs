@@ -25,6 +25,7 @@ pub fn make_ready(model: &Dashboard, state: &mut UiState, commands: &mut Vec<Com
     state.fills = false;
     drive::let_go(state, commands);
     if widget != Widget::Dashboard && model.playing {
+        state.played = true;
         commands.push(Command::from(TransportCommand::Pause));
     }
     match widget {

@@ -23,6 +23,8 @@ pub struct UiState {
     pub settings: Settings,
     /// The widget in front.
     pub widget: Widget,
+    /// Whether the run played as the dashboard was left.
+    pub played: bool,
     /// The state of the query anatomy. Its robot is also the configuration space's.
     pub anatomy: super::AnatomyState,
     /// The state of the configuration space.

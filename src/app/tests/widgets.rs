@@ -47,6 +47,31 @@ fn the_anatomy_answers_the_four_questions() {
 }
 
 #[test]
+fn a_run_that_played_plays_on_when_the_dashboard_is_back() {
+    let mut harness = lab(WIDE);
+    let playback = |harness: &Harness<'_, Lab>| harness.state().transport().playback;
+    for (by, then) in [("Play", Playback::Playing), ("Pause", Playback::Paused)] {
+        if playback(&harness) != then {
+            click(&mut harness, by);
+        }
+        front(&mut harness, "Query");
+        front(&mut harness, "Plan");
+        assert_eq!(playback(&harness), Playback::Paused, "the run waits");
+        front(&mut harness, "Drive");
+        assert_eq!(playback(&harness), then);
+    }
+    // what was opened meanwhile stands at its start
+    click(&mut harness, "Play");
+    front(&mut harness, "Query");
+    let world = harness.state_mut().app.world_mut();
+    let (_, bytes) = super::super::runs::recorded(world).unwrap();
+    super::super::runs::open_log(world, "run", &bytes).unwrap();
+    harness.run_steps(3);
+    front(&mut harness, "Drive");
+    assert_eq!(playback(&harness), Playback::Paused);
+}
+
+#[test]
 fn the_name_of_a_chooser_stands_before_it() {
     for (widget, names) in
         [("Query", &["robot", "world"][..]), ("Space", &["robot", "world"]), ("Plan", &["robot", "planner"])]
