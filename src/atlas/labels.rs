@@ -220,7 +220,9 @@ impl Sheet {
         let plate = Plate { middle: border + way * (gap * self.px + reach), half };
         // the leader to a large thing ends within it
         let inner = border - way * lesser((border - at).norm(), INNER * self.px);
-        Spot { plate, leader: Segment::new(inner, plate.nearest_to(border)) }
+        // words are narrower than the room kept for them: at its edge a leader would end short of them
+        let words = Plate { half: Vector2::new(0.75 * (half.x - 4.0 * self.px), 0.5 * half.y), ..plate };
+        Spot { plate, leader: Segment::new(inner, words.nearest_to(border)) }
     }
 
     /// The distance from a point inside a thing to its border in the direction `way`, metres; 0 for a wall or a mark.
@@ -362,6 +364,8 @@ mod tests {
                 let leaders: Vec<Segment> = items.iter().filter_map(leader).collect();
                 assert_eq!(leaders.len(), plates.len());
                 for (i, (name, plate)) in plates.iter().enumerate() {
+                    let narrow = Plate { half: plate.half * 0.9, ..*plate };
+                    assert!(narrow.covers(leaders[i].b), "{case}: a leader ends short of {name}");
                     assert!(!sheet.solid.intersects(&plate.area()), "{case}: {name} on something solid");
                     assert!(!sheet.marks.intersects(&plate.area()), "{case}: {name} on a mark");
                     assert!(!sheet.dots.iter().any(|d| plate.covers(*d)), "{case}: {name} on an arrow");
