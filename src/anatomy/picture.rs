@@ -11,6 +11,9 @@ use crate::picture::{
 };
 use crate::robots::Robot;
 
+/// Distance of a name from its point, as a share of the picture: its plate keeps off the point's ring.
+const BESIDE: f64 = 0.11;
+
 /// Largest number of outlines of proven steps drawn.
 const OUTLINES: usize = 48;
 
@@ -80,7 +83,10 @@ impl Anatomy {
         if let Some(pair) = pairs.first().filter(|p| p.witness.dist > 0.0) {
             let (a, b) = (pair.witness.on_robot, pair.witness.on_obstacle);
             let middle = a + (b - a) * 0.5;
-            let plate = self.plate("witness/distance", bounds, middle, metres(pair.witness.dist), &[self.footprint()]);
+            // the length hides neither the robot nor what it measures
+            let line = |a, b| Footprint::new([Part::new(Pose2::IDENTITY, Shape::Segment { a, b })]);
+            let off = [self.footprint(), line(a, b)];
+            let plate = self.plate("witness/distance", bounds, middle, metres(pair.witness.dist), &off);
             let words = match plate[1].drawing {
                 Drawing::Label { at, .. } => at,
                 _ => middle,
@@ -89,12 +95,11 @@ impl Anatomy {
             // both names, where there is room for them
             if self.tab == Tab::Witness && pair.witness.dist > 0.1 * size_of(bounds) {
                 // the names stand beside their points, off the robot, the obstacles, the segment and its length
-                let line = |a, b| Footprint::new([Part::new(Pose2::IDENTITY, Shape::Segment { a, b })]);
                 let wide = Vector2::new(0.16 * size_of(bounds), 0.0);
                 let off = scene_of(bounds, &[self.footprint(), line(a, b), line(words - wide, words + wide)]);
                 let beside = |p: Point2| {
                     let ways = (0..16).map(|k| num::sin_cos(f64::from(k) * std::f64::consts::FRAC_PI_8));
-                    let places = ways.map(|(s, c)| p + Vector2::new(c, s) * (0.065 * size_of(bounds)));
+                    let places = ways.map(|(s, c)| p + Vector2::new(c, s) * (BESIDE * size_of(bounds)));
                     let room = |at: &Point2| {
                         let point = Footprint::disc(*at, 0.0);
                         lesser(self.checker().scene().distance(&point), off.distance(&point))
