@@ -17,7 +17,7 @@ pub fn readout(printed: &str) -> String {
         out.push_str(&rest[..start]);
         let tail = &rest[start..];
         let end = tail.find(|c: char| !(c.is_ascii_digit() || c == '.' || c == '-')).unwrap_or(tail.len());
-        let number = tail[..end].replace('-', "\u{2212}");
+        let number = true_minus(&tail[..end]);
         out.extend(std::iter::repeat_n(' ', FIGURE.saturating_sub(number.chars().count())));
         out.push_str(&number);
         rest = &tail[end..];
@@ -26,13 +26,23 @@ pub fn readout(printed: &str) -> String {
     out
 }
 
-/// The name of a coordinate in mathematical signs: a joint's angle `th1` is θ₁. Any other name stays.
+/// Text whose hyphens are true minus signs.
+pub(crate) fn true_minus(text: &str) -> String {
+    text.replace('-', "\u{2212}")
+}
+
+/// The name of a coordinate in mathematical signs: a joint's angle `th1` is θ₁, `theta` θ and `psi` ψ. Any other stays.
 ///
 /// ```
 /// # use motion_lab::picture::in_signs;
-/// assert_eq!([in_signs("th1"), in_signs("theta")], ["\u{3b8}\u{2081}", "theta"]);
+/// assert_eq!(["th1", "theta", "x"].map(in_signs), ["\u{3b8}\u{2081}", "\u{3b8}", "x"]);
 /// ```
 pub fn in_signs(name: &str) -> String {
+    match name {
+        "theta" => return "\u{3b8}".to_owned(),
+        "psi" => return "\u{3c8}".to_owned(),
+        _ => {}
+    }
     let digit = name.strip_prefix("th").and_then(|rest| rest.parse::<u32>().ok()).filter(|joint| *joint < 10);
     match digit.and_then(|joint| char::from_u32(0x2080 + joint)) {
         Some(subscript) => format!("\u{3b8}{subscript}"),

@@ -144,7 +144,7 @@ fn what_is_said_of_the_arm_is_not_said_of_the_car() {
     for (robot, words, arm) in [
         ("reach", "opposite edges are one", true),
         ("rusty", "every obstacle is grown by r = 0.11 m", false),
-        ("hitch", "x and y at theta = 0.000", false),
+        ("hitch", "x and y at \u{3b8} = 0.000", false),
         ("reach3", "at \u{3b8}\u{2081} = ", true),
     ] {
         run(&["capture", "--widget", "cspace", "--robot", robot, "--cells", "4", "-o", out]).done();

@@ -204,7 +204,7 @@ fn the_second_prompt_shows_its_scene_once_it_is_answered() {
     says(&harness, "b* = (0.900, 0.900) at a corner of the square");
     for (question, text, answer) in [
         (
-            "At which \u{3b8}2 does the arm first touch the block?",
+            "At which \u{3b8}\u{2082} does the arm first touch the block?",
             "1.4",
             "Off by \u{2212}0.0009 rad: it is 1.4009 rad.",
         ),

@@ -3,13 +3,14 @@
 use std::sync::{Arc, LazyLock};
 
 use bevy_egui::egui::epaint::{FontColorTransferFunction, TextOptions};
-use bevy_egui::egui::style::{Selection, WidgetVisuals, Widgets};
+use bevy_egui::egui::style::{NumberFormatter, Selection, WidgetVisuals, Widgets};
 use bevy_egui::egui::{
     Color32, CornerRadius, FontData, FontDefinitions, FontFamily, FontId, Shadow, Stroke, Style, TextStyle, Visuals,
+    emath,
 };
 
 use crate::num::{exp, greater, lesser, ln};
-use crate::picture::{FACES, Rgb, Role, Theme};
+use crate::picture::{FACES, Rgb, Role, Theme, true_minus};
 
 /// The linear light of a stored sRGB byte, from 0 to 1.
 fn linear(byte: u8) -> f64 {
@@ -112,6 +113,9 @@ impl Theme {
         style.spacing.button_padding = [12.0, 4.0].into();
         style.spacing.interact_size.y = if touch { 44.0 } else { 28.0 };
         style.interaction.selectable_labels = false;
+        // typed, a hyphen is a minus as well
+        style.number_formatter =
+            NumberFormatter::new(|value, decimals| true_minus(&emath::format_with_decimals_in_range(value, decimals)));
         style
     }
 
