@@ -142,6 +142,33 @@ fn where_there_is_no_room_for_a_trailer_it_is_said() {
 }
 
 #[test]
+fn one_thing_is_said_at_the_pointer_and_what_a_robot_in_hand_says_covers_nothing() {
+    let mut harness = lab(WIDE);
+    pause(&mut harness);
+    let paper = paper(&harness, "Apartment");
+    // the bookcase at the lower right, and the floor of the corridor
+    for (share, said) in [([0.97, 0.9], "E's bookcase"), ([0.5, 0.52], "Click to drive Rusty")] {
+        let at = paper.min + egui::vec2(share[0] * paper.width(), share[1] * paper.height());
+        pointer(&mut harness, at, None);
+        harness.run_steps(80);
+        let tips = ["E's bookcase", "Click to drive Rusty"];
+        let words = super::safe::words(&harness);
+        let shown: Vec<&str> = tips.into_iter().filter(|tip| words.iter().any(|(text, ..)| text == tip)).collect();
+        assert_eq!(shown, [said]);
+    }
+    arm_rusty(&mut harness);
+    let place = super::safe::read_whole(&harness, "arrows drive, Esc lets go");
+    let world = &crate::worlds::World::apartment();
+    let fit = crate::ui::paint::canvas::fit(&crate::picture::world(world), paper);
+    let [min, max] = [place.left_bottom(), place.right_top()].map(|p| fit.world_from_screen([p.x.into(), p.y.into()]));
+    let shape = crate::geometry::Shape::Rectangle { min, max };
+    let part = crate::geometry::Part::new(crate::geometry::Pose2::IDENTITY, shape);
+    let scene = crate::collision::Scene::of_world(world);
+    assert!(paper.contains_rect(place));
+    assert!(!crate::collision::Collision::intersects(&scene, &crate::geometry::Footprint::new([part])), "{place}");
+}
+
+#[test]
 fn links_keep_their_places_while_the_run_plays() {
     for size in [WIDE, [1000.0, 700.0], PHONE] {
         let mut harness = lab(size);

@@ -14,7 +14,7 @@ use super::values::{Crowd, CrowdRobot};
 use crate::geometry::{Aabb, Point2};
 use crate::picture::{Anchor, Drawing, Face, Fit, Item, Picture, Role};
 use crate::simulation::{History, TickMark};
-use crate::ui::dashboard::pane::{door_clicked, in_hand, point_out, take_in_hand, touched};
+use crate::ui::dashboard::pane::{Free, door_clicked, in_hand, point_out, take_in_hand, touched};
 use crate::ui::dashboard::values::thousands;
 use crate::ui::dashboard::words::robot_words;
 use crate::ui::dashboard::{doors, drive, handles, pane};
@@ -166,7 +166,7 @@ fn world(
     let width = if armed.is_some() { 2.0 } else { 1.0 };
     painter.rect_stroke(paper, 0.0, Stroke::new(width, look.colour(role)), StrokeKind::Inside);
     if let Some(robot) = armed {
-        in_hand(ui, robot, paper, BUTTONS, look, state);
+        in_hand(ui, robot, paper, Free { taken: BUTTONS, of: None }, look, state);
     }
     for robot in cockpit.robots.iter().filter(|r| r.is_arm) {
         handles::handles(ui, robot, paper, &fit, look, state, commands);

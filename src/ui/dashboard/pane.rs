@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use bevy_egui::egui::{
-    CursorIcon, Id, Rect, Response, Sense, Stroke, StrokeKind, TextStyle, Ui, WidgetInfo, WidgetType, pos2, vec2,
+    CursorIcon, Id, Rect, Response, Sense, Stroke, StrokeKind, TextStyle, Ui, Vec2, WidgetInfo, WidgetType, pos2, vec2,
 };
 
 use super::twins::{fitted, twin_items};
@@ -11,6 +11,8 @@ use super::words::words_in;
 use super::{doors, drive, handles, pad};
 use crate::anatomy::touching_items;
 use crate::atlas::{self, Atlas};
+use crate::collision::Collision;
+use crate::geometry::{Footprint, Part, Pose2, Shape};
 use crate::picture::{Drawing, Fit, Item, Picture, Role, ScanDrawing, fan_scan, pick, places, scan_id};
 use crate::simulation::SensorView;
 use crate::ui::paint::camera::Camera;
@@ -80,14 +82,14 @@ pub fn paper(
     let over = over.with(under).with(twin_items(cockpit, state)).with(robots(ui, cockpit, state));
     let over = over.with(touched_by(cockpit, state));
     canvas::paint(&painter, &over, &fit, look);
-    point_out(&response, &over, cockpit, &fit);
     let driven = in_reach(cockpit);
     let armed = driven.filter(|r| state.armed.as_ref() == Some(&r.name) || handles::have_focus(ui, r));
     let role = if armed.is_some() || response.has_focus() { Role::Focus } else { Role::Hairline };
     let width = if armed.is_some() { 2.0 } else { 1.0 };
     painter.rect_stroke(paper, 0.0, Stroke::new(width, look.colour(role)), StrokeKind::Inside);
     if let Some(robot) = armed {
-        in_hand(ui, robot, paper, if camera.zoom > 1.0 { BUTTONS } else { 0.0 }, look, state);
+        let taken = if camera.zoom > 1.0 { BUTTONS } else { 0.0 };
+        in_hand(ui, robot, paper, Free { taken, of: Some((cockpit, &fit)) }, look, state);
     }
     for robot in cockpit.robots.iter().filter(|r| r.is_arm) {
         handles::handles(ui, robot, paper, &fit, look, state, commands);
@@ -108,7 +110,9 @@ pub fn paper(
     }
     magnifier(ui, paper, camera.zoom > 1.0, &mut camera, &whole, bounds, look);
     state.cameras.insert(cockpit.world.name.clone(), camera);
-    if let Some(robot) = driven.filter(|_| armed.is_none() && !at_door && !response.dragged()) {
+    // one thing is said at the pointer at a time
+    let is_named = !at_door && point_out(&response, &over, cockpit, &fit);
+    if let Some(robot) = driven.filter(|_| armed.is_none() && !at_door && !is_named && !response.dragged()) {
         let words = if robot.is_arm {
             format!("{} is moved by its joints: {}", robot.name, joints_to_drag(robot))
         } else {
@@ -235,8 +239,17 @@ pub fn touched(ui: &Ui) -> bool {
     ui.input(|i| i.any_touches()) || ui.spacing().interact_size.y > 40.0
 }
 
-/// Shows on the paper of the robot in hand how to drive it, and for a finger the pad. Something has the width `taken`.
-pub fn in_hand(ui: &mut Ui, robot: &CockpitRobot, paper: Rect, taken: f32, look: &Look, state: &mut UiState) {
+/// What of a paper is free for words.
+pub struct Free<'a> {
+    /// Width that something else takes at the right, points.
+    pub taken: f32,
+    /// The cockpit and how its world lies on the paper, if words are to keep off its obstacles.
+    pub of: Option<(&'a Cockpit, &'a Fit)>,
+}
+
+/// Shows on the paper of the robot in hand how to drive it, and for a finger the pad.
+pub fn in_hand(ui: &mut Ui, robot: &CockpitRobot, paper: Rect, free: Free, look: &Look, state: &mut UiState) {
+    let Free { taken, of } = free;
     let sideways = robot.trailer.is_some() && state.held.0 == 0 && state.held.1 != 0;
     let touched = touched(ui);
     let words = if robot.is_arm {
@@ -251,21 +264,47 @@ pub fn in_hand(ui: &mut Ui, robot: &CockpitRobot, paper: Rect, taken: f32, look:
     };
     let font = TextStyle::Body.resolve(ui.style());
     let galley = ui.painter().layout(words, font, look.colour(Role::Text), paper.width() - 24.0 - taken);
-    let rect = Rect::from_min_size(paper.min + vec2(8.0, 8.0), galley.size()).expand2(vec2(4.0, 2.0));
+    let size = galley.size() + vec2(8.0, 4.0);
+    let rect = of.and_then(|(cockpit, fit)| free_place(cockpit, robot, fit, paper, size, state));
+    let rect = rect.unwrap_or(Rect::from_min_size(paper.min + vec2(4.0, 6.0), size));
     // opaque and square: rounded corners of a tint leave dots
     ui.painter().rect_filled(rect, 0.0, look.theme.colour(Role::Paper));
-    ui.painter().galley(paper.min + vec2(8.0, 8.0), galley, look.colour(Role::Text));
+    ui.painter().galley(rect.min + vec2(4.0, 2.0), galley, look.colour(Role::Text));
     if touched && robot.drivable {
         pad::pad(ui, &robot.name, paper, look, state);
     }
 }
 
-/// Names the obstacle that is pointed at.
-pub fn point_out(response: &Response, over: &Picture, cockpit: &Cockpit, fit: &Fit) {
-    let Some(at) = response.hover_pos().filter(|_| response.hovered() && frame::rests(response)) else { return };
+/// The first place of this size along the upper edge of a paper, then along its lower edge, where no obstacle is.
+fn free_place(
+    cockpit: &Cockpit,
+    robot: &CockpitRobot,
+    fit: &Fit,
+    paper: Rect,
+    size: Vec2,
+    state: &UiState,
+) -> Option<Rect> {
+    const STEP: f32 = 12.0;
+    let checker = state.linked.checker_of(&cockpit.atlas, &fitted(robot)?.0);
+    let room = paper.shrink(STEP);
+    let world = |at: bevy_egui::egui::Pos2| fit.world_from_screen([f64::from(at.x), f64::from(at.y)]);
+    let columns = ((room.width() - size.x) / STEP).max(0.0) as u16;
+    let rows = [room.top(), room.bottom() - size.y];
+    let places = rows.into_iter().flat_map(|y| (0..=columns).map(move |k| pos2(room.left() + STEP * f32::from(k), y)));
+    places.map(|at| Rect::from_min_size(at, size)).find(|place| {
+        let shape = Shape::Rectangle { min: world(place.left_bottom()), max: world(place.right_top()) };
+        !checker.scene().intersects(&Footprint::new([Part::new(Pose2::IDENTITY, shape)]))
+    })
+}
+
+/// Names the obstacle that is pointed at. Returns whether there is one.
+pub fn point_out(response: &Response, over: &Picture, cockpit: &Cockpit, fit: &Fit) -> bool {
+    let Some(at) = response.hover_pos().filter(|_| response.hovered() && frame::rests(response)) else { return false };
     let at = [f64::from(at.x), f64::from(at.y)];
     let item = pick(over, fit, at, REACH).or_else(|| pick(&cockpit.world, fit, at, REACH));
-    if let Some(item) = item.filter(|i| i.role == Role::Obstacle) {
+    let item = item.filter(|i| i.role == Role::Obstacle);
+    if let Some(item) = item {
         response.clone().on_hover_text_at_pointer(item.name.as_str());
     }
+    item.is_some()
 }
