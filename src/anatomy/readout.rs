@@ -1,9 +1,9 @@
 //! The text beside the picture: the answers in words and figures.
 
 use super::feature::Feature;
-use super::words::{metres, point};
-use super::{Anatomy, NearestPair, Tab};
-use crate::collision::ObstacleId;
+use super::words::{figure, metres, point};
+use super::{Anatomy, NearestPair, Sweep, Tab};
+use crate::collision::{EdgeVerdict, HitBy, ObstacleId};
 use crate::geometry::Point2;
 use crate::robots::{AnyRobot, Reach};
 
@@ -47,6 +47,33 @@ impl Anatomy {
                 Err(error) => vec![error.to_string()],
             },
         }
+    }
+
+    /// The answer on the tab in a line: what matters most.
+    pub fn headline(&self) -> String {
+        if let (Tab::Swept, Ok(Sweep { verdict: EdgeVerdict::Hit { contact_at, by, .. }, .. })) =
+            (self.tab, self.sweep())
+        {
+            let what = match by {
+                HitBy::Obstacle(id) => format!("hits {}", self.name(id)),
+                HitBy::Limit => "beyond its limit".to_owned(),
+            };
+            return format!("{what} at s = {}", figure(contact_at, 4));
+        }
+        let mut lines = self.readout();
+        let is_length = |line: &String| line.contains("| = ") || line.starts_with("in contact");
+        let at = match self.tab {
+            Tab::Witness => lines.iter().position(is_length).unwrap_or(0),
+            // after what its ends are
+            Tab::Swept => usize::from(lines.len() > 1),
+            _ => 0,
+        };
+        lines.swap_remove(at)
+    }
+
+    /// Whether the robot is free, and how far from the nearest obstacle: `free, 0.0607 m`.
+    pub fn clearance(&self) -> String {
+        if self.intersects() { "in contact".to_owned() } else { format!("free, {}", metres(self.distance())) }
     }
 
     /// The scene and the answer in words, for readers who do not see the picture.

@@ -329,3 +329,50 @@ fn each_tab_has_its_formula_and_each_robot_its_own() {
     assert!(harness.query_all_by_label("\u{3b8}\u{2081}: robot").next().is_some());
     assert!(harness.query_all_by_label("\u{3b8}1: robot").next().is_none());
 }
+
+#[test]
+fn what_matters_is_larger_than_its_details() {
+    let far = |widget: &str, answer: &str, harness: Harness<'_, Lab>| {
+        let height = harness.get_by_label(answer).rect().height();
+        // a line of body text is 16 points high at most
+        assert!(height > 19.0, "{widget}: {height}");
+    };
+    for (tab, answer) in [
+        ("intersects", "intersects: false"),
+        ("distance", "distance: 0.0607 m"),
+        ("witness", "|a* \u{2212} b*| = 0.0607 m"),
+        ("swept", "hits the block at s = 0.0903"),
+    ] {
+        far(tab, answer, on(tab));
+    }
+    let mut harness = lab(WIDE);
+    click(&mut harness, "Space");
+    far("Space", "free, 0.0607 m", harness);
+}
+
+#[test]
+fn angles_and_minus_signs_have_one_spelling_and_typed_another() {
+    for widget in ["Query", "Space", "Plan"] {
+        let mut harness = on("swept");
+        click(&mut harness, widget);
+        set(&mut harness, 0, -1.0);
+        harness.run_steps(4);
+        for (text, ..) in super::safe::words(&harness).into_iter().filter(|(text, ..)| !text.starts_with("T2 {")) {
+            let is_number = |pair: &[char]| pair[0] == '-' && pair[1].is_ascii_digit();
+            let letters: Vec<char> = text.chars().collect();
+            assert!(!letters.windows(2).any(is_number) && !text.contains("th1"), "{widget}: {text}");
+        }
+    }
+    let mut harness = on("distance");
+    for (typed, shown) in [("-0.5", "\u{2212}0.5000"), ("\u{2212}0.25", "\u{2212}0.2500")] {
+        let slider = harness.get_by_role_and_label(egui::accesskit::Role::Slider, "th1").rect();
+        click_at(&mut harness, slider.left_center() + egui::vec2(220.0, 0.0));
+        harness.key_combination_modifiers(Modifiers::COMMAND, &[Key::A]);
+        harness.step();
+        harness.event(Event::Text(typed.into()));
+        harness.step();
+        harness.key_press(Key::Enter);
+        harness.run_steps(3);
+        assert!(super::safe::words(&harness).iter().any(|(text, ..)| text == shown), "{typed}");
+    }
+}

@@ -192,7 +192,7 @@ fn the_three_robots_have_their_spaces_and_the_car_its_slice() {
     harness.get_by_label("x and y: every obstacle is grown by r = 0.11 m");
     assert!(harness.query_by_label("the points that the tip can reach").is_none());
     pick(&mut harness, "Hitch");
-    harness.get_by_label("x and y at theta = 0.000");
+    harness.get_by_label("x and y at \u{3b8} = 0.000");
     let anatomy = |h: &Harness<'_, Lab>| h.state().app.world().resource::<Interface>().0.anatomy.anatomy.clone();
     assert_eq!(anatomy(&harness).world().name, "Lot", "where it lives");
     // another heading is another slice
@@ -201,7 +201,7 @@ fn the_three_robots_have_their_spaces_and_the_car_its_slice() {
     harness.run_steps(4);
     let theta = value(&harness, "theta");
     assert!(theta > 1.0 && theta < 2.0, "{theta}");
-    harness.get_by_label(&format!("x and y at theta = {theta:.3}"));
+    harness.get_by_label(&format!("x and y at \u{3b8} = {theta:.3}"));
     // the motion of the swept tab, on demand
     click(&mut harness, "the swept tab's motion");
     assert_eq!(anatomy(&harness).tab, crate::anatomy::Tab::Swept);

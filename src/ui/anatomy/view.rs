@@ -11,10 +11,10 @@ use super::state::Guesses;
 use crate::anatomy::{Anatomy, LENGTHS, Series, Tab, WorldSource};
 use crate::configuration::Configuration;
 use crate::manifest::{Deed, Widget};
-use crate::picture::Role;
+use crate::picture::{Role, in_signs, true_minus};
 use crate::ui::deeds::of_anatomy;
 use crate::ui::paint::button::LabButton;
-use crate::ui::paint::frame::formulas;
+use crate::ui::paint::frame::{formulas, headline};
 use crate::ui::paint::sheet::{sheet, split, two_columns};
 use crate::ui::{AnatomyState, Command, Dashboard, Look, Notice, UiState};
 use crate::worlds::World;
@@ -85,9 +85,11 @@ fn asked(ui: &mut Ui, look: &Look, state: &mut UiState) {
     ui.label(state.anatomy.anatomy.question());
     formulas(ui, state.anatomy.anatomy.tab.name(), look, state);
     let anatomy = &mut state.anatomy.anatomy;
-    for line in anatomy.readout() {
-        let role = if anatomy.intersects() && anatomy.tab != Tab::Swept { Role::Goal } else { Role::Text };
-        ui.label(RichText::new(line.replace('-', "\u{2212}")).monospace().color(look.colour(role)));
+    let role = if anatomy.intersects() && anatomy.tab != Tab::Swept { Role::Goal } else { Role::Text };
+    let answer = anatomy.headline();
+    headline(ui, &answer, look.colour(role));
+    for line in anatomy.readout().into_iter().filter(|line| *line != answer) {
+        ui.label(RichText::new(true_minus(&line)).monospace().color(look.colour(role)));
     }
     ui.add_space(4.0);
     sliders(ui, anatomy);
@@ -136,8 +138,9 @@ fn sliders(ui: &mut Ui, anatomy: &mut Anatomy) {
         for (i, name) in names.iter().enumerate() {
             let mut step = anatomy.step()[i];
             let most = if anatomy.q().is_angle(i) { std::f64::consts::PI } else { 5.0 };
+            let shown = format!("step of {}", in_signs(name));
             let name = format!("step of {name}");
-            let response = ui.add(exact(Slider::new(&mut step, -most..=most), 3).text(name.as_str()));
+            let response = ui.add(exact(Slider::new(&mut step, -most..=most), 3).text(shown));
             response.widget_info(|| WidgetInfo::slider(true, step, &name));
             if response.changed() {
                 anatomy.set_step(i, step);
@@ -268,8 +271,8 @@ pub(crate) fn annulus(ui: &mut Ui, state: &mut UiState) {
 }
 
 /// A slider that shows `decimals` decimals and keeps its value in full: `fixed_decimals` would round the value itself.
-fn exact(slider: Slider<'_>, decimals: usize) -> Slider<'_> {
-    slider.custom_formatter(move |value, _| format!("{value:.decimals$}"))
+pub(crate) fn exact(slider: Slider<'_>, decimals: usize) -> Slider<'_> {
+    slider.custom_formatter(move |value, _| true_minus(&format!("{value:.decimals$}")))
 }
 
 /// A slider for a coordinate of the configuration.
@@ -277,7 +280,7 @@ pub(crate) fn coordinate(ui: &mut Ui, anatomy: &mut Anatomy, index: usize, name:
     // another robot may have been chosen in this very frame
     let Some(mut value) = anatomy.q().coordinates().get(index).copied() else { return };
     let [least, most] = anatomy.range(index);
-    let response = ui.add(exact(Slider::new(&mut value, least..=most), 4).text(name));
+    let response = ui.add(exact(Slider::new(&mut value, least..=most), 4).text(in_signs(name)));
     response.widget_info(|| WidgetInfo::slider(true, value, name));
     if response.changed() {
         anatomy.set_coordinate(index, value);

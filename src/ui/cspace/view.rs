@@ -12,7 +12,7 @@ use crate::num::wrap;
 use crate::picture::{Picture, Role, footprint};
 use crate::robots::{AnyRobot, Robot};
 use crate::ui::anatomy::view::{annulus, coordinate, prompts, robot_choice, world_choice};
-use crate::ui::paint::frame::{formulas, rows_of_words};
+use crate::ui::paint::frame::{formulas, headline, rows_of_words};
 use crate::ui::paint::sheet::{sheet, two_columns};
 use crate::ui::{Command, Dashboard, Look, UiState, readout};
 
@@ -84,7 +84,12 @@ pub fn cspace_view(ui: &mut Ui, model: &Dashboard, look: &Look, state: &mut UiSt
 
 /// Shows the configuration, and how much of the space is known.
 fn readouts(ui: &mut Ui, look: &Look, state: &mut UiState) {
-    ui.label(RichText::new(readout(&state.anatomy.anatomy.q().to_string())).monospace());
+    ui.horizontal_wrapped(|ui| {
+        let anatomy = &state.anatomy.anatomy;
+        let role = if anatomy.intersects() { Role::Goal } else { Role::Text };
+        headline(ui, &anatomy.clearance(), look.colour(role));
+        ui.label(RichText::new(readout(&anatomy.q().to_string())).monospace());
+    });
     if let Some(cells) = &state.cspace.cells {
         let p = cells.map().progress();
         let percent = |x: f64| format!("{:5.1} %", 100.0 * x);

@@ -33,6 +33,11 @@ pub fn title(ui: &mut Ui, widget: &WidgetText, look: &Look) {
     ui.label(RichText::new(&widget.misconception).color(look.theme.colour(Role::Muted)));
 }
 
+/// Shows the number that matters, large.
+pub fn headline(ui: &mut Ui, words: &str, colour: Color32) {
+    ui.add(Label::new(RichText::new(words).text_style(TextStyle::Heading).color(colour)).wrap());
+}
+
 /// Shows the colour key in a row of its own.
 pub fn key_row(ui: &mut Ui, widget: &WidgetText, look: &Look, state: &mut UiState) {
     ui.add_space(2.0);

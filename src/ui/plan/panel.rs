@@ -6,12 +6,13 @@ use super::state::{PlanState, Stage};
 use crate::capture::{proven, unit};
 use crate::collision::{Collision, Scene};
 use crate::configuration::{AnyConfiguration, Configuration, HitchCfg};
-use crate::picture::Role;
+use crate::picture::{Role, in_signs};
 use crate::plans::{PathLengths, PlannerName, Task};
 use crate::random::Seed;
 use crate::robots::{AnyRobot, Robot};
-use crate::ui::anatomy::view::chooser;
+use crate::ui::anatomy::view::{chooser, exact};
 use crate::ui::paint::button::LabButton;
+use crate::ui::paint::frame::headline;
 use crate::ui::paint::plate::refusal;
 use crate::ui::{Command, Look, SessionCommand, UiState};
 use crate::worlds::World;
@@ -172,7 +173,7 @@ fn result(ui: &mut Ui, look: &Look, plan: &PlanState) {
             if let Some(PathLengths { length, clearance }) = plan.lengths() {
                 let legs = plan.drawn().corners.len().saturating_sub(1);
                 let unit = unit(&plan.task().robot);
-                ui.label(monospace(format!("path: {legs} legs, {length:.3} {unit}")));
+                headline(ui, &format!("path: {length:.3} {unit}, {legs} legs"), look.colour(Role::Text));
                 ui.label(monospace(format!("clearance {} m, proven", proven(clearance))));
             }
             if plan.improves() {
@@ -216,8 +217,7 @@ fn coordinates(ui: &mut Ui, plan: &mut PlanState, end: usize) {
             0 => [bounds.min.x, bounds.max.x],
             _ => [bounds.min.y, bounds.max.y],
         };
-        let slider = Slider::new(&mut value, least..=most).custom_formatter(|value, _| format!("{value:.3}"));
-        let response = ui.add(slider.text(name.as_str()));
+        let response = ui.add(exact(Slider::new(&mut value, least..=most), 3).text(in_signs(&name)));
         let spoken = format!("{name} of the {}", ["start", "goal"][end.min(1)]);
         response.widget_info(|| WidgetInfo::slider(true, value, &spoken));
         if response.changed() {
