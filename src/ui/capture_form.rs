@@ -66,7 +66,7 @@ pub fn capture_form(ctx: &Context, model: &Dashboard, look: &Look, state: &mut U
 
 /// Shows the button that copies the widget as it stands, whatever the form. Returns whether it was pressed.
 #[cfg(feature = "window")]
-fn copy(ui: &mut Ui, look: &Look, order: &CaptureOrder, commands: &mut Vec<Command>) -> bool {
+pub(super) fn copy(ui: &mut Ui, look: &Look, order: &CaptureOrder, commands: &mut Vec<Command>) -> bool {
     let button = LabButton::new("Copy picture").show(ui, look);
     let pressed = button.on_hover_text("puts the picture as it stands on the clipboard").clicked();
     if pressed {

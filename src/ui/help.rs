@@ -5,6 +5,16 @@ use bevy_egui::egui::{Context, Grid, Id, Key, Modal, Modifiers, RichText, Scroll
 use super::UiState;
 use super::keys::{BINDINGS, Scope};
 
+/// Width of the column of keys, points: that of the longest, so that all lists are aligned.
+const KEYS: f32 = 92.0;
+
+/// What the pointer does besides clicks.
+const POINTER: [(&str, &str); 3] = [
+    ("wheel, pinch", "magnify the world, or show more of it"),
+    ("drag", "move a world that is magnified"),
+    ("double click", "show the whole of it"),
+];
+
 /// Shows the list over everything else while it is open. Esc, its button or a click beside it closes it.
 pub fn help(ctx: &Context, state: &mut UiState) {
     if !state.help {
@@ -24,7 +34,7 @@ pub fn help(ctx: &Context, state: &mut UiState) {
                 (Scope::Always, "Always"),
             ] {
                 ui.label(RichText::new(title).strong());
-                Grid::new(title).num_columns(2).spacing([16.0, 1.0]).min_col_width(72.0).show(ui, |ui| {
+                Grid::new(title).num_columns(2).spacing([16.0, 1.0]).min_col_width(KEYS).show(ui, |ui| {
                     for binding in BINDINGS.iter().filter(|b| b.scope == scope) {
                         ui.label(RichText::new(binding.keys()).monospace());
                         ui.label(binding.words);
@@ -33,6 +43,15 @@ pub fn help(ctx: &Context, state: &mut UiState) {
                 });
                 ui.add_space(6.0);
             }
+            ui.label(RichText::new("With the pointer on a world of the dashboard").strong());
+            Grid::new("pointer").num_columns(2).spacing([16.0, 1.0]).min_col_width(KEYS).show(ui, |ui| {
+                for (how, words) in POINTER {
+                    ui.label(RichText::new(how).monospace());
+                    ui.label(words);
+                    ui.end_row();
+                }
+            });
+            ui.add_space(6.0);
             ui.label("Tab goes from one control to the next.");
         });
         ui.checkbox(&mut state.settings.reduced_motion, "Reduced motion: nothing eases on the screen");

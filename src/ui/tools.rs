@@ -135,6 +135,8 @@ fn menu(
         show(ui, &Tool { icon: None, ..tool }, model, look, state, commands);
     }
     #[cfg(feature = "window")]
+    super::capture_form::copy(ui, look, &state.capture.order, commands);
+    #[cfg(feature = "window")]
     super::recent_menu::recent_menu(ui, &state.recent, look, commands);
     ui.separator();
     for theme in ThemeChoice::ALL {

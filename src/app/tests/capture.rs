@@ -158,6 +158,15 @@ fn the_picture_in_front_is_copied_as_it_would_be_captured() {
         assert_eq!((image.width, image.height), (reader.info().width, reader.info().height));
         assert!(image.width == 640 && image.rgb == pixels, "{widget}: the same pixels as in the file");
     }
+    // the menu copies at once
+    interface_mut(&mut harness).hush();
+    harness.state_mut().app.world_mut().insert_resource(Clipboard::by(|_| Ok(())));
+    click(&mut harness, "Copy picture");
+    while ui(&harness).working.is_some() {
+        std::thread::sleep(Duration::from_millis(5));
+        follow(harness.state_mut().app.world_mut());
+    }
+    assert_eq!(ui(&harness).notice().unwrap().text, "copied");
     let said = copied(&mut harness, Clipboard::by(|_| Err("there is no clipboard".into())));
     assert_eq!((said.text.as_str(), said.is_error), ("not copied: there is no clipboard", true));
 }
