@@ -82,6 +82,8 @@ pub enum Opened {
     Tour,
     /// A run of this world, from the book's seed, in place of the three worlds' tour. It plays.
     World(Box<WorldModel>),
+    /// A run of the world in this file, which is put among the recent files.
+    WorldFile(PathBuf, Box<WorldModel>),
     /// A recorded run: simulated again and compared with what was recorded, and shown paused. The window says what came
     /// of it, also where the file can't be read.
     Log(PathBuf),
@@ -110,9 +112,13 @@ pub fn open_in_window(what: Opened, frames: Option<u32>) -> Result<FrameTimes, W
 }
 
 /// Begins with a world or a recorded run. Returns what to say of it.
-fn open(world: &mut World, what: Opened) -> Option<Notice> {
+pub(super) fn open(world: &mut World, what: Opened) -> Option<Notice> {
     match what {
         Opened::Tour => None,
+        Opened::WorldFile(path, model) => {
+            world.resource_mut::<Interface>().0.recent.put_first(&path);
+            open(world, Opened::World(model))
+        }
         Opened::World(model) => {
             let config = TourConfig { worlds: vec![*model], ..TourConfig::default() };
             let started = start_run(world, config, BOOK_SEED);

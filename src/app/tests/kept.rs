@@ -248,3 +248,20 @@ fn the_menu_lists_the_files_opened_and_saved_last_and_opens_them() {
     assert!(notice.is_error && notice.text.contains("b.ron: it is no longer there"), "{notice:?}");
     assert_eq!(recent(&mut harness), ["a.mcap"]);
 }
+
+#[test]
+fn what_the_program_was_started_with_is_among_the_recent_files() {
+    use crate::app::window::{Opened, open};
+    let folder = tempfile::tempdir().unwrap();
+    let at = |name: &str| folder.path().join(name);
+    let mut harness = lab(WIDE);
+    harness.run_steps(20);
+    let world = harness.state_mut().app.world_mut();
+    assert!(!save_run(world, &at("a.mcap")).unwrap().is_error);
+    world.resource_mut::<Interface>().0.recent = Default::default();
+    assert!(!open(world, Opened::Log(at("a.mcap"))).unwrap().is_error);
+    assert!(open(world, Opened::World(Box::new(crate::worlds::World::lot()))).is_none(), "it has no file");
+    assert!(open(world, Opened::WorldFile(at("b.ron"), Box::new(crate::worlds::World::workbench()))).is_none());
+    assert_eq!(interface(&harness).recent.files(), [at("b.ron"), at("a.mcap")]);
+    assert_eq!(harness.state().app.world().resource::<RunConfig>().0.worlds[0].name, "Workbench");
+}

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use clap::Args;
 
 use motion_lab::app::{FrameTimes, Opened, open_in_window};
+use motion_lab::worlds::World;
 
 use super::bare::ended;
 use crate::cli::support::choices::WorldNames;
@@ -49,7 +50,12 @@ fn found(what: &str) -> Result<Opened, Failure> {
     let path = PathBuf::from(what);
     let is_world = path.extension().is_some_and(|e| e == "ron") || !path.is_file();
     Ok(if is_world {
-        Opened::World(Box::new(find_world(what)?))
+        let world = Box::new(find_world(what)?);
+        if path.is_file() && World::built_in(what).is_none() {
+            Opened::WorldFile(path, world)
+        } else {
+            Opened::World(world)
+        }
     } else {
         // what can't be read is said here rather than in the window
         read_bytes_if(&path, u64::MAX, |_| false)?;
@@ -88,6 +94,13 @@ mod tests {
     use motion_lab::app::Pause;
 
     use super::*;
+
+    #[test]
+    fn a_world_file_is_told_from_a_built_in_world() {
+        assert!(matches!(found("lot"), Ok(Opened::World(_))));
+        let file = "tests/samples/eight.ron";
+        assert!(matches!(found(file), Ok(Opened::WorldFile(path, _)) if path == PathBuf::from(file)));
+    }
 
     #[test]
     fn the_words_say_frames_own_time_and_the_share_of_a_core() {
