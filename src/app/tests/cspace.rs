@@ -107,3 +107,18 @@ fn one_tip_is_two_points_and_the_annulus_and_the_chart_line_come_on_demand() {
     harness.run_steps(2);
     assert_eq!(lines(&shown(&harness), "line"), Some(2));
 }
+
+#[test]
+fn no_ghost_is_drawn_over_the_arm_itself() {
+    use std::f64::consts::PI;
+    let mut harness = lab(WIDE);
+    click(&mut harness, "Space");
+    let colour = format!("{:?}", crate::picture::Theme::Light.tint(crate::picture::Role::Robot, 0.5));
+    let is_painted =
+        |harness: &Harness<'_, Lab>| harness.output().shapes.iter().any(|s| format!("{:?}", s.shape).contains(&colour));
+    for (bend, has_ghost) in [(1.2, true), (0.0, false), (-0.7, true), (PI, false), (-PI, false)] {
+        interface_mut(&mut harness).anatomy.anatomy.set_coordinate(1, bend);
+        harness.run_steps(3);
+        assert_eq!(is_painted(&harness), has_ghost, "bent by {bend}");
+    }
+}

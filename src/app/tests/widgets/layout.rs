@@ -170,3 +170,54 @@ fn numbers_of_the_space_stay_with_their_names() {
     let question = read_whole(&harness, "How many configurations");
     assert!(right.x_range().contains(question.left()) && question.right() <= right.right(), "{question} under {right}");
 }
+
+#[test]
+fn each_widget_has_a_scroll_position_of_its_own() {
+    let mut harness = lab([390.0, 520.0]);
+    let marks = [("Query", "Copy as Rust"), ("Space", "the points that the tip can reach"), ("Plan", "Save the path")];
+    let top = |harness: &mut Harness<'_, Lab>, (widget, mark): (&str, &str)| {
+        front(harness, widget);
+        harness.get_by_label(mark).rect().top()
+    };
+    let mut before = marks.map(|mark| top(&mut harness, mark));
+    for (i, scrolled) in marks.into_iter().enumerate() {
+        top(&mut harness, scrolled);
+        harness.get_by_label(scrolled.1).scroll_to_me();
+        harness.run_steps(20);
+        let now = harness.get_by_label(scrolled.1).rect().top();
+        assert!(now < before[i] - 20.0, "{scrolled:?} scrolls: {} to {now}", before[i]);
+        before[i] = now;
+        assert_eq!(marks.map(|mark| top(&mut harness, mark)), before, "{scrolled:?} alone");
+    }
+}
+
+#[test]
+fn words_at_the_pointer_go_once_the_robot_was_dragged() {
+    let hint = "Drag the robot: an arm by its tip";
+    let mut harness = lab(WIDE);
+    front(&mut harness, "Query");
+    let paper = harness.get_by_label_contains("Reach at T2").rect();
+    let says = |harness: &mut Harness<'_, Lab>, at: Pos2| {
+        pointer(harness, at, None);
+        harness.run_steps(60);
+        words(harness).iter().any(|(text, ..)| text == hint)
+    };
+    assert!(says(&mut harness, paper.center()));
+    pointer(&mut harness, paper.center(), Some(true));
+    (1..=5).for_each(|i| pointer(&mut harness, paper.center() + egui::vec2(9.0 * i as f32, 0.0), None));
+    pointer(&mut harness, paper.center() + egui::vec2(45.0, 0.0), Some(false));
+    assert!(!says(&mut harness, paper.center() + egui::vec2(45.0, 30.0)), "it is known now");
+    front(&mut harness, "Plan");
+    front(&mut harness, "Query");
+    assert!(!says(&mut harness, paper.center()));
+}
+
+#[test]
+fn the_lists_of_keys_are_aligned_and_say_what_the_pointer_does() {
+    let mut harness = lab(WIDE);
+    interface_mut(&mut harness).help = true;
+    harness.run_steps(4);
+    let words = ["play or pause", "turn or steer left", "leave the handle", "show the whole of it", "redo"];
+    let left = words.map(|words| harness.get_all_by_label(words).next().unwrap().rect().left());
+    assert!(left.iter().all(|x| *x == left[0]), "{left:?}");
+}
