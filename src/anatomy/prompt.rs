@@ -124,7 +124,8 @@ fn first_contact() -> Prompt {
     unbent.set_step(1, -0.5);
     Prompt {
         id: "first contact",
-        question: "At q = (\u{3c0}/4, \u{3c0}/2) joint 2 unbends. At which \u{3b8}\u{2082} does the arm first touch the block?",
+        question: "At q = (\u{3c0}/4, \u{3c0}/2) joint 2 unbends. \
+                   At which \u{3b8}\u{2082} does the arm first touch the block?",
         unit: "rad",
         tolerance: 0.5e-3,
         moral: "Link 2 then points from the elbow at the block's corner (0.5, 1).",

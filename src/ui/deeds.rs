@@ -129,6 +129,39 @@ mod tests {
     }
 
     #[test]
+    fn what_was_asked_for_is_a_deed_and_nothing_else_is() {
+        let (seed, cockpits) = (crate::random::Seed(1), Vec::new());
+        let (behind, next_contact) = (None, None);
+        let [playing, looping, can_undo, can_redo] = [false; 4];
+        let (speed, tick, frontier) = (1.0, 3, 3);
+        let now = Dashboard {
+            cockpits,
+            seed,
+            tick,
+            frontier,
+            speed,
+            playing,
+            looping,
+            behind,
+            next_contact,
+            can_undo,
+            can_redo,
+        };
+        let before = Dashboard { tick: 2, ..now.clone() };
+        let of_robot = |input| Command::from(RobotCommand { robot: "Rusty".into(), input });
+        let drive = |forward| of_robot(RobotInput::Drive(forward, 0));
+        assert_eq!(asked(&drive(0), &now, false, false), [], "it was let go");
+        assert_eq!(asked(&drive(9), &now, false, false), [Deed::Drive]);
+        assert_eq!(asked(&drive(9), &before, false, false), [Deed::Drive, Deed::DriveOn]);
+        let moved = of_robot(RobotInput::MoveTo(vec![]));
+        assert_eq!(asked(&moved, &now, true, false), [], "by itself");
+        assert_eq!(asked(&moved, &now, false, false), [Deed::MoveArm]);
+        let run = Command::Session(SessionCommand::RunWorld);
+        assert_eq!(asked(&run, &now, false, false), [], "nothing was edited");
+        assert_eq!(asked(&run, &now, false, true), [Deed::EditWorld]);
+    }
+
+    #[test]
     fn a_deed_is_the_readers_and_not_a_scenes() {
         // the chapter's motion hits the block, and its arm touches it where the elbow is bent less
         let start = Anatomy::default();

@@ -27,8 +27,8 @@ pub fn handle_name(link: usize, links: usize) -> String {
 /// The joint angles after the end of link `link` was dragged toward `pointer`.
 ///
 /// That link's joint turns to the pointer's bearing, and all other (relative) angles are kept. So the elbow takes the
-/// whole arm along, and the tip, which the lab's own arms bring to the pointer, turns about the last joint. A pointer on the joint itself turns nothing,
-/// because it has no bearing.
+/// whole arm along, and the tip turns on a circle about the last joint, but for the lab's own arms, whose tip follows
+/// the pointer. A pointer on the joint itself turns nothing, because it has no bearing.
 pub fn dragged(coordinates: &[f64], joints: &[Point2], link: usize, pointer: Point2) -> Coordinates {
     let mut angles = Coordinates::from_slice(coordinates);
     let Some(away) = joints.get(link).map(|joint| pointer - joint).filter(|v| *v != Vector2::zeros()) else {

@@ -163,6 +163,7 @@ fn the_arm_goes_to_its_other_elbow_where_the_way_is_free() {
     put(&mut harness, [-0.5, 0.3]);
     let (before, events) = (harness.state().robot(1), moves(&harness).len());
     click(&mut harness, "One tip, two elbows");
+    assert!(!interface(&harness).settings.done.iter().any(|deed| deed == "TwoElbows"), "it is on its way");
     harness.run_steps(40);
     let after = harness.state().robot(1);
     assert!((after.coordinates[0] + 0.2).abs() < 1e-4 && (after.coordinates[1] + 0.3).abs() < 1e-4, "{after:?}");
@@ -200,6 +201,27 @@ fn what_blocks_the_way_to_the_other_elbow_is_named_and_the_arm_stays() {
     // moved by somebody else, the arm is not the one that this was said of
     drag(&mut harness, "Reach: elbow, theta1 in radians", [0.3, -1.0]);
     assert!(harness.query_by_label_contains("the straight way").is_none());
+}
+
+#[test]
+fn a_tip_that_was_out_of_reach_bends_back_to_its_side() {
+    let mut harness = lab(WIDE);
+    pause(&mut harness);
+    bring(&mut harness, "Reach");
+    for bend in [1.0, -1.0] {
+        put(&mut harness, [-0.6, bend]);
+        let from = harness.get_by_label("Reach: tip, theta2 in radians").rect().center();
+        let base = paper(&harness, "Workbench").center();
+        pointer(&mut harness, from, Some(true));
+        for far in [1.1, 1.2, 1.3, 1.2, 1.1, 1.0] {
+            pointer(&mut harness, base + (from - base) * far, None);
+            harness.run_steps(2);
+        }
+        pointer(&mut harness, from, Some(false));
+        click(&mut harness, "Step");
+        let q = harness.state().robot(1).coordinates;
+        assert!((q[0] + 0.6).abs() < 0.05 && (q[1] - bend).abs() < 0.05, "{bend}: {q:?}");
+    }
 }
 
 #[test]
