@@ -152,7 +152,7 @@ fn handle(
         // where this handle can go: by keys, and any but the tip by a drag, on a circle
         let length = |link: usize| (points[link + 1] - points[link]).norm();
         let mut circles = vec![circle("its circle", points[link], length(link))];
-        if is_tip && robot.model.is_some() && !(response.has_focus() && !response.dragged()) {
+        if is_tip && robot.model.is_some() && (response.dragged() || !response.has_focus()) {
             let (one, other) = (length(link - 1), length(link));
             circles = vec![circle("its outer circle", points[link - 1], one + other)];
             circles.push(circle("its inner circle", points[link - 1], (one - other).abs()));
