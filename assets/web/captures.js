@@ -32,12 +32,12 @@ export function captures({ say, warn, save, tell }) {
       paint(name, ({ gif }) => gif(all, scale, hundredths, (done) => say(`${name}: picture ${done + 1} of ${all.length}`)));
     },
     /** Tells the page around a sheet in pixels. */
-    async asked(svg, scale) {
+    async asked(svg, scale, request) {
       try {
         const blob = await (await pictures()).png(svg, scale);
-        tell({ kind: "figure", png: `data:image/png;base64,${base64(new Uint8Array(await blob.arrayBuffer()))}` });
+        tell({ kind: "figure", png: `data:image/png;base64,${base64(new Uint8Array(await blob.arrayBuffer()))}`, request });
       } catch (error) {
-        tell({ kind: "error", text: `no picture: ${error.message ?? error}` });
+        tell({ kind: "error", text: `no picture: ${error.message ?? error}`, request });
       }
     },
   };

@@ -48,34 +48,35 @@ const announce = (text) => ($("heard").textContent = text); // for who does not 
 const alarm = (text) => ($("urgent").textContent = text); // likewise
 const warn = (text) => ($("alert").textContent = text);
 
-/** Tells the lab something; see src/web/message.rs. What the page around asks has no words for the reader. */
-function send(message, isOfPageAround = false) {
+/** Tells the lab something; see src/web/message.rs. */
+function send(message) {
   if (!lab || failed) return;
-  attempt(() => lab.lab_send(JSON.stringify(message)), isOfPageAround ? () => {} : warn);
+  attempt(() => lab.lab_send(JSON.stringify(message)), message);
 }
 
-/** Calls the lab; says what it refuses. */
-function attempt(act, refused = warn) {
+/** Calls the lab; says what it refuses. What it refuses to the page around has no words for the reader. */
+function attempt(act, { around, request } = {}) {
   try {
     act();
   } catch (error) {
     if (error instanceof WebAssembly.RuntimeError) stop(String(error));
     else {
-      refused(error.message ?? String(error));
-      tellAll({ kind: "error", text: error.message ?? String(error) });
+      const text = error.message ?? String(error);
+      if (!around) warn(text);
+      tellAll({ kind: "error", text, request });
     }
   }
 }
 
+let toSave; // the mark of the page's request to save the run
 const tellAround = around({
-  widgets: files.widgets,
-  state: () => state,
-  ask: (message) => send(message, true),
-  askReader: () => {
+  ask: send,
+  askReader: (request) => {
+    toSave = request;
     $("asked").hidden = false;
     alarm("The page around asks to save this run: Save run, or No");
   },
-  refuse: (text) => tellAll({ kind: "error", text }),
+  refuse: (text, request) => tellAll({ kind: "error", text, request }),
 });
 
 /** Tells whoever listens on this page, and the page around it. */
@@ -257,7 +258,7 @@ const hear = {
     $("file").accept = accept;
     $("file").click();
   },
-  figure: ({ svg, png }) => (png ? drawn.asked(svg, png) : print(svg)),
+  figure: ({ svg, png, request }) => (png ? drawn.asked(svg, png, request) : print(svg)),
   failed: ({ text }) => stop(text),
 };
 
@@ -375,11 +376,13 @@ $("overlay-save").addEventListener("click", async () => {
 });
 $("overlay-restart").addEventListener("click", restart);
 $("retry").addEventListener("click", () => location.reload());
-$("asked-save").addEventListener("click", () => {
-  $("asked").hidden = true;
-  send({ do: "save" });
-});
-$("asked-no").addEventListener("click", () => ($("asked").hidden = true));
+for (const [id, saved] of [["asked-save", true], ["asked-no", false]]) {
+  $(id).addEventListener("click", () => {
+    $("asked").hidden = true;
+    if (saved) send({ do: "save" });
+    tellAll({ kind: "saved", saved, request: toSave });
+  });
+}
 
 // keys that the lab uses do not scroll the page; Tab and the browser's own stay
 canvas.addEventListener("keydown", (event) => {

@@ -19,13 +19,6 @@ const PRESSED = ["button", "combo", "handle"];
 /** Kinds that hold a value: their name is drawn beside them as words, too. */
 const HOLDING = ["check", "slider", "number", "field"];
 
-/** Headers that fold what is under them. The canvas does not tell which is open: what is under an open one is indented. */
-const FOLDS = ["Guess first", "Any robot, any world", "Everything here", "Start", "Goal"];
-const INDENT = 18;
-
-/** An entry of the menu that is there in every widget while the menu is open. */
-const OF_MENU = "Keys";
-
 /**
  * The twins in `container` of the canvas's controls. `send` sends the lab a message, `titles` gives the titles of its widgets, `said` what
  * the page says in its own elements, `leave` takes the focus when the twin that has it goes, and `nudge` may take a key on a drawing: it
@@ -118,7 +111,7 @@ export function twins({ container, send, titles, said, leave, nudge }) {
     if (!event.repeat) send({ do: "key", key: event.key, pressed: event.type === "keydown", shift: event.shiftKey });
   }
 
-  function update(own, widget, isOpen) {
+  function update(own, widget) {
     own.widget = widget;
     const { control, element } = own;
     if (widget.place && String(widget.place) !== own.place) {
@@ -148,7 +141,7 @@ export function twins({ container, send, titles, said, leave, nudge }) {
     if (widget.kind === "check") control.checked = widget.on;
     else if (own.element.parentNode === rail) control.ariaCurrent = widget.on ? "page" : null;
     else if (widget.kind === "button" && widget.on !== undefined) control.setAttribute("aria-pressed", widget.on);
-    if (isOpen !== undefined) control.ariaExpanded = String(isOpen);
+    if (widget.open !== undefined) control.ariaExpanded = String(widget.open);
     // what stays is not set again: that would take half a number from under the reader's fingers
     if (widget.range && own.range !== String(widget.range) && !isRead) {
       own.range = String(widget.range);
@@ -218,14 +211,6 @@ export function twins({ container, send, titles, said, leave, nudge }) {
     return found;
   }
 
-  /** Whether a control that opens something has it open; `undefined` of all others. */
-  function isOpen(widget, i, widgets) {
-    if (widget.kind !== "button" || widget.on !== undefined) return undefined;
-    if (widget.name === "Menu") return widgets.some(({ kind, name }) => kind === "button" && name === OF_MENU);
-    if (!FOLDS.includes(widget.name)) return undefined;
-    return Boolean(widget.place) && widgets[i + 1]?.place?.[0] === widget.place[0] + INDENT;
-  }
-
   /** The widgets without the words that are heard elsewhere: as the name of the control beside them, or from the page. */
   function once(widgets) {
     const names = new Set([...widgets.filter(({ kind }) => HOLDING.includes(kind)).map(({ name }) => name), ...said()]);
@@ -241,7 +226,6 @@ export function twins({ container, send, titles, said, leave, nudge }) {
   /** Makes the twins those of the canvas's widgets. */
   function mirror(tree) {
     told = tree;
-    const open = new Map(tree.map((widget, i) => [widget, isOpen(widget, i, tree)]));
     const widgets = once(tree);
     const ordered = inOrder(widgets);
     const onRail = new Set(widgets.slice(0, railed(widgets)));
@@ -256,7 +240,7 @@ export function twins({ container, send, titles, said, leave, nudge }) {
       // moving an element would take its focus away
       if (own.element !== next.get(parent) && !own.element.contains(document.activeElement)) parent.insertBefore(own.element, next.get(parent));
       if (own.element.parentNode === parent) next.set(parent, own.element.nextSibling);
-      update(own, ordered[i], open.get(ordered[i]));
+      update(own, ordered[i]);
     }
     follow(widgets.find((w) => w.focus)?.id);
   }

@@ -46,6 +46,8 @@ pub(crate) use lab::lab;
 pub(crate) use lesson_state::LessonState;
 pub(crate) use paint::look::Look;
 pub(crate) use plan::PlanState;
+#[cfg(all(target_family = "wasm", feature = "web"))]
+pub(crate) use plan::Stage;
 #[cfg(feature = "window")]
 pub(crate) use recent::Recent;
 pub(crate) use settings::Settings;

@@ -4,6 +4,7 @@ use bevy_egui::egui::{Align, Align2, Context, Label, Layout, Rect, Ui, vec2};
 
 use super::keys::{Action, hint};
 use super::paint::button::LabButton;
+use super::paint::fold;
 use super::paint::frame;
 use super::paint::icon::Icon;
 use super::paint::plate::{Place, plate, refusal};
@@ -56,7 +57,7 @@ pub fn header(
             frame::title(ui, words, look);
         });
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-            ui.menu_button("Menu", |ui| menu(ui, model, beside, look, state, commands));
+            fold::menu(ui, "Menu", |ui| menu(ui, model, beside, look, state, commands));
             for tool in beside {
                 show(ui, tool, model, look, state, commands);
             }
@@ -66,7 +67,7 @@ pub fn header(
 
 /// Shows the menu with everything in it.
 pub fn menu_button(ui: &mut Ui, model: &Dashboard, look: &Look, state: &mut UiState, commands: &mut Vec<Command>) {
-    ui.menu_button("Menu", |ui| menu(ui, model, &[], look, state, commands));
+    fold::menu(ui, "Menu", |ui| menu(ui, model, &[], look, state, commands));
 }
 
 /// Shows the head of a widget other than the dashboard: title and buttons, colour key and hints.
@@ -127,11 +128,7 @@ fn menu(
 ) {
     let of_the_run: &[Tool] = if state.widget == Widget::Dashboard { &OF_THE_RUN } else { &[] };
     let all = of_the_run.iter().filter(|tool| !elsewhere.contains(tool)).copied();
-    // on a narrow screen only the dashboard has room for hints
-    let always = [CAPTURE, HINTS, KEYS].into_iter();
-    let has_hints = !look.narrow || state.widget == Widget::Dashboard;
-    let always = always.filter(|tool| *tool != HINTS || has_hints);
-    for tool in all.chain(always) {
+    for tool in all.chain([CAPTURE, HINTS, KEYS]) {
         show(ui, &Tool { icon: None, ..tool }, model, look, state, commands);
     }
     #[cfg(feature = "window")]

@@ -5,14 +5,14 @@ use std::collections::VecDeque;
 use bevy::prelude::*;
 use bevy_egui::egui::accesskit::{self, ActionData, ActionRequest, NodeId, TreeId};
 use bevy_egui::{EguiInput, egui};
-use serde_json::json;
+use serde_json::{Value, json};
 
 use super::downloads::picture;
 use super::error::PageError;
 use super::inbox::{Incoming, take_all, wake};
 use super::link::MAX_LINK_TICK;
 use super::listener::tell;
-use super::message::{Action, Input, Message};
+use super::message::{Action, Asked, Input, Message};
 use super::report::Sent;
 use super::run_link::link_of;
 use crate::anatomy::Tab;
@@ -48,20 +48,14 @@ pub fn receive(world: &mut World) {
     let all = take_all();
     let mut is_touched = !all.is_empty();
     for incoming in all {
-        let done = match incoming {
+        match incoming {
             Incoming::File { name, bytes } => {
                 if let Some(notice) = open(world, &name, &bytes) {
                     world.resource_mut::<Interface>().0.say(notice);
                 }
-                Ok(())
             }
-            Incoming::Message(message) => take(world, message),
+            Incoming::Message(asked) => answer(world, asked),
             Incoming::Fail => panic!("the page asked the lab to fail"),
-        };
-        if let Err(error) = done {
-            let text = error.to_string();
-            tell(&json!({ "kind": "error", "text": text }));
-            world.resource_mut::<Interface>().0.say(Notice { text, is_error: true });
         }
     }
     let events = world.resource_mut::<Staged>().0.pop_front().unwrap_or_default();
@@ -75,6 +69,25 @@ pub fn receive(world: &mut World) {
     world.resource_mut::<Touched>().0 |= is_touched;
     if !world.resource::<Staged>().0.is_empty() {
         wake();
+    }
+}
+
+/// Carries out a request and tells what came of it: a link or a figure, that it is done where it bears a mark, or why not.
+fn answer(world: &mut World, Asked { message, request, around }: Asked) {
+    match take(world, message) {
+        Ok(None) if request.is_none() => {}
+        Ok(said) => {
+            let mut said = said.unwrap_or_else(|| json!({ "kind": "done" }));
+            said["request"] = json!(request);
+            tell(&said);
+        }
+        Err(error) => {
+            let text = error.to_string();
+            tell(&json!({ "kind": "error", "text": text, "request": request }));
+            if !around {
+                world.resource_mut::<Interface>().0.say(Notice { text, is_error: true });
+            }
+        }
     }
 }
 
@@ -96,18 +109,19 @@ fn open(world: &mut World, name: &str, bytes: &[u8]) -> Option<Notice> {
     open_log(world, name, bytes).unwrap_or_else(|error| Some(refused(error.to_string())))
 }
 
-fn take(world: &mut World, message: Message) -> Result<(), PageError> {
+/// Carries out a message, and returns its answer where it has one.
+fn take(world: &mut World, message: Message) -> Result<Option<Value>, PageError> {
     let transport = |world: &mut World, command: TransportCommand| {
         if !seek_aside(world, &command) {
             // what else is asked of the run ends the work under way
             stop_aside(world);
             world.write_message(RunCommand::from(command));
         }
-        Ok(())
+        Ok(None)
     };
     let ui = |world: &mut World, change: &dyn Fn(&mut UiState)| {
         change(&mut world.resource_mut::<Interface>().into_inner().0);
-        Ok(())
+        Ok(None)
     };
     if world.resource::<Staged>().0.len() >= MOST_STAGED
         && matches!(message, Message::Act { .. } | Message::Key { .. } | Message::Paste { .. })
@@ -115,18 +129,18 @@ fn take(world: &mut World, message: Message) -> Result<(), PageError> {
         return Err(PageError::Busy);
     }
     match message {
-        Message::Act { id, action, value } => act(world, &id, action, value),
+        Message::Act { id, action, value } => act(world, &id, action, value).map(|()| None),
         Message::Key { key, pressed, shift } => {
             let name = if key == " " { "Space" } else { &key };
             let key = egui::Key::from_name(name).ok_or_else(|| PageError::Key(name.to_owned()))?;
             let modifiers = if shift { egui::Modifiers::SHIFT } else { egui::Modifiers::NONE };
             let event = egui::Event::Key { key, physical_key: None, pressed, repeat: false, modifiers };
             world.resource_mut::<Staged>().0.push_back(vec![event]);
-            Ok(())
+            Ok(None)
         }
         Message::Paste { text } => {
             world.resource_mut::<Staged>().0.push_back(vec![egui::Event::Paste(text)]);
-            Ok(())
+            Ok(None)
         }
         Message::Light { role } => {
             let named = |name: &str| {
@@ -172,14 +186,14 @@ fn take(world: &mut World, message: Message) -> Result<(), PageError> {
             let known = anatomy.q().with_coordinates(&coordinates);
             let count = anatomy.q().coordinates().len();
             let q = known.ok_or_else(|| PageError::Configuration(format!("it has {count} coordinates")))?;
-            anatomy.set_q(q).map_err(|error| PageError::Configuration(error.to_string()))
+            anatomy.set_q(q).map(|()| None).map_err(|error| PageError::Configuration(error.to_string()))
         }
-        Message::Robot { robot, input } => give(world, robot, input),
+        Message::Robot { robot, input } => give(world, robot, input).map(|()| None),
         Message::Door { world: of, name, open } => {
             let change = if open { WorldChange::Open } else { WorldChange::Close }(name);
             transport(world, TransportCommand::Checkpoint)?;
             world.write_message(RunCommand::from(WorldCommand { world: of, change }));
-            Ok(())
+            Ok(None)
         }
         Message::Stick { channels: (ahead, left) } => {
             let most = CHANNEL_UNITS as i16;
@@ -188,8 +202,7 @@ fn take(world: &mut World, message: Message) -> Result<(), PageError> {
         Message::Figure { png } => {
             let svg = picture(world, FIGURE_WIDTH)?;
             let dots = png.map(|dots| dots.clamp(1, MOST_DOTS));
-            tell(&json!({ "kind": "figure", "svg": svg, "png": dots }));
-            Ok(())
+            Ok(Some(json!({ "kind": "figure", "svg": svg, "png": dots })))
         }
         Message::Theme { name } => {
             let choice = ThemeChoice::ALL.into_iter().find(|t| t.name().eq_ignore_ascii_case(&name));
@@ -203,21 +216,20 @@ fn take(world: &mut World, message: Message) -> Result<(), PageError> {
         }),
         Message::State => {
             world.resource_mut::<Sent>().forget();
-            Ok(())
+            Ok(None)
         }
         Message::Link => {
             let said = link_of(world).and_then(|l| Ok((l.query()?, l.digest)));
-            tell(&match said {
+            Ok(Some(match said {
                 Ok((query, digest)) => json!({ "kind": "link", "query": query, "digest": digest }),
                 Err(error) => json!({ "kind": "link", "error": error.to_string() }),
-            });
-            Ok(())
+            }))
         }
         Message::Save => {
             world.write_message(SessionCommand::Save);
-            Ok(())
+            Ok(None)
         }
-        Message::Visible { .. } => Ok(()),
+        Message::Visible { .. } => Ok(None),
     }
 }
 

@@ -1,6 +1,6 @@
 //! `PageError`, why the lab could not do what the page asked.
 
-use super::link::{LinkError, MAX_LINK_TICK};
+use super::link::{LinkError, MAX_LINK_TICK, cited};
 use crate::app::SessionError;
 use crate::run::ScriptError;
 
@@ -14,25 +14,25 @@ pub enum PageError {
     #[error(transparent)]
     Link(#[from] LinkError),
     /// egui knows no key of this name.
-    #[error("{0} is no key")]
+    #[error("{} is no key", cited(.0))]
     Key(String),
     /// No role has this name.
-    #[error("{0} is no role")]
+    #[error("{} is no role", cited(.0))]
     Role(String),
     /// A tick farther than a page simulates.
     #[error("tick {0}: at most {MAX_LINK_TICK}")]
     Tick(u64),
     /// Not a number from 0 to 2^64 - 1.
-    #[error("{0}: not a seed")]
+    #[error("{}: not a seed", cited(.0))]
     Seed(String),
     /// No widget has this id.
-    #[error("{0} is no widget")]
+    #[error("{} is no widget", cited(.0))]
     Widget(String),
     /// No lesson has this id.
-    #[error("{0} is no lesson: docs/web/course.md lists them")]
+    #[error("{} is no lesson: docs/web/course.md lists them", cited(.0))]
     Lesson(String),
     /// No question of Query has this name.
-    #[error("{0} is no tab: it is one of intersects, distance, witness and swept")]
+    #[error("{} is no tab: it is one of intersects, distance, witness and swept", cited(.0))]
     Tab(String),
     /// Not a configuration of Query's robot.
     #[error("configuration: {0}")]
@@ -41,16 +41,16 @@ pub enum PageError {
     #[error(transparent)]
     Input(#[from] ScriptError),
     /// A coordinate that no script holds.
-    #[error("{0}: a coordinate is beyond what an input holds")]
+    #[error("{}: a coordinate is beyond what an input holds", cited(.0))]
     Coordinate(String),
     /// No theme has this name.
-    #[error("{0} is no theme")]
+    #[error("{} is no theme", cited(.0))]
     Theme(String),
     /// No control of the canvas has this id.
-    #[error("{0} is no widget of the canvas")]
+    #[error("{} is no widget of the canvas", cited(.0))]
     Control(String),
     /// Not a finite number.
-    #[error("{0}: not a number")]
+    #[error("{}: not a number", cited(.0))]
     Number(String),
     /// More was asked than frames were drawn.
     #[error("the lab is still busy with what was asked before: this is lost")]

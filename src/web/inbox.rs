@@ -2,12 +2,12 @@
 
 use std::cell::RefCell;
 
-use super::message::Message;
+use super::message::Asked;
 
 /// An item from the page.
 pub enum Incoming {
-    /// A message.
-    Message(Message),
+    /// A request.
+    Message(Asked),
     /// A file to open.
     File {
         /// Its name.

@@ -16,12 +16,16 @@ use super::downloads::files;
 use super::inbox::{Incoming, put, wake_by};
 use super::link::{Link, LinkError, retold};
 use super::listener::{listen, tell};
-use super::message::Message;
+use super::message::{Asked, Message};
 use super::report::{LinkedTheme, Sent, report};
 use super::run_link::open_link;
 use crate::app::{Interface, limit, windowed_app};
+use crate::configuration::Configuration as _;
 use crate::simulation::{Playback, Transport};
 use crate::ui::{Notice, Settings, Widget};
+
+/// Largest mark of a request, bytes.
+const MOST_OF_MARK: usize = 100;
 
 /// Largest message, bytes.
 const MOST_BYTES: usize = 65_536;
@@ -64,20 +68,23 @@ pub fn lab_start(query: &str, embedded: bool, settings: &str, listener: js_sys::
         .run();
 }
 
-/// Sends the lab a message: JSON of a [`Message`].
+/// Sends the lab a message: JSON of an [`Asked`].
 ///
 /// # Errors
-/// The reason, when it is no message, is too long, or too many wait.
+/// The reason, when it is no message, it or its mark is too long, or too many wait.
 #[wasm_bindgen]
 pub fn lab_send(message: &str) -> Result<(), JsError> {
     if message.len() > MOST_BYTES {
         return Err(JsError::new(&format!("a message of {} bytes; the lab takes up to {MOST_BYTES}", message.len())));
     }
-    let message: Message = serde_json::from_str(message).map_err(|e| JsError::new(&e.to_string()))?;
-    match message {
+    let asked: Asked = serde_json::from_str(message).map_err(|e| JsError::new(&e.to_string()))?;
+    if asked.request.as_ref().is_some_and(|mark| mark.len() > MOST_OF_MARK) {
+        return Err(JsError::new(&format!("request: a mark has up to {MOST_OF_MARK} bytes")));
+    }
+    match asked.message {
         // no frame may come until the page is seen again
         Message::Visible { visible } => STILL.set(if visible { 2 } else { AWAY }),
-        message => take_in(Incoming::Message(message))?,
+        _ => take_in(Incoming::Message(asked))?,
     }
     Ok(())
 }
@@ -115,7 +122,7 @@ struct Start {
 
 fn start(world: &mut World) {
     let Some(Start { link, embedded, settings }) = world.remove_resource() else { return };
-    let (link, refused) = match link {
+    let (link, mut refused) = match link {
         Ok(link) => (link, None),
         Err(error) => (Link::default(), Some(Notice { text: format!("the link: {error}"), is_error: true })),
     };
@@ -128,9 +135,18 @@ fn start(world: &mut World) {
         let ui = &mut world.resource_mut::<Interface>().into_inner().0;
         ui.embedded = embedded;
         ui.settings = settings;
-        ui.widget = link.widget.unwrap_or_default();
+        ui.widget = link.widget.or(link.tab.map(|_| Widget::Anatomy)).unwrap_or_default();
         if let Some(lesson) = link.lesson {
             ui.begin(lesson);
+        }
+        let query = &mut ui.anatomy.anatomy;
+        query.tab = link.tab.unwrap_or(query.tab);
+        if !link.q.is_empty() {
+            let refusal = match query.q().with_coordinates(&link.q) {
+                Some(q) => query.set_q(q).err().map(|error| error.to_string()),
+                None => Some(format!("the robot has {} coordinates", query.q().coordinates().len())),
+            };
+            refused = refused.or(refusal.map(|why| Notice { text: format!("the link: q: {why}"), is_error: true }));
         }
         let own = ui.settings.theme;
         ui.settings.theme = link.theme.unwrap_or(own);
@@ -138,7 +154,8 @@ fn start(world: &mut World) {
         linked.into_iter().for_each(|linked| world.insert_resource(linked));
     }
     // an address without a run plays the book's
-    if link != (Link { widget: link.widget, lesson: link.lesson, theme: link.theme, ..Link::default() }) {
+    let Link { widget, lesson, tab, q, theme, .. } = link.clone();
+    if link != (Link { widget, lesson, tab, q, theme, ..Link::default() }) {
         let notice = match open_link(world, &link) {
             Ok(notice) => notice,
             Err(error) => Some(Notice { text: format!("the link: {}", retold(&error)), is_error: true }),

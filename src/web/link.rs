@@ -6,6 +6,7 @@ use std::fmt::Write;
 use percent_encoding::{AsciiSet, CONTROLS, percent_decode_str, utf8_percent_encode};
 
 use super::inputs;
+use crate::anatomy::Tab;
 use crate::manifest::{Lesson, ThemeChoice, Widget};
 use crate::random::Seed;
 use crate::run::{Script, ScriptError};
@@ -28,7 +29,11 @@ pub const MAX_LINK: usize = 32_000;
 const LONG: usize = 2000;
 
 /// The fields that a link has.
-const FIELDS: [&str; 10] = ["v", "seed", "world", "widget", "lesson", "theme", "script", "inputs", "tick", "digest"];
+const FIELDS: [&str; 12] =
+    ["v", "seed", "world", "widget", "lesson", "tab", "q", "theme", "script", "inputs", "tick", "digest"];
+
+/// Most coordinates of a configuration.
+const MOST_COORDINATES: usize = 16;
 
 /// Largest tick of a link: an hour. Opening a link simulates its run up to that tick.
 pub const MAX_LINK_TICK: u64 = 72_000;
@@ -55,6 +60,11 @@ pub struct Link {
     pub widget: Option<Widget>,
     /// The lesson that it begins, in its own widget.
     pub lesson: Option<Lesson>,
+    /// Query's question.
+    pub tab: Option<Tab>,
+    /// The chart coordinates of Query's robot, which is the configuration space's too: metres and radians. An empty
+    /// list leaves it where it is.
+    pub q: Vec<f64>,
     /// The paper.
     pub theme: Option<ThemeChoice>,
     /// The input.
@@ -93,6 +103,9 @@ pub enum LinkError {
     /// An id that no lesson has.
     #[error("lesson: no lesson has the id {}", cited(.0))]
     Lesson(String),
+    /// Not the coordinates of a configuration.
+    #[error("q: it must be up to {MOST_COORDINATES} numbers, joined by commas, not {}", cited(.0))]
+    Coordinates(String),
     /// A digest that is not 32 hexadecimal digits.
     #[error("digest: it must be 32 hexadecimal digits, not {}", cited(.0))]
     Digest(String),
@@ -122,8 +135,8 @@ const MOST_CITED: usize = 12;
 /// Largest number of characters of what is said about a script.
 const MOST_OF_SCRIPT: usize = 100;
 
-/// Words of the link, so that nobody takes them for the lab's: between quotes and cut short.
-fn cited(text: &str) -> String {
+/// Words of somebody else, so that nobody takes them for the lab's: between quotes and cut short.
+pub fn cited(text: &str) -> String {
     format!("{:?}", cut(text, MOST_CITED))
 }
 
@@ -168,6 +181,8 @@ impl Default for Link {
             tick: 0,
             widget: None,
             lesson: None,
+            tab: None,
+            q: vec![],
             theme: None,
             script: Script::empty(),
             digest: None,
@@ -241,6 +256,19 @@ impl Link {
         if let Some(text) = fields.remove("lesson") {
             link.lesson = Some(Lesson::of(&text).ok_or(LinkError::Lesson(text))?);
         }
+        if let Some(text) = fields.remove("tab") {
+            link.tab = Tab::ALL.into_iter().find(|tab| tab.name() == text);
+            if link.tab.is_none() {
+                let known = Tab::ALL.map(Tab::name).join(", ");
+                return Err(LinkError::Word { field: "tab", text, known });
+            }
+        }
+        if let Some(text) = fields.remove("q") {
+            let numbers = text.split(',').map(|number| number.parse().ok().filter(|x: &f64| x.is_finite()));
+            let numbers: Option<Vec<f64>> = numbers.take(MOST_COORDINATES + 1).collect();
+            let numbers = numbers.filter(|all| all.len() <= MOST_COORDINATES);
+            link.q = numbers.ok_or(LinkError::Coordinates(text))?;
+        }
         if let Some(text) = fields.remove("theme") {
             link.theme = ThemeChoice::ALL.into_iter().find(|t| t.name().to_lowercase() == text);
             if link.theme.is_none() {
@@ -306,6 +334,12 @@ impl Link {
         }
         if let Some(lesson) = self.lesson {
             field("lesson", &lesson.id());
+        }
+        if let Some(tab) = self.tab {
+            field("tab", tab.name());
+        }
+        if !self.q.is_empty() {
+            field("q", &self.q.iter().map(f64::to_string).collect::<Vec<_>>().join(","));
         }
         if let Some(theme) = self.theme {
             field("theme", &theme.name().to_lowercase());

@@ -4,6 +4,21 @@ use serde::Deserialize;
 
 use crate::run::{Quantized, RobotInput};
 
+/// A request, with what stands beside it.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+pub struct Asked {
+    /// What the page wants.
+    #[serde(flatten)]
+    pub message: Message,
+    /// A mark that what comes of it bears.
+    #[serde(default)]
+    pub request: Option<String>,
+    /// Whether the page around a frame asks. What is refused to it is not the reader's: its words would stand there as
+    /// the lab's own.
+    #[serde(default)]
+    pub around: bool,
+}
+
 /// A request of a page: a JSON object with its name under `do`.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(tag = "do", rename_all = "snake_case")]

@@ -22,6 +22,9 @@ pub struct Mirrored {
     /// Whether it is on; `None` for a control that can't be on or off.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub on: Option<bool>,
+    /// Whether what it folds is open; `None` for what folds nothing.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub open: Option<bool>,
     /// Whether it is disabled.
     #[serde(skip_serializing_if = "std::ops::Not::not")]
     pub off_limits: bool,
@@ -120,6 +123,7 @@ fn mirrored(id: NodeId, node: &Node, labels: String, focus: bool) -> Option<Mirr
         value,
         range,
         on: node.toggled().map(|t| t == Toggled::True),
+        open: node.is_expanded(),
         off_limits: node.is_disabled(),
         live: node.live().is_some_and(|l| l != Live::Off),
         place: node.bounds().map(|b| [b.x0, b.y0, b.width(), b.height()].map(|x| x.round() as i32)),

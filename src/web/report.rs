@@ -19,7 +19,7 @@ use crate::robots::AnyRobot;
 use crate::run::Script;
 use crate::simulation::{PendingInput, Playback, RunConfig, Transport};
 use crate::tour::TourConfig;
-use crate::ui::{LessonState, Settings, Widget};
+use crate::ui::{AtlasState, LessonState, PlanState, Settings, Stage, Widget};
 
 /// The last values sent to the page.
 #[derive(Resource, Default)]
@@ -166,6 +166,34 @@ fn state(world: &World) -> Value {
             "coordinates": &query.q().coordinates()[..],
             "intersects": query.intersects(), "distance": query.distance(),
         })),
+        "plan": (ui.widget == Widget::Plan).then(|| plan(&ui.plan)),
+        "atlas": (ui.widget == Widget::Atlas).then(|| atlas(&ui.atlas)),
+    })
+}
+
+/// What came of a plan.
+fn plan(plan: &PlanState) -> Value {
+    let task = plan.task();
+    let (stage, why) = match plan.stage() {
+        Stage::Growing => ("growing", None),
+        Stage::Solved => ("solved", None),
+        Stage::Ended(reason) => ("ended", Some(reason.to_string())),
+        Stage::Read(_) => ("read", None),
+    };
+    json!({
+        "planner": plan.planner().id(), "robot": task.name, "world": task.world.name,
+        "start": &task.start.coordinates()[..], "goal": &task.goal.coordinates()[..], "seed": plan.seed().to_string(),
+        "stage": stage, "why": why, "iterations": plan.effort().iterations,
+        "length": plan.lengths().map(|l| l.length), "clearance": plan.lengths().map(|l| l.clearance),
+    })
+}
+
+/// What came of what was done in the atlas.
+fn atlas(atlas: &AtlasState) -> Value {
+    let robots = atlas.atlas().robots().iter();
+    json!({
+        "world": atlas.world().name, "selected": atlas.selected, "refused": atlas.refusal().or(atlas.message.clone()),
+        "robots": robots.map(|r| json!({ "name": r.name, "coordinates": &r.q.coordinates()[..] })).collect::<Vec<_>>(),
     })
 }
 

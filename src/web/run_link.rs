@@ -4,10 +4,12 @@ use bevy::ecs::world::World;
 
 use super::error::PageError;
 use super::link::Link;
+use crate::anatomy::Anatomy;
 use crate::app::{Interface, SessionError, log_up_to, new_run, shown_run};
+use crate::configuration::Configuration as _;
 use crate::manifest::ThemeChoice;
 use crate::simulation::{Playback, Transport, seek};
-use crate::ui::{Notice, Widget};
+use crate::ui::{AnatomyState, Notice, Widget};
 
 /// Starts a link's run, simulates it up to its tick, and compares the digest with that of the link.
 pub fn open_link(world: &mut World, link: &Link) -> Result<Option<Notice>, SessionError> {
@@ -42,6 +44,16 @@ pub fn link_of(world: &World) -> Result<Link, PageError> {
     let ui = &world.resource::<Interface>().0;
     link.widget = Some(ui.widget).filter(|w| *w != Widget::Dashboard);
     link.lesson = ui.lesson.as_ref().map(|under_way| under_way.lesson).filter(|lesson| lesson.widget == ui.widget);
+    if matches!(ui.widget, Widget::Anatomy | Widget::Cspace) && is_books(&ui.anatomy.anatomy) {
+        link.tab = Some(ui.anatomy.anatomy.tab).filter(|_| ui.widget == Widget::Anatomy);
+        link.q = ui.anatomy.anatomy.q().coordinates().to_vec();
+    }
     link.theme = Some(ui.settings.theme).filter(|t| *t != ThemeChoice::System);
     Ok(link)
+}
+
+/// Whether Query's robot and world are those that it begins with: an address can't name others.
+fn is_books(query: &Anatomy) -> bool {
+    let usual = AnatomyState::default().anatomy;
+    query.checker().robot() == usual.checker().robot() && query.world() == usual.world()
 }

@@ -3,8 +3,7 @@
 use std::sync::Arc;
 
 use bevy_egui::egui::{
-    CollapsingHeader, ComboBox, DragValue, Id, Label, RichText, ScrollArea, Slider, TextEdit, Ui, WidgetInfo,
-    WidgetType, vec2,
+    ComboBox, DragValue, Id, Label, RichText, ScrollArea, Slider, TextEdit, Ui, WidgetInfo, WidgetType, vec2,
 };
 
 use super::state::Guesses;
@@ -14,7 +13,8 @@ use crate::manifest::{Deed, Widget};
 use crate::picture::{Role, in_signs, true_minus};
 use crate::ui::deeds::of_anatomy;
 use crate::ui::paint::button::LabButton;
-use crate::ui::paint::frame::{formulas, headline};
+use crate::ui::paint::fold::fold;
+use crate::ui::paint::frame::{formulas, headline, next_hint};
 use crate::ui::paint::sheet::{sheet, split, two_columns};
 use crate::ui::{AnatomyState, Command, Dashboard, Look, Notice, UiState};
 use crate::worlds::World;
@@ -66,6 +66,7 @@ pub fn anatomy_view(ui: &mut Ui, model: &Dashboard, look: &Look, state: &mut UiS
                 two_columns(ui, half, |ui, i| if i == 0 { asked(ui, look, state) } else { more(ui, look, state) });
             } else {
                 asked(ui, look, state);
+                next_hint(ui, words, look, state);
                 more(ui, look, state);
             }
         });
@@ -106,7 +107,7 @@ fn more(ui: &mut Ui, look: &Look, state: &mut UiState) {
     if !look.narrow {
         inset(ui, look, state);
     }
-    CollapsingHeader::new("Guess first").default_open(!look.narrow).show(ui, |ui| {
+    fold(ui, "Guess first", !look.narrow, |ui| {
         prompts(ui, Series::Queries, state);
     });
     ui.horizontal_wrapped(|ui| {
@@ -123,7 +124,7 @@ fn more(ui: &mut Ui, look: &Look, state: &mut UiState) {
             state.anatomy = AnatomyState::default();
         }
     });
-    CollapsingHeader::new("Any robot, any world").show(ui, |ui| any(ui, state));
+    fold(ui, "Any robot, any world", false, |ui| any(ui, state));
 }
 
 /// Shows sliders for the configuration; on the swept tab also for the step to the second configuration.

@@ -3,8 +3,7 @@
 use std::cell::RefCell;
 
 use bevy_egui::egui::{
-    CollapsingHeader, ComboBox, DragValue, Grid, Key, PointerButton, Response, RichText, ScrollArea, TextEdit, Ui,
-    WidgetInfo, WidgetType,
+    ComboBox, DragValue, Grid, Key, PointerButton, Response, RichText, ScrollArea, TextEdit, Ui, WidgetInfo, WidgetType,
 };
 
 use super::field::{Field, Typed};
@@ -12,6 +11,7 @@ use crate::atlas::{Number, Op, Template};
 use crate::picture::Role;
 use crate::ui::keys::{Action, hint};
 use crate::ui::paint::button::LabButton;
+use crate::ui::paint::fold::fold;
 use crate::ui::paint::frame::row_height;
 use crate::ui::paint::plate::refusal;
 use crate::ui::{AtlasState, Look};
@@ -221,7 +221,7 @@ fn field(ui: &mut Ui, atlas: &mut AtlasState, of: &str, number: &Number, own: &F
 /// Shows the list of everything that the world holds. A click selects.
 fn everything(ui: &mut Ui, look: &Look, atlas: &mut AtlasState) {
     let count = atlas.editor.things().len();
-    CollapsingHeader::new("Everything here").default_open(!look.narrow).show(ui, |ui| {
+    fold(ui, "Everything here", !look.narrow, |ui| {
         // what is looked for stays in sight while it leaves things out
         if count >= LONG || !atlas.search.is_empty() {
             let field = TextEdit::singleline(&mut atlas.search).hint_text("Find a thing").desired_width(f32::INFINITY);

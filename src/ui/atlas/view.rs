@@ -10,6 +10,7 @@ use crate::manifest::{Deed, Widget};
 use crate::picture::{Item, Picture, ScreenPoint, pick};
 use crate::ui::keys::{Action, keep_arrows};
 use crate::ui::paint::button::LabButton;
+use crate::ui::paint::frame::next_hint;
 use crate::ui::paint::plate::{Place, plate, refusal};
 use crate::ui::paint::sheet::{Sheet, sheet, split};
 use crate::ui::{Cockpit, Command, Dashboard, Look, SessionCommand, UiState, readout};
@@ -99,6 +100,7 @@ pub fn atlas_view(ui: &mut Ui, model: &Dashboard, look: &Look, state: &mut UiSta
             if look.low {
                 crate::ui::tools::head(ui, words, model, look, state, commands);
             }
+            next_hint(ui, words, look, state);
             beside_the_paper(ui, model, look, state, commands);
         });
     });

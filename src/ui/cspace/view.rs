@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use bevy_egui::egui::{CollapsingHeader, Rect, RichText, ScrollArea, TextWrapMode, Ui, pos2, vec2};
+use bevy_egui::egui::{Rect, RichText, ScrollArea, TextWrapMode, Ui, pos2, vec2};
 
 use super::torus::torus;
 use crate::anatomy::{Series, Tab, twin};
@@ -12,7 +12,8 @@ use crate::num::wrap;
 use crate::picture::{Picture, Role, footprint};
 use crate::robots::{AnyRobot, Robot};
 use crate::ui::anatomy::view::{annulus, coordinate, prompts, robot_choice, world_choice};
-use crate::ui::paint::frame::{formulas, headline, rows_of_words};
+use crate::ui::paint::fold::fold;
+use crate::ui::paint::frame::{formulas, headline, next_hint, rows_of_words};
 use crate::ui::paint::sheet::{sheet, two_columns};
 use crate::ui::{Command, Dashboard, Look, UiState, readout};
 
@@ -63,8 +64,9 @@ pub fn cspace_view(ui: &mut Ui, model: &Dashboard, look: &Look, state: &mut UiSt
                     crate::ui::tools::head(ui, words, model, look, state, commands);
                 }
                 readouts(ui, look, state);
+                next_hint(ui, words, look, state);
                 choices(ui, state);
-                CollapsingHeader::new("Guess first").show(ui, |ui| prompts(ui, Series::Tips, state));
+                fold(ui, "Guess first", false, |ui| prompts(ui, Series::Tips, state));
             });
         } else {
             // each column under its paper

@@ -257,6 +257,30 @@ pub fn hints(ui: &mut Ui, widget: &WidgetText, look: &Look, state: &mut UiState)
     }
 }
 
+/// Shows the next of the hints, for the words below the picture of a narrow screen; nothing in a lesson, whose task
+/// stands above.
+pub fn next_hint(ui: &mut Ui, widget: &WidgetText, look: &Look, state: &mut UiState) {
+    if !look.narrow || state.lesson.is_some() || state.settings.are_hints_away(state.widget) {
+        return;
+    }
+    let is_open = |hint: &&Hint| !state.settings.is_ticked_off(hint.deed);
+    let (count, open) = (widget.hints.len(), widget.hints.iter().filter(is_open).count());
+    let next = widget.hints.iter().find(is_open).or(widget.hints.last());
+    rows_of_words(ui, |ui| {
+        ui.label(RichText::new("Try:").color(look.theme.colour(Role::Focus)).strong());
+        ui.weak(format!("{} of {count} done", count - open));
+        if ui.link("Got it").on_hover_text("Put these hints away").clicked() {
+            state.settings.put_hints_away(state.widget);
+        }
+    });
+    if let Some(hint) = next
+        && task(ui, &hint.text, open == 0, look).on_hover_text("Begin this task").clicked()
+    {
+        state.begin(Lesson { deed: hint.deed, widget: state.widget });
+    }
+    ui.add_space(4.0);
+}
+
 /// Shows the task of the lesson under way in place of the hints, and once it is done what it removes.
 fn lesson(ui: &mut Ui, under_way: &LessonState, look: &Look, state: &mut UiState) {
     let widget = under_way.lesson.widget.text();

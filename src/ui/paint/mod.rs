@@ -4,6 +4,7 @@ pub(crate) mod button;
 pub(crate) mod camera;
 pub(crate) mod canvas;
 mod coarse;
+pub(crate) mod fold;
 pub(crate) mod frame;
 pub(crate) mod icon;
 pub(crate) mod look;

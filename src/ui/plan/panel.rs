@@ -1,6 +1,6 @@
 //! The panel beside the papers: what is planned, by whom, and what came of it.
 
-use bevy_egui::egui::{CollapsingHeader, ComboBox, DragValue, RichText, Slider, Ui, WidgetInfo};
+use bevy_egui::egui::{ComboBox, DragValue, RichText, Slider, Ui, WidgetInfo};
 
 use super::state::{PlanState, Stage};
 use crate::capture::{proven, unit};
@@ -12,6 +12,7 @@ use crate::random::Seed;
 use crate::robots::{AnyRobot, Robot};
 use crate::ui::anatomy::view::{chooser, exact};
 use crate::ui::paint::button::LabButton;
+use crate::ui::paint::fold::fold;
 use crate::ui::paint::frame::headline;
 use crate::ui::paint::plate::refusal;
 use crate::ui::{Command, Look, SessionCommand, UiState};
@@ -53,7 +54,7 @@ pub fn panel(ui: &mut Ui, look: &Look, state: &mut UiState, commands: &mut Vec<C
     ui.checkbox(&mut plan.over_drive, "draw it over the dashboard too");
     ui.add_space(4.0);
     for (end, name) in ["Start", "Goal"].into_iter().enumerate() {
-        CollapsingHeader::new(name).default_open(false).show(ui, |ui| coordinates(ui, plan, end));
+        fold(ui, name, false, |ui| coordinates(ui, plan, end));
     }
 }
 

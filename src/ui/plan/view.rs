@@ -15,6 +15,7 @@ use crate::num::wrap;
 use crate::picture::{Picture, Role};
 use crate::ui::keys::Action;
 use crate::ui::paint::canvas::{self, MARGIN};
+use crate::ui::paint::frame::next_hint;
 use crate::ui::paint::sheet::{Sheet, sheet};
 use crate::ui::{Command, Dashboard, Look, Notice, SessionCommand, UiState, readout};
 
@@ -87,6 +88,7 @@ pub fn plan_view(ui: &mut Ui, model: &Dashboard, look: &Look, state: &mut UiStat
                     crate::ui::tools::head(ui, words, model, look, state, commands);
                 }
                 ui.horizontal_wrapped(|ui| controls(ui, look, &mut state.plan));
+                next_hint(ui, words, look, state);
                 panel(ui, look, state, commands);
             });
         });

@@ -22,6 +22,8 @@ fn a_link_reads_back_as_it_was_written() {
         tick: 600,
         widget: Some(Widget::Atlas),
         lesson: Some(Lesson::of("pick_wall").unwrap()),
+        tab: Some(Tab::Witness),
+        q: vec![-0.5, 1e-9, 3.0],
         theme: Some(ThemeChoice::Dark),
         script: driven(),
         digest: Some("0123456789abcdef0123456789abcdef".into()),
@@ -129,4 +131,17 @@ fn a_refusal_says_nothing_in_the_words_of_the_link() {
     assert!(Link::parse(&rows).unwrap_err().to_string().ends_with(r#"not "a\nb\u{202e}c""#));
     let long = format!("script={}", "Your(session)".repeat(99));
     assert!(Link::parse(&long).unwrap_err().to_string().chars().count() < 140);
+}
+
+#[test]
+fn a_link_may_ask_query_and_names_what_it_can_not() {
+    let link = Link::parse("tab=swept&q=0,-1.5").unwrap();
+    assert_eq!((link.tab, link.q), (Some(Tab::Swept), vec![0.0, -1.5]));
+    for text in ["", "1,", "one", "inf,0", "NaN", "1;2", &["0"; 17].join(",")] {
+        let refused = Link::parse(&format!("q={text}")).unwrap_err().to_string();
+        assert!(refused.starts_with("q: it must be up to 16 numbers"), "{refused}");
+    }
+    let refused = Link::parse("tab=nearest").unwrap_err().to_string();
+    assert_eq!(refused, "tab: it must be one of intersects, distance, witness, swept, not \"nearest\"");
+    assert_eq!(Link::parse(&format!("q={}", ["0"; 16].join(","))).unwrap().q.len(), 16);
 }

@@ -163,7 +163,7 @@ lab("a page around asks Query, drives, puts and lets go robots, and closes doors
   await post({ do: "configuration", coordinates: [1] });
   await refused("configuration: it has 2 coordinates");
   await post({ do: "tab", id: "nonsense" });
-  await refused("nonsense is no tab");
+  await refused('"nonsense" is no tab');
   await post({ do: "figure" });
   const figure = await page.waitForFunction(() => window.heard.find((m) => m.kind === "figure"), null, { timeout: 60000 }).then((m) => m.jsonValue());
   assert.match(figure.svg, /^<svg[^>]*>[^]*<\/svg>\s*$/);
@@ -208,7 +208,48 @@ lab("a page around begins a lesson by an address or a message, and hears when it
   const refused = page.waitForFunction(() => window.refused?.text, null, { timeout: 20000 });
   await page.evaluate(() => addEventListener("message", ({ data }) => data.motionLab?.kind === "error" && (window.refused = data.motionLab)));
   await post({ do: "lesson", id: "Near" });
-  assert.match(await (await refused).jsonValue(), /^Near is no lesson/);
+  assert.match(await (await refused).jsonValue(), /^"Near" is no lesson/);
+}, elsewhere);
+
+lab("what a page around asks with a mark is answered with it, and the reader reads nothing of what is refused", "/widgets.html", async ({ page }) => {
+  const [frame] = await around(page, ["?tab=witness&q=0,1.5"]);
+  await page.evaluate(() => {
+    window.heard = [];
+    addEventListener("message", ({ data }) => data.motionLab && window.heard.push(data.motionLab));
+  });
+  const post = (message) => page.evaluate((m) => frames[0].postMessage({ motionLab: m }, "*"), message);
+  const answer = (request) => page.waitForFunction((r) => window.heard.find((m) => m.request === r), request, { timeout: 60000 }).then((m) => m.jsonValue());
+  // the address asks Query's question, at its place
+  const { query, widget } = await frame.evaluate(() => window.received.state);
+  assert.deepEqual([widget, query.tab, query.coordinates], ["anatomy", "witness", [0, 1.5]]);
+  await post({ do: "configuration", coordinates: [1, 1], request: "there" });
+  assert.deepEqual(await answer("there"), { kind: "done", request: "there" });
+  await post({ do: "configuration", coordinates: [1, 1, 1], request: "nowhere" });
+  assert.deepEqual(await answer("nowhere"), { kind: "error", text: "configuration: it has 2 coordinates", request: "nowhere" });
+  await post({ do: "theme", name: "Your session has expired: sign in", request: "words" });
+  const { text } = await answer("words");
+  assert.match(text, /^"Your session.*" is no theme$/);
+  assert.ok(text.length < 40, "cut short");
+  assert.equal(await frame.evaluate(() => window.received.state.notice?.text.includes("theme") ?? false), false, "the reader's lab does not say it");
+  await post({ do: "link", request: "address" });
+  const { kind, query: fields } = await answer("address");
+  assert.equal(kind, "link");
+  assert.match(fields, /&tab=witness&q=1,1(&|$)/);
+  await post({ do: "figure", png: 1, request: "picture" });
+  assert.match((await answer("picture")).png, /^data:image.png;base64,/);
+  await post({ do: "save", request: "file" });
+  await frame.locator("#asked-no").click();
+  assert.deepEqual(await answer("file"), { kind: "saved", saved: false, request: "file" });
+  await post({ do: "tab", id: "swept", request: "x".repeat(101) });
+  await page.waitForFunction(() => window.heard.some((m) => m.kind === "error" && m.text.startsWith("request: a mark has")), null, { timeout: 20000 });
+  // what comes of Plan and of the atlas is in the state
+  const state = (wanted) => page.waitForFunction((w) => window.heard.filter((m) => m.kind === "state").find((m) => eval(w)(m)), wanted, { timeout: 60000 }).then((m) => m.jsonValue());
+  await post({ do: "widget", id: "plan" });
+  const { plan } = await state("(m) => m.plan");
+  assert.deepEqual([plan.robot, plan.world, plan.planner, plan.stage, plan.start, plan.goal, plan.length], ["Reach", "Workbench", "rrt-connect", "growing", [2, 0], [3.1, 0], null]);
+  await post({ do: "widget", id: "atlas" });
+  const { atlas } = await state("(m) => m.atlas");
+  assert.deepEqual([atlas.world, atlas.robots, atlas.refused], ["Apartment", [{ name: "Rusty", coordinates: [2.25, 6.25, 0] }], null]);
 }, elsewhere);
 
 /** The largest of the drawings that the lab shows, as left, top, width and height on the canvas. */

@@ -1,7 +1,9 @@
 //! Presses, fingers, the focus, and what pictures say of a contact and of a space.
 
+use super::layout::fresh;
 use super::lessons::ui;
 use super::*;
+use crate::ui::Widget;
 
 #[test]
 fn a_press_is_a_click_however_long_it_took_since_the_last_frame() {
@@ -136,5 +138,26 @@ fn what_was_copied_is_said() {
         click(&mut harness, button);
         harness.run_steps(2);
         harness.get_by_label_contains(said);
+    }
+}
+
+#[test]
+fn each_widget_on_a_phone_offers_its_next_task_below_the_picture() {
+    for widget in [Widget::Anatomy, Widget::Cspace, Widget::Atlas, Widget::Plan] {
+        let mut harness = fresh(PHONE, widget);
+        let hints = &widget.text().hints;
+        let offered = |harness: &Harness<'_, Lab>| -> Vec<usize> {
+            (0..hints.len()).filter(|i| harness.query_by_label(&hints[*i].text).is_some()).collect()
+        };
+        assert_eq!(offered(&harness), [0], "{widget:?}");
+        assert!(harness.get_by_label(&hints[0].text).rect().top() > 0.45 * PHONE[1], "{widget:?}: below the picture");
+        ui(&mut harness, |ui| ui.settings.tick_off(hints[0].deed));
+        harness.run_steps(3);
+        assert_eq!(offered(&harness), [1], "{widget:?}");
+        harness.get_by_label(&hints[1].text).scroll_to_me();
+        harness.run_steps(20);
+        click(&mut harness, &hints[1].text);
+        let begun = harness.state().app.world().resource::<Interface>().0.lesson.as_ref().map(|of| of.lesson.deed);
+        assert_eq!(begun, Some(hints[1].deed), "{widget:?}");
     }
 }

@@ -11,7 +11,7 @@ const LOW: [[f32; 2]; 2] = [[640.0, 400.0], [844.0, 390.0]];
 const RAIL: f32 = 132.0;
 
 /// A paused lab with a widget in front and its hints shown.
-fn fresh(size: [f32; 2], widget: Widget) -> Harness<'static, Lab> {
+pub fn fresh(size: [f32; 2], widget: Widget) -> Harness<'static, Lab> {
     let mut harness = lab(size);
     pause(&mut harness);
     let state = interface_mut(&mut harness);

@@ -1,0 +1,63 @@
+//! `fold`, a header that folds what is under it, and `menu`: assistive technology hears whether they are open.
+
+use bevy_egui::egui::{CollapsingHeader, Response, Ui};
+
+/// Shows a header and, while it is open, what `show` shows under it. It begins open if `is_open`.
+pub fn fold<R>(ui: &mut Ui, name: &str, is_open: bool, show: impl FnOnce(&mut Ui) -> R) {
+    let shown = CollapsingHeader::new(name).default_open(is_open).show(ui, show);
+    tell(&shown.header_response, shown.body_response.is_some());
+}
+
+/// Shows a button that opens a menu of what `show` shows.
+pub fn menu<R>(ui: &mut Ui, name: &str, show: impl FnOnce(&mut Ui) -> R) {
+    let shown = ui.menu_button(name, show);
+    tell(&shown.response, shown.inner.is_some());
+}
+
+fn tell(header: &Response, is_open: bool) {
+    header.ctx.accesskit_node_builder(header.id, |node| node.set_expanded(is_open));
+}
+
+#[cfg(test)]
+mod tests {
+    use std::cell::Cell;
+
+    use bevy_egui::egui::{CentralPanel, Context, Event, Key, Modifiers, RawInput};
+
+    use super::*;
+
+    /// Runs a pass with these events; returns whether each header that can be open is.
+    fn pass(context: &Context, events: Vec<Event>) -> Vec<(String, bool)> {
+        let shown = Cell::new(false);
+        let mut output = context.run_ui(RawInput { events, ..RawInput::default() }, |ui| {
+            CentralPanel::default().show(ui, |ui| {
+                fold(ui, "Guess first", false, |ui| {
+                    shown.set(true);
+                    ui.label("words")
+                });
+                fold(ui, "Start", true, |ui| ui.label("numbers"));
+                ui.button("Copy").clicked()
+            });
+        });
+        output.textures_delta.clear();
+        let update = output.platform_output.accesskit_update.expect("a tree");
+        let all = update.nodes.iter().filter_map(|(_, node)| Some((node.label()?.to_owned(), node.is_expanded()?)));
+        let mut all: Vec<(String, bool)> = all.collect();
+        all.sort();
+        assert_eq!(all.first().is_some_and(|(_, open)| *open), shown.get(), "what is open is shown");
+        all
+    }
+
+    #[test]
+    fn a_header_says_whether_it_is_open() {
+        let context = Context::default();
+        context.enable_accesskit();
+        let of = |first| vec![("Guess first".to_owned(), first), ("Start".to_owned(), true)];
+        assert_eq!(pass(&context, vec![]), of(false));
+        let press =
+            |key| Event::Key { key, physical_key: None, pressed: true, repeat: false, modifiers: Modifiers::NONE };
+        pass(&context, vec![press(Key::Tab)]);
+        pass(&context, vec![press(Key::Space)]);
+        assert_eq!(pass(&context, vec![]), of(true));
+    }
+}
