@@ -28,6 +28,9 @@ const TWO: f32 = 600.0;
 /// Difference of two lengths from which on they are unequal, metres.
 const UNEQUAL: f64 = 0.05;
 
+/// The least room for a name and its list, points.
+const CHOOSER: f32 = 150.0;
+
 /// Side of the close view, points.
 const INSET: f32 = 208.0;
 
@@ -206,6 +209,10 @@ pub(crate) fn chooser(ui: &mut Ui, name: &str, list: ComboBox, choices: impl FnO
         let shown = list.show_ui(ui, choices).response.labelled_by(label.id);
         shown.widget_info(|| WidgetInfo::labeled(WidgetType::ComboBox, true, name));
     };
+    // name and list stay together
+    if ui.layout().main_wrap && ui.available_size_before_wrap().x < CHOOSER {
+        ui.end_row();
+    }
     // in a row that wraps, a row within it would not
     if ui.layout().main_wrap { show(ui) } else { _ = ui.horizontal(show) }
 }

@@ -49,6 +49,9 @@ fn goes_on(plan: &PlanState) -> bool {
     }
 }
 
+/// Width of the choice of pace, points.
+const PACE: f32 = 112.0;
+
 /// Shows the buttons and the choice of pace.
 pub fn controls(ui: &mut Ui, look: &Look, plan: &mut PlanState) {
     let play =
@@ -65,8 +68,11 @@ pub fn controls(ui: &mut Ui, look: &Look, plan: &mut PlanState) {
         }
     }
     ui.add_space(6.0);
+    if ui.layout().main_wrap && ui.available_size_before_wrap().x < PACE {
+        ui.end_row();
+    }
     let selected = PACES[plan.pace.min(PACES.len() - 1)].1;
-    let choice = ComboBox::from_id_salt("pace").width(112.0).selected_text(selected).show_ui(ui, |ui| {
+    let choice = ComboBox::from_id_salt("pace").width(PACE).selected_text(selected).show_ui(ui, |ui| {
         for (pace, (_, name)) in PACES.iter().enumerate() {
             if ui.selectable_label(plan.pace == pace, *name).clicked() {
                 plan.pace = pace;

@@ -153,7 +153,7 @@ lab("a page around asks Query, drives, puts and lets go robots, and closes doors
   await post({ do: "robot", robot: "Rusty", drive: [500, 0] });
   await refused("channel 500");
   await post({ do: "robot", robot: "Rusty", teleport: [1e300, 0, 0] });
-  await refused("Rusty: a coordinate is beyond");
+  await refused('"Rusty": a coordinate is beyond');
   await post({ do: "widget", id: "anatomy" });
   await post({ do: "tab", id: "distance" });
   // theta1 = 0 and theta2 = pi/2: the chapter's arm, whose second link touches the square

@@ -445,7 +445,7 @@ lab("a page embeds one widget, sized to its frame, and speaks with it", "/widget
         view.postMessage({ motionLab: { do: "light", role: "banana" } }, "*");
       }),
   );
-  assert.equal(error, "banana is no role");
+  assert.equal(error, '"banana" is no role');
   await lab.shot("widgets");
 }, { wait: false });
 

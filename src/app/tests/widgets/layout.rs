@@ -221,3 +221,15 @@ fn the_lists_of_keys_are_aligned_and_say_what_the_pointer_does() {
     let left = words.map(|words| harness.get_all_by_label(words).next().unwrap().rect().left());
     assert!(left.iter().all(|x| *x == left[0]), "{left:?}");
 }
+
+#[test]
+fn no_word_of_a_widget_is_cut_off_at_its_right_where_320_points_are_all_the_width() {
+    for widget in Widget::ALL {
+        let harness = fresh([320.0, 1400.0], widget);
+        for (text, ink, seen) in words(&harness) {
+            // what scrolls below is not drawn
+            let is_cut = seen.is_positive() && seen.right() < ink.right() - 0.5;
+            assert!(!is_cut, "{widget:?}: {text:?} at {ink} ends at {}", seen.right());
+        }
+    }
+}
