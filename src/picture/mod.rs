@@ -26,6 +26,7 @@ pub use fit::{Fit, ScaleBar, ScreenPoint, ScreenRect};
 pub use item::{Anchor, Dash, Drawing, Face, Fill, Glyph, Item, Line};
 pub use outline::{chains, outline, polygon_of};
 pub use pick::pick;
+#[cfg(feature = "screen")]
 pub(crate) use readout::true_minus;
 pub use readout::{in_signs, readout, readout_lines};
 pub use resolve::{Primitive, resolve};
