@@ -22,7 +22,7 @@ use crate::manifest::{Lesson, ThemeChoice};
 use crate::picture::{Role, Theme};
 use crate::random::Seed;
 use crate::robots::CHANNEL_UNITS;
-use crate::run::{Event, Script, WorldChange};
+use crate::run::{Event, Script, WorldChange, WorldEvent};
 use crate::simulation::{RobotCommand, RobotKinds, RunCommand, RunConfig, Transport, TransportCommand, WorldCommand};
 use crate::ui::{Notice, SessionCommand, UiState, Widget};
 
@@ -72,7 +72,8 @@ pub fn receive(world: &mut World) {
     }
 }
 
-/// Carries out a request and tells what came of it: a link or a figure, that it is done where it bears a mark, or why not.
+/// Carries out a request and tells what came of it: a link or a figure; that it is done, where it bears a mark; or why
+/// not.
 fn answer(world: &mut World, Asked { message, request, around }: Asked) {
     match take(world, message) {
         Ok(None) if request.is_none() => {}
@@ -191,6 +192,9 @@ fn take(world: &mut World, message: Message) -> Result<Option<Value>, PageError>
         Message::Robot { robot, input } => give(world, robot, input).map(|()| None),
         Message::Door { world: of, name, open } => {
             let change = if open { WorldChange::Open } else { WorldChange::Close }(name);
+            let tick = world.resource::<Transport>().tick + 1;
+            let event = WorldEvent { tick, world: of.clone(), change: change.clone() };
+            check(world, Script::new(vec![], vec![event]))?;
             transport(world, TransportCommand::Checkpoint)?;
             world.write_message(RunCommand::from(WorldCommand { world: of, change }));
             Ok(None)
@@ -237,11 +241,15 @@ fn take(world: &mut World, message: Message) -> Result<Option<Value>, PageError>
 fn give(world: &mut World, robot: String, input: Input) -> Result<(), PageError> {
     let input = input.robot_input().ok_or_else(|| PageError::Coordinate(robot.clone()))?;
     let event = Event { tick: world.resource::<Transport>().tick + 1, robot: robot.clone(), input: input.clone() };
-    let kinds = world.resource::<RobotKinds>().known();
-    let config = world.resource::<RunConfig>().0.clone();
-    Script::new(vec![event], vec![]).check_for_kinds(&config, &kinds)?;
+    check(world, Script::new(vec![event], vec![]))?;
     world.write_message(RunCommand::from(RobotCommand { robot, input }));
     Ok(())
+}
+
+/// Refuses what the run can't take.
+fn check(world: &World, script: Script) -> Result<(), PageError> {
+    let kinds = world.resource::<RobotKinds>().known();
+    Ok(script.check_for_kinds(&world.resource::<RunConfig>().0, &kinds)?)
 }
 
 /// Acts on a widget by AccessKit's requests, as assistive technology does.

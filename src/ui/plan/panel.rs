@@ -174,7 +174,7 @@ fn result(ui: &mut Ui, look: &Look, plan: &PlanState) {
             if let Some(PathLengths { length, clearance }) = plan.lengths() {
                 let legs = plan.drawn().corners.len().saturating_sub(1);
                 let unit = unit(&plan.task().robot);
-                headline(ui, &format!("path: {length:.3} {unit}, {legs} legs"), look.colour(Role::Text));
+                headline(ui, &format!("path: {legs} legs, {length:.3} {unit}"), look.colour(Role::Text));
                 ui.label(monospace(format!("clearance {} m, proven", proven(clearance))));
             }
             if plan.improves() {
