@@ -153,6 +153,10 @@ fn begin(
     let is_free = matches!(sweep.verdict, EdgeVerdict::Free { .. });
     let ticks = if is_free { (most / (RATE * DT)).ceil() as u32 } else { 0 };
     let mut way = Way { checker, sweep, done: ticks.min(1), ticks, due: 0 };
+    // a refusal leaves the run as it is; only at its end, while it plays, is the arm told to stay
+    if !is_free && (!model.playing || model.tick < model.frontier) {
+        return Some(way);
+    }
     commands.push(Command::from(TransportCommand::Checkpoint));
     way.send(&robot.name, model.tick, commands);
     if is_free && !model.playing {

@@ -204,6 +204,27 @@ fn what_blocks_the_way_to_the_other_elbow_is_named_and_the_arm_stays() {
 }
 
 #[test]
+fn a_way_that_is_refused_leaves_the_run_as_it_is() {
+    let mut harness = lab(WIDE);
+    pause(&mut harness);
+    bring(&mut harness, "Reach");
+    put(&mut harness, [1.85, 1.4]);
+    click(&mut harness, "Play");
+    harness.run_steps(20);
+    pause(&mut harness);
+    (0..3).for_each(|_| click(&mut harness, "Back"));
+    let run = |harness: &Harness<'_, Lab>| {
+        let shown = &harness.state().app.world().resource::<crate::app::Shown>().0;
+        (shown.frontier, harness.state().script().clone())
+    };
+    let before = run(&harness);
+    click(&mut harness, "One tip, two elbows");
+    harness.get_by_label_contains("the straight way hits the post at s = 0.");
+    harness.run_steps(10);
+    assert_eq!(run(&harness), before, "what came later is still there");
+}
+
+#[test]
 fn a_tip_that_was_out_of_reach_bends_back_to_its_side() {
     let mut harness = lab(WIDE);
     pause(&mut harness);
