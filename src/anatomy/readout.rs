@@ -49,26 +49,31 @@ impl Anatomy {
         }
     }
 
-    /// The answer on the tab in a line: what matters most.
-    pub fn headline(&self) -> String {
-        if let (Tab::Swept, Ok(Sweep { verdict: EdgeVerdict::Hit { contact_at, by, .. }, .. })) =
-            (self.tab, self.sweep())
-        {
-            let what = match by {
-                HitBy::Obstacle(id) => format!("hits {}", self.name(id)),
-                HitBy::Limit => "beyond its limit".to_owned(),
+    /// The answer on the tab: what matters most in a line, and its details line by line.
+    pub fn answer(&self) -> (String, Vec<String>) {
+        if self.tab == Tab::Swept {
+            return match self.sweep() {
+                Ok(sweep) => self.answer_of(&sweep),
+                Err(error) => (error.to_string(), vec![]),
             };
-            return format!("{what} at s = {}", figure(contact_at, 4));
         }
         let mut lines = self.readout();
         let is_length = |line: &String| line.contains("| = ") || line.starts_with("in contact");
-        let at = match self.tab {
-            Tab::Witness => lines.iter().position(is_length).unwrap_or(0),
+        let at = lines.iter().position(is_length).filter(|_| self.tab == Tab::Witness).unwrap_or(0);
+        (lines.remove(at), lines)
+    }
+
+    fn answer_of(&self, sweep: &Sweep) -> (String, Vec<String>) {
+        let mut lines = sweep.words(|id| self.name(id), self.checker().robot());
+        let EdgeVerdict::Hit { contact_at, by, .. } = sweep.verdict else {
             // after what its ends are
-            Tab::Swept => usize::from(lines.len() > 1),
-            _ => 0,
+            return (lines.remove(usize::from(lines.len() > 1)), lines);
         };
-        lines.swap_remove(at)
+        let what = match by {
+            HitBy::Obstacle(id) => format!("hits {}", self.name(id)),
+            HitBy::Limit => "beyond its limit".to_owned(),
+        };
+        (format!("{what} at s = {}", figure(contact_at, 4)), lines)
     }
 
     /// Whether the robot is free, and how far from the nearest obstacle: `free, 0.0607 m`.

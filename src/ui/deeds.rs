@@ -5,7 +5,7 @@ use std::sync::Arc;
 use super::{Command, Dashboard, SessionCommand, UiState};
 use crate::anatomy::{Anatomy, Tab};
 use crate::collision::EdgeVerdict;
-use crate::configuration::{AnyConfiguration, Configuration};
+use crate::configuration::{AnyConfiguration, Configuration, RobotKind};
 use crate::geometry::Point2;
 use crate::manifest::{Deed, Widget};
 use crate::num::sin;
@@ -73,7 +73,7 @@ fn shown(model: &Dashboard, state: &UiState) -> Vec<Deed> {
         Widget::Plan => of(&[(Deed::FindPath, &|| *state.plan.stage() == Stage::Solved)]),
         Widget::Dashboard => of(&[(Deed::Held, &|| {
             let mut robots = model.cockpits.iter().flat_map(|cockpit| &cockpit.robots);
-            robots.any(|robot| robot.drivable && robot.manual && robot.flash)
+            robots.any(|robot| robot.kind == RobotKind::RUSTY.name && robot.manual && robot.flash)
         })]),
         Widget::Anatomy => vec![],
     }

@@ -29,6 +29,8 @@ const RAIL: f32 = 76.0;
 pub fn lab(ui: &mut Ui, model: &Dashboard, history: &History, state: &mut UiState, commands: &mut Vec<Command>) {
     let size = ui.max_rect().size();
     state.is_touched |= ui.input(|i| i.any_touches());
+    // whatever brought the dashboard to the front, no run waits there
+    state.played &= state.widget != Widget::Dashboard;
     let low = size.y < if state.is_touched { LOW_FOR_FINGERS } else { LOW } && size.x > size.y;
     let narrow = size.x < NARROW || low;
     state.is_narrow = narrow;
@@ -143,18 +145,13 @@ fn rail(ui: &mut Ui, model: &Dashboard, look: &Look, size: Vec2, state: &mut UiS
 /// Puts a widget in front and lets go of the robot in hand. A run waits while the dashboard is not in front, and then
 /// plays on if it did before.
 fn choose(widget: Widget, model: &Dashboard, state: &mut UiState, commands: &mut Vec<Command>) {
-    let was_in_front = state.widget == Widget::Dashboard;
     if widget == Widget::Dashboard {
-        if std::mem::take(&mut state.played) && !was_in_front && !model.playing {
+        if std::mem::take(&mut state.played) && !model.playing {
             commands.push(Command::from(TransportCommand::Play));
         }
-    } else {
-        if was_in_front {
-            state.played = model.playing;
-        }
-        if model.playing {
-            commands.push(Command::from(TransportCommand::Pause));
-        }
+    } else if model.playing {
+        state.played = true;
+        commands.push(Command::from(TransportCommand::Pause));
     }
     drive::let_go(state, commands);
     state.next_grasp = Some(Grasp::Leave);

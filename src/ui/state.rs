@@ -23,7 +23,7 @@ pub struct UiState {
     pub settings: Settings,
     /// The widget in front.
     pub widget: Widget,
-    /// Whether the run played as the dashboard was left.
+    /// Whether the run waits, since the dashboard was left, to play on there.
     pub played: bool,
     /// The state of the query anatomy. Its robot is also the configuration space's.
     pub anatomy: super::AnatomyState,

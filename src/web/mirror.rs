@@ -187,6 +187,7 @@ mod tests {
                 node(Role::ComboBox, |n| {
                     n.set_label("world");
                     n.set_value("Lot");
+                    n.set_expanded(false);
                 }),
             ),
             (13, node(Role::Image, |n| n.set_label("the configuration"))),
@@ -214,6 +215,7 @@ mod tests {
         );
         assert!(found[1].focus && !found[0].focus);
         assert_eq!((found[2].range, found[2].off_limits), (Some([0.125, 1e9, 0.0]), true));
+        assert_eq!([1, 5].map(|i| found[i].open), [None, Some(false)]);
         assert_eq!([3, 5].map(|i| found[i].value.as_deref()), [Some("2005"), Some("Lot")]);
         assert_eq!(
             serde_json::to_string(&found[1]).unwrap(),

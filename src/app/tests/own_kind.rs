@@ -59,6 +59,20 @@ fn names_formula_and_plots_are_its_own() {
 }
 
 #[test]
+fn what_holds_it_is_named() {
+    let mut harness = lab_with_tugs();
+    let input = crate::run::RobotInput::Drive(128, 0);
+    let command = crate::simulation::RobotCommand { robot: "Tug".into(), input };
+    harness.state_mut().app.world_mut().write_message(RunCommand::from(command));
+    harness.run_steps(300);
+    let tug = &harness.state().app.world().resource::<Shown>().0.cockpits[0].robots[0];
+    assert!(tug.flash && tug.contacts > 0, "it drove into something");
+    let scene = crate::collision::Scene::of_world(&yard());
+    let wall = crate::collision::Collision::witness(&scene, &tug.footprint).unwrap().obstacle;
+    super::safe::read_whole(&harness, scene.obstacle_name(wall).unwrap());
+}
+
+#[test]
 fn its_run_is_saved_opened_and_captured() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("tug.mcap");

@@ -5,6 +5,8 @@ mod layout;
 mod lessons;
 
 use super::*;
+use crate::simulation::TransportCommand;
+use crate::ui::Widget;
 
 /// Puts the widget with this word on the rail in front.
 fn front(harness: &mut Harness<'_, Lab>, word: &str) {
@@ -67,6 +69,16 @@ fn a_run_that_played_plays_on_when_the_dashboard_is_back() {
     let (_, bytes) = super::super::runs::recorded(world).unwrap();
     super::super::runs::open_log(world, "run", &bytes).unwrap();
     harness.run_steps(3);
+    front(&mut harness, "Drive");
+    assert_eq!(playback(&harness), Playback::Paused);
+    // nor does one that was paused on the dashboard, however that came to the front and went
+    click(&mut harness, "Play");
+    front(&mut harness, "Query");
+    for (widget, by) in [(Widget::Dashboard, TransportCommand::Play), (Widget::Anatomy, TransportCommand::Pause)] {
+        interface_mut(&mut harness).widget = widget;
+        harness.state_mut().app.world_mut().write_message(RunCommand::from(by));
+        harness.run_steps(3);
+    }
     front(&mut harness, "Drive");
     assert_eq!(playback(&harness), Playback::Paused);
 }

@@ -90,9 +90,9 @@ fn asked(ui: &mut Ui, look: &Look, state: &mut UiState) {
     formulas(ui, state.anatomy.anatomy.tab.name(), look, state);
     let anatomy = &mut state.anatomy.anatomy;
     let role = if anatomy.intersects() && anatomy.tab != Tab::Swept { Role::Goal } else { Role::Text };
-    let answer = anatomy.headline();
+    let (answer, details) = anatomy.answer();
     headline(ui, &answer, look.colour(role));
-    for line in anatomy.readout().into_iter().filter(|line| *line != answer) {
+    for line in details {
         ui.label(RichText::new(true_minus(&line)).monospace().color(look.colour(role)));
     }
     ui.add_space(4.0);

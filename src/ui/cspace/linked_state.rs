@@ -18,11 +18,16 @@ pub struct LinkedState {
 }
 
 impl LinkedState {
-    /// The checker of a robot in a world: that of the cells that are kept, or for another world or robot a new one.
+    /// The scene of a world: that of the cells that are kept, or for another world a new one.
+    pub fn scene_of(&self, world: &Arc<Atlas>) -> Arc<Scene> {
+        let kept = self.kept.as_ref().filter(|(of, _)| Arc::ptr_eq(of, world));
+        let scene = kept.map(|(_, cells)| cells.map().slice().checker().shared_scene());
+        scene.unwrap_or_else(|| Arc::new(Scene::of_world(world.world())))
+    }
+
+    /// The checker of a robot in a world.
     pub fn checker_of(&self, world: &Arc<Atlas>, robot: &AnyRobot) -> Checker<AnyRobot> {
-        let kept = self.kept.as_ref().map(|(of, cells)| (of, cells.map().slice().checker()));
-        let own = kept.filter(|(of, checker)| Arc::ptr_eq(of, world) && checker.robot() == robot);
-        own.map_or_else(|| Checker::new(Scene::of_world(world.world()), *robot), |(_, checker)| checker.clone())
+        Checker::new(self.scene_of(world), *robot)
     }
 
     /// The cells of the slice through `q`: those that are kept, or for another world, robot or slice new ones. `None`

@@ -6,12 +6,12 @@ use bevy_egui::egui::{
     CursorIcon, Id, Rect, Response, Sense, Stroke, StrokeKind, TextStyle, Ui, Vec2, WidgetInfo, WidgetType, pos2, vec2,
 };
 
-use super::twins::{fitted, twin_items};
+use super::twins::twin_items;
 use super::words::words_in;
 use super::{doors, drive, handles, pad};
 use crate::anatomy::touching_items;
 use crate::atlas::{self, Atlas};
-use crate::collision::Collision;
+use crate::collision::{Collision, Scene};
 use crate::geometry::{Footprint, Part, Pose2, Shape};
 use crate::picture::{Drawing, Fit, Item, Picture, Role, ScanDrawing, fan_scan, pick, places, scan_id};
 use crate::simulation::SensorView;
@@ -125,13 +125,12 @@ pub fn paper(
 
 /// What the cockpit's robots touch in this tick.
 fn touched_by(cockpit: &Cockpit, state: &UiState) -> Vec<Item> {
-    let touching = cockpit.robots.iter().filter(|robot| robot.flash && cockpit.crowd.is_none());
-    let items = touching.filter_map(|robot| {
-        // the scene of the configuration beside the cockpit in front is kept
-        let checker = state.linked.checker_of(&cockpit.atlas, &fitted(robot)?.0);
-        Some(touching_items(checker.scene(), &robot.footprint))
-    });
-    items.flatten().collect()
+    let mut touching = cockpit.robots.iter().filter(|robot| robot.flash).peekable();
+    if cockpit.crowd.is_some() || touching.peek().is_none() {
+        return Vec::new();
+    }
+    let scene = state.linked.scene_of(&cockpit.atlas);
+    touching.flat_map(|robot| touching_items(&scene, &robot.footprint)).collect()
 }
 
 /// The cockpit's robots one by one: their scans, their goals, and over them their bodies.
@@ -265,7 +264,7 @@ pub fn in_hand(ui: &mut Ui, robot: &CockpitRobot, paper: Rect, free: Free, look:
     let font = TextStyle::Body.resolve(ui.style());
     let galley = ui.painter().layout(words, font, look.colour(Role::Text), paper.width() - 24.0 - taken);
     let size = galley.size() + vec2(8.0, 4.0);
-    let rect = of.and_then(|(cockpit, fit)| free_place(cockpit, robot, fit, paper, size, state));
+    let rect = of.and_then(|(cockpit, fit)| free_place(&state.linked.scene_of(&cockpit.atlas), fit, paper, size));
     let rect = rect.unwrap_or(Rect::from_min_size(paper.min + vec2(4.0, 6.0), size));
     // opaque and square: rounded corners of a tint leave dots
     ui.painter().rect_filled(rect, 0.0, look.theme.colour(Role::Paper));
@@ -276,16 +275,8 @@ pub fn in_hand(ui: &mut Ui, robot: &CockpitRobot, paper: Rect, free: Free, look:
 }
 
 /// The first place of this size along the upper edge of a paper, then along its lower edge, where no obstacle is.
-fn free_place(
-    cockpit: &Cockpit,
-    robot: &CockpitRobot,
-    fit: &Fit,
-    paper: Rect,
-    size: Vec2,
-    state: &UiState,
-) -> Option<Rect> {
+fn free_place(scene: &Scene, fit: &Fit, paper: Rect, size: Vec2) -> Option<Rect> {
     const STEP: f32 = 12.0;
-    let checker = state.linked.checker_of(&cockpit.atlas, &fitted(robot)?.0);
     let room = paper.shrink(STEP);
     let world = |at: bevy_egui::egui::Pos2| fit.world_from_screen([f64::from(at.x), f64::from(at.y)]);
     let columns = ((room.width() - size.x) / STEP).max(0.0) as u16;
@@ -293,7 +284,7 @@ fn free_place(
     let places = rows.into_iter().flat_map(|y| (0..=columns).map(move |k| pos2(room.left() + STEP * f32::from(k), y)));
     places.map(|at| Rect::from_min_size(at, size)).find(|place| {
         let shape = Shape::Rectangle { min: world(place.left_bottom()), max: world(place.right_top()) };
-        !checker.scene().intersects(&Footprint::new([Part::new(Pose2::IDENTITY, shape)]))
+        !scene.intersects(&Footprint::new([Part::new(Pose2::IDENTITY, shape)]))
     })
 }
 

@@ -25,15 +25,12 @@ const FINGERTIP: f32 = 44.0;
 /// Difference of two angles that counts as none, radians: more than the rounding of inputs.
 const SAME: f64 = 1e-4;
 
-/// A robot of a cockpit as a model with its configuration, if it is one of the lab's.
-pub fn fitted(robot: &CockpitRobot) -> Option<(AnyRobot, AnyConfiguration)> {
-    let q = AnyRobot::of_kind(&robot.kind, &robot.coordinates)?.1;
-    robot.model.map(|model| (model.fitted(&q), q))
-}
-
-/// The same, if it has a twin: for an arm with two links or a car.
+/// A robot of a cockpit as a model with its configuration, if it is one of the lab's that has a twin: an arm with two
+/// links or a car.
 fn modelled(robot: &CockpitRobot) -> Option<(AnyRobot, AnyConfiguration)> {
-    fitted(robot).filter(|(_, q)| matches!(q, AnyConfiguration::T2(_) | AnyConfiguration::Hitch(_)))
+    let q = AnyRobot::of_kind(&robot.kind, &robot.coordinates)?.1;
+    let is_one = matches!(q, AnyConfiguration::T2(_) | AnyConfiguration::Hitch(_));
+    robot.model.filter(|_| is_one).map(|model| (model.fitted(&q), q))
 }
 
 /// The twin of a cockpit's robot, where it is shown: of an arm always, unless it is being moved by hand; of a car on

@@ -226,13 +226,23 @@ fn paint_primitive(painter: &Painter, primitive: &Primitive, look: &Look) {
                 Anchor::Above => Align2::CENTER_BOTTOM,
                 Anchor::Below => Align2::CENTER_TOP,
             };
-            let rect = align.anchor_size(pos(at), galley.size());
+            let mut rect = align.anchor_size(pos(at), galley.size());
             if *plate {
+                // the name of what is on the paper stays on it
+                let paper = painter.clip_rect();
+                if paper.contains(pos(at)) {
+                    rect = rect.translate(way_into(paper.shrink(4.0), rect));
+                }
                 painter.rect_filled(rect.expand2([3.0, 1.0].into()), 0.0, look.tint(Role::Paper, 0.85));
             }
             painter.galley(rect.min, galley, Color32::PLACEHOLDER);
         }
     }
+}
+
+/// The way by which `rect` comes to lie in `room`; where it is larger, its upper left corner.
+fn way_into(room: Rect, rect: Rect) -> Vec2 {
+    (room.max - rect.max).min(Vec2::ZERO).max(room.min - rect.min)
 }
 
 fn stroke(role: Role, line: &Line, look: &Look) -> Stroke {

@@ -34,7 +34,6 @@ lab("one swipe scrolls one thing: the words as long as they go on, then the page
   const moved = [];
   for (const by of [100, 100, 100, 100, 100, 100, 100, -60]) {
     const [page, words] = await swipe(lab, session, beside, by, word);
-    console.log(`# by ${by}: the page ${page}, the words ${words}`);
     assert.ok(Math.abs(page) < 2 || Math.abs(words) < 2, `the page went ${page} and the words ${words}`);
     moved.push([page, words]);
   }

@@ -159,5 +159,14 @@ fn each_widget_on_a_phone_offers_its_next_task_below_the_picture() {
         click(&mut harness, &hints[1].text);
         let begun = harness.state().app.world().resource::<Interface>().0.lesson.as_ref().map(|of| of.lesson.deed);
         assert_eq!(begun, Some(hints[1].deed), "{widget:?}");
+        ui(&mut harness, |ui| ui.lesson = None);
+        harness.run_steps(3);
+        harness.get_by_label("Got it").scroll_to_me();
+        harness.run_steps(20);
+        click(&mut harness, "Got it");
+        assert_eq!(offered(&harness), [0; 0], "{widget:?}: put away");
+        click(&mut harness, "Menu");
+        click(&mut harness, "Hints");
+        assert_eq!(offered(&harness), [1], "{widget:?}: brought back");
     }
 }

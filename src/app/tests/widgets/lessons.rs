@@ -332,3 +332,22 @@ fn a_lesson_leaves_no_edit_of_a_world_behind() {
     assert_eq!((state.atlas.world(), under_way(&reader.harness).took), (&crate::worlds::World::apartment(), None));
     assert!(state.shelf.iter().any(|kept| *kept.world() == edited), "what was edited is on the shelf");
 }
+
+#[test]
+fn a_task_of_the_rover_is_not_done_by_the_car() {
+    let mut harness = lab(WIDE);
+    harness.key_press(Key::Num3);
+    harness.run_steps(3);
+    harness.key_down(Key::ArrowUp);
+    let is_held = |harness: &Harness<'_, Lab>| {
+        let car = &harness.state().app.world().resource::<Shown>().0.cockpits[2].robots[0];
+        car.manual && car.flash
+    };
+    let is_seen = (0..60).any(|_| {
+        harness.run_steps(20);
+        is_held(&harness)
+    });
+    harness.run_steps(5);
+    assert!(is_seen, "it drove into something");
+    assert!(!interface(&harness).settings.done.iter().any(|deed| deed == "Held"));
+}
