@@ -1,7 +1,7 @@
 //! A contact as a picture: what is touched, where, and its name.
 
 use crate::collision::{Collision, Scene};
-use crate::geometry::Footprint;
+use crate::geometry::{Footprint, Point2};
 use crate::picture::{Anchor, Drawing, Face, Glyph, Item, Line, Role, polygon_of};
 
 /// Gap up to which a footprint counts as held by an obstacle, metres: a rover stops a hair short of a wall.
@@ -30,7 +30,7 @@ pub fn touching_items(scene: &Scene, footprint: &Footprint) -> Vec<Item> {
         let label = Drawing::Label {
             at,
             text: name.to_owned(),
-            anchor: Anchor::Above,
+            anchor: away_from(footprint, at),
             face: Face::Sans,
             size_px: 12.0,
             plate: true,
@@ -40,10 +40,21 @@ pub fn touching_items(scene: &Scene, footprint: &Footprint) -> Vec<Item> {
     items
 }
 
+/// The side of a contact that is farther from the footprint: words there hide neither.
+fn away_from(footprint: &Footprint, at: Point2) -> Anchor {
+    let Some(off) = footprint.bounds().map(|bounds| at - bounds.centre()) else { return Anchor::Above };
+    match (off.x.abs() > off.y.abs(), off.x > 0.0, off.y > 0.0) {
+        (true, true, _) => Anchor::Right,
+        (true, false, _) => Anchor::Left,
+        (false, _, true) => Anchor::Above,
+        (false, _, false) => Anchor::Below,
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geometry::{Aabb, Point2, Pose2, Shape};
+    use crate::geometry::{Aabb, Pose2, Shape};
 
     fn boxes() -> Scene {
         let side = |x: f64| Shape::Rectangle { min: Point2::new(x, 0.0), max: Point2::new(x + 1.0, 1.0) };
@@ -60,6 +71,14 @@ mod tests {
             _ => None,
         });
         (items.iter().map(|item| item.id.as_str()).collect(), names.collect())
+    }
+
+    fn side_of_name(items: &[Item]) -> Anchor {
+        let side = items.iter().find_map(|item| match &item.drawing {
+            Drawing::Label { anchor, .. } => Some(*anchor),
+            _ => None,
+        });
+        side.expect("a name")
     }
 
     #[test]
@@ -79,6 +98,9 @@ mod tests {
         let stone = touching_items(&scene, &Footprint::disc(Point2::new(7.0, 6.0), 0.6));
         assert_eq!(told(&stone).1, ["a stone"]);
         let Drawing::Polyline(edge) = &stone[0].drawing else { panic!("an outline") };
+        assert_eq!(side_of_name(&stone), Anchor::Above, "away from the robot under it");
+        let from_right = touching_items(&scene, &Footprint::disc(Point2::new(8.0, 7.0), 0.6));
+        assert_eq!(side_of_name(&from_right), Anchor::Left, "away from the robot at its right");
         let off = edge.iter().map(|p| ((p - Point2::new(7.0, 7.0)).norm() - 0.5).abs()).fold(0.0, crate::num::greater);
         assert!(edge.first() == edge.last() && off < 0.02, "the stone's own edge: {off}");
     }

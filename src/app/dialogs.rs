@@ -122,6 +122,7 @@ pub fn ask(
             }
             SessionCommand::PlayPath
             | SessionCommand::RunWorld
+            | SessionCommand::ThreeRobots
             | SessionCommand::RunFromHere
             | SessionCommand::PutRobot { .. }
             | SessionCommand::OpenRecent(_)

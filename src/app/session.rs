@@ -182,7 +182,7 @@ fn shown(world: &World, robot: &RobotView, between: f64) -> CockpitRobot {
     let trail = world.resource::<History>().at(tick, robot.id);
     let playing = world.resource::<Transport>().playback == Playback::Playing;
     let target = target(world, robot);
-    // paused, an arm says where it will be, as its ghost and its fields do
+    // paused, a robot says where it will be, as its ghost and its fields do
     let next = target.as_ref().filter(|_| !playing).and_then(|to| next(robot, to));
     let now =
         || Said { readout: robot.configuration.clone(), in_full: robot.configuration_in_full.clone(), tip: robot.tip };
@@ -227,14 +227,16 @@ struct Said {
     tip: Option<Point2>,
 }
 
-/// One of the lab's arms at these joint angles.
+/// One of the lab's robots at these coordinates.
 fn next(robot: &RobotView, to: &[f64]) -> Option<Said> {
     let (in_full, q) = match AnyRobot::of_kind(&robot.kind, to)?.1 {
         AnyConfiguration::T2(q) => (format!("{q:?}"), q.to_string()),
         AnyConfiguration::T3(q) => (format!("{q:?}"), q.to_string()),
-        _ => return None,
+        AnyConfiguration::Pose(q) => (format!("{q:?}"), q.to_string()),
+        AnyConfiguration::Hitch(q) => (format!("{q:?}"), q.to_string()),
     };
-    Some(Said { readout: q, in_full, tip: joints(&turned(&robot.footprint, to)).last().copied() })
+    let tip = robot.tip.and_then(|_| joints(&turned(&robot.footprint, to)).last().copied());
+    Some(Said { readout: q, in_full, tip })
 }
 
 /// Whether the run is paused with an input to the robot due at the next tick.
@@ -257,11 +259,11 @@ fn no_room(world: &World, robot: &RobotView, body: Pose2) -> Option<String> {
     names.first().map(|name| format!("would overlap {name}"))
 }
 
-/// The joint angles that an input asks of an arm by the next tick.
+/// The coordinates that an input asks of a robot by the next tick.
 fn target(world: &World, robot: &RobotView) -> Option<Coordinates> {
     let due = world.resource::<PendingInput>().due(world.resource::<Transport>().tick + 1);
     due.iter().rev().filter(|e| e.robot == robot.name).find_map(|e| match &e.input {
-        RobotInput::MoveTo(to) => Some(to.iter().map(|c| c.value()).collect()),
+        RobotInput::MoveTo(to) | RobotInput::Teleport(to) => Some(to.iter().map(|c| c.value()).collect()),
         _ => None,
     })
 }
@@ -277,10 +279,9 @@ pub fn carry_out(world: &mut World, commands: Vec<Command>) {
                 world.write_message(command);
             }
             Command::Session(SessionCommand::Links { robot, links }) => {
-                if let Err(error) = change_links(world, &robot, links) {
-                    let notice = Notice { text: error.to_string(), is_error: true };
-                    world.resource_mut::<Interface>().0.say(notice);
-                }
+                let refused = |error: SessionError| Notice { text: error.to_string(), is_error: true };
+                let notice = change_links(world, &robot, links).map_or_else(refused, |()| begun_anew());
+                world.resource_mut::<Interface>().0.say(notice);
             }
             Command::Session(SessionCommand::PutRobot { robot }) => {
                 aside::stop(world);
@@ -303,9 +304,19 @@ pub fn carry_out(world: &mut World, commands: Vec<Command>) {
                 let ran = new_run(world, config, seed);
                 let ui = &mut world.resource_mut::<Interface>().into_inner().0;
                 match ran {
-                    Ok(()) => ui.widget = Widget::Dashboard,
+                    Ok(()) => {
+                        ui.widget = Widget::Dashboard;
+                        ui.say(begun_anew());
+                    }
                     Err(error) => ui.say(Notice { text: error.to_string(), is_error: true }),
                 }
+            }
+            Command::Session(SessionCommand::ThreeRobots) => {
+                let seed = world.resource::<Transport>().seed;
+                let ran = new_run(world, TourConfig::default(), seed);
+                let refused = |error: SessionError| Notice { text: error.to_string(), is_error: true };
+                let notice = ran.map_or_else(refused, |()| begun_anew());
+                world.resource_mut::<Interface>().0.say(notice);
             }
             Command::Session(SessionCommand::PlayPath) => play_path(world),
             #[cfg(feature = "window")]
@@ -315,6 +326,11 @@ pub fn carry_out(world: &mut World, commands: Vec<Command>) {
             Command::Session(command) => _ = world.write_message(command),
         }
     }
+}
+
+/// What is said where a new run took the place of another.
+fn begun_anew() -> Notice {
+    Notice { text: "A new run. Undo brings back the one before.".to_owned(), is_error: false }
 }
 
 /// Starts a run in which the plan's robot plays its path alone in its world, and shows it. Where it can't be played,
@@ -339,6 +355,7 @@ fn play_path(world: &mut World) {
         Ok(()) => {
             ui.plan.is_played_by(&config);
             ui.widget = Widget::Dashboard;
+            ui.say(begun_anew());
         }
         Err(error) => ui.say(Notice { text: error.to_string(), is_error: true }),
     }

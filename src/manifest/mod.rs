@@ -46,6 +46,9 @@ pub struct Hint {
     pub deed: Deed,
     /// Its words.
     pub text: String,
+    /// Whether it is about the arm with two links alone.
+    #[serde(default)]
+    pub arm: bool,
 }
 
 /// An entry of a colour key.

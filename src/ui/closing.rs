@@ -3,10 +3,11 @@
 use bevy_egui::egui::{Context, Id, Key, Modal, Modifiers, RichText, TextStyle};
 
 use super::paint::button::LabButton;
-use super::{Closing, Look, UiState};
+use super::{Closing, Command, Look, SessionCommand, UiState, Widget};
 
-/// Shows the question over everything else. Escape and a click beside it keep the window open.
-pub fn closing(ctx: &Context, look: &Look, state: &mut UiState) {
+/// Shows the question over everything else. Escape and a click beside it keep the window open; so does saving one of
+/// the worlds, which asks for a file.
+pub fn closing(ctx: &Context, look: &Look, state: &mut UiState, commands: &mut Vec<Command>) {
     if state.closing != Some(Closing::Asking) {
         return;
     }
@@ -15,17 +16,31 @@ pub fn closing(ctx: &Context, look: &Look, state: &mut UiState) {
         ui.label(RichText::new("Close without saving?").text_style(TextStyle::Heading));
         ui.add_space(6.0);
         ui.label("Edits of these worlds are in no file and would be lost:");
+        let mut saved = None;
         for world in state.unsaved() {
-            ui.label(RichText::new(world).strong());
+            ui.horizontal(|ui| {
+                if LabButton::new(&format!("Save {world}")).show(ui, look).clicked() {
+                    saved = Some(world);
+                }
+            });
         }
         ui.add_space(8.0);
         ui.horizontal_wrapped(|ui| {
             let stays = LabButton::new("Keep the window").show(ui, look).clicked();
-            (stays, LabButton::new("Close and lose the edits").show(ui, look).clicked())
+            (stays, LabButton::new("Close and lose the edits").show(ui, look).clicked(), saved)
         })
         .inner
     });
-    let (stays, closes) = modal.inner;
+    let (stays, closes, saved) = modal.inner;
+    if let Some(world) = saved {
+        if let Some(kept) = state.shelf.iter().position(|kept| kept.is_unsaved() && kept.label() == world)
+            && !(state.atlas.is_unsaved() && state.atlas.label() == world)
+        {
+            state.take_from_shelf(kept);
+        }
+        (state.closing, state.widget) = (None, Widget::Atlas);
+        commands.push(Command::Session(SessionCommand::SaveWorld));
+    }
     let escape = ctx.input_mut(|i| i.consume_key(Modifiers::NONE, Key::Escape));
     if closes {
         state.closing = Some(Closing::Agreed);

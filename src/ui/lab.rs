@@ -4,9 +4,10 @@ use std::sync::Arc;
 
 use bevy_egui::egui::{CentralPanel, Frame, Margin, Panel, Ui, Vec2, vec2};
 
-use super::dashboard::{self, drive};
+use super::dashboard::{self, hand::drive};
 use super::keys::{Action, Situation, pressed};
 use super::paint::button::LabButton;
+use super::paint::icon::Icon;
 use super::{
     Command, Dashboard, Grasp, Look, UiState, anatomy, atlas, capture_form, cspace, deeds, help, lesson, plan, tools,
 };
@@ -89,13 +90,13 @@ pub fn lab(ui: &mut Ui, model: &Dashboard, history: &History, state: &mut UiStat
             // all of them fit, however narrow the screen
             let gaps = ui.spacing().item_spacing.x * (Widget::ALL.len() - 1) as f32;
             let width = (ui.available_width() - gaps) / Widget::ALL.len() as f32;
-            let size = vec2(width.clamp(0.0, RAIL - 12.0), 40.0);
+            let size = vec2(width.clamp(0.0, RAIL - 12.0), 44.0);
             ui.horizontal(|ui| rail(ui, model, &look, size, state, commands));
         });
     } else {
         let frame = Frame::NONE.inner_margin(margin);
         Panel::left("rail").exact_size(RAIL).resizable(false).frame(frame).show(ui, |ui| {
-            ui.vertical_centered(|ui| rail(ui, model, &look, vec2(RAIL - 12.0, 44.0), state, commands));
+            ui.vertical_centered(|ui| rail(ui, model, &look, vec2(RAIL - 12.0, 50.0), state, commands));
         });
     }
     let stage = if state.widget == Widget::Dashboard {
@@ -121,7 +122,7 @@ pub fn lab(ui: &mut Ui, model: &Dashboard, history: &History, state: &mut UiStat
     help::help(ui.ctx(), state);
     capture_form::capture_form(ui.ctx(), model, &look, state, commands);
     #[cfg(feature = "window")]
-    super::closing::closing(ui.ctx(), &look, state);
+    super::closing::closing(ui.ctx(), &look, state, commands);
     state.typing = ui.ctx().text_edit_focused();
     if state.pointed.is_some() || state.lit.is_some() {
         // the fade goes on without further input
@@ -135,7 +136,8 @@ fn rail(ui: &mut Ui, model: &Dashboard, look: &Look, size: Vec2, state: &mut UiS
     ui.spacing_mut().interact_size.y = size.y;
     for widget in Widget::ALL {
         let words = widget.text();
-        let button = LabButton::new(words.short()).width(size.x).selected(state.widget == widget);
+        let button = LabButton::new(words.short()).over_words(Icon::of(widget)).width(size.x);
+        let button = button.selected(state.widget == widget);
         if button.show(ui, look).on_hover_text(&words.title).clicked() {
             choose(widget, model, state, commands);
         }

@@ -1,7 +1,7 @@
 //! Begins lessons, and makes their widgets ready.
 
 use super::atlas::{FIRST_CELL, Mode};
-use super::dashboard::drive;
+use super::dashboard::hand::drive;
 use super::{AtlasState, Command, CspaceState, Dashboard, LessonState, PlanState, UiState};
 use crate::anatomy::Tab;
 use crate::configuration::RobotKind;

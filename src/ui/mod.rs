@@ -37,9 +37,9 @@ pub(crate) use crowd::members::Members;
 pub(crate) use crowd::state::CrowdState;
 pub(crate) use crowd::values::{Crowd, CrowdRobot, MOST_SHOWN_EACH, Stance};
 pub(crate) use cspace::{CspaceState, LinkedState};
-pub(crate) use dashboard::arm::{joints, turned};
 pub(crate) use dashboard::blend::blend;
 pub(crate) use dashboard::goal::ParkingGoal;
+pub(crate) use dashboard::hand::arm::{joints, turned};
 pub(crate) use dashboard::twin_state::AskedTwin;
 pub(crate) use dashboard::values::{Cockpit, CockpitRobot, Dashboard};
 pub(crate) use lab::lab;
@@ -109,6 +109,8 @@ pub(crate) enum SessionCommand {
         /// The robot's name.
         robot: String,
     },
+    /// A new run of the three robots, each in its world.
+    ThreeRobots,
     /// A new run in which a robot plays the plan's path.
     PlayPath,
     /// Save the plan's path: ask for a file first.

@@ -59,7 +59,9 @@ pub struct UiState {
     pub seed: Option<SeedDraft>,
     /// The name of the robot that the arrow keys drive.
     pub armed: Option<String>,
-    /// The channels last sent to that robot, from -128 to 128, the maximum.
+    /// The name of the robot that was taken in hand last.
+    pub last_held: Option<String>,
+    /// The channels last sent to the robot in hand, from -128 to 128, the maximum.
     pub held: (i16, i16),
     /// The channels of the pad on the screen, from -128 to 128, the maximum.
     pub pad: (i16, i16),
@@ -219,7 +221,8 @@ impl UiState {
         self.notices.get(&self.widget)
     }
 
-    /// Shows a message in the widget in front, until it is dismissed or another comes there.
+    /// Shows a message in the widget in front, until it is dismissed or another comes there; one that reports no error goes
+    /// by itself.
     pub fn say(&mut self, notice: Notice) {
         self.say_in(self.widget, notice);
     }

@@ -1,6 +1,6 @@
 //! The menu above every widget: capture, keys and theme; on the dashboard also open, save, undo, plots and names.
 
-use bevy_egui::egui::{Align, Align2, Context, Label, Layout, Rect, Ui, vec2};
+use bevy_egui::egui::{Align, Align2, Context, Id, Label, Layout, Rect, Ui, vec2};
 
 use super::keys::{Action, hint};
 use super::paint::button::LabButton;
@@ -8,7 +8,7 @@ use super::paint::fold;
 use super::paint::frame;
 use super::paint::icon::Icon;
 use super::paint::plate::{Place, plate, refusal};
-use super::{Command, Dashboard, Look, SessionCommand, UiState, Widget, WidgetText};
+use super::{Command, Dashboard, Look, Notice, SessionCommand, UiState, Widget, WidgetText};
 use crate::manifest::ThemeChoice;
 use crate::simulation::TransportCommand;
 
@@ -131,6 +131,12 @@ fn menu(
     for tool in all.chain([CAPTURE, HINTS, KEYS]) {
         show(ui, &Tool { icon: None, ..tool }, model, look, state, commands);
     }
+    if state.widget == Widget::Dashboard {
+        let back = LabButton::new("The three robots").show(ui, look);
+        if back.on_hover_text("A new run of Rusty, Reach and Hitch in their worlds").clicked() {
+            commands.push(Command::Session(SessionCommand::ThreeRobots));
+        }
+    }
     #[cfg(feature = "window")]
     super::capture_form::copy(ui, look, &state.capture.order, commands);
     #[cfg(feature = "window")]
@@ -161,6 +167,26 @@ fn show(ui: &mut Ui, tool: &Tool, model: &Dashboard, look: &Look, state: &mut Ui
     }
 }
 
+/// The key of the last notice shown and of the time from which on it stands.
+fn since() -> Id {
+    Id::new("notice since")
+}
+
+/// How long a notice that reports no error stays, seconds.
+const STAYS: f64 = 10.0;
+
+/// Whether a notice has stood for long enough to have been read. It stays while the pointer is on it.
+fn is_read(ui: &Ui, notice: &Notice) -> bool {
+    let (now, id) = (ui.input(|i| i.time), since());
+    let kept: Option<(String, f64)> = ui.data(|data| data.get_temp(id));
+    let is_held = ui.ui_contains_pointer();
+    let since = kept.filter(|(text, _)| *text == notice.text && !is_held).map_or(now, |(_, since)| since);
+    let left = since + STAYS - now;
+    ui.data_mut(|data| data.insert_temp(id, (notice.text.clone(), since)));
+    ui.ctx().request_repaint_after_secs(left.max(0.1) as f32);
+    left <= 0.0
+}
+
 /// Shows the work in the background and the last notice of the widget in front, with links to stop the one and dismiss
 /// the other; over the run, also the offer of the run before. They lie over the foot of the `stage`, so that nothing
 /// moves when they come and go.
@@ -169,6 +195,10 @@ pub fn notice(ctx: &Context, stage: Rect, look: &Look, state: &mut UiState) {
     let offers = state.widget == Widget::Dashboard && state.offer.is_some();
     #[cfg(not(feature = "window"))]
     let offers = false;
+    if state.notice().is_none_or(|notice| notice.is_error) {
+        // the same words said anew stand as long again
+        ctx.data_mut(|data| data.remove_temp::<(String, f64)>(since()));
+    }
     if state.working.is_none() && state.notice().is_none() && !offers {
         return;
     }
@@ -194,12 +224,13 @@ pub fn notice(ctx: &Context, stage: Rect, look: &Look, state: &mut UiState) {
             });
         }
         let Some(notice) = state.notice() else { return false };
+        let is_read = !notice.is_error && is_read(ui, notice);
         if notice.is_error {
             refusal(ui, &notice.text, look);
         } else {
             ui.add(Label::new(&notice.text).wrap());
         }
-        frame::rows_of_words(ui, |ui| ui.link("Dismiss").clicked())
+        frame::rows_of_words(ui, |ui| ui.link("Dismiss").clicked()) || is_read
     });
     if state.working.is_some() {
         // the work goes on without further input

@@ -54,6 +54,7 @@ pub fn files(world: &mut World) {
             SessionCommand::Capture(order) => capture(world, &order),
             SessionCommand::PlayPath
             | SessionCommand::RunWorld
+            | SessionCommand::ThreeRobots
             | SessionCommand::RunFromHere
             | SessionCommand::PutRobot { .. }
             | SessionCommand::Links { .. } => continue,

@@ -150,7 +150,7 @@ fn what_is_said_of_the_arm_is_not_said_of_the_car() {
         run(&["capture", "--widget", "cspace", "--robot", robot, "--cells", "4", "-o", out]).done();
         let svg = fs::read_to_string(out).unwrap();
         assert!(svg.contains(words), "{robot}");
-        assert_eq!(svg.contains("The arm is a point"), arm, "{robot}");
+        assert_eq!(svg.contains("The robot is a point"), arm, "{robot}");
     }
 }
 

@@ -126,7 +126,7 @@ fn the_swept_tab_shows_free_ends_a_hit_between_and_its_bracket() {
     assert_eq!(role("second/0"), Some(crate::picture::Role::Robot), "the end is free");
     assert_eq!(items.iter().find(|i| i.id.starts_with("hit/")).unwrap().role, crate::picture::Role::Goal);
     // the step slider: a step of nothing is free
-    let slider = harness.get_by_role_and_label(egui::accesskit::Role::Slider, "step of th1").rect();
+    let slider = harness.get_by_role_and_label(egui::accesskit::Role::Slider, "step of θ₁").rect();
     click_at(&mut harness, slider.left_center() + egui::vec2(0.49 * 180.0, 0.0));
     assert!(anatomy(&harness).step()[0].abs() < 0.15, "{:?}", anatomy(&harness).step());
     says(&harness, "free all the way");
@@ -365,7 +365,7 @@ fn angles_and_minus_signs_have_one_spelling_and_typed_another() {
     }
     let mut harness = on("distance");
     for (typed, shown) in [("-0.5", "\u{2212}0.5000"), ("\u{2212}0.25", "\u{2212}0.2500")] {
-        let slider = harness.get_by_role_and_label(egui::accesskit::Role::Slider, "th1").rect();
+        let slider = harness.get_by_role_and_label(egui::accesskit::Role::Slider, "θ₁").rect();
         click_at(&mut harness, slider.left_center() + egui::vec2(220.0, 0.0));
         harness.key_combination_modifiers(Modifiers::COMMAND, &[Key::A]);
         harness.step();

@@ -1,6 +1,7 @@
 //! Driving the rover and the car, by keys and by the pad.
 
 mod arm;
+mod bodies;
 
 use super::*;
 
@@ -143,15 +144,16 @@ fn where_there_is_no_room_for_a_trailer_it_is_said() {
 
 #[test]
 fn one_thing_is_said_at_the_pointer_and_what_a_robot_in_hand_says_covers_nothing() {
+    const CLICK: &str = "Click to drive Rusty; drag its body to move it";
     let mut harness = lab(WIDE);
     pause(&mut harness);
     let paper = paper(&harness, "Apartment");
     // the bookcase at the lower right, and the floor of the corridor
-    for (share, said) in [([0.97, 0.9], "E's bookcase"), ([0.5, 0.52], "Click to drive Rusty")] {
+    for (share, said) in [([0.97, 0.9], "E's bookcase"), ([0.5, 0.52], CLICK)] {
         let at = paper.min + egui::vec2(share[0] * paper.width(), share[1] * paper.height());
         pointer(&mut harness, at, None);
         harness.run_steps(80);
-        let tips = ["E's bookcase", "Click to drive Rusty"];
+        let tips = ["E's bookcase", CLICK];
         let words = super::safe::words(&harness);
         let shown: Vec<&str> = tips.into_iter().filter(|tip| words.iter().any(|(text, ..)| text == tip)).collect();
         assert_eq!(shown, [said]);

@@ -92,7 +92,7 @@ fn nothing_fades_while_a_robot_is_in_hand_a_drag_or_a_refusal_is_on() {
     harness.run_steps(10);
     assert_eq!(lit(&harness), Some(Role::Obstacle));
     bring(&mut harness, "Reach");
-    let handle = harness.get_by_label("Reach: elbow, theta1 in radians").rect().center();
+    let handle = harness.get_by_label("Reach: elbow, θ₁ in radians").rect().center();
     pointer(&mut harness, handle, Some(true));
     pointer(&mut harness, handle + egui::vec2(20.0, 5.0), None);
     pointer(&mut harness, handle + egui::vec2(30.0, 9.0), None);
@@ -154,6 +154,9 @@ fn a_seed_that_is_none_is_kept_for_mending_and_the_reason_stands_at_its_field() 
     for size in [WIDE, [800.0, 600.0], PHONE] {
         let mut harness = lab(size);
         pause(&mut harness);
+        if size == PHONE {
+            click(&mut harness, "More");
+        }
         let field = harness.get_by_label("seed").rect();
         let put = |harness: &mut Harness<'_, Lab>, text: &str| {
             harness.get_by_label("seed").focus();
@@ -172,7 +175,9 @@ fn a_seed_that_is_none_is_kept_for_mending_and_the_reason_stands_at_its_field() 
         let reason = read_whole(&harness, "a whole number from 0 to 18446744073709551615");
         let gap = reason.distance_to_pos(field.center());
         assert!(gap < 48.0, "{size:?}: {gap} from its field");
-        assert_eq!(harness.get_by_label("seed").rect(), field, "nothing moved");
+        // in the menu the reason has a row of its own
+        let is_same = harness.get_by_label("seed").rect() == field;
+        assert!(is_same || size == PHONE, "nothing moved");
         harness.run_steps(40);
         read_whole(&harness, "a whole number from 0 to");
         // mended by one key: without the point and what follows it
@@ -192,6 +197,9 @@ fn a_seed_that_is_none_is_kept_for_mending_and_the_reason_stands_at_its_field() 
         harness.run_steps(2);
         harness.key_press(Key::Escape);
         harness.run_steps(3);
+        if size == PHONE {
+            click(&mut harness, "More");
+        }
         assert_eq!(value(&harness), "12", "Escape puts the present seed back");
         assert!(harness.query_by_label_contains("a whole number from 0 to").is_none());
     }
@@ -293,16 +301,16 @@ fn a_paused_drag_shows_one_configuration_everywhere() {
         assert_eq!(lines.len(), 2, "{lines:?}");
         // whose input it is becomes true with the tick
         let lines: Vec<String> = lines.iter().map(|line| line.replace("  driven by hand", "")).collect();
-        let fields: Vec<String> = ["Reach: theta1", "Reach: theta2"]
+        let fields: Vec<String> = ["Reach: θ₁", "Reach: θ₂"]
             .map(|name| format!("{:.3}", harness.get_by_label(name).accesskit_node().numeric_value().unwrap()))
             .to_vec();
-        let at = ["Reach: elbow, theta1 in radians", "Reach: tip, theta2 in radians"]
+        let at = ["Reach: elbow, θ₁ in radians", "Reach: tip, θ₂ in radians"]
             .map(|handle| harness.get_by_label(handle).rect().center().round());
         (lines, fields, at)
     };
     let before = said(&harness);
     let contacts = harness.state().robot(1).contacts;
-    drag(&mut harness, "Reach: elbow, theta1 in radians", [-0.6, 0.9]);
+    drag(&mut harness, "Reach: elbow, θ₁ in radians", [-0.6, 0.9]);
     let dragged = said(&harness);
     harness.get_by_label("comes with the next tick");
     for (now, then) in [(&dragged.0[0], &before.0[0]), (&dragged.0[1], &before.0[1])] {

@@ -168,3 +168,39 @@ fn each_robot_has_a_lane_and_a_click_goes_to_what_happened_to_it() {
         assert!(found == tick || lane == 0.0 && found.abs_diff(tick) <= 1 && found != contact, "{found}, not {tick}");
     }
 }
+
+#[test]
+fn the_transport_bar_fits_the_narrowest_phone() {
+    let mut harness = lab([320.0, 640.0]);
+    for name in ["Pause", "Step", "More"] {
+        let rect = harness.get_by_label(name).rect();
+        assert!(rect.right() <= 320.0 - 12.0 && rect.left() >= 12.0, "{name}: {rect:?}");
+    }
+    harness.get_by_label("More").click();
+    harness.run_steps(3);
+    click(&mut harness, "Re-roll");
+    assert_ne!(harness.state().transport().seed, crate::tour::BOOK_SEED);
+    // the seed is typed in the menu, which stays meanwhile
+    let mut harness = lab(PHONE);
+    harness.get_by_label("More").click();
+    harness.run_steps(3);
+    let field = harness.get_by_role_and_label(egui::accesskit::Role::TextInput, "seed");
+    let at = field.rect().center();
+    click_at(&mut harness, at);
+    harness.event(Event::Key {
+        key: Key::A,
+        physical_key: None,
+        pressed: true,
+        repeat: false,
+        modifiers: Modifiers::COMMAND,
+    });
+    harness.event(Event::Text("11".into()));
+    harness.run_steps(2);
+    harness.key_press(Key::Enter);
+    harness.run_steps(3);
+    assert_eq!(harness.state().transport().seed, crate::random::Seed(11));
+    for name in ["Back", "Pause", "Step", "Next contact", "More"] {
+        let rect = lab(PHONE).get_by_label(name).rect();
+        assert!(rect.width() >= 44.0 && rect.height() >= 44.0, "{name}: {rect:?}");
+    }
+}

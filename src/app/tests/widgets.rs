@@ -32,11 +32,11 @@ fn the_anatomy_answers_the_four_questions() {
     click(&mut harness, "3 cm capsule links");
     // theta2 slides down until the arm touches the block: exactly 0, and it stays 0
     let anatomy = |h: &Harness<'_, Lab>| h.state().app.world().resource::<Interface>().0.anatomy.anatomy.clone();
-    let slider = harness.get_by_role_and_label(egui::accesskit::Role::Slider, "th2").rect();
+    let slider = harness.get_by_role_and_label(egui::accesskit::Role::Slider, "θ₂").rect();
     let mut seen = Vec::new();
     for part in [0.76, 0.74, 0.71, 0.68] {
         click_at(&mut harness, slider.left_center() + egui::vec2(part * 180.0, 0.0));
-        seen.push((value(&harness, "th2"), anatomy(&harness).distance(), anatomy(&harness).intersects()));
+        seen.push((value(&harness, "θ₂"), anatomy(&harness).distance(), anatomy(&harness).intersects()));
     }
     assert!(seen[0].1 > 0.0 && !seen[0].2, "{seen:?}");
     assert!(seen.iter().all(|(th2, d, hit)| (*d == 0.0) == *hit && (*th2 < 1.4008) == *hit), "{seen:?}");
@@ -45,7 +45,7 @@ fn the_anatomy_answers_the_four_questions() {
     click(&mut harness, "swept");
     let said = anatomy(&harness).described();
     assert!(said.contains("the block"), "{said}");
-    harness.get_by_role_and_label(egui::accesskit::Role::Slider, "step of th1");
+    harness.get_by_role_and_label(egui::accesskit::Role::Slider, "step of θ₁");
 }
 
 #[test]
@@ -208,10 +208,10 @@ fn the_three_robots_have_their_spaces_and_the_car_its_slice() {
     let anatomy = |h: &Harness<'_, Lab>| h.state().app.world().resource::<Interface>().0.anatomy.anatomy.clone();
     assert_eq!(anatomy(&harness).world().name, "Lot", "where it lives");
     // another heading is another slice
-    let slider = harness.get_by_role_and_label(egui::accesskit::Role::Slider, "theta").rect();
+    let slider = harness.get_by_role_and_label(egui::accesskit::Role::Slider, "θ").rect();
     click_at(&mut harness, slider.left_center() + egui::vec2(0.75 * 180.0, 0.0));
     harness.run_steps(4);
-    let theta = value(&harness, "theta");
+    let theta = value(&harness, "θ");
     assert!(theta > 1.0 && theta < 2.0, "{theta}");
     harness.get_by_label(&format!("x and y at \u{3b8} = {theta:.3}"));
     // the motion of the swept tab, on demand
@@ -238,4 +238,27 @@ fn a_world_of_the_atlas_is_asked_about_in_the_anatomy() {
     let anatomy = harness.state().app.world().resource::<Interface>().0.anatomy.anatomy.clone();
     assert!(anatomy.world().obstacle("disc").is_some());
     assert!(anatomy.copy_as_command().unwrap().contains("mine.ron"), "a command about the file");
+}
+
+#[test]
+fn hints_about_the_arm_are_not_given_beside_a_car() {
+    let mut harness = lab(WIDE);
+    click(&mut harness, "Space");
+    interface_mut(&mut harness).settings.hints_away.clear();
+    harness.run_steps(3);
+    let pick = |harness: &mut Harness<'_, Lab>, name: &str| {
+        harness.get_by_role_and_label(egui::accesskit::Role::ComboBox, "robot").click();
+        harness.run_steps(3);
+        click(harness, name);
+        harness.run_steps(6);
+    };
+    let shown = |harness: &Harness<'_, Lab>, words: &str| harness.query_by_label_contains(words).is_some();
+    for (robot, is_arm) in [("Reach", true), ("Hitch", false)] {
+        if !is_arm {
+            pick(&mut harness, robot);
+        }
+        assert!(shown(&harness, "Drag the point, and see the robot move."), "{robot}");
+        assert_eq!(shown(&harness, "Unequal links"), is_arm, "{robot}");
+        assert_eq!(shown(&harness, "It asks of another robot"), !is_arm, "{robot}");
+    }
 }

@@ -72,7 +72,7 @@ fn no_key_reaches_the_lab_behind_a_dialog() {
             arm_rusty(&mut harness);
         } else {
             bring(&mut harness, "Reach");
-            harness.get_by_label("Reach: tip, theta2 in radians").focus();
+            harness.get_by_label("Reach: tip, θ₂ in radians").focus();
         }
         harness.run_steps(2);
         harness.key_press_modifiers(Modifiers::COMMAND, Key::O);
@@ -232,13 +232,20 @@ fn closing_asks_where_edits_would_be_lost() {
     add(&mut harness, "Add box");
     choose(&mut harness, "Lot");
     assert_eq!(closing(&mut harness), None, "the Apartment on the shelf has an edit");
-    harness.get_by_label("Apartment, edited");
+    harness.get_by_label("Save Apartment, edited");
     harness.key_press(Key::Num1);
     harness.run_steps(2);
     click(&mut harness, "Keep the window");
     assert!(harness.query_by_label("Close without saving?").is_none());
     assert!(harness.state().app.world().resource::<Interface>().0.armed.is_none(), "keys were the question's");
     assert_eq!(closing(&mut harness), None);
+    // saving asks for a file of that world, and keeps the window
+    let mut asked = harness.state().app.world().resource::<Messages<SessionCommand>>().get_cursor_current();
+    click(&mut harness, "Save Apartment, edited");
+    let commands = harness.state().app.world().resource::<Messages<SessionCommand>>();
+    assert!(asked.read(commands).any(|command| *command == SessionCommand::SaveWorld));
+    assert_eq!((atlas(&harness).label().as_str(), interface(&harness).closing), ("Apartment, edited", None));
+    assert_eq!(closing(&mut harness), None, "nothing is saved yet");
     click(&mut harness, "Close and lose the edits");
     assert!(harness.state().app.should_exit().is_some());
     // undone, there is nothing to lose
@@ -260,7 +267,7 @@ fn what_was_driven_is_saved_and_verifies_to_the_same_digest() {
     harness.run_steps(60);
     harness.key_up(Key::ArrowUp);
     bring(&mut harness, "Reach");
-    drag(&mut harness, "Reach: elbow, theta1 in radians", [-0.6, 0.9]);
+    drag(&mut harness, "Reach: elbow, θ₁ in radians", [-0.6, 0.9]);
     bring(&mut harness, "Hitch");
     click(&mut harness, "put a trailer on");
     harness.run_steps(60);
@@ -304,4 +311,44 @@ fn what_was_driven_is_saved_and_verifies_to_the_same_digest() {
     std::fs::write(&path, b"a cat").unwrap();
     let opened = open_run(harness.state_mut().app.world_mut(), &path).unwrap();
     assert!(opened.is_error && harness.state().transport().tick == stands, "{opened:?}");
+}
+
+#[test]
+fn the_three_robots_come_back_from_any_run_and_a_new_run_says_what_became_of_the_old() {
+    let mut harness = lab(WIDE);
+    let cockpits = |harness: &Harness<'_, Lab>| harness.state().app.world().resource::<Shown>().0.cockpits.len();
+    click(&mut harness, "Atlas");
+    click(&mut harness, "Run this world");
+    assert_eq!(cockpits(&harness), 1);
+    let said = "A new run. Undo brings back the one before.";
+    harness.get_by_label(said);
+    click(&mut harness, "The three robots");
+    assert_eq!(cockpits(&harness), 3);
+    click(&mut harness, "Undo");
+    assert_eq!(cockpits(&harness), 1);
+    // it goes by itself, after ten seconds of forty frames each
+    harness.run_steps(360);
+    harness.get_by_label(said);
+    harness.run_steps(60);
+    assert!(harness.query_by_label(said).is_none());
+    // what went wrong stays
+    let text = "it went wrong".to_owned();
+    interface_mut(&mut harness).say(crate::ui::Notice { text, is_error: true });
+    harness.run_steps(500);
+    harness.get_by_label_contains("it went wrong");
+}
+
+#[test]
+fn an_edited_world_stays_in_the_list_beside_the_world_as_it_came() {
+    let mut harness = lab(WIDE);
+    click(&mut harness, "Atlas");
+    let things = |harness: &Harness<'_, Lab>| atlas(harness).world().obstacles.len();
+    let before = things(&harness);
+    click(&mut harness, "Edit");
+    add(&mut harness, "Add box");
+    assert_eq!(things(&harness), before + 1);
+    choose(&mut harness, "Apartment, as it came");
+    assert_eq!((things(&harness), atlas(&harness).label().as_str()), (before, "Apartment"));
+    choose(&mut harness, "Apartment, edited");
+    assert_eq!((things(&harness), atlas(&harness).label().as_str()), (before + 1, "Apartment, edited"));
 }

@@ -142,9 +142,8 @@ fn sliders(ui: &mut Ui, anatomy: &mut Anatomy) {
         for (i, name) in names.iter().enumerate() {
             let mut step = anatomy.step()[i];
             let most = if anatomy.q().is_angle(i) { std::f64::consts::PI } else { 5.0 };
-            let shown = format!("step of {}", in_signs(name));
-            let name = format!("step of {name}");
-            let response = ui.add(exact(Slider::new(&mut step, -most..=most), 3).text(shown));
+            let name = format!("step of {}", in_signs(name));
+            let response = ui.add(exact(Slider::new(&mut step, -most..=most), 3).text(&name));
             response.widget_info(|| WidgetInfo::slider(true, step, &name));
             if response.changed() {
                 anatomy.set_step(i, step);
@@ -167,6 +166,9 @@ fn inset(ui: &mut Ui, look: &Look, state: &mut UiState) {
 pub(crate) fn prompts(ui: &mut Ui, series: Series, state: &mut UiState) {
     let prompt = series.prompt(state.anatomy.guesses[series as usize].number);
     let label = ui.label(prompt.question);
+    if prompt.shown().checker().robot().name() != state.anatomy.anatomy.checker().robot().name() {
+        ui.weak("It asks of another robot than the one shown: it has a scene of its own.");
+    }
     ui.horizontal(|ui| {
         let guesses = &mut state.anatomy.guesses[series as usize];
         let field = TextEdit::singleline(&mut guesses.typed).desired_width(80.0).hint_text(prompt.unit);
@@ -288,8 +290,9 @@ pub(crate) fn coordinate(ui: &mut Ui, anatomy: &mut Anatomy, index: usize, name:
     // another robot may have been chosen in this very frame
     let Some(mut value) = anatomy.q().coordinates().get(index).copied() else { return };
     let [least, most] = anatomy.range(index);
-    let response = ui.add(exact(Slider::new(&mut value, least..=most), 4).text(in_signs(name)));
-    response.widget_info(|| WidgetInfo::slider(true, value, name));
+    let name = in_signs(name);
+    let response = ui.add(exact(Slider::new(&mut value, least..=most), 4).text(&name));
+    response.widget_info(|| WidgetInfo::slider(true, value, &name));
     if response.changed() {
         anatomy.set_coordinate(index, value);
     }

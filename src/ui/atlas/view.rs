@@ -238,20 +238,27 @@ fn beside_the_paper(ui: &mut Ui, model: &Dashboard, look: &Look, state: &mut UiS
     }
 }
 
-/// Shows the list of worlds: the built-in ones, each as it was left, and opened ones that have edits.
+/// Shows the list of worlds: the built-in ones, each as it was left and, where that has edits, as it came; and opened
+/// ones that have edits.
 fn worlds(ui: &mut Ui, state: &mut UiState) {
     for name in World::built_in_names() {
-        let on_shelf = state.shelf.iter().position(|kept| kept.built_in() == Some(name));
-        if state.atlas.built_in() == Some(name) {
+        let is_its = |kept: &AtlasState| kept.built_in() == Some(name);
+        let is_present = is_its(&state.atlas);
+        let is_left = is_present || state.shelf.iter().any(is_its);
+        let is_there_as_it_came = is_present && !state.atlas.has_history();
+        if is_present {
             _ = ui.selectable_label(true, state.atlas.label());
-        } else if let Some(i) = on_shelf {
-            if ui.selectable_label(false, state.shelf[i].label()).clicked() {
-                state.take_from_shelf(i);
+        }
+        let shelved: Vec<usize> = (0..state.shelf.len()).filter(|i| is_its(&state.shelf[*i])).collect();
+        let chosen = shelved.into_iter().find(|i| ui.selectable_label(false, state.shelf[*i].label()).clicked());
+        if let Some(world) = World::built_in(name).filter(|_| !is_there_as_it_came) {
+            let words = if is_left { format!("{}, as it came", world.name) } else { world.name.clone() };
+            if ui.selectable_label(false, words).clicked() {
+                state.open_world(AtlasState::of(world));
             }
-        } else if let Some(world) = World::built_in(name)
-            && ui.selectable_label(false, &world.name).clicked()
-        {
-            state.open_world(AtlasState::of(world));
+        }
+        if let Some(i) = chosen {
+            state.take_from_shelf(i);
         }
     }
     if state.atlas.built_in().is_none() {

@@ -6,7 +6,7 @@ use bevy_egui::egui::{
 
 use super::values::Crowd;
 use crate::picture::Role;
-use crate::ui::dashboard::drive;
+use crate::ui::dashboard::hand::drive;
 use crate::ui::dashboard::values::thousands;
 use crate::ui::paint::frame::row_height;
 use crate::ui::{Command, Look, UiState};

@@ -14,10 +14,11 @@ use super::values::{Crowd, CrowdRobot};
 use crate::geometry::{Aabb, Point2};
 use crate::picture::{Anchor, Drawing, Face, Fit, Item, Picture, Role};
 use crate::simulation::{History, TickMark};
-use crate::ui::dashboard::pane::{Free, door_clicked, in_hand, point_out, take_in_hand, touched};
+use crate::ui::dashboard::hand::{drive, handles};
+use crate::ui::dashboard::pane::{Free, coming, door_clicked, in_hand, in_reach, point_out, take_in_hand, touched};
 use crate::ui::dashboard::values::thousands;
-use crate::ui::dashboard::words::robot_words;
-use crate::ui::dashboard::{doors, drive, handles, pane};
+use crate::ui::dashboard::words::{by_whom, robot_words};
+use crate::ui::dashboard::{doors, pane};
 use crate::ui::paint::button::LabButton;
 use crate::ui::paint::camera::Camera;
 use crate::ui::paint::canvas;
@@ -168,6 +169,7 @@ fn world(
     if let Some(robot) = armed {
         in_hand(ui, robot, paper, Free { taken: BUTTONS, of: None }, look, state);
     }
+    coming(ui, cockpit, paper, look);
     for robot in cockpit.robots.iter().filter(|r| r.is_arm) {
         handles::handles(ui, robot, paper, &fit, look, state, commands);
     }
@@ -175,7 +177,7 @@ fn world(
     let at_door = door_clicked(&response, cockpit, &fit, touch, commands);
     if response.clicked() && response.interact_pointer_pos().is_none() {
         // by a key: there is no place that was clicked
-        take_in_hand(cockpit, state, commands);
+        take_in_hand(cockpit, in_reach(cockpit), state, commands);
         response.surrender_focus();
     }
     if let Some(at) = response.interact_pointer_pos().filter(|_| response.clicked() && !at_door) {
@@ -195,7 +197,7 @@ fn world(
 /// or picks nobody.
 fn pick(shown: &CrowdPane, near: Option<u32>, picked: Option<u32>, state: &mut UiState, commands: &mut Vec<Command>) {
     if near.is_some() && near == picked {
-        take_in_hand(shown.cockpit, state, commands);
+        take_in_hand(shown.cockpit, in_reach(shown.cockpit), state, commands);
     } else if near.is_none() && state.armed.is_some() {
         drive::let_go(state, commands);
     } else {
@@ -262,7 +264,8 @@ fn heat_link(ui: &mut Ui, shown: &CrowdPane, look: &Look, state: &mut UiState) {
 /// Shows who is picked: its name, buttons to follow and to drive it, its words.
 fn picked(ui: &mut Ui, shown: &CrowdPane, paper: Rect, look: &Look, state: &mut UiState, commands: &mut Vec<Command>) {
     for robot in &shown.cockpit.robots {
-        ui.label(RichText::new(&robot.name).text_style(TextStyle::Body).strong().color(look.colour(Role::Text)));
+        let name = RichText::new(by_whom(robot, robot.name.clone())).text_style(TextStyle::Body).strong();
+        ui.label(name.color(look.colour(Role::Text)));
         ui.horizontal(|ui| {
             let follow = LabButton::new("Follow").selected(state.crowd.follows).show(ui, look);
             if follow.on_hover_text("Keep it in the middle").clicked() {
@@ -274,7 +277,7 @@ fn picked(ui: &mut Ui, shown: &CrowdPane, paper: Rect, look: &Look, state: &mut 
                 let is_driven = state.armed.as_ref() == Some(&robot.name) || handles::have_focus(ui, robot);
                 let drive = LabButton::new("Drive").selected(is_driven).show(ui, look);
                 if drive.on_hover_text("Drive it with the arrow keys").clicked() {
-                    take_in_hand(shown.cockpit, state, commands);
+                    take_in_hand(shown.cockpit, in_reach(shown.cockpit), state, commands);
                 }
             }
         });

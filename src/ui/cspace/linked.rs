@@ -8,10 +8,11 @@ use bevy_egui::egui::{
 };
 
 use super::linked_state::LinkedState;
+use super::put_at::{put_at, to_come, turn_to};
 use crate::configuration::{AnyConfiguration, Coordinates};
 use crate::cspace::{Overlay, overlay_items};
 use crate::geometry::Point2;
-use crate::num::{sin_cos, wrap};
+use crate::num::{atan2, sin_cos, wrap};
 use crate::picture::{Drawing, Fit, Glyph, Item, Line, Picture, Role};
 use crate::robots::AnyRobot;
 use crate::run::{Quantized, RobotInput};
@@ -21,6 +22,9 @@ use crate::ui::{Cockpit, CockpitRobot, Command, Look};
 
 /// Length of the trail, ticks: ten seconds.
 const TRAIL: u64 = 200;
+
+/// Farthest that a robot on wheels goes in a tick, metres. One that moved farther was put there.
+const LEAP: f64 = 0.5;
 
 /// Largest number of cells judged in a frame: fewer than in a widget of its own, for the run goes on beside it, and an
 /// arm of three links has another slice at each tick.
@@ -54,10 +58,24 @@ impl Linked<'_> {
         Some(AnyRobot::of_kind(&self.robot.kind, coordinates)?.1)
     }
 
-    /// Where it was in the last ten seconds, oldest first.
+    /// Where it was in the last ten seconds, oldest first; of a robot on wheels since it last leapt.
     fn trail(&self) -> Vec<AnyConfiguration> {
         let span = self.tick.saturating_sub(TRAIL)..=self.tick;
-        self.history.span(self.robot.id, span).filter_map(|trail| self.configuration(&trail.coordinates)).collect()
+        let been = self.history.span(self.robot.id, span).filter_map(|trail| self.configuration(&trail.coordinates));
+        let mut been: Vec<AnyConfiguration> = been.collect();
+        if let Some(model) = self.robot.model.filter(|_| !self.robot.is_arm) {
+            let is_leap =
+                |pair: &[AnyConfiguration]| (model.reference(&pair[1]) - model.reference(&pair[0])).norm() > LEAP;
+            if let Some(last) = been.windows(2).rposition(is_leap) {
+                been.drain(..=last);
+            }
+        }
+        been
+    }
+
+    /// Whether it is one of the lab's robots, which have spaces to be shown.
+    pub fn is_known(&self) -> bool {
+        self.configuration(&self.robot.coordinates).is_some()
     }
 
     /// The way of its reference point in these seconds: of an arm its tip.
@@ -72,8 +90,8 @@ impl Linked<'_> {
         vec![Item::new(id, "the last ten seconds", Role::Path, Drawing::Polyline(points)).stroked(line)]
     }
 
-    /// Shows the point in `room`, and behind it the cells that are proven, or the world for a car. An arm's is dragged.
-    /// Shows nothing of a robot that is not the lab's.
+    /// Shows the point in `room`, to be dragged, and behind it the cells that are proven, or the world for a car. Shows
+    /// nothing of a robot that is not the lab's.
     pub fn show(
         &self,
         ui: &mut Ui,
@@ -82,12 +100,12 @@ impl Linked<'_> {
         state: &mut LinkedState,
         commands: &mut Vec<Command>,
     ) -> Option<()> {
-        let q = self.configuration(&self.robot.coordinates)?;
+        let q = self.configuration(to_come(self.robot))?;
         let line = ui.text_style_height(&TextStyle::Small);
         let place = Rect::from_min_max(room.min + vec2(0.0, line + 4.0), room.max);
         let (paper, words) = match q {
             AnyConfiguration::Hitch(_) => {
-                (self.among_obstacles(ui, place, look), "x and y, and beside them the headings")
+                (self.among_obstacles(ui, place, look, state, commands), "x and y, and beside them the headings")
             }
             _ => {
                 let is_rover = matches!(q, AnyConfiguration::Pose(_));
@@ -139,19 +157,19 @@ impl Linked<'_> {
         let painter = ui.painter_at(paper);
         canvas::paint_kept(&painter, still, paper, &fit, look);
         canvas::paint(&painter, &over, &fit, look);
-        if self.robot.is_arm {
-            self.handle(ui, Point2::from(slice.point(&q)), &fit, commands);
-        } else {
+        let at = Point2::from(slice.point(&q));
+        if !self.robot.is_arm {
             self.described(ui, paper);
         }
+        self.handle(ui, at, &fit, state, commands);
         Some(paper)
     }
 
-    /// Lets the point of an arm be dragged: the arm follows.
-    fn handle(&self, ui: &mut Ui, at: Point2, fit: &Fit, commands: &mut Vec<Command>) {
+    /// Lets the point be dragged: the robot follows, one on wheels only where it is free.
+    fn handle(&self, ui: &mut Ui, at: Point2, fit: &Fit, linked: &LinkedState, commands: &mut Vec<Command>) {
         let [x, y] = fit.screen_from_world(at);
         let hit = Rect::from_center_size(pos2(x as f32, y as f32), Vec2::splat(HIT));
-        let response = ui.interact(hit, Id::new((&self.robot.name, "configuration")), Sense::drag());
+        let response = ui.interact(hit, Id::new((&self.robot.name, "configuration")), Sense::DRAG);
         let words = format!("{}: its configuration as a point, to be dragged", self.robot.name);
         response.widget_info(|| WidgetInfo::labeled(WidgetType::Other, true, &words));
         if response.drag_started() {
@@ -159,6 +177,10 @@ impl Linked<'_> {
         }
         if let Some(pointer) = response.interact_pointer_pos().filter(|_| response.dragged()) {
             let to = fit.world_from_screen([f64::from(pointer.x), f64::from(pointer.y)]);
+            if !self.robot.is_arm {
+                put_at(self.cockpit, self.robot, to, linked, commands);
+                return;
+            }
             let mut angles = self.robot.target.clone().unwrap_or_else(|| self.robot.coordinates.clone());
             // the plane is that of the last two angles
             let first = angles.len().saturating_sub(2);
@@ -170,7 +192,7 @@ impl Linked<'_> {
             let robot = || self.robot.name.clone();
             commands.extend(moved.map(|input| Command::from(RobotCommand { robot: robot(), input })));
         }
-        response.on_hover_cursor(CursorIcon::Grab).on_hover_text("Drag it: the arm follows");
+        response.on_hover_cursor(CursorIcon::Grab).on_hover_text("Drag it: the robot follows");
     }
 
     fn described(&self, ui: &mut Ui, paper: Rect) {
@@ -180,28 +202,54 @@ impl Linked<'_> {
     }
 
     /// Shows a car's place in its world with its trail, and its headings on a dial.
-    fn among_obstacles(&self, ui: &mut Ui, room: Rect, look: &Look) -> Rect {
+    fn among_obstacles(
+        &self,
+        ui: &mut Ui,
+        room: Rect,
+        look: &Look,
+        linked: &LinkedState,
+        commands: &mut Vec<Command>,
+    ) -> Rect {
         let world = &self.cockpit.world;
         let paper = canvas::proportioned(world, room);
         let fit = canvas::fit(world, paper);
         let painter = ui.painter_at(paper);
         canvas::paint_kept(&painter, world, paper, &fit, look);
         let mut items = self.way();
-        if let [x, y, ..] = self.robot.coordinates[..] {
+        if let [x, y, ..] = to_come(self.robot)[..] {
             let role = if self.robot.flash { Role::Goal } else { Role::Robot };
             let dot = Drawing::Mark { at: Point2::new(x, y), glyph: Glyph::Handle, radius_px: 5.0 };
             items.push(Item::new("now", self.robot.readout.as_str(), role, dot));
         }
         canvas::paint(&painter, &Picture::new("configuration", world.bounds).with(items), &fit, look);
-        self.dial(ui, paper, look);
         self.described(ui, paper);
+        if let [x, y, ..] = to_come(self.robot)[..] {
+            self.handle(ui, Point2::new(x, y), &fit, linked, commands);
+        }
+        self.dial(ui, paper, look, linked, commands);
         paper
     }
 
-    /// Shows the car's heading and its trailer's as needles, and how far the hitch may fold.
-    fn dial(&self, ui: &Ui, paper: Rect, look: &Look) {
+    /// Shows the car's heading and its trailer's as needles, and how far the hitch may fold. The heading is dragged, and
+    /// the car turns where it is free.
+    fn dial(&self, ui: &mut Ui, paper: Rect, look: &Look, linked: &LinkedState, commands: &mut Vec<Command>) {
         let painter = ui.painter_at(paper);
         let centre = paper.right_top() + vec2(-DIAL - 10.0, DIAL + 10.0);
+        let round = Rect::from_center_size(centre, Vec2::splat(2.0 * DIAL));
+        let response = ui.interact(round, Id::new((&self.robot.name, "heading")), Sense::DRAG);
+        let words = format!("{}: its heading on a dial, to be dragged", self.robot.name);
+        response.widget_info(|| WidgetInfo::labeled(WidgetType::Other, true, &words));
+        if response.drag_started() {
+            commands.push(Command::from(TransportCommand::Checkpoint));
+        }
+        if let Some(to) = response.interact_pointer_pos().filter(|_| response.dragged()) {
+            // in the middle there is no direction
+            if (to - centre).length() > 0.2 * DIAL {
+                let heading = atan2(f64::from(centre.y - to.y), f64::from(to.x - centre.x));
+                turn_to(self.cockpit, self.robot, heading, linked, commands);
+            }
+        }
+        response.on_hover_cursor(CursorIcon::Grab).on_hover_text("Drag it: the car turns");
         painter.circle(centre, DIAL, look.theme.colour(Role::Paper), Stroke::new(1.0, look.colour(Role::Muted)));
         let at = |angle: f64, radius: f32| {
             let (s, c) = sin_cos(angle);
@@ -212,8 +260,8 @@ impl Linked<'_> {
             let line = [at(angle, DIAL - 3.0), at(angle, DIAL)];
             painter.line_segment(line, Stroke::new(1.0, look.colour(Role::Muted)));
         }
-        let Some(theta) = self.robot.coordinates.get(2).copied() else { return };
-        if let Some(psi) = self.robot.coordinates.get(3).copied() {
+        let Some(theta) = to_come(self.robot).get(2).copied() else { return };
+        if let Some(psi) = to_come(self.robot).get(3).copied() {
             if let Some(AnyRobot::Hitch(car)) = self.robot.model
                 && let Some(limit) = car.jackknife
             {

@@ -3,6 +3,7 @@
 mod cells;
 pub(crate) mod linked;
 mod linked_state;
+pub(crate) mod put_at;
 mod state;
 mod torus;
 pub(crate) mod view;

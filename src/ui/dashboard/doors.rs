@@ -3,7 +3,7 @@
 use bevy_egui::egui::{TextStyle, TextWrapMode, Ui};
 
 use crate::geometry::{Point2, Segment};
-use crate::picture::{Fit, ScreenPoint};
+use crate::picture::{Anchor, Drawing, Face, Fit, Item, Role, ScreenPoint};
 use crate::run::WorldChange;
 use crate::simulation::{TransportCommand, WorldCommand};
 use crate::ui::{Cockpit, Command};
@@ -21,6 +21,22 @@ pub fn door_at<'a>(cockpit: &'a Cockpit, fit: &Fit, at: ScreenPoint, reach: f64)
     };
     let doors = cockpit.atlas.world().doors.iter().map(|door| (away(door), door));
     doors.filter(|(away, _)| *away <= reach).min_by(|(a, _), (b, _)| a.total_cmp(b)).map(|(_, door)| door)
+}
+
+/// The letters of the doors, each in the middle of its gap: what the links under the paper name.
+pub fn letters(cockpit: &Cockpit) -> Vec<Item> {
+    let letter = |door: &Door| {
+        let label = Drawing::Label {
+            at: door.a + 0.5 * (door.b - door.a),
+            text: door.name.strip_prefix("door ").unwrap_or(&door.name).to_owned(),
+            anchor: Anchor::Centre,
+            face: Face::Sans,
+            size_px: 11.0,
+            plate: true,
+        };
+        Item::new(format!("letter/{}", door.name), door.name.as_str(), Role::Text, label)
+    };
+    cockpit.atlas.world().doors.iter().map(letter).collect()
 }
 
 /// What can be done with a door: `close door A`.

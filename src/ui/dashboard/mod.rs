@@ -1,12 +1,9 @@
 //! The dashboard: the values that it shows, and the views that paint them.
 
-pub(crate) mod arm;
 pub(crate) mod blend;
 pub(crate) mod doors;
-pub(crate) mod drive;
 pub(crate) mod goal;
-pub(crate) mod handles;
-pub(crate) mod pad;
+pub(crate) mod hand;
 pub(crate) mod pane;
 pub(crate) mod plots;
 pub(crate) mod stage;

@@ -3,18 +3,22 @@
 use std::sync::Arc;
 
 use bevy_egui::egui::{
-    CursorIcon, Id, Rect, Response, Sense, Stroke, StrokeKind, TextStyle, Ui, Vec2, WidgetInfo, WidgetType, pos2, vec2,
+    CursorIcon, Id, Label, Rect, Response, RichText, Sense, Stroke, StrokeKind, TextStyle, Ui, Vec2, WidgetInfo,
+    WidgetType, pos2, vec2,
 };
 
+use super::doors;
+use super::hand::bodies::{self, robot_at};
+use super::hand::{drive, handles, pad};
 use super::twins::twin_items;
 use super::words::words_in;
-use super::{doors, drive, handles, pad};
 use crate::anatomy::touching_items;
 use crate::atlas::{self, Atlas};
 use crate::collision::{Collision, Scene};
-use crate::geometry::{Footprint, Part, Pose2, Shape};
+use crate::geometry::{Footprint, Part, Pose2, Shape, Vector2};
 use crate::picture::{Drawing, Fit, Item, Picture, Role, ScanDrawing, fan_scan, pick, places, scan_id};
 use crate::simulation::SensorView;
+use crate::ui::cspace::put_at::is_placeable;
 use crate::ui::paint::camera::Camera;
 use crate::ui::paint::magnifier::{BUTTONS, magnified, magnifier};
 use crate::ui::paint::{canvas, frame};
@@ -24,7 +28,7 @@ use crate::ui::{Cockpit, CockpitRobot, Command, Grasp, Look, Notice, UiState};
 const ROWS: f32 = 8.0;
 
 /// Height kept free for words under a pane on a narrow screen, where they scroll, points: the picture comes first.
-const NARROW_TEXT: f32 = 64.0;
+pub const NARROW_TEXT: f32 = 64.0;
 
 /// Distance within which the pointer points at a drawn thing, points.
 const REACH: f64 = 4.0;
@@ -32,6 +36,9 @@ const REACH: f64 = 4.0;
 /// Distance within which the pointer is at a door, points: with a mouse, and for a finger.
 const DOOR_REACH: f64 = 7.0;
 const TOUCH: f64 = 18.0;
+
+/// Share of a magnified paper's sides that a driven robot keeps off.
+const MARGIN: f32 = 0.25;
 
 /// Height of the text under the paper of a pane of `robots` robots, points. More than three count as three.
 pub fn text_height(ui: &Ui, robots: usize) -> f32 {
@@ -68,6 +75,7 @@ pub fn paper(
     // the focus stays with the world where panes change places
     let response = ui.interact(paper, Id::new(("pane", &cockpit.world.name)), sense);
     let (fit, _) = magnified(ui, &response, &mut camera, &whole, bounds, state.takes_wheel());
+    let fit = followed(cockpit, state, &mut camera, paper, &whole, ui.pixels_per_point()).unwrap_or(fit);
     response.widget_info(|| WidgetInfo::labeled(WidgetType::Button, true, cockpit.described()));
     // a wall on the border of a world that is shown whole is a point wider than the paper
     let painter = ui.painter_at(if camera.zoom > 1.0 { paper } else { paper.expand(1.0) });
@@ -76,29 +84,50 @@ pub fn paper(
         canvas::paint_kept(&painter, plan, paper, &fit, look);
     }
     let mut over = Picture::new(&cockpit.world.name, cockpit.world.bounds);
-    if state.settings.labels {
-        over = over.with(names(ui, cockpit, &fit));
-    }
+    over = if state.settings.labels {
+        over.with(names(ui, cockpit, &fit))
+    } else {
+        // a letter gives way to a robot in its door
+        let is_free = |item: &Item| match item.drawing {
+            Drawing::Label { at, .. } => robot_at(cockpit, at, 0.2).is_none(),
+            _ => true,
+        };
+        over.with(doors::letters(cockpit).into_iter().filter(is_free).collect::<Vec<_>>())
+    };
     let over = over.with(under).with(twin_items(cockpit, state)).with(robots(ui, cockpit, state));
     let over = over.with(touched_by(cockpit, state));
     canvas::paint(&painter, &over, &fit, look);
-    let driven = in_reach(cockpit);
+    let driven = chosen(cockpit, state);
     let armed = driven.filter(|r| state.armed.as_ref() == Some(&r.name) || handles::have_focus(ui, r));
     let role = if armed.is_some() || response.has_focus() { Role::Focus } else { Role::Hairline };
     let width = if armed.is_some() { 2.0 } else { 1.0 };
     painter.rect_stroke(paper, 0.0, Stroke::new(width, look.colour(role)), StrokeKind::Inside);
+    // under the pad
+    let body = bodies::bodies(ui, cockpit, paper, &fit, look, state, commands);
+    if let Some((robot, _)) = body {
+        state.last_held = Some(robot.name.clone());
+    }
     if let Some(robot) = armed {
         let taken = if camera.zoom > 1.0 { BUTTONS } else { 0.0 };
         in_hand(ui, robot, paper, Free { taken, of: Some((cockpit, &fit)) }, look, state);
     }
+    coming(ui, cockpit, paper, look);
     for robot in cockpit.robots.iter().filter(|r| r.is_arm) {
         handles::handles(ui, robot, paper, &fit, look, state, commands);
     }
     // a door is in front of the paper
     let at_door = door_clicked(&response, cockpit, &fit, touched(ui), commands);
+    let reach = if touched(ui) { TOUCH } else { DOOR_REACH };
+    // pressed by a key, the paper has no pointer on it
+    let pointer = if response.clicked() { response.interact_pointer_pos() } else { response.hover_pos() };
+    let at = pointer.map(|at| fit.world_from_screen([at.x, at.y].map(f64::from)));
+    let under = at.and_then(|at| robot_at(cockpit, at, reach / fit.px_per_metre()));
+    let wanted = body.map(|(robot, _)| robot).or(under).or(driven);
     // with a mouse, Esc lets go; a finger has no Esc, so a second tap does
-    if response.clicked() && !at_door && (armed.is_none() || touched(ui)) {
-        take_in_hand(cockpit, state, commands);
+    let is_other = wanted.map(|robot| &robot.name) != armed.map(|robot| &robot.name);
+    let is_clicked = body.is_some_and(|(_, is_clicked)| is_clicked) || response.clicked() && !at_door;
+    if is_clicked && (is_other || touched(ui)) {
+        take_in_hand(cockpit, wanted, state, commands);
         ui.ctx().request_repaint();
         // the arrow keys drive the robot from now on, also when Tab led here
         response.surrender_focus();
@@ -112,15 +141,56 @@ pub fn paper(
     state.cameras.insert(cockpit.world.name.clone(), camera);
     // one thing is said at the pointer at a time
     let is_named = !at_door && point_out(&response, &over, cockpit, &fit);
-    if let Some(robot) = driven.filter(|_| armed.is_none() && !at_door && !is_named && !response.dragged()) {
+    let is_quiet = at_door || is_named || response.dragged() || body.is_some();
+    if let Some(robot) = wanted.filter(|_| !is_quiet && (armed.is_none() || under.is_some() && is_other)) {
         let words = if robot.is_arm {
             format!("{} is moved by its joints: {}", robot.name, joints_to_drag(robot))
+        } else if is_placeable(robot) {
+            format!("Click to drive {}; drag its body to move it", robot.name)
         } else {
             format!("Click to drive {}", robot.name)
         };
         response.on_hover_text_at_pointer(words);
     }
     fit
+}
+
+/// Says on the paper that an input comes with the next tick: there it moves nothing when it comes.
+pub fn coming(ui: &mut Ui, cockpit: &Cockpit, paper: Rect, look: &Look) {
+    if cockpit.robots.iter().any(|robot| robot.waiting) {
+        let row = ui.text_style_height(&TextStyle::Small);
+        let at = Rect::from_min_size(paper.left_bottom() + vec2(12.0, -row - 10.0), vec2(160.0, row));
+        let words = RichText::new("comes with the next tick").small();
+        ui.put(at, Label::new(words.background_color(look.theme.colour(Role::Paper))));
+    }
+}
+
+/// Moves a magnified view along so that the robot that is being driven stays in its middle part. Returns how the world
+/// lies then; `None` where nothing is driven or it is there.
+fn followed(
+    cockpit: &Cockpit,
+    state: &UiState,
+    camera: &mut Camera,
+    paper: Rect,
+    whole: &Fit,
+    scale: f32,
+) -> Option<Fit> {
+    if camera.zoom <= 1.0 || state.held == (0, 0) {
+        return None;
+    }
+    let robot = cockpit.robots.iter().find(|robot| state.armed.as_ref() == Some(&robot.name))?;
+    let (bounds, scale) = (&cockpit.world.bounds, f64::from(scale));
+    let [x, y] = camera.fit(whole, bounds, scale).screen_from_world(robot.footprint.bounds()?.centre());
+    let middle = paper.shrink2(MARGIN * paper.size());
+    let at = pos2(x as f32, y as f32);
+    let off = at - at.clamp(middle.min, middle.max);
+    if off == Vec2::ZERO {
+        return None;
+    }
+    let metres = f64::from(off.x) / (camera.zoom * whole.px_per_metre());
+    let up = f64::from(-off.y) / (camera.zoom * whole.px_per_metre());
+    camera.look_at(camera.middle(bounds) + Vector2::new(metres, up), bounds);
+    Some(camera.fit(whole, bounds, scale))
 }
 
 /// What the cockpit's robots touch in this tick.
@@ -210,18 +280,28 @@ pub fn in_reach(cockpit: &Cockpit) -> Option<&CockpitRobot> {
     robots().find(|r| r.drivable).or_else(|| robots().find(|r| r.is_arm))
 }
 
-/// Takes a pane's robot in hand, of an arm its first handle; lets go of it if it was in hand already. Says so where
-/// there is nothing to take.
-pub fn take_in_hand(cockpit: &Cockpit, state: &mut UiState, commands: &mut Vec<Command>) {
-    let robot = in_reach(cockpit);
+/// The robot of a pane that is in hand, or was last; else the one that can be taken.
+pub fn chosen<'a>(cockpit: &'a Cockpit, state: &UiState) -> Option<&'a CockpitRobot> {
+    let named = |name: &Option<String>| cockpit.robots.iter().find(|robot| name.as_ref() == Some(&robot.name));
+    [&state.armed, &state.nudged, &state.last_held].into_iter().find_map(named).or_else(|| in_reach(cockpit))
+}
+
+/// Takes a robot of a pane in hand, of an arm its first handle; lets go of it if it was in hand already. Says so where
+/// there is none.
+pub fn take_in_hand(cockpit: &Cockpit, robot: Option<&CockpitRobot>, state: &mut UiState, commands: &mut Vec<Command>) {
     let again = robot.is_some_and(|r| [&state.armed, &state.nudged].contains(&&Some(r.name.clone())));
     drive::let_go(state, commands);
     state.next_grasp = Some(Grasp::Leave);
     match robot {
         Some(_) if again => {}
-        Some(robot) if robot.is_arm => state.next_grasp = Some(Grasp::Take(robot.name.clone())),
-        Some(robot) => state.armed = Some(robot.name.clone()),
-        None => {
+        Some(robot) if robot.is_arm || robot.drivable => {
+            state.last_held = Some(robot.name.clone());
+            match robot.is_arm {
+                true => state.next_grasp = Some(Grasp::Take(robot.name.clone())),
+                false => state.armed = Some(robot.name.clone()),
+            }
+        }
+        _ => {
             let text = format!("no robot of {} can be driven", cockpit.world.name);
             state.say(Notice { text, is_error: false });
         }

@@ -115,7 +115,9 @@ impl Screen {
             Some((node.label()?.to_owned(), rect))
         };
         self.controls = tree.into_iter().flat_map(|tree| tree.nodes).filter_map(named).collect();
-        self.shapes = output.shapes.into_iter().map(|clipped| clipped.shape).collect();
+        // what has scrolled away is not seen
+        let seen = output.shapes.into_iter().filter(|s| s.clip_rect.intersects(s.shape.visual_bounding_rect()));
+        self.shapes = seen.map(|clipped| clipped.shape).collect();
         commands
     }
 

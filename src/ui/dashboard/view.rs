@@ -2,8 +2,8 @@
 
 use bevy_egui::egui::{CentralPanel, Frame, Margin, Panel, Rect, Ui};
 
-use super::drive;
-use super::pane::take_in_hand;
+use super::hand::drive;
+use super::pane::{chosen, take_in_hand};
 use super::plots::plots;
 use super::stage::{self, GAP, Stage};
 use crate::manifest::Widget;
@@ -87,7 +87,7 @@ pub fn act(action: Action, model: &Dashboard, state: &mut UiState, commands: &mu
                 if let Some(crowd) = cockpit.crowd.as_ref().filter(|crowd| state.crowd.picked_in(crowd).is_none()) {
                     state.crowd.pick(crowd, Some(crowd.first));
                 }
-                take_in_hand(cockpit, state, commands);
+                take_in_hand(cockpit, chosen(cockpit, state), state, commands);
             } else {
                 let text = format!("the run has no world number {}", pane + 1);
                 state.say(Notice { text, is_error: false });

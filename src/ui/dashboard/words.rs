@@ -5,7 +5,8 @@ use bevy_egui::egui::{
 };
 
 use super::goal::{sideways, trailer_of};
-use super::{doors, handles, twins};
+use super::hand::handles;
+use super::{doors, twins};
 use crate::configuration::RobotKind;
 use crate::manifest::{Formula, Widget};
 use crate::picture::{Fit, Role};
@@ -22,7 +23,7 @@ use crate::ui::{
 const USUAL: f32 = 150.0;
 
 /// Width of a row that has room for a name and the scale, points.
-const BOTH: f32 = 260.0;
+const BOTH: f32 = 300.0;
 
 /// Shows in `rect` what there is to say of a cockpit, whose world lies on the screen as `fit` says.
 pub fn words_in(
@@ -100,7 +101,9 @@ fn scrolled(ui: &mut Ui, cockpit: &Cockpit, add: impl FnOnce(&mut Ui)) {
 
 /// Shows who is seen, and at the right end the scale.
 fn heading(ui: &mut Ui, cockpit: &Cockpit, fit: &Fit, look: &Look) {
-    let name = RichText::new(cockpit.heading()).color(look.colour(Role::Text));
+    let alone = <&[_; 1]>::try_from(&cockpit.robots[..]).ok();
+    let name = alone.map_or_else(|| cockpit.heading(), |[robot]| by_whom(robot, cockpit.heading()));
+    let name = RichText::new(name).color(look.colour(Role::Text));
     if ui.available_width() < BOTH {
         ui.label(name);
         ui.horizontal(|ui| scale_bar(ui, fit.px_per_metre(), look));
@@ -112,6 +115,11 @@ fn heading(ui: &mut Ui, cockpit: &Cockpit, fit: &Fit, look: &Look) {
     });
 }
 
+/// A heading with who drives the robot, if a person does.
+pub fn by_whom(robot: &CockpitRobot, heading: String) -> String {
+    if robot.manual { format!("{heading} \u{b7} driven by hand") } else { heading }
+}
+
 fn formulas(ui: &mut Ui, robot: &CockpitRobot, look: &Look, state: &mut UiState) {
     if let Some(about) = robot.about {
         frame::formulas(ui, &format!("{}.{}", about.name, robot.coordinates.len()), look, state);
@@ -121,12 +129,22 @@ fn formulas(ui: &mut Ui, robot: &CockpitRobot, look: &Look, state: &mut UiState)
 fn words(ui: &mut Ui, cockpit: &Cockpit, look: &Look, state: &mut UiState, commands: &mut Vec<Command>) {
     if let [robot] = &cockpit.robots[..] {
         twins::offer(ui, cockpit, robot, look, state);
-        values(ui, robot, look, state, commands);
-        links(ui, robot, Some(cockpit), look, state, commands);
+        // where the words scroll, what can be done comes first
+        if look.narrow {
+            links(ui, robot, Some(cockpit), look, state, commands);
+            values(ui, robot, look, state, commands);
+        } else {
+            values(ui, robot, look, state, commands);
+            links(ui, robot, Some(cockpit), look, state, commands);
+        }
         formulas(ui, robot, look, state);
     } else {
         // where robots share the room, what can be done with each of them comes first
-        cockpit.robots.iter().for_each(|robot| robot_words(ui, robot, look, state, commands));
+        for robot in &cockpit.robots {
+            ui.label(RichText::new(by_whom(robot, robot.name.clone())).strong());
+            robot_words(ui, robot, look, state, commands);
+            ui.add_space(6.0);
+        }
         doors::row(ui, cockpit, commands);
     }
     if look.narrow {
@@ -199,9 +217,6 @@ fn counts(ui: &mut Ui, robot: &CockpitRobot, look: &Look) {
     let mut text = format!("contacts: {}", robot.contacts);
     if robot.trailer.is_some() {
         text += &format!("  reversals: {}", robot.reversals);
-    }
-    if robot.manual {
-        text += "  driven by hand";
     }
     ui.label(muted(text));
 }
@@ -290,10 +305,6 @@ fn links(
                 }
             }
             (None, None) => {}
-        }
-        // at the end of the row, where it moves no link when it comes
-        if robot.waiting {
-            ui.weak("comes with the next tick");
         }
     });
 }

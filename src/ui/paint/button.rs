@@ -1,19 +1,26 @@
 //! `LabButton`, a button in the lab's style.
 
-use bevy_egui::egui::{Button, Response, RichText, Stroke, Ui, WidgetInfo, WidgetType, vec2};
+use bevy_egui::egui::{Align2, Button, Response, RichText, Stroke, TextStyle, Ui, WidgetInfo, WidgetType, vec2};
 
 use super::icon::Icon;
 use crate::picture::Role;
 use crate::ui::Look;
 
-/// Width of a button with a sign, points.
-const SIGN: f32 = 36.0;
+/// Width of a button with a sign for a mouse, points.
+pub const SIGN: f32 = 36.0;
+
+/// Width of a button with a sign, points: for a finger it is as wide as it is high.
+pub fn sign_width(ui: &Ui) -> f32 {
+    let height = ui.spacing().interact_size.y;
+    if height > 40.0 { height } else { SIGN }
+}
 
 /// A button in the lab's style: enabled and no toggle unless said otherwise.
 #[derive(Clone, Copy, Debug)]
 pub struct LabButton<'a> {
     label: &'a str,
     icon: Option<Icon>,
+    has_words: bool,
     width: f32,
     enabled: bool,
     selected: Option<bool>,
@@ -22,12 +29,17 @@ pub struct LabButton<'a> {
 impl<'a> LabButton<'a> {
     /// A button with this label, which is also its accessible name.
     pub fn new(label: &'a str) -> Self {
-        LabButton { label, icon: None, width: 0.0, enabled: true, selected: None }
+        LabButton { label, icon: None, has_words: false, width: 0.0, enabled: true, selected: None }
     }
 
     /// Shows this sign in place of the label, which stays the accessible name.
     pub fn icon(self, icon: Icon) -> Self {
         LabButton { icon: Some(icon), ..self }
+    }
+
+    /// Shows this sign, and the label small under it.
+    pub fn over_words(self, icon: Icon) -> Self {
+        LabButton { icon: Some(icon), has_words: true, ..self }
     }
 
     /// Makes the button at least this wide, points.
@@ -47,8 +59,10 @@ impl<'a> LabButton<'a> {
 
     /// Shows the button.
     pub fn show(self, ui: &mut Ui, look: &Look) -> Response {
-        let width = if self.icon.is_some() { self.width.max(SIGN) } else { self.width };
-        let size = vec2(width, ui.spacing().interact_size.y);
+        let height = ui.spacing().interact_size.y;
+        let least = if self.has_words { 0.0 } else { sign_width(ui) };
+        let width = if self.icon.is_some() { self.width.max(least) } else { self.width };
+        let size = vec2(width, height);
         let text = RichText::new(if self.icon.is_some() { "" } else { self.label });
         let text = if self.enabled { text } else { text.color(look.tint(Role::Muted, 0.5)) };
         let mut button = Button::new(text).min_size(size);
@@ -66,7 +80,12 @@ impl<'a> LabButton<'a> {
             };
             response.widget_info(info);
             let colour = if self.enabled { look.colour(Role::Text) } else { look.tint(Role::Muted, 0.5) };
-            icon.paint(ui.painter(), response.rect, Stroke::new(1.5, colour));
+            let (sign, words) = response.rect.split_top_bottom_at_fraction(if self.has_words { 0.56 } else { 1.0 });
+            icon.paint(ui.painter(), sign, Stroke::new(1.5, colour));
+            if self.has_words {
+                let font = TextStyle::Small.resolve(ui.style());
+                ui.painter().text(words.center_top(), Align2::CENTER_TOP, self.label, font, colour);
+            }
         }
         response
     }

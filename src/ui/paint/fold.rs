@@ -1,6 +1,7 @@
-//! `fold`, a header that folds what is under it, and `menu`: assistive technology hears whether they are open.
+//! `fold`, a header that folds what is under it, `menu` and `form`: assistive technology hears whether they are open.
 
-use bevy_egui::egui::{CollapsingHeader, Response, Ui};
+use bevy_egui::egui::containers::menu::{MenuButton, MenuConfig};
+use bevy_egui::egui::{CollapsingHeader, PopupCloseBehavior, Response, Ui};
 
 /// Shows a header and, while it is open, what `show` shows under it. It begins open if `is_open`.
 pub fn fold<R>(ui: &mut Ui, name: &str, is_open: bool, show: impl FnOnce(&mut Ui) -> R) {
@@ -12,6 +13,14 @@ pub fn fold<R>(ui: &mut Ui, name: &str, is_open: bool, show: impl FnOnce(&mut Ui
 pub fn menu<R>(ui: &mut Ui, name: &str, show: impl FnOnce(&mut Ui) -> R) {
     let shown = ui.menu_button(name, show);
     tell(&shown.response, shown.inner.is_some());
+}
+
+/// As [`menu`], of fields as well: it stays while they are used, until something beside it is clicked or `show` closes
+/// it.
+pub fn form<R>(ui: &mut Ui, name: &str, show: impl FnOnce(&mut Ui) -> R) {
+    let config = MenuConfig::new().close_behavior(PopupCloseBehavior::CloseOnClickOutside);
+    let (response, shown) = MenuButton::new(name).config(config).ui(ui, show);
+    tell(&response, shown.is_some());
 }
 
 fn tell(header: &Response, is_open: bool) {

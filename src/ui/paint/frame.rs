@@ -204,6 +204,11 @@ fn job(ui: &Ui, formula: &Formula, look: &Look) -> LayoutJob {
     job
 }
 
+/// Whether a hint can be followed with the robot that the widget in front shows.
+fn suits(hint: &Hint, state: &UiState) -> bool {
+    !hint.arm || state.anatomy.anatomy.lengths().is_some()
+}
+
 /// Shows what a new reader may try first in the widget in front, until its hints are put away.
 pub fn hints(ui: &mut Ui, widget: &WidgetText, look: &Look, state: &mut UiState) {
     // what ends on the dashboard, such as a world that is run, says there that it is done
@@ -222,20 +227,19 @@ pub fn hints(ui: &mut Ui, widget: &WidgetText, look: &Look, state: &mut UiState)
     rows_of_words(ui, |ui| {
         // a hint goes to the next row as a whole
         ui.style_mut().wrap_mode = Some(TextWrapMode::Extend);
-        ui.label(RichText::new("Try:").color(look.theme.colour(Role::Focus)).strong());
+        ui.label(RichText::new("Try:").color(look.theme.colour(Role::Text)).strong());
         let is_done = |hint: &&Hint| state.settings.is_ticked_off(hint.deed);
-        let (count, done) = (widget.hints.len(), widget.hints.iter().filter(is_done).count());
+        let hints: Vec<&Hint> = widget.hints.iter().filter(|hint| suits(hint, state)).collect();
+        let (count, done) = (hints.len(), hints.iter().copied().filter(is_done).count());
         // before the hints, where no row leaves them alone
-        if count > FEW {
-            ui.weak(format!("{done} of {count}"));
-        }
+        ui.weak(format!("{done} of {count}"));
         let hover = format!("Put these hints away: {}", keys::hint(Action::Hints));
         let is_put_away = ui.link("Got it").on_hover_text(hover).clicked();
         // of more than fit a row, the one done last and those that come next
-        let last = state.settings.done.iter().rev().find_map(|id| widget.hints.iter().find(|h| h.deed.id() == *id));
+        let last = state.settings.done.iter().rev().find_map(|id| hints.iter().copied().find(|h| h.deed.id() == *id));
         let mut open = 0;
         let mut begun = None;
-        for hint in &widget.hints {
+        for hint in hints {
             let is_done = is_done(&hint);
             open += usize::from(!is_done);
             let is_shown = count <= FEW || (if is_done { last == Some(hint) } else { open < FEW });
@@ -264,10 +268,11 @@ pub fn next_hint(ui: &mut Ui, widget: &WidgetText, look: &Look, state: &mut UiSt
         return;
     }
     let is_open = |hint: &&Hint| !state.settings.is_ticked_off(hint.deed);
-    let (count, open) = (widget.hints.len(), widget.hints.iter().filter(is_open).count());
-    let next = widget.hints.iter().find(is_open).or(widget.hints.last());
+    let hints: Vec<&Hint> = widget.hints.iter().filter(|hint| suits(hint, state)).collect();
+    let (count, open) = (hints.len(), hints.iter().copied().filter(is_open).count());
+    let next = hints.iter().copied().find(is_open).or(hints.last().copied());
     rows_of_words(ui, |ui| {
-        ui.label(RichText::new("Try:").color(look.theme.colour(Role::Focus)).strong());
+        ui.label(RichText::new("Try:").color(look.theme.colour(Role::Text)).strong());
         ui.weak(format!("{} of {count} done", count - open));
         if ui.link("Got it").on_hover_text("Put these hints away").clicked() {
             state.settings.put_hints_away(state.widget);
@@ -285,7 +290,7 @@ pub fn next_hint(ui: &mut Ui, widget: &WidgetText, look: &Look, state: &mut UiSt
 fn lesson(ui: &mut Ui, under_way: &LessonState, look: &Look, state: &mut UiState) {
     let widget = under_way.lesson.widget.text();
     rows_of_words(ui, |ui| {
-        ui.label(RichText::new("Task:").color(look.theme.colour(Role::Focus)).strong());
+        ui.label(RichText::new("Task:").color(look.theme.colour(Role::Text)).strong());
         let begin = |ui: &mut Ui| ui.link("Again").on_hover_text("Begin this task anew").clicked();
         let mut is_begun = task(ui, under_way.lesson.text(), under_way.took.is_some(), look).clicked();
         if let Some(took) = under_way.took {

@@ -1,6 +1,8 @@
 //! `Icon`, the drawn signs on buttons. Each button says its name on hover and to screen readers.
 
-use bevy_egui::egui::{Painter, Pos2, Rect, Shape, Stroke, Vec2, pos2, vec2};
+use bevy_egui::egui::{Painter, Pos2, Rect, Shape, Stroke, StrokeKind, Vec2, pos2, vec2};
+
+use crate::manifest::Widget;
 
 /// A sign on a button.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -27,6 +29,29 @@ pub enum Icon {
     Undo,
     /// An arrow ahead.
     Redo,
+    /// A round robot with a nose.
+    Rover,
+    /// The nearest points of a robot and an obstacle.
+    Witness,
+    /// A point in a square with a region that is blocked.
+    Space,
+    /// The plan of two rooms.
+    Rooms,
+    /// A way round an obstacle.
+    Way,
+}
+
+impl Icon {
+    /// The sign of a widget.
+    pub const fn of(widget: Widget) -> Icon {
+        match widget {
+            Widget::Dashboard => Icon::Rover,
+            Widget::Anatomy => Icon::Witness,
+            Widget::Cspace => Icon::Space,
+            Widget::Atlas => Icon::Rooms,
+            Widget::Plan => Icon::Way,
+        }
+    }
 }
 
 /// Half the height of a sign, points.
@@ -75,15 +100,40 @@ impl Icon {
             Icon::Reset => turn(painter, c, [4.2, -0.6], stroke),
             Icon::Die => {
                 let half = vec2(HALF, HALF);
-                painter.rect_stroke(
-                    Rect::from_min_max(c - half, c + half),
-                    2.0,
-                    stroke,
-                    bevy_egui::egui::StrokeKind::Middle,
-                );
+                painter.rect_stroke(Rect::from_min_max(c - half, c + half), 2.0, stroke, StrokeKind::Middle);
                 for (x, y) in [(-0.5, -0.5), (0.0, 0.0), (0.5, 0.5)] {
                     painter.circle_filled(at(x, y), 1.2, stroke.color);
                 }
+            }
+            Icon::Rover => {
+                painter.circle_stroke(c, 1.15 * HALF, stroke);
+                let nose = [(-0.5, -0.6), (0.95, 0.0), (-0.5, 0.6)].map(|(x, y)| at(x, y));
+                painter.add(Shape::convex_polygon(nose.to_vec(), stroke.color, Stroke::NONE));
+            }
+            Icon::Witness => {
+                painter.line_segment([at(1.3, -1.2), at(1.3, 1.2)], Stroke::new(2.0 * stroke.width, stroke.color));
+                painter.circle_stroke(at(-1.0, 0.0), 0.4 * HALF, stroke);
+                painter.line_segment([at(-0.6, 0.0), at(1.3, 0.0)], stroke);
+            }
+            Icon::Space => {
+                let square = Rect::from_center_size(c, Vec2::splat(2.3 * HALF));
+                painter.rect_stroke(square, 0.0, stroke, StrokeKind::Middle);
+                let blocked = [(-1.15, 0.1), (-0.3, 0.4), (0.1, 1.15), (-1.15, 1.15)].map(|(x, y)| at(x, y));
+                painter.add(Shape::convex_polygon(blocked.to_vec(), stroke.color, Stroke::NONE));
+                painter.circle_filled(at(0.4, -0.4), 2.0, stroke.color);
+            }
+            Icon::Rooms => {
+                let walls = [(-1.4, -1.1), (1.4, -1.1), (1.4, 1.1), (-1.4, 1.1), (-1.4, -1.1)].map(|(x, y)| at(x, y));
+                painter.add(Shape::line(walls.to_vec(), stroke));
+                painter.line_segment([at(0.1, -1.1), at(0.1, 0.2)], stroke);
+                painter.line_segment([at(0.1, 0.2), at(0.7, 0.2)], stroke);
+            }
+            Icon::Way => {
+                let way = [(-1.3, 0.9), (-0.7, -0.9), (0.6, -1.0), (1.3, 0.7)].map(|(x, y)| at(x, y));
+                painter.add(Shape::line(way.to_vec(), stroke));
+                way.into_iter().for_each(|corner| _ = painter.circle_filled(corner, 2.0, stroke.color));
+                let post = Rect::from_center_size(at(0.0, 0.6), Vec2::splat(0.8 * HALF));
+                painter.rect_stroke(post, 0.0, stroke, StrokeKind::Middle);
             }
             Icon::Undo => turn(painter, c, [0.9, -2.7], stroke),
             Icon::Redo => turn(painter, c, [2.2, 5.8], stroke),

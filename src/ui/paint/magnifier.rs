@@ -31,7 +31,9 @@ pub fn magnified(
         camera.look_at(Point2::new(centre.x - f64::from(by.x) / scale, centre.y + f64::from(by.y) / scale), bounds);
         ui.ctx().set_cursor_icon(CursorIcon::Grabbing);
     }
-    if let Some(at) = response.hover_pos().filter(|_| response.contains_pointer()) {
+    // also where something on the paper is under the pointer
+    let over = ui.input(|i| i.pointer.hover_pos()).filter(|_| ui.rect_contains_pointer(response.rect));
+    if let Some(at) = over {
         let fingers = ui.input(|i| f64::from(i.zoom_delta()));
         // what magnifies does not also scroll what the paper lies in
         let wheel = if wheel { ui.input_mut(|i| std::mem::take(&mut i.smooth_scroll_delta.y)) } else { 0.0 };

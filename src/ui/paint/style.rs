@@ -102,11 +102,11 @@ impl Theme {
         let mono = |size| FontId::new(size, FontFamily::Monospace);
         let mut style = Style { visuals: self.visuals(), animation_time: 0.12, ..Style::default() };
         style.text_styles = [
-            (TextStyle::Small, sans(11.0)),
-            (TextStyle::Body, sans(13.0)),
-            (TextStyle::Button, sans(13.0)),
+            (TextStyle::Small, sans(12.0)),
+            (TextStyle::Body, sans(14.0)),
+            (TextStyle::Button, sans(14.0)),
             (TextStyle::Heading, sans(18.0)),
-            (TextStyle::Monospace, mono(11.0)),
+            (TextStyle::Monospace, mono(12.0)),
         ]
         .into();
         style.spacing.item_spacing = [8.0, 4.0].into();

@@ -10,7 +10,8 @@ use crate::random::Seed;
 use crate::run::DT;
 use crate::simulation::{History, TransportCommand};
 use crate::ui::keys::{Action, hint};
-use crate::ui::paint::button::LabButton;
+use crate::ui::paint::button::{LabButton, SIGN, sign_width};
+use crate::ui::paint::fold::form;
 use crate::ui::paint::icon::Icon;
 use crate::ui::paint::plate::{Place, plate, refusal};
 use crate::ui::{Command, Dashboard, Look, SeedDraft, UiState};
@@ -53,17 +54,17 @@ pub fn act(action: Action, model: &Dashboard, commands: &mut Vec<Command>) {
     commands.extend(command.map(Command::from));
 }
 
-/// Width below which the bar takes two rows and a menu, points.
+/// Width below which the bar takes two rows and a menu, points, and how many signs it holds else.
 const ONE_ROW: f32 = 960.0;
+const GROUPED: f32 = 8.0;
 
 /// Width of the note beside the time, points.
 const NOTE: f32 = 180.0;
 
-/// Width below which a narrow screen has one sign less, points.
-const NARROWEST: f32 = 320.0;
-
-/// Width below which the one row of a low window has two signs less, points.
-const ALL_IN_A_ROW: f32 = 640.0;
+/// Width of the menu beside the signs of a narrow screen, points; of the time alone, and of seed, time and tick.
+const MENU: f32 = 60.0;
+const TIME: f32 = 60.0;
+const SEED_AND_TIME: f32 = 270.0;
 
 /// Shows the time line and the bar under it, on a `narrow` screen in more rows.
 pub fn transport_bar(
@@ -80,15 +81,16 @@ pub fn transport_bar(
     if look.low {
         // a low window has no room for two rows
         ui.horizontal(|ui| {
-            let less = if ui.available_width() < ALL_IN_A_ROW { 2 } else { 0 };
-            essential(ui, model, look, less, commands);
+            essential(ui, model, look, (SEED_AND_TIME, false), state, commands);
             seed_and_time(ui, model, look, state, commands);
         });
-    } else if narrow || ui.available_width() < ONE_ROW {
+    } else if narrow {
         ui.horizontal(|ui| {
-            let less = usize::from(ui.available_width() < NARROWEST);
-            essential(ui, model, look, less, commands);
+            essential(ui, model, look, (TIME, true), state, commands);
+            time(ui, model, look);
         });
+    } else if ui.available_width() < ONE_ROW + GROUPED * (sign_width(ui) - SIGN) {
+        ui.horizontal(|ui| essential(ui, model, look, (0.0, false), state, commands));
         ui.horizontal(|ui| seed_and_time(ui, model, look, state, commands));
     } else {
         ui.horizontal(|ui| {
@@ -105,15 +107,33 @@ pub fn transport_bar(
     }
 }
 
-/// Shows the signs of a narrow screen but for the last `less`, which its menu has with all the rest.
-fn essential(ui: &mut Ui, model: &Dashboard, look: &Look, less: usize, commands: &mut Vec<Command>) {
-    let (seen, hidden) = ESSENTIAL.split_at(ESSENTIAL.len() - less);
+/// Shows the signs of a narrow screen for which there is room beside its menu and what else is in the row, `beside`
+/// points wide. The menu has all the rest, and the seed if asked for.
+fn essential(
+    ui: &mut Ui,
+    model: &Dashboard,
+    look: &Look,
+    (beside, has_seed): (f32, bool),
+    state: &mut UiState,
+    commands: &mut Vec<Command>,
+) {
+    let (sign, gap) = (sign_width(ui), ui.spacing().item_spacing.x);
+    let room = ui.available_width() - beside - MENU - (PLAY_WIDTH - sign);
+    let count = (room / (sign + gap)).max(2.0) as usize;
+    let (seen, hidden) = ESSENTIAL.split_at(count.min(ESSENTIAL.len()));
     buttons(ui, model, look, seen, commands);
-    ui.menu_button("More", |ui| {
+    form(ui, "More", |ui| {
+        let before = commands.len();
         for (label, action) in hidden.iter().map(|(label, _, action)| (*label, *action)).chain(MORE) {
             button(ui, model, (LabButton::new(label), action), look, commands);
         }
+        if commands.len() > before {
+            ui.close();
+        }
         speed_choice(ui, model, commands);
+        if has_seed {
+            seed(ui, model, look, state, commands);
+        }
     });
 }
 
@@ -193,11 +213,28 @@ fn speed_choice(ui: &mut Ui, model: &Dashboard, commands: &mut Vec<Command>) {
 
 /// Shows the seed, and at the right end the time.
 fn seed_and_time(ui: &mut Ui, model: &Dashboard, look: &Look, state: &mut UiState, commands: &mut Vec<Command>) {
-    if let Some(seed) = seed_field(ui, model.seed, look, state) {
-        commands.push(Command::from(TransportCommand::SetSeed(seed)));
+    seed(ui, model, look, state, commands);
+    time(ui, model, look);
+}
+
+/// Shows the seed, and asks for a new one that is entered.
+fn seed(ui: &mut Ui, model: &Dashboard, look: &Look, state: &mut UiState, commands: &mut Vec<Command>) {
+    let is_in_row = ui.layout().is_horizontal();
+    let mut show = |ui: &mut Ui| seed_field(ui, model.seed, is_in_row, look, state);
+    let entered = if is_in_row { show(ui) } else { ui.horizontal(show).inner };
+    // in a column there is room for the reason under the field
+    if let Some(draft) = state.seed.as_ref().filter(|draft| !is_in_row && draft.is_refused) {
+        refusal(ui, &no_seed(&draft.text), look);
     }
+    commands.extend(entered.map(|seed| Command::from(TransportCommand::SetSeed(seed))));
+}
+
+/// Shows the time at the right end, where there is room with the tick and a note.
+fn time(ui: &mut Ui, model: &Dashboard, look: &Look) {
+    let is_short = ui.available_width() < 170.0;
     ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-        let time = format!("{:7.2} s  tick {:5}", DT * model.tick as f64, model.tick);
+        let seconds = DT * model.tick as f64;
+        let time = if is_short { format!("{seconds:.2} s") } else { format!("{seconds:7.2} s  tick {:5}", model.tick) };
         ui.label(RichText::new(time).monospace());
         // without room for both, the note is left out
         if let Some(behind) = model.behind.as_ref().filter(|_| ui.available_width() > NOTE) {
@@ -208,8 +245,8 @@ fn seed_and_time(ui: &mut Ui, model: &Dashboard, look: &Look, state: &mut UiStat
 }
 
 /// Shows the seed as an editable field and returns a new one when Enter is pressed. Text that is no seed stays for
-/// mending, with the reason at the field, until it is a seed or Escape puts the present one back.
-fn seed_field(ui: &mut Ui, seed: Seed, look: &Look, state: &mut UiState) -> Option<Seed> {
+/// mending until it is a seed or Escape puts the present one back; in a row with the reason over the field.
+fn seed_field(ui: &mut Ui, seed: Seed, is_in_row: bool, look: &Look, state: &mut UiState) -> Option<Seed> {
     let label = ui.label("seed");
     let draft = state.seed.take().filter(|draft| draft.of == seed);
     let was_refused = draft.as_ref().is_some_and(|draft| draft.is_refused);
@@ -220,14 +257,18 @@ fn seed_field(ui: &mut Ui, seed: Seed, look: &Look, state: &mut UiState) -> Opti
     let typed: Option<Seed> = text.trim().parse().map(Seed).ok();
     let left_by = |key| response.lost_focus() && ui.input(|i| i.key_pressed(key));
     let is_refused = typed.is_none() && (was_refused || left_by(Key::Enter)) && !left_by(Key::Escape);
-    if is_refused {
+    if is_refused && is_in_row {
         let place = Place { at: label.rect.left_top() - vec2(0.0, 6.0), pivot: Align2::LEFT_BOTTOM, width: 340.0 };
-        let words = format!("{}: a seed is a whole number from 0 to {}", text.trim(), u64::MAX);
-        plate(ui.ctx(), "seed", place, false, look, |ui| refusal(ui, &words, look));
+        plate(ui.ctx(), "seed", place, false, look, |ui| refusal(ui, &no_seed(&text), look));
     }
     let entered = left_by(Key::Enter);
     if is_refused || response.has_focus() {
         state.seed = Some(SeedDraft { text, of: seed, is_refused });
     }
     typed.filter(|new| entered && *new != seed)
+}
+
+/// Why a text is no seed.
+fn no_seed(text: &str) -> String {
+    format!("{}: a seed is a whole number from 0 to {}", text.trim(), u64::MAX)
 }

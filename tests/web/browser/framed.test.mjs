@@ -190,7 +190,7 @@ lab("a page around begins a lesson by an address or a message, and hears when it
   await page.waitForTimeout(700);
   assert.equal(await page.evaluate((all) => all.at(-1).done, heard), false);
   await frame.evaluate(() => {
-    const slider = window.received.tree.find((w) => w.kind === "slider" && w.name === "th2");
+    const slider = window.received.tree.find((w) => w.kind === "slider" && w.name === "θ₂");
     window.motionLab.send({ do: "act", id: slider.id, action: "set", value: "1.42" });
   });
   const { seconds } = await last("near", true);

@@ -54,7 +54,7 @@ lab("Rusty and Hitch are driven by keys, Reach by dragging", "/?seed=7", async (
   await lab.send({ do: "pause" });
   const before = (await lab.until((s) => !s.playing)).robots.find((r) => r.name === "Reach").configuration;
   await lab.click(/^Bring Reach/);
-  const from = await lab.at("Reach: tip, theta2 in radians");
+  const from = await lab.at("Reach: tip, θ₂ in radians");
   await lab.drag(from, [from[0] - 60, from[1] + 50]);
   await lab.send({ do: "step" });
   const after = (await lab.until((s) => s.robots.some((r) => r.name === "Reach" && r.driven))).robots.find((r) => r.name === "Reach").configuration;
@@ -293,7 +293,7 @@ lab("everything is done by keyboard alone, and Tab is not trapped", "/", async (
   await keyboard.press("Escape");
   await lab.until((s) => s.armed === null);
   await press(/^Bring Reach/);
-  const theta = lab.page.getByLabel("Reach: theta1");
+  const theta = lab.page.getByLabel("Reach: θ₁");
   await theta.focus();
   await theta.fill("0.5");
   await lab.until((s) => s.robots.some((r) => r.name === "Reach" && /th1: 0.500/.test(r.configuration)));
@@ -302,7 +302,7 @@ lab("everything is done by keyboard alone, and Tab is not trapped", "/", async (
 lab("the accessibility tree tells what the canvas shows", "/?tick=200", async (lab) => {
   await lab.find("Play");
   await lab.click(/^Bring Reach/);
-  await lab.find("Reach: theta1");
+  await lab.find("Reach: θ₁");
   const session = await lab.context.newCDPSession(lab.page);
   const { nodes } = await session.send("Accessibility.getFullAXTree");
   const named = (role) => nodes.filter((n) => n.role?.value === role && !n.ignored).map((n) => n.name?.value);
@@ -310,7 +310,7 @@ lab("the accessibility tree tells what the canvas shows", "/?tick=200", async (l
   assert.ok(named("popUpButton").concat(named("combobox")).concat(buttons).includes("speed: 1 x"), `${buttons}`);
   for (const name of ["Play", "Step", "Reset", "Re-roll", "Copy link", "Save run", "Drive", "Atlas"]) assert.ok(buttons.includes(name), `${name} among ${buttons}`);
   assert.ok(named("textbox").includes("seed"), named("textbox").join());
-  assert.ok(named("spinbutton").includes("Reach: theta1"), named("spinbutton").join());
+  assert.ok(named("spinbutton").includes("Reach: θ₁"), named("spinbutton").join());
   const rusty = nodes.find((n) => n.role?.value === "button" && n.name?.value === "Bring Rusty · Apartment to the front (1). Apartment. Rusty");
   assert.match(rusty.description.value, /^Pose2 \{ x: /, "the readouts are beside the names");
   assert.ok(nodes.some((n) => n.role?.value === "status"), "a live region");
@@ -426,7 +426,7 @@ lab("a page embeds one widget, sized to its frame, and speaks with it", "/widget
   const frame = await (await lab.page.waitForSelector('iframe[title="Dashboard"]')).contentFrame();
   await frame.waitForFunction(() => window.motionLab?.state, null, { timeout: 60000 });
   const names = await frame.evaluate(() => [...document.querySelectorAll("#controls button")].map((b) => b.textContent));
-  assert.ok(names.includes("Reset") && !names.includes("Atlas"), "no rail: one widget");
+  assert.ok(names.includes("Step") && !names.includes("Atlas"), "no rail: one widget");
   const heard = await lab.page.evaluate(
     () =>
       new Promise((done) => {

@@ -7,24 +7,24 @@ fn dragging_the_elbow_keeps_theta2_and_the_dragged_tip_follows_the_pointer() {
     let mut harness = lab(WIDE);
     let held = |q: &Coordinates, i: usize| (q[i] * 1e5).round();
     bring(&mut harness, "Reach");
-    drag(&mut harness, "Reach: elbow, theta1 in radians", [-0.6, 0.9]);
+    drag(&mut harness, "Reach: elbow, θ₁ in radians", [-0.6, 0.9]);
     let first = harness.state().robot(1);
     let bearing = crate::num::atan2(0.9, -0.6);
     assert!(first.manual && (first.coordinates[0] - bearing).abs() < 0.01, "{:?}", first.coordinates);
     harness.run_steps(20);
     assert_eq!(harness.state().robot(1).coordinates, first.coordinates, "it stays where it was put");
-    drag(&mut harness, "Reach: elbow, theta1 in radians", [0.3, -1.0]);
+    drag(&mut harness, "Reach: elbow, θ₁ in radians", [0.3, -1.0]);
     let second = harness.state().robot(1);
     assert_eq!(held(&second.coordinates, 1), held(&first.coordinates, 1), "theta2 is kept");
     let radius = |r: &RobotView| r.tip.map(|t| t.coords.norm());
     assert!((radius(&second).unwrap() - radius(&first).unwrap()).abs() < 1e-5, "a circle about the base");
-    drag(&mut harness, "Reach: tip, theta2 in radians", [1.5, 0.5]);
+    drag(&mut harness, "Reach: tip, θ₂ in radians", [1.5, 0.5]);
     let third = harness.state().robot(1);
     let is_at = |r: &RobotView, x: f64, y: f64| (r.tip.unwrap() - crate::geometry::Point2::new(x, y)).norm() < 0.01;
     assert!(is_at(&third, 1.5, 0.5), "both joints follow: {:?}", third.tip);
     assert_eq!(third.coordinates[1] > 0.0, second.coordinates[1] > 0.0, "on its side");
     // beyond its reach the arm points at the pointer, straight, and comes back to the side where it was
-    drag(&mut harness, "Reach: tip, theta2 in radians", [1.8, 1.8]);
+    drag(&mut harness, "Reach: tip, θ₂ in radians", [1.8, 1.8]);
     let straight = harness.state().robot(1);
     let half = std::f64::consts::SQRT_2;
     assert!(is_at(&straight, half, half), "{:?}", straight.tip);
@@ -48,7 +48,7 @@ fn a_focused_handle_is_nudged_and_numbers_are_typed() {
     pause(&mut harness);
     bring(&mut harness, "Reach");
     let before = harness.state().robot(1).coordinates;
-    harness.get_by_label("Reach: tip, theta2 in radians").focus();
+    harness.get_by_label("Reach: tip, θ₂ in radians").focus();
     harness.run_steps(2);
     let tick = harness.state().transport().tick;
     harness.key_press(Key::ArrowLeft);
@@ -67,7 +67,7 @@ fn a_focused_handle_is_nudged_and_numbers_are_typed() {
     }
     let nudged = harness.state().robot(1).coordinates;
     assert!((nudged[1] - before[1] - 0.02).abs() < 1e-5 && (nudged[0] - before[0]).abs() < 1e-5);
-    harness.get_by_label("Reach: theta1").focus();
+    harness.get_by_label("Reach: θ₁").focus();
     harness.run_steps(2);
     harness.key_combination_modifiers(Modifiers::COMMAND, &[Key::A]);
     harness.step();
@@ -103,7 +103,7 @@ fn an_arm_of_three_links_walks_while_its_tip_stays() {
     // a dragged tip keeps the first joint
     let before = harness.state().robot(1);
     let to = before.tip.unwrap() * 0.9;
-    drag(&mut harness, "Reach: tip, theta3 in radians", [to.x, to.y]);
+    drag(&mut harness, "Reach: tip, θ₃ in radians", [to.x, to.y]);
     click(&mut harness, "Step");
     let after = harness.state().robot(1);
     assert!((after.tip.unwrap() - to).norm() < 0.01, "{:?} {to}", after.tip);
@@ -199,7 +199,7 @@ fn what_blocks_the_way_to_the_other_elbow_is_named_and_the_arm_stays() {
     let after = harness.state().robot(1);
     assert_eq!((&after.coordinates, after.contacts), (&before.coordinates, before.contacts), "it stays");
     // moved by somebody else, the arm is not the one that this was said of
-    drag(&mut harness, "Reach: elbow, theta1 in radians", [0.3, -1.0]);
+    drag(&mut harness, "Reach: elbow, θ₁ in radians", [0.3, -1.0]);
     assert!(harness.query_by_label_contains("the straight way").is_none());
 }
 
@@ -231,7 +231,7 @@ fn a_tip_that_was_out_of_reach_bends_back_to_its_side() {
     bring(&mut harness, "Reach");
     for bend in [1.0, -1.0] {
         put(&mut harness, [-0.6, bend]);
-        let from = harness.get_by_label("Reach: tip, theta2 in radians").rect().center();
+        let from = harness.get_by_label("Reach: tip, θ₂ in radians").rect().center();
         let base = paper(&harness, "Workbench").center();
         pointer(&mut harness, from, Some(true));
         for far in [1.1, 1.2, 1.3, 1.2, 1.1, 1.0] {

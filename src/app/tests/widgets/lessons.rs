@@ -162,7 +162,7 @@ const LESSONS: [Lesson; 11] = [
             reader.click("swept");
         },
         |reader| {
-            let slider = reader.harness.get_by_role_and_label(egui::accesskit::Role::Slider, "step of th1").rect();
+            let slider = reader.harness.get_by_role_and_label(egui::accesskit::Role::Slider, "step of θ₁").rect();
             reader.click_at(slider.left_center() + egui::vec2(0.27 * 180.0, 0.0));
         },
     ),

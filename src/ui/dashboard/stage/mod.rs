@@ -1,13 +1,16 @@
 //! The stage: one cockpit in front and the others small beside it, all side by side, or one alone, on a narrow screen
 //! or over the whole window.
 
+mod places;
+
 use bevy_egui::egui::{
     Align, Align2, CursorIcon, Id, Layout, Pos2, Rect, RichText, ScrollArea, Sense, Stroke, StrokeKind, TextStyle, Ui,
     UiBuilder, WidgetInfo, WidgetType, pos2, vec2,
 };
 
-use super::drive;
-use super::pane::{self, text_height};
+use self::places::{Places, WIDE, below_paper, places, share};
+use super::hand::drive;
+use super::pane::{self, NARROW_TEXT, text_height};
 use super::twins::shown_twin;
 use super::words::{height_of, words_apart, words_in};
 use crate::manifest::Widget;
@@ -23,33 +26,21 @@ use crate::ui::{Cockpit, Command, Dashboard, Grasp, Look, UiState, tools};
 /// Gap between panes, and between the panes and the window's border, points.
 pub const GAP: f32 = 20.0;
 
-/// Share of the stage's width for what stands beside the cockpit in front, and its bounds, points.
-const BESIDE: f32 = 0.34;
-const LEAST_BESIDE: f32 = 280.0;
-const MOST_BESIDE: f32 = 420.0;
-
 /// Largest height of a small cockpit's paper, points, and its share of the room.
 const SMALL: f32 = 190.0;
 const SHARE_OF_SMALL: f32 = 0.3;
 
-/// Share of a tall room's height for the cockpit in front, at most.
-const ABOVE: f32 = 0.62;
-
-/// Rows of words under the cockpit in front, and the height from which on the column beside it has room for all words.
+/// Rows of words under the cockpit in front.
 const FOOT: f32 = 3.0;
-const HIGH: f32 = 680.0;
+
+/// Height kept free for the words under the pictures of a narrow screen, where they scroll, points.
+const NARROW_WORDS: f32 = 120.0;
+
+/// Width of the menu beside the tabs, points.
+const MENU: f32 = 70.0;
 
 /// Least width for the words beside the cockpit in front in a low room, points.
 const LEAST_WORDS: f32 = 170.0;
-
-/// Width from which words and configuration stand side by side, points.
-const WIDE: f32 = 560.0;
-
-/// Height that words take in a wide room, points.
-const WORDS: f32 = 260.0;
-
-/// Least height of the configuration beside the cockpit in front, with its line of words, points.
-const LEAST_SPACE: f32 = 96.0;
 
 /// Width of the window from which three equal panes are offered, points.
 const ROOMY: f32 = 1600.0;
@@ -137,10 +128,11 @@ impl Stage<'_> {
 
     /// The robot of a cockpit that can be taken in hand, with its past.
     fn linked<'a>(&'a self, cockpit: &'a Cockpit, state: &UiState) -> Option<Linked<'a>> {
-        let robot = pane::in_reach(cockpit)?;
+        let robot = pane::chosen(cockpit, state)?;
         let way = state.twin.as_ref().is_some_and(|asked| asked.is_way_of(&robot.name));
         let twin = shown_twin(robot, state).filter(|_| cockpit.robots.len() == 1);
-        Some(Linked { cockpit, robot, tick: self.model.tick, history: self.history, twin, way })
+        let linked = Linked { cockpit, robot, tick: self.model.tick, history: self.history, twin, way };
+        Some(linked).filter(Linked::is_known)
     }
 
     /// Shows cockpits small in a row at the top of `room`. Returns where the row ends.
@@ -212,12 +204,23 @@ impl Stage<'_> {
         words_in(&mut ui, words, cockpit, &fit, self.look, state, commands);
     }
 
-    /// Shows one cockpit.
+    /// Shows one cockpit: its world, under it its configuration, and under both its words.
     fn alone(&self, ui: &mut Ui, state: &mut UiState, commands: &mut Vec<Command>) {
-        if let Some((_, cockpit)) = front(&self.model.cockpits, state) {
-            let rect = ui.available_rect_before_wrap();
-            self.pane(ui, cockpit, rect, state, commands);
+        let Some((_, cockpit)) = front(&self.model.cockpits, state) else { return };
+        let room = ui.available_rect_before_wrap();
+        let linked = self.linked(cockpit, state).filter(|_| cockpit.crowd.is_none());
+        let Some(linked) = linked else { return self.pane(ui, cockpit, room, state, commands) };
+        let most = room.with_max_y((room.bottom() - NARROW_TEXT).max(room.top() + 60.0));
+        let sheet = canvas::proportioned(&cockpit.world, most);
+        let fit = pane::paper(ui, cockpit, sheet, linked.way(), self.look, state, commands);
+        let below = room.with_min_y(sheet.bottom() + 6.0);
+        // a picture that has half of the screen needs no other beside it
+        let is_large = sheet.height() >= 0.5 * ui.ctx().content_rect().height();
+        let (space, words) = if is_large { (None, below) } else { below_paper(below, NARROW_WORDS) };
+        if let Some(space) = space {
+            linked.show(ui, space, self.look, &mut state.linked, commands);
         }
+        words_in(ui, words, cockpit, &fit, self.look, state, commands);
     }
 
     /// Shows the world in front over all the room, and under it a row: its name, the way back, the scale.
@@ -300,6 +303,8 @@ pub fn front<'a>(cockpits: &'a [Cockpit], state: &UiState) -> Option<(usize, &'a
 pub fn header(ui: &mut Ui, model: &Dashboard, look: &Look, state: &mut UiState, commands: &mut Vec<Command>) {
     ui.horizontal_wrapped(|ui| {
         tabs(ui, model, state, commands);
+        // the menu is no tab: it stands at the right end
+        ui.add_space((ui.available_size_before_wrap().x - MENU).max(0.0));
         tools::menu_button(ui, model, look, state, commands);
     });
     if state.lesson.is_some() {
@@ -319,54 +324,6 @@ fn tabs(ui: &mut Ui, model: &Dashboard, state: &mut UiState, commands: &mut Vec<
     }
 }
 
-/// Where the cockpit in front is, and what there is to say of it.
-struct Places {
-    /// Its world.
-    sheet: Rect,
-    /// The room under its world for a part of the words, if the room beside it is too low for all.
-    foot: Option<Rect>,
-    /// The room for the other cockpits, the words and the configuration.
-    beside: Rect,
-}
-
-/// The places in a room, whose foot is `foot` high where there is one.
-fn places(cockpit: &Cockpit, room: Rect, foot: f32) -> Places {
-    let world = &cockpit.world;
-    if room.height() > room.width() {
-        let sheet = canvas::proportioned(world, room.with_max_y(room.top() + ABOVE * room.height()));
-        return Places { sheet, foot: None, beside: room.with_min_y(sheet.bottom() + 12.0) };
-    }
-    let width = (BESIDE * room.width()).clamp(LEAST_BESIDE, MOST_BESIDE).min(0.6 * room.width());
-    let left = room.with_max_x(room.right() - width - GAP);
-    let whole = canvas::proportioned(world, left);
-    let is_free = room.bottom() - whole.bottom() >= foot;
-    let is_high = room.height() >= HIGH || room.right() - whole.right() - GAP >= WIDE;
-    // where robots share the room, what can be done with each stays with its words; a small world has no foot to give
-    if cockpit.robots.len() != 1 || (is_high || left.width() < WIDE) && !is_free {
-        return Places { sheet: whole, foot: None, beside: room.with_min_x(whole.right() + GAP) };
-    }
-    let sheet = canvas::proportioned(world, left.with_max_y((room.bottom() - foot).max(room.top())));
-    let under = Rect::from_min_max(pos2(sheet.left(), sheet.bottom() + 6.0), pos2(sheet.right(), room.bottom()));
-    Places { sheet, foot: Some(under), beside: room.with_min_x(sheet.right() + GAP) }
-}
-
-/// Shares a room between the words, which need a height, and the configuration: side by side where it is wide and not
-/// high, else one below the other. Without room for both, the words have it all.
-fn share(room: Rect, words: f32) -> (Rect, Option<Rect>) {
-    // not by what the words need now, so that the two do not change places as words come and go
-    let is_high = room.height() - WORDS >= 0.5 * room.width();
-    if room.width() >= WIDE && room.height() >= LEAST_SPACE && !is_high {
-        let (words, space) = room.split_left_right_at_fraction(0.5);
-        return (words.with_max_x(words.right() - GAP), Some(space));
-    }
-    let side = (room.height() - words - 6.0).min(room.width()).min(0.5 * room.height());
-    if side < LEAST_SPACE {
-        return (room, None);
-    }
-    let (words, space) = room.split_top_bottom_at_y(room.bottom() - side);
-    (words, Some(space.with_min_y(space.top() + 6.0)))
-}
-
 /// Where a small cockpit is.
 #[derive(Clone, Copy)]
 struct Placed {
@@ -376,25 +333,4 @@ struct Placed {
     whole: Rect,
     /// The rectangle of its world.
     paper: Rect,
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn words_and_configuration_share_what_room_there_is() {
-        let room = |w: f32, h: f32| Rect::from_min_size(pos2(100.0, 50.0), vec2(w, h));
-        for (w, h) in [(600.0, 300.0), (400.0, 500.0), (300.0, 900.0)] {
-            let room = room(w, h);
-            let (words, space) = share(room, 150.0);
-            let space = space.unwrap_or_else(|| panic!("{w} by {h} has room for both"));
-            assert!(room.contains_rect(words) && room.contains_rect(space) && !words.shrink(0.1).intersects(space));
-            assert!(space.width().min(space.height()) >= 120.0 && words.height() >= 0.5 * h, "{w} by {h}");
-        }
-        // what the words need is theirs
-        let high = room(400.0, 330.0);
-        assert_eq!(share(high, 200.0).0.height(), 206.0);
-        assert_eq!(share(high, 240.0), (high, None));
-    }
 }

@@ -36,6 +36,11 @@ fn followed(robot: &CockpitRobot, to: Point2, bends_down: bool) -> Option<Coordi
     Some(robot.model?.dragged(&q, to, bends_down).coordinates())
 }
 
+/// The sign of a joint's angle, counted from 0, as the pictures have it.
+fn joint_sign(joint: usize) -> String {
+    in_signs(&format!("th{}", joint + 1))
+}
+
 /// Asks for these joint angles by the end of the next tick.
 fn move_to(robot: &CockpitRobot, to: &[f64], commands: &mut Vec<Command>) {
     let target: Option<Vec<Quantized>> = to.iter().map(|angle| Quantized::try_new(*angle)).collect();
@@ -76,6 +81,7 @@ pub fn handles(
         }
         if handle(ui, robot, link, &points, &on, look, commands) {
             state.nudged = Some(robot.name.clone());
+            state.last_held = Some(robot.name.clone());
         }
     }
 }
@@ -122,7 +128,7 @@ fn handle(
     let hit = if hit.is_positive() { hit } else { Rect::from_min_size(at.max(clip.min).min(clip.max), Vec2::ZERO) };
     let response = ui.interact(hit, id, Sense::click_and_drag());
     let angle = angles(robot).get(link).copied().unwrap_or_default();
-    let label = format!("{}: {name}, theta{} in radians", robot.name, link + 1);
+    let label = format!("{}: {name}, {} in radians", robot.name, joint_sign(link));
     response.widget_info(|| WidgetInfo::slider(true, angle, &label));
     if response.drag_started() || response.clicked() {
         response.request_focus();
@@ -200,11 +206,11 @@ pub fn numbers(ui: &mut Ui, robot: &CockpitRobot, look: &Look, commands: &mut Ve
     ui.horizontal(|ui| {
         ui.spacing_mut().button_padding = [4.0, 1.0].into();
         for (i, angle) in to.iter_mut().enumerate() {
-            let label = ui.label(RichText::new(in_signs(&format!("th{}", i + 1))).color(look.colour(Role::Text)));
+            let label = ui.label(RichText::new(joint_sign(i)).color(look.colour(Role::Text)));
             let field = DragValue::new(angle).speed(0.01).fixed_decimals(3).range(-3.2..=3.2);
             let response = ui.add(field).labelled_by(label.id);
             response.widget_info(|| WidgetInfo {
-                label: Some(format!("{}: theta{}", robot.name, i + 1)),
+                label: Some(format!("{}: {}", robot.name, joint_sign(i))),
                 ..WidgetInfo::new(WidgetType::DragValue)
             });
             if response.drag_started() || response.gained_focus() {

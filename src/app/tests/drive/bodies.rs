@@ -1,0 +1,156 @@
+//! Robots on wheels moved by hand: by their bodies, by their points, by the dial; and two of them in one world.
+
+use super::*;
+use crate::collision::{Collision, Scene};
+use crate::geometry::{Footprint, Point2};
+use crate::worlds::{Resident, World as Model};
+
+/// The pane of a built-in world, and how the world lies in it.
+fn fit(harness: &Harness<'_, Lab>, world: &Model) -> crate::picture::Fit {
+    crate::ui::paint::canvas::fit(&crate::picture::world(world), paper(harness, &world.name))
+}
+
+fn on_screen(harness: &Harness<'_, Lab>, world: &Model, [x, y]: [f64; 2]) -> Pos2 {
+    let [x, y] = fit(harness, world).screen_from_world(Point2::new(x, y));
+    pos2(x as f32, y as f32)
+}
+
+fn drag_by(harness: &mut Harness<'_, Lab>, from: Pos2, to: Pos2) {
+    pointer(harness, from, Some(true));
+    for i in 1..=20 {
+        pointer(harness, from.lerp(to, i as f32 / 20.0), None);
+    }
+    harness.run_steps(2);
+}
+
+/// Whether two numbers differ by the rounding of inputs at most.
+fn same(a: f64, b: f64) -> bool {
+    (a - b).abs() < 2e-6
+}
+
+/// Where the script puts a robot last, and how often it does.
+fn put(harness: &Harness<'_, Lab>) -> (Vec<f64>, usize) {
+    let places = harness.state().script().events.iter().filter_map(|event| match &event.input {
+        RobotInput::Teleport(to) => Some(to.iter().map(|c| c.value()).collect::<Vec<_>>()),
+        _ => None,
+    });
+    let places: Vec<_> = places.collect();
+    (places.last().cloned().unwrap_or_default(), places.len())
+}
+
+#[test]
+fn a_rover_is_dragged_by_its_body_and_stays_out_of_the_furniture() {
+    let mut harness = lab(WIDE);
+    pause(&mut harness);
+    let world = Model::apartment();
+    let before = harness.state().robot(0).coordinates;
+    let body = harness.get_by_label("Rusty: its body, to be dragged").rect().center();
+    let to = on_screen(&harness, &world, [before[0] + 0.5, before[1] - 0.25]);
+    drag_by(&mut harness, body, to);
+    let (there, count) = put(&harness);
+    let off = [there[0] - before[0] - 0.5, there[1] - before[1] + 0.25];
+    assert!(off.iter().all(|off| off.abs() < 0.02) && same(there[2], before[2]), "{before:?} {there:?}");
+    assert_eq!(count, 1, "paused, a drag is one input");
+    harness.get_by_label("comes with the next tick");
+    // into the round table of room B, 0.5 m about (6, 6.75)
+    let table = on_screen(&harness, &world, [6.0, 6.75]);
+    drag_by(&mut harness, to, table);
+    let shown = super::super::safe::words(&harness);
+    assert!(shown.iter().any(|(text, ..)| text == "B's round table"), "what is in the way has its name");
+    pointer(&mut harness, table, Some(false));
+    let (there, _) = put(&harness);
+    let scene = Scene::of_world(&world);
+    assert!(!scene.intersects(&Footprint::disc(Point2::new(there[0], there[1]), 0.11)), "{there:?}");
+    assert!((there[0] - 6.0).hypot(there[1] - 6.75) > 0.61, "{there:?}");
+    click(&mut harness, "Step");
+    let now = harness.state().robot(0);
+    assert!(now.manual && now.refusals == 0 && (now.coordinates[0] - there[0]).abs() < 1e-9, "{:?}", now.coordinates);
+    click(&mut harness, "Undo");
+    assert_eq!(put(&harness).1, 0, "one thing to undo");
+}
+
+#[test]
+fn a_point_and_a_dial_are_dragged_and_the_car_follows() {
+    let mut harness = lab(WIDE);
+    pause(&mut harness);
+    bring(&mut harness, "Hitch");
+    let before = harness.state().robot(2).coordinates;
+    let dial = harness.get_by_label("Hitch: its heading on a dial, to be dragged").rect().center();
+    drag_by(&mut harness, dial + egui::vec2(18.0, 0.0), dial + egui::vec2(12.0, -12.0));
+    let (turned, _) = put(&harness);
+    assert!((turned[2] - std::f64::consts::FRAC_PI_4).abs() < 1e-3, "up and to the right: {turned:?}");
+    assert!(same(turned[0], before[0]) && same(turned[1], before[1]), "it turns on the spot");
+    pointer(&mut harness, dial + egui::vec2(12.0, -12.0), Some(false));
+    let point = harness.get_by_label("Hitch: its configuration as a point, to be dragged").rect().center();
+    drag_by(&mut harness, point, point + egui::vec2(12.0, -6.0));
+    let (moved, count) = put(&harness);
+    assert!(moved[0] > turned[0] && moved[1] > turned[1] && same(moved[2], turned[2]), "{turned:?} {moved:?}");
+    assert!(((moved[0] - turned[0]) / (moved[1] - turned[1]) - 2.0).abs() < 0.1, "twice as far across as up");
+    assert_eq!(count, 1);
+}
+
+#[test]
+fn where_two_robots_share_a_world_a_click_takes_the_one_under_it() {
+    let mut harness = lab(WIDE);
+    let mut model = Model::apartment();
+    let first = model.robots[0].clone();
+    model.robots.push(Resident { name: "Second".into(), start: vec![6.0, 4.0, 0.0], ..first });
+    let config = crate::tour::TourConfig { worlds: vec![model.clone()], ..Default::default() };
+    let world = harness.state_mut().app.world_mut();
+    world.resource_mut::<Transport>().playback = Playback::Paused;
+    crate::app::session::new_run(world, config, crate::tour::BOOK_SEED).unwrap();
+    harness.run_steps(4);
+    for name in ["Rusty", "Second"] {
+        super::super::safe::read_whole(&harness, name);
+    }
+    let armed = |harness: &Harness<'_, Lab>| interface(harness).armed.clone();
+    let at = harness.get_by_label("Second: its body, to be dragged").rect().center();
+    click_at(&mut harness, at);
+    assert_eq!(armed(&harness).as_deref(), Some("Second"));
+    // beside every robot the one in hand stays
+    let beside = on_screen(&harness, &model, [6.0, 2.0]);
+    click_at(&mut harness, beside);
+    assert_eq!(armed(&harness).as_deref(), Some("Second"));
+    harness.key_press(Key::Escape);
+    harness.run_steps(2);
+    let at = harness.get_by_label("Rusty: its body, to be dragged").rect().center();
+    click_at(&mut harness, at);
+    harness.key_down(Key::ArrowUp);
+    harness.run_steps(4);
+    harness.key_up(Key::ArrowUp);
+    harness.run_steps(2);
+    let driven: Vec<&str> = harness.state().script().events.iter().map(|event| event.robot.as_str()).collect();
+    assert!(!driven.is_empty() && driven.iter().all(|robot| *robot == "Rusty"), "{driven:?}");
+    // neither is put onto the other
+    let other = harness.state().robot(1).footprint.parts()[0].pose().position();
+    let from = harness.get_by_label("Rusty: its body, to be dragged").rect().center();
+    let to = on_screen(&harness, &model, [other.x, other.y]);
+    drag_by(&mut harness, from, to);
+    let (there, _) = put(&harness);
+    assert!((there[0] - other.x).hypot(there[1] - other.y) > 0.22, "{there:?} is on the other");
+}
+
+#[test]
+fn a_magnified_view_goes_along_with_the_robot_that_is_driven() {
+    let mut harness = lab(WIDE);
+    arm_rusty(&mut harness);
+    for _ in 0..4 {
+        harness.key_press(Key::Plus);
+        harness.run_steps(2);
+    }
+    let camera = |harness: &Harness<'_, Lab>| interface(harness).cameras["Apartment"];
+    assert!(camera(&harness).zoom > 4.0);
+    harness.key_down(Key::ArrowUp);
+    let from = harness.state().robot(0).footprint.parts()[0].pose().position();
+    for _ in 0..60 {
+        harness.run_steps(10);
+        let rusty = harness.state().robot(0).footprint.parts()[0].pose().position();
+        let paper = paper(&harness, "Apartment");
+        let bounds = Model::apartment().bounds;
+        let whole = crate::ui::paint::canvas::fit(&crate::picture::world(&Model::apartment()), paper);
+        let [x, y] = camera(&harness).fit(&whole, &bounds, 1.0).screen_from_world(rusty);
+        assert!(paper.shrink(20.0).contains(pos2(x as f32, y as f32)), "({x}, {y}) off {paper}");
+    }
+    let to = harness.state().robot(0).footprint.parts()[0].pose().position();
+    assert!((to - from).norm() > 1.0, "the test drives: {from} {to}");
+}
