@@ -221,8 +221,8 @@ impl UiState {
         self.notices.get(&self.widget)
     }
 
-    /// Shows a message in the widget in front, until it is dismissed or another comes there; one that reports no error goes
-    /// by itself.
+    /// Shows a message in the widget in front, until it is dismissed or another comes there. One that reports no error
+    /// goes by itself.
     pub fn say(&mut self, notice: Notice) {
         self.say_in(self.widget, notice);
     }

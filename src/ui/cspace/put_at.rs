@@ -59,8 +59,8 @@ pub fn turn_to(
 }
 
 /// Asks that a robot have these coordinates by the next tick. Where it would overlap or touch an obstacle or another
-/// robot, or fold beyond its limits, it asks nothing, and returns the robot's footprint there. Asks nothing for what is no configuration of one of
-/// the lab's robots.
+/// robot, or fold beyond its limits, it asks nothing, and returns the robot's footprint there. Asks nothing for what is
+/// no configuration of one of the lab's robots.
 fn put(
     cockpit: &Cockpit,
     robot: &CockpitRobot,
