@@ -118,3 +118,18 @@ fn a_run_begins_where_the_atlas_has_its_robot() {
     assert_eq!(harness.state().robot(0).coordinates, there);
     assert_eq!(harness.state().app.world().resource::<RunConfig>().0.worlds.len(), 1);
 }
+
+#[test]
+fn each_door_bears_its_letter() {
+    let harness = lab(WIDE);
+    let words = super::safe::words(&harness);
+    for (letter, x, y) in [("B", 6.0, 4.75), ("E", 8.0625, 3.25)] {
+        let door =
+            crate::worlds::World::apartment().doors.into_iter().find(|door| door.name == format!("door {letter}"));
+        let door = door.expect("a door");
+        let middle = door.a + 0.5 * (door.b - door.a);
+        assert!((middle.x - x).abs() < 0.5 && (middle.y - y).abs() < 0.5, "{letter}: {middle}");
+        let ink = words.iter().find(|(text, ..)| text == letter).expect(letter).1;
+        assert!(ink.center().distance(in_the_apartment(&harness, [middle.x, middle.y])) < 4.0, "{letter} at {ink}");
+    }
+}

@@ -106,8 +106,10 @@ fn swatch(ui: &Ui, role: Role, at: bevy_egui::egui::Pos2, look: &Look) {
         }
         Role::Focus => drop(painter.rect_stroke(square, 0.0, Stroke::new(2.0, colour), StrokeKind::Inside)),
         Role::Goal => {
-            painter.line_segment([at - vec2(4.0, 4.0), at + vec2(4.0, 4.0)], line);
-            painter.line_segment([at + vec2(-4.0, 4.0), at + vec2(4.0, -4.0)], line);
+            // a contact is a ring in one picture, a cross in another
+            painter.circle_stroke(at, 5.0, Stroke::new(1.2, colour));
+            painter.line_segment([at - vec2(2.2, 2.2), at + vec2(2.2, 2.2)], line);
+            painter.line_segment([at + vec2(-2.2, 2.2), at + vec2(2.2, -2.2)], line);
         }
         Role::Path | Role::Witness => drop(painter.line_segment([at - vec2(5.0, 0.0), at + vec2(5.0, 0.0)], line)),
         _ => drop(painter.circle_filled(at, 4.5, colour)),

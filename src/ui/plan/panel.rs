@@ -7,7 +7,7 @@ use crate::capture::{proven, unit};
 use crate::collision::{Collision, Scene};
 use crate::configuration::{AnyConfiguration, Configuration, HitchCfg};
 use crate::picture::{Role, in_signs};
-use crate::plans::{PathLengths, PlannerName, Task};
+use crate::plans::{PathLengths, PlannerName, TUBE, Task};
 use crate::random::Seed;
 use crate::robots::{AnyRobot, Robot};
 use crate::ui::anatomy::view::{chooser, exact};
@@ -26,6 +26,10 @@ pub fn panel(ui: &mut Ui, look: &Look, state: &mut UiState, commands: &mut Vec<C
     task_choice(ui, state);
     let plan = &mut state.plan;
     planner_choice(ui, plan);
+    if let AnyRobot::Rusty(_) = plan.task().robot {
+        let words = format!("Its radius has {TUBE} m to spare: played, it keeps within that of its path.");
+        ui.label(RichText::new(words).small());
+    }
     sensor_choice(ui, plan);
     seed(ui, plan);
     ui.add_space(4.0);

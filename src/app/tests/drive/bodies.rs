@@ -101,7 +101,7 @@ fn where_two_robots_share_a_world_a_click_takes_the_one_under_it() {
     crate::app::session::new_run(world, config, crate::tour::BOOK_SEED).unwrap();
     harness.run_steps(4);
     for name in ["Rusty", "Second"] {
-        super::super::safe::read_whole(&harness, name);
+        harness.get_by_label(name);
     }
     let armed = |harness: &Harness<'_, Lab>| interface(harness).armed.clone();
     let at = harness.get_by_label("Second: its body, to be dragged").rect().center();

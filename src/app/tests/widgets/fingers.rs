@@ -83,6 +83,39 @@ fn a_finger_seeks_by_a_tap_or_sideways_and_not_on_its_way_up_or_down() {
 }
 
 #[test]
+fn a_swipe_over_a_world_brings_the_one_beside_it_to_the_front() {
+    let mut harness = lab(PHONE);
+    pause(&mut harness);
+    let world = |harness: &Harness<'_, Lab>| interface(harness).settings.world;
+    // the corridor, with no robot and no door near
+    let at = |harness: &Harness<'_, Lab>, name: &str| {
+        let paper = paper(harness, name);
+        paper.min + egui::vec2(0.55, 0.53) * paper.size()
+    };
+    let from = at(&harness, "Apartment");
+    swipe(&mut harness, from, egui::vec2(120.0, 10.0));
+    assert_eq!(world(&harness), 0, "there is none before the first");
+    swipe(&mut harness, from, egui::vec2(-40.0, -120.0));
+    assert_eq!(world(&harness), 0, "upright it scrolls");
+    swipe(&mut harness, from, egui::vec2(-160.0, 10.0));
+    assert_eq!(world(&harness), 1, "one swipe, one world");
+    let from = at(&harness, "Workbench") + egui::vec2(100.0, 120.0);
+    swipe(&mut harness, from, egui::vec2(-120.0, 0.0));
+    assert_eq!(world(&harness), 2);
+    let from = at(&harness, "Lot") + egui::vec2(0.0, -60.0);
+    swipe(&mut harness, from, egui::vec2(120.0, 0.0));
+    assert_eq!(world(&harness), 1);
+    // what drags something swipes nothing
+    ui(&mut harness, |ui| ui.settings.world = 0);
+    harness.run_steps(3);
+    for across in [120.0, -120.0] {
+        let body = harness.get_by_label("Rusty: its body, to be dragged").rect().center();
+        swipe(&mut harness, body, egui::vec2(across, 0.0));
+    }
+    assert_eq!(world(&harness), 0);
+}
+
+#[test]
 fn the_focus_stays_with_its_world_where_panes_change_places() {
     let mut harness = lab(WIDE);
     let focused = |h: &Harness<'_, Lab>| {

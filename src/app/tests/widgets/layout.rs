@@ -233,3 +233,16 @@ fn no_word_of_a_widget_is_cut_off_at_its_right_where_320_points_are_all_the_widt
         }
     }
 }
+
+#[test]
+fn on_a_phone_the_configuration_stands_below_the_world_and_both_take_near_half_the_height() {
+    for (world, robot) in [(0, "Rusty"), (2, "Hitch")] {
+        let mut harness = lab(PHONE);
+        interface_mut(&mut harness).settings.world = world;
+        harness.run_steps(6);
+        let paper = paper(&harness, ["Apartment", "Workbench", "Lot"][world as usize]);
+        let space = harness.get_by_label_contains(&format!("Configuration of {robot}")).rect();
+        assert!(space.top() > paper.bottom() && space.width() > 150.0, "{robot}: {paper} {space}");
+        assert!(space.bottom() - paper.top() >= 0.45 * PHONE[1], "{robot}: {paper} {space}");
+    }
+}

@@ -2,6 +2,7 @@
 //! or over the whole window.
 
 mod places;
+mod swipe;
 
 use bevy_egui::egui::{
     Align, Align2, CursorIcon, Id, Layout, Pos2, Rect, RichText, ScrollArea, Sense, Stroke, StrokeKind, TextStyle, Ui,
@@ -9,6 +10,7 @@ use bevy_egui::egui::{
 };
 
 use self::places::{Places, WIDE, below_paper, places, share};
+use self::swipe::swiped;
 use super::hand::drive;
 use super::pane::{self, NARROW_TEXT, text_height};
 use super::twins::shown_twin;
@@ -206,13 +208,21 @@ impl Stage<'_> {
 
     /// Shows one cockpit: its world, under it its configuration, and under both its words.
     fn alone(&self, ui: &mut Ui, state: &mut UiState, commands: &mut Vec<Command>) {
-        let Some((_, cockpit)) = front(&self.model.cockpits, state) else { return };
+        let Some((index, cockpit)) = front(&self.model.cockpits, state) else { return };
         let room = ui.available_rect_before_wrap();
         let linked = self.linked(cockpit, state).filter(|_| cockpit.crowd.is_none());
         let Some(linked) = linked else { return self.pane(ui, cockpit, room, state, commands) };
         let most = room.with_max_y((room.bottom() - NARROW_TEXT).max(room.top() + 60.0));
         let sheet = canvas::proportioned(&cockpit.world, most);
         let fit = pane::paper(ui, cockpit, sheet, linked.way(), self.look, state, commands);
+        let is_whole = state.cameras.get(&cockpit.world.name).is_none_or(|camera| camera.zoom <= 1.0);
+        // a magnified world is moved instead
+        let to = index as i32 + if is_whole { swiped(ui, sheet) } else { 0 };
+        if to != index as i32 && (0..self.model.cockpits.len() as i32).contains(&to) {
+            drive::let_go(state, commands);
+            state.next_grasp = Some(Grasp::Leave);
+            state.settings.world = to as u32;
+        }
         let below = room.with_min_y(sheet.bottom() + 6.0);
         // a picture that has half of the screen needs no other beside it
         let is_large = sheet.height() >= 0.5 * ui.ctx().content_rect().height();
