@@ -183,7 +183,7 @@ fn is_read(ui: &Ui, notice: &Notice) -> bool {
     let since = kept.filter(|(text, _)| *text == notice.text && !is_held).map_or(now, |(_, since)| since);
     let left = since + STAYS - now;
     ui.data_mut(|data| data.insert_temp(id, (notice.text.clone(), since)));
-    ui.ctx().request_repaint_after_secs(left.max(0.1) as f32);
+    ui.ctx().request_repaint_after_secs((left as f32).max(0.1));
     left <= 0.0
 }
 

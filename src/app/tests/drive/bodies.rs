@@ -61,7 +61,7 @@ fn a_rover_is_dragged_by_its_body_and_stays_out_of_the_furniture() {
     let (there, _) = put(&harness);
     let scene = Scene::of_world(&world);
     assert!(!scene.intersects(&Footprint::disc(Point2::new(there[0], there[1]), 0.11)), "{there:?}");
-    assert!((there[0] - 6.0).hypot(there[1] - 6.75) > 0.61, "{there:?}");
+    assert!(crate::num::hypot(there[0] - 6.0, there[1] - 6.75) > 0.61, "{there:?}");
     click(&mut harness, "Step");
     let now = harness.state().robot(0);
     assert!(now.manual && now.refusals == 0 && (now.coordinates[0] - there[0]).abs() < 1e-9, "{:?}", now.coordinates);
@@ -127,7 +127,7 @@ fn where_two_robots_share_a_world_a_click_takes_the_one_under_it() {
     let to = on_screen(&harness, &model, [other.x, other.y]);
     drag_by(&mut harness, from, to);
     let (there, _) = put(&harness);
-    assert!((there[0] - other.x).hypot(there[1] - other.y) > 0.22, "{there:?} is on the other");
+    assert!(crate::num::hypot(there[0] - other.x, there[1] - other.y) > 0.22, "{there:?} is on the other");
 }
 
 #[test]
