@@ -230,7 +230,7 @@ impl Linked<'_> {
         paper
     }
 
-    /// Shows the car's heading and its trailer's as needles, and how far the hitch may fold. The heading is dragged, and
+    /// Shows the car's heading and its trailer's as needles, and how far the hitch may fold. The car's is dragged, and
     /// the car turns where it is free.
     fn dial(&self, ui: &mut Ui, paper: Rect, look: &Look, linked: &LinkedState, commands: &mut Vec<Command>) {
         let painter = ui.painter_at(paper);
