@@ -36,7 +36,7 @@ pub fn cspace_view(ui: &mut Ui, model: &Dashboard, look: &Look, state: &mut UiSt
     }
     let room = ui.available_rect_before_wrap();
     let text = if look.low {
-        0.3 * room.height()
+        0.25 * room.height()
     } else if narrow {
         160.0
     } else {
