@@ -279,8 +279,7 @@ pub fn carry_out(world: &mut World, commands: Vec<Command>) {
                 world.write_message(command);
             }
             Command::Session(SessionCommand::Links { robot, links }) => {
-                let refused = |error: SessionError| Notice { text: error.to_string(), is_error: true };
-                let notice = change_links(world, &robot, links).map_or_else(refused, |()| begun_anew());
+                let notice = said_of(change_links(world, &robot, links));
                 world.resource_mut::<Interface>().0.say(notice);
             }
             Command::Session(SessionCommand::PutRobot { robot }) => {
@@ -303,19 +302,14 @@ pub fn carry_out(world: &mut World, commands: Vec<Command>) {
                 let config = TourConfig { worlds: vec![model], ..TourConfig::default() };
                 let ran = new_run(world, config, seed);
                 let ui = &mut world.resource_mut::<Interface>().into_inner().0;
-                match ran {
-                    Ok(()) => {
-                        ui.widget = Widget::Dashboard;
-                        ui.say(begun_anew());
-                    }
-                    Err(error) => ui.say(Notice { text: error.to_string(), is_error: true }),
+                if ran.is_ok() {
+                    ui.widget = Widget::Dashboard;
                 }
+                ui.say(said_of(ran));
             }
             Command::Session(SessionCommand::ThreeRobots) => {
                 let seed = world.resource::<Transport>().seed;
-                let ran = new_run(world, TourConfig::default(), seed);
-                let refused = |error: SessionError| Notice { text: error.to_string(), is_error: true };
-                let notice = ran.map_or_else(refused, |()| begun_anew());
+                let notice = said_of(new_run(world, TourConfig::default(), seed));
                 world.resource_mut::<Interface>().0.say(notice);
             }
             Command::Session(SessionCommand::PlayPath) => play_path(world),
@@ -328,9 +322,12 @@ pub fn carry_out(world: &mut World, commands: Vec<Command>) {
     }
 }
 
-/// What is said where a new run took the place of another.
-fn begun_anew() -> Notice {
-    Notice { text: "A new run. Undo brings back the one before.".to_owned(), is_error: false }
+/// What is said where a new run took the place of another, or could not.
+fn said_of(ran: Result<(), SessionError>) -> Notice {
+    match ran {
+        Ok(()) => Notice { text: "A new run. Undo brings back the one before.".to_owned(), is_error: false },
+        Err(error) => Notice { text: error.to_string(), is_error: true },
+    }
 }
 
 /// Starts a run in which the plan's robot plays its path alone in its world, and shows it. Where it can't be played,
@@ -351,14 +348,11 @@ fn play_path(world: &mut World) {
     }
     let config = Arc::clone(&world.resource::<RunConfig>().0);
     let ui = &mut world.resource_mut::<Interface>().into_inner().0;
-    match ran {
-        Ok(()) => {
-            ui.plan.is_played_by(&config);
-            ui.widget = Widget::Dashboard;
-            ui.say(begun_anew());
-        }
-        Err(error) => ui.say(Notice { text: error.to_string(), is_error: true }),
+    if ran.is_ok() {
+        ui.plan.is_played_by(&config);
+        ui.widget = Widget::Dashboard;
     }
+    ui.say(said_of(ran));
 }
 
 /// A new run of the same seed in which the arm named `robot` has two or three links.

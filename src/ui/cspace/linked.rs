@@ -181,7 +181,7 @@ impl Linked<'_> {
                 put_at(self.cockpit, self.robot, to, linked, commands);
                 return;
             }
-            let mut angles = self.robot.target.clone().unwrap_or_else(|| self.robot.coordinates.clone());
+            let mut angles = to_come(self.robot).clone();
             // the plane is that of the last two angles
             let first = angles.len().saturating_sub(2);
             for (angle, to) in angles.iter_mut().skip(first).zip([to.x, to.y]) {

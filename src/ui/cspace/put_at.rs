@@ -76,10 +76,7 @@ fn put(
     let footprint = model.footprint(&q);
     let mut others = cockpit.robots.iter().filter(|other| other.id != robot.id);
     let is_taken = others.any(|other| footprint_distance(&footprint, &footprint_to_come(other)) == 0.0);
-    if is_taken
-        || !model.is_within_limits(&q)
-        || linked.checker_of(&cockpit.atlas, &model).scene().intersects(&footprint)
-    {
+    if is_taken || !model.is_within_limits(&q) || linked.scene_of(&cockpit.atlas).intersects(&footprint) {
         return Some(footprint);
     }
     if rounded[..] != to_come(robot)[..] {

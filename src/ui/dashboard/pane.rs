@@ -296,9 +296,10 @@ pub fn take_in_hand(cockpit: &Cockpit, robot: Option<&CockpitRobot>, state: &mut
         Some(_) if again => {}
         Some(robot) if robot.is_arm || robot.drivable => {
             state.last_held = Some(robot.name.clone());
-            match robot.is_arm {
-                true => state.next_grasp = Some(Grasp::Take(robot.name.clone())),
-                false => state.armed = Some(robot.name.clone()),
+            if robot.is_arm {
+                state.next_grasp = Some(Grasp::Take(robot.name.clone()));
+            } else {
+                state.armed = Some(robot.name.clone());
             }
         }
         _ => {

@@ -101,8 +101,10 @@ fn scrolled(ui: &mut Ui, cockpit: &Cockpit, add: impl FnOnce(&mut Ui)) {
 
 /// Shows who is seen, and at the right end the scale.
 fn heading(ui: &mut Ui, cockpit: &Cockpit, fit: &Fit, look: &Look) {
-    let alone = <&[_; 1]>::try_from(&cockpit.robots[..]).ok();
-    let name = alone.map_or_else(|| cockpit.heading(), |[robot]| by_whom(robot, cockpit.heading()));
+    let name = match &cockpit.robots[..] {
+        [robot] => by_whom(robot, cockpit.heading()),
+        _ => cockpit.heading(),
+    };
     let name = RichText::new(name).color(look.colour(Role::Text));
     if ui.available_width() < BOTH {
         ui.label(name);

@@ -74,8 +74,10 @@ pub fn bodies<'a>(
             let words = format!("Click to drive {}, drag to move it", robot.name);
             response.on_hover_cursor(cursor).on_hover_text(words);
         }
-        let over = Picture::new("bodies", cockpit.world.bounds).with(over);
-        canvas::paint(&ui.painter_at(paper), &over, fit, look);
+        if !over.is_empty() {
+            let over = Picture::new("bodies", cockpit.world.bounds).with(over);
+            canvas::paint(&ui.painter_at(paper), &over, fit, look);
+        }
     }
     pressed
 }

@@ -14,6 +14,7 @@ use crate::picture::{Dash, Drawing, Fit, Item, Line, Picture, Role, footprint, i
 use crate::robots::{AnyRobot, Reach};
 use crate::run::{Quantized, RobotInput};
 use crate::simulation::{RobotCommand, TransportCommand};
+use crate::ui::cspace::put_at::to_come;
 use crate::ui::paint::canvas;
 use crate::ui::{CockpitRobot, Command, Grasp, Look, UiState, keys};
 
@@ -24,15 +25,10 @@ const HIT: f32 = 28.0;
 /// How far an arrow key turns a joint, radians.
 const NUDGE: f64 = 0.02;
 
-/// The joint angles that the arm is on its way to; otherwise its present ones.
-fn angles(robot: &CockpitRobot) -> &Coordinates {
-    robot.target.as_ref().unwrap_or(&robot.coordinates)
-}
-
 /// The joint angles with which the last two joints of one of the lab's arms bring its tip to `to`, or as near as they
 /// reach; `None` for another arm.
 fn followed(robot: &CockpitRobot, to: Point2, bends_down: bool) -> Option<Coordinates> {
-    let q = AnyRobot::of_kind(&robot.kind, angles(robot))?.1;
+    let q = AnyRobot::of_kind(&robot.kind, to_come(robot))?.1;
     Some(robot.model?.dragged(&q, to, bends_down).coordinates())
 }
 
@@ -44,7 +40,7 @@ fn joint_sign(joint: usize) -> String {
 /// Asks for these joint angles by the end of the next tick.
 fn move_to(robot: &CockpitRobot, to: &[f64], commands: &mut Vec<Command>) {
     let target: Option<Vec<Quantized>> = to.iter().map(|angle| Quantized::try_new(*angle)).collect();
-    if let Some(target) = target.filter(|_| *to != angles(robot)[..]) {
+    if let Some(target) = target.filter(|_| *to != to_come(robot)[..]) {
         commands.push(Command::from(RobotCommand { robot: robot.name.clone(), input: RobotInput::MoveTo(target) }));
     }
 }
@@ -63,7 +59,7 @@ pub fn handles(
     state: &mut UiState,
     commands: &mut Vec<Command>,
 ) {
-    let going = turned(&robot.footprint, angles(robot));
+    let going = turned(&robot.footprint, to_come(robot));
     let shown = if robot.target.is_some() { &going } else { &robot.footprint };
     let points = joints(shown);
     let painter = ui.painter_at(paper);
@@ -127,7 +123,7 @@ fn handle(
     let hit = Rect::from_center_size(at, Vec2::splat(size)).intersect(clip);
     let hit = if hit.is_positive() { hit } else { Rect::from_min_size(at.max(clip.min).min(clip.max), Vec2::ZERO) };
     let response = ui.interact(hit, id, Sense::click_and_drag());
-    let angle = angles(robot).get(link).copied().unwrap_or_default();
+    let angle = to_come(robot).get(link).copied().unwrap_or_default();
     let label = format!("{}: {name}, {} in radians", robot.name, joint_sign(link));
     response.widget_info(|| WidgetInfo::slider(true, angle, &label));
     if response.drag_started() || response.clicked() {
@@ -137,7 +133,7 @@ fn handle(
     if response.drag_started() {
         checkpoint(commands);
         // a straight or folded arm bends back to the side that it came from
-        let bends_down = angles(robot).last().is_some_and(|angle| *angle >= 0.0);
+        let bends_down = to_come(robot).last().is_some_and(|angle| *angle >= 0.0);
         ui.data_mut(|data| data.insert_temp(id, bends_down));
     }
     if response.dragged()
@@ -146,7 +142,7 @@ fn handle(
         let to = fit.world_from_screen([f64::from(pointer.x), f64::from(pointer.y)]);
         let bends_down = ui.data(|data| data.get_temp(id)).unwrap_or(true);
         let followed = if is_tip { followed(robot, to, bends_down) } else { None };
-        let to = followed.unwrap_or_else(|| dragged(angles(robot), points, link, to));
+        let to = followed.unwrap_or_else(|| dragged(to_come(robot), points, link, to));
         move_to(robot, &to, commands);
     }
     let focused = response.has_focus();
@@ -190,7 +186,7 @@ fn nudge(ui: &Ui, id: Id, robot: &CockpitRobot, link: usize, commands: &mut Vec<
         ui.memory_mut(|m| m.surrender_focus(id));
     } else if turns != 0.0 {
         checkpoint(commands);
-        let mut to = angles(robot).clone();
+        let mut to = to_come(robot).clone();
         if let Some(angle) = to.get_mut(link) {
             *angle = wrap(*angle + turns * NUDGE * if fine { 0.1 } else { 1.0 });
         }
@@ -201,7 +197,7 @@ fn nudge(ui: &Ui, id: Id, robot: &CockpitRobot, link: usize, commands: &mut Vec<
 /// Shows the joint angles as numbers to type or drag; for an arm of three links also the slider that keeps its tip in
 /// place.
 pub fn numbers(ui: &mut Ui, robot: &CockpitRobot, look: &Look, commands: &mut Vec<Command>) {
-    let mut to = angles(robot).clone();
+    let mut to = to_come(robot).clone();
     let mut changed = false;
     ui.horizontal(|ui| {
         ui.spacing_mut().button_padding = [4.0, 1.0].into();
