@@ -4,7 +4,9 @@ use super::drawn::Drawn;
 use crate::configuration::AnyConfiguration;
 use crate::cspace::{Slice, lines_through};
 use crate::geometry::{Point2, Pose2};
-use crate::picture::{Anchor, Dash, Drawing, Face, Fill, Glyph, Item, Line, Role, footprint, scan};
+use crate::picture::{
+    self, Anchor, Dash, Drawing, Face, Fill, Gait, Glyph, Item, Line, RobotDrawing, Role, footprint, scan,
+};
 use crate::planning::{LeavePoint, Sensed};
 use crate::robots::{AnyRobot, Robot};
 
@@ -17,9 +19,9 @@ pub fn workspace_items(robot: &AnyRobot, drawn: &Drawn) -> Vec<Item> {
     for (i, q) in drawn.places().iter().enumerate() {
         items.extend(footprint(&format!("place/{i}"), "on the way", &robot.footprint(q), Role::Path, 0.12));
     }
-    let [start, goal] = drawn.ends.map(|q| robot.footprint(&q));
-    items.extend(footprint("goal", "the goal", &goal, Role::Free, 0.4));
-    items.extend(footprint("start", "the start", &start, Role::Robot, 0.85));
+    let [start, goal] = drawn.ends;
+    items.extend(footprint("goal", "the goal", &robot.footprint(&goal), Role::Free, 0.4));
+    items.extend(faced("start", "the start", robot, &start));
     if !drawn.path.is_empty() {
         items.push(path(vec![way(&drawn.path)]));
     }
@@ -35,17 +37,28 @@ pub fn workspace_items(robot: &AnyRobot, drawn: &Drawn) -> Vec<Item> {
     items
 }
 
+/// The robot at a configuration, with its wheels or joints.
+fn faced(id: &str, name: &str, robot: &AnyRobot, q: &AnyConfiguration) -> Vec<Item> {
+    let mut items = picture::robot(&RobotDrawing {
+        name: id,
+        footprint: &robot.footprint(q),
+        heading: robot.heading(q),
+        model: Some(*robot),
+        gait: Gait::default(),
+        in_contact: false,
+    });
+    for item in &mut items {
+        item.id = item.id.trim_start_matches("robot/").to_owned();
+        item.name = name.to_owned();
+    }
+    items
+}
+
 /// The robot where it is, what its sensor reads there, and where it left boundaries.
 fn sensed_items(robot: &AnyRobot, start: &AnyConfiguration, sensed: &Sensed) -> Vec<Item> {
     let Sensed { at, ranges, leave_points } = sensed;
     let mut items = vec![scan("readings", "what its sensor reads", &Pose2::new(at.x, at.y, 0.0), ranges)];
-    items.extend(footprint(
-        "present",
-        "where it is",
-        &robot.footprint(&start.with(0, at.x).with(1, at.y)),
-        Role::Robot,
-        0.85,
-    ));
+    items.extend(faced("present", "where it is", robot, &start.with(0, at.x).with(1, at.y)));
     for (i, point) in leave_points.iter().enumerate() {
         items.extend(leave_point_items(i + 1, point));
     }

@@ -2,6 +2,8 @@
 
 use std::collections::BTreeMap;
 
+use bevy_egui::egui::Rect;
+
 use super::atlas::Mode;
 use super::paint::camera::Camera;
 use super::time::span::Span;
@@ -65,6 +67,8 @@ pub struct UiState {
     pub held: (i16, i16),
     /// The channels of the pad on the screen, from -128 to 128, the maximum.
     pub pad: (i16, i16),
+    /// Where the pad is in this frame, if it has a place off the paper.
+    pub pad_place: Option<Rect>,
     /// The channels of a gamepad's stick, from -128 to 128, the maximum.
     pub stick: (i16, i16),
     /// The arm whose handle had the focus in the last frame. Such a handle keeps the arrow keys and no others.
@@ -239,7 +243,8 @@ impl UiState {
 
     /// Puts another world into the atlas. The present one is put on the shelf if something of it would be lost.
     pub fn open_world(&mut self, new: AtlasState) {
-        let new = new.like(&self.atlas);
+        let kept = self.shelf.iter().chain(Some(&self.atlas).filter(|present| present.has_history()));
+        let new = new.like(&self.atlas).numbered_among(kept);
         let mut old = std::mem::replace(&mut self.atlas, new);
         old.put_down();
         if old.has_history() {

@@ -38,7 +38,8 @@ pub fn act(action: Action, model: &Dashboard, state: &mut UiState, commands: &mu
 /// Largest width of a notice, points.
 const MOST_NOTICE: f32 = 560.0;
 
-/// Shows a widget's title, and at the right end its menu; on the dashboard with undo, redo and the plots beside it.
+/// Shows a widget's title, and at the right end its menu; on the dashboard with undo, redo and the plots beside it. On
+/// an upright narrow screen, where the picture comes first, the title is its name alone.
 pub fn header(
     ui: &mut Ui,
     words: &WidgetText,
@@ -54,7 +55,7 @@ pub fn header(
     ui.horizontal(|ui| {
         ui.vertical(|ui| {
             ui.set_max_width((ui.available_width() - room).max(0.0));
-            frame::title(ui, words, look);
+            if is_upright(look) { frame::name(ui, words, look) } else { frame::title(ui, words, look) }
         });
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
             fold::menu(ui, "Menu", |ui| menu(ui, model, beside, look, state, commands));
@@ -70,7 +71,13 @@ pub fn menu_button(ui: &mut Ui, model: &Dashboard, look: &Look, state: &mut UiSt
     fold::menu(ui, "Menu", |ui| menu(ui, model, &[], look, state, commands));
 }
 
-/// Shows the head of a widget other than the dashboard: title and buttons, colour key and hints.
+/// Whether words stand under the picture, one screen below the other.
+fn is_upright(look: &Look) -> bool {
+    look.narrow && !look.low
+}
+
+/// Shows the head of a widget other than the dashboard: title and buttons, colour key and hints. On an upright narrow
+/// screen the key stands under the picture with [`foot`].
 pub fn head(
     ui: &mut Ui,
     words: &WidgetText,
@@ -79,13 +86,23 @@ pub fn head(
     state: &mut UiState,
     commands: &mut Vec<Command>,
 ) {
-    let narrow = look.narrow;
     header(ui, words, model, look, state, commands);
-    frame::key_row(ui, words, look, state);
-    if !narrow || state.lesson.is_some() {
+    if !is_upright(look) {
+        frame::key_row(ui, words, look, state);
+    }
+    if !look.narrow || state.lesson.is_some() {
         frame::hints(ui, words, look, state);
     }
     ui.add_space(6.0);
+}
+
+/// Shows at the end of the words under a picture what [`head`] leaves out on an upright narrow screen.
+pub fn foot(ui: &mut Ui, words: &WidgetText, look: &Look, state: &mut UiState) {
+    if is_upright(look) {
+        ui.add_space(10.0);
+        frame::misconception(ui, words, look);
+        frame::key_row(ui, words, look, state);
+    }
 }
 
 /// A button above a widget.

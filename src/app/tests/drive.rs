@@ -214,6 +214,26 @@ fn the_pad_drives_like_the_keys() {
 }
 
 #[test]
+fn on_a_phone_the_pad_covers_nothing_and_takes_its_robot_in_hand() {
+    let mut harness = lab(PHONE);
+    let pad = harness.get_by_label("Rusty: pad, up drives forward").rect();
+    let room = paper(&harness, "Apartment");
+    let inset = harness.get_by_label_contains("Configuration of Rusty").rect();
+    assert!(!pad.intersects(room) && !pad.intersects(inset) && pad.right() <= PHONE[0], "{pad} {room} {inset}");
+    pointer(&mut harness, pad.center_top() + egui::vec2(0.0, 1.0), Some(true));
+    harness.run_steps(6);
+    assert_eq!(interface(&harness).armed.as_deref(), Some("Rusty"));
+    assert!(harness.state().robot(0).channels[0] > 120);
+    assert_eq!(harness.get_by_label("Rusty: pad, up drives forward").rect(), pad, "it stays where it is");
+    pointer(&mut harness, pad.center_top(), Some(false));
+    harness.run_steps(6);
+    assert_eq!(harness.state().robot(0).channels, [0, 0]);
+    // an arm has none
+    click(&mut harness, "Reach");
+    assert!(harness.query_by_label_contains("pad, up drives").is_none());
+}
+
+#[test]
 fn a_cockpit_comes_to_the_front_and_the_robot_in_hand_is_let_go() {
     let mut harness = lab(WIDE);
     arm_rusty(&mut harness);

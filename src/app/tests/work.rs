@@ -248,6 +248,21 @@ fn closing_asks_where_edits_would_be_lost() {
     assert_eq!(closing(&mut harness), None, "nothing is saved yet");
     click(&mut harness, "Close and lose the edits");
     assert!(harness.state().app.should_exit().is_some());
+    // two edited ones of a name are told apart
+    let mut harness = lab_to_close();
+    click(&mut harness, "Atlas");
+    click(&mut harness, "Edit");
+    add(&mut harness, "Add box");
+    choose(&mut harness, "Apartment, as it came");
+    add(&mut harness, "Add box");
+    add(&mut harness, "Add box");
+    assert_eq!(closing(&mut harness), None);
+    let labels = ["Apartment, edited", "Apartment (2), edited"];
+    labels.into_iter().for_each(|label| _ = harness.get_by_label(&format!("Save {label}")));
+    let boxes = |harness: &Harness<'_, Lab>| atlas(harness).world().obstacles.len();
+    let two = boxes(&harness);
+    click(&mut harness, "Save Apartment, edited");
+    assert_eq!((atlas(&harness).label().as_str(), boxes(&harness)), ("Apartment, edited", two - 1));
     // undone, there is nothing to lose
     let mut harness = lab_to_close();
     click(&mut harness, "Atlas");

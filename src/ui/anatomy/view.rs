@@ -72,6 +72,7 @@ pub fn anatomy_view(ui: &mut Ui, model: &Dashboard, look: &Look, state: &mut UiS
                 next_hint(ui, words, look, state);
                 more(ui, look, state);
             }
+            crate::ui::tools::foot(ui, words, look, state);
         });
     });
     state.did.extend(of_anatomy(&before, &state.anatomy.anatomy));

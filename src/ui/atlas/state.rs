@@ -42,6 +42,8 @@ pub struct AtlasState {
     path: Option<PathBuf>,
     /// The built-in world that it began as, by the name that `World::built_in` knows.
     built_in: Option<&'static str>,
+    /// Which one of the worlds of its name this is, from 1 on.
+    copy: u32,
     pub(super) atlas: Atlas,
     /// The world, with the change that is tried out, and its robots at their starts.
     pub(super) starts: Atlas,
@@ -103,11 +105,29 @@ impl AtlasState {
         self.built_in
     }
 
-    /// Its name in the list of worlds: of the world, or of the file that it was opened from, and whether it has edits.
+    /// Its name in the list of worlds: of the world, or of the file that it was opened from; and whether it has edits,
+    /// with its number where another edited one of this name was there before it.
     pub fn label(&self) -> String {
-        let name = if self.built_in.is_some() || self.path.is_none() { &self.world().name } else { self.editor.file() };
-        let edited = if self.has_history() { ", edited" } else { "" };
-        format!("{name}{edited}")
+        let name = self.name();
+        match (self.has_history(), self.copy) {
+            (false, _) => name.to_owned(),
+            (true, 1) => format!("{name}, edited"),
+            (true, copy) => format!("{name} ({copy}), edited"),
+        }
+    }
+
+    fn name(&self) -> &str {
+        if self.built_in.is_some() || self.path.is_none() { &self.world().name } else { self.editor.file() }
+    }
+
+    /// The same state, with the least number that none of these others of its name has.
+    #[must_use]
+    pub fn numbered_among<'a>(mut self, others: impl Iterator<Item = &'a AtlasState>) -> Self {
+        let taken: Vec<u32> = others.filter(|other| other.name() == self.name()).map(|other| other.copy).collect();
+        if taken.contains(&self.copy) {
+            self.copy = (1..).find(|number| !taken.contains(number)).unwrap_or(self.copy);
+        }
+        self
     }
 
     /// A name for its file: the one that it is in, or its own in small letters.
@@ -151,6 +171,7 @@ impl AtlasState {
             editor,
             path: None,
             built_in: None,
+            copy: 1,
             labels: None,
             grid: None,
             mode: Mode::default(),

@@ -102,6 +102,7 @@ pub fn atlas_view(ui: &mut Ui, model: &Dashboard, look: &Look, state: &mut UiSta
             }
             next_hint(ui, words, look, state);
             beside_the_paper(ui, model, look, state, commands);
+            crate::ui::tools::foot(ui, words, look, state);
         });
     });
     if state.atlas.mode != Mode::Edit {

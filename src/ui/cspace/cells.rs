@@ -5,8 +5,12 @@ use std::sync::Arc;
 use crate::collision::Checker;
 use crate::configuration::AnyConfiguration;
 use crate::cspace::{CellMap, Overlay, Region, Slice, cspace_picture, region_items, regions};
-use crate::picture::Picture;
+use crate::geometry::Point2;
+use crate::picture::{Anchor, Drawing, Fit, Item, Picture};
 use crate::robots::AnyRobot;
+
+/// Radius of the point of a configuration with its ring, pixels.
+const POINT: f64 = 8.0;
 
 /// The cells judged so far, and the last picture of them.
 #[derive(Clone, Debug)]
@@ -42,13 +46,27 @@ impl Cells {
         self.regions.as_deref().unwrap_or_default()
     }
 
-    /// Finds which obstacle each region is, once all cells are judged, and writes its name there.
+    /// Finds which obstacle each region is, once all cells are judged.
     pub fn name(&mut self) {
         if self.regions.is_none() && self.map.progress().done {
-            let found = regions(self.map.slice());
-            let named = cspace_picture(&self.map, &Overlay::default()).with(region_items(&found));
-            (self.picture, self.regions) = (Arc::new(named), Some(found));
+            self.regions = Some(regions(self.map.slice()));
         }
+    }
+
+    /// The names of the regions; one that a point would cover, where the picture lies as `fit` says, stands beside it.
+    pub fn names_off(&self, point: Point2, fit: &Fit) -> Vec<Item> {
+        let [x, y] = fit.screen_from_world(point);
+        let mut items = region_items(self.regions());
+        for item in &mut items {
+            let Drawing::Label { at, text, anchor, size_px, .. } = &mut item.drawing else { continue };
+            let [left, top] = fit.screen_from_world(*at);
+            // letters are about half as wide as high
+            let half_width = 0.25 * *size_px * text.chars().count() as f64;
+            if (x - left).abs() < half_width + POINT && (y - top).abs() < *size_px + POINT {
+                *anchor = if y > top { Anchor::Above } else { Anchor::Below };
+            }
+        }
+        items
     }
 
     /// Judges `budget` more cells. Returns whether any remain.
@@ -61,5 +79,39 @@ impl Cells {
             self.drawn = judged;
         }
         more
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::collision::Scene;
+    use crate::configuration::Tn;
+    use crate::geometry::Aabb;
+    use crate::picture::ScreenRect;
+    use crate::robots::Reach;
+
+    #[test]
+    fn the_name_of_a_region_gives_way_to_the_point() {
+        let arm = AnyRobot::Reach(Reach::workbench());
+        let checker = Checker::new(Scene::workbench(), arm);
+        let mut cells = Cells::through(&checker, &AnyConfiguration::T2(Tn([0.3, 0.2])), 5).unwrap();
+        while cells.refine(10_000) {}
+        cells.name();
+        let square = Aabb::new(Point2::new(-3.2, -3.2), Point2::new(3.2, 3.2));
+        let fit = Fit::new(&square, ScreenRect { min: [0.0; 2], size: [640.0; 2] }, 0.0);
+        let region = cells.regions()[0].at;
+        let anchors = |off: [f64; 2]| {
+            let [x, y] = [region[0] + off[0] / 100.0, region[1] + off[1] / 100.0];
+            let items = cells.names_off(Point2::new(x, y), &fit);
+            let anchor = |item: &Item| match item.drawing {
+                Drawing::Label { anchor, .. } => Some(anchor),
+                _ => None,
+            };
+            anchor(&items[0]).unwrap()
+        };
+        // a pixel is a hundredth: letters are 11 pixels high, the point's ring reaches 8
+        assert_eq!([[0.0, 4.0], [0.0, -4.0]].map(anchors), [Anchor::Below, Anchor::Above]);
+        assert_eq!([[0.0, 30.0], [0.0, -30.0], [120.0, 0.0]].map(anchors), [Anchor::Centre; 3]);
     }
 }

@@ -9,22 +9,17 @@ use bevy_egui::egui::{
 
 use super::linked_state::LinkedState;
 use super::put_at::{put_at, to_come, turn_to};
-use crate::configuration::{AnyConfiguration, Coordinates};
+use super::trail::trail;
+use crate::configuration::AnyConfiguration;
 use crate::cspace::{Overlay, overlay_items};
-use crate::geometry::Point2;
+use crate::geometry::{Footprint, Point2};
 use crate::num::{atan2, sin_cos, wrap};
-use crate::picture::{Drawing, Fit, Glyph, Item, Line, Picture, Role};
+use crate::picture::{Drawing, Fit, Glyph, Item, Line, Picture, Role, true_minus};
 use crate::robots::AnyRobot;
 use crate::run::{Quantized, RobotInput};
 use crate::simulation::{History, RobotCommand, TransportCommand};
 use crate::ui::paint::canvas;
 use crate::ui::{Cockpit, CockpitRobot, Command, Look};
-
-/// Length of the trail, ticks: ten seconds.
-const TRAIL: u64 = 200;
-
-/// Farthest that a robot on wheels goes in a tick, metres. One that moved farther was put there.
-const LEAP: f64 = 0.5;
 
 /// Largest number of cells judged in a frame: fewer than in a widget of its own, for the run goes on beside it, and an
 /// arm of three links has another slice at each tick.
@@ -36,52 +31,36 @@ const DIAL: f32 = 24.0;
 /// Diameter of the area that takes the pointer on the point, points.
 const HIT: f32 = 28.0;
 
-/// A robot of a cockpit at a tick.
+/// One of the lab's robots in a cockpit at a tick.
 pub struct Linked<'a> {
-    /// Its cockpit.
-    pub cockpit: &'a Cockpit,
-    /// The robot.
-    pub robot: &'a CockpitRobot,
-    /// The tick.
-    pub tick: u64,
-    /// What is known of the run.
-    pub history: &'a History,
+    cockpit: &'a Cockpit,
+    robot: &'a CockpitRobot,
     /// Another configuration at its position, if one is shown.
-    pub twin: Option<AnyConfiguration>,
+    twin: Option<AnyConfiguration>,
     /// Whether the straight motion there is shown.
-    pub way: bool,
+    is_way_shown: bool,
+    /// Where it was in the last ten seconds, oldest first.
+    trail: Vec<AnyConfiguration>,
 }
 
-impl Linked<'_> {
-    /// The robot and its configuration, if it is one of the lab's.
-    fn configuration(&self, coordinates: &Coordinates) -> Option<AnyConfiguration> {
-        Some(AnyRobot::of_kind(&self.robot.kind, coordinates)?.1)
-    }
-
-    /// Where it was in the last ten seconds, oldest first; of a robot on wheels since it last leapt.
-    fn trail(&self) -> Vec<AnyConfiguration> {
-        let span = self.tick.saturating_sub(TRAIL)..=self.tick;
-        let been = self.history.span(self.robot.id, span).filter_map(|trail| self.configuration(&trail.coordinates));
-        let mut been: Vec<AnyConfiguration> = been.collect();
-        if let Some(model) = self.robot.model.filter(|_| !self.robot.is_arm) {
-            let is_leap =
-                |pair: &[AnyConfiguration]| (model.reference(&pair[1]) - model.reference(&pair[0])).norm() > LEAP;
-            if let Some(last) = been.windows(2).rposition(is_leap) {
-                been.drain(..=last);
-            }
-        }
-        been
-    }
-
-    /// Whether it is one of the lab's robots, which have spaces to be shown.
-    pub fn is_known(&self) -> bool {
-        self.configuration(&self.robot.coordinates).is_some()
+impl<'a> Linked<'a> {
+    /// A robot with its past, and with its twin and whether the way there is shown, if there is one; `None` if it is
+    /// not one of the lab's, which have spaces to be shown.
+    pub fn new(
+        cockpit: &'a Cockpit,
+        robot: &'a CockpitRobot,
+        twin: Option<AnyConfiguration>,
+        is_way_shown: bool,
+        (history, tick): (&History, u64),
+    ) -> Option<Self> {
+        AnyRobot::of_kind(&robot.kind, &robot.coordinates)?;
+        Some(Linked { cockpit, robot, twin, is_way_shown, trail: trail(history, robot, tick) })
     }
 
     /// The way of its reference point in these seconds: of an arm its tip.
     pub fn way(&self) -> Vec<Item> {
         let Some(model) = self.robot.model else { return Vec::new() };
-        let points: Vec<Point2> = self.trail().iter().map(|q| model.reference(q)).collect();
+        let points: Vec<Point2> = self.trail.iter().map(|q| model.reference(q)).collect();
         if points.len() < 2 {
             return Vec::new();
         }
@@ -100,24 +79,26 @@ impl Linked<'_> {
         state: &mut LinkedState,
         commands: &mut Vec<Command>,
     ) -> Option<()> {
-        let q = self.configuration(to_come(self.robot))?;
+        let q = AnyRobot::of_kind(&self.robot.kind, to_come(self.robot))?.1;
         let line = ui.text_style_height(&TextStyle::Small);
         let place = Rect::from_min_max(room.min + vec2(0.0, line + 4.0), room.max);
-        let (paper, words) = match q {
-            AnyConfiguration::Hitch(_) => {
-                (self.among_obstacles(ui, place, look, state, commands), "x and y, and beside them the headings")
-            }
-            _ => {
-                let is_rover = matches!(q, AnyConfiguration::Pose(_));
-                let paper = self.among_cells(ui, place, q, look, state, commands)?;
-                (
-                    paper,
-                    if is_rover {
-                        "x and y: obstacles grown by its radius"
-                    } else {
-                        "the torus of its angles: edges are one"
-                    },
-                )
+        let (paper, refused) = match q {
+            AnyConfiguration::Hitch(_) => self.among_obstacles(ui, place, look, state, commands),
+            _ => self.among_cells(ui, place, q, look, state, commands)?,
+        };
+        let refused = refused.map(|there| (self.robot.name.clone(), there));
+        if state.refused != refused {
+            // the world above shows it in the next frame
+            state.refused = refused;
+            ui.ctx().request_repaint();
+        }
+        let words = match q {
+            AnyConfiguration::Hitch(_) => "x and y, and beside them the headings".to_owned(),
+            AnyConfiguration::Pose(_) => "x and y, obstacles grown by its radius".to_owned(),
+            AnyConfiguration::T2(_) => "the torus of its angles: edges are one".to_owned(),
+            AnyConfiguration::T3(q) => {
+                let [first, second, third] = ["\u{3b8}\u{2081}", "\u{3b8}\u{2082}", "\u{3b8}\u{2083}"];
+                true_minus(&format!("the torus of {second} and {third} at {first} = {:.2}", q.0[0]))
             }
         };
         let font = TextStyle::Small.resolve(ui.style());
@@ -128,7 +109,8 @@ impl Linked<'_> {
         Some(())
     }
 
-    /// Shows the cells of the robot's slice, and over them its trail and its point.
+    /// Shows the cells of the robot's slice, and over them its trail and its point; of a robot on wheels its heading too.
+    /// Returns the paper, and where the robot can't be if it is dragged there.
     fn among_cells(
         &self,
         ui: &mut Ui,
@@ -137,7 +119,7 @@ impl Linked<'_> {
         look: &Look,
         state: &mut LinkedState,
         commands: &mut Vec<Command>,
-    ) -> Option<Rect> {
+    ) -> Option<(Rect, Option<Footprint>)> {
         let cells = state.cells_of(&self.cockpit.atlas, &self.robot.model?, &q)?;
         if cells.refine(BUDGET) {
             ui.ctx().request_repaint();
@@ -149,8 +131,8 @@ impl Linked<'_> {
         let overlay = Overlay {
             now: Some(q),
             in_contact: self.robot.flash,
-            trace: self.trail(),
-            line: self.twin.filter(|_| self.way).map(|twin| [q, twin]),
+            trace: self.trail.clone(),
+            line: self.twin.filter(|_| self.is_way_shown).map(|twin| [q, twin]),
             solutions: self.twin.into_iter().collect(),
         };
         let over = Picture::new("configuration", still.bounds).with(overlay_items(slice, &overlay));
@@ -158,15 +140,24 @@ impl Linked<'_> {
         canvas::paint_kept(&painter, still, paper, &fit, look);
         canvas::paint(&painter, &over, &fit, look);
         let at = Point2::from(slice.point(&q));
-        if !self.robot.is_arm {
-            self.described(ui, paper);
+        if self.robot.is_arm {
+            self.handle(ui, at, &fit, state, commands);
+            return Some((paper, None));
         }
-        self.handle(ui, at, &fit, state, commands);
-        Some(paper)
+        self.described(ui, paper);
+        let refused = self.handle(ui, at, &fit, state, commands);
+        Some((paper, self.dial(ui, paper, look, state, commands).or(refused)))
     }
 
-    /// Lets the point be dragged: the robot follows, one on wheels only where it is free.
-    fn handle(&self, ui: &mut Ui, at: Point2, fit: &Fit, linked: &LinkedState, commands: &mut Vec<Command>) {
+    /// Lets the point be dragged: the robot follows, one on wheels only where it is free. Returns where it can't be.
+    fn handle(
+        &self,
+        ui: &mut Ui,
+        at: Point2,
+        fit: &Fit,
+        linked: &LinkedState,
+        commands: &mut Vec<Command>,
+    ) -> Option<Footprint> {
         let [x, y] = fit.screen_from_world(at);
         let hit = Rect::from_center_size(pos2(x as f32, y as f32), Vec2::splat(HIT));
         let response = ui.interact(hit, Id::new((&self.robot.name, "configuration")), Sense::DRAG);
@@ -175,11 +166,12 @@ impl Linked<'_> {
         if response.drag_started() {
             commands.push(Command::from(TransportCommand::Checkpoint));
         }
-        if let Some(pointer) = response.interact_pointer_pos().filter(|_| response.dragged()) {
+        let pointer = response.interact_pointer_pos().filter(|_| response.dragged());
+        response.on_hover_cursor(CursorIcon::Grab).on_hover_text("Drag it: the robot follows");
+        if let Some(pointer) = pointer {
             let to = fit.world_from_screen([f64::from(pointer.x), f64::from(pointer.y)]);
             if !self.robot.is_arm {
-                put_at(self.cockpit, self.robot, to, linked, commands);
-                return;
+                return put_at(self.cockpit, self.robot, to, linked, commands);
             }
             let mut angles = to_come(self.robot).clone();
             // the plane is that of the last two angles
@@ -192,7 +184,7 @@ impl Linked<'_> {
             let robot = || self.robot.name.clone();
             commands.extend(moved.map(|input| Command::from(RobotCommand { robot: robot(), input })));
         }
-        response.on_hover_cursor(CursorIcon::Grab).on_hover_text("Drag it: the robot follows");
+        None
     }
 
     fn described(&self, ui: &mut Ui, paper: Rect) {
@@ -201,7 +193,8 @@ impl Linked<'_> {
         response.widget_info(|| WidgetInfo::labeled(WidgetType::Label, true, &words));
     }
 
-    /// Shows a car's place in its world with its trail, and its headings on a dial.
+    /// Shows a car's place in its world with its trail, and its headings on a dial. Returns what
+    /// [`among_cells`](Self::among_cells) returns.
     fn among_obstacles(
         &self,
         ui: &mut Ui,
@@ -209,7 +202,7 @@ impl Linked<'_> {
         look: &Look,
         linked: &LinkedState,
         commands: &mut Vec<Command>,
-    ) -> Rect {
+    ) -> (Rect, Option<Footprint>) {
         let world = &self.cockpit.world;
         let paper = canvas::proportioned(world, room);
         let fit = canvas::fit(world, paper);
@@ -223,16 +216,23 @@ impl Linked<'_> {
         }
         canvas::paint(&painter, &Picture::new("configuration", world.bounds).with(items), &fit, look);
         self.described(ui, paper);
-        if let [x, y, ..] = to_come(self.robot)[..] {
-            self.handle(ui, Point2::new(x, y), &fit, linked, commands);
-        }
-        self.dial(ui, paper, look, linked, commands);
-        paper
+        let refused = match to_come(self.robot)[..] {
+            [x, y, ..] => self.handle(ui, Point2::new(x, y), &fit, linked, commands),
+            _ => None,
+        };
+        (paper, self.dial(ui, paper, look, linked, commands).or(refused))
     }
 
-    /// Shows the car's heading and its trailer's as needles, and how far the hitch may fold. The car's is dragged, and
-    /// the car turns where it is free.
-    fn dial(&self, ui: &mut Ui, paper: Rect, look: &Look, linked: &LinkedState, commands: &mut Vec<Command>) {
+    /// Shows the heading and a trailer's as needles, and how far the hitch may fold. The robot's own is dragged, and it
+    /// turns where it is free. Returns where it can't be.
+    fn dial(
+        &self,
+        ui: &mut Ui,
+        paper: Rect,
+        look: &Look,
+        linked: &LinkedState,
+        commands: &mut Vec<Command>,
+    ) -> Option<Footprint> {
         let painter = ui.painter_at(paper);
         let centre = paper.right_top() + vec2(-DIAL - 10.0, DIAL + 10.0);
         let round = Rect::from_center_size(centre, Vec2::splat(2.0 * DIAL));
@@ -242,14 +242,14 @@ impl Linked<'_> {
         if response.drag_started() {
             commands.push(Command::from(TransportCommand::Checkpoint));
         }
-        if let Some(to) = response.interact_pointer_pos().filter(|_| response.dragged()) {
-            // in the middle there is no direction
-            if (to - centre).length() > 0.2 * DIAL {
-                let heading = atan2(f64::from(centre.y - to.y), f64::from(to.x - centre.x));
-                turn_to(self.cockpit, self.robot, heading, linked, commands);
-            }
-        }
-        response.on_hover_cursor(CursorIcon::Grab).on_hover_text("Drag it: the car turns");
+        // in the middle there is no direction
+        let to =
+            response.interact_pointer_pos().filter(|to| response.dragged() && (*to - centre).length() > 0.2 * DIAL);
+        let refused = to.and_then(|to| {
+            let heading = atan2(f64::from(centre.y - to.y), f64::from(to.x - centre.x));
+            turn_to(self.cockpit, self.robot, heading, linked, commands)
+        });
+        response.on_hover_cursor(CursorIcon::Grab).on_hover_text("Drag it: the robot turns");
         painter.circle(centre, DIAL, look.theme.colour(Role::Paper), Stroke::new(1.0, look.colour(Role::Muted)));
         let at = |angle: f64, radius: f32| {
             let (s, c) = sin_cos(angle);
@@ -260,7 +260,7 @@ impl Linked<'_> {
             let line = [at(angle, DIAL - 3.0), at(angle, DIAL)];
             painter.line_segment(line, Stroke::new(1.0, look.colour(Role::Muted)));
         }
-        let Some(theta) = to_come(self.robot).get(2).copied() else { return };
+        let Some(theta) = to_come(self.robot).get(2).copied() else { return refused };
         if let Some(psi) = to_come(self.robot).get(3).copied() {
             if let Some(AnyRobot::Hitch(car)) = self.robot.model
                 && let Some(limit) = car.jackknife
@@ -277,5 +277,6 @@ impl Linked<'_> {
         }
         painter.line_segment([centre, at(theta, DIAL - 4.0)], Stroke::new(2.5, look.colour(Role::Robot)));
         painter.circle_filled(centre, 2.5, look.colour(Role::Robot));
+        refused
     }
 }

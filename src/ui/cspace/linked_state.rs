@@ -1,4 +1,4 @@
-//! `LinkedState`, the cells behind the configuration beside a position.
+//! `LinkedState`, the cells behind the configuration beside a position, and the scenes of the worlds on the screen.
 
 use std::sync::Arc;
 
@@ -6,23 +6,38 @@ use super::cells::Cells;
 use crate::atlas::Atlas;
 use crate::collision::{Checker, Scene};
 use crate::configuration::AnyConfiguration;
+use crate::geometry::Footprint;
 use crate::robots::AnyRobot;
 
 /// Level of the finest cells: a 64th of the sides.
 const FINEST: u32 = 6;
 
-/// The cells behind a point, kept from frame to frame.
+/// Number of worlds whose scenes are kept: as many as stand side by side.
+const SCENES: usize = 3;
+
+/// What is kept from frame to frame of the worlds in front and of the cells behind a point.
 #[derive(Clone, Debug, Default)]
 pub struct LinkedState {
     kept: Option<(Arc<Atlas>, Cells)>,
+    /// The scenes of the worlds seen last, the latest first.
+    scenes: Vec<(Arc<Atlas>, Arc<Scene>)>,
+    /// The robot that a drag of its point or its heading would put where it can't be, and its footprint there.
+    pub refused: Option<(String, Footprint)>,
 }
 
 impl LinkedState {
-    /// The scene of a world: that of the cells that are kept, or for another world a new one.
+    /// Keeps the scene of a world that is in front.
+    pub fn see(&mut self, world: &Arc<Atlas>) {
+        if !self.scenes.iter().any(|(of, _)| Arc::ptr_eq(of, world)) {
+            self.scenes.insert(0, (Arc::clone(world), Arc::new(Scene::of_world(world.world()))));
+            self.scenes.truncate(SCENES);
+        }
+    }
+
+    /// The scene of a world: the one that is kept, or for another world a new one.
     pub fn scene_of(&self, world: &Arc<Atlas>) -> Arc<Scene> {
-        let kept = self.kept.as_ref().filter(|(of, _)| Arc::ptr_eq(of, world));
-        let scene = kept.map(|(_, cells)| cells.map().slice().checker().shared_scene());
-        scene.unwrap_or_else(|| Arc::new(Scene::of_world(world.world())))
+        let kept = self.scenes.iter().find(|(of, _)| Arc::ptr_eq(of, world));
+        kept.map_or_else(|| Arc::new(Scene::of_world(world.world())), |(_, scene)| Arc::clone(scene))
     }
 
     /// The checker of a robot in a world.
@@ -38,6 +53,7 @@ impl LinkedState {
             Arc::ptr_eq(of, world) && slice.checker().robot() == robot && slice.holds(q)
         };
         if !self.kept.as_ref().is_some_and(serves) {
+            self.see(world);
             let checker = self.checker_of(world, robot);
             self.kept = Some((Arc::clone(world), Cells::through(&checker, q, FINEST)?));
         }

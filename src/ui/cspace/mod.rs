@@ -6,6 +6,7 @@ mod linked_state;
 pub(crate) mod put_at;
 mod state;
 mod torus;
+mod trail;
 pub(crate) mod view;
 
 pub use cells::Cells;

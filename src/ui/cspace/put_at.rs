@@ -20,6 +20,16 @@ pub fn footprint_to_come(robot: &CockpitRobot) -> Footprint {
     asked.map_or_else(|| robot.footprint.clone(), |((_, q), model)| model.fitted(&q).footprint(&q))
 }
 
+/// The other robots of a cockpit that a robot would touch with this footprint.
+pub fn robots_in_the_way<'a>(
+    cockpit: &'a Cockpit,
+    robot: &CockpitRobot,
+    there: &Footprint,
+) -> impl Iterator<Item = &'a CockpitRobot> {
+    let others = cockpit.robots.iter().filter(move |other| other.id != robot.id);
+    others.filter(move |other| footprint_distance(there, &footprint_to_come(other)) == 0.0)
+}
+
 /// Whether a robot can be put elsewhere by hand: one of the lab's on wheels.
 pub fn is_placeable(robot: &CockpitRobot) -> bool {
     !robot.is_arm && robot.model.is_some() && AnyRobot::of_kind(&robot.kind, &robot.coordinates).is_some()
@@ -74,8 +84,7 @@ fn put(
     let model = robot.model?.fitted(&q);
     model.check(&q).ok()?;
     let footprint = model.footprint(&q);
-    let mut others = cockpit.robots.iter().filter(|other| other.id != robot.id);
-    let is_taken = others.any(|other| footprint_distance(&footprint, &footprint_to_come(other)) == 0.0);
+    let is_taken = robots_in_the_way(cockpit, robot, &footprint).next().is_some();
     if is_taken || !model.is_within_limits(&q) || linked.scene_of(&cockpit.atlas).intersects(&footprint) {
         return Some(footprint);
     }

@@ -7,11 +7,13 @@ use bevy_egui::egui::{Rect, RichText, ScrollArea, TextWrapMode, Ui, pos2, vec2};
 use super::torus::torus;
 use crate::anatomy::{Series, Tab, twin};
 use crate::cspace::{Overlay, overlay_items};
+use crate::geometry::Point2;
 use crate::manifest::{Deed, Widget};
 use crate::num::wrap;
 use crate::picture::{Picture, Role, footprint};
 use crate::robots::{AnyRobot, Robot};
 use crate::ui::anatomy::view::{annulus, coordinate, prompts, robot_choice, world_choice};
+use crate::ui::paint::canvas;
 use crate::ui::paint::fold::fold;
 use crate::ui::paint::frame::{formulas, headline, next_hint, rows_of_words};
 use crate::ui::paint::sheet::{sheet, two_columns};
@@ -36,7 +38,7 @@ pub fn cspace_view(ui: &mut Ui, model: &Dashboard, look: &Look, state: &mut UiSt
     }
     let room = ui.available_rect_before_wrap();
     let text = if look.low {
-        0.25 * room.height()
+        0.3 * room.height()
     } else if narrow {
         160.0
     } else {
@@ -67,6 +69,7 @@ pub fn cspace_view(ui: &mut Ui, model: &Dashboard, look: &Look, state: &mut UiSt
                 next_hint(ui, words, look, state);
                 choices(ui, state);
                 fold(ui, "Guess first", false, |ui| prompts(ui, Series::Tips, state));
+                crate::ui::tools::foot(ui, words, look, state);
             });
         } else {
             // each column under its paper
@@ -164,7 +167,9 @@ fn space(ui: &mut Ui, paper: Rect, look: &Look, state: &mut UiState) {
         line: (anatomy.tab == Tab::Swept).then(|| [anatomy.q(), anatomy.second()]),
         solutions: anatomy.solutions(),
     };
-    let moving = Picture::new(still.name.clone(), still.bounds).with(overlay_items(&slice, &overlay));
+    let fit = canvas::fit(&still, paper);
+    let regions = cells.names_off(Point2::from(slice.point(&anatomy.q())), &fit);
+    let moving = Picture::new(still.name.clone(), still.bounds).with(regions).with(overlay_items(&slice, &overlay));
     let names: Vec<&str> = cells.regions().iter().map(|region| region.name.as_str()).collect();
     let blocked = if names.is_empty() { String::new() } else { format!(". Blocked regions: {}", names.join(", ")) };
     let spoken = format!("configuration space. The robot is the point {}{blocked}", anatomy.q());

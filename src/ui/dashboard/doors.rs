@@ -9,6 +9,15 @@ use crate::simulation::{TransportCommand, WorldCommand};
 use crate::ui::{Cockpit, Command};
 use crate::worlds::Door;
 
+/// Distance within which the pointer is at a door, points: with a mouse, and for a finger.
+const REACH: f64 = 7.0;
+const TOUCH: f64 = 18.0;
+
+/// The distance within which the pointer is at a door, points: for a finger farther.
+pub fn reach(is_touched: bool) -> f64 {
+    if is_touched { TOUCH } else { REACH }
+}
+
 /// The door nearest to a point of the screen, within `reach` points of its gap.
 pub fn door_at<'a>(cockpit: &'a Cockpit, fit: &Fit, at: ScreenPoint, reach: f64) -> Option<&'a Door> {
     let on_screen = |p| {

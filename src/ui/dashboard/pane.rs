@@ -33,10 +33,6 @@ pub const NARROW_TEXT: f32 = 64.0;
 /// Distance within which the pointer points at a drawn thing, points.
 const REACH: f64 = 4.0;
 
-/// Distance within which the pointer is at a door, points: with a mouse, and for a finger.
-const DOOR_REACH: f64 = 7.0;
-const TOUCH: f64 = 18.0;
-
 /// Share of a magnified paper's sides that a driven robot keeps off.
 const MARGIN: f32 = 0.25;
 
@@ -68,6 +64,7 @@ pub fn paper(
     commands: &mut Vec<Command>,
 ) -> Fit {
     let (whole, bounds) = (canvas::fit(&cockpit.world, paper), &cockpit.world.bounds);
+    state.linked.see(&cockpit.atlas);
     let mut camera = state.cameras.get(&cockpit.world.name).copied().unwrap_or_default();
     // a paper that shows the whole world lets a finger scroll what it lies in
     let sense = if camera.zoom > 1.0 { Sense::click_and_drag() } else { Sense::click() };
@@ -117,7 +114,7 @@ pub fn paper(
     }
     // a door is in front of the paper
     let at_door = door_clicked(&response, cockpit, &fit, touched(ui), commands);
-    let reach = if touched(ui) { TOUCH } else { DOOR_REACH };
+    let reach = doors::reach(touched(ui));
     // pressed by a key, the paper has no pointer on it
     let pointer = if response.clicked() { response.interact_pointer_pos() } else { response.hover_pos() };
     let at = pointer.map(|at| fit.world_from_screen([at.x, at.y].map(f64::from)));
@@ -240,8 +237,8 @@ pub fn door_clicked(
     commands: &mut Vec<Command>,
 ) -> bool {
     let Some(at) = response.interact_pointer_pos().or_else(|| response.hover_pos()) else { return false };
-    let reach = if touch { TOUCH } else { DOOR_REACH };
-    let Some(door) = doors::door_at(cockpit, fit, [f64::from(at.x), f64::from(at.y)], reach) else { return false };
+    let at = [f64::from(at.x), f64::from(at.y)];
+    let Some(door) = doors::door_at(cockpit, fit, at, doors::reach(touch)) else { return false };
     if response.clicked() {
         doors::toggle(&cockpit.world.name, door, commands);
     }
@@ -351,7 +348,8 @@ pub fn in_hand(ui: &mut Ui, robot: &CockpitRobot, paper: Rect, free: Free, look:
     ui.painter().rect_filled(rect, 0.0, look.theme.colour(Role::Paper));
     ui.painter().galley(rect.min + vec2(4.0, 2.0), galley, look.colour(Role::Text));
     if touched && robot.drivable {
-        pad::pad(ui, &robot.name, paper, look, state);
+        let place = state.pad_place.take().unwrap_or(pad::corner(paper));
+        pad::pad(ui, &robot.name, place, look, state);
     }
 }
 

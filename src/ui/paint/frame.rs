@@ -24,13 +24,23 @@ const AFTER: f32 = 5.0;
 
 /// Shows title and misconception. They do not fade when a role is lit.
 pub fn title(ui: &mut Ui, widget: &WidgetText, look: &Look) {
+    name(ui, widget, look);
+    misconception(ui, widget, look);
+}
+
+/// Shows the title alone.
+pub fn name(ui: &mut Ui, widget: &WidgetText, look: &Look) {
     let heading =
         ui.label(RichText::new(&widget.title).text_style(TextStyle::Heading).color(look.theme.colour(Role::Text)));
     // the widget's description, for screen readers
     heading.widget_info(|| {
         WidgetInfo::labeled(WidgetType::Label, true, format!("{}. {}", widget.title, widget.description))
     });
-    ui.label(RichText::new(&widget.misconception).color(look.theme.colour(Role::Muted)));
+}
+
+/// Shows the misconception that a widget removes.
+pub fn misconception(ui: &mut Ui, widget: &WidgetText, look: &Look) {
+    ui.add(Label::new(RichText::new(&widget.misconception).color(look.theme.colour(Role::Muted))).wrap());
 }
 
 /// Shows the number that matters, large.

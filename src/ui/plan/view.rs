@@ -90,6 +90,7 @@ pub fn plan_view(ui: &mut Ui, model: &Dashboard, look: &Look, state: &mut UiStat
                 ui.horizontal_wrapped(|ui| controls(ui, look, &mut state.plan));
                 next_hint(ui, words, look, state);
                 panel(ui, look, state, commands);
+                crate::ui::tools::foot(ui, words, look, state);
             });
         });
     } else {

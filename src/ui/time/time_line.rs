@@ -20,8 +20,9 @@ const AXIS: f32 = 15.0;
 /// Height of a narrow screen below which all robots share a lane, points.
 const SHORT: f32 = 700.0;
 
-/// Width of the names before the lanes, points.
+/// Width of the names before the lanes, points: on a narrow screen the slider's large handle leaves them more.
 const NAMES: f32 = 52.0;
+const NARROW_NAMES: f32 = 24.0;
 
 /// Number of robots up to which each has a lane.
 const MOST_LANES: usize = 3;
@@ -100,7 +101,11 @@ pub fn time_line(
     let is_short = look.narrow && ui.ctx().content_rect().height() < SHORT;
     let lanes = if is_short { vec![Lane { robot: None, name: "" }] } else { lanes(model) };
     let height = if lanes.len() == 1 { ONLY } else { LANE } * lanes.len() as f32;
-    let names = if lanes.len() > 1 && !look.narrow { NAMES } else { 0.0 };
+    let names = match lanes.len() {
+        0 | 1 => 0.0,
+        _ if look.narrow => NARROW_NAMES,
+        _ => NAMES,
+    };
     let (strip, _) = ui.allocate_exact_size(vec2(ui.available_width(), height), Sense::hover());
     let mut tick = model.tick;
     let response = ui
@@ -177,7 +182,7 @@ fn show_lanes(
     let font = TextStyle::Small.resolve(ui.style());
     for (k, lane) in lanes.iter().enumerate() {
         let rect = rect_of(k);
-        if !look.narrow && lanes.len() > 1 {
+        if lanes.len() > 1 {
             let at = pos2(rect.left() - 12.0, rect.center().y);
             ui.painter().text(at, Align2::RIGHT_CENTER, lane.name, font.clone(), look.colour(Role::Muted));
         }

@@ -67,6 +67,94 @@ fn a_rover_is_dragged_by_its_body_and_stays_out_of_the_furniture() {
     assert!(now.manual && now.refusals == 0 && (now.coordinates[0] - there[0]).abs() < 1e-9, "{:?}", now.coordinates);
     click(&mut harness, "Undo");
     assert_eq!(put(&harness).1, 0, "one thing to undo");
+    // dragged again while the first drag waits for its tick, it goes on from where it is to come
+    drag_by(&mut harness, body, body + egui::vec2(40.0, 0.0));
+    pointer(&mut harness, body + egui::vec2(40.0, 0.0), Some(false));
+    let (first, _) = put(&harness);
+    drag_by(&mut harness, body + egui::vec2(40.0, 0.0), body + egui::vec2(40.0, -20.0));
+    let (second, _) = put(&harness);
+    let px = 20.0 / fit(&harness, &world).px_per_metre();
+    assert!((second[0] - first[0]).abs() < 0.02 && (second[1] - first[1] - px).abs() < 0.02, "{first:?} {second:?}");
+}
+
+#[test]
+fn two_fingers_over_a_body_magnify_and_put_it_nowhere() {
+    let mut harness = lab(WIDE);
+    pause(&mut harness);
+    let body = harness.get_by_label("Rusty: its body, to be dragged").rect().center();
+    let touch = |harness: &mut Harness<'_, Lab>, finger: u64, phase, at: Pos2| {
+        let id = egui::TouchId(finger);
+        harness.event(egui::Event::Touch { device_id: egui::TouchDeviceId(1), id, phase, pos: at, force: None });
+    };
+    use egui::TouchPhase::{End, Move, Start};
+    let finger = |k: u64, apart: f32| body + egui::vec2(if k == 1 { 4.0 } else { -4.0 } * apart, 2.0);
+    for k in [1, 2] {
+        touch(&mut harness, k, Start, finger(k, 1.0));
+    }
+    pointer(&mut harness, finger(1, 1.0), Some(true));
+    for apart in 2..=12 {
+        [1, 2].into_iter().for_each(|k| touch(&mut harness, k, Move, finger(k, apart as f32)));
+        pointer(&mut harness, finger(1, apart as f32), None);
+    }
+    assert!(interface(&harness).cameras["Apartment"].zoom > 1.5, "{:?}", interface(&harness).cameras);
+    [1, 2].into_iter().for_each(|k| touch(&mut harness, k, End, finger(k, 12.0)));
+    pointer(&mut harness, finger(1, 12.0), Some(false));
+    assert_eq!(put(&harness).1, 0);
+}
+
+#[test]
+fn a_door_beside_a_rover_takes_its_click() {
+    let mut harness = lab(WIDE);
+    pause(&mut harness);
+    let world = Model::apartment();
+    // 9 cm of floor between it and the gap of door B: the square that takes the pointer covers both
+    let body = harness.get_by_label("Rusty: its body, to be dragged").rect().center();
+    let to = on_screen(&harness, &world, [6.0, 4.55]);
+    drag_by(&mut harness, body, to);
+    pointer(&mut harness, to, Some(false));
+    click(&mut harness, "Step");
+    let square = harness.get_by_label("Rusty: its body, to be dragged").rect();
+    let [at_door, on_body] = [[6.0, 4.75], [6.0, 4.6]].map(|place| on_screen(&harness, &world, place));
+    assert!(square.contains(at_door), "{square} {at_door}");
+    click_at(&mut harness, at_door);
+    let closed = |h: &Harness<'_, Lab>| h.state().script().changes.iter().map(|change| change.change.clone()).collect();
+    let close = crate::run::WorldChange::Close("door B".into());
+    assert_eq!((closed(&harness), interface(&harness).armed.clone()), (vec![close.clone()], None));
+    click_at(&mut harness, on_body);
+    let changes: Vec<_> = closed(&harness);
+    assert_eq!((changes.len(), interface(&harness).armed.as_deref()), (1, Some("Rusty")), "the body is its own");
+}
+
+#[test]
+fn a_point_dragged_into_an_obstacle_says_in_the_world_what_is_in_the_way() {
+    let mut harness = lab(WIDE);
+    pause(&mut harness);
+    let point = harness.get_by_label("Rusty: its configuration as a point, to be dragged").rect().center();
+    let inset = harness.get_by_label_contains("Configuration of Rusty").rect();
+    let before = harness.state().robot(0).coordinates;
+    // the inset shows the Apartment's 12 x 8 m; B's round table is about (6, 6.75)
+    let scale = inset.height() / 8.0;
+    let table = point + egui::vec2(6.0 - before[0] as f32, before[1] as f32 - 6.75) * scale;
+    let said = |harness: &Harness<'_, Lab>| {
+        super::super::safe::words(harness).iter().any(|(text, ..)| text == "B's round table")
+    };
+    drag_by(&mut harness, point, table);
+    assert!(said(&harness), "what is in the way has its name");
+    pointer(&mut harness, table, Some(false));
+    harness.run_steps(3);
+    assert!(!said(&harness), "no longer than the drag");
+}
+
+#[test]
+fn a_rover_has_a_dial_for_its_heading() {
+    let mut harness = lab(WIDE);
+    pause(&mut harness);
+    let dial = harness.get_by_label("Rusty: its heading on a dial, to be dragged").rect().center();
+    let before = harness.state().robot(0).coordinates;
+    drag_by(&mut harness, dial + egui::vec2(18.0, 0.0), dial + egui::vec2(0.0, -18.0));
+    let (turned, _) = put(&harness);
+    assert!((turned[2] - std::f64::consts::FRAC_PI_2).abs() < 1e-3, "straight up: {turned:?}");
+    assert!(same(turned[0], before[0]) && same(turned[1], before[1]), "it turns on the spot");
 }
 
 #[test]
@@ -125,9 +213,16 @@ fn where_two_robots_share_a_world_a_click_takes_the_one_under_it() {
     let other = harness.state().robot(1).footprint.parts()[0].pose().position();
     let from = harness.get_by_label("Rusty: its body, to be dragged").rect().center();
     let to = on_screen(&harness, &model, [other.x, other.y]);
+    let named = |harness: &Harness<'_, Lab>| {
+        let words = super::super::safe::words(harness);
+        let paper = paper(harness, "Apartment");
+        words.iter().filter(|(text, ink, _)| text == "Second" && paper.contains_rect(*ink)).count()
+    };
+    assert_eq!(named(&harness), 0);
     drag_by(&mut harness, from, to);
     let (there, _) = put(&harness);
     assert!(crate::num::hypot(there[0] - other.x, there[1] - other.y) > 0.22, "{there:?} is on the other");
+    assert_eq!(named(&harness), 1, "what is in the way has its name");
 }
 
 #[test]

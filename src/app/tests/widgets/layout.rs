@@ -246,3 +246,45 @@ fn on_a_phone_the_configuration_stands_below_the_world_and_both_take_near_half_t
         assert!(space.bottom() - paper.top() >= 0.45 * PHONE[1], "{robot}: {paper} {space}");
     }
 }
+
+#[test]
+fn on_a_phone_the_picture_stands_under_the_name_of_its_widget_alone() {
+    for widget in [Widget::Anatomy, Widget::Cspace, Widget::Atlas, Widget::Plan] {
+        let harness = fresh(PHONE, widget);
+        let text = widget.text();
+        let top = papers(&harness, widget)[0].top();
+        // the rail is 44 points high and the row of name and menu too, with 4 to 8 points about each
+        assert!(top <= 2.0 * 44.0 + 40.0, "{widget:?}: {top}");
+        let said = words(&harness);
+        let misconception = said.iter().find(|(words, ..)| *words == text.misconception);
+        assert!(misconception.is_none_or(|(_, ink, _)| ink.top() > top), "{widget:?}: {misconception:?}");
+        assert!(harness.query_by_label(&text.misconception).is_some(), "{widget:?}: it is under the picture");
+    }
+}
+
+#[test]
+fn on_a_phone_each_lane_of_time_has_its_name() {
+    let harness = fresh(PHONE, Widget::Dashboard);
+    let said = words(&harness);
+    let line = harness.get_by_label_contains("time line").rect();
+    for name in ["Rusty", "Reach", "Hitch"] {
+        // three lanes of 12 points stand on the line, whose handle keeps off its left end
+        let lanes = egui::Rect::from_x_y_ranges(8.0..=line.left() + 18.0, line.top() - 42.0..=line.top() + 2.0);
+        let is_lane = |ink: egui::Rect| lanes.contains_rect(ink);
+        assert!(said.iter().any(|(text, ink, _)| text == name && is_lane(*ink)), "{name} in {lanes}: {said:?}");
+    }
+}
+
+#[test]
+fn beside_an_arm_of_three_links_the_caption_says_where_its_plane_lies() {
+    let mut harness = lab(WIDE);
+    pause(&mut harness);
+    bring(&mut harness, "Reach");
+    click(&mut harness, "three links");
+    harness.run_steps(4);
+    let q = harness.state().robot(1).coordinates;
+    let caption = format!("\u{3b8}\u{2082} and \u{3b8}\u{2083} at \u{3b8}\u{2081} = {:.2}", q[0]);
+    let said = words(&harness);
+    let is_there = said.iter().any(|(text, ..)| text.replace('\u{2212}', "-").contains(&caption));
+    assert!(is_there, "{caption} of {said:?}");
+}

@@ -6,9 +6,11 @@ use crate::anatomy::touching_items;
 use crate::collision::footprint_distance;
 use crate::geometry::{Footprint, Point2, Vector2};
 use crate::num::lesser;
-use crate::picture::{Fit, Item, Picture, Role, footprint};
+use crate::picture::{Anchor, Drawing, Face, Fit, Item, Picture, Role, footprint};
 use crate::simulation::TransportCommand;
-use crate::ui::cspace::put_at::{footprint_to_come, is_placeable, put_at, to_come};
+use crate::ui::cspace::put_at::{footprint_to_come, is_placeable, put_at, robots_in_the_way, to_come};
+use crate::ui::dashboard::doors;
+use crate::ui::dashboard::pane::touched;
 use crate::ui::paint::canvas;
 use crate::ui::{Cockpit, CockpitRobot, Command, Look, UiState};
 
@@ -23,9 +25,10 @@ pub fn robot_at(cockpit: &Cockpit, at: Point2, reach: f64) -> Option<&CockpitRob
     near.min_by(|(one, _), (other, _)| one.total_cmp(other)).map(|(_, robot)| robot)
 }
 
-/// Lets the robots on wheels of a cockpit be dragged; one that would overlap something stays, and the obstacle in its
-/// way is marked as a contact is. A place to come with the next tick is shown. Returns the robot that the pointer is
-/// pressed on, and whether it was clicked.
+/// Lets the robots on wheels of a cockpit be dragged; one that would overlap something stays, and what is in its way is
+/// marked as a contact is, also where the drag is of its point or its heading. A place to come with the next tick is
+/// shown. A door beside a body is clicked through. Returns the robot that the pointer is pressed on, and whether it was
+/// clicked.
 pub fn bodies<'a>(
     ui: &mut Ui,
     cockpit: &'a Cockpit,
@@ -42,6 +45,8 @@ pub fn bodies<'a>(
     for robot in cockpit.robots.iter().filter(|robot| is_placeable(robot)) {
         let there = footprint_to_come(robot);
         let mut over: Vec<Item> = Vec::new();
+        let by_point = state.linked.refused.as_ref().filter(|(of, _)| *of == robot.name);
+        let mut refused = by_point.map(|(_, there)| there.clone());
         if robot.target.is_some() {
             over.extend(footprint("target", "where it is put", &there, Role::Robot, 0.3));
         }
@@ -51,7 +56,14 @@ pub fn bodies<'a>(
             let response = ui.interact(hit, id, Sense::CLICK | Sense::DRAG);
             let words = format!("{}: its body, to be dragged", robot.name);
             response.widget_info(|| WidgetInfo::labeled(WidgetType::Other, true, &words));
-            if response.clicked() || response.is_pointer_button_down_on() {
+            let at = response.interact_pointer_pos().or(response.hover_pos());
+            let door = at.filter(|at| robot_at(cockpit, world_at(*at), 0.0).is_none()).and_then(|at| {
+                let at = [at.x, at.y].map(f64::from);
+                doors::door_at(cockpit, fit, at, doors::reach(touched(ui)))
+            });
+            if let Some(door) = door.filter(|_| response.clicked()) {
+                doors::toggle(&cockpit.world.name, door, commands);
+            } else if response.clicked() || response.is_pointer_button_down_on() {
                 pressed = Some((robot, response.clicked()));
             }
             let pointer = response.interact_pointer_pos().filter(|_| !is_pinched);
@@ -64,15 +76,20 @@ pub fn bodies<'a>(
                 }
                 if response.dragged() {
                     let off: Vector2 = ui.data(|data| data.get_temp(id)).unwrap_or_default();
-                    if let Some(refused) = put_at(cockpit, robot, at + off, &state.linked, commands) {
-                        over.extend(footprint("refused", "where it can't be", &refused, Role::Goal, 0.2));
-                        over.extend(touching_items(&state.linked.scene_of(&cockpit.atlas), &refused));
-                    }
+                    refused = put_at(cockpit, robot, at + off, &state.linked, commands);
                 }
             }
-            let cursor = if response.dragged() { CursorIcon::Grabbing } else { CursorIcon::Grab };
-            let words = format!("Click to drive {}, drag to move it", robot.name);
+            let (cursor, words) = match door.filter(|_| !response.dragged()) {
+                Some(door) => (CursorIcon::PointingHand, doors::words(door)),
+                None if response.dragged() => (CursorIcon::Grabbing, String::new()),
+                None => (CursorIcon::Grab, format!("Click to drive {}, drag to move it", robot.name)),
+            };
             response.on_hover_cursor(cursor).on_hover_text(words);
+        }
+        if let Some(refused) = &refused {
+            over.extend(footprint("refused", "where it can't be", refused, Role::Goal, 0.2));
+            over.extend(touching_items(&state.linked.scene_of(&cockpit.atlas), refused));
+            over.extend(robots_in_the_way(cockpit, robot, refused).flat_map(named));
         }
         if !over.is_empty() {
             let over = Picture::new("bodies", cockpit.world.bounds).with(over);
@@ -80,6 +97,24 @@ pub fn bodies<'a>(
         }
     }
     pressed
+}
+
+/// Marks a robot that is in the way of another, with its name.
+fn named(robot: &CockpitRobot) -> Vec<Item> {
+    let there = footprint_to_come(robot);
+    let mut items = footprint(&format!("in the way/{}", robot.name), &robot.name, &there, Role::Goal, 0.0);
+    if let Some(bounds) = there.bounds() {
+        let label = Drawing::Label {
+            at: Point2::new(bounds.centre().x, bounds.max.y),
+            text: robot.name.clone(),
+            anchor: Anchor::Above,
+            face: Face::Sans,
+            size_px: 12.0,
+            plate: true,
+        };
+        items.push(Item::new(format!("in the way/{}/name", robot.name), &robot.name, Role::Text, label));
+    }
+    items
 }
 
 /// The area that takes the pointer on the first part of a robot; `None` if it is off the paper.

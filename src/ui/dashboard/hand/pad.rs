@@ -8,6 +8,8 @@ use crate::ui::{Look, UiState};
 
 /// Diameter, points.
 const SIZE: f32 = 104.0;
+/// Distance from what stands beside it, points.
+const GAP: f32 = 10.0;
 /// Offset along an axis below which that channel is 0, as a fraction of the radius.
 const DEAD: f32 = 0.12;
 
@@ -20,10 +22,22 @@ pub fn channels(right: f32, up: f32) -> (i16, i16) {
     (channel(up), channel(-right))
 }
 
-/// Shows the pad in the lower right corner of a paper. Its channels are left in the state, where `drive` takes them.
-pub fn pad(ui: &mut Ui, robot: &str, paper: Rect, look: &Look, state: &mut UiState) {
-    let centre = pos2(paper.right() - 0.5 * SIZE - 10.0, paper.bottom() - 0.5 * SIZE - 10.0);
-    let rect = Rect::from_center_size(centre, Vec2::splat(SIZE));
+/// The place of the pad in the lower right corner of a paper.
+pub fn corner(paper: Rect) -> Rect {
+    Rect::from_min_max(paper.max - Vec2::splat(SIZE + GAP), paper.max - Vec2::splat(GAP))
+}
+
+/// The place of the pad at the right end of a room, and what is left of the room; `None` if that would be too narrow.
+pub fn at_right_of(room: Rect) -> Option<(Rect, Rect)> {
+    let (rest, right) = room.split_left_right_at_x(room.right() - SIZE - GAP);
+    let centre = pos2(right.right() - 0.5 * SIZE, right.center().y);
+    let is_roomy = room.height() >= SIZE && rest.width() >= 1.5 * SIZE;
+    is_roomy.then(|| (Rect::from_center_size(centre, Vec2::splat(SIZE)), rest))
+}
+
+/// Shows the pad. Its channels are left in the state, where `drive` takes them. Returns whether it is pressed.
+pub fn pad(ui: &mut Ui, robot: &str, rect: Rect, look: &Look, state: &mut UiState) -> bool {
+    let centre = rect.center();
     let response = ui.interact(rect, Id::new((robot, "pad")), Sense::drag());
     response.widget_info(|| WidgetInfo::labeled(WidgetType::Other, true, format!("{robot}: pad, up drives forward")));
     let radius = 0.5 * SIZE;
@@ -42,6 +56,7 @@ pub fn pad(ui: &mut Ui, robot: &str, paper: Rect, look: &Look, state: &mut UiSta
     let at = centre + vec2(off.x, off.y).clamp(Vec2::splat(-1.0), Vec2::splat(1.0)) * (radius - 14.0);
     painter.circle_filled(at, 12.0, look.tint(Role::Focus, if held.is_some() { 1.0 } else { 0.5 }));
     response.on_hover_cursor(CursorIcon::Grab);
+    held.is_some()
 }
 
 #[cfg(test)]

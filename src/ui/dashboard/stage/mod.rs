@@ -11,7 +11,7 @@ use bevy_egui::egui::{
 
 use self::places::{Places, WIDE, below_paper, places, share};
 use self::swipe::swiped;
-use super::hand::drive;
+use super::hand::{drive, pad};
 use super::pane::{self, NARROW_TEXT, text_height};
 use super::twins::shown_twin;
 use super::words::{height_of, words_apart, words_in};
@@ -133,8 +133,7 @@ impl Stage<'_> {
         let robot = pane::chosen(cockpit, state)?;
         let way = state.twin.as_ref().is_some_and(|asked| asked.is_way_of(&robot.name));
         let twin = shown_twin(robot, state).filter(|_| cockpit.robots.len() == 1);
-        let linked = Linked { cockpit, robot, tick: self.model.tick, history: self.history, twin, way };
-        Some(linked).filter(Linked::is_known)
+        Linked::new(cockpit, robot, twin, way, (self.history, self.model.tick))
     }
 
     /// Shows cockpits small in a row at the top of `room`. Returns where the row ends.
@@ -206,7 +205,8 @@ impl Stage<'_> {
         words_in(&mut ui, words, cockpit, &fit, self.look, state, commands);
     }
 
-    /// Shows one cockpit: its world, under it its configuration, and under both its words.
+    /// Shows one cockpit: its world, under it its configuration, for fingers with the pad beside it, and under both its
+    /// words.
     fn alone(&self, ui: &mut Ui, state: &mut UiState, commands: &mut Vec<Command>) {
         let Some((index, cockpit)) = front(&self.model.cockpits, state) else { return };
         let room = ui.available_rect_before_wrap();
@@ -214,7 +214,21 @@ impl Stage<'_> {
         let Some(linked) = linked else { return self.pane(ui, cockpit, room, state, commands) };
         let most = room.with_max_y((room.bottom() - NARROW_TEXT).max(room.top() + 60.0));
         let sheet = canvas::proportioned(&cockpit.world, most);
+        let below = room.with_min_y(sheet.bottom() + 6.0);
+        // a picture that has half of the screen needs no other beside it
+        let is_large = sheet.height() >= 0.5 * ui.ctx().content_rect().height();
+        let (mut space, words) = if is_large { (None, below) } else { below_paper(below, NARROW_WORDS) };
+        let driven = pane::chosen(cockpit, state).filter(|robot| robot.drivable && pane::touched(ui));
+        if let Some((place, rest)) = space.filter(|_| driven.is_some()).and_then(pad::at_right_of) {
+            (state.pad_place, space) = (Some(place), Some(rest));
+        }
         let fit = pane::paper(ui, cockpit, sheet, linked.way(), self.look, state, commands);
+        // where no robot is in hand, the pad takes its own
+        if let Some((place, robot)) = state.pad_place.take().zip(driven)
+            && pad::pad(ui, &robot.name, place, self.look, state)
+        {
+            pane::take_in_hand(cockpit, Some(robot), state, commands);
+        }
         let is_whole = state.cameras.get(&cockpit.world.name).is_none_or(|camera| camera.zoom <= 1.0);
         // a magnified world is moved instead
         let to = index as i32 + if is_whole { swiped(ui, sheet) } else { 0 };
@@ -223,10 +237,6 @@ impl Stage<'_> {
             state.next_grasp = Some(Grasp::Leave);
             state.settings.world = to as u32;
         }
-        let below = room.with_min_y(sheet.bottom() + 6.0);
-        // a picture that has half of the screen needs no other beside it
-        let is_large = sheet.height() >= 0.5 * ui.ctx().content_rect().height();
-        let (space, words) = if is_large { (None, below) } else { below_paper(below, NARROW_WORDS) };
         if let Some(space) = space {
             linked.show(ui, space, self.look, &mut state.linked, commands);
         }
