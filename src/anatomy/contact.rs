@@ -24,8 +24,6 @@ pub fn touching_items(scene: &Scene, footprint: &Footprint) -> Vec<Item> {
     let pieces = scene.pieces().filter(|(obstacle, _)| touched.contains(obstacle)).map(|(_, piece)| piece);
     let mut items: Vec<Item> = (1..).zip(pieces).map(edge).collect();
     let at = nearest.on_obstacle;
-    let ring = Drawing::Mark { at, glyph: Glyph::Ring, radius_px: 7.0 };
-    items.push(Item::new("touched/at", "where it is touched", Role::Goal, ring));
     if let Some(name) = scene.obstacle_name(nearest.obstacle) {
         let label = Drawing::Label {
             at,
@@ -37,6 +35,9 @@ pub fn touching_items(scene: &Scene, footprint: &Footprint) -> Vec<Item> {
         };
         items.push(Item::new("touched/name", name, Role::Text, label));
     }
+    // over the edge of the plate, and smaller than the gap before its letters
+    let ring = Drawing::Mark { at, glyph: Glyph::Ring, radius_px: 5.5 };
+    items.push(Item::new("touched/at", "where it is touched", Role::Goal, ring));
     items
 }
 
@@ -92,7 +93,7 @@ mod tests {
         // between both boxes and into them
         let both = touching_items(&scene, &disc(2.5, 0.6));
         let (ids, names) = told(&both);
-        assert_eq!(ids, ["touched/1", "touched/2", "touched/at", "touched/name"]);
+        assert_eq!(ids, ["touched/1", "touched/2", "touched/name", "touched/at"], "the ring over its name's plate");
         assert_eq!(names.len(), 1);
         assert!(["the left box", "the right box"].contains(&names[0]));
         let stone = touching_items(&scene, &Footprint::disc(Point2::new(7.0, 6.0), 0.6));

@@ -206,6 +206,8 @@ fn shown(world: &World, robot: &RobotView, between: f64) -> CockpitRobot {
         contacts: robot.contacts,
         clearance: trail.map(|t| t.clearance).filter(|clearance| clearance.is_finite()),
         manual: robot.manual,
+        along_path: robot.manual
+            && world.resource::<Interface>().0.plan.plays_alone(world.resource::<PendingInput>().script().events.len()),
         // an arm is moved by its joints
         drivable: !is_arm,
         is_arm,
@@ -342,6 +344,7 @@ fn play_path(world: &mut World) {
         }
     };
     let (seed, config) = (ui.plan.seed(), TourConfig { worlds: vec![model], sensor: None, ..TourConfig::default() });
+    let inputs = played.script.events.len();
     let ran = new_run(world, config, (seed, played.script));
     if ran.is_ok() {
         world.resource_mut::<Transport>().playback = Playback::Playing;
@@ -349,7 +352,7 @@ fn play_path(world: &mut World) {
     let config = Arc::clone(&world.resource::<RunConfig>().0);
     let ui = &mut world.resource_mut::<Interface>().into_inner().0;
     if ran.is_ok() {
-        ui.plan.is_played_by(&config);
+        ui.plan.is_played_by(&config, inputs);
         ui.widget = Widget::Dashboard;
     }
     ui.say(said_of(ran));

@@ -174,6 +174,7 @@ fn a_path_is_played_as_a_run_and_drawn_over_it() {
     assert_eq!(world.resource::<Interface>().0.widget, crate::ui::Widget::Dashboard);
     assert_eq!(harness.state().transport().playback, Playback::Playing);
     assert!(plan(&harness).over_world("Workbench").is_some() && plan(&harness).over_world("Lot").is_none());
+    harness.get_by_label("Reach \u{b7} Workbench \u{b7} on its path");
     let over = plan(&harness).over_world("Workbench").cloned().unwrap();
     assert!(
         over.items.iter().any(|item| item.id == "path") && !over.items.iter().any(|item| item.id.starts_with("start"))
@@ -184,6 +185,8 @@ fn a_path_is_played_as_a_run_and_drawn_over_it() {
         let off: f64 = harness.state().robot(0).coordinates.iter().zip(&goal).map(|(a, b)| (a - b).abs()).sum();
         if off < 1e-4 {
             assert_eq!(harness.state().robot(0).contacts, 0);
+            drag(&mut harness, "Reach: elbow, \u{3b8}\u{2081} in radians", [0.0, -1.0]);
+            harness.get_by_label("Reach \u{b7} Workbench \u{b7} driven by hand");
             // another run of the same world does not play it
             let config = crate::tour::TourConfig::default();
             let app = harness.state_mut().app.world_mut();

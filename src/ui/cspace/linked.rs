@@ -109,7 +109,7 @@ impl<'a> Linked<'a> {
         Some(())
     }
 
-    /// Shows the cells of the robot's slice, and over them its trail and its point; of a robot on wheels its heading too.
+    /// Shows the cells of the robot's slice, and over them its trail, its point, and on wheels its heading.
     /// Returns the paper, and where the robot can't be if it is dragged there.
     fn among_cells(
         &self,
@@ -146,7 +146,7 @@ impl<'a> Linked<'a> {
         }
         self.described(ui, paper);
         let refused = self.handle(ui, at, &fit, state, commands);
-        Some((paper, self.dial(ui, paper, look, state, commands).or(refused)))
+        Some((paper, self.dial(ui, [paper, room], look, state, commands).or(refused)))
     }
 
     /// Lets the point be dragged: the robot follows, one on wheels only where it is free. Returns where it can't be.
@@ -220,7 +220,7 @@ impl<'a> Linked<'a> {
             [x, y, ..] => self.handle(ui, Point2::new(x, y), &fit, linked, commands),
             _ => None,
         };
-        (paper, self.dial(ui, paper, look, linked, commands).or(refused))
+        (paper, self.dial(ui, [paper, room], look, linked, commands).or(refused))
     }
 
     /// Shows the heading and a trailer's as needles, and how far the hitch may fold. The robot's own is dragged, and it
@@ -228,13 +228,15 @@ impl<'a> Linked<'a> {
     fn dial(
         &self,
         ui: &mut Ui,
-        paper: Rect,
+        [paper, room]: [Rect; 2],
         look: &Look,
         linked: &LinkedState,
         commands: &mut Vec<Command>,
     ) -> Option<Footprint> {
-        let painter = ui.painter_at(paper);
-        let centre = paper.right_top() + vec2(-DIAL - 10.0, DIAL + 10.0);
+        // beside the picture, or without room there in its corner
+        let off = if room.right() - paper.right() >= 2.0 * DIAL + 10.0 { DIAL + 8.0 } else { -DIAL - 10.0 };
+        let centre = paper.right_top() + vec2(off, DIAL + 10.0);
+        let painter = ui.painter_at(paper.union(room));
         let round = Rect::from_center_size(centre, Vec2::splat(2.0 * DIAL));
         let response = ui.interact(round, Id::new((&self.robot.name, "heading")), Sense::DRAG);
         let words = format!("{}: its heading on a dial, to be dragged", self.robot.name);

@@ -37,6 +37,7 @@ fn robot<R: Robot>(name: &str, kind: &str, robot: &R, q: R::Configuration) -> Co
         contacts: 3,
         clearance: None,
         manual: false,
+        along_path: false,
         drivable: !kind.starts_with("reach"),
         is_arm: kind.starts_with("reach"),
         trailer: None,
@@ -143,8 +144,7 @@ impl Screen {
 
     /// Clicks the control whose name begins so.
     fn press(&mut self, model: &Dashboard, begins: &str) {
-        let at = self.control(begins).1.center();
-        self.click_at(model, at);
+        self.click_at(model, self.control(begins).1.center());
         self.frame(model, vec![]);
     }
 

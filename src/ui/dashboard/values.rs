@@ -32,8 +32,10 @@ pub struct CockpitRobot {
     pub contacts: u32,
     /// Its distance from the nearest obstacle, metres; `None` where it is not known.
     pub clearance: Option<f64>,
-    /// Whether a person drives it.
+    /// Whether inputs drive it, a person's or those of a path that is played.
     pub manual: bool,
+    /// Whether these are of a path that is played and nothing else.
+    pub along_path: bool,
     /// Whether it can be driven by channels.
     pub drivable: bool,
     /// Its kind, as worlds name it.

@@ -117,9 +117,13 @@ fn heading(ui: &mut Ui, cockpit: &Cockpit, fit: &Fit, look: &Look) {
     });
 }
 
-/// A heading with who drives the robot, if a person does.
+/// A heading with what drives the robot, if it is not on its tour.
 pub fn by_whom(robot: &CockpitRobot, heading: String) -> String {
-    if robot.manual { format!("{heading} \u{b7} driven by hand") } else { heading }
+    match (robot.manual, robot.along_path) {
+        (false, _) => heading,
+        (true, false) => format!("{heading} \u{b7} driven by hand"),
+        (true, true) => format!("{heading} \u{b7} on its path"),
+    }
 }
 
 fn formulas(ui: &mut Ui, robot: &CockpitRobot, look: &Look, state: &mut UiState) {

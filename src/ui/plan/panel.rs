@@ -21,8 +21,19 @@ use crate::worlds::World;
 /// Width of a chooser, points.
 const WIDTH: f32 = 180.0;
 
-/// Shows the panel.
+/// Shows the panel: what is planned and by whom, and what came of it.
 pub fn panel(ui: &mut Ui, look: &Look, state: &mut UiState, commands: &mut Vec<Command>) {
+    choices(ui, state);
+    ui.add_space(4.0);
+    outcome(ui, look, &state.plan);
+    ui.add_space(4.0);
+    path_buttons(ui, look, &mut state.plan, commands);
+    ui.add_space(4.0);
+    ends(ui, &mut state.plan);
+}
+
+/// Shows what is planned, and by whom.
+pub fn choices(ui: &mut Ui, state: &mut UiState) {
     task_choice(ui, state);
     let plan = &mut state.plan;
     planner_choice(ui, plan);
@@ -32,10 +43,16 @@ pub fn panel(ui: &mut Ui, look: &Look, state: &mut UiState, commands: &mut Vec<C
     }
     sensor_choice(ui, plan);
     seed(ui, plan);
-    ui.add_space(4.0);
+}
+
+/// Shows what came of it.
+pub fn outcome(ui: &mut Ui, look: &Look, plan: &PlanState) {
     result(ui, look, plan);
     leave_points(ui, plan);
-    ui.add_space(4.0);
+}
+
+/// Shows what can be done with the path.
+pub fn path_buttons(ui: &mut Ui, look: &Look, plan: &mut PlanState, commands: &mut Vec<Command>) {
     let has_path = matches!(plan.stage(), Stage::Solved);
     ui.horizontal_wrapped(|ui| {
         let play = LabButton::new("Play it").enabled(has_path).show(ui, look);
@@ -56,14 +73,17 @@ pub fn panel(ui: &mut Ui, look: &Look, state: &mut UiState, commands: &mut Vec<C
         }
     });
     ui.checkbox(&mut plan.over_drive, "draw it over the dashboard too");
-    ui.add_space(4.0);
+}
+
+/// Shows the coordinates of start and goal, folded away.
+pub fn ends(ui: &mut Ui, plan: &mut PlanState) {
     for (end, name) in ["Start", "Goal"].into_iter().enumerate() {
         fold(ui, name, false, |ui| coordinates(ui, plan, end));
     }
 }
 
 /// The robots to plan for: the residents of the built-in worlds and of the atlas's, a car with its trailer and without.
-fn choices(atlas: &World) -> Vec<(String, AnyRobot, AnyConfiguration, World, bool)> {
+fn tasks(atlas: &World) -> Vec<(String, AnyRobot, AnyConfiguration, World, bool)> {
     let books = World::built_in_names().into_iter().filter_map(World::built_in);
     let mut worlds: Vec<(World, bool)> = books.map(|world| (world, true)).collect();
     if worlds.iter().all(|(world, _)| world != atlas) {
@@ -98,7 +118,7 @@ fn task_choice(ui: &mut Ui, state: &mut UiState) {
     let present = state.plan.task();
     let shown = named(&present.name, &present.robot, &present.world, state.plan.is_in_books_world());
     chooser(ui, "robot", ComboBox::from_id_salt("robot").width(WIDTH).selected_text(shown.as_str()), |ui| {
-        for (name, robot, q, world, is_books) in choices(state.atlas.world()) {
+        for (name, robot, q, world, is_books) in tasks(state.atlas.world()) {
             let words = named(&name, &robot, &world, is_books);
             if ui.selectable_label(words == shown, words).clicked() {
                 let goal = goal_for(&robot, &world, q);
@@ -166,8 +186,8 @@ fn result(ui: &mut Ui, look: &Look, plan: &PlanState) {
     let effort = plan.effort();
     let monospace = |text: String| RichText::new(text).monospace();
     if !matches!(plan.stage(), Stage::Read(_)) {
-        ui.label(monospace(format!("{:>7} iterations  {:>7} samples", effort.iterations, effort.samples)));
-        ui.label(monospace(format!("{:>7} edges asked {:>7} free", effort.edges, effort.free)));
+        ui.label(monospace(format!("{:>6} iterations  {:>6} samples", effort.iterations, effort.samples)));
+        ui.label(monospace(format!("{:>6} edges asked {:>6} free", effort.edges, effort.free)));
     }
     match plan.stage() {
         Stage::Growing if effort.iterations == 0 => {

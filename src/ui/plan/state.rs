@@ -80,8 +80,8 @@ pub struct PlanState {
     pub end: usize,
     /// Whether it is drawn over the dashboard's panes too.
     pub over_drive: bool,
-    /// The path that the run plays, with the run's configuration.
-    played: Option<(Arc<TourConfig>, Arc<Picture>)>,
+    /// The path that the run plays, with the run's configuration and the number of inputs that play it.
+    played: Option<(Arc<TourConfig>, Arc<Picture>, usize)>,
     /// Whether the goal was moved since the planner was last at work.
     pub is_moved: bool,
     /// What the reader did that hints ask for, since it was last taken.
@@ -309,24 +309,29 @@ impl PlanState {
         self.look();
     }
 
-    /// The run with this configuration plays the path: it is drawn over its world, but for the start, where the robot
-    /// is.
-    pub fn is_played_by(&mut self, config: &Arc<TourConfig>) {
+    /// The run with this configuration plays the path by so many inputs: it is drawn over its world, but for the start,
+    /// where the robot is.
+    pub fn is_played_by(&mut self, config: &Arc<TourConfig>, inputs: usize) {
         let shown = |item: &Item| !item.id.starts_with("start") && item.id != "growth";
         let items = self.over.items.iter().filter(|item| shown(item)).cloned();
         let picture = Picture::new("played path", self.over.bounds).with(items);
-        self.played = Some((Arc::clone(config), Arc::new(picture)));
+        self.played = Some((Arc::clone(config), Arc::new(picture), inputs));
     }
 
     /// Forgets the path that a run played, unless that run is still the one with this configuration.
     pub fn see_run(&mut self, config: &Arc<TourConfig>) {
-        self.played.take_if(|(played, _)| !Arc::ptr_eq(played, config));
+        self.played.take_if(|(played, ..)| !Arc::ptr_eq(played, config));
+    }
+
+    /// Whether a run with so many inputs does nothing but play the path.
+    pub fn plays_alone(&self, inputs: usize) -> bool {
+        self.played.as_ref().is_some_and(|(.., own)| *own == inputs)
     }
 
     /// The picture of the path or the plan for a pane that shows the world of this name, where it is to be drawn there.
     pub fn over_world(&self, name: &str) -> Option<&Arc<Picture>> {
         let is_there = |config: &TourConfig| config.worlds.iter().any(|world| world.name == name);
-        let played = self.played.as_ref().filter(|(config, _)| is_there(config)).map(|(_, picture)| picture);
+        let played = self.played.as_ref().filter(|(config, ..)| is_there(config)).map(|(_, picture, _)| picture);
         played.or_else(|| Some(&self.over).filter(|_| self.over_drive && self.task.world.name == name))
     }
 

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use bevy_egui::egui::{Align2, Rect, ScrollArea, TextStyle, Ui, UiBuilder, Vec2, pos2, vec2};
 
 use super::controls::{act as act_on_planner, controls};
-use super::panel::panel;
+use super::panel::{choices, ends, outcome, panel, path_buttons};
 use super::state::PlanState;
 use crate::configuration::Configuration;
 use crate::cspace::Slice;
@@ -16,11 +16,14 @@ use crate::picture::{Picture, Role};
 use crate::ui::keys::Action;
 use crate::ui::paint::canvas::{self, MARGIN};
 use crate::ui::paint::frame::next_hint;
-use crate::ui::paint::sheet::{Sheet, sheet};
+use crate::ui::paint::sheet::{Sheet, sheet, two_columns};
 use crate::ui::{Command, Dashboard, Look, Notice, SessionCommand, UiState, readout};
 
 /// Width of the panel beside the papers, points.
 const SIDE: f32 = 240.0;
+
+/// Height from which on what came of the plan has room under the papers, points.
+const OUTCOME: f32 = 110.0;
 
 /// Largest number of cells judged in a frame.
 const CELLS: u32 = 1500;
@@ -95,11 +98,30 @@ pub fn plan_view(ui: &mut Ui, model: &Dashboard, look: &Look, state: &mut UiStat
         });
     } else {
         let under = Rect::from_min_max(pos2(room.left(), seen.bottom() + 10.0), pos2(papers.right(), room.bottom()));
+        let is_roomy = under.height() >= bar + OUTCOME;
         ui.scope_builder(UiBuilder::new().max_rect(under), |ui| {
             ui.horizontal(|ui| controls(ui, look, &mut state.plan));
+            if is_roomy {
+                ui.add_space(8.0);
+                let scroll = ScrollArea::vertical().id_salt("outcome").auto_shrink(false);
+                scroll.show(ui, |ui| {
+                    two_columns(ui, 0.5 * (under.width() - 20.0), |ui, i| match i {
+                        0 => outcome(ui, look, &state.plan),
+                        _ => path_buttons(ui, look, &mut state.plan, commands),
+                    });
+                });
+            }
         });
         ui.scope_builder(UiBuilder::new().max_rect(beside), |ui| {
-            ScrollArea::vertical().id_salt("plan").auto_shrink(false).show(ui, |ui| panel(ui, look, state, commands));
+            ScrollArea::vertical().id_salt("plan").auto_shrink(false).show(ui, |ui| {
+                if is_roomy {
+                    choices(ui, state);
+                    ui.add_space(4.0);
+                    ends(ui, &mut state.plan);
+                } else {
+                    panel(ui, look, state, commands);
+                }
+            });
         });
     }
 }
