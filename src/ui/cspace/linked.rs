@@ -28,6 +28,9 @@ const BUDGET: u32 = 400;
 /// Radius of the dial of headings, points.
 const DIAL: f32 = 24.0;
 
+/// Width of a room from which on the dial stands beside the picture, points.
+const WIDE: f32 = 280.0;
+
 /// Diameter of the area that takes the pointer on the point, points.
 const HIT: f32 = 28.0;
 
@@ -82,9 +85,12 @@ impl<'a> Linked<'a> {
         let q = AnyRobot::of_kind(&self.robot.kind, to_come(self.robot))?.1;
         let line = ui.text_style_height(&TextStyle::Small);
         let place = Rect::from_min_max(room.min + vec2(0.0, line + 4.0), room.max);
+        // a dial beside the picture covers nothing of it
+        let dial = if room.width() >= WIDE && !self.robot.is_arm { 2.0 * DIAL + 16.0 } else { 0.0 };
+        let places = [place.with_max_x(place.right() - dial), place];
         let (paper, refused) = match q {
-            AnyConfiguration::Hitch(_) => self.among_obstacles(ui, place, look, state, commands),
-            _ => self.among_cells(ui, place, q, look, state, commands)?,
+            AnyConfiguration::Hitch(_) => self.among_obstacles(ui, places, look, state, commands),
+            _ => self.among_cells(ui, places, q, look, state, commands)?,
         };
         let refused = refused.map(|there| (self.robot.name.clone(), there));
         if state.refused != refused {
@@ -114,7 +120,7 @@ impl<'a> Linked<'a> {
     fn among_cells(
         &self,
         ui: &mut Ui,
-        room: Rect,
+        [place, room]: [Rect; 2],
         q: AnyConfiguration,
         look: &Look,
         state: &mut LinkedState,
@@ -125,7 +131,7 @@ impl<'a> Linked<'a> {
             ui.ctx().request_repaint();
         }
         let still = cells.picture();
-        let paper = canvas::proportioned(still, room);
+        let paper = canvas::proportioned(still, place);
         let fit = canvas::fit(still, paper);
         let slice = cells.map().slice();
         let overlay = Overlay {
@@ -198,13 +204,13 @@ impl<'a> Linked<'a> {
     fn among_obstacles(
         &self,
         ui: &mut Ui,
-        room: Rect,
+        [place, room]: [Rect; 2],
         look: &Look,
         linked: &LinkedState,
         commands: &mut Vec<Command>,
     ) -> (Rect, Option<Footprint>) {
         let world = &self.cockpit.world;
-        let paper = canvas::proportioned(world, room);
+        let paper = canvas::proportioned(world, place);
         let fit = canvas::fit(world, paper);
         let painter = ui.painter_at(paper);
         canvas::paint_kept(&painter, world, paper, &fit, look);

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use bevy_egui::egui::{Rect, RichText, ScrollArea, TextWrapMode, Ui, pos2, vec2};
+use bevy_egui::egui::{Label, Rect, RichText, ScrollArea, TextStyle, TextWrapMode, Ui, pos2, vec2};
 
 use super::torus::torus;
 use crate::anatomy::{Series, Tab, twin};
@@ -17,7 +17,7 @@ use crate::ui::paint::canvas;
 use crate::ui::paint::fold::fold;
 use crate::ui::paint::frame::{formulas, headline, next_hint, rows_of_words};
 use crate::ui::paint::sheet::{sheet, two_columns};
-use crate::ui::{Command, Dashboard, Look, UiState, readout};
+use crate::ui::{Command, Dashboard, Look, UiState, readout, readout_lines};
 
 /// Largest number of points kept in the trace.
 const TRACE: usize = 2000;
@@ -93,7 +93,12 @@ fn readouts(ui: &mut Ui, look: &Look, state: &mut UiState) {
         let anatomy = &state.anatomy.anatomy;
         let role = if anatomy.intersects() { Role::Goal } else { Role::Text };
         headline(ui, &anatomy.clearance(), look.colour(role));
-        ui.label(RichText::new(readout(&anatomy.q().to_string())).monospace());
+        // as a whole in the next row where this one has no room
+        let figure = TextStyle::Monospace.resolve(ui.style());
+        let width = ui.ctx().fonts_mut(|f| f.glyph_width(&figure, '0'));
+        for line in readout_lines(&readout(&anatomy.q().to_string()), (ui.max_rect().width() / width) as usize) {
+            ui.add(Label::new(RichText::new(line).monospace()).extend());
+        }
     });
     if let Some(cells) = &state.cspace.cells {
         let p = cells.map().progress();

@@ -29,7 +29,7 @@ pub fn panel(ui: &mut Ui, look: &Look, state: &mut UiState, commands: &mut Vec<C
     ui.add_space(4.0);
     path_buttons(ui, look, &mut state.plan, commands);
     ui.add_space(4.0);
-    ends(ui, &mut state.plan);
+    ends(ui, &mut state.plan, false);
 }
 
 /// Shows what is planned, and by whom.
@@ -75,10 +75,10 @@ pub fn path_buttons(ui: &mut Ui, look: &Look, plan: &mut PlanState, commands: &m
     ui.checkbox(&mut plan.over_drive, "draw it over the dashboard too");
 }
 
-/// Shows the coordinates of start and goal, folded away.
-pub fn ends(ui: &mut Ui, plan: &mut PlanState) {
+/// Shows the coordinates of start and goal, which fold away.
+pub fn ends(ui: &mut Ui, plan: &mut PlanState, is_open: bool) {
     for (end, name) in ["Start", "Goal"].into_iter().enumerate() {
-        fold(ui, name, false, |ui| coordinates(ui, plan, end));
+        fold(ui, name, is_open, |ui| coordinates(ui, plan, end));
     }
 }
 

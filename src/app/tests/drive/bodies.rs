@@ -81,6 +81,9 @@ fn a_rover_is_dragged_by_its_body_and_stays_out_of_the_furniture() {
 fn two_fingers_over_a_body_magnify_and_put_it_nowhere() {
     let mut harness = lab(WIDE);
     pause(&mut harness);
+    // controls grow with the first finger, before any body is where it stays
+    interface_mut(&mut harness).is_touched = true;
+    harness.run_steps(4);
     let body = harness.get_by_label("Rusty: its body, to be dragged").rect().center();
     let touch = |harness: &mut Harness<'_, Lab>, finger: u64, phase, at: Pos2| {
         let id = egui::TouchId(finger);
