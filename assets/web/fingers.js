@@ -47,7 +47,7 @@ function hidden(canvas, widgets, [x, y]) {
  */
 export function fingers({ canvas, container, at, widgets, twin, embedded, announce }) {
   let tap = null;
-  let scrolls = null; // what the finger scrolls: "page", "words", or "unknown" as yet; nothing where it drags
+  let scrolls = null; // what the finger scrolls: "page", "words", or "unknown" as yet; nothing where it drags or goes sideways
   let isHeld = !embedded;
   let verdict = null; // what the lab last said of a guess
   const point = ({ clientX, clientY }) => {
@@ -62,7 +62,9 @@ export function fingers({ canvas, container, at, widgets, twin, embedded, announ
     return isDrawing && !isHeld ? null : own;
   };
   // a drawing that nobody uses yet does not move before it is known whether the finger scrolls; what is typed is typed into the twin
-  const isOurs = (event) => dragged(point(event)) === null || at(...point(event), TYPED);
+  const isOurs = (event) => dragged(point(event)) === null || at(...point(event), TYPED) || pressedNext(point(event));
+  /** The control that a finger presses while a number or a text is typed: what was typed is entered before. */
+  const pressedNext = (spot) => (container.contains(document.activeElement) && document.activeElement.matches("input") ? at(...spot, TAPPED) : undefined);
   const withhold = (type, is) =>
     canvas.parentElement.addEventListener(type, (event) => event.pointerType === "touch" && event.target === canvas && is(event) && event.stopPropagation(), { capture: true });
   withhold("pointerdown", isOurs);
@@ -81,7 +83,9 @@ export function fingers({ canvas, container, at, widgets, twin, embedded, announ
   canvas.addEventListener(
     "touchmove",
     (event) => {
-      const [, y] = point(event.touches[0]);
+      const [x, y] = point(event.touches[0]);
+      // a way to the side is the lab's: a swipe to the next world
+      if (scrolls === "unknown" && Math.abs(x - tap[0]) > Math.max(SURE, 2 * Math.abs(y - tap[1]))) scrolls = null;
       if (scrolls === "unknown" && Math.abs(y - tap[1]) > SURE) {
         const { below, above } = hidden(canvas, widgets(), tap);
         scrolls = (y < tap[1] ? below : above) > 1 ? "words" : "page";
@@ -95,10 +99,13 @@ export function fingers({ canvas, container, at, widgets, twin, embedded, announ
     const [x, y] = point(event.changedTouches[0]);
     if (!tap || Math.hypot(x - tap[0], y - tap[1]) > 10) return;
     isHeld = true;
-    const own = at(x, y, TYPED) ?? beside([x, y]);
+    const own = at(x, y, TYPED) ?? pressedNext([x, y]) ?? beside([x, y]);
     if (!own) return;
     event.preventDefault(); // what a mouse would do next would take the focus again
-    if (!TYPED.includes(own.widget.kind)) return own.act("click");
+    if (!TYPED.includes(own.widget.kind)) {
+      if (container.contains(document.activeElement)) document.activeElement.blur(); // enters what was typed
+      return own.act("click");
+    }
     own.element.classList.add("typing");
     own.control.focus({ preventScroll: true });
     own.control.select();

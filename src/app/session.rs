@@ -303,6 +303,9 @@ pub fn carry_out(world: &mut World, commands: Vec<Command>) {
                 let seed = world.resource::<Transport>().seed;
                 let config = TourConfig { worlds: vec![model], ..TourConfig::default() };
                 let ran = new_run(world, config, seed);
+                if ran.is_ok() {
+                    world.resource_mut::<Transport>().playback = Playback::Playing;
+                }
                 let ui = &mut world.resource_mut::<Interface>().into_inner().0;
                 if ran.is_ok() {
                     ui.widget = Widget::Dashboard;

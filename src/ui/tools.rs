@@ -17,7 +17,12 @@ pub fn act(action: Action, model: &Dashboard, state: &mut UiState, commands: &mu
     let in_dashboard = state.widget == Widget::Dashboard;
     let settings = &mut state.settings;
     match action {
-        Action::Undo => commands.push(Command::from(TransportCommand::Undo)),
+        Action::Undo => {
+            commands.push(Command::from(TransportCommand::Undo));
+            if model.can_undo {
+                state.say(Notice { text: "Undone. Redo brings it back.".to_owned(), is_error: false });
+            }
+        }
         Action::Redo => commands.push(Command::from(TransportCommand::Redo)),
         Action::Save => commands.push(Command::Session(SessionCommand::Save)),
         Action::Open => commands.push(Command::Session(SessionCommand::Open)),

@@ -13,7 +13,7 @@ use wasm_bindgen::prelude::*;
 use super::canvas::add_plugins;
 use super::controls::{Staged, Touched, receive};
 use super::downloads::files;
-use super::inbox::{Incoming, put, wake_by};
+use super::inbox::{Incoming, put, wake, wake_by};
 use super::link::{Link, LinkError, retold};
 use super::listener::{listen, tell};
 use super::message::{Asked, Message};
@@ -180,8 +180,18 @@ const REST: Duration = Duration::from_secs(3600);
 
 /// Lets a paused lab sleep once nothing has happened in some frames. A frame a second would keep the processor busy
 /// where it draws.
-fn rest(mut settings: ResMut<WinitSettings>, mut touched: ResMut<Touched>, mut frames: Local<u32>) {
-    let is_touched = std::mem::take(&mut touched.0);
+fn rest(
+    mut settings: ResMut<WinitSettings>,
+    mut touched: ResMut<Touched>,
+    mut resized: MessageReader<WindowResized>,
+    mut frames: Local<u32>,
+) {
+    let is_resized = resized.read().count() > 0;
+    if is_resized {
+        // this frame was laid out for the size before
+        wake();
+    }
+    let is_touched = std::mem::take(&mut touched.0) || is_resized;
     let UpdateMode::Reactive { wait, .. } = &mut settings.focused_mode else {
         *frames = 0;
         return;

@@ -273,3 +273,23 @@ fn bug1_by_its_sensor_has_a_switch_that_makes_the_sensor_lie_and_says_what_was_m
     click(&mut harness, "the sensor lies");
     assert!(!plan(&harness).sensor_lies());
 }
+
+#[test]
+fn an_end_that_lies_in_another_slice_is_said_to() {
+    use crate::configuration::{AnyConfiguration, HitchCfg};
+    use crate::geometry::Pose2;
+    let mut harness = planned(WIDE);
+    let at = |theta| AnyConfiguration::Hitch(HitchCfg { body: Pose2::new(6.5, 3.0, theta), trailer: None });
+    let said = |harness: &Harness<'_, Lab>| {
+        super::safe::words(harness)
+            .into_iter()
+            .any(|(text, ..)| text.ends_with("that of the goal, the start lies in another"))
+    };
+    for (goal, is_other) in [(0.0, false), (-1.5, true)] {
+        let car = crate::robots::AnyRobot::Hitch(crate::robots::HITCH);
+        let task = crate::plans::Task::new("Hitch", car, crate::worlds::World::lot(), [at(0.0), at(goal)]);
+        interface_mut(&mut harness).plan.take(task);
+        harness.run_steps(4);
+        assert_eq!(said(&harness), is_other, "{goal}");
+    }
+}

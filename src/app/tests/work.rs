@@ -339,8 +339,10 @@ fn the_three_robots_come_back_from_any_run_and_a_new_run_says_what_became_of_the
     harness.get_by_label(said);
     click(&mut harness, "The three robots");
     assert_eq!(cockpits(&harness), 3);
+    harness.get_by_label(said);
     click(&mut harness, "Undo");
     assert_eq!(cockpits(&harness), 1);
+    let said = "Undone. Redo brings it back.";
     // it goes by itself, after ten seconds of forty frames each
     harness.run_steps(360);
     harness.get_by_label(said);

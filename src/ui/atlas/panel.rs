@@ -14,6 +14,7 @@ use crate::ui::paint::button::LabButton;
 use crate::ui::paint::fold::fold;
 use crate::ui::paint::frame::row_height;
 use crate::ui::paint::plate::refusal;
+use crate::ui::paint::touch::worded;
 use crate::ui::{AtlasState, Look};
 
 /// The most numbers of one thing that have fields; the others are dragged on the paper.
@@ -43,7 +44,7 @@ pub(super) fn edit_panel(ui: &mut Ui, look: &Look, atlas: &mut AtlasState) {
     for warning in atlas.warnings() {
         refusal(ui, warning, look);
     }
-    ui.label("Click a thing, and drag it or its handles; Alt leaves out the snapping. A ring on an edge makes a corner; a corner dragged onto the next goes away.");
+    ui.label(worded(ui, "Click a thing, and drag it or its handles; Alt leaves out the snapping. A ring on an edge makes a corner; a corner dragged onto the next goes away."));
     add_buttons(ui, look, atlas);
     ui.add_space(8.0);
     if atlas.selected.is_some() {

@@ -13,6 +13,7 @@ use crate::ui::paint::button::LabButton;
 use crate::ui::paint::frame::next_hint;
 use crate::ui::paint::plate::{Place, plate, refusal};
 use crate::ui::paint::sheet::{Sheet, sheet, split};
+use crate::ui::paint::touch::worded;
 use crate::ui::{Cockpit, Command, Dashboard, Look, SessionCommand, UiState, readout};
 use crate::worlds::World;
 
@@ -63,7 +64,7 @@ pub fn atlas_view(ui: &mut Ui, model: &Dashboard, look: &Look, state: &mut UiSta
     if let Some(template) = placing {
         let place = Place { at: paper.center_top() + vec2(0.0, 8.0), pivot: Align2::CENTER_TOP, width: paper.width() };
         plate(ui.ctx(), "placing", place, false, look, |ui| {
-            ui.label(format!("Click where the {} goes. Escape drops it.", template.title()))
+            ui.label(worded(ui, &format!("Click where the {} goes. Escape drops it.", template.title())))
         });
     }
     // where the robot is drawn low, the words stand above it
@@ -282,7 +283,7 @@ fn put_panel(ui: &mut Ui, state: &mut UiState) {
         ui.label("No robot of the lab lives in this world.");
         return;
     }
-    ui.label("Click to put the robot there, drag to turn it.");
+    ui.label(worded(ui, "Click to put the robot there, drag to turn it."));
     for (i, name) in names.iter().enumerate() {
         if names.len() > 1 && ui.radio(atlas.robot == i, name).clicked() {
             atlas.robot = i;

@@ -15,7 +15,7 @@ use crate::geometry::{Aabb, Point2};
 use crate::picture::{Anchor, Drawing, Face, Fit, Item, Picture, Role};
 use crate::simulation::{History, TickMark};
 use crate::ui::dashboard::hand::{drive, handles};
-use crate::ui::dashboard::pane::{Free, coming, door_clicked, in_hand, in_reach, point_out, take_in_hand, touched};
+use crate::ui::dashboard::pane::{Free, coming, door_clicked, in_hand, in_reach, point_out, take_in_hand};
 use crate::ui::dashboard::values::thousands;
 use crate::ui::dashboard::words::{by_whom, robot_words};
 use crate::ui::dashboard::{doors, pane};
@@ -24,6 +24,7 @@ use crate::ui::paint::camera::Camera;
 use crate::ui::paint::canvas;
 use crate::ui::paint::magnifier::{BUTTONS, magnified, magnifier};
 use crate::ui::paint::scale_bar::scale_bar;
+use crate::ui::paint::touch::touched;
 use crate::ui::{Cockpit, Command, Look, UiState};
 
 /// Width of the list, points.

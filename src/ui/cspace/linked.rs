@@ -108,7 +108,11 @@ impl<'a> Linked<'a> {
             }
         };
         let font = TextStyle::Small.resolve(ui.style());
-        let title = format!("Its configuration: {words}");
+        let whose = match &self.cockpit.robots[..] {
+            [_] => "Its configuration".to_owned(),
+            _ => format!("{}'s configuration", self.robot.name),
+        };
+        let title = format!("{whose}: {words}");
         ui.painter().text(room.min, Align2::LEFT_TOP, title, font, look.colour(Role::Muted));
         let frame = Stroke::new(1.0, look.colour(Role::Hairline));
         ui.painter().rect_stroke(paper, 0.0, frame, StrokeKind::Inside);

@@ -44,10 +44,10 @@ pub fn cspace_view(ui: &mut Ui, model: &Dashboard, look: &Look, state: &mut UiSt
     } else {
         140.0
     };
-    // one above the other where they are larger so, or where a finger scrolls
+    // one above the other where they are larger so
     let above = room.width().min(0.5 * (room.height() - if narrow { text } else { UNDER_TWO }));
     let beside = (0.5 * (room.width() - 20.0)).min(room.height() - text);
-    let is_above = !look.low && (narrow || above > beside);
+    let is_above = !look.low && above > beside;
     let side = if is_above { above } else { beside };
     let margin = if is_above { 0.5 * (room.width() - side) } else { 0.0 };
     let left = Rect::from_min_size(room.min + vec2(margin, 0.0), vec2(side, side));

@@ -14,13 +14,14 @@ use super::twins::twin_items;
 use super::words::words_in;
 use crate::anatomy::touching_items;
 use crate::atlas::{self, Atlas};
-use crate::collision::{Collision, Scene};
+use crate::collision::{Collision, Scene, footprint_distance};
 use crate::geometry::{Footprint, Part, Pose2, Shape, Vector2};
 use crate::picture::{Drawing, Fit, Item, Picture, Role, ScanDrawing, fan_scan, pick, places, scan_id};
 use crate::simulation::SensorView;
 use crate::ui::cspace::put_at::is_placeable;
 use crate::ui::paint::camera::Camera;
 use crate::ui::paint::magnifier::{BUTTONS, magnified, magnifier};
+use crate::ui::paint::touch::touched;
 use crate::ui::paint::{canvas, frame};
 use crate::ui::{Cockpit, CockpitRobot, Command, Grasp, Look, Notice, UiState};
 
@@ -311,11 +312,6 @@ fn joints_to_drag(arm: &CockpitRobot) -> &'static str {
     if arm.coordinates.len() == 2 { "drag its elbow or tip" } else { "drag its joints or tip" }
 }
 
-/// Whether the lab is used by touch: a finger is on the screen, or controls are as large as a fingertip.
-pub fn touched(ui: &Ui) -> bool {
-    ui.input(|i| i.any_touches()) || ui.spacing().interact_size.y > 40.0
-}
-
 /// What of a paper is free for words.
 pub struct Free<'a> {
     /// Width that something else takes at the right, points.
@@ -342,7 +338,9 @@ pub fn in_hand(ui: &mut Ui, robot: &CockpitRobot, paper: Rect, free: Free, look:
     let font = TextStyle::Body.resolve(ui.style());
     let galley = ui.painter().layout(words, font, look.colour(Role::Text), paper.width() - 24.0 - taken);
     let size = galley.size() + vec2(8.0, 4.0);
-    let rect = of.and_then(|(cockpit, fit)| free_place(&state.linked.scene_of(&cockpit.atlas), fit, paper, size));
+    let rect = of.and_then(|(cockpit, fit)| {
+        free_place(&state.linked.scene_of(&cockpit.atlas), &cockpit.robots, fit, paper, size)
+    });
     let rect = rect.unwrap_or(Rect::from_min_size(paper.min + vec2(4.0, 6.0), size));
     // opaque and square: rounded corners of a tint leave dots
     ui.painter().rect_filled(rect, 0.0, look.theme.colour(Role::Paper));
@@ -353,9 +351,12 @@ pub fn in_hand(ui: &mut Ui, robot: &CockpitRobot, paper: Rect, free: Free, look:
     }
 }
 
-/// The first place of this size along the upper edge of a paper, then along its lower edge, where no obstacle is.
-fn free_place(scene: &Scene, fit: &Fit, paper: Rect, size: Vec2) -> Option<Rect> {
+/// The first place of this size along the upper edge of a paper, then along its lower edge, where no obstacle and no
+/// robot is, nor the name of what one touches.
+fn free_place(scene: &Scene, robots: &[CockpitRobot], fit: &Fit, paper: Rect, size: Vec2) -> Option<Rect> {
     const STEP: f32 = 12.0;
+    const NAME: f64 = 40.0;
+    let away = NAME / fit.px_per_metre();
     let room = paper.shrink(STEP);
     let world = |at: bevy_egui::egui::Pos2| fit.world_from_screen([f64::from(at.x), f64::from(at.y)]);
     let columns = ((room.width() - size.x) / STEP).max(0.0) as u16;
@@ -363,7 +364,9 @@ fn free_place(scene: &Scene, fit: &Fit, paper: Rect, size: Vec2) -> Option<Rect>
     let places = rows.into_iter().flat_map(|y| (0..=columns).map(move |k| pos2(room.left() + STEP * f32::from(k), y)));
     places.map(|at| Rect::from_min_size(at, size)).find(|place| {
         let shape = Shape::Rectangle { min: world(place.left_bottom()), max: world(place.right_top()) };
-        !scene.intersects(&Footprint::new([Part::new(Pose2::IDENTITY, shape)]))
+        let place = Footprint::new([Part::new(Pose2::IDENTITY, shape)]);
+        let is_off = |robot: &CockpitRobot| footprint_distance(&place, &robot.footprint) > away;
+        robots.iter().all(is_off) && !scene.intersects(&place)
     })
 }
 

@@ -70,7 +70,9 @@ pub fn offer(ui: &mut Ui, cockpit: &Cockpit, robot: &CockpitRobot, look: &Look, 
     let asked = state.twin.as_ref().filter(|asked| asked.robot == robot.name);
     let is_asked = asked.is_some();
     let words = if robot.is_arm { "One tip, two elbows" } else { "One place, two headings" };
-    let button = LabButton::new(words).enabled(other.is_some());
+    // the way would begin where a waiting input takes the arm away from
+    let waits = robot.is_arm && robot.target.is_some() && !is_asked;
+    let button = LabButton::new(words).enabled(other.is_some() && !waits);
     let button = if robot.is_arm { button } else { button.selected(is_asked) };
     let show = |ui: &mut Ui| {
         // among rows of words a fingertip finds a button of its own height
@@ -81,6 +83,7 @@ pub fn offer(ui: &mut Ui, cockpit: &Cockpit, robot: &CockpitRobot, look: &Look, 
     let said = match (asked.and_then(|asked| asked.way.as_ref()), other) {
         (Some(way), _) if way.ticks == 0 => straight_way(&way.checker, &way.sweep),
         (Some(way), _) => format!("{}: it goes there", straight_way(&way.checker, &way.sweep)),
+        (None, _) if waits => "first comes the next tick, with the drag".to_owned(),
         (None, None) => "straight or folded: no other arm has this tip".to_owned(),
         (None, Some(_)) if robot.is_arm => "the ghost has the same tip: send the arm there".to_owned(),
         (None, Some(other)) if is_asked => {

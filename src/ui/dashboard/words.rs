@@ -224,7 +224,9 @@ fn counts(ui: &mut Ui, robot: &CockpitRobot, look: &Look) {
     if robot.trailer.is_some() {
         text += &format!("  reversals: {}", robot.reversals);
     }
-    ui.label(muted(text));
+    let held = "Since the start. A robot on wheels is held a tenth of a millimetre off what it drives against.";
+    let counted = if robot.is_arm { "Since the start." } else { held };
+    ui.label(muted(text)).on_hover_text(counted);
 }
 
 /// Shows a link. Where there is a reason why it can't be used now it is grey, and the reason is said on hover and by a

@@ -10,6 +10,7 @@ use bevy_egui::egui::{
     vec2,
 };
 
+use super::touch::worded;
 use crate::manifest::{Deed, Formula, Hint, Lesson, Level, Term, Told, Widget};
 use crate::picture::Role;
 use crate::ui::keys::{self, Action};
@@ -273,9 +274,12 @@ pub fn hints(ui: &mut Ui, widget: &WidgetText, look: &Look, state: &mut UiState)
     }
 }
 
-/// Shows the next of the hints, for the words below the picture of a narrow screen; nothing in a lesson, whose task
-/// stands above.
+/// Shows the next of the hints, for the words below the picture of a narrow screen; in a lesson, whose task stands above,
+/// once it is done what it removes.
 pub fn next_hint(ui: &mut Ui, widget: &WidgetText, look: &Look, state: &mut UiState) {
+    if look.narrow && !look.low && state.lesson.as_ref().is_some_and(|lesson| lesson.took.is_some()) {
+        return misconception(ui, widget, look);
+    }
     if !look.narrow || state.lesson.is_some() || state.settings.are_hints_away(state.widget) {
         return;
     }
@@ -302,17 +306,18 @@ pub fn next_hint(ui: &mut Ui, widget: &WidgetText, look: &Look, state: &mut UiSt
 fn lesson(ui: &mut Ui, under_way: &LessonState, look: &Look, state: &mut UiState) {
     let widget = under_way.lesson.widget.text();
     rows_of_words(ui, |ui| {
-        ui.label(RichText::new("Task:").color(look.theme.colour(Role::Text)).strong());
-        let begin = |ui: &mut Ui| ui.link("Again").on_hover_text("Begin this task anew").clicked();
+        // what is said in place of other words leaves the picture below where it is
+        let (head, role) = match under_way.took {
+            None => ("Task:".to_owned(), Role::Text),
+            Some(took) => (format!("Done in {took:.0} s:"), Role::Free),
+        };
+        ui.label(RichText::new(head).color(look.theme.colour(role)).strong());
         let mut is_begun = task(ui, under_way.lesson.text(), under_way.took.is_some(), look).clicked();
-        if let Some(took) = under_way.took {
-            ui.label(RichText::new(format!("Done in {took:.0} s.")).color(look.theme.colour(Role::Free)).strong());
-            // on a wide screen it stands above already
-            if look.narrow || under_way.lesson.widget != state.widget {
-                ui.add(Label::new(RichText::new(&widget.misconception).color(look.theme.colour(Role::Muted))).wrap());
-            }
-            is_begun |= begin(ui);
+        // in its own widget it stands above already, or on a narrow screen below the picture
+        if under_way.took.is_some() && under_way.lesson.widget != state.widget {
+            misconception(ui, widget, look);
         }
+        is_begun |= ui.link("Again").on_hover_text("Begin this task anew").clicked();
         if ui.link("All tasks").clicked() {
             state.lesson = None;
             state.settings.show_hints(state.widget);
@@ -357,11 +362,12 @@ fn most_rows(hints: &[f32], head: f32, room: f32) -> u32 {
 
 /// Shows a hint with a box before it, which is ticked once it has been done.
 fn task(ui: &mut Ui, text: &str, done: bool, look: &Look) -> Response {
+    let text = worded(ui, text);
     let colour = look.theme.colour(if done { Role::Muted } else { Role::Text });
     let width = ui.max_rect().width() - BOX - AFTER;
-    let galley = ui.painter().layout(text.to_owned(), TextStyle::Body.resolve(ui.style()), colour, width);
+    let galley = ui.painter().layout(text.clone(), TextStyle::Body.resolve(ui.style()), colour, width);
     let (rect, response) = ui.allocate_exact_size(galley.size() + vec2(BOX + AFTER, 0.0), Sense::click());
-    let spoken = if done { format!("{text} Done.") } else { text.to_owned() };
+    let spoken = if done { format!("{text} Done.") } else { text };
     response.widget_info(|| WidgetInfo::labeled(WidgetType::Link, true, &spoken));
     let middle = 0.5 * ui.text_style_height(&TextStyle::Body) + 1.0;
     let square = Rect::from_center_size(rect.min + vec2(0.5 * BOX, middle), Vec2::splat(BOX));

@@ -14,3 +14,4 @@ pub(crate) mod polygons;
 pub(crate) mod scale_bar;
 pub(crate) mod sheet;
 pub(crate) mod style;
+pub(crate) mod touch;

@@ -25,6 +25,12 @@ const SIDE: f32 = 240.0;
 /// Height from which on what came of the plan has room under the papers, points.
 const OUTCOME: f32 = 110.0;
 
+/// The names of the two ends.
+const END: [&str; 2] = ["start", "goal"];
+
+/// Height kept free under the papers of a narrow screen, points.
+const UNDER: f32 = 180.0;
+
 /// Largest number of cells judged in a frame.
 const CELLS: u32 = 1500;
 
@@ -59,9 +65,10 @@ pub fn plan_view(ui: &mut Ui, model: &Dashboard, look: &Look, state: &mut UiStat
     let (papers, beside) = if look.low {
         room.split_top_bottom_at_y(room.top() + 0.68 * room.height())
     } else if narrow {
-        // the papers one above the other, and the rest under them
-        let side = (0.5 * (room.height() - 180.0)).min(room.width()).max(120.0);
-        room.split_top_bottom_at_y(room.top() + 2.0 * side + 8.0)
+        // the papers as they are larger, and the rest under them
+        let above = (0.5 * (room.height() - UNDER)).min(room.width()).max(120.0);
+        let beside = (0.5 * (room.width() - 8.0)).min(room.height() - UNDER);
+        room.split_top_bottom_at_y(room.top() + if above >= beside { 2.0 * above + 8.0 } else { beside + line })
     } else {
         let (left, beside) = room.split_left_right_at_x(room.right() - SIDE - 20.0);
         (left.with_max_y(left.bottom() - bar), beside.with_min_x(beside.left() + 20.0))
@@ -74,11 +81,7 @@ pub fn plan_view(ui: &mut Ui, model: &Dashboard, look: &Look, state: &mut UiStat
     });
     let aspects = [Some(&**state.plan.backdrop()), cells.as_ref().map(|(still, _)| &**still)].map(aspect);
     let inner = papers.with_max_y(papers.bottom() - line);
-    let [left, right] = match (look.low, narrow) {
-        (true, _) => beside_one_another(inner, aspects),
-        (_, true) => one_above_the_other(inner, aspects),
-        _ => larger(inner, aspects),
-    };
+    let [left, right] = if look.low { beside_one_another(inner, aspects) } else { larger(inner, aspects) };
     workspace(ui, left, look, &mut state.plan);
     if let Some((still, slice)) = cells {
         space(ui, right, (&still, &slice), look, &mut state.plan);
@@ -188,7 +191,12 @@ fn space(ui: &mut Ui, paper: Rect, (still, slice): (&Arc<Picture>, &Slice), look
     }
     let font = TextStyle::Small.resolve(ui.style());
     let under = paper.left_bottom() + vec2(0.0, 3.0);
-    ui.painter().text(under, Align2::LEFT_TOP, readout(&slice.described()), font, look.colour(Role::Muted));
+    let mut words = readout(&slice.described());
+    let other = 1 - plan.end.min(1);
+    if !slice.holds(&plan.end_at(other)) {
+        words += &format!(": that of the {}, the {} lies in another", END[1 - other], END[other]);
+    }
+    ui.painter().text(under, Align2::LEFT_TOP, words, font, look.colour(Role::Text));
     let places = [0, 1].map(|end| Point2::from(slice.point(&plan.end_at(end))));
     if let Some((end, to)) = moved(&on, places, plan) {
         let (min, max) = (slice.min(), slice.max());

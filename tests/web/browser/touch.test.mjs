@@ -91,3 +91,48 @@ lab("a tap beside a link among words is one on it, and the page's own links are 
     assert.ok(width >= 44 && height >= 44, `${await element.textContent()}: ${width} x ${height}`);
   }
 }, PHONE);
+
+lab("a tap on Check enters what was typed before", "/?widget=anatomy", async (lab) => {
+  const { page } = lab;
+  await page.waitForTimeout(1500);
+  const guess = page.locator("#controls button", { hasText: /^Guess first$/ });
+  if ((await guess.getAttribute("aria-expanded")) === "false") await guess.press("Enter");
+  await lab.find("Check");
+  await page.waitForTimeout(1500);
+  const { place } = await lab.page.evaluate(() => window.received.tree.find((w) => w.kind === "field" && w.place));
+  const { x, y } = await page.locator("#lab").boundingBox();
+  await page.touchscreen.tap(x + place[0] + place[2] / 2, y + place[1] + place[3] / 2);
+  await page.waitForFunction(() => document.activeElement.matches("#controls input[type=text]"), null, { timeout: 10000 });
+  await page.waitForTimeout(1500);
+  await page.keyboard.type("0.05");
+  await page.touchscreen.tap(...(await lab.at("Check")));
+  await page.waitForFunction(() => /0\.0\d/.test(document.getElementById("heard").textContent), null, { timeout: 10000 });
+  assert.ok(!(await page.textContent("#heard")).includes("no number"));
+}, PHONE);
+
+lab("a swipe to the side brings the next world to the front, and takes no robot in hand", "/", async (lab) => {
+  const session = await lab.context.newCDPSession(lab.page);
+  const touch = (type, at) => session.send("Input.dispatchTouchEvent", { type, touchPoints: at ? [{ x: at[0], y: at[1] }] : [] });
+  for (const [from, world] of [[/^Apartment\. Rusty/, "Workbench"], [/^Workbench\. Reach/, "Lot"]]) {
+    const [[right, y], [left]] = [await lab.at(from, [0.8, 0.9]), await lab.at(from, [0.2, 0.9])];
+    await touch("touchStart", [right, y]);
+    for (let i = 1; i <= 10; i++) {
+      await touch("touchMove", [right + ((left - right) * i) / 10, y]);
+      await lab.page.waitForTimeout(60);
+    }
+    await touch("touchEnd");
+    await lab.page.waitForFunction((name) => window.received.tree.some((w) => w.place && w.name?.startsWith(`${name}. `)), world, { timeout: 10000 });
+  }
+  assert.equal((await lab.until(() => true)).armed, null);
+}, PHONE);
+
+lab("a lab at rest is laid out anew when the phone is turned", "/?widget=anatomy", async (lab) => {
+  await lab.until((s) => s.query);
+  const right = () => lab.page.evaluate(() => Math.max(...window.received.tree.filter((w) => w.place).map((w) => w.place[0] + w.place[2])));
+  // four frames, a second apart, and it sleeps
+  await lab.page.waitForTimeout(7000);
+  assert.ok((await right()) <= 390);
+  await lab.page.setViewportSize({ width: 844, height: 390 });
+  await lab.page.waitForTimeout(3000);
+  assert.ok((await right()) > 600, `what is farthest to the right ends at ${await right()}`);
+}, PHONE);

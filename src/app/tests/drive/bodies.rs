@@ -252,3 +252,37 @@ fn a_magnified_view_goes_along_with_the_robot_that_is_driven() {
     let to = harness.state().robot(0).footprint.parts()[0].pose().position();
     assert!((to - from).norm() > 1.0, "the test drives: {from} {to}");
 }
+
+#[test]
+fn the_hint_of_the_robot_in_hand_gives_way_to_the_robot() {
+    let mut harness = lab(WIDE);
+    pause(&mut harness);
+    arm_rusty(&mut harness);
+    harness.run_steps(2);
+    let hint = |harness: &Harness<'_, Lab>| {
+        let words = super::super::safe::words(harness);
+        words.into_iter().find(|(text, ..)| text == "arrows drive, Esc lets go").expect("the hint").1
+    };
+    let stands = hint(&harness);
+    let body = harness.get_by_label("Rusty: its body, to be dragged").rect().center();
+    drag_by(&mut harness, body, stands.center());
+    pointer(&mut harness, stands.center(), Some(false));
+    click(&mut harness, "Step");
+    let body = harness.get_by_label("Rusty: its body, to be dragged").rect();
+    assert!(body.center().distance(stands.center()) < 3.0, "it was put there: {body} {stands}");
+    assert!(!hint(&harness).expand(20.0).intersects(body), "{} covers {body}", hint(&harness));
+}
+
+#[test]
+fn an_arrow_key_without_a_robot_in_hand_says_how_to_take_one() {
+    let mut harness = lab(WIDE);
+    harness.key_press(Key::ArrowUp);
+    harness.run_steps(2);
+    harness.get_by_label_contains("no robot is in hand");
+    assert!(harness.state().script().events.is_empty());
+    let mut harness = lab(WIDE);
+    arm_rusty(&mut harness);
+    harness.key_press(Key::ArrowUp);
+    harness.run_steps(2);
+    assert!(harness.query_by_label_contains("no robot is in hand").is_none());
+}

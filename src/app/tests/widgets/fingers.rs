@@ -174,22 +174,30 @@ fn what_was_copied_is_said() {
     }
 }
 
+/// A task as it is said where there is no mouse.
+fn for_fingers(text: &str) -> String {
+    text.replace("Click", "Tap").replace("click", "tap").replace("keys or pad", "the pad")
+}
+
 #[test]
 fn each_widget_on_a_phone_offers_its_next_task_below_the_picture() {
     for widget in [Widget::Anatomy, Widget::Cspace, Widget::Atlas, Widget::Plan] {
         let mut harness = fresh(PHONE, widget);
         let hints = &widget.text().hints;
         let offered = |harness: &Harness<'_, Lab>| -> Vec<usize> {
-            (0..hints.len()).filter(|i| harness.query_by_label(&hints[*i].text).is_some()).collect()
+            (0..hints.len()).filter(|i| harness.query_by_label(&for_fingers(&hints[*i].text)).is_some()).collect()
         };
         assert_eq!(offered(&harness), [0], "{widget:?}");
-        assert!(harness.get_by_label(&hints[0].text).rect().top() > 0.45 * PHONE[1], "{widget:?}: below the picture");
+        assert!(
+            harness.get_by_label(&for_fingers(&hints[0].text)).rect().top() > 0.45 * PHONE[1],
+            "{widget:?}: below the picture"
+        );
         ui(&mut harness, |ui| ui.settings.tick_off(hints[0].deed));
         harness.run_steps(3);
         assert_eq!(offered(&harness), [1], "{widget:?}");
-        harness.get_by_label(&hints[1].text).scroll_to_me();
+        harness.get_by_label(&for_fingers(&hints[1].text)).scroll_to_me();
         harness.run_steps(20);
-        click(&mut harness, &hints[1].text);
+        click(&mut harness, &for_fingers(&hints[1].text));
         let begun = harness.state().app.world().resource::<Interface>().0.lesson.as_ref().map(|of| of.lesson.deed);
         assert_eq!(begun, Some(hints[1].deed), "{widget:?}");
         ui(&mut harness, |ui| ui.lesson = None);

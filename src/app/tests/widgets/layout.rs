@@ -288,3 +288,13 @@ fn beside_an_arm_of_three_links_the_caption_says_where_its_plane_lies() {
     let is_there = said.iter().any(|(text, ..)| text.replace('\u{2212}', "-").contains(&caption));
     assert!(is_there, "{caption} of {said:?}");
 }
+
+#[test]
+fn in_a_small_window_both_pictures_stand_side_by_side_where_they_are_larger_so() {
+    for widget in [Widget::Cspace, Widget::Plan] {
+        let harness = fresh([600.0, 500.0], widget);
+        let [left, right] = papers(&harness, widget)[..] else { panic!("two papers") };
+        assert!(left.height() > 160.0 && right.height() > 160.0, "{widget:?}: {left} {right}");
+        assert!(left.right() < right.left() && right.right() <= 600.0, "{widget:?}: {left} {right}");
+    }
+}

@@ -6,12 +6,12 @@ use crate::anatomy::touching_items;
 use crate::collision::footprint_distance;
 use crate::geometry::{Footprint, Point2, Vector2};
 use crate::num::lesser;
-use crate::picture::{Anchor, Drawing, Face, Fit, Item, Picture, Role, footprint};
+use crate::picture::{self, Anchor, Drawing, Face, Fill, Fit, Item, Picture, RobotDrawing, Role, footprint};
 use crate::simulation::TransportCommand;
 use crate::ui::cspace::put_at::{footprint_to_come, is_placeable, put_at, robots_in_the_way, to_come};
 use crate::ui::dashboard::doors;
-use crate::ui::dashboard::pane::touched;
 use crate::ui::paint::canvas;
+use crate::ui::paint::touch::touched;
 use crate::ui::{Cockpit, CockpitRobot, Command, Look, UiState};
 
 /// Side of the area that takes the pointer, points: at least this, and the shorter side of the body.
@@ -39,8 +39,14 @@ pub fn bodies<'a>(
     commands: &mut Vec<Command>,
 ) -> Option<(&'a CockpitRobot, bool)> {
     let mut pressed = None;
-    // two fingers magnify
-    let is_pinched = ui.input(|i| i.multi_touch().is_some());
+    // two fingers magnify; when one of them is gone, the other does not drag either
+    let pinch = Id::new("a pinch is on");
+    let (is_pinched, is_down) = ui.input(|i| (i.multi_touch().is_some(), i.pointer.any_down()));
+    let was_pinched = ui.data_mut(|data| {
+        let on = data.get_temp_mut_or_default::<bool>(pinch);
+        *on = is_down && (is_pinched || *on);
+        *on
+    });
     let world_at = |at: Pos2| fit.world_from_screen([at.x, at.y].map(f64::from));
     for robot in cockpit.robots.iter().filter(|robot| is_placeable(robot)) {
         let there = footprint_to_come(robot);
@@ -48,7 +54,7 @@ pub fn bodies<'a>(
         let by_point = state.linked.refused.as_ref().filter(|(of, _)| *of == robot.name);
         let mut refused = by_point.map(|(_, there)| there.clone());
         if robot.target.is_some() {
-            over.extend(footprint("target", "where it is put", &there, Role::Robot, 0.3));
+            over.extend(ghost(robot, &there));
         }
         if let Some(hit) = hit(&there, paper, fit) {
             // the arrow keys drive: no key goes to the body
@@ -66,7 +72,7 @@ pub fn bodies<'a>(
             } else if response.clicked() || response.is_pointer_button_down_on() {
                 pressed = Some((robot, response.clicked()));
             }
-            let pointer = response.interact_pointer_pos().filter(|_| !is_pinched);
+            let pointer = response.interact_pointer_pos().filter(|_| !was_pinched);
             if let ([x, y, ..], Some(at)) = (&to_come(robot)[..], pointer.map(world_at)) {
                 if response.drag_started() {
                     commands.push(Command::from(TransportCommand::Checkpoint));
@@ -97,6 +103,21 @@ pub fn bodies<'a>(
         }
     }
     pressed
+}
+
+/// A robot with its heading where it is put with the next tick.
+fn ghost(robot: &CockpitRobot, there: &Footprint) -> Vec<Item> {
+    let heading = to_come(robot).get(2).copied().filter(|_| robot.heading.is_some());
+    let drawing = RobotDrawing {
+        name: "where it is put",
+        footprint: there,
+        heading,
+        model: None,
+        gait: robot.gait,
+        in_contact: false,
+    };
+    let fainter = |item: Item| if item.role == Role::Robot { item.filled(Fill::Tint(0.3)) } else { item };
+    picture::robot(&drawing).into_iter().map(fainter).collect()
 }
 
 /// Marks a robot that is in the way of another, with its name.

@@ -1,11 +1,11 @@
 //! Driving the robot in hand, with the arrow keys or the pad.
 
-use bevy_egui::egui::{InputState, Ui};
+use bevy_egui::egui::{InputState, Key, Ui};
 
 use crate::run::RobotInput;
 use crate::simulation::{RobotCommand, TransportCommand};
 use crate::ui::keys::{Push, pushed};
-use crate::ui::{Command, Dashboard, UiState};
+use crate::ui::{Command, Dashboard, Notice, UiState};
 
 /// Channel value of a key held down: the maximum.
 const FULL: i16 = crate::robots::CHANNEL_UNITS as i16;
@@ -33,6 +33,11 @@ pub fn drive(ui: &Ui, model: &Dashboard, state: &mut UiState, commands: &mut Vec
     let Some(robot) = state.armed.clone().filter(|name| robots().any(|r| r.drivable && r.name == *name)) else {
         state.armed = None;
         (state.held, state.pad) = ((0, 0), (0, 0));
+        let is_asked = ui.input(|i| i.key_pressed(Key::ArrowUp) || i.key_pressed(Key::ArrowDown));
+        if is_asked && state.nudged.is_none() && ui.memory(|m| m.focused().is_none()) {
+            let text = "no robot is in hand: click its world, or press 1, 2 or 3".to_owned();
+            state.say(Notice { text, is_error: false });
+        }
         return;
     };
     let elsewhere = ui.memory(|m| m.focused().is_some());

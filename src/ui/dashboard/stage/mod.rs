@@ -22,6 +22,7 @@ use crate::ui::crowd::pane::{CrowdPane, crowd_pane};
 use crate::ui::cspace::linked::Linked;
 use crate::ui::keys::{Action, hint};
 use crate::ui::paint::scale_bar::scale_bar;
+use crate::ui::paint::touch::touched;
 use crate::ui::paint::{canvas, frame};
 use crate::ui::{Cockpit, Command, Dashboard, Grasp, Look, UiState, tools};
 
@@ -183,7 +184,12 @@ impl Stage<'_> {
         let over = Picture::new(&cockpit.world.name, cockpit.world.bounds).with(robots);
         canvas::paint(&ui.painter_at(paper), &over, &fit, look);
         let is_marked = response.hovered() || response.has_focus();
-        let role = if is_marked { Role::Focus } else { Role::Hairline };
+        // gold is the frame of the robot in hand, and of the focus
+        let role = match (response.has_focus(), is_marked) {
+            (true, _) => Role::Focus,
+            (false, true) => Role::Muted,
+            (false, false) => Role::Hairline,
+        };
         painter.rect_stroke(paper, 0.0, Stroke::new(1.0, look.colour(role)), StrokeKind::Inside);
         let at = Pos2::new(paper.left(), paper.bottom() + 4.0);
         let colour = look.colour(if is_marked { Role::Text } else { Role::Muted });
@@ -218,7 +224,7 @@ impl Stage<'_> {
         // a picture that has half of the screen needs no other beside it
         let is_large = sheet.height() >= 0.5 * ui.ctx().content_rect().height();
         let (mut space, words) = if is_large { (None, below) } else { below_paper(below, NARROW_WORDS) };
-        let driven = pane::chosen(cockpit, state).filter(|robot| robot.drivable && pane::touched(ui));
+        let driven = pane::chosen(cockpit, state).filter(|robot| robot.drivable && touched(ui));
         if let Some((place, rest)) = space.filter(|_| driven.is_some()).and_then(pad::at_right_of) {
             (state.pad_place, space) = (Some(place), Some(rest));
         }
