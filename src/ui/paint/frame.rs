@@ -274,8 +274,8 @@ pub fn hints(ui: &mut Ui, widget: &WidgetText, look: &Look, state: &mut UiState)
     }
 }
 
-/// Shows the next of the hints, for the words below the picture of a narrow screen; in a lesson, whose task stands above,
-/// once it is done what it removes.
+/// Shows the next of the hints, for the words below the picture of a narrow screen. In a lesson, whose task stands
+/// above, it shows once that is done what it removes.
 pub fn next_hint(ui: &mut Ui, widget: &WidgetText, look: &Look, state: &mut UiState) {
     if look.narrow && !look.low && state.lesson.as_ref().is_some_and(|lesson| lesson.took.is_some()) {
         return misconception(ui, widget, look);
