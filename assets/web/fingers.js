@@ -54,17 +54,22 @@ export function fingers({ canvas, container, at, widgets, twin, embedded, announ
     const { left, top } = canvas.getBoundingClientRect();
     return [clientX - left, clientY - top];
   };
+  /** Whether a control is a drawing. */
+  const isLarge = ({ place: [, , width, height] }) => width * height > 0.1 * canvas.clientWidth * canvas.clientHeight;
   /** What a finger drags that comes down there; `undefined` where it scrolls, `null` on a drawing not in use. */
   const dragged = ([x, y]) => {
     const own = at(x, y, ["handle", "slider"]);
-    const [, , width, height] = own?.widget.place ?? [0, 0, 0, 0];
-    const isDrawing = width * height > 0.1 * canvas.clientWidth * canvas.clientHeight;
-    return isDrawing && !isHeld ? null : own;
+    return own && isLarge(own.widget) && !isHeld ? null : own;
   };
   // a drawing that nobody uses yet does not move before it is known whether the finger scrolls; what is typed is typed into the twin
   const isOurs = (event) => dragged(point(event)) === null || at(...point(event), TYPED) || pressedNext(point(event));
   /** The control that a finger presses while a number or a text is typed: what was typed is entered before. */
-  const pressedNext = (spot) => (container.contains(document.activeElement) && document.activeElement.matches("input") ? at(...spot, TAPPED) : undefined);
+  const pressedNext = (spot) => {
+    if (!container.contains(document.activeElement) || !document.activeElement.matches("input")) return undefined;
+    const own = at(...spot, TAPPED);
+    // on a drawing it counts where the finger is
+    return own && !isLarge(own.widget) ? own : undefined;
+  };
   const withhold = (type, is) =>
     canvas.parentElement.addEventListener(type, (event) => event.pointerType === "touch" && event.target === canvas && is(event) && event.stopPropagation(), { capture: true });
   withhold("pointerdown", isOurs);

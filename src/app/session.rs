@@ -20,7 +20,7 @@ use crate::run::{Event, RobotInput};
 use crate::simulation::{
     CommandRefused, History, HistoryPlugin, PendingInput, Playback, RobotKinds, RobotView, Roster, RunCommand,
     RunConfig, RunInput, SensorRefused, SimulationPlugin, StandingWorld, Transport, Undo, WorldScene, checkpoint,
-    sensors_of, start_run, take_sensors_at_start, view_of,
+    sensors_of, start_run, take_sensors_at_start, undoes, view_of,
 };
 use crate::tour::{BOOK_SEED, TourConfig};
 use crate::ui::{
@@ -166,7 +166,7 @@ pub fn gather(world: &mut World) {
         looping,
         behind: world.resource::<Pace>().words(speed).filter(|_| playing),
         next_contact: history.next_contact(tick),
-        can_undo: undo.can_undo(),
+        can_undo: undoes(world),
         can_redo: undo.can_redo(),
     };
     world.insert_resource(Shown(dashboard));
@@ -207,7 +207,7 @@ fn shown(world: &World, robot: &RobotView, between: f64) -> CockpitRobot {
         clearance: trail.map(|t| t.clearance).filter(|clearance| clearance.is_finite()),
         manual: robot.manual,
         along_path: robot.manual
-            && world.resource::<Interface>().0.plan.plays_alone(world.resource::<PendingInput>().script().events.len()),
+            && world.resource::<Interface>().0.plan.plays_alone(&world.resource::<PendingInput>().script().events),
         // an arm is moved by its joints
         drivable: !is_arm,
         is_arm,
@@ -347,7 +347,7 @@ fn play_path(world: &mut World) {
         }
     };
     let (seed, config) = (ui.plan.seed(), TourConfig { worlds: vec![model], sensor: None, ..TourConfig::default() });
-    let inputs = played.script.events.len();
+    let inputs = played.script.events.clone();
     let ran = new_run(world, config, (seed, played.script));
     if ran.is_ok() {
         world.resource_mut::<Transport>().playback = Playback::Playing;

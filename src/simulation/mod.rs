@@ -69,7 +69,7 @@ pub use tick::input::{PendingInput, RobotCommand};
 pub use tick::refusals::{Refusals, RefusedEvent, RefusedInput};
 pub use tick::settle::FLASH_TICKS;
 pub use transport::{Playback, Transport, TransportCommand};
-pub use undo::{Undo, checkpoint};
+pub use undo::{Undo, checkpoint, undoes};
 
 /// Bevy's app, for a program that adds robots of its own and does not otherwise use Bevy.
 pub use bevy::app::App;

@@ -66,6 +66,18 @@ impl Undo {
     }
 }
 
+/// Whether an undo changes the run: whether a change followed a checkpoint.
+pub fn undoes(world: &World) -> bool {
+    let (Some(config), Some(past)) = (world.get_resource::<RunConfig>(), world.get_resource::<Undo>()) else {
+        return false;
+    };
+    let (seed, script) = (world.resource::<Transport>().seed, world.resource::<PendingInput>().script());
+    let is_now = |version: &Version| {
+        !version.ends && Arc::ptr_eq(&version.config, &config.0) && version.seed == seed && version.script == *script
+    };
+    !past.past.iter().rev().all(is_now)
+}
+
 /// Remembers the present input before a change: what follows, up to the next checkpoint, is undone as one.
 pub fn checkpoint(world: &mut World) {
     push(world, false);
@@ -198,6 +210,17 @@ mod tests {
 
     fn command(app: &mut App, command: TransportCommand) {
         obey(app.world_mut(), command).unwrap();
+    }
+
+    #[test]
+    fn a_gesture_that_changed_nothing_is_nothing_to_undo() {
+        let mut app = app();
+        advance(&mut app, 50);
+        assert!(!undoes(app.world()));
+        command(&mut app, TransportCommand::Checkpoint);
+        assert!(app.world().resource::<Undo>().can_undo() && !undoes(app.world()));
+        drive(&mut app, 128);
+        assert!(undoes(app.world()));
     }
 
     #[test]

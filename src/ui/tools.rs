@@ -23,7 +23,10 @@ pub fn act(action: Action, model: &Dashboard, state: &mut UiState, commands: &mu
                 state.say(Notice { text: "Undone. Redo brings it back.".to_owned(), is_error: false });
             }
         }
-        Action::Redo => commands.push(Command::from(TransportCommand::Redo)),
+        Action::Redo => {
+            commands.push(Command::from(TransportCommand::Redo));
+            state.hush();
+        }
         Action::Save => commands.push(Command::Session(SessionCommand::Save)),
         Action::Open => commands.push(Command::Session(SessionCommand::Open)),
         Action::Capture => state.ask_for_capture(model),
@@ -105,7 +108,10 @@ pub fn head(
 pub fn foot(ui: &mut Ui, words: &WidgetText, look: &Look, state: &mut UiState) {
     if is_upright(look) {
         ui.add_space(10.0);
-        frame::misconception(ui, words, look);
+        // once a lesson is done it stands above
+        if !frame::is_done_here(state) {
+            frame::misconception(ui, words, look);
+        }
         frame::key_row(ui, words, look, state);
     }
 }

@@ -19,6 +19,7 @@ use crate::robots::AnyRobot;
 use crate::run::{Quantized, RobotInput};
 use crate::simulation::{History, RobotCommand, TransportCommand};
 use crate::ui::paint::canvas;
+use crate::ui::paint::touch::pinched;
 use crate::ui::{Cockpit, CockpitRobot, Command, Look};
 
 /// Largest number of cells judged in a frame: fewer than in a widget of its own, for the run goes on beside it, and an
@@ -176,7 +177,7 @@ impl<'a> Linked<'a> {
         if response.drag_started() {
             commands.push(Command::from(TransportCommand::Checkpoint));
         }
-        let pointer = response.interact_pointer_pos().filter(|_| response.dragged());
+        let pointer = response.interact_pointer_pos().filter(|_| response.dragged() && !pinched(ui));
         response.on_hover_cursor(CursorIcon::Grab).on_hover_text("Drag it: the robot follows");
         if let Some(pointer) = pointer {
             let to = fit.world_from_screen([f64::from(pointer.x), f64::from(pointer.y)]);
@@ -255,8 +256,9 @@ impl<'a> Linked<'a> {
             commands.push(Command::from(TransportCommand::Checkpoint));
         }
         // in the middle there is no direction
-        let to =
-            response.interact_pointer_pos().filter(|to| response.dragged() && (*to - centre).length() > 0.2 * DIAL);
+        let to = response
+            .interact_pointer_pos()
+            .filter(|to| response.dragged() && !pinched(ui) && (*to - centre).length() > 0.2 * DIAL);
         let refused = to.and_then(|to| {
             let heading = atan2(f64::from(centre.y - to.y), f64::from(to.x - centre.x));
             turn_to(self.cockpit, self.robot, heading, linked, commands)

@@ -12,14 +12,11 @@ use crate::robots::AnyRobot;
 /// Level of the finest cells: a 64th of the sides.
 const FINEST: u32 = 6;
 
-/// Number of worlds whose scenes are kept: as many as stand side by side.
-const SCENES: usize = 3;
-
 /// What is kept from frame to frame of the worlds in front and of the cells behind a point.
 #[derive(Clone, Debug, Default)]
 pub struct LinkedState {
     kept: Option<(Arc<Atlas>, Cells)>,
-    /// The scenes of the worlds seen last, the latest first.
+    /// The scenes of the worlds seen, as long as somebody else has these worlds too.
     scenes: Vec<(Arc<Atlas>, Arc<Scene>)>,
     /// The robot that a drag of its point or its heading would put where it can't be, and its footprint there.
     pub refused: Option<(String, Footprint)>,
@@ -29,8 +26,8 @@ impl LinkedState {
     /// Keeps the scene of a world that is in front.
     pub fn see(&mut self, world: &Arc<Atlas>) {
         if !self.scenes.iter().any(|(of, _)| Arc::ptr_eq(of, world)) {
-            self.scenes.insert(0, (Arc::clone(world), Arc::new(Scene::of_world(world.world()))));
-            self.scenes.truncate(SCENES);
+            self.scenes.retain(|(of, _)| Arc::strong_count(of) > 1);
+            self.scenes.push((Arc::clone(world), Arc::new(Scene::of_world(world.world()))));
         }
     }
 

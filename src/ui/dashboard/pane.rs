@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use bevy_egui::egui::{
-    CursorIcon, Id, Label, Rect, Response, RichText, Sense, Stroke, StrokeKind, TextStyle, Ui, Vec2, WidgetInfo,
+    CursorIcon, Id, Label, Pos2, Rect, Response, RichText, Sense, Stroke, StrokeKind, TextStyle, Ui, Vec2, WidgetInfo,
     WidgetType, pos2, vec2,
 };
 
@@ -338,9 +338,13 @@ pub fn in_hand(ui: &mut Ui, robot: &CockpitRobot, paper: Rect, free: Free, look:
     let font = TextStyle::Body.resolve(ui.style());
     let galley = ui.painter().layout(words, font, look.colour(Role::Text), paper.width() - 24.0 - taken);
     let size = galley.size() + vec2(8.0, 4.0);
+    // it stays as long as it is free
+    let id = Id::new((&robot.name, "hint"));
+    let before = ui.data(|data| data.get_temp(id));
     let rect = of.and_then(|(cockpit, fit)| {
-        free_place(&state.linked.scene_of(&cockpit.atlas), &cockpit.robots, fit, paper, size)
+        free_place(&state.linked.scene_of(&cockpit.atlas), &cockpit.robots, fit, (paper, before), size)
     });
+    rect.map(|rect| ui.data_mut(|data| data.insert_temp(id, rect.min)));
     let rect = rect.unwrap_or(Rect::from_min_size(paper.min + vec2(4.0, 6.0), size));
     // opaque and square: rounded corners of a tint leave dots
     ui.painter().rect_filled(rect, 0.0, look.theme.colour(Role::Paper));
@@ -351,18 +355,25 @@ pub fn in_hand(ui: &mut Ui, robot: &CockpitRobot, paper: Rect, free: Free, look:
     }
 }
 
-/// The first place of this size along the upper edge of a paper, then along its lower edge, where no obstacle and no
-/// robot is, nor the name of what one touches.
-fn free_place(scene: &Scene, robots: &[CockpitRobot], fit: &Fit, paper: Rect, size: Vec2) -> Option<Rect> {
+/// The place of this size that begins at `before`, else the first along the upper edge of a paper, then along its lower
+/// edge, where no obstacle and no robot is, nor the name of what one touches.
+fn free_place(
+    scene: &Scene,
+    robots: &[CockpitRobot],
+    fit: &Fit,
+    (paper, before): (Rect, Option<Pos2>),
+    size: Vec2,
+) -> Option<Rect> {
     const STEP: f32 = 12.0;
     const NAME: f64 = 40.0;
     let away = NAME / fit.px_per_metre();
     let room = paper.shrink(STEP);
-    let world = |at: bevy_egui::egui::Pos2| fit.world_from_screen([f64::from(at.x), f64::from(at.y)]);
+    let world = |at: Pos2| fit.world_from_screen([f64::from(at.x), f64::from(at.y)]);
     let columns = ((room.width() - size.x) / STEP).max(0.0) as u16;
     let rows = [room.top(), room.bottom() - size.y];
     let places = rows.into_iter().flat_map(|y| (0..=columns).map(move |k| pos2(room.left() + STEP * f32::from(k), y)));
-    places.map(|at| Rect::from_min_size(at, size)).find(|place| {
+    let before = before.filter(|at| room.contains_rect(Rect::from_min_size(*at, size)));
+    before.into_iter().chain(places).map(|at| Rect::from_min_size(at, size)).find(|place| {
         let shape = Shape::Rectangle { min: world(place.left_bottom()), max: world(place.right_top()) };
         let place = Footprint::new([Part::new(Pose2::IDENTITY, shape)]);
         let is_off = |robot: &CockpitRobot| footprint_distance(&place, &robot.footprint) > away;

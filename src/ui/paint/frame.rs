@@ -274,10 +274,15 @@ pub fn hints(ui: &mut Ui, widget: &WidgetText, look: &Look, state: &mut UiState)
     }
 }
 
+/// Whether a lesson of the widget in front has been done.
+pub fn is_done_here(state: &UiState) -> bool {
+    state.lesson.as_ref().is_some_and(|on| on.took.is_some() && on.lesson.widget == state.widget)
+}
+
 /// Shows the next of the hints, for the words below the picture of a narrow screen. In a lesson, whose task stands
 /// above, it shows once that is done what it removes.
 pub fn next_hint(ui: &mut Ui, widget: &WidgetText, look: &Look, state: &mut UiState) {
-    if look.narrow && !look.low && state.lesson.as_ref().is_some_and(|lesson| lesson.took.is_some()) {
+    if look.narrow && !look.low && is_done_here(state) {
         return misconception(ui, widget, look);
     }
     if !look.narrow || state.lesson.is_some() || state.settings.are_hints_away(state.widget) {

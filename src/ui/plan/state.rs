@@ -13,6 +13,7 @@ use crate::planning::{Bound, Effort, NoPath, Progress};
 use crate::plans::{Bug1Walk, Drawn, PathLengths, PlannerName, Task, space_items, workspace_items};
 use crate::random::Seed;
 use crate::robots::{AnyRobot, Robot};
+use crate::run::Event;
 use crate::tour::{BOOK_SEED, TourConfig};
 use crate::ui::cspace::Cells;
 use crate::worlds::World;
@@ -80,8 +81,8 @@ pub struct PlanState {
     pub end: usize,
     /// Whether it is drawn over the dashboard's panes too.
     pub over_drive: bool,
-    /// The path that the run plays, with the run's configuration and the number of inputs that play it.
-    played: Option<(Arc<TourConfig>, Arc<Picture>, usize)>,
+    /// The path that the run plays, with the run's configuration and the inputs that play it.
+    played: Option<(Arc<TourConfig>, Arc<Picture>, Vec<Event>)>,
     /// Whether the goal was moved since the planner was last at work.
     pub is_moved: bool,
     /// What the reader did that hints ask for, since it was last taken.
@@ -309,9 +310,9 @@ impl PlanState {
         self.look();
     }
 
-    /// The run with this configuration plays the path by so many inputs: it is drawn over its world, but for the start,
+    /// The run with this configuration plays the path by these inputs: it is drawn over its world, but for the start,
     /// where the robot is.
-    pub fn is_played_by(&mut self, config: &Arc<TourConfig>, inputs: usize) {
+    pub fn is_played_by(&mut self, config: &Arc<TourConfig>, inputs: Vec<Event>) {
         let shown = |item: &Item| !item.id.starts_with("start") && item.id != "growth";
         let items = self.over.items.iter().filter(|item| shown(item)).cloned();
         let picture = Picture::new("played path", self.over.bounds).with(items);
@@ -323,8 +324,8 @@ impl PlanState {
         self.played.take_if(|(played, ..)| !Arc::ptr_eq(played, config));
     }
 
-    /// Whether a run with so many inputs does nothing but play the path.
-    pub fn plays_alone(&self, inputs: usize) -> bool {
+    /// Whether a run with these inputs does nothing but play the path.
+    pub fn plays_alone(&self, inputs: &[Event]) -> bool {
         self.played.as_ref().is_some_and(|(.., own)| *own == inputs)
     }
 

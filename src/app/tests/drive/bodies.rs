@@ -100,8 +100,14 @@ fn two_fingers_over_a_body_magnify_and_put_it_nowhere() {
         pointer(&mut harness, finger(1, apart as f32), None);
     }
     assert!(interface(&harness).cameras["Apartment"].zoom > 1.5, "{:?}", interface(&harness).cameras);
-    [1, 2].into_iter().for_each(|k| touch(&mut harness, k, End, finger(k, 12.0)));
-    pointer(&mut harness, finger(1, 12.0), Some(false));
+    // the finger that is left drags nothing
+    touch(&mut harness, 2, End, finger(2, 12.0));
+    for apart in 13..=20 {
+        touch(&mut harness, 1, Move, finger(1, apart as f32));
+        pointer(&mut harness, finger(1, apart as f32), None);
+    }
+    touch(&mut harness, 1, End, finger(1, 20.0));
+    pointer(&mut harness, finger(1, 20.0), Some(false));
     assert_eq!(put(&harness).1, 0);
 }
 

@@ -176,7 +176,14 @@ fn what_was_copied_is_said() {
 
 /// A task as it is said where there is no mouse.
 fn for_fingers(text: &str) -> String {
-    text.replace("Click", "Tap").replace("click", "tap").replace("keys or pad", "the pad")
+    let known = [
+        ("Click to put the robot there, and drag to turn it.", "Tap to put the robot there, and drag to turn it."),
+        (
+            "Which wall is a list? Edit: click one, and read its points.",
+            "Which wall is a list? Edit: tap one, and read its points.",
+        ),
+    ];
+    known.into_iter().find(|(mouse, _)| *mouse == text).map_or(text, |(_, finger)| finger).to_owned()
 }
 
 #[test]

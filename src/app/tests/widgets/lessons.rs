@@ -318,6 +318,11 @@ fn on_a_phone_the_task_stands_above_the_picture_in_every_widget() {
         };
         let place = harness.get_by_label(text).rect();
         assert!(place.top() > 0.0 && place.bottom() < 0.35 * PHONE[1] && place.right() <= PHONE[0], "{place:?}");
+        // once it is done, what it removes stands below the picture, once
+        ui(&mut harness, |ui| ui.lesson.as_mut().unwrap().took = Some(3.0));
+        harness.run_steps(3);
+        let removed = &lesson.widget.text().misconception;
+        assert_eq!(harness.query_all_by_label(removed).count(), 1, "{removed}");
     }
 }
 

@@ -11,7 +11,7 @@ use crate::simulation::TransportCommand;
 use crate::ui::cspace::put_at::{footprint_to_come, is_placeable, put_at, robots_in_the_way, to_come};
 use crate::ui::dashboard::doors;
 use crate::ui::paint::canvas;
-use crate::ui::paint::touch::touched;
+use crate::ui::paint::touch::{pinched, touched};
 use crate::ui::{Cockpit, CockpitRobot, Command, Look, UiState};
 
 /// Side of the area that takes the pointer, points: at least this, and the shorter side of the body.
@@ -35,24 +35,22 @@ pub fn bodies<'a>(
     paper: Rect,
     fit: &Fit,
     look: &Look,
-    state: &UiState,
+    state: &mut UiState,
     commands: &mut Vec<Command>,
 ) -> Option<(&'a CockpitRobot, bool)> {
     let mut pressed = None;
-    // two fingers magnify; when one of them is gone, the other does not drag either
-    let pinch = Id::new("a pinch is on");
-    let (is_pinched, is_down) = ui.input(|i| (i.multi_touch().is_some(), i.pointer.any_down()));
-    let was_pinched = ui.data_mut(|data| {
-        let on = data.get_temp_mut_or_default::<bool>(pinch);
-        *on = is_down && (is_pinched || *on);
-        *on
-    });
+    let was_pinched = pinched(ui);
+    // where its point or its heading was dragged to in the last frame
+    let by_point = state.linked.refused.take();
+    if by_point.is_some() {
+        // nothing else would take it away once the drag is over
+        ui.ctx().request_repaint();
+    }
     let world_at = |at: Pos2| fit.world_from_screen([at.x, at.y].map(f64::from));
     for robot in cockpit.robots.iter().filter(|robot| is_placeable(robot)) {
         let there = footprint_to_come(robot);
         let mut over: Vec<Item> = Vec::new();
-        let by_point = state.linked.refused.as_ref().filter(|(of, _)| *of == robot.name);
-        let mut refused = by_point.map(|(_, there)| there.clone());
+        let mut refused = by_point.as_ref().filter(|(of, _)| *of == robot.name).map(|(_, there)| there.clone());
         if robot.target.is_some() {
             over.extend(ghost(robot, &there));
         }
@@ -63,9 +61,12 @@ pub fn bodies<'a>(
             let words = format!("{}: its body, to be dragged", robot.name);
             response.widget_info(|| WidgetInfo::labeled(WidgetType::Other, true, &words));
             let at = response.interact_pointer_pos().or(response.hover_pos());
-            let door = at.filter(|at| robot_at(cockpit, world_at(*at), 0.0).is_none()).and_then(|at| {
-                let at = [at.x, at.y].map(f64::from);
-                doors::door_at(cockpit, fit, at, doors::reach(touched(ui)))
+            // a door that is nearer than the body is in front of it
+            let door = at.and_then(|at| {
+                let point = Footprint::disc(world_at(at), 1e-9);
+                let off = footprint_distance(&point, &there) * fit.px_per_metre();
+                let reach = lesser(doors::reach(touched(ui)), off);
+                doors::door_at(cockpit, fit, [at.x, at.y].map(f64::from), reach).filter(|_| off > 0.0)
             });
             if let Some(door) = door.filter(|_| response.clicked()) {
                 doors::toggle(&cockpit.world.name, door, commands);

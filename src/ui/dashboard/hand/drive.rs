@@ -1,6 +1,6 @@
 //! Driving the robot in hand, with the arrow keys or the pad.
 
-use bevy_egui::egui::{InputState, Key, Ui};
+use bevy_egui::egui::{InputState, Key, Popup, Ui};
 
 use crate::run::RobotInput;
 use crate::simulation::{RobotCommand, TransportCommand};
@@ -34,8 +34,9 @@ pub fn drive(ui: &Ui, model: &Dashboard, state: &mut UiState, commands: &mut Vec
         state.armed = None;
         (state.held, state.pad) = ((0, 0), (0, 0));
         let is_asked = ui.input(|i| i.key_pressed(Key::ArrowUp) || i.key_pressed(Key::ArrowDown));
-        if is_asked && state.nudged.is_none() && ui.memory(|m| m.focused().is_none()) {
-            let text = "no robot is in hand: click its world, or press 1, 2 or 3".to_owned();
+        let is_seen = robots().any(|r| r.drivable) && !(state.settings.plots && state.is_narrow);
+        if is_asked && is_seen && ui.memory(|m| m.focused().is_none()) && !Popup::is_any_open(ui.ctx()) {
+            let text = "no robot is in hand: click its world, or press its number".to_owned();
             state.say(Notice { text, is_error: false });
         }
         return;

@@ -16,6 +16,7 @@ use crate::run::{Quantized, RobotInput};
 use crate::simulation::{RobotCommand, TransportCommand};
 use crate::ui::cspace::put_at::to_come;
 use crate::ui::paint::canvas;
+use crate::ui::paint::touch::pinched;
 use crate::ui::{CockpitRobot, Command, Grasp, Look, UiState, keys};
 
 /// Diameter of a handle, points.
@@ -137,6 +138,7 @@ fn handle(
         ui.data_mut(|data| data.insert_temp(id, bends_down));
     }
     if response.dragged()
+        && !pinched(ui)
         && let Some(pointer) = response.interact_pointer_pos()
     {
         let to = fit.world_from_screen([f64::from(pointer.x), f64::from(pointer.y)]);

@@ -2,6 +2,8 @@
 
 use bevy_egui::egui::{Id, Rect, Ui};
 
+use crate::ui::paint::touch::pinched;
+
 /// Least way of a swipe, points, and how many times longer than high it is.
 const LEAST: f32 = 60.0;
 const FLAT: f32 = 2.0;
@@ -17,7 +19,7 @@ pub fn swiped(ui: &Ui, paper: Rect) -> i32 {
     };
     let by = to - from;
     let is_swipe = by.x.abs() >= LEAST && by.x.abs() >= FLAT * by.y.abs();
-    let is_free = ui.ctx().dragged_id().is_none() && ui.input(|i| i.multi_touch().is_none());
+    let is_free = ui.ctx().dragged_id().is_none() && !pinched(ui);
     if !is_swipe || !is_free || !paper.contains(from) || ui.data(|data| data.get_temp(done).unwrap_or(false)) {
         return 0;
     }
