@@ -234,7 +234,7 @@ fn leave_points(ui: &mut Ui, plan: &PlanState) {
 fn coordinates(ui: &mut Ui, plan: &mut PlanState, end: usize) {
     let q = plan.end_at(end);
     let bounds = plan.task().world.bounds;
-    ui.spacing_mut().slider_width = 150.0;
+    ui.spacing_mut().slider_width = 130.0;
     for (i, (name, mut value)) in q.coordinate_names().into_iter().zip(q.coordinates()).enumerate() {
         let pi = std::f64::consts::PI;
         let [least, most] = match i {
