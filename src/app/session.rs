@@ -305,12 +305,9 @@ pub fn carry_out(world: &mut World, commands: Vec<Command>) {
                 let ran = new_run(world, config, seed);
                 if ran.is_ok() {
                     world.resource_mut::<Transport>().playback = Playback::Playing;
+                    world.resource_mut::<Interface>().0.widget = Widget::Dashboard;
                 }
-                let ui = &mut world.resource_mut::<Interface>().into_inner().0;
-                if ran.is_ok() {
-                    ui.widget = Widget::Dashboard;
-                }
-                ui.say(said_of(ran));
+                world.resource_mut::<Interface>().0.say(said_of(ran));
             }
             Command::Session(SessionCommand::ThreeRobots) => {
                 let seed = world.resource::<Transport>().seed;

@@ -43,7 +43,11 @@ impl Version {
 
     /// Whether both have the same input, at whatever tick. `false` if a new run began after `self`.
     fn is(&self, other: &Version) -> bool {
-        !self.ends && Arc::ptr_eq(&self.config, &other.config) && self.seed == other.seed && self.script == other.script
+        self.has(&other.config, other.seed, &other.script)
+    }
+
+    fn has(&self, config: &Arc<TourConfig>, seed: Seed, script: &Script) -> bool {
+        !self.ends && Arc::ptr_eq(&self.config, config) && self.seed == seed && self.script == *script
     }
 }
 
@@ -72,10 +76,7 @@ pub fn undoes(world: &World) -> bool {
         return false;
     };
     let (seed, script) = (world.resource::<Transport>().seed, world.resource::<PendingInput>().script());
-    let is_now = |version: &Version| {
-        !version.ends && Arc::ptr_eq(&version.config, &config.0) && version.seed == seed && version.script == *script
-    };
-    !past.past.iter().rev().all(is_now)
+    !past.past.iter().rev().all(|version| version.has(&config.0, seed, script))
 }
 
 /// Remembers the present input before a change: what follows, up to the next checkpoint, is undone as one.

@@ -248,7 +248,7 @@ fn closing_asks_where_edits_would_be_lost() {
     assert_eq!(closing(&mut harness), None, "nothing is saved yet");
     click(&mut harness, "Close and lose the edits");
     assert!(harness.state().app.should_exit().is_some());
-    // two edited ones of a name are told apart
+    // two edited worlds of one name have two labels
     let mut harness = lab_to_close();
     click(&mut harness, "Atlas");
     click(&mut harness, "Edit");

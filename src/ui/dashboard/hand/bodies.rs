@@ -86,11 +86,9 @@ pub fn bodies<'a>(
                     refused = put_at(cockpit, robot, at + off, &state.linked, commands);
                 }
             }
-            let (cursor, words) = match door.filter(|_| !response.dragged()) {
-                Some(door) => (CursorIcon::PointingHand, doors::words(door)),
-                None if response.dragged() => (CursorIcon::Grabbing, String::new()),
-                None => (CursorIcon::Grab, format!("Click to drive {}, drag to move it", robot.name)),
-            };
+            let at_rest = (CursorIcon::Grab, format!("Click to drive {}, drag to move it", robot.name));
+            let (cursor, words) = door.map_or(at_rest, |door| (CursorIcon::PointingHand, doors::words(door)));
+            let cursor = if response.dragged() { CursorIcon::Grabbing } else { cursor };
             response.on_hover_cursor(cursor).on_hover_text(words);
         }
         if let Some(refused) = &refused {
