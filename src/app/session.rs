@@ -12,6 +12,7 @@ use super::error::SessionError;
 use super::pace::{Pace, begin_ticks, end_ticks, limit, measure, play_flat_out};
 use super::put_robot::put_robot;
 use crate::atlas::Atlas;
+use crate::collision::{Collision as _, Scene};
 use crate::configuration::{AnyConfiguration, Configuration as _, Coordinates, HitchCfg, RobotKind, Sizes};
 use crate::geometry::{Footprint, Point2, Pose2, Segment};
 use crate::picture::{Picture, world as picture_of};
@@ -183,10 +184,14 @@ fn shown(world: &World, robot: &RobotView, between: f64) -> CockpitRobot {
     let playing = world.resource::<Transport>().playback == Playback::Playing;
     let target = target(world, robot);
     // paused, a robot says where it will be, as its ghost and its fields do
-    let next = target.as_ref().filter(|_| !playing).and_then(|to| next(robot, to));
-    let now =
-        || Said { readout: robot.configuration.clone(), in_full: robot.configuration_in_full.clone(), tip: robot.tip };
-    let Said { readout, in_full, tip } = next.unwrap_or_else(now);
+    let next = target.as_ref().filter(|_| !playing).and_then(|to| next(world, robot, to));
+    let now = || Said {
+        readout: robot.configuration.clone(),
+        in_full: robot.configuration_in_full.clone(),
+        tip: robot.tip,
+        clearance: trail.map(|t| t.clearance),
+    };
+    let Said { readout, in_full, tip, clearance } = next.unwrap_or_else(now);
     CockpitRobot {
         id: robot.id,
         name: robot.name.clone(),
@@ -204,7 +209,7 @@ fn shown(world: &World, robot: &RobotView, between: f64) -> CockpitRobot {
         // a flash is shown while the run plays; at rest, red is this very tick's contact
         flash: if playing { robot.flash > 0 } else { robot.in_contact },
         contacts: robot.contacts,
-        clearance: trail.map(|t| t.clearance).filter(|clearance| clearance.is_finite()),
+        clearance: clearance.filter(|clearance| clearance.is_finite()),
         manual: robot.manual,
         along_path: robot.manual
             && world.resource::<Interface>().0.plan.plays_alone(&world.resource::<PendingInput>().script().events),
@@ -227,18 +232,28 @@ struct Said {
     readout: String,
     in_full: String,
     tip: Option<Point2>,
+    /// The footprint's distance from the obstacles, metres.
+    clearance: Option<f64>,
+}
+
+/// The world that a robot is in, as it meets it.
+fn scene_of<'w>(world: &'w World, robot: &RobotView) -> Option<&'w Scene> {
+    let inhabited = *world.resource::<Roster>().worlds().get(robot.world as usize)?;
+    Some(&world.get::<WorldScene>(inhabited)?.0)
 }
 
 /// One of the lab's robots at these coordinates.
-fn next(robot: &RobotView, to: &[f64]) -> Option<Said> {
-    let (in_full, q) = match AnyRobot::of_kind(&robot.kind, to)?.1 {
+fn next(world: &World, robot: &RobotView, to: &[f64]) -> Option<Said> {
+    let (model, q) = AnyRobot::of_kind(&robot.kind, to)?;
+    let clearance = scene_of(world, robot).map(|scene| scene.distance(&model.footprint(&q)));
+    let (in_full, q) = match q {
         AnyConfiguration::T2(q) => (format!("{q:?}"), q.to_string()),
         AnyConfiguration::T3(q) => (format!("{q:?}"), q.to_string()),
         AnyConfiguration::Pose(q) => (format!("{q:?}"), q.to_string()),
         AnyConfiguration::Hitch(q) => (format!("{q:?}"), q.to_string()),
     };
     let tip = robot.tip.and_then(|_| joints(&turned(&robot.footprint, to)).last().copied());
-    Some(Said { readout: q, in_full, tip })
+    Some(Said { readout: q, in_full, tip, clearance })
 }
 
 /// Whether the run is paused with an input to the robot due at the next tick.
@@ -250,8 +265,7 @@ fn waiting(world: &World, robot: &RobotView) -> bool {
 
 /// The first obstacle that a trailer put on behind the car at `body`, or the bar between them, would overlap, in words.
 fn no_room(world: &World, robot: &RobotView, body: Pose2) -> Option<String> {
-    let inhabited = *world.resource::<Roster>().worlds().get(robot.world as usize)?;
-    let scene = &world.get::<WorldScene>(inhabited)?.0;
+    let scene = scene_of(world, robot)?;
     let Some(AnyRobot::Hitch(car)) = robot.model else { return None };
     let (car, q) = (car.with_trailer(), HitchCfg { body, trailer: Some(body.theta) });
     let bar = Segment::new(body.position(), car.trailer_axle(&q)?.position());

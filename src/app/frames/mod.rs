@@ -5,6 +5,7 @@ mod processor;
 use std::sync::{Arc, Mutex};
 use std::time::Duration;
 
+use bevy::ecs::system::NonSendMarker;
 use bevy::platform::time::Instant;
 use bevy::prelude::*;
 use bevy_egui::{EguiPostUpdateSet, EguiPrimaryContextPass};
@@ -12,7 +13,7 @@ use bevy_egui::{EguiPostUpdateSet, EguiPrimaryContextPass};
 use super::aside::Aside;
 use super::session::gather;
 use crate::simulation::{Playback, Transport};
-use processor::time_taken;
+use processor::{time_taken, time_waited};
 
 /// Frames at the beginning that are not measured: pictures are painted for the first time in them.
 const UNMEASURED: u32 = 30;
@@ -30,6 +31,9 @@ pub struct FrameTimes {
     /// The program's own time of each measured frame, in order: reading the run, laying out the widgets, turning all
     /// that is drawn into triangles. Ticks of the run are no part of it, nor is what the graphics driver does.
     pub own: Vec<Duration>,
+    /// Of each of these frames how long it waited for a core that another thread held, such as one of a driver that
+    /// draws without a graphics processor; empty where the system is not asked.
+    pub waited: Vec<Duration>,
     /// Of each of these frames what its three pieces took: reading, laying out, triangles.
     pub pieces: Vec<[Duration; 3]>,
     /// The time of the clock that all measured frames took together.
@@ -59,6 +63,12 @@ impl FrameTimes {
     /// The own time that a `share` of the frames, from 0 to 1, does not exceed; none without frames.
     pub fn quantile(&self, share: f64) -> Option<Duration> {
         quantile(self.own.clone(), share)
+    }
+
+    /// What [`FrameTimes::quantile`] says, of the frames' own time without the wait for a core; none where the system is
+    /// not asked.
+    pub fn on_core(&self, share: f64) -> Option<Duration> {
+        quantile(self.own.iter().zip(&self.waited).map(|(own, waited)| own.saturating_sub(*waited)).collect(), share)
     }
 
     /// What each piece takes in the median: reading, laying out, triangles; none without frames.
@@ -97,6 +107,9 @@ struct Measuring {
     /// When the piece of work under way began, and what the pieces of this frame took.
     piece: Instant,
     frame: [Duration; 3],
+    /// How long this thread had waited for a core when the piece began, and how long in this frame.
+    waits: Option<Duration>,
+    waited: Option<Duration>,
     times: FrameTimes,
     out: Arc<Mutex<FrameTimes>>,
     /// When the pause began, and the measured part of it with the processor's time before.
@@ -113,6 +126,8 @@ impl Plugin for MeasurePlugin {
             began: now,
             piece: now,
             frame: [Duration::ZERO; 3],
+            waits: None,
+            waited: Some(Duration::ZERO),
             times: FrameTimes::default(),
             out: Arc::clone(&self.times),
             paused: None,
@@ -130,16 +145,23 @@ impl Plugin for MeasurePlugin {
     }
 }
 
-fn begin(mut measuring: ResMut<Measuring>) {
+// The marker has these systems run on the main thread, as the work between them does: a thread knows of its own wait.
+
+fn begin(mut measuring: ResMut<Measuring>, _: NonSendMarker) {
+    measuring.waits = time_waited();
     measuring.piece = Instant::now();
 }
 
 /// Ends a piece of work, and begins the next.
-fn end<const PIECE: usize>(mut measuring: ResMut<Measuring>) {
-    let now = Instant::now();
-    let took = now - measuring.piece;
+fn end<const PIECE: usize>(mut measuring: ResMut<Measuring>, _: NonSendMarker) {
+    let took = measuring.piece.elapsed();
     measuring.frame[PIECE] += took;
-    measuring.piece = now;
+    let waits = time_waited();
+    let wait = waits.zip(measuring.waits).map(|(now, before)| now.saturating_sub(before));
+    measuring.waited = measuring.waited.zip(wait).map(|(sum, wait)| sum + wait);
+    measuring.waits = waits;
+    // asking the system is no part of either piece
+    measuring.piece = Instant::now();
 }
 
 fn frame_ended(
@@ -150,6 +172,7 @@ fn frame_ended(
 ) {
     let measuring = &mut *measuring;
     let took = std::mem::take(&mut measuring.frame);
+    let waited = measuring.waited.replace(Duration::ZERO);
     if let Some(paused) = measuring.paused {
         if measuring.rest(paused, Instant::now(), time_taken()) {
             exits.write(AppExit::Success);
@@ -169,6 +192,7 @@ fn frame_ended(
         return;
     }
     measuring.times.own.push(took.iter().sum());
+    measuring.times.waited.extend(waited);
     measuring.times.pieces.push(took);
     measuring.left = measuring.left.saturating_sub(1);
     if measuring.left == 0 {
@@ -208,11 +232,14 @@ mod tests {
     fn a_quantile_is_a_time_that_was_measured() {
         let own = [5, 1, 4, 2, 3].map(Duration::from_millis).to_vec();
         let pieces = [[4, 1, 9], [2, 8, 3], [1, 7, 5]].map(|frame| frame.map(Duration::from_millis)).to_vec();
-        let times = FrameTimes { own, pieces, clock: Duration::from_millis(100), paused: None };
+        let waited = [0, 0, 3, 0, 2].map(Duration::from_millis).to_vec();
+        let times = FrameTimes { own, waited, pieces, clock: Duration::from_millis(100), paused: None };
         assert_eq!(times.medians(), Some([2, 7, 5].map(Duration::from_millis)));
         assert_eq!(FrameTimes::default().medians(), None);
         let at = |share| times.quantile(share).unwrap().as_millis();
         assert_eq!([at(0.0), at(0.5), at(0.95), at(1.0)], [1, 3, 5, 5]);
+        assert_eq!([0.0, 0.5, 1.0].map(|share| times.on_core(share).unwrap().as_millis()), [1, 1, 5], "5 1 1 2 1");
+        assert_eq!(FrameTimes { waited: vec![], ..times.clone() }.on_core(0.5), None, "not asked");
         assert_eq!(times.rate(), Some(50.0));
         assert_eq!((FrameTimes::default().quantile(0.5), FrameTimes::default().rate()), (None, None));
     }

@@ -1,4 +1,4 @@
-//! The processor's time that this process has taken, as the system counts it.
+//! The processor's time that this process has taken, and for how long a thread waited for a core, as the system counts.
 
 use std::time::Duration;
 
@@ -14,6 +14,26 @@ pub fn time_taken() -> Option<Duration> {
 #[cfg(not(target_os = "linux"))]
 pub fn time_taken() -> Option<Duration> {
     None
+}
+
+/// How long this thread could have run so far, and waited for a core that another held; `None` where it is not known
+/// how to ask.
+#[cfg(target_os = "linux")]
+pub fn time_waited() -> Option<Duration> {
+    waited(&std::fs::read_to_string("/proc/thread-self/schedstat").ok()?)
+}
+
+/// How long this thread could have run so far, and waited for a core that another held; `None` where it is not known
+/// how to ask.
+#[cfg(not(target_os = "linux"))]
+pub fn time_waited() -> Option<Duration> {
+    None
+}
+
+/// The wait of a thread by its line in `/proc`: nanoseconds on a core, nanoseconds waiting for one, turns.
+#[cfg(target_os = "linux")]
+fn waited(line: &str) -> Option<Duration> {
+    line.split_whitespace().nth(1)?.parse().ok().map(Duration::from_nanos)
 }
 
 /// The clock ticks in user mode and in the kernel of a process, by its line in `/proc`. The second field, the
@@ -47,6 +67,34 @@ mod tests {
         assert_eq!((ticks("7 (a"), ticks("7 (a) S 1 7")), (None, None));
         let vector: Vec<u8> = [6, 4096, 17, 250, 0, 0].iter().flat_map(|w: &usize| w.to_ne_bytes()).collect();
         assert_eq!((ticks_a_second(&vector), ticks_a_second(&vector[..16])), (Some(250), None));
+    }
+
+    #[test]
+    fn a_wait_is_the_second_number_and_what_sleeps_does_not_wait() {
+        assert_eq!(waited("655330 1200 31\n"), Some(Duration::from_nanos(1200)));
+        assert_eq!((waited("655330"), waited("a b c")), (None, None));
+        let (before, start) = (time_waited().unwrap(), Instant::now());
+        std::thread::sleep(Duration::from_millis(300));
+        let waited = time_waited().unwrap() - before;
+        assert!(waited + Duration::from_millis(290) <= start.elapsed(), "{waited:?} of {:?}", start.elapsed());
+    }
+
+    #[test]
+    fn more_threads_than_cores_wait() {
+        let cores = std::thread::available_parallelism().unwrap().get();
+        let work = || {
+            let (before, start) = (time_waited().unwrap(), Instant::now());
+            let mut sum = 0u64;
+            while start.elapsed() < Duration::from_millis(300) {
+                sum = std::hint::black_box(sum.wrapping_add(1));
+            }
+            time_waited().unwrap() - before
+        };
+        let threads: Vec<_> = (0..2 * cores).map(|_| std::thread::spawn(work)).collect();
+        let waited: Duration = threads.into_iter().map(|thread| thread.join().unwrap()).sum();
+        // twice as many threads as cores wait for half of their time
+        let half = Duration::from_millis(150) * 2 * cores as u32;
+        assert!(waited >= half / 2, "{waited:?} of {half:?}");
     }
 
     #[test]

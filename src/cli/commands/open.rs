@@ -72,13 +72,17 @@ fn words(times: &FrameTimes) -> String {
     let played = format!(
         "{frames} frames, {rate:.1} a second; own time {median:.2} ms in the median, {most:.2} ms in 95 of 100"
     );
+    let on_core = times.on_core(0.5).zip(times.on_core(0.95)).map_or_else(String::new, |(median, most)| {
+        let [median, most] = [median, most].map(|time| 1e3 * time.as_secs_f64());
+        format!("\nwithout the wait for a core that others held: {median:.2} ms, {most:.2} ms in 95 of 100")
+    });
     let pieces = times.medians().map(|pieces| pieces.map(|piece| 1e3 * piece.as_secs_f64()));
     let pieces = pieces.map_or_else(String::new, |[reading, laying_out, triangles]| {
         format!(
             "\nof it, in the median: reading the run {reading:.2}, laying out {laying_out:.2}, triangles {triangles:.2}"
         )
     });
-    let played = played + &pieces;
+    let played = played + &on_core + &pieces;
     let Some(pause) = &times.paused else { return played };
     let seconds = pause.clock.as_secs_f64();
     match pause.share() {
@@ -109,6 +113,9 @@ mod tests {
         times.clock = Duration::from_millis(50);
         let played = "3 frames, 60.0 a second; own time 2.00 ms in the median, 9.00 ms in 95 of 100";
         assert_eq!(words(&times), played, "closed before the pause");
+        times.waited = [1, 0, 2].map(Duration::from_millis).to_vec();
+        let played = format!("{played}\nwithout the wait for a core that others held: 1.00 ms, 7.00 ms in 95 of 100");
+        assert_eq!(words(&times), played);
         times.pieces = vec![[0.25, 1.0, 0.75].map(Duration::from_secs_f64).map(|time| time / 1000)];
         let played = format!("{played}\nof it, in the median: reading the run 0.25, laying out 1.00, triangles 0.75");
         assert_eq!(words(&times), played);

@@ -218,7 +218,8 @@ fn counts(ui: &mut Ui, robot: &CockpitRobot, look: &Look) {
     }
     if let (Some(clearance), Some(AnyRobot::Rusty(rusty))) = (robot.clearance, robot.model) {
         let centre = clearance + rusty.body_radius;
-        ui.label(muted(format!("clearance: {clearance:.4}\u{a0}m, of its centre {centre:.4}\u{a0}m")));
+        ui.label(muted(format!("clearance: {clearance:.4}\u{a0}m, of its centre {centre:.4}\u{a0}m")))
+            .on_hover_text("How far the nearest obstacle is. Other robots do not count.");
     }
     let mut text = format!("contacts: {}", robot.contacts);
     if robot.trailer.is_some() {

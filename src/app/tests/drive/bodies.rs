@@ -61,7 +61,12 @@ fn a_rover_is_dragged_by_its_body_and_stays_out_of_the_furniture() {
     let (there, _) = put(&harness);
     let scene = Scene::of_world(&world);
     assert!(!scene.intersects(&Footprint::disc(Point2::new(there[0], there[1]), 0.11)), "{there:?}");
-    assert!(crate::num::hypot(there[0] - 6.0, there[1] - 6.75) > 0.61, "{there:?}");
+    let from_table = crate::num::hypot(there[0] - 6.0, there[1] - 6.75) - 0.5 - 0.11;
+    assert!(from_table > 0.0, "{there:?}");
+    // it says how near it will be, not how near it is
+    let said = super::super::safe::words(&harness).into_iter().find(|(text, ..)| text.starts_with("clearance: "));
+    let said: f64 = said.unwrap().0["clearance: ".len()..].split('\u{a0}').next().unwrap().parse().unwrap();
+    assert!((said - from_table).abs() < 1e-4, "{said} {from_table}");
     click(&mut harness, "Step");
     let now = harness.state().robot(0);
     assert!(now.manual && now.refusals == 0 && (now.coordinates[0] - there[0]).abs() < 1e-9, "{:?}", now.coordinates);
