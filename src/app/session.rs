@@ -1,5 +1,7 @@
 //! The session without its window: what a view shows of the run, and what its commands do.
 
+mod coming;
+
 use std::sync::Arc;
 
 use bevy::app::{RunFixedMainLoop, RunFixedMainLoopSystems};
@@ -12,22 +14,20 @@ use super::error::SessionError;
 use super::pace::{Pace, begin_ticks, end_ticks, limit, measure, play_flat_out};
 use super::put_robot::put_robot;
 use crate::atlas::Atlas;
-use crate::collision::{Collision as _, Scene};
-use crate::configuration::{AnyConfiguration, Configuration as _, Coordinates, HitchCfg, RobotKind, Sizes};
-use crate::geometry::{Footprint, Point2, Pose2, Segment};
+use crate::configuration::{Configuration as _, HitchCfg, RobotKind, Sizes};
+use crate::geometry::{Footprint, Pose2, Segment};
 use crate::picture::{Picture, world as picture_of};
 use crate::robots::{AnyRobot, Robot};
-use crate::run::{Event, RobotInput};
+use crate::run::DT;
 use crate::simulation::{
     CommandRefused, History, HistoryPlugin, PendingInput, Playback, RobotKinds, RobotView, Roster, RunCommand,
-    RunConfig, RunInput, SensorRefused, SimulationPlugin, StandingWorld, Transport, Undo, WorldScene, checkpoint,
-    sensors_of, start_run, take_sensors_at_start, undoes, view_of,
+    RunConfig, RunInput, SensorRefused, SimulationPlugin, StandingWorld, Transport, Undo, checkpoint, sensors_of,
+    start_run, take_sensors_at_start, undoes, view_of,
 };
 use crate::tour::{BOOK_SEED, TourConfig};
-use crate::ui::{
-    Cockpit, CockpitRobot, Command, Dashboard, Interface, Notice, SessionCommand, Widget, blend, joints, turned,
-};
+use crate::ui::{Cockpit, CockpitRobot, Command, Dashboard, Interface, Notice, SessionCommand, Widget, blend};
 use crate::worlds::World as WorldModel;
+use coming::{Said, scene_of};
 
 /// Farthest that a part moves from tick to tick, metres. A part that moved farther was put there.
 const LEAP: f64 = 0.5;
@@ -153,8 +153,10 @@ pub fn gather(world: &mut World) {
         let is_shown = |id: &u32| crowd.is_none() || picked == Some(*id);
         let robots =
             ids.filter(is_shown).filter_map(|id| view_of(world, id)).map(|robot| shown(world, &robot, between));
-        let robots = robots.collect();
-        cockpits.push(Cockpit { world: Arc::clone(&drawn.picture), atlas: Arc::clone(&drawn.atlas), robots, crowd });
+        let robots: Vec<CockpitRobot> = robots.collect();
+        let waiting = coming::waits(world, &drawn.standing.name, &robots);
+        let (picture, atlas) = (Arc::clone(&drawn.picture), Arc::clone(&drawn.atlas));
+        cockpits.push(Cockpit { world: picture, atlas, robots, crowd, waiting });
     }
     let (undo, history) = (world.resource::<Undo>(), world.resource::<History>());
     let dashboard = Dashboard {
@@ -182,9 +184,9 @@ fn shown(world: &World, robot: &RobotView, between: f64) -> CockpitRobot {
     };
     let trail = world.resource::<History>().at(tick, robot.id);
     let playing = world.resource::<Transport>().playback == Playback::Playing;
-    let target = target(world, robot);
+    let target = coming::target(world, robot);
     // paused, a robot says where it will be, as its ghost and its fields do
-    let next = target.as_ref().filter(|_| !playing).and_then(|to| next(world, robot, to));
+    let next = target.as_ref().filter(|_| !playing).and_then(|to| coming::next(world, robot, to));
     let now = || Said {
         readout: robot.configuration.clone(),
         in_full: robot.configuration_in_full.clone(),
@@ -223,44 +225,8 @@ fn shown(world: &World, robot: &RobotView, between: f64) -> CockpitRobot {
         no_room: pose
             .filter(|_| robot.kind == RobotKind::HITCH.name && robot.coordinates.len() == 3)
             .and_then(|p| no_room(world, robot, p)),
-        waiting: waiting(world, robot),
+        put: coming::put(world, robot),
     }
-}
-
-/// A configuration as a pane says it.
-struct Said {
-    readout: String,
-    in_full: String,
-    tip: Option<Point2>,
-    /// The footprint's distance from the obstacles, metres.
-    clearance: Option<f64>,
-}
-
-/// The world that a robot is in, as it meets it.
-fn scene_of<'w>(world: &'w World, robot: &RobotView) -> Option<&'w Scene> {
-    let inhabited = *world.resource::<Roster>().worlds().get(robot.world as usize)?;
-    Some(&world.get::<WorldScene>(inhabited)?.0)
-}
-
-/// One of the lab's robots at these coordinates.
-fn next(world: &World, robot: &RobotView, to: &[f64]) -> Option<Said> {
-    let (model, q) = AnyRobot::of_kind(&robot.kind, to)?;
-    let clearance = scene_of(world, robot).map(|scene| scene.distance(&model.footprint(&q)));
-    let (in_full, q) = match q {
-        AnyConfiguration::T2(q) => (format!("{q:?}"), q.to_string()),
-        AnyConfiguration::T3(q) => (format!("{q:?}"), q.to_string()),
-        AnyConfiguration::Pose(q) => (format!("{q:?}"), q.to_string()),
-        AnyConfiguration::Hitch(q) => (format!("{q:?}"), q.to_string()),
-    };
-    let tip = robot.tip.and_then(|_| joints(&turned(&robot.footprint, to)).last().copied());
-    Some(Said { readout: q, in_full, tip, clearance })
-}
-
-/// Whether the run is paused with an input to the robot due at the next tick.
-fn waiting(world: &World, robot: &RobotView) -> bool {
-    let Transport { tick, playback, .. } = *world.resource::<Transport>();
-    let due = world.resource::<PendingInput>().due(tick + 1);
-    playback == Playback::Paused && due.iter().any(|e: &Event| e.robot == robot.name)
 }
 
 /// The first obstacle that a trailer put on behind the car at `body`, or the bar between them, would overlap, in words.
@@ -275,18 +241,10 @@ fn no_room(world: &World, robot: &RobotView, body: Pose2) -> Option<String> {
     names.first().map(|name| format!("would overlap {name}"))
 }
 
-/// The coordinates that an input asks of a robot by the next tick.
-fn target(world: &World, robot: &RobotView) -> Option<Coordinates> {
-    let due = world.resource::<PendingInput>().due(world.resource::<Transport>().tick + 1);
-    due.iter().rev().filter(|e| e.robot == robot.name).find_map(|e| match &e.input {
-        RobotInput::MoveTo(to) | RobotInput::Teleport(to) => Some(to.iter().map(|c| c.value()).collect()),
-        _ => None,
-    })
-}
-
 /// Carries out the commands of the widgets. Those that need a dialog are left to the window, as messages.
 pub fn carry_out(world: &mut World, commands: Vec<Command>) {
     for command in commands {
+        note_dropped(world, &command);
         match command {
             Command::Run(RunCommand::Transport(command)) if aside::seek_aside(world, &command) => {}
             Command::Run(command) => {
@@ -335,6 +293,16 @@ pub fn carry_out(world: &mut World, commands: Vec<Command>) {
             Command::Session(SessionCommand::CopyPicture(order)) => super::capture::copy_picture(world, &order),
             Command::Session(command) => _ = world.write_message(command),
         }
+    }
+}
+
+/// Says what an input drops that is given to a run at an earlier tick than it has reached.
+fn note_dropped(world: &mut World, command: &Command) {
+    let Transport { tick, frontier, .. } = *world.resource::<Transport>();
+    let is_input = matches!(command, Command::Run(RunCommand::Robot(_) | RunCommand::World(_)));
+    if is_input && tick < frontier {
+        let text = format!("What came after {:.2} s is dropped. Undo brings it back.", tick as f64 * DT);
+        world.resource_mut::<Interface>().0.say(Notice { text, is_error: false });
     }
 }
 

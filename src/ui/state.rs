@@ -7,7 +7,7 @@ use bevy_egui::egui::Rect;
 use super::atlas::Mode;
 use super::paint::camera::Camera;
 use super::time::span::Span;
-use super::{AtlasState, ParkingGoal, Settings, Widget};
+use super::{AtlasState, CockpitRobot, ParkingGoal, Settings, Widget};
 use crate::geometry::{Aabb, Point2, Pose2, Shape};
 use crate::manifest::Deed;
 use crate::picture::{Role, Theme};
@@ -302,6 +302,11 @@ impl UiState {
                 flash.red
             }
         }
+    }
+
+    /// Whether a robot is drawn red now.
+    pub fn is_red(&self, robot: &CockpitRobot) -> bool {
+        self.flashes.get(&robot.name).map_or(robot.flash, |flash| flash.red)
     }
 
     /// Whether the flash on the screen differs from the run's, `red`, because it may not change yet.

@@ -31,7 +31,9 @@ fn a_click_on_a_door_closes_it_and_its_link_opens_it_again() {
         let close = WorldChange::Close("door B".into());
         assert_eq!(changes(&harness), [WorldEvent { tick: tick + 1, world: "Apartment".into(), change: close }]);
         assert_eq!(harness.state().app.world().resource::<Interface>().0.armed, None, "and takes no robot in hand");
+        harness.get_by_label("comes with the next tick");
         click(&mut harness, "Step");
+        assert!(harness.query_by_label("comes with the next tick").is_none());
         let standing = |h: &Harness<'_, Lab>| {
             let shown = &h.state().app.world().resource::<Shown>().0;
             shown.cockpits[0].atlas.world().door("door B").unwrap().open

@@ -39,6 +39,29 @@ fn scrubbing_back_and_driving_on_forgets_what_came_later() {
     harness.run_steps(10);
     assert!(harness.state().transport().frontier < end.frontier);
     assert_eq!(harness.state().transport().playback, Playback::Playing, "who drives sees it move");
+    // 20 ticks are a second
+    let said = format!("What came after {:.2} s is dropped. Undo brings it back.", middle as f64 / 20.0);
+    assert_eq!(interface(&harness).notice().unwrap().text, said);
+}
+
+#[test]
+fn what_a_robot_touches_is_marked_as_long_as_the_robot_is_red() {
+    let mut harness = lab(WIDE);
+    bring(&mut harness, "Reach");
+    while !harness.state().robot(1).in_contact {
+        harness.step();
+    }
+    pause(&mut harness);
+    let named = |harness: &Harness<'_, Lab>| {
+        let names: Vec<String> = crate::worlds::World::workbench().obstacles.iter().map(|o| o.name.clone()).collect();
+        super::safe::words(harness).iter().any(|(text, ..)| names.contains(text))
+    };
+    assert!(harness.state().robot(1).in_contact && named(&harness));
+    // as fast as possible the red of the arm changes less often than its contact
+    let flash = interface_mut(&mut harness).flashes.get_mut("Reach").unwrap();
+    (flash.red, flash.since) = (false, 1e9);
+    harness.run_steps(2);
+    assert!(!named(&harness), "the arm is not red");
 }
 
 #[test]

@@ -45,20 +45,23 @@ pub struct Linked<'a> {
     is_way_shown: bool,
     /// Where it was in the last ten seconds, oldest first.
     trail: Vec<AnyConfiguration>,
+    /// Whether it is drawn red.
+    is_red: bool,
 }
 
 impl<'a> Linked<'a> {
-    /// A robot with its past, and with its twin and whether the way there is shown, if there is one; `None` if it is
+    /// A robot with its past, with its twin and whether the way there is shown, and whether it is red; `None` if it is
     /// not one of the lab's, which have spaces to be shown.
     pub fn new(
         cockpit: &'a Cockpit,
         robot: &'a CockpitRobot,
         twin: Option<AnyConfiguration>,
         is_way_shown: bool,
+        is_red: bool,
         (history, tick): (&History, u64),
     ) -> Option<Self> {
         AnyRobot::of_kind(&robot.kind, &robot.coordinates)?;
-        Some(Linked { cockpit, robot, twin, is_way_shown, trail: trail(history, robot, tick) })
+        Some(Linked { cockpit, robot, twin, is_way_shown, trail: trail(history, robot, tick), is_red })
     }
 
     /// The way of its reference point in these seconds: of an arm its tip.
@@ -141,7 +144,7 @@ impl<'a> Linked<'a> {
         let slice = cells.map().slice();
         let overlay = Overlay {
             now: Some(q),
-            in_contact: self.robot.flash,
+            in_contact: self.is_red,
             trace: self.trail.clone(),
             line: self.twin.filter(|_| self.is_way_shown).map(|twin| [q, twin]),
             solutions: self.twin.into_iter().collect(),
@@ -221,7 +224,7 @@ impl<'a> Linked<'a> {
         canvas::paint_kept(&painter, world, paper, &fit, look);
         let mut items = self.way();
         if let [x, y, ..] = to_come(self.robot)[..] {
-            let role = if self.robot.flash { Role::Goal } else { Role::Robot };
+            let role = if self.is_red { Role::Goal } else { Role::Robot };
             let dot = Drawing::Mark { at: Point2::new(x, y), glyph: Glyph::Handle, radius_px: 5.0 };
             items.push(Item::new("now", self.robot.readout.as_str(), role, dot));
         }

@@ -12,3 +12,4 @@ pub(crate) mod view;
 pub use cells::Cells;
 pub use linked_state::LinkedState;
 pub use state::CspaceState;
+pub use trail::TRAIL;

@@ -155,7 +155,7 @@ pub fn paper(
 
 /// Says on the paper that an input comes with the next tick: there it moves nothing when it comes.
 pub fn coming(ui: &mut Ui, cockpit: &Cockpit, paper: Rect, look: &Look) {
-    if cockpit.robots.iter().any(|robot| robot.waiting) {
+    if cockpit.waiting {
         let row = ui.text_style_height(&TextStyle::Small);
         let at = Rect::from_min_size(paper.left_bottom() + vec2(12.0, -row - 10.0), vec2(160.0, row));
         let words = RichText::new("comes with the next tick").small();
@@ -193,7 +193,7 @@ fn followed(
 
 /// What the cockpit's robots touch in this tick.
 fn touched_by(cockpit: &Cockpit, state: &UiState) -> Vec<Item> {
-    let mut touching = cockpit.robots.iter().filter(|robot| robot.flash).peekable();
+    let mut touching = cockpit.robots.iter().filter(|robot| state.is_red(robot)).peekable();
     if cockpit.crowd.is_some() || touching.peek().is_none() {
         return Vec::new();
     }

@@ -5,7 +5,7 @@ use crate::collision::Checker;
 use crate::configuration::{AnyConfiguration, Configuration};
 use crate::robots::AnyRobot;
 use crate::run::{Quantized, RobotInput};
-use crate::simulation::RobotCommand;
+use crate::simulation::{RobotCommand, TransportCommand};
 use crate::ui::Command;
 
 /// What was asked for with a robot's twin.
@@ -30,6 +30,10 @@ pub struct Way {
     pub ticks: u32,
     /// The tick by which the arm is where it was sent last.
     pub due: u64,
+    /// Whether the run pauses again where it ends.
+    pub pauses: bool,
+    /// Whether it goes a tick in each frame, since a run as fast as possible plays many.
+    pub steps: bool,
 }
 
 impl AskedTwin {
@@ -52,5 +56,8 @@ impl Way {
         let input = |target| RobotCommand { robot: robot.to_owned(), input: RobotInput::MoveTo(target) };
         commands.extend(target.map(|target| Command::from(input(target))));
         self.due = tick + 1;
+        if self.steps {
+            commands.push(Command::from(TransportCommand::Step));
+        }
     }
 }

@@ -131,6 +131,9 @@ pub fn go_on(model: &Dashboard, state: &mut UiState, commands: &mut Vec<Command>
         way.done += 1;
         way.send(name, model.tick, commands);
     } else {
+        if way.pauses {
+            commands.push(Command::from(TransportCommand::Pause));
+        }
         state.did.push(Deed::TwoElbows);
         state.twin = None;
     }
@@ -152,14 +155,15 @@ fn begin(
     let most = turns.map(|(from, to)| wrap(to - from).abs()).fold(0.0, |most, turn| greater(turn, most));
     let is_free = matches!(sweep.verdict, EdgeVerdict::Free { .. });
     let ticks = if is_free { (most / (RATE * DT)).ceil() as u32 } else { 0 };
-    let mut way = Way { checker, sweep, done: ticks.min(1), ticks, due: 0 };
+    let steps = is_free && model.speed.is_infinite();
+    let mut way = Way { checker, sweep, done: ticks.min(1), ticks, due: 0, pauses: !model.playing, steps };
     // a refusal leaves the run as it is; only at its end, while it plays, is the arm told to stay
     if !is_free && (!model.playing || model.tick < model.frontier) {
         return Some(way);
     }
     commands.push(Command::from(TransportCommand::Checkpoint));
     way.send(&robot.name, model.tick, commands);
-    if is_free && !model.playing {
+    if is_free && !model.playing && !steps {
         commands.push(Command::from(TransportCommand::Play));
     }
     Some(way)

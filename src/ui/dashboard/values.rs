@@ -58,8 +58,8 @@ pub struct CockpitRobot {
     pub tip: Option<Point2>,
     /// The reason why no trailer can be put on here; `None` where one can be or is on, and for other robots.
     pub no_room: Option<String>,
-    /// Whether the run is paused with an input that takes effect at the next tick.
-    pub waiting: bool,
+    /// The tick by which an input put it somewhere last, as far back as its trail goes; 0 without one.
+    pub put: u64,
     /// The number of its changes between forward and backward.
     pub reversals: u32,
     /// Whether a trailer is on; `None` for a robot that can't have one.
@@ -77,6 +77,8 @@ pub struct Cockpit {
     pub robots: Vec<CockpitRobot>,
     /// All its robots, where they are many.
     pub crowd: Option<Crowd>,
+    /// Whether the run is paused with a change of the world or an input to a robot that comes with the next tick.
+    pub waiting: bool,
 }
 
 /// The whole dashboard.

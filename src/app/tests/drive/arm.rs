@@ -175,8 +175,27 @@ fn the_arm_goes_to_its_other_elbow_where_the_way_is_free() {
     assert!(ticks.windows(2).all(|pair| pair[1] == pair[0] + 1), "{ticks:?}");
     assert!(interface(&harness).settings.done.iter().any(|deed| deed == "TwoElbows"));
     assert!(!interface(&harness).settings.done.iter().any(|deed| deed == "MoveArm"), "nobody dragged it");
+    assert_eq!(harness.state().transport().playback, Playback::Paused, "as it was before");
     click(&mut harness, "Undo");
     assert_eq!(harness.state().robot(1).coordinates, before.coordinates, "one thing to undo");
+}
+
+#[test]
+fn as_fast_as_possible_the_arm_goes_to_its_other_elbow_tick_by_tick() {
+    let mut harness = lab(WIDE);
+    pause(&mut harness);
+    bring(&mut harness, "Reach");
+    put(&mut harness, [-0.5, 0.3]);
+    let (tick, events) = (harness.state().transport().tick, moves(&harness).len());
+    harness.state_mut().app.world_mut().resource_mut::<Transport>().speed = f64::INFINITY;
+    click(&mut harness, "One tip, two elbows");
+    harness.run_steps(20);
+    let after = harness.state().robot(1);
+    assert!((after.coordinates[0] + 0.2).abs() < 1e-4 && (after.coordinates[1] + 0.3).abs() < 1e-4, "{after:?}");
+    let (ticks, now) = (moves(&harness).split_off(events), harness.state().transport());
+    // 0.6 rad at 0.1 rad a tick
+    assert!((6..=7).contains(&ticks.len()) && now.tick == tick + ticks.len() as u64, "{ticks:?} {tick} {now:?}");
+    assert_eq!(now.playback, Playback::Paused);
 }
 
 #[test]

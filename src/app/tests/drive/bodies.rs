@@ -58,6 +58,9 @@ fn a_rover_is_dragged_by_its_body_and_stays_out_of_the_furniture() {
     let shown = super::super::safe::words(&harness);
     assert!(shown.iter().any(|(text, ..)| text == "B's round table"), "what is in the way has its name");
     pointer(&mut harness, table, Some(false));
+    harness.run_steps(2);
+    let said = interface(&harness).notice().unwrap().text.clone();
+    assert_eq!(said, "Rusty stays where it is free: B's round table is in the way");
     let (there, _) = put(&harness);
     let scene = Scene::of_world(&world);
     assert!(!scene.intersects(&Footprint::disc(Point2::new(there[0], there[1]), 0.11)), "{there:?}");
@@ -80,6 +83,11 @@ fn a_rover_is_dragged_by_its_body_and_stays_out_of_the_furniture() {
     let (second, _) = put(&harness);
     let px = 20.0 / fit(&harness, &world).px_per_metre();
     assert!((second[0] - first[0]).abs() < 0.02 && (second[1] - first[1] - px).abs() < 0.02, "{first:?} {second:?}");
+    // and taken where it still is, it goes on from there
+    drag_by(&mut harness, body, body + egui::vec2(0.0, -30.0));
+    pointer(&mut harness, body + egui::vec2(0.0, -30.0), Some(false));
+    let ([x, y, ..], px) = (&put(&harness).0[..], 30.0 / fit(&harness, &world).px_per_metre()) else { panic!() };
+    assert!((x - before[0]).abs() < 0.02 && (y - before[1] - px).abs() < 0.02, "{before:?} {x} {y}");
 }
 
 #[test]

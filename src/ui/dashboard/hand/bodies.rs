@@ -1,6 +1,6 @@
 //! Robots on wheels, dragged by their bodies.
 
-use bevy_egui::egui::{CursorIcon, Id, Pos2, Rect, Sense, Ui, Vec2, WidgetInfo, WidgetType, pos2};
+use bevy_egui::egui::{CursorIcon, Id, Pos2, Rect, Response, Sense, Ui, Vec2, WidgetInfo, WidgetType, pos2};
 
 use crate::anatomy::touching_items;
 use crate::collision::footprint_distance;
@@ -12,7 +12,7 @@ use crate::ui::cspace::put_at::{footprint_to_come, is_placeable, put_at, robots_
 use crate::ui::dashboard::doors;
 use crate::ui::paint::canvas;
 use crate::ui::paint::touch::{pinched, touched};
-use crate::ui::{Cockpit, CockpitRobot, Command, Look, UiState};
+use crate::ui::{Cockpit, CockpitRobot, Command, LinkedState, Look, Notice, UiState};
 
 /// Side of the area that takes the pointer, points: at least this, and the shorter side of the body.
 const HIT: f32 = 28.0;
@@ -27,8 +27,8 @@ pub fn robot_at(cockpit: &Cockpit, at: Point2, reach: f64) -> Option<&CockpitRob
 
 /// Lets the robots on wheels of a cockpit be dragged; one that would overlap something stays, and what is in its way is
 /// marked as a contact is, also where the drag is of its point or its heading. A place to come with the next tick is
-/// shown. A door beside a body is clicked through. Returns the robot that the pointer is pressed on, and whether it was
-/// clicked.
+/// shown, and the robot is taken there or where it still is. A door beside a body is clicked through. Returns the robot
+/// that the pointer is pressed on, and whether it was clicked.
 pub fn bodies<'a>(
     ui: &mut Ui,
     cockpit: &'a Cockpit,
@@ -46,25 +46,23 @@ pub fn bodies<'a>(
         // nothing else would take it away once the drag is over
         ui.ctx().request_repaint();
     }
-    let world_at = |at: Pos2| fit.world_from_screen([at.x, at.y].map(f64::from));
     for robot in cockpit.robots.iter().filter(|robot| is_placeable(robot)) {
         let there = footprint_to_come(robot);
         let mut over: Vec<Item> = Vec::new();
         let mut refused = by_point.as_ref().filter(|(of, _)| *of == robot.name).map(|(_, there)| there.clone());
+        let mut grips = vec![Grip { of: "its body", from: to_come(robot), footprint: &there }];
         if robot.target.is_some() {
             over.extend(ghost(robot, &there));
+            // where both lie over one another, the place to come is in front
+            grips.insert(0, Grip { of: "where it still is", from: &robot.coordinates, footprint: &robot.footprint });
         }
-        if let Some(hit) = hit(&there, paper, fit) {
-            // the arrow keys drive: no key goes to the body
-            let id = Id::new((&robot.name, "body"));
-            let response = ui.interact(hit, id, Sense::CLICK | Sense::DRAG);
-            let words = format!("{}: its body, to be dragged", robot.name);
-            response.widget_info(|| WidgetInfo::labeled(WidgetType::Other, true, &words));
+        for grip in grips {
+            let Some(response) = grip.show(ui, robot, paper, fit) else { continue };
             let at = response.interact_pointer_pos().or(response.hover_pos());
             // a door that is nearer than the body is in front of it
             let door = at.and_then(|at| {
-                let point = Footprint::disc(world_at(at), 1e-9);
-                let off = footprint_distance(&point, &there) * fit.px_per_metre();
+                let point = Footprint::disc(world_at(fit, at), 1e-9);
+                let off = footprint_distance(&point, grip.footprint) * fit.px_per_metre();
                 let reach = lesser(doors::reach(touched(ui)), off);
                 doors::door_at(cockpit, fit, [at.x, at.y].map(f64::from), reach).filter(|_| off > 0.0)
             });
@@ -73,17 +71,14 @@ pub fn bodies<'a>(
             } else if response.clicked() || response.is_pointer_button_down_on() {
                 pressed = Some((robot, response.clicked()));
             }
-            let pointer = response.interact_pointer_pos().filter(|_| !was_pinched);
-            if let ([x, y, ..], Some(at)) = (&to_come(robot)[..], pointer.map(world_at)) {
-                if response.drag_started() {
-                    commands.push(Command::from(TransportCommand::Checkpoint));
-                    // a drag is known as one only after some points
-                    let pressed = ui.input(|i| i.pointer.press_origin()).map_or(at, world_at);
-                    ui.data_mut(|data| data.insert_temp(id, Point2::new(*x, *y) - pressed));
-                }
-                if response.dragged() {
-                    let off: Vector2 = ui.data(|data| data.get_temp(id)).unwrap_or_default();
-                    refused = put_at(cockpit, robot, at + off, &state.linked, commands);
+            if !was_pinched && let Some(to) = grip.dragged_to(ui, &response, fit, commands) {
+                refused = put_at(cockpit, robot, to, &state.linked, commands);
+                ui.data_mut(|data| data.insert_temp(response.id.with("refused"), refused.clone()));
+            }
+            if response.drag_stopped() {
+                let last: Option<Option<Footprint>> = ui.data_mut(|data| data.remove_temp(response.id.with("refused")));
+                if let Some(text) = last.flatten().and_then(|there| why_not(cockpit, robot, &there, &state.linked)) {
+                    state.say(Notice { text, is_error: false });
                 }
             }
             let at_rest = (CursorIcon::Grab, format!("Click to drive {}, drag to move it", robot.name));
@@ -102,6 +97,52 @@ pub fn bodies<'a>(
         }
     }
     pressed
+}
+
+/// What of a robot is taken by the pointer: its body where it is to be with the next tick, or where it still is.
+struct Grip<'a> {
+    of: &'a str,
+    from: &'a [f64],
+    footprint: &'a Footprint,
+}
+
+impl Grip<'_> {
+    /// The area that takes the pointer; `None` off the paper.
+    fn show(&self, ui: &mut Ui, robot: &CockpitRobot, paper: Rect, fit: &Fit) -> Option<Response> {
+        // the arrow keys drive: no key goes to the body
+        let id = Id::new((&robot.name, self.of));
+        let response = ui.interact(hit(self.footprint, paper, fit)?, id, Sense::CLICK | Sense::DRAG);
+        let words = format!("{}: {}, to be dragged", robot.name, self.of);
+        response.widget_info(|| WidgetInfo::labeled(WidgetType::Other, true, &words));
+        Some(response)
+    }
+
+    /// Where a drag takes the robot's reference point.
+    fn dragged_to(&self, ui: &Ui, response: &Response, fit: &Fit, commands: &mut Vec<Command>) -> Option<Point2> {
+        let (&[x, y, ..], Some(at)) = (self.from, response.interact_pointer_pos()) else { return None };
+        let at = world_at(fit, at);
+        if response.drag_started() {
+            commands.push(Command::from(TransportCommand::Checkpoint));
+            // a drag is known as one only after some points
+            let pressed = ui.input(|i| i.pointer.press_origin()).map_or(at, |at| world_at(fit, at));
+            ui.data_mut(|data| data.insert_temp(response.id, Point2::new(x, y) - pressed));
+        }
+        let off: Vector2 = ui.data(|data| data.get_temp(response.id)).unwrap_or_default();
+        response.dragged().then(|| at + off)
+    }
+}
+
+fn world_at(fit: &Fit, at: Pos2) -> Point2 {
+    fit.world_from_screen([at.x, at.y].map(f64::from))
+}
+
+/// Why a robot could not be dragged there: `Rusty stays where it is free: B's round table is in the way`.
+fn why_not(cockpit: &Cockpit, robot: &CockpitRobot, there: &Footprint, linked: &LinkedState) -> Option<String> {
+    let scene = linked.scene_of(&cockpit.atlas);
+    let obstacle = scene.touched(there).first().and_then(|id| scene.obstacle_name(*id)).map(str::to_owned);
+    let other = || robots_in_the_way(cockpit, robot, there).next().map(|robot| robot.name.clone());
+    let what = obstacle.or_else(other)?;
+    Some(format!("{} stays where it is free: {what} is in the way", robot.name))
 }
 
 /// A robot with its heading where it is put with the next tick.

@@ -134,7 +134,7 @@ impl Stage<'_> {
         let robot = pane::chosen(cockpit, state)?;
         let way = state.twin.as_ref().is_some_and(|asked| asked.is_way_of(&robot.name));
         let twin = shown_twin(robot, state).filter(|_| cockpit.robots.len() == 1);
-        Linked::new(cockpit, robot, twin, way, (self.history, self.model.tick))
+        Linked::new(cockpit, robot, twin, way, state.is_red(robot), (self.history, self.model.tick))
     }
 
     /// Shows cockpits small in a row at the top of `room`. Returns where the row ends.
