@@ -298,3 +298,18 @@ fn in_a_small_window_both_pictures_stand_side_by_side_where_they_are_larger_so()
         assert!(left.right() < right.left() && right.right() <= 600.0, "{widget:?}: {left} {right}");
     }
 }
+
+#[test]
+fn plots_that_come_and_go_move_no_button_above_them() {
+    for size in [WIDE, [800.0, 600.0]] {
+        let mut harness = fresh(size, Widget::Dashboard);
+        let places = |h: &Harness<'_, Lab>| ["Plots", "Undo", "Menu"].map(|name| h.get_by_label(name).rect());
+        let before = places(&harness);
+        for are_open in [true, false] {
+            click_at(&mut harness, before[0].center());
+            harness.run_steps(4);
+            assert_eq!(interface(&harness).settings.plots, are_open, "{size:?}");
+            assert_eq!(places(&harness), before, "{size:?}: the next click on it finds it");
+        }
+    }
+}
