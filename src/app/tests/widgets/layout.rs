@@ -313,3 +313,24 @@ fn plots_that_come_and_go_move_no_button_above_them() {
         }
     }
 }
+
+#[test]
+fn the_entries_of_the_menu_have_their_keys_at_their_right_and_the_last_is_scrolled_to() {
+    let mut harness = lab([600.0, 500.0]);
+    pause(&mut harness);
+    harness.get_by_label("Menu").click();
+    harness.run_steps(4);
+    let said = words(&harness);
+    for (name, keys) in [("Open", "Ctrl+O"), ("Redo", "Ctrl+Shift+Z"), ("Plots", "P"), ("Names", "T")] {
+        let entry = harness.get_by_label(name).rect();
+        let here = said.iter().filter(|(text, ink, _)| text == keys && entry.contains_rect(*ink));
+        let key = here.map(|(_, ink, _)| ink.center().x).next().unwrap_or_else(|| panic!("{keys} in {name}: {entry}"));
+        assert!(key > entry.center().x, "{keys} at {key} in {entry}");
+    }
+    assert!(harness.get_by_label("Dark theme").rect().bottom() > 500.0, "there are more than fit");
+    harness.get_by_label("Dark theme").scroll_to_me();
+    harness.run_steps(20);
+    assert!(harness.get_by_label("Dark theme").rect().bottom() < 500.0);
+    click(&mut harness, "Dark theme");
+    assert_eq!(interface(&harness).settings.theme, crate::manifest::ThemeChoice::Dark);
+}
