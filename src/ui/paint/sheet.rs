@@ -47,8 +47,10 @@ impl Sheet {
 /// Share of the height for the paper where its panel is under it.
 const ABOVE: f32 = 0.6;
 
-/// Height of the margin under a picture from which a scale bar with its plate fits into it, points.
+/// Height of the margin under a picture, and width of the one left of it, from which a scale bar with its plate fits
+/// into it, points.
 const UNDER: f32 = 22.0;
+const LEFT: f32 = 140.0;
 
 /// Width of the panel beside a paper in a low room, at least, points.
 const LEAST_BESIDE: f32 = 200.0;
@@ -102,11 +104,12 @@ pub fn steady<R>(ui: &mut Ui, of: &str, least: f32, add: impl FnOnce(&mut Ui) ->
     shown.inner
 }
 
-/// Where the lower left end of a sheet's scale bar lies: in the margin under the picture; where that is too low, within
-/// the picture, off the wall at its edge.
+/// Where the lower left end of a sheet's scale bar lies: in the margin of the picture; where that has no room for it,
+/// within the picture, off the wall at its edge.
 fn bar_corner(still: &Picture, paper: Rect, fit: &Fit) -> Pos2 {
     let [left, foot] = fit.screen_from_world(still.bounds.min).map(|v| v as f32);
-    let corner = if paper.bottom() - foot >= UNDER { paper.left_bottom() } else { pos2(left, foot) };
+    let has_room = paper.bottom() - foot >= UNDER || left - paper.left() >= LEFT;
+    let corner = if has_room { paper.left_bottom() } else { pos2(left, foot) };
     corner + vec2(10.0, -8.0)
 }
 
@@ -150,8 +153,8 @@ mod tests {
         let bounds = Aabb::new(Point2::new(-1.0, -2.0), Point2::new(11.0, 6.0));
         let still = Arc::new(Picture::new("Yard", bounds));
         let look = Look::from(Theme::Light);
-        // as high as the picture, a little higher, much higher, and much wider
-        for size in [[616.0, 416.0], [616.0, 430.0], [616.0, 600.0], [900.0, 416.0]] {
+        // as high as the picture, a little higher, much higher, a little wider, and much wider
+        for size in [[616.0, 416.0], [616.0, 430.0], [616.0, 600.0], [750.0, 416.0], [900.0, 416.0]] {
             let paper = Rect::from_min_size(pos2(20.0, 30.0), size.into());
             let mut output = Context::default().run_ui(RawInput::default(), |ui| {
                 let none = Picture::new("nothing", bounds);
