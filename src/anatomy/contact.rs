@@ -1,14 +1,15 @@
 //! A contact as a picture: what is touched, where, and its name.
 
 use crate::collision::{Collision, Scene};
-use crate::geometry::{Footprint, Point2};
+use crate::geometry::{Aabb, Footprint, Point2};
+use crate::num::greater;
 use crate::picture::{Anchor, Drawing, Face, Glyph, Item, Line, Role, polygon_of};
 
 /// Gap up to which a footprint counts as held by an obstacle, metres: a rover stops a hair short of a wall.
 const HELD: f64 = 1e-3;
 
 /// What a footprint touches, or is held by: each such obstacle's edge, a ring at the nearest point, and there the
-/// obstacle's name, once. Nothing where it touches nothing.
+/// obstacle's name, once, on its far side if that is near. Nothing where it touches nothing.
 pub fn touching_items(scene: &Scene, footprint: &Footprint) -> Vec<Item> {
     let Some(nearest) = scene.witness(footprint).filter(|w| w.dist <= HELD) else { return Vec::new() };
     let mut touched = scene.touched(footprint);
@@ -25,10 +26,15 @@ pub fn touching_items(scene: &Scene, footprint: &Footprint) -> Vec<Item> {
     let mut items: Vec<Item> = (1..).zip(pieces).map(edge).collect();
     let at = nearest.on_obstacle;
     if let Some(name) = scene.obstacle_name(nearest.obstacle) {
+        let anchor = away_from(footprint, at);
+        let own = scene.pieces().filter(|(obstacle, _)| *obstacle == nearest.obstacle).map(|(_, piece)| piece.bounds());
+        let beyond = own.reduce(|one, other| one.merged(&other)).map(|own| far_side(&own, anchor, at));
+        // beyond what is larger than the robot, words would be too far off
+        let near = footprint.bounds().map_or(0.0, |b| greater(b.max.x - b.min.x, b.max.y - b.min.y));
         let label = Drawing::Label {
-            at,
+            at: beyond.filter(|place| (place - at).norm() <= near).unwrap_or(at),
             text: name.to_owned(),
-            anchor: away_from(footprint, at),
+            anchor,
             face: Face::Sans,
             size_px: 12.0,
             plate: true,
@@ -52,10 +58,21 @@ fn away_from(footprint: &Footprint, at: Point2) -> Anchor {
     }
 }
 
+/// The point across a box from one at its edge, on this side of it.
+fn far_side(of: &Aabb, side: Anchor, at: Point2) -> Point2 {
+    match side {
+        Anchor::Right => Point2::new(of.max.x, at.y),
+        Anchor::Left => Point2::new(of.min.x, at.y),
+        Anchor::Above => Point2::new(at.x, of.max.y),
+        Anchor::Below => Point2::new(at.x, of.min.y),
+        Anchor::Centre => at,
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geometry::{Aabb, Pose2, Shape};
+    use crate::geometry::{Pose2, Shape};
 
     fn boxes() -> Scene {
         let side = |x: f64| Shape::Rectangle { min: Point2::new(x, 0.0), max: Point2::new(x + 1.0, 1.0) };
@@ -104,5 +121,25 @@ mod tests {
         assert_eq!(side_of_name(&from_right), Anchor::Left, "away from the robot at its right");
         let off = edge.iter().map(|p| ((p - Point2::new(7.0, 7.0)).norm() - 0.5).abs()).fold(0.0, crate::num::greater);
         assert!(edge.first() == edge.last() && off < 0.02, "the stone's own edge: {off}");
+    }
+
+    #[test]
+    fn a_name_stands_beyond_what_is_smaller_than_the_robot_and_at_the_contact_with_what_is_larger() {
+        let scene = boxes();
+        let place = |robot: Footprint| {
+            let items = touching_items(&scene, &robot);
+            let at = items.iter().find_map(|item| match &item.drawing {
+                Drawing::Label { at, .. } => Some(*at),
+                _ => None,
+            });
+            at.expect("a name")
+        };
+        // the stone is a metre across, with its middle at (7, 7); the robots are 1.2 m and 0.4 m across
+        let at = place(Footprint::disc(Point2::new(7.0, 5.95), 0.6));
+        assert!((at.y - 7.5).abs() < 1e-9 && (at.x - 7.0).abs() < 0.2, "above the stone: {at}");
+        let at = place(Footprint::disc(Point2::new(8.05, 7.0), 0.6));
+        assert!((at.x - 6.5).abs() < 1e-9 && (at.y - 7.0).abs() < 0.2, "left of it: {at}");
+        let at = place(Footprint::disc(Point2::new(7.0, 6.35), 0.2));
+        assert!((at - Point2::new(7.0, 6.5)).norm() < 0.2, "where it is touched: {at}");
     }
 }

@@ -2,9 +2,13 @@
 
 use std::f64::consts::PI;
 
+/// A step along one coordinate that counts as none, radians: rounding.
+const STILL: f64 = 1e-12;
+
 /// Cuts the chart line from `from` by `step` into pieces within the square from -pi to pi. `from` lies in the square.
 ///
-/// A piece ends on the edge where the line leaves, and the next begins on the edge opposite.
+/// A piece ends on the edge where the line leaves, and the next begins on the edge opposite. A line along an edge stays
+/// at the edge where it begins.
 pub fn wrapped_pieces(from: [f64; 2], step: [f64; 2]) -> Vec<[[f64; 2]; 2]> {
     let mut cuts = vec![0.0, 1.0];
     for i in 0..2 {
@@ -29,7 +33,8 @@ pub fn wrapped_pieces(from: [f64; 2], step: [f64; 2]) -> Vec<[[f64; 2]; 2]> {
         .map(|w| {
             let middle = at(0.5 * (w[0] + w[1]));
             // the whole turns that bring the piece's middle into the square
-            let back = middle.map(|m| ((m / PI + 1.0) / 2.0).floor() * 2.0 * PI);
+            let turns = |i: usize| if step[i].abs() > STILL { ((middle[i] / PI + 1.0) / 2.0).floor() } else { 0.0 };
+            let back = [0, 1].map(|i| turns(i) * 2.0 * PI);
             [w[0], w[1]].map(|s| {
                 let p = at(s);
                 [(p[0] - back[0]).clamp(-PI, PI), (p[1] - back[1]).clamp(-PI, PI)]
@@ -54,6 +59,16 @@ mod tests {
         assert!((pieces[1][1][0] - wrap(3.4)).abs() < 1e-12);
         assert_eq!(wrapped_pieces([1.0, 1.0], [0.5, -0.5]).len(), 1);
         assert_eq!(wrapped_pieces([3.0, 3.0], [0.4, 0.3]).len(), 3, "over a corner's two edges");
+    }
+
+    #[test]
+    fn a_line_along_an_edge_stays_where_its_ends_are_drawn() {
+        for edge in [PI, -PI] {
+            assert_eq!(wrapped_pieces([0.5, edge], [1.0, 0.0]), [[[0.5, edge], [1.5, edge]]]);
+            assert_eq!(wrapped_pieces([edge, 0.5], [0.0, -1.0]), [[[edge, 0.5], [edge, -0.5]]]);
+        }
+        let [[from, to]] = wrapped_pieces([0.5, PI], [1.0, 1e-15])[..] else { panic!("one piece") };
+        assert_eq!((from, to), ([0.5, PI], [1.5, PI]), "rounding is no step over the edge");
     }
 
     #[test]

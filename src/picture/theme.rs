@@ -68,6 +68,7 @@ mod tests {
     use super::*;
     use crate::num::{atan2, cos, exp, hypot, ln, sin, sqrt};
     use crate::picture::Role;
+    use crate::picture::resolve::{HATCH_OPACITY, TINT};
 
     /// Roles that carry meaning in a drawing.
     const GRAPHICS: [Role; 9] = [
@@ -188,6 +189,22 @@ mod tests {
             for role in [Role::Text, Role::Muted] {
                 assert!(on_paper(role) >= 4.5, "{theme:?} {role:?} {}", on_paper(role));
             }
+        }
+    }
+
+    #[test]
+    fn a_hatch_stands_out_from_its_ground() {
+        for theme in [Theme::Light, Theme::Dark] {
+            let palette = theme.palette();
+            let Rgb(ink) = palette.colour(Role::Obstacle);
+            let over = |Rgb(under): Rgb, opacity: f64| {
+                let (under, ink) = (under.map(f64::from), ink.map(f64::from));
+                Rgb([0, 1, 2].map(|i| (under[i] + opacity * (ink[i] - under[i])).round() as u8))
+            };
+            let ground = over(palette.colour(Role::Paper), TINT);
+            let found = contrast(over(ground, HATCH_OPACITY), ground);
+            // what WCAG 2 asks of graphics that carry meaning
+            assert!(found >= 3.0, "{theme:?} {found:.2}");
         }
     }
 

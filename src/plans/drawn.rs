@@ -34,6 +34,14 @@ pub struct Rejected {
 }
 
 impl Drawn {
+    /// The number of the path's legs in words.
+    pub fn legs(&self) -> String {
+        match self.corners.len().saturating_sub(1) {
+            1 => "1 leg".to_owned(),
+            legs => format!("{legs} legs"),
+        }
+    }
+
     /// The robot's places along the path: corners, at most fifteen of them, from the start on and the goal the last.
     pub fn places(&self) -> Vec<AnyConfiguration> {
         let every = self.corners.len().div_ceil(14).max(1);
@@ -47,6 +55,17 @@ impl Drawn {
 mod tests {
     use super::*;
     use crate::robots::AnyRobot;
+
+    #[test]
+    fn one_leg_is_no_legs() {
+        let at = |i: usize| AnyRobot::of_kind("rusty", &[i as f64, 0.0, 0.0]).map(|(_, q)| q).unwrap();
+        for (corners, words) in [(0, "0 legs"), (2, "1 leg"), (3, "2 legs")] {
+            let corners: Vec<AnyConfiguration> = (0..corners).map(at).collect();
+            let drawn =
+                Drawn { ends: [at(0), at(1)], edges: vec![], path: vec![], corners, rejected: None, sensed: None };
+            assert_eq!(drawn.legs(), words, "a leg lies between two corners");
+        }
+    }
 
     #[test]
     fn the_places_are_few_and_end_at_the_goal() {

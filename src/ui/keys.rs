@@ -266,6 +266,11 @@ pub fn hint(action: Action) -> String {
     BINDINGS.iter().find(|b| b.action == action).map_or_else(String::new, |b| format!("{} ({})", b.words, b.keys()))
 }
 
+/// The key of an action's first binding: `Ctrl+S`. Empty without a binding.
+pub fn keys_of(action: Action) -> String {
+    BINDINGS.iter().find(|b| b.action == action).map_or_else(String::new, Binding::keys)
+}
+
 /// What the meaning of a key depends on.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Situation {

@@ -2,7 +2,7 @@
 
 use bevy_egui::egui::{Align, Align2, Context, Id, Label, Layout, Rect, Ui, vec2};
 
-use super::keys::{Action, hint};
+use super::keys::{Action, hint, keys_of};
 use super::paint::button::LabButton;
 use super::paint::fold;
 use super::paint::frame;
@@ -122,14 +122,16 @@ struct Tool {
     label: &'static str,
     icon: Option<Icon>,
     action: Action,
+    /// Whether it shows its key: in the menu, where all have words.
+    has_keys: bool,
 }
 
 const fn worded(label: &'static str, action: Action) -> Tool {
-    Tool { label, icon: None, action }
+    Tool { label, icon: None, action, has_keys: false }
 }
 
-const UNDO: Tool = Tool { label: "Undo", icon: Some(Icon::Undo), action: Action::Undo };
-const REDO: Tool = Tool { label: "Redo", icon: Some(Icon::Redo), action: Action::Redo };
+const UNDO: Tool = Tool { icon: Some(Icon::Undo), ..worded("Undo", Action::Undo) };
+const REDO: Tool = Tool { icon: Some(Icon::Redo), ..worded("Redo", Action::Redo) };
 const CAPTURE: Tool = worded("Capture", Action::Capture);
 const HINTS: Tool = worded("Hints", Action::Hints);
 const KEYS: Tool = worded("Keys", Action::Help);
@@ -157,7 +159,7 @@ fn menu(
     let of_the_run: &[Tool] = if state.widget == Widget::Dashboard { &OF_THE_RUN } else { &[] };
     let all = of_the_run.iter().filter(|tool| !elsewhere.contains(tool)).copied();
     for tool in all.chain([CAPTURE, HINTS, KEYS]) {
-        show(ui, &Tool { icon: None, ..tool }, model, look, state, commands);
+        show(ui, &Tool { icon: None, has_keys: true, ..tool }, model, look, state, commands);
     }
     if state.widget == Widget::Dashboard {
         let back = LabButton::new("The three robots").show(ui, look);
@@ -179,8 +181,9 @@ fn menu(
 }
 
 fn show(ui: &mut Ui, tool: &Tool, model: &Dashboard, look: &Look, state: &mut UiState, commands: &mut Vec<Command>) {
-    let Tool { label, icon, action } = *tool;
-    let button = LabButton::new(label);
+    let Tool { label, icon, action, has_keys } = *tool;
+    let keys = if has_keys { keys_of(action) } else { String::new() };
+    let button = LabButton::new(label).keys(&keys);
     let button = icon.map_or(button, |icon| button.icon(icon));
     let button = match action {
         Action::Undo => button.enabled(model.can_undo),

@@ -376,3 +376,18 @@ fn angles_and_minus_signs_have_one_spelling_and_typed_another() {
         assert!(super::safe::words(&harness).iter().any(|(text, ..)| text == shown), "{typed}");
     }
 }
+
+#[test]
+fn another_verdict_moves_no_slider_and_no_button() {
+    let mut harness = on("swept");
+    harness.run_steps(3);
+    let places = |h: &Harness<'_, Lab>| {
+        let slider = h.get_by_role_and_label(egui::accesskit::Role::Slider, "step of \u{3b8}\u{2081}").rect();
+        [slider, h.get_by_label("Copy as Rust").rect(), h.get_by_label("Reset").rect()]
+    };
+    let before = places(&harness);
+    interface_mut(&mut harness).anatomy.anatomy.set_step(0, 0.0);
+    harness.run_steps(3);
+    says(&harness, "free all the way");
+    assert_eq!(places(&harness), before, "a click meant for one finds it");
+}

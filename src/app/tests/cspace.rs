@@ -122,3 +122,27 @@ fn no_ghost_is_drawn_over_the_arm_itself() {
         assert_eq!(is_painted(&harness), has_ghost, "bent by {bend}");
     }
 }
+
+#[test]
+fn a_press_beside_the_chart_takes_no_point() {
+    let mut harness = lab(WIDE);
+    click(&mut harness, "Space");
+    harness.run_steps(3);
+    let q = anatomy(&harness).q();
+    let done = interface(&harness).settings.done.clone();
+    // the figures at the axes stand in the margin, left of -pi and below it
+    for from in [[-3.6, 0.4], [0.4, -3.5]] {
+        let (from, to) = (at(&harness, from), at(&harness, [0.4, 0.4]));
+        pointer(&mut harness, from, Some(true));
+        (1..=8).for_each(|i| pointer(&mut harness, from.lerp(to, i as f32 / 8.0), None));
+        assert_eq!(anatomy(&harness).q(), q, "dragged into the chart");
+        pointer(&mut harness, to, Some(false));
+        click_at(&mut harness, from);
+        assert_eq!(anatomy(&harness).q(), q, "clicked in the margin");
+    }
+    harness.run_steps(3);
+    assert_eq!(interface(&harness).settings.done, done, "no task is done");
+    let on_chart = at(&harness, [0.4, 0.4]);
+    click_at(&mut harness, on_chart);
+    assert_ne!(anatomy(&harness).q(), q);
+}

@@ -15,7 +15,7 @@ use crate::ui::deeds::of_anatomy;
 use crate::ui::paint::button::LabButton;
 use crate::ui::paint::fold::fold;
 use crate::ui::paint::frame::{formulas, headline, next_hint};
-use crate::ui::paint::sheet::{sheet, split, two_columns};
+use crate::ui::paint::sheet::{sheet, split, steady, two_columns};
 use crate::ui::{AnatomyState, Command, Dashboard, Look, Notice, UiState};
 use crate::worlds::World;
 
@@ -92,10 +92,13 @@ fn asked(ui: &mut Ui, look: &Look, state: &mut UiState) {
     let anatomy = &mut state.anatomy.anatomy;
     let role = if anatomy.intersects() && anatomy.tab != Tab::Swept { Role::Goal } else { Role::Text };
     let (answer, details) = anatomy.answer();
-    headline(ui, &answer, look.colour(role));
-    for line in details {
-        ui.label(RichText::new(true_minus(&line)).monospace().color(look.colour(role)));
-    }
+    // each question's answers have their own room
+    steady(ui, anatomy.tab.name(), 0.0, |ui| {
+        headline(ui, &answer, look.colour(role));
+        for line in details {
+            ui.label(RichText::new(true_minus(&line)).monospace().color(look.colour(role)));
+        }
+    });
     ui.add_space(4.0);
     sliders(ui, anatomy);
     if let Some((thick, radius)) = anatomy.thick_links().zip(anatomy.thickness()) {

@@ -3,7 +3,8 @@
 use std::cell::RefCell;
 
 use bevy_egui::egui::{
-    ComboBox, DragValue, Grid, Key, PointerButton, Response, RichText, ScrollArea, TextEdit, Ui, WidgetInfo, WidgetType,
+    ComboBox, DragValue, Grid, Key, PointerButton, Response, RichText, ScrollArea, TextEdit, TextStyle, Ui, WidgetInfo,
+    WidgetType,
 };
 
 use super::field::{Field, Typed};
@@ -14,6 +15,7 @@ use crate::ui::paint::button::LabButton;
 use crate::ui::paint::fold::fold;
 use crate::ui::paint::frame::row_height;
 use crate::ui::paint::plate::refusal;
+use crate::ui::paint::sheet::steady;
 use crate::ui::paint::touch::worded;
 use crate::ui::{AtlasState, Look};
 
@@ -41,12 +43,15 @@ pub(super) fn edit_panel(ui: &mut Ui, look: &Look, atlas: &mut AtlasState) {
         }
         ui.label(if atlas.is_saved() { "saved" } else { "not saved in a file" });
     });
-    for warning in atlas.warnings() {
-        refusal(ui, warning, look);
-    }
     ui.label(worded(ui, "Click a thing, and drag it or its handles; Alt leaves out the snapping. A ring on an edge makes a corner; a corner dragged onto the next goes away."));
     add_buttons(ui, look, atlas);
-    ui.add_space(8.0);
+    // room for a warning of two lines: buttons and fields stay where they are
+    let two = 2.0 * ui.text_style_height(&TextStyle::Body);
+    steady(ui, "warnings", two, |ui| {
+        for warning in atlas.warnings() {
+            refusal(ui, warning, look);
+        }
+    });
     if atlas.selected.is_some() {
         thing(ui, look, atlas);
     } else {

@@ -17,6 +17,9 @@ const TUBE: f64 = 0.42;
 /// Number of faces along a side of the square.
 const SIDE: usize = 96;
 
+/// Number of faces from one line of the hatch to the next: a part of a side's, so that lines meet at the seams.
+const HATCH: usize = 6;
+
 /// Cosine from which on a region faces the eye enough to bear its name.
 const NAMED: f64 = 0.25;
 
@@ -104,28 +107,31 @@ fn surface(map: &CellMap, turned: [f64; 2], look: &Look, on_paper: &dyn Fn([f64;
         let mean = |of: fn(&Seen) -> f64| corners.iter().map(of).sum::<f64>() / 4.0;
         let facing = mean(|c| c.facing);
         let state = map.state([column, row].map(|k| angle(k as f64 + 0.5)));
-        (facing > -0.1).then(|| (mean(|c| c.near), facing, state, corners.map(|c| on_paper(c.at))))
+        let colour = ink(facing, state, (column + row).is_multiple_of(HATCH), look);
+        (facing > -0.1).then(|| (mean(|c| c.near), colour, corners.map(|c| on_paper(c.at))))
     };
-    let mut faces: Vec<(f64, f64, CellState, [Pos2; 4])> = (0..SIDE * SIDE).filter_map(face).collect();
+    let mut faces: Vec<(f64, Color32, [Pos2; 4])> = (0..SIDE * SIDE).filter_map(face).collect();
     faces.sort_by(|a, b| a.0.total_cmp(&b.0));
-    let paper = look.colour(Role::Paper);
-    let ink = |facing: f64, state: CellState| -> Color32 {
-        let lit = facing.clamp(0.0, 1.0) as f32;
-        let (role, share) = match state {
-            CellState::Free => (Role::Free, 0.2 + 0.4 * lit),
-            CellState::Blocked => (Role::Obstacle, 0.45 + 0.4 * lit),
-            CellState::Unknown => (Role::Unknown, 0.3 + 0.4 * lit),
-        };
-        paper.lerp_to_gamma(look.colour(role), share)
-    };
     let mut mesh = Mesh::default();
-    for (_, facing, state, corners) in faces {
-        let (first, colour) = (mesh.vertices.len() as u32, ink(facing, state));
+    for (_, colour, corners) in faces {
+        let first = mesh.vertices.len() as u32;
         corners.into_iter().for_each(|corner| mesh.colored_vertex(corner, colour));
         mesh.add_triangle(first, first + 1, first + 2);
         mesh.add_triangle(first, first + 2, first + 3);
     }
     Shape::mesh(mesh)
+}
+
+/// The colour of a face; what is blocked is hatched, as on the square.
+fn ink(facing: f64, state: CellState, is_hatch: bool, look: &Look) -> Color32 {
+    let lit = facing.clamp(0.0, 1.0) as f32;
+    let (role, share) = match state {
+        CellState::Free => (Role::Free, 0.2 + 0.4 * lit),
+        CellState::Blocked if is_hatch => (Role::Obstacle, 0.8 + 0.2 * lit),
+        CellState::Blocked => (Role::Obstacle, 0.1 + 0.15 * lit),
+        CellState::Unknown => (Role::Unknown, 0.3 + 0.4 * lit),
+    };
+    look.colour(Role::Paper).lerp_to_gamma(look.colour(role), share)
 }
 
 /// Writes the name of a region on a plate.
@@ -155,6 +161,29 @@ mod tests {
 
     use super::*;
     use crate::ui::CspaceState;
+
+    #[test]
+    fn what_is_blocked_is_hatched_three_to_one_and_the_hatch_meets_at_the_seams() {
+        use crate::picture::Theme;
+        assert_eq!(SIDE % HATCH, 0);
+        // the relative luminance of WCAG 2
+        let luminance = |colour: Color32| {
+            let [r, g, b, _] = colour.to_array().map(|byte| {
+                let c = f64::from(byte) / 255.0;
+                if c <= 0.04045 { c / 12.92 } else { crate::num::exp(2.4 * crate::num::ln((c + 0.055) / 1.055)) }
+            });
+            0.2126 * r + 0.7152 * g + 0.0722 * b
+        };
+        for look in [Theme::Light, Theme::Dark].map(Look::from) {
+            for facing in [0.0, 0.25, 0.5, 0.75, 1.0] {
+                let [line, ground] =
+                    [true, false].map(|is| luminance(ink(facing, CellState::Blocked, is, &look)) + 0.05);
+                let contrast = if line > ground { line / ground } else { ground / line };
+                assert!(contrast >= 3.0, "{:?} at {facing}: {contrast:.2}", look.theme);
+                assert_eq!(ink(facing, CellState::Free, true, &look), ink(facing, CellState::Free, false, &look));
+            }
+        }
+    }
 
     fn is_near(seen: Seen, at: [f64; 2], near: f64, facing: f64) -> bool {
         let off = [seen.at[0] - at[0], seen.at[1] - at[1], seen.near - near, seen.facing - facing];

@@ -7,7 +7,7 @@ use bevy_egui::egui::{Label, Rect, RichText, ScrollArea, TextStyle, TextWrapMode
 use super::torus::torus;
 use crate::anatomy::{Series, Tab, twin};
 use crate::cspace::{Overlay, overlay_items};
-use crate::geometry::Point2;
+use crate::geometry::{Aabb, Point2};
 use crate::manifest::{Deed, Widget};
 use crate::num::wrap;
 use crate::picture::{Picture, Role, footprint};
@@ -21,6 +21,9 @@ use crate::ui::{Command, Dashboard, Look, UiState, readout, readout_lines};
 
 /// Largest number of points kept in the trace.
 const TRACE: usize = 2000;
+
+/// Radius of the robot's point with its ring, points.
+const POINT: f64 = 6.0;
 
 /// Height of the words under two papers that lie one above the other, points.
 const UNDER_TWO: f32 = 190.0;
@@ -181,8 +184,15 @@ fn space(ui: &mut Ui, paper: Rect, look: &Look, state: &mut UiState) {
     let on = sheet(ui, paper, spoken, &still, &moving, look);
     // on a torus the way beyond an edge goes on at the opposite one, however far
     let held = if slice.wraps() { on.held_anywhere() } else { on.held() };
-    if let Some(to) = held.filter(|_| on.response.dragged() || on.response.clicked()) {
-        let (min, max) = (slice.min(), slice.max());
+    let (min, max) = (slice.min(), slice.max());
+    // who presses among the figures at the axes means no point; a point on the edge can be taken from beyond it
+    let reach = POINT / on.fit.px_per_metre();
+    let chart = Aabb::new(Point2::from(min), Point2::from(max)).grown(reach);
+    let from = ui.input(|i| i.pointer.press_origin());
+    let from = from.map(|p| on.fit.world_from_screen([f64::from(p.x), f64::from(p.y)])).or(held);
+    let is_on_chart = from.is_some_and(|p| !chart.is_apart(&Aabb::new(p, p)));
+    let is_meant = is_on_chart && (on.response.dragged() || on.response.clicked());
+    if let Some(to) = held.filter(|_| is_meant) {
         let p = if slice.wraps() {
             [wrap(to.x), wrap(to.y)]
         } else {

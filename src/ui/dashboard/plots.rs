@@ -15,6 +15,9 @@ const POINTS: usize = 400;
 /// Least height of a plot with its axis, points: three numbers fit beside it.
 const LEAST_HEIGHT: f32 = 96.0;
 
+/// Height of a plot's title, points.
+const ROW: f32 = 20.0;
+
 /// Size of the numbers at the axes, points.
 const TICK_SIZE: f32 = 10.0;
 
@@ -89,7 +92,8 @@ fn line_of(number: usize, look: &Look) -> (bevy_egui::egui::Color32, LineStyle) 
     }
 }
 
-/// Shows the chosen plots one under the other. A click goes to that time.
+/// Shows the titles of all plots one under the other, each with a check box, and under it the plot if it is chosen. A
+/// click on a plot goes to that time.
 pub fn plots(
     ui: &mut Ui,
     model: &Dashboard,
@@ -98,33 +102,27 @@ pub fn plots(
     state: &mut UiState,
     commands: &mut Vec<Command>,
 ) {
-    ui.label(RichText::new("Plots").color(look.colour(Role::Text)).strong());
-    let mut shown = Vec::new();
-    ui.spacing_mut().interact_size.y = 20.0;
-    for (i, graph) in GRAPHS.iter().enumerate() {
-        let mut on = !state.hidden_plots.contains(&i);
-        if ui.checkbox(&mut on, graph.title).changed() {
-            state.hidden_plots.retain(|hidden| *hidden != i);
-            if !on {
-                state.hidden_plots.push(i);
-            }
-        }
-        if on {
-            shown.push(graph);
-        }
-    }
-    if shown.is_empty() {
-        ui.weak("Choose a plot.");
-        return;
-    }
-    let words = 3.0 * ui.text_style_height(&TextStyle::Small) + 12.0;
-    let room = ui.max_rect().bottom() - ui.cursor().top();
-    let height = (room / shown.len() as f32 - words).clamp(LEAST_HEIGHT, 260.0);
+    ui.spacing_mut().interact_size.y = ROW;
+    let shown = (0..GRAPHS.len()).filter(|i| !state.hidden_plots.contains(i)).count();
+    let titles = (ROW + ui.spacing().item_spacing.y) * GRAPHS.len() as f32;
+    let room = ui.max_rect().bottom() - ui.cursor().top() - titles;
+    // the names of its lines take up to two rows
+    let names = 2.0 * ui.text_style_height(&TextStyle::Small) + 12.0;
+    let height = (room / shown.max(1) as f32 - names).clamp(LEAST_HEIGHT, 260.0);
     // where not all fit, none is cut
     ScrollArea::vertical().id_salt("plots").auto_shrink(false).show(ui, |ui| {
-        for graph in shown {
-            legend(ui, graph, model, look);
-            plot(ui, graph, height, model, history, look, commands);
+        for (i, graph) in GRAPHS.iter().enumerate() {
+            let mut on = !state.hidden_plots.contains(&i);
+            if ui.checkbox(&mut on, RichText::new(graph.title).small()).changed() {
+                state.hidden_plots.retain(|hidden| *hidden != i);
+                if !on {
+                    state.hidden_plots.push(i);
+                }
+            }
+            if on {
+                legend(ui, graph, model, look);
+                plot(ui, graph, height, model, history, look, commands);
+            }
         }
     });
 }
@@ -148,9 +146,8 @@ fn lines<'a>(graph: &'a Graph, model: &'a Dashboard) -> impl Iterator<Item = (u3
     channels.chain(angles)
 }
 
-/// Shows the title of a plot and under it the names of its lines, each with its colour and dash.
+/// Shows the names of a plot's lines, each with its colour and dash.
 fn legend(ui: &mut Ui, graph: &Graph, model: &Dashboard, look: &Look) {
-    ui.label(RichText::new(graph.title).small().color(look.colour(Role::Text)));
     ui.horizontal_wrapped(|ui| {
         ui.spacing_mut().interact_size.y = ui.text_style_height(&TextStyle::Small);
         ui.spacing_mut().item_spacing.x = 6.0;

@@ -83,7 +83,7 @@ pub fn offer(ui: &mut Ui, cockpit: &Cockpit, robot: &CockpitRobot, look: &Look, 
     let said = match (asked.and_then(|asked| asked.way.as_ref()), other) {
         (Some(way), _) if way.ticks == 0 => straight_way(&way.checker, &way.sweep),
         (Some(way), _) => format!("{}: it goes there", straight_way(&way.checker, &way.sweep)),
-        (None, _) if waits => "first comes the next tick, with the drag".to_owned(),
+        (None, _) if waits => "the drag waits for the next tick: step or play first".to_owned(),
         (None, None) => "straight or folded: no other arm has this tip".to_owned(),
         (None, Some(_)) if robot.is_arm => "the ghost has the same tip: send the arm there".to_owned(),
         (None, Some(other)) if is_asked => {

@@ -17,6 +17,9 @@ use crate::ui::{Command, Dashboard, Look, Notice, UiState, tools};
 /// Width of the panel of plots at the side, points.
 const SHEET: f32 = 320.0;
 
+/// Gap between the row of title and buttons and what is under it, points.
+const UNDER_HEAD: i8 = 4;
+
 /// Shows the dashboard over what is left of `ui`; what is pressed is pushed onto `commands`. Returns the rectangle of
 /// the panes.
 pub fn dashboard(
@@ -38,30 +41,39 @@ pub fn dashboard(
     Panel::bottom("transport")
         .frame(Frame::NONE.inner_margin(Margin::symmetric(side, if look.low { 4 } else { 8 })))
         .show(ui, |ui| transport_bar(ui, model, history, look, state, commands));
-    if state.settings.plots && !narrow && !state.fills {
-        let margin = Margin { left: 12, right: side, top: 14, bottom: 0 };
+    let has_head = !narrow && !state.fills;
+    if has_head {
+        // over the plots too, which move none of its buttons when they come and go
+        let margin = Margin { left: side, right: side, top: above, bottom: 0 };
+        Panel::top("head")
+            .frame(Frame::NONE.inner_margin(margin))
+            .show_separator_line(false)
+            .show(ui, |ui| tools::header(ui, Widget::Dashboard.text(), model, look, state, commands));
+    }
+    if state.settings.plots && has_head {
+        let margin = Margin { left: 12, right: side, top: UNDER_HEAD, bottom: 0 };
         Panel::right("sheet")
             .exact_size(SHEET)
             .resizable(false)
             .frame(Frame::NONE.inner_margin(margin))
             .show(ui, |ui| plots(ui, model, history, look, state, commands));
     }
-    let panel =
-        CentralPanel::default().frame(Frame::NONE.inner_margin(Margin::symmetric(side, above))).show(ui, |ui| {
-            let has_plots = narrow && state.settings.plots && !state.fills;
-            let has_crowd = model.cockpits.iter().any(|cockpit| cockpit.crowd.is_some());
-            // in a low room the head stands beside the picture
-            let is_beside = look.low && !has_plots && !has_crowd && !model.cockpits.is_empty();
-            if !state.fills && !is_beside {
-                header(ui, model, look, state, commands);
-                ui.add_space(8.0);
-            }
-            if has_plots {
-                plots(ui, model, history, look, state, commands);
-            } else {
-                Stage { model, history, look }.show(ui, state, commands);
-            }
-        });
+    let margin = Margin { top: if has_head { UNDER_HEAD } else { above }, ..Margin::symmetric(side, above) };
+    let panel = CentralPanel::default().frame(Frame::NONE.inner_margin(margin)).show(ui, |ui| {
+        let has_plots = narrow && state.settings.plots && !state.fills;
+        let has_crowd = model.cockpits.iter().any(|cockpit| cockpit.crowd.is_some());
+        // in a low room the head stands beside the picture
+        let is_beside = look.low && !has_plots && !has_crowd && !model.cockpits.is_empty();
+        if !state.fills && !is_beside {
+            header(ui, model, look, state, commands);
+            ui.add_space(8.0);
+        }
+        if has_plots {
+            plots(ui, model, history, look, state, commands);
+        } else {
+            Stage { model, history, look }.show(ui, state, commands);
+        }
+    });
     panel.response.rect
 }
 
@@ -100,12 +112,12 @@ pub fn act(action: Action, model: &Dashboard, state: &mut UiState, commands: &mu
     }
 }
 
+/// Shows the head, on a wide screen the rest of it: title and buttons stand above the plots too.
 fn header(ui: &mut Ui, model: &Dashboard, look: &Look, state: &mut UiState, commands: &mut Vec<Command>) {
     let words = Widget::Dashboard.text();
     if look.narrow {
         return stage::header(ui, model, look, state, commands);
     }
-    tools::header(ui, words, model, look, state, commands);
     frame::key_row(ui, words, look, state);
     frame::hints(ui, words, look, state);
 }

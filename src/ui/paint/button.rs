@@ -24,12 +24,13 @@ pub struct LabButton<'a> {
     width: f32,
     enabled: bool,
     selected: Option<bool>,
+    keys: &'a str,
 }
 
 impl<'a> LabButton<'a> {
     /// A button with this label, which is also its accessible name.
     pub fn new(label: &'a str) -> Self {
-        LabButton { label, icon: None, has_words: false, width: 0.0, enabled: true, selected: None }
+        LabButton { label, icon: None, has_words: false, width: 0.0, enabled: true, selected: None, keys: "" }
     }
 
     /// Shows this sign in place of the label, which stays the accessible name.
@@ -57,6 +58,11 @@ impl<'a> LabButton<'a> {
         LabButton { selected: Some(selected), ..self }
     }
 
+    /// Shows the keys that do the same at its right end.
+    pub fn keys(self, keys: &'a str) -> Self {
+        LabButton { keys, ..self }
+    }
+
     /// Shows the button.
     pub fn show(self, ui: &mut Ui, look: &Look) -> Response {
         let height = ui.spacing().interact_size.y;
@@ -72,13 +78,18 @@ impl<'a> LabButton<'a> {
         if !self.enabled {
             button = button.stroke(Stroke::new(1.0, look.colour(Role::Hairline)));
         }
+        if !self.keys.is_empty() {
+            button = button.shortcut_text(self.keys);
+        }
         let response = ui.add_enabled(self.enabled, button);
-        if let Some(icon) = self.icon {
-            let info = || WidgetInfo {
+        if self.icon.is_some() || !self.keys.is_empty() {
+            // its label alone is its name
+            response.widget_info(|| WidgetInfo {
                 selected: self.selected,
                 ..WidgetInfo::labeled(WidgetType::Button, self.enabled, self.label)
-            };
-            response.widget_info(info);
+            });
+        }
+        if let Some(icon) = self.icon {
             let colour = if self.enabled { look.colour(Role::Text) } else { look.tint(Role::Muted, 0.5) };
             let (sign, words) = response.rect.split_top_bottom_at_fraction(if self.has_words { 0.56 } else { 1.0 });
             icon.paint(ui.painter(), sign, Stroke::new(1.5, colour));

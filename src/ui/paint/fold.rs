@@ -1,7 +1,7 @@
 //! `fold`, a header that folds what is under it, `menu` and `form`: assistive technology hears whether they are open.
 
 use bevy_egui::egui::containers::menu::{MenuButton, MenuConfig};
-use bevy_egui::egui::{CollapsingHeader, PopupCloseBehavior, Response, Ui};
+use bevy_egui::egui::{CollapsingHeader, PopupCloseBehavior, Response, ScrollArea, Ui};
 
 /// Shows a header and, while it is open, what `show` shows under it. It begins open if `is_open`.
 pub fn fold<R>(ui: &mut Ui, name: &str, is_open: bool, show: impl FnOnce(&mut Ui) -> R) {
@@ -9,9 +9,12 @@ pub fn fold<R>(ui: &mut Ui, name: &str, is_open: bool, show: impl FnOnce(&mut Ui
     tell(&shown.header_response, shown.body_response.is_some());
 }
 
-/// Shows a button that opens a menu of what `show` shows.
+/// Shows a button that opens a menu of what `show` shows. What has no room under the button is scrolled to.
 pub fn menu<R>(ui: &mut Ui, name: &str, show: impl FnOnce(&mut Ui) -> R) {
-    let shown = ui.menu_button(name, show);
+    let window = ui.ctx().content_rect();
+    let under = window.bottom() - ui.cursor().top() - 2.0 * ui.spacing().interact_size.y;
+    let most = under.max(0.5 * window.height());
+    let shown = ui.menu_button(name, |ui| ScrollArea::vertical().max_height(most).show(ui, show).inner);
     tell(&shown.response, shown.inner.is_some());
 }
 

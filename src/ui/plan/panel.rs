@@ -196,9 +196,8 @@ fn result(ui: &mut Ui, look: &Look, plan: &PlanState) {
         Stage::Growing => _ = ui.label("It grows."),
         Stage::Solved => {
             if let Some(PathLengths { length, clearance }) = plan.lengths() {
-                let legs = plan.drawn().corners.len().saturating_sub(1);
-                let unit = unit(&plan.task().robot);
-                headline(ui, &format!("path: {legs} legs, {length:.3} {unit}"), look.colour(Role::Text));
+                let (legs, unit) = (plan.drawn().legs(), unit(&plan.task().robot));
+                headline(ui, &format!("path: {legs}, {length:.3} {unit}"), look.colour(Role::Text));
                 ui.label(monospace(format!("clearance {} m, proven", proven(clearance))));
             }
             if plan.improves() {
@@ -208,8 +207,7 @@ fn result(ui: &mut Ui, look: &Look, plan: &PlanState) {
         Stage::Ended(reason) => refusal(ui, &format!("No path: {reason}"), look),
         Stage::Read(name) => {
             let drawn = plan.drawn();
-            let legs = drawn.corners.len().saturating_sub(1);
-            ui.label(format!("{name}: {legs} legs, {} edges", drawn.edges.len()));
+            ui.label(format!("{name}: {}, {} edges", drawn.legs(), drawn.edges.len()));
             let words = "Drawn as the file says; nothing of it is proven here.";
             ui.label(RichText::new(words).color(look.colour(Role::Muted)));
         }

@@ -213,7 +213,7 @@ impl PlanState {
         let Task { name, start, goal, .. } = &self.task;
         let found = match &self.stage {
             Stage::Growing => format!("{} edges so far", self.drawn.edges.len()),
-            Stage::Solved => format!("a path of {} legs", self.drawn.corners.len().saturating_sub(1)),
+            Stage::Solved => format!("a path of {}", self.drawn.legs()),
             Stage::Ended(reason) => reason.to_string(),
             Stage::Read(file) => return format!("the file {file} for {name}, from {start} to {goal}"),
         };

@@ -2,7 +2,9 @@
 //! wheel shows less time or more; a thumb then says which part of the run it is.
 
 use bevy_egui::egui::{
-    Align2, Rect, Response, Sense, Shape, Slider, Stroke, TextStyle, Ui, WidgetInfo, WidgetType, pos2, vec2,
+    Align2, Rect, Response, Sense, Shape, Slider, Stroke, TextStyle, Ui, WidgetInfo, WidgetType, pos2,
+    text::{LayoutJob, TextWrapping},
+    vec2,
 };
 
 use super::span::Span;
@@ -179,12 +181,11 @@ fn show_lanes(
         let top = scale.lanes.top() + k as f32 * height;
         Rect::from_x_y_ranges(scale.lanes.x_range(), top..=top + height)
     };
-    let font = TextStyle::Small.resolve(ui.style());
     for (k, lane) in lanes.iter().enumerate() {
         let rect = rect_of(k);
         if lanes.len() > 1 {
-            let at = pos2(rect.left() - 12.0, rect.center().y);
-            ui.painter().text(at, Align2::RIGHT_CENTER, lane.name, font.clone(), look.colour(Role::Muted));
+            let across = ui.max_rect().left()..=rect.left() - 12.0;
+            name(ui, lane.name, Rect::from_x_y_ranges(across, rect.y_range()), look);
         }
         ui.painter().hline(rect.x_range(), rect.center().y, Stroke::new(1.0, look.colour(Role::Hairline)));
         contacts(ui, lane.of(marks, Happening::Contact), rect, scale, look);
@@ -209,6 +210,20 @@ fn show_lanes(
         commands.push(Command::from(TransportCommand::Seek(to)));
     }
     say(response, model, nearest, to);
+}
+
+/// Shows the name of a lane at the right end of `room`. One that is too long ends in an ellipsis, and is said in whole
+/// on hover.
+fn name(ui: &Ui, name: &str, room: Rect, look: &Look) {
+    let (font, colour) = (TextStyle::Small.resolve(ui.style()), look.colour(Role::Muted));
+    let mut job = LayoutJob::simple_singleline(name.to_owned(), font, colour);
+    job.wrap = TextWrapping::truncate_at_width(room.width());
+    let galley = ui.fonts_mut(|fonts| fonts.layout_job(job));
+    let at = Align2::RIGHT_CENTER.align_size_within_rect(galley.size(), room);
+    if galley.elided {
+        ui.interact(room, ui.id().with(("lane", name)), Sense::hover()).on_hover_text(name);
+    }
+    ui.painter().galley(at.min, galley, colour);
 }
 
 /// Says what happened at a mark, or only when it is.
@@ -318,6 +333,25 @@ mod tests {
         let of = |robot, what| Lane { robot, name: "" }.of(&marks, what).collect::<Vec<u64>>();
         assert_eq!((of(Some(0), Contact), of(Some(0), Takeover), of(Some(1), Takeover)), (vec![3, 9], vec![5], vec![]));
         assert_eq!(of(None, Contact), [3, 5, 9]);
+    }
+
+    #[test]
+    fn a_long_name_ends_within_its_room() {
+        use bevy_egui::egui::{Context, RawInput};
+        let room = Rect::from_min_max(pos2(20.0, 40.0), pos2(72.0, 52.0));
+        for (words, is_elided) in [("Rusty", false), ("the forklift at the northern gate", true)] {
+            let mut output = Context::default().run_ui(RawInput::default(), |ui| {
+                name(ui, words, room, &Look::from(crate::picture::Theme::Light));
+            });
+            output.textures_delta.clear();
+            let painted = output.shapes.iter().find_map(|clipped| match &clipped.shape {
+                Shape::Text(text) => Some((text.galley.elided, text.galley.mesh_bounds.translate(text.pos.to_vec2()))),
+                _ => None,
+            });
+            let (elided, ink) = painted.expect("the name");
+            assert_eq!(elided, is_elided, "{words}");
+            assert!(room.x_range().contains(ink.left()) && ink.right() <= room.right(), "{words} at {ink} in {room}");
+        }
     }
 
     #[test]

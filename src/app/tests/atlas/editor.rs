@@ -246,3 +246,21 @@ fn a_number_typed_for_one_thing_is_never_the_next_ones() {
     let of = |h: &Harness<'_, Lab>| atlas(h).world().obstacle(second).unwrap().clone();
     assert_eq!(of(&harness), *starts.obstacle(second).unwrap());
 }
+
+#[test]
+fn a_warning_moves_neither_a_button_nor_a_field() {
+    let mut harness = lab(WIDE);
+    click(&mut harness, "Atlas");
+    click(&mut harness, "Edit");
+    let names = ["Add box", "Add disc", "Apartment: width"];
+    let places = |h: &Harness<'_, Lab>| names.map(|name| h.get_by_label(name).rect());
+    let before = places(&harness);
+    let start = atlas(&harness).world().robots[0].start[..2].to_vec();
+    click(&mut harness, "Add box");
+    let over_rusty = at(&harness, [start[0], start[1]]);
+    click_at(&mut harness, over_rusty);
+    press(&mut harness, Modifiers::NONE, Key::Escape);
+    assert_eq!((atlas(&harness).selected, atlas(&harness).warnings().len()), (None, 1));
+    assert!(harness.query_all_by_label_contains("would overlap box").count() > 0, "it is shown");
+    assert_eq!(places(&harness), before, "what was pointed at is there still");
+}

@@ -307,10 +307,10 @@ fn an_arm_that_waits_for_a_tick_with_a_drag_is_not_sent_to_the_other_elbow() {
     drag(&mut harness, "Reach: tip, \u{3b8}\u{2082} in radians", [1.2, 0.6]);
     let moves = harness.state().script().events.clone();
     assert!(!moves.is_empty());
-    harness.get_by_label_contains("first comes the next tick");
+    harness.get_by_label_contains("the drag waits for the next tick: step or play first");
     harness.get_by_label("One tip, two elbows").click();
     harness.run_steps(4);
     assert_eq!(harness.state().script().events, moves, "the drag is kept");
     click(&mut harness, "Step");
-    assert!(harness.query_by_label_contains("first comes the next tick").is_none());
+    assert!(harness.query_by_label_contains("the drag waits for the next tick: step or play first").is_none());
 }

@@ -298,3 +298,39 @@ fn in_a_small_window_both_pictures_stand_side_by_side_where_they_are_larger_so()
         assert!(left.right() < right.left() && right.right() <= 600.0, "{widget:?}: {left} {right}");
     }
 }
+
+#[test]
+fn plots_that_come_and_go_move_no_button_above_them() {
+    for size in [WIDE, [800.0, 600.0]] {
+        let mut harness = fresh(size, Widget::Dashboard);
+        let places = |h: &Harness<'_, Lab>| ["Plots", "Undo", "Menu"].map(|name| h.get_by_label(name).rect());
+        let before = places(&harness);
+        for are_open in [true, false] {
+            click_at(&mut harness, before[0].center());
+            harness.run_steps(4);
+            assert_eq!(interface(&harness).settings.plots, are_open, "{size:?}");
+            assert_eq!(places(&harness), before, "{size:?}: the next click on it finds it");
+        }
+    }
+}
+
+#[test]
+fn the_entries_of_the_menu_have_their_keys_at_their_right_and_the_last_is_scrolled_to() {
+    let mut harness = lab([600.0, 500.0]);
+    pause(&mut harness);
+    harness.get_by_label("Menu").click();
+    harness.run_steps(4);
+    let said = words(&harness);
+    for (name, keys) in [("Open", "Ctrl+O"), ("Redo", "Ctrl+Shift+Z"), ("Plots", "P"), ("Names", "T")] {
+        let entry = harness.get_by_label(name).rect();
+        let here = said.iter().filter(|(text, ink, _)| text == keys && entry.contains_rect(*ink));
+        let key = here.map(|(_, ink, _)| ink.center().x).next().unwrap_or_else(|| panic!("{keys} in {name}: {entry}"));
+        assert!(key > entry.center().x, "{keys} at {key} in {entry}");
+    }
+    assert!(harness.get_by_label("Dark theme").rect().bottom() > 500.0, "there are more than fit");
+    harness.get_by_label("Dark theme").scroll_to_me();
+    harness.run_steps(20);
+    assert!(harness.get_by_label("Dark theme").rect().bottom() < 500.0);
+    click(&mut harness, "Dark theme");
+    assert_eq!(interface(&harness).settings.theme, crate::manifest::ThemeChoice::Dark);
+}
