@@ -383,7 +383,8 @@ fn another_verdict_moves_no_slider_and_no_button() {
     harness.run_steps(3);
     let places = |h: &Harness<'_, Lab>| {
         let slider = h.get_by_role_and_label(egui::accesskit::Role::Slider, "step of \u{3b8}\u{2081}").rect();
-        [slider, h.get_by_label("Copy as Rust").rect(), h.get_by_label("Reset").rect()]
+        // the slider's rectangle ends with its number
+        [slider, h.get_by_label("Copy as Rust").rect(), h.get_by_label("Reset").rect()].map(|rect| rect.left_top())
     };
     let before = places(&harness);
     interface_mut(&mut harness).anatomy.anatomy.set_step(0, 0.0);

@@ -179,7 +179,7 @@ mod tests {
     #[test]
     fn what_stands_under_words_that_come_and_go_stays() {
         let context = Context::default();
-        let mut under = |rows: usize, width: f32| {
+        let under = |rows: usize, width: f32| {
             let mut top = 0.0;
             let mut output = context.run_ui(RawInput::default(), |ui| {
                 ui.set_max_width(width);

@@ -145,7 +145,8 @@ fn the_papers_of_a_plan_are_equally_high_or_equally_wide() {
     let harness = fresh(WIDE, Widget::Plan);
     let [left, right] = papers(&harness, Widget::Plan)[..] else { panic!("two papers") };
     assert!((left.height() - right.height()).abs() < 1.0 && left.top() == right.top(), "{left} {right}");
-    assert!(left.height() > 425.0, "{left}");
+    // the figures at the axes of the other take of the width
+    assert!(left.height() > 420.0, "{left}");
     let harness = fresh(PHONE, Widget::Plan);
     let [above, below] = papers(&harness, Widget::Plan)[..] else { panic!("two papers") };
     assert!((above.width() - below.width()).abs() < 1.0, "{above} {below}");
