@@ -250,6 +250,7 @@ impl UiState {
         if old.has_history() {
             self.shelf.push(old);
         }
+        self.atlas.others = self.shelf.iter().map(|kept| kept.world().name.clone()).collect();
     }
 
     /// Opens a new world in the editor: nothing but a wall around 12 x 8 m.

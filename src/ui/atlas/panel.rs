@@ -39,7 +39,12 @@ pub(super) fn edit_panel(ui: &mut Ui, look: &Look, atlas: &mut AtlasState) {
         if LabButton::new("Redo").enabled(again).show(ui, look).on_hover_text(hint(Action::Redo)).clicked() {
             atlas.undo(false);
         }
-        ui.label(if atlas.is_saved() { "saved" } else { "not saved in a file" });
+        // a world as it came is in no file of the reader's, and needs none
+        if atlas.is_saved() {
+            ui.label("saved");
+        } else if back {
+            ui.label("not saved in a file");
+        }
     });
     for warning in atlas.warnings() {
         refusal(ui, warning, look);

@@ -44,6 +44,8 @@ pub struct AtlasState {
     built_in: Option<&'static str>,
     /// Which one of the worlds of its name this is, from 1 on.
     copy: u32,
+    /// The names of the edited worlds beside it.
+    pub(crate) others: Vec<String>,
     pub(super) atlas: Atlas,
     /// The world, with the change that is tried out, and its robots at their starts.
     pub(super) starts: Atlas,
@@ -172,6 +174,7 @@ impl AtlasState {
             path: None,
             built_in: None,
             copy: 1,
+            others: Vec::new(),
             labels: None,
             grid: None,
             mode: Mode::default(),
