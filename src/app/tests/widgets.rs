@@ -1,5 +1,6 @@
 //! Query anatomy, configuration space and atlas.
 
+mod deeds;
 mod fingers;
 mod layout;
 mod lessons;

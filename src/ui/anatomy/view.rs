@@ -75,7 +75,14 @@ pub fn anatomy_view(ui: &mut Ui, model: &Dashboard, look: &Look, state: &mut UiS
             crate::ui::tools::foot(ui, words, look, state);
         });
     });
-    state.did.extend(of_anatomy(&before, &state.anatomy.anatomy));
+    let shown = &mut state.anatomy;
+    if ui.input(|i| i.pointer.any_down()) {
+        // what a drag only passes through is no deed
+        _ = shown.pressed.get_or_insert(before);
+    } else {
+        let before = shown.pressed.take().unwrap_or(before);
+        state.did.extend(of_anatomy(&before, &shown.anatomy));
+    }
 }
 
 /// Shows the question, its answer, and the configuration.

@@ -258,7 +258,7 @@ fn everything(ui: &mut Ui, look: &Look, atlas: &mut AtlasState) {
             ui.label(if count == 0 { "Nothing yet." } else { "Nothing of that name." });
         }
         if let Some(name) = chosen {
-            atlas.select(Some(&name));
+            atlas.pick(Some(&name));
         }
     });
 }

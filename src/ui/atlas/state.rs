@@ -70,6 +70,8 @@ pub struct AtlasState {
     pub resolution: f64,
     /// The name of the selected thing.
     pub selected: Option<String>,
+    /// Whether that was only added, and not picked since.
+    pub(super) is_new: bool,
     /// Its shape, the corners in the order that they had when it was selected.
     pub(super) shape: Option<EditShape>,
     /// What is typed into a number field and not yet entered.
@@ -184,6 +186,7 @@ impl AtlasState {
             wanted: None,
             resolution: super::FIRST_CELL,
             selected: None,
+            is_new: false,
             shape: None,
             typed: None,
             held: None,

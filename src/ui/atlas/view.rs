@@ -172,7 +172,7 @@ fn edit(on: &Sheet, moving: &Picture, still: &Picture, atlas: &mut AtlasState) {
             let things = |i: &&Item| i.id.starts_with("place/") || i.id.starts_with("robot/");
             let item = pick(moving, &on.fit, from, 4.0).filter(things);
             let item = item.or_else(|| pick(still, &on.fit, from, 5.0));
-            atlas.select(item.and_then(thing));
+            atlas.pick(item.and_then(thing));
         }
         atlas.begin_drag(origin, handle);
     }
