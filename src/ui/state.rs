@@ -169,6 +169,8 @@ pub struct SeedDraft {
     pub text: String,
     /// The run's seed while it was typed. A draft for another seed is dropped.
     pub of: Seed,
+    /// The ticks that the run had while it was typed. For a run of fewer, which began since, it is dropped.
+    pub frontier: u64,
     /// Whether it was entered and is no seed.
     pub is_refused: bool,
 }
