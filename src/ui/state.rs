@@ -233,6 +233,13 @@ impl UiState {
         self.say_in(self.widget, notice);
     }
 
+    /// Says why something was refused, if it was.
+    pub fn refuse(&mut self, why: Option<String>) {
+        if let Some(text) = why {
+            self.say(Notice { text, is_error: true });
+        }
+    }
+
     /// Shows a message in this widget.
     pub fn say_in(&mut self, widget: Widget, notice: Notice) {
         self.notices.insert(widget, notice);

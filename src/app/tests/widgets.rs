@@ -4,6 +4,7 @@ mod deeds;
 mod fingers;
 mod layout;
 mod lessons;
+mod numbers;
 
 use super::*;
 use crate::simulation::TransportCommand;

@@ -3,6 +3,7 @@
 use super::field::{Field, Typed};
 use crate::atlas::{Number, Op};
 use crate::ui::AtlasState;
+use crate::ui::number::{no_number, number};
 use crate::worlds::World;
 
 impl AtlasState {
@@ -55,12 +56,10 @@ impl AtlasState {
         if field.thing.as_ref().is_some_and(|name| !self.editor.holds(name)) {
             return;
         }
-        // the minus sign too that other fields of the lab show
-        let number: String = text.chars().filter(|c| !c.is_whitespace()).collect();
-        match number.replace('\u{2212}', "-").parse() {
-            Ok(to) => self.change(&self.setting(&field, to), self.selected.clone()),
-            Err(_) if number.is_empty() => {}
-            Err(_) => self.message = Some(format!("{} is no number", text.trim())),
+        match number(&text) {
+            Some(to) => self.change(&self.setting(&field, to), self.selected.clone()),
+            None if text.trim().is_empty() => {}
+            None => self.message = Some(no_number(&text)),
         }
     }
 
