@@ -82,12 +82,7 @@ fn a_text_that_is_no_seed_goes_by_escape_a_press_beside_it_or_another_run_and_co
         let reason = "a whole number from 0 to";
         let lines = ["time line, in ticks", "takeovers so far"];
         let beside = paper(&harness, "Apartment").left_top() + egui::vec2(20.0, 60.0);
-        let leave: [&dyn Fn(&mut Harness<'_, Lab>); 3] = [
-            &|harness| harness.key_press(Key::Escape),
-            &|harness| click_at(harness, beside),
-            &|harness| harness.key_press(Key::R),
-        ];
-        for (way, leave) in leave.into_iter().enumerate() {
+        for way in ["Escape", "a press", "R"] {
             harness.get_by_label("seed").focus();
             harness.run_steps(2);
             harness.key_combination_modifiers(Modifiers::COMMAND, &[Key::A]);
@@ -102,10 +97,14 @@ fn a_text_that_is_no_seed_goes_by_escape_a_press_beside_it_or_another_run_and_co
                 assert!(!said.intersects(line), "{size:?}: {said} on {line}");
             }
             assert_eq!(harness.get_by_label("seed").value().as_deref(), Some("hello"));
-            leave(&mut harness);
+            match way {
+                "Escape" => harness.key_press(Key::Escape),
+                "R" => harness.key_press(Key::R),
+                _ => click_at(&mut harness, beside),
+            }
             harness.run_steps(4);
-            assert!(harness.query_by_label_contains(reason).is_none(), "{size:?}: way {way}");
-            assert_eq!(harness.get_by_label("seed").value().as_deref(), Some("2005"), "{size:?}: way {way}");
+            assert!(harness.query_by_label_contains(reason).is_none(), "{size:?}: {way}");
+            assert_eq!(harness.get_by_label("seed").value().as_deref(), Some("2005"), "{size:?}: {way}");
         }
         assert_eq!(harness.state().transport().frontier, 0, "R began it anew");
     }
