@@ -8,11 +8,12 @@ use bevy_egui::egui;
 use egui_file_dialog::{DialogMode, DialogState, FileDialog, FileDialogLabels};
 
 use super::capture::{capture, check, not_captured};
+use super::error::SessionError;
 use super::files::{PATH, WORLD, open_any, open_path, open_run, open_world, save_path, save_run, save_world};
 use crate::random::Seed;
 use crate::simulation::{Playback, RunConfig, Transport};
 use crate::ui::Interface;
-use crate::ui::{CaptureOrder, SessionCommand, UiState, Widget};
+use crate::ui::{CaptureOrder, Notice, SessionCommand, UiState, Widget};
 
 /// File extension of the lab's logs.
 const EXTENSION: &str = "mcap";
@@ -99,6 +100,11 @@ pub fn ask(
     let Some(config) = config else { return };
     for command in asked.read() {
         match command {
+            SessionCommand::Save if transport.frontier == 0 => {
+                // before a file is named for it
+                interface.0.say(Notice { text: SessionError::NotRun.to_string(), is_error: true });
+                continue;
+            }
             SessionCommand::Save => {
                 dialogs.runs.config_mut().default_file_name = format!("run-{}.{EXTENSION}", transport.seed);
                 dialogs.runs.save_file();

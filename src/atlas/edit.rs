@@ -99,6 +99,12 @@ impl Editor {
         self.saved == Some(self.now)
     }
 
+    /// Whether a wall was taken away, and that is not undone.
+    pub fn has_lost_wall(&self) -> bool {
+        let walls = |world: &World| world.obstacles.iter().filter(|o| o.kind == ObstacleKind::Wall).count();
+        self.history[..=self.now].windows(2).any(|step| walls(&step[1]) < walls(&step[0]))
+    }
+
     /// The world after a change, without making it: for showing a drag under way.
     ///
     /// # Errors

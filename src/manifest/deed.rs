@@ -44,7 +44,7 @@ pub enum Deed {
     Coarsen,
     /// A wall of the atlas's world was looked up: a list of points.
     PickWall,
-    /// The atlas's world was edited.
+    /// A wall of the atlas's world was taken away, and the world was run.
     EditWorld,
     /// The planner found a path.
     FindPath,

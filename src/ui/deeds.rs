@@ -27,9 +27,9 @@ const LEAST_BEND: f64 = 0.15;
 /// was asked for.
 pub fn tick_off(model: &Dashboard, state: &mut UiState, commands: &[Command], now: f64) {
     let is_sent = state.twin.as_ref().is_some_and(|asked| asked.way.is_some());
-    let is_edited = state.atlas.can_undo()[0];
+    let has_lost_wall = state.atlas.editor.has_lost_wall();
     let mut done = std::mem::take(&mut state.did);
-    done.extend(commands.iter().flat_map(|command| asked(command, model, is_sent, is_edited)));
+    done.extend(commands.iter().flat_map(|command| asked(command, model, is_sent, has_lost_wall)));
     done.extend(shown(model, state));
     done.append(&mut state.plan.deeds);
     if let Some(lesson) = &mut state.lesson {
@@ -39,8 +39,8 @@ pub fn tick_off(model: &Dashboard, state: &mut UiState, commands: &[Command], no
 }
 
 /// The deeds that a command is; an arm may be moved `by_itself`, on its way to its other elbow, and the atlas's world
-/// may have been edited.
-fn asked(command: &Command, model: &Dashboard, by_itself: bool, is_edited: bool) -> Vec<Deed> {
+/// may have lost a wall.
+fn asked(command: &Command, model: &Dashboard, by_itself: bool, has_lost_wall: bool) -> Vec<Deed> {
     match command {
         Command::Run(RunCommand::Robot(RobotCommand { input, .. })) => match input {
             RobotInput::Drive(0, 0) => vec![],
@@ -51,7 +51,9 @@ fn asked(command: &Command, model: &Dashboard, by_itself: bool, is_edited: bool)
         },
         Command::Run(RunCommand::Transport(TransportCommand::Reset)) => vec![Deed::Reset],
         Command::Session(SessionCommand::PlayPath) => vec![Deed::PlayPath],
-        Command::Session(SessionCommand::RunWorld | SessionCommand::RunFromHere) if is_edited => vec![Deed::EditWorld],
+        Command::Session(SessionCommand::RunWorld | SessionCommand::RunFromHere) if has_lost_wall => {
+            vec![Deed::EditWorld]
+        }
         _ => vec![],
     }
 }
@@ -68,7 +70,7 @@ fn shown(model: &Dashboard, state: &UiState) -> Vec<Deed> {
         Widget::Cspace => of(&[(Deed::TwoPoints, &|| have_one_tip(anatomy, &state.cspace.trace))]),
         Widget::Atlas => of(&[
             (Deed::Coarsen, &|| state.atlas.resolution > FIRST_CELL),
-            (Deed::PickWall, &|| state.atlas.has_selected_wall()),
+            (Deed::PickWall, &|| state.atlas.has_picked_wall()),
         ]),
         Widget::Plan => of(&[(Deed::FindPath, &|| *state.plan.stage() == Stage::Solved)]),
         Widget::Dashboard => of(&[(Deed::Held, &|| {
@@ -79,8 +81,8 @@ fn shown(model: &Dashboard, state: &UiState) -> Vec<Deed> {
     }
 }
 
-/// What the reader has done in a frame of the query anatomy: the robot was moved until it touches, the motion changed
-/// until it hits. Another world, robot or tab is no deed.
+/// What the reader has done between two moments of the query anatomy, a press and its release or a frame and the next:
+/// the robot was moved until it touches, the motion changed until it hits. Another world, robot or tab is no deed.
 pub fn of_anatomy(before: &Anatomy, now: &Anatomy) -> Vec<Deed> {
     let is_same = Arc::ptr_eq(before.world(), now.world()) && before.checker().robot() == now.checker().robot();
     let hits = || now.sweep().is_ok_and(|sweep| matches!(sweep.verdict, EdgeVerdict::Hit { .. }));
@@ -157,7 +159,7 @@ mod tests {
         assert_eq!(asked(&moved, &now, true, false), [], "by itself");
         assert_eq!(asked(&moved, &now, false, false), [Deed::MoveArm]);
         let run = Command::Session(SessionCommand::RunWorld);
-        assert_eq!(asked(&run, &now, false, false), [], "nothing was edited");
+        assert_eq!(asked(&run, &now, false, false), [], "no wall was taken away");
         assert_eq!(asked(&run, &now, false, true), [Deed::EditWorld]);
     }
 

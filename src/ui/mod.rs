@@ -17,6 +17,7 @@ pub(crate) mod keys;
 mod lab;
 mod lesson;
 mod lesson_state;
+mod number;
 pub(crate) mod paint;
 mod plan;
 #[cfg(feature = "window")]

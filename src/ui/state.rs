@@ -169,6 +169,8 @@ pub struct SeedDraft {
     pub text: String,
     /// The run's seed while it was typed. A draft for another seed is dropped.
     pub of: Seed,
+    /// The ticks that the run had while it was typed. For a run of fewer, which began since, it is dropped.
+    pub frontier: u64,
     /// Whether it was entered and is no seed.
     pub is_refused: bool,
 }
@@ -231,6 +233,13 @@ impl UiState {
         self.say_in(self.widget, notice);
     }
 
+    /// Says why something was refused, if it was.
+    pub fn refuse(&mut self, why: Option<String>) {
+        if let Some(text) = why {
+            self.say(Notice { text, is_error: true });
+        }
+    }
+
     /// Shows a message in this widget.
     pub fn say_in(&mut self, widget: Widget, notice: Notice) {
         self.notices.insert(widget, notice);
@@ -250,6 +259,7 @@ impl UiState {
         if old.has_history() {
             self.shelf.push(old);
         }
+        self.atlas.others = self.shelf.iter().map(|kept| kept.world().name.clone()).collect();
     }
 
     /// Opens a new world in the editor: nothing but a wall around 12 x 8 m.

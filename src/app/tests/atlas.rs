@@ -206,3 +206,35 @@ fn a_click_selects_a_door_which_is_dragged_whole_and_by_its_ends() {
     }
     assert_eq!(*atlas(&harness).world(), crate::worlds::World::apartment());
 }
+
+#[test]
+fn a_world_takes_no_other_worlds_name_and_is_unsaved_once_it_is_edited() {
+    let mut harness = lab(WIDE);
+    click(&mut harness, "Atlas");
+    click(&mut harness, "Edit");
+    assert!(harness.query_by_label("not saved in a file").is_none(), "it is as it came");
+    let rename = |harness: &mut Harness<'_, Lab>, text: &str| {
+        harness.get_by_role_and_label(egui::accesskit::Role::TextInput, "name of the world").focus();
+        harness.run_steps(2);
+        press(harness, Modifiers::COMMAND, Key::A);
+        harness.event(Event::Text(text.into()));
+        harness.run_steps(2);
+        press(harness, Modifiers::NONE, Key::Enter);
+    };
+    rename(&mut harness, "Flat");
+    harness.get_by_label("not saved in a file");
+    interface_mut(&mut harness).new_world();
+    harness.run_steps(3);
+    // the one left in the list, and one that is built in
+    for taken in ["Flat", "Lot"] {
+        rename(&mut harness, taken);
+        assert_eq!((&*atlas(&harness).world().name, atlas(&harness).can_undo()), ("New world", [false; 2]));
+        harness.get_by_label(&format!("another world is named {taken}"));
+    }
+    rename(&mut harness, "Yard");
+    assert_eq!(atlas(&harness).world().name, "Yard");
+    interface_mut(&mut harness).take_from_shelf(0);
+    harness.run_steps(3);
+    rename(&mut harness, "Apartment");
+    assert_eq!(*atlas(&harness).world(), crate::worlds::World::apartment(), "its own name again");
+}

@@ -97,6 +97,43 @@ fn a_seed_is_typed_and_typed_back() {
 }
 
 #[test]
+fn a_text_that_is_no_seed_goes_by_escape_a_press_beside_it_or_another_run_and_covers_no_time() {
+    for size in [WIDE, [800.0, 600.0]] {
+        let mut harness = lab(size);
+        harness.run_steps(40);
+        pause(&mut harness);
+        let reason = "a whole number from 0 to";
+        let lines = ["time line, in ticks", "takeovers so far"];
+        let beside = paper(&harness, "Apartment").left_top() + egui::vec2(20.0, 60.0);
+        for way in ["Escape", "a press", "R"] {
+            harness.get_by_label("seed").focus();
+            harness.run_steps(2);
+            harness.key_combination_modifiers(Modifiers::COMMAND, &[Key::A]);
+            harness.step();
+            harness.event(Event::Text("hello".into()));
+            harness.step();
+            harness.key_press(Key::Enter);
+            harness.run_steps(4);
+            let said = harness.get_by_label_contains(reason).rect();
+            for line in lines {
+                let line = harness.get_by_label_contains(line).rect();
+                assert!(!said.intersects(line), "{size:?}: {said} on {line}");
+            }
+            assert_eq!(harness.get_by_label("seed").value().as_deref(), Some("hello"));
+            match way {
+                "Escape" => harness.key_press(Key::Escape),
+                "R" => harness.key_press(Key::R),
+                _ => click_at(&mut harness, beside),
+            }
+            harness.run_steps(4);
+            assert!(harness.query_by_label_contains(reason).is_none(), "{size:?}: {way}");
+            assert_eq!(harness.get_by_label("seed").value().as_deref(), Some("2005"), "{size:?}: {way}");
+        }
+        assert_eq!(harness.state().transport().frontier, 0, "R began it anew");
+    }
+}
+
+#[test]
 fn loops_speeds_and_contacts() {
     let mut harness = lab(WIDE);
     harness.run_steps(200);

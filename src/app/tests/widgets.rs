@@ -1,8 +1,10 @@
 //! Query anatomy, configuration space and atlas.
 
+mod deeds;
 mod fingers;
 mod layout;
 mod lessons;
+mod numbers;
 
 use super::*;
 use crate::simulation::TransportCommand;

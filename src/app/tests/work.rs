@@ -176,6 +176,23 @@ fn the_names_of_files_say_what_is_in_them() {
 }
 
 #[test]
+fn a_run_that_has_not_begun_is_refused_before_a_file_is_named() {
+    let mut harness = with_dialogs();
+    pause(&mut harness);
+    click(&mut harness, "Reset");
+    assert_eq!(harness.state().transport().frontier, 0);
+    harness.key_press_modifiers(Modifiers::COMMAND, Key::S);
+    harness.run_steps(4);
+    assert!(harness.query_by_label("Save the run").is_none() && !interface(&harness).dialog);
+    harness.get_by_label("nothing has been run yet; press Play first");
+    // after a tick there is something to save
+    click(&mut harness, "Step");
+    harness.key_press_modifiers(Modifiers::COMMAND, Key::S);
+    harness.run_steps(4);
+    harness.get_by_label("Save the run");
+}
+
+#[test]
 fn a_dialog_has_its_folder_and_a_name_to_read_in_a_small_window() {
     for (size, least) in [([800.0, 600.0], 200.0), ([600.0, 480.0], 80.0)] {
         read_dialog(size, least);

@@ -27,13 +27,15 @@ pub struct AnatomyState {
     pub(super) backdrop: Arc<Picture>,
     /// How far each series of prompts has come.
     pub(super) guesses: [Guesses; 2],
+    /// The scene at the press of a pointer that is still down.
+    pub(super) pressed: Option<Anatomy>,
 }
 
 impl Default for AnatomyState {
     fn default() -> Self {
         let anatomy = Anatomy::default();
         let backdrop = Arc::new(anatomy.backdrop());
-        AnatomyState { anatomy, backdrop, guesses: Default::default() }
+        AnatomyState { anatomy, backdrop, guesses: Default::default(), pressed: None }
     }
 }
 

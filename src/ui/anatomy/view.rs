@@ -12,6 +12,7 @@ use crate::configuration::Configuration;
 use crate::manifest::{Deed, Widget};
 use crate::picture::{Role, in_signs, true_minus};
 use crate::ui::deeds::of_anatomy;
+use crate::ui::number::Typed;
 use crate::ui::paint::button::LabButton;
 use crate::ui::paint::fold::fold;
 use crate::ui::paint::frame::{formulas, headline, next_hint};
@@ -75,7 +76,14 @@ pub fn anatomy_view(ui: &mut Ui, model: &Dashboard, look: &Look, state: &mut UiS
             crate::ui::tools::foot(ui, words, look, state);
         });
     });
-    state.did.extend(of_anatomy(&before, &state.anatomy.anatomy));
+    let shown = &mut state.anatomy;
+    if ui.input(|i| i.pointer.any_down()) {
+        // what a drag only passes through is no deed
+        _ = shown.pressed.get_or_insert(before);
+    } else {
+        let before = shown.pressed.take().unwrap_or(before);
+        state.did.extend(of_anatomy(&before, &shown.anatomy));
+    }
 }
 
 /// Shows the question, its answer, and the configuration.
@@ -100,7 +108,8 @@ fn asked(ui: &mut Ui, look: &Look, state: &mut UiState) {
         }
     });
     ui.add_space(4.0);
-    sliders(ui, anatomy);
+    sliders(ui, state);
+    let anatomy = &mut state.anatomy.anatomy;
     if let Some((thick, radius)) = anatomy.thick_links().zip(anatomy.thickness()) {
         let mut on = thick;
         if ui.checkbox(&mut on, format!("{} cm capsule links", (1e5 * radius).round() / 1e3)).changed() {
@@ -135,23 +144,27 @@ fn more(ui: &mut Ui, look: &Look, state: &mut UiState) {
 }
 
 /// Shows sliders for the configuration; on the swept tab also for the step to the second configuration.
-fn sliders(ui: &mut Ui, anatomy: &mut Anatomy) {
-    let names = anatomy.q().coordinate_names();
+fn sliders(ui: &mut Ui, state: &mut UiState) {
+    let names = state.anatomy.anatomy.q().coordinate_names();
     ui.spacing_mut().slider_width = 180.0;
     for (i, name) in names.iter().enumerate() {
-        coordinate(ui, anatomy, i, name);
+        coordinate(ui, state, i, name);
     }
-    if anatomy.tab == Tab::Swept {
+    if state.anatomy.anatomy.tab == Tab::Swept {
         ui.label("and the step of the motion:");
         for (i, name) in names.iter().enumerate() {
+            let anatomy = &mut state.anatomy.anatomy;
             let mut step = anatomy.step()[i];
             let most = if anatomy.q().is_angle(i) { std::f64::consts::PI } else { 5.0 };
             let name = format!("step of {}", in_signs(name));
-            let response = ui.add(exact(Slider::new(&mut step, -most..=most), 3).text(&name));
+            let typed = Typed::new(ui, -most..=most, false);
+            let slider = exact(Slider::new(&mut step, -most..=most), 3, &typed).text(&name);
+            let response = ui.add(slider);
             response.widget_info(|| WidgetInfo::slider(true, step, &name));
             if response.changed() {
                 anatomy.set_step(i, step);
             }
+            state.refuse(typed.refused(&response));
         }
     }
 }
@@ -262,10 +275,12 @@ pub(crate) fn world_choice(ui: &mut Ui, state: &mut UiState) {
 /// Shows the check box of the annulus, the points that the tip of an arm can reach, and fields for the lengths of an
 /// arm's two links; nothing for other robots.
 pub(crate) fn annulus(ui: &mut Ui, state: &mut UiState) {
-    let anatomy = &mut state.anatomy.anatomy;
-    for (link, mut length) in anatomy.lengths().into_iter().flatten().enumerate() {
+    for (link, mut length) in state.anatomy.anatomy.lengths().into_iter().flatten().enumerate() {
+        let anatomy = &mut state.anatomy.anatomy;
+        let typed = Typed::new(ui, LENGTHS, false);
         // its name is in the field, so that no row parts them
         let field = DragValue::new(&mut length).range(LENGTHS).speed(0.01).fixed_decimals(2);
+        let field = field.custom_parser(|text| typed.read(text)).update_while_editing(false);
         let response = ui.add(field.prefix(format!("L{} ", link + 1)).suffix("\u{a0}m"));
         response.widget_info(|| WidgetInfo {
             label: Some(format!("length of link {}", link + 1)),
@@ -278,26 +293,33 @@ pub(crate) fn annulus(ui: &mut Ui, state: &mut UiState) {
                 state.did.push(Deed::UnequalLinks);
             }
         }
+        state.refuse(typed.refused(&response));
     }
+    let anatomy = &mut state.anatomy.anatomy;
     if anatomy.checker().robot().annulus().is_some() {
         ui.checkbox(&mut anatomy.show_annulus, "the points that the tip can reach");
     }
 }
 
 /// A slider that shows `decimals` decimals and keeps its value in full: `fixed_decimals` would round the value itself.
-pub(crate) fn exact(slider: Slider<'_>, decimals: usize) -> Slider<'_> {
-    slider.custom_formatter(move |value, _| true_minus(&format!("{value:.decimals$}")))
+/// What is typed beside it is entered when it is left.
+pub(crate) fn exact<'a>(slider: Slider<'a>, decimals: usize, typed: &'a Typed) -> Slider<'a> {
+    let shown = move |value: f64, _| true_minus(&format!("{value:.decimals$}"));
+    slider.custom_formatter(shown).custom_parser(move |text| typed.read(text)).update_while_editing(false)
 }
 
 /// A slider for a coordinate of the configuration.
-pub(crate) fn coordinate(ui: &mut Ui, anatomy: &mut Anatomy, index: usize, name: &str) {
+pub(crate) fn coordinate(ui: &mut Ui, state: &mut UiState, index: usize, name: &str) {
+    let anatomy = &mut state.anatomy.anatomy;
     // another robot may have been chosen in this very frame
     let Some(mut value) = anatomy.q().coordinates().get(index).copied() else { return };
     let [least, most] = anatomy.range(index);
     let name = in_signs(name);
-    let response = ui.add(exact(Slider::new(&mut value, least..=most), 4).text(&name));
+    let typed = Typed::new(ui, least..=most, anatomy.q().is_angle(index));
+    let response = ui.add(exact(Slider::new(&mut value, least..=most), 4, &typed).text(&name));
     response.widget_info(|| WidgetInfo::slider(true, value, &name));
     if response.changed() {
         anatomy.set_coordinate(index, value);
     }
+    state.refuse(typed.refused(&response));
 }

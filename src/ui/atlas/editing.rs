@@ -21,9 +21,9 @@ impl AtlasState {
         [self.editor.can_undo(), self.editor.can_redo()]
     }
 
-    /// Whether a wall is selected, so that the numbers of its points are seen.
-    pub fn has_selected_wall(&self) -> bool {
-        let selected = self.selected.as_ref().filter(|_| self.mode == Mode::Edit);
+    /// Whether a wall was picked, so that the numbers of its points are seen.
+    pub fn has_picked_wall(&self) -> bool {
+        let selected = self.selected.as_ref().filter(|_| self.mode == Mode::Edit && !self.is_new);
         let thing = selected.and_then(|name| self.world().obstacle(name));
         thing.is_some_and(|obstacle| obstacle.kind == ObstacleKind::Wall)
     }
@@ -50,6 +50,7 @@ impl AtlasState {
         let is_another = self.selected.as_deref() != name;
         if is_another {
             self.enter();
+            self.is_new = false;
         }
         self.selected = name.filter(|name| self.editor.holds(name)).map(str::to_owned);
         let shape = self.selected.as_ref().and_then(|name| self.editor.shape(name));
@@ -58,13 +59,20 @@ impl AtlasState {
         self.forget_name();
     }
 
+    /// Selects what the reader points at, or nothing.
+    pub fn pick(&mut self, name: Option<&str>) {
+        self.select(name);
+        self.is_new = false;
+    }
+
     /// Adds a thing there, snapped to the grid, and selects it.
     pub fn add(&mut self, template: Template, at: Point2) {
         let name = self.editor.free_name(&template.name());
         let op = template.op(name.clone(), snap(at, &[], 0.0, GRID), self.unit());
         self.placing = None;
         self.enter();
-        self.change(&op, Some(name));
+        self.change(&op, Some(name.clone()));
+        self.is_new = self.selected == Some(name);
     }
 
     /// What adding the thing there would add: its outline, and its handles.

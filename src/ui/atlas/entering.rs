@@ -3,6 +3,8 @@
 use super::field::{Field, Typed};
 use crate::atlas::{Number, Op};
 use crate::ui::AtlasState;
+use crate::ui::number::{no_number, number};
+use crate::worlds::World;
 
 impl AtlasState {
     /// The numbers of what is selected, or of the world, as shown. Corners keep their numbers while a thing is
@@ -31,10 +33,21 @@ impl AtlasState {
             let to = self.name_text.trim().to_owned();
             match self.selected.clone() {
                 Some(name) => self.change(&Op::Rename { name, to: to.clone() }, Some(to)),
+                None if self.is_taken(&to) => {
+                    self.forget_name();
+                    self.message = Some(format!("another world is named {to}"));
+                }
                 None => self.change(&Op::RenameWorld(to), None),
             }
         }
         self.enter_number();
+    }
+
+    /// Whether another world has this name: one that is edited, or a built-in one that this one did not begin as.
+    fn is_taken(&self, name: &str) -> bool {
+        let books = World::built_in_names().into_iter().filter(|book| self.built_in() != Some(*book));
+        let mut taken = self.others.iter().cloned().chain(books.filter_map(World::built_in).map(|world| world.name));
+        self.world().name != name && taken.any(|taken| taken == name)
     }
 
     /// Enters what was typed into a number field.
@@ -43,12 +56,10 @@ impl AtlasState {
         if field.thing.as_ref().is_some_and(|name| !self.editor.holds(name)) {
             return;
         }
-        // the minus sign too that other fields of the lab show
-        let number: String = text.chars().filter(|c| !c.is_whitespace()).collect();
-        match number.replace('\u{2212}', "-").parse() {
-            Ok(to) => self.change(&self.setting(&field, to), self.selected.clone()),
-            Err(_) if number.is_empty() => {}
-            Err(_) => self.message = Some(format!("{} is no number", text.trim())),
+        match number(&text) {
+            Some(to) => self.change(&self.setting(&field, to), self.selected.clone()),
+            None if text.trim().is_empty() => {}
+            None => self.message = Some(no_number(&text)),
         }
     }
 

@@ -41,7 +41,12 @@ pub(super) fn edit_panel(ui: &mut Ui, look: &Look, atlas: &mut AtlasState) {
         if LabButton::new("Redo").enabled(again).show(ui, look).on_hover_text(hint(Action::Redo)).clicked() {
             atlas.undo(false);
         }
-        ui.label(if atlas.is_saved() { "saved" } else { "not saved in a file" });
+        // a world as it came is in no file of the reader's, and needs none
+        if atlas.is_saved() {
+            ui.label("saved");
+        } else if back {
+            ui.label("not saved in a file");
+        }
     });
     ui.label(worded(ui, "Click a thing, and drag it or its handles; Alt leaves out the snapping. A ring on an edge makes a corner; a corner dragged onto the next goes away."));
     add_buttons(ui, look, atlas);
@@ -258,7 +263,7 @@ fn everything(ui: &mut Ui, look: &Look, atlas: &mut AtlasState) {
             ui.label(if count == 0 { "Nothing yet." } else { "Nothing of that name." });
         }
         if let Some(name) = chosen {
-            atlas.select(Some(&name));
+            atlas.pick(Some(&name));
         }
     });
 }

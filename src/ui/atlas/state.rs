@@ -44,6 +44,8 @@ pub struct AtlasState {
     built_in: Option<&'static str>,
     /// Which one of the worlds of its name this is, from 1 on.
     copy: u32,
+    /// The names of the edited worlds beside it.
+    pub(crate) others: Vec<String>,
     pub(super) atlas: Atlas,
     /// The world, with the change that is tried out, and its robots at their starts.
     pub(super) starts: Atlas,
@@ -68,6 +70,8 @@ pub struct AtlasState {
     pub resolution: f64,
     /// The name of the selected thing.
     pub selected: Option<String>,
+    /// Whether that was only added, and not picked since.
+    pub(super) is_new: bool,
     /// Its shape, the corners in the order that they had when it was selected.
     pub(super) shape: Option<EditShape>,
     /// What is typed into a number field and not yet entered.
@@ -172,6 +176,7 @@ impl AtlasState {
             path: None,
             built_in: None,
             copy: 1,
+            others: Vec::new(),
             labels: None,
             grid: None,
             mode: Mode::default(),
@@ -181,6 +186,7 @@ impl AtlasState {
             wanted: None,
             resolution: super::FIRST_CELL,
             selected: None,
+            is_new: false,
             shape: None,
             typed: None,
             held: None,

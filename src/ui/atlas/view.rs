@@ -9,6 +9,7 @@ use super::state::{AtlasState, Mode};
 use crate::manifest::{Deed, Widget};
 use crate::picture::{Item, Picture, ScreenPoint, pick};
 use crate::ui::keys::{Action, keep_arrows};
+use crate::ui::number::Typed;
 use crate::ui::paint::button::LabButton;
 use crate::ui::paint::frame::next_hint;
 use crate::ui::paint::plate::{Place, plate, refusal};
@@ -172,7 +173,7 @@ fn edit(on: &Sheet, moving: &Picture, still: &Picture, atlas: &mut AtlasState) {
             let things = |i: &&Item| i.id.starts_with("place/") || i.id.starts_with("robot/");
             let item = pick(moving, &on.fit, from, 4.0).filter(things);
             let item = item.or_else(|| pick(still, &on.fit, from, 5.0));
-            atlas.select(item.and_then(thing));
+            atlas.pick(item.and_then(thing));
         }
         atlas.begin_drag(origin, handle);
     }
@@ -321,11 +322,13 @@ fn measure_panel(ui: &mut Ui, state: &mut UiState) {
     ui.label("The grid is derived from the world, at any resolution. Point somewhere: the exact distance stands beside the grid's.");
     let mut resolution = state.atlas.resolution;
     let slider = Slider::new(&mut resolution, 0.05..=1.0).logarithmic(true).fixed_decimals(2).suffix(" m").text("cell");
-    let response = ui.add(slider);
+    let typed = Typed::new(ui, 0.05..=1.0, false);
+    let response = ui.add(slider.custom_parser(|text| typed.read(text)).update_while_editing(false));
     response.widget_info(|| WidgetInfo::slider(true, resolution, "cell size in metres"));
     if response.changed() {
         state.atlas.set_resolution(resolution);
     }
+    state.refuse(typed.refused(&response));
     if let Some(words) = state.atlas.measured() {
         ui.label(RichText::new(words).monospace());
     }

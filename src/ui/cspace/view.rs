@@ -141,7 +141,7 @@ fn choices(ui: &mut Ui, state: &mut UiState) {
         let held: Vec<(usize, String)> =
             state.cspace.cells.as_ref().map_or_else(Vec::new, |cells| cells.map().slice().held());
         for (index, name) in held {
-            coordinate(ui, &mut state.anatomy.anatomy, index, &name);
+            coordinate(ui, state, index, &name);
         }
     });
 }

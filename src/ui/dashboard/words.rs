@@ -192,7 +192,7 @@ fn values(ui: &mut Ui, robot: &CockpitRobot, look: &Look, state: &mut UiState, c
     if robot.is_arm {
         let words = "An arm is not held by what it touches: its contacts are counted.";
         ui.add(Label::new(RichText::new(words).color(look.colour(Role::Muted))).wrap());
-        handles::numbers(ui, robot, look, commands);
+        handles::numbers(ui, robot, look, state, commands);
     }
 }
 

@@ -11,6 +11,7 @@ use crate::plans::{PathLengths, PlannerName, TUBE, Task};
 use crate::random::Seed;
 use crate::robots::{AnyRobot, Robot};
 use crate::ui::anatomy::view::{chooser, exact};
+use crate::ui::number::Typed;
 use crate::ui::paint::button::LabButton;
 use crate::ui::paint::fold::fold;
 use crate::ui::paint::frame::headline;
@@ -29,7 +30,7 @@ pub fn panel(ui: &mut Ui, look: &Look, state: &mut UiState, commands: &mut Vec<C
     ui.add_space(4.0);
     path_buttons(ui, look, &mut state.plan, commands);
     ui.add_space(4.0);
-    ends(ui, &mut state.plan, false);
+    ends(ui, state, false);
 }
 
 /// Shows what is planned, and by whom.
@@ -76,9 +77,9 @@ pub fn path_buttons(ui: &mut Ui, look: &Look, plan: &mut PlanState, commands: &m
 }
 
 /// Shows the coordinates of start and goal, which fold away.
-pub fn ends(ui: &mut Ui, plan: &mut PlanState, is_open: bool) {
+pub fn ends(ui: &mut Ui, state: &mut UiState, is_open: bool) {
     for (end, name) in ["Start", "Goal"].into_iter().enumerate() {
-        fold(ui, name, is_open, |ui| coordinates(ui, plan, end));
+        fold(ui, name, is_open, |ui| coordinates(ui, state, end));
     }
 }
 
@@ -229,9 +230,9 @@ fn leave_points(ui: &mut Ui, plan: &PlanState) {
 }
 
 /// Shows the coordinates of an end as sliders.
-fn coordinates(ui: &mut Ui, plan: &mut PlanState, end: usize) {
-    let q = plan.end_at(end);
-    let bounds = plan.task().world.bounds;
+fn coordinates(ui: &mut Ui, state: &mut UiState, end: usize) {
+    let q = state.plan.end_at(end);
+    let bounds = state.plan.task().world.bounds;
     ui.spacing_mut().slider_width = 130.0;
     for (i, (name, mut value)) in q.coordinate_names().into_iter().zip(q.coordinates()).enumerate() {
         let pi = std::f64::consts::PI;
@@ -240,12 +241,14 @@ fn coordinates(ui: &mut Ui, plan: &mut PlanState, end: usize) {
             0 => [bounds.min.x, bounds.max.x],
             _ => [bounds.min.y, bounds.max.y],
         };
-        let response = ui.add(exact(Slider::new(&mut value, least..=most), 3).text(in_signs(&name)));
+        let typed = Typed::new(ui, least..=most, q.is_angle(i));
+        let response = ui.add(exact(Slider::new(&mut value, least..=most), 3, &typed).text(in_signs(&name)));
         let spoken = format!("{name} of the {}", ["start", "goal"][end.min(1)]);
         response.widget_info(|| WidgetInfo::slider(true, value, &spoken));
         if response.changed() {
-            plan.end = end;
-            plan.move_end(end, q.with(i, value));
+            state.plan.end = end;
+            state.plan.move_end(end, q.with(i, value));
         }
+        state.refuse(typed.refused(&response));
     }
 }

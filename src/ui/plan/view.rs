@@ -120,7 +120,7 @@ pub fn plan_view(ui: &mut Ui, model: &Dashboard, look: &Look, state: &mut UiStat
                 if is_roomy {
                     choices(ui, state);
                     ui.add_space(4.0);
-                    ends(ui, &mut state.plan, true);
+                    ends(ui, state, true);
                 } else {
                     panel(ui, look, state, commands);
                 }

@@ -1,7 +1,7 @@
 //! The transport bar: the time line, play and pause, steps, loop, reset, re-roll, the speed, the seed, the time.
 
 use bevy_egui::egui::{
-    Align, Align2, ComboBox, Key, Layout, RichText, TextEdit, TextStyle, Ui, WidgetInfo, WidgetType, vec2,
+    Align, Align2, ComboBox, Key, Layout, RichText, TextEdit, TextStyle, Ui, WidgetInfo, WidgetType, pos2, vec2,
 };
 
 use super::time_line::time_line;
@@ -76,13 +76,14 @@ pub fn transport_bar(
     commands: &mut Vec<Command>,
 ) {
     let narrow = look.narrow;
+    let top = ui.available_rect_before_wrap().top();
     time_line(ui, model, history, look, &mut state.span, !state.embedded, commands);
     ui.spacing_mut().item_spacing.x = if narrow { 5.0 } else { 6.0 };
     if look.low {
         // a low window has no room for two rows
         ui.horizontal(|ui| {
             essential(ui, model, look, (SEED_AND_TIME, false), state, commands);
-            seed_and_time(ui, model, look, state, commands);
+            seed_and_time(ui, model, look, top, state, commands);
         });
     } else if narrow {
         ui.horizontal(|ui| {
@@ -91,7 +92,7 @@ pub fn transport_bar(
         });
     } else if ui.available_width() < ONE_ROW + GROUPED * (sign_width(ui) - SIGN) {
         ui.horizontal(|ui| essential(ui, model, look, (0.0, false), state, commands));
-        ui.horizontal(|ui| seed_and_time(ui, model, look, state, commands));
+        ui.horizontal(|ui| seed_and_time(ui, model, look, top, state, commands));
     } else {
         ui.horizontal(|ui| {
             for group in GROUPS {
@@ -102,7 +103,7 @@ pub fn transport_bar(
             button(ui, model, (LabButton::new(label), action), look, commands);
             ui.add_space(10.0);
             speed_choice(ui, model, commands);
-            seed_and_time(ui, model, look, state, commands);
+            seed_and_time(ui, model, look, top, state, commands);
         });
     }
 }
@@ -132,7 +133,7 @@ fn essential(
         }
         speed_choice(ui, model, commands);
         if has_seed {
-            seed(ui, model, look, state, commands);
+            seed(ui, model, look, None, state, commands);
         }
     });
 }
@@ -211,19 +212,32 @@ fn speed_choice(ui: &mut Ui, model: &Dashboard, commands: &mut Vec<Command>) {
     ));
 }
 
-/// Shows the seed, and at the right end the time.
-fn seed_and_time(ui: &mut Ui, model: &Dashboard, look: &Look, state: &mut UiState, commands: &mut Vec<Command>) {
-    seed(ui, model, look, state, commands);
+/// Shows the seed, and at the right end the time. `top` is where the time line begins.
+fn seed_and_time(
+    ui: &mut Ui,
+    model: &Dashboard,
+    look: &Look,
+    top: f32,
+    state: &mut UiState,
+    commands: &mut Vec<Command>,
+) {
+    seed(ui, model, look, Some(top), state, commands);
     time(ui, model, look);
 }
 
-/// Shows the seed, and asks for a new one that is entered.
-fn seed(ui: &mut Ui, model: &Dashboard, look: &Look, state: &mut UiState, commands: &mut Vec<Command>) {
-    let is_in_row = ui.layout().is_horizontal();
-    let mut show = |ui: &mut Ui| seed_field(ui, model.seed, is_in_row, look, state);
-    let entered = if is_in_row { show(ui) } else { ui.horizontal(show).inner };
-    // in a column there is room for the reason under the field
-    if let Some(draft) = state.seed.as_ref().filter(|draft| !is_in_row && draft.is_refused) {
+/// Shows the seed, and asks for a new one that is entered. Why a text is none stands over `top`, in a column without
+/// one under the field.
+fn seed(
+    ui: &mut Ui,
+    model: &Dashboard,
+    look: &Look,
+    top: Option<f32>,
+    state: &mut UiState,
+    commands: &mut Vec<Command>,
+) {
+    let mut show = |ui: &mut Ui| seed_field(ui, model, top, look, state);
+    let entered = if top.is_some() { show(ui) } else { ui.horizontal(show).inner };
+    if let Some(draft) = state.seed.as_ref().filter(|draft| top.is_none() && draft.is_refused) {
         refusal(ui, &no_seed(&draft.text), look);
     }
     commands.extend(entered.map(|seed| Command::from(TransportCommand::SetSeed(seed))));
@@ -245,27 +259,29 @@ fn time(ui: &mut Ui, model: &Dashboard, look: &Look) {
 }
 
 /// Shows the seed as an editable field and returns a new one when Enter is pressed. Text that is no seed stays for
-/// mending until it is a seed or Escape puts the present one back; in a row with the reason over the field.
-fn seed_field(ui: &mut Ui, seed: Seed, is_in_row: bool, look: &Look, state: &mut UiState) -> Option<Seed> {
+/// mending until it is a seed; Escape, a press beside the field and another run put the present seed back. The reason
+/// stands over `top`, so that it covers nothing of the time line.
+fn seed_field(ui: &mut Ui, model: &Dashboard, top: Option<f32>, look: &Look, state: &mut UiState) -> Option<Seed> {
     let label = ui.label("seed");
-    let draft = state.seed.take().filter(|draft| draft.of == seed);
+    let is_of_run = |draft: &SeedDraft| draft.of == model.seed && draft.frontier <= model.frontier;
+    let draft = state.seed.take().filter(is_of_run);
     let was_refused = draft.as_ref().is_some_and(|draft| draft.is_refused);
-    let mut text = draft.map_or_else(|| seed.0.to_string(), |draft| draft.text);
+    let mut text = draft.map_or_else(|| model.seed.0.to_string(), |draft| draft.text);
     let field = TextEdit::singleline(&mut text).desired_width(56.0).font(TextStyle::Monospace);
     let field = field.vertical_align(Align::Center).min_size(vec2(0.0, ui.spacing().interact_size.y));
     let response = ui.add(field).labelled_by(label.id);
     let typed: Option<Seed> = text.trim().parse().map(Seed).ok();
-    let left_by = |key| response.lost_focus() && ui.input(|i| i.key_pressed(key));
-    let is_refused = typed.is_none() && (was_refused || left_by(Key::Enter)) && !left_by(Key::Escape);
-    if is_refused && is_in_row {
-        let place = Place { at: label.rect.left_top() - vec2(0.0, 6.0), pivot: Align2::LEFT_BOTTOM, width: 340.0 };
+    let entered = response.lost_focus() && ui.input(|i| i.key_pressed(Key::Enter));
+    let is_left = ui.input(|i| i.key_pressed(Key::Escape) || i.pointer.any_pressed() && !response.contains_pointer());
+    let is_refused = typed.is_none() && (was_refused || entered) && !is_left;
+    if let Some(top) = top.filter(|_| is_refused) {
+        let place = Place { at: pos2(label.rect.left(), top - 4.0), pivot: Align2::LEFT_BOTTOM, width: 340.0 };
         plate(ui.ctx(), "seed", place, false, look, |ui| refusal(ui, &no_seed(&text), look));
     }
-    let entered = left_by(Key::Enter);
     if is_refused || response.has_focus() {
-        state.seed = Some(SeedDraft { text, of: seed, is_refused });
+        state.seed = Some(SeedDraft { text, of: model.seed, frontier: model.frontier, is_refused });
     }
-    typed.filter(|new| entered && *new != seed)
+    typed.filter(|new| entered && *new != model.seed)
 }
 
 /// Why a text is no seed.

@@ -99,7 +99,7 @@ fn a_number_is_entered_by_a_press_elsewhere_for_its_own_thing() {
 #[test]
 fn a_number_that_is_refused_when_it_is_left_says_why() {
     let mut harness = editing(Some("B's round table"));
-    for (text, why) in [("0", "radius 0 m"), ("much", "much is no number")] {
+    for (text, why) in [("0", "radius 0 m"), ("much", "\u{201c}much\u{201d} is no number")] {
         interface_mut(&mut harness).atlas.select(Some("B's round table"));
         harness.run_steps(2);
         type_into(&mut harness, "B's round table: radius", text);

@@ -15,6 +15,7 @@ use crate::robots::{AnyRobot, Reach};
 use crate::run::{Quantized, RobotInput};
 use crate::simulation::{RobotCommand, TransportCommand};
 use crate::ui::cspace::put_at::to_come;
+use crate::ui::number::Typed;
 use crate::ui::paint::canvas;
 use crate::ui::paint::touch::pinched;
 use crate::ui::{CockpitRobot, Command, Grasp, Look, UiState, keys};
@@ -198,14 +199,16 @@ fn nudge(ui: &Ui, id: Id, robot: &CockpitRobot, link: usize, commands: &mut Vec<
 
 /// Shows the joint angles as numbers to type or drag; for an arm of three links also the slider that keeps its tip in
 /// place.
-pub fn numbers(ui: &mut Ui, robot: &CockpitRobot, look: &Look, commands: &mut Vec<Command>) {
+pub fn numbers(ui: &mut Ui, robot: &CockpitRobot, look: &Look, state: &mut UiState, commands: &mut Vec<Command>) {
     let mut to = to_come(robot).clone();
     let mut changed = false;
     ui.horizontal(|ui| {
         ui.spacing_mut().button_padding = [4.0, 1.0].into();
         for (i, angle) in to.iter_mut().enumerate() {
             let label = ui.label(RichText::new(joint_sign(i)).color(look.colour(Role::Text)));
+            let typed = Typed::new(ui, -3.2..=3.2, true);
             let field = DragValue::new(angle).speed(0.01).fixed_decimals(3).range(-3.2..=3.2);
+            let field = field.custom_parser(|text| typed.read(text)).update_while_editing(false);
             let response = ui.add(field).labelled_by(label.id);
             response.widget_info(|| WidgetInfo {
                 label: Some(format!("{}: {}", robot.name, joint_sign(i))),
@@ -215,6 +218,7 @@ pub fn numbers(ui: &mut Ui, robot: &CockpitRobot, look: &Look, commands: &mut Ve
                 checkpoint(commands);
             }
             changed |= response.changed();
+            state.refuse(typed.refused(&response));
         }
         ui.weak("rad");
     });
