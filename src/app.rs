@@ -29,6 +29,7 @@ mod tests;
 mod window;
 
 use bevy::core_pipeline::Core2d;
+use bevy::ecs::schedule::SingleThreadedExecutor;
 use bevy::prelude::*;
 use bevy::render::camera::CameraRenderGraph;
 #[cfg(feature = "window")]
@@ -102,7 +103,16 @@ pub(crate) fn windowed_app(add_plugins: impl FnOnce(&mut App, WindowPlugin)) -> 
         .add_plugins(kept::autosave::AutosavePlugin::default())
         .add_systems(Update, window::close)
         .add_systems(Update, (dialogs::ask, dialogs::dropped, capture::follow).chain().before(session::gather));
+    stay_on_one_thread(&mut app);
     app
+}
+
+/// Runs the systems of a frame on one thread. They are small: handing them to other threads takes longer than they do,
+/// and longest where a driver draws with the processor. The ticks of a crowd are divided among threads all the same.
+fn stay_on_one_thread(app: &mut App) {
+    for (_, schedule) in app.world_mut().resource_mut::<Schedules>().iter_mut() {
+        schedule.set_executor(SingleThreadedExecutor::new());
+    }
 }
 
 /// Adds Bevy's own plugins, with this one for the window.

@@ -31,7 +31,7 @@ pub fn cspace_picture(map: &CellMap, overlay: &Overlay) -> Picture {
     let (min, max) = (slice.min(), slice.max());
     let size = [max[0] - min[0], max[1] - min[1]];
     // room for the names and figures at the axes
-    let room = if slice.wraps() { [0.15 * size[0], 0.08 * size[1]] } else { [0.0, 0.0] };
+    let room = if slice.wraps() { [0.16 * size[0], 0.08 * size[1]] } else { [0.0, 0.0] };
     let top = if slice.wraps() { [0.03 * size[0], 0.03 * size[1]] } else { [0.0, 0.0] };
     let bounds = Aabb {
         min: Point2::new(min[0] - room[0], min[1] - room[1]),
@@ -89,7 +89,7 @@ fn frame_items(slice: &Slice) -> Vec<Item> {
         (PI, "\u{3c0}"),
     ] {
         items.push(label(format!("axis/across/{text}"), p(k, -PI), text, Anchor::Below));
-        items.push(label(format!("axis/up/{text}"), p(-PI, k), text, Anchor::Left));
+        items.push(label(format!("axis/up/{text}"), p(-PI - 0.06, k), text, Anchor::Left));
         for (way, from, to) in [("across", p(k, -PI), p(k, -PI - 0.06)), ("up", p(-PI, k), p(-PI - 0.06, k))] {
             let tick = Drawing::segment(from, to);
             items.push(Item::new(format!("tick/{way}/{text}"), text, Role::Muted, tick).stroked(Line::solid(1.0)));
@@ -97,7 +97,7 @@ fn frame_items(slice: &Slice) -> Vec<Item> {
     }
     let names = slice.names().map(|name| in_signs(&name));
     items.push(label("axis/across/name".into(), p(0.25 * PI, -PI), &names[0], Anchor::Below));
-    items.push(label("axis/up/name".into(), p(-PI, 0.25 * PI), &names[1], Anchor::Left));
+    items.push(label("axis/up/name".into(), p(-PI - 0.06, 0.25 * PI), &names[1], Anchor::Left));
     items
 }
 

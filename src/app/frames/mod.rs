@@ -5,7 +5,6 @@ mod processor;
 use std::sync::{Arc, Mutex};
 use std::time::Duration;
 
-use bevy::ecs::system::NonSendMarker;
 use bevy::platform::time::Instant;
 use bevy::prelude::*;
 use bevy_egui::{EguiPostUpdateSet, EguiPrimaryContextPass};
@@ -145,15 +144,13 @@ impl Plugin for MeasurePlugin {
     }
 }
 
-// The marker has these systems run on the main thread, as the work between them does: a thread knows of its own wait.
-
-fn begin(mut measuring: ResMut<Measuring>, _: NonSendMarker) {
+fn begin(mut measuring: ResMut<Measuring>) {
     measuring.waits = time_waited();
     measuring.piece = Instant::now();
 }
 
 /// Ends a piece of work, and begins the next.
-fn end<const PIECE: usize>(mut measuring: ResMut<Measuring>, _: NonSendMarker) {
+fn end<const PIECE: usize>(mut measuring: ResMut<Measuring>) {
     let took = measuring.piece.elapsed();
     measuring.frame[PIECE] += took;
     let waits = time_waited();

@@ -351,7 +351,10 @@ mod tests {
             let (elided, ink) = painted.expect("the name");
             assert_eq!(elided, is_elided, "{words}");
             // the edges of letters are soft
-            assert!(room.expand(1.0).x_range().contains(ink.left()) && ink.right() <= room.right() + 1.0, "{words} at {ink} in {room}");
+            assert!(
+                room.expand(1.0).x_range().contains(ink.left()) && ink.right() <= room.right() + 1.0,
+                "{words} at {ink} in {room}"
+            );
         }
     }
 
