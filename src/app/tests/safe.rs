@@ -17,16 +17,16 @@ fn lit(harness: &Harness<'_, Lab>) -> Option<Role> {
 pub(super) fn words(harness: &Harness<'_, Lab>) -> Vec<(String, egui::Rect, egui::Rect)> {
     fn collect(shape: &egui::Shape, clip: egui::Rect, out: &mut Vec<(String, egui::Rect, egui::Rect)>) {
         match shape {
-            egui::Shape::Text(text) => {
-                let ink = text.galley.mesh_bounds.translate(text.pos.to_vec2());
-                out.push((text.galley.text().to_owned(), ink, ink.intersect(clip)));
+            egui::Shape::Text(egui::epaint::TextShape { galley, pos, .. }) => {
+                let ink = galley.mesh_bounds.translate(pos.to_vec2());
+                let text = galley.text().to_owned() + &"\u{2026}".repeat(galley.elided.into());
+                out.push((text, ink, ink.intersect(clip)));
             }
             egui::Shape::Vec(shapes) => shapes.iter().for_each(|s| collect(s, clip, out)),
             _ => {}
         }
     }
-    let page = egui::Rect::from_min_size(Pos2::ZERO, harness.ctx.content_rect().size());
-    let mut out = Vec::new();
+    let (page, mut out) = (egui::Rect::from_min_size(Pos2::ZERO, harness.ctx.content_rect().size()), Vec::new());
     harness.output().shapes.iter().for_each(|s| collect(&s.shape, s.clip_rect.intersect(page), &mut out));
     out
 }

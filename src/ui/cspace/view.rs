@@ -26,7 +26,7 @@ const TRACE: usize = 2000;
 const POINT: f64 = 6.0;
 
 /// Height of the words under two papers that lie one above the other, points.
-const UNDER_TWO: f32 = 190.0;
+const UNDER_TWO: f32 = 224.0;
 
 /// Shows the widget.
 pub fn cspace_view(ui: &mut Ui, model: &Dashboard, look: &Look, state: &mut UiState, commands: &mut Vec<Command>) {

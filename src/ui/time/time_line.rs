@@ -184,7 +184,8 @@ fn show_lanes(
     for (k, lane) in lanes.iter().enumerate() {
         let rect = rect_of(k);
         if lanes.len() > 1 {
-            let across = ui.max_rect().left()..=rect.left() - 12.0;
+            let gap = if look.narrow { 6.0 } else { 12.0 };
+            let across = ui.max_rect().left()..=rect.left() - gap;
             name(ui, lane.name, Rect::from_x_y_ranges(across, rect.y_range()), look);
         }
         ui.painter().hline(rect.x_range(), rect.center().y, Stroke::new(1.0, look.colour(Role::Hairline)));

@@ -154,6 +154,15 @@ fn the_papers_of_a_plan_are_equally_high_or_equally_wide() {
 }
 
 #[test]
+fn the_lanes_of_a_phone_have_their_names_in_whole() {
+    let shown = words(&fresh(PHONE, Widget::Dashboard));
+    for name in ["Rusty", "Reach", "Hitch"] {
+        // beside its lane, and above the picture where it is brought to the front
+        assert_eq!(shown.iter().filter(|(text, ..)| text == name).count(), 2, "{name}");
+    }
+}
+
+#[test]
 fn numbers_of_the_space_stay_with_their_names() {
     for size in [WIDE, TABLET, PHONE] {
         let harness = fresh(size, Widget::Cspace);
@@ -161,6 +170,11 @@ fn numbers_of_the_space_stay_with_their_names() {
             let ink = read_whole(&harness, said);
             assert!(ink.height() < 14.0 && ink.width() < 160.0, "{said} at {size:?}: {ink}");
         }
+    }
+    for size in [WIDE, TABLET] {
+        let harness = fresh(size, Widget::Cspace);
+        let last = harness.get_by_label("as a torus").rect();
+        assert!(last.bottom() <= size[1], "the last row ends in the window of {size:?}: {last}");
     }
     let harness = fresh(WIDE, Widget::Cspace);
     let field = harness.get_by_label("length of link 1").rect();
