@@ -7,6 +7,9 @@ use crate::num::{greater, lesser};
 /// The gap between two lines of a hatch along the axes, pixels.
 const HATCH_STEP: f64 = 7.0;
 
+/// The largest gap between two pieces of a line that are one, pixels.
+const JOINT: f64 = 0.01;
+
 /// The gap between two dots, pixels.
 const DOT_STEP: f64 = 6.0;
 
@@ -54,16 +57,29 @@ fn clip(polygon: &[ScreenPoint], a: ScreenPoint, d: ScreenPoint) -> Option<(f64,
     (from < to && from.is_finite() && to.is_finite()).then_some((from, to))
 }
 
-/// The hatch of a convex polygon: lines that rise to the right.
-pub(super) fn hatch(polygon: &[ScreenPoint]) -> Vec<Vec<ScreenPoint>> {
+/// The hatch of convex polygons: lines that rise to the right. Where polygons meet, the pieces of a line are one: of a
+/// strip thinner than a line no piece would be painted.
+pub(super) fn hatch(polygons: &[Vec<ScreenPoint>]) -> Vec<Vec<ScreenPoint>> {
+    let mut pieces: Vec<(i64, f64, f64)> = polygons.iter().flat_map(|polygon| pieces_in(polygon)).collect();
+    pieces.sort_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)));
+    let mut lines: Vec<(i64, f64, f64)> = Vec::new();
+    for (k, from, to) in pieces {
+        match lines.last_mut().filter(|(number, _, end)| *number == k && from <= *end + JOINT) {
+            Some((.., end)) => *end = greater(*end, to),
+            None => lines.push((k, from, to)),
+        }
+    }
+    let point = |k: i64, y: f64| [k as f64 * HATCH_STEP - y, y];
+    lines.into_iter().map(|(k, from, to)| vec![point(k, from), point(k, to)]).collect()
+}
+
+/// The numbers of the lines of a hatch that cross a convex polygon, and between which heights.
+fn pieces_in(polygon: &[ScreenPoint]) -> impl Iterator<Item = (i64, f64, f64)> {
     let (lo, hi) = range(polygon, |p| p[0] + p[1]);
-    lattice(lo, hi, HATCH_STEP)
-        .filter_map(|k| {
-            let a = [k as f64 * HATCH_STEP, 0.0];
-            let (from, to) = clip(polygon, a, [-1.0, 1.0])?;
-            Some(vec![[a[0] - from, from], [a[0] - to, to]])
-        })
-        .collect()
+    lattice(lo, hi, HATCH_STEP).filter_map(|k| {
+        let (from, to) = clip(polygon, [k as f64 * HATCH_STEP, 0.0], [-1.0, 1.0])?;
+        Some((k, from, to))
+    })
 }
 
 /// The centres of the dots in a convex polygon, every other row moved by half a step.
@@ -91,7 +107,7 @@ mod tests {
         let mut turned = SQUARE;
         turned.reverse();
         for polygon in [SQUARE, turned] {
-            let lines = hatch(&polygon);
+            let lines = hatch(&[polygon.to_vec()]);
             // x + y = 7, 14, .. 35; at 0 and 42 the line meets a corner only
             assert_eq!(lines.len(), 5);
             for line in lines {
@@ -107,12 +123,29 @@ mod tests {
     }
 
     #[test]
+    fn a_line_goes_on_through_pieces_that_meet_and_ends_at_a_gap() {
+        // the square in strips of half a pixel, without those from 10 to 11
+        let strip = |k: i32| {
+            let (low, high) = (0.5 * f64::from(k), 0.5 * f64::from(k + 1));
+            vec![[0.0, low], [21.0, low], [21.0, high], [0.0, high]]
+        };
+        let mut strips: Vec<Vec<ScreenPoint>> = (0..42).rev().map(strip).collect();
+        let whole = |lines: Vec<Vec<ScreenPoint>>| -> Vec<f64> {
+            lines.iter().flatten().flatten().map(|v| (1e6 * v).round()).collect()
+        };
+        assert_eq!(whole(hatch(&strips)), whole(hatch(&[SQUARE.to_vec()])));
+        strips.retain(|strip| !(10.0..11.0).contains(&strip[0][1]));
+        // the lines x + y = 7 and 35 lie beside the gap, those of 14, 21 and 28 are cut by it
+        assert_eq!(hatch(&strips).len(), 5 + 3);
+    }
+
+    #[test]
     fn dots_lie_inside_and_huge_or_broken_polygons_give_none() {
         let inside = dots(&[[-1.0, -1.0], [20.0, -1.0], [20.0, 20.0], [-1.0, 20.0]]);
         assert_eq!(inside.len(), 4 + 3 + 4 + 3, "rows at 0, 6, 12, 18 from 0 or 3");
         let huge = SQUARE.map(|p| [p[0] * 1e9, p[1] * 1e9]);
-        assert!(hatch(&huge).is_empty() && dots(&huge).is_empty());
-        assert!(hatch(&[[f64::NAN; 2]; 3]).is_empty());
-        assert!(hatch(&[]).is_empty());
+        assert!(hatch(&[huge.to_vec()]).is_empty() && dots(&huge).is_empty());
+        assert!(hatch(&[vec![[f64::NAN; 2]; 3]]).is_empty());
+        assert!(hatch(&[vec![]]).is_empty() && hatch(&[]).is_empty());
     }
 }

@@ -170,8 +170,7 @@ fn areas(out: &mut Vec<Primitive>, role: Role, fill: Fill, pieces: &[Vec<ScreenP
     out.extend(pieces.iter().map(|corners| Primitive::Area { corners: corners.clone(), role, opacity }));
     match fill {
         Fill::Hatch => {
-            let lines = pieces.iter().flat_map(|p| hatch(p)).collect();
-            stroke(out, role, Some(Line::solid(1.0).at_opacity(HATCH_OPACITY)), lines);
+            stroke(out, role, Some(Line::solid(1.0).at_opacity(HATCH_OPACITY)), hatch(pieces));
         }
         Fill::Dots => {
             let centres = pieces.iter().flat_map(|p| dots(p)).collect();

@@ -63,7 +63,9 @@ pub fn header(
     ui.horizontal(|ui| {
         ui.vertical(|ui| {
             ui.set_max_width((ui.available_width() - room).max(0.0));
-            if is_upright(look) { frame::name(ui, words, look) } else { frame::title(ui, words, look) }
+            // what it says of three robots is true of three worlds
+            let is_other = state.widget == Widget::Dashboard && model.cockpits.len() != 3;
+            if is_upright(look) || is_other { frame::name(ui, words, look) } else { frame::title(ui, words, look) }
         });
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
             fold::menu(ui, "Menu", |ui| menu(ui, model, beside, look, state, commands));
