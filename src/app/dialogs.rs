@@ -10,6 +10,7 @@ use egui_file_dialog::{DialogMode, DialogState, FileDialog, FileDialogLabels};
 use super::capture::{capture, check, not_captured};
 use super::error::SessionError;
 use super::files::{PATH, WORLD, open_any, open_path, open_run, open_world, save_path, save_run, save_world};
+use crate::picture::Role;
 use crate::random::Seed;
 use crate::simulation::{Playback, RunConfig, Transport};
 use crate::ui::Interface;
@@ -156,6 +157,13 @@ pub fn dropped(world: &mut World) {
 
 /// Shows the dialogs while they are open, and carries out what was chosen in them.
 pub fn show(world: &mut World, ctx: &egui::Context) {
+    // the dialogs write the name of the file that is selected in the colour that lies behind what is selected
+    let (before, theme) = (ctx.global_style(), world.resource::<Interface>().0.theme());
+    let selection = egui::style::Selection {
+        bg_fill: theme.colour(Role::Focus),
+        stroke: egui::Stroke::new(1.0, theme.colour(Role::Paper)),
+    };
+    ctx.global_style_mut(|style| style.visuals.selection = selection);
     let (run, model, plan, picture) = {
         let dialogs = world.resource_mut::<Dialogs>().into_inner();
         if dialogs.hovered {
@@ -166,6 +174,7 @@ pub fn show(world: &mut World, ctx: &egui::Context) {
         let picture = dialogs.picture.as_mut().and_then(|(dialog, order)| Some((picked(dialog, ctx)?.1, *order)));
         (picked(&mut dialogs.runs, ctx), picked(&mut dialogs.worlds, ctx), picked(&mut dialogs.paths, ctx), picture)
     };
+    ctx.set_global_style(before);
     if let Some((path, order)) = picture {
         capture(world, &order, &path);
         ctx.request_repaint();

@@ -155,8 +155,9 @@ pub fn gather(world: &mut World) {
             ids.filter(is_shown).filter_map(|id| view_of(world, id)).map(|robot| shown(world, &robot, between));
         let robots: Vec<CockpitRobot> = robots.collect();
         let waiting = coming::waits(world, &drawn.standing.name, &robots);
+        let doors = coming::doors(world, &drawn.standing.name);
         let (picture, atlas) = (Arc::clone(&drawn.picture), Arc::clone(&drawn.atlas));
-        cockpits.push(Cockpit { world: picture, atlas, robots, crowd, waiting });
+        cockpits.push(Cockpit { world: picture, atlas, robots, crowd, doors, waiting });
     }
     let (undo, history) = (world.resource::<Undo>(), world.resource::<History>());
     let dashboard = Dashboard {

@@ -8,6 +8,9 @@ use crate::configuration::RobotKind;
 use crate::manifest::{Deed, Lesson, Widget};
 use crate::simulation::TransportCommand;
 
+/// The least past that is dragged back over, ticks: two seconds.
+const LEAST_PAST: u64 = 40;
+
 impl UiState {
     /// Begins a lesson: its widget comes in front, as the next frame makes it ready.
     pub fn begin(&mut self, lesson: Lesson) {
@@ -33,6 +36,12 @@ pub fn make_ready(model: &Dashboard, state: &mut UiState, commands: &mut Vec<Com
             let has = |kind| model.cockpits.iter().position(|c| c.robots.iter().any(|robot| robot.kind == kind));
             if let Some(world) = kind_of(deed).and_then(has) {
                 state.settings.world = world as u32;
+            }
+            // there has to be something to drag back over
+            if deed == Deed::DriveOn && model.frontier < LEAST_PAST && !model.playing {
+                commands.push(Command::from(TransportCommand::Play));
+            } else if deed == Deed::DriveOn && model.tick < LEAST_PAST {
+                commands.push(Command::from(TransportCommand::Seek(model.frontier)));
             }
         }
         Widget::Anatomy => {

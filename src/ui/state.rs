@@ -233,10 +233,10 @@ impl UiState {
         self.say_in(self.widget, notice);
     }
 
-    /// Says why something was refused, if it was.
+    /// Says why something was refused, if it was. It goes by itself: what is refused stays as it was.
     pub fn refuse(&mut self, why: Option<String>) {
         if let Some(text) = why {
-            self.say(Notice { text, is_error: true });
+            self.say(Notice { text, is_error: false });
         }
     }
 

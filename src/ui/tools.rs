@@ -206,7 +206,7 @@ fn since() -> Id {
 }
 
 /// How long a notice that reports no error stays, seconds.
-const STAYS: f64 = 10.0;
+const STAYS: f64 = 6.0;
 
 /// Whether a notice has stood for long enough to have been read. It stays while the pointer is on it.
 fn is_read(ui: &Ui, notice: &Notice) -> bool {

@@ -6,7 +6,7 @@ use crate::collision::{Collision as _, Scene};
 use crate::configuration::{AnyConfiguration, Coordinates};
 use crate::geometry::Point2;
 use crate::robots::{AnyRobot, Robot};
-use crate::run::{Event, RobotInput, Script};
+use crate::run::{Event, RobotInput, Script, WorldChange};
 use crate::simulation::{PendingInput, Playback, RobotView, Roster, Transport, WorldScene};
 use crate::ui::{CockpitRobot, TRAIL, joints, turned};
 
@@ -50,6 +50,19 @@ pub fn waits(world: &World, name: &str, robots: &[CockpitRobot]) -> bool {
     let is_here = |event: &Event| robots.iter().any(|robot| robot.name == event.robot);
     playback == Playback::Paused
         && (pending.due(tick + 1).iter().any(is_here) || pending.due_changes(tick + 1).iter().any(|c| c.world == name))
+}
+
+/// The doors of a world that open or close with the next tick of a paused run.
+pub fn doors(world: &World, name: &str) -> Vec<(String, bool)> {
+    let Transport { tick, playback, .. } = *world.resource::<Transport>();
+    let due = world.resource::<PendingInput>().due_changes(tick + 1).iter();
+    let due = due.filter(|change| playback == Playback::Paused && change.world == name);
+    let doors = due.filter_map(|change| match &change.change {
+        WorldChange::Open(door) => Some((door.clone(), true)),
+        WorldChange::Close(door) => Some((door.clone(), false)),
+        _ => None,
+    });
+    doors.collect()
 }
 
 /// The coordinates that an input asks of a robot by the next tick.

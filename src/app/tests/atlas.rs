@@ -26,6 +26,22 @@ fn press(harness: &mut Harness<'_, Lab>, modifiers: Modifiers, key: Key) {
 }
 
 #[test]
+fn a_world_that_is_in_a_file_is_called_by_its_name_until_it_is_edited() {
+    let mut model = crate::worlds::World::lot();
+    model.name = "Yard".into();
+    let mut state = AtlasState::of(model);
+    assert_eq!(state.label(), "Yard");
+    state.mark_saved(std::path::Path::new("somewhere/second.ron"));
+    assert_eq!(state.label(), "second.ron");
+    let mut renamed = state.world().clone();
+    renamed.name = "Court".into();
+    let edited = crate::atlas::Editor::new(renamed);
+    let mut other = AtlasState::edited(edited);
+    other.mark_saved(std::path::Path::new("third.ron"));
+    assert_eq!(other.label(), "third.ron");
+}
+
+#[test]
 fn the_editor_draws_with_the_mouse_undoes_by_key_and_saves_the_same_bytes() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("bench.ron");

@@ -65,6 +65,19 @@ fn what_a_robot_touches_is_marked_as_long_as_the_robot_is_red() {
 }
 
 #[test]
+fn what_is_typed_into_the_clicked_seed_takes_the_place_of_the_old_one() {
+    let mut harness = lab(WIDE);
+    pause(&mut harness);
+    let field = harness.get_by_label("seed").rect().center();
+    click_at(&mut harness, field);
+    harness.event(Event::Text("7".into()));
+    harness.step();
+    harness.key_press(Key::Enter);
+    harness.run_steps(3);
+    assert_eq!(harness.state().transport().seed.0, 7);
+}
+
+#[test]
 fn a_seed_is_typed_and_typed_back() {
     let mut harness = lab(WIDE);
     harness.run_steps(100);

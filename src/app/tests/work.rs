@@ -360,8 +360,8 @@ fn the_three_robots_come_back_from_any_run_and_a_new_run_says_what_became_of_the
     click(&mut harness, "Undo");
     assert_eq!(cockpits(&harness), 1);
     let said = "Undone. Redo brings it back.";
-    // it goes by itself, after ten seconds of forty frames each
-    harness.run_steps(360);
+    // it goes by itself, after six seconds of forty frames each
+    harness.run_steps(200);
     harness.get_by_label(said);
     harness.run_steps(60);
     assert!(harness.query_by_label(said).is_none());

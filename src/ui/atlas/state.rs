@@ -113,7 +113,8 @@ impl AtlasState {
     /// with its number where another edited one of this name was there before it.
     pub fn label(&self) -> String {
         let name = self.name();
-        match (self.has_history(), self.copy) {
+        let is_in_file = self.path.is_some() && self.is_saved();
+        match (self.has_history() && !is_in_file, self.copy) {
             (false, _) => name.to_owned(),
             (true, 1) => format!("{name}, edited"),
             (true, copy) => format!("{name} ({copy}), edited"),
@@ -121,7 +122,8 @@ impl AtlasState {
     }
 
     fn name(&self) -> &str {
-        if self.built_in.is_some() || self.path.is_none() { &self.world().name } else { self.editor.file() }
+        let in_file = self.path.as_ref().filter(|_| self.built_in.is_none() || self.is_saved());
+        in_file.and_then(|path| path.file_name()?.to_str()).unwrap_or(&self.world().name)
     }
 
     /// The same state, with the least number that none of these others of its name has.

@@ -144,7 +144,7 @@ impl<'a> Linked<'a> {
         let slice = cells.map().slice();
         let overlay = Overlay {
             now: Some(q),
-            in_contact: self.is_red,
+            in_contact: self.is_red && self.robot.target.is_none(),
             trace: self.trail.clone(),
             line: self.twin.filter(|_| self.is_way_shown).map(|twin| [q, twin]),
             solutions: self.twin.into_iter().collect(),

@@ -3,7 +3,7 @@
 use bevy_egui::egui::{TextStyle, TextWrapMode, Ui};
 
 use crate::geometry::{Point2, Segment};
-use crate::picture::{Anchor, Drawing, Face, Fit, Item, Role, ScreenPoint};
+use crate::picture::{Anchor, Drawing, Face, Fit, Item, Line, Role, ScreenPoint};
 use crate::run::WorldChange;
 use crate::simulation::{TransportCommand, WorldCommand};
 use crate::ui::{Cockpit, Command};
@@ -48,6 +48,21 @@ pub fn letters(cockpit: &Cockpit) -> Vec<Item> {
     cockpit.atlas.world().doors.iter().map(letter).collect()
 }
 
+/// Marks the doors that open or close with the next tick, across their gaps.
+pub fn coming(cockpit: &Cockpit) -> Vec<Item> {
+    let doors = cockpit.atlas.world().doors.iter().filter(|door| to_come(cockpit, door).is_some());
+    let mark = |door: &Door| {
+        let gap = Drawing::segment(door.a, door.b);
+        Item::new(format!("coming/{}", door.name), door.name.as_str(), Role::Focus, gap).stroked(Line::solid(3.0))
+    };
+    doors.map(mark).collect()
+}
+
+/// Whether a door is open after the next tick, if that is what it is asked for in a pause.
+fn to_come(cockpit: &Cockpit, door: &Door) -> Option<bool> {
+    cockpit.doors.iter().find(|(name, _)| *name == door.name).map(|(_, is_open)| *is_open)
+}
+
 /// What can be done with a door: `close door A`.
 pub fn words(door: &Door) -> String {
     format!("{} {}", if door.open { "close" } else { "open" }, door.name)
@@ -72,12 +87,15 @@ pub fn row(ui: &mut Ui, cockpit: &Cockpit, commands: &mut Vec<Command>) {
     });
 }
 
-/// Shows a link for each door, in the row that is being laid out.
+/// Shows a link for each door, in the row that is being laid out; of one that is to change, what comes.
 pub fn links(ui: &mut Ui, cockpit: &Cockpit, commands: &mut Vec<Command>) {
     let world = cockpit.atlas.world();
     for door in &world.doors {
-        if ui.link(words(door)).clicked() {
-            toggle(&world.name, door, commands);
+        match to_come(cockpit, door) {
+            Some(true) => _ = ui.weak(format!("{} opens with the next tick", door.name)),
+            Some(false) => _ = ui.weak(format!("{} closes with the next tick", door.name)),
+            None if ui.link(words(door)).clicked() => toggle(&world.name, door, commands),
+            None => {}
         }
     }
 }

@@ -93,7 +93,7 @@ pub fn paper(
         over.with(doors::letters(cockpit).into_iter().filter(is_free).collect::<Vec<_>>())
     };
     let over = over.with(under).with(twin_items(cockpit, state)).with(robots(ui, cockpit, state));
-    let over = over.with(touched_by(cockpit, state));
+    let over = over.with(touched_by(cockpit, state)).with(doors::coming(cockpit));
     canvas::paint(&painter, &over, &fit, look);
     let driven = chosen(cockpit, state);
     let armed = driven.filter(|r| state.armed.as_ref() == Some(&r.name) || handles::have_focus(ui, r));

@@ -53,7 +53,14 @@ fn cockpit(world: &str, width: f64, height: f64, robot: CockpitRobot) -> Cockpit
     let bounds = Aabb { min: Point2::new(0.0, 0.0), max: Point2::new(width, height) };
     let model = World::empty(world, bounds);
     let atlas = Arc::new(Atlas::new(model));
-    Cockpit { world: Arc::new(Picture::new(world, bounds)), atlas, robots: vec![robot], crowd: None, waiting: false }
+    Cockpit {
+        world: Arc::new(Picture::new(world, bounds)),
+        atlas,
+        robots: vec![robot],
+        crowd: None,
+        doors: vec![],
+        waiting: false,
+    }
 }
 
 fn model() -> Dashboard {

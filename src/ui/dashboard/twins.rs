@@ -123,9 +123,10 @@ pub fn go_on(model: &Dashboard, state: &mut UiState, commands: &mut Vec<Command>
     let at = way.at().coordinates();
     let is_there = at.len() == robot.coordinates.len()
         && at.iter().zip(&robot.coordinates).all(|(a, b)| wrap(a - b).abs() <= SAME);
-    if model.tick + 1 == way.due || is_there && model.tick >= way.due && way.ticks == 0 {
+    let stands = is_there && model.tick >= way.due && way.ticks == 0 && robot.target.is_none();
+    if model.tick + 1 == way.due || stands {
         // it waits for its tick, or stands where its way is blocked
-    } else if !is_there || model.tick < way.due {
+    } else if !is_there || model.tick < way.due || way.ticks == 0 {
         state.twin = None;
     } else if way.done < way.ticks {
         way.done += 1;

@@ -77,6 +77,8 @@ pub struct Cockpit {
     pub robots: Vec<CockpitRobot>,
     /// All its robots, where they are many.
     pub crowd: Option<Crowd>,
+    /// The doors that open, `true`, or close with the next tick of a paused run.
+    pub doors: Vec<(String, bool)>,
     /// Whether the run is paused with a change of the world or an input to a robot that comes with the next tick.
     pub waiting: bool,
 }

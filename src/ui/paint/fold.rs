@@ -9,12 +9,22 @@ pub fn fold<R>(ui: &mut Ui, name: &str, is_open: bool, show: impl FnOnce(&mut Ui
     tell(&shown.header_response, shown.body_response.is_some());
 }
 
-/// Shows a button that opens a menu of what `show` shows. What has no room under the button is scrolled to.
+/// Shows a button that opens a menu of what `show` shows, from its top. What has no room under the button is scrolled to.
 pub fn menu<R>(ui: &mut Ui, name: &str, show: impl FnOnce(&mut Ui) -> R) {
     let window = ui.ctx().content_rect();
     let under = window.bottom() - ui.cursor().top() - 2.0 * ui.spacing().interact_size.y;
     let most = under.max(0.5 * window.height());
-    let shown = ui.menu_button(name, |ui| ScrollArea::vertical().max_height(most).show(ui, show).inner);
+    // opened anew, it is another area, which is not scrolled yet
+    let count = ui.id().with(("opened", name));
+    let opened: u32 = ui.data(|data| data.get_temp(count)).unwrap_or_default();
+    let shown = ui.menu_button(name, |ui| {
+        // egui gives a menu 400 points
+        ui.set_max_height(most);
+        ScrollArea::vertical().id_salt(opened).max_height(most).show(ui, show).inner
+    });
+    if shown.response.clicked() {
+        ui.data_mut(|data| data.insert_temp(count, opened + 1));
+    }
     tell(&shown.response, shown.inner.is_some());
 }
 

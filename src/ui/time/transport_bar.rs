@@ -1,5 +1,6 @@
 //! The transport bar: the time line, play and pause, steps, loop, reset, re-roll, the speed, the seed, the time.
 
+use bevy_egui::egui::text::CCursorRange;
 use bevy_egui::egui::{
     Align, Align2, ComboBox, Key, Layout, RichText, TextEdit, TextStyle, Ui, WidgetInfo, WidgetType, pos2, vec2,
 };
@@ -269,7 +270,13 @@ fn seed_field(ui: &mut Ui, model: &Dashboard, top: Option<f32>, look: &Look, sta
     let mut text = draft.map_or_else(|| model.seed.0.to_string(), |draft| draft.text);
     let field = TextEdit::singleline(&mut text).desired_width(56.0).font(TextStyle::Monospace);
     let field = field.vertical_align(Align::Center).min_size(vec2(0.0, ui.spacing().interact_size.y));
-    let response = ui.add(field).labelled_by(label.id);
+    let mut output = field.show(ui);
+    let response = output.response.response.labelled_by(label.id);
+    if response.gained_focus() && !was_refused {
+        // what is typed takes the place of what stands there; what was refused is mended
+        output.state.cursor.set_char_range(Some(CCursorRange::select_all(&output.galley)));
+        output.state.store(ui.ctx(), response.id);
+    }
     let typed: Option<Seed> = text.trim().parse().map(Seed).ok();
     let entered = response.lost_focus() && ui.input(|i| i.key_pressed(Key::Enter));
     let is_left = ui.input(|i| i.key_pressed(Key::Escape) || i.pointer.any_pressed() && !response.contains_pointer());

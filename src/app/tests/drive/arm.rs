@@ -217,6 +217,13 @@ fn what_blocks_the_way_to_the_other_elbow_is_named_and_the_arm_stays() {
     harness.get_by_label_contains("the straight way hits the post at s = 0.");
     let after = harness.state().robot(1);
     assert_eq!((&after.coordinates, after.contacts), (&before.coordinates, before.contacts), "it stays");
+    // what was said of it goes with the first input, also in a pause
+    pause(&mut harness);
+    let to = [1.0, 1.0].map(|v| crate::run::Quantized::try_new(v).unwrap()).to_vec();
+    let command = crate::simulation::RobotCommand { robot: "Reach".into(), input: RobotInput::MoveTo(to) };
+    harness.state_mut().app.world_mut().write_message(RunCommand::from(command));
+    harness.run_steps(4);
+    assert!(harness.query_by_label_contains("the straight way hits the post").is_none());
     // moved by somebody else, the arm is not the one that this was said of
     drag(&mut harness, "Reach: elbow, θ₁ in radians", [0.3, -1.0]);
     assert!(harness.query_by_label_contains("the straight way").is_none());

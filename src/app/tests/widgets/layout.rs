@@ -346,6 +346,19 @@ fn the_entries_of_the_menu_have_their_keys_at_their_right_and_the_last_is_scroll
     harness.get_by_label("Dark theme").scroll_to_me();
     harness.run_steps(20);
     assert!(harness.get_by_label("Dark theme").rect().bottom() < 500.0);
+    // opened again, it begins at its top
+    harness.get_by_label("Menu").click();
+    harness.run_steps(4);
+    harness.get_by_label("Menu").click();
+    harness.run_steps(4);
+    assert!(harness.get_by_label("Open").rect().top() > harness.get_by_label("Menu").rect().bottom());
+    harness.get_by_label("Dark theme").scroll_to_me();
+    harness.run_steps(20);
     click(&mut harness, "Dark theme");
     assert_eq!(interface(&harness).settings.theme, crate::manifest::ThemeChoice::Dark);
+    // where there is room for all of it, nothing is scrolled to
+    let mut harness = lab(WIDE);
+    harness.get_by_label("Menu").click();
+    harness.run_steps(4);
+    read_whole(&harness, "Dark theme");
 }

@@ -213,6 +213,27 @@ const LESSONS: [Lesson; 11] = [
 ];
 
 #[test]
+fn the_lesson_of_the_time_line_begins_with_something_to_drag_back_over() {
+    let begun = |ticks: usize, to: u64| {
+        let mut harness = lab(WIDE);
+        harness.run_steps(ticks);
+        pause(&mut harness);
+        harness.state_mut().app.world_mut().write_message(crate::simulation::RunCommand::from(if to == 0 {
+            crate::simulation::TransportCommand::Seek(0)
+        } else {
+            crate::simulation::TransportCommand::Reset
+        }));
+        harness.run_steps(3);
+        interface_mut(&mut harness).begin(crate::manifest::Lesson::of("drive_on").unwrap());
+        harness.run_steps(4);
+        harness.state().transport()
+    };
+    let played = begun(200, 0);
+    assert!(played.frontier > 40 && played.tick == played.frontier, "at its end: {played:?}");
+    assert_eq!(begun(200, 1).playback, Playback::Playing, "a run that has not begun plays");
+}
+
+#[test]
 fn each_lesson_is_done_within_half_a_minute_and_a_few_clicks() {
     println!("| lesson | widget | clicks, drags and entries | seconds |\n|---|---|---|---|");
     for (deed, widget, make_ready, act) in LESSONS {
