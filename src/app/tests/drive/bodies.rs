@@ -84,6 +84,8 @@ fn a_rover_is_dragged_by_its_body_and_stays_out_of_the_furniture() {
     let px = 20.0 / fit(&harness, &world).px_per_metre();
     assert!((second[0] - first[0]).abs() < 0.02 && (second[1] - first[1] - px).abs() < 0.02, "{first:?} {second:?}");
     // and taken where it still is, it goes on from there
+    pointer(&mut harness, body + egui::vec2(40.0, -20.0), Some(false));
+    harness.run_steps(2);
     drag_by(&mut harness, body, body + egui::vec2(0.0, -30.0));
     pointer(&mut harness, body + egui::vec2(0.0, -30.0), Some(false));
     let ([x, y, ..], px) = (&put(&harness).0[..], 30.0 / fit(&harness, &world).px_per_metre()) else { panic!() };
