@@ -32,7 +32,7 @@ fn a_click_on_a_door_closes_it_and_its_link_opens_it_again() {
         assert_eq!(changes(&harness), [WorldEvent { tick: tick + 1, world: "Apartment".into(), change: close }]);
         assert_eq!(harness.state().app.world().resource::<Interface>().0.armed, None, "and takes no robot in hand");
         harness.get_by_label("comes with the next tick");
-        harness.get_by_label("door B closes with the next tick");
+        harness.get_by_label("door B closes");
         assert!(harness.query_by_label("close door B").is_none());
         click(&mut harness, "Step");
         assert!(harness.query_by_label("comes with the next tick").is_none());

@@ -92,8 +92,8 @@ pub fn links(ui: &mut Ui, cockpit: &Cockpit, commands: &mut Vec<Command>) {
     let world = cockpit.atlas.world();
     for door in &world.doors {
         match to_come(cockpit, door) {
-            Some(true) => _ = ui.weak(format!("{} opens with the next tick", door.name)),
-            Some(false) => _ = ui.weak(format!("{} closes with the next tick", door.name)),
+            Some(true) => _ = ui.weak(format!("{} opens", door.name)),
+            Some(false) => _ = ui.weak(format!("{} closes", door.name)),
             None if ui.link(words(door)).clicked() => toggle(&world.name, door, commands),
             None => {}
         }

@@ -81,7 +81,8 @@ pub fn paper(
     if let Some(plan) = state.plan.over_world(&cockpit.world.name) {
         canvas::paint_kept(&painter, plan, paper, &fit, look);
     }
-    let mut over = Picture::new(&cockpit.world.name, cockpit.world.bounds);
+    // under the letters of the doors
+    let mut over = Picture::new(&cockpit.world.name, cockpit.world.bounds).with(doors::coming(cockpit));
     over = if state.settings.labels {
         over.with(names(ui, cockpit, &fit))
     } else {
@@ -93,7 +94,7 @@ pub fn paper(
         over.with(doors::letters(cockpit).into_iter().filter(is_free).collect::<Vec<_>>())
     };
     let over = over.with(under).with(twin_items(cockpit, state)).with(robots(ui, cockpit, state));
-    let over = over.with(touched_by(cockpit, state)).with(doors::coming(cockpit));
+    let over = over.with(touched_by(cockpit, state));
     canvas::paint(&painter, &over, &fit, look);
     let driven = chosen(cockpit, state);
     let armed = driven.filter(|r| state.armed.as_ref() == Some(&r.name) || handles::have_focus(ui, r));
