@@ -163,7 +163,9 @@ pub fn show(world: &mut World, ctx: &egui::Context) {
         bg_fill: theme.colour(Role::Focus),
         stroke: egui::Stroke::new(1.0, theme.colour(Role::Paper)),
     };
-    ctx.global_style_mut(|style| style.visuals.selection = selection);
+    if world.resource::<Dialogs>().are_open() {
+        ctx.global_style_mut(|style| style.visuals.selection = selection);
+    }
     let (run, model, plan, picture) = {
         let dialogs = world.resource_mut::<Dialogs>().into_inner();
         if dialogs.hovered {

@@ -27,7 +27,8 @@ const LEAST_BEND: f64 = 0.15;
 /// was asked for.
 pub fn tick_off(model: &Dashboard, state: &mut UiState, commands: &[Command], now: f64) {
     let is_sent = state.twin.as_ref().is_some_and(|asked| asked.way.is_some());
-    let has_lost_wall = state.atlas.editor.has_lost_wall();
+    // of its whole history, so only where it may matter
+    let has_lost_wall = commands.iter().any(|c| matches!(c, Command::Session(_))) && state.atlas.editor.has_lost_wall();
     let mut done = std::mem::take(&mut state.did);
     done.extend(commands.iter().flat_map(|command| asked(command, model, is_sent, has_lost_wall)));
     done.extend(shown(model, state));

@@ -79,6 +79,10 @@ pub fn lab(ui: &mut Ui, model: &Dashboard, history: &History, state: &mut UiStat
     if state.widget != Widget::Atlas {
         state.atlas.put_down();
     }
+    if state.widget != Widget::Anatomy {
+        // Space moves the same robot
+        state.anatomy.pressed = None;
+    }
     state.grasp = state.next_grasp.take();
     // no fill: the window is cleared to the paper's colour already, and a fill would cost as much as all that is drawn
     let margin = Margin::symmetric(if narrow && !low { 8 } else { 6 }, if narrow { 4 } else { 14 });

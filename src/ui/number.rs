@@ -9,7 +9,7 @@ use bevy_egui::egui::{Id, Key, Response, Ui};
 use crate::num::wrap;
 use crate::picture::true_minus;
 
-/// The number that a text stands for: a decimal number, pi, or so many times pi, over a decimal number if one follows.
+/// The number that a text stands for: a decimal number, pi, or a number times pi, over a decimal number if one follows.
 /// `None` for any other text, and for what is not finite.
 pub fn number(text: &str) -> Option<f64> {
     let text: String = text.chars().filter(|c| !c.is_whitespace()).collect();

@@ -64,8 +64,8 @@ impl FrameTimes {
         quantile(self.own.clone(), share)
     }
 
-    /// What [`FrameTimes::quantile`] says, of the frames' own time without the wait for a core; none where the system is
-    /// not asked.
+    /// What [`FrameTimes::quantile`] says, of the frames' own time without the wait for a core; none where the system
+    /// is not asked.
     pub fn on_core(&self, share: f64) -> Option<Duration> {
         quantile(self.own.iter().zip(&self.waited).map(|(own, waited)| own.saturating_sub(*waited)).collect(), share)
     }

@@ -33,12 +33,10 @@ fn a_world_that_is_in_a_file_is_called_by_its_name_until_it_is_edited() {
     assert_eq!(state.label(), "Yard");
     state.mark_saved(std::path::Path::new("somewhere/second.ron"));
     assert_eq!(state.label(), "second.ron");
-    let mut renamed = state.world().clone();
-    renamed.name = "Court".into();
-    let edited = crate::atlas::Editor::new(renamed);
-    let mut other = AtlasState::edited(edited);
-    other.mark_saved(std::path::Path::new("third.ron"));
-    assert_eq!(other.label(), "third.ron");
+    state.add(crate::atlas::Template::Disc, crate::geometry::Point2::new(3.0, 3.0));
+    assert_eq!(state.label(), "second.ron, edited");
+    state.mark_saved(std::path::Path::new("third.ron"));
+    assert_eq!(state.label(), "third.ron");
 }
 
 #[test]

@@ -28,7 +28,7 @@ pub struct AnatomyState {
     /// How far each series of prompts has come.
     pub(super) guesses: [Guesses; 2],
     /// The scene at the press of a pointer that is still down.
-    pub(super) pressed: Option<Anatomy>,
+    pub(in crate::ui) pressed: Option<Anatomy>,
 }
 
 impl Default for AnatomyState {

@@ -52,7 +52,8 @@ pub(super) fn edit_panel(ui: &mut Ui, look: &Look, atlas: &mut AtlasState) {
     add_buttons(ui, look, atlas);
     // room for a warning of two lines: buttons and fields stay where they are
     let two = 2.0 * ui.text_style_height(&TextStyle::Body);
-    steady(ui, "warnings", two, |ui| {
+    let of = format!("warnings of {}", atlas.world().name);
+    steady(ui, &of, two, |ui| {
         for warning in atlas.warnings() {
             refusal(ui, warning, look);
         }

@@ -113,7 +113,7 @@ impl AtlasState {
     /// with its number where another edited one of this name was there before it.
     pub fn label(&self) -> String {
         let name = self.name();
-        let is_in_file = self.path.is_some() && self.is_saved();
+        let is_in_file = self.built_in.is_none() && self.path.is_some() && self.is_saved();
         match (self.has_history() && !is_in_file, self.copy) {
             (false, _) => name.to_owned(),
             (true, 1) => format!("{name}, edited"),
@@ -122,7 +122,7 @@ impl AtlasState {
     }
 
     fn name(&self) -> &str {
-        let in_file = self.path.as_ref().filter(|_| self.built_in.is_none() || self.is_saved());
+        let in_file = self.path.as_ref().filter(|_| self.built_in.is_none());
         in_file.and_then(|path| path.file_name()?.to_str()).unwrap_or(&self.world().name)
     }
 

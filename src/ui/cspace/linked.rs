@@ -61,6 +61,8 @@ impl<'a> Linked<'a> {
         (history, tick): (&History, u64),
     ) -> Option<Self> {
         AnyRobot::of_kind(&robot.kind, &robot.coordinates)?;
+        // in a pause the point is where the robot will be, which is free as far as anybody knows
+        let is_red = is_red && !(cockpit.waiting && robot.target.is_some());
         Some(Linked { cockpit, robot, twin, is_way_shown, trail: trail(history, robot, tick), is_red })
     }
 
@@ -144,7 +146,7 @@ impl<'a> Linked<'a> {
         let slice = cells.map().slice();
         let overlay = Overlay {
             now: Some(q),
-            in_contact: self.is_red && self.robot.target.is_none(),
+            in_contact: self.is_red,
             trace: self.trail.clone(),
             line: self.twin.filter(|_| self.is_way_shown).map(|twin| [q, twin]),
             solutions: self.twin.into_iter().collect(),

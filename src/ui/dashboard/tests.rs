@@ -52,15 +52,8 @@ fn robot<R: Robot>(name: &str, kind: &str, robot: &R, q: R::Configuration) -> Co
 fn cockpit(world: &str, width: f64, height: f64, robot: CockpitRobot) -> Cockpit {
     let bounds = Aabb { min: Point2::new(0.0, 0.0), max: Point2::new(width, height) };
     let model = World::empty(world, bounds);
-    let atlas = Arc::new(Atlas::new(model));
-    Cockpit {
-        world: Arc::new(Picture::new(world, bounds)),
-        atlas,
-        robots: vec![robot],
-        crowd: None,
-        doors: vec![],
-        waiting: false,
-    }
+    let (world, atlas) = (Arc::new(Picture::new(world, bounds)), Arc::new(Atlas::new(model)));
+    Cockpit { world, atlas, robots: vec![robot], crowd: None, doors: Vec::new(), waiting: false }
 }
 
 fn model() -> Dashboard {

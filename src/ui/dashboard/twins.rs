@@ -134,6 +134,8 @@ pub fn go_on(model: &Dashboard, state: &mut UiState, commands: &mut Vec<Command>
     } else {
         if way.pauses {
             commands.push(Command::from(TransportCommand::Pause));
+        } else if way.steps {
+            commands.push(Command::from(TransportCommand::Play));
         }
         state.did.push(Deed::TwoElbows);
         state.twin = None;

@@ -187,7 +187,11 @@ fn as_fast_as_possible_the_arm_goes_to_its_other_elbow_tick_by_tick() {
     bring(&mut harness, "Reach");
     put(&mut harness, [-0.5, 0.3]);
     let (tick, events) = (harness.state().transport().tick, moves(&harness).len());
-    harness.state_mut().app.world_mut().resource_mut::<Transport>().speed = f64::INFINITY;
+    let transport = |harness: &mut Harness<'_, Lab>, playback| {
+        let mut transport = harness.state_mut().app.world_mut().resource_mut::<Transport>();
+        (transport.speed, transport.playback) = (f64::INFINITY, playback);
+    };
+    transport(&mut harness, Playback::Paused);
     click(&mut harness, "One tip, two elbows");
     harness.run_steps(20);
     let after = harness.state().robot(1);
@@ -196,6 +200,16 @@ fn as_fast_as_possible_the_arm_goes_to_its_other_elbow_tick_by_tick() {
     // 0.6 rad at 0.1 rad a tick
     assert!((6..=7).contains(&ticks.len()) && now.tick == tick + ticks.len() as u64, "{ticks:?} {tick} {now:?}");
     assert_eq!(now.playback, Playback::Paused);
+    // a run that played plays on
+    put(&mut harness, [-0.5, 0.3]);
+    let button = harness.get_by_label("One tip, two elbows").rect().center();
+    pointer(&mut harness, button, Some(true));
+    transport(&mut harness, Playback::Playing);
+    let before = harness.state().transport().tick;
+    pointer(&mut harness, button, Some(false));
+    harness.run_steps(20);
+    let now = harness.state().transport();
+    assert!(now.playback == Playback::Playing && now.tick > before + 20, "{before} {now:?}");
 }
 
 #[test]
