@@ -9,7 +9,8 @@ pub fn fold<R>(ui: &mut Ui, name: &str, is_open: bool, show: impl FnOnce(&mut Ui
     tell(&shown.header_response, shown.body_response.is_some());
 }
 
-/// Shows a button that opens a menu of what `show` shows, from its top. What has no room under the button is scrolled to.
+/// Shows a button that opens a menu of what `show` shows, from its top. What has no room under the button is scrolled
+/// to.
 pub fn menu<R>(ui: &mut Ui, name: &str, show: impl FnOnce(&mut Ui) -> R) {
     let window = ui.ctx().content_rect();
     let under = window.bottom() - ui.cursor().top() - 2.0 * ui.spacing().interact_size.y;
