@@ -37,6 +37,7 @@ pub(crate) use capture_state::{CaptureOrder, CaptureState};
 pub(crate) use crowd::members::Members;
 pub(crate) use crowd::state::CrowdState;
 pub(crate) use crowd::values::{Crowd, CrowdRobot, MOST_SHOWN_EACH, Stance};
+pub(crate) use cspace::put_at::footprint_at;
 pub(crate) use cspace::{CspaceState, LinkedState, TRAIL};
 pub(crate) use dashboard::blend::blend;
 pub(crate) use dashboard::goal::ParkingGoal;

@@ -5,10 +5,10 @@ use bevy::prelude::*;
 use crate::collision::{Collision as _, Scene};
 use crate::configuration::{AnyConfiguration, Coordinates};
 use crate::geometry::Point2;
-use crate::robots::{AnyRobot, Robot};
+use crate::robots::AnyRobot;
 use crate::run::{Event, RobotInput, Script, WorldChange};
 use crate::simulation::{PendingInput, Playback, RobotView, Roster, Transport, WorldScene};
-use crate::ui::{CockpitRobot, TRAIL, joints, turned};
+use crate::ui::{CockpitRobot, TRAIL, footprint_at, joints, turned};
 
 /// A configuration as a pane says it.
 pub struct Said {
@@ -30,10 +30,9 @@ pub fn scene_of<'w>(world: &'w World, robot: &RobotView) -> Option<&'w Scene> {
 
 /// One of the lab's robots at these coordinates.
 pub fn next(world: &World, robot: &RobotView, to: &[f64]) -> Option<Said> {
-    let (model, q) = AnyRobot::of_kind(&robot.kind, to)?;
-    let model = robot.model.map_or(model, |own| own.fitted(&q));
-    let clearance = scene_of(world, robot).map(|scene| scene.distance(&model.footprint(&q)));
-    let (in_full, q) = match q {
+    let there = footprint_at(&robot.kind, robot.model, to);
+    let clearance = scene_of(world, robot).zip(there).map(|(scene, there)| scene.distance(&there));
+    let (in_full, q) = match AnyRobot::of_kind(&robot.kind, to)?.1 {
         AnyConfiguration::T2(q) => (format!("{q:?}"), q.to_string()),
         AnyConfiguration::T3(q) => (format!("{q:?}"), q.to_string()),
         AnyConfiguration::Pose(q) => (format!("{q:?}"), q.to_string()),

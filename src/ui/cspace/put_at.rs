@@ -16,8 +16,14 @@ pub fn to_come(robot: &CockpitRobot) -> &Coordinates {
 
 /// The footprint of a robot at [`to_come`].
 pub fn footprint_to_come(robot: &CockpitRobot) -> Footprint {
-    let asked = robot.target.as_ref().and_then(|to| AnyRobot::of_kind(&robot.kind, to)).zip(robot.model);
-    asked.map_or_else(|| robot.footprint.clone(), |((_, q), model)| model.fitted(&q).footprint(&q))
+    let asked = robot.target.as_ref().and_then(|to| footprint_at(&robot.kind, robot.model, to));
+    asked.unwrap_or_else(|| robot.footprint.clone())
+}
+
+/// The footprint of a robot of one of the lab's kinds at these coordinates, with its own sizes.
+pub fn footprint_at(kind: &str, model: Option<AnyRobot>, to: &[f64]) -> Option<Footprint> {
+    let (_, q) = AnyRobot::of_kind(kind, to)?;
+    Some(model?.fitted(&q).footprint(&q))
 }
 
 /// The other robots of a cockpit that a robot would touch with this footprint.

@@ -17,6 +17,10 @@ use crate::ui::paint::icon::Icon;
 use crate::ui::paint::plate::{Place, plate, refusal};
 use crate::ui::{Command, Dashboard, Look, SeedDraft, UiState};
 
+/// Width that the time takes at the end of its row, and the least that a reason beside the seed has, points.
+const TIME_ROOM: f32 = 170.0;
+const REASON: f32 = 240.0;
+
 /// The speeds to choose from, simulated seconds per second of the clock.
 const SPEEDS: [(f64, &str); 11] = [
     (0.125, "1/8 x"),
@@ -226,8 +230,8 @@ fn seed_and_time(
     time(ui, model, look);
 }
 
-/// Shows the seed, and asks for a new one that is entered. Why a text is none stands over `top`, in a column without
-/// one under the field.
+/// Shows the seed, and asks for a new one that is entered. Why a text is none stands beside the field or over `top`, in a
+/// column without one under the field.
 fn seed(
     ui: &mut Ui,
     model: &Dashboard,
@@ -261,7 +265,7 @@ fn time(ui: &mut Ui, model: &Dashboard, look: &Look) {
 
 /// Shows the seed as an editable field and returns a new one when Enter is pressed. Text that is no seed stays for
 /// mending until it is a seed; Escape, a press beside the field and another run put the present seed back. The reason
-/// stands over `top`, so that it covers nothing of the time line.
+/// stands beside the field, in a low row over `top`, so that it covers nothing of the time line.
 fn seed_field(ui: &mut Ui, model: &Dashboard, top: Option<f32>, look: &Look, state: &mut UiState) -> Option<Seed> {
     let label = ui.label("seed");
     let is_of_run = |draft: &SeedDraft| draft.of == model.seed && draft.frontier <= model.frontier;
@@ -282,7 +286,13 @@ fn seed_field(ui: &mut Ui, model: &Dashboard, top: Option<f32>, look: &Look, sta
     let is_left = ui.input(|i| i.key_pressed(Key::Escape) || i.pointer.any_pressed() && !response.contains_pointer());
     let is_refused = typed.is_none() && (was_refused || entered) && !is_left;
     if let Some(top) = top.filter(|_| is_refused) {
-        let place = Place { at: pos2(label.rect.left(), top - 4.0), pivot: Align2::LEFT_BOTTOM, width: 340.0 };
+        let beside = response.rect.right_center() + vec2(2.0, 0.0);
+        let width = ui.max_rect().right() - beside.x - TIME_ROOM;
+        let place = if width >= REASON {
+            Place { at: beside, pivot: Align2::LEFT_CENTER, width }
+        } else {
+            Place { at: pos2(label.rect.left(), top - 4.0), pivot: Align2::LEFT_BOTTOM, width: 340.0 }
+        };
         plate(ui.ctx(), "seed", place, false, look, |ui| refusal(ui, &no_seed(&text), look));
     }
     if is_refused || response.has_focus() {

@@ -80,3 +80,21 @@ fn a_drag_through_contact_touches_nothing_and_one_that_ends_there_does() {
     harness.run_steps(2);
     assert!(distance(&harness) == 0.0 && has_done(&harness, "Touch"));
 }
+
+#[test]
+fn what_moves_in_another_widget_after_a_press_on_its_button_is_no_deed_of_query() {
+    let mut harness = lab(WIDE);
+    click(&mut harness, "Query");
+    click(&mut harness, "distance");
+    let press = |harness: &mut Harness<'_, Lab>, name: &str| {
+        let at = harness.get_by_label(name).rect().center();
+        click_at(harness, at);
+    };
+    press(&mut harness, "Space");
+    // the second link goes up through the block
+    interface_mut(&mut harness).anatomy.anatomy.set_coordinate(1, 0.5);
+    harness.run_steps(2);
+    assert_eq!(interface(&harness).anatomy.anatomy.distance(), 0.0);
+    press(&mut harness, "Query");
+    assert!(!has_done(&harness, "Touch"));
+}
