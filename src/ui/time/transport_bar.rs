@@ -230,8 +230,8 @@ fn seed_and_time(
     time(ui, model, look);
 }
 
-/// Shows the seed, and asks for a new one that is entered. Why a text is none stands beside the field or over `top`, in a
-/// column without one under the field.
+/// Shows the seed, and asks for a new one that is entered. Why a text is none stands beside the field or over `top`, in
+/// a column without one under the field.
 fn seed(
     ui: &mut Ui,
     model: &Dashboard,
