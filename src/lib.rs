@@ -7,8 +7,8 @@
 //! - Prove an edge: [`collision::Checker::edge`] gives a verdict, [`collision::Certificate`] holds its proof.
 //! - Plan: [`collision::Problem`] has a start, a goal and seeded samples, [`planning`] planners whose paths are proven.
 //! - Draw: [`picture::Figure`] makes SVG of pictures in metres.
-#![cfg_attr(feature = "sim", doc = "- Record and verify a run: [`recording::Run`] and [`recording::verify`].")]
-#![cfg_attr(feature = "sim", doc = "- Write a planner, chapter by chapter: [`guide::write_a_planner`].")]
+//! - Record and verify a run: [`recording::Run`] and [`recording::verify`].
+//! - Write a planner, chapter by chapter: [`guide::write_a_planner`].
 //!
 //! ```
 //! use motion_lab::picture::{Figure, Theme, world};
@@ -30,91 +30,64 @@
 //! assert!(svg.contains("the post"));
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
-#![cfg_attr(
-    feature = "sim",
-    doc = r#"
-A run is recorded from a seed, and simulated again to be compared:
-
-```
-use motion_lab::recording::{Run, verify};
-use motion_lab::tour::{BOOK_SEED, TourConfig};
-
-let log = Run::record(TourConfig { ticks: 20, ..TourConfig::default() }, BOOK_SEED)?;
-assert_eq!(verify(&log, |_| {})?.identical, 20); // every f64 to the last bit
-# Ok::<(), motion_lab::recording::RunError>(())
-```
-"#
-)]
+//!
+//! A run is recorded from a seed, and simulated again to be compared:
+//!
+//! ```
+//! use motion_lab::recording::{Run, verify};
+//! use motion_lab::tour::{BOOK_SEED, TourConfig};
+//!
+//! let log = Run::record(TourConfig { ticks: 20, ..TourConfig::default() }, BOOK_SEED)?;
+//! assert_eq!(verify(&log, |_| {})?.identical, 20); // every f64 to the last bit
+//! # Ok::<(), motion_lab::recording::RunError>(())
+//! ```
 //!
 //! The modules stand in reading order: each uses only those above it. `ARCHITECTURE.md` is their map.
 //!
 //! Conventions: SI units, radians, `f64`; x right, y up, counter-clockwise positive; angles wrapped to `(-pi, pi]`.
 //! Touching counts as collision.
 //!
-//! # Features
+//! # Crates
 //!
-//! Without features the library is the core, which is what a planner needs: robots, worlds, collision answers, sensors,
-//! drawings and the configuration space, without Bevy.
+//! The library is four crates, and this one re-exports the others. A planner needs `motion-lab-core` alone, which has no
+//! features; `motion-lab-sim` adds the simulator and the run log, on Bevy's ECS; `motion-lab-import` reads other programs'
+//! files. What is only here is the lab itself.
+//!
+//! # Features
 //!
 //! | feature | adds |
 //! |---|---|
-//! | `sim` | the simulator, the run log and what shows them: the rest of the library except for what follows |
-//! | `cli` | `sim`, the program `motion-lab`, worlds from other formats, pictures as PNG and GIF |
-//! | `headless` | `cli`; `motion-lab` without arguments records the tour and checks it |
-//! | `window` (by default) | `cli`; `motion-lab` without arguments opens the lab in a window |
-//! | `web` | `sim`, and the lab in a page, for WebAssembly |
-//! | `screen` | what `window` and `web` share; not meant to be enabled by itself |
+//! | `headless` | the program `motion-lab`, worlds from other formats, pictures as PNG and GIF; without arguments the program records the tour and checks it |
+//! | `window` (by default) | the same program, which without arguments opens the lab in a window |
+//! | `web` | the lab in a page, for WebAssembly |
+//! | `cli`, `screen` | parts of the others; not meant to be enabled by themselves |
 #![deny(missing_docs)]
 #![forbid(unsafe_code)]
 
-pub mod num;
+#[doc(hidden)]
+pub use motion_lab_core::text_position;
+pub use motion_lab_core::{
+    collision, configuration, cspace, geometry, num, picture, planning, prelude, random, robots, sensors, short_list,
+};
+#[doc(hidden)]
+pub use motion_lab_sim::manifest;
+pub use motion_lab_sim::{anatomy, atlas, export, plans, run, simulation, tour};
 
-pub mod short_list;
-mod text_position;
+/// Worlds: lists of named geometry, never bitmaps.
+pub mod worlds {
+    pub use motion_lab_core::worlds::*;
+    #[cfg(feature = "cli")]
+    #[doc(inline)]
+    pub use motion_lab_import as import;
+}
 
-pub mod random;
+/// Recording, replaying and grading runs.
+pub mod recording {
+    pub use crate::course::*;
+    pub use motion_lab_sim::recording::*;
+}
 
-pub mod geometry;
-
-pub mod configuration;
-
-pub mod robots;
-
-pub mod worlds;
-
-pub mod collision;
-
-pub mod sensors;
-
-pub mod picture;
-
-pub mod cspace;
-
-pub mod planning;
-
-#[cfg(feature = "sim")]
-pub mod tour;
-
-#[cfg(feature = "sim")]
-pub mod run;
-
-#[cfg(feature = "sim")]
-pub mod anatomy;
-
-#[cfg(feature = "sim")]
-pub mod atlas;
-
-#[cfg(feature = "sim")]
-pub mod simulation;
-
-#[cfg(feature = "sim")]
-pub mod recording;
-
-#[cfg(feature = "sim")]
-pub mod export;
-
-#[cfg(feature = "sim")]
-pub mod plans;
+pub mod course;
 
 // the program's own; public because the program is a crate of its own
 #[doc(hidden)]
@@ -122,44 +95,35 @@ pub mod plans;
 pub mod output;
 
 #[cfg(feature = "cli")]
-pub mod sweep;
+pub mod batch;
 
-// the program's own likewise
-#[doc(hidden)]
-#[cfg(feature = "sim")]
-pub mod manifest;
+#[cfg(feature = "cli")]
+mod raster;
 
-#[cfg(feature = "sim")]
-pub mod capture;
+/// Captures: a widget's view as a figure for a page, as SVG, PNG or GIF.
+pub mod capture {
+    #[cfg(feature = "cli")]
+    #[doc(hidden)]
+    pub use crate::raster::{GifWriter, Image, Raster, Size, paint, write_png};
+    #[cfg(feature = "cli")]
+    pub use crate::raster::{film, film_with_robots, slides, write};
+    pub use motion_lab_sim::capture::*;
+}
 
 #[cfg(feature = "screen")]
-mod ui;
+mod window;
 
-#[cfg(feature = "screen")]
-pub mod app;
+/// The lab in a window.
+#[cfg(feature = "window")]
+pub mod app {
+    pub use crate::window::{FrameTimes, Opened, Pause, WindowError, open_in_window, run_window, run_window_with};
+}
 
 // the program's own likewise: it writes links
 #[doc(hidden)]
-#[cfg(all(feature = "sim", any(target_family = "wasm", feature = "cli", test)))]
 pub mod web;
 
-#[cfg(feature = "sim")]
 pub mod guide;
-
-/// The names a planner or an experiment usually needs.
-///
-/// Bevy's prelude has a `World` and a `Scene` of its own: a program that uses both names ours in full.
-pub mod prelude {
-    pub use crate::collision::{
-        CarChecker, ChainChecker, Checker, Collision, DiscChecker, EdgeVerdict, Problem, Scene, Witness,
-    };
-    pub use crate::configuration::{Chart, Configuration, HitchCfg, R2, T2, Tn};
-    pub use crate::geometry::{Footprint, Part, Point2, Pose2, Segment, Shape, Vector2};
-    pub use crate::planning::{LinePath, NoPath, Planner, Progress, solve};
-    pub use crate::random::{Seed, Stream};
-    pub use crate::robots::{CarCmd, Drivable, HITCH, Hitch, Motion, RUSTY, Reach, Robot, Rusty, RustyCmd, RustyDisc};
-    pub use crate::worlds::World;
-}
 
 /// The code in README runs as a test.
 #[cfg(doctest)]

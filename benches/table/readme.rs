@@ -39,8 +39,7 @@ fn machine() -> String {
         .find_map(|l| l.strip_prefix("model name"))
         .map_or("unknown processor", |m| m.trim_start_matches(['\t', ' ', ':']));
     let cores = std::thread::available_parallelism().map_or(1, usize::from);
-    let instructions =
-        if cfg!(feature = "baseline") { ", the collision checker with baseline instructions" } else { "" };
+    let instructions = if cfg!(baseline) { ", the collision checker with baseline instructions" } else { "" };
     format!("{model}, {cores} cores, {}{instructions}", compiler())
 }
 

@@ -15,16 +15,18 @@ use super::listener::tell;
 use super::message::{Action, Asked, Input, Message};
 use super::report::Sent;
 use super::run_link::link_of;
-use crate::anatomy::Tab;
-use crate::app::{Interface, open_log, open_path_text, open_world_text, seek_aside, stop_aside};
-use crate::configuration::Configuration as _;
-use crate::manifest::{Lesson, ThemeChoice};
-use crate::picture::{Role, Theme};
-use crate::random::Seed;
-use crate::robots::CHANNEL_UNITS;
-use crate::run::{Event, Script, WorldChange, WorldEvent};
-use crate::simulation::{RobotCommand, RobotKinds, RunCommand, RunConfig, Transport, TransportCommand, WorldCommand};
-use crate::ui::{Notice, SessionCommand, UiState, Widget};
+use crate::window::ui::{Notice, SessionCommand, UiState, Widget};
+use crate::window::{Interface, open_log, open_path_text, open_world_text, seek_aside, stop_aside};
+use motion_lab_core::configuration::Configuration as _;
+use motion_lab_core::picture::{Role, Theme};
+use motion_lab_core::random::Seed;
+use motion_lab_core::robots::CHANNEL_UNITS;
+use motion_lab_sim::anatomy::Tab;
+use motion_lab_sim::manifest::{Lesson, ThemeChoice};
+use motion_lab_sim::run::{Event, Script, WorldChange, WorldEvent};
+use motion_lab_sim::simulation::{
+    RobotCommand, RobotKinds, RunCommand, RunConfig, Transport, TransportCommand, WorldCommand,
+};
 
 /// Events for egui, a list for each frame to come: a field must have the focus before it takes letters.
 #[derive(Resource, Default)]

@@ -4,10 +4,10 @@ use bevy::prelude::*;
 use serde_json::json;
 
 use super::listener::{tell, tell_with};
-use crate::app::{Interface, SessionError, captured, path_text, save, shown_run, subject};
-use crate::capture::{CaptureError, Form, Paper, TICK_HUNDREDTHS, sheets_with_robots};
-use crate::simulation::Transport;
-use crate::ui::{CaptureOrder, MOST_PICTURES, Notice, SessionCommand};
+use crate::window::ui::{CaptureOrder, MOST_PICTURES, Notice, SessionCommand};
+use crate::window::{Interface, SessionError, captured, path_text, save, shown_run, subject};
+use motion_lab_sim::capture::{CaptureError, Film, Form, Paper, TICK_HUNDREDTHS};
+use motion_lab_sim::simulation::Transport;
 
 /// Carries out the commands that need a dialog in a window: gives the page the file to save, or asks it for one to
 /// open.
@@ -85,9 +85,15 @@ fn capture(world: &World, order: &CaptureOrder) -> Result<String, SessionError> 
     }
     let run = shown_run(world, world.resource::<Transport>().frontier);
     let kinds = run.kinds.clone();
-    let give = |svg: String| tell_with(&json!({ "kind": "sheet" }), Some(svg.as_bytes()));
-    let paper = paper(world, width);
-    sheets_with_robots(&run.record()?, &subject, span, &paper, |app| kinds.add_to(app), give)?;
+    let (log, paper) = (run.record()?, paper(world, width));
+    Film::try_new(&log, &subject, span)?.pictures(
+        paper.width_px(),
+        |app| kinds.add_to(app),
+        |captured| {
+            tell_with(&json!({ "kind": "sheet" }), Some(captured.svg(&paper).as_bytes()));
+            Ok(())
+        },
+    )?;
     tell(&json!({
         "kind": "film", "name": name, "scale": scale, "hundredths": TICK_HUNDREDTHS * span.every,
     }));

@@ -1,8 +1,8 @@
 //! `PageError`, why the lab could not do what the page asked.
 
 use super::link::{LinkError, MAX_LINK_TICK, cited};
-use crate::app::SessionError;
-use crate::run::ScriptError;
+use crate::window::SessionError;
+use motion_lab_sim::run::ScriptError;
 
 /// Why the lab could not do what the page asked. The lab goes on as it was.
 #[derive(Debug, thiserror::Error)]

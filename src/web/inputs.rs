@@ -17,7 +17,7 @@
 
 use base64::prelude::{BASE64_URL_SAFE_NO_PAD, Engine};
 
-use crate::run::{Event, Quantized, RobotInput};
+use motion_lab_sim::run::{Event, Quantized, RobotInput};
 
 /// Largest length of a robot's name, bytes: every input has it again once it is read.
 const MOST_NAME: u64 = 200;

@@ -20,10 +20,10 @@ use super::listener::{listen, tell};
 use super::message::{Asked, Message};
 use super::report::{LinkedTheme, Sent, report};
 use super::run_link::open_link;
-use crate::app::{Interface, limit, windowed_app};
-use crate::configuration::Configuration as _;
-use crate::simulation::{Playback, Transport};
-use crate::ui::{Notice, Settings, Widget};
+use crate::window::ui::{Notice, Settings, Widget};
+use crate::window::{Interface, limit, windowed_app};
+use motion_lab_core::configuration::Configuration as _;
+use motion_lab_sim::simulation::{Playback, Transport};
 
 /// Largest mark of a request, bytes.
 const MOST_OF_MARK: usize = 100;

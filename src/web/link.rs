@@ -6,12 +6,12 @@ use std::fmt::Write;
 use percent_encoding::{AsciiSet, CONTROLS, percent_decode_str, utf8_percent_encode};
 
 use super::inputs;
-use crate::anatomy::Tab;
-use crate::manifest::{Lesson, ThemeChoice, Widget};
-use crate::random::Seed;
-use crate::run::{Script, ScriptError};
-use crate::tour::{BOOK_SEED, TourConfig};
-use crate::worlds::World;
+use motion_lab_core::random::Seed;
+use motion_lab_core::worlds::World;
+use motion_lab_sim::anatomy::Tab;
+use motion_lab_sim::manifest::{Lesson, ThemeChoice, Widget};
+use motion_lab_sim::run::{Script, ScriptError};
+use motion_lab_sim::tour::{BOOK_SEED, TourConfig};
 
 /// The version of the address format in which inputs are in the script.
 pub const LINK_VERSION: u32 = 1;

@@ -2,7 +2,7 @@
 
 use serde::Deserialize;
 
-use crate::run::{Quantized, RobotInput};
+use motion_lab_sim::run::{Quantized, RobotInput};
 
 /// A request, with what stands beside it.
 #[derive(Clone, Debug, PartialEq, Deserialize)]

@@ -10,16 +10,16 @@ use serde_json::{Value, json};
 use super::listener::tell;
 use super::mirror::mirror;
 use super::runs::RunParts;
-use crate::app::{Interface, Shown};
-use crate::configuration::Configuration;
-use crate::manifest::ThemeChoice;
-use crate::picture::{Role, Theme, readout};
-use crate::random::Seed;
-use crate::robots::AnyRobot;
-use crate::run::Script;
-use crate::simulation::{PendingInput, Playback, RunConfig, Transport};
-use crate::tour::TourConfig;
-use crate::ui::{AtlasState, LessonState, PlanState, Settings, Stage, Widget};
+use crate::window::ui::{AtlasState, LessonState, PlanState, Settings, Stage, Widget};
+use crate::window::{Interface, Shown};
+use motion_lab_core::configuration::Configuration;
+use motion_lab_core::picture::{Role, Theme, readout};
+use motion_lab_core::random::Seed;
+use motion_lab_core::robots::AnyRobot;
+use motion_lab_sim::manifest::ThemeChoice;
+use motion_lab_sim::run::Script;
+use motion_lab_sim::simulation::{PendingInput, Playback, RunConfig, Transport};
+use motion_lab_sim::tour::TourConfig;
 
 /// The last values sent to the page.
 #[derive(Resource, Default)]

@@ -4,12 +4,12 @@ use bevy::ecs::world::World;
 
 use super::error::PageError;
 use super::link::Link;
-use crate::anatomy::Anatomy;
-use crate::app::{Interface, SessionError, log_up_to, new_run, shown_run};
-use crate::configuration::Configuration as _;
-use crate::manifest::ThemeChoice;
-use crate::simulation::{Playback, Transport, seek};
-use crate::ui::{AnatomyState, Notice, Widget};
+use crate::window::ui::{AnatomyState, Notice, Widget};
+use crate::window::{Interface, SessionError, log_up_to, new_run, shown_run};
+use motion_lab_core::configuration::Configuration as _;
+use motion_lab_sim::anatomy::Anatomy;
+use motion_lab_sim::manifest::ThemeChoice;
+use motion_lab_sim::simulation::{Playback, Transport, seek};
 
 /// Starts a link's run, simulates it up to its tick, and compares the digest with that of the link.
 pub fn open_link(world: &mut World, link: &Link) -> Result<Option<Notice>, SessionError> {

@@ -4,14 +4,16 @@ use serde::{Deserialize, Serialize};
 use wasm_bindgen::prelude::*;
 
 use super::link::Link;
-use crate::capture::RunFigure;
-use crate::picture::Theme;
-use crate::random::Seed;
-use crate::recording::{DigestVerification, Recorder, Run, RunError, Verification, verify, verify_digests};
-use crate::run::{DigestLog, DigestLogWriter, Log, LogError, MOST_ROBOTS_IN_FULL, RunDigest, Script, ScriptError};
-use crate::sensors::RangeSensor;
-use crate::tour::TourConfig;
-use crate::worlds::{World, WorldError};
+use motion_lab_core::picture::Theme;
+use motion_lab_core::random::Seed;
+use motion_lab_core::sensors::RangeSensor;
+use motion_lab_core::worlds::{World, WorldError};
+use motion_lab_sim::capture::RunFigure;
+use motion_lab_sim::recording::{DigestVerification, Recorder, Run, RunError, Verification, verify, verify_digests};
+use motion_lab_sim::run::{
+    DigestLog, DigestLogWriter, Log, LogError, MOST_ROBOTS_IN_FULL, RunDigest, Script, ScriptError,
+};
+use motion_lab_sim::tour::TourConfig;
 
 /// The parts of a run, as JSON. A page keeps them so that it can record the run again when the lab has stopped.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

@@ -17,8 +17,8 @@ use serde_json::Value;
 use xxhash_rust::xxh3::xxh3_128;
 
 use super::{json, run};
-use crate::oracle::short;
-use crate::scan_shapes::{Tally, check, things_of};
+use oracle::seen::{Tally, check, things_of};
+use oracle::short;
 
 /// The first 16 s of tests/scripts/driving.ron: walls hit, inputs refused, the trailer put on.
 static DRIVEN: LazyLock<Log> = LazyLock::new(|| {

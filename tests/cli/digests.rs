@@ -4,7 +4,7 @@ use std::fs;
 use std::path::Path;
 
 use super::{json, run};
-use crate::crowds::grid;
+use oracle::fixtures::grid;
 
 fn name(folder: &Path, file: &str) -> String {
     folder.join(file).to_str().unwrap().to_owned()

@@ -16,7 +16,7 @@ use prost_types::FileDescriptorSet;
 use serde_json::Value;
 
 use super::json;
-use crate::examples::custom_robot;
+use crate::lab::examples::custom_robot;
 
 /// A file of the repository.
 fn text(path: &str) -> String {
@@ -212,8 +212,8 @@ fn every_topic_and_field_of_a_log_is_listed() {
         assert_eq!((cells[0].trim_matches('`'), &cells[2][..]), (&written[topic][..], "format 1"), "{topic}");
     }
     let [first, second] = [
-        fields(include_bytes!("../../assets/schema/motion_lab.binpb")),
-        fields(include_bytes!("../../assets/schema/motion_lab_2.binpb")),
+        fields(include_bytes!("../../crates/sim/assets/schema/motion_lab.binpb")),
+        fields(include_bytes!("../../crates/sim/assets/schema/motion_lab_2.binpb")),
     ];
     assert!(first.is_subset(&second) && first.len() > 20);
     let listed = rows("What a log holds", "field");
@@ -250,7 +250,7 @@ fn every_topic_for_viewers_is_listed_with_its_schema() {
 #[test]
 fn every_message_and_field_of_the_schemas_has_a_comment() {
     for name in ["motion_lab.proto", "motion_lab_2.proto", "foxglove.proto"] {
-        let proto = text(&format!("assets/schema/{name}"));
+        let proto = text(&format!("crates/sim/assets/schema/{name}"));
         let (mut before, mut commented, mut in_enum) = ("", 0, false);
         for line in proto.lines().map(str::trim) {
             in_enum = (in_enum || line.starts_with("enum ")) && line != "}";

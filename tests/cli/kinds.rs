@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use motion_lab::prelude::Seed;
 
 use super::{run, run_in};
-use crate::examples::custom_robot::{config, record};
+use crate::lab::examples::custom_robot::{config, record};
 
 /// A folder with a log and a world file that name the kind `x-train`.
 fn with_trains() -> (tempfile::TempDir, PathBuf, PathBuf) {

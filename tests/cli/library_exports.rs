@@ -16,7 +16,7 @@ use motion_lab::simulation::{App, RobotPlugin, SpawnError};
 use super::columns::frames;
 use super::messages::messages;
 use super::{json, run};
-use crate::examples::custom_robot::{record, with_trains};
+use crate::lab::examples::custom_robot::{record, with_trains};
 
 /// What `write` writes.
 #[track_caller]

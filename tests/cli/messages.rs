@@ -212,7 +212,6 @@ fn every_field_of_every_message_of_a_log_is_the_one_that_the_schema_numbers() {
             }
             RobotInput::SetTrailer(on) => assert_eq!((kind, message.number(6)), (6, u64::from(*on))),
             RobotInput::Release => assert_eq!((kind, message.message(7).fields().len()), (7, 0)),
-            other => panic!("{other:?} is not compared yet"),
         }
     }
 }

@@ -5,7 +5,8 @@ use std::fs;
 use serde_json::json as value;
 
 use super::{json, run};
-use crate::sizes::YARD;
+
+const YARD: &str = include_str!("../samples/yard.ron");
 
 /// The yard in a file of its own folder, and the file's path.
 fn yard(text: &str) -> (tempfile::TempDir, String) {

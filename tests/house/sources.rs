@@ -4,11 +4,19 @@ use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// A file below `src`.
+/// The crates, each below those before it, with their folders. The last has the library and the program on top of it.
+pub const CRATES: [(&str, &str); 4] = [
+    ("motion_lab_core", "crates/core/src"),
+    ("motion_lab_sim", "crates/sim/src"),
+    ("motion_lab_import", "crates/import/src"),
+    ("motion_lab", "src"),
+];
+
+/// A source file of one of the crates.
 pub struct Source {
-    /// Its path below `src`, with `/`.
+    /// Its path from the root on, with `/`.
     pub file: String,
-    /// Its module, from `crate` on: `crate::collision::broad::index`.
+    /// Its module, from the crate on: `motion_lab_core::collision::broad::index`.
     pub module: Vec<String>,
     /// Its text without comments, line by line.
     pub lines: Vec<String>,
@@ -17,6 +25,11 @@ pub struct Source {
 }
 
 impl Source {
+    /// Its crate.
+    pub fn of_crate(&self) -> &str {
+        &self.module[0]
+    }
+
     /// The room: the module below the crate.
     pub fn room(&self) -> &str {
         self.module.get(1).map_or("", String::as_str)
@@ -32,8 +45,7 @@ impl Source {
         &self.lines[..self.tests]
     }
 
-    /// The items of this crate that it names outside its tests, as paths from `crate` on. The command line is a crate
-    /// of its own on top of the library; there `motion_lab` stands for the library's `crate`.
+    /// The items of the crates that it names outside its tests, as paths from the crate on.
     pub fn imports(&self) -> Vec<Vec<String>> {
         self.imports_in(self.code())
     }
@@ -53,7 +65,8 @@ impl Source {
                 leaves(&[], tree, &mut found);
             }
         }
-        for start in ["crate::", "super::", "motion_lab::"] {
+        let crates = CRATES.map(|(name, _)| format!("{name}::"));
+        for start in ["crate::", "super::"].into_iter().chain(crates.iter().map(String::as_str)) {
             for (at, _) in text.match_indices(start) {
                 if !text[..at].ends_with([':', '_']) && !text[..at].ends_with(char::is_alphanumeric) {
                     let path = text[at..].split(|c: char| !(c.is_alphanumeric() || c == '_' || c == ':')).next();
@@ -66,13 +79,13 @@ impl Source {
         found.into_iter().filter_map(|path| self.absolute(path)).collect()
     }
 
-    /// The path from `crate` on; `None` for a path of another crate.
+    /// The path from its crate on; `None` for a path of a stranger's crate.
     fn absolute(&self, path: Vec<String>) -> Option<Vec<String>> {
         let supers = path.iter().take_while(|s| *s == "super").count();
         let rest = path[supers..].to_vec();
         match path.first()?.as_str() {
-            "crate" => Some(path),
-            "motion_lab" => Some([vec!["crate".to_owned()], path[1..].to_vec()].concat()),
+            "crate" => Some([vec![self.module[0].clone()], path[1..].to_vec()].concat()),
+            name if CRATES.iter().any(|(known, _)| *known == name) => Some(path),
             "self" => Some([self.module.clone(), path[1..].to_vec()].concat()),
             "super" => Some([self.module[..self.module.len().saturating_sub(supers)].to_vec(), rest].concat()),
             // a room's own file names its children without a prefix
@@ -129,21 +142,24 @@ pub fn files(folder: &Path, ending: &str) -> Vec<PathBuf> {
     found
 }
 
-/// Every file of `src`.
+/// Every source file of the crates.
 pub fn sources() -> Vec<Source> {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
-    let read = |path: PathBuf| {
-        let file = path.strip_prefix(&root).unwrap().to_string_lossy().replace('\\', "/");
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let read = |name: &str, folder: &str, path: PathBuf| {
+        let file = path.strip_prefix(root).unwrap().to_string_lossy().replace('\\', "/");
         let text = fs::read_to_string(&path).unwrap();
         let lines: Vec<String> = text.lines().map(|l| l.split("//").next().unwrap().to_owned()).collect();
         let tests = lines.iter().position(|l| l.starts_with("mod tests {")).unwrap_or(lines.len());
-        let below = file.trim_end_matches(".rs").trim_end_matches("/mod");
+        let below = file[folder.len() + 1..].trim_end_matches(".rs").trim_end_matches("/mod");
         let below = if ["lib", "main"].contains(&below) { "" } else { below };
         let parts = below.split('/').filter(|s| !s.is_empty()).map(str::to_owned);
-        let module = [vec!["crate".to_owned()], parts.collect()].concat();
+        let module = [vec![name.to_owned()], parts.collect()].concat();
         Source { file, module, lines, tests }
     };
-    files(&root, "rs").into_iter().map(read).collect()
+    let of_crate = |(name, folder): (&'static str, &'static str)| {
+        files(&root.join(folder), "rs").into_iter().map(move |path| read(name, folder, path))
+    };
+    CRATES.into_iter().flat_map(of_crate).collect()
 }
 
 /// The imports from file to file. An item that a room re-exports leads to the file that defines it.
@@ -154,8 +170,8 @@ pub struct Graph<'a> {
 
 impl<'a> Graph<'a> {
     /// The imports of these files.
-    pub fn new(sources: &'a [Source]) -> Self {
-        let files: BTreeMap<&[String], &Source> = sources.iter().map(|s| (&s.module[..], s)).collect();
+    pub fn new(sources: &[&'a Source]) -> Self {
+        let files: BTreeMap<&[String], &Source> = sources.iter().map(|s| (&s.module[..], *s)).collect();
         let mut exports = BTreeMap::new();
         for room in sources.iter().filter(|s| s.is_room()) {
             for path in room.imports() {
@@ -195,8 +211,10 @@ impl<'a> Graph<'a> {
     pub fn uses(&self, source: &Source) -> Vec<&'a Source> {
         let paths = source.imports().into_iter();
         let paths = paths.filter(|path| !(source.is_room() && path.starts_with(&source.module)));
-        let mut used: Vec<&Source> =
-            paths.filter_map(|path| self.home(&path)).filter(|s| s.file != source.file && s.file != "lib.rs").collect();
+        let mut used: Vec<&Source> = paths
+            .filter_map(|path| self.home(&path))
+            .filter(|s| s.file != source.file && !s.file.ends_with("src/lib.rs"))
+            .collect();
         used.sort_by(|a, b| a.file.cmp(&b.file));
         used.dedup_by(|a, b| a.file == b.file);
         used
@@ -209,15 +227,15 @@ fn imports_inside_braces_are_seen() {
     leaves(&[], "crate::{run::{self, Frame as F, mcap::Writer}, simulation::Transport}", &mut found);
     let found: Vec<String> = found.iter().map(|path| path.join("::")).collect();
     assert_eq!(found, ["crate::run", "crate::run::Frame", "crate::run::mcap::Writer", "crate::simulation::Transport"]);
-    let lines = "use super::{\n    Frame,\n    mcap::{Reader, Writer},\n};\nlet x = crate::num::sin(1.0);";
+    let lines = "use super::{\n    Frame,\n    mcap::{Reader, Writer},\n};\nlet x = motion_lab_core::num::sin(1.0);";
     let source = Source {
-        file: "run/log.rs".into(),
-        module: ["crate", "run", "log"].map(str::to_owned).to_vec(),
+        file: "crates/sim/src/run/log.rs".into(),
+        module: ["motion_lab_sim", "run", "log"].map(str::to_owned).to_vec(),
         lines: lines.lines().map(str::to_owned).collect(),
         tests: 5,
     };
     let found: Vec<String> = source.imports().iter().map(|path| path.join("::")).collect();
-    let expected = ["crate::run::Frame", "crate::run::mcap::Reader", "crate::run::mcap::Writer"];
-    assert!(expected.iter().all(|e| found.iter().any(|f| f == e)), "{found:?}");
-    assert!(found.iter().any(|f| f == "crate::num::sin"), "{found:?}");
+    let expected = ["Frame", "mcap::Reader", "mcap::Writer"].map(|item| format!("motion_lab_sim::run::{item}"));
+    assert!(expected.iter().all(|e| found.contains(e)), "{found:?}");
+    assert!(found.iter().any(|f| f == "motion_lab_core::num::sin"), "{found:?}");
 }

@@ -20,30 +20,13 @@ use std::error::Error;
 use std::fmt::Write as _;
 use std::path::PathBuf;
 
-use motion_lab::collision::{Certificate, Counted, QueryCounts, verify_certificate};
-use motion_lab::picture::Theme;
-use motion_lab::picture::{Figure, Item, Panel, Role, footprint, trace, world};
-use motion_lab::prelude::*;
+use motion_lab_core::collision::{Certificate, Counted, QueryCounts, verify_certificate};
+use motion_lab_core::picture::Theme;
+use motion_lab_core::picture::{Figure, Item, Panel, Role, footprint, trace, world};
+use motion_lab_core::prelude::*;
 
 #[cfg(test)]
-#[path = "../../../tests/oracle/arm.rs"]
-#[allow(dead_code)]
-mod arm;
-#[cfg(test)]
-#[path = "../../../tests/oracle/plain.rs"]
-#[allow(dead_code)]
-mod plain;
-#[cfg(test)]
-#[path = "../../../tests/oracle/short.rs"]
-mod short;
-#[cfg(test)]
-#[path = "../../../tests/oracle/sweep.rs"]
-#[allow(dead_code)]
-mod sweep;
-#[cfg(test)]
 mod tests;
-#[cfg(test)]
-use short::short;
 
 type Failure = Box<dyn Error>;
 
@@ -121,7 +104,7 @@ pub fn solve<R: Robot>(problem: Problem<R>, step: f64) -> Result<Solution<R::Con
             return Err(format!("the edge from {} to {} is not proven free", ends[0], ends[1]).into());
         }
         solution.steps += certificate.steps().len();
-        solution.clearance = motion_lab::num::lesser(certificate.clearance(), solution.clearance);
+        solution.clearance = motion_lab_core::num::lesser(certificate.clearance(), solution.clearance);
     }
     Ok(solution)
 }

@@ -1,7 +1,7 @@
 //! Links read back as written, whatever is in them; hostile ones are refused by name.
 
 use super::*;
-use crate::run::{Event, Quantized, RobotInput, WorldChange, WorldEvent};
+use motion_lab_sim::run::{Event, Quantized, RobotInput, WorldChange, WorldEvent};
 
 fn driven() -> Script {
     let event = |tick, robot: &str, input| Event { tick, robot: robot.into(), input };

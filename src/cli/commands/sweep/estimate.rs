@@ -3,7 +3,7 @@
 use std::fs;
 use std::time::Instant;
 
-use motion_lab::sweep::{Shard, SweepPlan};
+use motion_lab::batch::{Shard, SweepPlan};
 use tempfile::TempDir;
 
 use super::Keep;

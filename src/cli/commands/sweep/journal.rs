@@ -5,7 +5,7 @@ use std::io::{self, BufRead, BufReader, ErrorKind, Read, Seek, SeekFrom, Write};
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
-use motion_lab::sweep::{Column, PartHead, PartWriter, sealed_line, unsealed_line};
+use motion_lab::batch::{Column, PartHead, PartWriter, sealed_line, unsealed_line};
 
 use crate::cli::Failure;
 use crate::cli::support::output::PendingFile;
@@ -145,7 +145,7 @@ impl Journal {
 
 #[cfg(test)]
 mod tests {
-    use motion_lab::sweep::{PlanFile, SweepPlan};
+    use motion_lab::batch::{PlanFile, SweepPlan};
     use motion_lab::worlds::World;
 
     use super::*;

@@ -1,6 +1,6 @@
 //! What a plan would run, a line for each run.
 
-use motion_lab::sweep::{RunRow, Shard, SweepPlan};
+use motion_lab::batch::{RunRow, Shard, SweepPlan};
 
 use crate::cli::support::console::note;
 use crate::cli::{Data, Failure, Outcome};

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
-use motion_lab::sweep::{PlanFile, SweepPlan, SweepPlanError};
+use motion_lab::batch::{PlanFile, SweepPlan, SweepPlanError};
 
 use super::planned::named;
 use crate::cli::Failure;

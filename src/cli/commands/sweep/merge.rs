@@ -6,7 +6,7 @@ use std::ops::Range;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use motion_lab::sweep::{PartError, PartReader, RunRow, SweepPlan, TableError, TableWriter};
+use motion_lab::batch::{PartError, PartReader, RunRow, SweepPlan, TableError, TableWriter};
 
 use crate::cli::support::input::{open, unreadable};
 use crate::cli::support::output::PendingFile;

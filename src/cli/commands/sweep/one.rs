@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use motion_lab::sweep::{RowGatherer, RunRow, SweepPlan};
+use motion_lab::batch::{RowGatherer, RunRow, SweepPlan};
 
 use super::Keep;
 use super::planned::{Made, made};

@@ -1,11 +1,11 @@
 //! A run whose inputs are made: by its script, or by a planner's path that is planned and played.
 
+use motion_lab::batch::{Planned, PlannedPath, Planning, RunInputs, RunSetup};
 use motion_lab::planning::{Bounds, Effort, NoPath};
 use motion_lab::plans::{Attempt, PathLengths, PlannerName, Task};
 use motion_lab::random::Seed;
 use motion_lab::robots::AnyRobot;
 use motion_lab::run::{Script, seconds};
-use motion_lab::sweep::{Planned, PlannedPath, Planning, RunInputs, RunSetup};
 use motion_lab::tour::TourConfig;
 use motion_lab::worlds::World;
 

@@ -4,8 +4,8 @@ use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
+use motion_lab::batch::{Cell, CellKind, Column, RunInputs, RunRow, SweepPlan, TableError, TableFile};
 use motion_lab::capture::{Captured, Distribution, Paper, histograms};
-use motion_lab::sweep::{Cell, CellKind, Column, RunInputs, RunRow, SweepPlan, TableError, TableFile};
 use motion_lab::web::Link;
 
 use crate::cli::support::choices::ThemeName;

@@ -4,7 +4,7 @@ use std::io::BufReader;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use motion_lab::sweep::{Cell, PartError, PartReader, RunRow, SweepPlan, TableError, TableFile};
+use motion_lab::batch::{Cell, PartError, PartReader, RunRow, SweepPlan, TableError, TableFile};
 
 use super::merge;
 use super::one::{log_name, remove_partial};

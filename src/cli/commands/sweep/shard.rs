@@ -6,7 +6,7 @@ use std::path::Path;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Mutex, PoisonError};
 
-use motion_lab::sweep::{PartHead, PartReader, RunRow, Shard, SweepPlan};
+use motion_lab::batch::{PartHead, PartReader, RunRow, Shard, SweepPlan};
 use rayon::prelude::*;
 
 use super::journal::Journal;

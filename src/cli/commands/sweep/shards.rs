@@ -2,7 +2,7 @@
 
 use std::str::FromStr;
 
-use motion_lab::sweep::{Shard, ShardError};
+use motion_lab::batch::{Shard, ShardError};
 
 use crate::cli::Failure;
 

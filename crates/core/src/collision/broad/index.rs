@@ -1,0 +1,107 @@
+//! `Index`, the boxes of a scene's pieces in the structure that suits their number and spread.
+
+use super::bvh::Tree;
+use super::grid::PieceGrid;
+use super::linear::{Boxes, FEW};
+use crate::geometry::Aabb;
+
+/// The boxes around pieces, known by their numbers.
+#[derive(Clone)]
+pub struct Index(Structure);
+
+/// A few side by side, many in a grid, or under a tree where no grid fits them.
+#[derive(Clone)]
+enum Structure {
+    Few(Boxes),
+    Grid(PieceGrid),
+    Tree(Tree),
+}
+
+impl Index {
+    /// The index of these boxes.
+    pub fn new(extents: &[Aabb]) -> Self {
+        if extents.len() <= FEW {
+            return Index(Structure::Few(Boxes::new(extents)));
+        }
+        Index(PieceGrid::new(extents).map_or_else(|| Structure::Tree(Tree::new(extents)), Structure::Grid))
+    }
+
+    /// Calls `look` with every piece that may be as near as the least distance so far, which `look` returns, until no
+    /// other can be. `within` is the least distance before the first call.
+    pub fn nearest(&self, from: &Aabb, within: f64, look: impl FnMut(usize) -> f64) {
+        match &self.0 {
+            Structure::Few(boxes) => boxes.nearest(from, within, look),
+            Structure::Grid(grid) => grid.nearest(from, within, look),
+            Structure::Tree(tree) => tree.nearest(from, within, look),
+        }
+    }
+
+    /// Calls `visit` with each piece whose box is at most `range` from this box, until it returns true.
+    pub fn each_near(&self, from: &Aabb, range: f64, visit: impl FnMut(usize) -> bool) {
+        match &self.0 {
+            Structure::Few(boxes) => boxes.each_near(from, range, visit),
+            Structure::Grid(grid) => grid.each_near(from, range, visit),
+            Structure::Tree(tree) => tree.each_near(from, range, visit),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::Point2;
+    use crate::num::{greater, lesser, sqrt};
+    use crate::random::{Seed, Stream};
+
+    fn extent(x: f64, y: f64, w: f64, h: f64) -> Aabb {
+        Aabb { min: Point2::new(x, y), max: Point2::new(x + w, y + h) }
+    }
+
+    /// Boxes on a lattice, their corners in a square of side `spread` metres, so that many touch and lie on the sides
+    /// of cells.
+    fn boxes(count: usize, spread: u64, draws: &mut Stream) -> Vec<Aabb> {
+        let mut lattice = |n: u64| draws.below(n) as f64;
+        (0..count).map(|_| extent(lattice(spread), lattice(spread), lattice(3), lattice(3))).collect()
+    }
+
+    #[test]
+    fn every_kind_of_index_finds_the_same() {
+        let mut draws = Stream::new(Seed(5), "index");
+        for (count, spread, grid) in
+            [(40, 9, false), (64, 20, false), (300, 30, true), (300, 2000, true), (300, 6, false)]
+        {
+            let extents = boxes(count, spread, &mut draws);
+            let index = Index::new(&extents);
+            assert_eq!(matches!(index.0, Structure::Grid(_)), grid, "{count} in {spread}");
+            let tree = Index(Structure::Tree(Tree::new(&extents)));
+            for _ in 0..300 {
+                let side = 2.0 * spread as f64;
+                let (x, y) = (draws.uniform(-side, side), draws.uniform(-side, side));
+                let from = extent(x.round(), y.round(), draws.below(4) as f64, 0.0);
+                let exact = |piece: usize| sqrt(from.squared_distance(&extents[piece]));
+                let all = (0..count).map(exact).fold(f64::INFINITY, lesser);
+                for within in [f64::INFINITY, 1.0, 0.0] {
+                    for index in [&index, &tree] {
+                        let mut least = within;
+                        index.nearest(&from, within, |piece| {
+                            least = lesser(exact(piece), least);
+                            least
+                        });
+                        assert_eq!(least, lesser(all, within), "{from:?}");
+                    }
+                }
+                let range = draws.below(3) as f64;
+                let near: Vec<usize> = (0..count).filter(|&p| exact(p) <= greater(range, 0.0)).collect();
+                for index in [&index, &tree] {
+                    let mut seen = Vec::new();
+                    index.each_near(&from, range, |piece| {
+                        seen.push(piece);
+                        false
+                    });
+                    seen.sort_unstable();
+                    assert_eq!(seen, near, "once each: {from:?} {range}");
+                }
+            }
+        }
+    }
+}

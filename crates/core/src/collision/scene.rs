@@ -1,0 +1,227 @@
+//! `Scene`, named obstacles under one index.
+
+use std::sync::Arc;
+
+use super::ObstacleId;
+use super::boundary::grid::Cells;
+use super::boundary::segments::SegmentSoup;
+use super::broad::frames::Frames;
+use super::broad::index::Index;
+use super::narrow::convex::Nearest;
+use super::narrow::distance::depth;
+use super::narrow::nearest::Search;
+use super::narrow::pair::{pair, touch};
+use crate::geometry::{Aabb, Footprint, Placed, Point2, Pose2, Segment, Shape, largest_coordinate};
+use crate::num::greater;
+use crate::worlds::{Obstacle, World};
+
+/// Largest number of segments and discs for which a scan tests them all; with more it walks through a grid.
+const MANY: usize = 128;
+
+/// Named obstacles under one index: a few side by side, many in a grid or under a bounding-volume tree.
+///
+/// ```
+/// use motion_lab_core::prelude::*;
+/// use motion_lab_core::collision::{Collision, Scene};
+/// let wall = Scene::of_walls(&[Segment::new(Point2::new(3.0, 0.0), Point2::new(3.0, 3.0))]);
+/// let rusty = Footprint::disc(Point2::new(2.0, 1.0), 0.11);
+/// assert!((wall.distance(&rusty) - 0.89).abs() < 1e-12);
+/// ```
+#[derive(Clone)]
+pub struct Scene {
+    bounds: Aabb,
+    names: Vec<Arc<str>>,
+    /// All convex pieces in file order, and the obstacle that each belongs to.
+    pub(super) pieces: Vec<Placed>,
+    pub(super) owners: Vec<u32>,
+    soup: SegmentSoup,
+    /// The grid over the boundary; `None` in a small scene.
+    cells: Option<Cells>,
+    pub(super) index: Index,
+    /// The pieces' turned boxes; `None` in a large scene.
+    pub(super) frames: Option<Frames>,
+    /// An upper bound on the size of the pieces' coordinates, metres; infinite where a piece is not valid.
+    pub(super) size: f64,
+}
+
+impl std::fmt::Debug for Scene {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("Scene").field("bounds", &self.bounds).field("obstacles", &self.names).finish_non_exhaustive()
+    }
+}
+
+impl Scene {
+    /// A scene without obstacles. The bounds are not an obstacle.
+    pub fn empty(bounds: Aabb) -> Self {
+        Self::of_pieces(bounds, Vec::new(), Vec::new(), Vec::new())
+    }
+
+    /// The scene with one more obstacle, given in world coordinates. Rebuilds the index; for many obstacles at once use
+    /// [`of_world`](Self::of_world).
+    ///
+    /// A shape that breaks its constructor's rules counts as contact with everything.
+    #[must_use]
+    pub fn with_obstacle(self, name: &str, shape: Shape) -> Self {
+        self.with_obstacle_at(name, Pose2::IDENTITY, shape)
+    }
+
+    /// As [`with_obstacle`](Self::with_obstacle), with the shape given in the frame `pose`: a disc's centre is the
+    /// frame's origin.
+    #[must_use]
+    pub fn with_obstacle_at(mut self, name: &str, pose: Pose2, shape: Shape) -> Self {
+        let owner = self.names.len() as u32;
+        self.names.push(name.into());
+        self.pieces.push(shape.place(&pose));
+        self.owners.push(owner);
+        Self::of_pieces(self.bounds, self.names, self.pieces, self.owners)
+    }
+
+    /// A scene of walls, named `wall 0`, `wall 1`, ..; its bounds are the box around them.
+    pub fn of_walls(walls: &[Segment]) -> Self {
+        let pieces: Vec<Placed> =
+            walls.iter().map(|s| Shape::Segment { a: s.a, b: s.b }.place(&Pose2::IDENTITY)).collect();
+        let names = (0..walls.len()).map(|i| format!("wall {i}").into()).collect();
+        let bounds = pieces.iter().map(Placed::bounds).reduce(|a, b| a.merged(&b));
+        let bounds = bounds.unwrap_or(Aabb::new(Point2::origin(), Point2::origin()));
+        Self::of_pieces(bounds, names, pieces, (0..walls.len() as u32).collect())
+    }
+
+    /// The obstacles of a world, in file order, then its closed doors.
+    pub fn of_world(world: &World) -> Self {
+        let doors: Vec<Obstacle> = world.closed_doors().collect();
+        Self::of_obstacles(world.bounds, world.obstacles.iter().chain(&doors))
+    }
+
+    /// These obstacles, in their order. The bounds are not an obstacle.
+    pub fn of_obstacles<'a>(bounds: Aabb, obstacles: impl IntoIterator<Item = &'a Obstacle>) -> Self {
+        let (mut names, mut pieces, mut owners) = (Vec::new(), Vec::new(), Vec::new());
+        for (owner, obstacle) in obstacles.into_iter().enumerate() {
+            names.push(obstacle.name.as_str().into());
+            for (pose, shape) in &obstacle.pieces {
+                pieces.push(shape.place(pose));
+                owners.push(owner as u32);
+            }
+        }
+        Self::of_pieces(bounds, names, pieces, owners)
+    }
+
+    /// The Apartment.
+    pub fn apartment() -> Self {
+        Self::of_world(&World::apartment())
+    }
+
+    /// The Workbench.
+    pub fn workbench() -> Self {
+        Self::of_world(&World::workbench())
+    }
+
+    /// The Lot.
+    pub fn lot() -> Self {
+        Self::of_world(&World::lot())
+    }
+
+    fn of_pieces(bounds: Aabb, names: Vec<Arc<str>>, pieces: Vec<Placed>, owners: Vec<u32>) -> Self {
+        let extents: Vec<Aabb> = pieces.iter().map(Placed::padded_bounds).collect();
+        let soup = SegmentSoup::of_pieces(&pieces);
+        let many = soup.segments().len() + soup.circles().len() > MANY;
+        let cells = if many { Cells::new(&soup) } else { None };
+        let valid = pieces.iter().all(Placed::is_valid);
+        let size = if valid { largest_coordinate(&pieces) } else { f64::INFINITY };
+        let (index, frames) = (Index::new(&extents), Frames::new(&pieces));
+        Scene { bounds, names, pieces, owners, soup, cells, index, frames, size }
+    }
+
+    /// The part of the plane the scene shows; not an obstacle.
+    pub fn bounds(&self) -> Aabb {
+        self.bounds
+    }
+
+    /// The number of obstacles.
+    pub fn obstacle_count(&self) -> usize {
+        self.names.len()
+    }
+
+    /// The name of an obstacle; `None` for an id that is not one of this scene's.
+    pub fn obstacle_name(&self, id: ObstacleId) -> Option<&str> {
+        self.names.get(id.0 as usize).map(|name| &**name)
+    }
+
+    /// The convex pieces of all obstacles in file order, each with its obstacle.
+    pub fn pieces(&self) -> impl Iterator<Item = (ObstacleId, &Placed)> {
+        self.owners.iter().map(|&owner| ObstacleId(owner)).zip(&self.pieces)
+    }
+
+    /// The obstacles' boundary as segments and discs, for rays.
+    pub(crate) fn soup(&self) -> &SegmentSoup {
+        &self.soup
+    }
+
+    /// The obstacles that the footprint overlaps or touches, in file order. Empty exactly when
+    /// [`intersects`](super::Collision::intersects) is false or the footprint is not finite: such a footprint is in
+    /// contact, but with no obstacle in particular.
+    pub fn touched(&self, footprint: &Footprint) -> Vec<ObstacleId> {
+        let mut touched = std::collections::BTreeSet::new();
+        if footprint.is_valid() {
+            for part in footprint.parts() {
+                self.each_within(part.placed(), 0.0, |piece| {
+                    if pair(part.placed(), &self.pieces[piece]).dist == 0.0 {
+                        touched.insert(ObstacleId(self.owners[piece]));
+                    }
+                    false
+                });
+            }
+        }
+        touched.into_iter().collect()
+    }
+
+    /// The grid over the boundary; `None` in a small scene.
+    pub(crate) fn cells(&self) -> Option<&Cells> {
+        self.cells.as_ref()
+    }
+
+    /// Whether the point, a disc of radius 0, is inside an obstacle or on one; true for a point that is not valid.
+    pub(crate) fn holds(&self, point: &Placed) -> bool {
+        if !point.is_valid() {
+            return true;
+        }
+        let mut found = false;
+        self.each_within(point, 0.0, |piece| {
+            found = touch(point, &self.pieces[piece]);
+            found
+        });
+        found
+    }
+
+    /// A lower bound on how far the footprint must move to become free, metres: no displacement that moves every point
+    /// by less can free it. 0 when it is free; infinity for a footprint that is not finite.
+    pub fn depth(&self, footprint: &Footprint) -> f64 {
+        if !footprint.is_valid() {
+            return f64::INFINITY;
+        }
+        let mut bound = 0.0;
+        for part in footprint.parts() {
+            self.each_within(part.placed(), 0.0, |piece| {
+                bound = greater(depth(part.placed(), &self.pieces[piece]), bound);
+                false
+            });
+        }
+        bound
+    }
+
+    /// A search for the piece nearest to `shape`, if any is nearer than `within`.
+    pub(super) fn search<'a>(&'a self, shape: &'a Placed, within: f64) -> Search<'a> {
+        Search::new(shape, &self.pieces, self.size, within)
+    }
+
+    /// The nearest piece to `shape`, the first in file order among equals, if any is nearer than `within`.
+    pub(super) fn nearest_piece(&self, shape: &Placed, within: f64) -> Option<(usize, Nearest)> {
+        let mut search = self.search(shape, within);
+        self.index.nearest(&search.extent(), within, |piece| search.look(piece));
+        search.found()
+    }
+
+    /// Calls `visit` with each piece whose box is at most `range` from the shape's box, until it returns true.
+    pub(super) fn each_within(&self, shape: &Placed, range: f64, visit: impl FnMut(usize) -> bool) {
+        self.index.each_near(&shape.padded_bounds(), range, visit);
+    }
+}

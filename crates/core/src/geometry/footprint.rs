@@ -1,0 +1,165 @@
+//! `Footprint`, the set of workspace points a robot occupies at a configuration, R(q).
+
+use smallvec::SmallVec;
+
+use super::{Aabb, Placed, Point2, Pose2, Segment, Shape, ShapeError, SinCos};
+use crate::num;
+
+/// One rigid part of a footprint: a shape, the pose of its frame, and the shape placed there.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Part {
+    pose: Pose2,
+    shape: Shape,
+    placed: Placed,
+}
+
+impl Part {
+    /// The part with this shape in the frame `pose`, whose heading is wrapped where it lies outside `(-pi, pi]`.
+    #[inline]
+    pub fn new(pose: Pose2, shape: Shape) -> Self {
+        let pose = Pose2 { theta: num::in_range(pose.theta), ..pose };
+        let placed = shape.place(&pose);
+        Part { pose, shape, placed }
+    }
+
+    /// As [`new`](Self::new), given the sine and the cosine of the frame's angle.
+    #[inline]
+    pub(crate) fn new_by(pose: Pose2, sin_cos: SinCos, shape: Shape) -> Self {
+        let placed = shape.place_by(&pose, sin_cos);
+        Part { pose, shape, placed }
+    }
+
+    /// The pose of the part's frame. A link's frame sits at its proximal end.
+    pub fn pose(&self) -> &Pose2 {
+        &self.pose
+    }
+
+    /// The shape in the part's frame.
+    pub fn shape(&self) -> &Shape {
+        &self.shape
+    }
+
+    /// The shape in the world.
+    pub fn placed(&self) -> &Placed {
+        &self.placed
+    }
+}
+
+/// A footprint R(q): a list of rigid parts. Up to three parts are stored without a heap allocation, which covers the
+/// lab's three robots.
+///
+/// A footprint with a number that is not finite is allowed and fails safe in every query: it is in contact.
+///
+/// ```
+/// use motion_lab_core::geometry::{Footprint, Point2};
+/// let rusty = Footprint::disc(Point2::new(2.0, 1.0), 0.11);
+/// assert_eq!(rusty.parts().len(), 1);
+/// ```
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Footprint {
+    parts: SmallVec<[Part; 3]>,
+}
+
+impl Footprint {
+    /// The footprint made of these parts, numbered from 0 in this order.
+    #[inline]
+    pub fn new(parts: impl IntoIterator<Item = Part>) -> Self {
+        Footprint { parts: parts.into_iter().collect() }
+    }
+
+    /// The footprint of one part: this hull, which is in world coordinates.
+    pub(crate) fn of_hull(hull: Placed) -> Self {
+        let shape = Shape::Hull { vertices: hull.core().into(), radius: hull.radius() };
+        Self::new([Part { pose: Pose2::IDENTITY, shape, placed: hull }])
+    }
+
+    /// One disc, such as Rusty.
+    pub fn disc(centre: Point2, radius: f64) -> Self {
+        Self::new([Part::new(Pose2 { x: centre.x, y: centre.y, theta: 0.0 }, Shape::Disc { radius })])
+    }
+
+    /// One capsule per segment, each with its frame at the segment's first end and its x axis along the segment. The
+    /// far end is placed by the frame's angle and the length, so it may differ from `b` in the last bits; robots that
+    /// know their angles build their parts from them.
+    pub fn capsules(segments: impl IntoIterator<Item = Segment>, radius: f64) -> Self {
+        Self::new(segments.into_iter().map(|s| {
+            let d = s.direction();
+            let pose = Pose2 { x: s.a.x, y: s.a.y, theta: num::atan2(d.y, d.x) };
+            Part::new(pose, Shape::Capsule { a: Point2::origin(), b: Point2::new(s.length(), 0.0), radius })
+        }))
+    }
+
+    /// One rectangle per item, given by its frame and its corners (least, greatest) in that frame.
+    pub fn rects(rects: impl IntoIterator<Item = (Pose2, Point2, Point2)>) -> Self {
+        Self::new(rects.into_iter().map(|(pose, min, max)| Part::new(pose, Shape::Rectangle { min, max })))
+    }
+
+    /// The smallest box around all parts, metres; `None` without parts.
+    pub fn bounds(&self) -> Option<Aabb> {
+        self.parts.iter().map(|part| part.placed().bounds()).reduce(|a, b| a.merged(&b))
+    }
+
+    /// As [`disc`](Self::disc), checked.
+    ///
+    /// # Errors
+    /// [`ShapeError`] when the centre is not finite or too far out, or the radius out of range.
+    pub fn try_disc(centre: Point2, radius: f64) -> Result<Self, ShapeError> {
+        Shape::try_disc(radius)?;
+        Shape::check_point(centre)?;
+        Ok(Self::disc(centre, radius))
+    }
+
+    /// As [`capsules`](Self::capsules), checked.
+    ///
+    /// # Errors
+    /// [`ShapeError`] for the first segment that is too short, not finite or too far out, or for the radius.
+    pub fn try_capsules(segments: &[Segment], radius: f64) -> Result<Self, ShapeError> {
+        for s in segments {
+            Shape::try_capsule(s.a, s.b, radius)?;
+        }
+        Ok(Self::capsules(segments.iter().copied(), radius))
+    }
+
+    /// As [`rects`](Self::rects), checked.
+    ///
+    /// # Errors
+    /// [`ShapeError`] for the first rectangle that is too small, or a frame or corner that is not finite or too far
+    /// out.
+    pub fn try_rects(rects: &[(Pose2, Point2, Point2)]) -> Result<Self, ShapeError> {
+        for (pose, min, max) in rects {
+            Shape::check_point(pose.position())?;
+            Shape::check_point(Point2::new(pose.theta, 0.0))?;
+            Shape::try_rectangle(*min, *max)?;
+        }
+        Ok(Self::rects(rects.iter().copied()))
+    }
+
+    /// The parts, lowest number first.
+    #[inline]
+    pub fn parts(&self) -> &[Part] {
+        &self.parts
+    }
+
+    /// Whether every part is finite and well formed; only then do the queries use its geometry.
+    pub fn is_valid(&self) -> bool {
+        self.parts.iter().all(|p| p.pose.is_finite() && p.placed.is_valid())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn checked_constructors_refuse_and_unchecked_ones_fail_safe() {
+        let (o, nan) = (Point2::origin(), Point2::new(f64::NAN, 0.0));
+        assert!(Footprint::try_disc(nan, 0.1).is_err() && Footprint::try_disc(o, f64::INFINITY).is_err());
+        assert!(Footprint::try_disc(o, 0.1).is_ok_and(|f| f.is_valid()));
+        assert!(!Footprint::disc(nan, 0.1).is_valid() && !Footprint::disc(o, f64::NAN).is_valid());
+        assert!(Footprint::try_capsules(&[Segment::new(o, nan)], 0.1).is_err());
+        assert!(Footprint::try_capsules(&[Segment::new(o, o)], 0.1).is_err(), "shorter than the smallest feature");
+        let turned = Pose2 { x: 0.0, y: 0.0, theta: f64::NAN };
+        assert!(Footprint::try_rects(&[(turned, o, Point2::new(1.0, 1.0))]).is_err());
+        assert!(!Footprint::rects([(turned, o, Point2::new(1.0, 1.0))]).is_valid());
+    }
+}

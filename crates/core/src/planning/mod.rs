@@ -1,0 +1,53 @@
+//! Plans: planners whose paths are proven, and the tools to write one.
+//!
+//! A [`Planner`] works on a [`Problem`](crate::collision::Problem) one iteration at a time. Its [`Growth`] can be drawn
+//! after every iteration. [`solve`] runs it within [`Bounds`]. A returned path is a [`CertifiedPath`]: each of its legs
+//! holds the certificate of its whole length, so there is no path that is only hoped to be free.
+//!
+//! ```
+//! use motion_lab_core::planning::{Bounds, RrtConnect, solve};
+//! use motion_lab_core::prelude::*;
+//! let checker = ChainChecker::new(Scene::workbench(), Reach::<2>::workbench());
+//! let problem = Problem::try_new(checker, T2::new(2.0, 0.0), T2::new(3.1, 0.0), Seed(2005))?;
+//! let path = solve(&mut RrtConnect::new(problem.clone()), &Bounds::default())?;
+//! assert_eq!((path.start(), path.goal()), (problem.start(), problem.goal()));
+//! assert!(path.verify(problem.checker().scene())? > 0.0); // metres, along the whole path
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! A planner of one's own implements [`Planner`]; it then runs, is bounded and is checked as those here.
+
+mod bounds;
+pub mod curves;
+mod goal;
+mod growth;
+pub mod hybrid;
+mod metric;
+mod nearest;
+mod no_path;
+mod path;
+mod planner;
+pub mod planners;
+mod queue;
+mod sampling;
+mod sensed;
+mod settings;
+mod shortcut;
+
+pub use bounds::{Bound, Bounds, Effort};
+pub use goal::{Ball, TipDisc};
+pub use growth::{Growth, Node, Rejection};
+pub use metric::{Metric, MetricError};
+pub use nearest::{Nearest, Neighbour};
+pub use no_path::NoPath;
+#[doc(hidden)]
+pub use path::is_same;
+pub use path::{CertifiedPath, Leg, LinePath, PathError};
+pub use planner::{Planner, Progress, accepted, solve};
+pub use planners::{
+    Bug1, Bug2, CellDecomposition, GridSearch, PotentialField, Prm, Rrt, RrtConnect, RrtStar, VisibilityGraph,
+};
+pub use queue::Queue;
+pub use sampling::{sample_near, sample_toward_goal};
+pub use sensed::{LeavePoint, Leaving, Sensed};
+pub use settings::Settings;

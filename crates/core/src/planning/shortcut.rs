@@ -1,0 +1,153 @@
+//! Shorter and smoother paths that keep their certificates.
+
+use super::path::Leg;
+use super::{LinePath, Metric};
+use crate::collision::Checker;
+use crate::configuration::Chart;
+use crate::num::lesser;
+use crate::random::Stream;
+use crate::robots::{ChartLine, Motion, Robot};
+
+/// How often the cut at a corner is halved before the corner stays.
+const HALVINGS: u32 = 4;
+
+/// A place on a path: the number of a leg, and the parameter along it.
+#[derive(Clone, Copy, Debug)]
+struct Place {
+    leg: usize,
+    s: f64,
+}
+
+impl<R: Robot<Configuration: Chart>> LinePath<R> {
+    /// The path without the corners that it can do without: a corner goes where the edge between its neighbours is
+    /// proven free and shorter. Never longer by the metric, and certified.
+    #[must_use]
+    pub fn pruned(&self, checker: &Checker<R>, metric: &Metric) -> Self {
+        let mut draft = Draft::of(self, checker, metric);
+        let mut leg = 0;
+        while leg + 1 < draft.legs.len() {
+            if draft.join(Place { leg, s: 0.0 }, Place { leg: leg + 1, s: 1.0 }) {
+                // the corner before may go now
+                leg = leg.saturating_sub(1);
+            } else {
+                leg += 1;
+            }
+        }
+        Self::of_legs(draft.legs)
+    }
+
+    /// The path after this many tries to join two of its places, drawn uniformly along it, by a straight edge. Never
+    /// longer by the metric, and certified.
+    ///
+    /// ```
+    /// use motion_lab_core::planning::{Bounds, Metric, RrtConnect, solve};
+    /// use motion_lab_core::prelude::*;
+    /// let checker = ChainChecker::new(Scene::workbench(), Reach::<2>::workbench());
+    /// let problem = Problem::try_new(checker.clone(), T2::new(2.0, 0.0), T2::new(3.1, 0.0), Seed(7))?;
+    /// let path = solve(&mut RrtConnect::new(problem), &Bounds::default())?;
+    /// let metric = Metric::unit(&path.start());
+    /// let short = path.shortcut(&checker, &metric, &mut Stream::new(Seed(7), "shortcut"), 100);
+    /// assert!(short.length(&metric) <= path.length(&metric));
+    /// assert!(short.verify(checker.scene())? > 0.0);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    #[must_use]
+    pub fn shortcut(&self, checker: &Checker<R>, metric: &Metric, stream: &mut Stream, tries: u32) -> Self {
+        let mut draft = Draft::of(self, checker, metric);
+        for _ in 0..tries {
+            let (a, b) = (stream.unit(), stream.unit());
+            let [from, to] = [lesser(a, b), if a < b { b } else { a }].map(|share| draft.place(share));
+            draft.join(from, to);
+        }
+        Self::of_legs(draft.legs)
+    }
+
+    /// The path with its corners cut, this many times over: each cut replaces a corner by two of wider angles. Never
+    /// longer by the metric, and certified.
+    #[must_use]
+    pub fn smoothed(&self, checker: &Checker<R>, metric: &Metric, rounds: u32) -> Self {
+        let mut draft = Draft::of(self, checker, metric);
+        for _ in 0..rounds {
+            let mut leg = 0;
+            while leg + 1 < draft.legs.len() {
+                leg += if draft.cut(leg) { 2 } else { 1 };
+            }
+        }
+        Self::of_legs(draft.legs)
+    }
+}
+
+/// A path at work.
+struct Draft<'a, R: Robot> {
+    checker: &'a Checker<R>,
+    metric: &'a Metric,
+    legs: Vec<Leg<ChartLine<R>>>,
+}
+
+impl<'a, R: Robot<Configuration: Chart>> Draft<'a, R> {
+    fn of(path: &LinePath<R>, checker: &'a Checker<R>, metric: &'a Metric) -> Self {
+        Draft { checker, metric, legs: path.legs().to_vec() }
+    }
+
+    fn at(&self, place: Place) -> R::Configuration {
+        self.legs[place.leg].motion().at(place.s)
+    }
+
+    fn length(&self, leg: usize) -> f64 {
+        self.metric.distance(&self.at(Place { leg, s: 0.0 }), &self.at(Place { leg, s: 1.0 }))
+    }
+
+    /// The place at a share of the path's length.
+    fn place(&self, share: f64) -> Place {
+        let total: f64 = (0..self.legs.len()).map(|leg| self.length(leg)).sum();
+        let mut rest = share * total;
+        for leg in 0..self.legs.len() {
+            let length = self.length(leg);
+            if rest < length {
+                return Place { leg, s: rest / length };
+            }
+            rest -= length;
+        }
+        Place { leg: self.legs.len() - 1, s: 1.0 }
+    }
+
+    /// Joins two places by a straight edge, if all that is new is proven free and it shortens the path.
+    fn join(&mut self, from: Place, to: Place) -> bool {
+        if from.leg >= to.leg {
+            return false;
+        }
+        let (start, end) = (Place { s: 0.0, ..from }, Place { s: 1.0, ..to });
+        let mut corners = vec![self.at(start)];
+        for (place, is_corner) in [(from, from.s == 0.0), (to, to.s == 1.0), (end, false)] {
+            let q = self.at(place);
+            if !is_corner && corners.last() != Some(&q) {
+                corners.push(q);
+            }
+        }
+        let shorter: f64 = corners.windows(2).map(|ends| self.metric.distance(&ends[0], &ends[1])).sum();
+        let present: f64 = (from.leg..=to.leg).map(|leg| self.length(leg)).sum();
+        if shorter >= present || !self.checker.edge_free(&self.at(from), &self.at(to)) {
+            return false;
+        }
+        match LinePath::through(self.checker, &corners) {
+            Ok(path) => {
+                self.legs.splice(from.leg..=to.leg, path.into_legs()).for_each(drop);
+                true
+            }
+            Err(_) => false,
+        }
+    }
+
+    /// Cuts the corner at the end of a leg.
+    fn cut(&mut self, leg: usize) -> bool {
+        let [before, after] = [leg, leg + 1].map(|leg| self.length(leg));
+        let mut far = 0.5 * lesser(before, after);
+        for _ in 0..HALVINGS {
+            if self.join(Place { leg, s: 1.0 - far / before }, Place { leg: leg + 1, s: far / after }) {
+                return true;
+            }
+            far *= 0.5;
+        }
+        false
+    }
+}

@@ -1,0 +1,12 @@
+//! Edges, arcs and sweeps: whether motions are free, and their proofs.
+
+mod angles;
+mod arcs;
+mod certificates;
+mod edges;
+mod jackknife;
+mod rates;
+mod sweeps;
+mod tangents;
+mod trailer;
+mod verdicts;

@@ -1,0 +1,125 @@
+//! What planners say where there is no path.
+
+use motion_lab_core::configuration::AnyConfiguration;
+use motion_lab_core::planning::CellDecomposition;
+use motion_lab_core::robots::AnyRobot;
+
+use super::*;
+
+/// A closed box about the origin, in which the start is.
+const BOX: [[f64; 4]; 4] =
+    [[-0.5, -0.5, 0.5, -0.5], [0.5, -0.5, 0.5, 0.5], [0.5, 0.5, -0.5, 0.5], [-0.5, 0.5, -0.5, -0.5]];
+
+#[test]
+fn an_end_in_contact_is_no_problem_to_begin_with() {
+    let refused = Problem::try_new(room(&BOX), R2::new(0.0, 0.45), R2::new(1.0, 1.0), Seed(1)).unwrap_err();
+    assert_eq!(NoPath::from(refused).to_string(), "the start would overlap wall 2");
+}
+
+#[test]
+fn a_goal_that_cannot_be_reached_ends_every_planner_in_bounded_time() {
+    let ends = [(R2::new(0.1, 0.2), R2::new(1.5, -1.2)), (R2::new(1.5, -1.2), R2::new(0.1, 0.2))];
+    for (start, goal) in ends {
+        let problem = Problem::try_new(room(&BOX), start, goal, Seed(1)).unwrap();
+        for mut planner in planners_of_discs(&problem) {
+            let reason = solve(planner.as_mut(), &Bounds::of_iterations(3000)).unwrap_err();
+            let expected = match planner.name() {
+                "a-star" | "dijkstra" | "visibility-graph" | "bug2" => {
+                    matches!(reason, NoPath::NoneInGraph { nodes } if nodes > 1)
+                }
+                "bug1" => reason == NoPath::Enclosed { kept: 0.05 },
+                _ => {
+                    matches!(reason, NoPath::Exhausted { bound: Bound::Iterations, effort } if effort.iterations == 3000)
+                }
+            };
+            assert!(expected, "{}: {reason:?}", planner.name());
+            let again = planner.step();
+            let ended = again == Progress::Ended(reason);
+            assert!(ended || again == Progress::Growing, "{}: {again:?} after its end", planner.name());
+        }
+    }
+}
+
+#[test]
+fn a_trap_is_a_local_minimum_that_can_be_shown() {
+    // open toward the start: the field pulls into it
+    let trap = [[0.0, -0.6, 0.6, -0.6], [0.6, -0.6, 0.6, 0.6], [0.6, 0.6, 0.0, 0.6]];
+    let problem = Problem::try_new(room(&trap), R2::new(-1.5, 0.0), R2::new(1.5, 0.0), Seed(1)).unwrap();
+    let mut planner = PotentialField::new(problem.clone());
+    let Err(NoPath::LocalMinimum { node }) = solve(&mut planner, &Bounds::of_iterations(3000)) else { panic!() };
+    let at = planner.growth().at(node).0;
+    assert!(at.x > 0.0 && at.x < 0.5 && at.y.abs() < 0.01, "in front of the wall between it and the goal: {at}");
+    assert!(planner.growth().effort().iterations < 1000);
+    // without the trap it gets there
+    let free = Problem::try_new(room(&[]), problem.start(), problem.goal(), Seed(1)).unwrap();
+    let path = solve(&mut PotentialField::new(free), &Bounds::of_iterations(3000)).unwrap();
+    let length = path.corners().windows(2).map(|ends| (ends[1].0 - ends[0].0).norm()).sum::<f64>();
+    assert!((length - 3.0).abs() < 1e-9, "straight: {length}");
+    // a wall beside the way bends it
+    let beside = Problem::try_new(room(&[[0.0, -1.0, 0.0, -0.05]]), problem.start(), problem.goal(), Seed(1)).unwrap();
+    let path = solve(&mut PotentialField::new(beside.clone()), &Bounds::of_iterations(3000)).unwrap();
+    assert!(disc_clearance(beside.checker().scene(), 0.1, &path.corners()) > 0.0 && path.legs().len() > 3);
+}
+
+#[test]
+fn planners_of_discs_refuse_an_arm() {
+    let problem = round_the_post(1);
+    assert!(matches!(Bug1::try_new(&problem), Err(NoPath::Unsuited(_))));
+    assert!(matches!(Bug2::try_new(&problem), Err(NoPath::Unsuited(_))));
+    let refused = solve(&mut VisibilityGraph::new(problem), &Bounds::default());
+    assert!(matches!(refused, Err(NoPath::Unsuited(_))));
+}
+
+/// The arm on the Workbench, between two configurations.
+fn reaching(scene: Scene, start: [f64; 2], goal: [f64; 2]) -> Problem<AnyRobot> {
+    let at = |q: [f64; 2]| AnyRobot::of_kind("reach", &q).unwrap();
+    let (arm, from) = at(start);
+    Problem::try_new(Checker::new(scene, arm), from, at(goal).1, Seed(1)).unwrap()
+}
+
+#[test]
+fn cells_prove_that_a_goal_is_out_of_reach_or_find_the_way() {
+    let rover = |q: [f64; 3]| AnyRobot::of_kind("rusty", &q).unwrap();
+    let (robot, inside) = rover([0.1, 0.2, 1.0]);
+    let boxed = Checker::new(room(&BOX).shared_scene(), robot);
+    let problem = |from, to| Problem::try_new(boxed.clone(), from, to, Seed(1)).unwrap();
+    let outside = rover([1.5, -1.2, 0.0]).1;
+    for problem in [problem(inside, outside), problem(outside, inside)] {
+        let refused = solve(&mut CellDecomposition::new(problem), &Bounds::default()).unwrap_err();
+        assert!(matches!(refused, NoPath::Unreachable { cells } if cells > 0), "{refused}");
+    }
+    // a way beyond the world's bounds leads to a goal beyond them, past a block that fills its last cells
+    let world = Aabb::new(Point2::new(0.0, 0.0), Point2::new(4.0, 2.0));
+    let block = Shape::try_rectangle(Point2::new(3.5, 0.5), Point2::new(4.0, 1.5)).unwrap();
+    let open = Checker::new(Scene::empty(world).with_obstacle("block", block), robot);
+    let (start, goal) = (rover([1.0, 1.0, 0.0]).1, rover([4.5, 1.0, 0.0]).1);
+    let beyond = Problem::try_new(open, start, goal, Seed(1)).unwrap();
+    let refused = solve(&mut CellDecomposition::new(beyond), &Bounds::default()).unwrap_err();
+    assert!(matches!(refused, NoPath::NoneInGraph { .. }), "{refused}");
+    // both outside: there is a way, which every planner finds
+    let round = problem(outside, rover([-1.0, 1.0, 2.0]).1);
+    let path = solve(&mut CellDecomposition::new(round), &Bounds::default()).unwrap();
+    let corners: Vec<R2> = path.corners().iter().map(|q| R2::new(q.coordinates()[0], q.coordinates()[1])).collect();
+    assert!(disc_clearance(boxed.scene(), 0.11, &corners) > 0.0 && corners.len() > 10);
+    // the arm round the post
+    let path =
+        solve(&mut CellDecomposition::new(reaching(Scene::workbench(), [2.0, 0.0], [3.1, 0.0])), &Bounds::default());
+    let corners = |path: LinePath<AnyRobot>| -> Vec<T2> {
+        let arm = |q: &AnyConfiguration| T2::from_coordinates(&q.coordinates()).unwrap();
+        path.corners().iter().map(arm).collect()
+    };
+    assert!(arm_clearance(&corners(path.unwrap())) > 0.0);
+    // two posts hard by the first link part the turns of the shoulder
+    let bounds = Scene::workbench().bounds();
+    let post = |scene: Scene, (name, y): (&str, f64)| {
+        scene.with_obstacle_at(name, Pose2::new(0.0, y, 0.0), Shape::Disc { radius: 0.1 })
+    };
+    let posts = [("up", 0.5), ("down", -0.5)].into_iter().fold(Scene::empty(bounds), post);
+    let refused = solve(&mut CellDecomposition::new(reaching(posts, [0.0, 0.0], [3.1, 0.0])), &Bounds::default());
+    assert!(matches!(refused, Err(NoPath::Unreachable { .. })), "{refused:?}");
+    // a car's slice is not its space
+    let (car, q) = AnyRobot::of_kind("hitch", &[6.5, 2.5, 0.0]).unwrap();
+    let parking = Problem::try_new(Checker::new(Scene::lot(), car), q, q, Seed(1)).unwrap();
+    let refused = solve(&mut CellDecomposition::new(parking), &Bounds::default());
+    assert!(matches!(refused, Err(NoPath::Unsuited(_))));
+}

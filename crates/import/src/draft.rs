@@ -1,0 +1,44 @@
+//! `Draft`, a world under construction, with notes for its reader.
+
+use super::Imported;
+use motion_lab_core::worlds::{Resident, WorldBuilder, WorldProblem, Xy};
+
+/// Largest number of notes kept.
+const MAX_NOTES: usize = 100;
+
+/// A world under construction, and what its reader must know of it.
+#[derive(Default)]
+pub struct Draft {
+    pub world: WorldBuilder,
+    notes: Vec<String>,
+}
+
+impl Draft {
+    /// Adds a robot, named after its kind.
+    pub fn robot(&mut self, kind: &str, start: Vec<f64>) -> Result<(), WorldProblem> {
+        let name = self.world.claim(&capitalised(kind));
+        self.world.robot(Resident::try_new(name, kind, start, None)?)
+    }
+
+    /// Adds a note, unless it is there already or there are too many.
+    pub fn note(&mut self, note: impl Into<String>) {
+        let note = note.into();
+        if self.notes.len() < MAX_NOTES && !self.notes.contains(&note) {
+            self.notes.push(note);
+        }
+    }
+
+    /// Returns the finished world with these bounds, and the notes.
+    pub fn finish(self, name: &str, min: Xy, max: Xy) -> Result<Imported, WorldProblem> {
+        Ok(Imported { world: self.world.finish(name, min, max)?, notes: self.notes })
+    }
+}
+
+/// The kind of a robot as a name: its first letter becomes a capital.
+pub fn capitalised(kind: &str) -> String {
+    let mut name = kind.to_owned();
+    if let Some(first) = name.get_mut(..1) {
+        first.make_ascii_uppercase();
+    }
+    name
+}

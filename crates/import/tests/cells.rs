@@ -1,0 +1,303 @@
+//! ROS maps and MovingAI maps.
+
+use motion_lab_core::collision::{Collision, Scene};
+use motion_lab_core::geometry::{Footprint, Point2, Vector2};
+use motion_lab_core::random::{Seed, Stream};
+use motion_lab_core::worlds::{Grid, ObstacleKind, World};
+use motion_lab_import::{CellMap, CellStyle, ImportError, RosMap, Unknown, movingai};
+
+use crate::{assert_prints_as_itself, corners, is_hit, sample};
+
+/// The note about a hollow world.
+const HOLLOW: &str = "the occupied cells are hollow: a robot put inside their walls touches nothing";
+
+fn room(unknown: Unknown) -> CellMap {
+    let map = RosMap::parse("room.yaml", &sample("room.yaml")).unwrap();
+    assert_eq!(map.image, "room.pgm");
+    map.cells("room.pgm", sample("room.pgm").as_bytes(), unknown).unwrap()
+}
+
+#[test]
+fn a_ros_map_becomes_the_borders_of_its_occupied_cells() {
+    let imported = room(Unknown::Free).world("room.yaml", "Room", CellStyle::Hollow).unwrap();
+    let world = imported.world;
+    assert_eq!(imported.notes, ["unknown cells, taken as free: 1", HOLLOW]);
+    let names: Vec<&str> = world.obstacles.iter().map(|o| o.name.as_str()).collect();
+    assert_eq!(names, ["wall 1", "wall 2", "wall 3"]);
+    // 12 x 8 cells of 0.5 m from (-1, -2) on; the walls are the outside, the block over columns 4, 5 and rows 3, 4, and
+    // the inside
+    assert_eq!(corners(&world, "wall 1"), [(-1.0, -2.0), (5.0, -2.0), (5.0, 2.0), (-1.0, 2.0)]);
+    let mut inside = corners(&world, "wall 3");
+    inside.sort_by(|a, b| a.partial_cmp(b).unwrap());
+    assert_eq!(inside, [(-0.5, -1.5), (-0.5, 1.5), (4.5, -1.5), (4.5, 1.5)]);
+    assert_eq!(corners(&world, "wall 2"), [(1.0, -0.5), (2.0, -0.5), (2.0, 0.5), (1.0, 0.5)]);
+    assert_eq!((world.bounds.min, world.bounds.max), (Point2::new(-1.0, -2.0), Point2::new(5.0, 2.0)));
+    assert!(is_hit(&world, 1.5, 0.5) && is_hit(&world, 4.5, 0.0) && !is_hit(&world, 0.0, 0.0));
+    assert!(!is_hit(&world, 3.75, -0.75), "the unknown cell was to be free");
+    assert_prints_as_itself(&world);
+}
+
+#[test]
+fn what_is_unknown_is_occupied_unless_said_otherwise() {
+    let imported = room(Unknown::default()).world("room.yaml", "Room", CellStyle::Hollow).unwrap();
+    // column 9, row 2
+    assert_eq!(corners(&imported.world, "wall 2"), [(3.5, -1.0), (4.0, -1.0), (4.0, -0.5), (3.5, -0.5)]);
+    assert_eq!(imported.notes, ["unknown cells, taken as occupied: 1", HOLLOW]);
+    let solid = room(Unknown::default()).world("room.yaml", "Room", CellStyle::default()).unwrap();
+    assert_eq!(solid.notes, ["unknown cells, taken as occupied: 1"]);
+    assert!(is_hit(&solid.world, 3.75, -0.75), "the middle of the unknown cell");
+    // the thresholds decide: with these the cell of degree 50 / 255 is free
+    let text = sample("room.yaml").replace("0.196", "0.2");
+    let map = RosMap::parse("room.yaml", &text).unwrap();
+    let cells = map.cells("room.pgm", sample("room.pgm").as_bytes(), Unknown::Occupied).unwrap();
+    assert!(cells.notes.is_empty() && !cells.grid.is_occupied(9, 2) && cells.grid.is_occupied(4, 3));
+}
+
+#[test]
+fn boxes_are_solid_and_cover_the_cells_once() {
+    let world = room(Unknown::Free).world("room.yaml", "Room", CellStyle::Solid).unwrap().world;
+    assert!(world.obstacles.iter().all(|o| o.kind == ObstacleKind::Solid));
+    let area: f64 = world
+        .obstacles
+        .iter()
+        .flat_map(|o| o.placed().collect::<Vec<_>>())
+        .map(|p| (p.bounds().max.x - p.bounds().min.x) * (p.bounds().max.y - p.bounds().min.y))
+        .sum();
+    // 2 * 12 + 2 * 6 cells of the border and 4 of the block
+    assert_eq!(area, 40.0 * 0.25);
+    // a ring is four boxes and the block one
+    assert_eq!(world.obstacles.len(), 5);
+    assert!(is_hit(&world, 1.5, 0.0), "the inside of the block");
+    assert_prints_as_itself(&world);
+}
+
+#[test]
+fn a_turned_map_is_turned_about_its_lower_left_corner() {
+    let text = sample("room.yaml").replace("[-1.0, -2.0, 0.0]", "[3, 1, 1.5707963267948966]");
+    let cells = RosMap::parse("room.yaml", &text).unwrap();
+    let cells = cells.cells("room.pgm", sample("room.pgm").as_bytes(), Unknown::Free).unwrap();
+    for style in [CellStyle::Hollow, CellStyle::Solid] {
+        let world = cells.world("room.yaml", "Room", style).unwrap().world;
+        // a quarter turn to the left: (x, y) in the map goes to (3 - y, 1 + x)
+        for (x, y) in [(2.0, 2.0), (3.0, 1.5), (0.5, 3.5), (5.5, 2.0)] {
+            assert!(is_hit(&world, 3.0 - y, 1.0 + x), "{style:?} ({x}, {y})");
+        }
+        assert!(!is_hit(&world, 3.0 - 1.0, 1.0 + 1.0));
+        let (min, max) = (world.bounds.min, world.bounds.max);
+        for (found, expected) in [(min.x, -1.0), (min.y, 1.0), (max.x, 3.0), (max.y, 7.0)] {
+            assert!((found - expected).abs() < 1e-12, "{min} {max}");
+        }
+        assert_prints_as_itself(&world);
+    }
+}
+
+#[test]
+fn negate_and_raw_turn_the_shades_round() {
+    let image = b"P5 4 1 255 \x00\x32\x64\xff";
+    let row = |more: &str| {
+        let text = format!("image: x\nresolution: 1\norigin: [0, 0, 0]\n{more}");
+        let cells = RosMap::parse("x.yaml", &text).unwrap().cells("x", image, Unknown::Occupied).unwrap();
+        let occupied = (0..4).map(|c| cells.grid.is_occupied(c, 0)).collect::<Vec<_>>();
+        (occupied, cells.notes.len())
+    };
+    // degrees 1, 205/255, 155/255 (unknown), 0
+    assert_eq!(row(""), (vec![true, true, true, false], 1));
+    // degrees 0, 50/255 (unknown), 100/255 (unknown), 1
+    assert_eq!(row("negate: 1"), (vec![false, true, true, true], 1));
+    // degrees 0, 0.5 (occupied from 0.5 on), 1, unknown
+    assert_eq!(row("mode: raw\noccupied_thresh: 0.5"), (vec![false, true, true, true], 1));
+    assert_eq!(row("mode: raw\noccupied_thresh: 0.51").0, [false, true, true, true], "0.5 is unknown then");
+}
+
+#[test]
+fn a_degree_at_the_threshold_itself_is_beyond_it() {
+    let text = "image: x\nresolution: 1\norigin: [0, 0, 0]\nmode: raw\nfree_thresh: 0.25\noccupied_thresh: 0.5\n";
+    let map = RosMap::parse("x.yaml", text).unwrap();
+    let cells = |unknown| map.cells("x", b"P2 4 1 255 24 25 49 50", unknown).unwrap();
+    let occupied = |map: &CellMap| (0..4).map(|c| map.grid.is_occupied(c, 0)).collect::<Vec<_>>();
+    let (free, solid) = (cells(Unknown::Free), cells(Unknown::Occupied));
+    assert_eq!(occupied(&free), [false, false, false, true]);
+    assert_eq!(occupied(&solid), [false, true, true, true]);
+}
+
+#[test]
+fn ros_maps_that_are_none_are_refused() {
+    let refuse = |from: &str, to: &str| {
+        let text = sample("room.yaml");
+        assert!(text.contains(from), "{from}");
+        let map = RosMap::parse("r.yaml", &text.replace(from, to));
+        map.and_then(|map| map.cells("r.pgm", sample("room.pgm").as_bytes(), Unknown::Free)).unwrap_err().to_string()
+    };
+    assert_eq!(refuse("resolution: 0.5\n", ""), "r.yaml:2: `resolution` is missing");
+    assert_eq!(refuse("0.5\n", "half\n"), "r.yaml:3: resolution: half: it must be a finite number");
+    assert!(refuse("0.5\n", ".nan\n").starts_with("r.yaml:3: resolution: .nan"));
+    assert!(refuse("0.5\n", "0\n").contains("resolution: 0: it must be a cell's size"));
+    assert!(refuse("0.5\n", "1e-9\n").contains("resolution"));
+    assert!(refuse("[-1.0, -2.0, 0.0]", "[-1.0, -2.0]").starts_with("r.yaml:4: origin: 2 of them: it must be three"));
+    assert!(refuse("[-1.0, -2.0, 0.0]", "[0, .inf, 0]").starts_with("r.yaml:4: origin: .inf"));
+    assert!(refuse("0.65", "0.1").contains("free_thresh"));
+    assert!(refuse("negate: 0", "negate: 2").starts_with("r.yaml:5: negate: 2"));
+    assert!(refuse("negate: 0", "mode: loud").starts_with("r.yaml:5: mode: loud"));
+    assert!(refuse("negate: 0", "colour: 0").starts_with("r.yaml:5: colour: not supported: this key; known are image"));
+    assert!(refuse("negate: 0", "negate: [").starts_with("r.yaml:"));
+    let cut = |bytes: usize| {
+        let image = sample("room.pgm");
+        let map = RosMap::parse("r.yaml", &sample("room.yaml")).unwrap();
+        map.cells("r.pgm", &image.as_bytes()[..bytes], Unknown::Free).unwrap_err().to_string()
+    };
+    assert!(cut(300).starts_with("r.pgm: ") && cut(300).contains("pixels: the head of the file tells 96"));
+    assert!(cut(3).contains("`width` is missing"));
+    // too far away for a world
+    let far = RosMap::parse("r.yaml", &sample("room.yaml").replace("-1.0", "9999")).unwrap();
+    let far = far.cells("r.pgm", sample("room.pgm").as_bytes(), Unknown::Free).unwrap();
+    assert!(far.world("r.yaml", "Room", CellStyle::Hollow).unwrap_err().to_string().contains("coordinates must be"));
+}
+
+#[test]
+fn an_exported_map_comes_back_cell_for_cell() {
+    for (world, resolution) in [(World::apartment(), 0.05), (World::lot(), 0.1), (World::workbench(), 0.0371)] {
+        let grid = Grid::rasterize(&world, resolution).unwrap();
+        let files = grid.ros_map("it's \"one\" \\ map: #1.pgm");
+        let map = RosMap::parse("m.yaml", &files.yaml).unwrap();
+        assert_eq!(map.image, "it's \"one\" \\ map: #1.pgm");
+        let cells = map.cells("m.pgm", &files.image, Unknown::Occupied).unwrap();
+        assert_eq!(cells.grid, grid, "{}: origin, resolution and every cell", world.name);
+        assert!(cells.notes.is_empty());
+        for (style, check) in
+            [(CellStyle::Solid, assert_solid as fn(&Grid, &World)), (CellStyle::Hollow, assert_borders)]
+        {
+            let again = cells.world("m.yaml", &world.name, style).unwrap().world;
+            assert_prints_as_itself(&again);
+            check(&grid, &again);
+        }
+        // a map made again loses no cell: it has the occupied cells and, besides them, exactly the cells that touch one
+        let solid = cells.world("m.yaml", &world.name, CellStyle::Solid).unwrap().world;
+        let twice = Grid::rasterize(&solid, resolution).unwrap();
+        assert_eq!((twice.columns(), twice.rows()), (grid.columns(), grid.rows()));
+        let at =
+            |column: u32, row: u32| (column < grid.columns() && row < grid.rows()) && grid.is_occupied(column, row);
+        for (column, row) in (0..grid.rows()).flat_map(|row| (0..grid.columns()).map(move |column| (column, row))) {
+            let beside =
+                (0..3).any(|i| (0..3).any(|k| column + i >= 1 && row + k >= 1 && at(column + i - 1, row + k - 1)));
+            assert_eq!(twice.is_occupied(column, row), beside, "{}: cell ({column}, {row})", world.name);
+        }
+    }
+}
+
+/// Checks that every occupied cell is solid and every other one free, at its middle and at four points near its
+/// corners.
+fn assert_solid(grid: &Grid, world: &World) {
+    let scene = Scene::of_world(world);
+    let inside = 0.49 * grid.resolution();
+    for (column, row) in (0..grid.rows()).flat_map(|row| (0..grid.columns()).map(move |column| (column, row))) {
+        let middle = grid.centre(column, row);
+        for (x, y) in [(0.0, 0.0), (inside, inside), (-inside, inside), (inside, -inside), (-inside, -inside)] {
+            let hit = scene.intersects(&Footprint::disc(middle + Vector2::new(x, y), 1e-6));
+            assert_eq!(hit, grid.is_occupied(column, row), "cell ({column}, {row}), ({x}, {y}) from its middle");
+        }
+    }
+}
+
+/// Checks that the walls lie along the grid's borders: a ray from a cell's middle to the right crosses walls an odd
+/// number of times exactly when the cell is occupied.
+fn assert_borders(grid: &Grid, world: &World) {
+    for row in 0..grid.rows() {
+        let y = grid.centre(0, row).y;
+        let placed = world.obstacles.iter().flat_map(|o| o.placed().collect::<Vec<_>>());
+        let crossings: Vec<f64> = placed
+            .map(|p| (p.core()[0], p.core()[1]))
+            .filter(|(a, b)| (a.y > y) != (b.y > y))
+            .map(|(a, b)| {
+                assert_eq!(a.x, b.x, "borders run along the grid");
+                a.x
+            })
+            .collect();
+        for column in 0..grid.columns() {
+            let x = grid.centre(column, row).x;
+            let right = crossings.iter().filter(|c| **c > x).count();
+            assert_eq!(right % 2 == 1, grid.is_occupied(column, row), "cell ({column}, {row})");
+        }
+    }
+}
+
+#[test]
+fn random_maps_keep_every_cell() {
+    let mut s = Stream::new(Seed(11), "maps");
+    for round in 0..40 {
+        let (columns, rows) = (1 + s.below(30), 1 + s.below(30));
+        let mut text = format!("type octile\nheight {rows}\nwidth {columns}\nmap\n");
+        for _ in 0..rows {
+            text.extend((0..columns).map(|_| ['.', 'G', 'S', '@', 'O', 'T', 'W'][s.below(7) as usize]));
+            text.push('\n');
+        }
+        let map = movingai("random.map", &text, 0.1).unwrap();
+        let world = |style| map.world("random.map", "Random", style).map(|imported| imported.world);
+        let (Ok(hollow), Ok(solid)) = (world(CellStyle::Hollow), world(CellStyle::default())) else {
+            assert!(!text[20..].contains(['@', 'O', 'T', 'W']), "round {round}");
+            continue;
+        };
+        assert_borders(&map.grid, &hollow);
+        assert_solid(&map.grid, &solid);
+        assert_prints_as_itself(&hollow);
+        assert_prints_as_itself(&solid);
+        let signs: Vec<&str> = text.lines().skip(4).collect();
+        for row in 0..rows {
+            for (column, sign) in signs[(rows - 1 - row) as usize].chars().enumerate() {
+                assert_eq!(map.grid.is_occupied(column as u32, row as u32), "@OTW".contains(sign), "round {round}");
+            }
+        }
+    }
+}
+
+#[test]
+fn a_movingai_map_becomes_walls_with_the_first_row_on_top() {
+    let map = movingai("yard.map", &sample("yard.map"), 2.0).unwrap();
+    let world = map.world("yard.map", "yard", CellStyle::Hollow).unwrap().world;
+    let names: Vec<&str> = world.obstacles.iter().map(|o| o.name.as_str()).collect();
+    // around the yard, the trees (rows 2 and 3), the water (row 2), and inside
+    assert_eq!(names, ["wall 1", "wall 2", "wall 3", "wall 4"]);
+    assert_eq!(corners(&world, "wall 1"), [(0.0, 0.0), (20.0, 0.0), (20.0, 12.0), (0.0, 12.0)]);
+    let trees = [(6.0, 4.0), (8.0, 4.0), (8.0, 6.0), (10.0, 6.0), (10.0, 8.0), (6.0, 8.0)];
+    assert_eq!(corners(&world, "wall 2"), trees);
+    assert_eq!(corners(&world, "wall 3"), [(12.0, 4.0), (14.0, 4.0), (14.0, 6.0), (12.0, 6.0)]);
+    assert!(is_hit(&world, 13.0, 4.0) && !is_hit(&world, 15.0, 5.0), "water blocks, ground and swamp do not");
+    assert_prints_as_itself(&world);
+}
+
+#[test]
+fn movingai_maps_that_are_none_are_refused() {
+    let refuse = |from: &str, to: &str| {
+        let text = sample("yard.map");
+        assert!(text.contains(from), "{from}");
+        movingai("y.map", &text.replacen(from, to, 1), 1.0).unwrap_err().to_string()
+    };
+    assert!(refuse("type octile", "type hexagon").starts_with("y.map:1: type: hexagon: it must be octile"));
+    assert!(refuse("type octile", "octile").starts_with("y.map:1: octile: it must be the head"));
+    assert_eq!(refuse("height 6", "height 0"), "y.map:2: height: 0: it must be a whole number from 1 on");
+    assert_eq!(refuse("width 10", "width ten"), "y.map:3: width: ten: it must be a whole number from 1 on");
+    assert!(refuse("width 10", "width 99999999999").contains("cells: at most 16777216"));
+    assert_eq!(refuse("WGS", "WXS"), "y.map:8: column 8: 'X': it must be one of . G S @ O T W");
+    assert_eq!(refuse("..TT..", "..TT."), "y.map:7: 9 signs: the head of the file tells 10");
+    assert_eq!(refuse("height 6", "height 7"), "y.map: 6 rows: the head of the file tells 7");
+    assert_eq!(refuse("height 6", "height 5"), "y.map: 6 rows: the head of the file tells 5");
+    assert_eq!(movingai("y.map", "type octile\n", 1.0).unwrap_err().to_string(), "y.map: `height` is missing");
+    for resolution in [0.0, -1.0, f64::NAN, f64::INFINITY, 1e-4] {
+        assert!(movingai("y.map", &sample("yard.map"), resolution).unwrap_err().to_string().contains("resolution"));
+    }
+    let free = "type octile\nheight 1\nwidth 2\nmap\n..\n";
+    let nothing = movingai("y.map", free, 1.0).unwrap().world("y.map", "y", CellStyle::Hollow);
+    assert_eq!(nothing.unwrap_err().to_string(), "y.map: there is no obstacle in it");
+}
+
+#[test]
+fn more_obstacles_than_a_world_holds_are_refused() {
+    // a chessboard of 448 x 448: 100,352 cells that touch in corners only, a piece each, more than a world may have
+    let row = |odd: bool| if odd { "@.".repeat(224) } else { ".@".repeat(224) };
+    let rows: Vec<String> = (0..448).map(|r| row(r % 2 == 1)).collect();
+    let text = format!("type octile\nheight 448\nwidth 448\nmap\n{}\n", rows.join("\n"));
+    let map = movingai("board.map", &text, 0.1).unwrap();
+    for style in [CellStyle::Hollow, CellStyle::Solid] {
+        let error: ImportError = map.world("board.map", "board", style).unwrap_err();
+        assert_eq!(error.to_string(), "board.map: too many shapes: at most 100000", "{style:?}");
+    }
+}

@@ -1,0 +1,119 @@
+//! Captures of a plan.
+
+use super::Captured;
+use crate::manifest::Widget;
+use crate::plans::{Drawn, PathLengths, PlannerName, Task, space_items, workspace_items};
+use motion_lab_core::cspace::{CellMap, cspace_picture};
+use motion_lab_core::picture::{Figure, Panel, world};
+use motion_lab_core::planning::Effort;
+use motion_lab_core::random::Seed;
+use motion_lab_core::robots::AnyRobot;
+
+/// What came of a plan.
+#[derive(Clone, Copy, Debug)]
+pub enum Found<'a> {
+    /// Nothing yet.
+    Growing,
+    /// A path of the planner's.
+    Path(PathLengths),
+    /// No path: the planner has ended.
+    None,
+    /// What is drawn is that of a file of this name, whoever planned it.
+    File(&'a str),
+}
+
+/// A plan to be captured.
+#[derive(Clone, Copy, Debug)]
+pub struct PlanSheet<'a> {
+    /// What is planned.
+    pub task: &'a Task,
+    /// Who plans it.
+    pub planner: PlannerName,
+    /// The seed of its samples.
+    pub seed: Seed,
+    /// What there is to draw.
+    pub drawn: &'a Drawn,
+    /// What the planner has done.
+    pub effort: Effort,
+    /// What came of it.
+    pub found: Found<'a>,
+    /// The slice of the configuration space beside the workspace, if it is shown.
+    pub cells: Option<&'a CellMap>,
+}
+
+/// The workspace with the growth, the path and the robot along it, and beside it the configuration space.
+pub fn plan(sheet: &PlanSheet<'_>) -> Captured {
+    let PlanSheet { task, planner, seed, drawn, effort, found, cells } = *sheet;
+    let mut readout = vec![format!("{} iterations, {} edges asked", effort.iterations, effort.edges)];
+    let by = format!("{} at seed {seed}", planner.title());
+    let description = match found {
+        Found::Path(PathLengths { length, clearance }) => {
+            let clearance = proven(clearance);
+            readout.push(format!("length {length:.3} {}, clearance {clearance} m", unit(&task.robot)));
+            format!("{by}: a path whose clearance is proven to be at least {clearance} m.")
+        }
+        Found::None => {
+            readout.push("no path".to_owned());
+            format!("{by}: no path was found.")
+        }
+        Found::Growing => {
+            readout.push("no path yet".to_owned());
+            format!("{by}: no path so far.")
+        }
+        Found::File(_) => {
+            readout = vec!["as the file says; nothing of it is proven here".to_owned()];
+            "A path from a file; nothing of it is proven here.".to_owned()
+        }
+    };
+    let rounds = drawn.sensed.iter().flat_map(|sensed| &sensed.leave_points).enumerate();
+    readout.extend(rounds.map(|(i, point)| format!("round {}: {point}", i + 1)));
+    let (heading, source) = match found {
+        Found::File(name) => (name, vec![("File", name.to_owned())]),
+        _ => (planner.title(), vec![("Planner", planner.id().to_owned()), ("Seed", seed.to_string())]),
+    };
+    let workspace = world(&task.world).with(workspace_items(&task.robot, drawn));
+    let mut panels = vec![Panel { picture: workspace, heading: heading.to_owned(), readout }];
+    if let Some(map) = cells {
+        let picture = cspace_picture(map, &Default::default()).with(space_items(map.slice(), drawn));
+        let readout = vec![map.slice().described()];
+        panels.push(Panel { picture, heading: "configuration space".to_owned(), readout });
+    }
+    let world = format!("{} {:032x}", task.world.name, task.world.content_hash());
+    let notes = source.into_iter().chain([("Robot", task.name.clone()), ("World", world)]).collect();
+    let figure = Figure {
+        title: format!("A path for {} in the world {}", task.name, task.world.name),
+        description,
+        panels,
+        caption: vec![Widget::Plan.text().misconception.clone()],
+    };
+    Captured { figure, notes }
+}
+
+/// A proven clearance in metres, in words: rounded down, so that no more is claimed than is proven, with the digits
+/// that show that it is above 0.
+pub fn proven(clearance: f64) -> String {
+    let (mut digits, mut scale) = (4, 1e4);
+    while clearance * scale < 1.0 && digits < 12 {
+        (digits, scale) = (digits + 1, 10.0 * scale);
+    }
+    format!("{:.digits$}", (clearance * scale).floor() / scale)
+}
+
+/// The unit in which a robot's paths are measured.
+pub fn unit(robot: &AnyRobot) -> &'static str {
+    if matches!(robot, AnyRobot::Reach(_) | AnyRobot::Reach3(_)) { "rad" } else { "m" }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::proven;
+
+    #[test]
+    fn a_clearance_is_never_shown_larger_than_it_is_proven_nor_as_none() {
+        for (clearance, shown) in
+            [(0.25, "0.2500"), (0.00996, "0.0099"), (1.98e-5, "0.00001"), (4e-9, "0.000000004"), (f64::INFINITY, "inf")]
+        {
+            assert_eq!(proven(clearance), shown);
+        }
+    }
+}

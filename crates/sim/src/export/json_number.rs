@@ -1,0 +1,80 @@
+//! Numbers in JSON: shortest digits that read back to the same bits, infinity as a text.
+
+use std::fmt;
+
+use serde::de::{Error, Visitor};
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
+
+/// A number for JSON. A finite one is written with the fewest digits that read back to the same bits. JSON has no
+/// infinity, so infinity is the text `"inf"`, which Python's `float` and most others read.
+///
+/// ```
+/// use motion_lab_sim::export::JsonNumber;
+/// assert_eq!(serde_json::to_string(&[0.1, -0.0, f64::INFINITY].map(JsonNumber)).unwrap(), "[0.1,-0.0,\"inf\"]");
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct JsonNumber(pub f64);
+
+impl Serialize for JsonNumber {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        match self.0 {
+            x if x.is_finite() => serializer.serialize_f64(x),
+            x => serializer.collect_str(&x),
+        }
+    }
+}
+
+impl<'de> Deserialize<'de> for JsonNumber {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        deserializer.deserialize_any(Number)
+    }
+}
+
+/// Reads a number, or the text of one that is not finite.
+struct Number;
+
+impl Visitor<'_> for Number {
+    type Value = JsonNumber;
+
+    fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "a number, \"inf\", \"-inf\" or \"NaN\"")
+    }
+
+    fn visit_f64<E: Error>(self, x: f64) -> Result<JsonNumber, E> {
+        Ok(JsonNumber(x))
+    }
+
+    fn visit_i64<E: Error>(self, x: i64) -> Result<JsonNumber, E> {
+        Ok(JsonNumber(x as f64))
+    }
+
+    fn visit_u64<E: Error>(self, x: u64) -> Result<JsonNumber, E> {
+        Ok(JsonNumber(x as f64))
+    }
+
+    fn visit_str<E: Error>(self, text: &str) -> Result<JsonNumber, E> {
+        match text {
+            "inf" => Ok(JsonNumber(f64::INFINITY)),
+            "-inf" => Ok(JsonNumber(f64::NEG_INFINITY)),
+            "NaN" => Ok(JsonNumber(f64::NAN)),
+            _ => Err(E::invalid_value(serde::de::Unexpected::Str(text), &self)),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_bit_survives_and_infinity_is_a_text() {
+        for x in [0.1 + 0.2, -0.0, 5e-324, f64::MAX, 1.0 / 3.0] {
+            let text = serde_json::to_string(&JsonNumber(x)).unwrap();
+            assert_eq!(serde_json::from_str::<f64>(&text).unwrap().to_bits(), x.to_bits(), "{text}");
+        }
+        assert_eq!(serde_json::to_string(&JsonNumber(f64::INFINITY)).unwrap(), "\"inf\"");
+        let read: Vec<JsonNumber> = serde_json::from_str(r#"[0.30000000000000004, -7, 7, "inf", "-inf"]"#).unwrap();
+        assert_eq!(read, [0.1 + 0.2, -7.0, 7.0, f64::INFINITY, f64::NEG_INFINITY].map(JsonNumber));
+        assert!(serde_json::from_str::<JsonNumber>("\"7\"").unwrap_err().to_string().contains("a number, \"inf\""));
+    }
+}

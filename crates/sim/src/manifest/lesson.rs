@@ -1,0 +1,67 @@
+//! `Lesson`, a hint by itself, for which a link or a page asks.
+
+use super::{Deed, Hint, Widget};
+
+/// A hint by itself, for which a link or a page asks by its id.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Lesson {
+    /// What it asks for.
+    pub deed: Deed,
+    /// The widget that it is about.
+    pub widget: Widget,
+}
+
+impl Lesson {
+    /// All lessons, widget by widget: each hint is one.
+    pub fn all() -> impl Iterator<Item = Lesson> {
+        let of = |widget: Widget| widget.text().hints.iter().map(move |hint| Lesson { deed: hint.deed, widget });
+        Widget::ALL.into_iter().flat_map(of)
+    }
+
+    /// The lesson with this [`id`](Self::id).
+    pub fn of(id: &str) -> Option<Lesson> {
+        Lesson::all().find(|lesson| lesson.id() == id)
+    }
+
+    /// Its id in links and messages, such as `two_elbows`.
+    pub fn id(self) -> String {
+        let mut id = String::new();
+        for letter in self.deed.id().chars() {
+            if letter.is_ascii_uppercase() && !id.is_empty() {
+                id.push('_');
+            }
+            id.push(letter.to_ascii_lowercase());
+        }
+        id
+    }
+
+    /// Its words.
+    pub fn text(self) -> &'static str {
+        let hint: Option<&Hint> = self.widget.text().hints.iter().find(|hint| hint.deed == self.deed);
+        hint.map_or("", |hint| &hint.text)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn each_hint_is_a_lesson_with_an_id_of_its_own() {
+        let ids: Vec<String> = Lesson::all().map(Lesson::id).collect();
+        for (id, deed, widget) in [
+            ("two_elbows", Deed::TwoElbows, Widget::Dashboard),
+            ("near", Deed::Near, Widget::Anatomy),
+            ("free_ends", Deed::FreeEnds, Widget::Anatomy),
+            ("over_edge", Deed::OverEdge, Widget::Cspace),
+            ("pick_wall", Deed::PickWall, Widget::Atlas),
+            ("find_path", Deed::FindPath, Widget::Plan),
+        ] {
+            assert_eq!(Lesson::of(id), Some(Lesson { deed, widget }));
+            assert_eq!(ids.iter().filter(|other| *other == id).count(), 1, "{id}");
+        }
+        assert_eq!((Lesson::of("TwoElbows"), Lesson::of("")), (None, None));
+        assert!(Lesson::all().all(|lesson| Lesson::of(&lesson.id()) == Some(lesson) && !lesson.text().is_empty()));
+        assert!(Lesson::of("over_edge").is_some_and(|lesson| lesson.text().starts_with("Off the edge of the map")));
+    }
+}

@@ -1,0 +1,397 @@
+//! `PathFile`, a path as JSON, with what its planner has grown: written by the lab, or by a planner of one's own.
+
+use serde::{Deserialize, Serialize};
+
+use super::attempt::{Attempt, Driven, Leg};
+use super::drawn::Drawn;
+use super::task::Task;
+use crate::export::JsonNumber;
+use motion_lab_core::configuration::{AnyConfiguration, Configuration, RobotKind};
+use motion_lab_core::planning::Effort;
+use motion_lab_core::robots::{AnyRobot, CarCmd, Drivable, Motion};
+
+/// The version of the format. Readers refuse versions that they don't know.
+const VERSION: u32 = 1;
+
+/// Largest size of a path's file that is read, bytes.
+pub const MOST_PATH_BYTES: usize = 64 << 20;
+
+/// Largest number of legs, of nodes and of edges that are read: each line becomes some hundred bytes of a picture.
+const MOST_LINES: usize = 300_000;
+
+/// The number of straight pieces in which a motion is drawn.
+const DRAWN: u32 = 6;
+
+/// Longest drive of one leg that is drawn, seconds.
+const MOST_SECONDS: f64 = 3600.0;
+
+/// What a planner has done.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Counts {
+    /// The iterations.
+    pub iterations: u64,
+    /// The samples drawn.
+    pub samples: u64,
+    /// The edges asked about.
+    pub edges: u64,
+    /// Those of them that were proven free.
+    pub free: u64,
+}
+
+impl From<Effort> for Counts {
+    fn from(effort: Effort) -> Self {
+        let Effort { iterations, samples, edges, free } = effort;
+        Counts { iterations, samples, edges, free }
+    }
+}
+
+/// A path as JSON. A reader needs `version`, `robot.kind`, `start` and `goal`; all else may be left out.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct PathFile {
+    version: u32,
+    #[serde(default)]
+    program: String,
+    #[serde(default)]
+    world: WorldLine,
+    robot: RobotLine,
+    #[serde(default)]
+    planner: String,
+    #[serde(default)]
+    seed: u64,
+    #[serde(default)]
+    effort: Option<Counts>,
+    start: Vec<JsonNumber>,
+    goal: Vec<JsonNumber>,
+    #[serde(default)]
+    length: Option<JsonNumber>,
+    #[serde(default)]
+    clearance: Option<JsonNumber>,
+    #[serde(default)]
+    legs: Vec<LegLine>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    growth: Option<GrowthLines>,
+}
+
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+struct WorldLine {
+    name: String,
+    #[serde(default)]
+    content_hash: String,
+}
+
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+struct RobotLine {
+    #[serde(default)]
+    name: String,
+    kind: String,
+}
+
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+struct LegLine {
+    kind: String,
+    from: Vec<JsonNumber>,
+    to: Vec<JsonNumber>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    control: Option<ControlLine>,
+    /// `[from, to, clearance]`
+    #[serde(default)]
+    steps: Vec<[JsonNumber; 3]>,
+}
+
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+struct ControlLine {
+    v: JsonNumber,
+    phi: JsonNumber,
+    seconds: JsonNumber,
+}
+
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+struct GrowthLines {
+    nodes: Vec<Vec<JsonNumber>>,
+    edges: Vec<[usize; 2]>,
+}
+
+/// Why a path's file is refused.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum PathFileError {
+    /// A file beyond the limit.
+    #[error("{found} bytes: a path's file has at most {MOST_PATH_BYTES}")]
+    TooLarge {
+        /// Its size, bytes.
+        found: usize,
+    },
+    /// No JSON, or a field that is missing or of another type.
+    #[error("{0}")]
+    Json(#[from] serde_json::Error),
+    /// A version of a later program.
+    #[error("version {0}: this program reads version {VERSION}")]
+    Version(u32),
+    /// No robot of the lab.
+    #[error("robot.kind: no kind of the lab is called {0:?}, or it has another number of coordinates than `start`")]
+    Kind(String),
+    /// Numbers that are no configuration of the robot.
+    #[error("{field}: no configuration of this robot")]
+    Configuration {
+        /// Where they stand: `legs[3].to`.
+        field: String,
+    },
+    /// More to draw than fits a window's or a page's memory.
+    #[error("{what}: {found}; at most {MOST_LINES} are drawn")]
+    TooMany {
+        /// The list: `growth.edges`.
+        what: &'static str,
+        /// Its length.
+        found: usize,
+    },
+    /// An edge of the growth between nodes that are not there.
+    #[error("growth.edges[{0}]: there is no such node")]
+    Edge(usize),
+    /// A leg of a kind that the robot has not.
+    #[error("legs[{leg}].kind: {kind:?} is neither \"chart line\" nor, with a control and for a car, \"drive\"")]
+    Leg {
+        /// The leg's number, from 0.
+        leg: usize,
+        /// Its kind.
+        kind: String,
+    },
+}
+
+fn numbers(numbers: &[f64]) -> Vec<JsonNumber> {
+    numbers.iter().copied().map(JsonNumber).collect()
+}
+
+impl LegLine {
+    fn of(leg: &Leg) -> Self {
+        let control = |Driven { v, phi, seconds }: Driven| ControlLine {
+            v: JsonNumber(v),
+            phi: JsonNumber(phi),
+            seconds: JsonNumber(seconds),
+        };
+        LegLine {
+            kind: if leg.driven.is_some() { "drive" } else { "chart line" }.to_owned(),
+            from: numbers(&leg.from),
+            to: numbers(&leg.to),
+            control: leg.driven.map(control),
+            steps: leg.steps.iter().map(|step| [step.from, step.to, step.clearance].map(JsonNumber)).collect(),
+        }
+    }
+
+    /// The configurations along it, of which `from` is the first.
+    fn along(&self, leg: usize, robot: &AnyRobot) -> Result<Vec<AnyConfiguration>, PathFileError> {
+        let [from, to] = [("from", &self.from), ("to", &self.to)];
+        let at =
+            |(end, numbers): (&str, &Vec<JsonNumber>)| configuration(robot, numbers, || format!("legs[{leg}].{end}"));
+        let (a, b) = (at(from)?, at(to)?);
+        let kind = || PathFileError::Leg { leg, kind: self.kind.clone() };
+        match (&*self.kind, &self.control, robot, a) {
+            ("chart line", None, ..) => Ok(chart_line(&a, &b)),
+            ("drive", Some(control), AnyRobot::Hitch(car), AnyConfiguration::Hitch(q)) => {
+                let ControlLine { v, phi, seconds } = control;
+                let command = CarCmd { v: v.0, phi: phi.0 };
+                let is_short = seconds.0 >= 0.0 && seconds.0 <= MOST_SECONDS;
+                let arc = is_short.then(|| car.drive(&q, &command, seconds.0).ok()).flatten().ok_or_else(kind)?;
+                let parts = (0..=DRAWN).map(|i| arc.at(f64::from(i) / f64::from(DRAWN)));
+                Ok(parts.map(AnyConfiguration::Hitch).collect())
+            }
+            _ => Err(kind()),
+        }
+    }
+}
+
+/// The configuration of a robot with these coordinates; of a rover x and y are enough.
+fn configuration(
+    robot: &AnyRobot,
+    numbers: &[JsonNumber],
+    field: impl FnOnce() -> String,
+) -> Result<AnyConfiguration, PathFileError> {
+    let mut coordinates: Vec<f64> = numbers.iter().map(|number| number.0).collect();
+    if matches!(robot, AnyRobot::Rusty(_)) && coordinates.len() == 2 {
+        coordinates.push(0.0);
+    }
+    let known = AnyRobot::of_kind(robot.kind(), &coordinates).map(|(_, q)| q);
+    known.and_then(|q| robot.like(&q)).ok_or_else(|| PathFileError::Configuration { field: field() })
+}
+
+/// The chart line between two configurations of one robot.
+fn chart_line(a: &AnyConfiguration, b: &AnyConfiguration) -> Vec<AnyConfiguration> {
+    let parts = (0..=DRAWN).map(|i| a.interpolate(b, f64::from(i) / f64::from(DRAWN)));
+    parts.filter_map(Result::ok).collect()
+}
+
+impl PathFile {
+    /// The path that an attempt has found by the planner of this name, with what it has grown if that is asked for.
+    pub fn new(planner: &str, seed: u64, task: &Task, attempt: &dyn Attempt, with_growth: bool) -> Self {
+        let growth = || {
+            let (nodes, edges) = attempt.growth();
+            GrowthLines { nodes: nodes.iter().map(|node| numbers(node)).collect(), edges }
+        };
+        let lengths = attempt.lengths();
+        PathFile {
+            version: VERSION,
+            program: concat!("motion-lab ", env!("CARGO_PKG_VERSION")).to_owned(),
+            world: WorldLine {
+                name: task.world.name.clone(),
+                content_hash: format!("{:032x}", task.world.content_hash()),
+            },
+            robot: RobotLine { name: task.name.clone(), kind: task.robot.kind().to_owned() },
+            planner: planner.to_owned(),
+            seed,
+            effort: Some(attempt.effort().into()),
+            start: numbers(&task.start.coordinates()),
+            goal: numbers(&task.goal.coordinates()),
+            length: Some(JsonNumber(lengths.length)),
+            clearance: Some(JsonNumber(lengths.clearance)),
+            legs: attempt.legs().iter().map(LegLine::of).collect(),
+            growth: with_growth.then(growth),
+        }
+    }
+
+    /// The file's one line.
+    ///
+    /// # Errors
+    /// None for a path of the lab's: every number is one of JSON's or a text.
+    pub fn to_json(&self) -> Result<String, serde_json::Error> {
+        serde_json::to_string(self).map(|line| line + "\n")
+    }
+
+    /// Reads a file. Nothing of it is believed but where lines are drawn: whether they are free is asked anew.
+    ///
+    /// # Errors
+    /// [`PathFileError`] names the field.
+    pub fn read(text: &str) -> Result<Self, PathFileError> {
+        if text.len() > MOST_PATH_BYTES {
+            return Err(PathFileError::TooLarge { found: text.len() });
+        }
+        let file: PathFile = serde_json::from_str(text)?;
+        if file.version != VERSION {
+            return Err(PathFileError::Version(file.version));
+        }
+        let [nodes, edges] = file.growth.as_ref().map_or([0; 2], |growth| [growth.nodes.len(), growth.edges.len()]);
+        let lists = [("legs", file.legs.len()), ("growth.nodes", nodes), ("growth.edges", edges)];
+        if let Some((what, found)) = lists.into_iter().find(|(_, length)| *length > MOST_LINES) {
+            return Err(PathFileError::TooMany { what, found });
+        }
+        file.drawn(&file.robot()?.0).map(|_| file)
+    }
+
+    /// The name of the world, and of the robot in it; empty where the file names none.
+    pub fn names(&self) -> [&str; 2] {
+        [&self.world.name, &self.robot.name]
+    }
+
+    /// The robot of its kind, and its ends.
+    ///
+    /// # Errors
+    /// [`PathFileError`]: no kind of the lab, or ends that are none of its configurations.
+    pub fn robot(&self) -> Result<(AnyRobot, [AnyConfiguration; 2]), PathFileError> {
+        let kind = &self.robot.kind;
+        let mut start: Vec<f64> = self.start.iter().map(|number| number.0).collect();
+        if *kind == RobotKind::RUSTY.name && start.len() == 2 {
+            start.push(0.0);
+        }
+        let (robot, start) = AnyRobot::of_kind(kind, &start).ok_or_else(|| PathFileError::Kind(kind.clone()))?;
+        let goal = configuration(&robot, &self.goal, || "goal".to_owned())?;
+        Ok((robot, [start, goal]))
+    }
+
+    /// What there is to draw of it for `robot`, one of its kind that may have sizes of its own.
+    ///
+    /// # Errors
+    /// [`PathFileError`] names what is not a plan of its robot.
+    pub fn drawn(&self, robot: &AnyRobot) -> Result<Drawn, PathFileError> {
+        let (_, ends) = self.robot()?;
+        let (mut path, mut corners) = (Vec::new(), Vec::new());
+        for (number, leg) in self.legs.iter().enumerate() {
+            let along = leg.along(number, robot)?;
+            if number == 0 {
+                corners.extend(along.first());
+            }
+            corners.extend(along.last());
+            path.extend(along);
+        }
+        let mut edges = Vec::new();
+        if let Some(GrowthLines { nodes, edges: pairs }) = &self.growth {
+            let node =
+                |(i, node): (usize, &Vec<JsonNumber>)| configuration(robot, node, || format!("growth.nodes[{i}]"));
+            let nodes: Vec<AnyConfiguration> = nodes.iter().enumerate().map(node).collect::<Result<_, _>>()?;
+            for (number, [a, b]) in pairs.iter().enumerate() {
+                let ends = nodes.get(*a).zip(nodes.get(*b)).ok_or(PathFileError::Edge(number))?;
+                edges.push(chart_line(ends.0, ends.1));
+            }
+        }
+        Ok(Drawn { ends, edges, path, corners, rejected: None, sensed: None })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A path of one's own, as docs/formats.md says it: no more than what a reader needs.
+    const OWN: &str = r#"{"version": 1, "robot": {"kind": "reach"}, "start": [3.0, 0], "goal": [-3.0, 0.5],
+        "legs": [{"kind": "chart line", "from": [3.0, 0], "to": [-3.0, 0.5]}],
+        "growth": {"nodes": [[3.0, 0], [1, 1], [0, 2]], "edges": [[0, 1], [1, 2]]}}"#;
+
+    fn drawn(text: &str) -> Drawn {
+        let file = PathFile::read(text).unwrap();
+        file.drawn(&file.robot().unwrap().0).unwrap()
+    }
+
+    fn refused(from: &str, to: &str) -> String {
+        assert!(OWN.contains(from), "{from}");
+        PathFile::read(&OWN.replacen(from, to, 1)).unwrap_err().to_string()
+    }
+
+    #[test]
+    fn a_path_of_ones_own_is_drawn_the_short_way_round() {
+        let drawn = drawn(OWN);
+        assert_eq!((drawn.path.len(), drawn.corners.len(), drawn.edges.len()), (7, 2, 2));
+        // half of the short way from 3 to -3 goes over pi
+        let middle = drawn.path[3].coordinates();
+        assert!(
+            (middle[0].abs() - std::f64::consts::PI).abs() < 1e-12 && (middle[1] - 0.25).abs() < 1e-12,
+            "{middle:?}"
+        );
+    }
+
+    #[test]
+    fn a_driven_leg_is_drawn_as_it_is_driven() {
+        let car = r#"{"version": 1, "robot": {"kind": "hitch"}, "start": [0, 0, 0], "goal": [1, 0, 0], "legs": [{"kind":
+            "drive", "from": [0, 0, 0], "to": [1, 0, 0], "control": {"v": 1, "phi": 0.5, "seconds": 2}}]}"#;
+        let drawn = drawn(car);
+        // in 2 s at 1 m/s the heading turns by 2 tan(phi) / wheelbase
+        let turn = 2.0 * motion_lab_core::num::tan(0.5) / motion_lab_core::robots::HITCH.wheelbase;
+        let end = drawn.path[6].coordinates();
+        assert!((end[2] - turn).abs() < 1e-9, "{end:?} {turn}");
+        let parked = car.replace("\"v\": 1", "\"v\": \"inf\"");
+        assert!(PathFile::read(&parked).unwrap_err().to_string().starts_with("legs[0].kind"), "{parked}");
+        let for_ever = car.replace("\"seconds\": 2", "\"seconds\": 1e300");
+        assert!(PathFile::read(&for_ever).is_err());
+    }
+
+    #[test]
+    fn a_refusal_names_the_field() {
+        for (from, to, words) in [
+            ("\"version\": 1", "\"version\": 2", "version 2"),
+            ("\"reach\"", "\"tortoise\"", "robot.kind: no kind of the lab is called \"tortoise\""),
+            ("\"start\": [3.0, 0]", "\"start\": [3.0]", "robot.kind"),
+            ("\"goal\": [-3.0, 0.5]", "\"goal\": [-3.0, \"inf\"]", "goal: no configuration"),
+            ("\"from\": [3.0, 0]", "\"from\": [3.0, 0, 0]", "legs[0].from"),
+            ("chart line", "leap", "legs[0].kind: \"leap\""),
+            ("[1, 1]", "[1]", "growth.nodes[1]"),
+            ("[1, 2]]", "[1, 3]]", "growth.edges[1]: there is no such node"),
+            ("\"goal\"", "\"gaol\"", "missing field `goal`"),
+        ] {
+            assert!(refused(from, to).contains(words), "{}", refused(from, to));
+        }
+        let edges =
+            format!(r#""legs": [], "growth": {{"nodes": [[2, 0]], "edges": [{}[0, 0]]}}"#, "[0,0],".repeat(300_000));
+        let many =
+            format!(r#"{{"version": 1, "robot": {{"kind": "reach"}}, "start": [2, 0], "goal": [3, 0], {edges}}}"#);
+        let many = PathFile::read(&many).unwrap_err().to_string();
+        assert_eq!(many, "growth.edges: 300001; at most 300000 are drawn");
+        let large = PathFile::read(&" ".repeat(MOST_PATH_BYTES + 1)).unwrap_err().to_string();
+        assert!(large.starts_with("67108865 bytes"), "{large}");
+    }
+}

@@ -1,0 +1,138 @@
+//! The pictures of a plan: in the workspace, and in a slice of the configuration space.
+
+use super::drawn::Drawn;
+use motion_lab_core::configuration::AnyConfiguration;
+use motion_lab_core::cspace::{Slice, lines_through};
+use motion_lab_core::geometry::{Point2, Pose2};
+use motion_lab_core::picture::{
+    self, Anchor, Dash, Drawing, Face, Fill, Gait, Glyph, Item, Line, RobotDrawing, Role, footprint, scan,
+};
+use motion_lab_core::planning::{LeavePoint, Sensed};
+use motion_lab_core::robots::{AnyRobot, Robot};
+
+/// The items of a plan over a world: the growth as the ways of the robot's [reference
+/// point](AnyRobot::reference), the robot along the path, at the goal and at the start, what the last rejected motion
+/// hits, and for a robot that walks by its sensor where it is and what it reads there.
+pub fn workspace_items(robot: &AnyRobot, drawn: &Drawn) -> Vec<Item> {
+    let way = |motion: &Vec<AnyConfiguration>| motion.iter().map(|q| robot.reference(q)).collect::<Vec<Point2>>();
+    let mut items = vec![growth(drawn.edges.iter().map(way).collect())];
+    for (i, q) in drawn.places().iter().enumerate() {
+        items.extend(footprint(&format!("place/{i}"), "on the way", &robot.footprint(q), Role::Path, 0.12));
+    }
+    let [start, goal] = drawn.ends;
+    items.extend(footprint("goal", "the goal", &robot.footprint(&goal), Role::Free, 0.4));
+    items.extend(faced("start", "the start", robot, &start));
+    if !drawn.path.is_empty() {
+        items.push(path(vec![way(&drawn.path)]));
+    }
+    if let Some(rejected) = &drawn.rejected {
+        items.push(refused(vec![way(&rejected.way)]));
+        items.extend(footprint("rejected", "where it hits", &robot.footprint(&rejected.at), Role::Goal, 0.25));
+        let cross = rejected.witness.map(|w| Drawing::Mark { at: w.on_obstacle, glyph: Glyph::Cross, radius_px: 5.0 });
+        items.extend(cross.map(|cross| Item::new("rejected/witness", "what it hits", Role::Goal, cross)));
+    }
+    if let Some(sensed) = &drawn.sensed {
+        items.extend(sensed_items(robot, &drawn.ends[0], sensed));
+    }
+    items
+}
+
+/// The robot at a configuration, with its wheels or joints.
+fn faced(id: &str, name: &str, robot: &AnyRobot, q: &AnyConfiguration) -> Vec<Item> {
+    let mut items = picture::robot(&RobotDrawing {
+        name: id,
+        footprint: &robot.footprint(q),
+        heading: robot.heading(q),
+        model: Some(*robot),
+        gait: Gait::default(),
+        in_contact: false,
+    });
+    for item in &mut items {
+        item.id = item.id.trim_start_matches("robot/").to_owned();
+        item.name = name.to_owned();
+    }
+    items
+}
+
+/// The robot where it is, what its sensor reads there, and where it left boundaries.
+fn sensed_items(robot: &AnyRobot, start: &AnyConfiguration, sensed: &Sensed) -> Vec<Item> {
+    let Sensed { at, ranges, leave_points } = sensed;
+    let mut items = vec![scan("readings", "what its sensor reads", &Pose2::new(at.x, at.y, 0.0), ranges)];
+    items.extend(faced("present", "where it is", robot, &start.with(0, at.x).with(1, at.y)));
+    for (i, point) in leave_points.iter().enumerate() {
+        items.extend(leave_point_items(i + 1, point));
+    }
+    items
+}
+
+/// A leave point, and where the boundary of its round truly comes nearest to the goal.
+fn leave_point_items(round: usize, point: &LeavePoint) -> Vec<Item> {
+    // the ring is larger, so that it is seen about a dot at the same place
+    let mark = |at, glyph, radius_px| Drawing::Mark { at, glyph, radius_px };
+    let label =
+        |at, text: String, anchor| Drawing::Label { at, text, anchor, face: Face::Sans, size_px: 12.0, plate: true };
+    let mut items = Vec::new();
+    if let Some(nearest) = point.nearest {
+        let words = format!("nearest to the goal in round {round}");
+        items.push(
+            Item::new(format!("nearest/{round}"), words, Role::Witness, mark(nearest, Glyph::Ring, 7.5))
+                .filled(Fill::Tint(1.0)),
+        );
+        if point.is_too_far() {
+            let off = Drawing::segment(point.at, nearest);
+            let line = Line::solid(1.0).dashed(Dash::Dashed);
+            items.push(Item::new(format!("misjudged/{round}"), "how far off", Role::Witness, off).stroked(line));
+            let text = label(nearest, format!("nearest {round}"), Anchor::Above);
+            items.push(Item::new(format!("nearest/{round}/label"), "", Role::Witness, text));
+        }
+    }
+    items.push(Item::new(
+        format!("left/{round}"),
+        format!("round {round}: {point}"),
+        Role::Path,
+        mark(point.at, Glyph::Dot, 4.0),
+    ));
+    let text = label(point.at, format!("left {round}"), Anchor::Below);
+    items.push(Item::new(format!("left/{round}/label"), "", Role::Path, text));
+    items
+}
+
+/// The items of a plan over the cells of a slice: each configuration is its point.
+pub fn space_items(slice: &Slice, drawn: &Drawn) -> Vec<Item> {
+    let lines = |motion: &Vec<AnyConfiguration>| lines_through(slice, motion).unwrap_or_default();
+    let mut items = vec![growth(drawn.edges.iter().flat_map(lines).collect())];
+    if !drawn.path.is_empty() {
+        items.push(path(lines(&drawn.path)));
+    }
+    if let Some(rejected) = &drawn.rejected {
+        items.push(refused(lines(&rejected.way)));
+        let cross = Drawing::Mark { at: point(slice, &rejected.at), glyph: Glyph::Cross, radius_px: 5.0 };
+        items.push(Item::new("rejected/at", "where it hits", Role::Goal, cross));
+    }
+    let ends = [("goal", "the goal", Role::Free), ("start", "the start", Role::Robot)];
+    for ((id, name, role), q) in ends.into_iter().zip([&drawn.ends[1], &drawn.ends[0]]) {
+        let dot = Drawing::Mark { at: point(slice, q), glyph: Glyph::Handle, radius_px: 5.5 };
+        items.push(Item::new(id, format!("{name}: {q}"), role, dot));
+    }
+    items
+}
+
+fn point(slice: &Slice, q: &AnyConfiguration) -> Point2 {
+    Point2::from(slice.point(q))
+}
+
+fn growth(lines: Vec<Vec<Point2>>) -> Item {
+    let drawing = Drawing::Region { pieces: Vec::new(), outline: lines };
+    Item::new("growth", "what the planner has grown", Role::Muted, drawing).stroked(Line::solid(0.8))
+}
+
+fn path(lines: Vec<Vec<Point2>>) -> Item {
+    let drawing = Drawing::Region { pieces: Vec::new(), outline: lines };
+    Item::new("path", "the path", Role::Path, drawing).stroked(Line::solid(2.5))
+}
+
+fn refused(lines: Vec<Vec<Point2>>) -> Item {
+    let drawing = Drawing::Region { pieces: Vec::new(), outline: lines };
+    Item::new("rejected/way", "a motion that is not free", Role::Goal, drawing)
+        .stroked(Line::solid(1.5).dashed(Dash::Dashed))
+}

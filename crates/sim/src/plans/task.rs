@@ -1,0 +1,258 @@
+//! `Task`, what is to be planned: a robot in a world, from a start to a goal.
+
+use std::sync::Arc;
+
+use crate::simulation::{PlayError, PlayStage, PlayablePath, PlayedPath};
+use motion_lab_core::collision::{Checker, Problem, Scene};
+use motion_lab_core::configuration::{AnyConfiguration, Chart, Configuration, R2};
+use motion_lab_core::geometry::Pose2;
+use motion_lab_core::num::greater;
+use motion_lab_core::planning::hybrid::HybridAStar;
+use motion_lab_core::planning::{
+    Bug1, Bug2, CellDecomposition, GridSearch, LinePath, NoPath, Planner, PotentialField, Prm, Rrt, RrtConnect,
+    RrtStar, VisibilityGraph,
+};
+use motion_lab_core::random::{Seed, Stream};
+use motion_lab_core::robots::{AnyRobot, ChartLine, Hitch, HitchArc, Reach, Rusty, RustyDisc};
+use motion_lab_core::sensors::BeamModel;
+use motion_lab_core::worlds::{Resident, World};
+
+use super::attempt::{Attempt, Planned, Trial};
+use super::bug1_sensor::Bug1Sensor;
+use super::named::PlannerName;
+
+/// How much larger a rover is planned unless somebody says otherwise, metres.
+pub const TUBE: f64 = 0.02;
+
+/// The least tube in which a path is played, metres: no follower stays on a line without any width.
+const LEAST_TUBE: f64 = 1e-3;
+
+/// What is to be planned.
+#[derive(Clone, Debug)]
+pub struct Task {
+    /// The robot's name: that of a resident of the world, or of a kind.
+    pub name: String,
+    /// The robot, a car with its trailer if it starts with one.
+    pub robot: AnyRobot,
+    /// The world.
+    pub world: World,
+    /// Its scene.
+    pub scene: Arc<Scene>,
+    /// Where the path begins.
+    pub start: AnyConfiguration,
+    /// Where it ends.
+    pub goal: AnyConfiguration,
+    /// How much larger a rover is planned, metres, so that its script may stray from the path by as much.
+    pub tube: f64,
+    /// The noise of the range sensor by which the robot walks, if its planner is such a one; `None` for an exact
+    /// sensor.
+    pub noise: Option<BeamModel>,
+}
+
+impl Task {
+    /// The task of a robot in a world, from `start` to `goal`, both of its own configurations.
+    pub fn new(name: impl Into<String>, robot: AnyRobot, world: World, ends: [AnyConfiguration; 2]) -> Self {
+        let (scene, [start, goal]) = (Arc::new(Scene::of_world(&world)), ends);
+        Task { name: name.into(), robot, world, scene, start, goal, tube: TUBE, noise: None }
+    }
+
+    /// The world with the robot that plays alone in it, and that robot's name: the resident of the task's name, else
+    /// the first of its kind and of the kind's own sizes, else a new one at the start.
+    pub fn alone(&self) -> (World, String) {
+        let (robots, kind) = (&self.world.robots, self.robot.kind());
+        let of_kind = || robots.iter().find(|r| r.kind == kind && r.sizes.is_none());
+        let named = robots.iter().find(|r| r.name == self.name).or_else(of_kind);
+        let new = || Resident::new(self.robot.name(), kind, self.start.coordinates().to_vec());
+        let resident = named.cloned().unwrap_or_else(new);
+        let name = resident.name.clone();
+        (World { robots: vec![resident], ..self.world.clone() }, name)
+    }
+
+    /// The path of an attempt at this task, played by the robot alone in the world, which is returned too; no path
+    /// without one of the attempt's.
+    pub fn played(&self, attempt: &dyn Attempt, seed: Seed) -> (World, Option<Result<PlayedPath, PlayError>>) {
+        let (world, robot) = self.alone();
+        let stage = PlayStage { tube: greater(self.tube, LEAST_TUBE), ..PlayStage::new(&world, &robot, seed) };
+        let played = attempt.play(&stage);
+        (world, played)
+    }
+
+    /// The planner of this name with the problem, ready to begin.
+    ///
+    /// # Errors
+    /// [`NoPath`]: there is no problem, or the planner does not suit the robot.
+    pub fn attempt(&self, name: PlannerName, seed: Seed) -> Result<Box<dyn Attempt>, NoPath> {
+        name.suits(&self.robot).map_err(NoPath::Unsuited)?;
+        match (self.robot, self.start, self.goal) {
+            (AnyRobot::Reach(arm), AnyConfiguration::T2(start), AnyConfiguration::T2(goal)) => {
+                self.by_lines::<Reach<2>>(arm, [start, goal], name, seed)
+            }
+            (AnyRobot::Reach3(arm), AnyConfiguration::T3(start), AnyConfiguration::T3(goal)) => {
+                self.by_lines::<Reach<3>>(arm, [start, goal], name, seed)
+            }
+            (AnyRobot::Rusty(rover), AnyConfiguration::Pose(start), AnyConfiguration::Pose(goal)) => {
+                let too_large = |_| NoPath::Unsuited("the rover with its tube is too large");
+                let disc = RustyDisc::try_new(rover.body_radius + self.tube).map_err(too_large)?;
+                let ends = [start, goal].map(|q| R2::new(q.x, q.y));
+                if name == PlannerName::Bug1Sensor {
+                    return self.by_sensor(disc, ends, seed);
+                }
+                self.by_lines(disc, ends, name, seed)
+            }
+            (AnyRobot::Hitch(car), AnyConfiguration::Hitch(start), AnyConfiguration::Hitch(goal)) => {
+                let car = if start.trailer.is_some() { car.with_trailer() } else { car.without_trailer() };
+                let problem = Problem::try_new(Checker::new(Arc::clone(&self.scene), car), start, goal, seed)?;
+                Ok(Box::new(Trial::<Hitch, HitchArc>::new(Box::new(HybridAStar::new(problem)))))
+            }
+            _ => Err(NoPath::Unsuited("start and goal are no configurations of this robot")),
+        }
+    }
+
+    /// The robot as it is planned for: a rover is larger by the tube.
+    pub fn planned(&self) -> AnyRobot {
+        match self.robot {
+            AnyRobot::Rusty(rover) => AnyRobot::Rusty(Rusty { body_radius: rover.body_radius + self.tube, ..rover }),
+            robot => robot,
+        }
+    }
+
+    /// The planner by cells, which plans for a robot of any kind.
+    fn by_cells(&self, seed: Seed) -> Result<Box<dyn Attempt>, NoPath> {
+        // a rover's heading does not matter
+        let [start, goal] = [self.start, self.goal].map(|q| match q {
+            AnyConfiguration::Pose(pose) => AnyConfiguration::Pose(Pose2::new(pose.x, pose.y, 0.0)),
+            q => q,
+        });
+        let problem = Problem::try_new(Checker::new(Arc::clone(&self.scene), self.planned()), start, goal, seed)?;
+        Ok(Box::new(Trial::new(Box::new(CellDecomposition::new(problem)))))
+    }
+
+    /// The planner whose rover walks by its range sensor.
+    fn by_sensor(&self, robot: RustyDisc, [start, goal]: [R2; 2], seed: Seed) -> Result<Box<dyn Attempt>, NoPath> {
+        let problem = Problem::try_new(Checker::new(Arc::clone(&self.scene), robot), start, goal, seed)?;
+        let noise = self.noise.map(|model| (model, Stream::new(seed, "bug1/beam")));
+        Ok(Box::new(Trial::new(Box::new(Bug1Sensor::new(problem, noise)))))
+    }
+
+    /// A planner whose edges are the chart's straight lines.
+    fn by_lines<R>(
+        &self,
+        robot: R,
+        [start, goal]: [R::Configuration; 2],
+        name: PlannerName,
+        seed: Seed,
+    ) -> Result<Box<dyn Attempt>, NoPath>
+    where
+        R: Planned<Configuration: Chart> + Send + 'static,
+        LinePath<R>: PlayablePath,
+    {
+        let problem = Problem::try_new(Checker::new(Arc::clone(&self.scene), robot), start, goal, seed)?;
+        let planner: Box<dyn Planner<R, ChartLine<R>> + Send> = match name {
+            PlannerName::RrtConnect => Box::new(RrtConnect::new(problem)),
+            PlannerName::Rrt => Box::new(Rrt::new(problem)),
+            PlannerName::RrtStar => Box::new(RrtStar::new(problem)),
+            PlannerName::Prm => Box::new(Prm::new(problem)),
+            PlannerName::AStar => Box::new(GridSearch::a_star(problem)),
+            PlannerName::Dijkstra => Box::new(GridSearch::dijkstra(problem)),
+            PlannerName::VisibilityGraph => Box::new(VisibilityGraph::new(problem)),
+            PlannerName::PotentialField => Box::new(PotentialField::new(problem)),
+            PlannerName::Bug1 => Box::new(Bug1::try_new(&problem)?),
+            PlannerName::Bug2 => Box::new(Bug2::try_new(&problem)?),
+            PlannerName::CellDecomposition => return self.by_cells(seed),
+            PlannerName::Bug1Sensor => return Err(NoPath::Unsuited("it walks by the range sensor of a rover")),
+            PlannerName::HybridAStar => return Err(NoPath::Unsuited("it plans for a car only")),
+        };
+        Ok(Box::new(Trial::new(planner)))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use motion_lab_core::planning::Progress;
+    use motion_lab_core::robots::Robot;
+
+    fn tasks() -> [Task; 5] {
+        let task = |kind: &str, world: World, start: &[f64], goal: &[f64]| {
+            let [(robot, start), (_, goal)] = [start, goal].map(|q| AnyRobot::of_kind(kind, q).unwrap());
+            Task::new(kind, robot, world, [start, goal])
+        };
+        [
+            task("reach", World::workbench(), &[2.0, 0.0], &[3.1, 0.0]),
+            task("reach3", World::workbench(), &[2.0, 0.0, 0.1], &[3.1, 0.0, 0.0]),
+            task("rusty", World::apartment(), &[1.5, 5.75, 0.3], &[9.75, 6.25, 0.0]),
+            task("hitch", World::lot(), &[6.5, 2.5, 0.0], &[6.75, 7.0, -1.5]),
+            task("hitch", World::lot(), &[6.5, 2.5, 0.0, 0.0], &[6.75, 7.0, -1.5, -1.5]),
+        ]
+    }
+
+    #[test]
+    fn planners_are_offered_to_the_robots_that_they_plan_for() {
+        for name in PlannerName::ALL {
+            assert_eq!(PlannerName::of(name.id()), Some(name));
+            let mut offered = 0;
+            for task in tasks() {
+                let suits = name.suits(&task.robot).is_ok();
+                let unsuited = match task.attempt(name, Seed(3)) {
+                    Err(reason) => matches!(reason, NoPath::Unsuited(_)),
+                    Ok(mut attempt) => (0..3).any(|_| matches!(attempt.step(), Progress::Ended(NoPath::Unsuited(_)))),
+                };
+                assert_eq!(suits, !unsuited, "{} for {}", name.id(), task.name);
+                offered += u32::from(suits);
+            }
+            assert!(offered > 0, "{}", name.id());
+        }
+        assert_eq!(PlannerName::of("teleport"), None);
+        for task in tasks() {
+            assert!(PlannerName::default_for(&task.robot).suits(&task.robot).is_ok());
+        }
+    }
+
+    #[test]
+    fn what_is_drawn_is_what_was_grown_and_the_path_begins_and_ends_where_it_is_asked_to() {
+        let mut refusing = 0;
+        for task in tasks() {
+            let mut attempt = task.attempt(PlannerName::default_for(&task.robot), Seed(3)).unwrap();
+            let mut rejected = 0;
+            let refused = |attempt: &dyn Attempt| attempt.effort().edges - attempt.effort().free;
+            let mut before = 0;
+            while attempt.step() == Progress::Growing {
+                let drawn = attempt.drawn();
+                let now = refused(attempt.as_ref());
+                assert!(now > before || drawn.rejected.is_none(), "{}: an old one is shown again", task.name);
+                before = now;
+                assert!(drawn.path.is_empty() && drawn.corners.is_empty());
+                if let Some(refused) = drawn.rejected.as_ref().filter(|_| rejected < 20) {
+                    rejected += 1;
+                    let touches = refused.witness.is_some_and(|w| w.dist == 0.0);
+                    let within = task.robot.is_within_limits(&refused.at);
+                    assert!(touches || !within, "{}: {refused:?}", task.name);
+                }
+                assert!(attempt.effort().iterations < 20_000, "{}", task.name);
+            }
+            let drawn = attempt.drawn();
+            refusing += u32::from(rejected > 0);
+            assert_eq!(drawn.edges.len(), attempt.growth().1.len(), "{}", task.name);
+            let near = |a: &AnyConfiguration, b: &AnyConfiguration| {
+                a.difference(b).unwrap().iter().take(2).all(|d| d.abs() < 0.3)
+            };
+            let (first, last) = (drawn.path.first().unwrap(), drawn.path.last().unwrap());
+            assert!(near(first, &task.start) && near(last, &task.goal), "{}: {first} {last}", task.name);
+            assert_eq!((drawn.corners.first(), drawn.corners.last()), (Some(first), Some(last)));
+        }
+        // a car on a free lot may be refused nothing
+        assert!(refusing >= 3, "{refusing}");
+    }
+
+    #[test]
+    fn who_plays_lives_alone_in_the_tasks_world() {
+        let [reach, .., trailer] = tasks();
+        let (world, name) = Task { name: "Reach".into(), ..reach.clone() }.alone();
+        assert_eq!((name.as_str(), world.robots.len(), &world.obstacles), ("Reach", 1, &World::workbench().obstacles));
+        let (world, name) = trailer.alone();
+        assert_eq!((name.as_str(), world.robots.len()), ("Hitch", 1), "the lot's own car");
+        let empty = Task { world: World { robots: vec![], ..World::workbench() }, ..reach };
+        let (world, name) = empty.alone();
+        assert_eq!((name.as_str(), &world.robots[0].start[..]), ("Reach", &[2.0, 0.0][..]), "a new one at the start");
+    }
+}

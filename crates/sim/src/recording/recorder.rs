@@ -1,0 +1,162 @@
+//! `Recorder`, a run without a window, tick by tick.
+
+use std::sync::Arc;
+
+use bevy::app::App;
+use bevy::ecs::world::World;
+
+use crate::run::{Frame, Script};
+use crate::simulation::{
+    Keyframes, LatestFrame, PendingInput, Refusals, RestoreError, RobotView, Roster, RunConfig, RunInput, SensorView,
+    SimulationPlugin, SpawnError, StandingWorld, Transport, restore, seek, sensors, start_run, step, view,
+};
+use crate::tour::TourConfig;
+use motion_lab_core::worlds::World as WorldModel;
+
+/// Why a run cannot be recorded or replayed.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum RunError {
+    /// The run cannot start.
+    #[error(transparent)]
+    Spawn(#[from] SpawnError),
+    /// A frame does not fit the run.
+    #[error(transparent)]
+    Restore(#[from] RestoreError),
+}
+
+/// A run under way without a window: the same plugin and the same schedule as with one, run directly.
+///
+/// It shares nothing with other recorders: each may run on a thread of its own.
+pub struct Recorder {
+    world: World,
+    ticks: u64,
+}
+
+impl Recorder {
+    /// The run at tick 0.
+    ///
+    /// # Errors
+    /// [`RunError`] names the invalid part of the configuration or the script.
+    pub fn new(config: TourConfig, input: impl Into<RunInput>) -> Result<Self, RunError> {
+        Self::with_robots(config, input, |_| {})
+    }
+
+    /// The run at tick 0 in an app that `add` has added further kinds of robots to, by
+    /// [`RobotPlugin`](crate::simulation::RobotPlugin).
+    ///
+    /// # Errors
+    /// [`RunError`] names the invalid part of the configuration or the script.
+    pub fn with_robots(
+        config: TourConfig,
+        input: impl Into<RunInput>,
+        add: impl FnOnce(&mut App),
+    ) -> Result<Self, RunError> {
+        let mut app = App::new();
+        app.add_plugins(SimulationPlugin);
+        add(&mut app);
+        let mut world = std::mem::take(app.world_mut());
+        let ticks = config.ticks;
+        start_run(&mut world, config, input)?;
+        Ok(Recorder { world, ticks })
+    }
+
+    /// The same run with no keyframe but that of tick 0: however long it goes on, it takes the same memory. Moving it
+    /// back simulates from tick 0.
+    #[must_use]
+    pub fn without_keyframes(mut self) -> Self {
+        self.world.resource_mut::<Keyframes>().set_budget(0);
+        self
+    }
+
+    /// The run's configuration. It says the sensors and the obstacles that the run has, whoever spawned, changed or
+    /// removed them before its first tick.
+    pub fn config(&self) -> &TourConfig {
+        &self.world.resource::<RunConfig>().0
+    }
+
+    /// The frame of the last tick; at first the frame of tick 0.
+    pub fn frame(&self) -> &Frame {
+        &self.world.resource::<LatestFrame>().0
+    }
+
+    /// Whether the run has reached its configuration's number of ticks. It can go on.
+    pub fn is_complete(&self) -> bool {
+        self.frame().tick >= self.ticks
+    }
+
+    /// Runs one tick and returns its frame.
+    pub fn step(&mut self) -> &Frame {
+        step(&mut self.world);
+        self.frame()
+    }
+
+    /// Moves to a tick, back or ahead, and returns its frame.
+    ///
+    /// # Errors
+    /// [`RunError::Restore`], which cannot happen with the run's own keyframes.
+    pub fn seek(&mut self, tick: u64) -> Result<&Frame, RunError> {
+        seek(&mut self.world, tick)?;
+        Ok(self.frame())
+    }
+
+    /// Goes on from a frame of this run.
+    ///
+    /// # Errors
+    /// [`RunError::Restore`] when the frame is not one of this run.
+    pub fn restore(&mut self, frame: &Frame) -> Result<(), RunError> {
+        Ok(restore(&mut self.world, frame)?)
+    }
+
+    /// The robots as a view shows them.
+    pub fn view(&self) -> Vec<RobotView> {
+        view(&self.world)
+    }
+
+    /// The sensors as a view shows them: one for each scan of the frame, in the same order.
+    pub fn sensors(&self) -> Vec<SensorView> {
+        sensors(&self.world)
+    }
+
+    /// The inputs of the script that were refused so far, to robots and to worlds: how many, and why the first.
+    ///
+    /// ```
+    /// use motion_lab_core::configuration::T2;
+    /// use motion_lab_sim::recording::Recorder;
+    /// use motion_lab_sim::run::Script;
+    /// use motion_lab_sim::tour::{BOOK_SEED, TourConfig};
+    ///
+    /// let script = Script::of_moves("Hitch", [T2::new(0.0, 0.0), T2::new(0.0, 0.1)]).unwrap();
+    /// let mut run = Recorder::new(TourConfig::default(), (BOOK_SEED, script))?;
+    /// run.seek(2)?;
+    /// let first = run.refusals().first().unwrap();
+    /// assert_eq!(run.refusals().count(), 2);
+    /// assert!(first.to_string().starts_with("tick 1: robot \"Hitch\" refused MoveTo: "));
+    /// # Ok::<(), motion_lab_sim::recording::RunError>(())
+    /// ```
+    pub fn refusals(&self) -> &Refusals {
+        self.world.resource::<Refusals>()
+    }
+
+    /// The tick at which the run stands, and how it plays.
+    pub fn transport(&self) -> &Transport {
+        self.world.resource::<Transport>()
+    }
+
+    /// The script so far.
+    pub fn script(&self) -> &Script {
+        self.world.resource::<PendingInput>().script()
+    }
+
+    /// The run's worlds as they stand, in order: obstacles where they are now, doors open or closed. A world that has
+    /// not changed from one tick to the next is the same `Arc`.
+    pub fn standing_worlds(&self) -> Vec<Arc<WorldModel>> {
+        let worlds = self.world.get_resource::<Roster>().map_or(&[][..], Roster::worlds);
+        worlds.iter().filter_map(|&w| Some(Arc::clone(&self.world.get::<StandingWorld>(w)?.0))).collect()
+    }
+
+    /// The Bevy world that the run lives in.
+    pub fn world(&self) -> &World {
+        &self.world
+    }
+}

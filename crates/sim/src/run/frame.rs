@@ -1,0 +1,393 @@
+//! `Frame`, the state of the whole simulation after a tick, in its one canonical form.
+
+use std::sync::Arc;
+
+use super::field::{Field, Value};
+use motion_lab_core::configuration::Coordinates;
+use motion_lab_core::geometry::Pose2;
+use motion_lab_core::short_list::ShortList;
+
+/// The length of a tick in seconds: the simulation runs at 20 Hz. Time is tick * DT, never a sum.
+pub const DT: f64 = motion_lab_core::robots::TICK;
+
+/// A time in seconds, the nearest number to it: 48 ticks are 2.4 s. The product of [`DT`] and a number of ticks, which
+/// frames and logs hold, may be an ulp off.
+pub fn seconds(ticks: u64) -> f64 {
+    ticks as f64 / (1.0 / DT)
+}
+
+/// The state of one robot after a tick: all that is needed to continue from it.
+///
+/// No NaN enters it, and -0.0 is stored as +0.0.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RobotState {
+    /// The robot's id: its index in the run's list of robots.
+    pub id: u32,
+    /// The chart coordinates of the configuration. Their number determines the space.
+    pub configuration: Coordinates,
+    /// The robot's own state beside its configuration, in the order its kind documents: Rusty's accumulated left and
+    /// right wheel turns (radians), its tour's next waypoint.
+    pub extra: ShortList<f64, 4>,
+    /// The control channels held by manual driving, -128 to 128 of the maximum.
+    pub channels: [i16; 2],
+    /// The target coordinates of a manual move; empty if there is none.
+    pub target: Coordinates,
+    /// Whether a person drives, not the tour.
+    pub manual: bool,
+    /// Whether the last tick was in contact.
+    pub in_contact: bool,
+    /// Contact episodes since tick 0.
+    pub contacts: u32,
+    /// Number of ticks that the contact flash still lasts.
+    pub flash: u32,
+    /// Script inputs refused since tick 0 (a teleport onto an obstacle, a trailer where there is no room).
+    pub refusals: u32,
+}
+
+/// The state of the whole simulation after tick `tick`; frame 0 is the initial state.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Frame {
+    /// The tick.
+    pub tick: u64,
+    /// The robots' states by ascending id.
+    pub robots: Vec<RobotState>,
+    /// The scans of the robots' range sensors, by ascending robot id, those of one robot by the bytes of the sensors'
+    /// names. A robot without a sensor has none.
+    pub scans: Vec<RobotScan>,
+    /// The obstacles and doors that are not as they were at the start, by ascending world, then number.
+    pub obstacles: Vec<ObstacleState>,
+}
+
+/// An obstacle or a door that is not as it was at the start of the run: added, moved, taken away, opened or closed.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ObstacleState {
+    /// The number of its world in the run's configuration, from 0.
+    pub world: u32,
+    /// Its number in the world, from 0: the obstacles in file order, the doors in file order, then what the script adds
+    /// to the world, in the script's order.
+    pub obstacle: u32,
+    /// Whether it is there; a closed door is, an open one is not.
+    pub present: bool,
+    /// The rigid motion from where it was at first to where it is, metres and radians.
+    pub pose: Pose2,
+}
+
+/// The scan of one range sensor of a robot at the end of a tick.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RobotScan {
+    /// The robot's id.
+    pub robot: u32,
+    /// The range of each ray, metres; infinity where nothing is in range. Copies of a frame share them.
+    pub ranges: Arc<[f64]>,
+}
+
+impl RobotScan {
+    /// The ranges, to be changed. Copies of the frame keep what they have.
+    pub fn ranges_mut(&mut self) -> &mut [f64] {
+        Arc::make_mut(&mut self.ranges)
+    }
+}
+
+impl Frame {
+    /// Calls `visit` for every value of the frame in canonical order: the robot it belongs to, its name, the value.
+    ///
+    /// This one order serves the canonical encoding, the digest and the search for a divergence. A list's length comes
+    /// before its items, so the values of two frames correspond up to their first difference.
+    pub(super) fn visit(&self, visit: &mut impl Visit) {
+        // destructured by name, so that a field added later cannot be forgotten here
+        let Frame { tick, robots, scans, obstacles } = self;
+        visit.value(None, Field::one("tick"), Value::Count(*tick));
+        visit.value(None, Field::one("robots.len"), Value::of_len(robots.len()));
+        for robot in robots {
+            robot.visit(visit);
+        }
+        visit.value(None, Field::one("scans.len"), Value::of_len(scans.len()));
+        for RobotScan { robot, ranges } in scans {
+            visit.value(Some(*robot), Field::one("scan.robot"), Value::Count(u64::from(*robot)));
+            visit_list(Some(*robot), "ranges.len", "ranges", ranges, visit);
+        }
+        visit.count_of_obstacles(obstacles.len());
+        for ObstacleState { world, obstacle, present, pose } in obstacles {
+            visit.value(None, Field::one("obstacle.world"), Value::Count(u64::from(*world)));
+            visit.value(None, Field::one("obstacle.number"), Value::Count(u64::from(*obstacle)));
+            visit.value(None, Field::one("obstacle.present"), Value::Flag(*present));
+            let Pose2 { x, y, theta } = *pose;
+            visit.floats(None, "obstacle.pose", &[x, y, theta]);
+        }
+    }
+
+    /// Appends the canonical encoding to `out`: a sequence of 64-bit words, each little-endian.
+    ///
+    /// | words | what |
+    /// |---|---|
+    /// | 1 | the tick |
+    /// | 1 | the number of robots, then for each: |
+    /// | 1 | its id |
+    /// | 1 + n | the number of its configuration's coordinates, and these |
+    /// | 1 + n | the number of its extra values, and these |
+    /// | 2 | its two control channels, two's complement |
+    /// | 1 + n | the number of its target's coordinates, and these |
+    /// | 2 | manual, in contact: 0 or 1 |
+    /// | 3 | contact episodes, ticks of flash, refusals |
+    /// | 1 | the number of scans, then for each: |
+    /// | 1 | its robot's id |
+    /// | 1 + n | the number of its ranges, and these |
+    /// | 0 or 1 | nothing where all obstacles are as at the start; else 2^63 plus how many are not, then for each: |
+    /// | 2 | its world and its number |
+    /// | 1 | present: 0 or 1 |
+    /// | 3 | its motion: x, y, theta |
+    ///
+    /// An `f64` is encoded as its bits. Frames that differ in a bit have different encodings. A sequence of encodings
+    /// can be read in one way only: a tick is below 2^63, so the word after the scans says which of the two it is.
+    pub fn encode(&self, out: &mut Vec<u8>) {
+        self.visit(&mut Words(out));
+    }
+
+    /// Calls `take` with the canonical encoding, piece by piece, so that a large frame's is never in memory as a whole.
+    pub(super) fn encode_in_pieces(&self, room: &mut Vec<u8>, take: impl FnMut(&[u8])) {
+        room.resize(PIECE, 0);
+        let mut pieces = Pieces { room: room.as_chunks_mut().0, count: 0, take };
+        self.visit(&mut pieces);
+        pieces.pass_on();
+    }
+
+    /// The number of bytes that the canonical encoding takes.
+    pub(super) fn encoded_length(&self) -> usize {
+        let Frame { robots, scans, obstacles, .. } = self;
+        let changed = if obstacles.is_empty() { 0 } else { 1 + 6 * obstacles.len() };
+        let lists = |r: &RobotState| r.configuration.len() + r.extra.len() + r.target.len();
+        let words = robots.iter().map(|r| 11 + lists(r)).sum::<usize>();
+        8 * (3 + changed + words + scans.iter().map(|s| 2 + s.ranges.len()).sum::<usize>())
+    }
+
+    /// The first NaN in canonical order: its robot and the field's name.
+    pub fn first_nan(&self) -> Option<(u32, String)> {
+        let mut first = FirstNan(None);
+        self.visit(&mut first);
+        first.0
+    }
+}
+
+impl RobotState {
+    fn visit(&self, visit: &mut impl Visit) {
+        let RobotState { id, configuration, extra, channels, target, manual, in_contact, contacts, flash, refusals } =
+            self;
+        let robot = Some(*id);
+        visit.value(robot, Field::one("id"), Value::Count(u64::from(*id)));
+        visit_list(robot, "configuration.len", "configuration", configuration, visit);
+        visit_list(robot, "extra.len", "extra", extra, visit);
+        for (i, channel) in channels.iter().enumerate() {
+            visit.value(robot, Field::item("channels", i), Value::Integer(i64::from(*channel)));
+        }
+        visit_list(robot, "target.len", "target", target, visit);
+        visit.value(robot, Field::one("manual"), Value::Flag(*manual));
+        visit.value(robot, Field::one("in_contact"), Value::Flag(*in_contact));
+        visit.value(robot, Field::one("contacts"), Value::Count(u64::from(*contacts)));
+        visit.value(robot, Field::one("flash"), Value::Count(u64::from(*flash)));
+        visit.value(robot, Field::one("refusals"), Value::Count(u64::from(*refusals)));
+    }
+}
+
+fn visit_list(robot: Option<u32>, len_name: &'static str, name: &'static str, list: &[f64], visit: &mut impl Visit) {
+    visit.value(robot, Field::one(len_name), Value::of_len(list.len()));
+    visit.floats(robot, name, list);
+}
+
+/// A visitor of the values of a frame.
+pub(super) trait Visit {
+    /// A value.
+    fn value(&mut self, robot: Option<u32>, field: Field, value: Value);
+
+    /// The number of obstacles that are not as at the start.
+    fn count_of_obstacles(&mut self, count: usize) {
+        self.value(None, Field::one("obstacles.len"), Value::of_len(count));
+    }
+
+    /// The items of a list.
+    fn floats(&mut self, robot: Option<u32>, name: &'static str, list: &[f64]) {
+        for (i, x) in list.iter().enumerate() {
+            self.value(robot, Field::item(name, i), Value::Float(*x));
+        }
+    }
+}
+
+impl<F: FnMut(Option<u32>, Field, Value)> Visit for F {
+    fn value(&mut self, robot: Option<u32>, field: Field, value: Value) {
+        self(robot, field, value);
+    }
+}
+
+/// What the number of obstacles that are not as at the start is marked with.
+const CHANGED: u64 = 1 << 63;
+
+/// The first NaN of a robot.
+struct FirstNan(Option<(u32, String)>);
+
+impl Visit for FirstNan {
+    fn value(&mut self, robot: Option<u32>, field: Field, value: Value) {
+        if let (None, Some(robot), Value::Float(x)) = (&self.0, robot, value)
+            && x.is_nan()
+        {
+            self.0 = Some((robot, field.to_string()));
+        }
+    }
+
+    fn floats(&mut self, robot: Option<u32>, name: &'static str, list: &[f64]) {
+        // the whole list at once, because nearly none holds a NaN
+        if list.iter().fold(false, |any, x| any | x.is_nan()) {
+            (0..).zip(list).for_each(|(i, x)| self.value(robot, Field::item(name, i), Value::Float(*x)));
+        }
+    }
+}
+
+/// Appends the values as words. Lists are appended in one go, because scans are most of a frame.
+struct Words<'a>(&'a mut Vec<u8>);
+
+impl Visit for Words<'_> {
+    fn value(&mut self, _robot: Option<u32>, _field: Field, value: Value) {
+        self.0.extend_from_slice(&value.bits().to_le_bytes());
+    }
+
+    fn count_of_obstacles(&mut self, count: usize) {
+        if count > 0 {
+            self.0.extend_from_slice(&(CHANGED | count as u64).to_le_bytes());
+        }
+    }
+
+    fn floats(&mut self, _robot: Option<u32>, _name: &'static str, list: &[f64]) {
+        let before = self.0.len();
+        self.0.resize(before + 8 * list.len(), 0);
+        for (word, x) in self.0[before..].as_chunks_mut().0.iter_mut().zip(list) {
+            *word = x.to_bits().to_le_bytes();
+        }
+    }
+}
+
+/// The bytes of a piece, whole words.
+const PIECE: usize = 8192;
+
+/// Collects the values as words, and passes them on when the room is full.
+struct Pieces<'a, F> {
+    room: &'a mut [[u8; 8]],
+    /// The number of words in `room`.
+    count: usize,
+    take: F,
+}
+
+impl<F: FnMut(&[u8])> Pieces<'_, F> {
+    fn pass_on(&mut self) {
+        (self.take)(self.room[..self.count].as_flattened());
+        self.count = 0;
+    }
+
+    fn word(&mut self, word: u64) {
+        if self.count == self.room.len() {
+            self.pass_on();
+        }
+        self.room[self.count] = word.to_le_bytes();
+        self.count += 1;
+    }
+}
+
+impl<F: FnMut(&[u8])> Visit for Pieces<'_, F> {
+    fn value(&mut self, _robot: Option<u32>, _field: Field, value: Value) {
+        self.word(value.bits());
+    }
+
+    fn count_of_obstacles(&mut self, count: usize) {
+        if count > 0 {
+            self.word(CHANGED | count as u64);
+        }
+    }
+
+    fn floats(&mut self, _robot: Option<u32>, _name: &'static str, mut list: &[f64]) {
+        while !list.is_empty() {
+            if self.count == self.room.len() {
+                self.pass_on();
+            }
+            let free = &mut self.room[self.count..];
+            let (now, rest) = list.split_at(list.len().min(free.len()));
+            for (word, x) in free.iter_mut().zip(now) {
+                *word = x.to_bits().to_le_bytes();
+            }
+            self.count += now.len();
+            list = rest;
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    #[test]
+    fn seconds_are_the_nearest_numbers() {
+        for (ticks, expected) in [(0, 0.0), (1, 0.05), (3, 0.15), (48, 2.4), (72_000, 3600.0)] {
+            assert_eq!(super::seconds(ticks), expected);
+        }
+        assert_ne!(48.0 * super::DT, 2.4, "the product is not");
+    }
+
+    use super::*;
+    use crate::run::fixture;
+
+    #[test]
+    fn the_encoding_is_the_documented_words() {
+        let state = RobotState {
+            id: 7,
+            configuration: [1.0, -0.0].into_iter().collect(),
+            extra: [f64::INFINITY].into_iter().collect(),
+            channels: [-128, 5],
+            target: Coordinates::new(),
+            manual: true,
+            in_contact: false,
+            contacts: 3,
+            flash: 4,
+            refusals: 6,
+        };
+        let frame = Frame {
+            tick: 9,
+            robots: vec![state],
+            scans: vec![RobotScan { robot: 7, ranges: [2.5].into() }],
+            obstacles: vec![],
+        };
+        let mut bytes = Vec::new();
+        frame.encode(&mut bytes);
+        let words: Vec<u64> = bytes.as_chunks::<8>().0.iter().map(|c| u64::from_le_bytes(*c)).collect();
+        let (one, minus_zero, infinity) = (0x3ff0_0000_0000_0000, 0x8000_0000_0000_0000, 0x7ff0_0000_0000_0000);
+        let expected = [9, 1, 7, 2, one, minus_zero, 1, infinity, 128_u64.wrapping_neg(), 5, 0, 1, 0, 3, 4, 6, 1, 7, 1];
+        assert_eq!(words[..19], expected);
+        assert_eq!(words[19..], [2.5_f64.to_bits()]);
+        assert_eq!(bytes.len(), 160, "whole words only");
+        assert_eq!(frame.encoded_length(), 160);
+    }
+
+    #[test]
+    fn the_encoding_in_pieces_is_the_encoding() {
+        let mut frame = fixture::frame(3);
+        let words = PIECE / 8;
+        for length in [0, 1, words - 40, words, words + 1, 3 * words + 7] {
+            frame.scans[0].ranges = (0..length).map(|k| k as f64).collect();
+            for changed in [0, 1, words / 3] {
+                let obstacle =
+                    |number| ObstacleState { world: 0, obstacle: number, present: true, pose: Pose2::IDENTITY };
+                frame.obstacles = (0..changed as u32).map(obstacle).collect();
+                let (mut whole, mut pieces, mut room) = (Vec::new(), Vec::new(), Vec::new());
+                frame.encode(&mut whole);
+                frame.encode_in_pieces(&mut room, |piece| {
+                    assert!(piece.len() <= PIECE);
+                    pieces.extend_from_slice(piece);
+                });
+                assert!(pieces == whole, "{length} ranges, {changed} obstacles");
+            }
+        }
+    }
+
+    #[test]
+    fn a_nan_is_found_wherever_it_hides() {
+        let mut frame = fixture::frame(3);
+        assert_eq!(frame.first_nan(), None);
+        frame.scans[0].ranges_mut()[1] = f64::NAN;
+        assert_eq!(frame.first_nan(), Some((0, "ranges[1]".into())));
+        frame.robots[1].extra.push(f64::NAN);
+        assert_eq!(frame.first_nan(), Some((1, "extra[0]".into())), "robots come before scans");
+    }
+}

@@ -1,0 +1,283 @@
+//! The log's messages: protobuf, as `assets/schema/motion_lab.proto` and, for format 2, `motion_lab_2.proto` describe
+//! them.
+//!
+//! A single float is `optional` and several are `repeated`: plain proto3 floats lose the sign of -0.0.
+
+use std::fmt::Write;
+
+use prost::{Message, Oneof};
+
+use crate::run::{
+    DT, Digest, Event, Frame, ObstacleState, Quantized, RobotInput, RobotScan, RobotState, WorldChange, WorldEvent,
+};
+use motion_lab_core::geometry::Pose2;
+
+/// The compiled schema of format 1, a serialized `FileDescriptorSet`. It tells other programs how to read the messages.
+pub const SCHEMA: &[u8] = include_bytes!("../../../assets/schema/motion_lab.binpb");
+
+/// The compiled schema of format 2.
+pub const SCHEMA_2: &[u8] = include_bytes!("../../../assets/schema/motion_lab_2.binpb");
+
+#[derive(Clone, PartialEq, Message)]
+pub struct FrameMessage {
+    #[prost(uint64, tag = "1")]
+    pub tick: u64,
+    #[prost(double, optional, tag = "2")]
+    pub time: Option<f64>,
+    #[prost(message, repeated, tag = "3")]
+    pub robots: Vec<RobotStateMessage>,
+    /// Format 2.
+    #[prost(message, repeated, tag = "4")]
+    pub obstacles: Vec<ObstacleStateMessage>,
+}
+
+/// Format 2.
+#[derive(Clone, PartialEq, Message)]
+pub struct ObstacleStateMessage {
+    #[prost(uint32, tag = "1")]
+    pub world: u32,
+    #[prost(uint32, tag = "2")]
+    pub obstacle: u32,
+    #[prost(bool, tag = "3")]
+    pub present: bool,
+    #[prost(double, repeated, tag = "4")]
+    pub pose: Vec<f64>,
+}
+
+#[derive(Clone, PartialEq, Message)]
+pub struct RobotStateMessage {
+    #[prost(uint32, tag = "1")]
+    pub id: u32,
+    #[prost(double, repeated, tag = "2")]
+    pub configuration: Vec<f64>,
+    #[prost(double, repeated, tag = "3")]
+    pub extra: Vec<f64>,
+    #[prost(sint32, repeated, tag = "4")]
+    pub channels: Vec<i32>,
+    #[prost(double, repeated, tag = "5")]
+    pub target: Vec<f64>,
+    #[prost(bool, tag = "6")]
+    pub manual: bool,
+    #[prost(bool, tag = "7")]
+    pub in_contact: bool,
+    #[prost(uint32, tag = "8")]
+    pub contacts: u32,
+    #[prost(uint32, tag = "9")]
+    pub flash: u32,
+    #[prost(uint32, tag = "10")]
+    pub refusals: u32,
+}
+
+#[derive(Clone, PartialEq, Message)]
+pub struct ScanMessage {
+    #[prost(uint64, tag = "1")]
+    pub tick: u64,
+    #[prost(uint32, tag = "2")]
+    pub robot: u32,
+    #[prost(double, optional, tag = "3")]
+    pub max_range: Option<f64>,
+    #[prost(double, repeated, tag = "4")]
+    pub ranges: Vec<f64>,
+}
+
+#[derive(Clone, PartialEq, Message)]
+pub struct InputMessage {
+    #[prost(uint64, tag = "1")]
+    pub tick: u64,
+    #[prost(string, tag = "2")]
+    pub robot: String,
+    #[prost(oneof = "InputKind", tags = "3, 4, 5, 6, 7, 9, 10, 11, 12, 13")]
+    pub input: Option<InputKind>,
+    /// Format 2: the world that is changed; then there is no robot.
+    #[prost(string, tag = "8")]
+    pub world: String,
+}
+
+#[derive(Clone, PartialEq, Oneof)]
+pub enum InputKind {
+    #[prost(message, tag = "3")]
+    Drive(DriveMessage),
+    #[prost(message, tag = "4")]
+    MoveTo(CoordinatesMessage),
+    #[prost(message, tag = "5")]
+    Teleport(CoordinatesMessage),
+    #[prost(bool, tag = "6")]
+    SetTrailer(bool),
+    #[prost(message, tag = "7")]
+    Release(ReleaseMessage),
+    /// Format 2, as the others below.
+    #[prost(string, tag = "9")]
+    Close(String),
+    #[prost(string, tag = "10")]
+    Open(String),
+    #[prost(string, tag = "11")]
+    Remove(String),
+    #[prost(message, tag = "12")]
+    Move(MoveMessage),
+    #[prost(message, tag = "13")]
+    Add(AddMessage),
+}
+
+#[derive(Clone, PartialEq, Message)]
+pub struct MoveMessage {
+    #[prost(string, tag = "1")]
+    pub name: String,
+    #[prost(double, repeated, tag = "2")]
+    pub to: Vec<f64>,
+}
+
+#[derive(Clone, PartialEq, Message)]
+pub struct AddMessage {
+    #[prost(string, tag = "1")]
+    pub name: String,
+    #[prost(double, repeated, tag = "2")]
+    pub points: Vec<f64>,
+    #[prost(double, optional, tag = "3")]
+    pub radius: Option<f64>,
+}
+
+#[derive(Clone, PartialEq, Message)]
+pub struct DriveMessage {
+    #[prost(sint32, tag = "1")]
+    pub first: i32,
+    #[prost(sint32, tag = "2")]
+    pub second: i32,
+}
+
+#[derive(Clone, PartialEq, Message)]
+pub struct CoordinatesMessage {
+    #[prost(double, repeated, tag = "1")]
+    pub values: Vec<f64>,
+}
+
+#[derive(Clone, PartialEq, Message)]
+pub struct ReleaseMessage {}
+
+#[derive(Clone, PartialEq, Message)]
+pub struct DigestMessage {
+    #[prost(uint64, tag = "1")]
+    pub tick: u64,
+    #[prost(string, tag = "2")]
+    pub xxh3_128: String,
+}
+
+impl FrameMessage {
+    /// Overwrites this message with that of a frame, reusing its buffers.
+    pub fn take(&mut self, frame: &Frame) {
+        self.tick = frame.tick;
+        // ticks stay below 2^53, so the product is rounded once
+        self.time = Some(frame.tick as f64 * DT);
+        self.robots.resize_with(frame.robots.len(), RobotStateMessage::default);
+        for (message, robot) in self.robots.iter_mut().zip(&frame.robots) {
+            message.take(robot);
+        }
+        self.obstacles.clear();
+        self.obstacles.extend(frame.obstacles.iter().map(|o| ObstacleStateMessage {
+            world: o.world,
+            obstacle: o.obstacle,
+            present: o.present,
+            pose: vec![o.pose.x, o.pose.y, o.pose.theta],
+        }));
+    }
+
+    /// The frame, without its scans; `None` unless there are two control channels that fit 16 bits and each obstacle's
+    /// pose has three numbers.
+    pub fn into_frame(self) -> Option<Frame> {
+        let robot = |r: RobotStateMessage| {
+            let [first, second] = r.channels[..] else { return None };
+            Some(RobotState {
+                id: r.id,
+                configuration: r.configuration.into(),
+                extra: r.extra.into(),
+                channels: [i16::try_from(first).ok()?, i16::try_from(second).ok()?],
+                target: r.target.into(),
+                manual: r.manual,
+                in_contact: r.in_contact,
+                contacts: r.contacts,
+                flash: r.flash,
+                refusals: r.refusals,
+            })
+        };
+        let robots = self.robots.into_iter().map(robot).collect::<Option<Vec<_>>>()?;
+        let obstacle = |o: ObstacleStateMessage| {
+            let [x, y, theta] = o.pose[..] else { return None };
+            let pose = Pose2 { x, y, theta };
+            Some(ObstacleState { world: o.world, obstacle: o.obstacle, present: o.present, pose })
+        };
+        let obstacles = self.obstacles.into_iter().map(obstacle).collect::<Option<Vec<_>>>()?;
+        Some(Frame { tick: self.tick, robots, scans: Vec::new(), obstacles })
+    }
+}
+
+impl RobotStateMessage {
+    fn take(&mut self, r: &RobotState) {
+        let RobotState { id, configuration, extra, channels, target, manual, in_contact, contacts, flash, refusals } =
+            r;
+        (self.id, self.manual, self.in_contact) = (*id, *manual, *in_contact);
+        (self.contacts, self.flash, self.refusals) = (*contacts, *flash, *refusals);
+        let lists =
+            [(&mut self.configuration, &configuration[..]), (&mut self.extra, extra), (&mut self.target, target)];
+        for (list, values) in lists {
+            list.clear();
+            list.extend_from_slice(values);
+        }
+        self.channels.clear();
+        self.channels.extend(channels.map(i32::from));
+    }
+}
+
+impl ScanMessage {
+    /// Overwrites this message with that of a scan, reusing its buffers.
+    pub fn take(&mut self, tick: u64, max_range: Option<f64>, scan: &RobotScan) {
+        (self.tick, self.robot, self.max_range) = (tick, scan.robot, max_range);
+        self.ranges.clear();
+        self.ranges.extend_from_slice(&scan.ranges);
+    }
+
+    pub fn into_scan(self) -> RobotScan {
+        RobotScan { robot: self.robot, ranges: self.ranges.into() }
+    }
+}
+
+impl InputMessage {
+    pub fn of(event: &Event) -> Self {
+        let coordinates = |q: &[Quantized]| CoordinatesMessage { values: q.iter().map(|c| c.value()).collect() };
+        let input = match &event.input {
+            RobotInput::Drive(first, second) => {
+                InputKind::Drive(DriveMessage { first: i32::from(*first), second: i32::from(*second) })
+            }
+            RobotInput::MoveTo(q) => InputKind::MoveTo(coordinates(q)),
+            RobotInput::Teleport(q) => InputKind::Teleport(coordinates(q)),
+            RobotInput::SetTrailer(on) => InputKind::SetTrailer(*on),
+            RobotInput::Release => InputKind::Release(ReleaseMessage {}),
+        };
+        InputMessage { tick: event.tick, robot: event.robot.clone(), world: String::new(), input: Some(input) }
+    }
+
+    pub fn of_change(event: &WorldEvent) -> Self {
+        let WorldEvent { tick, world, change } = event;
+        let input = match change.clone() {
+            WorldChange::Close(name) => InputKind::Close(name),
+            WorldChange::Open(name) => InputKind::Open(name),
+            WorldChange::Remove(name) => InputKind::Remove(name),
+            WorldChange::Move { name, to: (x, y, theta) } => {
+                InputKind::Move(MoveMessage { name, to: vec![x.value(), y.value(), theta.value()] })
+            }
+            WorldChange::Add { name, points, radius } => {
+                let points = points.iter().flat_map(|(x, y)| [x.value(), y.value()]).collect();
+                InputKind::Add(AddMessage { name, points, radius: Some(radius.value()) })
+            }
+        };
+        InputMessage { tick: *tick, robot: String::new(), world: world.clone(), input: Some(input) }
+    }
+}
+
+impl DigestMessage {
+    /// Overwrites this message with that of a digest, reusing its buffers.
+    pub fn take(&mut self, tick: u64, digest: Digest) {
+        self.tick = tick;
+        self.xxh3_128.clear();
+        // writing to a String never fails
+        let _ = write!(self.xxh3_128, "{digest}");
+    }
+}

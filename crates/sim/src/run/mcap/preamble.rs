@@ -1,0 +1,305 @@
+//! `Preamble`, the part of a log before its first tick: everything that determines the run.
+
+use std::collections::BTreeMap;
+
+use serde::Deserialize;
+
+use super::record::{self, Cursor, Record, opcode};
+use super::record_writer::RecordWriter;
+use super::{DIGEST_FORMAT_VERSION, FORMAT_VERSION, FORMAT_VERSION_WITH_CHANGES, GENERATOR, LogError, ReadLog};
+use crate::run::{DT, Frame, Log, ObstacleState, Script};
+use crate::tour::TourConfig;
+use motion_lab_core::random::Seed;
+use motion_lab_core::sensors::RangeSensor;
+use motion_lab_core::worlds::{World, ron_in_words};
+
+/// The name of the metadata record.
+const METADATA: &str = "motion-lab";
+const CONFIG: &str = "config.ron";
+const SCRIPT: &str = "script.ron";
+
+/// What a log keeps of its run.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum LogKind {
+    /// Every frame.
+    Frames,
+    /// A digest of each second.
+    Digests,
+}
+
+/// A run before its first tick, with its texts in the file.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Preamble {
+    pub kind: LogKind,
+    pub seed: Seed,
+    pub config: TourConfig,
+    pub script: Script,
+    /// The initial frame; in a digest log a frame without robots.
+    pub initial: Frame,
+    /// The program that wrote the log.
+    pub program: String,
+    /// The texts of the worlds, in order. They are kept as read, because another version of the program may print a
+    /// world differently.
+    pub world_texts: Vec<String>,
+}
+
+/// The run's settings as written in the file. The worlds are named by their attachments.
+#[derive(Deserialize)]
+#[serde(rename = "Config", deny_unknown_fields)]
+struct ConfigText {
+    ticks: u64,
+    sensor: Option<SensorText>,
+    worlds: Vec<String>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct SensorText {
+    n_rays: u32,
+    max_range: f64,
+}
+
+fn content(item: &str, reason: &str) -> LogError {
+    LogError::Content { item: item.to_owned(), reason: reason.to_owned() }
+}
+
+fn no_frame() -> Frame {
+    Frame { tick: 0, robots: Vec::new(), scans: Vec::new(), obstacles: Vec::new() }
+}
+
+fn world_file(index: usize) -> String {
+    format!("worlds/{index}.ron")
+}
+
+impl ReadLog {
+    pub(super) fn preamble(&self) -> Preamble {
+        let Log { seed, config, script, initial, .. } = self.log.clone();
+        let (program, world_texts) = (self.program.clone(), self.world_texts.clone());
+        Preamble { kind: LogKind::Frames, seed, config, script, initial, program, world_texts }
+    }
+}
+
+impl Preamble {
+    /// Creates the preamble of a run that this program records.
+    pub fn new(seed: Seed, config: &TourConfig, script: &Script, initial: &Frame) -> Result<Self, LogError> {
+        Self::of_run(LogKind::Frames, (seed, config, script), initial.clone())
+    }
+
+    /// Creates the preamble of a run of which this program keeps digests.
+    pub fn of_digests(seed: Seed, config: &TourConfig, script: &Script) -> Result<Self, LogError> {
+        Self::of_run(LogKind::Digests, (seed, config, script), no_frame())
+    }
+
+    fn of_run(
+        kind: LogKind,
+        (seed, config, script): (Seed, &TourConfig, &Script),
+        initial: Frame,
+    ) -> Result<Self, LogError> {
+        let preamble = Preamble {
+            kind,
+            seed,
+            config: config.clone(),
+            script: script.clone(),
+            initial,
+            program: concat!("motion-lab ", env!("CARGO_PKG_VERSION")).to_owned(),
+            world_texts: config.worlds.iter().map(World::to_ron).collect(),
+        };
+        preamble.check()?;
+        // a world assembled by hand may hold what the file format cannot express; a replay would then run in another
+        // world
+        for (i, (world, text)) in config.worlds.iter().zip(&preamble.world_texts).enumerate() {
+            let name = world_file(i);
+            match World::parse(&name, text) {
+                Ok(read) if read == *world => {}
+                Ok(_) => return Err(content(&name, "the world is not one that a world file can describe")),
+                Err(e) => return Err(content(&name, &e.to_string())),
+            }
+        }
+        Ok(preamble)
+    }
+
+    fn check(&self) -> Result<(), LogError> {
+        self.config.validate()?;
+        self.script.check()?;
+        let names: Vec<&str> = self.config.robot_names().collect();
+        self.script.check_robots(&names)?;
+        self.script.check_worlds(&self.config.worlds)?;
+        if self.kind == LogKind::Digests { Ok(()) } else { self.check_frame(&self.initial, 0) }
+    }
+
+    /// Checks that `frame` can be this run's frame of tick `expected`.
+    pub fn check_frame(&self, frame: &Frame, expected: u64) -> Result<(), LogError> {
+        let (tick, ticks) = (frame.tick, self.config.ticks);
+        if tick != expected {
+            return Err(LogError::Order { expected, found: tick });
+        }
+        if tick > ticks {
+            return Err(LogError::Beyond { tick, ticks });
+        }
+        let robots = self.config.robot_names().count();
+        let ids_are_right = frame.robots.len() == robots && (0..).zip(&frame.robots).all(|(id, r)| r.id == id);
+        let scans_are_right = frame.scans.is_sorted_by_key(|scan| scan.robot)
+            && frame.scans.last().is_none_or(|scan| (scan.robot as usize) < robots);
+        if !ids_are_right || !scans_are_right {
+            return Err(LogError::Robots { tick, robots });
+        }
+        let key = |o: &ObstacleState| (o.world, o.obstacle);
+        if !frame.obstacles.is_sorted_by(|a, b| key(a) < key(b))
+            || frame.obstacles.last().is_some_and(|o| o.world as usize >= self.config.worlds.len())
+            || frame.obstacles.iter().any(|o| !o.pose.is_finite())
+            || (!frame.obstacles.is_empty() && self.script.changes.is_empty())
+        {
+            return Err(LogError::Obstacles { tick });
+        }
+        match frame.first_nan() {
+            Some((robot, field)) => Err(LogError::NotANumber { tick, robot, field }),
+            None => Ok(()),
+        }
+    }
+
+    /// The version of the log's format.
+    pub fn format(&self) -> &'static str {
+        match self.kind {
+            LogKind::Digests => DIGEST_FORMAT_VERSION,
+            LogKind::Frames if self.script.changes.is_empty() => FORMAT_VERSION,
+            LogKind::Frames => FORMAT_VERSION_WITH_CHANGES,
+        }
+    }
+
+    /// The greatest range of each scan of the initial frame, metres; `None` for one of a sensor that is not the
+    /// configuration's.
+    pub fn max_ranges(&self) -> Vec<Option<f64>> {
+        let residents: Vec<_> = self.config.residents().collect();
+        let scans = self.initial.scans.chunk_by(|a, b| a.robot == b.robot);
+        let ranges = scans.flat_map(|scans| {
+            let resident = scans.first().and_then(|scan| residents.get(scan.robot as usize));
+            let sensors = resident.and_then(|resident| self.config.sensors_of(resident, scans.len()));
+            let range = |i: usize| sensors.as_ref()?.get(i).map(|sensor| sensor.rays.sensor.max_range);
+            (0..scans.len()).map(range).collect::<Vec<_>>()
+        });
+        ranges.collect()
+    }
+
+    fn metadata(&self) -> BTreeMap<String, String> {
+        let entry = |key: &str, value: String| (key.to_owned(), value);
+        let hashes = self.config.worlds.iter().enumerate();
+        let hashes = hashes.map(|(i, world)| (world_file(i), format!("{:032x}", world.content_hash())));
+        [
+            entry("format", self.format().to_owned()),
+            entry("program", self.program.clone()),
+            entry("seed", self.seed.to_string()),
+            entry("dt", format!("{DT:?}")),
+            entry("ticks", self.config.ticks.to_string()),
+            entry("generator", GENERATOR.to_owned()),
+        ]
+        .into_iter()
+        .chain(hashes)
+        .collect()
+    }
+
+    fn config_text(&self) -> String {
+        let TourConfig { worlds, ticks, sensor } = &self.config;
+        let sensor = match sensor {
+            Some(RangeSensor { n_rays, max_range }) => format!("Some((n_rays: {n_rays}, max_range: {max_range:?}))"),
+            None => "None".to_owned(),
+        };
+        let worlds: Vec<String> = (0..worlds.len()).map(world_file).collect();
+        format!("Config(\n    ticks: {ticks},\n    sensor: {sensor},\n    worlds: {worlds:?},\n)\n")
+    }
+
+    /// Writes the metadata record and the attachments.
+    pub fn put(&self, records: &mut RecordWriter) -> Result<(), LogError> {
+        records.metadata(METADATA, self.metadata())?;
+        records.attachment(CONFIG.to_owned(), &self.config_text())?;
+        for (i, text) in self.world_texts.iter().enumerate() {
+            records.attachment(world_file(i), text)?;
+        }
+        records.attachment(SCRIPT.to_owned(), &self.script.to_ron())
+    }
+
+    /// Reads the preamble from sealed records. `initial` is the frame in their messages.
+    /// A log of another kind is refused.
+    pub fn read(records: &[Record<'_>], kind: LogKind, initial: Option<Frame>) -> Result<Self, LogError> {
+        let mut files: BTreeMap<&str, &str> = BTreeMap::new();
+        let mut metadata = BTreeMap::new();
+        for record in records {
+            let mut cursor = Cursor(record.content);
+            match record.opcode {
+                opcode::METADATA if cursor.str() == Some(METADATA) => {
+                    metadata = cursor.map().ok_or_else(|| content(METADATA, "the metadata can't be read"))?;
+                }
+                opcode::ATTACHMENT => {
+                    let (name, data) = record::attachment(record.content)
+                        .and_then(|(name, data)| Some((name, std::str::from_utf8(data).ok()?)))
+                        .ok_or_else(|| content("an attachment", "it is not text"))?;
+                    files.insert(name, data);
+                }
+                _ => {}
+            }
+        }
+        let entry = |key: &str| metadata.get(key).ok_or_else(|| content(key, "the metadata lacks it"));
+        let version = entry("format")?;
+        match (version.as_str(), kind) {
+            (FORMAT_VERSION | FORMAT_VERSION_WITH_CHANGES, LogKind::Frames) => {}
+            (DIGEST_FORMAT_VERSION, LogKind::Digests) => {}
+            (FORMAT_VERSION | FORMAT_VERSION_WITH_CHANGES, LogKind::Digests) => return Err(LogError::HasFrames),
+            (DIGEST_FORMAT_VERSION, LogKind::Frames) => return Err(LogError::NoFrames),
+            _ => return Err(LogError::Version(version.clone())),
+        }
+        let initial = if kind == LogKind::Digests { Some(no_frame()) } else { initial };
+        let file = |name: &str| files.get(name).copied().ok_or_else(|| content(name, "the attachment is missing"));
+        let text = file(CONFIG)?;
+        let config: ConfigText =
+            ron::from_str(text).map_err(|e| content(CONFIG, &format!("{}: {}", e.span, ron_in_words(text, &e))))?;
+        let mut worlds = Vec::new();
+        let mut world_texts = Vec::new();
+        for (i, name) in config.worlds.iter().enumerate() {
+            // each name must be the one of its number, so that no text can stand for several worlds
+            if *name != world_file(i) {
+                return Err(content(CONFIG, "the worlds are not numbered from 0"));
+            }
+            let text = file(name)?;
+            let world = World::parse(name, text).map_err(|e| content(name, &e.to_string()))?;
+            if *entry(name)? != format!("{:032x}", world.content_hash()) {
+                return Err(content(name, "the world is not the one whose content hash the metadata has"));
+            }
+            worlds.push(world);
+            world_texts.push(text.to_owned());
+        }
+        let sensor = config.sensor.map(|s| RangeSensor { n_rays: s.n_rays, max_range: s.max_range });
+        let preamble = Preamble {
+            kind,
+            seed: Seed(entry("seed")?.parse().map_err(|_| content("seed", "it is not a whole number below 2^64"))?),
+            config: TourConfig { worlds, ticks: config.ticks, sensor },
+            script: Script::parse(SCRIPT, file(SCRIPT)?)?,
+            initial: initial.ok_or_else(|| content("/frame", "there is no initial frame"))?,
+            program: entry("program")?.clone(),
+            world_texts,
+        };
+        preamble.check()?;
+        Ok(preamble)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::run::{RobotScan, fixture};
+    use motion_lab_core::worlds::ResidentSensor;
+
+    #[test]
+    fn each_scan_has_the_greatest_range_of_its_own_sensor() {
+        let mut log = fixture::log();
+        let sensor = |name: &str, max_range: f64| ResidentSensor::new(name, RangeSensor { n_rays: 1, max_range });
+        log.config.worlds[0].robots[0].sensors = vec![sensor("far", 9.0)];
+        log.config.worlds[0].robots[1].sensors = vec![sensor("b", 7.0), sensor("a", 5.0)];
+        log.initial.scans = [0, 0, 1, 1].map(|robot| RobotScan { robot, ranges: [1.0].into() }).to_vec();
+        let ranges = |log: &Log| Preamble::new(log.seed, &log.config, &log.script, &log.initial).unwrap().max_ranges();
+        assert_eq!(ranges(&log), [Some(4.0), Some(9.0), Some(5.0), Some(7.0)]);
+        log.initial.scans.insert(4, RobotScan { robot: 1, ranges: [1.0].into() });
+        assert_eq!(ranges(&log), [Some(4.0), Some(9.0), None, None, None], "one from code, whichever it is");
+        log.initial.scans.swap(0, 4);
+        let refused = Preamble::new(log.seed, &log.config, &log.script, &log.initial).unwrap_err();
+        assert!(matches!(refused, LogError::Robots { tick: 0, .. }), "{refused}");
+    }
+}

@@ -1,0 +1,243 @@
+//! Checks scripts: each event and change by itself, and all of them against a run's robots and worlds.
+
+use std::collections::btree_map::Entry;
+use std::collections::{BTreeMap, BTreeSet};
+
+use super::script_error::{MAX_CHANNEL, MAX_COORDINATES, MAX_EVENTS, ScriptError, ScriptProblem, UnfitInput};
+use super::{Event, Quantized, RobotInput, Script, WorldChange, WorldEvent};
+use crate::tour::{MAX_TICKS, TourConfig};
+use motion_lab_core::configuration::{Kinds, RobotKind};
+use motion_lab_core::geometry::MAX_COORDINATE;
+use motion_lab_core::worlds::{World, check_name};
+
+impl Script {
+    /// Checks a script made by a program: whether [`parse`](Self::parse) could have returned it.
+    ///
+    /// # Errors
+    /// [`ScriptError`] without file and line.
+    pub fn check(&self) -> Result<(), ScriptError> {
+        if self.version != Script::version_of(&self.changes) {
+            return Err(ScriptProblem::Version(u64::from(self.version)).anywhere());
+        }
+        let count = self.events.len().saturating_add(self.changes.len());
+        if count > MAX_EVENTS {
+            return Err(ScriptProblem::TooMany(count).anywhere());
+        }
+        let mut before = 0;
+        for (i, event) in self.events.iter().enumerate() {
+            event.check(before).map_err(|problem| problem.at("events", i))?;
+            before = event.tick;
+        }
+        before = 0;
+        for (i, change) in self.changes.iter().enumerate() {
+            change.check(before).map_err(|problem| problem.at("changes", i))?;
+            before = change.tick;
+        }
+        Ok(())
+    }
+
+    /// Checks that a run of this configuration could apply every event: [`check`](Self::check),
+    /// [`check_robots`](Self::check_robots) and [`check_worlds`](Self::check_worlds), and that robots get only inputs
+    /// that their kinds [take](RobotKind::takes), with as many coordinates as a configuration has.
+    ///
+    /// A run starts without this check, so that logs recorded before it still replay; there such an input is refused
+    /// and counted. What depends on where robots are, such as a teleport onto an obstacle, shows only in the run.
+    ///
+    /// # Errors
+    /// [`ScriptError`] without file and line, for the first of these that fails; [`located`](ScriptError::located) adds
+    /// them. [`ScriptProblem::NotTaken`] names tick, robot, kind, input, and what the kind takes.
+    ///
+    /// ```
+    /// use motion_lab_core::configuration::{RobotKind, T2};
+    /// use motion_lab_sim::run::Script;
+    /// use motion_lab_sim::tour::TourConfig;
+    ///
+    /// let config = TourConfig::default();
+    /// assert_eq!(Script::of_moves("Reach", [T2::new(0.5, 0.0)]).unwrap().check_for(&config), Ok(()));
+    /// let script = Script::of_moves("Hitch", [T2::new(0.5, 0.0)]).unwrap();
+    /// assert_eq!(
+    ///     script.check_for(&config).unwrap_err().to_string(),
+    ///     "events[0]: tick 1: robot \"Hitch\" is a hitch and takes no MoveTo: \
+    ///      it takes Drive, Teleport, SetTrailer and Release"
+    /// );
+    /// ```
+    pub fn check_for(&self, config: &TourConfig) -> Result<(), ScriptError> {
+        self.check_for_kinds(config, &Kinds::default())
+    }
+
+    /// [`check_for`](Self::check_for) with kinds of robots that a program added. Inputs to a robot of a kind without a
+    /// description are not checked.
+    ///
+    /// # Errors
+    /// As [`check_for`](Self::check_for).
+    pub fn check_for_kinds(&self, config: &TourConfig, kinds: &Kinds) -> Result<(), ScriptError> {
+        self.check()?;
+        let kind_of: BTreeMap<&str, &str> =
+            config.worlds.iter().flat_map(|w| &w.robots).map(|r| (r.name.as_str(), r.kind.as_str())).collect();
+        for (i, event) in self.events.iter().enumerate() {
+            let Some(kind) = kind_of.get(event.robot.as_str()) else {
+                return Err(ScriptProblem::Robot(event.robot.clone()).at("events", i));
+            };
+            if let Some(about) = kinds.of(kind) {
+                event.check_kind(kind, about).map_err(|problem| problem.at("events", i))?;
+            }
+        }
+        self.check_worlds(&config.worlds)
+    }
+
+    /// Checks that every event's robot is among `names`.
+    ///
+    /// # Errors
+    /// [`ScriptError`] without file and line, naming the first event of an unknown robot.
+    pub fn check_robots(&self, names: &[&str]) -> Result<(), ScriptError> {
+        let names: BTreeSet<&str> = names.iter().copied().collect();
+        match self.events.iter().position(|e| !names.contains(e.robot.as_str())) {
+            Some(i) => Err(ScriptProblem::Robot(self.events[i].robot.clone()).at("events", i)),
+            None => Ok(()),
+        }
+    }
+
+    /// Checks that the changes fit the worlds of a run: that each names a world, and in it a door, an obstacle that the
+    /// world or an earlier change has, or a new obstacle's name that nothing has.
+    ///
+    /// # Errors
+    /// [`ScriptError`] without file and line, naming the first change that does not fit.
+    pub fn check_worlds(&self, worlds: &[World]) -> Result<(), ScriptError> {
+        let mut added: BTreeSet<(&str, &str)> = BTreeSet::new();
+        let mut known: BTreeMap<&str, Names> = BTreeMap::new();
+        for (i, WorldEvent { world, change, .. }) in self.changes.iter().enumerate() {
+            let (world, name) = (world.as_str(), change.name());
+            let names = match known.entry(world) {
+                Entry::Occupied(names) => names.into_mut(),
+                Entry::Vacant(place) => {
+                    let names = Names::of_world(worlds, world).map_err(|problem| problem.at("changes", i))?;
+                    place.insert(names)
+                }
+            };
+            let is_new = |name| !names.all.contains(name) && !added.contains(&(world, name));
+            let fits = match change {
+                WorldChange::Close(_) | WorldChange::Open(_) => names.doors.contains(name),
+                WorldChange::Add { .. } => is_new(name),
+                WorldChange::Remove(_) | WorldChange::Move { .. } => {
+                    names.obstacles.contains(name) || added.contains(&(world, name))
+                }
+            };
+            if !fits {
+                let (world, name) = (world.to_owned(), name.to_owned());
+                let problem = match change {
+                    WorldChange::Close(_) | WorldChange::Open(_) => ScriptProblem::Door { world, name },
+                    WorldChange::Add { .. } => ScriptProblem::Taken { world, name },
+                    WorldChange::Remove(_) | WorldChange::Move { .. } => ScriptProblem::Obstacle { world, name },
+                };
+                return Err(problem.at("changes", i));
+            }
+            if let WorldChange::Add { name, .. } = change {
+                added.insert((world, name));
+            }
+        }
+        Ok(())
+    }
+}
+
+/// The names of a world.
+struct Names<'a> {
+    all: BTreeSet<&'a str>,
+    doors: BTreeSet<&'a str>,
+    obstacles: BTreeSet<&'a str>,
+}
+
+impl<'a> Names<'a> {
+    fn of_world(worlds: &'a [World], name: &str) -> Result<Self, ScriptProblem> {
+        let mut named = worlds.iter().filter(|w| w.name == name);
+        let world = named.next().ok_or_else(|| ScriptProblem::World(name.to_owned()))?;
+        if named.next().is_some() {
+            return Err(ScriptProblem::SameWorld(name.to_owned()));
+        }
+        let doors: BTreeSet<&str> = world.doors.iter().map(|d| d.name.as_str()).collect();
+        let obstacles: BTreeSet<&str> = world.obstacles.iter().map(|o| o.name.as_str()).collect();
+        let others = world.places.iter().map(|p| &p.name).chain(world.marks.iter().map(|m| &m.name));
+        let others = others.chain(world.robots.iter().map(|r| &r.name)).map(String::as_str);
+        let all = others.chain(doors.iter().copied()).chain(obstacles.iter().copied()).collect();
+        Ok(Names { all, doors, obstacles })
+    }
+}
+
+impl Event {
+    pub(super) fn check(&self, before: u64) -> Result<(), ScriptProblem> {
+        let Event { tick, input, .. } = self;
+        check_tick(*tick, before)?;
+        match input {
+            RobotInput::Drive(a, b) => match [a, b].into_iter().find(|c| c.unsigned_abs() > MAX_CHANNEL.unsigned_abs())
+            {
+                Some(channel) => Err(ScriptProblem::Channel(*channel)),
+                None => Ok(()),
+            },
+            RobotInput::MoveTo(q) | RobotInput::Teleport(q) => {
+                if q.is_empty() || q.len() > MAX_COORDINATES {
+                    return Err(ScriptProblem::Coordinates(q.len()));
+                }
+                check_coordinates(q.iter().copied())
+            }
+            RobotInput::SetTrailer(_) | RobotInput::Release => Ok(()),
+        }
+    }
+}
+
+impl Event {
+    /// Checks whether robots of a kind with this name and description could ever apply the input.
+    fn check_kind(&self, kind: &str, about: &'static RobotKind) -> Result<(), ScriptProblem> {
+        let (input, coordinates) = match &self.input {
+            RobotInput::MoveTo(q) | RobotInput::Teleport(q) => (self.input.kind(), Some(q.len())),
+            _ => (self.input.kind(), None),
+        };
+        let unfit = || {
+            let (tick, robot, kind, coordinates) =
+                (self.tick, self.robot.clone(), kind.to_owned(), coordinates.unwrap_or(0));
+            Box::new(UnfitInput { tick, robot, kind, input, coordinates, about })
+        };
+        if !about.takes.contains(&input) {
+            return Err(ScriptProblem::NotTaken(unfit()));
+        }
+        match coordinates {
+            Some(count) if about.space(count).is_none() => Err(ScriptProblem::NoConfiguration(unfit())),
+            _ => Ok(()),
+        }
+    }
+}
+
+impl WorldEvent {
+    /// Checks the change by itself, after one at the tick `before`.
+    pub(super) fn check(&self, before: u64) -> Result<(), ScriptProblem> {
+        check_tick(self.tick, before)?;
+        match &self.change {
+            WorldChange::Close(_) | WorldChange::Open(_) | WorldChange::Remove(_) => Ok(()),
+            WorldChange::Move { to: (x, y, theta), .. } => check_coordinates([*x, *y, *theta]),
+            WorldChange::Add { name, points, radius } => {
+                if check_name(name).is_err() {
+                    return Err(ScriptProblem::Name(name.clone()));
+                }
+                if points.is_empty() || points.len() > MAX_COORDINATES {
+                    return Err(ScriptProblem::Coordinates(points.len()));
+                }
+                check_coordinates(points.iter().flat_map(|(x, y)| [*x, *y]).chain([*radius]))?;
+                let shape = self.change.added().transpose();
+                shape.map(|_| ()).map_err(|error| ScriptProblem::Shape(error.to_string()))
+            }
+        }
+    }
+}
+
+fn check_tick(tick: u64, before: u64) -> Result<(), ScriptProblem> {
+    if !(1..=MAX_TICKS).contains(&tick) {
+        return Err(ScriptProblem::Tick(tick));
+    }
+    if tick < before { Err(ScriptProblem::Order { tick, before }) } else { Ok(()) }
+}
+
+fn check_coordinates(coordinates: impl IntoIterator<Item = Quantized>) -> Result<(), ScriptProblem> {
+    let most = (MAX_COORDINATE * Quantized::UNITS) as u64;
+    match coordinates.into_iter().find(|c| c.0.unsigned_abs() > most) {
+        Some(coordinate) => Err(ScriptProblem::Coordinate(coordinate.0)),
+        None => Ok(()),
+    }
+}

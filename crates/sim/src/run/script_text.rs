@@ -1,0 +1,387 @@
+//! Reads scripts from text, with every check, and writes them in their one canonical form.
+
+use std::fmt::Write;
+
+use ron::value::RawValue;
+use serde::Deserialize;
+use serde::de::DeserializeOwned;
+
+use super::script_error::{MAX_EVENTS, ScriptError, ScriptProblem};
+use super::{
+    Event, Quantized, RobotInput, SCRIPT_VERSION, SCRIPT_VERSION_WITH_CHANGES, Script, WorldChange, WorldEvent,
+};
+use motion_lab_core::text_position::{line_at, line_ends, offset_of};
+use motion_lab_core::worlds::{begin_of, ron_in_words};
+
+/// The file as written. The events stay text here and are parsed one by one, so that an error knows its event and line.
+#[derive(Deserialize)]
+#[serde(rename = "Script", deny_unknown_fields)]
+struct ScriptText<'a> {
+    version: u64,
+    #[serde(borrow)]
+    events: Vec<&'a RawValue>,
+    #[serde(borrow, default)]
+    changes: Vec<&'a RawValue>,
+}
+
+/// The version alone, whatever else a file of another version holds.
+#[derive(Deserialize)]
+#[serde(rename = "Script")]
+struct VersionText {
+    version: u64,
+}
+
+impl Script {
+    /// Reads a script from `text`. Errors name the file `source_name`.
+    ///
+    /// # Errors
+    /// [`ScriptError`] names file, line, event and reason. Refused are: text that is not RON or not of the format's
+    /// form; another version; an unknown field; ticks that don't begin at 1 or later, or don't ascend; channels outside
+    /// -128 to 128; coordinates beyond [`MAX_COORDINATE`](motion_lab_core::geometry::MAX_COORDINATE); more than [`MAX_EVENTS`]
+    /// events.
+    ///
+    /// ```
+    /// use motion_lab_sim::run::Script;
+    /// let text = "Script(version: 1, events: [\n    (tick: 9, robot: \"Rusty\", input: Drive(129, 0)),\n])";
+    /// let error = Script::parse("drive.ron", text).unwrap_err();
+    /// assert_eq!(error.to_string(), "drive.ron:2: events[0]: channel 129: it must be in -128 to 128");
+    /// ```
+    pub fn parse(source_name: &str, text: &str) -> Result<Self, ScriptError> {
+        let error = |line, problem| ScriptError { file: source_name.to_owned(), line, ..problem };
+        let read: Result<ScriptText, _> = ron::from_str(text);
+        // the version is checked first: a file of another version may have another form
+        let version = match &read {
+            Ok(file) => file.version,
+            Err(_) => ron::from_str(text).map_or(u64::from(SCRIPT_VERSION), |VersionText { version }| version),
+        };
+        let line_of = |word: &str| line_at(text, text.find(word).unwrap_or(0));
+        if ![SCRIPT_VERSION, SCRIPT_VERSION_WITH_CHANGES].map(u64::from).contains(&version) {
+            return Err(error(line_of("version"), ScriptProblem::Version(version).anywhere()));
+        }
+        let file =
+            read.map_err(|e| error(begin_of(&e).line, ScriptProblem::Syntax(ron_in_words(text, &e)).anywhere()))?;
+        if version == u64::from(SCRIPT_VERSION) && !file.changes.is_empty() {
+            return Err(error(line_of("changes"), ScriptProblem::Changes.anywhere()));
+        }
+        let count = file.events.len().saturating_add(file.changes.len());
+        if count > MAX_EVENTS {
+            return Err(error(1, ScriptProblem::TooMany(count).anywhere()));
+        }
+        let events = List { source_name, text, name: "events" };
+        let events = events.read(&file.events, |event: &Event, before| event.check(before).map(|()| event.tick))?;
+        let changes = List { source_name, text, name: "changes" };
+        let check = |change: &WorldEvent, before| change.check(before).map(|()| change.tick);
+        let changes = changes.read(&file.changes, check)?;
+        Ok(Script { version: Script::version_of(&changes), events, changes })
+    }
+
+    /// The canonical text: one event a line, every number and name written in one way. Reading it gives the script
+    /// back.
+    pub fn to_ron(&self) -> String {
+        let mut text = format!("Script(\n    version: {},\n    events: [\n", self.version);
+        for Event { tick, robot, input } in &self.events {
+            // writing into a string can't fail
+            let _ = writeln!(text, "        (tick: {tick}, robot: {robot:?}, input: {}),", InputText(input));
+        }
+        text.push_str("    ],\n");
+        // a script without changes keeps the text that it had before there were any
+        if !self.changes.is_empty() {
+            text.push_str("    changes: [\n");
+            for WorldEvent { tick, world, change } in &self.changes {
+                let _ =
+                    writeln!(text, "        (tick: {tick}, world: {world:?}, change: {}),", ChangeText(change, " "));
+            }
+            text.push_str("    ],\n");
+        }
+        text.push_str(")\n");
+        text
+    }
+
+    /// The same in one line, with blanks only within names. Reading it gives the script back.
+    pub fn to_line(&self) -> String {
+        let mut text = format!("Script(version:{},events:[", self.version);
+        for Event { tick, robot, input } in &self.events {
+            let input = InputText(input).to_string().replace(' ', "");
+            // writing into a string can't fail
+            let _ = write!(text, "(tick:{tick},robot:{robot:?},input:{input}),");
+        }
+        text.push(']');
+        if !self.changes.is_empty() {
+            text.push_str(",changes:[");
+            for WorldEvent { tick, world, change } in &self.changes {
+                let _ = write!(text, "(tick:{tick},world:{world:?},change:{}),", ChangeText(change, ""));
+            }
+            text.push(']');
+        }
+        text + ")"
+    }
+}
+
+impl ScriptError {
+    /// The error with the file's name, and with the line on which its event or change begins in `text`, the text that
+    /// the script was read from. Line 1 where the error lies outside the lists.
+    #[must_use]
+    pub fn located(self, source_name: &str, text: &str) -> Self {
+        let line = || {
+            let file: ScriptText = ron::from_str(text).ok()?;
+            let items = match self.list {
+                "events" => &file.events,
+                "changes" => &file.changes,
+                _ => return None,
+            };
+            Some(line_at(text, offset_of(text, items.get(self.event?)?.trim().get_ron())))
+        };
+        let line = line().unwrap_or(1);
+        ScriptError { file: source_name.to_owned(), line, ..self }
+    }
+}
+
+/// A list of a script's text.
+struct List<'a> {
+    source_name: &'a str,
+    text: &'a str,
+    name: &'static str,
+}
+
+impl List<'_> {
+    /// Reads the items. `check` gets each with the tick of the one before it, and returns its own.
+    fn read<T: DeserializeOwned>(
+        &self,
+        items: &[&RawValue],
+        check: impl Fn(&T, u64) -> Result<u64, ScriptProblem>,
+    ) -> Result<Vec<T>, ScriptError> {
+        let mut read = Vec::new();
+        // lines are counted from item to item
+        let (mut line, mut counted, mut before) = (1, 0, 0);
+        for (i, raw) in items.iter().enumerate() {
+            let item = raw.trim().get_ron();
+            let offset = offset_of(self.text, item);
+            line += line_ends(self.text, counted, offset);
+            counted = offset;
+            let error = |line, problem: ScriptProblem| ScriptError {
+                file: self.source_name.to_owned(),
+                line,
+                ..problem.at(self.name, i)
+            };
+            let item: T = ron::from_str(item)
+                .map_err(|e| error(line + begin_of(&e).line - 1, ScriptProblem::Syntax(ron_in_words(item, &e))))?;
+            before = check(&item, before).map_err(|problem| error(line, problem))?;
+            read.push(item);
+        }
+        Ok(read)
+    }
+}
+
+/// Writes a change as the canonical text has it, with this after each comma and colon.
+struct ChangeText<'a>(&'a WorldChange, &'a str);
+
+impl std::fmt::Display for ChangeText<'_> {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let b = self.1;
+        match self.0 {
+            WorldChange::Close(name) => write!(f, "Close({name:?})"),
+            WorldChange::Open(name) => write!(f, "Open({name:?})"),
+            WorldChange::Remove(name) => write!(f, "Remove({name:?})"),
+            WorldChange::Move { name, to: (x, y, theta) } => {
+                write!(f, "Move(name:{b}{name:?},{b}to:{b}({},{b}{},{b}{}))", x.0, y.0, theta.0)
+            }
+            WorldChange::Add { name, points, radius } => {
+                write!(f, "Add(name:{b}{name:?},{b}points:{b}[")?;
+                for (i, (x, y)) in points.iter().enumerate() {
+                    let comma = if i == 0 { "" } else { "," };
+                    write!(f, "{comma}{}({},{b}{})", if i == 0 { "" } else { b }, x.0, y.0)?;
+                }
+                write!(f, "],{b}radius:{b}{})", radius.0)
+            }
+        }
+    }
+}
+
+/// Writes an input as the canonical text has it.
+struct InputText<'a>(&'a RobotInput);
+
+impl std::fmt::Display for InputText<'_> {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let list = |f: &mut std::fmt::Formatter<'_>, name: &str, coordinates: &[Quantized]| {
+            write!(f, "{name}([")?;
+            for (i, c) in coordinates.iter().enumerate() {
+                write!(f, "{}{}", if i == 0 { "" } else { ", " }, c.0)?;
+            }
+            write!(f, "])")
+        };
+        match self.0 {
+            RobotInput::Drive(a, b) => write!(f, "Drive({a}, {b})"),
+            RobotInput::MoveTo(q) => list(f, "MoveTo", q),
+            RobotInput::Teleport(q) => list(f, "Teleport", q),
+            RobotInput::SetTrailer(on) => write!(f, "SetTrailer({on})"),
+            RobotInput::Release => write!(f, "Release"),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const GOOD: &str = "// a drive\nScript(version: 1, events: [\n  (tick: 1, robot: \"Rusty\", input: Drive(128, -128)),\n\n  \
+        // the arm\n  (tick: 1, robot: \"Reach\",\n   input: MoveTo([1048576, -5])),\n  (robot: \"a \\\"b\\\" \\u{e9}\\t\\\\\", \
+        input: Teleport([0]), tick: 7), (tick: 7, robot: \"Hitch\", input: SetTrailer(true)),\n  \
+        (tick: 4294967296, robot: \"Hitch\", input: Release)])";
+
+    fn refused(from: &str, to: &str) -> String {
+        assert!(GOOD.contains(from), "{from}");
+        Script::parse("s.ron", &GOOD.replacen(from, to, 1)).unwrap_err().to_string()
+    }
+
+    #[test]
+    fn a_script_is_read_and_its_text_gives_it_back() {
+        let script = Script::parse("s.ron", GOOD).unwrap();
+        assert_eq!(script.events.len(), 5);
+        let quantized = vec![Quantized(1 << 20), Quantized(-5)];
+        assert_eq!(script.events[1], Event { tick: 1, robot: "Reach".into(), input: RobotInput::MoveTo(quantized) });
+        assert_eq!(script.events[2].robot, "a \"b\" é\t\\");
+        let text = script.to_ron();
+        assert_eq!(Script::parse("again", &text).unwrap(), script);
+        assert_eq!(Script::parse("again", &text).unwrap().to_ron(), text);
+        assert_eq!(Script::parse("empty", &Script::empty().to_ron()).unwrap(), Script::empty());
+        script.check().unwrap();
+        // the derived form is read as well
+        assert_eq!(Script::parse("serde", &ron::to_string(&script).unwrap()).unwrap(), script);
+    }
+
+    #[test]
+    fn names_of_every_sort_survive() {
+        for name in ["", "\u{0}\u{1}\u{7f}", "\r\n", "'", "\u{301}e\u{202e}", "\u{10ffff}", "// no", "r#\"", "🤖"] {
+            let event = Event { tick: 1, robot: name.into(), input: RobotInput::Release };
+            let script = Script::new(vec![event], vec![]);
+            assert_eq!(Script::parse("s", &script.to_ron()).as_ref(), Ok(&script), "{}", script.to_ron());
+        }
+    }
+
+    #[test]
+    fn errors_name_file_line_event_and_reason() {
+        assert_eq!(refused("-128", "-129"), "s.ron:3: events[0]: channel -129: it must be in -128 to 128");
+        assert_eq!(refused("Drive(128", "Drive(129"), "s.ron:3: events[0]: channel 129: it must be in -128 to 128");
+        assert!(refused("Drive(128", "Drive(32768").starts_with("s.ron:3: events[0]: "), "does not fit i16");
+        assert!(refused("Drive(128", "Drive(-32768").ends_with("channel -32768: it must be in -128 to 128"));
+        assert_eq!(refused("tick: 1,", "tick: 0,"), "s.ron:3: events[0]: tick 0: it must be in 1 to 4294967296");
+        assert_eq!(refused("tick: 1,", "tick: 2,"), "s.ron:6: events[1]: tick 1 comes after tick 2: ticks must ascend");
+        assert_eq!(
+            refused("4294967296", "4294967297"),
+            "s.ron:9: events[4]: tick 4294967297: it must be in 1 to 4294967296"
+        );
+        let most = 10_000_i64 << 20;
+        assert!(Script::parse("s", &GOOD.replace("1048576", &(-most).to_string())).is_ok());
+        assert_eq!(
+            refused("1048576", &(-most - 1).to_string()),
+            "s.ron:6: events[1]: coordinate -10485760001 (in units of 2^-20): its size must be at most 10000 m or rad"
+        );
+        assert!(refused("1048576", "-9223372036854775808").contains("coordinate -9223372036854775808"));
+        assert_eq!(refused("[0]", "[]"), "s.ron:8: events[2]: 0 coordinates: there must be 1 to 64");
+        assert!(refused("[0]", &format!("{:?}", [0; 65])).contains("65 coordinates"));
+        assert!(refused("1048576", "0.5").starts_with("s.ron:7: events[1]: "), "the line within the event");
+        assert!(refused("SetTrailer(true)", "SetTrailer(1)").starts_with("s.ron:8: events[3]: "));
+        assert!(refused("Release", "Explode").starts_with("s.ron:9: events[4]: "));
+        assert!(refused("tick: 7)", "tick: 7, mood: 1)").contains("mood"));
+        assert!(refused("version: 1,", "version: 1, mood: 2,").contains("mood"));
+        assert_eq!(refused("version: 1", "version: 3"), "s.ron:2: version 3: this program reads versions 1 and 2");
+        assert!(refused("version: 1,", "").starts_with("s.ron:"), "no version");
+        assert!(refused("events: [", "events: ").starts_with("s.ron:"));
+        assert!(Script::parse("s.ron", "").is_err());
+        assert!(Script::parse("s.ron", &"(".repeat(100_000)).is_err(), "deep nesting is an error, not a crash");
+        assert!(Script::parse("s.ron", &GOOD.replace("[0]", &"[".repeat(100_000))).is_err());
+    }
+
+    #[test]
+    fn unknown_robots_are_named_with_their_event() {
+        let script = Script::parse("s.ron", GOOD).unwrap();
+        let all = ["Hitch", "Reach", "Rusty", "a \"b\" é\t\\"];
+        assert_eq!(script.check_robots(&all), Ok(()));
+        assert_eq!(script.check_robots(&all[1..]).unwrap_err().to_string(), "events[3]: there is no robot \"Hitch\"");
+    }
+
+    #[test]
+    fn a_check_against_a_world_names_line_event_tick_robot_and_kind() {
+        let config = crate::tour::TourConfig::default();
+        let check = |input: &str| {
+            let text = format!(
+                "Script(version: 1, events: [\n  (tick: 4, robot: \"Rusty\", input: Release),\n\n  {input}\n])"
+            );
+            let script = Script::parse("s.ron", &text).unwrap();
+            script.check_for(&config).map_err(|error| error.located("s.ron", &text).to_string())
+        };
+        for (input, refused) in [
+            (
+                "(tick: 7, robot: \"Rusty\", input: MoveTo([0, 0, 0])),",
+                "\"Rusty\" is a rusty and takes no MoveTo: it takes Drive, Teleport and Release",
+            ),
+            (
+                "(tick: 7, robot: \"Rusty\", input: SetTrailer(true)),",
+                "\"Rusty\" is a rusty and takes no SetTrailer: it takes Drive, Teleport and Release",
+            ),
+            (
+                "(tick: 7, robot: \"Hitch\", input: MoveTo([0, 0, 0])),",
+                "\"Hitch\" is a hitch and takes no MoveTo: it takes Drive, Teleport, SetTrailer and Release",
+            ),
+            (
+                "(tick: 7, robot: \"Reach\", input: Drive(1, 1)),",
+                "\"Reach\" is a reach and takes no Drive: it takes MoveTo, Teleport and Release",
+            ),
+            (
+                "(tick: 7, robot: \"Reach\", input: SetTrailer(false)),",
+                "\"Reach\" is a reach and takes no SetTrailer: it takes MoveTo, Teleport and Release",
+            ),
+        ] {
+            assert_eq!(check(input), Err(format!("s.ron:4: events[1]: tick 7: robot {refused}")));
+        }
+        for (robot, input, refused) in [
+            ("Reach", "MoveTo([0, 0, 0])", "MoveTo of robot \"Reach\" has 3 coordinates: a reach has 2"),
+            ("Rusty", "Teleport([0, 0])", "Teleport of robot \"Rusty\" has 2 coordinates: a rusty has 3"),
+            ("Hitch", "Teleport([0, 0])", "Teleport of robot \"Hitch\" has 2 coordinates: a hitch has 3 or 4"),
+        ] {
+            let event = format!("(tick: 9, robot: \"{robot}\", input: {input}),");
+            assert_eq!(check(&event), Err(format!("s.ron:4: events[1]: tick 9: {refused}")));
+        }
+        for (robot, input) in [
+            ("Rusty", "Drive(1, 1)"),
+            ("Rusty", "Teleport([0, 0, 0])"),
+            ("Reach", "MoveTo([0, 0])"),
+            ("Reach", "Release"),
+            ("Hitch", "SetTrailer(true)"),
+            ("Hitch", "Teleport([0, 0, 0, 0])"),
+        ] {
+            assert_eq!(check(&format!("(tick: 9, robot: \"{robot}\", input: {input}),")), Ok(()), "{robot} {input}");
+        }
+        let unknown = check("(tick: 9, robot: \"Anna\", input: Release),").unwrap_err();
+        assert_eq!(unknown, "s.ron:4: events[1]: there is no robot \"Anna\"");
+    }
+
+    /// Pairwise this would take ten thousand million comparisons.
+    #[test]
+    fn a_hundred_thousand_names_are_looked_up_not_compared_with_one_another() {
+        let names: Vec<String> = (0..100_000).map(|i| format!("a robot with the number {i:06}")).collect();
+        let names: Vec<&str> = names.iter().map(String::as_str).collect();
+        let event = |name: &&str| Event { tick: 1, robot: (*name).into(), input: RobotInput::Release };
+        let mut script = Script::new(names.iter().rev().map(event).collect(), vec![]);
+        assert_eq!(script.check_robots(&names), Ok(()));
+        script.events[77_777].robot.push('!');
+        let error = script.check_robots(&names).unwrap_err();
+        assert!(error.to_string().starts_with("events[77777]: there is no robot"), "{error}");
+    }
+
+    #[test]
+    fn a_script_made_by_a_program_gets_the_same_checks() {
+        let event = |tick, input| Event { tick, robot: "r".into(), input };
+        let check = |events| Script::new(events, vec![]).check().map_err(|e| e.to_string());
+        assert_eq!(check(vec![event(2, RobotInput::Release), event(2, RobotInput::Release)]), Ok(()));
+        assert!(check(vec![event(2, RobotInput::Release), event(1, RobotInput::Release)]).is_err());
+        assert_eq!(
+            check(vec![event(1, RobotInput::Drive(0, i16::MIN))]),
+            Err("events[0]: channel -32768: it must be in -128 to 128".into())
+        );
+        let other = Script { version: 9, ..Script::empty() };
+        assert_eq!(other.check().unwrap_err().problem, ScriptProblem::Version(9));
+        let many = Script::new(vec![event(1, RobotInput::Release); MAX_EVENTS + 1], vec![]);
+        assert_eq!(many.check().unwrap_err().problem, ScriptProblem::TooMany(MAX_EVENTS + 1));
+    }
+}

@@ -1,0 +1,136 @@
+//! `Gauge`, which measures the robots of a run frame by frame: where they are, how far they went, how near things are.
+
+use std::collections::BTreeSet;
+
+use super::standing::Standing;
+use crate::run::{Frame, RobotInput, RobotState, Script};
+use crate::tour::TourConfig;
+use motion_lab_core::collision::Collision;
+use motion_lab_core::configuration::{AnyConfiguration, Configuration as _, Kinds, RobotKind};
+use motion_lab_core::geometry::{Footprint, Point2, Pose2};
+use motion_lab_core::num::hypot;
+use motion_lab_core::robots::{AnyRobot, Robot, WheelTurns};
+use motion_lab_core::worlds::Resident;
+
+/// What is measured of a robot at a frame.
+#[derive(Clone, Debug)]
+pub(super) struct Reading {
+    /// Distance from its footprint to the nearest obstacle of its world, metres; 0 in contact, infinity without any.
+    /// `None` for a robot without a known footprint.
+    pub(super) clearance: Option<f64>,
+    /// Signed length of its path since the frame before, metres, negative for backward; `None` for a robot without a
+    /// known path, at the first frame, and where it was put somewhere.
+    pub(super) step: Option<f64>,
+    /// Distance by its wheels' encoders since the start, metres; `None` without encoders.
+    pub(super) encoders: Option<f64>,
+}
+
+/// A robot of the run.
+struct Measured {
+    resident: Resident,
+    /// The number of its world.
+    world: usize,
+    about: Option<&'static RobotKind>,
+    /// Where it was at the last frame.
+    before: Option<Place>,
+    refusals: u32,
+}
+
+/// Where a robot is, as its path counts.
+#[derive(Clone, Copy)]
+enum Place {
+    /// The pose of a body that drives.
+    Body(Pose2),
+    /// An arm's tip, or where another robot's first part is.
+    Point(Point2),
+}
+
+impl Place {
+    /// The signed length of the path from here to `to`, metres: of a body the arc of a constant twist, of a point the
+    /// straight line.
+    fn step(self, to: Place) -> Option<f64> {
+        match (self, to) {
+            (Place::Body(from), Place::Body(to)) => {
+                let twist = to.boxminus(&from);
+                let length = hypot(twist.dx, twist.dy);
+                Some(if twist.dx < 0.0 { -length } else { length })
+            }
+            (Place::Point(from), Place::Point(to)) => Some(hypot(to.x - from.x, to.y - from.y)),
+            _ => None,
+        }
+    }
+}
+
+/// Measures the robots of a run frame by frame.
+pub(super) struct Gauge<'a> {
+    script: &'a Script,
+    kinds: &'a Kinds,
+    standing: Standing,
+    robots: Vec<Measured>,
+    /// Whether clearances are measured, which takes most of the time.
+    measures_clearance: bool,
+}
+
+impl<'a> Gauge<'a> {
+    /// A gauge of the runs of this configuration and script, with these kinds of robots.
+    pub(super) fn new(config: &TourConfig, script: &'a Script, kinds: &'a Kinds, measures_clearance: bool) -> Self {
+        let residents = config.worlds.iter().enumerate().flat_map(|(i, w)| w.robots.iter().map(move |r| (i, r)));
+        let robots = residents.map(|(world, resident)| Measured {
+            resident: resident.clone(),
+            world,
+            about: kinds.of(&resident.kind),
+            before: None,
+            refusals: 0,
+        });
+        let robots = robots.collect();
+        Gauge { script, kinds, standing: Standing::new(config, script), robots, measures_clearance }
+    }
+
+    /// Measures the robots at the next frame, in the order of their ids.
+    pub(super) fn read(&mut self, frame: &Frame) -> Vec<Reading> {
+        let Gauge { script, kinds, standing, robots, measures_clearance } = self;
+        standing.follow(frame);
+        let from = script.events.partition_point(|e| e.tick < frame.tick);
+        let due = script.events[from..].iter().take_while(|e| e.tick == frame.tick);
+        let teleports = due.filter(|e| matches!(e.input, RobotInput::Teleport(_)));
+        let teleported: BTreeSet<&str> = teleports.map(|e| e.robot.as_str()).collect();
+        let read = |(measured, state): (&mut Measured, &RobotState)| {
+            let Measured { resident, world, about, before, refusals } = measured;
+            let lab = AnyRobot::sized(&resident.kind, &state.configuration, resident.sizes.as_ref());
+            let footprint = match &lab {
+                Some((robot, q)) => Some(robot.footprint(q)),
+                None => kinds.footprint(&resident.kind, &state.configuration),
+            };
+            let now = place(*about, lab.as_ref(), footprint.as_ref(), state);
+            // a tick in which the robot was put somewhere is no part of its path
+            let was_put = state.refusals == *refusals && teleported.contains(resident.name.as_str());
+            let step = before.zip(now).filter(|_| !was_put).and_then(|(before, now)| before.step(now));
+            (*before, *refusals) = (now, state.refusals);
+            let scene = standing.scene(*world).filter(|_| *measures_clearance);
+            let clearance = scene.zip(footprint).map(|(scene, footprint)| scene.distance(&footprint));
+            Reading { clearance, step, encoders: lab.and_then(|(robot, _)| encoders(&robot, state)) }
+        };
+        robots.iter_mut().zip(&frame.robots).map(read).collect()
+    }
+}
+
+fn place(
+    about: Option<&RobotKind>,
+    lab: Option<&(AnyRobot, AnyConfiguration)>,
+    footprint: Option<&Footprint>,
+    state: &RobotState,
+) -> Option<Place> {
+    if about.is_some_and(|kind| kind.drives) {
+        return Pose2::from_coordinates(state.configuration.get(..3)?).map(Place::Body);
+    }
+    match lab {
+        Some((robot, q)) => Some(Place::Point(robot.reference(q))),
+        None => Some(Place::Point(footprint?.parts().first()?.pose().position())),
+    }
+}
+
+/// The distance by the encoders of a rover's wheels, metres.
+fn encoders(robot: &AnyRobot, state: &RobotState) -> Option<f64> {
+    let (AnyRobot::Rusty(rover), [left, right, ..]) = (robot, &state.extra[..]) else { return None };
+    Some(rover.travelled(&rover.counts(&WheelTurns { left: *left, right: *right })))
+}

@@ -1,0 +1,89 @@
+//! `Standing`, the worlds of a run as they stand at its frames, for what has no simulator.
+
+use crate::run::{Frame, ObstacleState, Script};
+use crate::tour::TourConfig;
+use motion_lab_core::collision::Scene;
+use motion_lab_core::geometry::Pose2;
+use motion_lab_core::worlds::{Obstacle, World};
+
+/// The scenes of a run's worlds, at the last frame that it has seen.
+pub(super) struct Standing {
+    worlds: Vec<World>,
+    /// The obstacles that the script adds to each world, in its order.
+    added: Vec<Vec<Obstacle>>,
+    /// The obstacles that are not as at the start, for which the scenes are made.
+    states: Vec<ObstacleState>,
+    scenes: Vec<Scene>,
+}
+
+impl Standing {
+    /// The worlds at the start of a run.
+    pub(super) fn new(config: &TourConfig, script: &Script) -> Self {
+        let worlds = config.worlds.clone();
+        let added = |world: &World| {
+            let changes = script.changes.iter().filter(|change| change.world == world.name);
+            changes.filter_map(|change| change.change.added()?.ok()).collect()
+        };
+        let added = worlds.iter().map(added).collect();
+        let scenes = worlds.iter().map(Scene::of_world).collect();
+        Standing { worlds, added, states: Vec::new(), scenes }
+    }
+
+    /// Goes on to a frame.
+    pub(super) fn follow(&mut self, frame: &Frame) {
+        if self.states == frame.obstacles {
+            return;
+        }
+        for (number, world) in (0_u32..).zip(&self.worlds) {
+            let of = |states: &[ObstacleState]| -> Vec<ObstacleState> {
+                states.iter().filter(|state| state.world == number).copied().collect()
+            };
+            let (old, new) = (of(&self.states), of(&frame.obstacles));
+            let added = self.added.get(number as usize);
+            if let (true, Some(added), Some(scene)) = (old != new, added, self.scenes.get_mut(number as usize)) {
+                *scene = Scene::of_world(&standing(world, added, &new));
+            }
+        }
+        self.states.clone_from(&frame.obstacles);
+    }
+
+    /// The scene of the world with this number.
+    pub(super) fn scene(&self, world: usize) -> Option<&Scene> {
+        self.scenes.get(world)
+    }
+}
+
+/// The world with the obstacles in these states: those of the file, then the added ones; its doors open or closed. What
+/// has no state is as at the start: an obstacle of the file there, an added one not.
+fn standing(world: &World, added: &[Obstacle], states: &[ObstacleState]) -> World {
+    let state = |number: usize| states.iter().find(|state| state.obstacle as usize == number);
+    let mut model = World { obstacles: Vec::new(), ..world.clone() };
+    for (number, obstacle) in world.obstacles.iter().enumerate() {
+        match state(number) {
+            None => model.obstacles.push(obstacle.clone()),
+            Some(state) if state.present => model.obstacles.push(moved(obstacle, &state.pose)),
+            Some(_) => {}
+        }
+    }
+    let doors = world.obstacles.len();
+    for (i, door) in model.doors.iter_mut().enumerate() {
+        if let Some(state) = state(doors + i) {
+            door.open = !state.present;
+        }
+    }
+    for (i, obstacle) in added.iter().enumerate() {
+        if let Some(state) = state(doors + world.doors.len() + i).filter(|state| state.present) {
+            model.obstacles.push(moved(obstacle, &state.pose));
+        }
+    }
+    model
+}
+
+/// The obstacle after a rigid motion.
+fn moved(obstacle: &Obstacle, pose: &Pose2) -> Obstacle {
+    if *pose == Pose2::IDENTITY {
+        return obstacle.clone();
+    }
+    let pieces = obstacle.pieces.iter().map(|(frame, shape)| (pose.compose(frame), shape.clone())).collect();
+    Obstacle::new(&obstacle.name, obstacle.kind, pieces)
+}

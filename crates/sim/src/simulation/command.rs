@@ -1,0 +1,186 @@
+//! `RunCommand`, the one way by which a run is changed from outside: a queue, drained in order once an update.
+
+use bevy::prelude::*;
+
+use super::obstacles::change::{RefusedChanges, refusal};
+use super::obstacles::roster::sync_added;
+use super::obstacles::start::settle_start;
+use super::transport::re_rolled;
+use super::{
+    CommandError, CommandRefused, History, Keyframes, PendingInput, Playback, RobotCommand, Roster, RunConfig,
+    SpawnError, Transport, TransportCommand, seek, start_run_in_order, step, undo,
+};
+use crate::run::{Event, Script, WorldChange, WorldEvent};
+use motion_lab_core::random::Seed;
+
+/// A command to the run, as a message. Commands are carried out in the order in which they were written, before the
+/// fixed loop.
+#[derive(Message, Clone, Debug, PartialEq)]
+pub enum RunCommand {
+    /// Move the run through time, or begin another.
+    Transport(TransportCommand),
+    /// Give a robot an input, which applies at the next tick.
+    Robot(RobotCommand),
+    /// Change a world, before the next tick's step.
+    World(WorldCommand),
+}
+
+/// A change of a world from its user, sent as a [`RunCommand`].
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct WorldCommand {
+    /// The world's name.
+    pub world: String,
+    /// The change.
+    pub change: WorldChange,
+}
+
+impl From<WorldCommand> for RunCommand {
+    fn from(command: WorldCommand) -> Self {
+        RunCommand::World(command)
+    }
+}
+
+impl From<TransportCommand> for RunCommand {
+    fn from(command: TransportCommand) -> Self {
+        RunCommand::Transport(command)
+    }
+}
+
+impl From<RobotCommand> for RunCommand {
+    fn from(command: RobotCommand) -> Self {
+        RunCommand::Robot(command)
+    }
+}
+
+/// Carries out the commands written since the last update, in their order.
+pub(super) fn carry_out(world: &mut World) {
+    settle_start(world);
+    let commands: Vec<RunCommand> = world.resource_mut::<Messages<RunCommand>>().drain().collect();
+    for command in commands {
+        match command {
+            RunCommand::Robot(command) => capture(world, command),
+            RunCommand::World(command) => {
+                if let Err(error) = change(world, command) {
+                    world.write_message(CommandRefused(error));
+                }
+            }
+            RunCommand::Transport(command) => {
+                if let Err(error) = obey(world, command) {
+                    world.write_message(CommandRefused(error));
+                }
+            }
+        }
+    }
+}
+
+/// Reports the changes of worlds that were refused in the ticks since.
+pub(super) fn report_changes(mut refused: ResMut<RefusedChanges>, mut messages: MessageWriter<CommandRefused>) {
+    for change in refused.0.drain(..) {
+        messages.write(CommandRefused(CommandError::Change(change)));
+    }
+}
+
+/// Stamps a change of a world with the next tick. One that would be refused now is refused, and stays out of the
+/// script.
+fn change(world: &mut World, WorldCommand { world: name, change }: WorldCommand) -> Result<(), CommandError> {
+    let Transport { tick, frontier, looping, .. } = *world.resource::<Transport>();
+    let Some(RunConfig(config)) = world.get_resource::<RunConfig>().cloned() else { return Ok(()) };
+    let event = WorldEvent { tick: tick + 1, world: name, change };
+    let mut changes = world.resource::<PendingInput>().script().changes.clone();
+    changes.retain(|c| c.tick <= event.tick);
+    changes.push(event.clone());
+    let script = Script::new(Vec::new(), changes);
+    script.check().and_then(|()| script.check_worlds(&config.worlds))?;
+    if let Some(refused) = refusal(world, &event) {
+        return Err(CommandError::Change(refused));
+    }
+    if tick < frontier || looping {
+        continue_from_here(world);
+    }
+    world.resource_mut::<PendingInput>().capture_change(event);
+    sync_added(world, &script.changes);
+    Ok(())
+}
+
+/// Stamps an input with the next tick. Input at a tick before the frontier, and any input to a looping run, continues
+/// the run from there. An input that no script could hold (an unknown robot, a channel out of range) is ignored.
+fn capture(world: &mut World, RobotCommand { robot, input }: RobotCommand) {
+    let Transport { tick, frontier, looping, .. } = *world.resource::<Transport>();
+    let known = world.get_resource::<Roster>().is_some_and(|roster| roster.named(&robot).is_some());
+    let event = Event { tick: tick + 1, robot, input };
+    let script = Script { events: vec![event.clone()], ..Script::empty() };
+    // what is ignored forgets nothing
+    if !known || script.check().is_err() {
+        return;
+    }
+    if tick < frontier || looping {
+        continue_from_here(world);
+    }
+    world.resource_mut::<PendingInput>().capture(event);
+}
+
+/// Forgets all input after the present tick.
+fn continue_from_here(world: &mut World) {
+    let tick = world.resource::<Transport>().tick;
+    world.resource_mut::<PendingInput>().truncate_after(tick);
+    let changes = world.resource::<PendingInput>().script().changes.clone();
+    sync_added(world, &changes);
+    world.resource_mut::<Keyframes>().truncate_after(tick);
+    if let Some(mut history) = world.get_resource_mut::<History>() {
+        history.truncate_after(tick);
+    }
+    let mut transport = world.resource_mut::<Transport>();
+    (transport.frontier, transport.looping) = (tick, false);
+}
+
+/// Starts a new run of the present configuration. Playback, speed and looping stay.
+fn restart(world: &mut World, seed: Seed) -> Result<(), SpawnError> {
+    let Some(RunConfig(config)) = world.get_resource::<RunConfig>().cloned() else { return Ok(()) };
+    undo::checkpoint_before_new_run(world);
+    let Transport { playback, speed, looping, .. } = *world.resource::<Transport>();
+    let order: Vec<usize> = (0..config.worlds.iter().map(|w| w.robots.len()).sum()).collect();
+    start_run_in_order(world, config, (seed, Script::empty()).into(), &order)?;
+    let mut transport = world.resource_mut::<Transport>();
+    *transport = Transport { playback, speed, looping, ..*transport };
+    Ok(())
+}
+
+/// Carries out a transport command.
+pub(super) fn obey(world: &mut World, command: TransportCommand) -> Result<(), CommandError> {
+    let Transport { seed, tick, .. } = *world.resource::<Transport>();
+    let pause = |world: &mut World| world.resource_mut::<Transport>().playback = Playback::Paused;
+    match command {
+        TransportCommand::Play => world.resource_mut::<Transport>().playback = Playback::Playing,
+        TransportCommand::Pause => pause(world),
+        TransportCommand::Step => {
+            pause(world);
+            step(world);
+        }
+        TransportCommand::StepBack => {
+            pause(world);
+            seek(world, tick.saturating_sub(1))?;
+        }
+        TransportCommand::Seek(tick) => seek(world, tick)?,
+        TransportCommand::ContinueFromHere => {
+            undo::checkpoint(world);
+            continue_from_here(world);
+        }
+        TransportCommand::Reset => restart(world, seed)?,
+        TransportCommand::ReRoll => restart(world, re_rolled(seed))?,
+        TransportCommand::SetSeed(seed) => restart(world, seed)?,
+        TransportCommand::SetSpeed(speed) => {
+            if (1.0 / 64.0..=64.0).contains(&speed) || speed == f64::INFINITY {
+                world.resource_mut::<Transport>().speed = speed;
+                if let Some(mut time) = world.get_resource_mut::<Time<Virtual>>() {
+                    // as fast as possible is not the fixed loop's business
+                    time.set_relative_speed_f64(if speed.is_finite() { speed } else { 1.0 });
+                }
+            }
+        }
+        TransportCommand::SetLooping(looping) => world.resource_mut::<Transport>().looping = looping,
+        TransportCommand::Checkpoint => undo::checkpoint(world),
+        TransportCommand::Undo => undo::undo(world)?,
+        TransportCommand::Redo => undo::redo(world)?,
+    }
+    Ok(())
+}

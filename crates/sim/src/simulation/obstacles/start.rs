@@ -1,0 +1,120 @@
+//! The start of a run whose obstacles were changed from outside before tick 0.
+
+use std::collections::BTreeSet;
+use std::sync::Arc;
+
+use bevy::prelude::*;
+
+use super::roster::{Ground, ObstacleRoster, at_work, moved, refresh};
+use crate::simulation::{
+    CommandError, CommandRefused, Door, History, Keyframes, ObstacleShape, Obstacles, PendingInput, Placement,
+    RunConfig, SimulatedWorld, Transport, state, tick,
+};
+use crate::tour::TourConfig;
+use motion_lab_core::geometry::{Pose2, Shape};
+use motion_lab_core::worlds::{Door as DoorModel, Obstacle, World as WorldModel};
+
+/// Makes the obstacle entities of a run at tick 0 what its robots meet: the worlds, their scenes, the run's
+/// configuration and frame 0 follow from them. Without a change from outside it does nothing.
+///
+/// The world file's obstacles keep their order, then come the others by their names. An entity that is no obstacle of a
+/// world file (a taken or bad name, no valid piece) is left out, and a [`CommandRefused`] says so.
+pub(crate) fn settle_start(world: &mut World) {
+    let is_unsettled = world.get_resource::<ObstacleRoster>().is_some_and(|roster| roster.is_unsettled);
+    if !is_unsettled || world.resource::<Transport>().tick > 0 {
+        return;
+    }
+    world.resource_mut::<ObstacleRoster>().is_unsettled = false;
+    let mut config = TourConfig::clone(&world.resource::<RunConfig>().0);
+    at_work(world, |world, roster| {
+        for (ground, model) in roster.grounds.iter_mut().zip(&mut config.worlds) {
+            let (obstacles, doors, entities) = gather(world, ground);
+            (model.obstacles, model.doors) = (obstacles, doors);
+            let (start, entity) = (Arc::new(model.clone()), ground.entity());
+            *ground = Ground::of_entities(entity, Arc::clone(&start), &entities);
+            let index = world.get::<SimulatedWorld>(entity).map_or(0, |w| w.index);
+            if let Ok(mut entity) = world.get_entity_mut(entity) {
+                entity.insert(SimulatedWorld { index, model: start });
+            }
+        }
+        refresh(world, roster);
+    });
+    world.insert_resource(RunConfig(Arc::new(config)));
+    let changes = world.resource::<PendingInput>().script().changes.clone();
+    super::roster::sync_added(world, &changes);
+    world.resource_mut::<Keyframes>().clear();
+    if world.contains_resource::<History>() {
+        world.insert_resource(History::default());
+    }
+    world.resource_mut::<Transport>().frontier = 0;
+    tick::sense::sense_now(world);
+    state::record(world);
+}
+
+/// The obstacles and the doors of a world's entities, and the entities in the same order.
+fn gather(world: &mut World, ground: &Ground) -> (Vec<Obstacle>, Vec<DoorModel>, Vec<Entity>) {
+    let there: BTreeSet<Entity> =
+        world.get::<Obstacles>(ground.entity()).into_iter().flat_map(Obstacles::iter).collect();
+    let known: Vec<Entity> = ground.entities().filter(|e| there.contains(e)).collect();
+    let of_file: BTreeSet<Entity> = known.iter().copied().collect();
+    let mut new: Vec<(&str, Entity)> = there
+        .iter()
+        .filter(|e| !of_file.contains(e))
+        .filter_map(|&e| Some((world.get::<ObstacleShape>(e)?.name.as_str(), e)))
+        .collect();
+    new.sort_unstable();
+    let start = ground.start();
+    let (mut taken, mut left_out) = (other_names(start), Vec::new());
+    let (mut obstacles, mut doors): (Vec<(Obstacle, Entity)>, Vec<(DoorModel, Entity)>) = (Vec::new(), Vec::new());
+    for entity in known.into_iter().chain(new.into_iter().map(|(_, e)| e)) {
+        let Some(shape) = world.get::<ObstacleShape>(entity) else { continue };
+        let placement = world.get::<Placement>(entity).copied().unwrap_or_default();
+        let is_door = world.get::<Door>(entity).is_some();
+        if !placement.present && !is_door {
+            continue;
+        }
+        let is_good = motion_lab_core::worlds::check_name(&shape.name).is_ok() && taken.insert(shape.name.clone());
+        let made = if is_good { Some(shape).filter(|s| are_valid(s, &placement.pose)) } else { None };
+        match made.map(|shape| if is_door { door(shape, &placement).map(Made::Door) } else { Some(Made::Obstacle) }) {
+            Some(Some(Made::Door(made))) => doors.push((made, entity)),
+            Some(Some(Made::Obstacle)) => obstacles.push((obstacle(start, shape, &placement.pose), entity)),
+            _ => left_out.push(CommandError::NoObstacle { world: start.name.clone(), name: shape.name.clone() }),
+        }
+    }
+    for refused in left_out {
+        world.write_message(CommandRefused(refused));
+    }
+    let entities = obstacles.iter().map(|(_, e)| *e).chain(doors.iter().map(|(_, e)| *e)).collect();
+    (obstacles.into_iter().map(|(o, _)| o).collect(), doors.into_iter().map(|(d, _)| d).collect(), entities)
+}
+
+enum Made {
+    Door(DoorModel),
+    Obstacle,
+}
+
+/// The names in a world of what is neither an obstacle nor a door.
+fn other_names(world: &WorldModel) -> BTreeSet<String> {
+    let names = world.places.iter().map(|p| &p.name).chain(world.marks.iter().map(|m| &m.name));
+    names.chain(world.robots.iter().map(|r| &r.name)).cloned().collect()
+}
+
+fn are_valid(shape: &ObstacleShape, pose: &Pose2) -> bool {
+    pose.is_finite() && !shape.pieces.is_empty() && shape.pieces.iter().all(|(frame, s)| s.place(frame).is_valid())
+}
+
+/// The obstacle of an entity. One that is as the world file has it is the file's own, with its outlines.
+fn obstacle(start: &WorldModel, shape: &ObstacleShape, pose: &Pose2) -> Obstacle {
+    let is_at_first = *pose == Pose2::IDENTITY;
+    let own = start.obstacle(&shape.name).filter(|o| is_at_first && o.kind == shape.kind && o.pieces == shape.pieces);
+    own.cloned().unwrap_or_else(|| moved(&Obstacle::new(&shape.name, shape.kind, shape.pieces.clone()), pose))
+}
+
+/// The door of an entity: its one piece must be a segment.
+fn door(shape: &ObstacleShape, placement: &Placement) -> Option<DoorModel> {
+    let [(_, Shape::Segment { .. })] = &shape.pieces[..] else { return None };
+    let leaf = moved(&Obstacle::new(&shape.name, shape.kind, shape.pieces.clone()), &placement.pose);
+    let placed = leaf.placed().next()?;
+    let [a, b] = *placed.core() else { return None };
+    Some(DoorModel { name: shape.name.clone(), a, b, open: !placement.present })
+}

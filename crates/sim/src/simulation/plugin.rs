@@ -1,0 +1,109 @@
+//! `SimulationPlugin`, the simulation in a Bevy app.
+
+use bevy::app::{RunFixedMainLoop, RunFixedMainLoopSystems};
+use bevy::prelude::*;
+
+use super::obstacles::change::RefusedChanges;
+use super::obstacles::roster::ObstacleRoster;
+use super::obstacles::watch::watch;
+use super::schedule::{CrowdSystems, Phase, simulation_schedule};
+use super::tick::crowds::Crowds;
+use super::tick::{crowds, input, sense};
+use super::{
+    CommandRefused, Keyframes, LatestFrame, PendingInput, Playback, Refusals, RobotKinds, RobotPlugin, RunCommand,
+    SensorRefused, SensorRoster, SimulationSchedule, SimulationSystems, Transport, Undo, command, play_tick, sensors,
+    state,
+};
+use crate::run::DT;
+use motion_lab_core::configuration::RobotKind;
+use motion_lab_core::random::Seed;
+use motion_lab_core::robots::{HITCH, RUSTY, Reach};
+
+/// The simulation: the same in a window, without one, and on the web.
+///
+/// It adds the [`SimulationSchedule`] with the systems of the lab's robots, and an exclusive system in `FixedUpdate`,
+/// at 20 Hz, that runs it while the [`Transport`] plays. Messages ([`RunCommand`]) are taken
+/// before the fixed loop. A run begins with [`start_run`](super::start_run).
+#[derive(Clone, Copy, Debug, Default)]
+pub struct SimulationPlugin;
+
+impl Plugin for SimulationPlugin {
+    fn build(&self, app: &mut App) {
+        app.add_schedule(simulation_schedule())
+            .init_resource::<RobotKinds>()
+            .init_resource::<Crowds>()
+            .init_resource::<PendingInput>()
+            .init_resource::<Keyframes>()
+            .init_resource::<LatestFrame>()
+            .init_resource::<state::Taken>()
+            .init_resource::<Undo>()
+            .init_resource::<ObstacleRoster>()
+            .init_resource::<RefusedChanges>()
+            .init_resource::<Refusals>()
+            .init_resource::<SensorRoster>()
+            .insert_resource(Transport::new(Seed(0)))
+            .insert_resource(Time::<Fixed>::from_seconds(DT))
+            .add_message::<RunCommand>()
+            .add_message::<CommandRefused>()
+            .add_message::<SensorRefused>()
+            .add_observer(sensors::changed)
+            .add_observer(sensors::removed)
+            .add_systems(
+                SimulationSchedule,
+                (
+                    (input::advance_tick, input::apply_inputs).chain().in_set(SimulationSystems::Input),
+                    crowds::begin.in_set(Phase::Begin).in_set(CrowdSystems),
+                    crowds::index.in_set(Phase::Index).in_set(CrowdSystems),
+                    crowds::meet.in_set(Phase::Meet).in_set(CrowdSystems),
+                    sense::sense.in_set(SimulationSystems::Sense),
+                    state::record.in_set(Phase::Keep),
+                ),
+            )
+            .add_systems(RunFixedMainLoop, command::carry_out.in_set(RunFixedMainLoopSystems::BeforeFixedMainLoop))
+            .add_systems(RunFixedMainLoop, command::report_changes.in_set(RunFixedMainLoopSystems::AfterFixedMainLoop))
+            .add_systems(FixedUpdate, run_while_playing);
+        watch(app);
+        app.add_plugins((
+            RobotPlugin::new(RobotKind::RUSTY.name, RUSTY),
+            RobotPlugin::new(RobotKind::REACH.name, Reach::<2>::workbench()),
+            RobotPlugin::new(RobotKind::REACH3.name, Reach::<3>::redundant()),
+            RobotPlugin::new(RobotKind::HITCH.name, HITCH),
+        ));
+    }
+}
+
+/// An app without a window: Bevy's `MinimalPlugins` and the [`SimulationPlugin`]. Everything else is yours to add:
+/// robots by [`RobotPlugin`], systems, observers.
+///
+/// The simulation runs in `FixedUpdate` while the [`Transport`] plays, and gives the frames that a
+/// [`Recorder`](crate::recording::Recorder) of the same seed, configuration and script gives, at any rate of updates.
+/// Commands ([`RunCommand`]) written before an update's fixed loop apply at the next tick and become part of the
+/// script. `run()` plays in real time; with `TimeUpdateStrategy::ManualDuration` each `update()` is as long as you say.
+///
+/// ```
+/// use bevy::time::TimeUpdateStrategy;
+/// use motion_lab_sim::simulation::{LatestFrame, Playback, Transport, headless_app, start_run};
+/// use motion_lab_sim::tour::{BOOK_SEED, TourConfig};
+/// use std::time::Duration;
+///
+/// let mut app = headless_app();
+/// start_run(app.world_mut(), TourConfig::default(), BOOK_SEED)?;
+/// app.world_mut().resource_mut::<Transport>().playback = Playback::Playing;
+/// // a tick is 50 ms; the first update is where time begins
+/// app.insert_resource(TimeUpdateStrategy::ManualDuration(Duration::from_millis(50)));
+/// (0..=10).for_each(|_| app.update());
+/// assert_eq!(app.world().resource::<LatestFrame>().0.tick, 10);
+/// # Ok::<(), motion_lab_sim::simulation::SpawnError>(())
+/// ```
+pub fn headless_app() -> App {
+    let mut app = App::new();
+    app.add_plugins((MinimalPlugins, SimulationPlugin));
+    app
+}
+
+fn run_while_playing(world: &mut World) {
+    let Transport { playback, speed, .. } = *world.resource::<Transport>();
+    if playback == Playback::Playing && speed.is_finite() {
+        play_tick(world);
+    }
+}

@@ -1,0 +1,49 @@
+//! `InputRefusal`, why a robot refused an input.
+
+use super::driven::Refused;
+use crate::simulation::SimulatedRobot;
+use motion_lab_core::collision::{Collision, Surroundings};
+use motion_lab_core::configuration::InputKind;
+
+/// Why a robot refused an input.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
+pub enum InputRefusal {
+    /// Its kind takes no such input.
+    #[error("it takes no {0}")]
+    NotTaken(InputKind),
+    /// A control channel is out of range.
+    #[error("a channel is outside -128 to 128")]
+    Channel,
+    /// There is no configuration with this number of coordinates that it can be put in.
+    #[error("it can be put in no configuration of {0} coordinates")]
+    Coordinates(usize),
+    /// It would be beyond its own limits there.
+    #[error("it would be beyond its own limits there")]
+    Limits,
+    /// It would touch this obstacle there, or another robot.
+    #[error("it would touch {0} there")]
+    Touches(String),
+}
+
+impl InputRefusal {
+    /// The reason, with the name of what the robot would touch among its surroundings.
+    pub(crate) fn of<R: SimulatedRobot>(
+        why: Refused<R::Configuration>,
+        input: InputKind,
+        robot: &R,
+        surroundings: &Surroundings<'_>,
+    ) -> Self {
+        match why {
+            Refused::NotTaken => InputRefusal::NotTaken(input),
+            Refused::Channel => InputRefusal::Channel,
+            Refused::Coordinates(given) => InputRefusal::Coordinates(given),
+            Refused::Limits => InputRefusal::Limits,
+            Refused::Touches(q) => {
+                let touched = surroundings.witness(&robot.fitted(&q).footprint(&q)).filter(|w| w.dist == 0.0);
+                let name = touched.and_then(|w| surroundings.scene.obstacle_name(w.obstacle));
+                InputRefusal::Touches(name.unwrap_or("another robot").to_owned())
+            }
+        }
+    }
+}

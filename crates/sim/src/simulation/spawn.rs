@@ -1,0 +1,145 @@
+//! Starting a run: the worlds, obstacles, robots and sensors as entities.
+
+use std::sync::Arc;
+
+use bevy::prelude::*;
+
+use super::obstacles::roster::{self, Ground, at_work};
+use super::robot::spawn::{SpawnRequest, routes};
+use super::tick::crowds::Crowds;
+use super::{
+    History, Keyframes, LatestFrame, PendingInput, Refusals, RobotId, RobotKinds, Roster, SceneRevision,
+    SimulatedWorld, SpawnError, StandingWorld, Transport, WorldScene, sensors, state, tick,
+};
+use crate::run::Script;
+use crate::tour::{BOOK_SEED, RouteTours, TourConfig};
+use motion_lab_core::collision::Scene;
+use motion_lab_core::random::Seed;
+use motion_lab_core::worlds::{Resident, World as WorldModel};
+
+/// The input of a run beside its configuration: a seed, a script, or both.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RunInput {
+    /// The seed.
+    pub seed: Seed,
+    /// The script.
+    pub script: Script,
+}
+
+impl From<Seed> for RunInput {
+    fn from(seed: Seed) -> Self {
+        RunInput { seed, script: Script::empty() }
+    }
+}
+
+impl From<(Seed, Script)> for RunInput {
+    fn from((seed, script): (Seed, Script)) -> Self {
+        RunInput { seed, script }
+    }
+}
+
+/// A script alone runs at the book's seed.
+impl From<Script> for RunInput {
+    fn from(script: Script) -> Self {
+        RunInput { seed: BOOK_SEED, script }
+    }
+}
+
+/// The configuration of the run under way.
+#[derive(Resource, Clone, Debug)]
+pub struct RunConfig(pub Arc<TourConfig>);
+
+fn spawn_world(world: &mut World, index: u32, model: &WorldModel) -> Entity {
+    let (scene, model) = (WorldScene(Arc::new(Scene::of_world(model))), Arc::new(model.clone()));
+    world
+        .spawn((SimulatedWorld { index, model: Arc::clone(&model) }, StandingWorld(model), scene, SceneRevision(0)))
+        .id()
+}
+
+/// Starts a run in `world`, in place of the one under way: spawns everything and takes frame 0. The new run is paused.
+///
+/// # Errors
+/// [`SpawnError`] names the robot, script event or sensor that cannot be; the run under way then goes on.
+pub fn start_run(world: &mut World, config: TourConfig, input: impl Into<RunInput>) -> Result<(), SpawnError> {
+    let count = config.worlds.iter().map(|w| w.robots.len()).sum();
+    start_run_in_order(world, Arc::new(config), input.into(), &(0..count).collect::<Vec<_>>())
+}
+
+/// [`start_run`] with the robots spawned in this order of their ids, which changes nothing.
+pub(super) fn start_run_in_order(
+    world: &mut World,
+    config: Arc<TourConfig>,
+    input: RunInput,
+    order: &[usize],
+) -> Result<(), SpawnError> {
+    let residents: Vec<(usize, &Resident)> =
+        config.worlds.iter().enumerate().flat_map(|(i, w)| w.robots.iter().map(move |r| (i, r))).collect();
+    config.validate()?;
+    input.script.check()?;
+    input.script.check_robots(&config.robot_names().collect::<Vec<_>>())?;
+    input.script.check_worlds(&config.worlds)?;
+    let routes: Vec<RouteTours> = config.worlds.iter().map(|w| routes(w, input.seed)).collect::<Result<_, _>>()?;
+    let worlds: Vec<Entity> =
+        config.worlds.iter().enumerate().map(|(i, model)| spawn_world(world, i as u32, model)).collect();
+    let mut spawned: Vec<(RobotId, Entity)> = Vec::new();
+    for &i in order {
+        let (w, resident) = residents[i];
+        let model = &config.worlds[w];
+        let id = RobotId(i as u32);
+        let about = world.get_resource::<RobotKinds>().and_then(|k| k.about(&resident.kind));
+        let request = SpawnRequest {
+            seed: input.seed,
+            id,
+            world: worlds[w],
+            model,
+            resident,
+            sensor: config.sensor,
+            routes: &routes[w],
+            about,
+        };
+        let spawner = world.get_resource::<RobotKinds>().and_then(|k| k.spawner(&resident.kind));
+        let robot = match spawner {
+            Some(spawn) => spawn(world, &request),
+            None => Err(SpawnError::UnknownKind {
+                robot: resident.name.clone(),
+                world: model.name.clone(),
+                kind: resident.kind.clone(),
+            }),
+        };
+        match robot {
+            Ok(entity) => spawned.push((id, entity)),
+            Err(e) => {
+                worlds.iter().for_each(|&w| _ = world.despawn(w));
+                return Err(e);
+            }
+        }
+    }
+    spawned.sort_unstable_by_key(|(id, _)| *id);
+    let robots: Vec<Entity> = spawned.into_iter().map(|(_, e)| e).collect();
+    let names = residents.iter().map(|(_, resident)| resident.name.clone()).zip(robots.iter().copied()).collect();
+    let roster = Roster { worlds, robots, names };
+    let old = world.remove_resource::<Roster>();
+    let grounds = at_work(world, |world, _| {
+        old.iter().flat_map(|old| &old.worlds).for_each(|&w| _ = world.despawn(w));
+        let model = |world: &World, w| world.get::<SimulatedWorld>(w).map(|w| Arc::clone(&w.model));
+        let ground = |&w: &Entity| model(world, w).map(|model| Ground::spawn(world, w, model));
+        roster.worlds.iter().filter_map(ground).collect()
+    });
+    world.insert_resource(roster);
+    roster::begin(world, grounds);
+    roster::sync_added(world, &input.script.changes);
+    world.insert_resource(Crowds::new(config.worlds.iter().map(|w| w.robots.len())));
+    world.insert_resource(RunConfig(config));
+    world.insert_resource(Transport::new(input.seed));
+    world.insert_resource(PendingInput::new(input.script));
+    world.insert_resource(Keyframes::default());
+    world.insert_resource(Refusals::default());
+    world.insert_resource(LatestFrame::default());
+    if world.contains_resource::<History>() {
+        world.insert_resource(History::default());
+    }
+    sensors::start::take_sensors(world);
+    tick::sense::sense_now(world);
+    state::record(world);
+    Ok(())
+}

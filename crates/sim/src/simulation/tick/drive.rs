@@ -1,0 +1,103 @@
+//! The systems that give each robot its control and its motion.
+
+use bevy::prelude::*;
+
+use super::crowds::Crowds;
+use super::parallel::each;
+use crate::run::DT;
+use crate::simulation::{
+    Configuration, Control, DriveMode, Extra, OwnState, PreviousConfiguration, RobotId, RobotModel, Route,
+    SimulatedRobot, Slip, TickMotion, Transport,
+};
+use motion_lab_core::num::greater;
+use motion_lab_core::random::Stream;
+use motion_lab_core::robots::{CHANNEL_UNITS, Motion};
+
+/// What does not change about a robot in a run, and its driver.
+pub(crate) struct Driver<'a, R: SimulatedRobot> {
+    pub(crate) robot: &'a R,
+    pub(crate) tour: &'a R::Tour,
+    /// The stream of its actuation noise.
+    pub(crate) slip: &'a Stream,
+    pub(crate) mode: &'a DriveMode<R>,
+}
+
+impl<R: SimulatedRobot> Driver<'_, R> {
+    /// The control commanded for a tick: by the driver's target, else the driver's channels, else the tour.
+    fn commanded(&self, tick: u64, q: &R::Configuration, extra: &mut Extra) -> R::Control {
+        let Driver { robot, tour, mode, .. } = self;
+        if !mode.manual {
+            return robot.touring(tour, tick, DT, q, extra);
+        }
+        let to_target = mode.target.and_then(|target| robot.toward(q, &target));
+        let by_channels = || robot.driven(mode.channels.map(|c| f64::from(c) / CHANNEL_UNITS));
+        to_target.or_else(by_channels).unwrap_or_default()
+    }
+
+    /// The control that takes effect in a tick at the configuration `q`. The robot's own state goes on.
+    pub(crate) fn control(&self, tick: u64, q: &R::Configuration, own: &mut Extra) -> R::Control {
+        let mut extra = own.clone();
+        let command = self.commanded(tick, q, &mut extra);
+        let control = self.robot.actuate(&command, DT, &mut self.slip.at(tick), &mut extra);
+        // a robot's own state is part of the frames: -0.0 becomes +0.0, and a NaN leaves the earlier value
+        for (kept, new) in own.iter_mut().zip(&extra) {
+            if !new.is_nan() {
+                *kept = new + 0.0;
+            }
+        }
+        control
+    }
+}
+
+/// The components of a robot that [`drive`] reads and writes.
+type Driven<R> = (
+    &'static RobotModel<R>,
+    &'static Route<R>,
+    &'static Slip,
+    &'static DriveMode<R>,
+    &'static Configuration<R>,
+    &'static mut PreviousConfiguration<R>,
+    &'static mut OwnState<R>,
+    &'static mut Control<R>,
+);
+
+/// Gives every robot of a kind its control.
+pub(crate) fn drive<R: SimulatedRobot>(transport: Res<Transport>, mut robots: Query<Driven<R>>) {
+    let tick = transport.tick;
+    each(
+        robots.iter_mut(),
+        || (),
+        |(), (robot, tour, slip, mode, q, mut previous, mut own, mut control)| {
+            previous.0 = q.0;
+            let driver = Driver { robot: &robot.0, tour: &tour.0, slip: &slip.0, mode };
+            control.0 = driver.control(tick, &q.0, &mut own.extra);
+        },
+    );
+}
+
+/// The components of a robot that [`plan`] reads and writes.
+type Planned<R> = (
+    &'static RobotId,
+    &'static RobotModel<R>,
+    &'static Configuration<R>,
+    &'static Control<R>,
+    &'static mut TickMotion<R>,
+);
+
+/// Gives every robot of a kind the motion of its control, and those that are not alone in their worlds their bodies.
+pub(crate) fn plan<R: SimulatedRobot>(mut crowds: ResMut<Crowds>, mut robots: Query<Planned<R>>) {
+    for (&id, RobotModel(robot), Configuration(q), Control(u), mut motion) in &mut robots {
+        let robot = robot.fitted(q);
+        motion.0 = robot.drive(q, u, DT).ok();
+        if let Some(crowd) = crowds.of_mut(id) {
+            let footprint = robot.footprint(q);
+            let bound = motion.0.as_ref().map_or(0.0, |motion| reach(motion, footprint.parts().len()));
+            crowd.put(id.0, &footprint, bound);
+        }
+    }
+}
+
+/// How far a motion may take any point of a robot from where it is at the start, or a proof may think so, metres.
+fn reach(motion: &impl Motion, parts: usize) -> f64 {
+    (0..parts).fold(0.0, |most, k| greater(motion.bound(k, 0.0, 1.0) + motion.sagitta(k, 0.0, 1.0), most))
+}

@@ -1,0 +1,9 @@
+//! The tests of the simulator as a whole: one binary, a folder per subject.
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::print_stdout, missing_docs)]
+
+mod obstacles;
+mod pins;
+mod runs;
+mod sensors;
+mod simulator;
+mod tick_oracle;

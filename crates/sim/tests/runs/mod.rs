@@ -1,0 +1,16 @@
+//! Runs: what they record, keep and tell.
+
+mod allocation;
+mod caches;
+pub mod controls;
+pub mod crowds;
+mod digest_logs;
+mod inputs;
+mod keyframes;
+mod many_worlds;
+mod replicas;
+mod send_sync;
+mod sizes;
+mod stats;
+mod tick_tangents;
+mod warehouse;

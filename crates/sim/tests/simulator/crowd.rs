@@ -1,0 +1,196 @@
+//! Many robots in one world.
+
+use motion_lab_core::collision::{Collision, Scene};
+use motion_lab_core::geometry::{Aabb, Placed};
+use motion_lab_core::prelude::*;
+use motion_lab_core::sensors::RangeSensor;
+use motion_lab_core::worlds::{Obstacle, ObstacleKind, Resident, World};
+use motion_lab_sim::recording::{Recorder, Run};
+use motion_lab_sim::run::{Frame, RobotInput, Script};
+use motion_lab_sim::simulation::LEAST_CLEARANCE;
+use motion_lab_sim::tour::TourConfig;
+
+use super::{event, quantized, script};
+
+/// A walled square of this half-width with these robots: name, kind, start.
+pub(crate) fn arena(half: f64, robots: &[(&str, &str, &[f64])]) -> World {
+    let corners = [(-half, -half), (half, -half), (half, half), (-half, half)].map(|(x, y)| Point2::new(x, y));
+    let side = |i: usize| {
+        let (a, b) = (corners[i], corners[(i + 1) % 4]);
+        (Pose2::IDENTITY, Shape::Segment { a, b })
+    };
+    let wall = Obstacle::new("the wall", ObstacleKind::Wall, (0..4).map(side).collect());
+    World {
+        name: "the arena".into(),
+        bounds: Aabb { min: corners[0], max: corners[2] },
+        obstacles: vec![wall],
+        doors: vec![],
+        routes: vec![],
+        places: vec![],
+        marks: vec![],
+        robots: robots.iter().map(|(name, kind, start)| Resident::new(*name, *kind, *start)).collect(),
+    }
+}
+
+fn config(world: World, ticks: u64) -> TourConfig {
+    TourConfig { worlds: vec![world], ticks, sensor: None }
+}
+
+fn pose(frame: &Frame, robot: usize) -> Pose2 {
+    let c = &frame.robots[robot].configuration;
+    Pose2 { x: c[0], y: c[1], theta: c[2] }
+}
+
+/// Nine Rusties in a small arena and a script that keeps them bumping into one another.
+fn bumper_cars(seed: u64, ticks: u64) -> (TourConfig, (Seed, Script)) {
+    let names: Vec<String> = (0..9).map(|i| format!("Rusty {i}")).collect();
+    let starts: Vec<[f64; 3]> =
+        (0..9).map(|i| [f64::from(i % 3) * 0.4 - 0.4, f64::from(i / 3) * 0.4 - 0.4, f64::from(i)]).collect();
+    let robots: Vec<_> = names.iter().zip(&starts).map(|(n, s)| (n.as_str(), "rusty", &s[..])).collect();
+    let mut draws = Stream::new(Seed(seed), "bumper cars");
+    let mut events = Vec::new();
+    for tick in (1..=ticks).step_by(15) {
+        for name in &names {
+            let (v, w) = (draws.below(257) as i16 - 128, draws.below(129) as i16 - 64);
+            events.push(event(tick, name, RobotInput::Drive(v, w)));
+        }
+    }
+    (config(arena(0.8, &robots), ticks), (Seed(seed), script(events)))
+}
+
+#[test]
+fn nobody_drives_through_anybody() {
+    for seed in 0..3 {
+        let (config, input) = bumper_cars(seed, 300);
+        let scene = Scene::of_world(&config.worlds[0]);
+        let log = Run::record(config, input).unwrap();
+        let mut before = &log.initial;
+        for frame in &log.frames {
+            // each robot's arc at eleven places: the whole of one against the whole of the other, regardless of time
+            let arcs: Vec<Vec<Placed>> = (0..9)
+                .map(|i| {
+                    let (from, to) = (pose(before, i), pose(frame, i));
+                    let t = to.boxminus(&from);
+                    let at = |s: f64| {
+                        from.boxplus(&motion_lab_core::geometry::Tangent2::new(s * t.dx, s * t.dy, s * t.dtheta))
+                    };
+                    (0..=10).map(|k| RUSTY.footprint(&at(f64::from(k) / 10.0)).parts()[0].placed().clone()).collect()
+                })
+                .collect();
+            for i in 0..9 {
+                let end = RUSTY.footprint(&pose(frame, i));
+                assert!(scene.distance(&end) >= LEAST_CLEARANCE);
+                for j in 0..i {
+                    for a in &arcs[i] {
+                        for b in &arcs[j] {
+                            let gap = (a.core()[0] - b.core()[0]).norm() - 2.0 * RUSTY.body_radius;
+                            assert!(gap >= LEAST_CLEARANCE, "seed {seed} tick {}: {i} and {j} at {gap}", frame.tick);
+                        }
+                    }
+                }
+            }
+            before = frame;
+        }
+        let last = log.frames.last().unwrap();
+        assert!(last.robots.iter().filter(|r| r.contacts > 2).count() >= 6, "they do bump into one another");
+        let moved = |i: usize| (pose(last, i).position() - pose(&log.initial, i).position()).norm();
+        assert!((0..9).filter(|&i| moved(i) > 0.1).count() >= 6, "and they do not get stuck");
+    }
+}
+
+#[test]
+fn a_crowd_s_run_replays_seeks_and_restores() {
+    let (config, input) = bumper_cars(7, 150);
+    let log = Run::record(config.clone(), input.clone()).unwrap();
+    assert_eq!(Run::replay(&log).unwrap(), log.frames);
+    let mut run = Recorder::new(config, input).unwrap();
+    for k in [150, 3, 101, 99] {
+        assert_eq!(run.seek(k).unwrap(), &log.frames[k as usize - 1]);
+    }
+}
+
+#[test]
+fn two_that_drive_at_each_other_stop_nose_to_nose_and_part_again() {
+    let robots: [(&str, &str, &[f64]); 2] =
+        [("west", "rusty", &[-0.5, 0.0, 0.0]), ("east", "rusty", &[0.5, 0.0, std::f64::consts::PI])];
+    let drive = |tick, v| ["west", "east"].map(|r| event(tick, r, RobotInput::Drive(v, 0)));
+    let events = drive(1, 128).into_iter().chain(drive(60, -128)).collect();
+    let log = Run::record(config(arena(2.0, &robots), 80), (Seed(1), script(events))).unwrap();
+    let gap = |f: &Frame| (pose(f, 1).position() - pose(f, 0).position()).norm() - 2.0 * RUSTY.body_radius;
+    assert!((1e-5..=1e-4).contains(&gap(&log.frames[58])), "{}", gap(&log.frames[58]));
+    assert!(log.frames[58].robots.iter().all(|r| r.in_contact && r.contacts >= 1));
+    assert!(log.frames[59].robots.iter().all(|r| !r.in_contact), "away is free at once");
+    assert!(gap(&log.frames[79]) > 0.5);
+}
+
+#[test]
+fn an_arm_is_never_held_and_holds_what_it_lies_on() {
+    let robots: [(&str, &str, &[f64]); 2] = [("arm", "reach", &[0.0, 0.0]), ("Rusty", "rusty", &[0.0, 1.0, 0.0])];
+    let turn = |tick, th1: f64| event(tick, "arm", RobotInput::MoveTo(quantized(&[th1, 0.0])));
+    let events = vec![
+        event(1, "Rusty", RobotInput::Drive(0, 0)),
+        turn(1, 0.5),
+        turn(3, 1.57),
+        event(5, "Rusty", RobotInput::Drive(128, 0)),
+        turn(10, 3.0),
+    ];
+    let sensor = Some(RangeSensor { n_rays: 4, max_range: 9.0 });
+    let config = TourConfig { sensor, ..config(arena(3.0, &robots), 20) };
+    let log = Run::record(config, (Seed(1), script(events))).unwrap();
+    let state = |tick: usize, robot: usize| &log.frames[tick - 1].robots[robot];
+    assert_eq!(state(2, 0).configuration[0], 0.5);
+    assert!(!state(2, 0).in_contact);
+    assert!((state(3, 0).configuration[0] - 1.57).abs() < 1e-6, "the arm goes where its input says");
+    assert!(state(3, 0).in_contact && state(9, 0).in_contact);
+    assert_eq!(state(9, 0).contacts, 1, "one episode, not one a tick");
+    assert_eq!(state(4, 1).configuration, log.initial.robots[1].configuration);
+    assert!(state(9, 1).in_contact);
+    assert_eq!(state(9, 1).configuration, log.initial.robots[1].configuration, "pinned, though it drives");
+    assert!(state(9, 1).extra[0] > state(5, 1).extra[0], "its wheels turn");
+    assert_eq!(*log.frames[8].scans[0].ranges, [0.0; 4], "its sensor sits inside the arm");
+    assert!(log.frames[19].scans[0].ranges.iter().all(|r| *r > RUSTY.body_radius));
+    assert!(!state(20, 0).in_contact && !state(20, 1).in_contact);
+    assert!(state(20, 1).configuration[0] > 0.2, "and when the arm has left it drives on");
+}
+
+#[test]
+fn nobody_is_put_onto_anybody() {
+    let robots: [(&str, &str, &[f64]); 2] = [("a", "rusty", &[0.0, 0.0, 0.0]), ("b", "rusty", &[1.0, 0.0, 0.0])];
+    let to = |tick, robot, x: f64| event(tick, robot, RobotInput::Teleport(quantized(&[x, 0.0, 0.0])));
+    // two bodies of radius 0.11 m need 0.22 m; within a tick the order of the script decides
+    let events =
+        vec![to(1, "a", 0.79), to(2, "a", 0.7), to(3, "a", 0.75), to(4, "b", 1.5), to(4, "a", 1.0), to(5, "b", 1.0)];
+    let log = Run::record(config(arena(3.0, &robots), 5), (Seed(1), script(events))).unwrap();
+    let state = |tick: usize, robot: usize| &log.frames[tick - 1].robots[robot];
+    assert_eq!((state(1, 0).configuration[0], state(1, 0).refusals), (0.0, 1));
+    assert!((state(2, 0).configuration[0] - 0.7).abs() < 1e-6 && state(2, 0).refusals == 1);
+    assert_eq!(state(3, 0).refusals, 1);
+    assert_eq!((state(4, 0).configuration[0], state(4, 1).configuration[0]), (1.0, 1.5));
+    assert_eq!((state(5, 1).configuration[0], state(5, 1).refusals), (1.5, 1));
+}
+
+#[test]
+fn adding_a_robot_changes_nobody_else_s_numbers() {
+    let one: [(&str, &str, &[f64]); 1] = [("Hitch", "hitch", &[-10.0, -10.0, 0.0])];
+    let two: [(&str, &str, &[f64]); 2] =
+        [("Hitch", "hitch", &[-10.0, -10.0, 0.0]), ("arm", "reach3", &[0.1, 0.2, 0.3])];
+    let a = Run::record(config(arena(40.0, &one), 400), Seed(3)).unwrap();
+    let b = Run::record(config(arena(40.0, &two), 400), Seed(3)).unwrap();
+    assert!(a.frames.iter().zip(&b.frames).all(|(a, b)| a.robots[0] == b.robots[0]));
+    assert_eq!(b.frames[399].robots[1].configuration.len(), 3);
+}
+
+#[test]
+fn a_sensor_sees_the_others_and_not_its_own_robot() {
+    let robots: [(&str, &str, &[f64]); 2] = [("a", "rusty", &[0.0, 0.0, 0.0]), ("b", "rusty", &[0.0, 1.0, 0.0])];
+    let mut config = config(arena(2.0, &robots), 1);
+    config.sensor = Some(RangeSensor { n_rays: 4, max_range: 1.5 });
+    let frame = Run::record(config, Seed(1)).unwrap().initial;
+    let [a, b] = &frame.scans[..] else { panic!("two sensors") };
+    assert_eq!((a.robot, b.robot), (0, 1));
+    let near =
+        |seen: &[f64], expected: [f64; 4]| seen.iter().zip(expected).all(|(s, e)| *s == e || (s - e).abs() < 1e-15);
+    let nothing = f64::INFINITY;
+    assert!(near(&a.ranges, [nothing, 1.0 - RUSTY.body_radius, nothing, nothing]), "{:?}", a.ranges);
+    assert!(near(&b.ranges, [nothing, 1.0, nothing, 1.0 - RUSTY.body_radius]), "{:?}", b.ranges);
+}

@@ -1,0 +1,94 @@
+//! `Axis`, one thing that a sweep varies and the values it takes.
+
+use super::error::SweepProblem;
+use super::parameter::{Form, Parameter};
+use super::values::{AxisValue, Over, Written};
+use motion_lab_core::random::{Seed, Stream};
+
+/// An axis whose values fit its parameter.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Axis {
+    pub parameter: Parameter,
+    over: Over,
+}
+
+impl Axis {
+    /// The axis, if its values fit its parameter.
+    pub fn try_new(parameter: Parameter, over: Over) -> Result<Self, SweepProblem> {
+        let form = parameter.form();
+        let fits = matches!(
+            (&over, form),
+            (Over::Range(..) | Over::Values(_) | Over::Steps(..) | Over::Uniform(..), Form::Number(_))
+                | (Over::Range(..) | Over::Values(_), Form::Whole(_))
+                | (Over::Names(_), Form::Name)
+                | (Over::Starts(_), Form::Start)
+        );
+        if !fits {
+            return Err(SweepProblem::Values { found: over.in_words(), expected: form.in_words() });
+        }
+        if let Some(wrong) = over.numbers().into_iter().find(|x| !x.is_finite()) {
+            return Err(SweepProblem::NotFinite(wrong));
+        }
+        if let (Form::Whole(_), Over::Values(values)) = (form, &over)
+            && let Some(wrong) = values.iter().find(|value| value.whole().is_none())
+        {
+            return Err(SweepProblem::NotWhole(wrong.real()));
+        }
+        match over {
+            Over::Steps(_, _, count @ 0..2) => Err(SweepProblem::Steps(count)),
+            Over::Steps(from, to, _) | Over::Uniform(from, to) if !(to - from).is_finite() => {
+                Err(SweepProblem::Span(from, to))
+            }
+            _ if over.len() == Some(0) => Err(SweepProblem::Empty),
+            over => Ok(Axis { parameter, over }),
+        }
+    }
+
+    /// The number of its values; `None` for a range without steps.
+    pub fn len(&self) -> Option<u64> {
+        self.over.len()
+    }
+
+    /// Its value with this number, from 0; the last one beyond the end.
+    pub fn value(&self, i: u64) -> AxisValue {
+        let at = |len: usize| usize::try_from(i).unwrap_or(usize::MAX).min(len.saturating_sub(1));
+        match &self.over {
+            Over::Range(from, _) => self.whole(from.saturating_add(i)),
+            Over::Values(values) => self.written(values[at(values.len())]),
+            // the last one exactly, whatever the rounding
+            Over::Steps(_, to, count) if i + 1 >= *count => self.number(*to),
+            Over::Steps(from, to, count) => self.number(from + (to - from) * (i as f64 / (count - 1) as f64)),
+            Over::Uniform(from, _) => self.number(*from),
+            Over::Names(names) => AxisValue::Name(names[at(names.len())].clone()),
+            Over::Starts(starts) => AxisValue::Start(starts[at(starts.len())].clone()),
+        }
+    }
+
+    /// Its value in row `row` of a random sample: a function of seed, parameter and row.
+    pub fn draw(&self, seed: Seed, row: u64) -> AxisValue {
+        let mut stream = Stream::new(seed, &format!("sweep/{}", self.parameter.name())).at(row);
+        match (&self.over, self.len()) {
+            (Over::Uniform(from, to), _) => self.number(stream.uniform(*from, *to)),
+            (_, len) => self.value(stream.below(len.unwrap_or(1))),
+        }
+    }
+
+    fn written(&self, value: Written) -> AxisValue {
+        match (self.parameter.form(), value.whole()) {
+            (Form::Whole(_), Some(n)) => AxisValue::Whole(n),
+            _ => self.number(value.real()),
+        }
+    }
+
+    fn number(&self, x: f64) -> AxisValue {
+        // a negative zero is a zero
+        AxisValue::Number(x + 0.0)
+    }
+
+    fn whole(&self, n: u64) -> AxisValue {
+        match self.parameter.form() {
+            Form::Number(_) => AxisValue::Number(n as f64),
+            _ => AxisValue::Whole(n),
+        }
+    }
+}

@@ -1,0 +1,69 @@
+//! `Points`, which combinations of its axes' values a sweep runs.
+
+use serde::{Deserialize, Serialize};
+
+use super::axis::Axis;
+use super::error::{MAX_RUNS, SweepProblem};
+use super::values::AxisValue;
+use motion_lab_core::random::Seed;
+
+/// Which combinations are run, as written.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub(super) enum Points {
+    /// Every combination; the last axis changes with every row.
+    #[default]
+    Grid,
+    /// The first values of all axes, then the second ones, and so on.
+    List,
+    /// This many combinations, each axis drawn by itself.
+    Sample {
+        /// How many.
+        count: u64,
+        /// What decides the draws.
+        seed: u64,
+    },
+}
+
+impl Points {
+    /// The number of rows. A problem comes with the number of its axis, if it is one's.
+    pub fn count(self, axes: &[Axis]) -> Result<u64, (Option<usize>, SweepProblem)> {
+        if let Points::Sample { count, .. } = self {
+            return checked(count);
+        }
+        let mut lengths = Vec::with_capacity(axes.len());
+        for (i, axis) in axes.iter().enumerate() {
+            lengths.push(axis.len().ok_or((Some(i), SweepProblem::Continuous))?);
+        }
+        let Some(&expected) = lengths.first() else { return Ok(1) };
+        if self == Points::List {
+            return match lengths.iter().position(|found| *found != expected) {
+                Some(i) => Err((Some(i), SweepProblem::Lengths { found: lengths[i], expected })),
+                None => checked(expected),
+            };
+        }
+        checked(lengths.into_iter().fold(1, u64::saturating_mul))
+    }
+
+    /// The values of all axes in a row.
+    pub fn values(self, axes: &[Axis], row: u64) -> Vec<AxisValue> {
+        match self {
+            Points::Grid => {
+                let mut rest = row;
+                let mut values: Vec<AxisValue> = Vec::with_capacity(axes.len());
+                for axis in axes.iter().rev() {
+                    let len = axis.len().unwrap_or(1);
+                    values.push(axis.value(rest % len));
+                    rest /= len;
+                }
+                values.reverse();
+                values
+            }
+            Points::List => axes.iter().map(|axis| axis.value(row)).collect(),
+            Points::Sample { seed, .. } => axes.iter().map(|axis| axis.draw(Seed(seed), row)).collect(),
+        }
+    }
+}
+
+fn checked(count: u64) -> Result<u64, (Option<usize>, SweepProblem)> {
+    if (1..=MAX_RUNS).contains(&count) { Ok(count) } else { Err((None, SweepProblem::Runs(count))) }
+}

@@ -1,0 +1,108 @@
+//! What comes to the robots with the next tick, and where inputs put them.
+
+use bevy::prelude::*;
+
+use crate::window::ui::{CockpitRobot, TRAIL, footprint_at, joints, turned};
+use motion_lab_core::collision::{Collision as _, Scene};
+use motion_lab_core::configuration::{AnyConfiguration, Coordinates};
+use motion_lab_core::geometry::Point2;
+use motion_lab_core::robots::AnyRobot;
+use motion_lab_sim::run::{Event, RobotInput, Script, WorldChange};
+use motion_lab_sim::simulation::{PendingInput, Playback, RobotView, Roster, Transport, WorldScene};
+
+/// A configuration as a pane says it.
+pub struct Said {
+    /// As its type prints it.
+    pub readout: String,
+    /// The same with every digit.
+    pub in_full: String,
+    /// The tip of an arm.
+    pub tip: Option<Point2>,
+    /// The footprint's distance from the obstacles, metres.
+    pub clearance: Option<f64>,
+}
+
+/// The world that a robot is in, as it meets it.
+pub fn scene_of<'w>(world: &'w World, robot: &RobotView) -> Option<&'w Scene> {
+    let inhabited = *world.resource::<Roster>().worlds().get(robot.world as usize)?;
+    Some(&world.get::<WorldScene>(inhabited)?.0)
+}
+
+/// One of the lab's robots at these coordinates.
+pub fn next(world: &World, robot: &RobotView, to: &[f64]) -> Option<Said> {
+    let there = footprint_at(&robot.kind, robot.model, to);
+    let clearance = scene_of(world, robot).zip(there).map(|(scene, there)| scene.distance(&there));
+    let (in_full, q) = match AnyRobot::of_kind(&robot.kind, to)?.1 {
+        AnyConfiguration::T2(q) => (format!("{q:?}"), q.to_string()),
+        AnyConfiguration::T3(q) => (format!("{q:?}"), q.to_string()),
+        AnyConfiguration::Pose(q) => (format!("{q:?}"), q.to_string()),
+        AnyConfiguration::Hitch(q) => (format!("{q:?}"), q.to_string()),
+    };
+    let tip = robot.tip.and_then(|_| joints(&turned(&robot.footprint, to)).last().copied());
+    Some(Said { readout: q, in_full, tip, clearance })
+}
+
+/// Whether the run is paused with a change of a world, or an input to one of its robots, due at the next tick.
+pub fn waits(world: &World, name: &str, robots: &[CockpitRobot]) -> bool {
+    let Transport { tick, playback, .. } = *world.resource::<Transport>();
+    let pending = world.resource::<PendingInput>();
+    let is_here = |event: &Event| robots.iter().any(|robot| robot.name == event.robot);
+    playback == Playback::Paused
+        && (pending.due(tick + 1).iter().any(is_here) || pending.due_changes(tick + 1).iter().any(|c| c.world == name))
+}
+
+/// The doors of a world that open or close with the next tick of a paused run.
+pub fn doors(world: &World, name: &str) -> Vec<(String, bool)> {
+    let Transport { tick, playback, .. } = *world.resource::<Transport>();
+    let due = world.resource::<PendingInput>().due_changes(tick + 1).iter();
+    let due = due.filter(|change| playback == Playback::Paused && change.world == name);
+    let doors = due.filter_map(|change| match &change.change {
+        WorldChange::Open(door) => Some((door.clone(), true)),
+        WorldChange::Close(door) => Some((door.clone(), false)),
+        _ => None,
+    });
+    doors.collect()
+}
+
+/// The coordinates that an input asks of a robot by the next tick.
+pub fn target(world: &World, robot: &RobotView) -> Option<Coordinates> {
+    let due = world.resource::<PendingInput>().due(world.resource::<Transport>().tick + 1);
+    due.iter().rev().filter(|e| e.robot == robot.name).find_map(|e| match &e.input {
+        RobotInput::MoveTo(to) | RobotInput::Teleport(to) => Some(to.iter().map(|c| c.value()).collect()),
+        _ => None,
+    })
+}
+
+/// The tick by which an input put a robot somewhere last, as far back as its trail goes; 0 without one.
+pub fn put(world: &World, robot: &RobotView) -> u64 {
+    put_by(world.resource::<PendingInput>().script(), &robot.name, world.resource::<Transport>().tick)
+}
+
+fn put_by(script: &Script, robot: &str, tick: u64) -> u64 {
+    let events = script.events[..script.events.partition_point(|e| e.tick <= tick)].iter().rev();
+    let is_put = |e: &&Event| e.robot == robot && matches!(e.input, RobotInput::Teleport(_));
+    events.take_while(|e| e.tick + TRAIL >= tick).find(is_put).map_or(0, |e| e.tick)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_robot_was_put_by_its_own_last_input_up_to_now() {
+        let event = |tick, robot: &str, input| Event { tick, robot: robot.to_owned(), input };
+        let to = || RobotInput::Teleport(Vec::new());
+        let events = vec![
+            event(3, "Rusty", to()),
+            event(5, "Rusty", to()),
+            event(6, "Hitch", to()),
+            event(7, "Rusty", RobotInput::Drive(1, 0)),
+            event(9, "Rusty", to()),
+        ];
+        let script = Script { events, ..Script::empty() };
+        let at = |tick| put_by(&script, "Rusty", tick);
+        assert_eq!([2, 3, 4, 8, 9].map(at), [0, 3, 3, 5, 9]);
+        assert_eq!(put_by(&script, "Reach", 20), 0);
+        assert_eq!([209, 210].map(at), [9, 0], "ten seconds of 20 ticks later it does not matter");
+    }
+}

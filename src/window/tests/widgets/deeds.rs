@@ -1,0 +1,100 @@
+//! Tasks are ticked off by what they ask for, and by nothing that only resembles it.
+
+use super::*;
+
+fn has_done(harness: &Harness<'_, Lab>, deed: &str) -> bool {
+    interface(harness).settings.done.iter().any(|done| done == deed)
+}
+
+/// The lab with the editor of the Apartment in front.
+fn editing() -> Harness<'static, Lab> {
+    let mut harness = lab(WIDE);
+    click(&mut harness, "Atlas");
+    click(&mut harness, "Edit");
+    harness
+}
+
+#[test]
+fn a_wall_is_taken_away_by_deleting_a_wall_and_not_a_table() {
+    let mut harness = editing();
+    for (place, is_wall) in [([6.0, 6.75], false), ([4.0, 6.0], true)] {
+        let thing = at(&harness, place);
+        click_at(&mut harness, thing);
+        click(&mut harness, "Delete");
+        assert!(!has_done(&harness, "EditWorld"), "it is not run yet");
+        click(&mut harness, "Run this world");
+        assert_eq!(has_done(&harness, "EditWorld"), is_wall, "{place:?}");
+        click(&mut harness, "Atlas");
+    }
+}
+
+#[test]
+fn a_wall_that_is_taken_away_and_put_back_is_not_taken_away() {
+    let mut harness = editing();
+    let wall = at(&harness, [4.0, 6.0]);
+    click_at(&mut harness, wall);
+    click(&mut harness, "Delete");
+    click(&mut harness, "Undo");
+    click(&mut harness, "Run this world");
+    assert!(!has_done(&harness, "EditWorld"));
+}
+
+#[test]
+fn a_wall_is_looked_up_by_picking_it_and_not_by_adding_one() {
+    let mut harness = editing();
+    click(&mut harness, "Add wall");
+    let free = at(&harness, [2.0, 4.0]);
+    click_at(&mut harness, free);
+    let name = atlas(&harness).selected.expect("the wall that was added");
+    let kind = atlas(&harness).world().obstacle(&name).expect("a wall").kind;
+    assert_eq!(kind, motion_lab_core::worlds::ObstacleKind::Wall);
+    assert!(!has_done(&harness, "PickWall"));
+    let wall = at(&harness, [4.0, 6.0]);
+    click_at(&mut harness, wall);
+    assert!(has_done(&harness, "PickWall"));
+}
+
+#[test]
+fn a_drag_through_contact_touches_nothing_and_one_that_ends_there_does() {
+    let mut harness = lab(WIDE);
+    click(&mut harness, "Query");
+    click(&mut harness, "distance");
+    let sheet = harness.get_by_label_contains("Reach at T2").rect();
+    let fit = crate::window::ui::paint::canvas::fit(interface(&harness).anatomy.backdrop(), sheet);
+    let [from, to] = [[0.0, std::f64::consts::SQRT_2], [0.7, 1.2]].map(|[x, y]| {
+        let [x, y] = fit.screen_from_world(motion_lab_core::geometry::Point2::new(x, y));
+        pos2(x as f32, y as f32)
+    });
+    // the tip begins at (0, sqrt 2), 0.0607 m from the block, and (0.7, 1.2) is within the block
+    let distance = |harness: &Harness<'_, Lab>| interface(harness).anatomy.anatomy.distance();
+    pointer(&mut harness, from, Some(true));
+    (1..=8).for_each(|i| pointer(&mut harness, from.lerp(to, i as f32 / 8.0), None));
+    assert_eq!(distance(&harness), 0.0);
+    (1..=8).for_each(|i| pointer(&mut harness, to.lerp(from, i as f32 / 8.0), None));
+    pointer(&mut harness, from, Some(false));
+    harness.run_steps(2);
+    assert!(distance(&harness) > 0.05 && !has_done(&harness, "Touch"), "{}", distance(&harness));
+    pointer(&mut harness, from, Some(true));
+    (1..=8).for_each(|i| pointer(&mut harness, from.lerp(to, i as f32 / 8.0), None));
+    pointer(&mut harness, to, Some(false));
+    harness.run_steps(2);
+    assert!(distance(&harness) == 0.0 && has_done(&harness, "Touch"));
+}
+
+#[test]
+fn what_moves_in_another_widget_after_a_press_on_its_button_is_no_deed_of_query() {
+    let mut harness = lab(WIDE);
+    click(&mut harness, "Query");
+    click(&mut harness, "distance");
+    let press = |harness: &mut Harness<'_, Lab>, name: &str| {
+        let at = harness.get_by_label(name).rect().center();
+        click_at(harness, at);
+    };
+    press(&mut harness, "Space");
+    // the second link goes up through the block
+    interface_mut(&mut harness).anatomy.anatomy.set_coordinate(1, 0.5);
+    harness.run_steps(2);
+    assert_eq!(interface(&harness).anatomy.anatomy.distance(), 0.0);
+    press(&mut harness, "Query");
+    assert!(!has_done(&harness, "Touch"));
+}

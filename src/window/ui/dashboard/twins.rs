@@ -1,0 +1,173 @@
+//! The first thing offered beside a robot: another configuration at its position, an arm's other elbow or a car's other
+//! heading, as a ghost. The arm goes there where the straight way is free.
+
+use bevy_egui::egui::{Label, RichText, Ui};
+
+use super::twin_state::{AskedTwin, Way};
+use crate::window::ui::paint::button::LabButton;
+use crate::window::ui::{Cockpit, CockpitRobot, Command, Dashboard, LinkedState, Look, UiState};
+use motion_lab_core::collision::EdgeVerdict;
+use motion_lab_core::configuration::{AnyConfiguration, Configuration};
+use motion_lab_core::num::{greater, wrap};
+use motion_lab_core::picture::{Item, Role, footprint};
+use motion_lab_core::robots::{AnyRobot, Robot};
+use motion_lab_sim::anatomy::{Sweep, contact_items, in_the_way, straight_way, twin};
+use motion_lab_sim::manifest::Deed;
+use motion_lab_sim::run::DT;
+use motion_lab_sim::simulation::TransportCommand;
+
+/// The greatest rate at which a joint turns on the way, radians per second: that of the arm's tour.
+const RATE: f64 = 2.0;
+
+/// Height of the button on a narrow screen, points.
+const FINGERTIP: f32 = 44.0;
+
+/// Difference of two angles that counts as none, radians: more than the rounding of inputs.
+const SAME: f64 = 1e-4;
+
+/// A robot of a cockpit as a model with its configuration, if it is one of the lab's that has a twin: an arm with two
+/// links or a car.
+fn modelled(robot: &CockpitRobot) -> Option<(AnyRobot, AnyConfiguration)> {
+    let q = AnyRobot::of_kind(&robot.kind, &robot.coordinates)?.1;
+    let is_one = matches!(q, AnyConfiguration::T2(_) | AnyConfiguration::Hitch(_));
+    robot.model.filter(|_| is_one).map(|model| (model.fitted(&q), q))
+}
+
+/// The twin of a cockpit's robot, where it is shown: of an arm always, unless it is being moved by hand; of a car on
+/// demand.
+pub fn shown_twin(robot: &CockpitRobot, state: &UiState) -> Option<AnyConfiguration> {
+    let asked = state.twin.as_ref().filter(|asked| asked.robot == robot.name);
+    let (model, q) = modelled(robot)?;
+    match asked {
+        Some(AskedTwin { way: Some(way), .. }) => Some(way.sweep.to),
+        None if !robot.is_arm || robot.target.is_some() => None,
+        _ => twin(&model, &q),
+    }
+}
+
+/// The twins of a cockpit's robots as ghosts, and where the way to one of them hits.
+pub fn twin_items(cockpit: &Cockpit, state: &UiState) -> Vec<Item> {
+    let mut items = Vec::new();
+    // where robots share the room, none is offered
+    if let [robot] = &cockpit.robots[..] {
+        if let Some((q, (model, _))) = shown_twin(robot, state).zip(modelled(robot)) {
+            let name = if robot.is_arm { "the other elbow" } else { "the other heading" };
+            items.extend(footprint("twin", name, &model.footprint(&q), Role::Robot, 0.3));
+        }
+        if let Some(AskedTwin { robot: name, way: Some(way) }) = &state.twin
+            && *name == robot.name
+        {
+            items.extend(contact_items(&way.checker, &way.sweep));
+        }
+    }
+    items
+}
+
+/// Offers a robot's twin by a button, and says in place what came of it. Offers none to other robots.
+pub fn offer(ui: &mut Ui, cockpit: &Cockpit, robot: &CockpitRobot, look: &Look, state: &mut UiState) {
+    let Some((fitted, q)) = modelled(robot) else { return };
+    let other = twin(&fitted, &q);
+    let asked = state.twin.as_ref().filter(|asked| asked.robot == robot.name);
+    let is_asked = asked.is_some();
+    let words = if robot.is_arm { "One tip, two elbows" } else { "One place, two headings" };
+    // the way would begin where a waiting input takes the arm away from
+    let waits = robot.is_arm && robot.target.is_some() && !is_asked;
+    let button = LabButton::new(words).enabled(other.is_some() && !waits);
+    let button = if robot.is_arm { button } else { button.selected(is_asked) };
+    let show = |ui: &mut Ui| {
+        // among rows of words a fingertip finds a button of its own height
+        ui.spacing_mut().interact_size.y = if look.narrow && !look.low { FINGERTIP } else { 0.0 };
+        button.show(ui, look).clicked()
+    };
+    let clicked = ui.scope(show).inner;
+    let said = match (asked.and_then(|asked| asked.way.as_ref()), other) {
+        (Some(way), _) if way.ticks == 0 => straight_way(&way.checker, &way.sweep),
+        (Some(way), _) => format!("{}: it goes there", straight_way(&way.checker, &way.sweep)),
+        (None, _) if waits => "the drag waits for the next tick: step or play first".to_owned(),
+        (None, None) => "straight or folded: no other arm has this tip".to_owned(),
+        (None, Some(_)) if robot.is_arm => "the ghost has the same tip: send the arm there".to_owned(),
+        (None, Some(other)) if is_asked => {
+            let there = in_the_way(&state.linked.checker_of(&cockpit.atlas, &fitted), &other);
+            let there = there.map_or_else(|| "free there too".to_owned(), |name| format!("there it overlaps {name}"));
+            format!("{there}; no single input leads there")
+        }
+        (None, Some(_)) => String::new(),
+    };
+    if !said.is_empty() {
+        ui.add(Label::new(RichText::new(said).color(look.colour(Role::Muted))).wrap());
+    }
+    if clicked {
+        let is_off = is_asked && !robot.is_arm;
+        state.twin = (!is_off).then(|| AskedTwin { robot: robot.name.clone(), way: None });
+        if !robot.is_arm {
+            state.did.push(Deed::TwoHeadings);
+        }
+    }
+}
+
+/// Begins an arm's way to its other elbow if it was asked for, and sends the arm on along it, a target in each tick.
+/// The way ends at the other elbow, or where somebody else moves the arm or time.
+pub fn go_on(model: &Dashboard, state: &mut UiState, commands: &mut Vec<Command>) {
+    let Some(AskedTwin { robot: name, way }) = &mut state.twin else { return };
+    let Some((cockpit, robot)) = model.robot(name) else { return state.twin = None };
+    let Some(way) = way else {
+        if robot.is_arm {
+            let begun = begin(cockpit, robot, model, &state.linked, commands);
+            if begun.as_ref().is_some_and(|way| way.ticks == 0) {
+                state.did.push(Deed::TwoElbows);
+            }
+            state.twin = begun.map(|way| AskedTwin { robot: robot.name.clone(), way: Some(way) });
+        }
+        return;
+    };
+    let at = way.at().coordinates();
+    let is_there = at.len() == robot.coordinates.len()
+        && at.iter().zip(&robot.coordinates).all(|(a, b)| wrap(a - b).abs() <= SAME);
+    let stands = is_there && model.tick >= way.due && way.ticks == 0 && robot.target.is_none();
+    if model.tick + 1 == way.due || stands {
+        // it waits for its tick, or stands where its way is blocked
+    } else if !is_there || model.tick < way.due || way.ticks == 0 {
+        state.twin = None;
+    } else if way.done < way.ticks {
+        way.done += 1;
+        way.send(name, model.tick, commands);
+    } else {
+        if way.pauses {
+            commands.push(Command::from(TransportCommand::Pause));
+        } else if way.steps {
+            commands.push(Command::from(TransportCommand::Play));
+        }
+        state.did.push(Deed::TwoElbows);
+        state.twin = None;
+    }
+}
+
+/// Begins the straight motion of an arm to its other elbow. Where it is blocked the arm stays, so that what is said of
+/// it stays true.
+fn begin(
+    cockpit: &Cockpit,
+    robot: &CockpitRobot,
+    model: &Dashboard,
+    linked: &LinkedState,
+    commands: &mut Vec<Command>,
+) -> Option<Way> {
+    let (fitted, q) = modelled(robot)?;
+    let checker = linked.checker_of(&cockpit.atlas, &fitted);
+    let sweep = Sweep::new(&checker, &q, &twin(&fitted, &q)?).ok()?;
+    let turns = q.coordinates().into_iter().zip(sweep.to.coordinates());
+    let most = turns.map(|(from, to)| wrap(to - from).abs()).fold(0.0, |most, turn| greater(turn, most));
+    let is_free = matches!(sweep.verdict, EdgeVerdict::Free { .. });
+    let ticks = if is_free { (most / (RATE * DT)).ceil() as u32 } else { 0 };
+    let steps = is_free && model.speed.is_infinite();
+    let mut way = Way { checker, sweep, done: ticks.min(1), ticks, due: 0, pauses: !model.playing, steps };
+    // a refusal leaves the run as it is; only at its end, while it plays, is the arm told to stay
+    if !is_free && (!model.playing || model.tick < model.frontier) {
+        return Some(way);
+    }
+    commands.push(Command::from(TransportCommand::Checkpoint));
+    way.send(&robot.name, model.tick, commands);
+    if is_free && !model.playing && !steps {
+        commands.push(Command::from(TransportCommand::Play));
+    }
+    Some(way)
+}

@@ -1,0 +1,54 @@
+//! `LessonState`, the lesson under way.
+
+use motion_lab_sim::manifest::{Deed, Lesson};
+
+/// The lesson under way.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LessonState {
+    /// Which one it is.
+    pub lesson: Lesson,
+    /// The seconds that it took, once it has been done.
+    pub took: Option<f64>,
+    /// The clock at its first frame, seconds.
+    began: Option<f64>,
+    /// Whether its widget has been made ready.
+    pub is_ready: bool,
+    /// Whether the frame before showed it done. What is so from the start is not the reader's doing.
+    was_done: bool,
+}
+
+impl LessonState {
+    /// The lesson at its beginning.
+    pub fn begun(lesson: Lesson) -> Self {
+        LessonState { lesson, took: None, began: None, is_ready: false, was_done: true }
+    }
+
+    /// Takes in what was done in a frame, by `now` in seconds.
+    pub fn see(&mut self, done: &[Deed], now: f64) {
+        let began = *self.began.get_or_insert(now);
+        let is_done = done.contains(&self.lesson.deed);
+        if is_done && !self.was_done && self.took.is_none() {
+            self.took = Some(now - began);
+        }
+        self.was_done = is_done;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_lesson_is_done_by_what_comes_after_its_beginning_and_once() {
+        let mut under_way = LessonState::begun(Lesson::of("near").unwrap());
+        under_way.see(&[Deed::Near], 10.0);
+        assert_eq!(under_way.took, None, "it was so from the start");
+        under_way.see(&[Deed::Touch], 12.0);
+        assert_eq!(under_way.took, None, "another task");
+        under_way.see(&[Deed::Touch, Deed::Near], 17.5);
+        assert_eq!(under_way.took, Some(7.5));
+        under_way.see(&[], 20.0);
+        under_way.see(&[Deed::Near], 30.0);
+        assert_eq!(under_way.took, Some(7.5), "the first time counts");
+    }
+}

@@ -1,0 +1,87 @@
+//! The transport of a planner: begin anew, play and pause, one iteration, the pace.
+
+use bevy_egui::egui::{ComboBox, Ui, WidgetInfo, WidgetType};
+
+use super::state::{PACES, PlanState, Stage};
+use crate::window::ui::Look;
+use crate::window::ui::keys::Action;
+use crate::window::ui::paint::button::LabButton;
+use crate::window::ui::paint::icon::Icon;
+use motion_lab_core::random::Seed;
+use motion_lab_sim::manifest::Deed;
+
+/// Width of the button that plays, points.
+const PLAY_WIDTH: f32 = 56.0;
+
+/// Carries out the actions that move the planner. Returns whether the action was one of them.
+pub fn act(action: Action, plan: &mut PlanState) -> bool {
+    match action {
+        Action::PlayPause if plan.playing => plan.playing = false,
+        Action::PlayPause => play(plan),
+        Action::Step => {
+            plan.playing = false;
+            plan.deeds.extend(goes_on(plan).then_some(Deed::StepPlanner));
+            plan.step();
+        }
+        Action::Start | Action::Reset => plan.restart(),
+        Action::ReRoll => plan.set_seed(Seed(plan.seed().0.wrapping_add(1))),
+        Action::Slower => plan.pace = plan.pace.saturating_sub(1),
+        Action::Faster => plan.pace = (plan.pace + 1).min(PACES.len() - 1),
+        _ => return false,
+    }
+    true
+}
+
+/// Lets the planner go on by itself; one that has ended, or has its path and improves it no more, begins anew.
+fn play(plan: &mut PlanState) {
+    if !goes_on(plan) {
+        plan.restart();
+    }
+    plan.playing = goes_on(plan);
+}
+
+/// Whether another iteration does anything.
+fn goes_on(plan: &PlanState) -> bool {
+    match plan.stage() {
+        Stage::Growing => true,
+        Stage::Solved => plan.improves(),
+        Stage::Ended(_) | Stage::Read(_) => false,
+    }
+}
+
+/// Width of the choice of pace, points.
+const PACE: f32 = 112.0;
+
+/// Shows the buttons and the choice of pace.
+pub fn controls(ui: &mut Ui, look: &Look, plan: &mut PlanState) {
+    let play =
+        if plan.playing { LabButton::new("Pause").icon(Icon::Pause) } else { LabButton::new("Play").icon(Icon::Play) };
+    let buttons = [
+        (LabButton::new("Begin anew").icon(Icon::ToStart), Action::Start, "begin anew (Home)"),
+        (play.width(PLAY_WIDTH), Action::PlayPause, "grow, or pause (Space)"),
+        (LabButton::new("Step").icon(Icon::Step).enabled(goes_on(plan)), Action::Step, "one iteration (\u{2192})"),
+        (LabButton::new("Next seed").icon(Icon::Die), Action::ReRoll, "the next seed (G)"),
+    ];
+    for (button, action, words) in buttons {
+        if button.show(ui, look).on_hover_text(words).clicked() {
+            act(action, plan);
+        }
+    }
+    ui.add_space(6.0);
+    if ui.layout().main_wrap && ui.available_size_before_wrap().x < PACE {
+        ui.end_row();
+    }
+    let selected = PACES[plan.pace.min(PACES.len() - 1)].1;
+    let choice = ComboBox::from_id_salt("pace").width(PACE).selected_text(selected).show_ui(ui, |ui| {
+        for (pace, (_, name)) in PACES.iter().enumerate() {
+            if ui.selectable_label(plan.pace == pace, *name).clicked() {
+                plan.pace = pace;
+            }
+        }
+    });
+    choice.response.widget_info(|| WidgetInfo {
+        current_text_value: Some(selected.into()),
+        ..WidgetInfo::labeled(WidgetType::ComboBox, true, "iterations a second")
+    });
+    choice.response.on_hover_text("Iterations a second (, and .)");
+}

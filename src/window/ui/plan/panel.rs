@@ -1,0 +1,254 @@
+//! The panel beside the papers: what is planned, by whom, and what came of it.
+
+use bevy_egui::egui::{ComboBox, DragValue, RichText, Slider, Ui, WidgetInfo};
+
+use super::state::{PlanState, Stage};
+use crate::window::ui::anatomy::view::{chooser, exact};
+use crate::window::ui::number::Typed;
+use crate::window::ui::paint::button::LabButton;
+use crate::window::ui::paint::fold::fold;
+use crate::window::ui::paint::frame::headline;
+use crate::window::ui::paint::plate::refusal;
+use crate::window::ui::{Command, Look, SessionCommand, UiState};
+use motion_lab_core::collision::{Collision, Scene};
+use motion_lab_core::configuration::{AnyConfiguration, Configuration, HitchCfg};
+use motion_lab_core::picture::{Role, in_signs};
+use motion_lab_core::random::Seed;
+use motion_lab_core::robots::{AnyRobot, Robot};
+use motion_lab_core::worlds::World;
+use motion_lab_sim::capture::{proven, unit};
+use motion_lab_sim::plans::{PathLengths, PlannerName, TUBE, Task};
+
+/// Width of a chooser, points.
+const WIDTH: f32 = 180.0;
+
+/// Shows the panel: what is planned and by whom, and what came of it.
+pub fn panel(ui: &mut Ui, look: &Look, state: &mut UiState, commands: &mut Vec<Command>) {
+    choices(ui, state);
+    ui.add_space(4.0);
+    outcome(ui, look, &state.plan);
+    ui.add_space(4.0);
+    path_buttons(ui, look, &mut state.plan, commands);
+    ui.add_space(4.0);
+    ends(ui, state, false);
+}
+
+/// Shows what is planned, and by whom.
+pub fn choices(ui: &mut Ui, state: &mut UiState) {
+    task_choice(ui, state);
+    let plan = &mut state.plan;
+    planner_choice(ui, plan);
+    if let AnyRobot::Rusty(_) = plan.task().robot {
+        let words = format!("Its radius has {TUBE} m to spare: played, it keeps within that of its path.");
+        ui.label(RichText::new(words).small());
+    }
+    sensor_choice(ui, plan);
+    seed(ui, plan);
+}
+
+/// Shows what came of it.
+pub fn outcome(ui: &mut Ui, look: &Look, plan: &PlanState) {
+    result(ui, look, plan);
+    leave_points(ui, plan);
+}
+
+/// Shows what can be done with the path.
+pub fn path_buttons(ui: &mut Ui, look: &Look, plan: &mut PlanState, commands: &mut Vec<Command>) {
+    let has_path = matches!(plan.stage(), Stage::Solved);
+    ui.horizontal_wrapped(|ui| {
+        let play = LabButton::new("Play it").enabled(has_path).show(ui, look);
+        if play.on_hover_text("A new run in which the robot drives the path").clicked() {
+            commands.push(Command::Session(SessionCommand::PlayPath));
+        }
+        if LabButton::new("Save the path").enabled(has_path).show(ui, look).clicked() {
+            commands.push(Command::Session(SessionCommand::SavePath));
+        }
+        let open = LabButton::new("Open a path").show(ui, look);
+        if open.on_hover_text("A path, a tree or a roadmap of any planner, as JSON").clicked() {
+            commands.push(Command::Session(SessionCommand::OpenPath));
+        }
+        if let Some(command) = plan.command()
+            && LabButton::new("Copy as command").show(ui, look).clicked()
+        {
+            ui.ctx().copy_text(command);
+        }
+    });
+    ui.checkbox(&mut plan.over_drive, "draw it over the dashboard too");
+}
+
+/// Shows the coordinates of start and goal, which fold away.
+pub fn ends(ui: &mut Ui, state: &mut UiState, is_open: bool) {
+    for (end, name) in ["Start", "Goal"].into_iter().enumerate() {
+        fold(ui, name, is_open, |ui| coordinates(ui, state, end));
+    }
+}
+
+/// The robots to plan for: the residents of the built-in worlds and of the atlas's, a car with its trailer and without.
+fn tasks(atlas: &World) -> Vec<(String, AnyRobot, AnyConfiguration, World, bool)> {
+    let books = World::built_in_names().into_iter().filter_map(World::built_in);
+    let mut worlds: Vec<(World, bool)> = books.map(|world| (world, true)).collect();
+    if worlds.iter().all(|(world, _)| world != atlas) {
+        worlds.push((atlas.clone(), false));
+    }
+    let mut choices = Vec::new();
+    for (world, is_books) in worlds {
+        for resident in &world.robots {
+            let Some((robot, q)) = AnyRobot::of_resident(resident) else { continue };
+            choices.push((resident.name.clone(), robot, q, world.clone(), is_books));
+            if let (AnyRobot::Hitch(car), AnyConfiguration::Hitch(at)) = (robot, q) {
+                let (car, trailer) = match at.trailer {
+                    None => (car.with_trailer(), Some(at.body.theta)),
+                    Some(_) => (car.without_trailer(), None),
+                };
+                let q = AnyConfiguration::Hitch(HitchCfg { body: at.body, trailer });
+                choices.push((resident.name.clone(), AnyRobot::Hitch(car), q, world.clone(), is_books));
+            }
+        }
+    }
+    choices
+}
+
+/// A choice in words: `Hitch with its trailer, Lot`; the atlas's world may have a book's name.
+fn named(name: &str, robot: &AnyRobot, world: &World, is_books: bool) -> String {
+    let trailer =
+        if matches!(robot, AnyRobot::Hitch(car) if car.hitch_len.is_some()) { " with its trailer" } else { "" };
+    format!("{name}{trailer}, {}{}", world.name, if is_books { "" } else { ", in the atlas" })
+}
+
+fn task_choice(ui: &mut Ui, state: &mut UiState) {
+    let present = state.plan.task();
+    let shown = named(&present.name, &present.robot, &present.world, state.plan.is_in_books_world());
+    chooser(ui, "robot", ComboBox::from_id_salt("robot").width(WIDTH).selected_text(shown.as_str()), |ui| {
+        for (name, robot, q, world, is_books) in tasks(state.atlas.world()) {
+            let words = named(&name, &robot, &world, is_books);
+            if ui.selectable_label(words == shown, words).clicked() {
+                let goal = goal_for(&robot, &world, q);
+                state.plan.take(Task::new(name, robot, world, [q, goal]));
+            }
+        }
+    });
+}
+
+/// A goal to begin with: the chapter's round the post, another room, bay 2; elsewhere a place of the world's, or the
+/// start itself.
+fn goal_for(robot: &AnyRobot, world: &World, start: AnyConfiguration) -> AnyConfiguration {
+    use std::f64::consts::FRAC_PI_2;
+    let at = |coordinates: &[f64]| start.with_coordinates(coordinates);
+    let own = match (robot, &*world.name) {
+        (AnyRobot::Rusty(_), "Apartment") => at(&[9.75, 6.25, 0.0]),
+        (AnyRobot::Reach(_), "Workbench") => at(&[3.1, 0.0]),
+        (AnyRobot::Hitch(car), "Lot") if car.hitch_len.is_some() => at(&[6.75, 7.0, -FRAC_PI_2, -FRAC_PI_2]),
+        (AnyRobot::Hitch(_), "Lot") => at(&[6.75, 7.0, -FRAC_PI_2]),
+        _ => None,
+    };
+    let scene = Scene::of_world(world);
+    let is_free = |q: &AnyConfiguration| !scene.intersects(&robot.footprint(q)) && *q != start;
+    let places = world.places.iter().map(|place| start.with(0, place.pose.x).with(1, place.pose.y));
+    let turned = (1..8).map(|eighth| start.with(0, f64::from(eighth) * 0.5 * FRAC_PI_2));
+    let others: Vec<_> = if start.is_angle(0) { turned.collect() } else { places.collect() };
+    own.into_iter().chain(others).find(is_free).unwrap_or(start)
+}
+
+fn planner_choice(ui: &mut Ui, plan: &mut PlanState) {
+    let robot = plan.task().robot;
+    let suits = PlannerName::ALL.into_iter().filter(|name| name.suits(&robot).is_ok());
+    let present = plan.planner();
+    let list = ComboBox::from_id_salt("planner").width(WIDTH).height(320.0).selected_text(present.title());
+    chooser(ui, "planner", list, |ui| {
+        for name in suits {
+            if ui.selectable_label(name == present, name.title()).on_hover_text(name.words()).clicked() {
+                plan.set_planner(name);
+            }
+        }
+    });
+    ui.label(RichText::new(present.words()).small());
+}
+
+/// Shows whether the sensor lies, where the planner's robot walks by one.
+fn sensor_choice(ui: &mut Ui, plan: &mut PlanState) {
+    let mut lies = plan.sensor_lies();
+    if plan.is_by_sensor() && ui.checkbox(&mut lies, "the sensor lies").changed() {
+        plan.set_sensor_lies(lies);
+    }
+}
+
+fn seed(ui: &mut Ui, plan: &mut PlanState) {
+    ui.horizontal(|ui| {
+        let label = ui.label("seed");
+        let mut seed = plan.seed().0;
+        if ui.add(DragValue::new(&mut seed).range(0..=u64::from(u32::MAX))).labelled_by(label.id).changed() {
+            plan.set_seed(Seed(seed));
+        }
+    });
+}
+
+/// Shows what the planner has done, and its path or why there is none.
+fn result(ui: &mut Ui, look: &Look, plan: &PlanState) {
+    let effort = plan.effort();
+    let monospace = |text: String| RichText::new(text).monospace();
+    if !matches!(plan.stage(), Stage::Read(_)) {
+        ui.label(monospace(format!("{:>6} iterations  {:>6} samples", effort.iterations, effort.samples)));
+        ui.label(monospace(format!("{:>6} edges asked {:>6} free", effort.edges, effort.free)));
+    }
+    match plan.stage() {
+        Stage::Growing if effort.iterations == 0 => {
+            _ = ui.label("Drag the start or the goal; play, or go step by step.")
+        }
+        Stage::Growing => _ = ui.label("It grows."),
+        Stage::Solved => {
+            if let Some(PathLengths { length, clearance }) = plan.lengths() {
+                let (legs, unit) = (plan.drawn().legs(), unit(&plan.task().robot));
+                headline(ui, &format!("path: {legs}, {length:.3} {unit}"), look.colour(Role::Text));
+                ui.label(monospace(format!("clearance {} m, proven", proven(clearance))));
+            }
+            if plan.improves() {
+                ui.label("Play on, and it improves its path.");
+            }
+        }
+        Stage::Ended(reason) => refusal(ui, &format!("No path: {reason}"), look),
+        Stage::Read(name) => {
+            let drawn = plan.drawn();
+            ui.label(format!("{name}: {}, {} edges", drawn.legs(), drawn.edges.len()));
+            let words = "Drawn as the file says; nothing of it is proven here.";
+            ui.label(RichText::new(words).color(look.colour(Role::Muted)));
+        }
+    }
+}
+
+/// Shows in words where the robot has left boundaries, a line for each round.
+fn leave_points(ui: &mut Ui, plan: &PlanState) {
+    let Some(sensed) = &plan.drawn().sensed else { return };
+    for (i, point) in sensed.leave_points.iter().enumerate() {
+        let words = RichText::new(format!("Round {}: {point}.", i + 1));
+        ui.label(if point.is_too_far() { words.strong() } else { words });
+    }
+    if !sensed.leave_points.is_empty() {
+        let words =
+            "Dot: where it left. Ring: where the boundary truly comes nearest to the goal. Rays: what it reads.";
+        ui.label(RichText::new(words).small());
+    }
+}
+
+/// Shows the coordinates of an end as sliders.
+fn coordinates(ui: &mut Ui, state: &mut UiState, end: usize) {
+    let q = state.plan.end_at(end);
+    let bounds = state.plan.task().world.bounds;
+    ui.spacing_mut().slider_width = 130.0;
+    for (i, (name, mut value)) in q.coordinate_names().into_iter().zip(q.coordinates()).enumerate() {
+        let pi = std::f64::consts::PI;
+        let [least, most] = match i {
+            _ if q.is_angle(i) => [-pi, pi],
+            0 => [bounds.min.x, bounds.max.x],
+            _ => [bounds.min.y, bounds.max.y],
+        };
+        let typed = Typed::new(ui, least..=most, q.is_angle(i));
+        let response = ui.add(exact(Slider::new(&mut value, least..=most), 3, &typed).text(in_signs(&name)));
+        let spoken = format!("{name} of the {}", ["start", "goal"][end.min(1)]);
+        response.widget_info(|| WidgetInfo::slider(true, value, &spoken));
+        if response.changed() {
+            state.plan.end = end;
+            state.plan.move_end(end, q.with(i, value));
+        }
+        state.refuse(typed.refused(&response));
+    }
+}

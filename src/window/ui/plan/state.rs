@@ -1,0 +1,399 @@
+//! `PlanState`, the state of the widget that plans.
+
+use std::sync::Arc;
+
+use bevy::platform::time::Instant;
+
+use super::work::Work;
+use crate::window::ui::cspace::Cells;
+use motion_lab_core::collision::{Checker, Collision};
+use motion_lab_core::configuration::AnyConfiguration;
+use motion_lab_core::picture::{Item, Picture, Role, world as picture_of};
+use motion_lab_core::planning::{Bound, Effort, NoPath, Progress};
+use motion_lab_core::random::Seed;
+use motion_lab_core::robots::{AnyRobot, Robot};
+use motion_lab_core::worlds::World;
+use motion_lab_sim::manifest::Deed;
+use motion_lab_sim::plans::{Bug1Walk, Drawn, PathLengths, PlannerName, Task, space_items, workspace_items};
+use motion_lab_sim::run::Event;
+use motion_lab_sim::tour::{BOOK_SEED, TourConfig};
+
+/// Level of the finest cells: a 128th of the sides.
+const FINEST: u32 = 7;
+
+/// Largest part of a frame spent on iterations, seconds.
+const BUDGET: f64 = 0.008;
+
+/// The paces to choose from: iterations a second.
+pub const PACES: [(f64, &str); 7] = [
+    (1.0, "1 a second"),
+    (3.0, "3 a second"),
+    (10.0, "10 a second"),
+    (30.0, "30 a second"),
+    (100.0, "100 a second"),
+    (1000.0, "1,000 a second"),
+    (f64::INFINITY, "as fast as possible"),
+];
+
+/// The fastest pace at which the last rejected motion is shown: what flashes does so at most three times a second.
+const SHOWS_REJECTED: f64 = 3.0;
+
+/// How far the planner has come.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Stage {
+    /// It has not begun, or has no path yet.
+    Growing,
+    /// It has a path.
+    Solved,
+    /// There is no path, for this reason.
+    Ended(NoPath),
+    /// The path is a file's, of this name.
+    Read(String),
+}
+
+/// The state of the widget that plans.
+#[derive(Clone, Debug)]
+pub struct PlanState {
+    pub(super) task: Task,
+    pub(super) planner: PlannerName,
+    pub(super) seed: Seed,
+    pub(super) work: Option<Work>,
+    pub(super) stage: Stage,
+    /// Whether it goes on by itself.
+    pub playing: bool,
+    /// The number of its pace among [`PACES`].
+    pub pace: usize,
+    /// The greatest number of iterations.
+    pub(super) bound: u64,
+    /// The iterations that are due: less than one after a frame.
+    due: f64,
+    pub(super) effort: Effort,
+    pub(super) drawn: Drawn,
+    /// The name by which commands know the world, if they do.
+    pub(super) known_as: Option<&'static str>,
+    backdrop: Arc<Picture>,
+    /// The plan over the workspace.
+    pub over: Arc<Picture>,
+    pub(super) cells: Option<Cells>,
+    /// The plan over the cells, once it has been asked for.
+    over_cells: Option<Arc<Picture>>,
+    /// The end whose numbers are shown, and that is being dragged: 0 the start, 1 the goal.
+    pub end: usize,
+    /// Whether it is drawn over the dashboard's panes too.
+    pub over_drive: bool,
+    /// The path that the run plays, with the run's configuration and the inputs that play it.
+    played: Option<(Arc<TourConfig>, Arc<Picture>, Vec<Event>)>,
+    /// Whether the goal was moved since the planner was last at work.
+    pub is_moved: bool,
+    /// What the reader did that hints ask for, since it was last taken.
+    pub deeds: Vec<Deed>,
+}
+
+impl Default for PlanState {
+    /// The chapter's question: round the post on the Workbench.
+    fn default() -> Self {
+        let ends = [[2.0, 0.0], [3.1, 0.0]].map(|q| AnyConfiguration::T2(motion_lab_core::configuration::Tn(q)));
+        let arm = AnyRobot::Reach(motion_lab_core::robots::Reach::workbench());
+        Self::of(Task::new("Reach", arm, World::workbench(), ends))
+    }
+}
+
+impl PlanState {
+    /// A task, with the planner that suits its robot.
+    pub fn of(task: Task) -> Self {
+        let drawn = nothing(&task);
+        let known = |name: &&str| World::built_in(name).as_ref() == Some(&task.world);
+        let mut state = PlanState {
+            known_as: World::built_in_names().into_iter().find(known),
+            planner: PlannerName::default_for(&task.robot),
+            seed: BOOK_SEED,
+            work: None,
+            stage: Stage::Growing,
+            playing: false,
+            pace: 3,
+            bound: 0,
+            due: 0.0,
+            effort: Effort::default(),
+            drawn,
+            backdrop: Arc::new(picture_of(&task.world)),
+            over: Arc::new(Picture::new("plan", task.world.bounds)),
+            cells: None,
+            over_cells: None,
+            end: 1,
+            over_drive: false,
+            played: None,
+            is_moved: false,
+            deeds: Vec::new(),
+            task,
+        };
+        state.restart();
+        state
+    }
+
+    /// Another task. The planner stays if it suits the robot, pace and seed stay.
+    pub fn take(&mut self, task: Task) {
+        let planner = if self.planner.suits(&task.robot).is_ok() { Some(self.planner) } else { None };
+        let (seed, pace, over_drive, played) = (self.seed, self.pace, self.over_drive, self.played.take());
+        let task = Task { noise: self.task.noise, ..task };
+        *self = PlanState { seed, pace, over_drive, played, ..Self::of(task) };
+        self.planner = planner.unwrap_or(self.planner);
+        self.restart();
+    }
+
+    /// The task.
+    pub fn task(&self) -> &Task {
+        &self.task
+    }
+
+    /// Whether its world is one of the built-in ones.
+    pub fn is_in_books_world(&self) -> bool {
+        self.known_as.is_some()
+    }
+
+    /// The planner.
+    pub fn planner(&self) -> PlannerName {
+        self.planner
+    }
+
+    /// Chooses another planner, which begins anew.
+    pub fn set_planner(&mut self, planner: PlannerName) {
+        self.planner = planner;
+        self.restart();
+    }
+
+    /// Whether the planner's robot walks by a range sensor, which may lie.
+    pub fn is_by_sensor(&self) -> bool {
+        self.planner == PlannerName::Bug1Sensor
+    }
+
+    /// Whether the sensor lies: it is a cheap one with noise, not an exact one.
+    pub fn sensor_lies(&self) -> bool {
+        self.task.noise.is_some()
+    }
+
+    /// Chooses whether the sensor lies. The planner begins anew.
+    pub fn set_sensor_lies(&mut self, lies: bool) {
+        self.task.noise = lies.then_some(Bug1Walk::NOISE);
+        self.restart();
+    }
+
+    /// The seed of the samples, and of what a sensor reads that lies.
+    pub fn seed(&self) -> Seed {
+        self.seed
+    }
+
+    /// Chooses another seed, with which the planner begins anew.
+    pub fn set_seed(&mut self, seed: Seed) {
+        self.seed = seed;
+        self.restart();
+    }
+
+    /// Moves the start, 0, or the goal, 1. The planner begins anew.
+    pub fn move_end(&mut self, end: usize, q: AnyConfiguration) {
+        let moved = if end == 0 { &mut self.task.start } else { &mut self.task.goal };
+        if *moved != q {
+            *moved = q;
+            self.restart();
+            self.is_moved |= end == 1;
+        }
+    }
+
+    /// The start, 0, or the goal, 1.
+    pub fn end_at(&self, end: usize) -> AnyConfiguration {
+        if end == 0 { self.task.start } else { self.task.goal }
+    }
+
+    /// Whether its planner goes on to improve a path that it has.
+    pub fn improves(&self) -> bool {
+        self.planner == PlannerName::RrtStar && self.effort.iterations < self.bound
+    }
+
+    /// The plan in a sentence, for readers who do not see it.
+    pub fn described(&self) -> String {
+        let Task { name, start, goal, .. } = &self.task;
+        let found = match &self.stage {
+            Stage::Growing => format!("{} edges so far", self.drawn.edges.len()),
+            Stage::Solved => format!("a path of {}", self.drawn.legs()),
+            Stage::Ended(reason) => reason.to_string(),
+            Stage::Read(file) => return format!("the file {file} for {name}, from {start} to {goal}"),
+        };
+        let left = self.drawn.sensed.iter().flat_map(|sensed| &sensed.leave_points).enumerate();
+        let left: String = left.map(|(i, point)| format!("; round {}: {point}", i + 1)).collect();
+        format!("{} for {name}, from {start} to {goal}: {found}{left}", self.planner.title())
+    }
+
+    /// How far the planner has come.
+    pub fn stage(&self) -> &Stage {
+        &self.stage
+    }
+
+    /// What the planner has done.
+    pub fn effort(&self) -> Effort {
+        self.effort
+    }
+
+    /// What there is to draw.
+    pub fn drawn(&self) -> &Drawn {
+        &self.drawn
+    }
+
+    /// The length and the clearance of the planner's own path, if it has one.
+    pub fn lengths(&self) -> Option<PathLengths> {
+        let work = self.work.as_ref().filter(|_| self.stage == Stage::Solved)?;
+        Some(work.with(|attempt| attempt.lengths()))
+    }
+
+    /// The picture of the world alone.
+    pub fn backdrop(&self) -> &Arc<Picture> {
+        &self.backdrop
+    }
+
+    /// Begins anew: nothing is grown. Says at once where there is no problem to solve.
+    pub fn restart(&mut self) {
+        self.playing = false;
+        self.due = 0.0;
+        self.bound = self.planner.iterations();
+        (self.work, self.stage) = match self.task.attempt(self.planner, self.seed) {
+            Ok(attempt) => (Some(Work::new(attempt)), Stage::Growing),
+            Err(reason) => (None, Stage::Ended(reason)),
+        };
+        self.look();
+    }
+
+    /// Does one iteration; nothing where no planner is at work, as for a file's path.
+    pub fn step(&mut self) {
+        if self.work.is_none() {
+            return;
+        }
+        self.step_unseen();
+        self.look();
+    }
+
+    /// Does one iteration without looking at what came of it. What ends the planner, or is its first path, ends its
+    /// going on by itself.
+    fn step_unseen(&mut self) {
+        let Some(work) = &self.work else { return };
+        if matches!(self.stage, Stage::Ended(_)) {
+            return self.playing = false;
+        }
+        self.deeds.extend(std::mem::take(&mut self.is_moved).then_some(Deed::MoveGoal));
+        let effort = work.with(|attempt| attempt.effort());
+        let next = if effort.iterations >= self.bound {
+            let exhausted = NoPath::Exhausted { bound: Bound::Iterations, effort };
+            if self.stage == Stage::Solved { Stage::Solved } else { Stage::Ended(exhausted) }
+        } else {
+            match work.with(|attempt| attempt.step()) {
+                Progress::Growing => return,
+                Progress::Solved if self.stage == Stage::Solved && self.improves() => return,
+                Progress::Solved => Stage::Solved,
+                Progress::Ended(reason) => Stage::Ended(reason),
+            }
+        };
+        (self.stage, self.playing) = (next, false);
+    }
+
+    /// Goes on by itself for a frame that took `seconds`.
+    pub fn play(&mut self, seconds: f64) {
+        let (rate, _) = PACES[self.pace.min(PACES.len() - 1)];
+        // after a pause of the window it does not hurry to make up for it
+        self.due = if rate.is_finite() { self.due + rate * seconds.clamp(0.0, 0.1) } else { f64::INFINITY };
+        let begun = Instant::now();
+        if self.due < 1.0 {
+            return;
+        }
+        while self.playing && self.due >= 1.0 && begun.elapsed().as_secs_f64() < BUDGET {
+            self.step_unseen();
+            self.due -= 1.0;
+        }
+        // what the budget had no room for is let go
+        self.due = if self.due < 1.0 { self.due } else { 0.0 };
+        self.look();
+    }
+
+    /// The run with this configuration plays the path by these inputs: it is drawn over its world, but for the start,
+    /// where the robot is.
+    pub fn is_played_by(&mut self, config: &Arc<TourConfig>, inputs: Vec<Event>) {
+        let shown = |item: &Item| !item.id.starts_with("start") && item.id != "growth";
+        let items = self.over.items.iter().filter(|item| shown(item)).cloned();
+        let picture = Picture::new("played path", self.over.bounds).with(items);
+        self.played = Some((Arc::clone(config), Arc::new(picture), inputs));
+    }
+
+    /// Forgets the path that a run played, unless that run is still the one with this configuration.
+    pub fn see_run(&mut self, config: &Arc<TourConfig>) {
+        self.played.take_if(|(played, ..)| !Arc::ptr_eq(played, config));
+    }
+
+    /// Whether a run with these inputs does nothing but play the path.
+    pub fn plays_alone(&self, inputs: &[Event]) -> bool {
+        self.played.as_ref().is_some_and(|(.., own)| *own == inputs)
+    }
+
+    /// The picture of the path or the plan for a pane that shows the world of this name, where it is to be drawn there.
+    pub fn over_world(&self, name: &str) -> Option<&Arc<Picture>> {
+        let is_there = |config: &TourConfig| config.worlds.iter().any(|world| world.name == name);
+        let played = self.played.as_ref().filter(|(config, ..)| is_there(config)).map(|(_, picture, _)| picture);
+        played.or_else(|| Some(&self.over).filter(|_| self.over_drive && self.task.world.name == name))
+    }
+
+    /// The slice of the configuration space behind the plan, through the end in hand, a little better known with each
+    /// call.
+    pub fn cells(&mut self, budget: u32) -> Option<(&Cells, bool)> {
+        let through = self.end_at(self.end);
+        let slice_of = |cells: &Cells| {
+            let checker = cells.map().slice().checker();
+            Arc::ptr_eq(&checker.shared_scene(), &self.task.scene) && *checker.robot() == self.task.planned()
+        };
+        let serves = |cells: &Cells| slice_of(cells) && cells.map().slice().holds(&through);
+        if !self.cells.as_ref().is_some_and(serves) {
+            let checker = Checker::new(Arc::clone(&self.task.scene), self.task.planned());
+            self.cells = Cells::through(&checker, &through, FINEST);
+            self.over_cells = None;
+        }
+        let cells = self.cells.as_mut()?;
+        let more = cells.refine(budget);
+        Some((cells, more))
+    }
+
+    /// Looks at what the planner has grown.
+    fn look(&mut self) {
+        let (effort, mut drawn) = match &self.work {
+            Some(work) => work.with(|attempt| (attempt.effort(), attempt.drawn())),
+            None => (Effort::default(), nothing(&self.task)),
+        };
+        if self.playing && PACES[self.pace.min(PACES.len() - 1)].0 > SHOWS_REJECTED {
+            drawn.rejected = None;
+        }
+        // a disc has no heading: the ends keep the robot's own
+        drawn.ends = [self.task.start, self.task.goal];
+        self.effort = effort;
+        self.draw(drawn);
+    }
+
+    /// Draws this from now on.
+    pub(super) fn draw(&mut self, drawn: Drawn) {
+        let mut items = workspace_items(&self.task.robot, &drawn);
+        if self.task.scene.intersects(&self.task.robot.footprint(&self.task.goal)) {
+            // what is in contact is red, whatever it is
+            items.iter_mut().filter(|item| item.id.starts_with("goal")).for_each(|item| item.role = Role::Goal);
+        }
+        self.over = Arc::new(Picture::new("plan", self.task.world.bounds).with(items));
+        (self.drawn, self.over_cells) = (drawn, None);
+    }
+
+    /// The plan over the cells of the slice, drawn where something has changed.
+    pub fn over_cells(&mut self) -> Option<Arc<Picture>> {
+        let cells = self.cells.as_ref()?;
+        let drawn = || {
+            let items = space_items(cells.map().slice(), &self.drawn);
+            Arc::new(Picture::new("plan in its space", cells.picture().bounds).with(items))
+        };
+        Some(Arc::clone(self.over_cells.get_or_insert_with(drawn)))
+    }
+}
+
+/// The ends of a task, before anything is grown.
+fn nothing(task: &Task) -> Drawn {
+    let ends = [task.start, task.goal];
+    Drawn { ends, edges: Vec::new(), path: Vec::new(), corners: Vec::new(), rejected: None, sensed: None }
+}

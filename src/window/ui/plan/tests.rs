@@ -1,0 +1,253 @@
+//! The planner at work, without its widget.
+
+use std::sync::Arc;
+
+use super::PlanState;
+use super::state::{PACES, Stage};
+use motion_lab_core::collision::Collision;
+use motion_lab_core::configuration::{AnyConfiguration, T2};
+use motion_lab_core::cspace::CellState;
+use motion_lab_core::geometry::{Footprint, Point2};
+use motion_lab_core::picture::{Drawing, Picture, Role};
+use motion_lab_core::planning::{LeavePoint, NoPath};
+use motion_lab_core::random::Seed;
+use motion_lab_core::robots::AnyRobot;
+use motion_lab_core::worlds::World;
+use motion_lab_sim::plans::{PlannerName, Task};
+
+/// The number of its pace of this many iterations a second.
+fn pace(rate: f64) -> usize {
+    PACES.iter().position(|(each, _)| *each == rate).unwrap()
+}
+
+#[test]
+fn a_pace_is_so_many_iterations_a_second_whatever_the_frames() {
+    for frames in [10_u32, 40, 60] {
+        let mut plan = PlanState::default();
+        // one whose first second finds no path: Dijkstra looks at the whole grid
+        plan.set_planner(PlannerName::Dijkstra);
+        plan.pace = pace(10.0);
+        plan.playing = true;
+        (0..frames).for_each(|_| plan.play(1.0 / f64::from(frames)));
+        // the last may fall due a little after the second
+        assert!((9..=10).contains(&plan.effort().iterations), "{frames}: {}", plan.effort().iterations);
+    }
+    let mut plan = PlanState::default();
+    plan.pace = pace(1000.0);
+    plan.set_planner(PlannerName::Dijkstra);
+    plan.playing = true;
+    plan.play(3600.0);
+    assert!(plan.effort().iterations <= 100, "an hour's pause is not made up for");
+}
+
+#[test]
+fn rrt_star_goes_on_to_improve_its_path_and_others_stop_at_theirs() {
+    let mut plan = PlanState::default();
+    plan.set_planner(PlannerName::RrtStar);
+    while *plan.stage() == Stage::Growing {
+        plan.step();
+    }
+    let (first, iterations) = (plan.lengths().unwrap().length, plan.effort().iterations);
+    assert!(plan.improves());
+    (0..300).for_each(|_| plan.step());
+    let better = plan.lengths().unwrap().length;
+    assert_eq!(plan.effort().iterations, iterations + 300);
+    assert!(better < first, "{better} {first}");
+    plan.set_planner(PlannerName::RrtConnect);
+    while *plan.stage() == Stage::Growing {
+        plan.step();
+    }
+    assert!(!plan.improves() && *plan.stage() == Stage::Solved);
+}
+
+#[test]
+fn a_planner_ends_at_its_bound_with_the_path_that_it_has_or_with_the_reason() {
+    let mut plan = PlanState::default();
+    assert_eq!(plan.bound, 100_000);
+    plan.set_planner(PlannerName::Dijkstra);
+    plan.bound = 40;
+    (0..60).for_each(|_| plan.step());
+    assert_eq!(plan.effort().iterations, 40);
+    let Stage::Ended(reason) = plan.stage() else { panic!("{:?}", plan.stage()) };
+    assert!(reason.to_string().starts_with("no path within the bound on iterations: 40 iterations"), "{reason}");
+    plan.set_planner(PlannerName::RrtStar);
+    while *plan.stage() == Stage::Growing {
+        plan.step();
+    }
+    plan.bound = plan.effort().iterations + 5;
+    (0..20).for_each(|_| plan.step());
+    assert!(*plan.stage() == Stage::Solved && plan.effort().iterations == plan.bound && !plan.improves());
+}
+
+#[test]
+fn the_ends_are_points_of_the_slice() {
+    let mut plan = PlanState::default();
+    assert!(plan.cells(1).is_some());
+    let at = |over: &Picture, id: &str| match over.items.iter().find(|item| item.id == id).unwrap().drawing {
+        Drawing::Mark { at, .. } => [at.x, at.y],
+        _ => panic!("a mark"),
+    };
+    let over = plan.over_cells().unwrap();
+    assert_eq!((at(&over, "start"), at(&over, "goal")), ([2.0, 0.0], [3.1, 0.0]));
+    assert!(Arc::ptr_eq(&over, &plan.over_cells().unwrap()), "where nothing happens nothing is drawn");
+    plan.move_end(1, AnyConfiguration::T2(T2::new(2.9, 0.0)));
+    assert_eq!(at(&plan.over_cells().unwrap(), "goal"), [2.9, 0.0]);
+}
+
+#[test]
+fn the_cells_are_those_of_the_robot_as_it_is_planned_for() {
+    let mut plan = PlanState::default();
+    let (robot, start) = AnyRobot::of_kind("rusty", &[1.0, 1.0, 0.0]).unwrap();
+    plan.take(Task::new("Rusty", robot, cell(), [start, start.with(1, 0.8)]));
+    let (cells, _) = plan.cells(1).unwrap();
+    let slice = cells.map().slice();
+    // a rover of 11 cm is planned 2 cm larger
+    let judged = [0.115, 0.125, 0.135].map(|from_the_wall| slice.judge([2.0 - from_the_wall, 1.0], [1e-6; 2]));
+    assert_eq!(judged, [CellState::Blocked, CellState::Blocked, CellState::Free]);
+}
+
+/// A world of two rooms without a door.
+fn cell() -> World {
+    let shut = r#"World(version: 1, name: "Cell", bounds: (min: (0, 0), max: (4, 2)),
+        walls: [(name: "the wall", points: [(2, 0), (2, 2)]),
+            (name: "the rest", points: [(0, 0), (4, 0), (4, 2), (0, 2)], closed: true)],
+        robots: [(name: "Rusty", kind: "rusty", start: [1, 1, 0])])"#;
+    World::parse("cell.ron", shut).unwrap()
+}
+
+#[test]
+fn a_rejected_motion_is_seen_at_a_slow_pace_and_never_flickers_at_a_fast_one() {
+    let mut plan = PlanState::default();
+    plan.set_planner(PlannerName::Rrt);
+    let mut seen = 0;
+    while *plan.stage() == Stage::Growing {
+        plan.step();
+        seen += u32::from(plan.drawn().rejected.is_some());
+    }
+    assert!(seen > 0, "step by step");
+    plan.restart();
+    (plan.playing, plan.pace) = (true, pace(30.0));
+    while plan.playing {
+        plan.play(1.0 / 30.0);
+        assert!(plan.drawn().rejected.is_none() || !plan.playing);
+    }
+}
+
+#[test]
+fn what_is_no_problem_is_said_and_mended_by_another_end() {
+    let mut plan = PlanState::default();
+    let in_the_block = AnyConfiguration::T2(T2::new(0.785, 0.785));
+    plan.move_end(0, in_the_block);
+    assert!(matches!(plan.stage(), Stage::Ended(NoPath::Problem(_))), "{:?}", plan.stage());
+    plan.step();
+    assert_eq!(plan.effort().iterations, 0);
+    plan.move_end(0, AnyConfiguration::T2(T2::new(2.0, 0.0)));
+    assert_eq!(*plan.stage(), Stage::Growing);
+    // a robot in a world where it can't go anywhere but has room: every planner ends within its bound
+    let world = cell();
+    let (robot, start) = AnyRobot::of_resident(&world.robots[0]).unwrap();
+    plan.take(Task::new("Rusty", robot, world, [start, start.with(0, 3.0)]));
+    plan.set_planner(PlannerName::CellDecomposition);
+    while *plan.stage() == Stage::Growing {
+        plan.step();
+    }
+    assert!(matches!(plan.stage(), Stage::Ended(NoPath::Unreachable { .. })), "{:?}", plan.stage());
+    assert!(plan.command().is_none() && plan.file().is_none() && plan.played().is_none());
+}
+
+#[test]
+fn a_files_plan_says_what_it_is_and_its_words_go_nowhere() {
+    let mut plan = PlanState::default();
+    let file = r#"{"version": 1, "world": {"name": "Workbench"}, "robot": {"kind": "reach", "name": "x; rm #"},
+        "start": [2, 0], "goal": [3.1, 0], "legs": [{"kind": "chart line", "from": [2, 0], "to": [3.1, 0]}]}"#;
+    plan.read("own.json", file, &World::workbench()).unwrap();
+    assert_eq!((plan.task().name.as_str(), plan.command()), ("Reach", None));
+    let drawn = plan.drawn().path.len();
+    plan.step();
+    assert!(drawn > 1 && plan.drawn().path.len() == drawn, "no planner is at work here");
+    let captured = plan.captured();
+    assert_eq!(captured.figure.description, "A path from a file; nothing of it is proven here.");
+    let notes: Vec<_> = captured.notes.iter().map(|(name, _)| *name).collect();
+    assert_eq!(notes, ["File", "Robot", "World"]);
+    assert!(!plan.described().contains("RRT"), "{}", plan.described());
+    // moved ends make it a task again, of a robot that commands know
+    plan.move_end(1, AnyConfiguration::T2(T2::new(3.0, 0.0)));
+    assert!(plan.command().unwrap().contains("--robot Reach --world workbench --from 2,0 --to 3,0"));
+    let growing = plan.captured().figure.description;
+    assert_eq!(growing, "RRT-Connect at seed 2005: no path so far.");
+}
+
+/// Rusty's way across the Apartment by its sensor, at a seed at which a lying one misjudges a leave point.
+fn by_sensor() -> PlanState {
+    let mut plan = PlanState::default();
+    let (robot, start) = AnyRobot::of_kind("rusty", &[1.5, 5.75, 0.0]).unwrap();
+    let goal = start.with(0, 9.75).with(1, 6.25);
+    plan.take(Task::new("Rusty", robot, World::apartment(), [start, goal]));
+    plan.set_seed(Seed(2034));
+    plan.set_planner(PlannerName::Bug1Sensor);
+    plan
+}
+
+#[test]
+fn a_switch_makes_the_sensor_lie_and_a_misjudged_leave_point_is_drawn_and_said() {
+    let mut plan = by_sensor();
+    let mut walked = |lies: bool| -> (PlanState, Vec<LeavePoint>) {
+        plan.set_sensor_lies(lies);
+        assert_eq!(plan.effort().iterations, 0, "it begins anew");
+        (plan.playing, plan.pace) = (true, pace(f64::INFINITY));
+        while plan.playing {
+            plan.play(0.1);
+        }
+        let points = plan.drawn().sensed.as_ref().unwrap().leave_points.clone();
+        (plan.clone(), points)
+    };
+    let ids = |plan: &PlanState| plan.over.items.iter().map(|item| item.id.clone()).collect::<Vec<String>>();
+    let (exact, points) = walked(false);
+    assert!(*exact.stage() == Stage::Solved && points.iter().all(|point| !point.is_misjudged()), "{points:?}");
+    assert!(exact.described().ends_with("round 1: left where the boundary comes nearest"), "{}", exact.described());
+    assert!(!ids(&exact).iter().any(|id| id.starts_with("misjudged/")));
+    assert!(exact.command().unwrap().contains("--planner bug1-sensor --robot Rusty --world apartment"));
+
+    let (lying, points) = walked(true);
+    assert!(points[0].is_too_far() && lying.described().contains("farther from the goal"), "{}", lying.described());
+    let drawn = ids(&lying);
+    for id in ["readings", "present/0", "left/1", "nearest/1", "misjudged/1", "left/2"] {
+        assert!(drawn.iter().any(|each| each == id), "{id} of {drawn:?}");
+    }
+    let at = |id: &str| match lying.over.items.iter().find(|item| item.id == id).unwrap().drawing {
+        Drawing::Mark { at, .. } => at,
+        _ => panic!("a mark"),
+    };
+    assert_eq!((at("left/1"), Some(at("nearest/1"))), (points[0].at, points[0].nearest));
+    assert!(lying.command().is_none(), "the command's sensor is exact");
+    // the switch stays with another task, and asks nothing of other planners
+    let mut other = lying.clone();
+    other.take(Task::new("Rusty", other.task().robot, World::apartment(), [other.end_at(1), other.end_at(0)]));
+    assert!(other.sensor_lies() && other.is_by_sensor());
+    other.set_planner(PlannerName::Rrt);
+    assert!(other.command().is_some());
+}
+
+#[test]
+fn the_robot_and_its_readings_are_drawn_where_it_is() {
+    let mut plan = by_sensor();
+    (0..40).for_each(|_| plan.step());
+    let here = plan.drawn().edges.last().unwrap().last().copied().unwrap();
+    let here = plan.task().robot.reference(&here);
+    let readings = plan.over.items.iter().find(|item| item.id == "readings").unwrap();
+    let Drawing::Rays { from, ends } = &readings.drawing else { panic!("rays") };
+    assert_eq!((readings.role, *from), (Role::Sensor, here));
+    // an exact reading lies on a wall
+    assert!(ends.len() > 20 && ends.iter().all(|p| from_walls(&plan, *p) < 1e-9), "{ends:?}");
+    plan.set_sensor_lies(true);
+    (0..40).for_each(|_| plan.step());
+    let readings = plan.over.items.iter().find(|item| item.id == "readings").unwrap();
+    let Drawing::Rays { ends, .. } = &readings.drawing else { panic!("rays") };
+    let off = ends.iter().filter(|p| from_walls(&plan, **p) > 1e-3).count();
+    assert!(2 * off > ends.len(), "{off} of {}", ends.len());
+}
+
+/// The distance of a point from the world's walls, metres.
+fn from_walls(plan: &PlanState, p: Point2) -> f64 {
+    plan.task().scene.distance(&Footprint::disc(p, 0.0))
+}

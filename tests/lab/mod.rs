@@ -1,0 +1,11 @@
+//! The lab beside its program: examples, words, letters, grading, and the scripts of the gate.
+
+mod anatomy;
+#[cfg(feature = "cli")]
+mod atlas;
+pub mod examples;
+#[cfg(unix)]
+mod gate;
+mod grading;
+mod letters;
+mod words;
