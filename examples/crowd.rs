@@ -79,19 +79,19 @@ pub fn record(seed: Seed, ticks: u64) -> Result<Log, Box<dyn Error>> {
 /// The program's output for a run of this many ticks.
 pub fn report(ticks: u64) -> Result<String, Box<dyn Error>> {
     let log = record(motion_lab::tour::BOOK_SEED, ticks)?;
-    let last = log.frames.last().ok_or("no ticks")?;
+    let last = log.frames().last().ok_or("no ticks")?;
     let mut lines = vec![format!("{} robots, {} s", last.robots.len(), ticks / 20)];
     let [disc, car, arm] = [RobotKind::RUSTY, RobotKind::HITCH, RobotKind::REACH3].map(|kind| kind.name);
     for (what, kind, coordinates) in
         [("rovers", disc, 3), ("cars", car, 3), ("with trailers", car, 4), ("arms", arm, 3)]
     {
-        let residents = log.config.worlds.iter().flat_map(|w| &w.robots).zip(&last.robots);
+        let residents = log.recipe.config.worlds.iter().flat_map(|w| &w.robots).zip(&last.robots);
         let contacts =
             residents.filter(|(r, _)| r.kind == kind && r.start.len() == coordinates).map(|(_, s)| s.contacts);
         let (count, sum) = contacts.fold((0, 0), |(count, sum), contacts| (count + 1, sum + contacts));
         lines.push(format!("{count:2} {what:13} {sum:3} contacts"));
     }
-    lines.push(format!("digest {}\n", log.digest()));
+    lines.push(format!("digest {}\n", log.digest().ok_or("no digest")?));
     Ok(lines.join("\n"))
 }
 

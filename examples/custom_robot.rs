@@ -270,6 +270,10 @@ impl SimulatedRobot for Train {
 /// What figures, plots and a window show of trains: names, spaces, and how a configuration prints.
 pub static ABOUT: RobotKind = RobotKind {
     name: "x-train",
+    title: "Train",
+    home: None,
+    usual: None,
+    sizes: None,
     coordinates: &["x", "y", "theta", "psi1", "psi2"],
     lengths: 2,
     start: "five: x, y, theta, psi1, psi2",

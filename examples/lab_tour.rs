@@ -43,7 +43,7 @@ pub fn report(figure: &Path) -> Result<String, Box<dyn Error>> {
 
     // the 60 s tour, recorded, replayed from seed and script alone, and compared to the last bit
     let log = Run::record(TourConfig::default(), BOOK_SEED)?;
-    if Run::replay(&log)? != log.frames {
+    if Run::replay(&log)? != log.frames() {
         return Err("the replay differs".into());
     }
     for line in motion_lab::recording::final_lines(&log) {
@@ -52,7 +52,7 @@ pub fn report(figure: &Path) -> Result<String, Box<dyn Error>> {
     if let Some(folder) = figure.parent() {
         fs::create_dir_all(folder)?;
     }
-    fs::write(figure, run_svg(&log, log.config.ticks, Theme::Light, |_| {})?)?;
+    fs::write(figure, run_svg(&log, log.recipe.config.ticks, Theme::Light, |_| {})?)?;
     Ok(text)
 }
 

@@ -49,9 +49,9 @@
 //!
 //! # Crates
 //!
-//! The library is four crates, and this one re-exports the others. A planner needs `motion-lab-core` alone, which has no
-//! features; `motion-lab-sim` adds the simulator and the run log, on Bevy's ECS; `motion-lab-import` reads other programs'
-//! files. What is only here is the lab itself.
+//! The library is five crates, and this one re-exports the others. A planner needs `motion-lab-core` alone, which has
+//! no features; `motion-lab-sim` adds the simulator and the run log, on Bevy's ECS; `motion-lab-import` reads the files
+//! of other programs; `motion-lab-raster` makes pixels of drawings. What is only here is the lab itself.
 //!
 //! # Features
 //!
@@ -97,26 +97,18 @@ pub mod output;
 #[cfg(feature = "cli")]
 pub mod batch;
 
-#[cfg(feature = "cli")]
-mod raster;
+pub mod capture;
 
-/// Captures: a widget's view as a figure for a page, as SVG, PNG or GIF.
-pub mod capture {
-    #[cfg(feature = "cli")]
-    #[doc(hidden)]
-    pub use crate::raster::{GifWriter, Image, Raster, Size, paint, write_png};
-    #[cfg(feature = "cli")]
-    pub use crate::raster::{film, film_with_robots, slides, write};
-    pub use motion_lab_sim::capture::*;
-}
-
+// what only a desktop uses lies idle in the page, which shares the widgets
 #[cfg(feature = "screen")]
+#[cfg_attr(not(feature = "window"), allow(dead_code, unused_imports))]
 mod window;
 
 /// The lab in a window.
 #[cfg(feature = "window")]
 pub mod app {
-    pub use crate::window::{FrameTimes, Opened, Pause, WindowError, open_in_window, run_window, run_window_with};
+    pub use crate::window::desktop::{Opened, WindowError, open_in_window, run_window, run_window_with};
+    pub use crate::window::{LabSystems, is_busy};
 }
 
 // the program's own likewise: it writes links

@@ -11,7 +11,7 @@ use allocation_counter::measure;
 use motion_lab::collision::Scene;
 use motion_lab::random::Seed;
 use motion_lab::recording::{Recorder, Run};
-use motion_lab::run::LogWriter;
+use motion_lab::run::{LogKind, LogWriter};
 use motion_lab::sensors::RangeSensor;
 use motion_lab::tour::{BOOK_SEED, TourConfig};
 use motion_lab::worlds::Warehouse;
@@ -51,14 +51,15 @@ fn main() {
     let [few, many] = [1_000, 10_000].map(|robots| kept(|| crowd(robots)));
     say("a robot of a warehouse, with its scan, shelves and frame", (many - few) / 9_000.0);
     let log = Run::record(TourConfig::default(), BOOK_SEED).expect("the tour runs");
-    let frame = &log.frames[600];
+    let frame = &log.frames()[600];
     let copy = kept(|| frame.clone());
     let scans = frame.scans.iter().map(|scan| 8.0 * scan.ranges.len() as f64).sum::<f64>();
     say("a frame of the tour in memory, its scan of 360 rays included", copy + scans);
     let written = |frames| {
         let mut writer =
-            LogWriter::new(Vec::new(), BOOK_SEED, &log.config, &log.script, &log.initial).expect("a log of the tour");
-        log.frames.iter().take(frames).for_each(|frame| _ = writer.tick(frame).expect("the next tick"));
+            LogWriter::new(Vec::new(), &log.recipe, LogKind::Frames, log.initial().expect("its first frame"))
+                .expect("a log of the tour");
+        log.frames().iter().take(frames).for_each(|frame| writer.tick(frame).expect("the next tick"));
         writer.into_inner().len() as f64
     };
     say("a tick of the tour in a log, its scan and seal included", (written(1_200) - written(0)) / 1_200.0);

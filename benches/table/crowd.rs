@@ -6,7 +6,7 @@ use motion_lab::geometry::Pose2;
 use motion_lab::random::Seed;
 use motion_lab::recording::Recorder;
 use motion_lab::robots::{AnyRobot, RUSTY};
-use motion_lab::run::{DT, RunDigest, Script};
+use motion_lab::run::{DT, Recipe, RunDigest};
 use motion_lab::sensors::{RangeSensor, Scanner};
 use motion_lab::simulation::Replicas;
 use motion_lab::tour::{BOOK_SEED, TourConfig};
@@ -35,8 +35,9 @@ struct Crowd {
 impl Crowd {
     fn begin(world: World) -> Self {
         let config = TourConfig { worlds: vec![world], ticks: 1_000_000, sensor: Some(SENSOR) };
-        let mut recorder = Recorder::new(config.clone(), BOOK_SEED).expect("the warehouse runs");
-        let mut digest = RunDigest::new(BOOK_SEED, &config, &Script::empty(), recorder.frame());
+        let recipe = Recipe::new(config, BOOK_SEED);
+        let mut recorder = Recorder::of(&recipe).expect("the warehouse runs");
+        let mut digest = RunDigest::new(&recipe, recorder.frame());
         (0..20).for_each(|_| digest.tick(recorder.step()));
         let frame = recorder.frame();
         let pose = |scan: &motion_lab::run::RobotScan| {

@@ -7,7 +7,7 @@ use motion_lab::geometry::Pose2;
 use motion_lab::num::{hypot, wrap};
 use motion_lab::prelude::RustyDisc;
 use motion_lab::recording::{Recorder, Run};
-use motion_lab::run::{DT, Frame, Log, LogWriter, RunDigest};
+use motion_lab::run::{DT, Frame, Log, LogKind, LogWriter};
 use motion_lab::sensors::Scanner;
 use motion_lab::tour::{BOOK_SEED, TourConfig};
 use motion_lab::worlds::World;
@@ -36,7 +36,7 @@ fn begin(config: TourConfig) -> Recorder {
 /// A log that begins in memory that has been used before, as a file's pages have.
 fn write(log: &Log, mut room: Vec<u8>) -> LogWriter<Vec<u8>> {
     room.clear();
-    LogWriter::new(room, BOOK_SEED, &log.config, &log.script, &log.initial).expect("a log")
+    LogWriter::new(room, &log.recipe, LogKind::Frames, log.initial().expect("its first frame")).expect("a log")
 }
 
 /// The poses from which the rover scans, tick by tick.
@@ -45,7 +45,7 @@ fn poses(log: &Log) -> Vec<Pose2> {
         let q = &frame.robots[frame.scans[0].robot as usize].configuration;
         Pose2::new(q[0], q[1], q[2])
     };
-    log.frames.iter().map(pose).collect()
+    log.frames().iter().map(pose).collect()
 }
 
 /// A tick of the tour and its parts, in units of the one scan in it.
@@ -59,26 +59,21 @@ fn tick(table: &mut Table) {
     ];
     let works = works.map(|(work, mark)| (work.to_owned(), mark));
     let log = recorded();
-    let count = log.frames.len();
+    let count = log.frames().len();
     table.race(&works, |_| {
         let log = &log;
-        let scene = Scene::of_world(&log.config.worlds[0]);
-        let mut scanner = Scanner::new(log.config.sensor.expect("the tour has a sensor"));
+        let scene = Scene::of_world(&log.recipe.config.worlds[0]);
+        let mut scanner = Scanner::new(log.recipe.config.sensor.expect("the tour has a sensor"));
         let (poses, mut ranges) = (poses(log), vec![0.0; 360]);
-        for (pose, frame) in poses.iter().zip(&log.frames) {
+        for (pose, frame) in poses.iter().zip(log.frames()) {
             scanner.scan_into(&scene, &[], pose, &mut ranges);
             assert!(frame.scans[0].ranges.iter().eq(&ranges), "the scan alone is that of tick {}", frame.tick);
         }
         let mut room = Vec::new();
         let whole = move || {
             let (mut recorder, mut writer) = (begin(TourConfig::default()), write(log, std::mem::take(&mut room)));
-            let mut digest = RunDigest::new(BOOK_SEED, &log.config, &log.script, &log.initial);
-            let took = ticks(count, |_| {
-                let frame = recorder.step();
-                digest.tick(frame);
-                writer.tick(frame).expect("the next tick");
-            });
-            assert_eq!(digest.digest(), log.digest(), "the same minute");
+            let took = ticks(count, |_| writer.tick(recorder.step()).expect("the next tick"));
+            assert_eq!(Some(writer.digest()), log.digest(), "the same minute");
             room = writer.into_inner();
             took
         };
@@ -86,7 +81,10 @@ fn tick(table: &mut Table) {
             ticks(1, |_| {
                 let log = recorded();
                 let frames = Run::replay(&log).expect("it replays");
-                assert!(frames.iter().map(Frame::digest).eq(log.digests.iter().copied()), "the replay differs");
+                assert!(
+                    frames.iter().map(Frame::digest).eq(log.frames().iter().map(Frame::digest)),
+                    "the replay differs"
+                );
             }) / count as f64
         };
         let step = move || {
@@ -102,7 +100,7 @@ fn tick(table: &mut Table) {
         let mut room = Vec::new();
         let written = move || {
             let mut writer = write(log, std::mem::take(&mut room));
-            let took = ticks(count, |i| _ = writer.tick(&log.frames[i]).expect("the next tick"));
+            let took = ticks(count, |i| writer.tick(&log.frames()[i]).expect("the next tick"));
             room = writer.into_inner();
             took
         };
@@ -130,11 +128,11 @@ fn minute(log: &Log) -> Task {
     let speeds = poses
         .windows(2)
         .flat_map(|w| [hypot(w[1].x - w[0].x, w[1].y - w[0].y) / DT, wrap(w[1].theta - w[0].theta) / DT]);
-    let sensor = log.config.sensor.expect("the tour has a sensor");
+    let sensor = log.recipe.config.sensor.expect("the tour has a sensor");
     Task {
         kind: "minute".into(),
         settings: vec![sensor.max_range, DT, RustyDisc::default().radius],
-        obstacles: sides(&Scene::of_world(&log.config.worlds[0])),
+        obstacles: sides(&Scene::of_world(&log.recipe.config.worlds[0])),
         cases: vec![[poses[0].x, poses[0].y, poses[0].theta].into_iter().chain(speeds).collect()],
     }
 }
@@ -146,7 +144,7 @@ pub fn rows(table: &mut Table) {
         return;
     }
     let log = recorded();
-    println!("  digest {}", log.digest());
+    println!("  digest {}", log.digest().expect("it has frames"));
     let peers = table.peers.entrants(&minute(&log), |_, _| ());
     let ours = Entrant::new("", 1, |_| recorded());
     let timings = race(std::iter::once(ours).chain(peers).collect());

@@ -9,8 +9,6 @@ pub use support::end::{Failure, Outcome};
 use clap::{Parser, Subcommand};
 use support::console::be_quiet;
 
-#[cfg(feature = "window")]
-use commands::open;
 use commands::{
     bare, capture, completions, describe, diff, export, grade, info, plan, plot, query, record, replay, script, stats,
     sweep, verify, world,
@@ -69,7 +67,7 @@ enum Command {
     Grade(grade::GradeArgs),
     Sweep(Box<sweep::SweepArgs>),
     #[cfg(feature = "window")]
-    Open(open::Open),
+    Open(commands::open::Open),
     Describe(describe::Describe),
     Completions(completions::Completions),
     Man(completions::ManPages),
@@ -101,7 +99,7 @@ impl Cli {
             Some(Command::Grade(grade)) => grade.run(data),
             Some(Command::Describe(describe)) => describe.run(data),
             #[cfg(feature = "window")]
-            Some(Command::Open(open)) => open.run(data),
+            Some(Command::Open(open)) => open.run(),
             None => bare::bare(data),
         }
     }

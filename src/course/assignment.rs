@@ -144,8 +144,9 @@ impl AssignmentFile {
     }
 
     /// [`in_world`](Self::in_world) for a world with kinds of robots that a program added: `add` adds them to each run
-    /// that grading begins, by [`RobotPlugin`](motion_lab_sim::simulation::RobotPlugin). A kind's description decides how far a
-    /// configuration is from the goal and which way is forward; without one, coordinates are compared one by one.
+    /// that grading begins, by [`RobotPlugin`](motion_lab_sim::simulation::RobotPlugin). A kind's description decides
+    /// how far a configuration is from the goal and which way is forward; without one, coordinates are compared one by
+    /// one.
     ///
     /// # Errors
     /// As [`in_world`](Self::in_world), and when the world has a robot of a kind that `add` does not add.

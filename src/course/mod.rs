@@ -48,7 +48,7 @@ pub use score::{Criterion, Score};
 pub use stay::{Stay, When};
 
 use motion_lab_sim::recording::RunError;
-use motion_lab_sim::run::{Divergence, Log, RobotInput, Script, ScriptError};
+use motion_lab_sim::run::{Difference, Log, RobotInput, Script, ScriptError};
 
 /// The work handed in.
 #[derive(Clone, Debug, PartialEq)]
@@ -79,9 +79,9 @@ pub enum Refusal {
     /// The log was recorded in another world, or from another start.
     #[error("the log was recorded in another world, or from another start")]
     OtherWorld,
-    /// A frame of the log differs from the run of its seed, configuration and script.
+    /// The log differs from the run of its seed, configuration and script.
     #[error("forged at {0}")]
-    Forged(Box<Divergence>),
+    Forged(Box<Difference>),
 }
 
 /// The result of a submission.
@@ -115,7 +115,7 @@ impl Assignment {
     pub fn grade_watched(&self, submission: &Submission, mut on_tick: impl FnMut(usize, u64)) -> Grade {
         let script = match submission {
             Submission::Script(script) => script,
-            Submission::Log(log) => &log.script,
+            Submission::Log(log) => &log.recipe.script,
         };
         let attempts = self.accept(submission).and_then(|()| {
             let seeds = self.seeds().iter().enumerate();
@@ -139,14 +139,15 @@ impl Assignment {
         let script = match submission {
             Submission::Script(script) => script,
             Submission::Log(log) => {
-                if let Some(divergence) = self.forgery(log)? {
-                    return Err(Refusal::Forged(Box::new(divergence)));
+                // the log's frames are not trusted: its run is simulated again
+                if let Some(difference) = self.verify(log)?.difference {
+                    return Err(Refusal::Forged(Box::new(difference)));
                 }
                 let hash = self.world().content_hash();
-                if !log.config.worlds.iter().any(|world| world.content_hash() == hash) {
+                if !log.recipe.config.worlds.iter().any(|world| world.content_hash() == hash) {
                     return Err(Refusal::OtherWorld);
                 }
-                &log.script
+                &log.recipe.script
             }
         };
         script.check()?;
@@ -159,11 +160,5 @@ impl Assignment {
             Some(event) => Err(Refusal::Teleport(event)),
             None => Ok(()),
         }
-    }
-
-    /// The first value in a log's frames that differs from the run of its seed, configuration and script: `expected` by
-    /// the log, `found` in the run, as [`verify`](motion_lab_sim::recording::verify) says it.
-    fn forgery(&self, log: &Log) -> Result<Option<Divergence>, RunError> {
-        Ok(self.verify(log)?.divergence)
     }
 }

@@ -11,8 +11,8 @@ pub fn identity_worlds() -> Vec<String> {
     World::built_in_names().map(String::from).to_vec()
 }
 
-/// The line of [`recording::identity_line`](motion_lab_sim::recording::identity_line) for a built-in world; where there is none,
-/// the reason.
+/// The line of [`recording::identity_line`](motion_lab_sim::recording::identity_line) for a built-in world; where there
+/// is none, the reason.
 #[wasm_bindgen]
 pub fn identity_line(seed: u64, world: &str) -> String {
     let Some(world) = World::built_in(world) else {

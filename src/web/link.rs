@@ -10,7 +10,7 @@ use motion_lab_core::random::Seed;
 use motion_lab_core::worlds::World;
 use motion_lab_sim::anatomy::Tab;
 use motion_lab_sim::manifest::{Lesson, ThemeChoice, Widget};
-use motion_lab_sim::run::{Script, ScriptError};
+use motion_lab_sim::run::{Recipe, Script, ScriptError};
 use motion_lab_sim::tour::{BOOK_SEED, TourConfig};
 
 /// The version of the address format in which inputs are in the script.
@@ -191,11 +191,12 @@ impl Default for Link {
 }
 
 impl Link {
-    /// The link that shows a run of this seed, configuration and script at the configuration's last tick.
+    /// The link that shows a run at its configuration's last tick.
     ///
     /// # Errors
     /// [`LinkError`] when the run's worlds or sensor are not the lab's own, or the tick lies beyond [`MAX_LINK_TICK`].
-    pub fn of(seed: Seed, config: &TourConfig, script: Script) -> Result<Self, LinkError> {
+    pub fn of(recipe: &Recipe) -> Result<Self, LinkError> {
+        let Recipe { seed, config, script } = recipe;
         let usual = TourConfig::default();
         if config.sensor != usual.sensor {
             return Err(LinkError::Sensor);
@@ -208,7 +209,7 @@ impl Link {
             let own = World::built_in_names().into_iter().find(|name| World::built_in(name).as_ref() == Some(world));
             worlds.push(own.ok_or_else(|| LinkError::World(world.name.clone()))?.to_owned());
         }
-        Ok(Link { seed, worlds, tick: config.ticks, script, ..Link::default() })
+        Ok(Link { seed: *seed, worlds, tick: config.ticks, script: script.clone(), ..Link::default() })
     }
 
     /// The link that the query of an address holds, with or without its question mark; likewise that of a fragment.
@@ -359,13 +360,13 @@ impl Link {
         query
     }
 
-    /// The configuration of the run: as long as the link's tick, and at least one tick.
-    pub fn config(&self) -> TourConfig {
-        let usual = TourConfig { ticks: self.tick.max(1), ..TourConfig::default() };
-        if self.worlds.is_empty() {
-            return usual;
+    /// The run: as long as the link's tick, and at least one tick.
+    pub fn recipe(&self) -> Recipe {
+        let mut config = TourConfig { ticks: self.tick.max(1), ..TourConfig::default() };
+        if !self.worlds.is_empty() {
+            config.worlds = self.worlds.iter().filter_map(|name| World::built_in(name)).collect();
         }
-        TourConfig { worlds: self.worlds.iter().filter_map(|name| World::built_in(name)).collect(), ..usual }
+        Recipe::new(config, (self.seed, self.script.clone()))
     }
 }
 

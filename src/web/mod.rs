@@ -16,24 +16,6 @@ mod mirror;
 mod runs;
 
 #[cfg(all(target_family = "wasm", feature = "web"))]
-mod canvas;
-#[cfg(all(target_family = "wasm", feature = "web"))]
-mod controls;
-#[cfg(all(target_family = "wasm", feature = "web"))]
-mod downloads;
-#[cfg(all(target_family = "wasm", feature = "web"))]
-mod error;
-#[cfg(all(target_family = "wasm", feature = "web"))]
-mod inbox;
-#[cfg(all(target_family = "wasm", feature = "web"))]
-mod lab;
-#[cfg(all(target_family = "wasm", feature = "web"))]
-mod listener;
-#[cfg(all(target_family = "wasm", feature = "web"))]
-mod message;
-#[cfg(all(target_family = "wasm", feature = "web"))]
-mod report;
-#[cfg(all(target_family = "wasm", feature = "web"))]
-mod run_link;
+mod page;
 
 pub use link::{LINK_VERSION, LINK_VERSION_WITH_INPUTS, Link, LinkError, MAX_LINK, MAX_LINK_TICK};

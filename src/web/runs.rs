@@ -9,10 +9,8 @@ use motion_lab_core::random::Seed;
 use motion_lab_core::sensors::RangeSensor;
 use motion_lab_core::worlds::{World, WorldError};
 use motion_lab_sim::capture::RunFigure;
-use motion_lab_sim::recording::{DigestVerification, Recorder, Run, RunError, Verification, verify, verify_digests};
-use motion_lab_sim::run::{
-    DigestLog, DigestLogWriter, Log, LogError, MOST_ROBOTS_IN_FULL, RunDigest, Script, ScriptError,
-};
+use motion_lab_sim::recording::{Recorder, RunError, Verification, verify};
+use motion_lab_sim::run::{Difference, Log, LogError, LogKind, LogWriter, Recipe, RunDigest, Script, ScriptError};
 use motion_lab_sim::tour::TourConfig;
 
 /// The parts of a run, as JSON. A page keeps them so that it can record the run again when the lab has stopped.
@@ -33,7 +31,8 @@ pub struct RunParts {
 impl RunParts {
     /// The parts of a run of no ticks yet.
     #[cfg(feature = "web")]
-    pub fn of(config: &TourConfig, seed: Seed, script: &Script) -> Self {
+    pub fn of(recipe: &Recipe) -> Self {
+        let Recipe { seed, config, script } = recipe;
         RunParts {
             seed: seed.to_string(),
             worlds: config.worlds.iter().map(World::to_ron).collect(),
@@ -43,16 +42,14 @@ impl RunParts {
         }
     }
 
-    /// The log's bytes, with all frames where there is `room` for as many robots, else with a digest of each second.
-    fn written(&self, room: usize) -> Result<Vec<u8>, PartsError> {
+    fn recipe(&self) -> Result<Recipe, PartsError> {
         let seed = self.seed.parse().map_err(|_| PartsError::Seed(self.seed.clone()))?;
         let parse = |text: &String| World::parse("the world", text);
         let worlds = self.worlds.iter().map(parse).collect::<Result<_, _>>()?;
         let mut script = Script::parse("the script", &self.script)?;
         script.truncate_after(self.ticks);
         let sensor = self.sensor.map(|(n_rays, max_range)| RangeSensor { n_rays, max_range });
-        let config = TourConfig { worlds, ticks: self.ticks, sensor };
-        written(config, Seed(seed), script, room)
+        Ok(Recipe::new(TourConfig { worlds, ticks: self.ticks, sensor }, (Seed(seed), script)))
     }
 }
 
@@ -92,26 +89,23 @@ struct Verdict {
     text: String,
 }
 
-/// The bytes of a run's log: with all frames up to `room` robots, above with a digest of each second.
-fn written(config: TourConfig, seed: Seed, script: Script, room: usize) -> Result<Vec<u8>, PartsError> {
-    let mut bytes = Vec::new();
-    if config.robot_names().count() <= room {
-        Run::record(config, (seed, script))?.write_mcap(&mut bytes)?;
-        return Ok(bytes);
+/// The bytes of a run's log.
+fn written(recipe: &Recipe, kind: LogKind) -> Result<Vec<u8>, PartsError> {
+    let mut run = Recorder::of(recipe)?.without_keyframes();
+    let mut writer = LogWriter::new(Vec::new(), recipe, kind, run.frame())?;
+    for _ in 0..recipe.config.ticks {
+        writer.tick(run.step())?;
     }
-    let mut run = Recorder::new(config.clone(), (seed, script.clone()))?.without_keyframes();
-    let mut digest = RunDigest::new(seed, &config, &script, run.frame());
-    let mut writer = DigestLogWriter::new(bytes, seed, &config, &script, &digest)?;
-    for _ in 0..config.ticks {
-        let frame = run.step();
-        digest.tick(frame);
-        writer.tick(frame, &digest)?;
-    }
-    Ok(writer.finish(digest.digest())?)
+    Ok(writer.finish()?)
 }
 
 fn error(text: impl ToString) -> JsError {
     JsError::new(&text.to_string())
+}
+
+fn recipe_of(parts: &str) -> Result<Recipe, JsError> {
+    let parts: RunParts = serde_json::from_str(parts).map_err(error)?;
+    parts.recipe().map_err(error)
 }
 
 /// The bytes of the log of a run from its parts, as JSON: `{ "seed", "worlds", "script", "ticks", "sensor" }`.
@@ -120,8 +114,8 @@ fn error(text: impl ToString) -> JsError {
 /// The reason, when a part is refused.
 #[wasm_bindgen]
 pub fn record_log(parts: &str) -> Result<Vec<u8>, JsError> {
-    let parts: RunParts = serde_json::from_str(parts).map_err(error)?;
-    parts.written(MOST_ROBOTS_IN_FULL).map_err(error)
+    let recipe = recipe_of(parts)?;
+    written(&recipe, LogKind::usual(&recipe.config)).map_err(error)
 }
 
 /// The bytes of the log of such a run with a digest of each second instead of its frames: a fiftieth of them.
@@ -130,8 +124,7 @@ pub fn record_log(parts: &str) -> Result<Vec<u8>, JsError> {
 /// The reason, when a part is refused.
 #[wasm_bindgen]
 pub fn record_digests(parts: &str) -> Result<Vec<u8>, JsError> {
-    let parts: RunParts = serde_json::from_str(parts).map_err(error)?;
-    parts.written(0).map_err(error)
+    written(&recipe_of(parts)?, LogKind::Digests).map_err(error)
 }
 
 /// The bytes of the log of the run that the query of an address stands for, with a digest of each second.
@@ -141,7 +134,7 @@ pub fn record_digests(parts: &str) -> Result<Vec<u8>, JsError> {
 #[wasm_bindgen]
 pub fn record_link(query: &str) -> Result<Vec<u8>, JsError> {
     let link = Link::parse(query).map_err(error)?;
-    written(link.config(), link.seed, link.script.clone(), 0).map_err(error)
+    written(&link.recipe(), LogKind::Digests).map_err(error)
 }
 
 /// Simulates a log's run again from its seed, configuration and script, and compares every frame to the last bit, or
@@ -152,35 +145,14 @@ pub fn record_link(query: &str) -> Result<Vec<u8>, JsError> {
 /// The reason, when the bytes are no log, or one that was cut or damaged.
 #[wasm_bindgen]
 pub fn verify_log(bytes: &[u8]) -> Result<String, JsError> {
-    let log = match Log::read_mcap(bytes) {
-        Ok(read) => read.log,
-        Err(LogError::NoFrames) => return verify_digest_log(bytes),
-        Err(other) => return Err(error(other)),
-    };
-    let Verification { recorded, digest, divergence, .. } = verify(&log, |_| {}).map_err(error)?;
-    let verdict = Verdict {
-        verified: divergence.is_none(),
-        ticks: recorded,
-        diverging_tick: divergence.as_ref().map(|d| d.tick),
-        digest: digest.to_string(),
-        seed: log.seed.to_string(),
-        text: match divergence {
-            None => format!("bit-identical, {recorded} of {recorded}"),
-            Some(divergence) => divergence.to_string(),
-        },
-    };
-    serde_json::to_string(&verdict).map_err(error)
-}
-
-fn verify_digest_log(bytes: &[u8]) -> Result<String, JsError> {
-    let log = DigestLog::read_mcap(bytes).map_err(error)?.log;
-    let DigestVerification { recorded, digest, difference, .. } = verify_digests(&log, |_| {}).map_err(error)?;
+    let log = Log::read_mcap(bytes).map_err(error)?.log;
+    let Verification { recorded, digest, difference, .. } = verify(&log, |_| {}).map_err(error)?;
     let verdict = Verdict {
         verified: difference.is_none(),
         ticks: recorded,
-        diverging_tick: difference.map(|d| d.first_tick),
+        diverging_tick: difference.as_ref().map(Difference::first_tick),
         digest: digest.to_string(),
-        seed: log.seed.to_string(),
+        seed: log.recipe.seed.to_string(),
         text: match difference {
             None => format!("bit-identical, {recorded} of {recorded}"),
             Some(difference) => difference.to_string(),
@@ -192,9 +164,7 @@ fn verify_digest_log(bytes: &[u8]) -> Result<String, JsError> {
 /// A log's run, simulated again to be watched: what its figure shows at a tick.
 #[wasm_bindgen]
 pub struct Replay {
-    seed: Seed,
-    config: TourConfig,
-    script: Script,
+    recipe: Recipe,
     recorder: Recorder,
     figure: RunFigure,
     digest: RunDigest,
@@ -208,23 +178,15 @@ impl Replay {
     /// The reason, when the bytes are no log, or one that was cut or damaged.
     #[wasm_bindgen(constructor)]
     pub fn new(bytes: &[u8]) -> Result<Self, JsError> {
-        let (seed, config, script) = match Log::read_mcap(bytes) {
-            Ok(read) => (read.log.seed, read.log.config, read.log.script),
-            Err(LogError::NoFrames) => {
-                let log = DigestLog::read_mcap(bytes).map_err(error)?.log;
-                (log.seed, log.config, log.script)
-            }
-            Err(other) => return Err(error(other)),
-        };
-        Replay::begin(seed, config, script)
+        Replay::begin(Log::read_mcap(bytes).map_err(error)?.log.recipe)
     }
 
-    fn begin(seed: Seed, config: TourConfig, script: Script) -> Result<Self, JsError> {
-        let recorder = Recorder::new(config.clone(), (seed, script.clone())).map_err(error)?.without_keyframes();
+    fn begin(recipe: Recipe) -> Result<Self, JsError> {
+        let recorder = Recorder::of(&recipe).map_err(error)?.without_keyframes();
         let mut figure = RunFigure::default();
         figure.watch(recorder.view());
-        let digest = RunDigest::new(seed, &config, &script, recorder.frame());
-        Ok(Replay { seed, config, script, recorder, figure, digest })
+        let digest = RunDigest::new(&recipe, recorder.frame());
+        Ok(Replay { recipe, recorder, figure, digest })
     }
 
     /// The figure of the run up to a tick, at most its last, as SVG on light or dark paper. A tick before the one
@@ -234,14 +196,14 @@ impl Replay {
     /// The reason, when the run does not start again.
     pub fn at(&mut self, tick: u64, dark: bool) -> Result<String, JsError> {
         if tick < self.recorder.frame().tick {
-            *self = Replay::begin(self.seed, self.config.clone(), self.script.clone())?;
+            *self = Replay::begin(self.recipe.clone())?;
         }
-        while self.recorder.frame().tick < tick.min(self.config.ticks) {
+        while self.recorder.frame().tick < tick.min(self.recipe.config.ticks) {
             self.digest.tick(self.recorder.step());
             self.figure.watch(self.recorder.view());
         }
         let theme = if dark { Theme::Dark } else { Theme::Light };
         let shown = self.recorder.frame().tick;
-        Ok(self.figure.svg(self.seed, &self.config, shown, self.digest.digest(), theme))
+        Ok(self.figure.svg(&self.recipe, shown, self.digest.digest(), theme))
     }
 }

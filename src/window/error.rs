@@ -38,7 +38,6 @@ pub enum SessionError {
     #[error("{0}")]
     Refused(Refusal),
     /// A file that is too large to open.
-    #[cfg(feature = "window")]
     #[error("{found} bytes: the window opens at most {most}")]
     TooLarge {
         /// Its size, bytes.

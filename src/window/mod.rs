@@ -1,70 +1,55 @@
 //! The lab in a window: the session, a camera, and egui painting what is in front.
 
-mod aside;
-#[cfg(feature = "window")]
-mod capture;
+mod background;
 mod captured;
-#[cfg(feature = "window")]
-mod clipboard;
 mod crowds;
 #[cfg(feature = "window")]
-mod dialogs;
+pub mod desktop;
 mod error;
-#[cfg(feature = "window")]
-mod files;
-#[cfg(feature = "window")]
-mod frames;
-#[cfg(feature = "window")]
-mod kept;
+mod lab_systems;
+mod modifiers;
 mod pace;
 mod put_robot;
-mod rest;
 mod runs;
 mod session;
 // two attributes, because the lints recognise only a bare `cfg(test)`
 #[cfg(test)]
 #[cfg(feature = "window")]
 mod tests;
-mod ui;
-#[cfg(feature = "window")]
-mod window;
+pub(crate) mod ui;
 
 use bevy::core_pipeline::Core2d;
 use bevy::ecs::schedule::SingleThreadedExecutor;
 use bevy::prelude::*;
 use bevy::render::camera::CameraRenderGraph;
-#[cfg(feature = "window")]
-use bevy::window::WindowTheme;
 use bevy::window::{RequestRedraw, WindowResizeConstraints, WindowResolution};
 use bevy::winit::{UpdateMode, WinitSettings};
 use bevy_egui::{EguiContext, EguiGlobalSettings, EguiPlugin, EguiPrimaryContextPass, PrimaryEguiContext, egui};
 
-#[cfg(feature = "window")]
-pub use frames::{FrameTimes, Pause};
-pub(crate) use session::SessionPlugin;
-#[cfg(feature = "window")]
-pub use window::{Opened, WindowError, open_in_window, run_window, run_window_with};
-
-use aside::Aside;
-#[cfg(all(target_family = "wasm", feature = "web"))]
-pub(crate) use aside::{seek_aside, stop as stop_aside};
-#[cfg(all(target_family = "wasm", feature = "web"))]
-pub(crate) use captured::{captured, subject};
-#[cfg(all(target_family = "wasm", feature = "web"))]
-pub(crate) use error::SessionError;
-use motion_lab_core::picture::Theme;
+use background::Background;
+pub use lab_systems::LabSystems;
 use motion_lab_sim::simulation::History;
-#[cfg(all(target_family = "wasm", feature = "web"))]
-pub(crate) use pace::limit;
-#[cfg(all(target_family = "wasm", feature = "web"))]
-pub(crate) use runs::{log_up_to, open_log, open_path_text, open_world_text, path_text, save, shown_run};
-pub(crate) use session::Shown;
-use session::carry_out;
-#[cfg(all(target_family = "wasm", feature = "web"))]
-pub(crate) use session::new_run;
-pub(crate) use ui::Interface;
-use ui::SessionCommand;
+use session::{SessionPlugin, Shown, carry_out};
 use ui::paint::style::ScreenTheme;
+use ui::{Interface, SessionCommand};
+
+/// What the page asks of the session.
+#[cfg(all(target_family = "wasm", feature = "web"))]
+pub(crate) mod for_page {
+    pub(crate) use super::background::{seek_in_background, stop as stop_background};
+    pub(crate) use super::captured::{captured, subject};
+    pub(crate) use super::error::SessionError;
+    pub(crate) use super::pace::limit;
+    pub(crate) use super::runs::{open_log, open_path_text, open_world_text, path_text, save, shown_run};
+    pub(crate) use super::session::{Shown, new_run};
+    pub(crate) use super::ui::Interface;
+    pub(crate) use super::windowed_app;
+}
+
+/// Whether the lab works in the background: it goes to another tick, or compares a log that was opened.
+pub fn is_busy(world: &World) -> bool {
+    world.get_resource::<Background>().is_some_and(Background::is_under_way)
+}
 
 /// Least width and height of the window, points.
 const LEAST: f32 = 360.0;
@@ -85,26 +70,19 @@ pub(crate) fn windowed_app(add_plugins: impl FnOnce(&mut App, WindowPlugin)) -> 
     };
     let mut app = App::new();
     // on the web a page closes without asking
-    let close_when_requested = cfg!(not(feature = "window"));
+    let close_when_requested = cfg!(target_family = "wasm");
     let window = WindowPlugin { primary_window: Some(window), close_when_requested, ..default() };
     #[cfg(feature = "window")]
-    app.add_plugins(kept::settings::KeepSettingsPlugin);
+    desktop::add_settings(&mut app);
     add_plugins(&mut app, window);
-    app.add_plugins((EguiPlugin::default(), SessionPlugin, rest::RestPlugin))
+    app.add_plugins((EguiPlugin::default(), SessionPlugin, modifiers::ModifiersPlugin))
         .insert_resource(EguiGlobalSettings { auto_create_primary_context: false, ..default() })
         .add_message::<SessionCommand>()
         .add_systems(Startup, add_camera)
         .add_systems(Update, wake.after(session::gather))
-        .add_systems(EguiPrimaryContextPass, show);
-    // on the web, the page sends the system's theme
+        .add_systems(EguiPrimaryContextPass, show.in_set(LabSystems::LayOut));
     #[cfg(feature = "window")]
-    app.add_systems(Update, system_theme)
-        .init_resource::<dialogs::Dialogs>()
-        .init_resource::<capture::Capturing>()
-        .init_resource::<clipboard::Clipboard>()
-        .add_plugins(kept::autosave::AutosavePlugin::default())
-        .add_systems(Update, window::close)
-        .add_systems(Update, (dialogs::ask, dialogs::dropped, capture::follow).chain().before(session::gather));
+    desktop::add(&mut app);
     stay_on_one_thread(&mut app);
     app
 }
@@ -117,44 +95,17 @@ fn stay_on_one_thread(app: &mut App) {
     }
 }
 
-/// Adds Bevy's own plugins, with this one for the window.
-#[cfg(feature = "window")]
-fn add_default_plugins(app: &mut App, window: WindowPlugin) {
-    app.add_plugins(DefaultPlugins.set(window).set(quiet_log()));
-}
-
-/// The log without the graphics layers, whose long messages `run_window` replaces by one line.
-#[cfg(feature = "window")]
-fn quiet_log() -> bevy::log::LogPlugin {
-    let filter = "wgpu_hal=off,wgpu_core=off,naga=off".into();
-    bevy::log::LogPlugin { level: bevy::log::Level::ERROR, filter, ..default() }
-}
-
 /// Adds the camera, without multisampling: egui's painter smooths its own edges.
 fn add_camera(mut commands: Commands) {
     commands.spawn((Camera2d, CameraRenderGraph::new(Core2d), PrimaryEguiContext, Msaa::Off));
 }
 
-#[cfg(feature = "window")]
-/// Follows the system from light to dark and back. The theme is light where the system does not say.
-fn system_theme(windows: Query<&Window, Changed<Window>>, mut interface: ResMut<Interface>) {
-    for window in &windows {
-        let theme = match window.window_theme {
-            Some(WindowTheme::Dark) => Theme::Dark,
-            _ => Theme::Light,
-        };
-        if interface.0.system_theme != theme {
-            interface.0.system_theme = theme;
-        }
-    }
-}
-
 /// Draws frame after frame while the run plays or work goes on.
 /// Else the window sleeps until something happens, a second at most.
-fn wake(shown: Res<Shown>, aside: Res<Aside>, mut settings: ResMut<WinitSettings>) {
+fn wake(shown: Res<Shown>, background: Res<Background>, mut settings: ResMut<WinitSettings>) {
     let idle = std::time::Duration::from_secs(1);
     let mode =
-        if shown.0.playing || aside.is_under_way() { UpdateMode::Continuous } else { UpdateMode::reactive(idle) };
+        if shown.0.playing || background.is_under_way() { UpdateMode::Continuous } else { UpdateMode::reactive(idle) };
     if settings.focused_mode != mode {
         *settings = WinitSettings { focused_mode: mode, unfocused_mode: mode };
     }
@@ -176,7 +127,7 @@ fn show(world: &mut World) -> Result {
         world.resource_mut::<ClearColor>().0 = paper;
     });
     #[cfg(feature = "window")]
-    dialogs::show(world, &ctx);
+    desktop::dialogs::show(world, &ctx);
     if !commands.is_empty() {
         carry_out(world, commands);
         world.write_message(RequestRedraw);

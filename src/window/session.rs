@@ -1,6 +1,6 @@
 //! The session without its window: what a view shows of the run, and what its commands do.
 
-mod coming;
+mod pending;
 
 use std::sync::Arc;
 
@@ -8,26 +8,27 @@ use bevy::app::{RunFixedMainLoop, RunFixedMainLoopSystems};
 use bevy::prelude::*;
 use bevy::time::TimeSystems;
 
-use super::aside::{self, Aside};
+use super::background::{self, Background};
 use super::crowds::{Crowds, crowd, update_crowds};
 use super::error::SessionError;
+use super::lab_systems::LabSystems;
 use super::pace::{Pace, begin_ticks, end_ticks, limit, measure, play_flat_out};
 use super::put_robot::put_robot;
 use crate::window::ui::{Cockpit, CockpitRobot, Command, Dashboard, Interface, Notice, SessionCommand, Widget, blend};
-use coming::{Said, scene_of};
 use motion_lab_core::configuration::{Configuration as _, HitchCfg, RobotKind, Sizes};
 use motion_lab_core::geometry::{Footprint, Pose2, Segment};
 use motion_lab_core::picture::{Picture, world as picture_of};
 use motion_lab_core::robots::{AnyRobot, Robot};
 use motion_lab_core::worlds::World as WorldModel;
 use motion_lab_sim::atlas::Atlas;
-use motion_lab_sim::run::DT;
+use motion_lab_sim::run::{DT, Recipe};
 use motion_lab_sim::simulation::{
     CommandRefused, History, HistoryPlugin, PendingInput, Playback, RobotKinds, RobotView, Roster, RunCommand,
-    RunConfig, RunInput, SensorRefused, SimulationPlugin, StandingWorld, Transport, Undo, checkpoint, sensors_of,
+    RunConfig, SensorRefused, SimulationPlugin, StandingWorld, Transport, Undo, checkpoint, sensors_of, start_recipe,
     start_run, take_sensors_at_start, undoes, view_of,
 };
 use motion_lab_sim::tour::{BOOK_SEED, TourConfig};
+use pending::{Said, scene_of};
 
 /// Farthest that a part moves from tick to tick, metres. A part that moved farther was put there.
 const LEAP: f64 = 0.5;
@@ -41,7 +42,7 @@ impl Plugin for SessionPlugin {
             .init_resource::<Interface>()
             .init_resource::<Worlds>()
             .init_resource::<Crowds>()
-            .init_resource::<Aside>()
+            .init_resource::<Background>()
             .init_resource::<Pace>()
             .insert_resource(Shown(Dashboard {
                 cockpits: Vec::new(),
@@ -60,7 +61,10 @@ impl Plugin for SessionPlugin {
             .add_systems(First, limit.before(TimeSystems))
             .add_systems(RunFixedMainLoop, begin_ticks.in_set(RunFixedMainLoopSystems::BeforeFixedMainLoop))
             .add_systems(RunFixedMainLoop, end_ticks.in_set(RunFixedMainLoopSystems::AfterFixedMainLoop))
-            .add_systems(Update, (aside::go_on, play_flat_out, measure, note_refusals, gather).chain());
+            .add_systems(
+                Update,
+                (background::go_on, play_flat_out, measure, note_refusals, gather.in_set(LabSystems::Read)).chain(),
+            );
     }
 }
 
@@ -154,8 +158,8 @@ pub fn gather(world: &mut World) {
         let robots =
             ids.filter(is_shown).filter_map(|id| view_of(world, id)).map(|robot| shown(world, &robot, between));
         let robots: Vec<CockpitRobot> = robots.collect();
-        let waiting = coming::waits(world, &drawn.standing.name, &robots);
-        let doors = coming::doors(world, &drawn.standing.name);
+        let waiting = pending::waits(world, &drawn.standing.name, &robots);
+        let doors = pending::doors(world, &drawn.standing.name);
         let (picture, atlas) = (Arc::clone(&drawn.picture), Arc::clone(&drawn.atlas));
         cockpits.push(Cockpit { world: picture, atlas, robots, crowd, doors, waiting });
     }
@@ -185,9 +189,9 @@ fn shown(world: &World, robot: &RobotView, between: f64) -> CockpitRobot {
     };
     let trail = world.resource::<History>().at(tick, robot.id);
     let playing = world.resource::<Transport>().playback == Playback::Playing;
-    let target = coming::target(world, robot);
+    let target = pending::target(world, robot);
     // paused, a robot says where it will be, as its ghost and its fields do
-    let next = target.as_ref().filter(|_| !playing).and_then(|to| coming::next(world, robot, to));
+    let next = target.as_ref().filter(|_| !playing).and_then(|to| pending::next(world, robot, to));
     let now = || Said {
         readout: robot.configuration.clone(),
         in_full: robot.configuration_in_full.clone(),
@@ -226,7 +230,7 @@ fn shown(world: &World, robot: &RobotView, between: f64) -> CockpitRobot {
         no_room: pose
             .filter(|_| robot.kind == RobotKind::HITCH.name && robot.coordinates.len() == 3)
             .and_then(|p| no_room(world, robot, p)),
-        put: coming::put(world, robot),
+        put: pending::put(world, robot),
     }
 }
 
@@ -247,10 +251,10 @@ pub fn carry_out(world: &mut World, commands: Vec<Command>) {
     for command in commands {
         note_dropped(world, &command);
         match command {
-            Command::Run(RunCommand::Transport(command)) if aside::seek_aside(world, &command) => {}
+            Command::Run(RunCommand::Transport(command)) if background::seek_in_background(world, &command) => {}
             Command::Run(command) => {
                 // what else is asked of the run ends the work under way
-                aside::stop(world);
+                background::stop(world);
                 world.write_message(command);
             }
             Command::Session(SessionCommand::Links { robot, links }) => {
@@ -258,7 +262,7 @@ pub fn carry_out(world: &mut World, commands: Vec<Command>) {
                 world.resource_mut::<Interface>().0.say(notice);
             }
             Command::Session(SessionCommand::PutRobot { robot }) => {
-                aside::stop(world);
+                background::stop(world);
                 let atlas = world.resource::<Interface>().0.atlas.atlas();
                 let (of, there) = (atlas.world().name.clone(), atlas.robots().iter().find(|r| r.name == robot));
                 let Some(coordinates) = there.map(|r| r.q.coordinates()) else { continue };
@@ -275,7 +279,7 @@ pub fn carry_out(world: &mut World, commands: Vec<Command>) {
                 let model = if here { atlas.atlas().from_here() } else { atlas.world().clone() };
                 let seed = world.resource::<Transport>().seed;
                 let config = TourConfig { worlds: vec![model], ..TourConfig::default() };
-                let ran = new_run(world, config, seed);
+                let ran = new_run(world, Recipe::new(config, seed));
                 if ran.is_ok() {
                     world.resource_mut::<Transport>().playback = Playback::Playing;
                     world.resource_mut::<Interface>().0.widget = Widget::Dashboard;
@@ -284,14 +288,13 @@ pub fn carry_out(world: &mut World, commands: Vec<Command>) {
             }
             Command::Session(SessionCommand::ThreeRobots) => {
                 let seed = world.resource::<Transport>().seed;
-                let notice = said_of(new_run(world, TourConfig::default(), seed));
+                let notice = said_of(new_run(world, Recipe::new(TourConfig::default(), seed)));
                 world.resource_mut::<Interface>().0.say(notice);
             }
             Command::Session(SessionCommand::PlayPath) => play_path(world),
             #[cfg(feature = "window")]
-            Command::Session(SessionCommand::OpenRecent(path)) => super::files::open_recent(world, &path),
-            #[cfg(feature = "window")]
-            Command::Session(SessionCommand::CopyPicture(order)) => super::capture::copy_picture(world, &order),
+            Command::Session(command) => super::desktop::carry_out(world, command),
+            #[cfg(not(feature = "window"))]
             Command::Session(command) => _ = world.write_message(command),
         }
     }
@@ -328,7 +331,7 @@ fn play_path(world: &mut World) {
     };
     let (seed, config) = (ui.plan.seed(), TourConfig { worlds: vec![model], sensor: None, ..TourConfig::default() });
     let inputs = played.script.events.clone();
-    let ran = new_run(world, config, (seed, played.script));
+    let ran = new_run(world, Recipe::new(config, (seed, played.script)));
     if ran.is_ok() {
         world.resource_mut::<Transport>().playback = Playback::Playing;
     }
@@ -353,15 +356,15 @@ fn change_links(world: &mut World, robot: &str, links: usize) -> Result<(), Sess
     }
     arm.start.resize(links, 0.5);
     let seed = world.resource::<Transport>().seed;
-    new_run(world, config, seed)
+    new_run(world, Recipe::new(config, seed))
 }
 
 /// Starts a new run in place of the present one, which an undo brings back. Playback, speed and looping stay.
-pub fn new_run(world: &mut World, config: TourConfig, input: impl Into<RunInput>) -> Result<(), SessionError> {
-    aside::stop(world);
+pub fn new_run(world: &mut World, recipe: Recipe) -> Result<(), SessionError> {
+    background::stop(world);
     checkpoint(world);
     let Transport { playback, speed, looping, .. } = *world.resource::<Transport>();
-    start_run(world, config, input)?;
+    start_recipe(world, recipe)?;
     let mut transport = world.resource_mut::<Transport>();
     *transport = Transport { playback, speed, looping, ..*transport };
     Ok(())

@@ -7,8 +7,8 @@ mod crowd;
 mod cspace;
 mod doors;
 mod drive;
-mod kept;
 mod own_kind;
+mod persistence;
 mod plan;
 mod safe;
 mod screen;
@@ -24,10 +24,9 @@ use bevy_egui::egui::{self, Event, Key, Modifiers, PointerButton, Pos2, pos2};
 use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT, Queryable};
 
-use super::files::{open_run, save_run};
+use super::desktop::files::{open_run, save_run};
 use super::session::{SessionPlugin, Shown, carry_out};
-use crate::window::ui::Interface;
-use crate::window::ui::{AtlasState, SessionCommand, UiState};
+use crate::window::ui::{AtlasState, Interface, SessionCommand, UiState};
 use motion_lab_core::configuration::Coordinates;
 use motion_lab_sim::recording::Run;
 use motion_lab_sim::run::{Log, RobotInput, Script};
@@ -49,8 +48,8 @@ impl Lab {
             let (shown, history) = (world.resource::<Shown>(), world.resource::<History>());
             crate::window::ui::lab(ui, &shown.0, history, &mut interface.0, &mut commands);
         });
-        if world.contains_resource::<super::dialogs::Dialogs>() {
-            super::dialogs::show(world, ui.ctx());
+        if world.contains_resource::<super::desktop::dialogs::Dialogs>() {
+            super::desktop::dialogs::show(world, ui.ctx());
         }
         carry_out(world, commands);
     }

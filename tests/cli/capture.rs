@@ -164,7 +164,7 @@ fn what_cannot_be_drawn_is_refused_and_no_file_is_left() {
         (&["dashboard", "--from", "9", "--to", "3", "-o", &gif], "there is no tick 9"),
         (&["anatomy", "-o", &gif], "query anatomy is one frozen scene"),
         (&["anatomy", "-o", &bmp], "its name does not tell the form"),
-        (&["anatomy", "--q", "1,2,3", "-o", &svg], "is no configuration of a reach"),
+        (&["anatomy", "--q", "1,2,3", "-o", &svg], "3 numbers: a reach has two"),
         (&["anatomy", "--step", "1", "-o", &svg], "the step has 2"),
         (&["anatomy", "--robot", "hitch", "--world", "workbench", "-o", &svg], "no hitch lives there"),
         (&["atlas", "--grid", "1e-9", "-o", &svg], "more than"),

@@ -10,13 +10,13 @@ use std::sync::LazyLock;
 use motion_lab::num::{cos, greater, sin, tan};
 use motion_lab::prelude::*;
 use motion_lab::recording::Run;
-use motion_lab::run::{Frame, Log, LogWriter, RobotInput, Script};
+use motion_lab::run::{Frame, Log, RobotInput, Script};
 use motion_lab::sensors::RangeSensor;
 use motion_lab::tour::TourConfig;
 use serde_json::Value;
 use xxhash_rust::xxh3::xxh3_128;
 
-use super::{json, run};
+use super::{json, run, sealed};
 use oracle::seen::{Tally, check, things_of};
 use oracle::short;
 
@@ -34,18 +34,14 @@ pub fn driven(folder: &Path) -> (PathBuf, Log) {
 
 /// The log as a file.
 pub fn write(folder: &Path, log: &Log) -> PathBuf {
-    let mut writer = LogWriter::new(Vec::new(), log.seed, &log.config, &log.script, &log.initial).unwrap();
-    for frame in &log.frames {
-        writer.tick(frame).unwrap();
-    }
     let file = folder.join("driven.mcap");
-    fs::write(&file, writer.finish().unwrap()).unwrap();
+    fs::write(&file, sealed(log)).unwrap();
     file
 }
 
 /// Its frames from tick 0 on.
 pub fn frames(log: &Log) -> impl Iterator<Item = &Frame> {
-    std::iter::once(&log.initial).chain(&log.frames)
+    std::iter::once(log.initial().unwrap()).chain(log.frames())
 }
 
 /// A row of CSV by the names of its columns.
@@ -92,7 +88,7 @@ fn list(row: &Row, name: &str) -> Vec<f64> {
 
 /// The channels that a driver holds at a tick by the script; `None` before the first event.
 fn held(log: &Log, robot: &str, tick: u64) -> Option<[i16; 2]> {
-    let due = log.script.events.iter().filter(|e| e.robot == robot && e.tick <= tick);
+    let due = log.recipe.script.events.iter().filter(|e| e.robot == robot && e.tick <= tick);
     due.fold(None, |held, event| match event.input {
         RobotInput::Drive(a, b) if robot != "Reach" => Some([a, b]),
         RobotInput::Drive(..) => held,
@@ -186,7 +182,8 @@ fn the_columns_of_a_driven_run_are_what_its_script_and_the_kinematics_make_them(
             ("Rusty", Some(channels)) => check_rover(before, after, channels),
             ("Hitch", Some(channels)) if !hit[1] => check_car(before, after, channels),
             ("Reach", Some(_)) => {
-                let moves = log.script.events.iter().filter(|e| e.robot == "Reach" && e.tick <= tick && e.tick != 230);
+                let moves =
+                    log.recipe.script.events.iter().filter(|e| e.robot == "Reach" && e.tick <= tick && e.tick != 230);
                 let mut moved = moves.filter_map(|e| match &e.input {
                     RobotInput::MoveTo(q) | RobotInput::Teleport(q) => Some([q[0].value(), q[1].value()]),
                     _ => None,

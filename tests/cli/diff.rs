@@ -3,9 +3,9 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use motion_lab::run::{Log, LogWriter};
+use motion_lab::run::{Log, Recorded};
 
-use super::{json, run};
+use super::{json, run, sealed};
 
 fn recording(folder: &Path, name: &str, more: &[&str]) -> PathBuf {
     let file = folder.join(name);
@@ -17,12 +17,8 @@ fn recording(folder: &Path, name: &str, more: &[&str]) -> PathBuf {
 fn changed(file: &Path, change: impl FnOnce(&mut Log)) -> PathBuf {
     let mut log = Log::read_mcap(&fs::read(file).unwrap()).unwrap().log;
     change(&mut log);
-    let mut writer = LogWriter::new(Vec::new(), log.seed, &log.config, &log.script, &log.initial).unwrap();
-    for frame in &log.frames {
-        writer.tick(frame).unwrap();
-    }
     let changed = file.with_extension("changed.mcap");
-    fs::write(&changed, writer.finish().unwrap()).unwrap();
+    fs::write(&changed, sealed(&log)).unwrap();
     changed
 }
 
@@ -47,7 +43,7 @@ fn one_planted_ulp_is_found_in_its_tick_and_field() {
     let a = recording(folder.path(), "a.mcap", &[]);
     let mut values = (0.0, 0.0);
     let b = changed(&a, |log| {
-        let range = &mut log.frames[11].scans[0].ranges_mut()[77];
+        let range = &mut log.frames_mut()[11].scans[0].ranges_mut()[77];
         values = (*range, range.next_up());
         *range = values.1;
     });
@@ -85,7 +81,7 @@ fn of_several_scans_the_one_that_differs_is_named() {
     let world = folder.path().join("room.ron");
     fs::write(&world, SENSORS).unwrap();
     let a = recording(folder.path(), "a.mcap", &["--world", world.to_str().unwrap(), "--rays", "4"]);
-    let planted = |scan: usize| changed(&a, |log| log.frames[4].scans[scan].ranges_mut()[1] += 0.5);
+    let planted = |scan: usize| changed(&a, |log| log.frames_mut()[4].scans[scan].ranges_mut()[1] += 0.5);
     for (scan, number, sensor, words) in [
         (0, 1, "", "robot 0 (rover), the run's sensor, ranges[1]: "),
         (1, 2, "aft", "robot 0 (rover), sensor \"aft\", ranges[1]: "),
@@ -109,7 +105,7 @@ fn of_several_scans_the_one_that_differs_is_named() {
         }
     }
     // where the value is in no scan nothing is said of one
-    let report = json(&diff(&["--json"], &a, &changed(&a, |log| log.frames[4].robots[0].contacts += 1)).out);
+    let report = json(&diff(&["--json"], &a, &changed(&a, |log| log.frames_mut()[4].robots[0].contacts += 1)).out);
     assert!(report["divergence"].get("scan").is_none() && report["divergence"].get("sensor").is_none(), "{report}");
 }
 
@@ -117,7 +113,10 @@ fn of_several_scans_the_one_that_differs_is_named() {
 fn the_initial_state_is_compared_too() {
     let folder = tempfile::tempdir().unwrap();
     let a = recording(folder.path(), "a.mcap", &[]);
-    let b = changed(&a, |log| log.initial.robots[2].contacts += 1);
+    let b = changed(&a, |log| {
+        let Recorded::Frames { initial, .. } = &mut log.recorded else { panic!("no frames") };
+        initial.robots[2].contacts += 1;
+    });
     let found = diff(&[], &a, &b);
     assert_eq!(found.code, Some(4));
     let expected = "tick 0, robot 2 (Hitch), contacts: 0 (0x0000000000000000) in A, 1 (0x0000000000000001) in B\n";
@@ -166,7 +165,7 @@ fn a_cut_log_equal_as_far_as_it_is_sealed_is_5() {
     let report = json(&found.out);
     assert!(report["equal"] == true && (1..30).contains(&report["ticks"].as_u64().unwrap()), "{report}");
     // a difference in sealed ticks is reported first
-    let b = changed(&a, |log| log.frames[0].robots[0].flash += 1);
+    let b = changed(&a, |log| log.frames_mut()[0].robots[0].flash += 1);
     assert_eq!(diff(&[], &cut, &b).code, Some(4));
     // the second file is missing
     let error = diff(&[], &a, &folder.path().join("nowhere.mcap")).failed(3);

@@ -3,9 +3,9 @@
 use std::fs;
 use std::path::Path;
 
-use motion_lab::run::{Log, LogWriter};
+use motion_lab::run::Log;
 
-use super::{Run, json, run_in};
+use super::{Run, json, run_in, sealed};
 
 /// An assignment to drive one metre ahead in the Lot, where Hitch has 5 m of free aisle before it.
 const ASSIGNMENT: &str = r#"Assignment(
@@ -141,11 +141,7 @@ fn record(folder: &Path) -> Log {
 }
 
 fn seal(log: &Log) -> Vec<u8> {
-    let mut writer = LogWriter::new(Vec::new(), log.seed, &log.config, &log.script, &log.initial).unwrap();
-    for frame in &log.frames {
-        writer.tick(frame).unwrap();
-    }
-    writer.finish().unwrap()
+    sealed(log)
 }
 
 #[test]
@@ -157,7 +153,7 @@ fn a_log_passes_when_its_script_does_and_a_forged_one_never() {
 
     // forged by one unit in the last place, with right seals
     let mut forged = log.clone();
-    let x = &mut forged.frames[40].robots[0].configuration[0];
+    let x = &mut forged.frames_mut()[40].robots[0].configuration[0];
     *x = f64::from_bits(x.to_bits() + 1);
     let x = *x;
     fs::write(folder.path().join("forged.mcap"), seal(&forged)).unwrap();

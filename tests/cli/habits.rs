@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::Path;
 
-use super::{Run, command, json, run, run_in, run_with};
+use super::{Run, command, json, run, run_in, run_with, sealed};
 
 /// A folder with `run.mcap`, the first 40 ticks of the tour.
 pub fn folder() -> tempfile::TempDir {
@@ -169,13 +169,8 @@ fn of_several_logs_each_has_its_turn_and_the_worst_decides() {
     // the log of a run that says it is another: its frames differ from the first on
     run_in(folder.path(), &["record", "--ticks", "40", "--seed", "7", "-o", "seven.mcap"]).done();
     let mut log = motion_lab::run::Log::read_mcap(&fs::read(folder.path().join("seven.mcap")).unwrap()).unwrap().log;
-    log.seed = motion_lab::random::Seed(8);
-    let parts = (log.seed, &log.config, &log.script);
-    let mut writer = motion_lab::run::LogWriter::new(Vec::new(), parts.0, parts.1, parts.2, &log.initial).unwrap();
-    for frame in &log.frames {
-        writer.tick(frame).unwrap();
-    }
-    fs::write(folder.path().join("forged.mcap"), writer.finish().unwrap()).unwrap();
+    log.recipe.seed = motion_lab::random::Seed(8);
+    fs::write(folder.path().join("forged.mcap"), sealed(&log)).unwrap();
 
     let verify = |files: &[&str]| run_in(folder.path(), &[&["verify"], files].concat());
     for (files, code) in [

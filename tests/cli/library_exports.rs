@@ -10,8 +10,9 @@ use motion_lab::export::{
 };
 use motion_lab::prelude::*;
 use motion_lab::recording::RunError;
-use motion_lab::run::Log;
+use motion_lab::run::{Log, Recipe};
 use motion_lab::simulation::{App, RobotPlugin, SpawnError};
+use motion_lab::tour::TourConfig;
 
 use super::columns::frames;
 use super::messages::messages;
@@ -28,11 +29,14 @@ fn written(write: impl FnOnce(&mut Vec<u8>) -> Result<(), ExportError>) -> Vec<u
 
 /// The trailers' run of the example, its first 60 ticks.
 fn trains() -> Log {
-    let mut log = record(Seed(8)).unwrap();
-    log.config.ticks = 60;
-    log.frames.truncate(60);
-    log.digests.truncate(60);
-    log
+    first_ticks(&record(Seed(8)).unwrap(), 60)
+}
+
+/// The run as if it had so many ticks.
+fn first_ticks(log: &Log, ticks: u64) -> Log {
+    let config = TourConfig { ticks, ..TourConfig::clone(&log.recipe.config) };
+    let recipe = Recipe { config: config.into(), ..log.recipe.clone() };
+    Log::with_frames(recipe, log.initial().unwrap().clone(), log.frames()[..ticks as usize].to_vec())
 }
 
 #[test]
@@ -54,7 +58,7 @@ fn the_library_writes_what_the_command_writes() {
         let viewer = command(&["foxglove"]);
         let mut frames = 0;
         assert!(viewer == written(|out| write_foxglove_of_file(&bytes, &log, out, |_| {}, || frames += 1)), "{file}");
-        assert_eq!(frames, 2 * (log.frames.len() + 1), "each frame is drawn and written");
+        assert_eq!(frames, 2 * (log.frames().len() + 1), "each frame is drawn and written");
         // a log that was never in a file has the records that this program gives it
         assert!(!is_new || viewer == written(|out| write_foxglove(&log, out, |_| {})), "{file}");
         let rerun = command(&["rerun"]);
@@ -182,16 +186,13 @@ fn what_cannot_be_exported_is_a_typed_error() {
     assert!(matches!(error, ExportError::Run(_)), "{error:?}");
     // a frame that no train has
     let mut other = log.clone();
-    other.frames[6].robots[0].configuration.push(0.0);
+    other.frames_mut()[6].robots[0].configuration.push(0.0);
     let error = viewer(&file, &other, with_trains).unwrap_err();
     assert!(error.to_string().contains("tick 7"), "{error}");
     let ExportError::Run(frame) = error else { panic!("{error:?}") };
     assert!(matches!(*frame, RunError::Restore(_)), "{frame:?}");
     // another log's file, no file, and a file that ends within a record
-    let mut shorter = log.clone();
-    shorter.config.ticks = 20;
-    shorter.frames.truncate(20);
-    shorter.digests.truncate(20);
+    let shorter = first_ticks(&log, 20);
     let mut short = Vec::new();
     shorter.write_mcap(&mut short).unwrap();
     for (file, tick) in [(&short[..], 21), (b"", 0)] {
@@ -203,7 +204,6 @@ fn what_cannot_be_exported_is_a_typed_error() {
         assert!(matches!(error, ExportError::Records(_)), "{error:?}");
     }
     // what the log's writer refuses
-    let mut wrong = log;
-    wrong.digests.pop();
+    let wrong = Log::with_frames(log.recipe.clone(), log.initial().unwrap().clone(), log.frames()[..59].to_vec());
     assert!(matches!(write_foxglove(&wrong, io::sink(), with_trains), Err(ExportError::Log(_))));
 }

@@ -151,14 +151,15 @@ fn same_bits(found: &[f64], expected: &[f64]) {
 fn planted() -> Log {
     let folder = tempfile::tempdir().unwrap();
     let (_, mut log) = driven(folder.path());
-    let robot = &mut log.frames[6].robots[1];
+    let robot = &mut log.frames_mut()[6].robots[1];
     robot.channels = [-7, 100];
     (robot.contacts, robot.flash, robot.refusals) = (31, 41, 59);
     (robot.manual, robot.in_contact) = (true, false);
     robot.target = [0.25, -0.0].into_iter().collect();
     robot.extra = [1.0 / 3.0].into_iter().collect();
-    (log.frames[7].robots[1].manual, log.frames[7].robots[1].in_contact) = (false, true);
-    log.frames[7].scans[0].ranges = [0.0, f64::INFINITY, 5e-324, 1.0 / 7.0].into();
+    let next = &mut log.frames_mut()[7];
+    (next.robots[1].manual, next.robots[1].in_contact) = (false, true);
+    next.scans[0].ranges = [0.0, f64::INFINITY, 5e-324, 1.0 / 7.0].into();
     log
 }
 
@@ -191,7 +192,7 @@ fn every_field_of_every_message_of_a_log_is_the_one_that_the_schema_numbers() {
         assert_eq!(digest.text(2), frame.digest().to_string());
     }
     // an input is written at the tick before whose step it applies
-    let events: Vec<_> = log.script.events.iter().filter(|event| event.tick <= 320).collect();
+    let events: Vec<_> = log.recipe.script.events.iter().filter(|event| event.tick <= 320).collect();
     assert_eq!(topics["/input"].len(), events.len());
     for ((tick, message), event) in topics["/input"].iter().zip(events) {
         assert_eq!((*tick, message.number(1), message.text(2)), (event.tick, event.tick, event.robot.clone()));

@@ -35,6 +35,7 @@ mod viewer;
 mod viewer_files;
 mod world;
 
+use motion_lab::run::Log;
 use std::io::Write;
 use std::path::Path;
 use std::process::{Command, Output, Stdio};
@@ -96,6 +97,13 @@ impl Run {
         assert_eq!(self.code, Some(code), "out: {}\nerr: {}", self.out, self.err);
         self.err
     }
+}
+
+/// The bytes of a log, with right seals whatever was changed in it.
+fn sealed(log: &Log) -> Vec<u8> {
+    let mut file = Vec::new();
+    log.write_mcap(&mut file).unwrap();
+    file
 }
 
 fn json(line: &str) -> serde_json::Value {

@@ -3,9 +3,9 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use motion_lab::run::{Log, LogWriter};
+use motion_lab::run::Log;
 
-use super::{json, run, run_in};
+use super::{json, run, run_in, sealed};
 
 fn recording(folder: &Path) -> PathBuf {
     let file = folder.join("run.mcap");
@@ -47,13 +47,9 @@ fn a_forged_recording_is_4_and_diff_finds_it_in_the_replayed_log() {
     let folder = tempfile::tempdir().unwrap();
     let file = recording(folder.path());
     let mut log = Log::read_mcap(&fs::read(&file).unwrap()).unwrap().log;
-    let theta = &mut log.frames[9].robots[2].configuration[2];
+    let theta = &mut log.frames_mut()[9].robots[2].configuration[2];
     *theta = theta.next_down();
-    let mut writer = LogWriter::new(Vec::new(), log.seed, &log.config, &log.script, &log.initial).unwrap();
-    for frame in &log.frames {
-        writer.tick(frame).unwrap();
-    }
-    fs::write(&file, writer.finish().unwrap()).unwrap();
+    fs::write(&file, sealed(&log)).unwrap();
     let replayed = run_in(folder.path(), &["replay", "run.mcap", "-o", "true.mcap"]);
     assert_eq!(replayed.code, Some(4), "{}", replayed.err);
     assert!(replayed.out.contains("\ntick 10, robot 2, configuration[2]: expected "), "{}", replayed.out);

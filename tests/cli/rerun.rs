@@ -146,7 +146,7 @@ fn the_edges_of_parts_are_written_when_they_or_their_colour_change() {
 #[test]
 fn worlds_paths_and_contacts_are_written_once() {
     let (log, topics) = &*EXPORTED;
-    for (world, frame) in log.config.worlds.iter().zip(WORLDS) {
+    for (world, frame) in log.recipe.config.worlds.iter().zip(WORLDS) {
         let [(0, cloud)] = &topics[&format!("/viewer/worlds/{}", world.name)][..] else { panic!("{frame}: once") };
         let found = points(cloud, 0, frame);
         let scene = Scene::of_world(world);

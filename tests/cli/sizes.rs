@@ -82,7 +82,7 @@ fn names_that_nobody_has() {
     let none = run(&["query", "distance", "--robot", "reach"]).failed(2);
     assert!(none.contains("no configuration"), "{none}");
     let wrong = run(&["query", "distance", "--robot", "Long", "--world", &yard, "0,0,0"]).failed(2);
-    assert!(wrong.contains("this arm has 2 joint angles"), "{wrong}");
+    assert!(wrong.contains("3 numbers: a reach has two: th1, th2"), "{wrong}");
 }
 
 #[test]

@@ -3,9 +3,9 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use motion_lab::run::{Log, LogWriter};
+use motion_lab::run::Log;
 
-use super::{json, run, run_in};
+use super::{json, run, run_in, sealed};
 
 fn recording(folder: &Path, ticks: &str) -> PathBuf {
     let file = folder.join("run.mcap");
@@ -70,13 +70,9 @@ fn a_forged_recording_is_4_and_the_first_difference_is_named() {
     let log = Log::read_mcap(&fs::read(&file).unwrap()).unwrap().log;
     // the same file with one bit of one coordinate changed, and right seals
     let mut forged = log.clone();
-    let x = &mut forged.frames[16].robots[1].configuration[0];
+    let x = &mut forged.frames_mut()[16].robots[1].configuration[0];
     *x = f64::from_bits(x.to_bits() ^ 1);
-    let mut writer = LogWriter::new(Vec::new(), log.seed, &log.config, &log.script, &log.initial).unwrap();
-    for frame in &forged.frames {
-        writer.tick(frame).unwrap();
-    }
-    fs::write(&file, writer.finish().unwrap()).unwrap();
+    fs::write(&file, sealed(&forged)).unwrap();
     let verified = run(&["verify", file.to_str().unwrap()]);
     assert_eq!(verified.code, Some(4), "{}", verified.err);
     let lines: Vec<&str> = verified.out.lines().collect();

@@ -30,7 +30,7 @@ pub fn exported(form: &str) -> (Log, Topics) {
     let folder = tempfile::tempdir().unwrap();
     let (_, mut log) = driven(folder.path());
     // the export shows the frames
-    for frame in &mut log.frames[309..] {
+    for frame in &mut log.frames_mut()[309..] {
         let q = &mut frame.robots[2].configuration;
         *q = q[..3].iter().copied().collect();
         frame.robots[0].manual = false;
@@ -88,7 +88,7 @@ fn every_frame_of_reference_lies_where_its_robot_part_or_world_is() {
         // the worlds stand in a row from 0 on, a metre apart, their lower sides level
         let mut expected: Vec<(String, &str, Place)> = Vec::new();
         let mut left = 0.0;
-        for world in &log.config.worlds {
+        for world in &log.recipe.config.worlds {
             let (min, max) = (world.bounds.min, world.bounds.max);
             expected.push((format!("world/{}", world.name), "lab", ([left - min.x, -min.y], 0.0)));
             left += max.x - min.x + 1.0;
@@ -317,7 +317,7 @@ fn every_obstacle_and_mark_of_the_worlds_is_there_as_it_is_written() {
         assert_eq!((entity.text(2), entity.number(5)), (format!("world/{}", world.name), 0), "{id}");
         entity
     };
-    for world in &log.config.worlds {
+    for world in &log.recipe.config.worlds {
         expected += world.marks.len() + world.obstacles.len();
         for mark in &world.marks {
             let points: Vec<[f64; 2]> = mark.points.iter().map(|p| [p.x, p.y]).collect();
@@ -366,7 +366,7 @@ fn what_happens_is_logged_at_its_tick_of_its_robot() {
         .collect();
     topics["/viewer/log"].iter().for_each(|(tick, message)| assert_time(&message.message(1), *tick));
     let (info, warning) = (2, 3); // of Foxglove's levels
-    let first = format!("seed 2005, 320 ticks, digest {}", log.digest());
+    let first = format!("seed 2005, 320 ticks, digest {}", log.digest().unwrap());
     let mut expected = vec![(0, info, "motion-lab".to_owned(), first)];
     let all: Vec<&Frame> = frames(log).collect();
     for pair in all.windows(2) {

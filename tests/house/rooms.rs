@@ -2,9 +2,8 @@
 
 use std::collections::BTreeMap;
 use std::fs;
-use std::path::Path;
 
-use super::sources::{CRATES, Graph, Source, files, sources};
+use super::sources::{CRATES, Graph, Source, files, root, sources};
 
 /// Largest number of lines in a source file.
 const LONGEST: usize = 400;
@@ -17,7 +16,7 @@ const LARGEST: usize = 15;
 
 #[test]
 fn no_source_file_is_longer_than_400_lines() {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let root = root();
     let mut longest = (0, String::new());
     for folder in FOLDERS {
         for path in files(&root.join(folder), "rs") {
@@ -31,7 +30,7 @@ fn no_source_file_is_longer_than_400_lines() {
 
 #[test]
 fn comments_keep_the_line_width() {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let root = root();
     let mut comments = 0;
     for folder in FOLDERS {
         for path in files(&root.join(folder), "rs") {
@@ -64,7 +63,7 @@ fn no_room_is_crowded() {
 
 #[test]
 fn readme_is_a_two_minute_read() {
-    let readme = fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("README.md")).unwrap();
+    let readme = fs::read_to_string(root().join("README.md")).unwrap();
     let words = readme.split_whitespace().count();
     assert!(words <= 1500, "{words} words: the rest belongs under docs");
     assert!(words > 500, "{words} words");
@@ -140,14 +139,15 @@ fn a_circle_is_found() {
 
 #[test]
 fn every_file_of_tests_is_a_module_of_its_main() {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let root = root();
     let mut declared = 0;
     for folder in ["tests", "crates/core/tests", "crates/sim/tests", "crates/import/tests"] {
         let folder = root.join(folder);
         for path in files(&folder, "rs") {
             let below = path.strip_prefix(&folder).unwrap();
-            // the oracle is a crate of its own, the snippets are included
-            if below == Path::new("main.rs") || below.starts_with("snippets") || below.starts_with("oracle") {
+            // crates have a root, and the snippets are included
+            let is_root = ["main.rs", "lib.rs"].iter().any(|name| path.ends_with(name));
+            if is_root || below.starts_with("snippets") || below.starts_with("oracle/src") {
                 continue;
             }
             let stem = path.file_stem().unwrap().to_str().unwrap();
@@ -155,10 +155,11 @@ fn every_file_of_tests_is_a_module_of_its_main() {
                 ("mod", own) => (own.parent().unwrap(), own.file_name().unwrap().to_str().unwrap()),
                 (_, parent) => (parent, stem),
             };
-            let parents = [parent.join("main.rs"), parent.join("mod.rs"), parent.with_extension("rs")];
+            let own = ["main.rs", "lib.rs", "mod.rs"].map(|name| parent.join(name));
+            let parents = own.into_iter().chain([parent.with_extension("rs")]);
             let declares =
                 |text: String| text.lines().any(|l| l.trim_start_matches("pub ") == format!("mod {module};"));
-            let found = parents.iter().filter_map(|p| fs::read_to_string(p).ok()).any(declares);
+            let found = parents.filter_map(|p| fs::read_to_string(p).ok()).any(declares);
             assert!(found, "{}: no file declares the module {module}, so its tests never run", path.display());
             declared += 1;
         }

@@ -5,10 +5,11 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// The crates, each below those before it, with their folders. The last has the library and the program on top of it.
-pub const CRATES: [(&str, &str); 4] = [
+pub const CRATES: [(&str, &str); 5] = [
     ("motion_lab_core", "crates/core/src"),
     ("motion_lab_sim", "crates/sim/src"),
     ("motion_lab_import", "crates/import/src"),
+    ("motion_lab_raster", "crates/raster/src"),
     ("motion_lab", "src"),
 ];
 
@@ -127,6 +128,12 @@ fn leaves(prefix: &[String], tree: &str, found: &mut Vec<Vec<String>>) {
     }
 }
 
+/// The folder of the whole project.
+pub fn root() -> &'static Path {
+    let own = Path::new(env!("CARGO_MANIFEST_DIR"));
+    own.ancestors().nth(2).unwrap()
+}
+
 /// All files with this ending under a folder, sorted.
 pub fn files(folder: &Path, ending: &str) -> Vec<PathBuf> {
     let mut found = Vec::new();
@@ -144,7 +151,7 @@ pub fn files(folder: &Path, ending: &str) -> Vec<PathBuf> {
 
 /// Every source file of the crates.
 pub fn sources() -> Vec<Source> {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let root = root();
     let read = |name: &str, folder: &str, path: PathBuf| {
         let file = path.strip_prefix(root).unwrap().to_string_lossy().replace('\\', "/");
         let text = fs::read_to_string(&path).unwrap();

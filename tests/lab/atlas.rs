@@ -68,7 +68,7 @@ fn the_atlas_and_a_run_accept_and_refuse_the_same_teleports() {
     assert!(refused > 20 && refused < 100, "{refused} of 120");
     let config = TourConfig { worlds: vec![world], ticks: 121, ..TourConfig::default() };
     let log = Run::record(config, (Seed(1), Script { events, ..Script::empty() })).unwrap();
-    let rusty = &log.frames.last().unwrap().robots[0];
+    let rusty = &log.frames().last().unwrap().robots[0];
     assert_eq!(rusty.refusals, refused);
     assert_eq!(rusty.configuration, atlas.robots()[0].q.coordinates(), "and it stands where the atlas has it");
 }

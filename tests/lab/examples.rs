@@ -7,10 +7,8 @@ use motion_lab::collision::{Checker, Scene};
 use motion_lab::num::{cos, sin};
 use motion_lab::prelude::*;
 use motion_lab::robots::PartRates;
-
 use oracle::arm::{arm_clearance, obstacles};
-use oracle::plain;
-use oracle::short;
+use oracle::{plain, short};
 
 #[path = "../../examples/bevy_app.rs"]
 mod bevy_app;
@@ -158,10 +156,15 @@ fn an_app_of_ones_own() {
 fn a_hundred_robots() {
     assert_prints!("crowd", crowd::report(300).unwrap());
     let log = crowd::record(Seed(3), 40).unwrap();
-    let names: std::collections::BTreeSet<&str> = log.config.robot_names().collect();
-    assert_eq!((names.len(), log.frames[39].robots.len()), (100, 100));
-    let moved =
-        log.initial.robots.iter().zip(&log.frames[39].robots).filter(|(a, b)| a.configuration != b.configuration);
+    let names: std::collections::BTreeSet<&str> = log.recipe.config.robot_names().collect();
+    assert_eq!((names.len(), log.frames()[39].robots.len()), (100, 100));
+    let moved = log
+        .initial()
+        .unwrap()
+        .robots
+        .iter()
+        .zip(&log.frames()[39].robots)
+        .filter(|(a, b)| a.configuration != b.configuration);
     assert!(moved.count() > 90, "nearly all are on tour");
     assert_eq!(motion_lab::recording::verify(&log, |_| {}).unwrap().identical, 40);
 }
@@ -173,9 +176,9 @@ fn a_robot_of_ones_own() {
 
     assert_prints!("custom_robot", custom_robot::report().unwrap());
     let log = record(Seed(8)).unwrap();
-    assert_eq!(Run::replay_with_robots(&log, with_trains).unwrap(), log.frames);
-    assert_eq!(log.frames, Run::record_with_robots(config(), Seed(8), with_trains).unwrap().frames);
-    assert_ne!(log.frames, record(Seed(9)).unwrap().frames);
+    assert_eq!(Run::replay_with_robots(&log, with_trains).unwrap(), log.frames());
+    assert_eq!(log.frames(), Run::record_with_robots(config(), Seed(8), with_trains).unwrap().frames());
+    assert_ne!(log.frames(), record(Seed(9)).unwrap().frames());
     let unknown = Run::replay(&log).unwrap_err().to_string();
     assert!(unknown.contains("there is no kind \"x-train\""), "{unknown}");
 
@@ -187,7 +190,7 @@ fn a_robot_of_ones_own() {
         [([c[0], c[1]], c[2]), (first, c[3]), (behind(first, c[4]), c[4])]
     };
     let scene = obstacles(&Scene::lot());
-    for pair in log.frames.windows(2) {
+    for pair in log.frames().windows(2) {
         let (a, b) = (&pair[0].robots[0], &pair[1].robots[0]);
         assert!(!b.in_contact);
         for ((p, th), (q, to)) in axles(&a.configuration).into_iter().zip(axles(&b.configuration)) {

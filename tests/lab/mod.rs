@@ -4,7 +4,9 @@ mod anatomy;
 #[cfg(feature = "cli")]
 mod atlas;
 pub mod examples;
-#[cfg(unix)]
+#[cfg(feature = "window")]
+mod frames;
+#[cfg(all(unix, feature = "cli"))]
 mod gate;
 mod grading;
 mod letters;

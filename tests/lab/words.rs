@@ -1,5 +1,6 @@
 //! What is said of worlds, scripts and assignments that can't be read: in the words of those who write such files.
 
+use motion_lab::manifest::Lesson;
 use motion_lab::recording::AssignmentFile;
 use motion_lab::run::Script;
 use motion_lab::worlds::World;
@@ -142,4 +143,12 @@ fn mistakes_in_assignments_and_scripts_are_named_with_their_item() {
         let error = Script::parse("s", &SCRIPT.replacen(from, to, 1)).unwrap_err();
         assert_eq!(error.to_string(), format!("s:{said}"), "{to}");
     }
+}
+
+#[test]
+fn the_page_about_course_pages_lists_every_lesson() {
+    let page = include_str!("../../docs/web/course.md");
+    let listed: Vec<&str> = page.lines().filter(|line| line.starts_with("| `")).collect();
+    let row = |lesson: Lesson| format!("| `{}` | {} | {} |", lesson.id(), lesson.widget.text().short(), lesson.text());
+    assert_eq!(listed, Lesson::all().map(row).collect::<Vec<_>>());
 }

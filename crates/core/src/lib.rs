@@ -28,8 +28,8 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! The crate `motion-lab` re-exports all of this and adds the simulator, the run log and the lab itself. This one has no
-//! features, uses neither Bevy nor egui and opens no files.
+//! The crate `motion-lab` re-exports all of this and adds the simulator, the run log and the lab itself. This one has
+//! no features, uses neither Bevy nor egui and opens no files.
 //!
 //! The modules stand in reading order: each uses only those above it. `ARCHITECTURE.md` is their map.
 //!

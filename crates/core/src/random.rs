@@ -5,10 +5,11 @@
 //! seekable, so that the draws of tick `t` are a pure function of (seed, name, `t`) and no generator state has to be
 //! saved.
 
+use std::convert::Infallible;
 use std::f64::consts::TAU;
 
-use rand_chacha::ChaCha8Rng;
-use rand_chacha::rand_core::{Rng, SeedableRng};
+use rand::rngs::ChaCha8Rng;
+use rand::{Rng, SeedableRng, TryRng};
 use serde::{Deserialize, Serialize};
 use xxhash_rust::xxh3::xxh3_128_with_seed;
 
@@ -30,6 +31,10 @@ pub const DRAWS_PER_INDEX: u64 = 8;
 
 /// One independent stream of random numbers.
 ///
+/// It is a generator of the crate `rand` too, so that anyone draws from any distribution. How many words a distribution
+/// of `rand` takes, and which value it makes of them, may change with that crate's version; what is drawn by the
+/// methods here never does.
+///
 /// ```
 /// use motion_lab_core::random::{Seed, Stream};
 /// let mut slip = Stream::new(Seed(2005), "rusty/slip");
@@ -37,10 +42,20 @@ pub const DRAWS_PER_INDEX: u64 = 8;
 /// assert_ne!(slip.unit(), tour.unit());
 /// // the draws of tick 7 do not depend on how many were made before
 /// assert_eq!(slip.at(7).unit(), Stream::new(Seed(2005), "rusty/slip").at(7).unit());
+/// // as a generator of `rand`
+/// use rand::RngExt;
+/// assert!((1..=6).contains(&slip.random_range(1..=6)));
 /// ```
-#[derive(Clone, Debug)]
+#[derive(Debug)]
 pub struct Stream {
     generator: ChaCha8Rng,
+}
+
+/// `rand`'s generator is no `Clone`, lest a key stream be used twice for a cipher; the lab uses it for nothing else.
+impl Clone for Stream {
+    fn clone(&self) -> Self {
+        self.at_word(self.generator.get_word_pos())
+    }
 }
 
 impl Stream {
@@ -60,8 +75,12 @@ impl Stream {
     /// one that draws more runs into the next index's numbers.
     #[must_use]
     pub fn at(&self, index: u64) -> Self {
-        let mut generator = self.generator.clone();
-        generator.set_word_pos(u128::from(index) * u128::from(2 * DRAWS_PER_INDEX));
+        self.at_word(u128::from(index) * u128::from(2 * DRAWS_PER_INDEX))
+    }
+
+    fn at_word(&self, word: u128) -> Self {
+        let mut generator = ChaCha8Rng::from_seed(self.generator.get_seed());
+        generator.set_word_pos(word);
         Stream { generator }
     }
 
@@ -102,9 +121,29 @@ impl Stream {
     }
 }
 
+/// The generator of the crate `rand`; `Rng` and `RngExt` follow.
+impl TryRng for Stream {
+    type Error = Infallible;
+
+    fn try_next_u32(&mut self) -> Result<u32, Infallible> {
+        Ok(self.generator.next_u32())
+    }
+
+    fn try_next_u64(&mut self) -> Result<u64, Infallible> {
+        Ok(self.generator.next_u64())
+    }
+
+    fn try_fill_bytes(&mut self, bytes: &mut [u8]) -> Result<(), Infallible> {
+        self.generator.fill_bytes(bytes);
+        Ok(())
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+    use rand::RngExt;
+    use rand::seq::SliceRandom;
 
     #[test]
     fn streams_are_independent_of_one_another_and_of_earlier_draws() {
@@ -122,6 +161,40 @@ mod tests {
             walked.bits();
         }
         assert_eq!(walked.bits(), a.at(1).bits(), "index 1 starts where index 0's draws end");
+    }
+
+    #[test]
+    fn the_words_are_those_of_the_chacha_cipher_with_8_rounds() {
+        // the key stream of eSTREAM's test vectors for ChaCha8, a key of 256 zero bits and a nonce of 0, block 0
+        let key_stream = "3e00ef2f895f40d67f5bb8e81f09a5a12c840ec3ce9a7f3b181be188ef711a1e984ce172b9216f419f445367456d5619\
+                          314a42a3da86b001387bfdb80e0cfe42";
+        let mut bytes = [0; 64];
+        Stream { generator: ChaCha8Rng::from_seed([0; 32]) }.fill_bytes(&mut bytes);
+        assert_eq!(bytes.map(|b| format!("{b:02x}")).concat(), key_stream);
+    }
+
+    #[test]
+    fn a_stream_is_a_generator_of_rand() {
+        let stream = Stream::new(Seed(3), "rand");
+        let (mut own, mut rand) = (stream.clone(), stream.clone());
+        for _ in 0..10 {
+            assert_eq!(own.bits(), rand.next_u64(), "the same words in the same order");
+        }
+        assert_eq!(own.clone().bits(), rand.next_u64(), "a clone goes on where the stream is");
+        let mut low = stream.clone();
+        assert_eq!(
+            (low.next_u32(), low.next_u32()),
+            ((stream.clone().bits()) as u32, (stream.clone().bits() >> 32) as u32)
+        );
+        let mut bytes = [0; 8];
+        stream.clone().fill_bytes(&mut bytes);
+        assert_eq!(u64::from_le_bytes(bytes), stream.clone().bits());
+        let mut deck: Vec<u32> = (0..52).collect();
+        deck.shuffle(&mut own);
+        assert!(!deck.is_sorted());
+        deck.sort_unstable();
+        assert!(deck.iter().copied().eq(0..52), "every card is there once");
+        assert!((0..1000).all(|_| own.random_range(1..=6) <= 6));
     }
 
     #[test]

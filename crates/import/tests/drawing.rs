@@ -1,13 +1,11 @@
 //! SVG drawings.
 
+use crate::{assert_prints_as_itself, corners, is_hit, sample};
 use motion_lab_core::collision::{Collision, Scene};
-use motion_lab_core::geometry::Aabb;
-use motion_lab_core::geometry::{Footprint, Point2, Shape};
+use motion_lab_core::geometry::{Aabb, Footprint, Point2, Shape};
 use motion_lab_core::num;
 use motion_lab_core::worlds::{ObstacleKind, World};
 use motion_lab_import::{Imported, SvgOptions, svg};
-
-use crate::{assert_prints_as_itself, corners, is_hit, sample};
 
 /// 50 units a metre.
 const HALL: SvgOptions = SvgOptions { metres_per_unit: 0.02, tolerance: 1e-3 };

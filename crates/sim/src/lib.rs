@@ -1,5 +1,5 @@
-//! The simulator of `motion-lab`: runs as data, Bevy's entities under one schedule, the log, and the values of what a lab
-//! shows. The crate `motion-lab` re-exports all of it.
+//! The simulator of `motion-lab`: runs as data, Bevy's entities under one schedule, the log, and the values of what a
+//! lab shows. The crate `motion-lab` re-exports all of it.
 //!
 //! A run is recorded from a seed, and simulated again to be compared:
 //!

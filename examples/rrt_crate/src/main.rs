@@ -21,8 +21,7 @@ use std::fmt::Write as _;
 use std::path::PathBuf;
 
 use motion_lab_core::collision::{Certificate, Counted, QueryCounts, verify_certificate};
-use motion_lab_core::picture::Theme;
-use motion_lab_core::picture::{Figure, Item, Panel, Role, footprint, trace, world};
+use motion_lab_core::picture::{Figure, Item, Panel, Role, Theme, footprint, trace, world};
 use motion_lab_core::prelude::*;
 
 #[cfg(test)]

@@ -1,9 +1,11 @@
 //! The program's output is pinned, and its paths are checked by other means than the library's.
 
-use motion_lab::prelude::*;
+use motion_lab_core::prelude::*;
 
-use crate::arm::{arm_clearance, obstacles};
-use crate::{plain, reach, report, rusty, solve};
+use oracle::arm::{arm_clearance, obstacles};
+use oracle::plain;
+
+use crate::{reach, report, rusty, solve};
 
 #[test]
 fn the_crate_rrt() {

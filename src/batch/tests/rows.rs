@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use super::super::*;
 use super::plan;
 use motion_lab_sim::recording::Recorder;
-use motion_lab_sim::run::RunDigest;
+use motion_lab_sim::run::{Recipe, RunDigest};
 
 /// The run of a row, as the command makes it.
 fn run(plan: &SweepPlan, row: u64) -> RunRow {
@@ -14,9 +14,10 @@ fn run(plan: &SweepPlan, row: u64) -> RunRow {
         Err(reason) => return plan.failed(row, &reason),
     };
     let RunSetup { seed, config, inputs: RunInputs::Script(script) } = setup else { panic!("no planner here") };
-    let mut run = Recorder::new(config.clone(), (seed, script.clone())).unwrap();
-    let mut digest = RunDigest::new(seed, &config, &script, run.frame());
-    let mut gatherer = RowGatherer::new(plan, row, &config, &script);
+    let recipe = Recipe::new(config, (seed, script));
+    let mut run = Recorder::of(&recipe).unwrap();
+    let mut digest = RunDigest::new(&recipe, run.frame());
+    let mut gatherer = RowGatherer::new(plan, row, &recipe.config, &recipe.script);
     gatherer.see(run.frame());
     while !run.is_complete() {
         let frame = run.step();

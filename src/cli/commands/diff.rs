@@ -8,7 +8,7 @@ use motion_lab::export::JsonNumber;
 use motion_lab::run::{Divergence, DivergingScan, Log, SetupDifference, Value, first_divergence};
 use serde::Serialize;
 
-use crate::cli::support::log_source::{read_log, say_damage};
+use crate::cli::support::log_source::{read_full_log, say_damage};
 use crate::cli::{Data, Failure, Outcome};
 
 /// Compare two logs to the last bit, and name the first value that differs.
@@ -33,7 +33,7 @@ pub struct Diff {
 
 /// The comparison of two logs.
 #[derive(Serialize)]
-struct Comparison {
+struct LogDifference {
     equal: bool,
     /// The ticks that both logs have.
     ticks: u64,
@@ -92,18 +92,18 @@ enum JsonValue {
 impl Diff {
     /// Runs the command.
     pub fn run(self, data: &mut Data) -> Result<Outcome, Failure> {
-        let (a, b) = (read_log(&self.a)?, read_log(&self.b)?);
+        let (a, b) = (read_full_log(&self.a)?, read_full_log(&self.b)?);
         for damage in [&a.damage, &b.damage] {
             say_damage(damage.as_ref(), "compared");
         }
         let damaged = a.damage.or(b.damage).is_some();
-        let comparison = Comparison::of(&a.read.log, &b.read.log, damaged);
+        let difference = LogDifference::of(&a.log, &b.log, damaged);
         if self.json {
-            data.json(&comparison)?;
+            data.json(&difference)?;
         } else {
-            comparison.print(data)?;
+            difference.print(data)?;
         }
-        Ok(match (comparison.equal, damaged) {
+        Ok(match (difference.equal, damaged) {
             (false, _) => Outcome::Differs,
             (true, true) => Outcome::Recovered,
             (true, false) => Outcome::Done,
@@ -111,23 +111,25 @@ impl Diff {
     }
 }
 
-impl Comparison {
+impl LogDifference {
     /// Compares all ticks; if `common_only`, those that both logs have.
     fn of(a: &Log, b: &Log, common_only: bool) -> Self {
-        let common = a.frames.len().min(b.frames.len());
-        let end = |log: &Log| if common_only { common } else { log.frames.len() };
-        let divergence = first_divergence(from_ref(&a.initial), from_ref(&b.initial))
-            .or_else(|| first_divergence(&a.frames[..end(a)], &b.frames[..end(b)]))
-            .map(|d| FirstValue::of(&d.named(&a.config), a));
+        let common = std::cmp::min(a.frames().len(), b.frames().len());
+        let compared = |log: &'_ Log| log.frames().len().min(if common_only { common } else { usize::MAX });
+        let divergence = first_divergence(a.initial().map_or(&[], from_ref), b.initial().map_or(&[], from_ref))
+            .or_else(|| first_divergence(&a.frames()[..compared(a)], &b.frames()[..compared(b)]))
+            .map(|d| FirstValue::of(&d.named(&a.recipe.config), a));
         let setup: Vec<Setup> = a
-            .setup_differences(b)
+            .recipe
+            .differences(&b.recipe)
             .into_iter()
             .map(|SetupDifference { item, first, second }| Setup { item, a: first, b: second })
             .collect();
-        Comparison {
+        let both = a.frames().iter().zip(b.frames());
+        LogDifference {
             equal: setup.is_empty() && divergence.is_none(),
             ticks: common as u64,
-            differing_ticks: a.digests.iter().zip(&b.digests).filter(|(a, b)| a != b).count() as u64,
+            differing_ticks: both.filter(|(a, b)| a.digest() != b.digest()).count() as u64,
             setup,
             divergence,
         }
@@ -140,7 +142,7 @@ impl Comparison {
         if let Some(value) = &self.divergence {
             data.line(value.line())?;
         }
-        let Comparison { ticks, differing_ticks, .. } = self;
+        let LogDifference { ticks, differing_ticks, .. } = self;
         match self.equal {
             true => data.line(format!("{ticks} ticks, equal to the last bit")),
             false => data.line(format!("{differing_ticks} of {ticks} ticks differ")),
@@ -151,7 +153,7 @@ impl Comparison {
 impl FirstValue {
     fn of(divergence: &Divergence, log: &Log) -> Self {
         let Divergence { tick, robot, scan, field, expected, found } = divergence;
-        let name = robot.and_then(|id| log.config.robot_names().nth(id as usize)).map(str::to_owned);
+        let name = robot.and_then(|id| log.recipe.config.robot_names().nth(id as usize)).map(str::to_owned);
         FirstValue {
             tick: *tick,
             robot: *robot,

@@ -4,13 +4,12 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 use motion_lab::export::JsonNumber;
-use motion_lab::run::DT;
+use motion_lab::run::{DT, LogKind, Recipe};
 use motion_lab::tour::TourConfig;
 use serde::Serialize;
 
 use crate::cli::support::input::{shown, title, worst_of_each};
-use crate::cli::support::log_kind::{AnyLog, LogKind};
-use crate::cli::support::log_source::{AnySource, read_any_log};
+use crate::cli::support::log_source::{LogSource, read_log};
 use crate::cli::support::summary::RunSummary;
 use crate::cli::support::words::{changes_in_words, counted, none};
 use crate::cli::{Data, Failure, Outcome, say};
@@ -90,21 +89,17 @@ impl Info {
     }
 
     fn one(&self, file: &Path, several: bool, data: &mut Data) -> Result<Outcome, Failure> {
-        let AnySource { log, program, damage } = read_any_log(file)?;
-        let (seed, config, script) = log.parts();
-        let run = match &log {
-            AnyLog::Full(log) => RunSummary::new(seed, config, log.frames.last().unwrap_or(&log.initial), log.digest()),
-            AnyLog::Digest(log) => RunSummary::of_digests(log),
-        };
+        let LogSource { log, program, damage } = read_log(file)?;
+        let Recipe { config, script, .. } = &log.recipe;
         let contents = Contents {
             file: several.then(|| shown(file)),
-            run,
+            run: RunSummary::of(&log),
             sensor: config.sensor.map(|s| Sensor { rays: s.n_rays, range: JsonNumber(s.max_range) }),
             robots_sensors: robots_sensors(config),
             script_events: script.events.len(),
             script_changes: script.changes.len(),
             program: &program,
-            log: (log.kind() == LogKind::Digest).then_some("digest"),
+            log: (log.kind() == LogKind::Digests).then_some("digest"),
             damage: damage.as_deref(),
         };
         if self.json {

@@ -2,15 +2,14 @@
 
 use std::path::PathBuf;
 
-use clap::{Args, ValueEnum};
+use clap::Args;
 use motion_lab::capture::{Form, MOST_LINES, RunPlot, plot};
 use motion_lab::configuration::Kinds;
-use motion_lab::run::{Quantity, Series, SeriesGatherer};
+use motion_lab::run::{Difference, Log, Quantity, Recipe, Series, SeriesGatherer};
 
-use crate::cli::support::choices::RobotNames;
+use crate::cli::support::choices::{RobotNames, form, one_of};
 use crate::cli::support::input::{is_dash, shown};
-use crate::cli::support::log_kind::AnyLog;
-use crate::cli::support::log_source::{AnySource, read_any_log, say_damage};
+use crate::cli::support::log_source::{LogSource, read_log, say_damage};
 use crate::cli::support::paper::{PaperArgs, write_picture};
 use crate::cli::support::simulate::each_frame;
 use crate::cli::support::target::Target;
@@ -32,14 +31,14 @@ pub struct PlotArgs {
     /// The log; `-` is standard input.
     file: PathBuf,
     /// What is plotted.
-    #[arg(long, value_enum, value_name = "QUANTITY")]
-    what: What,
+    #[arg(long, value_parser = one_of(QUANTITIES), value_name = "QUANTITY")]
+    what: Quantity,
     /// The file to write: .svg or .png. `-` is standard output.
     #[arg(short, long, value_name = "FILE")]
     output: PathBuf,
     /// The form. [default: by the output's name; svg for `-`]
-    #[arg(long)]
-    format: Option<FormName>,
+    #[arg(long, value_parser = form([Form::Svg, Form::Png]))]
+    format: Option<Form>,
     /// Plot the robots named so only; may be given several times. [default: every robot that has the quantity, up to 8
     /// lines]
     #[arg(long, value_name = "NAME", value_parser = RobotNames, hide_possible_values = true)]
@@ -48,41 +47,27 @@ pub struct PlotArgs {
     paper: PaperArgs,
 }
 
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum What {
-    /// The distance to the nearest obstacle, metres.
-    Clearance,
-    /// The speed, metres per second; of an arm its tip's.
-    Speed,
-    /// The joint angles of arms, radians.
-    Joints,
-    /// The distance by the encoders of rovers, and the distance driven, metres.
-    Encoders,
-}
-
-/// The form of a plot.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum FormName {
-    Svg,
-    Png,
-}
+/// The quantities, by name.
+const QUANTITIES: [(&str, Quantity, &str); 4] = [
+    ("clearance", Quantity::Clearance, "The distance to the nearest obstacle, metres"),
+    ("speed", Quantity::Speed, "The speed, metres per second; of an arm its tip's"),
+    ("joints", Quantity::Joints, "The joint angles of arms, radians"),
+    ("encoders", Quantity::Encoders, "The distance by the encoders of rovers, and the distance driven, metres"),
+];
 
 impl PlotArgs {
     /// Runs the command.
     pub fn run(self, data: &mut Data) -> Result<Outcome, Failure> {
         let form = self.form()?;
-        let AnySource { log, damage, .. } = read_any_log(&self.file)?;
+        let LogSource { log, damage, .. } = read_log(&self.file)?;
         say_damage(damage.as_ref(), "plotted");
         let (series, difference) = self.series(&log)?;
         if let Some(difference) = &difference {
             say(format!("{}: the run does not repeat its recording: {difference}", shown(&self.file)));
         }
-        let digest = match &log {
-            AnyLog::Full(log) => log.digest().to_string(),
-            AnyLog::Digest(log) => log.digest.map_or_else(|| "of an unfinished log".into(), |d| d.to_string()),
-        };
-        let (seed, ..) = log.parts();
-        let run = RunPlot { quantity: self.quantity(), series: &series, ticks: log.recorded(), seed, digest };
+        let digest = log.digest().map_or_else(|| "of an unfinished log".into(), |digest| digest.to_string());
+        let (ticks, seed) = (log.ticks(), log.recipe.seed);
+        let run = RunPlot { quantity: self.what, series: &series, ticks, seed, digest };
         let paper = self.paper.paper();
         let captured = plot(&run, paper.width_px());
         let target = Target::of(&self.output)?;
@@ -97,30 +82,17 @@ impl PlotArgs {
 
     /// The form: what was said, else what the output's name tells.
     fn form(&self) -> Result<Form, Failure> {
-        let named = match self.format {
-            Some(FormName::Svg) => Some(Form::Svg),
-            Some(FormName::Png) => Some(Form::Png),
-            None if is_dash(&self.output) => Some(Form::Svg),
-            None => Form::of(&self.output).filter(|form| *form != Form::Gif),
-        };
-        named.ok_or_else(|| {
+        let of_name = || Form::of(&self.output).filter(|form| *form != Form::Gif);
+        let named = || if is_dash(&self.output) { Some(Form::Svg) } else { of_name() };
+        self.format.or_else(named).ok_or_else(|| {
             let reason = format!("{}: its name does not tell the form of a plot", self.output.display());
             Failure::usage(reason, "Let it end in .svg or .png, or say --format.")
         })
     }
 
-    fn quantity(&self) -> Quantity {
-        match self.what {
-            What::Clearance => Quantity::Clearance,
-            What::Speed => Quantity::Speed,
-            What::Joints => Quantity::Joints,
-            What::Encoders => Quantity::Encoders,
-        }
-    }
-
     /// The lines to be drawn, and what differs where a run was simulated again.
-    fn series(&self, log: &AnyLog) -> Result<(Vec<Series>, Option<String>), Failure> {
-        let (_, config, script) = log.parts();
+    fn series(&self, log: &Log) -> Result<(Vec<Series>, Option<Difference>), Failure> {
+        let Recipe { config, script, .. } = &log.recipe;
         let there = || config.robot_names().collect::<Vec<_>>().join(", ");
         if let Some(unknown) = self.robot.iter().find(|name| !config.robot_names().any(|known| known == *name)) {
             let reason = format!("--robot {unknown}: the run has no such robot");
@@ -128,11 +100,11 @@ impl PlotArgs {
         }
         let wants = |name: &str| self.robot.is_empty() || self.robot.iter().any(|wanted| wanted == name);
         let kinds = Kinds::default();
-        let mut gatherer = SeriesGatherer::new(self.quantity(), config, script, &kinds, wants);
+        let mut gatherer = SeriesGatherer::new(self.what, config, script, &kinds, wants);
         match gatherer.lines() {
             0 => {
                 let (what, next) = match self.what {
-                    What::Joints => ("joints", "Name a run with an arm, or another --what."),
+                    Quantity::Joints => ("joints", "Name a run with an arm, or another --what."),
                     _ => ("encoders", "Name a run with a rover, or another --what."),
                 };
                 let file = shown(&self.file);

@@ -1,14 +1,14 @@
 //! `replay`: simulate a recorded run again, to its end.
 
+use crate::cli::support::choices::log_kind;
 use std::path::PathBuf;
 
 use clap::Args;
-use motion_lab::run::{Digest, Frame, LogError, RunDigest};
+use motion_lab::run::{Comparison, Frame, Log, LogError, LogKind, LogWriter};
 use serde::Serialize;
 
 use crate::cli::support::interrupt;
-use crate::cli::support::log_kind::{AnyComparison, AnyLog, AnyWriter, LogKind};
-use crate::cli::support::log_source::{AnySource, read_any_log};
+use crate::cli::support::log_source::{LogSource, read_log};
 use crate::cli::support::output::PendingFile;
 use crate::cli::support::progress::Progress;
 use crate::cli::support::simulate::begin;
@@ -35,7 +35,7 @@ pub struct Replay {
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
     /// What that log keeps: `full`, every frame, or `digest`, a digest of each second. [default: as FILE does]
-    #[arg(long, value_name = "KIND", value_enum, requires = "output", hide_possible_values = true)]
+    #[arg(long, value_name = "KIND", value_parser = log_kind(), requires = "output", hide_possible_values = true)]
     log: Option<LogKind>,
     /// One line of JSON.
     #[arg(long)]
@@ -59,22 +59,21 @@ struct Replayed<'a> {
 impl Replay {
     /// Runs the command.
     pub fn run(self, data: &mut Data) -> Result<Outcome, Failure> {
-        let AnySource { log, damage, .. } = read_any_log(&self.file)?;
+        let LogSource { log, damage, .. } = read_log(&self.file)?;
         if let Some(damage) = &damage {
             say(format!("{damage}\nThis much is compared; the run is replayed to its end."));
         }
         let target = self.output.as_deref().map(Target::file).transpose()?;
         interrupt::listen()?;
-        let Some(Ended { last, digest, comparison }) = self.replay(&log)? else {
+        let Some((last, comparison)) = self.replay(&log)? else {
             say("stopped; nothing was written. Replay it again.");
             return Ok(Outcome::Stopped);
         };
-        let (seed, config, _) = log.parts();
         let replayed = Replayed {
-            run: RunSummary::new(seed, config, &last, digest),
-            sealed: comparison.recorded(),
+            run: RunSummary::new(&log.recipe, &last, comparison.digest()),
+            sealed: log.ticks(),
             identical: comparison.identical(),
-            divergence: comparison.difference(config),
+            divergence: comparison.difference().map(ToString::to_string),
         };
         if self.json {
             data.json(&replayed)?;
@@ -91,45 +90,33 @@ impl Replay {
         })
     }
 
-    /// Runs the log's run to its end; `None` when somebody asked to stop.
-    fn replay<'a>(&self, log: &'a AnyLog) -> Result<Option<Ended<'a>>, Failure> {
-        let (seed, config, script) = log.parts();
-        let mut run = begin(seed, config, script)?;
-        let mut digest = RunDigest::new(seed, config, script, run.frame());
-        let mut comparison = AnyComparison::with(log);
-        comparison.frame(run.frame(), &digest);
-        let mut writer = self.writer(log, run.frame(), &digest)?;
-        let progress = Progress::of(config.ticks, "ticks");
+    /// Runs the log's run to its end, and returns the last frame; `None` when somebody asked to stop.
+    fn replay<'a>(&self, log: &'a Log) -> Result<Option<(Frame, Comparison<&'a Log>)>, Failure> {
+        let mut run = begin(&log.recipe)?;
+        let mut comparison = Comparison::begin(log, run.frame());
+        let mut writer = self.writer(log, run.frame())?;
+        let progress = Progress::of(log.recipe.config.ticks, "ticks");
         while !run.is_complete() {
             if interrupt::asked_to_stop() {
                 return Ok(None);
             }
             let frame = run.step();
-            digest.tick(frame);
-            comparison.frame(frame, &digest);
+            comparison.tick(frame);
             if let Some(writer) = &mut writer {
-                writer.tick(frame, &digest).map_err(|error| self.failed(error))?;
+                writer.tick(frame).map_err(|error| self.failed(error))?;
             }
             progress.at(frame.tick);
         }
-        let digest = digest.digest();
-        if let Some(mut writer) = writer {
-            writer.end(digest).map_err(|error| self.failed(error))?;
-            writer.into_inner().commit()?;
+        if let Some(writer) = writer {
+            writer.finish().map_err(|error| self.failed(error))?.commit()?;
         }
-        Ok(Some(Ended { last: run.frame().clone(), digest, comparison }))
+        Ok(Some((run.frame().clone(), comparison)))
     }
 
-    fn writer(
-        &self,
-        log: &AnyLog,
-        initial: &Frame,
-        run: &RunDigest,
-    ) -> Result<Option<AnyWriter<PendingFile>>, Failure> {
+    fn writer(&self, log: &Log, initial: &Frame) -> Result<Option<LogWriter<PendingFile>>, Failure> {
         let Some(output) = &self.output else { return Ok(None) };
-        let file = PendingFile::create(output)?;
-        let writer = AnyWriter::new(file, self.log.unwrap_or(log.kind()), log.parts(), initial, run);
-        writer.map(Some).map_err(|error| self.failed(error))
+        let (file, kind) = (PendingFile::create(output)?, self.log.unwrap_or(log.kind()));
+        LogWriter::new(file, &log.recipe, kind, initial).map(Some).map_err(|error| self.failed(error))
     }
 
     fn failed(&self, error: LogError) -> Failure {
@@ -138,13 +125,6 @@ impl Replay {
             (error, _) => Failure::internal(error),
         }
     }
-}
-
-/// The outcome of a replay.
-struct Ended<'a> {
-    last: Frame,
-    digest: Digest,
-    comparison: AnyComparison<'a>,
 }
 
 impl Replayed<'_> {

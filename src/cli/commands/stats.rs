@@ -5,11 +5,11 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 use motion_lab::configuration::Kinds;
 use motion_lab::export::JsonNumber;
-use motion_lab::run::{RobotStats, RunStats, StatsGatherer, seconds};
+use motion_lab::run::{Recipe, RobotStats, RunStats, StatsGatherer, seconds};
 use serde::Serialize;
 
 use crate::cli::support::input::{shown, worst_of_each};
-use crate::cli::support::log_source::{AnySource, read_any_log, say_damage};
+use crate::cli::support::log_source::{LogSource, read_log, say_damage};
 use crate::cli::support::simulate::each_frame;
 use crate::cli::{Data, Failure, Outcome, say};
 
@@ -65,9 +65,9 @@ impl StatsArgs {
     pub fn run(self, data: &mut Data) -> Result<Outcome, Failure> {
         let mut is_first = true;
         worst_of_each(&self.files, data, |file, data| {
-            let AnySource { log, damage, .. } = read_any_log(file)?;
+            let LogSource { log, damage, .. } = read_log(file)?;
             say_damage(damage.as_ref(), "counted");
-            let (seed, config, script) = log.parts();
+            let Recipe { seed, config, script } = &log.recipe;
             let kinds = Kinds::default();
             let mut gatherer = StatsGatherer::new(config, script, &kinds);
             let difference = each_frame(&log, |frame| gatherer.see(frame))?;

@@ -1,13 +1,15 @@
-//! Values of arguments: names of worlds and robots, which shells offer though any other text is a value too; themes;
-//! numbers.
+//! Values of arguments: names of worlds and robots, which shells offer though any other text is a value too; one of the
+//! library's values by its name; numbers.
 
 use std::ffi::OsStr;
 use std::str::FromStr;
 
-use clap::builder::{PossibleValue, StringValueParser, TypedValueParser};
-use clap::{Arg, Command, Error, ValueEnum};
+use clap::builder::{PossibleValue, PossibleValuesParser, StringValueParser, TypedValueParser};
+use clap::{Arg, Command, Error};
+use motion_lab::capture::Form;
 use motion_lab::configuration::RobotKind;
 use motion_lab::picture::Theme;
+use motion_lab::run::LogKind;
 use motion_lab::worlds::World;
 
 /// A built-in world's name, or the path of a file.
@@ -25,26 +27,12 @@ pub struct RobotsAndKinds;
 /// The names of the robots of the built-in worlds.
 const ROBOTS: [&str; 3] = ["Rusty", "Reach", "Hitch"];
 
-/// The names of the kinds, as `query` has them.
-const KINDS: [&str; 5] =
-    [RobotKind::RUSTY.name, RobotKind::REACH.name, "choset", RobotKind::REACH3.name, RobotKind::HITCH.name];
+/// The name of the two-link arm without thickness, which is no kind of worlds.
+pub const CHOSET: &str = "choset";
 
-/// The colours of paper.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub enum ThemeName {
-    Light,
-    Dark,
-}
-
-impl ThemeName {
-    /// The theme.
-    pub fn theme(self) -> Theme {
-        match self {
-            ThemeName::Light => Theme::Light,
-            ThemeName::Dark => Theme::Dark,
-        }
-    }
-}
+/// The names of the lab's kinds, and the arm without thickness.
+pub const KINDS: [&str; 5] =
+    [RobotKind::RUSTY.name, RobotKind::REACH.name, CHOSET, RobotKind::REACH3.name, RobotKind::HITCH.name];
 
 /// Numbers joined by commas.
 #[derive(Clone, Debug)]
@@ -58,6 +46,42 @@ impl FromStr for Numbers {
             |n: &str| n.trim().parse().map_err(|_| format!("{n:?} is no number; join numbers by commas: 0.785,1.571"));
         text.split(',').map(number).collect::<Result<_, _>>().map(Numbers)
     }
+}
+
+/// Reads one of these values by its name. Each has its help, which may be empty.
+pub fn one_of<T: Copy + Send + Sync + 'static, const N: usize>(
+    values: [(&'static str, T, &'static str); N],
+) -> impl TypedValueParser<Value = T> {
+    let value = |(name, _, help): (&'static str, T, &'static str)| {
+        let value = PossibleValue::new(name);
+        if help.is_empty() { value } else { value.help(help) }
+    };
+    PossibleValuesParser::new(values.map(value)).try_map(move |name| {
+        let found = values.into_iter().find(|(known, ..)| *known == name);
+        found.map(|(_, value, _)| value).ok_or("it is none of them")
+    })
+}
+
+/// Reads the name of a theme.
+pub fn theme() -> impl TypedValueParser<Value = Theme> {
+    one_of([("light", Theme::Light, ""), ("dark", Theme::Dark, "")])
+}
+
+/// Reads the name of a form of pictures, one of these.
+pub fn form<const N: usize>(forms: [Form; N]) -> impl TypedValueParser<Value = Form> {
+    one_of(forms.map(|form| (form.extension(), form, "")))
+}
+
+/// Reads `full` or `digest`.
+pub fn log_kind() -> impl TypedValueParser<Value = LogKind> {
+    one_of([
+        ("full", LogKind::Frames, "Every frame to the last bit. The default up to 100 robots"),
+        (
+            "digest",
+            LogKind::Digests,
+            "A digest of each second instead of the frames, for `verify`. The default above 100 robots",
+        ),
+    ])
 }
 
 type Values = Box<dyn Iterator<Item = PossibleValue>>;
@@ -89,13 +113,13 @@ offers!(RobotsAndKinds, KINDS.into_iter().chain(ROBOTS));
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::cli::commands::query::RobotName;
 
     #[test]
     fn the_names_offered_are_those_that_there_are() {
         let worlds = World::built_in_names().into_iter().filter_map(World::built_in);
         let robots: Vec<String> = worlds.flat_map(|world| world.robots).map(|robot| robot.name).collect();
         assert_eq!(robots, ROBOTS);
-        assert_eq!(RobotName::list(), KINDS.join(", "));
+        let kinds = KINDS.into_iter().filter(|name| *name != CHOSET);
+        assert!(kinds.eq(RobotKind::ALL.map(|kind| kind.name)));
     }
 }

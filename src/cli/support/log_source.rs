@@ -2,10 +2,9 @@
 
 use std::path::Path;
 
-use motion_lab::run::{DigestLog, Log, LogError, ReadDigestLog, ReadLog};
+use motion_lab::run::{Digest, Log, LogError, LogKind, ReadLog};
 
 use super::input::{read_bytes_if, shown};
-use super::log_kind::AnyLog;
 use super::progress::Progress;
 use crate::cli::{Failure, say};
 
@@ -15,15 +14,7 @@ pub const MAX_LOG: u64 = 4 << 30;
 /// A log from a file, or its sealed beginning.
 pub struct LogSource {
     /// The log.
-    pub read: ReadLog,
-    /// The damage to the file, if it is not whole.
-    pub damage: Option<String>,
-}
-
-/// A log of either kind from a file, or its sealed beginning.
-pub struct AnySource {
-    /// The log.
-    pub log: AnyLog,
+    pub log: Log,
     /// The program that wrote it, with its version.
     pub program: String,
     /// The damage to the file, if it is not whole.
@@ -45,51 +36,32 @@ pub fn begins_as_one(beginning: &[u8]) -> bool {
     !matches!(Log::read_mcap(beginning), Err(LogError::NotALog))
 }
 
-/// Reads a log with frames; of a damaged or unfinished file, its sealed beginning. Fails when not even that can be
-/// used.
-pub fn read_log(path: &Path) -> Result<LogSource, Failure> {
-    let bytes = read_bytes_if(path, MAX_LOG, begins_as_one)?;
-    with_frames(path, &bytes)
+/// Reads a log with frames, as [`read_log`].
+pub fn read_full_log(path: &Path) -> Result<LogSource, Failure> {
+    let source = read_log(path)?;
+    if source.log.kind() == LogKind::Frames { Ok(source) } else { Err(refused(path, &LogError::NoFrames)) }
 }
 
-fn with_frames(path: &Path, bytes: &[u8]) -> Result<LogSource, Failure> {
+/// Reads a log; of a damaged or unfinished file, its sealed beginning. Fails when not even that can be used.
+pub fn read_log(path: &Path) -> Result<LogSource, Failure> {
+    let bytes = read_bytes_if(path, MAX_LOG, begins_as_one)?;
     let progress = if bytes.len() < LONG { Progress::none() } else { Progress::of_bytes(bytes.len() as u64) };
-    match Log::read_mcap_with(bytes, |checked| progress.at(checked)) {
-        Ok(read) => Ok(LogSource { read, damage: None }),
+    match Log::read_mcap_with(&bytes, |checked| progress.at(checked)) {
+        Ok(ReadLog { log, program, .. }) => Ok(LogSource { log, program, damage: None }),
         Err(LogError::Damaged(damaged)) => {
-            let message = damaged.to_string();
+            let message = format!("{}: {damaged}", shown(path));
             match damaged.recovered {
-                Some(read) => Ok(LogSource { read, damage: Some(format!("{}: {message}", shown(path))) }),
-                None => Err(beyond_use(path, &message)),
+                Some(ReadLog { log, program, .. }) => Ok(LogSource { log, program, damage: Some(message) }),
+                None => Err(Failure::input(message, "Record the run again.")),
             }
         }
         Err(error) => Err(refused(path, &error)),
     }
 }
 
-/// As [`read_log`], of a log with frames or of digests.
-pub fn read_any_log(path: &Path) -> Result<AnySource, Failure> {
-    let bytes = read_bytes_if(path, MAX_LOG, begins_as_one)?;
-    match DigestLog::read_mcap(&bytes) {
-        Ok(ReadDigestLog { log, program }) => Ok(AnySource { log: AnyLog::Digest(log), program, damage: None }),
-        Err(LogError::DamagedDigests(damaged)) if damaged.recovered.is_some() => {
-            let message = format!("{}: {damaged}", shown(path));
-            let Some(ReadDigestLog { log, program }) = damaged.recovered else {
-                return Err(beyond_use(path, &message));
-            };
-            Ok(AnySource { log: AnyLog::Digest(log), program, damage: Some(message) })
-        }
-        // a log with frames, or what can't be read as either
-        Err(LogError::HasFrames | LogError::DamagedDigests(_)) => {
-            let LogSource { read, damage } = with_frames(path, &bytes)?;
-            Ok(AnySource { log: AnyLog::Full(read.log), program: read.program, damage })
-        }
-        Err(error) => Err(refused(path, &error)),
-    }
-}
-
-fn beyond_use(path: &Path, message: &str) -> Failure {
-    Failure::input(format!("{}: {message}", shown(path)), "Record the run again.")
+/// The digest of a log with frames.
+pub fn digest_of(log: &Log) -> Result<Digest, Failure> {
+    log.digest().ok_or_else(|| Failure::internal(LogError::NoFrames))
 }
 
 fn refused(path: &Path, error: &LogError) -> Failure {

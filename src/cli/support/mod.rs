@@ -5,7 +5,6 @@ pub(crate) mod console;
 pub(crate) mod end;
 pub(crate) mod input;
 pub(crate) mod interrupt;
-pub(crate) mod log_kind;
 pub(crate) mod log_source;
 pub(crate) mod output;
 pub(crate) mod paper;

@@ -1,19 +1,20 @@
 //! `PaperArgs`, what pictures are drawn on, and how they are written.
 
+use motion_lab::picture::Theme;
 use std::path::Path;
 
 use clap::Args;
 use motion_lab::capture::{self, CaptureError, Captured, Form, Paper};
 
-use super::choices::ThemeName;
+use super::choices;
 use crate::cli::Failure;
 
 /// The sheet of a picture.
 #[derive(Debug, Args)]
 pub struct PaperArgs {
     /// Pictures: the paper's colours.
-    #[arg(long, value_enum, default_value = "light")]
-    theme: ThemeName,
+    #[arg(long, value_parser = choices::theme(), default_value = "light")]
+    theme: Theme,
     /// Pictures: the sheet's greatest width, pixels: 420 to 640 for a column, 1280 for a page. Letters keep their size.
     #[arg(long, value_name = "PIXELS", default_value_t = 1280, value_parser = clap::value_parser!(u32).range(200..=4096))]
     width: u32,
@@ -25,7 +26,7 @@ pub struct PaperArgs {
 impl PaperArgs {
     /// The paper.
     pub fn paper(&self) -> Paper {
-        Paper { palette: self.theme.theme().palette(), width: self.width, scale: self.scale }
+        Paper { palette: self.theme.palette(), width: self.width, scale: self.scale }
     }
 }
 

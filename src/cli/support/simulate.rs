@@ -3,13 +3,10 @@
 use std::path::Path;
 
 use motion_lab::configuration::RobotKind;
-use motion_lab::random::Seed;
-use motion_lab::recording::{DigestVerification, Recorder, Run, RunError, Verification};
-use motion_lab::run::{DigestLog, Frame, Log, RunDigest, Script};
+use motion_lab::recording::{Recorder, Run, RunError, Verification};
+use motion_lab::run::{Comparison, Difference, Frame, Log, Recipe, Recorded};
 use motion_lab::simulation::SpawnError;
-use motion_lab::tour::TourConfig;
 
-use super::log_kind::{AnyComparison, AnyLog};
 use super::progress::Progress;
 use crate::cli::Failure;
 
@@ -35,10 +32,9 @@ fn refused(error: &RunError) -> Failure {
     Failure::input(error, advice(error))
 }
 
-/// A run at tick 0, which only goes ahead.
-pub fn begin(seed: Seed, config: &TourConfig, script: &Script) -> Result<Recorder, Failure> {
-    let run = Recorder::new(config.clone(), (seed, script.clone())).map_err(|error| refused(&error))?;
-    Ok(run.without_keyframes())
+/// The run of a recipe at tick 0, which only goes ahead.
+pub fn begin(recipe: &Recipe) -> Result<Recorder, Failure> {
+    Ok(Recorder::of(recipe).map_err(|error| refused(&error))?.without_keyframes())
 }
 
 /// Simulates a log's run again and compares it: see [`motion_lab::recording::verify`].
@@ -46,36 +42,27 @@ pub fn verify(log: &Log, on_tick: impl FnMut(&Recorder)) -> Result<Verification,
     motion_lab::recording::verify(log, on_tick).map_err(|error| refused(&error))
 }
 
-/// Simulates the run of a digest log again and compares it: see [`motion_lab::recording::verify_digests`].
-pub fn verify_digests(log: &DigestLog, on_tick: impl FnMut(&Recorder)) -> Result<DigestVerification, Failure> {
-    motion_lab::recording::verify_digests(log, on_tick).map_err(|error| refused(&error))
-}
-
-/// Calls `see` with every frame of a log, from tick 0 on, and shows how far it has come. The frames of a digest log are
-/// made by simulating its run again; what then differs from its digests is returned, in words.
-pub fn each_frame(log: &AnyLog, mut see: impl FnMut(&Frame)) -> Result<Option<String>, Failure> {
-    let (seed, config, script) = log.parts();
-    let progress = Progress::of(log.recorded(), "ticks");
+/// Calls `see` with every frame of a log, from tick 0 on, and shows how far it has come. The frames of a log of digests
+/// are made by simulating its run again; what then differs from its digests is returned.
+pub fn each_frame(log: &Log, mut see: impl FnMut(&Frame)) -> Result<Option<Difference>, Failure> {
+    let progress = Progress::of(log.ticks(), "ticks");
     let mut see = |frame: &Frame| {
         see(frame);
         progress.at(frame.tick);
     };
-    if let AnyLog::Full(log) = log {
-        std::iter::once(&log.initial).chain(&log.frames).for_each(see);
+    if let Recorded::Frames { initial, frames } = &log.recorded {
+        std::iter::once(initial).chain(frames).for_each(see);
         return Ok(None);
     }
-    let mut run = begin(seed, config, script)?;
-    let mut digest = RunDigest::new(seed, config, script, run.frame());
-    let mut comparison = AnyComparison::with(log);
-    comparison.frame(run.frame(), &digest);
+    let mut run = begin(&log.recipe)?;
+    let mut comparison = Comparison::begin(log, run.frame());
     see(run.frame());
-    for _ in 0..log.recorded() {
+    for _ in 0..log.ticks() {
         let frame = run.step();
-        digest.tick(frame);
-        comparison.frame(frame, &digest);
+        comparison.tick(frame);
         see(frame);
     }
-    Ok(comparison.difference(config))
+    Ok(comparison.difference().cloned())
 }
 
 /// The reason to stop showing a run.

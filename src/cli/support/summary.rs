@@ -2,9 +2,8 @@
 
 use motion_lab::configuration::RobotKind;
 use motion_lab::export::JsonNumber;
-use motion_lab::random::Seed;
 use motion_lab::recording::printed_configuration;
-use motion_lab::run::{Digest, DigestLog, Frame, RobotState};
+use motion_lab::run::{Digest, Frame, Log, Recipe, Recorded, RobotState};
 use motion_lab::tour::TourConfig;
 use motion_lab::worlds::{Resident, World};
 use serde::Serialize;
@@ -70,22 +69,31 @@ fn worlds(config: &TourConfig) -> Vec<WorldSummary<'_>> {
 }
 
 impl<'a> RunSummary<'a> {
-    /// The summary of a digest log, which knows no robot's state. The digest of a log that ends early is known by its
-    /// last 16 digits only.
-    pub fn of_digests(log: &'a DigestLog) -> Self {
-        let kept = log.after(log.ticks).unwrap_or(log.start);
+    /// The summary of a log. One of digests knows no robot's state, and where it ends early, the last 16 digits of its
+    /// digest only.
+    pub fn of(log: &'a Log) -> Self {
+        let Recipe { seed, config, .. } = &log.recipe;
+        let (digest, last) = match &log.recorded {
+            Recorded::Frames { initial, frames } => (log.digest(), Some(frames.last().unwrap_or(initial))),
+            Recorded::Digests(digests) => (digests.whole, None),
+        };
+        let so_far = || match &log.recorded {
+            Recorded::Digests(digests) => format!("{:016x}", digests.after(digests.ticks).unwrap_or(digests.start)),
+            Recorded::Frames { .. } => String::new(),
+        };
         RunSummary {
-            seed: log.seed.0,
-            ticks: log.config.ticks,
-            recorded: log.ticks,
-            digest: log.digest.map_or_else(|| format!("{kept:016x}"), |digest| digest.to_string()),
-            worlds: worlds(&log.config),
-            robots: Vec::new(),
+            seed: seed.0,
+            ticks: config.ticks,
+            recorded: log.ticks(),
+            digest: digest.map_or_else(so_far, |digest| digest.to_string()),
+            worlds: worlds(config),
+            robots: last.map_or_else(Vec::new, |last| robots(config, last)),
         }
     }
 
     /// The summary of a run that has come to `last`.
-    pub fn new(seed: Seed, config: &'a TourConfig, last: &Frame, digest: Digest) -> Self {
+    pub fn new(recipe: &'a Recipe, last: &Frame, digest: Digest) -> Self {
+        let Recipe { seed, config, .. } = recipe;
         RunSummary {
             seed: seed.0,
             ticks: config.ticks,

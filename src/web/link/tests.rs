@@ -34,7 +34,7 @@ fn a_link_reads_back_as_it_was_written() {
     assert_eq!(Link::parse(&format!("?{query}&utm=mail&x")).unwrap(), link, "other fields are ignored");
     assert_eq!(Link::parse("").unwrap(), Link::default());
     assert_eq!(Link::parse(&Link::default().query().unwrap()).unwrap(), Link::default());
-    assert_eq!(link.config().worlds.iter().map(|w| w.name.as_str()).collect::<Vec<_>>(), ["Lot", "Workbench"]);
+    assert_eq!(link.recipe().config.worlds.iter().map(|w| w.name.as_str()).collect::<Vec<_>>(), ["Lot", "Workbench"]);
 }
 
 #[test]
@@ -48,16 +48,17 @@ fn a_link_holds_the_doors_that_were_closed() {
 #[test]
 fn a_run_becomes_the_link_that_runs_it_again() {
     let config = TourConfig { ticks: 77, ..TourConfig::default() };
-    let link = Link::of(Seed(3), &config, driven()).unwrap();
-    assert_eq!((link.config(), link.seed, &link.script), (config.clone(), Seed(3), &driven()));
+    let recipe = Recipe::new(config.clone(), (Seed(3), driven()));
+    let link = Link::of(&recipe).unwrap();
+    assert_eq!(link.recipe(), recipe);
     let lot = Link { worlds: vec!["lot".into()], tick: 5, ..Link::default() };
-    assert_eq!(Link::of(BOOK_SEED, &lot.config(), Script::empty()).unwrap(), lot);
+    assert_eq!(Link::of(&lot.recipe()).unwrap(), lot);
     let mut edited = config.clone();
     edited.worlds[1].robots.clear();
-    let refused = Link::of(Seed(3), &edited, Script::empty()).unwrap_err();
+    let refused = Link::of(&Recipe::new(edited, Seed(3))).unwrap_err();
     assert_eq!(refused, LinkError::World("Workbench".into()));
     let long = TourConfig { ticks: MAX_LINK_TICK + 1, ..config };
-    assert!(matches!(Link::of(Seed(3), &long, Script::empty()), Err(LinkError::Number { field: "tick", .. })));
+    assert!(matches!(Link::of(&Recipe::new(long, Seed(3))), Err(LinkError::Number { field: "tick", .. })));
 }
 
 #[test]

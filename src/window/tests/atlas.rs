@@ -46,18 +46,18 @@ fn the_editor_draws_with_the_mouse_undoes_by_key_and_saves_the_same_bytes() {
     let text = motion_lab_core::worlds::World::workbench().to_ron();
     std::fs::write(&path, format!("// the bench\n{text}")).unwrap();
     let mut harness = lab(WIDE);
-    let opened = crate::window::files::open_world(harness.state_mut().app.world_mut(), &path);
+    let opened = crate::window::desktop::files::open_world(harness.state_mut().app.world_mut(), &path);
     assert!(!opened.is_error, "{opened:?}");
     harness.run_steps(3);
     click(&mut harness, "Edit");
     harness.get_by_label("Saving drops the one comment of bench.ron: worlds are saved in canonical form.");
-    let saved = crate::window::files::save_world(harness.state_mut().app.world_mut(), &path);
+    let saved = crate::window::desktop::files::save_world(harness.state_mut().app.world_mut(), &path);
     assert!(!saved.is_error && std::fs::read_to_string(&path).unwrap() == text);
     harness.run_steps(2);
     assert!(harness.query_by_label_contains("Saving drops").is_none());
     // opened and saved again: the same bytes
-    crate::window::files::open_world(harness.state_mut().app.world_mut(), &path);
-    crate::window::files::save_world(harness.state_mut().app.world_mut(), &path);
+    crate::window::desktop::files::open_world(harness.state_mut().app.world_mut(), &path);
+    crate::window::desktop::files::save_world(harness.state_mut().app.world_mut(), &path);
     assert_eq!(std::fs::read_to_string(&path).unwrap(), text);
     harness.run_steps(2);
     // a mark is added where the paper is clicked, moved by its line, and given a corner
@@ -170,10 +170,10 @@ fn a_world_dropped_on_the_window_is_opened_in_the_atlas() {
     let mut harness = lab(WIDE);
     let drop_file = |harness: &mut Harness<'_, Lab>, path: &std::path::Path| {
         let world = harness.state_mut().app.world_mut();
-        world.init_resource::<crate::window::dialogs::Dialogs>();
+        world.init_resource::<crate::window::desktop::dialogs::Dialogs>();
         world.init_resource::<Messages<FileDragAndDrop>>();
         world.write_message(FileDragAndDrop::DroppedFile { window: Entity::PLACEHOLDER, path_buf: path.to_owned() });
-        crate::window::dialogs::dropped(world);
+        crate::window::desktop::dialogs::dropped(world);
         harness.run_steps(3);
     };
     drop_file(&mut harness, &path);

@@ -3,8 +3,8 @@
 use std::path::Path;
 
 use super::*;
-use crate::window::capture::{Capturing, capture, check, follow};
-use crate::window::clipboard::Clipboard;
+use crate::window::desktop::capture::{Capturing, capture, check, follow};
+use crate::window::desktop::clipboard::Clipboard;
 use crate::window::ui::{CaptureOrder, Notice};
 
 fn ui(harness: &Harness<'_, Lab>) -> crate::window::ui::UiState {
@@ -57,7 +57,7 @@ fn the_dashboard_is_captured_with_seed_and_digest() {
     // the same digest as the run that is saved
     let log = folder.path().join("d.mcap");
     save_run(harness.state_mut().app.world_mut(), &log);
-    let digest = Log::read_mcap(&std::fs::read(&log).unwrap()).unwrap().log.digest().to_string();
+    let digest = Log::read_mcap(&std::fs::read(&log).unwrap()).unwrap().log.digest().unwrap().to_string();
     let tick = harness.state().transport().tick;
     let notes = png_notes(&path);
     for (key, text) in [("Seed", "2005"), ("Digest", &digest), ("Tick", &tick.to_string())] {

@@ -1,4 +1,4 @@
-//! A world of many robots: found, picked, followed and driven; long work aside.
+//! A world of many robots: found, picked, followed and driven; long work in the background.
 
 use super::*;
 use crate::window::session::new_run;
@@ -6,8 +6,8 @@ use crate::window::ui::{Command, Crowd, CrowdState};
 use motion_lab_core::geometry::Point2;
 use motion_lab_core::random::Seed;
 use motion_lab_core::worlds::Warehouse;
-use motion_lab_sim::recording::{Recorder, verify_digests};
-use motion_lab_sim::run::{DigestLog, DigestLogWriter, RunDigest};
+use motion_lab_sim::recording::{Recorder, verify};
+use motion_lab_sim::run::{Log, LogKind, LogWriter, Recipe};
 use motion_lab_sim::simulation::{TransportCommand, sensors, sensors_of, view_of};
 use motion_lab_sim::tour::{BOOK_SEED, TourConfig};
 
@@ -18,7 +18,7 @@ fn warehouse(robots: usize, size: [f32; 2]) -> (Harness<'static, Lab>, TourConfi
     let config = TourConfig { worlds: vec![world], ..TourConfig::default() };
     let app = harness.state_mut().app.world_mut();
     app.resource_mut::<Transport>().playback = Playback::Paused;
-    new_run(app, config.clone(), BOOK_SEED).unwrap();
+    new_run(app, Recipe::new(config.clone(), BOOK_SEED)).unwrap();
     harness.run_steps(3);
     (harness, config)
 }
@@ -67,10 +67,10 @@ fn a_robot_is_found_by_its_name_and_only_who_is_picked_has_words_and_a_scan() {
     let mut other = config.clone();
     let id = config.worlds[0].robots.iter().position(|r| r.name == "rover 00003").unwrap();
     other.worlds[0].robots[id].name = "another".into();
-    new_run(harness.state_mut().app.world_mut(), other, BOOK_SEED).unwrap();
+    new_run(harness.state_mut().app.world_mut(), Recipe::new(other, BOOK_SEED)).unwrap();
     harness.run_steps(2);
     assert!(shown(&harness).robots.is_empty(), "nobody is picked there");
-    new_run(harness.state_mut().app.world_mut(), config, BOOK_SEED).unwrap();
+    new_run(harness.state_mut().app.world_mut(), Recipe::new(config, BOOK_SEED)).unwrap();
     harness.run_steps(2);
     assert_eq!(shown(&harness).robots.len(), 1);
     // another click on its row, and nobody is
@@ -172,7 +172,7 @@ fn the_view_follows_who_is_picked() {
 }
 
 #[test]
-fn a_long_way_to_another_tick_goes_on_aside_and_ends_on_the_same_bits() {
+fn a_long_way_to_another_tick_goes_on_in_the_background_and_ends_on_the_same_bits() {
     let (mut harness, config) = warehouse(1000, WIDE);
     step(&mut harness, 45);
     let seek = |harness: &mut Harness<'_, Lab>, tick| {
@@ -203,7 +203,11 @@ fn a_long_way_to_another_tick_goes_on_aside_and_ends_on_the_same_bits() {
     harness.state_mut().app.world_mut().resource_mut::<Transport>().playback = Playback::Paused;
     // a save gives way to it, and says so
     let folder = tempfile::tempdir().unwrap();
-    assert_eq!(save_run(harness.state_mut().app.world_mut(), &folder.path().join("a.mcap")), None, "it goes on aside");
+    assert_eq!(
+        save_run(harness.state_mut().app.world_mut(), &folder.path().join("a.mcap")),
+        None,
+        "it goes on in the background"
+    );
     assert!(working(&harness).is_some_and(|w| w.text.starts_with("saving: tick")));
     seek(&mut harness, 300);
     let notice = harness.state().app.world().resource::<Interface>().0.notice().cloned();
@@ -225,24 +229,22 @@ fn a_crowd_is_saved_without_its_frames_and_opened_again() {
     step(&mut harness, 25);
     let app = harness.state_mut().app.world_mut();
     let saved = save_run(app, &path).unwrap();
-    let log = DigestLog::read_mcap(&std::fs::read(&path).unwrap()).unwrap().log;
-    assert_eq!(log.ticks, 25);
-    assert!(saved.text.contains(&log.digest.unwrap().to_string()) && !saved.is_error, "{saved:?}");
-    assert_eq!(verify_digests(&log, |_| {}).unwrap().difference, None);
+    let log = Log::read_mcap(&std::fs::read(&path).unwrap()).unwrap().log;
+    assert_eq!((log.kind(), log.ticks()), (LogKind::Digests, 25));
+    assert!(saved.text.contains(&log.digest().unwrap().to_string()) && !saved.is_error, "{saved:?}");
+    assert_eq!(verify(&log, |_| {}).unwrap().difference, None);
     let opened = open_run(app, &path).unwrap();
     assert_eq!(opened.text, "crowd.mcap: bit-identical, 25 of 25");
     assert_eq!((app.resource::<Transport>().tick, app.resource::<Transport>().frontier), (0, 25));
     // the digests of a run one bit of which was changed at tick 5
-    let mut run = Recorder::new(log.config.clone(), BOOK_SEED).unwrap();
-    let mut digest = RunDigest::new(BOOK_SEED, &log.config, &log.script, run.frame());
-    let mut writer = DigestLogWriter::new(Vec::new(), BOOK_SEED, &log.config, &log.script, &digest).unwrap();
+    let mut run = Recorder::of(&log.recipe).unwrap();
+    let mut writer = LogWriter::new(Vec::new(), &log.recipe, LogKind::Digests, run.frame()).unwrap();
     for tick in 1..=25 {
         let mut frame = run.step().clone();
         frame.robots[7].flash += u32::from(tick == 5);
-        digest.tick(&frame);
-        writer.tick(&frame, &digest).unwrap();
+        writer.tick(&frame).unwrap();
     }
-    std::fs::write(&path, writer.finish(digest.digest()).unwrap()).unwrap();
+    std::fs::write(&path, writer.finish().unwrap()).unwrap();
     let opened = open_run(app, &path).unwrap();
     assert!(opened.is_error && opened.text.contains("second 1, ticks 1 to 20"), "{opened:?}");
     assert_eq!(app.resource::<Transport>().tick, 1, "the first tick that may differ");

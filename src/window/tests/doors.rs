@@ -64,10 +64,10 @@ fn a_door_closed_for_a_tick_that_never_came_is_not_in_the_log() {
     click(&mut harness, "close door C");
     assert_eq!(changes(&harness).len(), 1);
     let (log, _) = crate::window::runs::recorded(harness.state().app.world()).unwrap();
-    assert_eq!(log.script, Script::empty());
+    assert_eq!(log.recipe.script, Script::empty());
     click(&mut harness, "Step");
     let (log, _) = crate::window::runs::recorded(harness.state().app.world()).unwrap();
-    assert_eq!(log.script.changes, changes(&harness));
+    assert_eq!(log.recipe.script.changes, changes(&harness));
 }
 
 #[test]

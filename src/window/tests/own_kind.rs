@@ -12,6 +12,10 @@ use motion_lab_sim::tour::TourConfig;
 
 static TUG: RobotKind = RobotKind {
     name: "x-tug",
+    title: "Tug",
+    home: None,
+    usual: None,
+    sizes: None,
     coordinates: &["x", "y", "course", "tow"],
     lengths: 2,
     start: "three: x, y, course",

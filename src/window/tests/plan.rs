@@ -191,7 +191,11 @@ fn a_path_is_played_as_a_run_and_drawn_over_it() {
             // another run of the same world does not play it
             let config = motion_lab_sim::tour::TourConfig::default();
             let app = harness.state_mut().app.world_mut();
-            super::super::session::new_run(app, config, motion_lab_sim::tour::BOOK_SEED).unwrap();
+            super::super::session::new_run(
+                app,
+                motion_lab_sim::run::Recipe::new(config, motion_lab_sim::tour::BOOK_SEED),
+            )
+            .unwrap();
             harness.run_steps(2);
             assert!(plan(&harness).over_world("Workbench").is_none() && !plan(&harness).over_drive);
             return;
@@ -207,9 +211,9 @@ fn a_path_goes_to_a_file_and_comes_back_and_a_wrong_file_changes_nothing() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("path.json");
     let world = harness.state_mut().app.world_mut();
-    assert!(!super::super::files::save_path(world, &path).unwrap().is_error);
+    assert!(!crate::window::desktop::files::save_path(world, &path).unwrap().is_error);
     let drawn = world.resource::<Interface>().0.plan.drawn().clone();
-    let notice = super::super::files::open_path(world, &path);
+    let notice = crate::window::desktop::files::open_path(world, &path);
     assert!(!notice.is_error, "{notice:?}");
     harness.run_steps(2);
     let read = plan(&harness);
@@ -219,7 +223,7 @@ fn a_path_goes_to_a_file_and_comes_back_and_a_wrong_file_changes_nothing() {
     let text = std::fs::read_to_string(&path).unwrap();
     assert_eq!(PathFile::read(&text).unwrap().names(), ["Workbench", "Reach"]);
     std::fs::write(&path, text.replacen("\"version\":1", "\"version\":9", 1)).unwrap();
-    let notice = super::super::files::open_path(harness.state_mut().app.world_mut(), &path);
+    let notice = crate::window::desktop::files::open_path(harness.state_mut().app.world_mut(), &path);
     assert!(notice.is_error && notice.text.contains("version 9: this program reads version 1"), "{notice:?}");
     assert_eq!(plan(&harness).drawn(), read.drawn());
 }

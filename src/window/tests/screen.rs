@@ -367,7 +367,8 @@ fn four_worlds_scroll_and_an_arm_that_scrolled_away_harms_nothing() {
     config.worlds.push(yard.world().unwrap());
     let world = harness.state_mut().app.world_mut();
     world.resource_mut::<Transport>().playback = Playback::Paused;
-    crate::window::session::new_run(world, config, motion_lab_sim::tour::BOOK_SEED).unwrap();
+    crate::window::session::new_run(world, motion_lab_sim::run::Recipe::new(config, motion_lab_sim::tour::BOOK_SEED))
+        .unwrap();
     harness.run_steps(3);
     let before = paper(&harness, "Workbench");
     wheel(&mut harness, before.center(), -4000.0);

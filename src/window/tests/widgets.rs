@@ -1,10 +1,10 @@
 //! Query anatomy, configuration space and atlas.
 
-mod deeds;
 mod fingers;
 mod layout;
 mod lessons;
 mod numbers;
+mod tasks_done;
 
 use super::*;
 use crate::window::ui::Widget;
@@ -171,15 +171,15 @@ fn the_atlas_puts_robots_refuses_and_edits() {
     // saved, it is a world file that runs
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("mine.ron");
-    let notice = crate::window::files::save_world(harness.state_mut().app.world_mut(), &path);
+    let notice = crate::window::desktop::files::save_world(harness.state_mut().app.world_mut(), &path);
     assert!(!notice.is_error && atlas(&harness).is_saved(), "{notice:?}");
     let text = std::fs::read_to_string(&path).unwrap();
     let world = motion_lab_core::worlds::World::parse("mine.ron", &text).unwrap();
     assert_eq!(world.to_ron(), text, "canonical");
-    let opened = crate::window::files::open_world(harness.state_mut().app.world_mut(), &path);
+    let opened = crate::window::desktop::files::open_world(harness.state_mut().app.world_mut(), &path);
     assert!(!opened.is_error && atlas(&harness).is_saved());
     std::fs::write(&path, "a cat").unwrap();
-    let refused = crate::window::files::open_world(harness.state_mut().app.world_mut(), &path);
+    let refused = crate::window::desktop::files::open_world(harness.state_mut().app.world_mut(), &path);
     assert!(refused.is_error && atlas(&harness).is_saved(), "{refused:?}");
     // the buttons stand where the name of the file leaves them
     harness.run_steps(2);
@@ -230,7 +230,7 @@ fn a_world_of_the_atlas_is_asked_about_in_the_anatomy() {
     click(&mut harness, "Edit");
     harness.get_by_label("Add disc").click_accesskit();
     harness.run_steps(3);
-    crate::window::files::save_world(harness.state_mut().app.world_mut(), &path);
+    crate::window::desktop::files::save_world(harness.state_mut().app.world_mut(), &path);
     front(&mut harness, "Query");
     click(&mut harness, "Any robot, any world");
     harness.run_steps(20);

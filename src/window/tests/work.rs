@@ -1,7 +1,7 @@
 //! Work that is not lost: runs saved and opened, edits of worlds, keys behind dialogs, drags that end off the paper.
 
 use super::*;
-use crate::window::dialogs::{self, Dialogs};
+use crate::window::desktop::dialogs::{self, Dialogs};
 use motion_lab_sim::atlas::Op;
 
 /// Chooses a world from the atlas's list.
@@ -42,7 +42,7 @@ fn the_edits_of_a_world_and_their_undo_survive_a_look_at_another() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("bench.ron");
     std::fs::write(&path, motion_lab_core::worlds::World::workbench().to_ron()).unwrap();
-    crate::window::files::open_world(harness.state_mut().app.world_mut(), &path);
+    crate::window::desktop::files::open_world(harness.state_mut().app.world_mut(), &path);
     harness.run_steps(3);
     assert_eq!(atlas(&harness).world().name, "Workbench");
     choose(&mut harness, "Lot, edited");
@@ -239,7 +239,7 @@ fn closing_asks_where_edits_would_be_lost() {
     let lab_to_close = || {
         let mut harness = lab(WIDE);
         let app = &mut harness.state_mut().app;
-        app.add_message::<WindowCloseRequested>().add_systems(Update, crate::window::window::close);
+        app.add_message::<WindowCloseRequested>().add_systems(Update, crate::window::desktop::window::close);
         harness
     };
     assert!(closing(&mut lab_to_close()).is_some(), "nothing is lost");
@@ -311,21 +311,20 @@ fn what_was_driven_is_saved_and_verifies_to_the_same_digest() {
     assert!(!notice.is_error, "{notice:?}");
     let bytes = std::fs::read(&path).unwrap();
     let log = Log::read_mcap(&bytes).unwrap().log;
-    assert!(log.script.events.len() >= 4);
-    assert_eq!(log.frames.last(), Some(&last), "what was seen is what was saved");
-    assert_eq!(Run::replay(&log).unwrap(), log.frames, "headless, to the last bit");
-    assert!(notice.text.contains(&log.digest().to_string()));
+    assert!(log.recipe.script.events.len() >= 4);
+    assert_eq!(log.frames().last(), Some(&last), "what was seen is what was saved");
+    assert_eq!(Run::replay(&log).unwrap(), log.frames(), "headless, to the last bit");
+    assert!(notice.text.contains(&log.digest().unwrap().to_string()));
     // opened again it says so, and stands at its start
     let opened = open_run(harness.state_mut().app.world_mut(), &path).unwrap();
-    let ticks = log.frames.len();
+    let ticks = log.frames().len();
     assert_eq!(opened.text, format!("driven.mcap: bit-identical, {ticks} of {ticks}"));
     let transport = harness.state().transport();
     assert_eq!((transport.tick, transport.frontier), (0, ticks as u64));
     // one bit of one coordinate, in the file of a run that was not: the tick is named and shown
     let mut forged = log.clone();
-    let x = &mut forged.frames[70].robots[0].configuration[0];
+    let x = &mut forged.frames_mut()[70].robots[0].configuration[0];
     *x = f64::from_bits(x.to_bits() ^ 1);
-    forged.digests = forged.frames.iter().map(motion_lab_sim::run::Frame::digest).collect();
     let mut file = std::fs::File::create(&path).unwrap();
     forged.write_mcap(&mut file).unwrap();
     let opened = open_run(harness.state_mut().app.world_mut(), &path).unwrap();

@@ -51,7 +51,6 @@ pub fn capture_form(ctx: &Context, model: &Dashboard, look: &Look, state: &mut U
             if chosen {
                 commands.push(Command::Session(SessionCommand::Capture(*order)));
             }
-            #[cfg(feature = "window")]
             let chosen = chosen | copy(ui, look, order, commands);
             (chosen, LabButton::new("Cancel").show(ui, look).clicked())
         })
@@ -65,7 +64,6 @@ pub fn capture_form(ctx: &Context, model: &Dashboard, look: &Look, state: &mut U
 }
 
 /// Shows the button that copies the widget as it stands, whatever the form. Returns whether it was pressed.
-#[cfg(feature = "window")]
 pub(super) fn copy(ui: &mut Ui, look: &Look, order: &CaptureOrder, commands: &mut Vec<Command>) -> bool {
     let button = LabButton::new("Copy picture").show(ui, look);
     let pressed = button.on_hover_text("puts the picture as it stands on the clipboard").clicked();

@@ -4,7 +4,7 @@ use motion_lab_sim::capture::{Form, Span};
 
 /// The most pictures of a GIF in a page, whose memory holds them all.
 #[cfg(target_family = "wasm")]
-pub(crate) const MOST_PICTURES: u64 = 400;
+pub(crate) const MAX_PICTURES: u64 = 400;
 
 /// An order to capture the widget in front.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

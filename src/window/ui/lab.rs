@@ -9,8 +9,10 @@ use super::keys::{Action, Situation, pressed};
 use super::paint::button::LabButton;
 use super::paint::icon::Icon;
 use super::paint::style::ScreenTheme;
+use super::time::transport_bar;
 use super::{
-    Command, Dashboard, Grasp, Look, UiState, anatomy, atlas, capture_form, cspace, deeds, help, lesson, plan, tools,
+    Command, Dashboard, Grasp, Look, UiState, anatomy, atlas, capture_form, cspace, help, lesson, menu, plan,
+    tasks_done,
 };
 use motion_lab_sim::manifest::Widget;
 use motion_lab_sim::simulation::{History, TransportCommand};
@@ -63,15 +65,7 @@ pub fn lab(ui: &mut Ui, model: &Dashboard, history: &History, state: &mut UiStat
     };
     let actions = if state.is_covered() { vec![] } else { pressed(ui, now) };
     for action in actions {
-        match action {
-            Action::Widget(widget) => choose(widget, model, state, commands),
-            action => match state.widget {
-                Widget::Dashboard => dashboard::view::act(action, model, state, commands),
-                Widget::Atlas => atlas::view::act(action, model, state, commands),
-                Widget::Plan => plan::view::act(action, model, state, commands),
-                Widget::Anatomy | Widget::Cspace => tools::act(action, model, state, commands),
-            },
-        }
+        carry_out(action, model, state, commands);
     }
     lesson::make_ready(model, state, commands);
     state.nudged = None;
@@ -122,16 +116,40 @@ pub fn lab(ui: &mut Ui, model: &Dashboard, history: &History, state: &mut UiStat
         panel.response.rect
     };
     let now = ui.input(|i| i.time);
-    deeds::tick_off(model, state, commands, now);
-    tools::notice(ui.ctx(), stage, &look, state);
+    tasks_done::tick_off(model, state, commands, now);
+    menu::notice(ui.ctx(), stage, &look, state);
     help::help(ui.ctx(), state);
     capture_form::capture_form(ui.ctx(), model, &look, state, commands);
-    #[cfg(feature = "window")]
     super::closing::closing(ui.ctx(), &look, state, commands);
     state.typing = ui.ctx().text_edit_focused();
     if state.pointed.is_some() || state.lit.is_some() {
         // the fade goes on without further input
         ui.ctx().request_repaint();
+    }
+}
+
+/// Carries out the action of a key, each by the part that it concerns.
+fn carry_out(action: Action, model: &Dashboard, state: &mut UiState, commands: &mut Vec<Command>) {
+    let is_dashboard = state.widget == Widget::Dashboard;
+    match action {
+        Action::Time(action) => match state.widget {
+            Widget::Dashboard => transport_bar::act(action, model, commands),
+            Widget::Plan => plan::controls::act(action, &mut state.plan),
+            // nothing there moves through time
+            Widget::Anatomy | Widget::Cspace | Widget::Atlas => {}
+        },
+        Action::Session(action) => match state.widget {
+            Widget::Atlas => atlas::view::act(action, model, state, commands),
+            Widget::Plan => plan::view::act(action, model, state, commands),
+            Widget::Dashboard | Widget::Anatomy | Widget::Cspace => menu::act(action, model, state, commands),
+        },
+        Action::Hand(action) if is_dashboard => dashboard::view::take(action, model, state, commands),
+        Action::Camera(action) if is_dashboard => dashboard::view::turn_to(action, model, state),
+        Action::Hand(_) | Action::Camera(_) => {}
+        Action::Atlas(action) => atlas::view::act_on_thing(action, &mut state.atlas),
+        // whoever has the robot in hand reads these keys
+        Action::Held(_) => {}
+        Action::Widget(widget) => choose(widget, model, state, commands),
     }
 }
 

@@ -5,34 +5,29 @@
 mod anatomy;
 mod atlas;
 mod capture_form;
-mod capture_state;
-#[cfg(feature = "window")]
+pub(crate) mod capture_state;
 mod closing;
 mod crowd;
 mod cspace;
 mod dashboard;
-mod deeds;
 mod help;
 pub(crate) mod keys;
 mod lab;
 mod lesson;
 mod lesson_state;
+mod menu;
 mod number;
 pub(crate) mod paint;
-mod plan;
-#[cfg(feature = "window")]
+pub(crate) mod plan;
 mod recent;
-#[cfg(feature = "window")]
 mod recent_menu;
 mod settings;
 mod state;
+mod tasks_done;
 mod time;
-mod tools;
 
 pub(crate) use anatomy::AnatomyState;
 pub(crate) use atlas::AtlasState;
-#[cfg(target_family = "wasm")]
-pub(crate) use capture_state::MOST_PICTURES;
 pub(crate) use capture_state::{CaptureOrder, CaptureState};
 pub(crate) use crowd::members::Members;
 pub(crate) use crowd::state::CrowdState;
@@ -48,14 +43,9 @@ pub(crate) use lab::lab;
 pub(crate) use lesson_state::LessonState;
 pub(crate) use paint::look::Look;
 pub(crate) use plan::PlanState;
-#[cfg(all(target_family = "wasm", feature = "web"))]
-pub(crate) use plan::Stage;
-#[cfg(feature = "window")]
 pub(crate) use recent::Recent;
 pub(crate) use settings::Settings;
-#[cfg(feature = "window")]
-pub(crate) use state::{Closing, Offer};
-pub(crate) use state::{Grasp, Interface, Notice, SeedDraft, UiState, Working};
+pub(crate) use state::{Closing, Grasp, Interface, Notice, Offer, SeedDraft, UiState, Working};
 
 use motion_lab_sim::simulation::{RobotCommand, RunCommand, TransportCommand};
 
@@ -95,12 +85,10 @@ pub(crate) enum SessionCommand {
     /// Save the atlas's world: ask for a file first.
     SaveWorld,
     /// Open one of the files opened or saved last.
-    #[cfg(feature = "window")]
     OpenRecent(std::path::PathBuf),
     /// Capture the widget in front: ask for a file first.
     Capture(CaptureOrder),
     /// Put the picture of the widget in front on the clipboard.
-    #[cfg(feature = "window")]
     CopyPicture(CaptureOrder),
     /// A new run in the atlas's world.
     RunWorld,

@@ -5,8 +5,7 @@ use serde::{Deserialize, Serialize};
 use motion_lab_sim::manifest::{Deed, ThemeChoice, Widget};
 
 /// The user's settings. They are no part of a run.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[cfg_attr(feature = "window", derive(bevy::reflect::Reflect))]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, bevy::reflect::Reflect)]
 #[serde(default)]
 pub struct Settings {
     /// Light or dark paper.

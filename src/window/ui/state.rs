@@ -108,13 +108,10 @@ pub struct UiState {
     /// The last message of each widget, until it is dismissed.
     notices: BTreeMap<Widget, Notice>,
     /// How far closing the window has come, if it is to close.
-    #[cfg(feature = "window")]
     pub closing: Option<Closing>,
     /// The run that a window before left, while it is offered.
-    #[cfg(feature = "window")]
     pub offer: Option<Offer>,
     /// The files opened or saved last.
-    #[cfg(feature = "window")]
     pub recent: super::Recent,
     /// The work in the background, if any.
     pub working: Option<Working>,
@@ -134,7 +131,6 @@ pub struct Working {
 }
 
 /// How far closing the window has come.
-#[cfg(feature = "window")]
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Closing {
     /// The window is to close, and edits would be lost: the question is shown.
@@ -144,7 +140,6 @@ pub enum Closing {
 }
 
 /// A run that a window before left.
-#[cfg(feature = "window")]
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Offer {
     /// Which run it is, in words.
@@ -215,7 +210,6 @@ impl UiState {
 
     /// Whether a dialog or a form stands before the lab, so that no key is the lab's.
     pub fn is_covered(&self) -> bool {
-        #[cfg(feature = "window")]
         if self.closing.is_some() {
             return true;
         }
@@ -282,7 +276,6 @@ impl UiState {
     }
 
     /// The worlds of the atlas whose edits are in no file, by their names in the list of worlds.
-    #[cfg(feature = "window")]
     pub fn unsaved(&self) -> Vec<String> {
         let worlds = self.shelf.iter().chain([&self.atlas]);
         worlds.filter(|world| world.is_unsaved()).map(AtlasState::label).collect()

@@ -3,7 +3,8 @@
 //! than the library's. [`seen`] does the same for scans of whole worlds.
 //!
 //! They take placed shapes, each a list of core vertices and a radius, and nothing else from the library. [`arm`] gives
-//! them the kinematics of the Workbench's arm, written out, [`car`] that of a trailer. [`fixtures`] are shapes and scenes for several tests.
+//! them the kinematics of the Workbench's arm, written out, [`car`] that of a trailer. [`fixtures`] are shapes and
+//! scenes for several tests.
 //!
 //! A crate of its own, so that it alone is optimised: the surveys spend their time here and in the core.
 #![allow(clippy::unwrap_used, clippy::expect_used, missing_docs)]

@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use super::{ChartMismatch, Configuration, Coordinates, HitchCfg, T2, Tn};
+use super::{ChartMismatch, Configuration, Coordinates, HitchCfg, R2, T2, Tn};
 use crate::geometry::Pose2;
 
 /// A configuration of one of the lab's robots as one type: for views, where the robot is chosen while the program runs.
@@ -17,6 +17,37 @@ pub enum AnyConfiguration {
     T3(Tn<3>),
     /// The car's.
     Hitch(HitchCfg),
+}
+
+impl From<Pose2> for AnyConfiguration {
+    fn from(q: Pose2) -> Self {
+        AnyConfiguration::Pose(q)
+    }
+}
+
+/// A disc's place, with the heading 0.
+impl From<R2> for AnyConfiguration {
+    fn from(R2(p): R2) -> Self {
+        AnyConfiguration::Pose(Pose2::new(p.x, p.y, 0.0))
+    }
+}
+
+impl From<T2> for AnyConfiguration {
+    fn from(q: T2) -> Self {
+        AnyConfiguration::T2(q)
+    }
+}
+
+impl From<Tn<3>> for AnyConfiguration {
+    fn from(q: Tn<3>) -> Self {
+        AnyConfiguration::T3(q)
+    }
+}
+
+impl From<HitchCfg> for AnyConfiguration {
+    fn from(q: HitchCfg) -> Self {
+        AnyConfiguration::Hitch(q)
+    }
 }
 
 /// Evaluates `$body` with `$q` bound to the configuration held.

@@ -1,7 +1,9 @@
 //! `RobotKind`, the kinds of robots that worlds name: one table for files, figures, plots and the window.
 
+use std::f64::consts::{FRAC_PI_2, FRAC_PI_4};
+
 use super::InputKind::{Drive, MoveTo, Release, SetTrailer, Teleport};
-use super::{Configuration, Coordinates, HitchCfg, InputKind, R2, T2, Tn};
+use super::{Configuration, Coordinates, HitchCfg, InputKind, R2, Sizes, T2, Tn};
 use crate::geometry::Pose2;
 
 /// A kind of robot, as worlds name it, and all that is not of its type: names, coordinates, formulas.
@@ -21,6 +23,15 @@ use crate::geometry::Pose2;
 pub struct RobotKind {
     /// The name, which world files use.
     pub name: &'static str,
+    /// The name of such a robot in the book.
+    pub title: &'static str,
+    /// The built-in world in which one lives, for the lab's own.
+    pub home: Option<&'static str>,
+    /// The coordinates of a configuration to begin with, where no world says another; `None` for a kind that has none
+    /// without a place in a world.
+    pub usual: Option<&'static [f64]>,
+    /// What one is like that has no sizes of its own; `None` for a kind whose sizes no world says.
+    pub sizes: Option<fn() -> Sizes>,
     /// The names of the chart coordinates, of the largest configuration.
     pub coordinates: &'static [&'static str],
     /// The number of leading coordinates that are lengths, metres; the others are angles, radians.
@@ -72,6 +83,10 @@ impl RobotKind {
     /// Rusty, the disc rover.
     pub const RUSTY: RobotKind = RobotKind {
         name: "rusty",
+        title: "Rusty",
+        home: Some("apartment"),
+        usual: None,
+        sizes: Some(Sizes::of_rusty),
         coordinates: &["x", "y", "theta"],
         lengths: 2,
         start: "three: x, y, theta",
@@ -91,6 +106,10 @@ impl RobotKind {
     /// Reach, the arm with two links.
     pub const REACH: RobotKind = RobotKind {
         name: "reach",
+        title: "Reach",
+        home: Some("workbench"),
+        usual: Some(&[FRAC_PI_4, FRAC_PI_2]),
+        sizes: Some(|| Sizes::of_arm([1.0, 1.0])),
         coordinates: &["theta1", "theta2"],
         lengths: 0,
         start: "two: th1, th2",
@@ -110,6 +129,8 @@ impl RobotKind {
     /// The redundant arm with three links.
     pub const REACH3: RobotKind = RobotKind {
         name: "reach3",
+        usual: Some(&[0.5, 0.9, 0.7]),
+        sizes: Some(|| Sizes::of_arm([0.6, 0.5, 0.4])),
         coordinates: &["theta1", "theta2", "theta3"],
         start: "three: th1, th2, th3",
         spaces: &[Space {
@@ -125,6 +146,10 @@ impl RobotKind {
     /// Hitch, the car that may pull a trailer.
     pub const HITCH: RobotKind = RobotKind {
         name: "hitch",
+        title: "Hitch",
+        home: Some("lot"),
+        usual: None,
+        sizes: Some(Sizes::of_hitch),
         coordinates: &["x", "y", "theta", "psi"],
         lengths: 2,
         start: "three: x, y, theta; or with a trailer four: x, y, theta, psi",

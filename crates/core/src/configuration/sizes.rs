@@ -1,6 +1,5 @@
 //! `Sizes`, the numbers of a robot that a world file may say: how large it is, how it is built, how far it steers.
 
-use super::RobotKind;
 use crate::geometry::{MAX_COORDINATE, MIN_FEATURE, Point2};
 
 /// Largest size of a robot, metres.
@@ -45,6 +44,11 @@ pub struct DiscSizes {
     pub track: f64,
     /// Radius of a wheel, metres.
     pub wheel_radius: f64,
+}
+
+impl DiscSizes {
+    /// Rusty's.
+    pub const RUSTY: DiscSizes = DiscSizes { radius: 0.11, track: 0.16, wheel_radius: 0.033 };
 }
 
 /// The numbers of an arm.
@@ -152,33 +156,19 @@ pub enum SizesError {
 }
 
 impl Sizes {
-    /// The numbers that every robot of a kind has if its world says nothing else. `None` for a kind that is not the
-    /// lab's.
-    pub fn of_kind(kind: &str) -> Option<Sizes> {
-        let arm = |lengths: &[f64]| {
-            Sizes::Arm(ArmSizes { base: Point2::new(0.0, 0.0), lengths: lengths.to_vec(), radius: 0.03 })
-        };
-        Some(match RobotKind::of(kind)? {
-            known if *known == RobotKind::RUSTY => {
-                Sizes::Disc(DiscSizes { radius: 0.11, track: 0.16, wheel_radius: 0.033 })
-            }
-            known if *known == RobotKind::REACH => arm(&[1.0, 1.0]),
-            known if *known == RobotKind::REACH3 => arm(&[0.6, 0.5, 0.4]),
-            _ => Sizes::Car(CarSizes {
-                wheelbase: 2.5,
-                length: 3.9,
-                width: 1.7,
-                rear_overhang: 0.7,
-                max_steer: 0.6,
-                trailer: TrailerSizes {
-                    hitch_len: 2.0,
-                    width: 1.5,
-                    front_overhang: 1.0,
-                    rear_overhang: 0.8,
-                    jackknife: None,
-                },
-            }),
-        })
+    /// Rusty's.
+    pub(super) fn of_rusty() -> Sizes {
+        Sizes::Disc(DiscSizes::RUSTY)
+    }
+
+    /// Those of an arm at the origin with links of these lengths and 3 cm radius.
+    pub(super) fn of_arm<const N: usize>(lengths: [f64; N]) -> Sizes {
+        Sizes::Arm(ArmSizes { base: Point2::new(0.0, 0.0), lengths: lengths.to_vec(), radius: 0.03 })
+    }
+
+    /// Hitch's.
+    pub(super) fn of_hitch() -> Sizes {
+        Sizes::Car(CarSizes::HITCH)
     }
 
     /// The field of a world file that holds such numbers: `disc`, `arm` or `car`.
@@ -249,31 +239,19 @@ impl Sizes {
             Sizes::Car(car) => car.check(),
         }
     }
-
-    /// Checks the numbers of a robot of this kind, which must be one of the lab's.
-    ///
-    /// # Errors
-    /// [`SizesError`]: as [`check`](Self::check); or the kind has other numbers, or another number of links.
-    pub fn check_for(&self, kind: &str) -> Result<(), SizesError> {
-        let found = self.field();
-        let Some(own) = Sizes::of_kind(kind) else {
-            return Err(SizesError::OwnKind { kind: kind.to_owned(), found });
-        };
-        match (self, &own) {
-            (Sizes::Arm(arm), Sizes::Arm(own)) if arm.lengths.len() != own.lengths.len() => {
-                let (found, expected) = (arm.lengths.len(), own.lengths.len());
-                return Err(SizesError::Links { kind: kind.to_owned(), found, expected });
-            }
-            _ if found != own.field() => {
-                return Err(SizesError::Kind { kind: kind.to_owned(), found, expected: own.field() });
-            }
-            _ => {}
-        }
-        self.check()
-    }
 }
 
 impl CarSizes {
+    /// Hitch's.
+    pub const HITCH: CarSizes = CarSizes {
+        wheelbase: 2.5,
+        length: 3.9,
+        width: 1.7,
+        rear_overhang: 0.7,
+        max_steer: 0.6,
+        trailer: TrailerSizes { hitch_len: 2.0, width: 1.5, front_overhang: 1.0, rear_overhang: 0.8, jackknife: None },
+    };
+
     fn check(&self) -> Result<(), SizesError> {
         let CarSizes { wheelbase, length, width, rear_overhang, max_steer, trailer } = *self;
         within("car.wheelbase", wheelbase, [MIN_AXLES, MAX_SIZE])?;

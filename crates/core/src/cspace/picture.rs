@@ -37,7 +37,7 @@ pub fn cspace_picture(map: &CellMap, overlay: &Overlay) -> Picture {
         min: Point2::new(min[0] - room[0], min[1] - room[1]),
         max: Point2::new(max[0] + top[0], max[1] + top[1]),
     };
-    let name = format!("configuration space of {}", slice.checker().robot().name());
+    let name = format!("configuration space of {}", slice.checker().robot().title());
     let picture = Picture { in_metres: !slice.wraps(), ..Picture::new(name, bounds) };
     picture.with(cell_items(map)).with(frame_items(slice)).with(overlay_items(slice, overlay))
 }

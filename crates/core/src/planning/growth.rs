@@ -157,11 +157,6 @@ impl<C: Copy, M: Motion<Configuration = C>> Growth<C, M> {
 }
 
 impl<R: Robot> Growth<R::Configuration, ChartLine<R>> {
-    /// The straight edge between two nodes; `None` when there is no such node.
-    pub fn line(&self, robot: &R, from: usize, to: usize) -> Option<ChartLine<R>> {
-        robot.edge(&self.nodes.get(from)?.at, &self.nodes.get(to)?.at).ok()
-    }
-
     /// The certified path of straight edges through these nodes; `None` in the rare case that a quick proof of an edge
     /// has no certificate.
     pub fn certified(&self, checker: &Checker<R>, nodes: &[usize]) -> Option<LinePath<R>> {

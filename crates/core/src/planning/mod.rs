@@ -28,8 +28,10 @@ mod no_path;
 mod path;
 mod planner;
 pub mod planners;
+mod progress;
 mod queue;
 mod sampling;
+mod search;
 mod sensed;
 mod settings;
 mod shortcut;
@@ -43,11 +45,13 @@ pub use no_path::NoPath;
 #[doc(hidden)]
 pub use path::is_same;
 pub use path::{CertifiedPath, Leg, LinePath, PathError};
-pub use planner::{Planner, Progress, accepted, solve};
+pub use planner::{Planner, accepted, solve};
 pub use planners::{
     Bug1, Bug2, CellDecomposition, GridSearch, PotentialField, Prm, Rrt, RrtConnect, RrtStar, VisibilityGraph,
 };
+pub use progress::Progress;
 pub use queue::Queue;
 pub use sampling::{sample_near, sample_toward_goal};
+pub use search::Search;
 pub use sensed::{LeavePoint, Leaving, Sensed};
 pub use settings::Settings;

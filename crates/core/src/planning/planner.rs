@@ -1,46 +1,61 @@
 //! `Planner`, the one interface of planners, and `solve`, which runs one.
 
-use super::{Bounds, CertifiedPath, Effort, Growth, NoPath, PathError, Sensed, is_same};
+use super::{Bounds, CertifiedPath, Effort, Growth, NoPath, PathError, Progress, Search, Sensed, is_same};
 use crate::collision::Problem;
 use crate::cspace::CellMap;
 use crate::robots::{ChartLine, Motion, Robot};
-
-/// What an iteration came to.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Progress {
-    /// There is no path yet, and further iterations may find one.
-    Growing,
-    /// There is a path. Further iterations improve it if the planner is one that goes on; otherwise they do nothing.
-    Solved,
-    /// There will be no path: further iterations do nothing.
-    Ended(NoPath),
-}
 
 /// A planner: it works on one problem, an iteration at a time, and shows what it has grown.
 ///
 /// All that it does is a function of the problem, whose samples are seeded, and of its settings. So a window that steps
 /// it, a recording and a count see the same planner. `M` is the type of motions that its paths consist of.
 ///
+/// A planner of one's own has a name, holds a [`Search`] and says how it goes on by an iteration; the rest is given.
 /// Many planners are compared as `dyn Planner<R>`.
-pub trait Planner<R: Robot, M: Motion<Configuration = R::Configuration> = ChartLine<R>> {
+pub trait Planner<R: Robot, M: Motion<Configuration = R::Configuration> + 'static = ChartLine<R>> {
     /// Its name, as the command line has it: `rrt-connect`.
     fn name(&self) -> &'static str;
 
-    /// The problem.
-    fn problem(&self) -> &Problem<R>;
+    /// The problem, what it has grown, and what came of it.
+    fn search(&self) -> &Search<R, M>;
 
-    /// Does one iteration, a bounded amount of work. After an end it does nothing and says the same again.
-    fn step(&mut self) -> Progress;
+    /// The same, to be changed.
+    fn search_mut(&mut self) -> &mut Search<R, M>;
+
+    /// Does one iteration, a bounded amount of work, while there is neither a path nor an end. It may set
+    /// [`Search::path`] or [`Search::end`].
+    fn advance(&mut self);
+
+    /// Does one iteration and counts it. After a path or an end it does nothing and says the same again. A planner that
+    /// improves its path has a step of its own.
+    fn step(&mut self) -> Progress {
+        if self.search().progress() == Progress::Growing {
+            self.search_mut().growth.begin_iteration();
+            self.advance();
+        }
+        self.search().progress()
+    }
+
+    /// The problem.
+    fn problem(&self) -> &Problem<R> {
+        &self.search().problem
+    }
 
     /// What it has grown so far.
-    fn growth(&self) -> &Growth<R::Configuration, M>;
+    fn growth(&self) -> &Growth<R::Configuration, M> {
+        &self.search().growth
+    }
+
+    /// The best path so far.
+    fn path(&self) -> Option<&CertifiedPath<M>> {
+        self.search().path.as_ref()
+    }
 
     /// The motion of an edge of its growth, to be drawn: from node number `from` to node number `to`. `None` where the
     /// growth has no such edge.
-    fn motion(&self, from: usize, to: usize) -> Option<M>;
-
-    /// The best path so far.
-    fn path(&self) -> Option<&CertifiedPath<M>>;
+    fn motion(&self, from: usize, to: usize) -> Option<M> {
+        self.search().between(from, to)
+    }
 
     /// The cells of the configuration space that it has judged, to be drawn; `None` for a planner without.
     fn cells(&self) -> Option<&CellMap> {
@@ -61,7 +76,7 @@ pub trait Planner<R: Robot, M: Motion<Configuration = R::Configuration> = ChartL
 ///
 /// # Errors
 /// [`NoPath`] says why there is none.
-pub fn solve<R: Robot, M: Motion<Configuration = R::Configuration> + Clone>(
+pub fn solve<R: Robot, M: Motion<Configuration = R::Configuration> + Clone + 'static>(
     planner: &mut (impl Planner<R, M> + ?Sized),
     bounds: &Bounds,
 ) -> Result<CertifiedPath<M>, NoPath> {
@@ -85,7 +100,7 @@ pub fn solve<R: Robot, M: Motion<Configuration = R::Configuration> + Clone>(
 ///
 /// # Errors
 /// [`PathError`]: there is none, it leads elsewhere, or the verifier refuses it.
-pub fn accepted<R: Robot, M: Motion<Configuration = R::Configuration> + Clone>(
+pub fn accepted<R: Robot, M: Motion<Configuration = R::Configuration> + Clone + 'static>(
     planner: &(impl Planner<R, M> + ?Sized),
 ) -> Result<CertifiedPath<M>, PathError> {
     let (path, problem) = (planner.path().ok_or(PathError::Missing)?, planner.problem());

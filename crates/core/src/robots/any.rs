@@ -2,9 +2,9 @@
 
 use std::f64::consts::PI;
 
-use super::{ConfigurationError, HITCH, Hitch, Leaving, PartRates, PointJacobian, RUSTY, Reach, Robot, Rusty};
+use super::{ConfigurationError, Hitch, Leaving, PartRates, PointJacobian, Reach, Robot, Rusty};
 use crate::configuration::{AnyConfiguration, Configuration, HitchCfg, RobotKind, Tn};
-use crate::geometry::{Footprint, Part, Point2, Pose2, Shape};
+use crate::geometry::{Footprint, Part, Point2, Pose2, Segment, Shape};
 use crate::num::{greater, hypot, lesser};
 use crate::random::Stream;
 
@@ -28,25 +28,20 @@ pub enum AnyRobot {
     Hitch(Hitch),
 }
 
-const RUSTY_KIND: &str = RobotKind::RUSTY.name;
-const REACH_KIND: &str = RobotKind::REACH.name;
-const REACH3_KIND: &str = RobotKind::REACH3.name;
-const HITCH_KIND: &str = RobotKind::HITCH.name;
-
 impl AnyRobot {
     /// The robot of this kind, as worlds name it, and its configuration with these coordinates, angles wrapped; the car
     /// has its trailer when there are four. `None` for another kind or number, or a coordinate that is not finite.
     pub fn of_kind(kind: &str, coordinates: &[f64]) -> Option<(AnyRobot, AnyConfiguration)> {
-        let (robot, like) = match (kind, coordinates.len()) {
-            (RUSTY_KIND, 3) => (AnyRobot::Rusty(RUSTY), AnyConfiguration::Pose(Pose2::IDENTITY)),
-            (REACH_KIND, 2) => (AnyRobot::Reach(Reach::workbench()), AnyConfiguration::T2(Tn([0.0; 2]))),
-            (REACH3_KIND, 3) => (AnyRobot::Reach3(Reach::redundant()), AnyConfiguration::T3(Tn([0.0; 3]))),
-            (HITCH_KIND, 3) => (AnyRobot::Hitch(HITCH), car_like()),
-            (HITCH_KIND, 4) => (AnyRobot::Hitch(HITCH.with_trailer()), car_like()),
-            _ => return None,
+        let model = AnyRobot::model(kind, None)?;
+        let like = match &model {
+            AnyRobot::Rusty(_) => AnyConfiguration::Pose(Pose2::IDENTITY),
+            AnyRobot::Reach(_) => AnyConfiguration::T2(Tn([0.0; 2])),
+            AnyRobot::Reach3(_) => AnyConfiguration::T3(Tn([0.0; 3])),
+            AnyRobot::Hitch(_) => AnyConfiguration::Hitch(HitchCfg { body: Pose2::IDENTITY, trailer: None }),
         };
         let q = like.with_coordinates(coordinates)?;
         let wrapped = coordinates.iter().enumerate().fold(q, |q, (i, c)| q.with(i, *c));
+        let robot = model.fitted(&wrapped);
         robot.check(&wrapped).ok()?;
         q.is_finite().then_some((robot, wrapped))
     }
@@ -70,23 +65,24 @@ impl AnyRobot {
         }
     }
 
-    /// Its kind, as worlds name it.
-    pub const fn kind(&self) -> &'static str {
+    /// Its kind.
+    pub const fn about(&self) -> &'static RobotKind {
         match self {
-            AnyRobot::Rusty(_) => RUSTY_KIND,
-            AnyRobot::Reach(_) => REACH_KIND,
-            AnyRobot::Reach3(_) => REACH3_KIND,
-            AnyRobot::Hitch(_) => HITCH_KIND,
+            AnyRobot::Rusty(_) => &RobotKind::RUSTY,
+            AnyRobot::Reach(_) => &RobotKind::REACH,
+            AnyRobot::Reach3(_) => &RobotKind::REACH3,
+            AnyRobot::Hitch(_) => &RobotKind::HITCH,
         }
     }
 
+    /// Its kind, as worlds name it.
+    pub const fn kind(&self) -> &'static str {
+        self.about().name
+    }
+
     /// The robot's name in the book.
-    pub const fn name(&self) -> &'static str {
-        match self {
-            AnyRobot::Rusty(_) => "Rusty",
-            AnyRobot::Reach(_) | AnyRobot::Reach3(_) => "Reach",
-            AnyRobot::Hitch(_) => "Hitch",
-        }
+    pub const fn title(&self) -> &'static str {
+        self.about().title
     }
 
     /// The name of part number `part` of its footprint: `link 2`, `the trailer`.
@@ -164,10 +160,6 @@ impl AnyRobot {
     }
 }
 
-fn car_like() -> AnyConfiguration {
-    AnyConfiguration::Hitch(HitchCfg { body: Pose2::IDENTITY, trailer: None })
-}
-
 /// The least and the greatest distance of the tip from the base.
 fn annulus(lengths: &[f64]) -> [f64; 2] {
     let sum: f64 = lengths.iter().sum();
@@ -192,70 +184,60 @@ fn on_side<T>([down, up]: [Option<T>; 2], elbow_down: bool) -> Option<T> {
     if elbow_down { down } else { up.or(down) }
 }
 
+/// Evaluates `$body` with `$robot` bound to the robot that it is, and each `$q` to that robot's own configuration;
+/// `$other` where one is a configuration of another robot.
+macro_rules! of_its_own {
+    ($any:expr, $robot:ident, ($($q:ident),+) => $body:expr, $other:expr) => {
+        match ($any, $($q),+) {
+            (AnyRobot::Rusty($robot), $(AnyConfiguration::Pose($q)),+) => $body,
+            (AnyRobot::Reach($robot), $(AnyConfiguration::T2($q)),+) => $body,
+            (AnyRobot::Reach3($robot), $(AnyConfiguration::T3($q)),+) => $body,
+            (AnyRobot::Hitch($robot), $(AnyConfiguration::Hitch($q)),+) => $body,
+            _ => $other,
+        }
+    };
+}
+
+/// Every method is that of the robot itself, those that the trait gives too: `tests/motion/any_robot.rs` compares them.
 impl Robot for AnyRobot {
     type Configuration = AnyConfiguration;
 
     fn check(&self, q: &AnyConfiguration) -> Result<(), ConfigurationError> {
-        match (self, q) {
-            (AnyRobot::Rusty(r), AnyConfiguration::Pose(q)) => r.check(q),
-            (AnyRobot::Reach(r), AnyConfiguration::T2(q)) => r.check(q),
-            (AnyRobot::Reach3(r), AnyConfiguration::T3(q)) => r.check(q),
-            (AnyRobot::Hitch(r), AnyConfiguration::Hitch(q)) => r.check(q),
-            _ => Err(ConfigurationError::OtherRobot),
-        }
+        of_its_own!(self, robot, (q) => robot.check(q), Err(ConfigurationError::OtherRobot))
     }
 
     /// The robot's footprint. A configuration of another robot gives one that is not finite and fails safe.
     fn footprint(&self, q: &AnyConfiguration) -> Footprint {
-        match (self, q) {
-            (AnyRobot::Rusty(r), AnyConfiguration::Pose(q)) => r.footprint(q),
-            (AnyRobot::Reach(r), AnyConfiguration::T2(q)) => r.footprint(q),
-            (AnyRobot::Reach3(r), AnyConfiguration::T3(q)) => r.footprint(q),
-            (AnyRobot::Hitch(r), AnyConfiguration::Hitch(q)) => r.footprint(q),
-            _ => Footprint::new([Part::new(Pose2::IDENTITY, Shape::Disc { radius: f64::NAN })]),
-        }
+        let nowhere = || Footprint::new([Part::new(Pose2::IDENTITY, Shape::Disc { radius: f64::NAN })]);
+        of_its_own!(self, robot, (q) => robot.footprint(q), nowhere())
     }
 
     fn edge_rates(&self, a: &AnyConfiguration, b: &AnyConfiguration) -> Result<PartRates, ConfigurationError> {
-        match (self, a, b) {
-            (AnyRobot::Rusty(r), AnyConfiguration::Pose(a), AnyConfiguration::Pose(b)) => r.edge_rates(a, b),
-            (AnyRobot::Reach(r), AnyConfiguration::T2(a), AnyConfiguration::T2(b)) => r.edge_rates(a, b),
-            (AnyRobot::Reach3(r), AnyConfiguration::T3(a), AnyConfiguration::T3(b)) => r.edge_rates(a, b),
-            (AnyRobot::Hitch(r), AnyConfiguration::Hitch(a), AnyConfiguration::Hitch(b)) => r.edge_rates(a, b),
-            _ => Err(ConfigurationError::OtherRobot),
-        }
+        of_its_own!(self, robot, (a, b) => robot.edge_rates(a, b), Err(ConfigurationError::OtherRobot))
+    }
+
+    fn disc_line(&self, a: &AnyConfiguration, b: &AnyConfiguration) -> Option<(Segment, f64)> {
+        of_its_own!(self, robot, (a, b) => robot.disc_line(a, b), None)
     }
 
     fn jacobian(&self, q: &AnyConfiguration, part: usize, point: Point2) -> Option<PointJacobian> {
-        match (self, q) {
-            (AnyRobot::Rusty(r), AnyConfiguration::Pose(q)) => r.jacobian(q, part, point),
-            (AnyRobot::Reach(r), AnyConfiguration::T2(q)) => r.jacobian(q, part, point),
-            (AnyRobot::Reach3(r), AnyConfiguration::T3(q)) => r.jacobian(q, part, point),
-            (AnyRobot::Hitch(r), AnyConfiguration::Hitch(q)) => r.jacobian(q, part, point),
-            _ => None,
-        }
+        of_its_own!(self, robot, (q) => robot.jacobian(q, part, point), None)
     }
 
     fn is_within_limits(&self, q: &AnyConfiguration) -> bool {
-        match (self, q) {
-            (AnyRobot::Hitch(car), AnyConfiguration::Hitch(q)) => car.is_within_limits(q),
-            _ => true,
-        }
+        of_its_own!(self, robot, (q) => robot.is_within_limits(q), true)
     }
 
     fn edge_leaves(&self, a: &AnyConfiguration, b: &AnyConfiguration) -> Option<Leaving> {
-        match (self, a, b) {
-            (AnyRobot::Hitch(car), AnyConfiguration::Hitch(a), AnyConfiguration::Hitch(b)) => car.edge_leaves(a, b),
-            _ => None,
-        }
+        of_its_own!(self, robot, (a, b) => robot.edge_leaves(a, b), None)
     }
 
     fn sample(&self, min: Point2, max: Point2, stream: &mut Stream) -> AnyConfiguration {
         match self {
-            AnyRobot::Rusty(r) => AnyConfiguration::Pose(r.sample(min, max, stream)),
-            AnyRobot::Reach(r) => AnyConfiguration::T2(r.sample(min, max, stream)),
-            AnyRobot::Reach3(r) => AnyConfiguration::T3(r.sample(min, max, stream)),
-            AnyRobot::Hitch(r) => AnyConfiguration::Hitch(r.sample(min, max, stream)),
+            AnyRobot::Rusty(r) => r.sample(min, max, stream).into(),
+            AnyRobot::Reach(r) => r.sample(min, max, stream).into(),
+            AnyRobot::Reach3(r) => r.sample(min, max, stream).into(),
+            AnyRobot::Hitch(r) => r.sample(min, max, stream).into(),
         }
     }
 }

@@ -1,10 +1,9 @@
 //! Hitch, a kinematic car that may pull a trailer.
 
 use super::jackknife::leaves_along_line;
-use super::{
-    ConfigurationError, Drivable, Leaving, Motion, PartRates, PointJacobian, Rates, Robot, sample_angle, turning,
-};
-use crate::configuration::{Configuration, HitchCfg};
+use super::robot::{sample_angle, turning};
+use super::{ConfigurationError, Drivable, Leaving, Motion, PartRates, PointJacobian, Rates, Robot};
+use crate::configuration::{CarSizes, Configuration, HitchCfg};
 use crate::geometry::{Aabb, Footprint, Point2, Pose2, Vector2};
 use crate::num;
 use crate::random::Stream;
@@ -56,17 +55,22 @@ pub struct TrailerBody {
 
 /// The lab's car, without a trailer: a compact. [`Hitch::with_trailer`] fits the hitch.
 pub const HITCH: Hitch = Hitch {
-    wheelbase: 2.5,
-    max_steer: 0.6,
+    wheelbase: CarSizes::HITCH.wheelbase,
+    max_steer: CarSizes::HITCH.max_steer,
     max_speed: 1.5,
-    body: CarBody { length: 3.9, width: 1.7, rear_overhang: 0.7 },
-    trailer_body: TrailerBody { front_overhang: 1.0, rear_overhang: 0.8, width: 1.5 },
+    body: CarBody {
+        length: CarSizes::HITCH.length,
+        width: CarSizes::HITCH.width,
+        rear_overhang: CarSizes::HITCH.rear_overhang,
+    },
+    trailer_body: TrailerBody {
+        front_overhang: CarSizes::HITCH.trailer.front_overhang,
+        rear_overhang: CarSizes::HITCH.trailer.rear_overhang,
+        width: CarSizes::HITCH.trailer.width,
+    },
     hitch_len: None,
-    jackknife: None,
+    jackknife: CarSizes::HITCH.trailer.jackknife,
 };
-
-/// The distance from the rear axle to the trailer's axle when the lab's trailer is attached, metres.
-const TRAILER_HITCH_LEN: f64 = 2.0;
 
 /// The car's control: speed and steering angle.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -116,7 +120,7 @@ impl Hitch {
     /// The same car with the trailer attached, by the hitch that it has, or by one of two metres if it has none.
     #[must_use]
     pub fn with_trailer(self) -> Self {
-        Hitch { hitch_len: self.hitch_len.or(Some(TRAILER_HITCH_LEN)), ..self }
+        Hitch { hitch_len: self.hitch_len.or(Some(CarSizes::HITCH.trailer.hitch_len)), ..self }
     }
 
     /// The same car without a trailer.

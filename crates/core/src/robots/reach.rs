@@ -2,7 +2,8 @@
 
 use std::f64::consts::PI;
 
-use super::{ConfigurationError, Drivable, PartRates, PointJacobian, Rates, Robot, sample_angle, turning};
+use super::robot::{sample_angle, turning};
+use super::{ConfigurationError, Drivable, PartRates, PointJacobian, Rates, Robot};
 use crate::configuration::{Configuration, T2, Tn};
 use crate::geometry::{Footprint, Part, Point2, Pose2, Shape, ShapeError, SinCos, Vector2};
 use crate::num::{self, greater, in_range, wrap};

@@ -2,8 +2,9 @@
 
 use std::f64::consts::{FRAC_PI_2, TAU};
 
-use super::{ConfigurationError, Drivable, Motion, PartRates, PointJacobian, Rates, Robot, sample_angle};
-use crate::configuration::{Configuration, R2};
+use super::robot::sample_angle;
+use super::{ConfigurationError, Drivable, Motion, PartRates, PointJacobian, Rates, Robot};
+use crate::configuration::{Configuration, DiscSizes, R2};
 use crate::geometry::{CircularArc, Footprint, Point2, Pose2, Segment, Shape, ShapeError, Tangent2, Vector2};
 use crate::num;
 use crate::random::Stream;
@@ -30,9 +31,9 @@ pub struct Rusty {
 
 /// The lab's Rusty.
 pub const RUSTY: Rusty = Rusty {
-    body_radius: 0.11,
-    track: 0.16,
-    wheel_radius: 0.033,
+    body_radius: DiscSizes::RUSTY.radius,
+    track: DiscSizes::RUSTY.track,
+    wheel_radius: DiscSizes::RUSTY.wheel_radius,
     counts_per_turn: 360.0,
     max_slip: 0.05,
     max_speed: 0.6,

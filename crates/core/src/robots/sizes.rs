@@ -1,7 +1,7 @@
 //! The lab's robots with the sizes that a world gives them.
 
 use super::{AnyRobot, CarBody, HITCH, Hitch, RUSTY, Reach, Rusty, TrailerBody};
-use crate::configuration::{AnyConfiguration, ArmSizes, CarSizes, RobotKind, Sizes};
+use crate::configuration::{AnyConfiguration, ArmSizes, CarSizes, Sizes};
 
 impl Rusty {
     /// The same rover with these sizes; `None` for those of another sort of robot. The numbers are not checked.
@@ -49,11 +49,11 @@ impl AnyRobot {
     /// sizes has its own trailer attached; [`fitted`](Self::fitted) takes it off. `None` for a kind that is not the
     /// lab's, or sizes that are not its kind's.
     pub fn model(kind: &str, sizes: Option<&Sizes>) -> Option<AnyRobot> {
-        let own = match RobotKind::of(kind)? {
-            known if *known == RobotKind::RUSTY => AnyRobot::Rusty(RUSTY),
-            known if *known == RobotKind::REACH => AnyRobot::Reach(Reach::workbench()),
-            known if *known == RobotKind::REACH3 => AnyRobot::Reach3(Reach::redundant()),
-            _ => AnyRobot::Hitch(HITCH),
+        let own = match Sizes::of_kind(kind)? {
+            Sizes::Disc(_) => AnyRobot::Rusty(RUSTY),
+            Sizes::Arm(arm) if arm.lengths.len() == 2 => AnyRobot::Reach(Reach::workbench()),
+            Sizes::Arm(_) => AnyRobot::Reach3(Reach::redundant()),
+            Sizes::Car(_) => AnyRobot::Hitch(HITCH),
         };
         let Some(sizes) = sizes else { return Some(own) };
         Some(match own {
@@ -105,6 +105,7 @@ impl AnyRobot {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::configuration::RobotKind;
 
     #[test]
     fn a_kinds_own_sizes_are_its_robots() {

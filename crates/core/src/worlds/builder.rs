@@ -34,7 +34,8 @@ pub struct WorldBuilder {
 }
 
 impl WorldBuilder {
-    /// Adds a wall along these points, metres, under a name that was claimed. A closed one leads back to its first point.
+    /// Adds a wall along these points, metres, under a name that was claimed. A closed one leads back to its first
+    /// point.
     ///
     /// # Errors
     /// [`WorldProblem`], for what a world file may not hold.

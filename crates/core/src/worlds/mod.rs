@@ -73,9 +73,12 @@ mod convex_pieces;
 mod error;
 mod file;
 mod grid;
+mod limits;
 mod model;
 mod route;
 mod sensor;
+#[cfg(test)]
+mod tests;
 mod warehouse;
 
 pub use beam::{BeamError, BeamModel};
@@ -94,6 +97,7 @@ pub use grid::cells::{Grid, GridError, MAX_CELLS};
 pub use grid::distance_transform::DistanceTransform;
 pub use grid::ros_export::RosFiles;
 pub use grid::voronoi::VoronoiDiagram;
+pub use limits::{MAX_ITEMS, WORLD_VERSION};
 pub use model::{Door, Mark, Obstacle, ObstacleKind, Outline, Place, Resident, World, Written};
 pub use route::{MAX_ROUTE_POINTS, ROUTE_RADII, ROUTE_SPEEDS, Route, RouteError, RoutePath};
 #[doc(hidden)]
@@ -102,15 +106,4 @@ pub use sensor::{
     FanSensor, MAX_RANGE, MAX_RAYS, MAX_SENSORS, MIN_FIELD_OF_VIEW, MIN_RANGE, RangeSensor, ResidentSensor,
     ResidentSensorError, ResidentSensorProblem, SensorError,
 };
-
 pub use warehouse::{WAREHOUSE_ROBOTS, Warehouse, WarehouseError};
-
-/// The version of the world format that is read and written.
-pub const WORLD_VERSION: u64 = 1;
-
-/// Largest number of shapes in a world, and of items in each of its lists. Each segment of a polyline and each convex
-/// piece of a concave polygon counts as a shape.
-pub const MAX_ITEMS: usize = 100_000;
-
-#[cfg(test)]
-mod tests;

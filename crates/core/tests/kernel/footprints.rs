@@ -9,10 +9,8 @@ use std::f64::consts::PI;
 use motion_lab_core::geometry::{Placed, Vertices};
 use motion_lab_core::num::{cos, sin, tan};
 use motion_lab_core::prelude::*;
-
 use oracle::fixtures::{apartment, lot, workbench};
-use oracle::short;
-use oracle::sweep;
+use oracle::{short, sweep};
 
 /// The angle in (-pi, pi].
 fn wrapped(angle: f64) -> f64 {

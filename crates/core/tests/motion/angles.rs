@@ -7,10 +7,8 @@
 use std::f64::consts::{PI, TAU};
 
 use motion_lab_core::collision::EdgeVerdict;
-use motion_lab_core::geometry::Aabb;
-use motion_lab_core::geometry::Placed;
+use motion_lab_core::geometry::{Aabb, Placed};
 use motion_lab_core::prelude::*;
-
 use oracle::fixtures::count_from_env;
 use oracle::plain;
 

@@ -1,6 +1,7 @@
 //! Edges, arcs and sweeps: whether motions are free, and their proofs.
 
 mod angles;
+mod any_robot;
 mod arcs;
 mod certificates;
 mod edges;

@@ -1,16 +1,13 @@
 //! A planner of one's own, an honest one and some that lie.
 
-use motion_lab_core::planning::{CertifiedPath, Growth, PathError};
-use motion_lab_core::robots::ChartLine;
+use motion_lab_core::planning::{CertifiedPath, PathError, Search};
 
 use super::*;
 
 /// Tries the detour over one configuration.
 struct Detour {
-    problem: Problem<RustyDisc>,
+    search: Search<RustyDisc>,
     over: R2,
-    growth: Growth<R2, ChartLine<RustyDisc>>,
-    path: Option<LinePath<RustyDisc>>,
     lie: Lie,
 }
 
@@ -27,7 +24,7 @@ impl Detour {
     fn new(lie: Lie, over: R2) -> Self {
         let (start, goal) = (R2::new(-1.0, 0.0), R2::new(1.0, 0.0));
         let problem = Problem::try_new(room(&[[0.0, -0.5, 0.0, 0.5]]), start, goal, Seed(1)).unwrap();
-        Detour { problem, over, growth: Growth::new(), path: None, lie }
+        Detour { search: Search::new(problem), over, lie }
     }
 }
 
@@ -36,34 +33,31 @@ impl Planner<RustyDisc> for Detour {
         "detour"
     }
 
-    fn problem(&self) -> &Problem<RustyDisc> {
-        &self.problem
+    fn search(&self) -> &Search<RustyDisc> {
+        &self.search
+    }
+
+    fn search_mut(&mut self) -> &mut Search<RustyDisc> {
+        &mut self.search
+    }
+
+    fn advance(&mut self) {
+        if self.lie == Lie::Never {
+            return;
+        }
+        let goal = if self.lie == Lie::OtherGoal { R2::new(-1.0, 1.0) } else { self.search.problem.goal() };
+        let corners = [self.search.problem.start(), self.over, goal];
+        let empty = room(&[]);
+        let checker = if self.lie == Lie::OtherScene { &empty } else { self.search.problem.checker() };
+        if self.lie != Lie::NoPath {
+            self.search.path = CertifiedPath::through(checker, &corners).ok();
+        }
     }
 
     fn step(&mut self) -> Progress {
-        if self.lie == Lie::Never {
-            return Progress::Growing;
-        }
-        let goal = if self.lie == Lie::OtherGoal { R2::new(-1.0, 1.0) } else { self.problem.goal() };
-        let corners = [self.problem.start(), self.over, goal];
-        let empty = room(&[]);
-        let checker = if self.lie == Lie::OtherScene { &empty } else { self.problem.checker() };
-        if self.lie != Lie::NoPath {
-            self.path = CertifiedPath::through(checker, &corners).ok();
-        }
-        if self.path.is_some() || self.lie != Lie::None { Progress::Solved } else { Progress::Growing }
-    }
-
-    fn growth(&self) -> &Growth<R2, ChartLine<RustyDisc>> {
-        &self.growth
-    }
-
-    fn motion(&self, from: usize, to: usize) -> Option<ChartLine<RustyDisc>> {
-        self.growth.line(self.problem.checker().robot(), from, to)
-    }
-
-    fn path(&self) -> Option<&LinePath<RustyDisc>> {
-        self.path.as_ref()
+        self.advance();
+        let says_so = self.lie != Lie::None && self.lie != Lie::Never;
+        if self.search.path.is_some() || says_so { Progress::Solved } else { Progress::Growing }
     }
 }
 

@@ -3,8 +3,7 @@
 use crate::yaml::Node;
 use crate::{Draft, ImportError};
 use motion_lab_core::geometry::{Point2, Pose2};
-use motion_lab_core::worlds::WorldProblem;
-use motion_lab_core::worlds::{ShapeText, Xy};
+use motion_lab_core::worlds::{ShapeText, WorldProblem, Xy};
 
 /// A shape in its object's frame.
 pub(crate) enum IrShape {

@@ -4,8 +4,7 @@ use super::trace::{Corner, trace};
 use crate::{Draft, ImportError, ImportProblem, Imported};
 use motion_lab_core::geometry::{MIN_FEATURE, Point2, Pose2};
 use motion_lab_core::num::{greater, lesser};
-use motion_lab_core::worlds::{Grid, MAX_CELLS, MAX_ITEMS, WorldProblem};
-use motion_lab_core::worlds::{ShapeText, Xy};
+use motion_lab_core::worlds::{Grid, MAX_CELLS, MAX_ITEMS, ShapeText, WorldProblem, Xy};
 
 /// What occupied cells become.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

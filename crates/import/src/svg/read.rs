@@ -10,8 +10,7 @@ use super::scan::scan;
 use crate::error::wrong_value;
 use crate::{Draft, ImportError, ImportProblem, Imported};
 use motion_lab_core::geometry::{MIN_FEATURE, Point2};
-use motion_lab_core::worlds::WorldProblem;
-use motion_lab_core::worlds::{ShapeText, Xy};
+use motion_lab_core::worlds::{ShapeText, WorldProblem, Xy};
 
 /// The least tolerance, metres: coordinates are rounded to it.
 const MIN_TOLERANCE: f64 = 1e-6;

@@ -2,7 +2,7 @@
 
 use super::{Anatomy, WorldSource};
 use motion_lab_core::collision::{Checker, Scene};
-use motion_lab_core::configuration::AnyConfiguration;
+use motion_lab_core::configuration::{AnyConfiguration, RobotKind};
 use motion_lab_core::cspace::{Slice, nearest_free};
 use motion_lab_core::geometry::Point2;
 use motion_lab_core::robots::{AnyRobot, HITCH, RUSTY, Reach};
@@ -51,14 +51,10 @@ impl Anatomy {
     /// in; else it goes to the built-in world where its kind lives.
     #[must_use]
     pub fn at_home(&self, robot: AnyRobot) -> Anatomy {
-        let lives_in = |world: &World| {
-            world.robots.iter().any(|r| r.kind.trim_end_matches('3') == robot.kind().trim_end_matches('3'))
-        };
-        if lives_in(self.world()) || !matches!(self.source(), WorldSource::BuiltIn(_)) {
-            return self.with_robot(robot);
-        }
-        let worlds = World::built_in_names().into_iter().filter_map(|name| Some((name, World::built_in(name)?)));
-        match worlds.into_iter().find(|(_, world)| lives_in(world)) {
+        let home = robot.about().home;
+        let is_one = |resident: &Resident| RobotKind::of(&resident.kind).is_some_and(|kind| kind.home == home);
+        let is_elsewhere = matches!(self.source(), WorldSource::BuiltIn(_)) && !self.world().robots.iter().any(is_one);
+        match home.filter(|_| is_elsewhere).and_then(|name| Some((name, World::built_in(name)?))) {
             Some((name, home)) => self.put(home, WorldSource::BuiltIn(name), robot),
             None => self.with_robot(robot),
         }
@@ -79,8 +75,11 @@ impl Anatomy {
             (0..self.step().len()).for_each(|i| put.set_step(i, self.step()[i]));
         }
         // the same arm keeps its own radius, bare or not
-        let thickness = if robot == *self.checker().robot() { self.thickness } else { put.thickness };
-        Anatomy { tab: self.tab, show_annulus: self.show_annulus, thickness, ..put }
+        if robot == *self.checker().robot() {
+            put.thickness = self.thickness;
+        }
+        (put.tab, put.show_annulus) = (self.tab, self.show_annulus);
+        put
     }
 }
 

@@ -48,7 +48,7 @@ impl Anatomy {
         let (robot_model, q) = (self.checker().robot(), self.q());
         let touches = self.intersects();
         items.extend(robot(&RobotDrawing {
-            name: robot_model.name(),
+            name: robot_model.title(),
             footprint: &footprint,
             heading: robot_model.heading(&q),
             model: Some(*robot_model),

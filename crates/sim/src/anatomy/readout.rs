@@ -85,7 +85,7 @@ impl Anatomy {
     pub fn described(&self) -> String {
         format!(
             "{} at {} in the world {}. {} {}.",
-            self.checker().robot().name(),
+            self.checker().robot().title(),
             self.q(),
             self.world().name,
             self.question(),

@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use super::{Anatomy, Tab, WorldSource};
 use motion_lab_core::collision::Collision;
-use motion_lab_core::configuration::{AnyConfiguration, Configuration, HitchCfg, RobotKind, Tn};
+use motion_lab_core::configuration::{AnyConfiguration, Configuration, HitchCfg, Tn};
 use motion_lab_core::geometry::Pose2;
 use motion_lab_core::robots::{AnyRobot, HITCH, Hitch, RUSTY, Reach};
 
@@ -13,13 +13,12 @@ impl Anatomy {
     /// numbers are the same to the last bit on every machine. The program compiles against this library as it is, and
     /// contains a world that is not built in.
     pub fn copy_as_rust(&self) -> String {
-        let mut code = String::from(
-            "use motion_lab_core::collision::{Checker, Collision, Scene};\nuse motion_lab_core::prelude::*;\n",
-        );
+        let mut code =
+            String::from("use motion_lab::collision::{Checker, Collision, Scene};\nuse motion_lab::prelude::*;\n");
         let scene = match self.source() {
             WorldSource::BuiltIn(name) => format!("Scene::{name}()"),
             _ => {
-                code.push_str("use motion_lab_core::worlds::World;\n");
+                code.push_str("use motion_lab::worlds::World;\n");
                 "Scene::of_world(&World::parse(\"world.ron\", WORLD)?)".to_owned()
             }
         };
@@ -90,7 +89,7 @@ impl Anatomy {
     /// world, and for a robot that is neither the lab's nor a resident of the world, which no command can name.
     pub fn copy_as_command(&self) -> Option<String> {
         let resident = self.resident().map(|r| (quoted(&r.name), ""));
-        let (robot, home) = match resident.or_else(|| self.kind_of_the_lab())? {
+        let (robot, home) = match resident.or_else(|| self.named_by_kind())? {
             // a resident of a kind's name would be asked instead
             (robot, _) if self.world().robots.iter().any(|r| r.name == robot && !self.is_resident(r)) => return None,
             found => found,
@@ -106,17 +105,14 @@ impl Anatomy {
         Some(format!("motion-lab query {question} --robot {robot}{world} {}{to}", numbers(&self.q())))
     }
 
-    /// The name by which commands know a robot of the lab's own sizes, and the built-in world it lives in.
-    fn kind_of_the_lab(&self) -> Option<(String, &'static str)> {
-        let (robot, home) = match self.checker().robot() {
-            AnyRobot::Rusty(rusty) if *rusty == RUSTY => (RobotKind::RUSTY.name, "apartment"),
-            AnyRobot::Reach(arm) if *arm == Reach::choset() => ("choset", "workbench"),
-            AnyRobot::Reach(arm) if *arm == Reach::workbench() => (RobotKind::REACH.name, "workbench"),
-            AnyRobot::Reach3(arm) if *arm == Reach::redundant() => (RobotKind::REACH3.name, "workbench"),
-            AnyRobot::Hitch(car) if *car == HITCH || *car == HITCH.with_trailer() => (RobotKind::HITCH.name, "lot"),
-            _ => return None,
-        };
-        Some((robot.to_owned(), home))
+    /// The name by which commands know a robot of its kind's own sizes, and the built-in world it lives in.
+    fn named_by_kind(&self) -> Option<(String, &'static str)> {
+        let (robot, q) = (self.checker().robot(), self.q());
+        let about = robot.about();
+        let own = AnyRobot::model(about.name, None)?.fitted(&q);
+        let bare = AnyRobot::Reach(Reach::choset());
+        let name = if *robot == bare { Some("choset") } else { (*robot == own).then_some(about.name) };
+        Some((name?.to_owned(), about.home?))
     }
 }
 
@@ -162,8 +158,8 @@ fn car_code(car: &Hitch) -> String {
     let hitch_len = car.hitch_len.map_or("None".into(), |length| format!("Some({})", number(length)));
     format!(
         "Hitch {{\n        wheelbase: {},\n        max_steer: {},\n        \
-         body: motion_lab_core::robots::CarBody {{ length: {}, width: {}, rear_overhang: {} }},\n        \
-         trailer_body: motion_lab_core::robots::TrailerBody {{ front_overhang: {}, rear_overhang: {}, width: {} }},\n        \
+         body: motion_lab::robots::CarBody {{ length: {}, width: {}, rear_overhang: {} }},\n        \
+         trailer_body: motion_lab::robots::TrailerBody {{ front_overhang: {}, rear_overhang: {}, width: {} }},\n        \
          hitch_len: {hitch_len},{jackknife}\n        ..HITCH\n    }}",
         number(car.wheelbase),
         number(car.max_steer),

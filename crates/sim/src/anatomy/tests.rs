@@ -2,9 +2,13 @@ use std::collections::BTreeSet;
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI};
 
 use super::*;
-use motion_lab_core::collision::EdgeVerdict;
+use motion_lab_core::collision::{Collision, EdgeVerdict, Scene};
+use motion_lab_core::configuration::{AnyConfiguration, Configuration, T2};
+use motion_lab_core::geometry::{Aabb, Footprint, Point2, Shape};
 use motion_lab_core::num::{cos, sin, sqrt};
 use motion_lab_core::picture::{Drawing, Item, Role};
+use motion_lab_core::robots::{AnyRobot, Reach, Robot};
+use motion_lab_core::worlds::{Obstacle, ObstacleKind, World};
 
 fn at(th1: f64, th2: f64, thick: bool) -> Anatomy {
     let mut anatomy = Anatomy::default();
@@ -360,7 +364,8 @@ fn a_robot_goes_where_it_lives() {
 
 #[test]
 fn links_of_any_length_have_their_annulus_and_their_two_elbows() {
-    let mut anatomy = Anatomy { show_annulus: true, ..Anatomy::default() };
+    let mut anatomy = Anatomy::default();
+    anatomy.show_annulus = true;
     anatomy.set_length(1, 0.4);
     assert_eq!(anatomy.lengths(), Some([1.0, 0.4]));
     let radius = |anatomy: &Anatomy, circle: &str| match item(&anatomy.picture().items, circle).drawing {

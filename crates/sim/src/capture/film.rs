@@ -21,7 +21,7 @@ impl<'a> Film<'a> {
     /// # Errors
     /// [`CaptureError::NoTick`] names the tick that the log does not have.
     pub fn try_new(log: &'a Log, subject: &'a Subject, span: Span) -> Result<Self, CaptureError> {
-        Ok(Film { log, subject, span: span.within(log.frames.len() as u64)? })
+        Ok(Film { log, subject, span: span.within(log.frames().len() as u64)? })
     }
 
     /// Its ticks.

@@ -179,7 +179,7 @@ pub fn at_tick_with_robots(
         on_tick(run.frame().tick);
         Ok::<_, CaptureError>(())
     })?;
-    let last = log.frames.len() as u64;
+    let last = log.ticks();
     let Captured { figure, mut notes } = drawn.ok_or(CaptureError::NoTick { tick, last })?;
     notes.push(("Tick", tick.to_string()));
     Ok(Captured { figure, notes })
@@ -217,12 +217,13 @@ pub(super) struct Moving<'a> {
 impl<'a> Moving<'a> {
     /// The subject before the first tick, for a sheet of this width.
     pub fn new(log: &'a Log, subject: Subject, width_px: f64) -> Result<Self, CaptureError> {
-        subject.check(&log.config)?;
+        subject.check(&log.recipe.config)?;
         let named = match &subject {
             Subject::Dashboard { names, .. } | Subject::Atlas { names, .. } => *names,
             Subject::Cspace { .. } => false,
         };
-        let shown: Vec<(u32, &World)> = (0..).zip(&log.config.worlds).filter(|(_, w)| subject.shows(w)).collect();
+        let shown: Vec<(u32, &World)> =
+            (0..).zip(&log.recipe.config.worlds).filter(|(_, w)| subject.shows(w)).collect();
         let pictures: Vec<Arc<Picture>> = shown.iter().map(|(_, w)| Arc::new(draw_world(w))).collect();
         let bare = |picture: &Arc<Picture>| Panel {
             picture: Picture::new("", picture.bounds),
@@ -239,7 +240,13 @@ impl<'a> Moving<'a> {
             Backdrop { number, standing: None, world: Arc::clone(world), names }
         };
         let backdrops = shown.iter().zip(pictures.iter().zip(blank.px_per_metre(width_px))).map(named).collect();
-        Ok(Moving { log, digest: log.digest().to_string(), subject, backdrops, space: None })
+        Ok(Moving {
+            log,
+            digest: log.digest().map_or_else(String::new, |digest| digest.to_string()),
+            subject,
+            backdrops,
+            space: None,
+        })
     }
 
     /// Shows it the next tick.
@@ -263,7 +270,7 @@ impl<'a> Moving<'a> {
     /// The figure of the last tick seen. Without `drawn` it has only words and sizes.
     pub fn captured(&mut self, run: &Recorder, drawn: bool) -> Result<Captured, CaptureError> {
         let tick = run.frame().tick;
-        let seed = self.log.seed.0;
+        let seed = self.log.recipe.seed.0;
         let when = format!("Seed {seed}, tick {tick} ({:.2} s)", DT * tick as f64);
         let notes: Vec<Note> = vec![("Seed", seed.to_string()), ("Digest", self.digest.clone())];
         if let Some(space) = &mut self.space {

@@ -6,12 +6,10 @@ use super::CaptureError;
 use super::tour_figure::{RobotTour, TourPanel, tour_figure};
 use crate::atlas::{Atlas, names};
 use crate::recording::{Run, printed_as};
-use crate::run::{Digest, Log};
+use crate::run::{Digest, Log, Recipe};
 use crate::simulation::RobotView;
-use crate::tour::TourConfig;
 use motion_lab_core::geometry::{Point2, Shape};
 use motion_lab_core::picture::{Drawing, Figure, Theme, places};
-use motion_lab_core::random::Seed;
 use motion_lab_core::worlds::World;
 
 /// The data of a run's figure: each robot's trace, present footprint and contacts.
@@ -38,20 +36,20 @@ impl RunFigure {
     }
 
     /// The figure as SVG after `ticks` of the run with this digest.
-    pub fn svg(&self, seed: Seed, config: &TourConfig, ticks: u64, digest: Digest, theme: Theme) -> String {
-        self.figure(seed, config, ticks, digest).svg(theme.palette())
+    pub fn svg(&self, recipe: &Recipe, ticks: u64, digest: Digest, theme: Theme) -> String {
+        self.figure(recipe, ticks, digest).svg(theme.palette())
     }
 
     /// The figure after `ticks` of the run with this digest, a panel for each world.
-    pub fn figure(&self, seed: Seed, config: &TourConfig, ticks: u64, digest: Digest) -> Figure {
+    pub fn figure(&self, recipe: &Recipe, ticks: u64, digest: Digest) -> Figure {
         let panels: Vec<TourPanel> = (0_u32..)
-            .zip(&config.worlds)
+            .zip(&recipe.config.worlds)
             .map(|(number, world)| TourPanel {
                 world,
                 robots: self.robots.iter().filter(|r| r.world == number).map(|r| r.tour.clone()).collect(),
             })
             .collect();
-        tour_figure(seed, ticks, config.ticks, digest, &panels)
+        tour_figure(recipe.seed, ticks, recipe.config.ticks, digest, &panels)
     }
 }
 
@@ -73,10 +71,8 @@ pub fn with_names(mut figure: Figure, worlds: &[World], width_px: f64) -> Figure
 /// # Errors
 /// [`CaptureError::NoTick`] when the log ends before, [`CaptureError::Run`] when the run cannot start.
 pub fn run_svg(log: &Log, tick: u64, theme: Theme, add: impl FnOnce(&mut App)) -> Result<String, CaptureError> {
-    let last = log.frames.len() as u64;
-    if tick > last {
-        return Err(CaptureError::NoTick { tick, last });
-    }
+    let last = log.ticks();
+    let digest = log.digest().filter(|_| tick <= last).ok_or(CaptureError::NoTick { tick, last })?;
     let mut figure = RunFigure::default();
     Run::show_with_robots(log, add, |run| {
         if run.frame().tick <= tick {
@@ -84,7 +80,7 @@ pub fn run_svg(log: &Log, tick: u64, theme: Theme, add: impl FnOnce(&mut App)) -
         }
         Ok::<_, CaptureError>(())
     })?;
-    Ok(figure.svg(log.seed, &log.config, tick, log.digest(), theme))
+    Ok(figure.svg(&log.recipe, tick, digest, theme))
 }
 
 impl Watched {

@@ -20,7 +20,7 @@ pub fn anatomy(anatomy: &Anatomy, tabs: &[Tab]) -> Captured {
         }
     }
     let figure = Figure {
-        title: format!("Query anatomy: {} in the world {}", anatomy.checker().robot().name(), anatomy.world().name),
+        title: format!("Query anatomy: {} in the world {}", anatomy.checker().robot().title(), anatomy.world().name),
         description: tabs.iter().map(|t| anatomy.clone().with_tab(*t).described()).collect::<Vec<_>>().join(" "),
         panels,
         caption: caption(Widget::Anatomy, anatomy),
@@ -50,7 +50,7 @@ pub fn cspace(anatomy: &Anatomy, map: &CellMap, trace: Vec<AnyConfiguration>) ->
         Panel { heading: "configuration space".into(), readout: known, picture: cspace_picture(map, &overlay) },
     ];
     let figure = Figure {
-        title: format!("Workspace and configuration space of {}", anatomy.checker().robot().name()),
+        title: format!("Workspace and configuration space of {}", anatomy.checker().robot().title()),
         description: anatomy.described(),
         panels,
         caption: caption(Widget::Cspace, anatomy),

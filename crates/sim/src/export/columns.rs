@@ -108,7 +108,7 @@ impl Columns {
 
 /// The robots of a log, by ascending id.
 pub fn residents(log: &Log) -> impl Iterator<Item = &Resident> {
-    log.config.worlds.iter().flat_map(|world| &world.robots)
+    log.recipe.config.worlds.iter().flat_map(|world| &world.robots)
 }
 
 #[cfg(test)]

@@ -3,8 +3,9 @@
 use std::fmt::Write;
 use std::io;
 
+use super::ExportError;
 use super::columns::{Columns, List, residents};
-use super::{ExportError, frames};
+use super::every_frame::every_frame;
 use crate::run::{DT, Frame, Log, RobotState};
 use motion_lab_core::configuration::Kinds;
 
@@ -34,17 +35,17 @@ pub fn write_csv(log: &Log, ranges: bool, out: impl io::Write) -> Result<(), Exp
 }
 
 /// [`write_csv`] with kinds of robots that a program added: their configurations, and the targets of those that take
-/// `MoveTo`, are called by the coordinates of their [descriptions](motion_lab_core::configuration::RobotKind). The lab's kinds
-/// have their columns before them.
+/// `MoveTo`, are called by the coordinates of their [descriptions](motion_lab_core::configuration::RobotKind). The
+/// lab's kinds have their columns before them.
 ///
 /// # Errors
 /// As [`write_csv`].
 pub fn write_csv_of_kinds(log: &Log, kinds: &Kinds, ranges: bool, mut out: impl io::Write) -> Result<(), ExportError> {
     let head = Head::of(log, kinds, ranges);
     writeln!(out, "{}", head.names())?;
-    let names: Vec<String> = log.config.robot_names().map(cell).collect();
+    let names: Vec<String> = log.recipe.config.robot_names().map(cell).collect();
     let mut row = String::new();
-    for frame in frames(log) {
+    for frame in every_frame(log) {
         for (number, (name, robot)) in names.iter().zip(&frame.robots).enumerate() {
             row.clear();
             head.row(frame, Named { number, name }, robot, &mut row);
@@ -67,7 +68,7 @@ impl Head {
         let mut widths =
             [List::Configuration, List::Extra, List::Target].map(|list| (list, vec![0; residents(log).count()]));
         let mut of_sensors: Vec<usize> = Vec::new();
-        for frame in frames(log) {
+        for frame in every_frame(log) {
             for (list, widths) in &mut widths {
                 for (width, robot) in widths.iter_mut().zip(&frame.robots) {
                     *width = (*width).max(list.of(robot).len());

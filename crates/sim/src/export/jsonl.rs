@@ -5,7 +5,8 @@ use std::io::Write;
 use serde::{Serialize, Serializer};
 
 use super::columns::List;
-use super::{ExportError, JsonNumber, frames};
+use super::every_frame::every_frame;
+use super::{ExportError, JsonNumber};
 use crate::run::{DT, Frame, Log, RobotScan, RobotState};
 use motion_lab_core::configuration::Kinds;
 use motion_lab_core::worlds::{Resident, World};
@@ -108,9 +109,9 @@ pub fn write_jsonl(log: &Log, out: impl Write) -> Result<(), ExportError> {
 /// As [`write_jsonl`].
 pub fn write_jsonl_of_kinds(log: &Log, kinds: &Kinds, mut out: impl Write) -> Result<(), ExportError> {
     let robots: Vec<Still<'_>> =
-        log.config.worlds.iter().flat_map(|w| w.robots.iter().map(move |r| Still::of(w, r, kinds))).collect();
+        log.recipe.config.worlds.iter().flat_map(|w| w.robots.iter().map(move |r| Still::of(w, r, kinds))).collect();
     let mut line = Vec::new();
-    for frame in frames(log) {
+    for frame in every_frame(log) {
         let robots = robots.iter().zip(&frame.robots).map(|(still, state)| {
             let (ranges_m, further_scans) = scans(log, still.resident, state.id, frame);
             Robot { ranges_m, further_scans, ..robot(still, state) }
@@ -134,7 +135,7 @@ fn scans(log: &Log, resident: &Resident, id: u32, frame: &Frame) -> (Option<Vec<
     let numbers = |scan: &RobotScan| scan.ranges.iter().copied().map(JsonNumber).collect();
     let scans: Vec<&RobotScan> = frame.scans.iter().filter(|scan| scan.robot == id).collect();
     let [first, further @ ..] = &scans[..] else { return (None, Vec::new()) };
-    let sensors = if further.is_empty() { None } else { log.config.sensors_of(resident, scans.len()) };
+    let sensors = if further.is_empty() { None } else { log.recipe.config.sensors_of(resident, scans.len()) };
     let name = |i: usize| sensors.as_ref()?.get(i).map(|sensor| sensor.name.clone());
     let further = further.iter().enumerate();
     let further = further.map(|(i, scan)| FurtherScan { sensor: name(i + 1), ranges_m: numbers(scan) });

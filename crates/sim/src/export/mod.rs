@@ -22,6 +22,7 @@
 mod columns;
 mod csv;
 mod error;
+mod every_frame;
 mod foxglove;
 mod json_number;
 mod jsonl;
@@ -31,10 +32,3 @@ pub use error::ExportError;
 pub use foxglove::{write_foxglove, write_foxglove_of_file, write_rerun, write_rerun_of_file};
 pub use json_number::JsonNumber;
 pub use jsonl::{write_jsonl, write_jsonl_of_kinds};
-
-use crate::run::{Frame, Log};
-
-/// A log's frames from tick 0 on.
-fn frames(log: &Log) -> impl Iterator<Item = &Frame> {
-    std::iter::once(&log.initial).chain(&log.frames)
-}

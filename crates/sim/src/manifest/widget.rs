@@ -1,6 +1,6 @@
 //! `Widget`, the widgets of the lab.
 
-use super::{WidgetText, texts};
+use super::text::{WidgetText, text_of};
 
 /// A widget of the lab. The order is that of the rail.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
@@ -40,6 +40,6 @@ impl Widget {
 
     /// Its words.
     pub fn text(self) -> &'static WidgetText {
-        texts(self.id())
+        text_of(self.id())
     }
 }

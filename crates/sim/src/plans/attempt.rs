@@ -3,52 +3,15 @@
 use crate::run::Script;
 use crate::simulation::{PlayError, PlayStage, PlayablePath, PlayedPath};
 use motion_lab_core::collision::ProvenStep;
-use motion_lab_core::configuration::{AnyConfiguration, Configuration, HitchCfg, R2, T2, Tn};
+use motion_lab_core::configuration::{AnyConfiguration, Configuration};
 use motion_lab_core::cspace::CellMap;
-use motion_lab_core::geometry::Pose2;
 use motion_lab_core::planning::{Bounds, CertifiedPath, Effort, NoPath, Planner, Progress, accepted, solve};
-use motion_lab_core::robots::{AnyRobot, ChartLine, Hitch, HitchArc, Motion, Reach, Robot, RustyDisc};
+use motion_lab_core::robots::{ChartLine, HitchArc, Motion, Robot};
 
 use super::drawn::{Drawn, Rejected};
 
 /// The number of straight pieces in which a driven motion is drawn.
 const DRAWN: u32 = 6;
-
-/// A robot that paths are planned for.
-pub trait Planned: Robot {
-    /// The configuration as one of the lab's robots has it; a disc's heading is 0.
-    fn any(&self, q: &Self::Configuration) -> AnyConfiguration;
-}
-
-impl Planned for RustyDisc {
-    fn any(&self, q: &R2) -> AnyConfiguration {
-        AnyConfiguration::Pose(Pose2::new(q.0.x, q.0.y, 0.0))
-    }
-}
-
-impl Planned for Reach<2> {
-    fn any(&self, q: &T2) -> AnyConfiguration {
-        AnyConfiguration::T2(*q)
-    }
-}
-
-impl Planned for Reach<3> {
-    fn any(&self, q: &Tn<3>) -> AnyConfiguration {
-        AnyConfiguration::T3(*q)
-    }
-}
-
-impl Planned for AnyRobot {
-    fn any(&self, q: &AnyConfiguration) -> AnyConfiguration {
-        *q
-    }
-}
-
-impl Planned for Hitch {
-    fn any(&self, q: &HitchCfg) -> AnyConfiguration {
-        AnyConfiguration::Hitch(*q)
-    }
-}
 
 /// What drives a leg of a path: a speed, a steering angle and a time; nothing for the chart's straight lines.
 #[derive(Clone, Copy, Debug)]
@@ -62,7 +25,7 @@ pub struct Driven {
 }
 
 /// A motion that a path may consist of.
-pub trait LegMotion: Motion + Clone + Send {
+pub trait LegMotion: Motion + Clone + Send + 'static {
     /// What drives it.
     fn driven(&self) -> Option<Driven>;
 
@@ -160,29 +123,28 @@ pub trait Attempt: Send {
 }
 
 /// A planner of one robot at work.
-pub struct Trial<R: Robot, M> {
+pub struct Trial<R: Robot, M: LegMotion<Configuration = R::Configuration>> {
     planner: Box<dyn Planner<R, M> + Send>,
     path: Option<CertifiedPath<M>>,
     /// The number of motions that were rejected before the last iteration.
     rejected_before: u64,
 }
 
-impl<R: Robot, M> Trial<R, M> {
+impl<R: Robot, M: LegMotion<Configuration = R::Configuration>> Trial<R, M> {
     /// The planner before its first iteration.
     pub fn new(planner: Box<dyn Planner<R, M> + Send>) -> Self {
         Trial { planner, path: None, rejected_before: 0 }
     }
 }
 
-impl<R: Planned, M: LegMotion<Configuration = R::Configuration>> Trial<R, M> {
+impl<R: Robot<Configuration: Into<AnyConfiguration>>, M: LegMotion<Configuration = R::Configuration>> Trial<R, M> {
     fn sampled(motion: &M) -> impl Iterator<Item = R::Configuration> {
         let pieces = motion.pieces();
         (0..=pieces).map(move |i| motion.at(f64::from(i) / f64::from(pieces)))
     }
 
-    fn among_any(&self, motion: &M) -> Vec<AnyConfiguration> {
-        let robot = self.planner.problem().checker().robot();
-        Self::sampled(motion).map(|q| robot.any(&q)).collect()
+    fn among_any(motion: &M) -> Vec<AnyConfiguration> {
+        Self::sampled(motion).map(Into::into).collect()
     }
 
     /// The motion that was rejected last, if it was in the last iteration.
@@ -191,15 +153,12 @@ impl<R: Planned, M: LegMotion<Configuration = R::Configuration>> Trial<R, M> {
         let effort = growth.effort();
         let is_new = effort.edges - effort.free > self.rejected_before;
         let rejection = growth.rejection(checker).filter(|_| is_new)?;
-        Some(Rejected {
-            way: self.among_any(growth.rejected()?),
-            at: checker.robot().any(&rejection.at),
-            witness: rejection.witness,
-        })
+        Some(Rejected { way: Self::among_any(growth.rejected()?), at: rejection.at.into(), witness: rejection.witness })
     }
 }
 
-impl<R: Planned, M: LegMotion<Configuration = R::Configuration>> Attempt for Trial<R, M>
+impl<R: Robot<Configuration: Into<AnyConfiguration>>, M: LegMotion<Configuration = R::Configuration>> Attempt
+    for Trial<R, M>
 where
     CertifiedPath<M>: PlayablePath,
 {
@@ -225,15 +184,14 @@ where
 
     fn drawn(&self) -> Drawn {
         let (growth, problem) = (self.planner.growth(), self.planner.problem());
-        let robot = problem.checker().robot();
-        let edges = growth.edges().filter_map(|[a, b]| Some(self.among_any(&self.planner.motion(a, b)?)));
+        let edges = growth.edges().filter_map(|[a, b]| Some(Self::among_any(&self.planner.motion(a, b)?)));
         let path = self.path.iter().flat_map(|path| path.legs());
         let corners = self.path.iter().flat_map(CertifiedPath::corners);
         Drawn {
-            ends: [problem.start(), problem.goal()].map(|q| robot.any(&q)),
+            ends: [problem.start(), problem.goal()].map(Into::into),
             edges: edges.collect(),
-            path: path.flat_map(|leg| self.among_any(leg.motion())).collect(),
-            corners: corners.map(|q| robot.any(&q)).collect(),
+            path: path.flat_map(|leg| Self::among_any(leg.motion())).collect(),
+            corners: corners.map(Into::into).collect(),
             rejected: self.rejected().filter(|_| self.path.is_none()),
             sensed: self.planner.sensed(),
         }

@@ -24,7 +24,7 @@ mod path_file;
 mod picture;
 mod task;
 
-pub use attempt::{Attempt, Driven, Leg, LegMotion, PathLengths, Planned, Trial};
+pub use attempt::{Attempt, Driven, Leg, LegMotion, PathLengths, Trial};
 pub use bug1_sensor::{Bug1Sensor, Bug1Walk, WalkEnd};
 pub use drawn::{Drawn, Rejected};
 pub use named::PlannerName;

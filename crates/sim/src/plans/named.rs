@@ -33,6 +33,31 @@ pub enum PlannerName {
     HybridAStar,
 }
 
+/// The robots that a planner plans for.
+#[derive(Clone, Copy)]
+enum Plans {
+    /// All that can go along straight lines of their charts.
+    Lines,
+    /// Discs in the plane.
+    Discs,
+    /// Those whose space has two dimensions.
+    Planes,
+    /// Cars.
+    Cars,
+}
+
+/// A row of the table of planners.
+struct About {
+    id: &'static str,
+    title: &'static str,
+    plans: Plans,
+    words: &'static str,
+}
+
+const fn row(id: &'static str, title: &'static str, plans: Plans, words: &'static str) -> About {
+    About { id, title, plans, words }
+}
+
 impl PlannerName {
     /// All planners, in the order of the lists.
     pub const ALL: [PlannerName; 13] = [
@@ -51,69 +76,74 @@ impl PlannerName {
         PlannerName::HybridAStar,
     ];
 
-    /// The name by which the command line, plans of sweeps and links name it.
-    pub const fn id(self) -> &'static str {
+    /// The table of planners.
+    const fn about(self) -> About {
+        use Plans::{Cars, Discs, Lines, Planes};
         match self {
-            PlannerName::RrtConnect => "rrt-connect",
-            PlannerName::Rrt => "rrt",
-            PlannerName::RrtStar => "rrt-star",
-            PlannerName::Prm => "prm",
-            PlannerName::AStar => "a-star",
-            PlannerName::Dijkstra => "dijkstra",
-            PlannerName::VisibilityGraph => "visibility-graph",
-            PlannerName::PotentialField => "potential-field",
-            PlannerName::Bug1 => "bug1",
-            PlannerName::Bug1Sensor => "bug1-sensor",
-            PlannerName::Bug2 => "bug2",
-            PlannerName::CellDecomposition => "cell-decomposition",
-            PlannerName::HybridAStar => "hybrid-a-star",
+            PlannerName::RrtConnect => {
+                row("rrt-connect", "RRT-Connect", Lines, "Two trees that grow toward each other")
+            }
+            PlannerName::Rrt => row("rrt", "RRT", Lines, "One tree that grows into the free space"),
+            PlannerName::RrtStar => {
+                row("rrt-star", "RRT*", Lines, "A tree that is wired anew as it grows: the first path that it has")
+            }
+            PlannerName::Prm => {
+                row("prm", "PRM", Lines, "A road map of samples, grown until start and goal are joined")
+            }
+            PlannerName::AStar => row("a-star", "A*", Lines, "A* on a grid of configurations"),
+            PlannerName::Dijkstra => row("dijkstra", "Dijkstra", Lines, "Dijkstra's algorithm on the same grid"),
+            PlannerName::VisibilityGraph => row(
+                "visibility-graph",
+                "Visibility graph",
+                Discs,
+                "The shortest way by the corners of the obstacles, for a rover",
+            ),
+            PlannerName::PotentialField => row(
+                "potential-field",
+                "Potential field",
+                Lines,
+                "Downhill in a field that the goal attracts and obstacles repel; it may end in a local minimum",
+            ),
+            PlannerName::Bug1 => row(
+                "bug1",
+                "Bug1",
+                Discs,
+                "Bug1, for a rover: it goes round an obstacle once, and leaves where it was nearest to the goal",
+            ),
+            PlannerName::Bug1Sensor => row(
+                "bug1-sensor",
+                "Bug1 by its sensor",
+                Discs,
+                "Bug1, for a rover that sees walls by its range sensor alone: it may misjudge where to leave them",
+            ),
+            PlannerName::Bug2 => {
+                row("bug2", "Bug2", Discs, "Bug2, for a rover: it follows the line to the goal, and boundaries between")
+            }
+            PlannerName::CellDecomposition => row(
+                "cell-decomposition",
+                "Cell decomposition",
+                Planes,
+                "Cells proven free or blocked, for a rover and an arm of two links; it may prove that there is no path",
+            ),
+            PlannerName::HybridAStar => {
+                row("hybrid-a-star", "Hybrid A*", Cars, "A search over what a car can drive, with a trailer or without")
+            }
         }
+    }
+
+    /// The name by which the command line, studies and links name it.
+    pub const fn id(self) -> &'static str {
+        self.about().id
     }
 
     /// Its name in books.
     pub const fn title(self) -> &'static str {
-        match self {
-            PlannerName::RrtConnect => "RRT-Connect",
-            PlannerName::Rrt => "RRT",
-            PlannerName::RrtStar => "RRT*",
-            PlannerName::Prm => "PRM",
-            PlannerName::AStar => "A*",
-            PlannerName::Dijkstra => "Dijkstra",
-            PlannerName::VisibilityGraph => "Visibility graph",
-            PlannerName::PotentialField => "Potential field",
-            PlannerName::Bug1 => "Bug1",
-            PlannerName::Bug1Sensor => "Bug1 by its sensor",
-            PlannerName::Bug2 => "Bug2",
-            PlannerName::CellDecomposition => "Cell decomposition",
-            PlannerName::HybridAStar => "Hybrid A*",
-        }
+        self.about().title
     }
 
     /// What it does, in a line.
     pub const fn words(self) -> &'static str {
-        match self {
-            PlannerName::RrtConnect => "Two trees that grow toward each other",
-            PlannerName::Rrt => "One tree that grows into the free space",
-            PlannerName::RrtStar => "A tree that is wired anew as it grows: the first path that it has",
-            PlannerName::Prm => "A road map of samples, grown until start and goal are joined",
-            PlannerName::AStar => "A* on a grid of configurations",
-            PlannerName::Dijkstra => "Dijkstra's algorithm on the same grid",
-            PlannerName::VisibilityGraph => "The shortest way by the corners of the obstacles, for a rover",
-            PlannerName::PotentialField => {
-                "Downhill in a field that the goal attracts and obstacles repel; it may end in a local minimum"
-            }
-            PlannerName::Bug1 => {
-                "Bug1, for a rover: it goes round an obstacle once, and leaves where it was nearest to the goal"
-            }
-            PlannerName::Bug1Sensor => {
-                "Bug1, for a rover that sees walls by its range sensor alone: it may misjudge where to leave them"
-            }
-            PlannerName::Bug2 => "Bug2, for a rover: it follows the line to the goal, and boundaries between",
-            PlannerName::CellDecomposition => {
-                "Cells proven free or blocked, for a rover and an arm of two links; it may prove that there is no path"
-            }
-            PlannerName::HybridAStar => "A search over what a car can drive, with a trailer or without",
-        }
+        self.about().words
     }
 
     /// The planner with this [`id`](Self::id).
@@ -134,21 +164,21 @@ impl PlannerName {
     /// # Errors
     /// The reason in words.
     pub const fn suits(self, robot: &AnyRobot) -> Result<(), &'static str> {
-        use PlannerName::{Bug1, Bug1Sensor, Bug2, CellDecomposition, HybridAStar, VisibilityGraph};
-        match (self, robot) {
-            (HybridAStar, AnyRobot::Hitch(_)) => Ok(()),
-            (HybridAStar, _) => Err("it plans for a car only"),
+        match (self.about().plans, robot) {
+            (Plans::Cars, AnyRobot::Hitch(_)) => Ok(()),
+            (Plans::Cars, _) => Err("it plans for a car only"),
             (_, AnyRobot::Hitch(_)) => Err("it plans straight lines, which no car can drive"),
-            (Bug1 | Bug1Sensor | Bug2 | VisibilityGraph, AnyRobot::Reach(_) | AnyRobot::Reach3(_)) => {
-                Err("it plans for discs in the plane")
-            }
-            (CellDecomposition, AnyRobot::Reach3(_)) => Err("its cells are those of a plane or a torus"),
-            _ => Ok(()),
+            (Plans::Discs, AnyRobot::Reach(_) | AnyRobot::Reach3(_)) => Err("it plans for discs in the plane"),
+            (Plans::Planes, AnyRobot::Reach3(_)) => Err("its cells are those of a plane or a torus"),
+            (Plans::Lines | Plans::Discs | Plans::Planes, _) => Ok(()),
         }
     }
 
     /// The number of iterations that it does unless more are allowed: some seconds' work.
     pub const fn iterations(self) -> u64 {
-        if matches!(self, PlannerName::HybridAStar) { 20_000 } else { 100_000 }
+        match self.about().plans {
+            Plans::Cars => 20_000,
+            Plans::Lines | Plans::Discs | Plans::Planes => 100_000,
+        }
     }
 }

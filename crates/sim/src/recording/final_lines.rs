@@ -14,10 +14,10 @@ pub fn final_lines(log: &Log) -> Vec<String> {
 
 /// [`final_lines`] of a run with kinds of robots that a program added.
 pub fn final_lines_with(log: &Log, kinds: &Kinds) -> Vec<String> {
-    let residents = log.config.worlds.iter().flat_map(|w| &w.robots);
-    let last = log.frames.last().unwrap_or(&log.initial);
+    let residents = log.recipe.config.worlds.iter().flat_map(|w| &w.robots);
+    let last = log.frames().last().or(log.initial());
     residents
-        .zip(&last.robots)
+        .zip(last.iter().flat_map(|frame| &frame.robots))
         .map(|(resident, state)| {
             format!(
                 "{}  {}  contacts: {}",

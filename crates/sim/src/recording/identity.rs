@@ -3,7 +3,7 @@
 use xxhash_rust::xxh3::Xxh3;
 
 use super::{Recorder, RunError};
-use crate::run::{Digest, Event, Quantized, RobotInput, RunDigest, Script};
+use crate::run::{Digest, Event, Quantized, Recipe, RobotInput, RunDigest, Script};
 use crate::tour::TourConfig;
 use motion_lab_core::collision::{Collision, Scene};
 use motion_lab_core::configuration::{Coordinates, RobotKind};
@@ -23,10 +23,10 @@ const TICKS: u64 = 600;
 /// [`RunError`] when the run cannot start, which does not happen with a built-in world.
 pub fn identity_line(world: &World, seed: Seed) -> Result<String, RunError> {
     let config = TourConfig { worlds: vec![world.clone()], ticks: TICKS, ..TourConfig::default() };
-    let script = driving(world, seed);
+    let recipe = Recipe::new(config, (seed, driving(world, seed)));
     let scene = Scene::of_world(world);
-    let mut recorder = Recorder::new(config.clone(), (seed, script.clone()))?;
-    let mut run = RunDigest::new(seed, &config, &script, recorder.frame());
+    let mut recorder = Recorder::of(&recipe)?;
+    let mut run = RunDigest::new(&recipe, recorder.frame());
     let mut geometry = Xxh3::new();
     for _ in 0..TICKS {
         run.tick(recorder.step());

@@ -7,19 +7,17 @@
 //!
 //! let config = TourConfig { ticks: 20, ..TourConfig::default() };
 //! let log = Run::record(config, BOOK_SEED)?;
-//! assert_eq!(Run::replay(&log)?, log.frames); // every f64 to the last bit
+//! assert_eq!(Run::replay(&log)?, log.frames()); // every f64 to the last bit
 //! # Ok::<(), motion_lab_sim::recording::RunError>(())
 //! ```
 
-mod digests;
 mod final_lines;
 mod identity;
 mod recorder;
 mod run;
 mod verification;
 
-pub use crate::simulation::RunInput;
-pub use digests::{DigestVerification, verify_digests, verify_digests_with_robots};
+pub use crate::run::RunInput;
 pub use final_lines::{final_lines, final_lines_with, printed_as, printed_configuration};
 pub use identity::identity_line;
 pub use recorder::{Recorder, RunError};

@@ -5,10 +5,10 @@ use std::sync::Arc;
 use bevy::app::App;
 use bevy::ecs::world::World;
 
-use crate::run::{Frame, Script};
+use crate::run::{Frame, Recipe, RunInput, Script};
 use crate::simulation::{
-    Keyframes, LatestFrame, PendingInput, Refusals, RestoreError, RobotView, Roster, RunConfig, RunInput, SensorView,
-    SimulationPlugin, SpawnError, StandingWorld, Transport, restore, seek, sensors, start_run, step, view,
+    Keyframes, LatestFrame, PendingInput, Refusals, RestoreError, RobotView, Roster, RunConfig, SensorView,
+    SimulationPlugin, SpawnError, StandingWorld, Transport, restore, seek, sensors, start_recipe, step, view,
 };
 use crate::tour::TourConfig;
 use motion_lab_core::worlds::World as WorldModel;
@@ -38,7 +38,7 @@ impl Recorder {
     ///
     /// # Errors
     /// [`RunError`] names the invalid part of the configuration or the script.
-    pub fn new(config: TourConfig, input: impl Into<RunInput>) -> Result<Self, RunError> {
+    pub fn new(config: impl Into<Arc<TourConfig>>, input: impl Into<RunInput>) -> Result<Self, RunError> {
         Self::with_robots(config, input, |_| {})
     }
 
@@ -48,17 +48,32 @@ impl Recorder {
     /// # Errors
     /// [`RunError`] names the invalid part of the configuration or the script.
     pub fn with_robots(
-        config: TourConfig,
+        config: impl Into<Arc<TourConfig>>,
         input: impl Into<RunInput>,
         add: impl FnOnce(&mut App),
     ) -> Result<Self, RunError> {
+        Self::of_with_robots(&Recipe::new(config, input), add)
+    }
+
+    /// The run of a recipe at tick 0.
+    ///
+    /// # Errors
+    /// As [`new`](Self::new).
+    pub fn of(recipe: &Recipe) -> Result<Self, RunError> {
+        Self::of_with_robots(recipe, |_| {})
+    }
+
+    /// The run of a recipe at tick 0, as [`with_robots`](Self::with_robots).
+    ///
+    /// # Errors
+    /// As [`new`](Self::new).
+    pub fn of_with_robots(recipe: &Recipe, add: impl FnOnce(&mut App)) -> Result<Self, RunError> {
         let mut app = App::new();
         app.add_plugins(SimulationPlugin);
         add(&mut app);
         let mut world = std::mem::take(app.world_mut());
-        let ticks = config.ticks;
-        start_run(&mut world, config, input)?;
-        Ok(Recorder { world, ticks })
+        start_recipe(&mut world, recipe.clone())?;
+        Ok(Recorder { world, ticks: recipe.config.ticks })
     }
 
     /// The same run with no keyframe but that of tick 0: however long it goes on, it takes the same memory. Moving it
@@ -73,6 +88,11 @@ impl Recorder {
     /// removed them before its first tick.
     pub fn config(&self) -> &TourConfig {
         &self.world.resource::<RunConfig>().0
+    }
+
+    /// The same, shared.
+    pub fn shared_config(&self) -> Arc<TourConfig> {
+        Arc::clone(&self.world.resource::<RunConfig>().0)
     }
 
     /// The frame of the last tick; at first the frame of tick 0.

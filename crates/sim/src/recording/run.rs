@@ -1,9 +1,11 @@
 //! `Run`, recording and replaying of whole runs.
 
+use std::sync::Arc;
+
 use bevy::app::App;
 
 use super::{Recorder, RunError, RunInput};
-use crate::run::{Frame, Log};
+use crate::run::{DIGEST_TICKS, Frame, Log, LogKind, Recipe, Recorded, RunDigest, SecondDigests};
 use crate::tour::TourConfig;
 
 /// Records and replays whole runs.
@@ -15,7 +17,7 @@ impl Run {
     ///
     /// # Errors
     /// [`RunError`] names the invalid part of the configuration or the script.
-    pub fn record(config: TourConfig, input: impl Into<RunInput>) -> Result<Log, RunError> {
+    pub fn record(config: impl Into<Arc<TourConfig>>, input: impl Into<RunInput>) -> Result<Log, RunError> {
         Self::record_with_robots(config, input, |_| {})
     }
 
@@ -25,17 +27,35 @@ impl Run {
     /// # Errors
     /// [`RunError`] names the invalid part of the configuration or the script.
     pub fn record_with_robots(
-        config: TourConfig,
+        config: impl Into<Arc<TourConfig>>,
         input: impl Into<RunInput>,
         add: impl FnOnce(&mut App),
     ) -> Result<Log, RunError> {
-        let RunInput { seed, script } = input.into();
-        let mut recorder = Recorder::with_robots(config, (seed, script.clone()), add)?.without_keyframes();
-        let config = recorder.config().clone();
-        let initial = recorder.frame().clone();
-        let frames = Self::frames(&mut recorder, config.ticks);
-        let digests = frames.iter().map(Frame::digest).collect();
-        Ok(Log { seed, config, script, initial, frames, digests })
+        Self::record_recipe(Recipe::new(config, input), LogKind::Frames, add)
+    }
+
+    /// The log of a recipe's run, of this kind, with further kinds of robots.
+    ///
+    /// # Errors
+    /// [`RunError`] names the invalid part of the configuration or the script.
+    pub fn record_recipe(recipe: Recipe, kind: LogKind, add: impl FnOnce(&mut App)) -> Result<Log, RunError> {
+        let mut recorder = Recorder::of_with_robots(&recipe, add)?.without_keyframes();
+        let recipe = Recipe { config: recorder.shared_config(), ..recipe };
+        let ticks = recipe.config.ticks;
+        if kind == LogKind::Frames {
+            let initial = recorder.frame().clone();
+            return Ok(Log::with_frames(recipe, initial, Self::frames(&mut recorder, ticks)));
+        }
+        let mut run = RunDigest::new(&recipe, recorder.frame());
+        let (start, mut digests) = (run.lower_half(), Vec::new());
+        for tick in 1..=ticks {
+            run.tick(recorder.step());
+            if tick == ticks || tick.is_multiple_of(DIGEST_TICKS) {
+                digests.push(run.lower_half());
+            }
+        }
+        let digests = SecondDigests { start, digests, ticks, whole: Some(run.digest()) };
+        Ok(Log { recipe, recorded: Recorded::Digests(digests) })
     }
 
     /// Simulates a log's run again and returns the frames from tick 1 to the last. It uses the log's seed,
@@ -52,13 +72,12 @@ impl Run {
     /// # Errors
     /// [`RunError`] when the log's configuration or script cannot be run.
     pub fn replay_with_robots(log: &Log, add: impl FnOnce(&mut App)) -> Result<Vec<Frame>, RunError> {
-        let mut recorder =
-            Recorder::with_robots(log.config.clone(), (log.seed, log.script.clone()), add)?.without_keyframes();
-        Ok(Self::frames(&mut recorder, log.config.ticks))
+        let mut recorder = Recorder::of_with_robots(&log.recipe, add)?.without_keyframes();
+        Ok(Self::frames(&mut recorder, log.recipe.config.ticks))
     }
 
     /// Calls `watch` with the run in the state of each of the log's frames, from tick 0 on. Nothing is simulated: the
-    /// frames are taken as they are.
+    /// frames are taken as they are, and a log of digests has none.
     ///
     /// # Errors
     /// [`RunError`] when the run cannot start or a frame does not fit it, and every error of `watch`.
@@ -75,9 +94,8 @@ impl Run {
         add: impl FnOnce(&mut App),
         mut watch: impl FnMut(&Recorder) -> Result<(), E>,
     ) -> Result<(), E> {
-        let mut run =
-            Recorder::with_robots(log.config.clone(), (log.seed, log.script.clone()), add)?.without_keyframes();
-        for frame in std::iter::once(&log.initial).chain(&log.frames) {
+        let mut run = Recorder::of_with_robots(&log.recipe, add)?.without_keyframes();
+        for frame in log.initial().into_iter().chain(log.frames()) {
             run.restore(frame)?;
             watch(&run)?;
         }

@@ -3,7 +3,7 @@
 use bevy::app::App;
 
 use super::{Recorder, RunError};
-use crate::run::{Comparison, Digest, Divergence, Log, RunDigest};
+use crate::run::{Comparison, Difference, Digest, Log};
 
 /// The result of [`verify`].
 #[derive(Clone, Debug, PartialEq)]
@@ -11,16 +11,17 @@ use crate::run::{Comparison, Digest, Divergence, Log, RunDigest};
 pub struct Verification {
     /// The number of recorded ticks.
     pub recorded: u64,
-    /// The number of them that the simulated run equals in every bit, from the first on.
+    /// The number of them that the simulated run equals in every bit, from the first on: whole seconds, where a log of
+    /// digests differs.
     pub identical: u64,
     /// The digest of the simulated run, as far as the recording goes.
     pub digest: Digest,
-    /// The first value that differs: `expected` in the log, `found` in the simulated run. `None` if all agree.
-    pub divergence: Option<Divergence>,
+    /// The first place that differs. `None` if all agree.
+    pub difference: Option<Difference>,
 }
 
-/// Simulates a log's run again, from its seed, configuration and script alone, as far as the log has frames, and
-/// compares every frame to the last bit. Calls `on_tick` with the run at every tick from 0 on.
+/// Simulates a log's run again, from its seed, configuration and script alone, as far as it is recorded, and compares
+/// every frame to the last bit, or the digest of every second. Calls `on_tick` with the run at every tick from 0 on.
 ///
 /// # Errors
 /// [`RunError`] when the log's configuration or script cannot be run. A run that differs is no error.
@@ -30,7 +31,7 @@ pub struct Verification {
 /// use motion_lab_sim::tour::{BOOK_SEED, TourConfig};
 /// let mut log = Run::record(TourConfig { ticks: 20, ..TourConfig::default() }, BOOK_SEED)?;
 /// assert_eq!(verify(&log, |_| {})?.identical, 20);
-/// log.frames[4].robots[0].contacts += 1; // a forged recording
+/// log.frames_mut()[4].robots[0].contacts += 1; // a forged recording
 /// assert_eq!(verify(&log, |_| {})?.identical, 4);
 /// # Ok::<(), motion_lab_sim::recording::RunError>(())
 /// ```
@@ -48,21 +49,17 @@ pub fn verify_with_robots(
     add: impl FnOnce(&mut App),
     mut on_tick: impl FnMut(&Recorder),
 ) -> Result<Verification, RunError> {
-    let mut run = Recorder::with_robots(log.config.clone(), (log.seed, log.script.clone()), add)?.without_keyframes();
-    let mut digest = RunDigest::new(log.seed, &log.config, &log.script, run.frame());
-    let mut comparison = Comparison::with(log);
-    comparison.frame(run.frame());
+    let mut run = Recorder::of_with_robots(&log.recipe, add)?.without_keyframes();
+    let mut comparison = Comparison::begin(log, run.frame());
     on_tick(&run);
-    for _ in &log.frames {
-        let frame = run.step();
-        comparison.frame(frame);
-        digest.tick(frame);
+    for _ in 0..log.ticks() {
+        comparison.tick(run.step());
         on_tick(&run);
     }
     Ok(Verification {
-        recorded: comparison.recorded(),
+        recorded: log.ticks(),
         identical: comparison.identical(),
-        digest: digest.digest(),
-        divergence: comparison.divergence().cloned(),
+        digest: comparison.digest(),
+        difference: comparison.difference().cloned(),
     })
 }

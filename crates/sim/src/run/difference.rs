@@ -1,23 +1,23 @@
 //! `SetupDifference`, a difference between two runs before their first frame.
 
-use super::Log;
+use super::Recipe;
 use motion_lab_core::sensors::RangeSensor;
 
-/// A setting of a run that differs between two logs.
+/// A setting of a run that differs between two runs.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct SetupDifference {
     /// The setting's name: `seed`, `ticks`, `sensor`, `worlds`, `world 0, line 7`, `script, line 3`.
     pub item: String,
-    /// Its value in the first log.
+    /// Its value in the first run.
     pub first: String,
-    /// Its value in the second log.
+    /// Its value in the second run.
     pub second: String,
 }
 
-impl Log {
-    /// Returns the settings in which two logs differ: seed, ticks, sensor, worlds and script. For each world and for
-    /// the script it gives the first line that differs in their canonical texts. Empty if both logs are of one run.
-    pub fn setup_differences(&self, other: &Log) -> Vec<SetupDifference> {
+impl Recipe {
+    /// Returns the settings in which two runs differ: seed, ticks, sensor, worlds and script. For each world and for
+    /// the script it gives the first line that differs in their canonical texts. Empty if they are one run.
+    pub fn differences(&self, other: &Recipe) -> Vec<SetupDifference> {
         let mut found = Vec::new();
         let mut compare = |item: &str, first: String, second: String| {
             if first != second {
@@ -64,37 +64,44 @@ fn first_line(item: &str, first: &str, second: &str) -> Option<SetupDifference> 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::sync::Arc;
+
     use crate::run::{Event, RobotInput, fixture};
+    use crate::tour::TourConfig;
+
+    fn config_of(recipe: &mut Recipe) -> &mut TourConfig {
+        Arc::make_mut(&mut recipe.config)
+    }
     use motion_lab_core::random::Seed;
 
     #[test]
     fn everything_that_determines_a_run_is_compared_and_named() {
-        type Change = fn(&mut Log);
+        type Change = fn(&mut Recipe);
         let changes: [(&str, &str, Change); 8] = [
-            ("seed", "7", |l| l.seed = Seed(7)),
-            ("ticks", "4", |l| l.config.ticks += 1),
-            ("sensor", "none", |l| l.config.sensor = None),
-            ("sensor", "3 rays, 4.000000000000001 m", |l| {
-                l.config.sensor = Some(RangeSensor { n_rays: 3, max_range: 4.000_000_000_000_001 });
+            ("seed", "7", |r| r.seed = Seed(7)),
+            ("ticks", "4", |r| config_of(r).ticks += 1),
+            ("sensor", "none", |r| config_of(r).sensor = None),
+            ("sensor", "3 rays, 4.000000000000001 m", |r| {
+                config_of(r).sensor = Some(RangeSensor { n_rays: 3, max_range: 4.000_000_000_000_001 });
             }),
-            ("worlds", "0", |l| l.config.worlds.clear()),
-            ("world 0, line 3", "name: \"Garden\",", |l| l.config.worlds[0].name = "Garden".into()),
-            ("script, line 4", "(tick: 1, robot: \"Car\", input: Drive(-128, 127)),", |l| {
-                l.script.events[0].input = RobotInput::Drive(-128, 127);
+            ("worlds", "0", |r| config_of(r).worlds.clear()),
+            ("world 0, line 3", "name: \"Garden\",", |r| config_of(r).worlds[0].name = "Garden".into()),
+            ("script, line 4", "(tick: 1, robot: \"Car\", input: Drive(-128, 127)),", |r| {
+                r.script.events[0].input = RobotInput::Drive(-128, 127);
             }),
-            ("script, line 7", "(tick: 3, robot: \"Arm\", input: Release),", |l| {
-                l.script.events.push(Event { tick: 3, robot: "Arm".into(), input: RobotInput::Release });
+            ("script, line 7", "(tick: 3, robot: \"Arm\", input: Release),", |r| {
+                r.script.events.push(Event { tick: 3, robot: "Arm".into(), input: RobotInput::Release });
             }),
         ];
-        let log = fixture::log();
-        assert_eq!(log.setup_differences(&log), []);
+        let recipe = fixture::log().recipe;
+        assert_eq!(recipe.differences(&recipe), []);
         for (item, value, change) in changes {
-            let mut other = log.clone();
+            let mut other = recipe.clone();
             change(&mut other);
-            let found = log.setup_differences(&other);
+            let found = recipe.differences(&other);
             assert_eq!(found.len(), 1, "{found:?}");
             assert_eq!((found[0].item.as_str(), found[0].second.as_str()), (item, value));
-            let back = other.setup_differences(&log);
+            let back = other.differences(&recipe);
             assert_eq!((back[0].first.as_str(), &back[0].second), (value, &found[0].first));
         }
     }

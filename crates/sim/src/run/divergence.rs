@@ -284,7 +284,8 @@ mod tests {
     #[test]
     fn a_scan_has_the_name_of_its_sensor_where_the_configuration_says_it() {
         use motion_lab_core::worlds::ResidentSensor;
-        let (frames, mut config) = (scanned(), fixture::log().config);
+        let (frames, mut log) = (scanned(), fixture::log());
+        let config = fixture::config_of(&mut log);
         let rays = motion_lab_core::sensors::RangeSensor { n_rays: 4, max_range: 2.0 };
         config.worlds[0].robots[0].sensors = ["left", "aft"].map(|name| ResidentSensor::new(name, rays)).to_vec();
         let printed = |config: &TourConfig, scan: usize| {
@@ -294,7 +295,7 @@ mod tests {
             printed.split(": expected").next().unwrap().to_owned()
         };
         // the car carries the run's sensor too, and its own come in the order of their names
-        let names = [0, 1, 2, 3].map(|scan| printed(&config, scan));
+        let names = [0, 1, 2, 3].map(|scan| printed(config, scan));
         let expected = [
             "tick 1, robot 0 (Car), the run's sensor, ranges[1]",
             "tick 1, robot 0 (Car), sensor \"aft\", ranges[1]",
@@ -304,8 +305,8 @@ mod tests {
         assert_eq!(names, expected);
         // a program gave it others
         config.worlds[0].robots[0].sensors.clear();
-        assert_eq!(printed(&config, 2), "tick 1, robot 0 (Car), scan 3, ranges[1]");
+        assert_eq!(printed(config, 2), "tick 1, robot 0 (Car), scan 3, ranges[1]");
         config.worlds.clear();
-        assert_eq!(printed(&config, 2), "tick 1, robot 0, scan 3, ranges[1]");
+        assert_eq!(printed(config, 2), "tick 1, robot 0, scan 3, ranges[1]");
     }
 }

@@ -1,6 +1,8 @@
 //! A small run for tests: two robots, three ticks, numbers of every sort.
 
-use super::{DT, Event, Frame, Log, Quantized, RobotInput, RobotScan, RobotState, Script};
+use std::sync::Arc;
+
+use super::{DT, Event, Frame, Log, Quantized, Recipe, Recorded, RobotInput, RobotScan, RobotState, Script};
 use crate::tour::TourConfig;
 use motion_lab_core::configuration::Coordinates;
 use motion_lab_core::geometry::{Aabb, Point2};
@@ -58,13 +60,20 @@ pub fn log() -> Log {
         event(1, "Arm", RobotInput::MoveTo(vec![Quantized(1 << 20), Quantized(-1)])),
         event(3, "Car", RobotInput::Release),
     ];
-    let frames: Vec<Frame> = (1..=3).map(frame).collect();
-    Log {
-        seed: Seed(u64::MAX - 1),
-        config: TourConfig { worlds: vec![world], ticks: 3, sensor: Some(RangeSensor { n_rays: 3, max_range: 4.0 }) },
-        script: Script::new(events, vec![]),
-        initial: frame(0),
-        digests: frames.iter().map(Frame::digest).collect(),
-        frames,
+    let config = TourConfig { worlds: vec![world], ticks: 3, sensor: Some(RangeSensor { n_rays: 3, max_range: 4.0 }) };
+    let recipe = Recipe::new(config, (Seed(u64::MAX - 1), Script::new(events, vec![])));
+    Log::with_frames(recipe, frame(0), (1..=3).map(frame).collect())
+}
+
+/// The configuration of a log, to be changed.
+pub fn config_of(log: &mut Log) -> &mut TourConfig {
+    Arc::make_mut(&mut log.recipe.config)
+}
+
+/// The initial frame and the others, to be changed.
+pub fn frames_of(log: &mut Log) -> (&mut Frame, &mut Vec<Frame>) {
+    match &mut log.recorded {
+        Recorded::Frames { initial, frames } => (initial, frames),
+        Recorded::Digests(_) => panic!("a log of digests has no frames"),
     }
 }

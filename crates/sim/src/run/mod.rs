@@ -3,7 +3,6 @@
 mod comparison;
 mod difference;
 mod digest;
-mod digest_comparison;
 mod divergence;
 mod field;
 #[cfg(test)]
@@ -12,6 +11,7 @@ mod frame;
 mod log;
 mod mcap;
 mod quantized;
+mod recipe;
 mod script;
 mod script_check;
 mod script_error;
@@ -19,20 +19,19 @@ mod script_text;
 mod stats;
 mod world_change;
 
-pub use comparison::Comparison;
+pub use comparison::{Comparison, Difference, DifferingSecond};
 pub use difference::SetupDifference;
 pub use digest::{Digest, RunDigest};
-pub use digest_comparison::{DifferingSecond, DigestComparison};
 pub use divergence::{Divergence, DivergingScan, first_divergence};
 pub use field::Value;
 pub use frame::{DT, Frame, ObstacleState, RobotScan, RobotState, seconds};
-pub use log::Log;
+pub use log::{DIGEST_TICKS, Log, LogKind, MAX_ROBOTS_IN_FULL, Recorded, SecondDigests};
 pub use mcap::{
-    DIGEST_FORMAT_VERSION, DIGEST_TICKS, DamageKind, DamagedDigestLog, DamagedLog, DigestLog, DigestLogWriter,
-    EXPORT_PROFILE, FORMAT_VERSION, FORMAT_VERSION_WITH_CHANGES, GENERATOR, LogError, LogWriter, MOST_ROBOTS_IN_FULL,
-    ReadDigestLog, ReadLog, TICK_NANOSECONDS,
+    DIGEST_FORMAT_VERSION, DamageKind, DamagedLog, EXPORT_PROFILE, FORMAT_VERSION, FORMAT_VERSION_WITH_CHANGES,
+    GENERATOR, LogError, LogWriter, ReadLog, TICK_NANOSECONDS,
 };
 pub use quantized::Quantized;
+pub use recipe::{Recipe, RunInput};
 pub use script::{Event, RobotInput, SCRIPT_VERSION, SCRIPT_VERSION_WITH_CHANGES, Script};
 pub use script_error::{MAX_CHANNEL, MAX_COORDINATES, MAX_EVENTS, ScriptError, ScriptProblem, UnfitInput};
 pub use stats::{LeastClearance, Quantity, RobotStats, RunStats, Series, SeriesGatherer, StatsGatherer};

@@ -37,8 +37,8 @@ impl Script {
     /// # Errors
     /// [`ScriptError`] names file, line, event and reason. Refused are: text that is not RON or not of the format's
     /// form; another version; an unknown field; ticks that don't begin at 1 or later, or don't ascend; channels outside
-    /// -128 to 128; coordinates beyond [`MAX_COORDINATE`](motion_lab_core::geometry::MAX_COORDINATE); more than [`MAX_EVENTS`]
-    /// events.
+    /// -128 to 128; coordinates beyond [`MAX_COORDINATE`](motion_lab_core::geometry::MAX_COORDINATE); more than
+    /// [`MAX_EVENTS`] events.
     ///
     /// ```
     /// use motion_lab_sim::run::Script;

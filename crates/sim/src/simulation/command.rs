@@ -7,10 +7,10 @@ use super::obstacles::roster::sync_added;
 use super::obstacles::start::settle_start;
 use super::transport::re_rolled;
 use super::{
-    CommandError, CommandRefused, History, Keyframes, PendingInput, Playback, RobotCommand, Roster, RunConfig,
-    SpawnError, Transport, TransportCommand, seek, start_run_in_order, step, undo,
+    CommandError, CommandRefused, History, Keyframes, PendingInput, Playback, RobotCommand, Roster, SpawnError,
+    Transport, TransportCommand, recipe, seek, start_recipe, step, undo,
 };
-use crate::run::{Event, Script, WorldChange, WorldEvent};
+use crate::run::{Event, Recipe, Script, WorldChange, WorldEvent};
 use motion_lab_core::random::Seed;
 
 /// A command to the run, as a message. Commands are carried out in the order in which they were written, before the
@@ -84,13 +84,13 @@ pub(super) fn report_changes(mut refused: ResMut<RefusedChanges>, mut messages: 
 /// script.
 fn change(world: &mut World, WorldCommand { world: name, change }: WorldCommand) -> Result<(), CommandError> {
     let Transport { tick, frontier, looping, .. } = *world.resource::<Transport>();
-    let Some(RunConfig(config)) = world.get_resource::<RunConfig>().cloned() else { return Ok(()) };
+    let Some(now) = recipe(world) else { return Ok(()) };
     let event = WorldEvent { tick: tick + 1, world: name, change };
     let mut changes = world.resource::<PendingInput>().script().changes.clone();
     changes.retain(|c| c.tick <= event.tick);
     changes.push(event.clone());
     let script = Script::new(Vec::new(), changes);
-    script.check().and_then(|()| script.check_worlds(&config.worlds))?;
+    script.check().and_then(|()| script.check_worlds(&now.config.worlds))?;
     if let Some(refused) = refusal(world, &event) {
         return Err(CommandError::Change(refused));
     }
@@ -135,11 +135,10 @@ fn continue_from_here(world: &mut World) {
 
 /// Starts a new run of the present configuration. Playback, speed and looping stay.
 fn restart(world: &mut World, seed: Seed) -> Result<(), SpawnError> {
-    let Some(RunConfig(config)) = world.get_resource::<RunConfig>().cloned() else { return Ok(()) };
+    let Some(now) = recipe(world) else { return Ok(()) };
     undo::checkpoint_before_new_run(world);
     let Transport { playback, speed, looping, .. } = *world.resource::<Transport>();
-    let order: Vec<usize> = (0..config.worlds.iter().map(|w| w.robots.len()).sum()).collect();
-    start_run_in_order(world, config, (seed, Script::empty()).into(), &order)?;
+    start_recipe(world, Recipe { seed, script: Script::empty(), ..now })?;
     let mut transport = world.resource_mut::<Transport>();
     *transport = Transport { playback, speed, looping, ..*transport };
     Ok(())

@@ -5,7 +5,7 @@
 //! - The state after a tick is a [`Frame`](crate::run::Frame): [`snapshot`] takes it, [`restore`] puts it back.
 //! - A window reads [`view`], [`Transport`] and [`LatestFrame`], and sends [`RunCommand`]s.
 //! - [`headless_app`] is an app without a window; [`ContactBegan`] and [`ContactEnded`] are for observers. The guide's
-//!   chapter is [`guide::bevy_app`](crate::guide::bevy_app).
+//!   chapter is `motion_lab::guide::bevy_app`.
 
 mod command;
 mod command_error;
@@ -61,7 +61,7 @@ pub use sensors::refusal::{SensorRefusal, SensorRefused};
 pub use sensors::roster::SensorRoster;
 pub use sensors::start::take_sensors_at_start;
 pub use sensors::view::{SensorView, sensors, sensors_of};
-pub use spawn::{RunConfig, RunInput, start_run};
+pub use spawn::{RunConfig, is_under_way, recipe, start_recipe, start_run};
 pub use spawn_error::SpawnError;
 pub use state::{restore, snapshot};
 pub use tick::hold::{Advance, HOLD_CLEARANCE, LEAST_CLEARANCE, MARGIN, advance, margin_from};
@@ -74,4 +74,5 @@ pub use undo::{Undo, checkpoint, undoes};
 /// Bevy's app, for a program that adds robots of its own and does not otherwise use Bevy.
 pub use bevy::app::App;
 
+#[cfg(test)]
 use spawn::start_run_in_order;

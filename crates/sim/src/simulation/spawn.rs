@@ -11,43 +11,28 @@ use super::{
     History, Keyframes, LatestFrame, PendingInput, Refusals, RobotId, RobotKinds, Roster, SceneRevision,
     SimulatedWorld, SpawnError, StandingWorld, Transport, WorldScene, sensors, state, tick,
 };
-use crate::run::Script;
-use crate::tour::{BOOK_SEED, RouteTours, TourConfig};
+use crate::run::{Recipe, RunInput};
+use crate::tour::{RouteTours, TourConfig};
 use motion_lab_core::collision::Scene;
-use motion_lab_core::random::Seed;
 use motion_lab_core::worlds::{Resident, World as WorldModel};
-
-/// The input of a run beside its configuration: a seed, a script, or both.
-#[derive(Clone, Debug, PartialEq)]
-pub struct RunInput {
-    /// The seed.
-    pub seed: Seed,
-    /// The script.
-    pub script: Script,
-}
-
-impl From<Seed> for RunInput {
-    fn from(seed: Seed) -> Self {
-        RunInput { seed, script: Script::empty() }
-    }
-}
-
-impl From<(Seed, Script)> for RunInput {
-    fn from((seed, script): (Seed, Script)) -> Self {
-        RunInput { seed, script }
-    }
-}
-
-/// A script alone runs at the book's seed.
-impl From<Script> for RunInput {
-    fn from(script: Script) -> Self {
-        RunInput { seed: BOOK_SEED, script }
-    }
-}
 
 /// The configuration of the run under way.
 #[derive(Resource, Clone, Debug)]
 pub struct RunConfig(pub Arc<TourConfig>);
+
+/// The recipe of the run under way, its script as far as it is known; `None` before the first run.
+pub fn recipe(world: &World) -> Option<Recipe> {
+    let config = Arc::clone(&world.get_resource::<RunConfig>()?.0);
+    let script = world.resource::<PendingInput>().script().clone();
+    Some(Recipe { seed: world.resource::<Transport>().seed, config, script })
+}
+
+/// Whether the run under way is that of a recipe: the very same configuration, seed and script.
+pub fn is_under_way(world: &World, recipe: &Recipe) -> bool {
+    world.get_resource::<RunConfig>().is_some_and(|config| Arc::ptr_eq(&config.0, &recipe.config))
+        && world.resource::<Transport>().seed == recipe.seed
+        && *world.resource::<PendingInput>().script() == recipe.script
+}
 
 fn spawn_world(world: &mut World, index: u32, model: &WorldModel) -> Entity {
     let (scene, model) = (WorldScene(Arc::new(Scene::of_world(model))), Arc::new(model.clone()));
@@ -60,25 +45,33 @@ fn spawn_world(world: &mut World, index: u32, model: &WorldModel) -> Entity {
 ///
 /// # Errors
 /// [`SpawnError`] names the robot, script event or sensor that cannot be; the run under way then goes on.
-pub fn start_run(world: &mut World, config: TourConfig, input: impl Into<RunInput>) -> Result<(), SpawnError> {
-    let count = config.worlds.iter().map(|w| w.robots.len()).sum();
-    start_run_in_order(world, Arc::new(config), input.into(), &(0..count).collect::<Vec<_>>())
+pub fn start_run(
+    world: &mut World,
+    config: impl Into<Arc<TourConfig>>,
+    input: impl Into<RunInput>,
+) -> Result<(), SpawnError> {
+    start_recipe(world, Recipe::new(config, input))
+}
+
+/// [`start_run`] by a recipe.
+///
+/// # Errors
+/// As [`start_run`].
+pub fn start_recipe(world: &mut World, recipe: Recipe) -> Result<(), SpawnError> {
+    let count = recipe.config.worlds.iter().map(|w| w.robots.len()).sum();
+    start_run_in_order(world, recipe, &(0..count).collect::<Vec<_>>())
 }
 
 /// [`start_run`] with the robots spawned in this order of their ids, which changes nothing.
-pub(super) fn start_run_in_order(
-    world: &mut World,
-    config: Arc<TourConfig>,
-    input: RunInput,
-    order: &[usize],
-) -> Result<(), SpawnError> {
+pub(super) fn start_run_in_order(world: &mut World, recipe: Recipe, order: &[usize]) -> Result<(), SpawnError> {
+    let Recipe { seed, config, script } = recipe;
     let residents: Vec<(usize, &Resident)> =
         config.worlds.iter().enumerate().flat_map(|(i, w)| w.robots.iter().map(move |r| (i, r))).collect();
     config.validate()?;
-    input.script.check()?;
-    input.script.check_robots(&config.robot_names().collect::<Vec<_>>())?;
-    input.script.check_worlds(&config.worlds)?;
-    let routes: Vec<RouteTours> = config.worlds.iter().map(|w| routes(w, input.seed)).collect::<Result<_, _>>()?;
+    script.check()?;
+    script.check_robots(&config.robot_names().collect::<Vec<_>>())?;
+    script.check_worlds(&config.worlds)?;
+    let routes: Vec<RouteTours> = config.worlds.iter().map(|w| routes(w, seed)).collect::<Result<_, _>>()?;
     let worlds: Vec<Entity> =
         config.worlds.iter().enumerate().map(|(i, model)| spawn_world(world, i as u32, model)).collect();
     let mut spawned: Vec<(RobotId, Entity)> = Vec::new();
@@ -88,7 +81,7 @@ pub(super) fn start_run_in_order(
         let id = RobotId(i as u32);
         let about = world.get_resource::<RobotKinds>().and_then(|k| k.about(&resident.kind));
         let request = SpawnRequest {
-            seed: input.seed,
+            seed,
             id,
             world: worlds[w],
             model,
@@ -127,11 +120,11 @@ pub(super) fn start_run_in_order(
     });
     world.insert_resource(roster);
     roster::begin(world, grounds);
-    roster::sync_added(world, &input.script.changes);
+    roster::sync_added(world, &script.changes);
     world.insert_resource(Crowds::new(config.worlds.iter().map(|w| w.robots.len())));
     world.insert_resource(RunConfig(config));
-    world.insert_resource(Transport::new(input.seed));
-    world.insert_resource(PendingInput::new(input.script));
+    world.insert_resource(Transport::new(seed));
+    world.insert_resource(PendingInput::new(script));
     world.insert_resource(Keyframes::default());
     world.insert_resource(Refusals::default());
     world.insert_resource(LatestFrame::default());

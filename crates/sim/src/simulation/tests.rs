@@ -1,18 +1,16 @@
 //! Tests that need the module's private items.
 
-use std::sync::Arc;
-
 use bevy::prelude::*;
 
 use super::{LatestFrame, SimulationPlugin, SimulationSchedule, start_run, start_run_in_order, step};
-use crate::run::{Event, Frame, RobotInput, Script};
+use crate::run::{Event, Frame, Recipe, RobotInput, Script};
 use crate::tour::TourConfig;
 use motion_lab_core::geometry::{Aabb, Point2};
 use motion_lab_core::random::{Seed, Stream};
 use motion_lab_core::worlds::{Resident, World as WorldModel};
 
 /// Seven robots of three kinds, close together in an open world, all driven at once.
-fn crowd() -> (Arc<TourConfig>, Script) {
+fn crowd() -> Recipe {
     let resident = |name: &str, kind: &str, start: &[f64]| Resident::new(name, kind, start);
     let robots = vec![
         resident("a", "rusty", &[0.3, 0.3, 0.0]),
@@ -42,7 +40,8 @@ fn crowd() -> (Arc<TourConfig>, Script) {
         marks: vec![],
         robots,
     };
-    (Arc::new(TourConfig { worlds: vec![world], ticks: 120, sensor: None }), Script { events, ..Script::empty() })
+    let config = TourConfig { worlds: vec![world], ticks: 120, sensor: None };
+    Recipe::new(config, (Seed(3), Script { events, ..Script::empty() }))
 }
 
 fn run(order: &[usize]) -> Vec<Frame> {
@@ -52,8 +51,7 @@ fn run(order: &[usize]) -> Vec<Frame> {
 }
 
 fn run_in(app: &mut App, order: &[usize]) -> Vec<Frame> {
-    let (config, script) = crowd();
-    start_run_in_order(app.world_mut(), config, (Seed(3), script).into(), order).unwrap();
+    start_run_in_order(app.world_mut(), crowd(), order).unwrap();
     (0..120)
         .map(|_| {
             step(app.world_mut());

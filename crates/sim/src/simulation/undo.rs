@@ -6,56 +6,41 @@ use bevy::prelude::*;
 
 use super::obstacles::roster::sync_added;
 use super::{
-    CommandError, History, Keyframes, PendingInput, Playback, RunConfig, Transport, restore, seek, start_run_in_order,
+    CommandError, History, Keyframes, PendingInput, Playback, RunConfig, Transport, is_under_way, recipe, restore,
+    seek, start_recipe,
 };
-use crate::run::Script;
-use crate::tour::TourConfig;
-use motion_lab_core::random::Seed;
+use crate::run::{Recipe, Script};
 
-/// Largest number of versions kept.
-const MOST: usize = 200;
+/// Largest number of checkpoints.
+const MAX_CHECKPOINTS: usize = 200;
 
-/// A run's input, and the tick at which the run stood.
+/// A run, and the tick at which it stood.
 #[derive(Clone, Debug)]
-struct Version {
-    config: Arc<TourConfig>,
-    seed: Seed,
-    script: Script,
+struct Checkpoint {
+    recipe: Recipe,
     tick: u64,
     frontier: u64,
     /// Whether a new run began after it, which is a step even with the same input.
     ends: bool,
 }
 
-impl Version {
+impl Checkpoint {
     fn of(world: &World) -> Option<Self> {
-        let Transport { seed, tick, frontier, .. } = *world.resource::<Transport>();
-        let config = Arc::clone(&world.get_resource::<RunConfig>()?.0);
-        Some(Version {
-            config,
-            seed,
-            script: world.resource::<PendingInput>().script().clone(),
-            tick,
-            frontier,
-            ends: false,
-        })
+        let Transport { tick, frontier, .. } = *world.resource::<Transport>();
+        Some(Checkpoint { recipe: recipe(world)?, tick, frontier, ends: false })
     }
 
-    /// Whether both have the same input, at whatever tick. `false` if a new run began after `self`.
-    fn is(&self, other: &Version) -> bool {
-        self.has(&other.config, other.seed, &other.script)
-    }
-
-    fn has(&self, config: &Arc<TourConfig>, seed: Seed, script: &Script) -> bool {
-        !self.ends && Arc::ptr_eq(&self.config, config) && self.seed == seed && self.script == *script
+    /// Whether the run under way has the same input, at whatever tick. `false` if a new run began after `self`.
+    fn is_now(&self, world: &World) -> bool {
+        !self.ends && is_under_way(world, &self.recipe)
     }
 }
 
-/// Earlier versions of the run's input, for undo, and undone ones, for redo. Playing on adds none.
+/// Earlier inputs of the run, for undo, and undone ones, for redo. Playing on adds none.
 #[derive(Resource, Clone, Debug, Default)]
 pub struct Undo {
-    past: Vec<Version>,
-    future: Vec<Version>,
+    past: Vec<Checkpoint>,
+    future: Vec<Checkpoint>,
 }
 
 impl Undo {
@@ -72,11 +57,8 @@ impl Undo {
 
 /// Whether an undo changes the run: whether a change followed a checkpoint.
 pub fn undoes(world: &World) -> bool {
-    let (Some(config), Some(past)) = (world.get_resource::<RunConfig>(), world.get_resource::<Undo>()) else {
-        return false;
-    };
-    let (seed, script) = (world.resource::<Transport>().seed, world.resource::<PendingInput>().script());
-    !past.past.iter().rev().all(|version| version.has(&config.0, seed, script))
+    let Some(undo) = world.get_resource::<Undo>() else { return false };
+    !undo.past.iter().rev().all(|checkpoint| checkpoint.is_now(world))
 }
 
 /// Remembers the present input before a change: what follows, up to the next checkpoint, is undone as one.
@@ -90,15 +72,16 @@ pub(super) fn checkpoint_before_new_run(world: &mut World) {
 }
 
 fn push(world: &mut World, ends: bool) {
-    let Some(now) = Version::of(world).map(|version| Version { ends, ..version }) else { return };
+    let Some(now) = Checkpoint::of(world).map(|now| Checkpoint { ends, ..now }) else { return };
+    let changed_nothing = world.resource::<Undo>().past.last().is_some_and(|last| last.is_now(world));
     let mut undo = world.resource_mut::<Undo>();
     undo.future.clear();
-    // a gesture that changed nothing leaves no version, only the later tick
-    if undo.past.last().is_some_and(|last| last.is(&now)) {
+    // a gesture that changed nothing leaves none, only the later tick
+    if changed_nothing {
         undo.past.pop();
     }
     undo.past.push(now);
-    if undo.past.len() > MOST {
+    if undo.past.len() > MAX_CHECKPOINTS {
         undo.past.remove(0);
     }
 }
@@ -106,7 +89,7 @@ fn push(world: &mut World, ends: bool) {
 /// Restores the input and the tick of the last checkpoint that a change followed. The run is paused.
 ///
 /// # Errors
-/// [`CommandError`] when a start or a seek is refused. It does not occur for a version that has run.
+/// [`CommandError`] when a start or a seek is refused. It does not occur for a run that has run before.
 pub(super) fn undo(world: &mut World) -> Result<(), CommandError> {
     travel(world, |undo| &mut undo.past, |undo| &mut undo.future)
 }
@@ -121,29 +104,30 @@ pub(super) fn redo(world: &mut World) -> Result<(), CommandError> {
 
 fn travel(
     world: &mut World,
-    from: fn(&mut Undo) -> &mut Vec<Version>,
-    to: fn(&mut Undo) -> &mut Vec<Version>,
+    from: fn(&mut Undo) -> &mut Vec<Checkpoint>,
+    to: fn(&mut Undo) -> &mut Vec<Checkpoint>,
 ) -> Result<(), CommandError> {
-    let Some(now) = Version::of(world) else { return Ok(()) };
+    let Some(now) = Checkpoint::of(world) else { return Ok(()) };
     loop {
-        let Some(version) = from(&mut world.resource_mut::<Undo>()).pop() else { return Ok(()) };
-        if !version.is(&now) {
-            to(&mut world.resource_mut::<Undo>()).push(Version { ends: version.ends, ..now });
-            return apply(world, version);
+        let Some(then) = from(&mut world.resource_mut::<Undo>()).pop() else { return Ok(()) };
+        if !then.is_now(world) {
+            to(&mut world.resource_mut::<Undo>()).push(Checkpoint { ends: then.ends, ..now });
+            return apply(world, then);
         }
     }
 }
 
-fn apply(world: &mut World, version: Version) -> Result<(), CommandError> {
-    let Version { config, seed, script, tick, frontier, .. } = version;
+fn apply(world: &mut World, then: Checkpoint) -> Result<(), CommandError> {
+    let Checkpoint { recipe, tick, frontier, .. } = then;
     let Transport { seed: present, speed, looping, .. } = *world.resource::<Transport>();
-    let same_run = world.get_resource::<RunConfig>().is_some_and(|c| Arc::ptr_eq(&c.0, &config)) && seed == present;
+    let same_run =
+        world.get_resource::<RunConfig>().is_some_and(|c| Arc::ptr_eq(&c.0, &recipe.config)) && recipe.seed == present;
     if same_run {
         // the run is the same up to the tick where the scripts differ
-        let shared = shared_ticks(world.resource::<PendingInput>().script(), &script);
+        let shared = shared_ticks(world.resource::<PendingInput>().script(), &recipe.script);
         let keep = if shared < tick { shared } else { tick };
-        sync_added(world, &script.changes);
-        world.insert_resource(PendingInput::new(script));
+        sync_added(world, &recipe.script.changes);
+        world.insert_resource(PendingInput::new(recipe.script));
         world.resource_mut::<Keyframes>().truncate_after(shared);
         if let Some(mut history) = world.get_resource_mut::<History>() {
             history.truncate_after(shared);
@@ -153,9 +137,7 @@ fn apply(world: &mut World, version: Version) -> Result<(), CommandError> {
             restore(world, &frame)?;
         }
     } else {
-        let count = config.worlds.iter().map(|w| w.robots.len()).sum();
-        let order: Vec<usize> = (0..count).collect();
-        start_run_in_order(world, config, (seed, script).into(), &order)?;
+        start_recipe(world, recipe)?;
     }
     // first to the frontier, so that the history ahead is known; then back to the tick
     for to in [frontier, tick] {
@@ -184,7 +166,8 @@ mod tests {
         HistoryPlugin, LatestFrame, RobotCommand, RunCommand, SimulationPlugin, TransportCommand, snapshot, start_run,
         step,
     };
-    use crate::tour::BOOK_SEED;
+    use crate::tour::{BOOK_SEED, TourConfig};
+    use motion_lab_core::random::Seed;
 
     fn app() -> App {
         let mut app = App::new();

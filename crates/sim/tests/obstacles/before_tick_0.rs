@@ -82,7 +82,7 @@ fn what_observers_spawn_and_move_as_the_run_starts_is_met() {
         config.worlds[0].obstacles.retain(|o| !removes || o.name != "A's bed");
         let bar = Obstacle::new("bar 1", ObstacleKind::Wall, bar("bar 1", 5.3).pieces);
         config.worlds[0].obstacles.extend(spawns.then_some(bar));
-        Run::record(config, Seed(2005)).unwrap().frames
+        Run::record(config, Seed(2005)).unwrap().into_frames()
     };
     for (spawns, removes) in [(true, false), (false, true), (true, true)] {
         assert!(observed(spawns, removes) == expected(spawns, removes), "{spawns} {removes}");
@@ -125,12 +125,12 @@ fn what_is_spawned_moved_and_removed_is_what_robots_meet() {
             },
             400,
         );
-        assert_eq!(found, expected.frames);
+        assert_eq!(found, expected.frames());
         assert!(found.iter().all(|f| y(f) > 5.6), "held above the upper bar");
         let config = world.resource::<RunConfig>().0.clone();
-        assert_eq!(config.worlds, expected.config.worlds, "and the run's own configuration says so");
+        assert_eq!(config.worlds, expected.recipe.config.worlds, "and the run's own configuration says so");
     }
-    assert!(recorded(|_| {}, 400).frames.iter().any(|f| y(f) < 5.3), "without the bars it drives on");
+    assert!(recorded(|_| {}, 400).frames().iter().any(|f| y(f) < 5.3), "without the bars it drives on");
 }
 
 #[test]
@@ -149,7 +149,7 @@ fn what_no_world_could_have_is_left_out_aloud() {
         let shape = ObstacleShape { name: name.into(), kind: ObstacleKind::Solid, pieces };
         world.spawn((shape, ObstacleOf(apartment)));
     }
-    assert_eq!(frames(world, 10), recorded(|_| {}, 10).frames);
+    assert_eq!(frames(world, 10), recorded(|_| {}, 10).frames());
     let refused = world.resource_mut::<bevy::prelude::Messages<CommandRefused>>().drain().count();
     assert_eq!(refused, 5);
 }
@@ -165,7 +165,7 @@ fn in_a_run_a_change_from_outside_has_no_effect_and_is_refused_aloud() {
     let door = find(world, DOOR);
     world.entity_mut(door).insert(Placement::default());
     found.extend(frames(world, 40));
-    assert_eq!(found, recorded(|_| {}, 60).frames);
+    assert_eq!(found, recorded(|_| {}, 60).frames());
     let refused: Vec<String> = world
         .resource_mut::<bevy::prelude::Messages<CommandRefused>>()
         .drain()

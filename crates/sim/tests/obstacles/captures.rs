@@ -53,7 +53,7 @@ fn workspace_and_configuration_space_are_those_of_the_world_as_it_stands() {
     let mut spaces: Vec<Panel> = Vec::new();
     for tick in [1, 2, 5, 7, 9] {
         // the same by hand: the robot where it is, in the world that a file would hold
-        let frames = std::iter::once(&log.initial).chain(&log.frames).take(tick as usize + 1);
+        let frames = std::iter::once(log.initial().unwrap()).chain(log.frames()).take(tick as usize + 1);
         let place = |frame: &Frame| AnyRobot::of_kind("rusty", &frame.robots[0].configuration).unwrap();
         let trace: Vec<_> = frames.map(place).collect();
         let (robot, q) = *trace.last().unwrap();

@@ -55,7 +55,7 @@ fn a_door_closed_by_hand_is_in_the_script_the_log_and_the_undo() {
     assert!(y(&last) > 4.86);
     // a run from the script alone, its log as a file, read and simulated again
     let log = Run::record(apartment(600), (Seed(2005), script(&app))).unwrap();
-    assert_eq!(log.frames[599], last);
+    assert_eq!(log.frames()[599], last);
     let mut file = Vec::new();
     log.write_mcap(&mut file).unwrap();
     let read: ReadLog = Log::read_mcap(&file).unwrap();
@@ -67,7 +67,7 @@ fn a_door_closed_by_hand_is_in_the_script_the_log_and_the_undo() {
     assert_eq!(script(&app), Script::empty());
     run_to(&mut app, 600);
     let free = Run::record(apartment(600), Seed(2005)).unwrap();
-    assert_eq!(frame(&app), free.frames[599]);
+    assert_eq!(frame(&app), free.frames()[599]);
     app.world_mut().write_message(RunCommand::from(TransportCommand::Redo));
     app.update();
     seek(app.world_mut(), 600).unwrap();
@@ -108,13 +108,13 @@ fn what_is_added_is_numbered_as_the_script_has_it_whatever_was_undone() {
     send(&mut app, post("three", 7.5));
     run_to(&mut app, 20);
     let log = Run::record(apartment(600), (Seed(2005), script(&app))).unwrap();
-    assert_eq!(frame(&app), log.frames[19]);
+    assert_eq!(frame(&app), log.frames()[19]);
     let first = (World::apartment().obstacles.len() + World::apartment().doors.len()) as u32;
     assert_eq!(frame(&app).obstacles.iter().map(|o| o.obstacle).collect::<Vec<_>>(), [first, first + 1]);
     // a name that is taken is refused, and nothing else happens
     send(&mut app, post("three", 4.2));
     assert_eq!(refused(&mut app), ["the name \"three\" is taken in world \"Apartment\""]);
-    assert_eq!(frame(&app), log.frames[19]);
+    assert_eq!(frame(&app), log.frames()[19]);
 }
 
 #[test]

@@ -47,5 +47,5 @@ pub fn y(frame: &Frame) -> f64 {
 
 /// The tick at which Rusty's centre is first below the door's line; `None` if it never is.
 pub fn passes(log: &Log) -> Option<u64> {
-    log.frames.iter().find(|frame| y(frame) < 4.75).map(|frame| frame.tick)
+    log.frames().iter().find(|frame| y(frame) < 4.75).map(|frame| frame.tick)
 }

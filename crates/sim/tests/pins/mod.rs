@@ -5,10 +5,11 @@
 //! of every user stops verifying. So the change needs a reason in the issue that asks for it, and a line in CHANGELOG,
 //! under "Digests", that names the run, the new digest and why.
 //!
-//! **The run digest** ([`motion_lab_sim::run::RunDigest`]) covers the frames, and the seed, the configuration, the worlds'
-//! content and the script's text with them. It may change without the frames' digest only when the data hashed before
-//! the frames changes: the print of a world or a script, or the header. Logs recorded before then still replay to the
-//! same frames, but their digests, links and saved pages no longer compare. This needs the same line in CHANGELOG.
+//! **The run digest** ([`motion_lab_sim::run::RunDigest`]) covers the frames, and the seed, the configuration, the
+//! worlds' content and the script's text with them. It may change without the frames' digest only when the data hashed
+//! before the frames changes: the print of a world or a script, or the header. Logs recorded before then still replay
+//! to the same frames, but their digests, links and saved pages no longer compare. This needs the same line in
+//! CHANGELOG.
 //!
 //! No digest here may be replaced to make a test pass.
 
@@ -18,7 +19,7 @@ use bevy::app::App;
 use motion_lab_core::prelude::*;
 use motion_lab_core::sensors::RangeSensor;
 use motion_lab_sim::recording::{Recorder, Run};
-use motion_lab_sim::run::{Digest, Frame, Log, RobotInput, Script};
+use motion_lab_sim::run::{Digest, Frame, Log, Recipe, RobotInput, Script};
 use motion_lab_sim::simulation::{
     LatestFrame, PendingInput, RobotCommand, RunCommand, SimulationPlugin, TransportCommand, start_run,
 };
@@ -42,7 +43,7 @@ const PINS: [Pin; 6] = [
 /// The digest of the frames alone, the initial one first: xxh3-128 of their canonical encodings one after the other.
 fn frames_digest(log: &Log) -> Digest {
     let mut bytes = Vec::new();
-    for frame in std::iter::once(&log.initial).chain(&log.frames) {
+    for frame in std::iter::once(log.initial().unwrap()).chain(log.frames()) {
         frame.encode(&mut bytes);
     }
     Digest(xxh3_128(&bytes))
@@ -139,8 +140,7 @@ fn branched() -> Log {
     steps(&mut app, &mut frames, 220);
     assert_ne!(frames[159], abandoned[59], "the branch goes elsewhere");
     let script = app.world().resource::<PendingInput>().script().clone();
-    let digests = frames.iter().map(Frame::digest).collect();
-    Log { seed: Seed(100), config, script, initial, frames, digests }
+    Log::with_frames(Recipe::new(config, (Seed(100), script)), initial, frames)
 }
 
 #[test]
@@ -148,7 +148,7 @@ fn six_runs_give_the_pinned_digests() {
     let mut wrong = Vec::new();
     for (name, run, frames, whole) in PINS {
         let log = run();
-        let found = (frames_digest(&log).to_string(), log.digest().to_string());
+        let found = (frames_digest(&log).to_string(), log.digest().unwrap().to_string());
         if (found.0.as_str(), found.1.as_str()) != (frames, whole) {
             wrong.push(format!("{name}: frames {}, run {}", found.0, found.1));
         }
@@ -171,17 +171,17 @@ fn the_changelog_names_every_pinned_digest() {
 fn between_them_the_six_runs_use_everything() {
     let [tour, driving, eight, noisy, trailer, branched] = PINS.map(|(_, run, ..)| run());
     let any = |log: &Log, happens: fn(&motion_lab_sim::run::RobotState) -> bool| {
-        log.frames.iter().flat_map(|f| &f.robots).any(happens)
+        log.frames().iter().flat_map(|f| &f.robots).any(happens)
     };
     assert!(!any(&tour, |r| r.manual) && any(&tour, |r| r.in_contact) && any(&tour, |r| r.flash > 0));
     assert!(any(&driving, |r| r.manual) && any(&driving, |r| r.refusals > 0) && any(&driving, |r| r.in_contact));
-    let released = |i: usize| driving.frames.windows(2).any(|w| w[0].robots[i].manual && !w[1].robots[i].manual);
+    let released = |i: usize| driving.frames().windows(2).any(|w| w[0].robots[i].manual && !w[1].robots[i].manual);
     assert!((0..3).any(released), "somebody is given back");
 
-    let last = eight.frames.last().unwrap();
+    let last = eight.frames().last().unwrap();
     assert_eq!((last.robots.len(), last.scans.len()), (8, 4), "every rover scans");
     for (resident, (before, after)) in
-        eight.config.worlds[0].robots.iter().zip(eight.initial.robots.iter().zip(&last.robots))
+        eight.recipe.config.worlds[0].robots.iter().zip(eight.initial().unwrap().robots.iter().zip(&last.robots))
     {
         assert_ne!(before.configuration, after.configuration, "{} moves", resident.name);
         assert!(after.contacts > 0 || resident.kind == "rusty", "{} meets something", resident.name);
@@ -189,27 +189,34 @@ fn between_them_the_six_runs_use_everything() {
     assert!(last.robots.iter().filter(|r| r.contacts > 0).count() >= 6, "nearly everybody meets something");
 
     let ranges = |f: &Frame| f.scans[0].ranges.clone();
-    let exact =
-        Run::record(TourConfig { worlds: vec![World::apartment()], ..noisy.config.clone() }, noisy.seed).unwrap();
-    assert!(noisy.frames.iter().zip(&exact.frames).all(|(n, e)| n.robots == e.robots && ranges(n) != ranges(e)));
+    let exact = Run::record(
+        TourConfig { worlds: vec![World::apartment()], ..TourConfig::clone(&noisy.recipe.config) },
+        noisy.recipe.seed,
+    )
+    .unwrap();
+    assert!(noisy.frames().iter().zip(exact.frames()).all(|(n, e)| n.robots == e.robots && ranges(n) != ranges(e)));
 
     let hitch = |f: &Frame| f.robots[2].configuration.len();
-    assert_eq!([4, 5, 139, 140].map(|tick: usize| hitch(&trailer.frames[tick - 1])), [3, 4, 4, 3]);
+    assert_eq!([4, 5, 139, 140].map(|tick: usize| hitch(&trailer.frames()[tick - 1])), [3, 4, 4, 3]);
     let jump = |robot: usize| {
-        let [a, b] = [98, 99].map(|i| trailer.frames[i].robots[robot].configuration.clone());
+        let [a, b] = [98, 99].map(|i| trailer.frames()[i].robots[robot].configuration.clone());
         a.iter().zip(&b).any(|(a, b)| (a - b).abs() > 0.3)
     };
     assert!((0..3).all(jump), "all three are put elsewhere at tick 100");
-    assert!(trailer.frames.last().unwrap().robots.iter().all(|r| r.refusals == 0));
+    assert!(trailer.frames().last().unwrap().robots.iter().all(|r| r.refusals == 0));
 
     // the branch is the run of its script, and so is a run continued from its frame at tick 100
-    let input = (branched.seed, branched.script.clone());
-    assert_eq!(Run::record(branched.config.clone(), input.clone()).unwrap(), branched);
-    let mut run = Recorder::new(branched.config.clone(), input).unwrap();
+    let input = (branched.recipe.seed, branched.recipe.script.clone());
+    assert_eq!(Run::record(branched.recipe.config.clone(), input.clone()).unwrap(), branched);
+    let mut run = Recorder::new(branched.recipe.config.clone(), input).unwrap();
     run.seek(160).unwrap();
-    run.restore(&branched.frames[99]).unwrap();
-    assert!(branched.frames[100..].iter().all(|f| run.step() == f));
-    assert!(branched.script.events.iter().all(|e| [41, 91, 101].contains(&e.tick)), "{:?}", branched.script);
+    run.restore(&branched.frames()[99]).unwrap();
+    assert!(branched.frames()[100..].iter().all(|f| run.step() == f));
+    assert!(
+        branched.recipe.script.events.iter().all(|e| [41, 91, 101].contains(&e.tick)),
+        "{:?}",
+        branched.recipe.script
+    );
 }
 
 /// Both digests change with one unit in the last place, and with the sign of a zero, anywhere in a run.
@@ -220,16 +227,16 @@ fn a_change_of_one_bit_anywhere_changes_both_digests() {
     let mut tried = 0;
     for tick in 0..3 {
         for robot in 0..3 {
-            for i in 0..log.frames[tick].robots[robot].configuration.len() {
+            for i in 0..log.frames()[tick].robots[robot].configuration.len() {
                 let mut changed = log.clone();
-                let x = &mut changed.frames[tick].robots[robot].configuration[i];
+                let x = &mut changed.frames_mut()[tick].robots[robot].configuration[i];
                 *x = if *x == 0.0 { -0.0 } else { f64::from_bits(x.to_bits() + 1) };
                 assert!(frames_digest(&changed) != frames && changed.digest() != whole, "{tick} {robot} {i}");
                 tried += 1;
             }
         }
         let mut changed = log.clone();
-        let range = &mut changed.frames[tick].scans[0].ranges_mut()[17];
+        let range = &mut changed.frames_mut()[tick].scans[0].ranges_mut()[17];
         *range = f64::from_bits(range.to_bits() - 1);
         assert!(frames_digest(&changed) != frames && changed.digest() != whole, "a ray at {tick}");
     }

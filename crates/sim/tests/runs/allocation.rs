@@ -104,15 +104,15 @@ fn the_numbers_of_a_thing_cost_nothing_of_the_rest_of_the_world() {
 #[test]
 fn logging_a_tick_does_not_allocate() {
     use motion_lab_sim::recording::Run;
-    use motion_lab_sim::run::{LogWriter, Script};
+    use motion_lab_sim::run::{LogKind, LogWriter};
     use motion_lab_sim::tour::{BOOK_SEED, TourConfig};
 
     let config = TourConfig { ticks: 40, ..TourConfig::default() };
-    let log = Run::record(config.clone(), BOOK_SEED).unwrap();
-    let mut writer = LogWriter::new(std::io::sink(), BOOK_SEED, &config, &Script::empty(), &log.initial).unwrap();
-    let (first, rest) = log.frames.split_at(5);
-    first.iter().for_each(|frame| _ = writer.tick(frame).unwrap());
-    let counted = allocations(|| rest.iter().for_each(|frame| _ = std::hint::black_box(writer.tick(frame).unwrap())));
+    let log = Run::record(config, BOOK_SEED).unwrap();
+    let mut writer = LogWriter::new(std::io::sink(), &log.recipe, LogKind::Frames, log.initial().unwrap()).unwrap();
+    let (first, rest) = log.frames().split_at(5);
+    first.iter().for_each(|frame| writer.tick(frame).unwrap());
+    let counted = allocations(|| rest.iter().for_each(|frame| writer.tick(std::hint::black_box(frame)).unwrap()));
     assert_eq!(counted, 0, "of {} ticks", rest.len());
 }
 

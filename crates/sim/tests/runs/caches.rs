@@ -21,7 +21,7 @@ const FULL: f64 = 0.075;
 /// The frames of ticks 1 to `ticks`; the frame of tick k is at index k - 1.
 fn frames(world: World, events: Vec<Event>, ticks: u64) -> Vec<Frame> {
     let config = TourConfig { worlds: vec![world], ticks, sensor: None };
-    Run::record(config, (Seed(1), script(events))).unwrap().frames
+    Run::record(config, (Seed(1), script(events))).unwrap().into_frames()
 }
 
 /// A held car with an unchanged control keeps its last answer, unless another robot may change it.
@@ -82,7 +82,7 @@ fn robots_of_one_type_keep_the_dimensions_of_their_kinds() {
             RobotPlugin::new("x-longer", Hitch { wheelbase: 4.0, max_steer: 0.3, ..HITCH }),
         ));
     });
-    let last = log.unwrap().frames.remove(39);
+    let last = log.unwrap().into_frames().remove(39);
     let expected = [(1.5, 0.6, 2.5), (1.0, 0.6, 5.0), (1.5, 0.3, 4.0), (1.5, 0.6, 2.5)];
     for (robot, (v, phi, wheelbase)) in last.robots.iter().zip(expected) {
         let turned = 2.0 * v * tan(phi) / wheelbase;

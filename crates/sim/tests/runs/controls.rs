@@ -77,7 +77,7 @@ fn poses(kind: &str, (a, b): (i16, i16), ticks: u64, add: impl FnOnce(&mut App))
     let config = TourConfig { worlds: vec![open("open", &[("it", kind, &START)])], ticks, sensor: None };
     let input = script(vec![event(1, "it", RobotInput::Drive(a, b))]);
     let log = Run::record_with_robots(config, (Seed(1), input), add).unwrap();
-    log.frames.iter().map(|f| f.robots[0].configuration.to_vec()).collect()
+    log.frames().iter().map(|f| f.robots[0].configuration.to_vec()).collect()
 }
 
 #[test]

@@ -1,10 +1,13 @@
 //! Logs of digests: written, read, verified, cut, changed and forged.
 
+use std::sync::Arc;
+
 use motion_lab_core::prelude::*;
 use motion_lab_core::worlds::World;
-use motion_lab_sim::recording::{Recorder, Run, verify_digests};
+use motion_lab_sim::recording::{Recorder, Run, verify};
 use motion_lab_sim::run::{
-    DamageKind, Digest, DigestLog, DigestLogWriter, Event, Frame, Log, LogError, RobotInput, RunDigest, Script,
+    DamageKind, Difference, Digest, Event, Frame, Log, LogError, LogKind, LogWriter, Recipe, Recorded, RobotInput,
+    Script, SecondDigests,
 };
 use motion_lab_sim::tour::TourConfig;
 
@@ -30,18 +33,25 @@ fn recorded(ticks: u64) -> Log {
 
 /// A digest log of these frames; stopped after `stop` ticks.
 fn write(log: &Log, stop: Option<u64>) -> Vec<u8> {
-    let mut run = RunDigest::new(log.seed, &log.config, &log.script, &log.initial);
-    let mut writer = DigestLogWriter::new(Vec::new(), log.seed, &log.config, &log.script, &run).unwrap();
-    let count = stop.map_or(log.frames.len(), |stop| stop as usize);
-    for frame in &log.frames[..count] {
-        run.tick(frame);
-        writer.tick(frame, &run).unwrap();
-    }
+    let mut writer = LogWriter::new(Vec::new(), &log.recipe, LogKind::Digests, log.initial().unwrap()).unwrap();
+    let count = stop.map_or(log.frames().len(), |stop| stop as usize);
+    log.frames()[..count].iter().for_each(|frame| writer.tick(frame).unwrap());
     if stop.is_none() {
-        return writer.finish(run.digest()).unwrap();
+        return writer.finish().unwrap();
     }
-    writer.stop(run.digest()).unwrap();
+    writer.stop().unwrap();
     writer.into_inner()
+}
+
+/// The digests of a log without frames.
+fn seconds(log: &Log) -> &SecondDigests {
+    let Recorded::Digests(digests) = &log.recorded else { panic!("it has frames") };
+    digests
+}
+
+fn seconds_mut(log: &mut Log) -> &mut SecondDigests {
+    let Recorded::Digests(digests) = &mut log.recorded else { panic!("it has frames") };
+    digests
 }
 
 fn written(log: &Log) -> Vec<u8> {
@@ -50,28 +60,40 @@ fn written(log: &Log) -> Vec<u8> {
 
 /// The digest of the run up to `tick`.
 fn up_to(log: &Log, tick: usize) -> Digest {
-    Log { frames: log.frames[..tick].to_vec(), ..log.clone() }.digest()
+    let begun = Log::with_frames(log.recipe.clone(), log.initial().unwrap().clone(), log.frames()[..tick].to_vec());
+    begun.digest().unwrap()
 }
 
 #[test]
 fn a_digest_log_holds_the_lower_half_of_the_run_s_digest_after_every_second() {
     let log = recorded(1250);
-    let read = DigestLog::read_mcap(&written(&log)).unwrap();
+    let read = Log::read_mcap(&written(&log)).unwrap();
     assert!(read.program.starts_with("motion-lab "));
-    let DigestLog { seed, config, script, start, digests, ticks, digest } = &read.log;
-    assert_eq!((*seed, config, script), (log.seed, &log.config, &log.script));
-    assert_eq!((*start, *ticks, *digest), (up_to(&log, 0).0 as u64, 1250, Some(log.digest())));
+    assert_eq!((&read.log.recipe, read.log.kind()), (&log.recipe, LogKind::Digests));
+    let SecondDigests { start, digests, ticks, whole } = seconds(&read.log);
+    assert_eq!((*start, *ticks, *whole), (up_to(&log, 0).0 as u64, 1250, log.digest()));
     let after: Vec<u64> = (20..=1240).step_by(20).chain([1250]).map(|tick| up_to(&log, tick).0 as u64).collect();
     assert_eq!(*digests, after);
-    assert_eq!(read.log, Run::record_digests(config.clone(), (*seed, script.clone())).unwrap());
+    let recorded_again = Run::record_recipe(log.recipe.clone(), LogKind::Digests, |_| {}).unwrap();
+    assert_eq!(read.log, recorded_again);
+    let mut again = Vec::new();
+    read.log.write_mcap(&mut again).unwrap();
+    assert!(again == written(&log), "written as it was read");
     let mut watched = Vec::new();
-    let verified = verify_digests(&read.log, |run| watched.push(run.frame().tick)).unwrap();
+    let verified = verify(&read.log, |run| watched.push(run.frame().tick)).unwrap();
     assert_eq!((verified.recorded, verified.identical, verified.difference), (1250, 1250, None));
-    assert_eq!((verified.digest, watched), (log.digest(), (0..=1250).collect::<Vec<_>>()));
+    assert_eq!((Some(verified.digest), watched), (log.digest(), (0..=1250).collect::<Vec<_>>()));
     for ticks in [0, 1, 20, 1200, 1201] {
         let log = recorded(ticks);
-        let read = DigestLog::read_mcap(&written(&log)).unwrap().log;
-        assert_eq!((read.digests.len() as u64, read.digest), (ticks.div_ceil(20), Some(log.digest())), "{ticks} ticks");
+        let read = Log::read_mcap(&written(&log)).unwrap().log;
+        assert_eq!(
+            (seconds(&read).digests.len() as u64, read.digest()),
+            (ticks.div_ceil(20), log.digest()),
+            "{ticks} ticks"
+        );
+        let mut again = Vec::new();
+        read.write_mcap(&mut again).unwrap();
+        assert!(again == written(&log), "{ticks} ticks");
     }
 }
 
@@ -95,14 +117,14 @@ fn seals(file: &[u8]) -> Vec<(usize, u64)> {
 fn a_digest_log_cut_or_changed_anywhere_gives_its_sealed_beginning() {
     let log = recorded(1250);
     let file = written(&log);
-    let whole = DigestLog::read_mcap(&file).unwrap().log;
+    let whole = Log::read_mcap(&file).unwrap().log;
     let seals = seals(&file);
     assert_eq!(seals.iter().map(|s| s.1).collect::<Vec<_>>(), [0, 1200, 1250, 1250], "a minute, the rest, the end");
     let check = |bytes: &[u8], first_bad: usize| {
-        let damaged = match DigestLog::read_mcap(bytes) {
-            Err(LogError::DamagedDigests(damaged)) => damaged,
+        let damaged = match Log::read_mcap(bytes) {
+            Err(LogError::Damaged(damaged)) => damaged,
             Err(LogError::NotALog) if first_bad < 8 => return DamageKind::Changed,
-            other => panic!("byte {first_bad}: {:?}", other.map(|read| read.log.ticks)),
+            other => panic!("byte {first_bad}: {:?}", other.map(|read| read.log.ticks())),
         };
         // the end's own seal belongs to no tick
         let sealed = seals[..3].iter().rev().find(|(end, _)| *end <= first_bad);
@@ -110,12 +132,10 @@ fn a_digest_log_cut_or_changed_anywhere_gives_its_sealed_beginning() {
         let Some(&(end, ticks)) = sealed else { return damaged.kind };
         assert_eq!((damaged.first_unsealed_offset, damaged.sealed_ticks), (end as u64, ticks), "byte {first_bad}");
         let recovered = damaged.recovered.unwrap().log;
-        assert_eq!((recovered.ticks, recovered.digest), (ticks, None));
-        assert_eq!(recovered.digests, whole.digests[..ticks.div_ceil(20) as usize], "byte {first_bad}");
-        assert_eq!(
-            (&recovered.script, &recovered.config, recovered.start),
-            (&whole.script, &whole.config, whole.start)
-        );
+        assert_eq!((recovered.ticks(), recovered.digest()), (ticks, None));
+        let (found, expected) = (seconds(&recovered), seconds(&whole));
+        assert_eq!(found.digests, expected.digests[..ticks.div_ceil(20) as usize], "byte {first_bad}");
+        assert_eq!((&recovered.recipe, found.start), (&whole.recipe, expected.start));
         damaged.kind
     };
     for cut in 0..file.len() {
@@ -129,7 +149,7 @@ fn a_digest_log_cut_or_changed_anywhere_gives_its_sealed_beginning() {
     let mut longer = file.clone();
     longer.push(0);
     assert_eq!(check(&longer, file.len()), DamageKind::Changed);
-    let message = DigestLog::read_mcap(&file[..seals[1].0 + 3]).unwrap_err().to_string();
+    let message = Log::read_mcap(&file[..seals[1].0 + 3]).unwrap_err().to_string();
     let expected =
         format!("the digest log is cut off after byte {}: the digests of 1200 of 1250 ticks are whole", seals[1].0);
     assert_eq!(message, expected);
@@ -140,18 +160,18 @@ fn a_run_stopped_at_any_tick_is_verified_up_to_it() {
     let log = recorded(1250);
     for stop in [0, 1, 19, 20, 21, 1199, 1200, 1201, 1234] {
         let file = write(&log, Some(stop));
-        let Err(LogError::DamagedDigests(damaged)) = DigestLog::read_mcap(&file) else { panic!("stopped at {stop}") };
+        let Err(LogError::Damaged(damaged)) = Log::read_mcap(&file) else { panic!("stopped at {stop}") };
         assert_eq!((damaged.kind, damaged.first_unsealed_offset), (DamageKind::Cut, file.len() as u64));
         let read = damaged.recovered.unwrap().log;
-        assert_eq!((read.ticks, read.digests.len() as u64), (stop, stop.div_ceil(20)));
-        let verified = verify_digests(&read, |_| {}).unwrap();
+        assert_eq!((read.ticks(), seconds(&read).digests.len() as u64), (stop, stop.div_ceil(20)));
+        let verified = verify(&read, |_| {}).unwrap();
         assert_eq!((verified.recorded, verified.identical, verified.difference), (stop, stop, None));
         assert_eq!(verified.digest, up_to(&log, stop as usize));
         // nothing can follow the last digest of a run that stopped within a minute
         if stop % 1200 != 0 {
             let whole = written(&log);
             let longer = [&file[..], &whole[seals(&whole)[1].0..]].concat();
-            let Err(LogError::DamagedDigests(damaged)) = DigestLog::read_mcap(&longer) else { panic!("{stop}") };
+            let Err(LogError::Damaged(damaged)) = Log::read_mcap(&longer) else { panic!("{stop}") };
             assert_eq!((damaged.sealed_ticks, damaged.kind), (stop, DamageKind::Changed));
         }
     }
@@ -171,7 +191,7 @@ fn a_record_of_less_than_a_minute_is_the_last() {
     let mut longer = [stopped.clone(), record(0x81, &[60, digest])].concat();
     let hash = xxhash_rust::xxh3::xxh3_128(&longer);
     longer.extend(record(0x80, &[60, longer.len() as u64, hash as u64, (hash >> 64) as u64]));
-    let Err(LogError::DamagedDigests(damaged)) = DigestLog::read_mcap(&longer) else { panic!("accepted") };
+    let Err(LogError::Damaged(damaged)) = Log::read_mcap(&longer) else { panic!("accepted") };
     let found = (damaged.sealed_ticks, damaged.first_unsealed_offset, damaged.kind);
     assert_eq!(found, (40, stopped.len() as u64, DamageKind::Changed));
 }
@@ -181,30 +201,32 @@ fn a_run_changed_at_one_tick_is_refused_in_its_second() {
     let log = recorded(70);
     for (tick, first, last) in [(1, 1, 20), (20, 1, 20), (21, 21, 40), (40, 21, 40), (60, 41, 60), (70, 61, 70)] {
         let mut forged = log.clone();
-        forged.frames[tick - 1].robots[0].contacts ^= 1;
-        let read = DigestLog::read_mcap(&written(&forged)).unwrap().log;
-        let verified = verify_digests(&read, |_| {}).unwrap();
-        let difference = verified.difference.expect("it differs");
+        forged.frames_mut()[tick - 1].robots[0].contacts ^= 1;
+        let read = Log::read_mcap(&written(&forged)).unwrap().log;
+        let verified = verify(&read, |_| {}).unwrap();
+        let Some(Difference::Second(difference)) = verified.difference else { panic!("no second differs") };
         assert_eq!((difference.first_tick, difference.last_tick, verified.identical), (first, last, first - 1));
-        assert_eq!((verified.recorded, verified.digest), (70, log.digest()));
-        let words = format!("second {}, ticks {first} to {last}: the digest is ", last.div_ceil(20));
+        assert_eq!((verified.recorded, Some(verified.digest)), (70, log.digest()));
+        let words = format!("second {}, ticks {first} to {last}: the digest is ", u64::div_ceil(last, 20));
         assert!(difference.to_string().starts_with(&words), "{difference}");
     }
-    let honest = DigestLog::read_mcap(&written(&log)).unwrap().log;
-    type Change = fn(&mut DigestLog);
+    let honest = Log::read_mcap(&written(&log)).unwrap().log;
+    type Change = fn(&mut Log);
     let changes: [(&str, u64, Change); 6] = [
-        ("tick 0, before", 0, |l| l.start ^= 1),
-        ("tick 0, before", 0, |l| l.seed.0 ^= 1),
-        ("tick 0, before", 0, |l| l.script.events[1].input = RobotInput::Drive(-61, 10)),
-        ("tick 0, before", 0, |l| l.config.worlds[0].bounds.max.x += 1.0),
-        ("second 2, ticks 21 to 40", 20, |l| l.digests[1] ^= 1 << 63),
+        ("tick 0, before", 0, |l| seconds_mut(l).start ^= 1),
+        ("tick 0, before", 0, |l| l.recipe.seed.0 ^= 1),
+        ("tick 0, before", 0, |l| l.recipe.script.events[1].input = RobotInput::Drive(-61, 10)),
+        ("tick 0, before", 0, |l| Arc::make_mut(&mut l.recipe.config).worlds[0].bounds.max.x += 1.0),
+        ("second 2, ticks 21 to 40", 20, |l| seconds_mut(l).digests[1] ^= 1 << 63),
         // the upper half of the run's digest is known at its end only
-        ("second 4, ticks 61 to 70", 60, |l| l.digest = l.digest.map(|digest| Digest(digest.0 ^ 1 << 127))),
+        ("second 4, ticks 61 to 70", 60, |l| {
+            seconds_mut(l).whole = l.digest().map(|digest| Digest(digest.0 ^ 1 << 127))
+        }),
     ];
     for (words, identical, change) in changes {
         let mut forged = honest.clone();
         change(&mut forged);
-        let verified = verify_digests(&forged, |_| {}).unwrap();
+        let verified = verify(&forged, |_| {}).unwrap();
         let difference = verified.difference.unwrap_or_else(|| panic!("{words}: nothing differs")).to_string();
         assert!(difference.starts_with(words), "{difference}");
         assert_eq!(verified.identical, identical, "{words}");
@@ -215,43 +237,44 @@ fn a_run_changed_at_one_tick_is_refused_in_its_second() {
 fn an_hour_of_one_world_takes_at_most_six_tenths_of_a_byte_a_frame() {
     const HOUR: u64 = 72_000;
     let config = TourConfig { worlds: vec![World::apartment()], ticks: HOUR, sensor: None };
-    let mut run = Recorder::new(config.clone(), SEED).unwrap();
-    let mut digest = RunDigest::new(SEED, &config, &Script::empty(), run.frame());
-    let mut writer = DigestLogWriter::new(Vec::new(), SEED, &config, &Script::empty(), &digest).unwrap();
+    let recipe = Recipe::new(config, SEED);
+    let mut run = Recorder::of(&recipe).unwrap();
+    let mut writer = LogWriter::new(Vec::new(), &recipe, LogKind::Digests, run.frame()).unwrap();
     let before = writer.sealed_bytes();
     while !run.is_complete() {
-        let frame = run.step();
-        digest.tick(frame);
-        writer.tick(frame, &digest).unwrap();
+        writer.tick(run.step()).unwrap();
     }
-    let file = writer.finish(digest.digest()).unwrap();
+    let file = writer.finish().unwrap();
     println!("{} bytes of an hour, {before} of them before its first tick", file.len());
     assert!(file.len() * 10 <= 72_000 * 6, "{} bytes", file.len());
-    assert_eq!(DigestLog::read_mcap(&file).unwrap().log.digests.len(), 3600);
+    assert_eq!(seconds(&Log::read_mcap(&file).unwrap().log).digests.len(), 3600);
 }
 
 #[test]
-fn each_kind_of_log_is_told_from_the_other() {
+fn each_kind_of_log_is_read_as_what_it_is() {
     let log = recorded(30);
     let mut full = Vec::new();
     log.write_mcap(&mut full).unwrap();
-    assert!(matches!(Log::read_mcap(&written(&log)), Err(LogError::NoFrames)));
-    assert!(matches!(DigestLog::read_mcap(&full), Err(LogError::HasFrames)));
-    assert!(matches!(DigestLog::read_mcap(b"no log at all"), Err(LogError::NotALog)));
+    let read = Log::read_mcap(&written(&log)).unwrap();
+    assert_eq!((read.log.kind(), read.log.ticks(), read.log.frames()), (LogKind::Digests, 30, &[][..]));
+    assert!(matches!(LogWriter::resume(Vec::new(), &read), Err(LogError::NoFrames)));
+    assert!(matches!(Log::read_mcap(b"no log at all"), Err(LogError::NotALog)));
     assert_eq!(Log::read_mcap(&full).unwrap().log, log);
 }
 
 #[test]
 fn frames_that_are_not_the_run_s_next_are_not_taken() {
     let log = recorded(30);
-    let run = RunDigest::new(log.seed, &log.config, &log.script, &log.initial);
-    let mut writer = DigestLogWriter::new(Vec::new(), log.seed, &log.config, &log.script, &run).unwrap();
-    let mut nan = log.frames[0].clone();
-    nan.robots[0].configuration[0] = f64::NAN;
-    let none = Frame { robots: vec![], ..log.frames[0].clone() };
-    assert!(matches!(writer.tick(&log.frames[1], &run), Err(LogError::Order { expected: 1, found: 2 })));
-    assert!(matches!(writer.tick(&nan, &run), Err(LogError::NotANumber { tick: 1, .. })));
-    assert!(matches!(writer.tick(&none, &run), Err(LogError::Robots { tick: 1, .. })));
-    assert_eq!(writer.ticks(), 0);
-    assert!(matches!(writer.end(run.digest()), Err(LogError::Incomplete { recorded: 0, ticks: 30 })));
+    for kind in [LogKind::Frames, LogKind::Digests] {
+        let mut writer = LogWriter::new(Vec::new(), &log.recipe, kind, log.initial().unwrap()).unwrap();
+        let (sealed, digest) = (writer.sealed_bytes(), writer.digest());
+        let mut nan = log.frames()[0].clone();
+        nan.robots[0].configuration[0] = f64::NAN;
+        let none = Frame { robots: vec![], ..log.frames()[0].clone() };
+        assert!(matches!(writer.tick(&log.frames()[1]), Err(LogError::Order { expected: 1, found: 2 })));
+        assert!(matches!(writer.tick(&nan), Err(LogError::NotANumber { tick: 1, .. })));
+        assert!(matches!(writer.tick(&none), Err(LogError::Robots { tick: 1, .. })));
+        assert_eq!((writer.ticks(), writer.sealed_bytes(), writer.digest()), (0, sealed, digest));
+        assert!(matches!(writer.end(), Err(LogError::Incomplete { recorded: 0, ticks: 30 })));
+    }
 }

@@ -231,7 +231,7 @@ fn cars_that_start_fifteen_micrometres_apart_drive_side_by_side() {
     let config = TourConfig { worlds: vec![world], ticks: 20, sensor: None };
     let ahead = |robot: &str| event(1, robot, RobotInput::Drive(128, 0));
     let log = Run::record(config, (Seed(1), script(vec![ahead("a"), ahead("b")]))).unwrap();
-    for frame in &log.frames {
+    for frame in log.frames() {
         for (robot, y) in frame.robots.iter().zip([0.0, apart]) {
             let [x, across, theta] = robot.configuration[..] else { panic!("{robot:?}") };
             let expected = frame.tick as f64 * FULL;

@@ -10,7 +10,7 @@ use motion_lab_core::num::{sin, tan, wrap};
 use motion_lab_core::prelude::*;
 use motion_lab_core::random::DRAWS_PER_INDEX;
 use motion_lab_sim::recording::{Recorder, Run};
-use motion_lab_sim::run::{Event, Frame, Log, LogWriter, RobotInput};
+use motion_lab_sim::run::{Event, Frame, Log, LogKind, LogWriter, Recipe, RobotInput};
 use motion_lab_sim::simulation::{
     History, HistoryPlugin, Keyframes, LatestFrame, PendingInput, RobotCommand, RunCommand, SimulationPlugin,
     Transport, TransportCommand, Undo, restore, start_run, step,
@@ -53,7 +53,7 @@ fn other_inputs_after(k: u64) -> Vec<Event> {
 /// The frames of a run that was never taken back; the frame of tick k is at index k.
 fn fresh(events: Vec<Event>, ticks: u64) -> Vec<Frame> {
     let log = Run::record(config(ticks), (SEED, script(events))).unwrap();
-    std::iter::once(log.initial).chain(log.frames).collect()
+    log.initial().into_iter().chain(log.frames()).cloned().collect()
 }
 
 /// A run at tick 0, paused, in an app whose clock stands still.
@@ -204,7 +204,7 @@ fn keyframes_thinned_by_their_size_hold_no_scans_and_lead_back_to_the_same_bits(
     let drive = |tick, robot: &str, v| event(tick, robot, RobotInput::Drive(v, 20));
     let events = vec![drive(30, "Rusty", 128), drive(90, "Hitch", -100), drive(251, "Rusty", -60)];
     let log = Run::record(config.clone(), (SEED, script(events.clone()))).unwrap();
-    let run: Vec<Frame> = std::iter::once(log.initial).chain(log.frames).collect();
+    let run: Vec<Frame> = log.initial().into_iter().chain(log.frames()).cloned().collect();
     assert!(run.iter().all(|frame| frame.scans.iter().any(|scan| scan.ranges.len() == 360)), "there are scans");
     for budget in [1, 5_000, 20_000] {
         let mut app = app(config.clone(), events.clone(), true);
@@ -259,8 +259,9 @@ fn beyond_a_hundred_thousand_ticks_steps_seeks_history_and_log_go_on() {
     let start = [0.0, 0.0, 0.5, 0.5];
     let config = TourConfig { worlds: vec![open("open", &[("car", "hitch", &start)])], ticks: TICKS, sensor: None };
     let events = vec![event(1, "car", RobotInput::Drive(128, 64)), event(SLOWER, "car", RobotInput::Drive(64, 64))];
-    let mut app = app(config.clone(), events.clone(), true);
-    let mut log = LogWriter::new(Vec::new(), SEED, &config, &script(events), frame(&app)).unwrap();
+    let recipe = Recipe::new(config.clone(), (SEED, script(events.clone())));
+    let mut app = app(config, events, true);
+    let mut log = LogWriter::new(Vec::new(), &recipe, LogKind::Frames, frame(&app)).unwrap();
     let marks = [65_535, 65_536, 65_537, SLOWER - 1, SLOWER, SLOWER + 1, 102_399, 102_400, 102_401, TICKS];
     let mut seen = Vec::new();
     for tick in 1..=TICKS {
@@ -300,9 +301,9 @@ fn beyond_a_hundred_thousand_ticks_steps_seeks_history_and_log_go_on() {
     }
 
     let read = Log::read_mcap(&log.finish().unwrap()).unwrap().log;
-    assert_eq!((read.frames.len() as u64, read.frames.last().map(|f| f.tick)), (TICKS, Some(TICKS)));
+    assert_eq!((read.frames().len() as u64, read.frames().last().map(|f| f.tick)), (TICKS, Some(TICKS)));
     for frame in &seen {
-        assert_same(&read.frames[frame.tick as usize - 1], frame);
+        assert_same(&read.frames()[frame.tick as usize - 1], frame);
     }
 }
 

@@ -47,7 +47,7 @@ fn who_is_at_the_same_place_of_another_world_is_not_in_the_way_and_not_seen() {
         let config = TourConfig { worlds: worlds.to_vec(), ticks: 161, sensor };
         let log = Run::record(config, (Seed(1), script(events.clone()))).unwrap();
         let near = |found: f64, expected: f64| found == expected || (found - expected).abs() < 1e-11;
-        for frame in std::iter::once(&log.initial).chain(&log.frames) {
+        for frame in std::iter::once(log.initial().unwrap()).chain(log.frames()) {
             let gone = frame.tick as f64 * FULL;
             for (name, x) in [("east", gone), ("west", 12.0 - gone), ("alone", gone)] {
                 let (car, _) = of(frame, &worlds, name);
@@ -67,7 +67,7 @@ fn who_is_at_the_same_place_of_another_world_is_not_in_the_way_and_not_seen() {
             }
         }
         // at the end the car from the east stands over the origin in its own world only
-        let last = log.frames.last().unwrap();
+        let last = log.frames().last().unwrap();
         let ((eye, seen), (other, _)) = (of(last, &worlds, "eye"), of(last, &worlds, "other eye"));
         assert_eq!((&eye.configuration[..], eye.refusals), (&[0.0; 3][..], 0));
         assert_eq!((&other.configuration[..], other.refusals), (&[0.0, -20.0, 0.0][..], 1));
@@ -138,12 +138,12 @@ fn every_robot_counts_its_own_contacts() {
     events.extend([drive(70, "twice", 128), drive(70, "three times", 128)]);
     events.extend([drive(100, "three times", -128), drive(120, "three times", 128), drive(130, "late", 128)]);
     let log = Run::record(TourConfig { worlds, ticks: 160, sensor: None }, (Seed(1), script(events))).unwrap();
-    let contacts = |tick: usize| log.frames[tick - 1].robots.iter().map(|r| r.contacts).collect::<Vec<_>>();
+    let contacts = |tick: usize| log.frames()[tick - 1].robots.iter().map(|r| r.contacts).collect::<Vec<_>>();
     assert_eq!(contacts(24), [0, 0, 0, 0, 0, 0]);
     assert_eq!(contacts(26), [1, 0, 1, 0, 1, 0]);
     assert_eq!(contacts(95), [2, 0, 1, 0, 2, 0]);
     assert_eq!(contacts(160), [2, 0, 1, 0, 3, 1]);
-    let touching = log.frames[159].robots.iter().map(|r| r.in_contact);
+    let touching = log.frames()[159].robots.iter().map(|r| r.in_contact);
     assert!(touching.eq([true, false, true, false, true, true]));
 }
 
@@ -158,7 +158,7 @@ fn who_is_near_a_robot_is_not_near_the_next_one_in_another_world() {
         let config = TourConfig { worlds: worlds.clone(), ticks: 10, sensor: None };
         let events = vec![drive(1, "first", 64), drive(1, "second", -64), drive(1, "third", 128)];
         let log = Run::record(config, (Seed(1), script(events))).unwrap();
-        let last = log.frames.last().unwrap();
+        let last = log.frames().last().unwrap();
         let state = |name| of(last, &worlds, name).0;
         assert!(state("first").contacts > 0 && state("second").contacts > 0, "5 cm apart, they meet");
         assert!((state("third").configuration[0] - 10.0 * FULL).abs() < 1e-11, "{:?}", state("third").configuration);

@@ -41,7 +41,7 @@ fn a_crowd_runs_the_same_on_any_number_of_threads() {
         pool.install(|| Run::record(config.clone(), (BOOK_SEED, script.clone())).unwrap())
     };
     let alone = run(1);
-    let contacts: u32 = alone.frames[29].robots.iter().map(|r| r.contacts).sum();
+    let contacts: u32 = alone.frames()[29].robots.iter().map(|r| r.contacts).sum();
     assert!(contacts > 100, "they meet: {contacts}");
     for threads in [2, 3, 8] {
         assert_eq!(run(threads).digest(), alone.digest(), "{threads} threads");

@@ -128,11 +128,11 @@ fn in_a_run_the_short_arm_passes_where_the_long_one_is_in_contact() {
 #[test]
 fn its_log_verifies_and_knows_the_sizes() {
     let log = Run::record(config(yard(), 60), (Seed(3), driven())).unwrap();
-    assert!(verify(&log, |_| {}).unwrap().divergence.is_none());
+    assert!(verify(&log, |_| {}).unwrap().difference.is_none());
     let mut bytes = Vec::new();
     log.write_mcap(&mut bytes).unwrap();
     let read = motion_lab_sim::run::Log::read_mcap(&bytes).unwrap().log;
-    assert_eq!(read.config.worlds, [yard()]);
+    assert_eq!(read.recipe.config.worlds, [yard()]);
     assert_eq!(read.digest(), log.digest());
 }
 
@@ -271,8 +271,8 @@ fn robots_of_the_smallest_and_the_largest_sizes_run() {
         let world = World::parse("w.ron", &text).unwrap();
         let events = script(vec![event(1, "it", RobotInput::Drive(128, 128))]);
         let log = Run::record(config(world, 40), (Seed(9), events)).unwrap();
-        assert!(verify(&log, |_| {}).unwrap().divergence.is_none(), "{robot}");
-        let last = log.frames.last().unwrap();
+        assert!(verify(&log, |_| {}).unwrap().difference.is_none(), "{robot}");
+        let last = log.frames().last().unwrap();
         assert!(last.robots[0].configuration.iter().all(|x| x.is_finite()), "{robot}");
     }
 }

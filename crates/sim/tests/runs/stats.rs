@@ -1,5 +1,7 @@
 //! What runs were like for their robots: paths, clearances, contacts and their course, against closed forms.
 
+use std::sync::Arc;
+
 use motion_lab_core::configuration::Kinds;
 use motion_lab_core::num::sin;
 use motion_lab_core::prelude::*;
@@ -30,14 +32,14 @@ fn drive(tick: u64, a: i16, b: i16) -> Event {
 
 fn stats(log: &Log) -> RobotStats {
     let stats = RunStats::of(log);
-    assert_eq!(stats.ticks, log.frames.len() as u64);
+    assert_eq!(stats.ticks, log.frames().len() as u64);
     stats.robots.into_iter().next().unwrap()
 }
 
 fn series(log: &Log, quantity: Quantity) -> Vec<Series> {
     let kinds = Kinds::default();
-    let mut gatherer = SeriesGatherer::new(quantity, &log.config, &log.script, &kinds, |_| true);
-    std::iter::once(&log.initial).chain(&log.frames).for_each(|frame| gatherer.see(frame));
+    let mut gatherer = SeriesGatherer::new(quantity, &log.recipe.config, &log.recipe.script, &kinds, |_| true);
+    std::iter::once(log.initial().unwrap()).chain(log.frames()).for_each(|frame| gatherer.see(frame));
     gatherer.series()
 }
 
@@ -172,7 +174,7 @@ fn speeds_joints_and_encoders_are_the_runs() {
         assert!((rolled - metres) > -1e-9 && (rolled - metres) < count + 1e-9, "{tick} {metres}");
     }
     let (tick, metres) = both[1].points[50];
-    let x = log.frames[49].robots[0].configuration[0];
+    let x = log.frames()[49].robots[0].configuration[0];
     assert!(tick == 50 && metres >= x - 1e-9 && (metres - 1.5).abs() <= 0.05 * 1.5, "{metres} {x}");
     assert!((metres - 1.5).abs() > 1e-6, "slip makes a difference");
     assert!(series(&log, Quantity::Joints).is_empty(), "a rover has none");
@@ -182,7 +184,7 @@ fn speeds_joints_and_encoders_are_the_runs() {
 #[test]
 fn what_is_not_known_of_a_robot_is_not_made_up() {
     let mut log = log_of(square("rusty", &[0.0; 3]), 5, Script::empty());
-    log.config.worlds[0].robots[0].kind = "x-own".into();
+    Arc::make_mut(&mut log.recipe.config).worlds[0].robots[0].kind = "x-own".into();
     let own = stats(&log);
     assert_eq!((own.path_length, own.least_clearance), (None, None));
     let kinds = Kinds::default().with_footprint("x-own", |q| Some(Footprint::disc(Point2::new(q[0], q[1]), 0.4)));

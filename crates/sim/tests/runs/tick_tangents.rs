@@ -26,8 +26,8 @@ fn after_a_tick(thing: &Seen, kind: &str, start: &[f64], input: RobotInput) -> R
     world.robots.push(Resident::new("it", kind, start));
     let script = Script { events: vec![Event { tick: 1, robot: "it".into(), input }], ..Script::empty() };
     let config = TourConfig { worlds: vec![world], ticks: 1, sensor: None };
-    let mut log = Run::record_with_robots(config, (Seed(1), script), robots).unwrap();
-    log.frames.remove(0).robots.remove(0)
+    let log = Run::record_with_robots(config, (Seed(1), script), robots).unwrap();
+    log.into_frames().remove(0).robots.remove(0)
 }
 
 #[test]

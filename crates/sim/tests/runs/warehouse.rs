@@ -97,18 +97,20 @@ fn nobody_comes_near_anybody_and_everybody_moves() {
         let obstacles: Vec<Placed> = world.obstacles.iter().flat_map(|o| o.placed()).collect();
         let log = record(world.clone(), ticks);
         let mut least = [f64::INFINITY; 2];
-        for frame in std::iter::once(&log.initial).chain(log.frames.iter().filter(|f| f.tick.is_multiple_of(10))) {
+        for frame in
+            std::iter::once(log.initial().unwrap()).chain(log.frames().iter().filter(|f| f.tick.is_multiple_of(10)))
+        {
             let found = least_distances(&world, frame, &obstacles);
             assert!(found.iter().all(|d| *d >= APART), "tick {}: {found:?}", frame.tick);
             least = [num::lesser(least[0], found[0]), num::lesser(least[1], found[1])];
         }
         assert!(least.iter().all(|d| *d < 1.0), "{least:?}: this test no longer sees who is next to whom");
-        let last = log.frames.last().unwrap();
+        let last = log.frames().last().unwrap();
         for (id, robot) in world.robots.iter().enumerate() {
             let state = &last.robots[id];
             assert!(state.contacts == 0 && !state.in_contact, "{} touches something", robot.name);
             let at = |frame: &Frame| frame.robots[id].configuration.clone();
-            let frames: Vec<&Frame> = std::iter::once(&log.initial).chain(&log.frames).collect();
+            let frames: Vec<&Frame> = std::iter::once(log.initial().unwrap()).chain(log.frames()).collect();
             let steps = frames.windows(2).map(|f| {
                 let (a, b) = (at(f[0]), at(f[1]));
                 num::hypot(b[0] - a[0], b[1] - a[1])
@@ -156,7 +158,7 @@ fn slipping_rovers_keep_to_their_routes() {
     let paths: Vec<_> = world.routes.iter().map(|r| (r.name.clone(), r.path().unwrap())).collect();
     let log = record(world.clone(), 12_000);
     let mut farthest = [0.0, 0.0];
-    for frame in &log.frames {
+    for frame in log.frames() {
         for (robot, state) in world.robots.iter().zip(&frame.robots) {
             let Some((_, path)) = paths.iter().find(|(name, _)| Some(name) == robot.route.as_ref()) else { continue };
             let at = Point2::new(state.configuration[0], state.configuration[1]);
@@ -176,15 +178,15 @@ fn a_log_holds_the_routes_and_verifies() {
     let mut bytes = Vec::new();
     log.write_mcap(&mut bytes).unwrap();
     let read = Log::read_mcap(&bytes).unwrap().log;
-    assert!(read.config == log.config && read.config.worlds[0].robots[0].route.is_some());
-    assert!(verify(&read, |_| {}).unwrap().divergence.is_none());
+    assert!(read.recipe.config == log.recipe.config && read.recipe.config.worlds[0].robots[0].route.is_some());
+    assert!(verify(&read, |_| {}).unwrap().difference.is_none());
     // the same robots without their routes do something else
-    let mut world = log.config.worlds[0].clone();
+    let mut world = log.recipe.config.worlds[0].clone();
     world.robots.iter_mut().for_each(|r| r.route = None);
     let without = record(world, 40);
-    let at = |log: &Log, id: usize| log.frames[39].robots[id].configuration.clone();
-    let start = |id: usize| log.initial.robots[id].configuration.clone();
-    for (id, robot) in log.config.worlds[0].robots.iter().enumerate() {
+    let at = |log: &Log, id: usize| log.frames()[39].robots[id].configuration.clone();
+    let start = |id: usize| log.initial().unwrap().robots[id].configuration.clone();
+    for (id, robot) in log.recipe.config.worlds[0].robots.iter().enumerate() {
         assert_eq!(at(&log, id) == at(&without, id), robot.name.starts_with("arm"), "{}", robot.name);
         assert_eq!(at(&without, id) == start(id), robot.name.starts_with("rover"), "{} has no tour", robot.name);
     }

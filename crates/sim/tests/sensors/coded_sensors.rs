@@ -72,28 +72,28 @@ fn verified(log: &Log) {
     let read = Log::read_mcap(&bytes).unwrap().log;
     assert_eq!(read, *log);
     let verification = verify(&read, |_| {}).unwrap();
-    assert_eq!(verification.divergence, None);
-    assert_eq!((verification.identical, verification.digest), (log.frames.len() as u64, log.digest()));
+    assert_eq!(verification.difference, None);
+    assert_eq!((verification.identical, Some(verification.digest)), (log.ticks(), log.digest()));
 }
 
 #[test]
 fn a_run_with_sensors_from_code_is_verified_by_any_program() {
     let bare = with(Some(SIX), &[rover("rover", ""), car("")], 40);
     let log = Run::record_with_robots(bare.clone(), Seed(5), mounts).unwrap();
-    assert!(log.initial.scans.len() == 4 && log.frames.iter().all(|frame| frame.scans.len() == 4));
+    assert!(log.initial().unwrap().scans.len() == 4 && log.frames().iter().all(|frame| frame.scans.len() == 4));
     verified(&log);
     // a file with the same sensors gives the same run, to the digest
     let file = with(Some(SIX), &[rover("rover", BACK), car(&format!("{AHEAD}, {LEFT}"))], 40);
     let expected = Run::record(file.clone(), Seed(5)).unwrap();
-    assert_eq!((&log.config, log.digest()), (&file, expected.digest()));
+    assert_eq!((&*log.recipe.config, log.digest()), (&file, expected.digest()));
     assert_eq!(frames(&log), frames(&expected));
     assert!(log.digest() != Run::record(bare, Seed(5)).unwrap().digest());
     // the program itself spawns them again, which are the same ones: nothing is refused
     let again = verify_with_robots(&log, mounts, |run| {
         assert_eq!(run.world().resource::<SensorRoster>().refused(), []);
-        assert_eq!(run.config(), &log.config);
+        assert_eq!(run.config(), &*log.recipe.config);
     });
-    assert_eq!(again.unwrap().digest, log.digest());
+    assert_eq!(Some(again.unwrap().digest), log.digest());
 }
 
 /// The entity of a robot's sensor.
@@ -111,7 +111,7 @@ fn runs_as(app: &mut App, expected: &TourConfig) {
     let config = TourConfig::clone(&app.world().resource::<RunConfig>().0);
     assert_eq!(config, *expected);
     let log = Run::record(config, BOOK_SEED).unwrap();
-    assert_eq!(log.frames, ran);
+    assert_eq!(log.frames(), ran);
     verified(&log);
     let standing = app.world().get::<StandingWorld>(app.world().resource::<Roster>().worlds()[0]).unwrap();
     assert_eq!(*standing.0, expected.worlds[0], "and so does the world that is shown");
@@ -236,7 +236,7 @@ fn a_robot_has_no_more_sensors_than_a_file_may_say() {
     let config = TourConfig::clone(&app.world().resource::<RunConfig>().0);
     assert_eq!(config.validate(), Ok(()));
     run_to(&mut app, 2);
-    assert_eq!(Run::record(config, BOOK_SEED).unwrap().frames[1], latest(&app));
+    assert_eq!(Run::record(config, BOOK_SEED).unwrap().frames()[1], latest(&app));
 }
 
 #[test]
@@ -247,7 +247,7 @@ fn a_configuration_without_sensors_from_code_stays_as_it_is() {
     given.worlds[0].robots[0].sensors = vec![ResidentSensor { mount: turned, ..ResidentSensor::new("turned", FIVE) }];
     let run = Recorder::new(given.clone(), BOOK_SEED).unwrap();
     assert_eq!((run.config(), run.config().worlds[0].to_ron()), (&given, given.worlds[0].to_ron()));
-    assert_eq!(Run::record(given.clone(), BOOK_SEED).unwrap().config, given);
+    assert_eq!(Run::record(given.clone(), BOOK_SEED).unwrap().recipe.config, given.into());
 }
 
 #[test]

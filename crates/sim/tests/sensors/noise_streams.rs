@@ -43,12 +43,12 @@ fn run(worlds: Vec<World>, ticks: u64, drive: &[(&str, i16, i16)]) -> Log {
 }
 
 fn frames(log: &Log) -> impl Iterator<Item = &Frame> {
-    std::iter::once(&log.initial).chain(&log.frames)
+    std::iter::once(log.initial().unwrap()).chain(log.frames())
 }
 
 /// The readings of the sensor of a robot, tick after tick.
 fn readings(log: &Log, robot: &str) -> Vec<f64> {
-    let id = log.config.robot_names().position(|name| name == robot).unwrap() as u32;
+    let id = log.recipe.config.robot_names().position(|name| name == robot).unwrap() as u32;
     let scans = frames(log).flat_map(|frame| frame.scans.iter().filter(move |scan| scan.robot == id));
     scans.flat_map(|scan| scan.ranges.iter().copied()).collect()
 }
@@ -108,7 +108,7 @@ fn another_robot_or_sensor_changes_nobodys_noise() {
     let a = || rover("a", (-2.0, 0.0), "z_rand: 1");
     let alone = run(vec![square("home", &[a()])], 40, &[("a", 0, 60)]);
     let (numbers, states) = (readings(&alone, "a"), |log: &Log| -> Vec<_> {
-        let id = log.config.robot_names().position(|name| name == "a").unwrap();
+        let id = log.recipe.config.robot_names().position(|name| name == "a").unwrap();
         frames(log).map(|f| (f.robots[id].configuration.to_vec(), f.robots[id].extra.to_vec())).collect()
     });
     let companies = [

@@ -83,7 +83,7 @@ fn an_arm_sees_from_its_tip_along_its_last_link_and_not_itself() {
 
 /// The frames of a run, from tick 0 on.
 pub fn frames(log: &Log) -> Vec<Frame> {
-    std::iter::once(&log.initial).chain(&log.frames).cloned().collect()
+    std::iter::once(log.initial().unwrap()).chain(log.frames()).cloned().collect()
 }
 
 pub fn app(config: TourConfig) -> App {
@@ -292,13 +292,13 @@ fn the_runs_sensor_stays_a_rovers_first_with_its_stream_and_its_encoding() {
 #[test]
 fn a_run_of_a_car_with_two_sensors_goes_through_its_log_and_is_verified() {
     let log = Run::record(config(&car(&format!("{LEFT}, {AHEAD}")), 40), Seed(11)).unwrap();
-    assert!(log.frames.iter().all(|frame| frame.scans.len() == 2));
+    assert!(log.frames().iter().all(|frame| frame.scans.len() == 2));
     let mut bytes = Vec::new();
     log.write_mcap(&mut bytes).unwrap();
     let mut read = Log::read_mcap(&bytes).unwrap().log;
     assert_eq!(read, log, "with the sensors in the world's text");
     assert_eq!(verify(&read, |_| {}).unwrap().identical, 40);
-    read.frames[20].scans.swap(0, 1);
+    read.frames_mut()[20].scans.swap(0, 1);
     assert_eq!(verify(&read, |_| {}).unwrap().identical, 20, "the order of the scans is part of the run");
 }
 

@@ -88,7 +88,7 @@ fn a_sensor_sees_the_robots_of_its_own_world_where_they_are_after_the_tick_and_n
         .collect();
     let mut tally = Tally::default();
     let mut robots_seen = 0;
-    for frame in std::iter::once(&log.initial).chain(&log.frames) {
+    for frame in std::iter::once(log.initial().unwrap()).chain(log.frames()) {
         let sensors: Vec<u32> = frame.scans.iter().map(|scan| scan.robot).collect();
         assert_eq!(sensors, [0, 3, 5, 7], "the four rovers have one each");
         for scan in &frame.scans {

@@ -65,9 +65,9 @@ fn config() -> (TourConfig, (Seed, Script)) {
 
 /// The events by the recorded frames.
 fn by_frames(log: &Log) -> Heard {
-    let before = std::iter::once(&log.initial).chain(&log.frames);
+    let before = std::iter::once(log.initial().unwrap()).chain(log.frames());
     let mut all = Vec::new();
-    for (before, after) in before.zip(&log.frames) {
+    for (before, after) in before.zip(log.frames()) {
         for (id, (b, a)) in (0..).zip(before.robots.iter().zip(&after.robots)) {
             if a.in_contact != b.in_contact {
                 all.push((after.tick, id, a.in_contact));

@@ -13,8 +13,8 @@ use super::{event, quantized, script, tour, wild_script};
 
 fn frames(config: TourConfig, events: Vec<Event>) -> Vec<Frame> {
     let log = Run::record(config, (Seed(2005), script(events))).unwrap();
-    assert_eq!(Run::replay(&log).unwrap(), log.frames);
-    std::iter::once(log.initial).chain(log.frames).collect()
+    assert_eq!(Run::replay(&log).unwrap(), log.frames());
+    log.initial().into_iter().chain(log.frames()).cloned().collect()
 }
 
 fn one(kind: &str, start: &[f64], ticks: u64) -> TourConfig {
@@ -160,12 +160,12 @@ fn release_gives_the_robot_back_to_its_tour() {
     let config = tour(1000);
     let driven = Run::record(config.clone(), (Seed(1), script(events))).unwrap();
     let toured = Run::record(config, Seed(1)).unwrap();
-    let state = |log: &motion_lab_sim::run::Log, k: usize, r: usize| log.frames[k - 1].robots[r].clone();
+    let state = |log: &motion_lab_sim::run::Log, k: usize, r: usize| log.frames()[k - 1].robots[r].clone();
     assert_eq!(state(&driven, 19, 0).configuration[0], 6.0);
-    assert!(driven.frames[19].robots.iter().all(|r| !r.manual));
+    assert!(driven.frames()[19].robots.iter().all(|r| !r.manual));
     // Rusty was left in the corridor, between the two doors, and finds its loop again without touching anything
     assert_eq!(state(&driven, 1000, 0).contacts, 0);
-    let waypoints: Vec<f64> = driven.frames[19..].iter().map(|f| f.robots[0].extra[2]).collect();
+    let waypoints: Vec<f64> = driven.frames()[19..].iter().map(|f| f.robots[0].extra[2]).collect();
     assert!(waypoints.windows(2).filter(|w| w[1] < w[0]).count() >= 1, "it completes a loop");
     // Reach turns back at bounded speed, and is then exactly where the tour is
     for k in 20..200 {

@@ -110,8 +110,8 @@ fn a_new_kind_runs_by_name_beside_the_lab_s_own() {
         event(150, "puck", RobotInput::Drive(128, 0)),
     ];
     let log = Run::record_with_robots(config(220), (Seed(8), script(events.clone())), add).unwrap();
-    assert_eq!(Run::replay_with_robots(&log, add).unwrap(), log.frames);
-    let puck = |k: usize| &log.frames[k - 1].robots[0];
+    assert_eq!(Run::replay_with_robots(&log, add).unwrap(), log.frames());
+    let puck = |k: usize| &log.frames()[k - 1].robots[0];
     let scene = Scene::of_world(&arena(2.0, &[]));
     let clearance =
         scene.distance(&Puck { radius: 0.2 }.footprint(&R2::from_coordinates(&puck(59).configuration).unwrap()));
@@ -121,8 +121,8 @@ fn a_new_kind_runs_by_name_beside_the_lab_s_own() {
     assert!(puck(149).configuration[0] < -0.99 && puck(220).configuration[0] > 1.0);
     // its own state is in the frames, so a run restored in the middle goes on the same
     let mut run = Recorder::with_robots(config(220), (Seed(8), script(events)), add).unwrap();
-    run.restore(&log.frames[80]).unwrap();
-    assert_eq!(run.step(), &log.frames[81]);
+    run.restore(&log.frames()[80]).unwrap();
+    assert_eq!(run.step(), &log.frames()[81]);
 
     let unknown = Run::record(config(1), Seed(8));
     assert!(matches!(unknown, Err(RunError::Spawn(e)) if e.to_string().contains("no kind \"puck\"")));
@@ -167,6 +167,10 @@ fn a_kind_registered_again_is_the_new_one_and_keeps_its_dimensions() {
 
 static PUCK: RobotKind = RobotKind {
     name: "puck",
+    title: "Puck",
+    home: None,
+    usual: None,
+    sizes: None,
     coordinates: &["x", "y"],
     start: "two: x, y",
     spaces: &[Space { coordinates: 2, formula: "q = (x, y) \u{2208} R^2", words: "A point of the plane." }],
@@ -215,20 +219,23 @@ fn a_log_with_a_kind_of_ones_own_verifies_and_is_drawn_by_the_library() {
     assert!(verify(&log, |_| {}).unwrap_err().to_string().contains("no kind \"x-puck\""));
     let mut seen = 0;
     let verified = verify_with_robots(&log, with_pucks, |run| seen += run.view().len()).unwrap();
-    assert_eq!((verified.identical, verified.divergence, verified.digest), (80, None, log.digest()));
+    assert_eq!((verified.identical, verified.difference, verified.digest), (80, None, log.digest().unwrap()));
     assert_eq!(seen, 2 * 81);
 
     // the last lines are printed by the description
-    let q = &log.frames[79].robots[0].configuration;
+    let q = &log.frames()[79].robots[0].configuration;
     let kinds = Kinds::default().with("x-puck", &PUCK);
-    let contacts = log.frames[79].robots[0].contacts;
+    let contacts = log.frames()[79].robots[0].contacts;
     let line = format!("puck  R2 {{ x: {:.3}, y: {:.3} }}  contacts: {contacts}", q[0], q[1]);
     assert_eq!(final_lines_with(&log, &kinds)[0], line);
     assert_eq!(final_lines(&log)[0], format!("puck  [{:.3}, {:.3}]  contacts: {contacts}", q[0], q[1]));
 
     // its figures, of any tick
     let svg = run_svg(&log, 80, Theme::Light, with_pucks).unwrap();
-    assert!(svg.contains(&log.digest().to_string()) && svg.contains(&format!("R2 {{ x: {:.3}", q[0])), "{svg}");
+    assert!(
+        svg.contains(&log.digest().unwrap().to_string()) && svg.contains(&format!("R2 {{ x: {:.3}", q[0])),
+        "{svg}"
+    );
     assert_ne!(svg, run_svg(&log, 40, Theme::Light, with_pucks).unwrap());
     assert!(matches!(run_svg(&log, 81, Theme::Light, with_pucks), Err(CaptureError::NoTick { tick: 81, last: 80 })));
     assert!(matches!(run_svg(&log, 80, Theme::Light, |_| {}), Err(CaptureError::Run(_))));
@@ -237,7 +244,7 @@ fn a_log_with_a_kind_of_ones_own_verifies_and_is_drawn_by_the_library() {
     assert!(captured.figure.panels[0].picture.items.iter().any(|item| item.name == "puck"));
 
     // a forged tick is found
-    log.frames[9].robots[0].refusals += 1;
+    log.frames_mut()[9].robots[0].refusals += 1;
     assert_eq!(verify_with_robots(&log, with_pucks, |_| {}).unwrap().identical, 9);
 }
 

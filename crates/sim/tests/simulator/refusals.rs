@@ -136,5 +136,5 @@ fn a_log_with_inputs_that_no_check_lets_through_replays_and_verifies() {
     log.write_mcap(&mut file).unwrap();
     let read = motion_lab_sim::run::Log::read_mcap(&file).unwrap().log;
     assert_eq!(verify(&read, |_| {}).unwrap().identical, 3);
-    assert_eq!(read.frames[2].robots[0].refusals, 3);
+    assert_eq!(read.frames()[2].robots[0].refusals, 3);
 }

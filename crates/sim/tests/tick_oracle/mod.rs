@@ -36,7 +36,7 @@ fn recorded(number: u64) -> (Case, Log) {
 
 /// The frames of a run, each with the one before it.
 fn pairs(log: &Log) -> impl Iterator<Item = (&Frame, &Frame)> {
-    std::iter::once(&log.initial).chain(&log.frames).zip(&log.frames)
+    std::iter::once(log.initial().unwrap()).chain(log.frames()).zip(log.frames())
 }
 
 /// `MOTION_LAB_RUNS` sets the number of runs.
@@ -46,12 +46,13 @@ fn every_tick_is_what_the_frame_before_it_and_the_script_make_it() {
     let mut tally = Tally::default();
     for number in 0..runs {
         let (case, log) = recorded(number);
-        for (resident, robot) in case.residents.iter().zip(&log.initial.robots) {
+        for (resident, robot) in case.residents.iter().zip(&log.initial().unwrap().robots) {
             assert_eq!(robot.configuration[..], resident.start[..], "run {number}: {} starts elsewhere", resident.name);
             let at_rest = !robot.manual && robot.extra.iter().all(|x| *x == 0.0) && robot.target.is_empty();
             assert!(at_rest && (robot.contacts, robot.flash, robot.refusals) == (0, 0, 0), "run {number}: {robot:?}");
         }
-        scans(&case, &log.initial, &mut tally).unwrap_or_else(|wrong| panic!("run {number}, tick 0: {wrong}"));
+        scans(&case, log.initial().unwrap(), &mut tally)
+            .unwrap_or_else(|wrong| panic!("run {number}, tick 0: {wrong}"));
         for (before, after) in pairs(&log) {
             judge(&case, before, after, &mut tally)
                 .unwrap_or_else(|wrong| panic!("run {number}, tick {}: {wrong}", after.tick));

@@ -3,12 +3,14 @@
 mod run;
 mod widgets;
 
+use motion_lab::anatomy::Tab;
+use motion_lab::manifest::Widget;
 use std::path::{Path, PathBuf};
 
-use clap::{Args, ValueEnum};
+use clap::Args;
 use motion_lab::capture::{CaptureError, Form};
 
-use crate::cli::support::choices::{Numbers, RobotsAndKinds, WorldNames};
+use crate::cli::support::choices::{Numbers, RobotsAndKinds, WorldNames, form, one_of};
 use crate::cli::support::input::is_dash;
 use crate::cli::support::paper::{PaperArgs, not_written, write_picture};
 use crate::cli::support::simulate::not_shown;
@@ -38,14 +40,14 @@ Examples:
 )]
 pub struct Capture {
     /// The widget.
-    #[arg(long, value_enum)]
+    #[arg(long, value_parser = one_of(WIDGETS.map(|widget| (widget.id(), widget, ""))))]
     widget: Widget,
     /// The file to write: .svg, .png or .gif. `-` is standard output.
     #[arg(short, long, alias = "out", value_name = "FILE")]
     output: PathBuf,
     /// The form. [default: by the output's name; svg for `-`]
-    #[arg(long)]
-    format: Option<FormName>,
+    #[arg(long, value_parser = form(Form::ALL))]
+    format: Option<Form>,
     #[command(flatten)]
     paper: PaperArgs,
     #[command(flatten)]
@@ -94,8 +96,8 @@ impl RunArgs {
 #[derive(Debug, Args)]
 pub struct SceneArgs {
     /// Anatomy: the tab; all four when left out.
-    #[arg(long, value_enum)]
-    tab: Option<TabName>,
+    #[arg(long, value_parser = one_of(Tab::ALL.map(|tab| (tab.name(), tab, ""))))]
+    tab: Option<Tab>,
     /// Anatomy and cspace: the robot, a resident of the world by its name, or one of a kind: rusty, reach, choset,
     /// reach3, hitch. [default: choset; of a run its first]
     #[arg(long, value_name = "NAME|KIND", value_parser = RobotsAndKinds, hide_possible_values = true)]
@@ -129,30 +131,8 @@ pub struct SceneArgs {
     teleport: Option<Numbers>,
 }
 
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum Widget {
-    Dashboard,
-    Anatomy,
-    Atlas,
-    Cspace,
-}
-
-/// The form of a capture.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum FormName {
-    Svg,
-    Png,
-    Gif,
-}
-
-/// The anatomy's tabs.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum TabName {
-    Intersects,
-    Distance,
-    Witness,
-    Swept,
-}
+/// The widgets that can be captured without a window.
+const WIDGETS: [Widget; 4] = [Widget::Dashboard, Widget::Anatomy, Widget::Atlas, Widget::Cspace];
 
 impl Capture {
     /// Runs the command.
@@ -173,7 +153,8 @@ impl Capture {
             let captured = match self.widget {
                 Widget::Atlas => widgets::atlas(&self.scene, &paper)?,
                 Widget::Cspace => widgets::cspace(&self.scene)?,
-                Widget::Anatomy | Widget::Dashboard => widgets::anatomy(&self.scene)?,
+                // `plan` is not among the names: `motion-lab plan` draws its own
+                Widget::Anatomy | Widget::Dashboard | Widget::Plan => widgets::anatomy(&self.scene)?,
             };
             write_picture(&captured, &paper, form, target.path())?;
         }
@@ -183,13 +164,8 @@ impl Capture {
 
     /// The form: what was said, else what the output's name tells.
     fn form(&self) -> Result<Form, Failure> {
-        let said = self.format.map(|form| match form {
-            FormName::Svg => Form::Svg,
-            FormName::Png => Form::Png,
-            FormName::Gif => Form::Gif,
-        });
         let named = || if is_dash(&self.output) { Some(Form::Svg) } else { Form::of(&self.output) };
-        said.or_else(named).ok_or_else(|| {
+        self.format.or_else(named).ok_or_else(|| {
             let reason = format!("{}: its name does not tell the form", self.output.display());
             Failure::usage(reason, "Let it end in .svg, .png or .gif, or say --format.")
         })

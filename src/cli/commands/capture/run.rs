@@ -2,26 +2,27 @@
 
 use std::path::Path;
 
-use clap::ValueEnum;
 use motion_lab::capture::{Form, Paper, Span, Subject, at_tick_with_robots, film, write};
 use motion_lab::random::Seed;
 use motion_lab::recording::Run;
 use motion_lab::run::{Log, Script};
 use motion_lab::tour::{BOOK_SEED, TourConfig};
 
-use super::{Capture, RunArgs, Widget};
-use crate::cli::commands::query::RobotName;
-use crate::cli::support::log_source::{LogSource, read_log};
+use super::{Capture, RunArgs};
+use crate::cli::commands::query::Chosen;
+use crate::cli::support::choices::KINDS;
+use crate::cli::support::log_source::{LogSource, read_full_log};
 use crate::cli::support::progress::Progress;
 use crate::cli::support::world_source::find_world;
 use crate::cli::{Failure, say};
+use motion_lab::manifest::Widget;
 
 impl Capture {
     /// Writes what the widget shows of the run.
     pub(crate) fn of_run(&self, form: Form, paper: &Paper, output: &Path) -> Result<(), Failure> {
         let log = log(&self.run)?;
         let subject = self.subject(&log)?;
-        let last = log.frames.len() as u64;
+        let last = log.ticks();
         let RunArgs { tick, from, to, every, .. } = self.run;
         let written = if form == Form::Gif {
             let span = Span { from: from.unwrap_or(0), to: to.unwrap_or(last), every: every.unwrap_or(4) };
@@ -42,7 +43,7 @@ impl Capture {
 
     fn subject(&self, log: &Log) -> Result<Subject, Failure> {
         let scene = &self.scene;
-        let lives = |name: &String| log.config.robot_names().any(|robot| robot == name);
+        let lives = |name: &String| log.recipe.config.robot_names().any(|robot| robot == name);
         let robot = scene.robot.clone().filter(lives);
         let kind = match (&scene.robot, &robot) {
             (Some(name), None) => Some(kind_of(name, log)?),
@@ -54,16 +55,18 @@ impl Capture {
                 Subject::Cspace { world, robot, kind, finest: scene.cells.unwrap_or(7), annulus: scene.annulus }
             }
             Widget::Atlas => Subject::Atlas { world, names: true },
-            Widget::Dashboard | Widget::Anatomy => Subject::Dashboard { names: self.run.names, scan: self.run.scan },
+            Widget::Dashboard | Widget::Anatomy | Widget::Plan => {
+                Subject::Dashboard { names: self.run.names, scan: self.run.scan }
+            }
         })
     }
 }
 
 /// The kind of this name, of which a robot of the run is to be.
 fn kind_of(name: &str, log: &Log) -> Result<String, Failure> {
-    RobotName::from_str(name, false).map(|kind| kind.kind().to_owned()).map_err(|_| {
-        let there = log.config.robot_names().collect::<Vec<_>>().join(", ");
-        let next = format!("The kinds are {}; in this run are {there}.", RobotName::list());
+    Chosen::kind(name).map(|kind| kind.kind_name().to_owned()).ok_or_else(|| {
+        let there = log.recipe.config.robot_names().collect::<Vec<_>>().join(", ");
+        let next = format!("The kinds are {}; in this run are {there}.", KINDS.join(", "));
         Failure::usage(format!("no robot is called {name:?}"), next)
     })
 }
@@ -71,11 +74,11 @@ fn kind_of(name: &str, log: &Log) -> Result<String, Failure> {
 /// The log asked for: of a file, or of the tour at a seed.
 fn log(args: &RunArgs) -> Result<Log, Failure> {
     if let Some(path) = &args.run {
-        let LogSource { read, damage } = read_log(path)?;
+        let LogSource { log, damage, .. } = read_full_log(path)?;
         if let Some(damage) = damage {
             say(damage);
         }
-        return Ok(read.log);
+        return Ok(log);
     }
     let seed = args.seed.map_or(BOOK_SEED, Seed);
     Run::record(TourConfig::default(), (seed, Script::empty())).map_err(Failure::internal)

@@ -8,22 +8,16 @@ use motion_lab::picture::{Item, readout};
 use motion_lab::robots::Robot;
 use motion_lab::worlds::World;
 
-use super::{SceneArgs, TabName};
+use super::SceneArgs;
 use crate::cli::Failure;
-use crate::cli::commands::query::{Chosen, RobotName};
-use crate::cli::support::choices::Numbers;
+use crate::cli::commands::query::Chosen;
+use crate::cli::support::choices::{CHOSET, Numbers};
 use crate::cli::support::progress::Progress;
 use crate::cli::support::world_source::find_world;
 
 /// The query anatomy: the tab with a close view, or all four.
 pub fn anatomy(args: &SceneArgs) -> Result<Captured, Failure> {
-    let tab = args.tab.map(|tab| match tab {
-        TabName::Intersects => Tab::Intersects,
-        TabName::Distance => Tab::Distance,
-        TabName::Witness => Tab::Witness,
-        TabName::Swept => Tab::Swept,
-    });
-    Ok(capture::anatomy(&frozen(args)?, &tab.map_or(Tab::ALL.to_vec(), |tab| vec![tab])))
+    Ok(capture::anatomy(&frozen(args)?, &args.tab.map_or(Tab::ALL.to_vec(), |tab| vec![tab])))
 }
 
 /// The workspace and beside it the configuration space.
@@ -99,7 +93,7 @@ fn teleport(atlas: &mut Atlas, to: &[f64]) -> Result<(Vec<Item>, Vec<String>), F
 
 /// The scene asked for.
 fn frozen(args: &SceneArgs) -> Result<Anatomy, Failure> {
-    let name = args.robot.as_deref().unwrap_or("choset");
+    let name = args.robot.as_deref().unwrap_or(CHOSET);
     let world_name = args.world.clone().unwrap_or_else(|| Chosen::home(name).to_owned());
     let (chosen, world) = Chosen::in_world(name, Some(&world_name))?;
     let source = World::built_in_names().into_iter().find(|n| *n == world_name);
@@ -107,7 +101,7 @@ fn frozen(args: &SceneArgs) -> Result<Anatomy, Failure> {
     let usage = |error: &dyn std::fmt::Display| Failure::usage(error, "See `motion-lab capture --help`.");
     let (robot, q) = chosen.at(args.q.as_ref().map(|q| &q.0[..]), &world).map_err(|e| usage(&e))?;
     let mut anatomy = Anatomy::new(world, source, robot, q).map_err(|e| usage(&e))?;
-    if matches!(chosen, Chosen::Kind(RobotName::Choset)) && args.step.is_none() {
+    if chosen.name == CHOSET && chosen.start.is_none() && args.step.is_none() {
         anatomy.set_step(0, -std::f64::consts::FRAC_PI_2);
     }
     if let Some(step) = &args.step {

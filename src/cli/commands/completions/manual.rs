@@ -1,15 +1,14 @@
 //! `man`: the manual pages.
 
-use std::fs;
-use std::io;
 use std::path::{Path, PathBuf};
+use std::{fs, io};
 
 use clap::{Args, Command, CommandFactory};
-use clap_mangen::Man;
 
 use crate::cli::support::console::note;
 use crate::cli::support::output::write_file;
 use crate::cli::{Cli, Data, Failure, Outcome};
+use clap_mangen::Man;
 
 /// Print the manual page, or write the pages of all commands to a folder.
 #[derive(Debug, Args)]

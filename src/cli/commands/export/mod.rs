@@ -10,7 +10,7 @@ use motion_lab::export::{ExportError, write_csv, write_foxglove_of_file, write_j
 use motion_lab::run::Log;
 
 use crate::cli::support::input::{is_dash, read_bytes};
-use crate::cli::support::log_source::{LogSource, MAX_LOG, read_log, say_damage};
+use crate::cli::support::log_source::{LogSource, MAX_LOG, read_full_log, say_damage};
 use crate::cli::support::output::PendingFile;
 use crate::cli::support::progress::{Counted, Progress};
 use crate::cli::support::simulate::not_shown;
@@ -103,9 +103,9 @@ impl Export {
         if matches!(format, Format::Foxglove | Format::Rerun) && output.is_none() {
             return Err(Failure::usage("this form is not for standard output", "Name a file: -o FILE."));
         }
-        let LogSource { read, damage } = read_log(&self.file)?;
+        let LogSource { log, damage, .. } = read_full_log(&self.file)?;
         say_damage(damage.as_ref(), "exported");
-        let (file, log) = (&self.file, &read.log);
+        let (file, log) = (&self.file, &log);
         let target = Target::of(output.unwrap_or(Path::new("-")))?;
         match (format, output) {
             (Format::Foxglove | Format::Rerun, _) => viewer(format, file, log, target.path())?,
@@ -117,18 +117,18 @@ impl Export {
                 // a terminal that shows the lines needs no bar among them
                 let is_shown = output.is_none() && is_terminal;
                 let progress = |lines| if is_shown { Progress::none() } else { Progress::of(lines, "lines") };
-                let ticks = log.frames.len() as u64 + 1;
+                let ticks = log.ticks() + 1;
                 match format {
                     Format::Jsonl => {
                         let progress = progress(ticks);
                         sink.take(|out| write_jsonl(log, Counted(out, &progress)))?;
                     }
                     Format::Csv => {
-                        let progress = progress(ticks * log.config.robot_names().count() as u64);
+                        let progress = progress(ticks * log.recipe.config.robot_names().count() as u64);
                         sink.take(|out| write_csv(log, self.ranges, Counted(out, &progress)))?;
                     }
                     _ => {
-                        let tick = self.stills.tick.unwrap_or(log.frames.len() as u64);
+                        let tick = self.stills.tick.unwrap_or(log.ticks());
                         sink.text(&stills::svg_at(&self.stills, file, log, tick)?)?;
                     }
                 }
@@ -146,7 +146,7 @@ impl Export {
 fn viewer(format: Format, file: &Path, log: &Log, output: &Path) -> Result<(), Failure> {
     let bytes = read_bytes(file, MAX_LOG)?;
     let mut pending = PendingFile::create(output)?;
-    let progress = Progress::of(2 * (log.frames.len() as u64 + 1), "frames, each drawn and written");
+    let progress = Progress::of(2 * (log.ticks() + 1), "frames, each drawn and written");
     let written = match format {
         Format::Rerun => write_rerun_of_file(&bytes, log, &mut pending, |_| {}, || progress.step()),
         _ => write_foxglove_of_file(&bytes, log, &mut pending, |_| {}, || progress.step()),

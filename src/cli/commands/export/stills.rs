@@ -3,17 +3,17 @@
 use std::path::Path;
 
 use clap::Args;
-use motion_lab::capture::{
-    CaptureError, GifWriter, Image, Raster, RunFigure, Size, TICK_HUNDREDTHS, with_names, write_png,
-};
-use motion_lab::picture::{Role, Sheet};
-use motion_lab::run::Log;
 
 use crate::cli::Failure;
-use crate::cli::support::choices::ThemeName;
+use crate::cli::support::choices;
+use crate::cli::support::log_source::digest_of;
 use crate::cli::support::output::PendingFile;
 use crate::cli::support::progress::Progress;
 use crate::cli::support::simulate::show;
+use motion_lab::capture::{RunFigure, TICK_HUNDREDTHS, with_names};
+use motion_lab::picture::{Role, Sheet, Theme};
+use motion_lab::run::Log;
+use motion_lab_raster::{GifWriter, Image, Raster, RasterError, Size, write_png};
 
 /// Which ticks are drawn, and how large.
 #[derive(Debug, Args)]
@@ -34,8 +34,8 @@ pub struct StillArgs {
     #[arg(long, value_name = "PIXELS", default_value_t = 1280, value_parser = clap::value_parser!(u32).range(64..=8192))]
     width: u32,
     /// SVG, PNG and GIF: the paper's colours.
-    #[arg(long, value_enum, default_value = "light")]
-    theme: ThemeName,
+    #[arg(long, value_parser = choices::theme(), default_value = "light")]
+    theme: Theme,
     /// SVG, PNG and GIF: the names of obstacles, places and marks.
     #[arg(long)]
     names: bool,
@@ -71,17 +71,17 @@ fn sheet_at(args: &StillArgs, width: u32, file: &Path, log: &Log, tick: u64) -> 
 
 /// Writes a PNG of the run at one tick.
 pub fn png(args: &StillArgs, file: &Path, log: &Log, output: &Path) -> Result<(), Failure> {
-    let tick = args.tick.unwrap_or(log.frames.len() as u64);
+    let tick = args.tick.unwrap_or(log.ticks());
     let image = paint(&args.raster(), &sheet_at(args, SHEET, file, log, tick)?, None)?;
     let mut pending = PendingFile::create(output)?;
     let notes = [
         ("Software", format!("motion-lab {}", env!("CARGO_PKG_VERSION"))),
-        ("Seed", log.seed.0.to_string()),
-        ("Digest", log.digest().to_string()),
+        ("Seed", log.recipe.seed.0.to_string()),
+        ("Digest", digest_of(log)?.to_string()),
         ("Tick", tick.to_string()),
     ];
     write_png(&image, &notes, &mut pending).map_err(|error| match error {
-        CaptureError::Write(error) => Failure::output(output, &error),
+        RasterError::Write(error) => Failure::output(output, &error),
         error => Failure::internal(error),
     })?;
     pending.commit()
@@ -89,14 +89,14 @@ pub fn png(args: &StillArgs, file: &Path, log: &Log, output: &Path) -> Result<()
 
 /// Writes a GIF of the run that plays at the speed of the run.
 pub fn gif(args: &StillArgs, file: &Path, log: &Log, output: &Path) -> Result<(), Failure> {
-    let last = log.frames.len() as u64;
+    let last = log.ticks();
     let (from, to) = (args.from, args.to.unwrap_or(last));
     if from > to || to > last {
         return Err(beyond(log, if from > to { from } else { to }));
     }
     let failed = |error| Failure::output(output, &error);
     let raster = args.raster();
-    let comment = format!("motion-lab, seed {}, digest {}, ticks {from} to {to}", log.seed.0, log.digest());
+    let comment = format!("motion-lab, seed {}, digest {}, ticks {from} to {to}", log.recipe.seed.0, digest_of(log)?);
     let hundredths = (TICK_HUNDREDTHS * args.every) as u16;
     let mut pending = Some(PendingFile::create(output)?);
     let mut writer: Option<(GifWriter<PendingFile>, u32)> = None;
@@ -109,7 +109,7 @@ pub fn gif(args: &StillArgs, file: &Path, log: &Log, output: &Path) -> Result<()
             let too_large = |_| Failure::usage("the pictures are too large for a GIF", "Choose a smaller --width.");
             let size = [image.width.try_into().map_err(too_large)?, image.height.try_into().map_err(too_large)?];
             writer = Some((
-                GifWriter::new(pending, size, hundredths, args.theme.theme().palette(), &comment).map_err(failed)?,
+                GifWriter::new(pending, size, hundredths, args.theme.palette(), &comment).map_err(failed)?,
                 image.height,
             ));
         }
@@ -126,13 +126,13 @@ pub fn gif(args: &StillArgs, file: &Path, log: &Log, output: &Path) -> Result<()
 
 impl StillArgs {
     fn raster(&self) -> Raster {
-        Raster::new(Size::Wide(self.width)).on(self.theme.theme().palette().colour(Role::Paper))
+        Raster::new(Size::Wide(self.width)).on(self.theme.palette().colour(Role::Paper))
     }
 }
 
 fn paint(raster: &Raster, svg: &str, height: Option<u32>) -> Result<Image, Failure> {
     raster.paint(svg, height).map_err(|error| match error {
-        error @ CaptureError::TooLarge(_) => Failure::usage(error, "Choose a smaller --width."),
+        error @ RasterError::TooLarge(_) => Failure::usage(error, "Choose a smaller --width."),
         error => Failure::internal(error),
     })
 }
@@ -145,14 +145,14 @@ fn each_svg(
     wanted: impl Fn(u64) -> bool,
     mut take: impl FnMut(String) -> Result<(), Failure>,
 ) -> Result<(), Failure> {
-    let (mut figure, digest) = (RunFigure::default(), log.digest());
+    let (mut figure, digest) = (RunFigure::default(), digest_of(log)?);
     show(file, log, |run, frame| {
         figure.watch(run.view());
         if wanted(frame.tick) {
-            let figure = figure.figure(log.seed, &log.config, frame.tick, digest);
+            let figure = figure.figure(&log.recipe, frame.tick, digest);
             let width_px = f64::from(width);
-            let figure = if args.names { with_names(figure, &log.config.worlds, width_px) } else { figure };
-            let palette = args.theme.theme().palette();
+            let figure = if args.names { with_names(figure, &log.recipe.config.worlds, width_px) } else { figure };
+            let palette = args.theme.palette();
             take(figure.svg_on(&Sheet { palette, width_px, notes: &[] }))?;
         }
         Ok(())
@@ -160,6 +160,6 @@ fn each_svg(
 }
 
 fn beyond(log: &Log, tick: u64) -> Failure {
-    let last = log.frames.len();
+    let last = log.ticks();
     Failure::usage(format!("there is no tick {tick}: the log's are 0 to {last}"), "Choose one of them.")
 }

@@ -74,7 +74,7 @@ impl Graded {
             met: criterion.met,
         };
         let forged_at = match &grade.refusal {
-            Some(Refusal::Forged(divergence)) => Some(divergence.tick),
+            Some(Refusal::Forged(difference)) => Some(difference.first_tick()),
             _ => None,
         };
         Graded {

@@ -5,13 +5,13 @@ use std::path::Path;
 use motion_lab::export::JsonNumber;
 use motion_lab::plans::{Attempt, Task};
 use motion_lab::random::Seed;
+use motion_lab::run::{LogKind, Recipe};
 use motion_lab::simulation::{PlayError, PlayedPath};
 use motion_lab::tour::TourConfig;
 use motion_lab::worlds::World;
 
 use super::answer::Answer;
-use crate::cli::commands::record::{Ended, Plan, Stop, write_run};
-use crate::cli::support::log_kind::LogKind;
+use crate::cli::commands::record::{Ended, Stop, write_run};
 use crate::cli::support::output::write_file;
 use crate::cli::support::target::Target;
 use crate::cli::{Data, Failure};
@@ -70,9 +70,9 @@ impl Played {
         if let Some(path) = log {
             let config = TourConfig { worlds: vec![world.clone()], ticks: played.ticks + AFTER, sensor: None };
             let target = Target::file(path)?;
-            let plan = Plan { seed: *seed, config, script: played.script.clone(), kind: LogKind::Full };
+            let recipe = Recipe::new(config, (*seed, played.script.clone()));
             let stop = Stop { at_refusal: true, ..Stop::default() };
-            match write_run(&plan, None, stop, path)? {
+            match write_run(&recipe, LogKind::Frames, None, stop, path)? {
                 Ended::Whole { digest, last, .. } => {
                     let contacts: u32 = last.robots.iter().map(|robot| robot.contacts).sum();
                     (answer.contacts, answer.digest) = (Some(contacts), Some(digest.to_string()));

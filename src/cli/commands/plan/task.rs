@@ -1,6 +1,6 @@
 //! The task that the command line names, and planners by their names.
 
-use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
+use clap::builder::TypedValueParser;
 use motion_lab::planning::NoPath;
 use motion_lab::plans::{Attempt, PlannerName, Task};
 use motion_lab::random::Seed;
@@ -8,6 +8,7 @@ use motion_lab::robots::AnyRobot;
 
 use crate::cli::Failure;
 use crate::cli::commands::query::Chosen;
+use crate::cli::support::choices::one_of;
 
 /// The task of these arguments.
 pub fn find(name: &str, world: Option<&str>, from: Option<&[f64]>, to: &[f64], tube: f64) -> Result<Task, Failure> {
@@ -38,6 +39,5 @@ pub fn attempt(task: &Task, name: PlannerName, seed: Seed) -> Result<Result<Box<
 
 /// Reads the name of a planner.
 pub fn planner_name() -> impl TypedValueParser<Value = PlannerName> {
-    let names = PlannerName::ALL.map(|name| PossibleValue::new(name.id()).help(name.words()));
-    PossibleValuesParser::new(names).try_map(|id| PlannerName::of(&id).ok_or("no planner has this name"))
+    one_of(PlannerName::ALL.map(|name| (name.id(), name, name.words())))
 }

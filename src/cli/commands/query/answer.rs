@@ -1,9 +1,10 @@
 //! Answers as JSON.
 
 use motion_lab::collision::{Checker, Collision, EdgeVerdict, HitBy, ObstacleId, Scene, Witness};
+use motion_lab::configuration::AnyConfiguration;
 use motion_lab::export::JsonNumber;
 use motion_lab::geometry::{Point2, Pose2};
-use motion_lab::robots::Robot;
+use motion_lab::robots::{AnyRobot, Robot};
 use motion_lab::sensors::RangeSensor;
 use serde::Serialize;
 
@@ -57,11 +58,11 @@ pub enum EdgeAnswer {
 }
 
 /// The answer about a robot at `q`, moving to `to` where the question is about a motion.
-pub fn ask<R: Robot>(
-    checker: &Checker<R>,
+pub fn ask(
+    checker: &Checker<AnyRobot>,
     question: Question,
-    q: &R::Configuration,
-    to: Option<&R::Configuration>,
+    q: &AnyConfiguration,
+    to: Option<&AnyConfiguration>,
 ) -> Result<Answer, String> {
     let (scene, robot) = (checker.scene(), checker.robot());
     // a configuration that is not this robot's would count as contact; here it is an error

@@ -3,14 +3,13 @@
 use std::path::Path;
 
 use motion_lab::collision::{Certificate, Checker, Scene};
-use motion_lab::configuration::Configuration;
+use motion_lab::configuration::{AnyConfiguration, Configuration};
 use motion_lab::export::JsonNumber;
-use motion_lab::robots::{ConfigurationError, Motion};
+use motion_lab::robots::{AnyRobot, ConfigurationError, Motion, Robot};
 use serde::Serialize;
 
 use super::answer::{EdgeAnswer, edge, name, point};
-use super::dimensions::{Dimensions, Measured};
-use super::inquiry::Inquiry;
+use super::dimensions::Dimensions;
 use crate::cli::Failure;
 use crate::cli::support::output::write_file;
 use crate::cli::support::target::Target;
@@ -83,23 +82,15 @@ impl EdgeCertificate {
     }
 }
 
-/// The inquiry for the certificate of an edge.
-pub struct Certify<'a> {
-    /// The world's name.
-    pub world: &'a str,
-}
-
-impl Inquiry for Certify<'_> {
-    type Answer = EdgeCertificate;
-
-    fn ask<R: Measured>(
-        &self,
-        checker: &Checker<R>,
-        q: &R::Configuration,
-        to: Option<&R::Configuration>,
+impl EdgeCertificate {
+    /// The certificate of the edge from `q` to `to`, in the world of this name. The error says what is wrong with them.
+    pub fn new(
+        world: &str,
+        checker: &Checker<AnyRobot>,
+        q: &AnyConfiguration,
+        to: &AnyConfiguration,
     ) -> Result<EdgeCertificate, String> {
         let (scene, robot) = (checker.scene(), checker.robot());
-        let to = to.ok_or("`to`, where the motion ends, is missing")?;
         let reason = |error: ConfigurationError| error.to_string();
         let line = robot.edge(q, to).map_err(reason)?;
         let mut proof = Certificate::new();
@@ -107,8 +98,8 @@ impl Inquiry for Certify<'_> {
         Ok(EdgeCertificate {
             version: VERSION,
             program: concat!("motion-lab ", env!("CARGO_PKG_VERSION")),
-            world: Shapes { name: self.world.to_owned(), obstacles: shapes(scene) },
-            robot: robot.dimensions(),
+            world: Shapes { name: world.to_owned(), obstacles: shapes(scene) },
+            robot: Dimensions::of(robot),
             motion: ChartLine { kind: "chart line", from: numbers(&line.at(0.0)), to: numbers(&line.at(1.0)) },
             margin: JsonNumber(proof.margin()),
             verdict: edge(scene, verdict),

@@ -2,56 +2,66 @@
 
 use std::sync::Arc;
 
-use clap::ValueEnum;
-use motion_lab::collision::Scene;
+use motion_lab::collision::{Checker, Scene};
 use motion_lab::configuration::{AnyConfiguration, RobotKind};
-use motion_lab::robots::AnyRobot;
+use motion_lab::robots::{AnyRobot, Reach};
 use motion_lab::worlds::{Resident, World};
 
-use super::inquiry::Inquiry;
-use super::line::{Asked, check_place};
-use super::robot::{RobotName, ask_about};
+use super::line::{Asked, check_place, finite};
 use crate::cli::Failure;
+use crate::cli::support::choices::{CHOSET, KINDS};
 use crate::cli::support::world_source::find_world;
 
-/// A robot that can be asked about.
+/// A robot that can be asked about: a resident, as its world says it is, or one of a kind's own sizes.
 #[derive(Clone, Debug)]
-pub enum Chosen {
-    /// A robot of a kind's own sizes.
-    Kind(RobotName),
-    /// A resident of the world, as its world says it is.
-    Resident(Box<Resident>),
+pub struct Chosen {
+    /// The name by which it was chosen.
+    pub name: String,
+    about: &'static RobotKind,
+    model: AnyRobot,
+    /// Where a resident starts; `None` for a kind.
+    pub start: Option<Vec<f64>>,
 }
 
 impl Chosen {
     /// The robot that `name` means in a world: the resident of this name, else a robot of this kind.
     pub fn find(name: &str, world: &World) -> Result<Chosen, Failure> {
         if let Some(resident) = world.robots.iter().find(|r| r.name == name) {
-            if RobotKind::of(&resident.kind).is_none() {
+            return Chosen::resident(resident).ok_or_else(|| {
                 let reason = format!("{name} is a {}, a kind of some program's own", resident.kind);
-                return Err(Failure::usage(reason, "Ask about it through the library, from that program."));
-            }
-            return Ok(Chosen::Resident(Box::new(resident.clone())));
+                Failure::usage(reason, "Ask about it through the library, from that program.")
+            });
         }
-        RobotName::from_str(name, false).map(Chosen::Kind).map_err(|_| {
+        Chosen::kind(name).ok_or_else(|| {
             let names: Vec<&str> = world.robots.iter().map(|r| r.name.as_str()).collect();
             let there = if names.is_empty() { "nobody".to_owned() } else { names.join(", ") };
             Failure::usage(
                 format!("no robot is called {name:?}"),
-                format!("The kinds are {}; in {} lives {there}.", RobotName::list(), world.name),
+                format!("The kinds are {}; in {} lives {there}.", KINDS.join(", "), world.name),
             )
         })
+    }
+
+    fn resident(resident: &Resident) -> Option<Chosen> {
+        let Resident { name, kind, start, sizes, .. } = resident;
+        let (about, model) = (RobotKind::of(kind)?, AnyRobot::model(kind, sizes.as_ref())?);
+        Some(Chosen { name: name.clone(), about, model, start: Some(start.clone()) })
+    }
+
+    /// A robot of the kind of this name.
+    pub fn kind(name: &str) -> Option<Chosen> {
+        let model = if name == CHOSET { AnyRobot::Reach(Reach::choset()) } else { AnyRobot::model(name, None)? };
+        Some(Chosen { name: name.to_owned(), about: model.about(), model, start: None })
     }
 
     /// The name of the world in which `name` is looked for when none is given: where that kind lives, else the built-in
     /// world with a resident of this name, else the apartment.
     pub fn home(name: &str) -> &'static str {
-        if let Ok(kind) = RobotName::from_str(name, false) {
-            return kind.home();
-        }
         let lives = |world: &World| world.robots.iter().any(|r| r.name == name);
-        let mut worlds = World::built_in_names().into_iter();
-        worlds.find(|world| World::built_in(world).is_some_and(|w| lives(&w))).unwrap_or("apartment")
+        let of_kind = Chosen::kind(name).and_then(|kind| kind.about.home);
+        let of_resident =
+            || World::built_in_names().into_iter().find(|world| World::built_in(world).is_some_and(|w| lives(&w)));
+        of_kind.or_else(of_resident).unwrap_or("apartment")
     }
 
     /// The robot that `name` means, and its world: the one given, or the one that the name implies.
@@ -60,45 +70,54 @@ impl Chosen {
         Ok((Chosen::find(name, &world)?, world))
     }
 
-    /// Where it starts; `None` for a kind.
-    pub fn start(&self) -> Option<&[f64]> {
-        match self {
-            Chosen::Kind(_) => None,
-            Chosen::Resident(resident) => Some(&resident.start),
-        }
+    /// The name of its kind, as worlds have it.
+    pub fn kind_name(&self) -> &'static str {
+        self.about.name
     }
 
-    /// The robot with a configuration: these numbers, or its start. A kind without numbers is where
-    /// [`RobotName::at`] says.
+    /// The robot with a configuration: these numbers. Without numbers a resident is at its start, and a kind where the
+    /// world's first resident of it starts; where there is none, an arm is as it usually is, and others are refused.
     pub fn at(&self, numbers: Option<&[f64]>, world: &World) -> Result<(AnyRobot, AnyConfiguration), String> {
-        let resident = match self {
-            Chosen::Kind(name) => return name.at(numbers, world),
-            Chosen::Resident(resident) => resident,
-        };
-        let Resident { name, kind, start, sizes, .. } = &**resident;
-        let numbers = match numbers {
-            Some([x, y]) if *kind == RobotKind::RUSTY.name => vec![*x, *y, 0.0],
-            Some(numbers) => numbers.to_vec(),
-            None => start.clone(),
-        };
-        if RobotKind::of(kind).is_some_and(|known| known.drives) {
-            check_place(&numbers)?;
+        let Chosen { about, start, .. } = self;
+        let of_its_kind = || world.robots.iter().find(|r| r.kind == about.name).map(|r| r.start.clone());
+        let usual = || about.usual.map(<[f64]>::to_vec);
+        match numbers {
+            Some(numbers) => self.with(numbers),
+            None => {
+                let start = start.clone().or_else(of_its_kind).or_else(usual);
+                self.with(
+                    &start.ok_or_else(|| format!("no {} lives there: give its configuration with --q", about.name))?,
+                )
+            }
         }
-        AnyRobot::sized(kind, &numbers, sizes.as_ref())
-            .ok_or_else(|| format!("{numbers:?} is no configuration of {name}, a {kind}"))
     }
 
-    /// The answer to an inquiry about this robot.
-    pub(crate) fn answer<I: Inquiry>(
+    /// The robot with the configuration of these numbers; the heading of a disc may be left out. A car has its trailer
+    /// if they are four.
+    fn with(&self, numbers: &[f64]) -> Result<(AnyRobot, AnyConfiguration), String> {
+        let about = self.about;
+        let without_heading = *about == RobotKind::RUSTY && numbers.len() == 2;
+        let numbers = if without_heading { &[numbers, &[0.0]].concat() } else { numbers };
+        if about.space(numbers.len()).is_none() {
+            let other = if *about == RobotKind::RUSTY { "two: x, y; or " } else { "" };
+            return Err(format!("{} numbers: a {} has {other}{}", numbers.len(), about.name, about.start));
+        }
+        let check = if about.drives { check_place } else { finite };
+        check(numbers)?;
+        let none = || format!("{numbers:?} is no configuration of a {}", about.name);
+        let (_, q) = AnyRobot::of_kind(about.name, numbers).ok_or_else(none)?;
+        Ok((self.model.fitted(&q), q))
+    }
+
+    /// The checker of this robot in a scene, the configuration asked about and the motion's end. The error says what is
+    /// wrong with either.
+    pub fn checker(
         &self,
         scene: &Arc<Scene>,
-        inquiry: &I,
         asked: &Asked,
-    ) -> Result<I::Answer, String> {
-        let model = match self {
-            Chosen::Kind(name) => Some(name.model()),
-            Chosen::Resident(resident) => AnyRobot::model(&resident.kind, resident.sizes.as_ref()),
-        };
-        ask_about(&model.ok_or("this robot is of some program's own kind")?, scene, inquiry, asked)
+    ) -> Result<(Checker<AnyRobot>, AnyConfiguration, Option<AnyConfiguration>), String> {
+        let (robot, q) = self.with(&asked.q)?;
+        let to = asked.to.as_deref().map(|to| self.with(to)).transpose().map_err(|reason| format!("`to`: {reason}"))?;
+        Ok((Checker::new(Arc::clone(scene), robot), q, to.map(|(_, q)| q)))
     }
 }

@@ -1,7 +1,7 @@
 //! `Dimensions`, a robot's kind and measures as JSON.
 
 use motion_lab::export::JsonNumber;
-use motion_lab::robots::{Hitch, Reach, Robot, Rusty};
+use motion_lab::robots::{AnyRobot, Hitch, Reach};
 use serde::Serialize;
 
 use super::answer::point;
@@ -36,38 +36,34 @@ pub struct Trailer {
     width: JsonNumber,
 }
 
-/// A robot with known dimensions.
-pub trait Measured: Robot {
+impl Dimensions {
     /// The robot's kind and dimensions.
-    fn dimensions(&self) -> Dimensions;
-}
-
-impl Measured for Rusty {
-    fn dimensions(&self) -> Dimensions {
-        Dimensions::Rusty { radius: JsonNumber(self.body_radius) }
-    }
-}
-
-impl<const N: usize> Measured for Reach<N> {
-    fn dimensions(&self) -> Dimensions {
-        Dimensions::Reach {
-            base: point(self.base),
-            lengths: self.lengths.map(JsonNumber).to_vec(),
-            radius: JsonNumber(self.link_radius),
+    pub fn of(robot: &AnyRobot) -> Dimensions {
+        match robot {
+            AnyRobot::Rusty(rover) => Dimensions::Rusty { radius: JsonNumber(rover.body_radius) },
+            AnyRobot::Reach(arm) => Dimensions::of_arm(arm),
+            AnyRobot::Reach3(arm) => Dimensions::of_arm(arm),
+            AnyRobot::Hitch(car) => Dimensions::of_car(car),
         }
     }
-}
 
-impl Measured for Hitch {
-    fn dimensions(&self) -> Dimensions {
-        let (body, towed) = (self.body, self.trailer_body);
+    fn of_arm<const N: usize>(arm: &Reach<N>) -> Dimensions {
+        Dimensions::Reach {
+            base: point(arm.base),
+            lengths: arm.lengths.map(JsonNumber).to_vec(),
+            radius: JsonNumber(arm.link_radius),
+        }
+    }
+
+    fn of_car(car: &Hitch) -> Dimensions {
+        let (body, towed) = (car.body, car.trailer_body);
         Dimensions::Hitch {
             body: Body {
                 length: JsonNumber(body.length),
                 width: JsonNumber(body.width),
                 rear_overhang: JsonNumber(body.rear_overhang),
             },
-            trailer: self.hitch_len.map(|hitch_len| Trailer {
+            trailer: car.hitch_len.map(|hitch_len| Trailer {
                 hitch_len: JsonNumber(hitch_len),
                 front_overhang: JsonNumber(towed.front_overhang),
                 rear_overhang: JsonNumber(towed.rear_overhang),

@@ -4,10 +4,8 @@ mod answer;
 mod certificate;
 mod chosen;
 mod dimensions;
-mod inquiry;
 mod line;
 mod lines;
-mod robot;
 
 use std::fs::Metadata;
 use std::io;
@@ -19,14 +17,13 @@ use motion_lab::collision::Scene;
 use motion_lab::sensors::RangeSensor;
 use serde::Serialize;
 
-use answer::{Answer, ask_scan};
-use certificate::{Certify, EdgeCertificate};
+use answer::{Answer, ask, ask_scan};
+use certificate::EdgeCertificate;
 pub use chosen::Chosen;
 use line::{Asked, parse_line};
 use lines::Lines;
-pub use robot::RobotName;
 
-use crate::cli::support::choices::{Numbers, RobotsAndKinds, WorldNames};
+use crate::cli::support::choices::{KINDS, Numbers, RobotsAndKinds, WorldNames};
 use crate::cli::support::input::{is_dash, open, shown};
 use crate::cli::support::progress::{self, Progress};
 use crate::cli::support::world_source::find_world;
@@ -115,11 +112,21 @@ pub enum Question {
     Scan,
 }
 
+impl Question {
+    /// Whether it is about a motion, not about one configuration.
+    fn is_of_motion(self) -> bool {
+        match self {
+            Question::Swept | Question::Edge => true,
+            Question::Intersects | Question::Distance | Question::Witness | Question::Scan => false,
+        }
+    }
+}
+
 impl Query {
     /// Runs the command.
     pub fn run(self, data: &mut Data) -> Result<Outcome, Failure> {
         let desk = self.desk()?;
-        let start = || desk.robot.as_ref().and_then(Chosen::start).map(|start| Numbers(start.to_vec()));
+        let start = || desk.robot.as_ref().and_then(|robot| robot.start.clone()).map(Numbers);
         let q = if self.input.is_some() { None } else { self.q.or_else(start) };
         match (q, &self.input) {
             (Some(Numbers(q)), _) => {
@@ -146,7 +153,7 @@ impl Query {
 
     fn desk(&self) -> Result<Desk, Failure> {
         if self.robot.is_none() && self.question != Question::Scan {
-            return Err(Failure::usage("no robot is named", format!("Add --robot with one of {}.", RobotName::list())));
+            return Err(Failure::usage("no robot is named", format!("Add --robot with one of {}.", KINDS.join(", "))));
         }
         if self.certificate.is_some() && self.question != Question::Edge {
             return Err(Failure::usage(
@@ -186,7 +193,10 @@ impl Desk {
         self.check(asked)?;
         match (self.question, &self.robot) {
             (Question::Scan, _) => ask_scan(&self.scene, &self.sensor, &asked.q),
-            (question, Some(robot)) => robot.answer(&self.scene, &question, asked),
+            (question, Some(robot)) => {
+                let (checker, q, to) = robot.checker(&self.scene, asked)?;
+                ask(&checker, question, &q, to.as_ref())
+            }
             (_, None) => Err("no robot is named".into()),
         }
     }
@@ -194,12 +204,13 @@ impl Desk {
     fn certify(&self, asked: &Asked) -> Result<EdgeCertificate, String> {
         self.check(asked)?;
         let robot = self.robot.as_ref().ok_or("no robot is named")?;
-        robot.answer(&self.scene, &Certify { world: &self.world }, asked)
+        let (checker, q, to) = robot.checker(&self.scene, asked)?;
+        EdgeCertificate::new(&self.world, &checker, &q, &to.ok_or("`to`, where the motion ends, is missing")?)
     }
 
     /// Checks that a motion's end is given to a question about a motion, and to no other.
     fn check(&self, asked: &Asked) -> Result<(), String> {
-        match (&asked.to, matches!(self.question, Question::Swept | Question::Edge)) {
+        match (&asked.to, self.question.is_of_motion()) {
             (None, true) => Err("this question is about a motion and needs `to`, where it ends".into()),
             (Some(_), false) => Err("this question is about one configuration and takes no `to`".into()),
             _ => Ok(()),

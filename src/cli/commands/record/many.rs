@@ -3,11 +3,10 @@
 use std::path::Path;
 
 use motion_lab::random::Seed;
-use motion_lab::run::Script;
-use motion_lab::tour::TourConfig;
+use motion_lab::run::Recipe;
 use rayon::prelude::*;
 
-use super::one::{Ended, Plan, Stop, refused_in_words, run, write_run};
+use super::one::{Ended, Stop, refused_in_words, run, write_run};
 use super::seeds::SeedRange;
 use super::written::Written;
 use super::{Outcome, Record};
@@ -19,16 +18,10 @@ use crate::cli::{Data, Failure, say};
 /// Number of runs per thread in a batch. The lines of a batch are printed when all its runs have ended.
 const AHEAD: u64 = 4;
 
-/// Records a run for each seed.
-pub fn record(
-    options: &Record,
-    seeds: SeedRange,
-    config: &TourConfig,
-    script: &Script,
-    data: &mut Data,
-) -> Result<Outcome, Failure> {
+/// Records a run for each seed: the recipe with this seed in place of its own.
+pub fn record(options: &Record, seeds: SeedRange, recipe: &Recipe, data: &mut Data) -> Result<Outcome, Failure> {
     let mut written = Written::default();
-    let outcome = record_each(options, seeds, (config, script), &mut written, data);
+    let outcome = record_each(options, seeds, recipe, &mut written, data);
     written.say();
     outcome
 }
@@ -36,12 +29,12 @@ pub fn record(
 fn record_each(
     options: &Record,
     seeds: SeedRange,
-    (config, script): (&TourConfig, &Script),
+    recipe: &Recipe,
     written: &mut Written,
     data: &mut Data,
 ) -> Result<Outcome, Failure> {
     let output = template(options)?;
-    let kind = options.kind(config);
+    let kind = options.kind(&recipe.config);
     let pool = rayon::ThreadPoolBuilder::new().num_threads(usize::from(options.threads.unwrap_or(0))).build();
     let pool = pool.map_err(Failure::internal)?;
     let mut refused: Option<(u64, u64, String)> = None;
@@ -52,12 +45,13 @@ fn record_each(
     while first < seeds.end && !data.is_closed() {
         let end = seeds.end.min(first.saturating_add(batch));
         let one = |seed: u64| {
-            let plan = Plan { seed: Seed(seed), config: config.clone(), script: script.clone(), kind };
+            let recipe = Recipe { seed: Seed(seed), ..recipe.clone() };
             let log = output.as_ref().map(|template| template.replace("{seed}", &seed.to_string()));
             let ended = match log.as_deref().map(Path::new) {
-                Some(log) => Target::file(log)
-                    .and_then(|target| write_run(&plan, None, stop, log).map(|ended| (ended, Some(target.older())))),
-                None => run(&plan, None, stop, |_, _| Ok(())).map(|ended| (ended, None)),
+                Some(log) => Target::file(log).and_then(|target| {
+                    write_run(&recipe, kind, None, stop, log).map(|ended| (ended, Some(target.older())))
+                }),
+                None => run(&recipe, stop, |_| {}).map(|ended| (ended, None)),
             };
             progress.step();
             ended
@@ -84,7 +78,8 @@ fn record_each(
             }
             match ended {
                 Ended::Whole { last, digest, .. } if options.json => {
-                    data.json(&RunSummary::new(Seed(seed), config, &last, digest))?;
+                    let recipe = Recipe { seed: Seed(seed), ..recipe.clone() };
+                    data.json(&RunSummary::new(&recipe, &last, digest))?;
                 }
                 Ended::Whole { digest, .. } => data.line(format!("{seed} {digest}"))?,
                 Ended::Stopped(_) | Ended::Differs(_) => {

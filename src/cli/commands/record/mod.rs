@@ -11,17 +11,17 @@ mod written;
 use std::path::PathBuf;
 
 use clap::Args;
+use motion_lab::run::{LogKind, Recipe};
 use motion_lab::tour::TourConfig;
 
-use crate::cli::support::choices::{RobotNames, WorldNames};
+use crate::cli::support::choices::{RobotNames, WorldNames, log_kind};
 use crate::cli::support::console::note;
 use crate::cli::support::interrupt;
-use crate::cli::support::log_kind::LogKind;
 use crate::cli::{Data, Failure, Outcome};
 use choice::Placement;
 
 use one::Printed;
-pub use one::{Ended, Plan, Stop, partial_name, run, write_run, write_run_watched};
+pub use one::{Ended, Stop, partial_name, run, write_run, write_run_watched};
 pub use seeds::SeedRange;
 
 /// Record a run, and print where its robots end, their contacts and its digest.
@@ -83,7 +83,7 @@ pub struct Record {
     /// What the log keeps: `full`, every frame, or `digest`, a digest of each second, which `verify` compares. A digest
     /// log takes some 11 bytes a second; `replay --log full -o FILE` makes the frames from it. [default: full, but
     /// digest above 100 robots]
-    #[arg(long, value_name = "KIND", value_enum, conflicts_with = "resume", hide_possible_values = true)]
+    #[arg(long, value_name = "KIND", value_parser = log_kind(), conflicts_with = "resume", hide_possible_values = true)]
     log: Option<LogKind>,
     /// Go on with a recording that stopped early: run it again from its seed and script, check it against what is
     /// there, and write the whole. The output is named as FILE is, without .partial.
@@ -117,18 +117,18 @@ impl Record {
         }
         let config = setup::config(&self)?;
         let script = setup::script(&self, &config)?;
+        let recipe = Recipe::new(config, (setup::seed(&self), script));
         if let Some(seeds) = self.seeds {
-            return many::record(&self, seeds, &config, &script, data);
+            return many::record(&self, seeds, &recipe, data);
         }
-        let kind = self.kind(&config);
-        let plan = Plan { seed: setup::seed(&self), config, script, kind };
-        one::record(&plan, None, self.output.as_deref(), self.stop(), self.printed(), data)
+        let kind = self.kind(&recipe.config);
+        one::record(&recipe, kind, None, self.output.as_deref(), self.stop(), self.printed(), data)
     }
 
     /// What the log keeps. Where nobody said it, and it is not every frame, this is said.
     fn kind(&self, config: &TourConfig) -> LogKind {
-        let kind = self.log.unwrap_or_else(|| LogKind::of(config));
-        if self.log.is_none() && kind == LogKind::Digest && self.output.is_some() {
+        let kind = self.log.unwrap_or_else(|| LogKind::usual(config));
+        if self.log.is_none() && kind == LogKind::Digests && self.output.is_some() {
             let robots = config.robot_names().count();
             note(format!(
                 "{robots} robots: the log keeps a digest of each second and no frames; --log full keeps every frame"

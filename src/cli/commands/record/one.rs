@@ -3,13 +3,10 @@
 use std::io;
 use std::path::{Path, PathBuf};
 
-use motion_lab::random::Seed;
-use motion_lab::run::{DT, Digest, Frame, LogError, RunDigest, Script};
+use motion_lab::run::{Comparison, DT, Digest, Frame, Log, LogError, LogKind, LogWriter, Recipe, RunDigest};
 use motion_lab::simulation::Refusals;
-use motion_lab::tour::TourConfig;
 
 use crate::cli::support::interrupt;
-use crate::cli::support::log_kind::{AnyComparison, AnyLog, AnyWriter, LogKind};
 use crate::cli::support::output::PendingFile;
 use crate::cli::support::progress::Progress;
 use crate::cli::support::simulate::begin;
@@ -19,19 +16,6 @@ use crate::cli::{Data, Failure, Outcome, say};
 
 /// Number of ticks in a second of simulated time.
 const SECOND: u64 = (1.0 / DT) as u64;
-
-/// A run to be recorded.
-#[derive(Clone, Debug)]
-pub struct Plan {
-    /// The seed.
-    pub seed: Seed,
-    /// The configuration.
-    pub config: TourConfig,
-    /// The script.
-    pub script: Script,
-    /// What its log keeps.
-    pub kind: LogKind,
-}
 
 /// When to stop early.
 #[derive(Clone, Copy, Debug, Default)]
@@ -72,24 +56,29 @@ pub enum Ended {
     Differs(String),
 }
 
-/// Runs `plan` and hands every frame to `sink`, that of tick 0 first, with the run's digest up to it. Ends early when
-/// `stop` says so, or at the first difference from `expected`.
-pub fn run(
-    plan: &Plan,
-    expected: Option<&AnyLog>,
-    stop: Stop,
-    mut sink: impl FnMut(&Frame, &RunDigest) -> Result<(), Failure>,
-) -> Result<Ended, Failure> {
-    let Plan { seed, config, script, .. } = plan;
-    let watched = stop.progress(config.ticks);
-    let mut run = begin(*seed, config, script)?;
-    let mut digest = RunDigest::new(*seed, config, script, run.frame());
-    sink(run.frame(), &digest)?;
-    let mut comparison = expected.map(AnyComparison::with);
-    if let Some(difference) = differs(&mut comparison, config, run.frame(), &digest) {
-        return Ok(Ended::Differs(difference));
-    }
-    while !run.is_complete() {
+/// What takes the frames of a run.
+pub trait Sink {
+    /// Takes the next frame, that of tick 0 first.
+    fn take(&mut self, frame: &Frame) -> Result<(), Failure>;
+
+    /// The digest of the run so far.
+    fn digest(&self) -> Digest;
+}
+
+/// Runs a recipe and hands every frame to `sink`. Ends early when `stop` says so, or at the first difference from
+/// `expected`.
+fn run_into(recipe: &Recipe, expected: Option<&Log>, stop: Stop, sink: &mut impl Sink) -> Result<Ended, Failure> {
+    let watched = stop.progress(recipe.config.ticks);
+    let mut run = begin(recipe)?;
+    sink.take(run.frame())?;
+    let mut comparison = expected.map(|log| Comparison::begin(log, run.frame()));
+    loop {
+        if let Some(difference) = comparison.as_ref().and_then(Comparison::difference) {
+            return Ok(Ended::Differs(difference.to_string()));
+        }
+        if run.is_complete() {
+            break;
+        }
         let tick = run.frame().tick;
         if stop.now(tick) {
             return Ok(Ended::Stopped(tick));
@@ -97,95 +86,135 @@ pub fn run(
         run.step();
         if let Some(refused) = run.refusals().first().filter(|_| stop.at_refusal) {
             let next = "Its log was not written. Correct the script; `record` without --strict goes on.";
-            return Err(Failure::input(format!("seed {seed}, {refused}"), next));
+            return Err(Failure::input(format!("seed {}, {refused}", recipe.seed), next));
         }
         let frame = run.frame();
-        digest.tick(frame);
-        if let Some(difference) = differs(&mut comparison, config, frame, &digest) {
-            return Ok(Ended::Differs(difference));
+        if !comparison.as_mut().is_none_or(|comparison| comparison.tick(frame)) {
+            continue;
         }
-        sink(frame, &digest)?;
+        sink.take(frame)?;
         watched.at(frame.tick);
     }
-    Ok(Ended::Whole { last: run.frame().clone(), digest: digest.digest(), refusals: run.refusals().clone() })
+    Ok(Ended::Whole { last: run.frame().clone(), digest: sink.digest(), refusals: run.refusals().clone() })
 }
 
-/// What differs of a frame from the expected one, in words.
-fn differs(
-    comparison: &mut Option<AnyComparison>,
-    config: &TourConfig,
-    frame: &Frame,
-    digest: &RunDigest,
-) -> Option<String> {
-    let comparison = comparison.as_mut()?;
-    if comparison.frame(frame, digest) { None } else { comparison.difference(config) }
+/// Runs a recipe and calls `see` with every frame, that of tick 0 first.
+pub fn run(recipe: &Recipe, stop: Stop, see: impl FnMut(&Frame)) -> Result<Ended, Failure> {
+    run_into(recipe, None, stop, &mut Watched { recipe, run: None, see })
 }
 
-/// As [`run`], and writes the log to `output`.
+/// A run whose frames are seen, and hashed.
+struct Watched<'a, F> {
+    recipe: &'a Recipe,
+    run: Option<RunDigest>,
+    see: F,
+}
+
+impl<F: FnMut(&Frame)> Sink for Watched<'_, F> {
+    fn take(&mut self, frame: &Frame) -> Result<(), Failure> {
+        (self.see)(frame);
+        match &mut self.run {
+            Some(run) => run.tick(frame),
+            None => self.run = Some(RunDigest::new(self.recipe, frame)),
+        }
+        Ok(())
+    }
+
+    fn digest(&self) -> Digest {
+        self.run.as_ref().map_or(Digest(0), RunDigest::digest)
+    }
+}
+
+/// The log of a run under way.
+struct Writing<'a, F> {
+    recipe: &'a Recipe,
+    kind: LogKind,
+    output: &'a Path,
+    file: Option<PendingFile>,
+    writer: Option<LogWriter<PendingFile>>,
+    /// The last tick that the operating system took.
+    taken: u64,
+    see: F,
+}
+
+impl<F> Writing<'_, F> {
+    fn failed(&self, error: LogError) -> Failure {
+        match error {
+            LogError::Io(error) => Failure::output(self.output, &error),
+            error => Failure::internal(error),
+        }
+    }
+}
+
+impl<F: FnMut(&Frame)> Sink for Writing<'_, F> {
+    fn take(&mut self, frame: &Frame) -> Result<(), Failure> {
+        (self.see)(frame);
+        let Some(writer) = &mut self.writer else {
+            let Some(file) = self.file.take() else {
+                return Err(self.failed(io::Error::other("begun twice").into()));
+            };
+            let writer = LogWriter::new(file, self.recipe, self.kind, frame);
+            self.writer = Some(writer.map_err(|error| self.failed(error))?);
+            return Ok(());
+        };
+        // a killed process loses at most a second of the run
+        let is_second = frame.tick.is_multiple_of(SECOND);
+        let written = writer.tick(frame).and_then(|()| if is_second { writer.flush() } else { Ok(()) });
+        written.map_err(|error| self.failed(error))?;
+        if is_second {
+            self.taken = frame.tick;
+        }
+        Ok(())
+    }
+
+    fn digest(&self) -> Digest {
+        self.writer.as_ref().map_or(Digest(0), LogWriter::digest)
+    }
+}
+
+/// Runs a recipe and writes its log to `output`.
 ///
 /// Where the run stops early or the disk takes no more, what was done is kept in the file that [`partial_name`] names,
 /// unless all of it is in `expected` already.
-pub fn write_run(plan: &Plan, expected: Option<&AnyLog>, stop: Stop, output: &Path) -> Result<Ended, Failure> {
-    write_run_watched(plan, expected, stop, output, |_| {})
+pub fn write_run(
+    recipe: &Recipe,
+    kind: LogKind,
+    expected: Option<&Log>,
+    stop: Stop,
+    output: &Path,
+) -> Result<Ended, Failure> {
+    write_run_watched(recipe, kind, expected, stop, output, |_| {})
 }
 
 /// As [`write_run`], and calls `see` with every frame, that of tick 0 first.
 pub fn write_run_watched(
-    plan: &Plan,
-    expected: Option<&AnyLog>,
+    recipe: &Recipe,
+    kind: LogKind,
+    expected: Option<&Log>,
     stop: Stop,
     output: &Path,
-    mut see: impl FnMut(&Frame),
+    see: impl FnMut(&Frame),
 ) -> Result<Ended, Failure> {
-    let failed = |error: LogError| match error {
-        LogError::Io(error) => Failure::output(output, &error),
-        error => Failure::internal(error),
-    };
-    let mut file = Some(PendingFile::create(output)?);
-    let mut writer: Option<AnyWriter<PendingFile>> = None;
-    let mut last = None;
-    // the last tick that the operating system took
-    let mut taken = 0;
-    let ended = run(plan, expected, stop, |frame, digest| {
-        see(frame);
-        match &mut writer {
-            Some(writer) => {
-                writer.tick(frame, digest).map_err(failed)?;
-                last = Some(digest.digest());
-                // a killed process loses at most a second of the run
-                if frame.tick % SECOND == 0 {
-                    writer.flush().map_err(failed)?;
-                    taken = frame.tick;
-                }
-                Ok(())
-            }
-            None => {
-                let Some(file) = file.take() else { return Err(failed(io::Error::other("begun twice").into())) };
-                let parts = (plan.seed, &plan.config, &plan.script);
-                writer = Some(AnyWriter::new(file, plan.kind, parts, frame, digest).map_err(failed)?);
-                last = Some(digest.digest());
-                Ok(())
-            }
-        }
-    });
-    let (Some(mut writer), Some(last)) = (writer, last) else { return ended };
-    let before = expected.map_or(0, AnyLog::recorded);
+    let file = Some(PendingFile::create(output)?);
+    let mut writing = Writing { recipe, kind, output, file, writer: None, taken: 0, see };
+    let ended = run_into(recipe, expected, stop, &mut writing);
+    let Some(mut writer) = writing.writer.take() else { return ended };
+    let before = expected.map_or(0, Log::ticks);
     let finished = match &ended {
-        Ok(Ended::Whole { .. }) => writer.end(last).map_err(failed).map(|()| Some(output.to_owned())),
-        Ok(Ended::Stopped(tick)) if *tick > before || before == 0 => {
-            writer.stop(last).map_err(failed).map(|()| Some(partial_name(output)))
-        }
+        Ok(Ended::Whole { .. }) => writer.end().map(|()| Some(output.to_owned())),
+        Ok(Ended::Stopped(tick)) if *tick > before || before == 0 => writer.stop().map(|()| Some(partial_name(output))),
         _ => Ok(None),
     };
     let mut file = writer.into_inner();
     let finished = finished.and_then(|name| match name {
-        Some(name) => file.sync().map(|()| Some(name)).map_err(|error| failed(error.into())),
+        Some(name) => file.sync().map(|()| Some(name)).map_err(LogError::from),
         None => Ok(None),
     });
+    let finished = finished.map_err(|error| writing.failed(error));
     match (ended, finished) {
         (Ok(ended @ Ended::Whole { .. }), Ok(_)) => file.commit().map(|()| ended),
         (Ok(ended), Ok(Some(name))) => file.keep_as(&name).map(|()| ended),
-        (Err(failure @ Failure::Output { .. }), _) | (Ok(_), Err(failure)) if taken > before => {
+        (Err(failure @ Failure::Output { .. }), _) | (Ok(_), Err(failure)) if writing.taken > before => {
             Err(kept(file, output, failure))
         }
         (Ok(_), Err(failure)) => Err(failure),
@@ -237,8 +266,9 @@ pub enum Printed {
 
 /// Records one run and says what came of it.
 pub fn record(
-    plan: &Plan,
-    expected: Option<&AnyLog>,
+    recipe: &Recipe,
+    kind: LogKind,
+    expected: Option<&Log>,
     output: Option<&Path>,
     stop: Stop,
     form: Printed,
@@ -246,12 +276,12 @@ pub fn record(
 ) -> Result<Outcome, Failure> {
     let target = output.map(Target::file).transpose()?;
     let ended = match output {
-        Some(output) => write_run(plan, expected, stop, output)?,
-        None => run(plan, expected, stop, |_, _| Ok(()))?,
+        Some(output) => write_run(recipe, kind, expected, stop, output)?,
+        None => run(recipe, stop, |_| {})?,
     };
     match ended {
         Ended::Whole { last, digest, refusals } => {
-            let summary = RunSummary::new(plan.seed, &plan.config, &last, digest);
+            let summary = RunSummary::new(recipe, &last, digest);
             if form == Printed::Json {
                 data.json(&summary)?;
             } else {
@@ -266,12 +296,12 @@ pub fn record(
             }
             Ok(Outcome::Done)
         }
-        Ended::Stopped(tick) if expected.is_some_and(|log| tick <= log.recorded() && log.recorded() > 0) => {
+        Ended::Stopped(tick) if expected.is_some_and(|log| tick <= log.ticks() && log.ticks() > 0) => {
             say(format!("stopped after tick {tick}, before the end of the existing recording, which is unchanged"));
             Ok(Outcome::Stopped)
         }
         Ended::Stopped(tick) => {
-            let ticks = plan.config.ticks;
+            let ticks = recipe.config.ticks;
             match output.map(partial_name) {
                 Some(kept) => say(format!(
                     "stopped after tick {tick} of {ticks}\nIt is kept; go on with: motion-lab record --resume {}",

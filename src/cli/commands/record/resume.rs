@@ -5,10 +5,9 @@ use std::path::Path;
 
 use motion_lab::output::{is_left, is_temporary, unfinished, whole_name};
 
-use super::Plan;
 use super::one::{Printed, Stop, record};
 use crate::cli::support::input::read_bytes_if;
-use crate::cli::support::log_source::{begins_as_one, read_any_log};
+use crate::cli::support::log_source::{begins_as_one, read_log};
 use crate::cli::{Data, Failure, Outcome, say};
 
 /// Largest number of files left by killed processes that are named.
@@ -29,7 +28,7 @@ pub fn resume(
             "Wait until it ends, or stop it with Ctrl-C.",
         ));
     }
-    let source = read_any_log(file)?;
+    let source = read_log(file)?;
     let log = source.log;
     // FILE.partial, or an unfinished file of FILE, becomes FILE
     let whole_name = whole_name(file);
@@ -43,9 +42,7 @@ pub fn resume(
     if source.damage.is_none() {
         say(format!("{} is whole already; it is run again all the same", file.display()));
     }
-    let (seed, config, script) = log.parts();
-    let plan = Plan { seed, config: config.clone(), script: script.clone(), kind: log.kind() };
-    let outcome = record(&plan, Some(&log), Some(output), stop, form, data)?;
+    let outcome = record(&log.recipe, log.kind(), Some(&log), Some(output), stop, form, data)?;
     if outcome == Outcome::Done && Some(output) == whole_name.as_deref() {
         // all of it is in the output now
         let _ = fs::remove_file(file);

@@ -12,7 +12,7 @@ use serde::Serialize;
 
 use crate::cli::support::choices::WorldNames;
 use crate::cli::support::input::{for_each_file, read_bytes_if, read_text};
-use crate::cli::support::log_source::read_any_log;
+use crate::cli::support::log_source::read_log;
 use crate::cli::support::target::write_text;
 use crate::cli::support::words::{changes_in_words, counted, none, parse_script, unfit};
 use crate::cli::support::world_source::find_world;
@@ -146,8 +146,8 @@ fn print(file: &Path, output: Option<&Path>, data: &mut Data) -> Result<Outcome,
         write_text(output, &read_script(file)?.to_ron(), data)?;
         return Ok(Outcome::Done);
     }
-    let source = read_any_log(file)?;
-    write_text(output, &source.log.parts().2.to_ron(), data)?;
+    let source = read_log(file)?;
+    write_text(output, &source.log.recipe.script.to_ron(), data)?;
     Ok(match source.damage {
         None => Outcome::Done,
         Some(damage) => {

@@ -4,6 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use motion_lab::batch::{RowGatherer, RunRow, SweepPlan};
+use motion_lab::run::LogKind;
 
 use super::Keep;
 use super::planned::{Made, made};
@@ -44,11 +45,8 @@ pub fn run(plan: &SweepPlan, row: u64, keep: Keep, logs: &Path) -> Result<Ran, F
     let log = log_name(logs, row);
     let mut gatherer = RowGatherer::new(plan, row, &run.config, &run.script);
     let ended = match keep {
-        Keep::All => write_run_watched(&run, None, STOP, &log, |frame| gatherer.see(frame)),
-        _ => record::run(&run, None, STOP, |frame, _| {
-            gatherer.see(frame);
-            Ok(())
-        }),
+        Keep::All => write_run_watched(&run, LogKind::Frames, None, STOP, &log, |frame| gatherer.see(frame)),
+        _ => record::run(&run, STOP, |frame| gatherer.see(frame)),
     };
     let row = match ended {
         Ok(Ended::Whole { last, digest, refusals }) => with_planned(gatherer.row(&last, digest, &refusals)),
@@ -75,7 +73,7 @@ pub fn log_again(plan: &SweepPlan, row: u64, logs: &Path) -> Result<bool, Failur
         Made::None(..) => return Ok(true),
         Made::Stopped => return Ok(false),
     };
-    let is_whole = matches!(write_run(&run, None, STOP, &log)?, Ended::Whole { .. });
+    let is_whole = matches!(write_run(&run, LogKind::Frames, None, STOP, &log)?, Ended::Whole { .. });
     if !is_whole {
         remove_partial(&log);
     }

@@ -5,13 +5,11 @@ use motion_lab::planning::{Bounds, Effort, NoPath};
 use motion_lab::plans::{Attempt, PathLengths, PlannerName, Task};
 use motion_lab::random::Seed;
 use motion_lab::robots::AnyRobot;
-use motion_lab::run::{Script, seconds};
+use motion_lab::run::{Recipe, Script, seconds};
 use motion_lab::tour::TourConfig;
 use motion_lab::worlds::World;
 
-use crate::cli::commands::record;
 use crate::cli::support::interrupt;
-use crate::cli::support::log_kind::LogKind;
 
 /// The iterations after which a planner is asked whether to stop.
 const ROUND: u64 = 500;
@@ -19,7 +17,7 @@ const ROUND: u64 = 500;
 /// What became of a run's inputs.
 pub enum Made {
     /// They are there; with what came of planning, where a planner made them.
-    Run(Box<record::Plan>, Option<Planned>),
+    Run(Box<Recipe>, Option<Planned>),
     /// There are none, for this reason.
     None(String, Planned),
     /// Somebody asked to stop.
@@ -46,7 +44,7 @@ impl From<NoPath> for Why {
     }
 }
 
-/// The run of a row as `record` records one, with a full log.
+/// The run of a row.
 pub fn made(setup: RunSetup) -> Made {
     let RunSetup { seed, config, inputs } = setup;
     let (script, planned) = match inputs {
@@ -60,7 +58,7 @@ pub fn made(setup: RunSetup) -> Made {
             }
         }
     };
-    Made::Run(Box::new(record::Plan { seed, config, script, kind: LogKind::Full }), planned)
+    Made::Run(Box::new(Recipe::new(config, (seed, script))), planned)
 }
 
 /// The script that plays the path of the run's only robot. What comes of planning goes to `planned`, as far as it gets.

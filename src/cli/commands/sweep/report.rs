@@ -1,14 +1,16 @@
 //! `sweep report`: what became of a sweep's runs, as one page or one figure.
 
+use motion_lab::picture::Theme;
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
 use motion_lab::batch::{Cell, CellKind, Column, RunInputs, RunRow, SweepPlan, TableError, TableFile};
 use motion_lab::capture::{Captured, Distribution, Paper, histograms};
+use motion_lab::run::Recipe;
 use motion_lab::web::Link;
 
-use crate::cli::support::choices::ThemeName;
+use crate::cli::support::choices;
 use crate::cli::support::input::open;
 use crate::cli::support::output::write_file;
 use crate::cli::support::target::Target;
@@ -35,8 +37,8 @@ pub struct Report {
     #[arg(long, value_name = "URL", default_value = "http://localhost:8000/", value_parser = page_address)]
     site: String,
     /// The colours of the figure.
-    #[arg(long, value_enum, default_value_t = ThemeName::Light)]
-    theme: ThemeName,
+    #[arg(long, value_parser = choices::theme(), default_value = "light")]
+    theme: Theme,
 }
 
 /// Runs that are listed of each sort.
@@ -112,7 +114,8 @@ fn title(column: &Column) -> String {
 fn link(plan: &SweepPlan, row: u64, digest: &str, site: &str) -> Result<String, String> {
     let setup = plan.setup(row)?;
     let RunInputs::Script(script) = setup.inputs else { return Err("a planner makes its script".into()) };
-    let link = Link::of(setup.seed, &setup.config, script).map_err(|error| error.to_string())?;
+    let recipe = Recipe::new(setup.config, (setup.seed, script));
+    let link = Link::of(&recipe).map_err(|error| error.to_string())?;
     let link = Link { digest: Some(digest.to_owned()), ..link };
     link.address(site).map_err(|error| error.to_string())
 }
@@ -274,7 +277,7 @@ impl Report {
             ));
         }
         let gathered = Gathered::of(&self.table)?;
-        let paper = Paper { palette: self.theme.theme().palette(), width: 1280, scale: 1.0 };
+        let paper = Paper { palette: self.theme.palette(), width: 1280, scale: 1.0 };
         let figure = gathered.figure().svg(&paper);
         let text = if ending == Some("svg") { figure } else { gathered.page(&self.table, &figure, &self.site) };
         let target = Target::of(&self.output)?;

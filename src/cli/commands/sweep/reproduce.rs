@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 use motion_lab::batch::{Cell, PartError, PartReader, RunRow, SweepPlan, TableError, TableFile};
+use motion_lab::run::LogKind;
 
 use super::merge;
 use super::one::{log_name, remove_partial};
@@ -106,7 +107,7 @@ impl Reproduce {
         };
         let output = self.output.unwrap_or_else(|| log_name(Path::new(""), self.row));
         let target = Target::file(&output)?;
-        let Ended::Whole { digest, .. } = write_run(&run, None, Stop::default(), &output)? else {
+        let Ended::Whole { digest, .. } = write_run(&run, LogKind::Frames, None, Stop::default(), &output)? else {
             remove_partial(&output);
             return Ok(stopped());
         };

@@ -1,11 +1,12 @@
 //! `world import`: a map or drawing of another program as a world file.
 
+use crate::cli::support::choices::one_of;
 use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
 use motion_lab::collision::{Collision, Scene};
 use motion_lab::random::Seed;
-use motion_lab::run::Script;
+use motion_lab::run::Recipe;
 use motion_lab::tour::TourConfig;
 use motion_lab::worlds::World;
 use motion_lab::worlds::import::{
@@ -54,8 +55,8 @@ pub struct Import {
     #[arg(long)]
     hollow: bool,
     /// What the unknown cells of a ROS map are.
-    #[arg(long, value_name = "WHAT", default_value = "occupied")]
-    unknown: UnknownCells,
+    #[arg(long, value_parser = one_of(UNKNOWN), value_name = "WHAT", default_value = "occupied")]
+    unknown: Unknown,
     /// The size of a MovingAI map's cells, metres.
     #[arg(long, value_name = "METRES", default_value_t = 1.0)]
     metres_per_cell: f64,
@@ -80,12 +81,9 @@ enum Kind {
     Svg,
 }
 
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum UnknownCells {
-    /// Not known to be free, hence never called free.
-    Occupied,
-    Free,
-}
+/// What unknown cells may be, by name.
+const UNKNOWN: [(&str, Unknown, &str); 2] =
+    [("occupied", Unknown::Occupied, "Not known to be free, hence never called free"), ("free", Unknown::Free, "")];
 
 impl Import {
     /// Runs the command.
@@ -116,10 +114,6 @@ impl Import {
         let stem = self.file.file_stem().map(|stem| stem.to_string_lossy().into_owned());
         let name = self.name.clone().or(stem).unwrap_or_default();
         let style = if self.hollow { CellStyle::Hollow } else { CellStyle::Solid };
-        let unknown = match self.unknown {
-            UnknownCells::Occupied => Unknown::Occupied,
-            UnknownCells::Free => Unknown::Free,
-        };
         let limit = if kind == Kind::Movingai { MAX_TEXT } else { MAX_FOREIGN };
         let text = read_text_of(&self.file, limit)?;
         match kind {
@@ -127,7 +121,7 @@ impl Import {
                 // the image lies where the yaml says, seen from the yaml's own folder
                 let image = self.file.parent().unwrap_or(Path::new("")).join(&map.image);
                 let bytes = read_bytes(&image, MAX_TEXT)?;
-                let cells = map.cells(&image.display().to_string(), &bytes, unknown).map_err(refused)?;
+                let cells = map.cells(&image.display().to_string(), &bytes, self.unknown).map_err(refused)?;
                 cells.world(&file, &name, style).map_err(refused)
             }),
             Kind::Movingai => movingai(&file, &text, self.metres_per_cell)
@@ -172,7 +166,7 @@ fn contacts(world: &World) -> Result<Vec<String>, Failure> {
     }
     let config = TourConfig { worlds: vec![world.clone()], ticks: 0, sensor: None };
     let scene = Scene::of_world(world);
-    let run = begin(Seed(0), &config, &Script::empty())?;
+    let run = begin(&Recipe::new(config, Seed(0)))?;
     let sentences = run.view().into_iter().filter_map(|robot| {
         let touched = scene.witness(&robot.footprint).filter(|w| w.dist == 0.0)?;
         let obstacle = scene.obstacle_name(touched.obstacle).unwrap_or("an obstacle");

@@ -210,7 +210,8 @@ fn where_two_robots_share_a_world_a_click_takes_the_one_under_it() {
     let config = motion_lab_sim::tour::TourConfig { worlds: vec![model.clone()], ..Default::default() };
     let world = harness.state_mut().app.world_mut();
     world.resource_mut::<Transport>().playback = Playback::Paused;
-    crate::window::session::new_run(world, config, motion_lab_sim::tour::BOOK_SEED).unwrap();
+    crate::window::session::new_run(world, motion_lab_sim::run::Recipe::new(config, motion_lab_sim::tour::BOOK_SEED))
+        .unwrap();
     harness.run_steps(4);
     for name in ["Rusty", "Second"] {
         harness.get_by_label(name);

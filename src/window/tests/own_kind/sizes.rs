@@ -7,6 +7,7 @@ use motion_lab_core::random::Seed;
 use motion_lab_core::robots::AnyRobot;
 use motion_lab_core::worlds::World as WorldModel;
 use motion_lab_sim::anatomy::{Anatomy, WorldSource};
+use motion_lab_sim::run::Recipe;
 use motion_lab_sim::tour::TourConfig;
 
 /// A wall 4 m behind a lorry whose trailer reaches 5 m behind its rear axle, and an arm with a base of its own.
@@ -25,7 +26,7 @@ fn what_is_shown_and_asked_is_the_residents_own() {
     let mut harness = lab(WIDE);
     pause(&mut harness);
     let config = TourConfig { worlds: vec![yard()], ..TourConfig::default() };
-    new_run(harness.state_mut().app.world_mut(), config, Seed(1)).unwrap();
+    new_run(harness.state_mut().app.world_mut(), Recipe::new(config, Seed(1))).unwrap();
     harness.run_steps(3);
     // the kind's own trailer would reach 2.8 m back and not touch it
     click(&mut harness, "put a trailer on");

@@ -7,12 +7,12 @@ use bevy_egui::egui::{
 };
 
 use super::state::Guesses;
-use crate::window::ui::deeds::of_anatomy;
 use crate::window::ui::number::Typed;
 use crate::window::ui::paint::button::LabButton;
 use crate::window::ui::paint::fold::fold;
 use crate::window::ui::paint::frame::{formulas, headline, next_hint};
 use crate::window::ui::paint::sheet::{sheet, split, steady, two_columns};
+use crate::window::ui::tasks_done::of_anatomy;
 use crate::window::ui::{AnatomyState, Command, Dashboard, Look, Notice, UiState};
 use motion_lab_core::configuration::Configuration;
 use motion_lab_core::picture::{Role, in_signs, true_minus};
@@ -39,7 +39,7 @@ const INSET: f32 = 208.0;
 pub fn anatomy_view(ui: &mut Ui, model: &Dashboard, look: &Look, state: &mut UiState, commands: &mut Vec<Command>) {
     let words = Widget::Anatomy.text();
     if !look.low {
-        crate::window::ui::tools::head(ui, words, model, look, state, commands);
+        crate::window::ui::menu::head(ui, words, model, look, state, commands);
     }
     let before = state.anatomy.anatomy.clone();
     let room = ui.available_rect_before_wrap();
@@ -63,7 +63,7 @@ pub fn anatomy_view(ui: &mut Ui, model: &Dashboard, look: &Look, state: &mut UiS
     ui.scope_builder(bevy_egui::egui::UiBuilder::new().max_rect(beside), |ui| {
         ScrollArea::vertical().id_salt("anatomy").auto_shrink(false).show(ui, |ui| {
             if look.low {
-                crate::window::ui::tools::head(ui, words, model, look, state, commands);
+                crate::window::ui::menu::head(ui, words, model, look, state, commands);
             }
             if ui.available_width() >= TWO {
                 let half = 0.5 * (ui.available_width() - 20.0);
@@ -73,7 +73,7 @@ pub fn anatomy_view(ui: &mut Ui, model: &Dashboard, look: &Look, state: &mut UiS
                 next_hint(ui, words, look, state);
                 more(ui, look, state);
             }
-            crate::window::ui::tools::foot(ui, words, look, state);
+            crate::window::ui::menu::foot(ui, words, look, state);
         });
     });
     let shown = &mut state.anatomy;
@@ -188,7 +188,7 @@ fn inset(ui: &mut Ui, look: &Look, state: &mut UiState) {
 pub(crate) fn prompts(ui: &mut Ui, series: Series, state: &mut UiState) {
     let prompt = series.prompt(state.anatomy.guesses[series as usize].number);
     let label = ui.label(prompt.question);
-    if prompt.shown().checker().robot().name() != state.anatomy.anatomy.checker().robot().name() {
+    if prompt.shown().checker().robot().title() != state.anatomy.anatomy.checker().robot().title() {
         ui.weak("It asks of another robot than the one shown: it has a scene of its own.");
     }
     ui.horizontal(|ui| {
@@ -248,7 +248,7 @@ pub(crate) fn robot_choice(ui: &mut Ui, state: &mut UiState) {
     let mut choices = anatomy.residents();
     choices.extend(Anatomy::choices().map(|(name, robot)| (name.to_owned(), robot)));
     let name =
-        choices.iter().find(|(_, robot)| *robot == present).map_or(present.name(), |(n, _)| n.as_str()).to_owned();
+        choices.iter().find(|(_, robot)| *robot == present).map_or(present.title(), |(n, _)| n.as_str()).to_owned();
     chooser(ui, "robot", ComboBox::from_id_salt("robot").selected_text(name), |ui| {
         for (name, robot) in choices {
             if ui.selectable_label(present == robot, name).clicked() {

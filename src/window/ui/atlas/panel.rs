@@ -8,7 +8,7 @@ use bevy_egui::egui::{
 };
 
 use super::field::{Field, Typed};
-use crate::window::ui::keys::{Action, hint};
+use crate::window::ui::keys::{AtlasAction, SessionAction, hint};
 use crate::window::ui::paint::button::LabButton;
 use crate::window::ui::paint::fold::fold;
 use crate::window::ui::paint::frame::row_height;
@@ -35,10 +35,10 @@ const LIST: f32 = 240.0;
 pub(super) fn edit_panel(ui: &mut Ui, look: &Look, atlas: &mut AtlasState) {
     ui.horizontal(|ui| {
         let [back, again] = atlas.can_undo();
-        if LabButton::new("Undo").enabled(back).show(ui, look).on_hover_text(hint(Action::Undo)).clicked() {
+        if LabButton::new("Undo").enabled(back).show(ui, look).on_hover_text(hint(SessionAction::Undo)).clicked() {
             atlas.undo(true);
         }
-        if LabButton::new("Redo").enabled(again).show(ui, look).on_hover_text(hint(Action::Redo)).clicked() {
+        if LabButton::new("Redo").enabled(again).show(ui, look).on_hover_text(hint(SessionAction::Redo)).clicked() {
             atlas.undo(false);
         }
         // a world as it came is in no file of the reader's, and needs none
@@ -121,7 +121,7 @@ fn name_field(ui: &mut Ui, atlas: &mut AtlasState, words: &str) {
 fn thing(ui: &mut Ui, look: &Look, atlas: &mut AtlasState) {
     ui.horizontal(|ui| {
         name_field(ui, atlas, "name");
-        if LabButton::new("Delete").show(ui, look).on_hover_text(hint(Action::Delete)).clicked() {
+        if LabButton::new("Delete").show(ui, look).on_hover_text(hint(AtlasAction::Delete)).clicked() {
             atlas.delete();
         }
     });

@@ -137,7 +137,6 @@ impl AtlasState {
     }
 
     /// A name for its file: the one that it is in, or its own in small letters.
-    #[cfg(feature = "window")]
     pub fn file_name(&self) -> String {
         let in_file = self.path.as_ref().and_then(|path| path.file_name());
         let own = || {
@@ -154,7 +153,6 @@ impl AtlasState {
     }
 
     /// Whether it has edits that are in no file.
-    #[cfg(feature = "window")]
     pub fn is_unsaved(&self) -> bool {
         self.editor.can_undo() && !self.is_saved()
     }
@@ -244,7 +242,6 @@ impl AtlasState {
     }
 
     /// Remembers the file that the world was read from.
-    #[cfg(feature = "window")]
     pub fn stands_in(&mut self, path: &Path) {
         self.path = Some(path.to_owned());
     }

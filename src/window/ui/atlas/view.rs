@@ -6,7 +6,7 @@ use bevy_egui::egui::{
 
 use super::panel::edit_panel;
 use super::state::{AtlasState, Mode};
-use crate::window::ui::keys::{Action, keep_arrows};
+use crate::window::ui::keys::{AtlasAction, SessionAction, keep_arrows};
 use crate::window::ui::number::Typed;
 use crate::window::ui::paint::button::LabButton;
 use crate::window::ui::paint::frame::next_hint;
@@ -28,7 +28,7 @@ const DRAGGED: f64 = 8.0;
 pub fn atlas_view(ui: &mut Ui, model: &Dashboard, look: &Look, state: &mut UiState, commands: &mut Vec<Command>) {
     let words = Widget::Atlas.text();
     if !look.low {
-        crate::window::ui::tools::head(ui, words, model, look, state, commands);
+        crate::window::ui::menu::head(ui, words, model, look, state, commands);
     }
     let room = ui.available_rect_before_wrap();
     let still = state.atlas.still();
@@ -100,11 +100,11 @@ pub fn atlas_view(ui: &mut Ui, model: &Dashboard, look: &Look, state: &mut UiSta
     ui.scope_builder(UiBuilder::new().max_rect(beside), |ui| {
         ScrollArea::vertical().id_salt("atlas").auto_shrink(false).show(ui, |ui| {
             if look.low {
-                crate::window::ui::tools::head(ui, words, model, look, state, commands);
+                crate::window::ui::menu::head(ui, words, model, look, state, commands);
             }
             next_hint(ui, words, look, state);
             beside_the_paper(ui, model, look, state, commands);
-            crate::window::ui::tools::foot(ui, words, look, state);
+            crate::window::ui::menu::foot(ui, words, look, state);
         });
     });
     if state.atlas.mode != Mode::Edit {
@@ -112,20 +112,28 @@ pub fn atlas_view(ui: &mut Ui, model: &Dashboard, look: &Look, state: &mut UiSta
     }
 }
 
-/// Carries out the action of a key while the atlas is in front. Save and open act on the world; in edit mode, undo and
-/// redo act on edits.
-pub fn act(action: Action, model: &Dashboard, state: &mut UiState, commands: &mut Vec<Command>) {
+/// Carries out an action on the session while the atlas is in front. Save and open act on the world; in edit mode, undo
+/// and redo act on edits.
+pub fn act(action: SessionAction, model: &Dashboard, state: &mut UiState, commands: &mut Vec<Command>) {
     match action {
-        Action::Undo if state.atlas.mode == Mode::Edit => state.atlas.undo(true),
-        Action::Redo if state.atlas.mode == Mode::Edit => state.atlas.undo(false),
-        Action::Move(way) => state.atlas.step(way.steps()),
-        Action::TurnThing { left } => state.atlas.turn(left),
-        Action::Delete if state.atlas.mode == Mode::Edit => state.atlas.delete(),
-        Action::Deselect if state.atlas.mode == Mode::Edit => state.atlas.leave(),
-        Action::Delete | Action::Deselect => {}
-        Action::Save => commands.push(Command::Session(SessionCommand::SaveWorld)),
-        Action::Open => commands.push(Command::Session(SessionCommand::OpenWorld)),
-        action => crate::window::ui::tools::act(action, model, state, commands),
+        SessionAction::Undo if state.atlas.mode == Mode::Edit => state.atlas.undo(true),
+        SessionAction::Redo if state.atlas.mode == Mode::Edit => state.atlas.undo(false),
+        SessionAction::Save => commands.push(Command::Session(SessionCommand::SaveWorld)),
+        SessionAction::Open => commands.push(Command::Session(SessionCommand::OpenWorld)),
+        action => crate::window::ui::menu::act(action, model, state, commands),
+    }
+}
+
+/// Carries out an action on the robot or on what is selected.
+pub fn act_on_thing(action: AtlasAction, atlas: &mut AtlasState) {
+    let edits = atlas.mode == Mode::Edit;
+    match action {
+        AtlasAction::Move(way) => atlas.step(way.steps()),
+        AtlasAction::TurnThing { left } => atlas.turn(left),
+        AtlasAction::Delete if edits => atlas.delete(),
+        AtlasAction::Deselect if edits => atlas.leave(),
+        // nothing is selected
+        AtlasAction::Delete | AtlasAction::Deselect => {}
     }
 }
 

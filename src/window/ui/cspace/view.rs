@@ -33,7 +33,7 @@ pub fn cspace_view(ui: &mut Ui, model: &Dashboard, look: &Look, state: &mut UiSt
     let narrow = look.narrow;
     let words = Widget::Cspace.text();
     if !look.low {
-        crate::window::ui::tools::head(ui, words, model, look, state, commands);
+        crate::window::ui::menu::head(ui, words, model, look, state, commands);
     }
     let anatomy = state.anatomy.anatomy.clone();
     if state.cspace.refine(&anatomy) {
@@ -66,13 +66,13 @@ pub fn cspace_view(ui: &mut Ui, model: &Dashboard, look: &Look, state: &mut UiSt
         if narrow {
             ScrollArea::vertical().id_salt("cspace").auto_shrink(false).show(ui, |ui| {
                 if look.low {
-                    crate::window::ui::tools::head(ui, words, model, look, state, commands);
+                    crate::window::ui::menu::head(ui, words, model, look, state, commands);
                 }
                 readouts(ui, look, state);
                 next_hint(ui, words, look, state);
                 choices(ui, state);
                 fold(ui, "Guess first", false, |ui| prompts(ui, Series::Tips, state));
-                crate::window::ui::tools::foot(ui, words, look, state);
+                crate::window::ui::menu::foot(ui, words, look, state);
             });
         } else {
             // each column under its paper

@@ -17,8 +17,8 @@ use motion_lab_sim::manifest::ThemeChoice;
 use motion_lab_sim::run::RobotInput;
 use motion_lab_sim::simulation::{History, RobotCommand, RunCommand, TransportCommand};
 
-const WIDE: Vec2 = Vec2::new(1280.0, 800.0);
-const PHONE: Vec2 = Vec2::new(390.0, 844.0);
+const WIDE: Vec2 = vec2(1280.0, 800.0);
+const PHONE: Vec2 = vec2(390.0, 844.0);
 
 fn robot<R: Robot>(name: &str, kind: &str, robot: &R, q: R::Configuration) -> CockpitRobot {
     CockpitRobot {
@@ -58,9 +58,8 @@ fn cockpit(world: &str, width: f64, height: f64, robot: CockpitRobot) -> Cockpit
 }
 
 fn model() -> Dashboard {
-    let car = HITCH.with_trailer();
     let pose = Pose2::new(10.5, 6.25, -1.5);
-    let mut hitch = robot("Hitch", "hitch", &car, HitchCfg { body: pose, trailer: Some(-1.5) });
+    let mut hitch = robot("Hitch", "hitch", &HITCH.with_trailer(), HitchCfg { body: pose, trailer: Some(-1.5) });
     hitch.trailer = Some(true);
     Dashboard {
         cockpits: vec![

@@ -6,11 +6,11 @@ use super::hand::drive;
 use super::pane::{chosen, take_in_hand};
 use super::plots::plots;
 use super::stage::{self, GAP, Stage};
-use crate::window::ui::keys::Action;
+use crate::window::ui::keys::{CameraAction, HandAction};
 use crate::window::ui::paint::camera::{Camera, STEP};
 use crate::window::ui::paint::frame;
-use crate::window::ui::time::transport_bar::{self, transport_bar};
-use crate::window::ui::{Command, Dashboard, Look, Notice, UiState, tools};
+use crate::window::ui::time::transport_bar::transport_bar;
+use crate::window::ui::{Command, Dashboard, Look, Notice, UiState, menu};
 use motion_lab_sim::manifest::Widget;
 use motion_lab_sim::simulation::History;
 
@@ -48,7 +48,7 @@ pub fn dashboard(
         Panel::top("head")
             .frame(Frame::NONE.inner_margin(margin))
             .show_separator_line(false)
-            .show(ui, |ui| tools::header(ui, Widget::Dashboard.text(), model, look, state, commands));
+            .show(ui, |ui| menu::header(ui, Widget::Dashboard.text(), model, look, state, commands));
     }
     if state.settings.plots && has_head {
         let margin = Margin { left: 12, right: side, top: UNDER_HEAD, bottom: 0 };
@@ -77,39 +77,34 @@ pub fn dashboard(
     panel.response.rect
 }
 
-/// Carries out the action of a key while the dashboard is in front.
-pub fn act(action: Action, model: &Dashboard, state: &mut UiState, commands: &mut Vec<Command>) {
+/// Carries out an action on the view of the world in front.
+pub fn turn_to(action: CameraAction, model: &Dashboard, state: &mut UiState) {
+    let Some((_, cockpit)) = stage::front(&model.cockpits, state) else { return };
+    let camera = state.cameras.entry(cockpit.world.name.clone()).or_default();
     match action {
-        Action::LetGo => drive::let_go(state, commands),
-        Action::Magnify | Action::ShowMore | Action::Fit => {
-            if let Some((_, cockpit)) = stage::front(&model.cockpits, state) {
-                let camera = state.cameras.entry(cockpit.world.name.clone()).or_default();
-                match action {
-                    Action::Magnify => camera.magnify(STEP, &cockpit.world.bounds),
-                    Action::ShowMore => camera.magnify(1.0 / STEP, &cockpit.world.bounds),
-                    _ => *camera = Camera::default(),
-                }
-            }
-        }
-        Action::Arm(pane) => {
-            if let Some(cockpit) = model.cockpits.get(pane) {
-                state.settings.world = pane as u32;
-                // a narrow screen shows either the plots or a pane
-                state.settings.plots &= !state.is_narrow;
-                if let Some(crowd) = cockpit.crowd.as_ref().filter(|crowd| state.crowd.picked_in(crowd).is_none()) {
-                    state.crowd.pick(crowd, Some(crowd.first));
-                }
-                take_in_hand(cockpit, chosen(cockpit, state), state, commands);
-            } else {
-                let text = format!("the run has no world number {}", pane + 1);
-                state.say(Notice { text, is_error: false });
-            }
-        }
-        action => {
-            tools::act(action, model, state, commands);
-            transport_bar::act(action, model, commands);
-        }
+        CameraAction::Magnify => camera.magnify(STEP, &cockpit.world.bounds),
+        CameraAction::ShowMore => camera.magnify(1.0 / STEP, &cockpit.world.bounds),
+        CameraAction::Fit => *camera = Camera::default(),
     }
+}
+
+/// Takes a pane's robot in hand, or lets go.
+pub fn take(action: HandAction, model: &Dashboard, state: &mut UiState, commands: &mut Vec<Command>) {
+    let pane = match action {
+        HandAction::LetGo => return drive::let_go(state, commands),
+        HandAction::Arm(pane) => pane,
+    };
+    let Some(cockpit) = model.cockpits.get(pane) else {
+        let text = format!("the run has no world number {}", pane + 1);
+        return state.say(Notice { text, is_error: false });
+    };
+    state.settings.world = pane as u32;
+    // a narrow screen shows either the plots or a pane
+    state.settings.plots &= !state.is_narrow;
+    if let Some(crowd) = cockpit.crowd.as_ref().filter(|crowd| state.crowd.picked_in(crowd).is_none()) {
+        state.crowd.pick(crowd, Some(crowd.first));
+    }
+    take_in_hand(cockpit, chosen(cockpit, state), state, commands);
 }
 
 /// Shows the head, on a wide screen the rest of it: title and buttons stand above the plots too.

@@ -11,7 +11,7 @@ use bevy_egui::egui::{
 };
 
 use super::touch::worded;
-use crate::window::ui::keys::{self, Action};
+use crate::window::ui::keys::{self, SessionAction};
 use crate::window::ui::paint::style::ScreenTheme;
 use crate::window::ui::{LessonState, Look, UiState, WidgetText};
 use motion_lab_core::picture::Role;
@@ -247,7 +247,7 @@ pub fn hints(ui: &mut Ui, widget: &WidgetText, look: &Look, state: &mut UiState)
         let (count, done) = (hints.len(), hints.iter().copied().filter(is_done).count());
         // before the hints, where no row leaves them alone
         ui.weak(format!("{done} of {count}"));
-        let hover = format!("Put these hints away: {}", keys::hint(Action::Hints));
+        let hover = format!("Put these hints away: {}", keys::hint(SessionAction::Hints));
         let is_put_away = ui.link("Got it").on_hover_text(hover).clicked();
         // of more than fit a row, the one done last and those that come next
         let last = state.settings.done.iter().rev().find_map(|id| hints.iter().copied().find(|h| h.deed.id() == *id));

@@ -4,7 +4,7 @@ use bevy_egui::egui::{ComboBox, Ui, WidgetInfo, WidgetType};
 
 use super::state::{PACES, PlanState, Stage};
 use crate::window::ui::Look;
-use crate::window::ui::keys::Action;
+use crate::window::ui::keys::TimeAction;
 use crate::window::ui::paint::button::LabButton;
 use crate::window::ui::paint::icon::Icon;
 use motion_lab_core::random::Seed;
@@ -13,23 +13,23 @@ use motion_lab_sim::manifest::Deed;
 /// Width of the button that plays, points.
 const PLAY_WIDTH: f32 = 56.0;
 
-/// Carries out the actions that move the planner. Returns whether the action was one of them.
-pub fn act(action: Action, plan: &mut PlanState) -> bool {
+/// Carries out an action that moves the planner.
+pub fn act(action: TimeAction, plan: &mut PlanState) {
     match action {
-        Action::PlayPause if plan.playing => plan.playing = false,
-        Action::PlayPause => play(plan),
-        Action::Step => {
+        TimeAction::PlayPause if plan.playing => plan.playing = false,
+        TimeAction::PlayPause => play(plan),
+        TimeAction::Step => {
             plan.playing = false;
             plan.deeds.extend(goes_on(plan).then_some(Deed::StepPlanner));
             plan.step();
         }
-        Action::Start | Action::Reset => plan.restart(),
-        Action::ReRoll => plan.set_seed(Seed(plan.seed().0.wrapping_add(1))),
-        Action::Slower => plan.pace = plan.pace.saturating_sub(1),
-        Action::Faster => plan.pace = (plan.pace + 1).min(PACES.len() - 1),
-        _ => return false,
+        TimeAction::Start | TimeAction::Reset => plan.restart(),
+        TimeAction::ReRoll => plan.set_seed(Seed(plan.seed().0.wrapping_add(1))),
+        TimeAction::Slower => plan.pace = plan.pace.saturating_sub(1),
+        TimeAction::Faster => plan.pace = (plan.pace + 1).min(PACES.len() - 1),
+        // a planner goes on only, and has no contacts
+        TimeAction::StepBack | TimeAction::End | TimeAction::NextContact | TimeAction::Loop | TimeAction::Continue => {}
     }
-    true
 }
 
 /// Lets the planner go on by itself; one that has ended, or has its path and improves it no more, begins anew.
@@ -57,10 +57,10 @@ pub fn controls(ui: &mut Ui, look: &Look, plan: &mut PlanState) {
     let play =
         if plan.playing { LabButton::new("Pause").icon(Icon::Pause) } else { LabButton::new("Play").icon(Icon::Play) };
     let buttons = [
-        (LabButton::new("Begin anew").icon(Icon::ToStart), Action::Start, "begin anew (Home)"),
-        (play.width(PLAY_WIDTH), Action::PlayPause, "grow, or pause (Space)"),
-        (LabButton::new("Step").icon(Icon::Step).enabled(goes_on(plan)), Action::Step, "one iteration (\u{2192})"),
-        (LabButton::new("Next seed").icon(Icon::Die), Action::ReRoll, "the next seed (G)"),
+        (LabButton::new("Begin anew").icon(Icon::ToStart), TimeAction::Start, "begin anew (Home)"),
+        (play.width(PLAY_WIDTH), TimeAction::PlayPause, "grow, or pause (Space)"),
+        (LabButton::new("Step").icon(Icon::Step).enabled(goes_on(plan)), TimeAction::Step, "one iteration (\u{2192})"),
+        (LabButton::new("Next seed").icon(Icon::Die), TimeAction::ReRoll, "the next seed (G)"),
     ];
     for (button, action, words) in buttons {
         if button.show(ui, look).on_hover_text(words).clicked() {

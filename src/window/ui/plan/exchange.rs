@@ -53,7 +53,7 @@ impl PlanState {
         let robot = resident.unwrap_or(kind);
         let drawn = file.drawn(&robot)?;
         // a name that no robot has is the file's word only: what is copied as a command repeats the task's
-        let robot_name = if resident.is_some() { robot_name } else { robot.name() }.to_owned();
+        let robot_name = if resident.is_some() { robot_name } else { robot.title() }.to_owned();
         self.take(Task::new(robot_name, robot, world, [start, goal]));
         (self.work, self.stage) = (None, Stage::Read(name.to_owned()));
         self.draw(drawn);

@@ -1,6 +1,6 @@
 //! Plan: a planner at work, in the workspace and in the configuration space.
 
-mod controls;
+pub(super) mod controls;
 mod exchange;
 mod panel;
 mod state;

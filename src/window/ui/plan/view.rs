@@ -4,10 +4,10 @@ use std::sync::Arc;
 
 use bevy_egui::egui::{Align2, Rect, ScrollArea, TextStyle, Ui, UiBuilder, Vec2, pos2, vec2};
 
-use super::controls::{act as act_on_planner, controls};
+use super::controls::controls;
 use super::panel::{choices, ends, outcome, panel, path_buttons};
 use super::state::PlanState;
-use crate::window::ui::keys::Action;
+use crate::window::ui::keys::SessionAction;
 use crate::window::ui::paint::canvas::{self, MARGIN};
 use crate::window::ui::paint::frame::next_hint;
 use crate::window::ui::paint::sheet::{Sheet, sheet, two_columns};
@@ -35,16 +35,15 @@ const UNDER: f32 = 180.0;
 const CELLS: u32 = 1500;
 
 /// Carries out the action of a key while the widget is in front. Save and open act on paths.
-pub fn act(action: Action, model: &Dashboard, state: &mut UiState, commands: &mut Vec<Command>) {
+pub fn act(action: SessionAction, model: &Dashboard, state: &mut UiState, commands: &mut Vec<Command>) {
     match action {
-        Action::Save if state.plan.lengths().is_none() => {
+        SessionAction::Save if state.plan.lengths().is_none() => {
             let text = "there is no path to save: the planner here has found none";
             state.say(Notice { text: text.to_owned(), is_error: true });
         }
-        Action::Save => commands.push(Command::Session(SessionCommand::SavePath)),
-        Action::Open => commands.push(Command::Session(SessionCommand::OpenPath)),
-        action if act_on_planner(action, &mut state.plan) => {}
-        action => crate::window::ui::tools::act(action, model, state, commands),
+        SessionAction::Save => commands.push(Command::Session(SessionCommand::SavePath)),
+        SessionAction::Open => commands.push(Command::Session(SessionCommand::OpenPath)),
+        action => crate::window::ui::menu::act(action, model, state, commands),
     }
 }
 
@@ -53,7 +52,7 @@ pub fn plan_view(ui: &mut Ui, model: &Dashboard, look: &Look, state: &mut UiStat
     let narrow = look.narrow;
     let words = Widget::Plan.text();
     if !look.low {
-        crate::window::ui::tools::head(ui, words, model, look, state, commands);
+        crate::window::ui::menu::head(ui, words, model, look, state, commands);
     }
     if state.plan.playing {
         state.plan.play(f64::from(ui.input(|i| i.stable_dt)));
@@ -91,12 +90,12 @@ pub fn plan_view(ui: &mut Ui, model: &Dashboard, look: &Look, state: &mut UiStat
         ui.scope_builder(UiBuilder::new().max_rect(beside.with_min_y(beside.top() + 6.0)), |ui| {
             ScrollArea::vertical().id_salt("plan").auto_shrink(false).show(ui, |ui| {
                 if look.low {
-                    crate::window::ui::tools::head(ui, words, model, look, state, commands);
+                    crate::window::ui::menu::head(ui, words, model, look, state, commands);
                 }
                 ui.horizontal_wrapped(|ui| controls(ui, look, &mut state.plan));
                 next_hint(ui, words, look, state);
                 panel(ui, look, state, commands);
-                crate::window::ui::tools::foot(ui, words, look, state);
+                crate::window::ui::menu::foot(ui, words, look, state);
             });
         });
     } else {

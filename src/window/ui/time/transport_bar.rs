@@ -6,7 +6,7 @@ use bevy_egui::egui::{
 };
 
 use super::time_line::time_line;
-use crate::window::ui::keys::{Action, hint};
+use crate::window::ui::keys::{TimeAction, hint};
 use crate::window::ui::paint::button::{LabButton, SIGN, sign_width};
 use crate::window::ui::paint::fold::form;
 use crate::window::ui::paint::icon::Icon;
@@ -36,25 +36,24 @@ const SPEEDS: [(f64, &str); 11] = [
     (f64::INFINITY, "as fast as possible"),
 ];
 
-/// Carries out the actions that move the run, and ignores all others.
-pub fn act(action: Action, model: &Dashboard, commands: &mut Vec<Command>) {
+/// Carries out an action that moves the run.
+pub fn act(action: TimeAction, model: &Dashboard, commands: &mut Vec<Command>) {
     let at = SPEEDS.iter().position(|(speed, _)| *speed == model.speed);
     let speed = |at: Option<usize>| SPEEDS.get(at?).map(|(speed, _)| TransportCommand::SetSpeed(*speed));
     let command = match action {
-        Action::PlayPause if model.playing => Some(TransportCommand::Pause),
-        Action::PlayPause => Some(TransportCommand::Play),
-        Action::StepBack => Some(TransportCommand::StepBack),
-        Action::Step => Some(TransportCommand::Step),
-        Action::Start => Some(TransportCommand::Seek(0)),
-        Action::End => Some(TransportCommand::Seek(model.frontier)),
-        Action::NextContact => model.next_contact.map(TransportCommand::Seek),
-        Action::Loop => Some(TransportCommand::SetLooping(!model.looping)),
-        Action::Slower => speed(at.and_then(|i| i.checked_sub(1))),
-        Action::Faster => speed(at.map(|i| i + 1)),
-        Action::Continue if model.tick < model.frontier => Some(TransportCommand::ContinueFromHere),
-        Action::Reset => Some(TransportCommand::Reset),
-        Action::ReRoll => Some(TransportCommand::ReRoll),
-        _ => None,
+        TimeAction::PlayPause if model.playing => Some(TransportCommand::Pause),
+        TimeAction::PlayPause => Some(TransportCommand::Play),
+        TimeAction::StepBack => Some(TransportCommand::StepBack),
+        TimeAction::Step => Some(TransportCommand::Step),
+        TimeAction::Start => Some(TransportCommand::Seek(0)),
+        TimeAction::End => Some(TransportCommand::Seek(model.frontier)),
+        TimeAction::NextContact => model.next_contact.map(TransportCommand::Seek),
+        TimeAction::Loop => Some(TransportCommand::SetLooping(!model.looping)),
+        TimeAction::Slower => speed(at.and_then(|i| i.checked_sub(1))),
+        TimeAction::Faster => speed(at.map(|i| i + 1)),
+        TimeAction::Continue => (model.tick < model.frontier).then_some(TransportCommand::ContinueFromHere),
+        TimeAction::Reset => Some(TransportCommand::Reset),
+        TimeAction::ReRoll => Some(TransportCommand::ReRoll),
     };
     commands.extend(command.map(Command::from));
 }
@@ -144,30 +143,30 @@ fn essential(
 }
 
 /// A button with its name and its sign.
-type Signed = (&'static str, Icon, Action);
+type Signed = (&'static str, Icon, TimeAction);
 
-const START: Signed = ("To the start", Icon::ToStart, Action::Start);
-const BACK: Signed = ("Back", Icon::Back, Action::StepBack);
-const PLAY: Signed = ("Play", Icon::Play, Action::PlayPause);
-const STEP: Signed = ("Step", Icon::Step, Action::Step);
-const NEXT: Signed = ("Next contact", Icon::NextContact, Action::NextContact);
-const LOOP: Signed = ("Loop", Icon::Loop, Action::Loop);
-const RESET: Signed = ("Reset", Icon::Reset, Action::Reset);
-const RE_ROLL: Signed = ("Re-roll", Icon::Die, Action::ReRoll);
+const START: Signed = ("To the start", Icon::ToStart, TimeAction::Start);
+const BACK: Signed = ("Back", Icon::Back, TimeAction::StepBack);
+const PLAY: Signed = ("Play", Icon::Play, TimeAction::PlayPause);
+const STEP: Signed = ("Step", Icon::Step, TimeAction::Step);
+const NEXT: Signed = ("Next contact", Icon::NextContact, TimeAction::NextContact);
+const LOOP: Signed = ("Loop", Icon::Loop, TimeAction::Loop);
+const RESET: Signed = ("Reset", Icon::Reset, TimeAction::Reset);
+const RE_ROLL: Signed = ("Re-roll", Icon::Die, TimeAction::ReRoll);
 
 /// The signs of a wide screen, group after group.
 const GROUPS: [&[Signed]; 2] = [&[START, BACK, PLAY, STEP, NEXT, LOOP], &[RESET, RE_ROLL]];
 
 /// The signs that a narrow screen shows at once. It keeps the others, as words, in a menu.
 const ESSENTIAL: [Signed; 6] = [BACK, PLAY, STEP, NEXT, RESET, RE_ROLL];
-const MORE: [(&str, Action); 3] =
-    [("To the start", Action::Start), ("Loop", Action::Loop), ("Continue from here", Action::Continue)];
+const MORE: [(&str, TimeAction); 3] =
+    [("To the start", TimeAction::Start), ("Loop", TimeAction::Loop), ("Continue from here", TimeAction::Continue)];
 
 fn buttons(ui: &mut Ui, model: &Dashboard, look: &Look, signs: &[Signed], commands: &mut Vec<Command>) {
     for &(label, icon, action) in signs {
         let shown = match action {
-            Action::PlayPause if model.playing => LabButton::new("Pause").icon(Icon::Pause).width(PLAY_WIDTH),
-            Action::PlayPause => LabButton::new(label).icon(icon).width(PLAY_WIDTH),
+            TimeAction::PlayPause if model.playing => LabButton::new("Pause").icon(Icon::Pause).width(PLAY_WIDTH),
+            TimeAction::PlayPause => LabButton::new(label).icon(icon).width(PLAY_WIDTH),
             _ => LabButton::new(label).icon(icon),
         };
         button(ui, model, (shown, action), look, commands);
@@ -180,14 +179,14 @@ const PLAY_WIDTH: f32 = 56.0;
 fn button(
     ui: &mut Ui,
     model: &Dashboard,
-    (shown, action): (LabButton<'_>, Action),
+    (shown, action): (LabButton<'_>, TimeAction),
     look: &Look,
     commands: &mut Vec<Command>,
 ) {
     let shown = match action {
-        Action::NextContact => shown.enabled(model.next_contact.is_some()),
-        Action::Continue => shown.enabled(model.tick < model.frontier),
-        Action::Loop => shown.selected(model.looping),
+        TimeAction::NextContact => shown.enabled(model.next_contact.is_some()),
+        TimeAction::Continue => shown.enabled(model.tick < model.frontier),
+        TimeAction::Loop => shown.selected(model.looping),
         _ => shown,
     };
     if shown.show(ui, look).on_hover_text(hint(action)).clicked() {
@@ -212,8 +211,8 @@ fn speed_choice(ui: &mut Ui, model: &Dashboard, commands: &mut Vec<Command>) {
     });
     choice.response.on_hover_text(format!(
         "Simulated seconds per second: {}, {}",
-        hint(Action::Slower),
-        hint(Action::Faster)
+        hint(TimeAction::Slower),
+        hint(TimeAction::Faster)
     ));
 }
 

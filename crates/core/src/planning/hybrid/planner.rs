@@ -11,7 +11,7 @@ use super::{CarMove, HybridSettings};
 use crate::collision::Problem;
 use crate::configuration::HitchCfg;
 use crate::num::{lesser, wrap};
-use crate::planning::{CertifiedPath, Growth, NoPath, Planner, Progress};
+use crate::planning::{CertifiedPath, NoPath, Planner, Search};
 use crate::robots::{CHANNEL_UNITS, Hitch, HitchArc, Motion};
 
 /// Hybrid A* (Dolgov, Thrun, Montemerlo and Diebel, 2008) for the car, with a trailer or without: A* over what the car
@@ -24,20 +24,17 @@ use crate::robots::{CHANNEL_UNITS, Hitch, HitchArc, Motion};
 /// configuration. No samples are drawn.
 #[derive(Clone, Debug)]
 pub struct HybridAStar {
-    problem: Problem<Hitch>,
+    search: Search<Hitch, HitchArc>,
     settings: HybridSettings,
     /// The clearance that the ends of moves keep, metres.
     keep: f64,
     remaining: Remaining,
-    growth: Growth<HitchCfg, HitchArc>,
     /// How each node was reached; `None` for the start.
     reached: Vec<Reached>,
     open: BinaryHeap<Reverse<(u64, usize)>>,
     /// The least cost at which each cell was reached.
     cells: BTreeMap<Cell, f64>,
     closed: BTreeMap<Cell, usize>,
-    ended: Option<Progress>,
-    path: Option<CertifiedPath<HitchArc>>,
 }
 
 /// The problem with the region of the settings about its goal.
@@ -72,17 +69,14 @@ impl HybridAStar {
             keep: ends.into_iter().fold(settings.keep, lesser),
             settings,
             remaining,
-            growth: Growth::new(),
             reached: Vec::new(),
             open: BinaryHeap::new(),
             cells: BTreeMap::new(),
             closed: BTreeMap::new(),
-            ended: None,
-            path: None,
-            problem,
+            search: Search::of_motions(problem),
         };
-        let start = planner.problem.start();
-        planner.growth.add_root(start);
+        let start = planner.search.problem.start();
+        planner.search.growth.add_root(start);
         let cell = planner.cell(&start, false);
         planner.cells.insert(cell, 0.0);
         planner.reached.push(Reached { by: None, cost: 0.0, cell });
@@ -97,15 +91,15 @@ impl HybridAStar {
 
     /// The moves of the path, as the simulator can drive them; none while there is no path.
     pub fn moves(&self) -> Vec<CarMove> {
-        let last = self.growth.nodes().len() - 1;
-        if self.path.is_none() {
+        let last = self.search.growth.nodes().len() - 1;
+        if self.search.path.is_none() {
             return Vec::new();
         }
-        self.growth.branch(last).into_iter().filter_map(|node| self.reached[node].by).collect()
+        self.search.growth.branch(last).into_iter().filter_map(|node| self.reached[node].by).collect()
     }
 
     fn car(&self) -> &Hitch {
-        self.problem.checker().robot()
+        self.search.problem.checker().robot()
     }
 
     fn cell(&self, q: &HitchCfg, back: bool) -> Cell {
@@ -120,7 +114,7 @@ impl HybridAStar {
 
     /// Opens a node, by its cost and the estimate of what remains.
     fn push(&mut self, node: usize) {
-        let estimate = self.reached[node].cost + self.settings.greed * self.remaining.at(&self.growth.at(node).body);
+        let estimate = self.reached[node].cost + self.settings.greed * self.remaining.at(&self.search.at(node).body);
         // the order of the bits of numbers that are not negative is theirs
         self.open.push(Reverse((estimate.to_bits(), node)));
     }
@@ -138,18 +132,19 @@ impl HybridAStar {
 
     /// Asks whether a move is free whose end keeps its clearance.
     fn ask(&mut self, arc: HitchArc) -> bool {
-        self.problem.checker().distance(&arc.at(1.0)) >= self.keep && self.growth.ask(self.problem.checker(), arc)
+        self.search.problem.checker().distance(&arc.at(1.0)) >= self.keep
+            && self.search.growth.ask(self.search.problem.checker(), arc)
     }
 
     /// Adds the end of a move that is proven free.
     fn add(&mut self, parent: usize, m: CarMove, end: HitchCfg, cost: f64, cell: Cell) -> usize {
         self.reached.push(Reached { by: Some(m), cost, cell });
-        self.growth.add(end, parent)
+        self.search.growth.add(end, parent)
     }
 
     /// Asks about every control from a node.
     fn expand(&mut self, node: usize) {
-        let from = self.growth.at(node);
+        let from = self.search.at(node);
         let full = CHANNEL_UNITS as i16;
         let sides: Vec<i16> = self.settings.steering.iter().flat_map(|s| [*s, -*s]).collect();
         for speed in [full, -full] {
@@ -176,11 +171,11 @@ impl HybridAStar {
 
     /// Goes straight to the goal from a node, if that is free. Returns the last node.
     fn shoot(&mut self, node: usize) -> Option<usize> {
-        let from = self.growth.at(node);
-        for shot in shots(&self.problem, &from, &self.settings) {
+        let from = self.search.at(node);
+        for shot in shots(&self.search.problem, &from, &self.settings) {
             let (mut at, mut ends) = (from, Vec::new());
             let free = shot.moves.iter().all(|m| {
-                let Ok(arc) = m.drive(self.problem.checker().robot(), &at) else { return false };
+                let Ok(arc) = m.drive(self.search.problem.checker().robot(), &at) else { return false };
                 at = arc.at(1.0);
                 ends.push(at);
                 self.ask(arc)
@@ -199,33 +194,24 @@ impl HybridAStar {
 
     /// The path to a node, with its certificates.
     fn path_to(&self, node: usize) -> Option<CertifiedPath<HitchArc>> {
-        let branch = self.growth.branch(node);
+        let branch = self.search.growth.branch(node);
         let motions: Vec<HitchArc> =
             branch.windows(2).map(|ends| self.motion(ends[0], ends[1])).collect::<Option<_>>()?;
         // where the start is near enough to the goal, the car stays
         let stays = CarMove { speed: 0, steering: 0, ticks: 1 };
         let motions =
-            if motions.is_empty() { vec![stays.drive(self.car(), &self.growth.at(node)).ok()?] } else { motions };
-        CertifiedPath::try_new(self.problem.checker(), motions).ok()
+            if motions.is_empty() { vec![stays.drive(self.car(), &self.search.at(node)).ok()?] } else { motions };
+        CertifiedPath::try_new(self.search.problem.checker(), motions).ok()
     }
 
-    fn next(&mut self) -> Progress {
-        let node = loop {
-            let Some(Reverse((_, node))) = self.open.pop() else {
-                return Progress::Ended(NoPath::NoneInGraph { nodes: self.growth.nodes().len() });
-            };
-            let cell = self.reached[node].cell;
-            if self.closed.insert(cell, node).is_none() {
-                break node;
+    /// The next open node whose cell is not closed.
+    fn next(&mut self) -> Option<usize> {
+        while let Some(Reverse((_, node))) = self.open.pop() {
+            if self.closed.insert(self.reached[node].cell, node).is_none() {
+                return Some(node);
             }
-        };
-        let last = if self.problem.is_goal(&self.growth.at(node)) { Some(node) } else { self.shoot(node) };
-        if let Some(path) = last.and_then(|last| self.path_to(last)) {
-            self.path = Some(path);
-            return Progress::Solved;
         }
-        self.expand(node);
-        Progress::Growing
+        None
     }
 }
 
@@ -234,33 +220,30 @@ impl Planner<Hitch, HitchArc> for HybridAStar {
         "hybrid-a-star"
     }
 
-    fn problem(&self) -> &Problem<Hitch> {
-        &self.problem
+    fn search(&self) -> &Search<Hitch, HitchArc> {
+        &self.search
     }
 
-    fn step(&mut self) -> Progress {
-        if let Some(ended) = &self.ended {
-            return ended.clone();
-        }
-        self.growth.begin_iteration();
-        let progress = self.next();
-        if progress != Progress::Growing {
-            self.ended = Some(progress.clone());
-        }
-        progress
+    fn search_mut(&mut self) -> &mut Search<Hitch, HitchArc> {
+        &mut self.search
     }
 
-    fn growth(&self) -> &Growth<HitchCfg, HitchArc> {
-        &self.growth
+    fn advance(&mut self) {
+        let Some(node) = self.next() else {
+            self.search.end = Some(NoPath::NoneInGraph { nodes: self.search.growth.nodes().len() });
+            return;
+        };
+        let is_goal = self.search.problem.is_goal(&self.search.at(node));
+        let last = if is_goal { Some(node) } else { self.shoot(node) };
+        self.search.path = last.and_then(|last| self.path_to(last));
+        if self.search.path.is_none() {
+            self.expand(node);
+        }
     }
 
     fn motion(&self, from: usize, to: usize) -> Option<HitchArc> {
-        let node = self.growth.nodes().get(to)?;
+        let node = self.search.growth.nodes().get(to)?;
         let by = self.reached[to].by.filter(|_| node.parent == Some(from))?;
-        by.drive(self.car(), &self.growth.at(from)).ok()
-    }
-
-    fn path(&self) -> Option<&CertifiedPath<HitchArc>> {
-        self.path.as_ref()
+        by.drive(self.car(), &self.search.at(from)).ok()
     }
 }

@@ -3,8 +3,8 @@
 use super::walker::{Headed, Walker, apart};
 use crate::collision::Problem;
 use crate::configuration::Chart;
-use crate::planning::{Growth, LinePath, NoPath, Planner, Progress};
-use crate::robots::{ChartLine, Robot};
+use crate::planning::{NoPath, Planner, Search};
+use crate::robots::Robot;
 
 /// The number of steps along a boundary in which the walker comes to the clearance that it keeps.
 const SETTLE: u64 = 16;
@@ -36,8 +36,6 @@ enum Phase {
 pub struct Bug1<R: Robot> {
     walker: Walker<R>,
     phase: Phase,
-    end: Option<Progress>,
-    path: Option<LinePath<R>>,
 }
 
 impl<R: Robot<Configuration: Chart>> Bug1<R> {
@@ -47,22 +45,23 @@ impl<R: Robot<Configuration: Chart>> Bug1<R> {
     /// [`NoPath::Unsuited`] for a robot that is not a disc.
     pub fn try_new(problem: &Problem<R>) -> Result<Self, NoPath> {
         let walker = Walker::try_new(problem).ok_or(NoPath::Unsuited("Bug1 is for robots that are discs"))?;
-        Ok(Bug1 { walker, phase: Phase::Head, end: None, path: None })
+        Ok(Bug1 { walker, phase: Phase::Head })
     }
 
-    fn advance(&mut self) -> Option<Progress> {
+    /// Takes a step; the reason is why there will be no path.
+    fn walk(&mut self) -> Option<NoPath> {
         match std::mem::replace(&mut self.phase, Phase::Head) {
             Phase::Leave => match self.walker.leave() {
                 Headed::Moved => {
                     self.phase = if self.walker.is_clear() { Phase::Head } else { Phase::Leave };
                     None
                 }
-                Headed::Arrived => self.arrived(),
-                Headed::Blocked => Some(Progress::Ended(NoPath::Enclosed { kept: self.walker.keep })),
+                Headed::Arrived => self.walker.arrived(),
+                Headed::Blocked => Some(NoPath::Enclosed { kept: self.walker.keep }),
             },
             Phase::Head => match self.walker.head() {
                 Headed::Moved => None,
-                Headed::Arrived => self.arrived(),
+                Headed::Arrived => self.walker.arrived(),
                 Headed::Blocked => {
                     self.phase = Phase::Settle { steps: 0 };
                     None
@@ -91,20 +90,20 @@ impl<R: Robot<Configuration: Chart>> Bug1<R> {
                     None
                 }
                 Some(next) => {
-                    let to = self.walker.growth.at(next);
+                    let to = self.walker.search.at(next);
                     self.phase = Phase::Return { nodes };
-                    if self.walker.go(to) { None } else { self.stuck() }
+                    if self.walker.go(to) { None } else { Some(self.walker.stuck()) }
                 }
             },
         }
     }
 
     /// A step along the boundary, or the goal if that is near.
-    fn follow(&mut self) -> Option<Progress> {
+    fn follow(&mut self) -> Option<NoPath> {
         if self.walker.arrive() {
-            return self.arrived();
+            return self.walker.arrived();
         }
-        if self.walker.follow() { None } else { self.stuck() }
+        if self.walker.follow() { None } else { Some(self.walker.stuck()) }
     }
 
     /// The nodes of the shorter way from the end of a round to the place nearest to the goal, the first one last.
@@ -121,15 +120,6 @@ impl<R: Robot<Configuration: Chart>> Bug1<R> {
             (leave..end).collect()
         }
     }
-
-    fn arrived(&mut self) -> Option<Progress> {
-        self.path = self.walker.path();
-        if self.path.is_some() { Some(Progress::Solved) } else { self.stuck() }
-    }
-
-    fn stuck(&self) -> Option<Progress> {
-        Some(Progress::Ended(NoPath::LocalMinimum { node: self.walker.node() }))
-    }
 }
 
 impl<R: Robot<Configuration: Chart>> Planner<R> for Bug1<R> {
@@ -137,27 +127,15 @@ impl<R: Robot<Configuration: Chart>> Planner<R> for Bug1<R> {
         "bug1"
     }
 
-    fn problem(&self) -> &Problem<R> {
-        &self.walker.problem
+    fn search(&self) -> &Search<R> {
+        &self.walker.search
     }
 
-    fn step(&mut self) -> Progress {
-        if self.end.is_none() {
-            self.walker.growth.begin_iteration();
-            self.end = self.advance();
-        }
-        self.end.clone().unwrap_or(Progress::Growing)
+    fn search_mut(&mut self) -> &mut Search<R> {
+        &mut self.walker.search
     }
 
-    fn growth(&self) -> &Growth<R::Configuration, ChartLine<R>> {
-        &self.walker.growth
-    }
-
-    fn motion(&self, from: usize, to: usize) -> Option<ChartLine<R>> {
-        self.walker.growth.line(self.walker.problem.checker().robot(), from, to)
-    }
-
-    fn path(&self) -> Option<&LinePath<R>> {
-        self.path.as_ref()
+    fn advance(&mut self) {
+        self.walker.search.end = self.walk();
     }
 }

@@ -4,8 +4,8 @@ use super::walker::{Headed, Walker, apart};
 use crate::collision::Problem;
 use crate::configuration::Chart;
 use crate::geometry::Point2;
-use crate::planning::{Growth, LinePath, NoPath, Planner, Progress};
-use crate::robots::{ChartLine, Robot};
+use crate::planning::{NoPath, Planner, Search};
+use crate::robots::Robot;
 
 /// What the next iteration does.
 #[derive(Clone, Copy, Debug)]
@@ -33,8 +33,6 @@ pub struct Bug2<R: Robot> {
     walker: Walker<R>,
     start: Point2,
     phase: Phase,
-    end: Option<Progress>,
-    path: Option<LinePath<R>>,
 }
 
 /// The number of steps along a boundary before coming back counts.
@@ -48,14 +46,15 @@ impl<R: Robot<Configuration: Chart>> Bug2<R> {
     pub fn try_new(problem: &Problem<R>) -> Result<Self, NoPath> {
         let walker = Walker::try_new(problem).ok_or(NoPath::Unsuited("Bug2 is for robots that are discs"))?;
         let start = walker.here();
-        Ok(Bug2 { walker, start, phase: Phase::Head, end: None, path: None })
+        Ok(Bug2 { walker, start, phase: Phase::Head })
     }
 
-    fn advance(&mut self) -> Option<Progress> {
+    /// Takes a step; the reason is why there will be no path.
+    fn walk(&mut self) -> Option<NoPath> {
         match self.phase {
             Phase::Head => match self.walker.head() {
                 Headed::Moved => None,
-                Headed::Arrived => self.arrived(),
+                Headed::Arrived => self.walker.arrived(),
                 Headed::Blocked => {
                     self.phase = Phase::Follow { hit: self.walker.here(), steps: 0 };
                     None
@@ -63,11 +62,11 @@ impl<R: Robot<Configuration: Chart>> Bug2<R> {
             },
             Phase::Follow { hit, steps } => {
                 if self.walker.arrive() {
-                    return self.arrived();
+                    return self.walker.arrived();
                 }
                 let before = self.walker.here();
                 if !self.walker.follow() {
-                    return Some(Progress::Ended(NoPath::LocalMinimum { node: self.walker.node() }));
+                    return Some(self.walker.stuck());
                 }
                 self.phase = Phase::Follow { hit, steps: steps + 1 };
                 let here = self.walker.here();
@@ -76,18 +75,12 @@ impl<R: Robot<Configuration: Chart>> Bug2<R> {
                 {
                     self.phase = Phase::Head;
                 } else if steps > AWAY && apart(here, hit) < 1.5 * self.walker.stride() {
-                    let nodes = self.walker.growth.nodes().len();
-                    return Some(Progress::Ended(NoPath::NoneInGraph { nodes }));
+                    let nodes = self.walker.search.growth.nodes().len();
+                    return Some(NoPath::NoneInGraph { nodes });
                 }
                 None
             }
         }
-    }
-
-    fn arrived(&mut self) -> Option<Progress> {
-        self.path = self.walker.path();
-        let no_proof = Progress::Ended(NoPath::LocalMinimum { node: self.walker.node() });
-        Some(if self.path.is_some() { Progress::Solved } else { no_proof })
     }
 
     /// Whether a step crosses the line through the start and the goal.
@@ -103,27 +96,15 @@ impl<R: Robot<Configuration: Chart>> Planner<R> for Bug2<R> {
         "bug2"
     }
 
-    fn problem(&self) -> &Problem<R> {
-        &self.walker.problem
+    fn search(&self) -> &Search<R> {
+        &self.walker.search
     }
 
-    fn step(&mut self) -> Progress {
-        if self.end.is_none() {
-            self.walker.growth.begin_iteration();
-            self.end = self.advance();
-        }
-        self.end.clone().unwrap_or(Progress::Growing)
+    fn search_mut(&mut self) -> &mut Search<R> {
+        &mut self.walker.search
     }
 
-    fn growth(&self) -> &Growth<R::Configuration, ChartLine<R>> {
-        &self.walker.growth
-    }
-
-    fn motion(&self, from: usize, to: usize) -> Option<ChartLine<R>> {
-        self.walker.growth.line(self.walker.problem.checker().robot(), from, to)
-    }
-
-    fn path(&self) -> Option<&LinePath<R>> {
-        self.path.as_ref()
+    fn advance(&mut self) {
+        self.walker.search.end = self.walk();
     }
 }

@@ -3,8 +3,8 @@
 use crate::collision::Problem;
 use crate::configuration::{AnyConfiguration, Configuration};
 use crate::cspace::{CellMap, CellState, Slice};
-use crate::planning::{Growth, LinePath, NoPath, Planner, Progress, Queue};
-use crate::robots::{AnyRobot, ChartLine};
+use crate::planning::{NoPath, Planner, Queue, Search};
+use crate::robots::AnyRobot;
 
 /// The level of the finest cells: a 128th of the space's sides.
 const FINEST: u32 = 7;
@@ -22,11 +22,8 @@ const CELLS: u32 = 256;
 /// An iteration judges 256 cells.
 #[derive(Clone, Debug)]
 pub struct CellDecomposition {
-    problem: Problem<AnyRobot>,
+    search: Search<AnyRobot>,
     map: Option<CellMap>,
-    growth: Growth<AnyConfiguration, ChartLine<AnyRobot>>,
-    end: Option<Progress>,
-    path: Option<LinePath<AnyRobot>>,
 }
 
 impl CellDecomposition {
@@ -35,46 +32,39 @@ impl CellDecomposition {
         let slice = Slice::through(problem.checker(), &problem.start()).ok();
         // where other coordinates matter too, parting the start from the goal in the slice proves nothing
         let slice = slice.filter(|slice| slice.held().is_empty());
-        let reason = "cells are for discs and for arms of two links";
-        let end = slice.is_none().then_some(Progress::Ended(NoPath::Unsuited(reason)));
-        let mut growth = Growth::new();
-        growth.add_root(problem.start().in_chart());
-        CellDecomposition { problem, map: slice.map(|slice| CellMap::new(slice, FINEST)), growth, end, path: None }
+        let mut search = Search::from_start(problem);
+        search.end = slice.is_none().then_some(NoPath::Unsuited("cells are for discs and for arms of two links"));
+        CellDecomposition { search, map: slice.map(|slice| CellMap::new(slice, FINEST)) }
     }
 
-    fn advance(&mut self) -> Option<Progress> {
+    /// Judges cells, and takes the path where those that are free join the ends; the reason is why there is none.
+    fn refine(&mut self) -> Option<NoPath> {
         let map = self.map.as_mut()?;
         let is_done = !map.refine(CELLS);
         let raster = Raster::of(map);
-        let [start, goal] = [self.problem.start(), self.problem.goal()].map(|q| raster.cell(map.slice().point(&q)));
+        let [start, goal] =
+            [self.search.problem.start(), self.search.problem.goal()].map(|q| raster.cell(map.slice().point(&q)));
         if let Some(cells) = raster.way(start, goal, |state| state == CellState::Free) {
             let middles: Vec<AnyConfiguration> =
                 cells.iter().map(|cell| map.slice().at(raster.middle(*cell))).collect();
-            let goal = self.problem.goal().in_chart();
-            let mut node = 0;
-            for q in middles.into_iter().chain([goal]) {
-                if !self.growth.ask_edge(self.problem.checker(), &self.growth.at(node), &q) {
-                    return Some(self.undecided());
-                }
-                node = self.growth.add(q, node);
-            }
-            self.path = self.growth.certified(self.problem.checker(), &self.growth.branch(node));
-            return Some(if self.path.is_some() { Progress::Solved } else { self.undecided() });
+            let goal = self.search.problem.goal().in_chart();
+            let end = middles.into_iter().chain([goal]).try_fold(0, |node, q| self.search.reach(node, q));
+            let is_solved = end.is_some_and(|end| self.search.take_branch(end));
+            return (!is_solved).then(|| self.undecided());
         }
         if raster.way(start, goal, |state| state != CellState::Blocked).is_none() {
-            let ends = [self.problem.start(), self.problem.goal()];
+            let ends = [self.search.problem.start(), self.search.problem.goal()];
             // a way to an end beyond the cells may lead around all of them
             if !ends.iter().all(|q| raster.holds(map.slice().point(q))) {
                 return Some(self.undecided());
             }
-            return Some(Progress::Ended(NoPath::Unreachable { cells: map.progress().judged }));
+            return Some(NoPath::Unreachable { cells: map.progress().judged });
         }
         is_done.then(|| self.undecided())
     }
 
-    fn undecided(&self) -> Progress {
-        let nodes = self.map.as_ref().map_or(0, |map| map.leaves().count());
-        Progress::Ended(NoPath::NoneInGraph { nodes })
+    fn undecided(&self) -> NoPath {
+        NoPath::NoneInGraph { nodes: self.map.as_ref().map_or(0, |map| map.leaves().count()) }
     }
 }
 
@@ -160,28 +150,16 @@ impl Planner<AnyRobot> for CellDecomposition {
         "cell-decomposition"
     }
 
-    fn problem(&self) -> &Problem<AnyRobot> {
-        &self.problem
+    fn search(&self) -> &Search<AnyRobot> {
+        &self.search
     }
 
-    fn step(&mut self) -> Progress {
-        if self.end.is_none() {
-            self.growth.begin_iteration();
-            self.end = self.advance();
-        }
-        self.end.clone().unwrap_or(Progress::Growing)
+    fn search_mut(&mut self) -> &mut Search<AnyRobot> {
+        &mut self.search
     }
 
-    fn growth(&self) -> &Growth<AnyConfiguration, ChartLine<AnyRobot>> {
-        &self.growth
-    }
-
-    fn motion(&self, from: usize, to: usize) -> Option<ChartLine<AnyRobot>> {
-        self.growth.line(self.problem.checker().robot(), from, to)
-    }
-
-    fn path(&self) -> Option<&LinePath<AnyRobot>> {
-        self.path.as_ref()
+    fn advance(&mut self) {
+        self.search.end = self.refine();
     }
 
     fn cells(&self) -> Option<&CellMap> {

@@ -6,8 +6,8 @@ use std::f64::consts::TAU;
 use super::frontier::Frontier;
 use crate::collision::Problem;
 use crate::configuration::{Chart, Configuration, Coordinates};
-use crate::planning::{Growth, LinePath, Metric, NoPath, Planner, Progress, Settings};
-use crate::robots::{ChartLine, Robot};
+use crate::planning::{Metric, NoPath, Planner, Search, Settings};
+use crate::robots::Robot;
 use crate::short_list::ShortList;
 
 /// The number of steps of the grid to a step of the sampling planners.
@@ -37,11 +37,10 @@ struct Axis {
 /// An iteration expands one place and asks about at most `3^d` edges in d dimensions, each when it would shorten a way.
 #[derive(Clone, Debug)]
 pub struct GridSearch<R: Robot> {
-    problem: Problem<R>,
+    search: Search<R>,
     metric: Metric,
     has_heuristic: bool,
     axes: ShortList<Axis, 4>,
-    growth: Growth<R::Configuration, ChartLine<R>>,
     /// The nodes of the places reached.
     nodes: BTreeMap<[i32; 4], usize>,
     /// The place of each node; `None` for the goal beside the grid.
@@ -49,8 +48,6 @@ pub struct GridSearch<R: Robot> {
     /// The node of the goal beside the grid.
     goal: Option<usize>,
     frontier: Frontier,
-    end: Option<Progress>,
-    path: Option<LinePath<R>>,
 }
 
 impl<R: Robot<Configuration: Chart>> GridSearch<R> {
@@ -84,24 +81,23 @@ impl<R: Robot<Configuration: Chart>> GridSearch<R> {
         let axes: ShortList<Axis, 4> = (0..dimensions).map(axis).collect();
         let fits = dimensions <= 4 && step > 0.0 && step.is_finite();
         let reason = "a grid has at most four coordinates and a step above 0";
-        let mut search = GridSearch {
+        let mut search = Search::new(problem);
+        search.end = (!fits).then_some(NoPath::Unsuited(reason));
+        let mut planner = GridSearch {
             metric: Metric::unit(&start),
-            problem,
+            search,
             has_heuristic,
             axes,
-            growth: Growth::new(),
             nodes: BTreeMap::new(),
             places: Vec::new(),
             goal: None,
             frontier: Frontier::default(),
-            end: (!fits).then_some(Progress::Ended(NoPath::Unsuited(reason))),
-            path: None,
         };
         if fits {
-            let root = search.growth.add_root(start);
-            search.enlist(root, Some((0..dimensions).map(|_| 0).collect()), 0.0);
+            let root = planner.search.growth.add_root(start);
+            planner.enlist(root, Some((0..dimensions).map(|_| 0).collect()), 0.0);
         }
-        search
+        planner
     }
 
     fn enlist(&mut self, node: usize, place: Option<Place>, cost: f64) {
@@ -115,13 +111,13 @@ impl<R: Robot<Configuration: Chart>> GridSearch<R> {
 
     /// The least that the way from a node to the goal costs, as far as the search uses it.
     fn rest(&self, node: usize) -> f64 {
-        if self.has_heuristic { self.metric.distance(&self.growth.at(node), &self.problem.goal()) } else { 0.0 }
+        if self.has_heuristic { self.metric.distance(&self.search.at(node), &self.search.problem.goal()) } else { 0.0 }
     }
 
     /// The configuration at a place; `None` outside the scene's bounds.
     fn at(&self, place: &Place) -> Option<R::Configuration> {
         let tangent: Coordinates = self.axes.iter().zip(place).map(|(axis, k)| axis.step * f64::from(*k)).collect();
-        let q = self.problem.start().in_chart().exp(&tangent)?;
+        let q = self.search.problem.start().in_chart().exp(&tangent)?;
         let holds = |(axis, c): (&Axis, &f64)| axis.turn.is_some() || (*c >= axis.range[0] && *c <= axis.range[1]);
         self.axes.iter().zip(&q.coordinates()).all(holds).then_some(q)
     }
@@ -142,30 +138,28 @@ impl<R: Robot<Configuration: Chart>> GridSearch<R> {
 
     /// Reaches a place from a node, or the goal where there is no place, if that is a shorter way and free.
     fn relax(&mut self, from: usize, place: Option<Place>, q: R::Configuration, known: Option<usize>) {
-        let cost = self.frontier.cost(from) + self.metric.distance(&self.growth.at(from), &q);
-        if !self.frontier.is_of_use(known, cost)
-            || !self.growth.ask_edge(self.problem.checker(), &self.growth.at(from), &q)
-        {
+        let cost = self.frontier.cost(from) + self.metric.distance(&self.search.at(from), &q);
+        if !self.frontier.is_of_use(known, cost) || !self.search.ask(&self.search.at(from), &q) {
             return;
         }
         if let Some(node) = known {
-            self.growth.set_parent(node, from);
+            self.search.growth.set_parent(node, from);
             self.frontier.improve(node, cost, self.rest(node));
         } else {
-            let node = self.growth.add(q, from);
+            let node = self.search.growth.add(q, from);
             self.enlist(node, place, cost);
         }
     }
 
-    fn expand(&mut self, node: usize) -> Option<Progress> {
-        if self.problem.is_goal(&self.growth.at(node)) {
-            self.path = self.growth.certified(self.problem.checker(), &self.growth.branch(node));
-            return self.path.is_some().then_some(Progress::Solved);
+    fn expand(&mut self, node: usize) {
+        if self.search.problem.is_goal(&self.search.at(node)) {
+            self.search.take_branch(node);
+            return;
         }
-        let place = self.places[node].clone()?;
-        let goal = self.problem.goal().in_chart();
+        let Some(place) = self.places[node].clone() else { return };
+        let goal = self.search.problem.goal().in_chart();
         let diagonal = crate::num::sqrt(self.axes.iter().map(|axis| axis.step * axis.step).sum());
-        if self.metric.distance(&self.growth.at(node), &goal) <= diagonal {
+        if self.metric.distance(&self.search.at(node), &goal) <= diagonal {
             self.relax(node, None, goal, self.goal);
         }
         for other in self.beside(&place) {
@@ -174,7 +168,6 @@ impl<R: Robot<Configuration: Chart>> GridSearch<R> {
                 self.relax(node, Some(other), q, known);
             }
         }
-        None
     }
 }
 
@@ -192,31 +185,18 @@ impl<R: Robot<Configuration: Chart>> Planner<R> for GridSearch<R> {
         if self.has_heuristic { "a-star" } else { "dijkstra" }
     }
 
-    fn problem(&self) -> &Problem<R> {
-        &self.problem
+    fn search(&self) -> &Search<R> {
+        &self.search
     }
 
-    fn step(&mut self) -> Progress {
-        if let Some(end) = &self.end {
-            return end.clone();
-        }
-        self.growth.begin_iteration();
-        self.end = match self.frontier.close_next() {
+    fn search_mut(&mut self) -> &mut Search<R> {
+        &mut self.search
+    }
+
+    fn advance(&mut self) {
+        match self.frontier.close_next() {
             Some(node) => self.expand(node),
-            None => Some(Progress::Ended(NoPath::NoneInGraph { nodes: self.growth.nodes().len() })),
-        };
-        self.end.clone().unwrap_or(Progress::Growing)
-    }
-
-    fn growth(&self) -> &Growth<R::Configuration, ChartLine<R>> {
-        &self.growth
-    }
-
-    fn motion(&self, from: usize, to: usize) -> Option<ChartLine<R>> {
-        self.growth.line(self.problem.checker().robot(), from, to)
-    }
-
-    fn path(&self) -> Option<&LinePath<R>> {
-        self.path.as_ref()
+            None => self.search.end = Some(NoPath::NoneInGraph { nodes: self.search.growth.nodes().len() }),
+        }
     }
 }

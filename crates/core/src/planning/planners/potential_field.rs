@@ -3,8 +3,8 @@
 use crate::collision::Problem;
 use crate::configuration::{Chart, Configuration, Coordinates};
 use crate::num::{lesser, sqrt};
-use crate::planning::{Growth, LinePath, Metric, NoPath, Planner, Progress, Settings};
-use crate::robots::{ChartLine, Robot};
+use crate::planning::{Metric, NoPath, Planner, Search, Settings};
+use crate::robots::Robot;
 
 /// How often a step is halved before the place counts as a local minimum.
 const HALVINGS: u32 = 30;
@@ -34,13 +34,10 @@ pub struct Field {
 /// shown. It needs [`Robot::jacobian`]; a robot without one ends it with [`NoPath::Unsuited`].
 #[derive(Clone, Debug)]
 pub struct PotentialField<R: Robot> {
-    problem: Problem<R>,
+    search: Search<R>,
     field: Field,
     step: f64,
     metric: Metric,
-    growth: Growth<R::Configuration, ChartLine<R>>,
-    end: Option<Progress>,
-    path: Option<LinePath<R>>,
 }
 
 /// The potential at a configuration and its gradient.
@@ -59,20 +56,19 @@ impl<R: Robot<Configuration: Chart>> PotentialField<R> {
     /// The planner in this field.
     pub fn in_field(problem: Problem<R>, field: Field) -> Self {
         let Settings { metric, step, .. } = Settings::of(&problem);
-        let mut growth = Growth::new();
-        growth.add_root(problem.start().in_chart());
-        PotentialField { problem, field, step: 0.25 * step, metric, growth, end: None, path: None }
+        PotentialField { search: Search::from_start(problem), field, step: 0.25 * step, metric }
     }
 
     /// The potential at `q` and its gradient; `None` where the robot has no Jacobian.
     fn slope(&self, q: &R::Configuration) -> Option<Slope> {
         let Field { attraction, far, repulsion, reach } = self.field;
-        let (away, distance) = (self.problem.goal().log(q).ok()?, self.metric.distance(q, &self.problem.goal()));
+        let (away, distance) =
+            (self.search.problem.goal().log(q).ok()?, self.metric.distance(q, &self.search.problem.goal()));
         let is_near = distance <= far;
         let pull = if is_near { attraction } else { attraction * far / distance };
         let mut potential = 0.5 * attraction * if is_near { distance * distance } else { far * (2.0 * distance - far) };
         let mut gradient: Coordinates = away.iter().map(|c| pull * c).collect();
-        let (clearance, uphill) = self.problem.checker().chart_gradient(q).ok()?;
+        let (clearance, uphill) = self.search.problem.checker().chart_gradient(q).ok()?;
         if clearance < reach {
             let excess = 1.0 / clearance - 1.0 / reach;
             potential += 0.5 * repulsion * excess * excess;
@@ -83,34 +79,32 @@ impl<R: Robot<Configuration: Chart>> PotentialField<R> {
         Some(Slope { potential, gradient })
     }
 
-    fn descend(&mut self) -> Progress {
-        let node = self.growth.nodes().len() - 1;
-        let (from, goal) = (self.growth.at(node), self.problem.goal().in_chart());
+    /// Goes to the goal where that is a step away and free, else down the gradient. The reason is why it does neither.
+    fn descend(&mut self) -> Result<(), NoPath> {
+        let node = self.search.growth.nodes().len() - 1;
+        let (from, goal) = (self.search.at(node), self.search.problem.goal().in_chart());
         let is_near = self.metric.distance(&from, &goal) <= self.step;
-        if is_near && self.growth.ask_edge(self.problem.checker(), &from, &goal) {
-            let end = self.growth.add(goal, node);
-            self.path = self.growth.certified(self.problem.checker(), &self.growth.branch(end));
-            if self.path.is_some() {
-                return Progress::Solved;
-            }
+        if is_near
+            && let Some(end) = self.search.reach(node, goal)
+            && self.search.take_branch(end)
+        {
+            return Ok(());
         }
-        let Some(Slope { potential, gradient }) = self.slope(&from) else {
-            return Progress::Ended(NoPath::Unsuited("the robot has no Jacobian"));
-        };
+        let unsuited = NoPath::Unsuited("the robot has no Jacobian");
+        let Slope { potential, gradient } = self.slope(&from).ok_or(unsuited)?;
         let steepness = sqrt(gradient.iter().map(|g| g * g).sum());
         let mut length = lesser(self.step, self.metric.distance(&from, &goal));
         for _ in 0..HALVINGS {
             let down: Coordinates = gradient.iter().map(|g| -g * (length / steepness)).collect();
             if let Some(to) = from.exp(&down)
                 && self.slope(&to).is_some_and(|below| below.potential < potential - SHARE * length * steepness)
-                && self.growth.ask_edge(self.problem.checker(), &from, &to)
+                && self.search.reach(node, to).is_some()
             {
-                self.growth.add(to, node);
-                return Progress::Growing;
+                return Ok(());
             }
             length *= 0.5;
         }
-        Progress::Ended(NoPath::LocalMinimum { node })
+        Err(NoPath::LocalMinimum { node })
     }
 }
 
@@ -119,31 +113,15 @@ impl<R: Robot<Configuration: Chart>> Planner<R> for PotentialField<R> {
         "potential-field"
     }
 
-    fn problem(&self) -> &Problem<R> {
-        &self.problem
+    fn search(&self) -> &Search<R> {
+        &self.search
     }
 
-    fn step(&mut self) -> Progress {
-        if let Some(end) = &self.end {
-            return end.clone();
-        }
-        self.growth.begin_iteration();
-        let progress = self.descend();
-        if progress != Progress::Growing {
-            self.end = Some(progress.clone());
-        }
-        progress
+    fn search_mut(&mut self) -> &mut Search<R> {
+        &mut self.search
     }
 
-    fn growth(&self) -> &Growth<R::Configuration, ChartLine<R>> {
-        &self.growth
-    }
-
-    fn motion(&self, from: usize, to: usize) -> Option<ChartLine<R>> {
-        self.growth.line(self.problem.checker().robot(), from, to)
-    }
-
-    fn path(&self) -> Option<&LinePath<R>> {
-        self.path.as_ref()
+    fn advance(&mut self) {
+        self.search.end = self.descend().err();
     }
 }

@@ -2,8 +2,8 @@
 
 use crate::collision::Problem;
 use crate::configuration::{Chart, Configuration};
-use crate::planning::{Growth, LinePath, Metric, Nearest, Neighbour, Planner, Progress, Queue};
-use crate::robots::{ChartLine, Robot};
+use crate::planning::{Metric, Nearest, Neighbour, Planner, Queue, Search};
+use crate::robots::Robot;
 
 /// The number of neighbours that a new node is joined to, where the edges are free.
 const NEIGHBOURS: usize = 10;
@@ -14,14 +14,12 @@ const NEIGHBOURS: usize = 10;
 /// An iteration draws a sample and asks about at most ten edges. The start and the goal are nodes 0 and 1.
 #[derive(Clone, Debug)]
 pub struct Prm<R: Robot> {
-    problem: Problem<R>,
-    growth: Growth<R::Configuration, ChartLine<R>>,
+    search: Search<R>,
     near: Nearest,
     /// The edges of each node, with their lengths.
     roads: Vec<Vec<Neighbour>>,
     /// A node of the same component with a lower number, or itself.
     components: Vec<usize>,
-    path: Option<LinePath<R>>,
 }
 
 impl<R: Robot<Configuration: Chart>> Prm<R> {
@@ -34,9 +32,8 @@ impl<R: Robot<Configuration: Chart>> Prm<R> {
     /// The planner by this metric.
     pub fn with_metric(problem: Problem<R>, metric: Metric) -> Self {
         let near = Nearest::new(metric);
-        let (growth, roads, components) = (Growth::new(), Vec::new(), Vec::new());
         let ends = [problem.start(), problem.goal()].map(|q| q.in_chart());
-        let mut planner = Prm { problem, growth, near, roads, components, path: None };
+        let mut planner = Prm { search: Search::new(problem), near, roads: Vec::new(), components: Vec::new() };
         for end in ends {
             planner.place(end);
         }
@@ -45,14 +42,14 @@ impl<R: Robot<Configuration: Chart>> Prm<R> {
 
     /// Adds a node and joins it to its neighbours.
     fn place(&mut self, q: R::Configuration) {
-        let node = self.growth.add_root(q);
+        let node = self.search.growth.add_root(q);
         let neighbours = self.near.nearest_few(&q, NEIGHBOURS);
         self.near.add(&q, node);
         self.roads.push(Vec::new());
         self.components.push(node);
         for Neighbour { number, distance } in neighbours {
-            if self.growth.ask_edge(self.problem.checker(), &self.growth.at(number), &q) {
-                self.growth.link(number, node);
+            if self.search.ask(&self.search.at(number), &q) {
+                self.search.growth.link(number, node);
                 self.roads[node].push(Neighbour { number, distance });
                 self.roads[number].push(Neighbour { number: node, distance });
                 let (a, b) = (self.component(number), self.component(node));
@@ -98,37 +95,25 @@ impl<R: Robot<Configuration: Chart>> Planner<R> for Prm<R> {
         "prm"
     }
 
-    fn problem(&self) -> &Problem<R> {
-        &self.problem
+    fn search(&self) -> &Search<R> {
+        &self.search
     }
 
-    fn step(&mut self) -> Progress {
-        if self.path.is_none() {
-            self.growth.begin_iteration();
-            // at first the straight line may have joined them
-            if self.component(0) != self.component(1) || self.growth.effort().iterations > 1 {
-                let sample = self.problem.sample();
-                self.growth.count_sample();
-                if self.problem.checker().is_free(&sample) {
-                    self.place(sample);
-                }
-            }
-            if self.component(0) == self.component(1) {
-                self.path = self.growth.certified(self.problem.checker(), &self.shortest());
+    fn search_mut(&mut self) -> &mut Search<R> {
+        &mut self.search
+    }
+
+    fn advance(&mut self) {
+        // at first the straight line may have joined them
+        if self.component(0) != self.component(1) || self.search.growth.effort().iterations > 1 {
+            let sample = self.search.problem.sample();
+            self.search.growth.count_sample();
+            if self.search.problem.checker().is_free(&sample) {
+                self.place(sample);
             }
         }
-        if self.path.is_some() { Progress::Solved } else { Progress::Growing }
-    }
-
-    fn growth(&self) -> &Growth<R::Configuration, ChartLine<R>> {
-        &self.growth
-    }
-
-    fn motion(&self, from: usize, to: usize) -> Option<ChartLine<R>> {
-        self.growth.line(self.problem.checker().robot(), from, to)
-    }
-
-    fn path(&self) -> Option<&LinePath<R>> {
-        self.path.as_ref()
+        if self.component(0) == self.component(1) {
+            self.search.take(&self.shortest());
+        }
     }
 }

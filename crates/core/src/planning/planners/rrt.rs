@@ -2,8 +2,8 @@
 
 use crate::collision::Problem;
 use crate::configuration::{Chart, Configuration};
-use crate::planning::{Growth, LinePath, Nearest, Planner, Progress, Settings, sample_toward_goal};
-use crate::robots::{ChartLine, Robot};
+use crate::planning::{Nearest, Planner, Search, Settings, sample_toward_goal};
+use crate::robots::Robot;
 
 /// A rapidly-exploring random tree (LaValle, 1998): the node nearest to a sample takes a step toward it. Some samples
 /// are the goal.
@@ -11,11 +11,9 @@ use crate::robots::{ChartLine, Robot};
 /// An iteration draws a sample and asks about at most two edges, the second from the new node to the goal.
 #[derive(Clone, Debug)]
 pub struct Rrt<R: Robot> {
-    problem: Problem<R>,
+    search: Search<R>,
     settings: Settings,
-    growth: Growth<R::Configuration, ChartLine<R>>,
     tree: Nearest,
-    path: Option<LinePath<R>>,
 }
 
 impl<R: Robot<Configuration: Chart>> Rrt<R> {
@@ -27,35 +25,31 @@ impl<R: Robot<Configuration: Chart>> Rrt<R> {
 
     /// The planner with these settings.
     pub fn with_settings(problem: Problem<R>, settings: Settings) -> Self {
-        let (mut growth, mut tree) = (Growth::new(), Nearest::new(settings.metric.clone()));
-        let start = problem.start().in_chart();
-        tree.add(&start, growth.add_root(start));
-        Rrt { problem, settings, growth, tree, path: None }
+        let (search, mut tree) = (Search::from_start(problem), Nearest::new(settings.metric.clone()));
+        tree.add(&search.at(0), 0);
+        Rrt { search, settings, tree }
     }
 
     /// Grows toward a sample; the new node, if there is one.
     fn extend(&mut self) -> Option<usize> {
-        let sample = sample_toward_goal(&mut self.problem, self.settings.goal_bias);
-        self.growth.count_sample();
+        let sample = sample_toward_goal(&mut self.search.problem, self.settings.goal_bias);
+        self.search.growth.count_sample();
         let near = self.tree.nearest(&sample)?;
-        let from = self.growth.at(near.number);
+        let from = self.search.at(near.number);
         let to = self.settings.toward(&from, &sample)?;
         self.grow(near.number, to)
     }
 
     fn grow(&mut self, from: usize, to: R::Configuration) -> Option<usize> {
-        if !self.growth.ask_edge(self.problem.checker(), &self.growth.at(from), &to) {
-            return None;
-        }
-        let node = self.growth.add(to, from);
+        let node = self.search.reach(from, to)?;
         self.tree.add(&to, node);
         Some(node)
     }
 
     /// The node that solves the problem: the new one, or the goal one step from it.
     fn reach(&mut self, node: usize) -> Option<usize> {
-        let (at, goal) = (self.growth.at(node), self.problem.goal().in_chart());
-        if self.problem.is_goal(&at) {
+        let (at, goal) = (self.search.at(node), self.search.problem.goal().in_chart());
+        if self.search.problem.is_goal(&at) {
             return Some(node);
         }
         let is_near = self.settings.metric.distance(&at, &goal) <= self.settings.step;
@@ -68,28 +62,17 @@ impl<R: Robot<Configuration: Chart>> Planner<R> for Rrt<R> {
         "rrt"
     }
 
-    fn problem(&self) -> &Problem<R> {
-        &self.problem
+    fn search(&self) -> &Search<R> {
+        &self.search
     }
 
-    fn step(&mut self) -> Progress {
-        if self.path.is_none() {
-            self.growth.begin_iteration();
-            let end = self.extend().and_then(|node| self.reach(node));
-            self.path = end.and_then(|end| self.growth.certified(self.problem.checker(), &self.growth.branch(end)));
+    fn search_mut(&mut self) -> &mut Search<R> {
+        &mut self.search
+    }
+
+    fn advance(&mut self) {
+        if let Some(end) = self.extend().and_then(|node| self.reach(node)) {
+            self.search.take_branch(end);
         }
-        if self.path.is_some() { Progress::Solved } else { Progress::Growing }
-    }
-
-    fn growth(&self) -> &Growth<R::Configuration, ChartLine<R>> {
-        &self.growth
-    }
-
-    fn motion(&self, from: usize, to: usize) -> Option<ChartLine<R>> {
-        self.growth.line(self.problem.checker().robot(), from, to)
-    }
-
-    fn path(&self) -> Option<&LinePath<R>> {
-        self.path.as_ref()
     }
 }

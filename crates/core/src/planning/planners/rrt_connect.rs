@@ -2,8 +2,8 @@
 
 use crate::collision::Problem;
 use crate::configuration::{Chart, Configuration};
-use crate::planning::{Growth, LinePath, Nearest, Planner, Progress, Settings};
-use crate::robots::{ChartLine, Robot};
+use crate::planning::{Nearest, Planner, Search, Settings};
+use crate::robots::Robot;
 
 /// What the next iteration does.
 #[derive(Clone, Copy, Debug)]
@@ -21,14 +21,12 @@ enum Phase {
 /// about in the direction in which the path goes along them.
 #[derive(Clone, Debug)]
 pub struct RrtConnect<R: Robot> {
-    problem: Problem<R>,
+    search: Search<R>,
     settings: Settings,
-    growth: Growth<R::Configuration, ChartLine<R>>,
     trees: [Nearest; 2],
     /// The tree that extends: 0 is the start's.
     extending: usize,
     phase: Phase,
-    path: Option<LinePath<R>>,
 }
 
 impl<R: Robot<Configuration: Chart>> RrtConnect<R> {
@@ -40,34 +38,35 @@ impl<R: Robot<Configuration: Chart>> RrtConnect<R> {
 
     /// The planner with these settings.
     pub fn with_settings(problem: Problem<R>, settings: Settings) -> Self {
-        let mut growth = Growth::new();
-        let trees = [problem.start(), problem.goal()].map(|root| {
+        let ends = [problem.start(), problem.goal()];
+        let mut search = Search::new(problem);
+        let trees = ends.map(|root| {
             let mut tree = Nearest::new(settings.metric.clone());
-            tree.add(&root, growth.add_root(root.in_chart()));
+            tree.add(&root, search.growth.add_root(root.in_chart()));
             tree
         });
         // the first thing to try is the straight line
         let phase = Phase::Connect { to: 1, from: None };
-        RrtConnect { problem, settings, growth, trees, extending: 1, phase, path: None }
+        RrtConnect { search, settings, trees, extending: 1, phase }
     }
 
     /// Takes a step in a tree from a node toward a configuration; `None` if it is not free. The step may be the whole
     /// way; it is where `far` allows it.
     fn grow(&mut self, tree: usize, from: usize, to: &R::Configuration, far: bool) -> Option<usize> {
-        let start = self.growth.at(from);
+        let start = self.search.at(from);
         let end = if far { *to } else { self.settings.toward(&start, to)? };
         let (a, b) = if tree == 0 { (start, end) } else { (end, start) };
-        if !self.growth.ask_edge(self.problem.checker(), &a, &b) {
+        if !self.search.ask(&a, &b) {
             return None;
         }
-        let node = self.growth.add(end, from);
+        let node = self.search.growth.add(end, from);
         self.trees[tree].add(&end, node);
         Some(node)
     }
 
     fn extend(&mut self) {
-        let sample = self.problem.sample();
-        self.growth.count_sample();
+        let sample = self.search.problem.sample();
+        self.search.growth.count_sample();
         let near = self.trees[self.extending].nearest(&sample).map(|near| near.number);
         match near.and_then(|near| self.grow(self.extending, near, &sample, false)) {
             Some(to) => self.phase = Phase::Connect { to, from: None },
@@ -76,16 +75,16 @@ impl<R: Robot<Configuration: Chart>> RrtConnect<R> {
     }
 
     fn connect(&mut self, to: usize, from: Option<usize>) {
-        let (other, target) = (1 - self.extending, self.growth.at(to));
+        let (other, target) = (1 - self.extending, self.search.at(to));
         let from = from.or_else(|| self.trees[other].nearest(&target).map(|near| near.number));
         let Some(from) = from else { return };
         // the whole way first: a proof of a long edge costs little more than that of a short one
         if let Some(met) = self.grow(other, from, &target, true) {
-            self.path = self.through(to, met);
+            self.search.take(&self.through(to, met));
             self.swap();
             return;
         }
-        let is_step = self.settings.metric.distance(&self.growth.at(from), &target) <= self.settings.step;
+        let is_step = self.settings.metric.distance(&self.search.at(from), &target) <= self.settings.step;
         match if is_step { None } else { self.grow(other, from, &target, false) } {
             Some(next) => self.phase = Phase::Connect { to, from: Some(next) },
             None => self.swap(),
@@ -97,12 +96,12 @@ impl<R: Robot<Configuration: Chart>> RrtConnect<R> {
         self.phase = Phase::Extend;
     }
 
-    /// The path through two nodes at the same place, one in each tree.
-    fn through(&self, extended: usize, met: usize) -> Option<LinePath<R>> {
+    /// The nodes of the path through two nodes at the same place, one in each tree.
+    fn through(&self, extended: usize, met: usize) -> Vec<usize> {
         let (of_start, of_goal) = if self.extending == 0 { (extended, met) } else { (met, extended) };
-        let mut nodes = self.growth.branch(of_start);
-        nodes.extend(self.growth.branch(of_goal).into_iter().rev().skip(1));
-        self.growth.certified(self.problem.checker(), &nodes)
+        let mut nodes = self.search.growth.branch(of_start);
+        nodes.extend(self.search.growth.branch(of_goal).into_iter().rev().skip(1));
+        nodes
     }
 }
 
@@ -111,30 +110,18 @@ impl<R: Robot<Configuration: Chart>> Planner<R> for RrtConnect<R> {
         "rrt-connect"
     }
 
-    fn problem(&self) -> &Problem<R> {
-        &self.problem
+    fn search(&self) -> &Search<R> {
+        &self.search
     }
 
-    fn step(&mut self) -> Progress {
-        if self.path.is_none() {
-            self.growth.begin_iteration();
-            match self.phase {
-                Phase::Extend => self.extend(),
-                Phase::Connect { to, from } => self.connect(to, from),
-            }
+    fn search_mut(&mut self) -> &mut Search<R> {
+        &mut self.search
+    }
+
+    fn advance(&mut self) {
+        match self.phase {
+            Phase::Extend => self.extend(),
+            Phase::Connect { to, from } => self.connect(to, from),
         }
-        if self.path.is_some() { Progress::Solved } else { Progress::Growing }
-    }
-
-    fn growth(&self) -> &Growth<R::Configuration, ChartLine<R>> {
-        &self.growth
-    }
-
-    fn motion(&self, from: usize, to: usize) -> Option<ChartLine<R>> {
-        self.growth.line(self.problem.checker().robot(), from, to)
-    }
-
-    fn path(&self) -> Option<&LinePath<R>> {
-        self.path.as_ref()
     }
 }

@@ -5,8 +5,8 @@ use std::f64::consts::E;
 use crate::collision::Problem;
 use crate::configuration::{Chart, Configuration};
 use crate::num::ln;
-use crate::planning::{Growth, LinePath, Nearest, Planner, Progress, Settings, sample_toward_goal};
-use crate::robots::{ChartLine, Robot};
+use crate::planning::{Nearest, Planner, Progress, Search, Settings, sample_toward_goal};
+use crate::robots::Robot;
 
 /// RRT* (Karaman and Frazzoli, 2011), with the k nearest: a new node is reached from that neighbour from which it is
 /// nearest to the start, and its neighbours are reached from it where that is shorter. So the path tends to a shortest
@@ -16,16 +16,14 @@ use crate::robots::{ChartLine, Robot};
 /// most twice as many edges as there are neighbours, `e (1 + 1/d) ln n` of n nodes in d dimensions.
 #[derive(Clone, Debug)]
 pub struct RrtStar<R: Robot> {
-    problem: Problem<R>,
+    search: Search<R>,
     settings: Settings,
-    growth: Growth<R::Configuration, ChartLine<R>>,
     tree: Nearest,
     /// The length of each node's way from the start.
     costs: Vec<f64>,
     children: Vec<Vec<usize>>,
     /// The nodes that solve the problem.
     ends: Vec<usize>,
-    path: Option<LinePath<R>>,
     /// The length of the path, by the costs.
     cost: f64,
 }
@@ -40,11 +38,9 @@ impl<R: Robot<Configuration: Chart>> RrtStar<R> {
     /// The planner with these settings.
     pub fn with_settings(problem: Problem<R>, settings: Settings) -> Self {
         let tree = Nearest::new(settings.metric.clone());
-        let (growth, costs, children, ends) = (Growth::new(), Vec::new(), Vec::new(), Vec::new());
-        let start = problem.start().in_chart();
-        let mut planner =
-            RrtStar { problem, settings, growth, tree, costs, children, ends, path: None, cost: f64::INFINITY };
-        planner.growth.add_root(start);
+        let search = Search::from_start(problem);
+        let (start, costs, children, ends) = (search.at(0), Vec::new(), Vec::new(), Vec::new());
+        let mut planner = RrtStar { search, settings, tree, costs, children, ends, cost: f64::INFINITY };
         planner.enlist(start, 0, 0.0);
         planner
     }
@@ -54,20 +50,20 @@ impl<R: Robot<Configuration: Chart>> RrtStar<R> {
         self.tree.add(&q, node);
         self.costs.push(cost);
         self.children.push(Vec::new());
-        if self.problem.is_goal(&q) {
+        if self.search.problem.is_goal(&q) {
             self.ends.push(node);
         }
     }
 
     fn grow(&mut self) -> Option<()> {
-        let sample = sample_toward_goal(&mut self.problem, self.settings.goal_bias);
-        self.growth.count_sample();
+        let sample = sample_toward_goal(&mut self.search.problem, self.settings.goal_bias);
+        self.search.growth.count_sample();
         let near = self.tree.nearest(&sample)?;
         if near.distance == 0.0 {
             // the goal is a node already
             return None;
         }
-        let q = self.settings.toward(&self.growth.at(near.number), &sample)?.in_chart();
+        let q = self.settings.toward(&self.search.at(near.number), &sample)?.in_chart();
         let dimensions = q.coordinates().len() as f64;
         let count = (E * (1.0 + 1.0 / dimensions) * ln((self.costs.len() + 1) as f64)).ceil() as usize;
         let neighbours = self.tree.nearest_few(&q, count);
@@ -75,18 +71,13 @@ impl<R: Robot<Configuration: Chart>> RrtStar<R> {
         let mut ways: Vec<(f64, usize)> =
             neighbours.iter().map(|n| (self.costs[n.number] + n.distance, n.number)).collect();
         ways.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
-        let checker = self.problem.checker();
-        let &(cost, parent) =
-            ways.iter().find(|(_, from)| self.growth.ask_edge(checker, &self.growth.at(*from), &q))?;
-        let node = self.growth.add(q, parent);
+        let free = ways.into_iter().find_map(|(cost, from)| Some((cost, from, self.search.reach(from, q)?)));
+        let (cost, parent, node) = free?;
         self.enlist(q, node, cost);
         self.children[parent].push(node);
         for neighbour in neighbours {
             let (other, shorter) = (neighbour.number, cost + neighbour.distance);
-            if other != parent
-                && shorter < self.costs[other]
-                && self.growth.ask_edge(self.problem.checker(), &q, &self.growth.at(other))
-            {
+            if other != parent && shorter < self.costs[other] && self.search.ask(&q, &self.search.at(other)) {
                 self.rewire(other, node, shorter);
             }
         }
@@ -95,16 +86,16 @@ impl<R: Robot<Configuration: Chart>> RrtStar<R> {
 
     /// Reaches a node from another one, and shortens the ways to all that are reached from it.
     fn rewire(&mut self, node: usize, parent: usize, cost: f64) {
-        if let Some(before) = self.growth.nodes()[node].parent {
+        if let Some(before) = self.search.growth.nodes()[node].parent {
             self.children[before].retain(|child| *child != node);
         }
-        self.growth.set_parent(node, parent);
+        self.search.growth.set_parent(node, parent);
         self.children[parent].push(node);
         self.costs[node] = cost;
         let mut open = vec![node];
         while let Some(at) = open.pop() {
             for child in self.children[at].clone() {
-                let length = self.settings.metric.distance(&self.growth.at(at), &self.growth.at(child));
+                let length = self.settings.metric.distance(&self.search.at(at), &self.search.at(child));
                 self.costs[child] = self.costs[at] + length;
                 open.push(child);
             }
@@ -116,11 +107,8 @@ impl<R: Robot<Configuration: Chart>> RrtStar<R> {
         let cheaper = |best: usize, end: &usize| if self.costs[*end] < self.costs[best] { *end } else { best };
         let Some(&first) = self.ends.first() else { return };
         let end = self.ends.iter().fold(first, cheaper);
-        if self.costs[end] < self.cost
-            && let Some(path) = self.growth.certified(self.problem.checker(), &self.growth.branch(end))
-        {
+        if self.costs[end] < self.cost && self.search.take_branch(end) {
             self.cost = self.costs[end];
-            self.path = Some(path);
         }
     }
 }
@@ -130,27 +118,23 @@ impl<R: Robot<Configuration: Chart>> Planner<R> for RrtStar<R> {
         "rrt-star"
     }
 
-    fn problem(&self) -> &Problem<R> {
-        &self.problem
+    fn search(&self) -> &Search<R> {
+        &self.search
     }
 
-    fn step(&mut self) -> Progress {
-        self.growth.begin_iteration();
+    fn search_mut(&mut self) -> &mut Search<R> {
+        &mut self.search
+    }
+
+    fn advance(&mut self) {
         if self.grow().is_some() {
             self.improve();
         }
-        if self.path.is_some() { Progress::Solved } else { Progress::Growing }
     }
 
-    fn growth(&self) -> &Growth<R::Configuration, ChartLine<R>> {
-        &self.growth
-    }
-
-    fn motion(&self, from: usize, to: usize) -> Option<ChartLine<R>> {
-        self.growth.line(self.problem.checker().robot(), from, to)
-    }
-
-    fn path(&self) -> Option<&LinePath<R>> {
-        self.path.as_ref()
+    fn step(&mut self) -> Progress {
+        self.search.growth.begin_iteration();
+        self.advance();
+        self.search.progress()
     }
 }

@@ -7,8 +7,8 @@ use crate::collision::{Problem, Scene};
 use crate::configuration::{Chart, Configuration, Coordinates};
 use crate::geometry::{Footprint, Placed, Point2, Vector2};
 use crate::num::{cos, sin_cos, sqrt};
-use crate::planning::{Growth, LinePath, NoPath, Planner, Progress};
-use crate::robots::{ChartLine, Robot};
+use crate::planning::{NoPath, Planner, Search};
+use crate::robots::Robot;
 
 /// The number of directions about a vertex in which the grown obstacle has corners. A path about a corner is longer
 /// than the arc by at most two per cent.
@@ -29,15 +29,12 @@ const MARGIN: f64 = 1e-3;
 /// robot: by less than 2 mm and four per cent of its radius.
 #[derive(Clone, Debug)]
 pub struct VisibilityGraph<R: Robot> {
-    problem: Problem<R>,
-    growth: Growth<R::Configuration, ChartLine<R>>,
+    search: Search<R>,
     /// The corners, after the goal and before the start; with the node of each that was reached.
     corners: Vec<(R::Configuration, Option<usize>)>,
     /// The corner of each node.
     of_node: Vec<usize>,
     frontier: Frontier,
-    end: Option<Progress>,
-    path: Option<LinePath<R>>,
 }
 
 impl<R: Robot<Configuration: Chart>> VisibilityGraph<R> {
@@ -56,51 +53,43 @@ impl<R: Robot<Configuration: Chart>> VisibilityGraph<R> {
             corners.extend(grown.into_iter().filter_map(at).filter(|q| problem.checker().is_free(q)));
         }
         corners.push(start);
-        let reason = "a visibility graph is for robots that are discs";
-        let mut planner = VisibilityGraph {
-            problem,
-            growth: Growth::new(),
-            of_node: Vec::new(),
-            frontier: Frontier::default(),
-            end: radius.is_none().then_some(Progress::Ended(NoPath::Unsuited(reason))),
-            path: None,
-            corners: corners.into_iter().map(|q| (q, None)).collect(),
-        };
-        let root = planner.growth.add_root(start);
-        planner.enlist(root, planner.corners.len() - 1, 0.0);
+        let mut search = Search::from_start(problem);
+        search.end = radius.is_none().then_some(NoPath::Unsuited("a visibility graph is for robots that are discs"));
+        let corners: Vec<_> = corners.into_iter().map(|q| (q, None)).collect();
+        let mut planner = VisibilityGraph { search, corners, of_node: Vec::new(), frontier: Frontier::default() };
+        planner.enlist(0, planner.corners.len() - 1, 0.0);
         planner
     }
 
     fn enlist(&mut self, node: usize, corner: usize, cost: f64) {
         self.corners[corner].1 = Some(node);
         self.of_node.push(corner);
-        self.frontier.add(cost, apart(&self.growth.at(node), &self.problem.goal()));
+        self.frontier.add(cost, apart(&self.search.at(node), &self.search.problem.goal()));
     }
 
-    fn expand(&mut self, node: usize) -> Option<Progress> {
-        let (from, goal) = (self.growth.at(node), self.problem.goal());
+    fn expand(&mut self, node: usize) {
+        let (from, goal) = (self.search.at(node), self.search.problem.goal());
         if self.of_node[node] == 0 {
-            self.path = self.growth.certified(self.problem.checker(), &self.growth.branch(node));
-            return self.path.is_some().then_some(Progress::Solved);
+            self.search.take_branch(node);
+            return;
         }
         for corner in 0..self.corners.len() {
             let (to, known) = self.corners[corner];
             let cost = self.frontier.cost(node) + apart(&from, &to);
-            if !self.frontier.is_of_use(known, cost) || !self.growth.ask_edge(self.problem.checker(), &from, &to) {
+            if !self.frontier.is_of_use(known, cost) || !self.search.ask(&from, &to) {
                 continue;
             }
             match known {
                 Some(known) => {
-                    self.growth.set_parent(known, node);
+                    self.search.growth.set_parent(known, node);
                     self.frontier.improve(known, cost, apart(&to, &goal));
                 }
                 None => {
-                    let reached = self.growth.add(to, node);
+                    let reached = self.search.growth.add(to, node);
                     self.enlist(reached, corner, cost);
                 }
             }
         }
-        None
     }
 }
 
@@ -151,31 +140,18 @@ impl<R: Robot<Configuration: Chart>> Planner<R> for VisibilityGraph<R> {
         "visibility-graph"
     }
 
-    fn problem(&self) -> &Problem<R> {
-        &self.problem
+    fn search(&self) -> &Search<R> {
+        &self.search
     }
 
-    fn step(&mut self) -> Progress {
-        if let Some(end) = &self.end {
-            return end.clone();
-        }
-        self.growth.begin_iteration();
-        self.end = match self.frontier.close_next() {
+    fn search_mut(&mut self) -> &mut Search<R> {
+        &mut self.search
+    }
+
+    fn advance(&mut self) {
+        match self.frontier.close_next() {
             Some(node) => self.expand(node),
-            None => Some(Progress::Ended(NoPath::NoneInGraph { nodes: self.corners.len() })),
-        };
-        self.end.clone().unwrap_or(Progress::Growing)
-    }
-
-    fn growth(&self) -> &Growth<R::Configuration, ChartLine<R>> {
-        &self.growth
-    }
-
-    fn motion(&self, from: usize, to: usize) -> Option<ChartLine<R>> {
-        self.growth.line(self.problem.checker().robot(), from, to)
-    }
-
-    fn path(&self) -> Option<&LinePath<R>> {
-        self.path.as_ref()
+            None => self.search.end = Some(NoPath::NoneInGraph { nodes: self.corners.len() }),
+        }
     }
 }

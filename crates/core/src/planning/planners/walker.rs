@@ -6,8 +6,8 @@ use crate::collision::Problem;
 use crate::configuration::{Chart, Configuration, Coordinates};
 use crate::geometry::{Point2, Vector2};
 use crate::num::{greater, hypot, lesser, sin_cos};
-use crate::planning::{Growth, LinePath};
-use crate::robots::{ChartLine, Robot};
+use crate::planning::{NoPath, Search};
+use crate::robots::Robot;
 
 /// The first direction that a step along a boundary tries, from the heading: back and to the right, radians.
 const RIGHT: f64 = -0.75 * PI;
@@ -27,8 +27,7 @@ const KEEP: f64 = 0.5;
 /// A disc on its way. Every step is an edge that was proven free, and a node of the growth.
 #[derive(Clone, Debug)]
 pub(super) struct Walker<R: Robot> {
-    pub(super) problem: Problem<R>,
-    pub(super) growth: Growth<R::Configuration, ChartLine<R>>,
+    pub(super) search: Search<R>,
     /// The clearance that it keeps from a boundary that it follows, metres.
     pub(super) keep: f64,
     /// The direction in which it follows a boundary, a unit vector.
@@ -57,19 +56,18 @@ impl<R: Robot<Configuration: Chart>> Walker<R> {
         if part.placed().core().len() != 1 {
             return None;
         }
-        let mut growth = Growth::new();
-        growth.add_root(start);
-        Some(Walker { problem: problem.clone(), growth, keep: KEEP * part.placed().radius(), heading: Vector2::x() })
+        let (search, keep) = (Search::from_start(problem.clone()), KEEP * part.placed().radius());
+        Some(Walker { search, keep, heading: Vector2::x() })
     }
 
     /// The number of the node at which it is.
     pub(super) fn node(&self) -> usize {
-        self.growth.nodes().len() - 1
+        self.search.growth.nodes().len() - 1
     }
 
     /// Where its centre was at a node, metres.
     pub(super) fn place(&self, node: usize) -> Point2 {
-        let c = self.growth.at(node).coordinates();
+        let c = self.search.at(node).coordinates();
         Point2::new(c[0], c[1])
     }
 
@@ -80,7 +78,7 @@ impl<R: Robot<Configuration: Chart>> Walker<R> {
 
     /// Where the goal is.
     pub(super) fn goal(&self) -> Point2 {
-        let c = self.problem.goal().coordinates();
+        let c = self.search.problem.goal().coordinates();
         Point2::new(c[0], c[1])
     }
 
@@ -91,16 +89,11 @@ impl<R: Robot<Configuration: Chart>> Walker<R> {
 
     /// Goes straight to a configuration, if that is free.
     pub(super) fn go(&mut self, to: R::Configuration) -> bool {
-        let node = self.node();
-        let free = self.growth.ask_edge(self.problem.checker(), &self.growth.at(node), &to);
-        if free {
-            self.growth.add(to, node);
-        }
-        free
+        self.search.reach(self.node(), to).is_some()
     }
 
     fn moved(&self, by: Vector2) -> Option<R::Configuration> {
-        let here = self.growth.at(self.node());
+        let here = self.search.at(self.node());
         let mut tangent: Coordinates = here.coordinates().iter().map(|_| 0.0).collect();
         (tangent[0], tangent[1]) = (by.x, by.y);
         here.exp(&tangent)
@@ -112,7 +105,7 @@ impl<R: Robot<Configuration: Chart>> Walker<R> {
 
     /// The clearance that it would have after moving by a vector, metres.
     fn clearance(&self, by: Vector2) -> f64 {
-        self.moved(by).map_or(0.0, |q| self.problem.checker().distance(&q))
+        self.moved(by).map_or(0.0, |q| self.search.problem.checker().distance(&q))
     }
 
     /// Takes a step toward the goal, as long as the clearance allows. It is blocked where that would come nearer to a
@@ -149,7 +142,7 @@ impl<R: Robot<Configuration: Chart>> Walker<R> {
 
     /// Its clearance where it is, metres, and the unit vector to the nearest boundary; `None` in an empty scene.
     fn nearest(&self) -> Option<(f64, Vector2)> {
-        let witness = self.problem.checker().witness(&self.growth.at(self.node())).ok().flatten()?;
+        let witness = self.search.problem.checker().witness(&self.search.at(self.node())).ok().flatten()?;
         let toward = witness.on_obstacle - self.here();
         Some((witness.dist, toward / greater(hypot(toward.x, toward.y), f64::MIN_POSITIVE)))
     }
@@ -164,7 +157,7 @@ impl<R: Robot<Configuration: Chart>> Walker<R> {
     /// Goes to the goal where that is near and in sight: it may lie nearer to a boundary than the walker keeps.
     pub(super) fn arrive(&mut self) -> bool {
         let way = self.goal() - self.here();
-        hypot(way.x, way.y) <= 4.0 * self.keep && self.go(self.problem.goal().in_chart())
+        hypot(way.x, way.y) <= 4.0 * self.keep && self.go(self.search.problem.goal().in_chart())
     }
 
     /// Takes a step along the boundary at its right hand: in the first direction from the right on, turning left, that
@@ -205,8 +198,13 @@ impl<R: Robot<Configuration: Chart>> Walker<R> {
         Vector2::new(cos * v.x - sin * v.y, sin * v.x + cos * v.y)
     }
 
-    /// The certified path from the start to where it is.
-    pub(super) fn path(&self) -> Option<LinePath<R>> {
-        self.growth.certified(self.problem.checker(), &self.growth.branch(self.node()))
+    /// Takes the way from the start to where it is as the path; the reason is why that is none.
+    pub(super) fn arrived(&mut self) -> Option<NoPath> {
+        if self.search.take_branch(self.node()) { None } else { Some(self.stuck()) }
+    }
+
+    /// It can't go on from where it is.
+    pub(super) fn stuck(&self) -> NoPath {
+        NoPath::LocalMinimum { node: self.node() }
     }
 }

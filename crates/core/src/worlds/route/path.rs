@@ -2,7 +2,7 @@
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
-use super::{MAX_ROUTE_POINTS, RouteError};
+use super::error::{MAX_ROUTE_POINTS, RouteError};
 use crate::geometry::{Point2, Pose2, Shape, Tangent2};
 use crate::num::{self, wrap};
 

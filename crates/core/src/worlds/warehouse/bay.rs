@@ -1,8 +1,8 @@
 //! A bay of a warehouse: aisles with racks and rovers, cells with arms, and a road with cars. All lengths are metres.
 
-use super::Warehouse;
 use super::hall::solid_box;
 use super::plan::{AISLES, INNER_HEIGHT, INNER_WIDTH, Plan, ROW_ARMS, TO_ROAD, point, share, tidy};
+use super::settings::Warehouse;
 use super::trailer::trailer_heading;
 use crate::configuration::{ArmSizes, CarSizes, RobotKind, Sizes, TrailerSizes};
 use crate::geometry::Point2;

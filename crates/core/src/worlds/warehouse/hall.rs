@@ -2,8 +2,8 @@
 
 use std::f64::consts::FRAC_PI_2;
 
-use super::Warehouse;
 use super::plan::{INNER_HEIGHT, INNER_WIDTH, PITCH, Plan, point};
+use super::settings::Warehouse;
 use crate::geometry::{Aabb, Point2, Pose2, Shape};
 use crate::worlds::{Obstacle, ObstacleKind, Place, World};
 

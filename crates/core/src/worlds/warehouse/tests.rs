@@ -8,7 +8,8 @@ use super::trailer::trailer_heading;
 use super::*;
 use crate::configuration::RobotKind;
 use crate::num;
-use crate::worlds::Route;
+use crate::random::Seed;
+use crate::worlds::{Route, World};
 
 fn warehouse(seed: u64, robots: usize, trailers: bool) -> World {
     Warehouse { seed: Seed(seed), robots, trailers }.world().unwrap()

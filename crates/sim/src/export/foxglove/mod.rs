@@ -17,7 +17,8 @@ use bevy::app::App;
 use mcap::read::{LinearReader, Options};
 use mcap::records::Record;
 
-use super::{ExportError, frames as frames_of};
+use super::error::ExportError;
+use super::every_frame::every_frame;
 use crate::recording::Recorder;
 use crate::run::Log;
 use crate::simulation::RobotView;
@@ -159,10 +160,10 @@ fn write(
 ) -> Result<(), ExportError> {
     let mut original = Original { records: LinearReader::new_with_options(file, Options::IgnoreEndMagic.into()).ok() };
     let mut out = ViewerFile::begin(out)?;
-    let mut run = Recorder::with_robots(log.config.clone(), (log.seed, log.script.clone()), add)?.without_keyframes();
-    let paths = RunPath::of_run(log, &mut run, frames_of(log), &mut on_frame)?;
+    let mut run = Recorder::of_with_robots(&log.recipe, add)?.without_keyframes();
+    let paths = RunPath::of_run(log, &mut run, every_frame(log), &mut on_frame)?;
     let mut viewed = Viewed { viewer, log, paths, before: Vec::new(), shown: Vec::new() };
-    for frame in frames_of(log) {
+    for frame in every_frame(log) {
         run.restore(frame)?;
         original.copy_tick(frame.tick, &mut out)?;
         viewed.tick(frame.tick, &run, &mut out)?;
@@ -205,9 +206,10 @@ struct Viewed<'a> {
 
 impl Viewed<'_> {
     fn tick(&mut self, tick: u64, run: &Recorder, out: &mut ViewerFile<impl Write>) -> Result<(), ExportError> {
-        let (worlds, robots, standing) = (&self.log.config.worlds, run.view(), run.standing_worlds());
+        let (worlds, robots, standing) = (&self.log.recipe.config.worlds, run.view(), run.standing_worlds());
         if tick == 0 {
-            let run = format!("seed {}, {} ticks, digest {}", self.log.seed, self.log.frames.len(), self.log.digest());
+            let digest = self.log.digest().map_or_else(String::new, |digest| format!(", digest {digest}"));
+            let run = format!("seed {}, {} ticks{digest}", self.log.recipe.seed, self.log.ticks());
             out.message("/viewer/log", "foxglove.Log", 0, &events::message_of(0, level::INFO, "motion-lab", run))?;
         }
         let mut transforms = frames::worlds(tick, worlds);

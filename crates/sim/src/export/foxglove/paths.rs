@@ -47,7 +47,7 @@ impl RunPath {
     }
 
     fn begin(log: &Log, robot: &RobotView) -> Option<RunPath> {
-        let world = log.config.worlds.get(robot.world as usize)?;
+        let world = log.recipe.config.worlds.get(robot.world as usize)?;
         let (robot, frame) = (robot.name.clone(), frames::of_world(world));
         Some(RunPath { robot, frame, points: Vec::new(), contacts: Vec::new(), counted: 0 })
     }

@@ -1,144 +1,142 @@
 //! `Encoder` makes the bytes of a log, piece by piece.
 
-use xxhash_rust::xxh3::Xxh3;
-
-use super::message::{DigestMessage, FrameMessage, InputMessage, SCHEMA, SCHEMA_2, ScanMessage};
+use super::frame_messages::FrameMessages;
 use super::preamble::Preamble;
-use super::record_writer::RecordWriter;
-use super::{FORMAT_VERSION, LogError, channel};
-use crate::run::{Digest, Frame};
+use super::record::{DIGESTS, RUN_DIGEST};
+use super::sealer::Sealer;
+use super::{FORMAT_VERSION, LogError};
+use crate::run::log::DIGEST_TICKS;
+use crate::run::{Digest, Frame, LogKind, RunDigest};
 
-/// Makes the bytes of a log in pieces that end in a seal: the part before the first tick, then each tick, then the end.
-/// The same run gives the same bytes. A writer writes them, and a reader compares a file with them.
-///
-/// The records are those of the crate `mcap`, without chunks; a seal is a private record.
+/// Largest number of digests in a record: those of a minute.
+pub const MAX_DIGESTS: usize = 60;
+
+/// Makes the bytes of a log in pieces that end in a seal: the part before the first tick; then, with frames, each tick,
+/// and without, each minute; then the end. The same run gives the same bytes. A writer writes them, and a reader
+/// compares a file with them.
 pub struct Encoder {
     preamble: Preamble,
-    records: RecordWriter,
-    /// The hash of all bytes of the pieces so far.
-    hash: Xxh3,
-    length: u64,
-    next_tick: u64,
-    next_event: usize,
-    next_change: usize,
-    piece: Vec<u8>,
-    room: Room,
-    /// The greatest range of each scan of the initial frame, as far as the configuration says.
-    max_ranges: Vec<Option<f64>>,
-}
-
-/// Buffers that are filled again for every tick. Once they have grown, a tick allocates nothing.
-#[derive(Default)]
-struct Room {
-    frame: FrameMessage,
-    scan: ScanMessage,
-    digest: DigestMessage,
-    encoding: Vec<u8>,
-    content: Vec<u8>,
+    sealer: Sealer,
+    /// Number of ticks so far.
+    ticks: u64,
+    messages: FrameMessages,
+    /// The digests that no piece holds yet; none in a log with frames.
+    waiting: Vec<u64>,
 }
 
 impl Encoder {
-    /// Starts a log: makes the piece before the first tick, with its seal.
-    pub fn begin(preamble: Preamble) -> Result<Self, LogError> {
+    /// Starts a log: makes the piece before the first tick, with its seal. `start` is the lower half of the run's
+    /// digest there, which a log of digests holds.
+    pub fn begin(preamble: Preamble, start: u64) -> Result<Self, LogError> {
         let mut encoder = Encoder {
+            messages: FrameMessages::new(&preamble),
             preamble,
-            records: RecordWriter::begin()?,
-            hash: Xxh3::new(),
-            length: 0,
-            next_tick: 1,
-            next_event: 0,
-            next_change: 0,
-            piece: Vec::new(),
-            room: Room::default(),
-            max_ranges: Vec::new(),
+            sealer: Sealer::begin()?,
+            ticks: 0,
+            waiting: Vec::new(),
         };
-        encoder.max_ranges = encoder.preamble.max_ranges();
-        encoder.preamble.put(&mut encoder.records)?;
-        let schema = if encoder.preamble.format() == FORMAT_VERSION { SCHEMA } else { SCHEMA_2 };
-        encoder.records.channels(schema)?;
-        let initial = encoder.preamble.initial.clone();
-        encoder.put_frame(&initial, initial.digest())?;
-        encoder.seal(0)?;
+        let records = encoder.sealer.next();
+        encoder.preamble.put(records)?;
+        match &encoder.preamble.initial {
+            Some(initial) => {
+                records.channels(encoder.preamble.format() == FORMAT_VERSION)?;
+                encoder.messages.put(records, initial)?;
+                encoder.sealer.seal(0)?;
+            }
+            None => {
+                encoder.waiting.push(start);
+                encoder.pack()?;
+            }
+        }
         Ok(encoder)
     }
 
-    /// Makes the piece of a tick, with its seal. Returns the frame's digest.
-    pub fn tick(&mut self, frame: &Frame) -> Result<Digest, LogError> {
-        self.preamble.check_frame(frame, self.next_tick)?;
-        self.piece.clear();
-        while let Some(change) = self.preamble.script.changes.get(self.next_change).filter(|c| c.tick <= frame.tick) {
-            let input = InputMessage::of_change(change);
-            self.records.message(channel::INPUT, frame.tick, &input, &mut self.room.content)?;
-            self.next_change += 1;
+    /// Goes on by a tick, which is added to the run's digest; returns whether a piece is made.
+    ///
+    /// # Errors
+    /// [`LogError`] for a frame that can't be this run's next; nothing is changed then.
+    pub fn tick(&mut self, frame: &Frame, run: &mut RunDigest) -> Result<bool, LogError> {
+        self.preamble.check_frame(frame, self.ticks + 1)?;
+        run.tick(frame);
+        if self.preamble.kind() == LogKind::Frames {
+            let records = self.sealer.next();
+            self.messages.put_inputs(records, &self.preamble.recipe.script, frame.tick)?;
+            self.messages.put(records, frame)?;
+            self.sealer.seal(frame.tick)?;
+            self.ticks += 1;
+            return Ok(true);
         }
-        while let Some(event) = self.preamble.script.events.get(self.next_event).filter(|e| e.tick <= frame.tick) {
-            let input = InputMessage::of(event);
-            self.records.message(channel::INPUT, frame.tick, &input, &mut self.room.content)?;
-            self.next_event += 1;
+        self.ticks += 1;
+        let is_last = self.ticks == self.preamble.recipe.config.ticks;
+        if !is_last && !self.ticks.is_multiple_of(DIGEST_TICKS) {
+            return Ok(false);
         }
-        let digest = frame.digest_in(&mut self.room.encoding);
-        self.put_frame(frame, digest)?;
-        self.seal(frame.tick)?;
-        self.next_tick += 1;
-        Ok(digest)
+        self.waiting.push(run.lower_half());
+        if !is_last && self.waiting.len() < MAX_DIGESTS {
+            return Ok(false);
+        }
+        self.pack()?;
+        Ok(true)
     }
 
-    /// Makes the piece after the last tick: data end, summary, footer.
-    pub fn finish(&mut self) -> Result<(), LogError> {
-        let (recorded, ticks) = (self.ticks(), self.preamble.config.ticks);
+    /// Makes the piece of these digests, the last of which is that after `tick`.
+    pub fn put_digests(&mut self, digests: &[u64], tick: u64) -> Result<(), LogError> {
+        self.waiting.extend_from_slice(digests);
+        self.ticks = tick;
+        self.pack()
+    }
+
+    /// Packs the digests not yet written when a run stops early. False if there are none.
+    pub fn stop(&mut self, run: &RunDigest) -> Result<bool, LogError> {
+        let is_between = !self.ticks.is_multiple_of(DIGEST_TICKS) && self.ticks < self.preamble.recipe.config.ticks;
+        if self.preamble.kind() == LogKind::Digests && is_between {
+            self.waiting.push(run.lower_half());
+        }
+        let is_any = !self.waiting.is_empty();
+        if is_any {
+            self.pack()?;
+        }
+        Ok(is_any)
+    }
+
+    /// Makes the piece after the last tick: in a log of digests that of the run, with a seal; the end of the file.
+    pub fn finish(&mut self, run: Digest) -> Result<(), LogError> {
+        let (recorded, ticks) = (self.ticks, self.preamble.recipe.config.ticks);
         if recorded != ticks {
             return Err(LogError::Incomplete { recorded, ticks });
         }
-        self.piece.clear();
-        self.records.finish()?;
-        self.records.move_to(&mut self.piece);
-        self.length += self.piece.len() as u64;
-        Ok(())
+        let records = self.sealer.next();
+        if self.preamble.kind() == LogKind::Digests {
+            records.private(RUN_DIGEST, &run.0.to_le_bytes())?;
+            self.sealer.seal(ticks)?;
+        }
+        self.sealer.finish()
     }
 
     /// The current piece.
     pub fn piece(&self) -> &[u8] {
-        &self.piece
+        self.sealer.piece()
     }
 
     /// Number of bytes of all pieces so far, including the current one.
     pub fn length(&self) -> u64 {
-        self.length
+        self.sealer.length()
     }
 
     /// Number of ticks so far.
     pub fn ticks(&self) -> u64 {
-        self.next_tick - 1
+        self.ticks
     }
 
     pub fn preamble(&self) -> &Preamble {
         &self.preamble
     }
 
-    fn put_frame(&mut self, frame: &Frame, digest: Digest) -> Result<(), LogError> {
-        let (records, tick) = (&mut self.records, frame.tick);
-        let Room { frame: of_frame, scan: of_scan, digest: of_digest, content, .. } = &mut self.room;
-        of_frame.take(frame);
-        records.message(channel::FRAME, tick, of_frame, content)?;
-        let given = self.preamble.config.sensor.map(|s| s.max_range);
-        for (i, scan) in frame.scans.iter().enumerate() {
-            of_scan.take(tick, self.max_ranges.get(i).copied().unwrap_or(given), scan);
-            records.message(channel::SCAN, tick, of_scan, content)?;
-        }
-        of_digest.take(tick, digest);
-        records.message(channel::DIGEST, tick, of_digest, content)
-    }
-
-    /// Ends the piece with a seal: the tick, where the seal begins, and the xxh3-128 of every byte before it.
-    fn seal(&mut self, tick: u64) -> Result<(), LogError> {
-        self.records.move_to(&mut self.piece);
-        self.hash.update(&self.piece);
-        let sealed = self.piece.len();
-        let (offset, hash) = (self.length + sealed as u64, self.hash.digest128());
-        self.records.seal(tick, offset, hash, &mut self.room.content)?;
-        self.records.move_to(&mut self.piece);
-        self.hash.update(&self.piece[sealed..]);
-        self.length += self.piece.len() as u64;
-        Ok(())
+    /// Makes the record of the digests that wait, after the tick of the last, with its seal.
+    fn pack(&mut self) -> Result<(), LogError> {
+        let words = std::iter::once(self.ticks).chain(self.waiting.drain(..));
+        let content: Vec<u8> = words.flat_map(u64::to_le_bytes).collect();
+        self.sealer.next().private(DIGESTS, &content)?;
+        self.sealer.seal(self.ticks)
     }
 }

@@ -2,8 +2,8 @@
 
 use std::fmt;
 
-use super::{ReadDigestLog, ReadLog};
-use crate::run::ScriptError;
+use super::ReadLog;
+use crate::run::{LogKind, ScriptError};
 use crate::tour::ConfigError;
 
 /// Why a log can't be written, or a file can't be read as one.
@@ -59,12 +59,6 @@ pub enum LogError {
         /// The name of the value.
         field: String,
     },
-    /// A digest that is not its frame's, or is missing.
-    #[error("tick {tick}: the digest is not that of the frame")]
-    Digest {
-        /// The tick.
-        tick: u64,
-    },
     /// A log finished before its last tick.
     #[error("{recorded} of {ticks} ticks are recorded")]
     Incomplete {
@@ -79,12 +73,9 @@ pub enum LogError {
     /// The file is an export for viewers, made from a log.
     #[error("this is an export for viewers, not the run log itself")]
     Export,
-    /// The file is a digest log, where one with frames is needed.
+    /// A log of digests, where one with frames is needed.
     #[error("this is a digest log, which holds no frames")]
     NoFrames,
-    /// The file is a log with frames, where a digest log is read.
-    #[error("this is a log with frames, not a digest log")]
-    HasFrames,
     /// A log in a version of the format that this program does not read.
     #[error("the log has format version {0:?}; this program reads versions {old:?}, {new:?} and {digests:?}",
         old = super::FORMAT_VERSION, new = super::FORMAT_VERSION_WITH_CHANGES, digests = super::DIGEST_FORMAT_VERSION)]
@@ -106,9 +97,6 @@ pub enum LogError {
     /// The file was cut or changed after it was written. Everything sealed is recovered.
     #[error("{0}")]
     Damaged(Box<DamagedLog>),
-    /// The same of a digest log.
-    #[error("{0}")]
-    DamagedDigests(Box<DamagedDigestLog>),
 }
 
 /// What is left of a file that was cut or changed.
@@ -147,34 +135,15 @@ impl DamageKind {
 
 impl fmt::Display for DamagedLog {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "the log {} after byte {}: ", self.kind.in_words(), self.first_unsealed_offset)?;
+        let kind = self.recovered.as_ref().map(|read| read.log.kind());
+        let what = if kind == Some(LogKind::Digests) { "the digest log" } else { "the log" };
+        write!(f, "{what} {} after byte {}: ", self.kind.in_words(), self.first_unsealed_offset)?;
         match (&self.recovered, self.sealed_ticks) {
             (None, _) => write!(f, "the part before the first tick is not whole, so nothing can be recovered"),
-            (Some(read), n) => write!(f, "{n} of {} ticks are whole", read.log.config.ticks),
-        }
-    }
-}
-
-/// What is left of a digest log that was cut or changed.
-#[derive(Debug)]
-#[non_exhaustive]
-pub struct DamagedDigestLog {
-    /// The sealed beginning; `None` when the part before the first tick is damaged.
-    pub recovered: Option<ReadDigestLog>,
-    /// The number of sealed ticks.
-    pub sealed_ticks: u64,
-    /// The offset at which the sealed bytes end.
-    pub first_unsealed_offset: u64,
-    /// What probably happened.
-    pub kind: DamageKind,
-}
-
-impl fmt::Display for DamagedDigestLog {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "the digest log {} after byte {}: ", self.kind.in_words(), self.first_unsealed_offset)?;
-        match (&self.recovered, self.sealed_ticks) {
-            (None, _) => write!(f, "the part before the first tick is not whole, so nothing can be recovered"),
-            (Some(read), n) => write!(f, "the digests of {n} of {} ticks are whole", read.log.config.ticks),
+            (Some(read), n) => {
+                let of = if kind == Some(LogKind::Digests) { "the digests of " } else { "" };
+                write!(f, "{of}{n} of {} ticks are whole", read.log.recipe.config.ticks)
+            }
         }
     }
 }

@@ -24,12 +24,10 @@
 //!
 //! A message's times are tick * 50 ms from zero. No clock is read, so the same run gives the same bytes.
 
-mod digest_encoder;
-mod digest_log;
-mod digest_reader;
-mod digest_writer;
+mod channel;
 mod encoder;
 mod error;
+mod frame_messages;
 mod message;
 mod preamble;
 mod read_log;
@@ -37,43 +35,14 @@ mod reader;
 mod record;
 mod record_writer;
 mod sealed_output;
+mod sealer;
 #[cfg(test)]
 mod tests;
 mod writer;
 
-pub use digest_log::{DIGEST_TICKS, DigestLog, MOST_ROBOTS_IN_FULL, ReadDigestLog};
-pub use digest_writer::DigestLogWriter;
-pub use error::{DamageKind, DamagedDigestLog, DamagedLog, LogError};
+pub use channel::{
+    DIGEST_FORMAT_VERSION, EXPORT_PROFILE, FORMAT_VERSION, FORMAT_VERSION_WITH_CHANGES, GENERATOR, TICK_NANOSECONDS,
+};
+pub use error::{DamageKind, DamagedLog, LogError};
 pub use read_log::ReadLog;
 pub use writer::LogWriter;
-
-/// The version of the log format for a run that changes no world. The program reads this one and the next.
-pub const FORMAT_VERSION: &str = "1";
-/// The version of the log format for a run whose script changes worlds: frames hold obstacles, inputs name worlds.
-pub const FORMAT_VERSION_WITH_CHANGES: &str = "2";
-/// The version of the log format for a log without frames, a [`DigestLog`].
-pub const DIGEST_FORMAT_VERSION: &str = "digest 1";
-/// The generator of a run's random numbers: see [`Stream`](motion_lab_core::random::Stream).
-pub const GENERATOR: &str = "chacha8, a stream per name, keyed by xxh3-128";
-/// A tick's length in nanoseconds: [`DT`](crate::run::DT).
-pub const TICK_NANOSECONDS: u64 = 50_000_000;
-const PROFILE: &str = "motion-lab";
-/// The profile in the header of an export: an MCAP file made from a log for viewers, which is not a log itself.
-pub const EXPORT_PROFILE: &str = "motion-lab-export";
-const MEDIA_TYPE: &str = "text/x-ron";
-
-/// The topics and message types of the channels. The ids of channels and schemas count from 1.
-const CHANNELS: [(&str, &str); 4] = [
-    ("/input", "motion_lab.Input"),
-    ("/frame", "motion_lab.Frame"),
-    ("/scan", "motion_lab.Scan"),
-    ("/digest", "motion_lab.Digest"),
-];
-
-/// The channels' ids.
-mod channel {
-    pub const INPUT: u16 = 1;
-    pub const FRAME: u16 = 2;
-    pub const SCAN: u16 = 3;
-    pub const DIGEST: u16 = 4;
-}

@@ -7,7 +7,7 @@ use serde::Deserialize;
 use super::record::{self, Cursor, Record, opcode};
 use super::record_writer::RecordWriter;
 use super::{DIGEST_FORMAT_VERSION, FORMAT_VERSION, FORMAT_VERSION_WITH_CHANGES, GENERATOR, LogError, ReadLog};
-use crate::run::{DT, Frame, Log, ObstacleState, Script};
+use crate::run::{DT, Frame, LogKind, ObstacleState, Recipe, Script};
 use crate::tour::TourConfig;
 use motion_lab_core::random::Seed;
 use motion_lab_core::sensors::RangeSensor;
@@ -18,24 +18,12 @@ const METADATA: &str = "motion-lab";
 const CONFIG: &str = "config.ron";
 const SCRIPT: &str = "script.ron";
 
-/// What a log keeps of its run.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum LogKind {
-    /// Every frame.
-    Frames,
-    /// A digest of each second.
-    Digests,
-}
-
 /// A run before its first tick, with its texts in the file.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Preamble {
-    pub kind: LogKind,
-    pub seed: Seed,
-    pub config: TourConfig,
-    pub script: Script,
-    /// The initial frame; in a digest log a frame without robots.
-    pub initial: Frame,
+    pub recipe: Recipe,
+    /// The initial frame; `None` in a log of digests.
+    pub initial: Option<Frame>,
     /// The program that wrote the log.
     pub program: String,
     /// The texts of the worlds, in order. They are kept as read, because another version of the program may print a
@@ -63,51 +51,39 @@ fn content(item: &str, reason: &str) -> LogError {
     LogError::Content { item: item.to_owned(), reason: reason.to_owned() }
 }
 
-fn no_frame() -> Frame {
-    Frame { tick: 0, robots: Vec::new(), scans: Vec::new(), obstacles: Vec::new() }
-}
-
 fn world_file(index: usize) -> String {
     format!("worlds/{index}.ron")
 }
 
-impl ReadLog {
-    pub(super) fn preamble(&self) -> Preamble {
-        let Log { seed, config, script, initial, .. } = self.log.clone();
-        let (program, world_texts) = (self.program.clone(), self.world_texts.clone());
-        Preamble { kind: LogKind::Frames, seed, config, script, initial, program, world_texts }
-    }
-}
-
 impl Preamble {
-    /// Creates the preamble of a run that this program records.
-    pub fn new(seed: Seed, config: &TourConfig, script: &Script, initial: &Frame) -> Result<Self, LogError> {
-        Self::of_run(LogKind::Frames, (seed, config, script), initial.clone())
+    /// The preamble of a run that this program records.
+    pub fn new(recipe: &Recipe, kind: LogKind, initial: &Frame) -> Result<Self, LogError> {
+        Self::of_run(recipe, (kind == LogKind::Frames).then(|| initial.clone()))
     }
 
-    /// Creates the preamble of a run of which this program keeps digests.
-    pub fn of_digests(seed: Seed, config: &TourConfig, script: &Script) -> Result<Self, LogError> {
-        Self::of_run(LogKind::Digests, (seed, config, script), no_frame())
+    /// The preamble of a run of which this program keeps digests.
+    pub fn of_digests(recipe: &Recipe) -> Result<Self, LogError> {
+        Self::of_run(recipe, None)
     }
 
-    fn of_run(
-        kind: LogKind,
-        (seed, config, script): (Seed, &TourConfig, &Script),
-        initial: Frame,
-    ) -> Result<Self, LogError> {
+    /// The preamble of a log as it was read.
+    pub fn of_read(read: &ReadLog) -> Self {
+        let (program, world_texts) = (read.program.clone(), read.world_texts.clone());
+        Preamble { recipe: read.log.recipe.clone(), initial: read.log.initial().cloned(), program, world_texts }
+    }
+
+    fn of_run(recipe: &Recipe, initial: Option<Frame>) -> Result<Self, LogError> {
+        let worlds = &recipe.config.worlds;
         let preamble = Preamble {
-            kind,
-            seed,
-            config: config.clone(),
-            script: script.clone(),
+            recipe: recipe.clone(),
             initial,
             program: concat!("motion-lab ", env!("CARGO_PKG_VERSION")).to_owned(),
-            world_texts: config.worlds.iter().map(World::to_ron).collect(),
+            world_texts: worlds.iter().map(World::to_ron).collect(),
         };
         preamble.check()?;
         // a world assembled by hand may hold what the file format cannot express; a replay would then run in another
         // world
-        for (i, (world, text)) in config.worlds.iter().zip(&preamble.world_texts).enumerate() {
+        for (i, (world, text)) in worlds.iter().zip(&preamble.world_texts).enumerate() {
             let name = world_file(i);
             match World::parse(&name, text) {
                 Ok(read) if read == *world => {}
@@ -119,24 +95,24 @@ impl Preamble {
     }
 
     fn check(&self) -> Result<(), LogError> {
-        self.config.validate()?;
-        self.script.check()?;
-        let names: Vec<&str> = self.config.robot_names().collect();
-        self.script.check_robots(&names)?;
-        self.script.check_worlds(&self.config.worlds)?;
-        if self.kind == LogKind::Digests { Ok(()) } else { self.check_frame(&self.initial, 0) }
+        let Recipe { config, script, .. } = &self.recipe;
+        config.validate()?;
+        script.check()?;
+        script.check_robots(&config.robot_names().collect::<Vec<_>>())?;
+        script.check_worlds(&config.worlds)?;
+        self.initial.as_ref().map_or(Ok(()), |initial| self.check_frame(initial, 0))
     }
 
     /// Checks that `frame` can be this run's frame of tick `expected`.
     pub fn check_frame(&self, frame: &Frame, expected: u64) -> Result<(), LogError> {
-        let (tick, ticks) = (frame.tick, self.config.ticks);
+        let (tick, ticks) = (frame.tick, self.recipe.config.ticks);
         if tick != expected {
             return Err(LogError::Order { expected, found: tick });
         }
         if tick > ticks {
             return Err(LogError::Beyond { tick, ticks });
         }
-        let robots = self.config.robot_names().count();
+        let robots = self.recipe.config.robot_names().count();
         let ids_are_right = frame.robots.len() == robots && (0..).zip(&frame.robots).all(|(id, r)| r.id == id);
         let scans_are_right = frame.scans.is_sorted_by_key(|scan| scan.robot)
             && frame.scans.last().is_none_or(|scan| (scan.robot as usize) < robots);
@@ -145,9 +121,9 @@ impl Preamble {
         }
         let key = |o: &ObstacleState| (o.world, o.obstacle);
         if !frame.obstacles.is_sorted_by(|a, b| key(a) < key(b))
-            || frame.obstacles.last().is_some_and(|o| o.world as usize >= self.config.worlds.len())
+            || frame.obstacles.last().is_some_and(|o| o.world as usize >= self.recipe.config.worlds.len())
             || frame.obstacles.iter().any(|o| !o.pose.is_finite())
-            || (!frame.obstacles.is_empty() && self.script.changes.is_empty())
+            || (!frame.obstacles.is_empty() && self.recipe.script.changes.is_empty())
         {
             return Err(LogError::Obstacles { tick });
         }
@@ -157,11 +133,16 @@ impl Preamble {
         }
     }
 
+    /// What the log has of the run.
+    pub fn kind(&self) -> LogKind {
+        if self.initial.is_some() { LogKind::Frames } else { LogKind::Digests }
+    }
+
     /// The version of the log's format.
     pub fn format(&self) -> &'static str {
-        match self.kind {
+        match self.kind() {
             LogKind::Digests => DIGEST_FORMAT_VERSION,
-            LogKind::Frames if self.script.changes.is_empty() => FORMAT_VERSION,
+            LogKind::Frames if self.recipe.script.changes.is_empty() => FORMAT_VERSION,
             LogKind::Frames => FORMAT_VERSION_WITH_CHANGES,
         }
     }
@@ -169,11 +150,12 @@ impl Preamble {
     /// The greatest range of each scan of the initial frame, metres; `None` for one of a sensor that is not the
     /// configuration's.
     pub fn max_ranges(&self) -> Vec<Option<f64>> {
-        let residents: Vec<_> = self.config.residents().collect();
-        let scans = self.initial.scans.chunk_by(|a, b| a.robot == b.robot);
+        let config = &self.recipe.config;
+        let residents: Vec<_> = config.residents().collect();
+        let scans = self.initial.iter().flat_map(|initial| initial.scans.chunk_by(|a, b| a.robot == b.robot));
         let ranges = scans.flat_map(|scans| {
             let resident = scans.first().and_then(|scan| residents.get(scan.robot as usize));
-            let sensors = resident.and_then(|resident| self.config.sensors_of(resident, scans.len()));
+            let sensors = resident.and_then(|resident| config.sensors_of(resident, scans.len()));
             let range = |i: usize| sensors.as_ref()?.get(i).map(|sensor| sensor.rays.sensor.max_range);
             (0..scans.len()).map(range).collect::<Vec<_>>()
         });
@@ -182,14 +164,14 @@ impl Preamble {
 
     fn metadata(&self) -> BTreeMap<String, String> {
         let entry = |key: &str, value: String| (key.to_owned(), value);
-        let hashes = self.config.worlds.iter().enumerate();
+        let hashes = self.recipe.config.worlds.iter().enumerate();
         let hashes = hashes.map(|(i, world)| (world_file(i), format!("{:032x}", world.content_hash())));
         [
             entry("format", self.format().to_owned()),
             entry("program", self.program.clone()),
-            entry("seed", self.seed.to_string()),
+            entry("seed", self.recipe.seed.to_string()),
             entry("dt", format!("{DT:?}")),
-            entry("ticks", self.config.ticks.to_string()),
+            entry("ticks", self.recipe.config.ticks.to_string()),
             entry("generator", GENERATOR.to_owned()),
         ]
         .into_iter()
@@ -198,7 +180,7 @@ impl Preamble {
     }
 
     fn config_text(&self) -> String {
-        let TourConfig { worlds, ticks, sensor } = &self.config;
+        let TourConfig { worlds, ticks, sensor } = &*self.recipe.config;
         let sensor = match sensor {
             Some(RangeSensor { n_rays, max_range }) => format!("Some((n_rays: {n_rays}, max_range: {max_range:?}))"),
             None => "None".to_owned(),
@@ -214,12 +196,11 @@ impl Preamble {
         for (i, text) in self.world_texts.iter().enumerate() {
             records.attachment(world_file(i), text)?;
         }
-        records.attachment(SCRIPT.to_owned(), &self.script.to_ron())
+        records.attachment(SCRIPT.to_owned(), &self.recipe.script.to_ron())
     }
 
     /// Reads the preamble from sealed records. `initial` is the frame in their messages.
-    /// A log of another kind is refused.
-    pub fn read(records: &[Record<'_>], kind: LogKind, initial: Option<Frame>) -> Result<Self, LogError> {
+    pub fn read(records: &[Record<'_>], initial: Option<Frame>) -> Result<Self, LogError> {
         let mut files: BTreeMap<&str, &str> = BTreeMap::new();
         let mut metadata = BTreeMap::new();
         for record in records {
@@ -239,14 +220,13 @@ impl Preamble {
         }
         let entry = |key: &str| metadata.get(key).ok_or_else(|| content(key, "the metadata lacks it"));
         let version = entry("format")?;
-        match (version.as_str(), kind) {
-            (FORMAT_VERSION | FORMAT_VERSION_WITH_CHANGES, LogKind::Frames) => {}
-            (DIGEST_FORMAT_VERSION, LogKind::Digests) => {}
-            (FORMAT_VERSION | FORMAT_VERSION_WITH_CHANGES, LogKind::Digests) => return Err(LogError::HasFrames),
-            (DIGEST_FORMAT_VERSION, LogKind::Frames) => return Err(LogError::NoFrames),
+        let initial = match version.as_str() {
+            FORMAT_VERSION | FORMAT_VERSION_WITH_CHANGES => {
+                Some(initial.ok_or_else(|| content("/frame", "there is no initial frame"))?)
+            }
+            DIGEST_FORMAT_VERSION => None,
             _ => return Err(LogError::Version(version.clone())),
-        }
-        let initial = if kind == LogKind::Digests { Some(no_frame()) } else { initial };
+        };
         let file = |name: &str| files.get(name).copied().ok_or_else(|| content(name, "the attachment is missing"));
         let text = file(CONFIG)?;
         let config: ConfigText =
@@ -267,15 +247,10 @@ impl Preamble {
             world_texts.push(text.to_owned());
         }
         let sensor = config.sensor.map(|s| RangeSensor { n_rays: s.n_rays, max_range: s.max_range });
-        let preamble = Preamble {
-            kind,
-            seed: Seed(entry("seed")?.parse().map_err(|_| content("seed", "it is not a whole number below 2^64"))?),
-            config: TourConfig { worlds, ticks: config.ticks, sensor },
-            script: Script::parse(SCRIPT, file(SCRIPT)?)?,
-            initial: initial.ok_or_else(|| content("/frame", "there is no initial frame"))?,
-            program: entry("program")?.clone(),
-            world_texts,
-        };
+        let seed = Seed(entry("seed")?.parse().map_err(|_| content("seed", "it is not a whole number below 2^64"))?);
+        let config = TourConfig { worlds, ticks: config.ticks, sensor };
+        let recipe = Recipe::new(config, (seed, Script::parse(SCRIPT, file(SCRIPT)?)?));
+        let preamble = Preamble { recipe, initial, program: entry("program")?.clone(), world_texts };
         preamble.check()?;
         Ok(preamble)
     }
@@ -289,17 +264,20 @@ mod tests {
 
     #[test]
     fn each_scan_has_the_greatest_range_of_its_own_sensor() {
-        let mut log = fixture::log();
+        let log = fixture::log();
+        let (mut config, mut initial) = (TourConfig::clone(&log.recipe.config), log.initial().unwrap().clone());
         let sensor = |name: &str, max_range: f64| ResidentSensor::new(name, RangeSensor { n_rays: 1, max_range });
-        log.config.worlds[0].robots[0].sensors = vec![sensor("far", 9.0)];
-        log.config.worlds[0].robots[1].sensors = vec![sensor("b", 7.0), sensor("a", 5.0)];
-        log.initial.scans = [0, 0, 1, 1].map(|robot| RobotScan { robot, ranges: [1.0].into() }).to_vec();
-        let ranges = |log: &Log| Preamble::new(log.seed, &log.config, &log.script, &log.initial).unwrap().max_ranges();
-        assert_eq!(ranges(&log), [Some(4.0), Some(9.0), Some(5.0), Some(7.0)]);
-        log.initial.scans.insert(4, RobotScan { robot: 1, ranges: [1.0].into() });
-        assert_eq!(ranges(&log), [Some(4.0), Some(9.0), None, None, None], "one from code, whichever it is");
-        log.initial.scans.swap(0, 4);
-        let refused = Preamble::new(log.seed, &log.config, &log.script, &log.initial).unwrap_err();
+        config.worlds[0].robots[0].sensors = vec![sensor("far", 9.0)];
+        config.worlds[0].robots[1].sensors = vec![sensor("b", 7.0), sensor("a", 5.0)];
+        initial.scans = [0, 0, 1, 1].map(|robot| RobotScan { robot, ranges: [1.0].into() }).to_vec();
+        let recipe = Recipe { config: config.into(), ..log.recipe };
+        let preamble = |initial: &Frame| Preamble::new(&recipe, LogKind::Frames, initial);
+        let ranges = |initial: &Frame| preamble(initial).unwrap().max_ranges();
+        assert_eq!(ranges(&initial), [Some(4.0), Some(9.0), Some(5.0), Some(7.0)]);
+        initial.scans.insert(4, RobotScan { robot: 1, ranges: [1.0].into() });
+        assert_eq!(ranges(&initial), [Some(4.0), Some(9.0), None, None, None], "one from code, whichever it is");
+        initial.scans.swap(0, 4);
+        let refused = preamble(&initial).unwrap_err();
         assert!(matches!(refused, LogError::Robots { tick: 0, .. }), "{refused}");
     }
 }

@@ -1,15 +1,16 @@
-//! Reads a log and checks that it is whole.
+//! The reader of logs, which checks that the file is whole.
 
 use prost::Message;
 use xxhash_rust::xxh3::xxh3_128;
 
-use super::encoder::Encoder;
+use super::encoder::{Encoder, MAX_DIGESTS};
 use super::message::{FrameMessage, ScanMessage};
-use super::preamble::{LogKind, Preamble};
-use super::record::{Cursor, MAGIC, Record, SEAL, message, opcode, record_at};
+use super::preamble::Preamble;
+use super::record::{Cursor, DIGESTS, MAGIC, RUN_DIGEST, Record, SEAL, message, opcode, record_at};
 use super::record_writer::put_seal;
 use super::{DamageKind, DamagedLog, EXPORT_PROFILE, LogError, ReadLog, channel};
-use crate::run::{Frame, Log};
+use crate::run::log::DIGEST_TICKS;
+use crate::run::{Digest, Frame, Log, Recorded, RunDigest, SecondDigests};
 
 impl Log {
     /// Reads a log from the bytes of an MCAP file.
@@ -20,52 +21,60 @@ impl Log {
     ///
     /// # Errors
     /// [`LogError::Damaged`] with everything that is sealed; [`LogError::NotALog`], [`LogError::Export`],
-    /// [`LogError::NoFrames`] for a digest log, [`LogError::Version`]; if the part before the first tick is sealed but
-    /// not valid, [`LogError::Content`], [`LogError::Config`], [`LogError::Script`] or [`LogError::Foreign`].
+    /// [`LogError::Version`]; if the part before the first tick is sealed but not valid, [`LogError::Content`],
+    /// [`LogError::Config`], [`LogError::Script`] or [`LogError::Foreign`].
     pub fn read_mcap(file: &[u8]) -> Result<ReadLog, LogError> {
         Self::read_mcap_with(file, |_| {})
     }
 
-    /// [`read_mcap`](Self::read_mcap), which calls `on_tick` after each tick with the number of bytes checked so far.
+    /// [`read_mcap`](Self::read_mcap), which calls `on_piece` after each piece with the number of bytes checked so far.
     ///
     /// # Errors
     /// As [`read_mcap`](Self::read_mcap).
-    pub fn read_mcap_with(file: &[u8], mut on_tick: impl FnMut(u64)) -> Result<ReadLog, LogError> {
+    pub fn read_mcap_with(file: &[u8], mut on_piece: impl FnMut(u64)) -> Result<ReadLog, LogError> {
         let records = first_piece(file)?.map_err(|kind| damaged(None, 0, kind))?;
-        let preamble = Preamble::read(&records, LogKind::Frames, frame_of(&records))?;
-        let mut read = ReadLog {
-            program: preamble.program.clone(),
-            world_texts: preamble.world_texts.clone(),
-            log: Log {
-                seed: preamble.seed,
-                config: preamble.config.clone(),
-                script: preamble.script.clone(),
-                initial: preamble.initial.clone(),
-                frames: Vec::new(),
-                digests: Vec::new(),
-            },
+        let preamble = Preamble::read(&records, frame_of(&records))?;
+        let recipe = preamble.recipe.clone();
+        let (start, recorded) = match &preamble.initial {
+            Some(initial) => (0, Recorded::Frames { initial: initial.clone(), frames: Vec::new() }),
+            None => {
+                let digests = records.iter().find(|r| r.opcode == DIGESTS);
+                let start = digests.and_then(|r| words(r.content)?.get(1).copied());
+                let start = start.ok_or(LogError::Foreign { offset: 0 })?;
+                (start, Recorded::Digests(SecondDigests { start, digests: Vec::new(), ticks: 0, whole: None }))
+            }
         };
-        let mut encoder = Encoder::begin(preamble)?;
+        let (program, world_texts) = (preamble.program.clone(), preamble.world_texts.clone());
+        let mut read = ReadLog { log: Log { recipe, recorded }, program, world_texts };
+        let mut encoder = Encoder::begin(preamble, start)?;
         if !file.starts_with(encoder.piece()) {
             let offset = file.iter().zip(encoder.piece()).take_while(|(a, b)| a == b).count();
             return Err(LogError::Foreign { offset: offset as u64 });
         }
         let mut at = encoder.piece().len();
-        while encoder.ticks() < encoder.preamble().config.ticks {
-            match next_tick(file, at, &mut encoder) {
-                Ok((frame, digest)) => {
-                    read.log.frames.push(frame);
-                    read.log.digests.push(digest);
+        let mut run = read.log.initial().map(|initial| RunDigest::new(&read.log.recipe, initial));
+        while encoder.ticks() < encoder.preamble().recipe.config.ticks {
+            let piece = match (&mut read.log.recorded, &mut run) {
+                (Recorded::Frames { frames, .. }, Some(run)) => {
+                    next_tick(file, at, &mut encoder, run).map(|frame| frames.push(frame))
+                }
+                (Recorded::Digests(digests), _) => next_minute(file, at, &mut encoder).map(|minute| {
+                    digests.digests.extend(minute);
+                    digests.ticks = encoder.ticks();
+                }),
+                // frames come with the initial one
+                (Recorded::Frames { .. }, None) => Err(DamageKind::Changed),
+            };
+            match piece {
+                Ok(()) => {
                     at += encoder.piece().len();
-                    on_tick(at as u64);
+                    on_piece(at as u64);
                 }
                 Err(kind) => return Err(damaged(Some(read), at, kind)),
             }
         }
-        encoder.finish()?;
-        match compare(file, at, encoder.piece()) {
-            Ok(()) if file.len() == at + encoder.piece().len() => Ok(read),
-            Ok(()) => Err(damaged(Some(read), at, DamageKind::Changed)),
+        match end(file, at, &mut encoder, &mut read.log.recorded, run.as_ref())? {
+            Ok(()) => Ok(read),
             Err(kind) => Err(damaged(Some(read), at, kind)),
         }
     }
@@ -76,7 +85,7 @@ impl Log {
 ///
 /// # Errors
 /// [`LogError::NotALog`] and [`LogError::Export`]; within, what probably happened to a damaged piece.
-pub fn first_piece(file: &[u8]) -> Result<Result<Vec<Record<'_>>, DamageKind>, LogError> {
+fn first_piece(file: &[u8]) -> Result<Result<Vec<Record<'_>>, DamageKind>, LogError> {
     if !file.starts_with(MAGIC) {
         return if MAGIC.starts_with(file) { Ok(Err(DamageKind::Cut)) } else { Err(LogError::NotALog) };
     }
@@ -94,25 +103,88 @@ fn is_export(file: &[u8]) -> bool {
 }
 
 fn damaged(recovered: Option<ReadLog>, sealed_bytes: usize, kind: DamageKind) -> LogError {
-    let sealed_ticks = recovered.as_ref().map_or(0, |r| r.log.frames.len() as u64);
-    LogError::Damaged(Box::new(DamagedLog {
-        recovered,
-        sealed_ticks,
-        first_unsealed_offset: sealed_bytes as u64,
-        kind,
-    }))
+    let sealed_ticks = recovered.as_ref().map_or(0, |r| r.log.ticks());
+    let first_unsealed_offset = sealed_bytes as u64;
+    LogError::Damaged(Box::new(DamagedLog { recovered, sealed_ticks, first_unsealed_offset, kind }))
 }
 
 /// Reads the next tick's frame. The bytes at `at` must be exactly the encoding of that frame.
-fn next_tick(file: &[u8], at: usize, encoder: &mut Encoder) -> Result<(Frame, crate::run::Digest), DamageKind> {
+fn next_tick(file: &[u8], at: usize, encoder: &mut Encoder, run: &mut RunDigest) -> Result<Frame, DamageKind> {
     let frame = frame_of(&piece(file, at)?).ok_or(DamageKind::Changed)?;
-    let digest = encoder.tick(&frame).map_err(|_| DamageKind::Changed)?;
+    encoder.tick(&frame, run).map_err(|_| DamageKind::Changed)?;
     compare(file, at, encoder.piece())?;
-    Ok((frame, digest))
+    Ok(frame)
+}
+
+/// Reads the next minute's digests. The bytes at `at` must be exactly their encoding.
+fn next_minute(file: &[u8], at: usize, encoder: &mut Encoder) -> Result<Vec<u64>, DamageKind> {
+    // what a run that stopped early has written last is followed by nothing
+    let is_stopped = !encoder.ticks().is_multiple_of(DIGEST_TICKS * MAX_DIGESTS as u64);
+    if is_stopped && at < file.len() {
+        return Err(DamageKind::Changed);
+    }
+    let records = piece(file, at)?;
+    let [Record { opcode: DIGESTS, content, .. }, _] = records[..] else { return Err(DamageKind::Changed) };
+    let words = words(content).ok_or(DamageKind::Changed)?;
+    let Some((&tick, digests)) = words.split_first() else { return Err(DamageKind::Changed) };
+    let (before, ticks) = (encoder.ticks(), encoder.preamble().recipe.config.ticks);
+    let fits = tick > before
+        && tick <= ticks
+        && (tick - before).div_ceil(DIGEST_TICKS) == digests.len() as u64
+        && digests.len() <= MAX_DIGESTS;
+    if !fits {
+        return Err(DamageKind::Changed);
+    }
+    encoder.put_digests(digests, tick).map_err(|_| DamageKind::Changed)?;
+    compare(file, at, encoder.piece())?;
+    Ok(digests.to_vec())
+}
+
+/// Checks the end of the file; in a log of digests it holds the whole run's digest, which is kept.
+fn end(
+    file: &[u8],
+    at: usize,
+    encoder: &mut Encoder,
+    recorded: &mut Recorded,
+    run: Option<&RunDigest>,
+) -> Result<Result<(), DamageKind>, LogError> {
+    let digest = match (&recorded, run) {
+        (Recorded::Digests(digests), _) => match run_digest(file, at) {
+            Ok(whole) if digests.after(digests.ticks) == Some(whole.0 as u64) => whole,
+            Ok(_) => return Ok(Err(DamageKind::Changed)),
+            Err(kind) => return Ok(Err(kind)),
+        },
+        (Recorded::Frames { .. }, run) => run.map_or(Digest(0), RunDigest::digest),
+    };
+    encoder.finish(digest)?;
+    Ok(match compare(file, at, encoder.piece()) {
+        Ok(()) if file.len() == at + encoder.piece().len() => {
+            if let Recorded::Digests(digests) = recorded {
+                digests.whole = Some(digest);
+            }
+            Ok(())
+        }
+        Ok(()) => Err(DamageKind::Changed),
+        Err(kind) => Err(kind),
+    })
+}
+
+/// The digest of the whole run in the last piece of a log of digests.
+fn run_digest(file: &[u8], at: usize) -> Result<Digest, DamageKind> {
+    let records = piece(file, at)?;
+    let [Record { opcode: RUN_DIGEST, content, .. }, _] = records[..] else { return Err(DamageKind::Changed) };
+    let bytes = content.try_into().map_err(|_| DamageKind::Changed)?;
+    Ok(Digest(u128::from_le_bytes(bytes)))
+}
+
+/// The 64-bit words of a record; `None` for one that is not whole words.
+fn words(content: &[u8]) -> Option<Vec<u64>> {
+    let (words, rest) = content.as_chunks::<8>();
+    rest.is_empty().then(|| words.iter().map(|word| u64::from_le_bytes(*word)).collect())
 }
 
 /// Checks that the file continues at `at` with `expected`.
-pub fn compare(file: &[u8], at: usize, expected: &[u8]) -> Result<(), DamageKind> {
+fn compare(file: &[u8], at: usize, expected: &[u8]) -> Result<(), DamageKind> {
     let rest = file.get(at..).unwrap_or_default();
     if rest.starts_with(expected) {
         Ok(())
@@ -124,7 +196,7 @@ pub fn compare(file: &[u8], at: usize, expected: &[u8]) -> Result<(), DamageKind
 }
 
 /// The records from `start` up to and including the next seal.
-pub fn piece(file: &[u8], start: usize) -> Result<Vec<Record<'_>>, DamageKind> {
+fn piece(file: &[u8], start: usize) -> Result<Vec<Record<'_>>, DamageKind> {
     let mut records = Vec::new();
     let mut at = start;
     loop {

@@ -9,8 +9,10 @@ use mcap::write::NoSeek;
 use mcap::{WriteOptions, Writer};
 use prost::Message;
 
+use super::channel::{CHANNELS, MEDIA_TYPE, PROFILE};
+use super::message::{SCHEMA, SCHEMA_2};
 use super::record::SEAL;
-use super::{CHANNELS, LogError, PROFILE, TICK_NANOSECONDS};
+use super::{LogError, TICK_NANOSECONDS};
 
 /// The bytes that records were written to and that no piece has taken yet.
 #[derive(Clone, Default)]
@@ -67,12 +69,14 @@ impl RecordWriter {
 
     /// Writes a text as an attachment. Its times are 0, because no clock is read.
     pub fn attachment(&mut self, name: String, text: &str) -> Result<(), LogError> {
-        let (media_type, data) = (super::MEDIA_TYPE.to_owned(), text.as_bytes().into());
+        let (media_type, data) = (MEDIA_TYPE.to_owned(), text.as_bytes().into());
         self.to.attach(&mcap::Attachment { log_time: 0, create_time: 0, name, media_type, data }).map_err(failed)
     }
 
-    /// Writes the schemas, with their compiled form, and the channels of all messages.
-    pub fn channels(&mut self, compiled: &[u8]) -> Result<(), LogError> {
+    /// Writes the schemas, with their compiled form, and the channels of all messages: those of the first version of
+    /// the format, or of the one with changes of worlds.
+    pub fn channels(&mut self, is_first_version: bool) -> Result<(), LogError> {
+        let compiled = if is_first_version { SCHEMA } else { SCHEMA_2 };
         for (id, (_, schema)) in (1..).zip(CHANNELS) {
             self.to.add_schema_with_id(id, schema, "protobuf", compiled).map_err(failed)?;
         }

@@ -80,8 +80,8 @@ impl RunStats {
 
     /// [`of`](Self::of) with kinds of robots that a program added.
     pub fn of_kinds(log: &Log, kinds: &Kinds) -> Self {
-        let mut gatherer = StatsGatherer::new(&log.config, &log.script, kinds);
-        std::iter::once(&log.initial).chain(&log.frames).for_each(|frame| gatherer.see(frame));
+        let mut gatherer = StatsGatherer::new(&log.recipe.config, &log.recipe.script, kinds);
+        log.initial().into_iter().chain(log.frames()).for_each(|frame| gatherer.see(frame));
         gatherer.stats()
     }
 }

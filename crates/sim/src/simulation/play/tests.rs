@@ -3,7 +3,7 @@
 use std::f64::consts::FRAC_PI_2;
 
 use super::*;
-use crate::run::{Frame, RobotInput};
+use crate::run::{Frame, RobotInput, Script};
 use crate::simulation::tick::refusals::Refusals;
 use crate::simulation::{LatestFrame, SimulationPlugin, start_run, step};
 use crate::tour::TourConfig;
@@ -14,8 +14,9 @@ use motion_lab_core::num::{greater, hypot, lesser, wrap};
 use motion_lab_core::planning::curves::reeds_shepp;
 use motion_lab_core::planning::hybrid::HybridAStar;
 use motion_lab_core::planning::{Bounds, CertifiedPath, LinePath, RrtConnect, solve};
+use motion_lab_core::random::Seed;
 use motion_lab_core::robots::{AnyRobot, CarCmd, Drivable, HITCH, Reach, RustyDisc};
-use motion_lab_core::worlds::Resident;
+use motion_lab_core::worlds::{Resident, World};
 
 /// The frames of a run, from tick 0 on. No input is refused.
 fn run(world: &World, seed: Seed, played: &PlayedPath, after: u64) -> Vec<Frame> {

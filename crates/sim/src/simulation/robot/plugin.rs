@@ -7,9 +7,8 @@ use bevy::prelude::*;
 
 use super::spawn::{SpawnRequest, spawn_robot};
 use crate::simulation::schedule::{CrowdSystems, KindSystems, Phase};
-use crate::simulation::state;
 use crate::simulation::tick::{drive, settle};
-use crate::simulation::{RobotOps, SimulatedRobot, SimulationSchedule, SimulationSystems, SpawnError};
+use crate::simulation::{RobotOps, SimulatedRobot, SimulationSchedule, SimulationSystems, SpawnError, state};
 use motion_lab_core::configuration::{Configuration as _, Kinds, RobotKind};
 use motion_lab_core::geometry::Footprint;
 
@@ -89,7 +88,7 @@ impl RobotKinds {
     /// let kinds = app.world().resource::<RobotKinds>();
     /// let config = TourConfig { ticks: 5, ..TourConfig::default() };
     /// let log = Run::record_with_robots(config, BOOK_SEED, |recorder| kinds.add_to(recorder))?;
-    /// assert_eq!(log.frames.len(), 5);
+    /// assert_eq!(log.frames().len(), 5);
     /// # Ok::<(), motion_lab_sim::recording::RunError>(())
     /// ```
     pub fn add_to(&self, app: &mut App) {

@@ -17,11 +17,11 @@ use super::twins::shown_twin;
 use super::words::{height_of, words_apart, words_in};
 use crate::window::ui::crowd::pane::{CrowdPane, crowd_pane};
 use crate::window::ui::cspace::linked::Linked;
-use crate::window::ui::keys::{Action, hint};
+use crate::window::ui::keys::{SessionAction, hint};
 use crate::window::ui::paint::scale_bar::scale_bar;
 use crate::window::ui::paint::touch::touched;
 use crate::window::ui::paint::{canvas, frame};
-use crate::window::ui::{Cockpit, Command, Dashboard, Grasp, Look, UiState, tools};
+use crate::window::ui::{Cockpit, Command, Dashboard, Grasp, Look, UiState, menu};
 use motion_lab_core::picture::{Picture, Role};
 use motion_lab_sim::manifest::Widget;
 use motion_lab_sim::simulation::History;
@@ -271,7 +271,7 @@ impl Stage<'_> {
         if cockpit.crowd.is_none() {
             ui.label(RichText::new(cockpit.heading()).color(self.look.colour(Role::Text)));
         }
-        if ui.link("Show all").on_hover_text(hint(Action::Fill)).clicked() {
+        if ui.link("Show all").on_hover_text(hint(SessionAction::Fill)).clicked() {
             state.fills = false;
         }
         if let Some(fit) = fit {
@@ -331,7 +331,7 @@ pub fn header(ui: &mut Ui, model: &Dashboard, look: &Look, state: &mut UiState, 
         tabs(ui, model, state, commands);
         // the menu is no tab: it stands at the right end
         ui.add_space((ui.available_size_before_wrap().x - MENU).max(0.0));
-        tools::menu_button(ui, model, look, state, commands);
+        menu::menu_button(ui, model, look, state, commands);
     });
     if state.lesson.is_some() {
         frame::hints(ui, Widget::Dashboard.text(), look, state);

@@ -8,6 +8,7 @@ use mcap::{MessageStream, Summary};
 use prost::Message;
 
 use super::*;
+use crate::run::LogKind;
 use crate::run::mcap::message::{FrameMessage, InputMessage};
 
 #[test]
@@ -35,8 +36,8 @@ fn another_reader_finds_every_message_at_its_time() {
     assert_eq!(counted("/digest", "motion_lab.Digest"), 4);
     assert_eq!(counted("/input", "motion_lab.Input"), 3);
     assert_eq!(counts.len(), 4);
-    assert_eq!(frames[3].robots[0].configuration, log.frames[2].robots[0].configuration.to_vec());
-    assert_eq!(inputs[2], (150_000_000, InputMessage::of(&log.script.events[2])));
+    assert_eq!(frames[3].robots[0].configuration, log.frames()[2].robots[0].configuration.to_vec());
+    assert_eq!(inputs[2], (150_000_000, InputMessage::of(&log.recipe.script.events[2])));
 }
 
 #[test]
@@ -56,11 +57,11 @@ fn another_reader_finds_summary_attachments_and_metadata_where_it_says() {
         texts.insert(attachment.name, String::from_utf8(attachment.data.into_owned()).unwrap());
     }
     assert_eq!(texts.keys().collect::<Vec<_>>(), ["config.ron", "script.ron", "worlds/0.ron"]);
-    assert_eq!(texts["script.ron"], log.script.to_ron());
-    assert_eq!(texts["worlds/0.ron"], log.config.worlds[0].to_ron());
+    assert_eq!(texts["script.ron"], log.recipe.script.to_ron());
+    assert_eq!(texts["worlds/0.ron"], log.recipe.config.worlds[0].to_ron());
     let metadata = mcap::read::metadata(&file, &summary.metadata_indexes[0]).unwrap();
     assert_eq!(metadata.metadata["seed"], "18446744073709551614");
-    assert_eq!(metadata.metadata["worlds/0.ron"], format!("{:032x}", log.config.worlds[0].content_hash()));
+    assert_eq!(metadata.metadata["worlds/0.ron"], format!("{:032x}", log.recipe.config.worlds[0].content_hash()));
 }
 
 #[test]
@@ -103,8 +104,8 @@ fn the_checksums_for_other_readers_are_right() {
 #[test]
 fn a_run_cut_short_can_still_be_read_by_others() {
     let log = fixture::log();
-    let mut writer = LogWriter::new(Vec::new(), log.seed, &log.config, &log.script, &log.initial).unwrap();
-    writer.tick(&log.frames[0]).unwrap();
+    let mut writer = LogWriter::new(Vec::new(), &log.recipe, LogKind::Frames, log.initial().unwrap()).unwrap();
+    writer.tick(&log.frames()[0]).unwrap();
     let file = writer.into_inner();
     let messages: Vec<_> = MessageStream::new_with_options(&file, mcap::read::Options::IgnoreEndMagic.into())
         .unwrap()

@@ -1,0 +1,12 @@
+//! The lab in its page: what the page asks, and what is reported to it.
+
+mod canvas;
+mod controls;
+mod downloads;
+mod error;
+mod inbox;
+mod lab;
+mod listener;
+mod message;
+mod report;
+mod run_link;
